@@ -1,0 +1,38 @@
+# hl_library(name SOURCES ... LINK ...): one folder, one static library, the project's warnings and sanitizers.
+# -ffp-contract=off: the same source gives the same bits with and without FMA units.
+add_library(hl_flags INTERFACE)
+target_compile_options(hl_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # GCC 12 reports false positives inside Eigen and the standard library at -O2.
+  target_compile_options(hl_flags INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow)
+endif()
+if(HL_WERROR)
+  target_compile_options(hl_flags INTERFACE -Werror)
+endif()
+if(HL_ASSERTS)
+  target_compile_options(hl_flags INTERFACE -UNDEBUG)
+endif()
+if(HL_SANITIZE)
+  target_compile_options(hl_flags INTERFACE -fsanitize=${HL_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
+  target_link_options(hl_flags INTERFACE -fsanitize=${HL_SANITIZE})
+  target_compile_definitions(hl_flags INTERFACE HL_SANITIZED=1)
+endif()
+
+function(hl_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${name} PUBLIC hl_flags ${ARG_LINK})
+endfunction()
+
+# hl_test(name SOURCES ... LINK ...): one GoogleTest program; ctest runs each of its cases on its own.
+function(hl_test name)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 900)
+  endif()
+  add_executable(${name} ${ARG_SOURCES})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_link_libraries(${name} PRIVATE ${ARG_LINK} hl_flags GTest::gtest GTest::gtest_main rapidcheck)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+endfunction()

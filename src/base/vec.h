@@ -1,0 +1,12 @@
+// The linear algebra of HL is Eigen's; these are the two names used everywhere. All geometry is in double.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace hl {
+
+using Vec3 = Eigen::Vector3d;  ///< metres unless the name says otherwise; world frame unless the name says otherwise
+using Mat3 = Eigen::Matrix3d;
+
+}  // namespace hl

@@ -1,0 +1,35 @@
+// Primitive: a triangle, a segment or a point, two-sided and of zero width, the pieces every touchable scene is made of.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "base/vec.h"
+
+namespace hl {
+
+enum class PrimitiveKind : std::uint8_t { kPoint = 1, kSegment = 2, kTriangle = 3 };  // the number of vertices
+
+/// Where on a primitive a point lies. Edge i is opposite vertex i (so edge 0 joins vertices 1 and 2).
+enum class Feature : std::uint8_t { kFace, kEdge0, kEdge1, kEdge2, kVertex0, kVertex1, kVertex2 };
+
+/// Vertices are kept in lexicographic order, so that two primitives that share an edge or a vertex compute
+/// the same bits on it; `order` maps them back to the order in which they were given.
+struct Primitive {
+  std::array<Vec3, 3> vertex;            ///< a segment has vertex[2] == vertex[1], a point has all three equal
+  Vec3 normal = Vec3::Zero();            ///< unit face normal by the right-hand rule of the *given* order; triangles only
+  PrimitiveKind kind = PrimitiveKind::kPoint;
+  std::array<std::uint8_t, 3> order{0, 1, 2};  ///< vertex[i] was given as number order[i]
+  std::uint32_t source = 0;              ///< index of the element it was made from, in its model's list of that kind
+};
+
+/// Each returns false, and leaves `out` alone, for a degenerate or non-finite primitive (zero area, zero length, NaN).
+/// A triangle is degenerate when its height over the longest edge is below kSliver of that edge.
+bool makeTriangle(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t source, Primitive& out);
+bool makeSegment(const Vec3& a, const Vec3& b, std::uint32_t source, Primitive& out);
+bool makePoint(const Vec3& a, std::uint32_t source, Primitive& out);
+
+/// Below this ratio of height to longest edge the face normal of a triangle has fewer than five good digits.
+inline constexpr double kSliver = 1e-11;
+
+}  // namespace hl

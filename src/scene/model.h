@@ -1,0 +1,47 @@
+// Model: what a file or a generator gives: vertices with optional normals and texture coordinates, and index lists.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace hl {
+
+/// Axis-aligned box; empty when min > max.
+struct Box {
+  Vec3 min = Vec3::Constant(1e300);
+  Vec3 max = Vec3::Constant(-1e300);
+  void extend(const Vec3& p) {
+    min = min.cwiseMin(p);
+    max = max.cwiseMax(p);
+  }
+  bool empty() const { return (min.array() > max.array()).any(); }
+  Vec3 centre() const { return 0.5 * (min + max); }
+  Vec3 size() const { return max - min; }
+};
+
+/// Metres, world frame. Index lists refer to `positions`; polygons have been triangulated.
+struct Model {
+  std::string name;
+  std::vector<Vec3> positions;
+  std::vector<Vec3> normals;                  ///< one per position, or empty; a zero vector means "none given"
+  std::vector<Eigen::Vector2d> texcoords;     ///< one per position, or empty
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::array<std::uint32_t, 2>> segments;
+  std::vector<std::uint32_t> points;
+  std::vector<std::string> warnings;          ///< what was skipped while reading, one line each, with counts
+
+  Box bounds() const;                         ///< of the vertices that an element uses
+  std::size_t elements() const { return triangles.size() + segments.size() + points.size(); }
+};
+
+/// Scales about the origin by `factor` > 0.
+void scaleModel(Model& model, double factor);
+/// Scales uniformly and centres on the origin so that the largest side of the bounds is `side` metres. Returns the factor.
+double fitModel(Model& model, double side);
+
+}  // namespace hl
