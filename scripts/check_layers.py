@@ -1,0 +1,129 @@
+#!/usr/bin/env python3
+"""Fails on an #include or a CMake link against the layers of HL, and on source files over 500 lines.
+
+    scripts/check_layers.py [ROOT]
+
+A folder may use itself and folders of lower levels, never one beside or above it. Prints one line per fault; exit code 1.
+"""
+import re
+import sys
+from pathlib import Path
+
+LEVELS = {
+    "base": 0,
+    "geometry": 1, "wire": 1, "device": 1,
+    "scene": 2, "control": 2,
+    "proxy": 3, "scenes": 3,
+    "io": 4,
+    "server": 5, "client": 5,
+    "apps": 6,
+}
+# The proxy knows no threads, devices or messages, and the servo knows no scene, although their levels would allow it.
+NEVER = {"proxy": {"device", "control", "wire"}, "control": {"geometry", "wire"}, "scene": {"wire", "device"}}
+# Targets and generated headers that are not named after their folder.
+TARGET_FOLDERS = {"hl_proto": "wire", "hl_no_alloc": "base", "hl": "apps", "hld": "apps"}
+HEADER_FOLDERS = {"hl.pb.h": "wire"}
+# CMake's own words inside a link list, and the target that only carries compiler flags.
+NOT_FOLDERS = {"hl_flags"}
+
+SOURCE_SUFFIXES = {".h", ".hpp", ".cpp", ".cc"}
+MAX_LINES = 500
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
+LINK_CALL = re.compile(r"\b(hl_library|target_link_libraries)\s*\(([^)]*)\)")
+
+
+def folder_dirs(root):
+    """(folder name, directory) of every layer that exists."""
+    for name in LEVELS:
+        directory = root / name if name in ("apps", "scenes") else root / "src" / name
+        if directory.is_dir():
+            yield name, directory
+
+
+def fault_of(user, used):
+    """Why folder `user` may not use folder `used`; None when it may."""
+    if user == used:
+        return None
+    if used in NEVER.get(user, ()):
+        return f"{user} must know nothing of {used}"
+    if LEVELS[used] >= LEVELS[user]:
+        return f"{user} (level {LEVELS[user]}) uses {used} (level {LEVELS[used]})"
+    return None
+
+
+def folder_of_include(path):
+    """The layer an include path names; None for a header of the folder itself or of another library."""
+    if path in HEADER_FOLDERS:
+        return HEADER_FOLDERS[path]
+    first = path.split("/", 1)[0]
+    return first if "/" in path and first in LEVELS else None
+
+
+def check_source(folder, path, label):
+    lines = path.read_text(encoding="utf-8").splitlines()
+    if len(lines) > MAX_LINES:
+        yield f"{label}: {len(lines)} lines, more than {MAX_LINES}: split it by idea"
+    for number, line in enumerate(lines, 1):
+        match = INCLUDE.match(line)
+        if not match:
+            continue
+        if ".." in Path(match.group(1)).parts:
+            yield f"{label}:{number}: include by the path from src/, not by '..'"
+            continue
+        used = folder_of_include(match.group(1))
+        fault = fault_of(folder, used) if used else None
+        if fault:
+            yield f"{label}:{number}: {fault}: {line.strip()}"
+
+
+def folder_of_target(target):
+    if target in NOT_FOLDERS:
+        return None
+    if target in TARGET_FOLDERS:
+        return TARGET_FOLDERS[target]
+    name = target.removeprefix("hl_")
+    return name if target.startswith("hl_") and name in LEVELS else None
+
+
+def check_cmake(folder, path, label):
+    text = re.sub(r"#.*", "", path.read_text(encoding="utf-8"))
+    for match in LINK_CALL.finditer(text):
+        words = match.group(2).split()
+        linked = words[words.index("LINK") + 1:] if "LINK" in words else words[1:]
+        if match.group(1) == "hl_library" and "LINK" not in words:
+            linked = []
+        number = text.count("\n", 0, match.start()) + 1
+        for target in linked:
+            used = folder_of_target(target)
+            fault = fault_of(folder, used) if used else None
+            if fault:
+                yield f"{label}:{number}: {fault}: links {target}"
+
+
+def check(root):
+    """All faults of the tree at `root`, in the order of the folders."""
+    faults = []
+    for folder, directory in folder_dirs(root):
+        for path in sorted(directory.rglob("*")):
+            label = path.relative_to(root)
+            if path.suffix in SOURCE_SUFFIXES:
+                faults.extend(check_source(folder, path, label))
+            elif path.name == "CMakeLists.txt":
+                faults.extend(check_cmake(folder, path, label))
+    return faults
+
+
+def main(arguments):
+    if arguments and arguments[0] in ("-h", "--help"):
+        print(__doc__)
+        return 0
+    root = Path(arguments[0]) if arguments else Path(__file__).resolve().parent.parent
+    faults = check(root)
+    for fault in faults:
+        print(fault)
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
