@@ -1,0 +1,21 @@
+// BruteForceIndex: proposes every primitive to every query. The judge of all other structures, and `--hierarchy none`.
+#pragma once
+
+#include "geometry/spatial_index.h"
+
+namespace hl {
+
+/// See SpatialIndex; holds nothing but the number of primitives.
+class BruteForceIndex final : public SpatialIndex {
+ public:
+  explicit BruteForceIndex(std::size_t primitives) : primitives_(primitives) {}
+  void overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t primitive)> visit) const override;
+  void sweep(const Vec3& from, const Vec3& motion, double radius,
+             FunctionRef<double(std::uint32_t primitive, double limit)> visit) const override;
+  IndexStats stats() const override;
+
+ private:
+  std::size_t primitives_;
+};
+
+}  // namespace hl

@@ -1,0 +1,33 @@
+// The two exact questions of the proxy, the same for every SpatialIndex: what is hit first, and what is near.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "base/function_ref.h"
+#include "geometry/closest_point.h"
+#include "geometry/spatial_index.h"
+#include "geometry/sweep.h"
+
+namespace hl {
+
+/// Valid only when firstImpact returned true.
+struct FirstImpact {
+  Impact impact;
+  std::uint32_t primitive = 0;
+};
+
+/// First impact of a sphere of `radius` moving from `from` by `motion`, over all primitives but those whose
+/// closestPoint(from).distance <= `touching` (m): they are the caller's contacts; pass 0 or less to skip none but the
+/// ones that contain `from`, or none at all. The result does not depend on the index or on the order of the primitives:
+/// equal times are decided by the vertices, lexicographically. Returns false, and leaves `out` alone, for no impact.
+/// RT-safe, any thread.
+bool firstImpact(const SpatialIndex& index, std::span<const Primitive> primitives, const Vec3& from, const Vec3& motion,
+                 double radius, double touching, FirstImpact& out);
+
+/// Visits every primitive within `distance` (m, inclusive) of `centre`, exactly; may repeat one, in no given order.
+/// RT-safe, any thread.
+void primitivesWithin(const SpatialIndex& index, std::span<const Primitive> primitives, const Vec3& centre,
+                      double distance, FunctionRef<void(std::uint32_t primitive, const ClosestPoint& nearest)> visit);
+
+}  // namespace hl

@@ -1,0 +1,36 @@
+// SpatialIndex: the one way in which the proxy asks where primitives are. Structures behind it (sphere tree, brute
+// force) only propose candidates; exact tests are made by geometry/queries.h, so all structures give the same answer.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/function_ref.h"
+#include "base/vec.h"
+
+namespace hl {
+
+/// What a structure costs.
+struct IndexStats {
+  std::size_t nodes = 0;   ///< inner nodes
+  std::size_t leaves = 0;  ///< leaf volumes; a primitive may have several
+  std::size_t bytes = 0;   ///< heap memory, without the primitives
+  int depth = 0;           ///< levels on the longest path from the root to a leaf; 0 when empty
+};
+
+/// Queries are const, RT-safe and may run on many threads at once; the stack they use is bounded.
+class SpatialIndex {
+ public:
+  virtual ~SpatialIndex() = default;
+  /// Visits every primitive that may come within `radius` of `centre` (metres); may repeat one, in no given order.
+  virtual void overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t primitive)> visit) const = 0;
+  /// Visits every primitive that a sphere of `radius` moving from `from` by `motion` may touch before the limit, near
+  /// ones first where the structure can tell; may repeat one. `visit` is given the present limit (it starts at 1, a
+  /// fraction of the motion) and returns the new one, which must not be larger: later candidates are then searched
+  /// only up to it.
+  virtual void sweep(const Vec3& from, const Vec3& motion, double radius,
+                     FunctionRef<double(std::uint32_t primitive, double limit)> visit) const = 0;
+  virtual IndexStats stats() const = 0;
+};
+
+}  // namespace hl

@@ -1,0 +1,59 @@
+// SphereTree: the paper's hierarchy (section 6.2, after Quinlan 1994). Each primitive is covered with small spheres
+// like scan conversion; a binary tree over them is split at the middle of the longest axis of the box of leaf centres.
+// A node contains all leaf spheres below it, not its child nodes; its radius is the smaller of two heuristics.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/primitive.h"
+#include "geometry/spatial_index.h"
+
+namespace hl {
+
+/// See SpatialIndex. Immutable once built; may be moved and copied.
+class SphereTree final : public SpatialIndex {
+ public:
+  /// Rounded outward: as a set of points it contains the sphere it was computed from in double.
+  struct Sphere {
+    std::array<float, 3> centre{};
+    float radius = 0;
+  };
+  /// Covers a part of one primitive.
+  struct Leaf {
+    Sphere sphere;
+    std::uint32_t primitive = 0;
+  };
+  /// child >= 0: index into nodes(); child < 0: leaf number ~child of leaves().
+  struct Node {
+    Sphere sphere;
+    std::array<std::int32_t, 2> child{};
+  };
+  /// Work of the build, for tests of its growth.
+  struct BuildWork {
+    std::uint64_t leaf_visits = 0;    ///< leaves looked at, summed over all levels
+    std::uint64_t median_splits = 0;  ///< nodes where the middle split was replaced to keep the depth bounded
+  };
+
+  /// Builds in O(n lg n); at most 64 leaves a primitive. Setup only. Empty input gives an index that visits nothing.
+  static SphereTree build(std::span<const Primitive> primitives);
+
+  void overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t primitive)> visit) const override;
+  void sweep(const Vec3& from, const Vec3& motion, double radius,
+             FunctionRef<double(std::uint32_t primitive, double limit)> visit) const override;
+  IndexStats stats() const override;
+
+  std::span<const Node> nodes() const { return nodes_; }  ///< nodes()[0] is the root; one leaf alone has no node
+  std::span<const Leaf> leaves() const { return leaves_; }
+  const BuildWork& buildWork() const { return work_; }
+
+ private:
+  std::vector<Node> nodes_;
+  std::vector<Leaf> leaves_;
+  BuildWork work_;
+  int depth_ = 0;
+};
+
+}  // namespace hl
