@@ -29,7 +29,8 @@ void Histogram::clear() { *this = Histogram(); }
 
 std::uint64_t Histogram::percentile_ns(double fraction) const {
   if (count_ == 0) return 0;
-  const auto wanted = static_cast<std::uint64_t>(std::ceil(std::clamp(fraction, 0.0, 1.0) * static_cast<double>(count_)));
+  const auto wanted =
+      static_cast<std::uint64_t>(std::ceil(std::clamp(fraction, 0.0, 1.0) * static_cast<double>(count_)));
   std::uint64_t seen = 0;
   for (int bucket = 0; bucket < kBuckets; ++bucket) {
     seen += buckets_[static_cast<std::size_t>(bucket)];

@@ -1,0 +1,64 @@
+#include "proxy/contacts.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "geometry/queries.h"
+
+namespace hl {
+
+namespace {
+
+auto key(const Contact& c) {
+  return std::tuple(c.plane.normal.x(), c.plane.normal.y(), c.plane.normal.z(), c.plane.offset, c.point.x(),
+                    c.point.y(), c.point.z());
+}
+
+bool samePlane(const Contact& a, const Contact& b) {
+  return a.plane.normal == b.plane.normal && a.plane.offset == b.plane.offset;
+}
+
+// Direction of an edge of the primitive; edge i is opposite vertex i.
+Vec3 edgeDirection(const Primitive& primitive, Feature feature) {
+  const int opposite = static_cast<int>(feature) - static_cast<int>(Feature::kEdge0);
+  const auto from = static_cast<std::size_t>((opposite + 1) % 3);
+  const auto to = static_cast<std::size_t>((opposite + 2) % 3);
+  return (primitive.vertex[to] - primitive.vertex[from]).normalized();
+}
+
+}  // namespace
+
+void gatherContacts(const Snapshot& snapshot, const Vec3& centre, double distance, double reach, ContactSet& set) {
+  set.contacts.clear();
+  set.planes.clear();
+  set.overflow = false;
+  const auto add = [&](std::uint32_t primitive, const ClosestPoint& closest) {
+    const Contact contact{
+        {closest.normal, reach - closest.distance}, closest.point, closest.distance, closest.feature, primitive};
+    const auto same = [&](const Contact& other) { return samePlane(contact, other); };
+    const auto* twin = std::find_if(set.contacts.begin(), set.contacts.end(), same);
+    if (twin == set.contacts.end()) set.overflow |= !set.contacts.push(contact);
+  };
+  primitivesWithin(*snapshot.index, snapshot.primitives, centre, distance, add);
+  std::sort(set.contacts.begin(), set.contacts.end(),
+            [](const Contact& a, const Contact& b) { return key(a) < key(b); });
+  for (const Contact& contact : set.contacts) set.planes.push(contact.plane);
+}
+
+void relaxToCentre(ContactSet& set) {
+  for (std::size_t i = 0; i < set.contacts.size(); ++i) {
+    set.contacts[i].plane.offset = std::min(set.contacts[i].plane.offset, 0.0);
+    set.planes[i].offset = set.contacts[i].plane.offset;
+  }
+}
+
+Mat3 curvedDirections(const Contact& contact, const Primitive& primitive) {
+  if (contact.feature == Feature::kFace) return Mat3::Zero();
+  const Vec3& n = contact.plane.normal;
+  const Mat3 tangents = Mat3::Identity() - n * n.transpose();
+  if (contact.feature >= Feature::kVertex0 || primitive.kind == PrimitiveKind::kPoint) return tangents;
+  const Vec3 edge = edgeDirection(primitive, contact.feature);
+  return tangents - edge * edge.transpose();
+}
+
+}  // namespace hl

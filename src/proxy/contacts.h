@@ -1,0 +1,45 @@
+// Contacts: the primitives that touch the proxy, as planes of configuration space, in an order given by geometry alone.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "base/fixed_vector.h"
+#include "base/vec.h"
+#include "geometry/closest_point.h"
+#include "proxy/solver.h"
+#include "scene/snapshot.h"
+
+namespace hl {
+
+/// A primitive within reach of the proxy.
+struct Contact {
+  Plane plane;                ///< relative to the proxy's centre
+  Vec3 point = Vec3::Zero();  ///< on the primitive, nearest the proxy
+  double distance = 0;        ///< m, from the proxy's centre
+  Feature feature = Feature::kFace;
+  std::uint32_t primitive = 0;
+};
+
+/// Room for contacts of one place. Coincident ones count once, so this many *different* planes within the skin.
+inline constexpr std::size_t kMaxContacts = 256;
+
+struct ContactSet {
+  FixedVector<Contact, kMaxContacts> contacts;
+  FixedVector<Plane, kMaxContacts> planes;  ///< contacts[i].plane, for the solver
+  bool overflow = false;
+};
+
+/// All primitives within `distance` of `centre`, as planes that hold the centre `reach` away from them.
+/// Sorted by plane; of bitwise equal planes one is kept. RT-safe.
+void gatherContacts(const Snapshot& snapshot, const Vec3& centre, double distance, double reach, ContactSet& set);
+
+/// Lets every plane pass through the centre at least: used when the exact offsets contradict each other by rounding.
+void relaxToCentre(ContactSet& set);
+
+/// Directions, as an orthogonal projector, in which a contact's configuration-space obstacle is curved with radius
+/// `distance`: none for a face, across the edge for an edge, all tangents for a vertex.
+Mat3 curvedDirections(const Contact& contact, const Primitive& primitive);
+
+}  // namespace hl

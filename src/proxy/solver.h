@@ -1,0 +1,33 @@
+// The exact solver of the paper's equation (1): the point nearest the goal that is above every plane.
+// The paper's search on the hull of the normals is wrong for three planes and more (the hull truncates the polar cone);
+// this is a dual active-set method for three dimensions: at most three planes are active, and the most violated joins.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "base/vec.h"
+
+namespace hl {
+
+/// The half-space normal . x >= offset; `normal` is unit. Metres.
+struct Plane {
+  Vec3 normal = Vec3::Zero();
+  double offset = 0;
+};
+
+struct SolverResult {
+  Vec3 point = Vec3::Zero();            ///< the minimiser
+  std::size_t active_count = 0;         ///< 0..3
+  std::array<std::size_t, 3> active{};  ///< indices of the active planes
+  std::array<double, 3> multiplier{};   ///< m, >= 0: point - goal = sum multiplier_i normal_i
+  double violation = 0;                 ///< m, largest by which a plane is violated; above tolerance = infeasible
+  std::size_t rounds = 0;               ///< passes over the planes
+};
+
+/// min |x - goal| subject to every plane, each met to within `tolerance` (m, > 0). The result depends on the order of
+/// the planes only in rounding; sort them for equal bits. RT-safe, time linear in the number of planes per round.
+SolverResult nearestAbove(std::span<const Plane> planes, const Vec3& goal, double tolerance);
+
+}  // namespace hl

@@ -1,0 +1,73 @@
+#include "scene/snapshot.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "geometry/brute_force.h"
+#include "geometry/sphere_tree.h"
+
+namespace hl {
+
+namespace {
+
+// Calls make(vertices..., source, primitive) for one list of elements; returns how many were refused.
+template <typename List, typename Make>
+std::size_t addElements(const Model& model, const List& list, std::vector<Primitive>& primitives, Make make) {
+  std::size_t skipped = 0;
+  for (std::uint32_t source = 0; source < list.size(); ++source) {
+    Primitive primitive;
+    if (make(model, list[source], source, primitive)) {
+      primitives.push_back(primitive);
+    } else {
+      ++skipped;
+    }
+  }
+  return skipped;
+}
+
+bool inRange(const Model& model, std::uint32_t index) { return index < model.positions.size(); }
+
+bool fromTriangle(const Model& model, const std::array<std::uint32_t, 3>& t, std::uint32_t source, Primitive& out) {
+  return inRange(model, t[0]) && inRange(model, t[1]) && inRange(model, t[2]) &&
+         makeTriangle(model.positions[t[0]], model.positions[t[1]], model.positions[t[2]], source, out);
+}
+
+bool fromSegment(const Model& model, const std::array<std::uint32_t, 2>& s, std::uint32_t source, Primitive& out) {
+  return inRange(model, s[0]) && inRange(model, s[1]) &&
+         makeSegment(model.positions[s[0]], model.positions[s[1]], source, out);
+}
+
+bool fromPoint(const Model& model, std::uint32_t point, std::uint32_t source, Primitive& out) {
+  return inRange(model, point) && makePoint(model.positions[point], source, out);
+}
+
+void warnSkipped(std::vector<std::string>& warnings, std::size_t count, const char* what) {
+  if (count > 0) warnings.push_back("skipped " + std::to_string(count) + " degenerate or non-finite " + what);
+}
+
+}  // namespace
+
+std::shared_ptr<const Snapshot> makeSnapshot(Model model, HierarchyKind hierarchy) {
+  auto snapshot = std::make_shared<Snapshot>();
+  auto& primitives = snapshot->primitives;
+  primitives.reserve(model.elements());
+  snapshot->warnings = model.warnings;
+  warnSkipped(snapshot->warnings, addElements(model, model.triangles, primitives, fromTriangle), "triangles");
+  warnSkipped(snapshot->warnings, addElements(model, model.segments, primitives, fromSegment), "segments");
+  warnSkipped(snapshot->warnings, addElements(model, model.points, primitives, fromPoint), "points");
+  for (const Primitive& primitive : primitives) {
+    for (const Vec3& vertex : primitive.vertex) snapshot->bounds.extend(vertex);
+  }
+  if (!snapshot->bounds.empty()) {
+    snapshot->extent = snapshot->bounds.min.cwiseAbs().cwiseMax(snapshot->bounds.max.cwiseAbs()).maxCoeff();
+  }
+  if (hierarchy == HierarchyKind::kSpheres) {
+    snapshot->index = std::make_unique<SphereTree>(SphereTree::build(primitives));
+  } else {
+    snapshot->index = std::make_unique<BruteForceIndex>(primitives.size());
+  }
+  snapshot->model = std::move(model);
+  return snapshot;
+}
+
+}  // namespace hl
