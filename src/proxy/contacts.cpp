@@ -18,8 +18,10 @@ bool samePlane(const Contact& a, const Contact& b) {
   return a.plane.normal == b.plane.normal && a.plane.offset == b.plane.offset;
 }
 
-// Direction of an edge of the primitive; edge i is opposite vertex i.
+// Direction of the edge a contact lies on; edge i is opposite vertex i, and a segment's only edge joins vertices 0
+// and 1.
 Vec3 edgeDirection(const Primitive& primitive, Feature feature) {
+  if (primitive.kind == PrimitiveKind::kSegment) return (primitive.vertex[1] - primitive.vertex[0]).normalized();
   const int opposite = static_cast<int>(feature) - static_cast<int>(Feature::kEdge0);
   const auto from = static_cast<std::size_t>((opposite + 1) % 3);
   const auto to = static_cast<std::size_t>((opposite + 2) % 3);
