@@ -1,4 +1,5 @@
-// Primitive: a triangle, a segment or a point, two-sided and of zero width, the pieces every touchable scene is made of.
+// Primitive: a triangle, a segment or a point, two-sided and of zero width, the pieces every touchable scene is made
+// of.
 #pragma once
 
 #include <array>
@@ -16,11 +17,11 @@ enum class Feature : std::uint8_t { kFace, kEdge0, kEdge1, kEdge2, kVertex0, kVe
 /// Vertices are kept in lexicographic order, so that two primitives that share an edge or a vertex compute
 /// the same bits on it; `order` maps them back to the order in which they were given.
 struct Primitive {
-  std::array<Vec3, 3> vertex;            ///< a segment has vertex[2] == vertex[1], a point has all three equal
-  Vec3 normal = Vec3::Zero();            ///< unit face normal by the right-hand rule of the *given* order; triangles only
+  std::array<Vec3, 3> vertex;  ///< a segment has vertex[2] == vertex[1], a point has all three equal
+  Vec3 normal = Vec3::Zero();  ///< unit face normal by the right-hand rule of the *given* order; triangles only
   PrimitiveKind kind = PrimitiveKind::kPoint;
   std::array<std::uint8_t, 3> order{0, 1, 2};  ///< vertex[i] was given as number order[i]
-  std::uint32_t source = 0;              ///< index of the element it was made from, in its model's list of that kind
+  std::uint32_t source = 0;  ///< index of the element it was made from, in its model's list of that kind
 };
 
 /// Each returns false, and leaves `out` alone, for a degenerate or non-finite primitive (zero area, zero length, NaN).

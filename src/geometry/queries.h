@@ -18,10 +18,9 @@ struct FirstImpact {
 };
 
 /// First impact of a sphere of `radius` moving from `from` by `motion`, over all primitives but those whose
-/// closestPoint(from).distance <= `touching` (m): they are the caller's contacts; pass 0 or less to skip none but the
-/// ones that contain `from`, or none at all. The result does not depend on the index or on the order of the primitives:
-/// equal times are decided by the vertices, lexicographically. Returns false, and leaves `out` alone, for no impact.
-/// RT-safe, any thread.
+/// closestPoint(from).distance <= `touching` (m): they are the caller's contacts; pass 0 or less to skip none. The
+/// result does not depend on the index or on the order of the primitives: equal times are decided by the vertices,
+/// lexicographically. Returns false, and leaves `out` alone, for no impact. RT-safe, any thread.
 bool firstImpact(const SpatialIndex& index, std::span<const Primitive> primitives, const Vec3& from, const Vec3& motion,
                  double radius, double touching, FirstImpact& out);
 

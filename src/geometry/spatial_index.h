@@ -15,7 +15,7 @@ struct IndexStats {
   std::size_t nodes = 0;   ///< inner nodes
   std::size_t leaves = 0;  ///< leaf volumes; a primitive may have several
   std::size_t bytes = 0;   ///< heap memory, without the primitives
-  int depth = 0;           ///< levels on the longest path from the root to a leaf; 0 when empty
+  int depth = 0;           ///< inner nodes on the longest path from the root to a leaf
 };
 
 /// Queries are const, RT-safe and may run on many threads at once; the stack they use is bounded.

@@ -1,0 +1,16 @@
+#include "geometry/brute_force.h"
+
+namespace hl {
+
+void BruteForceIndex::overlap(const Vec3&, double, FunctionRef<void(std::uint32_t)> visit) const {
+  for (std::size_t i = 0; i < primitives_; ++i) visit(static_cast<std::uint32_t>(i));
+}
+
+void BruteForceIndex::sweep(const Vec3&, const Vec3&, double, FunctionRef<double(std::uint32_t, double)> visit) const {
+  double limit = 1;
+  for (std::size_t i = 0; i < primitives_; ++i) limit = visit(static_cast<std::uint32_t>(i), limit);
+}
+
+IndexStats BruteForceIndex::stats() const { return IndexStats{0, primitives_, 0, 0}; }
+
+}  // namespace hl

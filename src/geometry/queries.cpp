@@ -1,0 +1,76 @@
+#include "geometry/queries.h"
+
+#include <algorithm>
+#include <array>
+
+namespace hl {
+
+namespace {
+
+// -1, 0 or 1: order of two primitives by their vertices, so that no answer depends on the order they came in.
+int compareVertices(const Primitive& a, const Primitive& b) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      if (a.vertex[i][axis] != b.vertex[i][axis]) return a.vertex[i][axis] < b.vertex[i][axis] ? -1 : 1;
+    }
+  }
+  return 0;
+}
+
+// Whether a wins a tie against b. Equal vertices: the copies are told apart by where they came from.
+bool winsTie(const Primitive& a, const Primitive& b) {
+  const int order = compareVertices(a, b);
+  if (order != 0) return order < 0;
+  if (a.kind != b.kind) return a.kind < b.kind;
+  return a.source < b.source;
+}
+
+// The last few primitives looked at: an index that covers a primitive with many leaves proposes it many times in a row.
+class RecentlySeen {
+ public:
+  bool testAndAdd(std::uint32_t primitive) {
+    if (std::find(seen_.begin(), seen_.end(), primitive) != seen_.end()) return true;
+    seen_[next_++ % seen_.size()] = primitive;
+    return false;
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = 0xffffffff;
+  std::array<std::uint32_t, 4> seen_{kNone, kNone, kNone, kNone};
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+bool firstImpact(const SpatialIndex& index, std::span<const Primitive> primitives, const Vec3& from, const Vec3& motion,
+                 double radius, double touching, FirstImpact& out) {
+  bool found = false;
+  RecentlySeen seen;
+  index.sweep(from, motion, radius, [&](std::uint32_t candidate, double limit) {
+    if (seen.testAndAdd(candidate)) return limit;
+    const Primitive& primitive = primitives[candidate];
+    Impact impact;
+    if (!sweepSphere(primitive, from, motion, radius, impact)) return limit;
+    if (found) {
+      if (impact.t > out.impact.t) return limit;
+      if (impact.t == out.impact.t && !winsTie(primitive, primitives[out.primitive])) return limit;
+    }
+    if (touching > 0 && closestPoint(primitive, from).distance <= touching) return limit;
+    found = true;
+    out = FirstImpact{impact, candidate};
+    return impact.t;
+  });
+  return found;
+}
+
+void primitivesWithin(const SpatialIndex& index, std::span<const Primitive> primitives, const Vec3& centre,
+                      double distance, FunctionRef<void(std::uint32_t, const ClosestPoint&)> visit) {
+  RecentlySeen seen;
+  index.overlap(centre, distance, [&](std::uint32_t candidate) {
+    if (seen.testAndAdd(candidate)) return;
+    const ClosestPoint nearest = closestPoint(primitives[candidate], centre);
+    if (nearest.distance <= distance) visit(candidate, nearest);
+  });
+}
+
+}  // namespace hl

@@ -1,0 +1,120 @@
+#include "geometry/sweep.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/closest_point.h"
+#include "geometry/features.h"
+
+// A sphere of radius R against a primitive is a point against the primitive grown by R, which for a triangle is the
+// union of a slab (the face moved by R to both sides), three finite cylinders about the edges and three spheres about
+// the vertices. Each part lies within the whole, so the first contact is the earliest of the parts; neighbouring parts
+// are tangent, so a part missed by rounding at its border is replaced by its neighbour with an error of second order.
+//
+// Round parts, with w = from - centre (sphere) or the parts of w and m across the axis (cylinder, axis unit vector e):
+//   |w + t m|^2 = R^2   <=>   a t^2 + 2 b t + c = 0,  a = m.m,  b = w.m,  c = (|w| - R)(|w| + R)
+// The discriminant b^2 - a c cancels badly for far starts. By Lagrange's identity |w|^2 |m|^2 - (w.m)^2 = |w x m|^2,
+//   disc = R^2 |m|^2 - |w x m|^2 = (R |m| - k)(R |m| + k),   k = |w x m|
+// and the first root without cancellation, as b < 0 for an approach, is t = c / (-b + sqrt(disc)).
+// Across an axis |w|, |m| and w.m become |w x e|, |m x e| and (w x e).(m x e), and k = |(w x m).e|.
+
+namespace hl {
+
+namespace {
+
+// First root of a round part in [0, 1], or false. A start that rounding puts inside (c <= 0) counts as touching.
+bool firstRoot(double distance, double speed, double b, double k, double radius, double& t) {
+  if (!(b < 0)) return false;  // moves away, or not at all
+  const double c = (distance - radius) * (distance + radius);
+  if (c <= 0) {
+    t = 0;
+    return true;
+  }
+  const double disc = (radius * speed - k) * (radius * speed + k);
+  if (!(disc >= 0)) return false;
+  t = c / (-b + std::sqrt(disc));
+  return t <= 1;
+}
+
+void hitVertex(const Primitive& primitive, std::size_t vertex, const Vec3& from, const Vec3& motion, double radius,
+               double& limit, Impact& out) {
+  const Vec3 w = from - primitive.vertex[vertex];
+  double t = 0;
+  if (!firstRoot(w.norm(), motion.norm(), w.dot(motion), w.cross(motion).norm(), radius, t) || !(t < limit)) return;
+  limit = t;
+  out.t = t;
+  out.feature = vertexFeature(vertex);
+  out.normal = (w + t * motion).normalized();
+  out.weights = vertexWeights(vertex);
+}
+
+void hitEdge(const Primitive& primitive, std::size_t number, Feature feature, const Vec3& from, const Vec3& motion,
+             double radius, double& limit, Impact& out) {
+  const Edge& edge = kEdges[number];
+  const Vec3 along = primitive.vertex[edge.end] - primitive.vertex[edge.begin];
+  const double length = along.norm();
+  const Vec3 e = along / length;
+  const Vec3 w = from - primitive.vertex[edge.begin];
+  const Vec3 w_across = w.cross(e);
+  const Vec3 m_across = motion.cross(e);
+  double t = 0;
+  if (!firstRoot(w_across.norm(), m_across.norm(), w_across.dot(m_across), std::abs(w.cross(motion).dot(e)), radius, t))
+    return;
+  if (!(t < limit)) return;
+  // The cylinder ends at the vertices; beyond them their spheres are hit.
+  const Vec3 at = w + t * motion;
+  const double s = at.dot(e) / length;
+  if (!(s >= 0 && s <= 1)) return;
+  limit = t;
+  out.t = t;
+  out.feature = feature;
+  out.normal = (at - s * along).normalized();
+  out.weights = edgeWeights(edge, s);
+}
+
+// The obstacle lies within the slab, so when its face is hit, nothing else is hit earlier.
+bool hitFace(const Primitive& triangle, const Vec3& from, const Vec3& motion, double radius, Impact& out) {
+  const double height = triangle.normal.dot(from - triangle.vertex[0]);
+  const double side = height < 0 ? -1.0 : 1.0;
+  const double closing = -side * triangle.normal.dot(motion);
+  if (!(closing > 0)) return false;
+  const double gap = std::abs(height) - radius;
+  if (!(gap <= closing)) return false;
+  const double t = std::max(0.0, gap / closing);
+  const FaceAreas areas = faceAreas(triangle, from + t * motion);
+  if (!areas.inside()) return false;
+  out.t = t;
+  out.feature = Feature::kFace;
+  out.normal = side * triangle.normal;
+  out.weights = areas.weights();
+  return true;
+}
+
+bool sweepOutside(const Primitive& primitive, const Vec3& from, const Vec3& motion, double radius, Impact& out) {
+  if (primitive.kind == PrimitiveKind::kTriangle && hitFace(primitive, from, motion, radius, out)) return true;
+  constexpr double kNone = 2;  // any time above 1
+  double limit = kNone;
+  if (primitive.kind == PrimitiveKind::kTriangle) {
+    for (std::size_t i = 0; i < 3; ++i) hitEdge(primitive, i, edgeFeature(i), from, motion, radius, limit, out);
+  } else if (primitive.kind == PrimitiveKind::kSegment) {
+    hitEdge(primitive, 2, Feature::kEdge0, from, motion, radius, limit, out);
+  }
+  const auto vertices = static_cast<std::size_t>(primitive.kind);
+  for (std::size_t i = 0; i < vertices; ++i) hitVertex(primitive, i, from, motion, radius, limit, out);
+  return limit < kNone;
+}
+
+}  // namespace
+
+bool sweepSphere(const Primitive& primitive, const Vec3& from, const Vec3& motion, double radius, Impact& out) {
+  const ClosestPoint start = closestPoint(primitive, from);
+  if (start.distance > radius) return sweepOutside(primitive, from, motion, radius, out);
+  if (!(motion.dot(start.normal) < 0)) return false;
+  out.t = 0;
+  out.feature = start.feature;
+  out.normal = start.normal;
+  out.weights = start.weights;
+  return true;
+}
+
+}  // namespace hl
