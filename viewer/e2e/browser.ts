@@ -1,0 +1,105 @@
+// What the end-to-end tests share: a Chromium with software GL that talks to nobody, a watch on the console, and the
+// check that no two panels overlap.
+
+import { mkdirSync } from "node:fs";
+import { join } from "node:path";
+import { chromium, type Browser, type Page } from "playwright-core";
+import { expect } from "vitest";
+
+export const kSizes = [
+  { width: 1280, height: 720 },
+  { width: 1920, height: 1080 },
+] as const;
+
+export function launch(): Promise<Browser> {
+  return chromium.launch({
+    executablePath: process.env.HL_CHROMIUM ?? "/usr/bin/chromium",
+    headless: true,
+    args: [
+      "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+      "--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run",
+      "--disable-quic",
+    ],
+  });
+}
+
+/** Everything that went wrong on the page, and every request that left the serving host. */
+export interface Complaints {
+  readonly errors: string[];
+  readonly foreign: string[];
+}
+
+/** A failed connection to a server that was killed on purpose is logged by the browser itself: not an error. */
+const kExpected = /WebSocket connection to .* failed|ERR_CONNECTION_REFUSED/;
+
+export function listen(page: Page, origin: string): Complaints {
+  const complaints: Complaints = { errors: [], foreign: [] };
+  page.on("console", (message) => {
+    if ((message.type() === "error" || message.type() === "warning") && !kExpected.test(message.text())) {
+      // The software renderer of the test machine reports its own slowness; that is no fault of the page.
+      if (!/GPU stall due to ReadPixels/.test(message.text())) complaints.errors.push(message.text());
+    }
+  });
+  page.on("pageerror", (error) => complaints.errors.push(String(error)));
+  page.on("request", (request) => {
+    if (!request.url().startsWith(origin) && !request.url().startsWith("data:")) complaints.foreign.push(request.url());
+  });
+  return complaints;
+}
+
+/** Saves a picture into HL_SCREENSHOTS, when that is set. */
+export async function screenshot(page: Page, name: string): Promise<void> {
+  const folder = process.env.HL_SCREENSHOTS;
+  if (folder) {
+    mkdirSync(folder, { recursive: true });
+    await page.screenshot({ path: join(folder, `${name}.png`) });
+  }
+}
+
+/** No two panels overlap, none leaves the window, none has to scroll or cuts off its text. */
+export async function expectTidyLayout(page: Page, size: { width: number; height: number }): Promise<void> {
+  await page.setViewportSize(size);
+  await page.waitForTimeout(300);
+  const boxes = await page.evaluate(() =>
+    ["controls", "readouts", "notices", "hints"].map((id) => {
+      const target = document.getElementById(id)!;
+      const { left, top, right, bottom } = target.getBoundingClientRect();
+      const clipped = target.scrollHeight > target.clientHeight + 1 || target.scrollWidth > target.clientWidth + 1;
+      return { id, left, top, right, bottom, clipped };
+    }),
+  );
+  for (const box of boxes) {
+    expect(box, `${box.id} fits ${size.width}x${size.height}`).toMatchObject({ clipped: false });
+    expect(box.left >= 0 && box.top >= 0 && box.right <= size.width && box.bottom <= size.height, box.id).toBe(true);
+  }
+  for (const a of boxes) {
+    for (const b of boxes) {
+      const apart = a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
+      expect(a === b || apart, `${a.id} and ${b.id} apart at ${size.width}x${size.height}`).toBe(true);
+    }
+  }
+}
+
+/** Share of the pixels in the middle of the window that differ from its background colour. */
+export async function modelPixels(page: Page): Promise<number> {
+  const { width, height } = page.viewportSize()!;
+  const clip = { x: width * 0.25, y: height * 0.15, width: width * 0.45, height: height * 0.65 };
+  const png = (await page.screenshot({ clip })).toString("base64");
+  return page.evaluate(async (data) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${data}`;
+    await image.decode();
+    const canvas = document.createElement("canvas");
+    canvas.width = image.width;
+    canvas.height = image.height;
+    const context = canvas.getContext("2d")!;
+    context.drawImage(image, 0, 0);
+    const { data: pixels } = context.getImageData(0, 0, canvas.width, canvas.height);
+    let different = 0;
+    for (let i = 0; i < pixels.length; i += 4) {
+      const distance = Math.abs(pixels[i]! - pixels[0]!) + Math.abs(pixels[i + 1]! - pixels[1]!);
+      different += distance > 40 ? 1 : 0;
+    }
+    return different / (pixels.length / 4);
+  }, png);
+}

@@ -1,0 +1,188 @@
+// The main job, end to end: `hl touch teapot` and its page in a real browser. A drag pushes the finger into the model,
+// the force rises, and the proxy stays outside: judged here from the bytes on the wire against every triangle, not by
+// the page. Then the server dies and comes back. HL_BIN names the `hl` program; without it these tests are skipped.
+
+import { spawn, type ChildProcess } from "node:child_process";
+import { createInterface } from "node:readline";
+import type { Browser, Page } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, test } from "vitest";
+import { decodeServerMessage, knownVec, type Scene } from "../src/protocol";
+import { length, sub, type Vec } from "../src/vec";
+import { distanceToTriangles } from "../test-support/closest_point";
+import { expectTidyLayout, kSizes, launch, listen, modelPixels, screenshot, type Complaints } from "./browser";
+
+const kProgram = process.env.HL_BIN;
+/** Positions arrive as float32: a world of metres is exact to about this much. */
+const kWireRounding_m = 1e-6;
+
+interface Touch {
+  readonly process: ChildProcess;
+  readonly url: string;
+}
+
+/** Starts `hl touch teapot` and waits for the line that says it is ready. */
+async function startTouch(port: number): Promise<Touch> {
+  const child = spawn(kProgram!, ["touch", "teapot", "--port", String(port), "--no-open"], {
+    stdio: ["ignore", "pipe", "inherit"],
+  });
+  for await (const line of createInterface({ input: child.stdout! })) {
+    const match = /^page: (http:\/\/127\.0\.0\.1:\d+\/)$/.exec(line);
+    if (match) {
+      child.stdout!.resume();
+      return { process: child, url: match[1]! };
+    }
+  }
+  throw new Error("hl touch ended without telling its page");
+}
+
+function ended(child: ChildProcess): Promise<number | null> {
+  return child.exitCode !== null || child.signalCode !== null
+    ? Promise.resolve(child.exitCode)
+    : new Promise((resolve) => child.once("exit", (code) => resolve(code)));
+}
+
+/** The scene and every proxy and finger that came over the wire. */
+class WireTap {
+  scene: Scene | undefined;
+  readonly proxies: Vec[] = [];
+  deepest_m = 0;
+
+  attach(page: Page): void {
+    page.on("websocket", (socket) => {
+      socket.on("framereceived", ({ payload }) => this.read(Buffer.from(payload)));
+    });
+  }
+
+  private read(payload: Buffer): void {
+    const message = decodeServerMessage(new Uint8Array(payload));
+    if (message.kind === "scene") {
+      this.scene = message.scene;
+    } else if (message.kind === "state") {
+      const proxy = knownVec(message.state.proxy);
+      const finger = knownVec(message.state.finger);
+      if (proxy !== undefined && finger !== undefined) {
+        this.proxies.push(proxy);
+        this.deepest_m = Math.max(this.deepest_m, length(sub(proxy, finger)));
+      }
+    }
+  }
+}
+
+describe.skipIf(!kProgram)("hl touch teapot", () => {
+  let touch: Touch;
+  let browser: Browser;
+  let page: Page;
+  let complaints: Complaints;
+  const tap = new WireTap();
+
+  beforeAll(async () => {
+    touch = await startTouch(0);
+    browser = await launch();
+    page = await browser.newPage({ viewport: kSizes[0], colorScheme: "dark" });
+    complaints = listen(page, touch.url);
+    tap.attach(page);
+    await page.goto(touch.url);
+    await page.waitForFunction(() => window.__hl.triangles > 0 && window.__hl.samples > 100);
+  });
+
+  afterAll(async () => {
+    await browser?.close();
+    touch?.process.kill("SIGKILL");
+  });
+
+  test("shows the model", async () => {
+    await expect.poll(() => modelPixels(page), { timeout: 20_000 }).toBeGreaterThan(0.05);
+    expect(await page.textContent("#scene-name")).toMatch(/teapot/i);
+    await page.waitForTimeout(3000);
+    await screenshot(page, "touch_exploring");
+  });
+
+  test("a drag pushes the finger into the model, the force rises, the proxy stays outside", async () => {
+    const before = await page.evaluate(() => {
+      const { boundsMin: low, boundsMax: high, finger } = window.__hl;
+      const centre = { x: (low!.x + high!.x) / 2, y: (low!.y + high!.y) / 2, z: (low!.z + high!.z) / 2 };
+      return { from: window.__hl.project(finger!), to: window.__hl.project(centre) };
+    });
+    await page.mouse.move(before.from.x, before.from.y);
+    await page.mouse.down();
+    await page.waitForTimeout(300);
+    expect(await page.evaluate(() => window.__hl.exploring)).toBe(false);
+    const first = tap.proxies.length;
+    tap.deepest_m = 0;
+    // Above the model first, then slowly down to its middle: wherever the stroking hand was, the way crosses the surface.
+    await moveSlowly(page, before.from, { x: before.to.x, y: before.to.y - 160 });
+    await moveSlowly(page, { x: before.to.x, y: before.to.y - 160 }, before.to);
+    await alignDepth(page);
+    await page.waitForTimeout(500);
+    await screenshot(page, "touch_dragging");
+    const peak = await page.evaluate(() => window.__hl.peak(8));
+    expect(peak.force_N).toBeGreaterThan(0.5);
+    expect(peak.penetration_m).toBeGreaterThan(1e-4);
+    expect(tap.deepest_m).toBeGreaterThan(tap.scene!.proxyRadius_m);
+    await page.mouse.up();
+    expectOutside(tap, first);
+  });
+
+  test("panels do not overlap, in dark and light, at both sizes", async () => {
+    await page.check("#explore");
+    await page.check("#planes");
+    for (const theme of ["light", "dark"]) {
+      await page.check(`input[name=theme][value=${theme}]`, { force: true });
+      for (const size of kSizes) {
+        await expectTidyLayout(page, size);
+        await page.waitForTimeout(2000);
+        await screenshot(page, `touch_${theme}_${size.width}x${size.height}`);
+      }
+    }
+    await page.setViewportSize(kSizes[0]);
+    expectOutside(tap, 0);
+  });
+
+  test("a killed server is told, and a restarted one is found again", async () => {
+    const port = Number(new URL(touch.url).port);
+    touch.process.kill("SIGKILL");
+    await page.waitForSelector("[data-cause=link]");
+    expect(await page.textContent("[data-cause=link]")).toMatch(/server went away/);
+    await screenshot(page, "touch_gone");
+    touch = await startTouch(port);
+    await page.waitForSelector("[data-cause=link]", { state: "detached", timeout: 10_000 });
+    await page.waitForFunction(() => window.__hl.link === "live" && window.__hl.samples > 10);
+  });
+
+  test("no console errors, nothing from outside addresses, and a clean end on SIGTERM", async () => {
+    expect(complaints.errors).toEqual([]);
+    expect(complaints.foreign).toEqual([]);
+    touch.process.kill("SIGTERM");
+    expect(await ended(touch.process)).toBe(0);
+  });
+});
+
+async function moveSlowly(page: Page, from: { x: number; y: number }, to: { x: number; y: number }): Promise<void> {
+  const kSteps = 40;
+  for (let i = 1; i <= kSteps; ++i) {
+    const share = i / kSteps;
+    await page.mouse.move(from.x + (to.x - from.x) * share, from.y + (to.y - from.y) * share);
+    await page.waitForTimeout(25);
+  }
+}
+
+/** Turns the wheel until the goal is about as deep as the middle of the model: then the finger must be inside. */
+async function alignDepth(page: Page): Promise<void> {
+  for (let i = 0; i < 40; ++i) {
+    const separation = await page.evaluate(() => window.__hl.separation_m! / window.__hl.proxyRadius_m!);
+    if (separation > 3) {
+      return;
+    }
+    await page.mouse.wheel(0, -60);
+    await page.waitForTimeout(60);
+  }
+}
+
+/** Every proxy since `first` keeps its radius from every triangle. */
+function expectOutside(tap: WireTap, first: number): void {
+  const { positions, triangles, proxyRadius_m } = tap.scene!;
+  const proxies = tap.proxies.slice(first);
+  expect(proxies.length).toBeGreaterThan(30);
+  const nearest = Math.min(...proxies.map((proxy) => distanceToTriangles(proxy, positions, triangles)));
+  expect(nearest).toBeGreaterThan(proxyRadius_m - kWireRounding_m);
+}

@@ -1,0 +1,83 @@
+// window.__hl: what the page knows, read-only, for tests and for the curious in the browser's console.
+
+import { SafetyState, type State } from "./gen/hl_pb";
+import type { LinkState } from "./connection";
+import { knownVec, type Scene } from "./protocol";
+import type { SampleRing } from "./samples";
+import { length, sub, type Vec } from "./vec";
+
+export interface DebugSources {
+  link(): LinkState;
+  scene(): Scene | undefined;
+  state(): State | undefined;
+  samples(): SampleRing;
+  holding(): boolean;
+  project(point: Vec): { x: number; y: number };
+}
+
+export interface DebugState {
+  readonly link: LinkState;
+  readonly sceneName: string | undefined;
+  readonly triangles: number;
+  readonly boundsMin: Vec | undefined;
+  readonly boundsMax: Vec | undefined;
+  readonly proxyRadius_m: number | undefined;
+  readonly worldPerDevice: number | undefined;
+  readonly time_s: number | undefined;
+  readonly finger: Vec | undefined;
+  readonly proxy: Vec | undefined;
+  readonly force_N: Vec | undefined;
+  /** World distance between proxy and finger. */
+  readonly separation_m: number | undefined;
+  readonly contacts: number;
+  readonly safety: string;
+  readonly exploring: boolean;
+  readonly holding: boolean;
+  readonly samples: number;
+  /** Largest force and penetration among the samples of the last `window_s` seconds. */
+  peak(window_s: number): { force_N: number; penetration_m: number };
+  /** Where a world point is on the canvas, CSS pixels. */
+  project(point: Vec): { x: number; y: number };
+}
+
+declare global {
+  interface Window {
+    readonly __hl: DebugState;
+  }
+}
+
+export function publishDebugState(sources: DebugSources): void {
+  Object.defineProperty(window, "__hl", { value: Object.freeze(makeDebugState(sources)) });
+}
+
+function makeDebugState(sources: DebugSources): DebugState {
+  return {
+    get link() { return sources.link(); },
+    get sceneName() { return sources.scene()?.name; },
+    get triangles() { return (sources.scene()?.triangles.length ?? 0) / 3; },
+    get boundsMin() { return sources.scene()?.boundsMin; },
+    get boundsMax() { return sources.scene()?.boundsMax; },
+    get proxyRadius_m() { return sources.scene()?.proxyRadius_m; },
+    get worldPerDevice() { return sources.scene()?.worldPerDevice; },
+    get time_s() { return sources.state()?.timeS; },
+    get finger() { return knownVec(sources.state()?.finger); },
+    get proxy() { return knownVec(sources.state()?.proxy); },
+    get force_N() { return knownVec(sources.state()?.forceN); },
+    get separation_m() {
+      const proxy = knownVec(sources.state()?.proxy);
+      const finger = knownVec(sources.state()?.finger);
+      return proxy === undefined || finger === undefined ? undefined : length(sub(proxy, finger));
+    },
+    get contacts() { return sources.state()?.contacts.length ?? 0; },
+    get safety() { return SafetyState[sources.state()?.safety ?? SafetyState.OFF] ?? "OFF"; },
+    get exploring() { return sources.state()?.exploring ?? false; },
+    get holding() { return sources.holding(); },
+    get samples() { return sources.samples().size; },
+    peak: (window_s) => {
+      const ring = sources.samples();
+      const from_s = (ring.latestTime ?? 0) - window_s;
+      return { force_N: ring.maximum(0, from_s), penetration_m: ring.maximum(1, from_s) };
+    },
+    project: (point) => sources.project(point),
+  };
+}

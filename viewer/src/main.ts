@@ -1,0 +1,261 @@
+// The page of `hl touch`: puts connection, 3-D view, plots and panels together. Messages are taken as they come;
+// everything on the screen follows in animation frames, so a slow browser draws less often but never lags behind.
+
+import "./style.css";
+import { Connection, type LinkState } from "./connection";
+import { publishDebugState } from "./debug_state";
+import type { Hello, State } from "./gen/hl_pb";
+import { depthOf, metresPerPixel } from "./hand_mapping";
+import { HandInput } from "./hand_input";
+import { ModelView } from "./model_view";
+import { Notices } from "./notices";
+import { element, Panel } from "./panel";
+import { kWindow_s, LivePlot } from "./plots";
+import { ProbeView } from "./probe_view";
+import {
+  encodeHandGoal, encodeRearm, encodeRelease, encodeRestartExploration, encodeSettings, knownVec, kProtocolVersion,
+  type Incoming, type Scene, type SettingsChange,
+} from "./protocol";
+import { SampleRing } from "./samples";
+import { Stage, type Insets } from "./stage";
+import { ThemeSwitch } from "./theme";
+import { length } from "./vec";
+
+const kPlotPeriod_ms = 50;
+/** Numbers that change faster than this cannot be read. */
+const kNumbersPeriod_ms = 100;
+/** Ten seconds of a 6 kHz loop: the most that State.samples can carry. */
+const kSampleCapacity = 65536;
+const kRateCapacity = 1024;
+/** A press this near to the proxy or the finger is meant for the hand. */
+const kGrabRadius_px = 30;
+
+class App {
+  private readonly stage_ = new Stage(element<HTMLCanvasElement>("canvas"));
+  private readonly model_ = new ModelView();
+  private readonly probe_ = new ProbeView();
+  private readonly notices_ = new Notices();
+  private readonly samples_ = new SampleRing(kSampleCapacity, 2);
+  private readonly rates_ = new SampleRing(kRateCapacity, 2);
+  private readonly plots_ = {
+    force: new LivePlot(element("plot-force"), { unit: "N", series: [{ colour: "force", fill: true }], smallestTop: 1 }),
+    penetration: new LivePlot(element("plot-penetration"), {
+      unit: "m", series: [{ colour: "penetration", fill: true }], smallestTop: 1e-3,
+    }),
+    rates: new LivePlot(element("plot-rates"), {
+      unit: "Hz", series: [{ colour: "servo" }, { colour: "proxy" }], smallestTop: 1000,
+    }),
+  };
+  private readonly hand_: HandInput;
+  private readonly panel_: Panel;
+  private readonly theme_: ThemeSwitch;
+  private readonly connection_: Connection;
+  private scene_: Scene | undefined;
+  private state_: State | undefined;
+  private serverVersion_: string | undefined;
+  private stateFresh_ = false;
+  private lastFrame_ms_ = 0;
+  private lastPlot_ms_ = 0;
+  private lastNumbers_ms_ = 0;
+
+  constructor() {
+    this.stage_.scene.add(this.model_.group, this.probe_.group);
+    this.hand_ = this.makeHand();
+    this.panel_ = this.makePanel();
+    this.theme_ = new ThemeSwitch(() => this.applyTheme());
+    this.panel_.showTheme(this.theme_.choice);
+    this.followWindow();
+    const address = new URL("viewer", location.href);
+    address.protocol = location.protocol === "https:" ? "wss:" : "ws:";
+    this.connection_ = new Connection(address.href, {
+      message: (message) => this.receive(message),
+      link: (link) => this.linkChanged(link),
+      violation: (reason) => this.notices_.tell(`Connection closed: ${reason}.`, true),
+    });
+    publishDebugState({
+      link: () => this.connection_.state,
+      scene: () => this.scene_,
+      state: () => this.state_,
+      samples: () => this.samples_,
+      holding: () => this.hand_.holding,
+      project: (point) => this.stage_.project(point),
+    });
+    requestAnimationFrame((now_ms) => this.frame(now_ms));
+  }
+
+  private makeHand(): HandInput {
+    return new HandInput(this.stage_, {
+      finger: () => (this.connection_.state === "live" ? knownVec(this.state_?.finger) : undefined),
+      goal: (position) => this.connection_.send(encodeHandGoal(position)),
+      release: () => this.connection_.send(encodeRelease()),
+      isTarget: (x_px, y_px) => this.isNearHand(x_px, y_px) || this.model_.isHit(this.stage_.rayAt(x_px, y_px)),
+    });
+  }
+
+  private makePanel(): Panel {
+    return new Panel({
+      settings: (change) => this.sendSettings(change),
+      rearm: () => this.connection_.send(encodeRearm()),
+      theme: (choice) => this.theme_.choose(choice),
+      planes: (shown) => this.probe_.setPlanesShown(shown),
+      edges: (shown) => this.model_.setEdges(shown),
+      flat: (flat) => this.model_.setFlat(flat),
+      orbitFromEmpty: (on) => (this.hand_.orbitFromEmpty = on),
+      resetView: () => this.stage_.resetView(),
+    });
+  }
+
+  private sendSettings(change: SettingsChange): void {
+    this.connection_.send(encodeSettings(change));
+    if (change.explore === true) {
+      this.connection_.send(encodeRestartExploration());
+    }
+  }
+
+  private receive(message: Incoming): void {
+    switch (message.kind) {
+      case "hello":
+        this.greet(message.hello);
+        break;
+      case "scene":
+        this.showScene(message.scene);
+        break;
+      case "state":
+        this.takeState(message.state);
+        break;
+      case "notice":
+        this.notices_.tell(message.notice.text, message.notice.fatal);
+        break;
+      case "unknown":
+        break;
+    }
+  }
+
+  private greet(hello: Hello): void {
+    const other = hello.protocolVersion !== kProtocolVersion;
+    const renewed = this.serverVersion_ !== undefined && this.serverVersion_ !== hello.serverVersion;
+    this.notices_.stand("version", other || renewed ? "The server has another version. Reload this page." : undefined);
+    this.serverVersion_ = hello.serverVersion;
+    this.panel_.showHello(hello);
+    this.probe_.setForceMax(hello.device?.forceMaxN ?? 0);
+    this.samples_.clear();
+    this.rates_.clear();
+  }
+
+  /** The camera stays where the user put it when the same scene comes again after a reconnect. */
+  private showScene(scene: Scene): void {
+    const old = this.scene_;
+    const same = old !== undefined && sameBounds(old, scene);
+    this.scene_ = scene;
+    this.model_.setScene(scene);
+    this.probe_.setScene(diagonal(scene), scene.proxyRadius_m);
+    this.panel_.showScene(scene);
+    if (!same) {
+      this.stage_.setBounds(scene.boundsMin, scene.boundsMax);
+    }
+  }
+
+  private takeState(state: State): void {
+    this.state_ = state;
+    this.stateFresh_ = true;
+    for (const sample of state.samples) {
+      this.samples_.push(sample.timeS, sample.forceN, sample.penetrationM);
+    }
+    this.rates_.push(state.timeS, state.servo?.rateHz ?? NaN, state.proxyLoop?.rateHz ?? NaN);
+  }
+
+  private linkChanged(link: LinkState): void {
+    this.panel_.showLink(link);
+    const texts: Readonly<Partial<Record<LinkState, string>>> = {
+      lost: "The server went away. This page comes back by itself when it returns.",
+      silent: "The server is silent. Waiting for it…",
+    };
+    this.notices_.stand("link", texts[link]);
+    if (link !== "live") {
+      this.hand_.cancel();
+    }
+  }
+
+  private frame(now_ms: number): void {
+    requestAnimationFrame((next_ms) => this.frame(next_ms));
+    // A page that was hidden for a while must not jump: at most a tenth of a second counts.
+    this.hand_.frame(Math.min(0.1, (now_ms - this.lastFrame_ms_) / 1000));
+    this.lastFrame_ms_ = now_ms;
+    this.showProbe();
+    this.stage_.draw();
+    if (this.stateFresh_ && now_ms - this.lastPlot_ms_ >= kPlotPeriod_ms) {
+      this.lastPlot_ms_ = now_ms;
+      this.showPlots();
+    }
+    if (this.stateFresh_ && now_ms - this.lastNumbers_ms_ >= kNumbersPeriod_ms) {
+      this.lastNumbers_ms_ = now_ms;
+      this.showNumbers();
+    }
+  }
+
+  private showProbe(): void {
+    const proxy = knownVec(this.state_?.proxy);
+    this.probe_.update(proxy, knownVec(this.state_?.finger), knownVec(this.state_?.forceN), this.state_?.contacts ?? []);
+    if (proxy !== undefined) {
+      const view = this.stage_.viewFrame();
+      this.probe_.face(this.stage_.camera, metresPerPixel(view, depthOf(view, proxy)));
+    }
+  }
+
+  private showPlots(): void {
+    const [times, force, penetration] = this.samples_.window(kWindow_s, this.plots_.force.buckets);
+    this.plots_.force.show([times, force!]);
+    this.plots_.penetration.show([times, penetration!]);
+    this.plots_.rates.show(this.rates_.window(kWindow_s, this.plots_.rates.buckets));
+  }
+
+  private showNumbers(): void {
+    const state = this.state_!;
+    const force = knownVec(state.forceN);
+    this.panel_.showState(state, force === undefined ? NaN : length(force), state.samples.at(-1)?.penetrationM);
+    this.stateFresh_ = false;
+  }
+
+  private isNearHand(x_px: number, y_px: number): boolean {
+    return [knownVec(this.state_?.proxy), knownVec(this.state_?.finger)].some((point) => {
+      const at = point === undefined ? undefined : this.stage_.project(point);
+      return at !== undefined && Math.hypot(at.x - x_px, at.y - y_px) < kGrabRadius_px;
+    });
+  }
+
+  private applyTheme(): void {
+    this.stage_.applyTheme();
+    this.model_.applyTheme();
+    this.probe_.applyTheme();
+    Object.values(this.plots_).forEach((plot) => plot.applyTheme());
+  }
+
+  private followWindow(): void {
+    const fit = () => this.stage_.resize(freeInsets());
+    new ResizeObserver(fit).observe(element("view"));
+    fit();
+  }
+}
+
+/** What the cards cover of the view; nothing in the narrow layout, where they stand below it. */
+function freeInsets(): Insets {
+  const view = element("view").getBoundingClientRect();
+  const controls = element("controls").getBoundingClientRect();
+  const readouts = element("readouts").getBoundingClientRect();
+  const beside = controls.top < view.bottom && readouts.left > controls.right && controls.bottom <= view.bottom;
+  return beside
+    ? { left: controls.right - view.left, right: view.right - readouts.left, top: 0, bottom: 24 }
+    : { left: 0, right: 0, top: 0, bottom: 0 };
+}
+
+function diagonal(scene: Scene): number {
+  const { boundsMin: low, boundsMax: high } = scene;
+  return Math.max(1e-6, length({ x: high.x - low.x, y: high.y - low.y, z: high.z - low.z }));
+}
+
+function sameBounds(a: Scene, b: Scene): boolean {
+  const numbers = (s: Scene) => [...Object.values(s.boundsMin), ...Object.values(s.boundsMax)];
+  return numbers(a).every((value, i) => value === numbers(b)[i]);
+}
+
+new App();

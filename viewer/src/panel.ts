@@ -1,0 +1,207 @@
+// The two cards: numbers out, settings in. Every element is in index.html; this file only fills and reads them.
+
+import { SafetyState, type Hello, type LoopStats, type State } from "./gen/hl_pb";
+import type { LinkState } from "./connection";
+import type { Scene, SettingsChange } from "./protocol";
+import type { ThemeChoice } from "./theme";
+import { formatCount, formatFixed, formatScale, formatSi, kThinSpace } from "./units";
+
+export interface PanelActions {
+  settings(change: SettingsChange): void;
+  rearm(): void;
+  theme(choice: ThemeChoice): void;
+  planes(shown: boolean): void;
+  edges(shown: boolean): void;
+  flat(flat: boolean): void;
+  orbitFromEmpty(on: boolean): void;
+  resetView(): void;
+}
+
+/** A control that was just used keeps what the user chose for this long: states already on their way are older. */
+const kSettle_ms = 700;
+const kStiffnessMin_N_m = 50;
+const kStiffnessStep_N_m = 10;
+
+const kSafetyTexts: Readonly<Record<SafetyState, string>> = {
+  [SafetyState.OFF]: "Off: no force",
+  [SafetyState.ARMING]: "Arming: force ramps up",
+  [SafetyState.ON]: "On",
+  [SafetyState.FAULT]: "Fault: no force",
+};
+
+const kLinkTexts: Readonly<Record<LinkState, string>> = {
+  connecting: "connecting",
+  live: "live",
+  silent: "silent",
+  lost: "offline",
+};
+
+export class Panel {
+  private readonly actions_: PanelActions;
+  private readonly touched_ms_ = new Map<string, number>();
+
+  constructor(actions: PanelActions) {
+    this.actions_ = actions;
+    const { settings } = actions;
+    this.onCheck("explore", (on) => settings({ explore: on }));
+    this.onCheck("planes", (on) => actions.planes(on));
+    this.onCheck("edges", (on) => actions.edges(on));
+    this.onCheck("flat", (on) => actions.flat(on));
+    this.onCheck("empty-orbit", (on) => actions.orbitFromEmpty(on));
+    this.onChoice("grip", (value) => settings({ handFirm: value === "firm" }));
+    this.onChoice("theme", (value) => actions.theme(value as ThemeChoice));
+    this.onStiffness();
+    element("rearm").addEventListener("click", () => actions.rearm());
+    element("reset-view").addEventListener("click", () => actions.resetView());
+    element("help-open").addEventListener("click", () => element<HTMLDialogElement>("help").showModal());
+    window.addEventListener("keydown", (event) => this.shortcut(event));
+  }
+
+  showTheme(choice: ThemeChoice): void {
+    document.querySelector<HTMLInputElement>(`input[name=theme][value=${choice}]`)!.checked = true;
+  }
+
+  showLink(link: LinkState): void {
+    element("link").dataset.link = link;
+    setText("link", kLinkTexts[link]);
+    element("readouts").classList.toggle("stale", link !== "live");
+  }
+
+  showHello(hello: Hello): void {
+    setText("scene-name", hello.sceneName);
+    element("scene-name").title = hello.sceneName;
+    document.title = `${hello.sceneName} – HL`;
+    setText("device", hello.device?.name || "–");
+    const slider = element<HTMLInputElement>("stiffness");
+    const recommended = hello.device?.stiffnessNM ?? 0;
+    const highest = hello.device?.stiffnessMaxNM || 2 * recommended;
+    slider.disabled = !(highest > kStiffnessMin_N_m);
+    slider.min = String(kStiffnessMin_N_m);
+    slider.max = String(Math.floor(highest / kStiffnessStep_N_m) * kStiffnessStep_N_m);
+    slider.step = String(kStiffnessStep_N_m);
+    this.showStiffness(recommended);
+  }
+
+  showScene(scene: Scene): void {
+    const parts: [number, string][] = [
+      [scene.triangles.length / 3, "triangles"],
+      [scene.segments.length / 2, "segments"],
+      [scene.points.length, "points"],
+    ];
+    const present = parts.filter(([count]) => count > 0);
+    setText("model-size", present.map(([count, what]) => `${formatCount(count)} ${what}`).join(", ") || "empty");
+    setText("proxy-radius", formatSi(scene.proxyRadius_m, "m"));
+    setText("scale", formatScale(scene.worldPerDevice));
+  }
+
+  /** `penetration_m` as in the newest sample. */
+  showState(state: State, force_N: number, penetration_m: number | undefined): void {
+    setText("force", formatFixed(force_N, "N", 2));
+    setText("penetration", formatFixed(penetration_m === undefined ? undefined : penetration_m * 1e3, "mm", 2));
+    setText("contacts", formatCount(state.contacts.length));
+    setText("caps", formatCount(state.iterationCaps));
+    this.showLoop("proxy", state.proxyLoop);
+    this.showLoop("servo", state.servo);
+    this.showSafety(state);
+    this.setChecked("explore", state.exploring);
+    this.setChecked("grip", !state.handFirm, "grip-light");
+    this.setChecked("grip", state.handFirm, "grip-firm");
+    if (this.settled("stiffness") && state.stiffnessNM > 0) {
+      this.showStiffness(state.stiffnessNM);
+    }
+  }
+
+  private showLoop(prefix: string, loop: LoopStats | undefined): void {
+    const micro = (value: number | undefined) => (value === undefined ? undefined : value * 1e-6);
+    setText(`${prefix}-rate`, formatSi(loop?.rateHz, "Hz", 4));
+    setText(`${prefix}-p50`, formatSi(micro(loop?.timeP50Us), "s"));
+    setText(`${prefix}-p999`, formatSi(micro(loop?.timeP999Us), "s"));
+    setText(`${prefix}-max`, formatSi(micro(loop?.timeMaxUs), "s"));
+    const steps = loop === undefined ? "" : ` of ${formatCount(loop.steps)}`;
+    setText(`${prefix}-missed`, formatCount(loop?.deadlinesMissed));
+    element(`${prefix}-missed`).title = `${formatCount(loop?.deadlinesMissed)}${steps} steps since the start`;
+  }
+
+  private showSafety(state: State): void {
+    const fault = state.safety === SafetyState.FAULT;
+    element("safety").dataset.safety = SafetyState[state.safety] ?? "OFF";
+    setText("safety-state", kSafetyTexts[state.safety] ?? `state ${state.safety}`);
+    element("rearm").hidden = !fault;
+    element("fault").hidden = !fault;
+    setText("fault", state.fault || "The server gave no reason.");
+  }
+
+  private showStiffness(value_N_m: number): void {
+    element<HTMLInputElement>("stiffness").value = String(value_N_m);
+    setText("stiffness-value", `${formatCount(value_N_m)}${kThinSpace}N/m`);
+  }
+
+  private onStiffness(): void {
+    const slider = element<HTMLInputElement>("stiffness");
+    slider.addEventListener("input", () => {
+      this.touch("stiffness");
+      setText("stiffness-value", `${formatCount(slider.valueAsNumber)}${kThinSpace}N/m`);
+      this.actions_.settings({ stiffnessNM: slider.valueAsNumber });
+    });
+  }
+
+  private onCheck(id: string, act: (on: boolean) => void): void {
+    const box = element<HTMLInputElement>(id);
+    box.addEventListener("change", () => {
+      this.touch(id);
+      act(box.checked);
+    });
+  }
+
+  private onChoice(name: string, act: (value: string) => void): void {
+    for (const radio of document.querySelectorAll<HTMLInputElement>(`input[name=${name}]`)) {
+      radio.addEventListener("change", () => {
+        this.touch(name);
+        act(radio.value);
+      });
+    }
+  }
+
+  private shortcut(event: KeyboardEvent): void {
+    if (event.ctrlKey || event.altKey || event.metaKey || event.repeat || element<HTMLDialogElement>("help").open) {
+      return;
+    }
+    const ids: Readonly<Record<string, string>> = {
+      e: "explore", p: "planes", m: "edges", f: "flat", r: "reset-view", "?": "help-open",
+    };
+    const id = ids[event.key.toLowerCase()];
+    if (id !== undefined) {
+      element(id).click();
+    }
+  }
+
+  private setChecked(control: string, checked: boolean, id = control): void {
+    const box = element<HTMLInputElement>(id);
+    if (this.settled(control) && box.checked !== checked) {
+      box.checked = checked;
+    }
+  }
+
+  private touch(control: string): void {
+    this.touched_ms_.set(control, performance.now());
+  }
+
+  private settled(control: string): boolean {
+    return performance.now() - (this.touched_ms_.get(control) ?? -Infinity) > kSettle_ms;
+  }
+}
+
+export function element<T extends HTMLElement = HTMLElement>(id: string): T {
+  const found = document.getElementById(id);
+  if (found === null) {
+    throw new Error(`the page has no element "${id}"`);
+  }
+  return found as T;
+}
+
+function setText(id: string, text: string): void {
+  const target = element(id);
+  if (target.textContent !== text) {
+    target.textContent = text;
+  }
+}

@@ -1,0 +1,170 @@
+// What touches the model: the proxy as the sphere the user sees, in its true size, with a thin ring when that would be
+// too small to find; the finger as a faint mark behind everything; the line between; the force as an arrow; and the
+// contact planes.
+
+import * as THREE from "three";
+import { knownVec } from "./protocol";
+import type { ContactPlane } from "./gen/hl_pb";
+import { themeColour } from "./theme";
+import type { Vec } from "./vec";
+
+/** The device's peak force is drawn this long, as a share of the model's diagonal. */
+const kArrowShare = 0.35;
+/** Below this force nothing is drawn: quantisation noise of a free hand. */
+const kArrowMin_N = 0.02;
+const kPlanesMax = 8;
+const kPlaneShare = 0.05;
+const kRing_px = 13;
+const kFinger_px = 5;
+
+export class ProbeView {
+  readonly group = new THREE.Group();
+  private readonly proxy_: THREE.Mesh<THREE.SphereGeometry, THREE.MeshStandardMaterial>;
+  private readonly ghost_: THREE.Mesh<THREE.SphereGeometry, THREE.MeshBasicMaterial>;
+  private readonly ring_: THREE.Mesh<THREE.RingGeometry, THREE.MeshBasicMaterial>;
+  private readonly finger_: THREE.Mesh<THREE.SphereGeometry, THREE.MeshBasicMaterial>;
+  private readonly line_: THREE.Line<THREE.BufferGeometry, THREE.LineBasicMaterial>;
+  private readonly arrow_ = new THREE.Group();
+  private readonly shaft_: THREE.Mesh<THREE.CylinderGeometry, THREE.MeshBasicMaterial>;
+  private readonly tip_: THREE.Mesh<THREE.ConeGeometry, THREE.MeshBasicMaterial>;
+  private readonly planes_: THREE.Group[] = [];
+  private readonly planeFill_ = overlay(THREE.MeshBasicMaterial, 0.28, true);
+  private readonly planeRim_ = overlay(THREE.LineBasicMaterial, 0.9, true);
+  private diagonal_m_ = 1;
+  private radius_m_ = 0;
+  private forceMax_N_ = 10;
+  private showPlanes_ = false;
+
+  constructor() {
+    const sphere = new THREE.SphereGeometry(1, 32, 20);
+    this.proxy_ = new THREE.Mesh(sphere, new THREE.MeshStandardMaterial({ roughness: 0.35 }));
+    this.ghost_ = new THREE.Mesh(sphere, overlay(THREE.MeshBasicMaterial, 0.35));
+    this.ring_ = new THREE.Mesh(new THREE.RingGeometry(0.86, 1, 48), overlay(THREE.MeshBasicMaterial, 0.7));
+    this.finger_ = new THREE.Mesh(new THREE.SphereGeometry(1, 16, 12), overlay(THREE.MeshBasicMaterial, 0.55));
+    const ends = new THREE.BufferGeometry().setAttribute("position", new THREE.BufferAttribute(new Float32Array(6), 3));
+    this.line_ = new THREE.Line(ends, overlay(THREE.LineBasicMaterial, 0.6));
+    this.line_.frustumCulled = false;
+    const arrowMaterial = new THREE.MeshBasicMaterial();
+    this.shaft_ = new THREE.Mesh(new THREE.CylinderGeometry(1, 1, 1, 16).translate(0, 0.5, 0), arrowMaterial);
+    this.tip_ = new THREE.Mesh(new THREE.ConeGeometry(1, 1, 20).translate(0, 0.5, 0), arrowMaterial);
+    this.arrow_.add(this.shaft_, this.tip_);
+    this.group.add(this.proxy_, this.ghost_, this.ring_, this.finger_, this.line_, this.arrow_);
+    for (let i = 0; i < kPlanesMax; ++i) {
+      this.planes_.push(this.makePlane());
+    }
+    this.group.visible = false;
+  }
+
+  setScene(diagonal_m: number, proxyRadius_m: number): void {
+    this.diagonal_m_ = diagonal_m;
+    this.radius_m_ = proxyRadius_m > 0 ? proxyRadius_m : diagonal_m * 2e-3;
+    this.proxy_.scale.setScalar(this.radius_m_);
+    this.ghost_.scale.setScalar(this.radius_m_);
+  }
+
+  setForceMax(force_N: number): void {
+    this.forceMax_N_ = force_N > 0 ? force_N : 10;
+  }
+
+  setPlanesShown(shown: boolean): void {
+    this.showPlanes_ = shown;
+  }
+
+  applyTheme(): void {
+    this.proxy_.material.color.set(themeColour("proxy"));
+    this.proxy_.material.emissive.set(themeColour("proxy")).multiplyScalar(0.35);
+    this.ghost_.material.color.set(themeColour("proxy"));
+    this.ring_.material.color.set(themeColour("proxy"));
+    this.finger_.material.color.set(themeColour("finger"));
+    this.line_.material.color.set(themeColour("finger"));
+    this.shaft_.material.color.set(themeColour("force"));
+    this.planeFill_.color.set(themeColour("plane"));
+    this.planeRim_.color.set(themeColour("plane"));
+  }
+
+  /** Shows one state of the server. Without a proxy there is nothing to show. */
+  update(proxy: Vec | undefined, finger: Vec | undefined, force_N: Vec | undefined, contacts: ContactPlane[]): void {
+    this.group.visible = proxy !== undefined && finger !== undefined;
+    if (proxy === undefined || finger === undefined) {
+      return;
+    }
+    for (const mesh of [this.proxy_, this.ghost_, this.ring_]) {
+      mesh.position.set(proxy.x, proxy.y, proxy.z);
+    }
+    this.finger_.position.set(finger.x, finger.y, finger.z);
+    const ends = this.line_.geometry.getAttribute("position") as THREE.BufferAttribute;
+    ends.setXYZ(0, proxy.x, proxy.y, proxy.z).setXYZ(1, finger.x, finger.y, finger.z);
+    ends.needsUpdate = true;
+    this.updateArrow(proxy, force_N);
+    this.planes_.forEach((plane, i) => this.updatePlane(plane, contacts[i]));
+  }
+
+  /** Keeps marks at their size in pixels; `metresPerPixel` at the proxy. Once per drawn frame. */
+  face(camera: THREE.Camera, metresPerPixel: number): void {
+    this.ring_.quaternion.copy(camera.quaternion);
+    this.ring_.scale.setScalar(kRing_px * metresPerPixel);
+    this.ring_.visible = this.radius_m_ < 0.7 * kRing_px * metresPerPixel;
+    this.finger_.scale.setScalar(kFinger_px * metresPerPixel);
+  }
+
+  private updateArrow(proxy: Vec, force_N: Vec | undefined): void {
+    const force = new THREE.Vector3(force_N?.x ?? 0, force_N?.y ?? 0, force_N?.z ?? 0);
+    const magnitude_N = force.length();
+    this.arrow_.visible = magnitude_N > kArrowMin_N;
+    if (!this.arrow_.visible) {
+      return;
+    }
+    const length = Math.min(magnitude_N / this.forceMax_N_, 1.5) * kArrowShare * this.diagonal_m_;
+    const thickness = 0.0045 * this.diagonal_m_;
+    const head = Math.min(length * 0.5, 6 * thickness);
+    this.arrow_.position.set(proxy.x, proxy.y, proxy.z);
+    this.arrow_.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), force.normalize());
+    this.shaft_.scale.set(thickness, length - head, thickness);
+    this.tip_.position.y = length - head;
+    this.tip_.scale.set(head * 0.4, head, head * 0.4);
+  }
+
+  private updatePlane(plane: THREE.Group, contact: ContactPlane | undefined): void {
+    const point = knownVec(contact?.point);
+    const normal = knownVec(contact?.normal);
+    plane.visible = this.showPlanes_ && point !== undefined && normal !== undefined;
+    if (!plane.visible || point === undefined || normal === undefined) {
+      return;
+    }
+    plane.position.set(point.x, point.y, point.z);
+    plane.quaternion.setFromUnitVectors(
+      new THREE.Vector3(0, 0, 1),
+      new THREE.Vector3(normal.x, normal.y, normal.z).normalize(),
+    );
+    plane.scale.setScalar(kPlaneShare * this.diagonal_m_);
+  }
+
+  /** A disc of radius 1 with a rim and a stick along its normal. */
+  private makePlane(): THREE.Group {
+    const plane = new THREE.Group();
+    const rim: THREE.Vector3[] = [];
+    for (let i = 0; i < 64; ++i) {
+      rim.push(new THREE.Vector3(Math.cos((i * Math.PI) / 32), Math.sin((i * Math.PI) / 32), 0));
+    }
+    const stick = [new THREE.Vector3(0, 0, 0), new THREE.Vector3(0, 0, 0.6)];
+    plane.add(
+      new THREE.Mesh(new THREE.CircleGeometry(1, 64), this.planeFill_),
+      new THREE.LineLoop(new THREE.BufferGeometry().setFromPoints(rim), this.planeRim_),
+      new THREE.Line(new THREE.BufferGeometry().setFromPoints(stick), this.planeRim_),
+    );
+    plane.visible = false;
+    this.group.add(plane);
+    return plane;
+  }
+}
+
+/** A material that is seen through the model: position matters more than what is in front of it. */
+function overlay<M extends THREE.Material>(type: new () => M, opacity: number, depthTest = false): M {
+  const material = new type();
+  material.transparent = true;
+  material.opacity = opacity;
+  material.depthTest = depthTest;
+  material.depthWrite = false;
+  material.side = THREE.DoubleSide;
+  return material;
+}

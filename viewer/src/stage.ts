@@ -1,0 +1,181 @@
+// The stage: renderer, camera, lights and floor. The camera is centred in the part of the window that the panels leave
+// free. Device axes are screen axes at the start: x right, y up, z toward the user.
+
+import * as THREE from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import type { ViewFrame } from "./hand_mapping";
+import { themeColour } from "./theme";
+import type { Vec } from "./vec";
+
+const kFovY_deg = 35;
+/** Sharper than this costs more than anyone sees. */
+const kPixelRatioMax = 2;
+
+/** Pixels at the window's edges that are covered by panels. */
+export interface Insets {
+  readonly left: number;
+  readonly right: number;
+  readonly top: number;
+  readonly bottom: number;
+}
+
+export class Stage {
+  readonly renderer: THREE.WebGLRenderer;
+  readonly camera = new THREE.PerspectiveCamera(kFovY_deg, 1, 0.01, 100);
+  readonly controls: OrbitControls;
+  readonly scene = new THREE.Scene();
+  private readonly lights_ = new THREE.Group();
+  private floor_: THREE.GridHelper | undefined;
+  private centre_ = new THREE.Vector3();
+  private diagonal_m_ = 1;
+  private insets_: Insets = { left: 0, right: 0, top: 0, bottom: 0 };
+  private untouched_ = true;
+
+  constructor(canvas: HTMLCanvasElement) {
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, kPixelRatioMax));
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enableDamping = true;
+    this.controls.dampingFactor = 0.15;
+    this.controls.addEventListener("start", () => (this.untouched_ = false));
+    this.scene.add(this.camera, ...this.makeLights());
+    this.camera.add(this.lights_);
+    this.resetView();
+  }
+
+  /** Near enough to clip nothing, for the hand too. */
+  get near_m(): number {
+    return this.camera.near;
+  }
+
+  get size_px(): { width: number; height: number } {
+    const canvas = this.renderer.domElement;
+    return { width: canvas.clientWidth, height: canvas.clientHeight };
+  }
+
+  setBounds(boundsMin: Vec, boundsMax: Vec): void {
+    const box = new THREE.Box3(
+      new THREE.Vector3(boundsMin.x, boundsMin.y, boundsMin.z),
+      new THREE.Vector3(boundsMax.x, boundsMax.y, boundsMax.z),
+    );
+    box.getCenter(this.centre_);
+    this.diagonal_m_ = Math.max(box.getSize(new THREE.Vector3()).length(), 1e-6);
+    this.rebuildFloor(box.min.y);
+    this.resetView();
+  }
+
+  /** The whole model, a little from above and from the right. */
+  resetView(): void {
+    this.untouched_ = true;
+    const { width, height } = this.free();
+    const narrow = Math.min(1, width / height);
+    const distance = (0.56 * this.diagonal_m_) / Math.tan(THREE.MathUtils.degToRad(kFovY_deg / 2)) / narrow;
+    const { height: full } = this.size_px;
+    const direction = new THREE.Vector3(0.32, 0.42, 1).normalize();
+    this.controls.target.copy(this.centre_);
+    this.camera.position.copy(this.centre_).addScaledVector(direction, distance * Math.max(1, full / height));
+    this.camera.near = this.diagonal_m_ * 0.01;
+    this.camera.far = this.diagonal_m_ * 60;
+    this.controls.minDistance = this.diagonal_m_ * 0.05;
+    this.controls.maxDistance = this.diagonal_m_ * 20;
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+  }
+
+  /** Follows the window; `insets` are the panels. A view that the user has not moved keeps showing the whole model. */
+  resize(insets: Insets): void {
+    this.insets_ = insets;
+    const canvas = this.renderer.domElement;
+    const width = Math.max(1, canvas.parentElement?.clientWidth ?? 1);
+    const height = Math.max(1, canvas.parentElement?.clientHeight ?? 1);
+    this.renderer.setSize(width, height, true);
+    this.camera.aspect = width / height;
+    const shiftX = (insets.right - insets.left) / 2;
+    const shiftY = (insets.bottom - insets.top) / 2;
+    this.camera.setViewOffset(width, height, shiftX, shiftY, width, height);
+    this.camera.updateProjectionMatrix();
+    if (this.untouched_) {
+      this.resetView();
+    }
+  }
+
+  applyTheme(): void {
+    this.scene.background = new THREE.Color(themeColour("stage"));
+    if (this.floor_ !== undefined) {
+      this.rebuildFloor(this.floor_.position.y);
+    }
+  }
+
+  /** The camera as the hand mapping needs it. */
+  viewFrame(): ViewFrame {
+    this.camera.updateMatrixWorld();
+    const axes = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3()] as const;
+    this.camera.matrixWorld.extractBasis(...axes);
+    return {
+      eye: plain(this.camera.position),
+      right: plain(axes[0]),
+      up: plain(axes[1]),
+      forward: plain(axes[2].negate()),
+      fovY_rad: THREE.MathUtils.degToRad(this.camera.fov),
+      height_px: this.size_px.height,
+    };
+  }
+
+  /** Where `point` is on the page, in CSS pixels from the canvas's corner. */
+  project(point: Vec): { x: number; y: number } {
+    this.camera.updateMatrixWorld();
+    const ndc = new THREE.Vector3(point.x, point.y, point.z).project(this.camera);
+    const { width, height } = this.size_px;
+    return { x: ((ndc.x + 1) / 2) * width, y: ((1 - ndc.y) / 2) * height };
+  }
+
+  rayAt(x_px: number, y_px: number): THREE.Raycaster {
+    const { width, height } = this.size_px;
+    const raycaster = new THREE.Raycaster();
+    raycaster.setFromCamera(new THREE.Vector2((x_px / width) * 2 - 1, 1 - (y_px / height) * 2), this.camera);
+    return raycaster;
+  }
+
+  draw(): void {
+    this.controls.update();
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  private free(): { width: number; height: number } {
+    const { width, height } = this.size_px;
+    return {
+      width: Math.max(100, width - this.insets_.left - this.insets_.right),
+      height: Math.max(100, height - this.insets_.top - this.insets_.bottom),
+    };
+  }
+
+  /** Studio light: a warm key and a cool rim that travel with the camera, and soft light from sky and floor. */
+  private makeLights(): THREE.Object3D[] {
+    const key = new THREE.DirectionalLight(0xfff4e6, 2.1);
+    key.position.set(-0.6, 0.9, 1);
+    const fill = new THREE.DirectionalLight(0xe6f0ff, 0.55);
+    fill.position.set(1, 0.1, 0.6);
+    const rim = new THREE.DirectionalLight(0xdfeaff, 0.9);
+    rim.position.set(0.3, 0.8, -1);
+    for (const light of [key, fill, rim]) {
+      this.lights_.add(light, light.target);
+    }
+    return [new THREE.HemisphereLight(0xffffff, 0x8a8f98, 0.95)];
+  }
+
+  /** A faint grid under the model: the eye judges depth by it. */
+  private rebuildFloor(level_m: number): void {
+    if (this.floor_ !== undefined) {
+      this.scene.remove(this.floor_);
+      this.floor_.dispose();
+    }
+    const colour = new THREE.Color(themeColour("grid"));
+    this.floor_ = new THREE.GridHelper(this.diagonal_m_ * 2, 20, colour, colour);
+    this.floor_.position.set(this.centre_.x, level_m, this.centre_.z);
+    this.scene.add(this.floor_);
+  }
+}
+
+function plain(v: THREE.Vector3): Vec {
+  return { x: v.x, y: v.y, z: v.z };
+}

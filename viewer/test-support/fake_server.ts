@@ -1,0 +1,192 @@
+// A small stand-in for `hl touch`: serves the built page and a sphere with an analytic proxy, and does on command what
+// a real server does rarely (faults, silence, garbage). For tests of the page alone; the forces are a plain spring.
+
+import { create, fromBinary, toBinary, type MessageInitShape } from "@bufbuild/protobuf";
+import { createReadStream, existsSync } from "node:fs";
+import { createServer, type Server } from "node:http";
+import type { AddressInfo } from "node:net";
+import { extname, join, normalize } from "node:path";
+import { fileURLToPath } from "node:url";
+import { WebSocketServer, type WebSocket } from "ws";
+import { SafetyState, ServerMessageSchema, ViewerMessageSchema, type ViewerMessage } from "../src/gen/hl_pb";
+import { kProtocolVersion } from "../src/protocol";
+import { add, length, scale, sub, type Vec } from "../src/vec";
+
+const kDist = fileURLToPath(new URL("../dist", import.meta.url));
+const kTypes: Readonly<Record<string, string>> = {
+  ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml",
+};
+const kSphere_m = 0.05;
+const kProxy_m = 0.001;
+const kStatePeriod_ms = 16;
+const kSamplesPerState = 16;
+
+type Body = NonNullable<MessageInitShape<typeof ServerMessageSchema>["body"]>;
+
+export class FakeServer {
+  readonly received: ViewerMessage[] = [];
+  explore = true;
+  handFirm = false;
+  stiffness_N_m = 1000;
+  fault = "";
+  silent = false;
+  private readonly http_: Server;
+  private readonly sockets_: WebSocketServer;
+  private readonly timer_: NodeJS.Timeout;
+  private readonly start_ms_ = performance.now();
+  private time_s_ = 0;
+  private finger_: Vec = { x: 0, y: 0, z: 2 * kSphere_m };
+  private goal_: Vec | undefined;
+
+  private constructor(http: Server) {
+    this.http_ = http;
+    this.sockets_ = new WebSocketServer({ server: http, path: "/viewer" });
+    this.sockets_.on("connection", (socket) => this.greet(socket));
+    this.timer_ = setInterval(() => this.step(), kStatePeriod_ms);
+  }
+
+  /** Port 0 takes any free one. */
+  static async start(port = 0): Promise<FakeServer> {
+    const http = createServer((request, response) => {
+      const path = normalize(new URL(request.url ?? "/", "http://localhost").pathname);
+      const file = join(kDist, path === "/" ? "index.html" : path);
+      if (!file.startsWith(kDist) || !existsSync(file)) {
+        response.writeHead(404).end();
+        return;
+      }
+      response.writeHead(200, { "Content-Type": kTypes[extname(file)] ?? "application/octet-stream" });
+      createReadStream(file).pipe(response);
+    });
+    await new Promise<void>((resolve, reject) => http.once("error", reject).listen(port, "127.0.0.1", resolve));
+    return new FakeServer(http);
+  }
+
+  get port(): number {
+    return (this.http_.address() as AddressInfo).port;
+  }
+
+  get url(): string {
+    return `http://127.0.0.1:${this.port}/`;
+  }
+
+  /** Raw bytes to every page: for messages that no server should send. */
+  sendRaw(bytes: Uint8Array): void {
+    this.sockets_.clients.forEach((socket) => socket.send(bytes));
+  }
+
+  send(body: Body): void {
+    this.sendRaw(encode(body));
+  }
+
+  async close(): Promise<void> {
+    clearInterval(this.timer_);
+    this.sockets_.clients.forEach((socket) => socket.terminate());
+    this.sockets_.close();
+    await new Promise((resolve) => this.http_.close(resolve));
+  }
+
+  private greet(socket: WebSocket): void {
+    socket.on("message", (data: Buffer) => this.obey(fromBinary(ViewerMessageSchema, new Uint8Array(data))));
+    const device = {
+      name: "simulated sphere", forceMaxN: 8.5, stiffnessNM: 1000, stiffnessMaxNM: 3500, dampingNsM: 1,
+      servoRateHz: 1000, proxyRateHz: 1000,
+    };
+    const hello = { protocolVersion: kProtocolVersion, serverVersion: "fake", sceneName: "sphere", device };
+    socket.send(encode({ case: "hello", value: hello }));
+    socket.send(encode(sphereScene(64, 128)));
+  }
+
+  private obey(message: ViewerMessage): void {
+    this.received.push(message);
+    const { body } = message;
+    if (body.case === "handGoal" && body.value.position !== undefined) {
+      this.goal_ = body.value.position;
+      this.explore = false;
+    } else if (body.case === "settings") {
+      this.explore = body.value.explore ?? this.explore;
+      this.handFirm = body.value.handFirm ?? this.handFirm;
+      this.stiffness_N_m = body.value.stiffnessNM ?? this.stiffness_N_m;
+    } else if (body.case === "rearm") {
+      this.fault = "";
+    }
+  }
+
+  private step(): void {
+    const before_s = this.time_s_;
+    this.time_s_ = (performance.now() - this.start_ms_) / 1000;
+    const angle = this.time_s_ * 0.9;
+    const stroke = {
+      x: Math.sin(angle) * 0.9, y: 0.25 * Math.sin(angle * 0.7), z: Math.cos(angle) * 0.9,
+    };
+    const depth_m = 0.003 + 0.002 * Math.sin(angle * 2.3);
+    const goal = this.explore ? scale(stroke, (kSphere_m - depth_m) / length(stroke)) : (this.goal_ ?? this.finger_);
+    this.finger_ = add(this.finger_, scale(sub(goal, this.finger_), 0.25));
+    if (!this.silent) {
+      this.sendState(before_s);
+    }
+  }
+
+  private sendState(before_s: number): void {
+    const distance = length(this.finger_);
+    const normal = scale(this.finger_, 1 / Math.max(distance, 1e-9));
+    const inside = distance < kSphere_m + kProxy_m;
+    const proxy = inside ? scale(normal, kSphere_m + kProxy_m) : this.finger_;
+    const force = this.fault ? scale(normal, 0) : scale(sub(proxy, this.finger_), this.stiffness_N_m);
+    const span_s = this.time_s_ - before_s;
+    const samples = Array.from({ length: kSamplesPerState }, (_, i) => ({
+      timeS: before_s + (span_s * (i + 1)) / kSamplesPerState,
+      forceN: length(force) * (1 + 0.01 * Math.sin(i * 1.7)),
+      penetrationM: length(sub(proxy, this.finger_)),
+      tickUs: 2.5,
+    }));
+    const steps = BigInt(Math.round(this.time_s_ * 1000));
+    const loop = { timeP50Us: 2.31, timeP999Us: 11.8, timeMaxUs: 46.2, deadlinesMissed: 3n, steps };
+    this.send({
+      case: "state",
+      value: {
+        timeS: this.time_s_, finger: this.finger_, proxy, forceN: force, samples,
+        contacts: inside ? [{ point: scale(normal, kSphere_m), normal, multiplierM: 0.001 }] : [],
+        safety: this.fault ? SafetyState.FAULT : SafetyState.ON,
+        fault: this.fault,
+        servo: { ...loop, rateHz: 1000 },
+        proxyLoop: { ...loop, rateHz: 1000 + 4 * Math.sin(this.time_s_) },
+        exploring: this.explore, handFirm: this.handFirm, stiffnessNM: this.stiffness_N_m, iterationCaps: 0n,
+      },
+    });
+  }
+}
+
+function encode(body: Body): Uint8Array {
+  return toBinary(ServerMessageSchema, create(ServerMessageSchema, { body }));
+}
+
+export function bytesOf(values: Float32Array | Uint32Array): Uint8Array {
+  return new Uint8Array(values.buffer, values.byteOffset, values.byteLength);
+}
+
+function sphereScene(rows: number, columns: number): Body {
+  const normals: number[] = [];
+  const triangles: number[] = [];
+  for (let row = 0; row <= rows; ++row) {
+    for (let column = 0; column <= columns; ++column) {
+      const [theta, phi] = [(row / rows) * Math.PI, (column / columns) * 2 * Math.PI];
+      normals.push(Math.sin(theta) * Math.sin(phi), Math.cos(theta), Math.sin(theta) * Math.cos(phi));
+      if (row < rows && column < columns) {
+        const [a, b] = [row * (columns + 1) + column, (row + 1) * (columns + 1) + column];
+        triangles.push(a, b, a + 1, a + 1, b, b + 1);
+      }
+    }
+  }
+  const positions = Float32Array.from(normals, (n) => n * kSphere_m);
+  return {
+    case: "scene",
+    value: {
+      name: "sphere", proxyRadius: kProxy_m, worldPerDevice: 1,
+      positions: bytesOf(positions),
+      normals: bytesOf(Float32Array.from(normals)),
+      triangles: bytesOf(Uint32Array.from(triangles)),
+      boundsMin: { x: -kSphere_m, y: -kSphere_m, z: -kSphere_m },
+      boundsMax: { x: kSphere_m, y: kSphere_m, z: kSphere_m },
+    },
+  };
+}
