@@ -42,6 +42,8 @@ test("gives a usable page in a small window", async () => {
   await page.waitForTimeout(500);
   const widest = await page.evaluate(() => document.documentElement.scrollWidth);
   expect(widest).toBeLessThanOrEqual(700);
+  const middle = await page.evaluate(() => window.__hl.project({ x: 0, y: 0, z: 0 }));
+  expect(middle.x).toBeCloseTo(350, 0);
   await screenshot(page, "page_small");
   await page.setViewportSize(kSizes[0]);
 });

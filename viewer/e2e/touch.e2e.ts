@@ -178,11 +178,16 @@ async function alignDepth(page: Page): Promise<void> {
   }
 }
 
-/** Every proxy since `first` keeps its radius from every triangle. */
+/** Proxies since `first`, evenly picked, at most this many: each is asked of every triangle. */
+const kProxiesMax = 400;
+
+/** The proxies since `first` keep their radius from every triangle. */
 function expectOutside(tap: WireTap, first: number): void {
   const { positions, triangles, proxyRadius_m } = tap.scene!;
-  const proxies = tap.proxies.slice(first);
-  expect(proxies.length).toBeGreaterThan(30);
+  const since = tap.proxies.slice(first);
+  expect(since.length).toBeGreaterThan(30);
+  const every = Math.ceil(since.length / kProxiesMax);
+  const proxies = since.filter((_proxy, i) => i % every === 0);
   const nearest = Math.min(...proxies.map((proxy) => distanceToTriangles(proxy, positions, triangles)));
   expect(nearest).toBeGreaterThan(proxyRadius_m - kWireRounding_m);
 }
