@@ -12,8 +12,8 @@ import { distanceToTriangles } from "../test-support/closest_point";
 import { expectTidyLayout, kSizes, launch, listen, modelPixels, screenshot, type Complaints } from "./browser";
 
 const kProgram = process.env.HL_BIN;
-/** Positions arrive as float32: a world of metres is exact to about this much. */
-const kWireRounding_m = 1e-6;
+/** Positions of the mesh arrive as float32: exact to about this share of the model's size. */
+const kWireRounding = 1e-6;
 
 interface Touch {
   readonly process: ChildProcess;
@@ -166,14 +166,21 @@ async function moveSlowly(page: Page, from: { x: number; y: number }, to: { x: n
   }
 }
 
-/** Turns the wheel until the goal is about as deep as the middle of the model: then the finger must be inside. */
+/** Turns the wheel until the finger is held back by the surface on its way to the depth of the model's middle. */
 async function alignDepth(page: Page): Promise<void> {
   for (let i = 0; i < 40; ++i) {
-    const separation = await page.evaluate(() => window.__hl.separation_m! / window.__hl.proxyRadius_m!);
-    if (separation > 3) {
+    const { separation, farther_m } = await page.evaluate(() => {
+      const { boundsMin: low, boundsMax: high, finger } = window.__hl;
+      const centre = { x: (low!.x + high!.x) / 2, y: (low!.y + high!.y) / 2, z: (low!.z + high!.z) / 2 };
+      return {
+        separation: window.__hl.separation_m! / window.__hl.proxyRadius_m!,
+        farther_m: window.__hl.project(centre).depth_m - window.__hl.project(finger!).depth_m,
+      };
+    });
+    if (separation > 2) {
       return;
     }
-    await page.mouse.wheel(0, -60);
+    await page.mouse.wheel(0, farther_m > 0 ? -60 : 60);
     await page.waitForTimeout(60);
   }
 }
@@ -189,5 +196,6 @@ function expectOutside(tap: WireTap, first: number): void {
   const every = Math.ceil(since.length / kProxiesMax);
   const proxies = since.filter((_proxy, i) => i % every === 0);
   const nearest = Math.min(...proxies.map((proxy) => distanceToTriangles(proxy, positions, triangles)));
-  expect(nearest).toBeGreaterThan(proxyRadius_m - kWireRounding_m);
+  const size = positions.reduce((largest, value) => Math.max(largest, Math.abs(value)), 0);
+  expect(nearest).toBeGreaterThan(proxyRadius_m - kWireRounding * size);
 }

@@ -12,7 +12,7 @@ export interface DebugSources {
   state(): State | undefined;
   samples(): SampleRing;
   holding(): boolean;
-  project(point: Vec): { x: number; y: number };
+  project(point: Vec): { x: number; y: number; depth_m: number };
 }
 
 export interface DebugState {
@@ -36,8 +36,8 @@ export interface DebugState {
   readonly samples: number;
   /** Largest force and penetration among the samples of the last `window_s` seconds. */
   peak(window_s: number): { force_N: number; penetration_m: number };
-  /** Where a world point is on the canvas, CSS pixels. */
-  project(point: Vec): { x: number; y: number };
+  /** Where a world point is on the canvas, CSS pixels, and how far along the view. */
+  project(point: Vec): { x: number; y: number; depth_m: number };
 }
 
 declare global {

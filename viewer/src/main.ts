@@ -13,8 +13,8 @@ import { element, Panel } from "./panel";
 import { kWindow_s, LivePlot } from "./plots";
 import { ProbeView } from "./probe_view";
 import {
-  encodeHandGoal, encodeRearm, encodeRelease, encodeRestartExploration, encodeSettings, knownVec, kProtocolVersion,
-  type Incoming, type Scene, type SettingsChange,
+  encodeHandGoal, encodeRearm, encodeRelease, encodeSettings, knownVec, kProtocolVersion,
+  type Incoming, type Scene,
 } from "./protocol";
 import { SampleRing } from "./samples";
 import { Stage, type Insets } from "./stage";
@@ -94,7 +94,7 @@ class App {
 
   private makePanel(): Panel {
     return new Panel({
-      settings: (change) => this.sendSettings(change),
+      settings: (change) => this.connection_.send(encodeSettings(change)),
       rearm: () => this.connection_.send(encodeRearm()),
       theme: (choice) => this.theme_.choose(choice),
       planes: (shown) => this.probe_.setPlanesShown(shown),
@@ -103,13 +103,6 @@ class App {
       orbitFromEmpty: (on) => (this.hand_.orbitFromEmpty = on),
       resetView: () => this.stage_.resetView(),
     });
-  }
-
-  private sendSettings(change: SettingsChange): void {
-    this.connection_.send(encodeSettings(change));
-    if (change.explore === true) {
-      this.connection_.send(encodeRestartExploration());
-    }
   }
 
   private receive(message: Incoming): void {

@@ -156,10 +156,6 @@ export function encodeRearm(): Uint8Array<ArrayBuffer> {
   return encode({ case: "rearm", value: {} });
 }
 
-export function encodeRestartExploration(): Uint8Array<ArrayBuffer> {
-  return encode({ case: "explore", value: {} });
-}
-
 export function encodeSettings(change: SettingsChange): Uint8Array<ArrayBuffer> {
   return encode({ case: "settings", value: change });
 }

@@ -3,7 +3,7 @@
 
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import type { ViewFrame } from "./hand_mapping";
+import { depthOf, type ViewFrame } from "./hand_mapping";
 import { themeColour } from "./theme";
 import type { Vec } from "./vec";
 
@@ -121,12 +121,13 @@ export class Stage {
     };
   }
 
-  /** Where `point` is on the page, in CSS pixels from the canvas's corner. */
-  project(point: Vec): { x: number; y: number } {
+  /** Where `point` is on the page, in CSS pixels from the canvas's corner, and how far along the view, m. */
+  project(point: Vec): { x: number; y: number; depth_m: number } {
     this.camera.updateMatrixWorld();
     const ndc = new THREE.Vector3(point.x, point.y, point.z).project(this.camera);
     const { width, height } = this.size_px;
-    return { x: ((ndc.x + 1) / 2) * width, y: ((1 - ndc.y) / 2) * height };
+    const depth_m = depthOf(this.viewFrame(), point);
+    return { x: ((ndc.x + 1) / 2) * width, y: ((1 - ndc.y) / 2) * height, depth_m };
   }
 
   rayAt(x_px: number, y_px: number): THREE.Raycaster {

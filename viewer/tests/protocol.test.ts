@@ -3,8 +3,7 @@ import { create, fromBinary, toBinary, type MessageInitShape } from "@bufbuild/p
 import { describe, expect, test } from "vitest";
 import { ServerMessageSchema, ViewerMessageSchema, type SceneMesh } from "../src/gen/hl_pb";
 import {
-  decodeServerMessage, encodeHandGoal, encodeRearm, encodeRelease, encodeRestartExploration, encodeSettings, knownVec,
-  ProtocolError, type Scene,
+  decodeServerMessage, encodeHandGoal, encodeRearm, encodeRelease, encodeSettings, knownVec, ProtocolError, type Scene,
 } from "../src/protocol";
 
 type Body = NonNullable<MessageInitShape<typeof ServerMessageSchema>["body"]>;
@@ -108,7 +107,6 @@ test("what the page sends can be read back, and only what was changed is in it",
   });
   expect(read(encodeRelease()).case).toBe("release");
   expect(read(encodeRearm()).case).toBe("rearm");
-  expect(read(encodeRestartExploration()).case).toBe("explore");
   const settings = read(encodeSettings({ explore: false }));
   if (settings.case !== "settings") throw new Error("not settings");
   expect(settings.value.explore).toBe(false);
