@@ -1,0 +1,169 @@
+// hl touch: serves a scene with the simulated device, and the page to see and feel it with the mouse.
+#include <fmt/core.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+
+#include "base/error.h"
+#include "commands.h"
+#include "io/csv_path.h"
+#include "server/http_server.h"
+#include "server/touch_session.h"
+#include "server/viewer_feed.h"
+
+namespace hl {
+
+namespace {
+
+struct TouchOptions {
+  SceneOptions scene;
+  TouchSettings settings;
+  int port = 1997;
+  bool no_open = false;
+  std::string hand = "light";
+  std::string explore = "on";
+  std::string hand_path;
+  std::string page_folder;
+  double scale = 0;
+  double duration_s = 0;
+};
+
+// Blocks SIGINT and SIGTERM in this thread and all that it starts; waitForEnd() takes them.
+sigset_t blockSignals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  signal(SIGPIPE, SIG_IGN);
+  return signals;
+}
+
+void waitForEnd(const sigset_t& signals, double duration_s) {
+  if (duration_s <= 0) {
+    int received = 0;
+    sigwait(&signals, &received);
+    return;
+  }
+  const auto whole = static_cast<time_t>(duration_s);
+  const timespec limit{whole, static_cast<long>(1e9 * (duration_s - static_cast<double>(whole)))};
+  sigtimedwait(&signals, nullptr, &limit);
+}
+
+std::string defaultPageFolder() {
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (error) return "viewer/dist";
+  for (auto folder = program.parent_path(); folder != folder.root_path(); folder = folder.parent_path()) {
+    if (std::filesystem::exists(folder / "viewer" / "dist" / "index.html", error))
+      return (folder / "viewer" / "dist").string();
+  }
+  return "viewer/dist";
+}
+
+void openBrowser(const std::string& address) {
+  if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
+  const pid_t child = fork();
+  if (child != 0) return;
+  // A second fork: nobody has to wait for the browser.
+  if (fork() != 0) _exit(0);
+  setsid();
+  execlp("xdg-open", "xdg-open", address.c_str(), static_cast<char*>(nullptr));
+  _exit(127);
+}
+
+HandScript readScript(const std::string& file) {
+  HandScript script;
+  const std::vector<PathSample> path = readPath(file);
+  for (const PathSample& sample : path) script.samples.push_back({sample.t - path.front().t, sample.position});
+  return script;
+}
+
+void printTotals(const TouchSession& session) {
+  const auto line = [](const char* name, const LoopTotals& t) {
+    fmt::print(stderr, "{:<16}{:>10} steps, {} deadlines missed, at most {:.0f} us late\n", name, t.steps, t.missed,
+               1e-3 * static_cast<double>(t.late_max_ns));
+  };
+  line("servo:", session.servoTotals());
+  line("proxy:", session.proxyTotals());
+  if (session.settings().timer_reference) line("bare timer:", session.referenceTotals());
+}
+
+void run(TouchOptions options) {
+  const auto snapshot = loadSnapshot(options.scene);
+  options.settings.hand_firm = options.hand == "firm";
+  options.settings.explore = options.explore == "on";
+  if (options.scale > 0) options.settings.world_per_device = options.scale;
+  if (!options.hand_path.empty()) options.settings.script = readScript(options.hand_path);
+  const sigset_t signals = blockSignals();
+  TouchSession session(snapshot, options.settings);
+  const std::string pages = options.page_folder.empty() ? defaultPageFolder() : options.page_folder;
+  HttpServer server({static_cast<std::uint16_t>(options.port), pages, 60}, makeViewerFeed(session, HL_VERSION));
+  session.start();
+  server.start();
+  fmt::print(stderr, "{}: {} primitives; 1 mm of the hand is {:.4g} mm of the scene\n", options.scene.scene,
+             snapshot->primitives.size(), session.workspace().world_per_device);
+  if (!session.grant().why.empty())
+    fmt::print(stderr, "the servo runs without all it asked for: {}see hl doctor\n", session.grant().why);
+  const std::string address = fmt::format("http://127.0.0.1:{}/", server.port());
+  fmt::print("page: {}\n", address);
+  std::fflush(stdout);
+  if (!options.no_open) openBrowser(address);
+  waitForEnd(signals, options.duration_s);
+  server.stop();
+  session.stop();
+  printTotals(session);
+}
+
+void addLoopOptions(CLI::App& command, TouchSettings& settings) {
+  const CLI::Validator positive(checkPositive, "POSITIVE");
+  command.add_option("--radius", settings.radius_D, "proxy radius in metres at the hand")
+      ->check(positive)
+      ->capture_default_str();
+  command.add_option("--size", settings.side_D, "metres at the hand of the model's largest side")
+      ->check(positive)
+      ->capture_default_str();
+  command.add_option("--kp", settings.stiffness_N_m, "spring of the servo in N/m at the hand (default: the device's)")
+      ->check(positive);
+  command.add_option("--damping", settings.damping_Ns_m, "damping of the servo in N s/m (default: the device's)")
+      ->check(CLI::Range(0.0, 100.0));
+  command.add_option("--servo-rate", settings.servo_rate_Hz, "servo steps a second")
+      ->check(CLI::Range(100.0, 10'000.0))
+      ->capture_default_str();
+  command.add_flag("--timer-reference", settings.timer_reference,
+                   "run a bare timer beside the servo and count its misses too");
+}
+
+}  // namespace
+
+void addTouchCommand(CLI::App& app) {
+  auto* command = app.add_subcommand("touch", "serve a scene with the simulated device and the page to feel it");
+  auto options = std::make_shared<TouchOptions>();
+  addSceneArgument(*command, options->scene, false);
+  command->add_option("--port", options->port, "port on 127.0.0.1; 0 for any free one")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  command->add_flag("--no-open", options->no_open, "do not start a browser");
+  command->add_option("--hand", options->hand, "grip of the simulated hand")
+      ->check(CLI::IsMember({"light", "firm"}))
+      ->capture_default_str();
+  command->add_option("--explore", options->explore, "the built-in stroking hand, until a person takes over")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->capture_default_str();
+  command->add_option("--hand-path", options->hand_path,
+                      "CSV t,x,y,z (s, m in the scene) that the simulated hand follows instead");
+  command
+      ->add_option("--scale", options->scale, "metres of the scene for one metre of the hand (default: --size decides)")
+      ->check(CLI::Validator(checkPositive, "POSITIVE"));
+  addLoopOptions(*command, options->settings);
+  addHierarchyOption(*command, options->scene);
+  command->add_option("--page-dir", options->page_folder, "folder of the built page");
+  command->add_option("--duration", options->duration_s, "end by itself after this many seconds")
+      ->check(CLI::Validator(checkPositive, "POSITIVE"));
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace hl

@@ -1,0 +1,55 @@
+// hl trace: feels a scene along a recorded finger path, offline. The contract is docs/trace.md.
+#include <fmt/core.h>
+
+#include "commands.h"
+#include "server/trace.h"
+
+namespace hl {
+
+namespace {
+
+struct TraceOptions {
+  SceneOptions scene;
+  std::string path;
+  std::string out;
+  TraceSettings settings;
+};
+
+void run(const TraceOptions& options) {
+  const std::vector<PathSample> path = readPath(options.path);
+  const auto snapshot = loadSnapshot(options.scene);
+  TraceWriter writer(options.out);
+  const TraceTotals totals =
+      runTrace(*snapshot, options.settings, path, [&](const TraceRow& row) { writer.write(row); });
+  writer.close();
+  fmt::print(stderr, "{} ticks, {} in contact, {} stopped at the iteration cap\n", totals.ticks, totals.contacts,
+             totals.capped);
+}
+
+}  // namespace
+
+void addTraceCommand(CLI::App& app) {
+  auto* command = app.add_subcommand("trace", "feel a scene along a recorded finger path, offline and deterministic");
+  auto options = std::make_shared<TraceOptions>();
+  addSceneArgument(*command, options->scene, true);
+  command->add_option("--path", options->path, "CSV with the header t,x,y,z: seconds and metres, one row a tick")
+      ->required();
+  command->add_option("--out", options->out, "CSV to write, one row for each row of the path")->required();
+  const CLI::Validator positive(checkPositive, "POSITIVE");
+  command->add_option("--radius", options->settings.proxy.radius, "proxy radius in metres")
+      ->check(positive)
+      ->capture_default_str();
+  command->add_option("--kp", options->settings.stiffness_N_m, "spring of the servo in N/m")
+      ->check(positive)
+      ->capture_default_str();
+  command
+      ->add_option("--stiffness", options->settings.surface,
+                   "surface stiffness 0..1: target = finger + s (proxy - finger)")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  addSizeOptions(*command, options->scene);
+  addHierarchyOption(*command, options->scene);
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace hl

@@ -1,0 +1,36 @@
+// The subcommands of hl. Each adds itself to the command line; its work runs when the line has been parsed.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "scene/snapshot.h"
+
+namespace hl {
+
+void addTouchCommand(CLI::App& app);
+void addTraceCommand(CLI::App& app);
+void addInfoCommand(CLI::App& app);
+void addDoctorCommand(CLI::App& app);
+void addBenchCommand(CLI::App& app);
+
+/// Options that every command with a SCENE shares.
+struct SceneOptions {
+  std::string scene = "teapot";
+  std::string hierarchy = "spheres";
+  double scale = 0;  ///< metres per file unit; 0: as it is
+  double fit = 0;    ///< m, largest side; 0: as it is
+};
+
+void addSceneArgument(CLI::App& command, SceneOptions& options, bool required);
+void addHierarchyOption(CLI::App& command, SceneOptions& options);
+void addSizeOptions(CLI::App& command, SceneOptions& options);
+
+/// Loads, scales and builds; progress of long loads and warnings go to stderr. Throws hl::Error.
+std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options);
+
+/// CLI check: a finite number above zero.
+std::string checkPositive(const std::string& text);
+
+}  // namespace hl

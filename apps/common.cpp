@@ -1,0 +1,72 @@
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "base/error.h"
+#include "commands.h"
+#include "io/load_scene.h"
+
+namespace hl {
+
+namespace {
+
+// A line that rewrites itself, on terminals only.
+void showProgress(double fraction) {
+  if (isatty(STDERR_FILENO) == 0) return;
+  fmt::print(stderr, "\rreading: {:3.0f} %", 100 * fraction);
+  if (fraction >= 1) fmt::print(stderr, "\r              \r");
+  std::fflush(stderr);
+}
+
+}  // namespace
+
+void addSceneArgument(CLI::App& command, SceneOptions& options, bool required) {
+  auto* argument = command.add_option(
+      "scene", options.scene,
+      "a model file (obj, ply, stl, gltf, glb, x3d, wrl, ...) or a built-in scene: teapot[:N], walker, terrain:N, "
+      "sphere:N, plane:N, pipe:N");
+  if (required) {
+    argument->required();
+  } else {
+    argument->capture_default_str();
+  }
+}
+
+void addHierarchyOption(CLI::App& command, SceneOptions& options) {
+  command.add_option("--hierarchy", options.hierarchy, "how primitives near the proxy are found")
+      ->check(CLI::IsMember({"spheres", "none"}))
+      ->capture_default_str();
+}
+
+void addSizeOptions(CLI::App& command, SceneOptions& options) {
+  auto* scale = command.add_option("--scale", options.scale, "metres for one unit of the file (default 1)")
+                    ->check(CLI::Validator(checkPositive, "POSITIVE"));
+  command.add_option("--fit", options.fit, "scale and centre the model so that its largest side has this many metres")
+      ->check(CLI::Validator(checkPositive, "POSITIVE"))
+      ->excludes(scale);
+}
+
+std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options) {
+  LoadOptions load;
+  load.progress = showProgress;
+  Model model = loadScene(options.scene, load);
+  if (options.scale > 0) scaleModel(model, options.scale);
+  if (options.fit > 0) fitModel(model, options.fit);
+  auto snapshot =
+      makeSnapshot(std::move(model), options.hierarchy == "none" ? HierarchyKind::kNone : HierarchyKind::kSpheres);
+  for (const std::string& warning : snapshot->warnings) fmt::print(stderr, "{}: {}\n", options.scene, warning);
+  if (snapshot->primitives.empty()) throw Error(options.scene + ": nothing in it can be touched");
+  return snapshot;
+}
+
+std::string checkPositive(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool good = error == std::errc() && end == text.data() + text.size() && std::isfinite(value) && value > 0;
+  return good ? std::string() : "'" + text + "' is not a number above zero";
+}
+
+}  // namespace hl

@@ -1,0 +1,37 @@
+// hl: the command. Bad input gives one line on stderr and exit code 2.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+
+#include "base/error.h"
+#include "commands.h"
+
+int main(int argc, char** argv) {
+  CLI::App app("HL, the haptic library: makes 3-D worlds touchable.", "hl");
+  app.set_version_flag("--version", std::string("hl ") + HL_VERSION);
+  app.require_subcommand(1);
+  hl::addTouchCommand(app);
+  hl::addTraceCommand(app);
+  hl::addInfoCommand(app);
+  hl::addDoctorCommand(app);
+  hl::addBenchCommand(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // --help, --version
+    return app.exit(asked);
+  } catch (const CLI::ParseError& error) {
+    fmt::print(stderr, "hl: {} (try --help)\n", error.what());
+    return 2;
+  } catch (const hl::Error& error) {
+    fmt::print(stderr, "hl: {}\n", error.what());
+    return 2;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "hl: not enough memory for this scene\n");
+    return 2;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "hl: unexpected failure: {}\n", error.what());
+    return 1;
+  }
+  return 0;
+}

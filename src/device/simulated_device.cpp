@@ -1,0 +1,124 @@
+#include "device/simulated_device.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hl {
+
+namespace {
+
+const Vec3 kNominalJoints(0, 0, 0);  // both links square: (l1, 0, -l2), the middle of the workspace
+
+// Stops of the joints: a spring and damper that act only beyond the limits, soft enough for the step of 10 us.
+constexpr double kStopStiffness_Nm_rad = 20;
+constexpr double kStopDamping_Nms_rad = 0.02;
+
+Vec3 toDevice(const Vec3& v_P) { return {-v_P.y(), v_P.z(), v_P.x()}; }
+Vec3 toPhantom(const Vec3& v_D) { return {v_D.z(), -v_D.x(), v_D.y()}; }
+
+DeviceInfo makeInfo(const PhantomParameters& arm) {
+  DeviceInfo info;
+  info.name = "simulated PHANToM Premium 1.5";
+  info.workspace_min = Vec3(-0.1905, -0.1335, -0.0955);  // 381 x 267 x 191 mm
+  info.workspace_max = -info.workspace_min;
+  info.force_max_N = arm.motor_torque_peak_Nm * arm.gear.y() / arm.l2;
+  info.force_continuous_N = 1.4;
+  info.force_rate_max_N_s = 20'000;  // 20 N in one step at 1 kHz: above any touch, below a jump to the peak and back
+  info.stiffness_N_m = 1000;
+  info.stiffness_max_N_m = 3500;
+  info.damping_Ns_m = 0.5;
+  info.resolution_m = 30e-6;
+  info.velocity_max_m_s = 3;
+  info.servo_rate_Hz = 1000;
+  return info;
+}
+
+}  // namespace
+
+SimulatedDevice::SimulatedDevice(const SimulatedDeviceSettings& settings)
+    : settings_(settings), info_(makeInfo(settings.arm)), origin_P_(phantomTip(settings.arm, kNominalJoints)) {
+  q_ = kNominalJoints;
+  firm_ = settings.firm;
+}
+
+void SimulatedDevice::setJoints(const Vec3& q, const Vec3& qdot) {
+  q_ = q;
+  qdot_ = qdot;
+  hand_ = HandState{};
+  hand_.position = hand_.wish = goal_D_ = trueTip_D();
+  goal_.write(goal_D_);
+}
+
+Vec3 SimulatedDevice::trueTip_D() const { return toDevice(phantomTip(settings_.arm, q_) - origin_P_); }
+
+// The encoders count whole steps, rounded down; kinematics then works on what they say.
+Vec3 SimulatedDevice::quantisedTip_D() const {
+  Vec3 counted;
+  for (int i = 0; i < 3; ++i) {
+    const double step = 2 * M_PI / (settings_.arm.encoder_counts * settings_.arm.gear[i]);
+    counted[i] = std::floor(q_[i] / step) * step;
+  }
+  return toDevice(phantomTip(settings_.arm, counted) - origin_P_);
+}
+
+DeviceSample SimulatedDevice::read(std::int64_t now_ns) {
+  goal_.read(goal_D_);
+  if (has_time_) {
+    const double elapsed_s = std::clamp(1e-9 * static_cast<double>(now_ns - time_ns_), 0.0, settings_.longest_advance_s);
+    const int steps = static_cast<int>(std::ceil(elapsed_s / settings_.step_s));
+    for (int i = 0; i < steps; ++i) step(elapsed_s / steps);
+  }
+  has_time_ = true;
+  time_ns_ = now_ns;
+  return {now_ns, quantisedTip_D(), 0, DeviceStatus::kOk};
+}
+
+// Torques J' f in DAC counts, within what the motors can give; held until the next write.
+void SimulatedDevice::write(const Vec3& force_N) {
+  const PhantomParameters& arm = settings_.arm;
+  Vec3 wanted = Vec3::Zero();
+  if (force_N.allFinite()) wanted = phantomJacobian(arm, q_).transpose() * toPhantom(force_N);
+  for (int i = 0; i < 3; ++i) {
+    const double peak = arm.motor_torque_peak_Nm * arm.gear[i];
+    const double count = 2 * peak / std::pow(2.0, arm.dac_bits);
+    torque_[i] = std::round(std::clamp(wanted[i], -peak, peak - count) / count) * count;
+  }
+}
+
+// Semi-implicit Euler; Coulomb friction implicitly: its impulse takes away at most the velocity there is.
+void SimulatedDevice::step(double dt_s) {
+  const PhantomParameters& arm = settings_.arm;
+  const Mat3 jacobian = phantomJacobian(arm, q_);
+  Vec3 torque = torque_ - phantomCoriolis(arm, q_, qdot_) - arm.joint_damping_Nms * qdot_;
+  if (settings_.held) {
+    const GripParameters& grip = firm_.load(std::memory_order_relaxed) ? kFirmGrip : kLightGrip;
+    const Vec3 pad = padForce(grip, hand_, trueTip_D(), toDevice(jacobian * qdot_));
+    stepWish(hand_, goal_D_, dt_s);
+    stepHand(grip, hand_, pad, dt_s);
+    torque += jacobian.transpose() * toPhantom(pad);
+  }
+  for (int i = 0; i < 3; ++i) {
+    const double beyond = std::min(0.0, q_[i] - arm.q_min[i]) + std::max(0.0, q_[i] - arm.q_max[i]);
+    if (beyond != 0) torque[i] -= kStopStiffness_Nm_rad * beyond + kStopDamping_Nms_rad * qdot_[i];
+  }
+  const Mat3 mass = phantomMass(arm, q_);
+  qdot_ += dt_s * mass.inverse() * torque;
+  for (int i = 0; i < 3; ++i) {
+    const double stops = dt_s * arm.joint_friction_Nm / mass(i, i);
+    qdot_[i] = std::copysign(std::max(0.0, std::abs(qdot_[i]) - stops), qdot_[i]);
+  }
+  q_ += dt_s * qdot_;
+}
+
+double SimulatedDevice::energy_J() const {
+  double energy = 0.5 * qdot_.dot(phantomMass(settings_.arm, q_) * qdot_);
+  if (settings_.held) {
+    const GripParameters& grip = firm_.load() ? kFirmGrip : kLightGrip;
+    energy += 0.5 * grip.hand_mass_kg * hand_.velocity.squaredNorm() +
+              0.5 * grip.pad_stiffness_N_m * (hand_.position - trueTip_D()).squaredNorm() +
+              0.5 * grip.arm_stiffness_N_m * (hand_.wish - hand_.position).squaredNorm();
+  }
+  return energy;
+}
+
+}  // namespace hl

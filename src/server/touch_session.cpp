@@ -1,0 +1,207 @@
+#include "server/touch_session.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/clock.h"
+
+namespace hl {
+
+namespace {
+
+constexpr int kServoPriority = 80;  // SCHED_FIFO; above the proxy, which it must never wait for
+constexpr int kProxyPriority = 70;
+constexpr std::int64_t kSupervisorPeriod_ns = 16'666'667;
+constexpr double kApproach_s = 3.0;      // virtual time for the hand to reach the start
+constexpr double kStartAbove_D = 0.020;  // m above the model at the hand
+constexpr double kPress_D = 0.012;       // m, how far beneath the surface the exploring hand aims
+constexpr double kLift_D = 0.010;
+
+std::int64_t period_ns(double rate_Hz) { return static_cast<std::int64_t>(1e9 / rate_Hz); }
+
+}  // namespace
+
+TouchSession::TouchSession(std::shared_ptr<const Snapshot> snapshot, const TouchSettings& settings)
+    : snapshot_(std::move(snapshot)), settings_(settings) {
+  device_.open();
+  workspace_ = Workspace::fit(snapshot_->bounds, settings.side_D);
+  if (settings.world_per_device) workspace_.world_per_device = *settings.world_per_device;
+  proxy_settings_.radius = radius_W();
+  servo_settings_ = ServoSettings::of(device_.info());
+  servo_settings_.period_s = 1 / settings.servo_rate_Hz;
+  if (settings.damping_Ns_m) servo_settings_.damping_Ns_m = *settings.damping_Ns_m;
+  setStiffness(settings.stiffness_N_m.value_or(device_.info().stiffness_N_m));
+  setHandFirm(settings.hand_firm);
+  exploring_ = settings.explore || settings.script;
+  bringHandToStart();
+}
+
+TouchSession::~TouchSession() {
+  stop();
+  device_.close();
+}
+
+// The hand moves freely, without force, on a virtual clock that ends now; the real clock then goes on from there.
+void TouchSession::bringHandToStart() {
+  const double top_D = 0.5 * snapshot_->bounds.size().y() / workspace_.world_per_device;
+  Vec3 goal_D = clampToWorkspace(Vec3(0, (snapshot_->bounds.empty() ? 0 : top_D) + kStartAbove_D, 0));
+  if (settings_.script) goal_D = clampToWorkspace(workspace_.toDevice(settings_.script->at(0)));
+  device_.setHandGoal(goal_D);
+  const std::int64_t now_ns = monotonicNow_ns();
+  const std::int64_t step_ns = 1'000'000;
+  DeviceSample sample;
+  for (std::int64_t t = now_ns - static_cast<std::int64_t>(kApproach_s * 1e9); t < now_ns; t += step_ns) {
+    sample = device_.read(t);
+    device_.write(Vec3::Zero());
+  }
+  finger_D_.write(sample.position);
+  finger_for_supervisor_D_.write(sample.position);
+}
+
+Vec3 TouchSession::clampToWorkspace(const Vec3& goal_D) const {
+  return goal_D.cwiseMax(device_.info().workspace_min).cwiseMin(device_.info().workspace_max);
+}
+
+void TouchSession::start() {
+  start_ns_ = monotonicNow_ns();
+  running_ = true;
+  arm_requests_ = 1;
+  if (settings_.timer_reference) {
+    reference_thread_ = std::thread([this] {
+      requestRealtime(kServoPriority);
+      runPeriodic(period_ns(settings_.servo_rate_Hz), running_, reference_counters_, [](std::int64_t) {});
+    });
+  }
+  proxy_thread_ = std::thread([this] { runProxy(); });
+  servo_thread_ = std::thread([this] { runServo(); });
+  supervisor_thread_ = std::thread([this] { runSupervisor(); });
+  while (!servo_ready_) std::this_thread::yield();
+}
+
+void TouchSession::stop() {
+  if (!running_.exchange(false)) return;
+  for (std::thread* thread : {&supervisor_thread_, &servo_thread_, &proxy_thread_, &reference_thread_}) {
+    if (thread->joinable()) thread->join();
+  }
+}
+
+void TouchSession::runServo() {
+  grant_ = requestRealtime(kServoPriority);
+  servo_ready_ = true;
+  ServoState state;
+  ServoSettings settings = servo_settings_;
+  LoopMeter meter;
+  TargetMessage target;
+  std::uint64_t armed = 0;
+  runPeriodic(period_ns(settings_.servo_rate_Hz), running_, servo_counters_, [&](std::int64_t) {
+    const std::int64_t now_ns = monotonicNow_ns();
+    if (const std::uint64_t wanted = arm_requests_.load(std::memory_order_relaxed); wanted != armed) {
+      armed = wanted;
+      arm(state);
+    }
+    settings.stiffness_N_m = stiffness_.load(std::memory_order_relaxed);
+    const DeviceSample sample = device_.read(now_ns);
+    finger_D_.write(sample.position);
+    target_.read(target);
+    const ServoOutput out = stepServo(state, settings, target.target, sample);
+    device_.write(out.force_N);
+    finger_for_supervisor_D_.write(sample.position);
+    samples_.push({1e-9 * static_cast<double>(now_ns - start_ns_), static_cast<float>(out.force_N.norm()),
+                   target.target.valid ? static_cast<float>((target.target.position_D - sample.position).norm()) : 0.0f,
+                   target.tick_us});
+    meter.add(now_ns, monotonicNow_ns() - now_ns);
+    servo_view_.write({sample.position, out.force_N, out.safety, out.fault, meter.summary()});
+  });
+  device_.write(Vec3::Zero());
+}
+
+void TouchSession::runProxy() {
+  requestRealtime(kProxyPriority);
+  Vec3 finger_D;
+  finger_D_.read(finger_D);
+  ProxyState state = startProxy(*snapshot_, proxy_settings_, workspace_.toWorld(finger_D));
+  ProxyView view;
+  LoopMeter meter;
+  runPeriodic(period_ns(settings_.proxy_rate_Hz), running_, proxy_counters_, [&](std::int64_t) {
+    const std::int64_t now_ns = monotonicNow_ns();
+    finger_D_.read(finger_D);
+    const TickReport report = tick(state, *snapshot_, proxy_settings_, workspace_.toWorld(finger_D));
+    const std::int64_t work_ns = monotonicNow_ns() - now_ns;
+    const bool valid = report.valid && state.free;
+    target_.write({{workspace_.toDevice(state.position), now_ns, valid}, 1e-3f * static_cast<float>(work_ns)});
+    meter.add(now_ns, work_ns);
+    view.proxy = state.position;
+    view.contacts = report.contacts;
+    view.capped += report.capped ? 1 : 0;
+    view.loop = meter.summary();
+    proxy_view_.write(view);
+  });
+}
+
+// Decides where the hand wants to be: a person, the script or the exploration, in this order.
+void TouchSession::runSupervisor() {
+  LoopCounters counters;
+  const double scale = workspace_.world_per_device;
+  const ExplorationSettings exploration{kPress_D * scale, kLift_D * scale, radius_W()};
+  runPeriodic(kSupervisorPeriod_ns, running_, counters, [&](std::int64_t) {
+    Commands commands;
+    {
+      const std::lock_guard lock(commands_mutex_);
+      std::swap(commands, commands_);
+    }
+    if (commands.explore) exploring_ = *commands.explore;
+    if (commands.goal_W) {
+      exploring_ = false;
+      device_.setHandGoal(clampToWorkspace(workspace_.toDevice(*commands.goal_W)));
+    } else if (commands.release) {
+      Vec3 finger_D;
+      finger_for_supervisor_D_.read(finger_D);
+      device_.setHandGoal(clampToWorkspace(finger_D));
+    } else if (exploring_) {
+      const Vec3 goal_W =
+          settings_.script ? settings_.script->at(time_s()) : explore(*snapshot_, exploration, time_s());
+      device_.setHandGoal(clampToWorkspace(workspace_.toDevice(goal_W)));
+    }
+    device_.setHandFirm(hand_firm_);
+  });
+}
+
+void TouchSession::setHandGoal(const Vec3& goal_W) {
+  if (!goal_W.allFinite()) return;
+  const std::lock_guard lock(commands_mutex_);
+  commands_.goal_W = goal_W;
+  commands_.release = false;
+}
+
+void TouchSession::release() {
+  const std::lock_guard lock(commands_mutex_);
+  commands_.release = true;
+  commands_.goal_W.reset();
+}
+
+void TouchSession::setExplore(bool on) {
+  const std::lock_guard lock(commands_mutex_);
+  commands_.explore = on;
+}
+
+void TouchSession::setHandFirm(bool firm) { hand_firm_ = firm; }
+
+void TouchSession::setStiffness(double stiffness_N_m) {
+  if (!(stiffness_N_m >= 0)) return;
+  stiffness_ = std::min(stiffness_N_m, device_.info().stiffness_max_N_m);
+}
+
+void TouchSession::rearm() { arm_requests_.fetch_add(1); }
+
+void TouchSession::views(ServoView& servo, ProxyView& proxy) {
+  servo_view_.read(servo);
+  proxy_view_.read(proxy);
+}
+
+double TouchSession::time_s() const { return 1e-9 * static_cast<double>(monotonicNow_ns() - start_ns_); }
+
+LoopTotals TouchSession::totals(const LoopCounters& counters) {
+  return {counters.steps.load(), counters.deadlines_missed.load(), counters.late_max_ns.load()};
+}
+
+}  // namespace hl

@@ -1,0 +1,157 @@
+// TouchSession: a scene, a device and the two real-time loops between them.
+//
+//   servo loop  (fixed rate): device.read -> stepServo -> device.write      writes the finger, reads the target
+//   proxy loop  (fixed rate): finger -> tick -> target                      writes the target, reads the finger
+//   supervisor  (60 Hz):      commands and exploration -> the hand's goal
+// Each datum has one writer; they meet only through Latest.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "base/latest.h"
+#include "base/realtime.h"
+#include "base/spsc_ring.h"
+#include "control/servo.h"
+#include "device/hand_script.h"
+#include "device/simulated_device.h"
+#include "proxy/proxy.h"
+#include "scene/snapshot.h"
+#include "server/exploration.h"
+#include "server/loop_meter.h"
+#include "server/workspace.h"
+
+namespace hl {
+
+struct TouchSettings {
+  double radius_D = 0.002;  ///< m, proxy radius at the hand
+  double side_D = 0.12;     ///< m, largest side of the model at the hand, unless scale is given
+  std::optional<double> world_per_device;
+  double servo_rate_Hz = 1000;
+  double proxy_rate_Hz = 1000;
+  std::optional<double> stiffness_N_m;  ///< K; the device's own when not given
+  std::optional<double> damping_Ns_m;   ///< B
+  bool hand_firm = false;
+  bool explore = true;
+  std::optional<HandScript> script;  ///< hand goals in the world frame instead of exploration
+  bool timer_reference = false;      ///< run a bare timer thread beside the servo, to tell the machine's own hiccups
+};
+
+/// What the proxy loop last did. World frame.
+struct ProxyView {
+  Vec3 proxy = Vec3::Zero();
+  FixedVector<ProxyContact, 3> contacts;
+  std::uint64_t capped = 0;
+  LoopSummary loop;
+};
+
+/// What the servo loop last did.
+struct ServoView {
+  Vec3 finger_D = Vec3::Zero();
+  Vec3 force_N = Vec3::Zero();
+  SafetyState safety = SafetyState::kOff;
+  FaultReason fault{};
+  LoopSummary loop;
+};
+
+/// One servo step for the plots.
+struct TouchSample {
+  double time_s = 0;
+  float force_N = 0;
+  float penetration_m = 0;  ///< |target - finger| at the hand
+  float tick_us = 0;        ///< work time of the newest tick
+};
+
+struct LoopTotals {
+  std::uint64_t steps = 0, missed = 0;
+  std::int64_t late_max_ns = 0;
+};
+
+/// Constructed, started, stopped and destroyed by one thread. Commands: any thread. views(): one thread only.
+class TouchSession {
+ public:
+  /// Brings the hand to a place clear of the scene, on a virtual clock, so that the proxy starts outside.
+  TouchSession(std::shared_ptr<const Snapshot> snapshot, const TouchSettings& settings);
+  ~TouchSession();
+
+  void start();
+  void stop();  ///< zero force, joins the threads; safe to call twice
+
+  void setHandGoal(const Vec3& goal_W);  ///< a person takes over from the exploration
+  void release();
+  void setExplore(bool on);
+  void setHandFirm(bool firm);
+  void setStiffness(double stiffness_N_m);  ///< clamped to what the device accepts
+  void rearm();
+
+  void views(ServoView& servo, ProxyView& proxy);
+  bool popSample(TouchSample& sample) { return samples_.pop(sample); }
+  bool exploring() const { return exploring_.load(); }
+  bool handFirm() const { return hand_firm_.load(); }
+  double stiffness_N_m() const { return stiffness_.load(); }
+  double time_s() const;
+
+  const Snapshot& snapshot() const { return *snapshot_; }
+  const Workspace& workspace() const { return workspace_; }
+  const TouchSettings& settings() const { return settings_; }
+  const DeviceInfo& deviceInfo() const { return device_.info(); }
+  double radius_W() const { return settings_.radius_D * workspace_.world_per_device; }
+  LoopTotals servoTotals() const { return totals(servo_counters_); }
+  LoopTotals proxyTotals() const { return totals(proxy_counters_); }
+  LoopTotals referenceTotals() const { return totals(reference_counters_); }
+  /// What the machine granted to the servo thread; complete once start() has returned.
+  const RealtimeGrant& grant() const { return grant_; }
+
+ private:
+  struct TargetMessage {
+    ServoTarget target;
+    float tick_us = 0;
+  };
+  struct Commands {
+    std::optional<Vec3> goal_W;
+    bool release = false;
+    std::optional<bool> explore;
+  };
+
+  static LoopTotals totals(const LoopCounters& counters);
+  void bringHandToStart();
+  void runServo();
+  void runProxy();
+  void runSupervisor();
+  Vec3 clampToWorkspace(const Vec3& goal_D) const;
+
+  std::shared_ptr<const Snapshot> snapshot_;
+  TouchSettings settings_;
+  SimulatedDevice device_;
+  Workspace workspace_;
+  ProxySettings proxy_settings_;
+  ServoSettings servo_settings_;
+  std::int64_t start_ns_ = 0;
+
+  Latest<Vec3> finger_D_;
+  Latest<Vec3> finger_for_supervisor_D_;
+  Latest<TargetMessage> target_;
+  Latest<ServoView> servo_view_;
+  Latest<ProxyView> proxy_view_;
+  SpscRing<TouchSample, 1024> samples_;
+
+  std::atomic<bool> running_{false};
+  std::atomic<bool> exploring_{false};
+  std::atomic<bool> hand_firm_{false};
+  std::atomic<double> stiffness_{0};
+  std::atomic<std::uint64_t> arm_requests_{0};
+  std::atomic<bool> servo_ready_{false};
+  RealtimeGrant grant_;
+  LoopCounters servo_counters_, proxy_counters_, reference_counters_;
+
+  std::mutex commands_mutex_;  // between page and supervisor; the loops never see it
+  Commands commands_;
+  std::thread servo_thread_, proxy_thread_, supervisor_thread_, reference_thread_;
+};
+
+}  // namespace hl

@@ -1,0 +1,31 @@
+// Trace: a scene felt along a recorded finger path, offline, on a virtual clock. The contract is docs/trace.md.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "io/csv_path.h"
+#include "io/trace_csv.h"
+#include "proxy/proxy.h"
+#include "scene/snapshot.h"
+
+namespace hl {
+
+struct TraceSettings {
+  ProxySettings proxy;
+  double stiffness_N_m = 1000;  ///< K of the servo spring
+  double surface = 1;           ///< s in 0..1: target = finger + s (proxy - finger)
+};
+
+struct TraceTotals {
+  std::uint64_t ticks = 0;
+  std::uint64_t capped = 0;    ///< ticks that hit the iteration cap
+  std::uint64_t contacts = 0;  ///< ticks that ended in contact
+};
+
+/// One tick per sample; the proxy starts at the first one. Calls `row` with each result in order.
+TraceTotals runTrace(const Snapshot& snapshot, const TraceSettings& settings, const std::vector<PathSample>& path,
+                     const std::function<void(const TraceRow&)>& row);
+
+}  // namespace hl

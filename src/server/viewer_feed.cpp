@@ -1,0 +1,168 @@
+#include "server/viewer_feed.h"
+
+#include <hl.pb.h>
+
+#include <cstring>
+#include <vector>
+
+namespace hl {
+
+namespace {
+
+constexpr std::uint32_t kProtocolVersion = 1;
+constexpr int kMaxSamples = 100;
+
+void set(proto::Vec3* out, const Vec3& v) {
+  out->set_x(v.x());
+  out->set_y(v.y());
+  out->set_z(v.z());
+}
+
+template <typename T>
+std::string bytesOf(const std::vector<T>& values) {
+  std::string bytes(values.size() * sizeof(T), '\0');
+  if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
+  return bytes;
+}
+
+std::string floatsOf(const std::vector<Vec3>& points) {
+  std::vector<float> values;
+  values.reserve(3 * points.size());
+  for (const Vec3& p : points) {
+    for (int i = 0; i < 3; ++i) values.push_back(static_cast<float>(p[i]));
+  }
+  return bytesOf(values);
+}
+
+std::string hello(const TouchSession& session, const std::string& version) {
+  proto::ServerMessage message;
+  proto::Hello& out = *message.mutable_hello();
+  out.set_protocol_version(kProtocolVersion);
+  out.set_server_version(version);
+  out.set_scene_name(session.snapshot().model.name);
+  const DeviceInfo& info = session.deviceInfo();
+  proto::DeviceInfo& device = *out.mutable_device();
+  device.set_name(info.name);
+  device.set_force_max_n(info.force_max_N);
+  device.set_stiffness_n_m(session.stiffness_N_m());
+  device.set_stiffness_max_n_m(info.stiffness_max_N_m);
+  device.set_damping_ns_m(session.settings().damping_Ns_m.value_or(info.damping_Ns_m));
+  device.set_servo_rate_hz(session.settings().servo_rate_Hz);
+  device.set_proxy_rate_hz(session.settings().proxy_rate_Hz);
+  return message.SerializeAsString();
+}
+
+std::string sceneMesh(const TouchSession& session) {
+  const Snapshot& snapshot = session.snapshot();
+  proto::ServerMessage message;
+  proto::SceneMesh& out = *message.mutable_scene();
+  out.set_name(snapshot.model.name);
+  out.set_positions(floatsOf(snapshot.model.positions));
+  out.set_normals(floatsOf(snapshot.model.normals));
+  out.set_triangles(bytesOf(snapshot.model.triangles));
+  out.set_segments(bytesOf(snapshot.model.segments));
+  out.set_points(bytesOf(snapshot.model.points));
+  if (!snapshot.bounds.empty()) {
+    set(out.mutable_bounds_min(), snapshot.bounds.min);
+    set(out.mutable_bounds_max(), snapshot.bounds.max);
+  }
+  out.set_proxy_radius(session.radius_W());
+  out.set_world_per_device(session.workspace().world_per_device);
+  return message.SerializeAsString();
+}
+
+void setLoop(proto::LoopStats* out, const LoopSummary& loop, const LoopTotals& totals) {
+  out->set_rate_hz(loop.rate_Hz);
+  out->set_time_p50_us(1e-3 * static_cast<double>(loop.p50_ns));
+  out->set_time_p999_us(1e-3 * static_cast<double>(loop.p999_ns));
+  out->set_time_max_us(1e-3 * static_cast<double>(loop.max_ns));
+  out->set_deadlines_missed(totals.missed);
+  out->set_steps(totals.steps);
+}
+
+void setContacts(proto::State& state, const ProxyView& proxy) {
+  for (const ProxyContact& contact : proxy.contacts) {
+    proto::ContactPlane& plane = *state.add_contacts();
+    set(plane.mutable_point(), contact.point);
+    set(plane.mutable_normal(), contact.normal);
+    plane.set_multiplier_m(contact.multiplier_m);
+  }
+}
+
+void setSamples(proto::State& state, TouchSession& session) {
+  TouchSample sample;
+  while (session.popSample(sample)) {
+    if (state.samples_size() >= kMaxSamples) continue;
+    proto::Sample& out = *state.add_samples();
+    out.set_time_s(sample.time_s);
+    out.set_force_n(sample.force_N);
+    out.set_penetration_m(sample.penetration_m);
+    out.set_tick_us(sample.tick_us);
+  }
+}
+
+std::string state(TouchSession& session) {
+  ServoView servo;
+  ProxyView proxy;
+  session.views(servo, proxy);
+  proto::ServerMessage message;
+  proto::State& out = *message.mutable_state();
+  out.set_time_s(session.time_s());
+  set(out.mutable_finger(), session.workspace().toWorld(servo.finger_D));
+  set(out.mutable_proxy(), proxy.proxy);
+  set(out.mutable_force_n(), servo.force_N);
+  setContacts(out, proxy);
+  out.set_safety(static_cast<proto::SafetyState>(servo.safety));
+  if (servo.safety == SafetyState::kFault) out.set_fault(faultText(servo.fault));
+  setLoop(out.mutable_servo(), servo.loop, session.servoTotals());
+  setLoop(out.mutable_proxy_loop(), proxy.loop, session.proxyTotals());
+  setSamples(out, session);
+  out.set_exploring(session.exploring());
+  out.set_iteration_caps(proxy.capped);
+  out.set_hand_firm(session.handFirm());
+  out.set_stiffness_n_m(session.stiffness_N_m());
+  return message.SerializeAsString();
+}
+
+void apply(TouchSession& session, const proto::Settings& settings) {
+  if (settings.has_explore()) session.setExplore(settings.explore());
+  if (settings.has_hand_firm()) session.setHandFirm(settings.hand_firm());
+  if (settings.has_stiffness_n_m()) session.setStiffness(settings.stiffness_n_m());
+}
+
+// A message that does not parse or asks for what does not exist changes nothing.
+void receive(TouchSession& session, const std::string& bytes) {
+  proto::ViewerMessage message;
+  if (!message.ParseFromString(bytes)) return;
+  switch (message.body_case()) {
+    case proto::ViewerMessage::kHandGoal: {
+      const proto::Vec3& p = message.hand_goal().position();
+      session.setHandGoal(Vec3(p.x(), p.y(), p.z()));
+      break;
+    }
+    case proto::ViewerMessage::kRelease:
+      session.release();
+      break;
+    case proto::ViewerMessage::kSettings:
+      apply(session, message.settings());
+      break;
+    case proto::ViewerMessage::kRearm:
+      session.rearm();
+      break;
+    case proto::ViewerMessage::kExplore:
+      session.setExplore(true);
+      break;
+    case proto::ViewerMessage::BODY_NOT_SET:
+      break;
+  }
+}
+
+}  // namespace
+
+FeedCallbacks makeViewerFeed(TouchSession& session, const std::string& version) {
+  auto mesh = std::make_shared<const std::string>(sceneMesh(session));
+  return {[&session, version] { return hello(session, version); }, [mesh] { return mesh; },
+          [&session] { return state(session); }, [&session](const std::string& bytes) { receive(session, bytes); }};
+}
+
+}  // namespace hl
