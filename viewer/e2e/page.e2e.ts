@@ -24,6 +24,19 @@ afterAll(async () => {
   await server?.close();
 });
 
+/** Draws until the camera's own motion has died away. */
+function atRest(): Promise<void> {
+  return page.evaluate(async () => {
+    const x = () => window.__hl.project({ x: 0, y: 0, z: 0.05 }).x;
+    const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
+    for (let last = NaN, still = 0; still < 5; ) {
+      await frame();
+      still = Math.abs(x() - last) < 0.01 ? still + 1 : 0;
+      last = x();
+    }
+  });
+}
+
 test("shows the model, and panels that do not overlap, in dark and light at both sizes", async () => {
   expect(await modelPixels(page)).toBeGreaterThan(0.05);
   await page.check("#planes");
@@ -86,6 +99,34 @@ test("keys, the wheel and the release of the mouse move and let go of the hand",
   expect(await page.evaluate(() => window.__hl.holding)).toBe(true);
   await page.mouse.up();
   await expect.poll(() => server.received.at(-1)?.body.case).toBe("release");
+});
+
+test("right-drag, Shift-drag and, when chosen, drags on empty space orbit the camera and leave the hand alone", async () => {
+  await page.waitForFunction(() => !window.__hl.exploring);
+  server.received.length = 0;
+  const marker = () => page.evaluate(() => window.__hl.project({ x: 0, y: 0, z: 0.05 }).x);
+  await atRest();
+  const empty = { x: 330, y: 560 };
+  const drag = async (button: "left" | "right") => {
+    const before = await marker();
+    await page.mouse.move(empty.x, empty.y);
+    await page.mouse.down({ button });
+    await page.mouse.move(empty.x + 60, empty.y, { steps: 4 });
+    await page.mouse.up({ button });
+    await atRest();
+    return Math.abs((await marker()) - before);
+  };
+  expect(await drag("right")).toBeGreaterThan(5);
+  await page.keyboard.down("Shift");
+  expect(await drag("left")).toBeGreaterThan(5);
+  await page.keyboard.up("Shift");
+  await page.check("#empty-orbit");
+  expect(await drag("left")).toBeGreaterThan(5);
+  expect(server.received.map(({ body }) => body.case)).toEqual([]);
+  await page.uncheck("#empty-orbit");
+  expect(await drag("left")).toBeLessThan(0.5);
+  expect(server.received.map(({ body }) => body.case)).toContain("handGoal");
+  await page.click("#reset-view");
 });
 
 test("a fault shows its reason and can be re-armed", async () => {

@@ -30,6 +30,8 @@ const kKeys: Readonly<Record<string, Vec>> = {
 
 /** A held key crosses this share of the window's height in a second. */
 const kKeyHeights_s = 0.2;
+/** A page that was hidden or busy must not jump: at most this much of a hold counts at once. */
+const kKeyStep_s = 0.25;
 /** One wheel notch (about 100 pixels) moves the hand as far as a drag of 30 pixels. */
 const kWheelShare = 0.3;
 
@@ -45,6 +47,7 @@ export class HandInput {
   private last_px_ = { x: 0, y: 0 };
   private goal_: Vec | undefined;
   private unsent_ = false;
+  private moved_ms_ = 0;
 
   constructor(stage: Stage, hooks: HandHooks) {
     this.stage_ = stage;
@@ -68,11 +71,9 @@ export class HandInput {
     return this.goal_ !== undefined;
   }
 
-  /** Moves by the keys held for `elapsed_s` and sends the goal when it changed. Once per drawn frame. */
-  frame(elapsed_s: number): void {
-    if (this.pressed_.size > 0 && this.goal_ !== undefined) {
-      this.moveByKeys(this.goal_, elapsed_s);
-    }
+  /** Moves by the keys held and sends the goal when it changed. Once per drawn frame. */
+  frame(): void {
+    this.moveByKeys();
     if (this.unsent_ && this.goal_ !== undefined) {
       this.hooks_.goal(this.goal_);
       this.unsent_ = false;
@@ -149,18 +150,28 @@ export class HandInput {
       return;
     }
     event.preventDefault();
+    this.moveByKeys();
     if (this.grab()) {
       this.pressed_.add(event.code);
     }
   }
 
   private keyUp(event: KeyboardEvent): void {
+    this.moveByKeys();
     if (this.pressed_.delete(event.code)) {
       this.letGo();
     }
   }
 
-  private moveByKeys(goal: Vec, elapsed_s: number): void {
+  /** Moves by the keys held since the last call, so that a short tap counts even between two frames. */
+  private moveByKeys(): void {
+    const now_ms = performance.now();
+    const elapsed_s = Math.min(kKeyStep_s, (now_ms - this.moved_ms_) / 1000);
+    this.moved_ms_ = now_ms;
+    const goal = this.goal_;
+    if (this.pressed_.size === 0 || goal === undefined) {
+      return;
+    }
     let direction: Vec = { x: 0, y: 0, z: 0 };
     for (const code of this.pressed_) {
       direction = add(direction, kKeys[code]!);

@@ -54,7 +54,6 @@ class App {
   private state_: State | undefined;
   private serverVersion_: string | undefined;
   private stateFresh_ = false;
-  private lastFrame_ms_ = 0;
   private lastPlot_ms_ = 0;
   private lastNumbers_ms_ = 0;
 
@@ -171,9 +170,7 @@ class App {
 
   private frame(now_ms: number): void {
     requestAnimationFrame((next_ms) => this.frame(next_ms));
-    // A page that was hidden for a while must not jump: at most a tenth of a second counts.
-    this.hand_.frame(Math.min(0.1, (now_ms - this.lastFrame_ms_) / 1000));
-    this.lastFrame_ms_ = now_ms;
+    this.hand_.frame();
     this.showProbe();
     this.stage_.draw();
     if (this.stateFresh_ && now_ms - this.lastPlot_ms_ >= kPlotPeriod_ms) {

@@ -65,6 +65,12 @@ export class Panel {
     element("link").dataset.link = link;
     setText("link", kLinkTexts[link]);
     element("readouts").classList.toggle("stale", link !== "live");
+    if (link !== "live") {
+      element("safety").dataset.safety = "OFF";
+      element("rearm").hidden = true;
+      element("fault").hidden = true;
+      setText("safety-state", "Not known");
+    }
   }
 
   showHello(hello: Hello): void {
