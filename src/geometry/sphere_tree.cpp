@@ -22,6 +22,12 @@ constexpr double kDepthPerLg = 2.5;
 // 2.5 * 31, the most for an index of 31 bits; a depth-first walk keeps at most one waiting child for each level.
 constexpr std::size_t kStackSize = 80;
 
+// Number of the leaf that a negative link stands for.
+std::size_t leafOf(std::int32_t link) {
+  const std::int32_t leaf = ~link;
+  return static_cast<std::size_t>(leaf);
+}
+
 Vec3 centreOf(const Sphere& sphere) { return {sphere.centre[0], sphere.centre[1], sphere.centre[2]}; }
 
 // Single precision, containing the given sphere: the radius grows by 2^-22 of the coordinates, which is more than the
@@ -238,8 +244,8 @@ void SphereTree::sweep(const Vec3& from, const Vec3& motion, double radius,
       std::array<Waiting, 2> child{};
       for (std::size_t i = 0; i < 2; ++i) {
         const std::int32_t link = node.child[i];
-        child[i] = {link, entry(link >= 0 ? nodes_[static_cast<std::size_t>(link)].sphere
-                                          : leaves_[static_cast<std::size_t>(~link)].sphere)};
+        child[i] = {link,
+                    entry(link >= 0 ? nodes_[static_cast<std::size_t>(link)].sphere : leaves_[leafOf(link)].sphere)};
       }
       if (child[1].entry < child[0].entry) std::swap(child[0], child[1]);
       if (child[1].entry <= limit) {
@@ -248,7 +254,7 @@ void SphereTree::sweep(const Vec3& from, const Vec3& motion, double radius,
       }
       now = child[0];
     }
-    if (now.entry <= limit) limit = visit(leaves_[static_cast<std::size_t>(~now.link)].primitive, limit);
+    if (now.entry <= limit) limit = visit(leaves_[leafOf(now.link)].primitive, limit);
     if (waiting == 0) return;
     now = stack[--waiting];
   }

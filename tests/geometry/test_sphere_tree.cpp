@@ -15,6 +15,11 @@ namespace {
 
 using Sphere = SphereTree::Sphere;
 
+std::size_t leafOf(std::int32_t link) {
+  const std::int32_t leaf = ~link;
+  return static_cast<std::size_t>(leaf);
+}
+
 Vec3 centreOf(const Sphere& sphere) { return {sphere.centre[0], sphere.centre[1], sphere.centre[2]}; }
 
 // Smallest of both heuristics of a node, recomputed from its two child spheres and its leaves [begin, end).
@@ -38,7 +43,7 @@ double smallestRadius(const SphereTree& tree, const Sphere& a, const Sphere& b, 
 // Walks the tree, checks every node against the leaves below it, and returns how many leaves that are.
 std::size_t checkNode(const SphereTree& tree, std::int32_t link, std::size_t begin) {
   if (link < 0) {
-    EXPECT_EQ(static_cast<std::size_t>(~link), begin) << "leaves are in depth-first order";
+    EXPECT_EQ(leafOf(link), begin) << "leaves are in depth-first order";
     return 1;
   }
   const SphereTree::Node& node = tree.nodes()[static_cast<std::size_t>(link)];
@@ -50,8 +55,7 @@ std::size_t checkNode(const SphereTree& tree, std::int32_t link, std::size_t beg
     EXPECT_LE(reach, node.sphere.radius * (1 + 1e-14)) << "a leaf sticks out of an ancestor";
   }
   const auto sphereOf = [&](std::int32_t child) {
-    return child < 0 ? tree.leaves()[static_cast<std::size_t>(~child)].sphere
-                     : tree.nodes()[static_cast<std::size_t>(child)].sphere;
+    return child < 0 ? tree.leaves()[leafOf(child)].sphere : tree.nodes()[static_cast<std::size_t>(child)].sphere;
   };
   const double best = smallestRadius(tree, sphereOf(node.child[0]), sphereOf(node.child[1]), begin, begin + count);
   constexpr double kOutward = 1e-6;    // rounding to single precision, relative to radius and coordinates

@@ -47,7 +47,7 @@ void judge(const Case& c) {
   const ClosestPoint nearest = closestPoint(c.primitive, at);
   ASSERT_LT((impact.normal - nearest.normal).norm() * c.radius, 1e-6 * c.scene);
   ASSERT_NEAR(impact.normal.norm(), 1, 1e-12);
-  ASSERT_LT(impact.normal.dot(c.motion), tolerance) << "an impact moves against the normal";
+  ASSERT_LT(impact.normal.dot(c.motion.normalized()) * c.radius, tolerance) << "an impact moves against the normal";
   // Time: the path error is the distance error over the sine of the angle of approach.
   const double sine = -impact.normal.dot(c.motion.normalized());
   if (judged.hit && sine > 1e-3) {
