@@ -54,10 +54,10 @@ std::size_t checkNode(const SphereTree& tree, std::int32_t link, std::size_t beg
     const double reach = (centreOf(leaf) - centreOf(node.sphere)).norm() + leaf.radius;
     EXPECT_LE(reach, node.sphere.radius * (1 + 1e-14)) << "a leaf sticks out of an ancestor";
   }
-  const auto sphereOf = [&](std::int32_t child) {
+  const auto sphere_of = [&](std::int32_t child) {
     return child < 0 ? tree.leaves()[leafOf(child)].sphere : tree.nodes()[static_cast<std::size_t>(child)].sphere;
   };
-  const double best = smallestRadius(tree, sphereOf(node.child[0]), sphereOf(node.child[1]), begin, begin + count);
+  const double best = smallestRadius(tree, sphere_of(node.child[0]), sphere_of(node.child[1]), begin, begin + count);
   constexpr double kOutward = 1e-6;    // rounding to single precision, relative to radius and coordinates
   constexpr double kSmallest = 1e-44;  // a few of the smallest floats
   EXPECT_LE(node.sphere.radius, best * (1 + 4 * kOutward) + kOutward * centreOf(node.sphere).norm() + kSmallest);
@@ -110,8 +110,7 @@ TEST(SphereTree, C54DepthAndWorkOfTheBuildGrowLikeTheLogarithm) {
   test::Random random(33);
   for (const int cells : {22, 71, 224}) {
     const SphereTree sheet = SphereTree::build(test::terrain(cells));
-    const SphereTree loose =
-        SphereTree::build(test::soup(random, static_cast<std::size_t>(2 * cells * cells), 1, 0.02));
+    const SphereTree loose = SphereTree::build(test::soup(random, test::terrain(cells).size(), 1, 0.02));
     for (const SphereTree* tree : {&sheet, &loose}) {
       const double n = static_cast<double>(tree->leaves().size());
       EXPECT_LE(tree->stats().depth, 2.5 * lgLeaves(*tree));
