@@ -11,6 +11,9 @@ const kFovY_deg = 35;
 /** Sharper than this costs more than anyone sees. */
 const kPixelRatioMax = 2;
 
+/** The camera's own motion after a gesture dies away in this time constant. */
+const kDamping_ms = 100;
+
 /** Pixels at the window's edges that are covered by panels. */
 export interface Insets {
   readonly left: number;
@@ -30,13 +33,13 @@ export class Stage {
   private diagonal_m_ = 1;
   private insets_: Insets = { left: 0, right: 0, top: 0, bottom: 0 };
   private untouched_ = true;
+  private drawn_ms_ = 0;
 
   constructor(canvas: HTMLCanvasElement) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !drawsInSoftware() });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, kPixelRatioMax));
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = true;
-    this.controls.dampingFactor = 0.15;
     this.controls.addEventListener("start", () => (this.untouched_ = false));
     this.scene.add(this.camera, ...this.makeLights());
     this.camera.add(this.lights_);
@@ -138,6 +141,10 @@ export class Stage {
   }
 
   draw(): void {
+    // The controls damp per frame; made per second here, a slow renderer does not turn it into sluggishness.
+    const now_ms = performance.now();
+    this.controls.dampingFactor = 1 - Math.exp(-(now_ms - this.drawn_ms_) / kDamping_ms);
+    this.drawn_ms_ = now_ms;
     this.controls.update();
     this.renderer.render(this.scene, this.camera);
   }
@@ -175,6 +182,15 @@ export class Stage {
     this.floor_.position.set(this.centre_.x, level_m, this.centre_.z);
     this.scene.add(this.floor_);
   }
+}
+
+/** True when no graphics card draws: then smooth edges would cost two thirds of the frames. */
+function drawsInSoftware(): boolean {
+  const context = document.createElement("canvas").getContext("webgl2");
+  const details = context?.getExtension("WEBGL_debug_renderer_info");
+  const name: unknown = context?.getParameter(details?.UNMASKED_RENDERER_WEBGL ?? context.RENDERER);
+  context?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(String(name));
 }
 
 function plain(v: THREE.Vector3): Vec {
