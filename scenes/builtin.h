@@ -1,0 +1,16 @@
+// The built-in scenes, by name: touched, watched, timed and tested from one source.
+#pragma once
+
+#include <string>
+
+#include "scene/model.h"
+
+namespace hl {
+
+/// True for a name (with or without :N) of a built-in scene; a file of the same name must be given with its folder.
+bool isBuiltinScene(const std::string& spec);
+
+/// teapot[:N] | walker | terrain[:N] | sphere[:N] | plane[:N] | pipe[:N]. Throws hl::Error with the list for any other.
+Model makeBuiltinScene(const std::string& spec);
+
+}  // namespace hl
