@@ -12,6 +12,11 @@ constexpr double kVelocityCutoff_Hz = 60;
 
 ServoOutput output(const ServoState& state) { return {state.force_N, state.safety, state.fault}; }
 
+// In double: times from a broken device cannot overflow.
+double age_s(std::int64_t now_ns, std::int64_t then_ns) {
+  return 1e-9 * (static_cast<double>(now_ns) - static_cast<double>(then_ns));
+}
+
 void fail(ServoState& state, FaultReason reason) {
   state.safety = SafetyState::kFault;
   state.fault = reason;
@@ -23,13 +28,23 @@ FaultReason judge(const ServoState& state, const ServoSettings& settings, const 
   if (sample.status == DeviceStatus::kLost) return FaultReason::kDeviceLost;
   if (sample.status == DeviceStatus::kNotReady) return FaultReason::kNotReady;
   if (!sample.position.allFinite()) return FaultReason::kBadPosition;
-  if (state.velocity_m_s.norm() > settings.velocity_limit_m_s) return FaultReason::kTooFast;
-  if (target.time_ns != 0 && sample.time_ns - target.time_ns > settings.target_lost_ns) return FaultReason::kStaleTarget;
+  if (!(state.velocity_m_s.norm() <= settings.velocity_limit_m_s)) return FaultReason::kTooFast;  // NaN too
+  if (state.missed > settings.missed_limit) return FaultReason::kDeadlines;
+  if (target.time_ns != 0 &&
+      age_s(sample.time_ns, target.time_ns) > 1e-9 * static_cast<double>(settings.target_lost_ns))
+    return FaultReason::kStaleTarget;
   return FaultReason::kNone;
 }
 
+// Before updateVelocity(), which moves the last time on.
+void countMissed(ServoState& state, const ServoSettings& settings, const DeviceSample& sample) {
+  if (!state.has_last) return;
+  const double missed = std::round(age_s(sample.time_ns, state.last_time_ns) / settings.period_s) - 1;
+  state.missed = std::max(0.0, state.missed + (missed > 0 ? missed : -1 / ServoSettings::kForgiveSteps));
+}
+
 void updateVelocity(ServoState& state, const DeviceSample& sample) {
-  const double dt = 1e-9 * static_cast<double>(sample.time_ns - state.last_time_ns);
+  const double dt = age_s(sample.time_ns, state.last_time_ns);
   if (state.has_last && dt > 0) {
     const double blend = 1 - std::exp(-2 * M_PI * kVelocityCutoff_Hz * dt);
     state.velocity_m_s += blend * ((sample.position - state.last_position) / dt - state.velocity_m_s);
@@ -47,7 +62,7 @@ Vec3 limited(const Vec3& v, double limit) {
 // The spring and damper, or zero when the target cannot be trusted.
 Vec3 wantedForce(const ServoState& state, const ServoSettings& settings, const ServoTarget& target,
                  const DeviceSample& sample) {
-  const bool fresh = sample.time_ns - target.time_ns <= settings.target_stale_ns;
+  const bool fresh = age_s(sample.time_ns, target.time_ns) <= 1e-9 * static_cast<double>(settings.target_stale_ns);
   if (!target.valid || !fresh || !target.position_D.allFinite()) return Vec3::Zero();
   const Vec3 gap = target.position_D - sample.position;
   if (gap.isZero(0)) return Vec3::Zero();
@@ -58,12 +73,20 @@ Vec3 wantedForce(const ServoState& state, const ServoSettings& settings, const S
 
 const char* faultText(FaultReason reason) {
   switch (reason) {
-    case FaultReason::kNone: return "";
-    case FaultReason::kDeviceLost: return "the device does not answer: check its cable and power";
-    case FaultReason::kBadPosition: return "the device reports a position that is not a number";
-    case FaultReason::kTooFast: return "the hand moved faster than the device allows";
-    case FaultReason::kStaleTarget: return "the proxy loop has stopped";
-    case FaultReason::kNotReady: return "the device is not ready";
+    case FaultReason::kNone:
+      return "";
+    case FaultReason::kDeviceLost:
+      return "the device does not answer: check its cable and power";
+    case FaultReason::kBadPosition:
+      return "the device reports a position that is not a number";
+    case FaultReason::kTooFast:
+      return "the hand moved faster than the device allows";
+    case FaultReason::kStaleTarget:
+      return "the proxy loop has stopped";
+    case FaultReason::kNotReady:
+      return "the device is not ready";
+    case FaultReason::kDeadlines:
+      return "the servo was late too often: the machine is too busy";
   }
   return "";
 }
@@ -89,7 +112,10 @@ void disarm(ServoState& state) { state = ServoState{}; }
 ServoOutput stepServo(ServoState& state, const ServoSettings& settings, const ServoTarget& target,
                       const DeviceSample& sample) noexcept {
   const bool readable = sample.status == DeviceStatus::kOk && sample.position.allFinite();
-  if (readable) updateVelocity(state, sample);
+  if (readable) {
+    countMissed(state, settings, sample);
+    updateVelocity(state, sample);
+  }
   if (state.safety == SafetyState::kArming || state.safety == SafetyState::kOn) {
     const FaultReason reason = judge(state, settings, target, sample);
     if (reason != FaultReason::kNone) fail(state, reason);

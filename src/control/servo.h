@@ -15,7 +15,15 @@ namespace hl {
 
 enum class SafetyState : std::uint8_t { kOff, kArming, kOn, kFault };
 
-enum class FaultReason : std::uint8_t { kNone, kDeviceLost, kBadPosition, kTooFast, kStaleTarget, kNotReady };
+enum class FaultReason : std::uint8_t {
+  kNone,
+  kDeviceLost,
+  kBadPosition,
+  kTooFast,
+  kStaleTarget,
+  kNotReady,
+  kDeadlines
+};
 
 /// One sentence for the user.
 const char* faultText(FaultReason reason);
@@ -29,14 +37,17 @@ struct ServoTarget {
 
 struct ServoSettings {
   double stiffness_N_m = 0;
-  double damping_Ns_m = 0;             ///< acts only while in contact (target off the finger): free air has no drag
+  double damping_Ns_m = 0;  ///< acts only while in contact (target off the finger): free air has no drag
   double force_limit_N = 0;
   double force_rate_limit_N_s = 0;
   double velocity_limit_m_s = 0;
-  double ramp_s = 0.5;                 ///< arming: force grows from zero to full in this time
+  double ramp_s = 0.5;  ///< arming: force grows from zero to full in this time
   double period_s = 1e-3;
   std::int64_t target_stale_ns = 50'000'000;    ///< an older target gives zero force
   std::int64_t target_lost_ns = 1'000'000'000;  ///< after so long it is a fault
+  double missed_limit = 500;  ///< periods missed, one forgiven for every kForgiveSteps on time; more is a fault
+
+  static constexpr double kForgiveSteps = 10;
 
   static ServoSettings of(const DeviceInfo& info);
 };
@@ -45,12 +56,13 @@ struct ServoSettings {
 struct ServoState {
   SafetyState safety = SafetyState::kOff;
   FaultReason fault = FaultReason::kNone;
-  double ramp = 0;                       ///< 0..1
-  Vec3 force_N = Vec3::Zero();           ///< last output
-  Vec3 velocity_m_s = Vec3::Zero();      ///< filtered
+  double ramp = 0;                   ///< 0..1
+  Vec3 force_N = Vec3::Zero();       ///< last output
+  Vec3 velocity_m_s = Vec3::Zero();  ///< filtered
   Vec3 last_position = Vec3::Zero();
   std::int64_t last_time_ns = 0;
   bool has_last = false;
+  double missed = 0;  ///< periods missed and not yet forgiven
 };
 
 struct ServoOutput {

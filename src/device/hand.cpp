@@ -4,8 +4,8 @@ namespace hl {
 
 namespace {
 
-constexpr double kWishRate_1_s = 25;          // of the critically damped filter: a reach takes about 0.2 s
-constexpr double kWishSpeed_m_s = 0.3;        // an unhurried hand
+constexpr double kWishRate_1_s = 25;    // of the critically damped filter: a reach takes about 0.2 s
+constexpr double kWishSpeed_m_s = 0.3;  // an unhurried hand
 constexpr double kWishAcceleration_m_s2 = 8;
 
 Vec3 limited(const Vec3& v, double limit) {

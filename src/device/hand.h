@@ -20,7 +20,7 @@ inline constexpr GripParameters kFirmGrip{800, 2.0, 0.15, 5, 400};
 struct HandState {
   Vec3 position = Vec3::Zero();  ///< of the hand mass
   Vec3 velocity = Vec3::Zero();
-  Vec3 wish = Vec3::Zero();      ///< the voluntary trajectory
+  Vec3 wish = Vec3::Zero();  ///< the voluntary trajectory
   Vec3 wish_velocity = Vec3::Zero();
 };
 

@@ -7,7 +7,8 @@ namespace hl {
 
 namespace {
 
-// The coefficients of M: M11 = a + b cos 2q2 + c cos 2q3 + d cos q2 sin q3, M23 = -e sin(q2 - q3), M22 and M33 constant.
+// The coefficients of M: M11 = a + b cos 2q2 + c cos 2q3 + d cos q2 sin q3, M23 = -e sin(q2 - q3), M22 and M33
+// constant.
 struct MassTerms {
   double a, b, c, d, m22, m33, e;
 };
@@ -25,6 +26,17 @@ MassTerms massTerms(const PhantomParameters& p) {
   t.m33 = (4 * p.Ia.x() + 4 * p.Idf.x() + l2 * p.ma + 4 * l3 * p.mc) / 4;
   t.e = t.d / 2;
   return t;
+}
+
+// How far q is beyond [low, high]; negative below.
+double beyond(double q, double low, double high) { return q - std::clamp(q, low, high); }
+
+double beyondFold(const PhantomParameters& p, const Vec3& q) {
+  return beyond(q.z() - q.y(), p.q3_less_q2_min, p.q3_less_q2_max);
+}
+
+double stopTorque(const PhantomParameters& p, double beyond_rad, double rate) {
+  return beyond_rad == 0 ? 0 : -p.stop_stiffness_Nm_rad * beyond_rad - p.stop_damping_Nms_rad * rate;
 }
 
 }  // namespace
@@ -46,15 +58,15 @@ Mat3 phantomJacobian(const PhantomParameters& p, const Vec3& q) {
   return j;
 }
 
-// In the plane of the arm, (r, z) = l1 (cos q2, sin q2) + l2 (sin q3, -cos q3): two links, the second at q3 - 90 degrees.
+// In the plane of the arm, (r, z) = l1 (cos q2, sin q2) + l2 (sin q3, -cos q3): two links, the second at q3 - 90
+// degrees.
 bool phantomJoints(const PhantomParameters& p, const Vec3& x, Vec3& q) {
   const double r = std::hypot(x.x(), x.y());
   const double reach2 = r * r + x.z() * x.z();
   const double cos_elbow = (reach2 - p.l1 * p.l1 - p.l2 * p.l2) / (2 * p.l1 * p.l2);
   if (!(std::abs(cos_elbow) < 1)) return false;
   const double elbow = -std::acos(cos_elbow);  // link 2 hangs down from link 1
-  const double shoulder =
-      std::atan2(x.z(), r) - std::atan2(p.l2 * std::sin(elbow), p.l1 + p.l2 * std::cos(elbow));
+  const double shoulder = std::atan2(x.z(), r) - std::atan2(p.l2 * std::sin(elbow), p.l1 + p.l2 * std::cos(elbow));
   q = Vec3(std::atan2(x.y(), x.x()), shoulder, shoulder + elbow + M_PI / 2);
   return true;
 }
@@ -79,6 +91,37 @@ Vec3 phantomCoriolis(const PhantomParameters& p, const Vec3& q, const Vec3& qdot
   const double D = -t.e * std::cos(q.y() - q.z());
   const double v1 = qdot.x(), v2 = qdot.y(), v3 = qdot.z();
   return {(A * v2 + B * v3) * v1, -A / 2 * v1 * v1 - D * v3 * v3, -B / 2 * v1 * v1 + D * v2 * v2};
+}
+
+Vec3 phantomStops(const PhantomParameters& p, const Vec3& q, const Vec3& qdot) {
+  Vec3 torque;
+  for (int i = 0; i < 3; ++i) torque[i] = stopTorque(p, beyond(q[i], p.q_min[i], p.q_max[i]), qdot[i]);
+  const double fold = stopTorque(p, beyondFold(p, q), qdot.z() - qdot.y());
+  return torque + Vec3(0, -fold, fold);
+}
+
+double phantomStopEnergy_J(const PhantomParameters& p, const Vec3& q) {
+  double squares = std::pow(beyondFold(p, q), 2);
+  for (int i = 0; i < 3; ++i) squares += std::pow(beyond(q[i], p.q_min[i], p.q_max[i]), 2);
+  return 0.5 * p.stop_stiffness_Nm_rad * squares;
+}
+
+// Projected Gauss-Seidel. Only joints 2 and 3 are coupled, and weakly; from the last step's impulse, which hardly
+// changes, a few rounds leave a rest far below one encoder count per second.
+Vec3 phantomFriction(const PhantomParameters& p, const Mat3& mass, const Vec3& qdot, double dt_s, Vec3& impulse) {
+  constexpr int kRounds = 4;
+  const Mat3 mobility = mass.inverse();
+  const double most = p.joint_friction_Nm * dt_s;
+  impulse = impulse.cwiseMax(-most).cwiseMin(most);
+  Vec3 rate = qdot + mobility * impulse;
+  for (int round = 0; round < kRounds; ++round) {
+    for (int i = 0; i < 3; ++i) {
+      const double next = std::clamp(impulse[i] - rate[i] / mobility(i, i), -most, most);
+      rate += mobility.col(i) * (next - impulse[i]);
+      impulse[i] = next;
+    }
+  }
+  return rate;
 }
 
 }  // namespace hl

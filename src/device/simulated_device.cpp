@@ -7,14 +7,12 @@ namespace hl {
 
 namespace {
 
-const Vec3 kNominalJoints(0, 0, 0);  // both links square: (l1, 0, -l2), the middle of the workspace
+// With the links folded no further than their stops the tip reaches from 94 to 367 mm; the box of the workspace around
+// this point spans 95 to 366 mm.
+const Vec3 kOrigin_P(0.19, 0, 0);
 
-// Stops of the joints: a spring and damper that act only beyond the limits, soft enough for the step of 10 us.
-constexpr double kStopStiffness_Nm_rad = 20;
-constexpr double kStopDamping_Nms_rad = 0.02;
-
-Vec3 toDevice(const Vec3& v_P) { return {-v_P.y(), v_P.z(), v_P.x()}; }
-Vec3 toPhantom(const Vec3& v_D) { return {v_D.z(), -v_D.x(), v_D.y()}; }
+Vec3 toDevice(const Vec3& v_P) { return {v_P.y(), v_P.z(), v_P.x()}; }
+Vec3 toPhantom(const Vec3& v_D) { return {v_D.z(), v_D.x(), v_D.y()}; }
 
 DeviceInfo makeInfo(const PhantomParameters& arm) {
   DeviceInfo info;
@@ -36,14 +34,15 @@ DeviceInfo makeInfo(const PhantomParameters& arm) {
 }  // namespace
 
 SimulatedDevice::SimulatedDevice(const SimulatedDeviceSettings& settings)
-    : settings_(settings), info_(makeInfo(settings.arm)), origin_P_(phantomTip(settings.arm, kNominalJoints)) {
-  q_ = kNominalJoints;
+    : settings_(settings), info_(makeInfo(settings.arm)), origin_P_(kOrigin_P) {
+  phantomJoints(settings.arm, origin_P_, q_);
   firm_ = settings.firm;
 }
 
 void SimulatedDevice::setJoints(const Vec3& q, const Vec3& qdot) {
   q_ = q;
   qdot_ = qdot;
+  friction_impulse_ = Vec3::Zero();
   hand_ = HandState{};
   hand_.position = hand_.wish = goal_D_ = trueTip_D();
   goal_.write(goal_D_);
@@ -52,32 +51,34 @@ void SimulatedDevice::setJoints(const Vec3& q, const Vec3& qdot) {
 Vec3 SimulatedDevice::trueTip_D() const { return toDevice(phantomTip(settings_.arm, q_) - origin_P_); }
 
 // The encoders count whole steps, rounded down; kinematics then works on what they say.
-Vec3 SimulatedDevice::quantisedTip_D() const {
+Vec3 SimulatedDevice::countedJoints() const {
   Vec3 counted;
   for (int i = 0; i < 3; ++i) {
     const double step = 2 * M_PI / (settings_.arm.encoder_counts * settings_.arm.gear[i]);
     counted[i] = std::floor(q_[i] / step) * step;
   }
-  return toDevice(phantomTip(settings_.arm, counted) - origin_P_);
+  return counted;
 }
 
 DeviceSample SimulatedDevice::read(std::int64_t now_ns) {
-  goal_.read(goal_D_);
+  Vec3 goal;
+  if (goal_.read(goal) && goal.allFinite()) goal_D_ = goal;
   if (has_time_) {
-    const double elapsed_s = std::clamp(1e-9 * static_cast<double>(now_ns - time_ns_), 0.0, settings_.longest_advance_s);
+    const double elapsed_s =
+        std::clamp(1e-9 * static_cast<double>(now_ns - time_ns_), 0.0, settings_.longest_advance_s);
     const int steps = static_cast<int>(std::ceil(elapsed_s / settings_.step_s));
     for (int i = 0; i < steps; ++i) step(elapsed_s / steps);
   }
   has_time_ = true;
   time_ns_ = now_ns;
-  return {now_ns, quantisedTip_D(), 0, DeviceStatus::kOk};
+  return {now_ns, toDevice(phantomTip(settings_.arm, countedJoints()) - origin_P_), 0, DeviceStatus::kOk};
 }
 
 // Torques J' f in DAC counts, within what the motors can give; held until the next write.
 void SimulatedDevice::write(const Vec3& force_N) {
   const PhantomParameters& arm = settings_.arm;
   Vec3 wanted = Vec3::Zero();
-  if (force_N.allFinite()) wanted = phantomJacobian(arm, q_).transpose() * toPhantom(force_N);
+  if (force_N.allFinite()) wanted = phantomJacobian(arm, countedJoints()).transpose() * toPhantom(force_N);
   for (int i = 0; i < 3; ++i) {
     const double peak = arm.motor_torque_peak_Nm * arm.gear[i];
     const double count = 2 * peak / std::pow(2.0, arm.dac_bits);
@@ -85,7 +86,7 @@ void SimulatedDevice::write(const Vec3& force_N) {
   }
 }
 
-// Semi-implicit Euler; Coulomb friction implicitly: its impulse takes away at most the velocity there is.
+// Semi-implicit Euler; Coulomb friction implicitly, so that it stops a joint and never drives one.
 void SimulatedDevice::step(double dt_s) {
   const PhantomParameters& arm = settings_.arm;
   const Mat3 jacobian = phantomJacobian(arm, q_);
@@ -97,21 +98,19 @@ void SimulatedDevice::step(double dt_s) {
     stepHand(grip, hand_, pad, dt_s);
     torque += jacobian.transpose() * toPhantom(pad);
   }
-  for (int i = 0; i < 3; ++i) {
-    const double beyond = std::min(0.0, q_[i] - arm.q_min[i]) + std::max(0.0, q_[i] - arm.q_max[i]);
-    if (beyond != 0) torque[i] -= kStopStiffness_Nm_rad * beyond + kStopDamping_Nms_rad * qdot_[i];
-  }
+  torque += phantomStops(arm, q_, qdot_);
   const Mat3 mass = phantomMass(arm, q_);
-  qdot_ += dt_s * mass.inverse() * torque;
-  for (int i = 0; i < 3; ++i) {
-    const double stops = dt_s * arm.joint_friction_Nm / mass(i, i);
-    qdot_[i] = std::copysign(std::max(0.0, std::abs(qdot_[i]) - stops), qdot_[i]);
-  }
+  const Vec3 free_qdot = qdot_ + dt_s * mass.inverse() * torque;
+  qdot_ = phantomFriction(arm, mass, free_qdot, dt_s, friction_impulse_);
   q_ += dt_s * qdot_;
 }
 
+Vec3 SimulatedDevice::motorForce() const {
+  return toDevice(phantomJacobian(settings_.arm, q_).transpose().inverse() * torque_);
+}
+
 double SimulatedDevice::energy_J() const {
-  double energy = 0.5 * qdot_.dot(phantomMass(settings_.arm, q_) * qdot_);
+  double energy = 0.5 * qdot_.dot(phantomMass(settings_.arm, q_) * qdot_) + phantomStopEnergy_J(settings_.arm, q_);
   if (settings_.held) {
     const GripParameters& grip = firm_.load() ? kFirmGrip : kLightGrip;
     energy += 0.5 * grip.hand_mass_kg * hand_.velocity.squaredNorm() +
