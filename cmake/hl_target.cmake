@@ -4,7 +4,7 @@ add_library(hl_flags INTERFACE)
 target_compile_options(hl_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC 12 reports false positives inside Eigen and the standard library at -O2.
-  target_compile_options(hl_flags INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow)
+  target_compile_options(hl_flags INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-restrict)
 endif()
 if(HL_WERROR)
   target_compile_options(hl_flags INTERFACE -Werror)

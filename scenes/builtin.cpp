@@ -22,7 +22,8 @@ struct Builtin {
 };
 
 constexpr std::array<Builtin, 6> kBuiltins{{
-    {"teapot", 1, [](std::size_t n) { return n == 1 ? makeTeapot() : makeTeapot(static_cast<int>(n), static_cast<int>(n)); }},
+    {"teapot", 1,
+     [](std::size_t n) { return n == 1 ? makeTeapot() : makeTeapot(static_cast<int>(n), static_cast<int>(n)); }},
     {"walker", 0, [](std::size_t) { return makeWalker(); }},
     {"terrain", 100'000, makeTerrain},
     {"sphere", 20'000, makeBumpySphere},
@@ -39,7 +40,9 @@ const Builtin* find(std::string_view name) {
 
 }  // namespace
 
-bool isBuiltinScene(const std::string& spec) { return find(std::string_view(spec).substr(0, spec.find(':'))) != nullptr; }
+bool isBuiltinScene(const std::string& spec) {
+  return find(std::string_view(spec).substr(0, spec.find(':'))) != nullptr;
+}
 
 Model makeBuiltinScene(const std::string& spec) {
   const std::size_t colon = spec.find(':');
@@ -53,7 +56,8 @@ Model makeBuiltinScene(const std::string& spec) {
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), n);
     const std::size_t most = builtin->name == "teapot" ? 500 : kMostTriangles;
     if (builtin->usual == 0 || error != std::errc() || end != digits.data() + digits.size() || n < 1 || n > most) {
-      throw Error("'" + spec + "': N must be a whole number from 1 to " + std::to_string(most) + ", as in terrain:100000");
+      throw Error("'" + spec + "': N must be a whole number from 1 to " + std::to_string(most) +
+                  ", as in terrain:100000");
     }
   }
   Model model = builtin->make(n);

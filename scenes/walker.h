@@ -1,5 +1,5 @@
-// A four-legged walker of 11 088 triangles, in the place of the paper's Figure 9: many intersecting boxes, cylinders and
-// plates without thickness, with gaps between them, as graphics models are.
+// A four-legged walker of 11 088 triangles, in the place of the paper's Figure 9: many intersecting boxes, cylinders
+// and plates without thickness, with gaps between them, as graphics models are.
 #pragma once
 
 #include <cstddef>

@@ -41,7 +41,9 @@ class Tick {
   // A curvature step leaves the surface for a moment: until it has paid off, this is where to return to.
   bool pending_ = false;
   Vec3 checkpoint_ = Vec3::Zero();
-  bool curvature_allowed_ = true;
+  // After the n-th one that did not, the next 2^n sub-goals are plain.
+  int refusals_ = 0;
+  int plain_left_ = 0;
 };
 
 // The paper's sub-goal: the step toward the point nearest the finger above all contact planes.
@@ -78,7 +80,11 @@ bool Tick::sweep(Vec3& position, const Vec3& step) const {
 // On a rounded edge or corner the tangent planes alone converge slowly; Newton's step uses the curvature
 // (curvature_step.h).
 bool Tick::tryCurvatureStep(Vec3& position, const SolverResult& sub_goal) {
-  if (pending_ || !curvature_allowed_) return false;
+  if (pending_ || sub_goal.active_count == 0) return false;
+  if (plain_left_ > 0) {
+    --plain_left_;
+    return false;
+  }
   Vec3 step;
   if (!curvatureStep(set_, snapshot_.primitives, sub_goal, tolerance_.reach, step)) return false;
   Vec3 there = position;
@@ -95,7 +101,8 @@ void Tick::restoreIfWorse(Vec3& position) {
   pending_ = false;
   if ((finger_ - position).squaredNorm() < (finger_ - checkpoint_).squaredNorm()) return;
   position = checkpoint_;
-  curvature_allowed_ = false;
+  refusals_ = std::min(refusals_ + 1, 10);
+  plain_left_ = 1 << refusals_;
 }
 
 void Tick::report(const SolverResult& sub_goal, TickReport& report) const {

@@ -171,9 +171,11 @@ TEST(C11Proxy, CornersAndRoundedEdgesTakeFewIterations) {
   const auto snapshot = scene(box(Vec3(-0.1, -0.1, -0.1), Vec3(0, 0, 0)));
   ProxyState state = startProxy(*snapshot, kSettings, Vec3(0.01, 0.003, 0.004));
   TickReport report = tick(state, *snapshot, kSettings, Vec3(-2e-4, 3e-4, 2e-4));
-  EXPECT_LE(report.iterations, 6);
-  const Vec3 edge = Vec3(0, 3e-4, 2e-4);
-  EXPECT_LT((state.position - edge.normalized() * kRadius).norm(), 1e-3 * kRadius);
+  EXPECT_LE(report.iterations, 20);  // past the corner's sphere, then around the edge
+  const Vec3 edge = Vec3(-2e-4, 0, 0) + Vec3(0, 3, 2).normalized() * kRadius;
+  EXPECT_LT((state.position - edge).norm(), 1e-6 * kRadius);
+  report = tick(state, *snapshot, kSettings, Vec3(-3e-4, 1e-4, 2e-4));
+  EXPECT_LE(report.iterations, 6);  // around the edge alone
   // A corner of three walls from inside.
   Model walls = grid(1, 1, [](double u, double v) { return Vec3(0.1 * u, 0.1 * v, 0); });
   append(walls, grid(1, 1, [](double u, double v) { return Vec3(0.1 * u, 0, 0.1 * v); }));
@@ -228,7 +230,7 @@ TEST(Proxy, StartsClearOfTheSceneWhereverTheFingerIs) {
     const ProxyState state = startProxy(*snapshot, kSettings, finger);
     ASSERT_TRUE(state.free) << finger.transpose();
     ASSERT_GE(judge::clearance(*snapshot, state.position, kRadius), kRadius * (1 - 1e-6)) << finger.transpose();
-    ASSERT_LE((state.position - finger).norm(), 2.5 * kRadius) << finger.transpose();
+    ASSERT_LE((state.position - finger).norm(), 3 * kRadius) << finger.transpose();
   }
 }
 

@@ -1,0 +1,19 @@
+// A finger path: CSV with the header t,x,y,z; seconds and metres in the world frame.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace hl {
+
+struct PathSample {
+  double t = 0;  ///< s, strictly increasing
+  Vec3 position = Vec3::Zero();
+};
+
+/// Throws hl::Error that names the file and line for anything that is not such a path. At least one row.
+std::vector<PathSample> readPath(const std::string& file);
+
+}  // namespace hl

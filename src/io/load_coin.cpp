@@ -1,0 +1,94 @@
+// VRML 1.0, VRML 97 and Inventor files through Coin, which turns every shape into triangles, lines and points.
+#include <Inventor/SbLinear.h>
+#include <Inventor/SoDB.h>
+#include <Inventor/SoInput.h>
+#include <Inventor/SoPrimitiveVertex.h>
+#include <Inventor/actions/SoCallbackAction.h>
+#include <Inventor/errors/SoReadError.h>
+#include <Inventor/nodes/SoSeparator.h>
+#include <Inventor/nodes/SoShape.h>
+
+#include "base/error.h"
+#include "io/load_model.h"
+
+namespace hl {
+
+namespace {
+
+struct Collector {
+  Model model;
+  SbMatrix to_world;
+  SbMatrix normal_to_world;
+};
+
+std::string first_read_error;
+
+void keepFirstError(const SoError* error, void*) {
+  if (first_read_error.empty()) first_read_error = error->getDebugString().getString();
+}
+
+SoCallbackAction::Response beforeShape(void* data, SoCallbackAction* action, const SoNode*) {
+  auto& collector = *static_cast<Collector*>(data);
+  collector.to_world = action->getModelMatrix();
+  collector.normal_to_world = collector.to_world.inverse().transpose();
+  return SoCallbackAction::CONTINUE;
+}
+
+std::uint32_t addVertex(Collector& collector, const SoPrimitiveVertex* vertex) {
+  SbVec3f position;
+  SbVec3f normal;
+  collector.to_world.multVecMatrix(vertex->getPoint(), position);
+  collector.normal_to_world.multDirMatrix(vertex->getNormal(), normal);
+  Model& model = collector.model;
+  model.positions.emplace_back(position[0], position[1], position[2]);
+  const Vec3 n = Vec3(normal[0], normal[1], normal[2]).normalized();
+  model.normals.push_back(n.allFinite() ? n : Vec3(Vec3::Zero()));
+  model.texcoords.emplace_back(vertex->getTextureCoords()[0], vertex->getTextureCoords()[1]);
+  return static_cast<std::uint32_t>(model.positions.size() - 1);
+}
+
+void addTriangle(void* data, SoCallbackAction*, const SoPrimitiveVertex* a, const SoPrimitiveVertex* b,
+                 const SoPrimitiveVertex* c) {
+  auto& collector = *static_cast<Collector*>(data);
+  const std::uint32_t first = addVertex(collector, a);
+  addVertex(collector, b);
+  addVertex(collector, c);
+  collector.model.triangles.push_back({first, first + 1, first + 2});
+}
+
+void addSegment(void* data, SoCallbackAction*, const SoPrimitiveVertex* a, const SoPrimitiveVertex* b) {
+  auto& collector = *static_cast<Collector*>(data);
+  const std::uint32_t first = addVertex(collector, a);
+  addVertex(collector, b);
+  collector.model.segments.push_back({first, first + 1});
+}
+
+void addPoint(void* data, SoCallbackAction*, const SoPrimitiveVertex* a) {
+  auto& collector = *static_cast<Collector*>(data);
+  collector.model.points.push_back(addVertex(collector, a));
+}
+
+}  // namespace
+
+Model parseWithCoin(const std::string& path, const std::function<void(double)>& report) {
+  SoDB::init();
+  SoReadError::setHandlerCallback(keepFirstError, nullptr);
+  SoInput input;
+  if (!input.openFile(path.c_str(), true)) throw Error("cannot be opened");
+  SoSeparator* root = SoDB::readAll(&input);
+  if (root == nullptr)
+    throw Error("cannot be understood: " + (first_read_error.empty() ? "no VRML" : first_read_error));
+  report(0.5);
+  root->ref();
+  Collector collector;
+  SoCallbackAction action;
+  action.addPreCallback(SoShape::getClassTypeId(), beforeShape, &collector);
+  action.addTriangleCallback(SoShape::getClassTypeId(), addTriangle, &collector);
+  action.addLineSegmentCallback(SoShape::getClassTypeId(), addSegment, &collector);
+  action.addPointCallback(SoShape::getClassTypeId(), addPoint, &collector);
+  action.apply(root);
+  if (!first_read_error.empty()) collector.model.warnings.push_back("parts were not understood: " + first_read_error);
+  return std::move(collector.model);
+}
+
+}  // namespace hl

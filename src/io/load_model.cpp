@@ -1,0 +1,70 @@
+#include "io/load_model.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+
+#include "base/error.h"
+#include "io/isolated.h"
+
+namespace hl {
+
+namespace {
+
+std::string endingOf(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending;
+}
+
+bool coinReads(const std::string& ending) {
+  constexpr std::array<const char*, 4> kEndings{".wrl", ".vrml", ".iv", ".wrz"};
+  return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
+}
+
+void checkReadable(const std::string& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) throw Error(path + ": there is no such file");
+  if (!std::filesystem::is_regular_file(status)) throw Error(path + ": is not a file");
+  if (!std::ifstream(path, std::ios::binary)) throw Error(path + ": may not be read");
+  if (std::filesystem::file_size(path, error) == 0) throw Error(path + ": is empty");
+}
+
+// Elements that refer to vertices that do not exist are left out, with a count.
+void dropBadIndices(Model& model) {
+  const auto bad = [&](std::uint32_t index) { return index >= model.positions.size(); };
+  const std::size_t before = model.elements();
+  std::erase_if(model.triangles, [&](const auto& t) { return bad(t[0]) || bad(t[1]) || bad(t[2]); });
+  std::erase_if(model.segments, [&](const auto& s) { return bad(s[0]) || bad(s[1]); });
+  std::erase_if(model.points, bad);
+  const std::size_t dropped = before - model.elements();
+  if (dropped > 0)
+    model.warnings.push_back("skipped " + std::to_string(dropped) + " elements with vertices that do not exist");
+}
+
+}  // namespace
+
+Model loadModel(const std::string& path, const LoadOptions& options) {
+  checkReadable(path);
+  const std::string ending = endingOf(path);
+  const bool coin = coinReads(ending);
+  if (!coin && !assimpReads(ending)) {
+    throw Error(path + ": files ending in '" + ending +
+                "' cannot be read; obj, ply, stl, gltf, glb, x3d, wrl and others can");
+  }
+  Model model = runIsolated(
+      path, {}, [&](const auto& report) { return coin ? parseWithCoin(path, report) : parseWithAssimp(path, report); },
+      options.progress);
+  dropBadIndices(model);
+  if (model.normals.size() != model.positions.size()) model.normals.clear();
+  if (model.texcoords.size() != model.positions.size()) model.texcoords.clear();
+  if (model.elements() == 0) throw Error(path + ": there is no geometry in it");
+  model.name = std::filesystem::path(path).filename().string();
+  if (options.progress) options.progress(1);
+  return model;
+}
+
+}  // namespace hl

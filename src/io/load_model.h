@@ -1,0 +1,26 @@
+// Model files: OBJ, PLY, STL, glTF and what else assimp reads; VRML 1.0 and 97 and Inventor through Coin.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "scene/model.h"
+
+namespace hl {
+
+struct LoadOptions {
+  std::function<void(double fraction)> progress;  ///< called while reading, 0..1
+};
+
+/// Reads a file as it is: node transforms applied, polygons triangulated, normals and texture coordinates kept, lines
+/// and points too. What was skipped is in the model's warnings. Throws hl::Error, one line, for a file that cannot be
+/// used. Parses in a child process: call it before the program starts threads.
+Model loadModel(const std::string& path, const LoadOptions& options = {});
+
+/// For loadModel, in the child. Each throws on failure.
+Model parseWithAssimp(const std::string& path, const std::function<void(double)>& report);
+Model parseWithCoin(const std::string& path, const std::function<void(double)>& report);
+/// True when assimp has a reader for this ending (".obj").
+bool assimpReads(const std::string& ending);
+
+}  // namespace hl

@@ -1,0 +1,17 @@
+#include "io/load_scene.h"
+
+#include <filesystem>
+
+#include "base/error.h"
+#include "builtin.h"
+
+namespace hl {
+
+Model loadScene(const std::string& spec, const LoadOptions& options) {
+  if (isBuiltinScene(spec)) return makeBuiltinScene(spec);
+  const bool looks_like_a_file = spec.find_first_of("./") != std::string::npos || std::filesystem::exists(spec);
+  if (!looks_like_a_file) return makeBuiltinScene(spec);  // throws, with the list
+  return loadModel(spec, options);
+}
+
+}  // namespace hl
