@@ -29,7 +29,9 @@ configure_preset() {
   local preset="$1" build_dir="$2"
   if [[ ! -f "$build_dir/build.ninja" || "$root/CMakePresets.json" -nt "$build_dir/build.ninja" ]]; then
     if command -v ccache >/dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER="${CMAKE_CXX_COMPILER_LAUNCHER:-ccache}"; fi
-    (cd "$root" && cmake --preset "$preset" --log-level=WARNING)
+    # What CMake says goes to a log; its warnings and errors come on stderr anyway.
+    mkdir -p "$build_dir"
+    (cd "$root" && cmake --preset "$preset" >"$build_dir/configure.log")
   fi
 }
 
@@ -39,5 +41,7 @@ build_dir() {
   shift
   local quiet=()
   if [[ ! -t 1 ]]; then quiet=(--quiet); fi
+  # A dry run tells whether there is anything to do, so that nothing to do says nothing.
+  if ninja -C "$dir" -n "$@" 2>/dev/null | grep -q 'no work to do'; then return; fi
   NINJA_STATUS="[%f/%t, %es] " ninja -C "$dir" -j "$(build_jobs)" "${quiet[@]}" "$@"
 }
