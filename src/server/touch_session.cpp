@@ -127,7 +127,8 @@ void TouchSession::runProxy() {
     finger_D_.read(finger_D);
     const TickReport report = tick(state, *snapshot_, proxy_settings_, workspace_.toWorld(finger_D));
     const std::int64_t work_ns = monotonicNow_ns() - now_ns;
-    const bool valid = report.valid && state.free;
+    // In the open the proxy is the finger of a moment ago: pulling to it would be a drag.
+    const bool valid = report.valid && state.free && !report.contacts.empty();
     target_.write({{workspace_.toDevice(state.position), now_ns, valid}, 1e-3f * static_cast<float>(work_ns)});
     meter.add(now_ns, work_ns);
     view.proxy = state.position;

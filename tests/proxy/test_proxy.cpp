@@ -20,6 +20,11 @@ using judge::triangles;
 constexpr double kRadius = 1e-3;
 constexpr double kExact = 1e-9 * kRadius;  // far above the skin of 3e-10 radii, far below anything felt
 const ProxySettings kSettings{kRadius, 1000};
+#ifdef HL_SANITIZED
+constexpr int kManyTicks = 5'000;
+#else
+constexpr int kManyTicks = 100'000;
+#endif
 
 Model plate(double half) {
   return grid(1, 1, [=](double u, double v) { return Vec3((2 * u - 1) * half, (2 * v - 1) * half, 0); });
@@ -156,7 +161,7 @@ TEST(C10C12Proxy, NoTickTakesItFartherFromTheFinger) {
   ProxyState state = startProxy(*snapshot, kSettings, Vec3(0.1, 0.1, 0.1));
   Vec3 finger(0.1, 0.1, 0.1);
   int capped = 0;
-  for (int i = 0; i < 100'000; ++i) {
+  for (int i = 0; i < kManyTicks; ++i) {
     finger = 0.99 * finger + point(2e-3);
     const double before = (state.position - finger).norm();
     capped += tick(state, *snapshot, kSettings, finger).capped;
@@ -282,7 +287,7 @@ TEST(Proxy, TheOrderOfPrimitivesAndTheHierarchyDoNotChangeABit) {
   ProxyState pb = startProxy(*b, kSettings, Vec3::Zero());
   ProxyState pc = startProxy(*c, kSettings, Vec3::Zero());
   Vec3 finger = Vec3::Zero();
-  for (int i = 0; i < 20'000; ++i) {
+  for (int i = 0; i < kManyTicks / 5; ++i) {
     finger = 0.995 * finger + point(1e-3);
     tick(pa, *a, kSettings, finger);
     tick(pb, *b, kSettings, finger);

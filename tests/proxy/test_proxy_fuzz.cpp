@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <random>
 
 #include "proxy/judge.h"
@@ -11,13 +12,20 @@
 namespace hl {
 namespace {
 
+// HL_POKES=1000000 in the environment makes it the million; the suite takes fewer to be quick.
 #ifdef HL_SANITIZED
-constexpr int kPokes = 20'000;
+constexpr int kUsualPokes = 2'000;
 constexpr std::uint32_t kCells = 200;
 #else
-constexpr int kPokes = 1'000'000;
+constexpr int kUsualPokes = 100'000;
 constexpr std::uint32_t kCells = 707;
 #endif
+
+int pokes() {
+  const char* wanted = std::getenv("HL_POKES");
+  return wanted == nullptr ? kUsualPokes : std::atoi(wanted);
+}
+
 constexpr double kRadius = 1e-3;
 constexpr double kSide = 0.2;
 
@@ -41,7 +49,7 @@ Model tornSheet(std::mt19937& random) {
   return judge::triangles(soup);
 }
 
-TEST(C02Fuzz, AMillionPokesIntoATornSheetNeverFallThrough) {
+TEST(C02Fuzz, PokesIntoATornSheetOfAMillionTrianglesNeverFallThrough) {
   std::mt19937 random(17);
   std::uniform_real_distribution<double> uniform(-1, 1);
   const auto snapshot = judge::scene(tornSheet(random));
@@ -49,7 +57,8 @@ TEST(C02Fuzz, AMillionPokesIntoATornSheetNeverFallThrough) {
   int through = 0;
   int capped = 0;
   int inside = 0;
-  for (int i = 0; i < kPokes; ++i) {
+  const int count = pokes();
+  for (int i = 0; i < count; ++i) {
     const double side = i % 2 == 0 ? 1 : -1;
     const Vec3 above(0.09 * uniform(random), 0.09 * uniform(random), 3 * kRadius * side);
     ProxyState state = startProxy(*snapshot, settings, above);
@@ -59,7 +68,7 @@ TEST(C02Fuzz, AMillionPokesIntoATornSheetNeverFallThrough) {
     through += state.position.z() * side < 0;
     if (i % 16 == 0) inside += judge::clearance(*snapshot, state.position, kRadius) < kRadius * (1 - 1e-6);
   }
-  std::printf("%zu triangles, %d pokes: %d through, %d inside, %d capped\n", snapshot->primitives.size(), kPokes,
+  std::printf("%zu triangles, %d pokes: %d through, %d inside, %d capped\n", snapshot->primitives.size(), count,
               through, inside, capped);
   EXPECT_EQ(through, 0);
   EXPECT_EQ(inside, 0);

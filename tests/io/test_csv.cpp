@@ -1,0 +1,82 @@
+// Finger paths and traces: what is accepted, what is refused and how, and that no digit is lost.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "base/error.h"
+#include "io/csv_path.h"
+#include "io/trace_csv.h"
+
+namespace hl {
+namespace {
+
+std::string fileWith(const std::string& content) {
+  const auto path = std::filesystem::path(testing::TempDir()) / "hl_path.csv";
+  std::ofstream(path, std::ios::binary) << content;
+  return path.string();
+}
+
+std::string refusalOf(const std::string& content) {
+  try {
+    readPath(fileWith(content));
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(CsvPath, ReadsRowsWithAnyLineEndAndSpaces) {
+  const auto path = readPath(fileWith("t,x,y,z\r\n0,1,2,3\r\n 0.5 , -1e-3,+2, 4 \n\n1,0,0,0"));
+  ASSERT_EQ(path.size(), 3u);
+  EXPECT_EQ(path[1].t, 0.5);
+  EXPECT_EQ(path[1].position, Vec3(-1e-3, 2, 4));
+}
+
+TEST(CsvPath, RefusesWithTheLineNumber) {
+  EXPECT_NE(refusalOf("x,y,z\n1,2,3\n").find(":1:"), std::string::npos);
+  EXPECT_NE(refusalOf("t,x,y,z\n0,0,0,0\n1,nan,0,0\n").find(":3:"), std::string::npos);
+  EXPECT_NE(refusalOf("t,x,y,z\n0,0,0,0\n1,inf,0,0\n").find(":3:"), std::string::npos);
+  EXPECT_NE(refusalOf("t,x,y,z\n0,0,0\n").find(":2:"), std::string::npos);
+  EXPECT_NE(refusalOf("t,x,y,z\n0,0,0,0,0\n").find(":2:"), std::string::npos);
+  EXPECT_NE(refusalOf("t,x,y,z\n0,0,0,zero\n").find(":2:"), std::string::npos);
+  EXPECT_NE(refusalOf("t,x,y,z\n1,0,0,0\n1,0,0,0\n").find("must grow"), std::string::npos);
+  EXPECT_NE(refusalOf("t,x,y,z\n").find("no rows"), std::string::npos);
+  EXPECT_NE(refusalOf("").find(":1:"), std::string::npos);
+  EXPECT_THROW(readPath("/nonexistent/path.csv"), Error);
+}
+
+TEST(TraceCsv, HasTheColumnsOfTheContractAndEveryDigit) {
+  const auto name = (std::filesystem::path(testing::TempDir()) / "hl_out.csv").string();
+  TraceWriter writer(name);
+  TraceRow row;
+  row.t = 0.1;
+  row.finger = Vec3(1.0 / 3, 2.0 / 3, -1e-300);
+  row.contacts = 2;
+  writer.write(row);
+  writer.close();
+  std::ifstream in(name);
+  std::string header, line;
+  std::getline(in, header);
+  std::getline(in, line);
+  EXPECT_EQ(header,
+            "t,finger_x,finger_y,finger_z,proxy_x,proxy_y,proxy_z,target_x,target_y,target_z,force_x,force_y,force_z,"
+            "contacts,iterations,injected_J,tick_ns");
+  std::replace(line.begin(), line.end(), ',', ' ');
+  std::istringstream fields(line);
+  double t, x, y, z;
+  fields >> t >> x >> y >> z;
+  EXPECT_EQ(t, row.t);
+  EXPECT_EQ(Vec3(x, y, z), row.finger);
+}
+
+TEST(TraceCsv, SaysWhenItCannotWrite) {
+  EXPECT_THROW(TraceWriter("/nonexistent/out.csv"), Error);
+  TraceWriter full("/dev/full");
+  full.write({});
+  EXPECT_THROW(full.close(), Error);
+}
+
+}  // namespace
+}  // namespace hl

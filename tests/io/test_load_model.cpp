@@ -1,0 +1,178 @@
+// Model files: each kind keeps what it holds; broken and hostile ones give one clear line.
+#include "io/load_model.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "base/error.h"
+#include "io/isolated.h"
+#include "scene/snapshot.h"
+
+namespace hl {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string fileWith(const std::string& name, const std::string& content) {
+  const auto path = fs::path(testing::TempDir()) / name;
+  std::ofstream(path, std::ios::binary) << content;
+  return path.string();
+}
+
+std::string refusalOf(const std::string& path) {
+  try {
+    loadModel(path);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+const char kObj[] =
+    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 2\nvn 0 0 1\nvt 0.25 0.75\n"
+    "f 1/1/1 2/1/1 3/1/1 4/1/1\nl 1 5\n";
+
+TEST(LoadModel, ObjKeepsPolygonsNormalsAndTexcoords) {
+  const Model model = loadModel(fileWith("a.obj", kObj));
+  EXPECT_EQ(model.triangles.size(), 2u);
+  ASSERT_EQ(model.normals.size(), model.positions.size());
+  const auto corner = model.triangles[0][0];
+  EXPECT_EQ(model.normals[corner], Vec3::UnitZ());
+  EXPECT_NEAR(model.texcoords[corner].x(), 0.25, 1e-6);
+}
+
+TEST(LoadModel, ObjKeepsLines) { EXPECT_EQ(loadModel(fileWith("l.obj", kObj)).segments.size(), 1u); }
+
+TEST(LoadModel, StlAndPlyInText) {
+  const char stl[] =
+      "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid "
+      "s\n";
+  EXPECT_EQ(loadModel(fileWith("a.stl", stl)).triangles.size(), 1u);
+  const char ply[] =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
+  EXPECT_EQ(loadModel(fileWith("a.ply", ply)).triangles.size(), 2u);
+}
+
+TEST(LoadModel, BinaryStl) {
+  std::string stl(80, ' ');
+  const auto put = [&](const auto& value) { stl.append(reinterpret_cast<const char*>(&value), sizeof value); };
+  put(std::uint32_t{1});
+  for (const float f : {0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f}) put(f);
+  put(std::uint16_t{0});
+  EXPECT_EQ(loadModel(fileWith("b.stl", stl)).triangles.size(), 1u);
+}
+
+TEST(LoadModel, GltfNodesAreTransformed) {
+  // One triangle in a node moved by 10 along x and turned a quarter about z.
+  const char gltf[] = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
+    "nodes":[{"mesh":0,"translation":[10,0,0],"rotation":[0,0,0.70710678,0.70710678]}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
+    "bufferViews":[{"buffer":0,"byteLength":36}],
+    "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+  const Model model = loadModel(fileWith("a.gltf", gltf));
+  ASSERT_EQ(model.triangles.size(), 1u);
+  EXPECT_LT((model.positions[model.triangles[0][1]] - Vec3(10, 1, 0)).norm(), 1e-5);
+}
+
+TEST(LoadModel, X3d) {
+  const char x3d[] =
+      "<?xml version='1.0'?><X3D version='3.0' profile='Immersive'><Scene><Transform translation='0 0 5'><Shape>"
+      "<IndexedFaceSet coordIndex='0 1 2 -1'><Coordinate point='0 0 0, 1 0 0, 0 1 0'/></IndexedFaceSet></Shape>"
+      "</Transform></Scene></X3D>";
+  EXPECT_EQ(loadModel(fileWith("a.x3d", x3d)).triangles.size(), 1u);
+}
+
+TEST(LoadModel, Vrml97WithTransformsAndPrimitives) {
+  const char wrl[] =
+      "#VRML V2.0 utf8\nTransform { translation 0 0 5 children [ Shape { geometry Box { size 2 2 2 } }\n"
+      "Shape { geometry IndexedLineSet { coord Coordinate { point [0 0 0, 1 0 0, 1 1 0] } coordIndex [0 1 2 -1] } } ] "
+      "}\n";
+  const Model model = loadModel(fileWith("a.wrl", wrl));
+  EXPECT_EQ(model.triangles.size(), 12u);
+  EXPECT_EQ(model.segments.size(), 2u);
+  EXPECT_NEAR(model.bounds().max.z(), 6, 1e-5);
+}
+
+TEST(LoadModel, Vrml1) {
+  const char wrl[] =
+      "#VRML V1.0 ascii\nSeparator { Translation { translation 3 0 0 } Coordinate3 { point [0 0 0, 1 0 0, 0 1 0] }\n"
+      "IndexedFaceSet { coordIndex [0, 1, 2, -1] } }\n";
+  const Model model = loadModel(fileWith("b.wrl", wrl));
+  EXPECT_EQ(model.triangles.size(), 1u);
+  EXPECT_NEAR(model.bounds().min.x(), 3, 1e-6);
+}
+
+TEST(LoadModel, RefusalsAreOneLineThatNamesTheFile) {
+  const std::string folder = testing::TempDir();
+  for (const std::string& path :
+       {std::string("/nonexistent/a.obj"), folder, fileWith("empty.obj", ""), fileWith("junk.obj", "hello\n"),
+        fileWith("noext", "x"), fileWith("strange.xyzzy", "x"), fileWith("junk.glb", "glTFjunkjunkjunk"),
+        fileWith("junk.ply",
+                 "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nend_header\n"),
+        fileWith("junk.wrl", "#VRML V2.0 utf8\nShape { geometry"), fileWith("nothing.wrl", "not vrml")}) {
+    const std::string refusal = refusalOf(path);
+    EXPECT_EQ(refusal.find(path), 0u) << path << ": " << refusal;
+    EXPECT_EQ(refusal.find('\n'), std::string::npos) << refusal;
+  }
+}
+
+TEST(LoadModel, BadNumbersAreSkippedWithACount) {
+  const Model model =
+      loadModel(fileWith("nan.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nf 1 2 3\nf 1 2 4\nf 1 1 2\n"));
+  const auto snapshot = makeSnapshot(model, HierarchyKind::kNone);
+  EXPECT_EQ(snapshot->primitives.size(), 1u);
+}
+
+TEST(Isolated, AParserThatCrashesOrNeverEndsIsAnError) {
+  const auto crash = [](const auto&) -> Model { std::abort(); };
+  EXPECT_THROW(runIsolated("crash", {}, crash, nullptr), Error);
+  const auto spin = [](const auto&) -> Model {
+    for (std::atomic<int> i = 0;; ++i) {
+    }
+  };
+  EXPECT_THROW(runIsolated("spin", {1, std::size_t{1} << 30}, spin, nullptr), Error);
+}
+
+TEST(LoadModel, TornFilesNeverCrash) {
+  std::mt19937 random(3);
+  for (const auto& [name, content] : {std::pair<std::string, std::string>{"torn.obj", kObj}}) {
+    for (int i = 0; i < 30; ++i) {
+      std::string torn = content.substr(0, 1 + random() % content.size());
+      for (int k = 0; k < 3; ++k) torn[random() % torn.size()] = static_cast<char>(random() % 256);
+      refusalOf(fileWith(name, torn));
+    }
+  }
+}
+
+// Debian's assimp-testmodels: many formats, some broken on purpose. Each loads or is refused in one line.
+TEST(LoadModel, EveryTestModelLoadsOrIsRefused) {
+  const fs::path folder = "/usr/share/assimp/models";
+  if (!fs::exists(folder)) GTEST_SKIP() << "the package assimp-testmodels is not installed";
+  int loaded = 0;
+  int refused = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file() || entry.file_size() > 1'000'000) continue;
+    std::string ending = entry.path().extension().string();
+    if (ending != ".obj" && ending != ".ply" && ending != ".stl" && ending != ".gltf" && ending != ".glb" &&
+        ending != ".x3d" && ending != ".wrl") {
+      continue;
+    }
+    const std::string refusal = refusalOf(entry.path().string());
+    (refusal.empty() ? loaded : refused)++;
+    EXPECT_EQ(refusal.find('\n'), std::string::npos) << refusal;
+  }
+  std::printf("%d test models loaded, %d refused\n", loaded, refused);
+  EXPECT_GT(loaded, 20);
+}
+
+}  // namespace
+}  // namespace hl
