@@ -28,20 +28,21 @@ struct Box {
 struct Model {
   std::string name;
   std::vector<Vec3> positions;
-  std::vector<Vec3> normals;                  ///< one per position, or empty; a zero vector means "none given"
-  std::vector<Eigen::Vector2d> texcoords;     ///< one per position, or empty
+  std::vector<Vec3> normals;               ///< one per position, or empty; a zero vector means "none given"
+  std::vector<Eigen::Vector2d> texcoords;  ///< one per position, or empty
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::array<std::uint32_t, 2>> segments;
   std::vector<std::uint32_t> points;
-  std::vector<std::string> warnings;          ///< what was skipped while reading, one line each, with counts
+  std::vector<std::string> warnings;  ///< what was skipped while reading, one line each, with counts
 
-  Box bounds() const;                         ///< of the vertices that an element uses
+  Box bounds() const;  ///< of the vertices that an element uses
   std::size_t elements() const { return triangles.size() + segments.size() + points.size(); }
 };
 
 /// Scales about the origin by `factor` > 0.
 void scaleModel(Model& model, double factor);
-/// Scales uniformly and centres on the origin so that the largest side of the bounds is `side` metres. Returns the factor.
+/// Scales uniformly and centres on the origin so that the largest side of the bounds is `side` metres. Returns the
+/// factor.
 double fitModel(Model& model, double side);
 
 }  // namespace hl

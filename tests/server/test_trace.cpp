@@ -18,13 +18,15 @@ namespace {
 
 constexpr double kSide = 0.2;
 
-// In and out of the model and through it, at up to 0.3 m/s: a smooth closed curve around and through its middle.
+// In and out of the model and straight through its middle, at up to 0.3 m/s, each time in another direction.
 std::vector<PathSample> crossingPath(double amplitude, double phase) {
   std::vector<PathSample> path;
-  for (int i = 0; i < 6000; ++i) {
+  for (int i = 0; i < 12'000; ++i) {
     const double t = 1e-3 * i;
-    const double s = 1.1 * t + phase;
-    path.push_back({t, amplitude * Vec3(std::sin(1.0 * s) * 1.3, std::cos(1.37 * s) * 1.2, std::sin(0.71 * s + 1))});
+    const double azimuth = 0.5 * t + phase;
+    const double height = std::sin(0.9 * t + 2 * phase);
+    const Vec3 direction = Vec3(std::cos(azimuth), height, std::sin(azimuth)).normalized();
+    path.push_back({t, amplitude * std::sin(2.2 * t + M_PI / 2) * direction});
   }
   return path;
 }
@@ -33,6 +35,7 @@ struct Judgement {
   double least_clearance = 1e9;
   double worst_residual = 0;
   double fastest = 0;
+  double nearest_middle = 1e9;  // m, of the proxy to the origin
   TraceTotals totals;
 };
 
@@ -40,11 +43,12 @@ Judgement judge(const Snapshot& snapshot, double radius, double phase) {
   Judgement result;
   TraceSettings settings;
   settings.proxy.radius = radius;
-  const auto path = crossingPath(0.45 * kSide, phase);
+  const auto path = crossingPath(0.55 * kSide, phase);
   Vec3 last = path.front().position;
   result.totals = runTrace(snapshot, settings, path, [&](const TraceRow& row) {
     result.fastest = std::max(result.fastest, (row.finger - last).norm() / 1e-3);
     last = row.finger;
+    result.nearest_middle = std::min(result.nearest_middle, row.proxy.norm());
     std::vector<Plane> planes;
     primitivesWithin(*snapshot.index, snapshot.primitives, row.proxy, radius * (1 + 1e-6),
                      [&](std::uint32_t, const ClosestPoint& c) {
@@ -74,6 +78,7 @@ void expectSound(const std::string& spec) {
       EXPECT_LE(j.worst_residual, 1e-6) << spec;
     }
     EXPECT_LE(j.fastest, 0.31);
+    EXPECT_GT(j.totals.contacts, 500u) << spec;
   }
 }
 
@@ -81,6 +86,11 @@ TEST(Trace, TheTeapotAndTheWalkerHoldTheProxyAtItsLocalMinimum) {
   expectSound("teapot");
   expectSound("walker");
   expectSound("sphere:20000");
+}
+
+TEST(Trace, AClosedSurfaceIsNeverCutThrough) {
+  const auto snapshot = makeSnapshot(loadScene("sphere:20000"), HierarchyKind::kSpheres);
+  for (const double phase : {0.5, 1.0, 1.5}) EXPECT_GT(judge(*snapshot, 1e-3, phase).nearest_middle, 0.096);
 }
 
 TEST(Trace, ModelFilesHoldTheProxyAtItsLocalMinimum) {
@@ -93,7 +103,8 @@ TEST(Trace, TheSameBitsEveryTimeAndWithoutTheHierarchy) {
   Model model = loadScene("teapot");
   const auto tree = makeSnapshot(model, HierarchyKind::kSpheres);
   const auto none = makeSnapshot(model, HierarchyKind::kNone);
-  const auto path = crossingPath(0.08, 0.3);
+  auto path = crossingPath(0.11, 0.3);
+  path.resize(1500);
   std::vector<Vec3> first, second, third;
   runTrace(*tree, {}, path, [&](const TraceRow& row) { first.push_back(row.force); });
   runTrace(*tree, {}, path, [&](const TraceRow& row) { second.push_back(row.force); });
