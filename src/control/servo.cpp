@@ -54,11 +54,6 @@ void updateVelocity(ServoState& state, const DeviceSample& sample) {
   state.has_last = true;
 }
 
-Vec3 limited(const Vec3& v, double limit) {
-  const double length = v.norm();
-  return length > limit ? Vec3(v * (limit / length)) : v;
-}
-
 // The spring and damper, or zero when the target cannot be trusted.
 Vec3 wantedForce(const ServoState& state, const ServoSettings& settings, const ServoTarget& target,
                  const DeviceSample& sample) {
@@ -103,6 +98,8 @@ ServoSettings ServoSettings::of(const DeviceInfo& info) {
 }
 
 void arm(ServoState& state) {
+  // Armed already: starting again from zero would drop the force at once, beyond the limit of its rate.
+  if (state.safety == SafetyState::kArming || state.safety == SafetyState::kOn) return;
   state = ServoState{};
   state.safety = SafetyState::kArming;
 }

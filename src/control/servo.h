@@ -71,7 +71,7 @@ struct ServoOutput {
   FaultReason fault = FaultReason::kNone;
 };
 
-/// Leaves off or fault; force starts from zero. RT-safe.
+/// Leaves off or fault; force starts from zero. Does nothing when armed already. RT-safe.
 void arm(ServoState& state);
 /// Zero force from the next step on. RT-safe.
 void disarm(ServoState& state);

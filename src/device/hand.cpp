@@ -8,11 +8,6 @@ constexpr double kWishRate_1_s = 25;    // of the critically damped filter: a re
 constexpr double kWishSpeed_m_s = 0.3;  // an unhurried hand
 constexpr double kWishAcceleration_m_s2 = 8;
 
-Vec3 limited(const Vec3& v, double limit) {
-  const double length = v.norm();
-  return length > limit ? Vec3(v * (limit / length)) : v;
-}
-
 }  // namespace
 
 void stepWish(HandState& hand, const Vec3& goal, double dt_s) {

@@ -209,6 +209,14 @@ TEST(Servo, MillionStepsOfAnythingKeepForceAndItsRateWithinLimits) {
   EXPECT_GT(forced, 10'000);
 }
 
+TEST(Servo, ArmingAgainWhileOnChangesNothing) {
+  Bench bench = Bench::on();
+  const Vec3 before = bench.step({0.001, 0, 0}, Vec3::Zero()).force_N;
+  arm(bench.state);
+  EXPECT_EQ(bench.state.safety, SafetyState::kOn);
+  EXPECT_EQ(bench.state.force_N, before);
+}
+
 TEST(Servo, StepDoesNotAllocate) {
   Bench bench = Bench::on();
   const NoAlloc guard;
