@@ -1,26 +1,20 @@
 // Finger paths and traces: what is accepted, what is refused and how, and that no digit is lost.
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "base/error.h"
 #include "io/csv_path.h"
 #include "io/trace_csv.h"
+#include "temp_folder.h"
 
 namespace hl {
 namespace {
 
-std::string fileWith(const std::string& content) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "hl_path.csv";
-  std::ofstream(path, std::ios::binary) << content;
-  return path.string();
-}
-
 std::string refusalOf(const std::string& content) {
   try {
-    readPath(fileWith(content));
+    readPath(test::fileWith("path.csv", content));
   } catch (const Error& error) {
     return error.what();
   }
@@ -28,7 +22,7 @@ std::string refusalOf(const std::string& content) {
 }
 
 TEST(CsvPath, ReadsRowsWithAnyLineEndAndSpaces) {
-  const auto path = readPath(fileWith("t,x,y,z\r\n0,1,2,3\r\n 0.5 , -1e-3,+2, 4 \n\n1,0,0,0"));
+  const auto path = readPath(test::fileWith("path.csv", "t,x,y,z\r\n0,1,2,3\r\n 0.5 , -1e-3,+2, 4 \n\n1,0,0,0"));
   ASSERT_EQ(path.size(), 3u);
   EXPECT_EQ(path[1].t, 0.5);
   EXPECT_EQ(path[1].position, Vec3(-1e-3, 2, 4));
@@ -48,7 +42,7 @@ TEST(CsvPath, RefusesWithTheLineNumber) {
 }
 
 TEST(TraceCsv, HasTheColumnsOfTheContractAndEveryDigit) {
-  const auto name = (std::filesystem::path(testing::TempDir()) / "hl_out.csv").string();
+  const std::string name = test::tempFile("out.csv");
   TraceWriter writer(name);
   TraceRow row;
   row.t = 0.1;

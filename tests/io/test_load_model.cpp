@@ -14,17 +14,13 @@
 #include "base/error.h"
 #include "io/isolated.h"
 #include "scene/snapshot.h"
+#include "temp_folder.h"
 
 namespace hl {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string fileWith(const std::string& name, const std::string& content) {
-  const auto path = fs::path(testing::TempDir()) / name;
-  std::ofstream(path, std::ios::binary) << content;
-  return path.string();
-}
+using test::fileWith;
 
 std::string refusalOf(const std::string& path) {
   try {
@@ -112,7 +108,7 @@ TEST(LoadModel, Vrml1) {
 }
 
 TEST(LoadModel, RefusalsAreOneLineThatNamesTheFile) {
-  const std::string folder = testing::TempDir();
+  const std::string folder = test::tempFolder().string();
   for (const std::string& path :
        {std::string("/nonexistent/a.obj"), folder, fileWith("empty.obj", ""), fileWith("junk.obj", "hello\n"),
         fileWith("noext", "x"), fileWith("strange.xyzzy", "x"), fileWith("junk.glb", "glTFjunkjunkjunk"),

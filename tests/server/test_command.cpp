@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <string>
+
+#include "temp_folder.h"
 
 namespace {
 
@@ -25,12 +26,6 @@ Result call(const std::string& arguments) {
   return result;
 }
 
-std::string fileWith(const std::string& name, const std::string& content) {
-  const auto path = std::filesystem::path(testing::TempDir()) / name;
-  std::ofstream(path, std::ios::binary) << content;
-  return path.string();
-}
-
 TEST(Command, HelpForEachCommand) {
   for (const char* command : {"", "touch", "trace", "info", "doctor", "bench"}) {
     const Result result = call(std::string(command) + " --help");
@@ -40,9 +35,9 @@ TEST(Command, HelpForEachCommand) {
 }
 
 TEST(Command, BadInputIsOneLineAndExitCodeTwo) {
-  const std::string path = fileWith("hl_cmd_path.csv", "t,x,y,z\n0,0,0,0.2\n0.001,0,0,0.1\n");
-  const std::string bad = fileWith("hl_cmd_bad.csv", "t,x,y,z\n0,0,nan,0.2\n");
-  const std::string out = (std::filesystem::path(testing::TempDir()) / "hl_cmd_out.csv").string();
+  const std::string path = hl::test::fileWith("hl_cmd_path.csv", "t,x,y,z\n0,0,0,0.2\n0.001,0,0,0.1\n");
+  const std::string bad = hl::test::fileWith("hl_cmd_bad.csv", "t,x,y,z\n0,0,nan,0.2\n");
+  const std::string out = hl::test::tempFile("hl_cmd_out.csv");
   for (const std::string& arguments :
        {std::string(""), std::string("fly"), std::string("info"), std::string("info nosuch"),
         std::string("info /nonexistent.obj"), "trace teapot --path " + bad + " --out " + out,
@@ -61,8 +56,8 @@ TEST(Command, BadInputIsOneLineAndExitCodeTwo) {
 }
 
 TEST(Command, TraceWritesOneRowForEachRow) {
-  const std::string path = fileWith("hl_cmd_path2.csv", "t,x,y,z\n0,0,0.2,0\n0.001,0,0.1,0\n0.002,0,0,0\n");
-  const std::string out = (std::filesystem::path(testing::TempDir()) / "hl_cmd_out2.csv").string();
+  const std::string path = hl::test::fileWith("hl_cmd_path2.csv", "t,x,y,z\n0,0,0.2,0\n0.001,0,0.1,0\n0.002,0,0,0\n");
+  const std::string out = hl::test::tempFile("hl_cmd_out2.csv");
   for (const char* hierarchy : {"spheres", "none"}) {
     const Result result =
         call("trace sphere:2000 --hierarchy " + std::string(hierarchy) + " --path " + path + " --out " + out);

@@ -5,11 +5,13 @@
 #include <filesystem>
 #include <fstream>
 
+#include "temp_folder.h"
+
 namespace hl {
 namespace {
 
 TEST(StaticFiles, ServesTheFolderAndNothingElse) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "hl_pages";
+  const auto folder = test::tempFolder() / "hl_pages";
   std::filesystem::create_directories(folder / "assets");
   std::ofstream(folder / "index.html") << "page";
   std::ofstream(folder / "assets" / "a.js") << "code";
