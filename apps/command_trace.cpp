@@ -15,6 +15,16 @@ struct TraceOptions {
   TraceSettings settings;
 };
 
+void printLedger(const Ledger& ledger) {
+  fmt::print(stderr, "energy: {:.6g} mJ injected, {:.6g} mJ dissipated", 1e3 * ledger.injected_J,
+             1e3 * ledger.dissipated_J);
+  for (std::size_t i = 0; i < kEnergyCauses; ++i) {
+    if (ledger.by_cause_J[i] > 0)
+      fmt::print(stderr, "; {} {:.6g} mJ", kEnergyCauseNames[i], 1e3 * ledger.by_cause_J[i]);
+  }
+  fmt::print(stderr, "\n");
+}
+
 void run(const TraceOptions& options) {
   const std::vector<PathSample> path = readPath(options.path);
   const auto snapshot = loadSnapshot(options.scene);
@@ -24,6 +34,7 @@ void run(const TraceOptions& options) {
   writer.close();
   fmt::print(stderr, "{} ticks, {} in contact, {} stopped at the iteration cap\n", totals.ticks, totals.contacts,
              totals.capped);
+  printLedger(totals.ledger);
 }
 
 }  // namespace
@@ -39,14 +50,10 @@ void addTraceCommand(CLI::App& app) {
   command->add_option("--radius", options->settings.proxy.radius, "proxy radius in metres")
       ->check(positive)
       ->capture_default_str();
-  command->add_option("--kp", options->settings.stiffness_N_m, "spring of the servo in N/m")
+  command->add_option("--kp", options->settings.proxy.spring_N_m, "spring of the servo in N/m")
       ->check(positive)
       ->capture_default_str();
-  command
-      ->add_option("--stiffness", options->settings.surface,
-                   "surface stiffness 0..1: target = finger + s (proxy - finger)")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
+  addSurfaceOptions(*command, options->settings.proxy);
   addSizeOptions(*command, options->scene);
   addHierarchyOption(*command, options->scene);
   command->callback([options] { run(*options); });

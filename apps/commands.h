@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "proxy/proxy.h"
 #include "scene/snapshot.h"
 
 namespace hl {
@@ -27,10 +28,15 @@ void addSceneArgument(CLI::App& command, SceneOptions& options, bool required);
 void addHierarchyOption(CLI::App& command, SceneOptions& options);
 void addSizeOptions(CLI::App& command, SceneOptions& options);
 
+/// Options of the surfaces, over what the scene says: --shade, --stiffness, frictions, --viscosity, --textures,
+/// --ledger.
+void addSurfaceOptions(CLI::App& command, ProxySettings& settings);
+
 /// Loads, scales and builds; progress of long loads and warnings go to stderr. Throws hl::Error.
 std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options);
 
-/// CLI check: a finite number above zero.
+/// CLI checks: a finite number above zero, or of zero or more.
 std::string checkPositive(const std::string& text);
+std::string checkNotNegative(const std::string& text);
 
 }  // namespace hl

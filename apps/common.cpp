@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "base/error.h"
@@ -49,6 +50,43 @@ void addSizeOptions(CLI::App& command, SceneOptions& options) {
       ->excludes(scale);
 }
 
+void addSurfaceOptions(CLI::App& command, ProxySettings& settings) {
+  MaterialOverride& surfaces = settings.surfaces;
+  const CLI::Validator friction(checkNotNegative, "NOT NEGATIVE");
+  const std::map<std::string, bool> shades{{"flat", false}, {"smooth", true}};
+  const std::map<std::string, ShadingPasses> passes{{"converged", ShadingPasses::kConverged},
+                                                    {"once", ShadingPasses::kOnce}};
+  const std::map<std::string, bool> switches{{"on", true}, {"off", false}};
+  const std::map<std::string, LedgerMode> ledgers{
+      {"tank", LedgerMode::kTank}, {"strict", LedgerMode::kStrict}, {"report", LedgerMode::kReport}};
+  command.add_option("--shade", surfaces.smooth, "flat: true facets; smooth: forces along interpolated vertex normals")
+      ->transform(CLI::Transformer(shades))
+      ->option_text("flat|smooth (default: the scene's; flat for model files)");
+  command.add_option("--shading-passes", settings.shading, "how often the two passes of shading run in one tick")
+      ->transform(CLI::Transformer(passes))
+      ->option_text("converged|once (default: converged)");
+  command.add_option("--stiffness", surfaces.stiffness, "surface stiffness: target = finger + s (proxy - finger)")
+      ->check(CLI::Range(0.0, 1.0))
+      ->option_text("0..1 (default: the scene's; 1 for model files)");
+  command.add_option("--static-friction", surfaces.static_friction, "mu_s; below mu_d it counts as mu_d")
+      ->check(friction)
+      ->option_text("MU (default: the scene's; 0 for model files)");
+  command.add_option("--dynamic-friction", surfaces.dynamic_friction, "mu_d")
+      ->check(friction)
+      ->option_text("MU (default: the scene's; 0 for model files)");
+  command.add_option("--viscosity", surfaces.viscosity_Ns_m, "drag of the surface per speed of the proxy")
+      ->check(friction)
+      ->option_text("N.s/m (default: the scene's; 0 for model files)");
+  command.add_option("--textures", surfaces.textures, "read the scene's textures, or leave them out")
+      ->transform(CLI::Transformer(switches))
+      ->option_text("on|off (default: on)");
+  command
+      .add_option("--ledger", settings.ledger,
+                  "energy that the surfaces may add: from a tank of 10 mJ, none, or any, counted")
+      ->transform(CLI::Transformer(ledgers))
+      ->option_text("tank|strict|report (default: tank)");
+}
+
 std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options) {
   LoadOptions load;
   load.progress = showProgress;
@@ -60,6 +98,13 @@ std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options) {
   for (const std::string& warning : snapshot->warnings) fmt::print(stderr, "{}: {}\n", options.scene, warning);
   if (snapshot->primitives.empty()) throw Error(options.scene + ": nothing in it can be touched");
   return snapshot;
+}
+
+std::string checkNotNegative(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool good = error == std::errc() && end == text.data() + text.size() && std::isfinite(value) && value >= 0;
+  return good ? std::string() : "'" + text + "' is not a number of zero or more";
 }
 
 std::string checkPositive(const std::string& text) {

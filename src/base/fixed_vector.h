@@ -1,19 +1,32 @@
-// FixedVector: a vector with room for N elements inside itself; it never allocates.
+// FixedVector: a vector with room for N elements inside itself; it never allocates, and an empty one costs nothing.
 #pragma once
 
-#include <array>
 #include <cassert>
 #include <cstddef>
+#include <memory>
+#include <type_traits>
 
 namespace hl {
 
 /// RT-safe. push() returns false, and stores nothing, when full.
 template <typename T, std::size_t N>
 class FixedVector {
+  static_assert(std::is_trivially_destructible_v<T>, "elements are dropped without a destructor");
+
  public:
+  // The room is left uninitialised: for hundreds of elements, clearing it would cost more than a tick's work.
+  FixedVector() {}  // NOLINT: = default would be deleted by the union
+  FixedVector(const FixedVector& other) { *this = other; }
+  FixedVector& operator=(const FixedVector& other) {
+    if (this != &other) std::uninitialized_copy(other.begin(), other.end(), items_);
+    size_ = other.size_;
+    return *this;
+  }
+
   bool push(const T& value) {
     if (size_ == N) return false;
-    items_[size_++] = value;
+    std::construct_at(items_ + size_, value);
+    ++size_;
     return true;
   }
   void clear() { size_ = 0; }
@@ -26,13 +39,15 @@ class FixedVector {
   static constexpr std::size_t capacity() { return N; }
   T& operator[](std::size_t i) { return items_[i]; }
   const T& operator[](std::size_t i) const { return items_[i]; }
-  T* begin() { return items_.data(); }
-  T* end() { return items_.data() + size_; }
-  const T* begin() const { return items_.data(); }
-  const T* end() const { return items_.data() + size_; }
+  T* begin() { return items_; }
+  T* end() { return items_ + size_; }
+  const T* begin() const { return items_; }
+  const T* end() const { return items_ + size_; }
 
  private:
-  std::array<T, N> items_{};
+  union {
+    T items_[N];
+  };
   std::size_t size_ = 0;
 };
 

@@ -17,14 +17,6 @@ int compareVertices(const Primitive& a, const Primitive& b) {
   return 0;
 }
 
-// Whether a wins a tie against b. Equal vertices: the copies are told apart by where they came from.
-bool winsTie(const Primitive& a, const Primitive& b) {
-  const int order = compareVertices(a, b);
-  if (order != 0) return order < 0;
-  if (a.kind != b.kind) return a.kind < b.kind;
-  return a.source < b.source;
-}
-
 // The last few primitives looked at: an index that covers a primitive with many leaves proposes it many times in a row.
 class RecentlySeen {
  public:
@@ -42,6 +34,13 @@ class RecentlySeen {
 
 }  // namespace
 
+bool precedes(const Primitive& a, const Primitive& b) {
+  const int order = compareVertices(a, b);
+  if (order != 0) return order < 0;
+  if (a.kind != b.kind) return a.kind < b.kind;
+  return a.source < b.source;
+}
+
 bool firstImpact(const SpatialIndex& index, std::span<const Primitive> primitives, const Vec3& from, const Vec3& motion,
                  double radius, double touching, FirstImpact& out) {
   bool found = false;
@@ -53,7 +52,7 @@ bool firstImpact(const SpatialIndex& index, std::span<const Primitive> primitive
     if (!sweepSphere(primitive, from, motion, radius, impact)) return limit;
     if (found) {
       if (impact.t > out.impact.t) return limit;
-      if (impact.t == out.impact.t && !winsTie(primitive, primitives[out.primitive])) return limit;
+      if (impact.t == out.impact.t && !precedes(primitive, primitives[out.primitive])) return limit;
     }
     if (touching > 0 && closestPoint(primitive, from).distance <= touching) return limit;
     found = true;

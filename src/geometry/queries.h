@@ -17,6 +17,10 @@ struct FirstImpact {
   std::uint32_t primitive = 0;
 };
 
+/// Whether `a` comes before `b`: by their vertices, lexicographically; copies are told apart by where they came from.
+/// The order in which primitives were given decides nothing. RT-safe.
+bool precedes(const Primitive& a, const Primitive& b);
+
 /// First impact of a sphere of `radius` moving from `from` by `motion`, over all primitives but those whose
 /// closestPoint(from).distance <= `touching` (m): they are the caller's contacts; pass 0 or less to skip none. The
 /// result does not depend on the index or on the order of the primitives: equal times are decided by the vertices,

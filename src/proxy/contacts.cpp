@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "geometry/queries.h"
 
@@ -33,13 +34,24 @@ Vec3 edgeDirection(const Primitive& primitive, Feature feature) {
 void gatherContacts(const Snapshot& snapshot, const Vec3& centre, double distance, double reach, ContactSet& set) {
   set.contacts.clear();
   set.planes.clear();
+  set.twins.clear();
   set.overflow = false;
   const auto add = [&](std::uint32_t primitive, const ClosestPoint& closest) {
-    const Contact contact{
-        {closest.normal, reach - closest.distance}, closest.point, closest.distance, closest.feature, primitive};
+    Contact contact{{closest.normal, reach - closest.distance},
+                    closest.point,
+                    closest.distance,
+                    closest.feature,
+                    primitive,
+                    closest.weights};
     const auto same = [&](const Contact& other) { return samePlane(contact, other); };
-    const auto* twin = std::find_if(set.contacts.begin(), set.contacts.end(), same);
-    if (twin == set.contacts.end()) set.overflow |= !set.contacts.push(contact);
+    auto* twin = std::find_if(set.contacts.begin(), set.contacts.end(), same);
+    if (twin == set.contacts.end()) {
+      set.overflow |= !set.contacts.push(contact);
+      return;
+    }
+    if (twin->primitive == primitive) return;  // the index may offer a primitive twice
+    if (precedes(snapshot.primitives[primitive], snapshot.primitives[twin->primitive])) std::swap(*twin, contact);
+    set.twins.push(contact);
   };
   primitivesWithin(*snapshot.index, snapshot.primitives, centre, distance, add);
   std::sort(set.contacts.begin(), set.contacts.end(),

@@ -1,6 +1,7 @@
 // Contacts: the primitives that touch the proxy, as planes of configuration space, in an order given by geometry alone.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -20,6 +21,7 @@ struct Contact {
   double distance = 0;        ///< m, from the proxy's centre
   Feature feature = Feature::kFace;
   std::uint32_t primitive = 0;
+  std::array<double, 3> weights{1, 0, 0};  ///< of `point` in the primitive's sorted vertices
 };
 
 /// Room for contacts of one place. Coincident ones count once, so this many *different* planes within the skin.
@@ -28,11 +30,15 @@ inline constexpr std::size_t kMaxContacts = 256;
 struct ContactSet {
   FixedVector<Contact, kMaxContacts> contacts;
   FixedVector<Plane, kMaxContacts> planes;  ///< contacts[i].plane, for the solver
+  /// Primitives that share the edge or vertex of a contact and with it the plane, bit by bit. Room for as many; more
+  /// are left out.
+  FixedVector<Contact, kMaxContacts> twins;
   bool overflow = false;
 };
 
 /// All primitives within `distance` of `centre`, as planes that hold the centre `reach` away from them.
-/// Sorted by plane; of bitwise equal planes one is kept. RT-safe.
+/// Sorted by plane; of bitwise equal planes the primitive that precedes() is the contact, the others are twins.
+/// RT-safe.
 void gatherContacts(const Snapshot& snapshot, const Vec3& centre, double distance, double reach, ContactSet& set);
 
 /// Lets every plane pass through the centre at least: used when the exact offsets contradict each other by rounding.

@@ -3,40 +3,59 @@
 #include <algorithm>
 
 #include "geometry/queries.h"
+#include "proxy/account.h"
 #include "proxy/contacts.h"
 #include "proxy/curvature_step.h"
+#include "proxy/effects.h"
 #include "proxy/tolerances.h"
 
 namespace hl {
 
 namespace {
 
-// One tick's work. Kept apart from ProxyState so that a tick leaves nothing behind but the position.
+// Passes in contact under shading or friction. What is left to slip after so many is slipped in the next tick.
+constexpr int kEffectPasses = 48;
+
+// One tick's work. Kept apart from ProxyState so that a tick leaves nothing behind but what its end says.
 class Tick {
  public:
-  Tick(const Snapshot& snapshot, const ProxySettings& settings, const Vec3& finger)
+  Tick(const Snapshot& snapshot, const ProxySettings& settings, ProxyState& state, const Vec3& finger)
       : snapshot_(snapshot),
+        settings_(settings),
         tolerance_(Tolerances::of(settings.radius, snapshot.extent)),
         finger_(finger),
-        cap_(settings.iteration_cap) {}
+        goal_(finger),
+        state_(state),
+        account_(state, settings, finger),
+        effects_(snapshot, settings, tolerance_, state.touching && state.rest_s < kStuck_s) {}
 
-  TickReport run(Vec3& position);
+  TickReport run();
 
  private:
-  SolverResult subGoal(const Vec3& position);
-  bool atRest(const Vec3& gap, const Vec3& step) const {
-    return step.norm() <= kRestPerGap * gap.norm() + tolerance_.rest;
+  SubGoal subGoal();
+  SubGoal plainSubGoal();
+  SubGoal effectSubGoal();
+  bool atRest(const Vec3& step) const {
+    return step.norm() <= kRestPerGap * (goal_ - state_.position).norm() + tolerance_.rest;
   }
   bool sweep(Vec3& position, const Vec3& step) const;
-  bool tryCurvatureStep(Vec3& position, const SolverResult& sub_goal);
-  void restoreIfWorse(Vec3& position);
-  void report(const SolverResult& sub_goal, TickReport& report) const;
+  void advance(const SubGoal& sub_goal);
+  bool tryCurvatureStep(const SubGoal& sub_goal);
+  bool restoreIfWorse();
+  void finish(const SubGoal& sub_goal, TickReport& report);
 
   const Snapshot& snapshot_;
+  const ProxySettings& settings_;
   const Tolerances tolerance_;
   const Vec3 finger_;
-  const int cap_;
+  Vec3 goal_;  // the finger; after the passes of this tick, where they want the proxy
+  ProxyState& state_;
+  Account account_;
+  Effects effects_;
   ContactSet set_;
+  bool felt_ = false;   // the sub-goal in hand is under the rules of the surfaces
+  bool spent_ = false;  // the energy that the tick may add has been used up
+  int effect_passes_ = 0;
 
   // A curvature step leaves the surface for a moment: until it has paid off, this is where to return to.
   bool pending_ = false;
@@ -46,18 +65,41 @@ class Tick {
   int plain_left_ = 0;
 };
 
-// The paper's sub-goal: the step toward the point nearest the finger above all contact planes.
-SolverResult Tick::subGoal(const Vec3& position) {
-  gatherContacts(snapshot_, position, tolerance_.touching, tolerance_.reach, set_);
-  const Vec3 gap = finger_ - position;
+// The paper's sub-goal: the step toward the point nearest the goal above all contact planes.
+SubGoal Tick::plainSubGoal() {
+  const Vec3 gap = goal_ - state_.position;
   const std::span<const Plane> planes(set_.planes.begin(), set_.planes.size());
-  SolverResult result = nearestAbove(planes, gap, tolerance_.feasible);
-  if (result.violation > tolerance_.feasible) {
+  SubGoal result;
+  result.solution = nearestAbove(planes, gap, tolerance_.feasible);
+  if (result.solution.violation > tolerance_.feasible) {
     relaxToCentre(set_);
-    result = nearestAbove(planes, gap, tolerance_.feasible);
+    result.solution = nearestAbove(planes, gap, tolerance_.feasible);
     // Held from all sides closer than rounding can tell: stay.
-    if (result.violation > tolerance_.feasible) result.point = Vec3::Zero();
+    if (result.solution.violation > tolerance_.feasible) result.solution.point = Vec3::Zero();
   }
+  result.step = result.solution.point;
+  for (std::size_t i = 0; i < result.solution.active_count; ++i) {
+    result.normals.push(set_.planes[result.solution.active[i]].normal);
+  }
+  return result;
+}
+
+SubGoal Tick::effectSubGoal() {
+  ++effect_passes_;
+  SubGoal result = effects_.subGoal(set_, state_.position, finger_ - state_.position);
+  if (effect_passes_ > kEffectPasses) result.step = Vec3::Zero();
+  if (result.bent && settings_.shading == ShadingPasses::kOnce) goal_ = state_.position + result.step;
+  return result;
+}
+
+SubGoal Tick::subGoal() {
+  gatherContacts(snapshot_, state_.position, tolerance_.touching, tolerance_.reach, set_);
+  // The once-a-tick goal has been reached, or left behind over an edge: down to the surface, and no farther.
+  const bool passes_done = goal_ != finger_;
+  if (passes_done && set_.contacts.empty()) goal_ = finger_;
+  felt_ = !passes_done && effects_.any(set_);
+  SubGoal result = felt_ ? effectSubGoal() : plainSubGoal();
+  if (spent_ && !set_.contacts.empty()) result.step = Vec3::Zero();
   return result;
 }
 
@@ -79,63 +121,81 @@ bool Tick::sweep(Vec3& position, const Vec3& step) const {
 
 // On a rounded edge or corner the tangent planes alone converge slowly; Newton's step uses the curvature
 // (curvature_step.h).
-bool Tick::tryCurvatureStep(Vec3& position, const SolverResult& sub_goal) {
-  if (pending_ || sub_goal.active_count == 0) return false;
+bool Tick::tryCurvatureStep(const SubGoal& sub_goal) {
+  if (felt_ || pending_ || sub_goal.solution.active_count == 0) return false;
   if (plain_left_ > 0) {
     --plain_left_;
     return false;
   }
   Vec3 step;
-  if (!curvatureStep(set_, snapshot_.primitives, sub_goal, tolerance_.reach, step)) return false;
-  Vec3 there = position;
+  if (!curvatureStep(set_, snapshot_.primitives, sub_goal.solution, tolerance_.reach, step)) return false;
+  Vec3 there = state_.position;
   if (!sweep(there, step)) return false;
   pending_ = true;
-  checkpoint_ = position;
-  position = there;
+  checkpoint_ = state_.position;
+  state_.position = there;
   return true;
 }
 
 // Called with the proxy on the surface again, or at the end: a curvature step that did not bring it nearer is undone.
-void Tick::restoreIfWorse(Vec3& position) {
-  if (!pending_) return;
+// Returns whether it was.
+bool Tick::restoreIfWorse() {
+  if (!pending_) return false;
   pending_ = false;
-  if ((finger_ - position).squaredNorm() < (finger_ - checkpoint_).squaredNorm()) return;
-  position = checkpoint_;
+  if ((goal_ - state_.position).squaredNorm() < (goal_ - checkpoint_).squaredNorm()) return false;
+  const bool moved = state_.position != checkpoint_;
+  state_.position = checkpoint_;
   refusals_ = std::min(refusals_ + 1, 10);
   plain_left_ = 1 << refusals_;
+  return moved;
 }
 
-void Tick::report(const SolverResult& sub_goal, TickReport& report) const {
-  for (std::size_t i = 0; i < sub_goal.active_count; ++i) {
-    const Contact& contact = set_.contacts[sub_goal.active[i]];
-    report.contacts.push({contact.point, contact.plane.normal, sub_goal.multiplier[i], contact.primitive});
+// One step of the proxy, as far as the way is free and the energy reaches.
+void Tick::advance(const SubGoal& sub_goal) {
+  const Vec3 from = state_.position;
+  const bool free = set_.contacts.empty();
+  Vec3 step = sub_goal.step;
+  if (sub_goal.bent || goal_ != finger_) {
+    const double part = account_.affordable(from, step);
+    spent_ = part < 1;
+    step *= part;
   }
+  const bool whole = sweep(state_.position, step);
+  // In the open and unhindered the proxy *is* the finger, to the bit.
+  if (whole && free && goal_ == finger_) state_.position = finger_;
+  if (felt_) effects_.slipped(sub_goal, (state_.position - from).norm());
 }
 
-TickReport Tick::run(Vec3& position) {
-  TickReport result;
+void Tick::finish(const SubGoal& last, TickReport& report) {
+  // The passes were once a tick: what holds the proxy where it has come to rest.
+  const bool again = goal_ != finger_ && !set_.contacts.empty();
+  const SubGoal sub_goal = again ? effects_.subGoal(set_, state_.position, finger_ - state_.position) : last;
+  for (std::size_t i = 0; i < sub_goal.solution.active_count; ++i) {
+    report.contacts.push(effects_.describe(set_, sub_goal, i));
+  }
+  bool stiffness_textured = false;
+  for (const ProxyContact& contact : report.contacts) {
+    stiffness_textured |= effects_.stiffnessTextured(contact.primitive);
+  }
+  state_.rest_s = effects_.hasSlipped() ? 0 : std::min(state_.rest_s + settings_.period_s, kStuck_s);
+  account_.close(state_, {sub_goal.shading_rad, sub_goal.bump_rad, stiffness_textured}, report);
+}
+
+TickReport Tick::run() {
+  TickReport report;
+  SubGoal sub_goal;
   while (true) {
-    SolverResult sub_goal = subGoal(position);
-    if (pending_ && !set_.contacts.empty()) {
-      const Vec3 before = position;
-      restoreIfWorse(position);
-      if (position != before) sub_goal = subGoal(position);
-    }
-    const bool at_rest = atRest(finger_ - position, sub_goal.point);
-    result.capped = !at_rest && (result.iterations >= cap_ || set_.overflow);
-    if (at_rest || result.capped) {
-      report(sub_goal, result);
-      break;
-    }
-    ++result.iterations;
-    if (!tryCurvatureStep(position, sub_goal)) {
-      const bool free = set_.contacts.empty();
-      // In the open and unhindered the proxy *is* the finger, to the bit.
-      if (sweep(position, sub_goal.point) && free) position = finger_;
-    }
+    sub_goal = subGoal();
+    if (pending_ && !set_.contacts.empty() && restoreIfWorse()) sub_goal = subGoal();
+    const bool at_rest = atRest(sub_goal.step);
+    report.capped = !at_rest && (report.iterations >= settings_.iteration_cap || set_.overflow);
+    if (at_rest || report.capped) break;
+    ++report.iterations;
+    if (!tryCurvatureStep(sub_goal)) advance(sub_goal);
   }
-  restoreIfWorse(position);
-  return result;
+  restoreIfWorse();
+  finish(sub_goal, report);
+  return report;
 }
 
 // Pushes a sphere that starts within the scene out of it. Its centre never crosses a surface: each step is swept by the
@@ -175,14 +235,16 @@ TickReport tick(ProxyState& state, const Snapshot& snapshot, const ProxySettings
   TickReport report;
   if (!finger.allFinite()) {
     report.valid = false;
+    report.target = state.position;
     return report;
   }
   if (!state.free) state = startProxy(snapshot, settings, finger);
   if (!state.free) {
     report.capped = true;
+    report.target = finger;
     return report;
   }
-  return Tick(snapshot, settings, finger).run(state.position);
+  return Tick(snapshot, settings, state, finger).run();
 }
 
 }  // namespace hl

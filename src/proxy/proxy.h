@@ -12,31 +12,56 @@
 
 #include "base/fixed_vector.h"
 #include "base/vec.h"
+#include "proxy/ledger.h"
 #include "scene/snapshot.h"
 
 namespace hl {
 
-struct ProxySettings {
-  double radius = 0.001;     ///< m, > 0
-  int iteration_cap = 1000;  ///< a tick that needs more stops where it is, at a valid position
+/// How often the two passes of force shading run.
+enum class ShadingPasses : std::uint8_t {
+  kConverged,  ///< to the fixed point: finger - proxy along the shaded normal where the proxy is
+  kOnce,       ///< once a tick, as the paper does; the fixed point is approached over the next ticks
 };
 
-/// World frame.
+struct ProxySettings {
+  double radius = 0.001;        ///< m, > 0
+  int iteration_cap = 1000;     ///< a tick that needs more stops where it is, at a valid position
+  double spring_N_m = 1000;     ///< K of the servo, at the hand: scales viscosity and the ledger
+  double period_s = 1e-3;       ///< T, one tick: scales viscosity
+  double world_per_device = 1;  ///< metres of the scene for one of the hand: scales the ledger
+  ShadingPasses shading = ShadingPasses::kConverged;
+  LedgerMode ledger = LedgerMode::kTank;
+  MaterialOverride surfaces{};  ///< set by the user over what the scene says
+};
+
+/// A proxy that has rested so long is stuck. Shorter than that it still slides: the encoder of a slow finger stands
+/// still between two counts, 3 ms at 10 mm/s and 30 um.
+inline constexpr double kStuck_s = 0.020;
+
+/// World frame. Owned by the proxy loop.
 struct ProxyState {
   Vec3 position = Vec3::Zero();  ///< centre of the sphere
   bool free = false;             ///< false while no position clear of the scene has been found near the finger
+  bool touching = false;         ///< the last tick ended in contact
+  double rest_s = kStuck_s;      ///< since it last slipped along a surface; from kStuck_s on static friction holds it
+  double stiffness = 1;          ///< s by which the last tick's target was pulled; 1 in the open
+  Ledger ledger{};
 };
 
 /// A plane that holds the proxy at the end of a tick.
 struct ProxyContact {
   Vec3 point;           ///< on the surface, nearest the proxy
-  Vec3 normal;          ///< unit, from the surface to the proxy
+  Vec3 normal;          ///< unit, from the surface to the proxy, bent by shading and bump
   double multiplier_m;  ///< its share of proxy - finger: sum multiplier_m * normal; times K it is the normal force
   std::uint32_t primitive;
+  double stiffness;        ///< s of the surface here, 0..1
+  double static_friction;  ///< mu_s
 };
 
 struct TickReport {
   FixedVector<ProxyContact, 3> contacts;
+  Vec3 target = Vec3::Zero();  ///< where the servo pulls the finger: the proxy after stiffness
+  double injected_J = 0;       ///< what the tick did to the spring's energy: added (positive) or dissipated (negative)
   int iterations = 0;
   bool capped = false;  ///< the iteration cap or the room for contacts ended the tick before the local minimum
   bool valid = true;    ///< false when the finger was not finite; then nothing has moved
@@ -45,8 +70,8 @@ struct TickReport {
 /// A proxy at the finger or, when the finger touches the scene, at a clear place nearby. RT-safe.
 ProxyState startProxy(const Snapshot& snapshot, const ProxySettings& settings, const Vec3& finger);
 
-/// Moves the proxy toward the finger, to the local minimum of their distance. RT-safe.
-/// Afterwards |proxy - surface| >= radius, and |proxy - finger| is not larger than before.
+/// Moves the proxy toward the finger under the rules of the surfaces it touches, and accounts for the energy. RT-safe.
+/// Afterwards |proxy - surface| >= radius. Without shading and bump maps |proxy - finger| is not larger than before.
 TickReport tick(ProxyState& state, const Snapshot& snapshot, const ProxySettings& settings, const Vec3& finger);
 
 }  // namespace hl

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "scene/material.h"
+#include "scene/texture.h"
 
 namespace hl {
 
@@ -28,11 +30,14 @@ struct Box {
 struct Model {
   std::string name;
   std::vector<Vec3> positions;
-  std::vector<Vec3> normals;               ///< one per position, or empty; a zero vector means "none given"
-  std::vector<Eigen::Vector2d> texcoords;  ///< one per position, or empty
+  std::vector<Vec3> normals;    ///< one per position, or empty; a zero vector means "none given"
+  std::vector<Vec2> texcoords;  ///< one per position, or empty
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::array<std::uint32_t, 2>> segments;
   std::vector<std::uint32_t> points;
+  std::vector<Material> materials{Material{}};  ///< at least one; elements use number 0 unless told otherwise
+  std::vector<std::uint16_t> triangle_materials, segment_materials, point_materials;  ///< one per element, or empty
+  std::vector<Texture> textures;
   std::vector<std::string> warnings;  ///< what was skipped while reading, one line each, with counts
 
   Box bounds() const;  ///< of the vertices that an element uses

@@ -45,6 +45,21 @@ void warnSkipped(std::vector<std::string>& warnings, std::size_t count, const ch
   if (count > 0) warnings.push_back("skipped " + std::to_string(count) + " degenerate or non-finite " + what);
 }
 
+// The material of each primitive; empty when the model names none.
+std::vector<std::uint16_t> materialsOf(const Model& model, const std::vector<Primitive>& primitives) {
+  if (model.triangle_materials.empty() && model.segment_materials.empty() && model.point_materials.empty()) return {};
+  std::vector<std::uint16_t> result;
+  result.reserve(primitives.size());
+  for (const Primitive& primitive : primitives) {
+    const auto& list = primitive.kind == PrimitiveKind::kTriangle  ? model.triangle_materials
+                       : primitive.kind == PrimitiveKind::kSegment ? model.segment_materials
+                                                                   : model.point_materials;
+    const std::uint16_t material = primitive.source < list.size() ? list[primitive.source] : std::uint16_t{0};
+    result.push_back(material < model.materials.size() ? material : std::uint16_t{0});
+  }
+  return result;
+}
+
 }  // namespace
 
 std::shared_ptr<const Snapshot> makeSnapshot(Model model, HierarchyKind hierarchy) {
@@ -58,6 +73,7 @@ std::shared_ptr<const Snapshot> makeSnapshot(Model model, HierarchyKind hierarch
   for (const Primitive& primitive : primitives) {
     for (const Vec3& vertex : primitive.vertex) snapshot->bounds.extend(vertex);
   }
+  snapshot->material_of = materialsOf(model, primitives);
   if (!snapshot->bounds.empty()) {
     snapshot->extent = snapshot->bounds.min.cwiseAbs().cwiseMax(snapshot->bounds.max.cwiseAbs()).maxCoeff();
   }

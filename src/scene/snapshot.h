@@ -19,11 +19,16 @@ enum class HierarchyKind : std::uint8_t { kSpheres, kNone };
 struct Snapshot {
   Model model;
   std::vector<Primitive> primitives;
+  std::vector<std::uint16_t> material_of;  ///< one per primitive, or empty: all use material 0
   std::unique_ptr<const SpatialIndex> index;
   Box bounds;
   /// m: largest coordinate; distances in this scene are known to a few units in its last place.
   double extent = 0;
   std::vector<std::string> warnings;  ///< the model's, and what was skipped here
+
+  const Material& materialOf(std::uint32_t primitive) const {
+    return model.materials[material_of.empty() ? 0 : material_of[primitive]];
+  }
 };
 
 /// Takes over `model`. Degenerate and non-finite elements, and indices out of range, are skipped and counted in

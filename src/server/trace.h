@@ -13,15 +13,14 @@
 namespace hl {
 
 struct TraceSettings {
-  ProxySettings proxy;
-  double stiffness_N_m = 1000;  ///< K of the servo spring
-  double surface = 1;           ///< s in 0..1: target = finger + s (proxy - finger)
+  ProxySettings proxy;  ///< the period is taken from the path, row by row
 };
 
 struct TraceTotals {
   std::uint64_t ticks = 0;
   std::uint64_t capped = 0;    ///< ticks that hit the iteration cap
   std::uint64_t contacts = 0;  ///< ticks that ended in contact
+  Ledger ledger;               ///< of the whole trace
 };
 
 /// One tick per sample; the proxy starts at the first one. Calls `row` with each result in order.

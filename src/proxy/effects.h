@@ -1,0 +1,73 @@
+// Effects: what surfaces do to the proxy's way. Each is only a rule for where the next sub-goal is (the paper's
+// sections 4 and 5):
+//
+//   shading, bump   pass 1 solves with the planes bent, pass 2 takes the result as the goal above the true planes
+//   friction        the sub-goal of pass 1 is pulled back toward where the proxy is
+//   stiffness       the proxy stays; the target moves from it toward the finger
+// Frames: world; "offset" is relative to the proxy at the start of the sub-goal.
+#pragma once
+
+#include "base/vec.h"
+#include "proxy/contacts.h"
+#include "proxy/friction.h"
+#include "proxy/proxy.h"
+#include "proxy/solver.h"
+#include "proxy/surface.h"
+#include "proxy/tolerances.h"
+
+namespace hl {
+
+/// The next step of the proxy and what it rests on.
+struct SubGoal {
+  Vec3 step = Vec3::Zero();
+  SolverResult solution;                 ///< with the planes that held: bent ones where surfaces bend
+  FixedVector<Vec3, 3> normals;          ///< of the active planes
+  double shading_rad = 0, bump_rad = 0;  ///< the largest bends among the active planes
+  double viscous = 0;                    ///< pull that viscosity uses for each metre of the step
+  bool bent = false;                     ///< the step is not plain descent: it may raise the spring's energy
+};
+
+class Effects {
+ public:
+  Effects(const Snapshot& snapshot, const ProxySettings& settings, const Tolerances& tolerance, bool slipping)
+      : reader_(snapshot, settings.surfaces),
+        snapshot_(snapshot),
+        settings_(settings),
+        tolerance_(tolerance),
+        slipping_(slipping) {}
+
+  /// Whether a surface in contact does anything beyond holding the proxy off.
+  bool any(const ContactSet& set) const;
+
+  /// The step toward the finger, `gap` away from the proxy, under the rules of the surfaces in contact.
+  SubGoal subGoal(const ContactSet& set, const Vec3& position, const Vec3& gap) const;
+
+  /// The proxy has slipped `length` metres of the step.
+  void slipped(const SubGoal& sub_goal, double length);
+  bool hasSlipped() const { return slip_.length > 0; }
+
+  /// A contact as the report gives it, number `i` of the active ones.
+  ProxyContact describe(const ContactSet& set, const SubGoal& sub_goal, std::size_t i) const;
+  bool stiffnessTextured(std::uint32_t primitive) const { return reader_.textured(primitive, Quantity::kStiffness); }
+
+ private:
+  struct Pass;
+  BentNormal bend(const ContactSet& set, const Contact& contact, const Vec3& position, const Vec3& offset) const;
+  bool disagrees(const ContactSet& set, const Contact& contact, const Vec3& normal) const;
+  void firstPass(const ContactSet& set, const Vec3& position, const Vec3& gap, const Vec3& offset,
+                 SubGoal& sub_goal) const;
+  Vec3 secondPass(const ContactSet& set, const Vec3& goal) const;
+  double slipFraction(const ContactSet& set, const Vec3& way, double slipped_now, SubGoal& sub_goal) const;
+  Drag dragAt(const ContactSet& set, const SolverResult& solution, const Vec3& along) const;
+  double lengthWithin(const ContactSet& set, const SolverResult& solution, const Vec3& way) const;
+  double texelsAlong(const ContactSet& set, const SolverResult& solution, const Vec3& way) const;
+
+  SurfaceReader reader_;
+  const Snapshot& snapshot_;
+  const ProxySettings& settings_;
+  const Tolerances& tolerance_;
+  Slip slip_;
+  bool slipping_;
+};
+
+}  // namespace hl

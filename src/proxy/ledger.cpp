@@ -1,0 +1,30 @@
+#include "proxy/ledger.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace hl {
+
+double Ledger::budget_J(LedgerMode mode) const {
+  switch (mode) {
+    case LedgerMode::kTank:
+      return tank_J;
+    case LedgerMode::kReport:
+      return std::numeric_limits<double>::infinity();
+    case LedgerMode::kStrict:
+      break;
+  }
+  return 0;
+}
+
+void Ledger::book(double net_J, bool refill) {
+  if (net_J > 0) {
+    injected_J += net_J;
+    tank_J = std::max(0.0, tank_J - net_J);
+  } else {
+    dissipated_J -= net_J;
+    if (refill) tank_J = std::min(kTankFull_J, tank_J - net_J);
+  }
+}
+
+}  // namespace hl

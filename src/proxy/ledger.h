@@ -1,0 +1,42 @@
+// The energy ledger: what the rules of a tick did to the energy of the spring, by cause, and a tank that pays for it.
+//
+// The spring between device and target stores E = 1/2 K s |proxy - finger|^2. A tick that leaves E no larger than it
+// was at the same finger position is passive whatever the geometry (science, fault 3); shading, bump maps and stiffness
+// maps may raise it. What they add is taken from the tank; what the tank cannot pay is not done.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace hl {
+
+enum class LedgerMode : std::uint8_t {
+  kTank,    ///< rules may add what the tank holds; dissipation refills it
+  kStrict,  ///< a tank that is always empty: no tick adds energy
+  kReport,  ///< nothing is refused, only counted
+};
+
+enum class EnergyCause : std::uint8_t { kShading, kStiffness, kTexture, kMoving, kLate };
+inline constexpr std::size_t kEnergyCauses = 5;
+inline constexpr std::array<const char*, kEnergyCauses> kEnergyCauseNames{"shading", "stiffness", "texture", "moving",
+                                                                          "late hand-over"};
+
+inline constexpr double kTankStart_J = 0.010;
+inline constexpr double kTankFull_J = 0.050;
+
+/// Of one session. Joules, at the hand.
+struct Ledger {
+  double tank_J = kTankStart_J;
+  double injected_J = 0;    ///< sum over ticks of what each added, all causes together
+  double dissipated_J = 0;  ///< sum of what each took away, a positive number
+  std::array<double, kEnergyCauses> by_cause_J{};
+
+  /// What one tick may add. RT-safe.
+  double budget_J(LedgerMode mode) const;
+  /// Books one tick: `net_J` > 0 is paid by the tank, < 0 refills it when `refill`. RT-safe.
+  void book(double net_J, bool refill);
+  void add(EnergyCause cause, double joules) { by_cause_J[static_cast<std::size_t>(cause)] += joules; }
+};
+
+}  // namespace hl

@@ -1,0 +1,162 @@
+#include "proxy/surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hl {
+
+namespace {
+
+constexpr std::array<Quantity, 4> kModulated{Quantity::kStiffness, Quantity::kStaticFriction,
+                                             Quantity::kDynamicFriction, Quantity::kViscosity};
+
+double angleBetween(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+
+// `towards`, but at most `limit` radians away from `from`; both unit and in one hemisphere.
+Vec3 turnedTo(const Vec3& from, const Vec3& towards, double limit) {
+  const Vec3 side = towards - towards.dot(from) * from;
+  return std::cos(limit) * from + std::sin(limit) * side.normalized();
+}
+
+// How the barycentric weights of a triangle's point change when the point moves by `step` in its plane: the step as
+// a e1 + b e2 by the normal equations of the two edges.
+std::array<double, 3> weightsOf(const Primitive& triangle, const Vec3& step) {
+  const Vec3 e1 = triangle.vertex[1] - triangle.vertex[0];
+  const Vec3 e2 = triangle.vertex[2] - triangle.vertex[0];
+  const double g11 = e1.squaredNorm(), g12 = e1.dot(e2), g22 = e2.squaredNorm();
+  const double det = g11 * g22 - g12 * g12;
+  const double s1 = e1.dot(step), s2 = e2.dot(step);
+  const double a = (g22 * s1 - g12 * s2) / det;
+  const double b = (g11 * s2 - g12 * s1) / det;
+  return {-a - b, a, b};
+}
+
+}  // namespace
+
+const Vec3& SurfaceReader::vertexNormal(const Primitive& primitive, std::size_t sorted) const {
+  return snapshot_.model.normals[snapshot_.model.triangles[primitive.source][primitive.order[sorted]]];
+}
+
+const Vec2& SurfaceReader::vertexTexcoord(const Primitive& primitive, std::size_t sorted) const {
+  return snapshot_.model.texcoords[snapshot_.model.triangles[primitive.source][primitive.order[sorted]]];
+}
+
+Vec2 SurfaceReader::texcoord(const SurfacePlace& place) const {
+  const Primitive& primitive = snapshot_.primitives[place.primitive];
+  Vec2 uv = Vec2::Zero();
+  for (std::size_t i = 0; i < 3; ++i) uv += place.weights[i] * vertexTexcoord(primitive, i);
+  return uv;
+}
+
+void SurfaceReader::shade(const SurfacePlace& place, BentNormal& bent) const {
+  const Primitive& primitive = snapshot_.primitives[place.primitive];
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3& normal = vertexNormal(primitive, i);
+    if (!(normal.dot(place.normal) > 0)) return;
+    sum += place.weights[i] * normal;
+  }
+  const Vec3 shaded = sum.normalized();
+  if (!(shaded.dot(place.normal) > 0)) return;
+  const double angle = angleBetween(place.normal, shaded);
+  bent.shading_rad = std::min(angle, kShadingLimit_rad);
+  bent.normal = angle > kShadingLimit_rad ? turnedTo(place.normal, shaded, kShadingLimit_rad) : shaded;
+}
+
+// The surface of height h over the plane has the normal N - grad h, grad h in metres per metre along the triangle.
+void SurfaceReader::bump(const SurfacePlace& place, BentNormal& bent) const {
+  const TextureUse& use = material(place.primitive).textureOf(Quantity::kHeight);
+  const Primitive& triangle = snapshot_.primitives[place.primitive];
+  const Vec2 slope = (use.high - use.low) * textureOf(place.primitive, Quantity::kHeight).gradient(texcoord(place));
+  Vec3 gradient = Vec3::Zero();
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const std::array<double, 3> rate = weightsOf(triangle, Vec3::Unit(axis));
+    Vec2 uv = Vec2::Zero();
+    for (std::size_t i = 0; i < 3; ++i) uv += rate[i] * vertexTexcoord(triangle, i);
+    gradient[axis] = slope.dot(uv);
+  }
+  const Vec3 normal = (bent.normal - (gradient - gradient.dot(bent.normal) * bent.normal)).normalized();
+  if (!(normal.dot(place.normal) > 0)) return;
+  bent.bump_rad = angleBetween(bent.normal, normal);
+  bent.normal = normal;
+}
+
+BentNormal SurfaceReader::bend(const SurfacePlace& place) const {
+  BentNormal bent;
+  bent.normal = place.normal;
+  if (snapshot_.primitives[place.primitive].kind != PrimitiveKind::kTriangle) return bent;
+  if (smooth(place.primitive)) shade(place, bent);
+  if (textured(place.primitive, Quantity::kHeight)) bump(place, bent);
+  return bent;
+}
+
+bool SurfaceReader::textured(std::uint32_t primitive, Quantity quantity) const {
+  return set_.textures && !overridden(quantity) && material(primitive).textureOf(quantity).used() &&
+         snapshot_.primitives[primitive].kind == PrimitiveKind::kTriangle && !snapshot_.model.texcoords.empty();
+}
+
+bool SurfaceReader::dragTextured(std::uint32_t primitive) const {
+  return textured(primitive, Quantity::kStaticFriction) || textured(primitive, Quantity::kDynamicFriction) ||
+         textured(primitive, Quantity::kViscosity);
+}
+
+const std::optional<double>& SurfaceReader::overridden(Quantity quantity) const {
+  static constexpr std::optional<double> kNever;
+  switch (quantity) {
+    case Quantity::kStiffness:
+      return set_.stiffness;
+    case Quantity::kStaticFriction:
+      return set_.static_friction;
+    case Quantity::kDynamicFriction:
+      return set_.dynamic_friction;
+    case Quantity::kViscosity:
+      return set_.viscosity_Ns_m;
+    case Quantity::kHeight:
+      break;
+  }
+  return kNever;
+}
+
+double SurfaceReader::value(Quantity quantity, const SurfacePlace& place) const {
+  if (const auto& set = overridden(quantity)) return *set;
+  const Material& m = material(place.primitive);
+  if (textured(place.primitive, quantity)) {
+    const TextureUse& use = m.textureOf(quantity);
+    return use.low + (use.high - use.low) * textureOf(place.primitive, quantity).sample(texcoord(place));
+  }
+  switch (quantity) {
+    case Quantity::kStiffness:
+      return m.stiffness;
+    case Quantity::kStaticFriction:
+      return m.static_friction;
+    case Quantity::kDynamicFriction:
+      return m.dynamic_friction;
+    case Quantity::kViscosity:
+      return m.viscosity_Ns_m;
+    case Quantity::kHeight:
+      break;
+  }
+  return 0;
+}
+
+double SurfaceReader::texelsAlong(const SurfacePlace& place, const Vec3& step) const {
+  double most = 0;
+  const Vec2 way = texcoord(moved(place, step)) - texcoord(place);
+  for (const Quantity quantity : kModulated) {
+    if (!textured(place.primitive, quantity)) continue;
+    const Texture& texture = textureOf(place.primitive, quantity);
+    const double across = std::abs(way.x()) * static_cast<double>(texture.width);
+    const double up = std::abs(way.y()) * static_cast<double>(texture.height);
+    most = std::max(most, across + up);
+  }
+  return most;
+}
+
+SurfacePlace SurfaceReader::moved(const SurfacePlace& place, const Vec3& step) const {
+  SurfacePlace result = place;
+  const std::array<double, 3> change = weightsOf(snapshot_.primitives[place.primitive], step);
+  for (std::size_t i = 0; i < 3; ++i) result.weights[i] += change[i];
+  return result;
+}
+
+}  // namespace hl

@@ -1,0 +1,102 @@
+#include "scene/texture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace hl {
+
+namespace {
+
+std::ptrdiff_t wrapped(std::ptrdiff_t i, std::size_t size, Wrap wrap) {
+  const auto n = static_cast<std::ptrdiff_t>(size);
+  if (wrap == Wrap::kClamp) return std::clamp<std::ptrdiff_t>(i, 0, n - 1);
+  const std::ptrdiff_t rest = i % n;
+  return rest < 0 ? rest + n : rest;
+}
+
+// Coordinates far out of range have no fraction left: they read the first texel.
+double bounded(double x) { return std::abs(x) < 1e9 ? x : 0.0; }
+
+struct Cell {
+  std::ptrdiff_t i, j;
+  double s, t;  // 0..1 within the cell between four texel centres
+};
+
+Cell cellOf(const Texture& texture, const Vec2& uv) {
+  const double x = bounded(uv.x() * static_cast<double>(texture.width)) - 0.5;
+  const double y = bounded(uv.y() * static_cast<double>(texture.height)) - 0.5;
+  const double i = std::floor(x), j = std::floor(y);
+  return {static_cast<std::ptrdiff_t>(i), static_cast<std::ptrdiff_t>(j), x - i, y - j};
+}
+
+// A hash of the texel's place to 0..1 (the mixing steps of Steele's splitmix64).
+float noiseAt(std::size_t i, std::size_t j) {
+  std::uint64_t x = (static_cast<std::uint64_t>(i) << 32) + j + 0x9e3779b97f4a7c15ULL;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+  return static_cast<float>(static_cast<double>((x ^ (x >> 31)) >> 40) / 16777215.0);
+}
+
+}  // namespace
+
+double Texture::at(std::ptrdiff_t i, std::ptrdiff_t j) const {
+  const auto row = static_cast<std::size_t>(wrapped(j, height, wrap));
+  const auto column = static_cast<std::size_t>(wrapped(i, width, wrap));
+  return static_cast<double>(texels[row * width + column]);
+}
+
+double Texture::sample(const Vec2& uv) const {
+  if (filter == Filter::kNearest) {
+    const double x = std::floor(bounded(uv.x() * static_cast<double>(width)));
+    const double y = std::floor(bounded(uv.y() * static_cast<double>(height)));
+    return at(static_cast<std::ptrdiff_t>(x), static_cast<std::ptrdiff_t>(y));
+  }
+  const Cell c = cellOf(*this, uv);
+  const double low = (1 - c.s) * at(c.i, c.j) + c.s * at(c.i + 1, c.j);
+  const double high = (1 - c.s) * at(c.i, c.j + 1) + c.s * at(c.i + 1, c.j + 1);
+  return (1 - c.t) * low + c.t * high;
+}
+
+Vec2 Texture::gradientAt(std::ptrdiff_t i, std::ptrdiff_t j) const {
+  return {0.5 * static_cast<double>(width) * (at(i + 1, j) - at(i - 1, j)),
+          0.5 * static_cast<double>(height) * (at(i, j + 1) - at(i, j - 1))};
+}
+
+Vec2 Texture::gradient(const Vec2& uv) const {
+  const Cell c = cellOf(*this, uv);
+  const Vec2 low = (1 - c.s) * gradientAt(c.i, c.j) + c.s * gradientAt(c.i + 1, c.j);
+  const Vec2 high = (1 - c.s) * gradientAt(c.i, c.j + 1) + c.s * gradientAt(c.i + 1, c.j + 1);
+  return (1 - c.t) * low + c.t * high;
+}
+
+void checkTexture(const Texture& texture) {
+  const std::string name = texture.name.empty() ? "a texture" : texture.name;
+  if (texture.width == 0 || texture.height == 0 || texture.texels.size() != texture.width * texture.height)
+    throw Error(name + ": its size and its number of texels do not agree");
+  const auto in_range = [](float x) { return x >= 0 && x <= 1; };
+  if (!std::all_of(texture.texels.begin(), texture.texels.end(), in_range))
+    throw Error(name + ": texels must be between 0 and 1");
+}
+
+Texture makeTexture(const std::string& kind, std::size_t size, double duty) {
+  Texture texture;
+  texture.name = kind;
+  texture.width = texture.height = size;
+  const auto value = [&](std::size_t i, std::size_t j) -> float {
+    const double u = (static_cast<double>(i) + 0.5) / static_cast<double>(size);
+    if (kind == "checker") return (2 * i < size) == (2 * j < size) ? 1.0f : 0.0f;
+    if (kind == "lines") return u < duty ? 1.0f : 0.0f;
+    if (kind == "sine") return static_cast<float>(0.5 + 0.5 * std::sin(2 * M_PI * u));
+    if (kind == "noise") return noiseAt(i, j);
+    throw Error("there is no procedural texture '" + kind + "'; there are checker, lines, sine and noise");
+  };
+  for (std::size_t j = 0; j < size; ++j) {
+    for (std::size_t i = 0; i < size; ++i) texture.texels.push_back(value(i, j));
+  }
+  if (kind == "checker" || kind == "lines") texture.filter = Filter::kNearest;
+  return texture;
+}
+
+}  // namespace hl

@@ -1,0 +1,44 @@
+// Texture: an image of one quantity over a surface, read with GL's rules of wrapping and filtering.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace hl {
+
+using Vec2 = Eigen::Vector2d;
+
+enum class Wrap : std::uint8_t { kRepeat, kClamp };
+enum class Filter : std::uint8_t { kNearest, kBilinear };
+
+/// Texel (i, j) covers u in i/width .. (i+1)/width and v in j/height .. (j+1)/height; v = 0 is the lowest row.
+struct Texture {
+  std::string name;
+  std::size_t width = 0, height = 0;  ///< each >= 1
+  std::vector<float> texels;          ///< 0..1, row by row
+  Wrap wrap = Wrap::kRepeat;
+  Filter filter = Filter::kBilinear;
+
+  /// The value at (u, v). RT-safe.
+  double sample(const Vec2& uv) const;
+  /// d sample / d(u, v) of the image with central differences at the texels and bilinear between them: continuous, so
+  /// that a bump map bends the normal without jumps. RT-safe.
+  Vec2 gradient(const Vec2& uv) const;
+
+ private:
+  double at(std::ptrdiff_t i, std::ptrdiff_t j) const;
+  Vec2 gradientAt(std::ptrdiff_t i, std::ptrdiff_t j) const;
+};
+
+/// Throws hl::Error unless sizes and texels agree and every texel is in 0..1.
+void checkTexture(const Texture& texture);
+
+/// "checker", "lines", "sine" or "noise": one tile of `size` x `size` texels, to be repeated. lines: `duty` (0..1) of
+/// the tile is 1, the rest 0; sine: 1/2 + 1/2 sin(2 pi u). Throws hl::Error for another name.
+Texture makeTexture(const std::string& kind, std::size_t size, double duty = 0.5);
+
+}  // namespace hl
