@@ -159,6 +159,7 @@ void addTouchCommand(CLI::App& app) {
       ->add_option("--scale", options->scale, "metres of the scene for one metre of the hand (default: --size decides)")
       ->check(CLI::Validator(checkPositive, "POSITIVE"));
   addLoopOptions(*command, options->settings);
+  addSurfaceOptions(*command, options->settings.surfaces, options->settings.ledger);
   addHierarchyOption(*command, options->scene);
   command->add_option("--page-dir", options->page_folder, "folder of the built page");
   command->add_option("--duration", options->duration_s, "end by itself after this many seconds")

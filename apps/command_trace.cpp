@@ -1,6 +1,8 @@
 // hl trace: feels a scene along a recorded finger path, offline. The contract is docs/trace.md.
 #include <fmt/core.h>
 
+#include <map>
+
 #include "commands.h"
 #include "server/trace.h"
 
@@ -53,7 +55,14 @@ void addTraceCommand(CLI::App& app) {
   command->add_option("--kp", options->settings.proxy.spring_N_m, "spring of the servo in N/m")
       ->check(positive)
       ->capture_default_str();
-  addSurfaceOptions(*command, options->settings.proxy);
+  addSurfaceOptions(*command, options->settings.proxy.surfaces, options->settings.proxy.ledger);
+  const std::map<std::string, ShadingPasses> passes{{"converged", ShadingPasses::kConverged},
+                                                    {"once", ShadingPasses::kOnce}};
+  command
+      ->add_option("--shading-passes", options->settings.proxy.shading,
+                   "how often the two passes of shading run in one tick")
+      ->transform(CLI::Transformer(passes))
+      ->option_text("converged|once (default: converged)");
   addSizeOptions(*command, options->scene);
   addHierarchyOption(*command, options->scene);
   command->callback([options] { run(*options); });

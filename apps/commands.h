@@ -28,9 +28,9 @@ void addSceneArgument(CLI::App& command, SceneOptions& options, bool required);
 void addHierarchyOption(CLI::App& command, SceneOptions& options);
 void addSizeOptions(CLI::App& command, SceneOptions& options);
 
-/// Options of the surfaces, over what the scene says: --shade, --stiffness, frictions, --viscosity, --textures,
+/// Options of the surfaces, over what the scene says: --shade, --stiffness, frictions, --viscosity, --textures; and
 /// --ledger.
-void addSurfaceOptions(CLI::App& command, ProxySettings& settings);
+void addSurfaceOptions(CLI::App& command, MaterialOverride& surfaces, LedgerMode& ledger);
 
 /// Loads, scales and builds; progress of long loads and warnings go to stderr. Throws hl::Error.
 std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options);

@@ -50,21 +50,15 @@ void addSizeOptions(CLI::App& command, SceneOptions& options) {
       ->excludes(scale);
 }
 
-void addSurfaceOptions(CLI::App& command, ProxySettings& settings) {
-  MaterialOverride& surfaces = settings.surfaces;
+void addSurfaceOptions(CLI::App& command, MaterialOverride& surfaces, LedgerMode& ledger) {
   const CLI::Validator friction(checkNotNegative, "NOT NEGATIVE");
   const std::map<std::string, bool> shades{{"flat", false}, {"smooth", true}};
-  const std::map<std::string, ShadingPasses> passes{{"converged", ShadingPasses::kConverged},
-                                                    {"once", ShadingPasses::kOnce}};
   const std::map<std::string, bool> switches{{"on", true}, {"off", false}};
   const std::map<std::string, LedgerMode> ledgers{
       {"tank", LedgerMode::kTank}, {"strict", LedgerMode::kStrict}, {"report", LedgerMode::kReport}};
   command.add_option("--shade", surfaces.smooth, "flat: true facets; smooth: forces along interpolated vertex normals")
       ->transform(CLI::Transformer(shades))
       ->option_text("flat|smooth (default: the scene's; flat for model files)");
-  command.add_option("--shading-passes", settings.shading, "how often the two passes of shading run in one tick")
-      ->transform(CLI::Transformer(passes))
-      ->option_text("converged|once (default: converged)");
   command.add_option("--stiffness", surfaces.stiffness, "surface stiffness: target = finger + s (proxy - finger)")
       ->check(CLI::Range(0.0, 1.0))
       ->option_text("0..1 (default: the scene's; 1 for model files)");
@@ -81,8 +75,7 @@ void addSurfaceOptions(CLI::App& command, ProxySettings& settings) {
       ->transform(CLI::Transformer(switches))
       ->option_text("on|off (default: on)");
   command
-      .add_option("--ledger", settings.ledger,
-                  "energy that the surfaces may add: from a tank of 10 mJ, none, or any, counted")
+      .add_option("--ledger", ledger, "energy that the surfaces may add: from a tank of 10 mJ, none, or any, counted")
       ->transform(CLI::Transformer(ledgers))
       ->option_text("tank|strict|report (default: tank)");
 }

@@ -16,6 +16,9 @@ constexpr double kApproach_s = 3.0;      // virtual time for the hand to reach t
 constexpr double kStartAbove_D = 0.020;  // m above the model at the hand
 constexpr double kPress_D = 0.012;       // m, how far beneath the surface the exploring hand aims
 constexpr double kLift_D = 0.010;
+// What a page may ask of a surface: beyond, a finger could not be moved.
+constexpr double kMostFriction = 10;
+constexpr double kMostViscosity_Ns_m = 1000;
 
 std::int64_t period_ns(double rate_Hz) { return static_cast<std::int64_t>(1e9 / rate_Hz); }
 
@@ -27,6 +30,10 @@ TouchSession::TouchSession(std::shared_ptr<const Snapshot> snapshot, const Touch
   workspace_ = Workspace::fit(snapshot_->bounds, settings.side_D);
   if (settings.world_per_device) workspace_.world_per_device = *settings.world_per_device;
   proxy_settings_.radius = radius_W();
+  proxy_settings_.period_s = 1 / settings.proxy_rate_Hz;
+  proxy_settings_.world_per_device = workspace_.world_per_device;
+  surfaces_.ledger = settings.ledger;
+  setSurfaces(settings.surfaces);
   servo_settings_ = ServoSettings::of(device_.info());
   servo_settings_.period_s = 1 / settings.servo_rate_Hz;
   if (settings.damping_Ns_m) servo_settings_.damping_Ns_m = *settings.damping_Ns_m;
@@ -121,18 +128,25 @@ void TouchSession::runProxy() {
   finger_D_.read(finger_D);
   ProxyState state = startProxy(*snapshot_, proxy_settings_, workspace_.toWorld(finger_D));
   ProxyView view;
+  SurfaceSettings surfaces;
   LoopMeter meter;
   runPeriodic(period_ns(settings_.proxy_rate_Hz), running_, proxy_counters_, [&](std::int64_t) {
     const std::int64_t now_ns = monotonicNow_ns();
     finger_D_.read(finger_D);
+    surfaces_for_proxy_.read(surfaces);
+    proxy_settings_.surfaces = surfaces.surfaces;
+    proxy_settings_.ledger = surfaces.ledger;
+    proxy_settings_.spring_N_m = stiffness_.load(std::memory_order_relaxed);
     const TickReport report = tick(state, *snapshot_, proxy_settings_, workspace_.toWorld(finger_D));
     const std::int64_t work_ns = monotonicNow_ns() - now_ns;
     // In the open the proxy is the finger of a moment ago: pulling to it would be a drag.
     const bool valid = report.valid && state.free && !report.contacts.empty();
-    target_.write({{workspace_.toDevice(state.position), now_ns, valid}, 1e-3f * static_cast<float>(work_ns)});
+    target_.write({{workspace_.toDevice(report.target), now_ns, valid}, 1e-3f * static_cast<float>(work_ns)});
     meter.add(now_ns, work_ns);
     view.proxy = state.position;
     view.contacts = report.contacts;
+    view.slipping = state.touching && state.rest_s == 0;
+    view.ledger = state.ledger;
     view.capped += report.capped ? 1 : 0;
     view.loop = meter.summary();
     proxy_view_.write(view);
@@ -190,6 +204,36 @@ void TouchSession::setHandFirm(bool firm) { hand_firm_ = firm; }
 void TouchSession::setStiffness(double stiffness_N_m) {
   if (!(stiffness_N_m >= 0)) return;
   stiffness_ = std::min(stiffness_N_m, device_.info().stiffness_max_N_m);
+}
+
+void TouchSession::setSurfaces(const MaterialOverride& surfaces) {
+  const auto within = [](std::optional<double>& value, double most) {
+    if (value && !(*value >= 0)) value.reset();
+    if (value) value = std::min(*value, most);
+  };
+  const std::lock_guard lock(surfaces_mutex_);
+  surfaces_.surfaces = surfaces;
+  within(surfaces_.surfaces.stiffness, 1);
+  within(surfaces_.surfaces.static_friction, kMostFriction);
+  within(surfaces_.surfaces.dynamic_friction, kMostFriction);
+  within(surfaces_.surfaces.viscosity_Ns_m, kMostViscosity_Ns_m);
+  surfaces_for_proxy_.write(surfaces_);
+}
+
+void TouchSession::setLedger(LedgerMode mode) {
+  const std::lock_guard lock(surfaces_mutex_);
+  surfaces_.ledger = mode;
+  surfaces_for_proxy_.write(surfaces_);
+}
+
+MaterialOverride TouchSession::surfaces() const {
+  const std::lock_guard lock(surfaces_mutex_);
+  return surfaces_.surfaces;
+}
+
+LedgerMode TouchSession::ledger() const {
+  const std::lock_guard lock(surfaces_mutex_);
+  return surfaces_.ledger;
 }
 
 void TouchSession::rearm() { arm_requests_.fetch_add(1); }

@@ -39,13 +39,17 @@ struct TouchSettings {
   bool hand_firm = false;
   bool explore = true;
   std::optional<HandScript> script;  ///< hand goals in the world frame instead of exploration
-  bool timer_reference = false;      ///< run a bare timer thread beside the servo, to tell the machine's own hiccups
+  MaterialOverride surfaces{};       ///< over what the scene says
+  LedgerMode ledger = LedgerMode::kTank;
+  bool timer_reference = false;  ///< run a bare timer thread beside the servo, to tell the machine's own hiccups
 };
 
 /// What the proxy loop last did. World frame.
 struct ProxyView {
   Vec3 proxy = Vec3::Zero();
   FixedVector<ProxyContact, 3> contacts;
+  bool slipping = false;
+  Ledger ledger;
   std::uint64_t capped = 0;
   LoopSummary loop;
 };
@@ -86,7 +90,9 @@ class TouchSession {
   void release();
   void setExplore(bool on);
   void setHandFirm(bool firm);
-  void setStiffness(double stiffness_N_m);  ///< clamped to what the device accepts
+  void setStiffness(double stiffness_N_m);             ///< clamped to what the device accepts
+  void setSurfaces(const MaterialOverride& surfaces);  ///< replaces what was set before; numbers out of range are cut
+  void setLedger(LedgerMode mode);
   void rearm();
 
   void views(ServoView& servo, ProxyView& proxy);
@@ -94,6 +100,8 @@ class TouchSession {
   bool exploring() const { return exploring_.load(); }
   bool handFirm() const { return hand_firm_.load(); }
   double stiffness_N_m() const { return stiffness_.load(); }
+  MaterialOverride surfaces() const;
+  LedgerMode ledger() const;
   double time_s() const;
 
   const Snapshot& snapshot() const { return *snapshot_; }
@@ -116,6 +124,11 @@ class TouchSession {
     std::optional<Vec3> goal_W;
     bool release = false;
     std::optional<bool> explore;
+  };
+
+  struct SurfaceSettings {
+    MaterialOverride surfaces{};
+    LedgerMode ledger = LedgerMode::kTank;
   };
 
   static LoopTotals totals(const LoopCounters& counters);
@@ -148,6 +161,10 @@ class TouchSession {
   std::atomic<bool> servo_ready_{false};
   RealtimeGrant grant_;
   LoopCounters servo_counters_, proxy_counters_, reference_counters_;
+
+  mutable std::mutex surfaces_mutex_;  // between the callers of setSurfaces and setLedger
+  SurfaceSettings surfaces_;
+  Latest<SurfaceSettings> surfaces_for_proxy_;
 
   std::mutex commands_mutex_;  // between page and supervisor; the loops never see it
   Commands commands_;

@@ -86,6 +86,8 @@ void setContacts(proto::State& state, const ProxyView& proxy) {
     set(plane.mutable_point(), contact.point);
     set(plane.mutable_normal(), contact.normal);
     plane.set_multiplier_m(contact.multiplier_m);
+    plane.set_static_friction(contact.static_friction);
+    plane.set_stiffness(contact.stiffness);
   }
 }
 
@@ -99,6 +101,39 @@ void setSamples(proto::State& state, TouchSession& session) {
     out.set_penetration_m(sample.penetration_m);
     out.set_tick_us(sample.tick_us);
   }
+}
+
+void setLedger(proto::Ledger& out, const Ledger& ledger, LedgerMode mode) {
+  const auto cause = [&](EnergyCause c) { return ledger.by_cause_J[static_cast<std::size_t>(c)]; };
+  out.set_mode(static_cast<proto::LedgerMode>(mode));
+  out.set_tank_j(ledger.tank_J);
+  out.set_injected_j(ledger.injected_J);
+  out.set_dissipated_j(ledger.dissipated_J);
+  out.set_shading_j(cause(EnergyCause::kShading));
+  out.set_stiffness_j(cause(EnergyCause::kStiffness));
+  out.set_texture_j(cause(EnergyCause::kTexture));
+  out.set_moving_j(cause(EnergyCause::kMoving));
+  out.set_late_j(cause(EnergyCause::kLate));
+}
+
+void setSurfaces(proto::Surfaces& out, const MaterialOverride& surfaces) {
+  if (surfaces.stiffness) out.set_stiffness(*surfaces.stiffness);
+  if (surfaces.static_friction) out.set_static_friction(*surfaces.static_friction);
+  if (surfaces.dynamic_friction) out.set_dynamic_friction(*surfaces.dynamic_friction);
+  if (surfaces.viscosity_Ns_m) out.set_viscosity_ns_m(*surfaces.viscosity_Ns_m);
+  if (surfaces.smooth) out.set_smooth(*surfaces.smooth);
+  out.set_textures(surfaces.textures);
+}
+
+MaterialOverride surfacesOf(const proto::Surfaces& in) {
+  MaterialOverride surfaces;
+  if (in.has_stiffness()) surfaces.stiffness = in.stiffness();
+  if (in.has_static_friction()) surfaces.static_friction = in.static_friction();
+  if (in.has_dynamic_friction()) surfaces.dynamic_friction = in.dynamic_friction();
+  if (in.has_viscosity_ns_m()) surfaces.viscosity_Ns_m = in.viscosity_ns_m();
+  if (in.has_smooth()) surfaces.smooth = in.smooth();
+  surfaces.textures = !in.has_textures() || in.textures();
+  return surfaces;
 }
 
 std::string state(TouchSession& session) {
@@ -121,6 +156,9 @@ std::string state(TouchSession& session) {
   out.set_iteration_caps(proxy.capped);
   out.set_hand_firm(session.handFirm());
   out.set_stiffness_n_m(session.stiffness_N_m());
+  setLedger(*out.mutable_ledger(), proxy.ledger, session.ledger());
+  setSurfaces(*out.mutable_surfaces(), session.surfaces());
+  out.set_slipping(proxy.slipping);
   return message.SerializeAsString();
 }
 
@@ -128,6 +166,9 @@ void apply(TouchSession& session, const proto::Settings& settings) {
   if (settings.has_explore()) session.setExplore(settings.explore());
   if (settings.has_hand_firm()) session.setHandFirm(settings.hand_firm());
   if (settings.has_stiffness_n_m()) session.setStiffness(settings.stiffness_n_m());
+  if (settings.has_surfaces()) session.setSurfaces(surfacesOf(settings.surfaces()));
+  if (settings.has_ledger() && proto::LedgerMode_IsValid(settings.ledger()))
+    session.setLedger(static_cast<LedgerMode>(settings.ledger()));
 }
 
 // A message that does not parse or asks for what does not exist changes nothing.
