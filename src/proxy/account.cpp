@@ -18,6 +18,23 @@ void bookCauses(Ledger& ledger, const Account::Causes& causes, double moved_J, d
     ledger.add(causes.stiffness_textured ? EnergyCause::kTexture : EnergyCause::kStiffness, stiffened_J);
 }
 
+// Several surfaces of different stiffness: the mean, weighted by their normal forces. The target stays between finger
+// and proxy, as in the paper's equation (4); a contact fades in with its lambda; s stays within those of the surfaces.
+// Softening each wall's own force, sum s_i lambda_i n_i, would keep none of these: in a narrow groove of one hard and
+// one soft wall it pushes sideways with 1 / (2 sin(opening / 2)) times the force.
+double stiffnessOf(const TickReport& report) {
+  double sum = 0, weighted = 0, least = 1, most = 0;
+  for (const ProxyContact& contact : report.contacts) {
+    const double weight = std::max(0.0, contact.multiplier_m);
+    sum += weight;
+    weighted += weight * contact.stiffness;
+    least = std::min(least, contact.stiffness);
+    most = std::max(most, contact.stiffness);
+  }
+  if (report.contacts.empty()) return 1;
+  return sum > 0 ? std::clamp(weighted / sum, least, most) : least;
+}
+
 }  // namespace
 
 Account::Account(const ProxyState& state, const ProxySettings& settings, const Vec3& finger)
@@ -46,43 +63,18 @@ double Account::affordable(const Vec3& proxy, const Vec3& step) const {
   return std::clamp((std::sqrt(std::max(0.0, b * b - a * c)) - b) / a, 0.0, 1.0);
 }
 
-// Each surface in contact gives its own part of the force, softened by its own s: sum s_i lambda_i n_i. What friction
-// holds is shared in the ratio of the normal forces. With one s for all this is the paper's equation (4),
-// s (proxy - finger); a soft floor does not soften a hard wall beside it, and a contact fades in with lambda.
-Vec3 Account::softPull(const ProxyState& state, const TickReport& report) const {
-  const Vec3 whole = state.position - finger_;
-  Vec3 normal_part = Vec3::Zero(), soft_part = Vec3::Zero();
-  double sum = 0, soft_sum = 0, least = 1;
-  for (const ProxyContact& contact : report.contacts) {
-    const double multiplier = std::max(0.0, contact.multiplier_m);
-    normal_part += multiplier * contact.normal;
-    soft_part += contact.stiffness * multiplier * contact.normal;
-    sum += multiplier;
-    soft_sum += contact.stiffness * multiplier;
-    least = std::min(least, contact.stiffness);
-  }
-  if (report.contacts.empty() || least == 1) return whole;
-  const bool uniform = std::all_of(report.contacts.begin(), report.contacts.end(),
-                                   [&](const ProxyContact& c) { return c.stiffness == least; });
-  if (uniform || !(sum > 0)) return least * whole;
-  return soft_part + (soft_sum / sum) * (whole - normal_part);
-}
-
 void Account::close(ProxyState& state, const Causes& causes, TickReport& report) const {
   const Vec3 whole = state.position - finger_;
   const double distance_squared = whole.squaredNorm();
   const bool touching = !report.contacts.empty();
-  Vec3 pull = softPull(state, report);
-  double stiffness = distance_squared > 0 ? pull.dot(whole) / distance_squared : 1;
+  double stiffness = stiffnessOf(report);
   const double before = was_touching_ ? stiffness_before_ : stiffness;
   const double start_J = energy_J(before, distance_before_squared_);
   const double wanted_J = energy_J(stiffness, distance_squared);
   if (wanted_J > start_J + budget_J_) {
-    const double part = (start_J + budget_J_) / wanted_J;
-    pull *= part;
-    stiffness *= part;
+    stiffness *= (start_J + budget_J_) / wanted_J;
   }
-  report.target = pull == whole ? state.position : Vec3(finger_ + pull);
+  report.target = stiffness == 1 ? state.position : Vec3(finger_ + stiffness * whole);
   const double moved_J = energy_J(before, distance_squared);
   const double end_J = energy_J(stiffness, distance_squared);
   report.injected_J = end_J - start_J;

@@ -28,7 +28,6 @@ class Account {
 
  private:
   double energy_J(double stiffness, double distance_squared) const;
-  Vec3 softPull(const ProxyState& state, const TickReport& report) const;
 
   const ProxySettings& settings_;
   const Vec3 finger_;

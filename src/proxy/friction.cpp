@@ -36,36 +36,64 @@ double slipLength(const Drag& drag, double pull, const Slip& before) {
   return slip;
 }
 
-double slipLengthAlong(FunctionRef<Drag(double)> drag_at, double pull, const Slip& before, int samples,
-                       double& viscous) {
-  constexpr int kHalvings = 14;
-  double reached = 0;
-  double used = 0;  // by viscosity on the way
-  viscous = 0;
-  const auto holds = [&](double at, double& used_there) {
+namespace {
+
+// The way of a slip whose drag changes: how far the resistance is from holding the proxy at a place.
+struct Balance {
+  FunctionRef<Drag(double)> drag_at;
+  double pull;
+  double before_m;     // used up by viscosity before this slip
+  double reached = 0;  // the last sample at which the proxy still slipped
+  double used = 0;     // by viscosity up to there
+
+  // Metres of pull left over at a place beyond `reached`; negative: held before it.
+  double left(double at, double& used_there) const {
     const Drag drag = drag_at(at);
     used_there = used + drag.viscous * (at - reached);
-    return pull - at <= drag.rubbing(at) + before.viscous_m + used_there;
-  };
-  for (int i = 0; i <= samples; ++i) {
-    double there = pull * i / samples;
-    double used_there = 0;
-    if (holds(there, used_there)) {
-      double here = reached;
-      for (int k = 0; k < kHalvings && i > 0; ++k) {
-        double used_between = 0;
-        const double between = 0.5 * (here + there);
-        (holds(between, used_between) ? there : here) = between;
-      }
-      holds(there, used);
-      reached = there;
-      break;
-    }
-    reached = there;
-    used = used_there;
+    return pull - at - drag.rubbing(at) - before_m - used_there;
   }
-  viscous = reached > 0 ? used / reached : 0;
-  return reached;
+};
+
+// Where, between the last sample that slips and `held` that does not, the proxy comes to rest. Halving finds a jump of
+// the drag, and the proxy goes just over it, onto the line that holds it; otherwise the balance is linear at the end.
+double restBetween(const Balance& balance, double held, double left_here, double left_there) {
+  constexpr int kHalvings = 14;
+  constexpr double kJump = 10;  // a change of the balance so many times steeper than a plain slip's is a jump
+  double here = balance.reached, there = held, used = 0;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double between = 0.5 * (here + there);
+    const double left = balance.left(between, used);
+    (left > 0 ? here : there) = between;
+    (left > 0 ? left_here : left_there) = left;
+  }
+  const bool jump = left_here - left_there > kJump * (there - here) * (1 + balance.drag_at(there).viscous);
+  return jump ? there : here + (there - here) * left_here / (left_here - left_there);
+}
+
+}  // namespace
+
+double slipLengthAlong(FunctionRef<Drag(double)> drag_at, double pull, const Slip& before, int samples,
+                       double& viscous) {
+  Balance balance{drag_at, pull, before.viscous_m};
+  viscous = 0;
+  double used = 0;
+  double left_here = balance.left(0, used);
+  if (left_here <= 0) return 0;
+  for (int i = 1; i <= samples; ++i) {
+    const double there = pull * i / samples;
+    const double left_there = balance.left(there, used);
+    if (left_there <= 0) {
+      const double rest = restBetween(balance, there, left_here, left_there);
+      balance.left(rest, used);
+      viscous = used / rest;
+      return rest;
+    }
+    balance.reached = there;
+    balance.used = used;
+    left_here = left_there;
+  }
+  viscous = used / pull;
+  return pull;
 }
 
 }  // namespace hl

@@ -167,9 +167,13 @@ void Tick::advance(const SubGoal& sub_goal) {
 }
 
 void Tick::finish(const SubGoal& last, TickReport& report) {
-  // The passes were once a tick: what holds the proxy where it has come to rest.
-  const bool again = goal_ != finger_ && !set_.contacts.empty();
-  const SubGoal sub_goal = again ? effects_.subGoal(set_, state_.position, finger_ - state_.position) : last;
+  const bool once = goal_ != finger_;
+  goal_ = finger_;
+  // After passes made once a tick: what holds the proxy where it has come to rest.
+  SubGoal sub_goal =
+      once && !set_.contacts.empty() ? effects_.subGoal(set_, state_.position, finger_ - state_.position) : last;
+  // Stopped where the bent planes would let it go on: the true ones hold it.
+  if (sub_goal.solution.active_count == 0 && !atRest(finger_ - state_.position)) sub_goal = plainSubGoal();
   for (std::size_t i = 0; i < sub_goal.solution.active_count; ++i) {
     report.contacts.push(effects_.describe(set_, sub_goal, i));
   }

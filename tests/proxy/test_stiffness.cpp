@@ -1,0 +1,199 @@
+// Stiffness by moving the target (the paper's equation 4), and the energy ledger.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "effect_scenes.h"
+#include "proxy/judge.h"
+#include "proxy/proxy.h"
+
+namespace hl {
+namespace {
+
+constexpr double kK = 1000;
+constexpr double kRadius = 0.001;
+
+ProxySettings settingsOf(LedgerMode mode) {
+  ProxySettings settings;
+  settings.radius = kRadius;
+  settings.spring_N_m = kK;
+  settings.ledger = mode;
+  return settings;
+}
+
+// Two halves of a floor, stiffness `left` for x < 0 and `right` beyond.
+std::shared_ptr<const Snapshot> twoFloors(double left, double right) {
+  Model model;
+  test::addRectangle(model, {-0.1, 0, 0.1}, {0.1, 0, 0}, {0, 0, -0.2}, Vec3::UnitY());
+  test::addRectangle(model, {0, 0, 0.1}, {0.1, 0, 0}, {0, 0, -0.2}, Vec3::UnitY());
+  model.materials.resize(2);
+  model.materials[0].stiffness = left;
+  model.materials[1].stiffness = right;
+  model.triangle_materials = {0, 0, 1, 1};
+  return test::snapshotOf(std::move(model));
+}
+
+// C34: F(s) = s F(1) to the bit of rounding, in a corner of three planes too, and the proxy goes the same way.
+TEST(Stiffness, ForceScalesAndTheProxyIsUntouched) {
+  Model model = test::floorModel();
+  test::addRectangle(model, {0.02, 0, 0.1}, {0, 0, -0.2}, {0, 0.1, 0}, -Vec3::UnitX());
+  test::addRectangle(model, {-0.1, 0, 0.03}, {0.2, 0, 0}, {0, 0.1, 0}, -Vec3::UnitZ());
+  const auto scene = test::snapshotOf(std::move(model));
+  std::mt19937 random(2);
+  std::normal_distribution<double> jump(0, 1e-3);
+  ProxySettings hard = settingsOf(LedgerMode::kReport), soft = hard;
+  soft.surfaces.stiffness = 0.3;
+  ProxyState a = startProxy(*scene, hard, {0, 0.01, 0}), b = a;
+  Vec3 finger(0, 0.01, 0);
+  for (int i = 0; i < 20'000; ++i) {
+    finger = (finger + Vec3(jump(random), jump(random), jump(random))).cwiseMin(0.04).cwiseMax(-0.04);
+    const TickReport full = tick(a, *scene, hard, finger);
+    const TickReport part = tick(b, *scene, soft, finger);
+    ASSERT_EQ(a.position, b.position);
+    ASSERT_LE(((part.target - finger) - 0.3 * (full.target - finger)).norm(), 1e-15);
+  }
+}
+
+// A soft floor beside a hard wall: the mean of the two, weighted by their normal forces.
+TEST(Stiffness, SeveralSurfacesShareByTheirNormalForces) {
+  Model model = test::floorModel();
+  test::addRectangle(model, {0.02, 0, 0.1}, {0, 0, -0.2}, {0, 0.1, 0}, -Vec3::UnitX());
+  model.materials.resize(2);
+  model.materials[0].stiffness = 0.25;
+  model.triangle_materials = {0, 0, 1, 1};
+  const auto scene = test::snapshotOf(std::move(model));
+  const ProxySettings settings = settingsOf(LedgerMode::kTank);
+  ProxyState state = startProxy(*scene, settings, {0, 0.01, 0});
+  const Vec3 finger(0.022, -0.001, 0);  // 2 mm into the floor, 3 mm into the wall
+  tick(state, *scene, settings, {0.018, -0.001, 0});
+  const TickReport report = tick(state, *scene, settings, finger);
+  ASSERT_EQ(report.contacts.size(), 2u);
+  const double mean = (0.25 * 0.002 + 1 * 0.003) / 0.005;
+  EXPECT_NEAR(((report.target - finger) - mean * (state.position - finger)).norm(), 0, 1e-12);
+}
+
+// C35: crossing from s1 to s2 at depth D injects 1/2 k (s2 - s1) D^2; the strict ledger refuses all of it.
+TEST(Stiffness, CrossingToAHarderFloorInjectsTheFormula) {
+  const auto scene = twoFloors(0.2, 0.9);
+  const double depth = 0.002;
+  for (const LedgerMode mode : {LedgerMode::kReport, LedgerMode::kTank, LedgerMode::kStrict}) {
+    const ProxySettings settings = settingsOf(mode);
+    ProxyState state = startProxy(*scene, settings, {-0.02, 0.01, 0});
+    for (double x = -0.02; x < 0.02; x += 1e-4) tick(state, *scene, settings, {x, kRadius - depth, 0});
+    const double expected = 0.5 * kK * (0.9 - 0.2) * depth * depth;
+    if (mode == LedgerMode::kStrict) {
+      EXPECT_LE(state.ledger.injected_J, 1e-12);
+      // It may grow only by what the slide itself dissipates, 1/2 k s (0.1 mm)^2 a tick.
+      EXPECT_LT(state.stiffness, 0.4);
+    } else {
+      EXPECT_NEAR(state.ledger.by_cause_J[static_cast<std::size_t>(EnergyCause::kStiffness)], expected,
+                  1e-6 * expected);
+      EXPECT_NEAR(state.stiffness, 0.9, 1e-12);
+    }
+  }
+}
+
+TEST(Ledger, TankPaysRefillsAndNeverOverflows) {
+  Ledger ledger;
+  EXPECT_EQ(ledger.budget_J(LedgerMode::kTank), kTankStart_J);
+  EXPECT_EQ(ledger.budget_J(LedgerMode::kStrict), 0);
+  ledger.book(0.004, true);
+  EXPECT_NEAR(ledger.tank_J, 0.006, 1e-15);
+  ledger.book(-0.001, false);
+  EXPECT_NEAR(ledger.tank_J, 0.006, 1e-15);
+  ledger.book(-1, true);
+  EXPECT_EQ(ledger.tank_J, kTankFull_J);
+  EXPECT_NEAR(ledger.injected_J, 0.004, 1e-15);
+  EXPECT_NEAR(ledger.dissipated_J, 1.001, 1e-12);
+}
+
+// Triangles of every size and direction through each other, shaded by normals of their own, with textures of stiffness,
+// friction and height.
+std::shared_ptr<const Snapshot> soup(std::uint32_t triangles) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> u(-1, 1);
+  const auto vec = [&] { return Vec3(u(random), u(random), u(random)); };
+  Model model;
+  for (std::uint32_t i = 0; i < triangles; ++i) {
+    const Vec3 a = 0.05 * vec(), b = a + 0.02 * vec(), c = a + 0.02 * vec();
+    const Vec3 face = (b - a).cross(c - a).normalized();
+    for (const Vec3& p : {a, b, c}) {
+      model.positions.push_back(p);
+      model.normals.push_back((face + 0.7 * vec()).normalized());
+      model.texcoords.emplace_back(3 * u(random), 3 * u(random));
+    }
+    model.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  model.textures = {makeTexture("noise", 16), makeTexture("checker", 8), makeTexture("sine", 32)};
+  Material& material = model.materials[0];
+  material.smooth = true;
+  material.dynamic_friction = 0.2;
+  material.textureOf(Quantity::kStiffness) = {0, 0.1, 1};
+  material.textureOf(Quantity::kStaticFriction) = {1, 0.1, 0.8};
+  material.textureOf(Quantity::kHeight) = {2, 0, 2e-4};
+  return makeSnapshot(std::move(model), HierarchyKind::kSpheres);
+}
+
+struct Walk {
+  double most_per_tick_J = -1e9;
+  double least_clearance = 1e9;
+  double most_over_tank_J = -1e9;  // net energy added since the start, beyond the tank's 10 mJ
+  Ledger ledger;
+};
+
+Walk randomWalk(const Snapshot& scene, const ProxySettings& settings, int ticks) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> jump(0, 3e-4);
+  Vec3 finger(0, 0, 0.06), velocity = Vec3::Zero();
+  ProxyState state = startProxy(scene, settings, finger);
+  Walk walk;
+  double net_touching_J = 0;
+  for (int i = 0; i < ticks; ++i) {
+    velocity = 0.97 * velocity + 0.2 * Vec3(jump(random), jump(random), jump(random)) - 1e-3 * finger;
+    finger += velocity;
+    const double before_J = 0.5 * kK * state.stiffness * (state.position - finger).squaredNorm();
+    const bool was_touching = state.touching;
+    const TickReport report = tick(state, scene, settings, finger);
+    const double after_J = 0.5 * kK * (report.target - finger).dot(state.position - finger);
+    if (was_touching && state.touching) {
+      walk.most_per_tick_J = std::max(walk.most_per_tick_J, after_J - before_J);
+      net_touching_J += after_J - before_J;
+      walk.most_over_tank_J = std::max(walk.most_over_tank_J, net_touching_J - kTankStart_J);
+    }
+    if (i % 10 == 0)
+      walk.least_clearance = std::min(walk.least_clearance, judge::clearance(scene, state.position, 2 * kRadius));
+  }
+  walk.ledger = state.ledger;
+  return walk;
+}
+
+#ifdef HL_SANITIZED
+constexpr int kWalkTicks = 20'000;
+#else
+constexpr int kWalkTicks = 1'000'000;
+#endif
+
+TEST(Ledger, StrictTicksNeverAddEnergyOverASoupOfEverything) {
+  const auto scene = soup(300);
+  const Walk walk = randomWalk(*scene, settingsOf(LedgerMode::kStrict), kWalkTicks);
+  EXPECT_LE(walk.most_per_tick_J, 1e-12);
+  EXPECT_GE(walk.least_clearance, kRadius * (1 - 1e-6));
+  EXPECT_LE(walk.ledger.injected_J, 1e-12 * kWalkTicks);
+  EXPECT_GT(walk.ledger.dissipated_J, 0);
+}
+
+TEST(Ledger, TheTankBoundsWhatIsAdded) {
+  const auto scene = soup(300);
+  const Walk walk = randomWalk(*scene, settingsOf(LedgerMode::kTank), kWalkTicks / 4);
+  EXPECT_LE(walk.most_over_tank_J, 1e-9);
+  EXPECT_LE(walk.most_per_tick_J, kTankFull_J + 1e-9);
+  EXPECT_GE(walk.least_clearance, kRadius * (1 - 1e-6));
+  EXPECT_GT(walk.ledger.injected_J, 0);
+  const Walk free = randomWalk(*scene, settingsOf(LedgerMode::kReport), kWalkTicks / 4);
+  EXPECT_GT(free.ledger.injected_J, walk.ledger.injected_J);
+}
+
+}  // namespace
+}  // namespace hl
