@@ -2,7 +2,9 @@
 #include <fmt/core.h>
 #include <fmt/os.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "base/clock.h"
@@ -28,18 +30,41 @@ struct BenchOptions {
   std::string csv;
 };
 
+// What the surface does beside holding the proxy off.
+enum class Feel : std::uint8_t { kPlain, kShading, kFriction, kEverything };
+constexpr std::array<Feel, 4> kFeels{Feel::kPlain, Feel::kShading, Feel::kFriction, Feel::kEverything};
+constexpr std::array<const char*, 4> kFeelNames{"plain", "shading", "friction", "everything"};
+
+// Everything: shading, both frictions, viscosity, and textures of stiffness, static friction and height.
+void setFeel(Model& model, Feel feel) {
+  Material& material = model.materials[0];
+  if (feel == Feel::kShading || feel == Feel::kEverything) material.smooth = true;
+  if (feel == Feel::kFriction || feel == Feel::kEverything) {
+    material.static_friction = 0.5;
+    material.dynamic_friction = 0.3;
+    material.viscosity_Ns_m = 2;
+  }
+  if (feel != Feel::kEverything) return;
+  model.textures = {makeTexture("noise", 64), makeTexture("checker", 64), makeTexture("sine", 64)};
+  material.textureOf(Quantity::kStiffness) = {0, 0.5, 1};
+  material.textureOf(Quantity::kStaticFriction) = {1, 0.3, 0.6};
+  material.textureOf(Quantity::kHeight) = {2, 0, 1e-4};
+}
+
 struct Row {
-  std::string hierarchy;
+  std::string hierarchy, surface;
   std::size_t primitives;
   double build_s;
   Histogram ticks;
   int capped = 0;
+  std::int64_t total_ns = 0;
 };
 
 // A curve that never repeats, at kSpeed over the middle of the terrain, following its height where the proxy is.
-Row measure(std::size_t size, HierarchyKind kind, const BenchOptions& options) {
-  Row row{kind == HierarchyKind::kSpheres ? "spheres" : "none", 0, 0, {}, 0};
+Row measure(std::size_t size, HierarchyKind kind, Feel feel, const BenchOptions& options) {
+  Row row{kind == HierarchyKind::kSpheres ? "spheres" : "none", kFeelNames[static_cast<std::size_t>(feel)], 0, 0, {}};
   Model model = makeBuiltinScene("terrain:" + std::to_string(size));
+  setFeel(model, feel);
   const std::int64_t build_ns = monotonicNow_ns();
   const auto snapshot = makeSnapshot(std::move(model), kind);
   row.build_s = 1e-9 * static_cast<double>(monotonicNow_ns() - build_ns);
@@ -58,6 +83,7 @@ Row measure(std::size_t size, HierarchyKind kind, const BenchOptions& options) {
     const std::int64_t time_ns = monotonicNow_ns() - start_ns;
     if (i < 0) continue;
     row.ticks.add(static_cast<std::uint64_t>(time_ns));
+    row.total_ns += time_ns;
     row.capped += report.capped ? 1 : 0;
   }
   return row;
@@ -65,32 +91,44 @@ Row measure(std::size_t size, HierarchyKind kind, const BenchOptions& options) {
 
 double us(std::uint64_t ns) { return 1e-3 * static_cast<double>(ns); }
 
-void run(const BenchOptions& options) {
-  std::optional<fmt::ostream> csv;
-  if (!options.csv.empty()) {
-    try {
-      csv.emplace(fmt::output_file(options.csv));
-    } catch (const std::system_error& error) {
-      throw Error("cannot write " + options.csv + ": " + error.what());
-    }
-    csv->print("hierarchy,primitives,build_s,ticks,p50_us,p99_us,p999_us,max_us,capped\n");
+std::optional<fmt::ostream> openCsv(const std::string& name) {
+  if (name.empty()) return {};
+  try {
+    std::optional<fmt::ostream> csv(fmt::output_file(name));
+    csv->print("hierarchy,surface,primitives,build_s,ticks,p50_us,p99_us,p999_us,max_us,capped\n");
+    return csv;
+  } catch (const std::system_error& error) {
+    throw Error("cannot write " + name + ": " + error.what());
   }
-  fmt::print("one tick, sliding at {} m/s over terrain, r = {} m, times in us\n", kSpeed_m_s, options.radius);
-  fmt::print("{:<10}{:>11}{:>10}{:>9}{:>9}{:>9}{:>9}{:>8}\n", "hierarchy", "primitives", "build s", "p50", "p99",
-             "p99.9", "max", "capped");
+}
+
+void print(const Row& row, double ratio, std::optional<fmt::ostream>& csv) {
+  const Histogram& t = row.ticks;
+  const double p50 = us(t.percentile_ns(0.5)), p99 = us(t.percentile_ns(0.99)), p999 = us(t.percentile_ns(0.999));
+  fmt::print("{:<10}{:<12}{:>11}{:>10.3f}{:>9.2f}{:>9.2f}{:>9.2f}{:>9.2f}{:>8}{:>8.2f}\n", row.hierarchy, row.surface,
+             row.primitives, row.build_s, p50, p99, p999, us(t.max_ns()), row.capped, ratio);
+  std::fflush(stdout);
+  if (!csv) return;
+  csv->print("{},{},{},{:.6f},{},{:.3f},{:.3f},{:.3f},{:.3f},{}\n", row.hierarchy, row.surface, row.primitives,
+             row.build_s, t.count(), p50, p99, p999, us(t.max_ns()), row.capped);
+}
+
+void run(const BenchOptions& options) {
+  std::optional<fmt::ostream> csv = openCsv(options.csv);
+  fmt::print("one tick, sliding at {} m/s over terrain, r = {} m, times in us; ratio: mean time to that of plain\n",
+             kSpeed_m_s, options.radius);
+  fmt::print("{:<10}{:<12}{:>11}{:>10}{:>9}{:>9}{:>9}{:>9}{:>8}{:>8}\n", "hierarchy", "surface", "primitives",
+             "build s", "p50", "p99", "p99.9", "max", "capped", "ratio");
   for (const HierarchyKind kind : {HierarchyKind::kSpheres, HierarchyKind::kNone}) {
     for (int size = 1000; size <= options.most; size *= 10) {
       if (kind == HierarchyKind::kNone && static_cast<std::size_t>(size) > kBruteForceMost) break;
-      const Row row = measure(static_cast<std::size_t>(size), kind, options);
-      const Histogram& t = row.ticks;
-      fmt::print("{:<10}{:>11}{:>10.3f}{:>9.2f}{:>9.2f}{:>9.2f}{:>9.2f}{:>8}\n", row.hierarchy, row.primitives,
-                 row.build_s, us(t.percentile_ns(0.5)), us(t.percentile_ns(0.99)), us(t.percentile_ns(0.999)),
-                 us(t.max_ns()), row.capped);
-      std::fflush(stdout);
-      if (csv) {
-        csv->print("{},{},{:.6f},{},{:.3f},{:.3f},{:.3f},{:.3f},{}\n", row.hierarchy, row.primitives, row.build_s,
-                   t.count(), us(t.percentile_ns(0.5)), us(t.percentile_ns(0.99)), us(t.percentile_ns(0.999)),
-                   us(t.max_ns()), row.capped);
+      double plain_ns = 0;
+      for (const Feel feel : kFeels) {
+        if (kind == HierarchyKind::kNone && feel != Feel::kPlain) break;
+        const Row row = measure(static_cast<std::size_t>(size), kind, feel, options);
+        const double mean_ns = static_cast<double>(row.total_ns) / static_cast<double>(row.ticks.count());
+        if (feel == Feel::kPlain) plain_ns = mean_ns;
+        print(row, mean_ns / plain_ns, csv);
       }
     }
   }

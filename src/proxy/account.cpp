@@ -9,8 +9,8 @@ namespace {
 
 void bookCauses(Ledger& ledger, const Account::Causes& causes, double moved_J, double stiffened_J) {
   if (moved_J > 0) {
-    const double bends = causes.shading_rad + causes.bump_rad;
-    const double bump = bends > 0 ? causes.bump_rad / bends : 0;
+    const double bends = causes.shading + causes.bump;
+    const double bump = bends > 0 ? causes.bump / bends : 0;
     ledger.add(EnergyCause::kShading, (1 - bump) * moved_J);
     ledger.add(EnergyCause::kTexture, bump * moved_J);
   }

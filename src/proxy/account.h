@@ -18,9 +18,9 @@ class Account {
   /// tick started with and the tank adds. RT-safe.
   double affordable(const Vec3& proxy, const Vec3& step) const;
 
-  /// What bent the proxy's way, for booking by cause. Radians.
+  /// What bent the proxy's way, for booking by cause; the bends as BentNormal has them.
   struct Causes {
-    double shading_rad = 0, bump_rad = 0;
+    double shading = 0, bump = 0;
     bool stiffness_textured = false;
   };
   /// Moves the target for the surfaces' stiffness as far as the energy reaches, books the tick, and fills the report.

@@ -15,7 +15,8 @@ constexpr double kCrease_rad = 0.01;
 
 // Beyond so many contacts at once the passes are repeated by the tick itself, with the contacts found anew.
 constexpr std::size_t kFewContacts = 8;
-constexpr int kInnerPasses = 16;
+constexpr int kInnerPasses = 12;
+constexpr double kMostMixing = 0.9;
 
 // The way over the edge of a textured triangle that makes its neighbour the one in contact, in proxy radii: the closest
 // point of the one left behind is then farther by 1/2 (1e-4)^2 = 5e-9 radii, 50 times the skin.
@@ -38,51 +39,56 @@ bool Effects::any(const ContactSet& set) const {
 }
 
 // Whether a primitive that shares the edge or vertex under the contact has another normal there.
-bool Effects::disagrees(const ContactSet& set, const Contact& contact, const Vec3& normal) const {
+bool Effects::creased(const ContactSet& set, const Contact& contact, const Vec3& normal) const {
   return std::any_of(set.twins.begin(), set.twins.end(), [&](const Contact& twin) {
     if (twin.plane.normal != contact.plane.normal || twin.plane.offset != contact.plane.offset) return false;
     return reader_.bend(placeOf(twin)).normal.cross(normal).norm() > kCrease_rad;
   });
 }
 
-// The bent normal of a contact when the proxy has moved on by `offset`.
-BentNormal Effects::bend(const ContactSet& set, const Contact& contact, const Vec3& position,
-                         const Vec3& offset) const {
-  BentNormal plain;
-  plain.normal = contact.plane.normal;
-  if (!reader_.mayBend(contact.primitive)) return plain;
-  SurfacePlace place = placeOf(contact);
-  if (!offset.isZero(0)) {
-    const ClosestPoint nearest = closestPoint(snapshot_.primitives[contact.primitive], position + offset);
-    place.normal = nearest.normal;
-    place.weights = nearest.weights;
+Effects::TouchedSet Effects::touchedNow(const ContactSet& set) const {
+  TouchedSet touched;
+  for (const Contact& contact : set.contacts) {
+    Touched now{placeOf(contact), {}, reader_.mayBend(contact.primitive)};
+    if (now.bends) now.bent = reader_.bend(now.place);
+    if (now.bent.bent() && creased(set, contact, now.bent.normal)) now.bends = false;
+    if (!now.bends) now.bent = {};
+    if (!now.bends) now.bent.normal = contact.plane.normal;
+    touched.push(now);
   }
-  const BentNormal bent = reader_.bend(place);
-  return bent.bent() && disagrees(set, contact, bent.normal) ? plain : bent;
+  return touched;
 }
 
-// Pass 1: the sub-goal above the planes as they feel, each bent about the place it holds the proxy off now.
-void Effects::firstPass(const ContactSet& set, const Vec3& position, const Vec3& gap, const Vec3& offset,
+// The places touched and their bent normals when the passes have moved the proxy to `centre`.
+void Effects::moveOn(const ContactSet& set, const Vec3& centre, TouchedSet& touched) const {
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    const ClosestPoint nearest = closestPoint(snapshot_.primitives[set.contacts[i].primitive], centre);
+    touched[i].place.weights = nearest.weights;
+    touched[i].place.normal = nearest.normal;
+    if (touched[i].bends) touched[i].bent = reader_.bend(touched[i].place);
+  }
+}
+
+// Pass 1: the point nearest the finger above the planes as they feel, each bent about where it holds the proxy now.
+Vec3 Effects::firstPass(const ContactSet& set, const TouchedSet& touched, const Vec3& gap, const Vec3& offset,
                         SubGoal& sub_goal) const {
   FixedVector<Plane, kMaxContacts> planes;
-  FixedVector<BentNormal, kMaxContacts> bends;
-  for (const Contact& contact : set.contacts) {
-    const BentNormal bent = bend(set, contact, position, offset);
-    const double height = contact.plane.normal.dot(offset) - contact.plane.offset;
-    planes.push({bent.normal, bent.normal.dot(offset) - height});
-    bends.push(bent);
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    const double height = set.planes[i].normal.dot(offset) - set.planes[i].offset;
+    planes.push({touched[i].bent.normal, touched[i].bent.normal.dot(offset) - height});
+    sub_goal.bent |= touched[i].bent.bent();
   }
-  sub_goal.solution = nearestAbove({planes.begin(), planes.size()}, gap, tolerance_.feasible);
-  sub_goal.normals.clear();
-  sub_goal.shading_rad = sub_goal.bump_rad = 0;
-  for (std::size_t i = 0; i < sub_goal.solution.active_count; ++i) {
-    const BentNormal& bent = bends[sub_goal.solution.active[i]];
-    sub_goal.normals.push(bent.normal);
-    sub_goal.shading_rad = std::max(sub_goal.shading_rad, bent.shading_rad);
-    sub_goal.bump_rad = std::max(sub_goal.bump_rad, bent.bump_rad);
+  const SolverResult solution = nearestAbove({planes.begin(), planes.size()}, gap, tolerance_.feasible);
+  sub_goal.holding.clear();
+  sub_goal.shading = sub_goal.bump = 0;
+  for (std::size_t i = 0; i < solution.active_count; ++i) {
+    const std::size_t contact = solution.active[i];
+    const BentNormal& bent = touched[contact].bent;
+    sub_goal.holding.push({contact, touched[contact].place, bent.normal, solution.multiplier[i]});
+    sub_goal.shading = std::max(sub_goal.shading, bent.shading);
+    sub_goal.bump = std::max(sub_goal.bump, bent.bump);
   }
-  sub_goal.bent = std::any_of(bends.begin(), bends.end(), [](const BentNormal& b) { return b.bent(); });
-  if (sub_goal.solution.violation > tolerance_.feasible) sub_goal.solution.point = offset;
+  return solution.violation > tolerance_.feasible ? offset : solution.point;
 }
 
 // Pass 2: back above the true planes; a goal above all of them comes down to the nearest.
@@ -101,18 +107,16 @@ Vec3 Effects::secondPass(const ContactSet& set, const Vec3& goal) const {
   return result.violation <= tolerance_.feasible ? result.point : Vec3(Vec3::Zero());
 }
 
-// What resists a slip from the place that lies `along` the way from here.
-Drag Effects::dragAt(const ContactSet& set, const SolverResult& solution, const Vec3& along) const {
+// What resists a slip at the place that lies `along` the way from here.
+Drag Effects::dragAt(const SubGoal& sub_goal, const Vec3& along) const {
   Drag drag;
-  for (std::size_t i = 0; i < solution.active_count; ++i) {
-    const Contact& contact = set.contacts[solution.active[i]];
-    SurfacePlace place = placeOf(contact);
-    const bool textured = reader_.dragTextured(contact.primitive);
-    if (textured && !along.isZero(0)) place = reader_.moved(place, along);
-    const double normal_m = std::max(0.0, solution.multiplier[i]);
+  for (const Holding& holding : sub_goal.holding) {
+    const bool textured = reader_.dragTextured(holding.place.primitive);
+    const SurfacePlace place = textured && !along.isZero(0) ? reader_.moved(holding.place, along) : holding.place;
+    const double normal_m = std::max(0.0, holding.multiplier_m);
     const double dynamic = std::max(0.0, reader_.value(Quantity::kDynamicFriction, place));
     const double fixed = std::max(dynamic, reader_.value(Quantity::kStaticFriction, place));
-    const double stribeck = textured ? 0 : reader_.stribeck_m_s(contact.primitive);
+    const double stribeck = textured ? 0 : reader_.stribeck_m_s(place.primitive);
     drag.rubs.push({fixed * normal_m, dynamic * normal_m, stribeck * settings_.period_s * settings_.world_per_device});
     drag.viscous +=
         std::max(0.0, reader_.value(Quantity::kViscosity, place)) / (settings_.spring_N_m * settings_.period_s);
@@ -120,68 +124,75 @@ Drag Effects::dragAt(const ContactSet& set, const SolverResult& solution, const 
   return drag;
 }
 
-// Metres along the way until an active textured triangle is left behind; its texture says nothing beyond.
-double Effects::lengthWithin(const ContactSet& set, const SolverResult& solution, const Vec3& way) const {
+// Metres along the way until a textured triangle is left behind; its texture says nothing beyond.
+double Effects::lengthWithin(const SubGoal& sub_goal, const Vec3& way) const {
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < solution.active_count; ++i) {
-    const Contact& contact = set.contacts[solution.active[i]];
-    if (contact.feature != Feature::kFace || !reader_.dragTextured(contact.primitive)) continue;
-    const SurfacePlace place = placeOf(contact);
-    const SurfacePlace end = reader_.moved(place, way);
+  for (const Holding& holding : sub_goal.holding) {
+    if (!reader_.dragTextured(holding.place.primitive)) continue;
+    const auto& now = holding.place.weights;
+    if (std::any_of(now.begin(), now.end(), [](double w) { return w <= 0; })) continue;  // on an edge already
+    const SurfacePlace end = reader_.moved(holding.place, way);
     for (std::size_t k = 0; k < 3; ++k) {
       if (end.weights[k] >= 0) continue;
-      const double part = place.weights[k] / (place.weights[k] - end.weights[k]);
+      const double part = now[k] / (now[k] - end.weights[k]);
       least = std::min(least, part * way.norm() + kOverEdge * tolerance_.reach);
     }
   }
   return least;
 }
 
-double Effects::texelsAlong(const ContactSet& set, const SolverResult& solution, const Vec3& way) const {
+double Effects::texelsAlong(const SubGoal& sub_goal, const Vec3& way) const {
   double most = 0;
-  for (std::size_t i = 0; i < solution.active_count; ++i) {
-    const Contact& contact = set.contacts[solution.active[i]];
-    if (reader_.dragTextured(contact.primitive)) most = std::max(most, reader_.texelsAlong(placeOf(contact), way));
+  for (const Holding& holding : sub_goal.holding) {
+    if (reader_.dragTextured(holding.place.primitive)) most = std::max(most, reader_.texelsAlong(holding.place, way));
   }
   return most;
 }
 
 // The part of the way that friction lets the proxy go, 0..1, after `slipped_now` more than slip_ says.
-double Effects::slipFraction(const ContactSet& set, const Vec3& way, double slipped_now, SubGoal& sub_goal) const {
-  const SolverResult& solution = sub_goal.solution;
+double Effects::slipFraction(const Vec3& way, double slipped_now, SubGoal& sub_goal) const {
   const double pull = way.norm();
   sub_goal.viscous = 0;
-  if (solution.active_count == 0 || !(pull > 0)) return 1;
-  const Drag drag = dragAt(set, solution, Vec3::Zero());
+  if (sub_goal.holding.empty() || !(pull > 0)) return 1;
+  const Drag drag = dragAt(sub_goal, Vec3::Zero());
+  const double texels = texelsAlong(sub_goal, way);
+  sub_goal.resisted = texels > 0 || drag.viscous > 0 || drag.holding() > 0;
+  if (!sub_goal.resisted) return 1;
   const Slip before{slip_.length + slipped_now, slip_.viscous_m + drag.viscous * slipped_now};
   if (!slipping_ && slipped_now == 0 && pull <= drag.holding() + before.viscous_m) return 0;
-  const double texels = texelsAlong(set, solution, way);
   if (texels == 0) {
     sub_goal.viscous = drag.viscous;
     return slipLength(drag, pull, before) / pull;
   }
   const int samples = static_cast<int>(std::clamp(std::ceil(kSamplesPerTexel * texels), 1.0, double{kMostSamples}));
-  const auto drag_at = [&](double distance) { return dragAt(set, solution, (distance / pull) * way); };
+  const auto drag_at = [&](double distance) { return dragAt(sub_goal, (distance / pull) * way); };
   const double length = slipLengthAlong(drag_at, pull, before, samples, sub_goal.viscous);
-  return std::min(length, lengthWithin(set, solution, way)) / pull;
+  return std::min(length, lengthWithin(sub_goal, way)) / pull;
 }
 
+// The passes are repeated here with the contacts in hand, which costs no search. Anderson's mixing of the last two
+// passes takes out the main part of what would be left, a factor of sin^2(beta) + depth / radius each time.
 SubGoal Effects::subGoal(const ContactSet& set, const Vec3& position, const Vec3& gap) const {
-  const bool textured = std::any_of(set.contacts.begin(), set.contacts.end(),
-                                    [&](const Contact& contact) { return reader_.dragTextured(contact.primitive); });
-  const bool repeat =
-      settings_.shading == ShadingPasses::kConverged && set.contacts.size() <= kFewContacts && !textured;
+  const bool few = set.contacts.size() <= kFewContacts;
+  const double enough = kRestPerGap * gap.norm() + tolerance_.rest;
   SubGoal sub_goal;
-  for (int pass = 0; pass < kInnerPasses; ++pass) {
-    const Vec3 offset = sub_goal.step;
-    firstPass(set, position, gap, offset, sub_goal);
-    const Vec3 way = sub_goal.solution.point - offset;
-    const Vec3 goal = offset + slipFraction(set, way, offset.norm(), sub_goal) * way;
-    sub_goal.step = sub_goal.bent ? secondPass(set, goal) : goal;
-    const double change = (sub_goal.step - offset).norm();
-    if (!repeat || !sub_goal.bent || change <= kRestPerGap * gap.norm() + tolerance_.rest) break;
+  TouchedSet touched = touchedNow(set);
+  Vec3 offset = Vec3::Zero(), last_next = Vec3::Zero(), last_change = Vec3::Zero();
+  for (int pass = 1;; ++pass) {
+    const Vec3 way = firstPass(set, touched, gap, offset, sub_goal) - offset;
+    const Vec3 goal = offset + slipFraction(way, offset.norm(), sub_goal) * way;
+    const Vec3 next = sub_goal.bent ? secondPass(set, goal) : goal;
+    const Vec3 change = next - offset;
+    sub_goal.step = next;
+    if (!few || !sub_goal.bent || change.norm() <= enough || pass == kInnerPasses) return sub_goal;
+    if (settings_.shading == ShadingPasses::kOnce) return sub_goal;
+    const Vec3 turn = change - last_change;
+    const double mix = pass > 1 ? change.dot(turn) / turn.squaredNorm() : 0;
+    offset = std::abs(mix) < kMostMixing ? Vec3(next - mix * (next - last_next)) : next;
+    last_next = next;
+    last_change = change;
+    moveOn(set, position + offset, touched);
   }
-  return sub_goal;
 }
 
 void Effects::slipped(const SubGoal& sub_goal, double length) {
@@ -191,15 +202,13 @@ void Effects::slipped(const SubGoal& sub_goal, double length) {
   slipping_ = true;
 }
 
-ProxyContact Effects::describe(const ContactSet& set, const SubGoal& sub_goal, std::size_t i) const {
-  const Contact& contact = set.contacts[sub_goal.solution.active[i]];
-  const SurfacePlace place = placeOf(contact);
-  return {contact.point,
-          sub_goal.normals[i],
-          sub_goal.solution.multiplier[i],
-          contact.primitive,
-          std::clamp(reader_.value(Quantity::kStiffness, place), 0.0, 1.0),
-          std::max(0.0, reader_.value(Quantity::kStaticFriction, place))};
+ProxyContact Effects::describe(const ContactSet& set, const Holding& holding) const {
+  return {set.contacts[holding.contact].point,
+          holding.normal,
+          holding.multiplier_m,
+          holding.place.primitive,
+          std::clamp(reader_.value(Quantity::kStiffness, holding.place), 0.0, 1.0),
+          std::max(0.0, reader_.value(Quantity::kStaticFriction, holding.place))};
 }
 
 }  // namespace hl

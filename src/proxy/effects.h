@@ -17,14 +17,22 @@
 
 namespace hl {
 
+/// A contact that holds the proxy in a sub-goal.
+struct Holding {
+  std::size_t contact = 0;     ///< number in the contact set
+  SurfacePlace place;          ///< where it is touched; its normal is the true one
+  Vec3 normal = Vec3::Zero();  ///< as it feels
+  double multiplier_m = 0;
+};
+
 /// The next step of the proxy and what it rests on.
 struct SubGoal {
   Vec3 step = Vec3::Zero();
-  SolverResult solution;                 ///< with the planes that held: bent ones where surfaces bend
-  FixedVector<Vec3, 3> normals;          ///< of the active planes
-  double shading_rad = 0, bump_rad = 0;  ///< the largest bends among the active planes
-  double viscous = 0;                    ///< pull that viscosity uses for each metre of the step
-  bool bent = false;                     ///< the step is not plain descent: it may raise the spring's energy
+  FixedVector<Holding, 3> holding;
+  double shading = 0, bump = 0;  ///< the largest bends of what holds, as BentNormal has them
+  double viscous = 0;            ///< pull that viscosity uses for each metre of the step
+  bool bent = false;             ///< the step is not plain descent: it may raise the spring's energy
+  bool resisted = false;         ///< friction or viscosity act on it
 };
 
 class Effects {
@@ -46,21 +54,29 @@ class Effects {
   void slipped(const SubGoal& sub_goal, double length);
   bool hasSlipped() const { return slip_.length > 0; }
 
-  /// A contact as the report gives it, number `i` of the active ones.
-  ProxyContact describe(const ContactSet& set, const SubGoal& sub_goal, std::size_t i) const;
+  /// A contact as the report gives it.
+  ProxyContact describe(const ContactSet& set, const Holding& holding) const;
   bool stiffnessTextured(std::uint32_t primitive) const { return reader_.textured(primitive, Quantity::kStiffness); }
 
  private:
-  struct Pass;
-  BentNormal bend(const ContactSet& set, const Contact& contact, const Vec3& position, const Vec3& offset) const;
-  bool disagrees(const ContactSet& set, const Contact& contact, const Vec3& normal) const;
-  void firstPass(const ContactSet& set, const Vec3& position, const Vec3& gap, const Vec3& offset,
+  /// A contact as it is while the passes move the proxy on.
+  struct Touched {
+    SurfacePlace place;
+    BentNormal bent;
+    bool bends = false;
+  };
+  using TouchedSet = FixedVector<Touched, kMaxContacts>;
+
+  TouchedSet touchedNow(const ContactSet& set) const;
+  bool creased(const ContactSet& set, const Contact& contact, const Vec3& normal) const;
+  void moveOn(const ContactSet& set, const Vec3& centre, TouchedSet& touched) const;
+  Vec3 firstPass(const ContactSet& set, const TouchedSet& touched, const Vec3& gap, const Vec3& offset,
                  SubGoal& sub_goal) const;
   Vec3 secondPass(const ContactSet& set, const Vec3& goal) const;
-  double slipFraction(const ContactSet& set, const Vec3& way, double slipped_now, SubGoal& sub_goal) const;
-  Drag dragAt(const ContactSet& set, const SolverResult& solution, const Vec3& along) const;
-  double lengthWithin(const ContactSet& set, const SolverResult& solution, const Vec3& way) const;
-  double texelsAlong(const ContactSet& set, const SolverResult& solution, const Vec3& way) const;
+  double slipFraction(const Vec3& way, double slipped_now, SubGoal& sub_goal) const;
+  Drag dragAt(const SubGoal& sub_goal, const Vec3& along) const;
+  double lengthWithin(const SubGoal& sub_goal, const Vec3& way) const;
+  double texelsAlong(const SubGoal& sub_goal, const Vec3& way) const;
 
   SurfaceReader reader_;
   const Snapshot& snapshot_;

@@ -54,20 +54,23 @@ struct Balance {
   }
 };
 
-// Where, between the last sample that slips and `held` that does not, the proxy comes to rest. Halving finds a jump of
-// the drag, and the proxy goes just over it, onto the line that holds it; otherwise the balance is linear at the end.
-double restBetween(const Balance& balance, double held, double left_here, double left_there) {
-  constexpr int kHalvings = 14;
-  constexpr double kJump = 10;  // a change of the balance so many times steeper than a plain slip's is a jump
-  double here = balance.reached, there = held, used = 0;
-  for (int i = 0; i < kHalvings; ++i) {
+// Where, between the last sample that slips and `there` that does not, the proxy comes to rest. Where the drag does not
+// change the balance is linear and the first guess is it; halving finds a jump of the drag, and the proxy goes just
+// over it, onto the line that holds it.
+double restBetween(const Balance& balance, double there, double left_here, double left_there) {
+  constexpr int kRounds = 20;
+  constexpr double kBalanced = 1e-12;
+  double here = balance.reached, used = 0;
+  for (int i = 0; i < kRounds; ++i) {
+    const double guess = here + (there - here) * left_here / (left_here - left_there);
+    const double left_guess = balance.left(guess, used);
+    if (std::abs(left_guess) <= kBalanced * balance.pull) return guess;
     const double between = 0.5 * (here + there);
     const double left = balance.left(between, used);
     (left > 0 ? here : there) = between;
     (left > 0 ? left_here : left_there) = left;
   }
-  const bool jump = left_here - left_there > kJump * (there - here) * (1 + balance.drag_at(there).viscous);
-  return jump ? there : here + (there - here) * left_here / (left_here - left_there);
+  return there;
 }
 
 }  // namespace
@@ -75,7 +78,7 @@ double restBetween(const Balance& balance, double held, double left_here, double
 double slipLengthAlong(FunctionRef<Drag(double)> drag_at, double pull, const Slip& before, int samples,
                        double& viscous) {
   Balance balance{drag_at, pull, before.viscous_m};
-  viscous = 0;
+  viscous = drag_at(0).viscous;
   double used = 0;
   double left_here = balance.left(0, used);
   if (left_here <= 0) return 0;
@@ -85,7 +88,7 @@ double slipLengthAlong(FunctionRef<Drag(double)> drag_at, double pull, const Sli
     if (left_there <= 0) {
       const double rest = restBetween(balance, there, left_here, left_there);
       balance.left(rest, used);
-      viscous = used / rest;
+      if (rest > 0) viscous = used / rest;
       return rest;
     }
     balance.reached = there;

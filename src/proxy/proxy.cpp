@@ -14,7 +14,7 @@ namespace hl {
 namespace {
 
 // Passes in contact under shading or friction. What is left to slip after so many is slipped in the next tick.
-constexpr int kEffectPasses = 48;
+constexpr int kEffectPasses = 8;
 
 // One tick's work. Kept apart from ProxyState so that a tick leaves nothing behind but what its end says.
 class Tick {
@@ -40,7 +40,7 @@ class Tick {
   }
   bool sweep(Vec3& position, const Vec3& step) const;
   void advance(const SubGoal& sub_goal);
-  bool tryCurvatureStep(const SubGoal& sub_goal);
+  bool tryCurvatureStep();
   bool restoreIfWorse();
   void finish(const SubGoal& sub_goal, TickReport& report);
 
@@ -53,6 +53,7 @@ class Tick {
   Account account_;
   Effects effects_;
   ContactSet set_;
+  SolverResult plain_;  // of the last plain sub-goal
   bool felt_ = false;   // the sub-goal in hand is under the rules of the surfaces
   bool spent_ = false;  // the energy that the tick may add has been used up
   int effect_passes_ = 0;
@@ -69,17 +70,21 @@ class Tick {
 SubGoal Tick::plainSubGoal() {
   const Vec3 gap = goal_ - state_.position;
   const std::span<const Plane> planes(set_.planes.begin(), set_.planes.size());
-  SubGoal result;
-  result.solution = nearestAbove(planes, gap, tolerance_.feasible);
-  if (result.solution.violation > tolerance_.feasible) {
+  plain_ = nearestAbove(planes, gap, tolerance_.feasible);
+  if (plain_.violation > tolerance_.feasible) {
     relaxToCentre(set_);
-    result.solution = nearestAbove(planes, gap, tolerance_.feasible);
+    plain_ = nearestAbove(planes, gap, tolerance_.feasible);
     // Held from all sides closer than rounding can tell: stay.
-    if (result.solution.violation > tolerance_.feasible) result.solution.point = Vec3::Zero();
+    if (plain_.violation > tolerance_.feasible) plain_.point = Vec3::Zero();
   }
-  result.step = result.solution.point;
-  for (std::size_t i = 0; i < result.solution.active_count; ++i) {
-    result.normals.push(set_.planes[result.solution.active[i]].normal);
+  SubGoal result;
+  result.step = plain_.point;
+  for (std::size_t i = 0; i < plain_.active_count; ++i) {
+    const Contact& contact = set_.contacts[plain_.active[i]];
+    result.holding.push({plain_.active[i],
+                         {contact.primitive, contact.plane.normal, contact.weights},
+                         contact.plane.normal,
+                         plain_.multiplier[i]});
   }
   return result;
 }
@@ -87,6 +92,10 @@ SubGoal Tick::plainSubGoal() {
 SubGoal Tick::effectSubGoal() {
   ++effect_passes_;
   SubGoal result = effects_.subGoal(set_, state_.position, finger_ - state_.position);
+  if (!result.bent && !result.resisted) {  // nothing but the true planes after all
+    felt_ = false;
+    return plainSubGoal();
+  }
   if (effect_passes_ > kEffectPasses) result.step = Vec3::Zero();
   if (result.bent && settings_.shading == ShadingPasses::kOnce) goal_ = state_.position + result.step;
   return result;
@@ -121,14 +130,14 @@ bool Tick::sweep(Vec3& position, const Vec3& step) const {
 
 // On a rounded edge or corner the tangent planes alone converge slowly; Newton's step uses the curvature
 // (curvature_step.h).
-bool Tick::tryCurvatureStep(const SubGoal& sub_goal) {
-  if (felt_ || pending_ || sub_goal.solution.active_count == 0) return false;
+bool Tick::tryCurvatureStep() {
+  if (felt_ || pending_ || plain_.active_count == 0) return false;
   if (plain_left_ > 0) {
     --plain_left_;
     return false;
   }
   Vec3 step;
-  if (!curvatureStep(set_, snapshot_.primitives, sub_goal.solution, tolerance_.reach, step)) return false;
+  if (!curvatureStep(set_, snapshot_.primitives, plain_, tolerance_.reach, step)) return false;
   Vec3 there = state_.position;
   if (!sweep(there, step)) return false;
   pending_ = true;
@@ -173,16 +182,14 @@ void Tick::finish(const SubGoal& last, TickReport& report) {
   SubGoal sub_goal =
       once && !set_.contacts.empty() ? effects_.subGoal(set_, state_.position, finger_ - state_.position) : last;
   // Stopped where the bent planes would let it go on: the true ones hold it.
-  if (sub_goal.solution.active_count == 0 && !atRest(finger_ - state_.position)) sub_goal = plainSubGoal();
-  for (std::size_t i = 0; i < sub_goal.solution.active_count; ++i) {
-    report.contacts.push(effects_.describe(set_, sub_goal, i));
-  }
+  if (sub_goal.holding.empty() && !atRest(finger_ - state_.position)) sub_goal = plainSubGoal();
+  for (const Holding& holding : sub_goal.holding) report.contacts.push(effects_.describe(set_, holding));
   bool stiffness_textured = false;
   for (const ProxyContact& contact : report.contacts) {
     stiffness_textured |= effects_.stiffnessTextured(contact.primitive);
   }
   state_.rest_s = effects_.hasSlipped() ? 0 : std::min(state_.rest_s + settings_.period_s, kStuck_s);
-  account_.close(state_, {sub_goal.shading_rad, sub_goal.bump_rad, stiffness_textured}, report);
+  account_.close(state_, {sub_goal.shading, sub_goal.bump, stiffness_textured}, report);
 }
 
 TickReport Tick::run() {
@@ -195,7 +202,7 @@ TickReport Tick::run() {
     report.capped = !at_rest && (report.iterations >= settings_.iteration_cap || set_.overflow);
     if (at_rest || report.capped) break;
     ++report.iterations;
-    if (!tryCurvatureStep(sub_goal)) advance(sub_goal);
+    if (!tryCurvatureStep()) advance(sub_goal);
   }
   restoreIfWorse();
   finish(sub_goal, report);

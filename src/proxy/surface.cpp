@@ -10,13 +10,12 @@ namespace {
 constexpr std::array<Quantity, 4> kModulated{Quantity::kStiffness, Quantity::kStaticFriction,
                                              Quantity::kDynamicFriction, Quantity::kViscosity};
 
-double angleBetween(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+// cos and sin of kShadingLimit_rad.
+constexpr double kLimitCos = 0.8660254037844386;
+constexpr double kLimitSin = 0.5;
 
-// `towards`, but at most `limit` radians away from `from`; both unit and in one hemisphere.
-Vec3 turnedTo(const Vec3& from, const Vec3& towards, double limit) {
-  const Vec3 side = towards - towards.dot(from) * from;
-  return std::cos(limit) * from + std::sin(limit) * side.normalized();
-}
+// Half the squared distance of two unit vectors: 1 - cos of the angle between them, without its cancellation.
+double bendBetween(const Vec3& a, const Vec3& b) { return 0.5 * (a - b).squaredNorm(); }
 
 // How the barycentric weights of a triangle's point change when the point moves by `step` in its plane: the step as
 // a e1 + b e2 by the normal equations of the two edges.
@@ -58,9 +57,11 @@ void SurfaceReader::shade(const SurfacePlace& place, BentNormal& bent) const {
   }
   const Vec3 shaded = sum.normalized();
   if (!(shaded.dot(place.normal) > 0)) return;
-  const double angle = angleBetween(place.normal, shaded);
-  bent.shading_rad = std::min(angle, kShadingLimit_rad);
-  bent.normal = angle > kShadingLimit_rad ? turnedTo(place.normal, shaded, kShadingLimit_rad) : shaded;
+  bent.shading = std::min(bendBetween(place.normal, shaded), 1 - kLimitCos);
+  bent.normal = shaded;
+  const double cosine = shaded.dot(place.normal);
+  if (cosine < kLimitCos)
+    bent.normal = kLimitCos * place.normal + kLimitSin * (shaded - cosine * place.normal).normalized();
 }
 
 // The surface of height h over the plane has the normal N - grad h, grad h in metres per metre along the triangle.
@@ -68,16 +69,18 @@ void SurfaceReader::bump(const SurfacePlace& place, BentNormal& bent) const {
   const TextureUse& use = material(place.primitive).textureOf(Quantity::kHeight);
   const Primitive& triangle = snapshot_.primitives[place.primitive];
   const Vec2 slope = (use.high - use.low) * textureOf(place.primitive, Quantity::kHeight).gradient(texcoord(place));
-  Vec3 gradient = Vec3::Zero();
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const std::array<double, 3> rate = weightsOf(triangle, Vec3::Unit(axis));
-    Vec2 uv = Vec2::Zero();
-    for (std::size_t i = 0; i < 3; ++i) uv += rate[i] * vertexTexcoord(triangle, i);
-    gradient[axis] = slope.dot(uv);
-  }
+  // The change of height along each of two edges is the gradient's component there: a e1 + b e2 by the normal
+  // equations.
+  const Vec3 e1 = triangle.vertex[1] - triangle.vertex[0];
+  const Vec3 e2 = triangle.vertex[2] - triangle.vertex[0];
+  const Vec2& origin = vertexTexcoord(triangle, 0);
+  const double h1 = slope.dot(vertexTexcoord(triangle, 1) - origin);
+  const double h2 = slope.dot(vertexTexcoord(triangle, 2) - origin);
+  const double g11 = e1.squaredNorm(), g12 = e1.dot(e2), g22 = e2.squaredNorm();
+  const Vec3 gradient = ((g22 * h1 - g12 * h2) * e1 + (g11 * h2 - g12 * h1) * e2) / (g11 * g22 - g12 * g12);
   const Vec3 normal = (bent.normal - (gradient - gradient.dot(bent.normal) * bent.normal)).normalized();
   if (!(normal.dot(place.normal) > 0)) return;
-  bent.bump_rad = angleBetween(bent.normal, normal);
+  bent.bump = bendBetween(bent.normal, normal);
   bent.normal = normal;
 }
 

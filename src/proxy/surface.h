@@ -23,12 +23,12 @@ struct SurfacePlace {
   std::array<double, 3> weights{1, 0, 0};  ///< of the primitive's sorted vertices
 };
 
-/// A normal bent by force shading and by a bump map, and by how much each has bent it.
+/// A normal bent by force shading and by a bump map, and how much each has bent it: 1 - cos of the angle.
 struct BentNormal {
   Vec3 normal = Vec3::UnitZ();
-  double shading_rad = 0;
-  double bump_rad = 0;
-  bool bent() const { return shading_rad > 0 || bump_rad > 0; }
+  double shading = 0;
+  double bump = 0;
+  bool bent() const { return shading > 0 || bump > 0; }
 };
 
 /// Reads the surfaces of one scene; two pointers and a limit, made anew for every tick. RT-safe.

@@ -1,6 +1,7 @@
 #include "scene/texture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/error.h"
@@ -9,11 +10,12 @@ namespace hl {
 
 namespace {
 
-std::ptrdiff_t wrapped(std::ptrdiff_t i, std::size_t size, Wrap wrap) {
+std::size_t wrapped(std::ptrdiff_t i, std::size_t size, Wrap wrap) {
   const auto n = static_cast<std::ptrdiff_t>(size);
-  if (wrap == Wrap::kClamp) return std::clamp<std::ptrdiff_t>(i, 0, n - 1);
+  if (i >= 0 && i < n) return static_cast<std::size_t>(i);  // mostly; a division costs more than all the rest
+  if (wrap == Wrap::kClamp) return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, n - 1));
   const std::ptrdiff_t rest = i % n;
-  return rest < 0 ? rest + n : rest;
+  return static_cast<std::size_t>(rest < 0 ? rest + n : rest);
 }
 
 // Coordinates far out of range have no fraction left: they read the first texel.
@@ -41,35 +43,40 @@ float noiseAt(std::size_t i, std::size_t j) {
 
 }  // namespace
 
-double Texture::at(std::ptrdiff_t i, std::ptrdiff_t j) const {
-  const auto row = static_cast<std::size_t>(wrapped(j, height, wrap));
-  const auto column = static_cast<std::size_t>(wrapped(i, width, wrap));
-  return static_cast<double>(texels[row * width + column]);
-}
-
 double Texture::sample(const Vec2& uv) const {
   if (filter == Filter::kNearest) {
-    const double x = std::floor(bounded(uv.x() * static_cast<double>(width)));
-    const double y = std::floor(bounded(uv.y() * static_cast<double>(height)));
-    return at(static_cast<std::ptrdiff_t>(x), static_cast<std::ptrdiff_t>(y));
+    const auto i = static_cast<std::ptrdiff_t>(std::floor(bounded(uv.x() * static_cast<double>(width))));
+    const auto j = static_cast<std::ptrdiff_t>(std::floor(bounded(uv.y() * static_cast<double>(height))));
+    return static_cast<double>(texels[row(j) + column(i)]);
   }
   const Cell c = cellOf(*this, uv);
-  const double low = (1 - c.s) * at(c.i, c.j) + c.s * at(c.i + 1, c.j);
-  const double high = (1 - c.s) * at(c.i, c.j + 1) + c.s * at(c.i + 1, c.j + 1);
+  const std::array<std::size_t, 2> columns{column(c.i), column(c.i + 1)}, rows{row(c.j), row(c.j + 1)};
+  const auto at = [&](std::size_t i, std::size_t j) { return static_cast<double>(texels[rows[j] + columns[i]]); };
+  const double low = (1 - c.s) * at(0, 0) + c.s * at(1, 0);
+  const double high = (1 - c.s) * at(0, 1) + c.s * at(1, 1);
   return (1 - c.t) * low + c.t * high;
-}
-
-Vec2 Texture::gradientAt(std::ptrdiff_t i, std::ptrdiff_t j) const {
-  return {0.5 * static_cast<double>(width) * (at(i + 1, j) - at(i - 1, j)),
-          0.5 * static_cast<double>(height) * (at(i, j + 1) - at(i, j - 1))};
 }
 
 Vec2 Texture::gradient(const Vec2& uv) const {
   const Cell c = cellOf(*this, uv);
-  const Vec2 low = (1 - c.s) * gradientAt(c.i, c.j) + c.s * gradientAt(c.i + 1, c.j);
-  const Vec2 high = (1 - c.s) * gradientAt(c.i, c.j + 1) + c.s * gradientAt(c.i + 1, c.j + 1);
+  std::array<std::size_t, 4> columns{}, rows{};  // from one before the cell to one behind it
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto off = static_cast<std::ptrdiff_t>(k) - 1;
+    columns[k] = column(c.i + off);
+    rows[k] = row(c.j + off);
+  }
+  const auto at = [&](std::size_t i, std::size_t j) { return static_cast<double>(texels[rows[j] + columns[i]]); };
+  const auto central = [&](std::size_t i, std::size_t j) {  // differences at the texel (i, j) of the four by four
+    return Vec2(0.5 * static_cast<double>(width) * (at(i + 1, j) - at(i - 1, j)),
+                0.5 * static_cast<double>(height) * (at(i, j + 1) - at(i, j - 1)));
+  };
+  const Vec2 low = (1 - c.s) * central(1, 1) + c.s * central(2, 1);
+  const Vec2 high = (1 - c.s) * central(1, 2) + c.s * central(2, 2);
   return (1 - c.t) * low + c.t * high;
 }
+
+std::size_t Texture::column(std::ptrdiff_t i) const { return wrapped(i, width, wrap); }
+std::size_t Texture::row(std::ptrdiff_t j) const { return width * wrapped(j, height, wrap); }
 
 void checkTexture(const Texture& texture) {
   const std::string name = texture.name.empty() ? "a texture" : texture.name;

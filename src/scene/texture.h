@@ -30,8 +30,8 @@ struct Texture {
   Vec2 gradient(const Vec2& uv) const;
 
  private:
-  double at(std::ptrdiff_t i, std::ptrdiff_t j) const;
-  Vec2 gradientAt(std::ptrdiff_t i, std::ptrdiff_t j) const;
+  std::size_t column(std::ptrdiff_t i) const;  ///< wrapped
+  std::size_t row(std::ptrdiff_t j) const;     ///< wrapped; the index of its first texel
 };
 
 /// Throws hl::Error unless sizes and texels agree and every texel is in 0..1.
