@@ -30,6 +30,7 @@ FaultReason judge(const ServoState& state, const ServoSettings& settings, const 
   if (!sample.position.allFinite()) return FaultReason::kBadPosition;
   if (!(state.velocity_m_s.norm() <= settings.velocity_limit_m_s)) return FaultReason::kTooFast;  // NaN too
   if (state.missed > settings.missed_limit) return FaultReason::kDeadlines;
+  if (target.valid && !(target.proxy_D.allFinite() && std::isfinite(target.stiffness))) return FaultReason::kBadTarget;
   if (target.time_ns != 0 &&
       age_s(sample.time_ns, target.time_ns) > 1e-9 * static_cast<double>(settings.target_lost_ns))
     return FaultReason::kStaleTarget;
@@ -49,17 +50,31 @@ void updateVelocity(ServoState& state, const DeviceSample& sample) {
     const double blend = 1 - std::exp(-2 * M_PI * kVelocityCutoff_Hz * dt);
     state.velocity_m_s += blend * ((sample.position - state.last_position) / dt - state.velocity_m_s);
   }
+  state.before_D[1] = state.has_last ? state.before_D[0] : sample.position;
+  state.before_D[0] = state.has_last ? state.last_position : sample.position;
   state.last_position = sample.position;
   state.last_time_ns = sample.time_ns;
   state.has_last = true;
 }
 
+bool usable(const ServoSettings& settings, const ServoTarget& target, const DeviceSample& sample) {
+  return target.valid && target.stiffness >= 0 && target.stiffness <= 1 &&
+         age_s(sample.time_ns, target.time_ns) <= 1e-9 * static_cast<double>(settings.target_stale_ns);
+}
+
 // The spring and damper, or zero when the target cannot be trusted.
-Vec3 wantedForce(const ServoState& state, const ServoSettings& settings, const ServoTarget& target,
+Vec3 wantedForce(ServoState& state, const ServoSettings& settings, const ServoTarget& target,
                  const DeviceSample& sample) {
-  const bool fresh = age_s(sample.time_ns, target.time_ns) <= 1e-9 * static_cast<double>(settings.target_stale_ns);
-  if (!target.valid || !fresh || !target.position_D.allFinite()) return Vec3::Zero();
-  const Vec3 gap = target.position_D - sample.position;
+  refillFromFriction(state.spring, settings.friction_N, state.before_D[0], sample.position);
+  if (!usable(settings, target, sample)) {
+    state.spring.pulling = false;
+    return Vec3::Zero();
+  }
+  const double paid_J = target.time_ns != state.spring_time_ns ? target.paid_J : 0;
+  state.spring_time_ns = target.time_ns;
+  handOver(state.spring, settings.ledger, settings.stiffness_N_m, {target.proxy_D, target.stiffness}, paid_J,
+           state.before_D[1], sample.position);
+  const Vec3 gap = state.spring.end.stiffness * (state.spring.end.proxy_D - sample.position);
   if (gap.isZero(0)) return Vec3::Zero();
   return settings.stiffness_N_m * gap - settings.damping_Ns_m * state.velocity_m_s;
 }
@@ -78,6 +93,8 @@ const char* faultText(FaultReason reason) {
       return "the hand moved faster than the device allows";
     case FaultReason::kStaleTarget:
       return "the proxy loop has stopped";
+    case FaultReason::kBadTarget:
+      return "the proxy loop gave a position that is not a number";
     case FaultReason::kNotReady:
       return "the device is not ready";
     case FaultReason::kDeadlines:
@@ -94,6 +111,7 @@ ServoSettings ServoSettings::of(const DeviceInfo& info) {
   settings.force_rate_limit_N_s = info.force_rate_max_N_s;
   settings.velocity_limit_m_s = info.velocity_max_m_s;
   settings.period_s = 1 / info.servo_rate_Hz;
+  settings.friction_N = info.friction_N;
   return settings;
 }
 

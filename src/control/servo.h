@@ -6,9 +6,11 @@
 // one exception to the limit on the force rate.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "base/vec.h"
+#include "control/hand_over.h"
 #include "device/device.h"
 
 namespace hl {
@@ -21,6 +23,7 @@ enum class FaultReason : std::uint8_t {
   kBadPosition,
   kTooFast,
   kStaleTarget,
+  kBadTarget,
   kNotReady,
   kDeadlines
 };
@@ -28,11 +31,14 @@ enum class FaultReason : std::uint8_t {
 /// One sentence for the user.
 const char* faultText(FaultReason reason);
 
-/// Where the servo pulls the finger. Device frame.
+/// Where the servo pulls the finger: to target = finger + stiffness (proxy - finger), with the finger as it is at each
+/// step. Device frame.
 struct ServoTarget {
-  Vec3 position_D = Vec3::Zero();
+  Vec3 proxy_D = Vec3::Zero();
   std::int64_t time_ns = 0;  ///< when it was computed, on the clock of the samples
   bool valid = false;        ///< false: there is nothing to pull to; zero force, no fault
+  double stiffness = 1;      ///< s of the surface, 0..1
+  double paid_J = 0;         ///< energy that computing it has added, paid by the proxy's ledger
 };
 
 struct ServoSettings {
@@ -41,7 +47,9 @@ struct ServoSettings {
   double force_limit_N = 0;
   double force_rate_limit_N_s = 0;
   double velocity_limit_m_s = 0;
-  double ramp_s = 0.5;  ///< arming: force grows from zero to full in this time
+  double ramp_s = 0.5;    ///< arming: force grows from zero to full in this time
+  double friction_N = 0;  ///< of the device itself, a lower bound: what it dissipates pays for late hand-over
+  LedgerMode ledger = LedgerMode::kTank;  ///< what late hand-over may add
   double period_s = 1e-3;
   std::int64_t target_stale_ns = 50'000'000;    ///< an older target gives zero force
   std::int64_t target_lost_ns = 1'000'000'000;  ///< after so long it is a fault
@@ -60,9 +68,12 @@ struct ServoState {
   Vec3 force_N = Vec3::Zero();       ///< last output
   Vec3 velocity_m_s = Vec3::Zero();  ///< filtered
   Vec3 last_position = Vec3::Zero();
+  std::array<Vec3, 2> before_D{Vec3::Zero(), Vec3::Zero()};  ///< the finger one and two steps before this one
   std::int64_t last_time_ns = 0;
   bool has_last = false;
-  double missed = 0;  ///< periods missed and not yet forgiven
+  HandOverState spring;             ///< where the spring is fixed
+  std::int64_t spring_time_ns = 0;  ///< of the target it was taken from
+  double missed = 0;                ///< periods missed and not yet forgiven
 };
 
 struct ServoOutput {

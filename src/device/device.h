@@ -20,6 +20,7 @@ struct DeviceInfo {
   double stiffness_N_m = 0;       ///< recommended K of the servo
   double stiffness_max_N_m = 0;   ///< highest K the servo accepts
   double damping_Ns_m = 0;        ///< recommended B of the servo
+  double friction_N = 0;          ///< of the device itself at the tip, the least of any direction; 0: not known
   double resolution_m = 0;        ///< of position, nominal pose
   double velocity_max_m_s = 0;    ///< faster than this is a fault
   double servo_rate_Hz = 1000;    ///< recommended rate of the servo

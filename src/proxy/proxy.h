@@ -12,7 +12,7 @@
 
 #include "base/fixed_vector.h"
 #include "base/vec.h"
-#include "proxy/ledger.h"
+#include "base/ledger.h"
 #include "scene/snapshot.h"
 
 namespace hl {

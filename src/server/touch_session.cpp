@@ -32,7 +32,7 @@ TouchSession::TouchSession(std::shared_ptr<const Snapshot> snapshot, const Touch
   proxy_settings_.radius = radius_W();
   proxy_settings_.period_s = 1 / settings.proxy_rate_Hz;
   proxy_settings_.world_per_device = workspace_.world_per_device;
-  surfaces_.ledger = settings.ledger;
+  ledger_ = settings.ledger;
   setSurfaces(settings.surfaces);
   servo_settings_ = ServoSettings::of(device_.info());
   servo_settings_.period_s = 1 / settings.servo_rate_Hz;
@@ -107,6 +107,7 @@ void TouchSession::runServo() {
       arm(state);
     }
     settings.stiffness_N_m = stiffness_.load(std::memory_order_relaxed);
+    settings.ledger = ledger_.load(std::memory_order_relaxed);
     const DeviceSample sample = device_.read(now_ns);
     finger_D_.write(sample.position);
     target_.read(target);
@@ -114,10 +115,10 @@ void TouchSession::runServo() {
     device_.write(out.force_N);
     finger_for_supervisor_D_.write(sample.position);
     samples_.push({1e-9 * static_cast<double>(now_ns - start_ns_), static_cast<float>(out.force_N.norm()),
-                   target.target.valid ? static_cast<float>((target.target.position_D - sample.position).norm()) : 0.0f,
+                   target.target.valid ? static_cast<float>((target.target.proxy_D - sample.position).norm()) : 0.0f,
                    target.tick_us});
     meter.add(now_ns, monotonicNow_ns() - now_ns);
-    servo_view_.write({sample.position, out.force_N, out.safety, out.fault, meter.summary()});
+    servo_view_.write({sample.position, out.force_N, out.safety, out.fault, state.spring.ledger, meter.summary()});
   });
   device_.write(Vec3::Zero());
 }
@@ -128,20 +129,19 @@ void TouchSession::runProxy() {
   finger_D_.read(finger_D);
   ProxyState state = startProxy(*snapshot_, proxy_settings_, workspace_.toWorld(finger_D));
   ProxyView view;
-  SurfaceSettings surfaces;
   LoopMeter meter;
   runPeriodic(period_ns(settings_.proxy_rate_Hz), running_, proxy_counters_, [&](std::int64_t) {
     const std::int64_t now_ns = monotonicNow_ns();
     finger_D_.read(finger_D);
-    surfaces_for_proxy_.read(surfaces);
-    proxy_settings_.surfaces = surfaces.surfaces;
-    proxy_settings_.ledger = surfaces.ledger;
+    surfaces_for_proxy_.read(proxy_settings_.surfaces);
+    proxy_settings_.ledger = ledger_.load(std::memory_order_relaxed);
     proxy_settings_.spring_N_m = stiffness_.load(std::memory_order_relaxed);
     const TickReport report = tick(state, *snapshot_, proxy_settings_, workspace_.toWorld(finger_D));
     const std::int64_t work_ns = monotonicNow_ns() - now_ns;
     // In the open the proxy is the finger of a moment ago: pulling to it would be a drag.
     const bool valid = report.valid && state.free && !report.contacts.empty();
-    target_.write({{workspace_.toDevice(report.target), now_ns, valid}, 1e-3f * static_cast<float>(work_ns)});
+    target_.write({{workspace_.toDevice(state.position), now_ns, valid, state.stiffness, report.injected_J},
+                   1e-3f * static_cast<float>(work_ns)});
     meter.add(now_ns, work_ns);
     view.proxy = state.position;
     view.contacts = report.contacts;
@@ -212,28 +212,19 @@ void TouchSession::setSurfaces(const MaterialOverride& surfaces) {
     if (value) value = std::min(*value, most);
   };
   const std::lock_guard lock(surfaces_mutex_);
-  surfaces_.surfaces = surfaces;
-  within(surfaces_.surfaces.stiffness, 1);
-  within(surfaces_.surfaces.static_friction, kMostFriction);
-  within(surfaces_.surfaces.dynamic_friction, kMostFriction);
-  within(surfaces_.surfaces.viscosity_Ns_m, kMostViscosity_Ns_m);
+  surfaces_ = surfaces;
+  within(surfaces_.stiffness, 1);
+  within(surfaces_.static_friction, kMostFriction);
+  within(surfaces_.dynamic_friction, kMostFriction);
+  within(surfaces_.viscosity_Ns_m, kMostViscosity_Ns_m);
   surfaces_for_proxy_.write(surfaces_);
 }
 
-void TouchSession::setLedger(LedgerMode mode) {
-  const std::lock_guard lock(surfaces_mutex_);
-  surfaces_.ledger = mode;
-  surfaces_for_proxy_.write(surfaces_);
-}
+void TouchSession::setLedger(LedgerMode mode) { ledger_ = mode; }
 
 MaterialOverride TouchSession::surfaces() const {
   const std::lock_guard lock(surfaces_mutex_);
-  return surfaces_.surfaces;
-}
-
-LedgerMode TouchSession::ledger() const {
-  const std::lock_guard lock(surfaces_mutex_);
-  return surfaces_.ledger;
+  return surfaces_;
 }
 
 void TouchSession::rearm() { arm_requests_.fetch_add(1); }

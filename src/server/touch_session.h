@@ -60,6 +60,7 @@ struct ServoView {
   Vec3 force_N = Vec3::Zero();
   SafetyState safety = SafetyState::kOff;
   FaultReason fault{};
+  Ledger late{};  ///< of the hand-over from proxy to servo
   LoopSummary loop;
 };
 
@@ -101,7 +102,7 @@ class TouchSession {
   bool handFirm() const { return hand_firm_.load(); }
   double stiffness_N_m() const { return stiffness_.load(); }
   MaterialOverride surfaces() const;
-  LedgerMode ledger() const;
+  LedgerMode ledger() const { return ledger_.load(); }
   double time_s() const;
 
   const Snapshot& snapshot() const { return *snapshot_; }
@@ -124,11 +125,6 @@ class TouchSession {
     std::optional<Vec3> goal_W;
     bool release = false;
     std::optional<bool> explore;
-  };
-
-  struct SurfaceSettings {
-    MaterialOverride surfaces{};
-    LedgerMode ledger = LedgerMode::kTank;
   };
 
   static LoopTotals totals(const LoopCounters& counters);
@@ -162,9 +158,10 @@ class TouchSession {
   RealtimeGrant grant_;
   LoopCounters servo_counters_, proxy_counters_, reference_counters_;
 
-  mutable std::mutex surfaces_mutex_;  // between the callers of setSurfaces and setLedger
-  SurfaceSettings surfaces_;
-  Latest<SurfaceSettings> surfaces_for_proxy_;
+  mutable std::mutex surfaces_mutex_;  // between the callers of setSurfaces; the loops never see it
+  MaterialOverride surfaces_;
+  Latest<MaterialOverride> surfaces_for_proxy_;
+  std::atomic<LedgerMode> ledger_{LedgerMode::kTank};
 
   std::mutex commands_mutex_;  // between page and supervisor; the loops never see it
   Commands commands_;

@@ -103,17 +103,18 @@ void setSamples(proto::State& state, TouchSession& session) {
   }
 }
 
-void setLedger(proto::Ledger& out, const Ledger& ledger, LedgerMode mode) {
+// The proxy's ledger and the servo's, which books late hand-over, as one.
+void setLedger(proto::Ledger& out, const Ledger& ledger, const Ledger& late, LedgerMode mode) {
   const auto cause = [&](EnergyCause c) { return ledger.by_cause_J[static_cast<std::size_t>(c)]; };
   out.set_mode(static_cast<proto::LedgerMode>(mode));
   out.set_tank_j(ledger.tank_J);
-  out.set_injected_j(ledger.injected_J);
-  out.set_dissipated_j(ledger.dissipated_J);
+  out.set_injected_j(ledger.injected_J + late.injected_J);
+  out.set_dissipated_j(ledger.dissipated_J + late.dissipated_J);
   out.set_shading_j(cause(EnergyCause::kShading));
   out.set_stiffness_j(cause(EnergyCause::kStiffness));
   out.set_texture_j(cause(EnergyCause::kTexture));
   out.set_moving_j(cause(EnergyCause::kMoving));
-  out.set_late_j(cause(EnergyCause::kLate));
+  out.set_late_j(late.by_cause_J[static_cast<std::size_t>(EnergyCause::kLate)]);
 }
 
 void setSurfaces(proto::Surfaces& out, const MaterialOverride& surfaces) {
@@ -156,7 +157,7 @@ std::string state(TouchSession& session) {
   out.set_iteration_caps(proxy.capped);
   out.set_hand_firm(session.handFirm());
   out.set_stiffness_n_m(session.stiffness_N_m());
-  setLedger(*out.mutable_ledger(), proxy.ledger, session.ledger());
+  setLedger(*out.mutable_ledger(), proxy.ledger, servo.late, session.ledger());
   setSurfaces(*out.mutable_surfaces(), session.surfaces());
   out.set_slipping(proxy.slipping);
   return message.SerializeAsString();

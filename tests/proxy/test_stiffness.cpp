@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "base/no_alloc.h"
 #include "effect_scenes.h"
 #include "proxy/judge.h"
 #include "proxy/proxy.h"
@@ -174,6 +175,30 @@ constexpr int kWalkTicks = 20'000;
 #else
 constexpr int kWalkTicks = 1'000'000;
 #endif
+
+// The order in which triangles come, and the structure that finds them, change no bit of any effect.
+TEST(Ledger, TheSameBitsWhateverTheOrderOfTheTriangles) {
+  const auto scene = soup(300);
+  Model shuffled = scene->model;
+  std::shuffle(shuffled.triangles.begin(), shuffled.triangles.end(), std::mt19937(9));
+  const auto other = makeSnapshot(std::move(shuffled), HierarchyKind::kNone);
+  const Walk a = randomWalk(*scene, settingsOf(LedgerMode::kTank), 5000);
+  const Walk b = randomWalk(*other, settingsOf(LedgerMode::kTank), 5000);
+  EXPECT_EQ(a.ledger.injected_J, b.ledger.injected_J);
+  EXPECT_EQ(a.ledger.dissipated_J, b.ledger.dissipated_J);
+  EXPECT_EQ(a.ledger.by_cause_J, b.ledger.by_cause_J);
+}
+
+TEST(Ledger, TicksWithEveryEffectDoNotAllocate) {
+  const auto scene = soup(300);
+  const ProxySettings settings = settingsOf(LedgerMode::kTank);
+  ProxyState state = startProxy(*scene, settings, {0, 0, 0.06});
+  const NoAlloc guard;
+  for (int i = 0; i < 2000; ++i) {
+    const double t = 1e-3 * i;
+    tick(state, *scene, settings, 0.05 * Vec3(std::sin(7 * t), std::sin(5 * t + 1), std::cos(3 * t)));
+  }
+}
 
 TEST(Ledger, StrictTicksNeverAddEnergyOverASoupOfEverything) {
   const auto scene = soup(300);

@@ -1,4 +1,4 @@
-#include "proxy/ledger.h"
+#include "base/ledger.h"
 
 #include <algorithm>
 #include <limits>
