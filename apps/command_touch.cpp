@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "commands.h"
 #include "io/csv_path.h"
+#include "io/load_scene_file.h"
 #include "server/http_server.h"
 #include "server/touch_session.h"
 #include "server/viewer_feed.h"
@@ -95,6 +96,8 @@ void printTotals(const TouchSession& session) {
 void run(TouchOptions options) {
   const auto snapshot = loadSnapshot(options.scene);
   options.settings.hand_firm = options.hand == "firm";
+  // A scene file says how its surfaces feel; a bare model feels as smooth as it looks.
+  if (!isSceneFile(options.scene.scene) && !options.settings.surfaces.smooth) options.settings.surfaces.smooth = true;
   options.settings.explore = options.explore == "on";
   if (options.scale > 0) options.settings.world_per_device = options.scale;
   if (!options.hand_path.empty()) options.settings.script = readScript(options.hand_path);

@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <exception>
@@ -68,18 +69,45 @@ std::vector<char> joined(const std::vector<std::string>& lines) {
   return text;
 }
 
+bool sendTextures(int fd, const std::vector<Texture>& textures) {
+  const std::uint64_t count = textures.size();
+  bool sent = sendAll(fd, &count, sizeof count);
+  for (const Texture& texture : textures) {
+    const std::array<std::uint64_t, 2> size{texture.width, texture.height};
+    sent = sent && sendAll(fd, size.data(), sizeof size) && sendList(fd, texture.texels);
+  }
+  return sent;
+}
+
+bool receiveTextures(int fd, std::vector<Texture>& textures) {
+  constexpr std::uint64_t kMost = 10'000;
+  std::uint64_t count = 0;
+  if (!receiveAll(fd, &count, sizeof count) || count > kMost) return false;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    std::array<std::uint64_t, 2> size{};
+    Texture texture;
+    if (!receiveAll(fd, size.data(), sizeof size) || !receiveList(fd, texture.texels)) return false;
+    texture.width = size[0];
+    texture.height = size[1];
+    if (texture.width == 0 || texture.texels.size() / texture.width != texture.height) return false;
+    textures.push_back(std::move(texture));
+  }
+  return true;
+}
+
 void sendModel(int fd, const Model& model) {
   const char tag = 'm';
   (void)(sendAll(fd, &tag, 1) && sendList(fd, model.positions) && sendList(fd, model.normals) &&
          sendList(fd, model.texcoords) && sendList(fd, model.triangles) && sendList(fd, model.segments) &&
-         sendList(fd, model.points) && sendList(fd, joined(model.warnings)));
+         sendList(fd, model.points) && sendTextures(fd, model.textures) && sendList(fd, joined(model.warnings)));
 }
 
 bool receiveModel(int fd, Model& model) {
   std::vector<char> warnings;
   const bool whole = receiveList(fd, model.positions) && receiveList(fd, model.normals) &&
                      receiveList(fd, model.texcoords) && receiveList(fd, model.triangles) &&
-                     receiveList(fd, model.segments) && receiveList(fd, model.points) && receiveList(fd, warnings);
+                     receiveList(fd, model.segments) && receiveList(fd, model.points) &&
+                     receiveTextures(fd, model.textures) && receiveList(fd, warnings);
   std::string line;
   for (const char c : warnings) {
     if (c == '\n') {

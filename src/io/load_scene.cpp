@@ -4,10 +4,12 @@
 
 #include "base/error.h"
 #include "builtin.h"
+#include "io/load_scene_file.h"
 
 namespace hl {
 
 Model loadScene(const std::string& spec, const LoadOptions& options) {
+  if (isSceneFile(spec)) return loadSceneFile(spec, options);
   if (isBuiltinScene(spec)) return makeBuiltinScene(spec);
   const bool looks_like_a_file = spec.find_first_of("./") != std::string::npos || std::filesystem::exists(spec);
   if (!looks_like_a_file) return makeBuiltinScene(spec);  // throws, with the list

@@ -6,6 +6,7 @@
 
 #include "effect_scenes.h"
 #include "proxy/proxy.h"
+#include "scene/bump_gain.h"
 
 namespace hl {
 namespace {
@@ -152,6 +153,18 @@ TEST(Texture, BumpMapBendsTheForceToTheSlopeOfTheHeight) {
     EXPECT_NEAR(std::atan2(-force.x(), force.y()), std::atan(slope), 0.1 * M_PI / 180) << x;
     EXPECT_NEAR(state.position.y(), kRadius, 1e-9);
   }
+}
+
+// h = A sin(k x): the largest curvature is A k^2, here with A half the range.
+TEST(Texture, BumpMapReportsItsGain) {
+  Model model = test::floorModel();
+  for (Vec2& uv : model.texcoords) uv *= kSide / 0.004;
+  model.textures.push_back(makeTexture("sine", 256));
+  model.materials[0].textureOf(Quantity::kHeight) = {0, 0, 1e-4};
+  const double k = 2 * M_PI / 0.004;
+  const double curvature = bumpCurvature_per_m(*test::snapshotOf(std::move(model)), 0);
+  EXPECT_NEAR(curvature, 0.5e-4 * k * k, 1e-3 * curvature);
+  EXPECT_NEAR(passiveForce_N(curvature, 0.5, 1e-3), 1000 / curvature, 1e-9);
 }
 
 TEST(Texture, SwitchedOffTheMaterialIsPlain) {

@@ -1,0 +1,74 @@
+#include "io/load_image.h"
+
+#include <algorithm>
+#include <boost/gil.hpp>
+#include <boost/gil/extension/io/jpeg.hpp>
+#include <boost/gil/extension/io/png.hpp>
+#include <cctype>
+#include <filesystem>
+#include <utility>
+
+#include "base/error.h"
+#include "io/isolated.h"
+
+namespace hl {
+
+namespace {
+
+namespace gil = boost::gil;
+
+constexpr std::size_t kMostTexels = std::size_t{64} << 20;
+
+void checkSize(std::size_t width, std::size_t height) {
+  if (width == 0 || height == 0) throw Error("has no pixels");
+  if (width > kMostTexels / height) throw Error("has more than 64 million pixels");
+}
+
+// Sixteen bits a grey level hold both an 8-bit and a 16-bit file. Pictures run from the top row down, textures up.
+template <typename Tag>
+Texture decode(const std::string& path, Tag tag) {
+  const auto info = gil::read_image_info(path, tag)._info;
+  checkSize(info._width, info._height);
+  gil::gray16_image_t image;
+  gil::read_and_convert_image(path, image, tag);
+  const auto view = gil::flipped_up_down_view(gil::const_view(image));
+  Texture texture;
+  texture.width = static_cast<std::size_t>(view.width());
+  texture.height = static_cast<std::size_t>(view.height());
+  texture.texels.reserve(view.size());
+  for (const gil::gray16_pixel_t& pixel : view) texture.texels.push_back(static_cast<float>(pixel[0]) / 65535.0f);
+  return texture;
+}
+
+Texture decode(const std::string& path, const std::string& ending) {
+  try {
+    return ending == ".png" ? decode(path, gil::png_tag{}) : decode(path, gil::jpeg_tag{});
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception&) {
+    throw Error(ending == ".png" ? "is not a sound PNG file" : "is not a sound JPEG file");
+  }
+}
+
+}  // namespace
+
+Texture loadImage(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (ending != ".png" && ending != ".jpg" && ending != ".jpeg")
+    throw Error(path + ": images must end in .png, .jpg or .jpeg");
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) throw Error(path + ": there is no such file");
+  Model model = runIsolated(
+      path, {},
+      [&](const auto&) {
+        Model carrier;
+        carrier.textures.push_back(decode(path, ending));
+        return carrier;
+      },
+      nullptr);
+  model.textures.front().name = std::filesystem::path(path).filename().string();
+  return std::move(model.textures.front());
+}
+
+}  // namespace hl

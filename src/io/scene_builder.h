@@ -1,0 +1,24 @@
+// SceneBuilder: one model out of many objects, each moved to its place and given its material.
+#pragma once
+
+#include "scene/model.h"
+
+namespace hl {
+
+/// x -> linear x + offset; metres.
+struct Placement {
+  Mat3 linear = Mat3::Identity();
+  Vec3 offset = Vec3::Zero();
+};
+
+/// Moves positions by the placement and normals by its inverse transpose. `linear` must be invertible.
+void placeModel(Model& model, const Placement& placement);
+
+/// Multiplies texture coordinates.
+void repeatTexcoords(Model& model, double repeat_u, double repeat_v);
+
+/// Appends `part` to `whole`, all of it with material number `material` of `whole`; its own materials are left out.
+/// Where one of the two has normals or texture coordinates and the other has not, zeros fill the gap.
+void appendPart(Model& whole, const Model& part, std::uint16_t material);
+
+}  // namespace hl

@@ -1,0 +1,176 @@
+// Scene files: every field arrives, and every error names the line.
+#include "io/load_scene_file.h"
+
+#include <gtest/gtest.h>
+
+#include <boost/gil.hpp>
+#include <boost/gil/extension/io/jpeg.hpp>
+#include <boost/gil/extension/io/png.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "base/error.h"
+#include "io/load_image.h"
+#include "scene/snapshot.h"
+#include "temp_folder.h"
+
+namespace hl {
+namespace {
+
+using test::fileWith;
+using test::tempFile;
+
+Model sceneOf(const std::string& json) { return loadSceneFile(fileWith("scene.hl.json", json)); }
+
+std::string refusalOf(const std::string& json) {
+  try {
+    sceneOf(json);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+// The message without the path in front: ":LINE: ...".
+std::string afterFile(const std::string& message) {
+  const std::string file = tempFile("scene.hl.json");
+  return message.starts_with(file) ? message.substr(file.size()) : "not about the file: " + message;
+}
+
+// Two columns, three rows: 16-bit grey, the top row brightest.
+void writePng(const std::string& path) {
+  boost::gil::gray16_image_t image(2, 3);
+  auto view = boost::gil::view(image);
+  for (int y = 0; y < 3; ++y) {
+    for (int x = 0; x < 2; ++x) view(x, y)[0] = static_cast<std::uint16_t>(60000 - 20000 * y + x);
+  }
+  boost::gil::write_view(path, boost::gil::const_view(image), boost::gil::png_tag{});
+}
+
+TEST(SceneFile, EveryFieldArrives) {
+  writePng(tempFile("height.png"));
+  const Model model = sceneOf(R"({
+    "units": 0.001,
+    "textures": [
+      {"name": "h", "file": "height.png", "wrap": "CLAMP", "filter": "NEAREST"},
+      {"name": "l", "procedural": {"kind": "lines", "size": 8, "duty": 0.25}}],
+    "objects": [
+      {"name": "square", "primitives": {
+         "vertices": [0,0,0, 1,0,0, 1,1,0, 0,1,0], "normals": [0,0,2, 0,0,2, 0,0,2, 0,0,2],
+         "texcoords": [0,0, 1,0, 1,1, 0,1], "polygons": [{"vertices": [0,1,2,3]}], "segments": [0,2], "points": [1]},
+       "transform": {"translate": {"x": 10}, "axis": {"x": 2}, "degrees": 90, "scale": {"x": 2, "y": 3, "z": 1}},
+       "material": {"stiffness": 0.5, "staticFriction": 0.6, "dynamicFriction": 0.4, "viscosityNsM": 3,
+         "stribeckMS": 0.05, "shade": "FLAT", "repeatU": 4, "repeatV": 5,
+         "textures": [{"texture": "h", "quantity": "HEIGHT", "low": 0, "high": 1e-4},
+                      {"texture": "l", "quantity": "VISCOSITY", "low": 1, "high": 2}]}},
+      {"builtin": "plane:2"}]})");
+  EXPECT_EQ(model.triangles.size(), 4u);
+  EXPECT_EQ(model.segments.size(), 1u);
+  EXPECT_EQ(model.points.size(), 1u);
+  // (1, 1, 0) scaled to (2, 3, 0), turned about x to (2, 0, 3), moved to (12, 0, 3), in millimetres.
+  EXPECT_LT((model.positions[2] - Vec3(0.012, 0, 0.003)).norm(), 1e-12);
+  EXPECT_LT((model.normals[2] - Vec3(0, -1, 0)).norm(), 1e-12);
+  EXPECT_EQ(model.texcoords[2], Vec2(4, 5));
+  ASSERT_EQ(model.materials.size(), 2u);
+  EXPECT_EQ(model.triangle_materials, (std::vector<std::uint16_t>{0, 0, 1, 1}));
+  EXPECT_EQ(model.segment_materials, std::vector<std::uint16_t>{0});
+  const Material& m = model.materials[0];
+  EXPECT_EQ(m.stiffness, 0.5);
+  EXPECT_EQ(m.static_friction, 0.6);
+  EXPECT_EQ(m.dynamic_friction, 0.4);
+  EXPECT_EQ(m.viscosity_Ns_m, 3);
+  EXPECT_EQ(m.stribeck_m_s, 0.05);
+  EXPECT_FALSE(m.smooth);
+  EXPECT_TRUE(model.materials[1].smooth);
+  EXPECT_EQ(m.textureOf(Quantity::kHeight).texture, 0u);
+  EXPECT_EQ(m.textureOf(Quantity::kHeight).high, 1e-4);
+  EXPECT_EQ(m.textureOf(Quantity::kViscosity).texture, 1u);
+  EXPECT_FALSE(m.textureOf(Quantity::kStiffness).used());
+  EXPECT_EQ(model.textures[0].wrap, Wrap::kClamp);
+  EXPECT_EQ(model.textures[0].filter, Filter::kNearest);
+  EXPECT_EQ(makeSnapshot(model, HierarchyKind::kSpheres)->material_of.size(), 6u);
+}
+
+TEST(SceneFile, TheExamplesLoad) {
+  for (const char* name : {"friction_lanes", "textured_tiles"}) {
+    const Model model = loadSceneFile(std::string(HL_EXAMPLES) + "/" + name + ".hl.json");
+    EXPECT_EQ(model.triangles.size(), 8u);
+    EXPECT_EQ(model.materials.size(), 4u);
+  }
+}
+
+TEST(SceneFile, ModelFilesAreRelativeToTheScene) {
+  fileWith("part.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(sceneOf(R"({"objects": [{"file": "part.obj"}, {"file": "part.obj"}]})").triangles.size(), 2u);
+}
+
+TEST(SceneFile, ErrorsNameTheLine) {
+  const auto expect = [](const std::string& json, const std::string& line, const std::string& about) {
+    const std::string message = afterFile(refusalOf(json));
+    EXPECT_TRUE(message.starts_with(":" + line + ": ")) << json << "\n" << message;
+    EXPECT_NE(message.find(about), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos);
+  };
+  expect("", "1", "not JSON");
+  expect("{\n\"objects\": [\n{]\n}", "3", "not JSON");
+  expect("{\n\"objects\": [{\"builtin\": \"plane:2\",\n\"material\": {\n\"stifness\": 1}}]}", "4", "stifness");
+  expect("{\"objects\": [{\"builtin\": \"plane:2\"},\n{\"material\": {\"stiffness\":\n\"soft\"}}]}", "3", "stiffness");
+  expect("{\"objects\": [{\"builtin\": \"plane:2\", \"material\": {\n\n\"stiffness\": 1.5}}]}", "3", "between 0");
+  expect("{\"objects\": [{\"builtin\": \"plane:2\", \"material\": {\n\"viscosityNsM\": -1}}]}", "2", "at least 0");
+  expect("{\"objects\": [{\"builtin\": \"plane:2\", \"material\": {\n\"viscosityNsM\": 1e999}}]}", "2", "out of range");
+  expect("{\"objects\": [\n{\"builtin\": \"plnae\"}]}", "2", "plnae");
+  expect("{\"objects\": [\n\n{\"file\": \"none.obj\"}]}", "3", "none.obj");
+  expect("{\"objects\": [\n\n{\"file\": \"scene.hl.json\"}]}", "3", "another");
+  expect("{\"objects\": [{\n\"name\": \"a\"}]}", "1", "needs a file");
+  expect("{\"objects\": [{\"primitives\": {\"vertices\": [0,0,0],\n\"triangles\": [0,0,1]}}]}", "2", "vertex 1");
+  expect("{\"objects\": [{\"primitives\": {\n\"vertices\": [0,0]}}]}", "2", "3 numbers");
+  expect("{\"objects\": [{\"builtin\": \"plane:2\", \"transform\": {\n\"scale\": {\"x\": 0}}}]}", "2", "zero");
+  expect("{\"textures\": [\n{\"name\": \"a\", \"file\": \"none.png\"}], \"objects\": [{\"builtin\": \"walker\"}]}", "2",
+         "none.png");
+  expect("{\"textures\": [\n{\"name\": \"a\", \"procedural\": {\"kind\": \"wood\"}}]}", "2", "wood");
+  expect("{\"objects\": [{\"builtin\": \"plane:2\", \"material\": {\"textures\": [\n{\"texture\": \"gone\"}]}}]}", "2",
+         "gone");
+  EXPECT_NE(afterFile(refusalOf("{}")).find("no objects"), std::string::npos);
+  expect(std::string(100, '['), "1", "nested deeper");
+}
+
+TEST(Image, PngKeepsSixteenBitsAndTheLowestRowIsFirst) {
+  writePng(tempFile("grey.png"));
+  const Texture texture = loadImage(tempFile("grey.png"));
+  ASSERT_EQ(texture.width, 2u);
+  ASSERT_EQ(texture.height, 3u);
+  EXPECT_NEAR(texture.texels[0], 20000 / 65535.0, 1e-6);
+  EXPECT_NEAR(texture.texels[1], 20001 / 65535.0, 1e-6);
+  EXPECT_NEAR(texture.texels[4], 60000 / 65535.0, 1e-6);
+}
+
+TEST(Image, JpegColoursBecomeLuminance) {
+  boost::gil::rgb8_image_t image(16, 16, boost::gil::rgb8_pixel_t(255, 255, 255), 0);
+  boost::gil::write_view(tempFile("white.jpg"), boost::gil::const_view(image), boost::gil::jpeg_tag{});
+  const Texture texture = loadImage(tempFile("white.jpg"));
+  EXPECT_EQ(texture.texels.size(), 256u);
+  EXPECT_NEAR(texture.texels[100], 1, 0.01);
+}
+
+TEST(Image, TornAndHostileFilesAreOneLine) {
+  writePng(tempFile("whole.png"));
+  std::ifstream in(tempFile("whole.png"), std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  std::string huge = bytes;
+  huge[16] = huge[20] = 0x7f;  // width and height in IHDR
+  for (const std::string& content :
+       {bytes.substr(0, 20), bytes.substr(0, bytes.size() - 20), huge, std::string("hello")}) {
+    const std::string path = fileWith("torn.png", content);
+    try {
+      loadImage(path);
+      ADD_FAILURE() << "accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(std::string(error.what()).find(path), 0u) << error.what();
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    }
+  }
+  EXPECT_THROW(loadImage(fileWith("a.tiff", "x")), Error);
+}
+
+}  // namespace
+}  // namespace hl
