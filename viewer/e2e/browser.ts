@@ -80,6 +80,11 @@ export async function expectTidyLayout(page: Page, size: { width: number; height
   }
 }
 
+/** The View section is folded in low windows. */
+export async function openView(page: Page): Promise<void> {
+  await page.evaluate(() => (document.querySelector<HTMLDetailsElement>("#view-fold")!.open = true));
+}
+
 /** Share of the pixels in the middle of the window that differ from its background colour. */
 export async function modelPixels(page: Page): Promise<number> {
   const { width, height } = page.viewportSize()!;

@@ -3,7 +3,7 @@
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
 import { FakeServer } from "../test-support/fake_server";
-import { expectTidyLayout, kSizes, launch, listen, modelPixels, screenshot, type Complaints } from "./browser";
+import { expectTidyLayout, kSizes, launch, listen, modelPixels, screenshot, openView, type Complaints } from "./browser";
 
 let browser: Browser;
 let server: FakeServer;
@@ -39,6 +39,7 @@ function atRest(): Promise<void> {
 
 test("shows the model, and panels that do not overlap, in dark and light at both sizes", async () => {
   expect(await modelPixels(page)).toBeGreaterThan(0.05);
+  await openView(page);
   await page.check("#planes");
   for (const theme of ["dark", "light"]) {
     await page.check(`input[name=theme][value=${theme}]`, { force: true });
@@ -62,9 +63,11 @@ test("gives a usable page in a small window", async () => {
 });
 
 test("remembers the theme that was chosen", async () => {
+  await openView(page);
   await page.check("input[name=theme][value=light]", { force: true });
   await page.reload();
   expect(await page.evaluate(() => document.documentElement.dataset.theme)).toBe("light");
+  await openView(page);
   await page.check("input[name=theme][value=system]", { force: true });
   expect(await page.evaluate(() => document.documentElement.dataset.theme)).toBe("dark");
   await page.waitForFunction(() => window.__hl.samples > 10);
@@ -120,6 +123,7 @@ test("right-drag, Shift-drag and, when chosen, drags on empty space orbit the ca
   await page.keyboard.down("Shift");
   expect(await drag("left")).toBeGreaterThan(5);
   await page.keyboard.up("Shift");
+  await openView(page);
   await page.check("#empty-orbit");
   expect(await drag("left")).toBeGreaterThan(5);
   expect(server.received.map(({ body }) => body.case)).toEqual([]);

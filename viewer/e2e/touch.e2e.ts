@@ -9,7 +9,7 @@ import { afterAll, beforeAll, describe, expect, test } from "vitest";
 import { decodeServerMessage, knownVec, type Scene } from "../src/protocol";
 import { length, sub, type Vec } from "../src/vec";
 import { distanceToTriangles } from "../test-support/closest_point";
-import { expectTidyLayout, kSizes, launch, listen, modelPixels, screenshot, type Complaints } from "./browser";
+import { expectTidyLayout, kSizes, launch, listen, modelPixels, openView, screenshot, type Complaints } from "./browser";
 
 const kProgram = process.env.HL_BIN;
 /** Positions of the mesh arrive as float32: exact to about this share of the model's size. */
@@ -123,10 +123,34 @@ describe.skipIf(!kProgram)("hl touch teapot", () => {
     expectOutside(tap, first);
   });
 
+  test("surface controls act at once, and what the server says moves them", async () => {
+    await page.evaluate(() => (document.querySelector<HTMLDetailsElement>("#surface-fold")!.open = true));
+    await page.fill("#static-friction", "0.8");
+    await page.fill("#dynamic-friction", "0.4");
+    await page.uncheck("#shading");
+    await page.check("#ledger-strict", { force: true });
+    await page.waitForFunction(() => {
+      const { surfaces, ledger } = window.__hl;
+      return surfaces.staticFriction === 0.8 && surfaces.dynamicFriction === 0.4 && surfaces.smooth === false &&
+        ledger === "STRICT";
+    });
+    const other = await browser.newPage({ viewport: kSizes[0] });
+    await other.goto(touch.url);
+    await other.waitForFunction(() => document.querySelector("#static-friction-value")?.textContent === "0.80");
+    await other.click("#surface-reset");
+    await page.waitForFunction(() => document.querySelector("#static-friction-value")?.textContent === "scene");
+    await other.close();
+    await page.fill("#static-friction", "0.6");
+    await page.check("#ledger-tank", { force: true });
+    expect(await page.locator("#plot-energy canvas").count()).toBe(1);
+  });
+
   test("panels do not overlap, in dark and light, at both sizes", async () => {
     await page.check("#explore");
-    await page.check("#planes");
+    await page.keyboard.press("p");
+    await page.keyboard.press("c");
     for (const theme of ["light", "dark"]) {
+      await openView(page);
       await page.check(`input[name=theme][value=${theme}]`, { force: true });
       for (const size of kSizes) {
         await expectTidyLayout(page, size);

@@ -1,9 +1,10 @@
 // window.__hl: what the page knows, read-only, for tests and for the curious in the browser's console.
 
-import { SafetyState, type State } from "./gen/hl_pb";
+import { LedgerMode, SafetyState, type State } from "./gen/hl_pb";
 import type { LinkState } from "./connection";
 import { knownVec, type Scene } from "./protocol";
 import type { SampleRing } from "./samples";
+import { settingsOf, type SurfaceSettings } from "./surfaces";
 import { length, sub, type Vec } from "./vec";
 
 export interface DebugSources {
@@ -32,6 +33,9 @@ export interface DebugState {
   readonly contacts: number;
   readonly safety: string;
   readonly exploring: boolean;
+  /** What the user has set over the scene's surfaces. */
+  readonly surfaces: SurfaceSettings;
+  readonly ledger: string;
   readonly holding: boolean;
   readonly samples: number;
   /** Largest force and penetration among the samples of the last `window_s` seconds. */
@@ -70,6 +74,8 @@ function makeDebugState(sources: DebugSources): DebugState {
     },
     get contacts() { return sources.state()?.contacts.length ?? 0; },
     get safety() { return SafetyState[sources.state()?.safety ?? SafetyState.OFF] ?? "OFF"; },
+    get surfaces() { return settingsOf(sources.state()?.surfaces); },
+    get ledger() { return LedgerMode[sources.state()?.ledger?.mode ?? LedgerMode.TANK]; },
     get exploring() { return sources.state()?.exploring ?? false; },
     get holding() { return sources.holding(); },
     get samples() { return sources.samples().size; },

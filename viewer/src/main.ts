@@ -18,6 +18,7 @@ import {
 } from "./protocol";
 import { SampleRing } from "./samples";
 import { Stage, type Insets } from "./stage";
+import { SurfacePanel } from "./surface_panel";
 import { ThemeSwitch } from "./theme";
 import { length } from "./vec";
 
@@ -37,6 +38,7 @@ class App {
   private readonly notices_ = new Notices();
   private readonly samples_ = new SampleRing(kSampleCapacity, 2);
   private readonly rates_ = new SampleRing(kRateCapacity, 2);
+  private readonly energy_ = new SampleRing(kRateCapacity, 5);
   private readonly plots_ = {
     force: new LivePlot(element("plot-force"), { unit: "N", series: [{ colour: "force", fill: true }], smallestTop: 1 }),
     penetration: new LivePlot(element("plot-penetration"), {
@@ -45,9 +47,15 @@ class App {
     rates: new LivePlot(element("plot-rates"), {
       unit: "Hz", series: [{ colour: "servo" }, { colour: "proxy" }], smallestTop: 1000,
     }),
+    energy: new LivePlot(element("plot-energy"), {
+      unit: "J",
+      series: ["shading", "stiffness", "texture", "moving", "late"].map((cause) => ({ colour: `energy-${cause}` })),
+      smallestTop: 1e-3,
+    }),
   };
   private readonly hand_: HandInput;
   private readonly panel_: Panel;
+  private readonly surfacePanel_: SurfacePanel;
   private readonly theme_: ThemeSwitch;
   private readonly connection_: Connection;
   private scene_: Scene | undefined;
@@ -61,6 +69,7 @@ class App {
     this.stage_.scene.add(this.model_.group, this.probe_.group);
     this.hand_ = this.makeHand();
     this.panel_ = this.makePanel();
+    this.surfacePanel_ = new SurfacePanel((change) => this.connection_.send(encodeSettings(change)));
     this.theme_ = new ThemeSwitch(() => this.applyTheme());
     this.panel_.showTheme(this.theme_.choice);
     this.followWindow();
@@ -97,6 +106,7 @@ class App {
       rearm: () => this.connection_.send(encodeRearm()),
       theme: (choice) => this.theme_.choose(choice),
       planes: (shown) => this.probe_.setPlanesShown(shown),
+      cones: (shown) => this.probe_.cones.setShown(shown),
       edges: (shown) => this.model_.setEdges(shown),
       flat: (flat) => this.model_.setFlat(flat),
       orbitFromEmpty: (on) => (this.hand_.orbitFromEmpty = on),
@@ -132,6 +142,7 @@ class App {
     this.probe_.setForceMax(hello.device?.forceMaxN ?? 0);
     this.samples_.clear();
     this.rates_.clear();
+    this.energy_.clear();
   }
 
   /** The camera stays where the user put it when the same scene comes again after a reconnect. */
@@ -152,6 +163,11 @@ class App {
     this.stateFresh_ = true;
     for (const sample of state.samples) {
       this.samples_.push(sample.timeS, sample.forceN, sample.penetrationM);
+    }
+    const energy = state.ledger;
+    if (energy !== undefined) {
+      const { shadingJ, stiffnessJ, textureJ, movingJ, lateJ } = energy;
+      this.energy_.push(state.timeS, shadingJ, stiffnessJ, textureJ, movingJ, lateJ);
     }
     this.rates_.push(state.timeS, state.servo?.rateHz ?? NaN, state.proxyLoop?.rateHz ?? NaN);
   }
@@ -185,6 +201,7 @@ class App {
 
   private showProbe(): void {
     const proxy = knownVec(this.state_?.proxy);
+    this.probe_.cones.update(this.state_?.contacts ?? [], this.state_?.slipping ?? false);
     this.probe_.update(proxy, knownVec(this.state_?.finger), knownVec(this.state_?.forceN), this.state_?.contacts ?? []);
     if (proxy !== undefined) {
       const view = this.stage_.viewFrame();
@@ -197,12 +214,14 @@ class App {
     this.plots_.force.show([times, force!]);
     this.plots_.penetration.show([times, penetration!]);
     this.plots_.rates.show(this.rates_.window(kWindow_s, this.plots_.rates.buckets));
+    this.plots_.energy.show(this.energy_.window(kWindow_s, this.plots_.energy.buckets));
   }
 
   private showNumbers(): void {
     const state = this.state_!;
     const force = knownVec(state.forceN);
     this.panel_.showState(state, force === undefined ? NaN : length(force), state.samples.at(-1)?.penetrationM);
+    this.surfacePanel_.showState(state);
     this.stateFresh_ = false;
   }
 

@@ -11,6 +11,7 @@ export interface PanelActions {
   rearm(): void;
   theme(choice: ThemeChoice): void;
   planes(shown: boolean): void;
+  cones(shown: boolean): void;
   edges(shown: boolean): void;
   flat(flat: boolean): void;
   orbitFromEmpty(on: boolean): void;
@@ -19,6 +20,8 @@ export interface PanelActions {
 
 /** A control that was just used keeps what the user chose for this long: states already on their way are older. */
 const kSettle_ms = 700;
+/** From this height of the window on all sections fit. */
+const kTall_px = 860;
 const kStiffnessMin_N_m = 50;
 const kStiffnessStep_N_m = 10;
 
@@ -45,6 +48,7 @@ export class Panel {
     const { settings } = actions;
     this.onCheck("explore", (on) => settings({ explore: on }));
     this.onCheck("planes", (on) => actions.planes(on));
+    this.onCheck("cones", (on) => actions.cones(on));
     this.onCheck("edges", (on) => actions.edges(on));
     this.onCheck("flat", (on) => actions.flat(on));
     this.onCheck("empty-orbit", (on) => actions.orbitFromEmpty(on));
@@ -55,6 +59,7 @@ export class Panel {
     element("reset-view").addEventListener("click", () => actions.resetView());
     element("help-open").addEventListener("click", () => element<HTMLDialogElement>("help").showModal());
     window.addEventListener("keydown", (event) => this.shortcut(event));
+    this.foldByHeight();
   }
 
   showTheme(choice: ThemeChoice): void {
@@ -168,12 +173,28 @@ export class Panel {
     }
   }
 
+  /** In a low window only one of the foldable sections is open, so that the card never has to scroll. */
+  private foldByHeight(): void {
+    const folds = [...document.querySelectorAll<HTMLDetailsElement>("#controls details")];
+    const low = () => window.innerHeight < kTall_px;
+    const fit = () => folds.forEach((fold, i) => (fold.open = !low() || i === 0));
+    for (const fold of folds) {
+      fold.addEventListener("toggle", () => {
+        if (fold.open && low()) {
+          folds.filter((other) => other !== fold).forEach((other) => (other.open = false));
+        }
+      });
+    }
+    window.matchMedia(`(min-height: ${kTall_px}px)`).addEventListener("change", fit);
+    fit();
+  }
+
   private shortcut(event: KeyboardEvent): void {
     if (event.ctrlKey || event.altKey || event.metaKey || event.repeat || element<HTMLDialogElement>("help").open) {
       return;
     }
     const ids: Readonly<Record<string, string>> = {
-      e: "explore", p: "planes", m: "edges", f: "flat", r: "reset-view", "?": "help-open",
+      e: "explore", p: "planes", c: "cones", m: "edges", f: "flat", r: "reset-view", "?": "help-open",
     };
     const id = ids[event.key.toLowerCase()];
     if (id !== undefined) {
@@ -205,7 +226,7 @@ export function element<T extends HTMLElement = HTMLElement>(id: string): T {
   return found as T;
 }
 
-function setText(id: string, text: string): void {
+export function setText(id: string, text: string): void {
   const target = element(id);
   if (target.textContent !== text) {
     target.textContent = text;

@@ -3,6 +3,8 @@
 // contact planes.
 
 import * as THREE from "three";
+import { FrictionCones } from "./friction_cones";
+import { overlay } from "./overlay";
 import { knownVec } from "./protocol";
 import type { ContactPlane } from "./gen/hl_pb";
 import { themeColour } from "./theme";
@@ -19,6 +21,7 @@ const kFinger_px = 5;
 
 export class ProbeView {
   readonly group = new THREE.Group();
+  readonly cones = new FrictionCones();
   private readonly proxy_: THREE.Mesh<THREE.SphereGeometry, THREE.MeshStandardMaterial>;
   private readonly ghost_: THREE.Mesh<THREE.SphereGeometry, THREE.MeshBasicMaterial>;
   private readonly ring_: THREE.Mesh<THREE.RingGeometry, THREE.MeshBasicMaterial>;
@@ -48,7 +51,7 @@ export class ProbeView {
     this.shaft_ = new THREE.Mesh(new THREE.CylinderGeometry(1, 1, 1, 16).translate(0, 0.5, 0), arrowMaterial);
     this.tip_ = new THREE.Mesh(new THREE.ConeGeometry(1, 1, 20).translate(0, 0.5, 0), arrowMaterial);
     this.arrow_.add(this.shaft_, this.tip_);
-    this.group.add(this.proxy_, this.ghost_, this.ring_, this.finger_, this.line_, this.arrow_);
+    this.group.add(this.proxy_, this.ghost_, this.ring_, this.finger_, this.line_, this.arrow_, this.cones.group);
     for (let i = 0; i < kPlanesMax; ++i) {
       this.planes_.push(this.makePlane());
     }
@@ -57,6 +60,7 @@ export class ProbeView {
 
   setScene(diagonal_m: number, proxyRadius_m: number): void {
     this.diagonal_m_ = diagonal_m;
+    this.cones.setScene(diagonal_m);
     this.radius_m_ = proxyRadius_m > 0 ? proxyRadius_m : diagonal_m * 2e-3;
     this.proxy_.scale.setScalar(this.radius_m_);
     this.ghost_.scale.setScalar(this.radius_m_);
@@ -71,6 +75,7 @@ export class ProbeView {
   }
 
   applyTheme(): void {
+    this.cones.applyTheme();
     this.proxy_.material.color.set(themeColour("proxy"));
     this.proxy_.material.emissive.set(themeColour("proxy")).multiplyScalar(0.35);
     this.ghost_.material.color.set(themeColour("proxy"));
@@ -156,15 +161,4 @@ export class ProbeView {
     this.group.add(plane);
     return plane;
   }
-}
-
-/** A material that is seen through the model: position matters more than what is in front of it. */
-function overlay<M extends THREE.Material>(type: new () => M, opacity: number, depthTest = false): M {
-  const material = new type();
-  material.transparent = true;
-  material.opacity = opacity;
-  material.depthTest = depthTest;
-  material.depthWrite = false;
-  material.side = THREE.DoubleSide;
-  return material;
 }

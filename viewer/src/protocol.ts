@@ -6,11 +6,13 @@ import {
   ServerMessageSchema,
   ViewerMessageSchema,
   type Hello,
+  type LedgerMode,
   type Notice,
   type SceneMesh,
   type State,
   type Vec3,
 } from "./gen/hl_pb";
+import type { SurfaceSettings } from "./surfaces";
 import { isFiniteVec, kZero, type Vec } from "./vec";
 
 /** Must equal the server's; see Hello.protocol_version. */
@@ -142,6 +144,8 @@ export interface SettingsChange {
   explore?: boolean;
   handFirm?: boolean;
   stiffnessNM?: number;
+  surfaces?: SurfaceSettings;
+  ledger?: LedgerMode;
 }
 
 export function encodeHandGoal(position: Vec): Uint8Array<ArrayBuffer> {
