@@ -11,8 +11,8 @@
 #include <cstdint>
 
 #include "base/fixed_vector.h"
-#include "base/vec.h"
 #include "base/ledger.h"
+#include "base/vec.h"
 #include "scene/snapshot.h"
 
 namespace hl {

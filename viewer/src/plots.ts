@@ -90,7 +90,7 @@ function plotOptions(options: PlotOptions, host: HTMLElement): uPlot.Options {
         ...axis,
         size: kAxisWidth_px,
         gap: 4,
-        space: 24,
+        space: 16,
         values: (_plot, ticks) => ticks.map((value) => axisLabel(value, options.unit)),
       },
     ],
