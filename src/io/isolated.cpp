@@ -46,6 +46,7 @@ bool receiveAll(int fd, void* data, std::size_t size) {
   return true;
 }
 
+// The other end is the same program: the bytes of a value are the message.
 template <typename T>
 bool sendList(int fd, const std::vector<T>& list) {
   const std::uint64_t count = list.size();
@@ -99,7 +100,9 @@ void sendModel(int fd, const Model& model) {
   const char tag = 'm';
   (void)(sendAll(fd, &tag, 1) && sendList(fd, model.positions) && sendList(fd, model.normals) &&
          sendList(fd, model.texcoords) && sendList(fd, model.triangles) && sendList(fd, model.segments) &&
-         sendList(fd, model.points) && sendTextures(fd, model.textures) && sendList(fd, joined(model.warnings)));
+         sendList(fd, model.points) && sendTextures(fd, model.textures) && sendList(fd, model.materials) &&
+         sendList(fd, model.triangle_materials) && sendList(fd, model.segment_materials) &&
+         sendList(fd, model.point_materials) && sendList(fd, joined(model.warnings)));
 }
 
 bool receiveModel(int fd, Model& model) {
@@ -107,7 +110,9 @@ bool receiveModel(int fd, Model& model) {
   const bool whole = receiveList(fd, model.positions) && receiveList(fd, model.normals) &&
                      receiveList(fd, model.texcoords) && receiveList(fd, model.triangles) &&
                      receiveList(fd, model.segments) && receiveList(fd, model.points) &&
-                     receiveTextures(fd, model.textures) && receiveList(fd, warnings);
+                     receiveTextures(fd, model.textures) && receiveList(fd, model.materials) &&
+                     receiveList(fd, model.triangle_materials) && receiveList(fd, model.segment_materials) &&
+                     receiveList(fd, model.point_materials) && receiveList(fd, warnings);
   std::string line;
   for (const char c : warnings) {
     if (c == '\n') {

@@ -5,8 +5,10 @@
 #include <assimp/Importer.hpp>
 #include <assimp/ProgressHandler.hpp>
 #include <memory>
+#include <utility>
 
 #include "base/error.h"
+#include "io/gltf_haptics.h"
 #include "io/load_model.h"
 
 namespace hl {
@@ -39,7 +41,7 @@ Eigen::Matrix4d matrixOf(const aiMatrix4x4& m) {
 
 Vec3 vecOf(const aiVector3D& v) { return {v.x, v.y, v.z}; }
 
-void appendFaces(Model& model, const aiMesh& mesh, std::uint32_t base) {
+void appendFaces(Model& model, const aiMesh& mesh, std::uint32_t base, std::uint16_t material) {
   for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
     const aiFace& face = mesh.mFaces[i];
     const auto at = [&](unsigned k) { return base + face.mIndices[k]; };
@@ -47,10 +49,13 @@ void appendFaces(Model& model, const aiMesh& mesh, std::uint32_t base) {
     if (face.mNumIndices == 2) model.segments.push_back({at(0), at(1)});
     if (face.mNumIndices == 1) model.points.push_back(at(0));
   }
+  model.triangle_materials.resize(model.triangles.size(), material);
+  model.segment_materials.resize(model.segments.size(), material);
+  model.point_materials.resize(model.points.size(), material);
 }
 
 // Normals turn with the inverse transpose; a mirrored node keeps its winding, which does not matter to two-sided touch.
-void appendMesh(Model& model, const aiMesh& mesh, const Eigen::Matrix4d& to_world) {
+void appendMesh(Model& model, const aiMesh& mesh, const Eigen::Matrix4d& to_world, std::uint16_t material) {
   const auto base = static_cast<std::uint32_t>(model.positions.size());
   const Mat3 linear = to_world.topLeftCorner<3, 3>();
   const Mat3 for_normals = linear.inverse().transpose();
@@ -62,14 +67,42 @@ void appendMesh(Model& model, const aiMesh& mesh, const Eigen::Matrix4d& to_worl
     model.texcoords.emplace_back(mesh.HasTextureCoords(0) ? mesh.mTextureCoords[0][i].x : 0,
                                  mesh.HasTextureCoords(0) ? mesh.mTextureCoords[0][i].y : 0);
   }
-  appendFaces(model, mesh, base);
+  appendFaces(model, mesh, base, material);
 }
 
-void appendNode(Model& model, const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& parent, int depth) {
+// A file on its way into a model.
+struct Import {
+  const aiScene& scene;
+  const GltfHaptics& haptics;
+  Model& model;
+};
+
+// A node without a material of its own has that of its parent.
+void appendNode(Import& import, const aiNode& node, const Eigen::Matrix4d& parent, std::uint16_t material, int depth) {
   if (depth > kDeepestNode) throw Error("its nodes are nested too deep");
   const Eigen::Matrix4d to_world = parent * matrixOf(node.mTransformation);
-  for (unsigned i = 0; i < node.mNumMeshes; ++i) appendMesh(model, *scene.mMeshes[node.mMeshes[i]], to_world);
-  for (unsigned i = 0; i < node.mNumChildren; ++i) appendNode(model, scene, *node.mChildren[i], to_world, depth + 1);
+  const auto own = import.haptics.material_of_node.find(node.mName.C_Str());
+  if (own != import.haptics.material_of_node.end()) material = static_cast<std::uint16_t>(own->second);
+  for (unsigned i = 0; i < node.mNumMeshes; ++i)
+    appendMesh(import.model, *import.scene.mMeshes[node.mMeshes[i]], to_world, material);
+  for (unsigned i = 0; i < node.mNumChildren; ++i)
+    appendNode(import, *node.mChildren[i], to_world, material, depth + 1);
+}
+
+GltfHaptics hapticsOf(const std::string& path) {
+  return path.ends_with(".gltf") || path.ends_with(".glb") ? readGltfHaptics(path) : GltfHaptics{};
+}
+
+// Lists that would say "material 0" for every element are left out.
+void addHaptics(Model& model, GltfHaptics&& haptics) {
+  model.warnings.insert(model.warnings.end(), haptics.warnings.begin(), haptics.warnings.end());
+  if (haptics.materials.size() == 1) {
+    model.triangle_materials.clear();
+    model.segment_materials.clear();
+    model.point_materials.clear();
+  }
+  model.materials = std::move(haptics.materials);
+  model.textures = std::move(haptics.textures);
 }
 
 bool anyMesh(const aiScene& scene, bool (*has)(const aiMesh&)) {
@@ -92,7 +125,10 @@ Model parseWithAssimp(const std::string& path, const std::function<void(double)>
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
   if (scene == nullptr) throw Error(std::string("cannot be understood: ") + importer.GetErrorString());
   Model model;
-  if (scene->mRootNode != nullptr) appendNode(model, *scene, *scene->mRootNode, Eigen::Matrix4d::Identity(), 0);
+  GltfHaptics haptics = hapticsOf(path);
+  Import import{*scene, haptics, model};
+  if (scene->mRootNode != nullptr) appendNode(import, *scene->mRootNode, Eigen::Matrix4d::Identity(), 0, 0);
+  addHaptics(model, std::move(haptics));
   if (!anyMesh(*scene, [](const aiMesh& m) { return m.HasNormals(); })) model.normals.clear();
   if (!anyMesh(*scene, [](const aiMesh& m) { return m.HasTextureCoords(0); })) model.texcoords.clear();
   return model;

@@ -33,14 +33,30 @@ void checkReadable(const std::string& path) {
   if (std::filesystem::file_size(path, error) == 0) throw Error(path + ": is empty");
 }
 
+// Removes the elements that are bad, and their materials where there are any; returns how many.
+template <typename List, typename Bad>
+std::size_t dropWhere(List& elements, std::vector<std::uint16_t>& materials, Bad bad) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (bad(elements[i])) continue;
+    elements[kept] = elements[i];
+    if (i < materials.size()) materials[kept] = materials[i];
+    ++kept;
+  }
+  const std::size_t dropped = elements.size() - kept;
+  elements.resize(kept);
+  materials.resize(std::min(kept, materials.size()));
+  return dropped;
+}
+
 // Elements that refer to vertices that do not exist are left out, with a count.
 void dropBadIndices(Model& model) {
   const auto bad = [&](std::uint32_t index) { return index >= model.positions.size(); };
-  const std::size_t before = model.elements();
-  std::erase_if(model.triangles, [&](const auto& t) { return bad(t[0]) || bad(t[1]) || bad(t[2]); });
-  std::erase_if(model.segments, [&](const auto& s) { return bad(s[0]) || bad(s[1]); });
-  std::erase_if(model.points, bad);
-  const std::size_t dropped = before - model.elements();
+  const std::size_t dropped =
+      dropWhere(model.triangles, model.triangle_materials,
+                [&](const auto& t) { return bad(t[0]) || bad(t[1]) || bad(t[2]); }) +
+      dropWhere(model.segments, model.segment_materials, [&](const auto& s) { return bad(s[0]) || bad(s[1]); }) +
+      dropWhere(model.points, model.point_materials, bad);
   if (dropped > 0)
     model.warnings.push_back("skipped " + std::to_string(dropped) + " elements with vertices that do not exist");
 }
