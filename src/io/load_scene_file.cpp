@@ -148,6 +148,7 @@ Material SceneFile::materialOf(const proto::Material& in, const std::string& whe
   material.dynamic_friction = checked(in.dynamic_friction(), 0, kAny, where + ".dynamicFriction");
   material.viscosity_Ns_m = checked(in.viscosity_ns_m(), 0, kAny, where + ".viscosityNsM");
   material.stribeck_m_s = checked(in.stribeck_m_s(), 0, kAny, where + ".stribeckMS");
+  material.presliding_N_m = checked(in.presliding_n_m(), 0, kAny, where + ".preslidingNM");
   material.smooth = in.shade() == proto::SMOOTH;
   for (int i = 0; i < in.textures_size(); ++i) {
     const std::string at = item(where + ".textures", i);

@@ -8,9 +8,11 @@ namespace hl {
 namespace {
 
 void bookCauses(Ledger& ledger, const Account::Causes& causes, double moved_J, double stiffened_J) {
-  if (moved_J > 0) {
+  if (moved_J > 0 && causes.shading + causes.bump == 0) {
+    ledger.add(EnergyCause::kStiffness, moved_J);  // pre-sliding springs that creep back
+  } else if (moved_J > 0) {
     const double bends = causes.shading + causes.bump;
-    const double bump = bends > 0 ? causes.bump / bends : 0;
+    const double bump = causes.bump / bends;
     ledger.add(EnergyCause::kShading, (1 - bump) * moved_J);
     ledger.add(EnergyCause::kTexture, bump * moved_J);
   }
@@ -81,7 +83,10 @@ void Account::close(ProxyState& state, const Causes& causes, TickReport& report)
   bookCauses(state.ledger, causes, moved_J - start_J, end_J - moved_J);
   state.ledger.book(report.injected_J, was_touching_ && touching);
   state.touching = touching;
-  if (!touching) state.rest_s = kStuck_s;
+  if (!touching) {
+    state.rest_s = kStuck_s;
+    state.creep = Vec3::Zero();
+  }
   state.stiffness = touching ? stiffness : 1;
 }
 

@@ -118,6 +118,7 @@ Drag Effects::dragAt(const SubGoal& sub_goal, const Vec3& along) const {
     const double fixed = std::max(dynamic, reader_.value(Quantity::kStaticFriction, place));
     const double stribeck = textured ? 0 : reader_.stribeck_m_s(place.primitive);
     drag.rubs.push({fixed * normal_m, dynamic * normal_m, stribeck * settings_.period_s * settings_.world_per_device});
+    drag.creep += reader_.presliding_N_m(place.primitive) / settings_.spring_N_m;
     drag.viscous +=
         std::max(0.0, reader_.value(Quantity::kViscosity, place)) / (settings_.spring_N_m * settings_.period_s);
   }
@@ -149,25 +150,37 @@ double Effects::texelsAlong(const SubGoal& sub_goal, const Vec3& way) const {
   return most;
 }
 
-// The part of the way that friction lets the proxy go, 0..1, after `slipped_now` more than slip_ says.
-double Effects::slipFraction(const Vec3& way, double slipped_now, SubGoal& sub_goal) const {
+// What friction lets the proxy go of the way, after `slipped_now` more than slip_ says.
+//
+// A stuck proxy with pre-sliding springs creeps to where they balance the pull that is left,
+//   |way - D| = creep |creep_m + D|,
+// and back when the pull falls: the elastic state z of Dahl's and Hayward and Armstrong's models, without their drift.
+Vec3 Effects::resistedStep(const Vec3& way, double slipped_now, SubGoal& sub_goal) const {
   const double pull = way.norm();
-  sub_goal.viscous = 0;
-  if (sub_goal.holding.empty() || !(pull > 0)) return 1;
+  sub_goal.viscous = sub_goal.creep = 0;
+  sub_goal.creeps = false;
+  if (sub_goal.holding.empty()) return way;
   const Drag drag = dragAt(sub_goal, Vec3::Zero());
   const double texels = texelsAlong(sub_goal, way);
   sub_goal.resisted = texels > 0 || drag.viscous > 0 || drag.holding() > 0;
-  if (!sub_goal.resisted) return 1;
+  if (!sub_goal.resisted) return way;
+  sub_goal.creep = drag.creep;
   const Slip before{slip_.length + slipped_now, slip_.viscous_m + drag.viscous * slipped_now};
-  if (!slipping_ && slipped_now == 0 && pull <= drag.holding() + before.viscous_m) return 0;
+  const bool stuck = !slipping_ && slipped_now == 0;
+  const Vec3 creep = drag.creep > 0 ? Vec3((way - drag.creep * creep_m_) / (1 + drag.creep)) : Vec3(Vec3::Zero());
+  if (stuck && (way - creep).norm() <= drag.holding() + before.viscous_m) {
+    sub_goal.creeps = drag.creep > 0;
+    return creep;
+  }
+  if (!(pull > 0)) return Vec3::Zero();
   if (texels == 0) {
     sub_goal.viscous = drag.viscous;
-    return slipLength(drag, pull, before) / pull;
+    return (slipLength(drag, pull, before) / pull) * way;
   }
   const int samples = static_cast<int>(std::clamp(std::ceil(kSamplesPerTexel * texels), 1.0, double{kMostSamples}));
   const auto drag_at = [&](double distance) { return dragAt(sub_goal, (distance / pull) * way); };
   const double length = slipLengthAlong(drag_at, pull, before, samples, sub_goal.viscous);
-  return std::min(length, lengthWithin(sub_goal, way)) / pull;
+  return (std::min(length, lengthWithin(sub_goal, way)) / pull) * way;
 }
 
 // The passes are repeated here with the contacts in hand, which costs no search. Anderson's mixing of the last two
@@ -180,7 +193,9 @@ SubGoal Effects::subGoal(const ContactSet& set, const Vec3& position, const Vec3
   Vec3 offset = Vec3::Zero(), last_next = Vec3::Zero(), last_change = Vec3::Zero();
   for (int pass = 1;; ++pass) {
     const Vec3 way = firstPass(set, touched, gap, offset, sub_goal) - offset;
-    const Vec3 goal = offset + slipFraction(way, offset.norm(), sub_goal) * way;
+    const Vec3 resisted = resistedStep(way, offset.norm(), sub_goal);
+    sub_goal.held = way - resisted;
+    const Vec3 goal = offset + resisted;
     const Vec3 next = sub_goal.bent ? secondPass(set, goal) : goal;
     const Vec3 change = next - offset;
     sub_goal.step = next;
@@ -195,11 +210,18 @@ SubGoal Effects::subGoal(const ContactSet& set, const Vec3& position, const Vec3
   }
 }
 
-void Effects::slipped(const SubGoal& sub_goal, double length) {
+void Effects::moved(const SubGoal& sub_goal, const Vec3& step) {
+  const double length = step.norm();
   if (!(length > 0)) return;
+  if (sub_goal.creeps) {
+    creep_m_ += step;
+    return;
+  }
   slip_.length += length;
   slip_.viscous_m += sub_goal.viscous * length;
   slipping_ = true;
+  // The springs slide along, stretched by the friction that they carry.
+  creep_m_ = sub_goal.creep > 0 ? Vec3(sub_goal.held / sub_goal.creep) : Vec3(Vec3::Zero());
 }
 
 ProxyContact Effects::describe(const ContactSet& set, const Holding& holding) const {

@@ -33,16 +33,22 @@ struct SubGoal {
   double viscous = 0;            ///< pull that viscosity uses for each metre of the step
   bool bent = false;             ///< the step is not plain descent: it may raise the spring's energy
   bool resisted = false;         ///< friction or viscosity act on it
+  bool creeps = false;           ///< static friction holds the proxy, on its pre-sliding springs
+  double creep = 0;              ///< Drag::creep
+  Vec3 held = Vec3::Zero();      ///< m, the pull that friction holds after the step
 };
 
 class Effects {
  public:
-  Effects(const Snapshot& snapshot, const ProxySettings& settings, const Tolerances& tolerance, bool slipping)
+  /// `creep_m`: how far the proxy has crept from where it stuck.
+  Effects(const Snapshot& snapshot, const ProxySettings& settings, const Tolerances& tolerance, bool slipping,
+          const Vec3& creep_m)
       : reader_(snapshot, settings.surfaces),
         snapshot_(snapshot),
         settings_(settings),
         tolerance_(tolerance),
-        slipping_(slipping) {}
+        slipping_(slipping),
+        creep_m_(creep_m) {}
 
   /// Whether a surface in contact does anything beyond holding the proxy off.
   bool any(const ContactSet& set) const;
@@ -50,8 +56,9 @@ class Effects {
   /// The step toward the finger, `gap` away from the proxy, under the rules of the surfaces in contact.
   SubGoal subGoal(const ContactSet& set, const Vec3& position, const Vec3& gap) const;
 
-  /// The proxy has slipped `length` metres of the step.
-  void slipped(const SubGoal& sub_goal, double length);
+  /// The proxy has moved by `step`, a part of the sub-goal's: a slip, or a creep.
+  void moved(const SubGoal& sub_goal, const Vec3& step);
+  const Vec3& creep_m() const { return creep_m_; }
   bool hasSlipped() const { return slip_.length > 0; }
 
   /// A contact as the report gives it.
@@ -73,7 +80,7 @@ class Effects {
   Vec3 firstPass(const ContactSet& set, const TouchedSet& touched, const Vec3& gap, const Vec3& offset,
                  SubGoal& sub_goal) const;
   Vec3 secondPass(const ContactSet& set, const Vec3& goal) const;
-  double slipFraction(const Vec3& way, double slipped_now, SubGoal& sub_goal) const;
+  Vec3 resistedStep(const Vec3& way, double slipped_now, SubGoal& sub_goal) const;
   Drag dragAt(const SubGoal& sub_goal, const Vec3& along) const;
   double lengthWithin(const SubGoal& sub_goal, const Vec3& way) const;
   double texelsAlong(const SubGoal& sub_goal, const Vec3& way) const;
@@ -84,6 +91,7 @@ class Effects {
   const Tolerances& tolerance_;
   Slip slip_;
   bool slipping_;
+  Vec3 creep_m_;
 };
 
 }  // namespace hl

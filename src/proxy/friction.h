@@ -24,6 +24,7 @@ struct Rub {
 struct Drag {
   FixedVector<Rub, 3> rubs;
   double viscous = 0;  ///< sum of b / (K T): metres of pull for a metre of slip in one tick
+  double creep = 0;    ///< sum of sigma_0 / K, the pre-sliding springs: metres of pull for a metre of creep; 0: rigid
 
   /// The pull that is held without any slip.
   double holding() const;

@@ -27,7 +27,7 @@ class Tick {
         goal_(finger),
         state_(state),
         account_(state, settings, finger),
-        effects_(snapshot, settings, tolerance_, state.touching && state.rest_s < kStuck_s) {}
+        effects_(snapshot, settings, tolerance_, state.touching && state.rest_s < kStuck_s, state.creep) {}
 
   TickReport run();
 
@@ -164,7 +164,7 @@ void Tick::advance(const SubGoal& sub_goal) {
   const Vec3 from = state_.position;
   const bool free = set_.contacts.empty();
   Vec3 step = sub_goal.step;
-  if (sub_goal.bent || goal_ != finger_) {
+  if (sub_goal.bent || sub_goal.creeps || goal_ != finger_) {
     const double part = account_.affordable(from, step);
     spent_ = part < 1;
     step *= part;
@@ -172,7 +172,7 @@ void Tick::advance(const SubGoal& sub_goal) {
   const bool whole = sweep(state_.position, step);
   // In the open and unhindered the proxy *is* the finger, to the bit.
   if (whole && free && goal_ == finger_) state_.position = finger_;
-  if (felt_) effects_.slipped(sub_goal, (state_.position - from).norm());
+  if (felt_) effects_.moved(sub_goal, state_.position - from);
 }
 
 void Tick::finish(const SubGoal& last, TickReport& report) {
@@ -188,6 +188,7 @@ void Tick::finish(const SubGoal& last, TickReport& report) {
   for (const ProxyContact& contact : report.contacts) {
     stiffness_textured |= effects_.stiffnessTextured(contact.primitive);
   }
+  state_.creep = effects_.creep_m();
   state_.rest_s = effects_.hasSlipped() ? 0 : std::min(state_.rest_s + settings_.period_s, kStuck_s);
   account_.close(state_, {sub_goal.shading, sub_goal.bump, stiffness_textured}, report);
 }

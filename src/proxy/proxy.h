@@ -44,6 +44,7 @@ struct ProxyState {
   bool free = false;             ///< false while no position clear of the scene has been found near the finger
   bool touching = false;         ///< the last tick ended in contact
   double rest_s = kStuck_s;      ///< since it last slipped along a surface; from kStuck_s on static friction holds it
+  Vec3 creep = Vec3::Zero();     ///< m, how far it has crept from where it stuck, on the pre-sliding springs
   double stiffness = 1;          ///< s by which the last tick's target was pulled; 1 in the open
   Ledger ledger{};
 };

@@ -47,6 +47,7 @@ class SurfaceReader {
   /// A quantity of the material (never kHeight), or what its texture says at the place.
   double value(Quantity quantity, const SurfacePlace& place) const;
   double stribeck_m_s(std::uint32_t primitive) const { return material(primitive).stribeck_m_s; }
+  double presliding_N_m(std::uint32_t primitive) const { return material(primitive).presliding_N_m; }
 
   /// Whether a texture modulates the quantity on this primitive.
   bool textured(std::uint32_t primitive, Quantity quantity) const;

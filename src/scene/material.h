@@ -28,6 +28,7 @@ struct Material {
   double dynamic_friction = 0;  ///< mu_d >= 0
   double viscosity_Ns_m = 0;    ///< b >= 0 at the hand: drag per speed of the proxy
   double stribeck_m_s = 0;      ///< > 0: mu falls from mu_s to mu_d as exp(-(v / stribeck)^2); 0: at once
+  double presliding_N_m = 0;    ///< > 0: a stuck proxy creeps on a spring of this stiffness; 0: it does not move
   bool smooth = false;          ///< force shading by vertex normals (HL_SMOOTH); else HL_FLAT
   std::array<TextureUse, kQuantities> textures{};
 

@@ -60,7 +60,7 @@ TEST(SceneFile, EveryFieldArrives) {
          "texcoords": [0,0, 1,0, 1,1, 0,1], "polygons": [{"vertices": [0,1,2,3]}], "segments": [0,2], "points": [1]},
        "transform": {"translate": {"x": 10}, "axis": {"x": 2}, "degrees": 90, "scale": {"x": 2, "y": 3, "z": 1}},
        "material": {"stiffness": 0.5, "staticFriction": 0.6, "dynamicFriction": 0.4, "viscosityNsM": 3,
-         "stribeckMS": 0.05, "shade": "FLAT", "repeatU": 4, "repeatV": 5,
+         "stribeckMS": 0.05, "preslidingNM": 9000, "shade": "FLAT", "repeatU": 4, "repeatV": 5,
          "textures": [{"texture": "h", "quantity": "HEIGHT", "low": 0, "high": 1e-4},
                       {"texture": "l", "quantity": "VISCOSITY", "low": 1, "high": 2}]}},
       {"builtin": "plane:2"}]})");
@@ -80,6 +80,7 @@ TEST(SceneFile, EveryFieldArrives) {
   EXPECT_EQ(m.dynamic_friction, 0.4);
   EXPECT_EQ(m.viscosity_Ns_m, 3);
   EXPECT_EQ(m.stribeck_m_s, 0.05);
+  EXPECT_EQ(m.presliding_N_m, 9000);
   EXPECT_FALSE(m.smooth);
   EXPECT_TRUE(model.materials[1].smooth);
   EXPECT_EQ(m.textureOf(Quantity::kHeight).texture, 0u);

@@ -181,6 +181,33 @@ TEST(Friction, StribeckCurveIsFollowedWhileSliding) {
   }
 }
 
+// Pre-sliding springs sigma_0 in series with the servo's K: the stuck proxy follows K / (K + sigma_0) of the pull, back
+// to the bit of rounding when the pull goes, breaks away at mu_s and slides with mu_d all the same.
+TEST(Friction, PreslidingCreepsLikeASpringAndBreaksAwayAtTheSameForce) {
+  Model model = test::floorModel();
+  model.materials[0].static_friction = 0.6;
+  model.materials[0].dynamic_friction = 0.4;
+  model.materials[0].presliding_N_m = 4 * kK;
+  const auto scene = test::snapshotOf(std::move(model));
+  ProxySettings settings = settingsOf(0, 0);
+  settings.surfaces = {};
+  settings.ledger = LedgerMode::kTank;
+  ProxyState state = startProxy(*scene, settings, {0, 0.01, 0});
+  const double y = kRadius - kDepth;
+  tick(state, *scene, settings, {0, y, 0});
+  const double breakaway = 1.25 * 0.6 * kDepth;  // of the finger: |d| = 4/5 of its way
+  for (const double x : {0.2, 0.9, 0.5, -0.7, 0.0, 0.99}) {
+    const TickReport report = tick(state, *scene, settings, {x * breakaway, y, 0});
+    EXPECT_NEAR(state.position.x(), 0.2 * x * breakaway, 1e-12) << x;
+    EXPECT_NEAR(x * breakaway - report.target.x(), 0.8 * x * breakaway, 1e-12) << x;
+  }
+  tick(state, *scene, settings, {1.01 * breakaway, y, 0});
+  EXPECT_NEAR(1.01 * breakaway - state.position.x(), 0.4 * kDepth, 1e-9) << "slides at mu_d";
+  EXPECT_LE(state.ledger.injected_J, kTankStart_J);
+  const Steady steady = drag(*scene, settings, kDepth, 0.05);
+  EXPECT_NEAR(steady.mean, 0.4 * kK * kDepth, 1e-3 * 0.4 * kK * kDepth);
+}
+
 // C10 with friction: no tick leaves the proxy farther from the finger than it was.
 TEST(Friction, NeverAddsEnergy) {
   const auto scene = test::groove(1.2);
