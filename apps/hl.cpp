@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "commands.h"
 
+// NOLINTNEXTLINE(bugprone-exception-escape): only when not even stderr can be written
 int main(int argc, char** argv) {
   CLI::App app("HL, the haptic library: makes 3-D worlds touchable.", "hl");
   app.set_version_flag("--version", std::string("hl ") + HL_VERSION);

@@ -121,10 +121,11 @@ void addArmour(Builder& b) {
   for (std::size_t i = 0; i < plates; ++i) {
     const double side = i % 2 == 0 ? 1 : -1;
     const std::size_t cell = i / 2;
+    const std::size_t row = cell / columns;
     const double w = 0.140 / columns;
     const double h = 0.040 / static_cast<double>(rows);
     const double x = -0.070 + w * static_cast<double>(cell % columns);
-    const double y = 0.114 + h * static_cast<double>(cell / columns);
+    const double y = 0.114 + h * static_cast<double>(row);
     const double z = side * (0.0352 - 0.11 * (y - 0.114) + 0.0004 * static_cast<double>(cell % 3));
     const Vec3 right(side * 0.93 * w, 0, 0);
     const Vec3 up(0, 0.93 * h, -side * 0.10 * h);

@@ -46,7 +46,7 @@ class FixedVector {
 
  private:
   union {
-    T items_[N];
+    T items_[N];  // NOLINT(readability-identifier-naming): private, though tidy takes a union's members for public
   };
   std::size_t size_ = 0;
 };

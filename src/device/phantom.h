@@ -11,11 +11,13 @@ namespace hl {
 struct PhantomParameters {
   double l1 = 0.215, l2 = 0.170, l3 = 0.0325;  ///< m
   double ma = 0.0202, mc = 0.0249;             ///< kg
+  // NOLINTBEGIN(readability-identifier-naming): the names of the source
   Vec3 Ia{0.4864e-4, 0.001843e-4, 0.4864e-4};  ///< kg m^2, principal
   Vec3 Ic{0.959e-4, 0.959e-4, 0.0051e-4};
   Vec3 Ibe{11.09e-4, 10.06e-4, 0.591e-4};
   Vec3 Idf{7.11e-4, 0.629e-4, 6.246e-4};
   double Ibase_yy = 11.87e-4;
+  // NOLINTEND(readability-identifier-naming)
   Vec3 gear{13.3, 11.2, 11.2};     ///< motor turns for one of the joint
   double rotor_inertia = 1.08e-6;  ///< kg m^2, at the motor
   bool with_rotors = true;

@@ -15,12 +15,14 @@ constexpr std::size_t kDeepest = 32;
 
 // Follows the parser through the text and notes the line of each member and each object in a list.
 struct LineHandler {
+  // NOLINTBEGIN(readability-identifier-naming): the names that Boost.JSON asks for
   using error_code = boost::json::error_code;
   using string_view = boost::json::string_view;
   static constexpr std::size_t max_object_size = std::size_t(-1);
   static constexpr std::size_t max_array_size = std::size_t(-1);
   static constexpr std::size_t max_key_size = 1000;
   static constexpr std::size_t max_string_size = std::size_t(-1);
+  // NOLINTEND(readability-identifier-naming)
 
   struct Level {
     std::string path;  // of the object or array

@@ -4,6 +4,7 @@
 #include <google/protobuf/util/json_util.h>
 #include <hl.pb.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -55,7 +56,10 @@ class SceneFile {
   Model build();
 
  private:
-  [[noreturn]] void fail(const std::string& where, const std::string& message) const {
+  // Names from the file may hold anything; the message stays one line.
+  [[noreturn]] void fail(const std::string& where, std::string message) const {
+    std::replace_if(
+        message.begin(), message.end(), [](unsigned char c) { return c < ' '; }, '?');
     throw Error(path_ + ":" + std::to_string(lines_.lineOf(where)) + ": " + message);
   }
   void parse();

@@ -69,7 +69,7 @@ void relaxToCentre(ContactSet& set) {
 Mat3 curvedDirections(const Contact& contact, const Primitive& primitive) {
   if (contact.feature == Feature::kFace) return Mat3::Zero();
   const Vec3& n = contact.plane.normal;
-  const Mat3 tangents = Mat3::Identity() - n * n.transpose();
+  Mat3 tangents = Mat3::Identity() - n * n.transpose();
   if (contact.feature >= Feature::kVertex0 || primitive.kind == PrimitiveKind::kPoint) return tangents;
   const Vec3 edge = edgeDirection(primitive, contact.feature);
   return tangents - edge * edge.transpose();

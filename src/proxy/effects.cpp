@@ -167,7 +167,7 @@ Vec3 Effects::resistedStep(const Vec3& way, double slipped_now, SubGoal& sub_goa
   sub_goal.creep = drag.creep;
   const Slip before{slip_.length + slipped_now, slip_.viscous_m + drag.viscous * slipped_now};
   const bool stuck = !slipping_ && slipped_now == 0;
-  const Vec3 creep = drag.creep > 0 ? Vec3((way - drag.creep * creep_m_) / (1 + drag.creep)) : Vec3(Vec3::Zero());
+  Vec3 creep = drag.creep > 0 ? Vec3((way - drag.creep * creep_m_) / (1 + drag.creep)) : Vec3(Vec3::Zero());
   if (stuck && (way - creep).norm() <= drag.holding() + before.viscous_m) {
     sub_goal.creeps = drag.creep > 0;
     return creep;

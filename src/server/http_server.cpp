@@ -23,11 +23,11 @@ using asio::ip::tcp;
 namespace {
 
 constexpr auto kUse = asio::as_tuple(asio::use_awaitable);  // errors as values
-constexpr std::size_t kMaxRequest_bytes = 16 * 1024;
+constexpr std::size_t kMaxRequest_bytes = std::size_t{16} * 1024;
 constexpr auto kRequestTimeout = std::chrono::seconds(20);
 
 http::response<http::string_body> respond(const http::request<http::string_body>& request, http::status status,
-                                          std::string mime, std::string body) {
+                                          const std::string& mime, std::string body) {
   http::response<http::string_body> response(status, request.version());
   response.set(http::field::server, "hl");
   response.set(http::field::content_type, mime);

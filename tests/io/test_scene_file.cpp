@@ -8,6 +8,7 @@
 #include <boost/gil/extension/io/png.hpp>
 #include <filesystem>
 #include <fstream>
+#include <random>
 
 #include "base/error.h"
 #include "io/load_image.h"
@@ -131,8 +132,40 @@ TEST(SceneFile, ErrorsNameTheLine) {
   expect("{\"textures\": [\n{\"name\": \"a\", \"procedural\": {\"kind\": \"wood\"}}]}", "2", "wood");
   expect("{\"objects\": [{\"builtin\": \"plane:2\", \"material\": {\"textures\": [\n{\"texture\": \"gone\"}]}}]}", "2",
          "gone");
+  expect("{\"objects\": [{\"builtin\": \"plane:2\", \"material\": {\"textures\": [{\"texture\": \"a\\nb\"}]}}]}", "1",
+         "a?b");
   EXPECT_NE(afterFile(refusalOf("{}")).find("no objects"), std::string::npos);
   expect(std::string(100, '['), "1", "nested deeper");
+}
+
+TEST(SceneFile, MutatedTextIsReadOrRefusedInOneLine) {
+  const std::string sound = R"({"units": 0.5, "textures": [{"name": "l", "procedural": {"kind": "lines", "size": 4}}],
+    "objects": [{"name": "a", "primitives": {"vertices": [0,0,0, 1,0,0, 1,1,0], "normals": [0,0,1, 0,0,1, 0,0,1],
+      "texcoords": [0,0, 1,0, 1,1], "triangles": [0,1,2], "polygons": [{"vertices": [0,1,2]}]},
+      "transform": {"translate": {"x": 1}, "axis": {"z": 1}, "degrees": 30},
+      "material": {"stiffness": 0.5, "textures": [{"texture": "l", "quantity": "VISCOSITY", "high": 3}]}}]})";
+  std::mt19937 random(17);
+  const std::string bytes = "{}[]\",:0129.eE-+\\ntrufalse\x01\xff";
+  int read = 0;
+  for (int i = 0; i < 3000; ++i) {
+    std::string text = sound;
+    for (int edits = 1 + static_cast<int>(random() % 3); edits > 0; --edits) {
+      const std::size_t at = random() % text.size();
+      const char byte = bytes[random() % bytes.size()];
+      if (random() % 3 == 0)
+        text.erase(at, 1 + random() % 5);
+      else if (random() % 2 == 0)
+        text.insert(at, 1, byte);
+      else
+        text[at] = byte;
+      if (text.empty()) break;
+    }
+    const std::string message = refusalOf(text);
+    read += message == "accepted" ? 1 : 0;
+    ASSERT_EQ(message.find('\n'), std::string::npos) << text;
+  }
+  EXPECT_GT(read, 20);
+  EXPECT_LT(read, 2900);
 }
 
 TEST(Image, PngKeepsSixteenBitsAndTheLowestRowIsFirst) {
