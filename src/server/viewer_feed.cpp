@@ -5,6 +5,8 @@
 #include <cstring>
 #include <vector>
 
+#include "server/surface_images.h"
+
 namespace hl {
 
 namespace {
@@ -68,6 +70,7 @@ std::string sceneMesh(const TouchSession& session) {
   }
   out.set_proxy_radius(session.radius_W());
   out.set_world_per_device(session.workspace().world_per_device);
+  addSurfaceImages(snapshot.model, out);
   return message.SerializeAsString();
 }
 

@@ -4,6 +4,7 @@
 import * as THREE from "three";
 import type { Scene } from "./protocol";
 import { orientTowardNormals } from "./winding";
+import { imageTexture } from "./image_texture";
 import { themeColour } from "./theme";
 
 /** Above this, drawing every mesh edge would only fill the screen and the memory. */
@@ -12,14 +13,8 @@ const kPointSize_px = 4;
 
 export class ModelView {
   readonly group = new THREE.Group();
-  private readonly surface_ = new THREE.MeshStandardMaterial({
-    roughness: 0.62,
-    metalness: 0,
-    side: THREE.DoubleSide,
-    polygonOffset: true,
-    polygonOffsetFactor: 1,
-    polygonOffsetUnits: 1,
-  });
+  /** The plain one, then one for each texture of the scene. */
+  private surfaces_: THREE.MeshStandardMaterial[] = [surfaceMaterial()];
   private readonly edges_ = new THREE.MeshBasicMaterial({ wireframe: true, transparent: true, opacity: 0.22 });
   private readonly lines_ = new THREE.LineBasicMaterial();
   private readonly points_ = new THREE.PointsMaterial({ size: kPointSize_px, sizeAttenuation: false });
@@ -43,7 +38,8 @@ export class ModelView {
         orientTowardNormals(scene.positions, scene.normals, scene.triangles);
         geometry.setAttribute("normal", new THREE.BufferAttribute(scene.normals, 3));
       }
-      this.surfaceMesh_ = new THREE.Mesh(geometry, this.surface_);
+      this.surfaceMesh_ = new THREE.Mesh(geometry, this.surfaces_[0]!);
+      this.showLooks(scene, geometry);
       this.group.add(this.surfaceMesh_);
     }
     if (scene.segments.length > 0) {
@@ -54,6 +50,7 @@ export class ModelView {
     }
     this.applyShading();
     this.applyEdges();
+    this.applyTheme();
   }
 
   /** Facets instead of interpolated normals; what has no normals is always shown so. */
@@ -68,7 +65,7 @@ export class ModelView {
   }
 
   applyTheme(): void {
-    this.surface_.color.set(themeColour("model"));
+    this.surfaces_.forEach((surface) => surface.color.set(themeColour("model")));
     this.edges_.color.set(themeColour("model-edge"));
     this.lines_.color.set(themeColour("model-line"));
     this.points_.color.set(themeColour("model-line"));
@@ -82,9 +79,29 @@ export class ModelView {
     return this.triangles > kEdgesMaxTriangles || raycaster.intersectObject(this.surfaceMesh_, false).length > 0;
   }
 
+  /** Textured triangles get the material of their image, all others the plain one. */
+  private showLooks(scene: Scene, geometry: THREE.BufferGeometry): void {
+    if (scene.texcoords === undefined) {
+      return;
+    }
+    geometry.setAttribute("uv", new THREE.BufferAttribute(scene.texcoords, 2));
+    const runs = scene.looks.flatMap((look, i) => look.runs.map((run) => ({ ...run, material: i + 1 })));
+    let next = 0;
+    for (const run of runs.sort((a, b) => a.first - b.first)) {
+      geometry.addGroup(3 * next, 3 * (run.first - next), 0);
+      geometry.addGroup(3 * run.first, 3 * run.count, run.material);
+      next = run.first + run.count;
+    }
+    geometry.addGroup(3 * next, scene.triangles.length - 3 * next, 0);
+    this.surfaces_.push(...scene.looks.map((look) => surfaceMaterial(imageTexture(look.image))));
+    this.surfaceMesh_!.material = this.surfaces_;
+  }
+
   private applyShading(): void {
-    this.surface_.flatShading = this.flat_ || !this.hasNormals_;
-    this.surface_.needsUpdate = true;
+    for (const surface of this.surfaces_) {
+      surface.flatShading = this.flat_ || !this.hasNormals_;
+      surface.needsUpdate = true;
+    }
   }
 
   private applyEdges(): void {
@@ -103,9 +120,25 @@ export class ModelView {
       (child as THREE.Mesh).geometry.dispose();
     }
     this.group.clear();
+    for (const textured of this.surfaces_.splice(1)) {
+      textured.map?.dispose();
+      textured.dispose();
+    }
     this.surfaceMesh_ = undefined;
     this.edgeMesh_ = undefined;
   }
+}
+
+function surfaceMaterial(map: THREE.Texture | null = null): THREE.MeshStandardMaterial {
+  return new THREE.MeshStandardMaterial({
+    map,
+    roughness: 0.62,
+    metalness: 0,
+    side: THREE.DoubleSide,
+    polygonOffset: true,
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: 1,
+  });
 }
 
 function indexed(position: THREE.BufferAttribute, index: Uint32Array): THREE.BufferGeometry {

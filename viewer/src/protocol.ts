@@ -9,6 +9,7 @@ import {
   type LedgerMode,
   type Notice,
   type SceneMesh,
+  type SurfaceImage,
   type State,
   type Vec3,
 } from "./gen/hl_pb";
@@ -19,6 +20,12 @@ import { isFiniteVec, kZero, type Vec } from "./vec";
 export const kProtocolVersion = 1;
 
 /** SceneMesh with its byte arrays as typed arrays and every index proven to be in range. */
+/** A texture to show, and the runs of triangles that show it. */
+export interface SurfaceLook {
+  readonly image: SurfaceImage;
+  readonly runs: readonly { readonly first: number; readonly count: number }[];
+}
+
 export interface Scene {
   readonly name: string;
   readonly positions: Float32Array;
@@ -26,6 +33,8 @@ export interface Scene {
   readonly triangles: Uint32Array;
   readonly segments: Uint32Array;
   readonly points: Uint32Array;
+  readonly texcoords: Float32Array | undefined;
+  readonly looks: readonly SurfaceLook[];
   readonly boundsMin: Vec;
   readonly boundsMax: Vec;
   readonly proxyRadius_m: number;
@@ -85,10 +94,36 @@ function checkScene(mesh: SceneMesh): Scene {
     triangles: indices(mesh.triangles, 3, vertices, "triangles"),
     segments: indices(mesh.segments, 2, vertices, "segments"),
     points: indices(mesh.points, 1, vertices, "points"),
+    ...checkLooks(mesh, vertices),
     ...checkBounds(mesh, positions),
     proxyRadius_m: mesh.proxyRadius > 0 && Number.isFinite(mesh.proxyRadius) ? mesh.proxyRadius : 0,
     worldPerDevice: mesh.worldPerDevice,
   };
+}
+
+function checkLooks(mesh: SceneMesh, vertices: number): { texcoords: Float32Array | undefined; looks: SurfaceLook[] } {
+  if (mesh.parts.length === 0) {
+    return { texcoords: undefined, looks: [] };
+  }
+  const texcoords = floats(mesh.texcoords, "texture coordinates");
+  if (texcoords.length !== 2 * vertices) {
+    throw new ProtocolError("the scene has not one texture coordinate per vertex");
+  }
+  const looks = mesh.images.map((image) => {
+    if (image.width < 1 || image.height < 1 || image.texels.length !== image.width * image.height) {
+      throw new ProtocolError("a texture of the scene is cut short");
+    }
+    return { image, runs: [] as { first: number; count: number }[] };
+  });
+  const triangles = mesh.triangles.length / 12;
+  for (const { firstTriangle, triangles: count, image } of mesh.parts) {
+    const look = looks[image];
+    if (look === undefined || firstTriangle + count > triangles) {
+      throw new ProtocolError("a part of the scene has a texture or a triangle that does not exist");
+    }
+    look.runs.push({ first: firstTriangle, count });
+  }
+  return { texcoords, looks };
 }
 
 /** The bounds as sent, or those of the vertices when they are missing. */

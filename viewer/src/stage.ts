@@ -179,7 +179,8 @@ export class Stage {
     }
     const colour = new THREE.Color(themeColour("grid"));
     this.floor_ = new THREE.GridHelper(this.diagonal_m_ * 2, 20, colour, colour);
-    this.floor_.position.set(this.centre_.x, level_m, this.centre_.z);
+    // A little lower than the model: a flat one would flicker in the same plane.
+    this.floor_.position.set(this.centre_.x, level_m - 0.004 * this.diagonal_m_, this.centre_.z);
     this.scene.add(this.floor_);
   }
 }

@@ -1,7 +1,9 @@
 // The wire: what a good server sends arrives whole; what a broken one sends is refused with a sentence, never drawn.
 import { create, fromBinary, toBinary, type MessageInitShape } from "@bufbuild/protobuf";
 import { describe, expect, test } from "vitest";
-import { ServerMessageSchema, ViewerMessageSchema, type SceneMesh } from "../src/gen/hl_pb";
+import {
+  ServerMessageSchema, SurfaceImageSchema, SurfacePartSchema, ViewerMessageSchema, type SceneMesh,
+} from "../src/gen/hl_pb";
 import {
   decodeServerMessage, encodeHandGoal, encodeRearm, encodeRelease, encodeSettings, knownVec, ProtocolError, type Scene,
 } from "../src/protocol";
@@ -26,6 +28,12 @@ const kTriangle: SceneInit = {
   points: bytes(Uint32Array.of(1)),
   proxyRadius: 0.001,
   worldPerDevice: 2,
+};
+
+const kImage = create(SurfaceImageSchema, { width: 2, height: 1, texels: Uint8Array.of(0, 255) });
+const kPart = create(SurfacePartSchema, { firstTriangle: 0, triangles: 1, image: 0 });
+const kTextured: SceneInit = {
+  texcoords: bytes(Float32Array.of(0, 0, 1, 0, 0, 1)), images: [kImage], parts: [kPart],
 };
 
 function decodeScene(change: SceneInit = {}): Scene {
@@ -54,6 +62,15 @@ describe("scenes", () => {
     expect(scene.boundsMax).toEqual({ x: 1, y: 2, z: 0 });
   });
 
+  test("bring their textures and the runs of triangles that show them", () => {
+    const { texcoords, looks } = decodeScene(kTextured);
+    expect(Array.from(texcoords!)).toEqual([0, 0, 1, 0, 0, 1]);
+    expect(looks).toHaveLength(1);
+    expect(looks[0]!.runs).toEqual([{ first: 0, count: 1 }]);
+    expect(Array.from(looks[0]!.image.texels)).toEqual([0, 255]);
+    expect(decodeScene().looks).toEqual([]);
+  });
+
   test("may be empty", () => {
     const none = new Uint8Array();
     const scene = decodeScene({ positions: none, normals: none, triangles: none, segments: none, points: none });
@@ -68,6 +85,10 @@ describe("scenes", () => {
     ["half a float", { positions: new Uint8Array(10) }],
     ["half a vertex", { positions: new Uint8Array(8), normals: new Uint8Array() }],
     ["a position that is not a number", { positions: bytes(Float32Array.of(0, 0, NaN, 0, 0, 0, 0, 0, 0)) }],
+    ["textures without coordinates", { images: [kImage], parts: [kPart] }],
+    ["a texture cut short", { ...kTextured, images: [{ ...kImage, width: 3 }] }],
+    ["a part without its texture", { ...kTextured, parts: [{ ...kPart, image: 1 }] }],
+    ["a part beyond the triangles", { ...kTextured, parts: [{ ...kPart, triangles: 2 }] }],
     ["too few normals", { normals: bytes(Float32Array.of(0, 0, 1)) }],
   ])("with %s are refused", (_what, change) => {
     expect(() => decodeScene(change)).toThrow(ProtocolError);
