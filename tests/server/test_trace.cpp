@@ -40,10 +40,11 @@ struct Judgement {
   TraceTotals totals;
 };
 
-Judgement judge(const Snapshot& snapshot, double radius, double phase) {
+Judgement judge(const Snapshot& snapshot, double radius, double phase, const MaterialOverride& surfaces = {}) {
   Judgement result;
   TraceSettings settings;
   settings.proxy.radius = radius;
+  settings.proxy.surfaces = surfaces;
   const auto path = crossingPath(0.55 * kSide, phase);
   Vec3 last = path.front().position;
   result.totals = runTrace(snapshot, settings, path, [&](const TraceRow& row) {
@@ -113,6 +114,25 @@ void expectFolderSound(const std::string& folder, std::size_t most_triangles) {
 TEST(Trace, TheTeapotAndTheWalkerHoldTheProxyAtItsLocalMinimum) {
   for (const char* spec : {"teapot", "walker", "sphere:20000"})
     EXPECT_GT(expectSound(loadScene(spec), spec), 500u) << spec;
+}
+
+// Surfaces only change where the proxy goes: it stays outside, and no energy comes from nowhere.
+TEST(Trace, ShadingAndFrictionKeepTheProxyOutside) {
+  MaterialOverride surfaces;
+  surfaces.smooth = true;
+  surfaces.static_friction = 0.5;
+  surfaces.dynamic_friction = 0.3;
+  surfaces.viscosity_Ns_m = 1;
+  for (const char* spec : {"teapot", "walker", "sphere:20000", "terrain:5000"}) {
+    Model model = loadScene(spec);
+    fitModel(model, kSide);
+    const auto snapshot = makeSnapshot(std::move(model), HierarchyKind::kSpheres);
+    const Judgement j = judge(*snapshot, 1e-3, 1.0, surfaces);
+    EXPECT_GE(j.least_clearance, 1e-3 * (1 - 1e-6)) << spec;
+    EXPECT_EQ(j.totals.capped, 0u) << spec;
+    EXPECT_GT(j.totals.contacts, 500u) << spec;
+    EXPECT_GT(j.totals.ledger.dissipated_J, j.totals.ledger.injected_J) << spec;
+  }
 }
 
 TEST(Trace, AClosedSurfaceIsNeverCutThrough) {
