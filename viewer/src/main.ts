@@ -4,12 +4,13 @@
 import "./style.css";
 import { Connection, type LinkState } from "./connection";
 import { publishDebugState } from "./debug_state";
+import { element } from "./elements";
 import type { Hello, State } from "./gen/hl_pb";
 import { depthOf, metresPerPixel } from "./hand_mapping";
 import { HandInput } from "./hand_input";
 import { ModelView } from "./model_view";
 import { Notices } from "./notices";
-import { element, Panel } from "./panel";
+import { Panel } from "./panel";
 import { kWindow_s, LivePlot } from "./plots";
 import { ProbeView } from "./probe_view";
 import {
@@ -139,6 +140,7 @@ class App {
     this.notices_.stand("version", other || renewed ? "The server has another version. Reload this page." : undefined);
     this.serverVersion_ = hello.serverVersion;
     this.panel_.showHello(hello);
+    this.surfacePanel_.forget();
     this.probe_.setForceMax(hello.device?.forceMaxN ?? 0);
     this.samples_.clear();
     this.rates_.clear();
@@ -180,6 +182,8 @@ class App {
     };
     this.notices_.stand("link", texts[link]);
     if (link !== "live") {
+      // What was heard last is not what is so now.
+      this.stateFresh_ = false;
       this.hand_.cancel();
     }
   }
