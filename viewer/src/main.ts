@@ -205,8 +205,7 @@ class App {
 
   private showProbe(): void {
     const proxy = knownVec(this.state_?.proxy);
-    this.probe_.cones.update(this.state_?.contacts ?? [], this.state_?.slipping ?? false);
-    this.probe_.update(proxy, knownVec(this.state_?.finger), knownVec(this.state_?.forceN), this.state_?.contacts ?? []);
+    this.probe_.update(this.state_);
     if (proxy !== undefined) {
       const view = this.stage_.viewFrame();
       this.probe_.face(this.stage_.camera, metresPerPixel(view, depthOf(view, proxy)));
