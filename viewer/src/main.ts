@@ -8,6 +8,7 @@ import { element } from "./elements";
 import type { Hello, State } from "./gen/hl_pb";
 import { depthOf, metresPerPixel } from "./hand_mapping";
 import { HandInput } from "./hand_input";
+import { LedgerPanel } from "./ledger_panel";
 import { ModelView } from "./model_view";
 import { Notices } from "./notices";
 import { Panel } from "./panel";
@@ -15,7 +16,7 @@ import { kWindow_s, LivePlot } from "./plots";
 import { ProbeView } from "./probe_view";
 import {
   encodeHandGoal, encodeRearm, encodeRelease, encodeSettings, knownVec, kProtocolVersion,
-  type Incoming, type Scene,
+  type Incoming, type Scene, type SettingsChange,
 } from "./protocol";
 import { SampleRing } from "./samples";
 import { Stage, type Insets } from "./stage";
@@ -57,6 +58,7 @@ class App {
   private readonly hand_: HandInput;
   private readonly panel_: Panel;
   private readonly surfacePanel_: SurfacePanel;
+  private readonly ledgerPanel_: LedgerPanel;
   private readonly theme_: ThemeSwitch;
   private readonly connection_: Connection;
   private scene_: Scene | undefined;
@@ -70,7 +72,8 @@ class App {
     this.stage_.scene.add(this.model_.group, this.probe_.group);
     this.hand_ = this.makeHand();
     this.panel_ = this.makePanel();
-    this.surfacePanel_ = new SurfacePanel((change) => this.connection_.send(encodeSettings(change)));
+    this.surfacePanel_ = new SurfacePanel((change) => this.tell(change));
+    this.ledgerPanel_ = new LedgerPanel((change) => this.tell(change));
     this.theme_ = new ThemeSwitch(() => this.applyTheme());
     this.panel_.showTheme(this.theme_.choice);
     this.followWindow();
@@ -103,7 +106,7 @@ class App {
 
   private makePanel(): Panel {
     return new Panel({
-      settings: (change) => this.connection_.send(encodeSettings(change)),
+      settings: (change) => this.tell(change),
       rearm: () => this.connection_.send(encodeRearm()),
       theme: (choice) => this.theme_.choose(choice),
       planes: (shown) => this.probe_.setPlanesShown(shown),
@@ -113,6 +116,10 @@ class App {
       orbitFromEmpty: (on) => (this.hand_.orbitFromEmpty = on),
       resetView: () => this.stage_.resetView(),
     });
+  }
+
+  private tell(change: SettingsChange): void {
+    this.connection_.send(encodeSettings(change));
   }
 
   private receive(message: Incoming): void {
@@ -141,6 +148,7 @@ class App {
     this.serverVersion_ = hello.serverVersion;
     this.panel_.showHello(hello);
     this.surfacePanel_.forget();
+    this.ledgerPanel_.forget();
     this.probe_.setForceMax(hello.device?.forceMaxN ?? 0);
     this.samples_.clear();
     this.rates_.clear();
@@ -224,7 +232,8 @@ class App {
     const state = this.state_!;
     const force = knownVec(state.forceN);
     this.panel_.showState(state, force === undefined ? NaN : length(force), state.samples.at(-1)?.penetrationM);
-    this.surfacePanel_.showState(state);
+    this.surfacePanel_.showSurfaces(state.surfaces);
+    this.ledgerPanel_.show(state.ledger);
     this.stateFresh_ = false;
   }
 

@@ -84,7 +84,9 @@ export class Panel {
     setText("scene-name", hello.sceneName);
     element("scene-name").title = hello.sceneName;
     document.title = `${hello.sceneName} – HL`;
-    setText("device", hello.device?.name || "–");
+    const device = hello.device?.name || "–";
+    setText("device", device);
+    element("device").title = device;
     const slider = element<HTMLInputElement>("stiffness");
     const recommended = hello.device?.stiffnessNM ?? 0;
     const highest = hello.device?.stiffnessMaxNM || 2 * recommended;

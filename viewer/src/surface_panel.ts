@@ -1,20 +1,14 @@
-// The Surface section: sliders and switches that act at once on every surface, and the ledger's mode. What the server
-// says moves the controls, so that two pages agree; pending.ts says when it may.
+// The Surface section: sliders and switches that act at once on every surface. What the server says moves the
+// controls, so that two pages agree; pending.ts says when it may.
 
 import { element, onLetGo, setText } from "./elements";
-import { LedgerMode, type State } from "./gen/hl_pb";
+import type { Surfaces } from "./gen/hl_pb";
 import { kSendPeriod_ms, paced } from "./pace";
 import { Pending } from "./pending";
 import type { SettingsChange } from "./protocol";
 import { kKnobs, kSurfaceFields, settingsOf, type Knob, type SurfaceSettings } from "./surfaces";
 
 const kSceneDecides = "scene";
-const kLedger = "ledger";
-const kLedgerIds: Readonly<Record<LedgerMode, string>> = {
-  [LedgerMode.TANK]: "ledger-tank",
-  [LedgerMode.STRICT]: "ledger-strict",
-  [LedgerMode.REPORT]: "ledger-report",
-};
 
 type Field = (typeof kSurfaceFields)[number];
 
@@ -30,12 +24,6 @@ export class SurfacePanel {
     this.onSwitch("shading", "smooth");
     this.onSwitch("textures", "textures");
     element("surface-reset").addEventListener("click", () => this.choose(kSurfaceFields, undefined));
-    for (const [mode, id] of Object.entries(kLedgerIds)) {
-      element(id).addEventListener("change", () => {
-        this.pending_.set(kLedger, Number(mode), performance.now());
-        send({ ledger: Number(mode) as LedgerMode });
-      });
-    }
     onLetGo(() => this.pending_.letGo(performance.now()));
     this.show();
   }
@@ -45,12 +33,10 @@ export class SurfacePanel {
     this.pending_.clear();
   }
 
-  showState(state: State): void {
-    this.said_ = settingsOf(state.surfaces);
+  /** What the server says is set. */
+  showSurfaces(surfaces: Surfaces | undefined): void {
+    this.said_ = settingsOf(surfaces);
     this.show();
-    const said = state.ledger?.mode ?? LedgerMode.TANK;
-    const mode = this.pending_.resolve<LedgerMode>(kLedger, said, performance.now());
-    element<HTMLInputElement>(kLedgerIds[mode] ?? kLedgerIds[LedgerMode.TANK]).checked = true;
   }
 
   private prepare(knob: Knob): void {
