@@ -8,5 +8,7 @@ export default defineConfig({
     fileParallelism: false,
     testTimeout: 120_000,
     hookTimeout: 120_000,
+    // Software graphics on a busy machine: what is waited for comes late, and only a long wait tells late from never.
+    expect: { poll: { timeout: 30_000 } },
   },
 });

@@ -47,19 +47,48 @@ export function listen(page: Page, origin: string): Complaints {
   return complaints;
 }
 
+/** Pictures are for people: the plots get this long to fill. Nothing else waits for a time. */
+const kPicture_ms = 2000;
+
 /** Saves a picture into HL_SCREENSHOTS, when that is set. */
 export async function screenshot(page: Page, name: string): Promise<void> {
   const folder = process.env.HL_SCREENSHOTS;
   if (folder) {
     mkdirSync(folder, { recursive: true });
+    await page.waitForTimeout(kPicture_ms);
     await page.screenshot({ path: join(folder, `${name}.png`) });
+  }
+}
+
+/** Sets the window's size and waits until the canvas has followed and no panel moves any more. */
+export async function resize(page: Page, size: { width: number; height: number }): Promise<void> {
+  await page.setViewportSize(size);
+  await page.evaluate(async ({ width }) => {
+    const ids = ["canvas", "controls", "readouts", "hints"];
+    const boxes = () => JSON.stringify(ids.map((id) => document.getElementById(id)!.getBoundingClientRect()));
+    const view = document.getElementById("view")!;
+    const canvas = document.getElementById("canvas")!;
+    const follows = () => window.innerWidth === width && canvas.clientWidth === view.clientWidth;
+    for (let last = "", still = 0; still < 3; ) {
+      await new Promise((resolve) => requestAnimationFrame(resolve));
+      const now = boxes();
+      still = follows() && now === last ? still + 1 : 0;
+      last = now;
+    }
+  }, size);
+}
+
+/** Waits until the page has `count` more states of the server. */
+export async function states(page: Page, count = 1): Promise<void> {
+  for (let i = 0; i < count; ++i) {
+    const time_s = await page.evaluate(() => window.__hl.time_s ?? -Infinity);
+    await page.waitForFunction((before_s) => (window.__hl.time_s ?? -Infinity) > before_s, time_s);
   }
 }
 
 /** No two panels overlap, none leaves the window, none has to scroll or cuts off its text. */
 export async function expectTidyLayout(page: Page, size: { width: number; height: number }): Promise<void> {
-  await page.setViewportSize(size);
-  await page.waitForTimeout(300);
+  await resize(page, size);
   const boxes = await page.evaluate(() =>
     ["controls", "readouts", "notices", "hints"].map((id) => {
       const target = document.getElementById(id)!;
@@ -80,9 +109,9 @@ export async function expectTidyLayout(page: Page, size: { width: number; height
   }
 }
 
-/** The View section is folded in low windows. */
-export async function openView(page: Page): Promise<void> {
-  await page.evaluate(() => (document.querySelector<HTMLDetailsElement>("#view-fold")!.open = true));
+/** In low windows only one section is open. */
+export async function openSection(page: Page, name: "surface" | "view"): Promise<void> {
+  await page.evaluate((id) => (document.querySelector<HTMLDetailsElement>(id)!.open = true), `#${name}-fold`);
 }
 
 /** Share of the pixels in the middle of the window that differ from its background colour. */

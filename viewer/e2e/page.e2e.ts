@@ -1,9 +1,13 @@
 // The page alone, against a stand-in server that does on command what a real one does rarely.
 
+import { create } from "@bufbuild/protobuf";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
+import { LedgerMode, SurfacesSchema } from "../src/gen/hl_pb";
 import { FakeServer } from "../test-support/fake_server";
-import { expectTidyLayout, kSizes, launch, listen, modelPixels, screenshot, openView, type Complaints } from "./browser";
+import {
+  expectTidyLayout, kSizes, launch, listen, modelPixels, openSection, resize, screenshot, states, type Complaints,
+} from "./browser";
 
 let browser: Browser;
 let server: FakeServer;
@@ -39,35 +43,39 @@ function atRest(): Promise<void> {
 
 test("shows the model, and panels that do not overlap, in dark and light at both sizes", async () => {
   expect(await modelPixels(page)).toBeGreaterThan(0.05);
-  await openView(page);
+  await openSection(page, "view");
   await page.check("#planes");
+  await page.check("#cones");
   for (const theme of ["dark", "light"]) {
     await page.check(`input[name=theme][value=${theme}]`, { force: true });
+    server.slipping = theme === "light";
     for (const size of kSizes) {
-      await expectTidyLayout(page, size);
-      await page.waitForTimeout(1500);
+      for (const section of ["view", "surface"] as const) {
+        await openSection(page, section);
+        await expectTidyLayout(page, size);
+      }
       await screenshot(page, `page_${theme}_${size.width}x${size.height}`);
     }
+    await openSection(page, "view");
   }
 });
 
 test("gives a usable page in a small window", async () => {
-  await page.setViewportSize({ width: 700, height: 600 });
-  await page.waitForTimeout(500);
+  await resize(page, { width: 700, height: 600 });
   const widest = await page.evaluate(() => document.documentElement.scrollWidth);
   expect(widest).toBeLessThanOrEqual(700);
   const middle = await page.evaluate(() => window.__hl.project({ x: 0, y: 0, z: 0 }));
   expect(middle.x).toBeCloseTo(350, 0);
   await screenshot(page, "page_small");
-  await page.setViewportSize(kSizes[0]);
+  await resize(page, kSizes[0]);
 });
 
 test("remembers the theme that was chosen", async () => {
-  await openView(page);
+  await openSection(page, "view");
   await page.check("input[name=theme][value=light]", { force: true });
   await page.reload();
   expect(await page.evaluate(() => document.documentElement.dataset.theme)).toBe("light");
-  await openView(page);
+  await openSection(page, "view");
   await page.check("input[name=theme][value=system]", { force: true });
   expect(await page.evaluate(() => document.documentElement.dataset.theme)).toBe("dark");
   await page.waitForFunction(() => window.__hl.samples > 10);
@@ -84,17 +92,113 @@ test("settings reach the server: exploration, grip, stiffness within the device'
   await expect.poll(() => page.textContent("#stiffness-value")).toMatch(/2.000.N\/m/);
 });
 
+test("surface controls reach the server whole, and what the server says moves them", async () => {
+  await openSection(page, "surface");
+  const texts = () => page.locator("#surface-fold output").allTextContents();
+  expect(await texts()).toEqual(["scene", "scene", "scene", "scene"]);
+  await page.fill("#static-friction", "0.8");
+  await page.fill("#viscosity", "5");
+  await page.check("#shading");
+  await page.uncheck("#textures");
+  await expect.poll(() => server.surfaces).toMatchObject({
+    staticFriction: 0.8, viscosityNsM: 5, smooth: true, textures: false,
+  });
+  expect(server.surfaces.stiffness).toBeUndefined();
+  server.surfaces = create(SurfacesSchema, { stiffness: 0.5, dynamicFriction: 0.25 });
+  await expect.poll(texts).toEqual(["50\u202f%", "scene", "0.25", "scene"]);
+  await page.click("#surface-reset");
+  await expect.poll(() => server.surfaces).toEqual(create(SurfacesSchema));
+  await expect.poll(texts).toEqual(["scene", "scene", "scene", "scene"]);
+});
+
+test("a slider under the pointer stays where it is, whatever another page sets", async () => {
+  await openSection(page, "surface");
+  const box = (await page.locator("#static-friction").boundingBox())!;
+  const value = () => page.inputValue("#static-friction").then(Number);
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  await expect.poll(() => server.surfaces.staticFriction).toBeCloseTo(0.75, 1);
+  const held = await value();
+  server.surfaces = create(SurfacesSchema, { staticFriction: 1.4 });
+  const from_s = await page.evaluate(() => window.__hl.time_s!);
+  // Longer than the page waits for any echo.
+  await page.waitForFunction((time_s) => window.__hl.time_s! > time_s + 3, from_s);
+  expect(await value()).toBe(held);
+  await page.mouse.up();
+  await expect.poll(value).toBe(1.4);
+  server.surfaces = create(SurfacesSchema);
+});
+
+test("the ledger: its mode, its tank, and a line for every cause", async () => {
+  await openSection(page, "surface");
+  await page.check("#ledger-report", { force: true });
+  await expect.poll(() => server.ledger).toBe(LedgerMode.REPORT);
+  await expect.poll(() => page.getAttribute("#tank-row", "class")).toMatch(/idle/);
+  server.ledger = LedgerMode.TANK;
+  await expect.poll(() => page.isChecked("#ledger-tank")).toBe(true);
+  expect(await page.textContent("#tank")).toMatch(/^\d+\.\d of 50.mJ$/);
+  expect(await page.locator("#plot-energy canvas").count()).toBe(1);
+  expect(await page.locator("#readouts .legend .key").count()).toBe(5);
+});
+
+test("the key C draws friction cones, in another colour while slipping", async () => {
+  await openSection(page, "view");
+  await page.uncheck("#explore");
+  await page.uncheck("#cones");
+  server.slipping = false;
+  await states(page, 60);
+  const { x, y } = await page.evaluate(() => window.__hl.project(window.__hl.proxy!));
+  const picture = async () => {
+    await states(page, 10);
+    return page.screenshot({ clip: { x: x - 60, y: y - 60, width: 120, height: 120 } });
+  };
+  const without = await picture();
+  expect((await picture()).equals(without)).toBe(true);
+  await page.keyboard.press("c");
+  const sticking = await picture();
+  expect(sticking.equals(without)).toBe(false);
+  server.slipping = true;
+  expect((await picture()).equals(sticking)).toBe(false);
+  await page.check("#explore");
+});
+
+test("on a touch screen one finger drags the hand, a second one makes it a camera gesture", async () => {
+  const context = await browser.newContext({ viewport: kSizes[0], hasTouch: true });
+  const screen = await context.newPage();
+  await screen.goto(server.url);
+  await screen.waitForFunction(() => window.__hl.samples > 10);
+  const cdp = await context.newCDPSession(screen);
+  const touch = (type: "touchStart" | "touchMove" | "touchEnd", ...at: [number, number][]) =>
+    cdp.send("Input.dispatchTouchEvent", { type, touchPoints: at.map(([x, y], id) => ({ x, y, id })) });
+  const marker = () => screen.evaluate(() => window.__hl.project({ x: 0, y: 0, z: 0.05 }).x);
+  const last = () => server.received.at(-1)?.body.case;
+  server.received.length = 0;
+  await touch("touchStart", [600, 400]);
+  await touch("touchMove", [620, 400]);
+  await expect.poll(last).toBe("handGoal");
+  const before = await marker();
+  await touch("touchStart", [620, 400], [720, 400]);
+  await expect.poll(last).toBe("release");
+  for (let i = 1; i <= 8; ++i) {
+    await touch("touchMove", [620 + 10 * i, 400], [720 + 10 * i, 400]);
+  }
+  await expect.poll(async () => Math.abs((await marker()) - before)).toBeGreaterThan(5);
+  await touch("touchEnd");
+  expect(last()).toBe("release");
+  await context.close();
+});
+
 test("keys, the wheel and the release of the mouse move and let go of the hand", async () => {
   await page.keyboard.press("Escape");
   await page.evaluate(() => (document.activeElement as HTMLElement | null)?.blur());
   server.received.length = 0;
   const before = await page.evaluate(() => window.__hl.finger!);
   await page.keyboard.down("w");
-  await page.waitForTimeout(400);
+  const goals = () => server.received.flatMap(({ body }) => (body.case === "handGoal" ? [body.value.position!] : []));
+  const way_m = () => Math.hypot((goals().at(-1)?.x ?? NaN) - before.x, (goals().at(-1)?.z ?? NaN) - before.z);
+  await expect.poll(way_m).toBeGreaterThan(1e-3);
   await page.keyboard.up("w");
   await expect.poll(() => server.received.at(-1)?.body.case).toBe("release");
-  const goals = server.received.flatMap(({ body }) => (body.case === "handGoal" ? [body.value.position!] : []));
-  expect(Math.hypot(goals.at(-1)!.x - before.x, goals.at(-1)!.z - before.z)).toBeGreaterThan(1e-3);
   await page.mouse.move(640, 360);
   await page.mouse.down();
   await page.mouse.wheel(0, -300);
@@ -123,7 +227,7 @@ test("right-drag, Shift-drag and, when chosen, drags on empty space orbit the ca
   await page.keyboard.down("Shift");
   expect(await drag("left")).toBeGreaterThan(5);
   await page.keyboard.up("Shift");
-  await openView(page);
+  await openSection(page, "view");
   await page.check("#empty-orbit");
   expect(await drag("left")).toBeGreaterThan(5);
   expect(server.received.map(({ body }) => body.case)).toEqual([]);
@@ -140,7 +244,7 @@ test("a fault shows its reason and can be re-armed", async () => {
   for (const size of kSizes) {
     await expectTidyLayout(page, size);
   }
-  await page.setViewportSize(kSizes[0]);
+  await resize(page, kSizes[0]);
   await screenshot(page, "page_fault");
   await page.click("#rearm");
   await page.waitForSelector("#rearm", { state: "hidden" });
@@ -149,12 +253,12 @@ test("a fault shows its reason and can be re-armed", async () => {
 
 test("a server that says nothing, or speaks nonsense, is told to the user and the page recovers", async () => {
   server.silent = true;
-  await page.waitForSelector("[data-cause=link]", { timeout: 10_000 });
+  await page.waitForSelector("[data-cause=link]");
   server.silent = false;
-  await page.waitForSelector("[data-cause=link]", { state: "detached", timeout: 10_000 });
+  await page.waitForSelector("[data-cause=link]", { state: "detached" });
   server.sendRaw(Uint8Array.of(0x12, 0xff, 0x01));
   await page.waitForSelector(".notice.told");
-  await page.waitForFunction(() => window.__hl.link === "live", undefined, { timeout: 10_000 });
+  await page.waitForFunction(() => window.__hl.link === "live", undefined);
   await page.click(".notice.told button");
 });
 

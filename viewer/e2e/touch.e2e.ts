@@ -9,7 +9,9 @@ import { afterAll, beforeAll, describe, expect, test } from "vitest";
 import { decodeServerMessage, knownVec, type Scene } from "../src/protocol";
 import { length, sub, type Vec } from "../src/vec";
 import { distanceToTriangles } from "../test-support/closest_point";
-import { expectTidyLayout, kSizes, launch, listen, modelPixels, openView, screenshot, type Complaints } from "./browser";
+import {
+  expectTidyLayout, kSizes, launch, listen, modelPixels, openSection, resize, screenshot, states, type Complaints,
+} from "./browser";
 
 const kProgram = process.env.HL_BIN;
 /** Positions of the mesh arrive as float32: exact to about this share of the model's size. */
@@ -91,9 +93,8 @@ describe.skipIf(!kProgram)("hl touch teapot", () => {
   });
 
   test("shows the model", async () => {
-    await expect.poll(() => modelPixels(page), { timeout: 20_000 }).toBeGreaterThan(0.05);
+    await expect.poll(() => modelPixels(page)).toBeGreaterThan(0.05);
     expect(await page.textContent("#scene-name")).toMatch(/teapot/i);
-    await page.waitForTimeout(3000);
     await screenshot(page, "touch_exploring");
   });
 
@@ -105,17 +106,19 @@ describe.skipIf(!kProgram)("hl touch teapot", () => {
     });
     await page.mouse.move(before.from.x, before.from.y);
     await page.mouse.down();
-    await page.waitForTimeout(300);
-    expect(await page.evaluate(() => window.__hl.exploring)).toBe(false);
+    await page.waitForFunction(() => !window.__hl.exploring);
+    const began_s = await page.evaluate(() => window.__hl.time_s!);
     const first = tap.proxies.length;
     tap.deepest_m = 0;
     // Above the model first, then slowly down to its middle: wherever the stroking hand was, the way crosses the surface.
     await moveSlowly(page, before.from, { x: before.to.x, y: before.to.y - 160 });
     await moveSlowly(page, { x: before.to.x, y: before.to.y - 160 }, before.to);
-    await alignDepth(page);
-    await page.waitForTimeout(500);
+    await pushUntilHeld(page);
+    await page.waitForFunction(
+      (since_s) => window.__hl.peak(window.__hl.time_s! - since_s).force_N > 0.5, began_s, { timeout: 60_000 },
+    );
     await screenshot(page, "touch_dragging");
-    const peak = await page.evaluate(() => window.__hl.peak(8));
+    const peak = await page.evaluate((since_s) => window.__hl.peak(window.__hl.time_s! - since_s), began_s);
     expect(peak.force_N).toBeGreaterThan(0.5);
     expect(peak.penetration_m).toBeGreaterThan(1e-4);
     expect(tap.deepest_m).toBeGreaterThan(tap.scene!.proxyRadius_m);
@@ -124,7 +127,7 @@ describe.skipIf(!kProgram)("hl touch teapot", () => {
   });
 
   test("surface controls act at once, and what the server says moves them", async () => {
-    await page.evaluate(() => (document.querySelector<HTMLDetailsElement>("#surface-fold")!.open = true));
+    await openSection(page, "surface");
     await page.fill("#static-friction", "0.8");
     await page.fill("#dynamic-friction", "0.4");
     await page.uncheck("#shading");
@@ -150,15 +153,17 @@ describe.skipIf(!kProgram)("hl touch teapot", () => {
     await page.keyboard.press("p");
     await page.keyboard.press("c");
     for (const theme of ["light", "dark"]) {
-      await openView(page);
+      await openSection(page, "view");
       await page.check(`input[name=theme][value=${theme}]`, { force: true });
       for (const size of kSizes) {
-        await expectTidyLayout(page, size);
-        await page.waitForTimeout(2000);
+        for (const section of ["view", "surface"] as const) {
+          await openSection(page, section);
+          await expectTidyLayout(page, size);
+        }
         await screenshot(page, `touch_${theme}_${size.width}x${size.height}`);
       }
     }
-    await page.setViewportSize(kSizes[0]);
+    await resize(page, kSizes[0]);
     expectOutside(tap, 0);
   });
 
@@ -169,7 +174,7 @@ describe.skipIf(!kProgram)("hl touch teapot", () => {
     expect(await page.textContent("[data-cause=link]")).toMatch(/server went away/);
     await screenshot(page, "touch_gone");
     touch = await startTouch(port);
-    await page.waitForSelector("[data-cause=link]", { state: "detached", timeout: 10_000 });
+    await page.waitForSelector("[data-cause=link]", { state: "detached" });
     await page.waitForFunction(() => window.__hl.link === "live" && window.__hl.samples > 10);
   });
 
@@ -181,18 +186,20 @@ describe.skipIf(!kProgram)("hl touch teapot", () => {
   });
 });
 
+/** Drags in small steps, each at least one state of the server long. */
 async function moveSlowly(page: Page, from: { x: number; y: number }, to: { x: number; y: number }): Promise<void> {
   const kSteps = 40;
   for (let i = 1; i <= kSteps; ++i) {
     const share = i / kSteps;
     await page.mouse.move(from.x + (to.x - from.x) * share, from.y + (to.y - from.y) * share);
-    await page.waitForTimeout(25);
+    await states(page);
   }
 }
 
-/** Turns the wheel until the finger is held back by the surface on its way to the depth of the model's middle. */
-async function alignDepth(page: Page): Promise<void> {
-  for (let i = 0; i < 40; ++i) {
+/** Turns the wheel until the surface holds the finger back on its way to the depth of the model's middle. */
+async function pushUntilHeld(page: Page): Promise<void> {
+  const kTurns = 150;
+  for (let i = 0; i < kTurns; ++i) {
     const { separation, farther_m } = await page.evaluate(() => {
       const { boundsMin: low, boundsMax: high, finger } = window.__hl;
       const centre = { x: (low!.x + high!.x) / 2, y: (low!.y + high!.y) / 2, z: (low!.z + high!.z) / 2 };
@@ -205,8 +212,9 @@ async function alignDepth(page: Page): Promise<void> {
       return;
     }
     await page.mouse.wheel(0, farther_m > 0 ? -60 : 60);
-    await page.waitForTimeout(60);
+    await states(page, 3);
   }
+  throw new Error(`the surface did not hold the finger back in ${kTurns} turns of the wheel`);
 }
 
 /** Proxies since `first`, evenly picked, at most this many: each is asked of every triangle. */

@@ -4,17 +4,19 @@
 import "./style.css";
 import { Connection, type LinkState } from "./connection";
 import { publishDebugState } from "./debug_state";
+import { element } from "./elements";
 import type { Hello, State } from "./gen/hl_pb";
 import { depthOf, metresPerPixel } from "./hand_mapping";
 import { HandInput } from "./hand_input";
+import { LedgerPanel } from "./ledger_panel";
 import { ModelView } from "./model_view";
 import { Notices } from "./notices";
-import { element, Panel } from "./panel";
+import { Panel } from "./panel";
 import { kWindow_s, LivePlot } from "./plots";
 import { ProbeView } from "./probe_view";
 import {
   encodeHandGoal, encodeRearm, encodeRelease, encodeSettings, knownVec, kProtocolVersion,
-  type Incoming, type Scene,
+  type Incoming, type Scene, type SettingsChange,
 } from "./protocol";
 import { SampleRing } from "./samples";
 import { Stage, type Insets } from "./stage";
@@ -56,6 +58,7 @@ class App {
   private readonly hand_: HandInput;
   private readonly panel_: Panel;
   private readonly surfacePanel_: SurfacePanel;
+  private readonly ledgerPanel_: LedgerPanel;
   private readonly theme_: ThemeSwitch;
   private readonly connection_: Connection;
   private scene_: Scene | undefined;
@@ -69,7 +72,8 @@ class App {
     this.stage_.scene.add(this.model_.group, this.probe_.group);
     this.hand_ = this.makeHand();
     this.panel_ = this.makePanel();
-    this.surfacePanel_ = new SurfacePanel((change) => this.connection_.send(encodeSettings(change)));
+    this.surfacePanel_ = new SurfacePanel((change) => this.tell(change));
+    this.ledgerPanel_ = new LedgerPanel((change) => this.tell(change));
     this.theme_ = new ThemeSwitch(() => this.applyTheme());
     this.panel_.showTheme(this.theme_.choice);
     this.followWindow();
@@ -102,7 +106,7 @@ class App {
 
   private makePanel(): Panel {
     return new Panel({
-      settings: (change) => this.connection_.send(encodeSettings(change)),
+      settings: (change) => this.tell(change),
       rearm: () => this.connection_.send(encodeRearm()),
       theme: (choice) => this.theme_.choose(choice),
       planes: (shown) => this.probe_.setPlanesShown(shown),
@@ -112,6 +116,10 @@ class App {
       orbitFromEmpty: (on) => (this.hand_.orbitFromEmpty = on),
       resetView: () => this.stage_.resetView(),
     });
+  }
+
+  private tell(change: SettingsChange): void {
+    this.connection_.send(encodeSettings(change));
   }
 
   private receive(message: Incoming): void {
@@ -139,6 +147,8 @@ class App {
     this.notices_.stand("version", other || renewed ? "The server has another version. Reload this page." : undefined);
     this.serverVersion_ = hello.serverVersion;
     this.panel_.showHello(hello);
+    this.surfacePanel_.forget();
+    this.ledgerPanel_.forget();
     this.probe_.setForceMax(hello.device?.forceMaxN ?? 0);
     this.samples_.clear();
     this.rates_.clear();
@@ -180,6 +190,8 @@ class App {
     };
     this.notices_.stand("link", texts[link]);
     if (link !== "live") {
+      // What was heard last is not what is so now.
+      this.stateFresh_ = false;
       this.hand_.cancel();
     }
   }
@@ -201,8 +213,7 @@ class App {
 
   private showProbe(): void {
     const proxy = knownVec(this.state_?.proxy);
-    this.probe_.cones.update(this.state_?.contacts ?? [], this.state_?.slipping ?? false);
-    this.probe_.update(proxy, knownVec(this.state_?.finger), knownVec(this.state_?.forceN), this.state_?.contacts ?? []);
+    this.probe_.update(this.state_);
     if (proxy !== undefined) {
       const view = this.stage_.viewFrame();
       this.probe_.face(this.stage_.camera, metresPerPixel(view, depthOf(view, proxy)));
@@ -221,7 +232,8 @@ class App {
     const state = this.state_!;
     const force = knownVec(state.forceN);
     this.panel_.showState(state, force === undefined ? NaN : length(force), state.samples.at(-1)?.penetrationM);
-    this.surfacePanel_.showState(state);
+    this.surfacePanel_.showSurfaces(state.surfaces);
+    this.ledgerPanel_.show(state.ledger);
     this.stateFresh_ = false;
   }
 

@@ -1,6 +1,6 @@
 // Banners at the top of the view. A keyed banner stands until its cause is gone; a server's notice can be closed.
 
-import { element } from "./panel";
+import { element } from "./elements";
 
 const kNoticesMax = 4;
 

@@ -2,6 +2,9 @@
 
 import { SafetyState, type Hello, type LoopStats, type State } from "./gen/hl_pb";
 import type { LinkState } from "./connection";
+import { element, onLetGo, setText } from "./elements";
+import { kSendPeriod_ms, paced } from "./pace";
+import { Pending } from "./pending";
 import type { Scene, SettingsChange } from "./protocol";
 import type { ThemeChoice } from "./theme";
 import { formatCount, formatFixed, formatScale, formatSi, kThinSpace } from "./units";
@@ -18,8 +21,6 @@ export interface PanelActions {
   resetView(): void;
 }
 
-/** A control that was just used keeps what the user chose for this long: states already on their way are older. */
-const kSettle_ms = 700;
 /** From this height of the window on all sections fit. */
 const kTall_px = 860;
 const kStiffnessMin_N_m = 50;
@@ -41,18 +42,17 @@ const kLinkTexts: Readonly<Record<LinkState, string>> = {
 
 export class Panel {
   private readonly actions_: PanelActions;
-  private readonly touched_ms_ = new Map<string, number>();
+  private readonly pending_ = new Pending<boolean | number>();
 
   constructor(actions: PanelActions) {
     this.actions_ = actions;
-    const { settings } = actions;
-    this.onCheck("explore", (on) => settings({ explore: on }));
+    this.onCheck("explore", (on) => this.tell("explore", on, { explore: on }));
     this.onCheck("planes", (on) => actions.planes(on));
     this.onCheck("cones", (on) => actions.cones(on));
     this.onCheck("edges", (on) => actions.edges(on));
     this.onCheck("flat", (on) => actions.flat(on));
     this.onCheck("empty-orbit", (on) => actions.orbitFromEmpty(on));
-    this.onChoice("grip", (value) => settings({ handFirm: value === "firm" }));
+    this.onChoice("grip", (value) => this.tell("grip", value === "firm", { handFirm: value === "firm" }));
     this.onChoice("theme", (value) => actions.theme(value as ThemeChoice));
     this.onStiffness();
     element("rearm").addEventListener("click", () => actions.rearm());
@@ -79,10 +79,14 @@ export class Panel {
   }
 
   showHello(hello: Hello): void {
+    // A server that has just been met knows nothing of what was set before.
+    this.pending_.clear();
     setText("scene-name", hello.sceneName);
     element("scene-name").title = hello.sceneName;
     document.title = `${hello.sceneName} – HL`;
-    setText("device", hello.device?.name || "–");
+    const device = hello.device?.name || "–";
+    setText("device", device);
+    element("device").title = device;
     const slider = element<HTMLInputElement>("stiffness");
     const recommended = hello.device?.stiffnessNM ?? 0;
     const highest = hello.device?.stiffnessMaxNM || 2 * recommended;
@@ -114,11 +118,16 @@ export class Panel {
     this.showLoop("proxy", state.proxyLoop);
     this.showLoop("servo", state.servo);
     this.showSafety(state);
-    this.setChecked("explore", state.exploring);
-    this.setChecked("grip", !state.handFirm, "grip-light");
-    this.setChecked("grip", state.handFirm, "grip-firm");
-    if (this.settled("stiffness") && state.stiffnessNM > 0) {
-      this.showStiffness(state.stiffnessNM);
+    this.showSettings(state);
+  }
+
+  private showSettings(state: State): void {
+    const now_ms = performance.now();
+    element<HTMLInputElement>("explore").checked = this.pending_.resolve<boolean>("explore", state.exploring, now_ms);
+    const firm = this.pending_.resolve<boolean>("grip", state.handFirm, now_ms);
+    element<HTMLInputElement>(firm ? "grip-firm" : "grip-light").checked = true;
+    if (state.stiffnessNM > 0) {
+      this.showStiffness(this.pending_.resolve<number>("stiffness", state.stiffnessNM, now_ms));
     }
   }
 
@@ -149,27 +158,31 @@ export class Panel {
 
   private onStiffness(): void {
     const slider = element<HTMLInputElement>("stiffness");
+    const send = paced(() => this.actions_.settings({ stiffnessNM: slider.valueAsNumber }), kSendPeriod_ms);
     slider.addEventListener("input", () => {
-      this.touch("stiffness");
-      setText("stiffness-value", `${formatCount(slider.valueAsNumber)}${kThinSpace}N/m`);
-      this.actions_.settings({ stiffnessNM: slider.valueAsNumber });
+      this.pending_.set("stiffness", slider.valueAsNumber, performance.now());
+      this.showStiffness(slider.valueAsNumber);
+      send();
     });
+    slider.addEventListener("pointerdown", () => {
+      this.pending_.hold("stiffness", slider.valueAsNumber, performance.now());
+    });
+    onLetGo(() => this.pending_.letGo(performance.now()));
+  }
+
+  private tell(control: string, value: boolean, change: SettingsChange): void {
+    this.pending_.set(control, value, performance.now());
+    this.actions_.settings(change);
   }
 
   private onCheck(id: string, act: (on: boolean) => void): void {
     const box = element<HTMLInputElement>(id);
-    box.addEventListener("change", () => {
-      this.touch(id);
-      act(box.checked);
-    });
+    box.addEventListener("change", () => act(box.checked));
   }
 
   private onChoice(name: string, act: (value: string) => void): void {
     for (const radio of document.querySelectorAll<HTMLInputElement>(`input[name=${name}]`)) {
-      radio.addEventListener("change", () => {
-        this.touch(name);
-        act(radio.value);
-      });
+      radio.addEventListener("change", () => act(radio.value));
     }
   }
 
@@ -200,35 +213,5 @@ export class Panel {
     if (id !== undefined) {
       element(id).click();
     }
-  }
-
-  private setChecked(control: string, checked: boolean, id = control): void {
-    const box = element<HTMLInputElement>(id);
-    if (this.settled(control) && box.checked !== checked) {
-      box.checked = checked;
-    }
-  }
-
-  private touch(control: string): void {
-    this.touched_ms_.set(control, performance.now());
-  }
-
-  private settled(control: string): boolean {
-    return performance.now() - (this.touched_ms_.get(control) ?? -Infinity) > kSettle_ms;
-  }
-}
-
-export function element<T extends HTMLElement = HTMLElement>(id: string): T {
-  const found = document.getElementById(id);
-  if (found === null) {
-    throw new Error(`the page has no element "${id}"`);
-  }
-  return found as T;
-}
-
-export function setText(id: string, text: string): void {
-  const target = element(id);
-  if (target.textContent !== text) {
-    target.textContent = text;
   }
 }

@@ -4,7 +4,7 @@ import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import type { Columns } from "./samples";
 import { themeColour } from "./theme";
-import { formatSi } from "./units";
+import { formatTicks } from "./units";
 
 export const kWindow_s = 10;
 
@@ -90,8 +90,8 @@ function plotOptions(options: PlotOptions, host: HTMLElement): uPlot.Options {
         ...axis,
         size: kAxisWidth_px,
         gap: 4,
-        space: 16,
-        values: (_plot, ticks) => ticks.map((value) => axisLabel(value, options.unit)),
+        space: 20,
+        values: (_plot, ticks) => formatTicks(ticks, options.unit),
       },
     ],
   };
@@ -99,9 +99,4 @@ function plotOptions(options: PlotOptions, host: HTMLElement): uPlot.Options {
 
 function timeLabel(time_s: number): string {
   return time_s === 0 ? "now" : `${time_s}\u202fs`.replace("-", "\u2212");
-}
-
-/** Short labels: "2 N", "1.5 kHz", "0". */
-function axisLabel(value: number, unit: string): string {
-  return value === 0 ? "0" : formatSi(value, unit).replace(/(\.\d*?)0+(?=\D)/, "$1").replace(/\.(?=\D)/, "");
 }

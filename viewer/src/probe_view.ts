@@ -3,15 +3,17 @@
 // contact planes.
 
 import * as THREE from "three";
+import type { ContactPlane, State } from "./gen/hl_pb";
 import { FrictionCones } from "./friction_cones";
 import { overlay } from "./overlay";
 import { knownVec } from "./protocol";
-import type { ContactPlane } from "./gen/hl_pb";
 import { themeColour } from "./theme";
-import type { Vec } from "./vec";
+import { kZero, length, type Vec } from "./vec";
 
 /** The device's peak force is drawn this long, as a share of the model's diagonal. */
 const kArrowShare = 0.35;
+/** A force above the peak is drawn no longer than this many times the peak. */
+const kArrowMost = 1.5;
 /** Below this force nothing is drawn: quantisation noise of a free hand. */
 const kArrowMin_N = 0.02;
 const kPlanesMax = 8;
@@ -88,9 +90,11 @@ export class ProbeView {
   }
 
   /** Shows one state of the server. Without a proxy there is nothing to show. */
-  update(proxy: Vec | undefined, finger: Vec | undefined, force_N: Vec | undefined, contacts: ContactPlane[]): void {
+  update(state: State | undefined): void {
+    const proxy = knownVec(state?.proxy);
+    const finger = knownVec(state?.finger);
     this.group.visible = proxy !== undefined && finger !== undefined;
-    if (proxy === undefined || finger === undefined) {
+    if (state === undefined || proxy === undefined || finger === undefined) {
       return;
     }
     for (const mesh of [this.proxy_, this.ghost_, this.ring_]) {
@@ -100,8 +104,10 @@ export class ProbeView {
     const ends = this.line_.geometry.getAttribute("position") as THREE.BufferAttribute;
     ends.setXYZ(0, proxy.x, proxy.y, proxy.z).setXYZ(1, finger.x, finger.y, finger.z);
     ends.needsUpdate = true;
+    const force_N = knownVec(state.forceN) ?? kZero;
     this.updateArrow(proxy, force_N);
-    this.planes_.forEach((plane, i) => this.updatePlane(plane, contacts[i]));
+    this.cones.update(state.contacts, state.slipping, this.arrowLength_m(length(force_N)));
+    this.planes_.forEach((plane, i) => this.updatePlane(plane, state.contacts[i]));
   }
 
   /** Keeps marks at their size in pixels; `metresPerPixel` at the proxy. Once per drawn frame. */
@@ -112,20 +118,24 @@ export class ProbeView {
     this.finger_.scale.setScalar(kFinger_px * metresPerPixel);
   }
 
-  private updateArrow(proxy: Vec, force_N: Vec | undefined): void {
-    const force = new THREE.Vector3(force_N?.x ?? 0, force_N?.y ?? 0, force_N?.z ?? 0);
+  private arrowLength_m(magnitude_N: number): number {
+    return Math.min(magnitude_N / this.forceMax_N_, kArrowMost) * kArrowShare * this.diagonal_m_;
+  }
+
+  private updateArrow(proxy: Vec, force_N: Vec): void {
+    const force = new THREE.Vector3(force_N.x, force_N.y, force_N.z);
     const magnitude_N = force.length();
     this.arrow_.visible = magnitude_N > kArrowMin_N;
     if (!this.arrow_.visible) {
       return;
     }
-    const length = Math.min(magnitude_N / this.forceMax_N_, 1.5) * kArrowShare * this.diagonal_m_;
+    const whole = this.arrowLength_m(magnitude_N);
     const thickness = 0.0045 * this.diagonal_m_;
-    const head = Math.min(length * 0.5, 6 * thickness);
+    const head = Math.min(whole * 0.5, 6 * thickness);
     this.arrow_.position.set(proxy.x, proxy.y, proxy.z);
     this.arrow_.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), force.normalize());
-    this.shaft_.scale.set(thickness, length - head, thickness);
-    this.tip_.position.y = length - head;
+    this.shaft_.scale.set(thickness, whole - head, thickness);
+    this.tip_.position.y = whole - head;
     this.tip_.scale.set(head * 0.4, head, head * 0.4);
   }
 

@@ -1,49 +1,42 @@
-// The Surface section: sliders and switches that act at once on every surface, and the ledger's mode. What the server
-// says moves the controls, so that two pages agree; a control that was just used is left alone for a moment.
+// The Surface section: sliders and switches that act at once on every surface. What the server says moves the
+// controls, so that two pages agree; pending.ts says when it may.
 
-import { LedgerMode, type State } from "./gen/hl_pb";
-import { element, setText } from "./panel";
+import { element, onLetGo, setText } from "./elements";
+import type { Surfaces } from "./gen/hl_pb";
+import { kSendPeriod_ms, paced } from "./pace";
+import { Pending } from "./pending";
 import type { SettingsChange } from "./protocol";
-import { kKnobs, settingsOf, type Knob, type SurfaceSettings } from "./surfaces";
-import { formatFixed } from "./units";
+import { kKnobs, kSurfaceFields, settingsOf, type Knob, type SurfaceSettings } from "./surfaces";
 
-/** States already on their way are older than what the user has just done. */
-const kSettle_ms = 700;
 const kSceneDecides = "scene";
-const kLedgerIds: Readonly<Record<LedgerMode, string>> = {
-  [LedgerMode.TANK]: "ledger-tank",
-  [LedgerMode.STRICT]: "ledger-strict",
-  [LedgerMode.REPORT]: "ledger-report",
-};
+
+type Field = (typeof kSurfaceFields)[number];
 
 export class SurfacePanel {
-  private readonly send_: (change: SettingsChange) => void;
-  private set_: SurfaceSettings = {};
-  private used_ms_ = -Infinity;
+  private readonly pending_ = new Pending<number | boolean | undefined>();
+  private readonly sendSurfaces_: () => void;
+  private said_: SurfaceSettings = {};
 
   constructor(send: (change: SettingsChange) => void) {
-    this.send_ = send;
+    // The message replaces everything that was set, so it is put together when it goes out, not when it was asked for.
+    this.sendSurfaces_ = paced(() => send({ surfaces: this.chosen() }), kSendPeriod_ms);
     kKnobs.forEach((knob) => this.prepare(knob));
     this.onSwitch("shading", "smooth");
     this.onSwitch("textures", "textures");
-    element("surface-reset").addEventListener("click", () => this.choose({}));
-    for (const [mode, id] of Object.entries(kLedgerIds)) {
-      element<HTMLInputElement>(id).addEventListener("change", () => {
-        this.used_ms_ = performance.now();
-        send({ ledger: Number(mode) as LedgerMode });
-      });
-    }
+    element("surface-reset").addEventListener("click", () => this.choose(kSurfaceFields, undefined));
+    onLetGo(() => this.pending_.letGo(performance.now()));
     this.show();
   }
 
-  showState(state: State): void {
-    setText("tank", formatFixed((state.ledger?.tankJ ?? NaN) * 1e3, "mJ", 1));
-    if (performance.now() - this.used_ms_ < kSettle_ms) {
-      return;
-    }
-    this.set_ = settingsOf(state.surfaces);
+  /** Another server: what was chosen for the one before is past. */
+  forget(): void {
+    this.pending_.clear();
+  }
+
+  /** What the server says is set. */
+  showSurfaces(surfaces: Surfaces | undefined): void {
+    this.said_ = settingsOf(surfaces);
     this.show();
-    element<HTMLInputElement>(kLedgerIds[state.ledger?.mode ?? LedgerMode.TANK]).checked = true;
   }
 
   private prepare(knob: Knob): void {
@@ -51,31 +44,43 @@ export class SurfacePanel {
     slider.min = "0";
     slider.max = String(knob.max);
     slider.step = String(knob.step);
-    slider.addEventListener("input", () => this.choose({ ...this.set_, [knob.quantity]: slider.valueAsNumber }));
+    slider.addEventListener("input", () => this.choose([knob.quantity], slider.valueAsNumber));
+    slider.addEventListener("pointerdown", () => {
+      this.pending_.hold(knob.quantity, this.chosen()[knob.quantity], performance.now());
+    });
   }
 
   private onSwitch(id: string, field: "smooth" | "textures"): void {
     const box = element<HTMLInputElement>(id);
-    box.addEventListener("change", () => this.choose({ ...this.set_, [field]: box.checked }));
+    // Textures that are not left out are as the scene says.
+    const on = field === "textures" ? undefined : true;
+    box.addEventListener("change", () => this.choose([field], box.checked ? on : false));
   }
 
-  private choose(settings: SurfaceSettings): void {
-    this.used_ms_ = performance.now();
-    this.set_ = settings;
+  private choose(fields: readonly Field[], value: number | boolean | undefined): void {
+    fields.forEach((field) => this.pending_.set(field, value, performance.now()));
     this.show();
-    this.send_({ surfaces: settings });
+    this.sendSurfaces_();
+  }
+
+  /** What the server says, and over it what the user has just chosen. */
+  private chosen(): SurfaceSettings {
+    const now_ms = performance.now();
+    const entries = kSurfaceFields.map((field) => [field, this.pending_.resolve(field, this.said_[field], now_ms)]);
+    return Object.fromEntries(entries.filter(([, value]) => value !== undefined)) as SurfaceSettings;
   }
 
   private show(): void {
+    const chosen = this.chosen();
     for (const knob of kKnobs) {
-      const value = this.set_[knob.quantity];
+      const value = chosen[knob.quantity];
       element<HTMLInputElement>(knob.id).value = String(value ?? knob.rest);
       setText(`${knob.id}-value`, value === undefined ? kSceneDecides : knob.text(value));
       element(`${knob.id}-value`).classList.toggle("unset", value === undefined);
     }
     const shading = element<HTMLInputElement>("shading");
-    shading.checked = this.set_.smooth ?? false;
-    shading.indeterminate = this.set_.smooth === undefined;
-    element<HTMLInputElement>("textures").checked = this.set_.textures ?? true;
+    shading.checked = chosen.smooth ?? false;
+    shading.indeterminate = chosen.smooth === undefined;
+    element<HTMLInputElement>("textures").checked = chosen.textures ?? true;
   }
 }

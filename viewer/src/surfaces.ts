@@ -38,7 +38,9 @@ export const kKnobs: readonly Knob[] = [
   },
 ];
 
-/** The message as plain settings, without the fields that are not set. */
+export const kSurfaceFields = [...kKnobs.map((knob) => knob.quantity), "smooth", "textures"] as const;
+
+/** The message as plain settings, without the fields that are not set. Textures that are not left out are not set. */
 export function settingsOf(message: Surfaces | undefined): SurfaceSettings {
   const settings: SurfaceSettings = {};
   if (message === undefined) {
@@ -51,6 +53,6 @@ export function settingsOf(message: Surfaces | undefined): SurfaceSettings {
     }
   }
   if (message.smooth !== undefined) settings.smooth = message.smooth;
-  if (message.textures !== undefined) settings.textures = message.textures;
+  if (message.textures === false) settings.textures = false;
   return settings;
 }

@@ -23,6 +23,10 @@ function significant(value: number, digits: number): string {
   return value.toFixed(Math.max(0, digits - whole));
 }
 
+function prefixOf(magnitude: number): readonly [factor: number, symbol: string] {
+  return kPrefixes.find(([f]) => magnitude >= f * (1 - 1e-12)) ?? kPrefixes[kPrefixes.length - 1]!;
+}
+
 /** `value` in SI base units, e.g. (0.00123, "m") -> "1.23 mm". Below a nano-unit it is shown as zero. */
 export function formatSi(value: number | undefined, unit: string, digits = 3): string {
   if (value === undefined || !Number.isFinite(value)) {
@@ -34,9 +38,16 @@ export function formatSi(value: number | undefined, unit: string, digits = 3): s
   }
   // Choose the prefix after rounding, so that 999.9996 becomes "1.00 k" and never "1000".
   const rounded = Number(magnitude.toPrecision(digits));
-  const [factor, symbol] = kPrefixes.find(([f]) => rounded >= f * (1 - 1e-12)) ?? kPrefixes[kPrefixes.length - 1]!;
+  const [factor, symbol] = prefixOf(rounded);
   const text = significant(Number((value / factor).toPrecision(digits)), digits);
   return `${text}${kThinSpace}${symbol}${unit}`;
+}
+
+/** The ticks of one axis, all with the prefix of the largest, so that they can be compared: "0", "0.5 N", "1 N". */
+export function formatTicks(values: readonly number[], unit: string): string[] {
+  const [factor, symbol] = prefixOf(Math.max(...values.map(Math.abs)));
+  const text = (value: number) => String(Number((value / factor).toPrecision(6)));
+  return values.map((value) => (value === 0 ? "0" : `${text(value)}${kThinSpace}${symbol}${unit}`));
 }
 
 /** `value` in the unit given, with a fixed count of decimals: readouts that must not jump between prefixes. */

@@ -8,7 +8,9 @@ import type { AddressInfo } from "node:net";
 import { extname, join, normalize } from "node:path";
 import { fileURLToPath } from "node:url";
 import { WebSocketServer, type WebSocket } from "ws";
-import { SafetyState, ServerMessageSchema, ViewerMessageSchema, type ViewerMessage } from "../src/gen/hl_pb";
+import {
+  LedgerMode, SafetyState, ServerMessageSchema, SurfacesSchema, ViewerMessageSchema, type ViewerMessage,
+} from "../src/gen/hl_pb";
 import { kProtocolVersion } from "../src/protocol";
 import { add, length, scale, sub, type Vec } from "../src/vec";
 
@@ -18,6 +20,7 @@ const kTypes: Readonly<Record<string, string>> = {
 };
 const kSphere_m = 0.05;
 const kProxy_m = 0.001;
+const kSceneFriction = 0.5;
 const kStatePeriod_ms = 16;
 const kSamplesPerState = 16;
 
@@ -28,6 +31,9 @@ export class FakeServer {
   explore = true;
   handFirm = false;
   stiffness_N_m = 1000;
+  surfaces = create(SurfacesSchema);
+  ledger = LedgerMode.TANK;
+  slipping = false;
   fault = "";
   silent = false;
   private readonly http_: Server;
@@ -106,6 +112,8 @@ export class FakeServer {
       this.explore = body.value.explore ?? this.explore;
       this.handFirm = body.value.handFirm ?? this.handFirm;
       this.stiffness_N_m = body.value.stiffnessNM ?? this.stiffness_N_m;
+      this.surfaces = body.value.surfaces ?? this.surfaces;
+      this.ledger = body.value.ledger ?? this.ledger;
     } else if (body.case === "rearm") {
       this.fault = "";
     }
@@ -145,7 +153,10 @@ export class FakeServer {
       case: "state",
       value: {
         timeS: this.time_s_, finger: this.finger_, proxy, forceN: force, samples,
-        contacts: inside ? [{ point: scale(normal, kSphere_m), normal, multiplierM: 0.001 }] : [],
+        contacts: inside ? [this.contact(normal)] : [],
+        slipping: inside && this.slipping,
+        ledger: this.ledgerNow(),
+        surfaces: { ...this.surfaces, textures: this.surfaces.textures ?? true },
         safety: this.fault ? SafetyState.FAULT : SafetyState.ON,
         fault: this.fault,
         servo: { ...loop, rateHz: 1000 },
@@ -153,6 +164,20 @@ export class FakeServer {
         exploring: this.explore, handFirm: this.handFirm, stiffnessNM: this.stiffness_N_m, iterationCaps: 0n,
       },
     });
+  }
+
+  private contact(normal: Vec) {
+    const staticFriction = this.surfaces.staticFriction ?? kSceneFriction;
+    return { point: scale(normal, kSphere_m), normal, multiplierM: 0.001, staticFriction, stiffness: 1 };
+  }
+
+  /** Every cause at its own speed, so that their lines can be told apart. */
+  private ledgerNow() {
+    const t = this.time_s_;
+    return {
+      mode: this.ledger, tankJ: 0.025 + 0.025 * Math.sin(t),
+      shadingJ: 4e-4 * t, stiffnessJ: 3e-4 * t, textureJ: 2e-4 * t, movingJ: 1e-4 * t, lateJ: 0,
+    };
   }
 }
 

@@ -14,6 +14,11 @@ describe("surface settings", () => {
     expect(settingsOf(create(SurfacesSchema, { stiffness: NaN, viscosityNsM: Infinity }))).toEqual({});
   });
 
+  test("textures that are not left out are as the scene says", () => {
+    expect(settingsOf(create(SurfacesSchema, { textures: true }))).toEqual({});
+    expect(settingsOf(create(SurfacesSchema, { textures: false }))).toEqual({ textures: false });
+  });
+
   test("each knob writes its own unit and rests within its range", () => {
     const texts = kKnobs.map((knob) => knob.text(knob.max));
     expect(texts).toEqual(["100\u202f%", "1.50", "1.50", "20.0\u202fN\u202fs/m"]);

@@ -1,6 +1,6 @@
 // Numbers on the page: always a unit, always readable, never "NaN".
 import { describe, expect, test } from "vitest";
-import { formatCount, formatFixed, formatScale, formatSi, kThinSpace, kUnknown } from "../src/units";
+import { formatCount, formatFixed, formatScale, formatSi, formatTicks, kThinSpace, kUnknown } from "../src/units";
 
 const plain = (text: string) => text.replaceAll(kThinSpace, " ");
 
@@ -53,4 +53,17 @@ test("formatScale tells the world's motion per millimetre of the hand", () => {
   expect(plain(formatScale(2.5))).toBe("2.50 mm per mm");
   expect(plain(formatScale(1000))).toBe("1.00 m per mm");
   expect(formatScale(0)).toBe(kUnknown);
+});
+
+describe("formatTicks", () => {
+  test.each([
+    [[0, 0.25, 0.5, 0.75, 1, 1.25], "N", "0, 0.25 N, 0.5 N, 0.75 N, 1 N, 1.25 N"],
+    [[0, 0.0005, 0.001], "J", "0, 0.5 mJ, 1 mJ"],
+    [[0, 0.1, 0.2, 0.30000000000000004], "J", "0, 100 mJ, 200 mJ, 300 mJ"],
+    [[0, 500, 1000], "Hz", "0, 0.5 kHz, 1 kHz"],
+    [[0], "N", "0"],
+    [[], "N", ""],
+  ])("%j %s reads %j", (values, unit, text) => {
+    expect(plain(formatTicks(values, unit).join(", "))).toBe(text);
+  });
 });
