@@ -78,12 +78,15 @@ export async function resize(page: Page, size: { width: number; height: number }
   }, size);
 }
 
-/** Waits until the page has `count` more states of the server. */
-export async function states(page: Page, count = 1): Promise<void> {
-  for (let i = 0; i < count; ++i) {
-    const time_s = await page.evaluate(() => window.__hl.time_s ?? -Infinity);
-    await page.waitForFunction((before_s) => (window.__hl.time_s ?? -Infinity) > before_s, time_s);
-  }
+/** Waits until the page has drawn `count` more states of the server. */
+export function states(page: Page, count = 1): Promise<void> {
+  return page.evaluate(async (wanted) => {
+    for (let seen = 0, last = window.__hl.time_s; seen < wanted; ) {
+      await new Promise((resolve) => requestAnimationFrame(resolve));
+      seen += window.__hl.time_s === last ? 0 : 1;
+      last = window.__hl.time_s;
+    }
+  }, count);
 }
 
 /** No two panels overlap, none leaves the window, none has to scroll or cuts off its text. */

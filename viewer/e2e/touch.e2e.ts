@@ -5,7 +5,7 @@
 import { spawn, type ChildProcess } from "node:child_process";
 import { createInterface } from "node:readline";
 import type { Browser, Page } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, test } from "vitest";
+import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
 import { decodeServerMessage, knownVec, type Scene } from "../src/protocol";
 import { length, sub, type Vec } from "../src/vec";
 import { distanceToTriangles } from "../test-support/closest_point";
@@ -92,6 +92,9 @@ describe.skipIf(!kProgram)("hl touch teapot", () => {
     touch?.process.kill("SIGKILL");
   });
 
+  /** A drag that failed halfway must not hold the button down in the tests after it. */
+  afterEach(() => page.mouse.up());
+
   test("shows the model", async () => {
     await expect.poll(() => modelPixels(page)).toBeGreaterThan(0.05);
     expect(await page.textContent("#scene-name")).toMatch(/teapot/i);
@@ -114,9 +117,6 @@ describe.skipIf(!kProgram)("hl touch teapot", () => {
     await moveSlowly(page, before.from, { x: before.to.x, y: before.to.y - 160 });
     await moveSlowly(page, { x: before.to.x, y: before.to.y - 160 }, before.to);
     await pushUntilHeld(page);
-    await page.waitForFunction(
-      (since_s) => window.__hl.peak(window.__hl.time_s! - since_s).force_N > 0.5, began_s, { timeout: 60_000 },
-    );
     await screenshot(page, "touch_dragging");
     const peak = await page.evaluate((since_s) => window.__hl.peak(window.__hl.time_s! - since_s), began_s);
     expect(peak.force_N).toBeGreaterThan(0.5);
@@ -196,7 +196,10 @@ async function moveSlowly(page: Page, from: { x: number; y: number }, to: { x: n
   }
 }
 
-/** Turns the wheel until the surface holds the finger back on its way to the depth of the model's middle. */
+/**
+ * Turns the wheel toward the depth of the model's middle until the surface holds the finger back by more than the
+ * proxy's radius: the finger is then inside. The hand's grip is light, a few newtons: it cannot push much deeper.
+ */
 async function pushUntilHeld(page: Page): Promise<void> {
   const kTurns = 150;
   for (let i = 0; i < kTurns; ++i) {
@@ -208,7 +211,7 @@ async function pushUntilHeld(page: Page): Promise<void> {
         farther_m: window.__hl.project(centre).depth_m - window.__hl.project(finger!).depth_m,
       };
     });
-    if (separation > 2) {
+    if (separation > 1) {
       return;
     }
     await page.mouse.wheel(0, farther_m > 0 ? -60 : 60);

@@ -74,9 +74,12 @@ export class SurfacePanel {
     const chosen = this.chosen();
     for (const knob of kKnobs) {
       const value = chosen[knob.quantity];
-      element<HTMLInputElement>(knob.id).value = String(value ?? knob.rest);
+      const slider = element<HTMLInputElement>(knob.id);
+      slider.value = String(value ?? knob.rest);
       setText(`${knob.id}-value`, value === undefined ? kSceneDecides : knob.text(value));
-      element(`${knob.id}-value`).classList.toggle("unset", value === undefined);
+      for (const part of [slider, element(`${knob.id}-value`)]) {
+        part.classList.toggle("unset", value === undefined);
+      }
     }
     const shading = element<HTMLInputElement>("shading");
     shading.checked = chosen.smooth ?? false;
