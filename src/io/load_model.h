@@ -1,6 +1,7 @@
 // Model files: OBJ, PLY, STL, glTF and what else assimp reads; VRML 1.0 and 97 and Inventor through Coin.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 
@@ -10,6 +11,8 @@ namespace hl {
 
 struct LoadOptions {
   std::function<void(double fraction)> progress;  ///< called while reading, 0..1
+  /// Of a scene file, all objects together: some 5 GB. A few lines can ask for any number of copies.
+  std::size_t most_primitives = 40'000'000;
 };
 
 /// Reads a file as it is: node transforms applied, polygons triangulated, normals and texture coordinates kept, lines

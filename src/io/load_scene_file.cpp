@@ -263,6 +263,8 @@ Model SceneFile::build() {
     const std::string where = item("objects", i);
     const proto::Material& material = object.material();
     Model part = shapeOf(object, where);
+    if (whole.elements() + part.elements() > options_.most_primitives)
+      fail(where, fmt::format("with {} the scene has more than {} primitives", where, options_.most_primitives));
     placeModel(part, placementOf(object.transform(), where + ".transform"));
     repeatTexcoords(part, material.has_repeat_u() ? material.repeat_u() : 1,
                     material.has_repeat_v() ? material.repeat_v() : 1);

@@ -138,6 +138,19 @@ TEST(SceneFile, ErrorsNameTheLine) {
   expect(std::string(100, '['), "1", "nested deeper");
 }
 
+TEST(SceneFile, ASceneOfTooManyPrimitivesIsRefusedOnTheLineThatIsTooMuch) {
+  LoadOptions options;
+  options.most_primitives = 5000;
+  const std::string two = R"({"objects": [{"builtin": "plane:2000"}, {"builtin": "plane:2000"})";
+  EXPECT_NO_THROW(loadSceneFile(fileWith("scene.hl.json", two + "]}"), options));
+  try {
+    loadSceneFile(fileWith("scene.hl.json", two + ",\n{\"builtin\": \"plane:2000\"}]}"), options);
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_TRUE(afterFile(error.what()).starts_with(":2: ")) << error.what();
+  }
+}
+
 TEST(SceneFile, MutatedTextIsReadOrRefusedInOneLine) {
   const std::string sound = R"({"units": 0.5, "textures": [{"name": "l", "procedural": {"kind": "lines", "size": 4}}],
     "objects": [{"name": "a", "primitives": {"vertices": [0,0,0, 1,0,0, 1,1,0], "normals": [0,0,1, 0,0,1, 0,0,1],
