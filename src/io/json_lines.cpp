@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t kDeepest = 32;
 
-// Follows the parser through the text and notes the line of each member and each object in a list.
+// Follows the parser through the text; with a path to look for, notes the line of the last value whose own path is a
+// beginning of it, which is the value itself or the nearest around it.
 struct LineHandler {
   // NOLINTBEGIN(readability-identifier-naming): the names that Boost.JSON asks for
   using error_code = boost::json::error_code;
@@ -27,35 +28,47 @@ struct LineHandler {
   struct Level {
     std::string path;  // of the object or array
     bool array = false;
+    bool off = false;  // not on the way to the wanted path
     std::size_t next = 0;
   };
 
-  std::unordered_map<std::string, std::size_t>* lines = nullptr;
+  const std::string* wanted = nullptr;
+  std::size_t found = 1, found_length = 0;
   std::size_t line = 1;
   std::vector<Level> levels;
   std::string key, part;
   bool out_of_range = false;
 
-  // The path of the value that begins now.
+  // Whether `path` is that of a value on the way to the wanted one.
+  bool leads(const std::string& path) const {
+    return wanted->starts_with(path) && (path.size() == wanted->size() || path.empty() ||
+                                         (*wanted)[path.size()] == '.' || (*wanted)[path.size()] == '[');
+  }
+  // The path of the value that begins now; left empty off the way to the wanted one.
   std::string enter() {
     if (levels.empty()) return {};
     Level& level = levels.back();
-    if (level.array) return level.path + "[" + std::to_string(level.next++) + "]";
+    const std::size_t index = level.next++;
+    if (wanted == nullptr || level.off) return {};
+    if (level.array) return level.path + "[" + std::to_string(index) + "]";
     return level.path.empty() ? key : level.path + "." + key;
+  }
+  bool note(const std::string& path) {
+    if (wanted == nullptr || (!levels.empty() && levels.back().off) || !leads(path)) return false;
+    if (path.size() >= found_length) {
+      found = line;
+      found_length = path.size();
+    }
+    return true;
   }
   bool begin(bool array) {
     const std::string path = enter();
-    lines->emplace(path, line);
-    levels.push_back({path, array, 0});
+    const bool on_way = note(path);
+    levels.push_back({on_way ? path : std::string(), array, !on_way, 0});
     return true;
   }
   bool scalar() {
-    if (levels.empty()) return true;
-    if (levels.back().array) {
-      ++levels.back().next;
-    } else {
-      lines->emplace(enter(), line);
-    }
+    note(enter());
     return true;
   }
 
@@ -102,34 +115,45 @@ struct LineHandler {
 
 }  // namespace
 
-JsonLines::JsonLines(const std::string& file, std::string_view text) {
-  boost::json::parse_options options;
-  options.max_depth = kDeepest;
-  boost::json::basic_parser<LineHandler> parser(options);
-  LineHandler& handler = parser.handler();
-  handler.lines = &lines_;
+namespace {
+
+// Feeds the text line by line, so that the handler knows where it is. Returns the parser's complaint.
+boost::json::error_code follow(std::string_view text, boost::json::basic_parser<LineHandler>& parser) {
   boost::json::error_code error;
-  for (std::size_t at = 0; at < text.size() && !error; ++handler.line) {
+  if (text.empty()) error = boost::json::error::incomplete;
+  for (std::size_t at = 0; at < text.size() && !error; ++parser.handler().line) {
     const std::size_t end = std::min(text.find('\n', at), text.size() - 1) + 1;
     parser.write_some(end < text.size(), text.data() + at, end - at, error);
     if (error) break;
     at = end;
   }
-  if (text.empty()) error = boost::json::error::incomplete;
+  return error;
+}
+
+boost::json::parse_options deepest() {
+  boost::json::parse_options options;
+  options.max_depth = kDeepest;
+  return options;
+}
+
+}  // namespace
+
+JsonLines::JsonLines(const std::string& file, std::string_view text) : text_(text) {
+  boost::json::basic_parser<LineHandler> parser(deepest());
+  const boost::json::error_code error = follow(text, parser);
   if (!error) return;
-  const std::string where = file + ":" + std::to_string(handler.line) + ": ";
-  if (handler.out_of_range) throw Error(where + "a number is out of range");
+  const std::string where = file + ":" + std::to_string(parser.handler().line) + ": ";
+  if (parser.handler().out_of_range) throw Error(where + "a number is out of range");
   if (error == boost::json::error::too_deep)
     throw Error(where + "values are nested deeper than " + std::to_string(kDeepest));
   throw Error(where + "this is not JSON: " + error.message());
 }
 
-std::size_t JsonLines::lineOf(std::string path) const {
-  while (!path.empty()) {
-    if (const auto found = lines_.find(path); found != lines_.end()) return found->second;
-    path.resize(path.find_last_of(".[") == std::string::npos ? 0 : path.find_last_of(".["));
-  }
-  return 1;
+std::size_t JsonLines::lineOf(const std::string& path) const {
+  boost::json::basic_parser<LineHandler> parser(deepest());
+  parser.handler().wanted = &path;
+  follow(text_, parser);
+  return parser.handler().found;
 }
 
 }  // namespace hl

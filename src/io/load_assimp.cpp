@@ -2,8 +2,11 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <assimp/ProgressHandler.hpp>
+#include <cctype>
+#include <filesystem>
 #include <memory>
 #include <utility>
 
@@ -90,7 +93,9 @@ void appendNode(Import& import, const aiNode& node, const Eigen::Matrix4d& paren
 }
 
 GltfHaptics hapticsOf(const std::string& path) {
-  return path.ends_with(".gltf") || path.ends_with(".glb") ? readGltfHaptics(path) : GltfHaptics{};
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending == ".gltf" || ending == ".glb" ? readGltfHaptics(path) : GltfHaptics{};
 }
 
 // Lists that would say "material 0" for every element are left out.

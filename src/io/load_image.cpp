@@ -6,6 +6,9 @@
 #include <boost/gil/extension/io/png.hpp>
 #include <cctype>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
 #include <utility>
 
 #include "base/error.h"
@@ -40,8 +43,18 @@ Texture decode(const std::string& path, Tag tag) {
   return texture;
 }
 
+// libjpeg fills up what is missing of a torn file with grey and says nothing. The end marker must be there, and not
+// only that of a thumbnail near the beginning.
+void checkJpegEnds(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const std::size_t end = bytes.rfind("\xff\xd9");
+  if (end == std::string::npos || end < bytes.size() / 2) throw Error("is torn: the end of the JPEG is missing");
+}
+
 Texture decode(const std::string& path, const std::string& ending) {
   try {
+    if (ending != ".png") checkJpegEnds(path);
     return ending == ".png" ? decode(path, gil::png_tag{}) : decode(path, gil::jpeg_tag{});
   } catch (const Error&) {
     throw;

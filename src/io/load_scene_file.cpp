@@ -63,6 +63,7 @@ class SceneFile {
     throw Error(path_ + ":" + std::to_string(lines_.lineOf(where)) + ": " + message);
   }
   void parse();
+  void checkFinite(const google::protobuf::Message& message, const std::string& where) const;
   double checked(double value, double least, double most, const std::string& where) const;
   void addTexture(Model& model, const proto::TextureImage& in, const std::string& where);
   Material materialOf(const proto::Material& in, const std::string& where) const;
@@ -102,6 +103,27 @@ void SceneFile::parse() {
   fail(where, where + rest.substr(colon == std::string::npos ? 0 : colon));
 }
 
+// JSON may write "NaN" and "Infinity" as strings, and protobuf takes them for numbers.
+void SceneFile::checkFinite(const google::protobuf::Message& message, const std::string& where) const {
+  const auto* reflection = message.GetReflection();
+  std::vector<const google::protobuf::FieldDescriptor*> fields;
+  reflection->ListFields(message, &fields);
+  for (const auto* field : fields) {
+    const std::string at = where.empty() ? field->json_name() : where + "." + field->json_name();
+    const int count = field->is_repeated() ? reflection->FieldSize(message, field) : 1;
+    for (int i = 0; i < count; ++i) {
+      if (field->cpp_type() == google::protobuf::FieldDescriptor::CPPTYPE_MESSAGE) {
+        field->is_repeated() ? checkFinite(reflection->GetRepeatedMessage(message, field, i), item(at, i))
+                             : checkFinite(reflection->GetMessage(message, field), at);
+      } else if (field->cpp_type() == google::protobuf::FieldDescriptor::CPPTYPE_DOUBLE) {
+        const double value = field->is_repeated() ? reflection->GetRepeatedDouble(message, field, i)
+                                                  : reflection->GetDouble(message, field);
+        if (!std::isfinite(value)) fail(at, at + " must be a finite number");
+      }
+    }
+  }
+}
+
 double SceneFile::checked(double value, double least, double most, const std::string& where) const {
   if (value >= least && value <= most) return value;
   if (most == kAny) fail(where, fmt::format("{} must be at least {}", where, least));
@@ -119,7 +141,8 @@ void SceneFile::addTexture(Model& model, const proto::TextureImage& in, const st
       const proto::ProceduralTexture& p = in.procedural();
       const std::size_t size = p.size() == 0 ? 64 : p.size();
       if (size > 8192) fail(where, where + ".procedural.size must be at most 8192");
-      texture = makeTexture(p.kind(), size, p.has_duty() ? p.duty() : 0.5);
+      const double duty = checked(p.has_duty() ? p.duty() : 0.5, 0, 1, where + ".procedural.duty");
+      texture = makeTexture(p.kind(), size, duty);
     } else {
       fail(where, where + ": a texture needs a file or a procedural");
     }
@@ -127,6 +150,8 @@ void SceneFile::addTexture(Model& model, const proto::TextureImage& in, const st
     if (std::string(error.what()).starts_with(path_)) throw;
     fail(where, error.what());
   }
+  if (!proto::Wrap_IsValid(in.wrap())) fail(where + ".wrap", where + ".wrap must be REPEAT or CLAMP");
+  if (!proto::Filter_IsValid(in.filter())) fail(where + ".filter", where + ".filter must be BILINEAR or NEAREST");
   texture.name = in.name();
   texture.wrap = in.wrap() == proto::CLAMP ? Wrap::kClamp : Wrap::kRepeat;
   if (in.has_filter()) texture.filter = in.filter() == proto::NEAREST ? Filter::kNearest : Filter::kBilinear;
@@ -137,6 +162,7 @@ void SceneFile::addTexture(Model& model, const proto::TextureImage& in, const st
 TextureUse SceneFile::textureUseOf(const proto::MaterialTexture& in, const std::string& where) const {
   const auto found = textures_.find(in.texture());
   if (found == textures_.end()) fail(where, where + ": there is no texture '" + in.texture() + "' in this scene");
+  if (!proto::Quantity_IsValid(in.quantity())) fail(where + ".quantity", where + ".quantity is none that HL knows");
   const bool height = in.quantity() == proto::HEIGHT;
   if (height && !in.has_high()) fail(where, where + ": a bump map needs high, its amplitude in metres");
   const double most = in.quantity() == proto::STIFFNESS ? 1 : kAny;
@@ -147,6 +173,7 @@ TextureUse SceneFile::textureUseOf(const proto::MaterialTexture& in, const std::
 
 Material SceneFile::materialOf(const proto::Material& in, const std::string& where) const {
   Material material;
+  if (!proto::Shade_IsValid(in.shade())) fail(where + ".shade", where + ".shade must be SMOOTH or FLAT");
   material.stiffness = checked(in.has_stiffness() ? in.stiffness() : 1, 0, 1, where + ".stiffness");
   material.static_friction = checked(in.static_friction(), 0, kAny, where + ".staticFriction");
   material.dynamic_friction = checked(in.dynamic_friction(), 0, kAny, where + ".dynamicFriction");
@@ -156,7 +183,10 @@ Material SceneFile::materialOf(const proto::Material& in, const std::string& whe
   material.smooth = in.shade() == proto::SMOOTH;
   for (int i = 0; i < in.textures_size(); ++i) {
     const std::string at = item(where + ".textures", i);
-    material.textureOf(static_cast<Quantity>(in.textures(i).quantity())) = textureUseOf(in.textures(i), at);
+    const TextureUse use = textureUseOf(in.textures(i), at);
+    TextureUse& slot = material.textureOf(static_cast<Quantity>(in.textures(i).quantity()));
+    if (slot.used()) fail(at, at + ": there are two textures of one quantity");
+    slot = use;
   }
   return material;
 }
@@ -239,25 +269,28 @@ Model SceneFile::shapeOf(const proto::SceneObject& object, const std::string& wh
 
 Placement SceneFile::placementOf(const proto::Transform& in, const std::string& where) const {
   Placement placement;
-  if (in.has_scale()) placement.linear = vecOf(in.scale()).asDiagonal();
+  // A factor that is left out reads as 0, and 0 itself means nothing: both are 1.
+  const Vec3 scale = vecOf(in.scale());
+  placement.linear = Vec3((scale.array() == 0).select(1.0, scale)).asDiagonal();
   if (in.degrees() != 0) {
     const Vec3 axis = vecOf(in.axis());
     if (!(axis.norm() > 0)) fail(where + ".axis", where + ".axis must not be zero when degrees are given");
     placement.linear = Eigen::AngleAxisd(in.degrees() * M_PI / 180, axis.normalized()) * placement.linear;
   }
-  if (!(std::abs(placement.linear.determinant()) > 0)) fail(where + ".scale", where + ".scale must not be zero");
+  if (!(std::abs(placement.linear.determinant()) > 0)) fail(where + ".scale", where + ".scale is too small");
   placement.offset = vecOf(in.translate());
   return placement;
 }
 
 Model SceneFile::build() {
-  const double units = scene_.units() == 0 ? 1 : checked(scene_.units(), 1e-12, kAny, "units");
+  checkFinite(scene_, "");
+  const double units = scene_.units() == 0 ? 1 : checked(scene_.units(), 1e-9, 1e9, "units");
   if (scene_.objects_size() > kMostObjects) throw Error(path_ + ": there are more than 60000 objects in it");
   Model whole;
   whole.name = fs::path(path_).filename().string();
   whole.materials.clear();
   for (int i = 0; i < scene_.textures_size(); ++i) addTexture(whole, scene_.textures(i), item("textures", i));
-  if (scene_.objects_size() == 0) throw Error(path_ + ": there are no objects in it");
+  if (scene_.objects_size() == 0) fail("objects", "there are no objects in it");
   for (int i = 0; i < scene_.objects_size(); ++i) {
     const proto::SceneObject& object = scene_.objects(i);
     const std::string where = item("objects", i);

@@ -52,17 +52,23 @@ double Account::energy_J(double stiffness, double distance_squared) const {
   return 0.5 * settings_.spring_N_m * stiffness * distance_squared / (scale * scale);
 }
 
+// Along the step |proxy - finger|^2 falls to its nearest point and rises beyond. What rises beyond is paid for in full:
+// paying for it with the fall before would let the proxy jump to its mirror image beyond the finger, and back in the
+// next tick.
 double Account::affordable(const Vec3& proxy, const Vec3& step) const {
   const double joule_per_square = energy_J(was_touching_ ? stiffness_before_ : 1, 1);
   if (!(joule_per_square > 0) || !std::isfinite(budget_J_)) return 1;
-  const double limit = distance_before_squared_ + budget_J_ / joule_per_square;
   const Vec3 e = proxy - finger_;
   const double a = step.squaredNorm();
-  const double b = step.dot(e);
-  const double c = e.squaredNorm() - limit;
-  if (a + 2 * b + c <= 0) return 1;
-  if (!(a > 0)) return 0;
-  return std::clamp((std::sqrt(std::max(0.0, b * b - a * c)) - b) / a, 0.0, 1.0);
+  if (!(a > 0)) return 1;
+  const double nearest = std::clamp(-step.dot(e) / a, 0.0, 1.0);
+  const Vec3 at_nearest = e + nearest * step;
+  const double budget = budget_J_ / joule_per_square;
+  // Earlier steps of the tick may have spent some of it.
+  const double left = std::min(budget, distance_before_squared_ + budget - at_nearest.squaredNorm());
+  const double b = std::max(0.0, step.dot(at_nearest));
+  const double beyond = (std::sqrt(b * b + a * std::max(0.0, left)) - b) / a;
+  return std::min(1.0, nearest + beyond);
 }
 
 void Account::close(ProxyState& state, const Causes& causes, TickReport& report) const {

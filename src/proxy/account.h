@@ -14,8 +14,8 @@ class Account {
  public:
   Account(const ProxyState& state, const ProxySettings& settings, const Vec3& finger);
 
-  /// The part 0..1 of a step that the tick's energy pays for: the largest that keeps |proxy - finger| within what the
-  /// tick started with and the tank adds. RT-safe.
+  /// The part 0..1 of a step that the tick's energy pays for: to the point nearest the finger, and beyond it as far as
+  /// the tank reaches. RT-safe.
   double affordable(const Vec3& proxy, const Vec3& step) const;
 
   /// What bent the proxy's way, for booking by cause; the bends as BentNormal has them.

@@ -59,7 +59,7 @@ TEST(SceneFile, EveryFieldArrives) {
       {"name": "square", "primitives": {
          "vertices": [0,0,0, 1,0,0, 1,1,0, 0,1,0], "normals": [0,0,2, 0,0,2, 0,0,2, 0,0,2],
          "texcoords": [0,0, 1,0, 1,1, 0,1], "polygons": [{"vertices": [0,1,2,3]}], "segments": [0,2], "points": [1]},
-       "transform": {"translate": {"x": 10}, "axis": {"x": 2}, "degrees": 90, "scale": {"x": 2, "y": 3, "z": 1}},
+       "transform": {"translate": {"x": 10}, "axis": {"x": 2}, "degrees": 90, "scale": {"x": 2, "y": 3}},
        "material": {"stiffness": 0.5, "staticFriction": 0.6, "dynamicFriction": 0.4, "viscosityNsM": 3,
          "stribeckMS": 0.05, "preslidingNM": 9000, "shade": "FLAT", "repeatU": 4, "repeatV": 5,
          "textures": [{"texture": "h", "quantity": "HEIGHT", "low": 0, "high": 1e-4},
@@ -126,7 +126,19 @@ TEST(SceneFile, ErrorsNameTheLine) {
   expect("{\"objects\": [{\n\"name\": \"a\"}]}", "1", "needs a file");
   expect("{\"objects\": [{\"primitives\": {\"vertices\": [0,0,0],\n\"triangles\": [0,0,1]}}]}", "2", "vertex 1");
   expect("{\"objects\": [{\"primitives\": {\n\"vertices\": [0,0]}}]}", "2", "3 numbers");
-  expect("{\"objects\": [{\"builtin\": \"plane:2\", \"transform\": {\n\"scale\": {\"x\": 0}}}]}", "2", "zero");
+  expect("{\"objects\": [{\"builtin\": \"plane:2\", \"transform\": {\n\"translate\": {\"x\": \"NaN\"}}}]}", "2",
+         "finite");
+  expect("{\"objects\": [{\"builtin\": \"plane:2\", \"material\": {\n\"shade\": 7}}]}", "2", "SMOOTH");
+  expect("{\"textures\": [\n{\"name\": \"a\", \"procedural\": {\"kind\": \"lines\", \"duty\": 7}}]}", "2", "duty");
+  const std::string lines =
+      "{\"textures\": [{\"name\": \"l\", \"procedural\": {\"kind\": \"lines\"}}], \"objects\": [\n";
+  expect(
+      lines + "{\"builtin\": \"plane:2\", \"material\": {\"textures\": [\n{\"texture\": \"l\", \"quantity\": 900}]}}]}",
+      "3", "quantity");
+  expect(
+      lines +
+          "{\"builtin\": \"plane:2\", \"material\": {\"textures\": [{\"texture\": \"l\"},\n{\"texture\": \"l\"}]}}]}",
+      "3", "two textures");
   expect("{\"textures\": [\n{\"name\": \"a\", \"file\": \"none.png\"}], \"objects\": [{\"builtin\": \"walker\"}]}", "2",
          "none.png");
   expect("{\"textures\": [\n{\"name\": \"a\", \"procedural\": {\"kind\": \"wood\"}}]}", "2", "wood");
@@ -216,6 +228,11 @@ TEST(Image, TornAndHostileFilesAreOneLine) {
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
     }
   }
+  boost::gil::rgb8_image_t image(64, 64, boost::gil::rgb8_pixel_t(10, 200, 90), 0);
+  boost::gil::write_view(tempFile("whole.jpg"), boost::gil::const_view(image), boost::gil::jpeg_tag{});
+  std::ifstream jpeg(tempFile("whole.jpg"), std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(jpeg), std::istreambuf_iterator<char>()};
+  EXPECT_THROW(loadImage(fileWith("half.jpg", whole.substr(0, whole.size() / 2))), Error);
   EXPECT_THROW(loadImage(fileWith("a.tiff", "x")), Error);
 }
 

@@ -96,6 +96,28 @@ TEST(Stiffness, CrossingToAHarderFloorInjectsTheFormula) {
   }
 }
 
+// Where nothing may be added a shaded proxy comes to rest, as on the true plane: it must not flip between two places
+// of equal energy from tick to tick.
+TEST(Ledger, WithoutEnergyTheProxyRestsInsteadOfFlipping) {
+  const auto scene = test::snapshotOf(test::floorModel({0.42262, 0.90631, 0}));
+  ProxySettings settings = settingsOf(LedgerMode::kStrict);
+  settings.surfaces.smooth = true;
+  ProxyState state = startProxy(*scene, settings, {0, 0.003, 0});
+  tick(state, *scene, settings, {0, -0.002, 0});
+  double ahead = 0, last_change = 0;  // of the finger, m
+  int turns = 0;
+  for (int i = 0; i < 60; ++i) {
+    const double x = 3e-4 * std::max(0, i - 10);
+    tick(state, *scene, settings, {x, -0.002, 0});
+    const double change = state.position.x() - x - ahead;
+    turns += change * last_change < -1e-14 ? 1 : 0;  // each more than 0.1 um
+    last_change = change;
+    ahead += change;
+  }
+  EXPECT_LE(turns, 2);
+  EXPECT_LE(state.ledger.injected_J, 1e-12);
+}
+
 TEST(Ledger, TankPaysRefillsAndNeverOverflows) {
   Ledger ledger;
   EXPECT_EQ(ledger.budget_J(LedgerMode::kTank), kTankStart_J);
