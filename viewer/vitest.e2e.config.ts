@@ -6,9 +6,9 @@ export default defineConfig({
     include: ["e2e/**/*.e2e.ts"],
     environment: "node",
     fileParallelism: false,
-    testTimeout: 120_000,
-    hookTimeout: 120_000,
     // Software graphics on a busy machine: what is waited for comes late, and only a long wait tells late from never.
+    testTimeout: 300_000,
+    hookTimeout: 120_000,
     expect: { poll: { timeout: 30_000 } },
   },
 });

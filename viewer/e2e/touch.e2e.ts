@@ -17,6 +17,11 @@ const kProgram = process.env.HL_BIN;
 /** Positions of the mesh arrive as float32: exact to about this share of the model's size. */
 const kWireRounding = 1e-6;
 
+interface Pixel {
+  readonly x: number;
+  readonly y: number;
+}
+
 interface Touch {
   readonly process: ChildProcess;
   readonly url: string;
@@ -114,8 +119,9 @@ describe.skipIf(!kProgram)("hl touch teapot", () => {
     const first = tap.proxies.length;
     tap.deepest_m = 0;
     // Above the model first, then slowly down to its middle: wherever the stroking hand was, the way crosses the surface.
-    await moveSlowly(page, before.from, { x: before.to.x, y: before.to.y - 160 });
-    await moveSlowly(page, { x: before.to.x, y: before.to.y - 160 }, before.to);
+    const above = { x: before.to.x, y: before.to.y - 160 };
+    await moveInSteps(page, before.from, above, 8);
+    await moveInSteps(page, above, before.to, 20);
     await pushUntilHeld(page);
     await screenshot(page, "touch_dragging");
     const peak = await page.evaluate((since_s) => window.__hl.peak(window.__hl.time_s! - since_s), began_s);
@@ -186,11 +192,10 @@ describe.skipIf(!kProgram)("hl touch teapot", () => {
   });
 });
 
-/** Drags in small steps, each at least one state of the server long. */
-async function moveSlowly(page: Page, from: { x: number; y: number }, to: { x: number; y: number }): Promise<void> {
-  const kSteps = 40;
-  for (let i = 1; i <= kSteps; ++i) {
-    const share = i / kSteps;
+/** A drag whose steps are each at least one state of the server long. */
+async function moveInSteps(page: Page, from: Pixel, to: Pixel, steps: number): Promise<void> {
+  for (let i = 1; i <= steps; ++i) {
+    const share = i / steps;
     await page.mouse.move(from.x + (to.x - from.x) * share, from.y + (to.y - from.y) * share);
     await states(page);
   }
