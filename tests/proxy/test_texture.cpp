@@ -86,6 +86,25 @@ TEST(Texture, CheckerOfFrictionDragsByTheFieldUnderTheProxy) {
   EXPECT_GT(judged, 1000);
 }
 
+// C40 for viscosity: two halves of an image, each with its own drag b u.
+TEST(Texture, ImageOfViscosityDragsByTheHalfUnderTheProxy) {
+  const auto scene = floorWith(image(2, 1, {0, 1}, Filter::kNearest), Quantity::kViscosity, 1, 5);
+  const ProxySettings settings = settingsOf();
+  const double speed = 0.1;
+  ProxyState state = startProxy(*scene, settings, {-0.08, 0.01, 0.03});
+  int judged = 0;
+  for (double x = -0.08; x < 0.08; x += speed * settings.period_s) {
+    const Vec3 finger(x, 0, 0.03);
+    const TickReport report = tick(state, *scene, settings, finger);
+    const bool steady = state.position.x() > 0.01 || (x > -0.07 && state.position.x() < -1e-3);
+    if (!steady) continue;
+    const double b = state.position.x() < 0 ? 1 : 5;
+    EXPECT_NEAR(kK * (finger.x() - report.target.x()), b * speed, 1e-6) << x;
+    ++judged;
+  }
+  EXPECT_GT(judged, 1000);
+}
+
 // C41: lines 0.1 mm wide, 5 mm apart, are felt each, however fast the finger: the pull rises as it crosses.
 TEST(Texture, NoLineOfATenthOfAMillimetreIsMissedAtAnySpeed) {
   Texture lines = makeTexture("lines", 2000, 0.02);  // 2000 texels of 0.1 mm over the floor after repeating
