@@ -1,6 +1,7 @@
 #include "server/surface_images.h"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <map>
 
@@ -27,7 +28,7 @@ std::uint32_t addImage(const Texture& texture, proto::SceneMesh& mesh) {
   image.set_height(static_cast<std::uint32_t>(texture.height));
   std::string& texels = *image.mutable_texels();
   texels.reserve(texture.texels.size());
-  for (const float texel : texture.texels) texels.push_back(static_cast<char>(static_cast<int>(255 * texel + 0.5f)));
+  for (const float texel : texture.texels) texels.push_back(static_cast<char>(std::lround(255 * texel)));
   image.set_clamp(texture.wrap == Wrap::kClamp);
   image.set_nearest(texture.filter == Filter::kNearest);
   return static_cast<std::uint32_t>(mesh.images_size() - 1);
