@@ -1,6 +1,7 @@
 #include "base/ledger.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace hl {
@@ -25,6 +26,13 @@ void Ledger::book(double net_J, bool refill) {
     dissipated_J -= net_J;
     if (refill) tank_J = std::min(kTankFull_J, tank_J - net_J);
   }
+}
+
+double partWithin(const Vec3& e, const Vec3& way, double allowance) {
+  const double a = way.squaredNorm();
+  const double b = way.dot(e);
+  if (a + 2 * b <= allowance) return 1;
+  return std::clamp((std::sqrt(b * b + a * allowance) - b) / a, 0.0, 1.0);
 }
 
 }  // namespace hl

@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/vec.h"
+
 namespace hl {
 
 enum class LedgerMode : std::uint8_t {
@@ -38,5 +40,9 @@ struct Ledger {
   void book(double net_J, bool refill);
   void add(EnergyCause cause, double joules) { by_cause_J[static_cast<std::size_t>(cause)] += joules; }
 };
+
+/// The largest part 0..1 of `way` that raises |e|^2 by no more than `allowance` >= 0 (m^2), e the vector from the
+/// finger: A a^2 + 2 B a <= allowance with A = |way|^2, B = way . e. RT-safe.
+double partWithin(const Vec3& e, const Vec3& way, double allowance);
 
 }  // namespace hl

@@ -11,16 +11,6 @@ double energy_J(double spring_N_m, const SpringEnd& end, const Vec3& finger_D) {
   return 0.5 * spring_N_m * end.stiffness * (end.proxy_D - finger_D).squaredNorm();
 }
 
-// The largest part 0..1 of the way from `from` to `to` that raises |x - finger|^2 by no more than `allowance`:
-// A a^2 + 2 B a <= allowance with A = |to - from|^2, B = (to - from) . (from - finger).
-double partAllowed(const Vec3& from, const Vec3& to, const Vec3& finger, double allowance) {
-  const Vec3 way = to - from;
-  const double a = way.squaredNorm();
-  const double b = way.dot(from - finger);
-  if (a + 2 * b <= allowance) return 1;
-  return std::clamp((std::sqrt(b * b + a * allowance) - b) / a, 0.0, 1.0);
-}
-
 }  // namespace
 
 void handOver(HandOverState& state, LedgerMode mode, double spring_N_m, const SpringEnd& wanted, double paid_J,
@@ -34,8 +24,9 @@ void handOver(HandOverState& state, LedgerMode mode, double spring_N_m, const Sp
   const double budget_J = std::max(0.0, paid_J) + state.ledger.budget_J(mode);
   const double per_square = 0.5 * spring_N_m * from.stiffness;
   if (std::isfinite(budget_J) && per_square > 0) {
-    const double part = partAllowed(from.proxy_D, wanted.proxy_D, finger_D, budget_J / per_square);
-    if (part < 1) state.end.proxy_D = from.proxy_D + part * (wanted.proxy_D - from.proxy_D);
+    const Vec3 way = wanted.proxy_D - from.proxy_D;
+    const double part = partWithin(from.proxy_D - finger_D, way, budget_J / per_square);
+    if (part < 1) state.end.proxy_D = from.proxy_D + part * way;
   }
   const double wanted_J = energy_J(spring_N_m, state.end, finger_D);
   if (wanted_J > start_J + budget_J) state.end.stiffness *= (start_J + budget_J) / wanted_J;

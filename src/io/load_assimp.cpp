@@ -2,15 +2,13 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
-#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <assimp/ProgressHandler.hpp>
-#include <cctype>
-#include <filesystem>
 #include <memory>
 #include <utility>
 
 #include "base/error.h"
+#include "io/file_ending.h"
 #include "io/gltf_haptics.h"
 #include "io/load_model.h"
 
@@ -93,8 +91,7 @@ void appendNode(Import& import, const aiNode& node, const Eigen::Matrix4d& paren
 }
 
 GltfHaptics hapticsOf(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = endingOf(path);
   return ending == ".gltf" || ending == ".glb" ? readGltfHaptics(path) : GltfHaptics{};
 }
 

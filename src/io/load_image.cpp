@@ -1,10 +1,8 @@
 #include "io/load_image.h"
 
-#include <algorithm>
 #include <boost/gil.hpp>
 #include <boost/gil/extension/io/jpeg.hpp>
 #include <boost/gil/extension/io/png.hpp>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -12,6 +10,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "io/file_ending.h"
 #include "io/isolated.h"
 
 namespace hl {
@@ -66,8 +65,7 @@ Texture decode(const std::string& path, const std::string& ending) {
 }  // namespace
 
 Texture loadImage(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = endingOf(path);
   if (ending != ".png" && ending != ".jpg" && ending != ".jpeg")
     throw Error(path + ": images must end in .png, .jpg or .jpeg");
   std::error_code error;

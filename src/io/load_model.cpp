@@ -2,22 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 
 #include "base/error.h"
+#include "io/file_ending.h"
 #include "io/isolated.h"
 
 namespace hl {
 
 namespace {
-
-std::string endingOf(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending;
-}
 
 bool coinReads(const std::string& ending) {
   constexpr std::array<const char*, 4> kEndings{".wrl", ".vrml", ".iv", ".wrz"};

@@ -66,9 +66,7 @@ double Account::affordable(const Vec3& proxy, const Vec3& step) const {
   const double budget = budget_J_ / joule_per_square;
   // Earlier steps of the tick may have spent some of it.
   const double left = std::min(budget, distance_before_squared_ + budget - at_nearest.squaredNorm());
-  const double b = std::max(0.0, step.dot(at_nearest));
-  const double beyond = (std::sqrt(b * b + a * std::max(0.0, left)) - b) / a;
-  return std::min(1.0, nearest + beyond);
+  return std::min(1.0, nearest + partWithin(at_nearest, step, std::max(0.0, left)));
 }
 
 void Account::close(ProxyState& state, const Causes& causes, TickReport& report) const {

@@ -15,10 +15,6 @@ auto key(const Contact& c) {
                     c.point.y(), c.point.z());
 }
 
-bool samePlane(const Contact& a, const Contact& b) {
-  return a.plane.normal == b.plane.normal && a.plane.offset == b.plane.offset;
-}
-
 // Direction of the edge a contact lies on; edge i is opposite vertex i, and a segment's only edge joins vertices 0
 // and 1.
 Vec3 edgeDirection(const Primitive& primitive, Feature feature) {

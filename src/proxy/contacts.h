@@ -41,6 +41,11 @@ struct ContactSet {
 /// RT-safe.
 void gatherContacts(const Snapshot& snapshot, const Vec3& centre, double distance, double reach, ContactSet& set);
 
+/// Whether two contacts hold the proxy off by the same plane, bit by bit. RT-safe.
+inline bool samePlane(const Contact& a, const Contact& b) {
+  return a.plane.normal == b.plane.normal && a.plane.offset == b.plane.offset;
+}
+
 /// Lets every plane pass through the centre at least: used when the exact offsets contradict each other by rounding.
 void relaxToCentre(ContactSet& set);
 

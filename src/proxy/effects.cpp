@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/queries.h"
+#include "geometry/closest_point.h"
 
 namespace hl {
 
@@ -25,8 +25,6 @@ constexpr double kOverEdge = 1e-4;
 constexpr double kSamplesPerTexel = 2;
 constexpr int kMostSamples = 4096;
 
-SurfacePlace placeOf(const Contact& contact) { return {contact.primitive, contact.plane.normal, contact.weights}; }
-
 }  // namespace
 
 bool Effects::any(const ContactSet& set) const {
@@ -41,8 +39,7 @@ bool Effects::any(const ContactSet& set) const {
 // Whether a primitive that shares the edge or vertex under the contact has another normal there.
 bool Effects::creased(const ContactSet& set, const Contact& contact, const Vec3& normal) const {
   return std::any_of(set.twins.begin(), set.twins.end(), [&](const Contact& twin) {
-    if (twin.plane.normal != contact.plane.normal || twin.plane.offset != contact.plane.offset) return false;
-    return reader_.bend(placeOf(twin)).normal.cross(normal).norm() > kCrease_rad;
+    return samePlane(twin, contact) && reader_.bend(placeOf(twin)).normal.cross(normal).norm() > kCrease_rad;
   });
 }
 
@@ -52,8 +49,7 @@ Effects::TouchedSet Effects::touchedNow(const ContactSet& set) const {
     Touched now{placeOf(contact), {}, reader_.mayBend(contact.primitive)};
     if (now.bends) now.bent = reader_.bend(now.place);
     if (now.bent.bent() && creased(set, contact, now.bent.normal)) now.bends = false;
-    if (!now.bends) now.bent = {};
-    if (!now.bends) now.bent.normal = contact.plane.normal;
+    if (!now.bends) now.bent = {contact.plane.normal, 0, 0};
     touched.push(now);
   }
   return touched;

@@ -25,6 +25,11 @@ struct Holding {
   double multiplier_m = 0;
 };
 
+/// Where a contact is touched. RT-safe.
+inline SurfacePlace placeOf(const Contact& contact) {
+  return {contact.primitive, contact.plane.normal, contact.weights};
+}
+
 /// The next step of the proxy and what it rests on.
 struct SubGoal {
   Vec3 step = Vec3::Zero();

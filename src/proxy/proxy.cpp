@@ -81,10 +81,7 @@ SubGoal Tick::plainSubGoal() {
   result.step = plain_.point;
   for (std::size_t i = 0; i < plain_.active_count; ++i) {
     const Contact& contact = set_.contacts[plain_.active[i]];
-    result.holding.push({plain_.active[i],
-                         {contact.primitive, contact.plane.normal, contact.weights},
-                         contact.plane.normal,
-                         plain_.multiplier[i]});
+    result.holding.push({plain_.active[i], placeOf(contact), contact.plane.normal, plain_.multiplier[i]});
   }
   return result;
 }

@@ -17,17 +17,19 @@ constexpr double kLimitSin = 0.5;
 // Half the squared distance of two unit vectors: 1 - cos of the angle between them, without its cancellation.
 double bendBetween(const Vec3& a, const Vec3& b) { return 0.5 * (a - b).squaredNorm(); }
 
-// How the barycentric weights of a triangle's point change when the point moves by `step` in its plane: the step as
-// a e1 + b e2 by the normal equations of the two edges.
-std::array<double, 3> weightsOf(const Primitive& triangle, const Vec3& step) {
-  const Vec3 e1 = triangle.vertex[1] - triangle.vertex[0];
-  const Vec3 e2 = triangle.vertex[2] - triangle.vertex[0];
+// The vector a e1 + b e2 in a triangle's plane, e1 and e2 its edges from vertex 0, that has the given products with e1
+// and e2: the normal equations.
+struct InPlane {
+  double a, b;
+  Vec3 vector;
+};
+
+InPlane fromProducts(const Vec3& e1, const Vec3& e2, double with_e1, double with_e2) {
   const double g11 = e1.squaredNorm(), g12 = e1.dot(e2), g22 = e2.squaredNorm();
   const double det = g11 * g22 - g12 * g12;
-  const double s1 = e1.dot(step), s2 = e2.dot(step);
-  const double a = (g22 * s1 - g12 * s2) / det;
-  const double b = (g11 * s2 - g12 * s1) / det;
-  return {-a - b, a, b};
+  const double a = (g22 * with_e1 - g12 * with_e2) / det;
+  const double b = (g11 * with_e2 - g12 * with_e1) / det;
+  return {a, b, a * e1 + b * e2};
 }
 
 }  // namespace
@@ -69,15 +71,12 @@ void SurfaceReader::bump(const SurfacePlace& place, BentNormal& bent) const {
   const TextureUse& use = material(place.primitive).textureOf(Quantity::kHeight);
   const Primitive& triangle = snapshot_.primitives[place.primitive];
   const Vec2 slope = (use.high - use.low) * textureOf(place.primitive, Quantity::kHeight).gradient(texcoord(place));
-  // The change of height along each of two edges is the gradient's component there: a e1 + b e2 by the normal
-  // equations.
-  const Vec3 e1 = triangle.vertex[1] - triangle.vertex[0];
-  const Vec3 e2 = triangle.vertex[2] - triangle.vertex[0];
+  // The change of height along an edge is its product with the gradient.
   const Vec2& origin = vertexTexcoord(triangle, 0);
-  const double h1 = slope.dot(vertexTexcoord(triangle, 1) - origin);
-  const double h2 = slope.dot(vertexTexcoord(triangle, 2) - origin);
-  const double g11 = e1.squaredNorm(), g12 = e1.dot(e2), g22 = e2.squaredNorm();
-  const Vec3 gradient = ((g22 * h1 - g12 * h2) * e1 + (g11 * h2 - g12 * h1) * e2) / (g11 * g22 - g12 * g12);
+  const Vec3 gradient =
+      fromProducts(triangle.vertex[1] - triangle.vertex[0], triangle.vertex[2] - triangle.vertex[0],
+                   slope.dot(vertexTexcoord(triangle, 1) - origin), slope.dot(vertexTexcoord(triangle, 2) - origin))
+          .vector;
   const Vec3 normal = (bent.normal - (gradient - gradient.dot(bent.normal) * bent.normal)).normalized();
   if (!(normal.dot(place.normal) > 0)) return;
   bent.bump = bendBetween(bent.normal, normal);
@@ -156,9 +155,13 @@ double SurfaceReader::texelsAlong(const SurfacePlace& place, const Vec3& step) c
 }
 
 SurfacePlace SurfaceReader::moved(const SurfacePlace& place, const Vec3& step) const {
+  const Primitive& triangle = snapshot_.primitives[place.primitive];
+  const Vec3 e1 = triangle.vertex[1] - triangle.vertex[0], e2 = triangle.vertex[2] - triangle.vertex[0];
+  const InPlane way = fromProducts(e1, e2, e1.dot(step), e2.dot(step));
   SurfacePlace result = place;
-  const std::array<double, 3> change = weightsOf(snapshot_.primitives[place.primitive], step);
-  for (std::size_t i = 0; i < 3; ++i) result.weights[i] += change[i];
+  result.weights[0] -= way.a + way.b;
+  result.weights[1] += way.a;
+  result.weights[2] += way.b;
   return result;
 }
 
