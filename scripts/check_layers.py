@@ -15,8 +15,9 @@ LEVELS = {
     "scene": 2, "control": 2,
     "proxy": 3, "scenes": 3,
     "io": 4,
-    "server": 5, "client": 5,
-    "apps": 6,
+    "server": 5,
+    "client": 6,
+    "apps": 7,
 }
 # The proxy knows no threads, devices or messages, and the servo knows no scene, although their levels would allow it.
 NEVER = {"proxy": {"device", "control", "wire"}, "control": {"geometry", "wire"}, "scene": {"wire", "device"}}

@@ -41,6 +41,18 @@ Vec3 vecOf(const proto::Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 std::string item(const std::string& list, int index) { return list + "[" + std::to_string(index) + "]"; }
 
+Texture textureOf(const proto::Texels& in) {
+  if (in.width() == 0 || in.height() == 0 || std::uint64_t{in.width()} * in.height() != in.values().size())
+    throw Error("texels must hold width x height bytes, at least one");
+  Texture texture;
+  texture.width = in.width();
+  texture.height = in.height();
+  texture.texels.reserve(in.values().size());
+  for (const char byte : in.values())
+    texture.texels.push_back(static_cast<float>(static_cast<unsigned char>(byte)) / 255.0f);
+  return texture;
+}
+
 // One scene file on its way to a model. Paths name the JSON values that errors point at.
 class SceneFile {
  public:
@@ -143,8 +155,10 @@ void SceneFile::addTexture(Model& model, const proto::TextureImage& in, const st
       if (size > 8192) fail(where, where + ".procedural.size must be at most 8192");
       const double duty = checked(p.has_duty() ? p.duty() : 0.5, 0, 1, where + ".procedural.duty");
       texture = makeTexture(p.kind(), size, duty);
+    } else if (in.source_case() == proto::TextureImage::kTexels) {
+      texture = textureOf(in.texels());
     } else {
-      fail(where, where + ": a texture needs a file or a procedural");
+      fail(where, where + ": a texture needs a file, a procedural or texels");
     }
   } catch (const Error& error) {
     if (std::string(error.what()).starts_with(path_)) throw;
