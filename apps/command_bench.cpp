@@ -68,7 +68,7 @@ Row measure(std::size_t size, HierarchyKind kind, Feel feel, const BenchOptions&
   const std::int64_t build_ns = monotonicNow_ns();
   const auto snapshot = makeSnapshot(std::move(model), kind);
   row.build_s = 1e-9 * static_cast<double>(monotonicNow_ns() - build_ns);
-  row.primitives = snapshot->primitives.size();
+  row.primitives = snapshot->primitives;
   const Vec3 centre = snapshot->bounds.centre();
   const double reach = 0.35 * std::min(snapshot->bounds.size().x(), snapshot->bounds.size().z());
   const ProxySettings settings{options.radius, 1000};

@@ -16,14 +16,14 @@ constexpr std::array<const char*, kQuantities> kQuantityNames{"stiffness", "stat
 constexpr std::array<const char*, kQuantities> kQuantityUnits{"", "", "", " N s/m", " m"};
 
 void printMaterial(const Snapshot& snapshot, std::size_t number) {
-  const Material& m = snapshot.model.materials[number];
+  const Material& m = snapshot.shape().model.materials[number];
   fmt::print("material {}: stiffness {:.4g}, friction {:.4g} static {:.4g} dynamic, viscosity {:.4g} N s/m, {}\n",
              number, m.stiffness, m.static_friction, m.dynamic_friction, m.viscosity_Ns_m,
              m.smooth ? "smooth" : "flat");
   for (std::size_t q = 0; q < kQuantities; ++q) {
     const TextureUse& use = m.textures[q];
     if (!use.used()) continue;
-    const Texture& texture = snapshot.model.textures[use.texture];
+    const Texture& texture = snapshot.shape().model.textures[use.texture];
     fmt::print("  {} from texture {} ({} x {}): {:.4g} to {:.4g}{}\n", kQuantityNames[q], texture.name, texture.width,
                texture.height, use.low, use.high, kQuantityUnits[q]);
   }
@@ -36,10 +36,10 @@ void printMaterial(const Snapshot& snapshot, std::size_t number) {
 }
 
 void print(const Snapshot& snapshot) {
-  const Model& model = snapshot.model;
+  const Model& model = snapshot.shape().model;
   const Vec3 size = snapshot.bounds.size();
-  const IndexStats stats = snapshot.index->stats();
-  const std::size_t primitives = snapshot.primitives.size();
+  const IndexStats stats = snapshot.shape().index->stats();
+  const std::size_t primitives = snapshot.primitives;
   fmt::print("name:       {}\n", model.name);
   fmt::print("primitives: {} ({} triangles, {} segments, {} points given; {} vertices)\n", primitives,
              model.triangles.size(), model.segments.size(), model.points.size(), model.positions.size());

@@ -108,7 +108,7 @@ void run(TouchOptions options) {
   session.start();
   server.start();
   fmt::print(stderr, "{}: {} primitives; 1 mm of the hand is {:.4g} mm of the scene\n", options.scene.scene,
-             snapshot->primitives.size(), session.workspace().world_per_device);
+             snapshot->primitives, session.workspace().world_per_device);
   if (!session.grant().why.empty())
     fmt::print(stderr, "the servo runs without all it asked for: {}see hl doctor\n", session.grant().why);
   const std::string address = fmt::format("http://127.0.0.1:{}/", server.port());

@@ -89,7 +89,7 @@ std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options) {
   auto snapshot =
       makeSnapshot(std::move(model), options.hierarchy == "none" ? HierarchyKind::kNone : HierarchyKind::kSpheres);
   for (const std::string& warning : snapshot->warnings) fmt::print(stderr, "{}: {}\n", options.scene, warning);
-  if (snapshot->primitives.empty()) throw Error(options.scene + ": nothing in it can be touched");
+  if (snapshot->primitives == 0) throw Error(options.scene + ": nothing in it can be touched");
   return snapshot;
 }
 

@@ -4,8 +4,6 @@
 #include <tuple>
 #include <utility>
 
-#include "geometry/queries.h"
-
 namespace hl {
 
 namespace {
@@ -15,24 +13,14 @@ auto key(const Contact& c) {
                     c.point.y(), c.point.z());
 }
 
-// Direction of the edge a contact lies on; edge i is opposite vertex i, and a segment's only edge joins vertices 0
-// and 1.
-Vec3 edgeDirection(const Primitive& primitive, Feature feature) {
-  if (primitive.kind == PrimitiveKind::kSegment) return (primitive.vertex[1] - primitive.vertex[0]).normalized();
-  const int opposite = static_cast<int>(feature) - static_cast<int>(Feature::kEdge0);
-  const auto from = static_cast<std::size_t>((opposite + 1) % 3);
-  const auto to = static_cast<std::size_t>((opposite + 2) % 3);
-  return (primitive.vertex[to] - primitive.vertex[from]).normalized();
-}
-
 }  // namespace
 
-void gatherContacts(const Snapshot& snapshot, const Vec3& centre, double distance, double reach, ContactSet& set) {
+void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, double reach, ContactSet& set) {
   set.contacts.clear();
   set.planes.clear();
   set.twins.clear();
   set.overflow = false;
-  const auto add = [&](std::uint32_t primitive, const ClosestPoint& closest) {
+  const auto add = [&](PrimitiveId primitive, const ClosestPoint& closest) {
     Contact contact{{closest.normal, reach - closest.distance},
                     closest.point,
                     closest.distance,
@@ -46,10 +34,10 @@ void gatherContacts(const Snapshot& snapshot, const Vec3& centre, double distanc
       return;
     }
     if (twin->primitive == primitive) return;  // the index may offer a primitive twice
-    if (precedes(snapshot.primitives[primitive], snapshot.primitives[twin->primitive])) std::swap(*twin, contact);
+    if (scene.precedes(primitive, twin->primitive)) std::swap(*twin, contact);
     set.twins.push(contact);
   };
-  primitivesWithin(*snapshot.index, snapshot.primitives, centre, distance, add);
+  scene.primitivesWithin(centre, distance, add);
   std::sort(set.contacts.begin(), set.contacts.end(),
             [](const Contact& a, const Contact& b) { return key(a) < key(b); });
   for (const Contact& contact : set.contacts) set.planes.push(contact.plane);
@@ -62,12 +50,13 @@ void relaxToCentre(ContactSet& set) {
   }
 }
 
-Mat3 curvedDirections(const Contact& contact, const Primitive& primitive) {
+Mat3 curvedDirections(const Contact& contact, const SceneAt& scene) {
   if (contact.feature == Feature::kFace) return Mat3::Zero();
   const Vec3& n = contact.plane.normal;
   Mat3 tangents = Mat3::Identity() - n * n.transpose();
-  if (contact.feature >= Feature::kVertex0 || primitive.kind == PrimitiveKind::kPoint) return tangents;
-  const Vec3 edge = edgeDirection(primitive, contact.feature);
+  if (contact.feature >= Feature::kVertex0 || scene.primitive(contact.primitive).kind == PrimitiveKind::kPoint)
+    return tangents;
+  const Vec3 edge = scene.edge(contact.primitive, contact.feature);
   return tangents - edge * edge.transpose();
 }
 

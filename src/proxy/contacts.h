@@ -10,7 +10,7 @@
 #include "base/vec.h"
 #include "geometry/closest_point.h"
 #include "proxy/solver.h"
-#include "scene/snapshot.h"
+#include "scene/scene_at.h"
 
 namespace hl {
 
@@ -20,7 +20,7 @@ struct Contact {
   Vec3 point = Vec3::Zero();  ///< on the primitive, nearest the proxy
   double distance = 0;        ///< m, from the proxy's centre
   Feature feature = Feature::kFace;
-  std::uint32_t primitive = 0;
+  PrimitiveId primitive;
   std::array<double, 3> weights{1, 0, 0};  ///< of `point` in the primitive's sorted vertices
 };
 
@@ -39,7 +39,7 @@ struct ContactSet {
 /// All primitives within `distance` of `centre`, as planes that hold the centre `reach` away from them.
 /// Sorted by plane; of bitwise equal planes the primitive that precedes() is the contact, the others are twins.
 /// RT-safe.
-void gatherContacts(const Snapshot& snapshot, const Vec3& centre, double distance, double reach, ContactSet& set);
+void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, double reach, ContactSet& set);
 
 /// Whether two contacts hold the proxy off by the same plane, bit by bit. RT-safe.
 inline bool samePlane(const Contact& a, const Contact& b) {
@@ -51,6 +51,6 @@ void relaxToCentre(ContactSet& set);
 
 /// Directions, as an orthogonal projector, in which a contact's configuration-space obstacle is curved with radius
 /// `distance`: none for a face, across the edge for an edge, all tangents for a vertex.
-Mat3 curvedDirections(const Contact& contact, const Primitive& primitive);
+Mat3 curvedDirections(const Contact& contact, const SceneAt& scene);
 
 }  // namespace hl

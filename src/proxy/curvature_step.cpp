@@ -51,8 +51,8 @@ bool staysAbove(const ContactSet& set, const Vec3& step, double tolerance) {
 
 }  // namespace
 
-bool curvatureStep(const ContactSet& set, std::span<const Primitive> primitives, const SolverResult& sub_goal,
-                   double reach, Vec3& step) {
+bool curvatureStep(const ContactSet& set, const SceneAt& scene, const SolverResult& sub_goal, double reach,
+                   Vec3& step) {
   if (sub_goal.active_count < 1 || sub_goal.active_count > 2) return false;
   Mat3 hessian = Mat3::Identity();
   bool curved = false;
@@ -60,7 +60,7 @@ bool curvatureStep(const ContactSet& set, std::span<const Primitive> primitives,
     const Contact& contact = set.contacts[sub_goal.active[i]];
     if (contact.feature == Feature::kFace) continue;
     curved = true;
-    hessian -= (sub_goal.multiplier[i] / contact.distance) * curvedDirections(contact, primitives[contact.primitive]);
+    hessian -= (sub_goal.multiplier[i] / contact.distance) * curvedDirections(contact, scene);
   }
   if (!curved) return false;
   const Vec3& n0 = set.contacts[sub_goal.active[0]].plane.normal;

@@ -17,7 +17,6 @@ namespace hl {
 
 /// The step, if curvature matters here: an active contact is curved and the minimum is near. `reach` in metres.
 /// RT-safe.
-bool curvatureStep(const ContactSet& set, std::span<const Primitive> primitives, const SolverResult& sub_goal,
-                   double reach, Vec3& step);
+bool curvatureStep(const ContactSet& set, const SceneAt& scene, const SolverResult& sub_goal, double reach, Vec3& step);
 
 }  // namespace hl

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/closest_point.h"
-
 namespace hl {
 
 namespace {
@@ -58,7 +56,7 @@ Effects::TouchedSet Effects::touchedNow(const ContactSet& set) const {
 // The places touched and their bent normals when the passes have moved the proxy to `centre`.
 void Effects::moveOn(const ContactSet& set, const Vec3& centre, TouchedSet& touched) const {
   for (std::size_t i = 0; i < touched.size(); ++i) {
-    const ClosestPoint nearest = closestPoint(snapshot_.primitives[set.contacts[i].primitive], centre);
+    const ClosestPoint nearest = scene_.closest(set.contacts[i].primitive, centre);
     touched[i].place.weights = nearest.weights;
     touched[i].place.normal = nearest.normal;
     if (touched[i].bends) touched[i].bent = reader_.bend(touched[i].place);

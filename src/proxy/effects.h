@@ -46,10 +46,10 @@ struct SubGoal {
 class Effects {
  public:
   /// `creep_m`: how far the proxy has crept from where it stuck.
-  Effects(const Snapshot& snapshot, const ProxySettings& settings, const Tolerances& tolerance, bool slipping,
+  Effects(const SceneAt& scene, const ProxySettings& settings, const Tolerances& tolerance, bool slipping,
           const Vec3& creep_m)
-      : reader_(snapshot, settings.surfaces),
-        snapshot_(snapshot),
+      : reader_(scene, settings.surfaces),
+        scene_(scene),
         settings_(settings),
         tolerance_(tolerance),
         slipping_(slipping),
@@ -68,7 +68,7 @@ class Effects {
 
   /// A contact as the report gives it.
   ProxyContact describe(const ContactSet& set, const Holding& holding) const;
-  bool stiffnessTextured(std::uint32_t primitive) const { return reader_.textured(primitive, Quantity::kStiffness); }
+  bool stiffnessTextured(PrimitiveId primitive) const { return reader_.textured(primitive, Quantity::kStiffness); }
 
  private:
   /// A contact as it is while the passes move the proxy on.
@@ -91,7 +91,7 @@ class Effects {
   double texelsAlong(const SubGoal& sub_goal, const Vec3& way) const;
 
   SurfaceReader reader_;
-  const Snapshot& snapshot_;
+  const SceneAt& scene_;
   const ProxySettings& settings_;
   const Tolerances& tolerance_;
   Slip slip_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "geometry/queries.h"
 #include "proxy/account.h"
 #include "proxy/contacts.h"
 #include "proxy/curvature_step.h"
@@ -19,15 +18,15 @@ constexpr int kEffectPasses = 8;
 // One tick's work. Kept apart from ProxyState so that a tick leaves nothing behind but what its end says.
 class Tick {
  public:
-  Tick(const Snapshot& snapshot, const ProxySettings& settings, ProxyState& state, const Vec3& finger)
-      : snapshot_(snapshot),
+  Tick(const SceneAt& scene, const ProxySettings& settings, ProxyState& state, const Vec3& finger)
+      : scene_(scene),
         settings_(settings),
-        tolerance_(Tolerances::of(settings.radius, snapshot.extent)),
+        tolerance_(Tolerances::of(settings.radius, scene.extent())),
         finger_(finger),
         goal_(finger),
         state_(state),
         account_(state, settings, finger),
-        effects_(snapshot, settings, tolerance_, state.touching && state.rest_s < kStuck_s, state.creep) {}
+        effects_(scene, settings, tolerance_, state.touching && state.rest_s < kStuck_s, state.creep) {}
 
   TickReport run();
 
@@ -44,7 +43,7 @@ class Tick {
   bool restoreIfWorse();
   void finish(const SubGoal& sub_goal, TickReport& report);
 
-  const Snapshot& snapshot_;
+  const SceneAt& scene_;
   const ProxySettings& settings_;
   const Tolerances tolerance_;
   const Vec3 finger_;
@@ -99,7 +98,7 @@ SubGoal Tick::effectSubGoal() {
 }
 
 SubGoal Tick::subGoal() {
-  gatherContacts(snapshot_, state_.position, tolerance_.touching, tolerance_.reach, set_);
+  gatherContacts(scene_, state_.position, tolerance_.touching, tolerance_.reach, set_);
   // The once-a-tick goal has been reached, or left behind over an edge: down to the surface, and no farther.
   const bool passes_done = goal_ != finger_;
   if (passes_done && set_.contacts.empty()) goal_ = finger_;
@@ -111,13 +110,12 @@ SubGoal Tick::subGoal() {
 
 // Moves by `step`, or to the first impact with a primitive that is no contact yet. Returns whether the way was free.
 bool Tick::sweep(Vec3& position, const Vec3& step) const {
-  const double longest = kSweepPerExtent * (snapshot_.extent + tolerance_.reach);
+  const double longest = kSweepPerExtent * (scene_.extent() + tolerance_.reach);
   const double length = step.norm();
   const bool whole = length <= longest;
   const Vec3 motion = whole ? step : Vec3(step * (longest / length));
-  FirstImpact impact;
-  if (firstImpact(*snapshot_.index, snapshot_.primitives, position, motion, tolerance_.reach, tolerance_.touching,
-                  impact)) {
+  SceneImpact impact;
+  if (scene_.firstImpact(position, motion, tolerance_.reach, tolerance_.touching, impact)) {
     position += impact.impact.t * motion;
     return false;
   }
@@ -134,7 +132,7 @@ bool Tick::tryCurvatureStep() {
     return false;
   }
   Vec3 step;
-  if (!curvatureStep(set_, snapshot_.primitives, plain_, tolerance_.reach, step)) return false;
+  if (!curvatureStep(set_, scene_, plain_, tolerance_.reach, step)) return false;
   Vec3 there = state_.position;
   if (!sweep(there, step)) return false;
   pending_ = true;
@@ -209,19 +207,19 @@ TickReport Tick::run() {
 
 // Pushes a sphere that starts within the scene out of it. Its centre never crosses a surface: each step is swept by the
 // largest sphere that is clear of the scene where it starts.
-bool findClearPlace(const Snapshot& snapshot, const Tolerances& tolerance, Vec3& position) {
+bool findClearPlace(const SceneAt& scene, const Tolerances& tolerance, Vec3& position) {
   constexpr int kTries = 100;
   ContactSet set;
   for (int i = 0; i < kTries; ++i) {
-    gatherContacts(snapshot, position, tolerance.reach - tolerance.skin, tolerance.reach, set);
+    gatherContacts(scene, position, tolerance.reach - tolerance.skin, tolerance.reach, set);
     if (set.contacts.empty()) return true;
     double clearance = tolerance.reach;
     for (const Contact& contact : set.contacts) clearance = std::min(clearance, contact.distance);
     const std::span<const Plane> planes(set.planes.begin(), set.planes.size());
     const Vec3 step = nearestAbove(planes, Vec3::Zero(), tolerance.feasible).point;
-    FirstImpact impact;
+    SceneImpact impact;
     const double safe = 0.5 * clearance;
-    if (safe > 0 && firstImpact(*snapshot.index, snapshot.primitives, position, step, safe, -1, impact)) {
+    if (safe > 0 && scene.firstImpact(position, step, safe, -1, impact)) {
       position += impact.impact.t * step;
     } else {
       position += step;
@@ -232,28 +230,28 @@ bool findClearPlace(const Snapshot& snapshot, const Tolerances& tolerance, Vec3&
 
 }  // namespace
 
-ProxyState startProxy(const Snapshot& snapshot, const ProxySettings& settings, const Vec3& finger) {
+ProxyState startProxy(const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
   ProxyState state;
   if (!finger.allFinite()) return state;
   state.position = finger;
-  state.free = findClearPlace(snapshot, Tolerances::of(settings.radius, snapshot.extent), state.position);
+  state.free = findClearPlace(scene, Tolerances::of(settings.radius, scene.extent()), state.position);
   return state;
 }
 
-TickReport tick(ProxyState& state, const Snapshot& snapshot, const ProxySettings& settings, const Vec3& finger) {
+TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
   TickReport report;
   if (!finger.allFinite()) {
     report.valid = false;
     report.target = state.position;
     return report;
   }
-  if (!state.free) state = startProxy(snapshot, settings, finger);
+  if (!state.free) state = startProxy(scene, settings, finger);
   if (!state.free) {
     report.capped = true;
     report.target = finger;
     return report;
   }
-  return Tick(snapshot, settings, state, finger).run();
+  return Tick(scene, settings, state, finger).run();
 }
 
 }  // namespace hl

@@ -13,7 +13,7 @@
 #include "base/fixed_vector.h"
 #include "base/ledger.h"
 #include "base/vec.h"
-#include "scene/snapshot.h"
+#include "scene/scene_at.h"
 
 namespace hl {
 
@@ -54,7 +54,7 @@ struct ProxyContact {
   Vec3 point;           ///< on the surface, nearest the proxy
   Vec3 normal;          ///< unit, from the surface to the proxy, bent by shading and bump
   double multiplier_m;  ///< its share of proxy - finger: sum multiplier_m * normal; times K it is the normal force
-  std::uint32_t primitive;
+  PrimitiveId primitive;
   double stiffness;        ///< s of the surface here, 0..1
   double static_friction;  ///< mu_s
 };
@@ -69,10 +69,10 @@ struct TickReport {
 };
 
 /// A proxy at the finger or, when the finger touches the scene, at a clear place nearby. RT-safe.
-ProxyState startProxy(const Snapshot& snapshot, const ProxySettings& settings, const Vec3& finger);
+ProxyState startProxy(const SceneAt& scene, const ProxySettings& settings, const Vec3& finger);
 
 /// Moves the proxy toward the finger under the rules of the surfaces it touches, and accounts for the energy. RT-safe.
 /// Afterwards |proxy - surface| >= radius. Without shading and bump maps |proxy - finger| is not larger than before.
-TickReport tick(ProxyState& state, const Snapshot& snapshot, const ProxySettings& settings, const Vec3& finger);
+TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger);
 
 }  // namespace hl

@@ -34,26 +34,28 @@ InPlane fromProducts(const Vec3& e1, const Vec3& e2, double with_e1, double with
 
 }  // namespace
 
-const Vec3& SurfaceReader::vertexNormal(const Primitive& primitive, std::size_t sorted) const {
-  return snapshot_.model.normals[snapshot_.model.triangles[primitive.source][primitive.order[sorted]]];
+const Vec3& SurfaceReader::vertexNormal(PrimitiveId id, std::size_t sorted) const {
+  const Model& model = shape(id).model;
+  const Primitive& primitive = scene_.primitive(id);
+  return model.normals[model.triangles[primitive.source][primitive.order[sorted]]];
 }
 
-const Vec2& SurfaceReader::vertexTexcoord(const Primitive& primitive, std::size_t sorted) const {
-  return snapshot_.model.texcoords[snapshot_.model.triangles[primitive.source][primitive.order[sorted]]];
+const Vec2& SurfaceReader::vertexTexcoord(PrimitiveId id, std::size_t sorted) const {
+  const Model& model = shape(id).model;
+  const Primitive& primitive = scene_.primitive(id);
+  return model.texcoords[model.triangles[primitive.source][primitive.order[sorted]]];
 }
 
 Vec2 SurfaceReader::texcoord(const SurfacePlace& place) const {
-  const Primitive& primitive = snapshot_.primitives[place.primitive];
   Vec2 uv = Vec2::Zero();
-  for (std::size_t i = 0; i < 3; ++i) uv += place.weights[i] * vertexTexcoord(primitive, i);
+  for (std::size_t i = 0; i < 3; ++i) uv += place.weights[i] * vertexTexcoord(place.primitive, i);
   return uv;
 }
 
 void SurfaceReader::shade(const SurfacePlace& place, BentNormal& bent) const {
-  const Primitive& primitive = snapshot_.primitives[place.primitive];
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3& normal = vertexNormal(primitive, i);
+    const Vec3& normal = vertexNormal(place.primitive, i);
     if (!(normal.dot(place.normal) > 0)) return;
     sum += place.weights[i] * normal;
   }
@@ -69,14 +71,14 @@ void SurfaceReader::shade(const SurfacePlace& place, BentNormal& bent) const {
 // The surface of height h over the plane has the normal N - grad h, grad h in metres per metre along the triangle.
 void SurfaceReader::bump(const SurfacePlace& place, BentNormal& bent) const {
   const TextureUse& use = material(place.primitive).textureOf(Quantity::kHeight);
-  const Primitive& triangle = snapshot_.primitives[place.primitive];
+  const Primitive& triangle = scene_.primitive(place.primitive);
   const Vec2 slope = (use.high - use.low) * textureOf(place.primitive, Quantity::kHeight).gradient(texcoord(place));
   // The change of height along an edge is its product with the gradient.
-  const Vec2& origin = vertexTexcoord(triangle, 0);
-  const Vec3 gradient =
-      fromProducts(triangle.vertex[1] - triangle.vertex[0], triangle.vertex[2] - triangle.vertex[0],
-                   slope.dot(vertexTexcoord(triangle, 1) - origin), slope.dot(vertexTexcoord(triangle, 2) - origin))
-          .vector;
+  const Vec2& origin = vertexTexcoord(place.primitive, 0);
+  const Vec3 gradient = fromProducts(triangle.vertex[1] - triangle.vertex[0], triangle.vertex[2] - triangle.vertex[0],
+                                     slope.dot(vertexTexcoord(place.primitive, 1) - origin),
+                                     slope.dot(vertexTexcoord(place.primitive, 2) - origin))
+                            .vector;
   const Vec3 normal = (bent.normal - (gradient - gradient.dot(bent.normal) * bent.normal)).normalized();
   if (!(normal.dot(place.normal) > 0)) return;
   bent.bump = bendBetween(bent.normal, normal);
@@ -84,20 +86,24 @@ void SurfaceReader::bump(const SurfacePlace& place, BentNormal& bent) const {
 }
 
 BentNormal SurfaceReader::bend(const SurfacePlace& place) const {
-  BentNormal bent;
-  bent.normal = place.normal;
-  if (snapshot_.primitives[place.primitive].kind != PrimitiveKind::kTriangle) return bent;
-  if (smooth(place.primitive)) shade(place, bent);
-  if (textured(place.primitive, Quantity::kHeight)) bump(place, bent);
+  const BentNormal flat{place.normal, 0, 0};
+  if (scene_.primitive(place.primitive).kind != PrimitiveKind::kTriangle) return flat;
+  SurfacePlace own = place;
+  own.normal = scene_.turnToObject(place.primitive, place.normal);
+  BentNormal bent{own.normal, 0, 0};
+  if (smooth(place.primitive)) shade(own, bent);
+  if (textured(place.primitive, Quantity::kHeight)) bump(own, bent);
+  if (!bent.bent()) return flat;
+  bent.normal = scene_.turnToWorld(place.primitive, bent.normal);
   return bent;
 }
 
-bool SurfaceReader::textured(std::uint32_t primitive, Quantity quantity) const {
+bool SurfaceReader::textured(PrimitiveId primitive, Quantity quantity) const {
   return set_.textures && !overridden(quantity) && material(primitive).textureOf(quantity).used() &&
-         snapshot_.primitives[primitive].kind == PrimitiveKind::kTriangle && !snapshot_.model.texcoords.empty();
+         scene_.primitive(primitive).kind == PrimitiveKind::kTriangle && !shape(primitive).model.texcoords.empty();
 }
 
-bool SurfaceReader::dragTextured(std::uint32_t primitive) const {
+bool SurfaceReader::dragTextured(PrimitiveId primitive) const {
   return textured(primitive, Quantity::kStaticFriction) || textured(primitive, Quantity::kDynamicFriction) ||
          textured(primitive, Quantity::kViscosity);
 }
@@ -155,9 +161,10 @@ double SurfaceReader::texelsAlong(const SurfacePlace& place, const Vec3& step) c
 }
 
 SurfacePlace SurfaceReader::moved(const SurfacePlace& place, const Vec3& step) const {
-  const Primitive& triangle = snapshot_.primitives[place.primitive];
+  const Primitive& triangle = scene_.primitive(place.primitive);
   const Vec3 e1 = triangle.vertex[1] - triangle.vertex[0], e2 = triangle.vertex[2] - triangle.vertex[0];
-  const InPlane way = fromProducts(e1, e2, e1.dot(step), e2.dot(step));
+  const Vec3 step_O = scene_.turnToObject(place.primitive, step);
+  const InPlane way = fromProducts(e1, e2, e1.dot(step_O), e2.dot(step_O));
   SurfacePlace result = place;
   result.weights[0] -= way.a + way.b;
   result.weights[1] += way.a;

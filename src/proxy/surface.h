@@ -8,7 +8,7 @@
 
 #include "base/vec.h"
 #include "geometry/closest_point.h"
-#include "scene/snapshot.h"
+#include "scene/scene_at.h"
 
 namespace hl {
 
@@ -18,7 +18,7 @@ inline constexpr double kShadingLimit_rad = 0.5235987755982988;
 
 /// A place on a primitive, as the closest-point query gives it.
 struct SurfacePlace {
-  std::uint32_t primitive = 0;
+  PrimitiveId primitive;
   Vec3 normal = Vec3::UnitZ();             ///< true one: unit, toward the proxy
   std::array<double, 3> weights{1, 0, 0};  ///< of the primitive's sorted vertices
 };
@@ -31,13 +31,13 @@ struct BentNormal {
   bool bent() const { return shading > 0 || bump > 0; }
 };
 
-/// Reads the surfaces of one scene; two pointers and a limit, made anew for every tick. RT-safe.
+/// Reads the surfaces of a scene; two pointers, made anew for every tick. RT-safe.
 class SurfaceReader {
  public:
-  SurfaceReader(const Snapshot& snapshot, const MaterialOverride& set) : snapshot_(snapshot), set_(set) {}
+  SurfaceReader(const SceneAt& scene, const MaterialOverride& set) : scene_(scene), set_(set) {}
 
   /// Some surface may be shaded or bumped; when false, bend() gives the true normal everywhere.
-  bool mayBend(std::uint32_t primitive) const { return smooth(primitive) || textured(primitive, Quantity::kHeight); }
+  bool mayBend(PrimitiveId primitive) const { return smooth(primitive) || textured(primitive, Quantity::kHeight); }
 
   /// Interpolates the vertex normals with the weights of the place, limits their angle to the true normal, and adds
   /// the slope of the bump map. A triangle with a vertex normal that is missing, zero or points to the other side has
@@ -46,13 +46,13 @@ class SurfaceReader {
 
   /// A quantity of the material (never kHeight), or what its texture says at the place.
   double value(Quantity quantity, const SurfacePlace& place) const;
-  double stribeck_m_s(std::uint32_t primitive) const { return material(primitive).stribeck_m_s; }
-  double presliding_N_m(std::uint32_t primitive) const { return material(primitive).presliding_N_m; }
+  double stribeck_m_s(PrimitiveId primitive) const { return material(primitive).stribeck_m_s; }
+  double presliding_N_m(PrimitiveId primitive) const { return material(primitive).presliding_N_m; }
 
   /// Whether a texture modulates the quantity on this primitive.
-  bool textured(std::uint32_t primitive, Quantity quantity) const;
+  bool textured(PrimitiveId primitive, Quantity quantity) const;
   /// Whether friction or viscosity change along this primitive.
-  bool dragTextured(std::uint32_t primitive) const;
+  bool dragTextured(PrimitiveId primitive) const;
   /// Texels that a step crosses when the place moves along it, in the finest of its textures (not the bump map's).
   double texelsAlong(const SurfacePlace& place, const Vec3& step) const;
   /// The place after the contact has moved by `step` in the plane of its triangle; beyond the edge the triangle's
@@ -60,22 +60,27 @@ class SurfaceReader {
   SurfacePlace moved(const SurfacePlace& place, const Vec3& step) const;
 
  private:
-  const Material& material(std::uint32_t primitive) const { return snapshot_.materialOf(primitive); }
-  bool smooth(std::uint32_t primitive) const {
-    return set_.smooth.value_or(material(primitive).smooth) && !snapshot_.model.normals.empty();
+  const Shape& shape(PrimitiveId primitive) const { return *scene_.instance(primitive).shape; }
+  const Surfaces& surfaces(PrimitiveId primitive) const { return *scene_.instance(primitive).surfaces; }
+  const Material& material(PrimitiveId primitive) const {
+    return surfaces(primitive).materials[shape(primitive).materialOf(primitive.element)];
+  }
+  bool smooth(PrimitiveId primitive) const {
+    return set_.smooth.value_or(material(primitive).smooth) && !shape(primitive).model.normals.empty();
   }
   /// The number that the user set for a quantity everywhere, if any.
   const std::optional<double>& overridden(Quantity quantity) const;
-  const Texture& textureOf(std::uint32_t primitive, Quantity quantity) const {
-    return snapshot_.model.textures[material(primitive).textureOf(quantity).texture];
+  const Texture& textureOf(PrimitiveId primitive, Quantity quantity) const {
+    return *surfaces(primitive).textures[material(primitive).textureOf(quantity).texture];
   }
-  const Vec3& vertexNormal(const Primitive& primitive, std::size_t sorted) const;
-  const Vec2& vertexTexcoord(const Primitive& primitive, std::size_t sorted) const;
+  const Vec3& vertexNormal(PrimitiveId id, std::size_t sorted) const;
+  const Vec2& vertexTexcoord(PrimitiveId id, std::size_t sorted) const;
   Vec2 texcoord(const SurfacePlace& place) const;
+  // In the frame of the object.
   void shade(const SurfacePlace& place, BentNormal& bent) const;
   void bump(const SurfacePlace& place, BentNormal& bent) const;
 
-  const Snapshot& snapshot_;
+  const SceneAt& scene_;
   const MaterialOverride& set_;
 };
 

@@ -37,13 +37,14 @@ double texcoordSlope(const Model& model, const std::array<std::uint32_t, 3>& t) 
 }  // namespace
 
 double bumpCurvature_per_m(const Snapshot& snapshot, std::size_t material) {
-  const Model& model = snapshot.model;
+  const Shape& shape = snapshot.shape();
+  const Model& model = shape.model;
   const TextureUse& use = model.materials[material].textureOf(Quantity::kHeight);
   if (!use.used() || model.texcoords.empty()) return 0;
   double slope = 0;
-  for (std::uint32_t i = 0; i < snapshot.primitives.size(); ++i) {
-    const Primitive& primitive = snapshot.primitives[i];
-    const std::size_t own = snapshot.material_of.empty() ? 0 : snapshot.material_of[i];
+  for (std::uint32_t i = 0; i < shape.primitives.size(); ++i) {
+    const Primitive& primitive = shape.primitives[i];
+    const std::size_t own = shape.materialOf(i);
     if (own == material && primitive.kind == PrimitiveKind::kTriangle)
       slope = std::max(slope, texcoordSlope(model, model.triangles[primitive.source]));
   }

@@ -1,88 +1,83 @@
 #include "scene/snapshot.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
-
-#include "geometry/brute_force.h"
-#include "geometry/sphere_tree.h"
 
 namespace hl {
 
 namespace {
 
-// Calls make(vertices..., source, primitive) for one list of elements; returns how many were refused.
-template <typename List, typename Make>
-std::size_t addElements(const Model& model, const List& list, std::vector<Primitive>& primitives, Make make) {
-  std::size_t skipped = 0;
-  for (std::uint32_t source = 0; source < list.size(); ++source) {
-    Primitive primitive;
-    if (make(model, list[source], source, primitive)) {
-      primitives.push_back(primitive);
-    } else {
-      ++skipped;
-    }
-  }
-  return skipped;
+void addSphere(Box& box, const Vec3& centre, double radius) {
+  box.extend(centre - Vec3::Constant(radius));
+  box.extend(centre + Vec3::Constant(radius));
 }
 
-bool inRange(const Model& model, std::uint32_t index) { return index < model.positions.size(); }
-
-bool fromTriangle(const Model& model, const std::array<std::uint32_t, 3>& t, std::uint32_t source, Primitive& out) {
-  return inRange(model, t[0]) && inRange(model, t[1]) && inRange(model, t[2]) &&
-         makeTriangle(model.positions[t[0]], model.positions[t[1]], model.positions[t[2]], source, out);
+Box boxAt(const Box& object, const Pose& pose) {
+  if (pose == Pose{}) return object;
+  const Vec3 centre = pose.toWorld(object.centre());
+  const Vec3 half = pose.rotation.cwiseAbs() * (0.5 * object.size());
+  Box box;
+  box.extend(centre - half);
+  box.extend(centre + half);
+  return box;
 }
 
-bool fromSegment(const Model& model, const std::array<std::uint32_t, 2>& s, std::uint32_t source, Primitive& out) {
-  return inRange(model, s[0]) && inRange(model, s[1]) &&
-         makeSegment(model.positions[s[0]], model.positions[s[1]], source, out);
+// While it moves: the sphere about its box moves with a centre that strays from its two ends by no more than their
+// distance, as a turn is at most half a circle and the axis of a screw is straight.
+Box reachOf(const Instance& instance) {
+  const Box& object = instance.shape->bounds;
+  if (object.empty()) return object;
+  if (!instance.motion.moves()) return boxAt(object, instance.motion.to());
+  const Vec3 begin = instance.motion.from().toWorld(object.centre());
+  const Vec3 end = instance.motion.to().toWorld(object.centre());
+  const double radius = 0.5 * object.size().norm() + (instance.motion.angle() > 0 ? (end - begin).norm() : 0.0);
+  Box box;
+  addSphere(box, begin, radius);
+  addSphere(box, end, radius);
+  return box;
 }
 
-bool fromPoint(const Model& model, std::uint32_t point, std::uint32_t source, Primitive& out) {
-  return inRange(model, point) && makePoint(model.positions[point], source, out);
-}
-
-void warnSkipped(std::vector<std::string>& warnings, std::size_t count, const char* what) {
-  if (count > 0) warnings.push_back("skipped " + std::to_string(count) + " degenerate or non-finite " + what);
-}
-
-// The material of each primitive; empty when the model names none.
-std::vector<std::uint16_t> materialsOf(const Model& model, const std::vector<Primitive>& primitives) {
-  if (model.triangle_materials.empty() && model.segment_materials.empty() && model.point_materials.empty()) return {};
-  std::vector<std::uint16_t> result;
-  result.reserve(primitives.size());
-  for (const Primitive& primitive : primitives) {
-    const auto& list = primitive.kind == PrimitiveKind::kTriangle  ? model.triangle_materials
-                       : primitive.kind == PrimitiveKind::kSegment ? model.segment_materials
-                                                                   : model.point_materials;
-    const std::uint16_t material = primitive.source < list.size() ? list[primitive.source] : std::uint16_t{0};
-    result.push_back(material < model.materials.size() ? material : std::uint16_t{0});
-  }
-  return result;
+double largestCoordinate(const Box& box) {
+  return box.empty() ? 0 : box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff();
 }
 
 }  // namespace
 
-std::shared_ptr<const Snapshot> makeSnapshot(Model model, HierarchyKind hierarchy) {
+std::shared_ptr<const Surfaces> surfacesOf(const std::shared_ptr<const Shape>& shape) {
+  auto surfaces = std::make_shared<Surfaces>();
+  surfaces->materials = shape->model.materials;
+  for (const Texture& texture : shape->model.textures) surfaces->textures.emplace_back(shape, &texture);
+  return surfaces;
+}
+
+std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, std::string name) {
   auto snapshot = std::make_shared<Snapshot>();
-  auto& primitives = snapshot->primitives;
-  primitives.reserve(model.elements());
-  snapshot->warnings = model.warnings;
-  warnSkipped(snapshot->warnings, addElements(model, model.triangles, primitives, fromTriangle), "triangles");
-  warnSkipped(snapshot->warnings, addElements(model, model.segments, primitives, fromSegment), "segments");
-  warnSkipped(snapshot->warnings, addElements(model, model.points, primitives, fromPoint), "points");
-  for (const Primitive& primitive : primitives) {
-    for (const Vec3& vertex : primitive.vertex) snapshot->bounds.extend(vertex);
+  snapshot->name = std::move(name);
+  snapshot->instances = std::move(instances);
+  std::sort(snapshot->instances.begin(), snapshot->instances.end(),
+            [](const Instance& a, const Instance& b) { return a.key < b.key; });
+  for (Instance& instance : snapshot->instances) {
+    instance.reach = reachOf(instance);
+    const Box rest = boxAt(instance.shape->bounds, instance.motion.to());
+    if (!rest.empty()) {
+      snapshot->bounds.extend(rest.min);
+      snapshot->bounds.extend(rest.max);
+    }
+    snapshot->extent = std::max({snapshot->extent, instance.shape->extent, largestCoordinate(instance.reach)});
+    snapshot->primitives += instance.shape->primitives.size();
   }
-  snapshot->material_of = materialsOf(model, primitives);
-  if (!snapshot->bounds.empty()) {
-    snapshot->extent = snapshot->bounds.min.cwiseAbs().cwiseMax(snapshot->bounds.max.cwiseAbs()).maxCoeff();
-  }
-  if (hierarchy == HierarchyKind::kSpheres) {
-    snapshot->index = std::make_unique<SphereTree>(SphereTree::build(primitives));
-  } else {
-    snapshot->index = std::make_unique<BruteForceIndex>(primitives.size());
-  }
-  snapshot->model = std::move(model);
+  return snapshot;
+}
+
+std::shared_ptr<const Snapshot> makeSnapshot(Model model, HierarchyKind hierarchy) {
+  Instance instance;
+  std::string name = model.name;
+  instance.shape = makeShape(std::move(model), hierarchy);
+  instance.surfaces = surfacesOf(instance.shape);
+  instance.key = 1;
+  auto snapshot = std::make_shared<Snapshot>(*makeSnapshot({std::move(instance)}, std::move(name)));
+  snapshot->warnings = snapshot->shape().warnings;
   return snapshot;
 }
 

@@ -1,4 +1,4 @@
-// Snapshot: the immutable scene that the proxy touches, with the hierarchy over its primitives.
+// Snapshot: the immutable scene that the proxy touches: shapes, each placed where an object is.
 #pragma once
 
 #include <cstdint>
@@ -6,33 +6,48 @@
 #include <string>
 #include <vector>
 
-#include "geometry/primitive.h"
-#include "geometry/spatial_index.h"
-#include "scene/model.h"
+#include "scene/material.h"
+#include "scene/motion.h"
+#include "scene/shape.h"
+#include "scene/texture.h"
 
 namespace hl {
 
-/// Which structure finds the primitives near the proxy: the paper's sphere tree, or none (every primitive is tested).
-enum class HierarchyKind : std::uint8_t { kSpheres, kNone };
+/// How the surfaces of an instance feel: what the material numbers of its shape mean here.
+struct Surfaces {
+  std::vector<Material> materials;                       ///< at least as many as the shape's model has
+  std::vector<std::shared_ptr<const Texture>> textures;  ///< what TextureUse::texture counts
+};
+
+/// A shape where it is shown.
+struct Instance {
+  std::shared_ptr<const Shape> shape;
+  std::shared_ptr<const Surfaces> surfaces;
+  Motion motion;
+  std::uint64_t key = 0;  ///< the same object in the next snapshot has the same one; unique in a snapshot
+  std::uint32_t session = 0, object = 0, name = 0;  ///< whose it is and what its client calls it
+  Box reach{};  ///< world, all of it during the whole motion; filled by makeSnapshot
+};
 
 /// Immutable after makeSnapshot; read by any thread. Metres, world frame.
 struct Snapshot {
-  Model model;
-  std::vector<Primitive> primitives;
-  std::vector<std::uint16_t> material_of;  ///< one per primitive, or empty: all use material 0
-  std::unique_ptr<const SpatialIndex> index;
-  Box bounds;
-  /// m: largest coordinate; distances in this scene are known to a few units in its last place.
+  std::vector<Instance> instances;  ///< by rising key
+  Box bounds;                       ///< of all of them where they come to rest
+  /// m: largest coordinate, in the world or in an object; distances are known to a few units in its last place.
   double extent = 0;
-  std::vector<std::string> warnings;  ///< the model's, and what was skipped here
+  std::size_t primitives = 0;  ///< each instance counted
+  std::string name;
+  std::vector<std::string> warnings;
 
-  const Material& materialOf(std::uint32_t primitive) const {
-    return model.materials[material_of.empty() ? 0 : material_of[primitive]];
-  }
+  const Shape& shape(std::size_t instance = 0) const { return *instances[instance].shape; }
 };
 
-/// Takes over `model`. Degenerate and non-finite elements, and indices out of range, are skipped and counted in
-/// `warnings`. Allocates; never called by a real-time thread.
+/// The surfaces as the shape's own model describes them.
+std::shared_ptr<const Surfaces> surfacesOf(const std::shared_ptr<const Shape>& shape);
+
+/// Allocates; never called by a real-time thread.
+std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, std::string name = {});
+/// One model where it says, world and object frame the same.
 std::shared_ptr<const Snapshot> makeSnapshot(Model model, HierarchyKind hierarchy);
 
 }  // namespace hl

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "geometry/queries.h"
+#include "scene/scene_at.h"
 
 namespace hl {
 
@@ -35,9 +35,9 @@ Vec3 explore(const Snapshot& snapshot, const ExplorationSettings& settings, doub
   const double reach = 0.5 * snapshot.bounds.size().norm() + 4 * settings.radius + settings.lift;
   const Vec3 outward = direction(time_s);
   const Vec3 from = centre + reach * outward;
-  FirstImpact impact;
+  SceneImpact impact;
   const bool hit =
-      firstImpact(*snapshot.index, snapshot.primitives, from, -reach * outward, settings.radius, -1, impact);
+      SceneAt(snapshot).firstImpact(from, -reach * outward, settings.radius, -1, impact);
   const double surface = hit ? reach * (1 - impact.impact.t) : 0.0;
   const double depth = settings.press * pressing(time_s) - settings.lift * (1 - pressing(time_s));
   return centre + (surface - depth) * outward;

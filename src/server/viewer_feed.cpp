@@ -41,7 +41,7 @@ std::string hello(const TouchSession& session, const std::string& version) {
   proto::Hello& out = *message.mutable_hello();
   out.set_protocol_version(kProtocolVersion);
   out.set_server_version(version);
-  out.set_scene_name(session.snapshot().model.name);
+  out.set_scene_name(session.snapshot().name);
   const DeviceInfo& info = session.deviceInfo();
   proto::DeviceInfo& device = *out.mutable_device();
   device.set_name(info.name);
@@ -58,19 +58,19 @@ std::string sceneMesh(const TouchSession& session) {
   const Snapshot& snapshot = session.snapshot();
   proto::ServerMessage message;
   proto::SceneMesh& out = *message.mutable_scene();
-  out.set_name(snapshot.model.name);
-  out.set_positions(floatsOf(snapshot.model.positions));
-  out.set_normals(floatsOf(snapshot.model.normals));
-  out.set_triangles(bytesOf(snapshot.model.triangles));
-  out.set_segments(bytesOf(snapshot.model.segments));
-  out.set_points(bytesOf(snapshot.model.points));
+  out.set_name(snapshot.shape().model.name);
+  out.set_positions(floatsOf(snapshot.shape().model.positions));
+  out.set_normals(floatsOf(snapshot.shape().model.normals));
+  out.set_triangles(bytesOf(snapshot.shape().model.triangles));
+  out.set_segments(bytesOf(snapshot.shape().model.segments));
+  out.set_points(bytesOf(snapshot.shape().model.points));
   if (!snapshot.bounds.empty()) {
     set(out.mutable_bounds_min(), snapshot.bounds.min);
     set(out.mutable_bounds_max(), snapshot.bounds.max);
   }
   out.set_proxy_radius(session.radius_W());
   out.set_world_per_device(session.workspace().world_per_device);
-  addSurfaceImages(snapshot.model, out);
+  addSurfaceImages(snapshot.shape().model, out);
   return message.SerializeAsString();
 }
 

@@ -125,7 +125,7 @@ TEST(LoadModel, BadNumbersAreSkippedWithACount) {
   const Model model =
       loadModel(fileWith("nan.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nf 1 2 3\nf 1 2 4\nf 1 1 2\n"));
   const auto snapshot = makeSnapshot(model, HierarchyKind::kNone);
-  EXPECT_EQ(snapshot->primitives.size(), 1u);
+  EXPECT_EQ(snapshot->primitives, 1u);
 }
 
 TEST(Isolated, AParserThatCrashesOrNeverEndsIsAnError) {

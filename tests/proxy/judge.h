@@ -18,8 +18,8 @@ namespace hl::judge {
 /// Smallest distance from p to a primitive within `reach`, or `reach`.
 inline double clearance(const Snapshot& scene, const Vec3& p, double reach) {
   double nearest = reach;
-  primitivesWithin(*scene.index, scene.primitives, p, reach,
-                   [&](std::uint32_t, const ClosestPoint& c) { nearest = std::min(nearest, c.distance); });
+  SceneAt(scene).primitivesWithin(p, reach,
+                                  [&](PrimitiveId, const ClosestPoint& c) { nearest = std::min(nearest, c.distance); });
   return nearest;
 }
 
@@ -28,7 +28,7 @@ inline double kktResidual(const Snapshot& scene, const Vec3& p, const Vec3& fing
   const double gap = (finger - p).norm();
   if (gap < 1e-9 * radius) return 0;
   std::vector<Plane> planes;
-  primitivesWithin(*scene.index, scene.primitives, p, radius * (1 + 1e-6), [&](std::uint32_t, const ClosestPoint& c) {
+  SceneAt(scene).primitivesWithin(p, radius * (1 + 1e-6), [&](PrimitiveId, const ClosestPoint& c) {
     planes.push_back({c.normal, 0});
   });
   return nearestAbove(planes, (finger - p) / gap, 1e-12).point.norm();

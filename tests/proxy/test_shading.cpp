@@ -128,7 +128,7 @@ TEST(Shading, OncePerTickStaysWithinAThirdOfADegree) {
     tick(b, *scene, converged, finger);
     if (i > 30) worst = std::max(worst, std::abs(wrapped(angleOf(a.position - finger) - angleOf(b.position - finger))));
     double nearest = 1e9;
-    for (const Primitive& primitive : scene->primitives)
+    for (const Primitive& primitive : scene->shape().primitives)
       nearest = std::min(nearest, closestPoint(primitive, a.position).distance);
     off_surface = std::max(off_surface, std::abs(nearest - radius));
   }
@@ -188,9 +188,9 @@ TEST(Shading, TwoShadedCylindersHoldTheProxyInTheCusp) {
   for (const double x : {-1.0, 1.0}) {
     const auto part = prism(40);
     const auto base = static_cast<std::uint32_t>(model.positions.size());
-    for (const Vec3& p : part->model.positions) model.positions.push_back(p + x * Vec3::UnitX());
-    model.normals.insert(model.normals.end(), part->model.normals.begin(), part->model.normals.end());
-    for (const auto& t : part->model.triangles) model.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
+    for (const Vec3& p : part->shape().model.positions) model.positions.push_back(p + x * Vec3::UnitX());
+    model.normals.insert(model.normals.end(), part->shape().model.normals.begin(), part->shape().model.normals.end());
+    for (const auto& t : part->shape().model.triangles) model.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
   }
   const auto scene = test::snapshotOf(std::move(model));
   const ProxySettings settings = settingsOf(0.1, true);

@@ -201,7 +201,7 @@ constexpr int kWalkTicks = 1'000'000;
 // The order in which triangles come, and the structure that finds them, change no bit of any effect.
 TEST(Ledger, TheSameBitsWhateverTheOrderOfTheTriangles) {
   const auto scene = soup(300);
-  Model shuffled = scene->model;
+  Model shuffled = scene->shape().model;
   std::shuffle(shuffled.triangles.begin(), shuffled.triangles.end(), std::mt19937(9));
   const auto other = makeSnapshot(std::move(shuffled), HierarchyKind::kNone);
   const Walk a = randomWalk(*scene, settingsOf(LedgerMode::kTank), 5000);

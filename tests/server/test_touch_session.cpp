@@ -17,8 +17,8 @@ namespace {
 
 double clearance(const Snapshot& scene, const Vec3& p, double reach) {
   double nearest = reach;
-  primitivesWithin(*scene.index, scene.primitives, p, reach,
-                   [&](std::uint32_t, const ClosestPoint& c) { nearest = std::min(nearest, c.distance); });
+  SceneAt(scene).primitivesWithin(p, reach,
+                                  [&](PrimitiveId, const ClosestPoint& c) { nearest = std::min(nearest, c.distance); });
   return nearest;
 }
 

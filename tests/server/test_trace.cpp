@@ -52,11 +52,10 @@ Judgement judge(const Snapshot& snapshot, double radius, double phase, const Mat
     last = row.finger;
     result.nearest_middle = std::min(result.nearest_middle, row.proxy.norm());
     std::vector<Plane> planes;
-    primitivesWithin(*snapshot.index, snapshot.primitives, row.proxy, radius * (1 + 1e-6),
-                     [&](std::uint32_t, const ClosestPoint& c) {
-                       planes.push_back({c.normal, 0});
-                       result.least_clearance = std::min(result.least_clearance, c.distance);
-                     });
+    SceneAt(snapshot).primitivesWithin(row.proxy, radius * (1 + 1e-6), [&](PrimitiveId, const ClosestPoint& c) {
+      planes.push_back({c.normal, 0});
+      result.least_clearance = std::min(result.least_clearance, c.distance);
+    });
     const Vec3 gap = row.finger - row.proxy;
     if (gap.norm() < 1e-9) return;
     const double residual = nearestAbove(planes, gap.normalized(), 1e-12).point.norm();

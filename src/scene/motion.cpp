@@ -1,0 +1,74 @@
+// The exponential of a twist (w, v), |w| = q, with the cross-product matrix W of w:
+//
+//   exp = (I + A W + B W^2,  V v),   V = I + B W + C W^2,   A = sin q / q,  B = (1 - cos q) / q^2,  C = (q - sin q) /
+//   q^3
+//
+// and along the way, s in 0..1, the rotation exp(s w) and the translation s V(s w) v.
+#include "scene/motion.h"
+
+#include <cmath>
+
+namespace hl {
+
+namespace {
+
+// Below this angle the closed forms of B and C lose their digits; two terms of the series are then exact to 1e-18.
+constexpr double kSeries_rad = 1e-2;
+
+struct Coefficients {
+  double a, b, c;
+};
+
+Coefficients coefficientsOf(double angle) {
+  const double q2 = angle * angle;
+  if (angle < kSeries_rad) {
+    return {1 - q2 / 6 * (1 - q2 / 20 * (1 - q2 / 42)), 0.5 - q2 / 24 * (1 - q2 / 30 * (1 - q2 / 56)),
+            1.0 / 6 - q2 / 120 * (1 - q2 / 42 * (1 - q2 / 72))};
+  }
+  return {std::sin(angle) / angle, (1 - std::cos(angle)) / q2, (angle - std::sin(angle)) / (q2 * angle)};
+}
+
+Mat3 crossMatrix(const Vec3& w) {
+  Mat3 m;
+  m << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
+  return m;
+}
+
+Mat3 slideMatrix(const Vec3& turn) {
+  const Coefficients k = coefficientsOf(turn.norm());
+  const Mat3 w = crossMatrix(turn);
+  return Mat3::Identity() + k.b * w + k.c * w * w;
+}
+
+Vec3 rotationVector(const Mat3& rotation) {
+  const Eigen::AngleAxisd turn(rotation);
+  return turn.angle() * turn.axis();
+}
+
+}  // namespace
+
+Motion::Motion(const Pose& pose) : from_(pose), to_(pose), identity_(pose == Pose{}) {}
+
+Motion::Motion(const Pose& from, const Pose& to, std::int64_t begin_ns, std::int64_t end_ns)
+    : from_(from), to_(to), begin_ns_(begin_ns), end_ns_(end_ns), moves_(!(from == to)) {
+  identity_ = !moves_ && to == Pose{};
+  if (!moves_) return;
+  const Mat3 relative = to.rotation * from.rotation.transpose();
+  turn_ = rotationVector(relative);
+  slide_ = slideMatrix(turn_).inverse() * (to.origin - relative * from.origin);
+}
+
+Pose Motion::at(std::int64_t time_ns) const {
+  if (!moves_ || time_ns >= end_ns_) return to_;
+  if (time_ns <= begin_ns_) return from_;
+  const double s = static_cast<double>(time_ns - begin_ns_) / static_cast<double>(end_ns_ - begin_ns_);
+  const Vec3 turn = s * turn_;
+  const Coefficients k = coefficientsOf(turn.norm());
+  const Mat3 w = crossMatrix(turn);
+  const Mat3 w2 = w * w;
+  const Mat3 rotation = Mat3::Identity() + k.a * w + k.b * w2;
+  const Vec3 slide = s * (slide_ + k.b * (w * slide_) + k.c * (w2 * slide_));
+  return {rotation * from_.rotation, rotation * from_.origin + slide};
+}
+
+}  // namespace hl

@@ -1,0 +1,62 @@
+// SceneAt: a snapshot at one moment, as the proxy asks it: what is near, what is hit first, in the world frame.
+// Questions go to each object near the place, in its own frame, and the answers come back.
+#pragma once
+
+#include <cstdint>
+
+#include "base/function_ref.h"
+#include "geometry/closest_point.h"
+#include "geometry/sweep.h"
+#include "scene/snapshot.h"
+
+namespace hl {
+
+/// A primitive of one instance of a snapshot.
+struct PrimitiveId {
+  std::uint32_t instance = 0;
+  std::uint32_t element = 0;  ///< index into its shape's primitives
+  bool operator==(const PrimitiveId&) const = default;
+};
+
+/// Valid only when firstImpact returned true. World frame.
+struct SceneImpact {
+  Impact impact;
+  PrimitiveId primitive;
+};
+
+/// A pointer and a time; the snapshot must outlive it. RT-safe.
+class SceneAt {
+ public:
+  SceneAt(const Snapshot& snapshot, std::int64_t time_ns = 0)  // NOLINT: a snapshot at rest is a scene
+      : snapshot_(snapshot), time_ns_(time_ns) {}
+
+  const Snapshot& snapshot() const { return snapshot_; }
+  std::int64_t time_ns() const { return time_ns_; }
+  double extent() const { return snapshot_.extent; }
+
+  const Instance& instance(PrimitiveId id) const { return snapshot_.instances[id.instance]; }
+  /// In the frame of its object.
+  const Primitive& primitive(PrimitiveId id) const { return instance(id).shape->primitives[id.element]; }
+  Vec3 turnToObject(PrimitiveId id, const Vec3& v_W) const;
+  Vec3 turnToWorld(PrimitiveId id, const Vec3& v_O) const;
+
+  /// As closestPoint of geometry/closest_point.h, in the world frame.
+  ClosestPoint closest(PrimitiveId id, const Vec3& p) const;
+  /// Unit direction of the edge that `feature` names, or of a segment; world frame.
+  Vec3 edge(PrimitiveId id, Feature feature) const;
+  /// Whether `a` comes before `b` by where they are, and copies by what they are; never by the order they were given
+  /// in.
+  bool precedes(PrimitiveId a, PrimitiveId b) const;
+
+  /// Visits every primitive within `distance` (m, inclusive) of `centre`; may repeat one, in no given order.
+  void primitivesWithin(const Vec3& centre, double distance,
+                        FunctionRef<void(PrimitiveId primitive, const ClosestPoint& nearest)> visit) const;
+  /// As firstImpact of geometry/queries.h.
+  bool firstImpact(const Vec3& from, const Vec3& motion, double radius, double touching, SceneImpact& out) const;
+
+ private:
+  const Snapshot& snapshot_;
+  std::int64_t time_ns_;
+};
+
+}  // namespace hl

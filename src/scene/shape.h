@@ -1,0 +1,37 @@
+// Shape: a model made ready for touch: its primitives and the hierarchy over them. Shared by all places where it is
+// shown.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "geometry/primitive.h"
+#include "geometry/spatial_index.h"
+#include "scene/model.h"
+
+namespace hl {
+
+/// Which structure finds the primitives near the proxy: the paper's sphere tree, or none (every primitive is tested).
+enum class HierarchyKind : std::uint8_t { kSpheres, kNone };
+
+/// Immutable after makeShape; read by any thread. Metres, object frame.
+struct Shape {
+  Model model;
+  std::vector<Primitive> primitives;
+  std::vector<std::uint16_t> material_of;  ///< one per primitive, or empty: all use material 0
+  std::unique_ptr<const SpatialIndex> index;
+  Box bounds;
+  double extent = 0;                  ///< m: largest coordinate
+  std::vector<std::string> warnings;  ///< the model's, and what was skipped here
+
+  /// Number of the primitive's material in the list of the model, or of whatever stands in for it.
+  std::size_t materialOf(std::uint32_t primitive) const { return material_of.empty() ? 0 : material_of[primitive]; }
+};
+
+/// Takes over `model`. Degenerate and non-finite elements, and indices out of range, are skipped and counted in
+/// `warnings`. Allocates; never called by a real-time thread.
+std::shared_ptr<const Shape> makeShape(Model model, HierarchyKind hierarchy);
+
+}  // namespace hl
