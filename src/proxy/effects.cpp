@@ -28,10 +28,13 @@ constexpr int kMostSamples = 4096;
 bool Effects::any(const ContactSet& set) const {
   return std::any_of(set.contacts.begin(), set.contacts.end(), [&](const Contact& contact) {
     const SurfacePlace place = placeOf(contact);
-    return reader_.mayBend(contact.primitive) || reader_.dragTextured(contact.primitive) ||
-           reader_.value(Quantity::kStaticFriction, place) > 0 ||
-           reader_.value(Quantity::kDynamicFriction, place) > 0 || reader_.value(Quantity::kViscosity, place) > 0;
+    return reader_.mayBend(contact.primitive) || rough(place);
   });
+}
+
+bool Effects::rough(const SurfacePlace& place) const {
+  return reader_.dragTextured(place.primitive) || reader_.value(Quantity::kStaticFriction, place) > 0 ||
+         reader_.value(Quantity::kDynamicFriction, place) > 0 || reader_.value(Quantity::kViscosity, place) > 0;
 }
 
 // Whether a primitive that shares the edge or vertex under the contact has another normal there.
@@ -224,7 +227,8 @@ ProxyContact Effects::describe(const ContactSet& set, const Holding& holding) co
           holding.multiplier_m,
           holding.place.primitive,
           std::clamp(reader_.value(Quantity::kStiffness, holding.place), 0.0, 1.0),
-          std::max(0.0, reader_.value(Quantity::kStaticFriction, holding.place))};
+          std::max(0.0, reader_.value(Quantity::kStaticFriction, holding.place)),
+          rough(holding.place)};
 }
 
 }  // namespace hl

@@ -79,6 +79,7 @@ class Effects {
   };
   using TouchedSet = FixedVector<Touched, kMaxContacts>;
 
+  bool rough(const SurfacePlace& place) const;
   TouchedSet touchedNow(const ContactSet& set) const;
   bool creased(const ContactSet& set, const Contact& contact, const Vec3& normal) const;
   void moveOn(const ContactSet& set, const Vec3& centre, TouchedSet& touched) const;

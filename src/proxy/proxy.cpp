@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "proxy/account.h"
+#include "proxy/carry.h"
+#include "proxy/clear_place.h"
 #include "proxy/contacts.h"
 #include "proxy/curvature_step.h"
 #include "proxy/effects.h"
@@ -205,27 +207,31 @@ TickReport Tick::run() {
   return report;
 }
 
-// Pushes a sphere that starts within the scene out of it. Its centre never crosses a surface: each step is swept by the
-// largest sphere that is clear of the scene where it starts.
-bool findClearPlace(const SceneAt& scene, const Tolerances& tolerance, Vec3& position) {
-  constexpr int kTries = 100;
-  ContactSet set;
-  for (int i = 0; i < kTries; ++i) {
-    gatherContacts(scene, position, tolerance.reach - tolerance.skin, tolerance.reach, set);
-    if (set.contacts.empty()) return true;
-    double clearance = tolerance.reach;
-    for (const Contact& contact : set.contacts) clearance = std::min(clearance, contact.distance);
-    const std::span<const Plane> planes(set.planes.begin(), set.planes.size());
-    const Vec3 step = nearestAbove(planes, Vec3::Zero(), tolerance.feasible).point;
-    SceneImpact impact;
-    const double safe = 0.5 * clearance;
-    if (safe > 0 && scene.firstImpact(position, step, safe, -1, impact)) {
-      position += impact.impact.t * step;
-    } else {
-      position += step;
-    }
+// The part of the next tick that depends on where the proxy has come to rest: the object whose friction holds it.
+std::uint64_t carrierOf(const SceneAt& scene, const TickReport& report) {
+  double most = 0;
+  std::uint64_t key = 0;
+  for (const ProxyContact& contact : report.contacts) {
+    if (!contact.rough || contact.multiplier_m <= most) continue;
+    most = contact.multiplier_m;
+    key = scene.instance(contact.primitive).key;
   }
-  return false;
+  return key;
+}
+
+// Energy of the spring at the finger, J at the hand.
+double springEnergy_J(const ProxyState& state, const ProxySettings& settings, const Vec3& finger) {
+  const Vec3 gap_D = (state.position - finger) / settings.world_per_device;
+  return 0.5 * settings.spring_N_m * state.stiffness * gap_D.squaredNorm();
+}
+
+// Moving objects do work on the hand; that is theirs, not the rules', and no tank pays for it.
+double carryAlong(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
+  const double before_J = springEnergy_J(state, settings, finger);
+  carry(state, scene, settings);
+  const double moved_J = springEnergy_J(state, settings, finger) - before_J;
+  if (moved_J > 0) state.ledger.add(EnergyCause::kMoving, moved_J);
+  return moved_J;
 }
 
 }  // namespace
@@ -234,7 +240,9 @@ ProxyState startProxy(const SceneAt& scene, const ProxySettings& settings, const
   ProxyState state;
   if (!finger.allFinite()) return state;
   state.position = finger;
-  state.free = findClearPlace(scene, Tolerances::of(settings.radius, scene.extent()), state.position);
+  state.time_ns = scene.time_ns();
+  constexpr int kTries = 100;
+  state.free = findClearPlace(scene, Tolerances::of(settings.radius, scene.extent()), kTries, state.position);
   return state;
 }
 
@@ -251,7 +259,12 @@ TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& se
     report.target = finger;
     return report;
   }
-  return Tick(scene, settings, state, finger).run();
+  const double moved_J = carryAlong(state, scene, settings, finger);
+  report = Tick(scene, settings, state, finger).run();
+  report.moved_J = moved_J;
+  state.time_ns = scene.time_ns();
+  state.carrier = carrierOf(scene, report);
+  return report;
 }
 
 }  // namespace hl

@@ -46,6 +46,8 @@ struct ProxyState {
   double rest_s = kStuck_s;      ///< since it last slipped along a surface; from kStuck_s on static friction holds it
   Vec3 creep = Vec3::Zero();     ///< m, how far it has crept from where it stuck, on the pre-sliding springs
   double stiffness = 1;          ///< s by which the last tick's target was pulled; 1 in the open
+  std::int64_t time_ns = 0;      ///< of the scene in the last tick
+  std::uint64_t carrier = 0;     ///< key of the object whose friction holds it; 0: none
   Ledger ledger{};
 };
 
@@ -57,12 +59,14 @@ struct ProxyContact {
   PrimitiveId primitive;
   double stiffness;        ///< s of the surface here, 0..1
   double static_friction;  ///< mu_s
+  bool rough;              ///< friction or viscosity act here
 };
 
 struct TickReport {
   FixedVector<ProxyContact, 3> contacts;
   Vec3 target = Vec3::Zero();  ///< where the servo pulls the finger: the proxy after stiffness
   double injected_J = 0;       ///< what the tick did to the spring's energy: added (positive) or dissipated (negative)
+  double moved_J = 0;          ///< what moving objects did to it before
   int iterations = 0;
   bool capped = false;  ///< the iteration cap or the room for contacts ended the tick before the local minimum
   bool valid = true;    ///< false when the finger was not finite; then nothing has moved

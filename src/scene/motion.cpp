@@ -47,18 +47,15 @@ Vec3 rotationVector(const Mat3& rotation) {
 
 }  // namespace
 
-Motion::Motion(const Pose& pose) : from_(pose), to_(pose), identity_(pose == Pose{}) {}
-
-Motion::Motion(const Pose& from, const Pose& to, std::int64_t begin_ns, std::int64_t end_ns)
+Screw::Screw(const Pose& from, const Pose& to, std::int64_t begin_ns, std::int64_t end_ns)
     : from_(from), to_(to), begin_ns_(begin_ns), end_ns_(end_ns), moves_(!(from == to)) {
-  identity_ = !moves_ && to == Pose{};
   if (!moves_) return;
   const Mat3 relative = to.rotation * from.rotation.transpose();
   turn_ = rotationVector(relative);
   slide_ = slideMatrix(turn_).inverse() * (to.origin - relative * from.origin);
 }
 
-Pose Motion::at(std::int64_t time_ns) const {
+Pose Screw::at(std::int64_t time_ns) const {
   if (!moves_ || time_ns >= end_ns_) return to_;
   if (time_ns <= begin_ns_) return from_;
   const double s = static_cast<double>(time_ns - begin_ns_) / static_cast<double>(end_ns_ - begin_ns_);
@@ -69,6 +66,14 @@ Pose Motion::at(std::int64_t time_ns) const {
   const Mat3 rotation = Mat3::Identity() + k.a * w + k.b * w2;
   const Vec3 slide = s * (slide_ + k.b * (w * slide_) + k.c * (w2 * slide_));
   return {rotation * from_.rotation, rotation * from_.origin + slide};
+}
+
+Motion Motion::then(const Pose& to, std::int64_t begin_ns, std::int64_t end_ns) const {
+  Motion next(to);
+  next.earlier_ = begin_ns < last_.begin_ns() ? earlier_ : last_;
+  next.last_ = Screw(at(begin_ns), to, begin_ns, end_ns);
+  next.identity_ = !next.moves() && to == Pose{};
+  return next;
 }
 
 }  // namespace hl

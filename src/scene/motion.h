@@ -20,29 +20,48 @@ struct Pose {
   bool operator==(const Pose& other) const { return rotation == other.rotation && origin == other.origin; }
 };
 
-/// Rests at `from` until begin, moves, and rests at `to` from end on. Immutable; any thread.
-class Motion {
+/// One way between two poses. Immutable; any thread.
+class Screw {
  public:
-  /// At rest for ever.
-  explicit Motion(const Pose& pose = {});
   /// `begin_ns` < `end_ns`; a turn of more than half a circle goes the short way round.
-  Motion(const Pose& from, const Pose& to, std::int64_t begin_ns, std::int64_t end_ns);
+  Screw(const Pose& from, const Pose& to, std::int64_t begin_ns, std::int64_t end_ns);
+  explicit Screw(const Pose& rest) : from_(rest), to_(rest) {}
 
   bool moves() const { return moves_; }
-  bool identity() const { return identity_; }  ///< at rest, and object frame and world are one
   const Pose& from() const { return from_; }
   const Pose& to() const { return to_; }
+  std::int64_t begin_ns() const { return begin_ns_; }
   std::int64_t end_ns() const { return end_ns_; }
-  /// The same bits for the same moment; exactly from() and to() outside the motion. RT-safe.
+  double angle() const { return turn_.norm(); }  ///< rad
+  /// The same bits for the same moment; exactly from() until begin and to() from end on. RT-safe.
   Pose at(std::int64_t time_ns) const;
-  double angle() const { return turn_.norm(); }  ///< rad, of the whole motion
 
  private:
   Pose from_, to_;
   std::int64_t begin_ns_ = 0, end_ns_ = 0;
-  bool moves_ = false, identity_ = false;
+  bool moves_ = false;
   Vec3 turn_ = Vec3::Zero();   // rad, rotation vector of to * from^-1
   Vec3 slide_ = Vec3::Zero();  // m, v of the twist (turn, v) with exp(turn, v) = to * from^-1
+};
+
+/// At rest, or on a screw that follows another without a jump. Immutable; any thread.
+class Motion {
+ public:
+  /// At rest for ever.
+  explicit Motion(const Pose& pose = {}) : earlier_(pose), last_(pose), identity_(pose == Pose{}) {}
+  /// This motion until `begin_ns`, and from where it is then to `to` at `end_ns` > `begin_ns`.
+  Motion then(const Pose& to, std::int64_t begin_ns, std::int64_t end_ns) const;
+
+  bool moves() const { return earlier_.moves() || last_.moves(); }
+  bool identity() const { return identity_; }  ///< at rest, and object frame and world are one
+  const Screw& earlier() const { return earlier_; }
+  const Screw& last() const { return last_; }
+  const Pose& to() const { return last_.to(); }  ///< where it comes to rest
+  Pose at(std::int64_t time_ns) const { return time_ns < last_.begin_ns() ? earlier_.at(time_ns) : last_.at(time_ns); }
+
+ private:
+  Screw earlier_, last_;
+  bool identity_ = false;
 };
 
 }  // namespace hl

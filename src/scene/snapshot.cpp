@@ -25,17 +25,22 @@ Box boxAt(const Box& object, const Pose& pose) {
 
 // While it moves: the sphere about its box moves with a centre that strays from its two ends by no more than their
 // distance, as a turn is at most half a circle and the axis of a screw is straight.
+void addWay(Box& reach, const Box& object, const Screw& way) {
+  const Vec3 begin = way.from().toWorld(object.centre());
+  const Vec3 end = way.to().toWorld(object.centre());
+  const double radius = 0.5 * object.size().norm() + (way.angle() > 0 ? (end - begin).norm() : 0.0);
+  addSphere(reach, begin, radius);
+  addSphere(reach, end, radius);
+}
+
 Box reachOf(const Instance& instance) {
   const Box& object = instance.shape->bounds;
   if (object.empty()) return object;
   if (!instance.motion.moves()) return boxAt(object, instance.motion.to());
-  const Vec3 begin = instance.motion.from().toWorld(object.centre());
-  const Vec3 end = instance.motion.to().toWorld(object.centre());
-  const double radius = 0.5 * object.size().norm() + (instance.motion.angle() > 0 ? (end - begin).norm() : 0.0);
-  Box box;
-  addSphere(box, begin, radius);
-  addSphere(box, end, radius);
-  return box;
+  Box reach;
+  addWay(reach, object, instance.motion.earlier());
+  addWay(reach, object, instance.motion.last());
+  return reach;
 }
 
 double largestCoordinate(const Box& box) {
@@ -65,6 +70,8 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, st
       snapshot->bounds.extend(rest.max);
     }
     snapshot->extent = std::max({snapshot->extent, instance.shape->extent, largestCoordinate(instance.reach)});
+    if (instance.motion.moves())
+      snapshot->moves_until_ns = std::max(snapshot->moves_until_ns, instance.motion.last().end_ns());
     snapshot->primitives += instance.shape->primitives.size();
   }
   return snapshot;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -35,7 +36,8 @@ struct Snapshot {
   Box bounds;                       ///< of all of them where they come to rest
   /// m: largest coordinate, in the world or in an object; distances are known to a few units in its last place.
   double extent = 0;
-  std::size_t primitives = 0;  ///< each instance counted
+  std::int64_t moves_until_ns = std::numeric_limits<std::int64_t>::min();  ///< after that all is at rest
+  std::size_t primitives = 0;                                              ///< each instance counted
   std::string name;
   std::vector<std::string> warnings;
 

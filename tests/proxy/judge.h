@@ -16,19 +16,19 @@
 namespace hl::judge {
 
 /// Smallest distance from p to a primitive within `reach`, or `reach`.
-inline double clearance(const Snapshot& scene, const Vec3& p, double reach) {
+inline double clearance(const SceneAt& scene, const Vec3& p, double reach) {
   double nearest = reach;
-  SceneAt(scene).primitivesWithin(p, reach,
-                                  [&](PrimitiveId, const ClosestPoint& c) { nearest = std::min(nearest, c.distance); });
+  scene.primitivesWithin(p, reach,
+                         [&](PrimitiveId, const ClosestPoint& c) { nearest = std::min(nearest, c.distance); });
   return nearest;
 }
 
 /// The part of finger - p that no contact within radius (1 + 1e-6) resists, as a fraction of it.
-inline double kktResidual(const Snapshot& scene, const Vec3& p, const Vec3& finger, double radius) {
+inline double kktResidual(const SceneAt& scene, const Vec3& p, const Vec3& finger, double radius) {
   const double gap = (finger - p).norm();
   if (gap < 1e-9 * radius) return 0;
   std::vector<Plane> planes;
-  SceneAt(scene).primitivesWithin(p, radius * (1 + 1e-6), [&](PrimitiveId, const ClosestPoint& c) {
+  scene.primitivesWithin(p, radius * (1 + 1e-6), [&](PrimitiveId, const ClosestPoint& c) {
     planes.push_back({c.normal, 0});
   });
   return nearestAbove(planes, (finger - p) / gap, 1e-12).point.norm();

@@ -1,0 +1,17 @@
+// Carry: what moving objects do to the proxy between two ticks (the paper's section 9 asks for it). The proxy stands
+// still, or goes along with the object whose friction holds it, until an object meets it; that object then pushes it.
+// Everything is swept in the frame of the object that moves, so nothing passes through the proxy at any speed.
+#pragma once
+
+#include "proxy/proxy.h"
+
+namespace hl {
+
+/// Moves the proxy from where it was at state.time_ns to where the objects of the scene leave it at scene.time_ns().
+/// Afterwards it is clear of them all, but where several objects pinch it: then its centre is still outside of each, as
+/// long as there is room for a point. RT-safe; at most kMostCarrySteps sweeps.
+void carry(ProxyState& state, const SceneAt& scene, const ProxySettings& settings);
+
+inline constexpr int kMostCarrySteps = 64;
+
+}  // namespace hl
