@@ -14,15 +14,6 @@ void appendPerVertex(std::vector<T>& whole, const std::vector<T>& part, std::siz
 
 }  // namespace
 
-void placeModel(Model& model, const Placement& placement) {
-  const Mat3 for_normals = placement.linear.inverse().transpose();
-  for (Vec3& position : model.positions) position = placement.linear * position + placement.offset;
-  for (Vec3& normal : model.normals) {
-    const Vec3 turned = (for_normals * normal).normalized();
-    normal = turned.allFinite() ? turned : Vec3(Vec3::Zero());
-  }
-}
-
 void repeatTexcoords(Model& model, double repeat_u, double repeat_v) {
   for (Vec2& uv : model.texcoords) uv = uv.cwiseProduct(Vec2(repeat_u, repeat_v));
 }

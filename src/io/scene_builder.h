@@ -5,15 +5,6 @@
 
 namespace hl {
 
-/// x -> linear x + offset; metres.
-struct Placement {
-  Mat3 linear = Mat3::Identity();
-  Vec3 offset = Vec3::Zero();
-};
-
-/// Moves positions by the placement and normals by its inverse transpose. `linear` must be invertible.
-void placeModel(Model& model, const Placement& placement);
-
 /// Multiplies texture coordinates.
 void repeatTexcoords(Model& model, double repeat_u, double repeat_v);
 

@@ -19,6 +19,15 @@ Box Model::bounds() const {
   return box;
 }
 
+void placeModel(Model& model, const Placement& placement) {
+  const Mat3 for_normals = placement.linear.inverse().transpose();
+  for (Vec3& position : model.positions) position = placement.linear * position + placement.offset;
+  for (Vec3& normal : model.normals) {
+    const Vec3 turned = (for_normals * normal).normalized();
+    normal = turned.allFinite() ? turned : Vec3(Vec3::Zero());
+  }
+}
+
 void scaleModel(Model& model, double factor) {
   assert(factor > 0);
   for (Vec3& position : model.positions) position *= factor;

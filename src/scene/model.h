@@ -44,6 +44,17 @@ struct Model {
   std::size_t elements() const { return triangles.size() + segments.size() + points.size(); }
 };
 
+/// x -> linear x + offset; metres.
+struct Placement {
+  Mat3 linear = Mat3::Identity();
+  Vec3 offset = Vec3::Zero();
+
+  /// First `inner`, then this.
+  Placement operator*(const Placement& inner) const { return {linear * inner.linear, linear * inner.offset + offset}; }
+};
+
+/// Moves positions by the placement and normals by its inverse transpose. `linear` must be invertible.
+void placeModel(Model& model, const Placement& placement);
 /// Scales about the origin by `factor` > 0.
 void scaleModel(Model& model, double factor);
 /// Scales uniformly and centres on the origin so that the largest side of the bounds is `side` metres. Returns the

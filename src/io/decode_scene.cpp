@@ -1,0 +1,161 @@
+#include "io/decode_scene.h"
+
+#include <fmt/core.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "base/error.h"
+
+namespace hl {
+
+namespace {
+
+constexpr double kAny = std::numeric_limits<double>::max();
+constexpr std::uint32_t kDefaultSize = 64;
+
+}  // namespace
+
+std::string pathOf(const std::string& list, int index) { return list + "[" + std::to_string(index) + "]"; }
+
+void SceneDecoder::fail(const std::string& where, const std::string& message) const {
+  fail_(where, message);
+  throw Error(message);
+}
+
+double SceneDecoder::checked(double value, double least, double most, const std::string& where) const {
+  if (value >= least && value <= most) return value;
+  if (most == kAny) fail(where, fmt::format("{} must be at least {}", where, least));
+  fail(where, fmt::format("{} must be between {} and {}", where, least, most));
+}
+
+std::uint32_t SceneDecoder::vertex(const Model& model, std::uint32_t index, const std::string& where) const {
+  if (index < model.positions.size()) return index;
+  fail(where, where + ": there is no vertex " + std::to_string(index) + "; the last is " +
+                  std::to_string(model.positions.size()) + " - 1");
+}
+
+void SceneDecoder::addVertices(Model& model, const proto::Primitives& in, const std::string& where) const {
+  const int count = in.vertices_size() / 3;
+  if (in.vertices_size() % 3 != 0) fail(where + ".vertices", where + ".vertices must hold 3 numbers each");
+  if (in.normals_size() != 0 && in.normals_size() != 3 * count)
+    fail(where + ".normals", where + ".normals must hold 3 numbers for each vertex");
+  if (in.texcoords_size() != 0 && in.texcoords_size() != 2 * count)
+    fail(where + ".texcoords", where + ".texcoords must hold 2 numbers for each vertex");
+  model.positions.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < in.vertices_size(); i += 3)
+    model.positions.emplace_back(in.vertices(i), in.vertices(i + 1), in.vertices(i + 2));
+  model.normals.reserve(static_cast<std::size_t>(in.normals_size() / 3));
+  for (int i = 0; i < in.normals_size(); i += 3)
+    model.normals.push_back(Vec3(in.normals(i), in.normals(i + 1), in.normals(i + 2)).stableNormalized());
+  for (int i = 0; i < in.texcoords_size(); i += 2) model.texcoords.emplace_back(in.texcoords(i), in.texcoords(i + 1));
+}
+
+void SceneDecoder::addElements(Model& model, const proto::Primitives& in, const std::string& where) const {
+  if (in.triangles_size() % 3 != 0) fail(where + ".triangles", where + ".triangles must hold 3 numbers each");
+  if (in.segments_size() % 2 != 0) fail(where + ".segments", where + ".segments must hold 2 numbers each");
+  const std::string triangles = where + ".triangles", segments = where + ".segments", points = where + ".points";
+  model.triangles.reserve(static_cast<std::size_t>(in.triangles_size() / 3));
+  for (int i = 0; i < in.triangles_size(); i += 3)
+    model.triangles.push_back({vertex(model, in.triangles(i), triangles), vertex(model, in.triangles(i + 1), triangles),
+                               vertex(model, in.triangles(i + 2), triangles)});
+  for (int i = 0; i < in.segments_size(); i += 2)
+    model.segments.push_back({vertex(model, in.segments(i), segments), vertex(model, in.segments(i + 1), segments)});
+  for (const std::uint32_t point : in.points()) model.points.push_back(vertex(model, point, points));
+}
+
+// A fan from the first vertex; the vertices keep their normals.
+void SceneDecoder::addPolygons(Model& model, const proto::Primitives& in, const std::string& where) const {
+  for (int p = 0; p < in.polygons_size(); ++p) {
+    const auto& v = in.polygons(p).vertices();
+    const auto at = [&] { return pathOf(where + ".polygons", p); };
+    if (v.size() < 3) fail(at(), at() + ": a polygon needs three vertices or more");
+    for (const std::uint32_t index : v) {
+      if (index >= model.positions.size()) vertex(model, index, at());
+    }
+    for (int i = 2; i < v.size(); ++i) model.triangles.push_back({v[0], v[i - 1], v[i]});
+  }
+}
+
+Model SceneDecoder::model(const proto::Primitives& in, const std::string& where) const {
+  Model model;
+  addVertices(model, in, where);
+  addElements(model, in, where);
+  addPolygons(model, in, where);
+  return model;
+}
+
+NamedTextureUse SceneDecoder::textureUse(const proto::MaterialTexture& in, const std::string& where) const {
+  if (!proto::Quantity_IsValid(in.quantity())) fail(where + ".quantity", where + ".quantity is none that HL knows");
+  const bool height = in.quantity() == proto::HEIGHT;
+  if (height && !in.has_high()) fail(where, where + ": a bump map needs high, its amplitude in metres");
+  const double most = in.quantity() == proto::STIFFNESS ? 1 : kAny;
+  const double least = height ? -kAny : 0;
+  return {in.texture(), checked(in.low(), least, most, where + ".low"),
+          checked(in.has_high() ? in.high() : 1, least, most, where + ".high")};
+}
+
+SurfaceChange SceneDecoder::surface(const proto::Material& in, const std::string& where) const {
+  SurfaceChange change;
+  const auto set = [&](std::optional<double>& to, bool has, double value, double most, const char* name) {
+    if (has) to = checked(value, 0, most, where + name);
+  };
+  if (in.has_shade() && !proto::Shade_IsValid(in.shade()))
+    fail(where + ".shade", where + ".shade must be SMOOTH or FLAT");
+  if (in.has_shade()) change.smooth = in.shade() == proto::SMOOTH;
+  set(change.stiffness, in.has_stiffness(), in.stiffness(), 1, ".stiffness");
+  set(change.static_friction, in.has_static_friction(), in.static_friction(), kAny, ".staticFriction");
+  set(change.dynamic_friction, in.has_dynamic_friction(), in.dynamic_friction(), kAny, ".dynamicFriction");
+  set(change.viscosity_Ns_m, in.has_viscosity_ns_m(), in.viscosity_ns_m(), kAny, ".viscosityNsM");
+  set(change.stribeck_m_s, in.has_stribeck_m_s(), in.stribeck_m_s(), kAny, ".stribeckMS");
+  set(change.presliding_N_m, in.has_presliding_n_m(), in.presliding_n_m(), kAny, ".preslidingNM");
+  for (int i = 0; i < in.textures_size(); ++i) {
+    const std::string at = pathOf(where + ".textures", i);
+    NamedTextureUse use = textureUse(in.textures(i), at);
+    auto& slot = change.textures[static_cast<std::size_t>(in.textures(i).quantity())];
+    if (slot) fail(at, at + ": there are two textures of one quantity");
+    slot = std::move(use);
+  }
+  return change;
+}
+
+void SceneDecoder::setReading(const proto::TextureImage& in, Texture& texture, const std::string& where) const {
+  if (in.name().empty()) fail(where, where + ": a texture needs a name");
+  if (!proto::Wrap_IsValid(in.wrap())) fail(where + ".wrap", where + ".wrap must be REPEAT or CLAMP");
+  if (!proto::Filter_IsValid(in.filter())) fail(where + ".filter", where + ".filter must be BILINEAR or NEAREST");
+  texture.name = in.name();
+  texture.wrap = in.wrap() == proto::CLAMP ? Wrap::kClamp : Wrap::kRepeat;
+  if (in.has_filter()) texture.filter = in.filter() == proto::NEAREST ? Filter::kNearest : Filter::kBilinear;
+}
+
+Texture SceneDecoder::texture(const proto::TextureImage& in, std::size_t most_texels, const std::string& where) const {
+  Texture texture;
+  if (in.source_case() == proto::TextureImage::kProcedural) {
+    const proto::ProceduralTexture& p = in.procedural();
+    const std::size_t size = p.size() == 0 ? kDefaultSize : p.size();
+    if (size * size > most_texels || size > most_texels)
+      fail(where, fmt::format("{}.procedural.size of {} is too large", where, size));
+    const double duty = checked(p.has_duty() ? p.duty() : 0.5, 0, 1, where + ".procedural.duty");
+    try {
+      texture = makeTexture(p.kind(), size, duty);
+    } catch (const Error& error) {
+      fail(where, error.what());
+    }
+  } else if (in.source_case() == proto::TextureImage::kTexels) {
+    const proto::Texels& t = in.texels();
+    if (t.width() == 0 || t.height() == 0 || std::uint64_t{t.width()} * t.height() != t.values().size())
+      fail(where + ".texels", where + ".texels must hold width x height bytes, at least one");
+    if (t.values().size() > most_texels) fail(where + ".texels", where + ".texels are too many");
+    texture.width = t.width();
+    texture.height = t.height();
+    texture.texels.reserve(t.values().size());
+    for (const char byte : t.values())
+      texture.texels.push_back(static_cast<float>(static_cast<unsigned char>(byte)) / 255.0f);
+  } else {
+    fail(where, where + ": a texture needs a file, a procedural or texels; a client's cannot be a file");
+  }
+  setReading(in, texture, where);
+  return texture;
+}
+
+}  // namespace hl

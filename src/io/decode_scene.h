@@ -1,0 +1,47 @@
+// Decode: the parts that scene files and frames of clients share, from messages of proto/hl.proto to the scene's own
+// types. Every number is checked; what is wrong is told with the path of its value, "objects[2].material.stiffness".
+#pragma once
+
+#include <hl.pb.h>
+
+#include <functional>
+#include <string>
+
+#include "scene/model.h"
+#include "scene/surface_change.h"
+
+namespace hl {
+
+class SceneDecoder {
+ public:
+  /// Says what is wrong with the value at the path `where`, by throwing hl::Error.
+  using Fail = std::function<void(const std::string& where, const std::string& message)>;
+  explicit SceneDecoder(Fail fail) : fail_(std::move(fail)) {}
+
+  /// Vertices, lists and polygons; polygons become fans. Names, materials and textures are left at their defaults.
+  Model model(const proto::Primitives& in, const std::string& where) const;
+  /// What is absent stays unset. Textures are not looked up.
+  SurfaceChange surface(const proto::Material& in, const std::string& where) const;
+  /// Procedural textures and texels of at most `most_texels`; a file is refused.
+  Texture texture(const proto::TextureImage& in, std::size_t most_texels, const std::string& where) const;
+  /// Sets how a texture is read, as the message says.
+  void setReading(const proto::TextureImage& in, Texture& texture, const std::string& where) const;
+
+  [[noreturn]] void fail(const std::string& where, const std::string& message) const;
+  /// `value`, when it is in least..most; NaN never is.
+  double checked(double value, double least, double most, const std::string& where) const;
+
+ private:
+  NamedTextureUse textureUse(const proto::MaterialTexture& in, const std::string& where) const;
+  void addVertices(Model& model, const proto::Primitives& in, const std::string& where) const;
+  void addElements(Model& model, const proto::Primitives& in, const std::string& where) const;
+  void addPolygons(Model& model, const proto::Primitives& in, const std::string& where) const;
+  std::uint32_t vertex(const Model& model, std::uint32_t index, const std::string& where) const;
+
+  Fail fail_;
+};
+
+/// "list[3]".
+std::string pathOf(const std::string& list, int index);
+
+}  // namespace hl
