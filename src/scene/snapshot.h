@@ -37,6 +37,8 @@ struct Snapshot {
   /// m: largest coordinate, in the world or in an object; distances are known to a few units in its last place.
   double extent = 0;
   std::int64_t moves_until_ns = std::numeric_limits<std::int64_t>::min();  ///< after that all is at rest
+  std::uint64_t number = 1;         ///< of one server's snapshots, rising
+  bool abrupt = true;               ///< objects have come, gone or changed at once since the one before
   std::size_t primitives = 0;                                              ///< each instance counted
   std::string name;
   std::vector<std::string> warnings;

@@ -29,15 +29,15 @@ double pressing(double time_s) {
 
 }  // namespace
 
-Vec3 explore(const Snapshot& snapshot, const ExplorationSettings& settings, double time_s) {
+Vec3 explore(const SceneAt& scene, const ExplorationSettings& settings, double time_s) {
+  const Snapshot& snapshot = scene.snapshot();
   if (snapshot.bounds.empty()) return Vec3::Zero();
   const Vec3 centre = snapshot.bounds.centre();
   const double reach = 0.5 * snapshot.bounds.size().norm() + 4 * settings.radius + settings.lift;
   const Vec3 outward = direction(time_s);
   const Vec3 from = centre + reach * outward;
   SceneImpact impact;
-  const bool hit =
-      SceneAt(snapshot).firstImpact(from, -reach * outward, settings.radius, -1, impact);
+  const bool hit = scene.firstImpact(from, -reach * outward, settings.radius, -1, impact);
   const double surface = hit ? reach * (1 - impact.impact.t) : 0.0;
   const double depth = settings.press * pressing(time_s) - settings.lift * (1 - pressing(time_s));
   return centre + (surface - depth) * outward;

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "base/vec.h"
-#include "scene/snapshot.h"
+#include "scene/scene_at.h"
 
 namespace hl {
 
@@ -15,6 +15,6 @@ struct ExplorationSettings {
 };
 
 /// Where the hand wants to be `time_s` after the start, world frame. Deterministic; any thread, never a real-time one.
-Vec3 explore(const Snapshot& snapshot, const ExplorationSettings& settings, double time_s);
+Vec3 explore(const SceneAt& scene, const ExplorationSettings& settings, double time_s);
 
 }  // namespace hl

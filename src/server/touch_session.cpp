@@ -1,6 +1,7 @@
 #include "server/touch_session.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/clock.h"
@@ -20,18 +21,27 @@ constexpr double kLift_D = 0.010;
 constexpr double kMostFriction = 10;
 constexpr double kMostViscosity_Ns_m = 1000;
 
+ProxySettings proxySettings(const TouchSettings& settings) {
+  ProxySettings proxy;
+  proxy.period_s = 1 / settings.proxy_rate_Hz;
+  return proxy;
+}
+
 std::int64_t period_ns(double rate_Hz) { return static_cast<std::int64_t>(1e9 / rate_Hz); }
 
 }  // namespace
 
 TouchSession::TouchSession(std::shared_ptr<const Snapshot> snapshot, const TouchSettings& settings)
-    : snapshot_(std::move(snapshot)), settings_(settings) {
+    : settings_(settings),
+      scenes_(snapshot),
+      proxy_loop_(scenes_, proxySettings(settings)),
+      snapshot_(std::move(snapshot)) {
   device_.open();
-  workspace_ = Workspace::fit(snapshot_->bounds, settings.side_D);
-  if (settings.world_per_device) workspace_.world_per_device = *settings.world_per_device;
-  proxy_settings_.radius = radius_W();
-  proxy_settings_.period_s = 1 / settings.proxy_rate_Hz;
-  proxy_settings_.world_per_device = workspace_.world_per_device;
+  fitted_ = settings.world_per_device || !snapshot_->bounds.empty();
+  Workspace workspace = Workspace::fit(snapshot_->bounds, settings.side_D);
+  if (settings.world_per_device) workspace.world_per_device = *settings.world_per_device;
+  proxy_commands_.workspace = workspace;
+  proxy_commands_.radius_W = settings.radius_D * workspace.world_per_device;
   ledger_ = settings.ledger;
   setSurfaces(settings.surfaces);
   servo_settings_ = ServoSettings::of(device_.info());
@@ -50,9 +60,10 @@ TouchSession::~TouchSession() {
 
 // The hand moves freely, without force, on a virtual clock that ends now; the real clock then goes on from there.
 void TouchSession::bringHandToStart() {
-  const double top_D = 0.5 * snapshot_->bounds.size().y() / workspace_.world_per_device;
+  const Workspace& workspace = proxy_commands_.workspace;
+  const double top_D = 0.5 * snapshot_->bounds.size().y() / workspace.world_per_device;
   Vec3 goal_D = clampToWorkspace(Vec3(0, (snapshot_->bounds.empty() ? 0 : top_D) + kStartAbove_D, 0));
-  if (settings_.script) goal_D = clampToWorkspace(workspace_.toDevice(settings_.script->at(0)));
+  if (settings_.script) goal_D = clampToWorkspace(workspace.toDevice(settings_.script->at(0)));
   device_.setHandGoal(goal_D);
   const std::int64_t now_ns = monotonicNow_ns();
   const std::int64_t step_ns = 1'000'000;
@@ -118,7 +129,8 @@ void TouchSession::runServo() {
                    target.target.valid ? static_cast<float>((target.target.proxy_D - sample.position).norm()) : 0.0f,
                    target.tick_us});
     meter.add(now_ns, monotonicNow_ns() - now_ns);
-    servo_view_.write({sample.position, out.force_N, out.safety, out.fault, state.spring.ledger, meter.summary()});
+    servo_view_.write(
+        {sample.buttons, sample.position, out.force_N, out.safety, out.fault, state.spring.ledger, meter.summary()});
   });
   device_.write(Vec3::Zero());
 }
@@ -126,38 +138,34 @@ void TouchSession::runServo() {
 void TouchSession::runProxy() {
   requestRealtime(kProxyPriority);
   Vec3 finger_D;
-  finger_D_.read(finger_D);
-  ProxyState state = startProxy(*snapshot_, proxy_settings_, workspace_.toWorld(finger_D));
+  ProxyCommands commands;
   ProxyView view;
   LoopMeter meter;
   runPeriodic(period_ns(settings_.proxy_rate_Hz), running_, proxy_counters_, [&](std::int64_t) {
     const std::int64_t now_ns = monotonicNow_ns();
     finger_D_.read(finger_D);
-    surfaces_for_proxy_.read(proxy_settings_.surfaces);
-    proxy_settings_.ledger = ledger_.load(std::memory_order_relaxed);
-    proxy_settings_.spring_N_m = stiffness_.load(std::memory_order_relaxed);
-    const TickReport report = tick(state, *snapshot_, proxy_settings_, workspace_.toWorld(finger_D));
+    commands_for_proxy_.read(commands);
+    const ProxyStep step = proxy_loop_.step(now_ns, finger_D, commands, stiffness_.load(std::memory_order_relaxed),
+                                            ledger_.load(std::memory_order_relaxed));
     const std::int64_t work_ns = monotonicNow_ns() - now_ns;
-    // In the open the proxy is the finger of a moment ago: pulling to it would be a drag.
-    const bool valid = report.valid && state.free && !report.contacts.empty();
-    target_.write({{workspace_.toDevice(state.position), now_ns, valid, state.stiffness, report.injected_J},
-                   1e-3f * static_cast<float>(work_ns)});
+    target_.write({step.target, 1e-3f * static_cast<float>(work_ns)});
     meter.add(now_ns, work_ns);
+    const ProxyState& state = proxy_loop_.state();
     view.proxy = state.position;
-    view.contacts = report.contacts;
+    view.contacts = step.report.contacts;
+    view.touched = step.touched;
     view.slipping = state.touching && state.rest_s == 0;
     view.ledger = state.ledger;
-    view.capped += report.capped ? 1 : 0;
+    view.capped += step.report.capped ? 1 : 0;
     view.loop = meter.summary();
     proxy_view_.write(view);
+    last_tick_ns_.store(now_ns, std::memory_order_release);
   });
 }
 
 // Decides where the hand wants to be: a person, the script or the exploration, in this order.
 void TouchSession::runSupervisor() {
   LoopCounters counters;
-  const double scale = workspace_.world_per_device;
-  const ExplorationSettings exploration{kPress_D * scale, kLift_D * scale, radius_W()};
   runPeriodic(kSupervisorPeriod_ns, running_, counters, [&](std::int64_t) {
     Commands commands;
     {
@@ -165,17 +173,21 @@ void TouchSession::runSupervisor() {
       std::swap(commands, commands_);
     }
     if (commands.explore) exploring_ = *commands.explore;
+    const Workspace workspace = this->workspace();
     if (commands.goal_W) {
       exploring_ = false;
-      device_.setHandGoal(clampToWorkspace(workspace_.toDevice(*commands.goal_W)));
+      device_.setHandGoal(clampToWorkspace(workspace.toDevice(*commands.goal_W)));
     } else if (commands.release) {
       Vec3 finger_D;
       finger_for_supervisor_D_.read(finger_D);
       device_.setHandGoal(clampToWorkspace(finger_D));
     } else if (exploring_) {
-      const Vec3 goal_W =
-          settings_.script ? settings_.script->at(time_s()) : explore(*snapshot_, exploration, time_s());
-      device_.setHandGoal(clampToWorkspace(workspace_.toDevice(goal_W)));
+      const double scale = workspace.world_per_device;
+      const ExplorationSettings exploration{kPress_D * scale, kLift_D * scale, radius_W()};
+      const std::shared_ptr<const Snapshot> scene = snapshot();
+      const Vec3 goal_W = settings_.script ? settings_.script->at(time_s())
+                                           : explore({*scene, monotonicNow_ns()}, exploration, time_s());
+      device_.setHandGoal(clampToWorkspace(workspace.toDevice(goal_W)));
     }
     device_.setHandFirm(hand_firm_);
   });
@@ -211,20 +223,73 @@ void TouchSession::setSurfaces(const MaterialOverride& surfaces) {
     if (value && !(*value >= 0)) value.reset();
     if (value) value = std::min(*value, most);
   };
-  const std::lock_guard lock(surfaces_mutex_);
-  surfaces_ = surfaces;
-  within(surfaces_.stiffness, 1);
-  within(surfaces_.static_friction, kMostFriction);
-  within(surfaces_.dynamic_friction, kMostFriction);
-  within(surfaces_.viscosity_Ns_m, kMostViscosity_Ns_m);
-  surfaces_for_proxy_.write(surfaces_);
+  const std::lock_guard lock(settings_mutex_);
+  MaterialOverride& own = proxy_commands_.surfaces;
+  own = surfaces;
+  within(own.stiffness, 1);
+  within(own.static_friction, kMostFriction);
+  within(own.dynamic_friction, kMostFriction);
+  within(own.viscosity_Ns_m, kMostViscosity_Ns_m);
+  commands_for_proxy_.write(proxy_commands_);
 }
 
 void TouchSession::setLedger(LedgerMode mode) { ledger_ = mode; }
 
 MaterialOverride TouchSession::surfaces() const {
-  const std::lock_guard lock(surfaces_mutex_);
-  return surfaces_;
+  const std::lock_guard lock(settings_mutex_);
+  return proxy_commands_.surfaces;
+}
+
+Workspace TouchSession::workspace() const {
+  const std::lock_guard lock(settings_mutex_);
+  return proxy_commands_.workspace;
+}
+
+double TouchSession::radius_W() const {
+  const std::lock_guard lock(settings_mutex_);
+  return proxy_commands_.radius_W;
+}
+
+std::shared_ptr<const Snapshot> TouchSession::snapshot() const {
+  const std::lock_guard lock(settings_mutex_);
+  return snapshot_;
+}
+
+void TouchSession::restartWith(const Workspace& workspace, double radius_W) {
+  proxy_commands_.workspace = workspace;
+  proxy_commands_.radius_W = radius_W;
+  ++proxy_commands_.restarts;
+  commands_for_proxy_.write(proxy_commands_);
+}
+
+void TouchSession::setWorkspace(const Workspace& workspace) {
+  if (!workspace.origin_W.allFinite() || !std::isfinite(workspace.world_per_device)) return;
+  if (!(workspace.world_per_device > 0)) return;
+  const std::lock_guard lock(settings_mutex_);
+  fitted_ = true;
+  const double radius_D = proxy_commands_.radius_W / proxy_commands_.workspace.world_per_device;
+  restartWith(workspace, radius_D * workspace.world_per_device);
+}
+
+void TouchSession::setRadius(double radius_W) {
+  if (!(radius_W > 0) || !std::isfinite(radius_W)) return;
+  const std::lock_guard lock(settings_mutex_);
+  restartWith(proxy_commands_.workspace, radius_W);
+}
+
+void TouchSession::publish(std::shared_ptr<const Snapshot> snapshot) {
+  const std::lock_guard lock(settings_mutex_);
+  if (!fitted_ && !snapshot->bounds.empty()) {
+    fitted_ = true;
+    const Workspace workspace = Workspace::fit(snapshot->bounds, settings_.side_D);
+    restartWith(workspace, settings_.radius_D * workspace.world_per_device);
+  }
+  snapshot_ = snapshot;
+  scenes_.publish(std::move(snapshot));
+}
+
+bool TouchSession::ready(std::int64_t since_ns) const {
+  return !running_ || (scenes_.taken() && last_tick_ns_.load(std::memory_order_acquire) >= since_ns);
 }
 
 void TouchSession::rearm() { arm_requests_.fetch_add(1); }

@@ -24,6 +24,8 @@
 #include "scene/snapshot.h"
 #include "server/exploration.h"
 #include "server/loop_meter.h"
+#include "server/proxy_loop.h"
+#include "server/snapshot_slot.h"
 #include "server/workspace.h"
 
 namespace hl {
@@ -48,6 +50,7 @@ struct TouchSettings {
 struct ProxyView {
   Vec3 proxy = Vec3::Zero();
   FixedVector<ProxyContact, 3> contacts;
+  FixedVector<ObjectName, 3> touched;  ///< of the contacts, one by one
   bool slipping = false;
   Ledger ledger;
   std::uint64_t capped = 0;
@@ -56,6 +59,7 @@ struct ProxyView {
 
 /// What the servo loop last did.
 struct ServoView {
+  std::uint32_t buttons = 0;  ///< of the device, bit i: button i is down
   Vec3 finger_D = Vec3::Zero();
   Vec3 force_N = Vec3::Zero();
   SafetyState safety = SafetyState::kOff;
@@ -105,11 +109,19 @@ class TouchSession {
   LedgerMode ledger() const { return ledger_.load(); }
   double time_s() const;
 
-  const Snapshot& snapshot() const { return *snapshot_; }
-  const Workspace& workspace() const { return workspace_; }
+  /// Shows another scene. Not real-time; one thread at a time, and only when ready().
+  void publish(std::shared_ptr<const Snapshot> snapshot);
+  /// The proxy loop has taken the newest scene, and ticked at `since_ns` (monotonic) or later; or it does not run.
+  bool ready(std::int64_t since_ns) const;
+  bool popEvent(TouchEvent& event) { return proxy_loop_.popEvent(event); }  ///< one thread only
+  void setWorkspace(const Workspace& workspace);
+  void setRadius(double radius_W);
+
+  std::shared_ptr<const Snapshot> snapshot() const;
+  Workspace workspace() const;
   const TouchSettings& settings() const { return settings_; }
   const DeviceInfo& deviceInfo() const { return device_.info(); }
-  double radius_W() const { return settings_.radius_D * workspace_.world_per_device; }
+  double radius_W() const;
   LoopTotals servoTotals() const { return totals(servo_counters_); }
   LoopTotals proxyTotals() const { return totals(proxy_counters_); }
   LoopTotals referenceTotals() const { return totals(reference_counters_); }
@@ -133,12 +145,12 @@ class TouchSession {
   void runProxy();
   void runSupervisor();
   Vec3 clampToWorkspace(const Vec3& goal_D) const;
+  void restartWith(const Workspace& workspace, double radius_W);  // holding settings_mutex_
 
-  std::shared_ptr<const Snapshot> snapshot_;
   TouchSettings settings_;
   SimulatedDevice device_;
-  Workspace workspace_;
-  ProxySettings proxy_settings_;
+  SnapshotSlot scenes_;
+  ProxyLoop proxy_loop_;
   ServoSettings servo_settings_;
   std::int64_t start_ns_ = 0;
 
@@ -153,14 +165,17 @@ class TouchSession {
   std::atomic<bool> exploring_{false};
   std::atomic<bool> hand_firm_{false};
   std::atomic<double> stiffness_{0};
+  std::atomic<std::int64_t> last_tick_ns_{0};
   std::atomic<std::uint64_t> arm_requests_{0};
   std::atomic<bool> servo_ready_{false};
   RealtimeGrant grant_;
   LoopCounters servo_counters_, proxy_counters_, reference_counters_;
 
-  mutable std::mutex surfaces_mutex_;  // between the callers of setSurfaces; the loops never see it
-  MaterialOverride surfaces_;
-  Latest<MaterialOverride> surfaces_for_proxy_;
+  mutable std::mutex settings_mutex_;  // between the callers of commands; the real-time loops never see it
+  ProxyCommands proxy_commands_;
+  std::shared_ptr<const Snapshot> snapshot_;
+  bool fitted_ = false;  // the workspace has been set, or fitted to a scene
+  Latest<ProxyCommands> commands_for_proxy_;
   std::atomic<LedgerMode> ledger_{LedgerMode::kTank};
 
   std::mutex commands_mutex_;  // between page and supervisor; the loops never see it

@@ -41,7 +41,7 @@ std::string hello(const TouchSession& session, const std::string& version) {
   proto::Hello& out = *message.mutable_hello();
   out.set_protocol_version(kProtocolVersion);
   out.set_server_version(version);
-  out.set_scene_name(session.snapshot().name);
+  out.set_scene_name(session.snapshot()->name);
   const DeviceInfo& info = session.deviceInfo();
   proto::DeviceInfo& device = *out.mutable_device();
   device.set_name(info.name);
@@ -55,7 +55,8 @@ std::string hello(const TouchSession& session, const std::string& version) {
 }
 
 std::string sceneMesh(const TouchSession& session) {
-  const Snapshot& snapshot = session.snapshot();
+  const std::shared_ptr<const Snapshot> scene = session.snapshot();
+  const Snapshot& snapshot = *scene;
   proto::ServerMessage message;
   proto::SceneMesh& out = *message.mutable_scene();
   out.set_name(snapshot.shape().model.name);

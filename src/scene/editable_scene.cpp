@@ -1,0 +1,210 @@
+#include "scene/editable_scene.h"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "base/error.h"
+
+namespace hl {
+
+namespace {
+
+// A stretch is known to the rounding of the matrices it came through; beyond this part of it, it is the same stretch.
+constexpr double kSameStretch = 1.0 / (std::int64_t{1} << 36);
+constexpr double kFlattest = 1e-9;             // smallest to largest factor of a stretch that can still be touched
+constexpr std::size_t kVisitsPerInstance = 8;  // of items, in a hierarchy of many calls and few shapes
+
+// linear = rotation * stretch, the polar form; a mirror image is part of the stretch.
+struct Polar {
+  Mat3 rotation, stretch;
+};
+
+Polar polarOf(const Mat3& linear) {
+  if (linear == Mat3::Identity()) return {linear, linear};
+  const Eigen::JacobiSVD<Mat3> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Vec3 factors = svd.singularValues();
+  if (!(factors.z() > kFlattest * factors.x())) throw Error("a matrix flattens an object: it cannot be touched so");
+  Vec3 handed(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
+  const Mat3 rotation = svd.matrixU() * handed.asDiagonal() * svd.matrixV().transpose();
+  const Mat3 stretch = svd.matrixV() * handed.cwiseProduct(factors).asDiagonal() * svd.matrixV().transpose();
+  const double unit = kSameStretch * std::exp2(std::round(std::log2(factors.x())));
+  return {rotation, (stretch / unit).array().round().matrix() * unit};
+}
+
+std::uint64_t mixed(std::uint64_t key, std::uint64_t next) {  // SplitMix64's finaliser
+  std::uint64_t x = key + 0x9e3779b97f4a7c15u + (next << 1 | 1) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+}  // namespace
+
+// One walk over the calls of a state, from the world down to the shapes.
+class EditableScene::Flattening {
+ public:
+  Flattening(const EditableScene& scene, const State& state) : scene_(scene), state_(state) {}
+
+  void run() { visit(*state_.world, {{}, {}, 0, 0, mixed(0, scene_.session_)}); }
+
+  std::vector<PlacedShape> placed;
+  std::map<Stretched, std::shared_ptr<const Shape>> stretched;
+
+ private:
+  struct Call {
+    Placement placement;
+    SurfaceChange surface;
+    std::uint32_t object, name;
+    std::uint64_t key;
+  };
+
+  void visit(const SceneItems& items, const Call& caller);
+  void enter(const SceneItem& item, const Call& call);
+  void add(const SceneItem& item, const Call& call);
+  std::shared_ptr<const Shape> shapeOf(const std::shared_ptr<const Shape>& shape, const Mat3& stretch);
+  std::shared_ptr<const Surfaces> surfacesOf(const SurfaceChange& change) const;
+
+  const EditableScene& scene_;
+  const State& state_;
+  std::vector<std::uint32_t> path_;
+  std::size_t visits_ = 0;
+};
+
+// The n-th call of an object is the same one as in the last frame, and so is the n-th shape.
+void EditableScene::Flattening::visit(const SceneItems& items, const Call& caller) {
+  std::map<std::uint32_t, std::uint64_t> occurrences;
+  for (const SceneItem& item : items) {
+    if (++visits_ > kVisitsPerInstance * scene_.limits_.instances)
+      throw Error("there are too many calls in the world; the limit on objects in it is " +
+                  std::to_string(scene_.limits_.instances));
+    const std::uint64_t key = mixed(mixed(caller.key, item.call), occurrences[item.call]++);
+    const Call call{caller.placement * item.placement, item.surface.over(caller.surface), caller.object,
+                    item.name.value_or(caller.name), key};
+    item.shape ? add(item, call) : enter(item, call);
+  }
+}
+
+void EditableScene::Flattening::enter(const SceneItem& item, const Call& call) {
+  const auto found = state_.objects.find(item.call);
+  if (found == state_.objects.end()) return;
+  if (std::find(path_.begin(), path_.end(), item.call) != path_.end())
+    throw Error("object " + std::to_string(item.call) + " calls itself");
+  if (path_.size() >= scene_.limits_.nesting)
+    throw Error("calls are nested deeper than " + std::to_string(scene_.limits_.nesting));
+  path_.push_back(item.call);
+  Call inner = call;
+  inner.object = item.call;
+  visit(*found->second, inner);
+  path_.pop_back();
+}
+
+void EditableScene::Flattening::add(const SceneItem& item, const Call& call) {
+  if (item.shape->primitives.empty()) return;
+  if (placed.size() >= scene_.limits_.instances)
+    throw Error("there are more than " + std::to_string(scene_.limits_.instances) + " objects in the world");
+  const Polar polar = polarOf(call.placement.linear);
+  placed.push_back({shapeOf(item.shape, polar.stretch),
+                    surfacesOf(call.surface),
+                    {polar.rotation, call.placement.offset},
+                    call.key,
+                    scene_.session_,
+                    call.object,
+                    call.name});
+}
+
+std::shared_ptr<const Shape> EditableScene::Flattening::shapeOf(const std::shared_ptr<const Shape>& shape,
+                                                                const Mat3& stretch) {
+  if (stretch == Mat3::Identity()) return shape;
+  const Stretched key{shape.get(),
+                      {stretch(0, 0), stretch(0, 1), stretch(0, 2), stretch(1, 1), stretch(1, 2), stretch(2, 2)}};
+  auto& slot = stretched[key];
+  if (slot) return slot;
+  const auto known = scene_.stretched_.find(key);
+  if (known != scene_.stretched_.end()) return slot = known->second;
+  Model model = shape->model;
+  placeModel(model, {stretch, Vec3::Zero()});
+  return slot = makeShape(std::move(model), HierarchyKind::kSpheres);
+}
+
+std::shared_ptr<const Surfaces> EditableScene::Flattening::surfacesOf(const SurfaceChange& change) const {
+  auto surfaces = std::make_shared<Surfaces>();
+  Material material = change.material();
+  for (std::size_t i = 0; i < kQuantities; ++i) {
+    const auto& use = change.textures[i];
+    if (!use) continue;
+    const auto found = state_.textures.find(use->texture);
+    if (found == state_.textures.end()) throw Error("there is no texture '" + use->texture + "'");
+    material.textures[i] = {static_cast<std::uint32_t>(surfaces->textures.size()), use->low, use->high};
+    surfaces->textures.push_back(found->second);
+  }
+  surfaces->materials.push_back(material);
+  return surfaces;
+}
+
+EditableScene::State EditableScene::after(const SceneEdit& edit) const {
+  State next = state_;
+  for (const std::string& name : edit.deleted_textures) next.textures.erase(name);
+  for (const std::uint32_t id : edit.deleted_objects) next.objects.erase(id);
+  for (const auto& [name, texture] : edit.textures) next.textures[name] = texture;
+  for (const auto& [id, items] : edit.objects) next.objects[id] = std::make_shared<SceneItems>(items);
+  if (edit.world) next.world = std::make_shared<SceneItems>(*edit.world);
+  return next;
+}
+
+void EditableScene::checkLimits(const State& state) const {
+  const auto check = [](std::size_t count, std::size_t most, const char* what) {
+    if (count > most) throw Error("there are more than " + std::to_string(most) + " " + what);
+  };
+  check(state.objects.size(), limits_.objects, "objects");
+  std::size_t bytes = 0, primitives = 0;
+  for (const auto& [name, texture] : state.textures) bytes += texture->texels.size() * sizeof(float);
+  check(bytes, limits_.texture_bytes, "bytes of textures");
+  std::set<const Shape*> shapes;
+  const auto add = [&](const SceneItems& items) {
+    for (const SceneItem& item : items) {
+      if (item.shape && shapes.insert(item.shape.get()).second) primitives += item.shape->primitives.size();
+    }
+  };
+  for (const auto& [id, items] : state.objects) add(*items);
+  add(*state.world);
+  check(primitives, limits_.primitives, "primitives");
+}
+
+void EditableScene::apply(const SceneEdit& edit) {
+  State next = after(edit);
+  checkLimits(next);
+  Flattening flattening(*this, next);
+  flattening.run();
+  state_ = std::move(next);
+  placed_ = std::move(flattening.placed);
+  stretched_ = std::move(flattening.stretched);
+}
+
+std::size_t EditableScene::primitives() const {
+  std::size_t sum = 0;
+  for (const PlacedShape& placed : placed_) sum += placed.shape->primitives.size();
+  return sum;
+}
+
+std::vector<Instance> followOn(const std::vector<PlacedShape>& placed, const Snapshot& last, std::int64_t begin_ns,
+                               std::int64_t end_ns) {
+  std::vector<Instance> instances;
+  instances.reserve(placed.size());
+  for (const PlacedShape& now : placed) {
+    Instance instance{now.shape, now.surfaces, Motion(now.pose), now.key, now.session, now.object, now.name, {}};
+    const auto before = std::lower_bound(last.instances.begin(), last.instances.end(), now.key,
+                                         [](const Instance& a, std::uint64_t key) { return a.key < key; });
+    if (end_ns > begin_ns && before != last.instances.end() && before->key == now.key) {
+      const bool rests = !before->motion.moves() || before->motion.last().end_ns() < begin_ns;
+      const bool stays = before->motion.to() == now.pose;
+      if (!stays || !rests) instance.motion = stays ? before->motion : before->motion.then(now.pose, begin_ns, end_ns);
+    }
+    instances.push_back(std::move(instance));
+  }
+  return instances;
+}
+
+}  // namespace hl

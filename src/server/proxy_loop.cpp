@@ -1,0 +1,87 @@
+#include "server/proxy_loop.h"
+
+#include <algorithm>
+
+namespace hl {
+
+namespace {
+
+bool holds(const FixedVector<ObjectName, 3>& list, const ObjectName& object) {
+  return std::any_of(list.begin(), list.end(), [&](const ObjectName& other) { return other.key == object.key; });
+}
+
+// Energy of the spring between finger and where it is pulled to, J.
+double springEnergy_J(double spring_N_m, double stiffness, const Vec3& gap_D) {
+  return 0.5 * spring_N_m * stiffness * gap_D.squaredNorm();
+}
+
+}  // namespace
+
+void ProxyLoop::follow(const ProxyCommands& commands, double stiffness_N_m, LedgerMode ledger) {
+  workspace_ = commands.workspace;
+  settings_.radius = commands.radius_W;
+  settings_.surfaces = commands.surfaces;
+  settings_.world_per_device = workspace_.world_per_device;
+  settings_.spring_N_m = stiffness_N_m;
+  settings_.ledger = ledger;
+}
+
+ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const ProxyCommands& commands,
+                          double stiffness_N_m, LedgerMode ledger) {
+  follow(commands, stiffness_N_m, ledger);
+  const Snapshot& snapshot = scenes_.take();
+  const SceneAt scene(snapshot, now_ns);
+  const Vec3 finger = workspace_.toWorld(finger_D);
+  const bool restart = scene_ == 0 || commands.restarts != restarts_;
+  const bool abrupt = restart || (snapshot.number != scene_ && snapshot.abrupt);
+  if (restart) {
+    const Ledger kept = state_.ledger;
+    state_ = startProxy(scene, settings_, finger);
+    state_.ledger = kept;
+  }
+  scene_ = snapshot.number;
+  restarts_ = commands.restarts;
+  ProxyStep step;
+  step.report = tick(state_, scene, settings_, finger);
+  for (const ProxyContact& contact : step.report.contacts) {
+    const Instance& instance = scene.instance(contact.primitive);
+    step.touched.push({instance.key, instance.session, instance.object, instance.name});
+  }
+  step.target = targetOf(now_ns, finger_D, step.report, abrupt);
+  tellEvents(now_ns, step.touched);
+  return step;
+}
+
+// In the open the proxy is the finger of a moment ago: pulling to it would be a drag, so there is no target then, but
+// while a blend lets go.
+ServoTarget ProxyLoop::targetOf(std::int64_t now_ns, const Vec3& finger_D, const TickReport& report, bool abrupt) {
+  const bool touches = report.valid && state_.free && !report.contacts.empty();
+  const Vec3 wanted = touches ? workspace_.toDevice(state_.position) : finger_D;
+  const Vec3 before = pulled_ ? blend_.last() : finger_D;
+  if (abrupt && report.valid) blend_.begin(before, wanted);
+  const Vec3 proxy_D = blend_.step(wanted, settings_.period_s);
+  const double stiffness = touches ? state_.stiffness : last_stiffness_;
+  double paid_J = report.injected_J + std::max(0.0, report.moved_J);
+  if (blend_.active()) {
+    paid_J = springEnergy_J(settings_.spring_N_m, stiffness, proxy_D - finger_D) -
+             springEnergy_J(settings_.spring_N_m, last_stiffness_, before - finger_D);
+  }
+  pulled_ = touches || (blend_.active() && report.valid);
+  last_stiffness_ = stiffness;
+  return {proxy_D, now_ns, pulled_, stiffness, paid_J};
+}
+
+void ProxyLoop::tellEvents(std::int64_t now_ns, const FixedVector<ObjectName, 3>& touched) {
+  for (const ObjectName& object : touched_) {
+    if (!holds(touched, object)) events_.push({now_ns, object, false, state_.position});
+  }
+  FixedVector<ObjectName, 3> told = touched_;
+  for (const ObjectName& object : touched) {
+    if (holds(told, object)) continue;
+    events_.push({now_ns, object, true, state_.position});
+    told.push(object);
+  }
+  touched_ = touched;
+}
+
+}  // namespace hl
