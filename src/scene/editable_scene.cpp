@@ -189,22 +189,28 @@ std::size_t EditableScene::primitives() const {
   return sum;
 }
 
-std::vector<Instance> followOn(const std::vector<PlacedShape>& placed, const Snapshot& last, std::int64_t begin_ns,
-                               std::int64_t end_ns) {
-  std::vector<Instance> instances;
-  instances.reserve(placed.size());
+Followed followOn(const std::vector<PlacedShape>& placed, const std::vector<Instance>& last, std::int64_t begin_ns,
+                  std::int64_t end_ns) {
+  Followed result;
+  result.abrupt = placed.size() != last.size();
+  result.instances.reserve(placed.size());
   for (const PlacedShape& now : placed) {
     Instance instance{now.shape, now.surfaces, Motion(now.pose), now.key, now.session, now.object, now.name, {}};
-    const auto before = std::lower_bound(last.instances.begin(), last.instances.end(), now.key,
+    const auto before = std::lower_bound(last.begin(), last.end(), now.key,
                                          [](const Instance& a, std::uint64_t key) { return a.key < key; });
-    if (end_ns > begin_ns && before != last.instances.end() && before->key == now.key) {
+    const bool known = before != last.end() && before->key == now.key;
+    const bool stays = known && before->motion.to() == now.pose;
+    if (known && end_ns > begin_ns) {
       const bool rests = !before->motion.moves() || before->motion.last().end_ns() < begin_ns;
-      const bool stays = before->motion.to() == now.pose;
       if (!stays || !rests) instance.motion = stays ? before->motion : before->motion.then(now.pose, begin_ns, end_ns);
     }
-    instances.push_back(std::move(instance));
+    const bool follows = known && (stays || instance.motion.moves());
+    if (!follows || before->shape != now.shape || !(*before->surfaces == *now.surfaces)) result.abrupt = true;
+    result.instances.push_back(std::move(instance));
   }
-  return instances;
+  std::sort(result.instances.begin(), result.instances.end(),
+            [](const Instance& a, const Instance& b) { return a.key < b.key; });
+  return result;
 }
 
 }  // namespace hl

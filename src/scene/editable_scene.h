@@ -85,9 +85,15 @@ class EditableScene {
   std::map<Stretched, std::shared_ptr<const Shape>> stretched_;  // those in use
 };
 
-/// The instances of the next snapshot: what was in the last one moves from where it is at `begin_ns` to its new place
-/// until `end_ns`; what is new, or all when end_ns <= begin_ns, is there at once.
-std::vector<Instance> followOn(const std::vector<PlacedShape>& placed, const Snapshot& last, std::int64_t begin_ns,
-                               std::int64_t end_ns);
+struct Followed {
+  std::vector<Instance> instances;
+  bool abrupt = false;  ///< something has come, gone, changed or jumped at once
+};
+
+/// The instances of the next snapshot, from those of this client in the last one (by rising key): what was there moves
+/// from where it is at `begin_ns` to its new place until `end_ns`; what is new, or all when end_ns <= begin_ns, is
+/// there at once.
+Followed followOn(const std::vector<PlacedShape>& placed, const std::vector<Instance>& last, std::int64_t begin_ns,
+                  std::int64_t end_ns);
 
 }  // namespace hl

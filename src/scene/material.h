@@ -20,6 +20,7 @@ struct TextureUse {
   double low = 0;
   double high = 1;
   bool used() const { return texture != kNone; }
+  bool operator==(const TextureUse&) const = default;
 };
 
 struct Material {
@@ -34,6 +35,7 @@ struct Material {
 
   const TextureUse& textureOf(Quantity quantity) const { return textures[static_cast<std::size_t>(quantity)]; }
   TextureUse& textureOf(Quantity quantity) { return textures[static_cast<std::size_t>(quantity)]; }
+  bool operator==(const Material&) const = default;
 };
 
 /// What a user sets for every surface at once, over what the scene says; what is not set stays as it is.

@@ -56,9 +56,12 @@ std::shared_ptr<const Surfaces> surfacesOf(const std::shared_ptr<const Shape>& s
   return surfaces;
 }
 
-std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, std::string name) {
+std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, std::string name, std::uint64_t number,
+                                             bool abrupt) {
   auto snapshot = std::make_shared<Snapshot>();
   snapshot->name = std::move(name);
+  snapshot->number = number;
+  snapshot->abrupt = abrupt;
   snapshot->instances = std::move(instances);
   std::sort(snapshot->instances.begin(), snapshot->instances.end(),
             [](const Instance& a, const Instance& b) { return a.key < b.key; });

@@ -18,6 +18,7 @@ namespace hl {
 struct Surfaces {
   std::vector<Material> materials;                       ///< at least as many as the shape's model has
   std::vector<std::shared_ptr<const Texture>> textures;  ///< what TextureUse::texture counts
+  bool operator==(const Surfaces&) const = default;
 };
 
 /// A shape where it is shown.
@@ -37,9 +38,9 @@ struct Snapshot {
   /// m: largest coordinate, in the world or in an object; distances are known to a few units in its last place.
   double extent = 0;
   std::int64_t moves_until_ns = std::numeric_limits<std::int64_t>::min();  ///< after that all is at rest
-  std::uint64_t number = 1;         ///< of one server's snapshots, rising
-  bool abrupt = true;               ///< objects have come, gone or changed at once since the one before
-  std::size_t primitives = 0;                                              ///< each instance counted
+  std::uint64_t number = 1;                                                ///< of one server's snapshots, rising
+  bool abrupt = true;          ///< objects have come, gone or changed at once since the one before
+  std::size_t primitives = 0;  ///< each instance counted
   std::string name;
   std::vector<std::string> warnings;
 
@@ -50,7 +51,8 @@ struct Snapshot {
 std::shared_ptr<const Surfaces> surfacesOf(const std::shared_ptr<const Shape>& shape);
 
 /// Allocates; never called by a real-time thread.
-std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, std::string name = {});
+std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, std::string name = {},
+                                             std::uint64_t number = 1, bool abrupt = true);
 /// One model where it says, world and object frame the same.
 std::shared_ptr<const Snapshot> makeSnapshot(Model model, HierarchyKind hierarchy);
 

@@ -1,6 +1,6 @@
-// HttpServer: the page and its WebSocket, on loopback only, in one thread of its own.
-// It serves the files of one folder, refuses foreign Hosts and Origins, bounds every message, and never queues:
-// a page that reads slowly misses states, the newest one wins.
+// HttpServer: the page and its WebSocket /viewer, HL clients at /hl, /healthz and /metrics, on one port.
+// One thread moves bytes and talks with the pages; a few workers decode what HL clients send. Loopback only unless told
+// otherwise; beyond it insists on TLS and a token. Every message is bounded, and nothing is queued for a slow reader.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +8,22 @@
 #include <memory>
 #include <string>
 
+#include "server/limits.h"
+#include "server/metrics_text.h"
+#include "server/tls.h"
+
 namespace hl {
+
+class SessionHost;
 
 struct HttpServerSettings {
   std::uint16_t port = 1997;  ///< 0: any free one
   std::string page_folder;    ///< the built page; a notice is served when it is missing
   double feed_rate_Hz = 60;
+  std::string listen = "127.0.0.1";  ///< an address of this machine; beyond loopback `tls` and `token` are needed
+  TlsFiles tls{};                    ///< empty: none
+  std::string token{};               ///< empty: none is asked for; else as checkToken() wants it
+  Limits limits{};
 };
 
 /// Called in the server's thread. The strings are complete WebSocket binary messages.
@@ -21,21 +31,31 @@ struct FeedCallbacks {
   std::function<std::string()> hello;
   std::function<std::shared_ptr<const std::string>()> scene;
   std::function<std::string()> state;
-  std::function<void(const std::string&)> receive;  ///< one message of at most kMaxInbound_bytes from a page
+  std::function<void(const std::string&)> receive;  ///< one message of at most Limits::page_message_bytes from a page
 };
 
+/// What the server tells about whatever it serves, without knowing it. Called in the server's thread; each may be
+/// empty.
+struct MonitorCallbacks {
+  std::function<void()> observe;              ///< at the feed's rate, whether anyone asks or not
+  std::function<std::string()> fault;         ///< why it is not healthy, in one line; empty when it is
+  std::function<void(MetricsText&)> metrics;  ///< appends its own families
+};
+
+/// Constructed, started, stopped and destroyed by one thread.
 class HttpServer {
  public:
-  static constexpr std::size_t kMaxInbound_bytes = 4096;
-  static constexpr std::size_t kMaxPages = 16;       ///< WebSockets at once; more are refused
-  static constexpr double kMaxInboundRate_Hz = 500;  ///< per page; a page that sends faster is closed
-
-  /// Listens at once; throws hl::Error when the port is taken.
-  HttpServer(const HttpServerSettings& settings, FeedCallbacks callbacks);
+  /// Listens at once; throws hl::Error when the port is taken, a file of `tls` is no good, or the address is beyond
+  /// loopback and TLS or the token are missing. `host` outlives the server; null: there is no /hl.
+  HttpServer(const HttpServerSettings& settings, FeedCallbacks pages, SessionHost* host = nullptr,
+             MonitorCallbacks monitor = {});
   ~HttpServer();
   std::uint16_t port() const;
   void start();
-  void stop();  ///< closes all connections and joins the thread; safe to call twice
+  /// Says goodbye to HL clients, closes all connections and joins the threads; safe to call twice.
+  void stop();
+  /// Any thread. Throws hl::Error for a token that is no good; the one before then stays. Open sessions stay.
+  void setToken(const std::string& token);
 
  private:
   class Impl;

@@ -49,17 +49,4 @@ std::string missingPageNotice() {
          "<p>Run <code>scripts/build</code> in HL's folder, or give <code>hl touch --page-dir FOLDER</code>.</p>";
 }
 
-bool isLoopbackHost(std::string_view host, unsigned port) {
-  const std::string suffix = ":" + std::to_string(port);
-  if (!host.ends_with(suffix)) return false;
-  host.remove_suffix(suffix.size());
-  return host == "127.0.0.1" || host == "localhost" || host == "[::1]";
-}
-
-bool isOwnOrigin(std::string_view origin, unsigned port) {
-  if (origin.empty()) return true;
-  constexpr std::string_view kScheme = "http://";
-  return origin.starts_with(kScheme) && isLoopbackHost(origin.substr(kScheme.size()), port);
-}
-
 }  // namespace hl

@@ -19,9 +19,4 @@ std::optional<StaticFile> readStaticFile(const std::string& folder, std::string_
 /// What is shown when the page has not been built.
 std::string missingPageNotice();
 
-/// True for a Host of this machine's loopback with this port: 127.0.0.1, localhost or [::1].
-bool isLoopbackHost(std::string_view host, unsigned port);
-/// True for an absent (empty) Origin or the page's own.
-bool isOwnOrigin(std::string_view origin, unsigned port);
-
 }  // namespace hl

@@ -129,8 +129,10 @@ void TouchSession::runServo() {
                    target.target.valid ? static_cast<float>((target.target.proxy_D - sample.position).norm()) : 0.0f,
                    target.tick_us});
     meter.add(now_ns, monotonicNow_ns() - now_ns);
-    servo_view_.write(
-        {sample.buttons, sample.position, out.force_N, out.safety, out.fault, state.spring.ledger, meter.summary()});
+    const ServoView view{sample.buttons, sample.position,     out.force_N,    out.safety,
+                         out.fault,      state.spring.ledger, meter.summary()};
+    servo_view_.write(view);
+    servo_for_clients_.write(view);
   });
   device_.write(Vec3::Zero());
 }
@@ -159,6 +161,7 @@ void TouchSession::runProxy() {
     view.capped += step.report.capped ? 1 : 0;
     view.loop = meter.summary();
     proxy_view_.write(view);
+    proxy_for_clients_.write(view);
     last_tick_ns_.store(now_ns, std::memory_order_release);
   });
 }
@@ -294,12 +297,15 @@ bool TouchSession::ready(std::int64_t since_ns) const {
 
 void TouchSession::rearm() { arm_requests_.fetch_add(1); }
 
+void TouchSession::viewsForClients(ServoView& servo, ProxyView& proxy) {
+  servo_for_clients_.read(servo);
+  proxy_for_clients_.read(proxy);
+}
+
 void TouchSession::views(ServoView& servo, ProxyView& proxy) {
   servo_view_.read(servo);
   proxy_view_.read(proxy);
 }
-
-double TouchSession::time_s() const { return 1e-9 * static_cast<double>(monotonicNow_ns() - start_ns_); }
 
 LoopTotals TouchSession::totals(const LoopCounters& counters) {
   return {counters.steps.load(), counters.deadlines_missed.load(), counters.late_max_ns.load()};

@@ -14,6 +14,7 @@
 #include <string>
 #include <thread>
 
+#include "base/clock.h"
 #include "base/latest.h"
 #include "base/realtime.h"
 #include "base/spsc_ring.h"
@@ -100,14 +101,16 @@ class TouchSession {
   void setLedger(LedgerMode mode);
   void rearm();
 
-  void views(ServoView& servo, ProxyView& proxy);
+  void views(ServoView& servo, ProxyView& proxy);            ///< for the pages; one thread only
+  void viewsForClients(ServoView& servo, ProxyView& proxy);  ///< for HL clients; one thread at a time
   bool popSample(TouchSample& sample) { return samples_.pop(sample); }
   bool exploring() const { return exploring_.load(); }
   bool handFirm() const { return hand_firm_.load(); }
   double stiffness_N_m() const { return stiffness_.load(); }
   MaterialOverride surfaces() const;
   LedgerMode ledger() const { return ledger_.load(); }
-  double time_s() const;
+  double time_s() const { return time_s(monotonicNow_ns()); }  ///< since the start
+  double time_s(std::int64_t monotonic_ns) const { return 1e-9 * static_cast<double>(monotonic_ns - start_ns_); }
 
   /// Shows another scene. Not real-time; one thread at a time, and only when ready().
   void publish(std::shared_ptr<const Snapshot> snapshot);
@@ -159,6 +162,8 @@ class TouchSession {
   Latest<TargetMessage> target_;
   Latest<ServoView> servo_view_;
   Latest<ProxyView> proxy_view_;
+  Latest<ServoView> servo_for_clients_;
+  Latest<ProxyView> proxy_for_clients_;
   SpscRing<TouchSample, 1024> samples_;
 
   std::atomic<bool> running_{false};

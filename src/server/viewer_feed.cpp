@@ -5,6 +5,7 @@
 #include <cstring>
 #include <vector>
 
+#include "server/feed_messages.h"
 #include "server/surface_images.h"
 
 namespace hl {
@@ -13,12 +14,6 @@ namespace {
 
 constexpr std::uint32_t kProtocolVersion = 1;
 constexpr int kMaxSamples = 100;
-
-void set(proto::Vec3* out, const Vec3& v) {
-  out->set_x(v.x());
-  out->set_y(v.y());
-  out->set_z(v.z());
-}
 
 template <typename T>
 std::string bytesOf(const std::vector<T>& values) {
@@ -42,15 +37,7 @@ std::string hello(const TouchSession& session, const std::string& version) {
   out.set_protocol_version(kProtocolVersion);
   out.set_server_version(version);
   out.set_scene_name(session.snapshot()->name);
-  const DeviceInfo& info = session.deviceInfo();
-  proto::DeviceInfo& device = *out.mutable_device();
-  device.set_name(info.name);
-  device.set_force_max_n(info.force_max_N);
-  device.set_stiffness_n_m(session.stiffness_N_m());
-  device.set_stiffness_max_n_m(info.stiffness_max_N_m);
-  device.set_damping_ns_m(session.settings().damping_Ns_m.value_or(info.damping_Ns_m));
-  device.set_servo_rate_hz(session.settings().servo_rate_Hz);
-  device.set_proxy_rate_hz(session.settings().proxy_rate_Hz);
+  toProto(session, *out.mutable_device());
   return message.SerializeAsString();
 }
 
@@ -66,33 +53,13 @@ std::string sceneMesh(const TouchSession& session) {
   out.set_segments(bytesOf(snapshot.shape().model.segments));
   out.set_points(bytesOf(snapshot.shape().model.points));
   if (!snapshot.bounds.empty()) {
-    set(out.mutable_bounds_min(), snapshot.bounds.min);
-    set(out.mutable_bounds_max(), snapshot.bounds.max);
+    toProto(snapshot.bounds.min, *out.mutable_bounds_min());
+    toProto(snapshot.bounds.max, *out.mutable_bounds_max());
   }
   out.set_proxy_radius(session.radius_W());
   out.set_world_per_device(session.workspace().world_per_device);
   addSurfaceImages(snapshot.shape().model, out);
   return message.SerializeAsString();
-}
-
-void setLoop(proto::LoopStats* out, const LoopSummary& loop, const LoopTotals& totals) {
-  out->set_rate_hz(loop.rate_Hz);
-  out->set_time_p50_us(1e-3 * static_cast<double>(loop.p50_ns));
-  out->set_time_p999_us(1e-3 * static_cast<double>(loop.p999_ns));
-  out->set_time_max_us(1e-3 * static_cast<double>(loop.max_ns));
-  out->set_deadlines_missed(totals.missed);
-  out->set_steps(totals.steps);
-}
-
-void setContacts(proto::State& state, const ProxyView& proxy) {
-  for (const ProxyContact& contact : proxy.contacts) {
-    proto::ContactPlane& plane = *state.add_contacts();
-    set(plane.mutable_point(), contact.point);
-    set(plane.mutable_normal(), contact.normal);
-    plane.set_multiplier_m(contact.multiplier_m);
-    plane.set_static_friction(contact.static_friction);
-    plane.set_stiffness(contact.stiffness);
-  }
 }
 
 void setSamples(proto::State& state, TouchSession& session) {
@@ -105,20 +72,6 @@ void setSamples(proto::State& state, TouchSession& session) {
     out.set_penetration_m(sample.penetration_m);
     out.set_tick_us(sample.tick_us);
   }
-}
-
-// The proxy's ledger and the servo's, which books late hand-over, as one.
-void setLedger(proto::Ledger& out, const Ledger& ledger, const Ledger& late, LedgerMode mode) {
-  const auto cause = [&](EnergyCause c) { return ledger.by_cause_J[static_cast<std::size_t>(c)]; };
-  out.set_mode(static_cast<proto::LedgerMode>(mode));
-  out.set_tank_j(ledger.tank_J);
-  out.set_injected_j(ledger.injected_J + late.injected_J);
-  out.set_dissipated_j(ledger.dissipated_J + late.dissipated_J);
-  out.set_shading_j(cause(EnergyCause::kShading));
-  out.set_stiffness_j(cause(EnergyCause::kStiffness));
-  out.set_texture_j(cause(EnergyCause::kTexture));
-  out.set_moving_j(cause(EnergyCause::kMoving));
-  out.set_late_j(late.by_cause_J[static_cast<std::size_t>(EnergyCause::kLate)]);
 }
 
 void setSurfaces(proto::Surfaces& out, const MaterialOverride& surfaces) {
@@ -148,20 +101,20 @@ std::string state(TouchSession& session) {
   proto::ServerMessage message;
   proto::State& out = *message.mutable_state();
   out.set_time_s(session.time_s());
-  set(out.mutable_finger(), session.workspace().toWorld(servo.finger_D));
-  set(out.mutable_proxy(), proxy.proxy);
-  set(out.mutable_force_n(), servo.force_N);
-  setContacts(out, proxy);
+  toProto(session.workspace().toWorld(servo.finger_D), *out.mutable_finger());
+  toProto(proxy.proxy, *out.mutable_proxy());
+  toProto(servo.force_N, *out.mutable_force_n());
+  for (const ProxyContact& contact : proxy.contacts) toProto(contact, *out.add_contacts());
   out.set_safety(static_cast<proto::SafetyState>(servo.safety));
   if (servo.safety == SafetyState::kFault) out.set_fault(faultText(servo.fault));
-  setLoop(out.mutable_servo(), servo.loop, session.servoTotals());
-  setLoop(out.mutable_proxy_loop(), proxy.loop, session.proxyTotals());
+  toProto(servo.loop, session.servoTotals(), *out.mutable_servo());
+  toProto(proxy.loop, session.proxyTotals(), *out.mutable_proxy_loop());
   setSamples(out, session);
   out.set_exploring(session.exploring());
   out.set_iteration_caps(proxy.capped);
   out.set_hand_firm(session.handFirm());
   out.set_stiffness_n_m(session.stiffness_N_m());
-  setLedger(*out.mutable_ledger(), proxy.ledger, servo.late, session.ledger());
+  toProto(proxy.ledger, servo.late, session.ledger(), *out.mutable_ledger());
   setSurfaces(*out.mutable_surfaces(), session.surfaces());
   out.set_slipping(proxy.slipping);
   return message.SerializeAsString();

@@ -90,7 +90,7 @@ TEST_F(HttpServerTest, AForeignOriginGetsNoWebSocket) {
 TEST_F(HttpServerTest, AMessageTooLargeEndsOnlyThatPage) {
   Socket good = open("http://" + host());
   Socket bad = open("http://" + host());
-  bad.write(asio::buffer(std::string(HttpServer::kMaxInbound_bytes + 1, 'x')));
+  bad.write(asio::buffer(std::string(Limits{}.page_message_bytes + 1, 'x')));
   EXPECT_THROW(for (int i = 0; i < 10'000; ++i) next(bad), boost::system::system_error);
   for (int i = 0; i < 5; ++i) EXPECT_FALSE(next(good).empty());
   EXPECT_EQ(received_, 0u);
@@ -104,7 +104,7 @@ TEST_F(HttpServerTest, AFloodEndsOnlyThatPage) {
   } catch (const boost::system::system_error&) {
   }
   EXPECT_THROW(for (int i = 0; i < 10'000; ++i) next(flood), boost::system::system_error);
-  EXPECT_LE(received_, 2 * static_cast<std::size_t>(HttpServer::kMaxInboundRate_Hz));
+  EXPECT_LE(received_, 2 * static_cast<std::size_t>(Limits{}.page_messages_Hz));
   for (int i = 0; i < 5; ++i) EXPECT_FALSE(next(good).empty());
 }
 

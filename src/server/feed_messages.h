@@ -1,0 +1,19 @@
+// What the loops did, as messages of proto/hl.proto: for pages and for HL clients.
+#pragma once
+
+#include <hl.pb.h>
+
+#include "server/touch_session.h"
+
+namespace hl {
+
+void toProto(const Vec3& v, proto::Vec3& out);
+void toProto(const TouchSession& session, proto::DeviceInfo& out);
+void toProto(const LoopSummary& loop, const LoopTotals& totals, proto::LoopStats& out);
+void toProto(const ProxyContact& contact, proto::ContactPlane& out);
+/// The proxy's ledger and the servo's, which books late hand-over, as one.
+void toProto(const Ledger& ledger, const Ledger& late, LedgerMode mode, proto::Ledger& out);
+/// All that a client is told, but whether it is the master.
+void toProto(const TouchSession& session, const ServoView& servo, const ProxyView& proxy, proto::ClientState& out);
+
+}  // namespace hl

@@ -1,0 +1,296 @@
+#include "server/hl_carrier.h"
+
+#include <algorithm>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/experimental/awaitable_operators.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <type_traits>
+#include <utility>
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "server/carrier_bell.h"
+#include "server/event_log.h"
+
+namespace hl {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using websocket::close_code;
+
+namespace {
+
+constexpr std::size_t kPiece_bytes = std::size_t{64} * 1024;  // of a message, from the socket at a time
+// Replies in the kernel's hands are replies that grow old: a slow reader shall find new states soon.
+constexpr int kSendBuffer_bytes = 64 * 1024;
+constexpr double kShortestWait_s =
+    1e-4;  // a state that is due but not there yet is asked for at most 10 000 times a second
+constexpr double kLongestWait_s = 3600;         // without states only the bell wakes
+constexpr std::size_t kMostReason_bytes = 123;  // RFC 6455, 5.5: what a close frame holds beside its code
+
+std::chrono::nanoseconds duration(double seconds) {
+  return std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * seconds));
+}
+
+// Does `work` on the strand and comes back with its result.
+template <typename Strand, typename Work>
+asio::awaitable<std::invoke_result_t<Work>> doOn(Strand strand, Work work) {
+  co_return co_await asio::co_spawn(
+      strand, [&work]() -> asio::awaitable<std::invoke_result_t<Work>> { co_return work(); }, asio::use_awaitable);
+}
+
+// As much of `text` as fits, never half a UTF-8 character.
+websocket::close_reason closeReason(close_code code, const std::string& text) {
+  std::size_t end = std::min(text.size(), kMostReason_bytes);
+  while (end > 0 && end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return {code, beast::string_view(text.data(), end)};
+}
+
+proto::ServerReply fatalRefusal(const std::string& text) {
+  proto::ServerReply reply;
+  reply.mutable_refusal()->set_text(text);
+  reply.mutable_refusal()->set_fatal(true);
+  return reply;
+}
+
+}  // namespace
+
+HlCarrier::HlCarrier(const CarrierWorld& world, ConnectionPointer connection, bool trusted)
+    : world_(world),
+      connection_(std::move(connection)),
+      stream_(connection_->stream),
+      strand_(asio::make_strand(world.workers.get_executor())),
+      bell_(std::make_shared<CarrierBell>(world.context)),
+      open_deadline_(world.context),
+      write_deadline_(world.context),
+      rate_(world.limits.messages_Hz),
+      trusted_(trusted) {}
+
+bool HlCarrier::setUp() {
+  boost::system::error_code error;
+  connection_->stream.tcp().socket().set_option(asio::socket_base::send_buffer_size(kSendBuffer_bytes), error);
+  websocket::stream_base::timeout patience{};
+  patience.handshake_timeout = duration(world_.limits.handshake_s);
+  patience.idle_timeout = duration(world_.limits.idle_s);
+  patience.keep_alive_pings = true;
+  stream_.set_option(patience);
+  // readMessage() counts the bytes, so that it can say why it refuses; here 0 is no limit.
+  stream_.read_message_max(0);
+  stream_.write_buffer_bytes(kPiece_bytes);
+  return !error;
+}
+
+asio::awaitable<void> HlCarrier::run(http::request<http::string_body> request) {
+  using namespace asio::experimental::awaitable_operators;
+  const auto self = shared_from_this();
+  if (!setUp()) co_return;
+  auto [refused] = co_await stream_.async_accept(request, kAwait);
+  if (refused) co_return;
+  connection_->farewell = [weak = weak_from_this()] {
+    if (const auto carrier = weak.lock()) carrier->end({close_code::going_away, "the server stops", false, {}});
+  };
+  expectOpen();
+  co_await (read() && write());
+  open_deadline_.cancel();
+  co_await release();
+}
+
+// The session goes on the strand that it has lived on, and the bell no longer rings.
+asio::awaitable<void> HlCarrier::release() {
+  co_await doOn(strand_, [this] {
+    session_.reset();
+    return true;
+  });
+  bell_->close();
+  if (!opened_) co_return;
+  --world_.traffic.sessions;
+  logEvent(LogLevel::kInfo, "session_end",
+           {{"peer", connection_->peer}, {"reason", ending_ ? ending_->text : std::string("the connection ended")}});
+}
+
+void HlCarrier::end(Ending ending) {
+  if (ending_) return;
+  ending_ = std::move(ending);
+  bell_->ring();
+}
+
+void HlCarrier::refuse(close_code code, RefusedBecause because, std::string text) {
+  end({code, std::move(text), true, because});
+}
+
+void HlCarrier::expectOpen() {
+  open_deadline_.expires_after(duration(world_.limits.handshake_s));
+  open_deadline_.async_wait([weak = weak_from_this()](boost::system::error_code cancelled) {
+    const auto carrier = weak.lock();
+    if (cancelled || !carrier || carrier->opened_) return;
+    carrier->refuse(close_code::policy_error, RefusedBecause::kSilent, "no Open came in time; send it first");
+  });
+}
+
+// ---- From the client -----------------------------------------------------------------------------------------------
+
+asio::awaitable<void> HlCarrier::read() {
+  try {
+    while (!ending_) {
+      beast::flat_buffer buffer;
+      const bool whole = co_await readMessage(buffer);
+      if (!whole) break;
+      if (!rate_.allow(monotonicNow_ns())) {
+        refuse(close_code::policy_error, RefusedBecause::kTooFast,
+               "too many messages a second; send fewer, larger ones");
+        break;
+      }
+      co_await takeIn(buffer);
+    }
+  } catch (const std::bad_alloc&) {
+    refuse(close_code::internal_error, RefusedBecause::kFailed, "the server has not enough memory for the message");
+  }
+}
+
+asio::awaitable<void> HlCarrier::takeIn(const beast::flat_buffer& buffer) {
+  const MessageForm form = stream_.got_text() ? MessageForm::kJson : MessageForm::kBinary;
+  if (!opened_) form_ = form;
+  const auto data = buffer.cdata();
+  const std::string_view bytes(static_cast<const char*>(data.data()), data.size());
+  std::optional<Ending> trouble = co_await doOn(strand_, [&] { return handle(form, bytes); });
+  if (trouble) {
+    end(std::move(*trouble));
+  } else if (!opened_) {
+    opened_ = true;
+    ++world_.traffic.sessions;
+    ++world_.traffic.sessions_opened;
+  }
+  bell_->ring();
+}
+
+// One whole message, or false: the connection has ended, or the message is too large and refused.
+asio::awaitable<bool> HlCarrier::readMessage(beast::flat_buffer& buffer) {
+  const std::uint64_t most = opened_ ? world_.limits.message_bytes : world_.limits.open_bytes;
+  do {
+    auto [error, bytes] = co_await stream_.async_read_some(buffer, kPiece_bytes, kAwait);
+    if (error) {
+      if (error == websocket::condition::protocol_violation) world_.traffic.refuse(RefusedBecause::kMalformed);
+      gone_ = true;
+      bell_->ring();
+      co_return false;
+    }
+    world_.traffic.bytes_in += bytes;
+    if (buffer.size() > most) {
+      refuse(close_code::too_big, RefusedBecause::kTooLarge,
+             "a message of more than " + std::to_string(most) + " bytes; " +
+                 (opened_ ? "send large meshes as uploads in parts" : "send Open first"));
+      co_return false;
+    }
+  } while (!stream_.is_message_done());
+  ++world_.traffic.messages_in;
+  co_return true;
+}
+
+std::optional<HlCarrier::Ending> HlCarrier::handle(MessageForm form, std::string_view bytes) {
+  try {
+    proto::ClientMessage message;
+    std::string fault = decodeMessage(form, bytes, message);
+    if (!fault.empty()) return Ending{close_code::bad_payload, std::move(fault), true, RefusedBecause::kMalformed};
+    if (!session_) return open(form, std::move(message));
+    session_->receive(std::move(message));
+    return {};
+  } catch (const std::exception& error) {
+    return Ending{close_code::internal_error, std::string("the server failed: ") + error.what(), true,
+                  RefusedBecause::kFailed};
+  }
+}
+
+std::optional<HlCarrier::Ending> HlCarrier::open(MessageForm form, proto::ClientMessage message) {
+  if (!message.has_open()) {
+    return Ending{close_code::policy_error, "the first message must be open", true, RefusedBecause::kMalformed};
+  }
+  if (!trusted_ && !world_.access.allowsToken(message.open().token())) {
+    return Ending{close_code::policy_error, "wrong or no token; this server asks for one", true,
+                  RefusedBecause::kAccess};
+  }
+  message.mutable_open()->clear_token();  // it has done its work: nobody else needs to know it
+  try {
+    session_ = world_.host.connect(connection_->peer, [bell = bell_] { bell->ring(); });
+  } catch (const Error& error) {
+    return Ending{close_code::try_again_later, error.what(), true, RefusedBecause::kFull};
+  }
+  logEvent(LogLevel::kInfo, "session_open",
+           {{"peer", connection_->peer},
+            {"client", message.open().client_name()},
+            {"form", form == MessageForm::kJson ? "json" : "binary"}});
+  session_->receive(std::move(message));
+  return {};
+}
+
+// ---- To the client -------------------------------------------------------------------------------------------------
+
+HlCarrier::Next HlCarrier::next() {
+  Next next;
+  if (!session_) {
+    next.wait_s = kLongestWait_s;
+    return next;
+  }
+  proto::ServerReply reply;
+  if (session_->take(reply)) {
+    next.bytes = encodeReply(form_, reply);
+    return next;
+  }
+  next.end = session_->end();
+  next.wait_s = std::clamp(session_->nextState_s(), kShortestWait_s, kLongestWait_s);
+  return next;
+}
+
+asio::awaitable<void> HlCarrier::write() {
+  while (!gone_) {
+    if (ending_) {
+      co_await sayGoodbye(*ending_);
+      break;
+    }
+    const Next todo = co_await doOn(strand_, [this] { return next(); });
+    if (todo.bytes) {
+      const bool sent = co_await writeMessage(form_, *todo.bytes);
+      if (!sent) break;
+    } else if (!todo.end.empty()) {
+      end({close_code::policy_error, todo.end, false, {}});
+    } else {
+      co_await bell_->wait(duration(todo.wait_s));
+    }
+  }
+  // Whatever the reader still waits for will not come.
+  connection_->stream.close();
+}
+
+asio::awaitable<bool> HlCarrier::writeMessage(MessageForm form, const std::string& bytes) {
+  write_deadline_.expires_after(duration(world_.limits.write_s));
+  write_deadline_.async_wait([weak = weak_from_this()](boost::system::error_code cancelled) {
+    const auto carrier = weak.lock();
+    if (cancelled || !carrier) return;
+    carrier->world_.traffic.refuse(RefusedBecause::kSilent);
+    carrier->end({close_code::policy_error, "the client reads nothing", false, RefusedBecause::kSilent});
+    carrier->connection_->stream.close();
+  });
+  stream_.text(form == MessageForm::kJson);
+  auto [error, sent] = co_await stream_.async_write(asio::buffer(bytes), kAwait);
+  write_deadline_.cancel();
+  world_.traffic.bytes_out += sent;
+  if (!error) ++world_.traffic.messages_out;
+  co_return !error;
+}
+
+asio::awaitable<void> HlCarrier::sayGoodbye(const Ending& ending) {
+  if (ending.refusal) {
+    world_.traffic.refuse(ending.because);
+    logEvent(LogLevel::kWarning, "refused", {{"peer", connection_->peer}, {"reason", ending.text}});
+    const std::string bytes = encodeReply(form_, fatalRefusal(ending.text));
+    const bool sent = co_await writeMessage(form_, bytes);
+    if (!sent) co_return;
+  }
+  co_await stream_.async_close(closeReason(ending.code, ending.text), kAwait);
+}
+
+}  // namespace hl

@@ -1,0 +1,258 @@
+#include "server/hl_session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/clock.h"
+#include "server/touch_server.h"
+
+namespace hl {
+
+namespace {
+
+constexpr std::uint32_t kProtocolVersion = 1;
+constexpr std::size_t kMostReplies = 4096;      // that a client has not read: it does not read at all
+constexpr std::size_t kMostWaitingFrames = 64;  // that are not built yet
+constexpr std::size_t kMostNameLength = 100;
+
+SceneLimits sceneLimits(const Limits& limits) {
+  return {limits.objects, limits.primitives, limits.instances, limits.texture_bytes, limits.nesting};
+}
+
+// What a log shows of a name.
+std::string plain(std::string name) {
+  name.resize(std::min(name.size(), kMostNameLength));
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
+  return name;
+}
+
+}  // namespace
+
+HlSession::HlSession(TouchServer& server, std::uint32_t number, std::string peer, WakeCarrier wake)
+    : server_(server),
+      number_(number),
+      peer_(std::move(peer)),
+      wake_(std::move(wake)),
+      frame_rate_(server.settings_.limits.frames_Hz) {}
+
+HlSession::~HlSession() {
+  server_.leave(*this);
+  if (!place_) return;
+  server_.publisher_.detach(place_);
+  if (keep_objects_) {
+    server_.keep(client_name_, place_);
+  } else {
+    server_.publisher_.remove(place_);
+  }
+}
+
+void HlSession::receive(proto::ClientMessage message) {
+  if (!end().empty()) return;
+  if (!opened_ && message.body_case() != proto::ClientMessage::kOpen) return end("the first message must be open");
+  switch (message.body_case()) {
+    case proto::ClientMessage::kOpen:
+      return open(message.open());
+    case proto::ClientMessage::kUpload:
+      return keepUpload(std::move(*message.mutable_upload()));
+    case proto::ClientMessage::kFrame:
+      return submit(std::move(*message.mutable_frame()));
+    case proto::ClientMessage::kStateRate:
+      return setStateRate(message.state_rate().rate_hz());
+    case proto::ClientMessage::kDevice:
+      return setDevice(message.device());
+    case proto::ClientMessage::BODY_NOT_SET:
+      return refuse("a message with nothing in it that this server knows");
+  }
+}
+
+void HlSession::open(const proto::Open& open) {
+  if (opened_) return refuse("this session is open already");
+  if (open.protocol_version() != kProtocolVersion)
+    return end("this server speaks version " + std::to_string(kProtocolVersion) + " of the protocol, the client " +
+               std::to_string(open.protocol_version()));
+  if (open.device() >= server_.devices())
+    return end("there is no device " + std::to_string(open.device()) + "; the server has " +
+               std::to_string(server_.devices()));
+  opened_ = true;
+  client_name_ = plain(open.client_name());
+  keep_objects_ = open.keep_objects();
+  device_ = open.device();
+  master_ = open.master() && server_.becomeMaster(device_, number_);
+  server_.dropKept(client_name_);
+  place_ = server_.publisher_.join(number_, sceneLimits(server_.settings_.limits), callbacks());
+  proto::ServerReply reply;
+  proto::Welcome& welcome = *reply.mutable_welcome();
+  welcome.set_protocol_version(kProtocolVersion);
+  welcome.set_server_version(server_.settings_.version);
+  welcome.set_session(number_);
+  welcome.set_master(master_);
+  for (std::uint32_t i = 0; i < server_.devices(); ++i) server_.setDeviceInfo(i, *welcome.add_devices());
+  *welcome.mutable_limits() = toProto(server_.settings_.limits);
+  this->reply(std::move(reply));
+  setStateRate(open.state_rate_hz());
+}
+
+void HlSession::keepUpload(proto::Upload upload) {
+  if (upload.id() == 0) return refuse("an upload needs an id above 0");
+  upload_bytes_ += upload.part().ByteSizeLong();
+  if (upload_bytes_ > server_.settings_.limits.upload_bytes)
+    return end("more than " + std::to_string(server_.settings_.limits.upload_bytes) +
+               " bytes were uploaded and not used by a frame");
+  auto [place, fresh] = uploads_.try_emplace(upload.id());
+  if (fresh) {
+    place->second = std::move(*upload.mutable_part());
+  } else {
+    place->second.MergeFrom(upload.part());
+  }
+}
+
+Uploads HlSession::takeUploads(const proto::Frame& frame) {
+  Uploads used;
+  const auto take = [&](const auto& items) {
+    for (const proto::Item& item : items) {
+      if (item.what_case() != proto::Item::kUpload) continue;
+      auto node = uploads_.extract(item.upload());
+      if (!node) continue;
+      upload_bytes_ -= std::min<std::uint64_t>(upload_bytes_, node.mapped().ByteSizeLong());
+      used.insert(std::move(node));
+    }
+  };
+  for (const proto::ObjectDefinition& object : frame.objects()) take(object.items());
+  take(frame.world().items());
+  return used;
+}
+
+void HlSession::submit(proto::Frame frame) {
+  const std::uint64_t number = frame.number();
+  if (number <= last_frame_)
+    return refuse("frames must have rising numbers; the last was " + std::to_string(last_frame_), number);
+  last_frame_ = number;
+  if (!frame_rate_.allow(monotonicNow_ns())) return refuse("frames come faster than the server's limit", number);
+  if (server_.publisher_.waiting(place_) >= kMostWaitingFrames)
+    return refuse("frames come faster than they can be built", number);
+  Uploads uploads = takeUploads(frame);
+  server_.publisher_.submit(place_, std::move(frame), std::move(uploads));
+}
+
+void HlSession::setDevice(const proto::DeviceSettings& settings) {
+  if (!master_) return refuse("another client is the device's master");
+  TouchSession& device = server_.device(device_);
+  const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
+  const bool bad_workspace = settings.has_workspace() && !positive(settings.workspace().world_per_device());
+  if (bad_workspace || (settings.has_proxy_radius() && !positive(settings.proxy_radius())))
+    return refuse("proxy_radius and world_per_device must be above 0");
+  if (settings.has_workspace()) {
+    const proto::Vec3& o = settings.workspace().origin();
+    device.setWorkspace({Vec3(o.x(), o.y(), o.z()), settings.workspace().world_per_device()});
+  }
+  if (settings.has_proxy_radius()) device.setRadius(settings.proxy_radius());
+  if (settings.has_stiffness_n_m()) device.setStiffness(settings.stiffness_n_m());
+  if (settings.has_ledger() && proto::LedgerMode_IsValid(settings.ledger()))
+    device.setLedger(static_cast<LedgerMode>(settings.ledger()));
+  if (settings.rearm()) device.rearm();
+  if (settings.has_hand_goal()) {
+    const proto::Vec3& p = settings.hand_goal().position();
+    device.setHandGoal(Vec3(p.x(), p.y(), p.z()));
+  }
+}
+
+void HlSession::setStateRate(double rate_Hz) {
+  if (!(rate_Hz > 0)) {
+    state_period_s_ = 0;
+    return;
+  }
+  state_period_s_ = 1 / std::min(rate_Hz, server_.settings_.limits.state_rate_Hz);
+  next_state_s_ = server_.time_s();
+}
+
+void HlSession::reply(proto::ServerReply reply) {
+  {
+    const std::lock_guard lock(mutex_);
+    replies_.push_back(std::move(reply));
+    if (replies_.size() > kMostReplies && end_.empty()) end_ = "the client does not read what it is told";
+  }
+  wake_();
+}
+
+void HlSession::refuse(const std::string& why, std::uint64_t frame) {
+  proto::ServerReply reply;
+  reply.mutable_refusal()->set_text(why);
+  reply.mutable_refusal()->set_frame(frame);
+  this->reply(std::move(reply));
+}
+
+void HlSession::tell(const proto::Event& event) {
+  proto::ServerReply reply;
+  *reply.mutable_event() = event;
+  this->reply(std::move(reply));
+}
+
+FrameCallbacks HlSession::callbacks() {
+  FrameCallbacks callbacks;
+  callbacks.progress = [this](std::uint64_t number, double part) {
+    proto::ServerReply reply;
+    reply.mutable_progress()->set_frame(number);
+    reply.mutable_progress()->set_built(part);
+    const std::lock_guard lock(mutex_);
+    // Of progress nobody has read yet the newest is enough; small frames tell of none.
+    if (!replies_.empty() && replies_.back().has_progress()) {
+      replies_.back() = std::move(reply);
+    } else if (part < 1) {
+      replies_.push_back(std::move(reply));
+    }
+  };
+  callbacks.shown = [this](std::uint64_t number, std::size_t primitives, const std::vector<std::string>& warnings) {
+    proto::ServerReply reply;
+    proto::FrameShown& shown = *reply.mutable_frame_shown();
+    shown.set_number(number);
+    shown.set_time_s(server_.time_s());
+    shown.set_primitives(primitives);
+    for (const std::string& warning : warnings) shown.add_warnings(warning);
+    this->reply(std::move(reply));
+  };
+  callbacks.refused = [this](std::uint64_t number, const std::string& why) { refuse(why, number); };
+  return callbacks;
+}
+
+bool HlSession::take(proto::ServerReply& reply) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!replies_.empty()) {
+      reply = std::move(replies_.front());
+      replies_.pop_front();
+      return true;
+    }
+    if (!end_.empty()) return false;
+  }
+  if (nextState_s() > 0) return false;
+  const double now_s = server_.time_s();
+  // At the rate asked for, without catching up on what was missed.
+  next_state_s_ = std::max(next_state_s_ + state_period_s_, now_s);
+  reply.Clear();
+  server_.describe(device_, *reply.mutable_state());
+  reply.mutable_state()->set_master(master_);
+  return true;
+}
+
+double HlSession::nextState_s() const {
+  if (state_period_s_ == 0) return std::numeric_limits<double>::infinity();
+  return std::max(0.0, next_state_s_ - server_.time_s());
+}
+
+std::string HlSession::end() const {
+  const std::lock_guard lock(mutex_);
+  return end_;
+}
+
+void HlSession::end(const std::string& why) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (end_.empty()) end_ = why;
+  }
+  wake_();
+}
+
+}  // namespace hl

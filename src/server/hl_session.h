@@ -1,0 +1,68 @@
+// HlSession: the protocol of one HL client: what may come when, what is refused, and what is told in return.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <string>
+
+#include "server/client_session.h"
+#include "server/limits.h"
+#include "server/message_rate.h"
+#include "server/scene_publisher.h"
+
+namespace hl {
+
+class TouchServer;
+
+class HlSession final : public ClientSession {
+ public:
+  HlSession(TouchServer& server, std::uint32_t number, std::string peer, WakeCarrier wake);
+  ~HlSession() override;
+
+  void receive(proto::ClientMessage message) override;
+  bool take(proto::ServerReply& reply) override;
+  double nextState_s() const override;
+  std::string end() const override;
+
+  std::uint32_t number() const { return number_; }
+  std::uint32_t device() const { return device_; }
+  /// An object of this session was touched or left, or a button of its device moved. Any thread.
+  void tell(const proto::Event& event);
+  /// Ends the session with this reason. Any thread.
+  void end(const std::string& why);
+
+ private:
+  void open(const proto::Open& open);
+  void keepUpload(proto::Upload upload);
+  void submit(proto::Frame frame);
+  Uploads takeUploads(const proto::Frame& frame);
+  void setDevice(const proto::DeviceSettings& settings);
+  void setStateRate(double rate_Hz);
+  void reply(proto::ServerReply reply);
+  void refuse(const std::string& why, std::uint64_t frame = 0);
+  FrameCallbacks callbacks();
+
+  TouchServer& server_;
+  const std::uint32_t number_;
+  const std::string peer_;
+  const WakeCarrier wake_;
+
+  // Of the carrier's thread:
+  bool opened_ = false, master_ = false, keep_objects_ = false;
+  std::string client_name_;
+  std::atomic<std::uint32_t> device_{0};  // read by others
+  std::shared_ptr<ScenePublisher::Place> place_;
+  Uploads uploads_;
+  std::uint64_t upload_bytes_ = 0, last_frame_ = 0;
+  double state_period_s_ = 0;  // 0: no states
+  double next_state_s_ = 0;    // server's clock
+  MessageRate frame_rate_;
+
+  mutable std::mutex mutex_;  // of what other threads bring
+  std::deque<proto::ServerReply> replies_;
+  std::string end_;
+};
+
+}  // namespace hl

@@ -1,0 +1,119 @@
+#include "server/listener.h"
+
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <utility>
+
+#include "base/error.h"
+
+namespace hl {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+
+namespace {
+
+constexpr std::chrono::milliseconds kPause(50);  // after a failed accept: out of descriptors, say
+
+std::string nameOf(const tcp::endpoint& endpoint) {
+  const std::string address = endpoint.address().to_string();
+  const std::string host = endpoint.address().is_v6() ? "[" + address + "]" : address;
+  return host + ":" + std::to_string(endpoint.port());
+}
+
+}  // namespace
+
+asio::ip::address parseListenAddress(const std::string& text) {
+  if (text == "localhost") return asio::ip::address_v4::loopback();
+  boost::system::error_code error;
+  const auto address = asio::ip::make_address(text, error);
+  if (error)
+    throw Error("'" + text + "' is no address to listen on; give 127.0.0.1, ::1, 0.0.0.0, :: or one of this machine's");
+  return address;
+}
+
+Listener::Listener(asio::io_context& context, const ListenerSettings& settings)
+    : context_(context), settings_(settings), acceptor_(context), pause_(context) {
+  listen(settings);
+  port_ = acceptor_.local_endpoint().port();
+}
+
+void Listener::listen(const ListenerSettings& settings) {
+  boost::system::error_code error;
+  const tcp::endpoint endpoint(settings.address, settings.port);
+  acceptor_.open(endpoint.protocol(), error);
+  if (!error) acceptor_.set_option(asio::socket_base::reuse_address(true), error);
+  if (!error) acceptor_.bind(endpoint, error);
+  if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
+  if (error) {
+    throw Error("cannot listen on " + nameOf(endpoint) + " (" + error.message() +
+                "); choose another port with --port N, or --port 0 for any free one");
+  }
+}
+
+void Listener::start(ServeConnection serve) {
+  serve_ = std::move(serve);
+  asio::co_spawn(context_, accept(), asio::detached);
+}
+
+asio::awaitable<void> Listener::accept() {
+  while (!stopping_) {
+    auto [error, socket] = co_await acceptor_.async_accept(kAwait);
+    if (stopping_) co_return;
+    if (error) {
+      pause_.expires_after(kPause);
+      co_await pause_.async_wait(kAwait);
+      continue;
+    }
+    boost::system::error_code gone;
+    const tcp::endpoint peer = socket.remote_endpoint(gone);
+    if (gone || connections_.size() >= settings_.max_connections) {
+      ++refused_;
+      continue;  // and the socket closes
+    }
+    // Messages are small and their time matters more than their number of packets.
+    socket.set_option(tcp::no_delay(true), gone);
+    auto connection = std::make_shared<Connection>(Stream::Tcp(std::move(socket)), settings_.tls.get(), nameOf(peer));
+    connections_.insert(connection);
+    asio::co_spawn(context_, admit(std::move(connection)), asio::detached);
+  }
+}
+
+asio::awaitable<void> Listener::admit(ConnectionPointer connection) {
+  const bool welcome = co_await shakeHands(*connection);
+  if (welcome) co_await serve_(connection);
+  connection->farewell = nullptr;
+  connection->stream.close();
+  connections_.erase(connection);
+  if (stopping_ && connections_.empty()) pause_.cancel();
+}
+
+asio::awaitable<bool> Listener::shakeHands(Connection& connection) {
+  Stream::Tls* tls = connection.stream.tls();
+  if (tls == nullptr) co_return true;
+  connection.stream.tcp().expires_after(settings_.handshake);
+  auto [error] = co_await tls->async_handshake(asio::ssl::stream_base::server, kAwait);
+  co_return !error;
+}
+
+void Listener::stop(std::chrono::milliseconds grace) {
+  stopping_ = true;
+  acceptor_.close();
+  pause_.cancel();
+  for (const ConnectionPointer& connection : connections_) {
+    if (connection->farewell) {
+      connection->farewell();
+    } else {
+      connection->stream.close();
+    }
+  }
+  if (!connections_.empty()) asio::co_spawn(context_, closeLater(grace), asio::detached);
+}
+
+asio::awaitable<void> Listener::closeLater(std::chrono::milliseconds grace) {
+  pause_.expires_after(grace);
+  co_await pause_.async_wait(kAwait);
+  for (const ConnectionPointer& connection : connections_) connection->stream.close();
+}
+
+}  // namespace hl

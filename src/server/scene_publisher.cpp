@@ -1,0 +1,270 @@
+#include "server/scene_publisher.h"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <utility>
+
+#include "base/clock.h"
+#include "base/error.h"
+
+namespace hl {
+
+namespace {
+
+// Motion begins a little after the scene is shown, so that every loop has taken it by then.
+constexpr std::int64_t kLead_ns = 2'000'000;
+constexpr int kLeadTries = 4;
+// Between two frames that are farther apart than this, nothing was meant to be seen moving all the time.
+constexpr std::int64_t kLongestMove_ns = 100'000'000;
+constexpr auto kLoopPoll = std::chrono::microseconds(200);
+
+}  // namespace
+
+class ScenePublisher::Place {
+ public:
+  Place(std::uint32_t session, const SceneLimits& limits, FrameCallbacks callbacks)
+      : session_(session), limits_(limits), scene_(session, limits), callbacks_(std::move(callbacks)) {}
+
+ private:
+  friend class ScenePublisher;
+  struct Ready {
+    std::uint64_t number;
+    std::vector<std::string> warnings;
+  };
+
+  /// Calls back unless the client has gone.
+  template <typename Call>
+  void tell(Call call) {
+    const std::lock_guard lock(call_mutex_);
+    if (callbacks_.shown) call(callbacks_);
+  }
+
+  const std::uint32_t session_;
+  const SceneLimits limits_;
+  EditableScene scene_;  // of the builder that has set building_
+  std::mutex call_mutex_;
+  FrameCallbacks callbacks_;
+  // Under the publisher's mutex:
+  std::deque<Waiting> waiting_;
+  bool building_ = false, removed_ = false;
+  std::int64_t last_arrived_ns_ = 0;
+  std::int64_t move_ns_ = 0;  // that what is placed takes to get there
+  std::vector<PlacedShape> placed_;
+  bool fresh_ = false;               // placed_ is not shown yet
+  std::vector<Ready> ready_;         // frames that placed_ holds, not yet shown
+  std::vector<Instance> instances_;  // as shown
+};
+
+ScenePublisher::ScenePublisher(std::shared_ptr<const Snapshot> base, std::vector<TouchSession*> devices)
+    : base_(std::move(base)), devices_(std::move(devices)), shown_(base_) {}
+
+ScenePublisher::~ScenePublisher() { stop(); }
+
+void ScenePublisher::start() {
+  running_ = true;
+  for (int i = 0; i < kBuilders; ++i) threads_.emplace_back([this] { runBuilder(); });
+  threads_.emplace_back([this] { runPublisher(); });
+}
+
+void ScenePublisher::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    running_ = false;
+  }
+  work_.notify_all();
+  changed_.notify_all();
+  for (std::thread& thread : threads_) thread.join();
+  threads_.clear();
+}
+
+std::shared_ptr<ScenePublisher::Place> ScenePublisher::join(std::uint32_t session, const SceneLimits& limits,
+                                                            FrameCallbacks callbacks) {
+  auto place = std::make_shared<Place>(session, limits, std::move(callbacks));
+  const std::lock_guard lock(mutex_);
+  places_.push_back(place);
+  return place;
+}
+
+void ScenePublisher::submit(const std::shared_ptr<Place>& place, proto::Frame frame, Uploads uploads) {
+  {
+    const std::lock_guard lock(mutex_);
+    place->waiting_.push_back({std::move(frame), std::move(uploads), monotonicNow_ns()});
+  }
+  work_.notify_one();
+}
+
+std::size_t ScenePublisher::waiting(const std::shared_ptr<Place>& place) const {
+  const std::lock_guard lock(mutex_);
+  return place->waiting_.size() + (place->building_ ? 1 : 0) + place->ready_.size();
+}
+
+void ScenePublisher::detach(const std::shared_ptr<Place>& place) {
+  {
+    const std::lock_guard lock(mutex_);
+    place->waiting_.clear();
+  }
+  const std::lock_guard lock(place->call_mutex_);
+  place->callbacks_ = {};
+}
+
+void ScenePublisher::remove(const std::shared_ptr<Place>& place) {
+  {
+    const std::lock_guard lock(mutex_);
+    place->removed_ = true;
+    dirty_ = true;
+  }
+  changed_.notify_all();
+}
+
+std::size_t ScenePublisher::primitives() const {
+  const std::lock_guard lock(mutex_);
+  return shown_->primitives;
+}
+
+// The client that has waited longest. Holding the mutex.
+std::shared_ptr<ScenePublisher::Place> ScenePublisher::placeToBuild() {
+  std::shared_ptr<Place> oldest;
+  for (const auto& place : places_) {
+    if (place->building_ || place->removed_ || place->waiting_.empty()) continue;
+    if (!oldest || place->waiting_.front().arrived_ns < oldest->waiting_.front().arrived_ns) oldest = place;
+  }
+  return oldest;
+}
+
+void ScenePublisher::runBuilder() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    std::shared_ptr<Place> place;
+    work_.wait(lock, [&] { return !running_ || (place = placeToBuild()) != nullptr; });
+    if (!running_) return;
+    Waiting waiting = std::move(place->waiting_.front());
+    place->waiting_.pop_front();
+    place->building_ = true;
+    lock.unlock();
+    build(*place, waiting);
+    lock.lock();
+    place->building_ = false;
+    if (!place->waiting_.empty()) work_.notify_one();
+    changed_.notify_all();
+  }
+}
+
+// A frame that cannot be shown changes nothing but to be told so.
+void ScenePublisher::build(Place& place, Waiting& waiting) {
+  const std::uint64_t number = waiting.frame.number();
+  const auto progress = [&](double part) {
+    if (!running_) throw Error("the server is closing");
+    place.tell([&](FrameCallbacks& callbacks) { callbacks.progress(number, part); });
+  };
+  try {
+    DecodedFrame decoded = decodeFrame(waiting.frame, waiting.uploads, place.limits_, progress);
+    place.scene_.apply(decoded.edit);
+    const std::lock_guard lock(mutex_);
+    place.placed_ = place.scene_.placed();
+    place.ready_.push_back({number, std::move(decoded.warnings)});
+    place.move_ns_ = moveTime_ns(waiting, place.last_arrived_ns_);
+    place.last_arrived_ns_ = waiting.arrived_ns;
+    place.fresh_ = dirty_ = true;
+  } catch (const std::exception& error) {
+    place.tell([&](FrameCallbacks& callbacks) { callbacks.refused(number, error.what()); });
+  }
+}
+
+// What the client asks for, or else the time since its last frame.
+std::int64_t ScenePublisher::moveTime_ns(const Waiting& waiting, std::int64_t last_arrived_ns) {
+  const double wanted_ns = waiting.frame.has_interval_s() ? 1e9 * waiting.frame.interval_s()
+                                                          : static_cast<double>(waiting.arrived_ns - last_arrived_ns);
+  if (!(wanted_ns > 0)) return 0;
+  return static_cast<std::int64_t>(std::min(wanted_ns, static_cast<double>(kLongestMove_ns)));
+}
+
+void ScenePublisher::runPublisher() {
+  while (true) {
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [&] { return !running_ || dirty_; });
+      if (!running_) return;
+    }
+    if (!waitForLoops()) return;
+    publish();
+  }
+}
+
+// Until every loop has taken the scene before and lives in the part of its motions that is still known to the next.
+bool ScenePublisher::waitForLoops() {
+  const auto ready = [&](const TouchSession* device) { return device->ready(shown_begin_ns_); };
+  while (!std::all_of(devices_.begin(), devices_.end(), ready)) {
+    std::this_thread::sleep_for(kLoopPoll);
+    const std::lock_guard lock(mutex_);
+    if (!running_) return false;
+  }
+  return true;
+}
+
+// What all clients have in the world from now on; returns whether something changes at once. Holding the mutex.
+bool ScenePublisher::assemble(std::int64_t begin_ns, std::vector<Instance>& instances) {
+  bool abrupt = false;
+  instances = base_->instances;
+  for (const auto& place : places_) {
+    if (place->removed_) {
+      abrupt |= !place->instances_.empty();
+      continue;
+    }
+    if (place->fresh_) {
+      Followed next = followOn(place->placed_, place->instances_, begin_ns, begin_ns + place->move_ns_);
+      abrupt |= next.abrupt;
+      instances.insert(instances.end(), next.instances.begin(), next.instances.end());
+    } else {
+      instances.insert(instances.end(), place->instances_.begin(), place->instances_.end());
+    }
+  }
+  return abrupt;
+}
+
+void ScenePublisher::publish() {
+  std::unique_lock lock(mutex_);
+  std::shared_ptr<const Snapshot> next;
+  std::int64_t lead_ns = kLead_ns;
+  for (int i = 0; i < kLeadTries; ++i, lead_ns *= 8) {
+    shown_begin_ns_ = monotonicNow_ns() + lead_ns;
+    std::vector<Instance> instances;
+    const bool abrupt = assemble(shown_begin_ns_, instances);
+    next = makeSnapshot(std::move(instances), base_->name, shown_->number + 1, abrupt);
+    if (monotonicNow_ns() < shown_begin_ns_) break;
+  }
+  for (TouchSession* device : devices_) device->publish(next);
+  shown_ = std::move(next);
+  dirty_ = false;
+  tellShown(lock);
+}
+
+// Keeps what is shown of each client, and tells it.
+void ScenePublisher::tellShown(std::unique_lock<std::mutex>& lock) {
+  struct Told {
+    std::shared_ptr<Place> place;
+    std::vector<Place::Ready> frames;
+    std::size_t primitives = 0;
+  };
+  std::vector<Told> told;
+  for (const auto& place : places_) {
+    if (!place->fresh_) continue;
+    place->fresh_ = false;
+    place->instances_.clear();
+    Told& entry = told.emplace_back(Told{place, std::exchange(place->ready_, {}), 0});
+    for (const Instance& instance : shown_->instances) {
+      if (instance.session != place->session_) continue;
+      place->instances_.push_back(instance);
+      entry.primitives += instance.shape->primitives.size();
+    }
+  }
+  std::erase_if(places_, [](const auto& place) { return place->removed_ && !place->building_; });
+  lock.unlock();
+  for (const Told& entry : told) {
+    entry.place->tell([&](FrameCallbacks& callbacks) {
+      for (const Place::Ready& frame : entry.frames) callbacks.shown(frame.number, entry.primitives, frame.warnings);
+    });
+  }
+}
+
+}  // namespace hl

@@ -1,0 +1,87 @@
+// ScenePublisher: from the frames of all clients to the one scene that the devices touch.
+//
+//   builders   decode frames and build their shapes, each client's in order, several clients at once
+//   publisher  puts what is ready together and shows it to the loops when they have taken the scene before
+// The old scene stays touchable meanwhile.
+#pragma once
+
+#include <hl.pb.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "scene/editable_scene.h"
+#include "server/decode_frame.h"
+#include "server/touch_session.h"
+
+namespace hl {
+
+/// What becomes of a client's frames; all three are needed. Called by the publisher's threads, one call at a time for
+/// one client.
+struct FrameCallbacks {
+  std::function<void(std::uint64_t number, double part)> progress;
+  std::function<void(std::uint64_t number, std::size_t primitives, const std::vector<std::string>& warnings)> shown;
+  std::function<void(std::uint64_t number, const std::string& why)> refused;
+};
+
+class ScenePublisher {
+ public:
+  static constexpr int kBuilders = 2;
+
+  /// A client's objects. Made by join(), shared with the publisher.
+  class Place;
+
+  /// `base` is touchable besides what clients bring. The devices must outlive the publisher.
+  ScenePublisher(std::shared_ptr<const Snapshot> base, std::vector<TouchSession*> devices);
+  ~ScenePublisher();
+  void start();
+  void stop();  ///< what is not shown by then never is; safe to call twice
+
+  std::shared_ptr<Place> join(std::uint32_t session, const SceneLimits& limits, FrameCallbacks callbacks);
+  /// Any thread; returns at once. `uploads`: those that the frame refers to.
+  void submit(const std::shared_ptr<Place>& place, proto::Frame frame, Uploads uploads);
+  /// Frames that are submitted and not yet shown or refused.
+  std::size_t waiting(const std::shared_ptr<Place>& place) const;
+  /// No callback is under way or comes after this. The objects stay where they are until remove().
+  void detach(const std::shared_ptr<Place>& place);
+  void remove(const std::shared_ptr<Place>& place);
+  std::size_t primitives() const;  ///< in the scene shown last
+
+ private:
+  struct Waiting {
+    proto::Frame frame;
+    Uploads uploads;
+    std::int64_t arrived_ns = 0;
+  };
+
+  void runBuilder();
+  void runPublisher();
+  std::shared_ptr<Place> placeToBuild();
+  void build(Place& place, Waiting& waiting);
+  bool waitForLoops();
+  void publish();
+  bool assemble(std::int64_t begin_ns, std::vector<Instance>& instances);
+  void tellShown(std::unique_lock<std::mutex>& lock);
+  static std::int64_t moveTime_ns(const Waiting& waiting, std::int64_t last_arrived_ns);
+
+  const std::shared_ptr<const Snapshot> base_;
+  const std::vector<TouchSession*> devices_;
+  mutable std::mutex mutex_;  // of all below and of the places; no thread builds or waits while holding it
+  std::condition_variable work_, changed_;
+  std::vector<std::shared_ptr<Place>> places_;
+  std::atomic<bool> running_{false};
+  bool dirty_ = false;
+  std::shared_ptr<const Snapshot> shown_;
+  std::int64_t shown_begin_ns_ = 0;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace hl

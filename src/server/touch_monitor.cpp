@@ -1,0 +1,123 @@
+#include "server/touch_monitor.h"
+
+#include <array>
+#include <memory>
+
+#include "base/clock.h"
+
+namespace hl {
+
+namespace {
+
+// Loops run at 100 Hz at the least; a quarter of a second without a step is no hiccup.
+constexpr std::int64_t kStalled_ns = 250'000'000;
+constexpr std::array<const char*, 4> kSafetyNames{"off", "arming", "on", "fault"};
+
+// When a loop made its newest step, as seen from outside.
+class StepWatch {
+ public:
+  void observe(std::uint64_t steps, std::int64_t now_ns) {
+    if (steps == steps_ && moved_ns_ != 0) return;
+    steps_ = steps;
+    moved_ns_ = now_ns;
+  }
+  bool stalled(std::int64_t now_ns) const { return moved_ns_ != 0 && now_ns - moved_ns_ > kStalled_ns; }
+
+ private:
+  std::uint64_t steps_ = 0;
+  std::int64_t moved_ns_ = 0;  // 0: nothing observed yet
+};
+
+class TouchMonitor {
+ public:
+  explicit TouchMonitor(TouchSession& session) : session_(session) {}
+
+  void observe() {
+    const std::int64_t now_ns = monotonicNow_ns();
+    servo_.observe(session_.servoTotals().steps, now_ns);
+    proxy_.observe(session_.proxyTotals().steps, now_ns);
+  }
+
+  std::string fault() {
+    observe();
+    const std::int64_t now_ns = monotonicNow_ns();
+    if (servo_.stalled(now_ns)) return "the servo loop stands still";
+    if (proxy_.stalled(now_ns)) return "the proxy loop stands still";
+    ServoView servo;
+    ProxyView proxy;
+    session_.views(servo, proxy);
+    if (servo.safety == SafetyState::kFault) return std::string("the servo is in fault: ") + faultText(servo.fault);
+    return {};
+  }
+
+  void write(MetricsText& out) {
+    ServoView servo;
+    ProxyView proxy;
+    session_.views(servo, proxy);
+    writeLoops(out, servo, proxy);
+    writeSafety(out, servo.safety);
+    out.single("hl_scene_primitives", MetricType::kGauge, "Primitives that the finger can touch",
+               static_cast<double>(session_.snapshot()->primitives));
+    out.single("hl_iteration_caps_total", MetricType::kCounter, "Ticks that hit the cap on their passes",
+               static_cast<double>(proxy.capped));
+    writeLedger(out, proxy.ledger, servo.late);
+  }
+
+ private:
+  void writeLoops(MetricsText& out, const ServoView& servo, const ProxyView& proxy) const {
+    struct Loop {
+      const char* name;
+      LoopSummary second;
+      LoopTotals totals;
+    };
+    const std::array<Loop, 2> loops{
+        {{"servo", servo.loop, session_.servoTotals()}, {"proxy", proxy.loop, session_.proxyTotals()}}};
+    const auto family = [&](const char* name, MetricType type, const char* help, auto value) {
+      out.family(name, type, help);
+      for (const Loop& loop : loops) out.sample(static_cast<double>(value(loop)), {{"loop", loop.name}});
+    };
+    using enum MetricType;
+    family("hl_loop_rate_hertz", kGauge, "Steps a second, over the last one", [](auto& l) { return l.second.rate_Hz; });
+    family("hl_loop_steps_total", kCounter, "Steps since the start", [](auto& l) { return l.totals.steps; });
+    family("hl_loop_deadlines_missed_total", kCounter, "Periods skipped", [](auto& l) { return l.totals.missed; });
+    family("hl_loop_late_max_seconds", kGauge, "Worst wake-up after its deadline since the start",
+           [](auto& l) { return 1e-9 * static_cast<double>(l.totals.late_max_ns); });
+    family("hl_loop_work_max_seconds", kGauge, "Longest work of a step in the last second",
+           [](auto& l) { return 1e-9 * static_cast<double>(l.second.max_ns); });
+    out.family("hl_loop_work_seconds", kGauge, "Work of one step in the last second");
+    for (const Loop& loop : loops) {
+      out.sample(1e-9 * static_cast<double>(loop.second.p50_ns), {{"loop", loop.name}, {"quantile", "0.5"}});
+      out.sample(1e-9 * static_cast<double>(loop.second.p999_ns), {{"loop", loop.name}, {"quantile", "0.999"}});
+    }
+  }
+
+  static void writeSafety(MetricsText& out, SafetyState safety) {
+    out.family("hl_safety_state", MetricType::kGauge, "1 for the state that the servo is in");
+    for (std::size_t i = 0; i < kSafetyNames.size(); ++i) {
+      out.sample(static_cast<std::size_t>(safety) == i ? 1 : 0, {{"state", kSafetyNames[i]}});
+    }
+  }
+
+  // The proxy's ledger and the servo's, which books late hand-over, as one.
+  static void writeLedger(MetricsText& out, const Ledger& ledger, const Ledger& late) {
+    using enum MetricType;
+    out.single("hl_ledger_tank_joules", kGauge, "Energy that the surfaces may still add", ledger.tank_J);
+    out.single("hl_ledger_injected_joules_total", kCounter, "Energy that the surfaces' rules have added",
+               ledger.injected_J + late.injected_J);
+    out.single("hl_ledger_dissipated_joules_total", kCounter, "Energy that they have taken away",
+               ledger.dissipated_J + late.dissipated_J);
+  }
+
+  TouchSession& session_;
+  StepWatch servo_, proxy_;
+};
+
+}  // namespace
+
+MonitorCallbacks makeTouchMonitor(TouchSession& session) {
+  const auto monitor = std::make_shared<TouchMonitor>(session);
+  return {[monitor] { monitor->observe(); }, [monitor] { return monitor->fault(); },
+          [monitor](MetricsText& out) { monitor->write(out); }};
+}
+
+}  // namespace hl

@@ -1,0 +1,13 @@
+// TouchMonitor: the health and the numbers of a touch session, for /healthz and /metrics.
+#pragma once
+
+#include "server/http_server.h"
+#include "server/touch_session.h"
+
+namespace hl {
+
+/// For the HttpServer whose pages show this session (both use its views in the server's thread); the session must
+/// outlive the server. Not healthy: a loop that has made no step for a quarter of a second, or a servo in fault.
+MonitorCallbacks makeTouchMonitor(TouchSession& session);
+
+}  // namespace hl

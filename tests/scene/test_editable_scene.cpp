@@ -1,0 +1,259 @@
+// Hierarchies of objects, flattened; edits that happen as a whole or not at all; and motion from frame to frame.
+#include "scene/editable_scene.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "geometry/scenes.h"
+
+namespace hl {
+namespace {
+
+std::shared_ptr<const Shape> triangle(double size = 1) {
+  Model model;
+  model.positions = {{0, 0, 0}, {size, 0, 0}, {0, size, 0}};
+  model.normals = {{0, 0, 1}, {0, 0, 1}, {0.6, 0, 0.8}};
+  model.triangles = {{0, 1, 2}};
+  return makeShape(std::move(model), HierarchyKind::kSpheres);
+}
+
+SceneItem shapeItem(std::shared_ptr<const Shape> shape, const Placement& placement = {}) {
+  SceneItem item;
+  item.shape = std::move(shape);
+  item.placement = placement;
+  return item;
+}
+
+SceneItem callItem(std::uint32_t id, const Placement& placement = {}) {
+  SceneItem item;
+  item.call = id;
+  item.placement = placement;
+  return item;
+}
+
+Placement turn(double angle, const Vec3& offset) {
+  return {Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix(), offset};
+}
+
+SceneEdit worldOf(SceneItems items) {
+  SceneEdit edit;
+  edit.world = std::move(items);
+  return edit;
+}
+
+// Every vertex of the world, in the order of the keys.
+std::vector<Vec3> verticesOf(const EditableScene& scene) {
+  const Followed all = followOn(scene.placed(), {}, 0, 0);
+  std::vector<Vec3> vertices;
+  for (const Instance& instance : all.instances) {
+    for (const Vec3& p : instance.shape->model.positions) vertices.push_back(instance.motion.to().toWorld(p));
+  }
+  return vertices;
+}
+
+TEST(EditableScene, CallsMultiplyTheirMatricesLikeGl) {
+  EditableScene scene(1, {});
+  const Placement arm = turn(0.3, {1, 2, 3}), hand = turn(-0.7, {0, 1, 0}),
+                  finger{Mat3(2 * Mat3::Identity()), {0, 0, 1}};
+  SceneEdit edit = worldOf({callItem(1, arm)});
+  edit.objects[1] = {callItem(2, hand)};
+  edit.objects[2] = {shapeItem(triangle(), finger)};
+  scene.apply(edit);
+  const Placement whole = arm * hand * finger;
+  const std::vector<Vec3> vertices = verticesOf(scene);
+  ASSERT_EQ(vertices.size(), 3u);
+  const std::array<Vec3, 3> given{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_LT((vertices[i] - (whole.linear * given[i] + whole.offset)).norm(), 1e-10);
+  EXPECT_EQ(scene.placed()[0].object, 2u);
+}
+
+TEST(EditableScene, AnyInvertibleMatrixIsARigidPoseOfAStretchedShape) {
+  test::Random random(3);
+  for (int i = 0; i < 200; ++i) {
+    Mat3 linear;
+    for (int column = 0; column < 3; ++column) linear.col(column) = random.inCube(2);
+    if (std::abs(linear.determinant()) < 1e-3) continue;
+    EditableScene scene(1, {});
+    scene.apply(worldOf({shapeItem(triangle(), {linear, {1, 2, 3}})}));
+    const PlacedShape& placed = scene.placed()[0];
+    EXPECT_NEAR(placed.pose.rotation.determinant(), 1, 1e-12);
+    EXPECT_LT((placed.pose.rotation * placed.pose.rotation.transpose() - Mat3::Identity()).norm(), 1e-12);
+    for (std::size_t v = 0; v < 3; ++v) {
+      const Vec3 expected = linear * triangle()->model.positions[v] + Vec3(1, 2, 3);
+      EXPECT_LT((placed.pose.toWorld(placed.shape->model.positions[v]) - expected).norm(), 1e-9 * linear.norm());
+      const Vec3 normal = (linear.inverse().transpose() * triangle()->model.normals[v]).normalized();
+      EXPECT_LT((placed.pose.turnToWorld(placed.shape->model.normals[v]) - normal).norm(), 1e-6);
+    }
+  }
+}
+
+TEST(EditableScene, RigidCallsShareOneShapeAndScaledOnesAnother) {
+  EditableScene scene(1, {});
+  const auto shape = triangle();
+  SceneEdit edit;
+  edit.objects[1] = {shapeItem(shape)};
+  const Placement twice{Mat3(2 * Mat3::Identity()), {}};
+  edit.world = SceneItems{callItem(1, turn(0.1, {})), callItem(1, turn(0.2, {1, 0, 0})),
+                          callItem(1, turn(0.3, {}) * twice), callItem(1, turn(0.4, {}) * twice)};
+  scene.apply(edit);
+  EXPECT_EQ(scene.placed()[0].shape, shape);
+  EXPECT_EQ(scene.placed()[1].shape, shape);
+  EXPECT_NE(scene.placed()[2].shape, shape);
+  EXPECT_EQ(scene.placed()[2].shape, scene.placed()[3].shape);
+  const auto scaled = scene.placed()[2].shape;
+  edit.world->at(2).placement = turn(0.9, {}) * twice;
+  scene.apply(worldOf(*edit.world));
+  EXPECT_EQ(scene.placed()[2].shape, scaled) << "turned, not built again";
+}
+
+TEST(EditableScene, WhatAnItemLeavesOutItTakesFromItsCallers) {
+  EditableScene scene(1, {});
+  SceneItem inner = shapeItem(triangle());
+  inner.surface.dynamic_friction = 0.2;
+  SceneItem call = callItem(1);
+  call.surface.dynamic_friction = 0.9;
+  call.surface.stiffness = 0.5;
+  call.surface.smooth = false;
+  call.name = 7;
+  SceneEdit edit = worldOf({call, callItem(1)});
+  edit.objects[1] = {inner};
+  scene.apply(edit);
+  const Material& first = scene.placed()[0].surfaces->materials[0];
+  EXPECT_EQ(first.dynamic_friction, 0.2);
+  EXPECT_EQ(first.stiffness, 0.5);
+  EXPECT_FALSE(first.smooth);
+  EXPECT_EQ(scene.placed()[0].name, 7u);
+  const Material& second = scene.placed()[1].surfaces->materials[0];
+  EXPECT_EQ(second.stiffness, 1);
+  EXPECT_TRUE(second.smooth);
+  EXPECT_EQ(scene.placed()[1].name, 0u);
+}
+
+TEST(EditableScene, TexturesAreFoundByNameAndMayBeOverwritten) {
+  EditableScene scene(1, {});
+  const auto texture = [](float value) {
+    auto t = std::make_shared<Texture>();
+    t->width = t->height = 1;
+    t->texels = {value};
+    return t;
+  };
+  SceneItem item = shapeItem(triangle());
+  item.surface.textures[0] = NamedTextureUse{"rough", 0.1, 0.9};
+  SceneEdit edit = worldOf({item});
+  EXPECT_THROW(scene.apply(edit), Error) << "there is no such texture";
+  edit.textures["rough"] = texture(0.25f);
+  scene.apply(edit);
+  EXPECT_EQ(scene.placed()[0].surfaces->textures[0]->texels[0], 0.25f);
+  EXPECT_EQ(scene.placed()[0].surfaces->materials[0].textures[0].high, 0.9);
+  SceneEdit overwrite;
+  overwrite.textures["rough"] = texture(0.75f);
+  scene.apply(overwrite);
+  EXPECT_EQ(scene.placed()[0].surfaces->textures[0]->texels[0], 0.75f);
+  item.surface.untextured = true;
+  item.surface.textures[0].reset();
+  SceneItem call = callItem(1);
+  call.surface.textures[0] = NamedTextureUse{"rough", 0, 1};
+  SceneEdit bare = worldOf({call});
+  bare.objects[1] = {item};
+  scene.apply(bare);
+  EXPECT_TRUE(scene.placed()[0].surfaces->textures.empty());
+}
+
+TEST(EditableScene, CirclesAreRefusedAndChangeNothing) {
+  EditableScene scene(1, {});
+  SceneEdit edit = worldOf({callItem(1)});
+  edit.objects[1] = {shapeItem(triangle())};
+  scene.apply(edit);
+  SceneEdit circle;
+  circle.objects[1] = {shapeItem(triangle()), callItem(2)};
+  circle.objects[2] = {callItem(1)};
+  EXPECT_THROW(scene.apply(circle), Error);
+  EXPECT_EQ(scene.placed().size(), 1u);
+  scene.apply(worldOf({callItem(1), callItem(2)}));
+  EXPECT_EQ(scene.placed().size(), 1u) << "object 2 was never defined";
+}
+
+TEST(EditableScene, LimitsHoldAndAHierarchyCannotExplode) {
+  SceneLimits limits;
+  limits.objects = 40;
+  limits.primitives = 3;
+  limits.instances = 10;
+  limits.nesting = 5;
+  EditableScene scene(1, limits);
+  SceneEdit deep = worldOf({callItem(1)});
+  for (std::uint32_t i = 1; i < 8; ++i) deep.objects[i] = {callItem(i + 1)};
+  EXPECT_THROW(scene.apply(deep), Error);
+  SceneEdit wide = worldOf({callItem(1)});
+  for (std::uint32_t i = 1; i < 5; ++i) wide.objects[i] = SceneItems(100, callItem(i + 1));  // 1e8 visits
+  EXPECT_THROW(scene.apply(wide), Error);
+  EXPECT_THROW(scene.apply(worldOf(SceneItems(11, shapeItem(triangle())))), Error);
+  EXPECT_THROW(scene.apply(worldOf(
+                   {shapeItem(triangle()), shapeItem(triangle()), shapeItem(triangle()), shapeItem(triangle())})),
+               Error);
+  SceneEdit many;
+  for (std::uint32_t i = 1; i <= 41; ++i) many.objects[i] = {};
+  EXPECT_THROW(scene.apply(many), Error);
+  EXPECT_THROW(scene.apply(worldOf({shapeItem(triangle(), {Vec3(1, 1, 0).asDiagonal(), Vec3::Zero()})})), Error);
+  EXPECT_TRUE(scene.placed().empty());
+}
+
+TEST(EditableScene, DeletedObjectsAreGoneAndOverwrittenOnesChange) {
+  EditableScene scene(1, {});
+  SceneEdit edit = worldOf({callItem(1), callItem(2)});
+  edit.objects[1] = {shapeItem(triangle())};
+  edit.objects[2] = {shapeItem(triangle())};
+  scene.apply(edit);
+  EXPECT_EQ(scene.placed().size(), 2u);
+  SceneEdit change;
+  change.deleted_objects = {1};
+  change.objects[2] = {shapeItem(triangle(5))};
+  scene.apply(change);
+  ASSERT_EQ(scene.placed().size(), 1u);
+  EXPECT_EQ(scene.placed()[0].shape->extent, 5);
+}
+
+TEST(EditableScene, KeysStayFromFrameToFrameAndDifferBetweenSessions) {
+  EditableScene a(1, {}), b(2, {});
+  const auto frame = [](double x) {
+    SceneEdit edit = worldOf({callItem(1), callItem(1, turn(0, {x, 0, 0})), shapeItem(triangle())});
+    edit.objects[1] = {shapeItem(triangle()), shapeItem(triangle())};
+    return edit;
+  };
+  a.apply(frame(0));
+  b.apply(frame(0));
+  const std::vector<PlacedShape> before = a.placed();
+  a.apply(frame(1));
+  ASSERT_EQ(before.size(), 5u);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_EQ(a.placed()[i].key, before[i].key);
+    EXPECT_NE(b.placed()[i].key, before[i].key);
+    for (std::size_t k = 0; k < i; ++k) EXPECT_NE(before[i].key, before[k].key);
+  }
+}
+
+TEST(FollowOn, KnownObjectsMoveAndNewOnesAreThere) {
+  EditableScene scene(1, {});
+  SceneEdit edit = worldOf({callItem(1)});
+  edit.objects[1] = {shapeItem(triangle())};
+  scene.apply(edit);
+  const Followed first = followOn(scene.placed(), {}, 100, 200);
+  EXPECT_TRUE(first.abrupt);
+  EXPECT_FALSE(first.instances[0].motion.moves());
+  scene.apply(worldOf({callItem(1, turn(0.5, {1, 0, 0}))}));
+  const Followed second = followOn(scene.placed(), first.instances, 300, 400);
+  EXPECT_FALSE(second.abrupt);
+  EXPECT_TRUE(second.instances[0].motion.moves());
+  EXPECT_TRUE(second.instances[0].motion.at(300) == Pose{});
+  const Followed halfway = followOn(scene.placed(), second.instances, 350, 450);
+  EXPECT_TRUE(halfway.instances[0].motion.at(375) == second.instances[0].motion.at(375)) << "goes on as it was";
+  const Followed later = followOn(scene.placed(), halfway.instances, 1000, 1100);
+  EXPECT_FALSE(later.instances[0].motion.moves());
+  EXPECT_FALSE(later.abrupt);
+  scene.apply(worldOf({callItem(1)}));
+  EXPECT_TRUE(followOn(scene.placed(), later.instances, 2000, 2000).abrupt) << "an interval of 0 is a jump";
+  scene.apply(worldOf({}));
+  EXPECT_TRUE(followOn(scene.placed(), later.instances, 2000, 2100).abrupt) << "gone";
+}
+
+}  // namespace
+}  // namespace hl
