@@ -11,6 +11,7 @@
 #include "proxy/contacts.h"
 #include "proxy/friction.h"
 #include "proxy/proxy.h"
+#include "proxy/resistance.h"
 #include "proxy/solver.h"
 #include "proxy/surface.h"
 #include "proxy/tolerances.h"
@@ -79,6 +80,7 @@ class Effects {
   };
   using TouchedSet = FixedVector<Touched, kMaxContacts>;
 
+  bool resists(const Contact& contact) const;
   TouchedSet touchedNow(const ContactSet& set) const;
   bool creased(const ContactSet& set, const Contact& contact, const Vec3& normal) const;
   void moveOn(const ContactSet& set, const Vec3& centre, TouchedSet& touched) const;
@@ -86,9 +88,7 @@ class Effects {
                  SubGoal& sub_goal) const;
   Vec3 secondPass(const ContactSet& set, const Vec3& goal) const;
   Vec3 resistedStep(const Vec3& way, double slipped_now, SubGoal& sub_goal) const;
-  Drag dragAt(const SubGoal& sub_goal, const Vec3& along) const;
-  double lengthWithin(const SubGoal& sub_goal, const Vec3& way) const;
-  double texelsAlong(const SubGoal& sub_goal, const Vec3& way) const;
+  Vec3 slip(Resistance& resistance, const Drag& drag, const Vec3& way, const Slip& before, SubGoal& sub_goal) const;
 
   SurfaceReader reader_;
   const Snapshot& snapshot_;
