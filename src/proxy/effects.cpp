@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geometry/closest_point.h"
+#include "proxy/mixing.h"
 
 namespace hl {
 
@@ -16,7 +17,6 @@ constexpr double kCrease_rad = 0.01;
 // Beyond so many contacts at once the passes are repeated by the tick itself, with the contacts found anew.
 constexpr std::size_t kFewContacts = 8;
 constexpr int kInnerPasses = 12;
-constexpr double kMostMixing = 0.9;
 
 // The way over the edge of a textured triangle that makes its neighbour the one in contact, in proxy radii: the closest
 // point of the one left behind is then farther by 1/2 (1e-4)^2 = 5e-9 radii, 50 times the skin.
@@ -147,8 +147,8 @@ Vec3 Effects::resistedStep(const Vec3& way, double slipped_now, SubGoal& sub_goa
   return slip(resistance, drag, way, before, sub_goal);
 }
 
-// The passes are repeated here with the contacts in hand, which costs no search. Anderson's mixing of the last two
-// passes takes out the main part of what would be left, a factor of sin^2(beta) + depth / radius each time.
+// The passes are repeated here with the contacts in hand, which costs no search. Mixing takes out the main part of what
+// each would leave, a factor of sin^2(beta) + depth / radius.
 SubGoal Effects::subGoal(const ContactSet& set, const Vec3& position, const Vec3& gap) const {
   const bool few = set.contacts.size() <= kFewContacts;
   const bool resisting =
@@ -156,7 +156,8 @@ SubGoal Effects::subGoal(const ContactSet& set, const Vec3& position, const Vec3
   const double enough = kRestPerGap * gap.norm() + tolerance_.rest;
   SubGoal sub_goal;
   TouchedSet touched = touchedNow(set);
-  Vec3 offset = Vec3::Zero(), last_next = Vec3::Zero(), last_change = Vec3::Zero();
+  Vec3 offset = Vec3::Zero();
+  Mixing mixing;
   for (int pass = 1;; ++pass) {
     const Vec3 way = firstPass(set, touched, gap, offset, sub_goal) - offset;
     const Vec3 resisted = resisting ? resistedStep(way, offset.norm(), sub_goal) : way;
@@ -167,11 +168,7 @@ SubGoal Effects::subGoal(const ContactSet& set, const Vec3& position, const Vec3
     sub_goal.step = next;
     if (!few || !sub_goal.bent || change.norm() <= enough || pass == kInnerPasses) return sub_goal;
     if (settings_.shading == ShadingPasses::kOnce) return sub_goal;
-    const Vec3 turn = change - last_change;
-    const double mix = pass > 1 ? change.dot(turn) / turn.squaredNorm() : 0;
-    offset = std::abs(mix) < kMostMixing ? Vec3(next - mix * (next - last_next)) : next;
-    last_next = next;
-    last_change = change;
+    offset = mixing.guess(next, change);
     moveOn(set, position + offset, touched);
   }
 }
