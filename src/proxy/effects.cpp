@@ -14,8 +14,6 @@ namespace {
 // Neighbours whose shaded normals differ by more meet in a crease: the file means the edge to be seen, and felt.
 constexpr double kCrease_rad = 0.01;
 
-// Beyond so many contacts at once the passes are repeated by the tick itself, with the contacts found anew.
-constexpr std::size_t kFewContacts = 8;
 constexpr int kInnerPasses = 12;
 
 // The way over the edge of a textured triangle that makes its neighbour the one in contact, in proxy radii: the closest
@@ -166,8 +164,9 @@ SubGoal Effects::subGoal(const ContactSet& set, const Vec3& position, const Vec3
     const Vec3 next = sub_goal.bent ? secondPass(set, goal) : goal;
     const Vec3 change = next - offset;
     sub_goal.step = next;
-    if (!few || !sub_goal.bent || change.norm() <= enough || pass == kInnerPasses) return sub_goal;
-    if (settings_.shading == ShadingPasses::kOnce) return sub_goal;
+    if (!few || !sub_goal.bent || settings_.shading == ShadingPasses::kOnce) return sub_goal;
+    sub_goal.settles = change.norm() <= enough;
+    if (sub_goal.settles || pass == kInnerPasses) return sub_goal;
     offset = mixing.guess(next, change);
     moveOn(set, position + offset, touched);
   }

@@ -18,6 +18,9 @@
 
 namespace hl {
 
+/// Beyond so many contacts at once the passes are repeated by the tick itself, with the contacts found anew.
+inline constexpr std::size_t kFewContacts = 8;
+
 /// A contact that holds the proxy in a sub-goal.
 struct Holding {
   std::size_t contact = 0;     ///< number in the contact set
@@ -39,6 +42,7 @@ struct SubGoal {
   double viscous = 0;            ///< pull that viscosity uses for each metre of the step
   bool bent = false;             ///< the step is not plain descent: it may raise the spring's energy
   bool resisted = false;         ///< friction or viscosity act on it
+  bool settles = false;          ///< the passes have found where the proxy rests on these planes: at the step's end
   bool creeps = false;           ///< static friction holds the proxy, on its pre-sliding springs
   double creep = 0;              ///< Drag::creep
   Vec3 held = Vec3::Zero();      ///< m, the pull that friction holds after the step
