@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "proxy/mixing.h"
+
 namespace hl {
 
 namespace {
@@ -11,10 +13,7 @@ namespace {
 // Neighbours whose shaded normals differ by more meet in a crease: the file means the edge to be seen, and felt.
 constexpr double kCrease_rad = 0.01;
 
-// Beyond so many contacts at once the passes are repeated by the tick itself, with the contacts found anew.
-constexpr std::size_t kFewContacts = 8;
 constexpr int kInnerPasses = 12;
-constexpr double kMostMixing = 0.9;
 
 // The way over the edge of a textured triangle that makes its neighbour the one in contact, in proxy radii: the closest
 // point of the one left behind is then farther by 1/2 (1e-4)^2 = 5e-9 radii, 50 times the skin.
@@ -25,16 +24,16 @@ constexpr int kMostSamples = 4096;
 
 }  // namespace
 
-bool Effects::any(const ContactSet& set) const {
-  return std::any_of(set.contacts.begin(), set.contacts.end(), [&](const Contact& contact) {
-    const SurfacePlace place = placeOf(contact);
-    return reader_.mayBend(contact.primitive) || rough(place);
-  });
+// Whether friction or viscosity act on this contact.
+bool Effects::resists(const Contact& contact) const {
+  if (reader_.dragTextured(contact.primitive)) return true;
+  const auto acts = [&](Quantity quantity) { return reader_.read(quantity, contact.primitive).low > 0; };
+  return acts(Quantity::kStaticFriction) || acts(Quantity::kDynamicFriction) || acts(Quantity::kViscosity);
 }
 
-bool Effects::rough(const SurfacePlace& place) const {
-  return reader_.dragTextured(place.primitive) || reader_.value(Quantity::kStaticFriction, place) > 0 ||
-         reader_.value(Quantity::kDynamicFriction, place) > 0 || reader_.value(Quantity::kViscosity, place) > 0;
+bool Effects::any(const ContactSet& set) const {
+  return std::any_of(set.contacts.begin(), set.contacts.end(),
+                     [&](const Contact& contact) { return reader_.mayBend(contact.primitive) || resists(contact); });
 }
 
 // Whether a primitive that shares the edge or vertex under the contact has another normal there.
@@ -104,47 +103,21 @@ Vec3 Effects::secondPass(const ContactSet& set, const Vec3& goal) const {
   return result.violation <= tolerance_.feasible ? result.point : Vec3(Vec3::Zero());
 }
 
-// What resists a slip at the place that lies `along` the way from here.
-Drag Effects::dragAt(const SubGoal& sub_goal, const Vec3& along) const {
-  Drag drag;
-  for (const Holding& holding : sub_goal.holding) {
-    const bool textured = reader_.dragTextured(holding.place.primitive);
-    const SurfacePlace place = textured && !along.isZero(0) ? reader_.moved(holding.place, along) : holding.place;
-    const double normal_m = std::max(0.0, holding.multiplier_m);
-    const double dynamic = std::max(0.0, reader_.value(Quantity::kDynamicFriction, place));
-    const double fixed = std::max(dynamic, reader_.value(Quantity::kStaticFriction, place));
-    const double stribeck = textured ? 0 : reader_.stribeck_m_s(place.primitive);
-    drag.rubs.push({fixed * normal_m, dynamic * normal_m, stribeck * settings_.period_s * settings_.world_per_device});
-    drag.creep += reader_.presliding_N_m(place.primitive) / settings_.spring_N_m;
-    drag.viscous +=
-        std::max(0.0, reader_.value(Quantity::kViscosity, place)) / (settings_.spring_N_m * settings_.period_s);
+// The slip along the way, after `before`.
+Vec3 Effects::slip(Resistance& resistance, const Drag& drag, const Vec3& way, const Slip& before,
+                   SubGoal& sub_goal) const {
+  const double pull = way.norm();
+  if (!(pull > 0)) return Vec3::Zero();
+  if (resistance.textured()) resistance.setWay(way);
+  if (resistance.texels() == 0) {
+    sub_goal.viscous = drag.viscous;
+    return (slipLength(drag, pull, before) / pull) * way;
   }
-  return drag;
-}
-
-// Metres along the way until a textured triangle is left behind; its texture says nothing beyond.
-double Effects::lengthWithin(const SubGoal& sub_goal, const Vec3& way) const {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Holding& holding : sub_goal.holding) {
-    if (!reader_.dragTextured(holding.place.primitive)) continue;
-    const auto& now = holding.place.weights;
-    if (std::any_of(now.begin(), now.end(), [](double w) { return w <= 0; })) continue;  // on an edge already
-    const SurfacePlace end = reader_.moved(holding.place, way);
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (end.weights[k] >= 0) continue;
-      const double part = now[k] / (now[k] - end.weights[k]);
-      least = std::min(least, part * way.norm() + kOverEdge * tolerance_.reach);
-    }
-  }
-  return least;
-}
-
-double Effects::texelsAlong(const SubGoal& sub_goal, const Vec3& way) const {
-  double most = 0;
-  for (const Holding& holding : sub_goal.holding) {
-    if (reader_.dragTextured(holding.place.primitive)) most = std::max(most, reader_.texelsAlong(holding.place, way));
-  }
-  return most;
+  const double wanted = std::ceil(kSamplesPerTexel * resistance.texels());
+  const int samples = static_cast<int>(std::clamp(wanted, 1.0, double{kMostSamples}));
+  const auto drag_at = [&](double distance) { return resistance.at(distance / pull); };
+  const double length = slipLengthAlong(drag, drag_at, pull, before, samples, sub_goal.viscous);
+  return std::min(length / pull, resistance.within() + kOverEdge * tolerance_.reach / pull) * way;
 }
 
 // What friction lets the proxy go of the way, after `slipped_now` more than slip_ says.
@@ -153,13 +126,12 @@ double Effects::texelsAlong(const SubGoal& sub_goal, const Vec3& way) const {
 //   |way - D| = creep |creep_m + D|,
 // and back when the pull falls: the elastic state z of Dahl's and Hayward and Armstrong's models, without their drift.
 Vec3 Effects::resistedStep(const Vec3& way, double slipped_now, SubGoal& sub_goal) const {
-  const double pull = way.norm();
   sub_goal.viscous = sub_goal.creep = 0;
   sub_goal.creeps = false;
-  if (sub_goal.holding.empty()) return way;
-  const Drag drag = dragAt(sub_goal, Vec3::Zero());
-  const double texels = texelsAlong(sub_goal, way);
-  sub_goal.resisted = texels > 0 || drag.viscous > 0 || drag.holding() > 0;
+  Resistance resistance(reader_, settings_);
+  for (const Holding& holding : sub_goal.holding) resistance.add(holding.place, holding.multiplier_m);
+  const Drag drag = resistance.at();
+  sub_goal.resisted = resistance.textured() || drag.viscous > 0 || drag.holding() > 0;
   if (!sub_goal.resisted) return way;
   sub_goal.creep = drag.creep;
   const Slip before{slip_.length + slipped_now, slip_.viscous_m + drag.viscous * slipped_now};
@@ -169,40 +141,32 @@ Vec3 Effects::resistedStep(const Vec3& way, double slipped_now, SubGoal& sub_goa
     sub_goal.creeps = drag.creep > 0;
     return creep;
   }
-  if (!(pull > 0)) return Vec3::Zero();
-  if (texels == 0) {
-    sub_goal.viscous = drag.viscous;
-    return (slipLength(drag, pull, before) / pull) * way;
-  }
-  const int samples = static_cast<int>(std::clamp(std::ceil(kSamplesPerTexel * texels), 1.0, double{kMostSamples}));
-  const auto drag_at = [&](double distance) { return dragAt(sub_goal, (distance / pull) * way); };
-  const double length = slipLengthAlong(drag_at, pull, before, samples, sub_goal.viscous);
-  return (std::min(length, lengthWithin(sub_goal, way)) / pull) * way;
+  return slip(resistance, drag, way, before, sub_goal);
 }
 
-// The passes are repeated here with the contacts in hand, which costs no search. Anderson's mixing of the last two
-// passes takes out the main part of what would be left, a factor of sin^2(beta) + depth / radius each time.
+// The passes are repeated here with the contacts in hand, which costs no search. Mixing takes out the main part of what
+// each would leave, a factor of sin^2(beta) + depth / radius.
 SubGoal Effects::subGoal(const ContactSet& set, const Vec3& position, const Vec3& gap) const {
   const bool few = set.contacts.size() <= kFewContacts;
+  const bool resisting =
+      std::any_of(set.contacts.begin(), set.contacts.end(), [&](const Contact& contact) { return resists(contact); });
   const double enough = kRestPerGap * gap.norm() + tolerance_.rest;
   SubGoal sub_goal;
   TouchedSet touched = touchedNow(set);
-  Vec3 offset = Vec3::Zero(), last_next = Vec3::Zero(), last_change = Vec3::Zero();
+  Vec3 offset = Vec3::Zero();
+  Mixing mixing;
   for (int pass = 1;; ++pass) {
     const Vec3 way = firstPass(set, touched, gap, offset, sub_goal) - offset;
-    const Vec3 resisted = resistedStep(way, offset.norm(), sub_goal);
+    const Vec3 resisted = resisting ? resistedStep(way, offset.norm(), sub_goal) : way;
     sub_goal.held = way - resisted;
     const Vec3 goal = offset + resisted;
     const Vec3 next = sub_goal.bent ? secondPass(set, goal) : goal;
     const Vec3 change = next - offset;
     sub_goal.step = next;
-    if (!few || !sub_goal.bent || change.norm() <= enough || pass == kInnerPasses) return sub_goal;
-    if (settings_.shading == ShadingPasses::kOnce) return sub_goal;
-    const Vec3 turn = change - last_change;
-    const double mix = pass > 1 ? change.dot(turn) / turn.squaredNorm() : 0;
-    offset = std::abs(mix) < kMostMixing ? Vec3(next - mix * (next - last_next)) : next;
-    last_next = next;
-    last_change = change;
+    if (!few || !sub_goal.bent || settings_.shading == ShadingPasses::kOnce) return sub_goal;
+    sub_goal.settles = change.norm() <= enough;
+    if (sub_goal.settles || pass == kInnerPasses) return sub_goal;
+    offset = mixing.guess(next, change);
     moveOn(set, position + offset, touched);
   }
 }
@@ -228,7 +192,7 @@ ProxyContact Effects::describe(const ContactSet& set, const Holding& holding) co
           holding.place.primitive,
           std::clamp(reader_.value(Quantity::kStiffness, holding.place), 0.0, 1.0),
           std::max(0.0, reader_.value(Quantity::kStaticFriction, holding.place)),
-          rough(holding.place)};
+          resists(set.contacts[holding.contact])};
 }
 
 }  // namespace hl

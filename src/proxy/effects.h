@@ -11,11 +11,15 @@
 #include "proxy/contacts.h"
 #include "proxy/friction.h"
 #include "proxy/proxy.h"
+#include "proxy/resistance.h"
 #include "proxy/solver.h"
 #include "proxy/surface.h"
 #include "proxy/tolerances.h"
 
 namespace hl {
+
+/// Beyond so many contacts at once the passes are repeated by the tick itself, with the contacts found anew.
+inline constexpr std::size_t kFewContacts = 8;
 
 /// A contact that holds the proxy in a sub-goal.
 struct Holding {
@@ -38,6 +42,7 @@ struct SubGoal {
   double viscous = 0;            ///< pull that viscosity uses for each metre of the step
   bool bent = false;             ///< the step is not plain descent: it may raise the spring's energy
   bool resisted = false;         ///< friction or viscosity act on it
+  bool settles = false;          ///< the passes have found where the proxy rests on these planes: at the step's end
   bool creeps = false;           ///< static friction holds the proxy, on its pre-sliding springs
   double creep = 0;              ///< Drag::creep
   Vec3 held = Vec3::Zero();      ///< m, the pull that friction holds after the step
@@ -79,7 +84,7 @@ class Effects {
   };
   using TouchedSet = FixedVector<Touched, kMaxContacts>;
 
-  bool rough(const SurfacePlace& place) const;
+  bool resists(const Contact& contact) const;
   TouchedSet touchedNow(const ContactSet& set) const;
   bool creased(const ContactSet& set, const Contact& contact, const Vec3& normal) const;
   void moveOn(const ContactSet& set, const Vec3& centre, TouchedSet& touched) const;
@@ -87,9 +92,7 @@ class Effects {
                  SubGoal& sub_goal) const;
   Vec3 secondPass(const ContactSet& set, const Vec3& goal) const;
   Vec3 resistedStep(const Vec3& way, double slipped_now, SubGoal& sub_goal) const;
-  Drag dragAt(const SubGoal& sub_goal, const Vec3& along) const;
-  double lengthWithin(const SubGoal& sub_goal, const Vec3& way) const;
-  double texelsAlong(const SubGoal& sub_goal, const Vec3& way) const;
+  Vec3 slip(Resistance& resistance, const Drag& drag, const Vec3& way, const Slip& before, SubGoal& sub_goal) const;
 
   SurfaceReader reader_;
   const SceneAt& scene_;

@@ -38,64 +38,60 @@ double slipLength(const Drag& drag, double pull, const Slip& before) {
 
 namespace {
 
+// A place on the way of a slip.
+struct Place {
+  double at;    // metres from its start
+  double left;  // of the pull; negative: held before it
+  double used;  // by viscosity up to there
+};
+
 // The way of a slip whose drag changes: how far the resistance is from holding the proxy at a place.
 struct Balance {
   FunctionRef<Drag(double)> drag_at;
   double pull;
-  double before_m;     // used up by viscosity before this slip
-  double reached = 0;  // the last sample at which the proxy still slipped
-  double used = 0;     // by viscosity up to there
+  double before_m;  // used up by viscosity before this slip
 
-  // Metres of pull left over at a place beyond `reached`; negative: held before it.
-  double left(double at, double& used_there) const {
-    const Drag drag = drag_at(at);
-    used_there = used + drag.viscous * (at - reached);
-    return pull - at - drag.rubbing(at) - before_m - used_there;
+  Place place(double at, const Drag& drag, const Place& reached) const {
+    const double used = reached.used + drag.viscous * (at - reached.at);
+    return {at, pull - at - drag.rubbing(at) - before_m - used, used};
   }
+  // `reached`: the last sample at which the proxy still slipped.
+  Place place(double at, const Place& reached) const { return place(at, drag_at(at), reached); }
 };
 
 // Where, between the last sample that slips and `there` that does not, the proxy comes to rest. Where the drag does not
 // change the balance is linear and the first guess is it; halving finds a jump of the drag, and the proxy goes just
 // over it, onto the line that holds it.
-double restBetween(const Balance& balance, double there, double left_here, double left_there) {
+Place restBetween(const Balance& balance, const Place& reached, Place there) {
   constexpr int kRounds = 20;
   constexpr double kBalanced = 1e-12;
-  double here = balance.reached, used = 0;
+  Place here = reached;
   for (int i = 0; i < kRounds; ++i) {
-    const double guess = here + (there - here) * left_here / (left_here - left_there);
-    const double left_guess = balance.left(guess, used);
-    if (std::abs(left_guess) <= kBalanced * balance.pull) return guess;
-    const double between = 0.5 * (here + there);
-    const double left = balance.left(between, used);
-    (left > 0 ? here : there) = between;
-    (left > 0 ? left_here : left_there) = left;
+    const double guess = here.at + (there.at - here.at) * here.left / (here.left - there.left);
+    const Place guessed = balance.place(guess, reached);
+    if (std::abs(guessed.left) <= kBalanced * balance.pull) return guessed;
+    const Place middle = balance.place(0.5 * (here.at + there.at), reached);
+    (middle.left > 0 ? here : there) = middle;
   }
   return there;
 }
 
 }  // namespace
 
-double slipLengthAlong(FunctionRef<Drag(double)> drag_at, double pull, const Slip& before, int samples,
-                       double& viscous) {
-  Balance balance{drag_at, pull, before.viscous_m};
-  viscous = drag_at(0).viscous;
-  double used = 0;
-  double left_here = balance.left(0, used);
-  if (left_here <= 0) return 0;
+double slipLengthAlong(const Drag& here, FunctionRef<Drag(double)> drag_at, double pull, const Slip& before,
+                       int samples, double& viscous) {
+  const Balance balance{drag_at, pull, before.viscous_m};
+  viscous = here.viscous;
+  Place reached = balance.place(0, here, {0, 0, 0});
+  if (reached.left <= 0) return 0;
   for (int i = 1; i <= samples; ++i) {
-    const double there = pull * i / samples;
-    const double left_there = balance.left(there, used);
-    if (left_there <= 0) {
-      const double rest = restBetween(balance, there, left_here, left_there);
-      balance.left(rest, used);
-      if (rest > 0) viscous = used / rest;
-      return rest;
-    }
-    balance.reached = there;
-    balance.used = used;
-    left_here = left_there;
+    Place there = balance.place(pull * i / samples, reached);
+    const bool rests = there.left <= 0;
+    if (rests) there = restBetween(balance, reached, there);
+    if (there.at > 0) viscous = there.used / there.at;
+    if (rests) return there.at;
+    reached = there;
   }
-  viscous = used / pull;
   return pull;
 }
 

@@ -41,10 +41,10 @@ struct Slip {
 /// The further slip under a pull of `pull` metres; 0 when the resistance holds it. RT-safe.
 double slipLength(const Drag& drag, double pull, const Slip& before);
 
-/// The same where the drag changes along the way, as `drag_at` tells for a distance from here, sampled `samples` times
-/// over the pull: stops where the resistance first holds the proxy, so no narrow line of friction is missed. `viscous`
-/// becomes the mean over the way. Without the Stribeck curve. RT-safe.
-double slipLengthAlong(FunctionRef<Drag(double)> drag_at, double pull, const Slip& before, int samples,
-                       double& viscous);
+/// The same where the drag changes along the way: it is `here` at first and what `drag_at` tells for a distance from
+/// here, sampled `samples` times over the pull: stops where the resistance first holds the proxy, so no narrow line of
+/// friction is missed. `viscous` becomes the mean over the way. Without the Stribeck curve. RT-safe.
+double slipLengthAlong(const Drag& here, FunctionRef<Drag(double)> drag_at, double pull, const Slip& before,
+                       int samples, double& viscous);
 
 }  // namespace hl

@@ -33,6 +33,7 @@ class Tick {
   TickReport run();
 
  private:
+  void findContacts() { gatherContacts(scene_, state_.position, tolerance_.touching, tolerance_.reach, set_); }
   SubGoal subGoal();
   SubGoal plainSubGoal();
   SubGoal effectSubGoal();
@@ -40,6 +41,8 @@ class Tick {
     return step.norm() <= kRestPerGap * (goal_ - state_.position).norm() + tolerance_.rest;
   }
   bool sweep(Vec3& position, const Vec3& step) const;
+  void settleOn(const ContactSet& set);
+  bool settled() const;
   void advance(const SubGoal& sub_goal);
   bool tryCurvatureStep();
   bool restoreIfWorse();
@@ -58,6 +61,8 @@ class Tick {
   bool felt_ = false;   // the sub-goal in hand is under the rules of the surfaces
   bool spent_ = false;  // the energy that the tick may add has been used up
   int effect_passes_ = 0;
+  // The faces on which the passes have brought the proxy to rest; empty while they have not.
+  FixedVector<PrimitiveId, kFewContacts> settled_on_;
 
   // A curvature step leaves the surface for a moment: until it has paid off, this is where to return to.
   bool pending_ = false;
@@ -100,7 +105,7 @@ SubGoal Tick::effectSubGoal() {
 }
 
 SubGoal Tick::subGoal() {
-  gatherContacts(scene_, state_.position, tolerance_.touching, tolerance_.reach, set_);
+  settled_on_.clear();
   // The once-a-tick goal has been reached, or left behind over an edge: down to the surface, and no farther.
   const bool passes_done = goal_ != finger_;
   if (passes_done && set_.contacts.empty()) goal_ = finger_;
@@ -156,6 +161,24 @@ bool Tick::restoreIfWorse() {
   return moved;
 }
 
+// The planes of faces stay what they are when the proxy moves; those of edges and vertices turn.
+void Tick::settleOn(const ContactSet& set) {
+  for (const Contact& contact : set.contacts) {
+    if (contact.feature != Feature::kFace) return settled_on_.clear();
+    settled_on_.push(contact.primitive);
+  }
+}
+
+// Whether the proxy has come where it settles, and nothing but the same faces holds it there: another look would find
+// what the last pass found.
+bool Tick::settled() const {
+  const auto same = [](PrimitiveId primitive, const Contact& contact) {
+    return contact.feature == Feature::kFace && contact.primitive == primitive;
+  };
+  return !settled_on_.empty() &&
+         std::equal(settled_on_.begin(), settled_on_.end(), set_.contacts.begin(), set_.contacts.end(), same);
+}
+
 // One step of the proxy, as far as the way is free and the energy reaches.
 void Tick::advance(const SubGoal& sub_goal) {
   const Vec3 from = state_.position;
@@ -170,6 +193,7 @@ void Tick::advance(const SubGoal& sub_goal) {
   // In the open and unhindered the proxy *is* the finger, to the bit.
   if (whole && free && goal_ == finger_) state_.position = finger_;
   if (felt_) effects_.moved(sub_goal, state_.position - from);
+  if (sub_goal.settles && whole && !spent_) settleOn(set_);
 }
 
 void Tick::finish(const SubGoal& last, TickReport& report) {
@@ -194,9 +218,14 @@ TickReport Tick::run() {
   TickReport report;
   SubGoal sub_goal;
   while (true) {
-    sub_goal = subGoal();
-    if (pending_ && !set_.contacts.empty() && restoreIfWorse()) sub_goal = subGoal();
-    const bool at_rest = atRest(sub_goal.step);
+    findContacts();
+    const bool settled_there = settled();
+    if (!settled_there) sub_goal = subGoal();
+    if (pending_ && !set_.contacts.empty() && restoreIfWorse()) {
+      findContacts();
+      sub_goal = subGoal();
+    }
+    const bool at_rest = settled_there || atRest(sub_goal.step);
     report.capped = !at_rest && (report.iterations >= settings_.iteration_cap || set_.overflow);
     if (at_rest || report.capped) break;
     ++report.iterations;

@@ -127,6 +127,7 @@ Candidate solveWith(std::span<const Plane> planes, const ActiveSet& basis, std::
                     const Vec3& goal, double tolerance) {
   const Plane& plane = planes[j];
   const Vec3 origin = goal + (plane.offset - plane.normal.dot(goal)) * plane.normal;
+  if (count == 0) return {origin, {j, 0, 0}, 1};
   Best best(planes, basis, count, goal, tolerance);
   best.offer({origin, {j, 0, 0}, 1});
   std::array<Line, 3> lines;
@@ -158,10 +159,27 @@ std::size_t mostViolated(std::span<const Plane> planes, const Vec3& x, double& v
   return worst;
 }
 
+// One plane, as most contacts are: straight onto it.
+SolverResult nearestAboveOne(const Plane& plane, const Vec3& goal, double strict) {
+  SolverResult result;
+  result.rounds = 1;
+  const double below = plane.offset - plane.normal.dot(goal);
+  const bool active = below > strict;
+  result.point = active ? Vec3(goal + below * plane.normal) : goal;
+  result.active_count = active ? 1 : 0;
+  result.multiplier[0] = active ? below : 0;
+  result.violation = std::max(0.0, active ? plane.offset - plane.normal.dot(result.point) : below);
+  return result;
+}
+
 }  // namespace
 
 SolverResult nearestAbove(std::span<const Plane> planes, const Vec3& goal, double tolerance) {
   const double strict = tolerance / 8;
+  if (planes.size() == 1) {
+    const SolverResult one = nearestAboveOne(planes[0], goal, strict);
+    if (one.violation <= strict) return one;
+  }
   SolverResult result;
   result.point = goal;
   while (true) {

@@ -7,9 +7,6 @@ namespace hl {
 
 namespace {
 
-constexpr std::array<Quantity, 4> kModulated{Quantity::kStiffness, Quantity::kStaticFriction,
-                                             Quantity::kDynamicFriction, Quantity::kViscosity};
-
 // cos and sin of kShadingLimit_rad.
 constexpr double kLimitCos = 0.8660254037844386;
 constexpr double kLimitSin = 0.5;
@@ -125,39 +122,26 @@ const std::optional<double>& SurfaceReader::overridden(Quantity quantity) const 
   return kNever;
 }
 
-double SurfaceReader::value(Quantity quantity, const SurfacePlace& place) const {
-  if (const auto& set = overridden(quantity)) return *set;
-  const Material& m = material(place.primitive);
-  if (textured(place.primitive, quantity)) {
+SurfaceValue SurfaceReader::read(Quantity quantity, PrimitiveId primitive) const {
+  if (const auto& set = overridden(quantity)) return {*set};
+  const Material& m = material(primitive);
+  if (textured(primitive, quantity)) {
     const TextureUse& use = m.textureOf(quantity);
-    return use.low + (use.high - use.low) * textureOf(place.primitive, quantity).sample(texcoord(place));
+    return {use.low, use.high - use.low, &textureOf(primitive, quantity)};
   }
   switch (quantity) {
     case Quantity::kStiffness:
-      return m.stiffness;
+      return {m.stiffness};
     case Quantity::kStaticFriction:
-      return m.static_friction;
+      return {m.static_friction};
     case Quantity::kDynamicFriction:
-      return m.dynamic_friction;
+      return {m.dynamic_friction};
     case Quantity::kViscosity:
-      return m.viscosity_Ns_m;
+      return {m.viscosity_Ns_m};
     case Quantity::kHeight:
       break;
   }
-  return 0;
-}
-
-double SurfaceReader::texelsAlong(const SurfacePlace& place, const Vec3& step) const {
-  double most = 0;
-  const Vec2 way = texcoord(moved(place, step)) - texcoord(place);
-  for (const Quantity quantity : kModulated) {
-    if (!textured(place.primitive, quantity)) continue;
-    const Texture& texture = textureOf(place.primitive, quantity);
-    const double across = std::abs(way.x()) * static_cast<double>(texture.width);
-    const double up = std::abs(way.y()) * static_cast<double>(texture.height);
-    most = std::max(most, across + up);
-  }
-  return most;
+  return {};
 }
 
 SurfacePlace SurfaceReader::moved(const SurfacePlace& place, const Vec3& step) const {

@@ -31,6 +31,13 @@ struct BentNormal {
   bool bent() const { return shading > 0 || bump > 0; }
 };
 
+/// A quantity of one surface: a number, or what an image says within a range.
+struct SurfaceValue {
+  double low = 0, range = 0;
+  const Texture* texture = nullptr;  ///< nullptr: `low` everywhere
+  double at(const Vec2& texcoord) const { return texture ? low + range * texture->sample(texcoord) : low; }
+};
+
 /// Reads the surfaces of a scene; two pointers, made anew for every tick. RT-safe.
 class SurfaceReader {
  public:
@@ -44,8 +51,14 @@ class SurfaceReader {
   /// its true normal everywhere.
   BentNormal bend(const SurfacePlace& place) const;
 
-  /// A quantity of the material (never kHeight), or what its texture says at the place.
-  double value(Quantity quantity, const SurfacePlace& place) const;
+  /// A quantity of the material (never kHeight), or its texture.
+  SurfaceValue read(Quantity quantity, PrimitiveId primitive) const;
+  double value(Quantity quantity, const SurfacePlace& place) const {
+    const SurfaceValue found = read(quantity, place.primitive);
+    return found.texture ? found.at(texcoord(place)) : found.low;
+  }
+  /// Of a textured triangle only; linear in the weights of the place.
+  Vec2 texcoord(const SurfacePlace& place) const;
   double stribeck_m_s(PrimitiveId primitive) const { return material(primitive).stribeck_m_s; }
   double presliding_N_m(PrimitiveId primitive) const { return material(primitive).presliding_N_m; }
 
@@ -53,8 +66,6 @@ class SurfaceReader {
   bool textured(PrimitiveId primitive, Quantity quantity) const;
   /// Whether friction or viscosity change along this primitive.
   bool dragTextured(PrimitiveId primitive) const;
-  /// Texels that a step crosses when the place moves along it, in the finest of its textures (not the bump map's).
-  double texelsAlong(const SurfacePlace& place, const Vec3& step) const;
   /// The place after the contact has moved by `step` in the plane of its triangle; beyond the edge the triangle's
   /// plane goes on.
   SurfacePlace moved(const SurfacePlace& place, const Vec3& step) const;
@@ -75,7 +86,6 @@ class SurfaceReader {
   }
   const Vec3& vertexNormal(PrimitiveId id, std::size_t sorted) const;
   const Vec2& vertexTexcoord(PrimitiveId id, std::size_t sorted) const;
-  Vec2 texcoord(const SurfacePlace& place) const;
   // In the frame of the object.
   void shade(const SurfacePlace& place, BentNormal& bent) const;
   void bump(const SurfacePlace& place, BentNormal& bent) const;

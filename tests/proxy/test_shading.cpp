@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "effect_scenes.h"
 #include "proxy/proxy.h"
@@ -111,6 +112,29 @@ TEST(Shading, ConvergedCornerKeepsTheCornersNormal) {
     const Vec3 expected = corner + radius * Vec3(std::cos(kAlpha + psi), std::sin(kAlpha + psi), 0);
     EXPECT_NEAR((state.position - expected).norm(), 0, 1e-6) << theta;
     EXPECT_NEAR(angleOf(state.position - finger), kAlpha, 1e-6);
+  }
+}
+
+// Wherever the finger goes, a hundredth of a radian a tick: the contacts reported hold the proxy, proxy - finger = sum
+// lambda n, and looking again moves nothing.
+TEST(Shading, TheContactsReportedHoldTheProxyAndAnotherTickMovesNothing) {
+  const auto scene = prism(24);
+  const ProxySettings settings = settingsOf(0.02, true);
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> u(0, 1);
+  double theta = 0;
+  ProxyState state = pressed(*scene, settings, 0.9);
+  for (int i = 0; i < 5000; ++i) {
+    theta += 0.02 * (u(random) - 0.5);
+    const Vec3 finger = at(0.85 + 0.1 * u(random), theta);
+    const TickReport report = tick(state, *scene, settings, finger);
+    Vec3 held = state.position - finger;
+    const double gap = held.norm();
+    for (const ProxyContact& contact : report.contacts) held -= contact.multiplier_m * contact.normal;
+    EXPECT_LE(held.norm(), 1e-6 * gap) << i;
+    const Vec3 before = state.position;
+    tick(state, *scene, settings, finger);
+    EXPECT_LE((state.position - before).norm(), 1e-7 * gap) << i;
   }
 }
 
