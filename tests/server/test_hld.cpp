@@ -21,6 +21,13 @@ using hl::test::fileWith;
 using hl::test::request;
 constexpr const char* kToken = "correct-horse-battery";
 
+// In the address of the line that says it is ready.
+std::uint16_t portOf(const std::string& ready) {
+  const std::size_t slash = ready.find('/', ready.find("://") + 3);
+  const std::size_t colon = ready.rfind(':', slash);
+  return static_cast<std::uint16_t>(std::stoi(ready.substr(colon + 1, slash - colon - 1)));
+}
+
 // A running hld, whose stderr is read line by line.
 class Daemon {
  public:
@@ -58,13 +65,7 @@ class Daemon {
     }
     return "";
   }
-  /// Of the line that says it is ready.
-  std::uint16_t port() {
-    const std::string ready = line("event=ready");
-    const std::size_t slash = ready.find("/ ", ready.find("://") + 3);
-    const std::size_t colon = ready.rfind(':', slash);
-    return static_cast<std::uint16_t>(std::stoi(ready.substr(colon + 1, slash - colon - 1)));
-  }
+  std::uint16_t port() { return portOf(line("event=ready")); }
   void signal(int number) const { kill(pid_, number); }
   int end(int number) {
     signal(number);
@@ -145,9 +146,21 @@ TEST(Hld, ATokenThatOthersMayReadIsMentioned) {
 
 TEST(Hld, LogsInJson) {
   Daemon daemon({"--port", "0", "--log-format", "json"});
-  const std::string line = daemon.line("\"event\":\"ready\"");
-  EXPECT_TRUE(line.starts_with("{\"time\":\"")) << line;
-  EXPECT_TRUE(line.ends_with("\"}\n")) << line;
+  const auto expectJson = [](const std::string& line) {
+    EXPECT_TRUE(line.starts_with("{\"time\":\"")) << line;
+    EXPECT_TRUE(line.ends_with("\"}\n")) << line;
+  };
+  std::string line = daemon.line("\"event\":\"ready\"");
+  expectJson(line);
+  // An Open whose token is no text: nothing but the log's own line tells of it.
+  hl::test::PlainClient client(portOf(line));
+  client.sendBinary("\x0a\x03\x1a\x01\xff");
+  EXPECT_NE(client.readToEnd(), "");
+  while (line.find("\"event\":\"refused\"") == std::string::npos) {
+    line = daemon.line("");
+    expectJson(line);
+    ASSERT_FALSE(line.empty());
+  }
   EXPECT_EQ(daemon.end(SIGTERM), 0);
 }
 
