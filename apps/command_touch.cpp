@@ -1,10 +1,8 @@
 // hl touch: serves a scene with the simulated device, and the page to see and feel it with the mouse.
 #include <fmt/core.h>
-#include <signal.h>
 #include <unistd.h>
 
 #include <cstdlib>
-#include <filesystem>
 #include <optional>
 
 #include "base/error.h"
@@ -12,8 +10,10 @@
 #include "io/csv_path.h"
 #include "io/load_scene_file.h"
 #include "server/http_server.h"
+#include "server/touch_monitor.h"
 #include "server/touch_session.h"
 #include "server/viewer_feed.h"
+#include "serving.h"
 
 namespace hl {
 
@@ -31,39 +31,6 @@ struct TouchOptions {
   double scale = 0;
   double duration_s = 0;
 };
-
-// Blocks SIGINT and SIGTERM in this thread and all that it starts; waitForEnd() takes them.
-sigset_t blockSignals() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  signal(SIGPIPE, SIG_IGN);
-  return signals;
-}
-
-void waitForEnd(const sigset_t& signals, double duration_s) {
-  if (duration_s <= 0) {
-    int received = 0;
-    sigwait(&signals, &received);
-    return;
-  }
-  const auto whole = static_cast<time_t>(duration_s);
-  const timespec limit{whole, static_cast<long>(1e9 * (duration_s - static_cast<double>(whole)))};
-  sigtimedwait(&signals, nullptr, &limit);
-}
-
-std::string defaultPageFolder() {
-  std::error_code error;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (error) return "viewer/dist";
-  for (auto folder = program.parent_path(); folder != folder.root_path(); folder = folder.parent_path()) {
-    if (std::filesystem::exists(folder / "viewer" / "dist" / "index.html", error))
-      return (folder / "viewer" / "dist").string();
-  }
-  return "viewer/dist";
-}
 
 void openBrowser(const std::string& address) {
   if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
@@ -104,7 +71,8 @@ void run(TouchOptions options) {
   const sigset_t signals = blockSignals();
   TouchSession session(snapshot, options.settings);
   const std::string pages = options.page_folder.empty() ? defaultPageFolder() : options.page_folder;
-  HttpServer server({static_cast<std::uint16_t>(options.port), pages, 60}, makeViewerFeed(session, HL_VERSION));
+  HttpServer server({static_cast<std::uint16_t>(options.port), pages, 60}, makeViewerFeed(session, HL_VERSION), nullptr,
+                    makeTouchMonitor(session));
   session.start();
   server.start();
   fmt::print(stderr, "{}: {} primitives; 1 mm of the hand is {:.4g} mm of the scene\n", options.scene.scene,
@@ -115,7 +83,7 @@ void run(TouchOptions options) {
   fmt::print("page: {}\n", address);
   std::fflush(stdout);
   if (!options.no_open) openBrowser(address);
-  waitForEnd(signals, options.duration_s);
+  waitForSignal(signals, options.duration_s);
   server.stop();
   session.stop();
   printTotals(session);

@@ -31,6 +31,7 @@ struct FakeRecord {
   int ever = 0;
   std::vector<int> states_taken;  // by session, in the order of their birth
   std::string end_all;            // why every session shall end
+  bool hold = false;              // a Frame is not taken in until this is false again
 };
 
 /// Answers Open with Welcome, a Frame with FrameShown, and sends states of `state_bytes` at the rate asked for.
@@ -57,7 +58,8 @@ class FakeSession : public ClientSession {
     }
     if (message.has_frame()) replies_.emplace_back().mutable_frame_shown()->set_number(message.frame().number());
     if (message.has_state_rate()) rate_Hz_ = message.state_rate().rate_hz();
-    const std::scoped_lock lock(record_->mutex);
+    std::unique_lock lock(record_->mutex);
+    if (message.has_frame()) record_->changed.wait(lock, [this] { return !record_->hold; });
     if (message.has_upload()) {
       record_->upload_bytes += message.ByteSizeLong();
     } else {
@@ -136,6 +138,13 @@ class FakeHost : public SessionHost {
     const std::scoped_lock lock(mutex_, record_->mutex);
     record_->end_all = why;
     wake_newest_();
+  }
+
+  /// While `on`, a session that receives a Frame stays in receive(), as if it had much to decode.
+  void holdFrames(bool on) {
+    const std::scoped_lock lock(record_->mutex);
+    record_->hold = on;
+    record_->changed.notify_all();
   }
 
   int alive() const {

@@ -5,6 +5,7 @@
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
 #include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/experimental/awaitable_operators.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -54,8 +55,7 @@ class WebsocketLink : public Link {
       thread_.join();
       throw;
     }
-    asio::co_spawn(context_, read(), asio::detached);
-    asio::co_spawn(context_, write(), asio::detached);
+    asio::co_spawn(context_, talk(), asio::detached);
   }
 
   ~WebsocketLink() override {
@@ -130,6 +130,13 @@ class WebsocketLink : public Link {
     }
     if (error == beast::error::timeout) return who + " has fallen silent; the connection is lost";
     return "the connection to " + who + " is lost: " + error.message();
+  }
+
+  // The WebSocket goes at the end: its timers would keep the thread.
+  asio::awaitable<void> talk() {
+    using namespace asio::experimental::awaitable_operators;
+    co_await (read() && write());
+    socket_.reset();
   }
 
   asio::awaitable<void> read() {

@@ -1,6 +1,7 @@
 #include "server/event_log.h"
 
 #include <fmt/core.h>
+#include <google/protobuf/stubs/logging.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -81,6 +82,10 @@ void openEventLog(LogFormat format, LogLevel level) {
                                                      : "time=%Y-%m-%dT%H:%M:%S.%e%z level=%l %v");
   log.logger->set_level(levelOf(level));
   log.logger->flush_on(spdlog::level::debug);
+  // What protobuf says of a client's garbage is no line of this log's form, and the refusal is logged anyway.
+  google::protobuf::SetLogHandler([](google::protobuf::LogLevel, const char*, int, const std::string& text) {
+    logEvent(LogLevel::kDebug, "protobuf", {{"text", text}});
+  });
 }
 
 void logEvent(LogLevel level, std::string_view event, LogFields fields) {

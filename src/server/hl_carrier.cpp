@@ -230,19 +230,14 @@ std::optional<HlCarrier::Ending> HlCarrier::open(MessageForm form, proto::Client
 // ---- To the client -------------------------------------------------------------------------------------------------
 
 HlCarrier::Next HlCarrier::next() {
-  Next next;
-  if (!session_) {
-    next.wait_s = kLongestWait_s;
-    return next;
+  if (!session_) return {.wait_s = kLongestWait_s};
+  try {
+    proto::ServerReply reply;
+    if (session_->take(reply)) return {.bytes = encodeReply(form_, reply)};
+    return {.wait_s = std::clamp(session_->nextState_s(), kShortestWait_s, kLongestWait_s), .end = session_->end()};
+  } catch (const std::exception& error) {
+    return {.end = std::string("the server failed: ") + error.what()};
   }
-  proto::ServerReply reply;
-  if (session_->take(reply)) {
-    next.bytes = encodeReply(form_, reply);
-    return next;
-  }
-  next.end = session_->end();
-  next.wait_s = std::clamp(session_->nextState_s(), kShortestWait_s, kLongestWait_s);
-  return next;
 }
 
 asio::awaitable<void> HlCarrier::write() {

@@ -62,9 +62,9 @@ class HlCarrier : public std::enable_shared_from_this<HlCarrier> {
   };
   // What the writer has to do next.
   struct Next {
-    std::optional<std::string> bytes;
-    double wait_s = 0;
-    std::string end;
+    std::optional<std::string> bytes{};  // to send
+    double wait_s = 0;                   // else to wait
+    std::string end{};                   // unless the session ends
   };
 
   bool setUp();

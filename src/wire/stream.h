@@ -17,7 +17,7 @@ class Stream {
  public:
   using Tcp = boost::beast::tcp_stream;
   using Tls = boost::asio::ssl::stream<Tcp&>;
-  using executor_type = Tcp::executor_type;
+  using executor_type = Tcp::executor_type;  // NOLINT(readability-identifier-naming): the name that Asio looks for
 
   /// `tls` must outlive this; null: plain TCP.
   Stream(Tcp tcp, boost::asio::ssl::context* tls) : tcp_(std::move(tcp)) {

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <thread>
 
 #include "fake_sessions.h"
@@ -139,6 +140,26 @@ TEST(HlCarrier, AnEmptyMessageAndTextThatIsNoTextAreGarbageToo) {
   served.host.waitForAlive(0);
 }
 
+TEST(MessageForms, BytesOfAnyKindAreDecodedOrRefusedInOneLine) {
+  std::mt19937 random(1);
+  const std::string good = openMessage(60, "token").SerializeAsString() + frameMessage(3).SerializeAsString();
+  const std::string good_json = R"({"frame": {"number": 3, "world": {"items": [{"matrix": [1, 0, 0]}]}}})";
+  for (int i = 0; i < 20'000; ++i) {
+    const MessageForm form = i % 2 == 0 ? MessageForm::kBinary : MessageForm::kJson;
+    std::string bytes = form == MessageForm::kBinary ? good : good_json;
+    bytes.resize(random() % (bytes.size() + 1));
+    for (unsigned changes = random() % 4; changes > 0 && !bytes.empty(); --changes) {
+      bytes[random() % bytes.size()] = static_cast<char>(random());
+    }
+    proto::ClientMessage message;
+    const std::string fault = decodeMessage(form, bytes, message);
+    EXPECT_EQ(fault.find('\n'), std::string::npos) << fault;
+    EXPECT_LT(fault.size(), 400u);
+    if (!fault.empty()) continue;
+    EXPECT_NE(message.body_case(), proto::ClientMessage::BODY_NOT_SET);
+  }
+}
+
 TEST(HlCarrier, NothingComesBeforeOpen) {
   Served served;
   PlainClient client(served.port());
@@ -198,6 +219,18 @@ TEST(HlCarrier, SilenceInsteadOfOpenIsEnded) {
   EXPECT_EQ(silent.readToEnd(), "no Open came in time; send it first");
   EXPECT_EQ(silent.closeCode(), close::policy_error);
   EXPECT_EQ(served.host.ever(), 0);
+}
+
+TEST(HlCarrier, AMessageThatTakesLongDelaysItsOwnSessionOnly) {
+  Served served;
+  Welcomed busy(served);
+  Welcomed other(served, 1000);
+  served.host.holdFrames(true);
+  busy.send(frameMessage(1));
+  for (int i = 0; i < 100; ++i) ASSERT_TRUE(other.next()->has_state());
+  EXPECT_EQ(test::request(served.port(), "/healthz").result_int(), 200u);
+  served.host.holdFrames(false);
+  EXPECT_EQ(busy.nextAnswer()->frame_shown().number(), 1u);
 }
 
 TEST(HlCarrier, ASlowReaderMissesStatesAndNothingElse) {

@@ -1,0 +1,108 @@
+// hld: the server alone, for a network or a machine without a screen. Runs in the foreground and logs to stderr; ends
+// with code 0 on SIGINT and SIGTERM, and with one line and code 2 on bad input.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+
+#include "base/error.h"
+#include "hld_options.h"
+#include "null_session_host.h"
+#include "server/touch_monitor.h"
+#include "server/viewer_feed.h"
+#include "serving.h"
+#include "systemd_notify.h"
+#include "token_file.h"
+
+namespace hl {
+
+namespace {
+
+std::shared_ptr<const Snapshot> sceneOf(const SceneOptions& options) {
+  return options.scene.empty() ? makeSnapshot({}, HierarchyKind::kNone) : loadSnapshot(options);
+}
+
+HttpServerSettings serverSettings(const HldOptions& options) {
+  HttpServerSettings settings = options.server;
+  if (settings.page_folder.empty()) settings.page_folder = defaultPageFolder();
+  if (options.token_file.empty()) return settings;
+  settings.token = readTokenFile(options.token_file);
+  if (isReadableByOthers(options.token_file)) {
+    logEvent(LogLevel::kWarning, "token_is_no_secret",
+             {{"file", options.token_file}, {"reason", "everybody on this machine may read it; chmod 600 it"}});
+  }
+  return settings;
+}
+
+void logReady(const HldOptions& options, const TouchSession& session, std::uint16_t port) {
+  const bool v6 = options.server.listen.find(':') != std::string::npos;
+  logEvent(LogLevel::kInfo, "ready",
+           {{"address", fmt::format(fmt::runtime(v6 ? "{}://[{}]:{}/" : "{}://{}:{}/"),
+                                    options.server.tls.empty() ? "http" : "https", options.server.listen, port)},
+            {"token", options.token_file.empty() ? "none" : "asked_for"},
+            {"device", session.deviceInfo().name},
+            {"scene", options.scene.scene},
+            {"primitives", std::to_string(session.snapshot().primitives.size())}});
+  if (!session.grant().why.empty()) logEvent(LogLevel::kWarning, "not_real_time", {{"reason", session.grant().why}});
+}
+
+void reloadToken(HttpServer& server, const std::string& file) {
+  if (file.empty()) return;
+  try {
+    server.setToken(readTokenFile(file));
+    logEvent(LogLevel::kInfo, "token_read_again", {{"file", file}});
+  } catch (const Error& error) {
+    logEvent(LogLevel::kError, "token_kept", {{"reason", error.what()}});
+  }
+}
+
+void serve(HldOptions& options) {
+  openEventLog(options.log_format, options.log_level);
+  const sigset_t signals = blockSignals();
+  options.touch.hand_firm = options.hand == "firm";
+  options.touch.explore = false;
+  TouchSession session(sceneOf(options.scene), options.touch);
+  NullSessionHost sessions;  // HL clients: the host of their sessions comes here
+  HttpServer server(serverSettings(options), makeViewerFeed(session, HL_VERSION), &sessions, makeTouchMonitor(session));
+  session.start();
+  server.start();
+  logReady(options, session, server.port());
+  notifySystemd("READY=1");
+  int received = waitForSignal(signals);
+  for (; received == SIGHUP; received = waitForSignal(signals)) reloadToken(server, options.token_file);
+  logEvent(LogLevel::kInfo, "stopping", {{"reason", received == SIGINT ? "SIGINT" : "SIGTERM"}});
+  notifySystemd("STOPPING=1");
+  server.stop();
+  session.stop();
+}
+
+}  // namespace
+
+}  // namespace hl
+
+// NOLINTNEXTLINE(bugprone-exception-escape): only when not even stderr can be written
+int main(int argc, char** argv) {
+  CLI::App app("The HL server: a haptic device and a scene, for clients and pages.", "hld");
+  app.set_version_flag("--version", std::string("hld ") + HL_VERSION);
+  hl::HldOptions options;
+  hl::addHldOptions(app, options);
+  try {
+    app.parse(argc, argv);
+    hl::serve(options);
+  } catch (const CLI::Success& asked) {  // --help, --version
+    return app.exit(asked);
+  } catch (const CLI::ParseError& error) {
+    fmt::print(stderr, "hld: {} (try --help)\n", error.what());
+    return 2;
+  } catch (const hl::Error& error) {
+    fmt::print(stderr, "hld: {}\n", error.what());
+    return 2;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "hld: not enough memory for this scene\n");
+    return 2;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "hld: unexpected failure: {}\n", error.what());
+    return 1;
+  }
+  return 0;
+}

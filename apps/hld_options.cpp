@@ -1,0 +1,102 @@
+#include "hld_options.h"
+
+#include <map>
+
+namespace hl {
+
+namespace {
+
+void addNetworkOptions(CLI::App& app, HldOptions& options) {
+  HttpServerSettings& server = options.server;
+  app.add_option("--listen", server.listen,
+                 "address to listen on; beyond loopback (0.0.0.0, ::, ...) TLS and a token are needed")
+      ->capture_default_str()
+      ->group("Network");
+  app.add_option("--port", server.port, "port; 0 for any free one")->capture_default_str()->group("Network");
+  app.add_option("--tls-certificate", server.tls.certificate, "PEM file: the certificate and its chain")
+      ->group("Network");
+  app.add_option("--tls-key", server.tls.key, "PEM file: the certificate's key")->group("Network");
+  app.add_option("--token-file", options.token_file, "file with the token that clients must show; read again on SIGHUP")
+      ->group("Network");
+  app.add_option("--page-dir", server.page_folder, "folder of the built page")->group("Network");
+}
+
+void addDeviceOptions(CLI::App& app, HldOptions& options) {
+  const CLI::Validator positive(checkPositive, "POSITIVE");
+  app.add_option("--device", options.device, "the haptic device")
+      ->check(CLI::IsMember({"simulated"}))
+      ->capture_default_str()
+      ->group("Device");
+  app.add_option("--hand", options.hand, "grip of the simulated hand")
+      ->check(CLI::IsMember({"light", "firm"}))
+      ->capture_default_str()
+      ->group("Device");
+  app.add_option("--servo-rate", options.touch.servo_rate_Hz, "servo steps a second")
+      ->check(CLI::Range(100.0, 10'000.0))
+      ->capture_default_str()
+      ->group("Device");
+  app.add_option("--radius", options.touch.radius_D, "proxy radius in metres at the hand")
+      ->check(positive)
+      ->capture_default_str()
+      ->group("Device");
+}
+
+template <typename Number>
+void addLimit(CLI::App& app, const std::string& name, Number& limit, const std::string& what) {
+  app.add_option("--limit-" + name, limit, what)
+      ->check(CLI::Validator(checkPositive, "POSITIVE"))
+      ->capture_default_str()
+      ->group("Limits");
+}
+
+void addLimitOptions(CLI::App& app, Limits& limits) {
+  addLimit(app, "message-bytes", limits.message_bytes, "bytes of one message");
+  addLimit(app, "messages", limits.messages_Hz, "messages a second of one client");
+  addLimit(app, "objects", limits.objects, "objects of one client");
+  addLimit(app, "primitives", limits.primitives, "primitives of one client");
+  addLimit(app, "instances", limits.instances, "objects in the world of one client");
+  addLimit(app, "texture-bytes", limits.texture_bytes, "bytes of the textures of one client");
+  addLimit(app, "nesting", limits.nesting, "calls of objects within objects");
+  addLimit(app, "upload-bytes", limits.upload_bytes, "bytes of uploads that no frame has used yet, of one client");
+  addLimit(app, "frames", limits.frames_Hz, "frames a second of one client");
+  addLimit(app, "states", limits.state_rate_Hz, "states a second to one client");
+  addLimit(app, "sessions", limits.sessions, "clients at once");
+  addLimit(app, "pages", limits.pages, "viewer pages at once");
+  addLimit(app, "connections", limits.connections, "sockets at once");
+  addLimit(app, "workers", limits.workers, "threads that decode messages");
+  addLimit(app, "handshake", limits.handshake_s, "seconds for TLS, the upgrade and Open, each");
+  addLimit(app, "idle", limits.idle_s, "seconds of silence after which a client has gone");
+  addLimit(app, "write", limits.write_s, "seconds after which a client that reads nothing is ended");
+}
+
+void addLogOptions(CLI::App& app, HldOptions& options) {
+  const std::map<std::string, LogLevel> levels{{"debug", LogLevel::kDebug},
+                                               {"info", LogLevel::kInfo},
+                                               {"warning", LogLevel::kWarning},
+                                               {"error", LogLevel::kError}};
+  const std::map<std::string, LogFormat> formats{{"keyvalue", LogFormat::kKeyValue}, {"json", LogFormat::kJson}};
+  app.add_option("--log-level", options.log_level, "what is written to stderr")
+      ->transform(CLI::Transformer(levels))
+      ->option_text("debug|info|warning|error (default: info)")
+      ->group("Log");
+  app.add_option("--log-format", options.log_format, "one line an event, as key=value or as JSON")
+      ->transform(CLI::Transformer(formats))
+      ->option_text("keyvalue|json (default: keyvalue)")
+      ->group("Log");
+}
+
+}  // namespace
+
+void addHldOptions(CLI::App& app, HldOptions& options) {
+  options.scene.scene.clear();
+  app.set_config("--config", "", "read options from this file, one 'name = value' a line; the command line wins");
+  app.allow_config_extras(CLI::config_extras_mode::error);  // a misspelt name is no silent default
+  app.add_option("--scene", options.scene.scene, "a model or scene file, or a built-in scene, to begin with");
+  addHierarchyOption(app, options.scene);
+  addNetworkOptions(app, options);
+  addDeviceOptions(app, options);
+  addLimitOptions(app, options.server.limits);
+  addLogOptions(app, options);
+}
+
+}  // namespace hl

@@ -1,0 +1,28 @@
+// What hld can be told, on its command line or in its configuration file: the same names in both.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "commands.h"
+#include "server/event_log.h"
+#include "server/http_server.h"
+#include "server/touch_session.h"
+
+namespace hl {
+
+struct HldOptions {
+  SceneOptions scene;         ///< of an empty name: nothing to touch at first
+  HttpServerSettings server;  ///< but for the token
+  TouchSettings touch;
+  std::string token_file;  ///< empty: no token
+  std::string device = "simulated";
+  std::string hand = "light";
+  LogFormat log_format = LogFormat::kKeyValue;
+  LogLevel log_level = LogLevel::kInfo;
+};
+
+/// `options` must outlive `app`.
+void addHldOptions(CLI::App& app, HldOptions& options);
+
+}  // namespace hl

@@ -1,0 +1,20 @@
+// What the programs that serve have in common: where the page is, and the signals that end or tell them something.
+#pragma once
+
+#include <signal.h>
+
+#include <string>
+
+namespace hl {
+
+/// Blocks SIGINT, SIGTERM and SIGHUP in this thread and all that it starts, so that waitForSignal() takes them; SIGPIPE
+/// is ignored. Call it before any thread is started.
+sigset_t blockSignals();
+
+/// The next of `signals`; 0 when `longest_s` > 0 and none came in that time.
+int waitForSignal(const sigset_t& signals, double longest_s = 0);
+
+/// The built page: viewer/dist in a folder above the program.
+std::string defaultPageFolder();
+
+}  // namespace hl
