@@ -6,8 +6,8 @@
  *
  * Errors. A call that makes an error changes nothing else. The context keeps its first error until hlGetError takes it.
  * Without a current context a call does nothing, returns 0, and the thread keeps HL_NO_CONTEXT. NaN and infinities are
- * HL_INVALID_VALUE. Between hlBegin and hlEnd only hlVertex*, hlNormal* and hlTexCoord* may be called: every other call
- * is HL_INVALID_OPERATION.
+ * HL_INVALID_VALUE, and so is a null pointer where there is something to read or write. Between hlBegin and hlEnd only
+ * hlVertex*, hlNormal* and hlTexCoord* may be called: every other call is HL_INVALID_OPERATION.
  *
  * Frames. What happens between two hlFlush (or hlFinish) is one frame, and becomes touchable all at once. What a frame
  * draws outside of definitions (hlBegin .. hlEnd, arrays, hlCallObject) replaces the world; a frame that draws nothing
@@ -282,11 +282,12 @@ HL_API void hlHandGoal3d(HLdouble x, HLdouble y, HLdouble z);
 
 /* ---- Queries and events: from the last state taken; never wait --------------------------------------------------- */
 
-/** Writes the values of `name` (hl_types.h says how many), converted as in GL: integers are rounded and clamped,
- * booleans are "not 0". HL_INVALID_ENUM: not a query. */
+/** Writes the values of `name` (hl_types.h says how many), converted as in GL: integers are rounded and clamped
+ * (numbers and names of objects above 2^31 - 1 need hlGetDoublev), booleans are "not 0". HL_INVALID_ENUM: not a query.
+ */
 HL_API void hlGetBooleanv(HLenum name, HLboolean* values);
-HL_API void hlGetIntegerv(HLenum name, HLint* values); /**< see hlGetBooleanv; numbers of objects keep their 32 bits */
-HL_API void hlGetFloatv(HLenum name, HLfloat* values); /**< see hlGetBooleanv */
+HL_API void hlGetIntegerv(HLenum name, HLint* values);   /**< see hlGetBooleanv */
+HL_API void hlGetFloatv(HLenum name, HLfloat* values);   /**< see hlGetBooleanv */
 HL_API void hlGetDoublev(HLenum name, HLdouble* values); /**< see hlGetBooleanv */
 /** Writes up to `most` contacts of the last state, the one that presses hardest first, and returns how many it wrote.
  * HL_INVALID_VALUE: most < 0. */
