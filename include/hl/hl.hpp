@@ -15,6 +15,7 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <ranges>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -41,8 +42,8 @@ class CallError : public std::runtime_error {
 inline void check() {
   const HLenum code = hlGetError();
   if (code == HL_NO_ERROR) return;
-  const char* text = code == HL_NO_CONTEXT ? "the thread has no current context" : hlGetString(HL_ERROR_STRING);
-  throw CallError(code, text != nullptr ? text : "an HL call has failed");
+  if (hlGetCurrentContext() == nullptr) throw CallError(code, "an HL call without a current context");
+  throw CallError(code, hlGetString(HL_ERROR_STRING));
 }
 
 /// A conversation with a server. Movable; destroyed at the latest before the thread that it is current on ends.
@@ -220,17 +221,19 @@ void drawArrays(HLenum mode, const VertexArrays<Number>& arrays) {
   hlDrawArrays(mode, 0, static_cast<HLsizei>(arrays.size()));
 }
 
-/// hlDrawElements with all of `indices`, each below the number of vertices. Afterwards as drawArrays.
-template <ArrayNumber Number, ArrayIndex Index>
-void drawElements(HLenum mode, const VertexArrays<Number>& arrays, std::span<const Index> indices) {
-  const auto outside = [&](Index index) { return index >= arrays.size(); };
-  if (std::any_of(indices.begin(), indices.end(), outside))
+/// hlDrawElements with all of `indices` (a vector, an array, a span), each below the number of vertices. Afterwards as
+/// drawArrays.
+template <ArrayNumber Number, std::ranges::contiguous_range Indices>
+requires ArrayIndex<std::ranges::range_value_t<Indices>>
+void drawElements(HLenum mode, const VertexArrays<Number>& arrays, const Indices& indices) {
+  using Index = std::ranges::range_value_t<Indices>;
+  if (std::ranges::any_of(indices, [&](Index index) { return index >= arrays.size(); }))
     throw std::invalid_argument("an index must be below the number of vertices");
   constexpr HLenum type = sizeof(Index) == sizeof(HLubyte)    ? HL_UNSIGNED_BYTE
                           : sizeof(Index) == sizeof(HLushort) ? HL_UNSIGNED_SHORT
                                                               : HL_UNSIGNED_INT;
   const detail::ArrayScope<Number> scope(arrays);
-  hlDrawElements(mode, static_cast<HLsizei>(indices.size()), type, indices.data());
+  hlDrawElements(mode, static_cast<HLsizei>(std::ranges::size(indices)), type, std::ranges::data(indices));
 }
 
 /// hlGetDoublev of a query with `count` values (hl_types.h says how many); zeros at an error.
