@@ -63,15 +63,15 @@ Array& Arrays::named(HLenum name) {
 void Arrays::draw(Recorder& recorder, const VertexExtras& current, std::size_t index) const {
   VertexExtras extras = current;
   if (normals.enabled) {
-    extras.normal = {normals.at(index, 0), normals.at(index, 1), normals.at(index, 2)};
+    extras.setNormal({normals.at(index, 0), normals.at(index, 1), normals.at(index, 2)});
     requireFinite(extras.normal[0], extras.normal[1], extras.normal[2]);
   }
   if (texcoords.enabled) {
-    extras.texcoord = {texcoords.at(index, 0), texcoords.at(index, 1)};
-    extras.texcoord_set = true;
+    extras.setTexcoord({texcoords.at(index, 0), texcoords.at(index, 1)});
     requireFinite(extras.texcoord[0], extras.texcoord[1]);
   }
-  recorder.vertex(extras, vertices.at(index, 0), vertices.at(index, 1), vertices.at(index, 2));
+  const double x = vertices.at(index, 0), y = vertices.at(index, 1), z = vertices.at(index, 2);
+  if (!recorder.vertexInRoom(extras, x, y, z)) recorder.vertex(extras, x, y, z);
 }
 
 void Arrays::requirePointers() const {

@@ -6,9 +6,17 @@
 
 namespace hl::client {
 
+bool hasTextures(const Attributes& attributes) {
+  const TextureUnits& units = attributes.textures;
+  for (std::size_t unit = 0; unit < kTextureUnits; ++unit)
+    if (units.enabled[unit] && units.uses[unit].texture != 0) return true;
+  return false;
+}
+
 Look lookOf(const Attributes& attributes) {
   const TextureUnits& units = attributes.textures;
   Look look{attributes.surface, {}, units.decided, attributes.name};
+  if (!hasTextures(attributes)) return look;
   for (std::size_t unit = kTextureUnits; unit-- > 0;) {
     const TextureUse& use = units.uses[unit];
     const bool taken = std::any_of(look.textures.begin(), look.textures.end(),
@@ -16,13 +24,6 @@ Look lookOf(const Attributes& attributes) {
     if (units.enabled[unit] && use.texture != 0 && !taken) look.textures.push_back(use);
   }
   return look;
-}
-
-bool hasTextures(const Attributes& attributes) {
-  const TextureUnits& units = attributes.textures;
-  for (std::size_t unit = 0; unit < kTextureUnits; ++unit)
-    if (units.enabled[unit] && units.uses[unit].texture != 0) return true;
-  return false;
 }
 
 void requireInRange(HLenum quantity, double value) {

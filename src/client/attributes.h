@@ -44,7 +44,17 @@ struct TextureUnits {
 struct VertexExtras {
   std::array<double, 3> normal{};    ///< 0 0 0: none
   std::array<double, 2> texcoord{};  ///< before the texture matrix
-  bool texcoord_set = false;         ///< hlTexCoord was called
+  bool has_normal = false;           ///< it is not 0 0 0
+  bool has_texcoord = false;         ///< hlTexCoord was called
+
+  void setNormal(const std::array<double, 3>& to) {
+    normal = to;
+    has_normal = to != std::array<double, 3>{};
+  }
+  void setTexcoord(const std::array<double, 2>& to) {
+    texcoord = to;
+    has_texcoord = true;
+  }
 };
 
 struct Attributes {

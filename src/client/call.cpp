@@ -2,30 +2,27 @@
 
 namespace hl::client {
 
-namespace {
+constinit thread_local HLcontext* current_context = nullptr;
 
-// Known at compile time, so that reading it, as every hlVertex does, is one load.
-constinit thread_local HLcontext* current = nullptr;
+namespace {
 
 // Lets go of the context when its thread ends, so that another thread can have it.
 struct LetGo {
   ~LetGo() {
-    if (current != nullptr) current->current = false;
-    current = nullptr;
+    if (current_context != nullptr) current_context->current = false;
+    current_context = nullptr;
   }
 };
 
 }  // namespace
 
-HLcontext* currentContext() noexcept { return current; }
-
 void setCurrentContext(HLcontext* context) {
   static thread_local LetGo let_go;
-  if (context == current) return;
+  if (context == current_context) return;
   if (context != nullptr && context->current.exchange(true))
     throw Fault(HL_INVALID_OPERATION, "the context is current on another thread");
-  if (current != nullptr) current->current = false;
-  current = context;
+  if (current_context != nullptr) current_context->current = false;
+  current_context = context;
 }
 
 ErrorState& threadErrors() noexcept {
@@ -33,7 +30,7 @@ ErrorState& threadErrors() noexcept {
   return errors;
 }
 
-ErrorState& currentErrors() noexcept { return current != nullptr ? current->errors : threadErrors(); }
+ErrorState& currentErrors() noexcept { return current_context != nullptr ? current_context->errors : threadErrors(); }
 
 void requireAllowed(const HLcontext& context, When when) {
   if (when == When::kAlways) return;

@@ -11,8 +11,10 @@
 
 namespace hl::client {
 
+/// Set by setCurrentContext only. constinit: reading it, as every hlVertex does, is one load.
+extern constinit thread_local HLcontext* current_context;
 /// The context that is current on this thread; null: none.
-HLcontext* currentContext() noexcept;
+inline HLcontext* currentContext() noexcept { return current_context; }
 /// Throws Fault when it is current on another thread.
 void setCurrentContext(HLcontext* context);
 /// Errors of calls without a context.

@@ -20,8 +20,8 @@ constexpr std::uint64_t unlessZero(std::uint64_t limit) {
   return limit == 0 ? std::numeric_limits<std::uint64_t>::max() : limit;
 }
 
-template <typename Number>
-void assign(google::protobuf::RepeatedField<Number>* out, const std::vector<Number>& in) {
+template <typename Number, typename List>
+void assign(google::protobuf::RepeatedField<Number>* out, const List& in) {
   *out = google::protobuf::RepeatedField<Number>(in.begin(), in.end());
 }
 
@@ -128,13 +128,13 @@ class Builder {
   }
 
   // Cut where a vertex or a primitive ends, whether it has one, two or three numbers.
-  template <typename Number, typename Mutable>
-  void addParts(const std::vector<Number>& numbers, Mutable mutable_list) {
+  template <typename List, typename Mutable>
+  void addParts(const List& numbers, Mutable mutable_list) {
     const std::size_t step = std::max<std::size_t>(part_bytes_ / sizeof(double) / 6, 1) * 6;
     for (std::size_t first = 0; first < numbers.size(); first += step) {
       proto::Upload& part = *messages_.uploads.emplace_back().mutable_upload();
       part.set_id(upload_);
-      const Number* begin = numbers.data() + first;
+      const auto* begin = numbers.data() + first;
       (part.mutable_part()->*mutable_list)()->Add(begin, begin + std::min(step, numbers.size() - first));
       upload_bytes_ += messages_.uploads.back().ByteSizeLong();
     }

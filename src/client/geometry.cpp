@@ -13,12 +13,12 @@ using Index = std::uint32_t;
 // hlBegin.
 constexpr std::size_t kMoveFrom = 4096;
 
-void append(std::vector<double>& whole, std::vector<double>& part) {
+void append(Numbers& whole, Numbers& part) {
   if (whole.empty() && part.size() >= kMoveFrom) {
-    whole = std::exchange(part, {});
+    whole = std::move(part);
     return;
   }
-  whole.insert(whole.end(), part.begin(), part.end());
+  whole.append(part);
   part.clear();
 }
 
@@ -101,10 +101,10 @@ void Vertices::clear() {
   texcoords.clear();
 }
 
-void Vertices::resize(std::size_t count) {
-  positions.resize(3 * count);
-  if (!normals.empty()) normals.resize(3 * count);
-  if (!texcoords.empty()) texcoords.resize(2 * count);
+void Vertices::shorten(std::size_t count) {
+  positions.shorten(3 * count);
+  normals.shorten(3 * count);
+  texcoords.shorten(2 * count);
 }
 
 bool Geometry::takes(const Vertices& added) const {
@@ -142,7 +142,7 @@ std::size_t wholeVertices(HLenum mode, std::size_t count) {
 }
 
 void appendPrimitives(Geometry& geometry, HLenum mode, Vertices& vertices) {
-  vertices.resize(wholeVertices(mode, vertices.size()));
+  vertices.shorten(wholeVertices(mode, vertices.size()));
   const auto base = static_cast<Index>(geometry.vertices.size());
   const auto count = static_cast<Index>(vertices.size());
   append(geometry.vertices.positions, vertices.positions);

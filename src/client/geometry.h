@@ -7,16 +7,18 @@
 #include <cstdint>
 #include <vector>
 
+#include "client/numbers.h"
+
 namespace hl::client {
 
 /// The vertices of one hlBegin .. hlEnd, in the order drawn.
 struct Vertices {
-  std::vector<double> positions;  ///< x y z each
-  std::vector<double> normals;    ///< x y z for each vertex, or empty: none has a normal
-  std::vector<double> texcoords;  ///< u v for each vertex, or empty
+  Numbers positions;  ///< x y z each
+  Numbers normals;    ///< x y z for each vertex, or empty: none has a normal
+  Numbers texcoords;  ///< u v for each vertex, or empty
   std::size_t size() const { return positions.size() / 3; }
   void clear();
-  void resize(std::size_t count);  ///< only to fewer
+  void shorten(std::size_t count);  ///< to at most so many
 };
 
 struct Geometry {

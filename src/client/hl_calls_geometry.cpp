@@ -28,7 +28,10 @@ void end(HLcontext& context) {
   context.target().draw(context.draw.modelview.top(), lookOf(context.draw.attributes.now), mode, vertices);
 }
 
+// Almost every vertex takes the short way.
 void vertex(const char* function, double x, double y, double z) {
+  HLcontext* now = hl::client::currentContext();
+  if (now != nullptr && now->recorder.vertexInRoom(now->draw.attributes.now.vertex, x, y, z)) return;
   call(function, When::kAlways,
        [&](HLcontext& context) { context.recorder.vertex(context.draw.attributes.now.vertex, x, y, z); });
 }
@@ -36,15 +39,14 @@ void vertex(const char* function, double x, double y, double z) {
 void normal(const char* function, double x, double y, double z) {
   call(function, When::kAlways, [&](HLcontext& context) {
     requireFinite(x, y, z);
-    context.draw.attributes.now.vertex.normal = {x, y, z};
+    context.draw.attributes.now.vertex.setNormal({x, y, z});
   });
 }
 
 void texCoord(const char* function, double u, double v) {
   call(function, When::kAlways, [&](HLcontext& context) {
     requireFinite(u, v);
-    context.draw.attributes.now.vertex.texcoord = {u, v};
-    context.draw.attributes.now.vertex.texcoord_set = true;
+    context.draw.attributes.now.vertex.setTexcoord({u, v});
   });
 }
 

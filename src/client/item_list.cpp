@@ -8,7 +8,7 @@
 namespace hl::client {
 
 bool ItemList::draw(const Matrix4& matrix, const Look& look, HLenum mode, Vertices& vertices) {
-  vertices.resize(wholeVertices(mode, vertices.size()));
+  vertices.shorten(wholeVertices(mode, vertices.size()));
   if (vertices.size() == 0) {
     vertices.clear();
     return false;
