@@ -84,7 +84,8 @@ HL_API const char* hlGetString(HLenum name);
  */
 HL_API void hlClear(void);
 /** Ends the frame and sends it, if there is anything in it; never waits. When more than is good is on its way already
- * (HL_BUSY), or the last frame was sent less than 1 / HL_MAX_FRAME_RATE ago (no error), the frame waits here: the next
+ * (HL_BUSY), or, without an error, the last frame was sent less than 1 / HL_MAX_FRAME_RATE ago or the server is still
+ * building many, the frame waits here: the next
  * hlFlush, hlFinish or hlPoll sends it, together with what has been flushed since (the later world, the later
  * definitions). HL_OUT_OF_MEMORY: the frame is larger than the server takes, and is dropped. Also takes replies, so
  * that HL_REFUSED and HL_CONNECTION_LOST may show here. HL_INVALID_OPERATION in a definition. */
@@ -170,8 +171,8 @@ HL_API void hlEndObject(void);
  * name of this moment. Later definitions of it show here too. HL_INVALID_VALUE: not defined (GL ignores that).
  * HL_INVALID_OPERATION: it calls, directly or not, the object that is being defined. */
 HL_API void hlCallObject(HLuint object);
-/** Forgets objects; where they are called there is nothing from the next frame on. 0 and unknown numbers are ignored.
- * HL_INVALID_VALUE: n < 0. HL_INVALID_OPERATION in a definition. */
+/** Forgets objects; where they are called there is nothing from the next frame on, until they are defined again. 0 and
+ * unknown numbers are ignored. HL_INVALID_VALUE: n < 0. HL_INVALID_OPERATION in a definition. */
 HL_API void hlDeleteObjects(HLsizei n, const HLuint* objects);
 /** HL_TRUE: defined (hlEndObject has been called) and not deleted. */
 HL_API HLboolean hlIsObject(HLuint object);
@@ -224,8 +225,9 @@ HL_API void hlShadeModel(HLenum mode);
 
 /** Writes `n` texture numbers (> 0) that are not in use. HL_INVALID_VALUE: n < 0. */
 HL_API void hlGenTextures(HLsizei n, HLuint* textures);
-/** Forgets textures; units that they are bound to get 0, and what was drawn with them feels untextured. 0 and unknown
- * numbers are ignored. HL_INVALID_VALUE: n < 0. HL_INVALID_OPERATION in a definition. */
+/** Forgets textures; units that they are bound to get 0. What this frame has drawn with them feels untextured; what
+ * earlier frames have, keeps them until it is drawn or defined anew. 0 and unknown numbers are ignored.
+ * HL_INVALID_VALUE: n < 0. HL_INVALID_OPERATION in a definition. */
 HL_API void hlDeleteTextures(HLsizei n, const HLuint* textures);
 /** HL_TRUE: has been bound and not deleted. */
 HL_API HLboolean hlIsTexture(HLuint texture);
@@ -253,7 +255,7 @@ HL_API void hlTexEnvd(HLenum target, HLenum parameter, HLdouble value); /**< see
 
 /** HL_TEXTURE_2D: the active unit takes part in what is drawn next. All are disabled at first. */
 HL_API void hlEnable(HLenum capability);
-/** HL_TEXTURE_2D: it takes no part. In a definition: disabling the last unit also keeps off the caller's textures. */
+/** HL_TEXTURE_2D: it takes no part. In a definition: with no unit left the caller's textures are kept off, too. */
 HL_API void hlDisable(HLenum capability);
 /** HL_TEXTURE_2D or an array of hlEnableClientState. */
 HL_API HLboolean hlIsEnabled(HLenum capability);

@@ -36,7 +36,7 @@ struct TextureUse {
 struct TextureUnits {
   std::array<TextureUse, kTextureUnits> uses;
   std::array<bool, kTextureUnits> enabled{};
-  bool decided = false;  ///< hlEnable or hlDisable was called: a caller's textures no longer count
+  bool decided = false;  ///< hlEnable or hlDisable was called: with no unit in use a caller's do not count
   std::size_t active = 0;
 };
 

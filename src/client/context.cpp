@@ -21,16 +21,22 @@ ItemList& HLcontext::target() {
 
 Draft HLcontext::closeFrame() {
   Draft closed = std::exchange(frame, {});
-  for (auto& [object, items] : closed.objects) dropImageless(items, textures);
+  for (auto& [object, items] : closed.objects) {
+    dropImageless(items, textures);
+    objects.define(object, items.uses());
+  }
   if (closed.world) {
     dropImageless(*closed.world, textures);
-    world_calls = closed.world->calls();
+    world_textures = closed.world->uses().textures;
   }
-  auto removals = objects.takeRemovals(world_calls);
-  for (const HLuint object : removals.empty) closed.objects[object];
-  closed.deleted_objects.insert(removals.deleted.begin(), removals.deleted.end());
-  auto changes = textures.takeChanges();
+  auto changes = textures.takeChanges(textures.hasRemoved() ? usedTextures() : std::set<HLuint>{});
   closed.textures = std::move(changes.images);
   closed.deleted_textures = std::move(changes.removed);
   return closed;
+}
+
+std::set<HLuint> HLcontext::usedTextures() const {
+  std::set<HLuint> used = objects.usedTextures();
+  used.insert(world_textures.begin(), world_textures.end());
+  return used;
 }

@@ -57,8 +57,8 @@ struct HLcontext {
   hl::client::ObjectTable objects;
   hl::client::TextureTable textures;
 
-  hl::client::Draft frame;            ///< since the last flush; textures and deletions are added when it is closed
-  std::set<HLuint> world_calls;       ///< objects that the world called when a frame was last closed
+  hl::client::Draft frame;            ///< since the last flush; its textures are added when it is closed
+  std::set<HLuint> world_textures;    ///< that the world used when a frame was last closed
   std::string text;                   ///< what hlGetString returned last
   std::atomic<bool> current = false;  ///< on some thread
 
@@ -66,4 +66,7 @@ struct HLcontext {
   hl::client::ItemList& target();
   /// What has been recorded since the last flush, complete; a new frame begins.
   hl::client::Draft closeFrame();
+
+ private:
+  std::set<HLuint> usedTextures() const;
 };

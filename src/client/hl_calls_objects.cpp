@@ -28,7 +28,8 @@ void requireCallable(const HLcontext& context, HLuint object) {
 void endDefinition(HLcontext& context) {
   Definition& definition = *context.definition;
   const HLuint object = definition.object;
-  context.objects.define(object, definition.items.calls());
+  context.objects.define(object, definition.items.uses());
+  context.frame.deleted_objects.erase(object);
   context.frame.objects.insert_or_assign(object, std::move(definition.items));
   context.draw = std::move(definition.outside);
   context.definition.reset();
@@ -68,8 +69,9 @@ void hlDeleteObjects(HLsizei n, const HLuint* objects) {
   call(__func__, When::kNotInDefinition, [&](HLcontext& context) {
     requireList(n, objects);
     for (HLsizei i = 0; i < n; ++i) {
-      context.objects.remove(objects[i]);
+      if (!context.objects.remove(objects[i])) continue;
       context.frame.objects.erase(objects[i]);
+      context.frame.deleted_objects.insert(objects[i]);
     }
   });
 }

@@ -27,11 +27,13 @@ void ItemList::call(const Matrix4& matrix, const Look& look, HLuint object) {
   items_.push_back({matrix, look, object, {}});
 }
 
-std::set<HLuint> ItemList::calls() const {
-  std::set<HLuint> objects;
-  for (const Item& item : items_)
-    if (item.call != 0) objects.insert(item.call);
-  return objects;
+Uses ItemList::uses() const {
+  Uses uses;
+  for (const Item& item : items_) {
+    if (item.call != 0) uses.objects.insert(item.call);
+    for (const TextureUse& use : item.look.textures) uses.textures.insert(use.texture);
+  }
+  return uses;
 }
 
 }  // namespace hl::client

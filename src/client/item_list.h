@@ -20,6 +20,11 @@ struct Item {
   Geometry geometry;
 };
 
+/// What items need besides themselves.
+struct Uses {
+  std::set<HLuint> objects, textures;
+};
+
 class ItemList {
  public:
   /// Appends primitives; takes `vertices` and leaves them empty. Those after each other with the same matrix, look, and
@@ -30,8 +35,7 @@ class ItemList {
 
   const std::vector<Item>& items() const { return items_; }
   std::vector<Item>& items() { return items_; }
-  /// The objects that are called.
-  std::set<HLuint> calls() const;
+  Uses uses() const;
 
  private:
   std::vector<Item> items_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "client/fault.h"
 
@@ -14,9 +15,8 @@ HLuint ObjectTable::generate() {
   return ++highest_;
 }
 
-void ObjectTable::define(HLuint object, std::set<HLuint> calls) {
-  calls_[object] = std::move(calls);
-  removed_.erase(object);
+void ObjectTable::define(HLuint object, Uses uses) {
+  objects_[object] = std::move(uses);
   highest_ = std::max(highest_, object);
 }
 
@@ -27,40 +27,18 @@ bool ObjectTable::reaches(HLuint from, HLuint to) const {
     const HLuint object = open.back();
     open.pop_back();
     if (object == to) return true;
-    const auto found = calls_.find(object);
-    if (found == calls_.end()) continue;
-    for (const HLuint called : found->second)
+    const auto found = objects_.find(object);
+    if (found == objects_.end()) continue;
+    for (const HLuint called : found->second.objects)
       if (seen.insert(called).second) open.push_back(called);
   }
   return false;
 }
 
-void ObjectTable::remove(HLuint object) {
-  if (calls_.erase(object) != 0) removed_[object] = false;
-}
-
-std::set<HLuint> ObjectTable::calledObjects() const {
-  std::set<HLuint> called;
-  for (const auto& [object, calls] : calls_) called.insert(calls.begin(), calls.end());
-  return called;
-}
-
-ObjectTable::Removals ObjectTable::takeRemovals(const std::set<HLuint>& world_calls) {
-  Removals removals;
-  if (removed_.empty()) return removals;
-  const std::set<HLuint> called = calledObjects();
-  for (auto entry = removed_.begin(); entry != removed_.end();) {
-    auto& [object, emptied] = *entry;
-    if (called.contains(object) || world_calls.contains(object)) {
-      if (!emptied) removals.empty.push_back(object);
-      emptied = true;
-      ++entry;
-    } else {
-      removals.deleted.push_back(object);
-      entry = removed_.erase(entry);
-    }
-  }
-  return removals;
+std::set<HLuint> ObjectTable::usedTextures() const {
+  std::set<HLuint> used;
+  for (const auto& [object, uses] : objects_) used.insert(uses.textures.begin(), uses.textures.end());
+  return used;
 }
 
 }  // namespace hl::client

@@ -1,12 +1,13 @@
-// ObjectTable: which objects are defined and whom they call, so that a circle is seen before anything is sent. What is
-// in them is not kept.
+// ObjectTable: which objects are defined and what they use, so that a circle of calls is seen before anything is sent,
+// and a texture is not taken away under an object. What is in the objects is not kept.
 #pragma once
 
 #include <hl/hl_types.h>
 
 #include <map>
 #include <set>
-#include <vector>
+
+#include "client/item_list.h"
 
 namespace hl::client {
 
@@ -14,25 +15,18 @@ class ObjectTable {
  public:
   /// A number > 0 that was never returned or defined before.
   HLuint generate();
-  bool isDefined(HLuint object) const { return calls_.contains(object); }
-  /// Defines or redefines `object`, which calls `calls`.
-  void define(HLuint object, std::set<HLuint> calls);
-  /// Unknown objects are ignored.
-  void remove(HLuint object);
+  bool isDefined(HLuint object) const { return objects_.contains(object); }
+  /// Defines or redefines `object`.
+  void define(HLuint object, Uses uses);
+  /// Returns whether it was defined.
+  bool remove(HLuint object) { return objects_.erase(object) != 0; }
   /// Whether `from` is `to` or calls it, directly or not.
   bool reaches(HLuint from, HLuint to) const;
-  /// Hands over what has become of removed objects since the last time: those that are still called, by an object or by
-  /// the world (`world_calls`), have to be emptied; those that nobody calls any more can be deleted.
-  struct Removals {
-    std::vector<HLuint> empty, deleted;
-  };
-  Removals takeRemovals(const std::set<HLuint>& world_calls);
+  /// Those of all objects.
+  std::set<HLuint> usedTextures() const;
 
  private:
-  std::set<HLuint> calledObjects() const;
-
-  std::map<HLuint, std::set<HLuint>> calls_;  // by defined object
-  std::map<HLuint, bool> removed_;            // and not yet deleted; whether it has been emptied
+  std::map<HLuint, Uses> objects_;
   HLuint highest_ = 0;
 };
 

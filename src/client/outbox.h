@@ -7,10 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <optional>
 #include <set>
-#include <string>
 
 #include "client/draft.h"
 #include "wire/link.h"
@@ -19,6 +17,10 @@ namespace hl::client {
 
 /// With more than this on its way to the server the next frame waits: a slow network must not fill the memory.
 inline constexpr std::size_t kMostQueuedBytes = std::size_t{16} << 20;
+
+/// With so many frames unanswered the next one waits: the server is still building them, and shows what is newest
+/// sooner when it has not to build all between. At 60 frames a second this covers a network of a quarter of a second.
+inline constexpr std::size_t kMostUnanswered = 16;
 
 class Outbox {
  public:
@@ -41,17 +43,8 @@ class Outbox {
   bool allAnswered() const { return unanswered_.empty(); }
 
  private:
-  // What the server has once it has taken a frame.
-  struct Known {
-    std::set<HLuint> objects;
-    std::set<std::string> textures;
-  };
-  Draft withoutUnknown(Draft draft) const;
-  Known takeIn(const proto::Frame& frame);
-
   Draft waiting_;
-  Known known_;
-  std::map<std::uint64_t, Known> unanswered_;  // frames, with what was new in them
+  std::set<std::uint64_t> unanswered_;  // frames
   std::uint64_t last_sent_ = 0;
   std::uint64_t next_upload_ = 1;
   std::int64_t last_sent_ns_ = std::numeric_limits<std::int64_t>::min();

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <utility>
 
 #include "client/fault.h"
 
@@ -47,14 +46,19 @@ Texture& TextureTable::change(HLuint texture) {
   return textures_.at(texture);
 }
 
-TextureTable::Changes TextureTable::takeChanges() {
+TextureTable::Changes TextureTable::takeChanges(const std::set<HLuint>& used) {
   Changes changes;
-  for (const HLuint texture : changed_)
-    if (hasImage(texture)) changes.images[texture] = textures_.at(texture);
-  changes.removed = std::move(removed_);
-  for (const auto& [texture, image] : changes.images) changes.removed.erase(texture);
+  for (const HLuint texture : changed_) {
+    if (!hasImage(texture)) continue;
+    changes.images[texture] = textures_.at(texture);
+    removed_.erase(texture);
+  }
   changed_.clear();
-  removed_.clear();
+  std::erase_if(removed_, [&](HLuint texture) {
+    if (used.contains(texture)) return false;
+    changes.removed.insert(texture);
+    return true;
+  });
   return changes;
 }
 

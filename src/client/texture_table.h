@@ -33,12 +33,14 @@ class TextureTable {
   /// There must be one. Its image, if it has one, goes with the next changes.
   Texture& change(HLuint texture);
 
-  /// The images that were made or changed since the last time, and the textures that were removed.
+  /// The images that were made or changed since the last time, and the textures that were removed. A removed texture
+  /// stays with the server while there is something drawn with it there: `used`.
   struct Changes {
     std::map<HLuint, Texture> images;
     std::set<HLuint> removed;
   };
-  Changes takeChanges();
+  Changes takeChanges(const std::set<HLuint>& used);
+  bool hasRemoved() const { return !removed_.empty(); }
 
  private:
   std::set<HLuint> changed_, removed_;

@@ -115,17 +115,17 @@ TEST_F(CallsTest, RefusedFrameIsAnErrorWithItsReason) {
   EXPECT_EQ(hlFinishTimeout(10), HL_TRUE);
 }
 
-TEST_F(CallsTest, WhatARefusedFrameDefinedIsNotDeletedAtTheServer) {
+TEST_F(CallsTest, FramesWaitWithoutAnErrorWhileTheServerBuildsMany) {
   server->shows_frames = false;
-  hlNewObject(1);
-  hlEndObject();
-  hlFlush();
-  server->refuse(1, "no");
+  for (std::size_t i = 0; i < kMostUnanswered + 5; ++i) {
+    triangle(static_cast<double>(i));
+    hlFlush();
+  }
+  EXPECT_EQ(server->frames().size(), kMostUnanswered);
+  server->show(1);
   hlPoll();
-  expectError(HL_REFUSED);
-  const HLuint one = 1;
-  hlDeleteObjects(1, &one);
-  EXPECT_EQ(flushed().number(), 0U);
+  ASSERT_EQ(server->frames().size(), kMostUnanswered + 1);
+  EXPECT_EQ(server->frames().back().world().items(0).primitives().vertices(0), kMostUnanswered + 4.0);
 }
 
 TEST_F(CallsTest, FrameWaitsWhileTheNetworkIsBusyAndLaterOnesJoinIt) {
@@ -153,7 +153,7 @@ TEST_F(CallsTest, FrameWaitsWhileTheNetworkIsBusyAndLaterOnesJoinIt) {
   EXPECT_EQ(integer(HL_FRAME_WAITING), 0);
 }
 
-TEST_F(CallsTest, DeletionOfWhatWaitsIsNotSent) {
+TEST_F(CallsTest, DeletionUndoesADefinitionThatWaits) {
   server->queued_bytes = kMostQueuedBytes + 1;
   hlNewObject(1);
   hlEndObject();
@@ -164,7 +164,8 @@ TEST_F(CallsTest, DeletionOfWhatWaitsIsNotSent) {
   expectError(HL_BUSY);
   server->queued_bytes = 0;
   hlFlush();
-  EXPECT_TRUE(server->received.empty());
+  ASSERT_EQ(server->frames().size(), 1U);
+  EXPECT_EQ(server->frames()[0].objects_size(), 0);
 }
 
 // A context whose server takes one frame in an hour.

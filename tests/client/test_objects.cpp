@@ -142,31 +142,20 @@ TEST_F(CallsTest, DeletedObjectsGoWithTheNextFrame) {
   EXPECT_EQ(flushed().number(), 0U);
 }
 
-TEST_F(CallsTest, WhatIsDefinedAndDeletedInOneFrameIsNeverSent) {
+TEST_F(CallsTest, TheLastOfDefiningAndDeletingCounts) {
   define(1);
   const HLuint one = 1;
   hlDeleteObjects(1, &one);
-  EXPECT_EQ(flushed().number(), 0U);
-}
-
-TEST_F(CallsTest, DeletedObjectThatIsStillCalledIsEmptiedFirst) {
-  define(1);
-  define(2, 1);
-  hlCallObject(2);
-  flushed();
-  const HLuint objects[] = {1, 2};
-  hlDeleteObjects(1, objects);
-  proto::Frame frame = flushed();
-  ASSERT_EQ(frame.objects_size(), 1);
-  EXPECT_EQ(frame.objects(0).items_size(), 0);
-  EXPECT_EQ(frame.deleted_objects_size(), 0);
-  // The caller goes too, but the world still calls it.
-  hlDeleteObjects(1, objects + 1);
-  frame = flushed();
+  define(2);
+  const proto::Frame frame = flushed();
+  EXPECT_EQ(frame.objects_size(), 1);
   EXPECT_EQ(frame.objects(0).id(), 2U);
-  EXPECT_EQ(listOf(frame.deleted_objects()), (std::vector<double>{1}));
-  hlClear();
-  EXPECT_EQ(listOf(flushed().deleted_objects()), (std::vector<double>{2}));
+  hlDeleteObjects(1, &one);
+  EXPECT_EQ(flushed().number(), 0U);
+  const HLuint two = 2;
+  hlDeleteObjects(1, &two);
+  define(2);
+  EXPECT_EQ(flushed().deleted_objects_size(), 0);
 }
 
 // ---- Textures ----
@@ -278,6 +267,24 @@ TEST_F(Textures, DeletedTextureIsUnboundAndGone) {
   EXPECT_EQ(frame.world().items(0).material().textures_size(), 0);
   ASSERT_EQ(frame.deleted_textures_size(), 1);
   EXPECT_EQ(frame.deleted_textures(0), std::to_string(texture));
+}
+
+TEST_F(Textures, DeletedTextureStaysWithTheServerWhileItIsInUseThere) {
+  const HLuint texture = image();
+  hlNewObject(1);
+  hlEnable(HL_TEXTURE_2D);
+  hlBindTexture(HL_TEXTURE_2D, texture);
+  triangle();
+  hlEndObject();
+  hlEnable(HL_TEXTURE_2D);
+  triangle();
+  flushed();
+  hlDeleteTextures(1, &texture);
+  EXPECT_EQ(flushed().number(), 0U);
+  triangle();
+  EXPECT_EQ(flushed().deleted_textures_size(), 0);
+  define(1);
+  EXPECT_EQ(flushed().deleted_textures_size(), 1);
 }
 
 TEST_F(Textures, SettingTheQuantityResetsItsRange) {
