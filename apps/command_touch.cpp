@@ -11,7 +11,7 @@
 #include "io/load_scene_file.h"
 #include "server/http_server.h"
 #include "server/touch_monitor.h"
-#include "server/touch_session.h"
+#include "server/touch_server.h"
 #include "server/viewer_feed.h"
 #include "serving.h"
 
@@ -69,11 +69,13 @@ void run(TouchOptions options) {
   if (options.scale > 0) options.settings.world_per_device = options.scale;
   if (!options.hand_path.empty()) options.settings.script = readScript(options.hand_path);
   const sigset_t signals = blockSignals();
-  TouchSession session(snapshot, options.settings);
-  const std::string pages = options.page_folder.empty() ? defaultPageFolder() : options.page_folder;
-  HttpServer server({static_cast<std::uint16_t>(options.port), pages, 60}, makeViewerFeed(session, HL_VERSION), nullptr,
-                    makeTouchMonitor(session));
-  session.start();
+  HttpServerSettings http;
+  http.port = static_cast<std::uint16_t>(options.port);
+  http.page_folder = options.page_folder.empty() ? defaultPageFolder() : options.page_folder;
+  TouchServer touch(snapshot, {options.settings, 1, http.limits, HL_VERSION});
+  TouchSession& session = touch.device();
+  HttpServer server(http, makeViewerFeed(session, HL_VERSION), &touch, makeTouchMonitor(session));
+  touch.start();
   server.start();
   fmt::print(stderr, "{}: {} primitives; 1 mm of the hand is {:.4g} mm of the scene\n", options.scene.scene,
              snapshot->primitives, session.workspace().world_per_device);
@@ -85,7 +87,7 @@ void run(TouchOptions options) {
   if (!options.no_open) openBrowser(address);
   waitForSignal(signals, options.duration_s);
   server.stop();
-  session.stop();
+  touch.stop();
   printTotals(session);
 }
 

@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "hld_options.h"
-#include "null_session_host.h"
 #include "server/touch_monitor.h"
+#include "server/touch_server.h"
 #include "server/viewer_feed.h"
 #include "serving.h"
 #include "systemd_notify.h"
@@ -19,7 +19,7 @@ namespace hl {
 namespace {
 
 std::shared_ptr<const Snapshot> sceneOf(const SceneOptions& options) {
-  return options.scene.empty() ? makeSnapshot({}, HierarchyKind::kNone) : loadSnapshot(options);
+  return options.scene.empty() ? makeSnapshot(std::vector<Instance>{}, "nothing yet") : loadSnapshot(options);
 }
 
 HttpServerSettings serverSettings(const HldOptions& options) {
@@ -42,7 +42,7 @@ void logReady(const HldOptions& options, const TouchSession& session, std::uint1
             {"token", options.token_file.empty() ? "none" : "asked_for"},
             {"device", session.deviceInfo().name},
             {"scene", options.scene.scene},
-            {"primitives", std::to_string(session.snapshot().primitives.size())}});
+            {"primitives", std::to_string(session.snapshot()->primitives)}});
   if (!session.grant().why.empty()) logEvent(LogLevel::kWarning, "not_real_time", {{"reason", session.grant().why}});
 }
 
@@ -61,10 +61,11 @@ void serve(HldOptions& options) {
   const sigset_t signals = blockSignals();
   options.touch.hand_firm = options.hand == "firm";
   options.touch.explore = false;
-  TouchSession session(sceneOf(options.scene), options.touch);
-  NullSessionHost sessions;  // HL clients: the host of their sessions comes here
-  HttpServer server(serverSettings(options), makeViewerFeed(session, HL_VERSION), &sessions, makeTouchMonitor(session));
-  session.start();
+  const HttpServerSettings http = serverSettings(options);
+  TouchServer touch(sceneOf(options.scene), {options.touch, options.devices, http.limits, HL_VERSION});
+  TouchSession& session = touch.device();
+  HttpServer server(http, makeViewerFeed(session, HL_VERSION), &touch, makeTouchMonitor(session));
+  touch.start();
   server.start();
   logReady(options, session, server.port());
   notifySystemd("READY=1");
@@ -73,7 +74,7 @@ void serve(HldOptions& options) {
   logEvent(LogLevel::kInfo, "stopping", {{"reason", received == SIGINT ? "SIGINT" : "SIGTERM"}});
   notifySystemd("STOPPING=1");
   server.stop();
-  session.stop();
+  touch.stop();
 }
 
 }  // namespace

@@ -27,6 +27,10 @@ void addDeviceOptions(CLI::App& app, HldOptions& options) {
       ->check(CLI::IsMember({"simulated"}))
       ->capture_default_str()
       ->group("Device");
+  app.add_option("--devices", options.devices, "how many of them, each with a proxy of its own")
+      ->check(CLI::Range(1, 16))
+      ->capture_default_str()
+      ->group("Device");
   app.add_option("--hand", options.hand, "grip of the simulated hand")
       ->check(CLI::IsMember({"light", "firm"}))
       ->capture_default_str()

@@ -16,6 +16,7 @@ struct HldOptions {
   HttpServerSettings server;  ///< but for the token
   TouchSettings touch;
   std::string token_file;  ///< empty: no token
+  std::uint32_t devices = 1;  ///< of that kind
   std::string device = "simulated";
   std::string hand = "light";
   LogFormat log_format = LogFormat::kKeyValue;

@@ -1,7 +1,7 @@
 # hl_library(name SOURCES ... LINK ...): one folder, one static library, the project's warnings and sanitizers.
 # -ffp-contract=off: the same source gives the same bits with and without FMA units.
 add_library(hl_flags INTERFACE)
-target_compile_options(hl_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -ffp-contract=off)
+target_compile_options(hl_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor> -ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC 12 reports false positives inside Eigen and the standard library at -O2.
   target_compile_options(hl_flags INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-restrict)

@@ -46,6 +46,7 @@ std::string sceneMesh(const TouchSession& session) {
   const Snapshot& snapshot = *scene;
   proto::ServerMessage message;
   proto::SceneMesh& out = *message.mutable_scene();
+  if (snapshot.instances.empty()) return message.SerializeAsString();
   out.set_name(snapshot.shape().model.name);
   out.set_positions(floatsOf(snapshot.shape().model.positions));
   out.set_normals(floatsOf(snapshot.shape().model.normals));

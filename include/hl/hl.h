@@ -1,0 +1,312 @@
+/* HL: make graphics touchable. Calls with GL's names and meanings; a haptic server turns what they draw and the place
+ * of a force-feedback device into forces. C99 and C++; hl.hpp adds scopes and spans.
+ *
+ * Context. Every call but hlCreateContext, hlMakeCurrent and hlDestroyContext works on the thread's current context, as
+ * in GL. A context is current on one thread at a time; different contexts do not know of each other.
+ *
+ * Errors. A call that makes an error changes nothing else. The context keeps its first error until hlGetError takes it.
+ * Without a current context a call does nothing, returns 0, and the thread keeps HL_NO_CONTEXT. NaN and infinities are
+ * HL_INVALID_VALUE, and so is a null pointer where there is something to read or write. Between hlBegin and hlEnd only
+ * hlVertex*, hlNormal* and hlTexCoord* may be called: every other call is HL_INVALID_OPERATION.
+ *
+ * Frames. What happens between two hlFlush (or hlFinish) is one frame, and becomes touchable all at once. What a frame
+ * draws outside of definitions (hlBegin .. hlEnd, arrays, hlCallObject) replaces the world; a frame that draws nothing
+ * leaves the world's calls as they were, so that redefining an object alone changes what is felt; hlClear makes the
+ * frame begin with an empty world. Objects and textures stay until they are overwritten or deleted.
+ *
+ * Nothing waits for the server but hlCreateContext and hlFinish. */
+#ifndef HL_HL_H
+#define HL_HL_H
+
+/* Another haptic library has an <HL/hl.h> with functions of the same names and other meanings. */
+#if defined(HL_H_DEFINE) || defined(_STI_HL_DEFINES_H_DEFINE) || defined(HLAPI) || defined(HL_VERSION_MAJOR_NUMBER)
+#error "hl/hl.h: another vendor's hl.h is already included; a source file can use only one of the two"
+#endif
+
+#include <hl/hl_types.h>
+
+/** Marks what the library gives to the outside. */
+#if defined(__GNUC__)
+#define HL_API __attribute__((visibility("default")))
+#else
+#define HL_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Context -------------------------------------------------------------------------------------------------- */
+
+/** Opens a conversation with a haptic server; waits until the server has welcomed it. NULL when that fails:
+ * hlGetConnectError says why. Does not make the context current. Any thread.
+ *
+ * `url`:  inproc:              a server inside this process, with the simulated device; all contexts share it
+ *         hl://host[:port]     a server elsewhere; port 1997 when left out
+ *         hls://host[:port]    the same through TLS
+ * and after a '?', options joined by '&' (values percent-encoded):
+ *         name=TEXT        of this client, for the server's logs; default: the program's
+ *         token=TEXT       where the server asks for one; default: the environment's HL_TOKEN
+ *         device=N         number of the device whose state is wanted; default 0
+ *         master=0|1       wants to set the device's proxy, workspace and spring; default 1; the first client gets it
+ *         keep=0|1         objects stay touchable when the conversation ends, until `name` opens again; default 0
+ *         state_rate=HZ    how often the state comes; default 60; 0: never
+ *         timeout=SECONDS  how long to wait for the welcome; default 10
+ *         ca=FILE          hls: certificates (PEM) that the server's is checked against; default: the system's
+ * An unknown option is an error. */
+HL_API HLcontext* hlCreateContext(const char* url);
+/** Why the last hlCreateContext of this thread failed, in one line; "" when it did not. Valid until the thread's next
+ * hlCreateContext. */
+HL_API const char* hlGetConnectError(void);
+/** Makes `context` the thread's current one; NULL: none. HL_FALSE, with HL_INVALID_OPERATION on the context that was
+ * and stays current (or on the thread), when `context` is current on another thread, or between hlBegin and hlEnd. */
+HL_API HLboolean hlMakeCurrent(HLcontext* context);
+/** The thread's current context; NULL: none. Never an error. */
+HL_API HLcontext* hlGetCurrentContext(void);
+/** Ends the conversation and frees the context; what was not flushed is lost. Current on this thread: the thread has
+ * none afterwards. Current on another thread, or in one of its own callbacks: HL_INVALID_OPERATION and nothing happens.
+ * NULL: nothing happens. */
+HL_API void hlDestroyContext(HLcontext* context);
+
+/** Returns the kept error and forgets it; HL_NO_ERROR when there is none. Without a context: the thread's. Between
+ * hlBegin and hlEnd it returns HL_NO_ERROR and makes HL_INVALID_OPERATION. */
+HL_API HLenum hlGetError(void);
+/** `callback` is called at every error of the context, also at those that are not kept. NULL: no callback. */
+HL_API void hlErrorFunc(HLerrorfunc callback, void* user);
+/** A text; names in hl_types.h. Valid until the next call that returns a text, takes replies, or makes an error. NULL
+ * at an error. HL_INVALID_ENUM: not a text. */
+HL_API const char* hlGetString(HLenum name);
+
+/* ---- Frames --------------------------------------------------------------------------------------------------- */
+
+/** The frame begins with an empty world: drops what it has drawn so far, and even when nothing more is drawn there is
+ * nothing to touch afterwards. Objects, textures and the state of the calls stay. HL_INVALID_OPERATION in a definition.
+ */
+HL_API void hlClear(void);
+/** Ends the frame and sends it, if there is anything in it; never waits. When more than is good is on its way already
+ * (HL_BUSY), or, without an error, the last frame was sent less than 1 / HL_MAX_FRAME_RATE ago or the server is still
+ * building many, the frame waits here: the next
+ * hlFlush, hlFinish or hlPoll sends it, together with what has been flushed since (the later world, the later
+ * definitions). HL_OUT_OF_MEMORY: the frame is larger than the server takes, and is dropped. Also takes replies, so
+ * that HL_REFUSED and HL_CONNECTION_LOST may show here. HL_INVALID_OPERATION in a definition. */
+HL_API void hlFlush(void);
+/** hlFlush, then waits until all that was sent is shown or refused, or the conversation has ended. */
+HL_API void hlFinish(void);
+/** hlFinish, but waits at most `seconds` (>= 0). HL_TRUE: everything is shown. HL_FALSE: refused, ended, or, without an
+ * error, not yet. */
+HL_API HLboolean hlFinishTimeout(HLdouble seconds);
+/** From now on objects move to their new places within `seconds` (>= 0; 0: at once) of each frame's showing, so that
+ * they push instead of jumping. Negative: within the time between the last two frames. That is the default. */
+HL_API void hlFrameInterval(HLdouble seconds);
+
+/* ---- Geometry ------------------------------------------------------------------------------------------------- */
+
+/** Begins primitives of `mode` (HL_POINTS .. HL_POLYGON), placed by the matrix and with the surface and name of this
+ * moment. HL_INVALID_ENUM: not a mode. */
+HL_API void hlBegin(HLenum mode);
+/** Ends them. HL_INVALID_OPERATION without hlBegin. */
+HL_API void hlEnd(void);
+
+/** A vertex, in metres times the matrix, with the current normal and texture coordinates; z is 0 in the forms with two
+ * numbers. Outside of hlBegin .. hlEnd it is ignored. */
+HL_API void hlVertex2f(HLfloat x, HLfloat y);
+HL_API void hlVertex2d(HLdouble x, HLdouble y);             /**< see hlVertex2f */
+HL_API void hlVertex3f(HLfloat x, HLfloat y, HLfloat z);    /**< see hlVertex2f */
+HL_API void hlVertex3d(HLdouble x, HLdouble y, HLdouble z); /**< see hlVertex2f */
+HL_API void hlVertex2fv(const HLfloat* v);                  /**< see hlVertex2f */
+HL_API void hlVertex2dv(const HLdouble* v);                 /**< see hlVertex2f */
+HL_API void hlVertex3fv(const HLfloat* v);                  /**< see hlVertex2f */
+HL_API void hlVertex3dv(const HLdouble* v);                 /**< see hlVertex2f */
+
+/** The current normal, for the vertices to come; any length. 0 0 0 is no normal: such vertices feel flat. That is what
+ * a context and a definition begin with (GL begins with 0 0 1). Any time. */
+HL_API void hlNormal3f(HLfloat x, HLfloat y, HLfloat z);
+HL_API void hlNormal3d(HLdouble x, HLdouble y, HLdouble z); /**< see hlNormal3f */
+HL_API void hlNormal3fv(const HLfloat* v);                  /**< see hlNormal3f */
+HL_API void hlNormal3dv(const HLdouble* v);                 /**< see hlNormal3f */
+
+/** The current texture coordinates, for the vertices to come, turned by the texture matrix there. 0 0 at first. Any
+ * time. */
+HL_API void hlTexCoord2f(HLfloat u, HLfloat v);
+HL_API void hlTexCoord2d(HLdouble u, HLdouble v); /**< see hlTexCoord2f */
+HL_API void hlTexCoord2fv(const HLfloat* v);      /**< see hlTexCoord2f */
+HL_API void hlTexCoord2dv(const HLdouble* v);     /**< see hlTexCoord2f */
+
+/* ---- Arrays --------------------------------------------------------------------------------------------------- */
+
+/** Where the vertices are: `size` (2 or 3) numbers of `type` (HL_FLOAT or HL_DOUBLE) each, `stride` bytes from one to
+ * the next (0: close together). Read when drawn, not before. HL_INVALID_VALUE: another size, a negative stride.
+ * HL_INVALID_ENUM: another type. */
+HL_API void hlVertexPointer(HLint size, HLenum type, HLsizei stride, const void* pointer);
+/** Where the normals are, three numbers each; as hlVertexPointer. */
+HL_API void hlNormalPointer(HLenum type, HLsizei stride, const void* pointer);
+/** Where the texture coordinates are; as hlVertexPointer, `size` 2. */
+HL_API void hlTexCoordPointer(HLint size, HLenum type, HLsizei stride, const void* pointer);
+/** Draws with an array (HL_VERTEX_ARRAY, HL_NORMAL_ARRAY, HL_TEXTURE_COORD_ARRAY). HL_INVALID_ENUM: another one. */
+HL_API void hlEnableClientState(HLenum array);
+/** Draws without it: the current normal or texture coordinates hold for all vertices. Without HL_VERTEX_ARRAY nothing
+ * is drawn. All three are disabled at first. */
+HL_API void hlDisableClientState(HLenum array);
+/** The same as hlBegin(mode), the vertices `first` .. `first + count - 1` of the arrays, and hlEnd, to the bit. The
+ * current normal and texture coordinates stay as they were. HL_INVALID_VALUE: negative numbers, or NaN in an array:
+ * nothing is drawn. HL_INVALID_OPERATION: an enabled array has no pointer. */
+HL_API void hlDrawArrays(HLenum mode, HLint first, HLsizei count);
+/** The same with the vertices that `indices` lists, `count` numbers of `type` (HL_UNSIGNED_BYTE, HL_UNSIGNED_SHORT or
+ * HL_UNSIGNED_INT). Indices must be within the arrays: their size is not known here. */
+HL_API void hlDrawElements(HLenum mode, HLsizei count, HLenum type, const void* indices);
+
+/* ---- Objects -------------------------------------------------------------------------------------------------- */
+
+/** Writes `n` object numbers (> 0) that are not in use. HL_INVALID_VALUE: n < 0. */
+HL_API void hlGenObjects(HLsizei n, HLuint* objects);
+/** Begins the definition of `object` (> 0), which overwrites an earlier one. Unlike GL's display lists a definition is
+ * closed: matrices, surface, textures, name and normal begin fresh (identity and "not set"), and are at hlEndObject
+ * what they were before. What it does not set (material, shade model, textures, name), it takes from whoever calls it.
+ * Calls that are not about drawing (textures' images, frames' interval, device, queries) act at once. HL_INVALID_VALUE:
+ * 0. HL_INVALID_OPERATION: a definition is open. */
+HL_API void hlNewObject(HLuint object);
+/** Ends the definition; touchable with the next hlFlush. HL_INVALID_OPERATION: none is open. */
+HL_API void hlEndObject(void);
+/** Puts an object into the world, or into the definition that is open, placed by the matrix and with the surface and
+ * name of this moment. Later definitions of it show here too. HL_INVALID_VALUE: not defined (GL ignores that).
+ * HL_INVALID_OPERATION: it calls, directly or not, the object that is being defined. */
+HL_API void hlCallObject(HLuint object);
+/** Forgets objects; where they are called there is nothing from the next frame on, until they are defined again. 0 and
+ * unknown numbers are ignored. HL_INVALID_VALUE: n < 0. HL_INVALID_OPERATION in a definition. */
+HL_API void hlDeleteObjects(HLsizei n, const HLuint* objects);
+/** HL_TRUE: defined (hlEndObject has been called) and not deleted. */
+HL_API HLboolean hlIsObject(HLuint object);
+
+/** What is drawn next is called `name` by contacts and events; 0: not named here (in a definition: as its caller says).
+ */
+HL_API void hlLoadName(HLuint name);
+/** Saves the name and loads another. HL_STACK_OVERFLOW: HL_MAX_NAME_STACK_DEPTH is reached. */
+HL_API void hlPushName(HLuint name);
+/** Back to the name saved last. HL_STACK_UNDERFLOW: there is none. */
+HL_API void hlPopName(void);
+
+/* ---- Matrices ------------------------------------------------------------------------------------------------- */
+
+/** Which stack the calls below work on: HL_MODELVIEW (at first) or HL_TEXTURE. */
+HL_API void hlMatrixMode(HLenum mode);
+/** Saves the matrix. HL_STACK_OVERFLOW: the stack is full (HL_MAX_MODELVIEW_STACK_DEPTH, HL_MAX_TEXTURE_STACK_DEPTH).
+ */
+HL_API void hlPushMatrix(void);
+/** Back to the matrix saved last. HL_STACK_UNDERFLOW: there is none. */
+HL_API void hlPopMatrix(void);
+/** Replaces the matrix by the identity. */
+HL_API void hlLoadIdentity(void);
+/** Replaces the matrix by 16 numbers, column by column; the last row must be 0 0 0 1. HL_INVALID_VALUE: it is not; or
+ * the modelview matrix would not be invertible: nothing can be touched of what has no extent. So also below. */
+HL_API void hlLoadMatrixf(const HLfloat* m);
+HL_API void hlLoadMatrixd(const HLdouble* m); /**< see hlLoadMatrixf */
+/** matrix = matrix * m; see hlLoadMatrixf. */
+HL_API void hlMultMatrixf(const HLfloat* m);
+HL_API void hlMultMatrixd(const HLdouble* m); /**< see hlMultMatrixf */
+/** matrix = matrix * a shift, m. */
+HL_API void hlTranslatef(HLfloat x, HLfloat y, HLfloat z);
+HL_API void hlTranslated(HLdouble x, HLdouble y, HLdouble z); /**< see hlTranslatef */
+/** matrix = matrix * a turn by `degrees` about x y z, counterclockwise seen from its tip. HL_INVALID_VALUE: the axis is
+ * 0. */
+HL_API void hlRotatef(HLfloat degrees, HLfloat x, HLfloat y, HLfloat z);
+HL_API void hlRotated(HLdouble degrees, HLdouble x, HLdouble y, HLdouble z); /**< see hlRotatef */
+/** matrix = matrix * factors along the axes. */
+HL_API void hlScalef(HLfloat x, HLfloat y, HLfloat z);
+HL_API void hlScaled(HLdouble x, HLdouble y, HLdouble z); /**< see hlScalef */
+
+/* ---- Surface -------------------------------------------------------------------------------------------------- */
+
+/** Sets a quantity of the surface (HL_STIFFNESS .. HL_PRESLIDING; unit, range and default there) of what is drawn next.
+ * HL_INVALID_VALUE: out of its range. */
+HL_API void hlMaterialf(HLenum quantity, HLfloat value);
+HL_API void hlMateriald(HLenum quantity, HLdouble value); /**< see hlMaterialf */
+/** HL_SMOOTH or HL_FLAT, for what is drawn next. */
+HL_API void hlShadeModel(HLenum mode);
+
+/** Writes `n` texture numbers (> 0) that are not in use. HL_INVALID_VALUE: n < 0. */
+HL_API void hlGenTextures(HLsizei n, HLuint* textures);
+/** Forgets textures; units that they are bound to get 0. What this frame has drawn with them feels untextured; what
+ * earlier frames have, keeps them until it is drawn or defined anew. 0 and unknown numbers are ignored.
+ * HL_INVALID_VALUE: n < 0. HL_INVALID_OPERATION in a definition. */
+HL_API void hlDeleteTextures(HLsizei n, const HLuint* textures);
+/** HL_TRUE: has been bound and not deleted. */
+HL_API HLboolean hlIsTexture(HLuint texture);
+/** Which unit hlBindTexture, hlTexEnv*, and hlEnable(HL_TEXTURE_2D) mean: HL_TEXTURE0 + i. Units let several quantities
+ * be textured at once; they share the texture coordinates. Of two units with the same quantity the higher one counts.
+ */
+HL_API void hlActiveTexture(HLenum unit);
+/** Binds a texture to the active unit; 0: none. `target` HL_TEXTURE_2D. */
+HL_API void hlBindTexture(HLenum target, HLuint texture);
+/** Gives the bound texture its image: `width` x `height` (1 .. HL_MAX_TEXTURE_SIZE) texels, close together, row by row,
+ * the row of v = 0 first. `target` HL_TEXTURE_2D, `level` 0, `border` 0, `internal_format` and `format` HL_LUMINANCE,
+ * `type` HL_UNSIGNED_BYTE or HL_FLOAT. NULL: texels of 0. Part of the frame. Copied. HL_INVALID_OPERATION: no texture
+ * is bound. */
+HL_API void hlTexImage2D(HLenum target, HLint level, HLint internal_format, HLsizei width, HLsizei height, HLint border,
+                         HLenum format, HLenum type, const void* texels);
+/** Sets HL_TEXTURE_WRAP or HL_TEXTURE_FILTER of the bound texture. HL_INVALID_OPERATION: no texture is bound. */
+HL_API void hlTexParameteri(HLenum target, HLenum parameter, HLint value);
+/** Sets HL_TEXTURE_QUANTITY (to HL_STIFFNESS .. HL_VISCOSITY or HL_HEIGHT) of the active unit. `target` HL_TEXTURE_ENV.
+ * Where the unit is enabled and its texture has an image, the quantity is low + (high - low) * texel, instead of
+ * hlMaterial's. */
+HL_API void hlTexEnvi(HLenum target, HLenum parameter, HLint value);
+/** Sets HL_TEXTURE_LOW or HL_TEXTURE_HIGH of the active unit. HL_INVALID_VALUE: out of the quantity's range. */
+HL_API void hlTexEnvf(HLenum target, HLenum parameter, HLfloat value);
+HL_API void hlTexEnvd(HLenum target, HLenum parameter, HLdouble value); /**< see hlTexEnvf */
+
+/** HL_TEXTURE_2D: the active unit takes part in what is drawn next. All are disabled at first. */
+HL_API void hlEnable(HLenum capability);
+/** HL_TEXTURE_2D: it takes no part. In a definition: with no unit left the caller's textures are kept off, too. */
+HL_API void hlDisable(HLenum capability);
+/** HL_TEXTURE_2D or an array of hlEnableClientState. */
+HL_API HLboolean hlIsEnabled(HLenum capability);
+
+/** Saves groups of the state (HL_..._BIT). HL_STACK_OVERFLOW: HL_MAX_ATTRIB_STACK_DEPTH is reached. */
+HL_API void hlPushAttrib(HLbitfield mask);
+/** Back to what was saved last. HL_STACK_UNDERFLOW: there is nothing. */
+HL_API void hlPopAttrib(void);
+
+/* ---- Proxy and device: at once, not with the frame. HL_INVALID_OPERATION unless HL_MASTER. ---------------------- */
+
+/** HL_PROXY_RADIUS, m in the world, > 0. */
+HL_API void hlProxyf(HLenum parameter, HLfloat value);
+HL_API void hlProxyd(HLenum parameter, HLdouble value); /**< see hlProxyf */
+/** The hand moves in the world by p = origin + world_per_device * p_hand, axes parallel; `world_per_device` > 0. Until
+ * this is called the server fits the first world that it shows to the device. */
+HL_API void hlWorkspaced(HLdouble x, HLdouble y, HLdouble z, HLdouble world_per_device);
+/** K of the servo, N/m at the hand, > 0; the server clamps it to the device's range. */
+HL_API void hlSpringd(HLdouble stiffness);
+/** HL_LEDGER_TANK, HL_LEDGER_STRICT or HL_LEDGER_REPORT. */
+HL_API void hlLedger(HLenum mode);
+/** Leaves HL_SAFETY_FAULT; the force ramps up from zero. */
+HL_API void hlRearm(void);
+/** Simulated devices: where the hand wants to be, m in the world. */
+HL_API void hlHandGoal3d(HLdouble x, HLdouble y, HLdouble z);
+
+/* ---- Queries and events: from the last state taken; never wait --------------------------------------------------- */
+
+/** Writes the values of `name` (hl_types.h says how many), converted as in GL: integers are rounded and clamped
+ * (numbers and names of objects above 2^31 - 1 need hlGetDoublev), booleans are "not 0". HL_INVALID_ENUM: not a query.
+ */
+HL_API void hlGetBooleanv(HLenum name, HLboolean* values);
+HL_API void hlGetIntegerv(HLenum name, HLint* values);   /**< see hlGetBooleanv */
+HL_API void hlGetFloatv(HLenum name, HLfloat* values);   /**< see hlGetBooleanv */
+HL_API void hlGetDoublev(HLenum name, HLdouble* values); /**< see hlGetBooleanv */
+/** Writes up to `most` contacts of the last state, the one that presses hardest first, and returns how many it wrote.
+ * HL_INVALID_VALUE: most < 0. */
+HL_API HLsizei hlGetContacts(HLsizei most, HLcontact* contacts);
+/** How often the state comes from now on, Hz, 0 .. HL_MAX_STATE_RATE; 0: never. Not only for the master. */
+HL_API void hlStateRate(HLdouble rate);
+
+/** From now on hlPoll calls `callback` for events of `kind` (HL_EVENT_...). NULL: such events are dropped, as at first.
+ */
+HL_API void hlEventFunc(HLenum kind, HLeventfunc callback, void* user);
+/** Takes what the server has sent, calls the callbacks on this thread, oldest event first, and returns how many. Sends
+ * a frame that waits. To be called as often as the application draws: of events that are not polled only the last 1024
+ * are kept. HL_INVALID_OPERATION in a callback. */
+HL_API HLint hlPoll(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

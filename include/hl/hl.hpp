@@ -1,0 +1,260 @@
+// hl.hpp: scopes and spans over the calls of hl.h, for C++20. Header-only; hl.h says what the calls mean, and both can
+// be mixed freely.
+//
+// Errors stay as in C: sticky, until check() throws the kept one. Besides check() these throw: Context's constructor
+// (CallError), Context::poll() (what a callback has thrown), and the functions on spans (std::invalid_argument, when
+// their sizes do not fit). Scopes and destructors never throw. A scope must end on the thread and with the context that
+// it began with.
+#pragma once
+
+#include <hl/hl.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <ranges>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace hl {
+// Inline, so that the names are hl::Context .. and yet meet no class inside the library.
+inline namespace calls {
+
+/// An error of the calls. what() is its one line.
+class CallError : public std::runtime_error {
+ public:
+  CallError(HLenum code, const std::string& text) : std::runtime_error(text), code_(code) {}
+  /// HL_INVALID_ENUM .. ; HL_NO_CONTEXT when a context could not be created.
+  HLenum code() const noexcept { return code_; }
+
+ private:
+  HLenum code_;
+};
+
+/// Throws CallError when the current context (or, without one, the thread) keeps an error, which it then forgets.
+inline void check() {
+  const HLenum code = hlGetError();
+  if (code == HL_NO_ERROR) return;
+  if (hlGetCurrentContext() == nullptr) throw CallError(code, "an HL call without a current context");
+  throw CallError(code, hlGetString(HL_ERROR_STRING));
+}
+
+/// A conversation with a server. Movable; destroyed at the latest before the thread that it is current on ends.
+class Context {
+ public:
+  using EventFunction = std::function<void(const HLevent&)>;
+
+  /// hlCreateContext and hlMakeCurrent. Throws CallError with the reason.
+  explicit Context(const std::string& url = "inproc:") : context_(hlCreateContext(url.c_str())) {
+    if (!context_) throw CallError(HL_NO_CONTEXT, hlGetConnectError());
+    makeCurrent();
+  }
+
+  /// hlMakeCurrent. Throws CallError when it is current on another thread.
+  void makeCurrent() {
+    if (hlMakeCurrent(context_.get()) == HL_FALSE) check();
+  }
+  /// For the calls that take a context.
+  HLcontext* get() const noexcept { return context_.get(); }
+
+  /// From now on poll() calls `function` for events of `kind`; an empty one: such events are dropped. The context must
+  /// be current.
+  void onEvent(HLenum kind, EventFunction function) {
+    if (kind < HL_EVENT_TOUCH || kind > HL_EVENT_MOTION) {
+      hlEventFunc(kind, nullptr, nullptr);  // leaves HL_INVALID_ENUM
+      return;
+    }
+    const bool any = static_cast<bool>(function);
+    events_->functions[kind - HL_EVENT_TOUCH] = std::move(function);
+    hlEventFunc(kind, any ? &Events::call : nullptr, events_.get());
+  }
+  /// hlPoll. Throws what a callback has thrown, when all callbacks have run. The context must be current.
+  int poll() {
+    const int delivered = hlPoll();
+    if (events_->thrown) std::rethrow_exception(std::exchange(events_->thrown, nullptr));
+    return delivered;
+  }
+
+ private:
+  // Stays where it is when the Context moves: the calls know its address.
+  struct Events {
+    std::array<EventFunction, 4> functions;
+    std::exception_ptr thrown;
+
+    // No exception may pass through C; the first one waits for poll().
+    static void call(const HLevent* event, void* user) {
+      auto& events = *static_cast<Events*>(user);
+      try {
+        const EventFunction function = events.functions[event->kind - HL_EVENT_TOUCH];
+        if (function) function(*event);
+      } catch (...) {
+        if (!events.thrown) events.thrown = std::current_exception();
+      }
+    }
+  };
+  struct Destroy {
+    void operator()(HLcontext* context) const noexcept { hlDestroyContext(context); }
+  };
+
+  std::unique_ptr<Events> events_ = std::make_unique<Events>();
+  std::unique_ptr<HLcontext, Destroy> context_;
+};
+
+/// What begins with one call and ends with another at the end of a block.
+template <void (*finish)()>
+class Scope {
+ public:
+  Scope(const Scope&) = delete;
+  Scope& operator=(const Scope&) = delete;
+  ~Scope() { finish(); }
+
+ protected:
+  Scope() = default;
+};
+
+/// hlBegin(mode) .. hlEnd().
+struct [[nodiscard]] PrimitiveScope : Scope<hlEnd> {
+  explicit PrimitiveScope(HLenum mode) { hlBegin(mode); }
+};
+
+/// hlNewObject(object) .. hlEndObject().
+struct [[nodiscard]] ObjectScope : Scope<hlEndObject> {
+  explicit ObjectScope(HLuint object) { hlNewObject(object); }
+};
+
+/// hlPushMatrix() .. hlPopMatrix(), on the stack that is chosen then; choose another one inside only in pairs.
+struct [[nodiscard]] MatrixScope : Scope<hlPopMatrix> {
+  MatrixScope() { hlPushMatrix(); }
+};
+
+/// hlPushAttrib(mask) .. hlPopAttrib().
+struct [[nodiscard]] AttribScope : Scope<hlPopAttrib> {
+  explicit AttribScope(HLbitfield mask = HL_ALL_ATTRIB_BITS) { hlPushAttrib(mask); }
+};
+
+/// hlPushName(name) .. hlPopName().
+struct [[nodiscard]] NameScope : Scope<hlPopName> {
+  explicit NameScope(HLuint name) { hlPushName(name); }
+};
+
+/// The number of a new object (hlGenObjects); 0 at an error.
+inline HLuint genObject() {
+  HLuint object = 0;
+  hlGenObjects(1, &object);
+  return object;
+}
+
+/// The number of a new texture (hlGenTextures); 0 at an error.
+inline HLuint genTexture() {
+  HLuint texture = 0;
+  hlGenTextures(1, &texture);
+  return texture;
+}
+
+/// Numbers that arrays are made of: float or double.
+template <typename Number>
+concept ArrayNumber = std::is_same_v<Number, HLfloat> || std::is_same_v<Number, HLdouble>;
+
+/// Numbers that indices are made of.
+template <typename Number>
+concept ArrayIndex =
+    std::is_same_v<Number, HLubyte> || std::is_same_v<Number, HLushort> || std::is_same_v<Number, HLuint>;
+
+/// Vertices in the application's memory, close together. Normals and texture coordinates may be left out: then the
+/// current ones hold for all.
+template <ArrayNumber Number>
+struct VertexArrays {
+  std::span<const Number> vertices;        ///< x y z each, m
+  std::span<const Number> normals = {};    ///< x y z for each vertex
+  std::span<const Number> texcoords = {};  ///< u v for each vertex
+
+  std::size_t size() const noexcept { return vertices.size() / 3; }
+};
+
+/// Inside, while a function on spans draws.
+namespace detail {
+
+// Points the calls at the arrays, and away from them at the end, so that no pointer outlives its memory.
+template <typename Number>
+class ArrayScope {
+ public:
+  explicit ArrayScope(const VertexArrays<Number>& arrays) {
+    if (arrays.vertices.size() % 3 != 0) throw std::invalid_argument("vertices must hold 3 numbers each");
+    if (!arrays.normals.empty() && arrays.normals.size() != 3 * arrays.size())
+      throw std::invalid_argument("normals must hold 3 numbers for each vertex");
+    if (!arrays.texcoords.empty() && arrays.texcoords.size() != 2 * arrays.size())
+      throw std::invalid_argument("texcoords must hold 2 numbers for each vertex");
+    constexpr HLenum type = std::is_same_v<Number, HLfloat> ? HL_FLOAT : HL_DOUBLE;
+    hlVertexPointer(3, type, 0, arrays.vertices.data());
+    hlNormalPointer(type, 0, arrays.normals.data());
+    hlTexCoordPointer(2, type, 0, arrays.texcoords.data());
+    set(HL_VERTEX_ARRAY, !arrays.vertices.empty());
+    set(HL_NORMAL_ARRAY, !arrays.normals.empty());
+    set(HL_TEXTURE_COORD_ARRAY, !arrays.texcoords.empty());
+  }
+  ArrayScope(const ArrayScope&) = delete;
+  ArrayScope& operator=(const ArrayScope&) = delete;
+  ~ArrayScope() {
+    for (const HLenum array : {HL_VERTEX_ARRAY, HL_NORMAL_ARRAY, HL_TEXTURE_COORD_ARRAY}) set(array, false);
+    hlVertexPointer(3, HL_DOUBLE, 0, nullptr);
+    hlNormalPointer(HL_DOUBLE, 0, nullptr);
+    hlTexCoordPointer(2, HL_DOUBLE, 0, nullptr);
+  }
+
+ private:
+  static void set(HLenum array, bool enabled) { enabled ? hlEnableClientState(array) : hlDisableClientState(array); }
+};
+
+}  // namespace detail
+
+/// hlDrawArrays of all the vertices. Afterwards the calls have no arrays, and all of them are disabled.
+template <ArrayNumber Number>
+void drawArrays(HLenum mode, const VertexArrays<Number>& arrays) {
+  const detail::ArrayScope<Number> scope(arrays);
+  hlDrawArrays(mode, 0, static_cast<HLsizei>(arrays.size()));
+}
+
+/// hlDrawElements with all of `indices` (a vector, an array, a span), each below the number of vertices. Afterwards as
+/// drawArrays.
+template <ArrayNumber Number, std::ranges::contiguous_range Indices>
+requires ArrayIndex<std::ranges::range_value_t<Indices>>
+void drawElements(HLenum mode, const VertexArrays<Number>& arrays, const Indices& indices) {
+  using Index = std::ranges::range_value_t<Indices>;
+  if (std::ranges::any_of(indices, [&](Index index) { return index >= arrays.size(); }))
+    throw std::invalid_argument("an index must be below the number of vertices");
+  constexpr HLenum type = sizeof(Index) == sizeof(HLubyte)    ? HL_UNSIGNED_BYTE
+                          : sizeof(Index) == sizeof(HLushort) ? HL_UNSIGNED_SHORT
+                                                              : HL_UNSIGNED_INT;
+  const detail::ArrayScope<Number> scope(arrays);
+  hlDrawElements(mode, static_cast<HLsizei>(std::ranges::size(indices)), type, std::ranges::data(indices));
+}
+
+/// hlGetDoublev of a query with `count` values (hl_types.h says how many); zeros at an error.
+template <std::size_t count>
+std::array<HLdouble, count> get(HLenum name) {
+  std::array<HLdouble, 16> values{};  // no query has more, whatever the caller thinks
+  hlGetDoublev(name, values.data());
+  std::array<HLdouble, count> wanted{};
+  std::copy_n(values.begin(), std::min<std::size_t>(count, values.size()), wanted.begin());
+  return wanted;
+}
+
+/// hlGetDoublev of a query with one value; 0 at an error.
+inline HLdouble get(HLenum name) { return get<1>(name)[0]; }
+
+/// hlGetContacts: all of them, the one that presses hardest first.
+inline std::vector<HLcontact> contacts() {
+  std::vector<HLcontact> all(static_cast<std::size_t>(get(HL_CONTACT_COUNT)));
+  all.resize(static_cast<std::size_t>(hlGetContacts(static_cast<HLsizei>(all.size()), all.data())));
+  return all;
+}
+
+}  // namespace calls
+}  // namespace hl

@@ -1,0 +1,263 @@
+/* Types and constants of the HL calls; included by hl.h, which says how they are used.
+ * Names that GL also has mean the same and have GL's numbers; HL's own count from 0x48001. All units are SI. */
+#ifndef HL_HL_TYPES_H
+#define HL_HL_TYPES_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef unsigned int HLenum;     /**< one of the constants below */
+typedef unsigned char HLboolean; /**< HL_FALSE or HL_TRUE */
+typedef unsigned int HLbitfield; /**< constants ending in _BIT, or-ed */
+typedef int HLint;               /**< 32 bits */
+typedef unsigned int HLuint;     /**< 32 bits */
+typedef int HLsizei;             /**< a count or a size; negative ones are HL_INVALID_VALUE */
+typedef unsigned char HLubyte;   /**< 8 bits */
+typedef unsigned short HLushort; /**< 16 bits */
+typedef float HLfloat;           /**< 32 bits; widened to double exactly */
+typedef double HLdouble;         /**< 64 bits; NaN and infinities are HL_INVALID_VALUE everywhere */
+
+/** A conversation with a haptic server, and the state of the calls. Opaque. */
+typedef struct HLcontext HLcontext;
+
+/** Booleans, and "nothing". */
+enum { HL_FALSE = 0, HL_TRUE = 1, HL_NONE = 0 };
+
+/** What hlGetError returns. */
+enum {
+  HL_NO_ERROR = 0,
+  HL_INVALID_ENUM = 0x0500,      /**< a constant that this call does not take */
+  HL_INVALID_VALUE = 0x0501,     /**< a number out of its range, NaN or infinite */
+  HL_INVALID_OPERATION = 0x0502, /**< not now: between hlBegin and hlEnd, inside a definition, not the master, ... */
+  HL_STACK_OVERFLOW = 0x0503,    /**< a push on a full stack */
+  HL_STACK_UNDERFLOW = 0x0504,   /**< a pop from an empty stack */
+  HL_OUT_OF_MEMORY = 0x0505,     /**< no memory, or more than the server takes in one frame: the frame is dropped */
+  HL_NO_CONTEXT = 0x48001,       /**< the thread has no current context; the call did nothing */
+  HL_CONNECTION_LOST = 0x48002,  /**< the conversation has ended; reported once; nothing is sent any more */
+  HL_REFUSED = 0x48003,          /**< the server has refused a frame or a setting, which changed nothing there */
+  HL_BUSY = 0x48004              /**< too much is on its way to the server: the frame waits, see hlFlush */
+};
+
+/** What hlBegin, hlDrawArrays and hlDrawElements draw. Both sides of a surface are touched. Vertices that do not fill
+ * the last primitive are dropped. */
+enum {
+  HL_POINTS = 0x0000,         /**< each vertex */
+  HL_LINES = 0x0001,          /**< each two vertices */
+  HL_LINE_LOOP = 0x0002,      /**< a line strip whose end is joined to its beginning */
+  HL_LINE_STRIP = 0x0003,     /**< each vertex to the next */
+  HL_TRIANGLES = 0x0004,      /**< each three vertices */
+  HL_TRIANGLE_STRIP = 0x0005, /**< each vertex with the two before it */
+  HL_TRIANGLE_FAN = 0x0006,   /**< each vertex with the one before it and the first */
+  HL_QUADS = 0x0007,          /**< each four vertices: two triangles that share the diagonal from the first vertex */
+  HL_QUAD_STRIP = 0x0008,     /**< each two vertices with the two before them */
+  HL_POLYGON = 0x0009         /**< all vertices, convex; triangles that share the first vertex */
+};
+
+/** Numbers and pixels in memory. */
+enum {
+  HL_UNSIGNED_BYTE = 0x1401,  /**< HLubyte; as a texel 255 is 1 */
+  HL_UNSIGNED_SHORT = 0x1403, /**< HLushort */
+  HL_UNSIGNED_INT = 0x1405,   /**< HLuint */
+  HL_FLOAT = 0x1406,          /**< HLfloat; as a texel clamped to 0..1 and rounded to a 255th */
+  HL_DOUBLE = 0x140A,         /**< HLdouble */
+  HL_LUMINANCE = 0x1909       /**< one number for each texel */
+};
+
+/** hlMatrixMode. */
+enum {
+  HL_MODELVIEW = 0x1700, /**< places what is drawn in the world, or in the object that is defined */
+  HL_TEXTURE = 0x1702    /**< turns texture coordinates when a vertex is drawn */
+};
+
+/** hlMaterial*: what a surface feels like; also the quantities a texture can modulate, with HL_HEIGHT. */
+enum {
+  HL_STIFFNESS = 0x48010,        /**< 0..1: the part of the servo's spring that the surface uses. Default 1. */
+  HL_STATIC_FRICTION = 0x48011,  /**< mu_s >= 0; below mu_d it counts as mu_d. Default 0. */
+  HL_DYNAMIC_FRICTION = 0x48012, /**< mu_d >= 0. Default 0. */
+  HL_VISCOSITY = 0x48013,        /**< b >= 0, N s/m at the hand: drag for each metre a second. Default 0. */
+  HL_STRIBECK = 0x48014,   /**< v_s >= 0, m/s: mu falls from mu_s to mu_d as exp(-(v/v_s)^2). Default 0: at once. */
+  HL_PRESLIDING = 0x48015, /**< >= 0, N/m: a stuck proxy creeps on a spring of this. Default 0: it does not move. */
+  HL_HEIGHT = 0x48016      /**< textures only: a bump map, m; bends the normal and moves nothing */
+};
+
+/** hlShadeModel. */
+enum {
+  HL_FLAT = 0x1D00,  /**< the primitives as they are */
+  HL_SMOOTH = 0x1D01 /**< force shading by the vertices' normals, where there are any. The default. */
+};
+
+/** Textures: targets, parameters and their values. */
+enum {
+  HL_TEXTURE_2D = 0x0DE1,      /**< the one target; also what hlEnable turns on, for the active unit */
+  HL_TEXTURE0 = 0x84C0,        /**< the first texture unit; HL_TEXTURE0 + i is unit i, up to HL_MAX_TEXTURE_UNITS - 1 */
+  HL_TEXTURE_WRAP = 0x48020,   /**< parameter: HL_REPEAT (default) or HL_CLAMP, in both directions */
+  HL_TEXTURE_FILTER = 0x48021, /**< parameter: HL_LINEAR (default) or HL_NEAREST */
+  HL_CLAMP = 0x2900,           /**< outside 0..1 the border's texel goes on */
+  HL_REPEAT = 0x2901,          /**< outside 0..1 the image is repeated */
+  HL_NEAREST = 0x2600,         /**< the nearest texel */
+  HL_LINEAR = 0x2601,          /**< between the four nearest texels */
+  HL_TEXTURE_ENV = 0x2300,     /**< the one target of hlTexEnv* */
+  HL_TEXTURE_QUANTITY = 0x48022, /**< env: which quantity. Default HL_STIFFNESS. Setting it resets low and high. */
+  HL_TEXTURE_LOW = 0x48023,      /**< env: the quantity where a texel is 0, in its unit and range. Default 0. */
+  HL_TEXTURE_HIGH = 0x48024      /**< env: the quantity where a texel is 1. Default 1; of HL_HEIGHT 0. */
+};
+
+/** hlEnableClientState and hlDisableClientState; hlIsEnabled takes them too. */
+enum { HL_VERTEX_ARRAY = 0x8074, HL_NORMAL_ARRAY = 0x8075, HL_TEXTURE_COORD_ARRAY = 0x8078 };
+
+/** hlPushAttrib: what is saved. Bits that are not here are ignored. */
+enum {
+  HL_CURRENT_BIT = 0x00000001,   /**< current normal, texture coordinates and name */
+  HL_SURFACE_BIT = 0x00000040,   /**< materials and shade model */
+  HL_TRANSFORM_BIT = 0x00001000, /**< matrix mode */
+  HL_ENABLE_BIT = 0x00002000,    /**< what hlEnable and hlDisable set */
+  HL_TEXTURE_BIT = 0x00040000,   /**< active unit, bindings, environments, and their hlEnable */
+  HL_ALL_ATTRIB_BITS = 0x000FFFFF
+};
+
+/** hlProxy*. */
+enum {
+  HL_PROXY_RADIUS = 0x48030 /**< m, world, > 0; also a query of 1 number */
+};
+
+/** hlLedger: what happens to energy that the surfaces' rules add to the spring; HL_LEDGER_MODE is the query. */
+enum {
+  HL_LEDGER_TANK = 0x48040,   /**< paid from a small tank that their dissipation refills. The default. */
+  HL_LEDGER_STRICT = 0x48041, /**< none may be added: passive at every tick */
+  HL_LEDGER_REPORT = 0x48042  /**< counted only */
+};
+
+/** HL_SAFETY_STATE is one of these. */
+enum {
+  HL_SAFETY_OFF = 0x48048,    /**< no force */
+  HL_SAFETY_ARMING = 0x48049, /**< the force ramps up from zero */
+  HL_SAFETY_ON = 0x4804A,     /**< touchable */
+  HL_SAFETY_FAULT = 0x4804B   /**< no force until hlRearm; hlGetString(HL_FAULT) says why */
+};
+
+/** Kinds of events, for hlEventFunc. */
+enum {
+  HL_EVENT_TOUCH = 0x48050,   /**< the proxy began to touch an object of this context */
+  HL_EVENT_UNTOUCH = 0x48051, /**< the proxy left it */
+  HL_EVENT_BUTTON = 0x48052,  /**< a button of the device went down or up */
+  HL_EVENT_MOTION = 0x48053   /**< the finger has moved on */
+};
+
+/** hlGetString. */
+enum {
+  HL_VENDOR = 0x1F00,          /**< "HL" */
+  HL_VERSION = 0x1F02,         /**< of this library, "0.1.0" */
+  HL_SERVER_VERSION = 0x48060, /**< of the server */
+  HL_DEVICE_NAME = 0x48061,    /**< of the context's device */
+  HL_FAULT = 0x48062,          /**< why HL_SAFETY_STATE is HL_SAFETY_FAULT, in one line; "" else */
+  HL_ERROR_STRING = 0x48063,   /**< one line about the error that hlGetError returns or has returned last */
+  HL_FRAME_WARNINGS = 0x48064  /**< what the server skipped of the frame that is shown, a line each; "" for nothing */
+};
+
+/** hlGet*v: the state of the calls, as it is now. The number of values stands first. */
+enum {
+  HL_CURRENT_NORMAL = 0x0B02,            /**< 3; 0 0 0: none */
+  HL_CURRENT_TEXTURE_COORDS = 0x0B03,    /**< 2 */
+  HL_CURRENT_NAME = 0x48070,             /**< 1; 0: none */
+  HL_CURRENT_OBJECT = 0x0B33,            /**< 1; the object being defined, 0: none */
+  HL_SHADE_MODEL = 0x0B54,               /**< 1; HL_FLAT or HL_SMOOTH */
+  HL_MATRIX_MODE = 0x0BA0,               /**< 1; HL_MODELVIEW or HL_TEXTURE */
+  HL_MODELVIEW_STACK_DEPTH = 0x0BA3,     /**< 1; at least 1 */
+  HL_TEXTURE_STACK_DEPTH = 0x0BA5,       /**< 1; at least 1 */
+  HL_MODELVIEW_MATRIX = 0x0BA6,          /**< 16, column by column */
+  HL_TEXTURE_MATRIX = 0x0BA8,            /**< 16, column by column */
+  HL_ATTRIB_STACK_DEPTH = 0x0BB0,        /**< 1 */
+  HL_NAME_STACK_DEPTH = 0x0D70,          /**< 1 */
+  HL_ACTIVE_TEXTURE = 0x84E0,            /**< 1; HL_TEXTURE0 + unit */
+  HL_TEXTURE_BINDING_2D = 0x8069,        /**< 1; the texture bound to the active unit, 0: none */
+  HL_MAX_TEXTURE_SIZE = 0x0D33,          /**< 1; most texels along a side */
+  HL_MAX_TEXTURE_UNITS = 0x84E2,         /**< 1; one for each quantity: 5 */
+  HL_MAX_ATTRIB_STACK_DEPTH = 0x0D35,    /**< 1 */
+  HL_MAX_MODELVIEW_STACK_DEPTH = 0x0D36, /**< 1 */
+  HL_MAX_NAME_STACK_DEPTH = 0x0D37,      /**< 1 */
+  HL_MAX_TEXTURE_STACK_DEPTH = 0x0D39    /**< 1 */
+  /* HL_STIFFNESS .. HL_PRESLIDING: 1; as set by hlMaterial, else the default */
+};
+
+/** hlGet*v: the conversation and what the server told when it began. */
+enum {
+  HL_SESSION = 0x48080,              /**< 1; number of this session at the server */
+  HL_MASTER = 0x48081,               /**< 1; HL_TRUE: this context may set the device's proxy, workspace and spring */
+  HL_CONNECTED = 0x48082,            /**< 1; HL_FALSE once the conversation has ended */
+  HL_FRAME_SENT = 0x48083,           /**< 1; number of the last frame sent, 0: none */
+  HL_FRAME_SHOWN = 0x48084,          /**< 1; number of the frame that is there to touch, 0: none */
+  HL_FRAME_PROGRESS = 0x48085,       /**< 1; 0..1 of the frame sent last: 1 when it is shown */
+  HL_FRAME_WAITING = 0x48086,        /**< 1; HL_TRUE: a flushed frame waits here to be sent */
+  HL_FRAME_PRIMITIVES = 0x48087,     /**< 1; primitives of this context in the world that is shown */
+  HL_MAX_OBJECTS = 0x48090,          /**< 1; objects this context may define */
+  HL_MAX_PRIMITIVES = 0x48091,       /**< 1; primitives in them, each object counted once */
+  HL_MAX_INSTANCES = 0x48092,        /**< 1; objects in the world, each call counted */
+  HL_MAX_NESTING = 0x48093,          /**< 1; calls within calls */
+  HL_MAX_TEXTURE_BYTES = 0x48094,    /**< 1; of all textures */
+  HL_MAX_FRAME_RATE = 0x48095,       /**< 1; Hz; frames flushed faster wait and are merged. 0: no limit */
+  HL_MAX_STATE_RATE = 0x48096,       /**< 1; Hz. 0: no limit */
+  HL_DEVICE_FORCE_MAX = 0x48097,     /**< 1; N, peak */
+  HL_SPRING_STIFFNESS_MAX = 0x48098, /**< 1; N/m; 0: not known */
+  HL_SPRING_STIFFNESS = 0x48099,     /**< 1; N/m: K of the servo, as told at the beginning or set here since */
+  HL_SPRING_DAMPING = 0x4809A        /**< 1; N s/m: B of the servo */
+};
+
+/** hlGet*v: the device and what it touches, from the last state that hlPoll, hlFlush or hlFinish took. World frame.
+ * Before the first state everything is 0. */
+enum {
+  HL_FINGER_POSITION = 0x480A0,        /**< 3; m */
+  HL_PROXY_POSITION = 0x480A1,         /**< 3; m */
+  HL_FORCE = 0x480A2,                  /**< 3; N at the hand */
+  HL_CONTACT_COUNT = 0x480A3,          /**< 1; see hlGetContacts */
+  HL_TOUCHED_OBJECT = 0x480A4,         /**< 1; the object of this context that presses hardest, 0: none */
+  HL_TOUCHED_NAME = 0x480A5,           /**< 1; its name, 0: none */
+  HL_BUTTONS = 0x480A6,                /**< 1; bit i is set while button i is down */
+  HL_SAFETY_STATE = 0x480A7,           /**< 1; HL_SAFETY_OFF when nothing is known */
+  HL_SERVO_RATE = 0x480A8,             /**< 1; Hz, measured over the last second */
+  HL_PROXY_RATE = 0x480A9,             /**< 1; Hz, measured over the last second */
+  HL_SERVO_DEADLINES_MISSED = 0x480AA, /**< 1; since the server started */
+  HL_PROXY_DEADLINES_MISSED = 0x480AB, /**< 1; since the server started */
+  HL_LEDGER_MODE = 0x480AC,            /**< 1 */
+  HL_LEDGER_TANK_LEVEL = 0x480AD,      /**< 1; J that the rules may still add */
+  HL_LEDGER_INJECTED = 0x480AE,        /**< 1; J that the rules have added since the server started */
+  HL_LEDGER_DISSIPATED = 0x480AF,      /**< 1; J that they took away, positive */
+  HL_WORKSPACE_ORIGIN = 0x480B0,       /**< 3; m: the world's point at the device's origin */
+  HL_WORKSPACE_SCALE = 0x480B1,        /**< 1; metres of the world for one metre of the hand */
+  HL_STATE_TIME = 0x480B2,             /**< 1; s since the server started, its clock, when the state was measured */
+  HL_STATE_AGE = 0x480B3               /**< 1; s since the state was taken here; infinite before the first */
+};
+
+/** One contact of the proxy, from hlGetContacts. World frame. */
+typedef struct HLcontact {
+  HLdouble point[3];        /**< m, on the surface */
+  HLdouble normal[3];       /**< unit, away from the surface, as it feels: bent by shading and bump maps */
+  HLdouble share;           /**< m: its part of proxy - finger; times K it is the contact's force */
+  HLdouble static_friction; /**< mu_s there */
+  HLdouble stiffness;       /**< 0..1 there */
+  HLuint object;            /**< the innermost object; 0: drawn outside of objects */
+  HLuint name;              /**< 0: none */
+  HLuint session;           /**< whose object it is: HL_SESSION for this context's */
+} HLcontact;
+
+/** What happened. */
+typedef struct HLevent {
+  HLenum kind;          /**< HL_EVENT_... */
+  HLdouble time;        /**< s, the server's clock */
+  HLuint object;        /**< HL_EVENT_TOUCH and HL_EVENT_UNTOUCH: the innermost object; 0: drawn outside of objects */
+  HLuint name;          /**< the same: its name; 0: none */
+  HLdouble position[3]; /**< m, world: of the proxy */
+  HLuint button;        /**< HL_EVENT_BUTTON: which, from 0 */
+  HLboolean down;       /**< HL_EVENT_BUTTON: HL_TRUE when it went down */
+} HLevent;
+
+/** Called by hlPoll. May use every call but hlPoll and hlDestroyContext; must not throw. */
+typedef void (*HLeventfunc)(const HLevent* event, void* user);
+/** Called by the call that makes the error, on its thread. May not use HL calls; must not throw. */
+typedef void (*HLerrorfunc)(HLenum error, const char* text, void* user);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,44 @@
+#include "client/call.h"
+
+namespace hl::client {
+
+constinit thread_local HLcontext* current_context = nullptr;
+
+namespace {
+
+// Lets go of the context when its thread ends, so that another thread can have it.
+struct LetGo {
+  ~LetGo() {
+    if (current_context != nullptr) current_context->current = false;
+    current_context = nullptr;
+  }
+};
+
+}  // namespace
+
+void setCurrentContext(HLcontext* context) {
+  static thread_local LetGo let_go;
+  if (context == current_context) return;
+  if (context != nullptr && context->current.exchange(true))
+    throw Fault(HL_INVALID_OPERATION, "the context is current on another thread");
+  if (current_context != nullptr) current_context->current = false;
+  current_context = context;
+}
+
+ErrorState& threadErrors() noexcept {
+  static thread_local ErrorState errors;
+  return errors;
+}
+
+ErrorState& currentErrors() noexcept { return current_context != nullptr ? current_context->errors : threadErrors(); }
+
+void requireAllowed(const HLcontext& context, When when) {
+  if (when == When::kAlways) return;
+  const bool between = context.recorder.isOpen();
+  if (when == When::kBetween && !between) throw Fault(HL_INVALID_OPERATION, "only after hlBegin");
+  if (when != When::kBetween && between) throw Fault(HL_INVALID_OPERATION, "not between hlBegin and hlEnd");
+  if (when == When::kNotInDefinition && context.definition)
+    throw Fault(HL_INVALID_OPERATION, "not between hlNewObject and hlEndObject");
+}
+
+}  // namespace hl::client

@@ -1,0 +1,66 @@
+// The C boundary: finds the thread's context, checks that the call is allowed now, and turns every exception into an
+// error of the context. No exception leaves an hl call.
+#pragma once
+
+#include <hl/hl_types.h>
+
+#include <type_traits>
+
+#include "client/context.h"
+#include "client/fault.h"
+
+namespace hl::client {
+
+/// Set by setCurrentContext only. constinit: reading it, as every hlVertex does, is one load.
+extern constinit thread_local HLcontext* current_context;
+/// The context that is current on this thread; null: none.
+inline HLcontext* currentContext() noexcept { return current_context; }
+/// Throws Fault when it is current on another thread.
+void setCurrentContext(HLcontext* context);
+/// Errors of calls without a context.
+ErrorState& threadErrors() noexcept;
+/// Those of the current context, else the thread's.
+ErrorState& currentErrors() noexcept;
+
+enum class When {
+  kAlways,           ///< also between hlBegin and hlEnd
+  kBetween,          ///< only there
+  kOutside,          ///< only outside of that: most calls
+  kNotInDefinition,  ///< outside, and not between hlNewObject and hlEndObject
+};
+
+/// Throws Fault HL_INVALID_OPERATION.
+void requireAllowed(const HLcontext& context, When when);
+
+/// Runs `body` on the thread's context and returns what it returns; at an error `otherwise`. `function`: for the
+/// error's text.
+template <typename Result, typename Body>
+Result callOr(Result otherwise, const char* function, When when, Body body) noexcept {
+  HLcontext* context = currentContext();
+  if (context == nullptr) {
+    threadErrors().note(HL_NO_CONTEXT, function, "the thread has no current context");
+    return otherwise;
+  }
+  try {
+    requireAllowed(*context, when);
+    return body(*context);
+  } catch (...) {
+    noteCurrentException(context->errors, function);
+    return otherwise;
+  }
+}
+
+template <typename Body>
+void call(const char* function, When when, Body body) noexcept {
+  callOr(0, function, when, [&](HLcontext& context) {
+    body(context);
+    return 0;
+  });
+}
+
+template <typename Body>
+void call(const char* function, Body body) noexcept {
+  call(function, When::kOutside, body);
+}
+
+}  // namespace hl::client

@@ -1,0 +1,31 @@
+// ErrorState: GL's sticky error. The first error is kept until it is taken; a callback hears of every one.
+#pragma once
+
+#include <hl/hl_types.h>
+
+#include <string>
+
+namespace hl::client {
+
+class ErrorState {
+ public:
+  /// Keeps the error if none is kept, and tells the callback. `function`: the call that makes it; null: none does.
+  void note(HLenum code, const char* function, const std::string& text) noexcept;
+  /// The kept error, forgotten; HL_NO_ERROR: none.
+  HLenum take() noexcept;
+  /// One line about the error that take() returns or has returned last.
+  const std::string& text() const { return text_; }
+  void setCallback(HLerrorfunc callback, void* user);
+
+ private:
+  HLenum kept_ = HL_NO_ERROR;
+  std::string text_;
+  HLerrorfunc callback_ = nullptr;
+  void* user_ = nullptr;
+};
+
+/// Notes the exception that is being handled: a Fault by its code, bad_alloc as HL_OUT_OF_MEMORY, others as
+/// HL_INVALID_OPERATION. Only inside a catch block.
+void noteCurrentException(ErrorState& errors, const char* function) noexcept;
+
+}  // namespace hl::client

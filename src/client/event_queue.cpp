@@ -1,0 +1,65 @@
+#include "client/event_queue.h"
+
+#include "client/fault.h"
+
+namespace hl::client {
+
+namespace {
+
+HLevent eventOf(const proto::Event& in) {
+  HLevent event{};
+  event.kind = HL_EVENT_TOUCH + static_cast<HLenum>(in.kind());  // both count TOUCH, UNTOUCH, BUTTON, MOTION
+  event.time = in.time_s();
+  event.object = in.object();
+  event.name = in.name();
+  event.position[0] = in.position().x();
+  event.position[1] = in.position().y();
+  event.position[2] = in.position().z();
+  event.button = in.button();
+  event.down = in.down() ? HL_TRUE : HL_FALSE;
+  return event;
+}
+
+// Says that callbacks are running for as long as it lives.
+class Delivering {
+ public:
+  explicit Delivering(bool& flag) : flag_(flag) { flag_ = true; }
+  Delivering(const Delivering&) = delete;
+  Delivering& operator=(const Delivering&) = delete;
+  ~Delivering() { flag_ = false; }
+
+ private:
+  bool& flag_;
+};
+
+}  // namespace
+
+void EventQueue::setCallback(HLenum kind, HLeventfunc callback, void* user) {
+  if (kind < HL_EVENT_TOUCH || kind > HL_EVENT_MOTION) throw Fault(HL_INVALID_ENUM, "the kind must be HL_EVENT_...");
+  callbacks_[kind - HL_EVENT_TOUCH] = {callback, user};
+}
+
+void EventQueue::push(const proto::Event& event) {
+  const auto kind = static_cast<std::size_t>(event.kind());
+  if (kind >= callbacks_.size() || callbacks_[kind].function == nullptr) return;
+  if (events_.size() == kMostEvents) events_.pop_front();
+  events_.push_back(eventOf(event));
+}
+
+int EventQueue::deliver() {
+  if (delivering_) throw Fault(HL_INVALID_OPERATION, "not in a callback of hlPoll");
+  const Delivering guard(delivering_);
+  int delivered = 0;
+  // Only as many as there are now: a callback that takes replies must not keep this going for ever.
+  for (std::size_t left = events_.size(); left > 0 && !events_.empty(); --left) {
+    const HLevent event = events_.front();
+    events_.pop_front();
+    const Callback callback = callbacks_[event.kind - HL_EVENT_TOUCH];
+    if (callback.function == nullptr) continue;
+    callback.function(&event, callback.user);
+    ++delivered;
+  }
+  return delivered;
+}
+
+}  // namespace hl::client

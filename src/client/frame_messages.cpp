@@ -1,0 +1,164 @@
+#include "client/frame_messages.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "client/fault.h"
+
+namespace hl::client {
+
+namespace {
+
+// A mesh from here on goes in parts: smaller ones are not worth their own message.
+constexpr std::size_t kInlineBytes = std::size_t{256} << 10;
+// One part decodes in about a millisecond.
+constexpr std::size_t kPartBytes = std::size_t{1} << 20;
+
+constexpr std::uint64_t unlessZero(std::uint64_t limit) {
+  return limit == 0 ? std::numeric_limits<std::uint64_t>::max() : limit;
+}
+
+template <typename Number, typename List>
+void assign(google::protobuf::RepeatedField<Number>* out, const List& in) {
+  *out = google::protobuf::RepeatedField<Number>(in.begin(), in.end());
+}
+
+void fillPrimitives(const Geometry& geometry, proto::Primitives& out) {
+  assign(out.mutable_vertices(), geometry.vertices.positions);
+  assign(out.mutable_normals(), geometry.vertices.normals);
+  assign(out.mutable_texcoords(), geometry.vertices.texcoords);
+  assign(out.mutable_triangles(), geometry.triangles);
+  assign(out.mutable_segments(), geometry.segments);
+  assign(out.mutable_points(), geometry.points);
+}
+
+void fillMaterial(const Look& look, proto::Material& out) {
+  const auto set = [&](HLenum quantity, auto setter) {
+    const auto& value = look.surface.quantities[quantity - HL_STIFFNESS];
+    if (value) (out.*setter)(*value);
+  };
+  set(HL_STIFFNESS, &proto::Material::set_stiffness);
+  set(HL_STATIC_FRICTION, &proto::Material::set_static_friction);
+  set(HL_DYNAMIC_FRICTION, &proto::Material::set_dynamic_friction);
+  set(HL_VISCOSITY, &proto::Material::set_viscosity_ns_m);
+  set(HL_STRIBECK, &proto::Material::set_stribeck_m_s);
+  set(HL_PRESLIDING, &proto::Material::set_presliding_n_m);
+  if (look.surface.shade) out.set_shade(*look.surface.shade == HL_FLAT ? proto::FLAT : proto::SMOOTH);
+  for (const TextureUse& use : look.textures) {
+    proto::MaterialTexture& texture = *out.add_textures();
+    texture.set_texture(std::to_string(use.texture));
+    texture.set_quantity(use.quantity == HL_HEIGHT ? proto::HEIGHT
+                                                   : static_cast<proto::Quantity>(use.quantity - HL_STIFFNESS));
+    texture.set_low(use.low);
+    texture.set_high(use.high);
+  }
+}
+
+void fillTexture(HLuint number, Texture&& texture, proto::TextureImage& out) {
+  out.set_name(std::to_string(number));
+  out.set_wrap(texture.wrap == HL_CLAMP ? proto::CLAMP : proto::REPEAT);
+  out.set_filter(texture.filter == HL_NEAREST ? proto::NEAREST : proto::BILINEAR);
+  proto::Texels& texels = *out.mutable_texels();
+  texels.set_width(static_cast<std::uint32_t>(texture.width));
+  texels.set_height(static_cast<std::uint32_t>(texture.height));
+  texels.set_values(std::move(texture.texels));
+}
+
+// Turns one draft into messages, counting what goes into the frame itself and what goes ahead.
+class Builder {
+ public:
+  explicit Builder(const FrameTerms& terms) : terms_(terms) {
+    const std::uint64_t message = unlessZero(terms.limits.message_bytes());
+    most_inline_ = message / 2;
+    part_bytes_ = std::min<std::uint64_t>(kPartBytes, message / 2);
+  }
+
+  FrameMessages build(Draft&& draft) {
+    proto::Frame& frame = *messages_.frame.mutable_frame();
+    frame.set_number(terms_.number);
+    if (terms_.interval_s) frame.set_interval_s(*terms_.interval_s);
+    for (auto& [number, texture] : draft.textures) fillTexture(number, std::move(texture), *frame.add_textures());
+    for (const HLuint texture : draft.deleted_textures) frame.add_deleted_textures(std::to_string(texture));
+    for (auto& [object, items] : draft.objects) {
+      proto::ObjectDefinition& definition = *frame.add_objects();
+      definition.set_id(object);
+      for (Item& item : items.items()) fillItem(std::move(item), *definition.add_items());
+    }
+    for (const HLuint object : draft.deleted_objects) frame.add_deleted_objects(object);
+    if (draft.world) {
+      proto::World& world = *frame.mutable_world();
+      for (Item& item : draft.world->items()) fillItem(std::move(item), *world.add_items());
+    }
+    requireWithinLimits();
+    return std::move(messages_);
+  }
+
+ private:
+  void fillItem(Item item, proto::Item& out) {
+    if (item.matrix != Matrix4::Identity()) out.mutable_matrix()->Add(item.matrix.data(), item.matrix.data() + 16);
+    proto::Material material;
+    fillMaterial(item.look, material);
+    if (material.ByteSizeLong() != 0) *out.mutable_material() = std::move(material);
+    if (item.look.name != 0) out.set_name(item.look.name);
+    out.set_untextured(item.look.untextured && item.look.textures.empty());
+    if (item.call != 0) {
+      out.set_call(item.call);
+      return;
+    }
+    const std::size_t bytes = item.geometry.bytes();
+    if (bytes > kInlineBytes || inline_bytes_ + bytes > most_inline_) {
+      out.set_upload(upload(item.geometry));
+      return;
+    }
+    inline_bytes_ += bytes;
+    fillPrimitives(item.geometry, *out.mutable_primitives());
+  }
+
+  std::uint64_t upload(const Geometry& geometry) {
+    upload_ = terms_.next_upload++;
+    addParts(geometry.vertices.positions, &proto::Primitives::mutable_vertices);
+    addParts(geometry.vertices.normals, &proto::Primitives::mutable_normals);
+    addParts(geometry.vertices.texcoords, &proto::Primitives::mutable_texcoords);
+    addParts(geometry.triangles, &proto::Primitives::mutable_triangles);
+    addParts(geometry.segments, &proto::Primitives::mutable_segments);
+    addParts(geometry.points, &proto::Primitives::mutable_points);
+    return upload_;
+  }
+
+  // Cut where a vertex or a primitive ends, whether it has one, two or three numbers.
+  template <typename List, typename Mutable>
+  void addParts(const List& numbers, Mutable mutable_list) {
+    const std::size_t step = std::max<std::size_t>(part_bytes_ / sizeof(double) / 6, 1) * 6;
+    for (std::size_t first = 0; first < numbers.size(); first += step) {
+      proto::Upload& part = *messages_.uploads.emplace_back().mutable_upload();
+      part.set_id(upload_);
+      const auto* begin = numbers.data() + first;
+      (part.mutable_part()->*mutable_list)()->Add(begin, begin + std::min(step, numbers.size() - first));
+      upload_bytes_ += messages_.uploads.back().ByteSizeLong();
+    }
+  }
+
+  void requireWithinLimits() const {
+    const std::uint64_t bytes = messages_.frame.ByteSizeLong();
+    if (bytes > unlessZero(terms_.limits.message_bytes()))
+      throw Fault(HL_OUT_OF_MEMORY, "the frame has " + std::to_string(bytes) + " bytes, the server takes at most " +
+                                        std::to_string(terms_.limits.message_bytes()) + "; it is dropped");
+    if (upload_bytes_ > unlessZero(terms_.limits.upload_bytes()))
+      throw Fault(HL_OUT_OF_MEMORY, "the frame's meshes have " + std::to_string(upload_bytes_) +
+                                        " bytes, the server takes at most " +
+                                        std::to_string(terms_.limits.upload_bytes()) + "; the frame is dropped");
+  }
+
+  const FrameTerms& terms_;
+  FrameMessages messages_;
+  std::uint64_t most_inline_, part_bytes_;
+  std::uint64_t inline_bytes_ = 0, upload_bytes_ = 0, upload_ = 0;
+};
+
+}  // namespace
+
+FrameMessages buildMessages(Draft draft, const FrameTerms& terms) { return Builder(terms).build(std::move(draft)); }
+
+}  // namespace hl::client

@@ -1,0 +1,154 @@
+#include "client/geometry.h"
+
+#include <limits>
+#include <utility>
+
+namespace hl::client {
+
+namespace {
+
+using Index = std::uint32_t;
+
+// From so many numbers on, moving the vertices' memory is cheaper than copying them and keeping it for the next
+// hlBegin.
+constexpr std::size_t kMoveFrom = 4096;
+
+void append(Numbers& whole, Numbers& part) {
+  if (whole.empty() && part.size() >= kMoveFrom) {
+    whole = std::move(part);
+    return;
+  }
+  whole.append(part);
+  part.clear();
+}
+
+// Writes the indices of `count` vertices, whole primitives of a mode, that begin at index `base`.
+class Assembler {
+ public:
+  Assembler(Geometry& geometry, Index base, Index count) : geometry_(geometry), base_(base), count_(count) {}
+
+  void assemble(HLenum mode) {
+    switch (mode) {
+      case HL_POINTS:
+        return points();
+      case HL_LINES:
+        return segments(2);
+      case HL_LINE_STRIP:
+        return segments(1);
+      case HL_LINE_LOOP:
+        return loop();
+      case HL_TRIANGLES:
+        return triangles();
+      case HL_TRIANGLE_STRIP:
+        return strip();
+      case HL_TRIANGLE_FAN:
+      case HL_POLYGON:
+        return fan();
+      case HL_QUADS:
+        return quads(4);
+      case HL_QUAD_STRIP:
+        return quads(2);
+      default:
+        return;
+    }
+  }
+
+ private:
+  void triangle(Index a, Index b, Index c) {
+    geometry_.triangles.insert(geometry_.triangles.end(), {base_ + a, base_ + b, base_ + c});
+  }
+  void segment(Index a, Index b) { geometry_.segments.insert(geometry_.segments.end(), {base_ + a, base_ + b}); }
+
+  void points() {
+    for (Index i = 0; i < count_; ++i) geometry_.points.push_back(base_ + i);
+  }
+  void segments(Index step) {
+    for (Index i = 0; i + 1 < count_; i += step) segment(i, i + 1);
+  }
+  // Two vertices make one segment: the way back is the same line.
+  void loop() {
+    segments(1);
+    if (count_ > 2) segment(count_ - 1, 0);
+  }
+  void triangles() {
+    for (Index i = 0; i + 2 < count_; i += 3) triangle(i, i + 1, i + 2);
+  }
+  // Every other triangle is turned round, so that all face the same way.
+  void strip() {
+    for (Index i = 0; i + 2 < count_; ++i) i % 2 == 0 ? triangle(i, i + 1, i + 2) : triangle(i + 1, i, i + 2);
+  }
+  void fan() {
+    for (Index i = 1; i + 1 < count_; ++i) triangle(0, i, i + 1);
+  }
+  // In a strip (step 2) the quad after vertex i goes i, i + 1, i + 3, i + 2; alone (step 4) i, i + 1, i + 2, i + 3.
+  void quads(Index step) {
+    const Index third = step == 2 ? 3 : 2, fourth = step == 2 ? 2 : 3;
+    for (Index i = 0; i + 3 < count_; i += step) {
+      triangle(i, i + 1, i + third);
+      triangle(i, i + third, i + fourth);
+    }
+  }
+
+  Geometry& geometry_;
+  const Index base_, count_;
+};
+
+}  // namespace
+
+void Vertices::clear() {
+  positions.clear();
+  normals.clear();
+  texcoords.clear();
+}
+
+void Vertices::shorten(std::size_t count) {
+  positions.shorten(3 * count);
+  normals.shorten(3 * count);
+  texcoords.shorten(2 * count);
+}
+
+bool Geometry::takes(const Vertices& added) const {
+  return vertices.normals.empty() == added.normals.empty() && vertices.texcoords.empty() == added.texcoords.empty() &&
+         vertices.size() + added.size() <= std::numeric_limits<Index>::max();
+}
+
+std::size_t Geometry::bytes() const {
+  constexpr std::size_t kIndexBytes = 5, kListBytes = 12;  // the longest varint of 32 bits; tag and length of a list
+  const std::size_t numbers = vertices.positions.size() + vertices.normals.size() + vertices.texcoords.size();
+  return numbers * sizeof(double) + (triangles.size() + segments.size() + points.size()) * kIndexBytes + 6 * kListBytes;
+}
+
+std::size_t wholeVertices(HLenum mode, std::size_t count) {
+  const auto atLeast = [count](std::size_t least) { return count < least ? 0 : count; };
+  switch (mode) {
+    case HL_LINES:
+      return count - count % 2;
+    case HL_LINE_STRIP:
+    case HL_LINE_LOOP:
+      return atLeast(2);
+    case HL_TRIANGLES:
+      return count - count % 3;
+    case HL_TRIANGLE_STRIP:
+    case HL_TRIANGLE_FAN:
+    case HL_POLYGON:
+      return atLeast(3);
+    case HL_QUADS:
+      return count - count % 4;
+    case HL_QUAD_STRIP:
+      return atLeast(4) - atLeast(4) % 2;
+    default:
+      return count;
+  }
+}
+
+void appendPrimitives(Geometry& geometry, HLenum mode, Vertices& vertices) {
+  vertices.shorten(wholeVertices(mode, vertices.size()));
+  const auto base = static_cast<Index>(geometry.vertices.size());
+  const auto count = static_cast<Index>(vertices.size());
+  append(geometry.vertices.positions, vertices.positions);
+  append(geometry.vertices.normals, vertices.normals);
+  append(geometry.vertices.texcoords, vertices.texcoords);
+  Assembler(geometry, base, count).assemble(mode);
+}
+
+}  // namespace hl::client

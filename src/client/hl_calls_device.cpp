@@ -1,0 +1,95 @@
+// Proxy, workspace, spring, hand: settings of the device, sent at once; and the rate of states and the events.
+#include <hl/hl.h>
+
+#include "client/call.h"
+
+using hl::client::call;
+using hl::client::Fault;
+using hl::client::requireFinite;
+
+namespace {
+
+void requirePositive(double value) {
+  requireFinite(value);
+  if (value <= 0) throw Fault(HL_INVALID_VALUE, "the value must be above 0");
+}
+
+void setVec(hl::proto::Vec3& out, double x, double y, double z) {
+  requireFinite(x, y, z);
+  out.set_x(x);
+  out.set_y(y);
+  out.set_z(z);
+}
+
+// Lets `fill` write the settings, and sends them. After the end of the conversation nothing is known of the master.
+template <typename Fill>
+void setDevice(const char* function, Fill fill) {
+  call(function, [&](HLcontext& context) {
+    hl::proto::DeviceSettings settings;
+    fill(settings);
+    if (!context.conversation.hasEnded() && !context.conversation.view().isMaster())
+      throw Fault(HL_INVALID_OPERATION, "this context is not the device's master");
+    context.conversation.send(std::move(settings));
+  });
+}
+
+void setProxy(const char* function, HLenum parameter, double value) {
+  setDevice(function, [&](hl::proto::DeviceSettings& settings) {
+    if (parameter != HL_PROXY_RADIUS) throw Fault(HL_INVALID_ENUM, "the parameter must be HL_PROXY_RADIUS");
+    requirePositive(value);
+    settings.set_proxy_radius(value);
+  });
+}
+
+}  // namespace
+
+void hlProxyf(HLenum parameter, HLfloat value) { setProxy(__func__, parameter, double{value}); }
+void hlProxyd(HLenum parameter, HLdouble value) { setProxy(__func__, parameter, value); }
+
+void hlWorkspaced(HLdouble x, HLdouble y, HLdouble z, HLdouble world_per_device) {
+  setDevice(__func__, [&](hl::proto::DeviceSettings& settings) {
+    requirePositive(world_per_device);
+    setVec(*settings.mutable_workspace()->mutable_origin(), x, y, z);
+    settings.mutable_workspace()->set_world_per_device(world_per_device);
+  });
+}
+
+void hlSpringd(HLdouble stiffness) {
+  setDevice(__func__, [&](hl::proto::DeviceSettings& settings) {
+    requirePositive(stiffness);
+    settings.set_stiffness_n_m(stiffness);
+  });
+}
+
+void hlLedger(HLenum mode) {
+  setDevice(__func__, [&](hl::proto::DeviceSettings& settings) {
+    if (mode < HL_LEDGER_TANK || mode > HL_LEDGER_REPORT)
+      throw Fault(HL_INVALID_ENUM, "the mode must be HL_LEDGER_TANK, HL_LEDGER_STRICT or HL_LEDGER_REPORT");
+    settings.set_ledger(static_cast<hl::proto::LedgerMode>(mode - HL_LEDGER_TANK));
+  });
+}
+
+void hlRearm(void) {
+  setDevice(__func__, [](hl::proto::DeviceSettings& settings) { settings.set_rearm(true); });
+}
+
+void hlHandGoal3d(HLdouble x, HLdouble y, HLdouble z) {
+  setDevice(__func__, [&](hl::proto::DeviceSettings& settings) {
+    setVec(*settings.mutable_hand_goal()->mutable_position(), x, y, z);
+  });
+}
+
+void hlStateRate(HLdouble rate) {
+  call(__func__, [&](HLcontext& context) {
+    requireFinite(rate);
+    const double most = context.conversation.view().limits().state_rate_hz();
+    if (rate < 0 || (most > 0 && rate > most)) throw Fault(HL_INVALID_VALUE, "the rate must be 0 .. HL_MAX_STATE_RATE");
+    hl::proto::StateRate message;
+    message.set_rate_hz(rate);
+    context.conversation.send(message);
+  });
+}
+
+void hlEventFunc(HLenum kind, HLeventfunc callback, void* user) {
+  call(__func__, [&](HLcontext& context) { context.events.setCallback(kind, callback, user); });
+}

@@ -1,0 +1,167 @@
+// hlBegin .. hlEnd and vertex arrays.
+#include <hl/hl.h>
+
+#include <array>
+#include <cstddef>
+
+#include "client/call.h"
+
+using hl::client::call;
+using hl::client::Fault;
+using hl::client::requireCount;
+using hl::client::requireFinite;
+using hl::client::requireList;
+using hl::client::requirePointer;
+using hl::client::When;
+
+namespace {
+
+void begin(HLcontext& context, HLenum mode) {
+  context.recorder.begin(mode, context.draw.texture, hasTextures(context.draw.attributes.now));
+}
+
+// What draws nothing leaves the world as it is.
+void end(HLcontext& context) {
+  const HLenum mode = context.recorder.mode();
+  hl::client::Vertices& vertices = context.recorder.end();
+  if (hl::client::wholeVertices(mode, vertices.size()) == 0) return;
+  context.target().draw(context.draw.modelview.top(), lookOf(context.draw.attributes.now), mode, vertices);
+}
+
+// Almost every vertex takes the short way.
+void vertex(const char* function, double x, double y, double z) {
+  HLcontext* now = hl::client::currentContext();
+  if (now != nullptr && now->recorder.vertexInRoom(now->draw.attributes.now.vertex, x, y, z)) return;
+  call(function, When::kAlways,
+       [&](HLcontext& context) { context.recorder.vertex(context.draw.attributes.now.vertex, x, y, z); });
+}
+
+void normal(const char* function, double x, double y, double z) {
+  call(function, When::kAlways, [&](HLcontext& context) {
+    requireFinite(x, y, z);
+    context.draw.attributes.now.vertex.setNormal({x, y, z});
+  });
+}
+
+void texCoord(const char* function, double u, double v) {
+  call(function, When::kAlways, [&](HLcontext& context) {
+    requireFinite(u, v);
+    context.draw.attributes.now.vertex.setTexcoord({u, v});
+  });
+}
+
+// Reads `count` numbers of the application's and hands them to `body`; a null pointer is the context's error.
+template <std::size_t count, typename Number, typename Body>
+void withNumbers(const char* function, const Number* numbers, Body body) {
+  if (numbers == nullptr) {
+    call(function, When::kAlways, [](HLcontext&) { requirePointer(nullptr); });
+    return;
+  }
+  std::array<double, 3> read{};
+  for (std::size_t i = 0; i < count; ++i) read[i] = double{numbers[i]};
+  body(read);
+}
+
+template <std::size_t count, typename Number>
+void vertexAt(const char* function, const Number* v) {
+  withNumbers<count>(function, v, [&](const auto& p) { vertex(function, p[0], p[1], p[2]); });
+}
+
+template <typename Number>
+void normalAt(const char* function, const Number* v) {
+  withNumbers<3>(function, v, [&](const auto& n) { normal(function, n[0], n[1], n[2]); });
+}
+
+template <typename Number>
+void texCoordAt(const char* function, const Number* v) {
+  withNumbers<2>(function, v, [&](const auto& uv) { texCoord(function, uv[0], uv[1]); });
+}
+
+// Draws the vertices index(0) .. index(count - 1) of the arrays, or, at an error, none.
+template <typename IndexOf>
+void drawArrays(HLcontext& context, HLenum mode, HLsizei count, IndexOf index) {
+  context.arrays.requirePointers();
+  begin(context, mode);
+  try {
+    for (HLsizei i = 0; i < count; ++i)
+      context.arrays.draw(context.recorder, context.draw.attributes.now.vertex, index(static_cast<std::size_t>(i)));
+  } catch (...) {
+    context.recorder.cancel();
+    throw;
+  }
+  end(context);
+}
+
+}  // namespace
+
+void hlBegin(HLenum mode) {
+  call(__func__, [&](HLcontext& context) { begin(context, mode); });
+}
+
+void hlEnd(void) { call(__func__, When::kBetween, end); }
+
+void hlVertex2f(HLfloat x, HLfloat y) { vertex(__func__, x, y, 0); }
+void hlVertex2d(HLdouble x, HLdouble y) { vertex(__func__, x, y, 0); }
+void hlVertex3f(HLfloat x, HLfloat y, HLfloat z) { vertex(__func__, x, y, z); }
+void hlVertex3d(HLdouble x, HLdouble y, HLdouble z) { vertex(__func__, x, y, z); }
+void hlVertex2fv(const HLfloat* v) { vertexAt<2>(__func__, v); }
+void hlVertex2dv(const HLdouble* v) { vertexAt<2>(__func__, v); }
+void hlVertex3fv(const HLfloat* v) { vertexAt<3>(__func__, v); }
+void hlVertex3dv(const HLdouble* v) { vertexAt<3>(__func__, v); }
+
+void hlNormal3f(HLfloat x, HLfloat y, HLfloat z) { normal(__func__, x, y, z); }
+void hlNormal3d(HLdouble x, HLdouble y, HLdouble z) { normal(__func__, x, y, z); }
+void hlNormal3fv(const HLfloat* v) { normalAt(__func__, v); }
+void hlNormal3dv(const HLdouble* v) { normalAt(__func__, v); }
+
+void hlTexCoord2f(HLfloat u, HLfloat v) { texCoord(__func__, u, v); }
+void hlTexCoord2d(HLdouble u, HLdouble v) { texCoord(__func__, u, v); }
+void hlTexCoord2fv(const HLfloat* v) { texCoordAt(__func__, v); }
+void hlTexCoord2dv(const HLdouble* v) { texCoordAt(__func__, v); }
+
+void hlVertexPointer(HLint size, HLenum type, HLsizei stride, const void* pointer) {
+  call(__func__, [&](HLcontext& context) {
+    if (size != 2 && size != 3) throw Fault(HL_INVALID_VALUE, "vertices have 2 or 3 numbers");
+    context.arrays.vertices.point(size, type, stride, pointer);
+  });
+}
+
+void hlNormalPointer(HLenum type, HLsizei stride, const void* pointer) {
+  call(__func__, [&](HLcontext& context) { context.arrays.normals.point(3, type, stride, pointer); });
+}
+
+void hlTexCoordPointer(HLint size, HLenum type, HLsizei stride, const void* pointer) {
+  call(__func__, [&](HLcontext& context) {
+    if (size != 2) throw Fault(HL_INVALID_VALUE, "texture coordinates have 2 numbers");
+    context.arrays.texcoords.point(size, type, stride, pointer);
+  });
+}
+
+void hlEnableClientState(HLenum array) {
+  call(__func__, [&](HLcontext& context) { context.arrays.named(array).enabled = true; });
+}
+
+void hlDisableClientState(HLenum array) {
+  call(__func__, [&](HLcontext& context) { context.arrays.named(array).enabled = false; });
+}
+
+void hlDrawArrays(HLenum mode, HLint first, HLsizei count) {
+  call(__func__, [&](HLcontext& context) {
+    hl::client::requirePrimitiveMode(mode);
+    requireCount(count);
+    if (first < 0) throw Fault(HL_INVALID_VALUE, "the first vertex must not be negative");
+    if (!context.arrays.vertices.enabled) return;
+    drawArrays(context, mode, count, [&](std::size_t i) { return static_cast<std::size_t>(first) + i; });
+  });
+}
+
+void hlDrawElements(HLenum mode, HLsizei count, HLenum type, const void* indices) {
+  call(__func__, [&](HLcontext& context) {
+    hl::client::requirePrimitiveMode(mode);
+    hl::client::requireIndexType(type);
+    requireList(count, indices);
+    if (!context.arrays.vertices.enabled) return;
+    const hl::client::Indices list{type, indices};
+    drawArrays(context, mode, count, [&](std::size_t i) { return list.at(i); });
+  });
+}

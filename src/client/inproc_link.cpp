@@ -1,0 +1,113 @@
+#include "client/inproc_link.h"
+
+#include <algorithm>
+#include <cmath>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "base/error.h"
+#include "server/touch_server.h"
+
+namespace hl::client {
+
+namespace {
+
+// The process's server: it is started for the first link and stopped after the last.
+std::shared_ptr<SessionHost> processServer() {
+  static std::mutex mutex;
+  static std::weak_ptr<TouchServer> running;
+  const std::lock_guard lock(mutex);
+  std::shared_ptr<TouchServer> server = running.lock();
+  if (server) return server;
+  TouchServerSettings settings;
+  settings.touch.explore = false;
+  settings.version = HL_VERSION;
+  server = std::make_shared<TouchServer>(makeSnapshot(std::vector<Instance>{}, "inproc"), settings);
+  server->start();
+  running = server;
+  return server;
+}
+
+// What the server's threads ring when there is a reply.
+struct Bell {
+  std::mutex mutex;
+  std::condition_variable rung_or_late;
+  bool rung = false;
+
+  void ring() {
+    {
+      const std::lock_guard lock(mutex);
+      rung = true;
+    }
+    rung_or_late.notify_one();
+  }
+  void waitFor(std::chrono::duration<double> longest) {
+    std::unique_lock lock(mutex);
+    rung_or_late.wait_for(lock, longest, [this] { return rung; });
+    rung = false;
+  }
+};
+
+class InprocLink final : public Link {
+ public:
+  explicit InprocLink(std::shared_ptr<SessionHost> host)
+      : host_(std::move(host)),
+        bell_(std::make_shared<Bell>()),
+        session_(host_->connect("inproc", [bell = bell_] { bell->ring(); })) {}
+
+  void send(proto::ClientMessage message) override { session_->receive(std::move(message)); }
+  std::size_t queuedBytes() const override { return 0; }
+
+  bool take(proto::ServerReply& reply) override {
+    if (next_) {
+      reply = std::move(*next_);
+      next_.reset();
+      return true;
+    }
+    return session_->take(reply);
+  }
+
+  bool wait(std::chrono::nanoseconds longest) override {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point end = Clock::now() + longest;
+    while (!arrived() && session_->end().empty()) {
+      const std::chrono::duration<double> left = end - Clock::now();
+      if (left.count() <= 0) return false;
+      bell_->waitFor(std::min(left, std::chrono::duration<double>(std::min(session_->nextState_s(), kLongestNap_s))));
+    }
+    return next_.has_value();
+  }
+
+  std::string ended() const override { return session_->end(); }
+
+ private:
+  static constexpr double kLongestNap_s = 1;
+
+  bool arrived() {
+    if (next_) return true;
+    proto::ServerReply reply;
+    if (session_->take(reply)) next_ = std::move(reply);
+    return next_.has_value();
+  }
+
+  // In this order: the session goes before the server.
+  std::shared_ptr<SessionHost> host_;
+  std::shared_ptr<Bell> bell_;
+  std::unique_ptr<ClientSession> session_;
+  std::optional<proto::ServerReply> next_;
+};
+
+}  // namespace
+
+std::unique_ptr<Link> openInproc(const ServerUrl& url) {
+  if (!url.host.empty()) throw Error("inproc: is this process; it takes no host (got '" + url.host + "')");
+  return linkTo(processServer());
+}
+
+std::unique_ptr<Link> linkTo(std::shared_ptr<SessionHost> host) {
+  return std::make_unique<InprocLink>(std::move(host));
+}
+
+}  // namespace hl::client

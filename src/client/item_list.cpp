@@ -1,0 +1,39 @@
+#include "client/item_list.h"
+
+#include <cstdint>
+#include <limits>
+
+#include "client/fault.h"
+
+namespace hl::client {
+
+bool ItemList::draw(const Matrix4& matrix, const Look& look, HLenum mode, Vertices& vertices) {
+  vertices.shorten(wholeVertices(mode, vertices.size()));
+  if (vertices.size() == 0) {
+    vertices.clear();
+    return false;
+  }
+  if (vertices.size() > std::numeric_limits<std::uint32_t>::max())
+    throw Fault(HL_OUT_OF_MEMORY, "more vertices than indices can count; split them");
+  const auto joins = [&](const Item& last) {
+    return last.call == 0 && last.geometry.takes(vertices) && last.matrix == matrix && last.look == look;
+  };
+  if (items_.empty() || !joins(items_.back())) items_.push_back({matrix, look, 0, {}});
+  appendPrimitives(items_.back().geometry, mode, vertices);
+  return true;
+}
+
+void ItemList::call(const Matrix4& matrix, const Look& look, HLuint object) {
+  items_.push_back({matrix, look, object, {}});
+}
+
+Uses ItemList::uses() const {
+  Uses uses;
+  for (const Item& item : items_) {
+    if (item.call != 0) uses.objects.insert(item.call);
+    for (const TextureUse& use : item.look.textures) uses.textures.insert(use.texture);
+  }
+  return uses;
+}
+
+}  // namespace hl::client

@@ -1,0 +1,44 @@
+// ItemList: what has been drawn into the world or into a definition, in order, before it becomes messages.
+#pragma once
+
+#include <hl/hl_types.h>
+
+#include <set>
+#include <vector>
+
+#include "client/attributes.h"
+#include "client/geometry.h"
+#include "client/matrix_stack.h"
+
+namespace hl::client {
+
+/// Primitives, or the call of an object, placed by a matrix.
+struct Item {
+  Matrix4 matrix = Matrix4::Identity();
+  Look look;
+  HLuint call = 0;  ///< > 0: a call, without geometry
+  Geometry geometry;
+};
+
+/// What items need besides themselves.
+struct Uses {
+  std::set<HLuint> objects, textures;
+};
+
+class ItemList {
+ public:
+  /// Appends primitives; takes `vertices` and leaves them empty. Those after each other with the same matrix, look, and
+  /// presence of normals and texture coordinates become one item. Fewer vertices than a primitive add nothing.
+  /// Returns whether there was anything to add.
+  bool draw(const Matrix4& matrix, const Look& look, HLenum mode, Vertices& vertices);
+  void call(const Matrix4& matrix, const Look& look, HLuint object);
+
+  const std::vector<Item>& items() const { return items_; }
+  std::vector<Item>& items() { return items_; }
+  Uses uses() const;
+
+ private:
+  std::vector<Item> items_;
+};
+
+}  // namespace hl::client

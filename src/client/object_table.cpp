@@ -1,0 +1,44 @@
+#include "client/object_table.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "client/fault.h"
+
+namespace hl::client {
+
+HLuint ObjectTable::generate() {
+  if (highest_ == std::numeric_limits<HLuint>::max())
+    throw Fault(HL_OUT_OF_MEMORY, "all numbers of objects are in use");
+  return ++highest_;
+}
+
+void ObjectTable::define(HLuint object, Uses uses) {
+  objects_[object] = std::move(uses);
+  highest_ = std::max(highest_, object);
+}
+
+bool ObjectTable::reaches(HLuint from, HLuint to) const {
+  std::set<HLuint> seen{from};
+  std::vector<HLuint> open{from};
+  while (!open.empty()) {
+    const HLuint object = open.back();
+    open.pop_back();
+    if (object == to) return true;
+    const auto found = objects_.find(object);
+    if (found == objects_.end()) continue;
+    for (const HLuint called : found->second.objects)
+      if (seen.insert(called).second) open.push_back(called);
+  }
+  return false;
+}
+
+std::set<HLuint> ObjectTable::usedTextures() const {
+  std::set<HLuint> used;
+  for (const auto& [object, uses] : objects_) used.insert(uses.textures.begin(), uses.textures.end());
+  return used;
+}
+
+}  // namespace hl::client

@@ -1,0 +1,33 @@
+// ObjectTable: which objects are defined and what they use, so that a circle of calls is seen before anything is sent,
+// and a texture is not taken away under an object. What is in the objects is not kept.
+#pragma once
+
+#include <hl/hl_types.h>
+
+#include <map>
+#include <set>
+
+#include "client/item_list.h"
+
+namespace hl::client {
+
+class ObjectTable {
+ public:
+  /// A number > 0 that was never returned or defined before.
+  HLuint generate();
+  bool isDefined(HLuint object) const { return objects_.contains(object); }
+  /// Defines or redefines `object`.
+  void define(HLuint object, Uses uses);
+  /// Returns whether it was defined.
+  bool remove(HLuint object) { return objects_.erase(object) != 0; }
+  /// Whether `from` is `to` or calls it, directly or not.
+  bool reaches(HLuint from, HLuint to) const;
+  /// Those of all objects.
+  std::set<HLuint> usedTextures() const;
+
+ private:
+  std::map<HLuint, Uses> objects_;
+  HLuint highest_ = 0;
+};
+
+}  // namespace hl::client

@@ -1,0 +1,80 @@
+#include "client/texture_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "client/fault.h"
+
+namespace hl::client {
+
+namespace {
+
+char quantized(HLfloat value) {
+  requireFinite(value);
+  return static_cast<char>(static_cast<unsigned char>(std::lround(255 * std::clamp(value, 0.0F, 1.0F))));
+}
+
+}  // namespace
+
+HLuint TextureTable::generate() {
+  if (highest_ == std::numeric_limits<HLuint>::max())
+    throw Fault(HL_OUT_OF_MEMORY, "all numbers of textures are in use");
+  return ++highest_;
+}
+
+void TextureTable::bind(HLuint texture) {
+  if (texture == 0) return;
+  textures_.try_emplace(texture);
+  highest_ = std::max(highest_, texture);
+}
+
+void TextureTable::remove(HLuint texture) {
+  if (textures_.erase(texture) == 0) return;
+  changed_.erase(texture);
+  removed_.insert(texture);
+}
+
+bool TextureTable::hasImage(HLuint texture) const {
+  const auto found = textures_.find(texture);
+  return found != textures_.end() && found->second.hasImage();
+}
+
+Texture& TextureTable::change(HLuint texture) {
+  changed_.insert(texture);
+  return textures_.at(texture);
+}
+
+TextureTable::Changes TextureTable::takeChanges(const std::set<HLuint>& used) {
+  Changes changes;
+  for (const HLuint texture : changed_) {
+    if (!hasImage(texture)) continue;
+    changes.images[texture] = textures_.at(texture);
+    removed_.erase(texture);
+  }
+  changed_.clear();
+  std::erase_if(removed_, [&](HLuint texture) {
+    if (used.contains(texture)) return false;
+    changes.removed.insert(texture);
+    return true;
+  });
+  return changes;
+}
+
+std::string readTexels(HLsizei width, HLsizei height, HLenum type, const void* texels) {
+  if (type != HL_UNSIGNED_BYTE && type != HL_FLOAT)
+    throw Fault(HL_INVALID_ENUM, "the type must be HL_UNSIGNED_BYTE or HL_FLOAT");
+  const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  if (texels == nullptr) return std::string(count, '\0');
+  if (type == HL_UNSIGNED_BYTE) return {static_cast<const char*>(texels), count};
+  std::string bytes(count, '\0');
+  for (std::size_t i = 0; i < count; ++i) {
+    HLfloat value;
+    std::memcpy(&value, static_cast<const char*>(texels) + i * sizeof value, sizeof value);
+    bytes[i] = quantized(value);
+  }
+  return bytes;
+}
+
+}  // namespace hl::client

@@ -1,0 +1,280 @@
+// Frames: what a flush sends, when it waits, how large meshes go ahead, and what the server's answers do.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "client/fake_server.h"
+#include "client/outbox.h"
+
+namespace hl::client {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+void expectError(HLenum error) { EXPECT_EQ(hlGetError(), error); }
+
+TEST_F(CallsTest, EmptyFrameIsNotSent) {
+  EXPECT_EQ(flushed().number(), 0U);
+  hlFinish();
+  EXPECT_TRUE(server->received.empty());
+}
+
+TEST_F(CallsTest, WhatIsDrawnReplacesTheWorldAndNumbersRise) {
+  triangle();
+  EXPECT_EQ(flushed().number(), 1U);
+  triangle();
+  triangle(5);
+  const proto::Frame second = flushed();
+  EXPECT_EQ(second.number(), 2U);
+  EXPECT_EQ(second.world().items(0).primitives().triangles_size(), 6);
+}
+
+TEST_F(CallsTest, FrameThatDrawsNothingLeavesTheWorld) {
+  hlNewObject(1);
+  triangle();
+  hlEndObject();
+  EXPECT_FALSE(flushed().has_world());
+}
+
+TEST_F(CallsTest, ClearDropsWhatWasDrawnAndShowsAnEmptyWorld) {
+  triangle();
+  hlClear();
+  const proto::Frame frame = flushed();
+  EXPECT_TRUE(frame.has_world());
+  EXPECT_EQ(frame.world().items_size(), 0);
+}
+
+TEST_F(CallsTest, IntervalIsLeftToTheServerUnlessSet) {
+  triangle();
+  EXPECT_FALSE(flushed().has_interval_s());
+  hlFrameInterval(0);
+  triangle();
+  EXPECT_TRUE(flushed().has_interval_s());
+  hlFrameInterval(0.5);
+  EXPECT_EQ(flushed().number(), 0U);
+  triangle();
+  EXPECT_EQ(flushed().interval_s(), 0.5);
+  hlFrameInterval(-1);
+  hlFrameInterval(kNaN), expectError(HL_INVALID_VALUE);
+  triangle();
+  EXPECT_FALSE(flushed().has_interval_s());
+}
+
+TEST_F(CallsTest, ShownFramesAreKnown) {
+  server->shows_frames = false;
+  EXPECT_EQ(number(HL_FRAME_PROGRESS), 1);
+  triangle();
+  hlFlush();
+  EXPECT_EQ(integer(HL_FRAME_SENT), 1);
+  EXPECT_EQ(integer(HL_FRAME_SHOWN), 0);
+  EXPECT_EQ(number(HL_FRAME_PROGRESS), 0);
+  proto::Progress& progress = *server->replies.emplace_back().mutable_progress();
+  progress.set_frame(1);
+  progress.set_built(0.5);
+  hlPoll();
+  EXPECT_EQ(number(HL_FRAME_PROGRESS), 0.5);
+  proto::FrameShown& shown = *server->replies.emplace_back().mutable_frame_shown();
+  shown.set_number(1);
+  shown.set_primitives(12);
+  shown.add_warnings("3 triangles without area");
+  shown.add_warnings("1 zero normal");
+  hlPoll();
+  EXPECT_EQ(integer(HL_FRAME_SHOWN), 1);
+  EXPECT_EQ(number(HL_FRAME_PROGRESS), 1);
+  EXPECT_EQ(integer(HL_FRAME_PRIMITIVES), 12);
+  EXPECT_STREQ(hlGetString(HL_FRAME_WARNINGS), "3 triangles without area\n1 zero normal");
+}
+
+TEST_F(CallsTest, FinishWaitsUntilShown) {
+  triangle();
+  hlFinish();
+  EXPECT_EQ(integer(HL_FRAME_SHOWN), 1);
+  EXPECT_EQ(hlFinishTimeout(0), HL_TRUE);
+}
+
+TEST_F(CallsTest, FinishWithTimeoutGivesUpWithoutAnError) {
+  server->shows_frames = false;
+  triangle();
+  EXPECT_EQ(hlFinishTimeout(0.001), HL_FALSE);
+  expectError(HL_NO_ERROR);
+  hlFinishTimeout(-1), expectError(HL_INVALID_VALUE);
+  hlFinishTimeout(kNaN), expectError(HL_INVALID_VALUE);
+}
+
+TEST_F(CallsTest, RefusedFrameIsAnErrorWithItsReason) {
+  server->shows_frames = false;
+  triangle();
+  hlFlush();
+  server->refuse(1, "too many primitives");
+  EXPECT_EQ(hlFinishTimeout(10), HL_FALSE);
+  EXPECT_STREQ(hlGetString(HL_ERROR_STRING), "refused by the server: frame 1: too many primitives");
+  expectError(HL_REFUSED);
+  EXPECT_EQ(hlFinishTimeout(10), HL_TRUE);
+}
+
+TEST_F(CallsTest, FramesWaitWithoutAnErrorWhileTheServerBuildsMany) {
+  server->shows_frames = false;
+  for (std::size_t i = 0; i < kMostUnanswered + 5; ++i) {
+    triangle(static_cast<double>(i));
+    hlFlush();
+  }
+  EXPECT_EQ(server->frames().size(), kMostUnanswered);
+  server->show(1);
+  hlPoll();
+  ASSERT_EQ(server->frames().size(), kMostUnanswered + 1);
+  EXPECT_EQ(server->frames().back().world().items(0).primitives().vertices(0), kMostUnanswered + 4.0);
+}
+
+TEST_F(CallsTest, FrameWaitsWhileTheNetworkIsBusyAndLaterOnesJoinIt) {
+  server->queued_bytes = kMostQueuedBytes + 1;
+  hlNewObject(1);
+  hlEndObject();
+  triangle(1);
+  hlFlush();
+  expectError(HL_BUSY);
+  EXPECT_EQ(integer(HL_FRAME_WAITING), 1);
+  triangle(2);
+  hlNewObject(2);
+  hlEndObject();
+  hlFlush();
+  expectError(HL_BUSY);
+  EXPECT_TRUE(server->received.empty());
+  server->queued_bytes = 0;
+  hlPoll();
+  ASSERT_EQ(server->frames().size(), 1U);
+  const proto::Frame frame = server->frames()[0];
+  EXPECT_EQ(frame.number(), 1U);
+  EXPECT_EQ(frame.objects_size(), 2);
+  EXPECT_EQ(frame.world().items(0).primitives().vertices(0), 2);
+  EXPECT_EQ(frame.world().items(0).primitives().vertices_size(), 9);
+  EXPECT_EQ(integer(HL_FRAME_WAITING), 0);
+}
+
+TEST_F(CallsTest, DeletionUndoesADefinitionThatWaits) {
+  server->queued_bytes = kMostQueuedBytes + 1;
+  hlNewObject(1);
+  hlEndObject();
+  hlFlush();
+  const HLuint one = 1;
+  hlDeleteObjects(1, &one);
+  hlFlush();
+  expectError(HL_BUSY);
+  server->queued_bytes = 0;
+  hlFlush();
+  ASSERT_EQ(server->frames().size(), 1U);
+  EXPECT_EQ(server->frames()[0].objects_size(), 0);
+}
+
+// A context whose server takes one frame in an hour.
+class SlowFrames : public CallsTest {
+ protected:
+  SlowFrames() {
+    server->welcome.mutable_limits()->set_frames_hz(1.0 / 3600);
+    slow = hlCreateContext("fake:");
+    hlMakeCurrent(slow);
+  }
+  ~SlowFrames() override {
+    expectError(HL_NO_ERROR);
+    hlDestroyContext(slow);
+    hlMakeCurrent(context);
+  }
+  HLcontext* slow = nullptr;
+};
+
+TEST_F(SlowFrames, FramesFasterThanTheServerTakesWaitWithoutAnError) {
+  triangle();
+  EXPECT_EQ(flushed().number(), 1U);
+  triangle();
+  EXPECT_EQ(flushed().number(), 0U);
+  EXPECT_EQ(integer(HL_FRAME_WAITING), 1);
+  EXPECT_EQ(hlFinishTimeout(0.001), HL_FALSE);
+}
+
+// ---- Large meshes ----
+
+void strip(int vertices) {
+  hlBegin(HL_TRIANGLE_STRIP);
+  for (int i = 0; i < vertices; ++i) {
+    hlNormal3d(0, 0, i + 1);
+    hlVertex3d(i, i % 2, 0);
+  }
+  hlEnd();
+}
+
+TEST_F(CallsTest, LargeMeshesGoAheadInPartsThatMergeToTheWhole) {
+  constexpr int kVertices = 100'000;
+  strip(kVertices);
+  const proto::Frame frame = flushed();
+  ASSERT_EQ(frame.world().items_size(), 1);
+  const proto::Item& item = frame.world().items(0);
+  ASSERT_EQ(item.what_case(), proto::Item::kUpload);
+  EXPECT_LT(frame.ByteSizeLong(), 1000U);
+  EXPECT_TRUE(server->received.back().has_frame());
+  EXPECT_GT(server->received.size(), 4U);
+  for (const proto::ClientMessage& message : server->received) EXPECT_LE(message.ByteSizeLong(), (1U << 20) + 100);
+  const proto::Primitives whole = server->uploads().at(item.upload());
+  ASSERT_EQ(whole.vertices_size(), 3 * kVertices);
+  ASSERT_EQ(whole.normals_size(), 3 * kVertices);
+  ASSERT_EQ(whole.triangles_size(), 3 * (kVertices - 2));
+  for (int i = 0; i < kVertices; ++i) {
+    ASSERT_EQ(whole.vertices(3 * i), i);
+    ASSERT_EQ(whole.normals(3 * i + 2), i + 1);
+  }
+  EXPECT_EQ(whole.triangles(whole.triangles_size() - 1), kVertices - 1U);
+}
+
+TEST_F(CallsTest, ManySmallMeshesDoNotMakeALongFrame) {
+  for (HLuint name = 1; name <= 40; ++name) {
+    hlLoadName(name);
+    strip(2'000);
+  }
+  const proto::Frame frame = flushed();
+  EXPECT_EQ(frame.world().items_size(), 40);
+  EXPECT_LE(frame.ByteSizeLong(), 4U << 20);
+  EXPECT_FALSE(server->uploads().empty());
+}
+
+// A context whose server takes little.
+class SmallServer : public CallsTest {
+ protected:
+  SmallServer() {
+    server->welcome.mutable_limits()->set_message_bytes(2'000);
+    server->welcome.mutable_limits()->set_upload_bytes(100'000);
+    small = hlCreateContext("fake:");
+    hlMakeCurrent(small);
+  }
+  ~SmallServer() override {
+    expectError(HL_NO_ERROR);
+    hlDestroyContext(small);
+    hlMakeCurrent(context);
+  }
+  HLcontext* small = nullptr;
+};
+
+TEST_F(SmallServer, PartsFitItsMessages) {
+  strip(500);
+  EXPECT_EQ(flushed().number(), 1U);
+  for (const proto::ClientMessage& message : server->received) EXPECT_LE(message.ByteSizeLong(), 2'000U);
+}
+
+TEST_F(SmallServer, FrameThatIsTooLargeIsOutOfMemoryAndDropped) {
+  for (HLuint name = 1; name <= 500; ++name) {
+    hlLoadName(name);
+    triangle();
+  }
+  EXPECT_EQ(flushed().number(), 0U);
+  expectError(HL_OUT_OF_MEMORY);
+  strip(50'000);
+  EXPECT_EQ(flushed().number(), 0U);
+  expectError(HL_OUT_OF_MEMORY);
+  EXPECT_EQ(integer(HL_FRAME_WAITING), 0);
+  EXPECT_TRUE(server->received.empty());
+  triangle();
+  EXPECT_EQ(flushed().number(), 1U);
+}
+
+}  // namespace
+}  // namespace hl::client

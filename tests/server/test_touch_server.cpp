@@ -1,0 +1,325 @@
+// Sessions of HL clients on a running server, without sockets: what may come when, what is shown, touched and told.
+#include "server/touch_server.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <thread>
+
+#include "base/error.h"
+
+namespace hl {
+namespace {
+
+constexpr auto kPatience = std::chrono::seconds(60);  // no test waits so long unless it fails
+
+TouchServerSettings settingsOf() {
+  TouchServerSettings settings;
+  settings.touch.explore = false;
+  settings.touch.world_per_device = 1;
+  settings.version = "test";
+  return settings;
+}
+
+std::shared_ptr<const Snapshot> nothing() { return makeSnapshot(std::vector<Instance>{}); }
+
+// A square floor of 2 m at the height y, two triangles.
+void addFloor(proto::Item& item, double y) {
+  for (const double v : {-1.0, y, 1.0, 1.0, y, 1.0, 1.0, y, -1.0, -1.0, y, -1.0})
+    item.mutable_primitives()->add_vertices(v);
+  for (const std::uint32_t i : {0U, 1U, 2U, 0U, 2U, 3U}) item.mutable_primitives()->add_triangles(i);
+}
+
+// A client that holds one session and remembers what it was told.
+class Client {
+ public:
+  explicit Client(TouchServer& server) : session_(server.connect("test", [] {})) {}
+
+  void open(const std::string& name = "test", bool master = true, bool keep = false) {
+    proto::ClientMessage message;
+    message.mutable_open()->set_protocol_version(1);
+    message.mutable_open()->set_client_name(name);
+    message.mutable_open()->set_master(master);
+    message.mutable_open()->set_keep_objects(keep);
+    message.mutable_open()->set_state_rate_hz(1000);
+    session_->receive(message);
+    ASSERT_TRUE(until([this] { return welcome_.protocol_version() == 1; }));
+  }
+
+  // World: one object with a floor at this height.
+  proto::Frame floorFrame(double y) {
+    proto::Frame frame;
+    frame.set_number(++number_);
+    proto::ObjectDefinition& object = *frame.add_objects();
+    object.set_id(4);
+    addFloor(*object.add_items(), y);
+    proto::Item& call = *frame.mutable_world()->add_items();
+    call.set_call(4);
+    call.set_name(17);
+    return frame;
+  }
+
+  void send(const proto::Frame& frame) {
+    proto::ClientMessage message;
+    *message.mutable_frame() = frame;
+    session_->receive(message);
+  }
+  bool show(const proto::Frame& frame) {
+    send(frame);
+    return until([&] { return shown_ == frame.number(); });
+  }
+
+  void handTo(const Vec3& goal) {
+    proto::ClientMessage message;
+    proto::Vec3& p = *message.mutable_device()->mutable_hand_goal()->mutable_position();
+    p.set_x(goal.x());
+    p.set_y(goal.y());
+    p.set_z(goal.z());
+    session_->receive(message);
+  }
+
+  bool until(const std::function<bool()>& reached) {
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    while (!reached()) {
+      proto::ServerReply reply;
+      while (session_->take(reply)) remember(reply);
+      if (std::chrono::steady_clock::now() > end) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return true;
+  }
+
+  void remember(const proto::ServerReply& reply) {
+    if (reply.has_welcome()) welcome_ = reply.welcome();
+    if (reply.has_state()) state_ = reply.state();
+    if (reply.has_frame_shown()) shown_ = reply.frame_shown().number();
+    if (reply.has_frame_shown()) shown_message_ = reply.frame_shown();
+    if (reply.has_refusal()) refusal_ = reply.refusal();
+    if (reply.has_event()) events_.push_back(reply.event());
+  }
+
+  std::unique_ptr<ClientSession> session_;
+  proto::Welcome welcome_;
+  proto::ClientState state_;
+  proto::Refusal refusal_;
+  proto::FrameShown shown_message_;
+  std::vector<proto::Event> events_;
+  std::uint64_t shown_ = 0, number_ = 0;
+};
+
+class TouchServerTest : public testing::Test {
+ protected:
+  TouchServerTest() : server_(nothing(), settingsOf()) { server_.start(); }
+  TouchServer server_;
+};
+
+TEST_F(TouchServerTest, OpenComesFirst) {
+  Client client(server_);
+  client.send(client.floorFrame(0));
+  EXPECT_NE(client.session_->end().find("open"), std::string::npos);
+}
+
+TEST_F(TouchServerTest, AnotherVersionOrDeviceIsRefusedWithAReason) {
+  proto::ClientMessage message;
+  message.mutable_open()->set_protocol_version(99);
+  Client old(server_);
+  old.session_->receive(message);
+  EXPECT_NE(old.session_->end().find("99"), std::string::npos);
+  message.mutable_open()->set_protocol_version(1);
+  message.mutable_open()->set_device(3);
+  Client lost(server_);
+  lost.session_->receive(message);
+  EXPECT_NE(lost.session_->end().find("device 3"), std::string::npos);
+}
+
+TEST_F(TouchServerTest, WelcomeTellsOfDevicesAndLimits) {
+  Client client(server_);
+  client.open();
+  EXPECT_EQ(client.welcome_.server_version(), "test");
+  EXPECT_TRUE(client.welcome_.master());
+  ASSERT_EQ(client.welcome_.devices_size(), 1);
+  EXPECT_GT(client.welcome_.devices(0).force_max_n(), 1);
+  EXPECT_GT(client.welcome_.limits().primitives(), 1'000'000u);
+}
+
+TEST_F(TouchServerTest, AFrameIsShownTouchedAndToldOfByItsNames) {
+  Client client(server_);
+  client.open();
+  ASSERT_TRUE(client.show(client.floorFrame(0)));
+  EXPECT_EQ(client.shown_message_.primitives(), 2u);
+  client.handTo({0, -0.01, 0});
+  ASSERT_TRUE(client.until([&] { return client.state_.touched_size() == 1 && client.state_.force_n().y() > 0.3; }));
+  EXPECT_EQ(client.state_.touched(0).object(), 4u);
+  EXPECT_EQ(client.state_.touched(0).name(), 17u);
+  EXPECT_GE(client.state_.proxy().y(), 0.002 * (1 - 1e-9));
+  client.handTo({0, 0.05, 0});
+  ASSERT_TRUE(client.until([&] { return client.events_.size() >= 2; }));
+  EXPECT_EQ(client.events_[0].kind(), proto::TOUCH);
+  EXPECT_EQ(client.events_[0].name(), 17u);
+  EXPECT_EQ(client.events_[1].kind(), proto::UNTOUCH);
+}
+
+TEST_F(TouchServerTest, ARefusedFrameChangesNothingAndTheNextIsShown) {
+  Client client(server_);
+  client.open();
+  ASSERT_TRUE(client.show(client.floorFrame(0)));
+  proto::Frame bad = client.floorFrame(-0.5);
+  bad.mutable_objects(0)->mutable_items(0)->mutable_primitives()->set_triangles(2, 77);
+  client.send(bad);
+  ASSERT_TRUE(client.until([&] { return client.refusal_.frame() == bad.number(); }));
+  EXPECT_EQ(client.refusal_.text(),
+            "objects[0].items[0].primitives.triangles: there is no vertex 77; the last is 4 - 1");
+  EXPECT_FALSE(client.refusal_.fatal());
+  EXPECT_EQ(server_.device().snapshot()->bounds.max.y(), 0);
+  client.send(bad);
+  ASSERT_TRUE(client.until([&] { return client.refusal_.text().find("rising") != std::string::npos; }));
+  ASSERT_TRUE(client.show(client.floorFrame(-0.25)));
+  EXPECT_EQ(server_.device().snapshot()->bounds.max.y(), -0.25);
+}
+
+TEST_F(TouchServerTest, UploadsInPartsAreOneMesh) {
+  Client client(server_);
+  client.open();
+  proto::Item whole;
+  addFloor(whole, 0.125);
+  for (int part = 0; part < 4; ++part) {
+    proto::ClientMessage message;
+    message.mutable_upload()->set_id(9);
+    proto::Primitives& p = *message.mutable_upload()->mutable_part();
+    for (int i = 0; i < 3; ++i) p.add_vertices(whole.primitives().vertices(3 * part + i));
+    if (part == 3) *p.mutable_triangles() = whole.primitives().triangles();
+    client.session_->receive(message);
+  }
+  proto::Frame frame;
+  frame.set_number(++client.number_);
+  frame.mutable_world()->add_items()->set_upload(9);
+  ASSERT_TRUE(client.show(frame));
+  EXPECT_EQ(server_.device().snapshot()->primitives, 2u);
+  frame.set_number(++client.number_);
+  client.send(frame);
+  ASSERT_TRUE(client.until([&] { return client.refusal_.frame() == frame.number(); })) << "gone once it was used";
+}
+
+TEST_F(TouchServerTest, OneClientIsTheDevicesMasterUntilItLeaves) {
+  auto first = std::make_unique<Client>(server_);
+  first->open();
+  Client second(server_);
+  second.open("second");
+  EXPECT_FALSE(second.welcome_.master());
+  second.handTo({0, 0, 0});
+  ASSERT_TRUE(second.until([&] { return !second.refusal_.text().empty(); }));
+  first.reset();
+  Client third(server_);
+  third.open("third");
+  EXPECT_TRUE(third.welcome_.master());
+}
+
+TEST_F(TouchServerTest, ClientsOwnTheirObjectsAndTakeThemAlong) {
+  auto first = std::make_unique<Client>(server_);
+  first->open();
+  Client second(server_);
+  second.open("second", false);
+  ASSERT_TRUE(first->show(first->floorFrame(-0.2)));
+  ASSERT_TRUE(second.show(second.floorFrame(-0.3)));
+  EXPECT_EQ(server_.device().snapshot()->instances.size(), 2u);
+  first.reset();
+  ASSERT_TRUE(second.until([&] { return server_.device().snapshot()->instances.size() == 1; }));
+  EXPECT_EQ(server_.device().snapshot()->bounds.max.y(), -0.3);
+}
+
+TEST_F(TouchServerTest, ObjectsMayStayUntilTheirNameOpensAgain) {
+  {
+    Client client(server_);
+    client.open("keeper", true, true);
+    ASSERT_TRUE(client.show(client.floorFrame(-0.2)));
+  }
+  Client other(server_);
+  other.open("other");
+  ASSERT_TRUE(other.show(other.floorFrame(-0.3)));
+  EXPECT_EQ(server_.device().snapshot()->instances.size(), 2u);
+  Client again(server_);
+  again.open("keeper", false);
+  ASSERT_TRUE(again.until([&] { return server_.device().snapshot()->instances.size() == 1; }));
+}
+
+TEST_F(TouchServerTest, FramesThatMoveAnObjectAreAllShownInOrder) {
+  Client client(server_);
+  client.open();
+  ASSERT_TRUE(client.show(client.floorFrame(-0.5)));
+  for (int i = 0; i < 100; ++i) {
+    proto::Frame frame;
+    frame.set_number(++client.number_);
+    proto::Item& call = *frame.mutable_world()->add_items();
+    call.set_call(4);
+    for (const double m : {1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0.001 * i, 0., 1.}) call.add_matrix(m);
+    client.send(frame);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  ASSERT_TRUE(client.until([&] { return client.shown_ == client.number_; }));
+  EXPECT_TRUE(client.refusal_.text().empty()) << client.refusal_.text();
+  EXPECT_NEAR(server_.device().snapshot()->bounds.max.y(), -0.5 + 0.099, 1e-12);
+}
+
+TEST_F(TouchServerTest, AThousandClientsComeAndGo) {
+  for (int i = 0; i < 1000; ++i) {
+    Client client(server_);
+    client.open("visitor");
+    client.send(client.floorFrame(-1));
+  }
+  EXPECT_EQ(server_.sessions(), 0u);
+  Client last(server_);
+  last.open("last");
+  EXPECT_TRUE(last.welcome_.master());
+  ASSERT_TRUE(last.show(last.floorFrame(-0.4)));
+  EXPECT_EQ(server_.device().snapshot()->instances.size(), 1u);
+}
+
+TEST_F(TouchServerTest, TooManyClientsAreTurnedAway) {
+  std::vector<std::unique_ptr<ClientSession>> sessions;
+  const std::uint32_t most = settingsOf().limits.sessions;
+  for (std::uint32_t i = 0; i < most; ++i) sessions.push_back(server_.connect("test", [] {}));
+  EXPECT_THROW(server_.connect("test", [] {}), Error);
+}
+
+TEST_F(TouchServerTest, EachDeviceHasAProxyOfItsOwn) {
+  TouchServerSettings settings = settingsOf();
+  settings.devices = 2;
+  TouchServer server(nothing(), settings);
+  server.start();
+  Client client(server);
+  client.open();
+  ASSERT_TRUE(client.show(client.floorFrame(-0.2)));
+  EXPECT_EQ(client.welcome_.devices_size(), 2);
+  EXPECT_EQ(server.device(0).snapshot(), server.device(1).snapshot());
+  server.device(1).setHandGoal({0, -0.22, 0});
+  ASSERT_TRUE(client.until([&] { return !client.events_.empty(); })) << "its objects are felt on both";
+}
+
+TEST(TouchServer, TheFirstWorldIsFittedToTheHand) {
+  TouchServerSettings settings = settingsOf();
+  settings.touch.world_per_device.reset();
+  TouchServer server(nothing(), settings);
+  server.start();
+  Client client(server);
+  client.open();
+  ASSERT_TRUE(client.show(client.floorFrame(0)));
+  EXPECT_NEAR(server.device().workspace().world_per_device, 2 / settings.touch.side_D, 1e-9);
+  EXPECT_NEAR(server.device().radius_W(), settings.touch.radius_D * 2 / settings.touch.side_D, 1e-12);
+  ASSERT_TRUE(client.show(client.floorFrame(1)));
+  EXPECT_NEAR(server.device().workspace().origin_W.y(), 0, 1e-12) << "only the first";
+}
+
+TEST(TouchServer, AClosedServerTellsItsClients) {
+  auto server = std::make_unique<TouchServer>(nothing(), settingsOf());
+  server->start();
+  Client client(*server);
+  client.open();
+  server->stop();
+  EXPECT_EQ(client.session_->end(), "the server is closing");
+  client.session_.reset();
+}
+
+}  // namespace
+}  // namespace hl
