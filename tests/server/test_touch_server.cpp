@@ -290,10 +290,10 @@ TEST_F(TouchServerTest, EachDeviceHasAProxyOfItsOwn) {
   server.start();
   Client client(server);
   client.open();
-  ASSERT_TRUE(client.show(client.floorFrame(-0.2)));
+  ASSERT_TRUE(client.show(client.floorFrame(-0.02)));
   EXPECT_EQ(client.welcome_.devices_size(), 2);
   EXPECT_EQ(server.device(0).snapshot(), server.device(1).snapshot());
-  server.device(1).setHandGoal({0, -0.22, 0});
+  server.device(1).setHandGoal({0, -0.03, 0});
   ASSERT_TRUE(client.until([&] { return !client.events_.empty(); })) << "its objects are felt on both";
 }
 

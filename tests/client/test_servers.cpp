@@ -1,0 +1,250 @@
+// The calls against real servers: one scene, said in every way HL has and brought over every carrier, feels the same to
+// the last bit; and a finger on it is told to the program.
+#include <google/protobuf/util/json_util.h>
+#include <gtest/gtest.h>
+#include <hl/hl.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <thread>
+#include <vector>
+
+#include "client/inproc_link.h"
+#include "client/open_link.h"
+#include "server/http_server.h"
+#include "server/touch_server.h"
+#include "server/trace.h"
+
+namespace hl::client {
+namespace {
+
+std::shared_ptr<TouchServer> startServer() {
+  TouchServerSettings settings;
+  settings.touch.explore = false;
+  settings.touch.world_per_device = 1;
+  auto server = std::make_shared<TouchServer>(makeSnapshot(std::vector<Instance>{}), settings);
+  server->start();
+  return server;
+}
+
+// ---- A scene: a dome of quads under a hierarchy, smooth, rough and scaled -------------------------------------------
+
+constexpr int kRings = 6, kSides = 12;
+
+struct Vertex {
+  std::array<double, 3> position, normal;
+};
+
+Vertex domeVertex(int ring, int side) {
+  const double polar = 0.5 * M_PI * ring / kRings, azimuth = 2 * M_PI * side / kSides;
+  const std::array<double, 3> n{std::sin(polar) * std::cos(azimuth), std::cos(polar),
+                                std::sin(polar) * std::sin(azimuth)};
+  return {{0.04 * n[0], 0.04 * n[1], 0.04 * n[2]}, n};
+}
+
+// Four corners of each quad, in turn.
+std::vector<Vertex> domeQuads() {
+  std::vector<Vertex> vertices;
+  for (int ring = 1; ring < kRings; ++ring) {
+    for (int side = 0; side < kSides; ++side) {
+      for (const auto& [r, s] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
+        vertices.push_back(domeVertex(ring + r, side + s));
+    }
+  }
+  return vertices;
+}
+
+void immediate() {
+  hlBegin(HL_QUADS);
+  for (const Vertex& v : domeQuads()) {
+    hlNormal3dv(v.normal.data());
+    hlVertex3dv(v.position.data());
+  }
+  hlEnd();
+}
+
+void arrays() {
+  const std::vector<Vertex> vertices = domeQuads();
+  hlEnableClientState(HL_VERTEX_ARRAY);
+  hlEnableClientState(HL_NORMAL_ARRAY);
+  hlVertexPointer(3, HL_DOUBLE, sizeof(Vertex), vertices[0].position.data());
+  hlNormalPointer(HL_DOUBLE, sizeof(Vertex), vertices[0].normal.data());
+  hlDrawArrays(HL_QUADS, 0, static_cast<HLsizei>(vertices.size()));
+  hlDisableClientState(HL_VERTEX_ARRAY);
+  hlDisableClientState(HL_NORMAL_ARRAY);
+}
+
+void objectList() {
+  hlNewObject(5);
+  immediate();
+  hlEndObject();
+  hlCallObject(5);
+}
+
+void scene(const std::function<void()>& dome) {
+  hlMaterialf(HL_DYNAMIC_FRICTION, 0.25f);
+  hlMaterialf(HL_STIFFNESS, 0.75f);
+  hlPushMatrix();
+  hlTranslated(0.01, -0.03, 0.002);
+  hlRotated(20, 1, 2, 3);
+  hlScaled(1.25, 0.75, 1);
+  dome();
+  hlPopMatrix();
+}
+
+// ---- What a finger feels of it --------------------------------------------------------------------------------------
+
+std::vector<double> feel(const Snapshot& snapshot) {
+  std::vector<PathSample> path;
+  for (int i = 0; i < 3000; ++i) {
+    const double t = 1e-3 * i;
+    path.push_back({t, {0.03 * std::sin(2 * t), 0.02 - 0.03 * std::min(1.0, t), 0.03 * std::sin(3 * t)}});
+  }
+  std::vector<double> felt;
+  TraceSettings settings;
+  settings.proxy.radius = 0.002;
+  runTrace(snapshot, settings, path, [&](const TraceRow& row) {
+    for (const Vec3& v : {row.proxy, row.target, row.force}) felt.insert(felt.end(), v.data(), v.data() + 3);
+  });
+  return felt;
+}
+
+bool sameBits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+// Draws on a server through a link of the scheme "test:", which the test chooses.
+std::vector<double> feltThrough(const std::string& url, TouchServer& server, const std::function<void()>& dome) {
+  HLcontext* context = hlCreateContext(url.c_str());
+  EXPECT_NE(context, nullptr) << hlGetConnectError();
+  if (context == nullptr) return {};
+  hlMakeCurrent(context);
+  scene(dome);
+  EXPECT_EQ(hlFinishTimeout(60), HL_TRUE);
+  EXPECT_EQ(hlGetError(), static_cast<HLenum>(HL_NO_ERROR)) << hlGetString(HL_ERROR_STRING);
+  const std::vector<double> felt = feel(*server.device().snapshot());
+  hlDestroyContext(context);
+  return felt;
+}
+
+std::vector<double> feltInProcess(const std::function<void()>& dome) {
+  const auto server = startServer();
+  setLinkOpener("test", [&](const ServerUrl&) { return linkTo(server); });
+  std::vector<double> felt = feltThrough("test:", *server, dome);
+  setLinkOpener("test", {});
+  return felt;
+}
+
+// A link whose messages go through their JSON form.
+class JsonLink final : public Link {
+ public:
+  explicit JsonLink(std::unique_ptr<Link> inner) : inner_(std::move(inner)) {}
+  void send(proto::ClientMessage message) override {
+    std::string text;
+    ASSERT_TRUE(google::protobuf::util::MessageToJsonString(message, &text).ok());
+    proto::ClientMessage read;
+    ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(text, &read).ok());
+    inner_->send(std::move(read));
+  }
+  std::size_t queuedBytes() const override { return inner_->queuedBytes(); }
+  bool take(proto::ServerReply& reply) override { return inner_->take(reply); }
+  bool wait(std::chrono::nanoseconds longest) override { return inner_->wait(longest); }
+  std::string ended() const override { return inner_->ended(); }
+
+ private:
+  std::unique_ptr<Link> inner_;
+};
+
+TEST(Servers, ImmediateCallsArraysAndObjectListsFeelTheSameToTheBit) {
+  const std::vector<double> first = feltInProcess(immediate);
+  ASSERT_EQ(first.size(), 27'000u);
+  double most = 0;
+  for (std::size_t i = 6; i < first.size(); i += 9) most = std::max(most, std::abs(first[i + 1]));
+  EXPECT_GT(most, 1) << "something is felt";
+  EXPECT_TRUE(sameBits(first, feltInProcess(arrays)));
+  EXPECT_TRUE(sameBits(first, feltInProcess(objectList)));
+}
+
+TEST(Servers, JsonFeelsTheSameToTheBit) {
+  const auto server = startServer();
+  setLinkOpener("test", [&](const ServerUrl&) { return std::make_unique<JsonLink>(linkTo(server)); });
+  const std::vector<double> felt = feltThrough("test:", *server, immediate);
+  setLinkOpener("test", {});
+  EXPECT_TRUE(sameBits(felt, feltInProcess(immediate)));
+}
+
+TEST(Servers, TheNetworkFeelsTheSameToTheBit) {
+  const auto server = startServer();
+  HttpServerSettings http;
+  http.port = 0;
+  FeedCallbacks pages;
+  pages.hello = pages.state = [] { return std::string(); };
+  pages.scene = [] { return std::make_shared<const std::string>(); };
+  pages.receive = [](const std::string&) {};
+  HttpServer listener(http, pages, server.get());
+  listener.start();
+  const std::string url = "hl://127.0.0.1:" + std::to_string(listener.port());
+  EXPECT_TRUE(sameBits(feltThrough(url, *server, immediate), feltInProcess(immediate)));
+  listener.stop();
+}
+
+// ---- A program and its own server -----------------------------------------------------------------------------------
+
+bool waitFor(const std::function<bool()>& reached) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!reached()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    hlPoll();
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return true;
+}
+
+void floorOf(HLuint name, double y) {
+  hlLoadName(name);
+  hlBegin(HL_QUADS);
+  hlVertex3d(-1, y, 1);
+  hlVertex3d(1, y, 1);
+  hlVertex3d(1, y, -1);
+  hlVertex3d(-1, y, -1);
+  hlEnd();
+}
+
+TEST(Servers, AProgramTouchesItsSceneInItsOwnProcess) {
+  HLcontext* context = hlCreateContext("inproc:?state_rate=500");
+  ASSERT_NE(context, nullptr) << hlGetConnectError();
+  hlMakeCurrent(context);
+  hlWorkspaced(0, 0, 0, 1);
+  floorOf(42, 0);
+  ASSERT_EQ(hlFinishTimeout(60), HL_TRUE);
+  std::vector<HLuint> touched;
+  hlEventFunc(
+      HL_EVENT_TOUCH,
+      [](const HLevent* event, void* user) { static_cast<std::vector<HLuint>*>(user)->push_back(event->name); },
+      &touched);
+  hlHandGoal3d(0, -0.01, 0);
+  HLdouble force[3] = {0, 0, 0};
+  EXPECT_TRUE(waitFor([&] {
+    hlGetDoublev(HL_FORCE, force);
+    return force[1] > 0.3 && !touched.empty();
+  }));
+  EXPECT_EQ(touched[0], 42u);
+  HLcontact contact;
+  ASSERT_EQ(hlGetContacts(1, &contact), 1);
+  EXPECT_EQ(contact.name, 42u);
+  EXPECT_EQ(hlGetError(), static_cast<HLenum>(HL_NO_ERROR));
+  hlDestroyContext(context);
+}
+
+TEST(Servers, AServerThatIsNotThereIsToldInOneLine) {
+  EXPECT_EQ(hlCreateContext("hl://127.0.0.1:1"), nullptr);
+  const std::string why = hlGetConnectError();
+  EXPECT_NE(why.find("127.0.0.1"), std::string::npos) << why;
+  EXPECT_EQ(why.find('\n'), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hl::client
