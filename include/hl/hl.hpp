@@ -108,12 +108,12 @@ class Context {
 };
 
 /// What begins with one call and ends with another at the end of a block.
-template <void (*finish)()>
+template <void (*Finish)()>
 class Scope {
  public:
   Scope(const Scope&) = delete;
   Scope& operator=(const Scope&) = delete;
-  ~Scope() { finish(); }
+  ~Scope() { Finish(); }
 
  protected:
   Scope() = default;
@@ -236,13 +236,13 @@ void drawElements(HLenum mode, const VertexArrays<Number>& arrays, const Indices
   hlDrawElements(mode, static_cast<HLsizei>(std::ranges::size(indices)), type, std::ranges::data(indices));
 }
 
-/// hlGetDoublev of a query with `count` values (hl_types.h says how many); zeros at an error.
-template <std::size_t count>
-std::array<HLdouble, count> get(HLenum name) {
+/// hlGetDoublev of a query with `Count` values (hl_types.h says how many); zeros at an error.
+template <std::size_t Count>
+std::array<HLdouble, Count> get(HLenum name) {
   std::array<HLdouble, 16> values{};  // no query has more, whatever the caller thinks
   hlGetDoublev(name, values.data());
-  std::array<HLdouble, count> wanted{};
-  std::copy_n(values.begin(), std::min<std::size_t>(count, values.size()), wanted.begin());
+  std::array<HLdouble, Count> wanted{};
+  std::copy_n(values.begin(), std::min<std::size_t>(Count, values.size()), wanted.begin());
   return wanted;
 }
 

@@ -71,7 +71,7 @@ void Conversation::send(proto::DeviceSettings settings) {
   if (!ended_) link_->send(std::move(message));
 }
 
-void Conversation::send(proto::StateRate rate) {
+void Conversation::send(const proto::StateRate& rate) {
   proto::ClientMessage message;
   *message.mutable_state_rate() = rate;
   if (!ended_) link_->send(std::move(message));

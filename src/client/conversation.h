@@ -35,7 +35,7 @@ class Conversation {
   Outbox::Outcome sendFrame();
   /// Drops what waits once the conversation has ended.
   void send(proto::DeviceSettings settings);
-  void send(proto::StateRate rate);
+  void send(const proto::StateRate& rate);
   /// Seconds of Frame.interval_s for the frames to come; empty: left to the server.
   void setInterval(std::optional<double> interval_s) { interval_s_ = interval_s; }
 

@@ -119,23 +119,23 @@ std::size_t Geometry::bytes() const {
 }
 
 std::size_t wholeVertices(HLenum mode, std::size_t count) {
-  const auto atLeast = [count](std::size_t least) { return count < least ? 0 : count; };
+  const auto at_least = [count](std::size_t least) { return count < least ? 0 : count; };
   switch (mode) {
     case HL_LINES:
       return count - count % 2;
     case HL_LINE_STRIP:
     case HL_LINE_LOOP:
-      return atLeast(2);
+      return at_least(2);
     case HL_TRIANGLES:
       return count - count % 3;
     case HL_TRIANGLE_STRIP:
     case HL_TRIANGLE_FAN:
     case HL_POLYGON:
-      return atLeast(3);
+      return at_least(3);
     case HL_QUADS:
       return count - count % 4;
     case HL_QUAD_STRIP:
-      return atLeast(4) - atLeast(4) % 2;
+      return at_least(4) - at_least(4) % 2;
     default:
       return count;
   }

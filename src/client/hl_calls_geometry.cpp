@@ -51,20 +51,20 @@ void texCoord(const char* function, double u, double v) {
 }
 
 // Reads `count` numbers of the application's and hands them to `body`; a null pointer is the context's error.
-template <std::size_t count, typename Number, typename Body>
+template <std::size_t Count, typename Number, typename Body>
 void withNumbers(const char* function, const Number* numbers, Body body) {
   if (numbers == nullptr) {
     call(function, When::kAlways, [](HLcontext&) { requirePointer(nullptr); });
     return;
   }
   std::array<double, 3> read{};
-  for (std::size_t i = 0; i < count; ++i) read[i] = double{numbers[i]};
+  for (std::size_t i = 0; i < Count; ++i) read[i] = double{numbers[i]};
   body(read);
 }
 
-template <std::size_t count, typename Number>
+template <std::size_t Count, typename Number>
 void vertexAt(const char* function, const Number* v) {
-  withNumbers<count>(function, v, [&](const auto& p) { vertex(function, p[0], p[1], p[2]); });
+  withNumbers<Count>(function, v, [&](const auto& p) { vertex(function, p[0], p[1], p[2]); });
 }
 
 template <typename Number>

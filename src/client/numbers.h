@@ -36,14 +36,14 @@ class Numbers {
     if (!hasRoom(count)) grow(size_ + count);
   }
   /// There must be room.
-  template <std::size_t count>
-  void appendInRoom(const std::array<double, count>& numbers) {
-    std::copy_n(numbers.data(), count, data_.get() + size_);
-    size_ += count;
+  template <std::size_t Count>
+  void appendInRoom(const std::array<double, Count>& numbers) {
+    std::copy_n(numbers.data(), Count, data_.get() + size_);
+    size_ += Count;
   }
-  template <std::size_t count>
-  void append(const std::array<double, count>& numbers) {
-    makeRoom(count);
+  template <std::size_t Count>
+  void append(const std::array<double, Count>& numbers) {
+    makeRoom(Count);
     appendInRoom(numbers);
   }
   void append(const Numbers& numbers) {

@@ -33,9 +33,9 @@ void addAll(Values& values, const Array& numbers) {
   for (const double number : numbers) values.add(number);
 }
 
-template <HLenum quantity>
+template <HLenum Name>
 void addQuantity(const HLcontext& c, Values& values) {
-  values.add(attributes(c).surface.quantities[quantity - HL_STIFFNESS].value_or(defaultOf(quantity)));
+  values.add(attributes(c).surface.quantities[Name - HL_STIFFNESS].value_or(defaultOf(Name)));
 }
 
 double frameProgress(const HLcontext& c) {
@@ -139,8 +139,8 @@ constexpr Query kQueriesOfState[] = {
     {HL_STATE_AGE, [](const HLcontext& c, Values& v) { v.add(view(c).stateAge_s()); }},
 };
 
-template <std::size_t count>
-bool answerFrom(const Query (&queries)[count], const HLcontext& context, HLenum name, Values& values) {
+template <std::size_t Count>
+bool answerFrom(const Query (&queries)[Count], const HLcontext& context, HLenum name, Values& values) {
   for (const Query& query : queries) {
     if (query.name != name) continue;
     query.write(context, values);

@@ -15,7 +15,7 @@ class ServerView {
 
   void take(proto::ClientState state);
   void take(proto::FrameShown shown) { shown_ = std::move(shown); }
-  void take(proto::Progress progress) { progress_ = progress; }
+  void take(const proto::Progress& progress) { progress_ = progress; }
 
   const proto::Welcome& welcome() const { return welcome_; }
   const proto::Limits& limits() const { return welcome_.limits(); }
