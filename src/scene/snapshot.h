@@ -37,14 +37,17 @@ struct Snapshot {
   /// m: largest coordinate, in the world or in an object; distances are known to a few units in its last place.
   double extent = 0;
   std::int64_t moves_until_ns = std::numeric_limits<std::int64_t>::min();  ///< after that all is at rest
-  std::uint64_t number = 1;         ///< of one server's snapshots, rising
-  bool abrupt = true;               ///< objects have come, gone or changed at once since the one before
-  std::size_t primitives = 0;                                              ///< each instance counted
+  std::uint64_t number = 1;                                                ///< of one server's snapshots, rising
+  bool abrupt = true;          ///< objects have come, gone or changed at once since the one before
+  std::size_t primitives = 0;  ///< each instance counted
   std::string name;
   std::vector<std::string> warnings;
 
   const Shape& shape(std::size_t instance = 0) const { return *instances[instance].shape; }
 };
+
+/// Holds all of an object's box when the object is at `pose`; the object's own box when they share a frame.
+Box boxAt(const Box& object, const Pose& pose);
 
 /// The surfaces as the shape's own model describes them.
 std::shared_ptr<const Surfaces> surfacesOf(const std::shared_ptr<const Shape>& shape);

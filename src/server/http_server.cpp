@@ -82,6 +82,7 @@ class HttpServer::Impl {
   struct Page {
     explicit Page(tcp::socket socket) : stream(std::move(socket)) {}
     websocket::stream<tcp::socket> stream;
+    SceneSource scene;
     bool busy = true;  // a write is under way
   };
   using PagePointer = std::shared_ptr<Page>;
@@ -157,11 +158,9 @@ class HttpServer::Impl {
 
   asio::awaitable<void> greet(PagePointer page) {
     const std::string hello = callbacks_.hello();
-    const std::shared_ptr<const std::string> scene = callbacks_.scene();
+    page->scene = callbacks_.scene();
     auto [error, bytes] = co_await page->stream.async_write(asio::buffer(hello), kUse);
-    if (error) co_return;
-    auto [failed, sent] = co_await page->stream.async_write(asio::buffer(*scene), kUse);
-    if (!failed) page->busy = false;
+    if (!error) page->busy = false;
   }
 
   // Reads until the page goes away, sends too fast or breaks the protocol.
@@ -198,9 +197,14 @@ class HttpServer::Impl {
     }
   }
 
-  asio::awaitable<void> send(PagePointer page, std::shared_ptr<const std::string> message) {
+  // What the page lacks of the scene goes first; while it is on its way the page gets no states.
+  asio::awaitable<void> send(PagePointer page, std::shared_ptr<const std::string> state) {
     page->busy = true;
-    auto [error, bytes] = co_await page->stream.async_write(asio::buffer(*message), kUse);
+    while (const auto message = page->scene()) {
+      auto [failed, sent] = co_await page->stream.async_write(asio::buffer(*message), kUse);
+      if (failed) co_return;
+    }
+    auto [error, bytes] = co_await page->stream.async_write(asio::buffer(*state), kUse);
     if (!error) page->busy = false;
   }
 

@@ -16,10 +16,13 @@ struct HttpServerSettings {
   double feed_rate_Hz = 60;
 };
 
+/// Gives one page the next message of the scene that it lacks; empty when it has everything.
+using SceneSource = std::function<std::shared_ptr<const std::string>()>;
+
 /// Called in the server's thread. The strings are complete WebSocket binary messages.
 struct FeedCallbacks {
   std::function<std::string()> hello;
-  std::function<std::shared_ptr<const std::string>()> scene;
+  std::function<SceneSource()> scene;  ///< once for each page; what it gives is asked before each state
   std::function<std::string()> state;
   std::function<void(const std::string&)> receive;  ///< one message of at most kMaxInbound_bytes from a page
 };
