@@ -63,8 +63,7 @@ bool PageMeshes::ready() {
   if (making_.valid()) return false;
   making_ = std::async(std::launch::async, [lacking = std::move(lacking)] {
     Made made;
-    for (const auto& [number, mesh] : lacking)
-      made.emplace_back(number, meshMessage(number, *mesh.shape, mesh.look));
+    for (const auto& [number, mesh] : lacking) made.emplace_back(number, meshMessage(number, *mesh.shape, mesh.look));
     return made;
   });
   return false;

@@ -59,7 +59,7 @@ bool PageScene::outdated(const PageScale& scale, std::int64_t now_ns) const {
 bool PageScene::settledElsewhere(std::int64_t now_ns) const {
   for (std::size_t i = 0; i < shown_->instances.size(); ++i) {
     const Motion& motion = shown_->instances[i].motion;
-    const bool rests = !motion.moves() || now_ns >= motion.last().end_ns();
+    const bool rests = !motion.moves() || now_ns - motion.last().end_ns() >= kSettle_ns;
     if (rests && !(motion.to() == layout_->poses[i])) return true;
   }
   return false;

@@ -36,7 +36,8 @@ struct PageScale {
 /// Used by one thread. Knows no sockets and no clock.
 class PageScene {
  public:
-  /// Objects that have come to rest away from where the layout has them wait this long for a new layout.
+  /// Objects that rest away from where the layout has them get a new layout after this time, and so do objects that
+  /// jump: no more often.
   static constexpr std::int64_t kSettle_ns = 1'000'000'000;
 
   /// For a page that has nothing yet.

@@ -109,14 +109,28 @@ TEST_F(PageSceneTest, WhatHasComeToRestGetsANewLayoutAfterAWhile) {
   const auto snapshot = makeSnapshot({instanceOf(1, small_, Motion().then(at(2), 0, 1500 * kMs))});
   scene_.follow(snapshot, kScale, 1200 * kMs);
   EXPECT_TRUE(drain(page_).empty()) << "still moving";
-  scene_.follow(snapshot, kScale, 1500 * kMs);
+  scene_.follow(snapshot, kScale, 2400 * kMs);
+  EXPECT_TRUE(drain(page_).empty()) << "it may move on with its client's next frame";
+  scene_.follow(snapshot, kScale, 2500 * kMs);
   const auto messages = drain(page_);
   ASSERT_EQ(messages.size(), 1u);
   EXPECT_EQ(poseNumber(messages[0].layout().poses(), 0, 3), 2.0f);
   EXPECT_EQ(messages[0].layout().bounds_max().x(), snapshot->bounds.max.x());
-  EXPECT_EQ(stateAt(1600 * kMs).moved_size(), 0);
+  EXPECT_EQ(stateAt(2600 * kMs).moved_size(), 0);
   scene_.follow(snapshot, kScale, 9000 * kMs);
   EXPECT_TRUE(drain(page_).empty());
+}
+
+TEST_F(PageSceneTest, WhatJumpsIsThereAtOnceAndGetsALayoutOnceASecond) {
+  show(makeSnapshot({instanceOf(1, small_)}));
+  int layouts = 0;
+  for (std::int64_t t = 0; t <= 3000; t += 20) {
+    scene_.follow(makeSnapshot({instanceOf(1, small_, Motion(at(1 + static_cast<double>(t))))}), kScale, t * kMs);
+    layouts += static_cast<int>(drain(page_).size());
+    const proto::State state = stateAt(t * kMs);
+    EXPECT_EQ(state.moved_size(), layouts > 0 && t % 1000 == 0 ? 0 : 1) << t;
+  }
+  EXPECT_EQ(layouts, 3);
 }
 
 TEST_F(PageSceneTest, ALayoutComesWhenSomethingComesOrIsRenamedOrScaled) {

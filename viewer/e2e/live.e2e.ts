@@ -6,7 +6,9 @@ import { createInterface } from "node:readline";
 import { fileURLToPath } from "node:url";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
-import { expectTidyLayout, kSizes, launch, listen, modelPixels, openSection, screenshot, states, type Complaints } from "./browser";
+import {
+  expectTidyLayout, kSizes, launch, listen, modelPixels, openSection, resize, screenshot, states, type Complaints,
+} from "./browser";
 
 const kProgram = process.env.HL_MOVING_SCENE;
 const kDist = fileURLToPath(new URL("../dist", import.meta.url));
@@ -64,11 +66,12 @@ describe.skipIf(!kProgram)("a scene that changes", () => {
     await page.waitForSelector("#empty", { state: "hidden" });
     expect(await page.evaluate(() => window.__hl.meshes)).toBe(5);
     await expect.poll(() => modelPixels(page)).toBeGreaterThan(0.02);
-    expect(await page.textContent("#model-size")).toMatch(/^5 objects, .*triangles, 12 segments, 8 points$/);
+    expect(await page.textContent("#model-size")).toMatch(/^5\sobjects, .*triangles, 12\ssegments, 8\spoints$/);
     await openSection(page, "view");
     for (const size of kSizes) {
       await expectTidyLayout(page, size);
     }
+    await resize(page, kSizes[0]);
     await screenshot(page, "live_mixed");
   });
 
@@ -106,6 +109,14 @@ describe.skipIf(!kProgram)("a scene that changes", () => {
     await screenshot(page, "live_two");
   });
 
+  test("a second page gets all of it at once", async () => {
+    const other = await browser.newPage({ viewport: kSizes[0], colorScheme: "light" });
+    await other.goto(server.url);
+    await other.waitForFunction(() => window.__hl.objects === 2 && window.__hl.meshes === 2);
+    await screenshot(other, "live_light");
+    await other.close();
+  });
+
   test("a thousand moving objects are one mesh, and a press of R shows them all", async () => {
     tell("show sphere:200 1000");
     await objects(1000);
@@ -120,14 +131,6 @@ describe.skipIf(!kProgram)("a scene that changes", () => {
     await states(page, 5);
     await page.uncheck("#edges");
     await screenshot(page, "live_thousand");
-  });
-
-  test("a second page gets all of it at once", async () => {
-    const other = await browser.newPage({ viewport: kSizes[0], colorScheme: "light" });
-    await other.goto(server.url);
-    await other.waitForFunction(() => window.__hl.objects === 1000);
-    await screenshot(other, "live_light");
-    await other.close();
   });
 
   test("a scene that empties says so again, and one of another size is fitted anew", async () => {

@@ -245,7 +245,7 @@ test("several objects are shown side by side, and the touched one has a tint", a
   await page.waitForFunction(() => window.__hl.objects === 3);
   await page.click("#reset-view");
   await atRest();
-  expect(await page.textContent("#model-size")).toMatch(/^3 objects, /);
+  expect(await page.textContent("#model-size")).toMatch(/^3\sobjects, /);
   await page.waitForFunction(() => window.__hl.touched.length === 1);
   await screenshot(page, "page_objects");
   server.place(0);

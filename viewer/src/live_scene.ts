@@ -6,6 +6,9 @@ import { ModelView } from "./model_view";
 import type { Bounds, Layout, Mesh, Moves } from "./scene_messages";
 import { SceneStore } from "./scene_store";
 
+/** About what a hand reaches to each side, m at the hand. */
+const kHandReach_m = 0.1;
+
 export interface SceneHooks {
   /** A layout came and is shown. */
   shown(store: SceneStore, layout: Layout): void;
@@ -66,6 +69,8 @@ export class LiveScene {
     this.touched_ = [];
     if (layout.bounds !== undefined && !this.begun_ && needsFit(this.fitted_, layout.bounds)) {
       this.fit(layout.bounds);
+    } else if (this.fitted_ === undefined) {
+      this.hooks_.fit(handSpace(layout.worldPerDevice));
     }
     this.begun_ = layout.bounds !== undefined;
     this.hooks_.shown(this.store_, layout);
@@ -98,4 +103,10 @@ export class LiveScene {
     this.fitted_ = bounds;
     this.hooks_.fit(bounds);
   }
+}
+
+/** What to show while there is nothing else: where the hand can be. */
+function handSpace(worldPerDevice: number): Bounds {
+  const reach = worldPerDevice > 0 ? kHandReach_m * worldPerDevice : kHandReach_m;
+  return { min: { x: -reach, y: -reach, z: -reach }, max: { x: reach, y: reach, z: reach } };
 }

@@ -10,7 +10,7 @@ import type { SettingsChange } from "./protocol";
 import type { Layout } from "./scene_messages";
 import type { Counts } from "./scene_store";
 import type { ThemeChoice } from "./theme";
-import { formatCount, formatFixed, formatScale, formatSi, kThinSpace } from "./units";
+import { formatCount, formatFixed, formatScale, formatSi, kNoBreak, kThinSpace } from "./units";
 
 export interface PanelActions {
   settings(change: SettingsChange): void;
@@ -105,13 +105,13 @@ export class Panel {
       this.showName(layout.name);
     }
     const parts: [number, string][] = [
+      [counts.objects > 1 ? counts.objects : 0, "objects"],
       [counts.triangles, "triangles"],
       [counts.segments, "segments"],
       [counts.points, "points"],
     ];
     const present = parts.filter(([count]) => count > 0);
-    const size = present.map(([count, what]) => `${formatCount(count)} ${what}`).join(", ") || "empty";
-    setText("model-size", counts.objects > 1 ? `${formatCount(counts.objects)} objects, ${size}` : size);
+    setText("model-size", present.map(([count, what]) => `${formatCount(count)}${kNoBreak}${what}`).join(", ") || "empty");
     setText("proxy-radius", formatSi(layout.proxyRadius_m, "m"));
     setText("scale", formatScale(layout.worldPerDevice));
   }
