@@ -143,6 +143,9 @@ test("the ledger: its mode, its tank, and a line for every cause", async () => {
 
 test("the key C draws friction cones, in another colour while slipping", async () => {
   await openSection(page, "view");
+  await page.check("#explore");
+  // On its way round the sphere the hand has just come to the camera's side: a cone behind the sphere is not seen.
+  await page.waitForFunction(() => window.__hl.proxy!.x < 0 && window.__hl.proxy!.z > 0.03);
   await page.uncheck("#explore");
   await page.uncheck("#cones");
   server.slipping = false;
