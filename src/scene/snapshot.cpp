@@ -13,16 +13,6 @@ void addSphere(Box& box, const Vec3& centre, double radius) {
   box.extend(centre + Vec3::Constant(radius));
 }
 
-Box boxAt(const Box& object, const Pose& pose) {
-  if (pose == Pose{}) return object;
-  const Vec3 centre = pose.toWorld(object.centre());
-  const Vec3 half = pose.rotation.cwiseAbs() * (0.5 * object.size());
-  Box box;
-  box.extend(centre - half);
-  box.extend(centre + half);
-  return box;
-}
-
 // While it moves: the sphere about its box moves with a centre that strays from its two ends by no more than their
 // distance, as a turn is at most half a circle and the axis of a screw is straight.
 void addWay(Box& reach, const Box& object, const Screw& way) {
@@ -48,6 +38,16 @@ double largestCoordinate(const Box& box) {
 }
 
 }  // namespace
+
+Box boxAt(const Box& object, const Pose& pose) {
+  if (object.empty() || pose == Pose{}) return object;
+  const Vec3 centre = pose.toWorld(object.centre());
+  const Vec3 half = pose.rotation.cwiseAbs() * (0.5 * object.size());
+  Box box;
+  box.extend(centre - half);
+  box.extend(centre + half);
+  return box;
+}
 
 std::shared_ptr<const Surfaces> surfacesOf(const std::shared_ptr<const Shape>& shape) {
   auto surfaces = std::make_shared<Surfaces>();

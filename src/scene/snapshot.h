@@ -47,6 +47,9 @@ struct Snapshot {
   const Shape& shape(std::size_t instance = 0) const { return *instances[instance].shape; }
 };
 
+/// Holds all of an object's box when the object is at `pose`; the object's own box when they share a frame.
+Box boxAt(const Box& object, const Pose& pose);
+
 /// The surfaces as the shape's own model describes them.
 std::shared_ptr<const Surfaces> surfacesOf(const std::shared_ptr<const Shape>& shape);
 

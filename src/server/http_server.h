@@ -26,10 +26,13 @@ struct HttpServerSettings {
   Limits limits{};
 };
 
+/// Gives one page the next message of the scene that it lacks; empty when it has everything.
+using SceneSource = std::function<std::shared_ptr<const std::string>()>;
+
 /// Called in the server's thread. The strings are complete WebSocket binary messages.
 struct FeedCallbacks {
   std::function<std::string()> hello;
-  std::function<std::shared_ptr<const std::string>()> scene;
+  std::function<SceneSource()> scene;  ///< once for each page; what it gives is asked before each state
   std::function<std::string()> state;
   std::function<void(const std::string&)> receive;  ///< one message of at most Limits::page_message_bytes from a page
 };

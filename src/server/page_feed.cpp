@@ -49,10 +49,9 @@ asio::awaitable<void> PageFeed::serve(ConnectionPointer connection, http::reques
 }
 
 asio::awaitable<void> PageFeed::greet(PagePointer page) {
+  page->scene = callbacks_.scene();
   const bool greeted = co_await write(page, std::make_shared<const std::string>(callbacks_.hello()));
-  if (!greeted) co_return;
-  const bool shown = co_await write(page, callbacks_.scene());
-  page->busy = !shown;
+  page->busy = !greeted;
 }
 
 // Reads until the page goes away, sends too fast or breaks the protocol.
@@ -88,15 +87,19 @@ asio::awaitable<void> PageFeed::feed() {
     for (const PagePointer& page : pages_) {
       if (page->busy) continue;
       page->busy = true;
-      asio::co_spawn(
-          context_,
-          [this, page, state]() -> asio::awaitable<void> {
-            const bool sent = co_await write(page, state);
-            page->busy = !sent;
-          },
-          asio::detached);
+      asio::co_spawn(context_, send(page, state), asio::detached);
     }
   }
+}
+
+// What the page lacks of the scene goes first; while it is on its way the page gets no states.
+asio::awaitable<void> PageFeed::send(PagePointer page, std::shared_ptr<const std::string> state) {
+  while (const auto message = page->scene()) {
+    const bool sent = co_await write(page, message);
+    if (!sent) co_return;
+  }
+  const bool sent = co_await write(page, state);
+  page->busy = !sent;
 }
 
 asio::awaitable<bool> PageFeed::write(PagePointer page, std::shared_ptr<const std::string> message) {

@@ -42,6 +42,7 @@ class PageFeed {
     explicit Page(ConnectionPointer owner) : connection(std::move(owner)), stream(connection->stream) {}
     ConnectionPointer connection;
     boost::beast::websocket::stream<Stream&> stream;
+    SceneSource scene;
     bool busy = true;  // a write is under way
   };
   using PagePointer = std::shared_ptr<Page>;
@@ -49,6 +50,7 @@ class PageFeed {
   boost::asio::awaitable<void> feed();
   boost::asio::awaitable<void> greet(PagePointer page);
   boost::asio::awaitable<void> listen(PagePointer page);
+  boost::asio::awaitable<void> send(PagePointer page, std::shared_ptr<const std::string> state);
   boost::asio::awaitable<bool> write(PagePointer page, std::shared_ptr<const std::string> message);
 
   boost::asio::io_context& context_;

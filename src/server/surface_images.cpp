@@ -1,5 +1,6 @@
 #include "server/surface_images.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -11,15 +12,16 @@ namespace {
 
 constexpr std::size_t kMostTexels = std::size_t{16} << 20;
 
-std::uint32_t shownTexture(const Model& model, const Material& material) {
+std::shared_ptr<const Texture> shownTexture(const Material& material, const Surfaces& surfaces) {
   constexpr std::array<Quantity, kQuantities> kOrder{Quantity::kHeight, Quantity::kStaticFriction,
                                                      Quantity::kDynamicFriction, Quantity::kViscosity,
                                                      Quantity::kStiffness};
   for (const Quantity quantity : kOrder) {
     const TextureUse& use = material.textureOf(quantity);
-    if (use.used() && model.textures[use.texture].texels.size() <= kMostTexels) return use.texture;
+    if (use.used() && surfaces.textures[use.texture]->texels.size() <= kMostTexels)
+      return surfaces.textures[use.texture];
   }
-  return TextureUse::kNone;
+  return nullptr;
 }
 
 std::uint32_t addImage(const Texture& texture, proto::SceneMesh& mesh) {
@@ -45,9 +47,18 @@ void addTexcoords(const Model& model, proto::SceneMesh& mesh) {
 
 }  // namespace
 
-void addSurfaceImages(const Model& model, proto::SceneMesh& mesh) {
-  if (model.texcoords.empty()) return;
-  std::map<std::uint32_t, std::uint32_t> image_of_texture;
+Look lookOf(const Shape& shape, const Surfaces& surfaces) {
+  if (shape.model.texcoords.empty() || surfaces.textures.empty()) return {};
+  Look look;
+  for (std::size_t i = 0; i < shape.model.materials.size(); ++i)
+    look.push_back(shownTexture(surfaces.materials[i], surfaces));
+  const bool plain = std::all_of(look.begin(), look.end(), [](const auto& texture) { return !texture; });
+  return plain ? Look{} : look;
+}
+
+void addSurfaceImages(const Model& model, const Look& look, proto::SceneMesh& mesh) {
+  if (look.empty()) return;
+  std::map<const Texture*, std::uint32_t> image_of_texture;
   proto::SurfacePart* part = nullptr;
   std::size_t of_part = 0;  // material of the part in hand
   for (std::size_t i = 0; i < model.triangles.size(); ++i) {
@@ -57,10 +68,10 @@ void addSurfaceImages(const Model& model, proto::SceneMesh& mesh) {
       continue;
     }
     part = nullptr;
-    const std::uint32_t texture = shownTexture(model, model.materials[material]);
-    if (texture == TextureUse::kNone) continue;
+    const Texture* texture = look[material].get();
+    if (texture == nullptr) continue;
     const auto [image, fresh] = image_of_texture.try_emplace(texture);
-    if (fresh) image->second = addImage(model.textures[texture], mesh);
+    if (fresh) image->second = addImage(*texture, mesh);
     part = mesh.add_parts();
     part->set_first_triangle(static_cast<std::uint32_t>(i));
     part->set_triangles(1);

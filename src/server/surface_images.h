@@ -3,13 +3,19 @@
 
 #include <hl.pb.h>
 
-#include "scene/model.h"
+#include <memory>
+#include <vector>
+
+#include "scene/snapshot.h"
 
 namespace hl {
 
-/// Adds texture coordinates, images and parts to a scene that is sent to a page; nothing when no surface is textured.
-/// Of a material's textures the first of height, frictions, viscosity and stiffness is shown; images of more than
-/// 16 million texels are not.
-void addSurfaceImages(const Model& model, proto::SceneMesh& mesh);
+/// The texture that each material of a shape shows, or none: of its textures the first of height, frictions, viscosity
+/// and stiffness. Images of more than 16 million texels are not shown. Empty when no material shows any.
+using Look = std::vector<std::shared_ptr<const Texture>>;
+Look lookOf(const Shape& shape, const Surfaces& surfaces);
+
+/// Adds texture coordinates, images and parts to a mesh that is sent to a page; nothing for an empty look.
+void addSurfaceImages(const Model& model, const Look& look, proto::SceneMesh& mesh);
 
 }  // namespace hl

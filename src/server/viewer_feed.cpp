@@ -2,34 +2,18 @@
 
 #include <hl.pb.h>
 
-#include <cstring>
-#include <vector>
+#include <span>
 
+#include "base/clock.h"
 #include "server/feed_messages.h"
-#include "server/surface_images.h"
+#include "server/page_scene.h"
 
 namespace hl {
 
 namespace {
 
-constexpr std::uint32_t kProtocolVersion = 1;
+constexpr std::uint32_t kProtocolVersion = 2;
 constexpr int kMaxSamples = 100;
-
-template <typename T>
-std::string bytesOf(const std::vector<T>& values) {
-  std::string bytes(values.size() * sizeof(T), '\0');
-  if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
-  return bytes;
-}
-
-std::string floatsOf(const std::vector<Vec3>& points) {
-  std::vector<float> values;
-  values.reserve(3 * points.size());
-  for (const Vec3& p : points) {
-    for (int i = 0; i < 3; ++i) values.push_back(static_cast<float>(p[i]));
-  }
-  return bytesOf(values);
-}
 
 std::string hello(const TouchSession& session, const std::string& version) {
   proto::ServerMessage message;
@@ -41,26 +25,6 @@ std::string hello(const TouchSession& session, const std::string& version) {
   return message.SerializeAsString();
 }
 
-std::string sceneMesh(const TouchSession& session) {
-  const std::shared_ptr<const Snapshot> scene = session.snapshot();
-  const Snapshot& snapshot = *scene;
-  proto::ServerMessage message;
-  proto::SceneMesh& out = *message.mutable_scene();
-  if (snapshot.instances.empty()) return message.SerializeAsString();
-  out.set_name(snapshot.shape().model.name);
-  out.set_positions(floatsOf(snapshot.shape().model.positions));
-  out.set_normals(floatsOf(snapshot.shape().model.normals));
-  out.set_triangles(bytesOf(snapshot.shape().model.triangles));
-  out.set_segments(bytesOf(snapshot.shape().model.segments));
-  out.set_points(bytesOf(snapshot.shape().model.points));
-  if (!snapshot.bounds.empty()) {
-    toProto(snapshot.bounds.min, *out.mutable_bounds_min());
-    toProto(snapshot.bounds.max, *out.mutable_bounds_max());
-  }
-  out.set_proxy_radius(session.radius_W());
-  out.set_world_per_device(session.workspace().world_per_device);
-  addSurfaceImages(snapshot.shape().model, out);
-  return message.SerializeAsString();
 }
 
 void setSamples(proto::State& state, TouchSession& session) {
@@ -95,7 +59,7 @@ MaterialOverride surfacesOf(const proto::Surfaces& in) {
   return surfaces;
 }
 
-std::string state(TouchSession& session) {
+std::string state(TouchSession& session, PageScene& scene) {
   ServoView servo;
   ProxyView proxy;
   session.views(servo, proxy);
@@ -118,6 +82,10 @@ std::string state(TouchSession& session) {
   toProto(proxy.ledger, servo.late, session.ledger(), *out.mutable_ledger());
   setSurfaces(*out.mutable_surfaces(), session.surfaces());
   out.set_slipping(proxy.slipping);
+  out.set_buttons(servo.buttons);
+  const std::int64_t now_ns = monotonicNow_ns();
+  scene.follow(session.snapshot(), {session.radius_W(), session.workspace().world_per_device}, now_ns);
+  scene.describe(out, std::span(proxy.touched.begin(), proxy.touched.end()), now_ns);
   return message.SerializeAsString();
 }
 
@@ -160,9 +128,13 @@ void receive(TouchSession& session, const std::string& bytes) {
 }  // namespace
 
 FeedCallbacks makeViewerFeed(TouchSession& session, const std::string& version) {
-  auto mesh = std::make_shared<const std::string>(sceneMesh(session));
-  return {[&session, version] { return hello(session, version); }, [mesh] { return mesh; },
-          [&session] { return state(session); }, [&session](const std::string& bytes) { receive(session, bytes); }};
+  const auto scene = std::make_shared<PageScene>();
+  const auto openPage = [scene] {
+    return [scene, memory = std::make_shared<PageMemory>(scene->open())] { return scene->next(*memory); };
+  };
+  return {[&session, version] { return hello(session, version); }, openPage,
+          [&session, scene] { return state(session, *scene); },
+          [&session](const std::string& bytes) { receive(session, bytes); }};
 }
 
 }  // namespace hl

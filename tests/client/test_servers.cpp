@@ -182,7 +182,7 @@ TEST(Servers, TheNetworkFeelsTheSameToTheBit) {
   http.port = 0;
   FeedCallbacks pages;
   pages.hello = pages.state = [] { return std::string(); };
-  pages.scene = [] { return std::make_shared<const std::string>(); };
+  pages.scene = [] { return SceneSource([] { return std::shared_ptr<const std::string>(); }); };
   pages.receive = [](const std::string&) {};
   HttpServer listener(http, pages, server.get());
   listener.start();

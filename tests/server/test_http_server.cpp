@@ -7,6 +7,7 @@
 #include <boost/asio.hpp>
 #include <boost/beast.hpp>
 #include <string>
+#include <utility>
 
 #include "base/error.h"
 
@@ -22,9 +23,12 @@ class HttpServerTest : public testing::Test {
  protected:
   HttpServerTest()
       : server_({0, "/nonexistent", 200},
-                {[] { return std::string("hello"); }, [] { return std::make_shared<const std::string>("scene"); },
-                 [] { return std::string("state"); }, [this](const std::string& m) { received_ += m.size(); }}) {
+                {[] { return std::string("hello"); }, [] { return sceneOnce(); }, [] { return std::string("state"); },
+                 [this](const std::string& m) { received_ += m.size(); }}) {
     server_.start();
+  }
+  static SceneSource sceneOnce() {
+    return [left = std::make_shared<const std::string>("scene")]() mutable { return std::exchange(left, nullptr); };
   }
   std::string host() const { return "127.0.0.1:" + std::to_string(server_.port()); }
 

@@ -143,6 +143,9 @@ test("the ledger: its mode, its tank, and a line for every cause", async () => {
 
 test("the key C draws friction cones, in another colour while slipping", async () => {
   await openSection(page, "view");
+  await page.check("#explore");
+  // On its way round the sphere the hand has just come to the camera's side: a cone behind the sphere is not seen.
+  await page.waitForFunction(() => window.__hl.proxy!.x < 0 && window.__hl.proxy!.z > 0.03);
   await page.uncheck("#explore");
   await page.uncheck("#cones");
   server.slipping = false;
@@ -235,6 +238,43 @@ test("right-drag, Shift-drag and, when chosen, drags on empty space orbit the ca
   expect(await drag("left")).toBeLessThan(0.5);
   expect(server.received.map(({ body }) => body.case)).toContain("handGoal");
   await page.click("#reset-view");
+});
+
+test("several objects are shown side by side, and the touched one has a tint", async () => {
+  await openSection(page, "view");
+  await page.uncheck("#cones");
+  server.explore = true;
+  server.place(3);
+  await page.waitForFunction(() => window.__hl.objects === 3);
+  await page.click("#reset-view");
+  await atRest();
+  expect(await page.textContent("#model-size")).toMatch(/^3\sobjects, /);
+  await page.waitForFunction(() => window.__hl.touched.length === 1);
+  await screenshot(page, "page_objects");
+  server.place(0);
+  await page.waitForSelector("#empty:visible");
+  for (const size of kSizes) {
+    await expectTidyLayout(page, size);
+  }
+  await resize(page, kSizes[0]);
+  await screenshot(page, "page_empty");
+  server.place(1);
+  await page.waitForSelector("#empty", { state: "hidden" });
+  await page.click("#reset-view");
+});
+
+test("the device's buttons appear when one is pressed, and say which are down", async () => {
+  expect(await page.locator("#buttons:visible").count()).toBe(0);
+  server.buttons = 0b10;
+  await page.waitForSelector("#buttons:visible");
+  expect(await page.locator("#buttons .lamp").allTextContents()).toEqual(["1", "2"]);
+  expect(await page.locator("#buttons .lamp.down").allTextContents()).toEqual(["2"]);
+  for (const size of kSizes) {
+    await expectTidyLayout(page, size);
+  }
+  await resize(page, kSizes[0]);
+  server.buttons = 0;
+  await expect.poll(() => page.locator("#buttons .lamp.down").count()).toBe(0);
 });
 
 test("a fault shows its reason and can be re-armed", async () => {

@@ -6,8 +6,10 @@ import { spawn, type ChildProcess } from "node:child_process";
 import { createInterface } from "node:readline";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
-import { decodeServerMessage, knownVec, type Scene } from "../src/protocol";
+import { decodeServerMessage } from "../src/protocol";
+import type { Layout, Mesh } from "../src/scene_messages";
 import { length, sub, type Vec } from "../src/vec";
+import { knownVec } from "../src/wire_values";
 import { distanceToTriangles } from "../test-support/closest_point";
 import {
   expectTidyLayout, kSizes, launch, listen, modelPixels, openSection, resize, screenshot, states, type Complaints,
@@ -48,9 +50,10 @@ function ended(child: ChildProcess): Promise<number | null> {
     : new Promise((resolve) => child.once("exit", (code) => resolve(code)));
 }
 
-/** The scene and every proxy and finger that came over the wire. */
+/** The scene, whose one object's frame is the world, and every proxy and finger that came over the wire. */
 class WireTap {
-  scene: Scene | undefined;
+  mesh: Mesh | undefined;
+  layout: Layout | undefined;
   readonly proxies: Vec[] = [];
   deepest_m = 0;
 
@@ -62,8 +65,10 @@ class WireTap {
 
   private read(payload: Buffer): void {
     const message = decodeServerMessage(new Uint8Array(payload));
-    if (message.kind === "scene") {
-      this.scene = message.scene;
+    if (message.kind === "mesh") {
+      this.mesh = message.mesh;
+    } else if (message.kind === "layout") {
+      this.layout = message.layout;
     } else if (message.kind === "state") {
       const proxy = knownVec(message.state.proxy);
       const finger = knownVec(message.state.finger);
@@ -127,7 +132,7 @@ describe.skipIf(!kProgram)("hl touch teapot", () => {
     const peak = await page.evaluate((since_s) => window.__hl.peak(window.__hl.time_s! - since_s), began_s);
     expect(peak.force_N).toBeGreaterThan(0.5);
     expect(peak.penetration_m).toBeGreaterThan(1e-4);
-    expect(tap.deepest_m).toBeGreaterThan(tap.scene!.proxyRadius_m);
+    expect(tap.deepest_m).toBeGreaterThan(tap.layout!.proxyRadius_m);
     await page.mouse.up();
     expectOutside(tap, first);
   });
@@ -230,7 +235,8 @@ const kProxiesMax = 400;
 
 /** The proxies since `first` keep their radius from every triangle. */
 function expectOutside(tap: WireTap, first: number): void {
-  const { positions, triangles, proxyRadius_m } = tap.scene!;
+  const { positions, triangles } = tap.mesh!;
+  const { proxyRadius_m } = tap.layout!;
   const since = tap.proxies.slice(first);
   expect(since.length).toBeGreaterThan(30);
   const every = Math.ceil(since.length / kProxiesMax);

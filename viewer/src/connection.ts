@@ -1,8 +1,9 @@
 // The WebSocket to the server: decodes what comes, and comes back by itself after a loss. The timing rules are in
 // reconnect.ts; this file only turns them into sockets and timers.
 
-import { decodeServerMessage, ProtocolError, type Incoming } from "./protocol";
+import { decodeServerMessage, type Incoming } from "./protocol";
 import { liveness, ReconnectPolicy } from "./reconnect";
+import { ProtocolError } from "./wire_values";
 
 export type LinkState = "connecting" | "live" | "silent" | "lost";
 

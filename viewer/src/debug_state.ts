@@ -2,14 +2,16 @@
 
 import { LedgerMode, SafetyState, type State } from "./gen/hl_pb";
 import type { LinkState } from "./connection";
-import { knownVec, type Scene } from "./protocol";
+import type { LiveScene } from "./live_scene";
 import type { SampleRing } from "./samples";
 import { settingsOf, type SurfaceSettings } from "./surfaces";
 import { length, sub, type Vec } from "./vec";
+import { kPoseNumbers } from "./scene_messages";
+import { knownVec } from "./wire_values";
 
 export interface DebugSources {
   link(): LinkState;
-  scene(): Scene | undefined;
+  scene(): LiveScene;
   state(): State | undefined;
   samples(): SampleRing;
   holding(): boolean;
@@ -19,7 +21,14 @@ export interface DebugSources {
 export interface DebugState {
   readonly link: LinkState;
   readonly sceneName: string | undefined;
+  /** Of all objects in the scene, each counted. */
   readonly triangles: number;
+  readonly objects: number;
+  /** Kinds of objects that the page keeps. */
+  readonly meshes: number;
+  readonly layout: number | undefined;
+  /** Indices of the objects that are touched. */
+  readonly touched: readonly number[];
   readonly boundsMin: Vec | undefined;
   readonly boundsMax: Vec | undefined;
   readonly proxyRadius_m: number | undefined;
@@ -38,6 +47,8 @@ export interface DebugState {
   readonly ledger: string;
   readonly holding: boolean;
   readonly samples: number;
+  /** Where the origin of an object is now. */
+  originOf(object: number): Vec;
   /** Largest force and penetration among the samples of the last `window_s` seconds. */
   peak(window_s: number): { force_N: number; penetration_m: number };
   /** Where a world point is on the canvas, CSS pixels, and how far along the view. */
@@ -57,12 +68,16 @@ export function publishDebugState(sources: DebugSources): void {
 function makeDebugState(sources: DebugSources): DebugState {
   return {
     get link() { return sources.link(); },
-    get sceneName() { return sources.scene()?.name; },
-    get triangles() { return (sources.scene()?.triangles.length ?? 0) / 3; },
-    get boundsMin() { return sources.scene()?.boundsMin; },
-    get boundsMax() { return sources.scene()?.boundsMax; },
-    get proxyRadius_m() { return sources.scene()?.proxyRadius_m; },
-    get worldPerDevice() { return sources.scene()?.worldPerDevice; },
+    get sceneName() { return sources.scene().layout?.name; },
+    get triangles() { return sources.scene().store.counts().triangles; },
+    get objects() { return sources.scene().store.counts().objects; },
+    get meshes() { return sources.scene().store.meshes.size; },
+    get layout() { return sources.scene().layout?.number; },
+    get touched() { return sources.scene().touched; },
+    get boundsMin() { return sources.scene().layout?.bounds?.min; },
+    get boundsMax() { return sources.scene().layout?.bounds?.max; },
+    get proxyRadius_m() { return sources.scene().layout?.proxyRadius_m; },
+    get worldPerDevice() { return sources.scene().layout?.worldPerDevice; },
     get time_s() { return sources.state()?.timeS; },
     get finger() { return knownVec(sources.state()?.finger); },
     get proxy() { return knownVec(sources.state()?.proxy); },
@@ -79,6 +94,10 @@ function makeDebugState(sources: DebugSources): DebugState {
     get exploring() { return sources.state()?.exploring ?? false; },
     get holding() { return sources.holding(); },
     get samples() { return sources.samples().size; },
+    originOf: (object) => {
+      const [x, y, z] = [3, 7, 11].map((i) => sources.scene().store.poses[kPoseNumbers * object + i] ?? NaN);
+      return { x: x!, y: y!, z: z! };
+    },
     peak: (window_s) => {
       const ring = sources.samples();
       const from_s = (ring.latestTime ?? 0) - window_s;

@@ -5,8 +5,8 @@ import * as THREE from "three";
 import { coneShape, forceShares } from "./cone_shape";
 import type { ContactPlane } from "./gen/hl_pb";
 import { overlay } from "./overlay";
-import { knownVec } from "./protocol";
 import { themeColour } from "./theme";
+import { knownVec } from "./wire_values";
 
 const kMost = 8;
 /** Shortest side as a share of the model's diagonal: the cone of a light touch would hide inside the proxy. */

@@ -5,24 +5,29 @@ import "./style.css";
 import { Connection, type LinkState } from "./connection";
 import { publishDebugState } from "./debug_state";
 import { element } from "./elements";
+import { showEmptyHint } from "./empty_hint";
 import type { Hello, State } from "./gen/hl_pb";
 import { depthOf, metresPerPixel } from "./hand_mapping";
 import { HandInput } from "./hand_input";
+import { diagonalOf } from "./fit";
 import { LedgerPanel } from "./ledger_panel";
-import { ModelView } from "./model_view";
+import { LiveScene } from "./live_scene";
 import { Notices } from "./notices";
 import { Panel } from "./panel";
 import { kWindow_s, LivePlot } from "./plots";
 import { ProbeView } from "./probe_view";
 import {
-  encodeHandGoal, encodeRearm, encodeRelease, encodeSettings, knownVec, kProtocolVersion,
-  type Incoming, type Scene, type SettingsChange,
+  encodeHandGoal, encodeRearm, encodeRelease, encodeSettings, kProtocolVersion,
+  type Incoming, type SettingsChange,
 } from "./protocol";
 import { SampleRing } from "./samples";
+import type { Bounds, Layout } from "./scene_messages";
+import type { SceneStore } from "./scene_store";
 import { Stage, type Insets } from "./stage";
 import { SurfacePanel } from "./surface_panel";
 import { ThemeSwitch } from "./theme";
 import { length } from "./vec";
+import { knownVec } from "./wire_values";
 
 const kPlotPeriod_ms = 50;
 /** Numbers that change faster than this cannot be read. */
@@ -35,7 +40,10 @@ const kGrabRadius_px = 30;
 
 class App {
   private readonly stage_ = new Stage(element<HTMLCanvasElement>("canvas"));
-  private readonly model_ = new ModelView();
+  private readonly live_ = new LiveScene({
+    shown: (store, layout) => this.showLayout(store, layout),
+    fit: (bounds) => this.fit(bounds),
+  });
   private readonly probe_ = new ProbeView();
   private readonly notices_ = new Notices();
   private readonly samples_ = new SampleRing(kSampleCapacity, 2);
@@ -61,7 +69,6 @@ class App {
   private readonly ledgerPanel_: LedgerPanel;
   private readonly theme_: ThemeSwitch;
   private readonly connection_: Connection;
-  private scene_: Scene | undefined;
   private state_: State | undefined;
   private serverVersion_: string | undefined;
   private stateFresh_ = false;
@@ -69,7 +76,7 @@ class App {
   private lastNumbers_ms_ = 0;
 
   constructor() {
-    this.stage_.scene.add(this.model_.group, this.probe_.group);
+    this.stage_.scene.add(this.live_.model.group, this.probe_.group);
     this.hand_ = this.makeHand();
     this.panel_ = this.makePanel();
     this.surfacePanel_ = new SurfacePanel((change) => this.tell(change));
@@ -86,7 +93,7 @@ class App {
     });
     publishDebugState({
       link: () => this.connection_.state,
-      scene: () => this.scene_,
+      scene: () => this.live_,
       state: () => this.state_,
       samples: () => this.samples_,
       holding: () => this.hand_.holding,
@@ -100,7 +107,7 @@ class App {
       finger: () => (this.connection_.state === "live" ? knownVec(this.state_?.finger) : undefined),
       goal: (position) => this.connection_.send(encodeHandGoal(position)),
       release: () => this.connection_.send(encodeRelease()),
-      isTarget: (x_px, y_px) => this.isNearHand(x_px, y_px) || this.model_.isHit(this.stage_.rayAt(x_px, y_px)),
+      isTarget: (x_px, y_px) => this.isNearHand(x_px, y_px) || this.live_.model.isHit(this.stage_.rayAt(x_px, y_px)),
     });
   }
 
@@ -111,10 +118,10 @@ class App {
       theme: (choice) => this.theme_.choose(choice),
       planes: (shown) => this.probe_.setPlanesShown(shown),
       cones: (shown) => this.probe_.cones.setShown(shown),
-      edges: (shown) => this.model_.setEdges(shown),
-      flat: (flat) => this.model_.setFlat(flat),
+      edges: (shown) => this.live_.model.setEdges(shown),
+      flat: (flat) => this.live_.model.setFlat(flat),
       orbitFromEmpty: (on) => (this.hand_.orbitFromEmpty = on),
-      resetView: () => this.stage_.resetView(),
+      resetView: () => this.live_.refit(),
     });
   }
 
@@ -127,10 +134,17 @@ class App {
       case "hello":
         this.greet(message.hello);
         break;
-      case "scene":
-        this.showScene(message.scene);
+      case "mesh":
+        this.live_.add(message.mesh);
+        break;
+      case "layout":
+        this.live_.setLayout(message.layout);
+        break;
+      case "forget":
+        this.live_.forget(message.meshes);
         break;
       case "state":
+        this.live_.take(message.state, message.moves);
         this.takeState(message.state);
         break;
       case "notice":
@@ -146,6 +160,7 @@ class App {
     const renewed = this.serverVersion_ !== undefined && this.serverVersion_ !== hello.serverVersion;
     this.notices_.stand("version", other || renewed ? "The server has another version. Reload this page." : undefined);
     this.serverVersion_ = hello.serverVersion;
+    this.live_.clear();
     this.panel_.showHello(hello);
     this.surfacePanel_.forget();
     this.ledgerPanel_.forget();
@@ -155,17 +170,18 @@ class App {
     this.energy_.clear();
   }
 
-  /** The camera stays where the user put it when the same scene comes again after a reconnect. */
-  private showScene(scene: Scene): void {
-    const old = this.scene_;
-    const same = old !== undefined && sameBounds(old, scene);
-    this.scene_ = scene;
-    this.model_.setScene(scene);
-    this.probe_.setScene(diagonal(scene), scene.proxyRadius_m);
-    this.panel_.showScene(scene);
-    if (!same) {
-      this.stage_.setBounds(scene.boundsMin, scene.boundsMax);
+  private showLayout(store: SceneStore, layout: Layout): void {
+    this.probe_.setRadius(layout.proxyRadius_m);
+    this.panel_.showLayout(layout, store.counts());
+    showEmptyHint(layout.placed.length === 0);
+    if (layout.bounds !== undefined) {
+      this.stage_.lowerFloor(layout.bounds.min.y);
     }
+  }
+
+  private fit(bounds: Bounds): void {
+    this.stage_.setBounds(bounds.min, bounds.max);
+    this.probe_.setDiagonal(diagonalOf(bounds));
   }
 
   private takeState(state: State): void {
@@ -199,6 +215,7 @@ class App {
   private frame(now_ms: number): void {
     requestAnimationFrame((next_ms) => this.frame(next_ms));
     this.hand_.frame();
+    this.live_.frame();
     this.showProbe();
     this.stage_.draw();
     if (this.stateFresh_ && now_ms - this.lastPlot_ms_ >= kPlotPeriod_ms) {
@@ -246,7 +263,7 @@ class App {
 
   private applyTheme(): void {
     this.stage_.applyTheme();
-    this.model_.applyTheme();
+    this.live_.model.applyTheme();
     this.probe_.applyTheme();
     Object.values(this.plots_).forEach((plot) => plot.applyTheme());
   }
@@ -267,16 +284,6 @@ function freeInsets(): Insets {
   return beside
     ? { left: controls.right - view.left, right: view.right - readouts.left, top: 0, bottom: 24 }
     : { left: 0, right: 0, top: 0, bottom: 0 };
-}
-
-function diagonal(scene: Scene): number {
-  const { boundsMin: low, boundsMax: high } = scene;
-  return Math.max(1e-6, length({ x: high.x - low.x, y: high.y - low.y, z: high.z - low.z }));
-}
-
-function sameBounds(a: Scene, b: Scene): boolean {
-  const numbers = (s: Scene) => [...Object.values(s.boundsMin), ...Object.values(s.boundsMax)];
-  return numbers(a).every((value, i) => value === numbers(b)[i]);
 }
 
 new App();

@@ -1,62 +1,95 @@
-// The touched model in three.js: a surface in studio grey, its mesh edges on request, and its segments and points.
-// All parts share one vertex buffer.
+// Everything that can be touched, in three.js: a view for each mesh, told of its places by the layout and moved by the
+// states. What the proxy touches has a tint, when there is more than one object to tell apart.
 
 import * as THREE from "three";
-import type { Scene } from "./protocol";
-import { orientTowardNormals } from "./winding";
-import { imageTexture } from "./image_texture";
+import { MeshView, type Palette } from "./mesh_view";
+import type { Bounds, Layout, Mesh } from "./scene_messages";
 import { themeColour } from "./theme";
 
 /** Above this, drawing every mesh edge would only fill the screen and the memory. */
 const kEdgesMaxTriangles = 2_000_000;
 const kPointSize_px = 4;
 
+interface Placed {
+  readonly view: MeshView;
+  readonly place: number;
+}
+
 export class ModelView {
   readonly group = new THREE.Group();
-  /** The plain one, then one for each texture of the scene. */
-  private surfaces_: THREE.MeshStandardMaterial[] = [surfaceMaterial()];
-  private readonly edges_ = new THREE.MeshBasicMaterial({ wireframe: true, transparent: true, opacity: 0.22 });
-  private readonly lines_ = new THREE.LineBasicMaterial();
-  private readonly points_ = new THREE.PointsMaterial({ size: kPointSize_px, sizeAttenuation: false });
-  private surfaceMesh_: THREE.Mesh | undefined;
-  private edgeMesh_: THREE.Mesh | undefined;
-  private hasNormals_ = false;
+  private readonly views_ = new Map<number, MeshView>();
+  private readonly palette_: Palette = makePalette();
+  /** By index into the layout; undefined where its mesh is not known. */
+  private placed_: (Placed | undefined)[] = [];
+  private touched_: readonly number[] = [];
+  private triangles_ = 0;
   private flat_ = false;
   private showEdges_ = false;
 
-  get triangles(): number {
-    return (this.surfaceMesh_?.geometry.index?.count ?? 0) / 3;
+  add(mesh: Mesh): void {
+    this.drop(mesh.number);
+    const view = new MeshView(mesh, this.palette_);
+    view.setFlat(this.flat_);
+    this.views_.set(mesh.number, view);
+    this.group.add(view.group);
   }
 
-  setScene(scene: Scene): void {
-    this.clear();
-    const position = new THREE.BufferAttribute(scene.positions, 3);
-    this.hasNormals_ = scene.normals !== undefined;
-    if (scene.triangles.length > 0) {
-      const geometry = indexed(position, scene.triangles);
-      if (scene.normals !== undefined) {
-        orientTowardNormals(scene.positions, scene.normals, scene.triangles);
-        geometry.setAttribute("normal", new THREE.BufferAttribute(scene.normals, 3));
+  forget(meshes: readonly number[]): void {
+    meshes.forEach((number) => this.drop(number));
+  }
+
+  clear(): void {
+    this.forget([...this.views_.keys()]);
+    this.placed_ = [];
+    this.touched_ = [];
+    this.triangles_ = 0;
+  }
+
+  setLayout(layout: Layout, poses: Float32Array): void {
+    this.mark(this.touched_, false);
+    this.touched_ = [];
+    const counts = new Map<MeshView, number>();
+    this.placed_ = layout.placed.map(({ mesh }) => {
+      const view = this.views_.get(mesh);
+      if (view === undefined) {
+        return undefined;
       }
-      this.surfaceMesh_ = new THREE.Mesh(geometry, this.surfaces_[0]!);
-      this.showLooks(scene, geometry);
-      this.group.add(this.surfaceMesh_);
+      const place = counts.get(view) ?? 0;
+      counts.set(view, place + 1);
+      return { view, place };
+    });
+    this.triangles_ = 0;
+    for (const view of this.views_.values()) {
+      const count = counts.get(view) ?? 0;
+      view.setCount(count);
+      this.triangles_ += view.triangles * count;
     }
-    if (scene.segments.length > 0) {
-      this.group.add(new THREE.LineSegments(indexed(position, scene.segments), this.lines_));
-    }
-    if (scene.points.length > 0) {
-      this.group.add(new THREE.Points(indexed(position, scene.points), this.points_));
-    }
-    this.applyShading();
+    this.move(layout.placed.keys(), poses);
     this.applyEdges();
-    this.applyTheme();
+  }
+
+  /** Objects of the layout take the poses they have in `poses`. */
+  move(indices: Iterable<number>, poses: Float32Array): void {
+    for (const i of indices) {
+      const placed = this.placed_[i];
+      placed?.view.setPose(placed.place, poses, i);
+    }
+  }
+
+  /** Shows which objects of the layout are touched, and which are no more. */
+  setTouched(indices: readonly number[]): void {
+    const now = this.placed_.length > 1 ? indices : [];
+    if (now.length !== this.touched_.length || now.some((index, i) => index !== this.touched_[i])) {
+      this.mark(this.touched_, false);
+      this.mark(now, true);
+      this.touched_ = [...now];
+    }
   }
 
   /** Facets instead of interpolated normals; what has no normals is always shown so. */
   setFlat(flat: boolean): void {
     this.flat_ = flat;
-    this.applyShading();
+    this.views_.forEach((view) => view.setFlat(flat));
   }
 
   setEdges(shown: boolean): void {
@@ -65,86 +98,59 @@ export class ModelView {
   }
 
   applyTheme(): void {
-    this.surfaces_.forEach((surface) => surface.color.set(themeColour("model")));
-    this.edges_.color.set(themeColour("model-edge"));
-    this.lines_.color.set(themeColour("model-line"));
-    this.points_.color.set(themeColour("model-line"));
+    const { model, tint, edges, lines, points, touchedLines, touchedPoints } = this.palette_;
+    model.set(themeColour("model"));
+    const touched = new THREE.Color(themeColour("model-touched"));
+    tint.setRGB(touched.r / model.r, touched.g / model.g, touched.b / model.b);
+    edges.color.set(themeColour("model-edge"));
+    lines.color.set(themeColour("model-line"));
+    points.color.set(themeColour("model-line"));
+    touchedLines.color.set(themeColour("accent"));
+    touchedPoints.color.set(themeColour("accent"));
+    this.views_.forEach((view) => view.applyTheme());
+    this.mark(this.touched_, true);
   }
 
-  /** True when the ray meets the surface; models too large to ask in one frame count as met. */
+  /** True when the ray meets a surface; scenes too large to ask in one frame count as met. */
   isHit(raycaster: THREE.Raycaster): boolean {
-    if (this.surfaceMesh_ === undefined) {
-      return false;
-    }
-    return this.triangles > kEdgesMaxTriangles || raycaster.intersectObject(this.surfaceMesh_, false).length > 0;
+    return this.triangles_ > kEdgesMaxTriangles || [...this.views_.values()].some((view) => view.isHit(raycaster));
   }
 
-  /** Textured triangles get the material of their image, all others the plain one. */
-  private showLooks(scene: Scene, geometry: THREE.BufferGeometry): void {
-    if (scene.texcoords === undefined) {
-      return;
-    }
-    geometry.setAttribute("uv", new THREE.BufferAttribute(scene.texcoords, 2));
-    const runs = scene.looks.flatMap((look, i) => look.runs.map((run) => ({ ...run, material: i + 1 })));
-    let next = 0;
-    for (const run of runs.sort((a, b) => a.first - b.first)) {
-      geometry.addGroup(3 * next, 3 * (run.first - next), 0);
-      geometry.addGroup(3 * run.first, 3 * run.count, run.material);
-      next = run.first + run.count;
-    }
-    geometry.addGroup(3 * next, scene.triangles.length - 3 * next, 0);
-    this.surfaces_.push(...scene.looks.map((look) => surfaceMaterial(imageTexture(look.image))));
-    this.surfaceMesh_!.material = this.surfaces_;
+  /** Of everything where it is now; undefined when there is nothing. */
+  bounds(poses: Float32Array): Bounds | undefined {
+    const box = new THREE.Box3();
+    this.placed_.forEach((placed, i) => placed?.view.addBounds(box, poses, i));
+    const plain = ({ x, y, z }: THREE.Vector3) => ({ x, y, z });
+    return box.isEmpty() ? undefined : { min: plain(box.min), max: plain(box.max) };
   }
 
-  private applyShading(): void {
-    for (const surface of this.surfaces_) {
-      surface.flatShading = this.flat_ || !this.hasNormals_;
-      surface.needsUpdate = true;
+  private mark(indices: readonly number[], touched: boolean): void {
+    for (const i of indices) {
+      const placed = this.placed_[i];
+      placed?.view.setTouched(placed.place, touched);
     }
   }
 
   private applyEdges(): void {
-    const wanted = this.showEdges_ && this.surfaceMesh_ !== undefined && this.triangles <= kEdgesMaxTriangles;
-    if (wanted && this.edgeMesh_ === undefined) {
-      this.edgeMesh_ = new THREE.Mesh(this.surfaceMesh_!.geometry, this.edges_);
-      this.group.add(this.edgeMesh_);
-    }
-    if (this.edgeMesh_ !== undefined) {
-      this.edgeMesh_.visible = wanted;
-    }
+    const shown = this.showEdges_ && this.triangles_ <= kEdgesMaxTriangles;
+    this.views_.forEach((view) => view.setEdges(shown));
   }
 
-  private clear(): void {
-    for (const child of this.group.children) {
-      (child as THREE.Mesh).geometry.dispose();
-    }
-    this.group.clear();
-    for (const textured of this.surfaces_.splice(1)) {
-      textured.map?.dispose();
-      textured.dispose();
-    }
-    this.surfaceMesh_ = undefined;
-    this.edgeMesh_ = undefined;
+  private drop(number: number): void {
+    this.views_.get(number)?.dispose();
+    this.views_.delete(number);
   }
 }
 
-function surfaceMaterial(map: THREE.Texture | null = null): THREE.MeshStandardMaterial {
-  return new THREE.MeshStandardMaterial({
-    map,
-    roughness: 0.62,
-    metalness: 0,
-    side: THREE.DoubleSide,
-    polygonOffset: true,
-    polygonOffsetFactor: 1,
-    polygonOffsetUnits: 1,
-  });
-}
-
-function indexed(position: THREE.BufferAttribute, index: Uint32Array): THREE.BufferGeometry {
-  const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute("position", position);
-  geometry.setIndex(new THREE.BufferAttribute(index, 1));
-  geometry.computeBoundingSphere();
-  return geometry;
+function makePalette(): Palette {
+  const point = { size: kPointSize_px, sizeAttenuation: false };
+  return {
+    model: new THREE.Color(),
+    tint: new THREE.Color(),
+    edges: new THREE.MeshBasicMaterial({ wireframe: true, transparent: true, opacity: 0.22 }),
+    lines: new THREE.LineBasicMaterial(),
+    points: new THREE.PointsMaterial(point),
+    touchedLines: new THREE.LineBasicMaterial(),
+    touchedPoints: new THREE.PointsMaterial({ ...point, size: 1.5 * kPointSize_px }),
+  };
 }

@@ -2,12 +2,15 @@
 
 import { SafetyState, type Hello, type LoopStats, type State } from "./gen/hl_pb";
 import type { LinkState } from "./connection";
+import { ButtonRow } from "./button_row";
 import { element, onLetGo, setText } from "./elements";
 import { kSendPeriod_ms, paced } from "./pace";
 import { Pending } from "./pending";
-import type { Scene, SettingsChange } from "./protocol";
+import type { SettingsChange } from "./protocol";
+import type { Layout } from "./scene_messages";
+import type { Counts } from "./scene_store";
 import type { ThemeChoice } from "./theme";
-import { formatCount, formatFixed, formatScale, formatSi, kThinSpace } from "./units";
+import { formatCount, formatFixed, formatScale, formatSi, kNoBreak, kThinSpace } from "./units";
 
 export interface PanelActions {
   settings(change: SettingsChange): void;
@@ -43,6 +46,7 @@ const kLinkTexts: Readonly<Record<LinkState, string>> = {
 export class Panel {
   private readonly actions_: PanelActions;
   private readonly pending_ = new Pending<boolean | number>();
+  private readonly buttons_ = new ButtonRow();
 
   constructor(actions: PanelActions) {
     this.actions_ = actions;
@@ -81,9 +85,8 @@ export class Panel {
   showHello(hello: Hello): void {
     // A server that has just been met knows nothing of what was set before.
     this.pending_.clear();
-    setText("scene-name", hello.sceneName);
-    element("scene-name").title = hello.sceneName;
-    document.title = `${hello.sceneName} – HL`;
+    this.showName(hello.sceneName || "–");
+    this.buttons_.forget();
     const device = hello.device?.name || "–";
     setText("device", device);
     element("device").title = device;
@@ -97,16 +100,26 @@ export class Panel {
     this.showStiffness(recommended);
   }
 
-  showScene(scene: Scene): void {
+  showLayout(layout: Layout, counts: Counts): void {
+    if (layout.name !== "") {
+      this.showName(layout.name);
+    }
     const parts: [number, string][] = [
-      [scene.triangles.length / 3, "triangles"],
-      [scene.segments.length / 2, "segments"],
-      [scene.points.length, "points"],
+      [counts.objects > 1 ? counts.objects : 0, "objects"],
+      [counts.triangles, "triangles"],
+      [counts.segments, "segments"],
+      [counts.points, "points"],
     ];
     const present = parts.filter(([count]) => count > 0);
-    setText("model-size", present.map(([count, what]) => `${formatCount(count)} ${what}`).join(", ") || "empty");
-    setText("proxy-radius", formatSi(scene.proxyRadius_m, "m"));
-    setText("scale", formatScale(scene.worldPerDevice));
+    setText("model-size", present.map(([count, what]) => `${formatCount(count)}${kNoBreak}${what}`).join(", ") || "empty");
+    setText("proxy-radius", formatSi(layout.proxyRadius_m, "m"));
+    setText("scale", formatScale(layout.worldPerDevice));
+  }
+
+  private showName(name: string): void {
+    setText("scene-name", name);
+    element("scene-name").title = name;
+    document.title = `${name} – HL`;
   }
 
   /** `penetration_m` as in the newest sample. */
@@ -117,6 +130,7 @@ export class Panel {
     setText("caps", formatCount(state.iterationCaps));
     this.showLoop("proxy", state.proxyLoop);
     this.showLoop("servo", state.servo);
+    this.buttons_.show(state.buttons);
     this.showSafety(state);
     this.showSettings(state);
   }

@@ -6,9 +6,9 @@ import * as THREE from "three";
 import type { ContactPlane, State } from "./gen/hl_pb";
 import { FrictionCones } from "./friction_cones";
 import { overlay } from "./overlay";
-import { knownVec } from "./protocol";
 import { themeColour } from "./theme";
 import { kZero, length, type Vec } from "./vec";
+import { knownVec } from "./wire_values";
 
 /** The device's peak force is drawn this long, as a share of the model's diagonal. */
 const kArrowShare = 0.35;
@@ -60,10 +60,14 @@ export class ProbeView {
     this.group.visible = false;
   }
 
-  setScene(diagonal_m: number, proxyRadius_m: number): void {
+  /** Of what the camera shows: arrows and planes are drawn in proportion to it. */
+  setDiagonal(diagonal_m: number): void {
     this.diagonal_m_ = diagonal_m;
     this.cones.setScene(diagonal_m);
-    this.radius_m_ = proxyRadius_m > 0 ? proxyRadius_m : diagonal_m * 2e-3;
+  }
+
+  setRadius(proxyRadius_m: number): void {
+    this.radius_m_ = proxyRadius_m > 0 ? proxyRadius_m : this.diagonal_m_ * 2e-3;
     this.proxy_.scale.setScalar(this.radius_m_);
     this.ghost_.scale.setScalar(this.radius_m_);
   }

@@ -63,8 +63,15 @@ export class Stage {
     );
     box.getCenter(this.centre_);
     this.diagonal_m_ = Math.max(box.getSize(new THREE.Vector3()).length(), 1e-6);
-    this.rebuildFloor(box.min.y);
+    this.rebuildFloor(new THREE.Vector3(this.centre_.x, this.floorUnder(box.min.y), this.centre_.z));
     this.resetView();
+  }
+
+  /** Keeps the floor beneath everything; it does not rise again until the next bounds. */
+  lowerFloor(lowest_m: number): void {
+    if (this.floor_ !== undefined && this.floorUnder(lowest_m) < this.floor_.position.y) {
+      this.floor_.position.y = this.floorUnder(lowest_m);
+    }
   }
 
   /** The whole model, a little from above and from the right. */
@@ -105,7 +112,7 @@ export class Stage {
   applyTheme(): void {
     this.scene.background = new THREE.Color(themeColour("stage"));
     if (this.floor_ !== undefined) {
-      this.rebuildFloor(this.floor_.position.y);
+      this.rebuildFloor(this.floor_.position.clone());
     }
   }
 
@@ -171,16 +178,20 @@ export class Stage {
     return [new THREE.HemisphereLight(0xffffff, 0x8a8f98, 0.95)];
   }
 
+  /** A little lower than the model: a flat one would flicker in the same plane. */
+  private floorUnder(lowest_m: number): number {
+    return lowest_m - 0.004 * this.diagonal_m_;
+  }
+
   /** A faint grid under the model: the eye judges depth by it. */
-  private rebuildFloor(level_m: number): void {
+  private rebuildFloor(centre: THREE.Vector3): void {
     if (this.floor_ !== undefined) {
       this.scene.remove(this.floor_);
       this.floor_.dispose();
     }
     const colour = new THREE.Color(themeColour("grid"));
     this.floor_ = new THREE.GridHelper(this.diagonal_m_ * 2, 20, colour, colour);
-    // A little lower than the model: a flat one would flicker in the same plane.
-    this.floor_.position.set(this.centre_.x, level_m - 0.004 * this.diagonal_m_, this.centre_.z);
+    this.floor_.position.copy(centre);
     this.scene.add(this.floor_);
   }
 }

@@ -16,6 +16,9 @@ export const kUnknown = "–";
 /** Narrow no-break space: between a number and its unit, and between groups of thousands. */
 export const kThinSpace = "\u202f";
 
+/** Between a count and what is counted. */
+export const kNoBreak = "\u00a0";
+
 /** `digits` significant digits without an exponent, for 0 <= |value| < 1000. */
 function significant(value: number, digits: number): string {
   const magnitude = Math.abs(value);

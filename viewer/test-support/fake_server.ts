@@ -23,6 +23,7 @@ const kProxy_m = 0.001;
 const kSceneFriction = 0.5;
 const kStatePeriod_ms = 16;
 const kSamplesPerState = 16;
+const kSphereMesh = 1;
 
 type Body = NonNullable<MessageInitShape<typeof ServerMessageSchema>["body"]>;
 
@@ -36,11 +37,15 @@ export class FakeServer {
   slipping = false;
   fault = "";
   silent = false;
+  buttons = 0;
+  /** How many spheres there are, side by side; the first one is touched. */
+  spheres = 1;
   private readonly http_: Server;
   private readonly sockets_: WebSocketServer;
   private readonly timer_: NodeJS.Timeout;
   private readonly start_ms_ = performance.now();
   private time_s_ = 0;
+  private layout_ = 1;
   private finger_: Vec = { x: 0, y: 0, z: 2 * kSphere_m };
   private goal_: Vec | undefined;
 
@@ -84,6 +89,13 @@ export class FakeServer {
     this.sendRaw(encode(body));
   }
 
+  /** Shows another number of spheres, with a new layout. */
+  place(spheres: number): void {
+    this.spheres = spheres;
+    this.layout_ += 1;
+    this.send(this.layout());
+  }
+
   async close(): Promise<void> {
     clearInterval(this.timer_);
     this.sockets_.clients.forEach((socket) => socket.terminate());
@@ -99,7 +111,8 @@ export class FakeServer {
     };
     const hello = { protocolVersion: kProtocolVersion, serverVersion: "fake", sceneName: "sphere", device };
     socket.send(encode({ case: "hello", value: hello }));
-    socket.send(encode(sphereScene(64, 128)));
+    socket.send(encode(sphereMesh(64, 128)));
+    socket.send(encode(this.layout()));
   }
 
   private obey(message: ViewerMessage): void {
@@ -161,9 +174,26 @@ export class FakeServer {
         fault: this.fault,
         servo: { ...loop, rateHz: 1000 },
         proxyLoop: { ...loop, rateHz: 1000 + 4 * Math.sin(this.time_s_) },
+        buttons: this.buttons, layout: this.layout_, touched: inside && this.spheres > 0 ? [0] : [],
         exploring: this.explore, handFirm: this.handFirm, stiffnessNM: this.stiffness_N_m, iterationCaps: 0n,
       },
     });
+  }
+
+  private layout(): Body {
+    const poses = Array.from({ length: this.spheres }, (_, i) => [1, 0, 0, 3 * i * kSphere_m, 0, 1, 0, 0, 0, 0, 1, 0]);
+    const bounds = {
+      boundsMin: { x: -kSphere_m, y: -kSphere_m, z: -kSphere_m },
+      boundsMax: { x: kSphere_m * (3 * this.spheres - 2), y: kSphere_m, z: kSphere_m },
+    };
+    return {
+      case: "layout",
+      value: {
+        number: this.layout_, name: "sphere", proxyRadius: kProxy_m, worldPerDevice: 1,
+        placed: poses.map(() => ({ mesh: kSphereMesh })), poses: bytesOf(Float32Array.from(poses.flat())),
+        ...(this.spheres > 0 ? bounds : {}),
+      },
+    };
   }
 
   private contact(normal: Vec) {
@@ -189,7 +219,7 @@ export function bytesOf(values: Float32Array | Uint32Array): Uint8Array {
   return new Uint8Array(values.buffer, values.byteOffset, values.byteLength);
 }
 
-function sphereScene(rows: number, columns: number): Body {
+function sphereMesh(rows: number, columns: number): Body {
   const normals: number[] = [];
   const triangles: number[] = [];
   for (let row = 0; row <= rows; ++row) {
@@ -204,9 +234,9 @@ function sphereScene(rows: number, columns: number): Body {
   }
   const positions = Float32Array.from(normals, (n) => n * kSphere_m);
   return {
-    case: "scene",
+    case: "mesh",
     value: {
-      name: "sphere", proxyRadius: kProxy_m, worldPerDevice: 1,
+      number: kSphereMesh,
       positions: bytesOf(positions),
       normals: bytesOf(Float32Array.from(normals)),
       triangles: bytesOf(Uint32Array.from(triangles)),

@@ -2,14 +2,16 @@
 import { create, fromBinary, toBinary, type MessageInitShape } from "@bufbuild/protobuf";
 import { describe, expect, test } from "vitest";
 import {
-  ServerMessageSchema, SurfaceImageSchema, SurfacePartSchema, ViewerMessageSchema, type SceneMesh,
+  ServerMessageSchema, SurfaceImageSchema, SurfacePartSchema, ViewerMessageSchema, type SceneLayout, type SceneMesh,
 } from "../src/gen/hl_pb";
 import {
-  decodeServerMessage, encodeHandGoal, encodeRearm, encodeRelease, encodeSettings, knownVec, ProtocolError, type Scene,
+  decodeServerMessage, encodeHandGoal, encodeRearm, encodeRelease, encodeSettings,
 } from "../src/protocol";
+import type { Layout, Mesh } from "../src/scene_messages";
+import { knownVec, ProtocolError } from "../src/wire_values";
 
 type Body = NonNullable<MessageInitShape<typeof ServerMessageSchema>["body"]>;
-type SceneInit = Partial<Omit<SceneMesh, "$typeName" | "$unknown" | "boundsMin" | "boundsMax">>;
+type MeshInit = Partial<Omit<SceneMesh, "$typeName" | "$unknown" | "boundsMin" | "boundsMax">>;
 
 function encode(body: Body): Uint8Array {
   return toBinary(ServerMessageSchema, create(ServerMessageSchema, { body }));
@@ -19,66 +21,67 @@ function bytes(values: Float32Array | Uint32Array): Uint8Array {
   return new Uint8Array(values.buffer);
 }
 
-const kTriangle: SceneInit = {
-  name: "one triangle",
+const kTriangle: MeshInit = {
+  number: 7,
   positions: bytes(Float32Array.of(0, 0, 0, 1, 0, 0, 0, 2, -3)),
   normals: bytes(Float32Array.of(0, 0, 1, 0, 0, 1, 0, 0, 1)),
   triangles: bytes(Uint32Array.of(0, 1, 2)),
   segments: bytes(Uint32Array.of(0, 2)),
   points: bytes(Uint32Array.of(1)),
-  proxyRadius: 0.001,
-  worldPerDevice: 2,
 };
 
 const kImage = create(SurfaceImageSchema, { width: 2, height: 1, texels: Uint8Array.of(0, 255) });
 const kPart = create(SurfacePartSchema, { firstTriangle: 0, triangles: 1, image: 0 });
-const kTextured: SceneInit = {
+const kTextured: MeshInit = {
   texcoords: bytes(Float32Array.of(0, 0, 1, 0, 0, 1)), images: [kImage], parts: [kPart],
 };
 
-function decodeScene(change: SceneInit = {}): Scene {
-  const message = decodeServerMessage(encode({ case: "scene", value: { ...kTriangle, ...change } }));
-  if (message.kind !== "scene") throw new Error("not a scene");
-  return message.scene;
+function decodeMesh(change: MeshInit = {}): Mesh {
+  const message = decodeServerMessage(encode({ case: "mesh", value: { ...kTriangle, ...change } }));
+  if (message.kind !== "mesh") throw new Error("not a mesh");
+  return message.mesh;
 }
 
-describe("scenes", () => {
+describe("meshes", () => {
   test("arrive as typed arrays, whatever their alignment in the message", () => {
-    for (const name of ["a", "ab", "abc", "abcd"]) {
-      const scene = decodeScene({ name });
-      expect(Array.from(scene.positions)).toEqual([0, 0, 0, 1, 0, 0, 0, 2, -3]);
-      expect(Array.from(scene.triangles)).toEqual([0, 1, 2]);
-      expect(Array.from(scene.segments)).toEqual([0, 2]);
-      expect(Array.from(scene.points)).toEqual([1]);
-      expect(scene.normals).toHaveLength(9);
-      expect(scene).toMatchObject({ name, proxyRadius_m: 0.001, worldPerDevice: 2 });
+    const whole = encode({ case: "mesh", value: kTriangle });
+    for (const shift of [0, 1, 2, 3]) {
+      const shifted = new Uint8Array(whole.length + shift);
+      shifted.set(whole, shift);
+      const message = decodeServerMessage(shifted.subarray(shift));
+      if (message.kind !== "mesh") throw new Error("not a mesh");
+      const mesh = message.mesh;
+      expect(Array.from(mesh.positions)).toEqual([0, 0, 0, 1, 0, 0, 0, 2, -3]);
+      expect(Array.from(mesh.triangles)).toEqual([0, 1, 2]);
+      expect(Array.from(mesh.segments)).toEqual([0, 2]);
+      expect(Array.from(mesh.points)).toEqual([1]);
+      expect(mesh.normals).toHaveLength(9);
+      expect(mesh.number).toBe(7);
     }
   });
 
-  test("without bounds get those of their vertices, without normals none", () => {
-    const scene = decodeScene({ normals: new Uint8Array() });
-    expect(scene.normals).toBeUndefined();
-    expect(scene.boundsMin).toEqual({ x: 0, y: 0, z: -3 });
-    expect(scene.boundsMax).toEqual({ x: 1, y: 2, z: 0 });
+  test("may have no normals and no bounds", () => {
+    const mesh = decodeMesh({ normals: new Uint8Array() });
+    expect(mesh.normals).toBeUndefined();
+    expect(mesh.bounds).toBeUndefined();
   });
 
   test("bring their textures and the runs of triangles that show them", () => {
-    const { texcoords, looks } = decodeScene(kTextured);
+    const { texcoords, looks } = decodeMesh(kTextured);
     expect(Array.from(texcoords!)).toEqual([0, 0, 1, 0, 0, 1]);
     expect(looks).toHaveLength(1);
     expect(looks[0]!.runs).toEqual([{ first: 0, count: 1 }]);
     expect(Array.from(looks[0]!.image.texels)).toEqual([0, 255]);
-    expect(decodeScene().looks).toEqual([]);
+    expect(decodeMesh().looks).toEqual([]);
   });
 
   test("may be empty", () => {
     const none = new Uint8Array();
-    const scene = decodeScene({ positions: none, normals: none, triangles: none, segments: none, points: none });
-    expect(scene.positions).toHaveLength(0);
-    expect(scene.boundsMax).toEqual({ x: 0, y: 0, z: 0 });
+    const mesh = decodeMesh({ positions: none, normals: none, triangles: none, segments: none, points: none });
+    expect(mesh.positions).toHaveLength(0);
   });
 
-  test.each<[string, SceneInit]>([
+  test.each<[string, MeshInit]>([
     ["an index out of range", { triangles: bytes(Uint32Array.of(0, 1, 3)) }],
     ["a segment out of range", { segments: bytes(Uint32Array.of(0, 0xffffffff)) }],
     ["half a triangle", { triangles: bytes(Uint32Array.of(0, 1)) }],
@@ -91,7 +94,43 @@ describe("scenes", () => {
     ["a part beyond the triangles", { ...kTextured, parts: [{ ...kPart, triangles: 2 }] }],
     ["too few normals", { normals: bytes(Float32Array.of(0, 0, 1)) }],
   ])("with %s are refused", (_what, change) => {
-    expect(() => decodeScene(change)).toThrow(ProtocolError);
+    expect(() => decodeMesh(change)).toThrow(ProtocolError);
+  });
+});
+
+type LayoutInit = Partial<Omit<SceneLayout, "$typeName" | "$unknown" | "boundsMin" | "boundsMax" | "placed">>;
+
+function decodeLayout(change: LayoutInit = {}): Layout {
+  const poses = bytes(Float32Array.of(1, 0, 0, 5, 0, 1, 0, 6, 0, 0, 1, 7));
+  const value = { number: 3, name: "one", proxyRadius: 0.001, worldPerDevice: 2, placed: [{ mesh: 7 }], poses };
+  const message = decodeServerMessage(encode({ case: "layout", value: { ...value, ...change } }));
+  if (message.kind !== "layout") throw new Error("not a layout");
+  return message.layout;
+}
+
+describe("layouts", () => {
+  test("have one pose for each object", () => {
+    const layout = decodeLayout();
+    expect(layout).toMatchObject({ number: 3, name: "one", proxyRadius_m: 0.001, worldPerDevice: 2 });
+    expect(layout.placed.map(({ mesh }) => mesh)).toEqual([7]);
+    expect([3, 7, 11].map((i) => layout.poses[i])).toEqual([5, 6, 7]);
+    expect(layout.bounds).toBeUndefined();
+  });
+
+  test.each<[string, LayoutInit]>([
+    ["a pose too few", { poses: new Uint8Array() }],
+    ["half a pose", { poses: new Uint8Array(24) }],
+    ["a pose that is not a number", { poses: bytes(new Float32Array(12).fill(NaN)) }],
+  ])("with %s are refused", (_what, change) => {
+    expect(() => decodeLayout(change)).toThrow(ProtocolError);
+  });
+
+  test("so are states whose moves lack a pose", () => {
+    expect(() => decodeServerMessage(encode({ case: "state", value: { layout: 3, moved: [0] } }))).toThrow(ProtocolError);
+    const poses = bytes(new Float32Array(12));
+    const message = decodeServerMessage(encode({ case: "state", value: { layout: 3, moved: [4], movedPoses: poses } }));
+    if (message.kind !== "state") throw new Error("not a state");
+    expect(message.moves).toMatchObject({ layout: 3, indices: [4] });
   });
 });
 

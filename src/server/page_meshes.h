@@ -1,0 +1,53 @@
+// PageMeshes: the meshes that pages are shown: one for each shape and look, however often it is placed, and its
+// message, made once, on a thread of its own, and shared by all pages.
+#pragma once
+
+#include <cstdint>
+#include <future>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene/snapshot.h"
+#include "server/surface_images.h"
+
+namespace hl {
+
+/// A whole WebSocket message, shared by the pages it is sent to.
+using PageMessage = std::shared_ptr<const std::string>;
+
+/// Used by one thread.
+class PageMeshes {
+ public:
+  /// The number of the mesh of each instance; new ones start to be made ready.
+  std::vector<std::uint32_t> numbersOf(const Snapshot& snapshot);
+  /// Whether all the meshes have their messages; never waits for one.
+  bool ready();
+  /// Of one that is ready.
+  const PageMessage& message(std::uint32_t number) const { return meshes_.at(number).message; }
+  /// Drops all others.
+  void keep(const std::set<std::uint32_t>& numbers);
+
+ private:
+  /// What tells meshes apart; the mesh holds what these point to.
+  using Identity = std::pair<const Shape*, std::vector<const Texture*>>;
+  struct Mesh {
+    std::shared_ptr<const Shape> shape;
+    Look look;
+    PageMessage message;  // empty until it is made
+  };
+  using Made = std::vector<std::pair<std::uint32_t, PageMessage>>;
+
+  std::uint32_t numberOf(const Instance& instance);
+  void takeMade();
+
+  std::map<Identity, std::uint32_t> numbers_;
+  std::map<std::uint32_t, Mesh> meshes_;
+  std::uint32_t last_number_ = 0;  // never falls: a number is never used again
+  std::future<Made> making_;       // its destructor waits for the thread
+};
+
+}  // namespace hl

@@ -1,0 +1,112 @@
+// The scene as it comes from the server: kept in the store, shown by the model view. Decides when the camera is fitted.
+
+import type { State } from "./gen/hl_pb";
+import { needsFit } from "./fit";
+import { ModelView } from "./model_view";
+import type { Bounds, Layout, Mesh, Moves } from "./scene_messages";
+import { SceneStore } from "./scene_store";
+
+/** About what a hand reaches to each side, m at the hand. */
+const kHandReach_m = 0.1;
+
+export interface SceneHooks {
+  /** A layout came and is shown. */
+  shown(store: SceneStore, layout: Layout): void;
+  /** The camera should show all of `bounds`. */
+  fit(bounds: Bounds): void;
+}
+
+export class LiveScene {
+  readonly model = new ModelView();
+  private readonly store_ = new SceneStore();
+  private readonly hooks_: SceneHooks;
+  /** What the camera was fitted to last; it outlives the connection. */
+  private fitted_: Bounds | undefined;
+  /** There have been objects since the scene was new or empty. */
+  private begun_ = false;
+  private moves_: Moves | undefined;
+  private touched_: readonly number[] = [];
+
+  constructor(hooks: SceneHooks) {
+    this.hooks_ = hooks;
+  }
+
+  get store(): SceneStore {
+    return this.store_;
+  }
+
+  get layout(): Layout | undefined {
+    return this.store_.layout;
+  }
+
+  /** Objects of the layout that are touched. */
+  get touched(): readonly number[] {
+    return this.touched_;
+  }
+
+  /** A server begins: nothing of what another one told is valid. */
+  clear(): void {
+    this.store_.clear();
+    this.model.clear();
+    this.begun_ = false;
+    this.moves_ = undefined;
+    this.touched_ = [];
+  }
+
+  add(mesh: Mesh): void {
+    this.store_.add(mesh);
+    this.model.add(mesh);
+  }
+
+  forget(meshes: readonly number[]): void {
+    this.store_.forget(meshes);
+    this.model.forget(meshes);
+  }
+
+  setLayout(layout: Layout): void {
+    this.store_.setLayout(layout);
+    this.model.setLayout(layout, this.store_.poses);
+    this.touched_ = [];
+    if (layout.bounds !== undefined && !this.begun_ && needsFit(this.fitted_, layout.bounds)) {
+      this.fit(layout.bounds);
+    } else if (this.fitted_ === undefined) {
+      this.hooks_.fit(handSpace(layout.worldPerDevice));
+    }
+    this.begun_ = layout.bounds !== undefined;
+    this.hooks_.shown(this.store_, layout);
+  }
+
+  /** Only the newest moves count; they are shown in the next frame. */
+  take(state: State, moves: Moves): void {
+    this.moves_ = moves;
+    this.touched_ = state.layout === this.layout?.number ? state.touched : [];
+  }
+
+  /** Once per drawn frame. */
+  frame(): void {
+    if (this.moves_ !== undefined) {
+      this.model.move(this.store_.move(this.moves_), this.store_.poses);
+      this.moves_ = undefined;
+    }
+    this.model.setTouched(this.touched_);
+  }
+
+  /** Shows everything as it is now. */
+  refit(): void {
+    const bounds = this.model.bounds(this.store_.poses) ?? this.fitted_;
+    if (bounds !== undefined) {
+      this.fit(bounds);
+    }
+  }
+
+  private fit(bounds: Bounds): void {
+    this.fitted_ = bounds;
+    this.hooks_.fit(bounds);
+  }
+}
+
+/** What to show while there is nothing else: where the hand can be. */
+function handSpace(worldPerDevice: number): Bounds {
+  const reach = worldPerDevice > 0 ? kHandReach_m * worldPerDevice : kHandReach_m;
+  return { min: { x: -reach, y: -reach, z: -reach }, max: { x: reach, y: reach, z: reach } };
+}

@@ -1,0 +1,259 @@
+// One mesh in three.js, wherever it is placed: its surface is drawn once for all places, its segments and points once for
+// each. All parts share one vertex buffer.
+
+import * as THREE from "three";
+import { imageTexture } from "./image_texture";
+import { kPoseNumbers, type Bounds, type Mesh } from "./scene_messages";
+import { orientTowardNormals } from "./winding";
+
+/** What all meshes are drawn with. `tint` is what the plain surface's colour is multiplied by where it is touched. */
+export interface Palette {
+  readonly model: THREE.Color;
+  readonly tint: THREE.Color;
+  readonly edges: THREE.MeshBasicMaterial;
+  readonly lines: THREE.LineBasicMaterial;
+  readonly points: THREE.PointsMaterial;
+  readonly touchedLines: THREE.LineBasicMaterial;
+  readonly touchedPoints: THREE.PointsMaterial;
+}
+
+type Surface = THREE.InstancedMesh<THREE.BufferGeometry, THREE.Material[]>;
+type Mark = THREE.LineSegments | THREE.Points;
+
+const kUntouched = new THREE.Color(1, 1, 1);
+
+export class MeshView {
+  readonly group = new THREE.Group();
+  readonly triangles: number;
+  private readonly palette_: Palette;
+  private readonly bounds_: THREE.Box3;
+  /** The plain one, then one for each texture. */
+  private readonly materials_: THREE.MeshStandardMaterial[] = [];
+  private readonly geometries_: THREE.BufferGeometry[] = [];
+  private readonly hasNormals_: boolean;
+  private readonly surfaceGeometry_: THREE.BufferGeometry | undefined;
+  private readonly lineGeometry_: THREE.BufferGeometry | undefined;
+  private readonly pointGeometry_: THREE.BufferGeometry | undefined;
+  private surface_: Surface | undefined;
+  private edges_: THREE.InstancedMesh | undefined;
+  private edgesShown_ = false;
+  /** Segments and points of each place. */
+  private readonly marks_: Mark[][] = [];
+
+  constructor(mesh: Mesh, palette: Palette) {
+    this.palette_ = palette;
+    this.bounds_ = boxOf(mesh.bounds);
+    this.triangles = mesh.triangles.length / 3;
+    this.hasNormals_ = mesh.normals !== undefined;
+    const position = new THREE.BufferAttribute(mesh.positions, 3);
+    if (this.triangles > 0) {
+      this.surfaceGeometry_ = this.indexed(position, mesh.triangles);
+      this.dress(mesh, this.surfaceGeometry_);
+    }
+    this.lineGeometry_ = mesh.segments.length > 0 ? this.indexed(position, mesh.segments) : undefined;
+    this.pointGeometry_ = mesh.points.length > 0 ? this.indexed(position, mesh.points) : undefined;
+  }
+
+  /** How many places it has; their poses and touches are set next. */
+  setCount(count: number): void {
+    if (this.surfaceGeometry_ !== undefined) {
+      this.growSurface(this.surfaceGeometry_, count);
+    }
+    while (this.marks_.length > count) {
+      this.group.remove(...this.marks_.pop()!);
+    }
+    while (this.marks_.length < count) {
+      this.addMarks();
+    }
+  }
+
+  /** The pose is at index `at` of `poses`. */
+  setPose(place: number, poses: Float32Array, at: number): void {
+    const from = kPoseNumbers * at;
+    if (this.surface_ !== undefined) {
+      writeMatrix(this.surface_.instanceMatrix.array, 16 * place, poses, from);
+      this.surface_.instanceMatrix.needsUpdate = true;
+    }
+    for (const mark of this.marks_[place] ?? []) {
+      writeMatrix(mark.matrix.elements, 0, poses, from);
+      mark.matrixWorldNeedsUpdate = true;
+    }
+  }
+
+  setTouched(place: number, touched: boolean): void {
+    const { palette_: palette, surface_: surface } = this;
+    if (surface !== undefined) {
+      surface.setColorAt(place, touched ? palette.tint : kUntouched);
+      surface.instanceColor!.needsUpdate = true;
+    }
+    for (const mark of this.marks_[place] ?? []) {
+      const [plain, bright] = mark instanceof THREE.Points
+        ? [palette.points, palette.touchedPoints]
+        : [palette.lines, palette.touchedLines];
+      mark.material = touched ? bright : plain;
+    }
+  }
+
+  setFlat(flat: boolean): void {
+    for (const material of this.materials_) {
+      material.flatShading = flat || !this.hasNormals_;
+      material.needsUpdate = true;
+    }
+  }
+
+  setEdges(shown: boolean): void {
+    this.edgesShown_ = shown;
+    if (shown && this.edges_ === undefined && this.surface_ !== undefined) {
+      this.makeEdges(this.surface_);
+    }
+    if (this.edges_ !== undefined) {
+      this.edges_.visible = shown;
+    }
+  }
+
+  applyTheme(): void {
+    this.materials_.forEach((material) => material.color.copy(this.palette_.model));
+  }
+
+  isHit(raycaster: THREE.Raycaster): boolean {
+    if (this.surface_ === undefined) {
+      return false;
+    }
+    this.surface_.boundingSphere = null;  // of where it was asked last
+    return raycaster.intersectObject(this.surface_, false).length > 0;
+  }
+
+  /** Adds the box of one place to `bounds`. */
+  addBounds(bounds: THREE.Box3, poses: Float32Array, at: number): void {
+    const matrix = new THREE.Matrix4();
+    writeMatrix(matrix.elements, 0, poses, kPoseNumbers * at);
+    if (!this.bounds_.isEmpty()) {
+      bounds.union(this.bounds_.clone().applyMatrix4(matrix));
+    }
+  }
+
+  dispose(): void {
+    this.group.removeFromParent();
+    this.surface_?.dispose();
+    this.geometries_.forEach((geometry) => geometry.dispose());
+    for (const material of this.materials_) {
+      material.map?.dispose();
+      material.dispose();
+    }
+  }
+
+  /** Normals, and for textured triangles the material of their image. */
+  private dress(mesh: Mesh, geometry: THREE.BufferGeometry): void {
+    this.materials_.push(surfaceMaterial());
+    if (mesh.normals !== undefined) {
+      orientTowardNormals(mesh.positions, mesh.normals, mesh.triangles);
+      geometry.setAttribute("normal", new THREE.BufferAttribute(mesh.normals, 3));
+    }
+    const runs = mesh.looks.flatMap((look, i) => look.runs.map((run) => ({ ...run, material: i + 1 })));
+    let next = 0;
+    for (const run of runs.sort((a, b) => a.first - b.first)) {
+      geometry.addGroup(3 * next, 3 * (run.first - next), 0);
+      geometry.addGroup(3 * run.first, 3 * run.count, run.material);
+      next = run.first + run.count;
+    }
+    geometry.addGroup(3 * next, mesh.triangles.length - 3 * next, 0);
+    if (mesh.texcoords !== undefined) {
+      geometry.setAttribute("uv", new THREE.BufferAttribute(mesh.texcoords, 2));
+      this.materials_.push(...mesh.looks.map((look) => surfaceMaterial(imageTexture(look.image))));
+    }
+    this.applyTheme();
+  }
+
+  /** Room for twice as many as before, so that a scene that grows one by one is not copied each time. */
+  private growSurface(geometry: THREE.BufferGeometry, count: number): void {
+    const room = this.surface_?.instanceMatrix.count ?? 0;
+    if (count > room) {
+      this.dropSurface();
+      const surface = new THREE.InstancedMesh(geometry, this.materials_ as THREE.Material[], Math.max(count, 2 * room));
+      surface.instanceMatrix.setUsage(THREE.DynamicDrawUsage);
+      surface.frustumCulled = false;  // it is in many places
+      for (let place = 0; place < surface.instanceMatrix.count; ++place) {
+        surface.setColorAt(place, kUntouched);
+      }
+      this.surface_ = surface;
+      this.group.add(surface);
+      this.setEdges(this.edgesShown_);
+    }
+    for (const drawn of [this.surface_, this.edges_]) {
+      if (drawn !== undefined) drawn.count = count;
+    }
+  }
+
+  private dropSurface(): void {
+    for (const old of [this.surface_, this.edges_]) {
+      old?.removeFromParent();
+    }
+    this.surface_?.dispose();
+    this.surface_ = this.edges_ = undefined;
+  }
+
+  /** Drawn where the surface is: they share the matrices. */
+  private makeEdges(surface: Surface): void {
+    this.edges_ = new THREE.InstancedMesh(surface.geometry, this.palette_.edges, 0);
+    this.edges_.instanceMatrix = surface.instanceMatrix;
+    this.edges_.count = surface.count;
+    this.edges_.frustumCulled = false;
+    this.group.add(this.edges_);
+  }
+
+  private addMarks(): void {
+    const marks: Mark[] = [];
+    if (this.lineGeometry_ !== undefined) {
+      marks.push(new THREE.LineSegments(this.lineGeometry_, this.palette_.lines));
+    }
+    if (this.pointGeometry_ !== undefined) {
+      marks.push(new THREE.Points(this.pointGeometry_, this.palette_.points));
+    }
+    marks.forEach((mark) => (mark.matrixAutoUpdate = false));
+    this.marks_.push(marks);
+    if (marks.length > 0) {
+      this.group.add(...marks);
+    }
+  }
+
+  private indexed(position: THREE.BufferAttribute, index: Uint32Array): THREE.BufferGeometry {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", position);
+    geometry.setIndex(new THREE.BufferAttribute(index, 1));
+    geometry.boundingBox = this.bounds_.clone();
+    geometry.boundingSphere = this.bounds_.getBoundingSphere(new THREE.Sphere());
+    this.geometries_.push(geometry);
+    return geometry;
+  }
+}
+
+function boxOf(bounds: Bounds | undefined): THREE.Box3 {
+  const box = new THREE.Box3();
+  if (bounds !== undefined) {
+    box.min.set(bounds.min.x, bounds.min.y, bounds.min.z);
+    box.max.set(bounds.max.x, bounds.max.y, bounds.max.z);
+  }
+  return box;
+}
+
+function surfaceMaterial(map: THREE.Texture | null = null): THREE.MeshStandardMaterial {
+  return new THREE.MeshStandardMaterial({
+    map,
+    roughness: 0.62,
+    metalness: 0,
+    side: THREE.DoubleSide,
+    polygonOffset: true,
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: 1,
+  });
+}
+
+/** A pose of 3 rows of 4 as the 4 columns of 4 that three.js keeps. */
+function writeMatrix(out: THREE.TypedArray | number[], to: number, poses: Float32Array, from: number): void {
+  for (let column = 0; column < 4; ++column) {
+    for (let row = 0; row < 3; ++row) {
+      out[to + 4 * column + row] = poses[from + 4 * row + column]!;
+    }
+    out[to + 4 * column + 3] = column === 3 ? 1 : 0;
+  }
+}

@@ -1,0 +1,126 @@
+// What the server tells of the scene, as values the page can trust: meshes with every index proven to be in range, layouts
+// and moves with a whole pose for each object.
+
+import type { PlacedMesh, SceneLayout, SceneMesh, State, SurfaceImage } from "./gen/hl_pb";
+import type { Vec } from "./vec";
+import { floats, indices, knownVec, ProtocolError } from "./wire_values";
+
+/** Numbers of a pose: 3 x 4, row by row, object to world. */
+export const kPoseNumbers = 12;
+
+export interface Bounds {
+  readonly min: Vec;
+  readonly max: Vec;
+}
+
+/** A texture to show, and the runs of triangles that show it. */
+export interface SurfaceLook {
+  readonly image: SurfaceImage;
+  readonly runs: readonly { readonly first: number; readonly count: number }[];
+}
+
+/** One kind of object, in its own frame. */
+export interface Mesh {
+  readonly number: number;
+  readonly positions: Float32Array;
+  readonly normals: Float32Array | undefined;
+  readonly triangles: Uint32Array;
+  readonly segments: Uint32Array;
+  readonly points: Uint32Array;
+  readonly texcoords: Float32Array | undefined;
+  readonly looks: readonly SurfaceLook[];
+  readonly bounds: Bounds | undefined;
+}
+
+/** Which meshes are where. */
+export interface Layout {
+  readonly number: number;
+  readonly name: string;
+  readonly bounds: Bounds | undefined;
+  readonly proxyRadius_m: number;
+  readonly worldPerDevice: number;
+  readonly placed: readonly PlacedMesh[];
+  readonly poses: Float32Array;
+}
+
+/** Those of a layout's objects that are elsewhere now. */
+export interface Moves {
+  readonly layout: number;
+  readonly indices: readonly number[];
+  readonly poses: Float32Array;
+}
+
+export function checkMesh(mesh: SceneMesh): Mesh {
+  const positions = floats(mesh.positions, "positions");
+  if (positions.length % 3 !== 0) {
+    throw new ProtocolError("the scene's positions are not whole vertices");
+  }
+  const vertices = positions.length / 3;
+  const normals = mesh.normals.length === 0 ? undefined : floats(mesh.normals, "normals");
+  if (normals !== undefined && normals.length !== positions.length) {
+    throw new ProtocolError("the scene has not one normal per vertex");
+  }
+  return {
+    number: mesh.number,
+    positions,
+    normals,
+    triangles: indices(mesh.triangles, 3, vertices, "triangles"),
+    segments: indices(mesh.segments, 2, vertices, "segments"),
+    points: indices(mesh.points, 1, vertices, "points"),
+    ...checkLooks(mesh, vertices),
+    bounds: boundsOf(mesh),
+  };
+}
+
+export function checkLayout(layout: SceneLayout): Layout {
+  const { number, name, placed, worldPerDevice, proxyRadius } = layout;
+  return {
+    number, name, placed, worldPerDevice,
+    bounds: boundsOf(layout),
+    proxyRadius_m: proxyRadius > 0 && Number.isFinite(proxyRadius) ? proxyRadius : 0,
+    poses: checkPoses(layout.poses, placed.length),
+  };
+}
+
+export function checkMoves(state: State): Moves {
+  return { layout: state.layout, indices: state.moved, poses: checkPoses(state.movedPoses, state.moved.length) };
+}
+
+function checkPoses(bytes: Uint8Array, count: number): Float32Array {
+  const poses = floats(bytes, "poses");
+  if (poses.length !== kPoseNumbers * count) {
+    throw new ProtocolError("the scene has not one pose per object");
+  }
+  return poses;
+}
+
+function boundsOf(message: SceneMesh | SceneLayout): Bounds | undefined {
+  const min = knownVec(message.boundsMin);
+  const max = knownVec(message.boundsMax);
+  return min === undefined || max === undefined ? undefined : { min, max };
+}
+
+function checkLooks(mesh: SceneMesh, vertices: number): { texcoords: Float32Array | undefined; looks: SurfaceLook[] } {
+  if (mesh.parts.length === 0) {
+    return { texcoords: undefined, looks: [] };
+  }
+  const texcoords = floats(mesh.texcoords, "texture coordinates");
+  if (texcoords.length !== 2 * vertices) {
+    throw new ProtocolError("the scene has not one texture coordinate per vertex");
+  }
+  const looks = mesh.images.map((image) => {
+    if (image.width < 1 || image.height < 1 || image.texels.length !== image.width * image.height) {
+      throw new ProtocolError("a texture of the scene is cut short");
+    }
+    return { image, runs: [] as { first: number; count: number }[] };
+  });
+  const triangles = mesh.triangles.length / 12;
+  for (const { firstTriangle, triangles: count, image } of mesh.parts) {
+    const look = looks[image];
+    if (look === undefined || firstTriangle + count > triangles) {
+      throw new ProtocolError("a part of the scene has a texture or a triangle that does not exist");
+    }
+    look.runs.push({ first: firstTriangle, count });
+  }
+  return { texcoords, looks };
+}
