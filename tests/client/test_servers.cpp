@@ -14,6 +14,7 @@
 
 #include "client/inproc_link.h"
 #include "client/open_link.h"
+#include "fake_pages.h"
 #include "server/http_server.h"
 #include "server/touch_server.h"
 #include "server/trace.h"
@@ -180,11 +181,7 @@ TEST(Servers, TheNetworkFeelsTheSameToTheBit) {
   const auto server = startServer();
   HttpServerSettings http;
   http.port = 0;
-  FeedCallbacks pages;
-  pages.hello = pages.state = [] { return std::string(); };
-  pages.scene = [] { return SceneSource([] { return std::shared_ptr<const std::string>(); }); };
-  pages.receive = [](const std::string&) {};
-  HttpServer listener(http, pages, server.get());
+  HttpServer listener(http, test::fakePages(), server.get());
   listener.start();
   const std::string url = "hl://127.0.0.1:" + std::to_string(listener.port());
   EXPECT_TRUE(sameBits(feltThrough(url, *server, immediate), feltInProcess(immediate)));

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "client/server_address.h"
+#include "fake_pages.h"
 #include "fake_sessions.h"
 #include "plain_client.h"
 #include "server/http_server.h"
@@ -21,13 +22,8 @@ namespace {
 using namespace test;
 using namespace std::chrono_literals;
 
-FeedCallbacks noPages() {
-  return {[] { return std::string(); }, [] { return std::make_shared<const std::string>(); },
-          [] { return std::string(); }, [](const std::string&) {}};
-}
-
 struct Served {
-  explicit Served(HttpServerSettings settings = {}) : server(adjusted(std::move(settings)), noPages(), &host) {
+  explicit Served(HttpServerSettings settings = {}) : server(adjusted(std::move(settings)), test::fakePages(), &host) {
     server.start();
   }
   static HttpServerSettings adjusted(HttpServerSettings settings) {
@@ -200,7 +196,7 @@ TEST(WebsocketLink, APeerThatIsNoServerIsRecognised) {
 }
 
 TEST(WebsocketLink, AServerWithoutClientsIsRecognised) {
-  HttpServer server(Served::adjusted({}), noPages());
+  HttpServer server(Served::adjusted({}), test::fakePages());
   server.start();
   const std::string why = whyNot("hl://127.0.0.1:" + std::to_string(server.port()));
   EXPECT_NE(why.find("404"), std::string::npos) << why;

@@ -1,5 +1,6 @@
 // HL clients over real sockets on loopback: what they say arrives, in both forms, and a client that misbehaves in any
 // way is ended with a reason while another one goes on as if nothing had happened.
+#include "fake_pages.h"
 #include "server/hl_carrier.h"
 
 #include <google/protobuf/util/message_differencer.h>
@@ -23,14 +24,9 @@ using test::openMessage;
 using test::PlainClient;
 using close = boost::beast::websocket::close_code;
 
-FeedCallbacks noPages() {
-  return {[] { return std::string(); }, [] { return std::make_shared<const std::string>(); },
-          [] { return std::string(); }, [](const std::string&) {}};
-}
-
 struct Served {
   explicit Served(HttpServerSettings settings = {}, std::size_t state_bytes = 100, int most = 1'000'000)
-      : host(state_bytes, most), server(adjusted(std::move(settings)), noPages(), &host) {
+      : host(state_bytes, most), server(adjusted(std::move(settings)), test::fakePages(), &host) {
     server.start();
   }
   static HttpServerSettings adjusted(HttpServerSettings settings) {
@@ -347,7 +343,7 @@ TEST(HlCarrier, OnlyProgramsAndTheOwnPageMayConnect) {
 }
 
 TEST(HlCarrier, WithoutASessionHostThereIsNoSuchPlace) {
-  HttpServer server(Served::adjusted({}), noPages());
+  HttpServer server(Served::adjusted({}), test::fakePages());
   server.start();
   EXPECT_EQ(test::request(server.port(), "/hl").result_int(), 404u);
   EXPECT_THROW(PlainClient client(server.port()), boost::system::system_error);

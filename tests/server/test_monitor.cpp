@@ -6,6 +6,7 @@
 #include <string>
 #include <thread>
 
+#include "fake_pages.h"
 #include "plain_client.h"
 #include "scene/snapshot.h"
 #include "server/event_log.h"
@@ -15,11 +16,6 @@
 
 namespace hl {
 namespace {
-
-FeedCallbacks noPages() {
-  return {[] { return std::string(); }, [] { return std::make_shared<const std::string>(); },
-          [] { return std::string(); }, [](const std::string&) {}};
-}
 
 // Every line of `text` is a comment of a family or a sample of the family before.
 void expectPrometheus(const std::string& text) {
@@ -64,7 +60,7 @@ TEST(Monitor, HealthIsOkUntilThereIsAFault) {
   HttpServerSettings settings;
   settings.port = 0;
   settings.token = "correct-horse-battery";
-  HttpServer server(settings, noPages(), nullptr, monitor);
+  HttpServer server(settings, test::fakePages(), nullptr, monitor);
   server.start();
   // Whoever watches over the server needs no token for its health.
   auto response = test::request(server.port(), "/healthz");
@@ -83,7 +79,7 @@ TEST(Monitor, MetricsWantTheTokenAndCountWhatHappens) {
   settings.token = "correct-horse-battery";
   MonitorCallbacks monitor;
   monitor.metrics = [](MetricsText& out) { out.single("hl_own", MetricType::kGauge, "Own", 42); };
-  HttpServer server(settings, noPages(), nullptr, monitor);
+  HttpServer server(settings, test::fakePages(), nullptr, monitor);
   server.start();
   EXPECT_EQ(test::request(server.port(), "/metrics").result_int(), 401u);
   EXPECT_EQ(test::request(server.port(), "/", {{test::http::field::host, "evil.example"}}).result_int(), 403u);

@@ -9,6 +9,7 @@
 #include <boost/beast/websocket/ssl.hpp>
 
 #include "base/error.h"
+#include "fake_pages.h"
 #include "fake_sessions.h"
 #include "plain_client.h"
 #include "server/http_server.h"
@@ -20,11 +21,6 @@ namespace {
 using namespace test;
 namespace ssl = boost::asio::ssl;
 constexpr const char* kToken = "correct-horse-battery";
-
-FeedCallbacks somePages() {
-  return {[] { return std::string("hello"); }, [] { return std::make_shared<const std::string>("scene"); },
-          [] { return std::string("state"); }, [](const std::string&) {}};
-}
 
 HttpServerSettings everywhere(const TlsFiles& tls) {
   HttpServerSettings settings;
@@ -83,7 +79,7 @@ websocket::response_type upgrade(TlsClient& client, websocket::stream<ssl::strea
 
 void expectRefused(const HttpServerSettings& settings, const std::string& word) {
   try {
-    HttpServer server(settings, somePages());
+    HttpServer server(settings, test::fakePages());
     FAIL() << word;
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
@@ -103,7 +99,7 @@ TEST(Tls, BeyondLoopbackTheServerInsistsOnTlsAndAToken) {
   settings = everywhere(tls);
   settings.token = "short";
   expectRefused(settings, "16");
-  EXPECT_NO_THROW(HttpServer(everywhere(tls), somePages()));
+  EXPECT_NO_THROW(HttpServer(everywhere(tls), test::fakePages()));
 }
 
 TEST(Tls, EveryLoopbackAddressWillDoAsItIs) {
@@ -111,7 +107,7 @@ TEST(Tls, EveryLoopbackAddressWillDoAsItIs) {
     HttpServerSettings settings;
     settings.port = 0;
     settings.listen = address;
-    EXPECT_NO_THROW(HttpServer(settings, somePages())) << address;
+    EXPECT_NO_THROW(HttpServer(settings, test::fakePages())) << address;
   }
   HttpServerSettings settings;
   settings.listen = "my.server";
@@ -132,7 +128,7 @@ TEST(Tls, FilesThatAreNoGoodAreNamed) {
 
 TEST(Tls, OnlyTls13IsSpoken) {
   const TlsFiles tls = makeCertificate("server");
-  HttpServer server(everywhere(tls), somePages());
+  HttpServer server(everywhere(tls), test::fakePages());
   server.start();
   EXPECT_THROW(TlsClient(server.port(), tls.certificate, TLS1_2_VERSION), boost::system::system_error);
   TlsClient client(server.port(), tls.certificate, TLS1_3_VERSION);
@@ -143,7 +139,7 @@ TEST(Tls, OnlyTls13IsSpoken) {
 
 TEST(Tls, ThePageGetsACookieForTheTokenAndThenItsWebSocket) {
   const TlsFiles tls = makeCertificate("server");
-  HttpServer server(everywhere(tls), somePages());
+  HttpServer server(everywhere(tls), test::fakePages());
   server.start();
   TlsClient client(server.port(), tls.certificate, TLS1_3_VERSION);
   EXPECT_EQ(client.get("/").result_int(), 401u);
@@ -175,7 +171,7 @@ TEST(Tls, ThePageGetsACookieForTheTokenAndThenItsWebSocket) {
 TEST(Tls, AnHlClientOpensWithTheTokenOrTheCookie) {
   const TlsFiles tls = makeCertificate("server");
   FakeHost host;
-  HttpServer server(everywhere(tls), somePages(), &host);
+  HttpServer server(everywhere(tls), test::fakePages(), &host);
   server.start();
   TlsClient login(server.port(), tls.certificate, TLS1_3_VERSION);
   const std::string set_cookie(login.get(std::string("/?token=") + kToken)[http::field::set_cookie]);
@@ -207,7 +203,7 @@ TEST(Tls, ASilentHandshakeHoldsNobodyUp) {
   const TlsFiles tls = makeCertificate("server");
   HttpServerSettings settings = everywhere(tls);
   settings.limits.handshake_s = 0.2;
-  HttpServer server(settings, somePages());
+  HttpServer server(settings, test::fakePages());
   server.start();
   boost::asio::io_context context;
   tcp::socket silent(context);

@@ -1,0 +1,172 @@
+// What an HL program gets from a server: how soon a large mesh can be touched, how many frames of moving objects are
+// shown, and how fresh states are. Prints one line for each.
+//
+//   bench_client [URL] [--objects N] [--seconds S]      URL: inproc: (default), hl://HOST:PORT, hls://...
+#include <fmt/core.h>
+#include <hl/hl.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+void fail(const std::string& what) {
+  fmt::print(stderr, "bench_client: {}: {}\n", what, hlGetString(HL_ERROR_STRING));
+  std::exit(1);
+}
+
+double height(double x, double z) { return 0.02 * std::sin(40 * x) * std::cos(30 * z); }
+
+// A hilly sheet of 2 side^2 triangles over 0.2 m x 0.2 m, as a GL program with arrays would send it.
+void drawTerrain(int side) {
+  std::vector<float> positions;
+  std::vector<unsigned> indices;
+  for (int i = 0; i <= side; ++i) {
+    for (int k = 0; k <= side; ++k) {
+      const double x = 0.2 * i / side - 0.1, z = 0.2 * k / side - 0.1;
+      for (const double value : {x, height(x, z) - 0.05, z}) positions.push_back(static_cast<float>(value));
+    }
+  }
+  const auto at = [side](int i, int k) { return static_cast<unsigned>(i * (side + 1) + k); };
+  for (int i = 0; i < side; ++i) {
+    for (int k = 0; k < side; ++k) {
+      for (const unsigned index : {at(i, k), at(i, k + 1), at(i + 1, k), at(i + 1, k), at(i, k + 1), at(i + 1, k + 1)})
+        indices.push_back(index);
+    }
+  }
+  hlEnableClientState(HL_VERTEX_ARRAY);
+  hlVertexPointer(3, HL_FLOAT, 0, positions.data());
+  hlDrawElements(HL_TRIANGLES, static_cast<HLsizei>(indices.size()), HL_UNSIGNED_INT, indices.data());
+  hlDisableClientState(HL_VERTEX_ARRAY);
+}
+
+void measureMesh(int side) {
+  const auto start = Clock::now();
+  drawTerrain(side);
+  if (hlFinishTimeout(120) == HL_FALSE) fail("the mesh was not shown");
+  fmt::print("{:>9} triangles: {:.2f} s from the first call until they can be touched\n", 2 * side * side,
+             secondsSince(start));
+}
+
+void defineBox(HLuint object) {
+  hlNewObject(object);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      hlBegin(HL_QUADS);
+      for (const auto& [a, b] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+        double corner[3];
+        corner[axis] = 0.002 * side;
+        corner[(axis + 1) % 3] = 0.002 * a;
+        corner[(axis + 2) % 3] = 0.002 * b;
+        hlVertex3dv(corner);
+      }
+      hlEnd();
+    }
+  }
+  hlEndObject();
+}
+
+void drawSwarm(int objects, double time_s) {
+  for (int i = 0; i < objects; ++i) {
+    hlPushMatrix();
+    hlTranslated(0.01 * (i % 10) - 0.05 + 0.003 * std::sin(time_s + i), 0.01 * (i / 10 % 10) - 0.05,
+                 0.01 * (i / 100) - 0.05);
+    hlRotated(50 * time_s + i, 0.3, 1, 0.2);
+    hlCallObject(1);
+    hlPopMatrix();
+  }
+}
+
+void measureFrames(int objects, double seconds) {
+  defineBox(1);
+  HLint first = 0, shown = 0;
+  hlFinishTimeout(60);
+  hlGetIntegerv(HL_FRAME_SHOWN, &first);
+  const auto start = Clock::now();
+  auto next = start;
+  int frames = 0;
+  double worst_s = 0;
+  while (secondsSince(start) < seconds) {
+    const auto begin = Clock::now();
+    drawSwarm(objects, secondsSince(start));
+    hlFlush();
+    hlPoll();
+    worst_s = std::max(worst_s, secondsSince(begin));
+    ++frames;
+    std::this_thread::sleep_until(next += std::chrono::nanoseconds(16'666'667));
+  }
+  if (hlFinishTimeout(60) == HL_FALSE || hlGetError() != HL_NO_ERROR) fail("frames were not shown");
+  hlGetIntegerv(HL_FRAME_SHOWN, &shown);
+  fmt::print(
+      "{:>9} moving objects: {:.1f} frames/s drawn, {:.1f} frames/s shown; a frame takes the program at most {:.1f} "
+      "ms\n",
+      objects, frames / seconds, (shown - first) / secondsSince(start), 1e3 * worst_s);
+}
+
+// The clocks of two hosts differ by an unknown time: what is told is how much later than the freshest state each came.
+void measureStates(double seconds) {
+  hlStateRate(1000);
+  std::vector<double> late;
+  double last_time = 0, freshest = 1e300;
+  const auto start = Clock::now();
+  while (secondsSince(start) < seconds) {
+    hlPoll();
+    HLdouble time = 0;
+    hlGetDoublev(HL_STATE_TIME, &time);
+    if (time != last_time) {
+      last_time = time;
+      late.push_back(secondsSince(start) - time);
+      freshest = std::min(freshest, late.back());
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(50));
+  }
+  if (late.empty()) fail("no states came");
+  std::sort(late.begin(), late.end());
+  const auto percentile = [&](double p) {
+    return 1e3 * (late[static_cast<std::size_t>(p * static_cast<double>(late.size() - 1))] - freshest);
+  };
+  fmt::print("{:>9.0f} states/s; later than the freshest by {:.2f} ms median, {:.2f} ms p99, {:.2f} ms at most\n",
+             static_cast<double>(late.size()) / seconds, percentile(0.5), percentile(0.99), percentile(1));
+}
+
+void printServer() {
+  HLint servo = 0, proxy = 0;
+  hlGetIntegerv(HL_SERVO_DEADLINES_MISSED, &servo);
+  hlGetIntegerv(HL_PROXY_DEADLINES_MISSED, &proxy);
+  fmt::print("server: {} servo and {} proxy deadlines missed so far\n", servo, proxy);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("What an HL program gets from a server.", "bench_client");
+  std::string url = "inproc:";
+  int objects = 1000, side = 707;
+  double seconds = 5;
+  app.add_option("url", url, "inproc:, hl://HOST:PORT or hls://HOST:PORT")->capture_default_str();
+  app.add_option("--objects", objects, "moving objects")->check(CLI::Range(1, 100'000))->capture_default_str();
+  app.add_option("--side", side, "the mesh has 2 SIDE^2 triangles")->check(CLI::Range(1, 2000))->capture_default_str();
+  app.add_option("--seconds", seconds, "of frames, and of states")->check(CLI::PositiveNumber)->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  HLcontext* context = hlCreateContext(url.c_str());
+  if (context == nullptr) {
+    fmt::print(stderr, "bench_client: {}\n", hlGetConnectError());
+    return 2;
+  }
+  hlMakeCurrent(context);
+  measureMesh(side);
+  measureFrames(objects, seconds);
+  measureStates(seconds);
+  printServer();
+  hlDestroyContext(context);
+  return 0;
+}
