@@ -14,6 +14,7 @@ namespace {
 
 // A stretch is known to the rounding of the matrices it came through; beyond this part of it, it is the same stretch.
 constexpr double kSameStretch = 1.0 / (std::int64_t{1} << 36);
+constexpr double kRigid = 1e-12;               // products of rotations, a hundred deep, are nearer than this to one
 constexpr double kFlattest = 1e-9;             // smallest to largest factor of a stretch that can still be touched
 constexpr std::size_t kVisitsPerInstance = 8;  // of items, in a hierarchy of many calls and few shapes
 
@@ -23,7 +24,8 @@ struct Polar {
 };
 
 Polar polarOf(const Mat3& linear) {
-  if (linear == Mat3::Identity()) return {linear, linear};
+  const bool rigid = (linear.transpose() * linear - Mat3::Identity()).cwiseAbs().maxCoeff() < kRigid;
+  if (rigid && linear.determinant() > 0) return {linear, Mat3::Identity()};
   const Eigen::JacobiSVD<Mat3> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Vec3 factors = svd.singularValues();
   if (!(factors.z() > kFlattest * factors.x())) throw Error("a matrix flattens an object: it cannot be touched so");

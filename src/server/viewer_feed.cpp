@@ -25,8 +25,6 @@ std::string hello(const TouchSession& session, const std::string& version) {
   return message.SerializeAsString();
 }
 
-}
-
 void setSamples(proto::State& state, TouchSession& session) {
   TouchSample sample;
   while (session.popSample(sample)) {
