@@ -54,21 +54,32 @@ void setFeel(Model& model, Feel feel) {
 struct Row {
   std::string hierarchy, surface;
   std::size_t primitives;
-  double build_s;
+  double build_s;      // of the whole snapshot
+  double index_ns;     // to build its hierarchy alone, and
+  double index_bytes;  // its memory, each for one primitive
   Histogram ticks;
   int capped = 0;
   std::int64_t total_ns = 0;
 };
 
+void measureIndex(const Shape& shape, HierarchyKind kind, Row& row) {
+  const auto primitives = static_cast<double>(row.primitives);
+  const std::int64_t start_ns = monotonicNow_ns();
+  const auto index = makeIndex(shape.primitives, kind);
+  row.index_ns = static_cast<double>(monotonicNow_ns() - start_ns) / primitives;
+  row.index_bytes = static_cast<double>(index->stats().bytes) / primitives;
+}
+
 // A curve that never repeats, at kSpeed over the middle of the terrain, following its height where the proxy is.
 Row measure(std::size_t size, HierarchyKind kind, Feel feel, const BenchOptions& options) {
-  Row row{kind == HierarchyKind::kSpheres ? "spheres" : "none", kFeelNames[static_cast<std::size_t>(feel)], 0, 0, {}};
+  Row row{nameOf(kind), kFeelNames[static_cast<std::size_t>(feel)], 0, 0, 0, 0, {}};
   Model model = makeBuiltinScene("terrain:" + std::to_string(size));
   setFeel(model, feel);
   const std::int64_t build_ns = monotonicNow_ns();
   const auto snapshot = makeSnapshot(std::move(model), kind);
   row.build_s = 1e-9 * static_cast<double>(monotonicNow_ns() - build_ns);
   row.primitives = snapshot->primitives;
+  measureIndex(snapshot->shape(), kind, row);
   const Vec3 centre = snapshot->bounds.centre();
   const double reach = 0.35 * std::min(snapshot->bounds.size().x(), snapshot->bounds.size().z());
   const ProxySettings settings{options.radius, 1000};
@@ -95,7 +106,7 @@ std::optional<fmt::ostream> openCsv(const std::string& name) {
   if (name.empty()) return {};
   try {
     std::optional<fmt::ostream> csv(fmt::output_file(name));
-    csv->print("hierarchy,surface,primitives,build_s,ticks,p50_us,p99_us,p999_us,max_us,capped\n");
+    csv->print("hierarchy,surface,primitives,build_s,index_ns,index_bytes,ticks,p50_us,p99_us,p999_us,max_us,capped\n");
     return csv;
   } catch (const std::system_error& error) {
     throw Error("cannot write " + name + ": " + error.what());
@@ -105,21 +116,25 @@ std::optional<fmt::ostream> openCsv(const std::string& name) {
 void print(const Row& row, double ratio, std::optional<fmt::ostream>& csv) {
   const Histogram& t = row.ticks;
   const double p50 = us(t.percentile_ns(0.5)), p99 = us(t.percentile_ns(0.99)), p999 = us(t.percentile_ns(0.999));
-  fmt::print("{:<10}{:<12}{:>11}{:>10.3f}{:>9.2f}{:>9.2f}{:>9.2f}{:>9.2f}{:>8}{:>8.2f}\n", row.hierarchy, row.surface,
-             row.primitives, row.build_s, p50, p99, p999, us(t.max_ns()), row.capped, ratio);
+  fmt::print("{:<10}{:<12}{:>11}{:>10.3f}{:>8.0f}{:>7.0f}{:>9.2f}{:>9.2f}{:>9.2f}{:>9.2f}{:>8}{:>8.2f}\n",
+             row.hierarchy, row.surface, row.primitives, row.build_s, row.index_ns, row.index_bytes, p50, p99, p999,
+             us(t.max_ns()), row.capped, ratio);
   std::fflush(stdout);
   if (!csv) return;
-  csv->print("{},{},{},{:.6f},{},{:.3f},{:.3f},{:.3f},{:.3f},{}\n", row.hierarchy, row.surface, row.primitives,
-             row.build_s, t.count(), p50, p99, p999, us(t.max_ns()), row.capped);
+  csv->print("{},{},{},{:.6f},{:.1f},{:.1f},{},{:.3f},{:.3f},{:.3f},{:.3f},{}\n", row.hierarchy, row.surface,
+             row.primitives, row.build_s, row.index_ns, row.index_bytes, t.count(), p50, p99, p999, us(t.max_ns()),
+             row.capped);
 }
 
 void run(const BenchOptions& options) {
   std::optional<fmt::ostream> csv = openCsv(options.csv);
-  fmt::print("one tick, sliding at {} m/s over terrain, r = {} m, times in us; ratio: mean time to that of plain\n",
-             kSpeed_m_s, options.radius);
-  fmt::print("{:<10}{:<12}{:>11}{:>10}{:>9}{:>9}{:>9}{:>9}{:>8}{:>8}\n", "hierarchy", "surface", "primitives",
-             "build s", "p50", "p99", "p99.9", "max", "capped", "ratio");
-  for (const HierarchyKind kind : {HierarchyKind::kSpheres, HierarchyKind::kNone}) {
+  fmt::print(
+      "one tick, sliding at {} m/s over terrain, r = {} m, times in us; ratio: mean time to that of plain;\n"
+      "build s: of the scene; ns and bytes: to build the hierarchy alone and its memory, for one primitive\n",
+      kSpeed_m_s, options.radius);
+  fmt::print("{:<10}{:<12}{:>11}{:>10}{:>8}{:>7}{:>9}{:>9}{:>9}{:>9}{:>8}{:>8}\n", "hierarchy", "surface", "primitives",
+             "build s", "ns", "bytes", "p50", "p99", "p99.9", "max", "capped", "ratio");
+  for (const HierarchyKind kind : {HierarchyKind::kBvh, HierarchyKind::kSpheres, HierarchyKind::kNone}) {
     for (int size = 1000; size <= options.most; size *= 10) {
       if (kind == HierarchyKind::kNone && static_cast<std::size_t>(size) > kBruteForceMost) break;
       double plain_ns = 0;

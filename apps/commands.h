@@ -19,7 +19,7 @@ void addBenchCommand(CLI::App& app);
 /// Options that every command with a SCENE shares.
 struct SceneOptions {
   std::string scene = "teapot";
-  std::string hierarchy = "spheres";
+  std::string hierarchy = "bvh";
   double scale = 0;  ///< metres per file unit; 0: as it is
   double fit = 0;    ///< m, largest side; 0: as it is
 };

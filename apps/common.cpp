@@ -22,6 +22,13 @@ void showProgress(double fraction) {
   std::fflush(stderr);
 }
 
+HierarchyKind hierarchyOf(const std::string& name) {
+  for (const HierarchyKind kind : {HierarchyKind::kSpheres, HierarchyKind::kNone}) {
+    if (name == nameOf(kind)) return kind;
+  }
+  return HierarchyKind::kBvh;
+}
+
 }  // namespace
 
 void addSceneArgument(CLI::App& command, SceneOptions& options, bool required) {
@@ -38,7 +45,7 @@ void addSceneArgument(CLI::App& command, SceneOptions& options, bool required) {
 
 void addHierarchyOption(CLI::App& command, SceneOptions& options) {
   command.add_option("--hierarchy", options.hierarchy, "how primitives near the proxy are found")
-      ->check(CLI::IsMember({"spheres", "none"}))
+      ->check(CLI::IsMember({"bvh", "spheres", "none"}))
       ->capture_default_str();
 }
 
@@ -86,8 +93,7 @@ std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options) {
   Model model = loadScene(options.scene, load);
   if (options.scale > 0) scaleModel(model, options.scale);
   if (options.fit > 0) fitModel(model, options.fit);
-  auto snapshot =
-      makeSnapshot(std::move(model), options.hierarchy == "none" ? HierarchyKind::kNone : HierarchyKind::kSpheres);
+  auto snapshot = makeSnapshot(std::move(model), hierarchyOf(options.hierarchy));
   for (const std::string& warning : snapshot->warnings) fmt::print(stderr, "{}: {}\n", options.scene, warning);
   if (snapshot->primitives == 0) throw Error(options.scene + ": nothing in it can be touched");
   return snapshot;

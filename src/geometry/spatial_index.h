@@ -1,5 +1,5 @@
-// SpatialIndex: the one way in which the proxy asks where primitives are. Structures behind it (sphere tree, brute
-// force) only propose candidates; exact tests are made by geometry/queries.h, so all structures give the same answer.
+// SpatialIndex: the one way in which the proxy asks where primitives are. Structures behind it (boxes, spheres,
+// nothing) only propose candidates; exact tests are made by geometry/queries.h, so all structures give the same answer.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace hl {
 /// What a structure costs.
 struct IndexStats {
   std::size_t nodes = 0;   ///< inner nodes
-  std::size_t leaves = 0;  ///< leaf volumes; a primitive may have several
+  std::size_t leaves = 0;  ///< leaf volumes; a primitive may have several of them, or several primitives share one
   std::size_t bytes = 0;   ///< heap memory, without the primitives
   int depth = 0;           ///< inner nodes on the longest path from the root to a leaf
 };

@@ -128,7 +128,7 @@ std::shared_ptr<const Shape> EditableScene::Flattening::shapeOf(const std::share
   if (known != scene_.stretched_.end()) return slot = known->second;
   Model model = shape->model;
   placeModel(model, {stretch, Vec3::Zero()});
-  return slot = makeShape(std::move(model), HierarchyKind::kSpheres);
+  return slot = makeShape(std::move(model));
 }
 
 std::shared_ptr<const Surfaces> EditableScene::Flattening::surfacesOf(const SurfaceChange& change) const {

@@ -5,6 +5,7 @@
 
 #include "geometry/brute_force.h"
 #include "geometry/sphere_tree.h"
+#include "geometry/wide_bvh.h"
 
 namespace hl {
 
@@ -62,6 +63,30 @@ std::vector<std::uint16_t> materialsOf(const Model& model, const std::vector<Pri
 
 }  // namespace
 
+const char* nameOf(HierarchyKind hierarchy) {
+  switch (hierarchy) {
+    case HierarchyKind::kBvh:
+      return "bvh";
+    case HierarchyKind::kSpheres:
+      return "spheres";
+    case HierarchyKind::kNone:
+      break;
+  }
+  return "none";
+}
+
+std::unique_ptr<const SpatialIndex> makeIndex(std::span<const Primitive> primitives, HierarchyKind hierarchy) {
+  switch (hierarchy) {
+    case HierarchyKind::kBvh:
+      return std::make_unique<WideBvh>(WideBvh::build(primitives));
+    case HierarchyKind::kSpheres:
+      return std::make_unique<SphereTree>(SphereTree::build(primitives));
+    case HierarchyKind::kNone:
+      break;
+  }
+  return std::make_unique<BruteForceIndex>(primitives.size());
+}
+
 std::shared_ptr<const Shape> makeShape(Model model, HierarchyKind hierarchy) {
   auto shape = std::make_shared<Shape>();
   auto& primitives = shape->primitives;
@@ -77,11 +102,7 @@ std::shared_ptr<const Shape> makeShape(Model model, HierarchyKind hierarchy) {
   if (!shape->bounds.empty()) {
     shape->extent = shape->bounds.min.cwiseAbs().cwiseMax(shape->bounds.max.cwiseAbs()).maxCoeff();
   }
-  if (hierarchy == HierarchyKind::kSpheres) {
-    shape->index = std::make_unique<SphereTree>(SphereTree::build(primitives));
-  } else {
-    shape->index = std::make_unique<BruteForceIndex>(primitives.size());
-  }
+  shape->index = makeIndex(primitives, hierarchy);
   shape->model = std::move(model);
   return shape;
 }

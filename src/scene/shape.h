@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,15 @@
 
 namespace hl {
 
-/// Which structure finds the primitives near the proxy: the paper's sphere tree, or none (every primitive is tested).
-enum class HierarchyKind : std::uint8_t { kSpheres, kNone };
+/// Which structure finds the primitives near the proxy: boxes with eight children each, the paper's sphere tree, or
+/// none (every primitive is tested). The results are the same.
+enum class HierarchyKind : std::uint8_t { kBvh, kSpheres, kNone };
+
+/// "bvh", "spheres" or "none".
+const char* nameOf(HierarchyKind hierarchy);
+
+/// Builds the structure over `primitives`. Allocates; never called by a real-time thread.
+std::unique_ptr<const SpatialIndex> makeIndex(std::span<const Primitive> primitives, HierarchyKind hierarchy);
 
 /// Immutable after makeShape; read by any thread. Metres, object frame.
 struct Shape {
@@ -32,6 +40,6 @@ struct Shape {
 
 /// Takes over `model`. Degenerate and non-finite elements, and indices out of range, are skipped and counted in
 /// `warnings`. Allocates; never called by a real-time thread.
-std::shared_ptr<const Shape> makeShape(Model model, HierarchyKind hierarchy);
+std::shared_ptr<const Shape> makeShape(Model model, HierarchyKind hierarchy = HierarchyKind::kBvh);
 
 }  // namespace hl

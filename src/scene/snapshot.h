@@ -57,6 +57,6 @@ std::shared_ptr<const Surfaces> surfacesOf(const std::shared_ptr<const Shape>& s
 std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, std::string name = {},
                                              std::uint64_t number = 1, bool abrupt = true);
 /// One model where it says, world and object frame the same.
-std::shared_ptr<const Snapshot> makeSnapshot(Model model, HierarchyKind hierarchy);
+std::shared_ptr<const Snapshot> makeSnapshot(Model model, HierarchyKind hierarchy = HierarchyKind::kBvh);
 
 }  // namespace hl

@@ -136,7 +136,7 @@ std::shared_ptr<const Shape> FrameDecoder::shapeOf(const proto::Primitives& in, 
   const auto repeat = [](bool has, double value) { return has && std::isfinite(value) ? value : 1; };
   repeatTexcoords(model, repeat(material.has_repeat_u(), material.repeat_u()),
                   repeat(material.has_repeat_v(), material.repeat_v()));
-  auto shape = makeShape(std::move(model), HierarchyKind::kSpheres);
+  auto shape = makeShape(std::move(model));
   for (const std::string& warning : shape->warnings) result_.warnings.push_back(where + ": " + warning);
   return shape;
 }

@@ -1,4 +1,4 @@
-// The exact queries: the same bits through the sphere tree and by brute force, whatever the order of the primitives.
+// The exact queries: the same bits through each hierarchy and by brute force, whatever the order of the primitives.
 #include "geometry/queries.h"
 
 #include <gtest/gtest.h>
@@ -12,6 +12,7 @@
 #include "geometry/brute_force.h"
 #include "geometry/scenes.h"
 #include "geometry/sphere_tree.h"
+#include "geometry/wide_bvh.h"
 
 namespace hl {
 namespace {
@@ -31,13 +32,18 @@ bool sameBits(const Impact& a, const Impact& b) {
   return a.t == b.t && a.feature == b.feature && a.normal == b.normal && a.weights == b.weights;
 }
 
-// One scene and its index, asked in a given order of the primitives.
+// One scene and its indices, asked in a given order of the primitives.
 struct Asked {
   std::vector<Primitive> scene;
-  SphereTree tree;
+  SphereTree spheres;
+  WideBvh boxes;
   BruteForceIndex brute;
   explicit Asked(std::vector<Primitive> primitives)
-      : scene(std::move(primitives)), tree(SphereTree::build(scene)), brute(scene.size()) {}
+      : scene(std::move(primitives)),
+        spheres(SphereTree::build(scene)),
+        boxes(WideBvh::build(scene)),
+        brute(scene.size()) {}
+  std::array<const SpatialIndex*, 2> hierarchies() const { return {&spheres, &boxes}; }
 };
 
 using Near = std::map<std::uint32_t, double>;  // source -> distance
@@ -50,24 +56,25 @@ Near nearBy(const SpatialIndex& index, const Asked& asked, const Query& query) {
   return near;
 }
 
+bool firstBy(const SpatialIndex& index, const Asked& asked, const Query& query, FirstImpact& out) {
+  return firstImpact(index, asked.scene, query.from, query.motion, query.radius, query.touching, out);
+}
+
 void compare(const Asked& asked, const Asked& shuffled, const Query& query, int& hits) {
-  FirstImpact by_tree, by_brute, by_shuffled;
-  const bool hit =
-      firstImpact(asked.brute, asked.scene, query.from, query.motion, query.radius, query.touching, by_brute);
-  ASSERT_EQ(firstImpact(asked.tree, asked.scene, query.from, query.motion, query.radius, query.touching, by_tree), hit);
-  ASSERT_EQ(
-      firstImpact(shuffled.tree, shuffled.scene, query.from, query.motion, query.radius, query.touching, by_shuffled),
-      hit);
-  if (hit) {
-    ++hits;
-    ASSERT_TRUE(sameBits(by_tree.impact, by_brute.impact));
-    ASSERT_TRUE(sameBits(by_shuffled.impact, by_brute.impact));
-    ASSERT_EQ(by_tree.primitive, by_brute.primitive);
-    ASSERT_EQ(shuffled.scene[by_shuffled.primitive].source, asked.scene[by_brute.primitive].source);
-  }
+  FirstImpact by_brute;
+  const bool hit = firstBy(asked.brute, asked, query, by_brute);
+  if (hit) ++hits;
   const Near near = nearBy(asked.brute, asked, query);
-  ASSERT_EQ(nearBy(asked.tree, asked, query), near);
-  ASSERT_EQ(nearBy(shuffled.tree, shuffled, query), near);
+  for (const Asked* order : {&asked, &shuffled}) {
+    for (const SpatialIndex* hierarchy : order->hierarchies()) {
+      FirstImpact by_hierarchy;
+      ASSERT_EQ(firstBy(*hierarchy, *order, query, by_hierarchy), hit);
+      ASSERT_EQ(nearBy(*hierarchy, *order, query), near);
+      if (!hit) continue;
+      ASSERT_TRUE(sameBits(by_hierarchy.impact, by_brute.impact));
+      ASSERT_EQ(order->scene[by_hierarchy.primitive].source, asked.scene[by_brute.primitive].source);
+    }
+  }
 }
 
 // Whole numbers make ties, shared corners and grazing paths common; a failure shrinks to a few triangles.
@@ -87,15 +94,20 @@ RC_GTEST_PROP(Queries, FirstImpactAmongIntegerPrimitivesIsThatOfBruteForce, ()) 
   const Asked asked(std::move(scene));
   const Vec3 from = vec(), motion = vec();
   const double radius = 0.25 * *rc::gen::inRange(1, 8), touching = *rc::gen::inRange(0, 2) * radius;
-  FirstImpact by_tree, by_brute;
-  const bool hit = firstImpact(asked.brute, asked.scene, from, motion, radius, touching, by_brute);
-  RC_ASSERT(firstImpact(asked.tree, asked.scene, from, motion, radius, touching, by_tree) == hit);
-  if (!hit) return;
-  RC_ASSERT(sameBits(by_tree.impact, by_brute.impact));
-  RC_ASSERT(by_tree.primitive == by_brute.primitive);
+  const Query query{from, motion, radius, touching};
+  FirstImpact by_brute;
+  const bool hit = firstBy(asked.brute, asked, query, by_brute);
+  for (const SpatialIndex* hierarchy : asked.hierarchies()) {
+    FirstImpact by_hierarchy;
+    RC_ASSERT(firstBy(*hierarchy, asked, query, by_hierarchy) == hit);
+    if (!hit) continue;
+    RC_ASSERT(sameBits(by_hierarchy.impact, by_brute.impact));
+    RC_ASSERT(by_hierarchy.primitive == by_brute.primitive);
+  }
 }
 
-void compareScene(std::vector<Primitive> scene, int queries, double cube, double size, std::uint64_t seed) {
+void compareScene(std::vector<Primitive> scene, int queries, double cube, double size, std::uint64_t seed,
+                  const Vec3& place = Vec3::Zero()) {
   test::Random random(seed);
   std::vector<Primitive> mixed = scene;
   std::shuffle(mixed.begin(), mixed.end(), random.engine());
@@ -103,25 +115,43 @@ void compareScene(std::vector<Primitive> scene, int queries, double cube, double
   const Asked shuffled(std::move(mixed));
   int hits = 0;
   for (int i = 0; i < queries; ++i) {
-    compare(asked, shuffled, randomQuery(random, cube, size), hits);
+    Query query = randomQuery(random, cube, size);
+    query.from += place;
+    compare(asked, shuffled, query, hits);
     if (::testing::Test::HasFatalFailure()) FAIL() << "query " << i;
   }
   EXPECT_GT(hits, queries / 100);
 }
 
-TEST(Queries, TreeAndBruteForceAgreeToTheBitInASoupInAnyOrder) {
+TEST(Queries, HierarchiesAndBruteForceAgreeToTheBitInASoupInAnyOrder) {
   test::Random random(41);
   compareScene(test::soup(random, 300, 1, 0.2), 60'000, 1, 0.2, 42);
 }
 
-TEST(Queries, TreeAndBruteForceAgreeToTheBitAtSmallAndLargeScales) {
+TEST(Queries, HierarchiesAndBruteForceAgreeToTheBitAtSmallAndLargeScales) {
   test::Random random(43);
   compareScene(test::soup(random, 300, 1e-5, 2e-6), 20'000, 1e-5, 2e-6, 44);
   compareScene(test::soup(random, 300, 1e6, 1e3), 20'000, 1e6, 3e5, 45);
 }
 
-TEST(Queries, TreeAndBruteForceAgreeToTheBitOnASheetWhereEveryEdgeIsShared) {
+TEST(Queries, HierarchiesAndBruteForceAgreeToTheBitOnASheetWhereEveryEdgeIsShared) {
   compareScene(test::terrain(16), 20'000, 0.7, 0.1, 46);
+}
+
+TEST(Queries, HierarchiesAndBruteForceAgreeToTheBitFarFromTheOrigin) {
+  test::Random random(49);
+  std::vector<Primitive> scene;
+  const Vec3 place(3e5, -7e5, 2e5);
+  for (const Primitive& near : test::soup(random, 300, 1, 0.2)) {
+    const auto& v = near.vertex;
+    Primitive far;
+    const bool made = near.kind == PrimitiveKind::kPoint ? makePoint(v[0] + place, near.source, far)
+                      : near.kind == PrimitiveKind::kSegment
+                          ? makeSegment(v[0] + place, v[1] + place, near.source, far)
+                          : makeTriangle(v[0] + place, v[1] + place, v[2] + place, near.source, far);
+    if (made) scene.push_back(far);
+  }
+  compareScene(std::move(scene), 20'000, 1, 0.2, 50, place);
 }
 
 TEST(Queries, TiesAreDecidedByTheVertices) {
@@ -167,9 +197,11 @@ TEST(Queries, NothingIsAllocated) {
     std::size_t near = 0;
     FirstImpact impact;
     const NoAlloc guard;
-    firstImpact(asked.tree, asked.scene, query.from, query.motion, query.radius, query.touching, impact);
-    primitivesWithin(asked.tree, asked.scene, query.from, query.radius,
-                     [&](std::uint32_t, const ClosestPoint&) { ++near; });
+    for (const SpatialIndex* hierarchy : asked.hierarchies()) {
+      firstBy(*hierarchy, asked, query, impact);
+      primitivesWithin(*hierarchy, asked.scene, query.from, query.radius,
+                       [&](std::uint32_t, const ClosestPoint&) { ++near; });
+    }
   }
 }
 

@@ -90,7 +90,7 @@ TEST(SceneFile, EveryFieldArrives) {
   EXPECT_FALSE(m.textureOf(Quantity::kStiffness).used());
   EXPECT_EQ(model.textures[0].wrap, Wrap::kClamp);
   EXPECT_EQ(model.textures[0].filter, Filter::kNearest);
-  EXPECT_EQ(makeSnapshot(model, HierarchyKind::kSpheres)->shape().material_of.size(), 6u);
+  EXPECT_EQ(makeSnapshot(model, HierarchyKind::kBvh)->shape().material_of.size(), 6u);
 }
 
 TEST(SceneFile, TheExamplesLoad) {

@@ -62,7 +62,7 @@ inline Model triangles(const std::vector<std::array<Vec3, 3>>& soup) {
   return model;
 }
 
-inline std::shared_ptr<const Snapshot> scene(Model model, HierarchyKind kind = HierarchyKind::kSpheres) {
+inline std::shared_ptr<const Snapshot> scene(Model model, HierarchyKind kind = HierarchyKind::kBvh) {
   return makeSnapshot(std::move(model), kind);
 }
 

@@ -75,7 +75,7 @@ TEST(Friction, SteadyDragDoesNotFeelTheTessellation) {
     const double x0 = -0.1 + 0.2 * i / 700, x1 = -0.1 + 0.2 * (i + 1) / 700;
     test::addRectangle(model, {x0, 0, 0.1}, {x1 - x0, 0, 0}, {0, 0, -0.2}, Vec3::UnitY());
   }
-  const auto scene = makeSnapshot(std::move(model), HierarchyKind::kSpheres);
+  const auto scene = makeSnapshot(std::move(model), HierarchyKind::kBvh);
   const Steady steady = drag(*scene, settingsOf(0.6, 0.4, 2), kDepth, 0.2);
   const double expected = 0.4 * kK * kDepth + 2 * 0.2;
   EXPECT_NEAR(steady.mean, expected, 1e-3 * expected);

@@ -47,7 +47,7 @@ Model boxModel(const Vec3& half) {
 Instance place(std::uint64_t key, Model model, const Motion& motion) {
   Instance instance;
   instance.key = key;
-  instance.shape = makeShape(std::move(model), HierarchyKind::kSpheres);
+  instance.shape = makeShape(std::move(model), HierarchyKind::kBvh);
   instance.surfaces = surfacesOf(instance.shape);
   instance.motion = motion;
   return instance;

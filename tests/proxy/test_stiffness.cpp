@@ -156,7 +156,7 @@ std::shared_ptr<const Snapshot> soup(std::uint32_t triangles) {
   material.textureOf(Quantity::kStiffness) = {0, 0.1, 1};
   material.textureOf(Quantity::kStaticFriction) = {1, 0.1, 0.8};
   material.textureOf(Quantity::kHeight) = {2, 0, 2e-4};
-  return makeSnapshot(std::move(model), HierarchyKind::kSpheres);
+  return makeSnapshot(std::move(model), HierarchyKind::kBvh);
 }
 
 struct Walk {

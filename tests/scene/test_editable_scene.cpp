@@ -14,7 +14,7 @@ std::shared_ptr<const Shape> triangle(double size = 1) {
   model.positions = {{0, 0, 0}, {size, 0, 0}, {0, size, 0}};
   model.normals = {{0, 0, 1}, {0, 0, 1}, {0.6, 0, 0.8}};
   model.triangles = {{0, 1, 2}};
-  return makeShape(std::move(model), HierarchyKind::kSpheres);
+  return makeShape(std::move(model), HierarchyKind::kBvh);
 }
 
 SceneItem shapeItem(std::shared_ptr<const Shape> shape, const Placement& placement = {}) {

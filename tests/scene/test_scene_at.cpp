@@ -41,7 +41,7 @@ Twins twins(test::Random& random) {
     for (const auto& s : part.segments) whole.segments.push_back({base + s[0], base + s[1]});
     for (const std::uint32_t p : part.points) whole.points.push_back(base + p);
     Instance instance;
-    instance.shape = makeShape(part, HierarchyKind::kSpheres);
+    instance.shape = makeShape(part, HierarchyKind::kBvh);
     instance.surfaces = surfacesOf(instance.shape);
     instance.motion = Motion(pose);
     instance.key = key;

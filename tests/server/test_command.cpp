@@ -58,7 +58,7 @@ TEST(Command, BadInputIsOneLineAndExitCodeTwo) {
 TEST(Command, TraceWritesOneRowForEachRow) {
   const std::string path = hl::test::fileWith("hl_cmd_path2.csv", "t,x,y,z\n0,0,0.2,0\n0.001,0,0.1,0\n0.002,0,0,0\n");
   const std::string out = hl::test::tempFile("hl_cmd_out2.csv");
-  for (const char* hierarchy : {"spheres", "none"}) {
+  for (const char* hierarchy : {"bvh", "spheres", "none"}) {
     const Result result =
         call("trace sphere:2000 --hierarchy " + std::string(hierarchy) + " --path " + path + " --out " + out);
     ASSERT_EQ(result.code, 0) << result.output;

@@ -40,7 +40,7 @@ std::shared_ptr<const Snapshot> soup(std::mt19937& random) {
   model.materials[0].smooth = true;
   model.materials[0].dynamic_friction = 0.3;
   model.materials[0].textureOf(Quantity::kStiffness) = {0, 0.3, 1};
-  return makeSnapshot(std::move(model), HierarchyKind::kSpheres);
+  return makeSnapshot(std::move(model), HierarchyKind::kBvh);
 }
 
 struct Work {

@@ -18,7 +18,7 @@ std::shared_ptr<const Shape> floorShape() {
   Model model;
   model.positions = {{-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}};
   model.triangles = {{0, 1, 2}, {0, 2, 3}};
-  return makeShape(std::move(model), HierarchyKind::kSpheres);
+  return makeShape(std::move(model), HierarchyKind::kBvh);
 }
 
 Instance floorAt(double y, std::uint64_t key = 5) {

@@ -23,7 +23,7 @@ double clearance(const Snapshot& scene, const Vec3& p, double reach) {
 }
 
 TEST(C65TouchSession, TheExploringHandTouchesAndTheProxyShownStaysOutside) {
-  const auto snapshot = makeSnapshot(makeBuiltinScene("teapot"), HierarchyKind::kSpheres);
+  const auto snapshot = makeSnapshot(makeBuiltinScene("teapot"), HierarchyKind::kBvh);
   TouchSession session(snapshot, {});
   session.start();
   double strongest = 0;
@@ -45,7 +45,7 @@ TEST(C65TouchSession, TheExploringHandTouchesAndTheProxyShownStaysOutside) {
 }
 
 TEST(TouchSession, APersonTakesOverAndThePressIsFelt) {
-  const auto snapshot = makeSnapshot(makeBuiltinScene("plane:2000"), HierarchyKind::kSpheres);
+  const auto snapshot = makeSnapshot(makeBuiltinScene("plane:2000"), HierarchyKind::kBvh);
   TouchSettings settings;
   settings.explore = false;
   TouchSession session(snapshot, settings);
@@ -64,7 +64,7 @@ TEST(TouchSession, APersonTakesOverAndThePressIsFelt) {
 }
 
 TEST(TouchSession, BadCommandsChangeNothing) {
-  const auto snapshot = makeSnapshot(makeBuiltinScene("plane:200"), HierarchyKind::kSpheres);
+  const auto snapshot = makeSnapshot(makeBuiltinScene("plane:200"), HierarchyKind::kBvh);
   TouchSession session(snapshot, {});
   const double before = session.stiffness_N_m();
   session.setStiffness(-1);

@@ -68,7 +68,7 @@ Judgement judge(const Snapshot& snapshot, double radius, double phase, const Mat
 std::uint64_t expectSound(Model model, const std::string& spec) {
   std::uint64_t contacts = 0;
   fitModel(model, kSide);
-  const auto snapshot = makeSnapshot(std::move(model), HierarchyKind::kSpheres);
+  const auto snapshot = makeSnapshot(std::move(model), HierarchyKind::kBvh);
   for (const double phase : {0.0, 2.0}) {
     const Judgement j = judge(*snapshot, 1e-3, phase);
     std::printf("%s: clearance - r >= %.2g r, residual <= %.2g, %.2f m/s, %llu of %llu ticks in contact, %llu capped\n",
@@ -125,7 +125,7 @@ TEST(Trace, ShadingAndFrictionKeepTheProxyOutside) {
   for (const char* spec : {"teapot", "walker", "sphere:20000", "terrain:5000"}) {
     Model model = loadScene(spec);
     fitModel(model, kSide);
-    const auto snapshot = makeSnapshot(std::move(model), HierarchyKind::kSpheres);
+    const auto snapshot = makeSnapshot(std::move(model), HierarchyKind::kBvh);
     const Judgement j = judge(*snapshot, 1e-3, 1.0, surfaces);
     EXPECT_GE(j.least_clearance, 1e-3 * (1 - 1e-6)) << spec;
     EXPECT_EQ(j.totals.capped, 0u) << spec;
@@ -135,7 +135,7 @@ TEST(Trace, ShadingAndFrictionKeepTheProxyOutside) {
 }
 
 TEST(Trace, AClosedSurfaceIsNeverCutThrough) {
-  const auto snapshot = makeSnapshot(loadScene("sphere:20000"), HierarchyKind::kSpheres);
+  const auto snapshot = makeSnapshot(loadScene("sphere:20000"), HierarchyKind::kBvh);
   for (const double phase : {0.5, 1.0, 1.5}) EXPECT_GT(judge(*snapshot, 1e-3, phase).nearest_middle, 0.096);
 }
 
@@ -153,7 +153,7 @@ TEST(Trace, DebiansTestModelsHoldTheProxyAtItsLocalMinimum) {
 
 TEST(Trace, TheSameBitsEveryTimeAndWithoutTheHierarchy) {
   Model model = loadScene("teapot");
-  const auto tree = makeSnapshot(model, HierarchyKind::kSpheres);
+  const auto tree = makeSnapshot(model, HierarchyKind::kBvh);
   const auto none = makeSnapshot(model, HierarchyKind::kNone);
   auto path = crossingPath(0.11, 0.3);
   path.resize(1500);

@@ -1,0 +1,98 @@
+#include "geometry/wide_bvh.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+#include "geometry/wide_bvh_build.h"
+#include "geometry/wide_bvh_pack.h"
+
+namespace hl {
+
+namespace {
+
+using Range = oneapi::tbb::blocked_range<std::size_t>;
+constexpr std::size_t kGrain = 4096;
+
+struct Bounds {
+  Vec3 min = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 max = -min;
+};
+
+Bounds boundsOf(std::span<const Primitive> primitives) {
+  const auto extend = [&](const Range& range, Bounds bounds) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      for (const Vec3& vertex : primitives[i].vertex) {
+        bounds.min = bounds.min.cwiseMin(vertex);
+        bounds.max = bounds.max.cwiseMax(vertex);
+      }
+    }
+    return bounds;
+  };
+  const auto both = [](const Bounds& a, const Bounds& b) {
+    return Bounds{a.min.cwiseMin(b.min), a.max.cwiseMax(b.max)};
+  };
+  return oneapi::tbb::parallel_reduce(Range(0, primitives.size(), kGrain), Bounds(), extend, both);
+}
+
+double largest(const Vec3& v) { return v.cwiseAbs().maxCoeff(); }
+
+}  // namespace
+
+WideBvh WideBvh::build(std::span<const Primitive> primitives) {
+  // Where all primitives are one point nothing else says how fine its packed place must be.
+  constexpr double kSmallestStep = 1e-12 / (1 << 15);
+  constexpr double kStepPerExtent = 1.0 / (1LL << 55);
+  WideBvh bvh;
+  bvh.primitives_ = primitives.size();
+  if (primitives.empty()) return bvh;
+  assert(primitives.size() <= std::numeric_limits<std::uint32_t>::max());
+  const Bounds bounds = boundsOf(primitives);
+  bvh.origin_ = 0.5 * bounds.min + 0.5 * bounds.max;
+  bvh.half_ = largest(bounds.max - bvh.origin_);
+  bvh.extent_ = std::max(largest(bounds.min), largest(bounds.max));
+  std::vector<BoxedPrimitive> boxes(primitives.size());
+  oneapi::tbb::parallel_for(Range(0, boxes.size(), kGrain), [&](const Range& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      boxes[i] = boxed(primitives[i], static_cast<std::uint32_t>(i), bvh.origin_);
+  });
+  const BinaryTree tree = buildBinaryTree(std::move(boxes));
+  bvh.nodes_ = widen(tree, bvh.depth_);
+  bvh.blocks_ = pack(tree, primitives, bvh.origin_, std::max(kSmallestStep, kStepPerExtent * bvh.half_));
+  return bvh;
+}
+
+WideTree WideBvh::tree() const {
+  const std::uint32_t root = nodes_.empty() ? kBlockLink : 0;
+  return {nodes_.data(), blocks_.data(), root, static_cast<std::uint32_t>(primitives_), half_};
+}
+
+double WideBvh::reach(const Vec3& from, const Vec3& motion, double radius) const {
+  // Rounding of coordinate sums, a few parts in 2^53 of the largest coordinate.
+  constexpr double kRounding = 1e-14;
+  return radius + kRounding * (largest(from) + largest(motion) + extent_);
+}
+
+void WideBvh::overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t)> visit) const {
+  if (primitives_ == 0) return;
+  const Vec3 at = centre - origin_;
+  overlapWide(tree(), {{at[0], at[1], at[2]}, {0, 0, 0}, reach(centre, Vec3::Zero(), radius)}, visit);
+}
+
+void WideBvh::sweep(const Vec3& from, const Vec3& motion, double radius,
+                    FunctionRef<double(std::uint32_t, double)> visit) const {
+  if (primitives_ == 0) return;
+  const Vec3 at = from - origin_;
+  sweepWide(tree(), {{at[0], at[1], at[2]}, {motion[0], motion[1], motion[2]}, reach(from, motion, radius)}, visit);
+}
+
+IndexStats WideBvh::stats() const {
+  return IndexStats{nodes_.size(), blocks_.size(),
+                    nodes_.capacity() * sizeof(WideNode) + blocks_.capacity() * sizeof(WideBlock), depth_};
+}
+
+}  // namespace hl

@@ -1,0 +1,49 @@
+// WideBvh: the default hierarchy. Boxes with eight children each, split by the surface area heuristic (Goldsmith and
+// Salmon 1987; in bins after Wald 2007), above blocks of eight primitives packed in 16-bit coordinates. What a block
+// proposes is decided by lower bounds of the true distance, not by boxes, so few candidates need the exact test.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/primitive.h"
+#include "geometry/spatial_index.h"
+#include "geometry/wide_bvh_layout.h"
+#include "geometry/wide_bvh_query.h"
+
+namespace hl {
+
+/// See SpatialIndex; both queries propose a primitive once. Immutable once built; may be moved and copied.
+/// Coordinates up to 1e15 m.
+class WideBvh final : public SpatialIndex {
+ public:
+  /// Builds in O(n lg n) on all threads that oneTBB has; the result does not depend on their number. Setup only. Empty
+  /// input gives an index that visits nothing.
+  static WideBvh build(std::span<const Primitive> primitives);
+
+  void overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t primitive)> visit) const override;
+  void sweep(const Vec3& from, const Vec3& motion, double radius,
+             FunctionRef<double(std::uint32_t primitive, double limit)> visit) const override;
+  IndexStats stats() const override;
+
+  std::span<const WideNode> nodes() const { return nodes_; }  ///< nodes()[0] is the root; one block alone has no node
+  std::span<const WideBlock> blocks() const { return blocks_; }
+  std::size_t primitives() const { return primitives_; }
+  const Vec3& origin() const { return origin_; }  ///< what the coordinates of nodes and blocks are relative to
+
+ private:
+  WideTree tree() const;
+  // The radius, and what the double tests of the candidates may be off by.
+  double reach(const Vec3& from, const Vec3& motion, double radius) const;
+
+  std::vector<WideNode> nodes_;
+  std::vector<WideBlock> blocks_;
+  std::size_t primitives_ = 0;
+  Vec3 origin_ = Vec3::Zero();
+  double extent_ = 0;  // m: largest coordinate of a primitive
+  double half_ = 0;    // m: the same, relative to origin_
+  int depth_ = 0;
+};
+
+}  // namespace hl

@@ -1,0 +1,65 @@
+// The first half of building a WideBvh: a binary tree of boxes whose leaves are runs of eight primitives.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "geometry/primitive.h"
+#include "geometry/wide_bvh_layout.h"
+
+namespace hl {
+
+/// Four lanes, the last one free: a box is two registers.
+struct FloatBox {
+  Eigen::Array4f min = Eigen::Array4f::Constant(std::numeric_limits<float>::infinity());
+  Eigen::Array4f max = Eigen::Array4f::Constant(-std::numeric_limits<float>::infinity());
+
+  void extend(const FloatBox& other) {
+    min = min.min(other.min);
+    max = max.max(other.max);
+  }
+  float halfArea() const {
+    const Eigen::Array4f size = max - min;
+    return size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
+  }
+};
+
+/// A primitive in the making: its box, rounded outward, and its number in the free lanes.
+struct BoxedPrimitive {
+  FloatBox box;
+  // In two halves, as numbers: the bits of an integer may be a float that slows arithmetic down.
+  void setNumber(std::uint32_t number) {
+    box.min[3] = static_cast<float>(number & 0xffffu);
+    box.max[3] = static_cast<float>(number >> 16);
+  }
+  std::uint32_t number() const {
+    return static_cast<std::uint32_t>(box.min[3]) | static_cast<std::uint32_t>(box.max[3]) << 16;
+  }
+};
+
+/// Children are links: kBlockLink | block, or a node.
+struct BinaryNode {
+  FloatBox box;
+  std::array<std::uint32_t, 2> child{};
+};
+
+struct BinaryTree {
+  std::vector<BoxedPrimitive> primitives;  ///< block k has those from 8 k up to 8 (k + 1)
+  std::vector<BinaryNode> nodes;           ///< number k splits before block k, so number 0 is unused
+  std::vector<FloatBox> blocks;
+  std::uint32_t root = kBlockLink;
+
+  const FloatBox& box(std::uint32_t link) const {
+    return (link & kBlockLink) != 0 ? blocks[link & ~kBlockLink] : nodes[link].box;
+  }
+};
+
+/// Splits `primitives` (at least one) by the surface area heuristic. O(n lg n), parallel; the result does not depend on
+/// the number of threads.
+BinaryTree buildBinaryTree(std::vector<BoxedPrimitive> primitives);
+
+}  // namespace hl

@@ -1,0 +1,42 @@
+// What a WideBvh is made of: nodes of up to eight boxes and blocks of up to eight primitives, as arrays with one lane a
+// box or primitive, so that one instruction looks at all of them. All coordinates are relative to the hierarchy's
+// origin.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace hl {
+
+inline constexpr std::size_t kWide = 8;
+
+/// A link with this bit names a block, else a node.
+inline constexpr std::uint32_t kBlockLink = 0x80000000u;
+
+/// Boxes of up to eight children, rounded outward (metres). An unused lane has its smallest above its largest
+/// coordinate, by an infinity, so no query enters it.
+struct alignas(64) WideNode {
+  float bound[2][3][kWide];  ///< smallest and largest coordinate by axis
+  std::uint32_t child[kWide];
+};
+
+/// Up to eight primitives; all blocks but the last are full. Coordinate = origin + step * vertex, at most half a step
+/// off. A segment has vertex 2 == vertex 1, a point has all three equal.
+struct alignas(64) WideBlock {
+  std::int16_t vertex[3][3][kWide];  ///< by vertex and axis
+  std::uint32_t primitive[kWide];
+  float origin[3];
+  float step;  ///< metres; a power of two, so that scaling by it rounds nothing
+};
+
+static_assert(sizeof(WideNode) == 256 && sizeof(WideBlock) == 192);
+
+/// Depth allowed per lg of the number of blocks: below it the cheapest split may be as uneven as it likes, then halving
+/// takes over, so the traversal's stack and the work of the build are bounded for every input.
+inline constexpr double kWideDepthPerLg = 2.5;
+/// 2.5 * 29, the most for primitives numbered by 32 bits. A walk keeps at most seven waiting children for each level.
+inline constexpr std::size_t kWideMostDepth = 72;
+inline constexpr std::size_t kWideStackSize = 7 * kWideMostDepth + 8;
+
+}  // namespace hl

@@ -1,0 +1,170 @@
+#include "geometry/wide_bvh_pack.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "base/fixed_vector.h"
+
+namespace hl {
+
+namespace {
+
+using Links = FixedVector<std::uint32_t, kWide>;
+
+bool isBlock(std::uint32_t link) { return (link & kBlockLink) != 0; }
+
+// The children of a wide node: the binary node of the largest box gives way to its two children until there are eight.
+Links childrenOf(const BinaryTree& tree, std::uint32_t link) {
+  Links links;
+  for (const std::uint32_t child : tree.nodes[link].child) links.push(child);
+  while (links.size() < kWide) {
+    std::size_t widest = kWide;
+    float area = -1;
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      if (isBlock(links[i]) || !(tree.box(links[i]).halfArea() > area)) continue;
+      widest = i;
+      area = tree.box(links[i]).halfArea();
+    }
+    if (widest == kWide) break;
+    const auto& pair = tree.nodes[links[widest]].child;
+    links[widest] = pair[0];
+    links.push(pair[1]);
+  }
+  return links;
+}
+
+void setLane(WideNode& node, std::size_t lane, const FloatBox& box, std::uint32_t link) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    node.bound[0][axis][lane] = box.min[static_cast<Eigen::Index>(axis)];
+    node.bound[1][axis][lane] = box.max[static_cast<Eigen::Index>(axis)];
+  }
+  node.child[lane] = link;
+}
+
+class Widener {
+ public:
+  Widener(const BinaryTree& tree, std::vector<WideNode>& nodes) : tree_(tree), nodes_(nodes) {}
+
+  std::uint32_t add(std::uint32_t link, int depth) {
+    if (isBlock(link)) return link;
+    depth_ = std::max(depth_, depth + 1);
+    const std::size_t self = nodes_.size();
+    nodes_.emplace_back();
+    const Links links = childrenOf(tree_, link);
+    for (std::size_t lane = 0; lane < kWide; ++lane) {
+      const bool used = lane < links.size();
+      const std::uint32_t child = used ? add(links[lane], depth + 1) : kBlockLink;
+      setLane(nodes_[self], lane, used ? tree_.box(links[lane]) : FloatBox(), child);
+    }
+    return static_cast<std::uint32_t>(self);
+  }
+
+  int depth() const { return depth_; }
+
+ private:
+  const BinaryTree& tree_;
+  std::vector<WideNode>& nodes_;
+  int depth_ = 0;
+};
+
+// Smallest power of two by which `largest` becomes at most what 16 bits hold.
+double stepFor(double largest) {
+  int exponent = 0;
+  std::frexp(largest / std::numeric_limits<std::int16_t>::max(), &exponent);
+  return std::ldexp(1.0, exponent);
+}
+
+class BlockPacker {
+ public:
+  BlockPacker(const BinaryTree& tree, std::span<const Primitive> primitives, const Vec3& origin, double smallest_step)
+      : tree_(tree), primitives_(primitives), origin_(origin), smallest_step_(smallest_step) {}
+
+  WideBlock pack(std::size_t number) const {
+    const std::size_t begin = number * kWide;
+    const std::size_t count = std::min(kWide, tree_.primitives.size() - begin);
+    WideBlock block{};
+    Vec3 origin = origin_;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<Eigen::Index>(axis);
+      block.origin[axis] = 0.5f * (tree_.blocks[number].min[i] + tree_.blocks[number].max[i]);
+      origin[i] = block.origin[axis];
+    }
+    double largest = 0;
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      block.primitive[lane] = tree_.primitives[begin + lane].number();
+      for (const Vec3& vertex : primitives_[block.primitive[lane]].vertex)
+        largest = std::max(largest, local(vertex, origin).cwiseAbs().maxCoeff());
+    }
+    const double step = std::max(stepFor(largest), smallest_step_);
+    block.step = static_cast<float>(step);
+    for (std::size_t lane = 0; lane < count; ++lane) packLane(block, lane, origin, 1 / step);
+    return block;
+  }
+
+ private:
+  Vec3 local(const Vec3& vertex, const Vec3& origin) const { return (vertex - origin_) - origin; }
+
+  void packLane(WideBlock& block, std::size_t lane, const Vec3& origin, double per_step) const {
+    const Primitive& primitive = primitives_[block.primitive[lane]];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 at = local(primitive.vertex[i], origin) * per_step;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        block.vertex[i][axis][lane] = static_cast<std::int16_t>(std::lrint(at[static_cast<Eigen::Index>(axis)]));
+    }
+  }
+
+  const BinaryTree& tree_;
+  std::span<const Primitive> primitives_;
+  const Vec3& origin_;
+  double smallest_step_;
+};
+
+}  // namespace
+
+// The bounds grow by 2^-22 of themselves, four times what rounding to single precision moves them, and by the smallest
+// normal float. Computed, not measured: GCC 12 takes a double that was narrowed and widened again for the double
+// itself.
+BoxedPrimitive boxed(const Primitive& primitive, std::uint32_t number, const Vec3& origin) {
+  constexpr float kOutward = 1.0f / (1 << 22);
+  constexpr float kMost = 1e38f;  // beyond what is supported; keeps infinities out
+  const auto& v = primitive.vertex;
+  const Vec3 low = v[0].cwiseMin(v[1]).cwiseMin(v[2]) - origin;
+  const Vec3 high = v[0].cwiseMax(v[1]).cwiseMax(v[2]) - origin;
+  BoxedPrimitive result;
+  result.box.min.head<3>() = low.cast<float>().array().max(-kMost).min(kMost);
+  result.box.max.head<3>() = high.cast<float>().array().max(-kMost).min(kMost);
+  result.box.min -= kOutward * result.box.min.abs() + std::numeric_limits<float>::min();
+  result.box.max += kOutward * result.box.max.abs() + std::numeric_limits<float>::min();
+  result.setNumber(number);
+  return result;
+}
+
+std::vector<WideNode> widen(const BinaryTree& tree, int& depth) {
+  constexpr std::size_t kChildren = 4;  // a node has more than these on average
+  std::vector<WideNode> nodes;
+  nodes.reserve(tree.blocks.size() / kChildren);
+  Widener widener(tree, nodes);
+  widener.add(tree.root, 0);
+  nodes.shrink_to_fit();
+  depth = widener.depth();
+  assert(depth <= static_cast<int>(kWideMostDepth));
+  return nodes;
+}
+
+std::vector<WideBlock> pack(const BinaryTree& tree, std::span<const Primitive> primitives, const Vec3& origin,
+                            double smallest_step) {
+  constexpr std::size_t kGrain = 512;
+  const BlockPacker packer(tree, primitives, origin, smallest_step);
+  std::vector<WideBlock> blocks(tree.blocks.size());
+  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, blocks.size(), kGrain), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) blocks[i] = packer.pack(i);
+  });
+  return blocks;
+}
+
+}  // namespace hl

@@ -1,0 +1,291 @@
+// The wide hierarchy: what it is made of, that it proposes all it must and little more, and that neither threads,
+// instruction sets nor strange layouts change that.
+#include "geometry/wide_bvh.h"
+
+#include <gtest/gtest.h>
+#include <hwy/highway.h>
+#include <hwy/targets.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "base/no_alloc.h"
+#include "geometry/closest_point.h"
+#include "geometry/queries.h"
+#include "geometry/scenes.h"
+
+namespace hl {
+namespace {
+
+using Numbers = std::vector<std::uint32_t>;
+
+std::size_t primitivesOf(const WideBvh& bvh, std::size_t block) {
+  return std::min(kWide, bvh.primitives() - block * kWide);
+}
+
+// Walks the tree and checks that every block is reached once, from boxes that contain all of its primitives.
+class Walk {
+ public:
+  Walk(const WideBvh& bvh, const std::vector<Primitive>& scene)
+      : bvh_(bvh), scene_(scene), seen_(bvh.blocks().size(), 0) {
+    visit(bvh.nodes().empty() ? kBlockLink : 0, 0);
+    EXPECT_TRUE(std::all_of(seen_.begin(), seen_.end(), [](int times) { return times == 1; }));
+    EXPECT_EQ(bvh.stats().depth, depth_);
+  }
+
+ private:
+  struct Box {
+    Vec3 min, max;
+  };
+
+  void visit(std::uint32_t link, int depth) {
+    depth_ = std::max(depth_, depth);
+    if ((link & kBlockLink) != 0) return checkBlock(link & ~kBlockLink);
+    const WideNode& node = bvh_.nodes()[link];
+    for (std::size_t lane = 0; lane < kWide; ++lane) {
+      if (!(node.bound[0][0][lane] <= node.bound[1][0][lane])) continue;
+      const auto& b = node.bound;
+      ancestors_.push_back({Vec3(b[0][0][lane], b[0][1][lane], b[0][2][lane]) + bvh_.origin(),
+                            Vec3(b[1][0][lane], b[1][1][lane], b[1][2][lane]) + bvh_.origin()});
+      visit(node.child[lane], depth + 1);
+      ancestors_.pop_back();
+    }
+  }
+
+  void checkBlock(std::uint32_t number) {
+    ++seen_[number];
+    const WideBlock& block = bvh_.blocks()[number];
+    for (std::size_t lane = 0; lane < primitivesOf(bvh_, number); ++lane) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3& vertex = scene_[block.primitive[lane]].vertex[i];
+        const Vec3 slack = 1e-15 * (vertex.cwiseAbs() + bvh_.origin().cwiseAbs());
+        for (const Box& box : ancestors_) {
+          EXPECT_TRUE((vertex.array() >= (box.min - slack).array()).all());
+          EXPECT_TRUE((vertex.array() <= (box.max + slack).array()).all());
+        }
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const auto a = static_cast<Eigen::Index>(axis);
+          const double step = block.step;
+          const double packed = bvh_.origin()[a] + (block.origin[axis] + step * block.vertex[i][axis][lane]);
+          EXPECT_NEAR(packed, vertex[a], 0.5001 * step + slack[a]);
+        }
+      }
+    }
+  }
+
+  const WideBvh& bvh_;
+  const std::vector<Primitive>& scene_;
+  std::vector<int> seen_;
+  std::vector<Box> ancestors_;
+  int depth_ = 0;
+};
+
+bool sameBytes(const WideBvh& a, const WideBvh& b) {
+  return a.nodes().size() == b.nodes().size() && a.blocks().size() == b.blocks().size() &&
+         std::memcmp(a.nodes().data(), b.nodes().data(), a.nodes().size_bytes()) == 0 &&
+         std::memcmp(a.blocks().data(), b.blocks().data(), a.blocks().size_bytes()) == 0;
+}
+
+Numbers overlapping(const WideBvh& bvh, const Vec3& centre, double radius) {
+  Numbers found;
+  bvh.overlap(centre, radius, [&](std::uint32_t number) { found.push_back(number); });
+  return found;
+}
+
+Numbers swept(const WideBvh& bvh, const Vec3& from, const Vec3& motion, double radius, double shrink) {
+  Numbers found;
+  bvh.sweep(from, motion, radius, [&](std::uint32_t number, double limit) {
+    found.push_back(number);
+    return shrink * limit;
+  });
+  return found;
+}
+
+// Scenes that have been trouble: by size, place and shape.
+std::vector<std::vector<Primitive>> strangeScenes() {
+  test::Random random(61);
+  std::vector<std::vector<Primitive>> scenes;
+  for (const double size : {1e-9, 1e-4, 1.0, 1e4, 1e9}) scenes.push_back(test::soup(random, 700, size, 0.1 * size));
+  scenes.push_back(test::terrain(25));
+  std::vector<Primitive> far, same, points, shrinking, long_and_short;
+  const Vec3 place(1e6, -2e6, 3e5);
+  Primitive one;
+  for (std::uint32_t i = 0; i < 500; ++i) {
+    const Vec3 at = place + random.inCube(1);
+    test::addTriangle(far, at, at + random.inCube(0.05), at + random.inCube(0.05));
+    test::addTriangle(same, Vec3(1, 2, 3), Vec3(2, 2, 3), Vec3(1, 3, 3));
+    if (makePoint(Vec3(1, 2, 3), i, one)) points.push_back(one);
+    if (makePoint(Vec3(std::pow(0.9, i), 0, 0), i, one)) shrinking.push_back(one);
+    const double length = std::pow(10.0, random.uniform(-9, 9));
+    if (makeSegment(random.inCube(1), length * random.direction(), i, one)) long_and_short.push_back(one);
+  }
+  for (auto* scene : {&far, &same, &points, &shrinking, &long_and_short}) scenes.push_back(std::move(*scene));
+  return scenes;
+}
+
+TEST(WideBvh, EveryPrimitiveIsInOneBlockWithinAllBoxesAboveIt) {
+  for (const auto& scene : strangeScenes()) {
+    const WideBvh bvh = WideBvh::build(scene);
+    ASSERT_EQ(bvh.primitives(), scene.size());
+    ASSERT_EQ(bvh.blocks().size(), (scene.size() + kWide - 1) / kWide);
+    const Walk walk(bvh, scene);
+    Numbers all = overlapping(bvh, Vec3::Zero(), 1e12);
+    std::sort(all.begin(), all.end());
+    ASSERT_EQ(all.size(), scene.size());
+    for (std::uint32_t i = 0; i < all.size(); ++i) ASSERT_EQ(all[i], i);
+  }
+}
+
+TEST(WideBvh, AllPrimitivesWithinTheRadiusAreProposedAndFewOthers) {
+  test::Random random(62);
+  const auto scenes = strangeScenes();
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const auto& scene = scenes[i];
+    const WideBvh bvh = WideBvh::build(scene);
+    std::size_t proposed = 0, within = 0;
+    for (int query = 0; query < 1000; ++query) {
+      const Primitive& near = scene[static_cast<std::size_t>(random.below(static_cast<int>(scene.size())))];
+      const double size = (near.vertex[1] - near.vertex[0]).norm() + 1e-3 * near.vertex[0].norm();
+      const Vec3 centre = near.vertex[0] + 3 * size * random.inCube(1);
+      const double radius = size * std::pow(10.0, random.uniform(-2, 0.5));
+      Numbers found = overlapping(bvh, centre, radius);
+      std::sort(found.begin(), found.end());
+      ASSERT_EQ(std::unique(found.begin(), found.end()), found.end()) << "proposed twice";
+      proposed += found.size();
+      for (std::uint32_t number = 0; number < scene.size(); ++number) {
+        if (closestPoint(scene[number], centre).distance > radius) continue;
+        ++within;
+        ASSERT_TRUE(std::binary_search(found.begin(), found.end(), number));
+      }
+    }
+    // In the last two neighbours differ in size by more than single precision holds.
+    const bool even = i + 2 < scenes.size();
+    if (even) EXPECT_LE(static_cast<double>(proposed), 1.1 * static_cast<double>(within) + 100);
+  }
+}
+
+TEST(WideBvh, DepthIsBounded) {
+  for (const auto& scene : strangeScenes()) {
+    const WideBvh bvh = WideBvh::build(scene);
+    EXPECT_LE(bvh.stats().depth, 2.5 * std::log2(static_cast<double>(bvh.blocks().size()))) << scene.size();
+  }
+  EXPECT_LE(WideBvh::build(test::terrain(224)).stats().depth, 10) << "100 000 triangles";
+}
+
+TEST(WideBvh, TheNumberOfThreadsDoesNotChangeAByte) {
+  test::Random random(63);
+  for (const auto& scene : {test::terrain(160), test::soup(random, 50'000, 1, 0.02)}) {
+    const WideBvh many = WideBvh::build(scene);
+    for (const std::size_t threads : {1, 2, 3}) {
+      const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+      EXPECT_TRUE(sameBytes(WideBvh::build(scene), many)) << threads;
+    }
+  }
+}
+
+// Every candidate of many queries, in order.
+Numbers candidatesOfAll(const std::vector<std::vector<Primitive>>& scenes, const std::vector<WideBvh>& trees) {
+  test::Random random(64);
+  Numbers all;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    for (int query = 0; query < 500; ++query) {
+      const auto number = static_cast<std::size_t>(random.below(static_cast<int>(scenes[i].size())));
+      const Vec3& near = scenes[i][number].vertex[0];
+      const double size = (scenes[i][number].vertex[1] - near).norm() + 1e-3 * near.norm();
+      const Vec3 from = near + 3 * size * random.inCube(1), motion = 4 * size * random.inCube(1);
+      for (const Numbers& some : {overlapping(trees[i], from, size), swept(trees[i], from, motion, 0.3 * size, 1),
+                                  swept(trees[i], from, motion, 0.3 * size, 0.9)}) {
+        all.insert(all.end(), some.begin(), some.end());
+        all.push_back(0xffffffff);
+      }
+    }
+  }
+  return all;
+}
+
+// Puts back what the machine has.
+struct TargetsRestored {
+  ~TargetsRestored() {
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+};
+
+TEST(WideBvh, EveryInstructionSetProposesTheSameCandidatesInTheSameOrder) {
+  const auto scenes = strangeScenes();
+  std::vector<WideBvh> trees;
+  for (const auto& scene : scenes) trees.push_back(WideBvh::build(scene));
+  const Numbers expected = candidatesOfAll(scenes, trees);
+  EXPECT_GT(expected.size(), 50'000u);
+  const TargetsRestored restored;
+  std::string tested;
+  for (std::int64_t rest = hwy::SupportedTargets() | HWY_SCALAR; rest != 0; rest &= rest - 1) {
+    const std::int64_t target = rest & -rest;
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(target);
+    EXPECT_EQ(candidatesOfAll(scenes, trees), expected) << hwy::TargetName(target);
+    tested += std::string(" ") + hwy::TargetName(target);
+  }
+  RecordProperty("instruction_sets", tested);
+}
+
+TEST(WideBvh, NoneOneAndTwoPrimitivesWork) {
+  const WideBvh empty = WideBvh::build({});
+  EXPECT_TRUE(overlapping(empty, Vec3::Zero(), 1e9).empty());
+  EXPECT_TRUE(swept(empty, Vec3::Zero(), Vec3::UnitX(), 1, 1).empty());
+  std::vector<Primitive> scene(1);
+  ASSERT_TRUE(makePoint(Vec3(2, 0, 0), 0, scene[0]));
+  const WideBvh one = WideBvh::build(scene);
+  FirstImpact impact;
+  EXPECT_FALSE(firstImpact(one, scene, Vec3::Zero(), Vec3(-4, 0, 0), 1, 0, impact));
+  ASSERT_TRUE(firstImpact(one, scene, Vec3::Zero(), Vec3(4, 0, 0), 1, 0, impact));
+  EXPECT_EQ(impact.impact.t, 0.25);
+  scene.emplace_back();
+  ASSERT_TRUE(makePoint(Vec3(0, 5, 0), 1, scene[1]));
+  const WideBvh two = WideBvh::build(scene);
+  EXPECT_TRUE(two.nodes().empty());
+  EXPECT_EQ(overlapping(two, Vec3::Zero(), 3), Numbers{0});
+  EXPECT_EQ(overlapping(two, Vec3::Zero(), 5), (Numbers{0, 1}));
+  ASSERT_TRUE(firstImpact(two, scene, Vec3::Zero(), Vec3(0, 8, 0), 1, 0, impact));
+  EXPECT_EQ(impact.primitive, 1u);
+}
+
+// Primitives that a sphere sliding over the sheet is offered, for each one that it would touch.
+TEST(WideBvh, FewCandidatesOfASlidingSphereAreNotTouched) {
+  const std::vector<Primitive> scene = test::terrain(200);
+  const WideBvh bvh = WideBvh::build(scene);
+  test::Random random(65);
+  std::size_t offered = 0, touched = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const Primitive& primitive = scene[static_cast<std::size_t>(random.below(static_cast<int>(scene.size())))];
+    const double radius = 0.02;
+    const Vec3 from = primitive.vertex[0] + 1.001 * radius * primitive.normal, motion = 0.01 * random.direction();
+    bvh.sweep(from, motion, radius, [&](std::uint32_t number, double limit) {
+      ++offered;
+      Impact impact;
+      if (sweepSphere(scene[number], from, motion, radius, impact)) ++touched;
+      return limit;
+    });
+  }
+  EXPECT_GT(touched, 5000u);
+  EXPECT_LE(static_cast<double>(offered), 1.5 * static_cast<double>(touched));
+}
+
+TEST(WideBvh, QueriesAllocateNothing) {
+  const std::vector<Primitive> scene = test::terrain(60);
+  const WideBvh bvh = WideBvh::build(scene);
+  test::Random random(66);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 from = random.inCube(1), motion = random.inCube(0.5);
+    std::size_t found = 0;
+    FirstImpact impact;
+    const NoAlloc guard;
+    firstImpact(bvh, scene, from, motion, 0.05, 0, impact);
+    primitivesWithin(bvh, scene, from, 0.1, [&](std::uint32_t, const ClosestPoint&) { ++found; });
+  }
+}
+
+}  // namespace
+}  // namespace hl
