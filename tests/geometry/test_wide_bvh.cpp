@@ -162,7 +162,9 @@ TEST(WideBvh, AllPrimitivesWithinTheRadiusAreProposedAndFewOthers) {
     }
     // In the last two neighbours differ in size by more than single precision holds.
     const bool even = i + 2 < scenes.size();
-    if (even) EXPECT_LE(static_cast<double>(proposed), 1.1 * static_cast<double>(within) + 100);
+    if (even) {
+      EXPECT_LE(static_cast<double>(proposed), 1.1 * static_cast<double>(within) + 100);
+    }
   }
 }
 

@@ -104,11 +104,8 @@ class Publisher {
     if (wanted.moving) angle_ += kTurn_rad_s * 1e-9 * static_cast<double>(kFrame_ns);
     const auto placed = place(wanted, shapes_, angle_);
     const auto last = session_.snapshot();
-    auto next =
-        std::make_shared<Snapshot>(*makeSnapshot(followOn(placed, *last, now_ns, now_ns + kFrame_ns), "moving scene"));
-    next->number = last->number + 1;
-    next->abrupt = next->instances.size() != last->instances.size();
-    session_.publish(std::move(next));
+    Followed next = followOn(placed, last->instances, now_ns, now_ns + kFrame_ns);
+    session_.publish(makeSnapshot(std::move(next.instances), "moving scene", last->number + 1, next.abrupt));
     published_ns_ = now_ns;
   }
 
