@@ -48,13 +48,14 @@ bool firstImpact(const SpatialIndex& index, std::span<const Primitive> primitive
   index.sweep(from, motion, radius, [&](std::uint32_t candidate, double limit) {
     if (seen.testAndAdd(candidate)) return limit;
     const Primitive& primitive = primitives[candidate];
+    const ClosestPoint start = closestPoint(primitive, from);
+    if (touching > 0 && start.distance <= touching) return limit;
     Impact impact;
-    if (!sweepSphere(primitive, from, motion, radius, impact)) return limit;
+    if (!sweepSphere(primitive, start, from, motion, radius, impact)) return limit;
     if (found) {
       if (impact.t > out.impact.t) return limit;
       if (impact.t == out.impact.t && !precedes(primitive, primitives[out.primitive])) return limit;
     }
-    if (touching > 0 && closestPoint(primitive, from).distance <= touching) return limit;
     found = true;
     out = FirstImpact{impact, candidate};
     return impact.t;

@@ -107,7 +107,11 @@ bool sweepOutside(const Primitive& primitive, const Vec3& from, const Vec3& moti
 }  // namespace
 
 bool sweepSphere(const Primitive& primitive, const Vec3& from, const Vec3& motion, double radius, Impact& out) {
-  const ClosestPoint start = closestPoint(primitive, from);
+  return sweepSphere(primitive, closestPoint(primitive, from), from, motion, radius, out);
+}
+
+bool sweepSphere(const Primitive& primitive, const ClosestPoint& start, const Vec3& from, const Vec3& motion,
+                 double radius, Impact& out) {
   if (start.distance > radius) return sweepOutside(primitive, from, motion, radius, out);
   if (!(motion.dot(start.normal) < 0)) return false;
   out.t = 0;

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "base/vec.h"
+#include "geometry/closest_point.h"
 #include "geometry/primitive.h"
 
 namespace hl {
@@ -21,5 +22,8 @@ struct Impact {
 /// A sphere that starts within `radius` hits at t = 0 when it approaches (motion . normal < 0) and else never, as the
 /// primitive is convex. Returns false, and leaves `out` alone, when nothing is hit. RT-safe, any thread.
 bool sweepSphere(const Primitive& primitive, const Vec3& from, const Vec3& motion, double radius, Impact& out);
+/// The same for whoever has the closest point of `from` at hand.
+bool sweepSphere(const Primitive& primitive, const ClosestPoint& start, const Vec3& from, const Vec3& motion,
+                 double radius, Impact& out);
 
 }  // namespace hl

@@ -18,25 +18,66 @@ using Links = FixedVector<std::uint32_t, kWide>;
 
 bool isBlock(std::uint32_t link) { return (link & kBlockLink) != 0; }
 
-// The children of a wide node: the binary node of the largest box gives way to its two children until there are eight.
-Links childrenOf(const BinaryTree& tree, std::uint32_t link) {
-  Links links;
-  for (const std::uint32_t child : tree.nodes[link].child) links.push(child);
-  while (links.size() < kWide) {
-    std::size_t widest = kWide;
-    float area = -1;
-    for (std::size_t i = 0; i < links.size(); ++i) {
-      if (isBlock(links[i]) || !(tree.box(links[i]).halfArea() > area)) continue;
-      widest = i;
-      area = tree.box(links[i]).halfArea();
-    }
-    if (widest == kWide) break;
-    const auto& pair = tree.nodes[links[widest]].child;
-    links[widest] = pair[0];
-    links.push(pair[1]);
+// Which binary nodes become wide ones: those whose boxes have the least total area, as the chance that a query enters a
+// box grows with its area. By dynamic programming from the blocks up (Ylitie et al. 2017): cost(link, m) is the least
+// cost of a subtree given as at most m children of a wide node above it.
+class Collapse {
+ public:
+  explicit Collapse(const BinaryTree& tree) : tree_(tree), cost_(tree.nodes.size()) { fill(tree.root); }
+
+  // The children of the wide node that stands for `link`.
+  Links childrenOf(std::uint32_t link) const {
+    Links links;
+    part(link, kWide, links);
+    return links;
   }
-  return links;
-}
+
+ private:
+  struct Shares {
+    float cost;
+    std::size_t left;  // of the m children, those that stand for the left side
+  };
+
+  float cost(std::uint32_t link, std::size_t m) const { return isBlock(link) ? 0 : cost_[link][m - 1]; }
+
+  Shares shares(std::uint32_t link, std::size_t m) const {
+    const auto& child = tree_.nodes[link].child;
+    Shares best{std::numeric_limits<float>::infinity(), 1};
+    for (std::size_t left = 1; left < m; ++left) {
+      const float sum = cost(child[0], left) + cost(child[1], m - left);
+      if (sum < best.cost) best = {sum, left};
+    }
+    return best;
+  }
+
+  void fill(std::uint32_t link) {
+    if (isBlock(link)) return;
+    for (const std::uint32_t child : tree_.nodes[link].child) fill(child);
+    auto& costs = cost_[link];
+    costs[0] = tree_.nodes[link].box.halfArea() + shares(link, kWide).cost;
+    for (std::size_t m = 2; m < kWide; ++m) costs[m - 1] = std::min(costs[m - 2], shares(link, m).cost);
+  }
+
+  void part(std::uint32_t link, std::size_t m, Links& links) const {
+    const Shares best = shares(link, m);
+    const auto& child = tree_.nodes[link].child;
+    place(child[0], best.left, links);
+    place(child[1], m - best.left, links);
+  }
+
+  // As one child where that is no dearer than as several.
+  void place(std::uint32_t link, std::size_t m, Links& links) const {
+    while (m > 1 && cost(link, m) == cost(link, m - 1)) --m;
+    if (m == 1) {
+      links.push(link);
+    } else {
+      part(link, m, links);
+    }
+  }
+
+  const BinaryTree& tree_;
+  std::vector<std::array<float, kWide - 1>> cost_;
+};
 
 void setLane(WideNode& node, std::size_t lane, const FloatBox& box, std::uint32_t link) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -48,14 +89,14 @@ void setLane(WideNode& node, std::size_t lane, const FloatBox& box, std::uint32_
 
 class Widener {
  public:
-  Widener(const BinaryTree& tree, std::vector<WideNode>& nodes) : tree_(tree), nodes_(nodes) {}
+  Widener(const BinaryTree& tree, std::vector<WideNode>& nodes) : tree_(tree), collapse_(tree), nodes_(nodes) {}
 
   std::uint32_t add(std::uint32_t link, int depth) {
     if (isBlock(link)) return link;
     depth_ = std::max(depth_, depth + 1);
     const std::size_t self = nodes_.size();
     nodes_.emplace_back();
-    const Links links = childrenOf(tree_, link);
+    const Links links = collapse_.childrenOf(link);
     for (std::size_t lane = 0; lane < kWide; ++lane) {
       const bool used = lane < links.size();
       const std::uint32_t child = used ? add(links[lane], depth + 1) : kBlockLink;
@@ -68,6 +109,7 @@ class Widener {
 
  private:
   const BinaryTree& tree_;
+  Collapse collapse_;
   std::vector<WideNode>& nodes_;
   int depth_ = 0;
 };
