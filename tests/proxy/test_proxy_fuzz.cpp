@@ -68,8 +68,8 @@ TEST(C02Fuzz, PokesIntoATornSheetOfAMillionTrianglesNeverFallThrough) {
     through += state.position.z() * side < 0;
     if (i % 16 == 0) inside += judge::clearance(*snapshot, state.position, kRadius) < kRadius * (1 - 1e-6);
   }
-  std::printf("%zu triangles, %d pokes: %d through, %d inside, %d capped\n", snapshot->primitives, count,
-              through, inside, capped);
+  std::printf("%zu triangles, %d pokes: %d through, %d inside, %d capped\n", snapshot->primitives, count, through,
+              inside, capped);
   EXPECT_EQ(through, 0);
   EXPECT_EQ(inside, 0);
   EXPECT_EQ(capped, 0);

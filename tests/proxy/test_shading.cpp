@@ -214,7 +214,8 @@ TEST(Shading, TwoShadedCylindersHoldTheProxyInTheCusp) {
     const auto base = static_cast<std::uint32_t>(model.positions.size());
     for (const Vec3& p : part->shape().model.positions) model.positions.push_back(p + x * Vec3::UnitX());
     model.normals.insert(model.normals.end(), part->shape().model.normals.begin(), part->shape().model.normals.end());
-    for (const auto& t : part->shape().model.triangles) model.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
+    for (const auto& t : part->shape().model.triangles)
+      model.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
   }
   const auto scene = test::snapshotOf(std::move(model));
   const ProxySettings settings = settingsOf(0.1, true);
