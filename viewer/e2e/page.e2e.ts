@@ -143,10 +143,14 @@ test("the ledger: its mode, its tank, and a line for every cause", async () => {
 
 test("the key C draws friction cones, in another colour while slipping", async () => {
   await openSection(page, "view");
-  await page.check("#explore");
-  // On its way round the sphere the hand has just come to the camera's side: a cone behind the sphere is not seen.
-  await page.waitForFunction(() => window.__hl.proxy!.x < 0 && window.__hl.proxy!.z > 0.03);
-  await page.uncheck("#explore");
+  // On its way round the sphere the hand is stopped on the camera's side: a cone behind the sphere is not seen.
+  const seen = () => page.evaluate(() => window.__hl.proxy!.z > 0.02);
+  do {
+    await page.check("#explore");
+    await page.waitForFunction(() => window.__hl.proxy!.x < 0 && window.__hl.proxy!.z > 0.03);
+    await page.uncheck("#explore");
+    await states(page, 10);
+  } while (!(await seen()));
   await page.uncheck("#cones");
   server.slipping = false;
   await states(page, 60);
@@ -158,10 +162,10 @@ test("the key C draws friction cones, in another colour while slipping", async (
   const without = await picture();
   expect((await picture()).equals(without)).toBe(true);
   await page.keyboard.press("c");
+  await expect.poll(async () => (await picture()).equals(without), { timeout: 30_000 }).toBe(false);
   const sticking = await picture();
-  expect(sticking.equals(without)).toBe(false);
   server.slipping = true;
-  expect((await picture()).equals(sticking)).toBe(false);
+  await expect.poll(async () => (await picture()).equals(sticking), { timeout: 30_000 }).toBe(false);
   await page.check("#explore");
 });
 
