@@ -25,6 +25,7 @@ using V = hn::Vec<D>;
 using Mask = hn::Mask<D>;
 constexpr D kFloats;
 constexpr std::size_t kLanes = hn::MaxLanes(kFloats);
+constexpr unsigned kAllLanes = (1u << kLanes) - 1;
 
 struct V3 {
   V x, y, z;
@@ -193,7 +194,7 @@ HWY_INLINE unsigned withinReach(const WideBlock& block, const BlockQuery& query)
     const Corners corners = cornersOf(block, lane);
     const V3 eye = same(query.from);
     const Plane plane = planeAlong(towards(corners, corners.a - eye), corners, eye, hn::Set(kFloats, query.reach));
-    bits |= (bitsOf(hn::Gt(plane.nearest, plane.edge)) ^ ((1u << kLanes) - 1)) << lane;
+    bits |= (bitsOf(hn::Gt(plane.nearest, plane.edge)) ^ kAllLanes) << lane;
   }
   return bits;
 }
@@ -218,10 +219,11 @@ HWY_INLINE unsigned touched(const WideBlock& block, const BlockQuery& query, flo
       const V closing = dot(toward, motion);
       const V later = hn::Add(time, hn::Div(hn::Sub(plane.nearest, plane.edge), closing));
       const V crossed = hn::IfThenElse(hn::Gt(closing, hn::Zero(kFloats)), later, never);
-      time = hn::IfThenElse(hn::Gt(plane.nearest, plane.edge), hn::Min(crossed, never), time);
-      if (hn::AllFalse(kFloats, hn::Le(time, latest))) break;
+      time = hn::IfThenElse(hn::Gt(plane.nearest, plane.edge), crossed, time);
+      if (hn::AllTrue(kFloats, hn::Gt(time, latest))) break;
     }
-    bits |= bitsOf(hn::Le(time, latest)) << lane;
+    // Whatever is not surely later, not-a-number too.
+    bits |= (bitsOf(hn::Gt(time, latest)) ^ kAllLanes) << lane;
     hn::Store(time, kFloats, entry + lane);
   }
   return bits;
