@@ -1,4 +1,4 @@
-// One tick and its two queries, sliding over terrain: sphere tree against brute force.
+// One tick and its two queries, sliding over terrain: both hierarchies against brute force.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -28,8 +28,10 @@ void slide(benchmark::State& bench, HierarchyKind kind) {
   }
 }
 
+void tickOnBvh(benchmark::State& bench) { slide(bench, HierarchyKind::kBvh); }
 void tickOnSpheres(benchmark::State& bench) { slide(bench, HierarchyKind::kSpheres); }
 void tickOnNone(benchmark::State& bench) { slide(bench, HierarchyKind::kNone); }
+BENCHMARK(tickOnBvh)->RangeMultiplier(10)->Range(1'000, 1'000'000);
 BENCHMARK(tickOnSpheres)->RangeMultiplier(10)->Range(1'000, 1'000'000);
 BENCHMARK(tickOnNone)->RangeMultiplier(10)->Range(1'000, 10'000);
 

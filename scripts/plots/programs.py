@@ -57,7 +57,7 @@ def tick_times(file):
     with file.open() as source:
         rows = [row for row in csv.DictReader(source) if row["surface"] == "plain"]
     figure, axes = canvas(height=5.2)
-    for hierarchy, colour, name in (("none", GREY, "every primitive tested"), ("spheres", BLUE, "sphere tree")):
+    for hierarchy, colour, name in (("none", GREY, "every primitive tested"), ("spheres", BLUE, "sphere tree"), ("bvh", GREEN, "wide BVH")):
         chosen = [row for row in rows if row["hierarchy"] == hierarchy]
         sizes = [float(row["primitives"]) for row in chosen]
         for key, dashes, label in (("p999_us", ":", "p99.9"), ("p99_us", "--", "p99"), ("p50_us", "-", "median")):

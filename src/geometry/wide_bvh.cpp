@@ -44,9 +44,9 @@ double largest(const Vec3& v) { return v.cwiseAbs().maxCoeff(); }
 }  // namespace
 
 WideBvh WideBvh::build(std::span<const Primitive> primitives) {
-  // Where all primitives are one point nothing else says how fine its packed place must be.
-  constexpr double kSmallestStep = 1e-12 / (1 << 15);
-  constexpr double kStepPerExtent = 1.0 / (1LL << 55);
+  // Blocks count as no smaller: where all primitives are one point, nothing else says how fine its place must be.
+  constexpr double kSmallest_m = 1e-12;
+  constexpr double kSmallestPerExtent = 1.0 / (1LL << 40);
   WideBvh bvh;
   bvh.primitives_ = primitives.size();
   if (primitives.empty()) return bvh;
@@ -62,7 +62,7 @@ WideBvh WideBvh::build(std::span<const Primitive> primitives) {
   });
   const BinaryTree tree = buildBinaryTree(std::move(boxes));
   bvh.nodes_ = widen(tree, bvh.depth_);
-  bvh.blocks_ = pack(tree, primitives, bvh.origin_, std::max(kSmallestStep, kStepPerExtent * bvh.half_));
+  bvh.blocks_ = pack(tree, primitives, bvh.origin_, std::max(kSmallest_m, kSmallestPerExtent * bvh.half_));
   return bvh;
 }
 

@@ -66,7 +66,7 @@ struct BlockQuery {
 inline BlockQuery blockQuery(const WideBlock& block, const WideQuery& query) {
   constexpr double kPacked = 1;           // steps: a vertex is off by at most sqrt(3) / 2
   constexpr double kBlockSize = 1 << 17;  // more than the sum of the coordinates of a vertex
-  const double per_step = 1 / static_cast<double>(block.step);
+  const double per_step = block.per_step;
   BlockQuery packed;
   double size = kBlockSize;
   for (int i = 0; i < 3; ++i) {

@@ -21,13 +21,13 @@ struct alignas(64) WideNode {
   std::uint32_t child[kWide];
 };
 
-/// Up to eight primitives; all blocks but the last are full. Coordinate = origin + step * vertex, at most half a step
-/// off. A segment has vertex 2 == vertex 1, a point has all three equal.
+/// Up to eight primitives; all blocks but the last are full. Coordinate = origin + vertex / per_step, at most half a
+/// step off. A segment has vertex 2 == vertex 1, a point has all three equal.
 struct alignas(64) WideBlock {
   std::int16_t vertex[3][3][kWide];  ///< by vertex and axis
   std::uint32_t primitive[kWide];
   float origin[3];
-  float step;  ///< metres; a power of two, so that scaling by it rounds nothing
+  float per_step;  ///< 1/m; a power of two, so that scaling by it rounds nothing
 };
 
 static_assert(sizeof(WideNode) == 256 && sizeof(WideBlock) == 192);

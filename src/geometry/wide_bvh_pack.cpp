@@ -123,8 +123,8 @@ double stepFor(double largest) {
 
 class BlockPacker {
  public:
-  BlockPacker(const BinaryTree& tree, std::span<const Primitive> primitives, const Vec3& origin, double smallest_step)
-      : tree_(tree), primitives_(primitives), origin_(origin), smallest_step_(smallest_step) {}
+  BlockPacker(const BinaryTree& tree, std::span<const Primitive> primitives, const Vec3& origin, double smallest)
+      : tree_(tree), primitives_(primitives), origin_(origin), smallest_(smallest) {}
 
   WideBlock pack(std::size_t number) const {
     const std::size_t begin = number * kWide;
@@ -136,15 +136,15 @@ class BlockPacker {
       block.origin[axis] = 0.5f * (tree_.blocks[number].min[i] + tree_.blocks[number].max[i]);
       origin[i] = block.origin[axis];
     }
-    double largest = 0;
+    double largest = smallest_;
     for (std::size_t lane = 0; lane < count; ++lane) {
       block.primitive[lane] = tree_.primitives[begin + lane].number();
       for (const Vec3& vertex : primitives_[block.primitive[lane]].vertex)
         largest = std::max(largest, local(vertex, origin).cwiseAbs().maxCoeff());
     }
-    const double step = std::max(stepFor(largest), smallest_step_);
-    block.step = static_cast<float>(step);
-    for (std::size_t lane = 0; lane < count; ++lane) packLane(block, lane, origin, 1 / step);
+    const double per_step = 1 / stepFor(largest);
+    block.per_step = static_cast<float>(per_step);
+    for (std::size_t lane = 0; lane < count; ++lane) packLane(block, lane, origin, per_step);
     return block;
   }
 
@@ -163,7 +163,7 @@ class BlockPacker {
   const BinaryTree& tree_;
   std::span<const Primitive> primitives_;
   const Vec3& origin_;
-  double smallest_step_;
+  double smallest_;
 };
 
 }  // namespace
@@ -199,9 +199,9 @@ std::vector<WideNode> widen(const BinaryTree& tree, int& depth) {
 }
 
 std::vector<WideBlock> pack(const BinaryTree& tree, std::span<const Primitive> primitives, const Vec3& origin,
-                            double smallest_step) {
+                            double smallest) {
   constexpr std::size_t kGrain = 512;
-  const BlockPacker packer(tree, primitives, origin, smallest_step);
+  const BlockPacker packer(tree, primitives, origin, smallest);
   std::vector<WideBlock> blocks(tree.blocks.size());
   oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, blocks.size(), kGrain), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) blocks[i] = packer.pack(i);

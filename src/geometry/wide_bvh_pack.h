@@ -16,8 +16,8 @@ BoxedPrimitive boxed(const Primitive& primitive, std::uint32_t number, const Vec
 /// Nodes in depth-first order, none for a tree of one block; `depth` becomes the number of nodes on the longest path.
 std::vector<WideNode> widen(const BinaryTree& tree, int& depth);
 
-/// `smallest_step` (m) keeps the packed coordinates of a query in range where primitives coincide.
+/// Blocks count as at least `smallest` (m) large, which keeps the coordinates of a query in their steps in range.
 std::vector<WideBlock> pack(const BinaryTree& tree, std::span<const Primitive> primitives, const Vec3& origin,
-                            double smallest_step);
+                            double smallest);
 
 }  // namespace hl
