@@ -15,10 +15,11 @@ struct HldOptions {
   SceneOptions scene;         ///< of an empty name: nothing to touch at first
   HttpServerSettings server;  ///< but for the token
   TouchSettings touch;
-  std::string token_file;  ///< empty: no token
+  std::string token_file;     ///< empty: no token
   std::uint32_t devices = 1;  ///< of that kind
   std::string device = "simulated";
   std::string hand = "light";
+  std::string explore = "off";
   LogFormat log_format = LogFormat::kKeyValue;
   LogLevel log_level = LogLevel::kInfo;
 };
