@@ -18,6 +18,8 @@ install(FILES ${PROJECT_BINARY_DIR}/hlConfig.cmake ${PROJECT_BINARY_DIR}/hlConfi
   DESTINATION ${cmake_folder} COMPONENT libhl-dev)
 install(FILES ${PROJECT_BINARY_DIR}/hl.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT libhl-dev)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT libhl-dev)
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT libhl-dev)
+install(FILES scenes/teapot_patches.h DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT libhl-dev)
 
 install(TARGETS hl hld RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT hl-tools)
 # Built by scripts/build, not by CMake: without it the programs serve a notice instead.

@@ -87,6 +87,13 @@ class Installed(unittest.TestCase):
         self.assertIn("shows 1 triangle", run(folder / "c", env=environment))
         self.assertIn("1 triangle", run(folder / "cpp", env=environment))
 
+    def test_the_examples_build_on_their_own(self):
+        examples = next(self.prefix.glob("share/doc/*/examples"))
+        build = self.folder("examples")
+        run("cmake", "-S", examples, "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}")
+        run("cmake", "--build", build, "--target", "example_01_sphere", "example_02_teapot_with_material")
+        self.assertIn("force:", run(build / "bin/examples/01_sphere", "inproc:", "1.1"))
+
     def test_the_installed_server_finds_its_page(self):
         page = self.prefix / "share/hl/viewer/index.html"
         if not page.exists():  # the page is built by scripts/build, not by CMake
@@ -136,7 +143,7 @@ class DebianPackages(unittest.TestCase):
 
     def test_building_needs_the_same_version(self):
         self.assertEqual(self.field("libhl-dev", "Depends"), f"libhl (= {self.field('libhl', 'Version')})")
-        for file in [r"libhl\.so -> ", "include/hl/hl.h", "hlConfig.cmake", "pkgconfig/hl.pc"]:
+        for file in [r"libhl\.so -> ", "include/hl/hl.h", "hlConfig.cmake", "pkgconfig/hl.pc", "examples/01_sphere.c"]:
             self.assertRegex(self.content("libhl-dev"), file)
 
     def test_the_programs_are_there_and_run_where_they_are_unpacked(self):
