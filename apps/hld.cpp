@@ -60,7 +60,7 @@ void serve(HldOptions& options) {
   openEventLog(options.log_format, options.log_level);
   const sigset_t signals = blockSignals();
   options.touch.hand_firm = options.hand == "firm";
-  options.touch.explore = false;
+  options.touch.explore = options.explore == "on";
   const HttpServerSettings http = serverSettings(options);
   TouchServer touch(sceneOf(options.scene), {options.touch, options.devices, http.limits, HL_VERSION});
   TouchSession& session = touch.device();

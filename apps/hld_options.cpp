@@ -35,6 +35,10 @@ void addDeviceOptions(CLI::App& app, HldOptions& options) {
       ->check(CLI::IsMember({"light", "firm"}))
       ->capture_default_str()
       ->group("Device");
+  app.add_option("--explore", options.explore, "the built-in stroking hand, until a person or a client takes over")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->capture_default_str()
+      ->group("Device");
   app.add_option("--servo-rate", options.touch.servo_rate_Hz, "servo steps a second")
       ->check(CLI::Range(100.0, 10'000.0))
       ->capture_default_str()

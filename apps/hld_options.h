@@ -19,6 +19,7 @@ struct HldOptions {
   std::uint32_t devices = 1;  ///< of that kind
   std::string device = "simulated";
   std::string hand = "light";
+  std::string explore = "off";
   LogFormat log_format = LogFormat::kKeyValue;
   LogLevel log_level = LogLevel::kInfo;
 };

@@ -30,14 +30,17 @@ int waitForSignal(const sigset_t& signals, double longest_s) {
 }
 
 std::string defaultPageFolder() {
+  constexpr const char* kBuilt = "viewer/dist";
+  constexpr const char* kInstalled = "share/hl/viewer";
   std::error_code error;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (error) return "viewer/dist";
+  if (error) return kBuilt;
   for (auto folder = program.parent_path(); folder != folder.root_path(); folder = folder.parent_path()) {
-    if (std::filesystem::exists(folder / "viewer" / "dist" / "index.html", error))
-      return (folder / "viewer" / "dist").string();
+    for (const char* page : {kBuilt, kInstalled}) {
+      if (std::filesystem::exists(folder / page / "index.html", error)) return (folder / page).string();
+    }
   }
-  return "viewer/dist";
+  return kBuilt;
 }
 
 }  // namespace hl

@@ -14,7 +14,7 @@ sigset_t blockSignals();
 /// The next of `signals`; 0 when `longest_s` > 0 and none came in that time.
 int waitForSignal(const sigset_t& signals, double longest_s = 0);
 
-/// The built page: viewer/dist in a folder above the program.
+/// The built page: viewer/dist (as built) or share/hl/viewer (as installed) in a folder above the program.
 std::string defaultPageFolder();
 
 }  // namespace hl

@@ -1,0 +1,34 @@
+# What `cmake --install` puts where, in three components that are also three Debian packages (cmake/packages.cmake):
+# libhl (the library), libhl-dev (what a program is built with), hl-tools (hl, hld and the page).
+include(CMakePackageConfigHelpers)
+set(cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/hl)
+
+install(TARGETS hl_shared EXPORT hl_targets
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libhl NAMELINK_COMPONENT libhl-dev)
+
+install(DIRECTORY include/hl DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT libhl-dev)
+install(EXPORT hl_targets NAMESPACE hl:: FILE hlTargets.cmake DESTINATION ${cmake_folder} COMPONENT libhl-dev)
+configure_package_config_file(cmake/hlConfig.cmake.in ${PROJECT_BINARY_DIR}/hlConfig.cmake
+  INSTALL_DESTINATION ${cmake_folder} NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/hlConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+# A path from the file itself, so that the tree may be installed anywhere and moved.
+file(RELATIVE_PATH HL_PREFIX_FROM_PC /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+configure_file(packaging/hl.pc.in ${PROJECT_BINARY_DIR}/hl.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/hlConfig.cmake ${PROJECT_BINARY_DIR}/hlConfigVersion.cmake
+  DESTINATION ${cmake_folder} COMPONENT libhl-dev)
+install(FILES ${PROJECT_BINARY_DIR}/hl.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT libhl-dev)
+install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT libhl-dev)
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT libhl-dev)
+install(FILES scenes/teapot_patches.h DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT libhl-dev)
+
+install(TARGETS hl hld RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT hl-tools)
+# Built by scripts/build, not by CMake: without it the programs serve a notice instead.
+install(DIRECTORY viewer/dist/ DESTINATION share/hl/viewer COMPONENT hl-tools OPTIONAL)
+install(DIRECTORY scenes/examples DESTINATION share/hl/scenes COMPONENT hl-tools)
+install(FILES packaging/hld.conf DESTINATION share/doc/hl-tools COMPONENT hl-tools)
+install(FILES packaging/hld.service DESTINATION lib/systemd/system COMPONENT hl-tools)
+
+# Debian wants the licence of each package beside it.
+foreach(component libhl libhl-dev hl-tools)
+  install(FILES LICENSE DESTINATION share/doc/${component} RENAME copyright COMPONENT ${component})
+endforeach()
