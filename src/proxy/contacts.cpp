@@ -43,6 +43,17 @@ void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, d
   for (const Contact& contact : set.contacts) set.planes.push(contact.plane);
 }
 
+void moveContacts(ContactSet& set, const Vec3& step) {
+  for (std::size_t i = 0; i < set.contacts.size(); ++i) {
+    Contact& contact = set.contacts[i];
+    const double away = contact.plane.normal.dot(step);
+    contact.point += step - away * contact.plane.normal;
+    contact.distance += away;
+    contact.plane.offset -= away;
+    set.planes[i].offset = contact.plane.offset;
+  }
+}
+
 void relaxToCentre(ContactSet& set) {
   for (std::size_t i = 0; i < set.contacts.size(); ++i) {
     set.contacts[i].plane.offset = std::min(set.contacts[i].plane.offset, 0.0);

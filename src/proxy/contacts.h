@@ -46,6 +46,9 @@ inline bool samePlane(const Contact& a, const Contact& b) {
   return a.plane.normal == b.plane.normal && a.plane.offset == b.plane.offset;
 }
 
+/// The set after the proxy has moved by `step` (m) and every contact has stayed on its face. RT-safe.
+void moveContacts(ContactSet& set, const Vec3& step);
+
 /// Lets every plane pass through the centre at least: used when the exact offsets contradict each other by rounding.
 void relaxToCentre(ContactSet& set);
 

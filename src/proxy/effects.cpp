@@ -20,34 +20,33 @@ constexpr int kInnerPasses = 12;
 constexpr double kOverEdge = 1e-4;
 
 constexpr double kSamplesPerTexel = 2;
-constexpr int kMostSamples = 4096;
+constexpr double kMostSamples = 4096;
 
 }  // namespace
 
-// Whether friction or viscosity act on this contact.
-bool Effects::resists(const Contact& contact) const {
-  if (reader_.dragTextured(contact.primitive)) return true;
-  const auto acts = [&](Quantity quantity) { return reader_.read(quantity, contact.primitive).low > 0; };
-  return acts(Quantity::kStaticFriction) || acts(Quantity::kDynamicFriction) || acts(Quantity::kViscosity);
-}
-
 bool Effects::any(const ContactSet& set) const {
-  return std::any_of(set.contacts.begin(), set.contacts.end(),
-                     [&](const Contact& contact) { return reader_.mayBend(contact.primitive) || resists(contact); });
+  return std::any_of(set.contacts.begin(), set.contacts.end(), [&](const Contact& contact) {
+    const Surface surface = surfaceOf(contact.primitive);
+    return surface.smooth() || surface.textured(Quantity::kHeight) || Roughness::of(surface).acts();
+  });
 }
 
 // Whether a primitive that shares the edge or vertex under the contact has another normal there.
 bool Effects::creased(const ContactSet& set, const Contact& contact, const Vec3& normal) const {
   return std::any_of(set.twins.begin(), set.twins.end(), [&](const Contact& twin) {
-    return samePlane(twin, contact) && reader_.bend(placeOf(twin)).normal.cross(normal).norm() > kCrease_rad;
+    if (!samePlane(twin, contact)) return false;
+    return patchAt(placeOf(twin)).bend().normal.cross(normal).norm() > kCrease_rad;
   });
 }
 
 Effects::TouchedSet Effects::touchedNow(const ContactSet& set) const {
   TouchedSet touched;
   for (const Contact& contact : set.contacts) {
-    Touched now{placeOf(contact), {}, reader_.mayBend(contact.primitive)};
-    if (now.bends) now.bent = reader_.bend(now.place);
+    const Surface surface = surfaceOf(contact.primitive);
+    Touched now{
+        Patch(scene_, surface, placeOf(contact)), Vec3::Zero(), Vec2::Zero(), {}, false, Roughness::of(surface)};
+    now.bends = now.patch.bends();
+    if (now.bends) now.bent = now.patch.bend();
     if (now.bent.bent() && creased(set, contact, now.bent.normal)) now.bends = false;
     if (!now.bends) now.bent = {contact.plane.normal, 0, 0};
     touched.push(now);
@@ -55,40 +54,39 @@ Effects::TouchedSet Effects::touchedNow(const ContactSet& set) const {
   return touched;
 }
 
-// The places touched and their bent normals when the passes have moved the proxy to `centre`.
-void Effects::moveOn(const ContactSet& set, const Vec3& centre, TouchedSet& touched) const {
+// The places touched and their bent normals when the passes have moved the proxy on, from `position` by `offset`.
+void Effects::moveOn(const ContactSet& set, const Vec3& position, const Vec3& offset, TouchedSet& touched) const {
   for (std::size_t i = 0; i < touched.size(); ++i) {
-    const ClosestPoint nearest = scene_.closest(set.contacts[i].primitive, centre);
-    touched[i].place.weights = nearest.weights;
-    touched[i].place.normal = nearest.normal;
-    if (touched[i].bends) touched[i].bent = reader_.bend(touched[i].place);
+    Touched& now = touched[i];
+    now.moved = now.patch.weightsOver(offset - now.patch_offset);
+    if (!now.patch.holds(now.moved)) {
+      const PrimitiveId primitive = set.contacts[i].primitive;
+      const ClosestPoint nearest = scene_.closest(primitive, position + offset);
+      now.patch = patchAt({primitive, nearest.normal, nearest.weights});
+      now.patch_offset = offset;
+      now.moved = Vec2::Zero();
+    }
+    if (now.bends) now.bent = now.patch.bend(now.moved);
   }
 }
 
 // Pass 1: the point nearest the finger above the planes as they feel, each bent about where it holds the proxy now.
-Vec3 Effects::firstPass(const ContactSet& set, const TouchedSet& touched, const Vec3& gap, const Vec3& offset,
-                        SubGoal& sub_goal) const {
+SolverResult Effects::firstPass(const ContactSet& set, const TouchedSet& touched, const Vec3& gap,
+                                const Vec3& offset) const {
   FixedVector<Plane, kMaxContacts> planes;
   for (std::size_t i = 0; i < touched.size(); ++i) {
     const double height = set.planes[i].normal.dot(offset) - set.planes[i].offset;
     planes.push({touched[i].bent.normal, touched[i].bent.normal.dot(offset) - height});
-    sub_goal.bent |= touched[i].bent.bent();
   }
-  const SolverResult solution = nearestAbove({planes.begin(), planes.size()}, gap, tolerance_.feasible);
-  sub_goal.holding.clear();
-  sub_goal.shading = sub_goal.bump = 0;
-  for (std::size_t i = 0; i < solution.active_count; ++i) {
-    const std::size_t contact = solution.active[i];
-    const BentNormal& bent = touched[contact].bent;
-    sub_goal.holding.push({contact, touched[contact].place, bent.normal, solution.multiplier[i]});
-    sub_goal.shading = std::max(sub_goal.shading, bent.shading);
-    sub_goal.bump = std::max(sub_goal.bump, bent.bump);
-  }
-  return solution.violation > tolerance_.feasible ? offset : solution.point;
+  SolverResult held = nearestAbove({planes.begin(), planes.size()}, gap, tolerance_.feasible);
+  if (held.violation > tolerance_.feasible) held.point = offset;
+  return held;
 }
 
 // Pass 2: back above the true planes; a goal above all of them comes down to the nearest.
 Vec3 Effects::secondPass(const ContactSet& set, const Vec3& goal) const {
+  if (set.planes.size() == 1)
+    return goal - (set.planes[0].normal.dot(goal) - set.planes[0].offset) * set.planes[0].normal;
   double lowest = std::numeric_limits<double>::infinity();
   Vec3 down = Vec3::Zero();
   for (const Plane& plane : set.planes) {
@@ -108,15 +106,14 @@ Vec3 Effects::slip(Resistance& resistance, const Drag& drag, const Vec3& way, co
                    SubGoal& sub_goal) const {
   const double pull = way.norm();
   if (!(pull > 0)) return Vec3::Zero();
-  if (resistance.textured()) resistance.setWay(way);
+  if (resistance.slipTextured()) resistance.setWay(way);
   if (resistance.texels() == 0) {
     sub_goal.viscous = drag.viscous;
     return (slipLength(drag, pull, before) / pull) * way;
   }
-  const double wanted = std::ceil(kSamplesPerTexel * resistance.texels());
-  const int samples = static_cast<int>(std::clamp(wanted, 1.0, double{kMostSamples}));
+  const int samples = 1 + static_cast<int>(std::min(kSamplesPerTexel * resistance.texels(), kMostSamples - 1));
   const auto drag_at = [&](double distance) { return resistance.at(distance / pull); };
-  const double length = slipLengthAlong(drag, drag_at, pull, before, samples, sub_goal.viscous);
+  const double length = slipLengthAlong(drag_at, pull, before, samples, sub_goal.viscous);
   return std::min(length / pull, resistance.within() + kOverEdge * tolerance_.reach / pull) * way;
 }
 
@@ -125,13 +122,11 @@ Vec3 Effects::slip(Resistance& resistance, const Drag& drag, const Vec3& way, co
 // A stuck proxy with pre-sliding springs creeps to where they balance the pull that is left,
 //   |way - D| = creep |creep_m + D|,
 // and back when the pull falls: the elastic state z of Dahl's and Hayward and Armstrong's models, without their drift.
-Vec3 Effects::resistedStep(const Vec3& way, double slipped_now, SubGoal& sub_goal) const {
+Vec3 Effects::resistedStep(Resistance resistance, const Vec3& way, double slipped_now, SubGoal& sub_goal) const {
   sub_goal.viscous = sub_goal.creep = 0;
   sub_goal.creeps = false;
-  Resistance resistance(reader_, settings_);
-  for (const Holding& holding : sub_goal.holding) resistance.add(holding.place, holding.multiplier_m);
-  const Drag drag = resistance.at();
-  sub_goal.resisted = resistance.textured() || drag.viscous > 0 || drag.holding() > 0;
+  const Drag drag = resistance.here();
+  sub_goal.resisted = resistance.slipTextured() || drag.viscous > 0 || drag.holding() > 0;
   if (!sub_goal.resisted) return way;
   sub_goal.creep = drag.creep;
   const Slip before{slip_.length + slipped_now, slip_.viscous_m + drag.viscous * slipped_now};
@@ -144,30 +139,69 @@ Vec3 Effects::resistedStep(const Vec3& way, double slipped_now, SubGoal& sub_goa
   return slip(resistance, drag, way, before, sub_goal);
 }
 
+Resistance Effects::resistanceOf(const TouchedSet& touched, const SolverResult& held) const {
+  Resistance resistance(settings_);
+  for (std::size_t i = 0; i < held.active_count; ++i) {
+    const Touched& by = touched[held.active[i]];
+    resistance.add(by.roughness, by.patch, by.moved, held.multiplier[i]);
+  }
+  return resistance;
+}
+
+void Effects::tellHolding(const TouchedSet& touched, const SolverResult& held, SubGoal& sub_goal) const {
+  for (std::size_t i = 0; i < held.active_count; ++i) {
+    const Touched& by = touched[held.active[i]];
+    sub_goal.holding.push({held.active[i], by.patch.place(by.moved), by.bent.normal, held.multiplier[i]});
+    sub_goal.shading = std::max(sub_goal.shading, by.bent.shading);
+    sub_goal.bump = std::max(sub_goal.bump, by.bent.bump);
+  }
+}
+
+// On planes that do not bend, a slip whose resistance is the same all along ends where the next would not move it.
+bool Effects::slipsAtOnce(const TouchedSet& touched, const SubGoal& sub_goal) const {
+  return sub_goal.resisted && !sub_goal.bent && !sub_goal.creeps && touched.size() <= kFewContacts &&
+         std::none_of(touched.begin(), touched.end(), [](const Touched& now) { return now.roughness.slipTextured(); });
+}
+
+// Whether the planes, all of faces, are still those of the contacts after `step`.
+bool Effects::staysOnFaces(const ContactSet& set, const TouchedSet& touched, const Vec3& step) const {
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    const Patch& patch = touched[i].patch;
+    if (set.contacts[i].feature != Feature::kFace) return false;
+    if (!patch.covers(patch.weightsOver(step - touched[i].patch_offset))) return false;
+  }
+  return true;
+}
+
 // The passes are repeated here with the contacts in hand, which costs no search. Mixing takes out the main part of what
 // each would leave, a factor of sin^2(beta) + depth / radius.
 SubGoal Effects::subGoal(const ContactSet& set, const Vec3& position, const Vec3& gap) const {
   const bool few = set.contacts.size() <= kFewContacts;
-  const bool resisting =
-      std::any_of(set.contacts.begin(), set.contacts.end(), [&](const Contact& contact) { return resists(contact); });
   const double enough = kRestPerGap * gap.norm() + tolerance_.rest;
-  SubGoal sub_goal;
   TouchedSet touched = touchedNow(set);
+  const auto any = [&](auto says) { return std::any_of(touched.begin(), touched.end(), says); };
+  const bool resisting = any([](const Touched& now) { return now.roughness.acts(); });
+  SubGoal sub_goal;
   Vec3 offset = Vec3::Zero();
   Mixing mixing;
   for (int pass = 1;; ++pass) {
-    const Vec3 way = firstPass(set, touched, gap, offset, sub_goal) - offset;
-    const Vec3 resisted = resisting ? resistedStep(way, offset.norm(), sub_goal) : way;
-    sub_goal.held = way - resisted;
+    const SolverResult held = firstPass(set, touched, gap, offset);
+    sub_goal.bent = sub_goal.bent || any([](const Touched& now) { return now.bent.bent(); });
+    const Vec3 way = held.point - offset;
+    const Vec3 resisted = resisting ? resistedStep(resistanceOf(touched, held), way, offset.norm(), sub_goal) : way;
     const Vec3 goal = offset + resisted;
-    const Vec3 next = sub_goal.bent ? secondPass(set, goal) : goal;
-    const Vec3 change = next - offset;
-    sub_goal.step = next;
-    if (!few || !sub_goal.bent || settings_.shading == ShadingPasses::kOnce) return sub_goal;
-    sub_goal.settles = change.norm() <= enough;
-    if (sub_goal.settles || pass == kInnerPasses) return sub_goal;
-    offset = mixing.guess(next, change);
-    moveOn(set, position + offset, touched);
+    sub_goal.held = way - resisted;
+    sub_goal.step = sub_goal.bent ? secondPass(set, goal) : goal;
+    const Vec3 change = sub_goal.step - offset;
+    const bool repeats = few && sub_goal.bent && settings_.shading != ShadingPasses::kOnce;
+    sub_goal.settles = repeats ? change.norm() <= enough : slipsAtOnce(touched, sub_goal);
+    if (!repeats || sub_goal.settles || pass == kInnerPasses) {
+      tellHolding(touched, held, sub_goal);
+      sub_goal.stays = sub_goal.settles && staysOnFaces(set, touched, sub_goal.step);
+      return sub_goal;
+    }
+    offset = mixing.guess(sub_goal.step, change);
+    moveOn(set, position, offset, touched);
   }
 }
 
@@ -186,13 +220,18 @@ void Effects::moved(const SubGoal& sub_goal, const Vec3& step) {
 }
 
 ProxyContact Effects::describe(const ContactSet& set, const Holding& holding) const {
+  const Surface surface = surfaceOf(holding.place.primitive);
+  const SurfaceValue stiffness = surface.read(Quantity::kStiffness);
+  const Roughness roughness = Roughness::of(surface);
+  const bool textured = stiffness.texture || roughness.fixed.texture;
+  const Vec2 texcoord = textured ? surface.texcoord(holding.place.weights) : Vec2(Vec2::Zero());
   return {set.contacts[holding.contact].point,
           holding.normal,
           holding.multiplier_m,
           holding.place.primitive,
-          std::clamp(reader_.value(Quantity::kStiffness, holding.place), 0.0, 1.0),
-          std::max(0.0, reader_.value(Quantity::kStaticFriction, holding.place)),
-          resists(set.contacts[holding.contact])};
+          std::clamp(stiffness.at(texcoord), 0.0, 1.0),
+          std::max(0.0, roughness.fixed.at(texcoord)),
+          roughness.acts()};
 }
 
 }  // namespace hl

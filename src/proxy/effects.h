@@ -10,6 +10,7 @@
 #include "base/vec.h"
 #include "proxy/contacts.h"
 #include "proxy/friction.h"
+#include "proxy/patch.h"
 #include "proxy/proxy.h"
 #include "proxy/resistance.h"
 #include "proxy/solver.h"
@@ -43,6 +44,7 @@ struct SubGoal {
   bool bent = false;             ///< the step is not plain descent: it may raise the spring's energy
   bool resisted = false;         ///< friction or viscosity act on it
   bool settles = false;          ///< the passes have found where the proxy rests on these planes: at the step's end
+  bool stays = false;            ///< there every contact is on the same face as now
   bool creeps = false;           ///< static friction holds the proxy, on its pre-sliding springs
   double creep = 0;              ///< Drag::creep
   Vec3 held = Vec3::Zero();      ///< m, the pull that friction holds after the step
@@ -53,12 +55,7 @@ class Effects {
   /// `creep_m`: how far the proxy has crept from where it stuck.
   Effects(const SceneAt& scene, const ProxySettings& settings, const Tolerances& tolerance, bool slipping,
           const Vec3& creep_m)
-      : reader_(scene, settings.surfaces),
-        scene_(scene),
-        settings_(settings),
-        tolerance_(tolerance),
-        slipping_(slipping),
-        creep_m_(creep_m) {}
+      : scene_(scene), settings_(settings), tolerance_(tolerance), slipping_(slipping), creep_m_(creep_m) {}
 
   /// Whether a surface in contact does anything beyond holding the proxy off.
   bool any(const ContactSet& set) const;
@@ -73,28 +70,34 @@ class Effects {
 
   /// A contact as the report gives it.
   ProxyContact describe(const ContactSet& set, const Holding& holding) const;
-  bool stiffnessTextured(PrimitiveId primitive) const { return reader_.textured(primitive, Quantity::kStiffness); }
+  bool stiffnessTextured(PrimitiveId primitive) const { return surfaceOf(primitive).textured(Quantity::kStiffness); }
 
  private:
   /// A contact as it is while the passes move the proxy on.
   struct Touched {
-    SurfacePlace place;
+    Patch patch;
+    Vec3 patch_offset;  ///< where the proxy was when the patch was made
+    Vec2 moved;         ///< since then, as the patch counts it
     BentNormal bent;
-    bool bends = false;
+    bool bends;
+    Roughness roughness;  ///< read only when friction acts somewhere
   };
   using TouchedSet = FixedVector<Touched, kMaxContacts>;
 
-  bool resists(const Contact& contact) const;
+  Surface surfaceOf(PrimitiveId primitive) const { return {scene_, settings_.surfaces, primitive}; }
+  Patch patchAt(const SurfacePlace& place) const { return {scene_, surfaceOf(place.primitive), place}; }
   TouchedSet touchedNow(const ContactSet& set) const;
   bool creased(const ContactSet& set, const Contact& contact, const Vec3& normal) const;
-  void moveOn(const ContactSet& set, const Vec3& centre, TouchedSet& touched) const;
-  Vec3 firstPass(const ContactSet& set, const TouchedSet& touched, const Vec3& gap, const Vec3& offset,
-                 SubGoal& sub_goal) const;
+  void moveOn(const ContactSet& set, const Vec3& position, const Vec3& offset, TouchedSet& touched) const;
+  SolverResult firstPass(const ContactSet& set, const TouchedSet& touched, const Vec3& gap, const Vec3& offset) const;
   Vec3 secondPass(const ContactSet& set, const Vec3& goal) const;
-  Vec3 resistedStep(const Vec3& way, double slipped_now, SubGoal& sub_goal) const;
+  Resistance resistanceOf(const TouchedSet& touched, const SolverResult& held) const;
+  Vec3 resistedStep(Resistance resistance, const Vec3& way, double slipped_now, SubGoal& sub_goal) const;
+  void tellHolding(const TouchedSet& touched, const SolverResult& held, SubGoal& sub_goal) const;
+  bool slipsAtOnce(const TouchedSet& touched, const SubGoal& sub_goal) const;
+  bool staysOnFaces(const ContactSet& set, const TouchedSet& touched, const Vec3& step) const;
   Vec3 slip(Resistance& resistance, const Drag& drag, const Vec3& way, const Slip& before, SubGoal& sub_goal) const;
 
-  SurfaceReader reader_;
   const SceneAt& scene_;
   const ProxySettings& settings_;
   const Tolerances& tolerance_;

@@ -47,16 +47,16 @@ struct Place {
 
 // The way of a slip whose drag changes: how far the resistance is from holding the proxy at a place.
 struct Balance {
-  FunctionRef<Drag(double)> drag_at;
+  FunctionRef<DragAlong(double)> drag_at;
   double pull;
   double before_m;  // used up by viscosity before this slip
 
-  Place place(double at, const Drag& drag, const Place& reached) const {
-    const double used = reached.used + drag.viscous * (at - reached.at);
-    return {at, pull - at - drag.rubbing(at) - before_m - used, used};
-  }
   // `reached`: the last sample at which the proxy still slipped.
-  Place place(double at, const Place& reached) const { return place(at, drag_at(at), reached); }
+  Place place(double at, const Place& reached) const {
+    const DragAlong drag = drag_at(at);
+    const double used = reached.used + drag.viscous * (at - reached.at);
+    return {at, pull - at - drag.rubbing_m - before_m - used, used};
+  }
 };
 
 // Where, between the last sample that slips and `there` that does not, the proxy comes to rest. Where the drag does not
@@ -78,11 +78,10 @@ Place restBetween(const Balance& balance, const Place& reached, Place there) {
 
 }  // namespace
 
-double slipLengthAlong(const Drag& here, FunctionRef<Drag(double)> drag_at, double pull, const Slip& before,
-                       int samples, double& viscous) {
+double slipLengthAlong(FunctionRef<DragAlong(double)> drag_at, double pull, const Slip& before, int samples,
+                       double& viscous) {
   const Balance balance{drag_at, pull, before.viscous_m};
-  viscous = here.viscous;
-  Place reached = balance.place(0, here, {0, 0, 0});
+  Place reached = balance.place(0, {0, 0, 0});
   if (reached.left <= 0) return 0;
   for (int i = 1; i <= samples; ++i) {
     Place there = balance.place(pull * i / samples, reached);

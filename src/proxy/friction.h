@@ -32,6 +32,12 @@ struct Drag {
   double rubbing(double slip) const;
 };
 
+/// What resists at one place of a way along which it changes, without the Stribeck curve.
+struct DragAlong {
+  double rubbing_m = 0;  ///< sum of mu_d lambda
+  double viscous = 0;    ///< as Drag's
+};
+
 /// The slip so far in this tick.
 struct Slip {
   double length = 0;     ///< m
@@ -41,10 +47,10 @@ struct Slip {
 /// The further slip under a pull of `pull` metres; 0 when the resistance holds it. RT-safe.
 double slipLength(const Drag& drag, double pull, const Slip& before);
 
-/// The same where the drag changes along the way: it is `here` at first and what `drag_at` tells for a distance from
-/// here, sampled `samples` times over the pull: stops where the resistance first holds the proxy, so no narrow line of
-/// friction is missed. `viscous` becomes the mean over the way. Without the Stribeck curve. RT-safe.
-double slipLengthAlong(const Drag& here, FunctionRef<Drag(double)> drag_at, double pull, const Slip& before,
-                       int samples, double& viscous);
+/// The same where the drag changes along the way: `drag_at` tells it for a distance from here and is sampled `samples`
+/// times over the pull: stops where the resistance first holds the proxy, so no narrow line of friction is missed.
+/// `viscous` becomes the mean over the way. RT-safe.
+double slipLengthAlong(FunctionRef<DragAlong(double)> drag_at, double pull, const Slip& before, int samples,
+                       double& viscous);
 
 }  // namespace hl

@@ -59,6 +59,7 @@ class Tick {
   ContactSet set_;
   SolverResult plain_;  // of the last plain sub-goal
   bool felt_ = false;   // the sub-goal in hand is under the rules of the surfaces
+  bool rests_ = false;  // where the passes have settled on faces: no search could find more
   bool spent_ = false;  // the energy that the tick may add has been used up
   int effect_passes_ = 0;
   // The faces on which the passes have brought the proxy to rest; empty while they have not.
@@ -193,7 +194,13 @@ void Tick::advance(const SubGoal& sub_goal) {
   // In the open and unhindered the proxy *is* the finger, to the bit.
   if (whole && free && goal_ == finger_) state_.position = finger_;
   if (felt_) effects_.moved(sub_goal, state_.position - from);
-  if (sub_goal.settles && whole && !spent_) settleOn(set_);
+  if (!sub_goal.settles || !whole || spent_) return;
+  rests_ = sub_goal.stays;
+  if (rests_) {
+    moveContacts(set_, state_.position - from);
+  } else {
+    settleOn(set_);
+  }
 }
 
 void Tick::finish(const SubGoal& last, TickReport& report) {
@@ -230,6 +237,7 @@ TickReport Tick::run() {
     if (at_rest || report.capped) break;
     ++report.iterations;
     if (!tryCurvatureStep()) advance(sub_goal);
+    if (rests_) break;
   }
   restoreIfWorse();
   finish(sub_goal, report);

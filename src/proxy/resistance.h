@@ -6,25 +6,40 @@
 
 #include "base/fixed_vector.h"
 #include "proxy/friction.h"
+#include "proxy/patch.h"
 #include "proxy/proxy.h"
 #include "proxy/surface.h"
 
 namespace hl {
 
-/// RT-safe. The places and the reader must outlive it.
+/// What a surface does against a slip, read once for all places on it.
+struct Roughness {
+  SurfaceValue fixed, dynamic, viscosity;  ///< mu_s, mu_d, b in N s/m
+  double stribeck_m_s = 0, presliding_N_m = 0;
+
+  static Roughness of(const Surface& surface);
+  bool textured() const { return fixed.texture || slipTextured(); }
+  /// Whether what resists a slip changes along it; static friction only says when one begins.
+  bool slipTextured() const { return dynamic.texture || viscosity.texture; }
+  /// Whether there is any, somewhere on the surface.
+  bool acts() const { return textured() || fixed.low > 0 || dynamic.low > 0 || viscosity.low > 0; }
+};
+
+/// RT-safe. What is added must outlive it.
 class Resistance {
  public:
-  Resistance(const SurfaceReader& reader, const ProxySettings& settings) : reader_(reader), settings_(settings) {}
+  explicit Resistance(const ProxySettings& settings) : settings_(settings) {}
 
-  /// One more contact, touched at `place`, with a normal force of `normal_m`.
-  void add(const SurfacePlace& place, double normal_m);
+  /// One more contact, touched where the patch has `moved` to, with a normal force of `normal_m`.
+  void add(const Roughness& roughness, const Patch& patch, const Vec2& moved, double normal_m);
 
-  /// Here, or at a part 0..1 of the way.
-  Drag at(double part = 0) const;
-  bool textured() const { return textured_; }
+  Drag here() const;
+  bool slipTextured() const { return slip_textured_; }
 
   /// Where the slip goes. Until now there is no way: everywhere is here.
   void setWay(const Vec3& way);
+  /// At a part 0..1 of the way, of a proxy that slides.
+  DragAlong at(double part) const;
   /// Texels that the way crosses, in the finest of the textures.
   double texels() const { return texels_; }
   /// The part of the way after which a textured triangle is left behind: beyond, its texture says nothing.
@@ -32,20 +47,19 @@ class Resistance {
 
  private:
   struct Rubbing {
-    const SurfacePlace* place;
+    const Roughness* roughness;
+    const Patch* patch;
+    Vec2 moved;
     double normal_m, stribeck_m;
-    bool textured;
-    SurfaceValue fixed, dynamic, viscosity;
     Vec2 texcoord, texcoord_way;
   };
   void countTexels(const Rubbing& rubbing);
-  void findEdge(const SurfacePlace& from, const SurfacePlace& to);
+  void findEdge(const SurfacePlace& from, const Vec2& way);
 
-  const SurfaceReader& reader_;
   const ProxySettings& settings_;
   FixedVector<Rubbing, 3> rubbings_;
   double creep_ = 0;
-  bool textured_ = false;
+  bool slip_textured_ = false;
   double texels_ = 0;
   double within_ = std::numeric_limits<double>::infinity();
 };

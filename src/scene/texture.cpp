@@ -21,6 +21,12 @@ std::size_t wrapped(std::ptrdiff_t i, std::size_t size, Wrap wrap) {
 // Coordinates far out of range have no fraction left: they read the first texel.
 double bounded(double x) { return std::abs(x) < 1e9 ? x : 0.0; }
 
+// std::floor of a bounded x, without its call.
+std::ptrdiff_t floored(double x) {
+  const auto toward_zero = static_cast<std::ptrdiff_t>(x);
+  return toward_zero - (x < static_cast<double>(toward_zero) ? 1 : 0);
+}
+
 struct Cell {
   std::ptrdiff_t i, j;
   double s, t;  // 0..1 within the cell between four texel centres
@@ -29,8 +35,8 @@ struct Cell {
 Cell cellOf(const Texture& texture, const Vec2& uv) {
   const double x = bounded(uv.x() * static_cast<double>(texture.width)) - 0.5;
   const double y = bounded(uv.y() * static_cast<double>(texture.height)) - 0.5;
-  const double i = std::floor(x), j = std::floor(y);
-  return {static_cast<std::ptrdiff_t>(i), static_cast<std::ptrdiff_t>(j), x - i, y - j};
+  const std::ptrdiff_t i = floored(x), j = floored(y);
+  return {i, j, x - static_cast<double>(i), y - static_cast<double>(j)};
 }
 
 // A hash of the texel's place to 0..1 (the mixing steps of Steele's splitmix64).
@@ -45,8 +51,8 @@ float noiseAt(std::size_t i, std::size_t j) {
 
 double Texture::sample(const Vec2& uv) const {
   if (filter == Filter::kNearest) {
-    const auto i = static_cast<std::ptrdiff_t>(std::floor(bounded(uv.x() * static_cast<double>(width))));
-    const auto j = static_cast<std::ptrdiff_t>(std::floor(bounded(uv.y() * static_cast<double>(height))));
+    const std::ptrdiff_t i = floored(bounded(uv.x() * static_cast<double>(width)));
+    const std::ptrdiff_t j = floored(bounded(uv.y() * static_cast<double>(height)));
     return static_cast<double>(texels[row(j) + column(i)]);
   }
   const Cell c = cellOf(*this, uv);
@@ -66,13 +72,12 @@ Vec2 Texture::gradient(const Vec2& uv) const {
     rows[k] = row(c.j + off);
   }
   const auto at = [&](std::size_t i, std::size_t j) { return static_cast<double>(texels[rows[j] + columns[i]]); };
-  const auto central = [&](std::size_t i, std::size_t j) {  // differences at the texel (i, j) of the four by four
-    return Vec2(0.5 * static_cast<double>(width) * (at(i + 1, j) - at(i - 1, j)),
-                0.5 * static_cast<double>(height) * (at(i, j + 1) - at(i, j - 1)));
-  };
-  const Vec2 low = (1 - c.s) * central(1, 1) + c.s * central(2, 1);
-  const Vec2 high = (1 - c.s) * central(1, 2) + c.s * central(2, 2);
-  return (1 - c.t) * low + c.t * high;
+  // Differences across two texels, blended over the cell: of the blend of the rows, and of that of the columns.
+  const auto along_u = [&](std::size_t i) { return (1 - c.t) * at(i, 1) + c.t * at(i, 2); };
+  const auto along_v = [&](std::size_t j) { return (1 - c.s) * at(1, j) + c.s * at(2, j); };
+  const double u = (1 - c.s) * (along_u(2) - along_u(0)) + c.s * (along_u(3) - along_u(1));
+  const double v = (1 - c.t) * (along_v(2) - along_v(0)) + c.t * (along_v(3) - along_v(1));
+  return {0.5 * static_cast<double>(width) * u, 0.5 * static_cast<double>(height) * v};
 }
 
 std::size_t Texture::column(std::ptrdiff_t i) const { return wrapped(i, width, wrap); }

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "effect_scenes.h"
+#include "proxy/patch.h"
 #include "proxy/proxy.h"
 #include "proxy/surface.h"
 

@@ -1,0 +1,98 @@
+#include "proxy/patch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hl {
+
+namespace {
+
+// cos and sin of kShadingLimit_rad.
+constexpr double kLimitCos = 0.8660254037844386;
+constexpr double kLimitSin = 0.5;
+
+// Half the squared distance of two unit vectors: 1 - cos of the angle between them, without its cancellation.
+double bendBetween(const Vec3& a, const Vec3& b) { return 0.5 * (a - b).squaredNorm(); }
+
+}  // namespace
+
+Patch::Patch(const SceneAt& scene, const Surface& surface, const SurfacePlace& place)
+    : place_(place), triangle_(surface.isTriangle()), smooth_(surface.smooth()), textured_(surface.textured()) {
+  if (triangle_) readPlane(scene, surface);
+  if (textured_) readTexcoords(surface);
+}
+
+void Patch::readPlane(const SceneAt& scene, const Surface& surface) {
+  const Primitive& triangle = scene.primitive(place_.primitive);
+  Vec3 e1 = triangle.vertex[1] - triangle.vertex[0], e2 = triangle.vertex[2] - triangle.vertex[0];
+  std::array<Vec3, 3> normal;
+  if (smooth_) normal = {surface.normal(0), surface.normal(1), surface.normal(2)};
+  const Motion& motion = scene.instance(place_.primitive).motion;
+  if (!motion.identity()) {
+    const Mat3 turn = motion.at(scene.time_ns()).rotation;
+    e1 = turn * e1;
+    e2 = turn * e2;
+    if (smooth_) normal = {turn * normal[0], turn * normal[1], turn * normal[2]};
+  }
+  const Vec3 c = e1.cross(e2);
+  const double scale = 1 / c.squaredNorm();
+  slope_ = {scale * e2.cross(c), scale * c.cross(e1)};
+  if (smooth_) readNormals(normal);
+}
+
+void Patch::readNormals(const std::array<Vec3, 3>& normal) {
+  const auto usable = [&](const Vec3& n) { return n.dot(place_.normal) > 0; };
+  smooth_ = usable(normal[0]) && usable(normal[1]) && usable(normal[2]);
+  normal_sum_ = place_.weights[0] * normal[0] + place_.weights[1] * normal[1] + place_.weights[2] * normal[2];
+  normal_edge_ = {normal[1] - normal[0], normal[2] - normal[0]};
+}
+
+void Patch::readTexcoords(const Surface& surface) {
+  texcoord_ = surface.texcoord(place_.weights);
+  texcoord_edge_ = {surface.texcoord(1) - surface.texcoord(0), surface.texcoord(2) - surface.texcoord(0)};
+  if (surface.textured(Quantity::kHeight)) height_ = surface.read(Quantity::kHeight);
+}
+
+bool Patch::covers(const Vec2& moved) const {
+  const auto& made = place_.weights;
+  const bool on_face = triangle_ && made[0] > 0 && made[1] > 0 && made[2] > 0;
+  return on_face && made[0] - moved.x() - moved.y() >= 0 && made[1] + moved.x() >= 0 && made[2] + moved.y() >= 0;
+}
+
+SurfacePlace Patch::place(const Vec2& moved) const {
+  SurfacePlace place = place_;
+  place.weights[0] -= moved.x() + moved.y();
+  place.weights[1] += moved.x();
+  place.weights[2] += moved.y();
+  return place;
+}
+
+void Patch::shade(const Vec2& moved, BentNormal& bent) const {
+  const Vec3 sum = normal_sum_ + moved.x() * normal_edge_[0] + moved.y() * normal_edge_[1];
+  const Vec3 shaded = sum.normalized();
+  const double cosine = shaded.dot(place_.normal);
+  if (!(cosine > 0)) return;
+  bent.shading = std::min(bendBetween(place_.normal, shaded), 1 - kLimitCos);
+  bent.normal = shaded;
+  if (cosine < kLimitCos)
+    bent.normal = kLimitCos * place_.normal + kLimitSin * (shaded - cosine * place_.normal).normalized();
+}
+
+// The surface of height h over the plane has the normal N - grad h, grad h in metres per metre along the triangle.
+void Patch::bump(const Vec2& moved, BentNormal& bent) const {
+  const Vec2 slope = height_.range * height_.texture->gradient(texcoord(moved));
+  const Vec3 gradient = slope.dot(texcoord_edge_[0]) * slope_[0] + slope.dot(texcoord_edge_[1]) * slope_[1];
+  const Vec3 normal = (bent.normal - (gradient - gradient.dot(bent.normal) * bent.normal)).normalized();
+  if (!(normal.dot(place_.normal) > 0)) return;
+  bent.bump = bendBetween(bent.normal, normal);
+  bent.normal = normal;
+}
+
+BentNormal Patch::bend(const Vec2& moved) const {
+  BentNormal bent{place_.normal, 0, 0};
+  if (smooth_) shade(moved, bent);
+  if (height_.texture) bump(moved, bent);
+  return bent;
+}
+
+}  // namespace hl
