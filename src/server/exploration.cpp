@@ -31,7 +31,6 @@ double pressing(double time_s) {
 
 Vec3 explore(const SceneAt& scene, const ExplorationSettings& settings, double time_s) {
   const Snapshot& snapshot = scene.snapshot();
-  if (snapshot.bounds.empty()) return Vec3::Zero();
   const Vec3 centre = snapshot.bounds.centre();
   const double reach = 0.5 * snapshot.bounds.size().norm() + 4 * settings.radius + settings.lift;
   const Vec3 outward = direction(time_s);

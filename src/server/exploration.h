@@ -14,7 +14,8 @@ struct ExplorationSettings {
   double radius = 0.002;  ///< m (world) of the sphere that finds the surface
 };
 
-/// Where the hand wants to be `time_s` after the start, world frame. Deterministic; any thread, never a real-time one.
+/// Where the hand wants to be `time_s` after the start, world frame; the scene is not empty. Deterministic; any thread,
+/// never a real-time one.
 Vec3 explore(const SceneAt& scene, const ExplorationSettings& settings, double time_s);
 
 }  // namespace hl

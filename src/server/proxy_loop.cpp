@@ -6,10 +6,6 @@ namespace hl {
 
 namespace {
 
-bool holds(const FixedVector<ObjectName, 3>& list, const ObjectName& object) {
-  return std::any_of(list.begin(), list.end(), [&](const ObjectName& other) { return other.key == object.key; });
-}
-
 // Energy of the spring between finger and where it is pulled to, J.
 double springEnergy_J(double spring_N_m, double stiffness, const Vec3& gap_D) {
   return 0.5 * spring_N_m * stiffness * gap_D.squaredNorm();
@@ -48,7 +44,7 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
     step.touched.push({instance.key, instance.session, instance.object, instance.name});
   }
   step.target = targetOf(now_ns, finger_D, step.report, abrupt);
-  tellEvents(now_ns, step.touched);
+  events_.follow(now_ns, step.touched, state_.position);
   return step;
 }
 
@@ -69,19 +65,6 @@ ServoTarget ProxyLoop::targetOf(std::int64_t now_ns, const Vec3& finger_D, const
   pulled_ = touches || (blend_.active() && report.valid);
   last_stiffness_ = stiffness;
   return {proxy_D, now_ns, pulled_, stiffness, paid_J};
-}
-
-void ProxyLoop::tellEvents(std::int64_t now_ns, const FixedVector<ObjectName, 3>& touched) {
-  for (const ObjectName& object : touched_) {
-    if (!holds(touched, object)) events_.push({now_ns, object, false, state_.position});
-  }
-  FixedVector<ObjectName, 3> told = touched_;
-  for (const ObjectName& object : touched) {
-    if (holds(told, object)) continue;
-    events_.push({now_ns, object, true, state_.position});
-    told.push(object);
-  }
-  touched_ = touched;
 }
 
 }  // namespace hl

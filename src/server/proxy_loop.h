@@ -4,11 +4,11 @@
 
 #include <cstdint>
 
-#include "base/spsc_ring.h"
 #include "control/servo.h"
 #include "proxy/proxy.h"
 #include "server/snapshot_slot.h"
 #include "server/target_blend.h"
+#include "server/touch_events.h"
 #include "server/workspace.h"
 
 namespace hl {
@@ -18,22 +18,8 @@ struct ProxyCommands {
   MaterialOverride surfaces{};
   Workspace workspace;
   double radius_W = 0.002;  ///< m, world, > 0
-  std::uint64_t restarts =
-      0;  ///< counts changes of workspace or radius: the proxy then starts anew where the finger is
-};
-
-/// An object of the scene as its client knows it.
-struct ObjectName {
-  std::uint64_t key = 0;
-  std::uint32_t session = 0, object = 0, name = 0;
-};
-
-/// The proxy came to an object or left it.
-struct TouchEvent {
-  std::int64_t time_ns = 0;
-  ObjectName object;
-  bool touches = false;
-  Vec3 position_W = Vec3::Zero();  ///< of the proxy
+  /// Counts changes of workspace or radius: the proxy then starts anew where the finger is.
+  std::uint64_t restarts = 0;
 };
 
 struct ProxyStep {
@@ -57,7 +43,6 @@ class ProxyLoop {
  private:
   void follow(const ProxyCommands& commands, double stiffness_N_m, LedgerMode ledger);
   ServoTarget targetOf(std::int64_t now_ns, const Vec3& finger_D, const TickReport& report, bool abrupt);
-  void tellEvents(std::int64_t now_ns, const FixedVector<ObjectName, 3>& touched);
 
   SnapshotSlot& scenes_;
   ProxySettings settings_;
@@ -68,8 +53,7 @@ class ProxyLoop {
   bool pulled_ = false;        // the servo was told to pull
   std::uint64_t scene_ = 0;    // number of the last scene; 0: none yet
   std::uint64_t restarts_ = 0;
-  FixedVector<ObjectName, 3> touched_;
-  SpscRing<TouchEvent, 1024> events_;
+  TouchEvents events_;
 };
 
 }  // namespace hl

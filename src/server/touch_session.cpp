@@ -61,8 +61,10 @@ TouchSession::~TouchSession() {
 // The hand moves freely, without force, on a virtual clock that ends now; the real clock then goes on from there.
 void TouchSession::bringHandToStart() {
   const Workspace& workspace = proxy_commands_.workspace;
-  const double top_D = 0.5 * snapshot_->bounds.size().y() / workspace.world_per_device;
-  Vec3 goal_D = clampToWorkspace(Vec3(0, (snapshot_->bounds.empty() ? 0 : top_D) + kStartAbove_D, 0));
+  const bool empty = snapshot_->bounds.empty();
+  // Of the scene, or of the first world that will be fitted to the hand: it must not appear around the finger.
+  const double top_D = 0.5 * (empty ? settings_.side_D : snapshot_->bounds.size().y() / workspace.world_per_device);
+  Vec3 goal_D = clampToWorkspace(Vec3(0, top_D + kStartAbove_D, 0));
   if (settings_.script) goal_D = clampToWorkspace(workspace.toDevice(settings_.script->at(0)));
   device_.setHandGoal(goal_D);
   const std::int64_t now_ns = monotonicNow_ns();
@@ -166,6 +168,15 @@ void TouchSession::runProxy() {
   });
 }
 
+// Where the script or the exploration wants the hand; with nothing to stroke it waits.
+std::optional<Vec3> TouchSession::strokingGoal() const {
+  if (settings_.script) return settings_.script->at(time_s());
+  const std::shared_ptr<const Snapshot> scene = snapshot();
+  if (scene->bounds.empty()) return {};
+  const double scale = workspace().world_per_device;
+  return explore({*scene, monotonicNow_ns()}, {kPress_D * scale, kLift_D * scale, radius_W()}, time_s());
+}
+
 // Decides where the hand wants to be: a person, the script or the exploration, in this order.
 void TouchSession::runSupervisor() {
   LoopCounters counters;
@@ -185,12 +196,7 @@ void TouchSession::runSupervisor() {
       finger_for_supervisor_D_.read(finger_D);
       device_.setHandGoal(clampToWorkspace(finger_D));
     } else if (exploring_) {
-      const double scale = workspace.world_per_device;
-      const ExplorationSettings exploration{kPress_D * scale, kLift_D * scale, radius_W()};
-      const std::shared_ptr<const Snapshot> scene = snapshot();
-      const Vec3 goal_W = settings_.script ? settings_.script->at(time_s())
-                                           : explore({*scene, monotonicNow_ns()}, exploration, time_s());
-      device_.setHandGoal(clampToWorkspace(workspace.toDevice(goal_W)));
+      if (const auto goal_W = strokingGoal()) device_.setHandGoal(clampToWorkspace(workspace.toDevice(*goal_W)));
     }
     device_.setHandFirm(hand_firm_);
   });

@@ -147,6 +147,7 @@ class TouchSession {
   void runServo();
   void runProxy();
   void runSupervisor();
+  std::optional<Vec3> strokingGoal() const;
   Vec3 clampToWorkspace(const Vec3& goal_D) const;
   void restartWith(const Workspace& workspace, double radius_W);  // holding settings_mutex_
 

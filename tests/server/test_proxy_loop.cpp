@@ -119,7 +119,7 @@ TEST(ProxyLoop, TellsWhatIsTouchedByTheNamesOfItsClient) {
   bench.run(5, {0, -0.001, 0});
   ASSERT_EQ(bench.last_.touched.size(), 1u);
   EXPECT_EQ(bench.last_.touched[0].object, 3u);
-  bench.run(5, {0, 0.01, 0});
+  bench.run(30, {0, 0.01, 0});
   TouchEvent event;
   ASSERT_TRUE(bench.loop_.popEvent(event));
   EXPECT_TRUE(event.touches);

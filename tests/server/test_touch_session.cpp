@@ -63,6 +63,25 @@ TEST(TouchSession, APersonTakesOverAndThePressIsFelt) {
   EXPECT_FALSE(session.exploring());
 }
 
+// A first world is fitted to the hand: around the origin of the device, where nobody waits for it.
+TEST(TouchSession, AFirstWorldAppearsBesideTheFingerNotAroundIt) {
+  for (const bool explore : {false, true}) {
+    TouchSettings settings;
+    settings.explore = explore;
+    TouchSession session(makeSnapshot(std::vector<Instance>{}), settings);
+    session.start();
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    const auto world = makeSnapshot(makeBuiltinScene("sphere:500"), HierarchyKind::kBvh);
+    session.publish(world);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    ProxyView proxy;
+    ServoView servo;
+    session.views(servo, proxy);
+    EXPECT_GT((proxy.proxy - world->bounds.centre()).norm(), 0.4 * world->bounds.size().minCoeff())
+        << proxy.proxy.transpose();
+  }
+}
+
 TEST(TouchSession, BadCommandsChangeNothing) {
   const auto snapshot = makeSnapshot(makeBuiltinScene("plane:200"), HierarchyKind::kBvh);
   TouchSession session(snapshot, {});
