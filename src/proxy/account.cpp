@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "proxy/spring_energy.h"
+
 namespace hl {
 
 namespace {
@@ -49,7 +51,7 @@ Account::Account(const ProxyState& state, const ProxySettings& settings, const V
 
 double Account::energy_J(double stiffness, double distance_squared) const {
   const double scale = settings_.world_per_device;
-  return 0.5 * settings_.spring_N_m * stiffness * distance_squared / (scale * scale);
+  return springEnergy_J(settings_.spring_N_m, stiffness, distance_squared / (scale * scale));
 }
 
 // Along the step |proxy - finger|^2 falls to its nearest point and rises beyond. What rises beyond is paid for in full:

@@ -8,6 +8,7 @@
 #include "proxy/contacts.h"
 #include "proxy/curvature_step.h"
 #include "proxy/effects.h"
+#include "proxy/spring_energy.h"
 #include "proxy/tolerances.h"
 
 namespace hl {
@@ -256,17 +257,16 @@ std::uint64_t carrierOf(const SceneAt& scene, const TickReport& report) {
   return key;
 }
 
-// Energy of the spring at the finger, J at the hand.
-double springEnergy_J(const ProxyState& state, const ProxySettings& settings, const Vec3& finger) {
+double energyOf_J(const ProxyState& state, const ProxySettings& settings, const Vec3& finger) {
   const Vec3 gap_D = (state.position - finger) / settings.world_per_device;
-  return 0.5 * settings.spring_N_m * state.stiffness * gap_D.squaredNorm();
+  return springEnergy_J(settings.spring_N_m, state.stiffness, gap_D.squaredNorm());
 }
 
 // Moving objects do work on the hand; that is theirs, not the rules', and no tank pays for it.
 double carryAlong(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
-  const double before_J = springEnergy_J(state, settings, finger);
+  const double before_J = energyOf_J(state, settings, finger);
   carry(state, scene, settings);
-  const double moved_J = springEnergy_J(state, settings, finger) - before_J;
+  const double moved_J = energyOf_J(state, settings, finger) - before_J;
   if (moved_J > 0) state.ledger.add(EnergyCause::kMoving, moved_J);
   return moved_J;
 }

@@ -9,13 +9,12 @@
 namespace hl {
 
 struct Limits {
-  // ---- One message -------------------------------------------------------------------------------------------------
+  // One message.
   std::uint64_t message_bytes = std::uint64_t{4} << 20;  ///< large meshes come in parts; 4 MiB decode in milliseconds
   std::uint64_t open_bytes = std::uint64_t{16} << 10;    ///< until Open is accepted, from whoever it may be
   double messages_Hz = 2000;  ///< per session, with bursts of one second's worth: twice what a 1 kHz client sends
 
-  // ---- What one session may own; the SessionHost counts these
-  // ----------------------------------------------------------
+  // What one session may own; the SessionHost counts these.
   std::uint64_t objects = 100'000;        ///< definitions are a few hundred bytes each: tens of megabytes
   std::uint64_t primitives = 50'000'000;  ///< with its hierarchy about 64 bytes each: 3 GiB
   std::uint64_t instances = 100'000;      ///< objects in the world, each call counted
@@ -25,8 +24,7 @@ struct Limits {
   double frames_Hz = 250;       ///< each frame builds hierarchies; no display or simulation step needs more
   double state_rate_Hz = 1000;  ///< the rate of the loops: there is nothing newer to send
 
-  // ---- The server as a whole
-  // -------------------------------------------------------------------------------------------
+  // The server as a whole.
   std::uint32_t sessions = 32;  ///< HL clients; the SessionHost counts them
   std::uint32_t pages = 16;     ///< viewer WebSockets at once; each costs a copy of the scene while it is sent
   std::uint64_t page_message_bytes = 4096;  ///< a page sends a few hundred
@@ -34,8 +32,7 @@ struct Limits {
   std::uint32_t connections = 256;  ///< sockets, whatever they are: far below a process's usual 1024 descriptors
   std::uint32_t workers = 2;        ///< threads that decode clients' messages, beside the one that moves bytes
 
-  // ---- Patience, in seconds
-  // --------------------------------------------------------------------------------------------
+  // Patience, in seconds.
   double handshake_s = 5;  ///< TLS, the WebSocket's upgrade, and then Open, each
   double idle_s = 10;      ///< silence: pinged after half of it, ended after one to two of it
   double write_s = 20;     ///< a client that reads nothing for so long while there is something to send is ended

@@ -2,16 +2,9 @@
 
 #include <algorithm>
 
+#include "proxy/spring_energy.h"
+
 namespace hl {
-
-namespace {
-
-// Energy of the spring between finger and where it is pulled to, J.
-double springEnergy_J(double spring_N_m, double stiffness, const Vec3& gap_D) {
-  return 0.5 * spring_N_m * stiffness * gap_D.squaredNorm();
-}
-
-}  // namespace
 
 void ProxyLoop::follow(const ProxyCommands& commands, double stiffness_N_m, LedgerMode ledger) {
   workspace_ = commands.workspace;
@@ -59,8 +52,8 @@ ServoTarget ProxyLoop::targetOf(std::int64_t now_ns, const Vec3& finger_D, const
   const double stiffness = touches ? state_.stiffness : last_stiffness_;
   double paid_J = report.injected_J + std::max(0.0, report.moved_J);
   if (blend_.active()) {
-    paid_J = springEnergy_J(settings_.spring_N_m, stiffness, proxy_D - finger_D) -
-             springEnergy_J(settings_.spring_N_m, last_stiffness_, before - finger_D);
+    paid_J = springEnergy_J(settings_.spring_N_m, stiffness, (proxy_D - finger_D).squaredNorm()) -
+             springEnergy_J(settings_.spring_N_m, last_stiffness_, (before - finger_D).squaredNorm());
   }
   pulled_ = touches || (blend_.active() && report.valid);
   last_stiffness_ = stiffness;

@@ -117,11 +117,6 @@ void ScenePublisher::remove(const std::shared_ptr<Place>& place) {
   changed_.notify_all();
 }
 
-std::size_t ScenePublisher::primitives() const {
-  const std::lock_guard lock(mutex_);
-  return shown_->primitives;
-}
-
 // The client that has waited longest. Holding the mutex.
 std::shared_ptr<ScenePublisher::Place> ScenePublisher::placeToBuild() {
   std::shared_ptr<Place> oldest;

@@ -53,7 +53,6 @@ class ScenePublisher {
   /// No callback is under way or comes after this. The objects stay where they are until remove().
   void detach(const std::shared_ptr<Place>& place);
   void remove(const std::shared_ptr<Place>& place);
-  std::size_t primitives() const;  ///< in the scene shown last
 
  private:
   struct Waiting {

@@ -32,13 +32,10 @@ std::int64_t period_ns(double rate_Hz) { return static_cast<std::int64_t>(1e9 / 
 }  // namespace
 
 TouchSession::TouchSession(std::shared_ptr<const Snapshot> snapshot, const TouchSettings& settings)
-    : settings_(settings),
-      scenes_(snapshot),
-      proxy_loop_(scenes_, proxySettings(settings)),
-      snapshot_(std::move(snapshot)) {
+    : settings_(settings), scenes_(std::move(snapshot)), proxy_loop_(scenes_, proxySettings(settings)) {
   device_.open();
-  fitted_ = settings.world_per_device || !snapshot_->bounds.empty();
-  Workspace workspace = Workspace::fit(snapshot_->bounds, settings.side_D);
+  fitted_ = settings.world_per_device || !scenes_.newest()->bounds.empty();
+  Workspace workspace = Workspace::fit(scenes_.newest()->bounds, settings.side_D);
   if (settings.world_per_device) workspace.world_per_device = *settings.world_per_device;
   proxy_commands_.workspace = workspace;
   proxy_commands_.radius_W = settings.radius_D * workspace.world_per_device;
@@ -61,9 +58,9 @@ TouchSession::~TouchSession() {
 // The hand moves freely, without force, on a virtual clock that ends now; the real clock then goes on from there.
 void TouchSession::bringHandToStart() {
   const Workspace& workspace = proxy_commands_.workspace;
-  const bool empty = snapshot_->bounds.empty();
+  const Box& bounds = scenes_.newest()->bounds;
   // Of the scene, or of the first world that will be fitted to the hand: it must not appear around the finger.
-  const double top_D = 0.5 * (empty ? settings_.side_D : snapshot_->bounds.size().y() / workspace.world_per_device);
+  const double top_D = 0.5 * (bounds.empty() ? settings_.side_D : bounds.size().y() / workspace.world_per_device);
   Vec3 goal_D = clampToWorkspace(Vec3(0, top_D + kStartAbove_D, 0));
   if (settings_.script) goal_D = clampToWorkspace(workspace.toDevice(settings_.script->at(0)));
   device_.setHandGoal(goal_D);
@@ -261,7 +258,7 @@ double TouchSession::radius_W() const {
 
 std::shared_ptr<const Snapshot> TouchSession::snapshot() const {
   const std::lock_guard lock(settings_mutex_);
-  return snapshot_;
+  return scenes_.newest();
 }
 
 void TouchSession::restartWith(const Workspace& workspace, double radius_W) {
@@ -293,7 +290,6 @@ void TouchSession::publish(std::shared_ptr<const Snapshot> snapshot) {
     const Workspace workspace = Workspace::fit(snapshot->bounds, settings_.side_D);
     restartWith(workspace, settings_.radius_D * workspace.world_per_device);
   }
-  snapshot_ = snapshot;
   scenes_.publish(std::move(snapshot));
 }
 

@@ -179,7 +179,6 @@ class TouchSession {
 
   mutable std::mutex settings_mutex_;  // between the callers of commands; the real-time loops never see it
   ProxyCommands proxy_commands_;
-  std::shared_ptr<const Snapshot> snapshot_;
   bool fitted_ = false;  // the workspace has been set, or fitted to a scene
   Latest<ProxyCommands> commands_for_proxy_;
   std::atomic<LedgerMode> ledger_{LedgerMode::kTank};
