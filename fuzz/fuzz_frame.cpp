@@ -5,7 +5,6 @@
 #include "read_frame.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  hl::proto::ClientMessage message;
-  if (message.ParseFromArray(data, static_cast<int>(size))) hl::fuzz::readFrame(message);
+  hl::fuzz::readMessage(hl::MessageForm::kBinary, {reinterpret_cast<const char*>(data), size});
   return 0;
 }

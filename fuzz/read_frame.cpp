@@ -1,11 +1,10 @@
 #include "read_frame.h"
 
-#include <cmath>
-#include <cstdlib>
+#include <utility>
 
 #include "base/error.h"
-#include "proxy/proxy.h"
 #include "server/decode_frame.h"
+#include "touch.h"
 
 namespace hl::fuzz {
 
@@ -21,36 +20,50 @@ SceneLimits smallLimits() {
   return limits;
 }
 
-void require(bool holds) {
-  if (!holds) std::abort();
+// What a client has in the world before the frame comes, so that the frame can move, overwrite and delete things.
+SceneEdit framesBefore() {
+  Model model;
+  model.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  model.triangles = {{0, 1, 2}};
+  SceneItem shape, call;
+  shape.shape = makeShape(std::move(model));
+  call.call = 1;
+  SceneEdit edit;
+  edit.objects[1] = {std::move(shape)};
+  edit.world = {std::move(call)};
+  return edit;
 }
 
-// A few ticks through the middle of it: whatever the scene, the proxy stays finite and is never let in.
-void touch(const Snapshot& snapshot) {
-  ProxySettings settings;
-  settings.radius = 0.01;
-  settings.iteration_cap = 50;
-  ProxyState state = startProxy(snapshot, settings, {0.5, 0.5, 0.5});
-  for (int i = 0; i < 5; ++i) {
-    tick(state, snapshot, settings, {0.5 - 0.2 * i, 0.5 - 0.21 * i, 0.5 - 0.19 * i});
-    require(state.position.allFinite());
-  }
+std::vector<Pose> posesOf(const EditableScene& scene) {
+  std::vector<Pose> poses;
+  for (const PlacedShape& placed : scene.placed()) poses.push_back(placed.pose);
+  return poses;
 }
 
 }  // namespace
 
-void readFrame(const proto::ClientMessage& message) {
+void readMessage(MessageForm form, std::string_view bytes) {
+  proto::ClientMessage message;
+  const std::string refusal = decodeMessage(form, bytes, message);
+  if (!refusal.empty()) {
+    require(refusal.find('\n') == std::string::npos);
+    return;
+  }
   Uploads uploads;
   if (message.has_upload()) uploads[message.upload().id()] = message.upload().part();
   EditableScene scene(1, smallLimits());
+  scene.apply(framesBefore());
+  const std::vector<Pose> before = posesOf(scene);
+  const std::vector<Instance> shown = followOn(scene.placed(), {}, 0, 0).instances;
   try {
     const DecodedFrame frame = decodeFrame(message.frame(), uploads, smallLimits(), [](double) {});
     scene.apply(frame.edit);
   } catch (const Error& error) {
-    require(scene.placed().empty() && error.what()[0] != '\0');
+    require(posesOf(scene) == before && error.what()[0] != '\0');
     return;
   }
-  touch(*makeSnapshot(followOn(scene.placed(), {}, 0, 0).instances));
+  constexpr std::int64_t kMove_ns = 3'000'000;
+  touch(*makeSnapshot(followOn(scene.placed(), shown, 0, kMove_ns).instances));
 }
 
 }  // namespace hl::fuzz

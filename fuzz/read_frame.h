@@ -1,11 +1,13 @@
 // What a server does with a client's message, on one thread and with small limits.
 #pragma once
 
-#include <hl.pb.h>
+#include <string_view>
+
+#include "server/message_forms.h"
 
 namespace hl::fuzz {
 
 /// Aborts when a message that is refused has changed the scene, or one that is taken has left it broken.
-void readFrame(const proto::ClientMessage& message);
+void readMessage(MessageForm form, std::string_view bytes);
 
 }  // namespace hl::fuzz

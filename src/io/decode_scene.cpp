@@ -134,7 +134,8 @@ Texture SceneDecoder::texture(const proto::TextureImage& in, std::size_t most_te
     const proto::ProceduralTexture& p = in.procedural();
     const std::size_t size = p.size() == 0 ? kDefaultSize : p.size();
     if (size * size > most_texels || size > most_texels)
-      fail(where, fmt::format("{}.procedural.size of {} is too large", where, size));
+      fail(where,
+           fmt::format("{}.procedural.size of {} is too large: there is room for {} texels", where, size, most_texels));
     const double duty = checked(p.has_duty() ? p.duty() : 0.5, 0, 1, where + ".procedural.duty");
     try {
       texture = makeTexture(p.kind(), size, duty);
@@ -145,7 +146,8 @@ Texture SceneDecoder::texture(const proto::TextureImage& in, std::size_t most_te
     const proto::Texels& t = in.texels();
     if (t.width() == 0 || t.height() == 0 || std::uint64_t{t.width()} * t.height() != t.values().size())
       fail(where + ".texels", where + ".texels must hold width x height bytes, at least one");
-    if (t.values().size() > most_texels) fail(where + ".texels", where + ".texels are too many");
+    if (t.values().size() > most_texels)
+      fail(where + ".texels", fmt::format("{}.texels are too many: there is room for {}", where, most_texels));
     texture.width = t.width();
     texture.height = t.height();
     texture.texels.reserve(t.values().size());

@@ -13,6 +13,7 @@ struct LoadOptions {
   std::function<void(double fraction)> progress;  ///< called while reading, 0..1
   /// Of a scene file, all objects together: some 5 GB. A few lines can ask for any number of copies.
   std::size_t most_primitives = 40'000'000;
+  std::size_t most_texels = std::size_t{256} << 20;  ///< of a scene file, all textures together: 1 GiB
 };
 
 /// Reads a file as it is: node transforms applied, polygons triangulated, normals and texture coordinates kept, lines

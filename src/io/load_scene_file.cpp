@@ -78,6 +78,7 @@ class SceneFile {
   const SceneDecoder decoder_;
   proto::Scene scene_;
   std::map<std::string, std::uint32_t> textures_;
+  std::size_t texels_ = 0;              // of all textures
   std::map<std::string, Model> files_;  // read once, however many objects show them
 };
 
@@ -131,8 +132,11 @@ void SceneFile::addTexture(Model& model, const proto::TextureImage& in, const st
     }
     decoder_.setReading(in, texture, where);
   } else {
-    texture = decoder_.texture(in, kMostTexels, where);
+    texture = decoder_.texture(in, std::min(kMostTexels, options_.most_texels - texels_), where);
   }
+  texels_ += texture.texels.size();
+  if (texels_ > options_.most_texels)
+    fail(where, fmt::format("with {} the scene has more than {} texels", where, options_.most_texels));
   textures_[in.name()] = static_cast<std::uint32_t>(model.textures.size());
   model.textures.push_back(std::move(texture));
 }

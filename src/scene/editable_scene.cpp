@@ -45,10 +45,19 @@ std::uint64_t mixed(std::uint64_t key, std::uint64_t next) {  // SplitMix64's fi
 
 }  // namespace
 
+void ModelSizes::add(const Model& model, const std::string& where) {
+  constexpr std::size_t kVertices = 3;  // for one primitive, at most, when none shares any
+  primitives_ += model.elements();
+  vertices_ += model.positions.size();
+  if (primitives_ > most_) throw Error(where + "there are more than " + std::to_string(most_) + " primitives");
+  if (vertices_ / kVertices > most_)
+    throw Error(where + "there are more than " + std::to_string(most_) + " x 3 vertices");
+}
+
 // One walk over the calls of a state, from the world down to the shapes.
 class EditableScene::Flattening {
  public:
-  Flattening(const EditableScene& scene, const State& state) : scene_(scene), state_(state) {}
+  Flattening(const EditableScene& scene, const State& state) : scene_(scene), state_(state), copies_(scene.limits_) {}
 
   void run() { visit(*state_.world, {{}, {}, 0, 0, mixed(0, scene_.session_)}); }
 
@@ -73,6 +82,7 @@ class EditableScene::Flattening {
   const State& state_;
   std::vector<std::uint32_t> path_;
   std::size_t visits_ = 0;
+  ModelSizes copies_;  // a few bytes of matrix make one
 };
 
 // The n-th call of an object is the same one as in the last frame, and so is the n-th shape.
@@ -124,6 +134,7 @@ std::shared_ptr<const Shape> EditableScene::Flattening::shapeOf(const std::share
                       {stretch(0, 0), stretch(0, 1), stretch(0, 2), stretch(1, 1), stretch(1, 2), stretch(2, 2)}};
   auto& slot = stretched[key];
   if (slot) return slot;
+  copies_.add(shape->model, "in the scaled copies of objects, ");
   const auto known = scene_.stretched_.find(key);
   if (known != scene_.stretched_.end()) return slot = known->second;
   Model model = shape->model;
@@ -161,18 +172,18 @@ void EditableScene::checkLimits(const State& state) const {
     if (count > most) throw Error("there are more than " + std::to_string(most) + " " + what);
   };
   check(state.objects.size(), limits_.objects, "objects");
-  std::size_t bytes = 0, primitives = 0;
+  std::size_t bytes = 0;
   for (const auto& [name, texture] : state.textures) bytes += texture->texels.size() * sizeof(float);
   check(bytes, limits_.texture_bytes, "bytes of textures");
+  ModelSizes sizes(limits_);
   std::set<const Shape*> shapes;
   const auto add = [&](const SceneItems& items) {
     for (const SceneItem& item : items) {
-      if (item.shape && shapes.insert(item.shape.get()).second) primitives += item.shape->primitives.size();
+      if (item.shape && shapes.insert(item.shape.get()).second) sizes.add(item.shape->model);
     }
   };
   for (const auto& [id, items] : state.objects) add(*items);
   add(*state.world);
-  check(primitives, limits_.primitives, "primitives");
 }
 
 void EditableScene::apply(const SceneEdit& edit) {

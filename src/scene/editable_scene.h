@@ -39,10 +39,22 @@ struct SceneEdit {
 /// What one client may have.
 struct SceneLimits {
   std::size_t objects = 65'536;
-  std::size_t primitives = 40'000'000;
+  std::size_t primitives = 40'000'000;  ///< as many again in scaled copies; and three times as many vertices
   std::size_t instances = 16'384;
   std::size_t texture_bytes = std::size_t{256} << 20;
   std::size_t nesting = 32;
+};
+
+/// Adds up models against the limits. Vertices count as well: some that nothing refers to fill memory all the same.
+class ModelSizes {
+ public:
+  explicit ModelSizes(const SceneLimits& limits) : most_(limits.primitives) {}
+  /// Throws hl::Error, with `where` in front, when there is more than the limits allow.
+  void add(const Model& model, const std::string& where = {});
+
+ private:
+  const std::size_t most_;
+  std::size_t primitives_ = 0, vertices_ = 0;
 };
 
 /// A shape as it comes to rest in the world, before it is known how it gets there.

@@ -18,7 +18,7 @@ class FrameDecoder {
  public:
   FrameDecoder(const proto::Frame& frame, const Uploads& uploads, const SceneLimits& limits,
                const std::function<void(double)>& progress)
-      : frame_(frame), uploads_(uploads), limits_(limits), progress_(progress), decoder_(refuse) {}
+      : frame_(frame), uploads_(uploads), limits_(limits), progress_(progress), decoder_(refuse), size_(limits) {}
 
   DecodedFrame run();
 
@@ -39,7 +39,7 @@ class FrameDecoder {
   const std::function<void(double)>& progress_;
   const SceneDecoder decoder_;
   DecodedFrame result_;
-  std::size_t primitives_ = 0;
+  ModelSizes size_;  // each item makes a shape of its own, even if all refer to one upload
   double items_ = 1, built_ = 0;
 };
 
@@ -49,10 +49,11 @@ void FrameDecoder::countItems() {
 }
 
 void FrameDecoder::addTextures() {
-  const std::size_t most_texels = limits_.texture_bytes / sizeof(float);
+  std::size_t room = limits_.texture_bytes / sizeof(float);  // a few bytes can ask for millions of texels
   for (int i = 0; i < frame_.textures_size(); ++i) {
     const std::string where = pathOf("textures", i);
-    auto texture = std::make_shared<Texture>(decoder_.texture(frame_.textures(i), most_texels, where));
+    auto texture = std::make_shared<Texture>(decoder_.texture(frame_.textures(i), room, where));
+    room -= texture->texels.size();
     const std::string name = texture->name;
     if (!result_.edit.textures.emplace(name, std::move(texture)).second)
       throw Error(where + ": there are two textures of the name '" + name + "'");
@@ -130,9 +131,7 @@ Placement FrameDecoder::placementOf(const proto::Item& in, const std::string& wh
 std::shared_ptr<const Shape> FrameDecoder::shapeOf(const proto::Primitives& in, const proto::Material& material,
                                                    const std::string& where) {
   Model model = decoder_.model(in, where);
-  primitives_ += model.elements();
-  if (primitives_ > limits_.primitives)
-    throw Error(where + ": there are more than " + std::to_string(limits_.primitives) + " primitives");
+  size_.add(model, where + ": ");
   const auto repeat = [](bool has, double value) { return has && std::isfinite(value) ? value : 1; };
   repeatTexcoords(model, repeat(material.has_repeat_u(), material.repeat_u()),
                   repeat(material.has_repeat_v(), material.repeat_v()));

@@ -193,6 +193,22 @@ TEST(SceneFile, MutatedTextIsReadOrRefusedInOneLine) {
   EXPECT_LT(read, 2900);
 }
 
+TEST(SceneFile, TexturesShareTheRoomThereIs) {
+  writePng(tempFile("six.png"));
+  const auto read = [](const std::string& textures) {
+    LoadOptions options;
+    options.most_texels = 25;
+    loadSceneFile(
+        fileWith("room.hl.json", R"({"textures": [)" + textures + R"(], "objects": [{"builtin": "plane:2"}]})"),
+        options);
+  };
+  const std::string sixteen = R"({"name": "a", "procedural": {"kind": "sine", "size": 4}})";
+  const std::string six = R"({"name": "b", "file": "six.png"})";
+  EXPECT_NO_THROW(read(sixteen + "," + six));
+  EXPECT_THROW(read(six + "," + sixteen + R"(,{"name": "c", "file": "six.png"})"), Error);
+  EXPECT_THROW(read(six + "," + sixteen + R"(,{"name": "c", "procedural": {"kind": "sine", "size": 2}})"), Error);
+}
+
 TEST(Image, PngKeepsSixteenBitsAndTheLowestRowIsFirst) {
   writePng(tempFile("grey.png"));
   const Texture texture = loadImage(tempFile("grey.png"));

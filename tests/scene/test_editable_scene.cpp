@@ -197,6 +197,22 @@ TEST(EditableScene, LimitsHoldAndAHierarchyCannotExplode) {
   EXPECT_TRUE(scene.placed().empty());
 }
 
+// Sixteen numbers of a matrix make a copy of a mesh of any size.
+TEST(EditableScene, ScaledCopiesAreLimited) {
+  SceneLimits limits;
+  limits.primitives = 3;
+  EditableScene scene(1, limits);
+  SceneEdit edit = worldOf({});
+  edit.objects[1] = {shapeItem(triangle())};
+  for (int i = 2; i <= 4; ++i) edit.world->push_back(callItem(1, {Mat3(i * Mat3::Identity()), Vec3::Zero()}));
+  for (int i = 0; i < 5; ++i) edit.world->push_back(callItem(1, turn(0.1 * i, {1, 0, 0})));  // these share the mesh
+  scene.apply(edit);
+  EXPECT_EQ(scene.placed().size(), 8u);
+  scene.apply(edit);
+  edit.world->push_back(callItem(1, {Mat3(5 * Mat3::Identity()), Vec3::Zero()}));
+  EXPECT_THROW(scene.apply(edit), Error);
+}
+
 TEST(EditableScene, DeletedObjectsAreGoneAndOverwrittenOnesChange) {
   EditableScene scene(1, {});
   SceneEdit edit = worldOf({callItem(1), callItem(2)});
