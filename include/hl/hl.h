@@ -270,8 +270,9 @@ HL_API void hlPopAttrib(void);
 /** HL_PROXY_RADIUS, m in the world, > 0. */
 HL_API void hlProxyf(HLenum parameter, HLfloat value);
 HL_API void hlProxyd(HLenum parameter, HLdouble value); /**< see hlProxyf */
-/** The hand moves in the world by p = origin + world_per_device * p_hand, axes parallel; `world_per_device` > 0. Until
- * this is called the server fits the first world that it shows to the device. */
+/** The hand moves in the world by p = origin + world_per_device * p_hand, axes parallel; `world_per_device` > 0,
+ * and servers refuse what is not within 1e-9 .. 1e9. Until this is called the server fits the first world that it
+ * shows to the device. */
 HL_API void hlWorkspaced(HLdouble x, HLdouble y, HLdouble z, HLdouble world_per_device);
 /** K of the servo, N/m at the hand, > 0; the server clamps it to the device's range. */
 HL_API void hlSpringd(HLdouble stiffness);

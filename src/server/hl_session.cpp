@@ -1,7 +1,6 @@
 #include "server/hl_session.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -97,10 +96,13 @@ void HlSession::open(const proto::Open& open) {
 
 void HlSession::keepUpload(proto::Upload upload) {
   if (upload.id() == 0) return refuse("an upload needs an id above 0");
-  upload_bytes_ += upload.part().ByteSizeLong();
+  // In memory a message may be many times what it was on the wire: an empty polygon is two bytes there.
+  const std::uint64_t bytes = sizeof(proto::Upload) + upload.part().SpaceUsedLong();
+  bytes_of_upload_[upload.id()] += bytes;
+  upload_bytes_ += bytes;
   if (upload_bytes_ > server_.settings_.limits.upload_bytes)
     return end("more than " + std::to_string(server_.settings_.limits.upload_bytes) +
-               " bytes were uploaded and not used by a frame");
+               " bytes of memory are in uploads that no frame has used");
   auto [place, fresh] = uploads_.try_emplace(upload.id());
   if (fresh) {
     place->second = std::move(*upload.mutable_part());
@@ -116,7 +118,7 @@ Uploads HlSession::takeUploads(const proto::Frame& frame) {
       if (item.what_case() != proto::Item::kUpload) continue;
       auto node = uploads_.extract(item.upload());
       if (!node) continue;
-      upload_bytes_ -= std::min<std::uint64_t>(upload_bytes_, node.mapped().ByteSizeLong());
+      upload_bytes_ -= bytes_of_upload_.extract(item.upload()).mapped();
       used.insert(std::move(node));
     }
   };
@@ -140,14 +142,13 @@ void HlSession::submit(proto::Frame frame) {
 void HlSession::setDevice(const proto::DeviceSettings& settings) {
   if (!master_) return refuse("another client is the device's master");
   TouchSession& device = server_.device(device_);
-  const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
-  const bool bad_workspace = settings.has_workspace() && !positive(settings.workspace().world_per_device());
-  if (bad_workspace || (settings.has_proxy_radius() && !positive(settings.proxy_radius())))
-    return refuse("proxy_radius and world_per_device must be above 0");
-  if (settings.has_workspace()) {
-    const proto::Vec3& o = settings.workspace().origin();
-    device.setWorkspace({Vec3(o.x(), o.y(), o.z()), settings.workspace().world_per_device()});
-  }
+  const proto::Vec3& o = settings.workspace().origin();
+  const Workspace workspace{Vec3(o.x(), o.y(), o.z()), settings.workspace().world_per_device()};
+  if (settings.has_workspace() && !workspace.valid())
+    return refuse("world_per_device must be 1e-9 to 1e9, and the origin within 1e12 m");
+  if (settings.has_proxy_radius() && !Workspace::validRadius(settings.proxy_radius()))
+    return refuse("proxy_radius must be 1e-12 to 1e12 m");
+  if (settings.has_workspace()) device.setWorkspace(workspace);
   if (settings.has_proxy_radius()) device.setRadius(settings.proxy_radius());
   if (settings.has_stiffness_n_m()) device.setStiffness(settings.stiffness_n_m());
   if (settings.has_ledger() && proto::LedgerMode_IsValid(settings.ledger()))

@@ -6,6 +6,7 @@
 #include <deque>
 #include <mutex>
 #include <string>
+#include <unordered_map>
 
 #include "server/client_session.h"
 #include "server/limits.h"
@@ -55,6 +56,7 @@ class HlSession final : public ClientSession {
   std::atomic<std::uint32_t> device_{0};  // read by others
   std::shared_ptr<ScenePublisher::Place> place_;
   Uploads uploads_;
+  std::unordered_map<std::uint64_t, std::uint64_t> bytes_of_upload_;  // by the id of the upload
   std::uint64_t upload_bytes_ = 0, last_frame_ = 0;
   double state_period_s_ = 0;  // 0: no states
   double next_state_s_ = 0;    // server's clock

@@ -20,7 +20,7 @@ struct Limits {
   std::uint64_t instances = 100'000;      ///< objects in the world, each call counted
   std::uint64_t texture_bytes = std::uint64_t{256} << 20;
   std::uint32_t nesting = 32;                           ///< calls within calls, as deep as GL's matrix stack
-  std::uint64_t upload_bytes = std::uint64_t{1} << 30;  ///< received and not yet used by a frame: 20 M vertices
+  std::uint64_t upload_bytes = std::uint64_t{1} << 30;  ///< of memory, not yet used by a frame: 20 M vertices
   double frames_Hz = 250;       ///< each frame builds hierarchies; no display or simulation step needs more
   double state_rate_Hz = 1000;  ///< the rate of the loops: there is nothing newer to send
 

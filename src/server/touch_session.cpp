@@ -269,8 +269,7 @@ void TouchSession::restartWith(const Workspace& workspace, double radius_W) {
 }
 
 void TouchSession::setWorkspace(const Workspace& workspace) {
-  if (!workspace.origin_W.allFinite() || !std::isfinite(workspace.world_per_device)) return;
-  if (!(workspace.world_per_device > 0)) return;
+  if (!workspace.valid()) return;
   const std::lock_guard lock(settings_mutex_);
   fitted_ = true;
   const double radius_D = proxy_commands_.radius_W / proxy_commands_.workspace.world_per_device;
@@ -278,7 +277,7 @@ void TouchSession::setWorkspace(const Workspace& workspace) {
 }
 
 void TouchSession::setRadius(double radius_W) {
-  if (!(radius_W > 0) || !std::isfinite(radius_W)) return;
+  if (!Workspace::validRadius(radius_W)) return;
   const std::lock_guard lock(settings_mutex_);
   restartWith(proxy_commands_.workspace, radius_W);
 }

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <thread>
 
 #include "base/error.h"
@@ -200,6 +201,43 @@ TEST_F(TouchServerTest, UploadsInPartsAreOneMesh) {
   frame.set_number(++client.number_);
   client.send(frame);
   ASSERT_TRUE(client.until([&] { return client.refusal_.frame() == frame.number(); })) << "gone once it was used";
+}
+
+TEST_F(TouchServerTest, AWorkspaceThatNobodyCanComputeWithIsRefused) {
+  Client client(server_);
+  client.open();
+  const double before = server_.device().workspace().world_per_device;
+  for (const double scale : {0.0, -1.0, 1e300, 1e-300, std::numeric_limits<double>::quiet_NaN()}) {
+    proto::ClientMessage message;
+    message.mutable_device()->mutable_workspace()->set_world_per_device(scale);
+    client.refusal_.Clear();
+    client.session_->receive(message);
+    ASSERT_TRUE(client.until([&] { return !client.refusal_.text().empty(); })) << scale;
+  }
+  proto::ClientMessage message;
+  message.mutable_device()->set_proxy_radius(1e300);
+  client.refusal_.Clear();
+  client.session_->receive(message);
+  ASSERT_TRUE(client.until([&] { return !client.refusal_.text().empty(); }));
+  EXPECT_EQ(server_.device().workspace().world_per_device, before);
+}
+
+// An empty polygon is two bytes on the wire and fifty in memory: the limit is of memory.
+TEST(TouchServer, UploadsCountAsTheMemoryThatTheyTake) {
+  TouchServerSettings settings = settingsOf();
+  settings.limits.upload_bytes = 1'000'000;
+  TouchServer server(nothing(), settings);
+  server.start();
+  Client client(server);
+  client.open();
+  proto::ClientMessage message;
+  message.mutable_upload()->set_id(1);
+  for (int i = 0; i < 10'000; ++i) message.mutable_upload()->mutable_part()->add_polygons();
+  int parts = 0;
+  for (; client.session_->end().empty() && parts < 20; ++parts) client.session_->receive(message);
+  EXPECT_GT(parts, 1);
+  EXPECT_LT(parts, 10) << "on the wire they are 20 kB each";
+  EXPECT_NE(client.session_->end().find("memory"), std::string::npos) << client.session_->end();
 }
 
 TEST_F(TouchServerTest, OneClientIsTheDevicesMasterUntilItLeaves) {
