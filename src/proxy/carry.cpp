@@ -79,7 +79,7 @@ void Carry::forEachNear(const Vec3& a, const Vec3& b, Visit visit) const {
   const Vec3 margin = Vec3::Constant(2 * tolerance_.reach);
   const Vec3 min = a.cwiseMin(b) - margin, max = a.cwiseMax(b) + margin;
   for (std::uint32_t i = 0; i < snapshot_.instances.size(); ++i) {
-    const Box& reach = snapshot_.instances[i].reach;
+    const Box& reach = snapshot_.reach[i];
     if ((reach.min.array() <= max.array()).all() && (reach.max.array() >= min.array()).all())
       visit(i, snapshot_.instances[i]);
   }

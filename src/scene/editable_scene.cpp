@@ -208,7 +208,7 @@ Followed followOn(const std::vector<PlacedShape>& placed, const std::vector<Inst
   result.abrupt = placed.size() != last.size();
   result.instances.reserve(placed.size());
   for (const PlacedShape& now : placed) {
-    Instance instance{now.shape, now.surfaces, Motion(now.pose), now.key, now.session, now.object, now.name, {}};
+    Instance instance{now.shape, now.surfaces, Motion(now.pose), now.key, now.session, now.object, now.name};
     const auto before = std::lower_bound(last.begin(), last.end(), now.key,
                                          [](const Instance& a, std::uint64_t key) { return a.key < key; });
     const bool known = before != last.end() && before->key == now.key;

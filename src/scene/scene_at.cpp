@@ -78,8 +78,8 @@ void SceneAt::primitivesWithin(const Vec3& centre, double distance,
   const Vec3 margin = Vec3::Constant(distance + kBoxSlack * snapshot_.extent);
   const Region region{centre - margin, centre + margin};
   for (std::uint32_t i = 0; i < snapshot_.instances.size(); ++i) {
+    if (apart(snapshot_.reach[i], region)) continue;
     const Instance& instance = snapshot_.instances[i];
-    if (apart(instance.reach, region)) continue;
     const Shape& shape = *instance.shape;
     if (instance.motion.identity()) {
       hl::primitivesWithin(*shape.index, shape.primitives, centre, distance,
@@ -105,8 +105,8 @@ bool SceneAt::firstImpact(const Vec3& from, const Vec3& motion, double radius, d
   const Region region{from.cwiseMin(end) - margin, from.cwiseMax(end) + margin};
   bool found = false;
   for (std::uint32_t i = 0; i < snapshot_.instances.size(); ++i) {
+    if (apart(snapshot_.reach[i], region)) continue;
     const Instance& instance = snapshot_.instances[i];
-    if (apart(instance.reach, region)) continue;
     const Shape& shape = *instance.shape;
     const Pose pose = instance.motion.identity() ? Pose{} : instance.motion.at(time_ns_);
     const Vec3 from_O = instance.motion.identity() ? from : pose.toObject(from);

@@ -65,14 +65,14 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, st
   snapshot->instances = std::move(instances);
   std::sort(snapshot->instances.begin(), snapshot->instances.end(),
             [](const Instance& a, const Instance& b) { return a.key < b.key; });
-  for (Instance& instance : snapshot->instances) {
-    instance.reach = reachOf(instance);
+  for (const Instance& instance : snapshot->instances) {
+    snapshot->reach.push_back(reachOf(instance));
     const Box rest = boxAt(instance.shape->bounds, instance.motion.to());
     if (!rest.empty()) {
       snapshot->bounds.extend(rest.min);
       snapshot->bounds.extend(rest.max);
     }
-    snapshot->extent = std::max({snapshot->extent, instance.shape->extent, largestCoordinate(instance.reach)});
+    snapshot->extent = std::max({snapshot->extent, instance.shape->extent, largestCoordinate(snapshot->reach.back())});
     if (instance.motion.moves())
       snapshot->moves_until_ns = std::max(snapshot->moves_until_ns, instance.motion.last().end_ns());
     snapshot->primitives += instance.shape->primitives.size();

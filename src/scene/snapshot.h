@@ -28,13 +28,15 @@ struct Instance {
   Motion motion;
   std::uint64_t key = 0;  ///< the same object in the next snapshot has the same one; unique in a snapshot
   std::uint32_t session = 0, object = 0, name = 0;  ///< whose it is and what its client calls it
-  Box reach{};  ///< world, all of it during the whole motion; filled by makeSnapshot
 };
 
 /// Immutable after makeSnapshot; read by any thread. Metres, world frame.
 struct Snapshot {
   std::vector<Instance> instances;  ///< by rising key
-  Box bounds;                       ///< of all of them where they come to rest
+  /// Of each instance: all of it during the whole motion, world. Every tick looks through all of them, so they lie
+  /// together: in the instances, each would be a cache line of its own.
+  std::vector<Box> reach;
+  Box bounds;  ///< of all of them where they come to rest
   /// m: largest coordinate, in the world or in an object; distances are known to a few units in its last place.
   double extent = 0;
   std::int64_t moves_until_ns = std::numeric_limits<std::int64_t>::min();  ///< after that all is at rest

@@ -114,7 +114,7 @@ TEST(SceneAt, ReachContainsTheWholeMotion) {
     instance.surfaces = surfacesOf(instance.shape);
     instance.motion = Motion(randomPose(random)).then(randomPose(random), 0, 100).then(randomPose(random), 60, 200);
     const auto snapshot = makeSnapshot({instance});
-    const Box& reach = snapshot->instances[0].reach;
+    const Box& reach = snapshot->reach[0];
     for (std::int64_t t = 0; t <= 200; t += 5) {
       for (const Primitive& primitive : snapshot->shape().primitives) {
         const Vec3 p = instance.motion.at(t).toWorld(primitive.vertex[0]);

@@ -20,7 +20,7 @@ std::shared_ptr<const Shape> plane(int triangles) {
 }
 
 Instance instanceOf(std::uint64_t key, const std::shared_ptr<const Shape>& shape, const Motion& motion = Motion()) {
-  return {shape, surfacesOf(shape), motion, key, 1, static_cast<std::uint32_t>(10 * key), 0, {}};
+  return {shape, surfacesOf(shape), motion, key, 1, static_cast<std::uint32_t>(10 * key), 0};
 }
 
 Pose at(double x, double y = 0, double z = 0) { return {Mat3::Identity(), {x, y, z}}; }
