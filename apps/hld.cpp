@@ -19,7 +19,7 @@ namespace hl {
 namespace {
 
 std::shared_ptr<const Snapshot> sceneOf(const SceneOptions& options) {
-  return options.scene.empty() ? makeSnapshot(std::vector<Instance>{}, "nothing yet") : loadSnapshot(options);
+  return options.scene.empty() ? makeSnapshot(std::vector<Instance>{}, "the clients' world") : loadSnapshot(options);
 }
 
 HttpServerSettings serverSettings(const HldOptions& options) {
