@@ -85,7 +85,7 @@ SolverResult Effects::firstPass(const ContactSet& set, const TouchedSet& touched
 
 // Pass 2: back above the true planes; a goal above all of them comes down to the nearest.
 Vec3 Effects::secondPass(const ContactSet& set, const Vec3& goal) const {
-  if (set.planes.size() == 1)
+  if (set.planes.size() == 1)  // as most: from either side onto the plane
     return goal - (set.planes[0].normal.dot(goal) - set.planes[0].offset) * set.planes[0].normal;
   double lowest = std::numeric_limits<double>::infinity();
   Vec3 down = Vec3::Zero();
@@ -157,10 +157,11 @@ void Effects::tellHolding(const TouchedSet& touched, const SolverResult& held, S
   }
 }
 
-// On planes that do not bend, a slip whose resistance is the same all along ends where the next would not move it.
+// On planes that bend nowhere, a slip whose resistance is the same all along ends where the next would not move it.
 bool Effects::slipsAtOnce(const TouchedSet& touched, const SubGoal& sub_goal) const {
-  return sub_goal.resisted && !sub_goal.bent && !sub_goal.creeps && touched.size() <= kFewContacts &&
-         std::none_of(touched.begin(), touched.end(), [](const Touched& now) { return now.roughness.slipTextured(); });
+  const auto changes = [](const Touched& now) { return now.bends || now.roughness.slipTextured(); };
+  return sub_goal.resisted && !sub_goal.creeps && touched.size() <= kFewContacts &&
+         std::none_of(touched.begin(), touched.end(), changes);
 }
 
 // Whether the planes, all of faces, are still those of the contacts after `step`.

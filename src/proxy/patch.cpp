@@ -1,7 +1,6 @@
 #include "proxy/patch.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace hl {
 

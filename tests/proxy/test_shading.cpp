@@ -8,7 +8,6 @@
 #include "effect_scenes.h"
 #include "proxy/patch.h"
 #include "proxy/proxy.h"
-#include "proxy/surface.h"
 
 namespace hl {
 namespace {
