@@ -7,11 +7,12 @@ The first ```cpp block is a whole program. Each later one replaces the functions
 and adds the others before main; then it is compiled and run, until it has printed the lines of the ```text block that
 follows, whose numbers may differ.
 """
-import argparse
 import re
 import subprocess
 import tempfile
 from pathlib import Path
+
+from reader import compile_program, parse_arguments
 
 DURATIONS_S = [5, 20, 80]
 BLOCK = re.compile(r"^```(cpp|text)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -35,15 +36,6 @@ def line_pattern(line):
     return "[-0-9.]+".join(re.escape(part) for part in re.split(r"-?\d+(?:\.\d+)?", line))
 
 
-def compile_program(program, folder, arguments):
-    source, binary = folder / "scene.cpp", folder / "scene"
-    source.write_text(program, encoding="utf-8")
-    subprocess.run([arguments.compiler, "-std=c++20", "-Wall", "-Wextra", "-Werror", str(source), "-o", str(binary),
-                    "-I" + arguments.include, "-L" + arguments.library, "-lhl", "-Wl,-rpath," + arguments.library],
-                   check=True)
-    return binary
-
-
 def run_until_printed(binary, expected):
     for seconds in DURATIONS_S:
         output = subprocess.run([str(binary), "inproc:", str(seconds)], stdout=subprocess.PIPE, text=True, check=True,
@@ -55,18 +47,13 @@ def run_until_printed(binary, expected):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("document")
-    parser.add_argument("--include", required=True)
-    parser.add_argument("--library", required=True)
-    parser.add_argument("--compiler", default="c++")
-    arguments = parser.parse_args()
+    arguments = parse_arguments("c++")
     program, steps = "", 0
     with tempfile.TemporaryDirectory() as folder:
         for kind, text in BLOCK.findall(Path(arguments.document).read_text(encoding="utf-8")):
             if kind == "cpp":
                 program = with_functions(program, text) if program else text
-                binary = compile_program(program, Path(folder), arguments)
+                binary = compile_program(program, Path(folder, "scene.cpp"), arguments, "-std=c++20")
                 steps += 1
             else:
                 run_until_printed(binary, text.splitlines())
