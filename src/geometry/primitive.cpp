@@ -28,41 +28,72 @@ bool sortVertices(Primitive& primitive, int count) {
   return odd;
 }
 
+// The longest edge of a triangle, the corner opposite to it, and the cross product of the two shorter edges, which has
+// the least rounding: about epsilon |e1| |e2|, and they are the smallest factors.
+struct Outline {
+  std::size_t corner;
+  double longest2;  // m^2
+  Vec3 cross;
+};
+
+Outline outlineOf(const std::array<Vec3, 3>& v) {
+  Outline outline{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double edge2 = (v[(i + 2) % 3] - v[(i + 1) % 3]).squaredNorm();
+    if (i > 0 && !(edge2 > outline.longest2)) continue;
+    outline.corner = i;
+    outline.longest2 = edge2;
+  }
+  const std::size_t i = outline.corner;
+  outline.cross = (v[(i + 1) % 3] - v[i]).cross(v[(i + 2) % 3] - v[i]);
+  return outline;
+}
+
+// One step of Newton's: unit within a rounding. Where it is two or three off, a tick makes 2 % more iterations.
+Vec3 unit(const Vec3& almost) { return (1.5 - 0.5 * almost.squaredNorm()) * almost; }
+
+// Where a triangle is thin, rounding tilts its normal along the longest edge, where it costs most; the tilt is taken
+// out. What remains turns it about that edge, over a height so small that no distance notices.
+Vec3 thinNormal(const std::array<Vec3, 3>& v) {
+  const Outline outline = outlineOf(v);
+  const Vec3 along = (v[(outline.corner + 2) % 3] - v[(outline.corner + 1) % 3]).normalized();
+  Vec3 normal = outline.cross.normalized();
+  for (int pass = 0; pass < 2; ++pass) normal = (normal - normal.dot(along) * along).normalized();
+  return normal;
+}
+
+// By the right-hand rule.
+Vec3 normalOf(const std::array<Vec3, 3>& v) {
+  constexpr double kThin = 0.1;  // sine of the angle at the first vertex: above it the tilt is below 1e-14 rad
+  const Vec3 ab = v[1] - v[0], ac = v[2] - v[0];
+  const Vec3 cross = ab.cross(ac);
+  const double square = cross.squaredNorm();
+  if (square < kThin * kThin * ab.squaredNorm() * ac.squaredNorm()) return thinNormal(v);
+  return unit(1 / std::sqrt(square) * cross);
+}
+
 }  // namespace
 
-bool makeTriangle(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t source, Primitive& out) {
-  if (!a.allFinite() || !b.allFinite() || !c.allFinite()) return false;
+bool isTriangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  if (!withinReach(a) || !withinReach(b) || !withinReach(c)) return false;
+  const Outline outline = outlineOf({a, b, c});
+  return outline.cross.norm() > kSliver * outline.longest2;
+}
+
+bool isSegment(const Vec3& a, const Vec3& b) { return withinReach(a) && withinReach(b) && (b - a).squaredNorm() > 0; }
+
+Primitive triangleOf(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t source) {
   Primitive triangle;
   triangle.kind = PrimitiveKind::kTriangle;
   triangle.source = source;
   triangle.vertex = {canonical(a), canonical(b), canonical(c)};
   const bool odd = sortVertices(triangle, 3);
-
-  // The two shorter edges give the cross product with the least rounding: its error is about
-  // epsilon |e1| |e2|, and they are the smallest factors. i is the vertex where they meet.
-  const auto& v = triangle.vertex;
-  std::array<double, 3> edge{};
-  for (std::size_t i = 0; i < 3; ++i) edge[i] = (v[(i + 2) % 3] - v[(i + 1) % 3]).norm();
-  const auto i = static_cast<std::size_t>(std::max_element(edge.begin(), edge.end()) - edge.begin());
-  const Vec3 cross = (v[(i + 1) % 3] - v[i]).cross(v[(i + 2) % 3] - v[i]);
-  const double twice_area = cross.norm();
-  if (!std::isfinite(twice_area) || !std::isfinite(edge[i])) return false;
-  if (!(twice_area > kSliver * edge[i] * edge[i])) return false;
-
-  // In a sliver that error tilts the normal along the longest edge, where it costs most; the tilt is taken out. What
-  // remains turns it about that edge, over a height so small that no distance notices.
-  const Vec3 along = (v[(i + 2) % 3] - v[(i + 1) % 3]) / edge[i];
-  Vec3 normal = cross / (odd ? -twice_area : twice_area);
-  for (int pass = 0; pass < 2; ++pass) normal = (normal - normal.dot(along) * along).normalized();
-  triangle.normal = normal;
-  out = triangle;
-  return true;
+  const Vec3 normal = normalOf(triangle.vertex);
+  triangle.normal = odd ? Vec3(-normal) : normal;
+  return triangle;
 }
 
-bool makeSegment(const Vec3& a, const Vec3& b, std::uint32_t source, Primitive& out) {
-  if (!a.allFinite() || !b.allFinite()) return false;
-  const double square = (b - a).squaredNorm();
-  if (!std::isfinite(square) || !(square > 0)) return false;
+Primitive segmentOf(const Vec3& a, const Vec3& b, std::uint32_t source) {
   Primitive segment;
   segment.kind = PrimitiveKind::kSegment;
   segment.source = source;
@@ -70,18 +101,33 @@ bool makeSegment(const Vec3& a, const Vec3& b, std::uint32_t source, Primitive& 
   sortVertices(segment, 2);
   segment.vertex[2] = segment.vertex[1];
   segment.order[2] = segment.order[1];
-  out = segment;
-  return true;
+  return segment;
 }
 
-bool makePoint(const Vec3& a, std::uint32_t source, Primitive& out) {
-  if (!a.allFinite()) return false;
+Primitive pointOf(const Vec3& a, std::uint32_t source) {
   Primitive point;
   point.kind = PrimitiveKind::kPoint;
   point.source = source;
   point.vertex.fill(canonical(a));
   point.order.fill(0);
-  out = point;
+  return point;
+}
+
+bool makeTriangle(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t source, Primitive& out) {
+  if (!isTriangle(a, b, c)) return false;
+  out = triangleOf(a, b, c, source);
+  return true;
+}
+
+bool makeSegment(const Vec3& a, const Vec3& b, std::uint32_t source, Primitive& out) {
+  if (!isSegment(a, b)) return false;
+  out = segmentOf(a, b, source);
+  return true;
+}
+
+bool makePoint(const Vec3& a, std::uint32_t source, Primitive& out) {
+  if (!withinReach(a)) return false;
+  out = pointOf(a, source);
   return true;
 }
 

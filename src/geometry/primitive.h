@@ -24,8 +24,23 @@ struct Primitive {
   std::uint32_t source = 0;  ///< index of the element it was made from, in its model's list of that kind
 };
 
-/// Each returns false, and leaves `out` alone, for a degenerate or non-finite primitive (zero area, zero length, NaN).
-/// A triangle is degenerate when its height over the longest edge is below kSliver of that edge.
+/// Nothing beyond can be touched. A proxy of a metre still finds its way there, and no product of lengths that geometry
+/// makes comes near the largest number.
+inline constexpr double kFarthest_m = 1e9;
+/// Whether a point is no farther, along any axis, from the origin; never for one that is not finite.
+inline bool withinReach(const Vec3& p) { return (p.array().abs() <= kFarthest_m).all(); }
+
+/// Whether the vertices make one: all within reach, and of some area or length. A triangle has none when its height
+/// over the longest edge is below kSliver of that edge. RT-safe.
+bool isTriangle(const Vec3& a, const Vec3& b, const Vec3& c);
+bool isSegment(const Vec3& a, const Vec3& b);
+
+/// The primitive that they make. RT-safe.
+Primitive triangleOf(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t source);
+Primitive segmentOf(const Vec3& a, const Vec3& b, std::uint32_t source);
+Primitive pointOf(const Vec3& a, std::uint32_t source);
+
+/// Both at once: each returns false, and leaves `out` alone, where the vertices make none.
 bool makeTriangle(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t source, Primitive& out);
 bool makeSegment(const Vec3& a, const Vec3& b, std::uint32_t source, Primitive& out);
 bool makePoint(const Vec3& a, std::uint32_t source, Primitive& out);

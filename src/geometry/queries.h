@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "base/function_ref.h"
 #include "geometry/closest_point.h"
+#include "geometry/primitives.h"
 #include "geometry/spatial_index.h"
 #include "geometry/sweep.h"
 
@@ -25,12 +25,21 @@ bool precedes(const Primitive& a, const Primitive& b);
 /// closestPoint(from).distance <= `touching` (m): they are the caller's contacts; pass 0 or less to skip none. The
 /// result does not depend on the index or on the order of the primitives: equal times are decided by the vertices,
 /// lexicographically. Returns false, and leaves `out` alone, for no impact. RT-safe, any thread.
-bool firstImpact(const SpatialIndex& index, std::span<const Primitive> primitives, const Vec3& from, const Vec3& motion,
+bool firstImpact(const SpatialIndex& index, const Primitives& primitives, const Vec3& from, const Vec3& motion,
                  double radius, double touching, FirstImpact& out);
+
+/// The same for a caller who reads primitives in its own way and knows its contacts: `isContact` says of a primitive
+/// whether it is within `touching`, which is more than `radius`, of `from`. Calls `meet` for some primitives (one maybe
+/// more than once), in no given order, among which is every one within `touching` of the place where the motion ends or
+/// is stopped, and of any place that rounding puts a little aside.
+bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(std::uint32_t primitive)> read,
+                 const Vec3& from, const Vec3& motion, double radius, double touching,
+                 FunctionRef<bool(std::uint32_t primitive)> isContact, FunctionRef<void(std::uint32_t primitive)> meet,
+                 FirstImpact& out);
 
 /// Visits every primitive within `distance` (m, inclusive) of `centre`, exactly; may repeat one, in no given order.
 /// RT-safe, any thread.
-void primitivesWithin(const SpatialIndex& index, std::span<const Primitive> primitives, const Vec3& centre,
-                      double distance, FunctionRef<void(std::uint32_t primitive, const ClosestPoint& nearest)> visit);
+void primitivesWithin(const SpatialIndex& index, const Primitives& primitives, const Vec3& centre, double distance,
+                      FunctionRef<void(std::uint32_t primitive, const ClosestPoint& nearest)> visit);
 
 }  // namespace hl

@@ -150,7 +150,7 @@ class Builder {
 
 // Radius of the leaves: the median bounding radius of the primitives that have a size. 1.25 keeps most primitives of an
 // even mesh in one sphere each.
-double leafRadius(std::span<const Primitive> primitives) {
+double leafRadius(const Primitives& primitives) {
   constexpr double kOfMedian = 1.25;
   std::vector<double> radii;
   radii.reserve(primitives.size());
@@ -198,7 +198,7 @@ class EntryTime {
 
 }  // namespace
 
-SphereTree SphereTree::build(std::span<const Primitive> primitives) {
+SphereTree SphereTree::build(const Primitives& primitives) {
   SphereTree tree;
   const double leaf_radius = leafRadius(primitives);
   tree.leaves_.reserve(primitives.size());

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "geometry/primitive.h"
+#include "geometry/primitives.h"
 #include "geometry/spatial_index.h"
 
 namespace hl {
@@ -38,7 +38,7 @@ class SphereTree final : public SpatialIndex {
   };
 
   /// Builds in O(n lg n); at most 64 leaves a primitive. Setup only. Empty input gives an index that visits nothing.
-  static SphereTree build(std::span<const Primitive> primitives);
+  static SphereTree build(const Primitives& primitives);
 
   void overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t primitive)> visit) const override;
   void sweep(const Vec3& from, const Vec3& motion, double radius,

@@ -90,7 +90,10 @@ bool hitFace(const Primitive& triangle, const Vec3& from, const Vec3& motion, do
   return true;
 }
 
-bool sweepOutside(const Primitive& primitive, const Vec3& from, const Vec3& motion, double radius, Impact& out) {
+}  // namespace
+
+bool sweepSphereFromOutside(const Primitive& primitive, const Vec3& from, const Vec3& motion, double radius,
+                            Impact& out) {
   if (primitive.kind == PrimitiveKind::kTriangle && hitFace(primitive, from, motion, radius, out)) return true;
   constexpr double kNone = 2;  // any time above 1
   double limit = kNone;
@@ -104,15 +107,13 @@ bool sweepOutside(const Primitive& primitive, const Vec3& from, const Vec3& moti
   return limit < kNone;
 }
 
-}  // namespace
-
 bool sweepSphere(const Primitive& primitive, const Vec3& from, const Vec3& motion, double radius, Impact& out) {
   return sweepSphere(primitive, closestPoint(primitive, from), from, motion, radius, out);
 }
 
 bool sweepSphere(const Primitive& primitive, const ClosestPoint& start, const Vec3& from, const Vec3& motion,
                  double radius, Impact& out) {
-  if (start.distance > radius) return sweepOutside(primitive, from, motion, radius, out);
+  if (start.distance > radius) return sweepSphereFromOutside(primitive, from, motion, radius, out);
   if (!(motion.dot(start.normal) < 0)) return false;
   out.t = 0;
   out.feature = start.feature;

@@ -25,5 +25,8 @@ bool sweepSphere(const Primitive& primitive, const Vec3& from, const Vec3& motio
 /// The same for whoever has the closest point of `from` at hand.
 bool sweepSphere(const Primitive& primitive, const ClosestPoint& start, const Vec3& from, const Vec3& motion,
                  double radius, Impact& out);
+/// The same for whoever knows that the sphere starts farther than `radius`.
+bool sweepSphereFromOutside(const Primitive& primitive, const Vec3& from, const Vec3& motion, double radius,
+                            Impact& out);
 
 }  // namespace hl

@@ -23,10 +23,10 @@ struct Bounds {
   Vec3 max = -min;
 };
 
-Bounds boundsOf(std::span<const Primitive> primitives) {
+Bounds boundsOf(const Primitives& primitives) {
   const auto extend = [&](const Range& range, Bounds bounds) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      for (const Vec3& vertex : primitives[i].vertex) {
+      for (const Vec3& vertex : primitives.corners(i)) {
         bounds.min = bounds.min.cwiseMin(vertex);
         bounds.max = bounds.max.cwiseMax(vertex);
       }
@@ -43,7 +43,7 @@ double largest(const Vec3& v) { return v.cwiseAbs().maxCoeff(); }
 
 }  // namespace
 
-WideBvh WideBvh::build(std::span<const Primitive> primitives) {
+WideBvh WideBvh::build(const Primitives& primitives) {
   // Blocks count as no smaller: where all primitives are one point, nothing else says how fine its place must be.
   constexpr double kSmallest_m = 1e-12;
   constexpr double kSmallestPerExtent = 1.0 / (1LL << 40);
@@ -58,7 +58,7 @@ WideBvh WideBvh::build(std::span<const Primitive> primitives) {
   std::vector<BoxedPrimitive> boxes(primitives.size());
   oneapi::tbb::parallel_for(Range(0, boxes.size(), kGrain), [&](const Range& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i)
-      boxes[i] = boxed(primitives[i], static_cast<std::uint32_t>(i), bvh.origin_);
+      boxes[i] = boxed(primitives.corners(i), static_cast<std::uint32_t>(i), bvh.origin_);
   });
   const BinaryTree tree = buildBinaryTree(std::move(boxes));
   bvh.nodes_ = widen(tree, bvh.depth_);

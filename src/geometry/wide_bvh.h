@@ -7,7 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "geometry/primitive.h"
+#include "base/huge_pages.h"
+#include "geometry/primitives.h"
 #include "geometry/spatial_index.h"
 #include "geometry/wide_bvh_layout.h"
 #include "geometry/wide_bvh_query.h"
@@ -20,7 +21,7 @@ class WideBvh final : public SpatialIndex {
  public:
   /// Builds in O(n lg n) on all threads that oneTBB has; the result does not depend on their number. Setup only. Empty
   /// input gives an index that visits nothing.
-  static WideBvh build(std::span<const Primitive> primitives);
+  static WideBvh build(const Primitives& primitives);
 
   void overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t primitive)> visit) const override;
   void sweep(const Vec3& from, const Vec3& motion, double radius,
@@ -37,8 +38,8 @@ class WideBvh final : public SpatialIndex {
   // The radius, and what the double tests of the candidates may be off by.
   double reach(const Vec3& from, const Vec3& motion, double radius) const;
 
-  std::vector<WideNode> nodes_;
-  std::vector<WideBlock> blocks_;
+  HugeVector<WideNode> nodes_;
+  HugeVector<WideBlock> blocks_;
   std::size_t primitives_ = 0;
   Vec3 origin_ = Vec3::Zero();
   double extent_ = 0;  // m: largest coordinate of a primitive

@@ -89,7 +89,7 @@ void setLane(WideNode& node, std::size_t lane, const FloatBox& box, std::uint32_
 
 class Widener {
  public:
-  Widener(const BinaryTree& tree, std::vector<WideNode>& nodes) : tree_(tree), collapse_(tree), nodes_(nodes) {}
+  Widener(const BinaryTree& tree, HugeVector<WideNode>& nodes) : tree_(tree), collapse_(tree), nodes_(nodes) {}
 
   std::uint32_t add(std::uint32_t link, int depth) {
     if (isBlock(link)) return link;
@@ -110,7 +110,7 @@ class Widener {
  private:
   const BinaryTree& tree_;
   Collapse collapse_;
-  std::vector<WideNode>& nodes_;
+  HugeVector<WideNode>& nodes_;
   int depth_ = 0;
 };
 
@@ -123,7 +123,7 @@ double stepFor(double largest) {
 
 class BlockPacker {
  public:
-  BlockPacker(const BinaryTree& tree, std::span<const Primitive> primitives, const Vec3& origin, double smallest)
+  BlockPacker(const BinaryTree& tree, const Primitives& primitives, const Vec3& origin, double smallest)
       : tree_(tree), primitives_(primitives), origin_(origin), smallest_(smallest) {}
 
   WideBlock pack(std::size_t number) const {
@@ -136,32 +136,33 @@ class BlockPacker {
       block.origin[axis] = 0.5f * (tree_.blocks[number].min[i] + tree_.blocks[number].max[i]);
       origin[i] = block.origin[axis];
     }
+    std::array<std::array<Vec3, 3>, kWide> corners;
     double largest = smallest_;
     for (std::size_t lane = 0; lane < count; ++lane) {
       block.primitive[lane] = tree_.primitives[begin + lane].number();
-      for (const Vec3& vertex : primitives_[block.primitive[lane]].vertex)
-        largest = std::max(largest, local(vertex, origin).cwiseAbs().maxCoeff());
+      corners[lane] = primitives_.corners(block.primitive[lane]);
+      for (const Vec3& vertex : corners[lane]) largest = std::max(largest, local(vertex, origin).cwiseAbs().maxCoeff());
     }
     const double per_step = 1 / stepFor(largest);
     block.per_step = static_cast<float>(per_step);
-    for (std::size_t lane = 0; lane < count; ++lane) packLane(block, lane, origin, per_step);
+    for (std::size_t lane = 0; lane < count; ++lane) packLane(block, lane, corners[lane], origin, per_step);
     return block;
   }
 
  private:
   Vec3 local(const Vec3& vertex, const Vec3& origin) const { return (vertex - origin_) - origin; }
 
-  void packLane(WideBlock& block, std::size_t lane, const Vec3& origin, double per_step) const {
-    const Primitive& primitive = primitives_[block.primitive[lane]];
+  void packLane(WideBlock& block, std::size_t lane, const std::array<Vec3, 3>& corners, const Vec3& origin,
+                double per_step) const {
     for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3 at = local(primitive.vertex[i], origin) * per_step;
+      const Vec3 at = local(corners[i], origin) * per_step;
       for (std::size_t axis = 0; axis < 3; ++axis)
         block.vertex[i][axis][lane] = static_cast<std::int16_t>(std::lrint(at[static_cast<Eigen::Index>(axis)]));
     }
   }
 
   const BinaryTree& tree_;
-  std::span<const Primitive> primitives_;
+  const Primitives& primitives_;
   const Vec3& origin_;
   double smallest_;
 };
@@ -171,10 +172,10 @@ class BlockPacker {
 // The bounds grow by 2^-22 of themselves, four times what rounding to single precision moves them, and by the smallest
 // normal float. Computed, not measured: GCC 12 takes a double that was narrowed and widened again for the double
 // itself.
-BoxedPrimitive boxed(const Primitive& primitive, std::uint32_t number, const Vec3& origin) {
+BoxedPrimitive boxed(const std::array<Vec3, 3>& corners, std::uint32_t number, const Vec3& origin) {
   constexpr float kOutward = 1.0f / (1 << 22);
   constexpr float kMost = 1e38f;  // beyond what is supported; keeps infinities out
-  const auto& v = primitive.vertex;
+  const auto& v = corners;
   const Vec3 low = v[0].cwiseMin(v[1]).cwiseMin(v[2]) - origin;
   const Vec3 high = v[0].cwiseMax(v[1]).cwiseMax(v[2]) - origin;
   BoxedPrimitive result;
@@ -186,9 +187,9 @@ BoxedPrimitive boxed(const Primitive& primitive, std::uint32_t number, const Vec
   return result;
 }
 
-std::vector<WideNode> widen(const BinaryTree& tree, int& depth) {
+HugeVector<WideNode> widen(const BinaryTree& tree, int& depth) {
   constexpr std::size_t kChildren = 4;  // a node has more than these on average
-  std::vector<WideNode> nodes;
+  HugeVector<WideNode> nodes;
   nodes.reserve(tree.blocks.size() / kChildren);
   Widener widener(tree, nodes);
   widener.add(tree.root, 0);
@@ -198,11 +199,10 @@ std::vector<WideNode> widen(const BinaryTree& tree, int& depth) {
   return nodes;
 }
 
-std::vector<WideBlock> pack(const BinaryTree& tree, std::span<const Primitive> primitives, const Vec3& origin,
-                            double smallest) {
+HugeVector<WideBlock> pack(const BinaryTree& tree, const Primitives& primitives, const Vec3& origin, double smallest) {
   constexpr std::size_t kGrain = 512;
   const BlockPacker packer(tree, primitives, origin, smallest);
-  std::vector<WideBlock> blocks(tree.blocks.size());
+  HugeVector<WideBlock> blocks(tree.blocks.size());
   oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, blocks.size(), kGrain), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) blocks[i] = packer.pack(i);
   });

@@ -4,20 +4,20 @@
 #include <span>
 #include <vector>
 
-#include "geometry/primitive.h"
+#include "base/huge_pages.h"
+#include "geometry/primitives.h"
 #include "geometry/wide_bvh_build.h"
 #include "geometry/wide_bvh_layout.h"
 
 namespace hl {
 
-/// A primitive's box relative to `origin`, rounded outward.
-BoxedPrimitive boxed(const Primitive& primitive, std::uint32_t number, const Vec3& origin);
+/// The box of a primitive's corners relative to `origin`, rounded outward.
+BoxedPrimitive boxed(const std::array<Vec3, 3>& corners, std::uint32_t number, const Vec3& origin);
 
 /// Nodes in depth-first order, none for a tree of one block; `depth` becomes the number of nodes on the longest path.
-std::vector<WideNode> widen(const BinaryTree& tree, int& depth);
+HugeVector<WideNode> widen(const BinaryTree& tree, int& depth);
 
 /// Blocks count as at least `smallest` (m) large, which keeps the coordinates of a query in their steps in range.
-std::vector<WideBlock> pack(const BinaryTree& tree, std::span<const Primitive> primitives, const Vec3& origin,
-                            double smallest);
+HugeVector<WideBlock> pack(const BinaryTree& tree, const Primitives& primitives, const Vec3& origin, double smallest);
 
 }  // namespace hl

@@ -77,12 +77,8 @@ class Carry {
 template <typename Visit>
 void Carry::forEachNear(const Vec3& a, const Vec3& b, Visit visit) const {
   const Vec3 margin = Vec3::Constant(2 * tolerance_.reach);
-  const Vec3 min = a.cwiseMin(b) - margin, max = a.cwiseMax(b) + margin;
-  for (std::uint32_t i = 0; i < snapshot_.instances.size(); ++i) {
-    const Box& reach = snapshot_.reach[i];
-    if ((reach.min.array() <= max.array()).all() && (reach.max.array() >= min.array()).all())
-      visit(i, snapshot_.instances[i]);
-  }
+  const Box region{a.cwiseMin(b) - margin, a.cwiseMax(b) + margin};
+  snapshot_.near.visitMet(region, [&](std::uint32_t i) { visit(i, snapshot_.instances[i]); });
 }
 
 // Where the leader takes the proxy by then.
@@ -117,7 +113,7 @@ Carry::Meeting Carry::firstMeeting(std::int64_t until_ns, const Vec3& goal) cons
     const Shape& shape = *instance.shape;
     FirstImpact hit;
     if (!firstImpact(*shape.index, shape.primitives, from, to - from, kMetAt * tolerance_.reach, -1, hit)) return;
-    if (hit.impact.t < first.part) first = {hit.impact.t, i};
+    if (hit.impact.t < first.part || (hit.impact.t == first.part && i < first.instance)) first = {hit.impact.t, i};
   });
   return first;
 }

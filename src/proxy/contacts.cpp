@@ -13,34 +13,72 @@ auto key(const Contact& c) {
                     c.point.y(), c.point.z());
 }
 
-}  // namespace
-
-void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, double reach, ContactSet& set) {
+void clear(ContactSet& set) {
   set.contacts.clear();
   set.planes.clear();
   set.twins.clear();
   set.overflow = false;
-  const auto add = [&](PrimitiveId primitive, const ClosestPoint& closest) {
-    Contact contact{{closest.normal, reach - closest.distance},
-                    closest.point,
-                    closest.distance,
-                    closest.feature,
-                    primitive,
-                    closest.weights};
-    const auto same = [&](const Contact& other) { return samePlane(contact, other); };
-    auto* twin = std::find_if(set.contacts.begin(), set.contacts.end(), same);
-    if (twin == set.contacts.end()) {
-      set.overflow |= !set.contacts.push(contact);
-      return;
-    }
-    if (twin->primitive == primitive) return;  // the index may offer a primitive twice
-    if (scene.precedes(primitive, twin->primitive)) std::swap(*twin, contact);
-    set.twins.push(contact);
-  };
-  scene.primitivesWithin(centre, distance, add);
+}
+
+void add(const SceneAt& scene, PrimitiveId primitive, const ClosestPoint& nearest, double reach, ContactSet& set) {
+  Contact contact{{nearest.normal, reach - nearest.distance},
+                  nearest.point,
+                  nearest.distance,
+                  nearest.feature,
+                  primitive,
+                  nearest.weights};
+  const auto same = [&](const Contact& other) { return samePlane(contact, other); };
+  auto* twin = std::find_if(set.contacts.begin(), set.contacts.end(), same);
+  if (twin == set.contacts.end()) {
+    set.overflow |= !set.contacts.push(contact);
+    return;
+  }
+  if (twin->primitive == primitive) return;  // the index may offer a primitive twice
+  if (scene.precedes(primitive, twin->primitive)) std::swap(*twin, contact);
+  set.twins.push(contact);
+}
+
+void sort(ContactSet& set) {
   std::sort(set.contacts.begin(), set.contacts.end(),
             [](const Contact& a, const Contact& b) { return key(a) < key(b); });
   for (const Contact& contact : set.contacts) set.planes.push(contact.plane);
+}
+
+}  // namespace
+
+void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, double reach, ContactSet& set) {
+  clear(set);
+  scene.primitivesWithin(centre, distance, [&](PrimitiveId primitive, const ClosestPoint& nearest) {
+    add(scene, primitive, nearest, reach, set);
+  });
+  sort(set);
+}
+
+void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, double reach, Nearby& nearby,
+                    ContactSet& set) {
+  clear(set);
+  if (nearby.covers(scene, centre, distance)) {
+    for (const PrimitiveId primitive : nearby.primitives()) {
+      const ClosestPoint nearest = scene.closest(primitive, centre);
+      if (nearest.distance <= distance) add(scene, primitive, nearest, reach, set);
+    }
+  } else {
+    nearby.begin(scene, distance);
+    scene.primitivesWithin(centre, distance, [&](PrimitiveId primitive, const ClosestPoint& nearest) {
+      nearby.add(primitive);
+      add(scene, primitive, nearest, reach, set);
+    });
+    nearby.endAt(centre);
+  }
+  sort(set);
+}
+
+bool primitivesOf(const ContactSet& set, FixedVector<PrimitiveId, Nearby::kRoom>& primitives) {
+  static_assert(Nearby::kRoom < kMaxContacts, "so that a set with contacts or twins left out has too many");
+  bool all = true;
+  for (const Contact& contact : set.contacts) all = all && primitives.push(contact.primitive);
+  for (const Contact& twin : set.twins) all = all && primitives.push(twin.primitive);
+  return all;
 }
 
 void moveContacts(ContactSet& set, const Vec3& step) {
@@ -65,8 +103,7 @@ Mat3 curvedDirections(const Contact& contact, const SceneAt& scene) {
   if (contact.feature == Feature::kFace) return Mat3::Zero();
   const Vec3& n = contact.plane.normal;
   Mat3 tangents = Mat3::Identity() - n * n.transpose();
-  if (contact.feature >= Feature::kVertex0 || scene.primitive(contact.primitive).kind == PrimitiveKind::kPoint)
-    return tangents;
+  if (contact.feature >= Feature::kVertex0 || scene.kind(contact.primitive) == PrimitiveKind::kPoint) return tangents;
   const Vec3 edge = scene.edge(contact.primitive, contact.feature);
   return tangents - edge * edge.transpose();
 }

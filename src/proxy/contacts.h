@@ -9,6 +9,7 @@
 #include "base/fixed_vector.h"
 #include "base/vec.h"
 #include "geometry/closest_point.h"
+#include "proxy/nearby.h"
 #include "proxy/solver.h"
 #include "scene/scene_at.h"
 
@@ -40,6 +41,12 @@ struct ContactSet {
 /// Sorted by plane; of bitwise equal planes the primitive that precedes() is the contact, the others are twins.
 /// RT-safe.
 void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, double reach, ContactSet& set);
+/// The same, looking only through what is `nearby`; where that does not cover the place, it does afterwards.
+void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, double reach, Nearby& nearby,
+                    ContactSet& set);
+
+/// What the set was made from: its contacts and twins. Returns false when there are more. RT-safe.
+bool primitivesOf(const ContactSet& set, FixedVector<PrimitiveId, Nearby::kRoom>& primitives);
 
 /// Whether two contacts hold the proxy off by the same plane, bit by bit. RT-safe.
 inline bool samePlane(const Contact& a, const Contact& b) {

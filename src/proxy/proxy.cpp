@@ -34,14 +34,17 @@ class Tick {
   TickReport run();
 
  private:
-  void findContacts() { gatherContacts(scene_, state_.position, tolerance_.touching, tolerance_.reach, set_); }
+  void findContacts() {
+    gatherContacts(scene_, state_.position, tolerance_.touching, tolerance_.reach, state_.nearby, set_);
+  }
   SubGoal subGoal();
   SubGoal plainSubGoal();
   SubGoal effectSubGoal();
   bool atRest(const Vec3& step) const {
     return step.norm() <= kRestPerGap * (goal_ - state_.position).norm() + tolerance_.rest;
   }
-  bool sweep(Vec3& position, const Vec3& step) const;
+  bool sweep(Vec3& position, const Vec3& step);
+  bool firstImpact(const Vec3& from, const Vec3& motion, SceneImpact& out);
   void settleOn(const ContactSet& set);
   bool settled() const;
   void advance(const SubGoal& sub_goal);
@@ -118,18 +121,29 @@ SubGoal Tick::subGoal() {
 }
 
 // Moves by `step`, or to the first impact with a primitive that is no contact yet. Returns whether the way was free.
-bool Tick::sweep(Vec3& position, const Vec3& step) const {
+bool Tick::sweep(Vec3& position, const Vec3& step) {
   const double longest = kSweepPerExtent * (scene_.extent() + tolerance_.reach);
   const double length = step.norm();
   const bool whole = length <= longest;
   const Vec3 motion = whole ? step : Vec3(step * (longest / length));
   SceneImpact impact;
-  if (scene_.firstImpact(position, motion, tolerance_.reach, tolerance_.touching, impact)) {
-    position += impact.impact.t * motion;
-    return false;
+  const bool hit = firstImpact(position, motion, impact);
+  position += hit ? Vec3(impact.impact.t * motion) : motion;
+  state_.nearby.endAt(position);
+  return whole && !hit;
+}
+
+bool Tick::firstImpact(const Vec3& from, const Vec3& motion, SceneImpact& out) {
+  Nearby& nearby = state_.nearby;
+  FixedVector<PrimitiveId, Nearby::kRoom> contacts;
+  if (!primitivesOf(set_, contacts)) {
+    nearby.forget();
+    return scene_.firstImpact(from, motion, tolerance_.swept, tolerance_.touching, out);
   }
-  position += motion;
-  return whole;
+  nearby.begin(scene_, tolerance_.touching);
+  return scene_.firstImpact(
+      from, motion, tolerance_.swept, tolerance_.touching, {contacts.begin(), contacts.size()},
+      [&](PrimitiveId primitive) { nearby.add(primitive); }, out);
 }
 
 // On a rounded edge or corner the tangent planes alone converge slowly; Newton's step uses the curvature
@@ -193,7 +207,7 @@ void Tick::advance(const SubGoal& sub_goal) {
   }
   const bool whole = sweep(state_.position, step);
   // In the open and unhindered the proxy *is* the finger, to the bit.
-  if (whole && free && goal_ == finger_) state_.position = finger_;
+  if (whole && free && goal_ == finger_) state_.nearby.endAt(state_.position = finger_);
   if (felt_) effects_.moved(sub_goal, state_.position - from);
   if (!sub_goal.settles || !whole || spent_) return;
   rests_ = sub_goal.stays;

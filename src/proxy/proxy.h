@@ -13,6 +13,7 @@
 #include "base/fixed_vector.h"
 #include "base/ledger.h"
 #include "base/vec.h"
+#include "proxy/nearby.h"
 #include "scene/scene_at.h"
 
 namespace hl {
@@ -49,6 +50,7 @@ struct ProxyState {
   std::int64_t time_ns = 0;      ///< of the scene in the last tick
   std::uint64_t carrier = 0;     ///< key of the object whose friction holds it; 0: none
   Ledger ledger{};
+  Nearby nearby{};  ///< of `position`, so far as the last tick has met them; decides nothing but how long a tick takes
 };
 
 /// A plane that holds the proxy at the end of a tick.

@@ -5,11 +5,15 @@ namespace hl {
 Surface::Surface(const SceneAt& scene, const MaterialOverride& set, PrimitiveId id)
     : set_(set),
       shape_(*scene.instance(id).shape),
-      primitive_(scene.primitive(id)),
       surfaces_(*scene.instance(id).surfaces),
-      material_(surfaces_.materials[shape_.materialOf(id.element)]) {
+      material_(surfaces_.materials[shape_.materialOf(id.element)]),
+      triangle_(scene.kind(id) == PrimitiveKind::kTriangle) {
   smooth_ = isTriangle() && set.smooth.value_or(material_.smooth) && !shape_.model.normals.empty();
   mapped_ = isTriangle() && set.textures && !shape_.model.texcoords.empty();
+  if (!smooth_ && !mapped_) return;
+  const Primitive& primitive = scene.primitive(id);
+  source_ = primitive.source;
+  order_ = primitive.order;
 }
 
 bool Surface::textured() const {

@@ -29,7 +29,7 @@ class Surface {
  public:
   Surface(const SceneAt& scene, const MaterialOverride& set, PrimitiveId id);
 
-  bool isTriangle() const { return primitive_.kind == PrimitiveKind::kTriangle; }
+  bool isTriangle() const { return triangle_; }
   /// Whether it is to be shaded by the normals of its vertices.
   bool smooth() const { return smooth_; }
   /// Of a triangle with normals, in the frame of its object.
@@ -52,19 +52,18 @@ class Surface {
   double presliding_N_m() const { return material_.presliding_N_m; }
 
  private:
-  std::size_t corner(std::size_t sorted) const {
-    return shape_.model.triangles[primitive_.source][primitive_.order[sorted]];
-  }
+  std::size_t corner(std::size_t sorted) const { return shape_.model.triangles[source_][order_[sorted]]; }
   /// The number that the user set for a quantity everywhere, if any.
   const std::optional<double>& overridden(Quantity quantity) const;
   double number(Quantity quantity) const;
 
   const MaterialOverride& set_;
   const Shape& shape_;
-  const Primitive& primitive_;
   const Surfaces& surfaces_;
   const Material& material_;
-  bool smooth_, mapped_;
+  bool triangle_, smooth_, mapped_;
+  std::uint32_t source_ = 0;             // as Primitive has it, of a smooth or mapped triangle
+  std::array<std::uint8_t, 3> order_{};  // the same
 };
 
 inline const std::optional<double>& Surface::overridden(Quantity quantity) const {

@@ -43,10 +43,8 @@ double bumpCurvature_per_m(const Snapshot& snapshot, std::size_t material) {
   if (!use.used() || model.texcoords.empty()) return 0;
   double slope = 0;
   for (std::uint32_t i = 0; i < shape.primitives.size(); ++i) {
-    const Primitive& primitive = shape.primitives[i];
-    const std::size_t own = shape.materialOf(i);
-    if (own == material && primitive.kind == PrimitiveKind::kTriangle)
-      slope = std::max(slope, texcoordSlope(model, model.triangles[primitive.source]));
+    if (shape.materialOf(i) == material && shape.primitives.kind(i) == PrimitiveKind::kTriangle)
+      slope = std::max(slope, texcoordSlope(model, model.triangles[shape.primitives.source(i)]));
   }
   return std::abs(use.high - use.low) * imageCurvature(model.textures[use.texture]) * slope * slope;
 }

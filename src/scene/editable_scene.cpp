@@ -24,6 +24,7 @@ struct Polar {
 };
 
 Polar polarOf(const Mat3& linear) {
+  if (!linear.allFinite()) throw Error("the product of an object's matrices is not finite");
   const bool rigid = (linear.transpose() * linear - Mat3::Identity()).cwiseAbs().maxCoeff() < kRigid;
   if (rigid && linear.determinant() > 0) return {linear, Mat3::Identity()};
   const Eigen::JacobiSVD<Mat3> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -118,13 +119,13 @@ void EditableScene::Flattening::add(const SceneItem& item, const Call& call) {
   if (placed.size() >= scene_.limits_.instances)
     throw Error("there are more than " + std::to_string(scene_.limits_.instances) + " objects in the world");
   const Polar polar = polarOf(call.placement.linear);
-  placed.push_back({shapeOf(item.shape, polar.stretch),
-                    surfacesOf(call.surface),
-                    {polar.rotation, call.placement.offset},
-                    call.key,
-                    scene_.session_,
-                    call.object,
-                    call.name});
+  const Pose pose{polar.rotation, call.placement.offset};
+  const std::shared_ptr<const Shape> shape = shapeOf(item.shape, polar.stretch);
+  const Box box = boxAt(shape->bounds, pose);
+  if (shape->primitives.empty()) return;
+  if (!pose.origin.allFinite() || !withinReach(box.min) || !withinReach(box.max))
+    throw Error("an object lies farther than 1e9 m from the origin: nothing so far can be touched");
+  placed.push_back({shape, surfacesOf(call.surface), pose, call.key, scene_.session_, call.object, call.name});
 }
 
 std::shared_ptr<const Shape> EditableScene::Flattening::shapeOf(const std::shared_ptr<const Shape>& shape,

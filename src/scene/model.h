@@ -8,23 +8,11 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "geometry/box.h"
 #include "scene/material.h"
 #include "scene/texture.h"
 
 namespace hl {
-
-/// Axis-aligned box; empty when min > max.
-struct Box {
-  Vec3 min = Vec3::Constant(1e300);
-  Vec3 max = Vec3::Constant(-1e300);
-  void extend(const Vec3& p) {
-    min = min.cwiseMin(p);
-    max = max.cwiseMax(p);
-  }
-  bool empty() const { return (min.array() > max.array()).any(); }
-  Vec3 centre() const { return 0.5 * (min + max); }
-  Vec3 size() const { return max - min; }
-};
 
 /// Metres, world frame. Index lists refer to `positions`; polygons have been triangulated.
 struct Model {

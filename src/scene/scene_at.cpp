@@ -11,12 +11,9 @@ namespace {
 // A box answers for the rounding of the coordinates it was made from by this part of the scene's size.
 constexpr double kBoxSlack = 1e-12;
 
-struct Region {
-  Vec3 min, max;
-};
-
-bool apart(const Box& box, const Region& region) {
-  return (box.min.array() > region.max.array()).any() || (box.max.array() < region.min.array()).any();
+Box around(const Vec3& from, const Vec3& to, double distance) {
+  const Vec3 margin = Vec3::Constant(distance);
+  return {from.cwiseMin(to) - margin, from.cwiseMax(to) + margin};
 }
 
 bool isEdge(const Primitive& primitive, Feature feature) {
@@ -62,8 +59,8 @@ Vec3 SceneAt::edge(PrimitiveId id, Feature feature) const {
 }
 
 bool SceneAt::precedes(PrimitiveId a, PrimitiveId b) const {
-  if (a.instance == b.instance) return hl::precedes(primitive(a), primitive(b));
   Primitive p = primitive(a), q = primitive(b);
+  if (a.instance == b.instance) return hl::precedes(p, q);
   const Pose pose_a = instance(a).motion.at(time_ns_), pose_b = instance(b).motion.at(time_ns_);
   for (std::size_t i = 0; i < 3; ++i) {
     p.vertex[i] = pose_a.toWorld(p.vertex[i]);
@@ -75,10 +72,8 @@ bool SceneAt::precedes(PrimitiveId a, PrimitiveId b) const {
 
 void SceneAt::primitivesWithin(const Vec3& centre, double distance,
                                FunctionRef<void(PrimitiveId, const ClosestPoint&)> visit) const {
-  const Vec3 margin = Vec3::Constant(distance + kBoxSlack * snapshot_.extent);
-  const Region region{centre - margin, centre + margin};
-  for (std::uint32_t i = 0; i < snapshot_.instances.size(); ++i) {
-    if (apart(snapshot_.reach[i], region)) continue;
+  const Box region = around(centre, centre, distance + kBoxSlack * snapshot_.extent);
+  snapshot_.near.visitMet(region, [&](std::uint32_t i) {
     const Instance& instance = snapshot_.instances[i];
     const Shape& shape = *instance.shape;
     if (instance.motion.identity()) {
@@ -86,7 +81,7 @@ void SceneAt::primitivesWithin(const Vec3& centre, double distance,
                            [&](std::uint32_t element, const ClosestPoint& nearest) {
                              visit({i, element}, nearest);
                            });
-      continue;
+      return;
     }
     const Pose pose = instance.motion.at(time_ns_);
     hl::primitivesWithin(*shape.index, shape.primitives, pose.toObject(centre), distance,
@@ -95,32 +90,55 @@ void SceneAt::primitivesWithin(const Vec3& centre, double distance,
                            toWorld(pose, nearest);
                            visit({i, element}, nearest);
                          });
-  }
+  });
+}
+
+// Asks each object near the way, ask(number, shape, from_O, motion_O, hit), and keeps the earliest impact. Once there
+// is one, objects near only what lies beyond it are passed over.
+template <typename Ask>
+bool SceneAt::firstOf(const Vec3& from, const Vec3& motion, double distance, const Ask& ask, SceneImpact& out) const {
+  const double margin = distance + kBoxSlack * snapshot_.extent;
+  Box region = around(from, from + motion, margin);
+  bool found = false;
+  snapshot_.near.visitMet(region, [&](std::uint32_t i) {
+    const Motion& moves = snapshot_.instances[i].motion;
+    const Pose pose = moves.identity() ? Pose{} : moves.at(time_ns_);
+    const Vec3 from_O = moves.identity() ? from : pose.toObject(from);
+    const Vec3 motion_O = moves.identity() ? motion : pose.turnToObject(motion);
+    FirstImpact hit;
+    if (!ask(i, *snapshot_.instances[i].shape, from_O, motion_O, hit)) return;
+    const PrimitiveId id{i, hit.primitive};
+    if (found && hit.impact.t > out.impact.t) return;
+    if (found && hit.impact.t == out.impact.t && !precedes(id, out.primitive)) return;
+    found = true;
+    out = {hit.impact, id};
+    if (!moves.identity()) out.impact.normal = pose.turnToWorld(hit.impact.normal);
+    region = around(from, from + hit.impact.t * motion, margin);
+  });
+  return found;
 }
 
 bool SceneAt::firstImpact(const Vec3& from, const Vec3& motion, double radius, double touching,
                           SceneImpact& out) const {
-  const Vec3 margin = Vec3::Constant(radius + kBoxSlack * snapshot_.extent);
-  const Vec3 end = from + motion;
-  const Region region{from.cwiseMin(end) - margin, from.cwiseMax(end) + margin};
-  bool found = false;
-  for (std::uint32_t i = 0; i < snapshot_.instances.size(); ++i) {
-    if (apart(snapshot_.reach[i], region)) continue;
-    const Instance& instance = snapshot_.instances[i];
-    const Shape& shape = *instance.shape;
-    const Pose pose = instance.motion.identity() ? Pose{} : instance.motion.at(time_ns_);
-    const Vec3 from_O = instance.motion.identity() ? from : pose.toObject(from);
-    const Vec3 motion_O = instance.motion.identity() ? motion : pose.turnToObject(motion);
-    FirstImpact hit;
-    if (!hl::firstImpact(*shape.index, shape.primitives, from_O, motion_O, radius, touching, hit)) continue;
-    const PrimitiveId id{i, hit.primitive};
-    if (found && hit.impact.t > out.impact.t) continue;
-    if (found && hit.impact.t == out.impact.t && !precedes(id, out.primitive)) continue;
-    found = true;
-    out = {hit.impact, id};
-    if (!instance.motion.identity()) out.impact.normal = pose.turnToWorld(hit.impact.normal);
-  }
-  return found;
+  const auto ask = [&](std::uint32_t, const Shape& shape, const Vec3& from_O, const Vec3& motion_O, FirstImpact& hit) {
+    return hl::firstImpact(*shape.index, shape.primitives, from_O, motion_O, radius, touching, hit);
+  };
+  return firstOf(from, motion, radius, ask, out);
+}
+
+bool SceneAt::firstImpact(const Vec3& from, const Vec3& motion, double radius, double touching,
+                          std::span<const PrimitiveId> contacts, FunctionRef<void(PrimitiveId)> meet,
+                          SceneImpact& out) const {
+  const auto ask = [&](std::uint32_t i, const Shape& shape, const Vec3& from_O, const Vec3& motion_O,
+                       FirstImpact& hit) {
+    const auto is_contact = [&](std::uint32_t element) {
+      return std::find(contacts.begin(), contacts.end(), PrimitiveId{i, element}) != contacts.end();
+    };
+    const auto met = [&](std::uint32_t element) { meet({i, element}); };
+    const auto read = [&](std::uint32_t element) -> const Primitive& { return primitive({i, element}); };
+    return hl::firstImpact(*shape.index, read, from_O, motion_O, radius, touching, is_contact, met, hit);
+  };
+  return firstOf(from, motion, touching, ask, out);
 }
 
 }  // namespace hl

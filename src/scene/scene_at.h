@@ -3,20 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "base/function_ref.h"
 #include "geometry/closest_point.h"
 #include "geometry/sweep.h"
+#include "scene/recent_primitives.h"
 #include "scene/snapshot.h"
 
 namespace hl {
-
-/// A primitive of one instance of a snapshot.
-struct PrimitiveId {
-  std::uint32_t instance = 0;
-  std::uint32_t element = 0;  ///< index into its shape's primitives
-  bool operator==(const PrimitiveId&) const = default;
-};
 
 /// Valid only when firstImpact returned true. World frame.
 struct SceneImpact {
@@ -24,7 +19,7 @@ struct SceneImpact {
   PrimitiveId primitive;
 };
 
-/// A pointer and a time; the snapshot must outlive it. RT-safe.
+/// A snapshot, which must outlive it, and a time; made for one tick, on one thread. RT-safe.
 class SceneAt {
  public:
   SceneAt(const Snapshot& snapshot, std::int64_t time_ns = 0)  // NOLINT: a snapshot at rest is a scene
@@ -35,8 +30,11 @@ class SceneAt {
   double extent() const { return snapshot_.extent; }
 
   const Instance& instance(PrimitiveId id) const { return snapshot_.instances[id.instance]; }
-  /// In the frame of its object.
-  const Primitive& primitive(PrimitiveId id) const { return instance(id).shape->primitives[id.element]; }
+  /// In the frame of its object; good until another one is asked for.
+  const Primitive& primitive(PrimitiveId id) const {
+    return recent_.get(id, [&] { return instance(id).shape->primitives[id.element]; });
+  }
+  PrimitiveKind kind(PrimitiveId id) const { return instance(id).shape->primitives.kind(id.element); }
   Vec3 turnToObject(PrimitiveId id, const Vec3& v_W) const;
   Vec3 turnToWorld(PrimitiveId id, const Vec3& v_O) const;
 
@@ -51,12 +49,19 @@ class SceneAt {
   /// Visits every primitive within `distance` (m, inclusive) of `centre`; may repeat one, in no given order.
   void primitivesWithin(const Vec3& centre, double distance,
                         FunctionRef<void(PrimitiveId primitive, const ClosestPoint& nearest)> visit) const;
-  /// As firstImpact of geometry/queries.h.
+  /// As both firstImpact of geometry/queries.h; `contacts` are all that isContact says of.
   bool firstImpact(const Vec3& from, const Vec3& motion, double radius, double touching, SceneImpact& out) const;
+  bool firstImpact(const Vec3& from, const Vec3& motion, double radius, double touching,
+                   std::span<const PrimitiveId> contacts, FunctionRef<void(PrimitiveId primitive)> meet,
+                   SceneImpact& out) const;
 
  private:
+  template <typename Ask>
+  bool firstOf(const Vec3& from, const Vec3& motion, double distance, const Ask& ask, SceneImpact& out) const;
+
   const Snapshot& snapshot_;
   std::int64_t time_ns_;
+  mutable RecentPrimitives recent_;
 };
 
 }  // namespace hl

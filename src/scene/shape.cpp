@@ -11,54 +11,47 @@ namespace hl {
 
 namespace {
 
-// Calls make(vertices..., source, primitive) for one list of elements; returns how many were refused.
-template <typename List, typename Make>
-std::size_t addElements(const Model& model, const List& list, std::vector<Primitive>& primitives, Make make) {
-  std::size_t skipped = 0;
-  for (std::uint32_t source = 0; source < list.size(); ++source) {
-    Primitive primitive;
-    if (make(model, list[source], source, primitive)) {
-      primitives.push_back(primitive);
-    } else {
-      ++skipped;
-    }
-  }
-  return skipped;
-}
-
-bool inRange(const Model& model, std::uint32_t index) { return index < model.positions.size(); }
-
-bool fromTriangle(const Model& model, const std::array<std::uint32_t, 3>& t, std::uint32_t source, Primitive& out) {
-  return inRange(model, t[0]) && inRange(model, t[1]) && inRange(model, t[2]) &&
-         makeTriangle(model.positions[t[0]], model.positions[t[1]], model.positions[t[2]], source, out);
-}
-
-bool fromSegment(const Model& model, const std::array<std::uint32_t, 2>& s, std::uint32_t source, Primitive& out) {
-  return inRange(model, s[0]) && inRange(model, s[1]) &&
-         makeSegment(model.positions[s[0]], model.positions[s[1]], source, out);
-}
-
-bool fromPoint(const Model& model, std::uint32_t point, std::uint32_t source, Primitive& out) {
-  return inRange(model, point) && makePoint(model.positions[point], source, out);
-}
-
 void warnSkipped(std::vector<std::string>& warnings, std::size_t count, const char* what) {
-  if (count > 0) warnings.push_back("skipped " + std::to_string(count) + " degenerate or non-finite " + what);
+  if (count == 0) return;
+  warnings.push_back("skipped " + std::to_string(count) + " " + what +
+                     " that are degenerate, not finite or beyond 1e9 m");
 }
 
 // The material of each primitive; empty when the model names none.
-std::vector<std::uint16_t> materialsOf(const Model& model, const std::vector<Primitive>& primitives) {
+std::vector<std::uint16_t> materialsOf(const Model& model, const Primitives& primitives) {
   if (model.triangle_materials.empty() && model.segment_materials.empty() && model.point_materials.empty()) return {};
   std::vector<std::uint16_t> result;
   result.reserve(primitives.size());
-  for (const Primitive& primitive : primitives) {
-    const auto& list = primitive.kind == PrimitiveKind::kTriangle  ? model.triangle_materials
-                       : primitive.kind == PrimitiveKind::kSegment ? model.segment_materials
-                                                                   : model.point_materials;
-    const std::uint16_t material = primitive.source < list.size() ? list[primitive.source] : std::uint16_t{0};
+  for (std::size_t i = 0; i < primitives.size(); ++i) {
+    const auto& list = primitives.kind(i) == PrimitiveKind::kTriangle  ? model.triangle_materials
+                       : primitives.kind(i) == PrimitiveKind::kSegment ? model.segment_materials
+                                                                       : model.point_materials;
+    const std::uint32_t source = primitives.source(i);
+    const std::uint16_t material = source < list.size() ? list[source] : std::uint16_t{0};
     result.push_back(material < model.materials.size() ? material : std::uint16_t{0});
   }
   return result;
+}
+
+// Turns each triangle until its smallest vertex comes first: then sorting its vertices, which reading it does, needs
+// one comparison that can not be foretold in place of three. It stays the same triangle, seen from the same side.
+void turnTriangles(Model& model) {
+  const auto& p = model.positions;
+  const auto less = [&](std::uint32_t a, std::uint32_t b) {
+    return std::lexicographical_compare(p[a].data(), p[a].data() + 3, p[b].data(), p[b].data() + 3);
+  };
+  for (auto& t : model.triangles) {
+    if (std::any_of(t.begin(), t.end(), [&](std::uint32_t index) { return index >= p.size(); })) continue;
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end(), less), t.end());
+  }
+}
+
+Box boundsOf(const Primitives& primitives) {
+  Box bounds;
+  for (std::size_t i = 0; i < primitives.size(); ++i) {
+    for (const Vec3& vertex : primitives.corners(i)) bounds.extend(vertex);
+  }
+  return bounds;
 }
 
 }  // namespace
@@ -75,7 +68,7 @@ const char* nameOf(HierarchyKind hierarchy) {
   return "none";
 }
 
-std::unique_ptr<const SpatialIndex> makeIndex(std::span<const Primitive> primitives, HierarchyKind hierarchy) {
+std::unique_ptr<const SpatialIndex> makeIndex(const Primitives& primitives, HierarchyKind hierarchy) {
   switch (hierarchy) {
     case HierarchyKind::kBvh:
       return std::make_unique<WideBvh>(WideBvh::build(primitives));
@@ -87,24 +80,30 @@ std::unique_ptr<const SpatialIndex> makeIndex(std::span<const Primitive> primiti
   return std::make_unique<BruteForceIndex>(primitives.size());
 }
 
-std::shared_ptr<const Shape> makeShape(Model model, HierarchyKind hierarchy) {
+std::shared_ptr<const Shape> makeShape(Model given, HierarchyKind hierarchy) {
   auto shape = std::make_shared<Shape>();
-  auto& primitives = shape->primitives;
-  primitives.reserve(model.elements());
+  shape->model = std::move(given);
+  turnTriangles(shape->model);
+  const Model& model = shape->model;
+  shape->primitives = Primitives({model.positions, model.triangles, model.segments, model.points});
+  const Primitives& primitives = shape->primitives;
   shape->warnings = model.warnings;
-  warnSkipped(shape->warnings, addElements(model, model.triangles, primitives, fromTriangle), "triangles");
-  warnSkipped(shape->warnings, addElements(model, model.segments, primitives, fromSegment), "segments");
-  warnSkipped(shape->warnings, addElements(model, model.points, primitives, fromPoint), "points");
-  for (const Primitive& primitive : primitives) {
-    for (const Vec3& vertex : primitive.vertex) shape->bounds.extend(vertex);
-  }
+  warnSkipped(shape->warnings, primitives.refused().triangles, "triangles");
+  warnSkipped(shape->warnings, primitives.refused().segments, "segments");
+  warnSkipped(shape->warnings, primitives.refused().points, "points");
   shape->material_of = materialsOf(model, primitives);
+  shape->bounds = boundsOf(primitives);
   if (!shape->bounds.empty()) {
     shape->extent = shape->bounds.min.cwiseAbs().cwiseMax(shape->bounds.max.cwiseAbs()).maxCoeff();
   }
   shape->index = makeIndex(primitives, hierarchy);
-  shape->model = std::move(model);
   return shape;
+}
+
+std::size_t Shape::bytes() const {
+  const auto sizeOf = [](const auto& list) { return list.capacity() * sizeof(list[0]); };
+  return sizeOf(model.positions) + sizeOf(model.triangles) + sizeOf(model.segments) + sizeOf(model.points) +
+         primitives.bytes() + index->stats().bytes;
 }
 
 }  // namespace hl

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/primitive.h"
+#include "geometry/primitives.h"
 #include "geometry/spatial_index.h"
 #include "scene/model.h"
 
@@ -22,24 +22,26 @@ enum class HierarchyKind : std::uint8_t { kBvh, kSpheres, kNone };
 const char* nameOf(HierarchyKind hierarchy);
 
 /// Builds the structure over `primitives`. Allocates; never called by a real-time thread.
-std::unique_ptr<const SpatialIndex> makeIndex(std::span<const Primitive> primitives, HierarchyKind hierarchy);
+std::unique_ptr<const SpatialIndex> makeIndex(const Primitives& primitives, HierarchyKind hierarchy);
 
 /// Immutable after makeShape; read by any thread. Metres, object frame.
 struct Shape {
   Model model;
-  std::vector<Primitive> primitives;
+  Primitives primitives;                   ///< of the model
   std::vector<std::uint16_t> material_of;  ///< one per primitive, or empty: all use material 0
   std::unique_ptr<const SpatialIndex> index;
   Box bounds;
   double extent = 0;                  ///< m: largest coordinate
   std::vector<std::string> warnings;  ///< the model's, and what was skipped here
 
+  /// Memory of what is asked where things are: vertices, index lists and hierarchy.
+  std::size_t bytes() const;
   /// Number of the primitive's material in the list of the model, or of whatever stands in for it.
   std::size_t materialOf(std::uint32_t primitive) const { return material_of.empty() ? 0 : material_of[primitive]; }
 };
 
-/// Takes over `model`. Degenerate and non-finite elements, and indices out of range, are skipped and counted in
+/// Takes over the model. Degenerate and non-finite elements, and indices out of range, are skipped and counted in
 /// `warnings`. Allocates; never called by a real-time thread.
-std::shared_ptr<const Shape> makeShape(Model model, HierarchyKind hierarchy = HierarchyKind::kBvh);
+std::shared_ptr<const Shape> makeShape(Model given, HierarchyKind hierarchy = HierarchyKind::kBvh);
 
 }  // namespace hl

@@ -1,6 +1,7 @@
 #include "scene/snapshot.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -58,7 +59,9 @@ std::shared_ptr<const Surfaces> surfacesOf(const std::shared_ptr<const Shape>& s
 
 std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, std::string name, std::uint64_t number,
                                              bool abrupt) {
+  static std::atomic<std::uint64_t> made{0};
   auto snapshot = std::make_shared<Snapshot>();
+  snapshot->identity = ++made;
   snapshot->name = std::move(name);
   snapshot->number = number;
   snapshot->abrupt = abrupt;
@@ -77,6 +80,7 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, st
       snapshot->moves_until_ns = std::max(snapshot->moves_until_ns, instance.motion.last().end_ns());
     snapshot->primitives += instance.shape->primitives.size();
   }
+  snapshot->near = BoxTree(snapshot->reach);
   return snapshot;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/box_tree.h"
 #include "scene/material.h"
 #include "scene/motion.h"
 #include "scene/shape.h"
@@ -33,14 +34,14 @@ struct Instance {
 /// Immutable after makeSnapshot; read by any thread. Metres, world frame.
 struct Snapshot {
   std::vector<Instance> instances;  ///< by rising key
-  /// Of each instance: all of it during the whole motion, world. Every tick looks through all of them, so they lie
-  /// together: in the instances, each would be a cache line of its own.
-  std::vector<Box> reach;
-  Box bounds;  ///< of all of them where they come to rest
+  std::vector<Box> reach;           ///< of each instance: all of it during the whole motion, world
+  BoxTree near;                     ///< finds instances by their reach
+  Box bounds;                       ///< of all of them where they come to rest
   /// m: largest coordinate, in the world or in an object; distances are known to a few units in its last place.
   double extent = 0;
   std::int64_t moves_until_ns = std::numeric_limits<std::int64_t>::min();  ///< after that all is at rest
   std::uint64_t number = 1;                                                ///< of one server's snapshots, rising
+  std::uint64_t identity = 0;  ///< no other snapshot made in this program has the same one
   bool abrupt = true;          ///< objects have come, gone or changed at once since the one before
   std::size_t primitives = 0;  ///< each instance counted
   std::string name;

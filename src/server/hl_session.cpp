@@ -145,9 +145,9 @@ void HlSession::setDevice(const proto::DeviceSettings& settings) {
   const proto::Vec3& o = settings.workspace().origin();
   const Workspace workspace{Vec3(o.x(), o.y(), o.z()), settings.workspace().world_per_device()};
   if (settings.has_workspace() && !workspace.valid())
-    return refuse("world_per_device must be 1e-9 to 1e9, and the origin within 1e12 m");
+    return refuse("world_per_device must be 1e-9 to 1e9, and the origin within 1e9 m");
   if (settings.has_proxy_radius() && !Workspace::validRadius(settings.proxy_radius()))
-    return refuse("proxy_radius must be 1e-12 to 1e12 m");
+    return refuse("proxy_radius must be 1e-12 to 1e9 m");
   if (settings.has_workspace()) device.setWorkspace(workspace);
   if (settings.has_proxy_radius()) device.setRadius(settings.proxy_radius());
   if (settings.has_stiffness_n_m()) device.setStiffness(settings.stiffness_n_m());

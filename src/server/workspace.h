@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/vec.h"
+#include "geometry/primitive.h"
 #include "scene/model.h"
 
 namespace hl {
@@ -19,12 +20,11 @@ struct Workspace {
 
   /// Whether lengths at the hand and in the world both stay numbers that can be computed with.
   bool valid() const {
-    constexpr double kFarthest_m = 1e12, kMostScale = 1e9;
-    return origin_W.allFinite() && origin_W.cwiseAbs().maxCoeff() <= kFarthest_m && world_per_device <= kMostScale &&
-           world_per_device >= 1 / kMostScale;
+    constexpr double kMostScale = 1e9;
+    return withinReach(origin_W) && world_per_device <= kMostScale && world_per_device >= 1 / kMostScale;
   }
   /// The same of a proxy's radius, m.
-  static bool validRadius(double radius_W) { return radius_W >= 1e-12 && radius_W <= 1e12; }
+  static bool validRadius(double radius_W) { return radius_W >= 1e-12 && radius_W <= kFarthest_m; }
 
   /// Centres `bounds` at the device's origin with its largest side `side_D` metres long at the hand.
   static Workspace fit(const Box& bounds, double side_D) {

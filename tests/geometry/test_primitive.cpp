@@ -54,7 +54,9 @@ TEST(Primitive, DegenerateAndNonFiniteAreRefusedAndLeaveTheResultAlone) {
   EXPECT_FALSE(makeSegment(a, a, 0, out));
   EXPECT_FALSE(makeSegment(a, Vec3(0, nan, 0), 0, out));
   EXPECT_FALSE(makePoint(Vec3(0, 0, infinity), 0, out));
+  EXPECT_FALSE(makePoint(Vec3(0, -1.001 * kFarthest_m, 0), 0, out));
   EXPECT_EQ(out.source, 99u);
+  EXPECT_TRUE(makePoint(Vec3(0, -kFarthest_m, 0), 0, out));
   EXPECT_TRUE(makeTriangle(a, b, Vec3(0.5, 1e-10, 0), 0, out));
 }
 

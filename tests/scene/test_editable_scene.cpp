@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "base/error.h"
 #include "geometry/scenes.h"
 
@@ -87,21 +89,38 @@ TEST(EditableScene, AnyInvertibleMatrixIsARigidPoseOfAStretchedShape) {
   }
 }
 
+TEST(EditableScene, RefusesWhatLiesTooFarToBeTouched) {
+  EditableScene scene(1, {});
+  scene.apply(worldOf({shapeItem(triangle(), {Mat3::Identity(), {0, 1e9 - 1, 0}})}));
+  const Pose before = scene.placed()[0].pose;
+  const double most = std::numeric_limits<double>::max();
+  for (const Vec3& offset : {Vec3(0, 1e9, 0), Vec3(0, 0, -2e9), Vec3(most, -most, 0)}) {
+    const Placement far{Mat3::Identity(), offset};
+    EXPECT_THROW(scene.apply(worldOf({shapeItem(triangle(), far)})), Error) << offset.transpose();
+    EXPECT_THROW(scene.apply(worldOf({shapeItem(triangle(), far * far)})), Error) << offset.transpose();
+  }
+  const Placement huge{Mat3(1e300 * Mat3::Identity()), {1, 0, 0}};
+  EXPECT_THROW(scene.apply(worldOf({shapeItem(triangle(), huge * huge)})), Error);
+  EXPECT_EQ(scene.placed()[0].pose, before);
+  scene.apply(worldOf({shapeItem(triangle(), huge)}));  // its triangles are left out, as those of a file are
+  EXPECT_EQ(scene.primitives(), 0u);
+}
+
 TEST(EditableScene, RigidCallsShareOneShapeAndScaledOnesAnother) {
   EditableScene scene(1, {});
   const auto shape = triangle();
   SceneEdit edit;
   edit.objects[1] = {shapeItem(shape)};
-  const Placement twice{Mat3(2 * Mat3::Identity()), {}};
-  edit.world = SceneItems{callItem(1, turn(0.1, {})), callItem(1, turn(0.2, {1, 0, 0})),
-                          callItem(1, turn(0.3, {}) * twice), callItem(1, turn(0.4, {}) * twice)};
+  const Placement twice{Mat3(2 * Mat3::Identity()), Vec3::Zero()};
+  edit.world = SceneItems{callItem(1, turn(0.1, Vec3::Zero())), callItem(1, turn(0.2, {1, 0, 0})),
+                          callItem(1, turn(0.3, Vec3::Zero()) * twice), callItem(1, turn(0.4, Vec3::Zero()) * twice)};
   scene.apply(edit);
   EXPECT_EQ(scene.placed()[0].shape, shape);
   EXPECT_EQ(scene.placed()[1].shape, shape);
   EXPECT_NE(scene.placed()[2].shape, shape);
   EXPECT_EQ(scene.placed()[2].shape, scene.placed()[3].shape);
   const auto scaled = scene.placed()[2].shape;
-  edit.world->at(2).placement = turn(0.9, {}) * twice;
+  edit.world->at(2).placement = turn(0.9, Vec3::Zero()) * twice;
   scene.apply(worldOf(*edit.world));
   EXPECT_EQ(scene.placed()[2].shape, scaled) << "turned, not built again";
 }

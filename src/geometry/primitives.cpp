@@ -1,0 +1,103 @@
+#include "geometry/primitives.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <utility>
+
+namespace hl {
+
+Primitives::Primitives(const MeshView& mesh) : mesh_(mesh), size_(mesh.elements()) {
+  assert(size_ <= std::numeric_limits<std::uint32_t>::max());
+  std::vector<std::uint32_t> kept;
+  const auto refuse = [&](std::size_t i, PrimitiveKind kind) {
+    if (refused_.sum() == 0) {
+      kept.reserve(size_ - 1);
+      for (std::uint32_t before = 0; before < i; ++before) kept.push_back(before);
+    }
+    ++(kind == PrimitiveKind::kTriangle  ? refused_.triangles
+       : kind == PrimitiveKind::kSegment ? refused_.segments
+                                         : refused_.points);
+  };
+  for (std::size_t i = 0; i < size_; ++i) {
+    const Element made_from = element(i);
+    if (!valid(made_from)) {
+      refuse(i, made_from.kind);
+    } else if (refused_.sum() > 0) {
+      kept.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+  size_ -= refused_.sum();
+  kept_ = std::move(kept);
+}
+
+Primitives::Element Primitives::element(std::size_t i) const {
+  std::size_t number = kept_.empty() ? i : kept_[i];
+  if (number < mesh_.triangles.size()) return {PrimitiveKind::kTriangle, static_cast<std::uint32_t>(number)};
+  number -= mesh_.triangles.size();
+  if (number < mesh_.segments.size()) return {PrimitiveKind::kSegment, static_cast<std::uint32_t>(number)};
+  return {PrimitiveKind::kPoint, static_cast<std::uint32_t>(number - mesh_.segments.size())};
+}
+
+bool Primitives::valid(const Element& element) const {
+  const auto in_range = [&](std::uint32_t index) { return index < mesh_.positions.size(); };
+  const auto all_in_range = [&](const auto& indices) { return std::all_of(indices.begin(), indices.end(), in_range); };
+  switch (element.kind) {
+    case PrimitiveKind::kTriangle: {
+      if (!all_in_range(mesh_.triangles[element.source])) return false;
+      const auto v = corners(element);
+      return isTriangle(v[0], v[1], v[2]);
+    }
+    case PrimitiveKind::kSegment: {
+      if (!all_in_range(mesh_.segments[element.source])) return false;
+      const auto v = corners(element);
+      return isSegment(v[0], v[1]);
+    }
+    case PrimitiveKind::kPoint:
+      break;
+  }
+  return in_range(mesh_.points[element.source]) && withinReach(corners(element)[0]);
+}
+
+std::array<Vec3, 3> Primitives::corners(const Element& element) const {
+  const auto& p = mesh_.positions;
+  switch (element.kind) {
+    case PrimitiveKind::kTriangle: {
+      const auto& t = mesh_.triangles[element.source];
+      return {p[t[0]], p[t[1]], p[t[2]]};
+    }
+    case PrimitiveKind::kSegment: {
+      const auto& s = mesh_.segments[element.source];
+      return {p[s[0]], p[s[1]], p[s[1]]};
+    }
+    case PrimitiveKind::kPoint:
+      break;
+  }
+  const Vec3& point = p[mesh_.points[element.source]];
+  return {point, point, point};
+}
+
+std::array<Vec3, 3> Primitives::corners(std::size_t i) const {
+  return ready_.empty() ? corners(element(i)) : ready_[i].vertex;
+}
+
+PrimitiveKind Primitives::kind(std::size_t i) const { return ready_.empty() ? element(i).kind : ready_[i].kind; }
+
+std::uint32_t Primitives::source(std::size_t i) const { return ready_.empty() ? element(i).source : ready_[i].source; }
+
+Primitive Primitives::operator[](std::size_t i) const {
+  if (!ready_.empty()) return ready_[i];
+  const Element made_from = element(i);
+  const auto v = corners(made_from);
+  switch (made_from.kind) {
+    case PrimitiveKind::kTriangle:
+      return triangleOf(v[0], v[1], v[2], made_from.source);
+    case PrimitiveKind::kSegment:
+      return segmentOf(v[0], v[1], made_from.source);
+    case PrimitiveKind::kPoint:
+      break;
+  }
+  return pointOf(v[0], made_from.source);
+}
+
+}  // namespace hl

@@ -1,0 +1,87 @@
+// Primitives: those of one shape, each put together from the vertices and index lists of its mesh when it is asked for.
+// Kept ready they would take 104 bytes each; the mesh is there anyway, at 12 to 24 for a triangle.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/primitive.h"
+
+namespace hl {
+
+/// Views of what a mesh is made of. Indices count in `positions`; metres.
+struct MeshView {
+  std::span<const Vec3> positions;
+  std::span<const std::array<std::uint32_t, 3>> triangles;
+  std::span<const std::array<std::uint32_t, 2>> segments;
+  std::span<const std::uint32_t> points;
+  std::size_t elements() const { return triangles.size() + segments.size() + points.size(); }
+};
+
+/// A view: what it was made from must outlive it and stay as it is. Reading is RT-safe, on any thread.
+class Primitives {
+ public:
+  /// Elements that make no primitive, by kind: degenerate, out of reach, or with an index out of range.
+  struct Refused {
+    std::size_t triangles = 0, segments = 0, points = 0;
+    std::size_t sum() const { return triangles + segments + points; }
+  };
+
+  Primitives() = default;
+  /// Triangles first, then segments, then points; refused ones are left out.
+  explicit Primitives(const MeshView& mesh);
+  /// Ready ones, in any order.
+  Primitives(std::span<const Primitive> ready) : ready_(ready), size_(ready.size()) {}                // NOLINT: a view
+  Primitives(const std::vector<Primitive>& ready) : Primitives(std::span<const Primitive>(ready)) {}  // NOLINT: a view
+
+  const Refused& refused() const { return refused_; }
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  /// Memory of its own, beside the mesh's.
+  std::size_t bytes() const { return kept_.capacity() * sizeof(std::uint32_t); }
+
+  Primitive operator[](std::size_t i) const;
+  PrimitiveKind kind(std::size_t i) const;
+  /// As Primitive::source.
+  std::uint32_t source(std::size_t i) const;
+  /// The vertices in the order given; a segment's last is there twice, a point's three times.
+  std::array<Vec3, 3> corners(std::size_t i) const;
+
+  class Iterator {
+   public:
+    Iterator(const Primitives& of, std::size_t at) : of_(of), at_(at) {}
+    Primitive operator*() const { return of_[at_]; }
+    Iterator& operator++() {
+      ++at_;
+      return *this;
+    }
+    bool operator!=(const Iterator& other) const { return at_ != other.at_; }
+
+   private:
+    const Primitives& of_;
+    std::size_t at_;
+  };
+  Iterator begin() const { return {*this, 0}; }
+  Iterator end() const { return {*this, size_}; }
+
+ private:
+  /// An element of the mesh: which list, and where in it.
+  struct Element {
+    PrimitiveKind kind;
+    std::uint32_t source;
+  };
+  Element element(std::size_t i) const;
+  bool valid(const Element& element) const;
+  std::array<Vec3, 3> corners(const Element& element) const;
+
+  MeshView mesh_;
+  std::vector<std::uint32_t> kept_;  // numbers among all elements of the mesh; empty when none was refused
+  std::span<const Primitive> ready_;
+  std::size_t size_ = 0;
+  Refused refused_;
+};
+
+}  // namespace hl
