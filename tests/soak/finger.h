@@ -45,7 +45,9 @@ class Finger {
   void begin(const Vec3& proxy) {
     way_ = kWays[static_cast<std::size_t>(random_.below(kWays.size()))];
     left_ = 20 + random_.below(200);
-    place_ = random_.below(3) == 0 ? anywhere() : Vec3(proxy + random_.inCube(3));
+    // Rules that add energy without limit may drive the proxy far away.
+    const bool near = (proxy.cwiseAbs().array() < 3 * half_.array()).all();
+    place_ = random_.below(3) == 0 || !near ? anywhere() : Vec3(proxy + random_.inCube(3));
     // In a tick of 1 ms at r = 1 mm: from 1 mm/s to 10 m/s.
     velocity_ = std::pow(10.0, random_.uniform(-3, 1)) * random_.direction();
     // Noise from far below the skin up; deep is up to a thousand times the scene away.

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string>
 
@@ -21,8 +22,9 @@ namespace {
 constexpr std::uint64_t kTicksPerPiece = 10'000;
 constexpr int kTicksPerLife = 1'000;  // then a new proxy begins elsewhere
 constexpr int kTicksPerLook = 4;      // at the clearance; ticks at the cap are all looked at
-// Radii: rolling over plates thinner than that, the proxy knows on which of their edges it is only to rounding.
-constexpr double kRounding = 1e-6;
+// Where two edges of a needle or of a very thin plate are equally near to rounding, the plane of the wrong one leans by
+// about the root of that rounding, eps extent / radius; in so many radii of way the proxy comes nearer by as much.
+constexpr double kMostWay = 20;
 
 struct Options {
   std::uint64_t seed = 1;
@@ -92,7 +94,13 @@ class Piece {
     const double above = clearance_.at(p, 2 * radius) / radius - 1;
     ++seen_.looks;
     seen_.least_above = std::min(seen_.least_above, above);
-    if (above < -kRounding) blame(fmt::format("the proxy is too near by {:.3g} radii", -above));
+    if (above < -rounding()) blame(fmt::format("the proxy is too near by {:.3g} radii", -above));
+  }
+
+  // Of the clearance, in radii.
+  double rounding() const {
+    constexpr double kEps = std::numeric_limits<double>::epsilon();
+    return kMostWay * std::sqrt(kEps * world_.snapshot->extent / world_.settings.radius);
   }
 
   void blame(const std::string& what) {
@@ -134,32 +142,41 @@ Pieces piecesOf(const Options& options) {
   return {piece, piece + 1, 1, 1};
 }
 
-int run(const Options& options) {
-  const Pieces pieces = piecesOf(options);
-  std::array<Seen, kKinds.size()> of_kind;
-  std::map<std::uint64_t, std::string> faults;
-  Progress progress(pieces.count());
-  runPieces(
-      pieces, progress, [&](std::uint64_t number) { return Piece(options.seed, number).run(); },
-      [&](std::uint64_t number, const Seen& seen) {
-        of_kind[number % kKinds.size()].add(seen);
-        if (!seen.fault.empty()) faults[number] = seen.fault;
-      });
+using OfKind = std::array<Seen, kKinds.size()>;
+using Faults = std::map<std::uint64_t, std::string>;  // by piece
+
+int report(const OfKind& of_kind, const Faults& faults) {
   for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
     const Seen& seen = of_kind[kind];
     if (seen.pieces == 0) continue;
     fmt::print(
-        "{}: {} ticks in {} scenes, {:.0f} % in contact, {} at the cap, at most {} iterations; clearance >= radius (1 "
-        "+ {:.2g}) at {} looks\n",
+        "{}: {} ticks in {} scenes, {:.0f} % in contact, {} at the cap, at most {} iterations; "
+        "clearance >= radius (1 + {:.2g}) at {} looks\n",
         kKinds[kind], seen.ticks, seen.pieces,
         100.0 * static_cast<double>(seen.touching) / static_cast<double>(seen.ticks), seen.capped, seen.most_iterations,
         seen.least_above, seen.looks);
   }
-  for (const auto& [number, fault] : faults)
-    fmt::print("FAULT in {}, {}; again: soak --seed {} --piece {}\n", kKinds[number % kKinds.size()], fault,
-               options.seed, number);
+  for (const auto& [piece, fault] : faults) fmt::print("{}\n", fault);
   fmt::print("{} faults\n", faults.size());
   return faults.empty() ? 0 : 1;
+}
+
+int run(const Options& options) {
+  const Pieces pieces = piecesOf(options);
+  OfKind of_kind;
+  Faults faults;
+  Progress progress(pieces.count());
+  const auto collect = [&](std::uint64_t number, const Seen& seen) {
+    const std::size_t kind = number % kKinds.size();
+    of_kind[kind].add(seen);
+    if (seen.fault.empty()) return;
+    faults[number] = fmt::format("FAULT in {}, {}; again: soak --seed {} --piece {}", kKinds[kind], seen.fault,
+                                 options.seed, number);
+    fmt::print(stderr, "{}\n", faults[number]);  // at once: a long run may be stopped
+  };
+  runPieces(
+      pieces, progress, [&](std::uint64_t number) { return Piece(options.seed, number).run(); }, collect);
+  return report(of_kind, faults);
 }
 
 }  // namespace
