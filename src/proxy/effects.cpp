@@ -83,6 +83,12 @@ SolverResult Effects::firstPass(const ContactSet& set, const TouchedSet& touched
   return held;
 }
 
+// The point nearest the goal above the true planes; where the proxy is when rounding leaves none.
+Vec3 Effects::aboveTruePlanes(const ContactSet& set, const Vec3& goal) const {
+  const SolverResult result = nearestAbove({set.planes.begin(), set.planes.size()}, goal, tolerance_.feasible);
+  return result.violation <= tolerance_.feasible ? result.point : Vec3(Vec3::Zero());
+}
+
 // Pass 2: back above the true planes; a goal above all of them comes down to the nearest.
 Vec3 Effects::secondPass(const ContactSet& set, const Vec3& goal) const {
   if (set.planes.size() == 1)  // as most: from either side onto the plane
@@ -97,8 +103,7 @@ Vec3 Effects::secondPass(const ContactSet& set, const Vec3& goal) const {
     }
   }
   const Vec3 lowered = lowest > 0 ? Vec3(goal - down) : goal;
-  const SolverResult result = nearestAbove({set.planes.begin(), set.planes.size()}, lowered, tolerance_.feasible);
-  return result.violation <= tolerance_.feasible ? result.point : Vec3(Vec3::Zero());
+  return aboveTruePlanes(set, lowered);
 }
 
 // The slip along the way, after `before`.
@@ -122,6 +127,7 @@ Vec3 Effects::slip(Resistance& resistance, const Drag& drag, const Vec3& way, co
 // A stuck proxy with pre-sliding springs creeps to where they balance the pull that is left,
 //   |way - D| = creep |creep_m + D|,
 // and back when the pull falls: the elastic state z of Dahl's and Hayward and Armstrong's models, without their drift.
+// D comes from where the proxy got stuck: on a surface that turns, the springs may pull into what it touches now.
 Vec3 Effects::resistedStep(Resistance resistance, const Vec3& way, double slipped_now, SubGoal& sub_goal) const {
   sub_goal.viscous = sub_goal.creep = 0;
   sub_goal.creeps = false;
@@ -192,7 +198,7 @@ SubGoal Effects::subGoal(const ContactSet& set, const Vec3& position, const Vec3
     const Vec3 resisted = resisting ? resistedStep(resistanceOf(touched, held), way, offset.norm(), sub_goal) : way;
     const Vec3 goal = offset + resisted;
     sub_goal.held = way - resisted;
-    sub_goal.step = sub_goal.bent ? secondPass(set, goal) : goal;
+    sub_goal.step = sub_goal.bent ? secondPass(set, goal) : sub_goal.creeps ? aboveTruePlanes(set, goal) : goal;
     const Vec3 change = sub_goal.step - offset;
     const bool repeats = few && sub_goal.bent && settings_.shading != ShadingPasses::kOnce;
     sub_goal.settles = repeats ? change.norm() <= enough : slipsAtOnce(touched, sub_goal);

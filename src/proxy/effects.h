@@ -90,6 +90,7 @@ class Effects {
   bool creased(const ContactSet& set, const Contact& contact, const Vec3& normal) const;
   void moveOn(const ContactSet& set, const Vec3& position, const Vec3& offset, TouchedSet& touched) const;
   SolverResult firstPass(const ContactSet& set, const TouchedSet& touched, const Vec3& gap, const Vec3& offset) const;
+  Vec3 aboveTruePlanes(const ContactSet& set, const Vec3& goal) const;
   Vec3 secondPass(const ContactSet& set, const Vec3& goal) const;
   Resistance resistanceOf(const TouchedSet& touched, const SolverResult& held) const;
   Vec3 resistedStep(Resistance resistance, const Vec3& way, double slipped_now, SubGoal& sub_goal) const;

@@ -208,6 +208,22 @@ TEST(Friction, PreslidingCreepsLikeASpringAndBreaksAwayAtTheSameForce) {
   EXPECT_NEAR(steady.mean, 0.4 * kK * kDepth, 1e-3 * 0.4 * kK * kDepth);
 }
 
+// In one tick from the floor to the wall: the springs still pull as on the floor, straight into the wall.
+TEST(Friction, PreSlidingNeverPullsTheProxyIntoAnotherSurface) {
+  Model model = test::floorModel();
+  test::addRectangle(model, {0.02, 0, 0.1}, {0, 0.1, 0}, {0, 0, -0.2}, -Vec3::UnitX());
+  model.materials[0].static_friction = 0.6;
+  model.materials[0].presliding_N_m = 4 * kK;
+  const auto scene = test::snapshotOf(std::move(model));
+  ProxySettings settings = settingsOf(0, 0);
+  settings.surfaces = {};
+  ProxyState state = startProxy(*scene, settings, {0, 0.01, 0});
+  for (const double x : {0.0, -0.5 * kDepth}) tick(state, *scene, settings, {x, kRadius - kDepth, 0});
+  EXPECT_LT(state.creep.x(), -0.05 * kDepth);
+  tick(state, *scene, settings, {0.02, 0.01, 0});
+  EXPECT_LE(state.position.x(), 0.02 - kRadius);
+}
+
 // C10 with friction: no tick leaves the proxy farther from the finger than it was.
 TEST(Friction, NeverAddsEnergy) {
   const auto scene = test::groove(1.2);
