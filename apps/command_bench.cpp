@@ -116,8 +116,8 @@ void run(const BenchOptions& options) {
 template <typename T, std::size_t N>
 void addListOption(CLI::App& command, const std::string& name, std::vector<std::string>& list,
                    const std::array<T, N>& all, const std::string& text) {
-  std::vector<std::string> names;
-  for (const T& one : all) names.emplace_back(nameOf(one));
+  std::vector<std::string> names(N);
+  std::transform(all.begin(), all.end(), names.begin(), [](const T& one) { return nameOf(one); });
   command.add_option(name, list, text + ": " + fmt::format("{}", fmt::join(names, ",")))
       ->delimiter(',')
       ->check(CLI::IsMember(names))
