@@ -1,152 +1,147 @@
-// hl bench: the time of a tick against the number of primitives, sliding over terrain, as a table and CSV.
+// hl bench: the time of a tick on this machine, by scene, size, motion and radius; on request beside other libraries.
 #include <fmt/core.h>
-#include <fmt/os.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdint>
-#include <optional>
+#include <memory>
+#include <vector>
 
-#include "base/clock.h"
 #include "base/error.h"
-#include "base/histogram.h"
+#include "bench_output.h"
 #include "builtin.h"
 #include "commands.h"
-#include "proxy/proxy.h"
+#include "io/load_scene.h"
+#include "tick/peers/peers.h"
+#include "tick/suite.h"
 
 namespace hl {
 
 namespace {
 
-constexpr double kSpeed_m_s = 0.15;
-constexpr double kPeriod_s = 1e-3;
-constexpr double kDepth_m = 0.004;               // of the finger beneath the surface
-constexpr std::size_t kBruteForceMost = 10'000;  // beyond, testing every primitive takes minutes
+constexpr double kSide_m = 0.2;  // of a scene from a file, as of the built-in ones
+constexpr std::size_t kLeast = 1000;
+
+struct SceneName {
+  const char* name;
+};
+constexpr std::array<SceneName, 4> kScenes{{{"terrain"}, {"sphere"}, {"soup"}, {"pits"}}};
+const char* nameOf(SceneName scene) { return scene.name; }
+
+constexpr std::array kHierarchies{HierarchyKind::kBvh, HierarchyKind::kSpheres, HierarchyKind::kNone};
+
+constexpr const char* kNoPeers = "this hl was built without the libraries to compare with: run scripts/build --peers";
+
+constexpr const char* kFooter =
+    "Times in microseconds, each with the reading of the clock; every tick counts but those of the first approach.\n"
+    "tick: a whole tick of the proxy; near: the nearest primitive within 1.01 radii of where the proxy was;\n"
+    "impact: the first impact of the sphere from one radius above the proxy to where the finger goes next.\n"
+    "build 1, all: to build the hierarchy on one thread and on all, in ns for one primitive; bytes: of the hierarchy\n"
+    "and of all, for one primitive; x plain: mean tick over that without effects; x tick, x query: median over that\n"
+    "of HL's tick, and of HL's own query; wrong: answers more than 10 um from HL's, of those compared.\n";
 
 struct BenchOptions {
+  std::vector<std::string> scenes, motions, radii;  ///< empty: the usual ones
+  std::vector<std::string> hierarchies{"bvh", "spheres", "none"};
+  std::string file;
   double radius = 1e-3;
-  int ticks = 20'000;
-  int most = 1'000'000;
+  double radius_edges = 1;
+  std::size_t ticks = 20'000, most = 1'000'000;
+  bool all = false, peers = false, effects = true;
   std::string csv;
 };
 
-// What the surface does beside holding the proxy off.
-enum class Feel : std::uint8_t { kPlain, kShading, kFriction, kEverything };
-constexpr std::array<Feel, 4> kFeels{Feel::kPlain, Feel::kShading, Feel::kFriction, Feel::kEverything};
-constexpr std::array<const char*, 4> kFeelNames{"plain", "shading", "friction", "everything"};
-
-// Everything: shading, both frictions, viscosity, and textures of stiffness, static friction and height.
-void setFeel(Model& model, Feel feel) {
-  Material& material = model.materials[0];
-  if (feel == Feel::kShading || feel == Feel::kEverything) material.smooth = true;
-  if (feel == Feel::kFriction || feel == Feel::kEverything) {
-    material.static_friction = 0.5;
-    material.dynamic_friction = 0.3;
-    material.viscosity_Ns_m = 2;
+// Those of `all` whose names were asked for; without a name the first, or with --all every one.
+template <typename T, std::size_t N>
+std::vector<T> chosen(const std::array<T, N>& all, const std::vector<std::string>& names, bool every) {
+  if (names.empty()) return {all.begin(), every ? all.end() : all.begin() + 1};
+  std::vector<T> result;
+  for (const T& one : all) {
+    if (std::find(names.begin(), names.end(), nameOf(one)) != names.end()) result.push_back(one);
   }
-  if (feel != Feel::kEverything) return;
-  model.textures = {makeTexture("noise", 64), makeTexture("checker", 64), makeTexture("sine", 64)};
-  material.textureOf(Quantity::kStiffness) = {0, 0.5, 1};
-  material.textureOf(Quantity::kStaticFriction) = {1, 0.3, 0.6};
-  material.textureOf(Quantity::kHeight) = {2, 0, 1e-4};
+  return result;
 }
 
-struct Row {
-  std::string hierarchy, surface;
-  std::size_t primitives;
-  double build_s;      // of the whole snapshot
-  double index_ns;     // to build its hierarchy alone, and
-  double index_bytes;  // its memory, each for one primitive
-  Histogram ticks;
-  int capped = 0;
-  std::int64_t total_ns = 0;
-};
-
-void measureIndex(const Shape& shape, HierarchyKind kind, Row& row) {
-  const auto primitives = static_cast<double>(row.primitives);
-  const std::int64_t start_ns = monotonicNow_ns();
-  const auto index = makeIndex(shape.primitives, kind);
-  row.index_ns = static_cast<double>(monotonicNow_ns() - start_ns) / primitives;
-  row.index_bytes = static_cast<double>(index->stats().bytes) / primitives;
+bench::BenchScene builtinScene(const std::string& name, const BenchOptions& options) {
+  bench::BenchScene scene;
+  scene.name = name;
+  for (std::size_t size = kLeast; size <= options.most; size *= 10) scene.sizes.push_back(size);
+  scene.make = [name](std::size_t size) { return makeBuiltinScene(name + ":" + std::to_string(size)); };
+  scene.effects = options.effects && name == "terrain";
+  return scene;
 }
 
-// A curve that never repeats, at kSpeed over the middle of the terrain, following its height where the proxy is.
-Row measure(std::size_t size, HierarchyKind kind, Feel feel, const BenchOptions& options) {
-  Row row{nameOf(kind), kFeelNames[static_cast<std::size_t>(feel)], 0, 0, 0, 0, {}};
-  Model model = makeBuiltinScene("terrain:" + std::to_string(size));
-  setFeel(model, feel);
-  const std::int64_t build_ns = monotonicNow_ns();
-  const auto snapshot = makeSnapshot(std::move(model), kind);
-  row.build_s = 1e-9 * static_cast<double>(monotonicNow_ns() - build_ns);
-  row.primitives = snapshot->primitives;
-  measureIndex(snapshot->shape(), kind, row);
-  const Vec3 centre = snapshot->bounds.centre();
-  const double reach = 0.35 * std::min(snapshot->bounds.size().x(), snapshot->bounds.size().z());
-  const ProxySettings settings{options.radius, 1000};
-  ProxyState state = startProxy(*snapshot, settings, centre + Vec3(0, snapshot->bounds.size().y() + 0.01, 0));
-  const int ticks = kind == HierarchyKind::kNone ? std::min(options.ticks, 2000) : options.ticks;
-  for (int i = -100; i < ticks; ++i) {  // the first hundred bring the finger down and warm the caches
-    const double s = kSpeed_m_s * kPeriod_s * i / reach;
-    const Vec3 over = centre + reach * Vec3(std::sin(s), 0, std::sin(1.618 * s) * std::cos(0.3 * s));
-    const Vec3 finger(over.x(), std::min(over.y(), state.position.y() - kDepth_m), over.z());
-    const std::int64_t start_ns = monotonicNow_ns();
-    const TickReport report = tick(state, *snapshot, settings, finger);
-    const std::int64_t time_ns = monotonicNow_ns() - start_ns;
-    if (i < 0) continue;
-    row.ticks.add(static_cast<std::uint64_t>(time_ns));
-    row.total_ns += time_ns;
-    row.capped += report.capped ? 1 : 0;
+// Read at once, so that a bad file is known before anything is measured.
+bench::BenchScene fileScene(const std::string& file) {
+  const auto model = std::make_shared<Model>(loadScene(file));
+  if (model->elements() == 0) throw Error(file + ": nothing in it can be touched");
+  fitModel(*model, kSide_m);
+  bench::BenchScene scene;
+  scene.name = file.substr(file.rfind('/') + 1);
+  std::replace(scene.name.begin(), scene.name.end(), ',', '_');  // it becomes a field of the CSV
+  scene.sizes = {model->elements()};
+  scene.make = [model](std::size_t) { return *model; };
+  return scene;
+}
+
+std::vector<bench::BenchScene> scenesOf(const BenchOptions& options) {
+  std::vector<bench::BenchScene> scenes;
+  // A file alone is measured alone.
+  if (!options.scenes.empty() || options.all || options.file.empty()) {
+    for (const SceneName name : chosen(kScenes, options.scenes, options.all)) {
+      scenes.push_back(builtinScene(name.name, options));
+    }
   }
-  return row;
-}
-
-double us(std::uint64_t ns) { return 1e-3 * static_cast<double>(ns); }
-
-std::optional<fmt::ostream> openCsv(const std::string& name) {
-  if (name.empty()) return {};
-  try {
-    std::optional<fmt::ostream> csv(fmt::output_file(name));
-    csv->print("hierarchy,surface,primitives,build_s,index_ns,index_bytes,ticks,p50_us,p99_us,p999_us,max_us,capped\n");
-    return csv;
-  } catch (const std::system_error& error) {
-    throw Error("cannot write " + name + ": " + error.what());
-  }
-}
-
-void print(const Row& row, double ratio, std::optional<fmt::ostream>& csv) {
-  const Histogram& t = row.ticks;
-  const double p50 = us(t.percentile_ns(0.5)), p99 = us(t.percentile_ns(0.99)), p999 = us(t.percentile_ns(0.999));
-  fmt::print("{:<10}{:<12}{:>11}{:>10.3f}{:>8.0f}{:>7.0f}{:>9.2f}{:>9.2f}{:>9.2f}{:>9.2f}{:>8}{:>8.2f}\n",
-             row.hierarchy, row.surface, row.primitives, row.build_s, row.index_ns, row.index_bytes, p50, p99, p999,
-             us(t.max_ns()), row.capped, ratio);
-  std::fflush(stdout);
-  if (!csv) return;
-  csv->print("{},{},{},{:.6f},{:.1f},{:.1f},{},{:.3f},{:.3f},{:.3f},{:.3f},{}\n", row.hierarchy, row.surface,
-             row.primitives, row.build_s, row.index_ns, row.index_bytes, t.count(), p50, p99, p999, us(t.max_ns()),
-             row.capped);
+  if (!options.file.empty()) scenes.push_back(fileScene(options.file));
+  return scenes;
 }
 
 void run(const BenchOptions& options) {
-  std::optional<fmt::ostream> csv = openCsv(options.csv);
-  fmt::print(
-      "one tick, sliding at {} m/s over terrain, r = {} m, times in us; ratio: mean time to that of plain;\n"
-      "build s: of the scene; ns and bytes: to build the hierarchy alone and its memory, for one primitive\n",
-      kSpeed_m_s, options.radius);
-  fmt::print("{:<10}{:<12}{:>11}{:>10}{:>8}{:>7}{:>9}{:>9}{:>9}{:>9}{:>8}{:>8}\n", "hierarchy", "surface", "primitives",
-             "build s", "ns", "bytes", "p50", "p99", "p99.9", "max", "capped", "ratio");
-  for (const HierarchyKind kind : {HierarchyKind::kBvh, HierarchyKind::kSpheres, HierarchyKind::kNone}) {
-    for (int size = 1000; size <= options.most; size *= 10) {
-      if (kind == HierarchyKind::kNone && static_cast<std::size_t>(size) > kBruteForceMost) break;
-      double plain_ns = 0;
-      for (const Feel feel : kFeels) {
-        if (kind == HierarchyKind::kNone && feel != Feel::kPlain) break;
-        const Row row = measure(static_cast<std::size_t>(size), kind, feel, options);
-        const double mean_ns = static_cast<double>(row.total_ns) / static_cast<double>(row.ticks.count());
-        if (feel == Feel::kPlain) plain_ns = mean_ns;
-        print(row, mean_ns / plain_ns, csv);
-      }
-    }
-  }
+  const bool built_in = !bench::peers().empty();
+  if (options.peers && !built_in) throw Error(kNoPeers);
+  bench::SuitePlan plan;
+  plan.scenes = scenesOf(options);
+  plan.motions = chosen(bench::kFingerMotions, options.motions, options.all);
+  plan.radii = chosen(bench::kRadiusModes, options.radii, options.all);
+  plan.hierarchies = chosen(kHierarchies, options.hierarchies, true);
+  plan.radius_m = options.radius;
+  plan.radius_edges = options.radius_edges;
+  plan.ticks = options.ticks;
+  plan.peers = built_in && (options.peers || options.all);
+  BenchOutput output(options.csv);
+  if (options.all && !built_in) output.note(std::string("peers left out: ") + kNoPeers);
+  runSuite(plan, output.sink());
+}
+
+template <typename T, std::size_t N>
+void addListOption(CLI::App& command, const std::string& name, std::vector<std::string>& list,
+                   const std::array<T, N>& all, const std::string& text) {
+  std::vector<std::string> names(N);
+  std::transform(all.begin(), all.end(), names.begin(), [](const T& one) { return nameOf(one); });
+  command.add_option(name, list, text + ": " + fmt::format("{}", fmt::join(names, ",")))
+      ->delimiter(',')
+      ->check(CLI::IsMember(names))
+      ->option_text("LIST");
+}
+
+void addWhatOptions(CLI::App& command, BenchOptions& options) {
+  command.add_flag("--all", options.all, "every scene, motion and radius that is not chosen otherwise, and the peers");
+  addListOption(command, "--scenes", options.scenes, kScenes,
+                "built-in scenes, each in sizes of 1e3, 1e4, ... triangles (default: terrain)");
+  command
+      .add_option("--scene", options.file, "a model file, fitted to 0.2 m (alone, unless --scenes or --all are there)")
+      ->option_text("FILE");
+  addListOption(command, "--motions", options.motions, bench::kFingerMotions,
+                "how the finger moves, always at 0.15 m/s and 1000 ticks a second (default: sliding)");
+  addListOption(command, "--radii", options.radii, bench::kRadiusModes,
+                "the radius of the proxy: --radius, or scaled with the mesh as --radius-edges says (default: fixed)");
+  addListOption(command, "--hierarchies", options.hierarchies, kHierarchies,
+                "beside the bvh for sliding with the fixed radius; none up to 10 000 triangles (default: all)");
+  command.add_flag("!--no-effects", options.effects,
+                   "leave out the surface effects, which are measured for sliding on terrain with the fixed radius");
+  command.add_flag(
+      "--peers", options.peers,
+      "Embree, CGAL, FCL and Bullet, on the same mesh and the same places; built in by scripts/build --peers");
 }
 
 }  // namespace
@@ -154,16 +149,21 @@ void run(const BenchOptions& options) {
 void addBenchCommand(CLI::App& app) {
   auto* command = app.add_subcommand("bench", "the time of a tick on this machine against the number of primitives");
   auto options = std::make_shared<BenchOptions>();
-  command->add_option("--radius", options->radius, "proxy radius in metres")
+  addWhatOptions(*command, *options);
+  command->add_option("--radius", options->radius, "the fixed proxy radius in metres")
       ->check(CLI::Validator(checkPositive, "POSITIVE"))
       ->capture_default_str();
-  command->add_option("--ticks", options->ticks, "ticks for each size")
-      ->check(CLI::Range(100, 100'000'000))
+  command->add_option("--radius-edges", options->radius_edges, "the scaled proxy radius in mean edges of the mesh")
+      ->check(CLI::Validator(checkPositive, "POSITIVE"))
+      ->capture_default_str();
+  command->add_option("--ticks", options->ticks, "ticks for each row")
+      ->check(CLI::Range(100, 10'000'000))
       ->capture_default_str();
   command->add_option("--most", options->most, "largest number of triangles")
       ->check(CLI::Range(1000, 10'000'000))
       ->capture_default_str();
-  command->add_option("--csv", options->csv, "also write the table to this file");
+  command->add_option("--csv", options->csv, "also write the table to this file")->option_text("FILE");
+  command->footer(kFooter);
   command->callback([options] { run(*options); });
 }
 

@@ -35,7 +35,7 @@ void addSceneArgument(CLI::App& command, SceneOptions& options, bool required) {
   auto* argument = command.add_option(
       "scene", options.scene,
       "a model file (obj, ply, stl, gltf, glb, x3d, wrl, ...) or a built-in scene: teapot[:N], walker, terrain:N, "
-      "sphere:N, plane:N, pipe:N");
+      "sphere:N, plane:N, pipe:N, pits:N, soup:N");
   if (required) {
     argument->required();
   } else {

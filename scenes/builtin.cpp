@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "soup.h"
 #include "surfaces.h"
 #include "teapot.h"
 #include "walker.h"
@@ -21,7 +22,7 @@ struct Builtin {
   Model (*make)(std::size_t n);
 };
 
-constexpr std::array<Builtin, 6> kBuiltins{{
+constexpr std::array<Builtin, 8> kBuiltins{{
     {"teapot", 1,
      [](std::size_t n) { return n == 1 ? makeTeapot() : makeTeapot(static_cast<int>(n), static_cast<int>(n)); }},
     {"walker", 0, [](std::size_t) { return makeWalker(); }},
@@ -29,6 +30,8 @@ constexpr std::array<Builtin, 6> kBuiltins{{
     {"sphere", 20'000, makeBumpySphere},
     {"plane", 20'000, makePlane},
     {"pipe", 100'000, makeHalfPipe},
+    {"pits", 20'000, makePits},
+    {"soup", 20'000, makeSoup},
 }};
 
 const Builtin* find(std::string_view name) {
@@ -48,7 +51,8 @@ Model makeBuiltinScene(const std::string& spec) {
   const std::size_t colon = spec.find(':');
   const Builtin* builtin = find(std::string_view(spec).substr(0, colon));
   if (builtin == nullptr) {
-    throw Error("no built-in scene '" + spec + "'; there are teapot[:N], walker, terrain:N, sphere:N, plane:N, pipe:N");
+    throw Error("no built-in scene '" + spec +
+                "'; there are teapot[:N], walker, terrain:N, sphere:N, plane:N, pipe:N, pits:N, soup:N");
   }
   std::size_t n = builtin->usual;
   if (colon != std::string::npos) {

@@ -10,7 +10,8 @@ namespace hl {
 /// True for a name (with or without :N) of a built-in scene; a file of the same name must be given with its folder.
 bool isBuiltinScene(const std::string& spec);
 
-/// teapot[:N] | walker | terrain[:N] | sphere[:N] | plane[:N] | pipe[:N]. Throws hl::Error with the list for any other.
+/// teapot[:N] | walker | terrain[:N] | sphere[:N] | plane[:N] | pipe[:N] | pits[:N] | soup[:N]. Throws hl::Error with
+/// the list for any other.
 Model makeBuiltinScene(const std::string& spec);
 
 }  // namespace hl

@@ -79,6 +79,17 @@ Model makePlane(std::size_t triangles) {
   return makeSurface(n, n, [](double u, double v) { return Vec3(kSide * (u - 0.5), 0, kSide * (0.5 - v)); });
 }
 
+Model makePits(std::size_t triangles) {
+  // Ridges and valleys of a wave lie on lines of the grid, where the mesh can be sharp.
+  constexpr std::uint32_t kWaves = 10;
+  const std::uint32_t n = 2 * kWaves * std::max(1u, (cells(triangles) + kWaves) / (2 * kWaves));
+  return makeSurface(n, n, [](double u, double v) {
+    // From -1 in the valleys to 1 on the ridges.
+    const auto wave = [](double w) { return 4 * std::abs(kWaves * w - std::floor(kWaves * w) - 0.5) - 1; };
+    return Vec3(kSide * (u - 0.5), 0.005 * (wave(u) + wave(v)), kSide * (0.5 - v));
+  });
+}
+
 Model makeHalfPipe(std::size_t triangles) {
   const std::uint32_t n = cells(triangles);
   return makeSurface(n, n, [](double u, double v) {

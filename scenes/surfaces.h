@@ -16,6 +16,7 @@ Model makeSurface(std::uint32_t nu, std::uint32_t nv, const std::function<Vec3(d
 Model makeTerrain(std::size_t triangles);      ///< smooth hills, 30 mm from valley to peak
 Model makeBumpySphere(std::size_t triangles);  ///< radius 0.1 m with bumps of 4 mm
 Model makePlane(std::size_t triangles);        ///< y = 0
-Model makeHalfPipe(std::size_t triangles);     ///< concave upward, radius 0.1 m
+Model makePits(std::size_t triangles);      ///< 10 x 10 pyramids upside down, 20 mm wide and deep, slopes of 45 degrees
+Model makeHalfPipe(std::size_t triangles);  ///< concave upward, radius 0.1 m
 
 }  // namespace hl

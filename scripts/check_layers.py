@@ -17,7 +17,8 @@ LEVELS = {
     "io": 4,
     "server": 5,
     "client": 6,
-    "apps": 7,
+    "bench": 7,
+    "apps": 8,
 }
 # The proxy knows no threads, devices or messages, and the servo knows no scene, although their levels would allow it.
 NEVER = {"proxy": {"device", "control", "wire"}, "control": {"geometry", "wire"}, "scene": {"wire", "device"}}
@@ -38,7 +39,7 @@ LINK_CALL = re.compile(r"\b(hl_library|target_link_libraries)\s*\(([^)]*)\)")
 def folder_dirs(root):
     """(folder name, directory) of every layer that exists."""
     for name in LEVELS:
-        directory = root / name if name in ("apps", "scenes") else root / "src" / name
+        directory = root / name if name in ("apps", "bench", "scenes") else root / "src" / name
         if directory.is_dir():
             yield name, directory
 

@@ -11,6 +11,7 @@ from PIL import Image  # noqa: E402
 FIGURES = Path(__file__).resolve().parent.parent.parent / "docs" / "figures"
 
 BLUE, RED, GREY, GREEN, ORANGE = "#2f6fb2", "#c0392b", "#5b6675", "#2e7d3a", "#b06a00"
+PURPLE, BROWN, PINK = "#7d4aa8", "#6d3b1f", "#c2478c"
 SOLID = "#dfe5ec"    # inside of objects
 MM = 1000.0          # metres are drawn as millimetres
 WIDTH_IN = 10.0

@@ -3,7 +3,7 @@ import csv
 import math
 
 from plots.bench import RATE_HZ
-from plots.look import BLUE, GREEN, GREY, MM, ORANGE, RED, canvas, column, save, style
+from plots.look import BLUE, BROWN, GREEN, GREY, MM, ORANGE, PINK, PURPLE, RED, canvas, column, save, style
 
 TEAPOT_SIDE_M = 0.1   # the teapot's largest side: a small real one
 SPEED_M_S = 0.1       # a calm stroking hand
@@ -52,21 +52,52 @@ def trace(bench):
     save(figure, "trace.png")
 
 
-def tick_times(file):
-    """Median, p99 and p99.9 of the tick against the number of primitives, both on logarithmic axes."""
-    with file.open() as source:
-        rows = [row for row in csv.DictReader(source) if row["surface"] == "plain"]
-    figure, axes = canvas(height=5.2)
-    for hierarchy, colour, name in (("none", GREY, "every primitive tested"), ("spheres", BLUE, "sphere tree"), ("bvh", GREEN, "wide BVH")):
-        chosen = [row for row in rows if row["hierarchy"] == hierarchy]
-        sizes = [float(row["primitives"]) for row in chosen]
-        for key, dashes, label in (("p999_us", ":", "p99.9"), ("p99_us", "--", "p99"), ("p50_us", "-", "median")):
-            axes.plot(sizes, [float(row[key]) for row in chosen], dashes, marker="o", ms=4, lw=1.8, color=colour, label=f"{name}, {label}")
+HIERARCHIES = (("none", GREY, "every primitive tested"), ("spheres", BLUE, "sphere tree"), ("bvh", GREEN, "wide BVH"))
+PEERS = (("embree", ORANGE, "Embree"), ("cgal", PURPLE, "CGAL"), ("fcl", BROWN, "FCL"), ("bullet", PINK, "Bullet"))
+QUESTIONS = {"near": "closest point", "impact": "swept sphere"}
+LEGEND = 0.16             # of the picture's height
+RADII = {"fixed": "r = {:g} mm", "scaled": "r = {:.2g} mean edges"}
+
+
+def draw_line(axes, rows, key, *line, **options):
+    if rows:
+        axes.plot([float(row["primitives"]) for row in rows], [float(row[key]) for row in rows], *line, marker="o", ms=4, lw=1.8, **options)
+
+
+def draw_tick_times(axes, rows):
+    """HL's whole ticks, and one query of each peer on the same places."""
+    for hierarchy, colour, name in HIERARCHIES:
+        chosen = [row for row in rows if row["question"] == "tick" and row["hierarchy"] == hierarchy]
+        draw_line(axes, chosen, "p999_us", ":", color=colour, label=f"{name}, p99.9")
+        draw_line(axes, chosen, "p50_us", "-", color=colour, label=f"{name}, median")
+    for who, colour, name in PEERS:
+        chosen = [row for row in rows if row["who"] == who]
+        label = f"{name}, {QUESTIONS[chosen[0]['question']]}, median" if chosen else None
+        draw_line(axes, chosen, "p50_us", "--", color=colour, label=label)
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.axhline(1000, color=RED, lw=1)
-    axes.annotate("1 kHz: a tick every 1000 µs", (1, 1000), xycoords=("axes fraction", "data"), xytext=(-4, -14),
-                  textcoords="offset points", ha="right", color=RED)
-    axes.legend(loc="upper right", ncols=2)
-    style(axes, "triangles", "time (µs)", "One tick, sliding over terrain, r = 1 mm")
+    axes.annotate("1 kHz: a tick every 1000 µs", (0.62, 1000), xycoords=("axes fraction", "data"), xytext=(0, 4),
+                  textcoords="offset points", ha="center", color=RED)
+
+
+def radius_text(rows):
+    row = rows[0]
+    measure = 1e3 * float(row["radius_m"]) if row["radius"] == "fixed" else float(row["radius_m"]) / float(row["mean_edge_m"])
+    return RADII[row["radius"]].format(measure)
+
+
+def tick_times(file):
+    """The tick against the number of triangles, on logarithmic axes, one panel for each kind of radius that was measured."""
+    with file.open() as source:
+        rows = [row for row in csv.DictReader(source)
+                if row["scene"] == "terrain" and row["motion"] == "sliding" and row["surface"] in ("plain", "")]
+    panels = [chosen for chosen in ([row for row in rows if row["radius"] == radius] for radius in RADII) if chosen]
+    figure, all_axes = canvas(1, len(panels), 6.4, sharey=True, squeeze=False)
+    for axes, chosen in zip(all_axes[0], panels):
+        draw_tick_times(axes, chosen)
+        style(axes, "triangles", "time (µs)" if axes is all_axes[0][0] else "", f"Sliding over terrain, {radius_text(chosen)}")
+    handles, labels = all_axes[0][0].get_legend_handles_labels()
+    figure.get_layout_engine().set(rect=(0, LEGEND, 1, 1 - LEGEND))
+    figure.legend(handles, labels, loc="lower center", ncols=3)
     save(figure, "bench.png")

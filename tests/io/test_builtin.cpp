@@ -48,6 +48,30 @@ TEST(Builtin, SurfacesHaveAboutAsManyTrianglesAsAskedFor) {
   }
 }
 
+TEST(Builtin, SoupIsInItsBoxAndLooksTheSameWhateverItsNumber) {
+  for (const int n : {1, 1000, 64'000}) {
+    const Model soup = makeBuiltinScene("soup:" + std::to_string(n));
+    EXPECT_EQ(soup.triangles.size(), static_cast<std::size_t>(n));
+    EXPECT_LE(soup.bounds().max.maxCoeff(), 0.1);
+    EXPECT_GE(soup.bounds().min.minCoeff(), -0.1);
+    expectSound(soup);
+  }
+  const Model soup = makeBuiltinScene("soup:1000");
+  EXPECT_NEAR((soup.positions[1] - soup.positions[0]).norm(), 0.02, 1e-12);
+}
+
+TEST(Builtin, PitsHaveCreasesWhereTheMeshCanFollowThem) {
+  const Model pits = makeBuiltinScene("pits:50000");
+  EXPECT_NEAR(static_cast<double>(pits.triangles.size()) / 50'000, 1, 0.1);
+  EXPECT_NEAR(pits.bounds().size().y(), 0.02, 1e-12);
+  expectSound(pits);
+  for (const auto& t : pits.triangles) {
+    const Vec3& a = pits.positions[t[0]];
+    const Vec3 face = (pits.positions[t[1]] - a).cross(pits.positions[t[2]] - a).normalized();
+    ASSERT_NEAR(face.y(), 1 / std::sqrt(3), 1e-6);  // none lies across a crease
+  }
+}
+
 TEST(Builtin, BadNamesAreRefusedWithTheList) {
   for (const char* spec :
        {"tea", "terrain:", "terrain:x", "terrain:-1", "terrain:0", "terrain:99999999999", "walker:3", ""}) {

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "temp_folder.h"
 
@@ -38,17 +39,29 @@ TEST(Command, BadInputIsOneLineAndExitCodeTwo) {
   const std::string path = hl::test::fileWith("hl_cmd_path.csv", "t,x,y,z\n0,0,0,0.2\n0.001,0,0,0.1\n");
   const std::string bad = hl::test::fileWith("hl_cmd_bad.csv", "t,x,y,z\n0,0,nan,0.2\n");
   const std::string out = hl::test::tempFile("hl_cmd_out.csv");
-  for (const std::string& arguments :
-       {std::string(""), std::string("fly"), std::string("info"), std::string("info nosuch"),
-        std::string("info /nonexistent.obj"), "trace teapot --path " + bad + " --out " + out,
-        "trace teapot --path /nonexistent.csv --out " + out,
-        "trace teapot --path " + path + " --out /nonexistent/o.csv", "trace teapot --path " + path,
-        "trace teapot --radius -1 --path " + path + " --out " + out,
-        "trace teapot --radius nan --path " + path + " --out " + out,
-        "trace teapot --kp x --path " + path + " --out " + out,
-        "trace teapot --hierarchy octree --path " + path + " --out " + out,
-        "trace teapot --stiffness 2 --path " + path + " --out " + out, std::string("touch --port 70000"),
-        std::string("touch --hand weak"), std::string("bench --most 1")}) {
+  for (const std::string& arguments : {std::string(""),
+                                       std::string("fly"),
+                                       std::string("info"),
+                                       std::string("info nosuch"),
+                                       std::string("info /nonexistent.obj"),
+                                       "trace teapot --path " + bad + " --out " + out,
+                                       "trace teapot --path /nonexistent.csv --out " + out,
+                                       "trace teapot --path " + path + " --out /nonexistent/o.csv",
+                                       "trace teapot --path " + path,
+                                       "trace teapot --radius -1 --path " + path + " --out " + out,
+                                       "trace teapot --radius nan --path " + path + " --out " + out,
+                                       "trace teapot --kp x --path " + path + " --out " + out,
+                                       "trace teapot --hierarchy octree --path " + path + " --out " + out,
+                                       "trace teapot --stiffness 2 --path " + path + " --out " + out,
+                                       std::string("touch --port 70000"),
+                                       std::string("touch --hand weak"),
+                                       std::string("bench --most 1"),
+                                       std::string("bench --scenes teapot"),
+                                       std::string("bench --motions flying"),
+                                       std::string("bench --radii 1"),
+                                       std::string("bench --ticks 0"),
+                                       std::string("bench --scene /nonexistent.obj"),
+                                       std::string("bench --csv /nonexistent/o.csv")}) {
     const Result result = call(arguments);
     EXPECT_EQ(result.code, 2) << arguments << "\n" << result.output;
     EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << arguments << "\n" << result.output;
@@ -68,6 +81,73 @@ TEST(Command, TraceWritesOneRowForEachRow) {
     while (std::getline(in, line)) ++lines;
     EXPECT_EQ(lines, 4);
   }
+}
+
+// Field by field, the rows of a CSV file without quotes.
+std::vector<std::vector<std::string>> readCsv(const std::string& name) {
+  std::vector<std::vector<std::string>> rows;
+  std::ifstream in(name);
+  for (std::string line; std::getline(in, line);) {
+    std::vector<std::string>& row = rows.emplace_back(1);
+    for (const char c : line) {
+      if (c == ',') {
+        row.emplace_back();
+      } else {
+        row.back() += c;
+      }
+    }
+  }
+  return rows;
+}
+
+TEST(Command, BenchWritesARowForEachSceneMotionAndRadius) {
+  const std::string out = hl::test::tempFile("hl_cmd_bench.csv");
+  const Result result = call(
+      "bench --scenes terrain,sphere,soup,pits --motions sliding,free,tapping,corners --radii fixed,scaled "
+      "--hierarchies bvh --no-effects --most 10000 --ticks 200 --csv " +
+      out);
+  ASSERT_EQ(result.code, 0) << result.output;
+  const auto rows = readCsv(out);
+  ASSERT_EQ(rows.size(), 1u + 4 * 4 * 2 * 2);
+  const std::string header =
+      "scene,motion,radius,radius_m,who,question,hierarchy,surface,primitives,mean_edge_m,count,p50_us,p99_us,p999_us,"
+      "max_us,mean_us,capped,build_one_thread_ns,build_ns,index_bytes,all_bytes,to_plain,to_tick,to_query,compared,"
+      "different,note";
+  std::string first;
+  for (const std::string& name : rows[0]) first += (first.empty() ? "" : ",") + name;
+  EXPECT_EQ(first, header);
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    ASSERT_EQ(rows[i].size(), rows[0].size());
+    EXPECT_EQ(rows[i][10], "200");
+    EXPECT_LE(std::stod(rows[i][11]), std::stod(rows[i][14]));
+  }
+}
+
+TEST(Command, BenchMeasuresEffectsHierarchiesAndFiles) {
+  const std::string out = hl::test::tempFile("hl_cmd_bench2.csv");
+  const Result builtin = call("bench --most 1000 --ticks 100 --csv " + out);
+  ASSERT_EQ(builtin.code, 0) << builtin.output;
+  EXPECT_EQ(readCsv(out).size(), 1u + 4 + 2);  // four surfaces on the bvh, and two other hierarchies
+  const std::string file =
+      hl::test::fileWith("hl_cmd_bench.obj", "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 2 3\nf 1 2 4\n");
+  const Result own = call("bench --scene " + file + " --hierarchies bvh --ticks 100 --csv " + out);
+  ASSERT_EQ(own.code, 0) << own.output;
+  const auto rows = readCsv(out);
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_NE(rows[1][0].find("hl_cmd_bench.obj"), std::string::npos);
+  EXPECT_EQ(rows[1][8], "2");
+}
+
+TEST(Command, BenchComparesWithOthersOrSaysHowToGetThem) {
+  const std::string out = hl::test::tempFile("hl_cmd_bench3.csv");
+  const Result result = call("bench --peers --hierarchies bvh --no-effects --most 1000 --ticks 100 --csv " + out);
+  if (result.code == 2) {
+    EXPECT_NE(result.output.find("scripts/build --peers"), std::string::npos) << result.output;
+    EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
+    return;
+  }
+  ASSERT_EQ(result.code, 0) << result.output;
+  EXPECT_EQ(readCsv(out).size(), 1u + 1 + 2 + 4);  // the tick, HL's two queries and four peers
 }
 
 TEST(Command, TouchServesAndEndsByItself) {

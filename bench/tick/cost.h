@@ -1,0 +1,19 @@
+// What a shape costs beside the time of its queries: building its hierarchy, and memory.
+#pragma once
+
+#include "scene/shape.h"
+
+namespace hl::bench {
+
+/// For one primitive.
+struct Cost {
+  double build_one_thread_ns = 0;  ///< the hierarchy alone
+  double build_ns = 0;             ///< the same on all threads that oneTBB has
+  double index_bytes = 0;          ///< of the hierarchy
+  double all_bytes = 0;            ///< of all that a shape keeps, its model included
+};
+
+/// Builds the hierarchy twice more.
+Cost costOf(const Shape& shape, HierarchyKind hierarchy);
+
+}  // namespace hl::bench

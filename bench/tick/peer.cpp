@@ -1,0 +1,58 @@
+#include "tick/peer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/clock.h"
+
+namespace hl::bench {
+
+namespace {
+
+// Of the radius: how far around the proxy a tick looks for contacts, with room for the peers' single precision.
+constexpr double kNear = 1.01;
+// Of the radius: how far out of the surface the swept sphere starts.
+constexpr double kLift = 1;
+constexpr std::size_t kLeast = 100;
+
+}  // namespace
+
+const char* nameOf(Question question) { return question == Question::kNear ? "near" : "impact"; }
+
+std::vector<Probe> probesOf(const Path& path, double radius_m) {
+  std::vector<Probe> probes;
+  for (std::size_t i = path.approach; i < path.fingers.size(); ++i) {
+    const Vec3& proxy = path.proxies[i];
+    const Vec3& next = path.fingers[std::min(i + 1, path.fingers.size() - 1)];
+    // The surface pushes the proxy this way; nothing does where it is where the finger is.
+    const Vec3 push = proxy - path.fingers[i];
+    const Vec3 from = push.norm() > kAgreement_m ? Vec3(proxy + kLift * radius_m * push.normalized()) : proxy;
+    probes.push_back({proxy, kNear * radius_m, from, next - from, radius_m});
+  }
+  return probes;
+}
+
+Answers timeAnswers(Peer& peer, std::span<const Probe> probes, double most_s) {
+  Answers answers;
+  answers.metres.reserve(probes.size());
+  for (const Probe& probe : probes) {
+    const std::int64_t start_ns = monotonicNow_ns();
+    const double metres = peer.ask(probe);
+    answers.times.add(monotonicNow_ns() - start_ns);
+    answers.metres.push_back(metres);
+    if (answers.metres.size() >= kLeast && static_cast<double>(answers.times.total_ns()) > 1e9 * most_s) break;
+  }
+  return answers;
+}
+
+Agreement compare(std::span<const double> ours, std::span<const double> theirs) {
+  Agreement agreement;
+  for (std::size_t i = 0; i < std::min(ours.size(), theirs.size()); ++i) {
+    if (!std::isfinite(ours[i])) continue;
+    ++agreement.compared;
+    if (!(std::abs(ours[i] - theirs[i]) <= kAgreement_m)) ++agreement.different;
+  }
+  return agreement;
+}
+
+}  // namespace hl::bench
