@@ -10,7 +10,7 @@ struct Cost {
   double build_one_thread_ns = 0;  ///< the hierarchy alone
   double build_ns = 0;             ///< the same on all threads that oneTBB has
   double index_bytes = 0;          ///< of the hierarchy
-  double all_bytes = 0;            ///< of all that a shape keeps, its model included
+  double all_bytes = 0;            ///< and with it of vertices and index lists
 };
 
 /// Builds the hierarchy twice more.

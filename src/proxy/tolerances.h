@@ -7,9 +7,9 @@ namespace hl {
 
 /// Distances in a scene of coordinates up to `extent` carry a rounding error of some units of eps * extent.
 struct Tolerances {
-  double skin;   ///< the width within which a primitive counts as a contact
-  double reach;  ///< radius at which the proxy is held; above the nominal one, so that rounding never enters it
-  double swept;  ///< radius of the sweep: less by half a skin, so that along a flat surface rounding hits no neighbour
+  double skin;      ///< the width within which a primitive counts as a contact
+  double reach;     ///< radius at which the proxy is held; above the nominal one, so that rounding never enters it
+  double swept;     ///< radius of the sweep: less by a rounding, so that on a flat surface it stops at no neighbour
   double touching;  ///< a primitive no farther than this is a contact (a plane); all others are swept
   double feasible;  ///< by which a plane may be violated; far below the skin, far above rounding
   double rest;      ///< a step shorter than this is no step
@@ -19,7 +19,8 @@ struct Tolerances {
     constexpr double kSkinPerRadius = 1e-10;  // a plane of a neighbour so far off leans by sqrt(2e-10) = 1.4e-5 rad
     constexpr double kSkinPerExtent = 512 * kEps;
     const double skin = kSkinPerRadius * radius + kSkinPerExtent * (extent + radius);
-    return {skin, radius + 2 * skin, radius + 1.5 * skin, radius + 3 * skin, skin / 4, 8 * kEps * (extent + radius)};
+    const double rest = 8 * kEps * (extent + radius);
+    return {skin, radius + 2 * skin, radius + 2 * skin - rest, radius + 3 * skin, skin / 4, rest};
   }
 };
 

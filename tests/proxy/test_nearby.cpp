@@ -53,7 +53,7 @@ TEST(Nearby, HoldsTheContactsOfThePlaceWhereASweepEnds) {
   int stopped = 0, touched = 0;
   for (const HierarchyKind kind : {HierarchyKind::kBvh, HierarchyKind::kSpheres}) {
     for (int round = 0; round < 400; ++round) {
-      const auto snapshot = randomScene(random, 1 + random.below(3), 5, kind);
+      const auto snapshot = randomScene(random, 1 + random.below(3), 30, kind);
       const SceneAt scene(*snapshot);
       const Tolerances tolerance = Tolerances::of(kRadius, scene.extent());
       ProxyState state = startProxy(scene, {kRadius}, random.inCube(0.12));
@@ -64,7 +64,7 @@ TEST(Nearby, HoldsTheContactsOfThePlaceWhereASweepEnds) {
         gatherContacts(scene, place, tolerance.touching, tolerance.reach, here);
         FixedVector<PrimitiveId, Nearby::kRoom> contacts;
         ASSERT_TRUE(primitivesOf(here, contacts));
-        Vec3 motion = random.inCube(0.05);
+        Vec3 motion = random.inCube(0.1);
         for (const Contact& contact : here.contacts)
           motion -= std::min(0.0, motion.dot(contact.plane.normal)) * contact.plane.normal;
         Nearby nearby;
