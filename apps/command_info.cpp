@@ -51,8 +51,8 @@ void print(const Snapshot& snapshot) {
   fmt::print("to:         {:.6g} {:.6g} {:.6g} m\n", snapshot.bounds.max.x(), snapshot.bounds.max.y(),
              snapshot.bounds.max.z());
   fmt::print("hierarchy:  {} nodes, {} leaves, depth {}\n", stats.nodes, stats.leaves, stats.depth);
-  const std::size_t bytes = stats.bytes + primitives * sizeof(Primitive);
-  fmt::print("memory:     {:.1f} MB ({} bytes a primitive)\n", 1e-6 * static_cast<double>(bytes), bytes / primitives);
+  fmt::print("memory:     {:.1f} MB; vertices, indices and hierarchy: {} bytes a primitive\n",
+             1e-6 * static_cast<double>(memoryOf(snapshot)), snapshot.shape().geometryBytes() / primitives);
   constexpr std::size_t kMostPrinted = 20;
   const std::size_t materials = model.materials.size();
   for (std::size_t i = 0; i < std::min(materials, kMostPrinted); ++i) printMaterial(snapshot, i);

@@ -25,7 +25,7 @@ Cost costOf(const Shape& shape, HierarchyKind hierarchy) {
   const auto primitives = static_cast<double>(shape.primitives.size());
   return {buildTimeOnOneThread_ns(shape, hierarchy) / primitives, buildTime_ns(shape, hierarchy) / primitives,
           static_cast<double>(shape.index->stats().bytes) / primitives,
-          static_cast<double>(shape.bytes()) / primitives};
+          static_cast<double>(shape.geometryBytes()) / primitives};
 }
 
 }  // namespace hl::bench

@@ -46,6 +46,11 @@ void turnTriangles(Model& model) {
   }
 }
 
+template <typename T>
+std::size_t bytesOf(const std::vector<T>& list) {
+  return list.capacity() * sizeof(T);
+}
+
 Box boundsOf(const Primitives& primitives) {
   Box bounds;
   for (std::size_t i = 0; i < primitives.size(); ++i) {
@@ -84,6 +89,8 @@ std::shared_ptr<const Shape> makeShape(Model given, HierarchyKind hierarchy) {
   auto shape = std::make_shared<Shape>();
   shape->model = std::move(given);
   turnTriangles(shape->model);
+  shape->model.positions.shrink_to_fit();
+  shape->model.triangles.shrink_to_fit();
   const Model& model = shape->model;
   shape->primitives = Primitives({model.positions, model.triangles, model.segments, model.points});
   const Primitives& primitives = shape->primitives;
@@ -100,10 +107,14 @@ std::shared_ptr<const Shape> makeShape(Model given, HierarchyKind hierarchy) {
   return shape;
 }
 
-std::size_t Shape::bytes() const {
-  const auto sizeOf = [](const auto& list) { return list.capacity() * sizeof(list[0]); };
-  return sizeOf(model.positions) + sizeOf(model.triangles) + sizeOf(model.segments) + sizeOf(model.points) +
+std::size_t Shape::geometryBytes() const {
+  return bytesOf(model.positions) + bytesOf(model.triangles) + bytesOf(model.segments) + bytesOf(model.points) +
          primitives.bytes() + index->stats().bytes;
+}
+
+std::size_t Shape::bytes() const {
+  return geometryBytes() + bytesOf(model.normals) + bytesOf(model.texcoords) + bytesOf(model.triangle_materials) +
+         bytesOf(model.segment_materials) + bytesOf(model.point_materials) + bytesOf(material_of);
 }
 
 }  // namespace hl

@@ -34,7 +34,9 @@ struct Shape {
   double extent = 0;                  ///< m: largest coordinate
   std::vector<std::string> warnings;  ///< the model's, and what was skipped here
 
-  /// Memory of what is asked where things are: vertices, index lists and hierarchy.
+  /// Memory of what says where things are: vertices, index lists and hierarchy.
+  std::size_t geometryBytes() const;
+  /// The same with normals, texture coordinates and material numbers; textures apart.
   std::size_t bytes() const;
   /// Number of the primitive's material in the list of the model, or of whatever stands in for it.
   std::size_t materialOf(std::uint32_t primitive) const { return material_of.empty() ? 0 : material_of[primitive]; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <set>
 #include <utility>
 
 namespace hl {
@@ -55,6 +56,19 @@ std::shared_ptr<const Surfaces> surfacesOf(const std::shared_ptr<const Shape>& s
   surfaces->materials = shape->model.materials;
   for (const Texture& texture : shape->model.textures) surfaces->textures.emplace_back(shape, &texture);
   return surfaces;
+}
+
+std::size_t memoryOf(const Snapshot& snapshot) {
+  std::set<const void*> counted;
+  std::size_t bytes = snapshot.instances.capacity() * sizeof(Instance) + snapshot.reach.capacity() * sizeof(Box) +
+                      snapshot.near.bytes();
+  for (const Instance& instance : snapshot.instances) {
+    if (counted.insert(instance.shape.get()).second) bytes += instance.shape->bytes();
+    for (const auto& texture : instance.surfaces->textures) {
+      if (counted.insert(texture.get()).second) bytes += texture->texels.capacity() * sizeof(texture->texels[0]);
+    }
+  }
+  return bytes;
 }
 
 std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, std::string name, std::uint64_t number,

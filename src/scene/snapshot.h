@@ -56,6 +56,9 @@ Box boxAt(const Box& object, const Pose& pose);
 /// The surfaces as the shape's own model describes them.
 std::shared_ptr<const Surfaces> surfacesOf(const std::shared_ptr<const Shape>& shape);
 
+/// Bytes that the scene keeps: each shape and texture once, however many instances show it. Allocates.
+std::size_t memoryOf(const Snapshot& snapshot);
+
 /// Allocates; never called by a real-time thread.
 std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, std::string name = {},
                                              std::uint64_t number = 1, bool abrupt = true);

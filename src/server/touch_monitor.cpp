@@ -58,6 +58,8 @@ class TouchMonitor {
     writeSafety(out, servo.safety);
     out.single("hl_scene_primitives", MetricType::kGauge, "Primitives that the finger can touch",
                static_cast<double>(session_.snapshot()->primitives));
+    out.single("hl_scene_memory_bytes", MetricType::kGauge, "Memory of the scene that the finger touches",
+               static_cast<double>(memoryOf(*session_.snapshot())));
     out.single("hl_iteration_caps_total", MetricType::kCounter, "Ticks that hit the cap on their passes",
                static_cast<double>(proxy.capped));
     writeLedger(out, proxy.ledger, servo.late);

@@ -106,6 +106,21 @@ TEST(SceneAt, PrecedesIsAnOrder) {
   EXPECT_NE(scene.precedes({0, 3}, {1, 5}), scene.precedes({1, 5}, {0, 3}));
 }
 
+TEST(Snapshot, AThousandInstancesOfAShapeCostOneCopy) {
+  test::Random random(15);
+  Instance instance;
+  instance.shape = makeShape(randomModel(random));
+  instance.surfaces = surfacesOf(instance.shape);
+  const std::size_t one = memoryOf(*makeSnapshot({instance}));
+  std::vector<Instance> thousand(1000, instance);
+  for (std::size_t i = 0; i < thousand.size(); ++i) thousand[i].key = i;
+  const auto snapshot = makeSnapshot(thousand);
+  constexpr std::size_t kOfOne = sizeof(Instance) + 200;  // and its box, in the list and in the tree
+  EXPECT_GE(one, instance.shape->bytes());
+  EXPECT_LE(memoryOf(*snapshot), one + 1000 * kOfOne);
+  EXPECT_EQ(snapshot->primitives, 1000 * instance.shape->primitives.size());
+}
+
 TEST(SceneAt, ReachContainsTheWholeMotion) {
   test::Random random(14);
   for (int i = 0; i < 300; ++i) {
