@@ -32,19 +32,19 @@ class RecentlySeen {
   std::size_t next_ = 0;
 };
 
-// The earliest of the impacts that impactOf() finds among what the index proposes for a sphere of radius `proposed`.
+// The earliest of the impacts that impact_of() finds among what the index proposes for a sphere of radius `proposed`.
 template <typename Read, typename ImpactOf>
 bool firstOf(const SpatialIndex& index, const Read& read, const Vec3& from, const Vec3& motion, double proposed,
-             const ImpactOf& impactOf, FirstImpact& out) {
+             const ImpactOf& impact_of, FirstImpact& out) {
   bool found = false;
   RecentlySeen seen;
   index.sweep(from, motion, proposed, [&](std::uint32_t candidate, double limit) {
     Impact impact;
-    if (seen.testAndAdd(candidate) || !impactOf(candidate, impact)) return limit;
+    if (seen.testAndAdd(candidate) || !impact_of(candidate, impact)) return limit;
     if (found) {
       if (impact.t > out.impact.t) return limit;
       if (impact.t == out.impact.t) {
-        const Primitive first = read(out.primitive);
+        const Primitive first = read(out.primitive);  // NOLINT: a copy, as read() may hand out one place for both
         if (!precedes(read(candidate), first)) return limit;
       }
     }
@@ -67,26 +67,26 @@ bool precedes(const Primitive& a, const Primitive& b) {
 bool firstImpact(const SpatialIndex& index, const Primitives& primitives, const Vec3& from, const Vec3& motion,
                  double radius, double touching, FirstImpact& out) {
   const auto read = [&](std::uint32_t candidate) { return primitives[candidate]; };
-  const auto impactOf = [&](std::uint32_t candidate, Impact& impact) {
+  const auto impact_of = [&](std::uint32_t candidate, Impact& impact) {
     const Primitive primitive = primitives[candidate];
     const ClosestPoint start = closestPoint(primitive, from);
     if (touching > 0 && start.distance <= touching) return false;
     return sweepSphere(primitive, start, from, motion, radius, impact);
   };
-  return firstOf(index, read, from, motion, radius, impactOf, out);
+  return firstOf(index, read, from, motion, radius, impact_of, out);
 }
 
 // What is within `touching` where the way ends has been within a little more than that before: so it is proposed even
 // when the end is off by rounding.
 bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(std::uint32_t)> read, const Vec3& from,
-                 const Vec3& motion, double radius, double touching, FunctionRef<bool(std::uint32_t)> isContact,
+                 const Vec3& motion, double radius, double touching, FunctionRef<bool(std::uint32_t)> is_contact,
                  FunctionRef<void(std::uint32_t)> meet, FirstImpact& out) {
   const double proposed = touching + (touching - radius);
-  const auto impactOf = [&](std::uint32_t candidate, Impact& impact) {
+  const auto impact_of = [&](std::uint32_t candidate, Impact& impact) {
     meet(candidate);
-    return !isContact(candidate) && sweepSphereFromOutside(read(candidate), from, motion, radius, impact);
+    return !is_contact(candidate) && sweepSphereFromOutside(read(candidate), from, motion, radius, impact);
   };
-  return firstOf(index, read, from, motion, proposed, impactOf, out);
+  return firstOf(index, read, from, motion, proposed, impact_of, out);
 }
 
 void primitivesWithin(const SpatialIndex& index, const Primitives& primitives, const Vec3& centre, double distance,
