@@ -36,11 +36,21 @@ bool firstRoot(double distance, double speed, double b, double k, double radius,
   return t <= 1;
 }
 
+// Whether the moving point stays farther than R from the centre or axis for ever, k > R |m|, by more than rounding: told
+// from squares, so that most parts are done without a root. The rest is for firstRoot().
+bool passesBy(double k2, double speed2, double radius) {
+  constexpr double kRounding = 1e-12;
+  return k2 > (1 + kRounding) * radius * radius * speed2;
+}
+
 void hitVertex(const Primitive& primitive, std::size_t vertex, const Vec3& from, const Vec3& motion, double radius,
                double& limit, Impact& out) {
   const Vec3 w = from - primitive.vertex[vertex];
+  const double b = w.dot(motion);
+  const Vec3 k = w.cross(motion);
+  if (!(b < 0) || passesBy(k.squaredNorm(), motion.squaredNorm(), radius)) return;
   double t = 0;
-  if (!firstRoot(w.norm(), motion.norm(), w.dot(motion), w.cross(motion).norm(), radius, t) || !(t < limit)) return;
+  if (!firstRoot(w.norm(), motion.norm(), b, k.norm(), radius, t) || !(t < limit)) return;
   limit = t;
   out.t = t;
   out.feature = vertexFeature(vertex);
@@ -52,9 +62,12 @@ void hitEdge(const Primitive& primitive, std::size_t number, Feature feature, co
              double radius, double& limit, Impact& out) {
   const Edge& edge = kEdges[number];
   const Vec3 along = primitive.vertex[edge.end] - primitive.vertex[edge.begin];
+  const Vec3 w = from - primitive.vertex[edge.begin];
+  const Vec3 w_long = w.cross(along), m_long = motion.cross(along);  // across, times the edge's length
+  const double k_long = w.cross(motion).dot(along);
+  if (!(w_long.dot(m_long) < 0) || passesBy(k_long * k_long, m_long.squaredNorm(), radius)) return;
   const double length = along.norm();
   const Vec3 e = along / length;
-  const Vec3 w = from - primitive.vertex[edge.begin];
   const Vec3 w_across = w.cross(e);
   const Vec3 m_across = motion.cross(e);
   double t = 0;

@@ -202,7 +202,7 @@ HWY_INLINE unsigned withinReach(const WideBlock& block, const BlockQuery& query)
 // Which primitives of the block may be touched up to the limit, and lower bounds of when. Conservative advancement
 // (Mirtich 1996): no touch before the sphere crosses a separating plane, and from there the next plane tells more.
 HWY_INLINE unsigned touched(const WideBlock& block, const BlockQuery& query, float limit, float* entry) {
-  constexpr int kAdvances = 2;
+  constexpr int kAdvances = 3;
   const V never = hn::Set(kFloats, 2.0f);
   const V latest = hn::Set(kFloats, limit);
   const V reach = hn::Set(kFloats, query.reach);
