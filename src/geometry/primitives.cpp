@@ -1,5 +1,8 @@
 #include "geometry/primitives.h"
 
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_reduce.h>
+
 #include <algorithm>
 #include <cassert>
 #include <limits>
@@ -68,6 +71,21 @@ Primitive Primitives::operator[](std::size_t i) const {
       break;
   }
   return pointOf(v[0], made_from.source);
+}
+
+Box boundsOf(const Primitives& primitives) {
+  constexpr std::size_t kGrain = 4096;
+  using Range = oneapi::tbb::blocked_range<std::size_t>;
+  const auto extend = [&](const Range& range, Box bounds) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const auto v = primitives.corners(i);
+      bounds.min = bounds.min.cwiseMin(v[0].cwiseMin(v[1]).cwiseMin(v[2]));
+      bounds.max = bounds.max.cwiseMax(v[0].cwiseMax(v[1]).cwiseMax(v[2]));
+    }
+    return bounds;
+  };
+  const auto both = [](const Box& a, const Box& b) { return Box{a.min.cwiseMin(b.min), a.max.cwiseMax(b.max)}; };
+  return oneapi::tbb::parallel_reduce(Range(0, primitives.size(), kGrain), Box(), extend, both);
 }
 
 }  // namespace hl

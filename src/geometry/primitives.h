@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/box.h"
 #include "geometry/primitive.h"
 
 namespace hl {
@@ -40,6 +41,8 @@ class Primitives {
   const Refused& refused() const { return refused_; }
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
+  /// Whether the same elements make the same numbers here as there, for two meshes with the same lists.
+  bool numberedAs(const Primitives& other) const { return size_ == other.size_ && kept_ == other.kept_; }
   /// Memory of its own, beside the mesh's.
   std::size_t bytes() const { return kept_.capacity() * sizeof(std::uint32_t); }
 
@@ -83,6 +86,9 @@ class Primitives {
   std::size_t size_ = 0;
   Refused refused_;
 };
+
+/// Of all vertices that they have. On all threads that oneTBB has.
+Box boundsOf(const Primitives& primitives);
 
 // In sight of the loops that read a million of them.
 

@@ -2,7 +2,6 @@
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <cassert>
@@ -18,32 +17,12 @@ namespace {
 using Range = oneapi::tbb::blocked_range<std::size_t>;
 constexpr std::size_t kGrain = 4096;
 
-struct Bounds {
-  Vec3 min = Vec3::Constant(std::numeric_limits<double>::infinity());
-  Vec3 max = -min;
-};
-
-Bounds boundsOf(const Primitives& primitives) {
-  const auto extend = [&](const Range& range, Bounds bounds) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      const auto v = primitives.corners(i);
-      bounds.min = bounds.min.cwiseMin(v[0].cwiseMin(v[1]).cwiseMin(v[2]));
-      bounds.max = bounds.max.cwiseMax(v[0].cwiseMax(v[1]).cwiseMax(v[2]));
-    }
-    return bounds;
-  };
-  const auto both = [](const Bounds& a, const Bounds& b) {
-    return Bounds{a.min.cwiseMin(b.min), a.max.cwiseMax(b.max)};
-  };
-  return oneapi::tbb::parallel_reduce(Range(0, primitives.size(), kGrain), Bounds(), extend, both);
-}
-
 double largest(const Vec3& v) { return v.cwiseAbs().maxCoeff(); }
 
 }  // namespace
 
 void WideBvh::measure(const Primitives& primitives) {
-  const Bounds bounds = boundsOf(primitives);
+  const Box bounds = boundsOf(primitives);
   origin_ = 0.5 * bounds.min + 0.5 * bounds.max;
   half_ = largest(bounds.max - origin_);
   extent_ = std::max(largest(bounds.min), largest(bounds.max));
