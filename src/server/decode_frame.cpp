@@ -17,19 +17,26 @@ namespace {
 class FrameDecoder {
  public:
   FrameDecoder(const proto::Frame& frame, const Uploads& uploads, const SceneLimits& limits,
-               const std::function<void(double)>& progress)
-      : frame_(frame), uploads_(uploads), limits_(limits), progress_(progress), decoder_(refuse), size_(limits) {}
+               const std::function<void(double)>& progress, const ShapeBefore& before)
+      : frame_(frame),
+        uploads_(uploads),
+        limits_(limits),
+        progress_(progress),
+        before_(before),
+        decoder_(refuse),
+        size_(limits) {}
 
   DecodedFrame run();
 
  private:
   void addTextures();
   void addObjects();
-  SceneItems itemsOf(const google::protobuf::RepeatedPtrField<proto::Item>& items, const std::string& where);
-  SceneItem itemOf(const proto::Item& in, const std::string& where);
+  SceneItems itemsOf(const google::protobuf::RepeatedPtrField<proto::Item>& items, std::uint32_t object,
+                     const std::string& where);
+  SceneItem itemOf(const proto::Item& in, const Shape* before, const std::string& where);
   Placement placementOf(const proto::Item& in, const std::string& where) const;
   std::shared_ptr<const Shape> shapeOf(const proto::Primitives& in, const proto::Material& material,
-                                       const std::string& where);
+                                       const Shape* before, const std::string& where);
   const proto::Primitives& upload(std::uint64_t id, const std::string& where) const;
   void countItems();
 
@@ -37,6 +44,7 @@ class FrameDecoder {
   const Uploads& uploads_;
   const SceneLimits& limits_;
   const std::function<void(double)>& progress_;
+  const ShapeBefore& before_;
   const SceneDecoder decoder_;
   DecodedFrame result_;
   ModelSizes size_;  // each item makes a shape of its own, even if all refer to one upload
@@ -66,25 +74,26 @@ void FrameDecoder::addObjects() {
     const std::string where = pathOf("objects", i);
     const proto::ObjectDefinition& object = frame_.objects(i);
     if (object.id() == 0) throw Error(where + ".id must not be 0");
-    if (!result_.edit.objects.emplace(object.id(), itemsOf(object.items(), where)).second)
+    if (!result_.edit.objects.emplace(object.id(), itemsOf(object.items(), object.id(), where)).second)
       throw Error(where + ": there are two objects of the id " + std::to_string(object.id()));
   }
   result_.edit.deleted_objects.assign(frame_.deleted_objects().begin(), frame_.deleted_objects().end());
-  if (frame_.has_world()) result_.edit.world = itemsOf(frame_.world().items(), "world");
+  if (frame_.has_world()) result_.edit.world = itemsOf(frame_.world().items(), 0, "world");
 }
 
-SceneItems FrameDecoder::itemsOf(const google::protobuf::RepeatedPtrField<proto::Item>& items,
+SceneItems FrameDecoder::itemsOf(const google::protobuf::RepeatedPtrField<proto::Item>& items, std::uint32_t object,
                                  const std::string& where) {
   SceneItems result;
   result.reserve(static_cast<std::size_t>(items.size()));
   for (int i = 0; i < items.size(); ++i) {
-    result.push_back(itemOf(items[i], pathOf(where + ".items", i)));
+    const auto before = before_ ? before_(object, result.size()) : nullptr;
+    result.push_back(itemOf(items[i], before.get(), pathOf(where + ".items", i)));
     progress_(++built_ / items_);
   }
   return result;
 }
 
-SceneItem FrameDecoder::itemOf(const proto::Item& in, const std::string& where) {
+SceneItem FrameDecoder::itemOf(const proto::Item& in, const Shape* before, const std::string& where) {
   SceneItem item;
   item.placement = placementOf(in, where + ".matrix");
   item.surface = decoder_.surface(in.material(), where + ".material");
@@ -92,10 +101,10 @@ SceneItem FrameDecoder::itemOf(const proto::Item& in, const std::string& where) 
   if (in.has_name()) item.name = in.name();
   switch (in.what_case()) {
     case proto::Item::kPrimitives:
-      item.shape = shapeOf(in.primitives(), in.material(), where + ".primitives");
+      item.shape = shapeOf(in.primitives(), in.material(), before, where + ".primitives");
       return item;
     case proto::Item::kUpload:
-      item.shape = shapeOf(upload(in.upload(), where), in.material(), where + ".upload");
+      item.shape = shapeOf(upload(in.upload(), where), in.material(), before, where + ".upload");
       return item;
     case proto::Item::kCall:
       if (in.call() == 0) throw Error(where + ".call must not be 0");
@@ -129,13 +138,14 @@ Placement FrameDecoder::placementOf(const proto::Item& in, const std::string& wh
 }
 
 std::shared_ptr<const Shape> FrameDecoder::shapeOf(const proto::Primitives& in, const proto::Material& material,
-                                                   const std::string& where) {
+                                                   const Shape* before, const std::string& where) {
   Model model = decoder_.model(in, where);
   size_.add(model, where + ": ");
   const auto repeat = [](bool has, double value) { return has && std::isfinite(value) ? value : 1; };
   repeatTexcoords(model, repeat(material.has_repeat_u(), material.repeat_u()),
                   repeat(material.has_repeat_v(), material.repeat_v()));
-  auto shape = makeShape(std::move(model));
+  auto shape = before != nullptr ? makeShape(std::move(model), *before) : makeShape(std::move(model));
+  if (shape->before != 0) ++result_.refits;
   for (const std::string& warning : shape->warnings) result_.warnings.push_back(where + ": " + warning);
   return shape;
 }
@@ -150,8 +160,8 @@ DecodedFrame FrameDecoder::run() {
 }  // namespace
 
 DecodedFrame decodeFrame(const proto::Frame& frame, const Uploads& uploads, const SceneLimits& limits,
-                         const std::function<void(double)>& progress) {
-  return FrameDecoder(frame, uploads, limits, progress).run();
+                         const std::function<void(double)>& progress, const ShapeBefore& before) {
+  return FrameDecoder(frame, uploads, limits, progress, before).run();
 }
 
 }  // namespace hl

@@ -162,6 +162,54 @@ TEST_F(TouchServerTest, AFrameIsShownTouchedAndToldOfByItsNames) {
   EXPECT_EQ(client.events_[1].kind(), proto::UNTOUCH);
 }
 
+// A row of points; `step` sends neighbours apart, so that a hierarchy made for a step of 1 is worn.
+proto::Frame rowFrame(Client& client, int step) {
+  constexpr int kPoints = 2003;  // a prime
+  proto::Frame frame;
+  frame.set_number(++client.number_);
+  proto::ObjectDefinition& object = *frame.add_objects();
+  object.set_id(4);
+  proto::Primitives& row = *object.add_items()->mutable_primitives();
+  for (int i = 0; i < kPoints; ++i) {
+    for (const double v : {0.001 * (i * step % kPoints), -0.3, 0.0}) row.add_vertices(v);
+    row.add_points(static_cast<std::uint32_t>(i));
+  }
+  frame.mutable_world()->add_items()->set_call(4);
+  return frame;
+}
+
+TEST_F(TouchServerTest, ARedefinedObjectIsRefittedAndRebuiltInTheBackgroundWhenItIsWorn) {
+  Client client(server_);
+  client.open();
+  ASSERT_TRUE(client.show(rowFrame(client, 1)));
+  const auto built = server_.device().snapshot();
+  EXPECT_EQ(server_.hierarchyCounts().refits, 0u);
+  ASSERT_TRUE(client.show(rowFrame(client, 1)));
+  EXPECT_EQ(server_.hierarchyCounts().refits, 1u);
+  EXPECT_EQ(server_.device().snapshot()->shape().before, built->shape().geometry);
+  ASSERT_TRUE(client.show(rowFrame(client, 700)));
+  EXPECT_EQ(server_.hierarchyCounts().refits, 2u);
+  const std::uint64_t geometry = server_.device().snapshot()->shape().geometry;
+  ASSERT_TRUE(client.until([&] { return server_.device().snapshot()->shape().before == 0; }));
+  EXPECT_EQ(server_.hierarchyCounts().rebuilds, 1u);
+  const auto rebuilt = server_.device().snapshot();
+  EXPECT_EQ(rebuilt->shape().geometry, geometry);
+  EXPECT_EQ(rebuilt->shape().wear, 1);
+  EXPECT_FALSE(rebuilt->abrupt);
+  ASSERT_TRUE(client.show(rowFrame(client, 700)));
+  EXPECT_EQ(server_.device().snapshot()->shape().before, geometry) << "from the one that was rebuilt";
+  EXPECT_EQ(server_.hierarchyCounts().rebuilds, 1u);
+}
+
+TEST_F(TouchServerTest, AnObjectWithOtherListsIsBuilt) {
+  Client client(server_);
+  client.open();
+  ASSERT_TRUE(client.show(client.floorFrame(-0.2)));
+  ASSERT_TRUE(client.show(rowFrame(client, 1)));
+  EXPECT_EQ(server_.hierarchyCounts().refits, 0u);
+  EXPECT_EQ(server_.device().snapshot()->shape().before, 0u);
+}
+
 TEST_F(TouchServerTest, ARefusedFrameChangesNothingAndTheNextIsShown) {
   Client client(server_);
   client.open();
