@@ -4,6 +4,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -164,11 +165,13 @@ class BlockPacker {
   using Corners = Eigen::Array<double, 3 * kWide, 3>;
 
   void packAxis(Eigen::Index axis, double per_step) {
-    const Eigen::Array<double, 3 * kWide, 1> steps = (at_.col(axis) * per_step).rint();
+    // Adding so much leaves the nearest whole number in the last bits.
+    constexpr double kWholeInLastBits = 1.5 * (1LL << 52);
+    const Eigen::Array<double, 3 * kWide, 1> steps = at_.col(axis) * per_step + kWholeInLastBits;
     for (std::size_t i = 0; i < 3; ++i) {
       std::int16_t* vertex = block_.vertex[i][axis];
       for (std::size_t lane = 0; lane < kWide; ++lane)
-        vertex[lane] = static_cast<std::int16_t>(steps.data()[i * kWide + lane]);
+        vertex[lane] = static_cast<std::int16_t>(std::bit_cast<std::int64_t>(steps.data()[i * kWide + lane]));
       std::fill(vertex + count_, vertex + kWide, std::int16_t{0});
     }
   }
