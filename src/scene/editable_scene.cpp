@@ -206,11 +206,10 @@ std::size_t EditableScene::primitives() const {
   return sum;
 }
 
-std::shared_ptr<const Shape> EditableScene::shapeAt(std::uint32_t object, std::size_t item) const {
+const SceneItems* EditableScene::items(std::uint32_t object) const {
+  if (object == 0) return state_.world.get();
   const auto found = state_.objects.find(object);
-  if (object != 0 && found == state_.objects.end()) return nullptr;
-  const SceneItems& items = object == 0 ? *state_.world : *found->second;
-  return item < items.size() ? items[item].shape : nullptr;
+  return found == state_.objects.end() ? nullptr : found->second.get();
 }
 
 std::shared_ptr<const Shape> EditableScene::worn() const {

@@ -76,8 +76,8 @@ class EditableScene {
   /// What is in the world now.
   const std::vector<PlacedShape>& placed() const { return placed_; }
   std::size_t primitives() const;  ///< in the world, each instance counted
-  /// The shape that is the object's item of that number; none where there is none. Object 0 is the world.
-  std::shared_ptr<const Shape> shapeAt(std::uint32_t object, std::size_t item) const;
+  /// Of an object, or of the world, 0; null where there is no such object. Until the next edit.
+  const SceneItems* items(std::uint32_t object) const;
 
   /// One in the world whose hierarchy is worn beyond kMostWear; none when there is none.
   std::shared_ptr<const Shape> worn() const;

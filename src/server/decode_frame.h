@@ -5,7 +5,6 @@
 
 #include <functional>
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,9 +15,9 @@ namespace hl {
 /// What a client has sent ahead of a frame, by the ids it chose.
 using Uploads = std::map<std::uint64_t, proto::Primitives>;
 
-/// What is an object's item of this number so far, if it is a shape; object 0 is the world. The shape that comes in its
-/// place follows on it: see makeShape.
-using ShapeBefore = std::function<std::shared_ptr<const Shape>(std::uint32_t object, std::size_t item)>;
+/// The items that an object has so far, null where there is none; object 0 is the world. A shape that comes in the
+/// place of another follows on it: see makeShape.
+using ItemsBefore = std::function<const SceneItems*(std::uint32_t object)>;
 
 struct DecodedFrame {
   SceneEdit edit;
@@ -29,6 +28,6 @@ struct DecodedFrame {
 /// Takes long for large meshes: call it on a builder's thread. `progress` is told the part 0..1 of the shapes that are
 /// built, and may throw to give up. Throws hl::Error, one line that names the value, for what cannot be used.
 DecodedFrame decodeFrame(const proto::Frame& frame, const Uploads& uploads, const SceneLimits& limits,
-                         const std::function<void(double)>& progress, const ShapeBefore& before = {});
+                         const std::function<void(double)>& progress, const ItemsBefore& before = {});
 
 }  // namespace hl

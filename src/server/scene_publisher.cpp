@@ -182,7 +182,7 @@ void ScenePublisher::build(Place& place, Waiting& waiting) {
   };
   try {
     DecodedFrame decoded = decodeFrame(waiting.frame, waiting.uploads, place.limits_, progress,
-                                       [&](auto object, auto item) { return place.scene_.shapeAt(object, item); });
+                                       [&](std::uint32_t object) { return place.scene_.items(object); });
     place.scene_.apply(decoded.edit);
     const std::lock_guard lock(mutex_);
     counts_.refits += decoded.refits;

@@ -134,7 +134,7 @@ TEST(EditableScene, AScaledCopyIsRefittedFromTheOneBefore) {
   EXPECT_EQ(copy->before, first->geometry);
   Model moved = first->model;
   moved.positions[1] = {3, 0, 1};
-  EXPECT_EQ(scene.shapeAt(0, 0), first);
+  EXPECT_EQ(scene.items(0)->at(0).shape, first);
   const auto second = makeShape(std::move(moved), *first);
   scene.apply(worldOf({shapeItem(second, twice)}));
   EXPECT_EQ(scene.placed()[0].shape->before, copy->geometry);
@@ -169,12 +169,11 @@ TEST(EditableScene, ARebuiltShapeTakesThePlaceOfTheWornOneAndNothingIsAbrupt) {
     EXPECT_NE(scene.placed()[i].shape, before[i].shape);
     EXPECT_EQ(scene.placed()[i].shape->model.positions, before[i].shape->model.positions);
   }
-  EXPECT_EQ(scene.shapeAt(0, 2)->wear, 1);
-  EXPECT_EQ(scene.shapeAt(1, 0), scene.shapeAt(0, 2));
+  EXPECT_EQ(scene.items(0)->at(2).shape->wear, 1);
+  EXPECT_EQ(scene.items(1)->at(0).shape, scene.items(0)->at(2).shape);
   scene.apply(worldOf({callItem(1), callItem(1, twice)}));
   EXPECT_EQ(scene.placed()[1].shape->wear, 1) << "the scaled copy is the rebuilt one still";
-  EXPECT_FALSE(scene.shapeAt(1, 1));
-  EXPECT_FALSE(scene.shapeAt(2, 0));
+  EXPECT_EQ(scene.items(2), nullptr);
 }
 
 TEST(EditableScene, WhatAnItemLeavesOutItTakesFromItsCallers) {
