@@ -49,7 +49,7 @@ struct Shape {
 std::shared_ptr<const Shape> makeShape(Model given, HierarchyKind hierarchy = HierarchyKind::kBvh);
 
 /// The same for what follows on `before`. Where both have the same index lists and skip the same elements, a wide
-/// hierarchy is refitted: that is ten times as fast as building it. Else it is built, of the same kind.
+/// hierarchy is refitted: that is nine times as fast as building it. Else it is built, of the same kind.
 std::shared_ptr<const Shape> makeShape(Model given, const Shape& before);
 
 /// Beyond this wear a hierarchy should be built anew: a query enters twice as many boxes as it did then.
