@@ -74,7 +74,7 @@ void run(TouchOptions options) {
   http.page_folder = options.page_folder.empty() ? defaultPageFolder() : options.page_folder;
   TouchServer touch(snapshot, {options.settings, 1, http.limits, HL_VERSION});
   TouchSession& session = touch.device();
-  HttpServer server(http, makeViewerFeed(session, HL_VERSION), &touch, makeTouchMonitor(session));
+  HttpServer server(http, makeViewerFeed(session, HL_VERSION), &touch, makeTouchMonitor(session, &touch));
   touch.start();
   server.start();
   fmt::print(stderr, "{}: {} primitives; 1 mm of the hand is {:.4g} mm of the scene\n", options.scene.scene,

@@ -64,7 +64,7 @@ void serve(HldOptions& options) {
   const HttpServerSettings http = serverSettings(options);
   TouchServer touch(sceneOf(options.scene), {options.touch, options.devices, http.limits, HL_VERSION});
   TouchSession& session = touch.device();
-  HttpServer server(http, makeViewerFeed(session, HL_VERSION), &touch, makeTouchMonitor(session));
+  HttpServer server(http, makeViewerFeed(session, HL_VERSION), &touch, makeTouchMonitor(session, &touch));
   touch.start();
   server.start();
   logReady(options, session, server.port());

@@ -2,7 +2,10 @@
 
 #include <tbb/global_control.h>
 
+#include <limits>
+
 #include "base/clock.h"
+#include "geometry/wide_bvh.h"
 
 namespace hl::bench {
 
@@ -19,12 +22,20 @@ double buildTimeOnOneThread_ns(const Shape& shape, HierarchyKind hierarchy) {
   return buildTime_ns(shape, hierarchy);
 }
 
+double refitTime_ns(const Shape& shape) {
+  const auto* const tree = dynamic_cast<const WideBvh*>(shape.index.get());
+  if (tree == nullptr) return std::numeric_limits<double>::quiet_NaN();
+  const std::int64_t start_ns = monotonicNow_ns();
+  const WideBvh refitted = tree->refit(shape.primitives);
+  return static_cast<double>(monotonicNow_ns() - start_ns);
+}
+
 }  // namespace
 
 Cost costOf(const Shape& shape, HierarchyKind hierarchy) {
   const auto primitives = static_cast<double>(shape.primitives.size());
   return {buildTimeOnOneThread_ns(shape, hierarchy) / primitives, buildTime_ns(shape, hierarchy) / primitives,
-          static_cast<double>(shape.index->stats().bytes) / primitives,
+          refitTime_ns(shape) / primitives, static_cast<double>(shape.index->stats().bytes) / primitives,
           static_cast<double>(shape.geometryBytes()) / primitives};
 }
 

@@ -23,7 +23,7 @@ struct Row {
   double mean_edge_m = 0;
   Timing times;
   std::size_t capped = 0;  ///< ticks that the iteration cap ended
-  Cost cost{kNone, kNone, kNone, kNone};
+  Cost cost{kNone, kNone, kNone, kNone, kNone};
   double to_plain = kNone;  ///< mean time of this tick over that of the same without surface effects
   double to_tick = kNone;   ///< median time of this query over that of HL's whole tick
   double to_query = kNone;  ///< median time of this query over that of HL's own

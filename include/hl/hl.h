@@ -174,6 +174,15 @@ HL_API void hlCallObject(HLuint object);
 /** Forgets objects; where they are called there is nothing from the next frame on, until they are defined again. 0 and
  * unknown numbers are ignored. HL_INVALID_VALUE: n < 0. HL_INVALID_OPERATION in a definition. */
 HL_API void hlDeleteObjects(HLsizei n, const HLuint* objects);
+/** Moves `count` vertices of `object` from number `first` on, with the next hlFlush, and touches nothing else of it: a
+ * mesh that bends costs what has moved, not the whole. Vertices count from 0 in the order in which the definition drew
+ * them, through hlDrawElements index by index; those that filled no primitive do not count. `vertices`: x y z each, in
+ * metres of the definition, before its matrices. `normals`: x y z each, of any length; null: they stay as they are.
+ * Both are read at once. Where an object is defined anew, what was moved before is forgotten. HL_INVALID_VALUE: the
+ * object is not defined, it has no such vertices, a number is negative or not finite, `vertices` is null.
+ * HL_INVALID_OPERATION: in a definition; `normals` for vertices that were drawn without. */
+HL_API void hlUpdateVertices(HLuint object, HLint first, HLsizei count, const HLdouble* vertices,
+                             const HLdouble* normals);
 /** HL_TRUE: defined (hlEndObject has been called) and not deleted. */
 HL_API HLboolean hlIsObject(HLuint object);
 

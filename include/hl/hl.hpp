@@ -178,6 +178,16 @@ struct VertexArrays {
   std::size_t size() const noexcept { return vertices.size() / 3; }
 };
 
+/// hlUpdateVertices, x y z each. Throws std::invalid_argument when the sizes do not fit.
+inline void updateVertices(HLuint object, HLint first, std::span<const HLdouble> vertices,
+                           std::span<const HLdouble> normals = {}) {
+  if (vertices.size() % 3 != 0) throw std::invalid_argument("vertices must hold 3 numbers each");
+  if (!normals.empty() && normals.size() != vertices.size())
+    throw std::invalid_argument("normals must hold 3 numbers for each vertex");
+  hlUpdateVertices(object, first, static_cast<HLsizei>(vertices.size() / 3), vertices.data(),
+                   normals.empty() ? nullptr : normals.data());
+}
+
 /// Inside, while a function on spans draws.
 namespace detail {
 

@@ -23,7 +23,7 @@ Draft HLcontext::closeFrame() {
   Draft closed = std::exchange(frame, {});
   for (auto& [object, items] : closed.objects) {
     dropImageless(items, textures);
-    objects.define(object, items.uses());
+    objects.define(object, items);
   }
   if (closed.world) {
     dropImageless(*closed.world, textures);

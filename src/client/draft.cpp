@@ -23,10 +23,28 @@ void mergeNumbered(std::map<HLuint, Definition>& defined, std::set<HLuint>& dele
 }  // namespace
 
 bool Draft::isEmpty() const {
-  return !world && objects.empty() && deleted_objects.empty() && textures.empty() && deleted_textures.empty();
+  return !world && objects.empty() && deleted_objects.empty() && moved.empty() && textures.empty() &&
+         deleted_textures.empty();
+}
+
+void Draft::move(VertexUpdate update) {
+  const auto covered = [&](const VertexUpdate& before) {
+    return before.object == update.object && before.item == update.item && before.first >= update.first &&
+           before.first + before.vertices.size() <= update.first + update.vertices.size() &&
+           (before.vertices.normals.empty() || !update.vertices.normals.empty());
+  };
+  std::erase_if(moved, covered);
+  moved.push_back(std::move(update));
+}
+
+void Draft::forgetMoved(HLuint object) {
+  std::erase_if(moved, [object](const VertexUpdate& update) { return update.object == object; });
 }
 
 void Draft::merge(Draft&& later) {
+  for (const HLuint object : later.deleted_objects) forgetMoved(object);
+  for (const auto& [object, items] : later.objects) forgetMoved(object);
+  for (VertexUpdate& update : later.moved) move(std::move(update));
   if (later.world) world = std::move(later.world);
   mergeNumbered(objects, deleted_objects, std::move(later.objects), later.deleted_objects);
   mergeNumbered(textures, deleted_textures, std::move(later.textures), later.deleted_textures);

@@ -3,23 +3,37 @@
 
 #include <hl/hl_types.h>
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
+#include <vector>
 
 #include "client/item_list.h"
 #include "client/texture_table.h"
 
 namespace hl::client {
 
+/// Vertices of one item of an object, from number `first` on, and where they are now.
+struct VertexUpdate {
+  HLuint object = 0;
+  std::uint32_t item = 0, first = 0;
+  Vertices vertices;  ///< without texture coordinates; without normals: those stay
+};
+
 struct Draft {
   std::optional<ItemList> world;       ///< absent: the calls stay as they are
   std::map<HLuint, ItemList> objects;  ///< new or overwritten
   std::set<HLuint> deleted_objects;    ///< in none of `objects`
+  std::vector<VertexUpdate> moved;     ///< of objects that are defined, after all definitions
   std::map<HLuint, Texture> textures;  ///< new or overwritten; all with images
   std::set<HLuint> deleted_textures;   ///< in none of `textures`
 
   bool isEmpty() const;
+  /// Forgets an earlier update that it covers, so that a draft that waits long does not grow.
+  void move(VertexUpdate update);
+  /// The object is another one now, or none.
+  void forgetMoved(HLuint object);
   /// As if both frames were shown at the same moment.
   void merge(Draft&& later);
 };

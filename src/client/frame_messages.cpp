@@ -86,6 +86,7 @@ class Builder {
       definition.set_id(object);
       for (Item& item : items.items()) fillItem(std::move(item), *definition.add_items());
     }
+    for (VertexUpdate& update : draft.moved) fillUpdate(std::move(update), *frame.add_moved());
     for (const HLuint object : draft.deleted_objects) frame.add_deleted_objects(object);
     if (draft.world) {
       proto::World& world = *frame.mutable_world();
@@ -107,13 +108,28 @@ class Builder {
       out.set_call(item.call);
       return;
     }
-    const std::size_t bytes = item.geometry.bytes();
+    fillGeometry(item.geometry, out);
+  }
+
+  void fillUpdate(VertexUpdate update, proto::VertexUpdate& out) {
+    out.set_object(update.object);
+    out.set_item(update.item);
+    out.set_first(update.first);
+    Geometry geometry;
+    geometry.vertices = std::move(update.vertices);
+    fillGeometry(geometry, out);
+  }
+
+  // In the frame, or ahead of it.
+  template <typename Message>
+  void fillGeometry(const Geometry& geometry, Message& out) {
+    const std::size_t bytes = geometry.bytes();
     if (bytes > kInlineBytes || inline_bytes_ + bytes > most_inline_) {
-      out.set_upload(upload(item.geometry));
+      out.set_upload(upload(geometry));
       return;
     }
     inline_bytes_ += bytes;
-    fillPrimitives(item.geometry, *out.mutable_primitives());
+    fillPrimitives(geometry, *out.mutable_primitives());
   }
 
   std::uint64_t upload(const Geometry& geometry) {

@@ -1,8 +1,13 @@
 // Objects and names.
 #include <hl/hl.h>
 
-#include <optional>
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "client/call.h"
 
@@ -11,7 +16,11 @@ using hl::client::callOr;
 using hl::client::Definition;
 using hl::client::DrawState;
 using hl::client::Fault;
+using hl::client::ItemVertices;
+using hl::client::Numbers;
+using hl::client::requireFinite;
 using hl::client::requireList;
+using hl::client::VertexUpdate;
 using hl::client::When;
 
 namespace {
@@ -28,11 +37,47 @@ void requireCallable(const HLcontext& context, HLuint object) {
 void endDefinition(HLcontext& context) {
   Definition& definition = *context.definition;
   const HLuint object = definition.object;
-  context.objects.define(object, definition.items.uses());
+  context.objects.define(object, definition.items);
   context.frame.deleted_objects.erase(object);
+  context.frame.forgetMoved(object);
   context.frame.objects.insert_or_assign(object, std::move(definition.items));
   context.draw = std::move(definition.outside);
   context.definition.reset();
+}
+
+Numbers copied(const HLdouble* begin, std::size_t count) {
+  Numbers numbers;
+  numbers.makeRoom(3 * count);
+  for (std::size_t i = 0; i < 3 * count; i += 3) {
+    const std::array<double, 3> read{begin[i], begin[i + 1], begin[i + 2]};
+    requireFinite(read[0], read[1], read[2]);
+    numbers.appendInRoom(read);
+  }
+  return numbers;
+}
+
+// One for each item that has some of the vertices [first, first + count).
+std::vector<VertexUpdate> updatesOf(const HLcontext& context, HLuint object, std::size_t first, std::size_t count,
+                                    const HLdouble* vertices, const HLdouble* normals) {
+  std::vector<VertexUpdate> updates;
+  std::size_t begin = 0;  // of the item's vertices, among the object's
+  for (const ItemVertices& item : context.objects.vertices(object)) {
+    const std::size_t from = std::max(first, begin), to = std::min(first + count, begin + item.count);
+    if (from < to) {
+      if (normals != nullptr && !item.normals)
+        throw Fault(HL_INVALID_OPERATION, "the object's vertices were drawn without normals");
+      VertexUpdate& update = updates.emplace_back();
+      update.object = object;
+      update.item = item.item;
+      update.first = static_cast<std::uint32_t>(from - begin);
+      update.vertices.positions = copied(vertices + 3 * (from - first), to - from);
+      if (normals != nullptr) update.vertices.normals = copied(normals + 3 * (from - first), to - from);
+    }
+    begin += item.count;
+  }
+  if (first + count > begin)
+    throw Fault(HL_INVALID_VALUE, "the object has " + std::to_string(begin) + " vertices, no more");
+  return updates;
 }
 
 }  // namespace
@@ -71,8 +116,20 @@ void hlDeleteObjects(HLsizei n, const HLuint* objects) {
     for (HLsizei i = 0; i < n; ++i) {
       if (!context.objects.remove(objects[i])) continue;
       context.frame.objects.erase(objects[i]);
+      context.frame.forgetMoved(objects[i]);
       context.frame.deleted_objects.insert(objects[i]);
     }
+  });
+}
+
+void hlUpdateVertices(HLuint object, HLint first, HLsizei count, const HLdouble* vertices, const HLdouble* normals) {
+  call(__func__, When::kNotInDefinition, [&](HLcontext& context) {
+    requireList(count, vertices);
+    if (first < 0) throw Fault(HL_INVALID_VALUE, "the first vertex must not be negative");
+    if (!context.objects.isDefined(object)) throw Fault(HL_INVALID_VALUE, "the object is not defined");
+    auto updates =
+        updatesOf(context, object, static_cast<std::size_t>(first), static_cast<std::size_t>(count), vertices, normals);
+    for (VertexUpdate& update : updates) context.frame.move(std::move(update));
   });
 }
 

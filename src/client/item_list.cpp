@@ -36,4 +36,13 @@ Uses ItemList::uses() const {
   return uses;
 }
 
+std::vector<ItemVertices> ItemList::vertices() const {
+  std::vector<ItemVertices> all;
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    const Vertices& v = items_[i].geometry.vertices;
+    if (v.size() > 0) all.push_back({static_cast<std::uint32_t>(i), v.size(), !v.normals.empty()});
+  }
+  return all;
+}
+
 }  // namespace hl::client

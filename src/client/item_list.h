@@ -3,6 +3,7 @@
 
 #include <hl/hl_types.h>
 
+#include <cstdint>
 #include <set>
 #include <vector>
 
@@ -25,6 +26,13 @@ struct Uses {
   std::set<HLuint> objects, textures;
 };
 
+/// The vertices of one item, which may be moved.
+struct ItemVertices {
+  std::uint32_t item = 0;  ///< number among all items of the list
+  std::size_t count = 0;
+  bool normals = false;
+};
+
 class ItemList {
  public:
   /// Appends primitives; takes `vertices` and leaves them empty. Those after each other with the same matrix, look, and
@@ -36,6 +44,8 @@ class ItemList {
   const std::vector<Item>& items() const { return items_; }
   std::vector<Item>& items() { return items_; }
   Uses uses() const;
+  /// Of all items that have some, in order.
+  std::vector<ItemVertices> vertices() const;
 
  private:
   std::vector<Item> items_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "client/fault.h"
@@ -15,8 +14,8 @@ HLuint ObjectTable::generate() {
   return ++highest_;
 }
 
-void ObjectTable::define(HLuint object, Uses uses) {
-  objects_[object] = std::move(uses);
+void ObjectTable::define(HLuint object, const ItemList& items) {
+  objects_[object] = {items.uses(), items.vertices()};
   highest_ = std::max(highest_, object);
 }
 
@@ -29,7 +28,7 @@ bool ObjectTable::reaches(HLuint from, HLuint to) const {
     if (object == to) return true;
     const auto found = objects_.find(object);
     if (found == objects_.end()) continue;
-    for (const HLuint called : found->second.objects)
+    for (const HLuint called : found->second.uses.objects)
       if (seen.insert(called).second) open.push_back(called);
   }
   return false;
@@ -37,7 +36,7 @@ bool ObjectTable::reaches(HLuint from, HLuint to) const {
 
 std::set<HLuint> ObjectTable::usedTextures() const {
   std::set<HLuint> used;
-  for (const auto& [object, uses] : objects_) used.insert(uses.textures.begin(), uses.textures.end());
+  for (const auto& [object, known] : objects_) used.insert(known.uses.textures.begin(), known.uses.textures.end());
   return used;
 }
 

@@ -1,11 +1,12 @@
 // ObjectTable: which objects are defined and what they use, so that a circle of calls is seen before anything is sent,
-// and a texture is not taken away under an object. What is in the objects is not kept.
+// and a texture is not taken away under an object; and how many vertices they have. What is in them is not kept.
 #pragma once
 
 #include <hl/hl_types.h>
 
 #include <map>
 #include <set>
+#include <vector>
 
 #include "client/item_list.h"
 
@@ -17,7 +18,9 @@ class ObjectTable {
   HLuint generate();
   bool isDefined(HLuint object) const { return objects_.contains(object); }
   /// Defines or redefines `object`.
-  void define(HLuint object, Uses uses);
+  void define(HLuint object, const ItemList& items);
+  /// Of a defined one.
+  const std::vector<ItemVertices>& vertices(HLuint object) const { return objects_.at(object).vertices; }
   /// Returns whether it was defined.
   bool remove(HLuint object) { return objects_.erase(object) != 0; }
   /// Whether `from` is `to` or calls it, directly or not.
@@ -26,7 +29,11 @@ class ObjectTable {
   std::set<HLuint> usedTextures() const;
 
  private:
-  std::map<HLuint, Uses> objects_;
+  struct Known {
+    Uses uses;
+    std::vector<ItemVertices> vertices;
+  };
+  std::map<HLuint, Known> objects_;
   HLuint highest_ = 0;
 };
 

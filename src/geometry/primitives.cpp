@@ -1,5 +1,8 @@
 #include "geometry/primitives.h"
 
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_reduce.h>
+
 #include <algorithm>
 #include <cassert>
 #include <limits>
@@ -31,14 +34,6 @@ Primitives::Primitives(const MeshView& mesh) : mesh_(mesh), size_(mesh.elements(
   kept_ = std::move(kept);
 }
 
-Primitives::Element Primitives::element(std::size_t i) const {
-  std::size_t number = kept_.empty() ? i : kept_[i];
-  if (number < mesh_.triangles.size()) return {PrimitiveKind::kTriangle, static_cast<std::uint32_t>(number)};
-  number -= mesh_.triangles.size();
-  if (number < mesh_.segments.size()) return {PrimitiveKind::kSegment, static_cast<std::uint32_t>(number)};
-  return {PrimitiveKind::kPoint, static_cast<std::uint32_t>(number - mesh_.segments.size())};
-}
-
 bool Primitives::valid(const Element& element) const {
   const auto in_range = [&](std::uint32_t index) { return index < mesh_.positions.size(); };
   const auto all_in_range = [&](const auto& indices) { return std::all_of(indices.begin(), indices.end(), in_range); };
@@ -59,28 +54,6 @@ bool Primitives::valid(const Element& element) const {
   return in_range(mesh_.points[element.source]) && withinReach(corners(element)[0]);
 }
 
-std::array<Vec3, 3> Primitives::corners(const Element& element) const {
-  const auto& p = mesh_.positions;
-  switch (element.kind) {
-    case PrimitiveKind::kTriangle: {
-      const auto& t = mesh_.triangles[element.source];
-      return {p[t[0]], p[t[1]], p[t[2]]};
-    }
-    case PrimitiveKind::kSegment: {
-      const auto& s = mesh_.segments[element.source];
-      return {p[s[0]], p[s[1]], p[s[1]]};
-    }
-    case PrimitiveKind::kPoint:
-      break;
-  }
-  const Vec3& point = p[mesh_.points[element.source]];
-  return {point, point, point};
-}
-
-std::array<Vec3, 3> Primitives::corners(std::size_t i) const {
-  return ready_.empty() ? corners(element(i)) : ready_[i].vertex;
-}
-
 PrimitiveKind Primitives::kind(std::size_t i) const { return ready_.empty() ? element(i).kind : ready_[i].kind; }
 
 std::uint32_t Primitives::source(std::size_t i) const { return ready_.empty() ? element(i).source : ready_[i].source; }
@@ -98,6 +71,21 @@ Primitive Primitives::operator[](std::size_t i) const {
       break;
   }
   return pointOf(v[0], made_from.source);
+}
+
+Box boundsOf(const Primitives& primitives) {
+  constexpr std::size_t kGrain = 4096;
+  using Range = oneapi::tbb::blocked_range<std::size_t>;
+  const auto extend = [&](const Range& range, Box bounds) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const auto v = primitives.corners(i);
+      bounds.min = bounds.min.cwiseMin(v[0].cwiseMin(v[1]).cwiseMin(v[2]));
+      bounds.max = bounds.max.cwiseMax(v[0].cwiseMax(v[1]).cwiseMax(v[2]));
+    }
+    return bounds;
+  };
+  const auto both = [](const Box& a, const Box& b) { return Box{a.min.cwiseMin(b.min), a.max.cwiseMax(b.max)}; };
+  return oneapi::tbb::parallel_reduce(Range(0, primitives.size(), kGrain), Box(), extend, both);
 }
 
 }  // namespace hl

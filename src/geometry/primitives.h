@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/box.h"
 #include "geometry/primitive.h"
 
 namespace hl {
@@ -40,6 +41,8 @@ class Primitives {
   const Refused& refused() const { return refused_; }
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
+  /// Whether the same elements make the same numbers here as there, for two meshes with the same lists.
+  bool numberedAs(const Primitives& other) const { return size_ == other.size_ && kept_ == other.kept_; }
   /// Memory of its own, beside the mesh's.
   std::size_t bytes() const { return kept_.capacity() * sizeof(std::uint32_t); }
 
@@ -83,5 +86,40 @@ class Primitives {
   std::size_t size_ = 0;
   Refused refused_;
 };
+
+/// Of all vertices that they have. On all threads that oneTBB has.
+Box boundsOf(const Primitives& primitives);
+
+// In sight of the loops that read a million of them.
+
+inline Primitives::Element Primitives::element(std::size_t i) const {
+  std::size_t number = kept_.empty() ? i : kept_[i];
+  if (number < mesh_.triangles.size()) return {PrimitiveKind::kTriangle, static_cast<std::uint32_t>(number)};
+  number -= mesh_.triangles.size();
+  if (number < mesh_.segments.size()) return {PrimitiveKind::kSegment, static_cast<std::uint32_t>(number)};
+  return {PrimitiveKind::kPoint, static_cast<std::uint32_t>(number - mesh_.segments.size())};
+}
+
+inline std::array<Vec3, 3> Primitives::corners(const Element& element) const {
+  const auto& p = mesh_.positions;
+  switch (element.kind) {
+    case PrimitiveKind::kTriangle: {
+      const auto& t = mesh_.triangles[element.source];
+      return {p[t[0]], p[t[1]], p[t[2]]};
+    }
+    case PrimitiveKind::kSegment: {
+      const auto& s = mesh_.segments[element.source];
+      return {p[s[0]], p[s[1]], p[s[1]]};
+    }
+    case PrimitiveKind::kPoint:
+      break;
+  }
+  const Vec3& point = p[mesh_.points[element.source]];
+  return {point, point, point};
+}
+
+inline std::array<Vec3, 3> Primitives::corners(std::size_t i) const {
+  return ready_.empty() ? corners(element(i)) : ready_[i].vertex;
+}
 
 }  // namespace hl

@@ -2,14 +2,13 @@
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <cassert>
 #include <limits>
 
 #include "geometry/wide_bvh_build.h"
-#include "geometry/wide_bvh_pack.h"
+#include "geometry/wide_bvh_refit.h"
 
 namespace hl {
 
@@ -18,43 +17,30 @@ namespace {
 using Range = oneapi::tbb::blocked_range<std::size_t>;
 constexpr std::size_t kGrain = 4096;
 
-struct Bounds {
-  Vec3 min = Vec3::Constant(std::numeric_limits<double>::infinity());
-  Vec3 max = -min;
-};
-
-Bounds boundsOf(const Primitives& primitives) {
-  const auto extend = [&](const Range& range, Bounds bounds) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      for (const Vec3& vertex : primitives.corners(i)) {
-        bounds.min = bounds.min.cwiseMin(vertex);
-        bounds.max = bounds.max.cwiseMax(vertex);
-      }
-    }
-    return bounds;
-  };
-  const auto both = [](const Bounds& a, const Bounds& b) {
-    return Bounds{a.min.cwiseMin(b.min), a.max.cwiseMax(b.max)};
-  };
-  return oneapi::tbb::parallel_reduce(Range(0, primitives.size(), kGrain), Bounds(), extend, both);
-}
-
 double largest(const Vec3& v) { return v.cwiseAbs().maxCoeff(); }
 
 }  // namespace
 
-WideBvh WideBvh::build(const Primitives& primitives) {
-  // Blocks count as no smaller: where all primitives are one point, nothing else says how fine its place must be.
+void WideBvh::measure(const Primitives& primitives) {
+  const Box bounds = boundsOf(primitives);
+  origin_ = 0.5 * bounds.min + 0.5 * bounds.max;
+  half_ = largest(bounds.max - origin_);
+  extent_ = std::max(largest(bounds.min), largest(bounds.max));
+}
+
+// Where all primitives are one point, nothing else says how fine its place must be.
+BlockScale WideBvh::scale() const {
   constexpr double kSmallest_m = 1e-12;
   constexpr double kSmallestPerExtent = 1.0 / (1LL << 40);
+  return {origin_, std::max(kSmallest_m, kSmallestPerExtent * half_)};
+}
+
+WideBvh WideBvh::build(const Primitives& primitives) {
   WideBvh bvh;
   bvh.primitives_ = primitives.size();
   if (primitives.empty()) return bvh;
   assert(primitives.size() <= std::numeric_limits<std::uint32_t>::max());
-  const Bounds bounds = boundsOf(primitives);
-  bvh.origin_ = 0.5 * bounds.min + 0.5 * bounds.max;
-  bvh.half_ = largest(bounds.max - bvh.origin_);
-  bvh.extent_ = std::max(largest(bounds.min), largest(bounds.max));
+  bvh.measure(primitives);
   std::vector<BoxedPrimitive> boxes(primitives.size());
   oneapi::tbb::parallel_for(Range(0, boxes.size(), kGrain), [&](const Range& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i)
@@ -62,7 +48,23 @@ WideBvh WideBvh::build(const Primitives& primitives) {
   });
   const BinaryTree tree = buildBinaryTree(std::move(boxes));
   bvh.nodes_ = widen(tree, bvh.depth_);
-  bvh.blocks_ = pack(tree, primitives, bvh.origin_, std::max(kSmallest_m, kSmallestPerExtent * bvh.half_));
+  bvh.blocks_ = pack(tree, primitives, bvh.scale());
+  bvh.cost_ = bvh.built_cost_ = costOf(bvh.nodes_);
+  return bvh;
+}
+
+WideBvh WideBvh::refit(const Primitives& moved) const {
+  assert(moved.size() == primitives_);
+  WideBvh bvh;
+  bvh.primitives_ = primitives_;
+  if (moved.empty()) return bvh;
+  bvh.measure(moved);
+  bvh.depth_ = depth_;
+  std::vector<FloatBox> boxes;
+  bvh.blocks_ = repack(blocks_, moved, bvh.scale(), boxes);
+  bvh.nodes_ = refitted(nodes_, boxes);
+  bvh.cost_ = costOf(bvh.nodes_);
+  bvh.built_cost_ = built_cost_;
   return bvh;
 }
 

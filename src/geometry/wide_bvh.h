@@ -11,6 +11,7 @@
 #include "geometry/primitives.h"
 #include "geometry/spatial_index.h"
 #include "geometry/wide_bvh_layout.h"
+#include "geometry/wide_bvh_pack.h"
 #include "geometry/wide_bvh_query.h"
 
 namespace hl {
@@ -23,6 +24,15 @@ class WideBvh final : public SpatialIndex {
   /// input gives an index that visits nothing.
   static WideBvh build(const Primitives& primitives);
 
+  /// The same tree around the same primitives where they are now: as many, numbered as before. O(n) on all threads that
+  /// oneTBB has; the result does not depend on their number. Setup only.
+  WideBvh refit(const Primitives& moved) const;
+  /// Boxes that a query enters in the mean, by the surface area heuristic: small ones that it meets anywhere in the
+  /// root's box.
+  double cost() const { return cost_; }
+  /// The same in multiples of what it was when the tree was built.
+  double wear() const { return cost_ == 0 ? 1 : cost_ / built_cost_; }
+
   void overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t primitive)> visit) const override;
   void sweep(const Vec3& from, const Vec3& motion, double radius,
              FunctionRef<double(std::uint32_t primitive, double limit)> visit) const override;
@@ -34,6 +44,9 @@ class WideBvh final : public SpatialIndex {
   const Vec3& origin() const { return origin_; }  ///< what the coordinates of nodes and blocks are relative to
 
  private:
+  // Origin, extent and half of it from where the primitives are.
+  void measure(const Primitives& primitives);
+  BlockScale scale() const;
   WideTree tree() const;
   // The radius, and what the double tests of the candidates may be off by.
   double reach(const Vec3& from, const Vec3& motion, double radius) const;
@@ -45,6 +58,7 @@ class WideBvh final : public SpatialIndex {
   double extent_ = 0;  // m: largest coordinate of a primitive
   double half_ = 0;    // m: the same, relative to origin_
   int depth_ = 0;
+  double cost_ = 0, built_cost_ = 0;
 };
 
 }  // namespace hl

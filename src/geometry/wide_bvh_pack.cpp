@@ -4,6 +4,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -121,68 +122,84 @@ double stepFor(double largest) {
   return std::ldexp(1.0, exponent);
 }
 
+// The bounds grow by 2^-22 of themselves, four times what rounding to single precision moves them, and by the smallest
+// normal float. Computed, not measured: GCC 12 takes a double that was narrowed and widened again for the double
+// itself. Each step keeps order, so the box of several primitives is that of their boxes, to the bit.
+FloatBox roundedOutward(const Vec3& low, const Vec3& high) {
+  constexpr float kOutward = 1.0f / (1 << 22);
+  constexpr float kMost = 1e38f;  // beyond what is supported; keeps infinities out
+  FloatBox box;
+  box.min.head<3>() = low.cast<float>().array().max(-kMost).min(kMost);
+  box.max.head<3>() = high.cast<float>().array().max(-kMost).min(kMost);
+  box.min -= kOutward * box.min.abs() + std::numeric_limits<float>::min();
+  box.max += kOutward * box.max.abs() + std::numeric_limits<float>::min();
+  return box;
+}
+
+// One block in the making. Its lanes have their primitives' numbers.
 class BlockPacker {
  public:
-  BlockPacker(const BinaryTree& tree, const Primitives& primitives, const Vec3& origin, double smallest)
-      : tree_(tree), primitives_(primitives), origin_(origin), smallest_(smallest) {}
+  BlockPacker(WideBlock& block, std::size_t count, const Primitives& primitives, const BlockScale& scale)
+      : block_(block), count_(count), smallest_(scale.smallest) {
+    for (std::size_t lane = 0; lane < kWide; ++lane) {
+      const auto corners = primitives.corners(block.primitive[lane < count ? lane : 0]);
+      for (std::size_t i = 0; i < 3; ++i)
+        at_.row(static_cast<Eigen::Index>(i * kWide + lane)) = (corners[i] - scale.origin).array();
+    }
+  }
 
-  WideBlock pack(std::size_t number) const {
-    const std::size_t begin = number * kWide;
-    const std::size_t count = std::min(kWide, tree_.primitives.size() - begin);
-    WideBlock block{};
-    Vec3 origin = origin_;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto i = static_cast<Eigen::Index>(axis);
-      block.origin[axis] = 0.5f * (tree_.blocks[number].min[i] + tree_.blocks[number].max[i]);
-      origin[i] = block.origin[axis];
+  FloatBox box() const { return roundedOutward(at_.colwise().minCoeff(), at_.colwise().maxCoeff()); }
+
+  void pack(const FloatBox& box) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const float origin = 0.5f * (box.min[axis] + box.max[axis]);
+      block_.origin[axis] = origin;
+      at_.col(axis) -= static_cast<double>(origin);
     }
-    std::array<std::array<Vec3, 3>, kWide> corners;
-    double largest = smallest_;
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      block.primitive[lane] = tree_.primitives[begin + lane].number();
-      corners[lane] = primitives_.corners(block.primitive[lane]);
-      for (const Vec3& vertex : corners[lane]) largest = std::max(largest, local(vertex, origin).cwiseAbs().maxCoeff());
-    }
-    const double per_step = 1 / stepFor(largest);
-    block.per_step = static_cast<float>(per_step);
-    for (std::size_t lane = 0; lane < count; ++lane) packLane(block, lane, corners[lane], origin, per_step);
-    return block;
+    const double per_step = 1 / stepFor(std::max(smallest_, at_.abs().maxCoeff()));
+    block_.per_step = static_cast<float>(per_step);
+    for (Eigen::Index axis = 0; axis < 3; ++axis) packAxis(axis, per_step);
   }
 
  private:
-  Vec3 local(const Vec3& vertex, const Vec3& origin) const { return (vertex - origin_) - origin; }
+  using Corners = Eigen::Array<double, 3 * kWide, 3>;
 
-  void packLane(WideBlock& block, std::size_t lane, const std::array<Vec3, 3>& corners, const Vec3& origin,
-                double per_step) const {
+  void packAxis(Eigen::Index axis, double per_step) {
+    // Adding so much leaves the nearest whole number in the last bits.
+    constexpr double kWholeInLastBits = 1.5 * (1LL << 52);
+    const Eigen::Array<double, 3 * kWide, 1> steps = at_.col(axis) * per_step + kWholeInLastBits;
     for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3 at = local(corners[i], origin) * per_step;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        block.vertex[i][axis][lane] = static_cast<std::int16_t>(std::lrint(at[static_cast<Eigen::Index>(axis)]));
+      std::int16_t* vertex = block_.vertex[i][axis];
+      for (std::size_t lane = 0; lane < kWide; ++lane)
+        vertex[lane] = static_cast<std::int16_t>(std::bit_cast<std::int64_t>(steps.data()[i * kWide + lane]));
+      std::fill(vertex + count_, vertex + kWide, std::int16_t{0});
     }
   }
 
-  const BinaryTree& tree_;
-  const Primitives& primitives_;
-  const Vec3& origin_;
-  double smallest_;
+  WideBlock& block_;
+  const std::size_t count_;
+  const double smallest_;
+  Corners at_;  // of vertex after vertex, lane by lane; lanes without a primitive repeat the first
 };
+
+std::size_t primitivesOf(std::size_t block, std::size_t all) { return std::min(kWide, all - block * kWide); }
+
+template <typename Make>
+HugeVector<WideBlock> makeBlocks(std::size_t count, const Make& make) {
+  constexpr std::size_t kGrain = 512;
+  HugeVector<WideBlock> blocks(count);
+  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, count, kGrain), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) make(i, blocks[i]);
+  });
+  return blocks;
+}
 
 }  // namespace
 
-// The bounds grow by 2^-22 of themselves, four times what rounding to single precision moves them, and by the smallest
-// normal float. Computed, not measured: GCC 12 takes a double that was narrowed and widened again for the double
-// itself.
 BoxedPrimitive boxed(const std::array<Vec3, 3>& corners, std::uint32_t number, const Vec3& origin) {
-  constexpr float kOutward = 1.0f / (1 << 22);
-  constexpr float kMost = 1e38f;  // beyond what is supported; keeps infinities out
   const auto& v = corners;
-  const Vec3 low = v[0].cwiseMin(v[1]).cwiseMin(v[2]) - origin;
-  const Vec3 high = v[0].cwiseMax(v[1]).cwiseMax(v[2]) - origin;
-  BoxedPrimitive result;
-  result.box.min.head<3>() = low.cast<float>().array().max(-kMost).min(kMost);
-  result.box.max.head<3>() = high.cast<float>().array().max(-kMost).min(kMost);
-  result.box.min -= kOutward * result.box.min.abs() + std::numeric_limits<float>::min();
-  result.box.max += kOutward * result.box.max.abs() + std::numeric_limits<float>::min();
+  BoxedPrimitive result{
+      roundedOutward(v[0].cwiseMin(v[1]).cwiseMin(v[2]) - origin, v[0].cwiseMax(v[1]).cwiseMax(v[2]) - origin)};
   result.setNumber(number);
   return result;
 }
@@ -199,14 +216,23 @@ HugeVector<WideNode> widen(const BinaryTree& tree, int& depth) {
   return nodes;
 }
 
-HugeVector<WideBlock> pack(const BinaryTree& tree, const Primitives& primitives, const Vec3& origin, double smallest) {
-  constexpr std::size_t kGrain = 512;
-  const BlockPacker packer(tree, primitives, origin, smallest);
-  HugeVector<WideBlock> blocks(tree.blocks.size());
-  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, blocks.size(), kGrain), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) blocks[i] = packer.pack(i);
+HugeVector<WideBlock> pack(const BinaryTree& tree, const Primitives& primitives, const BlockScale& scale) {
+  return makeBlocks(tree.blocks.size(), [&](std::size_t i, WideBlock& block) {
+    const std::size_t count = primitivesOf(i, primitives.size());
+    for (std::size_t lane = 0; lane < count; ++lane) block.primitive[lane] = tree.primitives[i * kWide + lane].number();
+    BlockPacker(block, count, primitives, scale).pack(tree.blocks[i]);
   });
-  return blocks;
+}
+
+HugeVector<WideBlock> repack(const HugeVector<WideBlock>& blocks, const Primitives& moved, const BlockScale& scale,
+                             std::vector<FloatBox>& boxes) {
+  boxes.resize(blocks.size());
+  return makeBlocks(blocks.size(), [&](std::size_t i, WideBlock& block) {
+    std::copy_n(blocks[i].primitive, kWide, block.primitive);
+    BlockPacker packer(block, primitivesOf(i, moved.size()), moved, scale);
+    boxes[i] = packer.box();
+    packer.pack(boxes[i]);
+  });
 }
 
 }  // namespace hl

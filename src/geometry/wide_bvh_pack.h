@@ -17,7 +17,17 @@ BoxedPrimitive boxed(const std::array<Vec3, 3>& corners, std::uint32_t number, c
 /// Nodes in depth-first order, none for a tree of one block; `depth` becomes the number of nodes on the longest path.
 HugeVector<WideNode> widen(const BinaryTree& tree, int& depth);
 
-/// Blocks count as at least `smallest` (m) large, which keeps the coordinates of a query in their steps in range.
-HugeVector<WideBlock> pack(const BinaryTree& tree, const Primitives& primitives, const Vec3& origin, double smallest);
+/// What the coordinates of blocks are relative to. Blocks count as at least `smallest` (m) large, which keeps the
+/// coordinates of a query in their steps in range.
+struct BlockScale {
+  Vec3 origin;
+  double smallest;
+};
+
+HugeVector<WideBlock> pack(const BinaryTree& tree, const Primitives& primitives, const BlockScale& scale);
+
+/// The same primitives in the same lanes, where they are now; `boxes` becomes those of the blocks.
+HugeVector<WideBlock> repack(const HugeVector<WideBlock>& blocks, const Primitives& moved, const BlockScale& scale,
+                             std::vector<FloatBox>& boxes);
 
 }  // namespace hl

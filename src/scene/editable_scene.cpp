@@ -128,19 +128,22 @@ void EditableScene::Flattening::add(const SceneItem& item, const Call& call) {
   placed.push_back({shape, surfacesOf(call.surface), pose, call.key, scene_.session_, call.object, call.name});
 }
 
+// A new copy takes its hierarchy from the one that it follows on, or else from the shape.
 std::shared_ptr<const Shape> EditableScene::Flattening::shapeOf(const std::shared_ptr<const Shape>& shape,
                                                                 const Mat3& stretch) {
   if (stretch == Mat3::Identity()) return shape;
-  const Stretched key{shape.get(),
-                      {stretch(0, 0), stretch(0, 1), stretch(0, 2), stretch(1, 1), stretch(1, 2), stretch(2, 2)}};
-  auto& slot = stretched[key];
+  const std::array<double, 6> upper{stretch(0, 0), stretch(0, 1), stretch(0, 2),
+                                    stretch(1, 1), stretch(1, 2), stretch(2, 2)};
+  auto& slot = stretched[{shape->geometry, upper}];
   if (slot) return slot;
   copies_.add(shape->model, "in the scaled copies of objects, ");
-  const auto known = scene_.stretched_.find(key);
-  if (known != scene_.stretched_.end()) return slot = known->second;
+  const auto& made = scene_.stretched_;
+  const auto known = made.find({shape->geometry, upper});
+  if (known != made.end()) return slot = known->second;
   Model model = shape->model;
   placeModel(model, {stretch, Vec3::Zero()});
-  return slot = makeShape(std::move(model));
+  const auto before = made.find({shape->before, upper});
+  return slot = makeShape(std::move(model), before == made.end() ? *shape : *before->second);
 }
 
 std::shared_ptr<const Surfaces> EditableScene::Flattening::surfacesOf(const SurfaceChange& change) const {
@@ -203,6 +206,38 @@ std::size_t EditableScene::primitives() const {
   return sum;
 }
 
+const SceneItems* EditableScene::items(std::uint32_t object) const {
+  if (object == 0) return state_.world.get();
+  const auto found = state_.objects.find(object);
+  return found == state_.objects.end() ? nullptr : found->second.get();
+}
+
+std::shared_ptr<const Shape> EditableScene::worn() const {
+  const auto found =
+      std::find_if(placed_.begin(), placed_.end(), [](const PlacedShape& p) { return p.shape->wear > kMostWear; });
+  return found == placed_.end() ? nullptr : found->shape;
+}
+
+void EditableScene::replace(const std::shared_ptr<const Shape>& old, const std::shared_ptr<const Shape>& rebuilt) {
+  const auto in = [&](std::shared_ptr<const SceneItems>& items) {
+    const auto holds = [&](const SceneItem& item) { return item.shape == old; };
+    if (std::none_of(items->begin(), items->end(), holds)) return;
+    SceneItems next = *items;
+    for (SceneItem& item : next) {
+      if (holds(item)) item.shape = rebuilt;
+    }
+    items = std::make_shared<SceneItems>(std::move(next));
+  };
+  in(state_.world);
+  for (auto& [id, items] : state_.objects) in(items);
+  for (PlacedShape& placed : placed_) {
+    if (placed.shape == old) placed.shape = rebuilt;
+  }
+  for (auto& [key, copy] : stretched_) {
+    if (copy == old) copy = rebuilt;
+  }
+}
+
 Followed followOn(const std::vector<PlacedShape>& placed, const std::vector<Instance>& last, std::int64_t begin_ns,
                   std::int64_t end_ns) {
   Followed result;
@@ -219,7 +254,8 @@ Followed followOn(const std::vector<PlacedShape>& placed, const std::vector<Inst
       if (!stays || !rests) instance.motion = stays ? before->motion : before->motion.then(now.pose, begin_ns, end_ns);
     }
     const bool follows = known && (stays || instance.motion.moves());
-    if (!follows || before->shape != now.shape || !(*before->surfaces == *now.surfaces)) result.abrupt = true;
+    if (!follows || before->shape->geometry != now.shape->geometry || !(*before->surfaces == *now.surfaces))
+      result.abrupt = true;
     result.instances.push_back(std::move(instance));
   }
   std::sort(result.instances.begin(), result.instances.end(),

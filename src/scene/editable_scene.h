@@ -76,6 +76,13 @@ class EditableScene {
   /// What is in the world now.
   const std::vector<PlacedShape>& placed() const { return placed_; }
   std::size_t primitives() const;  ///< in the world, each instance counted
+  /// Of an object, or of the world, 0; null where there is no such object. Until the next edit.
+  const SceneItems* items(std::uint32_t object) const;
+
+  /// One in the world whose hierarchy is worn beyond kMostWear; none when there is none.
+  std::shared_ptr<const Shape> worn() const;
+  /// Puts the shape that was rebuilt from `old` where that one was.
+  void replace(const std::shared_ptr<const Shape>& old, const std::shared_ptr<const Shape>& rebuilt);
 
  private:
   struct State {
@@ -83,8 +90,8 @@ class EditableScene {
     std::map<std::uint32_t, std::shared_ptr<const SceneItems>> objects;
     std::shared_ptr<const SceneItems> world = std::make_shared<SceneItems>();
   };
-  /// A shape and the stretch that it was made with: the upper half of a symmetric matrix.
-  using Stretched = std::tuple<const Shape*, std::array<double, 6>>;
+  /// The geometry of a shape and the stretch that it was made with: the upper half of a symmetric matrix.
+  using Stretched = std::tuple<std::uint64_t, std::array<double, 6>>;
   class Flattening;
 
   State after(const SceneEdit& edit) const;

@@ -1,6 +1,7 @@
 #include "scene/shape.h"
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 #include "geometry/brute_force.h"
@@ -51,12 +52,47 @@ std::size_t bytesOf(const std::vector<T>& list) {
   return list.capacity() * sizeof(T);
 }
 
-Box boundsOf(const Primitives& primitives) {
-  Box bounds;
-  for (std::size_t i = 0; i < primitives.size(); ++i) {
-    for (const Vec3& vertex : primitives.corners(i)) bounds.extend(vertex);
+bool sameButTurned(const std::array<std::uint32_t, 3>& a, const std::array<std::uint32_t, 3>& b) {
+  return a == b || a == std::array{b[1], b[2], b[0]} || a == std::array{b[2], b[0], b[1]};
+}
+
+// Triangles are turned by where their vertices are.
+bool sameLists(const Model& a, const Model& b) {
+  return a.positions.size() == b.positions.size() && a.segments == b.segments && a.points == b.points &&
+         std::equal(a.triangles.begin(), a.triangles.end(), b.triangles.begin(), b.triangles.end(), sameButTurned);
+}
+
+std::uint64_t nextGeometry() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
+
+// All but the hierarchy.
+std::shared_ptr<Shape> shapeOf(Model given) {
+  auto shape = std::make_shared<Shape>();
+  shape->geometry = nextGeometry();
+  shape->model = std::move(given);
+  turnTriangles(shape->model);
+  shape->model.positions.shrink_to_fit();
+  shape->model.triangles.shrink_to_fit();
+  const Model& model = shape->model;
+  shape->primitives = Primitives({model.positions, model.triangles, model.segments, model.points});
+  const Primitives& primitives = shape->primitives;
+  shape->warnings = model.warnings;
+  warnSkipped(shape->warnings, primitives.refused().triangles, "triangles");
+  warnSkipped(shape->warnings, primitives.refused().segments, "segments");
+  warnSkipped(shape->warnings, primitives.refused().points, "points");
+  shape->material_of = materialsOf(model, primitives);
+  shape->bounds = boundsOf(primitives);
+  if (!shape->bounds.empty()) {
+    shape->extent = shape->bounds.min.cwiseAbs().cwiseMax(shape->bounds.max.cwiseAbs()).maxCoeff();
   }
-  return bounds;
+  return shape;
+}
+
+void buildIndex(Shape& shape, HierarchyKind hierarchy) {
+  shape.hierarchy = hierarchy;
+  shape.index = makeIndex(shape.primitives, hierarchy);
 }
 
 }  // namespace
@@ -86,24 +122,29 @@ std::unique_ptr<const SpatialIndex> makeIndex(const Primitives& primitives, Hier
 }
 
 std::shared_ptr<const Shape> makeShape(Model given, HierarchyKind hierarchy) {
-  auto shape = std::make_shared<Shape>();
-  shape->model = std::move(given);
-  turnTriangles(shape->model);
-  shape->model.positions.shrink_to_fit();
-  shape->model.triangles.shrink_to_fit();
-  const Model& model = shape->model;
-  shape->primitives = Primitives({model.positions, model.triangles, model.segments, model.points});
-  const Primitives& primitives = shape->primitives;
-  shape->warnings = model.warnings;
-  warnSkipped(shape->warnings, primitives.refused().triangles, "triangles");
-  warnSkipped(shape->warnings, primitives.refused().segments, "segments");
-  warnSkipped(shape->warnings, primitives.refused().points, "points");
-  shape->material_of = materialsOf(model, primitives);
-  shape->bounds = boundsOf(primitives);
-  if (!shape->bounds.empty()) {
-    shape->extent = shape->bounds.min.cwiseAbs().cwiseMax(shape->bounds.max.cwiseAbs()).maxCoeff();
+  const auto shape = shapeOf(std::move(given));
+  buildIndex(*shape, hierarchy);
+  return shape;
+}
+
+std::shared_ptr<const Shape> makeShape(Model given, const Shape& before) {
+  const auto shape = shapeOf(std::move(given));
+  const auto* const tree = dynamic_cast<const WideBvh*>(before.index.get());
+  if (tree == nullptr || !sameLists(shape->model, before.model) || !shape->primitives.numberedAs(before.primitives)) {
+    buildIndex(*shape, before.hierarchy);
+    return shape;
   }
-  shape->index = makeIndex(primitives, hierarchy);
+  auto refitted = std::make_unique<const WideBvh>(tree->refit(shape->primitives));
+  shape->wear = refitted->wear();
+  shape->before = before.geometry;
+  shape->index = std::move(refitted);
+  return shape;
+}
+
+std::shared_ptr<const Shape> rebuilt(const Shape& worn) {
+  const auto shape = shapeOf(worn.model);
+  buildIndex(*shape, worn.hierarchy);
+  shape->geometry = worn.geometry;
   return shape;
 }
 

@@ -29,7 +29,11 @@ struct Shape {
   Model model;
   Primitives primitives;                   ///< of the model
   std::vector<std::uint16_t> material_of;  ///< one per primitive, or empty: all use material 0
+  HierarchyKind hierarchy = HierarchyKind::kBvh;
   std::unique_ptr<const SpatialIndex> index;
+  double wear = 1;             ///< of a refitted hierarchy: see WideBvh::wear
+  std::uint64_t geometry = 0;  ///< above 0; another shape has the same number only when it was rebuilt from this one
+  std::uint64_t before = 0;    ///< geometry of the shape that the hierarchy was refitted from; 0: it was built
   Box bounds;
   double extent = 0;                  ///< m: largest coordinate
   std::vector<std::string> warnings;  ///< the model's, and what was skipped here
@@ -45,5 +49,14 @@ struct Shape {
 /// Takes over the model. Degenerate and non-finite elements, and indices out of range, are skipped and counted in
 /// `warnings`. Allocates; never called by a real-time thread.
 std::shared_ptr<const Shape> makeShape(Model given, HierarchyKind hierarchy = HierarchyKind::kBvh);
+
+/// The same for what follows on `before`. Where both have the same index lists and skip the same elements, a wide
+/// hierarchy is refitted: that is nine times as fast as building it. Else it is built, of the same kind.
+std::shared_ptr<const Shape> makeShape(Model given, const Shape& before);
+
+/// Beyond this wear a hierarchy should be built anew: a query enters twice as many boxes as it did then.
+inline constexpr double kMostWear = 2;
+/// The same geometry with a hierarchy that is built for it: the same answers to the bit. Takes long.
+std::shared_ptr<const Shape> rebuilt(const Shape& worn);
 
 }  // namespace hl

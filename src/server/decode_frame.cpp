@@ -1,5 +1,6 @@
 #include "server/decode_frame.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -17,19 +18,31 @@ namespace {
 class FrameDecoder {
  public:
   FrameDecoder(const proto::Frame& frame, const Uploads& uploads, const SceneLimits& limits,
-               const std::function<void(double)>& progress)
-      : frame_(frame), uploads_(uploads), limits_(limits), progress_(progress), decoder_(refuse), size_(limits) {}
+               const std::function<void(double)>& progress, const ItemsBefore& before)
+      : frame_(frame),
+        uploads_(uploads),
+        limits_(limits),
+        progress_(progress),
+        before_(before),
+        decoder_(refuse),
+        size_(limits) {}
 
   DecodedFrame run();
 
  private:
   void addTextures();
   void addObjects();
-  SceneItems itemsOf(const google::protobuf::RepeatedPtrField<proto::Item>& items, const std::string& where);
-  SceneItem itemOf(const proto::Item& in, const std::string& where);
+  const SceneItems* itemsBefore(std::uint32_t object) const { return before_ ? before_(object) : nullptr; }
+  void addMoved();
+  SceneItem& itemToMove(const proto::VertexUpdate& in, const std::string& where);
+  void move(const proto::VertexUpdate& in, Model& model, const std::string& where) const;
+  std::shared_ptr<const Shape> noted(std::shared_ptr<const Shape> shape, const std::string& where);
+  SceneItems itemsOf(const google::protobuf::RepeatedPtrField<proto::Item>& items, std::uint32_t object,
+                     const std::string& where);
+  SceneItem itemOf(const proto::Item& in, const Shape* before, const std::string& where);
   Placement placementOf(const proto::Item& in, const std::string& where) const;
   std::shared_ptr<const Shape> shapeOf(const proto::Primitives& in, const proto::Material& material,
-                                       const std::string& where);
+                                       const Shape* before, const std::string& where);
   const proto::Primitives& upload(std::uint64_t id, const std::string& where) const;
   void countItems();
 
@@ -37,6 +50,7 @@ class FrameDecoder {
   const Uploads& uploads_;
   const SceneLimits& limits_;
   const std::function<void(double)>& progress_;
+  const ItemsBefore& before_;
   const SceneDecoder decoder_;
   DecodedFrame result_;
   ModelSizes size_;  // each item makes a shape of its own, even if all refer to one upload
@@ -66,25 +80,28 @@ void FrameDecoder::addObjects() {
     const std::string where = pathOf("objects", i);
     const proto::ObjectDefinition& object = frame_.objects(i);
     if (object.id() == 0) throw Error(where + ".id must not be 0");
-    if (!result_.edit.objects.emplace(object.id(), itemsOf(object.items(), where)).second)
+    if (!result_.edit.objects.emplace(object.id(), itemsOf(object.items(), object.id(), where)).second)
       throw Error(where + ": there are two objects of the id " + std::to_string(object.id()));
   }
   result_.edit.deleted_objects.assign(frame_.deleted_objects().begin(), frame_.deleted_objects().end());
-  if (frame_.has_world()) result_.edit.world = itemsOf(frame_.world().items(), "world");
+  if (frame_.has_world()) result_.edit.world = itemsOf(frame_.world().items(), 0, "world");
 }
 
-SceneItems FrameDecoder::itemsOf(const google::protobuf::RepeatedPtrField<proto::Item>& items,
+SceneItems FrameDecoder::itemsOf(const google::protobuf::RepeatedPtrField<proto::Item>& items, std::uint32_t object,
                                  const std::string& where) {
+  const SceneItems* const before = itemsBefore(object);
   SceneItems result;
   result.reserve(static_cast<std::size_t>(items.size()));
   for (int i = 0; i < items.size(); ++i) {
-    result.push_back(itemOf(items[i], pathOf(where + ".items", i)));
+    const bool known = before != nullptr && result.size() < before->size();
+    result.push_back(
+        itemOf(items[i], known ? before->at(result.size()).shape.get() : nullptr, pathOf(where + ".items", i)));
     progress_(++built_ / items_);
   }
   return result;
 }
 
-SceneItem FrameDecoder::itemOf(const proto::Item& in, const std::string& where) {
+SceneItem FrameDecoder::itemOf(const proto::Item& in, const Shape* before, const std::string& where) {
   SceneItem item;
   item.placement = placementOf(in, where + ".matrix");
   item.surface = decoder_.surface(in.material(), where + ".material");
@@ -92,10 +109,10 @@ SceneItem FrameDecoder::itemOf(const proto::Item& in, const std::string& where) 
   if (in.has_name()) item.name = in.name();
   switch (in.what_case()) {
     case proto::Item::kPrimitives:
-      item.shape = shapeOf(in.primitives(), in.material(), where + ".primitives");
+      item.shape = shapeOf(in.primitives(), in.material(), before, where + ".primitives");
       return item;
     case proto::Item::kUpload:
-      item.shape = shapeOf(upload(in.upload(), where), in.material(), where + ".upload");
+      item.shape = shapeOf(upload(in.upload(), where), in.material(), before, where + ".upload");
       return item;
     case proto::Item::kCall:
       if (in.call() == 0) throw Error(where + ".call must not be 0");
@@ -129,29 +146,90 @@ Placement FrameDecoder::placementOf(const proto::Item& in, const std::string& wh
 }
 
 std::shared_ptr<const Shape> FrameDecoder::shapeOf(const proto::Primitives& in, const proto::Material& material,
-                                                   const std::string& where) {
+                                                   const Shape* before, const std::string& where) {
   Model model = decoder_.model(in, where);
   size_.add(model, where + ": ");
   const auto repeat = [](bool has, double value) { return has && std::isfinite(value) ? value : 1; };
   repeatTexcoords(model, repeat(material.has_repeat_u(), material.repeat_u()),
                   repeat(material.has_repeat_v(), material.repeat_v()));
-  auto shape = makeShape(std::move(model));
+  return noted(before != nullptr ? makeShape(std::move(model), *before) : makeShape(std::move(model)), where);
+}
+
+std::shared_ptr<const Shape> FrameDecoder::noted(std::shared_ptr<const Shape> shape, const std::string& where) {
+  if (shape->before != 0) ++result_.refits;
   for (const std::string& warning : shape->warnings) result_.warnings.push_back(where + ": " + warning);
   return shape;
+}
+
+// In the edit; the other items of an object that is only moved stay as they were.
+SceneItem& FrameDecoder::itemToMove(const proto::VertexUpdate& in, const std::string& where) {
+  const auto& deleted = result_.edit.deleted_objects;
+  auto found = result_.edit.objects.find(in.object());
+  if (found == result_.edit.objects.end()) {
+    const bool gone = in.object() == 0 || std::find(deleted.begin(), deleted.end(), in.object()) != deleted.end();
+    const SceneItems* const before = gone ? nullptr : itemsBefore(in.object());
+    if (before == nullptr) throw Error(where + ": there is no object " + std::to_string(in.object()));
+    found = result_.edit.objects.emplace(in.object(), *before).first;
+  }
+  if (in.item() >= found->second.size() || !found->second[in.item()].shape)
+    throw Error(where + ": item " + std::to_string(in.item()) + " of object " + std::to_string(in.object()) +
+                " has no vertices");
+  return found->second[in.item()];
+}
+
+void FrameDecoder::move(const proto::VertexUpdate& in, Model& model, const std::string& where) const {
+  if (in.what_case() == proto::VertexUpdate::WHAT_NOT_SET) throw Error(where + " needs primitives or an upload");
+  const Model part = decoder_.model(in.has_upload() ? upload(in.upload(), where) : in.primitives(), where);
+  const auto finite = [](const Vec3& v) { return v.allFinite(); };
+  if (part.elements() != 0 || !part.texcoords.empty()) throw Error(where + " must hold vertices and normals alone");
+  if (!std::all_of(part.positions.begin(), part.positions.end(), finite) ||
+      !std::all_of(part.normals.begin(), part.normals.end(), finite))
+    throw Error(where + " must hold finite numbers");
+  const std::size_t count = model.positions.size();
+  if (in.first() > count || part.positions.size() > count - in.first())
+    throw Error(where + ": the item has " + std::to_string(count) + " vertices, no more");
+  if (!part.normals.empty() && model.normals.empty()) throw Error(where + ": the item's vertices have no normals");
+  std::copy(part.positions.begin(), part.positions.end(), model.positions.begin() + in.first());
+  std::copy(part.normals.begin(), part.normals.end(), model.normals.begin() + in.first());
+}
+
+// However many updates an item has, its shape is made once.
+void FrameDecoder::addMoved() {
+  struct Moved {
+    SceneItem* item;
+    Model model;
+    std::string where;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Moved> all;
+  for (int i = 0; i < frame_.moved_size(); ++i) {
+    const proto::VertexUpdate& in = frame_.moved(i);
+    const std::string where = pathOf("moved", i);
+    auto place = all.find({in.object(), in.item()});
+    if (place == all.end()) {
+      SceneItem& item = itemToMove(in, where);
+      place = all.emplace(std::pair(in.object(), in.item()), Moved{&item, item.shape->model, where}).first;
+    }
+    move(in, place->second.model, where);
+  }
+  for (auto& [key, moved] : all) {
+    const auto before = moved.item->shape;
+    moved.item->shape = noted(makeShape(std::move(moved.model), *before), moved.where);
+  }
 }
 
 DecodedFrame FrameDecoder::run() {
   countItems();
   addTextures();
   addObjects();
+  addMoved();
   return std::move(result_);
 }
 
 }  // namespace
 
 DecodedFrame decodeFrame(const proto::Frame& frame, const Uploads& uploads, const SceneLimits& limits,
-                         const std::function<void(double)>& progress) {
-  return FrameDecoder(frame, uploads, limits, progress).run();
+                         const std::function<void(double)>& progress, const ItemsBefore& before) {
+  return FrameDecoder(frame, uploads, limits, progress, before).run();
 }
 
 }  // namespace hl

@@ -114,8 +114,8 @@ void HlSession::keepUpload(proto::Upload upload) {
 Uploads HlSession::takeUploads(const proto::Frame& frame) {
   Uploads used;
   const auto take = [&](const auto& items) {
-    for (const proto::Item& item : items) {
-      if (item.what_case() != proto::Item::kUpload) continue;
+    for (const auto& item : items) {
+      if (!item.has_upload()) continue;
       auto node = uploads_.extract(item.upload());
       if (!node) continue;
       upload_bytes_ -= bytes_of_upload_.extract(item.upload()).mapped();
@@ -124,6 +124,7 @@ Uploads HlSession::takeUploads(const proto::Frame& frame) {
   };
   for (const proto::ObjectDefinition& object : frame.objects()) take(object.items());
   take(frame.world().items());
+  take(frame.moved());
   return used;
 }
 

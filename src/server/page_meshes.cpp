@@ -33,7 +33,7 @@ PageMessage meshMessage(std::uint32_t number, const Shape& shape, const Look& lo
 
 std::uint32_t PageMeshes::numberOf(const Instance& instance) {
   Look look = lookOf(*instance.shape, *instance.surfaces);
-  Identity identity{instance.shape.get(), {}};
+  Identity identity{instance.shape->geometry, {}};
   for (const auto& texture : look) identity.second.push_back(texture.get());
   const auto [known, fresh] = numbers_.try_emplace(std::move(identity), last_number_ + 1);
   if (fresh) meshes_[++last_number_] = {instance.shape, std::move(look), nullptr};
@@ -50,7 +50,10 @@ std::vector<std::uint32_t> PageMeshes::numbersOf(const Snapshot& snapshot) {
 void PageMeshes::takeMade() {
   if (!making_.valid() || making_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
   for (auto& [number, message] : making_.get()) {
-    if (const auto mesh = meshes_.find(number); mesh != meshes_.end()) mesh->second.message = std::move(message);
+    const auto mesh = meshes_.find(number);
+    if (mesh == meshes_.end()) continue;
+    mesh->second.message = std::move(message);
+    mesh->second.shape.reset();
   }
 }
 

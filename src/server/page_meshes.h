@@ -32,12 +32,12 @@ class PageMeshes {
   void keep(const std::set<std::uint32_t>& numbers);
 
  private:
-  /// What tells meshes apart; the mesh holds what these point to.
-  using Identity = std::pair<const Shape*, std::vector<const Texture*>>;
+  /// What tells meshes apart, by the shape's geometry; the mesh holds the textures.
+  using Identity = std::pair<std::uint64_t, std::vector<const Texture*>>;
   struct Mesh {
-    std::shared_ptr<const Shape> shape;
+    std::shared_ptr<const Shape> shape;  // until there is a message
     Look look;
-    PageMessage message;  // empty until it is made
+    PageMessage message;
   };
   using Made = std::vector<std::pair<std::uint32_t, PageMessage>>;
 

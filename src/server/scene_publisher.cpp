@@ -48,6 +48,8 @@ class ScenePublisher::Place {
   // Under the publisher's mutex:
   std::deque<Waiting> waiting_;
   bool building_ = false, removed_ = false;
+  bool worn_ = false;        // a hierarchy of placed_ is
+  bool rebuilding_ = false;  // building_, but not a frame
   std::int64_t last_arrived_ns_ = 0;
   std::int64_t move_ns_ = 0;  // that what is placed takes to get there
   std::vector<PlacedShape> placed_;
@@ -96,7 +98,12 @@ void ScenePublisher::submit(const std::shared_ptr<Place>& place, proto::Frame fr
 
 std::size_t ScenePublisher::waiting(const std::shared_ptr<Place>& place) const {
   const std::lock_guard lock(mutex_);
-  return place->waiting_.size() + (place->building_ ? 1 : 0) + place->ready_.size();
+  return place->waiting_.size() + (place->building_ && !place->rebuilding_ ? 1 : 0) + place->ready_.size();
+}
+
+HierarchyCounts ScenePublisher::counts() const {
+  const std::lock_guard lock(mutex_);
+  return counts_;
 }
 
 void ScenePublisher::detach(const std::shared_ptr<Place>& place) {
@@ -127,19 +134,40 @@ std::shared_ptr<ScenePublisher::Place> ScenePublisher::placeToBuild() {
   return oldest;
 }
 
+// Only when no frame waits, and one at a time: the other builders are for frames. Holding the mutex.
+std::shared_ptr<ScenePublisher::Place> ScenePublisher::placeToRebuild() {
+  std::shared_ptr<Place> worn;
+  for (const auto& place : places_) {
+    if (place->rebuilding_) return nullptr;
+    const bool shown = !place->building_ && !place->removed_ && place->waiting_.empty() && !place->fresh_;
+    if (place->worn_ && shown && !worn) worn = place;
+  }
+  return worn;
+}
+
 void ScenePublisher::runBuilder() {
   std::unique_lock lock(mutex_);
   while (true) {
     std::shared_ptr<Place> place;
-    work_.wait(lock, [&] { return !running_ || (place = placeToBuild()) != nullptr; });
+    bool frame = false;
+    work_.wait(lock, [&] {
+      place = placeToBuild();
+      frame = place != nullptr;
+      if (!frame) place = placeToRebuild();
+      return !running_ || place;
+    });
     if (!running_) return;
-    Waiting waiting = std::move(place->waiting_.front());
-    place->waiting_.pop_front();
     place->building_ = true;
+    place->rebuilding_ = !frame;
+    Waiting waiting;
+    if (frame) {
+      waiting = std::move(place->waiting_.front());
+      place->waiting_.pop_front();
+    }
     lock.unlock();
-    build(*place, waiting);
+    frame ? build(*place, waiting) : rebuild(*place);
     lock.lock();
-    place->building_ = false;
+    place->building_ = place->rebuilding_ = false;
     if (!place->waiting_.empty()) work_.notify_one();
     changed_.notify_all();
   }
@@ -153,16 +181,36 @@ void ScenePublisher::build(Place& place, Waiting& waiting) {
     place.tell([&](FrameCallbacks& callbacks) { callbacks.progress(number, part); });
   };
   try {
-    DecodedFrame decoded = decodeFrame(waiting.frame, waiting.uploads, place.limits_, progress);
+    DecodedFrame decoded = decodeFrame(waiting.frame, waiting.uploads, place.limits_, progress,
+                                       [&](std::uint32_t object) { return place.scene_.items(object); });
     place.scene_.apply(decoded.edit);
     const std::lock_guard lock(mutex_);
+    counts_.refits += decoded.refits;
     place.placed_ = place.scene_.placed();
+    place.worn_ = place.scene_.worn() != nullptr;
     place.ready_.push_back({number, std::move(decoded.warnings)});
     place.move_ns_ = moveTime_ns(waiting, place.last_arrived_ns_);
     place.last_arrived_ns_ = waiting.arrived_ns;
     place.fresh_ = dirty_ = true;
   } catch (const std::exception& error) {
     place.tell([&](FrameCallbacks& callbacks) { callbacks.refused(number, error.what()); });
+  }
+}
+
+// One hierarchy, so that a frame that comes meanwhile waits for no more. Nothing is felt of it: the geometry is the
+// same.
+void ScenePublisher::rebuild(Place& place) {
+  try {
+    const auto worn = place.scene_.worn();
+    place.scene_.replace(worn, rebuilt(*worn));
+    const std::lock_guard lock(mutex_);
+    ++counts_.rebuilds;
+    place.placed_ = place.scene_.placed();
+    place.worn_ = place.scene_.worn() != nullptr;
+    place.fresh_ = dirty_ = true;
+  } catch (const std::exception&) {  // no memory for it: the worn one serves
+    const std::lock_guard lock(mutex_);
+    place.worn_ = false;
   }
 }
 
@@ -255,6 +303,7 @@ void ScenePublisher::tellShown(std::unique_lock<std::mutex>& lock) {
   }
   std::erase_if(places_, [](const auto& place) { return place->removed_ && !place->building_; });
   lock.unlock();
+  work_.notify_one();  // what is worn may be rebuilt now
   for (const Told& entry : told) {
     entry.place->tell([&](FrameCallbacks& callbacks) {
       for (const Place::Ready& frame : entry.frames) callbacks.shown(frame.number, entry.primitives, frame.warnings);

@@ -1,6 +1,8 @@
 // ScenePublisher: from the frames of all clients to the one scene that the devices touch.
 //
-//   builders   decode frames and build their shapes, each client's in order, several clients at once
+//   builders   decode frames and build their shapes, each client's in order, several clients at once; where a refitted
+//              hierarchy is worn they build it anew, one at a time, once it is shown and its client has no frame
+//              waiting
 //   publisher  puts what is ready together and shows it to the loops when they have taken the scene before
 // The old scene stays touchable meanwhile.
 #pragma once
@@ -32,6 +34,12 @@ struct FrameCallbacks {
   std::function<void(std::uint64_t number, const std::string& why)> refused;
 };
 
+/// Hierarchies of clients' shapes since the start.
+struct HierarchyCounts {
+  std::uint64_t refits = 0;    ///< of redefined objects
+  std::uint64_t rebuilds = 0;  ///< of those that were worn
+};
+
 class ScenePublisher {
  public:
   static constexpr int kBuilders = 2;
@@ -53,6 +61,7 @@ class ScenePublisher {
   /// No callback is under way or comes after this. The objects stay where they are until remove().
   void detach(const std::shared_ptr<Place>& place);
   void remove(const std::shared_ptr<Place>& place);
+  HierarchyCounts counts() const;
 
  private:
   struct Waiting {
@@ -64,7 +73,9 @@ class ScenePublisher {
   void runBuilder();
   void runPublisher();
   std::shared_ptr<Place> placeToBuild();
+  std::shared_ptr<Place> placeToRebuild();
   void build(Place& place, Waiting& waiting);
+  void rebuild(Place& place);
   bool waitForLoops();
   void publish();
   bool assemble(std::int64_t begin_ns, std::vector<Instance>& instances);
@@ -78,6 +89,7 @@ class ScenePublisher {
   std::vector<std::shared_ptr<Place>> places_;
   std::atomic<bool> running_{false};
   bool dirty_ = false;
+  HierarchyCounts counts_;
   std::shared_ptr<const Snapshot> shown_;
   std::int64_t shown_begin_ns_ = 0;
   std::vector<std::thread> threads_;

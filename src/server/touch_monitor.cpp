@@ -30,7 +30,7 @@ class StepWatch {
 
 class TouchMonitor {
  public:
-  explicit TouchMonitor(TouchSession& session) : session_(session) {}
+  TouchMonitor(TouchSession& session, const TouchServer* clients) : session_(session), clients_(clients) {}
 
   void observe() {
     const std::int64_t now_ns = monotonicNow_ns();
@@ -63,6 +63,7 @@ class TouchMonitor {
     out.single("hl_iteration_caps_total", MetricType::kCounter, "Ticks that hit the cap on their passes",
                static_cast<double>(proxy.capped));
     writeLedger(out, proxy.ledger, servo.late);
+    if (clients_ != nullptr) writeHierarchies(out, clients_->hierarchyCounts());
   }
 
  private:
@@ -110,14 +111,23 @@ class TouchMonitor {
                ledger.dissipated_J + late.dissipated_J);
   }
 
+  static void writeHierarchies(MetricsText& out, const HierarchyCounts& counts) {
+    using enum MetricType;
+    out.single("hl_hierarchy_refits_total", kCounter, "Redefined objects whose hierarchy was refitted, not built",
+               static_cast<double>(counts.refits));
+    out.single("hl_hierarchy_rebuilds_total", kCounter, "Refitted hierarchies that were built anew as they were worn",
+               static_cast<double>(counts.rebuilds));
+  }
+
   TouchSession& session_;
+  const TouchServer* const clients_;
   StepWatch servo_, proxy_;
 };
 
 }  // namespace
 
-MonitorCallbacks makeTouchMonitor(TouchSession& session) {
-  const auto monitor = std::make_shared<TouchMonitor>(session);
+MonitorCallbacks makeTouchMonitor(TouchSession& session, const TouchServer* clients) {
+  const auto monitor = std::make_shared<TouchMonitor>(session, clients);
   return {[monitor] { monitor->observe(); }, [monitor] { return monitor->fault(); },
           [monitor](MetricsText& out) { monitor->write(out); }};
 }

@@ -40,6 +40,7 @@ class TouchServer final : public SessionHost {
   TouchSession& device(std::size_t number = 0) { return *devices_[number]; }
   std::size_t devices() const { return devices_.size(); }
   std::size_t sessions() const;
+  HierarchyCounts hierarchyCounts() const { return publisher_.counts(); }
   double time_s() const { return devices_[0]->time_s(); }
 
  private:

@@ -100,6 +100,27 @@ TEST_F(Cpp, SpansDrawWhatTheCallsDraw) {
   EXPECT_THROW(check(), CallError);
 }
 
+TEST_F(Cpp, SpansMoveVertices) {
+  const Context context("fake:");
+  const std::vector<HLdouble> vertices{0, 0, 0, 1, 0, 0}, moved{1, 2, 3};
+  const HLuint object = genObject();
+  {
+    const ObjectScope definition(object);
+    drawArrays(HL_POINTS, VertexArrays<HLdouble>{vertices, vertices});
+  }
+  flushed();
+  updateVertices(object, 1, moved);
+  const proto::Frame frame = flushed();
+  EXPECT_EQ(frame.moved(0).first(), 1U);
+  EXPECT_EQ(frame.moved(0).primitives().vertices(2), 3);
+  EXPECT_EQ(frame.moved(0).primitives().normals_size(), 0);
+  updateVertices(object, 0, moved, moved);
+  EXPECT_EQ(flushed().moved(0).primitives().normals_size(), 3);
+  EXPECT_THROW(updateVertices(object, 0, moved, vertices), std::invalid_argument);
+  EXPECT_THROW(updateVertices(object, 0, std::span(vertices).first(4)), std::invalid_argument);
+  check();
+}
+
 TEST_F(Cpp, SpansThatDoNotFitAreRefused) {
   const Context context("fake:");
   const std::vector<HLdouble> vertices(6), other(5);

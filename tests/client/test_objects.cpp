@@ -130,6 +130,93 @@ TEST_F(CallsTest, LaterDefinitionOverwritesInOneFrame) {
   EXPECT_EQ(frame.objects(0).items_size(), 0);
 }
 
+// Two items: a triangle, and a segment that is placed elsewhere.
+void defineTwoItems(HLuint object) {
+  hlNewObject(object);
+  triangle();
+  hlTranslatef(0, 1, 0);
+  hlBegin(HL_LINES);
+  hlVertex3d(0, 0, 0);
+  hlVertex3d(1, 0, 0);
+  hlVertex3d(2, 0, 0);  // fills no segment
+  hlEnd();
+  hlEndObject();
+}
+
+TEST_F(CallsTest, MovedVerticesAreSentItemByItem) {
+  defineTwoItems(3);
+  flushed();
+  const HLdouble vertices[] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+  hlUpdateVertices(3, 1, 3, vertices, nullptr);
+  const proto::Frame frame = flushed();
+  EXPECT_EQ(frame.objects_size(), 0);
+  ASSERT_EQ(frame.moved_size(), 2);
+  EXPECT_EQ(frame.moved(0).object(), 3U);
+  EXPECT_EQ(frame.moved(0).item(), 0U);
+  EXPECT_EQ(frame.moved(0).first(), 1U);
+  ASSERT_EQ(frame.moved(0).primitives().vertices_size(), 6);
+  EXPECT_EQ(frame.moved(0).primitives().vertices(5), 6);
+  EXPECT_EQ(frame.moved(0).primitives().normals_size(), 0);
+  EXPECT_EQ(frame.moved(1).item(), 1U);
+  EXPECT_EQ(frame.moved(1).first(), 0U);
+  ASSERT_EQ(frame.moved(1).primitives().vertices_size(), 3);
+  EXPECT_EQ(frame.moved(1).primitives().vertices(0), 7);
+  EXPECT_EQ(flushed().number(), 0U) << "once";
+}
+
+TEST_F(CallsTest, MovingVerticesThatAreNotThereIsAnError) {
+  defineTwoItems(3);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const HLdouble good[] = {1, 2, 3, 4, 5, 6}, bad[] = {1, 2, 3, 4, nan, 6};
+  hlUpdateVertices(4, 0, 1, good, nullptr), expectError(HL_INVALID_VALUE);
+  hlUpdateVertices(3, -1, 1, good, nullptr), expectError(HL_INVALID_VALUE);
+  hlUpdateVertices(3, 0, -1, good, nullptr), expectError(HL_INVALID_VALUE);
+  hlUpdateVertices(3, 0, 1, nullptr, nullptr), expectError(HL_INVALID_VALUE);
+  hlUpdateVertices(3, 4, 2, good, nullptr), expectError(HL_INVALID_VALUE);
+  hlUpdateVertices(3, 0, 2, bad, nullptr), expectError(HL_INVALID_VALUE);
+  hlUpdateVertices(3, 0, 2, good, good), expectError(HL_INVALID_OPERATION);
+  hlNewObject(5);
+  hlUpdateVertices(3, 0, 2, good, nullptr), expectError(HL_INVALID_OPERATION);
+  hlEndObject();
+  EXPECT_EQ(flushed().moved_size(), 0);
+  hlUpdateVertices(3, 5, 0, nullptr, nullptr);
+}
+
+TEST_F(CallsTest, OfMovedVerticesTheLatestAreSent) {
+  const HLdouble vertices[] = {1, 2, 3, 4, 5, 6};
+  defineTwoItems(3);
+  hlUpdateVertices(3, 0, 1, vertices, nullptr);
+  hlUpdateVertices(3, 2, 1, vertices, nullptr);
+  hlUpdateVertices(3, 0, 2, vertices, nullptr);
+  const proto::Frame frame = flushed();
+  ASSERT_EQ(frame.moved_size(), 2) << "the first is covered by the last";
+  EXPECT_EQ(frame.moved(0).first(), 2U);
+  hlUpdateVertices(3, 0, 1, vertices, nullptr);
+  defineTwoItems(3);
+  EXPECT_EQ(flushed().moved_size(), 0) << "defined anew";
+  hlUpdateVertices(3, 0, 1, vertices, nullptr);
+  const HLuint object = 3;
+  hlDeleteObjects(1, &object);
+  EXPECT_EQ(flushed().moved_size(), 0) << "deleted";
+}
+
+TEST_F(CallsTest, ManyMovedVerticesGoAheadOfTheirFrame) {
+  std::vector<HLdouble> vertices(3 * 100'000, 0.5);
+  hlNewObject(3);
+  hlNormal3f(0, 0, 1);
+  hlBegin(HL_POINTS);
+  for (int i = 0; i < 100'000; ++i) hlVertex3d(i, 0, 0);
+  hlEnd();
+  hlEndObject();
+  flushed();
+  hlUpdateVertices(3, 0, 100'000, vertices.data(), vertices.data());
+  const proto::Frame frame = flushed();
+  ASSERT_EQ(frame.moved_size(), 1);
+  const proto::Primitives uploaded = server->uploads()[frame.moved(0).upload()];
+  EXPECT_EQ(uploaded.vertices_size(), 300'000);
+  EXPECT_EQ(uploaded.normals_size(), 300'000);
+}
+
 TEST_F(CallsTest, DeletedObjectsGoWithTheNextFrame) {
   define(1);
   define(2);

@@ -85,6 +85,33 @@ void objectList() {
   hlCallObject(5);
 }
 
+// Drawn out of shape, shown, and put right by moving its vertices, in two frames.
+void movedObject() {
+  const std::vector<Vertex> vertices = domeQuads();
+  hlNewObject(5);
+  hlBegin(HL_QUADS);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const double out = 0.001 * static_cast<double>(i % 7);
+    hlNormal3d(0, 1, 0.1 * static_cast<double>(i % 3));
+    hlVertex3d(vertices[i].position[0] + out, vertices[i].position[1] - out, vertices[i].position[2]);
+  }
+  hlEnd();
+  hlEndObject();
+  hlCallObject(5);
+  std::vector<double> positions, normals;
+  for (const Vertex& v : vertices) {
+    positions.insert(positions.end(), v.position.begin(), v.position.end());
+    normals.insert(normals.end(), v.normal.begin(), v.normal.end());
+  }
+  const auto count = static_cast<HLsizei>(vertices.size());
+  const HLsizei half = count / 2;
+  EXPECT_EQ(hlFinishTimeout(60), HL_TRUE);
+  hlUpdateVertices(5, 0, half, positions.data(), normals.data());
+  EXPECT_EQ(hlFinishTimeout(60), HL_TRUE);
+  hlUpdateVertices(5, half, count - half, &positions[3 * static_cast<std::size_t>(half)],
+                   &normals[3 * static_cast<std::size_t>(half)]);
+}
+
 void scene(const std::function<void()>& dome) {
   hlMaterialf(HL_DYNAMIC_FRICTION, 0.25f);
   hlMaterialf(HL_STIFFNESS, 0.75f);
@@ -167,6 +194,7 @@ TEST(Servers, ImmediateCallsArraysAndObjectListsFeelTheSameToTheBit) {
   EXPECT_GT(most, 1) << "something is felt";
   EXPECT_TRUE(sameBits(first, feltInProcess(arrays)));
   EXPECT_TRUE(sameBits(first, feltInProcess(objectList)));
+  EXPECT_TRUE(sameBits(first, feltInProcess(movedObject)));
 }
 
 TEST(Servers, JsonFeelsTheSameToTheBit) {
@@ -185,6 +213,7 @@ TEST(Servers, TheNetworkFeelsTheSameToTheBit) {
   listener.start();
   const std::string url = "hl://127.0.0.1:" + std::to_string(listener.port());
   EXPECT_TRUE(sameBits(feltThrough(url, *server, immediate), feltInProcess(immediate)));
+  EXPECT_TRUE(sameBits(feltThrough(url, *server, movedObject), feltInProcess(immediate)));
   listener.stop();
 }
 

@@ -149,6 +149,7 @@ TEST_F(CallsTest, NothingButVerticesBetweenBeginAndEnd) {
                                       [] { hlCallObject(3); },
                                       [] { hlIsObject(3); },
                                       [] { hlDeleteObjects(0, nullptr); },
+                                      [] { hlUpdateVertices(3, 0, 0, nullptr, nullptr); },
                                       [] { hlGenObjects(0, nullptr); },
                                       [] { hlClear(); },
                                       [] { hlFlush(); },

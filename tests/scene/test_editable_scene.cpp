@@ -125,6 +125,57 @@ TEST(EditableScene, RigidCallsShareOneShapeAndScaledOnesAnother) {
   EXPECT_EQ(scene.placed()[2].shape, scaled) << "turned, not built again";
 }
 
+TEST(EditableScene, AScaledCopyIsRefittedFromTheOneBefore) {
+  EditableScene scene(1, {});
+  const Placement twice{Mat3(2 * Mat3::Identity()), Vec3::Zero()};
+  const auto first = triangle();
+  scene.apply(worldOf({shapeItem(first, twice)}));
+  const auto copy = scene.placed()[0].shape;
+  EXPECT_EQ(copy->before, first->geometry);
+  Model moved = first->model;
+  moved.positions[1] = {3, 0, 1};
+  EXPECT_EQ(scene.items(0)->at(0).shape, first);
+  const auto second = makeShape(std::move(moved), *first);
+  scene.apply(worldOf({shapeItem(second, twice)}));
+  EXPECT_EQ(scene.placed()[0].shape->before, copy->geometry);
+  EXPECT_EQ(scene.placed()[0].shape->model.positions[1], Vec3(6, 0, 2));
+}
+
+TEST(EditableScene, ARebuiltShapeTakesThePlaceOfTheWornOneAndNothingIsAbrupt) {
+  EditableScene scene(1, {});
+  test::Random random(4);
+  Model model;
+  for (std::uint32_t i = 0; i < 2000; ++i) {
+    model.positions.emplace_back(i, 0, 0);
+    model.points.push_back(i);
+  }
+  const auto row = makeShape(Model(model));
+  for (Vec3& p : model.positions) p = random.inCube(1);
+  const auto cloud = makeShape(std::move(model), *row);
+  const Placement twice{Mat3(2 * Mat3::Identity()), Vec3::Zero()};
+  SceneEdit edit = worldOf({callItem(1), callItem(1, twice), shapeItem(cloud, turn(1, {5, 0, 0}))});
+  edit.objects[1] = {shapeItem(cloud)};
+  scene.apply(edit);
+  const std::vector<PlacedShape> before = scene.placed();
+  const Followed shown = followOn(before, {}, 0, 0);
+  for (int rebuilds = 0; rebuilds < 2; ++rebuilds) {
+    const auto worn = scene.worn();
+    ASSERT_TRUE(worn);
+    scene.replace(worn, rebuilt(*worn));
+  }
+  EXPECT_FALSE(scene.worn());
+  EXPECT_FALSE(followOn(scene.placed(), shown.instances, 0, 0).abrupt);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_NE(scene.placed()[i].shape, before[i].shape);
+    EXPECT_EQ(scene.placed()[i].shape->model.positions, before[i].shape->model.positions);
+  }
+  EXPECT_EQ(scene.items(0)->at(2).shape->wear, 1);
+  EXPECT_EQ(scene.items(1)->at(0).shape, scene.items(0)->at(2).shape);
+  scene.apply(worldOf({callItem(1), callItem(1, twice)}));
+  EXPECT_EQ(scene.placed()[1].shape->wear, 1) << "the scaled copy is the rebuilt one still";
+  EXPECT_EQ(scene.items(2), nullptr);
+}
+
 TEST(EditableScene, WhatAnItemLeavesOutItTakesFromItsCallers) {
   EditableScene scene(1, {});
   SceneItem inner = shapeItem(triangle());

@@ -114,6 +114,18 @@ TEST(Monitor, ATouchSessionIsHealthyWhileItsLoopsRun) {
   EXPECT_NE(test::request(server.port(), "/healthz").body().find("stands still"), std::string::npos);
 }
 
+TEST(Monitor, NumbersOfClientsAreThereWhereAServerTakesThem) {
+  TouchServer clients(makeSnapshot(std::vector<Instance>{}), {});
+  HttpServerSettings settings;
+  settings.port = 0;
+  HttpServer server(settings, test::fakePages(), nullptr, makeTouchMonitor(clients.device(), &clients));
+  server.start();
+  const auto response = test::request(server.port(), "/metrics");
+  expectPrometheus(response.body());
+  EXPECT_NE(response.body().find("\nhl_hierarchy_refits_total 0\n"), std::string::npos);
+  EXPECT_NE(response.body().find("\nhl_hierarchy_rebuilds_total 0\n"), std::string::npos);
+}
+
 TEST(EventLog, OneLineInEitherForm) {
   const LogFields fields = {{"peer", "[::1]:5000"}, {"reason", "two words"}, {"name", "a\"b\\c\nd\x01"}, {"none", ""}};
   EXPECT_EQ(formatEvent(LogFormat::kKeyValue, "session_end", fields),

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <thread>
@@ -160,6 +161,139 @@ TEST_F(TouchServerTest, AFrameIsShownTouchedAndToldOfByItsNames) {
   EXPECT_EQ(client.events_[0].kind(), proto::TOUCH);
   EXPECT_EQ(client.events_[0].name(), 17u);
   EXPECT_EQ(client.events_[1].kind(), proto::UNTOUCH);
+}
+
+// A row of points; `step` sends neighbours apart, so that a hierarchy made for a step of 1 is worn.
+proto::Frame rowFrame(Client& client, int step) {
+  constexpr int kPoints = 2003;  // a prime
+  proto::Frame frame;
+  frame.set_number(++client.number_);
+  proto::ObjectDefinition& object = *frame.add_objects();
+  object.set_id(4);
+  proto::Primitives& row = *object.add_items()->mutable_primitives();
+  for (int i = 0; i < kPoints; ++i) {
+    for (const double v : {0.001 * (i * step % kPoints), -0.3, 0.0}) row.add_vertices(v);
+    row.add_points(static_cast<std::uint32_t>(i));
+  }
+  frame.mutable_world()->add_items()->set_call(4);
+  return frame;
+}
+
+TEST_F(TouchServerTest, ARedefinedObjectIsRefittedAndRebuiltInTheBackgroundWhenItIsWorn) {
+  Client client(server_);
+  client.open();
+  ASSERT_TRUE(client.show(rowFrame(client, 1)));
+  const auto built = server_.device().snapshot();
+  EXPECT_EQ(server_.hierarchyCounts().refits, 0u);
+  ASSERT_TRUE(client.show(rowFrame(client, 1)));
+  EXPECT_EQ(server_.hierarchyCounts().refits, 1u);
+  EXPECT_EQ(server_.device().snapshot()->shape().before, built->shape().geometry);
+  ASSERT_TRUE(client.show(rowFrame(client, 700)));
+  EXPECT_EQ(server_.hierarchyCounts().refits, 2u);
+  const std::uint64_t geometry = server_.device().snapshot()->shape().geometry;
+  ASSERT_TRUE(client.until([&] { return server_.device().snapshot()->shape().before == 0; }));
+  EXPECT_EQ(server_.hierarchyCounts().rebuilds, 1u);
+  const auto rebuilt = server_.device().snapshot();
+  EXPECT_EQ(rebuilt->shape().geometry, geometry);
+  EXPECT_EQ(rebuilt->shape().wear, 1);
+  EXPECT_FALSE(rebuilt->abrupt);
+  ASSERT_TRUE(client.show(rowFrame(client, 700)));
+  EXPECT_EQ(server_.device().snapshot()->shape().before, geometry) << "from the one that was rebuilt";
+  EXPECT_EQ(server_.hierarchyCounts().rebuilds, 1u);
+}
+
+TEST_F(TouchServerTest, AnObjectWithOtherListsIsBuilt) {
+  Client client(server_);
+  client.open();
+  ASSERT_TRUE(client.show(client.floorFrame(-0.2)));
+  ASSERT_TRUE(client.show(rowFrame(client, 1)));
+  EXPECT_EQ(server_.hierarchyCounts().refits, 0u);
+  EXPECT_EQ(server_.device().snapshot()->shape().before, 0u);
+}
+
+// Moves vertices of item 0 of object 4 from `first` on to the height y.
+proto::Frame movingFrame(Client& client, std::uint32_t first, int count, double y) {
+  proto::Frame frame;
+  frame.set_number(++client.number_);
+  proto::VertexUpdate& update = *frame.add_moved();
+  update.set_object(4);
+  update.set_first(first);
+  for (int i = 0; i < count; ++i) {
+    for (const double v : {0.001 * i, y, 0.0}) update.mutable_primitives()->add_vertices(v);
+  }
+  return frame;
+}
+
+TEST_F(TouchServerTest, VerticesAreMovedWithoutTheRestOfTheirMesh) {
+  Client client(server_);
+  client.open();
+  ASSERT_TRUE(client.show(rowFrame(client, 1)));
+  ASSERT_TRUE(client.show(movingFrame(client, 3, 20, -0.4)));
+  const Model& model = server_.device().snapshot()->shape().model;
+  EXPECT_EQ(server_.hierarchyCounts().refits, 1u);
+  EXPECT_EQ(model.positions[2], Vec3(0.002, -0.3, 0));
+  EXPECT_EQ(model.positions[3], Vec3(0, -0.4, 0));
+  EXPECT_EQ(model.positions[22], Vec3(0.019, -0.4, 0));
+  EXPECT_EQ(model.positions[23], Vec3(0.023, -0.3, 0));
+  proto::Frame both = rowFrame(client, 1);  // defined and moved in one frame, twice
+  *both.add_moved() = movingFrame(client, 0, 2, -0.5).moved(0);
+  *both.add_moved() = movingFrame(client, 1, 1, -0.6).moved(0);
+  both.set_number(++client.number_);
+  ASSERT_TRUE(client.show(both));
+  const auto snapshot = server_.device().snapshot();
+  EXPECT_EQ(snapshot->shape().model.positions[0].y(), -0.5);
+  EXPECT_EQ(snapshot->shape().model.positions[1].y(), -0.6);
+  EXPECT_EQ(snapshot->shape().model.positions[3].y(), -0.3);
+}
+
+TEST_F(TouchServerTest, AnUploadMovesVerticesToo) {
+  Client client(server_);
+  client.open();
+  ASSERT_TRUE(client.show(rowFrame(client, 1)));
+  proto::Frame frame = movingFrame(client, 100, 2, -0.4);
+  proto::ClientMessage message;
+  message.mutable_upload()->set_id(9);
+  *message.mutable_upload()->mutable_part() = frame.moved(0).primitives();
+  client.session_->receive(message);
+  frame.mutable_moved(0)->set_upload(9);
+  ASSERT_TRUE(client.show(frame));
+  EXPECT_EQ(server_.device().snapshot()->shape().model.positions[101].y(), -0.4);
+}
+
+TEST_F(TouchServerTest, VerticesThatCannotBeMovedAreRefusedInOneLine) {
+  Client client(server_);
+  client.open();
+  proto::Frame row = rowFrame(client, 1);
+  row.mutable_objects(0)->add_items()->set_call(5);
+  ASSERT_TRUE(client.show(row));
+  const std::uint64_t shown = server_.device().snapshot()->shape().geometry;
+  const auto refusalOf = [&](const std::function<void(proto::VertexUpdate&)>& change, std::uint32_t first = 0) {
+    proto::Frame frame = movingFrame(client, first, 3, -0.4);
+    change(*frame.mutable_moved(0));
+    client.send(frame);
+    EXPECT_TRUE(client.until([&] { return client.refusal_.frame() == frame.number(); }));
+    return client.refusal_.text();
+  };
+  EXPECT_EQ(refusalOf([](auto& update) { update.set_object(7); }), "moved[0]: there is no object 7");
+  EXPECT_EQ(refusalOf([](auto& update) { update.set_object(0); }), "moved[0]: there is no object 0");
+  EXPECT_EQ(refusalOf([](auto& update) { update.set_item(1); }), "moved[0]: item 1 of object 4 has no vertices");
+  EXPECT_EQ(refusalOf([](auto& update) { update.set_item(2); }), "moved[0]: item 2 of object 4 has no vertices");
+  EXPECT_EQ(refusalOf([](auto&) {}, 2001), "moved[0]: the item has 2003 vertices, no more");
+  EXPECT_EQ(refusalOf([](auto&) {}, 4'000'000'000), "moved[0]: the item has 2003 vertices, no more");
+  EXPECT_EQ(refusalOf([](auto& update) { update.mutable_primitives()->set_vertices(4, NAN); }),
+            "moved[0] must hold finite numbers");
+  EXPECT_EQ(refusalOf([](auto& update) { update.mutable_primitives()->add_points(0); }),
+            "moved[0] must hold vertices and normals alone");
+  EXPECT_EQ(
+      refusalOf([](auto& update) { *update.mutable_primitives()->mutable_normals() = update.primitives().vertices(); }),
+      "moved[0]: the item's vertices have no normals");
+  EXPECT_EQ(refusalOf([](auto& update) { update.clear_what(); }), "moved[0] needs primitives or an upload");
+  EXPECT_EQ(refusalOf([](auto& update) { update.set_upload(77); }), "moved[0]: there is no upload 77");
+  EXPECT_EQ(server_.device().snapshot()->shape().geometry, shown);
+  proto::Frame gone = movingFrame(client, 0, 1, -0.4);
+  gone.add_deleted_objects(4);
+  client.send(gone);
+  ASSERT_TRUE(client.until([&] { return client.refusal_.frame() == gone.number(); }));
 }
 
 TEST_F(TouchServerTest, ARefusedFrameChangesNothingAndTheNextIsShown) {
