@@ -36,8 +36,8 @@ bool firstRoot(double distance, double speed, double b, double k, double radius,
   return t <= 1;
 }
 
-// Whether the moving point stays farther than R from the centre or axis for ever, k > R |m|, by more than rounding: told
-// from squares, so that most parts are done without a root. The rest is for firstRoot().
+// Whether the moving point stays farther than R from the centre or axis for ever, k > R |m|, by more than rounding:
+// told from squares, so that most parts are done without a root. The rest is for firstRoot().
 bool passesBy(double k2, double speed2, double radius) {
   constexpr double kRounding = 1e-12;
   return k2 > (1 + kRounding) * radius * radius * speed2;
