@@ -1,6 +1,6 @@
 // BoxTree: finds which of many boxes meet a region: the hierarchy over the objects of a scene, as WideBvh is over the
-// primitives of one. Halved at the median of the longest side and made anew for each frame, which takes n lg n steps:
-// a tree kept from the frame before would save less than half of that, and be worse where objects have moved far.
+// primitives of one. Halved at the median of the longest side, and made anew for each frame in n lg n steps: a tree
+// kept from the frame before would be worse wherever objects have moved far.
 #pragma once
 
 #include <cstddef>

@@ -49,7 +49,7 @@ Outline outlineOf(const std::array<Vec3, 3>& v) {
   return outline;
 }
 
-// One step of Newton's: unit within a rounding. Where it is two or three off, a tick makes 2 % more iterations.
+// One step of Newton's: the length is off by a rounding, not by two or three.
 Vec3 unit(const Vec3& almost) { return (1.5 - 0.5 * almost.squaredNorm()) * almost; }
 
 // Where a triangle is thin, rounding tilts its normal along the longest edge, where it costs most; the tilt is taken

@@ -80,14 +80,6 @@ class Collapse {
   std::vector<std::array<float, kWide - 1>> cost_;
 };
 
-void setLane(WideNode& node, std::size_t lane, const FloatBox& box, std::uint32_t link) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    node.bound[0][axis][lane] = box.min[static_cast<Eigen::Index>(axis)];
-    node.bound[1][axis][lane] = box.max[static_cast<Eigen::Index>(axis)];
-  }
-  node.child[lane] = link;
-}
-
 class Widener {
  public:
   Widener(const BinaryTree& tree, HugeVector<WideNode>& nodes) : tree_(tree), collapse_(tree), nodes_(nodes) {}
@@ -101,7 +93,8 @@ class Widener {
     for (std::size_t lane = 0; lane < kWide; ++lane) {
       const bool used = lane < links.size();
       const std::uint32_t child = used ? add(links[lane], depth + 1) : kBlockLink;
-      setLane(nodes_[self], lane, used ? tree_.box(links[lane]) : FloatBox(), child);
+      setBox(nodes_[self], lane, used ? tree_.box(links[lane]) : FloatBox());
+      nodes_[self].child[lane] = child;
     }
     return static_cast<std::uint32_t>(self);
   }
@@ -202,6 +195,13 @@ BoxedPrimitive boxed(const std::array<Vec3, 3>& corners, std::uint32_t number, c
       roundedOutward(v[0].cwiseMin(v[1]).cwiseMin(v[2]) - origin, v[0].cwiseMax(v[1]).cwiseMax(v[2]) - origin)};
   result.setNumber(number);
   return result;
+}
+
+void setBox(WideNode& node, std::size_t lane, const FloatBox& box) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    node.bound[0][axis][lane] = box.min[static_cast<Eigen::Index>(axis)];
+    node.bound[1][axis][lane] = box.max[static_cast<Eigen::Index>(axis)];
+  }
 }
 
 HugeVector<WideNode> widen(const BinaryTree& tree, int& depth) {

@@ -14,6 +14,9 @@ namespace hl {
 /// The box of a primitive's corners relative to `origin`, rounded outward.
 BoxedPrimitive boxed(const std::array<Vec3, 3>& corners, std::uint32_t number, const Vec3& origin);
 
+/// Sets the box of one child.
+void setBox(WideNode& node, std::size_t lane, const FloatBox& box);
+
 /// Nodes in depth-first order, none for a tree of one block; `depth` becomes the number of nodes on the longest path.
 HugeVector<WideNode> widen(const BinaryTree& tree, int& depth);
 

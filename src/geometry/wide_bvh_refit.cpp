@@ -1,5 +1,7 @@
 #include "geometry/wide_bvh_refit.h"
 
+#include "geometry/wide_bvh_pack.h"
+
 namespace hl {
 
 namespace {
@@ -19,13 +21,6 @@ FloatBox laneOf(const WideNode& node, std::size_t lane) {
   return box;
 }
 
-void setLane(WideNode& node, std::size_t lane, const FloatBox& box) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    node.bound[0][axis][lane] = box.min[static_cast<Eigen::Index>(axis)];
-    node.bound[1][axis][lane] = box.max[static_cast<Eigen::Index>(axis)];
-  }
-}
-
 Eigen::Array3d sidesOf(const FloatBox& box) { return (box.max - box.min).head<3>().cast<double>(); }
 
 double halfArea(const Eigen::Array3d& sides) { return sides[0] * sides[1] + sides[1] * sides[2] + sides[2] * sides[0]; }
@@ -42,7 +37,7 @@ HugeVector<WideNode> refitted(const HugeVector<WideNode>& nodes, const std::vect
       if (!used(node, lane)) continue;
       const std::uint32_t child = node.child[lane];
       const FloatBox& box = (child & kBlockLink) != 0 ? blocks[child & ~kBlockLink] : boxes[child];
-      setLane(node, lane, box);
+      setBox(node, lane, box);
       boxes[i].extend(box);
     }
   }

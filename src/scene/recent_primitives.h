@@ -1,4 +1,4 @@
-// RecentPrimitives: the primitives read last. A tick reads six or so of them, each three times in the mean.
+// RecentPrimitives: the primitives read last. A tick reads the same few in each of its sweeps, and where they end.
 #pragma once
 
 #include <array>

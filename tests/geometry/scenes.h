@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "geometry/primitive.h"
+#include "geometry/primitives.h"
 
 namespace hl::test {
 
@@ -30,6 +30,21 @@ inline void addTriangle(std::vector<Primitive>& scene, const Vec3& a, const Vec3
   Primitive triangle;
   if (makeTriangle(a, b, c, static_cast<std::uint32_t>(scene.size()), triangle)) scene.push_back(triangle);
 }
+
+/// Vertices and index lists, and the primitives that they make.
+struct Mesh {
+  std::vector<Vec3> positions;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::array<std::uint32_t, 2>> segments;
+  std::vector<std::uint32_t> points;
+
+  MeshView view() const { return {positions, triangles, segments, points}; }
+  Primitives primitives() const { return Primitives(view()); }
+  std::uint32_t add(const Vec3& position) {
+    positions.push_back(position);
+    return static_cast<std::uint32_t>(positions.size() - 1);
+  }
+};
 
 /// A hilly sheet of 2 cells^2 triangles over the unit square.
 inline std::vector<Primitive> terrain(int cells) {

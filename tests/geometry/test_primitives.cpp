@@ -10,13 +10,7 @@
 namespace hl {
 namespace {
 
-struct Mesh {
-  std::vector<Vec3> positions;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::array<std::uint32_t, 2>> segments;
-  std::vector<std::uint32_t> points;
-  MeshView view() const { return {positions, triangles, segments, points}; }
-};
+using test::Mesh;
 
 // Some vertices coincide, one is not a number and one out of reach; some indices are out of range.
 Mesh randomMesh(test::Random& random) {

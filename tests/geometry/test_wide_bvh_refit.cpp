@@ -17,18 +17,7 @@
 namespace hl {
 namespace {
 
-struct Mesh {
-  std::vector<Vec3> positions;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::array<std::uint32_t, 2>> segments;
-  std::vector<std::uint32_t> points;
-
-  Primitives primitives() const { return Primitives({positions, triangles, segments, points}); }
-  std::uint32_t add(const Vec3& position) {
-    positions.push_back(position);
-    return static_cast<std::uint32_t>(positions.size() - 1);
-  }
-};
+using test::Mesh;
 
 using Movement = std::function<Vec3(const Vec3&)>;
 
