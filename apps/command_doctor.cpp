@@ -9,7 +9,7 @@
 #include "base/histogram.h"
 #include "base/realtime.h"
 #include "commands.h"
-#include "device/simulated_device.h"
+#include "device/open_device.h"
 
 namespace hl {
 
@@ -39,8 +39,10 @@ void examine() {
   fmt::print("timer at 1 kHz:     late by {:.0f} us median, {:.0f} us at p99.9, {:.0f} us at most; {} of {} missed\n",
              1e-3 * static_cast<double>(late.percentile_ns(0.5)), 1e-3 * static_cast<double>(late.percentile_ns(0.999)),
              1e-3 * static_cast<double>(late.max_ns()), counters.deadlines_missed.load(), counters.steps.load());
-  SimulatedDevice device;
-  fmt::print("devices:            {} (always there)\n", device.info().name);
+  for (const char* head = "devices:"; const DevicePresence& device : findDevices()) {
+    fmt::print("{:<20}{:<7}{}\n", head, device.kind, device.text);
+    head = "";
+  }
   if (!grant.fifo || !grant.memory_locked) {
     fmt::print(
         "advice:             let your user have real time: in /etc/security/limits.conf add\n"

@@ -1,4 +1,4 @@
-// hl touch: serves a scene with the simulated device, and the page to see and feel it with the mouse.
+// hl touch: serves a scene with a device, and the page to see it, and to feel it with the mouse.
 #include <fmt/core.h>
 #include <unistd.h>
 
@@ -22,6 +22,7 @@ namespace {
 struct TouchOptions {
   SceneOptions scene;
   TouchSettings settings;
+  std::string device = "sim";
   int port = 1997;
   bool no_open = false;
   std::string hand = "light";
@@ -72,13 +73,15 @@ void run(TouchOptions options) {
   HttpServerSettings http;
   http.port = static_cast<std::uint16_t>(options.port);
   http.page_folder = options.page_folder.empty() ? defaultPageFolder() : options.page_folder;
-  TouchServer touch(snapshot, {options.settings, 1, http.limits, HL_VERSION});
+  TouchServer touch(snapshot, {options.settings, 1, http.limits, HL_VERSION, options.device});
   TouchSession& session = touch.device();
+  if (options.settings.script && !session.hasHand())
+    throw Error("--hand-path moves a simulated hand, and a person holds this device");
   HttpServer server(http, makeViewerFeed(session, HL_VERSION), &touch, makeTouchMonitor(session, &touch));
   touch.start();
   server.start();
-  fmt::print(stderr, "{}: {} primitives; 1 mm of the hand is {:.4g} mm of the scene\n", options.scene.scene,
-             snapshot->primitives, session.workspace().world_per_device);
+  fmt::print(stderr, "{}: {} primitives; device: {}; 1 mm of the hand is {:.4g} mm of the scene\n", options.scene.scene,
+             snapshot->primitives, session.deviceInfo().name, session.workspace().world_per_device);
   if (!session.grant().why.empty())
     fmt::print(stderr, "the servo runs without all it asked for: {}see hl doctor\n", session.grant().why);
   const std::string address = fmt::format("http://127.0.0.1:{}/", server.port());
@@ -113,9 +116,10 @@ void addLoopOptions(CLI::App& command, TouchSettings& settings) {
 }  // namespace
 
 void addTouchCommand(CLI::App& app) {
-  auto* command = app.add_subcommand("touch", "serve a scene with the simulated device and the page to feel it");
+  auto* command = app.add_subcommand("touch", "serve a scene with a device and the page to see and feel it");
   auto options = std::make_shared<TouchOptions>();
   addSceneArgument(*command, options->scene, false);
+  addDeviceOption(*command, options->device);
   command->add_option("--port", options->port, "port on 127.0.0.1; 0 for any free one")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();

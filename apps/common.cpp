@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "commands.h"
+#include "device/open_device.h"
 #include "io/load_scene.h"
 
 namespace hl {
@@ -85,6 +86,20 @@ void addSurfaceOptions(CLI::App& command, MaterialOverride& surfaces, LedgerMode
       .add_option("--ledger", ledger, "energy that the surfaces may add: from a tank of 10 mJ, none, or any, counted")
       ->transform(CLI::Transformer(ledgers))
       ->option_text("tank|strict|report (default: tank)");
+}
+
+CLI::Option* addDeviceOption(CLI::App& command, std::string& device) {
+  const auto check = [](const std::string& spec) -> std::string {
+    try {
+      makeDevice(spec);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return {};
+  };
+  return command.add_option("--device", device, "the haptic device; hl doctor tells which are present")
+      ->check(CLI::Validator(check, ""))
+      ->option_text(deviceSpecs() + " (default: " + device + ")");
 }
 
 std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options) {

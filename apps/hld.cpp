@@ -62,7 +62,7 @@ void serve(HldOptions& options) {
   options.touch.hand_firm = options.hand == "firm";
   options.touch.explore = options.explore == "on";
   const HttpServerSettings http = serverSettings(options);
-  TouchServer touch(sceneOf(options.scene), {options.touch, options.devices, http.limits, HL_VERSION});
+  TouchServer touch(sceneOf(options.scene), {options.touch, options.devices, http.limits, HL_VERSION, options.device});
   TouchSession& session = touch.device();
   HttpServer server(http, makeViewerFeed(session, HL_VERSION), &touch, makeTouchMonitor(session, &touch));
   touch.start();

@@ -23,11 +23,8 @@ void addNetworkOptions(CLI::App& app, HldOptions& options) {
 
 void addDeviceOptions(CLI::App& app, HldOptions& options) {
   const CLI::Validator positive(checkPositive, "POSITIVE");
-  app.add_option("--device", options.device, "the haptic device")
-      ->check(CLI::IsMember({"simulated"}))
-      ->capture_default_str()
-      ->group("Device");
-  app.add_option("--devices", options.devices, "how many of them, each with a proxy of its own")
+  addDeviceOption(app, options.device)->group("Device");
+  app.add_option("--devices", options.devices, "how many simulated ones, each with a proxy of its own")
       ->check(CLI::Range(1, 16))
       ->capture_default_str()
       ->group("Device");

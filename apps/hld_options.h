@@ -17,7 +17,7 @@ struct HldOptions {
   TouchSettings touch;
   std::string token_file;     ///< empty: no token
   std::uint32_t devices = 1;  ///< of that kind
-  std::string device = "simulated";
+  std::string device = "sim";
   std::string hand = "light";
   std::string explore = "off";
   LogFormat log_format = LogFormat::kKeyValue;

@@ -9,6 +9,8 @@
 
 namespace hl {
 
+class SimulatedHand;
+
 /// Fixed properties of an open device.
 struct DeviceInfo {
   std::string name;
@@ -36,7 +38,8 @@ struct DeviceSample {
   DeviceStatus status = DeviceStatus::kNotReady;
 };
 
-/// open, close and info: setup thread only. read and write: the servo thread only, RT-safe.
+/// open, close and info: setup thread only. read and write: the servo thread only, RT-safe; before it runs and after it
+/// has ended, the setup thread. The destructor closes.
 class Device {
  public:
   virtual ~Device() = default;
@@ -47,6 +50,8 @@ class Device {
   virtual const DeviceInfo& info() const = 0;
   /// Position at `now_ns`. Never blocks for longer than a fraction of the servo period.
   virtual DeviceSample read(std::int64_t now_ns) = 0;
+  /// The hand that holds it, to be moved; null when a person does. Lives as long as the device.
+  virtual SimulatedHand* hand() { return nullptr; }
   /// Holds `force_N` at the tip until the next write. Non-finite components are taken as zero force.
   virtual void write(const Vec3& force_N) = 0;
 };

@@ -10,6 +10,7 @@
 #include "device/device.h"
 #include "device/hand.h"
 #include "device/phantom.h"
+#include "device/simulated_hand.h"
 
 namespace hl {
 
@@ -24,7 +25,7 @@ struct SimulatedDeviceSettings {
 /// Frame D: x = P's y (right), y = P's z (up), z = P's x (toward the user). Its origin, (0.19, 0, 0) m in P, is where
 /// the workspace box of 381 x 267 x 191 mm just fits between the arm's nearest and farthest reach; the tip starts
 /// there. The same calls give the same bits.
-class SimulatedDevice final : public Device {
+class SimulatedDevice final : public Device, public SimulatedHand {
  public:
   explicit SimulatedDevice(const SimulatedDeviceSettings& settings = {});
 
@@ -34,9 +35,9 @@ class SimulatedDevice final : public Device {
   DeviceSample read(std::int64_t now_ns) override;
   void write(const Vec3& force_N) override;
 
-  /// Where the hand wants to be, in D; ignored unless finite. One thread, any; lock-free.
-  void setHandGoal(const Vec3& goal_D) { goal_.write(goal_D); }
-  void setHandFirm(bool firm) { firm_.store(firm, std::memory_order_relaxed); }
+  SimulatedHand* hand() override { return this; }
+  void setHandGoal(const Vec3& goal_D) override { goal_.write(goal_D); }
+  void setHandFirm(bool firm) override { firm_.store(firm, std::memory_order_relaxed); }
 
   // For tests; on the thread that reads.
   Vec3 trueTip_D() const;

@@ -149,6 +149,8 @@ void HlSession::setDevice(const proto::DeviceSettings& settings) {
     return refuse("world_per_device must be 1e-9 to 1e9, and the origin within 1e9 m");
   if (settings.has_proxy_radius() && !Workspace::validRadius(settings.proxy_radius()))
     return refuse("proxy_radius must be 1e-12 to 1e9 m");
+  if (settings.has_hand_goal() && !device.hasHand())
+    return refuse("a person holds the device; only a simulated hand can be moved");
   if (settings.has_workspace()) device.setWorkspace(workspace);
   if (settings.has_proxy_radius()) device.setRadius(settings.proxy_radius());
   if (settings.has_stiffness_n_m()) device.setStiffness(settings.stiffness_n_m());

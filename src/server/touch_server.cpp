@@ -16,8 +16,12 @@ constexpr auto kEventPeriod = std::chrono::milliseconds(4);
 std::vector<std::unique_ptr<TouchSession>> makeDevices(const std::shared_ptr<const Snapshot>& base,
                                                        const TouchServerSettings& settings) {
   std::vector<std::unique_ptr<TouchSession>> devices;
-  for (std::uint32_t i = 0; i < std::max(1U, settings.devices); ++i)
-    devices.push_back(std::make_unique<TouchSession>(base, settings.touch));
+  for (std::uint32_t i = 0; i < std::max(1U, settings.devices); ++i) {
+    std::unique_ptr<Device> device = openDevice(settings.device);
+    if (settings.devices > 1 && device->hand() == nullptr)
+      throw Error("of '" + settings.device + "' there is one device; only simulated ones may be several");
+    devices.push_back(std::make_unique<TouchSession>(base, settings.touch, std::move(device)));
+  }
   return devices;
 }
 

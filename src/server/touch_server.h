@@ -21,15 +21,16 @@ namespace hl {
 
 struct TouchServerSettings {
   TouchSettings touch;        ///< of each device
-  std::uint32_t devices = 1;  ///< simulated ones, 1..16, each with a proxy of its own
+  std::uint32_t devices = 1;  ///< 1..16, each with a proxy of its own; more than one only of simulated ones
   Limits limits{};
-  std::string version;  ///< of the server, for Welcome
+  std::string version;         ///< of the server, for Welcome
+  std::string device = "sim";  ///< as openDevice() takes it
 };
 
 /// Constructed, started, stopped and destroyed by one thread; it outlives its sessions. connect(): any thread.
 class TouchServer final : public SessionHost {
  public:
-  /// `base` is touchable besides what clients bring; it may be empty.
+  /// `base` is touchable besides what clients bring; it may be empty. Throws hl::Error when a device cannot be had.
   TouchServer(std::shared_ptr<const Snapshot> base, const TouchServerSettings& settings);
   ~TouchServer() override;
   void start();

@@ -31,9 +31,13 @@ std::int64_t period_ns(double rate_Hz) { return static_cast<std::int64_t>(1e9 / 
 
 }  // namespace
 
-TouchSession::TouchSession(std::shared_ptr<const Snapshot> snapshot, const TouchSettings& settings)
-    : settings_(settings), scenes_(std::move(snapshot)), proxy_loop_(scenes_, proxySettings(settings)) {
-  device_.open();
+TouchSession::TouchSession(std::shared_ptr<const Snapshot> snapshot, const TouchSettings& settings,
+                           std::unique_ptr<Device> device)
+    : settings_(settings),
+      device_(std::move(device)),
+      hand_(device_->hand()),
+      scenes_(std::move(snapshot)),
+      proxy_loop_(scenes_, proxySettings(settings)) {
   fitted_ = settings.world_per_device || !scenes_.newest()->bounds.empty();
   Workspace workspace = Workspace::fit(scenes_.newest()->bounds, settings.side_D);
   if (settings.world_per_device) workspace.world_per_device = *settings.world_per_device;
@@ -41,18 +45,19 @@ TouchSession::TouchSession(std::shared_ptr<const Snapshot> snapshot, const Touch
   proxy_commands_.radius_W = settings.radius_D * workspace.world_per_device;
   ledger_ = settings.ledger;
   setSurfaces(settings.surfaces);
-  servo_settings_ = ServoSettings::of(device_.info());
+  servo_settings_ = ServoSettings::of(device_->info());
   servo_settings_.period_s = 1 / settings.servo_rate_Hz;
   if (settings.damping_Ns_m) servo_settings_.damping_Ns_m = *settings.damping_Ns_m;
-  setStiffness(settings.stiffness_N_m.value_or(device_.info().stiffness_N_m));
+  setStiffness(settings.stiffness_N_m.value_or(device_->info().stiffness_N_m));
   setHandFirm(settings.hand_firm);
-  exploring_ = settings.explore || settings.script;
-  bringHandToStart();
+  exploring_ = hasHand() && (settings.explore || settings.script);
+  if (hasHand()) bringHandToStart();
+  startAt(device_->read(monotonicNow_ns()));
 }
 
 TouchSession::~TouchSession() {
   stop();
-  device_.close();
+  device_->close();
 }
 
 // The hand moves freely, without force, on a virtual clock that ends now; the real clock then goes on from there.
@@ -63,20 +68,24 @@ void TouchSession::bringHandToStart() {
   const double top_D = 0.5 * (bounds.empty() ? settings_.side_D : bounds.size().y() / workspace.world_per_device);
   Vec3 goal_D = clampToWorkspace(Vec3(0, top_D + kStartAbove_D, 0));
   if (settings_.script) goal_D = clampToWorkspace(workspace.toDevice(settings_.script->at(0)));
-  device_.setHandGoal(goal_D);
+  hand_->setHandGoal(goal_D);
   const std::int64_t now_ns = monotonicNow_ns();
   const std::int64_t step_ns = 1'000'000;
-  DeviceSample sample;
   for (std::int64_t t = now_ns - static_cast<std::int64_t>(kApproach_s * 1e9); t < now_ns; t += step_ns) {
-    sample = device_.read(t);
-    device_.write(Vec3::Zero());
+    device_->read(t);
+    device_->write(Vec3::Zero());
   }
+}
+
+void TouchSession::startAt(const DeviceSample& sample) {
+  answered_ = sample.status == DeviceStatus::kOk;
+  if (!answered_) return;
   finger_D_.write(sample.position);
   finger_for_supervisor_D_.write(sample.position);
 }
 
 Vec3 TouchSession::clampToWorkspace(const Vec3& goal_D) const {
-  return goal_D.cwiseMax(device_.info().workspace_min).cwiseMin(device_.info().workspace_max);
+  return goal_D.cwiseMax(device_->info().workspace_min).cwiseMin(device_->info().workspace_max);
 }
 
 void TouchSession::start() {
@@ -91,7 +100,7 @@ void TouchSession::start() {
   }
   proxy_thread_ = std::thread([this] { runProxy(); });
   servo_thread_ = std::thread([this] { runServo(); });
-  supervisor_thread_ = std::thread([this] { runSupervisor(); });
+  if (hasHand()) supervisor_thread_ = std::thread([this] { runSupervisor(); });
   while (!servo_ready_) std::this_thread::yield();
 }
 
@@ -112,17 +121,22 @@ void TouchSession::runServo() {
   std::uint64_t armed = 0;
   runPeriodic(period_ns(settings_.servo_rate_Hz), running_, servo_counters_, [&](std::int64_t) {
     const std::int64_t now_ns = monotonicNow_ns();
-    if (const std::uint64_t wanted = arm_requests_.load(std::memory_order_relaxed); wanted != armed) {
+    settings.stiffness_N_m = stiffness_.load(std::memory_order_relaxed);
+    settings.ledger = ledger_.load(std::memory_order_relaxed);
+    const DeviceSample sample = device_->read(now_ns);
+    // A device that is not ready, homing or connecting, arms when it is.
+    if (const std::uint64_t wanted = arm_requests_.load(std::memory_order_relaxed);
+        wanted != armed && sample.status != DeviceStatus::kNotReady) {
       armed = wanted;
       arm(state);
     }
-    settings.stiffness_N_m = stiffness_.load(std::memory_order_relaxed);
-    settings.ledger = ledger_.load(std::memory_order_relaxed);
-    const DeviceSample sample = device_.read(now_ns);
-    finger_D_.write(sample.position);
+    const bool answers = sample.status == DeviceStatus::kOk;
+    if (answers) finger_D_.write(sample.position);
+    if (answers && !answered_) arrivals_.fetch_add(1, std::memory_order_release);
+    answered_ = answers;
     target_.read(target);
     const ServoOutput out = stepServo(state, settings, target.target, sample);
-    device_.write(out.force_N);
+    device_->write(out.force_N);
     finger_for_supervisor_D_.write(sample.position);
     samples_.push({1e-9 * static_cast<double>(now_ns - start_ns_), static_cast<float>(out.force_N.norm()),
                    target.target.valid ? static_cast<float>((target.target.proxy_D - sample.position).norm()) : 0.0f,
@@ -133,7 +147,7 @@ void TouchSession::runServo() {
     servo_view_.write(view);
     servo_for_clients_.write(view);
   });
-  device_.write(Vec3::Zero());
+  device_->write(Vec3::Zero());
 }
 
 void TouchSession::runProxy() {
@@ -144,8 +158,10 @@ void TouchSession::runProxy() {
   LoopMeter meter;
   runPeriodic(period_ns(settings_.proxy_rate_Hz), running_, proxy_counters_, [&](std::int64_t) {
     const std::int64_t now_ns = monotonicNow_ns();
+    const std::uint64_t arrivals = arrivals_.load(std::memory_order_acquire);
     finger_D_.read(finger_D);
     commands_for_proxy_.read(commands);
+    commands.restarts += arrivals;
     const ProxyStep step = proxy_loop_.step(now_ns, finger_D, commands, stiffness_.load(std::memory_order_relaxed),
                                             ledger_.load(std::memory_order_relaxed));
     const std::int64_t work_ns = monotonicNow_ns() - now_ns;
@@ -187,32 +203,34 @@ void TouchSession::runSupervisor() {
     const Workspace workspace = this->workspace();
     if (commands.goal_W) {
       exploring_ = false;
-      device_.setHandGoal(clampToWorkspace(workspace.toDevice(*commands.goal_W)));
+      hand_->setHandGoal(clampToWorkspace(workspace.toDevice(*commands.goal_W)));
     } else if (commands.release) {
       Vec3 finger_D;
       finger_for_supervisor_D_.read(finger_D);
-      device_.setHandGoal(clampToWorkspace(finger_D));
+      hand_->setHandGoal(clampToWorkspace(finger_D));
     } else if (exploring_) {
-      if (const auto goal_W = strokingGoal()) device_.setHandGoal(clampToWorkspace(workspace.toDevice(*goal_W)));
+      if (const auto goal_W = strokingGoal()) hand_->setHandGoal(clampToWorkspace(workspace.toDevice(*goal_W)));
     }
-    device_.setHandFirm(hand_firm_);
+    hand_->setHandFirm(hand_firm_);
   });
 }
 
 void TouchSession::setHandGoal(const Vec3& goal_W) {
-  if (!goal_W.allFinite()) return;
+  if (!hasHand() || !goal_W.allFinite()) return;
   const std::lock_guard lock(commands_mutex_);
   commands_.goal_W = goal_W;
   commands_.release = false;
 }
 
 void TouchSession::release() {
+  if (!hasHand()) return;
   const std::lock_guard lock(commands_mutex_);
   commands_.release = true;
   commands_.goal_W.reset();
 }
 
 void TouchSession::setExplore(bool on) {
+  if (!hasHand()) return;
   const std::lock_guard lock(commands_mutex_);
   commands_.explore = on;
 }
@@ -221,7 +239,7 @@ void TouchSession::setHandFirm(bool firm) { hand_firm_ = firm; }
 
 void TouchSession::setStiffness(double stiffness_N_m) {
   if (!(stiffness_N_m >= 0)) return;
-  stiffness_ = std::min(stiffness_N_m, device_.info().stiffness_max_N_m);
+  stiffness_ = std::min(stiffness_N_m, device_->info().stiffness_max_N_m);
 }
 
 void TouchSession::setSurfaces(const MaterialOverride& surfaces) {

@@ -20,7 +20,8 @@
 #include "base/spsc_ring.h"
 #include "control/servo.h"
 #include "device/hand_script.h"
-#include "device/simulated_device.h"
+#include "device/open_device.h"
+#include "device/simulated_hand.h"
 #include "proxy/proxy.h"
 #include "scene/snapshot.h"
 #include "server/exploration.h"
@@ -39,7 +40,7 @@ struct TouchSettings {
   double proxy_rate_Hz = 1000;
   std::optional<double> stiffness_N_m;  ///< K; the device's own when not given
   std::optional<double> damping_Ns_m;   ///< B
-  bool hand_firm = false;
+  bool hand_firm = false;               ///< of a simulated hand, as the next two
   bool explore = true;
   std::optional<HandScript> script;  ///< hand goals in the world frame instead of exploration
   MaterialOverride surfaces{};       ///< over what the scene says
@@ -85,17 +86,22 @@ struct LoopTotals {
 /// Constructed, started, stopped and destroyed by one thread. Commands: any thread. views(): one thread only.
 class TouchSession {
  public:
-  /// Brings the hand to a place clear of the scene, on a virtual clock, so that the proxy starts outside.
-  TouchSession(std::shared_ptr<const Snapshot> snapshot, const TouchSettings& settings);
+  /// Takes over an open device. A simulated hand is brought to a place clear of the scene, on a virtual clock; with a
+  /// person the proxy starts at the finger, or beside it, outside of what is there.
+  TouchSession(std::shared_ptr<const Snapshot> snapshot, const TouchSettings& settings,
+               std::unique_ptr<Device> device = openDevice("sim"));
   ~TouchSession();
 
   void start();
   void stop();  ///< zero force, joins the threads; safe to call twice
 
+  // Of a simulated hand; they change nothing when a person holds the device.
+  bool hasHand() const { return hand_ != nullptr; }
   void setHandGoal(const Vec3& goal_W);  ///< a person takes over from the exploration
   void release();
   void setExplore(bool on);
   void setHandFirm(bool firm);
+
   void setStiffness(double stiffness_N_m);             ///< clamped to what the device accepts
   void setSurfaces(const MaterialOverride& surfaces);  ///< replaces what was set before; numbers out of range are cut
   void setLedger(LedgerMode mode);
@@ -123,7 +129,7 @@ class TouchSession {
   std::shared_ptr<const Snapshot> snapshot() const;
   Workspace workspace() const;
   const TouchSettings& settings() const { return settings_; }
-  const DeviceInfo& deviceInfo() const { return device_.info(); }
+  const DeviceInfo& deviceInfo() const { return device_->info(); }
   double radius_W() const;
   LoopTotals servoTotals() const { return totals(servo_counters_); }
   LoopTotals proxyTotals() const { return totals(proxy_counters_); }
@@ -144,6 +150,7 @@ class TouchSession {
 
   static LoopTotals totals(const LoopCounters& counters);
   void bringHandToStart();
+  void startAt(const DeviceSample& sample);
   void runServo();
   void runProxy();
   void runSupervisor();
@@ -152,7 +159,9 @@ class TouchSession {
   void restartWith(const Workspace& workspace, double radius_W);  // holding settings_mutex_
 
   TouchSettings settings_;
-  SimulatedDevice device_;
+  std::unique_ptr<Device> device_;
+  SimulatedHand* hand_;    // of the device; null when a person holds it
+  bool answered_ = false;  // the device did when it was read last; of the servo thread, once it runs
   SnapshotSlot scenes_;
   ProxyLoop proxy_loop_;
   ServoSettings servo_settings_;
@@ -173,6 +182,7 @@ class TouchSession {
   std::atomic<double> stiffness_{0};
   std::atomic<std::int64_t> last_tick_ns_{0};
   std::atomic<std::uint64_t> arm_requests_{0};
+  std::atomic<std::uint64_t> arrivals_{0};  // times the device began to answer: the finger is elsewhere then
   std::atomic<bool> servo_ready_{false};
   RealtimeGrant grant_;
   LoopCounters servo_counters_, proxy_counters_, reference_counters_;

@@ -55,6 +55,8 @@ TEST(Command, BadInputIsOneLineAndExitCodeTwo) {
                                        "trace teapot --stiffness 2 --path " + path + " --out " + out,
                                        std::string("touch --port 70000"),
                                        std::string("touch --hand weak"),
+                                       std::string("touch --device theremin"),
+                                       std::string("touch --device sim:abacus"),
                                        std::string("bench --most 1"),
                                        std::string("bench --scenes teapot"),
                                        std::string("bench --motions flying"),

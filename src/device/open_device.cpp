@@ -1,0 +1,65 @@
+#include "device/open_device.h"
+
+#include <algorithm>
+#include <array>
+
+#include "base/error.h"
+#include "device/simulated_device.h"
+
+namespace hl {
+
+namespace {
+
+using DevicePointer = std::unique_ptr<Device>;
+
+constexpr const char* kSimulatedModel = "premium-1.5";
+
+DevicePointer makeSimulated(const std::string& model) {
+  if (!model.empty() && model != kSimulatedModel)
+    throw Error("no simulated device is called '" + model + "': there is " + kSimulatedModel);
+  return std::make_unique<SimulatedDevice>();
+}
+
+std::string findSimulated() { return SimulatedDevice().info().name + " (always there)"; }
+
+struct DeviceKind {
+  const char* name;
+  const char* spec;  ///< how to write it
+  DevicePointer (*make)(const std::string& argument);
+  std::string (*find)();  ///< what is there, or what to install
+};
+
+constexpr std::array kKinds{
+    DeviceKind{"sim", "sim[:MODEL]", makeSimulated, findSimulated},
+};
+
+}  // namespace
+
+DevicePointer makeDevice(const std::string& spec) {
+  const std::size_t colon = spec.find(':');
+  const std::string name = spec.substr(0, colon);
+  const auto* const kind =
+      std::find_if(kKinds.begin(), kKinds.end(), [&](const DeviceKind& k) { return name == k.name; });
+  if (kind == kKinds.end()) throw Error("'" + spec + "' is no device: there is " + deviceSpecs());
+  return kind->make(colon == std::string::npos ? "" : spec.substr(colon + 1));
+}
+
+DevicePointer openDevice(const std::string& spec) {
+  DevicePointer device = makeDevice(spec);
+  device->open();
+  return device;
+}
+
+std::string deviceSpecs() {
+  std::string specs;
+  for (const DeviceKind& kind : kKinds) specs += (specs.empty() ? "" : "|") + std::string(kind.spec);
+  return specs;
+}
+
+std::vector<DevicePresence> findDevices() {
+  std::vector<DevicePresence> found;
+  for (const DeviceKind& kind : kKinds) found.push_back({kind.name, kind.find()});
+  return found;
+}
+
+}  // namespace hl

@@ -1,0 +1,17 @@
+// SimulatedHand: the hand that holds a device when no person does.
+#pragma once
+
+#include "base/vec.h"
+
+namespace hl {
+
+/// One thread, any; lock-free.
+class SimulatedHand {
+ public:
+  virtual ~SimulatedHand() = default;
+  /// Where the hand wants to be, in D; ignored unless finite.
+  virtual void setHandGoal(const Vec3& goal_D) = 0;
+  virtual void setHandFirm(bool firm) = 0;
+};
+
+}  // namespace hl
