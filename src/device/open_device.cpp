@@ -4,6 +4,7 @@
 #include <array>
 
 #include "base/error.h"
+#include "device/force_dimension/force_dimension_device.h"
 #include "device/simulated_device.h"
 
 namespace hl {
@@ -22,6 +23,12 @@ DevicePointer makeSimulated(const std::string& model) {
 
 std::string findSimulated() { return SimulatedDevice().info().name + " (always there)"; }
 
+template <typename Driver>
+DevicePointer makeDriver(const std::string& argument) {
+  if (!argument.empty()) throw Error("'" + argument + "' is too much: this device takes no argument");
+  return std::make_unique<Driver>();
+}
+
 struct DeviceKind {
   const char* name;
   const char* spec;  ///< how to write it
@@ -31,6 +38,7 @@ struct DeviceKind {
 
 constexpr std::array kKinds{
     DeviceKind{"sim", "sim[:MODEL]", makeSimulated, findSimulated},
+    DeviceKind{"dhd", "dhd", makeDriver<ForceDimensionDevice>, ForceDimensionDevice::find},
 };
 
 }  // namespace

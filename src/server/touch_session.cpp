@@ -38,8 +38,10 @@ TouchSession::TouchSession(std::shared_ptr<const Snapshot> snapshot, const Touch
       hand_(device_->hand()),
       scenes_(std::move(snapshot)),
       proxy_loop_(scenes_, proxySettings(settings)) {
+  const Vec3 reach_D = device_->info().workspace_max - device_->info().workspace_min;
+  settings_.side_D = std::min(settings_.side_D, reach_D.minCoeff());
   fitted_ = settings.world_per_device || !scenes_.newest()->bounds.empty();
-  Workspace workspace = Workspace::fit(scenes_.newest()->bounds, settings.side_D);
+  Workspace workspace = Workspace::fit(scenes_.newest()->bounds, settings_.side_D);
   if (settings.world_per_device) workspace.world_per_device = *settings.world_per_device;
   proxy_commands_.workspace = workspace;
   proxy_commands_.radius_W = settings.radius_D * workspace.world_per_device;

@@ -34,7 +34,8 @@ namespace hl {
 
 struct TouchSettings {
   double radius_D = 0.002;  ///< m, proxy radius at the hand
-  double side_D = 0.12;     ///< m, largest side of the model at the hand, unless scale is given
+  double side_D = 0.12;     ///< m, largest side of the model at the hand, unless scale is given; at most what the device
+                            ///< reaches
   std::optional<double> world_per_device;
   double servo_rate_Hz = 1000;
   double proxy_rate_Hz = 1000;

@@ -1,0 +1,151 @@
+#include "device/force_dimension/force_dimension_device.h"
+
+#include <array>
+#include <cstdlib>
+
+#include "base/error.h"
+#include "device/force_dimension/figures.h"
+
+namespace hl {
+
+namespace {
+
+constexpr VendorLibraryName kLibrary{
+    "libdhd.so.3", "HL_DHD_LIBRARY",
+    "install the Force Dimension SDK (version 3, free for owners, from forcedimension.com)"};
+
+// Places in the array that dhdGetStatus fills; newer versions fill more than the 16 of SDK 3.
+constexpr std::size_t kPower = 0, kConnected = 1, kReset = 3, kForce = 5, kError = 9, kForceOffCause = 14;
+constexpr std::size_t kMostStatuses = 64;
+// A person has switched the forces off: nobody else may switch them on.
+constexpr int kOffByButton = 1, kOffByDeadMan = 6;
+
+constexpr std::int64_t kExaminePeriod_ns = 100'000'000;
+constexpr unsigned char kWatchdogPeriods = 160;  // of 125 us: forces off after 20 ms without a command
+
+// Force Dimension's frame has x toward the user, y to the right, z up.
+Vec3 toDevice(double x, double y, double z) { return {y, z, x}; }
+
+}  // namespace
+
+ForceDimensionDevice::Calls ForceDimensionDevice::bindCalls(const VendorLibrary& library) {
+  Calls calls{};
+  library.bind(calls.device_count, "dhdGetDeviceCount");
+  library.bind(calls.open, "dhdOpen");
+  library.bind(calls.close, "dhdClose");
+  library.bind(calls.system_type, "dhdGetSystemType");
+  library.bind(calls.system_name, "dhdGetSystemName");
+  library.bind(calls.enable_force, "dhdEnableForce");
+  library.bind(calls.set_gravity_compensation, "dhdSetGravityCompensation");
+  library.bindIfPresent(calls.set_watchdog, "dhdSetWatchdog");
+  library.bind(calls.position, "dhdGetPosition");
+  library.bind(calls.set_force, "dhdSetForce");
+  library.bind(calls.button_mask, "dhdGetButtonMask");
+  library.bind(calls.status, "dhdGetStatus");
+  library.bind(calls.last_error, "dhdErrorGetLastStr");
+  return calls;
+}
+
+void ForceDimensionDevice::open() {
+  if (library_) return;
+  auto library = std::make_unique<VendorLibrary>(kLibrary);
+  calls_ = bindCalls(*library);
+  if (calls_.device_count() <= 0)
+    throw Error("no Force Dimension device answers: check its power and USB cable, and that you may use it (udev)");
+  if (!begin()) throw Error(std::string("the Force Dimension device cannot be opened: ") + calls_.last_error());
+  info_ = forceDimensionFigures(calls_.system_type(id_));
+  info_.name = std::string("Force Dimension ") + calls_.system_name(id_);
+  library_ = std::move(library);
+  lifeline_ = std::make_unique<Lifeline>([this] { return reopen(); });
+}
+
+// Opens it with zero force.
+bool ForceDimensionDevice::begin() {
+  const int id = calls_.open();
+  if (id < 0) return false;
+  id_ = static_cast<char>(id);
+  calls_.set_gravity_compensation(1, id_);
+  calls_.set_force(0, 0, 0, id_);
+  calls_.enable_force(1, id_);
+  watched_ = false;
+  examined_ns_ = 0;
+  return true;
+}
+
+bool ForceDimensionDevice::reopen() {
+  if (id_ >= 0) calls_.close(id_);
+  id_ = -1;
+  return begin();
+}
+
+void ForceDimensionDevice::close() {
+  if (!library_) return;
+  lifeline_.reset();
+  if (id_ >= 0) {
+    calls_.set_force(0, 0, 0, id_);
+    if (calls_.set_watchdog != nullptr) calls_.set_watchdog(0, id_);
+    calls_.enable_force(0, id_);
+    calls_.close(id_);
+  }
+  id_ = -1;
+  status_ = DeviceStatus::kNotReady;
+  library_.reset();
+}
+
+// Forces that went off by themselves (too fast, watchdog) come on again; the servo, told of it, has begun anew by then.
+DeviceStatus ForceDimensionDevice::examine(std::int64_t now_ns) {
+  examined_ns_ = now_ns;
+  std::array<int, kMostStatuses> status{};
+  if (calls_.status(status.data(), id_) < 0) return DeviceStatus::kLost;
+  if (status[kPower] == 0 || status[kConnected] == 0 || status[kError] != 0) return DeviceStatus::kLost;
+  if (status[kReset] != 0) return DeviceStatus::kNotReady;  // its place is not known before it is calibrated
+  if (status[kForce] != 0) return DeviceStatus::kOk;
+  const int cause = status[kForceOffCause];
+  if (cause != kOffByButton && cause != kOffByDeadMan) calls_.enable_force(1, id_);
+  return DeviceStatus::kNotReady;
+}
+
+void ForceDimensionDevice::lose() {
+  status_ = DeviceStatus::kLost;
+  lifeline_->lose();
+}
+
+DeviceSample ForceDimensionDevice::read(std::int64_t now_ns) {
+  DeviceSample sample{now_ns, position_, 0, DeviceStatus::kNotReady};
+  if (!library_) return sample;
+  sample.status = DeviceStatus::kLost;
+  if (!lifeline_->holds()) return sample;
+  if (examined_ns_ == 0 || std::abs(now_ns - examined_ns_) >= kExaminePeriod_ns) status_ = examine(now_ns);
+  double x = 0, y = 0, z = 0;
+  if (status_ == DeviceStatus::kLost || calls_.position(&x, &y, &z, id_) < 0) {
+    lose();
+    return sample;
+  }
+  sample.position = position_ = toDevice(x, y, z);
+  sample.buttons = calls_.button_mask(id_);
+  sample.status = status_;
+  return sample;
+}
+
+void ForceDimensionDevice::write(const Vec3& force_N) {
+  if (!library_ || !lifeline_->holds()) return;
+  const Vec3 force = force_N.allFinite() ? force_N : Vec3::Zero();
+  if (calls_.set_force(force.z(), force.x(), force.y(), id_) < 0) return lose();
+  // From the first force on: before it nobody would feed the watchdog.
+  if (!watched_ && calls_.set_watchdog != nullptr) calls_.set_watchdog(kWatchdogPeriods, id_);
+  watched_ = true;
+}
+
+std::string ForceDimensionDevice::find() {
+  try {
+    const VendorLibrary library(kLibrary);
+    const Calls calls = bindCalls(library);
+    const int count = calls.device_count();
+    return count > 0 ? std::to_string(count) + " Force Dimension device" + (count > 1 ? "s" : "")
+                     : "none answers: check power and USB cable, and that you may use it (udev)";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+}  // namespace hl

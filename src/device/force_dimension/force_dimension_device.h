@@ -1,0 +1,62 @@
+// ForceDimensionDevice: delta, omega, sigma and lambda devices through the vendor's libdhd, opened at run time.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "device/device.h"
+#include "device/lifeline.h"
+#include "device/vendor_library.h"
+
+namespace hl {
+
+class ForceDimensionDevice final : public Device {
+ public:
+  ~ForceDimensionDevice() override { close(); }
+
+  void open() override;
+  void close() override;
+  const DeviceInfo& info() const override { return info_; }
+  DeviceSample read(std::int64_t now_ns) override;
+  void write(const Vec3& force_N) override;
+
+  /// What is there, or what to install.
+  static std::string find();
+
+ private:
+  // The part of libdhd that HL calls; C functions, `id` is what open gave.
+  struct Calls {
+    int (*device_count)();
+    int (*open)();
+    int (*close)(char id);
+    int (*system_type)(char id);
+    const char* (*system_name)(char id);
+    int (*enable_force)(unsigned char on, char id);
+    int (*set_gravity_compensation)(int on, char id);
+    int (*set_watchdog)(unsigned char periods, char id);  // null in old versions
+    int (*position)(double* x, double* y, double* z, char id);
+    int (*set_force)(double x, double y, double z, char id);
+    unsigned int (*button_mask)(char id);
+    int (*status)(int* status, char id);
+    const char* (*last_error)();
+  };
+
+  static Calls bindCalls(const VendorLibrary& library);
+  bool begin();
+  bool reopen();
+  DeviceStatus examine(std::int64_t now_ns);
+  void lose();
+
+  std::unique_ptr<VendorLibrary> library_;  // null: closed
+  Calls calls_{};
+  char id_ = -1;
+  DeviceInfo info_;
+  DeviceStatus status_ = DeviceStatus::kNotReady;  // when it was examined last
+  std::int64_t examined_ns_ = 0;
+  bool watched_ = false;  // the watchdog runs
+  Vec3 position_ = Vec3::Zero();
+  std::unique_ptr<Lifeline> lifeline_;
+};
+
+}  // namespace hl

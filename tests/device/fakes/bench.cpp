@@ -1,0 +1,58 @@
+#include "device/fakes/bench.h"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <stdexcept>
+
+#include "device/open_device.h"
+
+namespace hl::test {
+
+namespace {
+
+// Three encoder steps of 30 um, one for each joint; one count of the motors, and of the encoders for the Jacobian.
+constexpr double kPosition_m = 1e-4, kForce_N = 2e-3;
+
+/// A driver that opens a shared library, with the fake one in its place.
+class LibraryBench final : public Bench {
+ public:
+  LibraryBench(const char* kind, const char* variable, const char* file) : kind_(kind) {
+    setenv(variable, file, 1);
+    library_ = dlopen(file, RTLD_NOW | RTLD_LOCAL);
+    if (library_ == nullptr) throw std::runtime_error(dlerror());
+    arm_ = reinterpret_cast<FakeArmOf*>(dlsym(library_, kFakeArmOf))();
+  }
+  ~LibraryBench() override { dlclose(library_); }
+  FakeArm& arm() override { return *arm_; }
+  std::unique_ptr<Device> device() override { return makeDevice(kind_); }
+
+ private:
+  const char* kind_;
+  void* library_;
+  FakeArm* arm_;
+};
+
+class SimulatedBench final : public Bench {
+ public:
+  FakeArm& arm() override { return arm_; }
+  std::unique_ptr<Device> device() override { return std::move(device_); }
+
+ private:
+  std::unique_ptr<SimulatedDevice> device_ = std::make_unique<SimulatedDevice>();
+  FakeArm arm_{*device_};
+};
+
+std::unique_ptr<Bench> makeSimulated() { return std::make_unique<SimulatedBench>(); }
+std::unique_ptr<Bench> makeForceDimension() {
+  return std::make_unique<LibraryBench>("dhd", "HL_DHD_LIBRARY", HL_FAKE_DHD);
+}
+
+}  // namespace
+
+std::vector<BenchKind> benchKinds() {
+  return {{"Simulated", makeSimulated, kPosition_m, kForce_N},
+          {"ForceDimension", makeForceDimension, kPosition_m, kForce_N}};
+}
+
+}  // namespace hl::test

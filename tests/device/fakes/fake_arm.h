@@ -1,0 +1,76 @@
+// FakeArm: the hardware behind every fake: HL's simulated arm and hand, on the real clock or on one that the test
+// moves. A fake speaks a driver's language on one side and moves this arm on the other; the test looks at the arm
+// itself.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+
+#include "base/clock.h"
+#include "device/simulated_device.h"
+
+namespace hl::test {
+
+class FakeArm {
+ public:
+  FakeArm() : device_(own_) {}
+  /// Looks at a simulated device that the test drives itself.
+  explicit FakeArm(SimulatedDevice& device) : device_(device) {}
+
+  // The fake's side. Frame D; any thread.
+  Vec3 encoders() {
+    const std::lock_guard lock(mutex_);
+    return device_.read(now_ns()).position;
+  }
+  void pull(const Vec3& force_D) {
+    const std::lock_guard lock(mutex_);
+    device_.read(now_ns());
+    device_.write(force_D);
+    strongest_N_ = std::max(strongest_N_, device_.motorForce().norm());
+  }
+
+  // The test's side. Any thread.
+  std::int64_t now_ns() const { return virtual_ ? virtual_ns_.load() : monotonicNow_ns(); }
+  void useVirtualClock() { virtual_ = true; }
+  void useRealClock() { virtual_ = false; }
+  void advance(double elapsed_s) {
+    virtual_ns_ += static_cast<std::int64_t>(1e9 * elapsed_s);
+    encoders();
+  }
+  void setHandGoal(const Vec3& goal_D) {
+    const std::lock_guard lock(mutex_);
+    device_.setHandGoal(goal_D);
+  }
+  Vec3 trueTip_D() {
+    const std::lock_guard lock(mutex_);
+    return device_.trueTip_D();
+  }
+  Vec3 force_D() {
+    const std::lock_guard lock(mutex_);
+    return device_.motorForce();
+  }
+  double strongest_N() {
+    const std::lock_guard lock(mutex_);
+    return strongest_N_;
+  }
+
+  std::atomic<bool> lost{false};       ///< the device does not answer
+  std::atomic<bool> not_ready{false};  ///< it answers, but is not calibrated
+  std::atomic<unsigned> buttons{0};
+
+ private:
+  std::mutex mutex_;
+  SimulatedDevice own_;
+  SimulatedDevice& device_;
+  double strongest_N_ = 0;
+  std::atomic<bool> virtual_{false};
+  std::atomic<std::int64_t> virtual_ns_{0};
+};
+
+/// Exported by the fakes that are shared libraries, under this name.
+using FakeArmOf = FakeArm*();
+inline constexpr const char* kFakeArmOf = "hlFakeArm";
+
+}  // namespace hl::test

@@ -1,0 +1,44 @@
+// FakeScript: the hand of a fake that another process has loaded, when HL_FAKE_REPORT names a file. It waits 20 mm
+// above the origin, presses to 20 mm below once the servo runs, and tells what came of it: a line "touched" when the
+// device has pulled with half a newton, and "closed F" with the force in N that is left when it has been closed.
+#pragma once
+
+#include <cstdlib>
+#include <fstream>
+
+#include "fake_arm.h"
+
+namespace hl::test {
+
+class FakeScript {
+ public:
+  explicit FakeScript(FakeArm& arm) : arm_(arm) {
+    const char* file = std::getenv("HL_FAKE_REPORT");
+    if (file == nullptr) return;
+    report_.open(file);
+    arm_.useVirtualClock();
+    arm_.setHandGoal({0, 0.02, 0});
+    for (int i = 0; i < 2000; ++i) arm_.advance(1e-3);
+    arm_.useRealClock();
+  }
+  void pulled() {
+    if (!report_.is_open()) return;
+    if (++pulls_ == kPullsOfARunningServo) arm_.setHandGoal({0, -0.02, 0});
+    if (touched_ || arm_.strongest_N() < 0.5) return;
+    touched_ = true;
+    report_ << "touched" << std::endl;
+  }
+  void closed() {
+    if (report_.is_open()) report_ << "closed " << arm_.force_D().norm() << std::endl;
+  }
+
+ private:
+  static constexpr int kPullsOfARunningServo = 500;
+
+  FakeArm& arm_;
+  std::ofstream report_;
+  int pulls_ = 0;
+  bool touched_ = false;
+};
+
+}  // namespace hl::test

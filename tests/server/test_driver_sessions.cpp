@@ -1,0 +1,119 @@
+// Whole sessions with each driver against its fake: what the hand meets is felt at the device.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "builtin.h"
+#include "device/fakes/bench.h"
+#include "server/touch_session.h"
+#include "temp_folder.h"
+
+namespace hl::test {
+namespace {
+
+template <typename Condition>
+void waitFor(const Condition& condition) {
+  while (!condition()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+ServoView servoOf(TouchSession& session) {
+  ServoView servo;
+  ProxyView proxy;
+  session.views(servo, proxy);
+  return servo;
+}
+
+class DriverSession : public testing::TestWithParam<BenchKind> {};
+
+TEST_P(DriverSession, AHandThatPressesOnAPlaneFeelsItAndALostDeviceIsAFaultUntilItIsArmedAgain) {
+  const auto bench = GetParam().make();
+  auto device = bench->device();
+  device->open();
+  bench->arm().setHandGoal(Vec3(0, 0.02, 0));
+  waitFor([&] { return bench->arm().encoders().y() > 0.018; });
+  TouchSession session(makeSnapshot(makeBuiltinScene("plane:2000"), HierarchyKind::kBvh), {}, std::move(device));
+  session.start();
+  waitFor([&] { return servoOf(session).safety == SafetyState::kOn; });
+  bench->arm().setHandGoal(Vec3(0, -0.02, 0));
+  waitFor([&] { return bench->arm().force_D().y() > 0.5; });
+  if (!session.hasHand()) {
+    bench->arm().lost = true;
+    waitFor([&] { return servoOf(session).safety == SafetyState::kFault; });
+    EXPECT_EQ(servoOf(session).fault, FaultReason::kDeviceLost);
+    EXPECT_EQ(servoOf(session).force_N, Vec3(Vec3::Zero()));
+    bench->arm().lost = false;
+    waitFor([&] { return bench->arm().force_D().norm() < 1e-12; });
+    bench->arm().setHandGoal(Vec3(0, 0.02, 0));
+    waitFor([&] { return servoOf(session).finger_D.y() > 0.015; });
+    session.rearm();
+    waitFor([&] { return servoOf(session).safety == SafetyState::kOn; });
+    bench->arm().setHandGoal(Vec3(0, -0.02, 0));
+    waitFor([&] { return bench->arm().force_D().y() > 0.5; });
+  }
+  session.stop();
+  EXPECT_LT(bench->arm().force_D().norm(), 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(Drivers, DriverSession, testing::ValuesIn(benchKinds()),
+                         [](const auto& of) { return of.param.name; });
+
+// ---- hl touch itself ------------------------------------------------------------------------------------------------
+
+/// `hl touch` on a plane with `device`, told to end when it is destroyed.
+class TouchProcess {
+ public:
+  explicit TouchProcess(const std::string& device) {
+    pid_ = fork();
+    if (pid_ != 0) return;
+    execl(HL_PROGRAM, HL_PROGRAM, "touch", "plane:2000", "--device", device.c_str(), "--port", "0", "--no-open",
+          nullptr);
+    _exit(127);
+  }
+  int end() const {
+    kill(pid_, SIGTERM);
+    int status = 0;
+    waitpid(pid_, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+ private:
+  pid_t pid_;
+};
+
+std::vector<std::string> linesOf(const std::string& file) {
+  std::vector<std::string> lines;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+struct LibraryDriver {
+  const char* kind;
+  const char* variable;
+  const char* fake;
+};
+
+class TouchCommand : public testing::TestWithParam<LibraryDriver> {};
+
+TEST_P(TouchCommand, FeelsThroughTheVendorsLibrary) {
+  const std::string report = tempFile("report");
+  setenv(GetParam().variable, GetParam().fake, 1);
+  setenv("HL_FAKE_REPORT", report.c_str(), 1);
+  const TouchProcess touch(GetParam().kind);
+  waitFor([&] { return !linesOf(report).empty(); });
+  EXPECT_EQ(touch.end(), 0);
+  EXPECT_EQ(linesOf(report), (std::vector<std::string>{"touched", "closed 0"}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Drivers, TouchCommand, testing::Values(LibraryDriver{"dhd", "HL_DHD_LIBRARY", HL_FAKE_DHD}),
+                         [](const auto& of) { return of.param.kind; });
+
+}  // namespace
+}  // namespace hl::test
