@@ -1,7 +1,6 @@
-// HandScript: hand goals given in advance, as samples over time with straight lines between them.
+// HandScript: what a simulated hand does over time, given in advance: samples with straight lines between them.
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "base/vec.h"
@@ -13,19 +12,39 @@ struct HandScript {
   struct Sample {
     double time_s = 0;
     Vec3 position = Vec3::Zero();
+    bool holds = true;  ///< from here on
   };
   std::vector<Sample> samples;
 
   /// Before the first sample the first position, after the last one the last. Needs at least one sample.
-  Vec3 at(double time_s) const {
-    const auto later = [](const Sample& sample, double t) { return sample.time_s < t; };
-    const auto next = std::lower_bound(samples.begin(), samples.end(), time_s, later);
-    if (next == samples.begin()) return samples.front().position;
-    if (next == samples.end()) return samples.back().position;
-    const auto before = next - 1;
-    const double part = (time_s - before->time_s) / (next->time_s - before->time_s);
-    return before->position + part * (next->position - before->position);
-  }
+  Vec3 at(double time_s) const;
+  bool holdsAt(double time_s) const;
+};
+
+/// Writes the script of a person who is told what to do, one thing after the other.
+class PersonScript {
+ public:
+  /// Waits at `start` for so long.
+  PersonScript(const Vec3& start, double wait_s);
+
+  PersonScript& moveTo(const Vec3& place, double speed_m_s);
+  PersonScript& wait(double duration_s);
+  /// Wants to be `way` farther, stays so for the time, and comes back.
+  PersonScript& press(const Vec3& way, double speed_m_s, double duration_s);
+  /// The same, `times` times, coming back at once.
+  PersonScript& tap(const Vec3& way, double speed_m_s, int times);
+  /// Wants to be `way` farther, goes `along` and back there, and comes back.
+  PersonScript& stroke(const Vec3& way, const Vec3& along, double speed_m_s);
+  /// Lets the device go, and takes it again.
+  PersonScript& letGo(double duration_s);
+
+  const HandScript& script() const { return script_; }
+  double duration_s() const { return script_.samples.back().time_s; }
+
+ private:
+  Vec3 place() const { return script_.samples.back().position; }
+
+  HandScript script_;
 };
 
 }  // namespace hl

@@ -13,15 +13,13 @@ namespace {
 
 using DevicePointer = std::unique_ptr<Device>;
 
-constexpr const char* kSimulatedModel = "premium-1.5";
-
 DevicePointer makeSimulated(const std::string& model) {
-  if (!model.empty() && model != kSimulatedModel)
-    throw Error("no simulated device is called '" + model + "': there is " + kSimulatedModel);
-  return std::make_unique<SimulatedDevice>();
+  SimulatedDeviceSettings settings;
+  if (!model.empty()) settings.model = deviceModel(model);
+  return std::make_unique<SimulatedDevice>(settings);
 }
 
-std::string findSimulated() { return SimulatedDevice().info().name + " (always there)"; }
+std::string findSimulated() { return simulatedModelNames() + " (always there)"; }
 
 template <typename Driver>
 DevicePointer makeDriver(const std::string& argument) {

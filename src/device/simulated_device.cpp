@@ -5,119 +5,93 @@
 
 namespace hl {
 
-namespace {
-
-// With the links folded no further than their stops the tip reaches from 94 to 367 mm; the box of the workspace around
-// this point spans 95 to 366 mm.
-const Vec3 kOrigin_P(0.19, 0, 0);
-
-Vec3 toDevice(const Vec3& v_P) { return {v_P.y(), v_P.z(), v_P.x()}; }
-Vec3 toPhantom(const Vec3& v_D) { return {v_D.z(), v_D.x(), v_D.y()}; }
-
-DeviceInfo makeInfo(const PhantomParameters& arm) {
-  DeviceInfo info;
-  info.name = "simulated PHANToM Premium 1.5";
-  info.workspace_min = Vec3(-0.1905, -0.1335, -0.0955);  // 381 x 267 x 191 mm
-  info.workspace_max = -info.workspace_min;
-  info.force_max_N = arm.motor_torque_peak_Nm * arm.gear.y() / arm.l2;
-  info.force_continuous_N = 1.4;
-  info.friction_N = 0.04;  // the vendor's figure; the joints' .01 Nm make .047 to .059 N
-  info.stiffness_N_m = 1000;
-  info.stiffness_max_N_m = 3500;
-  info.damping_Ns_m = 0.5;
-  info.resolution_m = 30e-6;
-  info.velocity_max_m_s = 3;
-  // What the stiffest spring asks for under the fastest hand: touch never changes a force faster.
-  info.force_rate_max_N_s = info.stiffness_max_N_m * info.velocity_max_m_s;
-  info.servo_rate_Hz = 1000;
-  return info;
-}
-
-}  // namespace
-
 SimulatedDevice::SimulatedDevice(const SimulatedDeviceSettings& settings)
-    : settings_(settings), info_(makeInfo(settings.arm)), origin_P_(kOrigin_P) {
-  phantomJoints(settings.arm, origin_P_, q_);
+    : settings_(settings), arm_(makeArm(settings.model, settings.current_lag_s)), random_(settings.seed) {
+  settings_.delay_steps = std::clamp(settings.delay_steps, 0, SimulatedDeviceSettings::kMostDelay);
+  on_the_way_.fill(Vec3::Zero());
   firm_ = settings.firm;
+  holds_ = held_ = settings.held;
 }
 
-void SimulatedDevice::setJoints(const Vec3& q, const Vec3& qdot) {
-  q_ = q;
-  qdot_ = qdot;
-  friction_impulse_ = Vec3::Zero();
-  hand_ = HandState{};
-  hand_.position = hand_.wish = goal_D_ = trueTip_D();
+void SimulatedDevice::place(const Vec3& tip_D, const Vec3& velocity_m_s) {
+  arm_->place(tip_D, velocity_m_s);
+  stylus_ = arm_->tip_D();
+  stylus_velocity_ = arm_->velocity_D();
+  takeHold();
   goal_.write(goal_D_);
 }
 
-Vec3 SimulatedDevice::trueTip_D() const { return toDevice(phantomTip(settings_.arm, q_) - origin_P_); }
+void SimulatedDevice::takeHold() {
+  hand_.position = hand_.wish = goal_D_ = trueTip_D();
+  hand_.velocity = hand_.wish_velocity = trueVelocity_D();
+}
 
-// The encoders count whole steps, rounded down; kinematics then works on what they say.
-Vec3 SimulatedDevice::countedJoints() const {
-  Vec3 counted;
-  for (int i = 0; i < 3; ++i) {
-    const double step = 2 * M_PI / (settings_.arm.encoder_counts * settings_.arm.gear[i]);
-    counted[i] = std::floor(q_[i] / step) * step;
-  }
-  return counted;
+double SimulatedDevice::jitter_ns() {
+  return settings_.jitter_s > 0 ? 1e9 * settings_.jitter_s * random_() / (1.0 + std::mt19937::max()) : 0;
 }
 
 DeviceSample SimulatedDevice::read(std::int64_t now_ns) {
+  const bool holds = holds_.load(std::memory_order_relaxed);
+  if (holds && !held_) takeHold();
+  held_ = holds;
   Vec3 goal;
   if (goal_.read(goal) && goal.allFinite()) goal_D_ = goal;
+  const std::int64_t taken_ns = now_ns + static_cast<std::int64_t>(jitter_ns());
   if (has_time_) {
     const double elapsed_s =
-        std::clamp(1e-9 * static_cast<double>(now_ns - time_ns_), 0.0, settings_.longest_advance_s);
+        std::clamp(1e-9 * static_cast<double>(taken_ns - time_ns_), 0.0, settings_.longest_advance_s);
     const int steps = static_cast<int>(std::ceil(elapsed_s / settings_.step_s));
     for (int i = 0; i < steps; ++i) step(elapsed_s / steps);
   }
   has_time_ = true;
-  time_ns_ = now_ns;
-  return {now_ns, toDevice(phantomTip(settings_.arm, countedJoints()) - origin_P_), 0, DeviceStatus::kOk};
+  time_ns_ = taken_ns;
+  return {now_ns, arm_->countedTip_D(), 0, DeviceStatus::kOk};
 }
 
-// Torques J' f in DAC counts, within what the motors can give; held until the next write.
 void SimulatedDevice::write(const Vec3& force_N) {
-  const PhantomParameters& arm = settings_.arm;
-  Vec3 wanted = Vec3::Zero();
-  if (force_N.allFinite()) wanted = phantomJacobian(arm, countedJoints()).transpose() * toPhantom(force_N);
-  for (int i = 0; i < 3; ++i) {
-    const double peak = arm.motor_torque_peak_Nm * arm.gear[i];
-    const double count = 2 * peak / std::pow(2.0, arm.dac_bits);
-    torque_[i] = std::round(std::clamp(wanted[i], -peak, peak - count) / count) * count;
-  }
+  const std::size_t room = on_the_way_.size();
+  on_the_way_[written_ % room] = force_N.allFinite() ? force_N : Vec3(Vec3::Zero());
+  const std::size_t arrives = written_ + room - static_cast<std::size_t>(settings_.delay_steps);
+  arm_->drive(on_the_way_[arrives % room]);
+  ++written_;
 }
 
-// Semi-implicit Euler; Coulomb friction implicitly, so that it stops a joint and never drives one.
 void SimulatedDevice::step(double dt_s) {
-  const PhantomParameters& arm = settings_.arm;
-  const Mat3 jacobian = phantomJacobian(arm, q_);
-  Vec3 torque = torque_ - phantomCoriolis(arm, q_, qdot_) - arm.joint_damping_Nms * qdot_;
-  if (settings_.held) {
-    const GripParameters& grip = firm_.load(std::memory_order_relaxed) ? kFirmGrip : kLightGrip;
-    const Vec3 pad = padForce(grip, hand_, trueTip_D(), toDevice(jacobian * qdot_));
-    stepWish(hand_, goal_D_, dt_s);
-    stepHand(grip, hand_, pad, dt_s);
-    torque += jacobian.transpose() * toPhantom(pad);
-  }
-  torque += phantomStops(arm, q_, qdot_);
-  const Mat3 mass = phantomMass(arm, q_);
-  const Vec3 free_qdot = qdot_ + dt_s * mass.inverse() * torque;
-  qdot_ = phantomFriction(arm, mass, free_qdot, dt_s, friction_impulse_);
-  q_ += dt_s * qdot_;
+  Vec3 pull_N = settings_.load_N;
+  if (held_) pull_N += stepHeld(dt_s);
+  if (settings_.bends) pull_N = stepStylus(pull_N, dt_s);
+  arm_->step(pull_N, dt_s);
 }
 
-Vec3 SimulatedDevice::motorForce() const {
-  return toDevice(phantomJacobian(settings_.arm, q_).transpose().inverse() * torque_);
+// The force of the hand on what it holds.
+Vec3 SimulatedDevice::stepHeld(double dt_s) {
+  const Vec3 pad_N = padForce(grip(), hand_, trueTip_D(), trueVelocity_D());
+  stepWish(hand_, goal_D_, dt_s);
+  stepHand(grip(), hand_, pad_N, dt_s);
+  return pad_N;
+}
+
+// The force on the arm of a stylus that is pulled.
+Vec3 SimulatedDevice::stepStylus(const Vec3& pull_N, double dt_s) {
+  const Bending& b = settings_.bending;
+  const double damping_Ns_m = 2 * b.damping_ratio * std::sqrt(b.stiffness_N_m * b.stylus_kg);
+  const Vec3 bend_N =
+      b.stiffness_N_m * (stylus_ - arm_->tip_D()) + damping_Ns_m * (stylus_velocity_ - arm_->velocity_D());
+  stylus_velocity_ += dt_s / b.stylus_kg * (pull_N - bend_N);
+  stylus_ += dt_s * stylus_velocity_;
+  return bend_N;
 }
 
 double SimulatedDevice::energy_J() const {
-  double energy = 0.5 * qdot_.dot(phantomMass(settings_.arm, q_) * qdot_) + phantomStopEnergy_J(settings_.arm, q_);
-  if (settings_.held) {
-    const GripParameters& grip = firm_.load() ? kFirmGrip : kLightGrip;
-    energy += 0.5 * grip.hand_mass_kg * hand_.velocity.squaredNorm() +
-              0.5 * grip.pad_stiffness_N_m * (hand_.position - trueTip_D()).squaredNorm() +
-              0.5 * grip.arm_stiffness_N_m * (hand_.wish - hand_.position).squaredNorm();
+  double energy = arm_->energy_J();
+  if (held_) {
+    energy += 0.5 * grip().hand_mass_kg * hand_.velocity.squaredNorm() +
+              0.5 * grip().pad_stiffness_N_m * (hand_.position - trueTip_D()).squaredNorm() +
+              0.5 * grip().arm_stiffness_N_m * (hand_.wish - hand_.position).squaredNorm();
+  }
+  if (settings_.bends) {
+    energy += 0.5 * settings_.bending.stylus_kg * stylus_velocity_.squaredNorm() +
+              0.5 * settings_.bending.stiffness_N_m * (stylus_ - arm_->tip_D()).squaredNorm();
   }
   return energy;
 }

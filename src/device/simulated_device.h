@@ -1,68 +1,94 @@
-// SimulatedDevice: a PHANToM Premium 1.5 in a hand, so that nobody needs hardware.
-// Joint dynamics with Coulomb friction, encoders that count, a DAC that rounds, motors that saturate. It lives on the
-// clock that read() is given: a virtual one in tests, the real one in hl touch.
+// SimulatedDevice: a force-feedback device in a hand, so that nobody needs hardware.
+// An arm with friction, encoders that count, a DAC that rounds, motors that saturate; if wanted also what real devices
+// have beside that: a bending stylus, a lagging current, ticks of delay, samples that are not taken on time. It lives
+// on the clock that read() is given: a virtual one in tests, the real one in hl touch.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
+#include <memory>
+#include <random>
 
 #include "base/latest.h"
+#include "device/arm.h"
 #include "device/device.h"
+#include "device/device_models.h"
 #include "device/hand.h"
-#include "device/phantom.h"
 #include "device/simulated_hand.h"
 
 namespace hl {
 
-struct SimulatedDeviceSettings {
-  PhantomParameters arm;
-  bool held = true;  ///< false: nobody holds the stylus
-  bool firm = false;
-  double step_s = 10e-6;            ///< of the integration
-  double longest_advance_s = 0.02;  ///< per read; a longer gap of the clock is not simulated
+/// The arm bends between where its encoders measure and where the hand holds it: a spring with a light mass behind it.
+struct Bending {
+  double stiffness_N_m = 3500;  ///< the vendor's figure of the PHANToM, unverified
+  double damping_ratio = 0.02;  ///< of the mode
+  double stylus_kg = 0.010;     ///< what the hand holds; assumed
 };
 
-/// Frame D: x = P's y (right), y = P's z (up), z = P's x (toward the user). Its origin, (0.19, 0, 0) m in P, is where
-/// the workspace box of 381 x 267 x 191 mm just fits between the arm's nearest and farthest reach; the tip starts
-/// there. The same calls give the same bits.
+struct SimulatedDeviceSettings {
+  DeviceModel model = premium15();
+  bool held = true;  ///< false: nobody holds the stylus
+  bool firm = false;
+  Vec3 load_N = Vec3::Zero();  ///< a constant force on the tip, as of a weight hung on it
+  bool bends = false;
+  Bending bending;
+  double current_lag_s = 0;         ///< of the motors; 0.25 ms is usual
+  int delay_steps = 0;              ///< writes after which a force reaches the motors, 0..kMostDelay
+  double jitter_s = 0;              ///< a reading is taken so much later than it says, at most
+  std::uint32_t seed = 1;           ///< of the jitter
+  double step_s = 10e-6;            ///< of the integration
+  double longest_advance_s = 0.02;  ///< per read; a longer gap of the clock is not simulated
+
+  static constexpr int kMostDelay = 15;
+};
+
+/// The tip starts at the origin of D. The same calls give the same bits.
 class SimulatedDevice final : public Device, public SimulatedHand {
  public:
   explicit SimulatedDevice(const SimulatedDeviceSettings& settings = {});
 
   void open() override {}
   void close() override { write(Vec3::Zero()); }
-  const DeviceInfo& info() const override { return info_; }
+  const DeviceInfo& info() const override { return settings_.model.info; }
   DeviceSample read(std::int64_t now_ns) override;
   void write(const Vec3& force_N) override;
 
   SimulatedHand* hand() override { return this; }
   void setHandGoal(const Vec3& goal_D) override { goal_.write(goal_D); }
   void setHandFirm(bool firm) override { firm_.store(firm, std::memory_order_relaxed); }
+  void setHandHolds(bool holds) override { holds_.store(holds, std::memory_order_relaxed); }
 
   // For tests; on the thread that reads.
-  Vec3 trueTip_D() const;
-  Vec3 joints() const { return q_; }
-  Vec3 motorTorque_Nm() const { return torque_; }  ///< at the joints, after DAC and saturation
-  Vec3 motorForce() const;                         ///< that this torque makes at the tip, frame D
-  void setJoints(const Vec3& q, const Vec3& qdot);
-  /// Kinetic energy of arm and hand plus what the springs of the hand and of the end stops hold.
+  Arm& arm() { return *arm_; }
+  Vec3 trueTip_D() const { return settings_.bends ? stylus_ : arm_->tip_D(); }
+  Vec3 trueVelocity_D() const { return settings_.bends ? stylus_velocity_ : arm_->velocity_D(); }
+  /// Arm, stylus and hand together at one place, moving alike; the hand goes on from there.
+  void place(const Vec3& tip_D, const Vec3& velocity_m_s);
+  /// Kinetic energy of arm, stylus and hand plus what the springs of the hand, the stylus and the end stops hold.
   double energy_J() const;
 
  private:
+  const GripParameters& grip() const { return firm_.load(std::memory_order_relaxed) ? kFirmGrip : kLightGrip; }
+  void takeHold();
   void step(double dt_s);
-  Vec3 countedJoints() const;
+  Vec3 stepHeld(double dt_s);
+  Vec3 stepStylus(const Vec3& pull_N, double dt_s);
+  double jitter_ns();
 
   SimulatedDeviceSettings settings_;
-  DeviceInfo info_;
-  Vec3 origin_P_ = Vec3::Zero();
-  Vec3 q_ = Vec3::Zero();
-  Vec3 qdot_ = Vec3::Zero();
-  Vec3 torque_ = Vec3::Zero();
-  Vec3 friction_impulse_ = Vec3::Zero();
+  std::unique_ptr<Arm> arm_;
+  Vec3 stylus_ = Vec3::Zero();  // the tip, where it bends
+  Vec3 stylus_velocity_ = Vec3::Zero();
   HandState hand_;
+  bool held_ = true;
   Latest<Vec3> goal_;
   Vec3 goal_D_ = Vec3::Zero();
   std::atomic<bool> firm_{false};
+  std::atomic<bool> holds_{true};
+  std::array<Vec3, SimulatedDeviceSettings::kMostDelay + 1> on_the_way_;  // forces, a ring
+  std::size_t written_ = 0;
+  std::mt19937 random_;
   std::int64_t time_ns_ = 0;
   bool has_time_ = false;
 };

@@ -12,6 +12,8 @@ class SimulatedHand {
   /// Where the hand wants to be, in D; ignored unless finite.
   virtual void setHandGoal(const Vec3& goal_D) = 0;
   virtual void setHandFirm(bool firm) = 0;
+  /// false: it lets go; true: it takes hold of the device where that is.
+  virtual void setHandHolds(bool holds) = 0;
 };
 
 }  // namespace hl
