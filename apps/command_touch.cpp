@@ -57,7 +57,9 @@ void printTotals(const TouchSession& session) {
                1e-3 * static_cast<double>(t.late_max_ns));
   };
   line("servo:", session.servoTotals());
-  line("proxy:", session.proxyTotals());
+  const LoopTotals ticks = session.proxyTotals();
+  line("proxy:", ticks);
+  fmt::print(stderr, "{} of {} ticks were part of a servo step\n", session.ticksInServoSteps(), ticks.steps);
   if (session.settings().timer_reference) line("bare timer:", session.referenceTotals());
 }
 

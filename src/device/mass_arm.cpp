@@ -16,6 +16,7 @@ void MassArm::drive(const Vec3& force_N) {
     told_[i] = std::clamp(force_N[i], -peak, peak - count);
     if (count > 0) told_[i] = std::round(told_[i] / count) * count;
   }
+  force_ = currentAfter(force_, told_, 0);
 }
 
 Vec3 MassArm::beyondStops() const { return tip_ - tip_.cwiseMax(parameters_.low_D).cwiseMin(parameters_.high_D); }

@@ -57,6 +57,7 @@ void PhantomArm::drive(const Vec3& force_N) {
     const double count = 2 * peak / std::pow(2.0, parameters_.dac_bits);
     told_[i] = std::round(std::clamp(wanted[i], -peak, peak - count) / count) * count;
   }
+  torque_ = currentAfter(torque_, told_, 0);
 }
 
 Vec3 PhantomArm::motorForce_N() const {

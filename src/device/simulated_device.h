@@ -59,8 +59,9 @@ class SimulatedDevice final : public Device, public SimulatedHand {
   void setHandFirm(bool firm) override { firm_.store(firm, std::memory_order_relaxed); }
   void setHandHolds(bool holds) override { holds_.store(holds, std::memory_order_relaxed); }
 
-  // For tests; on the thread that reads.
+  // For tests and benches; on the thread that reads.
   Arm& arm() { return *arm_; }
+  void setLoad(const Vec3& load_N) { settings_.load_N = load_N; }
   Vec3 trueTip_D() const { return settings_.bends ? stylus_ : arm_->tip_D(); }
   Vec3 trueVelocity_D() const { return settings_.bends ? stylus_velocity_ : arm_->velocity_D(); }
   /// Arm, stylus and hand together at one place, moving alike; the hand goes on from there.

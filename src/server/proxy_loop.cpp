@@ -6,18 +6,19 @@
 
 namespace hl {
 
-void ProxyLoop::follow(const ProxyCommands& commands, double stiffness_N_m, LedgerMode ledger) {
+void ProxyLoop::follow(const ProxyCommands& commands, const SpringOfServo& spring) {
   workspace_ = commands.workspace;
   settings_.radius = commands.radius_W;
   settings_.surfaces = commands.surfaces;
   settings_.world_per_device = workspace_.world_per_device;
-  settings_.spring_N_m = stiffness_N_m;
-  settings_.ledger = ledger;
+  settings_.spring_N_m = spring.stiffness_N_m;
+  settings_.ledger = spring.ledger;
+  settings_.period_s = spring.period_s;
 }
 
 ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const ProxyCommands& commands,
-                          double stiffness_N_m, LedgerMode ledger) {
-  follow(commands, stiffness_N_m, ledger);
+                          const SpringOfServo& spring) {
+  follow(commands, spring);
   const Snapshot& snapshot = scenes_.take();
   const SceneAt scene(snapshot, now_ns);
   const Vec3 finger = workspace_.toWorld(finger_D);
@@ -36,7 +37,7 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
     const Instance& instance = scene.instance(contact.primitive);
     step.touched.push({instance.key, instance.session, instance.object, instance.name});
   }
-  step.target = targetOf(now_ns, finger_D, step.report, abrupt);
+  step.held = heldBy(step.report, targetOf(now_ns, finger_D, step.report, abrupt));
   events_.follow(now_ns, step.touched, state_.position);
   return step;
 }
@@ -58,6 +59,22 @@ ServoTarget ProxyLoop::targetOf(std::int64_t now_ns, const Vec3& finger_D, const
   pulled_ = touches || (blend_.active() && report.valid);
   last_stiffness_ = stiffness;
   return {proxy_D, now_ns, pulled_, stiffness, paid_J};
+}
+
+// Smooth surfaces let the proxy slide until the next tick; friction would hold it, so there it stays. While a blend
+// goes on, the target is not where the contacts hold the proxy.
+HeldContacts ProxyLoop::heldBy(const TickReport& report, const ServoTarget& target) const {
+  HeldContacts held;
+  held.target = target;
+  if (blend_.active()) return held;
+  for (const ProxyContact& contact : report.contacts) {
+    if (contact.rough) {
+      held.planes_D.clear();
+      break;
+    }
+    held.planes_D.push({contact.normal, contact.normal.dot(target.proxy_D)});
+  }
+  return held;
 }
 
 }  // namespace hl

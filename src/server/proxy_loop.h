@@ -1,11 +1,12 @@
-// ProxyLoop: what the proxy's real-time thread does at each period, without the thread: takes the newest scene and
-// settings, ticks, and tells the servo where to pull, and the server what was touched.
+// ProxyLoop: one tick as the real-time loops do it, without a thread: takes the newest scene and settings, ticks, and
+// tells the servo where to pull, and the server what was touched.
 #pragma once
 
 #include <cstdint>
 
 #include "control/servo.h"
 #include "proxy/proxy.h"
+#include "server/held_contacts.h"
 #include "server/snapshot_slot.h"
 #include "server/target_blend.h"
 #include "server/touch_events.h"
@@ -22,26 +23,33 @@ struct ProxyCommands {
   std::uint64_t restarts = 0;
 };
 
+/// What a tick must know of the servo.
+struct SpringOfServo {
+  double stiffness_N_m = 1000;
+  LedgerMode ledger = LedgerMode::kTank;
+  double period_s = 1e-3;  ///< from tick to tick
+};
+
 struct ProxyStep {
-  ServoTarget target;
+  HeldContacts held;  ///< the target, and how it goes on until the next tick
   TickReport report;
   FixedVector<ObjectName, 3> touched;  ///< of report.contacts, one by one
 };
 
-/// step() by one thread, RT-safe; popEvent() by one other.
+/// step() by one thread at a time, RT-safe; popEvent() by one other.
 class ProxyLoop {
  public:
-  /// `settings`: period and passes; the rest comes with each step.
+  /// `settings`: passes and iterations; the rest comes with each step.
   ProxyLoop(SnapshotSlot& scenes, const ProxySettings& settings) : scenes_(scenes), settings_(settings) {}
 
-  /// One period at `now_ns` with the finger at `finger_D`.
-  ProxyStep step(std::int64_t now_ns, const Vec3& finger_D, const ProxyCommands& commands, double stiffness_N_m,
-                 LedgerMode ledger);
+  /// One tick at `now_ns` with the finger at `finger_D`.
+  ProxyStep step(std::int64_t now_ns, const Vec3& finger_D, const ProxyCommands& commands, const SpringOfServo& spring);
   const ProxyState& state() const { return state_; }
   bool popEvent(TouchEvent& event) { return events_.pop(event); }
 
  private:
-  void follow(const ProxyCommands& commands, double stiffness_N_m, LedgerMode ledger);
+  void follow(const ProxyCommands& commands, const SpringOfServo& spring);
+  HeldContacts heldBy(const TickReport& report, const ServoTarget& target) const;
   ServoTarget targetOf(std::int64_t now_ns, const Vec3& finger_D, const TickReport& report, bool abrupt);
 
   SnapshotSlot& scenes_;

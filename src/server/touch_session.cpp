@@ -21,12 +21,6 @@ constexpr double kLift_D = 0.010;
 constexpr double kMostFriction = 10;
 constexpr double kMostViscosity_Ns_m = 1000;
 
-ProxySettings proxySettings(const TouchSettings& settings) {
-  ProxySettings proxy;
-  proxy.period_s = 1 / settings.proxy_rate_Hz;
-  return proxy;
-}
-
 std::int64_t period_ns(double rate_Hz) { return static_cast<std::int64_t>(1e9 / rate_Hz); }
 
 }  // namespace
@@ -37,7 +31,8 @@ TouchSession::TouchSession(std::shared_ptr<const Snapshot> snapshot, const Touch
       device_(std::move(device)),
       hand_(device_->hand()),
       scenes_(std::move(snapshot)),
-      proxy_loop_(scenes_, proxySettings(settings)) {
+      proxy_loop_(scenes_, ProxySettings{}),
+      place_(period_ns(settings.servo_rate_Hz)) {
   const Vec3 reach_D = device_->info().workspace_max - device_->info().workspace_min;
   settings_.side_D = std::min(settings_.side_D, reach_D.minCoeff());
   fitted_ = settings.world_per_device || !scenes_.newest()->bounds.empty();
@@ -116,10 +111,10 @@ void TouchSession::stop() {
 void TouchSession::runServo() {
   grant_ = requestRealtime(kServoPriority);
   servo_ready_ = true;
-  ServoState state;
+  TouchStep step;
   ServoSettings settings = servo_settings_;
   LoopMeter meter;
-  TargetMessage target;
+  TickMessage last;
   std::uint64_t armed = 0;
   runPeriodic(period_ns(settings_.servo_rate_Hz), running_, servo_counters_, [&](std::int64_t) {
     const std::int64_t now_ns = monotonicNow_ns();
@@ -130,57 +125,88 @@ void TouchSession::runServo() {
     if (const std::uint64_t wanted = arm_requests_.load(std::memory_order_relaxed);
         wanted != armed && sample.status != DeviceStatus::kNotReady) {
       armed = wanted;
-      arm(state);
+      arm(step.servo());
     }
     const bool answers = sample.status == DeviceStatus::kOk;
     if (answers) finger_D_.write(sample.position);
     if (answers && !answered_) arrivals_.fetch_add(1, std::memory_order_release);
     answered_ = answers;
-    target_.read(target);
-    const ServoOutput out = stepServo(state, settings, target.target, sample);
-    device_->write(out.force_N);
+    const ServoOutput out = touchNow(step, settings, sample, last);
     finger_for_supervisor_D_.write(sample.position);
     samples_.push({1e-9 * static_cast<double>(now_ns - start_ns_), static_cast<float>(out.force_N.norm()),
-                   target.target.valid ? static_cast<float>((target.target.proxy_D - sample.position).norm()) : 0.0f,
-                   target.tick_us});
+                   step.target().valid ? static_cast<float>((step.target().proxy_D - sample.position).norm()) : 0.0f,
+                   last.work_us});
     meter.add(now_ns, monotonicNow_ns() - now_ns);
-    const ServoView view{sample.buttons, sample.position,     out.force_N,    out.safety,
-                         out.fault,      state.spring.ledger, meter.summary()};
+    const ServoView view{sample.buttons, sample.position, out.force_N,
+                         out.safety,     out.fault,       step.servo().spring.ledger,
+                         meter.summary()};
     servo_view_.write(view);
     servo_for_clients_.write(view);
   });
   device_->write(Vec3::Zero());
 }
 
+// From the sample to the motors: with a tick on the way when it is the servo's turn to tick.
+ServoOutput TouchSession::touchNow(TouchStep& step, const ServoSettings& settings, const DeviceSample& sample,
+                                   TickMessage& last) {
+  if (!place_.onServo()) {
+    TickMessage newest;
+    if (ticks_.read(newest) && newest.held.target.time_ns > last.held.target.time_ns) last = newest;
+    const ServoOutput out = step.late(last.held, settings, sample);
+    device_->write(out.force_N);
+    return out;
+  }
+  const std::int64_t begin_ns = monotonicNow_ns();
+  const ServoOutput out = step.onTime(proxy_loop_, ticking_.follow(*this), settings, sample);
+  device_->write(out.force_N);
+  const std::int64_t work_ns = monotonicNow_ns() - begin_ns;
+  last = {step.tick().held, 1e-3f * static_cast<float>(work_ns)};
+  show(step.tick(), begin_ns, work_ns);
+  return out;
+}
+
 void TouchSession::runProxy() {
   requestRealtime(kProxyPriority);
   Vec3 finger_D;
-  ProxyCommands commands;
-  ProxyView view;
-  LoopMeter meter;
   runPeriodic(period_ns(settings_.proxy_rate_Hz), running_, proxy_counters_, [&](std::int64_t) {
+    if (place_.onServo()) return;
     const std::int64_t now_ns = monotonicNow_ns();
-    const std::uint64_t arrivals = arrivals_.load(std::memory_order_acquire);
+    const ProxyCommands& commands = ticking_.follow(*this);
     finger_D_.read(finger_D);
-    commands_for_proxy_.read(commands);
-    commands.restarts += arrivals;
-    const ProxyStep step = proxy_loop_.step(now_ns, finger_D, commands, stiffness_.load(std::memory_order_relaxed),
-                                            ledger_.load(std::memory_order_relaxed));
+    const ProxyStep step = proxy_loop_.step(now_ns, finger_D, commands,
+                                            {stiffness_.load(std::memory_order_relaxed),
+                                             ledger_.load(std::memory_order_relaxed), 1 / settings_.proxy_rate_Hz});
     const std::int64_t work_ns = monotonicNow_ns() - now_ns;
-    target_.write({step.target, 1e-3f * static_cast<float>(work_ns)});
-    meter.add(now_ns, work_ns);
-    const ProxyState& state = proxy_loop_.state();
-    view.proxy = state.position;
-    view.contacts = step.report.contacts;
-    view.touched = step.touched;
-    view.slipping = state.touching && state.rest_s == 0;
-    view.ledger = state.ledger;
-    view.capped += step.report.capped ? 1 : 0;
-    view.loop = meter.summary();
-    proxy_view_.write(view);
-    proxy_for_clients_.write(view);
-    last_tick_ns_.store(now_ns, std::memory_order_release);
+    ticks_.write({step.held, 1e-3f * static_cast<float>(work_ns)});
+    show(step, now_ns, work_ns);
   });
+}
+
+const ProxyCommands& TouchSession::Ticking::follow(TouchSession& session) {
+  const std::uint64_t arrivals = session.arrivals_.load(std::memory_order_acquire);
+  session.commands_for_proxy_.read(commands);
+  commands.restarts += arrivals;
+  return commands;
+}
+
+// By the loop that has ticked, at last: the next tick may be the other's.
+void TouchSession::show(const ProxyStep& step, std::int64_t now_ns, std::int64_t work_ns) {
+  ticking_.meter.add(now_ns, work_ns);
+  const ProxyState& state = proxy_loop_.state();
+  ProxyView& view = ticking_.view;
+  view.proxy = state.position;
+  view.contacts = step.report.contacts;
+  view.touched = step.touched;
+  view.slipping = state.touching && state.rest_s == 0;
+  view.ledger = state.ledger;
+  view.capped += step.report.capped ? 1 : 0;
+  view.loop = ticking_.meter.summary();
+  proxy_view_.write(view);
+  proxy_for_clients_.write(view);
+  tick_count_.fetch_add(1, std::memory_order_relaxed);
+  if (place_.onServo()) ticks_in_servo_steps_.fetch_add(1, std::memory_order_relaxed);
+  last_tick_ns_.store(now_ns, std::memory_order_release);
+  place_.took(work_ns);
 }
 
 // Where the script or the exploration wants the hand; with nothing to stroke it waits.
@@ -326,6 +352,12 @@ void TouchSession::viewsForClients(ServoView& servo, ProxyView& proxy) {
 void TouchSession::views(ServoView& servo, ProxyView& proxy) {
   servo_view_.read(servo);
   proxy_view_.read(proxy);
+}
+
+LoopTotals TouchSession::proxyTotals() const {
+  LoopTotals totals = TouchSession::totals(proxy_counters_);
+  totals.steps = tick_count_.load();
+  return totals;
 }
 
 LoopTotals TouchSession::totals(const LoopCounters& counters) {

@@ -1,7 +1,7 @@
 // TouchSession: a scene, a device and the two real-time loops between them.
 //
-//   servo loop  (fixed rate): device.read -> stepServo -> device.write      writes the finger, reads the target
-//   proxy loop  (fixed rate): finger -> tick -> target                      writes the target, reads the finger
+//   servo loop  (fixed rate): device.read -> tick -> stepServo -> device.write   the path from encoder to motor
+//   proxy loop  (fixed rate): finger -> tick -> contacts    only while ticks do not fit in a servo step (tick_place.h)
 //   supervisor  (60 Hz):      commands and exploration -> the hand's goal
 // Each datum has one writer; they meet only through Latest.
 #pragma once
@@ -28,6 +28,8 @@
 #include "server/loop_meter.h"
 #include "server/proxy_loop.h"
 #include "server/snapshot_slot.h"
+#include "server/tick_place.h"
+#include "server/touch_step.h"
 #include "server/workspace.h"
 
 namespace hl {
@@ -38,7 +40,7 @@ struct TouchSettings {
                             ///< reaches
   std::optional<double> world_per_device;
   double servo_rate_Hz = 1000;
-  double proxy_rate_Hz = 1000;
+  double proxy_rate_Hz = 1000;          ///< while ticks do not fit in a servo step
   std::optional<double> stiffness_N_m;  ///< K; the device's own when not given
   std::optional<double> damping_Ns_m;   ///< B
   bool hand_firm = false;               ///< of a simulated hand, as the next two
@@ -49,7 +51,7 @@ struct TouchSettings {
   bool timer_reference = false;  ///< run a bare timer thread beside the servo, to tell the machine's own hiccups
 };
 
-/// What the proxy loop last did. World frame.
+/// What the last tick did. World frame.
 struct ProxyView {
   Vec3 proxy = Vec3::Zero();
   FixedVector<ProxyContact, 3> contacts;
@@ -133,15 +135,25 @@ class TouchSession {
   const DeviceInfo& deviceInfo() const { return device_->info(); }
   double radius_W() const;
   LoopTotals servoTotals() const { return totals(servo_counters_); }
-  LoopTotals proxyTotals() const { return totals(proxy_counters_); }
+  /// Of the ticks, wherever they ran; missed and late: of the proxy loop.
+  LoopTotals proxyTotals() const;
+  std::uint64_t ticksInServoSteps() const { return ticks_in_servo_steps_.load(); }
   LoopTotals referenceTotals() const { return totals(reference_counters_); }
   /// What the machine granted to the servo thread; complete once start() has returned.
   const RealtimeGrant& grant() const { return grant_; }
 
  private:
-  struct TargetMessage {
-    ServoTarget target;
-    float tick_us = 0;
+  struct TickMessage {
+    HeldContacts held;
+    float work_us = 0;
+  };
+  // Of the loop that ticks; goes from one to the other with its turn.
+  struct Ticking {
+    ProxyCommands commands;
+    ProxyView view;
+    LoopMeter meter;
+
+    const ProxyCommands& follow(TouchSession& session);
   };
   struct Commands {
     std::optional<Vec3> goal_W;
@@ -153,7 +165,9 @@ class TouchSession {
   void bringHandToStart();
   void startAt(const DeviceSample& sample);
   void runServo();
+  ServoOutput touchNow(TouchStep& step, const ServoSettings& settings, const DeviceSample& sample, TickMessage& last);
   void runProxy();
+  void show(const ProxyStep& step, std::int64_t now_ns, std::int64_t work_ns);
   void runSupervisor();
   std::optional<Vec3> strokingGoal() const;
   Vec3 clampToWorkspace(const Vec3& goal_D) const;
@@ -165,12 +179,14 @@ class TouchSession {
   bool answered_ = false;  // the device did when it was read last; of the servo thread, once it runs
   SnapshotSlot scenes_;
   ProxyLoop proxy_loop_;
+  TickPlace place_;
+  Ticking ticking_;
   ServoSettings servo_settings_;
   std::int64_t start_ns_ = 0;
 
   Latest<Vec3> finger_D_;
   Latest<Vec3> finger_for_supervisor_D_;
-  Latest<TargetMessage> target_;
+  Latest<TickMessage> ticks_;  // of the proxy loop
   Latest<ServoView> servo_view_;
   Latest<ProxyView> proxy_view_;
   Latest<ServoView> servo_for_clients_;
@@ -182,6 +198,7 @@ class TouchSession {
   std::atomic<bool> hand_firm_{false};
   std::atomic<double> stiffness_{0};
   std::atomic<std::int64_t> last_tick_ns_{0};
+  std::atomic<std::uint64_t> tick_count_{0}, ticks_in_servo_steps_{0};
   std::atomic<std::uint64_t> arm_requests_{0};
   std::atomic<std::uint64_t> arrivals_{0};  // times the device began to answer: the finger is elsewhere then
   std::atomic<bool> servo_ready_{false};

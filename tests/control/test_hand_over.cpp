@@ -9,6 +9,7 @@
 #include <random>
 
 #include "control/servo.h"
+#include "device/phantom_arm.h"
 #include "device/simulated_device.h"
 
 namespace hl {
@@ -73,14 +74,15 @@ Excess_J lateProxies(LedgerMode mode, unsigned seed) {
   settings.ramp_s = 1e-3;
   settings.ledger = mode;
   settings.friction_N = 0;
-  device.setJoints(device.joints(), 2 * Vec3(u(random), u(random), u(random)));
+  auto& arm = dynamic_cast<PhantomArm&>(device.arm());
+  arm.setJoints(arm.joints(), 2 * Vec3(u(random), u(random), u(random)));
   ServoState state;
   std::deque<ServoTarget> late;
   Excess_J excess_J = 0;
   double work_J = 0, leak_J = 0;
   Vec3 last = Vec3::Zero(), force = Vec3::Zero();
   for (std::int64_t i = 0; i < 4000; ++i) {
-    if (i == 5) arm(state);
+    if (i == 5) hl::arm(state);
     const DeviceSample sample = device.read(i * kPeriod_ns);
     if (i % kLate == 0) {
       const Vec3 proxy(sample.position.x(), std::max(-0.002, sample.position.y()), sample.position.z());

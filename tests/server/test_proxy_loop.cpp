@@ -50,8 +50,8 @@ class Bench {
     double most = 0;
     for (int i = 0; i < steps; ++i) {
       time_ns_ += kMs;
-      const ProxyStep step = loop_.step(time_ns_, finger, commands_, kSpring_N_m, LedgerMode::kTank);
-      const ServoTarget& target = step.target;
+      const ProxyStep step = loop_.step(time_ns_, finger, commands_, {kSpring_N_m, LedgerMode::kTank, 1e-3});
+      const ServoTarget& target = step.held.target;
       const Vec3 force =
           target.valid ? Vec3(kSpring_N_m * target.stiffness * (target.proxy_D - finger)) : Vec3(Vec3::Zero());
       most = std::max(most, (force - force_).norm());
@@ -81,7 +81,7 @@ TEST(ProxyLoop, AnObjectThatGoesLetsTheForceFadeOut) {
   bench.publish({});
   EXPECT_LT(bench.run(100, {0, -0.005, 0}), kGentle_N);
   EXPECT_EQ(bench.force_, Vec3::Zero());
-  EXPECT_FALSE(bench.last_.target.valid);
+  EXPECT_FALSE(bench.last_.held.target.valid);
 }
 
 TEST(ProxyLoop, AnObjectThatAppearsAroundTheFingerPushesWithoutAJump) {

@@ -28,7 +28,7 @@ class FakeArm {
     const std::lock_guard lock(mutex_);
     device_.read(now_ns());
     device_.write(force_D);
-    strongest_N_ = std::max(strongest_N_, device_.motorForce().norm());
+    strongest_N_ = std::max(strongest_N_, device_.arm().motorForce_N().norm());
   }
 
   // The test's side. Any thread.
@@ -49,7 +49,7 @@ class FakeArm {
   }
   Vec3 force_D() {
     const std::lock_guard lock(mutex_);
-    return device_.motorForce();
+    return device_.arm().motorForce_N();
   }
   double strongest_N() {
     const std::lock_guard lock(mutex_);

@@ -1,0 +1,45 @@
+// TickPlace: which of the two loops ticks. On the servo thread a tick sees the sample of its own step, and the path
+// from encoder to motor is one step long; but a tick that takes longer than the step makes the force late. So the servo
+// thread ticks as long as nearly all ticks fit, and hands them to the proxy thread when too many do not.
+//
+// A debt decides. Each half of a servo period that a tick takes beyond the first adds kCost to it, each tick that fits
+// takes one off: below one in kCost that is late it stays near zero. At kMost the ticks go to the proxy thread; there
+// they must fit in half as much, and when they have paid kBack they return.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+
+namespace hl {
+
+/// Each loop ticks only while it is its turn; took() by the loop that has ticked. RT-safe.
+class TickPlace {
+ public:
+  explicit TickPlace(std::int64_t servo_period_ns) : room_ns_(servo_period_ns / 2) {}
+
+  bool onServo() const { return on_servo_.load(std::memory_order_acquire); }
+  /// How long the tick took; the next one may be the other loop's.
+  void took(std::int64_t work_ns) {
+    const bool servo = on_servo_.load(std::memory_order_relaxed);
+    const std::int64_t over = work_ns / (servo ? room_ns_ : room_ns_ / 2);
+    debt_ = std::clamp<std::int64_t>(debt_ + (over > 0 ? std::min(over, kMost) * kCost : -1), 0, kMost);
+    if (servo && debt_ == kMost) {
+      debt_ = kBack;
+      on_servo_.store(false, std::memory_order_release);
+    } else if (!servo && debt_ == 0) {
+      on_servo_.store(true, std::memory_order_release);
+    }
+  }
+
+  static constexpr std::int64_t kCost = 100;  ///< one late tick in so many is no harm
+  static constexpr std::int64_t kMost = 500;  ///< five late ones on end, or one of two and a half periods
+  static constexpr std::int64_t kBack = 500;  ///< ticks that must fit before they return
+
+ private:
+  std::int64_t room_ns_;
+  std::int64_t debt_ = 0;
+  std::atomic<bool> on_servo_{true};
+};
+
+}  // namespace hl
