@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "device/force_dimension/force_dimension_device.h"
+#include "device/haply/haply_device.h"
 #include "device/simulated_device.h"
 
 namespace hl {
@@ -27,6 +28,8 @@ DevicePointer makeDriver(const std::string& argument) {
   return std::make_unique<Driver>();
 }
 
+DevicePointer makeHaply(const std::string& url) { return std::make_unique<HaplyDevice>(url); }
+
 struct DeviceKind {
   const char* name;
   const char* spec;  ///< how to write it
@@ -37,6 +40,7 @@ struct DeviceKind {
 constexpr std::array kKinds{
     DeviceKind{"sim", "sim[:MODEL]", makeSimulated, findSimulated},
     DeviceKind{"dhd", "dhd", makeDriver<ForceDimensionDevice>, ForceDimensionDevice::find},
+    DeviceKind{"haply", "haply[:URL]", makeHaply, HaplyDevice::find},
 };
 
 }  // namespace

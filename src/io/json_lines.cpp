@@ -1,7 +1,6 @@
 #include "io/json_lines.h"
 
 #include <boost/json/basic_parser_impl.hpp>
-#include <boost/json/src.hpp>  // the whole library, once
 #include <cmath>
 #include <vector>
 

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "device/fakes/haply_service.h"
 #include "device/open_device.h"
 
 namespace hl::test {
@@ -25,6 +26,7 @@ class LibraryBench final : public Bench {
   }
   ~LibraryBench() override { dlclose(library_); }
   FakeArm& arm() override { return *arm_; }
+  std::string spec() const override { return kind_; }
   std::unique_ptr<Device> device() override { return makeDevice(kind_); }
 
  private:
@@ -36,6 +38,7 @@ class LibraryBench final : public Bench {
 class SimulatedBench final : public Bench {
  public:
   FakeArm& arm() override { return arm_; }
+  std::string spec() const override { return "sim"; }
   std::unique_ptr<Device> device() override { return std::move(device_); }
 
  private:
@@ -48,11 +51,28 @@ std::unique_ptr<Bench> makeForceDimension() {
   return std::make_unique<LibraryBench>("dhd", "HL_DHD_LIBRARY", HL_FAKE_DHD);
 }
 
+class HaplyBench final : public Bench {
+ public:
+  explicit HaplyBench(const char* version) : service_(arm_, version) {}
+  FakeArm& arm() override { return arm_; }
+  std::string spec() const override { return "haply:" + service_.url(); }
+  std::unique_ptr<Device> device() override { return makeDevice(spec()); }
+
+ private:
+  FakeArm arm_;
+  HaplyService service_;
+};
+
+std::unique_ptr<Bench> makeHaply() { return std::make_unique<HaplyBench>("3.5.0"); }
+std::unique_ptr<Bench> makeOldHaply() { return std::make_unique<HaplyBench>("3.1.0"); }
+
 }  // namespace
 
 std::vector<BenchKind> benchKinds() {
   return {{"Simulated", makeSimulated, kPosition_m, kForce_N},
-          {"ForceDimension", makeForceDimension, kPosition_m, kForce_N}};
+          {"ForceDimension", makeForceDimension, kPosition_m, kForce_N},
+          {"Haply", makeHaply, kPosition_m, kForce_N},
+          {"OldHaply", makeOldHaply, kPosition_m, kForce_N}};
 }
 
 }  // namespace hl::test

@@ -1,6 +1,7 @@
 // FakeScript: the hand of a fake that another process has loaded, when HL_FAKE_REPORT names a file. It waits 20 mm
-// above the origin, presses to 20 mm below once the servo runs, and tells what came of it: a line "touched" when the
-// device has pulled with half a newton, and "closed F" with the force in N that is left when it has been closed.
+// above the origin; once the servo runs it presses to 20 mm below and comes back, until it has felt something. It
+// writes what came of it: a line "touched" when the device has pulled with half a newton, and "closed F" with the force
+// in N that is left when it has been closed.
 #pragma once
 
 #include <cstdlib>
@@ -23,8 +24,9 @@ class FakeScript {
   }
   void pulled() {
     if (!report_.is_open()) return;
-    if (++pulls_ == kPullsOfARunningServo) arm_.setHandGoal({0, -0.02, 0});
-    if (touched_ || arm_.strongest_N() < 0.5) return;
+    if (touched_) return;
+    if (++pulls_ % kPullsOfAStroke == 0) arm_.setHandGoal({0, pulls_ / kPullsOfAStroke % 2 == 1 ? -0.02 : 0.02, 0});
+    if (arm_.strongest_N() < 0.5) return;
     touched_ = true;
     report_ << "touched" << std::endl;
   }
@@ -33,7 +35,7 @@ class FakeScript {
   }
 
  private:
-  static constexpr int kPullsOfARunningServo = 500;
+  static constexpr int kPullsOfAStroke = 500;
 
   FakeArm& arm_;
   std::ofstream report_;

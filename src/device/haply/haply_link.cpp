@@ -1,0 +1,237 @@
+#include "device/haply/haply_link.h"
+
+#include <atomic>
+#include <boost/asio/as_tuple.hpp>
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <boost/beast/core/buffers_to_string.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/read.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <boost/beast/http/write.hpp>
+#include <boost/beast/websocket/stream.hpp>
+#include <charconv>
+#include <chrono>
+#include <future>
+#include <thread>
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "base/latest.h"
+#include "base/realtime.h"
+#include "device/haply/haply_messages.h"
+
+namespace hl {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using asio::ip::tcp;
+
+namespace {
+
+constexpr auto kAwait = asio::as_tuple(asio::use_awaitable);
+constexpr auto kPatience = std::chrono::milliseconds(500);  // for one answer
+constexpr auto kRetry = std::chrono::milliseconds(100);
+constexpr auto kPeriod = std::chrono::microseconds(250);  // between two messages: the device's 4 kHz, and no more
+constexpr std::int64_t kUnfed_ns = 50'000'000;  // a servo that is silent for so long no longer stands for its force
+constexpr int kPriority = 75;                   // SCHED_FIFO; below the servo, above the proxy
+constexpr std::uint16_t kOldHttpPort = 10000;   // of services before 3.5
+constexpr std::size_t kMostBytes = std::size_t{1} << 20;
+
+using Socket = websocket::stream<beast::tcp_stream>;
+
+}  // namespace
+
+HaplyAddress HaplyAddress::parse(const std::string& url) {
+  HaplyAddress address;
+  if (url.empty()) return address;
+  const Error wrong("'" + url + "' is no address of a Haply service: it is ws://HOST or ws://HOST:PORT");
+  const std::string scheme = "ws://";
+  if (!url.starts_with(scheme)) throw wrong;
+  std::string rest = url.substr(scheme.size());
+  if (rest.ends_with('/')) rest.pop_back();
+  const std::size_t colon = rest.find(':');
+  address.host = rest.substr(0, colon);
+  if (address.host.empty() || rest.find('/') != std::string::npos) throw wrong;
+  if (colon == std::string::npos) return address;
+  const char* const end = rest.data() + rest.size();
+  const auto [stop, error] = std::from_chars(rest.data() + colon + 1, end, address.port);
+  if (error != std::errc() || stop != end || address.port == 0) throw wrong;
+  return address;
+}
+
+class HaplyLink::Conversation {
+ public:
+  explicit Conversation(HaplyAddress address) : address_(std::move(address)), thread_([this] { run(); }) {
+    const std::string why = begun_.get_future().get();
+    if (why.empty()) return;
+    end();
+    throw Error(why);
+  }
+  ~Conversation() { end(); }
+
+  const std::string& deviceId() const { return device_id_; }
+  Latest<DeviceSample> samples;
+  Latest<Vec3> forces{Vec3::Zero()};
+
+ private:
+  void end() {
+    ending_ = true;
+    if (thread_.joinable()) thread_.join();
+  }
+
+  void run() {
+    requestRealtime(kPriority);
+    asio::co_spawn(context_, converseAlways(), asio::detached);
+    context_.run();
+  }
+
+  asio::awaitable<void> converseAlways() {
+    while (!ending_) {
+      std::string why;
+      try {
+        why = co_await converse();
+      } catch (const std::exception& error) {
+        why = error.what();
+      }
+      tellBegun(why);
+      samples.write({monotonicNow_ns(), Vec3::Zero(), 0, DeviceStatus::kLost});
+      asio::steady_timer timer(context_, kRetry);
+      if (!ending_) co_await timer.async_wait(kAwait);
+    }
+  }
+
+  // Once: how the first attempt went.
+  void tellBegun(const std::string& why) {
+    if (!std::exchange(told_, true)) begun_.set_value(why);
+  }
+
+  // Until it ends; returns why.
+  asio::awaitable<std::string> converse() {
+    const HaplyDialect dialect = haplyDialectOf(co_await version());
+    Socket socket(context_);
+    const std::string failure = co_await connect(socket);
+    if (!failure.empty()) co_return failure;
+    HaplyState state;
+    const bool greeted = co_await read(socket, state);
+    if (!greeted) co_return address_.text() + " is no Haply Inverse Service: it does not say what it has";
+    if (state.device_id.empty())
+      co_return "the Haply service at " + address_.text() + " has no Inverse3: check its power and its cable";
+    if (device_id_.empty()) device_id_ = state.device_id;
+    co_await exchange(socket, state, dialect);
+    co_return "the Haply service at " + address_.text() + " does not answer any more";
+  }
+
+  // The answer to GET /version, on the one port of new services or on the other of old ones; empty when there is none.
+  asio::awaitable<std::string> version() {
+    std::string text = co_await get(address_.port);
+    if (text.empty()) text = co_await get(kOldHttpPort);
+    co_return text;
+  }
+
+  asio::awaitable<std::string> get(std::uint16_t port) {
+    beast::tcp_stream stream(context_);
+    const bool connected = co_await reach(stream, port);
+    if (!connected) co_return "";
+    http::request<http::empty_body> request{http::verb::get, "/version", 11};
+    request.set(http::field::host, address_.host + ":" + std::to_string(port));
+    auto [unsent, sent] = co_await http::async_write(stream, request, kAwait);
+    beast::flat_buffer buffer;
+    http::response<http::string_body> response;
+    auto [unread, bytes] = co_await http::async_read(stream, buffer, response, kAwait);
+    co_return unsent || unread || response.result() != http::status::ok ? "" : response.body();
+  }
+
+  asio::awaitable<bool> reach(beast::tcp_stream& stream, std::uint16_t port) {
+    tcp::resolver resolver(context_);
+    auto [unknown, endpoints] = co_await resolver.async_resolve(address_.host, std::to_string(port), kAwait);
+    if (unknown) co_return false;
+    stream.expires_after(kPatience);
+    auto [error, endpoint] = co_await stream.async_connect(endpoints, kAwait);
+    if (error) co_return false;
+    stream.socket().set_option(tcp::no_delay(true), error);
+    co_return true;
+  }
+
+  // Why it cannot; empty when it has.
+  asio::awaitable<std::string> connect(Socket& socket) {
+    const std::string none = "no Haply Inverse Service answers at " + address_.text() +
+                             ": install it (haply-inverse-service, from haply.co) and start it";
+    const bool reached = co_await reach(socket.next_layer(), address_.port);
+    if (!reached) co_return none;
+    socket.read_message_max(kMostBytes);
+    auto [error] = co_await socket.async_handshake(address_.host + ":" + std::to_string(address_.port), "/", kAwait);
+    co_return error ? none : "";
+  }
+
+  asio::awaitable<bool> read(Socket& socket, HaplyState& state) {
+    socket.next_layer().expires_after(kPatience);
+    beast::flat_buffer buffer;
+    auto [error, bytes] = co_await socket.async_read(buffer, kAwait);
+    if (error) co_return false;
+    const auto data = buffer.cdata();
+    co_return readHaplyMessage({static_cast<const char*>(data.data()), data.size()}, state);
+  }
+
+  // One state for each message, until one of the two has had enough; the last force is zero.
+  asio::awaitable<void> exchange(Socket& socket, HaplyState& state, HaplyDialect dialect) {
+    asio::steady_timer timer(context_);
+    bool first = true;
+    for (bool last = false; !last; first = false) {
+      last = ending_;
+      const Vec3 force = last ? Vec3(Vec3::Zero()) : wantedForce();
+      const std::string message = haplyForceMessage(state.device_id, dialect, force, first);
+      timer.expires_after(kPeriod);
+      socket.next_layer().expires_after(kPatience);
+      auto [unsent, sent] = co_await socket.async_write(asio::buffer(message), kAwait);
+      if (unsent) co_return;
+      const bool answered = co_await read(socket, state);
+      if (!answered || !state.located) co_return;
+      samples.write({monotonicNow_ns(), state.position, state.buttons,
+                     state.calibrated ? DeviceStatus::kOk : DeviceStatus::kNotReady});
+      tellBegun("");
+      if (!last) co_await timer.async_wait(kAwait);
+    }
+    co_await socket.async_close(websocket::close_code::normal, kAwait);
+  }
+
+  Vec3 wantedForce() {
+    Vec3 force;
+    const std::int64_t now_ns = monotonicNow_ns();
+    if (forces.read(force)) fed_ns_ = now_ns;
+    return now_ns - fed_ns_ > kUnfed_ns ? Vec3(Vec3::Zero()) : force;
+  }
+
+  const HaplyAddress address_;
+  asio::io_context context_{1};
+  std::atomic<bool> ending_{false};
+  std::promise<std::string> begun_;
+  bool told_ = false;
+  std::string device_id_;  // written before begun_ is told
+  std::int64_t fed_ns_ = 0;
+  std::thread thread_;  // last: it uses all of the above
+};
+
+HaplyLink::HaplyLink(const HaplyAddress& address) : conversation_(std::make_unique<Conversation>(address)) {}
+HaplyLink::~HaplyLink() = default;
+
+const std::string& HaplyLink::deviceId() const { return conversation_->deviceId(); }
+
+DeviceSample HaplyLink::newest() {
+  DeviceSample sample;
+  conversation_->samples.read(sample);
+  return sample;
+}
+
+void HaplyLink::pull(const Vec3& force_D) { conversation_->forces.write(force_D); }
+
+}  // namespace hl

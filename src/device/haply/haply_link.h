@@ -1,0 +1,42 @@
+// HaplyLink: the conversation with Haply's Inverse Service, on a thread of its own. One message with a force goes out,
+// one with the state comes back; the servo thread takes and gives the newest of each without waiting.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "device/device.h"
+
+namespace hl {
+
+struct HaplyAddress {
+  std::string host = "localhost";
+  std::uint16_t port = 10001;
+
+  /// From ws://HOST[:PORT], or nothing. Throws hl::Error.
+  static HaplyAddress parse(const std::string& url);
+  std::string text() const { return "ws://" + host + ":" + std::to_string(port); }
+};
+
+class HaplyLink {
+ public:
+  /// Connects, and comes back by itself whenever the service has gone. Throws hl::Error when it cannot be had at first.
+  explicit HaplyLink(const HaplyAddress& address);
+  /// Tells the service to let go of the tip, then ends.
+  ~HaplyLink();
+  HaplyLink(const HaplyLink&) = delete;
+  HaplyLink& operator=(const HaplyLink&) = delete;
+
+  const std::string& deviceId() const;
+  /// Servo thread, RT-safe. What came last, at the time of the monotonic clock when it came.
+  DeviceSample newest();
+  /// Servo thread, RT-safe. Held until the next; not longer than 50 ms.
+  void pull(const Vec3& force_D);
+
+ private:
+  class Conversation;
+  std::unique_ptr<Conversation> conversation_;
+};
+
+}  // namespace hl

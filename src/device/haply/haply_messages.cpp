@@ -1,0 +1,110 @@
+#include "device/haply/haply_messages.h"
+
+#include <algorithm>
+#include <boost/json/parse.hpp>
+#include <boost/json/serialize.hpp>
+#include <boost/json/value.hpp>
+#include <boost/json/value_to.hpp>
+#include <cctype>
+#include <cstdlib>
+
+namespace hl {
+
+namespace json = boost::json;
+
+namespace {
+
+// In the service's frame: where the vendor's own examples put the middle of what they show. It becomes D's origin.
+const Vec3& centre_H() {
+  static const Vec3 centre(0, -0.14, 0.2);
+  return centre;
+}
+
+Vec3 toDevice(const Vec3& v_H) { return {v_H.x(), v_H.z(), -v_H.y()}; }
+Vec3 toHaply(const Vec3& v_D) { return {v_D.x(), -v_D.z(), v_D.y()}; }
+
+const json::value* memberOf(const json::value* value, std::string_view name) {
+  const json::object* object = value != nullptr ? value->if_object() : nullptr;
+  return object != nullptr ? object->if_contains(name) : nullptr;
+}
+
+const json::value* firstOf(const json::value* value) {
+  const json::array* array = value != nullptr ? value->if_array() : nullptr;
+  return array != nullptr && !array->empty() ? &array->front() : nullptr;
+}
+
+bool readNumber(const json::value* value, double& number) {
+  if (value == nullptr || !value->is_number()) return false;
+  number = value->to_number<double>();
+  return true;
+}
+
+bool readVector(const json::value* value, Vec3& vector) {
+  Vec3 read = Vec3::Zero();
+  const bool complete = readNumber(memberOf(value, "x"), read.x()) && readNumber(memberOf(value, "y"), read.y()) &&
+                        readNumber(memberOf(value, "z"), read.z());
+  if (complete) vector = read;
+  return complete;
+}
+
+// Buttons are called a, b, c.. or button_0, button_1..; 32 for what is neither.
+std::size_t buttonNumber(std::string_view name) {
+  if (name.size() == 1 && name[0] >= 'a' && name[0] <= 'z') return static_cast<std::size_t>(name[0] - 'a');
+  constexpr std::string_view kPrefix = "button_";
+  if (name.size() != kPrefix.size() + 1 || !name.starts_with(kPrefix) || name.back() < '0' || name.back() > '9')
+    return 32;
+  return static_cast<std::size_t>(name.back() - '0');
+}
+
+void readButtons(const json::value* grip, std::uint32_t& buttons) {
+  const json::value* told = memberOf(memberOf(grip, "state"), "buttons");
+  const json::object* object = told != nullptr ? told->if_object() : nullptr;
+  if (object == nullptr) return;
+  buttons = 0;
+  for (const auto& [name, value] : *object) {
+    const std::size_t number = buttonNumber({name.data(), name.size()});
+    const bool down = value.is_bool() && value.get_bool();
+    if (number < 32 && down) buttons |= 1U << number;
+  }
+}
+
+}  // namespace
+
+HaplyDialect haplyDialectOf(std::string_view version) {
+  const auto isDigit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+  const std::string text(std::find_if(version.begin(), version.end(), isDigit), version.end());
+  char* dot = nullptr;
+  const long major = std::strtol(text.c_str(), &dot, 10);
+  const long minor = *dot == '.' ? std::strtol(dot + 1, nullptr, 10) : 0;
+  return major > 3 || (major == 3 && minor >= 5) ? HaplyDialect::kVector : HaplyDialect::kValues;
+}
+
+bool readHaplyMessage(std::string_view text, HaplyState& state) {
+  json::error_code error;
+  const json::value message = json::parse({text.data(), text.size()}, error);
+  state.located = false;
+  if (error || !message.is_object()) return false;
+  const json::value* device = firstOf(memberOf(&message, "inverse3"));
+  if (const json::value* id = memberOf(device, "device_id"); id != nullptr && id->is_string())
+    state.device_id = json::value_to<std::string>(*id);
+  Vec3 position_H;
+  state.located = readVector(memberOf(memberOf(device, "state"), "cursor_position"), position_H);
+  if (state.located) state.position = toDevice(position_H - centre_H());
+  if (const json::value* told = memberOf(memberOf(device, "status"), "calibrated"); told != nullptr && told->is_bool())
+    state.calibrated = told->get_bool();
+  for (const char* grips : {"verse_grip", "wireless_verse_grip"})
+    readButtons(firstOf(memberOf(&message, grips)), state.buttons);
+  return true;
+}
+
+std::string haplyForceMessage(const std::string& device_id, HaplyDialect dialect, const Vec3& force_D, bool first) {
+  const Vec3 force = toHaply(force_D);
+  const json::object vector{{"x", force.x()}, {"y", force.y()}, {"z", force.z()}};
+  const json::object set{{dialect == HaplyDialect::kVector ? "vector" : "values", vector}};
+  json::object message{{"inverse3", json::array{json::object{{"device_id", device_id},
+                                                             {"commands", json::object{{"set_cursor_force", set}}}}}}};
+  if (first) message["session"] = json::object{{"configure", json::object{{"profile", json::object{{"name", "hl"}}}}}};
+  return json::serialize(message);
+}
+
+}  // namespace hl

@@ -1,0 +1,34 @@
+// What HL and Haply's Inverse Service say to each other, as JSON text. Pure functions.
+// The service's frame: x to the right, y forward (away from the user), z up; metres, newtons.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "base/vec.h"
+
+namespace hl {
+
+/// How a force is written: service 3.5 documents "vector", older ones take "values".
+enum class HaplyDialect : std::uint8_t { kValues, kVector };
+
+/// From the answer to GET /version, whatever surrounds the number; kValues when there is none.
+HaplyDialect haplyDialectOf(std::string_view version);
+
+/// The first Inverse3 of the service, with the buttons of the first grip. Frame D.
+struct HaplyState {
+  std::string device_id;  ///< empty: there is none
+  bool located = false;   ///< the last message told its position
+  Vec3 position = Vec3::Zero();
+  std::uint32_t buttons = 0;
+  bool calibrated = true;  ///< unless the service says otherwise
+};
+
+/// Takes in a message of the service. False when it is none.
+bool readHaplyMessage(std::string_view text, HaplyState& state);
+
+/// Tells the service to hold `force_D`; the first message also introduces HL.
+std::string haplyForceMessage(const std::string& device_id, HaplyDialect dialect, const Vec3& force_D, bool first);
+
+}  // namespace hl

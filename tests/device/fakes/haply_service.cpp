@@ -1,0 +1,122 @@
+#include "device/fakes/haply_service.h"
+
+#include <boost/beast/core/buffers_to_string.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/read.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <boost/beast/http/write.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+#include <boost/beast/websocket/stream.hpp>
+#include <boost/json/parse.hpp>
+#include <boost/json/serialize.hpp>
+#include <boost/json/value.hpp>
+#include <boost/json/value_to.hpp>
+
+namespace hl::test {
+
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace json = boost::json;
+namespace websocket = beast::websocket;
+using boost::asio::ip::tcp;
+
+namespace {
+
+constexpr const char* kId = "049D";
+const double kCentre[3] = {0, -0.14, 0.2};  // of D's origin in the service's frame
+
+json::object vectorOf(const Vec3& v) { return {{"x", v.x()}, {"y", v.y()}, {"z", v.z()}}; }
+
+}  // namespace
+
+HaplyService::HaplyService(FakeArm& arm, const std::string& version)
+    : arm_(arm),
+      version_(version),
+      vector_(version >= "3.5"),
+      acceptor_(context_, {boost::asio::ip::address_v4::loopback(), 0}),
+      port_(acceptor_.local_endpoint().port()),
+      thread_([this] { run(); }) {}
+
+HaplyService::~HaplyService() {
+  ending_ = true;
+  boost::system::error_code ignored;
+  tcp::socket(context_).connect({boost::asio::ip::address_v4::loopback(), port_}, ignored);  // wakes accept()
+  thread_.join();
+}
+
+void HaplyService::run() {
+  while (!ending_) {
+    tcp::socket socket(context_);
+    boost::system::error_code error;
+    acceptor_.accept(socket, error);
+    if (error || ending_ || arm_.lost) continue;
+    try {
+      serve(std::move(socket));
+    } catch (const boost::system::system_error&) {
+      // The client has left.
+    }
+    arm_.pull(Vec3::Zero());
+  }
+}
+
+void HaplyService::serve(tcp::socket socket) {
+  beast::flat_buffer buffer;
+  http::request<http::empty_body> request;
+  http::read(socket, buffer, request);
+  if (websocket::is_upgrade(request)) {
+    websocket::stream<tcp::socket> stream(std::move(socket));
+    stream.accept(request);
+    simulate(stream);
+    return;
+  }
+  const bool asked = request.target() == "/version";
+  http::response<http::string_body> response(asked ? http::status::ok : http::status::not_found, 11);
+  response.body() = asked ? "{\"version\":\"" + version_ + "\"}" : "";
+  response.prepare_payload();
+  http::write(socket, response);
+}
+
+template <typename Socket>
+void HaplyService::simulate(Socket& socket) {
+  socket.text(true);
+  socket.write(boost::asio::buffer(state(true)));
+  while (!ending_ && !arm_.lost) {
+    beast::flat_buffer buffer;
+    socket.read(buffer);
+    obey(beast::buffers_to_string(buffer.data()));
+    if (!silent) socket.write(boost::asio::buffer(state(false)));
+  }
+}
+
+// The service's frame: x to the right, y forward, z up.
+void HaplyService::obey(const std::string& text) {
+  const json::value message = json::parse(text);
+  if (message.as_object().contains("session")) ++introductions;
+  const json::value& device = message.at("inverse3").at(0);
+  if (json::value_to<std::string>(device.at("device_id")) != kId) return;
+  const json::object& force = device.at("commands").at("set_cursor_force").as_object();
+  const json::value* told = force.if_contains(vector_ ? "vector" : "values");
+  if (told == nullptr) return;
+  const auto part = [told](const char* name) { return told->at(name).to_number<double>(); };
+  arm_.pull({part("x"), part("z"), -part("y")});
+}
+
+std::string HaplyService::state(bool inventory) {
+  const Vec3 tip = arm_.encoders();
+  const Vec3 cursor(tip.x() + kCentre[0], -tip.z() + kCentre[1], tip.y() + kCentre[2]);
+  json::object device{{"device_id", kId}, {"state", json::object{{"cursor_position", vectorOf(cursor)}}}};
+  device["status"] = json::object{{"calibrated", !arm_.not_ready}};
+  json::object buttons;
+  for (unsigned i = 0; i < 3; ++i) {
+    const std::string name = vector_ ? std::string(1, static_cast<char>('a' + i)) : "button_" + std::to_string(i);
+    buttons[name] = (arm_.buttons >> i & 1U) != 0;
+  }
+  const json::object grip{{"device_id", "61542"}, {"state", json::object{{"buttons", buttons}}}};
+  json::object message{{"inverse3", has_device ? json::array{device} : json::array{}},
+                       {"wireless_verse_grip", json::array{grip}}};
+  if (inventory) message["session_id"] = 1;
+  return json::serialize(message);
+}
+
+}  // namespace hl::test
