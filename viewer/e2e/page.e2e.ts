@@ -314,6 +314,35 @@ test("the help opens and closes", async () => {
   await page.waitForSelector("#help:not([open])", { state: "attached" });
 });
 
+test("moves nothing when a person holds the device, and lets every drag orbit", async () => {
+  server.simulatedHand = false;
+  await page.reload();
+  await page.waitForFunction(() => window.__hl.samples > 10);
+  for (const id of ["#explore", "#grip-light", "#empty-orbit"]) {
+    expect(await page.locator(id).isVisible()).toBe(false);
+  }
+  await expectTidyLayout(page, kSizes[0]);
+  await screenshot(page, "page_person");
+  await atRest();
+  const before = await page.evaluate(() => window.__hl.project({ x: 0, y: 0, z: 0.05 }));
+  const sent = server.received.length;
+  const at = await page.evaluate(() => window.__hl.project({ x: 0, y: 0, z: 0 }));
+  await page.mouse.move(at.x, at.y);
+  await page.mouse.down();
+  await page.mouse.move(at.x + 80, at.y, { steps: 5 });
+  await page.mouse.up();
+  await page.keyboard.press("KeyW");
+  await page.keyboard.press("KeyE");
+  await atRest();
+  const after = await page.evaluate(() => window.__hl.project({ x: 0, y: 0, z: 0.05 }));
+  expect(Math.hypot(after.x - before.x, after.y - before.y)).toBeGreaterThan(5);
+  expect(server.received.length).toBe(sent);
+  server.simulatedHand = true;
+  await page.reload();
+  await page.waitForFunction(() => window.__hl.samples > 10);
+  expect(await page.locator("#explore").isVisible()).toBe(true);
+});
+
 test("no console errors, and nothing from outside addresses", () => {
   expect(complaints.errors).toEqual([]);
   expect(complaints.foreign).toEqual([]);

@@ -36,6 +36,8 @@ const kKeyStep_s = 0.25;
 const kWheelShare = 0.3;
 
 export class HandInput {
+  /** False when a person holds the device: then every left-drag orbits, and no key moves anything. */
+  movable = true;
   /** When set, a left-drag that starts on empty space orbits instead. */
   orbitFromEmpty = false;
   private readonly stage_: Stage;
@@ -112,7 +114,7 @@ export class HandInput {
   }
 
   private wantsOrbit(event: PointerEvent, at: { x: number; y: number }): boolean {
-    return event.shiftKey || (this.orbitFromEmpty && !this.hooks_.isTarget(at.x, at.y));
+    return event.shiftKey || !this.movable || (this.orbitFromEmpty && !this.hooks_.isTarget(at.x, at.y));
   }
 
   private move(event: PointerEvent): void {
@@ -184,7 +186,9 @@ export class HandInput {
 
   /** Takes the hand where the finger is. */
   private grab(): boolean {
-    this.goal_ ??= this.hooks_.finger();
+    if (this.movable) {
+      this.goal_ ??= this.hooks_.finger();
+    }
     if (this.goal_ === undefined) {
       return false;
     }

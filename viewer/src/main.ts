@@ -161,6 +161,8 @@ class App {
     this.notices_.stand("version", other || renewed ? "The server has another version. Reload this page." : undefined);
     this.serverVersion_ = hello.serverVersion;
     this.live_.clear();
+    this.hand_.cancel();
+    this.hand_.movable = hello.device?.simulatedHand ?? false;
     this.panel_.showHello(hello);
     this.surfacePanel_.forget();
     this.ledgerPanel_.forget();

@@ -90,6 +90,7 @@ export class Panel {
     const device = hello.device?.name || "–";
     setText("device", device);
     element("device").title = device;
+    this.showHand(hello.device?.simulatedHand ?? false);
     const slider = element<HTMLInputElement>("stiffness");
     const recommended = hello.device?.stiffnessNM ?? 0;
     const highest = hello.device?.stiffnessMaxNM || 2 * recommended;
@@ -98,6 +99,14 @@ export class Panel {
     slider.max = String(Math.floor(highest / kStiffnessStep_N_m) * kStiffnessStep_N_m);
     slider.step = String(kStiffnessStep_N_m);
     this.showStiffness(recommended);
+  }
+
+  /** What moves a simulated hand makes no sense when a person holds the device. */
+  private showHand(simulated: boolean): void {
+    document.documentElement.dataset.hand = simulated ? "simulated" : "person";
+    for (const id of ["explore", "grip-light", "grip-firm"]) {
+      element<HTMLInputElement>(id).disabled = !simulated;
+    }
   }
 
   showLayout(layout: Layout, counts: Counts): void {

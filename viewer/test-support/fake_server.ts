@@ -29,6 +29,8 @@ type Body = NonNullable<MessageInitShape<typeof ServerMessageSchema>["body"]>;
 
 export class FakeServer {
   readonly received: ViewerMessage[] = [];
+  /** Whether the device says that a simulated hand holds it. */
+  simulatedHand = true;
   explore = true;
   handFirm = false;
   stiffness_N_m = 1000;
@@ -107,7 +109,7 @@ export class FakeServer {
     socket.on("message", (data: Buffer) => this.obey(fromBinary(ViewerMessageSchema, new Uint8Array(data))));
     const device = {
       name: "simulated sphere", forceMaxN: 8.5, stiffnessNM: 1000, stiffnessMaxNM: 3500, dampingNsM: 1,
-      servoRateHz: 1000, proxyRateHz: 1000,
+      servoRateHz: 1000, proxyRateHz: 1000, simulatedHand: this.simulatedHand,
     };
     const hello = { protocolVersion: kProtocolVersion, serverVersion: "fake", sceneName: "sphere", device };
     socket.send(encode({ case: "hello", value: hello }));
