@@ -7,6 +7,7 @@
 #include "device/force_dimension/force_dimension_device.h"
 #include "device/haply/haply_device.h"
 #include "device/simulated_device.h"
+#include "device/touch_hd/touch_hd_device.h"
 
 namespace hl {
 
@@ -40,6 +41,7 @@ struct DeviceKind {
 constexpr std::array kKinds{
     DeviceKind{"sim", "sim[:MODEL]", makeSimulated, findSimulated},
     DeviceKind{"dhd", "dhd", makeDriver<ForceDimensionDevice>, ForceDimensionDevice::find},
+    DeviceKind{"hd", "hd", makeDriver<TouchHdDevice>, TouchHdDevice::find},
     DeviceKind{"haply", "haply[:URL]", makeHaply, HaplyDevice::find},
 };
 

@@ -188,7 +188,8 @@ TEST_P(VendorLibraries, MissingOnesAreALineThatSaysWhatToInstall) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Drivers, VendorLibraries,
-                         testing::Values(Vendor{"dhd", "HL_DHD_LIBRARY", "Force Dimension SDK"}),
+                         testing::Values(Vendor{"dhd", "HL_DHD_LIBRARY", "Force Dimension SDK"},
+                                         Vendor{"hd", "HL_HD_LIBRARY", "OpenHaptics"}),
                          [](const auto& of) { return of.param.kind; });
 
 }  // namespace

@@ -136,7 +136,9 @@ TEST(TouchHaply, FeelsThroughTheVendorsService) {
   waitFor([&] { return arm.force_D().norm() < 1e-12; });
 }
 
-INSTANTIATE_TEST_SUITE_P(Drivers, TouchCommand, testing::Values(LibraryDriver{"dhd", "HL_DHD_LIBRARY", HL_FAKE_DHD}),
+INSTANTIATE_TEST_SUITE_P(Drivers, TouchCommand,
+                         testing::Values(LibraryDriver{"dhd", "HL_DHD_LIBRARY", HL_FAKE_DHD},
+                                         LibraryDriver{"hd", "HL_HD_LIBRARY", HL_FAKE_HD}),
                          [](const auto& of) { return of.param.kind; });
 
 }  // namespace

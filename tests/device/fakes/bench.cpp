@@ -63,6 +63,7 @@ class HaplyBench final : public Bench {
   HaplyService service_;
 };
 
+std::unique_ptr<Bench> makeTouchHd() { return std::make_unique<LibraryBench>("hd", "HL_HD_LIBRARY", HL_FAKE_HD); }
 std::unique_ptr<Bench> makeHaply() { return std::make_unique<HaplyBench>("3.5.0"); }
 std::unique_ptr<Bench> makeOldHaply() { return std::make_unique<HaplyBench>("3.1.0"); }
 
@@ -71,6 +72,7 @@ std::unique_ptr<Bench> makeOldHaply() { return std::make_unique<HaplyBench>("3.1
 std::vector<BenchKind> benchKinds() {
   return {{"Simulated", makeSimulated, kPosition_m, kForce_N},
           {"ForceDimension", makeForceDimension, kPosition_m, kForce_N},
+          {"TouchHd", makeTouchHd, kPosition_m, kForce_N},
           {"Haply", makeHaply, kPosition_m, kForce_N},
           {"OldHaply", makeOldHaply, kPosition_m, kForce_N}};
 }
