@@ -7,8 +7,8 @@
 #include <cassert>
 #include <limits>
 
+#include "geometry/wide_bvh_boxes.h"
 #include "geometry/wide_bvh_build.h"
-#include "geometry/wide_bvh_refit.h"
 
 namespace hl {
 
@@ -49,6 +49,8 @@ WideBvh WideBvh::build(const Primitives& primitives) {
   const BinaryTree tree = buildBinaryTree(std::move(boxes));
   bvh.nodes_ = widen(tree, bvh.depth_);
   bvh.blocks_ = pack(tree, primitives, bvh.scale());
+  orient(bvh.nodes_, bvh.blocks_);
+  enclose(bvh.nodes_, bvh.blocks_);
   bvh.cost_ = bvh.built_cost_ = costOf(bvh.nodes_);
   return bvh;
 }
@@ -60,9 +62,9 @@ WideBvh WideBvh::refit(const Primitives& moved) const {
   if (moved.empty()) return bvh;
   bvh.measure(moved);
   bvh.depth_ = depth_;
-  std::vector<FloatBox> boxes;
-  bvh.blocks_ = repack(blocks_, moved, bvh.scale(), boxes);
-  bvh.nodes_ = refitted(nodes_, boxes);
+  bvh.blocks_ = repack(blocks_, moved, bvh.scale());
+  bvh.nodes_ = nodes_;
+  enclose(bvh.nodes_, bvh.blocks_);
   bvh.cost_ = costOf(bvh.nodes_);
   bvh.built_cost_ = built_cost_;
   return bvh;

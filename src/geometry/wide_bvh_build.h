@@ -1,32 +1,16 @@
 // The first half of building a WideBvh: a binary tree of boxes whose leaves are runs of eight primitives.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "geometry/float_box.h"
 #include "geometry/primitive.h"
 #include "geometry/wide_bvh_layout.h"
 
 namespace hl {
-
-/// Four lanes, the last one free: a box is two registers.
-struct FloatBox {
-  Eigen::Array4f min = Eigen::Array4f::Constant(std::numeric_limits<float>::infinity());
-  Eigen::Array4f max = Eigen::Array4f::Constant(-std::numeric_limits<float>::infinity());
-
-  void extend(const FloatBox& other) {
-    min = min.min(other.min);
-    max = max.max(other.max);
-  }
-  float halfArea() const {
-    const Eigen::Array4f size = max - min;
-    return size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
-  }
-};
 
 /// A primitive in the making: its box, rounded outward, and its number in the free lanes.
 struct BoxedPrimitive {

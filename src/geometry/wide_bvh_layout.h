@@ -13,13 +13,21 @@ inline constexpr std::size_t kWide = 8;
 
 /// A link with this bit names a block, else a node.
 inline constexpr std::uint32_t kBlockLink = 0x80000000u;
+/// The link of an unused lane: the root is nobody's child.
+inline constexpr std::uint32_t kNoChild = 0;
 
-/// Boxes of up to eight children, rounded outward (metres). An unused lane has its smallest above its largest
-/// coordinate, by an infinity, so no query enters it.
+/// Boxes of up to eight children, rounded outward (metres), low in the tree in a frame that lies along the faces
+/// beneath. There, a point x of the hierarchy is at frame / kFrameOne * x, and no two points are farther apart than
+/// they were, so a distance in the frame is a lower bound of the true one. An unused lane has its smallest above its
+/// largest coordinate, by an infinity, so no query enters it.
 struct alignas(64) WideNode {
-  float bound[2][3][kWide];  ///< smallest and largest coordinate by axis
+  float bound[2][3][kWide];  ///< smallest and largest coordinate by axis of the frame
   std::uint32_t child[kWide];
+  std::int16_t frame[3][4];  ///< by axis of the hierarchy, of the frame; the fourth is 0
+  std::uint32_t turned;      ///< 0: boxes lie along the hierarchy's axes, and there is no frame
 };
+
+inline constexpr float kFrameOne = 1 << 15;
 
 /// Up to eight primitives; all blocks but the last are full. Coordinate = origin + vertex / per_step, at most half a
 /// step off. A segment has vertex 2 == vertex 1, a point has all three equal.

@@ -92,8 +92,7 @@ class Widener {
     const Links links = collapse_.childrenOf(link);
     for (std::size_t lane = 0; lane < kWide; ++lane) {
       const bool used = lane < links.size();
-      const std::uint32_t child = used ? add(links[lane], depth + 1) : kBlockLink;
-      setBox(nodes_[self], lane, used ? tree_.box(links[lane]) : FloatBox());
+      const std::uint32_t child = used ? add(links[lane], depth + 1) : kNoChild;
       nodes_[self].child[lane] = child;
     }
     return static_cast<std::uint32_t>(self);
@@ -113,20 +112,6 @@ double stepFor(double largest) {
   int exponent = 0;
   std::frexp(largest / std::numeric_limits<std::int16_t>::max(), &exponent);
   return std::ldexp(1.0, exponent);
-}
-
-// The bounds grow by 2^-22 of themselves, four times what rounding to single precision moves them, and by the smallest
-// normal float. Computed, not measured: GCC 12 takes a double that was narrowed and widened again for the double
-// itself. Each step keeps order, so the box of several primitives is that of their boxes, to the bit.
-FloatBox roundedOutward(const Vec3& low, const Vec3& high) {
-  constexpr float kOutward = 1.0f / (1 << 22);
-  constexpr float kMost = 1e38f;  // beyond what is supported; keeps infinities out
-  FloatBox box;
-  box.min.head<3>() = low.cast<float>().array().max(-kMost).min(kMost);
-  box.max.head<3>() = high.cast<float>().array().max(-kMost).min(kMost);
-  box.min -= kOutward * box.min.abs() + std::numeric_limits<float>::min();
-  box.max += kOutward * box.max.abs() + std::numeric_limits<float>::min();
-  return box;
 }
 
 // One block in the making. Its lanes have their primitives' numbers.
@@ -197,13 +182,6 @@ BoxedPrimitive boxed(const std::array<Vec3, 3>& corners, std::uint32_t number, c
   return result;
 }
 
-void setBox(WideNode& node, std::size_t lane, const FloatBox& box) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    node.bound[0][axis][lane] = box.min[static_cast<Eigen::Index>(axis)];
-    node.bound[1][axis][lane] = box.max[static_cast<Eigen::Index>(axis)];
-  }
-}
-
 HugeVector<WideNode> widen(const BinaryTree& tree, int& depth) {
   constexpr std::size_t kChildren = 4;  // a node has more than these on average
   HugeVector<WideNode> nodes;
@@ -224,14 +202,11 @@ HugeVector<WideBlock> pack(const BinaryTree& tree, const Primitives& primitives,
   });
 }
 
-HugeVector<WideBlock> repack(const HugeVector<WideBlock>& blocks, const Primitives& moved, const BlockScale& scale,
-                             std::vector<FloatBox>& boxes) {
-  boxes.resize(blocks.size());
+HugeVector<WideBlock> repack(const HugeVector<WideBlock>& blocks, const Primitives& moved, const BlockScale& scale) {
   return makeBlocks(blocks.size(), [&](std::size_t i, WideBlock& block) {
     std::copy_n(blocks[i].primitive, kWide, block.primitive);
     BlockPacker packer(block, primitivesOf(i, moved.size()), moved, scale);
-    boxes[i] = packer.box();
-    packer.pack(boxes[i]);
+    packer.pack(packer.box());
   });
 }
 

@@ -14,10 +14,8 @@ namespace hl {
 /// The box of a primitive's corners relative to `origin`, rounded outward.
 BoxedPrimitive boxed(const std::array<Vec3, 3>& corners, std::uint32_t number, const Vec3& origin);
 
-/// Sets the box of one child.
-void setBox(WideNode& node, std::size_t lane, const FloatBox& box);
-
-/// Nodes in depth-first order, none for a tree of one block; `depth` becomes the number of nodes on the longest path.
+/// Nodes in depth-first order, their frames and boxes not set yet; none for a tree of one block; `depth` becomes the
+/// number of nodes on the longest path.
 HugeVector<WideNode> widen(const BinaryTree& tree, int& depth);
 
 /// What the coordinates of blocks are relative to. Blocks count as at least `smallest` (m) large, which keeps the
@@ -29,8 +27,7 @@ struct BlockScale {
 
 HugeVector<WideBlock> pack(const BinaryTree& tree, const Primitives& primitives, const BlockScale& scale);
 
-/// The same primitives in the same lanes, where they are now; `boxes` becomes those of the blocks.
-HugeVector<WideBlock> repack(const HugeVector<WideBlock>& blocks, const Primitives& moved, const BlockScale& scale,
-                             std::vector<FloatBox>& boxes);
+/// The same primitives in the same lanes, where they are now.
+HugeVector<WideBlock> repack(const HugeVector<WideBlock>& blocks, const Primitives& moved, const BlockScale& scale);
 
 }  // namespace hl

@@ -3,9 +3,11 @@
 #include "geometry/wide_bvh.h"
 
 #include <gtest/gtest.h>
+
 #include <hwy/highway.h>
 #include <hwy/targets.h>
 #include <oneapi/tbb/global_control.h>
+#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +27,16 @@ std::size_t primitivesOf(const WideBvh& bvh, std::size_t block) {
   return std::min(kWide, bvh.primitives() - block * kWide);
 }
 
+Mat3 frameOf(const WideNode& node) {
+  if (node.turned == 0) return Mat3::Identity();
+  Mat3 frame;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t row = 0; row < 3; ++row)
+      frame(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(axis)) = node.frame[axis][row] / kFrameOne;
+  }
+  return frame;
+}
+
 // Walks the tree and checks that every block is reached once, from boxes that contain all of its primitives.
 class Walk {
  public:
@@ -37,6 +49,7 @@ class Walk {
 
  private:
   struct Box {
+    Mat3 frame;
     Vec3 min, max;
   };
 
@@ -45,10 +58,11 @@ class Walk {
     if ((link & kBlockLink) != 0) return checkBlock(link & ~kBlockLink);
     const WideNode& node = bvh_.nodes()[link];
     for (std::size_t lane = 0; lane < kWide; ++lane) {
-      if (!(node.bound[0][0][lane] <= node.bound[1][0][lane])) continue;
       const auto& b = node.bound;
-      ancestors_.push_back({Vec3(b[0][0][lane], b[0][1][lane], b[0][2][lane]) + bvh_.origin(),
-                            Vec3(b[1][0][lane], b[1][1][lane], b[1][2][lane]) + bvh_.origin()});
+      EXPECT_EQ(node.child[lane] == kNoChild, b[0][0][lane] > b[1][0][lane]);
+      if (node.child[lane] == kNoChild) continue;
+      ancestors_.push_back({frameOf(node), Vec3(b[0][0][lane], b[0][1][lane], b[0][2][lane]),
+                            Vec3(b[1][0][lane], b[1][1][lane], b[1][2][lane])});
       visit(node.child[lane], depth + 1);
       ancestors_.pop_back();
     }
@@ -62,8 +76,9 @@ class Walk {
         const Vec3& vertex = scene_[block.primitive[lane]].vertex[i];
         const Vec3 slack = 1e-15 * (vertex.cwiseAbs() + bvh_.origin().cwiseAbs());
         for (const Box& box : ancestors_) {
-          EXPECT_TRUE((vertex.array() >= (box.min - slack).array()).all());
-          EXPECT_TRUE((vertex.array() <= (box.max + slack).array()).all());
+          const Vec3 at = box.frame * (vertex - bvh_.origin());
+          EXPECT_TRUE((at.array() >= (box.min - slack).array()).all());
+          EXPECT_TRUE((at.array() <= (box.max + slack).array()).all());
         }
         for (std::size_t axis = 0; axis < 3; ++axis) {
           const auto a = static_cast<Eigen::Index>(axis);
@@ -136,6 +151,49 @@ TEST(WideBvh, EveryPrimitiveIsInOneBlockWithinAllBoxesAboveIt) {
     ASSERT_EQ(all.size(), scene.size());
     for (std::uint32_t i = 0; i < all.size(); ++i) ASSERT_EQ(all[i], i);
   }
+}
+
+// So a distance in the frame is never longer than the true one, and hardly shorter.
+TEST(WideBvh, NoFrameLengthensAVector) {
+  for (const auto& scene : strangeScenes()) {
+    const WideBvh bvh = WideBvh::build(scene);
+    for (const WideNode& node : bvh.nodes()) {
+      const Vec3 stretch = Eigen::JacobiSVD<Mat3>(frameOf(node)).singularValues();
+      ASSERT_LE(stretch[0], 1);
+      ASSERT_GE(stretch[2], 0.9998);
+    }
+  }
+}
+
+TEST(WideBvh, BoxesLieAlongASlopeAsAlongTheFloor) {
+  std::vector<Primitive> floor, slope;
+  const Mat3 turn = Eigen::AngleAxisd(0.6, Vec3(1, 0.4, 0.2).normalized()).toRotationMatrix();
+  for (const Primitive& part : test::terrain(100)) {
+    std::array<Vec3, 3> v = part.vertex;
+    for (Vec3& at : v) at.z() *= 0.02;
+    test::addTriangle(floor, v[0], v[1], v[2]);
+    test::addTriangle(slope, turn * v[0], turn * v[1], turn * v[2]);
+  }
+  EXPECT_LT(WideBvh::build(slope).cost(), 1.2 * WideBvh::build(floor).cost());
+}
+
+// Each impact found spares what comes later, so the earliest should be proposed first.
+TEST(WideBvh, FewPrimitivesAreProposedBeforeTheFirstImpact) {
+  const std::vector<Primitive> scene = test::terrain(200);
+  const WideBvh bvh = WideBvh::build(scene);
+  test::Random random(67);
+  std::size_t proposed = 0;
+  constexpr int kSweeps = 5000;
+  for (int i = 0; i < kSweeps; ++i) {
+    const Vec3& at = scene[static_cast<std::size_t>(random.below(static_cast<int>(scene.size())))].vertex[0];
+    const Vec3 from = at + Vec3(0, 0, 0.5), motion(random.uniform(-1, 1), random.uniform(-1, 1), -1);
+    bvh.sweep(from, motion, 0.05, [&](std::uint32_t number, double limit) {
+      ++proposed;
+      Impact impact;
+      return sweepSphere(scene[number], from, motion, 0.05, impact) ? std::min(limit, impact.t) : limit;
+    });
+  }
+  EXPECT_LE(proposed, 8 * kSweeps);  // in the order of the walk it would be 20
 }
 
 TEST(WideBvh, AllPrimitivesWithinTheRadiusAreProposedAndFewOthers) {

@@ -1,0 +1,236 @@
+#include "geometry/wide_bvh_boxes.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/vec.h"
+#include "geometry/float_box.h"
+
+namespace hl {
+
+namespace {
+
+// A query is a sphere, not a point: boxes count as grown by this part of the root's largest side. So a row of points,
+// which has no area, can be judged too.
+constexpr double kGrown = 1e-3;
+
+// Nodes so far down have thousands of primitives beneath them at ten million: enough for one thread.
+constexpr int kParallelDepth = 4;
+
+bool isBlock(std::uint32_t link) { return (link & kBlockLink) != 0; }
+
+template <typename Each>
+void forEachLane(int depth, const Each& each) {
+  if (depth < kParallelDepth) return oneapi::tbb::parallel_for(std::size_t{0}, kWide, each);
+  for (std::size_t lane = 0; lane < kWide; ++lane) each(lane);
+}
+
+// One number of each primitive of a block.
+using Lanes = Eigen::Array<float, kWide, 1>;
+using Lanes3 = std::array<Lanes, 3>;
+
+Lanes lanesOf(const std::int16_t (&values)[kWide]) {
+  Lanes lanes;
+  for (std::size_t lane = 0; lane < kWide; ++lane) lanes[static_cast<Eigen::Index>(lane)] = values[lane];
+  return lanes;
+}
+
+// In steps from the block's origin.
+std::array<Lanes3, 3> cornersOf(const WideBlock& block) {
+  std::array<Lanes3, 3> corners;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) corners[i][axis] = lanesOf(block.vertex[i][axis]);
+  }
+  return corners;
+}
+
+Lanes3 operator-(const Lanes3& a, const Lanes3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+Lanes3 cross(const Lanes3& a, const Lanes3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+// What the faces of a block or node add up to: the sum of area * n n', with n the normal of a face. Its eigenvector of
+// the largest eigenvalue is where most of them face, whichever side of theirs is the front.
+Mat3 facing(const WideBlock& block) {
+  const auto corners = cornersOf(block);
+  const Lanes3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const Lanes length2 = normal[0].square() + normal[1].square() + normal[2].square();
+  const Lanes per_length = length2.max(1.0f).rsqrt();  // 1: a primitive without area, or less than a step's
+  const double step2 = 1 / (static_cast<double>(block.per_step) * static_cast<double>(block.per_step));
+  Mat3 sum;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      const double part = (normal[i] * normal[j] * per_length).sum();
+      sum(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = step2 * part;
+      sum(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(i)) = step2 * part;
+    }
+  }
+  return sum;
+}
+
+// The least rotation that takes the nearest axis to `normal`: boxes of neighbours, cut along the axes, then lie side by
+// side. Rows are the frame's axes.
+Mat3 rotationTo(const Vec3& normal) {
+  Eigen::Index axis = 0;
+  normal.cwiseAbs().maxCoeff(&axis);
+  const Vec3 from = normal[axis] < 0 ? Vec3(-Vec3::Unit(axis)) : Vec3(Vec3::Unit(axis));
+  return Eigen::Quaterniond::FromTwoVectors(normal, from).toRotationMatrix();
+}
+
+// Below this part of all, a common direction of faces is of no use: the axes will do.
+constexpr double kCommon = 0.7;
+
+// Nodes higher above the blocks are large beside a sphere and their faces point everywhere; turning a query costs time.
+constexpr int kTurnedHeight = 2;
+
+// Shrunk so that rounding the frame to whole parts of kFrameOne, sqrt(9) / 2 of them in all, lengthens no vector.
+void setFrame(WideNode& node, const Mat3& faces) {
+  constexpr double kShrunk = 1 - 2 / static_cast<double>(kFrameOne);
+  const Eigen::SelfAdjointEigenSolver<Mat3> directions(faces);
+  if (directions.eigenvalues()[2] <= kCommon * faces.trace()) return;
+  const Mat3 frame = rotationTo(directions.eigenvectors().col(2));
+  node.turned = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t row = 0; row < 3; ++row) {
+      const double value = frame(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(axis));
+      node.frame[axis][row] = static_cast<std::int16_t>(std::lrint(kShrunk * kFrameOne * value));
+    }
+  }
+}
+
+struct Beneath {
+  Mat3 faces = Mat3::Zero();
+  int height = 0;  // nodes down to the farthest block
+};
+
+// NOLINTNEXTLINE(misc-no-recursion): to the tree's bounded depth
+Beneath orientFrom(HugeVector<WideNode>& nodes, const HugeVector<WideBlock>& blocks, std::size_t at, int depth) {
+  WideNode& node = nodes[at];
+  std::array<Beneath, kWide> parts;
+  forEachLane(depth, [&](std::size_t lane) {
+    const std::uint32_t child = node.child[lane];
+    if (child == kNoChild) return;
+    if (isBlock(child)) {
+      parts[lane].faces = facing(blocks[child & ~kBlockLink]);
+    } else {
+      parts[lane] = orientFrom(nodes, blocks, child, depth + 1);
+    }
+  });
+  Beneath all;
+  for (const Beneath& part : parts) {
+    all.faces += part.faces;
+    all.height = std::max(all.height, part.height + 1);
+  }
+  if (all.height <= kTurnedHeight) setFrame(node, all.faces);
+  return all;
+}
+
+Mat3 frameOf(const WideNode& node) {
+  if (node.turned == 0) return Mat3::Identity();
+  Mat3 frame;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t row = 0; row < 3; ++row)
+      frame(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(axis)) = node.frame[axis][row];
+  }
+  return frame / kFrameOne;
+}
+
+FloatBox boxIn(const WideNode& node, const WideBlock& block) {
+  constexpr double kPacked =
+      1;  // steps: a vertex is off by at most sqrt(3) / 2, the products by far less than the rest
+  const Mat3 frame = frameOf(node);
+  const auto corners = cornersOf(block);
+  Vec3 low, high;
+  for (Eigen::Index row = 0; row < 3; ++row) {
+    const Eigen::Vector3f along = frame.row(row).transpose().cast<float>();
+    const auto at = [&](std::size_t i) -> Lanes {
+      return along[0] * corners[i][0] + along[1] * corners[i][1] + along[2] * corners[i][2];
+    };
+    const Lanes a = at(0), b = at(1), c = at(2);
+    low[row] = a.min(b).min(c).minCoeff() - kPacked;
+    high[row] = a.max(b).max(c).maxCoeff() + kPacked;
+  }
+  const double step = 1 / static_cast<double>(block.per_step);
+  const Vec3 origin = frame * Vec3(block.origin[0], block.origin[1], block.origin[2]);
+  return roundedOutward(origin + step * low, origin + step * high);
+}
+
+FloatBox laneOf(const WideNode& node, std::size_t lane) {
+  FloatBox box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.min[static_cast<Eigen::Index>(axis)] = node.bound[0][axis][lane];
+    box.max[static_cast<Eigen::Index>(axis)] = node.bound[1][axis][lane];
+  }
+  return box;
+}
+
+// Around the boxes of a node below, turned from its frame into that of `node`.
+FloatBox boxIn(const WideNode& node, const WideNode& child) {
+  const Mat3 turn = frameOf(node) * frameOf(child).inverse();
+  const Mat3 sizes = turn.cwiseAbs();
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (std::size_t lane = 0; lane < kWide; ++lane) {
+    if (child.child[lane] == kNoChild) continue;
+    const FloatBox box = laneOf(child, lane);
+    const Vec3 min = box.min.head<3>().cast<double>(), max = box.max.head<3>().cast<double>();
+    const Vec3 middle = turn * (0.5 * (min + max)), half = sizes * (0.5 * (max - min));
+    low = low.cwiseMin(middle - half);
+    high = high.cwiseMax(middle + half);
+  }
+  return roundedOutward(low, high);
+}
+
+void setBox(WideNode& node, std::size_t lane, const FloatBox& box) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    node.bound[0][axis][lane] = box.min[static_cast<Eigen::Index>(axis)];
+    node.bound[1][axis][lane] = box.max[static_cast<Eigen::Index>(axis)];
+  }
+}
+
+void encloseFrom(HugeVector<WideNode>& nodes, const HugeVector<WideBlock>& blocks, std::size_t at, int depth) {
+  WideNode& node = nodes[at];
+  forEachLane(depth, [&](std::size_t lane) {
+    const std::uint32_t child = node.child[lane];
+    if (child == kNoChild) return setBox(node, lane, FloatBox());
+    if (isBlock(child)) return setBox(node, lane, boxIn(node, blocks[child & ~kBlockLink]));
+    encloseFrom(nodes, blocks, child, depth + 1);
+    setBox(node, lane, boxIn(node, nodes[child]));
+  });
+}
+
+Eigen::Array3d sidesOf(const FloatBox& box) { return (box.max - box.min).head<3>().cast<double>(); }
+
+double halfArea(const Eigen::Array3d& sides) { return sides[0] * sides[1] + sides[1] * sides[2] + sides[2] * sides[0]; }
+
+}  // namespace
+
+void orient(HugeVector<WideNode>& nodes, const HugeVector<WideBlock>& blocks) {
+  if (!nodes.empty()) orientFrom(nodes, blocks, 0, 0);
+}
+
+void enclose(HugeVector<WideNode>& nodes, const HugeVector<WideBlock>& blocks) {
+  if (!nodes.empty()) encloseFrom(nodes, blocks, 0, 0);
+}
+
+double costOf(const HugeVector<WideNode>& nodes) {
+  if (nodes.empty()) return 0;
+  FloatBox root;
+  for (std::size_t lane = 0; lane < kWide; ++lane) root.extend(laneOf(nodes[0], lane));
+  const double grown = kGrown * sidesOf(root).maxCoeff();
+  double sum = 0;
+  for (const WideNode& node : nodes) {
+    for (std::size_t lane = 0; lane < kWide; ++lane) {
+      if (node.child[lane] != kNoChild) sum += halfArea(sidesOf(laneOf(node, lane)) + grown);
+    }
+  }
+  return sum / halfArea(sidesOf(root) + grown);
+}
+
+}  // namespace hl
