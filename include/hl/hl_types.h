@@ -133,7 +133,8 @@ enum {
   HL_SAFETY_OFF = 0x48048,    /**< no force */
   HL_SAFETY_ARMING = 0x48049, /**< the force ramps up from zero */
   HL_SAFETY_ON = 0x4804A,     /**< touchable */
-  HL_SAFETY_FAULT = 0x4804B   /**< no force until hlRearm; hlGetString(HL_FAULT) says why */
+  HL_SAFETY_FAULT = 0x4804B,  /**< no force until hlRearm; hlGetString(HL_FAULT) says why */
+  HL_SAFETY_WAITING = 0x4804C /**< no force until somebody holds the dead-man switch */
 };
 
 /** Kinds of events, for hlEventFunc. */

@@ -36,10 +36,12 @@ struct DeviceSample {
   Vec3 position = Vec3::Zero();
   std::uint32_t buttons = 0;  ///< bit i = button i pressed
   DeviceStatus status = DeviceStatus::kNotReady;
+  bool held = true;              ///< false: the device can tell, and nobody holds it
+  Vec3 weight_N = Vec3::Zero();  ///< force that holds up the device itself here; zero where it needs none
 };
 
 /// open, close and info: setup thread only. read and write: the servo thread only, RT-safe; before it runs and after it
-/// has ended, the setup thread. The destructor closes.
+/// has ended, the setup thread. stop: any thread. The destructor closes.
 class Device {
  public:
   virtual ~Device() = default;
@@ -54,6 +56,10 @@ class Device {
   virtual SimulatedHand* hand() { return nullptr; }
   /// Holds `force_N` at the tip until the next write. Non-finite components are taken as zero force.
   virtual void write(const Vec3& force_N) = 0;
+  /// Zero force now and until the next write(), asked for by the watchdog because the servo thread stands still,
+  /// perhaps in read() or write(): any thread, RT-safe, never waits. A driver that cannot, leaves it to what the device
+  /// itself does when no force comes for a while, and says so in its README.
+  virtual void stop() noexcept {}
 };
 
 }  // namespace hl

@@ -36,6 +36,7 @@ DeviceSample SimulatedDevice::read(std::int64_t now_ns) {
   held_ = holds;
   Vec3 goal;
   if (goal_.read(goal) && goal.allFinite()) goal_D_ = goal;
+  if (stopped_.exchange(false, std::memory_order_acquire)) dropForce();
   const std::int64_t taken_ns = now_ns + static_cast<std::int64_t>(jitter_ns());
   if (has_time_) {
     const double elapsed_s =
@@ -45,7 +46,12 @@ DeviceSample SimulatedDevice::read(std::int64_t now_ns) {
   }
   has_time_ = true;
   time_ns_ = taken_ns;
-  return {now_ns, arm_->countedTip_D(), 0, DeviceStatus::kOk};
+  return {now_ns, arm_->countedTip_D(), 0, DeviceStatus::kOk, held_};
+}
+
+void SimulatedDevice::dropForce() {
+  std::fill(on_the_way_.begin(), on_the_way_.end(), Vec3(Vec3::Zero()));
+  arm_->drive(Vec3::Zero());
 }
 
 void SimulatedDevice::write(const Vec3& force_N) {

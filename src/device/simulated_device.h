@@ -53,6 +53,7 @@ class SimulatedDevice final : public Device, public SimulatedHand {
   const DeviceInfo& info() const override { return settings_.model.info; }
   DeviceSample read(std::int64_t now_ns) override;
   void write(const Vec3& force_N) override;
+  void stop() noexcept override { stopped_.store(true, std::memory_order_release); }
 
   SimulatedHand* hand() override { return this; }
   void setHandGoal(const Vec3& goal_D) override { goal_.write(goal_D); }
@@ -73,6 +74,7 @@ class SimulatedDevice final : public Device, public SimulatedHand {
   const GripParameters& grip() const { return firm_.load(std::memory_order_relaxed) ? kFirmGrip : kLightGrip; }
   void takeHold();
   void step(double dt_s);
+  void dropForce();
   Vec3 stepHeld(double dt_s);
   Vec3 stepStylus(const Vec3& pull_N, double dt_s);
   double jitter_ns();
@@ -90,6 +92,7 @@ class SimulatedDevice final : public Device, public SimulatedHand {
   std::array<Vec3, SimulatedDeviceSettings::kMostDelay + 1> on_the_way_;  // forces, a ring
   std::size_t written_ = 0;
   std::mt19937 random_;
+  std::atomic<bool> stopped_{false};  // the motors are without current from the next advance on
   std::int64_t time_ns_ = 0;
   bool has_time_ = false;
 };

@@ -11,7 +11,7 @@ namespace {
 
 // Loops run at 100 Hz at the least; a quarter of a second without a step is no hiccup.
 constexpr std::int64_t kStalled_ns = 250'000'000;
-constexpr std::array<const char*, 4> kSafetyNames{"off", "arming", "on", "fault"};
+constexpr std::array<const char*, 5> kSafetyNames{"off", "arming", "on", "fault", "waiting"};
 
 // When a loop made its newest step, as seen from outside.
 class StepWatch {

@@ -34,6 +34,7 @@ const kSafetyTexts: Readonly<Record<SafetyState, string>> = {
   [SafetyState.ARMING]: "Arming: force ramps up",
   [SafetyState.ON]: "On",
   [SafetyState.FAULT]: "Fault: no force",
+  [SafetyState.WAITING]: "Waiting: hold the dead-man switch",
 };
 
 const kLinkTexts: Readonly<Record<LinkState, string>> = {
