@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "commands.h"
+#include "force_options.h"
 #include "io/csv_path.h"
 #include "io/load_scene_file.h"
 #include "server/http_server.h"
@@ -138,6 +139,7 @@ void addTouchCommand(CLI::App& app) {
       ->add_option("--scale", options->scale, "metres of the scene for one metre of the hand (default: --size decides)")
       ->check(CLI::Validator(checkPositive, "POSITIVE"));
   addLoopOptions(*command, options->settings);
+  addForceOptions(*command, options->settings.servo);
   addSurfaceOptions(*command, options->settings.surfaces, options->settings.ledger);
   command->get_option("--shade")->option_text("flat|smooth (default: the scene's; smooth for model files)");
   addHierarchyOption(*command, options->scene);

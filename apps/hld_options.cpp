@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "force_options.h"
+
 namespace hl {
 
 namespace {
@@ -100,6 +102,7 @@ void addHldOptions(CLI::App& app, HldOptions& options) {
   addHierarchyOption(app, options.scene);
   addNetworkOptions(app, options);
   addDeviceOptions(app, options);
+  addForceOptions(app, options.touch.servo);
   addLimitOptions(app, options.server.limits);
   addLogOptions(app, options);
 }

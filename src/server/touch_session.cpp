@@ -32,7 +32,8 @@ TouchSession::TouchSession(std::shared_ptr<const Snapshot> snapshot, const Touch
       hand_(device_->hand()),
       scenes_(std::move(snapshot)),
       proxy_loop_(scenes_, ProxySettings{}),
-      place_(period_ns(settings.servo_rate_Hz)) {
+      place_(period_ns(settings.servo_rate_Hz)),
+      watch_(*device_, servo_counters_) {
   const Vec3 reach_D = device_->info().workspace_max - device_->info().workspace_min;
   settings_.side_D = std::min(settings_.side_D, reach_D.minCoeff());
   fitted_ = settings.world_per_device || !scenes_.newest()->bounds.empty();
@@ -45,6 +46,7 @@ TouchSession::TouchSession(std::shared_ptr<const Snapshot> snapshot, const Touch
   servo_settings_ = ServoSettings::of(device_->info());
   servo_settings_.period_s = 1 / settings.servo_rate_Hz;
   if (settings.damping_Ns_m) servo_settings_.damping_Ns_m = *settings.damping_Ns_m;
+  settings.servo.apply(servo_settings_);
   setStiffness(settings.stiffness_N_m.value_or(device_->info().stiffness_N_m));
   setHandFirm(settings.hand_firm);
   exploring_ = hasHand() && (settings.explore || settings.script);
@@ -99,10 +101,12 @@ void TouchSession::start() {
   servo_thread_ = std::thread([this] { runServo(); });
   if (hasHand()) supervisor_thread_ = std::thread([this] { runSupervisor(); });
   while (!servo_ready_) std::this_thread::yield();
+  watch_.start(ServoWatch::looks(grant_.fifo, settings_.servo_rate_Hz));
 }
 
 void TouchSession::stop() {
   if (!running_.exchange(false)) return;
+  watch_.stop();
   for (std::thread* thread : {&supervisor_thread_, &servo_thread_, &proxy_thread_, &reference_thread_}) {
     if (thread->joinable()) thread->join();
   }
@@ -131,7 +135,9 @@ void TouchSession::runServo() {
     if (answers) finger_D_.write(sample.position);
     if (answers && !answered_) arrivals_.fetch_add(1, std::memory_order_release);
     answered_ = answers;
+    if (watch_.takeStall()) fail(step.servo(), FaultReason::kStalled);
     const ServoOutput out = touchNow(step, settings, sample, last);
+    if (watch_.stalled()) device_->write(Vec3::Zero());  // found while this step stood still: its force is an old one
     finger_for_supervisor_D_.write(sample.position);
     samples_.push({1e-9 * static_cast<double>(now_ns - start_ns_), static_cast<float>(out.force_N.norm()),
                    step.target().valid ? static_cast<float>((step.target().proxy_D - sample.position).norm()) : 0.0f,
@@ -347,11 +353,21 @@ void TouchSession::rearm() { arm_requests_.fetch_add(1); }
 void TouchSession::viewsForClients(ServoView& servo, ProxyView& proxy) {
   servo_for_clients_.read(servo);
   proxy_for_clients_.read(proxy);
+  tellStall(servo);
 }
 
 void TouchSession::views(ServoView& servo, ProxyView& proxy) {
   servo_view_.read(servo);
   proxy_view_.read(proxy);
+  tellStall(servo);
+}
+
+// What stands still can not tell so itself.
+void TouchSession::tellStall(ServoView& servo) const {
+  if (!watch_.stalled()) return;
+  servo.force_N = Vec3::Zero();
+  servo.safety = SafetyState::kFault;
+  servo.fault = FaultReason::kStalled;
 }
 
 LoopTotals TouchSession::proxyTotals() const {

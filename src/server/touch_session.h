@@ -18,7 +18,7 @@
 #include "base/latest.h"
 #include "base/realtime.h"
 #include "base/spsc_ring.h"
-#include "control/servo.h"
+#include "control/servo_options.h"
 #include "device/hand_script.h"
 #include "device/open_device.h"
 #include "device/simulated_hand.h"
@@ -27,6 +27,7 @@
 #include "server/exploration.h"
 #include "server/loop_meter.h"
 #include "server/proxy_loop.h"
+#include "server/servo_watch.h"
 #include "server/snapshot_slot.h"
 #include "server/tick_place.h"
 #include "server/touch_step.h"
@@ -43,7 +44,8 @@ struct TouchSettings {
   double proxy_rate_Hz = 1000;          ///< while ticks do not fit in a servo step
   std::optional<double> stiffness_N_m;  ///< K; the device's own when not given
   std::optional<double> damping_Ns_m;   ///< B
-  bool hand_firm = false;               ///< of a simulated hand, as the next two
+  ServoOptions servo{};
+  bool hand_firm = false;  ///< of a simulated hand, as the next two
   bool explore = true;
   std::optional<HandScript> script;  ///< hand goals in the world frame instead of exploration
   MaterialOverride surfaces{};       ///< over what the scene says
@@ -162,6 +164,7 @@ class TouchSession {
   };
 
   static LoopTotals totals(const LoopCounters& counters);
+  void tellStall(ServoView& servo) const;
   void bringHandToStart();
   void startAt(const DeviceSample& sample);
   void runServo();
@@ -204,6 +207,7 @@ class TouchSession {
   std::atomic<bool> servo_ready_{false};
   RealtimeGrant grant_;
   LoopCounters servo_counters_, proxy_counters_, reference_counters_;
+  ServoWatch watch_;
 
   mutable std::mutex settings_mutex_;  // between the callers of commands; the real-time loops never see it
   ProxyCommands proxy_commands_;

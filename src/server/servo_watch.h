@@ -1,0 +1,45 @@
+// ServoWatch: the thread that watches the servo from outside. When the servo stands still, in a driver's call or
+// because the machine does not run it, the device is told to stop by a way of its own, and the servo, should it go on,
+// finds itself in fault.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <thread>
+
+#include "base/realtime.h"
+#include "device/device.h"
+
+namespace hl {
+
+/// start() and stop() by one thread; takeStall() by the servo's; stalled() by any.
+class ServoWatch {
+ public:
+  static constexpr std::int64_t kLook_ns = 1'000'000;
+
+  /// `servo`: counts the steps that are watched. Both outlive it.
+  ServoWatch(Device& device, const LoopCounters& servo) : device_(device), servo_(servo) {}
+  ~ServoWatch() { stop(); }
+
+  /// How many looks without a step are a stall. With real-time priority 20 ms are no hiccup; without, the scheduler may
+  /// leave a thread alone for longer, and only a quarter of a second is none. A slow servo is looked at for longer.
+  static std::uint32_t looks(bool real_time, double servo_rate_Hz);
+
+  void start(std::uint32_t looks);
+  void stop();
+  /// Since the last call the servo has stood still, and the device was stopped.
+  bool takeStall() { return stalled_.exchange(false, std::memory_order_acq_rel); }
+  /// It stands still, or has and has not taken it yet.
+  bool stalled() const { return stalled_.load(std::memory_order_acquire); }
+
+ private:
+  void run(std::uint32_t looks);
+
+  Device& device_;
+  const LoopCounters& servo_;
+  LoopCounters counters_;
+  std::atomic<bool> running_{false}, stalled_{false};
+  std::thread thread_;
+};
+
+}  // namespace hl
