@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <optional>
 
 #include "base/error.h"
 #include "commands.h"
@@ -15,24 +14,11 @@
 #include "server/touch_server.h"
 #include "server/viewer_feed.h"
 #include "serving.h"
+#include "touch_options.h"
 
 namespace hl {
 
 namespace {
-
-struct TouchOptions {
-  SceneOptions scene;
-  TouchSettings settings;
-  std::string device = "sim";
-  int port = 1997;
-  bool no_open = false;
-  std::string hand = "light";
-  std::string explore = "on";
-  std::string hand_path;
-  std::string page_folder;
-  double scale = 0;
-  double duration_s = 0;
-};
 
 void openBrowser(const std::string& address) {
   if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
@@ -64,7 +50,16 @@ void printTotals(const TouchSession& session) {
   if (session.settings().timer_reference) line("bare timer:", session.referenceTotals());
 }
 
-void run(TouchOptions options) {
+TouchServerSettings serverSettings(const TouchOptions& options, const Limits& limits) {
+  TouchServerSettings settings{options.settings, 1, limits, HL_VERSION, options.device};
+  settings.touch.recorder.version = HL_VERSION;
+  settings.touch.recorder.tell = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  return settings;
+}
+
+}  // namespace
+
+void runTouch(TouchOptions options) {
   const auto snapshot = loadSnapshot(options.scene);
   options.settings.hand_firm = options.hand == "firm";
   // A scene file says how its surfaces feel; a bare model feels as smooth as it looks.
@@ -76,7 +71,7 @@ void run(TouchOptions options) {
   HttpServerSettings http;
   http.port = static_cast<std::uint16_t>(options.port);
   http.page_folder = options.page_folder.empty() ? defaultPageFolder() : options.page_folder;
-  TouchServer touch(snapshot, {options.settings, 1, http.limits, HL_VERSION, options.device});
+  TouchServer touch(snapshot, serverSettings(options, http.limits));
   TouchSession& session = touch.device();
   if (options.settings.script && !session.hasHand())
     throw Error("--hand-path moves a simulated hand, and a person holds this device");
@@ -96,6 +91,8 @@ void run(TouchOptions options) {
   touch.stop();
   printTotals(session);
 }
+
+namespace {
 
 void addLoopOptions(CLI::App& command, TouchSettings& settings) {
   const CLI::Validator positive(checkPositive, "POSITIVE");
@@ -118,35 +115,40 @@ void addLoopOptions(CLI::App& command, TouchSettings& settings) {
 
 }  // namespace
 
+void addTouchOptions(CLI::App& command, TouchOptions& options) {
+  addSceneArgument(command, options.scene, false);
+  addDeviceOption(command, options.device);
+  command.add_option("--port", options.port, "port on 127.0.0.1; 0 for any free one")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  command.add_flag("--no-open", options.no_open, "do not start a browser");
+  command.add_option("--hand", options.hand, "grip of the simulated hand")
+      ->check(CLI::IsMember({"light", "firm"}))
+      ->capture_default_str();
+  command.add_option("--explore", options.explore, "the built-in stroking hand, until a person takes over")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->capture_default_str();
+  command.add_option("--hand-path", options.hand_path,
+                     "CSV t,x,y,z (s, m in the scene) that the simulated hand follows instead");
+  command
+      .add_option("--scale", options.scale, "metres of the scene for one metre of the hand (default: --size decides)")
+      ->check(CLI::Validator(checkPositive, "POSITIVE"));
+  addLoopOptions(command, options.settings);
+  addForceOptions(command, options.settings.servo);
+  addSurfaceOptions(command, options.settings.surfaces, options.settings.ledger);
+  command.get_option("--shade")->option_text("flat|smooth (default: the scene's; smooth for model files)");
+  addHierarchyOption(command, options.scene);
+  command.add_option("--page-dir", options.page_folder, "folder of the built page");
+  command.add_option("--duration", options.duration_s, "end by itself after this many seconds")
+      ->check(CLI::Validator(checkPositive, "POSITIVE"));
+  addBlackBoxOption(command, options.settings.recorder);
+}
+
 void addTouchCommand(CLI::App& app) {
   auto* command = app.add_subcommand("touch", "serve a scene with a device and the page to see and feel it");
   auto options = std::make_shared<TouchOptions>();
-  addSceneArgument(*command, options->scene, false);
-  addDeviceOption(*command, options->device);
-  command->add_option("--port", options->port, "port on 127.0.0.1; 0 for any free one")
-      ->check(CLI::Range(0, 65535))
-      ->capture_default_str();
-  command->add_flag("--no-open", options->no_open, "do not start a browser");
-  command->add_option("--hand", options->hand, "grip of the simulated hand")
-      ->check(CLI::IsMember({"light", "firm"}))
-      ->capture_default_str();
-  command->add_option("--explore", options->explore, "the built-in stroking hand, until a person takes over")
-      ->check(CLI::IsMember({"on", "off"}))
-      ->capture_default_str();
-  command->add_option("--hand-path", options->hand_path,
-                      "CSV t,x,y,z (s, m in the scene) that the simulated hand follows instead");
-  command
-      ->add_option("--scale", options->scale, "metres of the scene for one metre of the hand (default: --size decides)")
-      ->check(CLI::Validator(checkPositive, "POSITIVE"));
-  addLoopOptions(*command, options->settings);
-  addForceOptions(*command, options->settings.servo);
-  addSurfaceOptions(*command, options->settings.surfaces, options->settings.ledger);
-  command->get_option("--shade")->option_text("flat|smooth (default: the scene's; smooth for model files)");
-  addHierarchyOption(*command, options->scene);
-  command->add_option("--page-dir", options->page_folder, "folder of the built page");
-  command->add_option("--duration", options->duration_s, "end by itself after this many seconds")
-      ->check(CLI::Validator(checkPositive, "POSITIVE"));
-  command->callback([options] { run(*options); });
+  addTouchOptions(*command, *options);
+  command->callback([options] { runTouch(*options); });
 }
 
 }  // namespace hl

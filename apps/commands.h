@@ -15,6 +15,8 @@ void addTraceCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);
 void addDoctorCommand(CLI::App& app);
 void addBenchCommand(CLI::App& app);
+void addRecordCommand(CLI::App& app);
+void addReplayCommand(CLI::App& app);
 
 /// Options that every command with a SCENE shares.
 struct SceneOptions {

@@ -8,8 +8,8 @@
 
 #include "base/error.h"
 #include "commands.h"
-#include "device/open_device.h"
 #include "io/load_scene.h"
+#include "io/replay_device.h"
 
 namespace hl {
 
@@ -91,7 +91,7 @@ void addSurfaceOptions(CLI::App& command, MaterialOverride& surfaces, LedgerMode
 CLI::Option* addDeviceOption(CLI::App& command, std::string& device) {
   const auto check = [](const std::string& spec) -> std::string {
     try {
-      makeDevice(spec);
+      makeAnyDevice(spec);
     } catch (const Error& error) {
       return error.what();
     }
@@ -99,7 +99,7 @@ CLI::Option* addDeviceOption(CLI::App& command, std::string& device) {
   };
   return command.add_option("--device", device, "the haptic device; hl doctor tells which are present")
       ->check(CLI::Validator(check, ""))
-      ->option_text(deviceSpecs() + " (default: " + device + ")");
+      ->option_text(anyDeviceSpecs() + " (default: " + device + ")");
 }
 
 std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options) {

@@ -17,10 +17,14 @@ int main(int argc, char** argv) {
   hl::addInfoCommand(app);
   hl::addDoctorCommand(app);
   hl::addBenchCommand(app);
+  hl::addRecordCommand(app);
+  hl::addReplayCommand(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version
     return app.exit(asked);
+  } catch (const CLI::RuntimeError& failed) {  // told already
+    return failed.get_exit_code();
   } catch (const CLI::ParseError& error) {
     fmt::print(stderr, "hl: {} (try --help)\n", error.what());
     return 2;

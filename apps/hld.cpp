@@ -61,6 +61,10 @@ void serve(HldOptions& options) {
   const sigset_t signals = blockSignals();
   options.touch.hand_firm = options.hand == "firm";
   options.touch.explore = options.explore == "on";
+  options.touch.recorder.version = HL_VERSION;
+  options.touch.recorder.tell = [](const std::string& line) {
+    logEvent(LogLevel::kError, "fault", {{"reason", line}});
+  };
   const HttpServerSettings http = serverSettings(options);
   TouchServer touch(sceneOf(options.scene), {options.touch, options.devices, http.limits, HL_VERSION, options.device});
   TouchSession& session = touch.device();

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "force_options.h"
+#include "serving.h"
 
 namespace hl {
 
@@ -103,6 +104,7 @@ void addHldOptions(CLI::App& app, HldOptions& options) {
   addNetworkOptions(app, options);
   addDeviceOptions(app, options);
   addForceOptions(app, options.touch.servo);
+  addBlackBoxOption(app, options.touch.recorder);
   addLimitOptions(app, options.server.limits);
   addLogOptions(app, options);
 }

@@ -3,6 +3,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 
 namespace hl {
@@ -27,6 +28,35 @@ int waitForSignal(const sigset_t& signals, double longest_s) {
   const auto whole = static_cast<time_t>(longest_s);
   const timespec limit{whole, static_cast<long>(1e9 * (longest_s - static_cast<double>(whole)))};
   return std::max(0, sigtimedwait(&signals, nullptr, &limit));
+}
+
+namespace {
+
+// Where programs keep what they have found: systemd's word for a service, XDG's for a person. Empty where there is
+// none.
+std::string stateFolder() {
+  const auto variable = [](const char* name) {
+    const char* const value = std::getenv(name);
+    return std::string(value != nullptr ? value : "");
+  };
+  if (const std::string folder = variable("STATE_DIRECTORY"); !folder.empty()) return folder;
+  if (const std::string folder = variable("XDG_STATE_HOME"); !folder.empty()) return folder + "/hl";
+  if (const std::string home = variable("HOME"); !home.empty()) return home + "/.local/state/hl";
+  return {};
+}
+
+}  // namespace
+
+void addBlackBoxOption(CLI::App& command, RecorderSettings& recorder) {
+  recorder.black_box_folder = stateFolder();
+  command
+      .add_option_function<std::string>(
+          "--black-box",
+          [&recorder](const std::string& folder) { recorder.black_box_folder = folder == "off" ? "" : folder; },
+          "where the last 5 s before a fault are written; the newest 20 files stay")
+      ->option_text("DIR|off (default: " + (recorder.black_box_folder.empty() ? "off" : recorder.black_box_folder) +
+                    ")")
+      ->group("Force");
 }
 
 std::string defaultPageFolder() {

@@ -3,7 +3,10 @@
 
 #include <signal.h>
 
+#include <CLI/CLI.hpp>
 #include <string>
+
+#include "server/recorder.h"
 
 namespace hl {
 
@@ -16,5 +19,8 @@ int waitForSignal(const sigset_t& signals, double longest_s = 0);
 
 /// The built page: viewer/dist (as built) or share/hl/viewer (as installed) in a folder above the program.
 std::string defaultPageFolder();
+
+/// --black-box, over the default folder.
+void addBlackBoxOption(CLI::App& command, RecorderSettings& recorder);
 
 }  // namespace hl

@@ -25,7 +25,7 @@ NEVER = {"proxy": {"device", "control", "wire"}, "control": {"geometry", "wire"}
 # Targets and generated headers that are not named after their folder.
 TARGET_FOLDERS = {"hl_proto": "wire", "hl_no_alloc": "base", "hl_json": "base", "hl": "apps", "hld": "apps", "hl_frames": "server", "hl_inproc_link": "client", "hl_websocket_link": "client",
                   "hl_links": "client"}
-HEADER_FOLDERS = {"hl.pb.h": "wire"}
+HEADER_FOLDERS = {"hl.pb.h": "wire", "recording.pb.h": "wire"}
 # CMake's own words inside a link list, and the target that only carries compiler flags.
 NOT_FOLDERS = {"hl_flags"}
 

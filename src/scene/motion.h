@@ -49,6 +49,9 @@ class Motion {
  public:
   /// At rest for ever.
   explicit Motion(const Pose& pose = {}) : earlier_(pose), last_(pose), identity_(pose == Pose{}) {}
+  /// As one that says so of itself with earlier() and last().
+  Motion(const Screw& earlier, const Screw& last)
+      : earlier_(earlier), last_(last), identity_(!moves() && last.to() == Pose{}) {}
   /// This motion until `begin_ns`, and from where it is then to `to` at `end_ns` > `begin_ns`.
   Motion then(const Pose& to, std::int64_t begin_ns, std::int64_t end_ns) const;
 

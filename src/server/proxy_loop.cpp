@@ -32,6 +32,7 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
   scene_ = snapshot.number;
   restarts_ = commands.restarts;
   ProxyStep step;
+  step.scene = snapshot.identity;
   step.report = tick(state_, scene, settings_, finger);
   for (const ProxyContact& contact : step.report.contacts) {
     const Instance& instance = scene.instance(contact.primitive);

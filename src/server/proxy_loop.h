@@ -31,7 +31,8 @@ struct SpringOfServo {
 };
 
 struct ProxyStep {
-  HeldContacts held;  ///< the target, and how it goes on until the next tick
+  std::uint64_t scene = 0;  ///< identity of the snapshot; 0: there was no tick
+  HeldContacts held;        ///< the target, and how it goes on until the next tick
   TickReport report;
   FixedVector<ObjectName, 3> touched;  ///< of report.contacts, one by one
 };

@@ -10,8 +10,8 @@ namespace hl {
 namespace {
 
 constexpr int kPriority = 85;  // SCHED_FIFO; above the servo, so that one that spins is found
-constexpr double kStall_s = 0.020, kStallWithoutRealtime_s = 0.250;
-constexpr double kFewestPeriods = 5;
+constexpr double kStall_s = 0.050, kStallWithoutRealtime_s = 0.250;
+constexpr double kFewestPeriods = 10;
 
 }  // namespace
 
@@ -37,6 +37,7 @@ void ServoWatch::run(std::uint32_t looks) {
     if (!watchdog.look(servo_.steps.load(std::memory_order_relaxed))) return;
     stalled_.store(true, std::memory_order_release);
     device_.stop();
+    on_stall_();
   });
 }
 

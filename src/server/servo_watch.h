@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <thread>
 
 #include "base/realtime.h"
@@ -17,12 +18,14 @@ class ServoWatch {
  public:
   static constexpr std::int64_t kLook_ns = 1'000'000;
 
-  /// `servo`: counts the steps that are watched. Both outlive it.
-  ServoWatch(Device& device, const LoopCounters& servo) : device_(device), servo_(servo) {}
+  /// `servo`: counts the steps that are watched. `on_stall` is called by the watching thread. All outlive it.
+  ServoWatch(Device& device, const LoopCounters& servo, std::function<void()> on_stall)
+      : device_(device), servo_(servo), on_stall_(std::move(on_stall)) {}
   ~ServoWatch() { stop(); }
 
-  /// How many looks without a step are a stall. With real-time priority 20 ms are no hiccup; without, the scheduler may
-  /// leave a thread alone for longer, and only a quarter of a second is none. A slow servo is looked at for longer.
+  /// How many looks without a step are a stall. With real-time priority 50 ms are no hiccup and no long tick; without,
+  /// the scheduler may leave a thread alone for longer, and only a quarter of a second is none. A slow servo is looked
+  /// at for longer.
   static std::uint32_t looks(bool real_time, double servo_rate_Hz);
 
   void start(std::uint32_t looks);
@@ -37,6 +40,7 @@ class ServoWatch {
 
   Device& device_;
   const LoopCounters& servo_;
+  const std::function<void()> on_stall_;
   LoopCounters counters_;
   std::atomic<bool> running_{false}, stalled_{false};
   std::thread thread_;

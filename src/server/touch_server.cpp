@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "io/replay_device.h"
 #include "server/feed_messages.h"
 
 namespace hl {
@@ -17,7 +18,7 @@ std::vector<std::unique_ptr<TouchSession>> makeDevices(const std::shared_ptr<con
                                                        const TouchServerSettings& settings) {
   std::vector<std::unique_ptr<TouchSession>> devices;
   for (std::uint32_t i = 0; i < std::max(1U, settings.devices); ++i) {
-    std::unique_ptr<Device> device = openDevice(settings.device);
+    std::unique_ptr<Device> device = openAnyDevice(settings.device);
     if (settings.devices > 1 && device->hand() == nullptr)
       throw Error("of '" + settings.device + "' there is one device; only simulated ones may be several");
     devices.push_back(std::make_unique<TouchSession>(base, settings.touch, std::move(device)));

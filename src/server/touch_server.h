@@ -24,7 +24,7 @@ struct TouchServerSettings {
   std::uint32_t devices = 1;  ///< 1..16, each with a proxy of its own; more than one only of simulated ones
   Limits limits{};
   std::string version;         ///< of the server, for Welcome
-  std::string device = "sim";  ///< as openDevice() takes it
+  std::string device = "sim";  ///< as openAnyDevice() takes it
 };
 
 /// Constructed, started, stopped and destroyed by one thread; it outlives its sessions. connect(): any thread.

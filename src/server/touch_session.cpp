@@ -21,6 +21,10 @@ constexpr double kLift_D = 0.010;
 constexpr double kMostFriction = 10;
 constexpr double kMostViscosity_Ns_m = 1000;
 
+RecordedSession recordedSession(const TouchSettings& settings, const DeviceInfo& device) {
+  return {device, settings.servo_rate_Hz, settings.proxy_rate_Hz, ProxySettings{}};
+}
+
 std::int64_t period_ns(double rate_Hz) { return static_cast<std::int64_t>(1e9 / rate_Hz); }
 
 }  // namespace
@@ -33,7 +37,9 @@ TouchSession::TouchSession(std::shared_ptr<const Snapshot> snapshot, const Touch
       scenes_(std::move(snapshot)),
       proxy_loop_(scenes_, ProxySettings{}),
       place_(period_ns(settings.servo_rate_Hz)),
-      watch_(*device_, servo_counters_) {
+      recorder_(settings.recorder, recordedSession(settings, device_->info())),
+      watch_(*device_, servo_counters_, [this] { recorder_.stall(); }) {
+  recorder_.scene(scenes_.newest());
   const Vec3 reach_D = device_->info().workspace_max - device_->info().workspace_min;
   settings_.side_D = std::min(settings_.side_D, reach_D.minCoeff());
   fitted_ = settings.world_per_device || !scenes_.newest()->bounds.empty();
@@ -91,6 +97,7 @@ void TouchSession::start() {
   start_ns_ = monotonicNow_ns();
   running_ = true;
   arm_requests_ = 1;
+  recorder_.start();
   if (settings_.timer_reference) {
     reference_thread_ = std::thread([this] {
       requestRealtime(kServoPriority);
@@ -110,6 +117,7 @@ void TouchSession::stop() {
   for (std::thread* thread : {&supervisor_thread_, &servo_thread_, &proxy_thread_, &reference_thread_}) {
     if (thread->joinable()) thread->join();
   }
+  recorder_.stop();
 }
 
 void TouchSession::runServo() {
@@ -125,24 +133,29 @@ void TouchSession::runServo() {
     settings.stiffness_N_m = stiffness_.load(std::memory_order_relaxed);
     settings.ledger = ledger_.load(std::memory_order_relaxed);
     const DeviceSample sample = device_->read(now_ns);
+    ServoCommand command = ServoCommand::kNone;
     // A device that is not ready, homing or connecting, arms when it is.
-    if (const std::uint64_t wanted = arm_requests_.load(std::memory_order_relaxed);
-        wanted != armed && sample.status != DeviceStatus::kNotReady) {
+    if (const std::uint64_t wanted = arm_requests_.load(std::memory_order_relaxed); watch_.takeStall()) {
+      command = ServoCommand::kStall;
+    } else if (wanted != armed && sample.status != DeviceStatus::kNotReady) {
       armed = wanted;
-      arm(step.servo());
+      command = ServoCommand::kArm;
     }
     const bool answers = sample.status == DeviceStatus::kOk;
     if (answers) finger_D_.write(sample.position);
     if (answers && !answered_) arrivals_.fetch_add(1, std::memory_order_release);
     answered_ = answers;
-    if (watch_.takeStall()) fail(step.servo(), FaultReason::kStalled);
+    const ServoState before = step.servo();
+    apply(step.servo(), command);
     const ServoOutput out = touchNow(step, settings, sample, last);
     if (watch_.stalled()) device_->write(Vec3::Zero());  // found while this step stood still: its force is an old one
     finger_for_supervisor_D_.write(sample.position);
     samples_.push({1e-9 * static_cast<double>(now_ns - start_ns_), static_cast<float>(out.force_N.norm()),
                    step.target().valid ? static_cast<float>((step.target().proxy_D - sample.position).norm()) : 0.0f,
                    last.work_us});
-    meter.add(now_ns, monotonicNow_ns() - now_ns);
+    const std::int64_t work_ns = monotonicNow_ns() - now_ns;
+    recorder_.step({before, command, settings, step.target(), sample, out, work_ns});
+    meter.add(now_ns, work_ns);
     const ServoView view{sample.buttons, sample.position, out.force_N,
                          out.safety,     out.fault,       step.servo().spring.ledger,
                          meter.summary()};
@@ -167,6 +180,8 @@ ServoOutput TouchSession::touchNow(TouchStep& step, const ServoSettings& setting
   device_->write(out.force_N);
   const std::int64_t work_ns = monotonicNow_ns() - begin_ns;
   last = {step.tick().held, 1e-3f * static_cast<float>(work_ns)};
+  recorder_.tick({sample.time_ns, sample.position, ticking_.commands, springOf(settings)}, step.tick(),
+                 proxy_loop_.state().position, work_ns);
   show(step.tick(), begin_ns, work_ns);
   return out;
 }
@@ -179,11 +194,12 @@ void TouchSession::runProxy() {
     const std::int64_t now_ns = monotonicNow_ns();
     const ProxyCommands& commands = ticking_.follow(*this);
     finger_D_.read(finger_D);
-    const ProxyStep step = proxy_loop_.step(now_ns, finger_D, commands,
-                                            {stiffness_.load(std::memory_order_relaxed),
-                                             ledger_.load(std::memory_order_relaxed), 1 / settings_.proxy_rate_Hz});
+    const SpringOfServo spring{stiffness_.load(std::memory_order_relaxed), ledger_.load(std::memory_order_relaxed),
+                               1 / settings_.proxy_rate_Hz};
+    const ProxyStep step = proxy_loop_.step(now_ns, finger_D, commands, spring);
     const std::int64_t work_ns = monotonicNow_ns() - now_ns;
     ticks_.write({step.held, 1e-3f * static_cast<float>(work_ns)});
+    recorder_.tick({now_ns, finger_D, commands, spring}, step, proxy_loop_.state().position, work_ns);
     show(step, now_ns, work_ns);
   });
 }
@@ -341,6 +357,7 @@ void TouchSession::publish(std::shared_ptr<const Snapshot> snapshot) {
     const Workspace workspace = Workspace::fit(snapshot->bounds, settings_.side_D);
     restartWith(workspace, settings_.radius_D * workspace.world_per_device);
   }
+  recorder_.scene(snapshot);
   scenes_.publish(std::move(snapshot));
 }
 

@@ -27,6 +27,7 @@
 #include "server/exploration.h"
 #include "server/loop_meter.h"
 #include "server/proxy_loop.h"
+#include "server/recorder.h"
 #include "server/servo_watch.h"
 #include "server/snapshot_slot.h"
 #include "server/tick_place.h"
@@ -37,14 +38,15 @@ namespace hl {
 
 struct TouchSettings {
   double radius_D = 0.002;  ///< m, proxy radius at the hand
-  double side_D = 0.12;     ///< m, largest side of the model at the hand, unless scale is given; at most what the device
-                            ///< reaches
+  double side_D = 0.12;  ///< m, largest side of the model at the hand, unless scale is given; at most what the device
+                         ///< reaches
   std::optional<double> world_per_device;
   double servo_rate_Hz = 1000;
   double proxy_rate_Hz = 1000;          ///< while ticks do not fit in a servo step
   std::optional<double> stiffness_N_m;  ///< K; the device's own when not given
   std::optional<double> damping_Ns_m;   ///< B
   ServoOptions servo{};
+  RecorderSettings recorder{};
   bool hand_firm = false;  ///< of a simulated hand, as the next two
   bool explore = true;
   std::optional<HandScript> script;  ///< hand goals in the world frame instead of exploration
@@ -207,6 +209,7 @@ class TouchSession {
   std::atomic<bool> servo_ready_{false};
   RealtimeGrant grant_;
   LoopCounters servo_counters_, proxy_counters_, reference_counters_;
+  Recorder recorder_;
   ServoWatch watch_;
 
   mutable std::mutex settings_mutex_;  // between the callers of commands; the real-time loops never see it

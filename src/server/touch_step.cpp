@@ -5,9 +5,9 @@ namespace hl {
 ServoOutput TouchStep::onTime(ProxyLoop& loop, const ProxyCommands& commands, const ServoSettings& settings,
                               const DeviceSample& sample) {
   if (sample.status == DeviceStatus::kOk && sample.position.allFinite()) {
-    const SpringOfServo spring{settings.stiffness_N_m, settings.ledger, settings.period_s};
-    tick_ = loop.step(sample.time_ns, sample.position, commands, spring);
+    tick_ = loop.step(sample.time_ns, sample.position, commands, springOf(settings));
   } else {
+    tick_.scene = 0;
     tick_.held = HeldContacts{};
     tick_.held.target.time_ns = sample.time_ns;
   }

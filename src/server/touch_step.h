@@ -11,6 +11,11 @@
 
 namespace hl {
 
+/// What a tick within a servo step must know of it.
+inline SpringOfServo springOf(const ServoSettings& settings) {
+  return {settings.stiffness_N_m, settings.ledger, settings.period_s};
+}
+
 /// Owned by the servo thread. RT-safe.
 class TouchStep {
  public:

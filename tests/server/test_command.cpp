@@ -28,7 +28,7 @@ Result call(const std::string& arguments) {
 }
 
 TEST(Command, HelpForEachCommand) {
-  for (const char* command : {"", "touch", "trace", "info", "doctor", "bench"}) {
+  for (const char* command : {"", "touch", "trace", "info", "doctor", "bench", "record", "replay"}) {
     const Result result = call(std::string(command) + " --help");
     EXPECT_EQ(result.code, 0) << command;
     EXPECT_NE(result.output.find("Usage"), std::string::npos) << command;
@@ -57,6 +57,17 @@ TEST(Command, BadInputIsOneLineAndExitCodeTwo) {
                                        std::string("touch --hand weak"),
                                        std::string("touch --device theremin"),
                                        std::string("touch --device sim:abacus"),
+                                       std::string("touch --device replay:/nonexistent --no-open --port 0"),
+                                       std::string("touch --dead-man button:32"),
+                                       std::string("touch --spring 1,2,3"),
+                                       std::string("touch --constant-force 1,2,x"),
+                                       std::string("touch --force-limit 0"),
+                                       std::string("record"),
+                                       std::string("record --out /nonexistent/a.hlr --no-open --port 0"),
+                                       std::string("record --out " + out + " --max-size many"),
+                                       std::string("replay"),
+                                       std::string("replay /nonexistent"),
+                                       "replay " + path + " --csv " + out,
                                        std::string("bench --most 1"),
                                        std::string("bench --scenes teapot"),
                                        std::string("bench --motions flying"),
@@ -162,6 +173,50 @@ TEST(Command, TouchEndsWithCodeZeroOnTermination) {
   const Result result =
       call("touch plane:200 --port 0 --no-open & pid=$!; sleep 1; kill -TERM $pid; wait $pid; exit $?");
   EXPECT_EQ(result.code, 0) << result.output;
+}
+
+std::string lineWith(const std::string& text, const std::string& word) {
+  const std::size_t at = text.find(word);
+  return at == std::string::npos ? "" : text.substr(at, text.find('\n', at) - at);
+}
+
+TEST(Command, ARecordedSessionIsReproducedAndTabled) {
+  const std::string file = hl::test::tempFile("hl_cmd_session.hlr"), csv = hl::test::tempFile("hl_cmd_steps.csv");
+  const Result recorded = call("record sphere:2000 --no-open --port 0 --black-box off --duration 2 --out " + file);
+  ASSERT_EQ(recorded.code, 0) << recorded.output;
+  const Result replayed = call("replay " + file + " --csv " + csv);
+  EXPECT_EQ(replayed.code, 0) << replayed.output;
+  EXPECT_EQ(lineWith(replayed.output, "reproduced"), "reproduced: bit for bit") << replayed.output;
+  const auto rows = readCsv(csv);
+  ASSERT_GT(rows.size(), 1000u);
+  EXPECT_EQ(rows[0].size(), 16u);
+  EXPECT_EQ(rows[0][0], "t");
+  EXPECT_EQ(rows.back().size(), 16u);
+  EXPECT_EQ(rows.back()[13], "on");
+  const Result again =
+      call("touch terrain:2000 --no-open --port 0 --black-box off --duration 1 --device replay:" + file);
+  EXPECT_EQ(again.code, 0) << again.output;
+  EXPECT_NE(again.output.find("replay of simulated"), std::string::npos) << again.output;
+}
+
+TEST(Command, AKilledRecordingIsReproducedAsFarAsItGoes) {
+  const std::string file = hl::test::tempFile("hl_cmd_killed.hlr");
+  call("record sphere:2000 --no-open --port 0 --black-box off --out " + file + " & child=$!; sleep 2; kill -9 $child");
+  const Result replayed = call("replay " + file);
+  EXPECT_EQ(replayed.code, 0) << replayed.output;
+  EXPECT_EQ(lineWith(replayed.output, "reproduced"), "reproduced: bit for bit") << replayed.output;
+  EXPECT_NE(lineWith(replayed.output, "ended:").find("killed"), std::string::npos) << replayed.output;
+}
+
+TEST(Command, AFaultTellsWhereItsBlackBoxIs) {
+  const std::string boxes = hl::test::tempFile("hl_cmd_boxes");
+  const Result touched = call("touch teapot --no-open --port 0 --duration 2 --speed-limit 0.001 --black-box " + boxes);
+  ASSERT_EQ(touched.code, 0) << touched.output;
+  const std::string line = lineWith(touched.output, "black box: ");
+  ASSERT_NE(line, "") << touched.output;
+  const Result replayed = call("replay " + line.substr(std::string("black box: ").size()));
+  EXPECT_EQ(replayed.code, 0) << replayed.output;
+  EXPECT_NE(lineWith(replayed.output, "fault:").find("faster"), std::string::npos) << replayed.output;
 }
 
 }  // namespace

@@ -127,9 +127,9 @@ TEST(ServoWatch, ALetGoDeadManWaitsWithoutForce) {
 }
 
 TEST(ServoWatch, LooksLongerWhereTheMachineOrTheServoIsSlow) {
-  EXPECT_EQ(ServoWatch::looks(true, 1000), 20u);
+  EXPECT_EQ(ServoWatch::looks(true, 1000), 50u);
   EXPECT_EQ(ServoWatch::looks(false, 1000), 250u);
-  EXPECT_EQ(ServoWatch::looks(true, 100), 50u);
+  EXPECT_EQ(ServoWatch::looks(true, 100), 100u);
 }
 
 }  // namespace

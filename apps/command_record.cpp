@@ -1,0 +1,27 @@
+// hl record: hl touch, and everything that the loops do into a file.
+#include <CLI/CLI.hpp>
+
+#include "commands.h"
+#include "touch_options.h"
+
+namespace hl {
+
+void addRecordCommand(CLI::App& app) {
+  auto* command = app.add_subcommand("record", "as hl touch, and record the session into a file for hl replay");
+  auto options = std::make_shared<TouchOptions>();
+  addTouchOptions(*command, *options);
+  RecorderSettings& recorder = options->settings.recorder;
+  command->add_option("--out", recorder.file, "the file; what was there is overwritten")
+      ->required()
+      ->option_text("FILE")
+      ->group("Recording");
+  command
+      ->add_option("--max-size", recorder.most_bytes,
+                   "the recording ends when the file is so large; the session goes on")
+      ->transform(CLI::AsSizeValue(true))
+      ->option_text("BYTES, or with kB, MB, GB (default: 4 GB)")
+      ->group("Recording");
+  command->callback([options] { runTouch(*options); });
+}
+
+}  // namespace hl

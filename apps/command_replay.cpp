@@ -1,0 +1,99 @@
+// hl replay: runs a recorded session again and says whether everything comes out as it did; and its steps as CSV.
+#include <fmt/core.h>
+
+#include <array>
+#include <cstdio>
+#include <memory>
+
+#include "base/error.h"
+#include "commands.h"
+#include "server/replay.h"
+
+namespace hl {
+
+namespace {
+
+constexpr int kDiffers = 1;  // exit code
+constexpr std::array<const char*, 5> kStates{"off", "arming", "on", "fault", "waiting"};
+
+class CsvFile {
+ public:
+  explicit CsvFile(const std::string& path) : file_(std::fopen(path.c_str(), "w")) {
+    if (file_ == nullptr) throw Error(path + ": can not be written");
+    fmt::print(file_,
+               "t,finger_x,finger_y,finger_z,proxy_x,proxy_y,proxy_z,touching,stiffness,force_x,force_y,force_z,"
+               "speed,state,fault,work_ns\n");
+  }
+  ~CsvFile() { std::fclose(file_); }
+  CsvFile(const CsvFile&) = delete;
+  CsvFile& operator=(const CsvFile&) = delete;
+
+  void add(double time_s, const ServoRecord& step) {
+    const Vec3 &finger = step.sample.position, &proxy = step.target.proxy_D, &force = step.out.force_N;
+    fmt::print(file_,
+               "{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.9g},{},"
+               "\"{}\",{}\n",
+               time_s, finger.x(), finger.y(), finger.z(), proxy.x(), proxy.y(), proxy.z(), step.target.valid ? 1 : 0,
+               step.target.stiffness, force.x(), force.y(), force.z(), speed(time_s, finger),
+               kStates[static_cast<std::size_t>(step.out.safety) % kStates.size()], faultText(step.out.fault),
+               step.work_ns);
+  }
+
+ private:
+  // Of the finger since the step before, m/s.
+  double speed(double time_s, const Vec3& finger) {
+    const double elapsed_s = time_s - last_s_;
+    const double speed_m_s = last_s_ >= 0 && elapsed_s > 0 ? (finger - last_finger_).norm() / elapsed_s : 0;
+    last_s_ = time_s;
+    last_finger_ = finger;
+    return speed_m_s;
+  }
+
+  std::FILE* file_;
+  double last_s_ = -1;
+  Vec3 last_finger_ = Vec3::Zero();
+};
+
+void print(const std::string& file, const ReplayReport& report) {
+  fmt::print("{}: {} of {:.3f} s, {}, HL {}\n", file, report.black_box ? "black box" : "session",
+             report.last_s - report.first_s, report.device, report.version);
+  if (!report.fault.empty()) fmt::print("fault:      {}\n", report.fault);
+  fmt::print("it has:     {} servo steps, {} ticks, {} scenes\n", report.steps, report.ticks, report.scenes);
+  if (report.lost_steps + report.lost_ticks > 0)
+    fmt::print(
+        "missing:    {} servo steps and {} ticks that the recorder could not keep; {} ticks after them are not "
+        "checked\n",
+        report.lost_steps, report.lost_ticks, report.unchecked_ticks);
+  if (!report.damage.empty()) fmt::print("cut:        {}\n", report.damage);
+  fmt::print("ended:      {}\n", report.end.empty() ? "the program was killed, or its file is cut" : report.end);
+  if (report.difference) {
+    fmt::print("differs:    at {} {}, {:.6f} s: {}\n", report.difference->what, report.difference->number,
+               report.difference->time_s, report.difference->text);
+  } else {
+    fmt::print("reproduced: bit for bit\n");
+  }
+}
+
+void run(const std::string& file, const std::string& csv_path) {
+  std::unique_ptr<CsvFile> csv;  // made with the first step: a file that is no recording overwrites nothing
+  const ReplayReport report = replay(file, [&](double time_s, const ServoRecord& step) {
+    if (!csv && !csv_path.empty()) csv = std::make_unique<CsvFile>(csv_path);
+    if (csv) csv->add(time_s, step);
+  });
+  print(file, report);
+  std::fflush(stdout);
+  if (report.difference) throw CLI::RuntimeError(kDiffers);
+}
+
+}  // namespace
+
+void addReplayCommand(CLI::App& app) {
+  auto* command = app.add_subcommand("replay", "run a recording or a black box again, and compare it bit for bit");
+  auto file = std::make_shared<std::string>();
+  auto csv = std::make_shared<std::string>();
+  command->add_option("file", *file, "of hl record, or a black box")->required();
+  command->add_option("--csv", *csv, "write its servo steps there")->option_text("FILE");
+  command->callback([file, csv] { run(*file, *csv); });
+}
+
+}  // namespace hl

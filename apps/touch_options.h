@@ -1,0 +1,32 @@
+// What hl touch can be told, and hl record too.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "commands.h"
+#include "server/touch_session.h"
+
+namespace hl {
+
+struct TouchOptions {
+  SceneOptions scene;
+  TouchSettings settings;
+  std::string device = "sim";
+  int port = 1997;
+  bool no_open = false;
+  std::string hand = "light";
+  std::string explore = "on";
+  std::string hand_path;
+  std::string page_folder;
+  double scale = 0;
+  double duration_s = 0;
+};
+
+/// `options` must outlive `command`.
+void addTouchOptions(CLI::App& command, TouchOptions& options);
+
+/// Serves until a signal comes or the duration is over. Throws hl::Error.
+void runTouch(TouchOptions options);
+
+}  // namespace hl

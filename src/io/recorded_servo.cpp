@@ -1,0 +1,132 @@
+#include "io/recorded_servo.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace hl {
+
+namespace {
+
+// How the small things of a step lie in its flags: proto/recording.proto.
+std::uint32_t flagsOf(const ServoRecord& record) {
+  return static_cast<std::uint32_t>(record.sample.status) | static_cast<std::uint32_t>(record.sample.held) << 2 |
+         static_cast<std::uint32_t>(record.command) << 3 | static_cast<std::uint32_t>(record.target.valid) << 5 |
+         static_cast<std::uint32_t>(record.out.safety) << 6 | static_cast<std::uint32_t>(record.out.fault) << 9;
+}
+
+void setFlags(std::uint32_t flags, ServoRecord& record) {
+  record.sample.status = static_cast<DeviceStatus>(flags & 3);
+  record.sample.held = (flags >> 2 & 1) != 0;
+  record.command = static_cast<ServoCommand>(flags >> 3 & 3);
+  record.target.valid = (flags >> 5 & 1) != 0;
+  record.out.safety = static_cast<SafetyState>(flags >> 6 & 7);
+  record.out.fault = static_cast<FaultReason>(flags >> 9 & 15);
+}
+
+// Differences of times wrap around, as a broken clock may say anything.
+std::int64_t difference(std::int64_t a, std::int64_t b) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b));
+}
+std::int64_t sum(std::int64_t a, std::int64_t b) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
+}
+
+void add(google::protobuf::RepeatedField<double>& list, const Vec3& v) { list.Add(v.data(), v.data() + 3); }
+Vec3 at(const google::protobuf::RepeatedField<double>& list, int i) {
+  return {list[3 * i], list[3 * i + 1], list[3 * i + 2]};
+}
+
+void addStep(const ServoRecord& record, std::int64_t before_ns, proto::ServoSteps& out) {
+  out.add_time_ns(difference(record.sample.time_ns, before_ns));
+  add(*out.mutable_position(), record.sample.position);
+  out.add_buttons(record.sample.buttons);
+  out.add_flags(flagsOf(record));
+  add(*out.mutable_target_proxy(), record.target.proxy_D);
+  out.add_target_time_ns(difference(record.target.time_ns, record.sample.time_ns));
+  out.add_target_stiffness(record.target.stiffness);
+  out.add_target_paid_j(record.target.paid_J);
+  add(*out.mutable_force_n(), record.out.force_N);
+  out.add_work_ns(record.work_ns);
+}
+
+ServoRecord step(const proto::ServoSteps& in, int i, std::int64_t before_ns) {
+  ServoRecord record;
+  setFlags(in.flags(i), record);
+  record.sample.time_ns = sum(before_ns, in.time_ns(i));
+  record.sample.position = at(in.position(), i);
+  record.sample.buttons = in.buttons(i);
+  if (in.weight_n_size() > 0) record.sample.weight_N = at(in.weight_n(), i);
+  record.target.proxy_D = at(in.target_proxy(), i);
+  record.target.time_ns = sum(record.sample.time_ns, in.target_time_ns(i));
+  record.target.stiffness = in.target_stiffness(i);
+  record.target.paid_J = in.target_paid_j(i);
+  record.out.force_N = at(in.force_n(), i);
+  record.work_ns = in.work_ns(i);
+  return record;
+}
+
+bool consistent(const proto::ServoSteps& in) {
+  const int n = in.flags_size();
+  const auto all = [n](std::initializer_list<int> sizes, int each) {
+    return std::all_of(sizes.begin(), sizes.end(), [=](int size) { return size == each * n; });
+  };
+  return n > 0 && in.settings_size() > 0 && in.settings(0).at() == 0 &&
+         (in.weight_n_size() == 0 || in.weight_n_size() == 3 * n) &&
+         all({in.time_ns_size(), in.buttons_size(), in.target_time_ns_size(), in.target_stiffness_size(),
+              in.target_paid_j_size(), in.work_ns_size()},
+             1) &&
+         all({in.position_size(), in.target_proxy_size(), in.force_n_size()}, 3);
+}
+
+constexpr const char* kMisfit = "the recording does not fit this version of HL: replay it with the one that made it";
+
+}  // namespace
+
+void toProto(const Values& values, proto::Values& out) {
+  out.mutable_numbers()->Add(values.numbers.begin(), values.numbers.end());
+  out.mutable_integers()->Add(values.integers.begin(), values.integers.end());
+}
+
+Values fromProto(const proto::Values& in) {
+  return {{in.numbers().begin(), in.numbers().end()}, {in.integers().begin(), in.integers().end()}};
+}
+
+void toProto(std::span<const ServoRecord> records, std::uint64_t first, proto::ServoSteps& out) {
+  out.set_first(first);
+  toProto(valuesOf(records.front().before), *out.mutable_start());
+  Values settings;
+  std::int64_t before_ns = 0;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    addStep(records[i], before_ns, out);
+    before_ns = records[i].sample.time_ns;
+    Values now = valuesOf(records[i].settings);
+    if (i > 0 && now == settings) continue;
+    proto::ValuesChange& change = *out.add_settings();
+    change.set_at(static_cast<std::uint32_t>(i));
+    toProto(now, *change.mutable_values());
+    settings = std::move(now);
+  }
+  const auto weighs = [](const ServoRecord& record) { return record.sample.weight_N != Vec3(Vec3::Zero()); };
+  if (std::none_of(records.begin(), records.end(), weighs)) return;
+  for (const ServoRecord& record : records) add(*out.mutable_weight_n(), record.sample.weight_N);
+}
+
+std::vector<ServoRecord> fromProto(const proto::ServoSteps& in) {
+  if (!consistent(in)) throw Error(kMisfit);
+  std::vector<ServoRecord> records;
+  ServoSettings settings;
+  std::int64_t before_ns = 0;
+  for (int i = 0, change = 0; i < in.flags_size(); ++i) {
+    if (change < in.settings_size() && in.settings(change).at() == static_cast<std::uint32_t>(i)) {
+      if (!setFrom(fromProto(in.settings(change++).values()), settings)) throw Error(kMisfit);
+    }
+    records.push_back(step(in, i, before_ns));
+    records.back().settings = settings;
+    before_ns = records.back().sample.time_ns;
+  }
+  if (!setFrom(fromProto(in.start()), records.front().before)) throw Error(kMisfit);
+  return records;
+}
+
+}  // namespace hl

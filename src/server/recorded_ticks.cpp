@@ -1,0 +1,91 @@
+#include "server/recorded_ticks.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "io/recorded_servo.h"
+
+namespace hl {
+
+namespace {
+
+constexpr const char* kMisfit = "the recording does not fit this version of HL: replay it with the one that made it";
+
+void add(google::protobuf::RepeatedField<double>& list, const Vec3& v) { list.Add(v.data(), v.data() + 3); }
+Vec3 at(const google::protobuf::RepeatedField<double>& list, int i) {
+  return {list[3 * i], list[3 * i + 1], list[3 * i + 2]};
+}
+
+void addTick(const TickRecord& record, std::int64_t before_ns, proto::ProxyTicks& out) {
+  out.add_time_ns(record.in.time_ns - before_ns);
+  add(*out.mutable_finger(), record.in.finger_D);
+  add(*out.mutable_target_proxy(), record.target.proxy_D);
+  out.add_target_stiffness(record.target.stiffness);
+  out.add_target_paid_j(record.target.paid_J);
+  out.add_target_valid(record.target.valid);
+  add(*out.mutable_proxy(), record.proxy);
+  out.add_contacts(static_cast<std::uint32_t>(record.contacts));
+  out.add_work_ns(record.work_ns);
+}
+
+TickRecord tickOf(const proto::ProxyTicks& in, int i, std::int64_t before_ns) {
+  TickRecord record;
+  record.in.time_ns = before_ns + in.time_ns(i);
+  record.in.finger_D = at(in.finger(), i);
+  record.target = {at(in.target_proxy(), i), record.in.time_ns, in.target_valid(i), in.target_stiffness(i),
+                   in.target_paid_j(i)};
+  record.proxy = at(in.proxy(), i);
+  record.contacts = in.contacts(i);
+  record.work_ns = in.work_ns(i);
+  return record;
+}
+
+bool consistent(const proto::ProxyTicks& in) {
+  const int n = in.time_ns_size();
+  const auto all = [n](std::initializer_list<int> sizes, int each) {
+    return std::all_of(sizes.begin(), sizes.end(), [=](int size) { return size == each * n; });
+  };
+  return n > 0 && in.commands_size() > 0 && in.commands(0).at() == 0 &&
+         all({in.target_stiffness_size(), in.target_paid_j_size(), in.target_valid_size(), in.contacts_size(),
+              in.work_ns_size()},
+             1) &&
+         all({in.finger_size(), in.target_proxy_size(), in.proxy_size()}, 3);
+}
+
+}  // namespace
+
+void toProto(std::span<const TickRecord> records, std::uint64_t first, proto::ProxyTicks& out) {
+  out.set_first(first);
+  Values context;
+  std::int64_t before_ns = 0;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    addTick(records[i], before_ns, out);
+    before_ns = records[i].in.time_ns;
+    Values now = valuesOf(TickContext{records[i].in.commands, records[i].in.spring, records[i].scene});
+    if (i > 0 && now == context) continue;
+    proto::ValuesChange& change = *out.add_commands();
+    change.set_at(static_cast<std::uint32_t>(i));
+    toProto(now, *change.mutable_values());
+    context = std::move(now);
+  }
+}
+
+std::vector<TickRecord> fromProto(const proto::ProxyTicks& in) {
+  if (!consistent(in)) throw Error(kMisfit);
+  std::vector<TickRecord> records;
+  TickContext context;
+  std::int64_t before_ns = 0;
+  for (int i = 0, change = 0; i < in.time_ns_size(); ++i) {
+    if (change < in.commands_size() && in.commands(change).at() == static_cast<std::uint32_t>(i)) {
+      if (!setFrom(fromProto(in.commands(change++).values()), context)) throw Error(kMisfit);
+    }
+    records.push_back(tickOf(in, i, before_ns));
+    records.back().in.commands = context.commands;
+    records.back().in.spring = context.spring;
+    records.back().scene = context.scene;
+    before_ns = records.back().in.time_ns;
+  }
+  return records;
+}
+
+}  // namespace hl

@@ -1,0 +1,95 @@
+// Recorder: what the loops did, kept for later. The loops push each step and tick into rings of the last seconds and
+// never wait; a thread of its own reads them and writes two kinds of files (docs/recording.md): the session as it goes
+// on, and, when the servo goes into fault, a black box of the seconds before.
+#pragma once
+
+#include <recording.pb.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/log_ring.h"
+#include "control/servo_record.h"
+#include "io/recorded_scene.h"
+#include "io/recording_file.h"
+#include "server/proxy_loop.h"
+#include "server/recorded_ticks.h"
+
+namespace hl {
+
+struct RecorderSettings {
+  std::string file;                              ///< of the session; empty: it is not recorded
+  std::uint64_t most_bytes = 4'000'000'000;      ///< of that file; then the recording ends, not the session
+  std::string black_box_folder;                  ///< made when needed; empty: no black boxes
+  std::size_t black_boxes = 20;                  ///< kept there, >= 1; the oldest go
+  std::string version;                           ///< of HL, for the files
+  std::function<void(const std::string&)> tell;  ///< gets a line when a file is written or can not be; or empty
+};
+
+/// What a recording says of its session.
+struct RecordedSession {
+  DeviceInfo device;
+  double servo_rate_Hz = 1000, proxy_rate_Hz = 1000;
+  ProxySettings proxy;
+};
+
+/// Made, started, stopped and destroyed by one thread.
+class Recorder {
+ public:
+  static constexpr double kBlackBox_s = 5;
+
+  /// Makes the file of the session. Throws hl::Error.
+  Recorder(const RecorderSettings& settings, const RecordedSession& session);
+  ~Recorder();
+  void start();
+  void stop();  ///< when the loops have ended; writes what is left; safe to call twice
+
+  /// A step that the servo has made. Its thread; RT-safe.
+  void step(const ServoRecord& record) noexcept;
+  /// A tick, by the loop that has made it; nothing where there was none. RT-safe.
+  void tick(const TickInput& input, const ProxyStep& step, const Vec3& proxy, std::int64_t work_ns) noexcept;
+  /// Before the loops can take it. Any thread but theirs.
+  void scene(std::shared_ptr<const Snapshot> scene);
+  /// The watchdog has found the servo standing still. Any thread.
+  void stall() { stalled_.store(true, std::memory_order_release); }
+
+ private:
+  void run();
+  void drain(bool all);
+  void writeScenes();
+  void writeTicks(bool all);
+  void writeSteps(bool all);
+  void endRecording(const std::string& reason);
+  void watchFaults(bool all);
+  void writeBlackBox(std::uint64_t end, FaultReason reason);
+  proto::RecordingBlock startBlock(FaultReason reason) const;
+  void tell(const std::string& line) const;
+
+  const RecorderSettings settings_;
+  const RecordedSession session_;
+  const std::int64_t begin_unix_ms_, begin_ns_;
+  LogRing<ServoRecord> steps_;
+  LogRing<TickRecord> ticks_;
+  std::atomic<std::uint64_t> fault_{0};  // 1 + number of the step that went into fault last; 0: none
+  std::atomic<bool> stalled_{false};
+
+  // Of the recorder's thread.
+  std::unique_ptr<RecordingWriter> file_;
+  SceneWriter scene_writer_;
+  std::uint64_t next_step_ = 0, next_tick_ = 0, fault_written_ = 0;
+
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::vector<std::shared_ptr<const Snapshot>> scenes_;  // not yet written
+  bool running_ = false;
+  std::thread thread_;
+};
+
+}  // namespace hl
