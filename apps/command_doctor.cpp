@@ -3,6 +3,8 @@
 
 #include <atomic>
 #include <chrono>
+#include <filesystem>
+#include <string>
 #include <thread>
 
 #include "base/clock.h"
@@ -10,6 +12,7 @@
 #include "base/realtime.h"
 #include "commands.h"
 #include "device/open_device.h"
+#include "serving.h"
 
 namespace hl {
 
@@ -18,6 +21,24 @@ namespace {
 constexpr int kPriority = 80;
 constexpr std::int64_t kPeriod_ns = 1'000'000;
 constexpr auto kMeasure = std::chrono::seconds(2);
+
+// How many there are, and the newest: their names begin with the time.
+void printBlackBoxes() {
+  const std::string folder = defaultBlackBoxFolder();
+  std::string newest;
+  std::size_t count = 0;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+    if (entry.path().extension() != ".hlr") continue;
+    ++count;
+    newest = std::max(newest, entry.path().string());
+  }
+  fmt::print("faults:             ");
+  if (count == 0)
+    fmt::print("no black box in {}\n", folder);
+  else
+    fmt::print("{} black boxes; hl replay {}\n", count, newest);
+}
 
 void examine() {
   std::atomic<bool> running{true};
@@ -43,6 +64,7 @@ void examine() {
     fmt::print("{:<20}{:<7}{}\n", head, device.kind, device.text);
     head = "";
   }
+  printBlackBoxes();
   if (!grant.fifo || !grant.memory_locked) {
     fmt::print(
         "advice:             let your user have real time: in /etc/security/limits.conf add\n"

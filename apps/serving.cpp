@@ -30,11 +30,8 @@ int waitForSignal(const sigset_t& signals, double longest_s) {
   return std::max(0, sigtimedwait(&signals, nullptr, &limit));
 }
 
-namespace {
-
-// Where programs keep what they have found: systemd's word for a service, XDG's for a person. Empty where there is
-// none.
-std::string stateFolder() {
+// systemd's word for a service, XDG's for a person.
+std::string defaultBlackBoxFolder() {
   const auto variable = [](const char* name) {
     const char* const value = std::getenv(name);
     return std::string(value != nullptr ? value : "");
@@ -45,10 +42,8 @@ std::string stateFolder() {
   return {};
 }
 
-}  // namespace
-
 void addBlackBoxOption(CLI::App& command, RecorderSettings& recorder) {
-  recorder.black_box_folder = stateFolder();
+  recorder.black_box_folder = defaultBlackBoxFolder();
   command
       .add_option_function<std::string>(
           "--black-box",

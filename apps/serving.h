@@ -20,6 +20,8 @@ int waitForSignal(const sigset_t& signals, double longest_s = 0);
 /// The built page: viewer/dist (as built) or share/hl/viewer (as installed) in a folder above the program.
 std::string defaultPageFolder();
 
+/// Where black boxes are kept unless told otherwise; empty where there is no place for them.
+std::string defaultBlackBoxFolder();
 /// --black-box, over the default folder.
 void addBlackBoxOption(CLI::App& command, RecorderSettings& recorder);
 

@@ -40,6 +40,12 @@ TickRecord tickOf(const proto::ProxyTicks& in, int i, std::int64_t before_ns) {
   return record;
 }
 
+// What a session never has: a file may say anything.
+bool possible(const TickContext& context) {
+  return context.commands.workspace.valid() && Workspace::validRadius(context.commands.radius_W) &&
+         context.spring.stiffness_N_m >= 0 && context.spring.period_s > 0;
+}
+
 bool consistent(const proto::ProxyTicks& in) {
   const int n = in.time_ns_size();
   const auto all = [n](std::initializer_list<int> sizes, int each) {
@@ -77,7 +83,7 @@ std::vector<TickRecord> fromProto(const proto::ProxyTicks& in) {
   std::int64_t before_ns = 0;
   for (int i = 0, change = 0; i < in.time_ns_size(); ++i) {
     if (change < in.commands_size() && in.commands(change).at() == static_cast<std::uint32_t>(i)) {
-      if (!setFrom(fromProto(in.commands(change++).values()), context)) throw Error(kMisfit);
+      if (!setFrom(fromProto(in.commands(change++).values()), context) || !possible(context)) throw Error(kMisfit);
     }
     records.push_back(tickOf(in, i, before_ns));
     records.back().in.commands = context.commands;

@@ -216,6 +216,30 @@ TEST_F(Recording, WhatIsMissingIsToldAndTheServoGoesOnAfterIt) {
   EXPECT_EQ(report.steps, 3000 - steps);
 }
 
+TEST_F(Recording, NumbersThatNoSessionHasAreRefused) {
+  { Loops(settings()).run(200); }
+  const std::string changed = (folder.path() / "b.hlr").string();
+  const auto recordedWith = [&](const std::function<void(proto::RecordingBlock&)>& change) {
+    rewrite(path, changed, change);
+    replay(changed);
+  };
+  EXPECT_NO_THROW(recordedWith([](proto::RecordingBlock&) {}));
+  EXPECT_THROW(recordedWith([](proto::RecordingBlock& block) {
+                 if (!block.has_ticks()) return;
+                 for (double& number : *block.mutable_ticks()->mutable_commands(0)->mutable_values()->mutable_numbers())
+                   number = -1;
+               }),
+               Error);
+  EXPECT_THROW(recordedWith([](proto::RecordingBlock& block) {
+                 if (block.has_ticks()) block.mutable_ticks()->add_finger(0);
+               }),
+               Error);
+  EXPECT_THROW(recordedWith([](proto::RecordingBlock& block) {
+                 if (block.has_scene()) block.mutable_scene()->set_identity(1ULL << 60);
+               }),
+               Error);
+}
+
 // The rings hold 8192 steps, six seconds and what rounding up has given.
 TEST_F(Recording, ARecorderThatGetsNoTimeTellsWhatItHasMissed) {
   {

@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <thread>
 
+#include "server/replay.h"
 #include "server/touch_session.h"
+#include "temp_folder.h"
 
 namespace hl {
 namespace {
@@ -96,6 +99,24 @@ TEST(ServoWatch, ADriverThatHangsIsStoppedFromOutsideAndTheServoFindsItselfInFau
   bench.session->rearm();
   bench.waitFor(SafetyState::kOn);
   waitUntil([&] { return bench.device->force == 1; });
+}
+
+// No step comes any more, and still there is a file of those before.
+TEST(ServoWatch, AStallLeavesABlackBoxWhileItLasts) {
+  const test::TempFolder folder;
+  std::atomic<bool> told{false};
+  TouchSettings settings;
+  settings.recorder.black_box_folder = folder.path().string();
+  settings.recorder.tell = [&](const std::string&) { told = true; };
+  Bench bench(settings);
+  bench.device->hangs = true;
+  waitUntil([&] { return told.load(); });
+  const auto box = std::filesystem::directory_iterator(folder.path())->path();
+  const ReplayReport report = replay(box.string());
+  EXPECT_EQ(report.fault, faultText(FaultReason::kStalled));
+  EXPECT_FALSE(report.difference);
+  EXPECT_GT(report.steps, 100u);
+  bench.device->hangs = false;
 }
 
 TEST(ServoWatch, ALostDeviceThatReturnsIsToldAndArmsAgainWhereItIsWanted) {
