@@ -4,6 +4,7 @@
 #include <array>
 
 #include "base/error.h"
+#include "device/falcon/falcon_device.h"
 #include "device/force_dimension/force_dimension_device.h"
 #include "device/haply/haply_device.h"
 #include "device/simulated_device.h"
@@ -29,6 +30,10 @@ DevicePointer makeDriver(const std::string& argument) {
   return std::make_unique<Driver>();
 }
 
+DevicePointer makeFalcon(const std::string& firmware) {
+  return std::make_unique<FalconDevice>(makeFalconUsb(), firmware);
+}
+
 DevicePointer makeHaply(const std::string& url) { return std::make_unique<HaplyDevice>(url); }
 
 struct DeviceKind {
@@ -41,6 +46,7 @@ struct DeviceKind {
 constexpr std::array kKinds{
     DeviceKind{"sim", "sim[:MODEL]", makeSimulated, findSimulated},
     DeviceKind{"dhd", "dhd", makeDriver<ForceDimensionDevice>, ForceDimensionDevice::find},
+    DeviceKind{"falcon", "falcon[:FIRMWARE]", makeFalcon, FalconDevice::find},
     DeviceKind{"hd", "hd", makeDriver<TouchHdDevice>, TouchHdDevice::find},
     DeviceKind{"haply", "haply[:URL]", makeHaply, HaplyDevice::find},
 };

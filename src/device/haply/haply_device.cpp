@@ -1,13 +1,10 @@
 #include "device/haply/haply_device.h"
 
-#include "base/clock.h"
 #include "base/error.h"
 
 namespace hl {
 
 namespace {
-
-constexpr std::int64_t kStale_ns = 100'000'000;  // an older answer says nothing of where the hand is now
 
 // The vendor's examples use springs up to 400 N/m; the rest is not published, and guessed low.
 DeviceInfo makeInfo() {
@@ -37,16 +34,11 @@ void HaplyDevice::open() {
 }
 
 DeviceSample HaplyDevice::read(std::int64_t now_ns) {
-  DeviceSample sample;
-  if (link_) sample = link_->newest();
-  const bool stale = monotonicNow_ns() - sample.time_ns > kStale_ns;
-  if (sample.status == DeviceStatus::kOk && stale) sample.status = DeviceStatus::kLost;
-  sample.time_ns = now_ns;
-  return sample;
+  return link_ ? link_->newest(now_ns) : DeviceSample{now_ns, Vec3::Zero(), 0, DeviceStatus::kNotReady};
 }
 
 void HaplyDevice::write(const Vec3& force_N) {
-  if (link_) link_->pull(force_N.allFinite() ? force_N : Vec3(Vec3::Zero()));
+  if (link_) link_->pull(force_N);
 }
 
 std::string HaplyDevice::find() {

@@ -22,10 +22,9 @@
 #include <future>
 #include <thread>
 
-#include "base/clock.h"
 #include "base/error.h"
-#include "base/latest.h"
 #include "base/realtime.h"
+#include "device/exchange.h"
 #include "device/haply/haply_messages.h"
 
 namespace hl {
@@ -42,9 +41,8 @@ constexpr auto kAwait = asio::as_tuple(asio::use_awaitable);
 constexpr auto kPatience = std::chrono::milliseconds(500);  // for one answer
 constexpr auto kRetry = std::chrono::milliseconds(100);
 constexpr auto kPeriod = std::chrono::microseconds(250);  // between two messages: the device's 4 kHz, and no more
-constexpr std::int64_t kUnfed_ns = 50'000'000;  // a servo that is silent for so long no longer stands for its force
-constexpr int kPriority = 75;                   // SCHED_FIFO; below the servo, above the proxy
-constexpr std::uint16_t kOldHttpPort = 10000;   // of services before 3.5
+constexpr int kPriority = 75;                             // SCHED_FIFO; below the servo, above the proxy
+constexpr std::uint16_t kOldHttpPort = 10000;             // of services before 3.5
 constexpr std::size_t kMostBytes = std::size_t{1} << 20;
 
 using Socket = websocket::stream<beast::tcp_stream>;
@@ -80,8 +78,7 @@ class HaplyLink::Conversation {
   ~Conversation() { end(); }
 
   const std::string& deviceId() const { return device_id_; }
-  Latest<DeviceSample> samples;
-  Latest<Vec3> forces{Vec3::Zero()};
+  Exchange exchanged;
 
  private:
   void end() {
@@ -104,7 +101,7 @@ class HaplyLink::Conversation {
         why = error.what();
       }
       tellBegun(why);
-      samples.write({monotonicNow_ns(), Vec3::Zero(), 0, DeviceStatus::kLost});
+      exchanged.tell(Vec3::Zero(), 0, DeviceStatus::kLost);
       asio::steady_timer timer(context_, kRetry);
       if (!ending_) co_await timer.async_wait(kAwait);
     }
@@ -188,7 +185,7 @@ class HaplyLink::Conversation {
     bool first = true;
     for (bool last = false; !last; first = false) {
       last = ending_;
-      const Vec3 force = last ? Vec3(Vec3::Zero()) : wantedForce();
+      const Vec3 force = last ? Vec3(Vec3::Zero()) : exchanged.wantedForce();
       const std::string message = haplyForceMessage(state.device_id, dialect, force, first);
       timer.expires_after(kPeriod);
       socket.next_layer().expires_after(kPatience);
@@ -196,19 +193,11 @@ class HaplyLink::Conversation {
       if (unsent) co_return;
       const bool answered = co_await read(socket, state);
       if (!answered || !state.located) co_return;
-      samples.write({monotonicNow_ns(), state.position, state.buttons,
-                     state.calibrated ? DeviceStatus::kOk : DeviceStatus::kNotReady});
+      exchanged.tell(state.position, state.buttons, state.calibrated ? DeviceStatus::kOk : DeviceStatus::kNotReady);
       tellBegun("");
       if (!last) co_await timer.async_wait(kAwait);
     }
     co_await socket.async_close(websocket::close_code::normal, kAwait);
-  }
-
-  Vec3 wantedForce() {
-    Vec3 force;
-    const std::int64_t now_ns = monotonicNow_ns();
-    if (forces.read(force)) fed_ns_ = now_ns;
-    return now_ns - fed_ns_ > kUnfed_ns ? Vec3(Vec3::Zero()) : force;
   }
 
   const HaplyAddress address_;
@@ -217,8 +206,7 @@ class HaplyLink::Conversation {
   std::promise<std::string> begun_;
   bool told_ = false;
   std::string device_id_;  // written before begun_ is told
-  std::int64_t fed_ns_ = 0;
-  std::thread thread_;  // last: it uses all of the above
+  std::thread thread_;     // last: it uses all of the above
 };
 
 HaplyLink::HaplyLink(const HaplyAddress& address) : conversation_(std::make_unique<Conversation>(address)) {}
@@ -226,12 +214,8 @@ HaplyLink::~HaplyLink() = default;
 
 const std::string& HaplyLink::deviceId() const { return conversation_->deviceId(); }
 
-DeviceSample HaplyLink::newest() {
-  DeviceSample sample;
-  conversation_->samples.read(sample);
-  return sample;
-}
+DeviceSample HaplyLink::newest(std::int64_t now_ns) { return conversation_->exchanged.newest(now_ns); }
 
-void HaplyLink::pull(const Vec3& force_D) { conversation_->forces.write(force_D); }
+void HaplyLink::pull(const Vec3& force_D) { conversation_->exchanged.pull(force_D); }
 
 }  // namespace hl

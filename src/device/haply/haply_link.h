@@ -29,9 +29,9 @@ class HaplyLink {
   HaplyLink& operator=(const HaplyLink&) = delete;
 
   const std::string& deviceId() const;
-  /// Servo thread, RT-safe. What came last, at the time of the monotonic clock when it came.
-  DeviceSample newest();
-  /// Servo thread, RT-safe. Held until the next; not longer than 50 ms.
+  /// Servo thread, RT-safe. What came last.
+  DeviceSample newest(std::int64_t now_ns);
+  /// Servo thread, RT-safe. Held until the next, and not for long.
   void pull(const Vec3& force_D);
 
  private:

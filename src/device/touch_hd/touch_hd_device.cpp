@@ -1,6 +1,5 @@
 #include "device/touch_hd/touch_hd_device.h"
 
-#include "base/clock.h"
 #include "base/error.h"
 
 namespace hl {
@@ -27,8 +26,6 @@ constexpr double kMetre_mm = 1000;
 constexpr double kFastest_m_s = 3;
 // Of the highest values, what a person meets at first.
 constexpr double kStiffnessPart = 0.7, kDampingPart = 0.1;
-constexpr std::int64_t kStale_ns = 100'000'000;  // an older sample says nothing of where the hand is now
-constexpr std::int64_t kUnfed_ns = 50'000'000;   // a servo that is silent for so long no longer stands for its force
 
 }  // namespace
 
@@ -79,7 +76,6 @@ std::string TouchHdDevice::begin() {
   calls_.enable(kForceOutput);
   calls_.set_scheduler_rate(kSchedulerRate_Hz);
   failed_ = false;
-  fed_ns_ = 0;
   const auto call = [](void* self) {
     static_cast<TouchHdDevice*>(self)->frame();
     return kCallAgain;
@@ -112,7 +108,7 @@ void TouchHdDevice::close() {
   if (!library_) return;
   lifeline_.reset();
   end();
-  samples_.write({});
+  exchange_.tell(Vec3::Zero(), 0, DeviceStatus::kNotReady);
   library_.reset();
 }
 
@@ -143,23 +139,20 @@ void TouchHdDevice::describe() {
 
 // Their frame is D: x to the right, y up, z toward the user.
 void TouchHdDevice::frame() {
-  DeviceSample sample{monotonicNow_ns(), Vec3::Zero(), 0, DeviceStatus::kOk};
   calls_.begin_frame(handle_);
   Vec3 position_mm = Vec3::Zero();
   int buttons = 0;
   calls_.get_double(kCurrentPosition, position_mm.data());
   calls_.get_integer(kCurrentButtons, &buttons);
-  sample.status = calibrate();
-  const Vec3 force = wantedForce(sample.time_ns);
+  DeviceStatus status = calibrate();
+  const Vec3 force = failed_ ? Vec3(Vec3::Zero()) : exchange_.wantedForce();
   calls_.set_double(kCurrentForce, force.data());
   calls_.end_frame(handle_);
   for (ErrorInfo error = calls_.get_error(); error.code != 0; error = calls_.get_error()) {
     if (error.code != kWarmMotors && error.code != kExceededMaxForce) failed_ = true;
   }
-  if (failed_) sample.status = DeviceStatus::kLost;
-  sample.position = position_mm / kMetre_mm;
-  sample.buttons = static_cast<std::uint32_t>(buttons);
-  samples_.write(sample);
+  if (failed_) status = DeviceStatus::kLost;
+  exchange_.tell(position_mm / kMetre_mm, static_cast<std::uint32_t>(buttons), status);
 }
 
 // A person may have to put the stylus into its well; the library then wants to be told to look again.
@@ -169,27 +162,13 @@ DeviceStatus TouchHdDevice::calibrate() {
   return calibration == kCalibrated ? DeviceStatus::kOk : DeviceStatus::kNotReady;
 }
 
-Vec3 TouchHdDevice::wantedForce(std::int64_t now_ns) {
-  Vec3 force;
-  if (forces_.read(force)) fed_ns_ = now_ns;
-  const bool silent = failed_ || now_ns - fed_ns_ > kUnfed_ns;
-  return silent ? Vec3(Vec3::Zero()) : force;
-}
-
 DeviceSample TouchHdDevice::read(std::int64_t now_ns) {
-  DeviceSample sample;
-  if (!library_) return sample;
-  samples_.read(sample);
-  if (sample.status == DeviceStatus::kOk && monotonicNow_ns() - sample.time_ns > kStale_ns)
-    sample.status = DeviceStatus::kLost;
-  if (sample.status == DeviceStatus::kLost && lifeline_->holds()) lifeline_->lose();
-  sample.time_ns = now_ns;
+  const DeviceSample sample = exchange_.newest(now_ns);
+  if (sample.status == DeviceStatus::kLost && lifeline_ && lifeline_->holds()) lifeline_->lose();
   return sample;
 }
 
-void TouchHdDevice::write(const Vec3& force_N) {
-  if (library_) forces_.write(force_N.allFinite() ? force_N : Vec3(Vec3::Zero()));
-}
+void TouchHdDevice::write(const Vec3& force_N) { exchange_.pull(force_N); }
 
 std::string TouchHdDevice::find() {
   try {

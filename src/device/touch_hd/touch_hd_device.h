@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "base/latest.h"
 #include "device/device.h"
+#include "device/exchange.h"
 #include "device/lifeline.h"
 #include "device/vendor_library.h"
 
@@ -68,7 +68,6 @@ class TouchHdDevice final : public Device {
   void describe();
   void frame();  // the scheduler's thread, as the next two
   DeviceStatus calibrate();
-  Vec3 wantedForce(std::int64_t now_ns);
 
   std::unique_ptr<VendorLibrary> library_;  // null: closed
   Calls calls_{};
@@ -77,10 +76,8 @@ class TouchHdDevice final : public Device {
   unsigned long callback_ = 0;
   int calibration_style_ = 0;
   DeviceInfo info_;
-  Latest<DeviceSample> samples_;  // from the scheduler; times of the monotonic clock
-  Latest<Vec3> forces_{Vec3::Zero()};
+  Exchange exchange_;                // with the scheduler
   std::atomic<bool> failed_{false};  // the scheduler met an error
-  std::int64_t fed_ns_ = 0;          // of the scheduler's thread
   std::unique_ptr<Lifeline> lifeline_;
 };
 

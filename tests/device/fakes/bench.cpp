@@ -5,7 +5,9 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "device/fakes/falcon_line.h"
 #include "device/fakes/haply_service.h"
+#include "device/falcon/falcon_device.h"
 #include "device/open_device.h"
 
 namespace hl::test {
@@ -14,6 +16,8 @@ namespace {
 
 // Three encoder steps of 30 um, one for each joint; one count of the motors, and of the encoders for the Jacobian.
 constexpr double kPosition_m = 1e-4, kForce_N = 2e-3;
+// Three encoder steps of the Falcon, 60 um each; one count of each motor, 1e-4 Nm, and the encoders for the Jacobian.
+constexpr double kFalconPosition_m = 2e-4, kFalconForce_N = 1e-2;
 
 /// A driver that opens a shared library, with the fake one in its place.
 class LibraryBench final : public Bench {
@@ -26,7 +30,6 @@ class LibraryBench final : public Bench {
   }
   ~LibraryBench() override { dlclose(library_); }
   FakeArm& arm() override { return *arm_; }
-  std::string spec() const override { return kind_; }
   std::unique_ptr<Device> device() override { return makeDevice(kind_); }
 
  private:
@@ -38,7 +41,6 @@ class LibraryBench final : public Bench {
 class SimulatedBench final : public Bench {
  public:
   FakeArm& arm() override { return arm_; }
-  std::string spec() const override { return "sim"; }
   std::unique_ptr<Device> device() override { return std::move(device_); }
 
  private:
@@ -55,14 +57,26 @@ class HaplyBench final : public Bench {
  public:
   explicit HaplyBench(const char* version) : service_(arm_, version) {}
   FakeArm& arm() override { return arm_; }
-  std::string spec() const override { return "haply:" + service_.url(); }
-  std::unique_ptr<Device> device() override { return makeDevice(spec()); }
+  std::unique_ptr<Device> device() override { return makeDevice("haply:" + service_.url()); }
 
  private:
   FakeArm arm_;
   HaplyService service_;
 };
 
+class FalconBench final : public Bench {
+ public:
+  FalconBench() { box_.running = true; }
+  FakeArm& arm() override { return box_.arm; }
+  std::unique_ptr<Device> device() override {
+    return std::make_unique<FalconDevice>(std::make_unique<FakeFalconLine>(box_));
+  }
+
+ private:
+  FalconBox box_;
+};
+
+std::unique_ptr<Bench> makeFalcon() { return std::make_unique<FalconBench>(); }
 std::unique_ptr<Bench> makeTouchHd() { return std::make_unique<LibraryBench>("hd", "HL_HD_LIBRARY", HL_FAKE_HD); }
 std::unique_ptr<Bench> makeHaply() { return std::make_unique<HaplyBench>("3.5.0"); }
 std::unique_ptr<Bench> makeOldHaply() { return std::make_unique<HaplyBench>("3.1.0"); }
@@ -73,6 +87,7 @@ std::vector<BenchKind> benchKinds() {
   return {{"Simulated", makeSimulated, kPosition_m, kForce_N},
           {"ForceDimension", makeForceDimension, kPosition_m, kForce_N},
           {"TouchHd", makeTouchHd, kPosition_m, kForce_N},
+          {"Falcon", makeFalcon, kFalconPosition_m, kFalconForce_N},
           {"Haply", makeHaply, kPosition_m, kForce_N},
           {"OldHaply", makeOldHaply, kPosition_m, kForce_N}};
 }

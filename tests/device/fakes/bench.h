@@ -14,7 +14,6 @@ class Bench {
  public:
   virtual ~Bench() = default;
   virtual FakeArm& arm() = 0;
-  virtual std::string spec() const = 0;          ///< what makeDevice() takes, in this process and in others
   virtual std::unique_ptr<Device> device() = 0;  ///< not open; the bench outlives it
 };
 

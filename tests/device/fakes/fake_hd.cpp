@@ -33,7 +33,7 @@ hl::test::FakeScript& script() {
 }
 
 bool is_open = false, in_frame = false, forces_on = false;
-unsigned int error = 0, calibration_updates = 0;
+std::atomic<unsigned int> error{0}, calibration_updates{0};
 hl::Vec3 force = hl::Vec3::Zero();
 Callback* callback = nullptr;
 void* callback_user = nullptr;
@@ -108,7 +108,7 @@ HL_EXPORT void hdSetDoublev(unsigned int name, const double* values) {
   if (name == 0x2700 && in_frame) force = hl::Vec3::Map(values);
 }
 HL_EXPORT const char* hdGetString(unsigned int) { return "Touch"; }
-HL_EXPORT ErrorInfo hdGetError() { return {std::exchange(error, 0U), 0, kDevice}; }
+HL_EXPORT ErrorInfo hdGetError() { return {error.exchange(0), 0, kDevice}; }
 HL_EXPORT const char* hdGetErrorString(unsigned int) { return "communication error"; }
 HL_EXPORT unsigned int hdCheckCalibration() { return arm().not_ready ? 0x5001 : 0x5000; }
 HL_EXPORT void hdUpdateCalibration(unsigned int style) {

@@ -1,0 +1,55 @@
+// FalconDevice: a Novint Falcon over its own USB protocol, with nothing of the vendor's but the firmware that the user
+// has.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "device/device.h"
+#include "device/exchange.h"
+#include "device/falcon/falcon_protocol.h"
+#include "device/falcon/falcon_transport.h"
+
+namespace hl {
+
+/// A thread of its own exchanges frames with the device, a thousand a second.
+class FalconDevice final : public Device {
+ public:
+  /// `firmware`: the user's file; empty: the one that HL_FALCON_FIRMWARE names, if any. It is read when it is needed.
+  explicit FalconDevice(std::unique_ptr<FalconTransport> transport, const std::string& firmware = "");
+  ~FalconDevice() override { close(); }
+
+  void open() override;
+  void close() override;
+  const DeviceInfo& info() const override { return info_; }
+  DeviceSample read(std::int64_t now_ns) override { return exchange_->newest(now_ns); }
+  void write(const Vec3& force_N) override { exchange_->pull(force_N); }
+
+  /// What is there, or what to do.
+  static std::string find();
+
+ private:
+  void begin();  // throws
+  bool beginAgain();
+  void run();
+  bool talk(const FalconCommand& command, FalconReply& reply);
+  bool step(const Vec3& force_D);
+
+  std::unique_ptr<FalconTransport> transport_;
+  std::string firmware_file_;
+  std::vector<std::uint8_t> firmware_;  // once it was needed
+  DeviceInfo info_;
+  std::unique_ptr<Exchange> exchange_;
+  bool home_ = true;
+  Vec3 tip_F_;
+  Vec3 angles_ = Vec3::Zero();
+  bool located_ = false;  // tip and angles are those of the last reply
+  std::atomic<bool> running_{false};
+  std::thread thread_;
+};
+
+}  // namespace hl
