@@ -17,6 +17,7 @@ void addDoctorCommand(CLI::App& app);
 void addBenchCommand(CLI::App& app);
 void addRecordCommand(CLI::App& app);
 void addReplayCommand(CLI::App& app);
+void addStabilityCommand(CLI::App& app);
 
 /// Options that every command with a SCENE shares.
 struct SceneOptions {

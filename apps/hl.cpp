@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
   hl::addBenchCommand(app);
   hl::addRecordCommand(app);
   hl::addReplayCommand(app);
+  hl::addStabilityCommand(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version

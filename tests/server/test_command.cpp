@@ -28,7 +28,7 @@ Result call(const std::string& arguments) {
 }
 
 TEST(Command, HelpForEachCommand) {
-  for (const char* command : {"", "touch", "trace", "info", "doctor", "bench", "record", "replay"}) {
+  for (const char* command : {"", "touch", "trace", "info", "doctor", "bench", "record", "replay", "stability"}) {
     const Result result = call(std::string(command) + " --help");
     EXPECT_EQ(result.code, 0) << command;
     EXPECT_NE(result.output.find("Usage"), std::string::npos) << command;
