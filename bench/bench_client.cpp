@@ -1,7 +1,8 @@
-// What an HL program gets from a server: how soon a large mesh can be touched, how many frames of moving objects are
-// shown, and how fresh states are. Prints one line for each.
+// What an HL program gets from a server: how soon a large mesh can be touched, how often it can be replaced, how many
+// frames of moving objects are shown, and how fresh states are. Prints one line for each.
 //
 //   bench_client [URL] [--objects N] [--seconds S]      URL: inproc: (default), hl://HOST:PORT, hls://...
+//   bench_client URL --only replace                     only replaces the mesh, ten times a second
 #include <fmt/core.h>
 #include <hl/hl.h>
 
@@ -24,16 +25,16 @@ void fail(const std::string& what) {
   std::exit(1);
 }
 
-double height(double x, double z) { return 0.02 * std::sin(40 * x) * std::cos(30 * z); }
+double height(double x, double z, double phase) { return 0.02 * std::sin(40 * x + phase) * std::cos(30 * z); }
 
 // A hilly sheet of 2 side^2 triangles over 0.2 m x 0.2 m, as a GL program with arrays would send it.
-void drawTerrain(int side) {
+void drawTerrain(int side, double phase) {
   std::vector<float> positions;
   std::vector<unsigned> indices;
   for (int i = 0; i <= side; ++i) {
     for (int k = 0; k <= side; ++k) {
       const double x = 0.2 * i / side - 0.1, z = 0.2 * k / side - 0.1;
-      for (const double value : {x, height(x, z) - 0.05, z}) positions.push_back(static_cast<float>(value));
+      for (const double value : {x, height(x, z, phase) - 0.05, z}) positions.push_back(static_cast<float>(value));
     }
   }
   const auto at = [side](int i, int k) { return static_cast<unsigned>(i * (side + 1) + k); };
@@ -51,10 +52,35 @@ void drawTerrain(int side) {
 
 void measureMesh(int side) {
   const auto start = Clock::now();
-  drawTerrain(side);
+  drawTerrain(side, 0);
   if (hlFinishTimeout(120) == HL_FALSE) fail("the mesh was not shown");
   fmt::print("{:>9} triangles: {:.2f} s from the first call until they can be touched\n", 2 * side * side,
              secondsSince(start));
+}
+
+// The whole mesh anew each time, as programs do that know nothing of hlUpdateVertices.
+void measureReplacements(int side, double seconds) {
+  constexpr double kRate_Hz = 10;
+  constexpr HLuint kMesh = 2;
+  HLint first = 0, shown = 0;
+  hlGetIntegerv(HL_FRAME_SHOWN, &first);
+  const auto start = Clock::now();
+  auto next = start;
+  int frames = 0;
+  while (secondsSince(start) < seconds) {
+    hlNewObject(kMesh);
+    drawTerrain(side, 0.1 * ++frames);
+    hlEndObject();
+    hlCallObject(kMesh);
+    hlFlush();
+    hlPoll();
+    next += std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / kRate_Hz));
+    std::this_thread::sleep_until(next);
+  }
+  if (hlFinishTimeout(60) == HL_FALSE || hlGetError() != HL_NO_ERROR) fail("the mesh was not replaced");
+  hlGetIntegerv(HL_FRAME_SHOWN, &shown);
+  fmt::print("{:>9} triangles replaced: {:.1f} times/s drawn, {:.1f} times/s shown\n", 2 * side * side,
+             frames / secondsSince(start), (shown - first) / secondsSince(start));
 }
 
 void defineBox(HLuint object) {
@@ -152,10 +178,12 @@ int main(int argc, char** argv) {
   std::string url = "inproc:";
   int objects = 1000, side = 707;
   double seconds = 5;
+  std::string only;
   app.add_option("url", url, "inproc:, hl://HOST:PORT or hls://HOST:PORT")->capture_default_str();
   app.add_option("--objects", objects, "moving objects")->check(CLI::Range(1, 100'000))->capture_default_str();
   app.add_option("--side", side, "the mesh has 2 SIDE^2 triangles")->check(CLI::Range(1, 2000))->capture_default_str();
   app.add_option("--seconds", seconds, "of frames, and of states")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--only", only, "one measurement in place of all")->check(CLI::IsMember({"replace"}));
   CLI11_PARSE(app, argc, argv);
   HLcontext* context = hlCreateContext(url.c_str());
   if (context == nullptr) {
@@ -163,9 +191,10 @@ int main(int argc, char** argv) {
     return 2;
   }
   hlMakeCurrent(context);
-  measureMesh(side);
-  measureFrames(objects, seconds);
-  measureStates(seconds);
+  if (only.empty()) measureMesh(side);
+  measureReplacements(side, seconds);
+  if (only.empty()) measureFrames(objects, seconds);
+  if (only.empty()) measureStates(seconds);
   printServer();
   hlDestroyContext(context);
   return 0;

@@ -1,8 +1,10 @@
 // Safety: the state machine that decides whether the servo may make force, and how much of it. Drawn and explained in
 // docs/safety.md. A pure function of what one step sees: no allocation, lock, exception or system call.
 //
-//   off --arm--> arming --ramp done--> on      arming, on, waiting --fault--> fault --arm--> arming      any
-//   --disarm--> off arming, on --dead-man let go--> waiting --held--> arming
+//   off --arm--> arming --ramp done--> on
+//   arming, on, waiting --fault--> fault --arm--> arming
+//   arming, on --dead-man let go--> waiting --held--> arming
+//   any --disarm--> off
 //
 // In off, fault and waiting the force is zero at once: a motor without current is the safe state, and a step down to
 // zero is the one exception to the limit on the force rate.
