@@ -1,14 +1,17 @@
 // hl doctor: what this machine grants, and which devices are present.
 #include <fmt/core.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <thread>
 
 #include "base/clock.h"
 #include "base/histogram.h"
+#include "base/periodic.h"
 #include "base/realtime.h"
 #include "commands.h"
 #include "device/open_device.h"
@@ -19,8 +22,8 @@ namespace hl {
 namespace {
 
 constexpr int kPriority = 80;
-constexpr std::int64_t kPeriod_ns = 1'000'000;
-constexpr auto kMeasure = std::chrono::seconds(2);
+constexpr std::array kRates_Hz{1e3, 2e3, 4e3, 1e4};
+constexpr auto kMeasure = std::chrono::seconds(1);
 
 // How many there are, and the newest: their names begin with the time.
 void printBlackBoxes() {
@@ -40,26 +43,69 @@ void printBlackBoxes() {
     fmt::print("{} black boxes; hl replay {}\n", count, newest);
 }
 
-void examine() {
-  std::atomic<bool> running{true};
+// A thread that only waits for its next deadline, at one rate.
+struct Timer {
+  double rate_Hz = 0;
+  RealtimeGrant grant;
   LoopCounters counters;
   Histogram late;
-  RealtimeGrant grant;
-  std::thread timer([&] {
-    grant = requestRealtime(kPriority);
-    runPeriodic(kPeriod_ns, running, counters, [&](std::int64_t scheduled_ns) {
-      late.add(static_cast<std::uint64_t>(std::max<std::int64_t>(0, monotonicNow_ns() - scheduled_ns)));
+};
+
+std::unique_ptr<Timer> measure(double rate_Hz) {
+  auto timer = std::make_unique<Timer>();
+  timer->rate_Hz = rate_Hz;
+  std::atomic<bool> running{true};
+  std::thread thread([&] {
+    timer->grant = requestRealtime(kPriority, spareCore(0));
+    runPeriodic(static_cast<std::int64_t>(1e9 / rate_Hz), running, timer->counters, [&](std::int64_t scheduled_ns) {
+      timer->late.add(static_cast<std::uint64_t>(std::max<std::int64_t>(0, monotonicNow_ns() - scheduled_ns)));
     });
   });
   std::this_thread::sleep_for(kMeasure);
   running = false;
-  timer.join();
+  thread.join();
+  return timer;
+}
+
+void print(const Timer& timer) {
+  const auto us = [](std::uint64_t ns) { return 1e-3 * static_cast<double>(ns); };
+  fmt::print("{:<20}late by {:.0f} us median, {:.0f} us at p99.9, {:.0f} us at most; {} of {} missed\n",
+             fmt::format("timer at {:g} kHz:", 1e-3 * timer.rate_Hz), us(timer.late.percentile_ns(0.5)),
+             us(timer.late.percentile_ns(0.999)), us(timer.late.max_ns()), timer.counters.deadlines_missed.load(),
+             timer.counters.steps.load());
+}
+
+// The other half of the period is for the step.
+bool holds(const Timer& timer) { return static_cast<double>(timer.late.percentile_ns(0.999)) < 0.5e9 / timer.rate_Hz; }
+
+// Prints what the machine does at each rate; returns what it granted.
+RealtimeGrant examineTimer() {
+  double highest_Hz = 0;
+  bool all = true;
+  RealtimeGrant grant;
+  for (const double rate_Hz : kRates_Hz) {
+    const auto timer = measure(rate_Hz);
+    print(*timer);
+    grant = timer->grant;
+    all = all && holds(*timer);
+    if (all) highest_Hz = rate_Hz;
+  }
+  if (highest_Hz == 0)
+    fmt::print("servo rate:         1 kHz is more than this machine holds just now: late by over half a period\n");
+  else
+    fmt::print("servo rate:         up to {:g} kHz: late by less than half a period in 999 of 1000 steps\n",
+               1e-3 * highest_Hz);
+  return grant;
+}
+
+void examine() {
   fmt::print("cores:              {}\n", std::thread::hardware_concurrency());
+  const RealtimeGrant grant = examineTimer();
   fmt::print("real-time priority: {}\n", grant.fifo ? "granted (SCHED_FIFO)" : "refused");
   fmt::print("locked memory:      {}\n", grant.memory_locked ? "granted" : "refused");
-  fmt::print("timer at 1 kHz:     late by {:.0f} us median, {:.0f} us at p99.9, {:.0f} us at most; {} of {} missed\n",
-             1e-3 * static_cast<double>(late.percentile_ns(0.5)), 1e-3 * static_cast<double>(late.percentile_ns(0.999)),
-             1e-3 * static_cast<double>(late.max_ns()), counters.deadlines_missed.load(), counters.steps.load());
+  fmt::print("core of its own:    {}\n",
+             grant.core < 0 ? "none to spare: a process needs four, or one that the kernel keeps free (isolcpus)"
+                            : fmt::format("number {}", grant.core));
   for (const char* head = "devices:"; const DevicePresence& device : findDevices()) {
     fmt::print("{:<20}{:<7}{}\n", head, device.kind, device.text);
     head = "";

@@ -38,12 +38,29 @@ HandScript readScript(const std::string& file) {
   return script;
 }
 
+// How much of its period a servo step took, and what held it up.
+void printDuty(const LoopTotals& servo) {
+  std::string text;
+  for (std::size_t i = 0; i < servo.duty.size(); ++i) {
+    if (servo.duty[i] == 0) continue;
+    if (i < kDutyBounds.size())
+      text += fmt::format(" {} up to {:.0f} %,", servo.duty[i], 100 * kDutyBounds[i]);
+    else
+      text += fmt::format(" {} longer,", servo.duty[i]);
+  }
+  if (!text.empty()) text.back() = ';';
+  fmt::print(stderr, "steps by part of the period:{} {} page faults, {} waits, preempted {} times\n", text,
+             servo.page_faults, servo.waits, servo.preempted);
+}
+
 void printTotals(const TouchSession& session) {
   const auto line = [](const char* name, const LoopTotals& t) {
     fmt::print(stderr, "{:<16}{:>10} steps, {} deadlines missed, at most {:.0f} us late\n", name, t.steps, t.missed,
                1e-3 * static_cast<double>(t.late_max_ns));
   };
-  line("servo:", session.servoTotals());
+  const LoopTotals servo = session.servoTotals();
+  line("servo:", servo);
+  printDuty(servo);
   const LoopTotals ticks = session.proxyTotals();
   line("proxy:", ticks);
   fmt::print(stderr, "{} of {} ticks were part of a servo step\n", session.ticksInServoSteps(), ticks.steps);

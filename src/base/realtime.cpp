@@ -4,14 +4,84 @@
 #include <sched.h>
 #include <sys/mman.h>
 
+#include <array>
 #include <cerrno>
+#include <charconv>
+#include <cstddef>
 #include <cstring>
-
-#include "base/clock.h"
+#include <fstream>
+#include <iterator>
+#include <string_view>
+#include <vector>
 
 namespace hl {
 
-RealtimeGrant requestRealtime(int priority) {
+namespace {
+
+// Far more than a tick and a servo step need; a thread has 8 MB.
+constexpr std::size_t kStackBytes = 256 * 1024;
+constexpr std::size_t kPageBytes = 4096;
+constexpr std::size_t kEnoughToSpare = 4;
+
+[[gnu::noinline]] void touchStack() {
+  std::array<char, kStackBytes> stack;
+  volatile char* const pages = stack.data();
+  for (std::size_t i = 0; i < kStackBytes; i += kPageBytes) pages[i] = 0;
+}
+
+int numberAt(std::string_view& text) {
+  int number = -1;
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), number).ptr;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return number;
+}
+
+// The kernel's lists: "2-3,5"; empty when there is none.
+std::vector<int> isolatedCores() {
+  std::ifstream file("/sys/devices/system/cpu/isolated");
+  const std::string list{std::istreambuf_iterator<char>(file), {}};
+  std::vector<int> cores;
+  for (std::string_view rest = list; !rest.empty() && rest.front() >= '0' && rest.front() <= '9';) {
+    const int first = numberAt(rest);
+    int last = first;
+    if (!rest.empty() && rest.front() == '-') {
+      rest.remove_prefix(1);
+      last = numberAt(rest);
+    }
+    for (int core = first; core <= last; ++core) cores.push_back(core);
+    if (!rest.empty()) rest.remove_prefix(1);
+  }
+  return cores;
+}
+
+std::vector<int> allowedCores() {
+  cpu_set_t allowed;
+  std::vector<int> cores;
+  if (sched_getaffinity(0, sizeof(allowed), &allowed) != 0) return cores;
+  for (int core = 0; core < CPU_SETSIZE; ++core) {
+    if (CPU_ISSET(core, &allowed)) cores.push_back(core);
+  }
+  return cores;
+}
+
+bool pinTo(int core) {
+  cpu_set_t only;
+  CPU_ZERO(&only);
+  CPU_SET(core, &only);
+  return pthread_setaffinity_np(pthread_self(), sizeof(only), &only) == 0;
+}
+
+}  // namespace
+
+int spareCore(int nth) {
+  const auto n = static_cast<std::size_t>(nth);
+  if (const std::vector<int> isolated = isolatedCores(); n < isolated.size()) return isolated[n];
+  const std::vector<int> allowed = allowedCores();
+  if (allowed.size() < kEnoughToSpare || n >= allowed.size() / 2) return -1;
+  return allowed[allowed.size() - 1 - n];
+}
+
+RealtimeGrant requestRealtime(int priority, int core) {
   RealtimeGrant grant;
   sched_param parameters{};
   parameters.sched_priority = priority;
@@ -20,37 +90,10 @@ RealtimeGrant requestRealtime(int priority) {
   if (refused != 0) grant.why += std::string("no real-time priority (") + std::strerror(refused) + "). ";
   grant.memory_locked = mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
   if (!grant.memory_locked) grant.why += std::string("memory is not locked (") + std::strerror(errno) + "). ";
+  if (core >= 0 && pinTo(core)) grant.core = core;
+  if (core >= 0 && grant.core < 0) grant.why += "no core of its own (" + std::string(std::strerror(errno)) + "). ";
+  touchStack();
   return grant;
-}
-
-namespace {
-
-void sleepUntil(std::int64_t time_ns) {
-  const timespec wake{static_cast<time_t>(time_ns / 1'000'000'000), static_cast<long>(time_ns % 1'000'000'000)};
-  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake, nullptr) == EINTR) {
-  }
-}
-
-}  // namespace
-
-void runPeriodic(std::int64_t period_ns, const std::atomic<bool>& running, LoopCounters& counters,
-                 FunctionRef<void(std::int64_t)> step) {
-  std::int64_t deadline_ns = monotonicNow_ns() + period_ns;
-  while (running.load(std::memory_order_relaxed)) {
-    sleepUntil(deadline_ns);
-    const std::int64_t late_ns = monotonicNow_ns() - deadline_ns;
-    if (late_ns > counters.late_max_ns.load(std::memory_order_relaxed)) {
-      counters.late_max_ns.store(late_ns, std::memory_order_relaxed);
-    }
-    const std::int64_t skipped = late_ns / period_ns;
-    if (skipped > 0) {
-      counters.deadlines_missed.fetch_add(static_cast<std::uint64_t>(skipped), std::memory_order_relaxed);
-      deadline_ns += skipped * period_ns;
-    }
-    step(deadline_ns);
-    counters.steps.fetch_add(1, std::memory_order_relaxed);
-    deadline_ns += period_ns;
-  }
 }
 
 }  // namespace hl

@@ -1,11 +1,7 @@
-// What a thread needs to be on time: priority, locked memory, and a periodic loop with absolute deadlines.
+// What a thread needs to be on time: priority, memory that is there, and a core of its own.
 #pragma once
 
-#include <atomic>
-#include <cstdint>
 #include <string>
-
-#include "base/function_ref.h"
 
 namespace hl {
 
@@ -13,22 +9,16 @@ namespace hl {
 struct RealtimeGrant {
   bool fifo = false;           ///< the calling thread runs under SCHED_FIFO
   bool memory_locked = false;  ///< mlockall succeeded
+  int core = -1;               ///< the only one that the thread runs on; -1: any
   std::string why;
 };
 
-/// Asks for SCHED_FIFO at `priority` (1..99) and locked memory for the calling thread. Setup only.
-RealtimeGrant requestRealtime(int priority);
+/// The core for one of the threads that want one to themselves, `nth` from 0: those that the kernel keeps free
+/// (isolcpus), then, where the process has four or more, the last ones. -1: none can be spared. Setup only.
+int spareCore(int nth);
 
-/// Counts of one periodic loop; written by the loop, read by anyone.
-struct LoopCounters {
-  std::atomic<std::uint64_t> steps{0};
-  std::atomic<std::uint64_t> deadlines_missed{0};  ///< periods skipped because a step began a whole period late or more
-  std::atomic<std::int64_t> late_max_ns{0};        ///< worst wake-up after its deadline
-};
-
-/// Calls step(scheduled_ns) every `period_ns` at absolute times until `running` is false.
-/// An overrun skips whole periods and counts them; it never runs steps in a burst.
-void runPeriodic(std::int64_t period_ns, const std::atomic<bool>& running, LoopCounters& counters,
-                 FunctionRef<void(std::int64_t scheduled_ns)> step);
+/// Asks for SCHED_FIFO at `priority` (1..99), locked memory and `core` (-1: any) for the calling thread, and touches
+/// its stack, so that no page of it has to be found later. Setup only.
+RealtimeGrant requestRealtime(int priority, int core = -1);
 
 }  // namespace hl

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/realtime.h"
 #include "control/watchdog.h"
 
 namespace hl {

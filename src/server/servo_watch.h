@@ -8,7 +8,7 @@
 #include <functional>
 #include <thread>
 
-#include "base/realtime.h"
+#include "base/periodic.h"
 #include "device/device.h"
 
 namespace hl {

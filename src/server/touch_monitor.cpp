@@ -1,7 +1,10 @@
 #include "server/touch_monitor.h"
 
+#include <fmt/core.h>
+
 #include <array>
 #include <memory>
+#include <string>
 
 #include "base/clock.h"
 
@@ -83,6 +86,13 @@ class TouchMonitor {
     family("hl_loop_rate_hertz", kGauge, "Steps a second, over the last one", [](auto& l) { return l.second.rate_Hz; });
     family("hl_loop_steps_total", kCounter, "Steps since the start", [](auto& l) { return l.totals.steps; });
     family("hl_loop_deadlines_missed_total", kCounter, "Periods skipped", [](auto& l) { return l.totals.missed; });
+    family("hl_loop_page_faults_total", kCounter, "Pages that were not there",
+           [](auto& l) { return l.totals.page_faults; });
+    family("hl_loop_waits_total", kCounter, "Waits for anything else than the next deadline",
+           [](auto& l) { return l.totals.waits; });
+    family("hl_loop_preempted_total", kCounter, "Times that another thread was given the core",
+           [](auto& l) { return l.totals.preempted; });
+    writeDuty(out, session_.servoTotals());
     family("hl_loop_late_max_seconds", kGauge, "Worst wake-up after its deadline since the start",
            [](auto& l) { return 1e-9 * static_cast<double>(l.totals.late_max_ns); });
     family("hl_loop_work_max_seconds", kGauge, "Longest work of a step in the last second",
@@ -91,6 +101,17 @@ class TouchMonitor {
     for (const Loop& loop : loops) {
       out.sample(1e-9 * static_cast<double>(loop.second.p50_ns), {{"loop", loop.name}, {"quantile", "0.5"}});
       out.sample(1e-9 * static_cast<double>(loop.second.p999_ns), {{"loop", loop.name}, {"quantile", "0.999"}});
+    }
+  }
+
+  // As Prometheus wants a histogram: each bucket has those below it too.
+  static void writeDuty(MetricsText& out, const LoopTotals& servo) {
+    out.family("hl_servo_duty_total", MetricType::kCounter, "Servo steps that took up to this part of their period");
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < servo.duty.size(); ++i) {
+      sum += servo.duty[i];
+      const std::string bound = i < kDutyBounds.size() ? fmt::format("{}", kDutyBounds[i]) : "+Inf";
+      out.sample(static_cast<double>(sum), {{"le", bound}});
     }
   }
 

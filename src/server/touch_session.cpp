@@ -121,7 +121,7 @@ void TouchSession::stop() {
 }
 
 void TouchSession::runServo() {
-  grant_ = requestRealtime(kServoPriority);
+  grant_ = requestRealtime(kServoPriority, spareCore(0));
   servo_ready_ = true;
   TouchStep step;
   ServoSettings settings = servo_settings_;
@@ -187,7 +187,7 @@ ServoOutput TouchSession::touchNow(TouchStep& step, const ServoSettings& setting
 }
 
 void TouchSession::runProxy() {
-  requestRealtime(kProxyPriority);
+  requestRealtime(kProxyPriority, spareCore(1));
   Vec3 finger_D;
   runPeriodic(period_ns(settings_.proxy_rate_Hz), running_, proxy_counters_, [&](std::int64_t) {
     if (place_.onServo()) return;
@@ -394,7 +394,12 @@ LoopTotals TouchSession::proxyTotals() const {
 }
 
 LoopTotals TouchSession::totals(const LoopCounters& counters) {
-  return {counters.steps.load(), counters.deadlines_missed.load(), counters.late_max_ns.load()};
+  LoopTotals totals{counters.steps.load(), counters.deadlines_missed.load(), counters.late_max_ns.load()};
+  std::copy(counters.duty.begin(), counters.duty.end(), totals.duty.begin());
+  totals.page_faults = counters.page_faults.load();
+  totals.waits = counters.waits.load();
+  totals.preempted = counters.preempted.load();
+  return totals;
 }
 
 }  // namespace hl

@@ -16,6 +16,7 @@
 
 #include "base/clock.h"
 #include "base/latest.h"
+#include "base/periodic.h"
 #include "base/realtime.h"
 #include "base/spsc_ring.h"
 #include "control/servo_options.h"
@@ -85,9 +86,12 @@ struct TouchSample {
   float tick_us = 0;        ///< work time of the newest tick
 };
 
+/// See LoopCounters.
 struct LoopTotals {
   std::uint64_t steps = 0, missed = 0;
   std::int64_t late_max_ns = 0;
+  std::array<std::uint64_t, kDutyBounds.size() + 1> duty{};
+  std::uint64_t page_faults = 0, waits = 0, preempted = 0;
 };
 
 /// Constructed, started, stopped and destroyed by one thread. Commands: any thread. views(): one thread only.

@@ -1,12 +1,17 @@
-// runPeriodic: every step is at a whole number of periods, and a late step skips periods instead of running in a burst.
+// runPeriodic: every step is at a whole number of periods, a late step skips periods instead of running in a burst, and
+// what disturbs the loop is counted.
 #include "base/realtime.h"
 
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mman.h>
 
+#include <numeric>
 #include <thread>
 #include <vector>
 
 #include "base/clock.h"
+#include "base/periodic.h"
 
 namespace hl {
 namespace {
@@ -52,6 +57,53 @@ TEST(RunPeriodic, AnOverrunIsCountedAndNeverMadeUpForByABurst) {
   EXPECT_EQ(counters.steps.load(), 4u);
   EXPECT_GE(counters.deadlines_missed.load(), 4u);
   EXPECT_GE(counters.late_max_ns.load(), 4 * kPeriod_ns);
+}
+
+TEST(RunPeriodic, EveryStepIsCountedByItsDuty) {
+  std::atomic<bool> running{true};
+  LoopCounters counters;
+  int steps = 0;
+  runPeriodic(kPeriod_ns, running, counters, [&](std::int64_t) {
+    const std::int64_t end_ns = monotonicNow_ns() + (++steps % 2 == 0 ? kPeriod_ns * 6 / 10 : 2 * kPeriod_ns);
+    while (monotonicNow_ns() < end_ns) {
+    }
+    if (steps == 10) running = false;
+  });
+  EXPECT_EQ(std::accumulate(counters.duty.begin(), counters.duty.end(), std::uint64_t{0}), 10u);
+  EXPECT_GE(counters.duty.back(), 5u) << "those of two periods";
+  for (std::size_t i = 0; kDutyBounds[i] < 0.6; ++i) EXPECT_EQ(counters.duty[i], 0u);
+}
+
+TEST(RunPeriodic, PagesThatAreNotThereAndWaitsWithinStepsAreCounted) {
+  constexpr std::size_t kPages = 50, kPageBytes = 4096;
+  void* const fresh = mmap(nullptr, kPages * kPageBytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  ASSERT_NE(fresh, MAP_FAILED);
+  madvise(fresh, kPages * kPageBytes, MADV_NOHUGEPAGE);
+  std::atomic<bool> running{true};
+  LoopCounters counters;
+  std::size_t steps = 0;
+  runPeriodic(kPeriod_ns, running, counters, [&](std::int64_t) {
+    static_cast<volatile char*>(fresh)[steps * kPageBytes] = 1;
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+    if (++steps == kPages) running = false;
+  });
+  EXPECT_GE(counters.page_faults, kPages);
+  // A deadline that had passed already was not waited for, and hides one.
+  EXPECT_GE(counters.waits + counters.deadlines_missed, kPages / 2);
+  munmap(fresh, kPages * kPageBytes);
+}
+
+TEST(SpareCore, IsOneOfSeveralAndNoTwoAreTheSame) {
+  EXPECT_EQ(spareCore(1000), -1);
+  const int first = spareCore(0), second = spareCore(1);
+  if (first < 0) GTEST_SKIP() << "no core to spare on this machine";
+  EXPECT_NE(first, second);
+  std::thread pinned([&] {
+    const RealtimeGrant grant = requestRealtime(1, first);
+    EXPECT_EQ(grant.core, first) << grant.why;
+    EXPECT_EQ(sched_getcpu(), first);
+  });
+  pinned.join();
 }
 
 TEST(RequestRealtime, SaysWhyWhatWasRefused) {
