@@ -82,6 +82,7 @@ test("remembers the theme that was chosen", async () => {
 });
 
 test("settings reach the server: exploration, grip, stiffness within the device's limits", async () => {
+  await expect.poll(() => page.isChecked("#explore")).toBe(true);
   await page.keyboard.press("e");
   await expect.poll(() => server.explore).toBe(false);
   await page.check("#grip-firm", { force: true });
