@@ -5,6 +5,9 @@
 
 namespace hl {
 
+/// Of SCHED_FIFO; above the threads of the proxy and of the drivers, which the servo must never wait for.
+inline constexpr int kServoPriority = 80;
+
 /// What the machine granted; `why` is one plain sentence for each thing refused, empty when all was granted.
 struct RealtimeGrant {
   bool fifo = false;           ///< the calling thread runs under SCHED_FIFO

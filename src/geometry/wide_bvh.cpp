@@ -50,7 +50,7 @@ WideBvh WideBvh::build(const Primitives& primitives) {
   bvh.nodes_ = widen(tree, bvh.depth_);
   bvh.blocks_ = pack(tree, primitives, bvh.scale());
   orient(bvh.nodes_, bvh.blocks_);
-  enclose(bvh.nodes_, bvh.blocks_);
+  bvh.nodes_ = enclosed(bvh.nodes_, bvh.blocks_);
   bvh.cost_ = bvh.built_cost_ = costOf(bvh.nodes_);
   return bvh;
 }
@@ -63,8 +63,7 @@ WideBvh WideBvh::refit(const Primitives& moved) const {
   bvh.measure(moved);
   bvh.depth_ = depth_;
   bvh.blocks_ = repack(blocks_, moved, bvh.scale());
-  bvh.nodes_ = nodes_;
-  enclose(bvh.nodes_, bvh.blocks_);
+  bvh.nodes_ = enclosed(nodes_, bvh.blocks_);
   bvh.cost_ = costOf(bvh.nodes_);
   bvh.built_cost_ = built_cost_;
   return bvh;

@@ -194,13 +194,15 @@ void setBox(WideNode& node, std::size_t lane, const FloatBox& box) {
   }
 }
 
-void encloseFrom(HugeVector<WideNode>& nodes, const HugeVector<WideBlock>& blocks, std::size_t at, int depth) {
+void encloseFrom(HugeVector<WideNode>& nodes, const HugeVector<WideNode>& from, const HugeVector<WideBlock>& blocks,
+                 std::size_t at, int depth) {
   WideNode& node = nodes[at];
+  node = from[at];
   forEachLane(depth, [&](std::size_t lane) {
     const std::uint32_t child = node.child[lane];
     if (child == kNoChild) return setBox(node, lane, FloatBox());
     if (isBlock(child)) return setBox(node, lane, boxIn(node, blocks[child & ~kBlockLink]));
-    encloseFrom(nodes, blocks, child, depth + 1);
+    encloseFrom(nodes, from, blocks, child, depth + 1);
     setBox(node, lane, boxIn(node, nodes[child]));
   });
 }
@@ -215,8 +217,10 @@ void orient(HugeVector<WideNode>& nodes, const HugeVector<WideBlock>& blocks) {
   if (!nodes.empty()) orientFrom(nodes, blocks, 0, 0);
 }
 
-void enclose(HugeVector<WideNode>& nodes, const HugeVector<WideBlock>& blocks) {
-  if (!nodes.empty()) encloseFrom(nodes, blocks, 0, 0);
+HugeVector<WideNode> enclosed(const HugeVector<WideNode>& nodes, const HugeVector<WideBlock>& blocks) {
+  HugeVector<WideNode> result(nodes.size());
+  if (!nodes.empty()) encloseFrom(result, nodes, blocks, 0, 0);
+  return result;
 }
 
 double costOf(const HugeVector<WideNode>& nodes) {

@@ -11,8 +11,8 @@ namespace hl {
 /// Sets the frame of each node. O(n), on all threads that oneTBB has; the result does not depend on their number.
 void orient(HugeVector<WideNode>& nodes, const HugeVector<WideBlock>& blocks);
 
-/// Sets the boxes of each node in its frame, around the blocks where they are now. As orient().
-void enclose(HugeVector<WideNode>& nodes, const HugeVector<WideBlock>& blocks);
+/// The nodes with their boxes, each in its frame, around the blocks where they are now. As orient().
+HugeVector<WideNode> enclosed(const HugeVector<WideNode>& nodes, const HugeVector<WideBlock>& blocks);
 
 /// Boxes entered by a small query somewhere in the root's box: the sum of their areas in parts of the root's. 0 for no
 /// nodes.

@@ -54,17 +54,22 @@ struct BlockQuery {
 inline BlockQuery blockQuery(const WideBlock& block, const WideQuery& query) {
   constexpr double kPacked = 1;           // steps: a vertex is off by at most sqrt(3) / 2
   constexpr double kBlockSize = 1 << 17;  // more than the sum of the coordinates of a vertex
+  constexpr double kMostSize = 1e18;      // steps: sums of its squares are numbers of single precision
   const double per_step = block.per_step;
-  BlockQuery packed;
-  double size = kBlockSize;
+  double from[3], motion[3], size = kBlockSize;
   for (int i = 0; i < 3; ++i) {
-    const double from = (query.from[i] - static_cast<double>(block.origin[i])) * per_step;
-    const double motion = query.motion[i] * per_step;
-    packed.from[i] = static_cast<float>(from);
-    packed.motion[i] = static_cast<float>(motion);
-    size += std::abs(from) + std::abs(motion);
+    from[i] = (query.from[i] - static_cast<double>(block.origin[i])) * per_step;
+    motion[i] = query.motion[i] * per_step;
+    size += std::abs(from[i]) + std::abs(motion[i]);
   }
   const double reach = query.reach * per_step;
+  // Of a block so small beside the query nothing is told in single precision: all of it may be touched.
+  if (!(size + reach < kMostSize)) return {{0, 0, 0}, {0, 0, 0}, std::numeric_limits<float>::infinity()};
+  BlockQuery packed;
+  for (int i = 0; i < 3; ++i) {
+    packed.from[i] = static_cast<float>(from[i]);
+    packed.motion[i] = static_cast<float>(motion[i]);
+  }
   packed.reach = static_cast<float>((reach + kPacked + kWideRounding * size) * (1 + kWideRounding));
   return packed;
 }

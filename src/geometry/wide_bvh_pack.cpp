@@ -88,7 +88,7 @@ class Widener {
     if (isBlock(link)) return link;
     depth_ = std::max(depth_, depth + 1);
     const std::size_t self = nodes_.size();
-    nodes_.emplace_back();
+    nodes_.push_back(WideNode{});
     const Links links = collapse_.childrenOf(link);
     for (std::size_t lane = 0; lane < kWide; ++lane) {
       const bool used = lane < links.size();
@@ -126,17 +126,24 @@ class BlockPacker {
     }
   }
 
-  FloatBox box() const { return roundedOutward(at_.colwise().minCoeff(), at_.colwise().maxCoeff()); }
+  FloatBox box() const {
+    Vec3 low, high;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      low[axis] = at_.col(axis).minCoeff();
+      high[axis] = at_.col(axis).maxCoeff();
+    }
+    return roundedOutward(low, high);
+  }
 
   void pack(const FloatBox& box) {
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const float origin = 0.5f * (box.min[axis] + box.max[axis]);
-      block_.origin[axis] = origin;
-      at_.col(axis) -= static_cast<double>(origin);
-    }
-    const double per_step = 1 / stepFor(std::max(smallest_, at_.abs().maxCoeff()));
+    const Eigen::Array4f origin = 0.5f * (box.min + box.max);
+    const double half = static_cast<double>((box.max - origin).max(origin - box.min).head<3>().maxCoeff());
+    const double per_step = 1 / stepFor(std::max(smallest_, half));
     block_.per_step = static_cast<float>(per_step);
-    for (Eigen::Index axis = 0; axis < 3; ++axis) packAxis(axis, per_step);
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      block_.origin[axis] = origin[axis];
+      packAxis(axis, per_step);
+    }
   }
 
  private:
@@ -145,7 +152,8 @@ class BlockPacker {
   void packAxis(Eigen::Index axis, double per_step) {
     // Adding so much leaves the nearest whole number in the last bits.
     constexpr double kWholeInLastBits = 1.5 * (1LL << 52);
-    const Eigen::Array<double, 3 * kWide, 1> steps = at_.col(axis) * per_step + kWholeInLastBits;
+    const Eigen::Array<double, 3 * kWide, 1> steps =
+        (at_.col(axis) - static_cast<double>(block_.origin[axis])) * per_step + kWholeInLastBits;
     for (std::size_t i = 0; i < 3; ++i) {
       std::int16_t* vertex = block_.vertex[i][axis];
       for (std::size_t lane = 0; lane < kWide; ++lane)
@@ -197,7 +205,8 @@ HugeVector<WideNode> widen(const BinaryTree& tree, int& depth) {
 HugeVector<WideBlock> pack(const BinaryTree& tree, const Primitives& primitives, const BlockScale& scale) {
   return makeBlocks(tree.blocks.size(), [&](std::size_t i, WideBlock& block) {
     const std::size_t count = primitivesOf(i, primitives.size());
-    for (std::size_t lane = 0; lane < count; ++lane) block.primitive[lane] = tree.primitives[i * kWide + lane].number();
+    for (std::size_t lane = 0; lane < kWide; ++lane)
+      block.primitive[lane] = lane < count ? tree.primitives[i * kWide + lane].number() : 0;
     BlockPacker(block, count, primitives, scale).pack(tree.blocks[i]);
   });
 }

@@ -196,6 +196,43 @@ TEST(WideBvh, FewPrimitivesAreProposedBeforeTheFirstImpact) {
   EXPECT_LE(proposed, 8 * kSweeps);  // in the order of the walk it would be 20
 }
 
+// Parallel sheets at random heights: a way that runs along one has blocks whose boxes are entered long after the first
+// lower bound of their primitives.
+std::vector<Primitive> sheets(test::Random& random) {
+  constexpr int kSheets = 20, kCells = 4;
+  std::vector<Primitive> scene;
+  for (int sheet = 0; sheet < kSheets; ++sheet) {
+    const double z = random.uniform(-8, 8);
+    const auto at = [z](int i, int j) { return Vec3(16.0 * i / kCells - 8, 16.0 * j / kCells - 8, z); };
+    for (int i = 0; i < kCells; ++i) {
+      for (int j = 0; j < kCells; ++j) {
+        test::addTriangle(scene, at(i, j), at(i + 1, j), at(i + 1, j + 1));
+        test::addTriangle(scene, at(i, j), at(i + 1, j + 1), at(i, j + 1));
+      }
+    }
+  }
+  return scene;
+}
+
+TEST(WideBvh, AllThatALongWayTouchesIsProposed) {
+  test::Random random(7);
+  for (int world = 0; world < 100; ++world) {
+    const auto scene = sheets(random);
+    const WideBvh bvh = WideBvh::build(scene);
+    for (int i = 0; i < 200; ++i) {
+      const Vec3 from = random.inCube(8), motion = random.inCube(8) - from;
+      const double radius = random.uniform(0.01, 1);
+      std::vector<bool> proposed(scene.size());
+      for (const std::uint32_t number : swept(bvh, from, motion, radius, 1)) proposed[number] = true;
+      for (std::size_t k = 0; k < scene.size(); ++k) {
+        Impact impact;
+        const bool touched = sweepSphere(scene[k], closestPoint(scene[k], from), from, motion, radius, impact);
+        ASSERT_TRUE(proposed[k] || !touched);
+      }
+    }
+  }
+}
+
 TEST(WideBvh, AllPrimitivesWithinTheRadiusAreProposedAndFewOthers) {
   test::Random random(62);
   const auto scenes = strangeScenes();
@@ -308,6 +345,26 @@ TEST(WideBvh, NoneOneAndTwoPrimitivesWork) {
   EXPECT_EQ(overlapping(two, Vec3::Zero(), 5), (Numbers{0, 1}));
   ASSERT_TRUE(firstImpact(two, scene, Vec3::Zero(), Vec3(0, 8, 0), 1, 0, impact));
   EXPECT_EQ(impact.primitive, 1u);
+}
+
+// In single precision their squares are beyond all numbers: a point has no size, and a way may be long beside it.
+TEST(WideBvh, TheSmallestIsFoundOnTheLongestWay) {
+  test::Random random(66);
+  int touched = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const double far = std::pow(10.0, random.uniform(-9, 8));
+    std::vector<Primitive> scene(1);
+    ASSERT_TRUE(makePoint(far * random.direction(), 0, scene[0]));
+    const WideBvh bvh = WideBvh::build(scene);
+    const double reach = std::pow(10.0, random.uniform(-9, 8)), length = std::pow(10.0, random.uniform(-9, 10));
+    const Vec3 from = scene[0].vertex[0] + 1.3 * reach * random.direction(), motion = length * random.direction();
+    Impact impact;
+    if (!sweepSphere(scene[0], closestPoint(scene[0], from), from, motion, reach, impact)) continue;
+    ++touched;
+    ASSERT_EQ(swept(bvh, from, motion, reach, 1), Numbers{0}) << far << ' ' << reach << ' ' << length;
+    ASSERT_EQ(overlapping(bvh, from, 1.31 * reach), Numbers{0});
+  }
+  EXPECT_GT(touched, 500);
 }
 
 // Primitives that a sphere sliding over the sheet is offered, for each one that it would touch.

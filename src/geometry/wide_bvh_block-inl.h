@@ -1,0 +1,187 @@
+// What a sphere may touch of the primitives of one block, all at once: from lower bounds of the distance, by planes
+// that separate it from each. Part of wide_bvh_query.cpp, compiled with it for each instruction set.
+#if defined(HL_GEOMETRY_WIDE_BVH_BLOCK_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef HL_GEOMETRY_WIDE_BVH_BLOCK_INL_H
+#undef HL_GEOMETRY_WIDE_BVH_BLOCK_INL_H
+#else
+#define HL_GEOMETRY_WIDE_BVH_BLOCK_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include "geometry/wide_bvh_float_query.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace hl {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<float, kWide>;
+using V = hn::Vec<D>;
+using Mask = hn::Mask<D>;
+constexpr D kFloats;
+constexpr std::size_t kLanes = hn::MaxLanes(kFloats);
+constexpr unsigned kAllLanes = (1u << kLanes) - 1;
+
+struct V3 {
+  V x, y, z;
+  HWY_INLINE V3(V x_, V y_, V z_) : x(x_), y(y_), z(z_) {}
+  // One vector at a time: GCC 12 else copies with wider moves, which then wait for the narrower stores before them.
+  HWY_INLINE V3(const V3& other) : x(other.x), y(other.y), z(other.z) {}
+  V3& operator=(const V3&) = delete;
+};
+
+HWY_INLINE V3 operator-(const V3& a, const V3& b) { return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)}; }
+HWY_INLINE V3 scaled(const V3& a, V s) { return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)}; }
+HWY_INLINE V3 sum(const V3& a, const V3& b) { return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)}; }
+HWY_INLINE V dot(const V3& a, const V3& b) {
+  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+HWY_INLINE V3 cross(const V3& a, const V3& b) {
+  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
+          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
+}
+HWY_INLINE V3 choose(Mask mask, const V3& a, const V3& b) {
+  return {hn::IfThenElse(mask, a.x, b.x), hn::IfThenElse(mask, a.y, b.y), hn::IfThenElse(mask, a.z, b.z)};
+}
+HWY_INLINE V3 same(const float (&v)[3]) {
+  return {hn::Set(kFloats, v[0]), hn::Set(kFloats, v[1]), hn::Set(kFloats, v[2])};
+}
+
+HWY_INLINE unsigned bitsOf(Mask mask) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(kFloats, mask, bytes);
+  return bytes[0];
+}
+
+HWY_INLINE V coordinate(const std::int16_t* lanes) {
+  const hn::Rebind<std::int16_t, D> packed;
+  const hn::RebindToSigned<D> whole;
+  return hn::ConvertTo(kFloats, hn::PromoteTo(whole, hn::Load(packed, lanes)));
+}
+
+// The primitives of some lanes of a block, and what of their nearest points does not depend on where one looks from.
+struct Corners {
+  V3 a, b, c, ab, ac, normal;
+  V ab2, ac2, ab_ac;
+};
+
+HWY_INLINE Corners cornersOf(const WideBlock& block, std::size_t lane) {
+  const auto corner = [&](std::size_t i) HWY_ATTR {
+    const auto& axes = block.vertex[i];
+    return V3{coordinate(axes[0] + lane), coordinate(axes[1] + lane), coordinate(axes[2] + lane)};
+  };
+  const V3 a = corner(0), b = corner(1), c = corner(2), ab = b - a, ac = c - a;
+  return {a, b, c, ab, ac, cross(ab, ac), dot(ab, ab), dot(ac, ac), dot(ab, ac)};
+}
+
+// Of a point a + v ab + w ac.
+struct Weights {
+  V v, w;
+};
+
+// The place on an edge nearest to the eye, as a part of the edge, and the square of its distance.
+struct OnEdge {
+  V s, distance2;
+};
+
+// An edge of length2 from a corner at distance2; `along` is the product of the edge and the way from there to the eye.
+HWY_INLINE OnEdge onEdge(V distance2, V along, V length2) {
+  const V positive = hn::Max(length2, hn::Set(kFloats, 1e-30f));  // of a point: then `along` is zero
+  const V s = hn::Min(hn::Max(hn::Div(along, positive), hn::Zero(kFloats)), hn::Set(kFloats, 1.0f));
+  const V twice = hn::Sub(hn::Add(along, along), hn::Mul(s, length2));
+  return {s, hn::Sub(distance2, hn::Mul(s, twice))};
+}
+
+HWY_INLINE Weights nearestOnEdges(const Corners& p, V distance2, V along_ab, V along_ac) {
+  const V zero = hn::Zero(kFloats);
+  const OnEdge ab = onEdge(distance2, along_ab, p.ab2);
+  const OnEdge ac = onEdge(distance2, along_ac, p.ac2);
+  const V b_distance2 = hn::Add(hn::Sub(distance2, hn::Add(along_ab, along_ab)), p.ab2);
+  const V along_bc = hn::Add(hn::Sub(along_ac, along_ab), hn::Sub(p.ab2, p.ab_ac));
+  const OnEdge bc = onEdge(b_distance2, along_bc, hn::Sub(hn::Add(p.ab2, p.ac2), hn::Add(p.ab_ac, p.ab_ac)));
+  const Mask by_ac = hn::Lt(ac.distance2, ab.distance2);
+  const Mask by_bc = hn::Lt(bc.distance2, hn::Min(ab.distance2, ac.distance2));
+  const V v = hn::IfThenElse(by_ac, zero, ab.s);
+  const V w = hn::IfThenElse(by_ac, ac.s, zero);
+  return {hn::IfThenElse(by_bc, hn::Sub(hn::Set(kFloats, 1.0f), bc.s), v), hn::IfThenElse(by_bc, bc.s, w)};
+}
+
+// A direction from the eye toward the point of the primitive nearest to it, of any length; a is the way from the eye to
+// its first corner. However rough it is, what follows from it is true: see Plane.
+HWY_INLINE V3 towards(const Corners& p, const V3& a) {
+  const V zero = hn::Zero(kFloats);
+  const V along_ab = hn::Neg(dot(a, p.ab));
+  const V along_ac = hn::Neg(dot(a, p.ac));
+  const Weights edge = nearestOnEdges(p, dot(a, a), along_ab, along_ac);
+  const V3 on_edge = sum(a, sum(scaled(p.ab, edge.v), scaled(p.ac, edge.w)));
+  // Inside the face the weights, times the determinant, are positive and their sum is less than it.
+  const V v = hn::Sub(hn::Mul(p.ac2, along_ab), hn::Mul(p.ab_ac, along_ac));
+  const V w = hn::Sub(hn::Mul(p.ab2, along_ac), hn::Mul(p.ab_ac, along_ab));
+  const V determinant = hn::Sub(hn::Mul(p.ab2, p.ac2), hn::Mul(p.ab_ac, p.ab_ac));
+  const Mask inside = hn::And(hn::Gt(hn::Min(v, w), zero), hn::Lt(hn::Add(v, w), determinant));
+  const V side = hn::CopySign(hn::Set(kFloats, 1.0f), dot(a, p.normal));
+  return choose(inside, scaled(p.normal, side), on_edge);
+}
+
+// A plane that separates: with n = `toward`, the primitive lies at n . x >= nearest, the sphere about the eye at
+// n . x <= edge. Any n proves that they are apart when nearest > edge; that nearest in distance proves the most.
+struct Plane {
+  V nearest, edge;
+};
+
+HWY_INLINE Plane planeAlong(const V3& toward, const Corners& p, const V3& eye, V reach) {
+  const V nearest = hn::Min(hn::Min(dot(toward, p.a - eye), dot(toward, p.b - eye)), dot(toward, p.c - eye));
+  return {nearest, hn::Mul(reach, hn::Sqrt(dot(toward, toward)))};
+}
+
+// Which primitives of the block may be within reach.
+HWY_INLINE unsigned withinReach(const WideBlock& block, const BlockQuery& query) {
+  unsigned bits = 0;
+  for (std::size_t lane = 0; lane < kWide; lane += kLanes) {
+    const Corners corners = cornersOf(block, lane);
+    const V3 eye = same(query.from);
+    const Plane plane = planeAlong(towards(corners, corners.a - eye), corners, eye, hn::Set(kFloats, query.reach));
+    bits |= (bitsOf(hn::Gt(plane.nearest, plane.edge)) ^ kAllLanes) << lane;
+  }
+  return bits;
+}
+
+// Which primitives of the block may be touched up to the limit, and lower bounds of when. Conservative advancement
+// (Mirtich 1996): no touch before the sphere crosses a separating plane, and from there the next plane tells more.
+HWY_INLINE unsigned touched(const WideBlock& block, const BlockQuery& query, float limit, float* entry) {
+  constexpr int kAdvances = 3;
+  const V never = hn::Set(kFloats, 2.0f);
+  const V latest = hn::Set(kFloats, limit);
+  const V reach = hn::Set(kFloats, query.reach);
+  const V3 from = same(query.from);
+  const V3 motion = same(query.motion);
+  unsigned bits = 0;
+  for (std::size_t lane = 0; lane < kWide; lane += kLanes) {
+    const Corners corners = cornersOf(block, lane);
+    V time = hn::Zero(kFloats);
+    for (int i = 0; i < kAdvances; ++i) {
+      const V3 eye = sum(from, scaled(motion, time));
+      const V3 toward = towards(corners, corners.a - eye);
+      const Plane plane = planeAlong(toward, corners, eye, reach);
+      const V closing = dot(toward, motion);
+      const V later = hn::Add(time, hn::Div(hn::Sub(plane.nearest, plane.edge), closing));
+      const V crossed = hn::IfThenElse(hn::Gt(closing, hn::Zero(kFloats)), later, never);
+      time = hn::IfThenElse(hn::Gt(plane.nearest, plane.edge), crossed, time);
+      if (hn::AllTrue(kFloats, hn::Gt(time, latest))) break;
+    }
+    // Whatever is not surely later, not-a-number too.
+    bits |= (bitsOf(hn::Gt(time, latest)) ^ kAllLanes) << lane;
+    hn::Store(time, kFloats, entry + lane);
+  }
+  return bits;
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace hl
+HWY_AFTER_NAMESPACE();
+
+#endif  // HL_GEOMETRY_WIDE_BVH_BLOCK_INL_H
