@@ -2,17 +2,13 @@
 #include <fmt/core.h>
 
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <thread>
 
-#include "base/clock.h"
-#include "base/histogram.h"
-#include "base/periodic.h"
 #include "base/realtime.h"
+#include "base/timer_probe.h"
 #include "commands.h"
 #include "device/open_device.h"
 #include "serving.h"
@@ -21,7 +17,6 @@ namespace hl {
 
 namespace {
 
-constexpr int kPriority = 80;
 constexpr std::array kRates_Hz{1e3, 2e3, 4e3, 1e4};
 constexpr auto kMeasure = std::chrono::seconds(1);
 
@@ -43,31 +38,7 @@ void printBlackBoxes() {
     fmt::print("{} black boxes; hl replay {}\n", count, newest);
 }
 
-// A thread that only waits for its next deadline, at one rate.
-struct Timer {
-  double rate_Hz = 0;
-  RealtimeGrant grant;
-  LoopCounters counters;
-  Histogram late;
-};
-
-std::unique_ptr<Timer> measure(double rate_Hz) {
-  auto timer = std::make_unique<Timer>();
-  timer->rate_Hz = rate_Hz;
-  std::atomic<bool> running{true};
-  std::thread thread([&] {
-    timer->grant = requestRealtime(kPriority, spareCore(0));
-    runPeriodic(static_cast<std::int64_t>(1e9 / rate_Hz), running, timer->counters, [&](std::int64_t scheduled_ns) {
-      timer->late.add(static_cast<std::uint64_t>(std::max<std::int64_t>(0, monotonicNow_ns() - scheduled_ns)));
-    });
-  });
-  std::this_thread::sleep_for(kMeasure);
-  running = false;
-  thread.join();
-  return timer;
-}
-
-void print(const Timer& timer) {
+void print(const TimerProbe& timer) {
   const auto us = [](std::uint64_t ns) { return 1e-3 * static_cast<double>(ns); };
   fmt::print("{:<20}late by {:.0f} us median, {:.0f} us at p99.9, {:.0f} us at most; {} of {} missed\n",
              fmt::format("timer at {:g} kHz:", 1e-3 * timer.rate_Hz), us(timer.late.percentile_ns(0.5)),
@@ -75,18 +46,17 @@ void print(const Timer& timer) {
              timer.counters.steps.load());
 }
 
-// The other half of the period is for the step.
-bool holds(const Timer& timer) { return static_cast<double>(timer.late.percentile_ns(0.999)) < 0.5e9 / timer.rate_Hz; }
-
 // Prints what the machine does at each rate; returns what it granted.
 RealtimeGrant examineTimer() {
   double highest_Hz = 0;
   RealtimeGrant grant;
   for (const double rate_Hz : kRates_Hz) {
-    const auto timer = measure(rate_Hz);
-    print(*timer);
-    grant = timer->grant;
-    if (holds(*timer)) highest_Hz = rate_Hz;
+    TimerProbe timer;
+    timer.rate_Hz = rate_Hz;
+    timer.run(kMeasure);
+    print(timer);
+    grant = timer.grant;
+    if (timer.holds()) highest_Hz = rate_Hz;
   }
   if (highest_Hz == 0)
     fmt::print("servo rate:         1 kHz is more than this machine holds just now: late by over half a period\n");

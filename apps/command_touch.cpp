@@ -95,8 +95,9 @@ void runTouch(TouchOptions options) {
   HttpServer server(http, makeViewerFeed(session, HL_VERSION), &touch, makeTouchMonitor(session, &touch));
   touch.start();
   server.start();
-  fmt::print(stderr, "{}: {} primitives; device: {}; 1 mm of the hand is {:.4g} mm of the scene\n", options.scene.scene,
-             snapshot->primitives, session.deviceInfo().name, session.workspace().world_per_device);
+  fmt::print(stderr, "{}: {} primitives; device: {}, {:g} Hz; 1 mm of the hand is {:.4g} mm of the scene\n",
+             options.scene.scene, snapshot->primitives, session.deviceInfo().name, session.servoRate_Hz(),
+             session.workspace().world_per_device);
   if (!session.grant().why.empty())
     fmt::print(stderr, "the servo runs without all it asked for: {}see hl doctor\n", session.grant().why);
   const std::string address = fmt::format("http://127.0.0.1:{}/", server.port());
@@ -123,11 +124,8 @@ void addLoopOptions(CLI::App& command, TouchSettings& settings) {
       ->check(positive);
   command.add_option("--damping", settings.damping_Ns_m, "damping of the servo in N s/m (default: the device's)")
       ->check(CLI::Range(0.0, 100.0));
-  command.add_option("--servo-rate", settings.servo_rate_Hz, "servo steps a second")
-      ->check(CLI::Range(100.0, 10'000.0))
-      ->capture_default_str();
   command.add_flag("--timer-reference", settings.timer_reference,
-                   "run a bare timer beside the servo and count its misses too");
+                   "run a bare timer on the servo's core and count its misses too");
 }
 
 }  // namespace
@@ -151,7 +149,7 @@ void addTouchOptions(CLI::App& command, TouchOptions& options) {
       .add_option("--scale", options.scale, "metres of the scene for one metre of the hand (default: --size decides)")
       ->check(CLI::Validator(checkPositive, "POSITIVE"));
   addLoopOptions(command, options.settings);
-  addForceOptions(command, options.settings.servo);
+  addForceOptions(command, options.settings.servo, options.settings.servo_rate);
   addSurfaceOptions(command, options.settings.surfaces, options.settings.ledger);
   command.get_option("--shade")->option_text("flat|smooth (default: the scene's; smooth for model files)");
   addHierarchyOption(command, options.scene);

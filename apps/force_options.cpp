@@ -55,6 +55,19 @@ void setDeadMan(ServoOptions& options, const std::string& text) {
     throw CLI::ValidationError("--dead-man", "'" + text + "' is not off, held or button:N, N from 0 to 31");
 }
 
+void setServoRate(ServoRate& rate, const std::string& text) {
+  constexpr double kLeast_Hz = 100, kMost_Hz = 10'000;
+  rate = {};
+  if (text == "highest") {
+    rate.highest = true;
+    return;
+  }
+  const std::vector<double> numbers = numbersOf(text);
+  if (numbers.size() != 1 || numbers[0] < kLeast_Hz || numbers[0] > kMost_Hz)
+    throw CLI::ValidationError("--servo-rate", "'" + text + "' is neither 100 to 10000 nor highest");
+  rate.given_Hz = numbers[0];
+}
+
 void addSafetyOptions(CLI::App& app, ServoOptions& options) {
   const CLI::Validator positive(checkPositive, "POSITIVE");
   app.add_option("--force-limit", options.force_limit_N, "never a force above this (default: the device's limit)")
@@ -98,7 +111,12 @@ void addEffectOptions(CLI::App& app, ServoOptions& options) {
 
 }  // namespace
 
-void addForceOptions(CLI::App& app, ServoOptions& options) {
+void addForceOptions(CLI::App& app, ServoOptions& options, ServoRate& rate) {
+  app.add_option_function<std::string>(
+         "--servo-rate", [&rate](const std::string& text) { setServoRate(rate, text); },
+         "servo steps a second; highest: as many as the device takes and this machine is measured to hold")
+      ->option_text("HZ|highest (default: the device's)")
+      ->group(kGroup);
   addSafetyOptions(app, options);
   addEffectOptions(app, options);
 }

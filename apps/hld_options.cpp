@@ -39,10 +39,6 @@ void addDeviceOptions(CLI::App& app, HldOptions& options) {
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str()
       ->group("Device");
-  app.add_option("--servo-rate", options.touch.servo_rate_Hz, "servo steps a second")
-      ->check(CLI::Range(100.0, 10'000.0))
-      ->capture_default_str()
-      ->group("Device");
   app.add_option("--radius", options.touch.radius_D, "proxy radius in metres at the hand")
       ->check(positive)
       ->capture_default_str()
@@ -103,7 +99,7 @@ void addHldOptions(CLI::App& app, HldOptions& options) {
   addHierarchyOption(app, options.scene);
   addNetworkOptions(app, options);
   addDeviceOptions(app, options);
-  addForceOptions(app, options.touch.servo);
+  addForceOptions(app, options.touch.servo, options.touch.servo_rate);
   addBlackBoxOption(app, options.touch.recorder);
   addLimitOptions(app, options.server.limits);
   addLogOptions(app, options);

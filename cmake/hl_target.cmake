@@ -18,6 +18,23 @@ if(HL_SANITIZE)
   target_compile_definitions(hl_flags INTERFACE HL_SANITIZED=1)
 endif()
 
+# hl_waits(): the code of this folder waits for sockets, files and people. The sanitizers take twice as long to compile
+# it with optimisation, and their tests gain nothing.
+macro(hl_waits)
+  if(HL_SANITIZE)
+    add_compile_options(-O0)
+  endif()
+endmacro()
+
+# hl_coroutines(SOURCES...): Beast's coroutines wait too, and -O3 would cost minutes of compiling.
+function(hl_coroutines)
+  if(HL_SANITIZE)
+    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS -O0)
+  else()
+    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS -O1)
+  endif()
+endfunction()
+
 function(hl_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})

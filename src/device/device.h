@@ -16,16 +16,17 @@ struct DeviceInfo {
   std::string name;
   Vec3 workspace_min = Vec3::Zero();  ///< m, box in which the tip moves freely
   Vec3 workspace_max = Vec3::Zero();
-  double force_max_N = 0;         ///< peak force at the tip, any direction, nominal pose; less may be had elsewhere
-  double force_continuous_N = 0;  ///< force that may be held for ever
-  double force_rate_max_N_s = 0;  ///< the servo never changes force faster
-  double stiffness_N_m = 0;       ///< recommended K of the servo
-  double stiffness_max_N_m = 0;   ///< highest K the servo accepts
-  double damping_Ns_m = 0;        ///< recommended B of the servo
-  double friction_N = 0;          ///< of the device itself at the tip, the least of any direction; 0: not known
-  double resolution_m = 0;        ///< of position, nominal pose
-  double velocity_max_m_s = 0;    ///< faster than this is a fault
-  double servo_rate_Hz = 1000;    ///< recommended rate of the servo
+  double force_max_N = 0;           ///< peak force at the tip, any direction, nominal pose; less may be had elsewhere
+  double force_continuous_N = 0;    ///< force that may be held for ever
+  double force_rate_max_N_s = 0;    ///< the servo never changes force faster
+  double stiffness_N_m = 0;         ///< recommended K of the servo
+  double stiffness_max_N_m = 0;     ///< highest K the servo accepts
+  double damping_Ns_m = 0;          ///< recommended B of the servo
+  double friction_N = 0;            ///< of the device itself at the tip, the least of any direction; 0: not known
+  double resolution_m = 0;          ///< of position, nominal pose
+  double velocity_max_m_s = 0;      ///< faster than this is a fault
+  double servo_rate_Hz = 1000;      ///< recommended rate of the servo
+  double servo_rate_max_Hz = 1000;  ///< at more it feels no better, or nobody has tried
 };
 
 enum class DeviceStatus : std::uint8_t { kOk, kNotReady, kLost };

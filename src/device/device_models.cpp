@@ -37,6 +37,7 @@ DeviceInfo infoOf(const Sheet& sheet) {
   // What 3500 N/m, the stiffest of touch for long, ask for under the fastest hand.
   info.force_rate_max_N_s = 3500 * kVelocityMax_m_s;
   info.servo_rate_Hz = 1000;
+  info.servo_rate_max_Hz = 10'000;
   return info;
 }
 

@@ -40,7 +40,7 @@ struct DeviceKind {
   const char* name;
   const char* spec;  ///< how to write it
   DevicePointer (*make)(const std::string& argument);
-  std::string (*find)();  ///< what is there, or what to install
+  std::string (*find)();  ///< what is there; throws hl::Error with what to install or do
 };
 
 constexpr std::array kKinds{
@@ -75,8 +75,15 @@ std::string deviceSpecs() {
 }
 
 std::vector<DevicePresence> findDevices() {
+  const auto textOf = [](const DeviceKind& kind) -> std::string {
+    try {
+      return kind.find();
+    } catch (const Error& error) {
+      return error.what();
+    }
+  };
   std::vector<DevicePresence> found;
-  for (const DeviceKind& kind : kKinds) found.push_back({kind.name, kind.find()});
+  for (const DeviceKind& kind : kKinds) found.push_back({kind.name, textOf(kind)});
   return found;
 }
 

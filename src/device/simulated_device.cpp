@@ -46,7 +46,7 @@ DeviceSample SimulatedDevice::read(std::int64_t now_ns) {
   }
   has_time_ = true;
   time_ns_ = taken_ns;
-  return {now_ns, arm_->countedTip_D(), 0, DeviceStatus::kOk, held_};
+  return {now_ns, arm_->countedTip_D(), buttons_.load(std::memory_order_relaxed), DeviceStatus::kOk, held_};
 }
 
 void SimulatedDevice::dropForce() {

@@ -59,6 +59,7 @@ class SimulatedDevice final : public Device, public SimulatedHand {
   void setHandGoal(const Vec3& goal_D) override { goal_.write(goal_D); }
   void setHandFirm(bool firm) override { firm_.store(firm, std::memory_order_relaxed); }
   void setHandHolds(bool holds) override { holds_.store(holds, std::memory_order_relaxed); }
+  void setHandButtons(std::uint32_t buttons) override { buttons_.store(buttons, std::memory_order_relaxed); }
 
   // For tests and benches; on the thread that reads.
   Arm& arm() { return *arm_; }
@@ -89,6 +90,7 @@ class SimulatedDevice final : public Device, public SimulatedHand {
   Vec3 goal_D_ = Vec3::Zero();
   std::atomic<bool> firm_{false};
   std::atomic<bool> holds_{true};
+  std::atomic<std::uint32_t> buttons_{0};
   std::array<Vec3, SimulatedDeviceSettings::kMostDelay + 1> on_the_way_;  // forces, a ring
   std::size_t written_ = 0;
   std::mt19937 random_;

@@ -1,6 +1,8 @@
 // SimulatedHand: the hand that holds a device when no person does.
 #pragma once
 
+#include <cstdint>
+
 #include "base/vec.h"
 
 namespace hl {
@@ -14,6 +16,8 @@ class SimulatedHand {
   virtual void setHandFirm(bool firm) = 0;
   /// false: it lets go; true: it takes hold of the device where that is.
   virtual void setHandHolds(bool holds) = 0;
+  /// The buttons it presses, bit i: button i.
+  virtual void setHandButtons(std::uint32_t buttons) = 0;
 };
 
 }  // namespace hl

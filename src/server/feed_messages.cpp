@@ -16,7 +16,7 @@ void toProto(const TouchSession& session, proto::DeviceInfo& out) {
   out.set_stiffness_max_n_m(info.stiffness_max_N_m);
   out.set_simulated_hand(session.hasHand());
   out.set_damping_ns_m(session.settings().damping_Ns_m.value_or(info.damping_Ns_m));
-  out.set_servo_rate_hz(session.settings().servo_rate_Hz);
+  out.set_servo_rate_hz(session.servoRate_Hz());
   out.set_proxy_rate_hz(session.settings().proxy_rate_Hz);
 }
 

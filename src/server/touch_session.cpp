@@ -1,5 +1,7 @@
 #include "server/touch_session.h"
 
+#include <sched.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -10,20 +12,16 @@ namespace hl {
 
 namespace {
 
-constexpr int kServoPriority = 80;  // SCHED_FIFO; above the proxy, which it must never wait for
-constexpr int kProxyPriority = 70;
+constexpr int kProxyPriority = 70;  // SCHED_FIFO
 constexpr std::int64_t kSupervisorPeriod_ns = 16'666'667;
-constexpr double kApproach_s = 3.0;      // virtual time for the hand to reach the start
-constexpr double kStartAbove_D = 0.020;  // m above the model at the hand
-constexpr double kPress_D = 0.012;       // m, how far beneath the surface the exploring hand aims
+constexpr std::int64_t kPress_ns = 1'000'000'000;  // after which a button comes up by itself
+constexpr double kApproach_s = 3.0;                // virtual time for the hand to reach the start
+constexpr double kStartAbove_D = 0.020;            // m above the model at the hand
+constexpr double kPress_D = 0.012;                 // m, how far beneath the surface the exploring hand aims
 constexpr double kLift_D = 0.010;
 // What a page may ask of a surface: beyond, a finger could not be moved.
 constexpr double kMostFriction = 10;
 constexpr double kMostViscosity_Ns_m = 1000;
-
-RecordedSession recordedSession(const TouchSettings& settings, const DeviceInfo& device) {
-  return {device, settings.servo_rate_Hz, settings.proxy_rate_Hz, ProxySettings{}};
-}
 
 std::int64_t period_ns(double rate_Hz) { return static_cast<std::int64_t>(1e9 / rate_Hz); }
 
@@ -33,11 +31,12 @@ TouchSession::TouchSession(std::shared_ptr<const Snapshot> snapshot, const Touch
                            std::unique_ptr<Device> device)
     : settings_(settings),
       device_(std::move(device)),
+      servo_rate_Hz_(settings.servo_rate.of(device_->info())),
       hand_(device_->hand()),
       scenes_(std::move(snapshot)),
       proxy_loop_(scenes_, ProxySettings{}),
-      place_(period_ns(settings.servo_rate_Hz)),
-      recorder_(settings.recorder, recordedSession(settings, device_->info())),
+      place_(period_ns(servo_rate_Hz_)),
+      recorder_(settings.recorder, {device_->info(), servo_rate_Hz_, settings.proxy_rate_Hz, ProxySettings{}}),
       watch_(*device_, servo_counters_, [this] { recorder_.stall(); }) {
   recorder_.scene(scenes_.newest());
   const Vec3 reach_D = device_->info().workspace_max - device_->info().workspace_min;
@@ -50,7 +49,7 @@ TouchSession::TouchSession(std::shared_ptr<const Snapshot> snapshot, const Touch
   ledger_ = settings.ledger;
   setSurfaces(settings.surfaces);
   servo_settings_ = ServoSettings::of(device_->info());
-  servo_settings_.period_s = 1 / settings.servo_rate_Hz;
+  servo_settings_.period_s = 1 / servo_rate_Hz_;
   if (settings.damping_Ns_m) servo_settings_.damping_Ns_m = *settings.damping_Ns_m;
   settings.servo.apply(servo_settings_);
   setStiffness(settings.stiffness_N_m.value_or(device_->info().stiffness_N_m));
@@ -98,17 +97,12 @@ void TouchSession::start() {
   running_ = true;
   arm_requests_ = 1;
   recorder_.start();
-  if (settings_.timer_reference) {
-    reference_thread_ = std::thread([this] {
-      requestRealtime(kServoPriority);
-      runPeriodic(period_ns(settings_.servo_rate_Hz), running_, reference_counters_, [](std::int64_t) {});
-    });
-  }
   proxy_thread_ = std::thread([this] { runProxy(); });
   servo_thread_ = std::thread([this] { runServo(); });
   if (hasHand()) supervisor_thread_ = std::thread([this] { runSupervisor(); });
   while (!servo_ready_) std::this_thread::yield();
-  watch_.start(ServoWatch::looks(grant_.fifo, settings_.servo_rate_Hz));
+  if (settings_.timer_reference) reference_thread_ = std::thread([this] { runReference(); });
+  watch_.start(ServoWatch::looks(grant_.fifo, servo_rate_Hz_));
 }
 
 void TouchSession::stop() {
@@ -120,15 +114,23 @@ void TouchSession::stop() {
   recorder_.stop();
 }
 
+// What keeps a thread waiting differs from core to core: so it shares the servo's.
+void TouchSession::runReference() {
+  requestRealtime(kServoPriority, grant_.core);
+  runPeriodic(period_ns(servo_rate_Hz_), running_, reference_counters_, [](std::int64_t) {});
+}
+
 void TouchSession::runServo() {
-  grant_ = requestRealtime(kServoPriority, spareCore(0));
+  int core = spareCore(0);
+  if (core < 0 && settings_.timer_reference) core = sched_getcpu();
+  grant_ = requestRealtime(kServoPriority, core);
   servo_ready_ = true;
   TouchStep step;
   ServoSettings settings = servo_settings_;
   LoopMeter meter;
   TickMessage last;
   std::uint64_t armed = 0;
-  runPeriodic(period_ns(settings_.servo_rate_Hz), running_, servo_counters_, [&](std::int64_t) {
+  runPeriodic(period_ns(servo_rate_Hz_), running_, servo_counters_, [&](std::int64_t) {
     const std::int64_t now_ns = monotonicNow_ns();
     settings.stiffness_N_m = stiffness_.load(std::memory_order_relaxed);
     settings.ledger = ledger_.load(std::memory_order_relaxed);
@@ -240,28 +242,40 @@ std::optional<Vec3> TouchSession::strokingGoal() const {
   return explore({*scene, monotonicNow_ns()}, {kPress_D * scale, kLift_D * scale, radius_W()}, time_s());
 }
 
+TouchSession::Commands TouchSession::takeCommands() {
+  const std::lock_guard lock(commands_mutex_);
+  return std::exchange(commands_, {});
+}
+
 // Decides where the hand wants to be: a person, the script or the exploration, in this order.
+void TouchSession::moveHand(const Commands& commands) {
+  if (commands.explore) exploring_ = *commands.explore;
+  const Workspace workspace = this->workspace();
+  if (commands.goal_W) {
+    exploring_ = false;
+    hand_->setHandGoal(clampToWorkspace(workspace.toDevice(*commands.goal_W)));
+  } else if (commands.release) {
+    Vec3 finger_D;
+    finger_for_supervisor_D_.read(finger_D);
+    hand_->setHandGoal(clampToWorkspace(finger_D));
+  } else if (exploring_) {
+    if (const auto goal_W = strokingGoal()) hand_->setHandGoal(clampToWorkspace(workspace.toDevice(*goal_W)));
+  }
+  hand_->setHandFirm(hand_firm_);
+}
+
 void TouchSession::runSupervisor() {
   LoopCounters counters;
-  runPeriodic(kSupervisorPeriod_ns, running_, counters, [&](std::int64_t) {
-    Commands commands;
-    {
-      const std::lock_guard lock(commands_mutex_);
-      std::swap(commands, commands_);
+  std::int64_t pressed_ns = 0;
+  runPeriodic(kSupervisorPeriod_ns, running_, counters, [&](std::int64_t now_ns) {
+    const Commands commands = takeCommands();
+    moveHand(commands);
+    if (commands.buttons) {
+      hand_->setHandButtons(*commands.buttons);
+      pressed_ns = now_ns;
+    } else if (now_ns - pressed_ns > kPress_ns) {
+      hand_->setHandButtons(0);
     }
-    if (commands.explore) exploring_ = *commands.explore;
-    const Workspace workspace = this->workspace();
-    if (commands.goal_W) {
-      exploring_ = false;
-      hand_->setHandGoal(clampToWorkspace(workspace.toDevice(*commands.goal_W)));
-    } else if (commands.release) {
-      Vec3 finger_D;
-      finger_for_supervisor_D_.read(finger_D);
-      hand_->setHandGoal(clampToWorkspace(finger_D));
-    } else if (exploring_) {
-      if (const auto goal_W = strokingGoal()) hand_->setHandGoal(clampToWorkspace(workspace.toDevice(*goal_W)));
-    }
-    hand_->setHandFirm(hand_firm_);
   });
 }
 
@@ -277,6 +291,12 @@ void TouchSession::release() {
   const std::lock_guard lock(commands_mutex_);
   commands_.release = true;
   commands_.goal_W.reset();
+}
+
+void TouchSession::press(std::uint32_t buttons) {
+  if (!hasHand()) return;
+  const std::lock_guard lock(commands_mutex_);
+  commands_.buttons = buttons;
 }
 
 void TouchSession::setExplore(bool on) {

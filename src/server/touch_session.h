@@ -29,6 +29,7 @@
 #include "server/loop_meter.h"
 #include "server/proxy_loop.h"
 #include "server/recorder.h"
+#include "server/servo_rate.h"
 #include "server/servo_watch.h"
 #include "server/snapshot_slot.h"
 #include "server/tick_place.h"
@@ -42,7 +43,7 @@ struct TouchSettings {
   double side_D = 0.12;  ///< m, largest side of the model at the hand, unless scale is given; at most what the device
                          ///< reaches
   std::optional<double> world_per_device;
-  double servo_rate_Hz = 1000;
+  ServoRate servo_rate{};
   double proxy_rate_Hz = 1000;          ///< while ticks do not fit in a servo step
   std::optional<double> stiffness_N_m;  ///< K; the device's own when not given
   std::optional<double> damping_Ns_m;   ///< B
@@ -53,7 +54,7 @@ struct TouchSettings {
   std::optional<HandScript> script;  ///< hand goals in the world frame instead of exploration
   MaterialOverride surfaces{};       ///< over what the scene says
   LedgerMode ledger = LedgerMode::kTank;
-  bool timer_reference = false;  ///< run a bare timer thread beside the servo, to tell the machine's own hiccups
+  bool timer_reference = false;  ///< run a bare timer thread on the servo's core, to tell the machine's own hiccups
 };
 
 /// What the last tick did. World frame.
@@ -110,6 +111,8 @@ class TouchSession {
   bool hasHand() const { return hand_ != nullptr; }
   void setHandGoal(const Vec3& goal_W);  ///< a person takes over from the exploration
   void release();
+  /// Bit i: button i of the device is down, for a second from now: a page that has gone presses nothing.
+  void press(std::uint32_t buttons);
   void setExplore(bool on);
   void setHandFirm(bool firm);
 
@@ -141,6 +144,7 @@ class TouchSession {
   Workspace workspace() const;
   const TouchSettings& settings() const { return settings_; }
   const DeviceInfo& deviceInfo() const { return device_->info(); }
+  double servoRate_Hz() const { return servo_rate_Hz_; }
   double radius_W() const;
   LoopTotals servoTotals() const { return totals(servo_counters_); }
   /// Of the ticks, wherever they ran; missed and late: of the proxy loop.
@@ -167,6 +171,7 @@ class TouchSession {
     std::optional<Vec3> goal_W;
     bool release = false;
     std::optional<bool> explore;
+    std::optional<std::uint32_t> buttons;
   };
 
   static LoopTotals totals(const LoopCounters& counters);
@@ -174,16 +179,20 @@ class TouchSession {
   void bringHandToStart();
   void startAt(const DeviceSample& sample);
   void runServo();
+  void runReference();
   ServoOutput touchNow(TouchStep& step, const ServoSettings& settings, const DeviceSample& sample, TickMessage& last);
   void runProxy();
   void show(const ProxyStep& step, std::int64_t now_ns, std::int64_t work_ns);
   void runSupervisor();
+  Commands takeCommands();
+  void moveHand(const Commands& commands);
   std::optional<Vec3> strokingGoal() const;
   Vec3 clampToWorkspace(const Vec3& goal_D) const;
   void restartWith(const Workspace& workspace, double radius_W);  // holding settings_mutex_
 
   TouchSettings settings_;
   std::unique_ptr<Device> device_;
+  const double servo_rate_Hz_;
   SimulatedHand* hand_;    // of the device; null when a person holds it
   bool answered_ = false;  // the device did when it was read last; of the servo thread, once it runs
   SnapshotSlot scenes_;

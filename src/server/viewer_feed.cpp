@@ -109,6 +109,9 @@ void receive(TouchSession& session, const std::string& bytes) {
     case proto::ViewerMessage::kRelease:
       session.release();
       break;
+    case proto::ViewerMessage::kPress:
+      session.press(message.press().buttons());
+      break;
     case proto::ViewerMessage::kSettings:
       apply(session, message.settings());
       break;

@@ -1,23 +1,17 @@
 // What only Haply's service does: dialects, grips, silence, a service that goes and comes.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <limits>
-#include <thread>
 
 #include "base/error.h"
 #include "device/fakes/haply_service.h"
 #include "device/haply/haply_device.h"
 #include "device/haply/haply_messages.h"
 #include "device/open_device.h"
+#include "wait_for.h"
 
 namespace hl::test {
 namespace {
-
-template <typename Condition>
-void waitFor(const Condition& condition) {
-  while (!condition()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-}
 
 std::string failureOf(const std::string& spec) {
   try {

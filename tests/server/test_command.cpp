@@ -58,6 +58,8 @@ TEST(Command, BadInputIsOneLineAndExitCodeTwo) {
                                        std::string("touch --device theremin"),
                                        std::string("touch --device sim:abacus"),
                                        std::string("touch --device replay:/nonexistent --no-open --port 0"),
+                                       std::string("touch --servo-rate 99"),
+                                       std::string("touch --servo-rate lots"),
                                        std::string("touch --dead-man button:32"),
                                        std::string("touch --spring 1,2,3"),
                                        std::string("touch --constant-force 1,2,x"),
@@ -79,6 +81,14 @@ TEST(Command, BadInputIsOneLineAndExitCodeTwo) {
     EXPECT_EQ(result.code, 2) << arguments << "\n" << result.output;
     EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << arguments << "\n" << result.output;
   }
+}
+
+TEST(Command, TouchRunsAtTheRateThatIsAskedForOrAtTheHighestThatIsMeasured) {
+  const std::string touch = "touch plane:2000 --no-open --port 0 --duration 0.1 --servo-rate ";
+  EXPECT_NE(call(touch + "2500").output.find(", 2500 Hz;"), std::string::npos);
+  const Result highest = call(touch + "highest");
+  EXPECT_EQ(highest.code, 0);
+  EXPECT_NE(highest.output.find("000 Hz;"), std::string::npos) << highest.output;
 }
 
 TEST(Command, TraceWritesOneRowForEachRow) {

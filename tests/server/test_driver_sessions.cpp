@@ -3,34 +3,22 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "builtin.h"
 #include "device/fakes/bench.h"
 #include "device/fakes/haply_service.h"
+#include "server/session_views.h"
 #include "server/touch_session.h"
 #include "temp_folder.h"
+#include "wait_for.h"
 
 namespace hl::test {
 namespace {
-
-template <typename Condition>
-void waitFor(const Condition& condition) {
-  while (!condition()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-}
-
-ServoView servoOf(TouchSession& session) {
-  ServoView servo;
-  ProxyView proxy;
-  session.views(servo, proxy);
-  return servo;
-}
 
 // A busy machine may lose a device for a moment, which is a fault: then a person arms again.
 void pressAndFeel(TouchSession& session, Bench& bench) {
@@ -116,6 +104,21 @@ TEST_P(TouchCommand, FeelsThroughTheVendorsLibrary) {
   setenv(GetParam().variable, GetParam().fake, 1);
   setenv("HL_FAKE_REPORT", report.c_str(), 1);
   const TouchProcess touch(GetParam().kind);
+  waitFor([&] { return !linesOf(report).empty(); });
+  EXPECT_EQ(touch.end(), 0);
+  EXPECT_EQ(linesOf(report), (std::vector<std::string>{"touched", "closed 0"}));
+}
+
+// The fake is loaded in place of libusb, so the driver's own USB code talks to it, and loads its firmware first.
+TEST(TouchFalcon, FeelsThroughLibusb) {
+  const std::string report = tempFile("falcon_report"), firmware = tempFile("firmware");
+  std::filesystem::remove(report);
+  std::ofstream(firmware, std::ios::binary) << std::string(700, '\x5a');
+  setenv("LD_LIBRARY_PATH", HL_FAKE_USB_FOLDER, 1);
+  setenv("HL_FALCON_FIRMWARE", firmware.c_str(), 1);
+  setenv("HL_FAKE_REPORT", report.c_str(), 1);
+  const TouchProcess touch("falcon");
+  unsetenv("LD_LIBRARY_PATH");
   waitFor([&] { return !linesOf(report).empty(); });
   EXPECT_EQ(touch.end(), 0);
   EXPECT_EQ(linesOf(report), (std::vector<std::string>{"touched", "closed 0"}));

@@ -7,10 +7,13 @@
 #include <algorithm>
 #include <chrono>
 #include <thread>
+#include <vector>
 
 #include "builtin.h"
 #include "geometry/queries.h"
+#include "server/session_views.h"
 #include "server/viewer_feed.h"
+#include "wait_for.h"
 
 namespace hl {
 namespace {
@@ -64,6 +67,64 @@ TEST(TouchSession, APersonTakesOverAndThePressIsFelt) {
 }
 
 // A first world is fitted to the hand: around the origin of the device, where nobody waits for it.
+// A busy machine may hold the servo up, which is a fault: then a person arms again.
+ServoView armedServoOf(TouchSession& session) {
+  const ServoView servo = test::servoOf(session);
+  if (servo.safety == SafetyState::kFault) session.rearm();
+  return servo;
+}
+
+TEST(TouchSession, AButtonHeldOnThePageIsADeadMansSwitchAndComesUpWhenThePageHasGone) {
+  TouchSettings settings;
+  settings.explore = false;
+  settings.servo.dead_man = DeadMan::kButton;
+  settings.servo.dead_man_button = 2;
+  TouchSession session(makeSnapshot(makeBuiltinScene("plane:2000"), HierarchyKind::kBvh), settings);
+  session.start();
+  const FeedCallbacks page = makeViewerFeed(session, "test");
+  session.setHandGoal(Vec3(0, -0.02, 0));
+  test::waitFor([&] {
+    const ServoView servo = armedServoOf(session);
+    return servo.safety == SafetyState::kWaiting && servo.finger_D.y() < -0.001 && servo.force_N.isZero(0);
+  });
+  proto::ViewerMessage message;
+  message.mutable_press()->set_buttons(1U << 2);
+  test::waitFor([&] {
+    page.receive(message.SerializeAsString());
+    const ServoView servo = armedServoOf(session);
+    return servo.safety == SafetyState::kOn && servo.buttons == 1U << 2;
+  });
+  test::waitFor([&] {
+    const ServoView servo = armedServoOf(session);
+    return servo.safety == SafetyState::kWaiting && servo.buttons == 0;
+  });
+  session.stop();
+}
+
+TEST(ServoRate, IsTheDevicesOwnUnlessOneIsGivenOrTheHighestThatHoldsIsWanted) {
+  DeviceInfo device;
+  device.servo_rate_Hz = 1000;
+  device.servo_rate_max_Hz = 4000;
+  EXPECT_EQ(ServoRate{}.of(device), 1000);
+  EXPECT_EQ((ServoRate{2500, false}.of(device)), 2500);
+  std::vector<double> tried;
+  const auto upTo = [&](double most_Hz) {
+    tried.clear();
+    return highestServoRate_Hz(device, [&](double rate_Hz) {
+      tried.push_back(rate_Hz);
+      return rate_Hz <= most_Hz;
+    });
+  };
+  EXPECT_EQ(upTo(1e5), 4000);
+  EXPECT_EQ(tried, (std::vector<double>{4000}));
+  EXPECT_EQ(upTo(3000), 2000);
+  EXPECT_EQ(upTo(0), 1000);
+  EXPECT_EQ(tried, (std::vector<double>{4000, 2000}));
+  device.servo_rate_max_Hz = device.servo_rate_Hz = 500;
+  EXPECT_EQ(upTo(1e5), 500);
+  EXPECT_TRUE(tried.empty());
+}
+
 TEST(TouchSession, AFirstWorldAppearsBesideTheFingerNotAroundIt) {
   for (const bool explore : {false, true}) {
     TouchSettings settings;

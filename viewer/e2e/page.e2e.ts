@@ -282,6 +282,23 @@ test("the device's buttons appear when one is pressed, and say which are down", 
   await expect.poll(() => page.locator("#buttons .lamp.down").count()).toBe(0);
 });
 
+test("keys 1 to 4 press the buttons of a device that a simulated hand holds, as long as they are down", async () => {
+  const lit = () => page.locator("#buttons .lamp.down").allTextContents();
+  server.received.length = 0;
+  await page.keyboard.down("2");
+  await expect.poll(lit).toEqual(["2"]);
+  await page.keyboard.down("1");
+  await expect.poll(lit).toEqual(["1", "2"]);
+  await page.keyboard.up("2");
+  await expect.poll(lit).toEqual(["1"]);
+  const presses = () => server.received.filter(({ body }) => body.case === "press").length;
+  const before = presses();
+  await expect.poll(presses).toBeGreaterThan(before + 1); // said again while it is down
+  await page.evaluate(() => window.dispatchEvent(new Event("blur")));
+  await expect.poll(lit).toEqual([]);
+  await page.keyboard.up("1");
+});
+
 test("a fault shows its reason and can be re-armed", async () => {
   server.fault = "the target is 50 ms old";
   await page.waitForSelector("#rearm:visible");

@@ -2,6 +2,7 @@
 // everything on the screen follows in animation frames, so a slow browser draws less often but never lags behind.
 
 import "./style.css";
+import { ButtonInput } from "./button_input";
 import { Connection, type LinkState } from "./connection";
 import { publishDebugState } from "./debug_state";
 import { element } from "./elements";
@@ -17,7 +18,7 @@ import { Panel } from "./panel";
 import { kWindow_s, LivePlot } from "./plots";
 import { ProbeView } from "./probe_view";
 import {
-  encodeHandGoal, encodeRearm, encodeRelease, encodeSettings, kProtocolVersion,
+  encodeHandGoal, encodePress, encodeRearm, encodeRelease, encodeSettings, kProtocolVersion,
   type Incoming, type SettingsChange,
 } from "./protocol";
 import { SampleRing } from "./samples";
@@ -64,6 +65,7 @@ class App {
     }),
   };
   private readonly hand_: HandInput;
+  private readonly buttons_ = new ButtonInput((down) => this.connection_.send(encodePress(down)));
   private readonly panel_: Panel;
   private readonly surfacePanel_: SurfacePanel;
   private readonly ledgerPanel_: LedgerPanel;
@@ -162,7 +164,7 @@ class App {
     this.serverVersion_ = hello.serverVersion;
     this.live_.clear();
     this.hand_.cancel();
-    this.hand_.movable = hello.device?.simulatedHand ?? false;
+    this.hand_.movable = this.buttons_.enabled = hello.device?.simulatedHand ?? false;
     this.panel_.showHello(hello);
     this.surfacePanel_.forget();
     this.ledgerPanel_.forget();

@@ -69,6 +69,11 @@ export function encodeRelease(): Uint8Array<ArrayBuffer> {
   return encode({ case: "release", value: {} });
 }
 
+/** Bit i: button i of the device is down. */
+export function encodePress(buttons: number): Uint8Array<ArrayBuffer> {
+  return encode({ case: "press", value: { buttons } });
+}
+
 export function encodeRearm(): Uint8Array<ArrayBuffer> {
   return encode({ case: "rearm", value: {} });
 }

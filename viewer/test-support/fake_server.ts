@@ -129,6 +129,8 @@ export class FakeServer {
       this.stiffness_N_m = body.value.stiffnessNM ?? this.stiffness_N_m;
       this.surfaces = body.value.surfaces ?? this.surfaces;
       this.ledger = body.value.ledger ?? this.ledger;
+    } else if (body.case === "press") {
+      this.buttons = body.value.buttons;
     } else if (body.case === "rearm") {
       this.fault = "";
     }

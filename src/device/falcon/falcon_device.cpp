@@ -155,13 +155,9 @@ bool FalconDevice::step(const Vec3& force_D) {
 }
 
 std::string FalconDevice::find() {
-  try {
-    const auto transport = makeFalconUsb();
-    transport->open();
-    return "Novint Falcon";
-  } catch (const Error& error) {
-    return error.what();
-  }
+  const auto transport = makeFalconUsb();
+  transport->open();
+  return "Novint Falcon";
 }
 
 }  // namespace hl

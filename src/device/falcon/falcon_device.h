@@ -29,7 +29,7 @@ class FalconDevice final : public Device {
   DeviceSample read(std::int64_t now_ns) override { return exchange_->newest(now_ns); }
   void write(const Vec3& force_N) override { exchange_->pull(force_N); }
 
-  /// What is there, or what to do.
+  /// What is there. Throws hl::Error with what to do.
   static std::string find();
 
  private:

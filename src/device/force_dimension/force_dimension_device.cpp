@@ -137,15 +137,11 @@ void ForceDimensionDevice::write(const Vec3& force_N) {
 }
 
 std::string ForceDimensionDevice::find() {
-  try {
-    const VendorLibrary library(kLibrary);
-    const Calls calls = bindCalls(library);
-    const int count = calls.device_count();
-    return count > 0 ? std::to_string(count) + " Force Dimension device" + (count > 1 ? "s" : "")
-                     : "none answers: check power and USB cable, and that you may use it (udev)";
-  } catch (const Error& error) {
-    return error.what();
-  }
+  const VendorLibrary library(kLibrary);
+  const Calls calls = bindCalls(library);
+  const int count = calls.device_count();
+  return count > 0 ? std::to_string(count) + " Force Dimension device" + (count > 1 ? "s" : "")
+                   : "none answers: check power and USB cable, and that you may use it (udev)";
 }
 
 }  // namespace hl

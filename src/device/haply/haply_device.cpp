@@ -42,13 +42,9 @@ void HaplyDevice::write(const Vec3& force_N) {
 }
 
 std::string HaplyDevice::find() {
-  try {
-    HaplyDevice device;
-    device.open();
-    return device.info().name;
-  } catch (const Error& error) {
-    return error.what();
-  }
+  HaplyDevice device;
+  device.open();
+  return device.info().name;
 }
 
 }  // namespace hl

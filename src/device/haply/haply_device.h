@@ -22,7 +22,7 @@ class HaplyDevice final : public Device {
   DeviceSample read(std::int64_t now_ns) override;
   void write(const Vec3& force_N) override;
 
-  /// What is there, or what to install.
+  /// What is there. Throws hl::Error with what to install.
   static std::string find();
 
  private:

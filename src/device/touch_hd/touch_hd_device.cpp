@@ -171,13 +171,9 @@ DeviceSample TouchHdDevice::read(std::int64_t now_ns) {
 void TouchHdDevice::write(const Vec3& force_N) { exchange_.pull(force_N); }
 
 std::string TouchHdDevice::find() {
-  try {
-    TouchHdDevice device;
-    device.open();
-    return device.info().name;
-  } catch (const Error& error) {
-    return error.what();
-  }
+  TouchHdDevice device;
+  device.open();
+  return device.info().name;
 }
 
 }  // namespace hl

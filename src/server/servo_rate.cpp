@@ -1,0 +1,30 @@
+#include "server/servo_rate.h"
+
+#include <array>
+#include <chrono>
+
+#include "base/timer_probe.h"
+
+namespace hl {
+
+double highestServoRate_Hz(const DeviceInfo& device, FunctionRef<bool(double)> holds) {
+  constexpr std::array kRates_Hz{10e3, 4e3, 2e3, 1e3};
+  for (const double rate_Hz : kRates_Hz) {
+    if (rate_Hz <= device.servo_rate_Hz) break;
+    if (rate_Hz <= device.servo_rate_max_Hz && holds(rate_Hz)) return rate_Hz;
+  }
+  return device.servo_rate_Hz;
+}
+
+double ServoRate::of(const DeviceInfo& device) const {
+  if (given_Hz) return *given_Hz;
+  if (!highest) return device.servo_rate_Hz;
+  return highestServoRate_Hz(device, [](double rate_Hz) {
+    TimerProbe probe;
+    probe.rate_Hz = rate_Hz;
+    probe.run(std::chrono::milliseconds(250));
+    return probe.holds();
+  });
+}
+
+}  // namespace hl

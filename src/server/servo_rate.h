@@ -1,0 +1,24 @@
+// How many steps a second the servo makes: as a user says, as the device is used to, or as many as it takes and this
+// machine holds.
+#pragma once
+
+#include <optional>
+
+#include "base/function_ref.h"
+#include "device/device.h"
+
+namespace hl {
+
+/// The highest of 1, 2, 4 and 10 kHz, and of the device's own rate, that is no more than the device takes and of which
+/// `holds` says that the machine holds it; the device's own where it holds none. Setup only.
+double highestServoRate_Hz(const DeviceInfo& device, FunctionRef<bool(double rate_Hz)> holds);
+
+struct ServoRate {
+  std::optional<double> given_Hz;
+  bool highest = false;  ///< highestServoRate_Hz(), measured: a bare timer, a quarter of a second at each rate tried
+
+  /// Setup only.
+  double of(const DeviceInfo& device) const;
+};
+
+}  // namespace hl
