@@ -6,7 +6,8 @@ void BruteForceIndex::overlap(const Vec3&, double, FunctionRef<void(std::uint32_
   for (std::size_t i = 0; i < primitives_; ++i) visit(static_cast<std::uint32_t>(i));
 }
 
-void BruteForceIndex::sweep(const Vec3&, const Vec3&, double, FunctionRef<double(std::uint32_t, double)> visit) const {
+void BruteForceIndex::sweep(const Vec3&, const Vec3&, double, double,
+                            FunctionRef<double(std::uint32_t, double)> visit) const {
   double limit = 1;
   for (std::size_t i = 0; i < primitives_; ++i) limit = visit(static_cast<std::uint32_t>(i), limit);
 }

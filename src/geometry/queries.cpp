@@ -32,13 +32,16 @@ class RecentlySeen {
   std::size_t next_ = 0;
 };
 
+// For who does not know how soon an impact is likely: a sphere that starts near a surface mostly hits it so soon.
+constexpr double kSoonPerRadius = 0.25;
+
 // The earliest of the impacts that impact_of() finds among what the index proposes for a sphere of radius `proposed`.
 template <typename Read, typename ImpactOf>
 bool firstOf(const SpatialIndex& index, const Read& read, const Vec3& from, const Vec3& motion, double proposed,
-             const ImpactOf& impact_of, FirstImpact& out) {
+             double soon, const ImpactOf& impact_of, FirstImpact& out) {
   bool found = false;
   RecentlySeen seen;
-  index.sweep(from, motion, proposed, [&](std::uint32_t candidate, double limit) {
+  index.sweep(from, motion, proposed, soon, [&](std::uint32_t candidate, double limit) {
     Impact impact;
     if (seen.testAndAdd(candidate) || !impact_of(candidate, impact)) return limit;
     if (found) {
@@ -73,20 +76,20 @@ bool firstImpact(const SpatialIndex& index, const Primitives& primitives, const 
     if (touching > 0 && start.distance <= touching) return false;
     return sweepSphere(primitive, start, from, motion, radius, impact);
   };
-  return firstOf(index, read, from, motion, radius, impact_of, out);
+  return firstOf(index, read, from, motion, radius, kSoonPerRadius * radius, impact_of, out);
 }
 
 // What is within `touching` where the way ends has been within a little more than that before: so it is proposed even
 // when the end is off by rounding.
 bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(std::uint32_t)> read, const Vec3& from,
-                 const Vec3& motion, double radius, double touching, FunctionRef<bool(std::uint32_t)> is_contact,
-                 FunctionRef<void(std::uint32_t)> meet, FirstImpact& out) {
+                 const Vec3& motion, double radius, double touching, double soon,
+                 FunctionRef<bool(std::uint32_t)> is_contact, FunctionRef<void(std::uint32_t)> meet, FirstImpact& out) {
   const double proposed = touching + (touching - radius);
   const auto impact_of = [&](std::uint32_t candidate, Impact& impact) {
     meet(candidate);
     return !is_contact(candidate) && sweepSphereFromOutside(read(candidate), from, motion, radius, impact);
   };
-  return firstOf(index, read, from, motion, proposed, impact_of, out);
+  return firstOf(index, read, from, motion, proposed, soon, impact_of, out);
 }
 
 void primitivesWithin(const SpatialIndex& index, const Primitives& primitives, const Vec3& centre, double distance,

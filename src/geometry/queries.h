@@ -31,9 +31,9 @@ bool firstImpact(const SpatialIndex& index, const Primitives& primitives, const 
 /// The same for a caller who reads primitives in its own way and knows its contacts: `is_contact` says of a primitive
 /// whether it is within `touching`, which is more than `radius`, of `from`. Calls `meet` for some primitives (one maybe
 /// more than once), in no given order, among which is every one within `touching` of the place where the motion ends or
-/// is stopped, and of any place that rounding puts a little aside.
+/// is stopped, and of any place that rounding puts a little aside. `soon` as in SpatialIndex::sweep.
 bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(std::uint32_t primitive)> read,
-                 const Vec3& from, const Vec3& motion, double radius, double touching,
+                 const Vec3& from, const Vec3& motion, double radius, double touching, double soon,
                  FunctionRef<bool(std::uint32_t primitive)> is_contact, FunctionRef<void(std::uint32_t primitive)> meet,
                  FirstImpact& out);
 

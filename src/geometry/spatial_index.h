@@ -27,8 +27,9 @@ class SpatialIndex {
   /// Visits every primitive that a sphere of `radius` moving from `from` by `motion` may touch before the limit, near
   /// ones first where the structure can tell; may repeat one. `visit` is given the present limit (it starts at 1, a
   /// fraction of the motion) and returns the new one, which must not be larger: later candidates are then searched
-  /// only up to it.
-  virtual void sweep(const Vec3& from, const Vec3& motion, double radius,
+  /// only up to it. `soon` (m, >= 0): an impact is likely within so much of the way; it decides nothing but how long an
+  /// answer takes.
+  virtual void sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
                      FunctionRef<double(std::uint32_t primitive, double limit)> visit) const = 0;
   virtual IndexStats stats() const = 0;
 };

@@ -219,13 +219,13 @@ SphereTree SphereTree::build(const Primitives& primitives) {
 }
 
 void SphereTree::overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t)> visit) const {
-  sweep(centre, Vec3::Zero(), radius, [&](std::uint32_t primitive, double limit) {
+  sweep(centre, Vec3::Zero(), radius, 0, [&](std::uint32_t primitive, double limit) {
     visit(primitive);
     return limit;
   });
 }
 
-void SphereTree::sweep(const Vec3& from, const Vec3& motion, double radius,
+void SphereTree::sweep(const Vec3& from, const Vec3& motion, double radius, double,
                        FunctionRef<double(std::uint32_t, double)> visit) const {
   if (leaves_.empty()) return;
   struct Waiting {

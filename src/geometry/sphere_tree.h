@@ -41,7 +41,7 @@ class SphereTree final : public SpatialIndex {
   static SphereTree build(const Primitives& primitives);
 
   void overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t primitive)> visit) const override;
-  void sweep(const Vec3& from, const Vec3& motion, double radius,
+  void sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
              FunctionRef<double(std::uint32_t primitive, double limit)> visit) const override;
   IndexStats stats() const override;
 

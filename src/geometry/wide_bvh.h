@@ -34,7 +34,7 @@ class WideBvh final : public SpatialIndex {
   double wear() const { return cost_ == 0 ? 1 : cost_ / built_cost_; }
 
   void overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t primitive)> visit) const override;
-  void sweep(const Vec3& from, const Vec3& motion, double radius,
+  void sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
              FunctionRef<double(std::uint32_t primitive, double limit)> visit) const override;
   IndexStats stats() const override;
 

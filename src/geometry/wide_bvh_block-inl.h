@@ -169,8 +169,9 @@ HWY_INLINE unsigned touched(const WideBlock& block, const BlockQuery& query, flo
       const V closing = dot(toward, motion);
       const V later = hn::Add(time, hn::Div(hn::Sub(plane.nearest, plane.edge), closing));
       const V crossed = hn::IfThenElse(hn::Gt(closing, hn::Zero(kFloats)), later, never);
-      time = hn::IfThenElse(hn::Gt(plane.nearest, plane.edge), crossed, time);
-      if (hn::AllTrue(kFloats, hn::Gt(time, latest))) break;
+      const Mask apart = hn::Gt(plane.nearest, plane.edge);
+      time = hn::IfThenElse(apart, crossed, time);
+      if (hn::AllFalse(kFloats, hn::And(apart, hn::Le(time, latest)))) break;  // another step would change nothing
     }
     // Whatever is not surely later, not-a-number too.
     bits |= (bitsOf(hn::Gt(time, latest)) ^ kAllLanes) << lane;

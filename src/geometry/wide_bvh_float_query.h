@@ -21,8 +21,7 @@ inline constexpr double kFramedRounding = 3e-6;
 /// The moving sphere for boxes, up to `limit` (a fraction of the motion).
 struct BoxQuery {
   alignas(16) float from[4], motion[4];  ///< the fourth is 0
-  float reach, reach2;
-  float limit;
+  float reach2, limit;
 };
 
 /// Shortens the way to `limit`.
@@ -39,7 +38,6 @@ inline BoxQuery boxQuery(const WideTree& tree, const WideQuery& query) {
     box.from[i] = static_cast<float>(query.from[i]);
     box.motion[i] = static_cast<float>(query.motion[i]);
   }
-  box.reach = static_cast<float>(reach * (1 + kFramedRounding));
   box.reach2 = static_cast<float>(reach * reach * (1 + kFramedRounding));
   setLimit(box, 1);
   return box;
@@ -72,16 +70,6 @@ inline BlockQuery blockQuery(const WideBlock& block, const WideQuery& query) {
   }
   packed.reach = static_cast<float>((reach + kPacked + kWideRounding * size) * (1 + kWideRounding));
   return packed;
-}
-
-/// The part of the way that a sweep looks at first, from where it enters the first block: some of that block's size.
-/// Measured with a sphere that slides over terrain: shorter ones are more often too short, longer ones meet more
-/// blocks.
-inline double firstPart(const WideBlock& block, const WideQuery& query) {
-  constexpr double kSteps = 0.4 * (1 << 15);  // a block has up to 2^16 across
-  const double length = std::sqrt(query.motion[0] * query.motion[0] + query.motion[1] * query.motion[1] +
-                                  query.motion[2] * query.motion[2]);
-  return kSteps / (static_cast<double>(block.per_step) * std::max(length, std::numeric_limits<double>::min()));
 }
 
 }  // namespace hl

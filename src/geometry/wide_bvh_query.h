@@ -26,7 +26,8 @@ struct WideQuery {
 
 /// See SpatialIndex. RT-safe.
 void overlapWide(const WideTree& tree, const WideQuery& query, FunctionRef<void(std::uint32_t primitive)> visit);
-void sweepWide(const WideTree& tree, const WideQuery& query,
+/// `first_part`: of the motion, 0 < first_part <= 1; what is looked at before the rest.
+void sweepWide(const WideTree& tree, const WideQuery& query, double first_part,
                FunctionRef<double(std::uint32_t primitive, double limit)> visit);
 
 }  // namespace hl

@@ -44,6 +44,7 @@ class Tick {
     return step.norm() <= kRestPerGap * (goal_ - state_.position).norm() + tolerance_.rest;
   }
   bool sweep(Vec3& position, const Vec3& step);
+  double likelyWay_m(const Vec3& motion);
   bool firstImpact(const Vec3& from, const Vec3& motion, SceneImpact& out);
   void settleOn(const ContactSet& set);
   bool settled() const;
@@ -66,6 +67,7 @@ class Tick {
   bool rests_ = false;  // where the passes have settled on faces: no search could find more
   bool spent_ = false;  // the energy that the tick may add has been used up
   int effect_passes_ = 0;
+  double slid_m_ = 0;  // by the last step, if it was along a surface
   // The faces on which the passes have brought the proxy to rest; empty while they have not.
   FixedVector<PrimitiveId, kFewContacts> settled_on_;
 
@@ -133,6 +135,19 @@ bool Tick::sweep(Vec3& position, const Vec3& step) {
   return whole && !hit;
 }
 
+// How far a step mostly goes, which decides nothing but its cost: along a surface as far as it wants; and a proxy that
+// has come off a bent surface comes down on it after some hundredths of the way it slid.
+double Tick::likelyWay_m(const Vec3& motion) {
+  constexpr double kSlidePerReach = 2, kFallPerSlide = 0.02, kFallPerReach = 0.25;
+  if (!set_.contacts.empty()) {
+    slid_m_ = motion.norm();
+    return kSlidePerReach * tolerance_.reach;
+  }
+  const double fall_m = slid_m_ > 0 ? kFallPerSlide * slid_m_ : kFallPerReach * tolerance_.reach;
+  slid_m_ = 0;
+  return fall_m;
+}
+
 bool Tick::firstImpact(const Vec3& from, const Vec3& motion, SceneImpact& out) {
   Nearby& nearby = state_.nearby;
   FixedVector<PrimitiveId, Nearby::kRoom> contacts;
@@ -141,8 +156,9 @@ bool Tick::firstImpact(const Vec3& from, const Vec3& motion, SceneImpact& out) {
     return scene_.firstImpact(from, motion, tolerance_.swept, tolerance_.touching, out);
   }
   nearby.begin(scene_, tolerance_.touching);
+  const double soon_m = likelyWay_m(motion);
   return scene_.firstImpact(
-      from, motion, tolerance_.swept, tolerance_.touching, {contacts.begin(), contacts.size()},
+      from, motion, tolerance_.swept, tolerance_.touching, soon_m, {contacts.begin(), contacts.size()},
       [&](PrimitiveId primitive) { nearby.add(primitive); }, out);
 }
 

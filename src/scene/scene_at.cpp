@@ -126,7 +126,7 @@ bool SceneAt::firstImpact(const Vec3& from, const Vec3& motion, double radius, d
   return firstOf(from, motion, radius, ask, out);
 }
 
-bool SceneAt::firstImpact(const Vec3& from, const Vec3& motion, double radius, double touching,
+bool SceneAt::firstImpact(const Vec3& from, const Vec3& motion, double radius, double touching, double soon,
                           std::span<const PrimitiveId> contacts, FunctionRef<void(PrimitiveId)> meet,
                           SceneImpact& out) const {
   const auto ask = [&](std::uint32_t i, const Shape& shape, const Vec3& from_O, const Vec3& motion_O,
@@ -136,7 +136,7 @@ bool SceneAt::firstImpact(const Vec3& from, const Vec3& motion, double radius, d
     };
     const auto met = [&](std::uint32_t element) { meet({i, element}); };
     const auto read = [&](std::uint32_t element) -> const Primitive& { return primitive({i, element}); };
-    return hl::firstImpact(*shape.index, read, from_O, motion_O, radius, touching, is_contact, met, hit);
+    return hl::firstImpact(*shape.index, read, from_O, motion_O, radius, touching, soon, is_contact, met, hit);
   };
   return firstOf(from, motion, touching, ask, out);
 }

@@ -51,7 +51,7 @@ class SceneAt {
                         FunctionRef<void(PrimitiveId primitive, const ClosestPoint& nearest)> visit) const;
   /// As both firstImpact of geometry/queries.h; `contacts` are all that is_contact says of.
   bool firstImpact(const Vec3& from, const Vec3& motion, double radius, double touching, SceneImpact& out) const;
-  bool firstImpact(const Vec3& from, const Vec3& motion, double radius, double touching,
+  bool firstImpact(const Vec3& from, const Vec3& motion, double radius, double touching, double soon,
                    std::span<const PrimitiveId> contacts, FunctionRef<void(PrimitiveId primitive)> meet,
                    SceneImpact& out) const;
 

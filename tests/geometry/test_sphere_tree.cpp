@@ -155,7 +155,7 @@ double candidates(int cells) {
     const Primitive& primitive = scene[static_cast<std::size_t>(random.below(static_cast<int>(scene.size())))];
     const Vec3 from = primitive.vertex[1] + 1.01 * edge * primitive.normal;
     const Vec3 motion = 0.5 * edge * random.direction();
-    tree.sweep(from, motion, edge, [&](std::uint32_t, double limit) {
+    tree.sweep(from, motion, edge, edge, [&](std::uint32_t, double limit) {
       ++proposed;
       return limit;
     });

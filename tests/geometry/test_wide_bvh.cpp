@@ -111,7 +111,7 @@ Numbers overlapping(const WideBvh& bvh, const Vec3& centre, double radius) {
 
 Numbers swept(const WideBvh& bvh, const Vec3& from, const Vec3& motion, double radius, double shrink) {
   Numbers found;
-  bvh.sweep(from, motion, radius, [&](std::uint32_t number, double limit) {
+  bvh.sweep(from, motion, radius, 0.25 * radius, [&](std::uint32_t number, double limit) {
     found.push_back(number);
     return shrink * limit;
   });
@@ -187,7 +187,7 @@ TEST(WideBvh, FewPrimitivesAreProposedBeforeTheFirstImpact) {
   for (int i = 0; i < kSweeps; ++i) {
     const Vec3& at = scene[static_cast<std::size_t>(random.below(static_cast<int>(scene.size())))].vertex[0];
     const Vec3 from = at + Vec3(0, 0, 0.5), motion(random.uniform(-1, 1), random.uniform(-1, 1), -1);
-    bvh.sweep(from, motion, 0.05, [&](std::uint32_t number, double limit) {
+    bvh.sweep(from, motion, 0.05, 0.0125, [&](std::uint32_t number, double limit) {
       ++proposed;
       Impact impact;
       return sweepSphere(scene[number], from, motion, 0.05, impact) ? std::min(limit, impact.t) : limit;
@@ -377,7 +377,7 @@ TEST(WideBvh, FewCandidatesOfASlidingSphereAreNotTouched) {
     const Primitive& primitive = scene[static_cast<std::size_t>(random.below(static_cast<int>(scene.size())))];
     const double radius = 0.02;
     const Vec3 from = primitive.vertex[0] + 1.001 * radius * primitive.normal, motion = 0.01 * random.direction();
-    bvh.sweep(from, motion, radius, [&](std::uint32_t number, double limit) {
+    bvh.sweep(from, motion, radius, radius, [&](std::uint32_t number, double limit) {
       ++offered;
       Impact impact;
       if (sweepSphere(scene[number], from, motion, radius, impact)) ++touched;

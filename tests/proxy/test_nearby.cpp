@@ -71,7 +71,7 @@ TEST(Nearby, HoldsTheContactsOfThePlaceWhereASweepEnds) {
         nearby.begin(scene, tolerance.touching);
         SceneImpact impact, judged;
         const bool hit = scene.firstImpact(
-            place, motion, tolerance.swept, tolerance.touching, {contacts.begin(), contacts.size()},
+            place, motion, tolerance.swept, tolerance.touching, 0.01, {contacts.begin(), contacts.size()},
             [&](PrimitiveId primitive) { nearby.add(primitive); }, impact);
         ASSERT_EQ(hit, scene.firstImpact(place, motion, tolerance.swept, tolerance.touching, judged));
         if (hit) {

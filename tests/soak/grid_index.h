@@ -41,7 +41,7 @@ class GridIndex final : public SpatialIndex {
   }
 
   /// All of the way's box, whatever the limit.
-  void sweep(const Vec3& from, const Vec3& motion, double radius,
+  void sweep(const Vec3& from, const Vec3& motion, double radius, double /*soon*/,
              FunctionRef<double(std::uint32_t, double)> visit) const override {
     const Vec3 to = from + motion, reach = Vec3::Constant(radius * (1 + kRounding));
     double limit = 1;
