@@ -12,8 +12,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <numeric>
 
 #include "base/no_alloc.h"
+#include "geometry/brute_force.h"
 #include "geometry/closest_point.h"
 #include "geometry/queries.h"
 #include "geometry/scenes.h"
@@ -365,6 +368,54 @@ TEST(WideBvh, TheSmallestIsFoundOnTheLongestWay) {
     ASSERT_EQ(overlapping(bvh, from, 1.31 * reach), Numbers{0});
   }
   EXPECT_GT(touched, 500);
+}
+
+// Where an impact is said to be likely decides only what is looked at first.
+TEST(WideBvh, HowSoonAnImpactIsLikelyChangesNoAnswer) {
+  const std::vector<Primitive> scene = test::terrain(60);
+  const WideBvh bvh = WideBvh::build(scene);
+  test::Random random(68);
+  int hits = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double radius = 0.02, length = std::pow(10.0, random.uniform(-4, 1));
+    const Vec3 at = scene[static_cast<std::size_t>(random.below(static_cast<int>(scene.size())))].vertex[0];
+    const Vec3 from = at + (radius + std::pow(10.0, random.uniform(-6, 0))) * Vec3::UnitZ();
+    const Vec3 motion = length * random.direction();
+    const auto firstOf = [&](const SpatialIndex& index, double soon, FirstImpact& out) {
+      const auto read = [&](std::uint32_t number) -> const Primitive& { return scene[number]; };
+      const auto is_contact = [&](std::uint32_t number) {
+        return closestPoint(scene[number], from).distance <= 1.001 * radius;
+      };
+      return firstImpact(
+          index, read, from, motion, radius, 1.001 * radius, soon, is_contact, [](std::uint32_t) {}, out);
+    };
+    FirstImpact judged;
+    const bool hit = firstOf(BruteForceIndex(scene.size()), 1, judged);
+    hits += hit;
+    for (const double soon : {0.0, 1e-300, 1e-7, 1e-3, 0.1, 1e300, std::numeric_limits<double>::infinity()}) {
+      FirstImpact found;
+      ASSERT_EQ(firstOf(bvh, soon, found), hit) << soon;
+      if (!hit) continue;
+      ASSERT_EQ(found.impact.t, judged.impact.t) << soon;
+      ASSERT_EQ(found.primitive, judged.primitive) << soon;
+    }
+  }
+  EXPECT_GT(hits, 500);
+}
+
+// More boxes wait than there is room to serve them in the order they come.
+TEST(WideBvh, AQueryAroundEverythingVisitsEachPrimitiveOnce) {
+  const std::vector<Primitive> scene = test::terrain(120);
+  const WideBvh bvh = WideBvh::build(scene);
+  Numbers every(scene.size());
+  std::iota(every.begin(), every.end(), 0u);
+  Numbers near = overlapping(bvh, Vec3::Zero(), 10);
+  std::sort(near.begin(), near.end());
+  EXPECT_EQ(near, every);
+  Numbers met = swept(bvh, Vec3(-1, 0, 0), Vec3(2, 0, 0), 10, 1);
+  std::sort(met.begin(), met.end());
+  met.erase(std::unique(met.begin(), met.end()), met.end());
+  EXPECT_EQ(met, every);
 }
 
 // Primitives that a sphere sliding over the sheet is offered, for each one that it would touch.
