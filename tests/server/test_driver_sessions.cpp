@@ -128,7 +128,9 @@ TEST(TouchHaply, FeelsThroughTheVendorsService) {
   FakeArm arm;
   HaplyService service(arm, "3.5.0");
   while (arm.strongest_N() < 0.5) {
+    const int known = service.introductions;
     const TouchProcess touch("haply:" + service.url());
+    waitFor([&] { return service.introductions > known; });
     for (int stroke = 0; stroke < 10 && arm.strongest_N() < 0.5; ++stroke) {
       const double goal_m = stroke % 2 == 0 ? 0.02 : -0.02;
       arm.setHandGoal(Vec3(0, goal_m, 0));
