@@ -66,7 +66,6 @@ TEST(TouchSession, APersonTakesOverAndThePressIsFelt) {
   EXPECT_FALSE(session.exploring());
 }
 
-// A first world is fitted to the hand: around the origin of the device, where nobody waits for it.
 // A busy machine may hold the servo up, which is a fault: then a person arms again.
 ServoView armedServoOf(TouchSession& session) {
   const ServoView servo = test::servoOf(session);
@@ -125,6 +124,7 @@ TEST(ServoRate, IsTheDevicesOwnUnlessOneIsGivenOrTheHighestThatHoldsIsWanted) {
   EXPECT_TRUE(tried.empty());
 }
 
+// A first world is fitted to the hand: around the origin of the device, where nobody waits for it.
 TEST(TouchSession, AFirstWorldAppearsBesideTheFingerNotAroundIt) {
   for (const bool explore : {false, true}) {
     TouchSettings settings;
