@@ -44,7 +44,7 @@ class Tick {
     return step.norm() <= kRestPerGap * (goal_ - state_.position).norm() + tolerance_.rest;
   }
   bool sweep(Vec3& position, const Vec3& step);
-  double likelyWay_m(const Vec3& motion);
+  double likelyWay_m() const;
   bool firstImpact(const Vec3& from, const Vec3& motion, SceneImpact& out);
   void settleOn(const ContactSet& set);
   bool settled() const;
@@ -67,7 +67,7 @@ class Tick {
   bool rests_ = false;  // where the passes have settled on faces: no search could find more
   bool spent_ = false;  // the energy that the tick may add has been used up
   int effect_passes_ = 0;
-  double slid_m_ = 0;  // by the last step, if it was along a surface
+  double slid_m_ = 0;  // how far the last step wanted to go along a surface; 0: it was none
   // The faces on which the passes have brought the proxy to rest; empty while they have not.
   FixedVector<PrimitiveId, kFewContacts> settled_on_;
 
@@ -130,6 +130,7 @@ bool Tick::sweep(Vec3& position, const Vec3& step) {
   const Vec3 motion = whole ? step : Vec3(step * (longest / length));
   SceneImpact impact;
   const bool hit = firstImpact(position, motion, impact);
+  slid_m_ = set_.contacts.empty() ? 0 : std::min(length, longest);
   position += hit ? Vec3(impact.impact.t * motion) : motion;
   state_.nearby.endAt(position);
   return whole && !hit;
@@ -137,15 +138,10 @@ bool Tick::sweep(Vec3& position, const Vec3& step) {
 
 // How far a step mostly goes, which decides nothing but its cost: along a surface as far as it wants; and a proxy that
 // has come off a bent surface comes down on it after some hundredths of the way it slid.
-double Tick::likelyWay_m(const Vec3& motion) {
+double Tick::likelyWay_m() const {
   constexpr double kSlidePerReach = 2, kFallPerSlide = 0.02, kFallPerReach = 0.25;
-  if (!set_.contacts.empty()) {
-    slid_m_ = motion.norm();
-    return kSlidePerReach * tolerance_.reach;
-  }
-  const double fall_m = slid_m_ > 0 ? kFallPerSlide * slid_m_ : kFallPerReach * tolerance_.reach;
-  slid_m_ = 0;
-  return fall_m;
+  if (!set_.contacts.empty()) return kSlidePerReach * tolerance_.reach;
+  return slid_m_ > 0 ? kFallPerSlide * slid_m_ : kFallPerReach * tolerance_.reach;
 }
 
 bool Tick::firstImpact(const Vec3& from, const Vec3& motion, SceneImpact& out) {
@@ -156,9 +152,8 @@ bool Tick::firstImpact(const Vec3& from, const Vec3& motion, SceneImpact& out) {
     return scene_.firstImpact(from, motion, tolerance_.swept, tolerance_.touching, out);
   }
   nearby.begin(scene_, tolerance_.touching);
-  const double soon_m = likelyWay_m(motion);
   return scene_.firstImpact(
-      from, motion, tolerance_.swept, tolerance_.touching, soon_m, {contacts.begin(), contacts.size()},
+      from, motion, tolerance_.swept, tolerance_.touching, likelyWay_m(), {contacts.begin(), contacts.size()},
       [&](PrimitiveId primitive) { nearby.add(primitive); }, out);
 }
 
