@@ -14,13 +14,19 @@ void countMissed(Safety& safety, const SafetySettings& settings, const DeviceSam
   safety.missed = std::max(0.0, safety.missed + (missed > 0 ? missed : -1 / SafetySettings::kForgiveSteps));
 }
 
+// When the tip was where the sample says; wraps around, as a broken device may say anything.
+std::int64_t taken_ns(const DeviceSample& sample) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(sample.time_ns) -
+                                   static_cast<std::uint64_t>(sample.age_ns));
+}
+
 void measureSpeed(Safety& safety, const DeviceSample& sample) {
-  const double window_s = age_s(sample.time_ns, safety.mark_ns);
+  const double window_s = age_s(taken_ns(sample), safety.mark_ns);
   if (window_s >= 0 && window_s < 1e-9 * static_cast<double>(SafetySettings::kSpeedWindow_ns)) return;
   // A clock that went back tells no speed: a new window begins.
   safety.speed_m_s = window_s > 0 ? (sample.position - safety.mark_D).norm() / window_s : 0;
   safety.mark_D = sample.position;
-  safety.mark_ns = sample.time_ns;
+  safety.mark_ns = taken_ns(sample);
 }
 
 void watch(Safety& safety, const SafetySettings& settings, const DeviceSample& sample) {
@@ -30,7 +36,7 @@ void watch(Safety& safety, const SafetySettings& settings, const DeviceSample& s
     measureSpeed(safety, sample);
   } else {
     safety.mark_D = sample.position;
-    safety.mark_ns = sample.time_ns;
+    safety.mark_ns = taken_ns(sample);
   }
   safety.watched_ns = sample.time_ns;
   safety.watching = true;

@@ -39,6 +39,7 @@ struct DeviceSample {
   DeviceStatus status = DeviceStatus::kNotReady;
   bool held = true;              ///< false: the device can tell, and nobody holds it
   Vec3 weight_N = Vec3::Zero();  ///< force that holds up the device itself here; zero where it needs none
+  std::int64_t age_ns = 0;  ///< how long before time_ns the tip was there; a driver with a thread of its own is late
 };
 
 /// open, close and info: setup thread only. read and write: the servo thread only, RT-safe; before it runs and after it

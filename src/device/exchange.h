@@ -16,9 +16,11 @@ class Exchange {
   /// What was told last, at `now_ns`; lost when it says nothing of where the hand is now.
   DeviceSample newest(std::int64_t now_ns) {
     DeviceSample sample;
-    samples_.read(sample);
-    if (sample.status == DeviceStatus::kOk && monotonicNow_ns() - sample.time_ns > kStale_ns)
-      sample.status = DeviceStatus::kLost;
+    const bool fresh = samples_.read(sample);
+    const std::int64_t age_ns = monotonicNow_ns() - sample.time_ns;
+    if (sample.status == DeviceStatus::kOk && age_ns > kStale_ns) sample.status = DeviceStatus::kLost;
+    if (fresh) taken_ns_ = now_ns - age_ns;
+    sample.age_ns = now_ns - taken_ns_;
     sample.time_ns = now_ns;
     return sample;
   }
@@ -26,9 +28,12 @@ class Exchange {
   void pull(const Vec3& force_D) { forces_.write(force_D.allFinite() ? force_D : Vec3(Vec3::Zero())); }
 
   // The other thread, RT-safe.
-  void tell(const Vec3& position_D, std::uint32_t buttons, DeviceStatus status) {
-    samples_.write({monotonicNow_ns(), position_D, buttons, status});
+  /// `asked_ns`: on the monotonic clock, when the device was asked where it is. A thread that is held up tells late.
+  void tell(std::int64_t asked_ns, const Vec3& position_D, std::uint32_t buttons, DeviceStatus status) {
+    samples_.write({asked_ns, position_D, buttons, status});
   }
+  /// It does not answer.
+  void tellLost() { tell(monotonicNow_ns(), Vec3::Zero(), 0, DeviceStatus::kLost); }
   /// The newest force; zero when the servo has been silent for so long that it no longer stands for it.
   Vec3 wantedForce() {
     Vec3 force;
@@ -43,7 +48,8 @@ class Exchange {
 
   Latest<DeviceSample> samples_;  // their times are of the monotonic clock
   Latest<Vec3> forces_{Vec3::Zero()};
-  std::int64_t fed_ns_ = 0;  // of the other thread
+  std::int64_t taken_ns_ = 0;  // the newest sample on the clock of the servo; of the servo thread
+  std::int64_t fed_ns_ = 0;    // of the other thread
 };
 
 }  // namespace hl

@@ -57,6 +57,7 @@ ServoRecord step(const proto::ServoSteps& in, int i, std::int64_t before_ns) {
   record.sample.position = at(in.position(), i);
   record.sample.buttons = in.buttons(i);
   if (in.weight_n_size() > 0) record.sample.weight_N = at(in.weight_n(), i);
+  if (in.age_ns_size() > 0) record.sample.age_ns = in.age_ns(i);
   record.target.proxy_D = at(in.target_proxy(), i);
   record.target.time_ns = sum(record.sample.time_ns, in.target_time_ns(i));
   record.target.stiffness = in.target_stiffness(i);
@@ -72,7 +73,7 @@ bool consistent(const proto::ServoSteps& in) {
     return std::all_of(sizes.begin(), sizes.end(), [=](int size) { return size == each * n; });
   };
   return n > 0 && in.settings_size() > 0 && in.settings(0).at() == 0 &&
-         (in.weight_n_size() == 0 || in.weight_n_size() == 3 * n) &&
+         (in.weight_n_size() == 0 || in.weight_n_size() == 3 * n) && (in.age_ns_size() == 0 || in.age_ns_size() == n) &&
          all({in.time_ns_size(), in.buttons_size(), in.target_time_ns_size(), in.target_stiffness_size(),
               in.target_paid_j_size(), in.work_ns_size()},
              1) &&
@@ -92,6 +93,22 @@ Values fromProto(const proto::Values& in) {
   return {{in.numbers().begin(), in.numbers().end()}, {in.integers().begin(), in.integers().end()}};
 }
 
+namespace {
+
+// What few devices tell is written for all steps or for none.
+void addRare(std::span<const ServoRecord> records, proto::ServoSteps& out) {
+  const auto weighs = [](const ServoRecord& record) { return record.sample.weight_N != Vec3(Vec3::Zero()); };
+  if (std::any_of(records.begin(), records.end(), weighs)) {
+    for (const ServoRecord& record : records) add(*out.mutable_weight_n(), record.sample.weight_N);
+  }
+  const auto late = [](const ServoRecord& record) { return record.sample.age_ns != 0; };
+  if (std::any_of(records.begin(), records.end(), late)) {
+    for (const ServoRecord& record : records) out.add_age_ns(record.sample.age_ns);
+  }
+}
+
+}  // namespace
+
 void toProto(std::span<const ServoRecord> records, std::uint64_t first, proto::ServoSteps& out) {
   out.set_first(first);
   toProto(valuesOf(records.front().before), *out.mutable_start());
@@ -107,9 +124,7 @@ void toProto(std::span<const ServoRecord> records, std::uint64_t first, proto::S
     toProto(now, *change.mutable_values());
     settings = std::move(now);
   }
-  const auto weighs = [](const ServoRecord& record) { return record.sample.weight_N != Vec3(Vec3::Zero()); };
-  if (std::none_of(records.begin(), records.end(), weighs)) return;
-  for (const ServoRecord& record : records) add(*out.mutable_weight_n(), record.sample.weight_N);
+  addRare(records, out);
 }
 
 std::vector<ServoRecord> fromProto(const proto::ServoSteps& in) {

@@ -52,6 +52,7 @@ DeviceSample ReplayDevice::read(std::int64_t now_ns) {
   if (part > 0 && part < 1) sample.position = a.position + part * (b.position - a.position);
   sample.time_ns = now_ns;
   sample.weight_N = Vec3::Zero();
+  sample.age_ns = 0;
   return sample;
 }
 

@@ -23,6 +23,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::array kRates_Hz{1000.0, 4000.0, 10'000.0};
 constexpr std::int64_t kLifeSteps = 50'000;  // then another servo
+constexpr double kBlowSeen_s = 0.003;        // after which a blow has been found
 
 class Life {
  public:
@@ -59,6 +60,7 @@ class Life {
   void command();
   void changeSettings();
   DeviceSample sample(test::Injected& in);
+  void move(test::Injected& in);
   ServoTarget target(test::Injected& in, std::int64_t now_ns);
   std::string judge(const test::Injected& in, const ServoOutput& out);
 
@@ -69,7 +71,11 @@ class Life {
   std::int64_t now_ns_ = 1'000'000'000;
   Vec3 finger_ = Vec3::Zero();
   Vec3 before_N_ = Vec3::Zero();
-  int away_steps_ = 0;  // left of a loss of the device
+  Vec3 told_ = Vec3::Zero();  // where the finger was when the driver last said so
+  std::int64_t told_ns_ = 0;
+  int away_steps_ = 0;     // left of a loss of the device
+  int held_up_steps_ = 0;  // left in which the driver says nothing new
+  int since_blow_steps_ = 0;
   bool pressed_ = true;
 };
 
@@ -103,11 +109,9 @@ DeviceSample Life::sample(test::Injected& in) {
   }
   now_ns_ += elapsed_ns;
   if (now_ns_ > 4'000'000'000'000'000'000) now_ns_ = 1'000'000'000;  // back again
-  if (oneIn(10'000)) {
-    in.blow = true;
-    finger_ = finger_.x() > 0 ? Vec3(-1, 0, 0) : Vec3(1, 0, 0);
-  }
-  DeviceSample sample{now_ns_, finger_, 0, DeviceStatus::kOk};
+  move(in);
+  DeviceSample sample{now_ns_, told_, 0, DeviceStatus::kOk};
+  sample.age_ns = now_ns_ - told_ns_;
   if (oneIn(8000)) away_steps_ = static_cast<int>(random_() % 200);
   if (away_steps_ > 0) {
     --away_steps_;
@@ -123,6 +127,21 @@ DeviceSample Life::sample(test::Injected& in) {
   sample.held = pressed_;
   in.held = pressed_ || settings_.dead_man == DeadMan::kNone;
   return sample;
+}
+
+// A driver that is held up does not see a blow, so none comes then, nor before the last one can be seen.
+void Life::move(test::Injected& in) {
+  ++since_blow_steps_;
+  if (held_up_steps_ == 0 && oneIn(10'000)) {
+    in.blow = true;
+    since_blow_steps_ = 0;
+    finger_ = finger_.x() > 0 ? Vec3(-1, 0, 0) : Vec3(1, 0, 0);
+  }
+  if (held_up_steps_ > 0 && --held_up_steps_ > 0) return;
+  if (since_blow_steps_ > kBlowSeen_s / settings_.period_s && oneIn(500))
+    held_up_steps_ = 1 + static_cast<int>(random_() % 40);
+  told_ = finger_;
+  told_ns_ = now_ns_;
 }
 
 ServoTarget Life::target(test::Injected& in, std::int64_t now_ns) {

@@ -128,6 +128,24 @@ TEST_P(Rates, AnEncoderCountBetweenTwoCloseStepsIsNoBlow) {
   EXPECT_EQ(bench.state.safety, SafetyState::kOn);
 }
 
+// A driver whose thread is held up for 40 ms goes on telling the same place, and then where the hand has gone since.
+TEST_P(Rates, ADriverThatIsHeldUpLooksLikeNoBlowAndHidesNone) {
+  for (const double way_m : {0.11, 0.13}) {  // in 40 ms, at 2.75 and 3.25 m/s
+    Bench bench = Bench::on(GetParam());
+    const std::int64_t begin_ns = bench.now_ns;
+    std::int64_t told_ns = begin_ns;
+    bench.run(0.1, [&](Seen& s) {
+      const std::int64_t now_ns = bench.now_ns - begin_ns;
+      const bool held_up = now_ns > 30'000'000 && now_ns < 70'000'000;
+      if (!held_up) told_ns = bench.now_ns;
+      s.sample.age_ns = bench.now_ns - told_ns;
+      s.sample.position.y() = now_ns < 70'000'000 ? 0 : way_m;
+      s.target.proxy_D = s.sample.position;
+    });
+    EXPECT_EQ(bench.state.safety, way_m < 0.12 ? SafetyState::kOn : SafetyState::kFault) << way_m;
+  }
+}
+
 TEST_P(Rates, AStaleTargetGivesNoForceAtOnceAndAFaultAfterASecond) {
   Bench bench = Bench::on(GetParam());
   bench.target_ns = bench.now_ns;

@@ -61,6 +61,7 @@ void expectSame(const ServoRecord& a, const ServoRecord& b) {
   EXPECT_EQ(a.sample.time_ns, b.sample.time_ns);
   EXPECT_TRUE(sameBits(a.sample.position, b.sample.position));
   EXPECT_TRUE(sameBits(a.sample.weight_N, b.sample.weight_N));
+  EXPECT_EQ(a.sample.age_ns, b.sample.age_ns);
   EXPECT_EQ(a.sample.buttons, b.sample.buttons);
   EXPECT_EQ(a.sample.status, b.sample.status);
   EXPECT_EQ(a.sample.held, b.sample.held);
@@ -91,6 +92,7 @@ TEST(RecordedServo, AnyStepsComeBackBitForBit) {
       if (random.below(20) == 0) settings = scrambled<ServoSettings>(random);
       records.push_back(randomRecord(random, settings));
       if (round % 2 == 0) records.back().sample.weight_N = random.bits3();
+      if (round % 3 == 0) records.back().sample.age_ns = random.integer();
     }
     records.front().before = scrambled<ServoState>(random);
     proto::ServoSteps message;

@@ -90,6 +90,22 @@ std::vector<std::string> linesOf(const std::string& file) {
   return lines;
 }
 
+// The hand of a fake with a script strokes until it feels something. A busy machine may cause a fault, which lasts:
+// then a person begins again.
+void expectTouch(const std::string& device, const std::string& report) {
+  std::vector<std::string> lines{"nothing"};
+  while (lines.front() == "nothing") {
+    std::filesystem::remove(report);
+    const TouchProcess touch(device);
+    waitFor([&] { return !linesOf(report).empty(); });
+    EXPECT_EQ(touch.end(), 0);
+    lines = linesOf(report);
+    ASSERT_EQ(lines.size(), 2U);
+    EXPECT_EQ(lines[1], "closed 0");
+  }
+  EXPECT_EQ(lines.front(), "touched");
+}
+
 struct LibraryDriver {
   const char* kind;
   const char* variable;
@@ -100,28 +116,20 @@ class TouchCommand : public testing::TestWithParam<LibraryDriver> {};
 
 TEST_P(TouchCommand, FeelsThroughTheVendorsLibrary) {
   const std::string report = tempFile("report");
-  std::filesystem::remove(report);
   setenv(GetParam().variable, GetParam().fake, 1);
   setenv("HL_FAKE_REPORT", report.c_str(), 1);
-  const TouchProcess touch(GetParam().kind);
-  waitFor([&] { return !linesOf(report).empty(); });
-  EXPECT_EQ(touch.end(), 0);
-  EXPECT_EQ(linesOf(report), (std::vector<std::string>{"touched", "closed 0"}));
+  expectTouch(GetParam().kind, report);
 }
 
 // The fake is loaded in place of libusb, so the driver's own USB code talks to it, and loads its firmware first.
 TEST(TouchFalcon, FeelsThroughLibusb) {
   const std::string report = tempFile("falcon_report"), firmware = tempFile("firmware");
-  std::filesystem::remove(report);
   std::ofstream(firmware, std::ios::binary) << std::string(700, '\x5a');
   setenv("LD_LIBRARY_PATH", HL_FAKE_USB_FOLDER, 1);
   setenv("HL_FALCON_FIRMWARE", firmware.c_str(), 1);
   setenv("HL_FAKE_REPORT", report.c_str(), 1);
-  const TouchProcess touch("falcon");
+  expectTouch("falcon", report);
   unsetenv("LD_LIBRARY_PATH");
-  waitFor([&] { return !linesOf(report).empty(); });
-  EXPECT_EQ(touch.end(), 0);
-  EXPECT_EQ(linesOf(report), (std::vector<std::string>{"touched", "closed 0"}));
 }
 
 TEST(TouchHaply, FeelsThroughTheVendorsService) {

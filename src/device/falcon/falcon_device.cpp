@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "base/realtime.h"
 #include "device/falcon/falcon_firmware.h"
@@ -118,7 +119,7 @@ void FalconDevice::run() {
     const auto next = std::chrono::steady_clock::now() + kPeriod;
     silences = here && step(exchange_->wantedForce()) ? 0 : silences + 1;
     if (silences >= kMostSilences) {
-      exchange_->tell(Vec3::Zero(), 0, DeviceStatus::kLost);
+      exchange_->tellLost();
       here = beginAgain();
       if (here) silences = 0;
       if (!here) std::this_thread::sleep_for(kRetry);
@@ -144,12 +145,13 @@ bool FalconDevice::step(const Vec3& force_D) {
   Vec3 torques_Nm;
   if (located_ && !home_ && falconTorques(tip_F_, angles_, force_D, torques_Nm)) command.motors = motorsFor(torques_Nm);
   FalconReply reply;
+  const std::int64_t asked_ns = monotonicNow_ns();
   if (!talk(command, reply)) return false;
   home_ = reply.homed != kFalconAllHomed;
   angles_ = anglesOf(reply.encoders);
   located_ = falconTip(angles_, tip_F_);
   if (!located_) tip_F_ = kFalconCentre_F;  // from where every place can be found
-  exchange_->tell(tip_F_ - kFalconCentre_F, reply.buttons,
+  exchange_->tell(asked_ns, tip_F_ - kFalconCentre_F, reply.buttons,
                   home_ || !located_ ? DeviceStatus::kNotReady : DeviceStatus::kOk);
   return true;
 }

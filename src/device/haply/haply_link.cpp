@@ -22,6 +22,7 @@
 #include <future>
 #include <thread>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "base/realtime.h"
 #include "device/exchange.h"
@@ -101,7 +102,7 @@ class HaplyLink::Conversation {
         why = error.what();
       }
       tellBegun(why);
-      exchanged.tell(Vec3::Zero(), 0, DeviceStatus::kLost);
+      exchanged.tellLost();
       asio::steady_timer timer(context_, kRetry);
       if (!ending_) co_await timer.async_wait(kAwait);
     }
@@ -189,11 +190,13 @@ class HaplyLink::Conversation {
       const std::string message = haplyForceMessage(state.device_id, dialect, force, first);
       timer.expires_after(kPeriod);
       socket.next_layer().expires_after(kPatience);
+      const std::int64_t asked_ns = monotonicNow_ns();
       auto [unsent, sent] = co_await socket.async_write(asio::buffer(message), kAwait);
       if (unsent) co_return;
       const bool answered = co_await read(socket, state);
       if (!answered || !state.located) co_return;
-      exchanged.tell(state.position, state.buttons, state.calibrated ? DeviceStatus::kOk : DeviceStatus::kNotReady);
+      exchanged.tell(asked_ns, state.position, state.buttons,
+                     state.calibrated ? DeviceStatus::kOk : DeviceStatus::kNotReady);
       tellBegun("");
       if (!last) co_await timer.async_wait(kAwait);
     }

@@ -1,5 +1,6 @@
 #include "device/touch_hd/touch_hd_device.h"
 
+#include "base/clock.h"
 #include "base/error.h"
 
 namespace hl {
@@ -108,7 +109,7 @@ void TouchHdDevice::close() {
   if (!library_) return;
   lifeline_.reset();
   end();
-  exchange_.tell(Vec3::Zero(), 0, DeviceStatus::kNotReady);
+  exchange_.tell(monotonicNow_ns(), Vec3::Zero(), 0, DeviceStatus::kNotReady);
   library_.reset();
 }
 
@@ -142,6 +143,7 @@ void TouchHdDevice::frame() {
   calls_.begin_frame(handle_);
   Vec3 position_mm = Vec3::Zero();
   int buttons = 0;
+  const std::int64_t asked_ns = monotonicNow_ns();
   calls_.get_double(kCurrentPosition, position_mm.data());
   calls_.get_integer(kCurrentButtons, &buttons);
   DeviceStatus status = calibrate();
@@ -152,7 +154,7 @@ void TouchHdDevice::frame() {
     if (error.code != kWarmMotors && error.code != kExceededMaxForce) failed_ = true;
   }
   if (failed_) status = DeviceStatus::kLost;
-  exchange_.tell(position_mm / kMetre_mm, static_cast<std::uint32_t>(buttons), status);
+  exchange_.tell(asked_ns, position_mm / kMetre_mm, static_cast<std::uint32_t>(buttons), status);
 }
 
 // A person may have to put the stylus into its well; the library then wants to be told to look again.

@@ -1,7 +1,8 @@
 // FakeScript: the hand of a fake that another process has loaded, when HL_FAKE_REPORT names a file. It waits 20 mm
 // above the origin; once the servo runs it presses to 20 mm below and comes back, until it has felt something. It
-// writes what came of it: a line "touched" when the device has pulled with half a newton, and "closed F" with the force
-// in N that is left when it has been closed.
+// writes what came of it: a line "touched" when the device has pulled with half a newton, or "nothing" when it has not
+// in kStrokes, as when the servo is in a fault; and "closed F" with the force in N that is left when it has been
+// closed.
 #pragma once
 
 #include <cstdlib>
@@ -24,11 +25,11 @@ class FakeScript {
   }
   void pulled() {
     if (!report_.is_open()) return;
-    if (touched_) return;
+    if (told_) return;
     if (++pulls_ % kPullsOfAStroke == 0) arm_.setHandGoal({0, pulls_ / kPullsOfAStroke % 2 == 1 ? -0.02 : 0.02, 0});
-    if (arm_.strongest_N() < 0.5) return;
-    touched_ = true;
-    report_ << "touched" << std::endl;
+    const bool touched = arm_.strongest_N() >= 0.5;
+    told_ = touched || pulls_ >= kStrokes * kPullsOfAStroke;
+    if (told_) report_ << (touched ? "touched" : "nothing") << std::endl;
   }
   void closed() {
     if (report_.is_open()) report_ << "closed " << arm_.force_D().norm() << std::endl;
@@ -36,11 +37,12 @@ class FakeScript {
 
  private:
   static constexpr int kPullsOfAStroke = 500;
+  static constexpr int kStrokes = 20;
 
   FakeArm& arm_;
   std::ofstream report_;
   int pulls_ = 0;
-  bool touched_ = false;
+  bool told_ = false;
 };
 
 }  // namespace hl::test
