@@ -46,12 +46,13 @@ int run(const std::string& surface, const std::string& triangles) {
   const Vec3 centre = snapshot->bounds.centre(), size = snapshot->bounds.size();
   const double above = 0.5 * size.y() + kHeight, reach = 0.35 * std::min(size.x(), size.z());
   const ProxySettings settings;
+  RecentPrimitives recent;
   ProxyState state = startProxy(*snapshot, settings, centre + above * Vec3::UnitY());
   for (int i = 0; i < kTicks; ++i) {
     const double s = kWay * i / reach;
     Vec3 finger = centre + reach * Vec3(std::sin(s), 0, std::sin(1.618 * s) * std::cos(0.3 * s));
     finger.y() = surface == "free" ? centre.y() + above : std::min(finger.y(), state.position.y() - kDepth);
-    tick(state, *snapshot, settings, finger);
+    tick(state, {*snapshot, 0, recent}, settings, finger);
     if (state.touching && surface == "free") {
       std::fprintf(stderr, "count_ticks: error: the way in the air touches the terrain\n");
       return 1;

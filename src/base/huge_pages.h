@@ -40,6 +40,14 @@ class HugePages {
     throw std::bad_alloc();
   }
   static void free(void* memory, std::size_t bytes) { munmap(memory, rounded(bytes)); }
+  /// Moves what another allocator holds into huge pages, where it stays in place for all who use it. Where Linux has no
+  /// room for that, or is older than 6.1, nothing changes.
+  static void collapse(const void* memory, std::size_t bytes) {
+    constexpr int kMadvCollapse = 25;  // MADV_COLLAPSE, which libraries older than it do not name
+    const auto begin = reinterpret_cast<std::uintptr_t>(memory);
+    const std::uintptr_t first = rounded(begin), end = (begin + bytes) / kPage * kPage;
+    if (first < end) madvise(reinterpret_cast<void*>(first), end - first, kMadvCollapse);  // NOLINT: an address
+  }
 
  private:
   static std::size_t rounded(std::size_t bytes) { return (bytes + kPage - 1) / kPage * kPage; }

@@ -1,4 +1,5 @@
-// RecentPrimitives: the primitives read last. A tick reads the same few in each of its sweeps, and where they end.
+// RecentPrimitives: the primitives read last. A tick reads the same few in each of its sweeps, and where they end; so,
+// mostly, does the next tick.
 #pragma once
 
 #include <array>
@@ -17,10 +18,16 @@ struct PrimitiveId {
   bool operator==(const PrimitiveId&) const = default;
 };
 
-/// For one thread and one scene; RT-safe.
+/// For one thread; RT-safe.
 class RecentPrimitives {
  public:
   RecentPrimitives() { of_.fill(kNone); }
+
+  /// What follows is of the snapshot of this identity: forgets what is here of another one.
+  void readFrom(std::uint64_t snapshot) {
+    if (snapshot_ != snapshot) of_.fill(kNone);
+    snapshot_ = snapshot;
+  }
 
   /// read() gives the primitive when it is not here. The reference is good until the next call.
   template <typename Read>
@@ -43,6 +50,7 @@ class RecentPrimitives {
     Slot() {}  // NOLINT: = default would be deleted by the union
     Primitive primitive;
   };
+  std::uint64_t snapshot_ = 0;  // none has this
   std::array<PrimitiveId, kSlots> of_;
   std::array<Slot, kSlots> slots_;
 };

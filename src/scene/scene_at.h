@@ -23,7 +23,14 @@ struct SceneImpact {
 class SceneAt {
  public:
   SceneAt(const Snapshot& snapshot, std::int64_t time_ns = 0)  // NOLINT: a snapshot at rest is a scene
-      : snapshot_(snapshot), time_ns_(time_ns) {}
+      : snapshot_(snapshot), time_ns_(time_ns), recent_(own_) {}
+  /// With what earlier ticks of the same thread have read, which must outlive it too.
+  SceneAt(const Snapshot& snapshot, std::int64_t time_ns, RecentPrimitives& recent)
+      : snapshot_(snapshot), time_ns_(time_ns), recent_(recent) {
+    recent_.readFrom(snapshot.identity);
+  }
+  SceneAt(const SceneAt&) = delete;
+  SceneAt& operator=(const SceneAt&) = delete;
 
   const Snapshot& snapshot() const { return snapshot_; }
   std::int64_t time_ns() const { return time_ns_; }
@@ -61,7 +68,8 @@ class SceneAt {
 
   const Snapshot& snapshot_;
   std::int64_t time_ns_;
-  mutable RecentPrimitives recent_;
+  RecentPrimitives own_;
+  RecentPrimitives& recent_;
 };
 
 }  // namespace hl

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <utility>
 
+#include "base/huge_pages.h"
 #include "geometry/brute_force.h"
 #include "geometry/sphere_tree.h"
 #include "geometry/wide_bvh.h"
@@ -90,7 +91,15 @@ std::shared_ptr<Shape> shapeOf(Model given) {
   return shape;
 }
 
+template <typename T>
+void layInHugePages(const std::vector<T>& list) {
+  HugePages::collapse(list.data(), list.size() * sizeof(T));
+}
+
+// What is built lives long enough to be worth moving; what is refitted is followed by the next frame.
 void buildIndex(Shape& shape, HierarchyKind hierarchy) {
+  layInHugePages(shape.model.positions);
+  layInHugePages(shape.model.triangles);
   shape.hierarchy = hierarchy;
   shape.index = makeIndex(shape.primitives, hierarchy);
 }

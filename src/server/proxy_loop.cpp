@@ -20,7 +20,7 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
                           const SpringOfServo& spring) {
   follow(commands, spring);
   const Snapshot& snapshot = scenes_.take();
-  const SceneAt scene(snapshot, now_ns);
+  const SceneAt scene(snapshot, now_ns, recent_);
   const Vec3 finger = workspace_.toWorld(finger_D);
   const bool restart = scene_ == 0 || commands.restarts != restarts_;
   const bool abrupt = restart || (snapshot.number != scene_ && snapshot.abrupt);

@@ -57,6 +57,7 @@ class ProxyLoop {
   ProxySettings settings_;
   Workspace workspace_;
   ProxyState state_;
+  RecentPrimitives recent_;
   TargetBlend blend_;
   double last_stiffness_ = 1;  // s that the servo was told
   bool pulled_ = false;        // the servo was told to pull

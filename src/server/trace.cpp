@@ -9,12 +9,13 @@ TraceTotals runTrace(const Snapshot& snapshot, const TraceSettings& settings, co
   TraceTotals totals;
   if (path.empty()) return totals;
   ProxySettings proxy = settings.proxy;
+  RecentPrimitives recent;
   ProxyState state = startProxy(snapshot, proxy, path.front().position);
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Vec3& finger = path[i].position;
     if (i > 0) proxy.period_s = path[i].t - path[i - 1].t;
     const std::int64_t start_ns = monotonicNow_ns();
-    const TickReport report = tick(state, snapshot, proxy, finger);
+    const TickReport report = tick(state, {snapshot, 0, recent}, proxy, finger);
     TraceRow out{};
     out.tick_ns = monotonicNow_ns() - start_ns;
     out.t = path[i].t;

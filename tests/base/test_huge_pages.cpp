@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <numeric>
+#include <vector>
 
 namespace hl {
 namespace {
@@ -39,6 +40,18 @@ TEST(HugeVector, IsFreedAndTakenAgainManyTimes) {
     HugeVector<std::uint32_t> numbers(kLarge);
     numbers.front() = numbers.back() = 7;
     ASSERT_TRUE(beginsAtHugePage(numbers));
+  }
+}
+
+TEST(HugePages, WhatIsMovedIntoThemStaysWhereAndWhatItIs) {
+  for (const std::size_t count : {std::size_t{0}, std::size_t{10}, kLarge, 10 * kLarge}) {
+    std::vector<std::uint32_t> numbers(count);
+    std::iota(numbers.begin(), numbers.end(), 0U);
+    const std::vector<std::uint32_t> before = numbers;
+    const std::uint32_t* const at = numbers.data();
+    HugePages::collapse(numbers.data(), count * sizeof(std::uint32_t));
+    EXPECT_EQ(numbers.data(), at);
+    EXPECT_EQ(numbers, before);
   }
 }
 

@@ -146,6 +146,7 @@ TEST(Nearby, MoreThanItHasRoomForIsNotCovered) {
 // The judge forgets before every tick what the last one met.
 TEST(Nearby, ATickThatRemembersIsATickThatSearchesToTheBit) {
   test::Random random(23);
+  RecentPrimitives recent;  // of one scene after the other
   for (int round = 0; round < 60; ++round) {
     const auto snapshot = randomScene(random, 2, 20, HierarchyKind::kBvh);
     ProxySettings settings{kRadius};
@@ -155,7 +156,7 @@ TEST(Nearby, ATickThatRemembersIsATickThatSearchesToTheBit) {
     for (int i = 0; i < 200; ++i) {
       finger = random.below(30) == 0 ? random.inCube(0.12) : Vec3(finger + random.inCube(0.004));
       b.nearby = Nearby();
-      const TickReport remembered = tick(a, *snapshot, settings, finger),
+      const TickReport remembered = tick(a, {*snapshot, 0, recent}, settings, finger),
                        searched = tick(b, *snapshot, settings, finger);
       ASSERT_EQ(a.position, b.position);
       ASSERT_EQ(remembered.target, searched.target);

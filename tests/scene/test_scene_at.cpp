@@ -139,5 +139,21 @@ TEST(SceneAt, ReachContainsTheWholeMotion) {
   }
 }
 
+TEST(SceneAt, WhatWasReadOfOneSnapshotIsNotTakenForAnother) {
+  test::Random random(9);
+  RecentPrimitives recent;
+  for (int round = 0; round < 20; ++round) {
+    const auto snapshot = makeSnapshot(randomModel(random));
+    for (int tick = 0; tick < 3; ++tick) {
+      const SceneAt scene(*snapshot, 0, recent);
+      for (std::uint32_t element = 0; element < 32; ++element) {
+        const Primitive judged = snapshot->instances[0].shape->primitives[element];
+        ASSERT_EQ(scene.primitive({0, element}).vertex, judged.vertex);
+        ASSERT_EQ(scene.primitive({0, element}).kind, judged.kind);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace hl

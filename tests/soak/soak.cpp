@@ -77,7 +77,7 @@ class Piece {
 
   void tickOnce() {
     const Vec3 finger = world_.toWorld(finger_.next(world_.toRooms(state_.position)));
-    const TickReport report = tick(state_, *world_.snapshot, world_.settings, finger);
+    const TickReport report = tick(state_, {*world_.snapshot, 0, recent_}, world_.settings, finger);
     ++seen_.ticks;
     seen_.touching += state_.touching ? 1 : 0;
     seen_.capped += report.capped ? 1 : 0;
@@ -114,6 +114,7 @@ class Piece {
   const Clearance clearance_;
   Finger finger_;
   ProxyState state_;
+  RecentPrimitives recent_;
   int room_ = 0;
   Seen seen_;
 };
