@@ -1,7 +1,6 @@
 // hl doctor: what this machine grants, and which devices are present.
 #include <fmt/core.h>
 
-#include <array>
 #include <chrono>
 #include <filesystem>
 #include <string>
@@ -11,13 +10,13 @@
 #include "base/timer_probe.h"
 #include "commands.h"
 #include "device/open_device.h"
+#include "server/servo_rate.h"
 #include "serving.h"
 
 namespace hl {
 
 namespace {
 
-constexpr std::array kRates_Hz{1e3, 2e3, 4e3, 1e4};
 constexpr auto kMeasure = std::chrono::seconds(1);
 
 // How many there are, and the newest: their names begin with the time.
@@ -50,7 +49,7 @@ void print(const TimerProbe& timer) {
 RealtimeGrant examineTimer() {
   double highest_Hz = 0;
   RealtimeGrant grant;
-  for (const double rate_Hz : kRates_Hz) {
+  for (const double rate_Hz : kServoRates_Hz) {
     TimerProbe timer;
     timer.rate_Hz = rate_Hz;
     timer.run(kMeasure);

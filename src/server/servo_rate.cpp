@@ -1,15 +1,14 @@
 #include "server/servo_rate.h"
 
-#include <array>
 #include <chrono>
+#include <ranges>
 
 #include "base/timer_probe.h"
 
 namespace hl {
 
 double highestServoRate_Hz(const DeviceInfo& device, FunctionRef<bool(double)> holds) {
-  constexpr std::array kRates_Hz{10e3, 4e3, 2e3, 1e3};
-  for (const double rate_Hz : kRates_Hz) {
+  for (const double rate_Hz : kServoRates_Hz | std::views::reverse) {
     if (rate_Hz <= device.servo_rate_Hz) break;
     if (rate_Hz <= device.servo_rate_max_Hz && holds(rate_Hz)) return rate_Hz;
   }

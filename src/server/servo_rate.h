@@ -2,6 +2,7 @@
 // machine holds.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "base/function_ref.h"
@@ -9,7 +10,10 @@
 
 namespace hl {
 
-/// The highest of 1, 2, 4 and 10 kHz, and of the device's own rate, that is no more than the device takes and of which
+/// What a machine is tried at.
+inline constexpr std::array kServoRates_Hz{1e3, 2e3, 4e3, 10e3};
+
+/// The highest of kServoRates_Hz, and of the device's own rate, that is no more than the device takes and of which
 /// `holds` says that the machine holds it; the device's own where it holds none. Setup only.
 double highestServoRate_Hz(const DeviceInfo& device, FunctionRef<bool(double rate_Hz)> holds);
 

@@ -44,7 +44,7 @@ class SimulatedBench final : public Bench {
   std::unique_ptr<Device> device() override { return std::move(device_); }
 
  private:
-  std::unique_ptr<SimulatedDevice> device_ = std::make_unique<SimulatedDevice>();
+  std::unique_ptr<SimulatedDevice> device_ = std::make_unique<SimulatedDevice>(quickArm());
   FakeArm arm_{*device_};
 };
 

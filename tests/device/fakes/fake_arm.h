@@ -13,6 +13,13 @@
 
 namespace hl::test {
 
+/// It has to keep up with the real clock under the sanitizers and beside other tests, so it makes large steps.
+inline SimulatedDeviceSettings quickArm() {
+  SimulatedDeviceSettings settings;
+  settings.step_s = 1e-4;
+  return settings;
+}
+
 class FakeArm {
  public:
   FakeArm() : device_(own_) {}
@@ -62,7 +69,7 @@ class FakeArm {
 
  private:
   std::mutex mutex_;
-  SimulatedDevice own_;
+  SimulatedDevice own_{quickArm()};
   SimulatedDevice& device_;
   double strongest_N_ = 0;
   std::atomic<bool> virtual_{false};
