@@ -1,16 +1,15 @@
 #include "server/servo_rate.h"
 
 #include <chrono>
-#include <ranges>
 
 #include "base/timer_probe.h"
 
 namespace hl {
 
 double highestServoRate_Hz(const DeviceInfo& device, FunctionRef<bool(double)> holds) {
-  for (const double rate_Hz : kServoRates_Hz | std::views::reverse) {
-    if (rate_Hz <= device.servo_rate_Hz) break;
-    if (rate_Hz <= device.servo_rate_max_Hz && holds(rate_Hz)) return rate_Hz;
+  for (auto rate = kServoRates_Hz.rbegin(); rate != kServoRates_Hz.rend(); ++rate) {
+    if (*rate <= device.servo_rate_Hz) break;
+    if (*rate <= device.servo_rate_max_Hz && holds(*rate)) return *rate;
   }
   return device.servo_rate_Hz;
 }
