@@ -1,4 +1,4 @@
-// What a sphere may touch of the primitives of one block, all at once: from lower bounds of the distance, by planes
+// What a sphere may touch of the primitives of two blocks, all at once: from lower bounds of the distance, by planes
 // that separate it from each. Part of wide_bvh_query.cpp, compiled with it for each instruction set.
 #if defined(HL_GEOMETRY_WIDE_BVH_BLOCK_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef HL_GEOMETRY_WIDE_BVH_BLOCK_INL_H
@@ -18,7 +18,9 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using D = hn::CappedTag<float, kWide>;
+// A vector holds the primitives of two blocks where the processor has so many lanes, else a part of one.
+constexpr std::size_t kPair = 2 * kWide;
+using D = hn::CappedTag<float, kPair>;
 using V = hn::Vec<D>;
 using Mask = hn::Mask<D>;
 constexpr D kFloats;
@@ -46,32 +48,69 @@ HWY_INLINE V3 cross(const V3& a, const V3& b) {
 HWY_INLINE V3 choose(Mask mask, const V3& a, const V3& b) {
   return {hn::IfThenElse(mask, a.x, b.x), hn::IfThenElse(mask, a.y, b.y), hn::IfThenElse(mask, a.z, b.z)};
 }
-HWY_INLINE V3 same(const float (&v)[3]) {
-  return {hn::Set(kFloats, v[0]), hn::Set(kFloats, v[1]), hn::Set(kFloats, v[2])};
-}
 
 HWY_INLINE unsigned bitsOf(Mask mask) {
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(kFloats, mask, bytes);
-  return bytes[0];
+  return bytes[0] | static_cast<unsigned>(bytes[1]) << 8;
 }
 
-HWY_INLINE V coordinate(const std::int16_t* lanes) {
-  const hn::Rebind<std::int16_t, D> packed;
-  const hn::RebindToSigned<D> whole;
-  return hn::ConvertTo(kFloats, hn::PromoteTo(whole, hn::Load(packed, lanes)));
+// Two blocks, each with the query in its coordinates. Lanes count through both.
+struct BlockPair {
+  const WideBlock* block[2];
+  BlockQuery query[2];
+
+  std::uint32_t primitive(std::size_t lane) const { return block[lane / kWide]->primitive[lane % kWide]; }
+};
+
+// The vector from `lane` on, of part(which block, its first lane, floats): of one block, or of one half from each.
+template <typename Part>
+HWY_INLINE V ofBlocks(std::size_t lane, const Part& part) {
+#if HWY_TARGET != HWY_SCALAR
+  if constexpr (kLanes > kWide) {
+    const hn::Half<D> half;
+    return hn::Combine(kFloats, part(1, 0, half), part(0, 0, half));
+  }
+#endif
+  if constexpr (kLanes <= kWide) return part(lane / kWide, lane % kWide, kFloats);
 }
 
-// The primitives of some lanes of a block, and what of their nearest points does not depend on where one looks from.
+HWY_INLINE V coordinate(const BlockPair& pair, std::size_t lane, std::size_t vertex, std::size_t axis) {
+  return ofBlocks(lane, [&](std::size_t which, std::size_t from, auto floats) HWY_ATTR {
+    const hn::Rebind<std::int16_t, decltype(floats)> packed;
+    const hn::RebindToSigned<decltype(floats)> whole;
+    return hn::ConvertTo(floats,
+                         hn::PromoteTo(whole, hn::Load(packed, pair.block[which]->vertex[vertex][axis] + from)));
+  });
+}
+
+// number(query) of the query in each block's coordinates.
+template <typename Number>
+HWY_INLINE V ofQueries(const BlockPair& pair, std::size_t lane, const Number& number) {
+  return ofBlocks(lane, [&](std::size_t which, std::size_t, auto floats)
+                            HWY_ATTR { return hn::Set(floats, number(pair.query[which])); });
+}
+
+HWY_INLINE V3 ofQueries(const BlockPair& pair, std::size_t lane, float (BlockQuery::*vector)[3]) {
+  const auto part = [&](int axis) HWY_ATTR {
+    return ofQueries(pair, lane, [&](const BlockQuery& query) { return (query.*vector)[axis]; });
+  };
+  return {part(0), part(1), part(2)};
+}
+
+HWY_INLINE V reachOf(const BlockPair& pair, std::size_t lane) {
+  return ofQueries(pair, lane, [](const BlockQuery& query) { return query.reach; });
+}
+
+// The primitives of some lanes of a pair, and what of their nearest points does not depend on where one looks from.
 struct Corners {
   V3 a, b, c, ab, ac, normal;
   V ab2, ac2, ab_ac;
 };
 
-HWY_INLINE Corners cornersOf(const WideBlock& block, std::size_t lane) {
+HWY_INLINE Corners cornersOf(const BlockPair& pair, std::size_t lane) {
   const auto corner = [&](std::size_t i) HWY_ATTR {
-    const auto& axes = block.vertex[i];
-    return V3{coordinate(axes[0] + lane), coordinate(axes[1] + lane), coordinate(axes[2] + lane)};
+    return V3{coordinate(pair, lane, i, 0), coordinate(pair, lane, i, 1), coordinate(pair, lane, i, 2)};
   };
   const V3 a = corner(0), b = corner(1), c = corner(2), ab = b - a, ac = c - a;
   return {a, b, c, ab, ac, cross(ab, ac), dot(ab, ab), dot(ac, ac), dot(ab, ac)};
@@ -137,30 +176,30 @@ HWY_INLINE Plane planeAlong(const V3& toward, const Corners& p, const V3& eye, V
   return {nearest, hn::Mul(reach, hn::Sqrt(dot(toward, toward)))};
 }
 
-// Which primitives of the block may be within reach.
-HWY_INLINE unsigned withinReach(const WideBlock& block, const BlockQuery& query) {
+// Which primitives of the first `lanes` may be within reach.
+HWY_INLINE unsigned withinReach(const BlockPair& pair, std::size_t lanes) {
   unsigned bits = 0;
-  for (std::size_t lane = 0; lane < kWide; lane += kLanes) {
-    const Corners corners = cornersOf(block, lane);
-    const V3 eye = same(query.from);
-    const Plane plane = planeAlong(towards(corners, corners.a - eye), corners, eye, hn::Set(kFloats, query.reach));
+  for (std::size_t lane = 0; lane < lanes; lane += kLanes) {
+    const Corners corners = cornersOf(pair, lane);
+    const V3 eye = ofQueries(pair, lane, &BlockQuery::from);
+    const Plane plane = planeAlong(towards(corners, corners.a - eye), corners, eye, reachOf(pair, lane));
     bits |= (bitsOf(hn::Gt(plane.nearest, plane.edge)) ^ kAllLanes) << lane;
   }
   return bits;
 }
 
-// Which primitives of the block may be touched up to the limit, and lower bounds of when. Conservative advancement
-// (Mirtich 1996): no touch before the sphere crosses a separating plane, and from there the next plane tells more.
-HWY_INLINE unsigned touched(const WideBlock& block, const BlockQuery& query, float limit, float* entry) {
+// Which primitives of the first `lanes` may be touched up to the limit, and lower bounds of when. Conservative
+// advancement (Mirtich 1996): no touch before the sphere crosses a separating plane, and from there the next plane
+// tells more.
+HWY_INLINE unsigned touched(const BlockPair& pair, std::size_t lanes, float limit, float* entry) {
   constexpr int kAdvances = 3;
   const V never = hn::Set(kFloats, 2.0f);
   const V latest = hn::Set(kFloats, limit);
-  const V reach = hn::Set(kFloats, query.reach);
-  const V3 from = same(query.from);
-  const V3 motion = same(query.motion);
   unsigned bits = 0;
-  for (std::size_t lane = 0; lane < kWide; lane += kLanes) {
-    const Corners corners = cornersOf(block, lane);
+  for (std::size_t lane = 0; lane < lanes; lane += kLanes) {
+    const Corners corners = cornersOf(pair, lane);
+    const V3 from = ofQueries(pair, lane, &BlockQuery::from), motion = ofQueries(pair, lane, &BlockQuery::motion);
+    const V reach = reachOf(pair, lane);
     V time = hn::Zero(kFloats);
     for (int i = 0; i < kAdvances; ++i) {
       const V3 eye = sum(from, scaled(motion, time));

@@ -24,6 +24,34 @@ HWY_INLINE unsigned usedLanes(const WideTree& tree, std::uint32_t block) {
   return left >= kWide ? 0xffu : (1u << left) - 1;
 }
 
+// Numbers of one or two blocks.
+struct PairNumbers {
+  std::uint32_t block[2];
+  std::size_t count;
+
+  std::size_t lanes() const { return count * kWide; }
+};
+
+HWY_INLINE unsigned usedLanes(const WideTree& tree, const PairNumbers& numbers) {
+  return usedLanes(tree, numbers.block[0]) | (numbers.count == 2 ? usedLanes(tree, numbers.block[1]) << kWide : 0);
+}
+
+// A single block is there twice.
+HWY_INLINE BlockPair pairOf(const WideTree& tree, const WideQuery& query, const PairNumbers& numbers) {
+  const WideBlock& first = tree.blocks[numbers.block[0]];
+  if (numbers.count == 1) {
+    const BlockQuery packed = blockQuery(first, query);
+    return {{&first, &first}, {packed, packed}};
+  }
+  const WideBlock& second = tree.blocks[numbers.block[1]];
+  return {{&first, &second}, {blockQuery(first, query), blockQuery(second, query)}};
+}
+
+// The boxes of a node.
+using Boxes = hn::CappedTag<float, kWide>;
+constexpr Boxes kBoxes;
+constexpr std::size_t kBoxLanes = hn::MaxLanes(kBoxes);
+
 // By axis of a node's frame; the fourth is of no use.
 using Axes = hn::CappedTag<float, 4>;
 constexpr Axes kAxes;
@@ -64,27 +92,29 @@ HWY_INLINE void turn(Way& way, const BoxQuery& query, const WideNode& node) {
 }
 
 // Square of the distance between the box of the way and the boxes from `lane` on.
-HWY_INLINE V distance2(const WideNode& node, std::size_t lane, const Way& way) {
-  V sum2 = hn::Zero(kFloats);
+HWY_INLINE hn::Vec<Boxes> distance2(const WideNode& node, std::size_t lane, const Way& way) {
+  auto sum2 = hn::Zero(kBoxes);
   for (int axis = 0; axis < 3; ++axis) {
-    const V low = hn::Load(kFloats, node.bound[0][axis] + lane);
-    const V high = hn::Load(kFloats, node.bound[1][axis] + lane);
-    const V above = hn::Sub(low, hn::Set(kFloats, way.max[axis]));
-    const V below = hn::Sub(hn::Set(kFloats, way.min[axis]), high);
-    const V apart = hn::Max(hn::Max(above, below), hn::Zero(kFloats));
+    const auto low = hn::Load(kBoxes, node.bound[0][axis] + lane);
+    const auto high = hn::Load(kBoxes, node.bound[1][axis] + lane);
+    const auto above = hn::Sub(low, hn::Set(kBoxes, way.max[axis]));
+    const auto below = hn::Sub(hn::Set(kBoxes, way.min[axis]), high);
+    const auto apart = hn::Max(hn::Max(above, below), hn::Zero(kBoxes));
     sum2 = hn::Add(sum2, hn::Mul(apart, apart));
   }
   return sum2;
 }
 
 // Writes the links of the children that the sphere may enter to the end of a list of `count`; returns how many it
-// holds. Writes a vector, of which what is beyond them means nothing.
+// holds. Writes a vector, of which what is beyond them means nothing. (CompressStore would write no more than them, by
+// an instruction that AMD's processors make of many others.)
 HWY_INLINE std::size_t addOverlapped(const WideNode& node, const BoxQuery& query, const Way& way, std::uint32_t* links,
                                      std::size_t count) {
-  const hn::RebindToUnsigned<D> whole;
-  for (std::size_t lane = 0; lane < kWide; lane += kLanes) {
-    const auto in = hn::RebindMask(whole, hn::Le(distance2(node, lane, way), hn::Set(kFloats, query.reach2)));
-    count += hn::CompressStore(hn::Load(whole, node.child + lane), in, whole, links + count);
+  const hn::RebindToUnsigned<Boxes> whole;
+  for (std::size_t lane = 0; lane < kWide; lane += kBoxLanes) {
+    const auto in = hn::RebindMask(whole, hn::Le(distance2(node, lane, way), hn::Set(kBoxes, query.reach2)));
+    hn::StoreU(hn::Compress(hn::Load(whole, node.child + lane), in), whole, links + count);
+    count += hn::CountTrue(whole, in);
   }
   return count;
 }
@@ -95,34 +125,40 @@ HWY_INLINE std::size_t takeLowest(unsigned& bits) {
   return lane;
 }
 
-// Every block whose box the sphere may enter up to the limit, which look() may shorten. First come first served: then
-// what is looked at next does not hang on what the last look finds, and the processor has both in hand at once. Where
-// too many wait, the last come is served, as those that a depth-first walk leaves waiting are few.
+// Every block whose box the sphere may enter up to the limit, two at a time; look() may shorten the limit. First come
+// first served: then what is looked at next does not hang on what the last look finds, and the processor has both in
+// hand at once. Where too many wait, the last come is served, as those that a depth-first walk leaves waiting are few.
 template <typename Look>
-HWY_INLINE void forEachBlock(const WideTree& tree, const BoxQuery& query, const Look& look) {
+HWY_INLINE void forEachPair(const WideTree& tree, const BoxQuery& query, const Look& look) {
   constexpr std::size_t kMostWaiting = 256;
   std::uint32_t links[kMostWaiting + kWide + kWideStackSize];
   std::size_t first = 0, end = 0;
   links[end++] = tree.root;
+  PairNumbers numbers{{0, 0}, 0};
   Way straight, turned;
   setEnd(straight, query);
   while (first < end) {
     const std::uint32_t link = end <= kMostWaiting ? links[first++] : links[--end];
     if ((link & kBlockLink) != 0) {
-      look(link & ~kBlockLink);
+      numbers.block[numbers.count++] = link & ~kBlockLink;
+      if (numbers.count == 2) {
+        look(numbers);
+        numbers.count = 0;
+      }
       continue;
     }
     const WideNode& node = tree.nodes[link];
     if (node.turned != 0) turn(turned, query, node);
     end = addOverlapped(node, query, node.turned != 0 ? turned : straight, links, end);
   }
+  if (numbers.count > 0) look(numbers);
 }
 
 void overlap(const WideTree& tree, const WideQuery& query, FunctionRef<void(std::uint32_t)> visit) {
-  forEachBlock(tree, boxQuery(tree, query), [&](std::uint32_t number) HWY_ATTR {
-    const WideBlock& block = tree.blocks[number];
-    unsigned bits = withinReach(block, blockQuery(block, query)) & usedLanes(tree, number);
-    while (bits != 0) visit(block.primitive[takeLowest(bits)]);
+  forEachPair(tree, boxQuery(tree, query), [&](const PairNumbers& numbers) HWY_ATTR {
+    const BlockPair pair = pairOf(tree, query, numbers);
+    unsigned bits = withinReach(pair, numbers.lanes()) & usedLanes(tree, numbers);
+    while (bits != 0) visit(pair.primitive(takeLowest(bits)));
   });
 }
 
@@ -136,7 +172,7 @@ class Sweep {
     constexpr double kLarger = 8;
     for (double part = first_part;; part = std::min(1.0, kLarger * part)) {
       shorten(part);
-      forEachBlock(tree_, box_, [this](std::uint32_t number) HWY_ATTR { look(number); });
+      forEachPair(tree_, box_, [this](const PairNumbers& numbers) HWY_ATTR { look(numbers); });
       propose();
       if (limit_ < part || part >= 1) return;
     }
@@ -154,14 +190,15 @@ class Sweep {
     setLimit(box_, limit);
   }
 
-  HWY_INLINE void look(std::uint32_t number) {
-    const WideBlock& block = tree_.blocks[number];
-    HWY_ALIGN float entry[kWide];
-    unsigned bits = touched(block, blockQuery(block, query_), box_.limit, entry) & usedLanes(tree_, number);
+  HWY_INLINE void look(const PairNumbers& numbers) {
+    const BlockPair pair = pairOf(tree_, query_, numbers);
+    HWY_ALIGN float entry[kPair];
+    unsigned bits = touched(pair, numbers.lanes(), box_.limit, entry) & usedLanes(tree_, numbers);
     while (bits != 0) {
       const std::size_t lane = takeLowest(bits);
-      if (wasProposed(block.primitive[lane])) continue;
-      candidates_[candidate_count_++] = {block.primitive[lane], entry[lane]};
+      const std::uint32_t primitive = pair.primitive(lane);
+      if (wasProposed(primitive)) continue;
+      candidates_[candidate_count_++] = {primitive, entry[lane]};
       if (candidate_count_ == kMostCandidates) propose();
     }
   }
