@@ -1,45 +1,42 @@
 #include "proxy/curvature_step.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hl {
 
 namespace {
 
-// Newton's step is a tangent of at most 45 degrees on the obstacle; farther away the plain step is as good.
+// A tangent of 45 degrees on the obstacle: Newton's step is cut there.
 constexpr double kLongestPerReach = 1.0;
 
 // Below this change of the step the curvature is not worth leaving the surface for.
 constexpr double kWorthwhile = 1e-3;
 
-// Two orthonormal tangents of a unit normal.
-void tangentsOf(const Vec3& normal, Vec3& a, Vec3& b) {
-  a = normal.unitOrthogonal();
-  b = normal.cross(a);
+// How many times as far as the plain step, of this length, a step in a direction of this curvature goes: Newton's, if
+// the distance to the goal has a minimum that way. Else it falls ever faster, as on the ridge of an edge: plain steps
+// grow geometrically there, and this one takes several at a stride.
+double stretch(double curvature, double length, double reach) {
+  constexpr double kMostStrides = 64;
+  constexpr double kStridesPerReach = 0.003;  // an edge between faces that hardly bend ends soon
+  const double longest = std::max(1.0, kLongestPerReach * reach / length);
+  if (curvature > 0) return std::min(1 / curvature, longest);
+  return std::clamp(kStridesPerReach * reach / length, 1.0, kMostStrides);
 }
 
-// Newton's step on one surface: the 2x2 system on its tangent plane. False unless positive definite.
-bool solveOnSurface(const Mat3& hessian, const Vec3& normal, const Vec3& plain, Vec3& step) {
-  Vec3 a, b;
-  tangentsOf(normal, a, b);
-  const double haa = a.dot(hessian * a);
-  const double hab = a.dot(hessian * b);
-  const double hbb = b.dot(hessian * b);
-  const double det = haa * hbb - hab * hab;
-  if (haa <= 0 || hbb <= 0 || det <= 0) return false;
-  const double ra = a.dot(plain);
-  const double rb = b.dot(plain);
-  step = ((hbb * ra - hab * rb) / det) * a + ((haa * rb - hab * ra) / det) * b;
-  return true;
+// How much the obstacle bends away below a step in the direction of its projector: 1 for the whole radius.
+double bendOf(const Contact& contact, double multiplier) { return multiplier / contact.distance; }
+
+// On one surface. The tangents in which it is curved are curved alike, so the Hessian is 1 - bend in them, else 1.
+Vec3 onSurface(const Contact& contact, double multiplier, const Mat3& curved, const Vec3& plain, double reach) {
+  const Vec3 part = curved * plain;
+  return plain + (stretch(1 - bendOf(contact, multiplier), part.norm(), reach) - 1) * part;
 }
 
-// Newton's step along the curve in which two surfaces meet.
-bool solveOnCurve(const Mat3& hessian, const Vec3& n0, const Vec3& n1, const Vec3& plain, Vec3& step) {
-  const Vec3 along = n0.cross(n1).normalized();
-  const double h = along.dot(hessian * along);
-  if (!(h > 0)) return false;
-  step = (along.dot(plain) / h) * along;
-  return true;
+// Along the curve in which two surfaces meet; `bend` is that of both along it.
+Vec3 onCurve(const Vec3& along, double bend, const Vec3& plain, double reach) {
+  const double length = along.dot(plain);
+  return plain + (stretch(1 - bend, std::abs(length), reach) - 1) * length * along;
 }
 
 bool staysAbove(const ContactSet& set, const Vec3& step, double tolerance) {
@@ -51,25 +48,25 @@ bool staysAbove(const ContactSet& set, const Vec3& step, double tolerance) {
 
 }  // namespace
 
-bool curvatureStep(const ContactSet& set, const SceneAt& scene, const SolverResult& sub_goal, double reach,
-                   Vec3& step) {
-  if (sub_goal.active_count < 1 || sub_goal.active_count > 2) return false;
-  Mat3 hessian = Mat3::Identity();
-  bool curved = false;
-  for (std::size_t i = 0; i < sub_goal.active_count; ++i) {
-    const Contact& contact = set.contacts[sub_goal.active[i]];
-    if (contact.feature == Feature::kFace) continue;
-    curved = true;
-    hessian -= (sub_goal.multiplier[i] / contact.distance) * curvedDirections(contact, scene);
-  }
-  if (!curved) return false;
-  const Vec3& n0 = set.contacts[sub_goal.active[0]].plane.normal;
+bool curvatureStep(const ContactSet& set, const SceneAt& scene, const SolverResult& sub_goal,
+                   const Tolerances& tolerance, Vec3& step) {
+  const double reach = tolerance.reach;
   const Vec3& plain = sub_goal.point;
-  const bool solved = sub_goal.active_count == 1
-                          ? solveOnSurface(hessian, n0, plain, step)
-                          : solveOnCurve(hessian, n0, set.contacts[sub_goal.active[1]].plane.normal, plain, step);
-  return solved && step.allFinite() && step.norm() <= kLongestPerReach * reach &&
-         (step - plain).norm() > kWorthwhile * plain.norm() && staysAbove(set, step, 1e-12 * reach);
+  const auto contact = [&](std::size_t i) -> const Contact& { return set.contacts[sub_goal.active[i]]; };
+  const auto curved = [&](std::size_t i) { return contact(i).feature != Feature::kFace; };
+  if (sub_goal.active_count == 1 && curved(0)) {
+    step = onSurface(contact(0), sub_goal.multiplier[0], curvedDirections(contact(0), scene), plain, reach);
+  } else if (sub_goal.active_count == 2 && (curved(0) || curved(1))) {
+    const Vec3 along = contact(0).plane.normal.cross(contact(1).plane.normal).normalized();
+    double bend = 0;
+    for (std::size_t i = 0; i < 2; ++i)
+      bend += bendOf(contact(i), sub_goal.multiplier[i]) * along.dot(curvedDirections(contact(i), scene) * along);
+    step = onCurve(along, bend, plain, reach);
+  } else {
+    return false;
+  }
+  return step.allFinite() && (step - plain).norm() > kWorthwhile * plain.norm() &&
+         staysAbove(set, step, tolerance.feasible);
 }
 
 }  // namespace hl

@@ -4,7 +4,9 @@
 // Hessian is H = I - sum lambda_i P_i / d_i, P_i the projector on the curved directions. On the tangent space T of the
 // contacts the solver's step is the gradient step z0 = T' (finger - x); Newton's is z = (T' H T)^-1 z0. For one sphere
 // or cylinder, at angle theta from the line through its axis and the finger, z = R tan(theta): the point of the tangent
-// straight above the solution, from where the way to the finger meets it exactly.
+// straight above the solution, from where the way to the finger meets it exactly. Where H is not positive, as for a
+// finger beyond the axis of an edge, there is no minimum to go to, but down either side; there the gradient step is
+// made longer.
 #pragma once
 
 #include <span>
@@ -12,11 +14,12 @@
 #include "geometry/primitive.h"
 #include "proxy/contacts.h"
 #include "proxy/solver.h"
+#include "proxy/tolerances.h"
 
 namespace hl {
 
-/// The step, if curvature matters here: an active contact is curved and the minimum is near. `reach` in metres.
-/// RT-safe.
-bool curvatureStep(const ContactSet& set, const SceneAt& scene, const SolverResult& sub_goal, double reach, Vec3& step);
+/// The step, if curvature matters here: an active contact is curved. RT-safe.
+bool curvatureStep(const ContactSet& set, const SceneAt& scene, const SolverResult& sub_goal,
+                   const Tolerances& tolerance, Vec3& step);
 
 }  // namespace hl

@@ -8,6 +8,7 @@
 #include "proxy/contacts.h"
 #include "proxy/curvature_step.h"
 #include "proxy/effects.h"
+#include "proxy/left_behind.h"
 #include "proxy/spring_energy.h"
 #include "proxy/tolerances.h"
 
@@ -39,10 +40,12 @@ class Tick {
   }
   SubGoal subGoal();
   SubGoal plainSubGoal();
+  bool aroundLeft(Vec3& step);
   SubGoal effectSubGoal();
   bool atRest(const Vec3& step) const {
     return step.norm() <= kRestPerGap * (goal_ - state_.position).norm() + tolerance_.rest;
   }
+  bool slides() const { return !set_.contacts.empty() || around_; }
   bool sweep(Vec3& position, const Vec3& step);
   double likelyWay_m() const;
   bool firstImpact(const Vec3& from, const Vec3& motion, SceneImpact& out);
@@ -67,12 +70,15 @@ class Tick {
   bool rests_ = false;  // where the passes have settled on faces: no search could find more
   bool spent_ = false;  // the energy that the tick may add has been used up
   int effect_passes_ = 0;
-  double slid_m_ = 0;  // how far the last step wanted to go along a surface; 0: it was none
+  double slid_m_ = 0;  // how far the steps since the last touch wanted to go along a surface; 0: the last did not
+  LeftBehind left_;
+  bool around_ = false;  // what was left changes the sub-goal in hand
   // The faces on which the passes have brought the proxy to rest; empty while they have not.
   FixedVector<PrimitiveId, kFewContacts> settled_on_;
 
-  // A curvature step leaves the surface for a moment: until it has paid off, this is where to return to.
-  bool pending_ = false;
+  // A curvature step leaves a surface for a moment: until it has paid off, this is where to return to. The step after
+  // it comes down, and only then is there something to judge.
+  bool pending_ = false, down_ = false;
   Vec3 checkpoint_ = Vec3::Zero();
   // After the n-th one that did not, the next 2^n sub-goals are plain.
   int refusals_ = 0;
@@ -92,11 +98,38 @@ SubGoal Tick::plainSubGoal() {
   }
   SubGoal result;
   result.step = plain_.point;
+  left_.look(set_);
   for (std::size_t i = 0; i < plain_.active_count; ++i) {
     const Contact& contact = set_.contacts[plain_.active[i]];
     result.holding.push({plain_.active[i], placeOf(contact), contact.plane.normal, plain_.multiplier[i]});
+    left_.holds(contact.primitive);
   }
+  around_ = !left_.empty() && aroundLeft(result.step);
   return result;
+}
+
+// The step above the planes of what was left behind too. False where they do not count; where it goes so little that it
+// is time to come down; and in the open where it is much longer than the way slid since the last touch, as it would
+// mostly end at once on something new.
+bool Tick::aroundLeft(Vec3& step) {
+  constexpr double kLeastPerGap = 1e-5, kMostPerSlid = 2;
+  if (pending_ || goal_ != finger_) return false;
+  LeftBehind::Planes planes;
+  for (const Plane& plane : set_.planes) {
+    if (!planes.push(plane)) return false;
+  }
+  const std::size_t own = planes.size();
+  if (left_.addPlanes(scene_, state_.position, tolerance_.reach, planes) == 0) return false;
+  const Vec3 gap = goal_ - state_.position;
+  const SolverResult around = nearestAbove({planes.begin(), planes.size()}, gap, tolerance_.feasible);
+  const auto* const active_end = around.active.begin() + static_cast<std::ptrdiff_t>(around.active_count);
+  const bool counts = std::any_of(around.active.begin(), active_end, [&](std::size_t i) { return i >= own; });
+  const double length = around.point.norm();
+  if (!counts || around.violation > tolerance_.feasible || length <= kLeastPerGap * gap.norm()) return false;
+  if (set_.contacts.empty() && length >= kMostPerSlid * slid_m_) return false;
+  left_.holdsStill();
+  step = around.point;
+  return true;
 }
 
 SubGoal Tick::effectSubGoal() {
@@ -113,6 +146,7 @@ SubGoal Tick::effectSubGoal() {
 
 SubGoal Tick::subGoal() {
   settled_on_.clear();
+  around_ = false;
   // The once-a-tick goal has been reached, or left behind over an edge: down to the surface, and no farther.
   const bool passes_done = goal_ != finger_;
   if (passes_done && set_.contacts.empty()) goal_ = finger_;
@@ -130,7 +164,8 @@ bool Tick::sweep(Vec3& position, const Vec3& step) {
   const Vec3 motion = whole ? step : Vec3(step * (longest / length));
   SceneImpact impact;
   const bool hit = firstImpact(position, motion, impact);
-  slid_m_ = set_.contacts.empty() ? 0 : std::min(length, longest);
+  const double slid_before_m = set_.contacts.empty() ? slid_m_ : 0;
+  slid_m_ = slides() ? slid_before_m + std::min(length, longest) : 0;
   position += hit ? Vec3(impact.impact.t * motion) : motion;
   state_.nearby.endAt(position);
   return whole && !hit;
@@ -140,7 +175,7 @@ bool Tick::sweep(Vec3& position, const Vec3& step) {
 // has come off a bent surface comes down on it after some hundredths of the way it slid.
 double Tick::likelyWay_m() const {
   constexpr double kSlidePerReach = 2, kFallPerSlide = 0.02, kFallPerReach = 0.25;
-  if (!set_.contacts.empty()) return kSlidePerReach * tolerance_.reach;
+  if (slides()) return kSlidePerReach * tolerance_.reach;
   return slid_m_ > 0 ? kFallPerSlide * slid_m_ : kFallPerReach * tolerance_.reach;
 }
 
@@ -160,22 +195,23 @@ bool Tick::firstImpact(const Vec3& from, const Vec3& motion, SceneImpact& out) {
 // On a rounded edge or corner the tangent planes alone converge slowly; Newton's step uses the curvature
 // (curvature_step.h).
 bool Tick::tryCurvatureStep() {
-  if (felt_ || pending_ || plain_.active_count == 0) return false;
+  if (felt_ || pending_ || around_ || plain_.active_count == 0) return false;
   if (plain_left_ > 0) {
     --plain_left_;
     return false;
   }
   Vec3 step;
-  if (!curvatureStep(set_, scene_, plain_, tolerance_.reach, step)) return false;
+  if (!curvatureStep(set_, scene_, plain_, tolerance_, step)) return false;
   Vec3 there = state_.position;
   if (!sweep(there, step)) return false;
   pending_ = true;
+  down_ = false;
   checkpoint_ = state_.position;
   state_.position = there;
   return true;
 }
 
-// Called with the proxy on the surface again, or at the end: a curvature step that did not bring it nearer is undone.
+// Called when the proxy has come down again, or at the end: a curvature step that did not bring it nearer is undone.
 // Returns whether it was.
 bool Tick::restoreIfWorse() {
   if (!pending_) return false;
@@ -209,7 +245,7 @@ bool Tick::settled() const {
 // One step of the proxy, as far as the way is free and the energy reaches.
 void Tick::advance(const SubGoal& sub_goal) {
   const Vec3 from = state_.position;
-  const bool free = set_.contacts.empty();
+  const bool free = !slides();
   Vec3 step = sub_goal.step;
   if (sub_goal.bent || sub_goal.creeps || goal_ != finger_) {
     const double part = account_.affordable(from, step);
@@ -217,6 +253,7 @@ void Tick::advance(const SubGoal& sub_goal) {
     step *= part;
   }
   const bool whole = sweep(state_.position, step);
+  down_ = true;
   // In the open and unhindered the proxy *is* the finger, to the bit.
   if (whole && free && goal_ == finger_) state_.nearby.endAt(state_.position = finger_);
   if (felt_) effects_.moved(sub_goal, state_.position - from);
@@ -254,11 +291,11 @@ TickReport Tick::run() {
     findContacts();
     const bool settled_there = settled();
     if (!settled_there) sub_goal = subGoal();
-    if (pending_ && !set_.contacts.empty() && restoreIfWorse()) {
+    if (pending_ && down_ && restoreIfWorse()) {
       findContacts();
       sub_goal = subGoal();
     }
-    const bool at_rest = settled_there || atRest(sub_goal.step);
+    const bool at_rest = settled_there || (atRest(sub_goal.step) && (!pending_ || down_));
     report.capped = !at_rest && (report.iterations >= settings_.iteration_cap || set_.overflow);
     if (at_rest || report.capped) break;
     ++report.iterations;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "base/function_ref.h"
@@ -23,7 +24,7 @@ struct SceneImpact {
 class SceneAt {
  public:
   SceneAt(const Snapshot& snapshot, std::int64_t time_ns = 0)  // NOLINT: a snapshot at rest is a scene
-      : snapshot_(snapshot), time_ns_(time_ns), recent_(own_) {}
+      : snapshot_(snapshot), time_ns_(time_ns), recent_(own_.emplace()) {}
   /// With what earlier ticks of the same thread have read, which must outlive it too.
   SceneAt(const Snapshot& snapshot, std::int64_t time_ns, RecentPrimitives& recent)
       : snapshot_(snapshot), time_ns_(time_ns), recent_(recent) {
@@ -68,7 +69,7 @@ class SceneAt {
 
   const Snapshot& snapshot_;
   std::int64_t time_ns_;
-  RecentPrimitives own_;
+  std::optional<RecentPrimitives> own_;
   RecentPrimitives& recent_;
 };
 

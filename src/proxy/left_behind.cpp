@@ -1,0 +1,39 @@
+#include "proxy/left_behind.h"
+
+#include <algorithm>
+
+namespace hl {
+
+namespace {
+
+bool touches(const ContactSet& set, PrimitiveId primitive) {
+  const auto same = [&](const Contact& contact) { return contact.primitive == primitive; };
+  return std::any_of(set.contacts.begin(), set.contacts.end(), same) ||
+         std::any_of(set.twins.begin(), set.twins.end(), same);
+}
+
+}  // namespace
+
+void LeftBehind::look(const ContactSet& set) {
+  left_.clear();
+  for (const PrimitiveId primitive : holding_) {
+    if (!touches(set, primitive)) left_.push(primitive);
+  }
+  holding_.clear();
+}
+
+std::size_t LeftBehind::addPlanes(const SceneAt& scene, const Vec3& position, double reach, Planes& planes) const {
+  constexpr double kNear = 1.001;
+  const std::size_t before = planes.size();
+  for (const PrimitiveId primitive : left_) {
+    const ClosestPoint nearest = scene.closest(primitive, position);
+    if (nearest.distance <= kNear * reach) planes.push({nearest.normal, reach - nearest.distance});
+  }
+  return planes.size() - before;
+}
+
+void LeftBehind::holdsStill() {
+  for (const PrimitiveId primitive : left_) holding_.push(primitive);
+}
+
+}  // namespace hl

@@ -1,0 +1,82 @@
+// Where surfaces are round, the proxy gets to the place in closed form in a few steps, whatever the curvature there.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "proxy/judge.h"
+#include "proxy/proxy.h"
+
+namespace hl {
+namespace {
+
+constexpr double kRadius = 1e-3;
+constexpr double kExact = 1e-8 * kRadius;
+const ProxySettings kSettings{kRadius, 1000};
+
+// A post on a floor: the centre of the proxy moves on a circle about the post, a radius above the floor.
+Model post() {
+  Model model;
+  model.positions = {Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(0, 1.5, 0), Vec3(0, 0, -1), Vec3(0, 0, 1)};
+  model.triangles = {{0, 1, 2}};
+  model.segments = {{3, 4}};
+  return model;
+}
+
+// The finger is in the post's cylinder: `off` radii from its axis, which is how strongly it draws the proxy round.
+TEST(CurvatureStep, RoundAPostOnAFloorItTakesFewSteps) {
+  const auto snapshot = judge::scene(post());
+  for (const double off : {0.02, 0.1, 0.5, 0.9}) {
+    for (const double angle : {0.1, 0.5, 1.2}) {
+      ProxyState state = startProxy(*snapshot, kSettings, Vec3(2, 0, 2) * kRadius);
+      tick(state, *snapshot, kSettings, Vec3(0.5, 0, -2) * kRadius);
+      const Vec3 round(std::cos(angle), std::sin(angle), 0);
+      const TickReport report = tick(state, *snapshot, kSettings, (off * round - 2 * Vec3::UnitZ()) * kRadius);
+      EXPECT_LE(report.iterations, 6) << off << ' ' << angle;
+      EXPECT_LT((state.position - (round + Vec3::UnitZ()) * kRadius).norm(), kExact) << off << ' ' << angle;
+    }
+  }
+}
+
+// Two faces that meet in a ridge along y, each falling by `slope`.
+Model ridge(double slope) {
+  const Vec3 front(0, -0.1, 0), back(0, 0.1, 0);
+  return judge::triangles({{front, back, Vec3(-0.1, 0, -0.1 * slope)}, {front, back, Vec3(0.1, 0, -0.1 * slope)}});
+}
+
+// A finger all but straight below a ridge lets the proxy roll off it: the farther off, the faster.
+TEST(CurvatureStep, OffARidgeItGoesInStrides) {
+  for (const double slope : {0.02, 0.2, 1.0}) {
+    for (const double depth : {1.5e-3, 4e-3, 20e-3}) {
+      const auto snapshot = judge::scene(ridge(slope));
+      ProxyState state = startProxy(*snapshot, kSettings, Vec3(0, 0, 2e-3));
+      tick(state, *snapshot, kSettings, Vec3(0, 0, 1e-4));
+      const Vec3 finger(1e-9, 0, -depth);
+      const TickReport report = tick(state, *snapshot, kSettings, finger);
+      EXPECT_LE(report.iterations, 20) << slope << ' ' << depth;  // plain steps take up to 30
+      const Vec3 normal = Vec3(slope, 0, 1).normalized();
+      const Vec3 on_face = finger + (kRadius - normal.dot(finger)) * normal;
+      EXPECT_LT((state.position - on_face).norm(), kExact) << slope << ' ' << depth;
+    }
+  }
+}
+
+// The proxy hangs between two wires that lean, or slips through.
+TEST(CurvatureStep, BetweenWiresItSettles) {
+  for (const double apart : {0.1e-3, 0.5e-3, 0.9e-3}) {
+    Model wires;
+    wires.positions = {Vec3(-apart, -0.1, 0), Vec3(-apart, 0.1, 0), Vec3(apart, -0.1, -0.03), Vec3(apart, 0.1, 0.03)};
+    wires.segments = {{0, 1}, {2, 3}};
+    const auto snapshot = judge::scene(wires);
+    ProxyState state = startProxy(*snapshot, kSettings, Vec3(-apart, 0, 2e-3));
+    for (int i = 1; i <= 50; ++i) {
+      const Vec3 finger(1e-5 * i, 2e-5 * i, -10e-3);
+      const TickReport report = tick(state, *snapshot, kSettings, finger);
+      EXPECT_LE(report.iterations, 30) << apart << ' ' << i;
+      EXPECT_LE(judge::kktResidual(*snapshot, state.position, finger, kRadius), 1e-6) << apart << ' ' << i;
+      EXPECT_GE(judge::clearance(*snapshot, state.position, kRadius), kRadius * (1 - 1e-6)) << apart << ' ' << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hl
