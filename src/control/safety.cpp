@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/clock.h"
+
 namespace hl {
 
 namespace {
@@ -14,11 +16,8 @@ void countMissed(Safety& safety, const SafetySettings& settings, const DeviceSam
   safety.missed = std::max(0.0, safety.missed + (missed > 0 ? missed : -1 / SafetySettings::kForgiveSteps));
 }
 
-// When the tip was where the sample says; wraps around, as a broken device may say anything.
-std::int64_t taken_ns(const DeviceSample& sample) {
-  return static_cast<std::int64_t>(static_cast<std::uint64_t>(sample.time_ns) -
-                                   static_cast<std::uint64_t>(sample.age_ns));
-}
+// When the tip was where the sample says.
+std::int64_t taken_ns(const DeviceSample& sample) { return wrappedDifference_ns(sample.time_ns, sample.age_ns); }
 
 void measureSpeed(Safety& safety, const DeviceSample& sample) {
   const double window_s = age_s(taken_ns(sample), safety.mark_ns);

@@ -82,7 +82,7 @@ class Collapse {
 
 class Widener {
  public:
-  Widener(const BinaryTree& tree, HugeVector<WideNode>& nodes) : tree_(tree), collapse_(tree), nodes_(nodes) {}
+  Widener(const BinaryTree& tree, HugeVector<WideNode>& nodes) : collapse_(tree), nodes_(nodes) {}
 
   std::uint32_t add(std::uint32_t link, int depth) {
     if (isBlock(link)) return link;
@@ -101,7 +101,6 @@ class Widener {
   int depth() const { return depth_; }
 
  private:
-  const BinaryTree& tree_;
   Collapse collapse_;
   HugeVector<WideNode>& nodes_;
   int depth_ = 0;

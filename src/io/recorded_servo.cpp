@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/clock.h"
 #include "base/error.h"
 
 namespace hl {
@@ -24,26 +25,18 @@ void setFlags(std::uint32_t flags, ServoRecord& record) {
   record.out.fault = static_cast<FaultReason>(flags >> 9 & 15);
 }
 
-// Differences of times wrap around, as a broken clock may say anything.
-std::int64_t difference(std::int64_t a, std::int64_t b) {
-  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b));
-}
-std::int64_t sum(std::int64_t a, std::int64_t b) {
-  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
-}
-
 void add(google::protobuf::RepeatedField<double>& list, const Vec3& v) { list.Add(v.data(), v.data() + 3); }
 Vec3 at(const google::protobuf::RepeatedField<double>& list, int i) {
   return {list[3 * i], list[3 * i + 1], list[3 * i + 2]};
 }
 
 void addStep(const ServoRecord& record, std::int64_t before_ns, proto::ServoSteps& out) {
-  out.add_time_ns(difference(record.sample.time_ns, before_ns));
+  out.add_time_ns(wrappedDifference_ns(record.sample.time_ns, before_ns));
   add(*out.mutable_position(), record.sample.position);
   out.add_buttons(record.sample.buttons);
   out.add_flags(flagsOf(record));
   add(*out.mutable_target_proxy(), record.target.proxy_D);
-  out.add_target_time_ns(difference(record.target.time_ns, record.sample.time_ns));
+  out.add_target_time_ns(wrappedDifference_ns(record.target.time_ns, record.sample.time_ns));
   out.add_target_stiffness(record.target.stiffness);
   out.add_target_paid_j(record.target.paid_J);
   add(*out.mutable_force_n(), record.out.force_N);
@@ -53,13 +46,13 @@ void addStep(const ServoRecord& record, std::int64_t before_ns, proto::ServoStep
 ServoRecord step(const proto::ServoSteps& in, int i, std::int64_t before_ns) {
   ServoRecord record;
   setFlags(in.flags(i), record);
-  record.sample.time_ns = sum(before_ns, in.time_ns(i));
+  record.sample.time_ns = wrappedSum_ns(before_ns, in.time_ns(i));
   record.sample.position = at(in.position(), i);
   record.sample.buttons = in.buttons(i);
   if (in.weight_n_size() > 0) record.sample.weight_N = at(in.weight_n(), i);
   if (in.age_ns_size() > 0) record.sample.age_ns = in.age_ns(i);
   record.target.proxy_D = at(in.target_proxy(), i);
-  record.target.time_ns = sum(record.sample.time_ns, in.target_time_ns(i));
+  record.target.time_ns = wrappedSum_ns(record.sample.time_ns, in.target_time_ns(i));
   record.target.stiffness = in.target_stiffness(i);
   record.target.paid_J = in.target_paid_j(i);
   record.out.force_N = at(in.force_n(), i);
