@@ -8,7 +8,8 @@
 
 namespace hl {
 
-// Each step is swept by half the largest sphere that is clear of the scene where it starts.
+// Each step is swept by half the largest sphere that is clear of the scene where it starts. It is cut to one radius:
+// planes that all but face each other have their first place clear of all of them at any distance.
 bool findClearPlace(const SceneAt& scene, const Tolerances& tolerance, int tries, Vec3& position) {
   ContactSet set;
   for (int i = 0; i < tries; ++i) {
@@ -17,7 +18,9 @@ bool findClearPlace(const SceneAt& scene, const Tolerances& tolerance, int tries
     double clearance = tolerance.reach;
     for (const Contact& contact : set.contacts) clearance = std::min(clearance, contact.distance);
     const std::span<const Plane> planes(set.planes.begin(), set.planes.size());
-    const Vec3 step = nearestAbove(planes, Vec3::Zero(), tolerance.feasible).point;
+    Vec3 step = nearestAbove(planes, Vec3::Zero(), tolerance.feasible).point;
+    const double length = step.norm();
+    if (length > tolerance.reach) step *= tolerance.reach / length;
     SceneImpact impact;
     const double safe = 0.5 * clearance;
     if (safe > 0 && scene.firstImpact(position, step, safe, -1, impact)) {

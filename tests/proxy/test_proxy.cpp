@@ -239,6 +239,22 @@ TEST(Proxy, StartsClearOfTheSceneWhereverTheFingerIs) {
   }
 }
 
+// Between plates that lean by a billionth, the nearest place above both planes is a thousand kilometres away.
+TEST(Proxy, StartsNearTheFingerOrNotAtAll) {
+  for (const double half : {0.02, 10.0}) {
+    Model plates = plate(half);
+    append(plates, grid(1, 1, [=](double u, double v) {
+             const double x = (2 * u - 1) * half;
+             return Vec3(x, (2 * v - 1) * half, 0.2 * kRadius + 1e-9 * x);
+           }));
+    const auto snapshot = scene(plates);
+    const Vec3 finger(0, 0, 0.1 * kRadius);
+    const ProxyState state = startProxy(*snapshot, kSettings, finger);
+    EXPECT_EQ(state.free, half < 0.1);
+    EXPECT_LE((state.position - finger).norm(), 0.11);
+  }
+}
+
 TEST(Proxy, WorksAtAnyScale) {
   for (const double size : {1e-6, 1e-3, 1.0, 1e3, 1e6}) {
     const ProxySettings settings{0.01 * size, 1000};
