@@ -1,6 +1,7 @@
 #include "proxy/proxy.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "proxy/account.h"
 #include "proxy/carry.h"
@@ -15,6 +16,9 @@
 namespace hl {
 
 namespace {
+
+// Equal to no place.
+const Vec3 kNowhere = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
 
 // Passes in contact under shading or friction. What is left to slip after so many is slipped in the next tick.
 constexpr int kEffectPasses = 8;
@@ -80,6 +84,9 @@ class Tick {
   // it comes down, and only then is there something to judge.
   bool pending_ = false, down_ = false;
   Vec3 checkpoint_ = Vec3::Zero();
+  // Where the last plain step began, and whether the one after it has ended there again: see advance().
+  Vec3 came_from_ = kNowhere;
+  bool trembles_ = false;
   // After the n-th one that did not, the next 2^n sub-goals are plain.
   int refusals_ = 0;
   int plain_left_ = 0;
@@ -206,6 +213,7 @@ bool Tick::tryCurvatureStep() {
   if (!sweep(there, step)) return false;
   pending_ = true;
   down_ = false;
+  came_from_ = kNowhere;
   checkpoint_ = state_.position;
   state_.position = there;
   return true;
@@ -219,6 +227,7 @@ bool Tick::restoreIfWorse() {
   if ((goal_ - state_.position).squaredNorm() < (goal_ - checkpoint_).squaredNorm()) return false;
   const bool moved = state_.position != checkpoint_;
   state_.position = checkpoint_;
+  came_from_ = kNowhere;
   refusals_ = std::min(refusals_ + 1, 10);
   plain_left_ = 1 << refusals_;
   return moved;
@@ -242,7 +251,8 @@ bool Tick::settled() const {
          std::equal(settled_on_.begin(), settled_on_.end(), set_.contacts.begin(), set_.contacts.end(), same);
 }
 
-// One step of the proxy, as far as the way is free and the energy reaches.
+// One step of the proxy, as far as the way is free and the energy reaches. Planes that all but face each other cross
+// where rounding says: there the proxy would go to and fro between two places for ever.
 void Tick::advance(const SubGoal& sub_goal) {
   const Vec3 from = state_.position;
   const bool free = !slides();
@@ -254,6 +264,9 @@ void Tick::advance(const SubGoal& sub_goal) {
   }
   const bool whole = sweep(state_.position, step);
   down_ = true;
+  trembles_ =
+      state_.position == came_from_ && (state_.position - from).norm() <= kTremblePerGap * (goal_ - from).norm();
+  came_from_ = from;
   // In the open and unhindered the proxy *is* the finger, to the bit.
   if (whole && free && goal_ == finger_) state_.nearby.endAt(state_.position = finger_);
   if (felt_) effects_.moved(sub_goal, state_.position - from);
@@ -295,7 +308,7 @@ TickReport Tick::run() {
       findContacts();
       sub_goal = subGoal();
     }
-    const bool at_rest = settled_there || (atRest(sub_goal.step) && (!pending_ || down_));
+    const bool at_rest = settled_there || trembles_ || (atRest(sub_goal.step) && (!pending_ || down_));
     report.capped = !at_rest && (report.iterations >= settings_.iteration_cap || set_.overflow);
     if (at_rest || report.capped) break;
     ++report.iterations;
