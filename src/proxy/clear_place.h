@@ -7,8 +7,8 @@
 
 namespace hl {
 
-/// Moves `position` to a place clear of the scene by tolerance.reach, in at most `tries` steps of that length; false when it has not
-/// found one, with `position` as far as it came. RT-safe.
+/// Moves `position` to a place clear of the scene by tolerance.reach, in at most `tries` steps of that length; false
+/// when it has not found one, with `position` as far as it came. RT-safe.
 bool findClearPlace(const SceneAt& scene, const Tolerances& tolerance, int tries, Vec3& position);
 
 /// Distance from `position` to the nearest surface, or `most` when nothing is as near. RT-safe.
