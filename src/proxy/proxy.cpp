@@ -84,12 +84,13 @@ class Tick {
   // it comes down, and only then is there something to judge.
   bool pending_ = false, down_ = false;
   Vec3 checkpoint_ = Vec3::Zero();
-  // Where the last plain step began, and whether the one after it has ended there again: see advance().
-  Vec3 came_from_ = kNowhere;
-  bool trembles_ = false;
   // After the n-th one that did not, the next 2^n sub-goals are plain.
   int refusals_ = 0;
   int plain_left_ = 0;
+
+  // Where the last plain step began, and whether the one after it has ended there again: see advance().
+  Vec3 came_from_ = kNowhere;
+  bool trembles_ = false;
 };
 
 // The paper's sub-goal: the step toward the point nearest the goal above all contact planes.
@@ -264,8 +265,7 @@ void Tick::advance(const SubGoal& sub_goal) {
   }
   const bool whole = sweep(state_.position, step);
   down_ = true;
-  trembles_ =
-      state_.position == came_from_ && (state_.position - from).norm() <= kTremblePerGap * (goal_ - from).norm();
+  trembles_ = state_.position == came_from_ && sub_goal.step.norm() <= kTremblePerGap * (goal_ - from).norm();
   came_from_ = from;
   // In the open and unhindered the proxy *is* the finger, to the bit.
   if (whole && free && goal_ == finger_) state_.nearby.endAt(state_.position = finger_);
