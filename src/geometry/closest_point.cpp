@@ -81,4 +81,11 @@ ClosestPoint closestPoint(const Primitive& primitive, const Vec3& p) {
   return nearestOfPoint(primitive, p);
 }
 
+bool closestPointWithin(const Primitive& primitive, const Vec3& p, double distance, ClosestPoint& out) {
+  if (primitive.kind == PrimitiveKind::kTriangle && std::abs(primitive.normal.dot(p - primitive.vertex[0])) > distance)
+    return false;
+  out = closestPoint(primitive, p);
+  return true;
+}
+
 }  // namespace hl

@@ -23,5 +23,8 @@ struct ClosestPoint {
 /// Nearest point of `primitive` to `p`. Neighbours that share an edge or a vertex give the same bits on it.
 /// RT-safe, any thread. A non-finite p gives non-finite results.
 ClosestPoint closestPoint(const Primitive& primitive, const Vec3& p);
+/// The same, unless the plane of a triangle is farther than `distance` (m): then, as all of it is farther, false at
+/// once.
+bool closestPointWithin(const Primitive& primitive, const Vec3& p, double distance, ClosestPoint& out);
 
 }  // namespace hl

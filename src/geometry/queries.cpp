@@ -43,7 +43,7 @@ bool firstOf(const SpatialIndex& index, const Read& read, const Vec3& from, cons
   RecentlySeen seen;
   index.sweep(from, motion, proposed, soon, [&](std::uint32_t candidate, double limit) {
     Impact impact;
-    if (seen.testAndAdd(candidate) || !impact_of(candidate, impact)) return limit;
+    if (seen.testAndAdd(candidate) || !impact_of(candidate, found ? out.impact.t : 1, impact)) return limit;
     if (found) {
       if (impact.t > out.impact.t) return limit;
       if (impact.t == out.impact.t) {
@@ -70,7 +70,7 @@ bool precedes(const Primitive& a, const Primitive& b) {
 bool firstImpact(const SpatialIndex& index, const Primitives& primitives, const Vec3& from, const Vec3& motion,
                  double radius, double touching, FirstImpact& out) {
   const auto read = [&](std::uint32_t candidate) { return primitives[candidate]; };
-  const auto impact_of = [&](std::uint32_t candidate, Impact& impact) {
+  const auto impact_of = [&](std::uint32_t candidate, double, Impact& impact) {
     const Primitive primitive = primitives[candidate];
     const ClosestPoint start = closestPoint(primitive, from);
     if (touching > 0 && start.distance <= touching) return false;
@@ -85,19 +85,26 @@ bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(std::ui
                  const Vec3& motion, double radius, double touching, double soon,
                  FunctionRef<bool(std::uint32_t)> is_contact, FunctionRef<void(std::uint32_t)> meet, FirstImpact& out) {
   const double proposed = touching + (touching - radius);
-  const auto impact_of = [&](std::uint32_t candidate, Impact& impact) {
+  const auto impact_of = [&](std::uint32_t candidate, double latest, Impact& impact) {
     meet(candidate);
-    return !is_contact(candidate) && sweepSphereFromOutside(read(candidate), from, motion, radius, impact);
+    return !is_contact(candidate) && sweepSphereFromOutside(read(candidate), from, motion, radius, latest, impact);
   };
   return firstOf(index, read, from, motion, proposed, soon, impact_of, out);
 }
 
 void primitivesWithin(const SpatialIndex& index, const Primitives& primitives, const Vec3& centre, double distance,
                       FunctionRef<void(std::uint32_t, const ClosestPoint&)> visit) {
+  Primitive last;
+  const auto read = [&](std::uint32_t candidate) -> const Primitive& { return last = primitives[candidate]; };
+  primitivesWithin(index, read, centre, distance, visit);
+}
+
+void primitivesWithin(const SpatialIndex& index, FunctionRef<const Primitive&(std::uint32_t)> read, const Vec3& centre,
+                      double distance, FunctionRef<void(std::uint32_t, const ClosestPoint&)> visit) {
   RecentlySeen seen;
   index.overlap(centre, distance, [&](std::uint32_t candidate) {
     if (seen.testAndAdd(candidate)) return;
-    const ClosestPoint nearest = closestPoint(primitives[candidate], centre);
+    const ClosestPoint nearest = closestPoint(read(candidate), centre);
     if (nearest.distance <= distance) visit(candidate, nearest);
   });
 }

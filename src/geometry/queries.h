@@ -41,5 +41,9 @@ bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(std::ui
 /// RT-safe, any thread.
 void primitivesWithin(const SpatialIndex& index, const Primitives& primitives, const Vec3& centre, double distance,
                       FunctionRef<void(std::uint32_t primitive, const ClosestPoint& nearest)> visit);
+/// The same for a caller who reads primitives in its own way.
+void primitivesWithin(const SpatialIndex& index, FunctionRef<const Primitive&(std::uint32_t primitive)> read,
+                      const Vec3& centre, double distance,
+                      FunctionRef<void(std::uint32_t primitive, const ClosestPoint& nearest)> visit);
 
 }  // namespace hl

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/closest_point.h"
 #include "geometry/features.h"
@@ -85,39 +86,71 @@ void hitEdge(const Primitive& primitive, std::size_t number, Feature feature, co
   out.weights = edgeWeights(edge, s);
 }
 
-// The obstacle lies within the slab, so when its face is hit, nothing else is hit earlier.
-bool hitFace(const Primitive& triangle, const Vec3& from, const Vec3& motion, double radius, Impact& out) {
-  const double height = triangle.normal.dot(from - triangle.vertex[0]);
+// The slab between the two offset faces, which holds the whole obstacle. Times are fractions of the motion.
+struct Slab {
+  double side;       // of the face on which the motion starts
+  double closing;    // m, toward the face
+  double enters;     // 0: it starts within
+  double no_sooner;  // than this is anything hit, however distances have been rounded
+};
+
+Slab slabOf(const Primitive& triangle, const Vec3& from, const Vec3& motion, double radius) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  constexpr double kRounding = 1e-12;  // of the lengths that heights and the roots of edges are computed from
+  const Vec3 w = from - triangle.vertex[0];
+  const double height = triangle.normal.dot(w);
   const double side = height < 0 ? -1.0 : 1.0;
   const double closing = -side * triangle.normal.dot(motion);
-  if (!(closing > 0)) return false;
   const double gap = std::abs(height) - radius;
-  if (!(gap <= closing)) return false;
-  const double t = std::max(0.0, gap / closing);
-  const FaceAreas areas = faceAreas(triangle, from + t * motion);
+  const double surely = gap - kRounding * (w.lpNorm<1>() + motion.lpNorm<1>() + radius);
+  const auto after = [&](double way) { return way <= 0 ? 0 : closing > 0 ? way / closing : kNever; };
+  return {side, closing, after(gap), after(surely)};
+}
+
+// As the obstacle lies within the slab, nothing else is hit earlier.
+bool hitFace(const Primitive& triangle, const Slab& slab, const Vec3& from, const Vec3& motion, Impact& out) {
+  if (!(slab.closing > 0 && slab.enters <= 1)) return false;
+  const FaceAreas areas = faceAreas(triangle, from + slab.enters * motion);
   if (!areas.inside()) return false;
-  out.t = t;
+  out.t = slab.enters;
   out.feature = Feature::kFace;
-  out.normal = side * triangle.normal;
+  out.normal = slab.side * triangle.normal;
   out.weights = areas.weights();
+  return true;
+}
+
+constexpr double kNone = 2;  // any time above 1
+
+bool hitVertices(const Primitive& primitive, const Vec3& from, const Vec3& motion, double radius, double limit,
+                 Impact& out) {
+  const auto vertices = static_cast<std::size_t>(primitive.kind);
+  for (std::size_t i = 0; i < vertices; ++i) hitVertex(primitive, i, from, motion, radius, limit, out);
+  return limit < kNone;
+}
+
+// Nothing is told to be hit before `no_sooner`: so whoever looks for the first impact of many may leave out what is
+// late by that, and finds the same.
+bool hitTriangle(const Primitive& triangle, const Vec3& from, const Vec3& motion, double radius, double latest,
+                 Impact& out) {
+  const Slab slab = slabOf(triangle, from, motion, radius);
+  if (slab.no_sooner > std::min(latest, 1.0)) return false;
+  if (hitFace(triangle, slab, from, motion, out)) return true;
+  double limit = kNone;
+  for (std::size_t i = 0; i < 3; ++i) hitEdge(triangle, i, edgeFeature(i), from, motion, radius, limit, out);
+  if (!hitVertices(triangle, from, motion, radius, limit, out)) return false;
+  out.t = std::max(out.t, slab.no_sooner);
   return true;
 }
 
 }  // namespace
 
 bool sweepSphereFromOutside(const Primitive& primitive, const Vec3& from, const Vec3& motion, double radius,
-                            Impact& out) {
-  if (primitive.kind == PrimitiveKind::kTriangle && hitFace(primitive, from, motion, radius, out)) return true;
-  constexpr double kNone = 2;  // any time above 1
+                            double latest, Impact& out) {
+  if (primitive.kind == PrimitiveKind::kTriangle) return hitTriangle(primitive, from, motion, radius, latest, out);
   double limit = kNone;
-  if (primitive.kind == PrimitiveKind::kTriangle) {
-    for (std::size_t i = 0; i < 3; ++i) hitEdge(primitive, i, edgeFeature(i), from, motion, radius, limit, out);
-  } else if (primitive.kind == PrimitiveKind::kSegment) {
+  if (primitive.kind == PrimitiveKind::kSegment)
     hitEdge(primitive, 2, Feature::kEdge0, from, motion, radius, limit, out);
-  }
-  const auto vertices = static_cast<std::size_t>(primitive.kind);
-  for (std::size_t i = 0; i < vertices; ++i) hitVertex(primitive, i, from, motion, radius, limit, out);
-  return limit < kNone;
+  return hitVertices(primitive, from, motion, radius, limit, out);
 }
 
 bool sweepSphere(const Primitive& primitive, const Vec3& from, const Vec3& motion, double radius, Impact& out) {
@@ -126,7 +159,7 @@ bool sweepSphere(const Primitive& primitive, const Vec3& from, const Vec3& motio
 
 bool sweepSphere(const Primitive& primitive, const ClosestPoint& start, const Vec3& from, const Vec3& motion,
                  double radius, Impact& out) {
-  if (start.distance > radius) return sweepSphereFromOutside(primitive, from, motion, radius, out);
+  if (start.distance > radius) return sweepSphereFromOutside(primitive, from, motion, radius, 1, out);
   if (!(motion.dot(start.normal) < 0)) return false;
   out.t = 0;
   out.feature = start.feature;

@@ -25,8 +25,9 @@ bool sweepSphere(const Primitive& primitive, const Vec3& from, const Vec3& motio
 /// The same for whoever has the closest point of `from` at hand.
 bool sweepSphere(const Primitive& primitive, const ClosestPoint& start, const Vec3& from, const Vec3& motion,
                  double radius, Impact& out);
-/// The same for whoever knows that the sphere starts farther than `radius`.
+/// The same for whoever knows that the sphere starts farther than `radius`, and does not care for what is hit after
+/// `latest`, a fraction of the motion: that may be told or not.
 bool sweepSphereFromOutside(const Primitive& primitive, const Vec3& from, const Vec3& motion, double radius,
-                            Impact& out);
+                            double latest, Impact& out);
 
 }  // namespace hl

@@ -57,18 +57,26 @@ void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, d
 void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, double reach, Nearby& nearby,
                     ContactSet& set) {
   clear(set);
-  if (nearby.covers(scene, centre, distance)) {
-    for (const PrimitiveId primitive : nearby.primitives()) {
-      const ClosestPoint nearest = scene.closest(primitive, centre);
-      if (nearest.distance <= distance) add(scene, primitive, nearest, reach, set);
-    }
-  } else {
+  if (!nearby.covers(scene, centre, distance)) {
     nearby.begin(scene, distance);
+    nearby.beginMeasured(centre, distance);
     scene.primitivesWithin(centre, distance, [&](PrimitiveId primitive, const ClosestPoint& nearest) {
       nearby.add(primitive);
+      nearby.addMeasured(primitive, nearest);
       add(scene, primitive, nearest, reach, set);
     });
     nearby.endAt(centre);
+  } else if (nearby.hasMeasured(centre, distance)) {
+    for (const auto& [primitive, nearest] : nearby.measured()) add(scene, primitive, nearest, reach, set);
+  } else {
+    const double skin = distance - reach;  // by which rounding never errs
+    nearby.beginMeasured(centre, distance);
+    nearby.forEach(centre, centre, distance + skin, [&](PrimitiveId primitive) {
+      ClosestPoint nearest;
+      if (!scene.closestWithin(primitive, centre, distance + skin, nearest) || nearest.distance > distance) return;
+      nearby.addMeasured(primitive, nearest);
+      add(scene, primitive, nearest, reach, set);
+    });
   }
   sort(set);
 }

@@ -26,6 +26,7 @@ constexpr double kMostSamples = 4096;
 
 bool Effects::any(const ContactSet& set) const {
   return std::any_of(set.contacts.begin(), set.contacts.end(), [&](const Contact& contact) {
+    if (plain(contact.primitive)) return false;
     const Surface surface = surfaceOf(contact.primitive);
     return surface.smooth() || surface.textured(Quantity::kHeight) || Roughness::of(surface).acts();
   });
@@ -227,12 +228,15 @@ void Effects::moved(const SubGoal& sub_goal, const Vec3& step) {
 }
 
 ProxyContact Effects::describe(const ContactSet& set, const Holding& holding) const {
+  const Vec3& point = set.contacts[holding.contact].point;
+  if (plain(holding.place.primitive))
+    return {point, holding.normal, holding.multiplier_m, holding.place.primitive, 1, 0, false};
   const Surface surface = surfaceOf(holding.place.primitive);
   const SurfaceValue stiffness = surface.read(Quantity::kStiffness);
   const Roughness roughness = Roughness::of(surface);
   const bool textured = stiffness.texture || roughness.fixed.texture;
   const Vec2 texcoord = textured ? surface.texcoord(holding.place.weights) : Vec2(Vec2::Zero());
-  return {set.contacts[holding.contact].point,
+  return {point,
           holding.normal,
           holding.multiplier_m,
           holding.place.primitive,

@@ -55,7 +55,12 @@ class Effects {
   /// `creep_m`: how far the proxy has crept from where it stuck.
   Effects(const SceneAt& scene, const ProxySettings& settings, const Tolerances& tolerance, bool slipping,
           const Vec3& creep_m)
-      : scene_(scene), settings_(settings), tolerance_(tolerance), slipping_(slipping), creep_m_(creep_m) {}
+      : scene_(scene),
+        settings_(settings),
+        tolerance_(tolerance),
+        slipping_(slipping),
+        creep_m_(creep_m),
+        as_default_(settings.surfaces.keepsDefault()) {}
 
   /// Whether a surface in contact does anything beyond holding the proxy off.
   bool any(const ContactSet& set) const;
@@ -70,7 +75,9 @@ class Effects {
 
   /// A contact as the report gives it.
   ProxyContact describe(const ContactSet& set, const Holding& holding) const;
-  bool stiffnessTextured(PrimitiveId primitive) const { return surfaceOf(primitive).textured(Quantity::kStiffness); }
+  bool stiffnessTextured(PrimitiveId primitive) const {
+    return !plain(primitive) && surfaceOf(primitive).textured(Quantity::kStiffness);
+  }
 
  private:
   /// A contact as it is while the passes move the proxy on.
@@ -84,6 +91,8 @@ class Effects {
   };
   using TouchedSet = FixedVector<Touched, kMaxContacts>;
 
+  /// Whether its surface does nothing but hold off: then nobody needs to ask what it is made of.
+  bool plain(PrimitiveId primitive) const { return as_default_ && scene_.instance(primitive).plain; }
   Surface surfaceOf(PrimitiveId primitive) const { return {scene_, settings_.surfaces, primitive}; }
   Patch patchAt(const SurfacePlace& place) const { return {scene_, surfaceOf(place.primitive), place}; }
   TouchedSet touchedNow(const ContactSet& set) const;
@@ -105,6 +114,7 @@ class Effects {
   Slip slip_;
   bool slipping_;
   Vec3 creep_m_;
+  bool as_default_;  // the user has set nothing that changes the default material
 };
 
 }  // namespace hl

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 #include "proxy/account.h"
 #include "proxy/carry.h"
@@ -34,7 +35,9 @@ class Tick {
         goal_(finger),
         state_(state),
         account_(state, settings, finger),
-        effects_(scene, settings, tolerance_, state.touching && state.rest_s < kStuck_s, state.creep) {}
+        effects_(scene, settings, tolerance_, state.touching && state.rest_s < kStuck_s, state.creep) {
+    state_.surroundings.follow(finger);
+  }
 
   TickReport run();
 
@@ -52,6 +55,8 @@ class Tick {
   bool slides() const { return !set_.contacts.empty() || around_; }
   bool sweep(Vec3& position, const Vec3& step);
   double likelyWay_m() const;
+  bool nearbyTells(const Vec3& from, const Vec3& motion, std::span<const PrimitiveId> contacts, bool& hit,
+                   SceneImpact& out);
   bool firstImpact(const Vec3& from, const Vec3& motion, SceneImpact& out);
   void settleOn(const ContactSet& set);
   bool settled() const;
@@ -187,16 +192,39 @@ double Tick::likelyWay_m() const {
   return slid_m_ > 0 ? kFallPerSlide * slid_m_ : kFallPerReach * tolerance_.reach;
 }
 
+// Asks what is nearby alone. False where that cannot tell: nothing of it is hit on the part of the way that it covers,
+// and the way goes on; along a surface it mostly does.
+bool Tick::nearbyTells(const Vec3& from, const Vec3& motion, std::span<const PrimitiveId> contacts, bool& hit,
+                       SceneImpact& out) {
+  Nearby& nearby = state_.nearby;
+  if ((!slides() && !nearby.isBall()) || !nearby.covers(scene_, from, tolerance_.touching)) return false;
+  const bool whole = nearby.covers(scene_, from + motion, tolerance_.touching) ||
+                     (slides() && state_.surroundings.find(scene_, set_, tolerance_, from, motion, nearby));
+  const double slack = whole || slides() ? 0 : nearby.slack_m(from, tolerance_.touching);
+  if (!whole && slack <= 0) return false;
+  const double length = motion.norm();
+  const Vec3 to = from + (whole ? 1 : slack / length) * motion;
+  FixedVector<PrimitiveId, Nearby::kRoom> met;
+  nearby.forEach(from, to, tolerance_.touching + tolerance_.skin, [&](PrimitiveId primitive) {
+    if (std::find(contacts.begin(), contacts.end(), primitive) == contacts.end()) met.push(primitive);
+  });
+  hit = scene_.firstImpactAmong({met.begin(), met.size()}, from, motion, tolerance_.swept, out);
+  return whole || (hit && out.impact.t * length <= slack);
+}
+
 bool Tick::firstImpact(const Vec3& from, const Vec3& motion, SceneImpact& out) {
   Nearby& nearby = state_.nearby;
-  FixedVector<PrimitiveId, Nearby::kRoom> contacts;
-  if (!primitivesOf(set_, contacts)) {
+  FixedVector<PrimitiveId, Nearby::kRoom> known;
+  if (!primitivesOf(set_, known)) {
     nearby.forget();
     return scene_.firstImpact(from, motion, tolerance_.swept, tolerance_.touching, out);
   }
+  const std::span<const PrimitiveId> contacts(known.begin(), known.size());
+  bool hit = false;
+  if (nearbyTells(from, motion, contacts, hit, out)) return hit;
   nearby.begin(scene_, tolerance_.touching);
   return scene_.firstImpact(
-      from, motion, tolerance_.swept, tolerance_.touching, likelyWay_m(), {contacts.begin(), contacts.size()},
+      from, motion, tolerance_.swept, tolerance_.touching, likelyWay_m(), contacts,
       [&](PrimitiveId primitive) { nearby.add(primitive); }, out);
 }
 

@@ -14,6 +14,7 @@
 #include "base/ledger.h"
 #include "base/vec.h"
 #include "proxy/nearby.h"
+#include "proxy/surroundings.h"
 #include "scene/scene_at.h"
 
 namespace hl {
@@ -50,7 +51,9 @@ struct ProxyState {
   std::int64_t time_ns = 0;      ///< of the scene in the last tick
   std::uint64_t carrier = 0;     ///< key of the object whose friction holds it; 0: none
   Ledger ledger{};
-  Nearby nearby{};  ///< of `position`, so far as the last tick has met them; decides nothing but how long a tick takes
+  // What ticks have met of the scene; these decide nothing but how long the next one takes.
+  Nearby nearby{};
+  Surroundings surroundings{};
 };
 
 /// A plane that holds the proxy at the end of a tick.

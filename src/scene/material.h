@@ -44,6 +44,9 @@ struct MaterialOverride {
   std::optional<double> stiffness, static_friction, dynamic_friction, viscosity_Ns_m;
   std::optional<bool> smooth;
   bool textures = true;  ///< false: every texture is left out
+
+  /// Whether it leaves the default material, which has no textures, what it is.
+  bool keepsDefault() const { return !(stiffness || static_friction || dynamic_friction || viscosity_Ns_m || smooth); }
 };
 
 }  // namespace hl

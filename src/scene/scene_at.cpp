@@ -46,6 +46,16 @@ ClosestPoint SceneAt::closest(PrimitiveId id, const Vec3& p) const {
   return nearest;
 }
 
+bool SceneAt::closestWithin(PrimitiveId id, const Vec3& p, double distance, ClosestPoint& out) const {
+  const Motion& motion = instance(id).motion;
+  const Primitive& asked = primitive(id);
+  if (motion.identity()) return closestPointWithin(asked, p, distance, out);
+  const Pose pose = motion.at(time_ns_);
+  if (!closestPointWithin(asked, pose.toObject(p), distance, out)) return false;
+  toWorld(pose, out);
+  return true;
+}
+
 // Edge i is opposite vertex i, and a segment's only edge joins vertices 0 and 1.
 Vec3 SceneAt::edge(PrimitiveId id, Feature feature) const {
   const Primitive& p = primitive(id);
@@ -76,15 +86,16 @@ void SceneAt::primitivesWithin(const Vec3& centre, double distance,
   snapshot_.near.visitMet(region, [&](std::uint32_t i) {
     const Instance& instance = snapshot_.instances[i];
     const Shape& shape = *instance.shape;
+    const auto read = [&](std::uint32_t element) -> const Primitive& { return primitive({i, element}); };
     if (instance.motion.identity()) {
-      hl::primitivesWithin(*shape.index, shape.primitives, centre, distance,
+      hl::primitivesWithin(*shape.index, read, centre, distance,
                            [&](std::uint32_t element, const ClosestPoint& nearest) {
                              visit({i, element}, nearest);
                            });
       return;
     }
     const Pose pose = instance.motion.at(time_ns_);
-    hl::primitivesWithin(*shape.index, shape.primitives, pose.toObject(centre), distance,
+    hl::primitivesWithin(*shape.index, read, pose.toObject(centre), distance,
                          [&](std::uint32_t element, const ClosestPoint& nearest_O) {
                            ClosestPoint nearest = nearest_O;
                            toWorld(pose, nearest);
@@ -139,6 +150,25 @@ bool SceneAt::firstImpact(const Vec3& from, const Vec3& motion, double radius, d
     return hl::firstImpact(*shape.index, read, from_O, motion_O, radius, touching, soon, is_contact, met, hit);
   };
   return firstOf(from, motion, touching, ask, out);
+}
+
+bool SceneAt::firstImpactAmong(std::span<const PrimitiveId> primitives, const Vec3& from, const Vec3& motion,
+                               double radius, SceneImpact& out) const {
+  bool found = false;
+  for (const PrimitiveId id : primitives) {
+    const Motion& moves = instance(id).motion;
+    const Pose pose = moves.identity() ? Pose{} : moves.at(time_ns_);
+    const Vec3 from_O = moves.identity() ? from : pose.toObject(from);
+    const Vec3 motion_O = moves.identity() ? motion : pose.turnToObject(motion);
+    Impact impact;
+    if (!sweepSphereFromOutside(primitive(id), from_O, motion_O, radius, found ? out.impact.t : 1, impact)) continue;
+    if (found && impact.t > out.impact.t) continue;
+    if (found && impact.t == out.impact.t && !precedes(id, out.primitive)) continue;
+    found = true;
+    out = {impact, id};
+    if (!moves.identity()) out.impact.normal = pose.turnToWorld(impact.normal);
+  }
+  return found;
 }
 
 }  // namespace hl

@@ -46,8 +46,9 @@ class SceneAt {
   Vec3 turnToObject(PrimitiveId id, const Vec3& v_W) const;
   Vec3 turnToWorld(PrimitiveId id, const Vec3& v_O) const;
 
-  /// As closestPoint of geometry/closest_point.h, in the world frame.
+  /// As those of geometry/closest_point.h, in the world frame.
   ClosestPoint closest(PrimitiveId id, const Vec3& p) const;
+  bool closestWithin(PrimitiveId id, const Vec3& p, double distance, ClosestPoint& out) const;
   /// Unit direction of the edge that `feature` names, or of a segment; world frame.
   Vec3 edge(PrimitiveId id, Feature feature) const;
   /// Whether `a` comes before `b` by where they are, and copies by what they are; never by the order they were given
@@ -62,6 +63,9 @@ class SceneAt {
   bool firstImpact(const Vec3& from, const Vec3& motion, double radius, double touching, double soon,
                    std::span<const PrimitiveId> contacts, FunctionRef<void(PrimitiveId primitive)> meet,
                    SceneImpact& out) const;
+  /// The same among these primitives alone, none of which is a contact: all are farther than `radius` from `from`.
+  bool firstImpactAmong(std::span<const PrimitiveId> primitives, const Vec3& from, const Vec3& motion, double radius,
+                        SceneImpact& out) const;
 
  private:
   template <typename Ask>

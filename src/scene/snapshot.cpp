@@ -39,6 +39,10 @@ double largestCoordinate(const Box& box) {
   return box.empty() ? 0 : box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff();
 }
 
+bool allDefault(const std::vector<Material>& materials) {
+  return std::all_of(materials.begin(), materials.end(), [](const Material& one) { return one == Material{}; });
+}
+
 }  // namespace
 
 Box boxAt(const Box& object, const Pose& pose) {
@@ -82,7 +86,8 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, st
   snapshot->instances = std::move(instances);
   std::sort(snapshot->instances.begin(), snapshot->instances.end(),
             [](const Instance& a, const Instance& b) { return a.key < b.key; });
-  for (const Instance& instance : snapshot->instances) {
+  for (Instance& instance : snapshot->instances) {
+    instance.plain = allDefault(instance.surfaces->materials);
     snapshot->reach.push_back(reachOf(instance));
     const Box rest = boxAt(instance.shape->bounds, instance.motion.to());
     if (!rest.empty()) {

@@ -29,6 +29,7 @@ struct Instance {
   Motion motion;
   std::uint64_t key = 0;  ///< the same object in the next snapshot has the same one; unique in a snapshot
   std::uint32_t session = 0, object = 0, name = 0;  ///< whose it is and what its client calls it
+  bool plain = false;  ///< no surface of it does more than hold off: all materials are the default; by makeSnapshot
 };
 
 /// Immutable after makeSnapshot; read by any thread. Metres, world frame.

@@ -93,6 +93,29 @@ TEST(ClosestPoint, NeighboursGiveTheSameBitsOnASharedEdgeAndVertex) {
   EXPECT_GT(on_edge, 1000);
 }
 
+TEST(ClosestPoint, WithinADistanceLeavesOutOnlyWhatIsFarther) {
+  test::Random random(14);
+  int left_out = 0, told = 0;
+  for (int i = 0; i < 50000; ++i) {
+    const Primitive primitive = test::randomPrimitive(random, 1, 1, 0);
+    const Vec3 p = random.inCube(1.5);
+    const double distance = random.uniform(0, 1);
+    const ClosestPoint nearest = closestPoint(primitive, p);
+    ClosestPoint within;
+    if (!closestPointWithin(primitive, p, distance, within)) {
+      ++left_out;
+      ASSERT_GT(nearest.distance, distance * (1 - 1e-12));
+      continue;
+    }
+    ++told;
+    ASSERT_EQ(within.distance, nearest.distance);
+    ASSERT_EQ(within.point, nearest.point);
+    ASSERT_EQ(within.normal, nearest.normal);
+  }
+  EXPECT_GT(left_out, 1000);
+  EXPECT_GT(told, 1000);
+}
+
 TEST(ClosestPoint, AtDistanceZeroTheNormalIsStillAUnitVector) {
   Primitive triangle, segment, point;
   ASSERT_TRUE(makeTriangle(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), 0, triangle));

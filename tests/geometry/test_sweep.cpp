@@ -157,6 +157,33 @@ TEST(SweepSphere, StartsInContactHitAtOnceWhenApproachingAndElseNever) {
   }
 }
 
+TEST(SweepSphere, WhatComesTooLateMayBeLeftOutButNothingElseChanges) {
+  test::Random random(25);
+  int told = 0, left_out = 0;
+  for (int i = 0; i < 100000; ++i) {
+    const Primitive primitive = test::randomPrimitive(random, 1, 1, 0);
+    const Vec3 from = random.inCube(2), motion = primitive.vertex[0] + random.inCube(0.3) - from;
+    const double radius = 0.2 * random.uniform(0.1, 1);
+    if (closestPoint(primitive, from).distance <= radius) continue;
+    Impact whole, part;
+    const bool hit = sweepSphereFromOutside(primitive, from, motion, radius, 1, whole);
+    const double latest = random.below(4) == 0 ? whole.t : random.uniform(0, 1);
+    const bool hit_part = sweepSphereFromOutside(primitive, from, motion, radius, latest, part);
+    ASSERT_TRUE(hit || !hit_part);
+    if (hit && whole.t <= latest) {
+      ASSERT_TRUE(hit_part);
+    }
+    if (hit_part) {
+      ASSERT_EQ(part.t, whole.t);
+      ASSERT_EQ(part.normal, whole.normal);
+    }
+    told += hit_part;
+    left_out += hit && !hit_part;
+  }
+  EXPECT_GT(told, 1000);
+  EXPECT_GT(left_out, 1000);
+}
+
 TEST(SweepSphere, TheFaceIsTwoSided) {
   Primitive triangle;
   ASSERT_TRUE(makeTriangle(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), 0, triangle));

@@ -121,6 +121,28 @@ TEST(Snapshot, AThousandInstancesOfAShapeCostOneCopy) {
   EXPECT_EQ(snapshot->primitives, 1000 * instance.shape->primitives.size());
 }
 
+TEST(Snapshot, AnInstanceIsPlainWhenAllItsMaterialsAreTheDefault) {
+  Model model;
+  model.positions = {Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY()};
+  model.triangles = {{0, 1, 2}};
+  const auto plain = [&](const std::vector<Material>& materials) {
+    Instance instance;
+    instance.shape = makeShape(Model(model));
+    auto surfaces = std::make_shared<Surfaces>();
+    surfaces->materials = materials;
+    instance.surfaces = surfaces;
+    return makeSnapshot({instance})->instances[0].plain;
+  };
+  Material soft, rough, smooth, textured;
+  soft.stiffness = 0.5;
+  rough.static_friction = 0.1;
+  smooth.smooth = true;
+  textured.textureOf(Quantity::kHeight).texture = 0;
+  EXPECT_TRUE(plain({Material{}}));
+  EXPECT_TRUE(plain({Material{}, Material{}}));
+  for (const Material& other : {soft, rough, smooth, textured}) EXPECT_FALSE(plain({Material{}, other}));
+}
+
 TEST(SceneAt, ReachContainsTheWholeMotion) {
   test::Random random(14);
   for (int i = 0; i < 300; ++i) {
