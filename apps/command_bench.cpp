@@ -12,6 +12,7 @@
 #include "builtin.h"
 #include "commands.h"
 #include "io/load_scene.h"
+#include "tick/interruptions.h"
 #include "tick/peers/peers.h"
 #include "tick/suite.h"
 
@@ -34,7 +35,9 @@ constexpr const char* kNoPeers = "this hl was built without the libraries to com
 
 constexpr const char* kFooter =
     "Times in microseconds, each with the reading of the clock; every tick counts but those of the first approach.\n"
-    "tick: a whole tick of the proxy; near: the nearest primitive within 1.01 radii of where the proxy was;\n"
+    "All is done three times, and of each tick or question the middle time counts; 1x: every single time, with what\n"
+    "else the machine did then. tick: a whole tick of the proxy; near: the nearest primitive within 1.01 radii of\n"
+    "where the proxy was; nearest: at any distance;\n"
     "impact: the first impact of the sphere from one radius above the proxy to where the finger goes next.\n"
     "build 1, all: to build the hierarchy on one thread and on all, in ns for one primitive; bytes: of the hierarchy\n"
     "and of all, for one primitive; x plain: mean tick over that without effects; x tick, x query: median over that\n"
@@ -96,6 +99,17 @@ std::vector<bench::BenchScene> scenesOf(const BenchOptions& options) {
   return scenes;
 }
 
+// What the machine itself adds to single times, and so to the longest of them.
+std::string interruptionsNote() {
+  const bench::Interruptions found = bench::measureInterruptions(1);
+  const bench::Timing& gaps = found.gaps;
+  if (gaps.count() == 0) return "this machine did not interrupt a busy thread for a second";
+  return fmt::format(
+      "this machine interrupts a busy thread {:.0f} times a second, for {:.0f} us in the median and {:.0f} us at most: "
+      "that is in the columns 1x",
+      static_cast<double>(gaps.count()) / found.seconds, gaps.median_us(), gaps.max_us());
+}
+
 void run(const BenchOptions& options) {
   const bool built_in = !bench::peers().empty();
   if (options.peers && !built_in) throw Error(kNoPeers);
@@ -109,6 +123,7 @@ void run(const BenchOptions& options) {
   plan.ticks = options.ticks;
   plan.peers = built_in && (options.peers || options.all);
   BenchOutput output(options.csv);
+  output.note(interruptionsNote());
   if (options.all && !built_in) output.note(std::string("peers left out: ") + kNoPeers);
   runSuite(plan, output.sink());
 }

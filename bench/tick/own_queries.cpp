@@ -9,11 +9,16 @@ namespace hl::bench {
 
 namespace {
 
-class OwnNear final : public Peer {
+class OwnQueries final : public Peer {
  public:
-  explicit OwnNear(const Snapshot& snapshot) : scene_(snapshot) {}
-  Question question() const override { return Question::kNear; }
-  double ask(const Probe& probe) override {
+  explicit OwnQueries(const Snapshot& snapshot) : scene_(snapshot) {}
+  std::span<const Question> questions() const override { return kOwnQuestions; }
+  double ask(Question question, const Probe& probe) override {
+    return question == Question::kImpact ? impact(probe) : near(probe);
+  }
+
+ private:
+  double near(const Probe& probe) const {
     double nearest = std::numeric_limits<double>::infinity();
     scene_.primitivesWithin(probe.centre, probe.near_m, [&](PrimitiveId, const ClosestPoint& found) {
       nearest = std::min(nearest, found.distance);
@@ -21,15 +26,7 @@ class OwnNear final : public Peer {
     return nearest;
   }
 
- private:
-  SceneAt scene_;
-};
-
-class OwnImpact final : public Peer {
- public:
-  explicit OwnImpact(const Snapshot& snapshot) : scene_(snapshot) {}
-  Question question() const override { return Question::kImpact; }
-  double ask(const Probe& probe) override {
+  double impact(const Probe& probe) const {
     SceneImpact hit;
     if (!scene_.firstImpact(probe.from, probe.motion, probe.radius_m, 0, hit)) {
       return std::numeric_limits<double>::infinity();
@@ -43,9 +40,6 @@ class OwnImpact final : public Peer {
 
 }  // namespace
 
-std::unique_ptr<Peer> makeOwnQuery(const Snapshot& snapshot, Question question) {
-  if (question == Question::kNear) return std::make_unique<OwnNear>(snapshot);
-  return std::make_unique<OwnImpact>(snapshot);
-}
+std::unique_ptr<Peer> makeOwnQueries(const Snapshot& snapshot) { return std::make_unique<OwnQueries>(snapshot); }
 
 }  // namespace hl::bench

@@ -9,6 +9,6 @@
 namespace hl::bench {
 
 /// The snapshot must outlive it.
-std::unique_ptr<Peer> makeOwnQuery(const Snapshot& snapshot, Question question);
+std::unique_ptr<Peer> makeOwnQueries(const Snapshot& snapshot);
 
 }  // namespace hl::bench

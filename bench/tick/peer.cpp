@@ -17,7 +17,10 @@ constexpr std::size_t kLeast = 100;
 
 }  // namespace
 
-const char* nameOf(Question question) { return question == Question::kNear ? "near" : "impact"; }
+const char* nameOf(Question question) {
+  constexpr std::array<const char*, 3> kNames{"near", "nearest", "impact"};
+  return kNames[static_cast<std::size_t>(question)];
+}
 
 std::vector<Probe> probesOf(const Path& path, double radius_m) {
   std::vector<Probe> probes;
@@ -32,15 +35,25 @@ std::vector<Probe> probesOf(const Path& path, double radius_m) {
   return probes;
 }
 
-Answers timeAnswers(Peer& peer, std::span<const Probe> probes, double most_s) {
+Answers timeAnswers(Peer& peer, Question question, std::span<const Probe> probes, double most_s) {
   Answers answers;
   answers.metres.reserve(probes.size());
+  std::int64_t total_ns = 0;
   for (const Probe& probe : probes) {
     const std::int64_t start_ns = monotonicNow_ns();
-    const double metres = peer.ask(probe);
-    answers.times.add(monotonicNow_ns() - start_ns);
+    const double metres = peer.ask(question, probe);
+    const std::int64_t time_ns = monotonicNow_ns() - start_ns;
+    answers.times.add(0, time_ns);
     answers.metres.push_back(metres);
-    if (answers.metres.size() >= kLeast && static_cast<double>(answers.times.total_ns()) > 1e9 * most_s) break;
+    total_ns += time_ns;
+    if (answers.metres.size() >= kLeast && static_cast<double>(total_ns) > 1e9 * most_s / kPasses) break;
+  }
+  for (int pass = 1; pass < kPasses; ++pass) {
+    for (const Probe& probe : probes.first(answers.metres.size())) {
+      const std::int64_t start_ns = monotonicNow_ns();
+      peer.ask(question, probe);
+      answers.times.add(pass, monotonicNow_ns() - start_ns);
+    }
   }
   return answers;
 }

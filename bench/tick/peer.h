@@ -1,4 +1,4 @@
-// Peer: what answers one of the two questions of a tick on a mesh: HL's own queries, and those of other libraries.
+// Peer: what answers questions of a tick on a mesh: HL's own queries, and those of other libraries.
 #pragma once
 
 #include <array>
@@ -25,32 +25,35 @@ struct Probe {
 };
 
 enum class Question : std::uint8_t {
-  kNear,    ///< the distance of the nearest primitive
-  kImpact,  ///< how far the sphere comes
+  kNear,     ///< the distance of the nearest primitive within near_m
+  kNearest,  ///< the same at any distance: of who does not know, as a tick does, how near it is
+  kImpact,   ///< how far the sphere comes
 };
-inline constexpr std::array kQuestions{Question::kNear, Question::kImpact};
-/// "near" or "impact".
+/// "near", "nearest" or "impact".
 const char* nameOf(Question question);
+/// Those of HL itself: where something is within near_m, its answer to the first is that to the second.
+inline constexpr std::array kOwnQuestions{Question::kNear, Question::kImpact};
 
 class Peer {
  public:
   virtual ~Peer() = default;
-  virtual Question question() const = 0;
-  /// Metres; infinite when nothing is near, or nothing is hit. A peer without a limit of distance may answer more than
-  /// near_m.
-  virtual double ask(const Probe& probe) = 0;
+  /// Those that it has an answer to.
+  virtual std::span<const Question> questions() const = 0;
+  /// Metres; infinite when nothing is near, or nothing is hit.
+  virtual double ask(Question question, const Probe& probe) = 0;
 };
 
 /// One for each tick of the path after its approach.
 std::vector<Probe> probesOf(const Path& path, double radius_m);
 
 struct Answers {
-  Timing times;
+  PassTimes times;
   std::vector<double> metres;  ///< one for each probe that was asked
 };
 
-/// Asks one probe after the other; stops early after `most_s` seconds, but not before the first hundred.
-Answers timeAnswers(Peer& peer, std::span<const Probe> probes, double most_s);
+/// Asks one probe after the other, in kPasses passes; a pass stops early after its part of `most_s` seconds, but not
+/// before the first hundred.
+Answers timeAnswers(Peer& peer, Question question, std::span<const Probe> probes, double most_s);
 
 struct Agreement {
   std::size_t compared = 0;   ///< answers where ours found something

@@ -14,7 +14,7 @@ namespace hl::bench {
 namespace {
 
 constexpr std::size_t kMostForNone = 11'000;  // primitives: testing every one takes a millisecond and more
-constexpr std::size_t kTicksForNone = 2000;
+constexpr std::size_t kTicksForNone = 1000;
 constexpr double kPeerRow_s = 5;  // of questions to a peer, for one row
 
 std::string number(std::size_t n) { return std::to_string(n) + " primitives"; }
@@ -68,10 +68,11 @@ void Round::putTicks(const Case& of, HierarchyKind hierarchy, Feel feel, const T
   Row row = rowOf(of, "hl", "tick");
   row.hierarchy = nameOf(hierarchy);
   row.surface = nameOf(feel);
-  row.times = ticks.times;
+  row.times = ticks.times.middle();
+  row.single = ticks.times.all();
   row.capped = ticks.capped;
   row.cost = cost;
-  row.to_plain = ticks.times.mean_us() / of.plain.times.mean_us();
+  row.to_plain = row.times.mean_us() / of.plain_times.mean_us();
   output_.row(row);
 }
 
@@ -85,6 +86,7 @@ void Round::measureTicks(FingerMotion motion, RadiusMode mode) {
   Case next{motion, mode, radius_m};
   next.path = planPath(*plain_, motion, settingsOf(next), plan_.ticks);
   next.plain = timeTicks(*plain_, settingsOf(next), next.path, plan_.ticks);
+  next.plain_times = next.plain.times.middle();
   putTicks(next, HierarchyKind::kBvh, Feel::kPlain, next.plain, cost_);
   cases_.push_back(std::move(next));
 }
@@ -137,12 +139,14 @@ void Round::measurePeers() {
 
 void Round::measureOwnQueries(Case& of) const {
   of.probes = probesOf(of.path, of.radius_m);
-  for (std::size_t i = 0; i < kQuestions.size(); ++i) {
-    of.own[i] = timeAnswers(*makeOwnQuery(*plain_, kQuestions[i]), of.probes, HUGE_VAL);
-    Row row = rowOf(of, "hl", nameOf(kQuestions[i]));
+  const auto own = makeOwnQueries(*plain_);
+  for (std::size_t i = 0; i < kOwnQuestions.size(); ++i) {
+    of.own[i] = timeAnswers(*own, kOwnQuestions[i], of.probes, HUGE_VAL);
+    Row row = rowOf(of, "hl", nameOf(kOwnQuestions[i]));
     row.hierarchy = hl::nameOf(HierarchyKind::kBvh);
-    row.times = of.own[i].times;
-    row.to_tick = row.times.median_us() / of.plain.times.median_us();
+    row.times = of.own[i].times.middle();
+    row.single = of.own[i].times.all();
+    row.to_tick = row.times.median_us() / of.plain_times.median_us();
     output_.row(row);
   }
 }
@@ -154,20 +158,26 @@ void Round::measurePeer(const PeerKind& kind) const {
   const double build_ns = static_cast<double>(monotonicNow_ns() - start_ns) / static_cast<double>(primitives());
   for (const Case& of : cases_) {
     say(std::string(kind.name) + ", " + nameOf(of.motion) + " on " + number(plain_->primitives));
-    const Answers answers = timeAnswers(*peer, of.probes, kPeerRow_s);
-    const Answers& own = of.own[static_cast<std::size_t>(peer->question())];
-    Row row = rowOf(of, kind.name, nameOf(peer->question()));
-    row.times = answers.times;
-    row.cost.build_ns = build_ns;
-    row.to_tick = row.times.median_us() / of.plain.times.median_us();
-    row.to_query = row.times.median_us() / own.times.median_us();
-    row.agreement = compare(own.metres, answers.metres);
-    if (answers.metres.size() < of.probes.size()) {
-      row.note = "only the first of " + std::to_string(of.probes.size()) + " places: they took " +
-                 std::to_string(static_cast<int>(kPeerRow_s)) + " s";
-    }
-    output_.row(row);
+    for (const Question question : peer->questions()) measureAnswers(of, kind.name, *peer, question, build_ns);
   }
+}
+
+void Round::measureAnswers(const Case& of, const std::string& who, Peer& peer, Question question,
+                           double build_ns) const {
+  const Answers answers = timeAnswers(peer, question, of.probes, kPeerRow_s);
+  const Answers& own = of.own[question == Question::kImpact ? 1 : 0];
+  Row row = rowOf(of, who, nameOf(question));
+  row.times = answers.times.middle();
+  row.single = answers.times.all();
+  row.cost.build_ns = build_ns;
+  row.to_tick = row.times.median_us() / of.plain_times.median_us();
+  row.to_query = row.times.median_us() / own.times.middle().median_us();
+  row.agreement = compare(own.metres, answers.metres);
+  if (answers.metres.size() < of.probes.size()) {
+    row.note = "only the first of " + std::to_string(of.probes.size()) + " places: they took " +
+               std::to_string(static_cast<int>(kPeerRow_s)) + " s";
+  }
+  output_.row(row);
 }
 
 }  // namespace hl::bench

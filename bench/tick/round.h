@@ -17,9 +17,10 @@ struct Case {
   RadiusMode mode;
   double radius_m;
   Path path{};
-  TickTimes plain{};  ///< without surface effects
+  TickTimes plain{};     ///< without surface effects
+  Timing plain_times{};  ///< of these the middle ones
   std::vector<Probe> probes{};
-  std::array<Answers, kQuestions.size()> own{};  ///< of HL's queries to the probes
+  std::array<Answers, kOwnQuestions.size()> own{};  ///< of HL's queries to the probes
 };
 
 class Round {
@@ -44,6 +45,7 @@ class Round {
   void measurePeers();
   void measureOwnQueries(Case& of) const;
   void measurePeer(const PeerKind& kind) const;
+  void measureAnswers(const Case& of, const std::string& who, Peer& peer, Question question, double build_ns) const;
 
   const SuitePlan& plan_;
   const SuiteOutput& output_;

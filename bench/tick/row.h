@@ -17,11 +17,12 @@ inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 struct Row {
   std::string scene, motion, radius;  ///< the radius is "fixed", or "scaled" with the mesh
   double radius_m = 0;
-  std::string who, question;       ///< "hl" or a peer, and "tick", "near" or "impact"
+  std::string who, question;       ///< "hl" or a peer, and "tick" or a Question
   std::string hierarchy, surface;  ///< of HL; empty for a peer
   std::size_t primitives = 0;
   double mean_edge_m = 0;
-  Timing times;
+  Timing times;            ///< PassTimes::middle()
+  Timing single;           ///< PassTimes::all()
   std::size_t capped = 0;  ///< ticks that the iteration cap ended
   Cost cost{kNone, kNone, kNone, kNone, kNone};
   double to_plain = kNone;  ///< mean time of this tick over that of the same without surface effects

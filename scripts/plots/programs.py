@@ -54,7 +54,7 @@ def trace(bench):
 
 HIERARCHIES = (("none", GREY, "every primitive tested"), ("spheres", BLUE, "sphere tree"), ("bvh", GREEN, "wide BVH"))
 PEERS = (("embree", ORANGE, "Embree"), ("cgal", PURPLE, "CGAL"), ("fcl", BROWN, "FCL"), ("bullet", PINK, "Bullet"))
-QUESTIONS = {"near": "closest point", "impact": "swept sphere"}
+QUESTIONS = (("near", "-.", "closest point within 1.01 r"), ("nearest", "--", "closest point"), ("impact", "--", "swept sphere"))
 LEGEND = 0.16             # of the picture's height
 RADII = {"fixed": "r = {:g} mm", "scaled": "r = {:.2g} mean edges"}
 
@@ -71,9 +71,9 @@ def draw_tick_times(axes, rows):
         draw_line(axes, chosen, "p999_us", ":", color=colour, label=f"{name}, p99.9")
         draw_line(axes, chosen, "p50_us", "-", color=colour, label=f"{name}, median")
     for who, colour, name in PEERS:
-        chosen = [row for row in rows if row["who"] == who]
-        label = f"{name}, {QUESTIONS[chosen[0]['question']]}, median" if chosen else None
-        draw_line(axes, chosen, "p50_us", "--", color=colour, label=label)
+        for question, line, text in QUESTIONS:
+            chosen = [row for row in rows if (row["who"], row["question"]) == (who, question)]
+            draw_line(axes, chosen, "p50_us", line, color=colour, label=f"{name}, {text}, median")
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.axhline(1000, color=RED, lw=1)

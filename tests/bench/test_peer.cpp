@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "builtin.h"
+#include "tick/interruptions.h"
 #include "tick/own_queries.h"
 #include "tick/peers/peers.h"
 #include "tick/suite.h"
@@ -31,12 +32,11 @@ Slide slideOn(const std::string& scene) {
 
 TEST(Peer, OwnQueriesOnAPlaneAreItsDistances) {
   const Slide slide = slideOn("plane:200");
-  const auto near = makeOwnQuery(*slide.snapshot, Question::kNear);
-  const auto impact = makeOwnQuery(*slide.snapshot, Question::kImpact);
+  const auto own = makeOwnQueries(*slide.snapshot);
   for (const Probe& probe : slide.probes) {
-    ASSERT_NEAR(near->ask(probe), kRadius_m, 1e-9);
+    ASSERT_NEAR(own->ask(Question::kNear, probe), kRadius_m, 1e-9);
     const double fall = (probe.from.y() - kRadius_m) / -probe.motion.y();
-    ASSERT_NEAR(impact->ask(probe), fall * probe.motion.norm(), 1e-9);
+    ASSERT_NEAR(own->ask(Question::kImpact, probe), fall * probe.motion.norm(), 1e-9);
   }
 }
 
@@ -55,12 +55,34 @@ TEST(Peer, TheOthersAgree) {
     const Mesh mesh = trianglesOf(*slide.shape);
     for (const PeerKind& kind : peers()) {
       const auto peer = kind.make(mesh);
-      const auto own = makeOwnQuery(*slide.snapshot, peer->question());
-      const Agreement agreement =
-          compare(timeAnswers(*own, slide.probes, HUGE_VAL).metres, timeAnswers(*peer, slide.probes, HUGE_VAL).metres);
-      EXPECT_GT(agreement.compared, slide.probes.size() * 9 / 10) << kind.name << " on " << scene;
-      EXPECT_EQ(agreement.different, 0u) << kind.name << " on " << scene;
+      const auto own = makeOwnQueries(*slide.snapshot);
+      for (const Question question : peer->questions()) {
+        const Agreement agreement = compare(timeAnswers(*own, question, slide.probes, HUGE_VAL).metres,
+                                            timeAnswers(*peer, question, slide.probes, HUGE_VAL).metres);
+        EXPECT_GT(agreement.compared, slide.probes.size() * 9 / 10) << kind.name << " on " << scene;
+        EXPECT_EQ(agreement.different, 0u) << kind.name << " on " << scene;
+      }
     }
+  }
+}
+
+TEST(PassTimes, TheMiddleOneOfEachCountsAndAllAreKept) {
+  PassTimes times;
+  const std::array<std::array<std::int64_t, 2>, kPasses> passes{{{10, 9000}, {3000, 200}, {30, 100}}};
+  for (int pass = 0; pass < kPasses; ++pass) {
+    for (const std::int64_t time_ns : passes[static_cast<std::size_t>(pass)]) times.add(pass, time_ns);
+  }
+  EXPECT_EQ(times.middle().count(), 2u);
+  EXPECT_EQ(times.middle().total_ns(), 30 + 200);
+  EXPECT_EQ(times.all().count(), 6u);
+  EXPECT_EQ(times.all().max_us(), 9);
+}
+
+TEST(Interruptions, AreTheGapsBetweenReadingsOfTheClock) {
+  const Interruptions found = measureInterruptions(0.05);
+  EXPECT_EQ(found.seconds, 0.05);
+  if (found.gaps.count() > 0) {
+    EXPECT_GE(found.gaps.total_ns(), kLeastGap_ns * static_cast<std::int64_t>(found.gaps.count()));
   }
 }
 
@@ -79,6 +101,7 @@ TEST(Suite, GrowthOfOneSizeIsNotPrintedAndRowsCountEveryTick) {
   const auto count = [&](const Row& row) {
     ++rows;
     EXPECT_EQ(row.times.count(), plan.ticks);
+    EXPECT_EQ(row.single.count(), kPasses * plan.ticks);
     EXPECT_EQ(row.capped, 0u);
     EXPECT_GT(row.cost.all_bytes, row.cost.index_bytes);
     EXPECT_DOUBLE_EQ(row.radius_m, row.radius == "fixed" ? plan.radius_m : plan.radius_edges * row.mean_edge_m);

@@ -47,9 +47,12 @@ class Bullet final : public Peer {
   Bullet(const Bullet&) = delete;
   Bullet& operator=(const Bullet&) = delete;
 
-  Question question() const override { return Question::kImpact; }
+  std::span<const Question> questions() const override {
+    static constexpr std::array kAsked{Question::kImpact};
+    return kAsked;
+  }
 
-  double ask(const Probe& probe) override {
+  double ask(Question, const Probe& probe) override {
     const btSphereShape sphere(toBullet(probe.radius_m));
     const btTransform from(btMatrix3x3::getIdentity(), toBullet(probe.from));
     const btTransform to(btMatrix3x3::getIdentity(), toBullet(probe.from + probe.motion));

@@ -26,9 +26,12 @@ class Cgal final : public Peer {
     hint_ = triangles_.front().vertex(0);
   }
 
-  Question question() const override { return Question::kNear; }
+  std::span<const Question> questions() const override {
+    static constexpr std::array kAsked{Question::kNearest};
+    return kAsked;
+  }
 
-  double ask(const Probe& probe) override {
+  double ask(Question, const Probe& probe) override {
     const Kernel::Point_3 centre = toCgal(probe.centre);
     hint_ = tree_.closest_point(centre, hint_);
     return std::sqrt(CGAL::squared_distance(centre, hint_));

@@ -64,11 +64,16 @@ class Embree final : public Peer {
   Embree(const Embree&) = delete;
   Embree& operator=(const Embree&) = delete;
 
-  Question question() const override { return Question::kNear; }
+  std::span<const Question> questions() const override {
+    static constexpr std::array kAsked{Question::kNear, Question::kNearest};
+    return kAsked;
+  }
 
-  double ask(const Probe& probe) override {
+  double ask(Question question, const Probe& probe) override {
+    constexpr float kAnywhere = std::numeric_limits<float>::infinity();
     const Vec3f p = probe.centre.cast<float>();
-    RTCPointQuery query{p.x(), p.y(), p.z(), 0, static_cast<float>(probe.near_m)};
+    const float radius = question == Question::kNear ? static_cast<float>(probe.near_m) : kAnywhere;
+    RTCPointQuery query{p.x(), p.y(), p.z(), 0, radius};
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     nearest_ = std::numeric_limits<float>::infinity();

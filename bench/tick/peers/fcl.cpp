@@ -24,9 +24,12 @@ class Fcl final : public Peer {
     model_.endModel();
   }
 
-  Question question() const override { return Question::kNear; }
+  std::span<const Question> questions() const override {
+    static constexpr std::array kAsked{Question::kNearest};
+    return kAsked;
+  }
 
-  double ask(const Probe& probe) override {
+  double ask(Question, const Probe& probe) override {
     const fcl::Sphered sphere(kShrunk * probe.radius_m);
     fcl::Transform3d place = fcl::Transform3d::Identity();
     place.translation() = probe.centre;
