@@ -16,27 +16,30 @@ constexpr double kWorthwhile = 1e-3;
 // How many times as far as the plain step, of this length, a step in a direction of this curvature goes: Newton's, if
 // the distance to the goal has a minimum that way. Else it falls ever faster, as on the ridge of an edge: plain steps
 // grow geometrically there, and this one takes several at a stride.
-double stretch(double curvature, double length, double reach) {
+double stretch(double curvature, double length, double reach, double boldness) {
   constexpr double kMostStrides = 64;
   constexpr double kStridesPerReach = 0.003;  // an edge between faces that hardly bend ends soon
   const double longest = std::max(1.0, kLongestPerReach * reach / length);
-  if (curvature > 0) return std::min(1 / curvature, longest);
-  return std::clamp(kStridesPerReach * reach / length, 1.0, kMostStrides);
+  const double part = std::min(1.0, boldness), more = std::max(1.0, boldness);
+  if (curvature > 0) return 1 + part * (std::min(1 / curvature, longest) - 1);
+  const double strides = std::clamp(more * kStridesPerReach * reach / length, 1.0, more * kMostStrides);
+  return 1 + part * (std::min(strides, longest) - 1);
 }
 
 // How much the obstacle bends away below a step in the direction of its projector: 1 for the whole radius.
 double bendOf(const Contact& contact, double multiplier) { return multiplier / contact.distance; }
 
 // On one surface. The tangents in which it is curved are curved alike, so the Hessian is 1 - bend in them, else 1.
-Vec3 onSurface(const Contact& contact, double multiplier, const Mat3& curved, const Vec3& plain, double reach) {
+Vec3 onSurface(const Contact& contact, double multiplier, const Mat3& curved, const Vec3& plain, double reach,
+               double boldness) {
   const Vec3 part = curved * plain;
-  return plain + (stretch(1 - bendOf(contact, multiplier), part.norm(), reach) - 1) * part;
+  return plain + (stretch(1 - bendOf(contact, multiplier), part.norm(), reach, boldness) - 1) * part;
 }
 
 // Along the curve in which two surfaces meet; `bend` is that of both along it.
-Vec3 onCurve(const Vec3& along, double bend, const Vec3& plain, double reach) {
+Vec3 onCurve(const Vec3& along, double bend, const Vec3& plain, double reach, double boldness) {
   const double length = along.dot(plain);
-  return plain + (stretch(1 - bend, std::abs(length), reach) - 1) * length * along;
+  return plain + (stretch(1 - bend, std::abs(length), reach, boldness) - 1) * length * along;
 }
 
 bool staysAbove(const ContactSet& set, const Vec3& step, double tolerance) {
@@ -49,19 +52,19 @@ bool staysAbove(const ContactSet& set, const Vec3& step, double tolerance) {
 }  // namespace
 
 bool curvatureStep(const ContactSet& set, const SceneAt& scene, const SolverResult& sub_goal,
-                   const Tolerances& tolerance, Vec3& step) {
+                   const Tolerances& tolerance, double boldness, Vec3& step) {
   const double reach = tolerance.reach;
   const Vec3& plain = sub_goal.point;
   const auto contact = [&](std::size_t i) -> const Contact& { return set.contacts[sub_goal.active[i]]; };
   const auto curved = [&](std::size_t i) { return contact(i).feature != Feature::kFace; };
   if (sub_goal.active_count == 1 && curved(0)) {
-    step = onSurface(contact(0), sub_goal.multiplier[0], curvedDirections(contact(0), scene), plain, reach);
+    step = onSurface(contact(0), sub_goal.multiplier[0], curvedDirections(contact(0), scene), plain, reach, boldness);
   } else if (sub_goal.active_count == 2 && (curved(0) || curved(1))) {
     const Vec3 along = contact(0).plane.normal.cross(contact(1).plane.normal).normalized();
     double bend = 0;
     for (std::size_t i = 0; i < 2; ++i)
       bend += bendOf(contact(i), sub_goal.multiplier[i]) * along.dot(curvedDirections(contact(i), scene) * along);
-    step = onCurve(along, bend, plain, reach);
+    step = onCurve(along, bend, plain, reach, boldness);
   } else {
     return false;
   }

@@ -21,6 +21,16 @@ namespace {
 // Equal to no place.
 const Vec3 kNowhere = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
 
+// Steps in a row above planes of what was left. Where the finger is all but at an edge, each goes a little farther
+// around it and away from it; then it is time to come down, and for Newton's step.
+constexpr int kMostArounds = 8;
+
+// Steps after a curvature step until it must have paid off: on its way down the proxy may meet another surface first.
+constexpr int kMostDescents = 8;
+
+// By how much curvature steps become bolder when one has paid off, and less bold when one has not.
+constexpr double kBolder = 4, kMostBoldness = 1024;
+
 // Passes in contact under shading or friction. What is left to slip after so many is slipped in the next tick.
 constexpr int kEffectPasses = 8;
 
@@ -62,7 +72,7 @@ class Tick {
   bool settled() const;
   void advance(const SubGoal& sub_goal);
   bool tryCurvatureStep();
-  bool restoreIfWorse();
+  bool restoreIfWorse(bool last);
   void finish(const SubGoal& sub_goal, TickReport& report);
 
   const SceneAt& scene_;
@@ -82,13 +92,16 @@ class Tick {
   double slid_m_ = 0;  // how far the steps since the last touch wanted to go along a surface; 0: the last did not
   LeftBehind left_;
   bool around_ = false;  // what was left changes the sub-goal in hand
+  int arounds_ = 0;      // so many in a row
   // The faces on which the passes have brought the proxy to rest; empty while they have not.
   FixedVector<PrimitiveId, kFewContacts> settled_on_;
 
-  // A curvature step leaves a surface for a moment: until it has paid off, this is where to return to. The step after
-  // it comes down, and only then is there something to judge.
-  bool pending_ = false, down_ = false;
+  // A curvature step leaves a surface for a moment: until it has paid off, this is where to return to. The steps after
+  // it come down, and only then is there something to judge.
+  bool pending_ = false;
+  int descents_ = 0;  // steps since
   Vec3 checkpoint_ = Vec3::Zero();
+  double boldness_ = 1;
   // After the n-th one that did not, the next 2^n sub-goals are plain.
   int refusals_ = 0;
   int plain_left_ = 0;
@@ -118,6 +131,7 @@ SubGoal Tick::plainSubGoal() {
     left_.holds(contact.primitive);
   }
   around_ = !left_.empty() && aroundLeft(result.step);
+  arounds_ = around_ ? arounds_ + 1 : 0;
   return result;
 }
 
@@ -126,7 +140,7 @@ SubGoal Tick::plainSubGoal() {
 // mostly end at once on something new.
 bool Tick::aroundLeft(Vec3& step) {
   constexpr double kLeastPerGap = 1e-5, kMostPerSlid = 2;
-  if (pending_ || goal_ != finger_) return false;
+  if (pending_ || goal_ != finger_ || arounds_ >= kMostArounds) return false;
   LeftBehind::Planes planes;
   for (const Plane& plane : set_.planes) {
     if (!planes.push(plane)) return false;
@@ -237,23 +251,30 @@ bool Tick::tryCurvatureStep() {
     return false;
   }
   Vec3 step;
-  if (!curvatureStep(set_, scene_, plain_, tolerance_, step)) return false;
+  if (!curvatureStep(set_, scene_, plain_, tolerance_, boldness_, step)) return false;
   Vec3 there = state_.position;
-  if (!sweep(there, step)) return false;
+  // Where something is in the way it may still have gone farther than the plain step would.
+  if (!sweep(there, step) && (there - state_.position).norm() <= plain_.point.norm()) return false;
   pending_ = true;
-  down_ = false;
+  descents_ = 0;
   came_from_ = kNowhere;
   checkpoint_ = state_.position;
   state_.position = there;
   return true;
 }
 
-// Called when the proxy has come down again, or at the end: a curvature step that did not bring it nearer is undone.
-// Returns whether it was.
-bool Tick::restoreIfWorse() {
+// Called after each step that comes down from a curvature step, the last one maybe: one that did not bring the proxy
+// nearer is undone. Returns whether it was.
+bool Tick::restoreIfWorse(bool last) {
   if (!pending_) return false;
+  const bool nearer = (goal_ - state_.position).squaredNorm() < (goal_ - checkpoint_).squaredNorm();
+  if (!nearer && !last && descents_ < kMostDescents) return false;
   pending_ = false;
-  if ((goal_ - state_.position).squaredNorm() < (goal_ - checkpoint_).squaredNorm()) return false;
+  if (nearer) {
+    boldness_ = std::min(kMostBoldness, boldness_ * kBolder);
+    return false;
+  }
+  boldness_ = std::min(1.0, boldness_) / kBolder;
   const bool moved = state_.position != checkpoint_;
   state_.position = checkpoint_;
   came_from_ = kNowhere;
@@ -292,8 +313,9 @@ void Tick::advance(const SubGoal& sub_goal) {
     step *= part;
   }
   const bool whole = sweep(state_.position, step);
-  down_ = true;
-  trembles_ = state_.position == came_from_ && sub_goal.step.norm() <= kTremblePerGap * (goal_ - from).norm();
+  ++descents_;
+  trembles_ =
+      !pending_ && state_.position == came_from_ && sub_goal.step.norm() <= kTremblePerGap * (goal_ - from).norm();
   came_from_ = from;
   // In the open and unhindered the proxy *is* the finger, to the bit.
   if (whole && free && goal_ == finger_) state_.nearby.endAt(state_.position = finger_);
@@ -332,18 +354,18 @@ TickReport Tick::run() {
     findContacts();
     const bool settled_there = settled();
     if (!settled_there) sub_goal = subGoal();
-    if (pending_ && down_ && restoreIfWorse()) {
+    if (pending_ && descents_ > 0 && restoreIfWorse(atRest(sub_goal.step))) {
       findContacts();
       sub_goal = subGoal();
     }
-    const bool at_rest = settled_there || trembles_ || (atRest(sub_goal.step) && (!pending_ || down_));
+    const bool at_rest = settled_there || trembles_ || (atRest(sub_goal.step) && (!pending_ || descents_ > 0));
     report.capped = !at_rest && (report.iterations >= settings_.iteration_cap || set_.overflow);
     if (at_rest || report.capped) break;
     ++report.iterations;
     if (!tryCurvatureStep()) advance(sub_goal);
     if (rests_) break;
   }
-  restoreIfWorse();
+  restoreIfWorse(true);
   finish(sub_goal, report);
   return report;
 }

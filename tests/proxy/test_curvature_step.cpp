@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "geometry/scenes.h"
 #include "proxy/judge.h"
 #include "proxy/proxy.h"
 
@@ -76,6 +77,37 @@ TEST(CurvatureStep, BetweenWiresItSettles) {
       EXPECT_GE(judge::clearance(*snapshot, state.position, kRadius), kRadius * (1 - 1e-6)) << apart << ' ' << i;
     }
   }
+}
+
+// Hills of large triangles, and a finger some ten-thousandths of a radius from an edge or beyond it: the proxy, which
+// comes from anywhere, is drawn round the edge by next to nothing, and other triangles are in its way.
+TEST(CurvatureStep, AllButAtAnEdgeOfHillsItTakesFewSteps) {
+  constexpr double kLarge = 0.01;
+  const Model hills = judge::grid(13, 13, [](double u, double v) {
+    const double x = 0.4 * u - 0.2, y = 0.4 * v - 0.2;
+    return Vec3(x, y, 0.03 * std::sin(17 * x) * std::cos(13 * y) + 0.004 * std::sin(90 * x + 40 * y));
+  });
+  const auto snapshot = judge::scene(hills);
+  test::Random random(71);
+  int ticks = 0, steps = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const auto& t = hills.triangles[static_cast<std::size_t>(random.below(static_cast<int>(hills.triangles.size())))];
+    const Vec3 a = hills.positions[t[0]], b = hills.positions[t[1]];
+    const Vec3 finger =
+        a + random.uniform(0, 1) * (b - a) + random.uniform(0.5, 3) * 1e-4 * kLarge * random.direction();
+    if (finger.head<2>().norm() > 0.15) continue;
+    const Vec3 above = Vec3(random.uniform(-1, 1), random.uniform(-1, 1), 2).normalized();
+    ProxyState state = startProxy(*snapshot, {kLarge}, finger + 3 * kLarge * above);
+    if (!state.free) continue;
+    const TickReport report = tick(state, *snapshot, {kLarge}, finger);
+    ASSERT_FALSE(report.capped) << i;
+    ASSERT_LE(judge::kktResidual(*snapshot, state.position, finger, kLarge), 1e-6) << i;
+    ASSERT_GE(judge::clearance(*snapshot, state.position, kLarge), kLarge * (1 - 1e-6)) << i;
+    ++ticks;
+    steps += report.iterations;
+  }
+  EXPECT_GT(ticks, 1000);
+  EXPECT_LE(steps, 10 * ticks);  // 190 where each step must pay off at once and grows no bolder
 }
 
 }  // namespace
