@@ -20,9 +20,8 @@ constexpr const char* kHeader =
     " capped  build 1     all refit bytes   all  x plain   x tick  x query  wrong\n";
 constexpr const char* kCsvHeader =
     "scene,motion,radius,radius_m,who,question,hierarchy,surface,primitives,mean_edge_m,count,p50_us,p99_us,p999_us,"
-    "max_us,single_p999_us,single_max_us,mean_us,capped,build_one_thread_ns,build_ns,refit_ns,index_bytes,all_bytes,to_"
-    "plain,to_tick,to_query,"
-    "compared,different,note\n";
+    "max_us,single_p999_us,single_max_us,mean_us,capped,build_one_thread_ns,build_ns,refit_ns,index_bytes,all_bytes,"
+    "to_plain,to_tick,to_query,compared,different,note\n";
 
 // A number, or nothing where the row has none.
 std::string text(double value, int digits, const char* none) {

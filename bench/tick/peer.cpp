@@ -38,22 +38,20 @@ std::vector<Probe> probesOf(const Path& path, double radius_m) {
 Answers timeAnswers(Peer& peer, Question question, std::span<const Probe> probes, double most_s) {
   Answers answers;
   answers.metres.reserve(probes.size());
-  std::int64_t total_ns = 0;
-  for (const Probe& probe : probes) {
+  const auto timed = [&](int pass, const Probe& probe) {
     const std::int64_t start_ns = monotonicNow_ns();
     const double metres = peer.ask(question, probe);
-    const std::int64_t time_ns = monotonicNow_ns() - start_ns;
-    answers.times.add(0, time_ns);
-    answers.metres.push_back(metres);
-    total_ns += time_ns;
-    if (answers.metres.size() >= kLeast && static_cast<double>(total_ns) > 1e9 * most_s / kPasses) break;
+    answers.times.add(pass, monotonicNow_ns() - start_ns);
+    return metres;
+  };
+  const std::int64_t begin_ns = monotonicNow_ns();
+  for (const Probe& probe : probes) {
+    answers.metres.push_back(timed(0, probe));
+    const auto since_ns = static_cast<double>(monotonicNow_ns() - begin_ns);
+    if (answers.metres.size() >= kLeast && since_ns > 1e9 * most_s / kPasses) break;
   }
   for (int pass = 1; pass < kPasses; ++pass) {
-    for (const Probe& probe : probes.first(answers.metres.size())) {
-      const std::int64_t start_ns = monotonicNow_ns();
-      peer.ask(question, probe);
-      answers.times.add(pass, monotonicNow_ns() - start_ns);
-    }
+    for (const Probe& probe : probes.first(answers.metres.size())) timed(pass, probe);
   }
   return answers;
 }

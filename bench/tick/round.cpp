@@ -72,7 +72,7 @@ void Round::putTicks(const Case& of, HierarchyKind hierarchy, Feel feel, const T
   row.single = ticks.times.all();
   row.capped = ticks.capped;
   row.cost = cost;
-  row.to_plain = row.times.mean_us() / of.plain_times.mean_us();
+  row.to_plain = row.times.mean_us() / of.plain.mean_us();
   output_.row(row);
 }
 
@@ -85,9 +85,9 @@ void Round::measureTicks(FingerMotion motion, RadiusMode mode) {
   say(std::string(nameOf(motion)) + " on " + number(plain_->primitives));
   Case next{motion, mode, radius_m};
   next.path = planPath(*plain_, motion, settingsOf(next), plan_.ticks);
-  next.plain = timeTicks(*plain_, settingsOf(next), next.path, plan_.ticks);
-  next.plain_times = next.plain.times.middle();
-  putTicks(next, HierarchyKind::kBvh, Feel::kPlain, next.plain, cost_);
+  const TickTimes plain = timeTicks(*plain_, settingsOf(next), next.path, plan_.ticks);
+  next.plain = plain.times.middle();
+  putTicks(next, HierarchyKind::kBvh, Feel::kPlain, plain, cost_);
   cases_.push_back(std::move(next));
 }
 
@@ -146,7 +146,7 @@ void Round::measureOwnQueries(Case& of) const {
     row.hierarchy = hl::nameOf(HierarchyKind::kBvh);
     row.times = of.own[i].times.middle();
     row.single = of.own[i].times.all();
-    row.to_tick = row.times.median_us() / of.plain_times.median_us();
+    row.to_tick = row.times.median_us() / of.plain.median_us();
     output_.row(row);
   }
 }
@@ -170,7 +170,7 @@ void Round::measureAnswers(const Case& of, const std::string& who, Peer& peer, Q
   row.times = answers.times.middle();
   row.single = answers.times.all();
   row.cost.build_ns = build_ns;
-  row.to_tick = row.times.median_us() / of.plain_times.median_us();
+  row.to_tick = row.times.median_us() / of.plain.median_us();
   row.to_query = row.times.median_us() / own.times.middle().median_us();
   row.agreement = compare(own.metres, answers.metres);
   if (answers.metres.size() < of.probes.size()) {

@@ -17,8 +17,7 @@ struct Case {
   RadiusMode mode;
   double radius_m;
   Path path{};
-  TickTimes plain{};     ///< without surface effects
-  Timing plain_times{};  ///< of these the middle ones
+  Timing plain{};  ///< of the ticks without surface effects
   std::vector<Probe> probes{};
   std::array<Answers, kOwnQuestions.size()> own{};  ///< of HL's queries to the probes
 };

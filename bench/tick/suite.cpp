@@ -38,7 +38,7 @@ void runScene(const SuitePlan& plan, const SuiteOutput& output, const BenchScene
     round.run();
     if (size < kGrowthFrom) continue;
     for (const Case& of : round.cases()) {
-      medians[{of.mode, of.motion}].push_back({round.primitives(), of.plain_times.median_us()});
+      medians[{of.mode, of.motion}].push_back({round.primitives(), of.plain.median_us()});
     }
   }
   for (const auto& [what, points] : medians) {

@@ -101,7 +101,7 @@ class Tick {
   bool pending_ = false;
   int descents_ = 0;  // steps since
   Vec3 checkpoint_ = Vec3::Zero();
-  double boldness_ = 1;
+  double boldness_ = 1;  // of the next one
   // After the n-th one that did not, the next 2^n sub-goals are plain.
   int refusals_ = 0;
   int plain_left_ = 0;
@@ -358,14 +358,17 @@ TickReport Tick::run() {
       findContacts();
       sub_goal = subGoal();
     }
-    const bool at_rest = settled_there || trembles_ || (atRest(sub_goal.step) && (!pending_ || descents_ > 0));
+    const bool at_rest = settled_there || trembles_ || (!pending_ && atRest(sub_goal.step));
     report.capped = !at_rest && (report.iterations >= settings_.iteration_cap || set_.overflow);
     if (at_rest || report.capped) break;
     ++report.iterations;
     if (!tryCurvatureStep()) advance(sub_goal);
     if (rests_) break;
   }
-  restoreIfWorse(true);
+  if (restoreIfWorse(true)) {  // what holds it there, not where it has been
+    findContacts();
+    sub_goal = subGoal();
+  }
   finish(sub_goal, report);
   return report;
 }

@@ -1,6 +1,7 @@
 #include "scene/scene_at.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "geometry/queries.h"
 
@@ -38,11 +39,8 @@ Vec3 SceneAt::turnToWorld(PrimitiveId id, const Vec3& v_O) const {
 }
 
 ClosestPoint SceneAt::closest(PrimitiveId id, const Vec3& p) const {
-  const Motion& motion = instance(id).motion;
-  if (motion.identity()) return closestPoint(primitive(id), p);
-  const Pose pose = motion.at(time_ns_);
-  ClosestPoint nearest = closestPoint(primitive(id), pose.toObject(p));
-  toWorld(pose, nearest);
+  ClosestPoint nearest;
+  closestWithin(id, p, std::numeric_limits<double>::infinity(), nearest);
   return nearest;
 }
 
@@ -104,6 +102,22 @@ void SceneAt::primitivesWithin(const Vec3& centre, double distance,
   });
 }
 
+namespace {
+
+// Keeps the earlier of two impacts; of the same time, that of the primitive that precedes. `hit` is in the frame of its
+// object. Returns whether that was it.
+bool keepEarlier(const SceneAt& scene, const Impact& hit, PrimitiveId id, const Pose& pose, bool& found,
+                 SceneImpact& out) {
+  if (found && hit.t > out.impact.t) return false;
+  if (found && hit.t == out.impact.t && !scene.precedes(id, out.primitive)) return false;
+  found = true;
+  out = {hit, id};
+  if (!scene.instance(id).motion.identity()) out.impact.normal = pose.turnToWorld(hit.normal);
+  return true;
+}
+
+}  // namespace
+
 // Asks each object near the way, ask(number, shape, from_O, motion_O, hit), and keeps the earliest impact. Once there
 // is one, objects near only what lies beyond it are passed over.
 template <typename Ask>
@@ -118,12 +132,7 @@ bool SceneAt::firstOf(const Vec3& from, const Vec3& motion, double distance, con
     const Vec3 motion_O = moves.identity() ? motion : pose.turnToObject(motion);
     FirstImpact hit;
     if (!ask(i, *snapshot_.instances[i].shape, from_O, motion_O, hit)) return;
-    const PrimitiveId id{i, hit.primitive};
-    if (found && hit.impact.t > out.impact.t) return;
-    if (found && hit.impact.t == out.impact.t && !precedes(id, out.primitive)) return;
-    found = true;
-    out = {hit.impact, id};
-    if (!moves.identity()) out.impact.normal = pose.turnToWorld(hit.impact.normal);
+    if (!keepEarlier(*this, hit.impact, {i, hit.primitive}, pose, found, out)) return;
     region = around(from, from + hit.impact.t * motion, margin);
   });
   return found;
@@ -162,11 +171,7 @@ bool SceneAt::firstImpactAmong(std::span<const PrimitiveId> primitives, const Ve
     const Vec3 motion_O = moves.identity() ? motion : pose.turnToObject(motion);
     Impact impact;
     if (!sweepSphereFromOutside(primitive(id), from_O, motion_O, radius, found ? out.impact.t : 1, impact)) continue;
-    if (found && impact.t > out.impact.t) continue;
-    if (found && impact.t == out.impact.t && !precedes(id, out.primitive)) continue;
-    found = true;
-    out = {impact, id};
-    if (!moves.identity()) out.impact.normal = pose.turnToWorld(impact.normal);
+    keepEarlier(*this, impact, id, pose, found, out);
   }
   return found;
 }

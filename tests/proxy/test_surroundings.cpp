@@ -64,7 +64,8 @@ class Wanderer {
   Vec3 finger_ = Vec3::Zero(), way_ = Vec3::UnitX();
 };
 
-// The judge forgets before every tick what the last one met, and so has no ball that lasts.
+// The judge forgets before every tick what the last one met, and takes its finger for one that comes from far away, for
+// which no ball is large enough.
 int ticksWithBall(const Snapshot& snapshot, const ProxySettings& settings, test::Random& random, int ticks) {
   ProxyState a = startProxy(snapshot, settings, {0, 0, 0.1}), b = a;
   RecentPrimitives recent;
@@ -73,7 +74,7 @@ int ticksWithBall(const Snapshot& snapshot, const ProxySettings& settings, test:
   for (int i = 0; i < ticks; ++i) {
     const Vec3& finger = wanderer.next();
     b.nearby = Nearby();
-    b.surroundings = Surroundings();
+    b.surroundings.follow(Vec3::Constant(1e3));
     const TickReport lasting = tick(a, {snapshot, 0, recent}, settings, finger);
     const TickReport judged = tick(b, snapshot, settings, finger);
     EXPECT_EQ(a.position, b.position);
@@ -81,6 +82,7 @@ int ticksWithBall(const Snapshot& snapshot, const ProxySettings& settings, test:
     EXPECT_EQ(lasting.iterations, judged.iterations);
     EXPECT_EQ(lasting.contacts.size(), judged.contacts.size());
     if (testing::Test::HasFailure()) return 0;
+    EXPECT_FALSE(hasBall(b, snapshot));
     with_ball += hasBall(a, snapshot);
   }
   return with_ball;
