@@ -1,4 +1,4 @@
-// What a sphere may touch of the primitives of two blocks, all at once: from lower bounds of the distance, by planes
+// What a sphere may touch of the primitives of a few blocks, all at once: from lower bounds of the distance, by planes
 // that separate it from each. Part of wide_bvh_query.cpp, compiled with it for each instruction set.
 #if defined(HL_GEOMETRY_WIDE_BVH_BLOCK_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef HL_GEOMETRY_WIDE_BVH_BLOCK_INL_H
@@ -19,8 +19,7 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // A vector holds the primitives of two blocks where the processor has so many lanes, else a part of one.
-constexpr std::size_t kPair = 2 * kWide;
-using D = hn::CappedTag<float, kPair>;
+using D = hn::CappedTag<float, 2 * kWide>;
 using V = hn::Vec<D>;
 using Mask = hn::Mask<D>;
 constexpr D kFloats;
@@ -55,11 +54,17 @@ HWY_INLINE unsigned bitsOf(Mask mask) {
   return bytes[0] | static_cast<unsigned>(bytes[1]) << 8;
 }
 
-// Two blocks, each with the query in its coordinates. Lanes count through both.
-struct BlockPair {
-  const WideBlock* block[2];
-  BlockQuery query[2];
+// Blocks that are looked at together, each with the query in its coordinates. Lanes count through all of them; behind
+// an odd number of blocks the last is there once more.
+constexpr std::size_t kFewBlocks = 4;
+constexpr std::size_t kFewLanes = kFewBlocks * kWide;
 
+struct FewBlocks {
+  const WideBlock* block[kFewBlocks];
+  BlockQuery query[kFewBlocks];
+  std::size_t count;
+
+  std::size_t lanes() const { return count * kWide; }
   std::uint32_t primitive(std::size_t lane) const { return block[lane / kWide]->primitive[lane % kWide]; }
 };
 
@@ -69,48 +74,48 @@ HWY_INLINE V ofBlocks(std::size_t lane, const Part& part) {
 #if HWY_TARGET != HWY_SCALAR
   if constexpr (kLanes > kWide) {
     const hn::Half<D> half;
-    return hn::Combine(kFloats, part(1, 0, half), part(0, 0, half));
+    return hn::Combine(kFloats, part(lane / kWide + 1, 0, half), part(lane / kWide, 0, half));
   }
 #endif
   if constexpr (kLanes <= kWide) return part(lane / kWide, lane % kWide, kFloats);
 }
 
-HWY_INLINE V coordinate(const BlockPair& pair, std::size_t lane, std::size_t vertex, std::size_t axis) {
+HWY_INLINE V coordinate(const FewBlocks& blocks, std::size_t lane, std::size_t vertex, std::size_t axis) {
   return ofBlocks(lane, [&](std::size_t which, std::size_t from, auto floats) HWY_ATTR {
     const hn::Rebind<std::int16_t, decltype(floats)> packed;
     const hn::RebindToSigned<decltype(floats)> whole;
     return hn::ConvertTo(floats,
-                         hn::PromoteTo(whole, hn::Load(packed, pair.block[which]->vertex[vertex][axis] + from)));
+                         hn::PromoteTo(whole, hn::Load(packed, blocks.block[which]->vertex[vertex][axis] + from)));
   });
 }
 
 // number(query) of the query in each block's coordinates.
 template <typename Number>
-HWY_INLINE V ofQueries(const BlockPair& pair, std::size_t lane, const Number& number) {
+HWY_INLINE V ofQueries(const FewBlocks& blocks, std::size_t lane, const Number& number) {
   return ofBlocks(lane, [&](std::size_t which, std::size_t, auto floats)
-                            HWY_ATTR { return hn::Set(floats, number(pair.query[which])); });
+                            HWY_ATTR { return hn::Set(floats, number(blocks.query[which])); });
 }
 
-HWY_INLINE V3 ofQueries(const BlockPair& pair, std::size_t lane, float (BlockQuery::*vector)[3]) {
+HWY_INLINE V3 ofQueries(const FewBlocks& blocks, std::size_t lane, float (BlockQuery::*vector)[3]) {
   const auto part = [&](int axis) HWY_ATTR {
-    return ofQueries(pair, lane, [&](const BlockQuery& query) { return (query.*vector)[axis]; });
+    return ofQueries(blocks, lane, [&](const BlockQuery& query) { return (query.*vector)[axis]; });
   };
   return {part(0), part(1), part(2)};
 }
 
-HWY_INLINE V reachOf(const BlockPair& pair, std::size_t lane) {
-  return ofQueries(pair, lane, [](const BlockQuery& query) { return query.reach; });
+HWY_INLINE V reachOf(const FewBlocks& blocks, std::size_t lane) {
+  return ofQueries(blocks, lane, [](const BlockQuery& query) { return query.reach; });
 }
 
-// The primitives of some lanes of a pair, and what of their nearest points does not depend on where one looks from.
+// The primitives of some lanes, and what of their nearest points does not depend on where one looks from.
 struct Corners {
   V3 a, b, c, ab, ac, normal;
   V ab2, ac2, ab_ac;
 };
 
-HWY_INLINE Corners cornersOf(const BlockPair& pair, std::size_t lane) {
+HWY_INLINE Corners cornersOf(const FewBlocks& blocks, std::size_t lane) {
   const auto corner = [&](std::size_t i) HWY_ATTR {
-    return V3{coordinate(pair, lane, i, 0), coordinate(pair, lane, i, 1), coordinate(pair, lane, i, 2)};
+    return V3{coordinate(blocks, lane, i, 0), coordinate(blocks, lane, i, 1), coordinate(blocks, lane, i, 2)};
   };
   const V3 a = corner(0), b = corner(1), c = corner(2), ab = b - a, ac = c - a;
   return {a, b, c, ab, ac, cross(ab, ac), dot(ab, ab), dot(ac, ac), dot(ab, ac)};
@@ -176,45 +181,80 @@ HWY_INLINE Plane planeAlong(const V3& toward, const Corners& p, const V3& eye, V
   return {nearest, hn::Mul(reach, hn::Sqrt(dot(toward, toward)))};
 }
 
-// Which primitives of the first `lanes` may be within reach.
-HWY_INLINE unsigned withinReach(const BlockPair& pair, std::size_t lanes) {
+// Which primitives may be within reach.
+HWY_INLINE unsigned withinReach(const FewBlocks& blocks) {
   unsigned bits = 0;
-  for (std::size_t lane = 0; lane < lanes; lane += kLanes) {
-    const Corners corners = cornersOf(pair, lane);
-    const V3 eye = ofQueries(pair, lane, &BlockQuery::from);
-    const Plane plane = planeAlong(towards(corners, corners.a - eye), corners, eye, reachOf(pair, lane));
+  for (std::size_t lane = 0; lane < blocks.lanes(); lane += kLanes) {
+    const Corners corners = cornersOf(blocks, lane);
+    const V3 eye = ofQueries(blocks, lane, &BlockQuery::from);
+    const Plane plane = planeAlong(towards(corners, corners.a - eye), corners, eye, reachOf(blocks, lane));
     bits |= (bitsOf(hn::Gt(plane.nearest, plane.edge)) ^ kAllLanes) << lane;
   }
   return bits;
 }
 
-// Which primitives of the first `lanes` may be touched up to the limit, and lower bounds of when. Conservative
-// advancement (Mirtich 1996): no touch before the sphere crosses a separating plane, and from there the next plane
-// tells more.
-HWY_INLINE unsigned touched(const BlockPair& pair, std::size_t lanes, float limit, float* entry) {
-  constexpr int kAdvances = 3;
-  const V never = hn::Set(kFloats, 2.0f);
+// Conservative advancement (Mirtich 1996) of the sphere toward the primitives of one vector: no touch before it crosses
+// a separating plane, and from there the next plane tells more.
+class Advance {
+ public:
+  HWY_INLINE Advance(const FewBlocks& blocks, std::size_t lane)
+      : corners_(cornersOf(blocks, lane)),
+        from_(ofQueries(blocks, lane, &BlockQuery::from)),
+        motion_(ofQueries(blocks, lane, &BlockQuery::motion)),
+        reach_(reachOf(blocks, lane)),
+        time_(hn::Zero(kFloats)) {}
+
+  // Returns whether another step would change anything before `latest`.
+  HWY_INLINE bool step(V latest) {
+    const V3 eye = sum(from_, scaled(motion_, time_));
+    const V3 toward = towards(corners_, corners_.a - eye);
+    const Plane plane = planeAlong(toward, corners_, eye, reach_);
+    const V closing = dot(toward, motion_);
+    const V never = hn::Set(kFloats, 2.0f);
+    const V later = hn::Add(time_, hn::Div(hn::Sub(plane.nearest, plane.edge), closing));
+    const V crossed = hn::IfThenElse(hn::Gt(closing, hn::Zero(kFloats)), later, never);
+    const Mask apart = hn::Gt(plane.nearest, plane.edge);
+    time_ = hn::IfThenElse(apart, crossed, time_);
+    return !hn::AllFalse(kFloats, hn::And(apart, hn::Le(time_, latest)));
+  }
+
+  // Which may be touched up to `latest`, and lower bounds of when.
+  HWY_INLINE unsigned touched(V latest, float* entry) const {
+    hn::Store(time_, kFloats, entry);
+    return bitsOf(hn::Gt(time_, latest)) ^ kAllLanes;  // whatever is not surely later, not-a-number too
+  }
+
+ private:
+  const Corners corners_;
+  const V3 from_, motion_;
+  const V reach_;
+  V time_;
+};
+
+// All of them together, as each step waits for the one before it: one vector alone leaves the processor idle.
+template <typename... Advances>
+HWY_INLINE void run(V latest, Advances&... all) {
+  constexpr int kSteps = 3;
+  for (int i = 0; i < kSteps; ++i) {
+    if (!(... | all.step(latest))) return;
+  }
+}
+
+// Which primitives may be touched up to the limit, and lower bounds of when.
+HWY_INLINE unsigned touched(const FewBlocks& blocks, float limit, float* entry) {
   const V latest = hn::Set(kFloats, limit);
   unsigned bits = 0;
-  for (std::size_t lane = 0; lane < lanes; lane += kLanes) {
-    const Corners corners = cornersOf(pair, lane);
-    const V3 from = ofQueries(pair, lane, &BlockQuery::from), motion = ofQueries(pair, lane, &BlockQuery::motion);
-    const V reach = reachOf(pair, lane);
-    V time = hn::Zero(kFloats);
-    for (int i = 0; i < kAdvances; ++i) {
-      const V3 eye = sum(from, scaled(motion, time));
-      const V3 toward = towards(corners, corners.a - eye);
-      const Plane plane = planeAlong(toward, corners, eye, reach);
-      const V closing = dot(toward, motion);
-      const V later = hn::Add(time, hn::Div(hn::Sub(plane.nearest, plane.edge), closing));
-      const V crossed = hn::IfThenElse(hn::Gt(closing, hn::Zero(kFloats)), later, never);
-      const Mask apart = hn::Gt(plane.nearest, plane.edge);
-      time = hn::IfThenElse(apart, crossed, time);
-      if (hn::AllFalse(kFloats, hn::And(apart, hn::Le(time, latest)))) break;  // another step would change nothing
-    }
-    // Whatever is not surely later, not-a-number too.
-    bits |= (bitsOf(hn::Gt(time, latest)) ^ kAllLanes) << lane;
-    hn::Store(time, kFloats, entry + lane);
+  std::size_t lane = 0;
+  for (; lane + kLanes < blocks.lanes(); lane += 2 * kLanes) {
+    Advance one(blocks, lane), other(blocks, lane + kLanes);
+    run(latest, one, other);
+    bits |= one.touched(latest, entry + lane) << lane;
+    bits |= other.touched(latest, entry + lane + kLanes) << (lane + kLanes);
+  }
+  if (lane < blocks.lanes()) {
+    Advance last(blocks, lane);
+    run(latest, last);
+    bits |= last.touched(latest, entry + lane) << lane;
   }
   return bits;
 }

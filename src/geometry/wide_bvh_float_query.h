@@ -62,13 +62,14 @@ inline BlockQuery blockQuery(const WideBlock& block, const WideQuery& query) {
   }
   const double reach = query.reach * per_step;
   // Of a block so small beside the query nothing is told in single precision: all of it may be touched.
-  if (!(size + reach < kMostSize)) return {{0, 0, 0}, {0, 0, 0}, std::numeric_limits<float>::infinity()};
+  const bool told = size + reach < kMostSize;
   BlockQuery packed;
   for (int i = 0; i < 3; ++i) {
-    packed.from[i] = static_cast<float>(from[i]);
-    packed.motion[i] = static_cast<float>(motion[i]);
+    packed.from[i] = told ? static_cast<float>(from[i]) : 0;
+    packed.motion[i] = told ? static_cast<float>(motion[i]) : 0;
   }
-  packed.reach = static_cast<float>((reach + kPacked + kWideRounding * size) * (1 + kWideRounding));
+  const double grown = (reach + kPacked + kWideRounding * size) * (1 + kWideRounding);
+  packed.reach = told ? static_cast<float>(grown) : std::numeric_limits<float>::infinity();
   return packed;
 }
 

@@ -2,6 +2,9 @@
 // apart, never fused, so that all sets round alike.
 #include "geometry/wide_bvh_query.h"
 
+#include <algorithm>
+#include <iterator>
+
 // Their vectors have no size at compile time, so they cannot be members.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 // The scalar code too, everywhere, so that it is tested everywhere.
@@ -24,27 +27,27 @@ HWY_INLINE unsigned usedLanes(const WideTree& tree, std::uint32_t block) {
   return left >= kWide ? 0xffu : (1u << left) - 1;
 }
 
-// Numbers of one or two blocks.
-struct PairNumbers {
-  std::uint32_t block[2];
+// Numbers of blocks that are looked at together.
+struct FewNumbers {
+  std::uint32_t block[kFewBlocks];
   std::size_t count;
-
-  std::size_t lanes() const { return count * kWide; }
 };
 
-HWY_INLINE unsigned usedLanes(const WideTree& tree, const PairNumbers& numbers) {
-  return usedLanes(tree, numbers.block[0]) | (numbers.count == 2 ? usedLanes(tree, numbers.block[1]) << kWide : 0);
+HWY_INLINE unsigned usedLanes(const WideTree& tree, const FewNumbers& numbers) {
+  unsigned used = 0;
+  for (std::size_t i = 0; i < numbers.count; ++i) used |= usedLanes(tree, numbers.block[i]) << (i * kWide);
+  return used;
 }
 
-// A single block is there twice.
-HWY_INLINE BlockPair pairOf(const WideTree& tree, const WideQuery& query, const PairNumbers& numbers) {
-  const WideBlock& first = tree.blocks[numbers.block[0]];
-  if (numbers.count == 1) {
-    const BlockQuery packed = blockQuery(first, query);
-    return {{&first, &first}, {packed, packed}};
+HWY_INLINE void setBlocks(FewBlocks& blocks, const WideTree& tree, const WideQuery& query, const FewNumbers& numbers) {
+  blocks.count = numbers.count;
+  for (std::size_t i = 0; i < numbers.count; ++i) {
+    blocks.block[i] = &tree.blocks[numbers.block[i]];
+    blocks.query[i] = blockQuery(*blocks.block[i], query);
   }
-  const WideBlock& second = tree.blocks[numbers.block[1]];
-  return {{&first, &second}, {blockQuery(first, query), blockQuery(second, query)}};
+  if (numbers.count % 2 == 0) return;
+  blocks.block[numbers.count] = blocks.block[numbers.count - 1];
+  blocks.query[numbers.count] = blocks.query[numbers.count - 1];
 }
 
 // The boxes of a node.
@@ -105,16 +108,35 @@ HWY_INLINE hn::Vec<Boxes> distance2(const WideNode& node, std::size_t lane, cons
   return sum2;
 }
 
+// The set bits of each number, the lowest first.
+struct SetBits {
+  std::uint8_t of[1 << kBoxLanes][kWide] = {};
+
+  constexpr SetBits() {
+    for (std::size_t bits = 0; bits < std::size(of); ++bits) {
+      std::size_t count = 0;
+      for (std::uint8_t bit = 0; bit < kBoxLanes; ++bit) {
+        if ((bits >> bit & 1) != 0) of[bits][count++] = bit;
+      }
+    }
+  }
+};
+constexpr SetBits kSetBits;
+
 // Writes the links of the children that the sphere may enter to the end of a list of `count`; returns how many it
-// holds. Writes a vector, of which what is beyond them means nothing. (CompressStore would write no more than them, by
-// an instruction that AMD's processors make of many others.)
+// holds. Writes a vector, of which what is beyond them means nothing. (Where the processor cannot compress, Highway's
+// Compress has a table, which GCC copies to the stack each time: a kilobyte a node.)
 HWY_INLINE std::size_t addOverlapped(const WideNode& node, const BoxQuery& query, const Way& way, std::uint32_t* links,
                                      std::size_t count) {
   const hn::RebindToUnsigned<Boxes> whole;
+  const hn::Rebind<std::uint8_t, Boxes> bytes;
   for (std::size_t lane = 0; lane < kWide; lane += kBoxLanes) {
-    const auto in = hn::RebindMask(whole, hn::Le(distance2(node, lane, way), hn::Set(kBoxes, query.reach2)));
-    hn::StoreU(hn::Compress(hn::Load(whole, node.child + lane), in), whole, links + count);
-    count += hn::CountTrue(whole, in);
+    std::uint8_t in[8] = {};
+    hn::StoreMaskBits(kBoxes, hn::Le(distance2(node, lane, way), hn::Set(kBoxes, query.reach2)), in);
+    const auto order = hn::PromoteTo(whole, hn::LoadU(bytes, kSetBits.of[in[0]]));
+    const auto links_in = hn::TableLookupLanes(hn::Load(whole, node.child + lane), hn::IndicesFromVec(whole, order));
+    hn::StoreU(links_in, whole, links + count);
+    count += hwy::PopCount(in[0]);
   }
   return count;
 }
@@ -125,23 +147,23 @@ HWY_INLINE std::size_t takeLowest(unsigned& bits) {
   return lane;
 }
 
-// Every block whose box the sphere may enter up to the limit, two at a time; look() may shorten the limit. First come
+// Every block whose box the sphere may enter up to the limit, a few at a time; look() may shorten the limit. First come
 // first served: then what is looked at next does not hang on what the last look finds, and the processor has both in
 // hand at once. Where too many wait, the last come is served, as those that a depth-first walk leaves waiting are few.
 template <typename Look>
-HWY_INLINE void forEachPair(const WideTree& tree, const BoxQuery& query, const Look& look) {
+HWY_INLINE void forEachFew(const WideTree& tree, const BoxQuery& query, const Look& look) {
   constexpr std::size_t kMostWaiting = 256;
   std::uint32_t links[kMostWaiting + kWide + kWideStackSize];
   std::size_t first = 0, end = 0;
   links[end++] = tree.root;
-  PairNumbers numbers{{0, 0}, 0};
+  FewNumbers numbers{{}, 0};
   Way straight, turned;
   setEnd(straight, query);
   while (first < end) {
     const std::uint32_t link = end <= kMostWaiting ? links[first++] : links[--end];
     if ((link & kBlockLink) != 0) {
       numbers.block[numbers.count++] = link & ~kBlockLink;
-      if (numbers.count == 2) {
+      if (numbers.count == kFewBlocks) {
         look(numbers);
         numbers.count = 0;
       }
@@ -155,10 +177,11 @@ HWY_INLINE void forEachPair(const WideTree& tree, const BoxQuery& query, const L
 }
 
 void overlap(const WideTree& tree, const WideQuery& query, FunctionRef<void(std::uint32_t)> visit) {
-  forEachPair(tree, boxQuery(tree, query), [&](const PairNumbers& numbers) HWY_ATTR {
-    const BlockPair pair = pairOf(tree, query, numbers);
-    unsigned bits = withinReach(pair, numbers.lanes()) & usedLanes(tree, numbers);
-    while (bits != 0) visit(pair.primitive(takeLowest(bits)));
+  forEachFew(tree, boxQuery(tree, query), [&](const FewNumbers& numbers) HWY_ATTR {
+    FewBlocks blocks;
+    setBlocks(blocks, tree, query, numbers);
+    unsigned bits = withinReach(blocks) & usedLanes(tree, numbers);
+    while (bits != 0) visit(blocks.primitive(takeLowest(bits)));
   });
 }
 
@@ -172,7 +195,7 @@ class Sweep {
     constexpr double kLarger = 8;
     for (double part = first_part;; part = std::min(1.0, kLarger * part)) {
       shorten(part);
-      forEachPair(tree_, box_, [this](const PairNumbers& numbers) HWY_ATTR { look(numbers); });
+      forEachFew(tree_, box_, [this](const FewNumbers& numbers) HWY_ATTR { look(numbers); });
       propose();
       if (limit_ < part || part >= 1) return;
     }
@@ -190,13 +213,14 @@ class Sweep {
     setLimit(box_, limit);
   }
 
-  HWY_INLINE void look(const PairNumbers& numbers) {
-    const BlockPair pair = pairOf(tree_, query_, numbers);
-    HWY_ALIGN float entry[kPair];
-    unsigned bits = touched(pair, numbers.lanes(), box_.limit, entry) & usedLanes(tree_, numbers);
+  HWY_INLINE void look(const FewNumbers& numbers) {
+    FewBlocks blocks;
+    setBlocks(blocks, tree_, query_, numbers);
+    HWY_ALIGN float entry[kFewLanes];
+    unsigned bits = touched(blocks, box_.limit, entry) & usedLanes(tree_, numbers);
     while (bits != 0) {
       const std::size_t lane = takeLowest(bits);
-      const std::uint32_t primitive = pair.primitive(lane);
+      const std::uint32_t primitive = blocks.primitive(lane);
       if (wasProposed(primitive)) continue;
       candidates_[candidate_count_++] = {primitive, entry[lane]};
       if (candidate_count_ == kMostCandidates) propose();
