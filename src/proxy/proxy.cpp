@@ -18,8 +18,8 @@ namespace hl {
 
 namespace {
 
-// Equal to no place.
-const Vec3 kNowhere = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+// Small steps in a row that come no nearer to the goal: then it is rounding that leads them.
+constexpr int kMostIdle = 8;
 
 // Steps in a row above planes of what was left. Where the finger is all but at an edge, each goes a little farther
 // around it and away from it; then it is time to come down, and for Newton's step.
@@ -56,6 +56,7 @@ class Tick {
     gatherContacts(scene_, state_.position, tolerance_.touching, tolerance_.reach, state_.nearby, set_);
   }
   SubGoal subGoal();
+  bool strays(const Vec3& gap) const;
   SubGoal plainSubGoal();
   bool aroundLeft(Vec3& step);
   SubGoal effectSubGoal();
@@ -106,21 +107,31 @@ class Tick {
   int refusals_ = 0;
   int plain_left_ = 0;
 
-  // Where the last plain step began, and whether the one after it has ended there again: see advance().
-  Vec3 came_from_ = kNowhere;
+  // The nearest that steps have come to the goal, and how many in a row have not come nearer: see advance().
+  double nearest2_ = std::numeric_limits<double>::infinity();  // m^2
+  int idle_ = 0;
   bool trembles_ = false;
 };
+
+// Whether no step is above all planes, or only one that leads away from the goal by much more than the proxy is below
+// them: where planes all but face each other, they cross where rounding says.
+bool Tick::strays(const Vec3& gap) const {
+  constexpr double kMostPerDepth = 16;
+  double depth = tolerance_.skin;
+  for (const Plane& plane : set_.planes) depth = std::max(depth, plane.offset);
+  return plain_.violation > tolerance_.feasible || (gap - plain_.point).norm() > gap.norm() + kMostPerDepth * depth;
+}
 
 // The paper's sub-goal: the step toward the point nearest the goal above all contact planes.
 SubGoal Tick::plainSubGoal() {
   const Vec3 gap = goal_ - state_.position;
   const std::span<const Plane> planes(set_.planes.begin(), set_.planes.size());
   plain_ = nearestAbove(planes, gap, tolerance_.feasible);
-  if (plain_.violation > tolerance_.feasible) {
+  if (strays(gap)) {
     relaxToCentre(set_);
     plain_ = nearestAbove(planes, gap, tolerance_.feasible);
     // Held from all sides closer than rounding can tell: stay.
-    if (plain_.violation > tolerance_.feasible) plain_.point = Vec3::Zero();
+    if (strays(gap)) plain_.point = Vec3::Zero();
   }
   SubGoal result;
   result.step = plain_.point;
@@ -257,7 +268,7 @@ bool Tick::tryCurvatureStep() {
   if (!sweep(there, step) && (there - state_.position).norm() <= plain_.point.norm()) return false;
   pending_ = true;
   descents_ = 0;
-  came_from_ = kNowhere;
+  idle_ = 0;
   checkpoint_ = state_.position;
   state_.position = there;
   return true;
@@ -277,7 +288,7 @@ bool Tick::restoreIfWorse(bool last) {
   boldness_ = std::min(1.0, boldness_) / kBolder;
   const bool moved = state_.position != checkpoint_;
   state_.position = checkpoint_;
-  came_from_ = kNowhere;
+  idle_ = 0;
   refusals_ = std::min(refusals_ + 1, 10);
   plain_left_ = 1 << refusals_;
   return moved;
@@ -302,7 +313,7 @@ bool Tick::settled() const {
 }
 
 // One step of the proxy, as far as the way is free and the energy reaches. Planes that all but face each other cross
-// where rounding says: there the proxy would go to and fro between two places for ever.
+// where rounding says: there the proxy would go to and fro among a few places for ever.
 void Tick::advance(const SubGoal& sub_goal) {
   const Vec3 from = state_.position;
   const bool free = !slides();
@@ -314,9 +325,10 @@ void Tick::advance(const SubGoal& sub_goal) {
   }
   const bool whole = sweep(state_.position, step);
   ++descents_;
-  trembles_ =
-      !pending_ && state_.position == came_from_ && sub_goal.step.norm() <= kTremblePerGap * (goal_ - from).norm();
-  came_from_ = from;
+  const double distance2 = (goal_ - state_.position).squaredNorm();
+  idle_ = distance2 < nearest2_ ? 0 : idle_ + 1;
+  nearest2_ = std::min(nearest2_, distance2);
+  trembles_ = !pending_ && idle_ >= kMostIdle && sub_goal.step.norm() <= kTremblePerGap * (goal_ - from).norm();
   // In the open and unhindered the proxy *is* the finger, to the bit.
   if (whole && free && goal_ == finger_) state_.nearby.endAt(state_.position = finger_);
   if (felt_) effects_.moved(sub_goal, state_.position - from);

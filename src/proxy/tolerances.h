@@ -27,8 +27,7 @@ struct Tolerances {
 /// The local minimum is reached when the step that the solver still wants is below this fraction of the gap.
 inline constexpr double kRestPerGap = 1e-8;
 
-/// Steps that want no more than this fraction of the gap and go to and fro between two places, to the bit, are rest
-/// too.
+/// Steps that want no more than this fraction of the gap and come no nearer to the goal are rest too.
 inline constexpr double kTremblePerGap = 1e-6;
 
 /// A sweep is cut to this many times the size of the scene: the impact time's rounding then stays below the skin.

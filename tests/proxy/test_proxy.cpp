@@ -8,6 +8,7 @@
 #include <random>
 
 #include "base/no_alloc.h"
+#include "geometry/scenes.h"
 #include "proxy/judge.h"
 
 namespace hl {
@@ -85,6 +86,34 @@ TEST(C03Proxy, ASlotLetsItThroughExactlyWhenItIsNarrowerThanTheSlot) {
       EXPECT_GT(z, 0) << width;
     }
   }
+}
+
+// Far from the origin, where planes of the two sides cross where rounding says: no step may lead away from the finger
+// by more than that explains, or the proxy goes to and fro until the cap.
+TEST(C03Proxy, InASlotOfItsOwnWidthNoTickIsCapped) {
+  test::Random random(17);
+  const Vec3 far(-21, -8.5, -9.7);
+  int touching = 0;
+  for (int slot = 0; slot < 100; ++slot) {
+    const Eigen::Quaterniond turned(Eigen::Vector4d::NullaryExpr([&] { return random.uniform(-1, 1); }).normalized());
+    const double half = kRadius * (1 + std::pow(10.0, random.uniform(-10, -8)));
+    const auto side = [&](double z) {
+      return grid(3, 3, [&](double u, double v) {
+        return Vec3(far + turned * Vec3(8 * kRadius * (2 * u - 1), 8 * kRadius * (2 * v - 1), z));
+      });
+    };
+    Model model = side(half);
+    append(model, side(-half));
+    const auto snapshot = scene(model);
+    ProxyState state{far, true};
+    for (int i = 0; i < 100; ++i) {
+      const TickReport report = tick(state, *snapshot, kSettings, far + random.inCube(20 * kRadius));
+      ASSERT_FALSE(report.capped) << slot << ' ' << i;
+      EXPECT_GE(judge::clearance(*snapshot, state.position, 2 * kRadius), kRadius) << slot << ' ' << i;
+      touching += state.touching;
+    }
+  }
+  EXPECT_GT(touching, 1000);
 }
 
 TEST(C04Proxy, StaysInTheLocalMinimumOfATrap) {
