@@ -20,14 +20,19 @@ namespace {
 // which has no area, can be judged too.
 constexpr double kGrown = 1e-3;
 
-// Nodes so far down have thousands of primitives beneath them at ten million: enough for one thread.
-constexpr int kParallelDepth = 4;
+// Levels from the root whose children are worth a thread each: beneath them are hundreds of blocks.
+int parallelLevels(std::size_t blocks) {
+  constexpr std::size_t kBlocksPerThread = 512;
+  int levels = 0;
+  for (std::size_t left = blocks / kBlocksPerThread; left > 0; left /= kWide) ++levels;
+  return levels;
+}
 
 bool isBlock(std::uint32_t link) { return (link & kBlockLink) != 0; }
 
 template <typename Each>
-void forEachLane(int depth, const Each& each) {
-  if (depth < kParallelDepth) return oneapi::tbb::parallel_for(std::size_t{0}, kWide, each);
+void forEachLane(int parallel_levels, const Each& each) {
+  if (parallel_levels > 0) return oneapi::tbb::parallel_for(std::size_t{0}, kWide, each);
   for (std::size_t lane = 0; lane < kWide; ++lane) each(lane);
 }
 
@@ -111,16 +116,17 @@ struct Beneath {
 };
 
 // NOLINTNEXTLINE(misc-no-recursion): to the tree's bounded depth
-Beneath orientFrom(HugeVector<WideNode>& nodes, const HugeVector<WideBlock>& blocks, std::size_t at, int depth) {
+Beneath orientFrom(HugeVector<WideNode>& nodes, const HugeVector<WideBlock>& blocks, std::size_t at,
+                   int parallel_levels) {
   WideNode& node = nodes[at];
   std::array<Beneath, kWide> parts;
-  forEachLane(depth, [&](std::size_t lane) {
+  forEachLane(parallel_levels, [&](std::size_t lane) {
     const std::uint32_t child = node.child[lane];
     if (child == kNoChild) return;
     if (isBlock(child)) {
       parts[lane].faces = facing(blocks[child & ~kBlockLink]);
     } else {
-      parts[lane] = orientFrom(nodes, blocks, child, depth + 1);
+      parts[lane] = orientFrom(nodes, blocks, child, parallel_levels - 1);
     }
   });
   Beneath all;
@@ -195,14 +201,14 @@ void setBox(WideNode& node, std::size_t lane, const FloatBox& box) {
 }
 
 void encloseFrom(HugeVector<WideNode>& nodes, const HugeVector<WideNode>& from, const HugeVector<WideBlock>& blocks,
-                 std::size_t at, int depth) {
+                 std::size_t at, int parallel_levels) {
   WideNode& node = nodes[at];
   node = from[at];
-  forEachLane(depth, [&](std::size_t lane) {
+  forEachLane(parallel_levels, [&](std::size_t lane) {
     const std::uint32_t child = node.child[lane];
     if (child == kNoChild) return setBox(node, lane, FloatBox());
     if (isBlock(child)) return setBox(node, lane, boxIn(node, blocks[child & ~kBlockLink]));
-    encloseFrom(nodes, from, blocks, child, depth + 1);
+    encloseFrom(nodes, from, blocks, child, parallel_levels - 1);
     setBox(node, lane, boxIn(node, nodes[child]));
   });
 }
@@ -214,12 +220,12 @@ double halfArea(const Eigen::Array3d& sides) { return sides[0] * sides[1] + side
 }  // namespace
 
 void orient(HugeVector<WideNode>& nodes, const HugeVector<WideBlock>& blocks) {
-  if (!nodes.empty()) orientFrom(nodes, blocks, 0, 0);
+  if (!nodes.empty()) orientFrom(nodes, blocks, 0, parallelLevels(blocks.size()));
 }
 
 HugeVector<WideNode> enclosed(const HugeVector<WideNode>& nodes, const HugeVector<WideBlock>& blocks) {
   HugeVector<WideNode> result(nodes.size());
-  if (!nodes.empty()) encloseFrom(result, nodes, blocks, 0, 0);
+  if (!nodes.empty()) encloseFrom(result, nodes, blocks, 0, parallelLevels(blocks.size()));
   return result;
 }
 
