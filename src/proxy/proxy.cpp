@@ -61,7 +61,7 @@ class Tick {
   bool aroundLeft(Vec3& step);
   SubGoal effectSubGoal();
   bool atRest(const Vec3& step) const {
-    return step.norm() <= kRestPerGap * (goal_ - state_.position).norm() + tolerance_.rest;
+    return step.norm() <= kRestPerGap * (finger_ - state_.position).norm() + tolerance_.rest;
   }
   bool slides() const { return !set_.contacts.empty() || around_; }
   bool sweep(Vec3& position, const Vec3& step);
@@ -328,7 +328,7 @@ void Tick::advance(const SubGoal& sub_goal) {
   const double distance2 = (goal_ - state_.position).squaredNorm();
   idle_ = distance2 < nearest2_ ? 0 : idle_ + 1;
   nearest2_ = std::min(nearest2_, distance2);
-  trembles_ = !pending_ && idle_ >= kMostIdle && sub_goal.step.norm() <= kTremblePerGap * (goal_ - from).norm();
+  trembles_ = !pending_ && idle_ >= kMostIdle && sub_goal.step.norm() <= kTremblePerGap * (finger_ - from).norm();
   // In the open and unhindered the proxy *is* the finger, to the bit.
   if (whole && free && goal_ == finger_) state_.nearby.endAt(state_.position = finger_);
   if (felt_) effects_.moved(sub_goal, state_.position - from);

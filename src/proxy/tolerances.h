@@ -24,7 +24,8 @@ struct Tolerances {
   }
 };
 
-/// The local minimum is reached when the step that the solver still wants is below this fraction of the gap.
+/// The local minimum is reached when the step that the solver still wants is below this fraction of the gap: the way
+/// from the proxy to the finger, which is what is felt.
 inline constexpr double kRestPerGap = 1e-8;
 
 /// Steps that want no more than this fraction of the gap and come no nearer to the goal are rest too.
