@@ -37,7 +37,8 @@ struct Options {
 struct Seen {
   std::uint64_t pieces = 0, ticks = 0, touching = 0, capped = 0, looks = 0;
   int most_iterations = 0;
-  double least_above = 1;  // of clearance / radius - 1
+  std::uint64_t most_capped = 0, most_capped_piece = 0;  // of the pieces
+  double least_above = 1;                                // of clearance / radius - 1
   std::string fault;
 
   void add(const Seen& other) {
@@ -47,6 +48,10 @@ struct Seen {
     capped += other.capped;
     looks += other.looks;
     most_iterations = std::max(most_iterations, other.most_iterations);
+    if (other.most_capped > most_capped) {
+      most_capped = other.most_capped;
+      most_capped_piece = other.most_capped_piece;
+    }
     least_above = std::min(least_above, other.least_above);
   }
 };
@@ -55,7 +60,8 @@ struct Seen {
 class Piece {
  public:
   Piece(std::uint64_t seed, std::uint64_t number)
-      : random_(generatorOf(seed, number)),
+      : number_(number),
+        random_(generatorOf(seed, number)),
         world_(makeWorld(random_, number % kKinds.size())),
         clearance_(world_.primitives),
         finger_(random_, world_.rooms.half) {}
@@ -63,6 +69,8 @@ class Piece {
   Seen run() {
     seen_.pieces = 1;
     while (seen_.ticks < kTicksPerPiece && seen_.fault.empty()) live();
+    seen_.most_capped = seen_.capped;
+    seen_.most_capped_piece = number_;
     return seen_;
   }
 
@@ -109,6 +117,7 @@ class Piece {
         fmt::format("tick {}: {}, at ({:.17g}, {:.17g}, {:.17g}) radii", seen_.ticks, what, p.x(), p.y(), p.z());
   }
 
+  const std::uint64_t number_;
   test::Random random_;
   const World world_;
   const Clearance clearance_;
@@ -150,12 +159,14 @@ int report(const OfKind& of_kind, const Faults& faults) {
   for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
     const Seen& seen = of_kind[kind];
     if (seen.pieces == 0) continue;
+    const std::string most =
+        seen.capped > 0 ? fmt::format(" ({} of them in piece {})", seen.most_capped, seen.most_capped_piece) : "";
     fmt::print(
-        "{}: {} ticks in {} scenes, {:.0f} % in contact, {} at the cap, at most {} iterations; "
+        "{}: {} ticks in {} scenes, {:.0f} % in contact, {} at the cap{}, at most {} iterations; "
         "clearance >= radius (1 + {:.2g}) at {} looks\n",
         kKinds[kind], seen.ticks, seen.pieces,
-        100.0 * static_cast<double>(seen.touching) / static_cast<double>(seen.ticks), seen.capped, seen.most_iterations,
-        seen.least_above, seen.looks);
+        100.0 * static_cast<double>(seen.touching) / static_cast<double>(seen.ticks), seen.capped, most,
+        seen.most_iterations, seen.least_above, seen.looks);
   }
   for (const auto& [piece, fault] : faults) fmt::print("{}\n", fault);
   fmt::print("{} faults\n", faults.size());
