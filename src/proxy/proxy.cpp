@@ -268,7 +268,6 @@ bool Tick::tryCurvatureStep() {
   if (!sweep(there, step) && (there - state_.position).norm() <= plain_.point.norm()) return false;
   pending_ = true;
   descents_ = 0;
-  idle_ = 0;
   checkpoint_ = state_.position;
   state_.position = there;
   return true;
@@ -288,7 +287,6 @@ bool Tick::restoreIfWorse(bool last) {
   boldness_ = std::min(1.0, boldness_) / kBolder;
   const bool moved = state_.position != checkpoint_;
   state_.position = checkpoint_;
-  idle_ = 0;
   refusals_ = std::min(refusals_ + 1, 10);
   plain_left_ = 1 << refusals_;
   return moved;
