@@ -18,7 +18,8 @@ namespace hl {
 
 namespace {
 
-// Small steps in a row that come no nearer to the goal: then it is rounding that leads them.
+// Steps in a row that come no nearer to the goal. Where they are no longer than planes make them that lean by the skin,
+// it is rounding that leads them.
 constexpr int kMostIdle = 8;
 
 // Steps in a row above planes of what was left. Where the finger is all but at an edge, each goes a little farther
@@ -117,9 +118,11 @@ class Tick {
 // them: where planes all but face each other, they cross where rounding says.
 bool Tick::strays(const Vec3& gap) const {
   constexpr double kMostPerDepth = 16;
+  if (plain_.violation > tolerance_.feasible) return true;
+  if (set_.planes.size() < 2) return false;
   double depth = tolerance_.skin;
   for (const Plane& plane : set_.planes) depth = std::max(depth, plane.offset);
-  return plain_.violation > tolerance_.feasible || (gap - plain_.point).norm() > gap.norm() + kMostPerDepth * depth;
+  return (gap - plain_.point).norm() > gap.norm() + kMostPerDepth * depth;
 }
 
 // The paper's sub-goal: the step toward the point nearest the goal above all contact planes.
@@ -326,7 +329,7 @@ void Tick::advance(const SubGoal& sub_goal) {
   const double distance2 = (goal_ - state_.position).squaredNorm();
   idle_ = distance2 < nearest2_ ? 0 : idle_ + 1;
   nearest2_ = std::min(nearest2_, distance2);
-  trembles_ = !pending_ && idle_ >= kMostIdle && sub_goal.step.norm() <= kTremblePerGap * (finger_ - from).norm();
+  trembles_ = !pending_ && idle_ >= kMostIdle && sub_goal.step.norm() <= tolerance_.lean() * (finger_ - from).norm();
   // In the open and unhindered the proxy *is* the finger, to the bit.
   if (whole && free && goal_ == finger_) state_.nearby.endAt(state_.position = finger_);
   if (felt_) effects_.moved(sub_goal, state_.position - from);

@@ -1,6 +1,7 @@
 // Every tolerance of the tick, in metres, with its reason. All scale with the proxy radius and the size of the scene.
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 namespace hl {
@@ -14,9 +15,12 @@ struct Tolerances {
   double feasible;  ///< by which a plane may be violated; far below the skin, far above rounding
   double rest;      ///< a step shorter than this is no step
 
+  /// rad: so far the plane of a neighbour within the skin may lean, as an edge is round: skin = radius lean^2 / 2.
+  double lean() const { return std::sqrt(2 * skin / (reach - 2 * skin)); }
+
   static Tolerances of(double radius, double extent) {
     constexpr double kEps = std::numeric_limits<double>::epsilon();
-    constexpr double kSkinPerRadius = 1e-10;  // a plane of a neighbour so far off leans by sqrt(2e-10) = 1.4e-5 rad
+    constexpr double kSkinPerRadius = 1e-10;
     constexpr double kSkinPerExtent = 512 * kEps;
     const double skin = kSkinPerRadius * radius + kSkinPerExtent * (extent + radius);
     const double rest = 8 * kEps * (extent + radius);
@@ -27,9 +31,6 @@ struct Tolerances {
 /// The local minimum is reached when the step that the solver still wants is below this fraction of the gap: the way
 /// from the proxy to the finger, which is what is felt.
 inline constexpr double kRestPerGap = 1e-8;
-
-/// Steps that want no more than this fraction of the gap and come no nearer to the goal are rest too.
-inline constexpr double kTremblePerGap = 1e-6;
 
 /// A sweep is cut to this many times the size of the scene: the impact time's rounding then stays below the skin.
 inline constexpr double kSweepPerExtent = 100;
