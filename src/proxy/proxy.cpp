@@ -5,6 +5,7 @@
 #include <span>
 
 #include "proxy/account.h"
+#include "proxy/back_off.h"
 #include "proxy/carry.h"
 #include "proxy/clear_place.h"
 #include "proxy/contacts.h"
@@ -104,9 +105,7 @@ class Tick {
   int descents_ = 0;  // steps since
   Vec3 checkpoint_ = Vec3::Zero();
   double boldness_ = 1;  // of the next one
-  // After the n-th one that did not, the next 2^n sub-goals are plain.
-  int refusals_ = 0;
-  int plain_left_ = 0;
+  BackOff back_off_;     // from those that do not pay off
 
   // The nearest that steps have come to the goal, and how many in a row have not come nearer: see advance().
   double nearest2_ = std::numeric_limits<double>::infinity();  // m^2
@@ -259,11 +258,7 @@ bool Tick::firstImpact(const Vec3& from, const Vec3& motion, SceneImpact& out) {
 // On a rounded edge or corner the tangent planes alone converge slowly; Newton's step uses the curvature
 // (curvature_step.h).
 bool Tick::tryCurvatureStep() {
-  if (felt_ || pending_ || around_ || plain_.active_count == 0) return false;
-  if (plain_left_ > 0) {
-    --plain_left_;
-    return false;
-  }
+  if (felt_ || pending_ || around_ || plain_.active_count == 0 || !back_off_.mayTry()) return false;
   Vec3 step;
   if (!curvatureStep(set_, scene_, plain_, tolerance_, boldness_, step)) return false;
   Vec3 there = state_.position;
@@ -290,8 +285,7 @@ bool Tick::restoreIfWorse(bool last) {
   boldness_ = std::min(1.0, boldness_) / kBolder;
   const bool moved = state_.position != checkpoint_;
   state_.position = checkpoint_;
-  refusals_ = std::min(refusals_ + 1, 10);
-  plain_left_ = 1 << refusals_;
+  back_off_.failed();
   return moved;
 }
 

@@ -15,7 +15,6 @@ constexpr double kTrianglePerDisc = 0.5;
 
 constexpr std::size_t kMostContacts = 3;
 constexpr std::size_t kMost = 8;  // primitives in a ball that was worth it
-constexpr int kMostRefusals = 10;
 
 // 0 for what has none.
 double area_m2(const Primitive& p) { return 0.5 * (p.vertex[1] - p.vertex[0]).cross(p.vertex[2] - p.vertex[0]).norm(); }
@@ -37,8 +36,7 @@ bool Surroundings::find(const SceneAt& scene, const ContactSet& set, const Toler
                         const Vec3& motion, Nearby& nearby) {
   const double length = motion.norm();
   const bool moves = scene.time_ns() < scene.snapshot().moves_until_ns;
-  if (!(length > 0 && length <= kMostTicks * travel_m_) || moves || left_-- > 0) return false;
-  left_ = 0;
+  if (!(length > 0 && length <= kMostTicks * travel_m_) || moves || !back_off_.mayTry()) return false;
   const double slack = slack_m(scene, set, tolerance.touching);
   if (2 * slack < std::max(length, kLeastTicks * travel_m_)) return false;
   const Vec3 centre = from + slack / length * motion;
@@ -46,8 +44,11 @@ bool Surroundings::find(const SceneAt& scene, const ContactSet& set, const Toler
   nearby.beginAround(scene, centre, covered);
   scene.primitivesWithin(centre, covered + tolerance.skin,
                          [&](PrimitiveId primitive, const ClosestPoint& nearest) { nearby.add(primitive, nearest); });
-  refusals_ = nearby.size() <= kMost ? 0 : std::min(refusals_ + 1, kMostRefusals);
-  left_ = refusals_ == 0 ? 0 : 1 << refusals_;
+  if (nearby.size() <= kMost) {
+    back_off_.worked();
+  } else {
+    back_off_.failed();
+  }
   return nearby.covers(scene, from + motion, tolerance.touching);
 }
 

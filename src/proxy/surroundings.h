@@ -3,6 +3,7 @@
 // asked. Where triangles are small the ball would hold too many, and each step asks the hierarchy.
 #pragma once
 
+#include "proxy/back_off.h"
 #include "proxy/contacts.h"
 #include "proxy/nearby.h"
 #include "proxy/tolerances.h"
@@ -27,8 +28,7 @@ class Surroundings {
 
   Vec3 finger_ = Vec3::Zero();
   double travel_m_ = 0;  // of the finger, in this tick
-  // After the n-th ball in a row with too much in it, the next 2^n are not tried.
-  int refusals_ = 0, left_ = 0;
+  BackOff back_off_;     // from balls with too much in them
 };
 
 }  // namespace hl

@@ -1,0 +1,29 @@
+// BackOff: when to try again what has failed. After the n-th failure in a row the next 2^n tries are left out, 1024 at
+// most: what never works costs next to nothing, and what works again is soon found out.
+#pragma once
+
+#include <algorithm>
+
+namespace hl {
+
+/// Plain values; RT-safe.
+class BackOff {
+ public:
+  /// Counts one try; false where it is to be left out.
+  bool mayTry() {
+    if (left_out_ == 0) return true;
+    --left_out_;
+    return false;
+  }
+  void failed() {
+    failures_ = std::min(failures_ + 1, kMostFailures);
+    left_out_ = 1 << failures_;
+  }
+  void worked() { failures_ = 0; }
+
+ private:
+  static constexpr int kMostFailures = 10;
+  int failures_ = 0, left_out_ = 0;
+};
+
+}  // namespace hl
