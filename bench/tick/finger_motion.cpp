@@ -10,6 +10,7 @@ namespace hl::bench {
 
 namespace {
 
+// Lengths are of the hand.
 constexpr double kStep_m = kSpeed_m_s * kPeriod_s;
 constexpr double kTurn = 0.2;                // a step's weight of the wanted direction: a bend of about 1 mm
 constexpr double kLead_m = 0.003;            // how far ahead on the course the finger aims
@@ -37,9 +38,9 @@ ClosestPoint nearest(const Snapshot& snapshot, const Vec3& p, double reach) {
 // A finger that steers along the course.
 class Planner {
  public:
-  Planner(const Snapshot& snapshot, FingerMotion motion, const ProxySettings& settings)
-      : snapshot_(snapshot), motion_(motion), settings_(settings), course_(snapshot.bounds) {
-    finger_ = course_.at(0, course_.top_m() + settings.radius + kStartAbove_m);
+  Planner(const Snapshot& snapshot, FingerMotion motion, const ProxySettings& settings, double world_per_hand)
+      : snapshot_(snapshot), motion_(motion), settings_(settings), scale_(world_per_hand), course_(snapshot.bounds) {
+    finger_ = course_.at(0, course_.top_m() + settings.radius + scale_ * kStartAbove_m);
     direction_ = -course_.up(finger_);
     state_ = startProxy(snapshot, settings, finger_);
   }
@@ -55,9 +56,9 @@ class Planner {
     } else if (motion_ == FingerMotion::kTapping) {
       tap();
     } else {
-      turnTo(ahead(course_.levelOf(proxy()) - (motion_ == FingerMotion::kCorners ? kDeep_m : kDepth_m)));
+      turnTo(ahead(course_.levelOf(proxy()) - scale_ * (motion_ == FingerMotion::kCorners ? kDeep_m : kDepth_m)));
     }
-    finger_ += kStep_m * direction_;
+    finger_ += scale_ * kStep_m * direction_;
     tick(state_, snapshot_, settings_, finger_);
     if (motion_ != FingerMotion::kFree) arrived_ = arrived_ || state_.touching;
   }
@@ -66,8 +67,8 @@ class Planner {
   // Where to go on the course, at this level.
   Vec3 ahead(double level_m) {
     level_m = std::max(level_m, course_.bottom_m());
-    for (int i = 0; i < kMostAdvances && (course_.at(s_m_, level_m) - finger_).norm() < kLead_m; ++i) {
-      s_m_ += kAdvance_m;
+    for (int i = 0; i < kMostAdvances && (course_.at(s_m_, level_m) - finger_).norm() < scale_ * kLead_m; ++i) {
+      s_m_ += scale_ * kAdvance_m;
     }
     return course_.at(s_m_, level_m);
   }
@@ -77,14 +78,14 @@ class Planner {
   // Down while nothing is near, away at once from what is too near, and between the two along the course. As the
   // clearance is many steps long, what was clear by more than it stays clear.
   void hover() {
-    const double closest = settings_.radius + kClearance_m, farthest = settings_.radius + kHover_m;
+    const double closest = settings_.radius + scale_ * kClearance_m, farthest = settings_.radius + scale_ * kHover_m;
     const ClosestPoint near = nearest(snapshot_, finger_, farthest);
     arrived_ = arrived_ || near.distance <= farthest;
     if (near.distance < closest) {
       direction_ = near.normal;
       return;
     }
-    const double down = std::min(near.distance, farthest + kLead_m) - 0.5 * (closest + farthest);
+    const double down = std::min(near.distance, farthest + scale_ * kLead_m) - 0.5 * (closest + farthest);
     turnTo(ahead(course_.levelOf(finger_) - down));
   }
 
@@ -92,8 +93,9 @@ class Planner {
     const double level = course_.levelOf(finger_);
     if (falling_ && state_.touching && !pressing_) touched_m_ = level;
     pressing_ = state_.touching;
-    if (falling_ && (course_.levelOf(proxy()) - level > kDepth_m || level < course_.bottom_m())) falling_ = false;
-    if (!falling_ && level > touched_m_ + kLift_m) falling_ = true;
+    if (falling_ && (course_.levelOf(proxy()) - level > scale_ * kDepth_m || level < course_.bottom_m()))
+      falling_ = false;
+    if (!falling_ && level > touched_m_ + scale_ * kLift_m) falling_ = true;
     const Vec3 up = course_.up(finger_);
     const Vec3 along = ahead(level) - finger_;
     const Vec3 sideways = (along - along.dot(up) * up).normalized();
@@ -103,6 +105,7 @@ class Planner {
   const Snapshot& snapshot_;
   const FingerMotion motion_;
   const ProxySettings settings_;
+  const double scale_;  // world per hand
   const Course course_;
   Vec3 finger_ = Vec3::Zero(), direction_ = Vec3::Zero();
   ProxyState state_;
@@ -119,8 +122,9 @@ const char* nameOf(FingerMotion motion) {
   return kNames[static_cast<std::size_t>(motion)];
 }
 
-Path planPath(const Snapshot& snapshot, FingerMotion motion, const ProxySettings& settings, std::size_t ticks) {
-  Planner planner(snapshot, motion, settings);
+Path planPath(const Snapshot& snapshot, FingerMotion motion, const ProxySettings& settings, std::size_t ticks,
+              double world_per_hand) {
+  Planner planner(snapshot, motion, settings, world_per_hand);
   Path path;
   const auto keep = [&] {
     path.fingers.push_back(planner.finger());

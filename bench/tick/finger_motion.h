@@ -1,5 +1,5 @@
-// The motions of the finger that are timed. It always moves at 0.15 m/s, sampled a thousand times a second; where it
-// turns to depends on what the proxy touches, so a path is planned by moving a proxy along.
+// The motions of the finger that are timed. It always moves at 0.15 m/s of the hand, sampled a thousand times a second;
+// where it turns to depends on what the proxy touches, so a path is planned by moving a proxy along.
 #pragma once
 
 #include <array>
@@ -33,7 +33,9 @@ struct Path {
   std::vector<Vec3> proxies;
 };
 
-/// `ticks` of them after the approach, with the proxy of `settings`. The same arguments give the same path.
-Path planPath(const Snapshot& snapshot, FingerMotion motion, const ProxySettings& settings, std::size_t ticks);
+/// `ticks` of them after the approach, with the proxy of `settings`; all that the finger does is magnified by
+/// `world_per_hand`. The same arguments give the same path.
+Path planPath(const Snapshot& snapshot, FingerMotion motion, const ProxySettings& settings, std::size_t ticks,
+              double world_per_hand = 1);
 
 }  // namespace hl::bench

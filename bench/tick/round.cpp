@@ -84,7 +84,8 @@ void Round::measureTicks(FingerMotion motion, RadiusMode mode) {
   }
   say(std::string(nameOf(motion)) + " on " + number(plain_->primitives));
   Case next{motion, mode, radius_m};
-  next.path = planPath(*plain_, motion, settingsOf(next), plan_.ticks);
+  const double world_per_hand = mode == RadiusMode::kZoomed ? radius_m / plan_.radius_m : 1;
+  next.path = planPath(*plain_, motion, settingsOf(next), plan_.ticks, world_per_hand);
   const TickTimes plain = timeTicks(*plain_, settingsOf(next), next.path, plan_.ticks);
   next.plain = plain.times.middle();
   putTicks(next, HierarchyKind::kBvh, Feel::kPlain, plain, cost_);

@@ -50,7 +50,10 @@ void runScene(const SuitePlan& plan, const SuiteOutput& output, const BenchScene
 
 }  // namespace
 
-const char* nameOf(RadiusMode mode) { return mode == RadiusMode::kFixed ? "fixed" : "scaled"; }
+const char* nameOf(RadiusMode mode) {
+  constexpr std::array<const char*, kRadiusModes.size()> kNames{"fixed", "scaled", "zoomed"};
+  return kNames[static_cast<std::size_t>(mode)];
+}
 
 void runSuite(const SuitePlan& plan, const SuiteOutput& output) {
   for (const BenchScene& scene : plan.scenes) runScene(plan, output, scene);

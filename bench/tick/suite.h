@@ -17,9 +17,10 @@ namespace hl::bench {
 enum class RadiusMode : std::uint8_t {
   kFixed,
   kScaled,  ///< a multiple of the mesh's mean edge
+  kZoomed,  ///< the same, and the finger's motion in proportion: however fine the mesh, a tick meets as many triangles
 };
-inline constexpr std::array kRadiusModes{RadiusMode::kFixed, RadiusMode::kScaled};
-/// "fixed" or "scaled".
+inline constexpr std::array kRadiusModes{RadiusMode::kFixed, RadiusMode::kScaled, RadiusMode::kZoomed};
+/// "fixed", "scaled" or "zoomed".
 const char* nameOf(RadiusMode mode);
 
 struct BenchScene {
@@ -35,7 +36,7 @@ struct SuitePlan {
   std::vector<RadiusMode> radii{RadiusMode::kFixed};
   std::vector<HierarchyKind> hierarchies{HierarchyKind::kBvh};  ///< any but bvh only for sliding with a fixed radius
   double radius_m = 1e-3;                                       ///< the fixed one
-  double radius_edges = 1;                                      ///< the scaled one, in mean edges
+  double radius_edges = 1;                                      ///< the others, in mean edges
   std::size_t ticks = 20'000;
   bool peers = false;
 };

@@ -56,7 +56,8 @@ HIERARCHIES = (("none", GREY, "every primitive tested"), ("spheres", BLUE, "sphe
 PEERS = (("embree", ORANGE, "Embree"), ("cgal", PURPLE, "CGAL"), ("fcl", BROWN, "FCL"), ("bullet", PINK, "Bullet"))
 QUESTIONS = (("near", "-.", "closest point within 1.01 r"), ("nearest", "--", "closest point"), ("impact", "--", "swept sphere"))
 LEGEND = 0.16             # of the picture's height
-RADII = {"fixed": "r = {:g} mm", "scaled": "r = {:.2g} mean edges"}
+RADII = {"fixed": "r = {:g} mm", "scaled": "r = {:.2g} mean edges",
+         "zoomed": "r and the motion in proportion to edges"}
 
 
 def draw_line(axes, rows, key, *line, **options):

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "builtin.h"
 #include "tick/feel.h"
@@ -46,6 +47,24 @@ TEST(FingerMotion, TheFingerAlwaysMovesAtItsSpeed) {
       for (std::size_t i = 1; i < path.fingers.size(); ++i) {
         ASSERT_NEAR((path.fingers[i] - path.fingers[i - 1]).norm(), 0.15e-3, 1e-12) << scene << " " << nameOf(motion);
       }
+    }
+  }
+}
+
+TEST(FingerMotion, MagnifiedItDoesTheSameInAMagnifiedWorld) {
+  const double world_per_hand = 0.25;  // a power of two, so that nothing is rounded otherwise
+  for (const FingerMotion motion : kFingerMotions) {
+    const Walk large = walk("terrain:10000", motion);
+    Model model = makeBuiltinScene("terrain:10000");
+    for (Vec3& position : model.positions) position *= world_per_hand;
+    const auto snapshot = makeSnapshotOf(makeShape(std::move(model)), Feel::kPlain);
+    ProxySettings settings;
+    settings.radius = world_per_hand * kRadius_m;
+    const Path path = planPath(*snapshot, motion, settings, kTicks, world_per_hand);
+    ASSERT_EQ(path.approach, large.path.approach) << nameOf(motion);
+    for (std::size_t i = 0; i < path.fingers.size(); ++i) {
+      ASSERT_EQ(path.fingers[i], world_per_hand * large.path.fingers[i]) << nameOf(motion) << ' ' << i;
+      ASSERT_EQ(path.proxies[i], world_per_hand * large.path.proxies[i]) << nameOf(motion) << ' ' << i;
     }
   }
 }
