@@ -3,8 +3,8 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
+#include <vector>
 
 #include "base/clock.h"
 #include "geometry/wide_bvh.h"
@@ -24,20 +24,22 @@ double buildTimeOnOneThread_ns(const Shape& shape, HierarchyKind hierarchy) {
   return buildTime_ns(shape, hierarchy);
 }
 
-// Of a shape that goes on changing: the middle time of some in a row. The first need memory such as the machine may
+// Of a shape that goes on changing: the middle time of many in a row. The first need memory such as the machine may
 // never have used, which takes longer than they do.
 double refitTime_ns(const Shape& shape) {
+  constexpr std::size_t kLeast = 9;
+  constexpr double kLeast_ns = 0.3e9;
   const auto* const tree = dynamic_cast<const WideBvh*>(shape.index.get());
   if (tree == nullptr) return std::numeric_limits<double>::quiet_NaN();
-  std::array<std::int64_t, 9> times_ns{};
+  std::vector<double> times_ns;
   WideBvh refitted = tree->refit(shape.primitives);
-  for (std::int64_t& time_ns : times_ns) {
+  for (double all_ns = 0; times_ns.size() < kLeast || all_ns < kLeast_ns; all_ns += times_ns.back()) {
     const std::int64_t start_ns = monotonicNow_ns();
     refitted = refitted.refit(shape.primitives);
-    time_ns = monotonicNow_ns() - start_ns;
+    times_ns.push_back(static_cast<double>(monotonicNow_ns() - start_ns));
   }
   std::sort(times_ns.begin(), times_ns.end());
-  return static_cast<double>(times_ns[times_ns.size() / 2]);
+  return times_ns[times_ns.size() / 2];
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ PEERS = (("embree", ORANGE, "Embree"), ("cgal", PURPLE, "CGAL"), ("fcl", BROWN, 
 QUESTIONS = (("near", "-.", "closest point within 1.01 r"), ("nearest", "--", "closest point"), ("impact", "--", "swept sphere"))
 LEGEND = 0.16             # of the picture's height
 RADII = {"fixed": "r = {:g} mm", "scaled": "r = {:.2g} mean edges",
-         "zoomed": "r and the motion in proportion to edges"}
+         "zoomed": "r and motion scaled"}
 
 
 def draw_line(axes, rows, key, *line, **options):
@@ -97,7 +97,7 @@ def tick_times(file):
     figure, all_axes = canvas(1, len(panels), 6.4, sharey=True, squeeze=False)
     for axes, chosen in zip(all_axes[0], panels):
         draw_tick_times(axes, chosen)
-        style(axes, "triangles", "time (µs)" if axes is all_axes[0][0] else "", f"Sliding over terrain, {radius_text(chosen)}")
+        style(axes, "triangles", "time (µs)" if axes is all_axes[0][0] else "", f"Terrain, {radius_text(chosen)}")
     handles, labels = all_axes[0][0].get_legend_handles_labels()
     figure.get_layout_engine().set(rect=(0, LEGEND, 1, 1 - LEGEND))
     figure.legend(handles, labels, loc="lower center", ncols=3)
