@@ -236,7 +236,7 @@ template <typename... Advances>
 HWY_INLINE void run(V latest, Advances&... all) {
   constexpr int kSteps = 3;
   for (int i = 0; i < kSteps; ++i) {
-    if (!(... | all.step(latest))) return;
+    if ((... | unsigned{all.step(latest)}) == 0) return;  // no ||: all of them step
   }
 }
 
