@@ -233,7 +233,7 @@ class Advance {
 
 // All of them together, as each step waits for the one before it: one vector alone leaves the processor idle.
 template <typename... Advances>
-HWY_INLINE void run(V latest, Advances&... all) {
+HWY_INLINE void advance(V latest, Advances&... all) {
   constexpr int kSteps = 3;
   for (int i = 0; i < kSteps; ++i) {
     if ((... | unsigned{all.step(latest)}) == 0) return;  // no ||: all of them step
@@ -247,13 +247,13 @@ HWY_INLINE unsigned touched(const FewBlocks& blocks, float limit, float* entry) 
   std::size_t lane = 0;
   for (; lane + kLanes < blocks.lanes(); lane += 2 * kLanes) {
     Advance one(blocks, lane), other(blocks, lane + kLanes);
-    run(latest, one, other);
+    advance(latest, one, other);
     bits |= one.touched(latest, entry + lane) << lane;
     bits |= other.touched(latest, entry + lane + kLanes) << (lane + kLanes);
   }
   if (lane < blocks.lanes()) {
     Advance last(blocks, lane);
-    run(latest, last);
+    advance(latest, last);
     bits |= last.touched(latest, entry + lane) << lane;
   }
   return bits;

@@ -1,5 +1,5 @@
-// BackOff: when to try again what has failed. After the n-th failure in a row the next 2^n tries are left out, 1024 at
-// most: what never works costs next to nothing, and what works again is soon found out.
+// BackOff: when to try again what has failed. After the n-th failure the next 2^n tries are left out, 1024 at most:
+// what never works costs next to nothing.
 #pragma once
 
 #include <algorithm>
@@ -19,6 +19,7 @@ class BackOff {
     failures_ = std::min(failures_ + 1, kMostFailures);
     left_out_ = 1 << failures_;
   }
+  /// Failures count anew. Who never says so tries ever less often.
   void worked() { failures_ = 0; }
 
  private:
