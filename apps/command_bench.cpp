@@ -148,9 +148,10 @@ void addWhatOptions(CLI::App& command, BenchOptions& options) {
       ->option_text("FILE");
   addListOption(command, "--motions", options.motions, bench::kFingerMotions,
                 "how the finger moves, at 0.15 m/s and 1000 ticks a second (default: sliding)");
-  addListOption(command, "--radii", options.radii, bench::kRadiusModes,
-                "the radius of the proxy: --radius, or scaled with the mesh as --radius-edges says; zoomed: the finger's "
-                "motion with it (default: fixed)");
+  addListOption(
+      command, "--radii", options.radii, bench::kRadiusModes,
+      "the radius of the proxy: --radius, or scaled with the mesh as --radius-edges says; zoomed: the finger's "
+      "motion with it (default: fixed)");
   addListOption(command, "--hierarchies", options.hierarchies, kHierarchies,
                 "beside the bvh for sliding with the fixed radius; none up to 10 000 triangles (default: all)");
   command.add_flag("!--no-effects", options.effects,
