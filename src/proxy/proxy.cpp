@@ -73,6 +73,7 @@ class Tick {
   bool firstImpact(const Vec3& from, const Vec3& motion, SceneImpact& out);
   void settleOn(const ContactSet& set);
   bool settled() const;
+  void aimAt(const Vec3& goal);
   void advance(const SubGoal& sub_goal);
   bool tryCurvatureStep();
   bool restoreIfWorse(bool last);
@@ -107,7 +108,7 @@ class Tick {
   double boldness_ = 1;  // of the next one
   BackOff back_off_;     // from those that do not pay off
 
-  // The nearest that steps have come to the goal, and how many in a row have not come nearer: see advance().
+  // The nearest that steps have come to this goal, and how many in a row have not come nearer: see advance().
   double nearest2_ = std::numeric_limits<double>::infinity();  // m^2
   int idle_ = 0;
   bool trembles_ = false;
@@ -180,7 +181,7 @@ SubGoal Tick::effectSubGoal() {
     return plainSubGoal();
   }
   if (effect_passes_ > kEffectPasses) result.step = Vec3::Zero();
-  if (result.bent && settings_.shading == ShadingPasses::kOnce) goal_ = state_.position + result.step;
+  if (result.bent && settings_.shading == ShadingPasses::kOnce) aimAt(state_.position + result.step);
   return result;
 }
 
@@ -189,7 +190,7 @@ SubGoal Tick::subGoal() {
   around_ = false;
   // The once-a-tick goal has been reached, or left behind over an edge: down to the surface, and no farther.
   const bool passes_done = goal_ != finger_;
-  if (passes_done && set_.contacts.empty()) goal_ = finger_;
+  if (passes_done && set_.contacts.empty()) aimAt(finger_);
   felt_ = !passes_done && effects_.any(set_);
   SubGoal result = felt_ ? effectSubGoal() : plainSubGoal();
   if (spent_ && !set_.contacts.empty()) result.step = Vec3::Zero();
@@ -305,6 +306,13 @@ bool Tick::settled() const {
   };
   return !settled_on_.empty() &&
          std::equal(settled_on_.begin(), settled_on_.end(), set_.contacts.begin(), set_.contacts.end(), same);
+}
+
+void Tick::aimAt(const Vec3& goal) {
+  goal_ = goal;
+  nearest2_ = std::numeric_limits<double>::infinity();
+  idle_ = 0;
+  trembles_ = false;
 }
 
 // One step of the proxy, as far as the way is free and the energy reaches. Planes that all but face each other cross
