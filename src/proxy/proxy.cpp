@@ -308,6 +308,7 @@ bool Tick::settled() const {
          std::equal(settled_on_.begin(), settled_on_.end(), set_.contacts.begin(), set_.contacts.end(), same);
 }
 
+// How near steps have come to the goal before says nothing of this one.
 void Tick::aimAt(const Vec3& goal) {
   goal_ = goal;
   nearest2_ = std::numeric_limits<double>::infinity();
