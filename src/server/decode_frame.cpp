@@ -190,7 +190,7 @@ void FrameDecoder::move(const proto::VertexUpdate& in, Model& model, const std::
     throw Error(where + ": the item has " + std::to_string(count) + " vertices, no more");
   if (!part.normals.empty() && model.normals.empty()) throw Error(where + ": the item's vertices have no normals");
   std::copy(part.positions.begin(), part.positions.end(), model.positions.begin() + in.first());
-  std::copy(part.normals.begin(), part.normals.end(), model.normals.begin() + in.first());
+  if (!part.normals.empty()) std::copy(part.normals.begin(), part.normals.end(), model.normals.begin() + in.first());
 }
 
 // However many updates an item has, its shape is made once.
