@@ -76,7 +76,10 @@ TEST(SceneAt, AnswersAsIfEveryVertexWerePlacedByHand) {
       SceneImpact hit_a, hit_b;
       ASSERT_EQ(placed.firstImpact(p, motion, 0.05, 0, hit_a), whole.firstImpact(p, motion, 0.05, 0, hit_b));
       EXPECT_NEAR(hit_a.impact.t, hit_b.impact.t, 1e-10);
-      EXPECT_LT((hit_a.impact.normal - hit_b.impact.normal).norm(), 1e-8);
+      // Of several that it touches from the start each scene names the first in its own order.
+      if (hit_a.impact.t > 0) {
+        EXPECT_LT((hit_a.impact.normal - hit_b.impact.normal).norm(), 1e-8);
+      }
     }
   }
 }
