@@ -22,7 +22,12 @@ namespace {
 
 // A busy machine may lose a device for a moment, which is a fault: then a person arms again.
 void pressAndFeel(TouchSession& session, Bench& bench) {
-  bench.arm().setHandGoal(Vec3(0, -0.02, 0));
+  const Vec3 below_D(0, -0.02, 0);
+  if (session.hasHand()) {
+    session.setHandGoal(session.workspace().toWorld(below_D));  // only the session may move a hand that it holds
+  } else {
+    bench.arm().setHandGoal(below_D);
+  }
   waitFor([&] {
     if (servoOf(session).safety == SafetyState::kFault) session.rearm();
     return bench.arm().force_D().y() > 0.5;

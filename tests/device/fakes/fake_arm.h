@@ -1,6 +1,6 @@
 // FakeArm: the hardware behind every fake: HL's simulated arm and hand, on the real clock or on one that the test
 // moves. A fake speaks a driver's language on one side and moves this arm on the other; the test looks at the arm
-// itself.
+// itself. One lock keeps the two apart: the arm moves on the thread that reads it.
 #pragma once
 
 #include <algorithm>
@@ -22,21 +22,24 @@ inline SimulatedDeviceSettings quickArm() {
 
 class FakeArm {
  public:
-  FakeArm() : device_(own_) {}
-  /// Looks at a simulated device that the test drives itself.
-  explicit FakeArm(SimulatedDevice& device) : device_(device) {}
-
   // The fake's side. Frame D; any thread.
-  Vec3 encoders() {
+  DeviceSample read(std::int64_t now_ns) {
     const std::lock_guard lock(mutex_);
-    return device_.read(now_ns()).position;
+    return device_.read(now_ns);
   }
-  void pull(const Vec3& force_D) {
+  void write(const Vec3& force_D) {
     const std::lock_guard lock(mutex_);
-    device_.read(now_ns());
     device_.write(force_D);
     strongest_N_ = std::max(strongest_N_, device_.arm().motorForce_N().norm());
   }
+  Vec3 encoders() { return read(now_ns()).position; }
+  void pull(const Vec3& force_D) {
+    encoders();
+    write(force_D);
+  }
+  const DeviceInfo& info() const { return device_.info(); }
+  SimulatedHand* hand() { return &device_; }
+  void stop() noexcept { device_.stop(); }
 
   // The test's side. Any thread.
   std::int64_t now_ns() const { return virtual_ ? virtual_ns_.load() : monotonicNow_ns(); }
@@ -69,8 +72,7 @@ class FakeArm {
 
  private:
   std::mutex mutex_;
-  SimulatedDevice own_{quickArm()};
-  SimulatedDevice& device_;
+  SimulatedDevice device_{quickArm()};
   double strongest_N_ = 0;
   std::atomic<bool> virtual_{false};
   std::atomic<std::int64_t> virtual_ns_{0};
