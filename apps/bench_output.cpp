@@ -34,7 +34,7 @@ std::string whatOf(const Row& row) {
 }
 
 std::string wrongOf(const Row& row) {
-  if (row.who == "hl") return "-";
+  if (row.agreement.compared == 0) return "-";
   return fmt::format("{} of {}", row.agreement.different, row.agreement.compared);
 }
 

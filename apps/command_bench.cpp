@@ -37,7 +37,7 @@ constexpr const char* kFooter =
     "Times in microseconds, each with the reading of the clock; every tick counts but those of the first approach.\n"
     "All is done three times, and of each tick or question the middle time counts; 1x: every single time, with what\n"
     "else the machine did then. tick: a whole tick of the proxy; near: the nearest primitive within 1.01 radii of\n"
-    "where the proxy was; nearest: at any distance;\n"
+    "where the proxy was; nearest: at any distance; finger: of the finger in place of the proxy;\n"
     "impact: the first impact of the sphere from one radius above the proxy to where the finger goes next.\n"
     "build 1, all: to build the hierarchy on one thread and on all, in ns for one primitive; bytes: of the hierarchy\n"
     "and of all, for one primitive; x plain: mean tick over that without effects; x tick, x query: median over that\n"

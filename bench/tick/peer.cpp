@@ -18,7 +18,7 @@ constexpr std::size_t kLeast = 100;
 }  // namespace
 
 const char* nameOf(Question question) {
-  constexpr std::array<const char*, 3> kNames{"near", "nearest", "impact"};
+  constexpr std::array<const char*, 4> kNames{"near", "nearest", "finger", "impact"};
   return kNames[static_cast<std::size_t>(question)];
 }
 
@@ -30,7 +30,7 @@ std::vector<Probe> probesOf(const Path& path, double radius_m) {
     // The surface pushes the proxy this way; nothing does where it is where the finger is.
     const Vec3 push = proxy - path.fingers[i];
     const Vec3 from = push.norm() > kAgreement_m ? Vec3(proxy + kLift * radius_m * push.normalized()) : proxy;
-    probes.push_back({proxy, kNear * radius_m, from, next - from, radius_m});
+    probes.push_back({proxy, kNear * radius_m, path.fingers[i], from, next - from, radius_m});
   }
   return probes;
 }

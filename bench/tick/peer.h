@@ -19,6 +19,7 @@ namespace hl::bench {
 struct Probe {
   Vec3 centre;      ///< of the proxy, whose surroundings are asked for
   double near_m;    ///< how far they reach
+  Vec3 finger;      ///< what the tick that led there began with
   Vec3 from;        ///< where the sphere starts whose first impact is asked for: clear of what holds the proxy
   Vec3 motion;      ///< of that sphere, to the next place of the finger
   double radius_m;  ///< of it
@@ -27,9 +28,10 @@ struct Probe {
 enum class Question : std::uint8_t {
   kNear,     ///< the distance of the nearest primitive within near_m
   kNearest,  ///< the same at any distance: of who does not know, as a tick does, how near it is
-  kImpact,   ///< how far the sphere comes
+  kFinger,  ///< the same of the finger: what a method without a proxy asks, which knows no more than a tick begins with
+  kImpact,  ///< how far the sphere comes
 };
-/// "near", "nearest" or "impact".
+/// "near", "nearest", "finger" or "impact".
 const char* nameOf(Question question);
 /// Those of HL itself: where something is within near_m, its answer to the first is that to the second.
 inline constexpr std::array kOwnQuestions{Question::kNear, Question::kImpact};

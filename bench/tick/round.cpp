@@ -27,6 +27,12 @@ ProxySettings settingsOf(const Case& of) {
 
 }  // namespace
 
+const Answers* Case::ownTo(Question question) const {
+  const Question same = question == Question::kNearest ? Question::kNear : question;
+  const auto* const found = std::find(kOwnQuestions.begin(), kOwnQuestions.end(), same);
+  return found == kOwnQuestions.end() ? nullptr : &own[static_cast<std::size_t>(found - kOwnQuestions.begin())];
+}
+
 Round::Round(const SuitePlan& plan, const SuiteOutput& output, const BenchScene& scene, std::size_t size)
     : plan_(plan), output_(output), scene_(scene) {
   say("making about " + number(size));
@@ -166,14 +172,15 @@ void Round::measurePeer(const PeerKind& kind) const {
 void Round::measureAnswers(const Case& of, const std::string& who, Peer& peer, Question question,
                            double build_ns) const {
   const Answers answers = timeAnswers(peer, question, of.probes, kPeerRow_s);
-  const Answers& own = of.own[question == Question::kImpact ? 1 : 0];
   Row row = rowOf(of, who, nameOf(question));
   row.times = answers.times.middle();
   row.single = answers.times.all();
   row.cost.build_ns = build_ns;
   row.to_tick = row.times.median_us() / of.plain.median_us();
-  row.to_query = row.times.median_us() / own.times.middle().median_us();
-  row.agreement = compare(own.metres, answers.metres);
+  if (const Answers* own = of.ownTo(question)) {
+    row.to_query = row.times.median_us() / own->times.middle().median_us();
+    row.agreement = compare(own->metres, answers.metres);
+  }
   if (answers.metres.size() < of.probes.size()) {
     row.note = "only the first of " + std::to_string(of.probes.size()) + " places: they took " +
                std::to_string(static_cast<int>(kPeerRow_s)) + " s";

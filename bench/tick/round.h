@@ -20,6 +20,9 @@ struct Case {
   Timing plain{};  ///< of the ticks without surface effects
   std::vector<Probe> probes{};
   std::array<Answers, kOwnQuestions.size()> own{};  ///< of HL's queries to the probes
+
+  /// HL's answers to a question or to one with the same answers; null where it is not asked.
+  const Answers* ownTo(Question question) const;
 };
 
 class Round {

@@ -54,7 +54,8 @@ def trace(bench):
 
 HIERARCHIES = (("none", GREY, "every primitive tested"), ("spheres", BLUE, "sphere tree"), ("bvh", GREEN, "wide BVH"))
 PEERS = (("embree", ORANGE, "Embree"), ("cgal", PURPLE, "CGAL"), ("fcl", BROWN, "FCL"), ("bullet", PINK, "Bullet"))
-QUESTIONS = (("near", "-.", "closest point within 1.01 r"), ("nearest", "--", "closest point"), ("impact", "--", "swept sphere"))
+QUESTIONS = (("near", "-.", "closest point within 1.01 r"), ("nearest", "--", "closest point"),
+             ("finger", "-", "closest point to the finger"), ("impact", "--", "swept sphere"))
 LEGEND = 0.16             # of the picture's height
 RADII = {"fixed": "r = {:g} mm", "scaled": "r = {:.2g} mean edges",
          "zoomed": "r and motion scaled"}

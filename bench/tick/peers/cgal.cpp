@@ -27,14 +27,14 @@ class Cgal final : public Peer {
   }
 
   std::span<const Question> questions() const override {
-    static constexpr std::array kAsked{Question::kNearest};
+    static constexpr std::array kAsked{Question::kNearest, Question::kFinger};
     return kAsked;
   }
 
-  double ask(Question, const Probe& probe) override {
-    const Kernel::Point_3 centre = toCgal(probe.centre);
-    hint_ = tree_.closest_point(centre, hint_);
-    return std::sqrt(CGAL::squared_distance(centre, hint_));
+  double ask(Question question, const Probe& probe) override {
+    const Kernel::Point_3 at = toCgal(question == Question::kFinger ? probe.finger : probe.centre);
+    hint_ = tree_.closest_point(at, hint_);
+    return std::sqrt(CGAL::squared_distance(at, hint_));
   }
 
  private:

@@ -65,13 +65,13 @@ class Embree final : public Peer {
   Embree& operator=(const Embree&) = delete;
 
   std::span<const Question> questions() const override {
-    static constexpr std::array kAsked{Question::kNear, Question::kNearest};
+    static constexpr std::array kAsked{Question::kNear, Question::kNearest, Question::kFinger};
     return kAsked;
   }
 
   double ask(Question question, const Probe& probe) override {
     constexpr float kAnywhere = std::numeric_limits<float>::infinity();
-    const Vec3f p = probe.centre.cast<float>();
+    const Vec3f p = (question == Question::kFinger ? probe.finger : probe.centre).cast<float>();
     const float radius = question == Question::kNear ? static_cast<float>(probe.near_m) : kAnywhere;
     RTCPointQuery query{p.x(), p.y(), p.z(), 0, radius};
     RTCPointQueryContext context;
