@@ -1,7 +1,6 @@
 #include "geometry/primitives.h"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_reduce.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cassert>
@@ -10,27 +9,62 @@
 
 namespace hl {
 
+namespace {
+
+void extend(Box& box, const std::array<Vec3, 3>& corners) {
+  for (const Vec3& corner : corners) box.extend(corner);
+}
+
+}  // namespace
+
 Primitives::Primitives(const MeshView& mesh) : mesh_(mesh), size_(mesh.elements()) {
+  constexpr std::size_t kRun = 4096;
   assert(size_ <= std::numeric_limits<std::uint32_t>::max());
-  std::vector<std::uint32_t> kept;
-  const auto refuse = [&](std::size_t i, PrimitiveKind kind) {
-    if (refused_.sum() == 0) {
-      kept.reserve(size_ - 1);
-      for (std::uint32_t before = 0; before < i; ++before) kept.push_back(before);
-    }
-    ++(kind == PrimitiveKind::kTriangle  ? refused_.triangles
-       : kind == PrimitiveKind::kSegment ? refused_.segments
-                                         : refused_.points);
-  };
-  for (std::size_t i = 0; i < size_; ++i) {
+  std::vector<Run> runs((size_ + kRun - 1) / kRun);
+  oneapi::tbb::parallel_for(std::size_t{0}, runs.size(),
+                            [&](std::size_t i) { runs[i] = look(i * kRun, std::min(size_, (i + 1) * kRun)); });
+  leaveOut(runs);
+  for (const Run& run : runs) bounds_.extend(run.bounds);
+}
+
+Primitives::Run Primitives::look(std::size_t begin, std::size_t end) const {
+  Run run;
+  for (std::size_t i = begin; i < end; ++i) {
     const Element made_from = element(i);
-    if (!valid(made_from)) {
-      refuse(i, made_from.kind);
-    } else if (refused_.sum() > 0) {
-      kept.push_back(static_cast<std::uint32_t>(i));
+    if (valid(made_from)) {
+      extend(run.bounds, corners(made_from));
+    } else {
+      run.refused.push_back(static_cast<std::uint32_t>(i));
     }
   }
-  size_ -= refused_.sum();
+  return run;
+}
+
+// Names the elements that are kept, where some are not.
+void Primitives::leaveOut(const std::vector<Run>& runs) {
+  for (const Run& run : runs) {
+    for (const std::uint32_t number : run.refused) {
+      const PrimitiveKind kind = element(number).kind;
+      ++(kind == PrimitiveKind::kTriangle  ? refused_.triangles
+         : kind == PrimitiveKind::kSegment ? refused_.segments
+                                           : refused_.points);
+    }
+  }
+  if (refused_.sum() == 0) return;
+  std::vector<std::uint32_t> kept;
+  kept.reserve(size_ - refused_.sum());
+  std::uint32_t next = 0;
+  const auto keepUpTo = [&](std::uint32_t end) {
+    for (; next < end; ++next) kept.push_back(next);
+  };
+  for (const Run& run : runs) {
+    for (const std::uint32_t number : run.refused) {
+      keepUpTo(number);
+      next = number + 1;
+    }
+  }
+  keepUpTo(static_cast<std::uint32_t>(size_));
+  size_ = kept.size();
   kept_ = std::move(kept);
 }
 
@@ -73,19 +107,10 @@ Primitive Primitives::operator[](std::size_t i) const {
   return pointOf(v[0], made_from.source);
 }
 
-Box boundsOf(const Primitives& primitives) {
-  constexpr std::size_t kGrain = 4096;
-  using Range = oneapi::tbb::blocked_range<std::size_t>;
-  const auto extend = [&](const Range& range, Box bounds) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      const auto v = primitives.corners(i);
-      bounds.min = bounds.min.cwiseMin(v[0].cwiseMin(v[1]).cwiseMin(v[2]));
-      bounds.max = bounds.max.cwiseMax(v[0].cwiseMax(v[1]).cwiseMax(v[2]));
-    }
-    return bounds;
-  };
-  const auto both = [](const Box& a, const Box& b) { return Box{a.min.cwiseMin(b.min), a.max.cwiseMax(b.max)}; };
-  return oneapi::tbb::parallel_reduce(Range(0, primitives.size(), kGrain), Box(), extend, both);
+Box Primitives::bounds() const {
+  Box bounds = bounds_;
+  for (const Primitive& primitive : ready_) extend(bounds, primitive.vertex);
+  return bounds;
 }
 
 }  // namespace hl

@@ -32,7 +32,8 @@ class Primitives {
   };
 
   Primitives() = default;
-  /// Triangles first, then segments, then points; refused ones are left out.
+  /// Triangles first, then segments, then points; refused ones are left out. O(n) on all threads that oneTBB has; the
+  /// result does not depend on their number. Setup only.
   explicit Primitives(const MeshView& mesh);
   /// Ready ones, in any order.
   Primitives(std::span<const Primitive> ready) : ready_(ready), size_(ready.size()) {}                // NOLINT: a view
@@ -43,6 +44,8 @@ class Primitives {
   bool empty() const { return size_ == 0; }
   /// Whether the same elements make the same numbers here as there, for two meshes with the same lists.
   bool numberedAs(const Primitives& other) const { return size_ == other.size_ && kept_ == other.kept_; }
+  /// Around all vertices that they have. O(1) of a mesh, O(n) of ready ones.
+  Box bounds() const;
   /// Memory of its own, beside the mesh's.
   std::size_t bytes() const { return kept_.capacity() * sizeof(std::uint32_t); }
 
@@ -77,6 +80,13 @@ class Primitives {
     std::uint32_t source;
   };
   Element element(std::size_t i) const;
+  /// Some elements in a row, looked at by one thread.
+  struct Run {
+    Box bounds;                          // of those that make a primitive
+    std::vector<std::uint32_t> refused;  // numbers of the others among all elements
+  };
+  Run look(std::size_t begin, std::size_t end) const;
+  void leaveOut(const std::vector<Run>& runs);
   bool valid(const Element& element) const;
   std::array<Vec3, 3> corners(const Element& element) const;
 
@@ -85,10 +95,8 @@ class Primitives {
   std::span<const Primitive> ready_;
   std::size_t size_ = 0;
   Refused refused_;
+  Box bounds_;  // of a mesh
 };
-
-/// Of all vertices that they have. On all threads that oneTBB has.
-Box boundsOf(const Primitives& primitives);
 
 // In sight of the loops that read a million of them.
 

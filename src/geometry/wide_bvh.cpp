@@ -22,7 +22,7 @@ double largest(const Vec3& v) { return v.cwiseAbs().maxCoeff(); }
 }  // namespace
 
 void WideBvh::measure(const Primitives& primitives) {
-  const Box bounds = boundsOf(primitives);
+  const Box bounds = primitives.bounds();
   origin_ = 0.5 * bounds.min + 0.5 * bounds.max;
   half_ = largest(bounds.max - origin_);
   extent_ = std::max(largest(bounds.min), largest(bounds.max));

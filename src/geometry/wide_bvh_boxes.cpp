@@ -1,12 +1,15 @@
 #include "geometry/wide_bvh_boxes.h"
 
+#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_reduce.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "base/vec.h"
@@ -217,6 +220,15 @@ Eigen::Array3d sidesOf(const FloatBox& box) { return (box.max - box.min).head<3>
 
 double halfArea(const Eigen::Array3d& sides) { return sides[0] * sides[1] + sides[1] * sides[2] + sides[2] * sides[0]; }
 
+// Of the boxes of its children, each grown so far.
+double areaBeneath(const WideNode& node, double grown) {
+  double sum = 0;
+  for (std::size_t lane = 0; lane < kWide; ++lane) {
+    if (node.child[lane] != kNoChild) sum += halfArea(sidesOf(laneOf(node, lane)) + grown);
+  }
+  return sum;
+}
+
 }  // namespace
 
 void orient(HugeVector<WideNode>& nodes, const HugeVector<WideBlock>& blocks) {
@@ -230,16 +242,19 @@ HugeVector<WideNode> enclosed(const HugeVector<WideNode>& nodes, const HugeVecto
 }
 
 double costOf(const HugeVector<WideNode>& nodes) {
+  using Range = oneapi::tbb::blocked_range<std::size_t>;
+  constexpr std::size_t kGrain = 1024;
   if (nodes.empty()) return 0;
   FloatBox root;
   for (std::size_t lane = 0; lane < kWide; ++lane) root.extend(laneOf(nodes[0], lane));
   const double grown = kGrown * sidesOf(root).maxCoeff();
-  double sum = 0;
-  for (const WideNode& node : nodes) {
-    for (std::size_t lane = 0; lane < kWide; ++lane) {
-      if (node.child[lane] != kNoChild) sum += halfArea(sidesOf(laneOf(node, lane)) + grown);
-    }
-  }
+  const auto add = [&](const Range& range, double sum) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) sum += areaBeneath(nodes[i], grown);
+    return sum;
+  };
+  // Deterministic: sums in an order that does not depend on the number of threads.
+  const double sum =
+      oneapi::tbb::parallel_deterministic_reduce(Range(0, nodes.size(), kGrain), 0.0, add, std::plus<>());
   return sum / halfArea(sidesOf(root) + grown);
 }
 

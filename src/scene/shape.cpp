@@ -1,5 +1,8 @@
 #include "scene/shape.h"
 
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <atomic>
 #include <utility>
@@ -38,14 +41,19 @@ std::vector<std::uint16_t> materialsOf(const Model& model, const Primitives& pri
 // Turns each triangle until its smallest vertex comes first: then sorting its vertices, which reading it does, needs
 // one comparison that can not be foretold in place of three. It stays the same triangle, seen from the same side.
 void turnTriangles(Model& model) {
+  using Range = oneapi::tbb::blocked_range<std::size_t>;
+  constexpr std::size_t kGrain = 4096;
   const auto& p = model.positions;
   const auto less = [&](std::uint32_t a, std::uint32_t b) {
     return std::lexicographical_compare(p[a].data(), p[a].data() + 3, p[b].data(), p[b].data() + 3);
   };
-  for (auto& t : model.triangles) {
-    if (std::any_of(t.begin(), t.end(), [&](std::uint32_t index) { return index >= p.size(); })) continue;
+  const auto turn = [&](std::array<std::uint32_t, 3>& t) {
+    if (std::any_of(t.begin(), t.end(), [&](std::uint32_t index) { return index >= p.size(); })) return;
     std::rotate(t.begin(), std::min_element(t.begin(), t.end(), less), t.end());
-  }
+  };
+  oneapi::tbb::parallel_for(Range(0, model.triangles.size(), kGrain), [&](const Range& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) turn(model.triangles[i]);
+  });
 }
 
 template <typename T>
@@ -84,7 +92,7 @@ std::shared_ptr<Shape> shapeOf(Model given) {
   warnSkipped(shape->warnings, primitives.refused().segments, "segments");
   warnSkipped(shape->warnings, primitives.refused().points, "points");
   shape->material_of = materialsOf(model, primitives);
-  shape->bounds = boundsOf(primitives);
+  shape->bounds = primitives.bounds();
   if (!shape->bounds.empty()) {
     shape->extent = shape->bounds.min.cwiseAbs().cwiseMax(shape->bounds.max.cwiseAbs()).maxCoeff();
   }

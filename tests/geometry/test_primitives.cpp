@@ -2,7 +2,9 @@
 #include "geometry/primitives.h"
 
 #include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "geometry/scenes.h"
@@ -13,7 +15,7 @@ namespace {
 using test::Mesh;
 
 // Some vertices coincide, one is not a number and one out of reach; some indices are out of range.
-Mesh randomMesh(test::Random& random) {
+Mesh randomMesh(test::Random& random, int of_each_kind) {
   Mesh mesh;
   constexpr int kVertices = 30;
   for (int i = 0; i < kVertices; ++i) mesh.positions.push_back(random.inCube(1));
@@ -21,7 +23,7 @@ Mesh randomMesh(test::Random& random) {
   mesh.positions[5].y() = std::numeric_limits<double>::quiet_NaN();
   mesh.positions[6].z() = 2 * kFarthest_m;
   const auto index = [&] { return static_cast<std::uint32_t>(random.below(kVertices + 1)); };
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < of_each_kind; ++i) {
     mesh.triangles.push_back({index(), index(), index()});
     mesh.segments.push_back({index(), index()});
     mesh.points.push_back(index());
@@ -55,25 +57,50 @@ void expectSame(const Primitive& a, const Primitive& b) {
   EXPECT_EQ(a.normal, b.normal);
 }
 
+void expectThoseMadeOneByOne(const Mesh& mesh) {
+  const Primitives primitives(mesh.view());
+  const std::vector<Primitive> expected = oneByOne(mesh);
+  ASSERT_EQ(primitives.size(), expected.size());
+  EXPECT_EQ(primitives.size() + primitives.refused().sum(), mesh.view().elements());
+  EXPECT_GT(primitives.refused().triangles, 0u);
+  Box bounds;
+  std::size_t i = 0;
+  for (const Primitive& primitive : primitives) {
+    expectSame(primitive, expected[i]);
+    EXPECT_EQ(primitives.kind(i), expected[i].kind);
+    EXPECT_EQ(primitives.source(i), expected[i].source);
+    for (const Vec3& corner : primitives.corners(i)) {
+      EXPECT_NE(std::count(expected[i].vertex.begin(), expected[i].vertex.end(), corner), 0);
+      bounds.extend(corner);
+    }
+    ++i;
+  }
+  for (const Box& told : {primitives.bounds(), Primitives(expected).bounds()}) {
+    EXPECT_EQ(told.min, bounds.min);
+    EXPECT_EQ(told.max, bounds.max);
+  }
+}
+
 TEST(Primitives, AreThoseMadeOneByOne) {
   test::Random random(3);
-  for (int round = 0; round < 20; ++round) {
-    const Mesh mesh = randomMesh(random);
-    const Primitives primitives(mesh.view());
-    const std::vector<Primitive> expected = oneByOne(mesh);
-    ASSERT_EQ(primitives.size(), expected.size());
-    EXPECT_EQ(primitives.size() + primitives.refused().sum(), mesh.view().elements());
-    EXPECT_GT(primitives.refused().triangles, 0u);
-    std::size_t i = 0;
-    for (const Primitive& primitive : primitives) {
-      expectSame(primitive, expected[i]);
-      EXPECT_EQ(primitives.kind(i), expected[i].kind);
-      EXPECT_EQ(primitives.source(i), expected[i].source);
-      for (const Vec3& corner : primitives.corners(i))
-        EXPECT_NE(std::count(expected[i].vertex.begin(), expected[i].vertex.end(), corner), 0);
-      ++i;
-    }
+  for (int round = 0; round < 20; ++round) expectThoseMadeOneByOne(randomMesh(random, 100));
+}
+
+TEST(Primitives, SoManyThatThreadsShareThemAreThoseMadeOneByOne) {
+  test::Random random(5);
+  const Mesh mesh = randomMesh(random, 10'000);
+  for (const std::size_t threads : {1, 2, 4}) {
+    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+    expectThoseMadeOneByOne(mesh);
   }
+}
+
+TEST(Primitives, OfNothingHaveAnEmptyBox) {
+  EXPECT_TRUE(Primitives().bounds().empty());
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}};
+  mesh.triangles = {{0, 0, 0}};
+  EXPECT_TRUE(mesh.primitives().bounds().empty());
 }
 
 TEST(Primitives, OfASoundMeshNeedNoMemoryOfTheirOwn) {
