@@ -1,5 +1,5 @@
-// What an HL program gets from a server: how soon a large mesh can be touched, how often it can be replaced, how many
-// frames of moving objects are shown, and how fresh states are. Prints one line for each.
+// What an HL program gets from a server: how soon a large mesh can be touched, how often it can be replaced or bent,
+// how many frames of moving objects are shown, and how fresh states are. Prints one line for each.
 //
 //   bench_client [URL] [--objects N] [--seconds S]      URL: inproc: (default), hl://HOST:PORT, hls://...
 //   bench_client URL --only replace                     only replaces the mesh, ten times a second
@@ -27,16 +27,21 @@ void fail(const std::string& what) {
 
 double height(double x, double z, double phase) { return 0.02 * std::sin(40 * x + phase) * std::cos(30 * z); }
 
-// A hilly sheet of 2 side^2 triangles over 0.2 m x 0.2 m, as a GL program with arrays would send it.
-void drawTerrain(int side, double phase) {
-  std::vector<float> positions;
-  std::vector<unsigned> indices;
+std::vector<double> terrainVertices(int side, double phase) {
+  std::vector<double> vertices;
   for (int i = 0; i <= side; ++i) {
     for (int k = 0; k <= side; ++k) {
       const double x = 0.2 * i / side - 0.1, z = 0.2 * k / side - 0.1;
-      for (const double value : {x, height(x, z, phase) - 0.05, z}) positions.push_back(static_cast<float>(value));
+      vertices.insert(vertices.end(), {x, height(x, z, phase) - 0.05, z});
     }
   }
+  return vertices;
+}
+
+// A hilly sheet of 2 side^2 triangles over 0.2 m x 0.2 m, as a GL program with arrays would send it.
+void drawTerrain(int side, double phase) {
+  const std::vector<double> vertices = terrainVertices(side, phase);
+  std::vector<unsigned> indices;
   const auto at = [side](int i, int k) { return static_cast<unsigned>(i * (side + 1) + k); };
   for (int i = 0; i < side; ++i) {
     for (int k = 0; k < side; ++k) {
@@ -45,7 +50,7 @@ void drawTerrain(int side, double phase) {
     }
   }
   hlEnableClientState(HL_VERTEX_ARRAY);
-  hlVertexPointer(3, HL_FLOAT, 0, positions.data());
+  hlVertexPointer(3, HL_DOUBLE, 0, vertices.data());
   hlDrawElements(HL_TRIANGLES, static_cast<HLsizei>(indices.size()), HL_UNSIGNED_INT, indices.data());
   hlDisableClientState(HL_VERTEX_ARRAY);
 }
@@ -82,6 +87,29 @@ void measureReplacements(int side, double seconds) {
   hlGetIntegerv(HL_FRAME_SHOWN, &shown);
   fmt::print("{:>9} triangles replaced: {:.1f} times/s drawn, {:.1f} times/s shown\n", 2 * side * side,
              frames / secondsSince(start), (shown - first) / secondsSince(start));
+}
+
+// One mesh that bends: all its vertices move, and again as soon as that can be felt.
+void measureBending(int side, double seconds) {
+  constexpr HLuint kMesh = 3;
+  hlNewObject(kMesh);
+  drawTerrain(side, 0);
+  hlEndObject();
+  hlCallObject(kMesh);
+  if (hlFinishTimeout(60) == HL_FALSE) fail("the mesh was not shown");
+  const auto start = Clock::now();
+  std::vector<double> times_s;
+  while (secondsSince(start) < seconds) {
+    const std::vector<double> vertices = terrainVertices(side, 0.1 * static_cast<double>(times_s.size()));
+    const auto moved = Clock::now();
+    hlUpdateVertices(kMesh, 0, static_cast<HLsizei>(vertices.size() / 3), vertices.data(), nullptr);
+    if (hlFinishTimeout(60) == HL_FALSE || hlGetError() != HL_NO_ERROR) fail("the mesh was not bent");
+    times_s.push_back(secondsSince(moved));
+  }
+  std::sort(times_s.begin(), times_s.end());
+  fmt::print(
+      "{:>9} triangles bent: {:.0f} ms in the median from hlUpdateVertices until it is felt, {:.0f} ms at most\n",
+      2 * side * side, 1e3 * times_s[times_s.size() / 2], 1e3 * times_s.back());
 }
 
 void defineBox(HLuint object) {
@@ -194,6 +222,7 @@ int main(int argc, char** argv) {
   hlMakeCurrent(context);
   if (only.empty()) measureMesh(side);
   measureReplacements(side, seconds);
+  if (only.empty()) measureBending(side, seconds);
   if (only.empty()) measureFrames(objects, seconds);
   if (only.empty()) measureStates(seconds);
   printServer();

@@ -151,8 +151,9 @@ HL_API void hlDisableClientState(HLenum array);
  * current normal and texture coordinates stay as they were. HL_INVALID_VALUE: negative numbers, or NaN in an array:
  * nothing is drawn. HL_INVALID_OPERATION: an enabled array has no pointer. */
 HL_API void hlDrawArrays(HLenum mode, HLint first, HLsizei count);
-/** The same with the vertices that `indices` lists, `count` numbers of `type` (HL_UNSIGNED_BYTE, HL_UNSIGNED_SHORT or
- * HL_UNSIGNED_INT). Indices must be within the arrays: their size is not known here. */
+/** Draws with the vertices that `indices` lists, `count` numbers of `type` (HL_UNSIGNED_BYTE, HL_UNSIGNED_SHORT or
+ * HL_UNSIGNED_INT), as hlDrawArrays otherwise. A vertex that is listed several times, as in most meshes, is kept once.
+ * Indices must be within the arrays: their size is not known here. */
 HL_API void hlDrawElements(HLenum mode, HLsizei count, HLenum type, const void* indices);
 
 /* ---- Objects -------------------------------------------------------------------------------------------------- */
@@ -176,8 +177,9 @@ HL_API void hlCallObject(HLuint object);
 HL_API void hlDeleteObjects(HLsizei n, const HLuint* objects);
 /** Moves `count` vertices of `object` from number `first` on, with the next hlFlush, and touches nothing else of it: a
  * mesh that bends costs what has moved, not the whole. Vertices count from 0 in the order in which the definition drew
- * them, through hlDrawElements index by index; those that filled no primitive do not count. `vertices`: x y z each, in
- * metres of the definition, before its matrices. `normals`: x y z each, of any length; null: they stay as they are.
+ * them; those that filled no primitive do not count. Each hlDrawElements adds the vertices that it lists, each once, in
+ * the order of the arrays: where it lists them all, they keep their numbers. `vertices`: x y z each, in metres of the
+ * definition, before its matrices. `normals`: x y z each, of any length; null: they stay as they are.
  * Both are read at once. Where an object is defined anew, what was moved before is forgotten. HL_INVALID_VALUE: the
  * object is not defined, it has no such vertices, a number is negative or not finite, `vertices` is null.
  * HL_INVALID_OPERATION: in a definition; `normals` for vertices that were drawn without. */

@@ -22,10 +22,15 @@ void append(Numbers& whole, Numbers& part) {
   part.clear();
 }
 
-// Writes the indices of `count` vertices, whole primitives of a mode, that begin at index `base`.
+// Writes the indices of whole primitives of a mode, whose vertices begin at index `base`; `count` of them where they
+// are drawn one after the other.
 class Assembler {
  public:
-  Assembler(Geometry& geometry, Index base, Index count) : geometry_(geometry), base_(base), count_(count) {}
+  Assembler(Geometry& geometry, Index base, Index count, DrawOrder order)
+      : geometry_(geometry),
+        base_(base),
+        order_(order),
+        count_(order.empty() ? count : static_cast<Index>(order.size())) {}
 
   void assemble(HLenum mode) {
     switch (mode) {
@@ -54,13 +59,15 @@ class Assembler {
   }
 
  private:
+  // Of the i-th that is drawn.
+  Index at(Index i) const { return base_ + (order_.empty() ? i : order_[i]); }
   void triangle(Index a, Index b, Index c) {
-    geometry_.triangles.insert(geometry_.triangles.end(), {base_ + a, base_ + b, base_ + c});
+    geometry_.triangles.insert(geometry_.triangles.end(), {at(a), at(b), at(c)});
   }
-  void segment(Index a, Index b) { geometry_.segments.insert(geometry_.segments.end(), {base_ + a, base_ + b}); }
+  void segment(Index a, Index b) { geometry_.segments.insert(geometry_.segments.end(), {at(a), at(b)}); }
 
   void points() {
-    for (Index i = 0; i < count_; ++i) geometry_.points.push_back(base_ + i);
+    for (Index i = 0; i < count_; ++i) geometry_.points.push_back(at(i));
   }
   void segments(Index step) {
     for (Index i = 0; i + 1 < count_; i += step) segment(i, i + 1);
@@ -90,7 +97,9 @@ class Assembler {
   }
 
   Geometry& geometry_;
-  const Index base_, count_;
+  const Index base_;
+  const DrawOrder order_;
+  const Index count_;  // of vertices drawn
 };
 
 }  // namespace
@@ -141,14 +150,13 @@ std::size_t wholeVertices(HLenum mode, std::size_t count) {
   }
 }
 
-void appendPrimitives(Geometry& geometry, HLenum mode, Vertices& vertices) {
-  vertices.shorten(wholeVertices(mode, vertices.size()));
+void appendPrimitives(Geometry& geometry, HLenum mode, Vertices& vertices, DrawOrder order) {
   const auto base = static_cast<Index>(geometry.vertices.size());
   const auto count = static_cast<Index>(vertices.size());
   append(geometry.vertices.positions, vertices.positions);
   append(geometry.vertices.normals, vertices.normals);
   append(geometry.vertices.texcoords, vertices.texcoords);
-  Assembler(geometry, base, count).assemble(mode);
+  Assembler(geometry, base, count, order).assemble(mode);
 }
 
 }  // namespace hl::client

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "client/numbers.h"
@@ -33,9 +34,12 @@ struct Geometry {
   std::size_t bytes() const;
 };
 
-/// Appends the primitives of `mode` that `vertices` make, with GL's order of vertices in each, and leaves `vertices`
-/// empty. Vertices that do not fill the last primitive are dropped. `geometry` must take them.
-void appendPrimitives(Geometry& geometry, HLenum mode, Vertices& vertices);
+/// In which order vertices are drawn, by their numbers; empty: one after the other, each once.
+using DrawOrder = std::span<const std::uint32_t>;
+
+/// Appends the primitives of `mode` that `vertices` make in that order, with GL's order in each, and leaves `vertices`
+/// empty. They must be whole primitives, and `geometry` must take them.
+void appendPrimitives(Geometry& geometry, HLenum mode, Vertices& vertices, DrawOrder order);
 
 /// How many of `count` vertices make whole primitives of `mode`.
 std::size_t wholeVertices(HLenum mode, std::size_t count);

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "client/call.h"
+#include "client/elements.h"
 
 using hl::client::call;
 using hl::client::Fault;
@@ -20,13 +21,16 @@ void begin(HLcontext& context, HLenum mode) {
   context.recorder.begin(mode, context.draw.texture, hasTextures(context.draw.attributes.now));
 }
 
-// What draws nothing leaves the world as it is.
-void end(HLcontext& context) {
+// Draws what has been recorded, in the order given or one after the other. What draws nothing leaves the world as it
+// is.
+void draw(HLcontext& context, hl::client::DrawOrder order) {
   const HLenum mode = context.recorder.mode();
   hl::client::Vertices& vertices = context.recorder.end();
-  if (hl::client::wholeVertices(mode, vertices.size()) == 0) return;
-  context.target().draw(context.draw.modelview.top(), lookOf(context.draw.attributes.now), mode, vertices);
+  if (order.empty() && hl::client::wholeVertices(mode, vertices.size()) == 0) return;
+  context.target().draw(context.draw.modelview.top(), lookOf(context.draw.attributes.now), mode, vertices, order);
 }
+
+void end(HLcontext& context) { draw(context, {}); }
 
 // Almost every vertex takes the short way.
 void vertex(const char* function, double x, double y, double z) {
@@ -77,19 +81,19 @@ void texCoordAt(const char* function, const Number* v) {
   withNumbers<2>(function, v, [&](const auto& uv) { texCoord(function, uv[0], uv[1]); });
 }
 
-// Draws the vertices index(0) .. index(count - 1) of the arrays, or, at an error, none.
+// Draws the vertices index(0) .. index(count - 1) of the arrays in that order, or, at an error, none.
 template <typename IndexOf>
-void drawArrays(HLcontext& context, HLenum mode, HLsizei count, IndexOf index) {
+void drawArrays(HLcontext& context, HLenum mode, std::size_t count, IndexOf index, hl::client::DrawOrder order) {
   context.arrays.requirePointers();
   begin(context, mode);
   try {
-    for (HLsizei i = 0; i < count; ++i)
-      context.arrays.draw(context.recorder, context.draw.attributes.now.vertex, index(static_cast<std::size_t>(i)));
+    for (std::size_t i = 0; i < count; ++i)
+      context.arrays.draw(context.recorder, context.draw.attributes.now.vertex, index(i));
   } catch (...) {
     context.recorder.cancel();
     throw;
   }
-  end(context);
+  draw(context, order);
 }
 
 }  // namespace
@@ -151,7 +155,8 @@ void hlDrawArrays(HLenum mode, HLint first, HLsizei count) {
     requireCount(count);
     if (first < 0) throw Fault(HL_INVALID_VALUE, "the first vertex must not be negative");
     if (!context.arrays.vertices.enabled) return;
-    drawArrays(context, mode, count, [&](std::size_t i) { return static_cast<std::size_t>(first) + i; });
+    const auto index = [&](std::size_t i) { return static_cast<std::size_t>(first) + i; };
+    drawArrays(context, mode, static_cast<std::size_t>(count), index, {});
   });
 }
 
@@ -161,7 +166,9 @@ void hlDrawElements(HLenum mode, HLsizei count, HLenum type, const void* indices
     hl::client::requireIndexType(type);
     requireList(count, indices);
     if (!context.arrays.vertices.enabled) return;
-    const hl::client::Indices list{type, indices};
-    drawArrays(context, mode, count, [&](std::size_t i) { return list.at(i); });
+    const std::size_t whole = hl::client::wholeVertices(mode, static_cast<std::size_t>(count));
+    const hl::client::Elements elements = hl::client::elementsOf({type, indices}, whole);
+    const auto index = [&](std::size_t i) { return elements.vertices[i]; };
+    drawArrays(context, mode, elements.vertices.size(), index, elements.order);
   });
 }

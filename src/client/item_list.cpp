@@ -7,8 +7,8 @@
 
 namespace hl::client {
 
-bool ItemList::draw(const Matrix4& matrix, const Look& look, HLenum mode, Vertices& vertices) {
-  vertices.shorten(wholeVertices(mode, vertices.size()));
+bool ItemList::draw(const Matrix4& matrix, const Look& look, HLenum mode, Vertices& vertices, DrawOrder order) {
+  if (order.empty()) vertices.shorten(wholeVertices(mode, vertices.size()));
   if (vertices.size() == 0) {
     vertices.clear();
     return false;
@@ -19,7 +19,7 @@ bool ItemList::draw(const Matrix4& matrix, const Look& look, HLenum mode, Vertic
     return last.call == 0 && last.geometry.takes(vertices) && last.matrix == matrix && last.look == look;
   };
   if (items_.empty() || !joins(items_.back())) items_.push_back({matrix, look, 0, {}});
-  appendPrimitives(items_.back().geometry, mode, vertices);
+  appendPrimitives(items_.back().geometry, mode, vertices, order);
   return true;
 }
 

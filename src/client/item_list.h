@@ -36,9 +36,9 @@ struct ItemVertices {
 class ItemList {
  public:
   /// Appends primitives; takes `vertices` and leaves them empty. Those after each other with the same matrix, look, and
-  /// presence of normals and texture coordinates become one item. Fewer vertices than a primitive add nothing.
-  /// Returns whether there was anything to add.
-  bool draw(const Matrix4& matrix, const Look& look, HLenum mode, Vertices& vertices);
+  /// presence of normals and texture coordinates become one item. Vertices that do not fill the last primitive are
+  /// dropped; an `order` has none of them. Returns whether there was anything to add.
+  bool draw(const Matrix4& matrix, const Look& look, HLenum mode, Vertices& vertices, DrawOrder order = {});
   void call(const Matrix4& matrix, const Look& look, HLuint object);
 
   const std::vector<Item>& items() const { return items_; }
