@@ -99,6 +99,14 @@ void encode(const Shape& shape, proto::RecordedShape& out) {
   out.set_hierarchy(static_cast<std::uint32_t>(shape.hierarchy));
 }
 
+// As far as a reader must know, who numbers the vertices and primitives of one as those of the other.
+bool isSameMesh(const Shape& a, const Shape& b) {
+  const Model &p = a.model, &q = b.model;
+  return p.positions.size() == q.positions.size() && p.triangles.size() == q.triangles.size() &&
+         p.segments.size() == q.segments.size() && p.points.size() == q.points.size() &&
+         a.primitives.numberedAs(b.primitives);
+}
+
 Model modelOf(const proto::RecordedShape& in) {
   Model model;
   model.name = in.name();
@@ -182,12 +190,16 @@ void SceneWriter::write(const Snapshot& scene, const Write& write) {
   for (const Instance& instance : scene.instances) {
     proto::RecordedInstance& placed = *out.add_instances();
     encode(instance, placed);
-    placed.set_shape(idOf(shapes_, instance.shape, [&](std::uint64_t id) {
-      proto::RecordingBlock part;
-      part.mutable_shape()->set_id(id);
-      encode(*instance.shape, *part.mutable_shape());
-      write(part);
-    }));
+    const auto shapeId = [&](const std::shared_ptr<const Shape>& shape) {
+      return idOf(shapes_, shape, [&](std::uint64_t id) {
+        proto::RecordingBlock part;
+        part.mutable_shape()->set_id(id);
+        encode(*shape, *part.mutable_shape());
+        write(part);
+      });
+    };
+    placed.set_shape(shapeId(instance.shape));
+    if (instance.before) placed.set_before(shapeId(instance.before));
     placed.set_surfaces(idOf(surfaces_, instance.surfaces, [&](std::uint64_t id) {
       proto::RecordingBlock part;
       part.mutable_surfaces()->set_id(id);
@@ -226,6 +238,10 @@ std::shared_ptr<const Snapshot> SceneReader::scene(const proto::RecordedScene& i
     const Ways ways = checked<Ways>(placed.motion());
     instances.push_back({shape->second, surfaces->second, Motion(ways.earlier.screw(), ways.last.screw()), placed.key(),
                          placed.session(), placed.object(), placed.name()});
+    if (placed.before() == 0) continue;
+    const auto before = shapes_.find(placed.before());
+    if (before == shapes_.end() || !isSameMesh(*before->second, *shape->second)) throw Error(kBroken);
+    instances.back().before = before->second;
   }
   return makeSnapshot(std::move(instances), in.name(), in.number(), in.abrupt());
 }

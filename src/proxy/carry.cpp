@@ -16,15 +16,10 @@ namespace {
 // this turn by 1/200 of its distance R from the axis.
 constexpr double kMostTurn_rad = 0.2;
 
-// Part of the radius at which a moving object counts as met: what rests on the proxy and slides along it has not met
-// it.
-constexpr double kMetAt = 0.9;
-
 // Part of the clearance by which objects may close in on the proxy before it is pushed out again.
 constexpr double kCloseIn = 0.5;
 constexpr double kArcPerChord = 1.1;  // of a turn of at most kMostTurn_rad, with room to spare
 
-constexpr int kPushTries = 8;
 constexpr std::uint32_t kNone = 0xffffffff;
 
 class Carry {

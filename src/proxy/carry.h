@@ -14,4 +14,9 @@ void carry(ProxyState& state, const SceneAt& scene, const ProxySettings& setting
 
 inline constexpr int kMostCarrySteps = 64;
 
+/// Part of the radius at which what moves counts as met: what rests on the proxy and slides along it has not met it.
+inline constexpr double kMetAt = 0.9;
+/// How often the proxy is pushed out of what has come too near.
+inline constexpr int kPushTries = 8;
+
 }  // namespace hl

@@ -6,6 +6,7 @@
 
 #include "proxy/account.h"
 #include "proxy/back_off.h"
+#include "proxy/bend.h"
 #include "proxy/carry.h"
 #include "proxy/clear_place.h"
 #include "proxy/contacts.h"
@@ -409,6 +410,7 @@ double energyOf_J(const ProxyState& state, const ProxySettings& settings, const 
 // Moving objects do work on the hand; that is theirs, not the rules', and no tank pays for it.
 double carryAlong(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
   const double before_J = energyOf_J(state, settings, finger);
+  bend(state, scene, settings);
   carry(state, scene, settings);
   const double moved_J = energyOf_J(state, settings, finger) - before_J;
   if (moved_J > 0) state.ledger.add(EnergyCause::kMoving, moved_J);
@@ -422,6 +424,7 @@ ProxyState startProxy(const SceneAt& scene, const ProxySettings& settings, const
   if (!finger.allFinite()) return state;
   state.position = finger;
   state.time_ns = scene.time_ns();
+  state.snapshot = scene.snapshot().number;
   constexpr int kTries = 100;
   state.free = findClearPlace(scene, Tolerances::of(settings.radius, scene.extent()), kTries, state.position);
   return state;
@@ -444,6 +447,7 @@ TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& se
   report = Tick(scene, settings, state, finger).run();
   report.moved_J = moved_J;
   state.time_ns = scene.time_ns();
+  state.snapshot = scene.snapshot().number;
   state.carrier = carrierOf(scene, report);
   return report;
 }

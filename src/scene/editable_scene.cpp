@@ -253,6 +253,8 @@ Followed followOn(const std::vector<PlacedShape>& placed, const std::vector<Inst
       const bool rests = !before->motion.moves() || before->motion.last().end_ns() < begin_ns;
       if (!stays || !rests) instance.motion = stays ? before->motion : before->motion.then(now.pose, begin_ns, end_ns);
     }
+    const bool bent = known && before->shape->mesh == now.shape->mesh && before->shape->geometry != now.shape->geometry;
+    if (bent) instance.before = before->shape;
     const bool follows = known && (stays || instance.motion.moves());
     if (!follows || before->shape->geometry != now.shape->geometry || !(*before->surfaces == *now.surfaces))
       result.abrupt = true;

@@ -79,7 +79,7 @@ std::uint64_t nextGeometry() {
 // All but the hierarchy.
 std::shared_ptr<Shape> shapeOf(Model given) {
   auto shape = std::make_shared<Shape>();
-  shape->geometry = nextGeometry();
+  shape->geometry = shape->mesh = nextGeometry();
   shape->model = std::move(given);
   turnTriangles(shape->model);
   shape->model.positions.shrink_to_fit();
@@ -154,6 +154,7 @@ std::shared_ptr<const Shape> makeShape(Model given, const Shape& before) {
   auto refitted = std::make_unique<const WideBvh>(tree->refit(shape->primitives));
   shape->wear = refitted->wear();
   shape->before = before.geometry;
+  shape->mesh = before.mesh;
   shape->index = std::move(refitted);
   return shape;
 }
@@ -162,6 +163,7 @@ std::shared_ptr<const Shape> rebuilt(const Shape& worn) {
   const auto shape = shapeOf(worn.model);
   buildIndex(*shape, worn.hierarchy);
   shape->geometry = worn.geometry;
+  shape->mesh = worn.mesh;
   return shape;
 }
 

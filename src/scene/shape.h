@@ -34,6 +34,7 @@ struct Shape {
   double wear = 1;             ///< of a refitted hierarchy: see WideBvh::wear
   std::uint64_t geometry = 0;  ///< above 0; another shape has the same number only when it was rebuilt from this one
   std::uint64_t before = 0;    ///< geometry of the shape that the hierarchy was refitted from; 0: it was built
+  std::uint64_t mesh = 0;      ///< above 0; shapes with the same number are one mesh, bent: the same lists of indices
   Box bounds;
   double extent = 0;                  ///< m: largest coordinate
   std::vector<std::string> warnings;  ///< the model's, and what was skipped here

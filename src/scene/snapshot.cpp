@@ -1,5 +1,8 @@
 #include "scene/snapshot.h"
 
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_reduce.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -39,6 +42,21 @@ double largestCoordinate(const Box& box) {
   return box.empty() ? 0 : box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff();
 }
 
+// Of meshes with as many vertices each.
+double largestMove_m(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
+  using Range = oneapi::tbb::blocked_range<std::size_t>;
+  constexpr std::size_t kGrain = 16384;
+  const auto largest = [&](const Range& range, double most2) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const double moved2 = (to[i] - from[i]).squaredNorm();
+      if (moved2 > most2) most2 = moved2;  // never for a vertex that is not a number: no primitive has it
+    }
+    return most2;
+  };
+  const auto larger = [](double a, double b) { return std::max(a, b); };
+  return std::sqrt(oneapi::tbb::parallel_reduce(Range(0, to.size(), kGrain), 0.0, largest, larger));
+}
+
 bool allDefault(const std::vector<Material>& materials) {
   return std::all_of(materials.begin(), materials.end(), [](const Material& one) { return one == Material{}; });
 }
@@ -67,7 +85,9 @@ std::size_t memoryOf(const Snapshot& snapshot) {
   std::size_t bytes = snapshot.instances.capacity() * sizeof(Instance) + snapshot.reach.capacity() * sizeof(Box) +
                       snapshot.near.bytes();
   for (const Instance& instance : snapshot.instances) {
-    if (counted.insert(instance.shape.get()).second) bytes += instance.shape->bytes();
+    for (const Shape* shape : {instance.shape.get(), instance.before.get()}) {
+      if (shape != nullptr && counted.insert(shape).second) bytes += shape->bytes();
+    }
     for (const auto& texture : instance.surfaces->textures) {
       if (counted.insert(texture.get()).second) bytes += texture->texels.capacity() * sizeof(texture->texels[0]);
     }
@@ -88,6 +108,10 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, st
             [](const Instance& a, const Instance& b) { return a.key < b.key; });
   for (Instance& instance : snapshot->instances) {
     instance.plain = allDefault(instance.surfaces->materials);
+    if (instance.before) {
+      instance.bent_m = largestMove_m(instance.before->model.positions, instance.shape->model.positions);
+      snapshot->bent = true;
+    }
     snapshot->reach.push_back(reachOf(instance));
     const Box rest = boxAt(instance.shape->bounds, instance.motion.to());
     if (!rest.empty()) {

@@ -30,6 +30,9 @@ struct Instance {
   std::uint64_t key = 0;  ///< the same object in the next snapshot has the same one; unique in a snapshot
   std::uint32_t session = 0, object = 0, name = 0;  ///< whose it is and what its client calls it
   bool plain = false;  ///< no surface of it does more than hold off: all materials are the default; by makeSnapshot
+  /// The same mesh as the snapshot before showed it, where it has been bent since; else null.
+  std::shared_ptr<const Shape> before{};
+  double bent_m = 0;  ///< how far its vertices have moved since at most, in its frame; by makeSnapshot
 };
 
 /// Immutable after makeSnapshot; read by any thread. Metres, world frame.
@@ -43,6 +46,7 @@ struct Snapshot {
   std::int64_t moves_until_ns = std::numeric_limits<std::int64_t>::min();  ///< after that all is at rest
   std::uint64_t number = 1;                                                ///< of one server's snapshots, rising
   std::uint64_t identity = 0;  ///< no other snapshot made in this program has the same one
+  bool bent = false;           ///< of some instances there is a shape before
   bool abrupt = true;          ///< objects have come, gone or changed at once since the one before
   std::size_t primitives = 0;  ///< each instance counted
   std::string name;

@@ -298,6 +298,7 @@ void ScenePublisher::tellShown(std::unique_lock<std::mutex>& lock) {
     for (const Instance& instance : shown_->instances) {
       if (instance.session != place->session_) continue;
       place->instances_.push_back(instance);
+      place->instances_.back().before.reset();  // of what has not been bent again by the next scene
       entry.primitives += instance.shape->primitives.size();
     }
   }

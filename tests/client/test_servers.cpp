@@ -265,6 +265,38 @@ TEST(Servers, AProgramTouchesItsSceneInItsOwnProcess) {
   hlDestroyContext(context);
 }
 
+// Each time by several radii at once.
+TEST(Servers, AFloorWhoseVerticesRiseLiftsTheProxy) {
+  HLcontext* context = hlCreateContext("inproc:?state_rate=500");
+  ASSERT_NE(context, nullptr) << hlGetConnectError();
+  hlMakeCurrent(context);
+  hlWorkspaced(0, 0, 0, 1);
+  hlNewObject(1);
+  floorOf(42, 0);
+  hlEndObject();
+  hlCallObject(1);
+  ASSERT_EQ(hlFinishTimeout(60), HL_TRUE);
+  hlHandGoal3d(0, -0.01, 0);
+  HLdouble radius = 0;
+  hlGetDoublev(HL_PROXY_RADIUS, &radius);
+  const auto rests_on = [&](double height) {
+    HLint contacts = 0;
+    HLdouble proxy[3] = {0, 0, 0};
+    hlGetIntegerv(HL_CONTACT_COUNT, &contacts);
+    hlGetDoublev(HL_PROXY_POSITION, proxy);
+    return contacts > 0 && std::abs(proxy[1] - height - radius) < 1e-6;
+  };
+  ASSERT_TRUE(waitFor([&] { return rests_on(0); }));
+  for (const double height : {0.012, -0.004, 0.008, 0.016, 0.0}) {
+    const std::array<HLdouble, 12> vertices{-1, height, 1, 1, height, 1, 1, height, -1, -1, height, -1};
+    hlUpdateVertices(1, 0, 4, vertices.data(), nullptr);
+    ASSERT_EQ(hlFinishTimeout(60), HL_TRUE);
+    EXPECT_TRUE(waitFor([&] { return rests_on(height); })) << height;
+  }
+  EXPECT_EQ(hlGetError(), static_cast<HLenum>(HL_NO_ERROR));
+  hlDestroyContext(context);
+}
+
 TEST(Servers, AServerThatIsNotThereIsToldInOneLine) {
   EXPECT_EQ(hlCreateContext("hl://127.0.0.1:1"), nullptr);
   const std::string why = hlGetConnectError();

@@ -222,6 +222,66 @@ TEST(RecordedScene, WhatScenesShareIsWrittenOnce) {
   EXPECT_EQ(parts, 2);
 }
 
+// The scene before, with its soup bent.
+std::shared_ptr<const Snapshot> bent(const Snapshot& scene, Random& random) {
+  std::vector<Instance> instances = scene.instances;
+  const std::shared_ptr<const Shape> before = instances[0].shape;
+  Model model = before->model;
+  for (Vec3& p : model.positions) p += 0.004 * random.vec();
+  const auto shape = makeShape(std::move(model), *before);
+  for (Instance& instance : instances) {
+    instance.shape = shape;
+    instance.before = before;
+  }
+  return makeSnapshot(std::move(instances), scene.name, scene.number + 1);
+}
+
+TEST(RecordedScene, ABentMeshPushesTheProxyAsItDid) {
+  Random random(8);
+  const auto first = randomScene(random);
+  SceneWriter writer;
+  SceneReader reader;
+  int parts = 0, pushed = 0;
+  for (std::shared_ptr<const Snapshot> scene = first, next; pushed < 20; scene = next) {
+    next = bent(*scene, random);
+    const auto one = writtenAndRead(*scene, writer, reader, parts),
+               other = writtenAndRead(*next, writer, reader, parts);
+    ASSERT_TRUE(one && other && other->bent);
+    const Vec3 finger = 0.03 * random.vec();
+    ProxyState a = startProxy(SceneAt(*scene, 0), {}, finger), b = startProxy(SceneAt(*one, 0), {}, finger);
+    tick(a, SceneAt(*scene, 0), {}, finger);
+    tick(b, SceneAt(*one, 0), {}, finger);
+    const Vec3 was = a.position;
+    tick(a, SceneAt(*next, 0), {}, finger);
+    tick(b, SceneAt(*other, 0), {}, finger);
+    ASSERT_TRUE(sameBits(a.position, b.position));
+    pushed += a.position != was ? 1 : 0;
+  }
+}
+
+TEST(RecordedScene, ABentMeshOfAnotherMeshIsRefused) {
+  Random random(9);
+  const auto scene = randomScene(random);
+  SceneWriter writer;
+  SceneReader reader;
+  proto::RecordedScene message;
+  writer.write(*bent(*scene, random), [&](const proto::RecordingBlock& block) {
+    if (block.has_shape()) reader.add(block.shape());
+    if (block.has_surfaces()) reader.add(block.surfaces());
+    if (block.has_scene()) message = block.scene();
+  });
+  EXPECT_NO_THROW(reader.scene(message));
+  proto::RecordedShape other;
+  other.set_id(77);
+  for (int i = 0; i < 9; ++i) other.add_positions(i * i);
+  for (std::uint32_t i = 0; i < 3; ++i) other.add_triangles(i);
+  reader.add(other);
+  for (const std::uint64_t id : {77, 78}) {
+    message.mutable_instances(0)->set_before(id);
+    EXPECT_THROW(reader.scene(message), Error) << id;
+  }
+}
+
 TEST(RecordedScene, MessagesThatMakeNoSenseAreRefused) {
   SceneReader reader;
   proto::RecordedScene scene;

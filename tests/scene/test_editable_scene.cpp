@@ -341,5 +341,30 @@ TEST(FollowOn, KnownObjectsMoveAndNewOnesAreThere) {
   EXPECT_TRUE(followOn(scene.placed(), later.instances, 2000, 2100).abrupt) << "gone";
 }
 
+TEST(EditableScene, ABentMeshKnowsWhatItWasInTheSceneThatWasShown) {
+  const auto bent = [](const Shape& shape) {
+    Model model = shape.model;
+    model.positions[1].y() += 0.1;
+    return makeShape(std::move(model), shape);
+  };
+  const auto shown = triangle(), never_shown = bent(*shown), now = bent(*never_shown);
+  EditableScene scene(1, {});
+  scene.apply(worldOf({shapeItem(shown)}));
+  const Followed first = followOn(scene.placed(), {}, 100, 200);
+  EXPECT_FALSE(first.instances[0].before);
+  scene.apply(worldOf({shapeItem(never_shown)}));
+  scene.apply(worldOf({shapeItem(now)}));
+  const Followed second = followOn(scene.placed(), first.instances, 300, 400);
+  EXPECT_EQ(second.instances[0].before, shown);
+  const auto snapshot = makeSnapshot(second.instances);
+  EXPECT_TRUE(snapshot->bent);
+  EXPECT_NEAR(snapshot->instances[0].bent_m, 0.2, 1e-15);
+  EXPECT_GT(memoryOf(*snapshot), memoryOf(*makeSnapshot(first.instances)) + shown->geometryBytes());
+  const auto same = followOn(scene.placed(), second.instances, 500, 600);
+  EXPECT_FALSE(same.instances[0].before) << "it has not been bent again";
+  scene.apply(worldOf({shapeItem(triangle(2))}));
+  EXPECT_FALSE(followOn(scene.placed(), second.instances, 500, 600).instances[0].before) << "another mesh";
+}
+
 }  // namespace
 }  // namespace hl

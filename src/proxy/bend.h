@@ -1,0 +1,16 @@
+// Bend: what meshes that change their shape do to the proxy. Between two snapshots a mesh is in no place, so it would
+// leave the proxy on its other side. As an object does that moves (carry.h), it pushes the proxy instead.
+#pragma once
+
+#include "proxy/proxy.h"
+
+namespace hl {
+
+/// In the first tick of a snapshot: moves the proxy to the side of each bent mesh on which it was in the snapshot
+/// before. It stays where it is while nothing meets it. One that was not touched in the snapshot before, or near which
+/// a mesh has moved by more than kMostBendRadii, is left alone. RT-safe; what is near is looked at some times.
+void bend(ProxyState& state, const SceneAt& scene, const ProxySettings& settings);
+
+inline constexpr double kMostBendRadii = 16;
+
+}  // namespace hl
