@@ -181,9 +181,9 @@ HL_API void hlDeleteObjects(HLsizei n, const HLuint* objects);
  * the order of the arrays: where it lists them all, they keep their numbers. `vertices`: x y z each, in metres of the
  * definition, before its matrices. `normals`: x y z each, of any length; null: they stay as they are.
  * Both are read at once. Where an object is defined anew, what was moved before is forgotten. What bends pushes the
- * proxy, as long as no vertex moves more than 16 of its radii from one frame to the next. HL_INVALID_VALUE: the
- * object is not defined, it has no such vertices, a number is negative or not finite, `vertices` is null.
- * HL_INVALID_OPERATION: in a definition; `normals` for vertices that were drawn without. */
+ * proxy; only what was farther from it than 16 of its radii may pass it by from one frame to the next.
+ * HL_INVALID_VALUE: the object is not defined, it has no such vertices, a number is negative or not finite, `vertices`
+ * is null. HL_INVALID_OPERATION: in a definition; `normals` for vertices that were drawn without. */
 HL_API void hlUpdateVertices(HLuint object, HLint first, HLsizei count, const HLdouble* vertices,
                              const HLdouble* normals);
 /** HL_TRUE: defined (hlEndObject has been called) and not deleted. */

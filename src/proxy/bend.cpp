@@ -13,6 +13,9 @@ namespace hl {
 
 namespace {
 
+// Of the radius: what the proxy touched lies within.
+constexpr double kTouching = 1.1;
+
 // A primitive of a mesh before it was bent, and its place nearest to the proxy.
 struct Nearest {
   std::uint32_t primitive = 0;
@@ -54,11 +57,9 @@ class Bend {
       : state_(state), snapshot_(snapshot), tolerance_(Tolerances::of(settings.radius, snapshot.extent)) {}
 
   void run() {
-    const double most = (1 + kMostBendRadii) * tolerance_.reach;
-    forEachNear(state_.position, most, [&](std::uint32_t i) {
-      const Instance& instance = snapshot_.instances[i];
-      if (instance.before && instance.bent_m <= kMostBendRadii * tolerance_.reach) push(i);
-    });
+    for (std::uint32_t i = 0; i < snapshot_.instances.size(); ++i) {
+      if (snapshot_.instances[i].before) push(i);
+    }
   }
 
  private:
@@ -116,8 +117,9 @@ void Bend::push(std::uint32_t i) {
   const Shape& shape = *instance.shape;
   const Pose pose = instance.motion.at(state_.time_ns);
   const Vec3 p = pose.toObject(state_.position);
+  const double farthest = tolerance_.reach + std::min(instance.bent_m, kMostBendRadii * tolerance_.reach);
   Nearest nearest;
-  if (!nearestTo(*instance.before, p, 1.1 * tolerance_.reach, tolerance_.reach + instance.bent_m, nearest)) return;
+  if (!nearestTo(*instance.before, p, kTouching * tolerance_.reach, farthest, nearest)) return;
   Vec3 from_W = pose.toWorld(besideIt(instance, nearest, p));
   findClearPlace({snapshot_, state_.time_ns}, tolerance_, kPushTries, from_W);  // what is around it may lie otherwise
   const Vec3 from = pose.toObject(from_W);

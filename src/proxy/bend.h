@@ -7,8 +7,9 @@
 namespace hl {
 
 /// In the first tick of a snapshot: moves the proxy to the side of each bent mesh on which it was in the snapshot
-/// before. It stays where it is while nothing meets it. One that was not touched in the snapshot before, or near which
-/// a mesh has moved by more than kMostBendRadii, is left alone. RT-safe; what is near is looked at some times.
+/// before. It stays where it is while nothing meets it. A mesh that was farther from it than kMostBendRadii is not
+/// looked for, and nothing is done where the last tick was not of the snapshot before. RT-safe; looks at what is near
+/// some times.
 void bend(ProxyState& state, const SceneAt& scene, const ProxySettings& settings);
 
 inline constexpr double kMostBendRadii = 16;

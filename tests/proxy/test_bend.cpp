@@ -82,7 +82,7 @@ ProxyState restingOn(const Skin& skin, const Vec3& finger) {
 }
 
 TEST(Bend, ASkinThatRisesAndFallsLiftsTheProxyWhateverItsSpeed) {
-  for (const double step : {0.1e-3, 1e-3, 3e-3, 10e-3, 30e-3}) {
+  for (const double step : {0.1e-3, 1e-3, 3e-3, 10e-3, 30e-3, 0.3}) {
     Skin skin(sheet([](double, double) { return 0; }));
     const Vec3 finger(0.011, -0.004, 0.007);
     ProxyState state = restingOn(skin, finger);
