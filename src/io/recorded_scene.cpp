@@ -99,14 +99,6 @@ void encode(const Shape& shape, proto::RecordedShape& out) {
   out.set_hierarchy(static_cast<std::uint32_t>(shape.hierarchy));
 }
 
-// As far as a reader must know, who numbers the vertices and primitives of one as those of the other.
-bool isSameMesh(const Shape& a, const Shape& b) {
-  const Model &p = a.model, &q = b.model;
-  return p.positions.size() == q.positions.size() && p.triangles.size() == q.triangles.size() &&
-         p.segments.size() == q.segments.size() && p.points.size() == q.points.size() &&
-         a.primitives.numberedAs(b.primitives);
-}
-
 Model modelOf(const proto::RecordedShape& in) {
   Model model;
   model.name = in.name();

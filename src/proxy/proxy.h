@@ -49,7 +49,7 @@ struct ProxyState {
   Vec3 creep = Vec3::Zero();     ///< m, how far it has crept from where it stuck, on the pre-sliding springs
   double stiffness = 1;          ///< s by which the last tick's target was pulled; 1 in the open
   std::int64_t time_ns = 0;      ///< of the scene in the last tick
-  std::uint64_t snapshot = 0;    ///< its number
+  std::uint64_t snapshot = 0;    ///< number of that scene; 0: none yet
   std::uint64_t carrier = 0;     ///< key of the object whose friction holds it; 0: none
   Ledger ledger{};
   // What ticks have met of the scene; these decide nothing but how long the next one takes.

@@ -65,12 +65,6 @@ bool sameButTurned(const std::array<std::uint32_t, 3>& a, const std::array<std::
   return a == b || a == std::array{b[1], b[2], b[0]} || a == std::array{b[2], b[0], b[1]};
 }
 
-// Triangles are turned by where their vertices are.
-bool sameLists(const Model& a, const Model& b) {
-  return a.positions.size() == b.positions.size() && a.segments == b.segments && a.points == b.points &&
-         std::equal(a.triangles.begin(), a.triangles.end(), b.triangles.begin(), b.triangles.end(), sameButTurned);
-}
-
 std::uint64_t nextGeometry() {
   static std::atomic<std::uint64_t> last{0};
   return ++last;
@@ -144,17 +138,26 @@ std::shared_ptr<const Shape> makeShape(Model given, HierarchyKind hierarchy) {
   return shape;
 }
 
+// Triangles are turned by where their vertices are.
+bool isSameMesh(const Shape& a, const Shape& b) {
+  const Model &p = a.model, &q = b.model;
+  return p.positions.size() == q.positions.size() && p.segments == q.segments && p.points == q.points &&
+         std::equal(p.triangles.begin(), p.triangles.end(), q.triangles.begin(), q.triangles.end(), sameButTurned) &&
+         a.primitives.numberedAs(b.primitives);
+}
+
 std::shared_ptr<const Shape> makeShape(Model given, const Shape& before) {
   const auto shape = shapeOf(std::move(given));
+  const bool bent = isSameMesh(*shape, before);
+  if (bent) shape->mesh = before.mesh;
   const auto* const tree = dynamic_cast<const WideBvh*>(before.index.get());
-  if (tree == nullptr || !sameLists(shape->model, before.model) || !shape->primitives.numberedAs(before.primitives)) {
+  if (tree == nullptr || !bent) {
     buildIndex(*shape, before.hierarchy);
     return shape;
   }
   auto refitted = std::make_unique<const WideBvh>(tree->refit(shape->primitives));
   shape->wear = refitted->wear();
   shape->before = before.geometry;
-  shape->mesh = before.mesh;
   shape->index = std::move(refitted);
   return shape;
 }

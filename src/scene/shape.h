@@ -34,7 +34,7 @@ struct Shape {
   double wear = 1;             ///< of a refitted hierarchy: see WideBvh::wear
   std::uint64_t geometry = 0;  ///< above 0; another shape has the same number only when it was rebuilt from this one
   std::uint64_t before = 0;    ///< geometry of the shape that the hierarchy was refitted from; 0: it was built
-  std::uint64_t mesh = 0;      ///< above 0; shapes with the same number are one mesh, bent: the same lists of indices
+  std::uint64_t mesh = 0;      ///< above 0; shapes with the same number are one mesh, bent: see isSameMesh()
   Box bounds;
   double extent = 0;                  ///< m: largest coordinate
   std::vector<std::string> warnings;  ///< the model's, and what was skipped here
@@ -51,8 +51,11 @@ struct Shape {
 /// `warnings`. Allocates; never called by a real-time thread.
 std::shared_ptr<const Shape> makeShape(Model given, HierarchyKind hierarchy = HierarchyKind::kBvh);
 
-/// The same for what follows on `before`. Where both have the same index lists and skip the same elements, a wide
-/// hierarchy is refitted: that is nine times as fast as building it. Else it is built, of the same kind.
+/// Whether one is the other with its vertices moved: the same index lists, and the same elements skipped.
+bool isSameMesh(const Shape& a, const Shape& b);
+
+/// The same for what follows on `before`. Where both are the same mesh, a wide hierarchy is refitted: that is nine
+/// times as fast as building it. Else it is built, of the same kind.
 std::shared_ptr<const Shape> makeShape(Model given, const Shape& before);
 
 /// Beyond this wear a hierarchy should be built anew: a query enters twice as many boxes as it did then.

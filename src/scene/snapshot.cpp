@@ -83,7 +83,7 @@ std::shared_ptr<const Surfaces> surfacesOf(const std::shared_ptr<const Shape>& s
 std::size_t memoryOf(const Snapshot& snapshot) {
   std::set<const void*> counted;
   std::size_t bytes = snapshot.instances.capacity() * sizeof(Instance) + snapshot.reach.capacity() * sizeof(Box) +
-                      snapshot.near.bytes();
+                      snapshot.bent.capacity() * sizeof(std::uint32_t) + snapshot.near.bytes();
   for (const Instance& instance : snapshot.instances) {
     for (const Shape* shape : {instance.shape.get(), instance.before.get()}) {
       if (shape != nullptr && counted.insert(shape).second) bytes += shape->bytes();
@@ -110,7 +110,7 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, st
     instance.plain = allDefault(instance.surfaces->materials);
     if (instance.before) {
       instance.bent_m = largestMove_m(instance.before->model.positions, instance.shape->model.positions);
-      snapshot->bent = true;
+      snapshot->bent.push_back(static_cast<std::uint32_t>(snapshot->reach.size()));
     }
     snapshot->reach.push_back(reachOf(instance));
     const Box rest = boxAt(instance.shape->bounds, instance.motion.to());

@@ -40,13 +40,13 @@ struct Snapshot {
   std::vector<Instance> instances;  ///< by rising key
   std::vector<Box> reach;           ///< of each instance: all of it during the whole motion, world
   BoxTree near;                     ///< finds instances by their reach
+  std::vector<std::uint32_t> bent;  ///< instances of which there is a shape before
   Box bounds;                       ///< of all of them where they come to rest
   /// m: largest coordinate, in the world or in an object; distances are known to a few units in its last place.
   double extent = 0;
   std::int64_t moves_until_ns = std::numeric_limits<std::int64_t>::min();  ///< after that all is at rest
   std::uint64_t number = 1;                                                ///< of one server's snapshots, rising
   std::uint64_t identity = 0;  ///< no other snapshot made in this program has the same one
-  bool bent = false;           ///< of some instances there is a shape before
   bool abrupt = true;          ///< objects have come, gone or changed at once since the one before
   std::size_t primitives = 0;  ///< each instance counted
   std::string name;

@@ -22,14 +22,13 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
   const Snapshot& snapshot = scenes_.take();
   const SceneAt scene(snapshot, now_ns, recent_);
   const Vec3 finger = workspace_.toWorld(finger_D);
-  const bool restart = scene_ == 0 || commands.restarts != restarts_;
-  const bool abrupt = restart || (snapshot.number != scene_ && snapshot.abrupt);
+  const bool restart = state_.snapshot == 0 || commands.restarts != restarts_;
+  const bool abrupt = restart || (snapshot.number != state_.snapshot && snapshot.abrupt);
   if (restart) {
     const Ledger kept = state_.ledger;
     state_ = startProxy(scene, settings_, finger);
     state_.ledger = kept;
   }
-  scene_ = snapshot.number;
   restarts_ = commands.restarts;
   ProxyStep step;
   step.scene = snapshot.identity;

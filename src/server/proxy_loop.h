@@ -61,7 +61,6 @@ class ProxyLoop {
   TargetBlend blend_;
   double last_stiffness_ = 1;  // s that the servo was told
   bool pulled_ = false;        // the servo was told to pull
-  std::uint64_t scene_ = 0;    // number of the last scene; 0: none yet
   std::uint64_t restarts_ = 0;
   TouchEvents events_;
 };
