@@ -25,7 +25,7 @@ struct Nearest {
 // Looks farther until there is something, as mostly there is at once; by little, as of a fine mesh much is a little
 // farther than the nearest. False where there is nothing within `most`.
 bool nearestTo(const Shape& shape, const Vec3& p, double least, double most, Nearest& out) {
-  constexpr double kFarther = 1.25;
+  constexpr double kFarther = 1.1;
   bool found = false;
   for (double within = std::min(least, most); !found; within = std::min(most, kFarther * within)) {
     primitivesWithin(*shape.index, shape.primitives, p, within,
@@ -72,7 +72,8 @@ class Bend {
 };
 
 // Where the place nearest to the proxy at p has gone, and the proxy as far from there: above a face, which may have
-// turned, on the same side of it. Frame of the object.
+// turned, on the same side of it; a face that has shrunk to nothing has no sides, so only moves it. Frame of the
+// object.
 Vec3 Bend::besideIt(const Instance& instance, const Nearest& nearest, const Vec3& p) const {
   const Shape& before = *instance.before;
   const Primitive was = before.primitives[nearest.primitive];
@@ -83,7 +84,7 @@ Vec3 Bend::besideIt(const Instance& instance, const Nearest& nearest, const Vec3
     now[i] = instance.shape->model.positions[vertexOf(before.model, was, i)];
     point += place.weights[i] * now[i];
   }
-  if (place.feature != Feature::kFace) return p + (point - place.point);
+  if (place.feature != Feature::kFace || !isTriangle(now[0], now[1], now[2])) return p + (point - place.point);
   const auto normalOf = [](const std::array<Vec3, 3>& v) { return (v[1] - v[0]).cross(v[2] - v[0]); };
   const double side = normalOf(was.vertex).dot(place.normal) < 0 ? -1 : 1;
   return point + side * place.distance * normalOf(now).normalized();
@@ -106,7 +107,8 @@ double Bend::freeOfOthers(std::uint32_t but, const Vec3& to) const {
   return part;
 }
 
-// As seen from the mesh, the proxy goes from where it was beside it to where it is.
+// The friction of what it touches takes the proxy along, as far as others let it. Else, as seen from the mesh, the
+// proxy goes from where it was beside it to where it is.
 void Bend::push(std::uint32_t i) {
   const Instance& instance = snapshot_.instances[i];
   const Shape& shape = *instance.shape;
@@ -116,7 +118,13 @@ void Bend::push(std::uint32_t i) {
   Nearest nearest;
   if (!nearestTo(*instance.before, p, kTouching * tolerance_.reach, farthest, nearest)) return;
   Vec3 from_W = pose.toWorld(besideIt(instance, nearest, p));
+  if (!withinReach(from_W)) return;
   findClearPlace({snapshot_, state_.time_ns}, tolerance_, kPushTries, from_W);  // what is around it may lie otherwise
+  const bool held = instance.key == state_.carrier && nearest.place.distance <= kTouching * tolerance_.reach;
+  if (held && freeOfOthers(i, from_W) == 1) {
+    state_.position = from_W;
+    return;
+  }
   const Vec3 from = pose.toObject(from_W);
   FirstImpact hit;
   if (!firstImpact(*shape.index, shape.primitives, from, p - from, kMetAt * tolerance_.reach, -1, hit)) return;

@@ -142,8 +142,7 @@ std::shared_ptr<const Shape> makeShape(Model given, HierarchyKind hierarchy) {
 bool isSameMesh(const Shape& a, const Shape& b) {
   const Model &p = a.model, &q = b.model;
   return p.positions.size() == q.positions.size() && p.segments == q.segments && p.points == q.points &&
-         std::equal(p.triangles.begin(), p.triangles.end(), q.triangles.begin(), q.triangles.end(), sameButTurned) &&
-         a.primitives.numberedAs(b.primitives);
+         std::equal(p.triangles.begin(), p.triangles.end(), q.triangles.begin(), q.triangles.end(), sameButTurned);
 }
 
 std::shared_ptr<const Shape> makeShape(Model given, const Shape& before) {
@@ -151,7 +150,7 @@ std::shared_ptr<const Shape> makeShape(Model given, const Shape& before) {
   const bool bent = isSameMesh(*shape, before);
   if (bent) shape->mesh = before.mesh;
   const auto* const tree = dynamic_cast<const WideBvh*>(before.index.get());
-  if (tree == nullptr || !bent) {
+  if (tree == nullptr || !bent || !shape->primitives.numberedAs(before.primitives)) {
     buildIndex(*shape, before.hierarchy);
     return shape;
   }

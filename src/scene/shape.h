@@ -51,11 +51,11 @@ struct Shape {
 /// `warnings`. Allocates; never called by a real-time thread.
 std::shared_ptr<const Shape> makeShape(Model given, HierarchyKind hierarchy = HierarchyKind::kBvh);
 
-/// Whether one is the other with its vertices moved: the same index lists, and the same elements skipped.
+/// Whether one is the other with its vertices moved: the same index lists, whatever of them is skipped.
 bool isSameMesh(const Shape& a, const Shape& b);
 
-/// The same for what follows on `before`. Where both are the same mesh, a wide hierarchy is refitted: that is nine
-/// times as fast as building it. Else it is built, of the same kind.
+/// The same for what follows on `before`. Where both are the same mesh and skip the same elements, a wide hierarchy is
+/// refitted: that is nine times as fast as building it. Else it is built, of the same kind.
 std::shared_ptr<const Shape> makeShape(Model given, const Shape& before);
 
 /// Beyond this wear a hierarchy should be built anew: a query enters twice as many boxes as it did then.

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <random>
 
 #include "base/no_alloc.h"
@@ -15,9 +16,10 @@ namespace {
 constexpr double kRadius = 0.002;
 constexpr double kClear = kRadius * (1 - 1e-6);
 
-ProxySettings settingsOf() {
+ProxySettings settingsOf(double friction = 0) {
   ProxySettings settings;
   settings.radius = kRadius;
+  settings.surfaces.static_friction = settings.surfaces.dynamic_friction = friction;
   return settings;
 }
 
@@ -190,6 +192,81 @@ TEST(Bend, AgainstACeilingTheCentreStaysBetween) {
     EXPECT_LT(state.position.y(), 0.01);
   }
   EXPECT_NEAR(state.position.y(), 0.002 + kRadius, 1e-8);
+}
+
+// A skin that is drawn along: without friction it slips through beneath, with friction it takes the proxy along until
+// the pull is mu times the press.
+TEST(Bend, FrictionTakesTheProxyAlongUntilItSlips) {
+  const double depth = 0.005, mu = 0.5, step = 0.2e-3;
+  const auto drawn = [](double by) {
+    Model model = sheet([](double, double) { return 0; });
+    for (Vec3& p : model.positions) p.x() += by;
+    return model;
+  };
+  for (const double friction : {0.0, mu}) {
+    Skin skin(drawn(0));
+    const Vec3 finger(0.0013, kRadius - depth, 0.0007);
+    ProxyState state = startProxy(skin.snapshot(), settingsOf(friction), Vec3(0.0013, 0.01, 0.0007));
+    for (int frame = 0; frame < 100; ++frame) {
+      tick(state, skin.snapshot(), settingsOf(friction), finger);
+      const double pulled = std::min(frame * step, mu * depth);
+      ASSERT_NEAR(state.position.x(), finger.x() + (friction > 0 ? pulled : 0), 2e-5) << "frame " << frame;
+      ASSERT_NEAR(state.position.y(), kRadius, 1e-8);
+      skin.bend(drawn((frame + 1) * step));
+    }
+  }
+}
+
+TEST(Bend, AWallHoldsWhatFrictionTakesAlong) {
+  Model wall;
+  wall.positions = {{0.01, -0.1, -0.1}, {0.01, 0.1, -0.1}, {0.01, 0, 0.1}};
+  wall.triangles = {{0, 1, 2}};
+  Instance beside;
+  beside.shape = makeShape(std::move(wall));
+  beside.surfaces = surfacesOf(beside.shape);
+  beside.key = 2;
+  double by = 0;
+  const auto drawn = [&] {
+    Model model = sheet([](double, double) { return 0; });
+    for (Vec3& p : model.positions) p.x() += by;
+    return model;
+  };
+  Skin skin(drawn(), {}, {beside});
+  const Vec3 finger(0.005, -0.02, 0);
+  ProxyState state = startProxy(skin.snapshot(), settingsOf(1), Vec3(0.005, 0.01, 0));
+  for (int frame = 0; frame < 30; ++frame) {
+    tick(state, skin.snapshot(), settingsOf(1), finger);
+    ASSERT_LE(state.position.x(), 0.01 - kClear) << "frame " << frame;
+    ASSERT_GE(state.position.y(), kClear) << "frame " << frame;
+    by += 0.3e-3;
+    skin.bend(drawn());
+  }
+  EXPECT_NEAR(state.position.x(), 0.01 - kRadius, 1e-8);
+}
+
+// The triangles it rests on shrink to a line and come back; elsewhere a vertex goes beyond all reach and comes back.
+TEST(Bend, TrianglesMayShrinkToNothingAndComeBack) {
+  Skin skin(sheet([](double, double) { return 0; }, 5));
+  const Vec3 finger(0.003, -0.004, 0.002);
+  ProxyState state = restingOn(skin, finger);
+  double height = 0;
+  for (const double width : {1.0, 0.0, 1.0, 1e-300, 1.0, 1e-12, 0.5, 0.0, 1.0}) {
+    height += 0.008;
+    Model narrow = sheet([&](double, double) { return height; }, 5);
+    for (Vec3& p : narrow.positions) {
+      if (std::abs(p.x()) < 0.011) p.x() *= width;
+    }
+    skin.bend(narrow);
+    tick(state, skin.snapshot(), settingsOf(), finger);
+    ASSERT_NEAR(state.position.y(), height + kRadius, 1e-8) << "of width " << width;
+  }
+  for (const double corner : {std::numeric_limits<double>::quiet_NaN(), 1e300, height}) {
+    Model torn = sheet([&](double, double) { return height; }, 5);
+    torn.positions.front().y() = corner;
+    skin.bend(torn);
+    tick(state, skin.snapshot(), settingsOf(), finger);
+    EXPECT_NEAR(state.position.y(), height + kRadius, 1e-8);
+  }
 }
 
 TEST(Bend, OfAnotherSnapshotThanTheNextNothingIsKnown) {

@@ -341,6 +341,17 @@ TEST(FollowOn, KnownObjectsMoveAndNewOnesAreThere) {
   EXPECT_TRUE(followOn(scene.placed(), later.instances, 2000, 2100).abrupt) << "gone";
 }
 
+TEST(EditableScene, AMeshIsTheSameWhateverOfItHasShrunkToNothing) {
+  const auto first = makeShape(Model(triangle()->model));
+  Model flat = first->model;
+  flat.positions[2] = flat.positions[1];
+  const auto second = makeShape(std::move(flat), *first);
+  EXPECT_TRUE(second->primitives.empty());
+  EXPECT_EQ(second->mesh, first->mesh);
+  EXPECT_EQ(second->before, 0U) << "its hierarchy was built";
+  EXPECT_EQ(makeShape(Model(first->model), *second)->mesh, first->mesh) << "and back";
+}
+
 TEST(EditableScene, AMeshIsTheSameHoweverItsHierarchyIsMade) {
   for (const HierarchyKind kind : {HierarchyKind::kBvh, HierarchyKind::kSpheres, HierarchyKind::kNone}) {
     const auto first = makeShape(Model(triangle()->model), kind);
