@@ -177,7 +177,7 @@ void SceneWriter::write(const Snapshot& scene, const Write& write) {
   proto::RecordedScene& out = *block.mutable_scene();
   out.set_identity(scene.identity);
   out.set_number(scene.number);
-  out.set_abrupt(scene.abrupt);
+  out.set_blend_ns(scene.blend_ns);
   out.set_name(scene.name);
   for (const Instance& instance : scene.instances) {
     proto::RecordedInstance& placed = *out.add_instances();
@@ -235,7 +235,7 @@ std::shared_ptr<const Snapshot> SceneReader::scene(const proto::RecordedScene& i
     if (before == shapes_.end() || !isSameMesh(*before->second, *shape->second)) throw Error(kBroken);
     instances.back().before = before->second;
   }
-  return makeSnapshot(std::move(instances), in.name(), in.number(), in.abrupt());
+  return makeSnapshot(std::move(instances), in.name(), in.number(), in.blend_ns());
 }
 
 }  // namespace hl

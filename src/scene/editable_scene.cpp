@@ -238,26 +238,36 @@ void EditableScene::replace(const std::shared_ptr<const Shape>& old, const std::
   }
 }
 
+namespace {
+
+// Snapshot::blend_ns, as far as it is due to one object, which was there before where that is known.
+std::int64_t blendOf(const Instance* before, const Instance& now, std::int64_t frame_ns) {
+  if (before == nullptr || !(*before->surfaces == *now.surfaces)) return kAbruptBlend_ns;
+  if (!now.motion.moves() && !(before->motion.to() == now.motion.to())) return kAbruptBlend_ns;
+  if (before->shape->geometry == now.shape->geometry) return 0;
+  return now.before && frame_ns > 0 ? frame_ns : kAbruptBlend_ns;
+}
+
+}  // namespace
+
 Followed followOn(const std::vector<PlacedShape>& placed, const std::vector<Instance>& last, std::int64_t begin_ns,
                   std::int64_t end_ns) {
   Followed result;
-  result.abrupt = placed.size() != last.size();
+  if (placed.size() != last.size()) result.blend_ns = kAbruptBlend_ns;
   result.instances.reserve(placed.size());
   for (const PlacedShape& now : placed) {
     Instance instance{now.shape, now.surfaces, Motion(now.pose), now.key, now.session, now.object, now.name};
-    const auto before = std::lower_bound(last.begin(), last.end(), now.key,
-                                         [](const Instance& a, std::uint64_t key) { return a.key < key; });
-    const bool known = before != last.end() && before->key == now.key;
-    const bool stays = known && before->motion.to() == now.pose;
-    if (known && end_ns > begin_ns) {
+    const auto found = std::lower_bound(last.begin(), last.end(), now.key,
+                                        [](const Instance& a, std::uint64_t key) { return a.key < key; });
+    const Instance* const before = found != last.end() && found->key == now.key ? &*found : nullptr;
+    if (before != nullptr && end_ns > begin_ns) {
+      const bool stays = before->motion.to() == now.pose;
       const bool rests = !before->motion.moves() || before->motion.last().end_ns() < begin_ns;
       if (!stays || !rests) instance.motion = stays ? before->motion : before->motion.then(now.pose, begin_ns, end_ns);
     }
-    const bool bent = known && before->shape->mesh == now.shape->mesh && before->shape->geometry != now.shape->geometry;
-    if (bent) instance.before = before->shape;
-    const bool follows = known && (stays || instance.motion.moves());
-    if (!follows || before->shape->geometry != now.shape->geometry || !(*before->surfaces == *now.surfaces))
-      result.abrupt = true;
+    if (before != nullptr && before->shape->mesh == now.shape->mesh && before->shape->geometry != now.shape->geometry)
+      instance.before = before->shape;
+    result.blend_ns = std::max(result.blend_ns, blendOf(before, instance, end_ns - begin_ns));
     result.instances.push_back(std::move(instance));
   }
   std::sort(result.instances.begin(), result.instances.end(),

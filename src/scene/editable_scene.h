@@ -106,12 +106,12 @@ class EditableScene {
 
 struct Followed {
   std::vector<Instance> instances;
-  bool abrupt = false;  ///< something has come, gone, changed or jumped at once
+  std::int64_t blend_ns = 0;  ///< for the next snapshot
 };
 
 /// The instances of the next snapshot, from those of this client in the last one (by rising key): what was there moves
 /// from where it is at `begin_ns` to its new place until `end_ns`; what is new, or all when end_ns <= begin_ns, is
-/// there at once.
+/// there at once. What bends comes over in the same time.
 Followed followOn(const std::vector<PlacedShape>& placed, const std::vector<Instance>& last, std::int64_t begin_ns,
                   std::int64_t end_ns);
 

@@ -96,13 +96,13 @@ std::size_t memoryOf(const Snapshot& snapshot) {
 }
 
 std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, std::string name, std::uint64_t number,
-                                             bool abrupt) {
+                                             std::int64_t blend_ns) {
   static std::atomic<std::uint64_t> made{0};
   auto snapshot = std::make_shared<Snapshot>();
   snapshot->identity = ++made;
   snapshot->name = std::move(name);
   snapshot->number = number;
-  snapshot->abrupt = abrupt;
+  snapshot->blend_ns = blend_ns;
   snapshot->instances = std::move(instances);
   std::sort(snapshot->instances.begin(), snapshot->instances.end(),
             [](const Instance& a, const Instance& b) { return a.key < b.key; });

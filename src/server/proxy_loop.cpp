@@ -23,8 +23,9 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
   const SceneAt scene(snapshot, now_ns, recent_);
   const Vec3 finger = workspace_.toWorld(finger_D);
   const bool restart = state_.snapshot == 0 || commands.restarts != restarts_;
-  const bool abrupt = restart || (snapshot.number != state_.snapshot && snapshot.abrupt);
+  std::int64_t blend_ns = snapshot.number == state_.snapshot ? 0 : snapshot.blend_ns;
   if (restart) {
+    blend_ns = kAbruptBlend_ns;
     const Ledger kept = state_.ledger;
     state_ = startProxy(scene, settings_, finger);
     state_.ledger = kept;
@@ -37,18 +38,19 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
     const Instance& instance = scene.instance(contact.primitive);
     step.touched.push({instance.key, instance.session, instance.object, instance.name});
   }
-  step.held = heldBy(step.report, targetOf(now_ns, finger_D, step.report, abrupt));
+  step.held = heldBy(step.report, targetOf(now_ns, finger_D, step.report, blend_ns));
   events_.follow(now_ns, step.touched, state_.position);
   return step;
 }
 
 // In the open the proxy is the finger of a moment ago: pulling to it would be a drag, so there is no target then, but
 // while a blend lets go.
-ServoTarget ProxyLoop::targetOf(std::int64_t now_ns, const Vec3& finger_D, const TickReport& report, bool abrupt) {
+ServoTarget ProxyLoop::targetOf(std::int64_t now_ns, const Vec3& finger_D, const TickReport& report,
+                                std::int64_t blend_ns) {
   const bool touches = report.valid && state_.free && !report.contacts.empty();
   const Vec3 wanted = touches ? workspace_.toDevice(state_.position) : finger_D;
   const Vec3 before = pulled_ ? blend_.last() : finger_D;
-  if (abrupt && report.valid) blend_.begin(before, wanted);
+  if (blend_ns > 0 && report.valid) blend_.begin(before, wanted, 1e-9 * static_cast<double>(blend_ns));
   const Vec3 proxy_D = blend_.step(wanted, settings_.period_s);
   const double stiffness = touches ? state_.stiffness : last_stiffness_;
   double paid_J = report.injected_J + std::max(0.0, report.moved_J);

@@ -51,7 +51,7 @@ class ProxyLoop {
  private:
   void follow(const ProxyCommands& commands, const SpringOfServo& spring);
   HeldContacts heldBy(const TickReport& report, const ServoTarget& target) const;
-  ServoTarget targetOf(std::int64_t now_ns, const Vec3& finger_D, const TickReport& report, bool abrupt);
+  ServoTarget targetOf(std::int64_t now_ns, const Vec3& finger_D, const TickReport& report, std::int64_t blend_ns);
 
   SnapshotSlot& scenes_;
   ProxySettings settings_;

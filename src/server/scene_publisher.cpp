@@ -245,24 +245,24 @@ bool ScenePublisher::waitForLoops() {
   return true;
 }
 
-// What all clients have in the world from now on; returns whether something changes at once. Holding the mutex.
-bool ScenePublisher::assemble(std::int64_t begin_ns, std::vector<Instance>& instances) {
-  bool abrupt = false;
+// What all clients have in the world from now on; returns Snapshot::blend_ns. Holding the mutex.
+std::int64_t ScenePublisher::assemble(std::int64_t begin_ns, std::vector<Instance>& instances) {
+  std::int64_t blend_ns = 0;
   instances = base_->instances;
   for (const auto& place : places_) {
     if (place->removed_) {
-      abrupt |= !place->instances_.empty();
+      if (!place->instances_.empty()) blend_ns = std::max(blend_ns, kAbruptBlend_ns);
       continue;
     }
     if (place->fresh_) {
       Followed next = followOn(place->placed_, place->instances_, begin_ns, begin_ns + place->move_ns_);
-      abrupt |= next.abrupt;
+      blend_ns = std::max(blend_ns, next.blend_ns);
       instances.insert(instances.end(), next.instances.begin(), next.instances.end());
     } else {
       instances.insert(instances.end(), place->instances_.begin(), place->instances_.end());
     }
   }
-  return abrupt;
+  return blend_ns;
 }
 
 void ScenePublisher::publish() {
@@ -272,8 +272,8 @@ void ScenePublisher::publish() {
   for (int i = 0; i < kLeadTries; ++i, lead_ns *= 8) {
     shown_begin_ns_ = monotonicNow_ns() + lead_ns;
     std::vector<Instance> instances;
-    const bool abrupt = assemble(shown_begin_ns_, instances);
-    next = makeSnapshot(std::move(instances), base_->name, shown_->number + 1, abrupt);
+    const std::int64_t blend_ns = assemble(shown_begin_ns_, instances);
+    next = makeSnapshot(std::move(instances), base_->name, shown_->number + 1, blend_ns);
     if (monotonicNow_ns() < shown_begin_ns_) break;
   }
   for (TouchSession* device : devices_) device->publish(next);

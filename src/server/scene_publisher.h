@@ -78,7 +78,7 @@ class ScenePublisher {
   void rebuild(Place& place);
   bool waitForLoops();
   void publish();
-  bool assemble(std::int64_t begin_ns, std::vector<Instance>& instances);
+  std::int64_t assemble(std::int64_t begin_ns, std::vector<Instance>& instances);
   void tellShown(std::unique_lock<std::mutex>& lock);
   static std::int64_t moveTime_ns(const Waiting& waiting, std::int64_t last_arrived_ns);
 

@@ -160,7 +160,7 @@ std::shared_ptr<const Snapshot> randomScene(Random& random) {
     return Pose{Eigen::AngleAxisd(random.uniform(), random.vec().normalized()).toRotationMatrix(), 0.02 * random.vec()};
   };
   mover.motion = Motion(pose()).then(pose(), 100'000'000, 200'000'000).then(pose(), 150'000'000, 400'000'000);
-  return makeSnapshot({mover, instance}, "soup", 12, false);
+  return makeSnapshot({mover, instance}, "soup", 12, 33'000'000);
 }
 
 std::shared_ptr<const Snapshot> writtenAndRead(const Snapshot& scene, SceneWriter& writer, SceneReader& reader,
@@ -187,7 +187,7 @@ TEST(RecordedScene, IsTouchedBitForBitAsItWas) {
     const auto back = writtenAndRead(*scene, writer, reader, parts);
     ASSERT_TRUE(back);
     EXPECT_EQ(back->number, scene->number);
-    EXPECT_EQ(back->abrupt, scene->abrupt);
+    EXPECT_EQ(back->blend_ns, scene->blend_ns);
     EXPECT_EQ(back->moves_until_ns, scene->moves_until_ns);
     EXPECT_EQ(back->primitives, scene->primitives);
     ProxySettings settings;
@@ -217,7 +217,7 @@ TEST(RecordedScene, WhatScenesShareIsWrittenOnce) {
   int parts = 0;
   writtenAndRead(*scene, writer, reader, parts);
   EXPECT_EQ(parts, 2);
-  const auto next = makeSnapshot(scene->instances, "soup", 13, true);
+  const auto next = makeSnapshot(scene->instances, "soup", 13);
   ASSERT_TRUE(writtenAndRead(*next, writer, reader, parts));
   EXPECT_EQ(parts, 2);
 }

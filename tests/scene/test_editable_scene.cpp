@@ -164,7 +164,7 @@ TEST(EditableScene, ARebuiltShapeTakesThePlaceOfTheWornOneAndNothingIsAbrupt) {
     scene.replace(worn, rebuilt(*worn));
   }
   EXPECT_FALSE(scene.worn());
-  EXPECT_FALSE(followOn(scene.placed(), shown.instances, 0, 0).abrupt);
+  EXPECT_EQ(followOn(scene.placed(), shown.instances, 0, 0).blend_ns, 0);
   for (std::size_t i = 0; i < before.size(); ++i) {
     EXPECT_NE(scene.placed()[i].shape, before[i].shape);
     EXPECT_EQ(scene.placed()[i].shape->model.positions, before[i].shape->model.positions);
@@ -323,22 +323,22 @@ TEST(FollowOn, KnownObjectsMoveAndNewOnesAreThere) {
   edit.objects[1] = {shapeItem(triangle())};
   scene.apply(edit);
   const Followed first = followOn(scene.placed(), {}, 100, 200);
-  EXPECT_TRUE(first.abrupt);
+  EXPECT_EQ(first.blend_ns, kAbruptBlend_ns);
   EXPECT_FALSE(first.instances[0].motion.moves());
   scene.apply(worldOf({callItem(1, turn(0.5, {1, 0, 0}))}));
   const Followed second = followOn(scene.placed(), first.instances, 300, 400);
-  EXPECT_FALSE(second.abrupt);
+  EXPECT_EQ(second.blend_ns, 0);
   EXPECT_TRUE(second.instances[0].motion.moves());
   EXPECT_TRUE(second.instances[0].motion.at(300) == Pose{});
   const Followed halfway = followOn(scene.placed(), second.instances, 350, 450);
   EXPECT_TRUE(halfway.instances[0].motion.at(375) == second.instances[0].motion.at(375)) << "goes on as it was";
   const Followed later = followOn(scene.placed(), halfway.instances, 1000, 1100);
   EXPECT_FALSE(later.instances[0].motion.moves());
-  EXPECT_FALSE(later.abrupt);
+  EXPECT_EQ(later.blend_ns, 0);
   scene.apply(worldOf({callItem(1)}));
-  EXPECT_TRUE(followOn(scene.placed(), later.instances, 2000, 2000).abrupt) << "an interval of 0 is a jump";
+  EXPECT_EQ(followOn(scene.placed(), later.instances, 2000, 2000).blend_ns, kAbruptBlend_ns) << "a jump";
   scene.apply(worldOf({}));
-  EXPECT_TRUE(followOn(scene.placed(), later.instances, 2000, 2100).abrupt) << "gone";
+  EXPECT_EQ(followOn(scene.placed(), later.instances, 2000, 2100).blend_ns, kAbruptBlend_ns) << "gone";
 }
 
 TEST(EditableScene, AMeshIsTheSameWhateverOfItHasShrunkToNothing) {
@@ -379,6 +379,8 @@ TEST(EditableScene, ABentMeshKnowsWhatItWasInTheSceneThatWasShown) {
   scene.apply(worldOf({shapeItem(now)}));
   const Followed second = followOn(scene.placed(), first.instances, 300, 400);
   EXPECT_EQ(second.instances[0].before, shown);
+  EXPECT_EQ(second.blend_ns, 100) << "from frame to frame";
+  EXPECT_EQ(followOn(scene.placed(), first.instances, 300, 300).blend_ns, kAbruptBlend_ns) << "at once";
   const auto snapshot = makeSnapshot(second.instances);
   EXPECT_EQ(snapshot->bent, std::vector<std::uint32_t>{0});
   EXPECT_NEAR(snapshot->instances[0].bent_m, 0.2, 1e-15);

@@ -105,7 +105,7 @@ class Publisher {
     const auto placed = place(wanted, shapes_, angle_);
     const auto last = session_.snapshot();
     Followed next = followOn(placed, last->instances, now_ns, now_ns + kFrame_ns);
-    session_.publish(makeSnapshot(std::move(next.instances), "moving scene", last->number + 1, next.abrupt));
+    session_.publish(makeSnapshot(std::move(next.instances), "moving scene", last->number + 1, next.blend_ns));
     published_ns_ = now_ns;
   }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "base/no_alloc.h"
@@ -41,9 +42,9 @@ class Bench {
     commands_.radius_W = 0.002;
   }
 
-  void publish(std::vector<Instance> instances, bool abrupt = true) {
+  void publish(std::vector<Instance> instances, std::int64_t blend_ns = kAbruptBlend_ns) {
     ASSERT_TRUE(slot_.taken());
-    slot_.publish(makeSnapshot(std::move(instances), "", ++number_, abrupt));
+    slot_.publish(makeSnapshot(std::move(instances), "", ++number_, blend_ns));
   }
   // The largest change of force between two steps, in N.
   double run(int steps, const Vec3& finger) {
@@ -108,9 +109,49 @@ TEST(ProxyLoop, AMovingObjectIsFollowedAtOnce) {
   Instance moving = floorAt(0);
   moving.motion =
       moving.motion.then({Mat3::Identity(), {0, 0.002, 0}}, bench.time_ns_ + kMs, bench.time_ns_ + 11 * kMs);
-  bench.publish({moving}, false);
+  bench.publish({moving}, 0);
   bench.run(12, {0, -0.003, 0});
   EXPECT_NEAR(bench.force_.y(), 7, 1e-6);
+}
+
+// The floor `up` higher, as its client bent it.
+Instance bentFloor(const Instance& before, double up) {
+  Model model = before.shape->model;
+  for (Vec3& p : model.positions) p.y() += up;
+  Instance now = before;
+  now.before = before.shape;
+  now.shape = makeShape(std::move(model), *before.shape);
+  return now;
+}
+
+// 1 mm up each frame of 20 ms.
+TEST(ProxyLoop, AMeshThatBendsIsFollowedFromFrameToFrame) {
+  Instance skin = floorAt(0);
+  Bench bench({skin});
+  bench.run(100, {0, 0.01, 0});
+  bench.run(10, {0, -0.003, 0});
+  for (int frame = 1; frame <= 4; ++frame) {
+    skin = bentFloor(skin, 0.001);
+    bench.publish({skin}, 20 * kMs);
+    EXPECT_NEAR(bench.run(20, {0, -0.003, 0}), 0.05, 1e-6) << "as much in every step";
+    EXPECT_NEAR(bench.force_.y(), 5 + frame, 1e-6) << "there when the next frame comes";
+  }
+}
+
+TEST(ProxyLoop, WhatBendsBesideWhatAppearsHurriesNothing) {
+  Instance skin = floorAt(-0.1);
+  Bench bench({skin});
+  bench.run(1, {0, 0.01, 0});
+  bench.run(10, {0, 0.0005, 0});
+  bench.publish({skin, floorAt(0, 7)});
+  double most = bench.run(10, {0, 0.0005, 0});
+  for (int frame = 0; frame < 10; ++frame) {
+    skin = bentFloor(skin, 0.001);
+    bench.publish({skin, floorAt(0, 7)}, 8 * kMs);
+    most = std::max(most, bench.run(8, {0, 0.0005, 0}));
+  }
+  EXPECT_LT(most, kGentle_N);
+  EXPECT_NEAR(bench.force_.y(), 1.5, 1e-6);
 }
 
 TEST(ProxyLoop, TellsWhatIsTouchedByTheNamesOfItsClient) {

@@ -196,7 +196,7 @@ TEST_F(TouchServerTest, ARedefinedObjectIsRefittedAndRebuiltInTheBackgroundWhenI
   const auto rebuilt = server_.device().snapshot();
   EXPECT_EQ(rebuilt->shape().geometry, geometry);
   EXPECT_EQ(rebuilt->shape().wear, 1);
-  EXPECT_FALSE(rebuilt->abrupt);
+  EXPECT_EQ(rebuilt->blend_ns, 0);
   ASSERT_TRUE(client.show(rowFrame(client, 700)));
   EXPECT_EQ(server_.device().snapshot()->shape().before, geometry) << "from the one that was rebuilt";
   EXPECT_EQ(server_.hierarchyCounts().rebuilds, 1u);
