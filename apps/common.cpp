@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/machine_memory.h"
 #include "commands.h"
 #include "io/load_scene.h"
 #include "io/replay_device.h"
@@ -108,6 +109,10 @@ std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options) {
   Model model = loadScene(options.scene, load);
   if (options.scale > 0) scaleModel(model, options.scale);
   if (options.fit > 0) fitModel(model, options.fit);
+  const std::uint64_t needed = bytesToMake(model), there = machineMemory_bytes();
+  if (needed > there)
+    throw Error(fmt::format("{}: this scene takes {:.1f} GB of memory, and there are {:.1f} GB", options.scene,
+                            1e-9 * static_cast<double>(needed), 1e-9 * static_cast<double>(there)));
   auto snapshot = makeSnapshot(std::move(model), hierarchyOf(options.hierarchy));
   for (const std::string& warning : snapshot->warnings) fmt::print(stderr, "{}: {}\n", options.scene, warning);
   if (snapshot->primitives == 0) throw Error(options.scene + ": nothing in it can be touched");

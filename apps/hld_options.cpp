@@ -64,6 +64,7 @@ void addLimitOptions(CLI::App& app, Limits& limits) {
   addLimit(app, "upload-bytes", limits.upload_bytes, "bytes of uploads that no frame has used yet, of one client");
   addLimit(app, "frames", limits.frames_Hz, "frames a second of one client");
   addLimit(app, "states", limits.state_rate_Hz, "states a second to one client");
+  addLimit(app, "memory-bytes", limits.memory_bytes, "bytes of memory for the scenes of all clients and their uploads");
   addLimit(app, "sessions", limits.sessions, "clients at once");
   addLimit(app, "pages", limits.pages, "viewer pages at once");
   addLimit(app, "connections", limits.connections, "sockets at once");

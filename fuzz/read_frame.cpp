@@ -56,8 +56,10 @@ void readMessage(MessageForm form, std::string_view bytes) {
   const std::vector<Pose> before = posesOf(scene);
   const std::vector<Instance> shown = followOn(scene.placed(), {}, 0, 0).instances;
   try {
-    const DecodedFrame frame = decodeFrame(message.frame(), uploads, smallLimits(), [](double) {});
-    scene.apply(frame.edit);
+    MemoryBudget budget(std::uint64_t{1} << 20);
+    MemoryShare memory(budget);
+    const DecodedFrame frame = decodeFrame(message.frame(), uploads, smallLimits(), memory, [](double) {});
+    scene.apply(frame.edit, memory);
   } catch (const Error& error) {
     require(posesOf(scene) == before && error.what()[0] != '\0');
     return;

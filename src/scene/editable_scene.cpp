@@ -58,7 +58,8 @@ void ModelSizes::add(const Model& model, const std::string& where) {
 // One walk over the calls of a state, from the world down to the shapes.
 class EditableScene::Flattening {
  public:
-  Flattening(const EditableScene& scene, const State& state) : scene_(scene), state_(state), copies_(scene.limits_) {}
+  Flattening(const EditableScene& scene, const State& state, MemoryShare& memory)
+      : scene_(scene), state_(state), memory_(memory), copies_(scene.limits_) {}
 
   void run() { visit(*state_.world, {{}, {}, 0, 0, mixed(0, scene_.session_)}); }
 
@@ -81,6 +82,7 @@ class EditableScene::Flattening {
 
   const EditableScene& scene_;
   const State& state_;
+  MemoryShare& memory_;
   std::vector<std::uint32_t> path_;
   std::size_t visits_ = 0;
   ModelSizes copies_;  // a few bytes of matrix make one
@@ -140,6 +142,7 @@ std::shared_ptr<const Shape> EditableScene::Flattening::shapeOf(const std::share
   const auto& made = scene_.stretched_;
   const auto known = made.find({shape->geometry, upper});
   if (known != made.end()) return slot = known->second;
+  memory_.take(bytesToMake(shape->model));
   Model model = shape->model;
   placeModel(model, {stretch, Vec3::Zero()});
   const auto before = made.find({shape->before, upper});
@@ -191,9 +194,14 @@ void EditableScene::checkLimits(const State& state) const {
 }
 
 void EditableScene::apply(const SceneEdit& edit) {
+  MemoryShare uncounted;
+  apply(edit, uncounted);
+}
+
+void EditableScene::apply(const SceneEdit& edit, MemoryShare& memory) {
   State next = after(edit);
   checkLimits(next);
-  Flattening flattening(*this, next);
+  Flattening flattening(*this, next, memory);
   flattening.run();
   state_ = std::move(next);
   placed_ = std::move(flattening.placed);
@@ -204,6 +212,21 @@ std::size_t EditableScene::primitives() const {
   std::size_t sum = 0;
   for (const PlacedShape& placed : placed_) sum += placed.shape->primitives.size();
   return sum;
+}
+
+std::size_t EditableScene::bytes() const {
+  std::size_t bytes = 0;
+  std::set<const Shape*> counted;
+  const auto add = [&](const std::shared_ptr<const Shape>& shape) {
+    if (shape && counted.insert(shape.get()).second) bytes += shape->bytes();
+  };
+  for (const auto& [name, texture] : state_.textures) bytes += texture->texels.size() * sizeof(float);
+  for (const SceneItem& item : *state_.world) add(item.shape);
+  for (const auto& [id, items] : state_.objects) {
+    for (const SceneItem& item : *items) add(item.shape);
+  }
+  for (const auto& [key, copy] : stretched_) add(copy);
+  return bytes;
 }
 
 const SceneItems* EditableScene::items(std::uint32_t object) const {

@@ -10,6 +10,7 @@
 #include <tuple>
 #include <vector>
 
+#include "base/memory_budget.h"
 #include "scene/model.h"
 #include "scene/shape.h"
 #include "scene/snapshot.h"
@@ -71,11 +72,14 @@ class EditableScene {
  public:
   EditableScene(std::uint32_t session, const SceneLimits& limits) : session_(session), limits_(limits) {}
 
-  /// Throws hl::Error, and changes nothing, when a limit is passed, calls go in a circle, or a texture is missing.
-  void apply(const SceneEdit& edit);
+  /// Throws hl::Error, and changes nothing, when a limit is passed, calls go in a circle, or a texture is missing. What
+  /// scaled copies take is added to `memory`, which may throw.
+  void apply(const SceneEdit& edit, MemoryShare& memory);
+  void apply(const SceneEdit& edit);  ///< of memory that nobody counts
   /// What is in the world now.
   const std::vector<PlacedShape>& placed() const { return placed_; }
   std::size_t primitives() const;  ///< in the world, each instance counted
+  std::size_t bytes() const;       ///< of shapes, scaled copies and textures, in the world or not
   /// Of an object, or of the world, 0; null where there is no such object. Until the next edit.
   const SceneItems* items(std::uint32_t object) const;
 

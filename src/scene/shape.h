@@ -58,6 +58,9 @@ bool isSameMesh(const Shape& a, const Shape& b);
 /// refitted: that is nine times as fast as building it. Else it is built, of the same kind.
 std::shared_ptr<const Shape> makeShape(Model given, const Shape& before);
 
+/// Memory that makeShape() takes of a model at most, the model's own among it, by its numbers alone.
+std::size_t bytesToMake(const Model& model);
+
 /// Beyond this wear a hierarchy should be built anew: a query enters twice as many boxes as it did then.
 inline constexpr double kMostWear = 2;
 /// The same geometry with a hierarchy that is built for it: the same answers to the bit. Takes long.

@@ -17,11 +17,12 @@ namespace {
 
 class FrameDecoder {
  public:
-  FrameDecoder(const proto::Frame& frame, const Uploads& uploads, const SceneLimits& limits,
+  FrameDecoder(const proto::Frame& frame, const Uploads& uploads, const SceneLimits& limits, MemoryShare& memory,
                const std::function<void(double)>& progress, const ItemsBefore& before)
       : frame_(frame),
         uploads_(uploads),
         limits_(limits),
+        memory_(memory),
         progress_(progress),
         before_(before),
         decoder_(refuse),
@@ -49,6 +50,7 @@ class FrameDecoder {
   const proto::Frame& frame_;
   const Uploads& uploads_;
   const SceneLimits& limits_;
+  MemoryShare& memory_;
   const std::function<void(double)>& progress_;
   const ItemsBefore& before_;
   const SceneDecoder decoder_;
@@ -68,6 +70,7 @@ void FrameDecoder::addTextures() {
     const std::string where = pathOf("textures", i);
     auto texture = std::make_shared<Texture>(decoder_.texture(frame_.textures(i), room, where));
     room -= texture->texels.size();
+    memory_.take(texture->texels.size() * sizeof(float));
     const std::string name = texture->name;
     if (!result_.edit.textures.emplace(name, std::move(texture)).second)
       throw Error(where + ": there are two textures of the name '" + name + "'");
@@ -149,6 +152,7 @@ std::shared_ptr<const Shape> FrameDecoder::shapeOf(const proto::Primitives& in, 
                                                    const Shape* before, const std::string& where) {
   Model model = decoder_.model(in, where);
   size_.add(model, where + ": ");
+  memory_.take(bytesToMake(model));
   const auto repeat = [](bool has, double value) { return has && std::isfinite(value) ? value : 1; };
   repeatTexcoords(model, repeat(material.has_repeat_u(), material.repeat_u()),
                   repeat(material.has_repeat_v(), material.repeat_v()));
@@ -207,6 +211,7 @@ void FrameDecoder::addMoved() {
     auto place = all.find({in.object(), in.item()});
     if (place == all.end()) {
       SceneItem& item = itemToMove(in, where);
+      memory_.take(bytesToMake(item.shape->model));
       place = all.emplace(std::pair(in.object(), in.item()), Moved{&item, item.shape->model, where}).first;
     }
     move(in, place->second.model, where);
@@ -228,8 +233,8 @@ DecodedFrame FrameDecoder::run() {
 }  // namespace
 
 DecodedFrame decodeFrame(const proto::Frame& frame, const Uploads& uploads, const SceneLimits& limits,
-                         const std::function<void(double)>& progress, const ItemsBefore& before) {
-  return FrameDecoder(frame, uploads, limits, progress, before).run();
+                         MemoryShare& memory, const std::function<void(double)>& progress, const ItemsBefore& before) {
+  return FrameDecoder(frame, uploads, limits, memory, progress, before).run();
 }
 
 }  // namespace hl

@@ -26,8 +26,10 @@ struct DecodedFrame {
 };
 
 /// Takes long for large meshes: call it on a builder's thread. `progress` is told the part 0..1 of the shapes that are
-/// built, and may throw to give up. Throws hl::Error, one line that names the value, for what cannot be used.
+/// built, and may throw to give up. What the shapes take is added to `memory`, which may throw. Throws hl::Error, one
+/// line that names the value, for what cannot be used.
 DecodedFrame decodeFrame(const proto::Frame& frame, const Uploads& uploads, const SceneLimits& limits,
-                         const std::function<void(double)>& progress, const ItemsBefore& before = {});
+                         MemoryShare& memory, const std::function<void(double)>& progress,
+                         const ItemsBefore& before = {});
 
 }  // namespace hl

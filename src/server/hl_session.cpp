@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/clock.h"
+#include "base/error.h"
 #include "server/touch_server.h"
 
 namespace hl {
@@ -14,6 +15,7 @@ namespace {
 constexpr std::uint32_t kProtocolVersion = 1;
 constexpr std::size_t kMostReplies = 4096;      // that a client has not read: it does not read at all
 constexpr std::size_t kMostWaitingFrames = 64;  // that are not built yet
+constexpr std::size_t kMostRefusedUploads = 1000;
 constexpr std::size_t kMostNameLength = 100;
 
 SceneLimits sceneLimits(const Limits& limits) {
@@ -35,6 +37,7 @@ HlSession::HlSession(TouchServer& server, std::uint32_t number, std::string peer
       number_(number),
       peer_(std::move(peer)),
       wake_(std::move(wake)),
+      upload_memory_(server.publisher_.memory()),
       frame_rate_(server.settings_.limits.frames_Hz) {}
 
 HlSession::~HlSession() {
@@ -95,15 +98,21 @@ void HlSession::open(const proto::Open& open) {
 }
 
 void HlSession::keepUpload(proto::Upload upload) {
-  if (upload.id() == 0) return refuse("an upload needs an id above 0");
+  const std::uint64_t id = upload.id();
+  if (id == 0) return refuse("an upload needs an id above 0");
+  if (refused_uploads_.contains(id)) return;
   // In memory a message may be many times what it was on the wire: an empty polygon is two bytes there.
   const std::uint64_t bytes = sizeof(proto::Upload) + upload.part().SpaceUsedLong();
-  bytes_of_upload_[upload.id()] += bytes;
-  upload_bytes_ += bytes;
-  if (upload_bytes_ > server_.settings_.limits.upload_bytes)
+  if (upload_memory_.bytes() + bytes > server_.settings_.limits.upload_bytes)
     return end("more than " + std::to_string(server_.settings_.limits.upload_bytes) +
                " bytes of memory are in uploads that no frame has used");
-  auto [place, fresh] = uploads_.try_emplace(upload.id());
+  try {
+    upload_memory_.take(bytes);
+  } catch (const Error& error) {
+    return refuseUpload(id, error.what());
+  }
+  bytes_of_upload_[id] += bytes;
+  auto [place, fresh] = uploads_.try_emplace(id);
   if (fresh) {
     place->second = std::move(*upload.mutable_part());
   } else {
@@ -111,14 +120,26 @@ void HlSession::keepUpload(proto::Upload upload) {
   }
 }
 
-Uploads HlSession::takeUploads(const proto::Frame& frame) {
+// A frame that refers to it will not find it.
+void HlSession::refuseUpload(std::uint64_t id, const std::string& why) {
+  if (uploads_.erase(id) != 0) upload_memory_.set(upload_memory_.bytes() - bytes_of_upload_.extract(id).mapped());
+  refused_uploads_.insert(id);
+  if (refused_uploads_.size() > kMostRefusedUploads) return end(why);
+  refuse("upload " + std::to_string(id) + ": " + why);
+}
+
+// Their memory goes over to that of the frame.
+Uploads HlSession::takeUploads(const proto::Frame& frame, MemoryShare& memory) {
   Uploads used;
   const auto take = [&](const auto& items) {
     for (const auto& item : items) {
       if (!item.has_upload()) continue;
+      refused_uploads_.erase(item.upload());
       auto node = uploads_.extract(item.upload());
       if (!node) continue;
-      upload_bytes_ -= bytes_of_upload_.extract(item.upload()).mapped();
+      const std::uint64_t bytes = bytes_of_upload_.extract(item.upload()).mapped();
+      upload_memory_.set(upload_memory_.bytes() - bytes);
+      memory.set(memory.bytes() + bytes);
       used.insert(std::move(node));
     }
   };
@@ -136,8 +157,14 @@ void HlSession::submit(proto::Frame frame) {
   if (!frame_rate_.allow(monotonicNow_ns())) return refuse("frames come faster than the server's limit", number);
   if (server_.publisher_.waiting(place_) >= kMostWaitingFrames)
     return refuse("frames come faster than they can be built", number);
-  Uploads uploads = takeUploads(frame);
-  server_.publisher_.submit(place_, std::move(frame), std::move(uploads));
+  MemoryShare memory(server_.publisher_.memory());
+  Uploads uploads = takeUploads(frame, memory);
+  try {
+    memory.take(frame.SpaceUsedLong());
+  } catch (const Error& error) {
+    return refuse(error.what(), number);
+  }
+  server_.publisher_.submit(place_, std::move(frame), std::move(uploads), std::move(memory));
 }
 
 void HlSession::setDevice(const proto::DeviceSettings& settings) {

@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <deque>
 #include <mutex>
+#include <set>
 #include <string>
 #include <unordered_map>
 
+#include "base/memory_budget.h"
 #include "server/client_session.h"
 #include "server/limits.h"
 #include "server/message_rate.h"
@@ -38,7 +40,8 @@ class HlSession final : public ClientSession {
   void open(const proto::Open& open);
   void keepUpload(proto::Upload upload);
   void submit(proto::Frame frame);
-  Uploads takeUploads(const proto::Frame& frame);
+  void refuseUpload(std::uint64_t id, const std::string& why);
+  Uploads takeUploads(const proto::Frame& frame, MemoryShare& memory);
   void setDevice(const proto::DeviceSettings& settings);
   void setStateRate(double rate_Hz);
   void reply(proto::ServerReply reply);
@@ -56,8 +59,10 @@ class HlSession final : public ClientSession {
   std::atomic<std::uint32_t> device_{0};  // read by others
   std::shared_ptr<ScenePublisher::Place> place_;
   Uploads uploads_;
+  MemoryShare upload_memory_;
+  std::set<std::uint64_t> refused_uploads_;                           // of which no part is kept
   std::unordered_map<std::uint64_t, std::uint64_t> bytes_of_upload_;  // by the id of the upload
-  std::uint64_t upload_bytes_ = 0, last_frame_ = 0;
+  std::uint64_t last_frame_ = 0;
   double state_period_s_ = 0;  // 0: no states
   double next_state_s_ = 0;    // server's clock
   MessageRate frame_rate_;

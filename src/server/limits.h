@@ -6,6 +6,8 @@
 
 #include <cstdint>
 
+#include "base/machine_memory.h"
+
 namespace hl {
 
 struct Limits {
@@ -25,6 +27,9 @@ struct Limits {
   double state_rate_Hz = 1000;  ///< the rate of the loops: there is nothing newer to send
 
   // The server as a whole.
+  /// Of the scenes of all clients and what they have sent ahead; half of the machine's, as what is being replaced is
+  /// still there and not counted.
+  std::uint64_t memory_bytes = machineMemory_bytes() / 2;
   std::uint32_t sessions = 32;  ///< HL clients; the SessionHost counts them
   std::uint32_t pages = 16;     ///< viewer WebSockets at once; each costs a copy of the scene while it is sent
   std::uint64_t page_message_bytes = 4096;  ///< a page sends a few hundred

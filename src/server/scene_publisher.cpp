@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <new>
+#include <numeric>
 #include <utility>
 
 #include "base/clock.h"
@@ -23,8 +25,12 @@ constexpr auto kLoopPoll = std::chrono::microseconds(200);
 
 class ScenePublisher::Place {
  public:
-  Place(std::uint32_t session, const SceneLimits& limits, FrameCallbacks callbacks)
-      : session_(session), limits_(limits), scene_(session, limits), callbacks_(std::move(callbacks)) {}
+  Place(std::uint32_t session, const SceneLimits& limits, FrameCallbacks callbacks, MemoryBudget& memory)
+      : session_(session),
+        limits_(limits),
+        scene_(session, limits),
+        callbacks_(std::move(callbacks)),
+        memory_(memory) {}
 
  private:
   friend class ScenePublisher;
@@ -56,10 +62,19 @@ class ScenePublisher::Place {
   bool fresh_ = false;               // placed_ is not shown yet
   std::vector<Ready> ready_;         // frames that placed_ holds, not yet shown
   std::vector<Instance> instances_;  // as shown
+  std::size_t bytes_ = 0;            // of scene_
+  MemoryShare memory_;               // that, and what the shapes shown were before they were bent
 };
 
-ScenePublisher::ScenePublisher(std::shared_ptr<const Snapshot> base, std::vector<TouchSession*> devices)
-    : base_(std::move(base)), devices_(std::move(devices)), shown_(base_) {}
+ScenePublisher::ScenePublisher(std::shared_ptr<const Snapshot> base, std::vector<TouchSession*> devices,
+                               std::uint64_t most_memory_bytes)
+    : base_(std::move(base)),
+      devices_(std::move(devices)),
+      memory_(most_memory_bytes),
+      base_memory_(memory_),
+      shown_(base_) {
+  base_memory_.set(memoryOf(*base_));
+}
 
 ScenePublisher::~ScenePublisher() { stop(); }
 
@@ -82,16 +97,17 @@ void ScenePublisher::stop() {
 
 std::shared_ptr<ScenePublisher::Place> ScenePublisher::join(std::uint32_t session, const SceneLimits& limits,
                                                             FrameCallbacks callbacks) {
-  auto place = std::make_shared<Place>(session, limits, std::move(callbacks));
+  auto place = std::make_shared<Place>(session, limits, std::move(callbacks), memory_);
   const std::lock_guard lock(mutex_);
   places_.push_back(place);
   return place;
 }
 
-void ScenePublisher::submit(const std::shared_ptr<Place>& place, proto::Frame frame, Uploads uploads) {
+void ScenePublisher::submit(const std::shared_ptr<Place>& place, proto::Frame frame, Uploads uploads,
+                            MemoryShare memory) {
   {
     const std::lock_guard lock(mutex_);
-    place->waiting_.push_back({std::move(frame), std::move(uploads), monotonicNow_ns()});
+    place->waiting_.push_back({std::move(frame), std::move(uploads), std::move(memory), monotonicNow_ns()});
   }
   work_.notify_one();
 }
@@ -181,10 +197,12 @@ void ScenePublisher::build(Place& place, Waiting& waiting) {
     place.tell([&](FrameCallbacks& callbacks) { callbacks.progress(number, part); });
   };
   try {
-    DecodedFrame decoded = decodeFrame(waiting.frame, waiting.uploads, place.limits_, progress,
+    DecodedFrame decoded = decodeFrame(waiting.frame, waiting.uploads, place.limits_, waiting.memory, progress,
                                        [&](std::uint32_t object) { return place.scene_.items(object); });
-    place.scene_.apply(decoded.edit);
+    place.scene_.apply(decoded.edit, waiting.memory);
+    const std::size_t bytes = place.scene_.bytes();
     const std::lock_guard lock(mutex_);
+    place.memory_.set(place.bytes_ = bytes);
     counts_.refits += decoded.refits;
     place.placed_ = place.scene_.placed();
     place.worn_ = place.scene_.worn() != nullptr;
@@ -192,6 +210,8 @@ void ScenePublisher::build(Place& place, Waiting& waiting) {
     place.move_ns_ = moveTime_ns(waiting, place.last_arrived_ns_);
     place.last_arrived_ns_ = waiting.arrived_ns;
     place.fresh_ = dirty_ = true;
+  } catch (const std::bad_alloc&) {
+    place.tell([&](FrameCallbacks& callbacks) { callbacks.refused(number, "the server has no memory for it"); });
   } catch (const std::exception& error) {
     place.tell([&](FrameCallbacks& callbacks) { callbacks.refused(number, error.what()); });
   }
@@ -295,12 +315,17 @@ void ScenePublisher::tellShown(std::unique_lock<std::mutex>& lock) {
     place->fresh_ = false;
     place->instances_.clear();
     Told& entry = told.emplace_back(Told{place, std::exchange(place->ready_, {}), 0});
+    std::map<const Shape*, std::size_t> before_bytes;
     for (const Instance& instance : shown_->instances) {
       if (instance.session != place->session_) continue;
       place->instances_.push_back(instance);
-      place->instances_.back().before.reset();  // of what has not been bent again by the next scene
       entry.primitives += instance.shape->primitives.size();
+      if (!instance.before) continue;
+      before_bytes[instance.before.get()] = instance.before->bytes();
+      place->instances_.back().before.reset();  // of what has not been bent again by the next scene
     }
+    place->memory_.set(std::accumulate(before_bytes.begin(), before_bytes.end(), place->bytes_,
+                                       [](std::size_t sum, const auto& shape) { return sum + shape.second; }));
   }
   std::erase_if(places_, [](const auto& place) { return place->removed_ && !place->building_; });
   lock.unlock();

@@ -20,6 +20,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/memory_budget.h"
 #include "scene/editable_scene.h"
 #include "server/decode_frame.h"
 #include "server/touch_session.h"
@@ -47,26 +48,34 @@ class ScenePublisher {
   /// A client's objects. Made by join(), shared with the publisher.
   class Place;
 
-  /// `base` is touchable besides what clients bring. The devices must outlive the publisher.
-  ScenePublisher(std::shared_ptr<const Snapshot> base, std::vector<TouchSession*> devices);
+  /// `base` is touchable besides what clients bring; with it their scenes may take so much memory. The devices must
+  /// outlive the publisher.
+  ScenePublisher(std::shared_ptr<const Snapshot> base, std::vector<TouchSession*> devices,
+                 std::uint64_t most_memory_bytes);
   ~ScenePublisher();
   void start();
   void stop();  ///< what is not shown by then never is; safe to call twice
 
   std::shared_ptr<Place> join(std::uint32_t session, const SceneLimits& limits, FrameCallbacks callbacks);
-  /// Any thread; returns at once. `uploads`: those that the frame refers to.
-  void submit(const std::shared_ptr<Place>& place, proto::Frame frame, Uploads uploads);
+  /// Any thread; returns at once. `uploads`: those that the frame refers to. `memory`: what both take, until it is
+  /// built.
+  void submit(const std::shared_ptr<Place>& place, proto::Frame frame, Uploads uploads, MemoryShare memory);
   /// Frames that are submitted and not yet shown or refused.
   std::size_t waiting(const std::shared_ptr<Place>& place) const;
   /// No callback is under way or comes after this. The objects stay where they are until remove().
   void detach(const std::shared_ptr<Place>& place);
   void remove(const std::shared_ptr<Place>& place);
   HierarchyCounts counts() const;
+  /// What the base takes, scenes that are shown or being built, and what waits to be. A scene that another takes the
+  /// place of no longer counts, though it is kept until the loops have taken that one.
+  MemoryBudget& memory() { return memory_; }
+  const MemoryBudget& memory() const { return memory_; }
 
  private:
   struct Waiting {
     proto::Frame frame;
     Uploads uploads;
+    MemoryShare memory;
     std::int64_t arrived_ns = 0;
   };
 
@@ -84,6 +93,8 @@ class ScenePublisher {
 
   const std::shared_ptr<const Snapshot> base_;
   const std::vector<TouchSession*> devices_;
+  MemoryBudget memory_;
+  MemoryShare base_memory_;
   mutable std::mutex mutex_;  // of all below and of the places; no thread builds or waits while holding it
   std::condition_variable work_, changed_;
   std::vector<std::shared_ptr<Place>> places_;

@@ -66,7 +66,9 @@ class TouchMonitor {
     out.single("hl_iteration_caps_total", MetricType::kCounter, "Ticks that hit the cap on their passes",
                static_cast<double>(proxy.capped));
     writeLedger(out, proxy.ledger, servo.late);
-    if (clients_ != nullptr) writeHierarchies(out, clients_->hierarchyCounts());
+    if (clients_ == nullptr) return;
+    writeHierarchies(out, clients_->hierarchyCounts());
+    writeMemory(out, clients_->memory());
   }
 
  private:
@@ -138,6 +140,14 @@ class TouchMonitor {
                static_cast<double>(counts.refits));
     out.single("hl_hierarchy_rebuilds_total", kCounter, "Refitted hierarchies that were built anew as they were worn",
                static_cast<double>(counts.rebuilds));
+  }
+
+  static void writeMemory(MetricsText& out, const MemoryBudget& memory) {
+    using enum MetricType;
+    out.single("hl_memory_used_bytes", kGauge, "Memory of all clients' scenes and uploads",
+               static_cast<double>(memory.used_bytes()));
+    out.single("hl_memory_limit_bytes", kGauge, "What they may take; a scene that does not fit is refused",
+               static_cast<double>(memory.most_bytes()));
   }
 
   TouchSession& session_;

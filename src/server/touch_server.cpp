@@ -37,7 +37,7 @@ std::vector<TouchSession*> pointersOf(const std::vector<std::unique_ptr<TouchSes
 TouchServer::TouchServer(std::shared_ptr<const Snapshot> base, const TouchServerSettings& settings)
     : settings_(settings),
       devices_(makeDevices(base, settings)),
-      publisher_(std::move(base), pointersOf(devices_)),
+      publisher_(std::move(base), pointersOf(devices_), settings.limits.memory_bytes),
       masters_(devices_.size(), 0),
       buttons_(devices_.size(), 0) {}
 

@@ -42,6 +42,7 @@ class TouchServer final : public SessionHost {
   std::size_t devices() const { return devices_.size(); }
   std::size_t sessions() const;
   HierarchyCounts hierarchyCounts() const { return publisher_.counts(); }
+  const MemoryBudget& memory() const { return publisher_.memory(); }
   double time_s() const { return devices_[0]->time_s(); }
 
  private:

@@ -15,9 +15,9 @@ SceneLimits smallLimits() {
   return limits;
 }
 
-std::string refusalOf(const proto::Frame& frame, const Uploads& uploads = {}) {
+std::string refusalOf(const proto::Frame& frame, const Uploads& uploads = {}, MemoryShare memory = {}) {
   try {
-    decodeFrame(frame, uploads, smallLimits(), [](double) {});
+    decodeFrame(frame, uploads, smallLimits(), memory, [](double) {});
   } catch (const Error& error) {
     return error.what();
   }

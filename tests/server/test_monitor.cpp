@@ -123,6 +123,7 @@ TEST(Monitor, NumbersOfClientsAreThereWhereAServerTakesThem) {
   const auto response = test::request(server.port(), "/metrics");
   expectPrometheus(response.body());
   EXPECT_NE(response.body().find("\nhl_hierarchy_refits_total 0\n"), std::string::npos);
+  EXPECT_NE(response.body().find("\nhl_memory_limit_bytes "), std::string::npos);
   EXPECT_NE(response.body().find("\nhl_hierarchy_rebuilds_total 0\n"), std::string::npos);
 }
 

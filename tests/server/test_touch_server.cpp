@@ -374,6 +374,85 @@ TEST(TouchServer, UploadsCountAsTheMemoryThatTheyTake) {
   EXPECT_NE(client.session_->end().find("memory"), std::string::npos) << client.session_->end();
 }
 
+// A server with memory for two rows of points, and for what it takes to make one.
+class SmallServerTest : public testing::Test {
+ protected:
+  static constexpr std::uint64_t kMost_bytes = 400'000;
+
+  static TouchServerSettings small() {
+    TouchServerSettings settings = settingsOf();
+    settings.limits.memory_bytes = kMost_bytes;
+    return settings;
+  }
+  SmallServerTest() : server_(nothing(), small()), empty_bytes_(server_.memory().used_bytes()) { server_.start(); }
+
+  std::uint64_t used() const { return server_.memory().used_bytes() - empty_bytes_; }
+
+  TouchServer server_;
+  const std::uint64_t empty_bytes_;
+};
+
+TEST_F(SmallServerTest, ASceneThatDoesNotFitIsRefusedAndWhatIsThereStays) {
+  Client first(server_), second(server_), third(server_);
+  for (Client* client : {&first, &second, &third}) client->open();
+  EXPECT_EQ(first.welcome_.limits().memory_bytes(), kMost_bytes);
+  ASSERT_TRUE(first.show(rowFrame(first, 1)));
+  ASSERT_TRUE(first.until([&] { return used() == server_.device().snapshot()->shape().bytes(); }));
+  ASSERT_TRUE(second.show(rowFrame(second, 1)));
+  const proto::Frame too_much = rowFrame(third, 1);
+  third.send(too_much);
+  ASSERT_TRUE(third.until([&] { return third.refusal_.frame() == too_much.number(); }));
+  EXPECT_NE(third.refusal_.text().find("the scenes of all clients"), std::string::npos) << third.refusal_.text();
+  EXPECT_EQ(server_.device().snapshot()->instances.size(), 2u);
+  first.session_.reset();
+  ASSERT_TRUE(third.until([&] { return server_.device().snapshot()->instances.size() == 1; }));
+  ASSERT_TRUE(third.until([&] { return used() < kMost_bytes / 3; }));
+  EXPECT_TRUE(third.show(rowFrame(third, 1))) << third.refusal_.text();
+}
+
+TEST_F(SmallServerTest, WhatIsBentCountsTwiceUntilTheNextFrame) {
+  Client client(server_);
+  client.open();
+  ASSERT_TRUE(client.show(rowFrame(client, 1)));
+  ASSERT_TRUE(client.until([&] { return used() == server_.device().snapshot()->shape().bytes(); }));
+  const std::uint64_t once = used();
+  ASSERT_TRUE(client.show(rowFrame(client, 1)));
+  ASSERT_TRUE(client.until([&] { return used() > once; }));
+  EXPECT_NEAR(static_cast<double>(used()), 2.0 * static_cast<double>(once), 0.1 * static_cast<double>(once));
+  proto::Frame same;
+  same.set_number(++client.number_);
+  ASSERT_TRUE(client.show(same));
+  EXPECT_TRUE(client.until([&] { return used() <= once; }));
+}
+
+TEST_F(SmallServerTest, AnUploadThatDoesNotFitIsRefusedWithTheFrameThatNeedsIt) {
+  Client client(server_);
+  client.open();
+  ASSERT_TRUE(client.show(client.floorFrame(0)));
+  proto::ClientMessage part;
+  part.mutable_upload()->set_id(7);
+  for (int i = 0; i < 30'000; ++i) part.mutable_upload()->mutable_part()->add_vertices(i);
+  for (int i = 0; i < 3; ++i) client.session_->receive(part);
+  ASSERT_TRUE(client.until([&] { return !client.refusal_.text().empty(); }));
+  EXPECT_EQ(client.refusal_.text().find("upload 7: with this the scenes"), 0u) << client.refusal_.text();
+  EXPECT_EQ(used() / 10'000, 0u) << "no part of it is kept";
+  const auto frameOf = [&] {
+    proto::Frame frame;
+    frame.set_number(++client.number_);
+    proto::Item& item = *frame.mutable_world()->add_items();
+    item.set_upload(7);
+    return frame;
+  };
+  client.send(frameOf());
+  ASSERT_TRUE(client.until([&] { return client.refusal_.frame() == 2; }));
+  EXPECT_NE(client.refusal_.text().find("there is no upload 7"), std::string::npos) << client.refusal_.text();
+  EXPECT_EQ(server_.device().snapshot()->primitives, 2u);
+  part.mutable_upload()->mutable_part()->mutable_vertices()->Truncate(9);
+  for (const std::uint32_t i : {0U, 1U, 2U}) part.mutable_upload()->mutable_part()->add_points(i);
+  client.session_->receive(part);
+  EXPECT_TRUE(client.show(frameOf())) << client.refusal_.text();
+}
+
 TEST_F(TouchServerTest, OneClientIsTheDevicesMasterUntilItLeaves) {
   auto first = std::make_unique<Client>(server_);
   first->open();
