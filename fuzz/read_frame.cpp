@@ -51,6 +51,7 @@ void readMessage(MessageForm form, std::string_view bytes) {
   }
   Uploads uploads;
   if (message.has_upload()) uploads[message.upload().id()] = message.upload().part();
+  for (const proto::Upload& upload : message.uploads().parts()) uploads[upload.id()].MergeFrom(upload.part());
   EditableScene scene(1, smallLimits());
   scene.apply(framesBefore());
   const std::vector<Pose> before = posesOf(scene);

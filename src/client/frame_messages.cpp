@@ -13,8 +13,9 @@ namespace {
 
 // A mesh from here on goes in parts: smaller ones are not worth their own message.
 constexpr std::size_t kInlineBytes = std::size_t{256} << 10;
-// One part decodes in about a millisecond.
+// One part, or so many of small meshes in one message, decode in about a millisecond.
 constexpr std::size_t kPartBytes = std::size_t{1} << 20;
+constexpr std::size_t kPartHeadBytes = 32;  // of a part, at most, beside its numbers
 
 constexpr std::uint64_t unlessZero(std::uint64_t limit) {
   return limit == 0 ? std::numeric_limits<std::uint64_t>::max() : limit;
@@ -148,12 +149,24 @@ class Builder {
   void addParts(const List& numbers, Mutable mutable_list) {
     const std::size_t step = std::max<std::size_t>(part_bytes_ / sizeof(double) / 6, 1) * 6;
     for (std::size_t first = 0; first < numbers.size(); first += step) {
-      proto::Upload& part = *messages_.uploads.emplace_back().mutable_upload();
-      part.set_id(upload_);
       const auto* begin = numbers.data() + first;
-      (part.mutable_part()->*mutable_list)()->Add(begin, begin + std::min(step, numbers.size() - first));
-      upload_bytes_ += messages_.uploads.back().ByteSizeLong();
+      const auto* end = begin + std::min(step, numbers.size() - first);
+      proto::Upload& part = addPart((end - begin) * sizeof(*begin));
+      part.set_id(upload_);
+      (part.mutable_part()->*mutable_list)()->Add(begin, end);
+      upload_bytes_ += part.ByteSizeLong();
     }
+  }
+
+  // Thousands of small meshes are not worth thousands of messages.
+  proto::Upload& addPart(std::size_t bytes) {
+    bytes += kPartHeadBytes;
+    if (messages_.uploads.empty() || message_bytes_ + bytes > part_bytes_) {
+      messages_.uploads.emplace_back();
+      message_bytes_ = 0;
+    }
+    message_bytes_ += bytes;
+    return *messages_.uploads.back().mutable_uploads()->add_parts();
   }
 
   void requireWithinLimits() const {
@@ -171,6 +184,7 @@ class Builder {
   FrameMessages messages_;
   std::uint64_t most_inline_, part_bytes_;
   std::uint64_t inline_bytes_ = 0, upload_bytes_ = 0, upload_ = 0;
+  std::uint64_t message_bytes_ = 0;  // of the last of the uploads, at most
 };
 
 }  // namespace

@@ -59,6 +59,9 @@ void HlSession::receive(proto::ClientMessage message) {
       return open(message.open());
     case proto::ClientMessage::kUpload:
       return keepUpload(std::move(*message.mutable_upload()));
+    case proto::ClientMessage::kUploads:
+      for (proto::Upload& upload : *message.mutable_uploads()->mutable_parts()) keepUpload(std::move(upload));
+      return;
     case proto::ClientMessage::kFrame:
       return submit(std::move(*message.mutable_frame()));
     case proto::ClientMessage::kStateRate:

@@ -70,7 +70,7 @@ struct FakeServer {
   std::map<std::uint64_t, proto::Primitives> uploads() const {
     std::map<std::uint64_t, proto::Primitives> all;
     for (const proto::ClientMessage& message : received)
-      if (message.has_upload()) all[message.upload().id()].MergeFrom(message.upload().part());
+      for (const proto::Upload& upload : message.uploads().parts()) all[upload.id()].MergeFrom(upload.part());
     return all;
   }
 };

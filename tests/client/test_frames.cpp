@@ -237,6 +237,31 @@ TEST_F(CallsTest, ManySmallMeshesDoNotMakeALongFrame) {
   EXPECT_FALSE(server->uploads().empty());
 }
 
+TEST_F(CallsTest, ManySmallMeshesShareTheMessagesThatGoAhead) {
+  constexpr int kMeshes = 3'000, kVertices = 100;
+  for (HLuint name = 1; name <= kMeshes; ++name) {
+    hlLoadName(name);
+    strip(kVertices);
+  }
+  const proto::Frame frame = flushed();
+  std::size_t bytes = 0;
+  for (const proto::ClientMessage& message : server->received) {
+    if (message.has_frame()) continue;
+    EXPECT_LE(message.ByteSizeLong(), 1U << 20);
+    bytes += message.ByteSizeLong();
+  }
+  EXPECT_GT(bytes, 8U << 20);
+  EXPECT_LT(server->received.size(), 3 * bytes >> 20);
+  const auto uploads = server->uploads();
+  ASSERT_EQ(frame.world().items_size(), kMeshes);
+  EXPECT_GT(uploads.size(), kMeshes / 2U);
+  for (const proto::Item& item : frame.world().items()) {
+    const proto::Primitives& mesh = item.has_upload() ? uploads.at(item.upload()) : item.primitives();
+    ASSERT_EQ(mesh.vertices_size(), 3 * kVertices) << item.name();
+    ASSERT_EQ(mesh.triangles_size(), 3 * (kVertices - 2)) << item.name();
+  }
+}
+
 // A context whose server takes little.
 class SmallServer : public CallsTest {
  protected:
