@@ -37,7 +37,7 @@ struct ProxyStep {
   FixedVector<ObjectName, 3> touched;  ///< of report.contacts, one by one
 };
 
-/// step() by one thread at a time, RT-safe; popEvent() by one other.
+/// step() and skip() by one thread at a time, RT-safe; popEvent() by one other.
 class ProxyLoop {
  public:
   /// `settings`: passes and iterations; the rest comes with each step.
@@ -45,6 +45,9 @@ class ProxyLoop {
 
   /// One tick at `now_ns` with the finger at `finger_D`.
   ProxyStep step(std::int64_t now_ns, const Vec3& finger_D, const ProxyCommands& commands, const SpringOfServo& spring);
+  /// Instead of a tick, when nobody knows where the finger is: takes the newest scene all the same, so that clients who
+  /// wait for theirs to be taken do not wait for the device.
+  void skip() { scenes_.take(); }
   const ProxyState& state() const { return state_; }
   bool popEvent(TouchEvent& event) { return events_.pop(event); }
 

@@ -7,6 +7,7 @@ ServoOutput TouchStep::onTime(ProxyLoop& loop, const ProxyCommands& commands, co
   if (sample.status == DeviceStatus::kOk && sample.position.allFinite()) {
     tick_ = loop.step(sample.time_ns, sample.position, commands, springOf(settings));
   } else {
+    loop.skip();
     tick_.scene = 0;
     tick_.held = HeldContacts{};
     tick_.held.target.time_ns = sample.time_ns;

@@ -111,6 +111,20 @@ TEST(TouchStep, ASampleThatIsNoReadingTicksNothing) {
   EXPECT_EQ(floor.loop_.state().position, before);
 }
 
+TEST(TouchStep, ScenesGoOnWhileTheDeviceIsLost) {
+  Floor floor;
+  const ServoSettings settings = undamped(premium10().info, 1000);
+  DeviceSample lost = sampleAt(0, Vec3::Zero());
+  lost.status = DeviceStatus::kLost;
+  for (int i = 1; i <= 3; ++i) {
+    floor.scenes_.publish(test::snapshotOf(test::floorModel()));
+    EXPECT_FALSE(floor.scenes_.taken());
+    lost.time_ns = i * kMs;
+    floor.step_.onTime(floor.loop_, floor.commands_, settings, lost);
+    EXPECT_TRUE(floor.scenes_.taken());
+  }
+}
+
 TEST(TouchStep, AllocatesNothing) {
   Floor floor;
   const ServoSettings settings = undamped(premium10().info, 1000);
