@@ -181,7 +181,7 @@ void ScenePublisher::runBuilder() {
       place->waiting_.pop_front();
     }
     lock.unlock();
-    frame ? build(*place, waiting) : rebuild(*place);
+    frame ? build(*place, std::move(waiting)) : rebuild(*place);
     lock.lock();
     place->building_ = place->rebuilding_ = false;
     if (!place->waiting_.empty()) work_.notify_one();
@@ -189,8 +189,8 @@ void ScenePublisher::runBuilder() {
   }
 }
 
-// A frame that cannot be shown changes nothing but to be told so.
-void ScenePublisher::build(Place& place, Waiting& waiting) {
+// A frame that cannot be shown changes nothing but to be told so. Its messages go with it, before anyone is locked out.
+void ScenePublisher::build(Place& place, Waiting waiting) {
   const std::uint64_t number = waiting.frame.number();
   const auto progress = [&](double part) {
     if (!running_) throw Error("the server is closing");

@@ -83,7 +83,7 @@ class ScenePublisher {
   void runPublisher();
   std::shared_ptr<Place> placeToBuild();
   std::shared_ptr<Place> placeToRebuild();
-  void build(Place& place, Waiting& waiting);
+  void build(Place& place, Waiting waiting);
   void rebuild(Place& place);
   bool waitForLoops();
   void publish();
