@@ -78,7 +78,7 @@ class EditableScene::Flattening {
   void enter(const SceneItem& item, const Call& call);
   void add(const SceneItem& item, const Call& call);
   std::shared_ptr<const Shape> shapeOf(const std::shared_ptr<const Shape>& shape, const Mat3& stretch);
-  std::shared_ptr<const Surfaces> surfacesOf(const SurfaceChange& change) const;
+  std::shared_ptr<const Surfaces> surfacesOf(const SurfaceChange& change);
 
   const EditableScene& scene_;
   const State& state_;
@@ -86,6 +86,8 @@ class EditableScene::Flattening {
   std::vector<std::uint32_t> path_;
   std::size_t visits_ = 0;
   ModelSizes copies_;  // a few bytes of matrix make one
+  SurfaceChange last_change_;
+  std::shared_ptr<const Surfaces> last_surfaces_;  // of that: most objects feel as the one before
 };
 
 // The n-th call of an object is the same one as in the last frame, and so is the n-th shape.
@@ -149,7 +151,8 @@ std::shared_ptr<const Shape> EditableScene::Flattening::shapeOf(const std::share
   return slot = makeShape(std::move(model), before == made.end() ? *shape : *before->second);
 }
 
-std::shared_ptr<const Surfaces> EditableScene::Flattening::surfacesOf(const SurfaceChange& change) const {
+std::shared_ptr<const Surfaces> EditableScene::Flattening::surfacesOf(const SurfaceChange& change) {
+  if (last_surfaces_ && change == last_change_) return last_surfaces_;
   auto surfaces = std::make_shared<Surfaces>();
   Material material = change.material();
   for (std::size_t i = 0; i < kQuantities; ++i) {
@@ -161,7 +164,8 @@ std::shared_ptr<const Surfaces> EditableScene::Flattening::surfacesOf(const Surf
     surfaces->textures.push_back(found->second);
   }
   surfaces->materials.push_back(material);
-  return surfaces;
+  last_change_ = change;
+  return last_surfaces_ = std::move(surfaces);
 }
 
 EditableScene::State EditableScene::after(const SceneEdit& edit) const {
@@ -265,36 +269,47 @@ namespace {
 
 // Snapshot::blend_ns, as far as it is due to one object, which was there before where that is known.
 std::int64_t blendOf(const Instance* before, const Instance& now, std::int64_t frame_ns) {
-  if (before == nullptr || !(*before->surfaces == *now.surfaces)) return kAbruptBlend_ns;
+  if (before == nullptr || !(before->surfaces == now.surfaces || *before->surfaces == *now.surfaces))
+    return kAbruptBlend_ns;
   if (!now.motion.moves() && !(before->motion.to() == now.motion.to())) return kAbruptBlend_ns;
   if (before->shape->geometry == now.shape->geometry) return 0;
   return now.before && frame_ns > 0 ? frame_ns : kAbruptBlend_ns;
 }
 
+Instance follow(const PlacedShape& now, const Instance* before, std::int64_t begin_ns, std::int64_t end_ns) {
+  Instance instance{now.shape, now.surfaces, Motion(now.pose), now.key, now.session, now.object, now.name};
+  if (before == nullptr) return instance;
+  if (end_ns > begin_ns) {
+    const bool stays = before->motion.to() == now.pose;
+    const bool rests = !before->motion.moves() || before->motion.last().end_ns() < begin_ns;
+    if (!stays || !rests) instance.motion = stays ? before->motion : before->motion.then(now.pose, begin_ns, end_ns);
+  }
+  if (before->shape->mesh == now.shape->mesh && before->shape->geometry != now.shape->geometry)
+    instance.before = before->shape;
+  return instance;
+}
+
+std::vector<const PlacedShape*> byKey(const std::vector<PlacedShape>& placed) {
+  std::vector<const PlacedShape*> sorted;
+  for (const PlacedShape& one : placed) sorted.push_back(&one);
+  std::sort(sorted.begin(), sorted.end(), [](const auto* a, const auto* b) { return a->key < b->key; });
+  return sorted;
+}
+
 }  // namespace
 
-Followed followOn(const std::vector<PlacedShape>& placed, const std::vector<Instance>& last, std::int64_t begin_ns,
+Followed followOn(const std::vector<PlacedShape>& placed, std::span<const Instance* const> last, std::int64_t begin_ns,
                   std::int64_t end_ns) {
   Followed result;
   if (placed.size() != last.size()) result.blend_ns = kAbruptBlend_ns;
   result.instances.reserve(placed.size());
-  for (const PlacedShape& now : placed) {
-    Instance instance{now.shape, now.surfaces, Motion(now.pose), now.key, now.session, now.object, now.name};
-    const auto found = std::lower_bound(last.begin(), last.end(), now.key,
-                                        [](const Instance& a, std::uint64_t key) { return a.key < key; });
-    const Instance* const before = found != last.end() && found->key == now.key ? &*found : nullptr;
-    if (before != nullptr && end_ns > begin_ns) {
-      const bool stays = before->motion.to() == now.pose;
-      const bool rests = !before->motion.moves() || before->motion.last().end_ns() < begin_ns;
-      if (!stays || !rests) instance.motion = stays ? before->motion : before->motion.then(now.pose, begin_ns, end_ns);
-    }
-    if (before != nullptr && before->shape->mesh == now.shape->mesh && before->shape->geometry != now.shape->geometry)
-      instance.before = before->shape;
-    result.blend_ns = std::max(result.blend_ns, blendOf(before, instance, end_ns - begin_ns));
-    result.instances.push_back(std::move(instance));
+  auto at = last.begin();
+  for (const PlacedShape* now : byKey(placed)) {
+    at = std::find_if(at, last.end(), [&](const Instance* one) { return one->key >= now->key; });
+    const Instance* const before = at != last.end() && (*at)->key == now->key ? *at : nullptr;
+    result.instances.push_back(follow(*now, before, begin_ns, end_ns));
+    result.blend_ns = std::max(result.blend_ns, blendOf(before, result.instances.back(), end_ns - begin_ns));
   }
-  std::sort(result.instances.begin(), result.instances.end(),
-            [](const Instance& a, const Instance& b) { return a.key < b.key; });
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -113,10 +114,10 @@ struct Followed {
   std::int64_t blend_ns = 0;  ///< for the next snapshot
 };
 
-/// The instances of the next snapshot, from those of this client in the last one (by rising key): what was there moves
-/// from where it is at `begin_ns` to its new place until `end_ns`; what is new, or all when end_ns <= begin_ns, is
-/// there at once. What bends comes over in the same time.
-Followed followOn(const std::vector<PlacedShape>& placed, const std::vector<Instance>& last, std::int64_t begin_ns,
+/// The instances of the next snapshot, from those of this client in the last one, both by rising key: what was there
+/// moves from where it is at `begin_ns` to its new place until `end_ns`; what is new, or all when end_ns <= begin_ns,
+/// is there at once. What bends comes over in the same time.
+Followed followOn(const std::vector<PlacedShape>& placed, std::span<const Instance* const> last, std::int64_t begin_ns,
                   std::int64_t end_ns);
 
 }  // namespace hl

@@ -57,6 +57,19 @@ double largestMove_m(const std::vector<Vec3>& from, const std::vector<Vec3>& to)
   return std::sqrt(oneapi::tbb::parallel_reduce(Range(0, to.size(), kGrain), 0.0, largest, larger));
 }
 
+// Instances are large: what is sorted are their places, and each moves once.
+std::vector<Instance> byKey(std::vector<Instance> instances) {
+  const auto before = [](const Instance& a, const Instance& b) { return a.key < b.key; };
+  if (std::is_sorted(instances.begin(), instances.end(), before)) return instances;
+  std::vector<Instance*> order;
+  for (Instance& instance : instances) order.push_back(&instance);
+  std::sort(order.begin(), order.end(), [&](const Instance* a, const Instance* b) { return before(*a, *b); });
+  std::vector<Instance> sorted;
+  sorted.reserve(order.size());
+  for (Instance* instance : order) sorted.push_back(std::move(*instance));
+  return sorted;
+}
+
 bool allDefault(const std::vector<Material>& materials) {
   return std::all_of(materials.begin(), materials.end(), [](const Material& one) { return one == Material{}; });
 }
@@ -103,9 +116,7 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, st
   snapshot->name = std::move(name);
   snapshot->number = number;
   snapshot->blend_ns = blend_ns;
-  snapshot->instances = std::move(instances);
-  std::sort(snapshot->instances.begin(), snapshot->instances.end(),
-            [](const Instance& a, const Instance& b) { return a.key < b.key; });
+  snapshot->instances = byKey(std::move(instances));
   for (Instance& instance : snapshot->instances) {
     instance.plain = allDefault(instance.surfaces->materials);
     if (instance.before) {

@@ -14,6 +14,7 @@ namespace hl {
 struct NamedTextureUse {
   std::string texture;
   double low = 0, high = 1;  ///< as in TextureUse
+  bool operator==(const NamedTextureUse&) const = default;
 };
 
 struct SurfaceChange {
@@ -26,6 +27,7 @@ struct SurfaceChange {
   SurfaceChange over(const SurfaceChange& caller) const;
   /// The material it comes to; what nobody said is Material's default, and smooth. Textures are left out.
   Material material() const;
+  bool operator==(const SurfaceChange&) const = default;
 };
 
 }  // namespace hl

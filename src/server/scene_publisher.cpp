@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <iterator>
 #include <new>
-#include <numeric>
+#include <set>
 #include <utility>
 
 #include "base/clock.h"
@@ -17,6 +18,7 @@ namespace {
 // Motion begins a little after the scene is shown, so that every loop has taken it by then.
 constexpr std::int64_t kLead_ns = 2'000'000;
 constexpr int kLeadTries = 4;
+constexpr double kMakingMargin = 1.5;  // of the time that the scene before took to make
 // Between two frames that are farther apart than this, nothing was meant to be seen moving all the time.
 constexpr std::int64_t kLongestMove_ns = 100'000'000;
 constexpr auto kLoopPoll = std::chrono::microseconds(200);
@@ -51,19 +53,26 @@ class ScenePublisher::Place {
   EditableScene scene_;  // of the builder that has set building_
   std::mutex call_mutex_;
   FrameCallbacks callbacks_;
+  std::vector<const Instance*> shown_;  // of the publisher's thread: by rising key
   // Under the publisher's mutex:
   std::deque<Waiting> waiting_;
   bool building_ = false, removed_ = false;
-  bool worn_ = false;        // a hierarchy of placed_ is
+  bool worn_ = false;        // a hierarchy of what was placed last is
   bool rebuilding_ = false;  // building_, but not a frame
   std::int64_t last_arrived_ns_ = 0;
-  std::int64_t move_ns_ = 0;  // that what is placed takes to get there
-  std::vector<PlacedShape> placed_;
-  bool fresh_ = false;               // placed_ is not shown yet
-  std::vector<Ready> ready_;         // frames that placed_ holds, not yet shown
-  std::vector<Instance> instances_;  // as shown
-  std::size_t bytes_ = 0;            // of scene_
-  MemoryShare memory_;               // that, and what the shapes shown were before they were bent
+  std::int64_t move_ns_ = 0;                                // that what is placed takes to get there
+  std::shared_ptr<const std::vector<PlacedShape>> placed_;  // what is to be shown next; null when it is as it was
+  std::vector<Ready> ready_;                                // frames that are built and not yet shown
+  std::size_t bytes_ = 0;                                   // of scene_
+  MemoryShare memory_;  // that, and what the shapes shown were before they were bent
+};
+
+struct ScenePublisher::Part {
+  std::shared_ptr<Place> place;
+  bool gone;
+  std::shared_ptr<const std::vector<PlacedShape>> placed;  // null: as it is
+  std::int64_t move_ns;
+  std::size_t frames;  // of the place's ready ones
 };
 
 ScenePublisher::ScenePublisher(std::shared_ptr<const Snapshot> base, std::vector<TouchSession*> devices,
@@ -155,8 +164,9 @@ std::shared_ptr<ScenePublisher::Place> ScenePublisher::placeToRebuild() {
   std::shared_ptr<Place> worn;
   for (const auto& place : places_) {
     if (place->rebuilding_) return nullptr;
-    const bool shown = !place->building_ && !place->removed_ && place->waiting_.empty() && !place->fresh_;
-    if (place->worn_ && shown && !worn) worn = place;
+    const bool idle = !place->building_ && !place->removed_ && place->waiting_.empty();
+    const bool shown = !place->placed_ && place->ready_.empty();
+    if (place->worn_ && idle && shown && !worn) worn = place;
   }
   return worn;
 }
@@ -184,6 +194,7 @@ void ScenePublisher::runBuilder() {
     frame ? build(*place, std::move(waiting)) : rebuild(*place);
     lock.lock();
     place->building_ = place->rebuilding_ = false;
+    if (place->removed_) dirty_ = true;  // the publisher has left it to this builder
     if (!place->waiting_.empty()) work_.notify_one();
     changed_.notify_all();
   }
@@ -201,15 +212,16 @@ void ScenePublisher::build(Place& place, Waiting waiting) {
                                        [&](std::uint32_t object) { return place.scene_.items(object); });
     place.scene_.apply(decoded.edit, waiting.memory);
     const std::size_t bytes = place.scene_.bytes();
+    auto placed = std::make_shared<const std::vector<PlacedShape>>(place.scene_.placed());
     const std::lock_guard lock(mutex_);
     place.memory_.set(place.bytes_ = bytes);
     counts_.refits += decoded.refits;
-    place.placed_ = place.scene_.placed();
+    place.placed_.swap(placed);
     place.worn_ = place.scene_.worn() != nullptr;
     place.ready_.push_back({number, std::move(decoded.warnings)});
     place.move_ns_ = moveTime_ns(waiting, place.last_arrived_ns_);
     place.last_arrived_ns_ = waiting.arrived_ns;
-    place.fresh_ = dirty_ = true;
+    dirty_ = true;
   } catch (const std::bad_alloc&) {
     place.tell([&](FrameCallbacks& callbacks) { callbacks.refused(number, "the server has no memory for it"); });
   } catch (const std::exception& error) {
@@ -223,11 +235,12 @@ void ScenePublisher::rebuild(Place& place) {
   try {
     const auto worn = place.scene_.worn();
     place.scene_.replace(worn, rebuilt(*worn));
+    auto placed = std::make_shared<const std::vector<PlacedShape>>(place.scene_.placed());
     const std::lock_guard lock(mutex_);
     ++counts_.rebuilds;
-    place.placed_ = place.scene_.placed();
+    place.placed_.swap(placed);
     place.worn_ = place.scene_.worn() != nullptr;
-    place.fresh_ = dirty_ = true;
+    dirty_ = true;
   } catch (const std::exception&) {  // no memory for it: the worn one serves
     const std::lock_guard lock(mutex_);
     place.worn_ = false;
@@ -265,76 +278,105 @@ bool ScenePublisher::waitForLoops() {
   return true;
 }
 
-// What all clients have in the world from now on; returns Snapshot::blend_ns. Holding the mutex.
-std::int64_t ScenePublisher::assemble(std::int64_t begin_ns, std::vector<Instance>& instances) {
+std::vector<ScenePublisher::Part> ScenePublisher::takeParts() {
+  const std::lock_guard lock(mutex_);
+  std::vector<Part> parts;
+  for (const auto& place : places_)
+    parts.push_back(
+        {place, place->removed_, std::exchange(place->placed_, nullptr), place->move_ns_, place->ready_.size()});
+  dirty_ = false;
+  return parts;
+}
+
+// What all clients have in the world from `begin_ns` on; returns Snapshot::blend_ns.
+std::int64_t ScenePublisher::assemble(const std::vector<Part>& parts, std::int64_t begin_ns,
+                                      std::vector<Instance>& instances) const {
   std::int64_t blend_ns = 0;
+  std::size_t count = base_->instances.size();
+  for (const Part& part : parts) count += part.placed ? part.placed->size() : part.place->shown_.size();
+  instances.reserve(count);
   instances = base_->instances;
-  for (const auto& place : places_) {
-    if (place->removed_) {
-      if (!place->instances_.empty()) blend_ns = std::max(blend_ns, kAbruptBlend_ns);
-      continue;
-    }
-    if (place->fresh_) {
-      Followed next = followOn(place->placed_, place->instances_, begin_ns, begin_ns + place->move_ns_);
+  for (const auto& [place, gone, placed, move_ns, frames] : parts) {
+    if (gone) {
+      if (!place->shown_.empty()) blend_ns = std::max(blend_ns, kAbruptBlend_ns);
+    } else if (placed) {
+      Followed next = followOn(*placed, place->shown_, begin_ns, begin_ns + move_ns);
       blend_ns = std::max(blend_ns, next.blend_ns);
-      instances.insert(instances.end(), next.instances.begin(), next.instances.end());
+      std::move(next.instances.begin(), next.instances.end(), std::back_inserter(instances));
     } else {
-      instances.insert(instances.end(), place->instances_.begin(), place->instances_.end());
+      for (const Instance* instance : place->shown_) {
+        instances.push_back(*instance);
+        instances.back().before.reset();  // it has not been bent again
+      }
     }
   }
   return blend_ns;
 }
 
-void ScenePublisher::publish() {
-  std::unique_lock lock(mutex_);
+// Made before its motions begin: if it takes too long for that, once more.
+std::shared_ptr<const Snapshot> ScenePublisher::makeNext(const std::vector<Part>& parts) {
   std::shared_ptr<const Snapshot> next;
-  std::int64_t lead_ns = kLead_ns;
-  for (int i = 0; i < kLeadTries; ++i, lead_ns *= 8) {
-    shown_begin_ns_ = monotonicNow_ns() + lead_ns;
+  for (int i = 0; i < kLeadTries; ++i) {
+    const std::int64_t now_ns = monotonicNow_ns();
+    shown_begin_ns_ = now_ns + kLead_ns + static_cast<std::int64_t>(kMakingMargin * static_cast<double>(making_ns_));
     std::vector<Instance> instances;
-    const std::int64_t blend_ns = assemble(shown_begin_ns_, instances);
+    const std::int64_t blend_ns = assemble(parts, shown_begin_ns_, instances);
     next = makeSnapshot(std::move(instances), base_->name, shown_->number + 1, blend_ns);
-    if (monotonicNow_ns() < shown_begin_ns_) break;
+    making_ns_ = monotonicNow_ns() - now_ns;
+    if (now_ns + making_ns_ < shown_begin_ns_) break;
   }
-  for (TouchSession* device : devices_) device->publish(next);
-  shown_ = std::move(next);
-  dirty_ = false;
-  tellShown(lock);
+  return next;
 }
 
-// Keeps what is shown of each client, and tells it.
-void ScenePublisher::tellShown(std::unique_lock<std::mutex>& lock) {
-  struct Told {
-    std::shared_ptr<Place> place;
-    std::vector<Place::Ready> frames;
-    std::size_t primitives = 0;
-  };
-  std::vector<Told> told;
-  for (const auto& place : places_) {
-    if (!place->fresh_) continue;
-    place->fresh_ = false;
-    place->instances_.clear();
-    Told& entry = told.emplace_back(Told{place, std::exchange(place->ready_, {}), 0});
-    std::map<const Shape*, std::size_t> before_bytes;
-    for (const Instance& instance : shown_->instances) {
-      if (instance.session != place->session_) continue;
-      place->instances_.push_back(instance);
-      entry.primitives += instance.shape->primitives.size();
-      if (!instance.before) continue;
-      before_bytes[instance.before.get()] = instance.before->bytes();
-      place->instances_.back().before.reset();  // of what has not been bent again by the next scene
-    }
-    place->memory_.set(std::accumulate(before_bytes.begin(), before_bytes.end(), place->bytes_,
-                                       [](std::size_t sum, const auto& shape) { return sum + shape.second; }));
-  }
-  std::erase_if(places_, [](const auto& place) { return place->removed_ && !place->building_; });
-  lock.unlock();
+void ScenePublisher::publish() {
+  const std::vector<Part> parts = takeParts();
+  const auto next = makeNext(parts);
+  for (TouchSession* device : devices_) device->publish(next);
+  keepShown(next, parts);
+  for (const Part& part : parts) tellShown(part);
   work_.notify_one();  // what is worn may be rebuilt now
-  for (const Told& entry : told) {
-    entry.place->tell([&](FrameCallbacks& callbacks) {
-      for (const Place::Ready& frame : entry.frames) callbacks.shown(frame.number, entry.primitives, frame.warnings);
-    });
+}
+
+// Each client's part of it.
+void ScenePublisher::keepShown(const std::shared_ptr<const Snapshot>& next, const std::vector<Part>& parts) {
+  std::map<std::uint32_t, Place*> place_of;
+  for (const Part& part : parts) {
+    part.place->shown_.clear();
+    place_of[part.place->session_] = part.place.get();
   }
+  for (const Instance& instance : next->instances) {
+    const auto found = place_of.find(instance.session);
+    if (found != place_of.end()) found->second->shown_.push_back(&instance);
+  }
+  shown_ = next;
+}
+
+std::size_t ScenePublisher::bytesBefore(const std::vector<const Instance*>& shown) {
+  std::set<const Shape*> counted;
+  std::size_t bytes = 0;
+  for (const Instance* instance : shown) {
+    if (instance->before && counted.insert(instance->before.get()).second) bytes += instance->before->bytes();
+  }
+  return bytes;
+}
+
+void ScenePublisher::tellShown(const Part& part) {
+  Place& place = *part.place;
+  const std::size_t bytes_before = bytesBefore(place.shown_);
+  std::size_t primitives = 0;
+  for (const Instance* instance : place.shown_) primitives += instance->shape->primitives.size();
+  std::vector<Place::Ready> frames;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto end = place.ready_.begin() + static_cast<std::ptrdiff_t>(part.frames);
+    std::move(place.ready_.begin(), end, std::back_inserter(frames));
+    place.ready_.erase(place.ready_.begin(), end);
+    place.memory_.set(place.bytes_ + bytes_before);
+    if (part.gone && !place.building_) std::erase(places_, part.place);
+  }
+  place.tell([&](FrameCallbacks& callbacks) {
+    for (const Place::Ready& frame : frames) callbacks.shown(frame.number, primitives, frame.warnings);
+  });
 }
 
 }  // namespace hl

@@ -78,6 +78,8 @@ class ScenePublisher {
     MemoryShare memory;
     std::int64_t arrived_ns = 0;
   };
+  /// Of the next scene: what one client has in it.
+  struct Part;
 
   void runBuilder();
   void runPublisher();
@@ -86,9 +88,13 @@ class ScenePublisher {
   void build(Place& place, Waiting waiting);
   void rebuild(Place& place);
   bool waitForLoops();
+  std::vector<Part> takeParts();
+  std::int64_t assemble(const std::vector<Part>& parts, std::int64_t begin_ns, std::vector<Instance>& instances) const;
+  std::shared_ptr<const Snapshot> makeNext(const std::vector<Part>& parts);
   void publish();
-  std::int64_t assemble(std::int64_t begin_ns, std::vector<Instance>& instances);
-  void tellShown(std::unique_lock<std::mutex>& lock);
+  void keepShown(const std::shared_ptr<const Snapshot>& next, const std::vector<Part>& parts);
+  static std::size_t bytesBefore(const std::vector<const Instance*>& shown);
+  void tellShown(const Part& part);
   static std::int64_t moveTime_ns(const Waiting& waiting, std::int64_t last_arrived_ns);
 
   const std::shared_ptr<const Snapshot> base_;
@@ -101,8 +107,10 @@ class ScenePublisher {
   std::atomic<bool> running_{false};
   bool dirty_ = false;
   HierarchyCounts counts_;
+  // Of the publisher's thread:
   std::shared_ptr<const Snapshot> shown_;
   std::int64_t shown_begin_ns_ = 0;
+  std::int64_t making_ns_ = 0;  // what the last one took
   std::vector<std::thread> threads_;
 };
 

@@ -104,7 +104,9 @@ class Publisher {
     if (wanted.moving) angle_ += kTurn_rad_s * 1e-9 * static_cast<double>(kFrame_ns);
     const auto placed = place(wanted, shapes_, angle_);
     const auto last = session_.snapshot();
-    Followed next = followOn(placed, last->instances, now_ns, now_ns + kFrame_ns);
+    std::vector<const Instance*> shown;
+    for (const Instance& instance : last->instances) shown.push_back(&instance);
+    Followed next = followOn(placed, shown, now_ns, now_ns + kFrame_ns);
     session_.publish(makeSnapshot(std::move(next.instances), "moving scene", last->number + 1, next.blend_ns));
     published_ns_ = now_ns;
   }

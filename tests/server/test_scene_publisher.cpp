@@ -1,0 +1,195 @@
+// What several clients show at once: each in the order of its own frames, and nothing of one is changed by another.
+#include "server/scene_publisher.h"
+
+#include <gtest/gtest.h>
+
+#include <condition_variable>
+
+#include "wait_for.h"
+
+namespace hl {
+namespace {
+
+constexpr auto kLongEnough = std::chrono::seconds(60);
+
+proto::Frame frameOf(std::uint64_t number) {
+  proto::Frame frame;
+  frame.set_number(number);
+  frame.mutable_world();
+  frame.set_interval_s(0.01);
+  return frame;
+}
+
+void define(proto::Frame& frame, double size) {
+  proto::ObjectDefinition& object = *frame.add_objects();
+  object.set_id(1);
+  proto::Primitives& triangle = *object.add_items()->mutable_primitives();
+  for (const double x : {0.0, 0.0, 0.0, size, 0.0, 0.0, 0.0, size, 0.0}) triangle.add_vertices(x);
+  for (const std::uint32_t i : {0u, 1u, 2u}) triangle.add_triangles(i);
+}
+
+void call(proto::Frame& frame, double x) {
+  proto::Item& item = *frame.mutable_world()->add_items();
+  item.set_call(1);
+  for (const double element : {1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., x, 0., 0., 1.}) item.add_matrix(element);
+}
+
+/// A client of a publisher, and what it has been told.
+class Client {
+ public:
+  Client(ScenePublisher& publisher, std::uint32_t session) : publisher_(publisher) {
+    FrameCallbacks callbacks;
+    callbacks.progress = [](std::uint64_t, double) {};
+    callbacks.shown = [this](std::uint64_t number, std::size_t primitives, const std::vector<std::string>&) {
+      tell(number, primitives);
+    };
+    callbacks.refused = [this](std::uint64_t number, const std::string&) { tell(number, kRefused); };
+    place = publisher.join(session, {}, std::move(callbacks));
+  }
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
+  ~Client() {
+    publisher_.detach(place);
+    publisher_.remove(place);
+  }
+
+  static constexpr std::size_t kRefused = 1'000'000;
+  struct Told {
+    std::uint64_t frame;
+    std::size_t primitives;
+    bool operator==(const Told&) const = default;
+  };
+
+  void submit(proto::Frame frame) { publisher_.submit(place, std::move(frame), {}, {}); }
+  /// Waits for so many.
+  std::vector<Told> told(std::size_t count) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, kLongEnough, [&] { return told_.size() >= count; });
+    return told_;
+  }
+
+  std::shared_ptr<ScenePublisher::Place> place;
+
+ private:
+  void tell(std::uint64_t number, std::size_t primitives) {
+    const std::lock_guard lock(mutex_);
+    told_.push_back({number, primitives});
+    changed_.notify_all();
+  }
+
+  ScenePublisher& publisher_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Told> told_;
+};
+
+// The loops of the session do not run, so that each scene is shown at once.
+class ScenePublisherTest : public testing::Test {
+ protected:
+  ScenePublisherTest() { publisher.start(); }
+
+  std::vector<const Instance*> shownOf(std::uint32_t client) {
+    shown = session.snapshot();
+    std::vector<const Instance*> instances;
+    for (const Instance& instance : shown->instances) {
+      if (instance.session == client) instances.push_back(&instance);
+    }
+    return instances;
+  }
+
+  std::shared_ptr<const Snapshot> shown = makeSnapshot(std::vector<Instance>{}, "nothing");
+  TouchSession session{shown, {}};
+  ScenePublisher publisher{shown, {&session}, 1'000'000'000};
+};
+
+TEST_F(ScenePublisherTest, EachFrameIsToldOnceAndInOrder) {
+  Client client(publisher, 1);
+  constexpr std::uint64_t kFrames = 200;
+  for (std::uint64_t i = 1; i <= kFrames; ++i) {
+    proto::Frame frame = frameOf(i);
+    if (i == 1) define(frame, 1);
+    call(frame, 0.001 * static_cast<double>(i));
+    if (i % 10 == 0) frame.mutable_world()->add_items()->set_upload(7);  // there is no such one
+    client.submit(std::move(frame));
+  }
+  const auto told = client.told(kFrames);
+  ASSERT_EQ(told.size(), kFrames);
+  std::vector<std::uint64_t> accepted, refused;
+  for (const auto& [number, primitives] : told) {
+    EXPECT_TRUE(primitives == 1 || primitives == Client::kRefused) << primitives;
+    (primitives == 1 ? accepted : refused).push_back(number);
+  }
+  EXPECT_TRUE(std::is_sorted(accepted.begin(), accepted.end()));
+  EXPECT_EQ(accepted.size(), kFrames - kFrames / 10);
+  EXPECT_EQ(refused.size(), kFrames / 10);
+  test::waitFor([&] { return publisher.waiting(client.place) == 0; });  // the last one is told a little before
+  EXPECT_DOUBLE_EQ(shownOf(1).at(0)->motion.to().origin.x(), 0.199);
+}
+
+TEST_F(ScenePublisherTest, OneClientMovesComesAndGoesBesideAnother) {
+  Client still(publisher, 1);
+  proto::Frame frame = frameOf(1);
+  define(frame, 1);
+  for (const double x : {5.0, 6.0, 7.0}) call(frame, x);
+  still.submit(frame);
+  EXPECT_EQ(still.told(1), (std::vector<Client::Told>{{1, 3}}));
+  const std::vector<const Instance*> before = shownOf(1);
+  const auto kept = shown;
+  ASSERT_EQ(before.size(), 3U);
+  {
+    Client moving(publisher, 2);
+    frame = frameOf(1);
+    define(frame, 2);
+    call(frame, 0);
+    moving.submit(frame);
+    EXPECT_EQ(moving.told(1), (std::vector<Client::Told>{{1, 1}}));
+    EXPECT_FALSE(shownOf(2).at(0)->motion.moves());
+    EXPECT_EQ(shown->blend_ns, kAbruptBlend_ns) << "it is new";
+    frame = frameOf(2);
+    call(frame, 1);
+    moving.submit(frame);
+    EXPECT_EQ(moving.told(2).back(), (Client::Told{2, 1}));
+    EXPECT_TRUE(shownOf(2).at(0)->motion.moves());
+    EXPECT_EQ(shownOf(2).at(0)->motion.last().from().origin.x(), 0);
+    EXPECT_EQ(shown->blend_ns, 0);
+    EXPECT_EQ(shown->primitives, 4U);
+  }
+  frame = frameOf(2);
+  for (const double x : {5.0, 6.0, 7.0}) call(frame, x);
+  still.submit(frame);
+  EXPECT_EQ(still.told(2).back(), (Client::Told{2, 3}));
+  const std::vector<const Instance*> after = shownOf(1);
+  EXPECT_EQ(shown->instances.size(), 3U) << "the other has gone";
+  ASSERT_EQ(after.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(after[i]->key, before[i]->key);
+    EXPECT_EQ(after[i]->shape, before[i]->shape);
+    EXPECT_EQ(after[i]->motion.to(), before[i]->motion.to());
+    EXPECT_FALSE(after[i]->motion.moves());
+  }
+}
+
+TEST_F(ScenePublisherTest, WhatWasBentIsNotBentAgainByAFrameOfAnotherClient) {
+  Client bending(publisher, 1), other(publisher, 2);
+  proto::Frame frame = frameOf(1);
+  define(frame, 1);
+  call(frame, 0);
+  bending.submit(frame);
+  bending.told(1);
+  const std::uint64_t flat_bytes = publisher.memory().used_bytes();
+  frame.clear_objects();
+  frame.set_number(2);
+  define(frame, 1.1);
+  bending.submit(frame);
+  bending.told(2);
+  EXPECT_TRUE(shownOf(1).at(0)->before);
+  EXPECT_GT(publisher.memory().used_bytes(), flat_bytes) << "the shape before is still there";
+  other.submit(frameOf(1));
+  other.told(1);
+  EXPECT_FALSE(shownOf(1).at(0)->before);
+  EXPECT_EQ(shownOf(1).at(0)->shape->extent, 1.1);
+  EXPECT_EQ(publisher.memory().used_bytes(), flat_bytes);
+}
+
+}  // namespace
+}  // namespace hl
