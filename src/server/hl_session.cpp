@@ -60,8 +60,7 @@ void HlSession::receive(proto::ClientMessage message) {
     case proto::ClientMessage::kUpload:
       return keepUpload(std::move(*message.mutable_upload()));
     case proto::ClientMessage::kUploads:
-      for (proto::Upload& upload : *message.mutable_uploads()->mutable_parts()) keepUpload(std::move(upload));
-      return;
+      return keepUploads(std::move(*message.mutable_uploads()));
     case proto::ClientMessage::kFrame:
       return submit(std::move(*message.mutable_frame()));
     case proto::ClientMessage::kStateRate:
@@ -98,6 +97,14 @@ void HlSession::open(const proto::Open& open) {
   *welcome.mutable_limits() = toProto(server_.settings_.limits);
   this->reply(std::move(reply));
   setStateRate(open.state_rate_hz());
+}
+
+// A message holds millions of parts that are empty: no more of them are answered than a client may leave unread.
+void HlSession::keepUploads(proto::Uploads uploads) {
+  for (proto::Upload& upload : *uploads.mutable_parts()) {
+    if (!end().empty()) return;
+    keepUpload(std::move(upload));
+  }
 }
 
 void HlSession::keepUpload(proto::Upload upload) {

@@ -38,6 +38,7 @@ class HlSession final : public ClientSession {
 
  private:
   void open(const proto::Open& open);
+  void keepUploads(proto::Uploads uploads);
   void keepUpload(proto::Upload upload);
   void submit(proto::Frame frame);
   void refuseUpload(std::uint64_t id, const std::string& why);

@@ -374,6 +374,41 @@ TEST(TouchServer, UploadsCountAsTheMemoryThatTheyTake) {
   EXPECT_NE(client.session_->end().find("memory"), std::string::npos) << client.session_->end();
 }
 
+TEST_F(TouchServerTest, UploadsOfOneMessageAreThoseOfSeveral) {
+  Client client(server_);
+  client.open();
+  proto::Item whole;
+  addFloor(whole, 0.125);
+  proto::ClientMessage message;
+  proto::Frame frame;
+  frame.set_number(++client.number_);
+  for (const std::uint64_t id : {7U, 8U}) {
+    proto::Upload& vertices = *message.mutable_uploads()->add_parts();
+    vertices.set_id(id);
+    *vertices.mutable_part()->mutable_vertices() = whole.primitives().vertices();
+    proto::Upload& triangles = *message.mutable_uploads()->add_parts();
+    triangles.set_id(id);
+    *triangles.mutable_part()->mutable_triangles() = whole.primitives().triangles();
+    frame.mutable_world()->add_items()->set_upload(id);
+  }
+  client.session_->receive(message);
+  ASSERT_TRUE(client.show(frame));
+  EXPECT_EQ(server_.device().snapshot()->primitives, 4U);
+}
+
+// An upload with nothing in it is two bytes on the wire, and a refusal a hundred.
+TEST_F(TouchServerTest, OneMessageOfUploadsIsNotAnsweredWithoutEnd) {
+  Client client(server_);
+  client.open();
+  proto::ClientMessage message;
+  for (int i = 0; i < 100'000; ++i) message.mutable_uploads()->add_parts();
+  client.session_->receive(message);
+  EXPECT_NE(client.session_->end(), "");
+  int replies = 0;
+  for (proto::ServerReply reply; client.session_->take(reply);) ++replies;
+  EXPECT_LT(replies, 5000);
+}
+
 // A server with memory for two rows of points, and for what it takes to make one.
 class SmallServerTest : public testing::Test {
  protected:
