@@ -24,6 +24,7 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
   const Vec3 finger = workspace_.toWorld(finger_D);
   const bool restart = state_.snapshot == 0 || commands.restarts != restarts_;
   std::int64_t blend_ns = snapshot.number == state_.snapshot ? 0 : snapshot.blend_ns;
+  if (snapshot.number > state_.snapshot + 1) blend_ns = kAbruptBlend_ns;  // others were skipped, with what they changed
   if (restart) {
     blend_ns = kAbruptBlend_ns;
     const Ledger kept = state_.ledger;

@@ -125,6 +125,27 @@ TEST(TouchStep, ScenesGoOnWhileTheDeviceIsLost) {
   }
 }
 
+// What has changed in scenes that no tick saw may be anything: the hand is taken there as to what is new. A blend goes
+// on as long as the tick says no planes.
+TEST(TouchStep, AfterScenesThatWereSkippedTheHandIsTakenOverSlowly) {
+  const ServoSettings settings = undamped(premium10().info, 1000);
+  DeviceSample lost = sampleAt(0, Vec3::Zero());
+  lost.status = DeviceStatus::kLost;
+  for (const int scenes : {1, 2}) {
+    Floor floor;
+    floor.waitAt({0, 0.001, 0}, settings);
+    ASSERT_FALSE(floor.step_.tick().held.planes_D.empty());
+    for (int i = 1; i <= scenes; ++i) {
+      const auto& last = *floor.scenes_.newest();
+      floor.scenes_.publish(makeSnapshot(last.instances, "next", last.number + 1, 0));
+      lost.time_ns = (100 + i) * kMs;
+      floor.step_.onTime(floor.loop_, floor.commands_, settings, lost);
+    }
+    floor.step_.onTime(floor.loop_, floor.commands_, settings, sampleAt(110 * kMs, {0, 0.001, 0}));
+    EXPECT_EQ(floor.step_.tick().held.planes_D.empty(), scenes > 1) << scenes;
+  }
+}
+
 TEST(TouchStep, AllocatesNothing) {
   Floor floor;
   const ServoSettings settings = undamped(premium10().info, 1000);
