@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "pointers_to.h"
+#include "scene/by_key.h"
 #include "server/decode_frame.h"
 #include "touch.h"
 
@@ -67,7 +67,7 @@ void readMessage(MessageForm form, std::string_view bytes) {
     return;
   }
   constexpr std::int64_t kMove_ns = 3'000'000;
-  touch(*makeSnapshot(followOn(scene.placed(), test::pointersTo(shown), 0, kMove_ns).instances));
+  touch(*makeSnapshot(followOn(scene.placed(), pointersByKey(shown), 0, kMove_ns).instances));
 }
 
 }  // namespace hl::fuzz

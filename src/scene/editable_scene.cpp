@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "scene/by_key.h"
 
 namespace hl {
 
@@ -269,8 +270,7 @@ namespace {
 
 // Snapshot::blend_ns, as far as it is due to one object, which was there before where that is known.
 std::int64_t blendOf(const Instance* before, const Instance& now, std::int64_t frame_ns) {
-  if (before == nullptr || !(before->surfaces == now.surfaces || *before->surfaces == *now.surfaces))
-    return kAbruptBlend_ns;
+  if (before == nullptr || !(*before->surfaces == *now.surfaces)) return kAbruptBlend_ns;
   if (!now.motion.moves() && !(before->motion.to() == now.motion.to())) return kAbruptBlend_ns;
   if (before->shape->geometry == now.shape->geometry) return 0;
   return now.before && frame_ns > 0 ? frame_ns : kAbruptBlend_ns;
@@ -289,13 +289,6 @@ Instance follow(const PlacedShape& now, const Instance* before, std::int64_t beg
   return instance;
 }
 
-std::vector<const PlacedShape*> byKey(const std::vector<PlacedShape>& placed) {
-  std::vector<const PlacedShape*> sorted;
-  for (const PlacedShape& one : placed) sorted.push_back(&one);
-  std::sort(sorted.begin(), sorted.end(), [](const auto* a, const auto* b) { return a->key < b->key; });
-  return sorted;
-}
-
 }  // namespace
 
 Followed followOn(const std::vector<PlacedShape>& placed, std::span<const Instance* const> last, std::int64_t begin_ns,
@@ -304,7 +297,7 @@ Followed followOn(const std::vector<PlacedShape>& placed, std::span<const Instan
   if (placed.size() != last.size()) result.blend_ns = kAbruptBlend_ns;
   result.instances.reserve(placed.size());
   auto at = last.begin();
-  for (const PlacedShape* now : byKey(placed)) {
+  for (const PlacedShape* now : pointersByKey(placed)) {
     at = std::find_if(at, last.end(), [&](const Instance* one) { return one->key >= now->key; });
     const Instance* const before = at != last.end() && (*at)->key == now->key ? *at : nullptr;
     result.instances.push_back(follow(*now, before, begin_ns, end_ns));

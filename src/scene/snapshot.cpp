@@ -9,6 +9,8 @@
 #include <set>
 #include <utility>
 
+#include "scene/by_key.h"
+
 namespace hl {
 
 namespace {
@@ -57,16 +59,13 @@ double largestMove_m(const std::vector<Vec3>& from, const std::vector<Vec3>& to)
   return std::sqrt(oneapi::tbb::parallel_reduce(Range(0, to.size(), kGrain), 0.0, largest, larger));
 }
 
-// Instances are large: what is sorted are their places, and each moves once.
+// Each is moved once, and none where they are sorted already, as those of one client are.
 std::vector<Instance> byKey(std::vector<Instance> instances) {
   const auto before = [](const Instance& a, const Instance& b) { return a.key < b.key; };
   if (std::is_sorted(instances.begin(), instances.end(), before)) return instances;
-  std::vector<Instance*> order;
-  for (Instance& instance : instances) order.push_back(&instance);
-  std::sort(order.begin(), order.end(), [&](const Instance* a, const Instance* b) { return before(*a, *b); });
   std::vector<Instance> sorted;
-  sorted.reserve(order.size());
-  for (Instance* instance : order) sorted.push_back(std::move(*instance));
+  sorted.reserve(instances.size());
+  for (Instance* instance : pointersByKey(instances)) sorted.push_back(std::move(*instance));
   return sorted;
 }
 

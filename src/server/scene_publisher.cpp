@@ -18,10 +18,20 @@ namespace {
 // Motion begins a little after the scene is shown, so that every loop has taken it by then.
 constexpr std::int64_t kLead_ns = 2'000'000;
 constexpr int kLeadTries = 4;
-constexpr double kMakingMargin = 1.5;  // of the time that the scene before took to make
+constexpr double kMakingMargin = 1.5;  // of the time that the scene before took to make; doubled with each try
 // Between two frames that are farther apart than this, nothing was meant to be seen moving all the time.
 constexpr std::int64_t kLongestMove_ns = 100'000'000;
 constexpr auto kLoopPoll = std::chrono::microseconds(200);
+
+// Of the shapes that these were before they were bent.
+std::size_t bytesBefore(const std::vector<const Instance*>& shown) {
+  std::set<const Shape*> counted;
+  std::size_t bytes = 0;
+  for (const Instance* instance : shown) {
+    if (instance->before && counted.insert(instance->before.get()).second) bytes += instance->before->bytes();
+  }
+  return bytes;
+}
 
 }  // namespace
 
@@ -316,9 +326,10 @@ std::int64_t ScenePublisher::assemble(const std::vector<Part>& parts, std::int64
 // Made before its motions begin: if it takes too long for that, once more.
 std::shared_ptr<const Snapshot> ScenePublisher::makeNext(const std::vector<Part>& parts) {
   std::shared_ptr<const Snapshot> next;
-  for (int i = 0; i < kLeadTries; ++i) {
+  double margin = kMakingMargin;
+  for (int i = 0; i < kLeadTries; ++i, margin *= 2) {
     const std::int64_t now_ns = monotonicNow_ns();
-    shown_begin_ns_ = now_ns + kLead_ns + static_cast<std::int64_t>(kMakingMargin * static_cast<double>(making_ns_));
+    shown_begin_ns_ = now_ns + kLead_ns + static_cast<std::int64_t>(margin * static_cast<double>(making_ns_));
     std::vector<Instance> instances;
     const std::int64_t blend_ns = assemble(parts, shown_begin_ns_, instances);
     next = makeSnapshot(std::move(instances), base_->name, shown_->number + 1, blend_ns);
@@ -337,7 +348,7 @@ void ScenePublisher::publish() {
   work_.notify_one();  // what is worn may be rebuilt now
 }
 
-// Each client's part of it.
+// The scene, and for each client what of it is its own.
 void ScenePublisher::keepShown(const std::shared_ptr<const Snapshot>& next, const std::vector<Part>& parts) {
   std::map<std::uint32_t, Place*> place_of;
   for (const Part& part : parts) {
@@ -349,15 +360,6 @@ void ScenePublisher::keepShown(const std::shared_ptr<const Snapshot>& next, cons
     if (found != place_of.end()) found->second->shown_.push_back(&instance);
   }
   shown_ = next;
-}
-
-std::size_t ScenePublisher::bytesBefore(const std::vector<const Instance*>& shown) {
-  std::set<const Shape*> counted;
-  std::size_t bytes = 0;
-  for (const Instance* instance : shown) {
-    if (instance->before && counted.insert(instance->before.get()).second) bytes += instance->before->bytes();
-  }
-  return bytes;
 }
 
 void ScenePublisher::tellShown(const Part& part) {

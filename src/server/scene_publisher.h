@@ -93,7 +93,6 @@ class ScenePublisher {
   std::shared_ptr<const Snapshot> makeNext(const std::vector<Part>& parts);
   void publish();
   void keepShown(const std::shared_ptr<const Snapshot>& next, const std::vector<Part>& parts);
-  static std::size_t bytesBefore(const std::vector<const Instance*>& shown);
   void tellShown(const Part& part);
   static std::int64_t moveTime_ns(const Waiting& waiting, std::int64_t last_arrived_ns);
 

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "geometry/scenes.h"
-#include "pointers_to.h"
+#include "scene/by_key.h"
 
 namespace hl {
 namespace {
@@ -166,7 +166,7 @@ TEST(EditableScene, ARebuiltShapeTakesThePlaceOfTheWornOneAndNothingIsAbrupt) {
     scene.replace(worn, rebuilt(*worn));
   }
   EXPECT_FALSE(scene.worn());
-  EXPECT_EQ(followOn(scene.placed(), test::pointersTo(shown.instances), 0, 0).blend_ns, 0);
+  EXPECT_EQ(followOn(scene.placed(), pointersByKey(shown.instances), 0, 0).blend_ns, 0);
   for (std::size_t i = 0; i < before.size(); ++i) {
     EXPECT_NE(scene.placed()[i].shape, before[i].shape);
     EXPECT_EQ(scene.placed()[i].shape->model.positions, before[i].shape->model.positions);
@@ -328,21 +328,19 @@ TEST(FollowOn, KnownObjectsMoveAndNewOnesAreThere) {
   EXPECT_EQ(first.blend_ns, kAbruptBlend_ns);
   EXPECT_FALSE(first.instances[0].motion.moves());
   scene.apply(worldOf({callItem(1, turn(0.5, {1, 0, 0}))}));
-  const Followed second = followOn(scene.placed(), test::pointersTo(first.instances), 300, 400);
+  const Followed second = followOn(scene.placed(), pointersByKey(first.instances), 300, 400);
   EXPECT_EQ(second.blend_ns, 0);
   EXPECT_TRUE(second.instances[0].motion.moves());
   EXPECT_TRUE(second.instances[0].motion.at(300) == Pose{});
-  const Followed halfway = followOn(scene.placed(), test::pointersTo(second.instances), 350, 450);
+  const Followed halfway = followOn(scene.placed(), pointersByKey(second.instances), 350, 450);
   EXPECT_TRUE(halfway.instances[0].motion.at(375) == second.instances[0].motion.at(375)) << "goes on as it was";
-  const Followed later = followOn(scene.placed(), test::pointersTo(halfway.instances), 1000, 1100);
+  const Followed later = followOn(scene.placed(), pointersByKey(halfway.instances), 1000, 1100);
   EXPECT_FALSE(later.instances[0].motion.moves());
   EXPECT_EQ(later.blend_ns, 0);
   scene.apply(worldOf({callItem(1)}));
-  EXPECT_EQ(followOn(scene.placed(), test::pointersTo(later.instances), 2000, 2000).blend_ns, kAbruptBlend_ns)
-      << "a jump";
+  EXPECT_EQ(followOn(scene.placed(), pointersByKey(later.instances), 2000, 2000).blend_ns, kAbruptBlend_ns) << "a jump";
   scene.apply(worldOf({}));
-  EXPECT_EQ(followOn(scene.placed(), test::pointersTo(later.instances), 2000, 2100).blend_ns, kAbruptBlend_ns)
-      << "gone";
+  EXPECT_EQ(followOn(scene.placed(), pointersByKey(later.instances), 2000, 2100).blend_ns, kAbruptBlend_ns) << "gone";
 }
 
 TEST(EditableScene, AMeshIsTheSameWhateverOfItHasShrunkToNothing) {
@@ -381,19 +379,18 @@ TEST(EditableScene, ABentMeshKnowsWhatItWasInTheSceneThatWasShown) {
   EXPECT_FALSE(first.instances[0].before);
   scene.apply(worldOf({shapeItem(never_shown)}));
   scene.apply(worldOf({shapeItem(now)}));
-  const Followed second = followOn(scene.placed(), test::pointersTo(first.instances), 300, 400);
+  const Followed second = followOn(scene.placed(), pointersByKey(first.instances), 300, 400);
   EXPECT_EQ(second.instances[0].before, shown);
   EXPECT_EQ(second.blend_ns, 100) << "from frame to frame";
-  EXPECT_EQ(followOn(scene.placed(), test::pointersTo(first.instances), 300, 300).blend_ns, kAbruptBlend_ns)
-      << "at once";
+  EXPECT_EQ(followOn(scene.placed(), pointersByKey(first.instances), 300, 300).blend_ns, kAbruptBlend_ns) << "at once";
   const auto snapshot = makeSnapshot(second.instances);
   EXPECT_EQ(snapshot->bent, std::vector<std::uint32_t>{0});
   EXPECT_NEAR(snapshot->instances[0].bent_m, 0.2, 1e-15);
   EXPECT_GT(memoryOf(*snapshot), memoryOf(*makeSnapshot(first.instances)) + shown->geometryBytes());
-  const auto same = followOn(scene.placed(), test::pointersTo(second.instances), 500, 600);
+  const auto same = followOn(scene.placed(), pointersByKey(second.instances), 500, 600);
   EXPECT_FALSE(same.instances[0].before) << "it has not been bent again";
   scene.apply(worldOf({shapeItem(triangle(2))}));
-  EXPECT_FALSE(followOn(scene.placed(), test::pointersTo(second.instances), 500, 600).instances[0].before)
+  EXPECT_FALSE(followOn(scene.placed(), pointersByKey(second.instances), 500, 600).instances[0].before)
       << "another mesh";
 }
 

@@ -16,7 +16,7 @@
 
 #include "base/clock.h"
 #include "builtin.h"
-#include "pointers_to.h"
+#include "scene/by_key.h"
 #include "scene/editable_scene.h"
 #include "server/http_server.h"
 #include "server/touch_session.h"
@@ -105,7 +105,7 @@ class Publisher {
     if (wanted.moving) angle_ += kTurn_rad_s * 1e-9 * static_cast<double>(kFrame_ns);
     const auto placed = place(wanted, shapes_, angle_);
     const auto last = session_.snapshot();
-    Followed next = followOn(placed, test::pointersTo(last->instances), now_ns, now_ns + kFrame_ns);
+    Followed next = followOn(placed, pointersByKey(last->instances), now_ns, now_ns + kFrame_ns);
     session_.publish(makeSnapshot(std::move(next.instances), "moving scene", last->number + 1, next.blend_ns));
     published_ns_ = now_ns;
   }

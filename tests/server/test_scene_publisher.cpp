@@ -3,14 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <condition_variable>
+#include <mutex>
 
 #include "wait_for.h"
 
 namespace hl {
 namespace {
-
-constexpr auto kLongEnough = std::chrono::seconds(60);
 
 proto::Frame frameOf(std::uint64_t number) {
   proto::Frame frame;
@@ -63,9 +61,12 @@ class Client {
   void submit(proto::Frame frame) { publisher_.submit(place, std::move(frame), {}, {}); }
   /// Waits for so many.
   std::vector<Told> told(std::size_t count) {
-    std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, kLongEnough, [&] { return told_.size() >= count; });
-    return told_;
+    const auto all = [&] {
+      const std::lock_guard lock(mutex_);
+      return told_;
+    };
+    test::waitFor([&] { return all().size() >= count; });
+    return all();
   }
 
   std::shared_ptr<ScenePublisher::Place> place;
@@ -74,12 +75,10 @@ class Client {
   void tell(std::uint64_t number, std::size_t primitives) {
     const std::lock_guard lock(mutex_);
     told_.push_back({number, primitives});
-    changed_.notify_all();
   }
 
   ScenePublisher& publisher_;
   std::mutex mutex_;
-  std::condition_variable changed_;
   std::vector<Told> told_;
 };
 
@@ -134,7 +133,7 @@ TEST_F(ScenePublisherTest, OneClientMovesComesAndGoesBesideAnother) {
   still.submit(frame);
   EXPECT_EQ(still.told(1), (std::vector<Client::Told>{{1, 3}}));
   const std::vector<const Instance*> before = shownOf(1);
-  const auto kept = shown;
+  const auto kept = shown;  // so that `before` stays
   ASSERT_EQ(before.size(), 3U);
   {
     Client moving(publisher, 2);

@@ -1,0 +1,20 @@
+// The objects of a scene in the order of their keys, which is the same from frame to frame.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+namespace hl {
+
+/// Pointers to all of a range of Instance or PlacedShape, by rising key; good as long as the range is. They are large:
+/// sorting pointers moves none of them. Allocates.
+template <typename Range>
+auto pointersByKey(Range& range) {
+  std::vector<decltype(&*range.begin())> pointers;
+  pointers.reserve(range.size());
+  for (auto& one : range) pointers.push_back(&one);
+  std::sort(pointers.begin(), pointers.end(), [](const auto* a, const auto* b) { return a->key < b->key; });
+  return pointers;
+}
+
+}  // namespace hl
