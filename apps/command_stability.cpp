@@ -30,7 +30,7 @@ struct StabilityOptions {
   std::string csv;
 };
 
-struct Row {
+struct StabilityRow {
   StabilityCase loop;
   double one_by_one_N_m = 0, together_N_m = 0;
 };
@@ -53,13 +53,13 @@ std::vector<RateAndDelay> ratesAndDelays(const StabilityOptions& options) {
   return all;
 }
 
-std::vector<Row> rowsOf(const StabilityOptions& options) {
-  std::vector<Row> rows;
+std::vector<StabilityRow> rowsOf(const StabilityOptions& options) {
+  std::vector<StabilityRow> rows;
   for (const std::string& device : options.devices) {
     for (const std::string& grip : options.grips) {
       for (const RateAndDelay& when : ratesAndDelays(options)) {
         for (const double damping_Ns_m : options.dampings_Ns_m) {
-          Row& row = rows.emplace_back();
+          StabilityRow& row = rows.emplace_back();
           row.loop.device.model = deviceModel(device);
           row.loop.device.firm = grip == "firm";
           row.loop.device.delay_steps = when.delay;
@@ -83,10 +83,10 @@ void showProgress(std::size_t done, std::size_t all) {
   std::fflush(stderr);
 }
 
-void measure(std::vector<Row>& rows, bool quick) {
+void measure(std::vector<StabilityRow>& rows, bool quick) {
   std::atomic<std::size_t> done{0};
   tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
-    Row& row = rows[i];
+    StabilityRow& row = rows[i];
     row.one_by_one_N_m = highestStiffness_N_m(row.loop, Landings::kOneByOne);
     if (!quick) row.together_N_m = highestStiffness_N_m(row.loop, Landings::kTogether);
     showProgress(++done, rows.size());
@@ -99,10 +99,10 @@ std::string stiffnessText(double stiffness_N_m) {
   return fmt::format("{:.0f}", stiffness_N_m);
 }
 
-void printTable(const std::vector<Row>& rows, bool quick) {
+void printTable(const std::vector<StabilityRow>& rows, bool quick) {
   fmt::print("{:<12}{:<7}{:>9}{:>7}{:>11}{:>14}{:>12}\n", "device", "grip", "rate Hz", "delay", "B N.s/m",
              "K one by one", "K together");
-  for (const Row& row : rows) {
+  for (const StabilityRow& row : rows) {
     fmt::print("{:<12}{:<7}{:>9}{:>7}{:>11}{:>14}{:>12}\n", row.loop.device.model.name,
                row.loop.device.firm ? "firm" : "light", row.loop.rate_Hz, row.loop.device.delay_steps,
                row.loop.damping_Ns_m, stiffnessText(row.one_by_one_N_m), quick ? "-" : stiffnessText(row.together_N_m));
@@ -123,9 +123,9 @@ std::optional<fmt::ostream> openCsv(const std::string& file) {
   }
 }
 
-void writeCsv(fmt::ostream& csv, const std::vector<Row>& rows, bool quick) {
+void writeCsv(fmt::ostream& csv, const std::vector<StabilityRow>& rows, bool quick) {
   csv.print("device,grip,rate_Hz,delay_steps,damping_Ns_m,bends,jitter_s,one_by_one_N_m,together_N_m\n");
-  for (const Row& row : rows) {
+  for (const StabilityRow& row : rows) {
     const SimulatedDeviceSettings& device = row.loop.device;
     csv.print("{},{},{},{},{},{},{},{:.0f},{}\n", device.model.name, device.firm ? "firm" : "light", row.loop.rate_Hz,
               device.delay_steps, row.loop.damping_Ns_m, device.bends ? 1 : 0, device.jitter_s, row.one_by_one_N_m,
@@ -153,7 +153,7 @@ void printTheory() {
 void run(const StabilityOptions& options) {
   if (options.theory) return printTheory();
   auto csv = openCsv(options.csv);
-  std::vector<Row> rows = rowsOf(options);
+  std::vector<StabilityRow> rows = rowsOf(options);
   measure(rows, options.quick);
   printTable(rows, options.quick);
   if (csv) writeCsv(*csv, rows, options.quick);

@@ -9,7 +9,7 @@ namespace hl {
 
 namespace {
 
-constexpr double kSide = 0.2;  // m
+constexpr double kSoupSide = 0.2;  // m
 
 // The standard's distributions differ from library to library; this does not.
 double uniform(std::mt19937_64& random) { return std::ldexp(static_cast<double>(random() >> 11), -52) - 1; }
@@ -30,15 +30,15 @@ Vec3 direction(std::mt19937_64& random) {
 
 Model makeSoup(std::size_t triangles) {
   std::mt19937_64 random(1997);
-  const double edge = kSide / std::cbrt(static_cast<double>(triangles));
+  const double edge = kSoupSide / std::cbrt(static_cast<double>(triangles));
   // A lone triangle would be as large as the box and stick out of it.
-  const double reach = std::min(edge / std::sqrt(3.0), 0.25 * kSide);  // of a corner from the middle
+  const double reach = std::min(edge / std::sqrt(3.0), 0.25 * kSoupSide);  // of a corner from the middle
   Model model;
   model.positions.reserve(3 * triangles);
   model.normals.reserve(3 * triangles);
   model.triangles.reserve(triangles);
   for (std::uint32_t i = 0; i < triangles; ++i) {
-    const Vec3 middle = (0.5 * kSide - reach) * inCube(random);
+    const Vec3 middle = (0.5 * kSoupSide - reach) * inCube(random);
     const Vec3 normal = direction(random);
     const Vec3 u = normal.cross(direction(random)).normalized();
     const Vec3 v = normal.cross(u);

@@ -34,7 +34,7 @@ Vec3 centreOf(const Sphere& sphere) { return {sphere.centre[0], sphere.centre[1]
 // centre moves (at most sqrt(3) 2^-24), and by one part in 2^20 before it is rounded itself; both leave ample room for
 // the double sums of the cover and of queries. The move is bounded, not measured, and the function is not inlined,
 // because GCC 12 at -O2 takes a double that was narrowed and widened again in one function for the double itself.
-[[gnu::noinline]] Sphere roundedOutward(const Vec3& centre, double radius) {
+[[gnu::noinline]] Sphere roundedUp(const Vec3& centre, double radius) {
   constexpr double kRelative = 1 + 1.0 / (1 << 20);
   constexpr double kOfCoordinates = 1.0 / (1 << 22);
   const double grown = (radius + kOfCoordinates * centre.cwiseAbs().maxCoeff()) * kRelative;
@@ -66,9 +66,9 @@ bool before(const Leaf& a, const Leaf& b, std::size_t axis) {
   return a.sphere.radius < b.sphere.radius;
 }
 
-class Builder {
+class SphereTreeBuilder {
  public:
-  Builder(std::vector<Leaf>& leaves, std::vector<Node>& nodes, SphereTree::BuildWork& work)
+  SphereTreeBuilder(std::vector<Leaf>& leaves, std::vector<Node>& nodes, SphereTree::BuildWork& work)
       : leaves_(leaves), nodes_(nodes), work_(work) {
     const double lg = std::log2(static_cast<double>(std::max<std::size_t>(leaves.size(), 1)));
     depth_allowed_ = std::max(levelsByHalving(leaves.size()), static_cast<int>(kDepthPerLg * lg));
@@ -138,7 +138,7 @@ class Builder {
     }
     work_.leaf_visits += end - begin;
     const Ball pair = around(child[0], child[1]);
-    return pair.radius < radius ? roundedOutward(pair.centre, pair.radius) : roundedOutward(box_middle, radius);
+    return pair.radius < radius ? roundedUp(pair.centre, pair.radius) : roundedUp(box_middle, radius);
   }
 
   std::vector<Leaf>& leaves_;
@@ -204,14 +204,14 @@ SphereTree SphereTree::build(const Primitives& primitives) {
   tree.leaves_.reserve(primitives.size());
   for (std::size_t i = 0; i < primitives.size(); ++i) {
     coverWithSpheres(primitives[i], leaf_radius, [&](const Ball& ball) {
-      tree.leaves_.push_back({roundedOutward(ball.centre, ball.radius), static_cast<std::uint32_t>(i)});
+      tree.leaves_.push_back({roundedUp(ball.centre, ball.radius), static_cast<std::uint32_t>(i)});
     });
   }
   tree.leaves_.shrink_to_fit();
   if (tree.leaves_.empty()) return tree;
   assert(tree.leaves_.size() <= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()));
   tree.nodes_.reserve(tree.leaves_.size() - 1);
-  Builder builder(tree.leaves_, tree.nodes_, tree.work_);
+  SphereTreeBuilder builder(tree.leaves_, tree.nodes_, tree.work_);
   Sphere root;
   builder.build(0, tree.leaves_.size(), 0, root);
   tree.depth_ = builder.depth();

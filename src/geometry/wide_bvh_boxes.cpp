@@ -31,8 +31,6 @@ int parallelLevels(std::size_t blocks) {
   return levels;
 }
 
-bool isBlock(std::uint32_t link) { return (link & kBlockLink) != 0; }
-
 template <typename Each>
 void forEachLane(int parallel_levels, const Each& each) {
   if (parallel_levels > 0) return oneapi::tbb::parallel_for(std::size_t{0}, kWide, each);

@@ -89,9 +89,9 @@ void improve(const Bins& bins, std::size_t axis, Cut& best) {
   }
 }
 
-class Builder {
+class BinaryTreeBuilder {
  public:
-  explicit Builder(BinaryTree& tree) : tree_(tree) {
+  explicit BinaryTreeBuilder(BinaryTree& tree) : tree_(tree) {
     const double lg = std::log2(static_cast<double>(tree.blocks.size()));
     depth_allowed_ = std::max(levelsByHalving(tree.blocks.size()), static_cast<int>(kWideDepthPerLg * lg));
   }
@@ -212,7 +212,7 @@ BinaryTree buildBinaryTree(std::vector<BoxedPrimitive> primitives) {
   const std::size_t blocks = blocksFor(tree.primitives.size());
   tree.blocks.resize(blocks);
   tree.nodes.resize(blocks);
-  tree.root = Builder(tree).build(0, blocks, 0);
+  tree.root = BinaryTreeBuilder(tree).build(0, blocks, 0);
   return tree;
 }
 

@@ -37,9 +37,7 @@ struct BinaryTree {
   std::vector<FloatBox> blocks;
   std::uint32_t root = kBlockLink;
 
-  const FloatBox& box(std::uint32_t link) const {
-    return (link & kBlockLink) != 0 ? blocks[link & ~kBlockLink] : nodes[link].box;
-  }
+  const FloatBox& box(std::uint32_t link) const { return isBlock(link) ? blocks[link & ~kBlockLink] : nodes[link].box; }
 };
 
 /// Splits `primitives` (at least one) by the surface area heuristic. O(n lg n), parallel; the result does not depend on

@@ -13,6 +13,7 @@ inline constexpr std::size_t kWide = 8;
 
 /// A link with this bit names a block, else a node.
 inline constexpr std::uint32_t kBlockLink = 0x80000000u;
+inline bool isBlock(std::uint32_t link) { return (link & kBlockLink) != 0; }
 /// The link of an unused lane: the root is nobody's child.
 inline constexpr std::uint32_t kNoChild = 0;
 

@@ -17,8 +17,6 @@ namespace {
 
 using Links = FixedVector<std::uint32_t, kWide>;
 
-bool isBlock(std::uint32_t link) { return (link & kBlockLink) != 0; }
-
 // Which binary nodes become wide ones: those whose boxes have the least total area, as the chance that a query enters a
 // box grows with its area. By dynamic programming from the blocks up (Ylitie et al. 2017): cost(link, m) is the least
 // cost of a subtree given as at most m children of a wide node above it.

@@ -161,7 +161,7 @@ HWY_INLINE void forEachFew(const WideTree& tree, const BoxQuery& query, const Lo
   setEnd(straight, query);
   while (first < end) {
     const std::uint32_t link = end <= kMostWaiting ? links[first++] : links[--end];
-    if ((link & kBlockLink) != 0) {
+    if (isBlock(link)) {
       numbers.block[numbers.count++] = link & ~kBlockLink;
       if (numbers.count == kFewBlocks) {
         look(numbers);

@@ -26,14 +26,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostBytes = std::uintmax_t{64} << 20;
-constexpr std::size_t kMostTexels = std::size_t{8192} * 8192;
+constexpr std::uintmax_t kMostFileBytes = std::uintmax_t{64} << 20;
+constexpr std::size_t kMostFileTexels = std::size_t{8192} * 8192;
 constexpr int kMostObjects = 60'000;  // materials are counted in 16 bits
 
 std::string readText(const std::string& path) {
   std::error_code error;
   if (!fs::is_regular_file(path, error)) throw Error(path + ": there is no such file");
-  if (fs::file_size(path, error) > kMostBytes) throw Error(path + ": is larger than 64 MB; put meshes in model files");
+  if (fs::file_size(path, error) > kMostFileBytes)
+    throw Error(path + ": is larger than 64 MB; put meshes in model files");
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
@@ -132,7 +133,7 @@ void SceneFile::addTexture(Model& model, const proto::TextureImage& in, const st
     }
     decoder_.setReading(in, texture, where);
   } else {
-    texture = decoder_.texture(in, std::min(kMostTexels, options_.most_texels - texels_), where);
+    texture = decoder_.texture(in, std::min(kMostFileTexels, options_.most_texels - texels_), where);
   }
   texels_ += texture.texels.size();
   if (texels_ > options_.most_texels)

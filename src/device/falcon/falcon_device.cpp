@@ -30,7 +30,7 @@ constexpr int kMostSilences = 3;
 
 // Force, stiffness and damping as CHAI3D assumes them (chai3d/chai3d, src/devices); 4 x 4 x 4 inches and 400 dpi by the
 // vendor.
-DeviceInfo makeInfo() {
+DeviceInfo falconInfo() {
   DeviceInfo info;
   info.name = "Novint Falcon";
   info.workspace_max = Vec3::Constant(0.04);
@@ -70,7 +70,7 @@ std::string fileOf(const std::string& firmware) {
 FalconDevice::FalconDevice(std::unique_ptr<FalconTransport> transport, const std::string& firmware)
     : transport_(std::move(transport)),
       firmware_file_(fileOf(firmware)),
-      info_(makeInfo()),
+      info_(falconInfo()),
       exchange_(std::make_unique<Exchange>()),
       tip_F_(kFalconCentre_F) {}
 

@@ -7,7 +7,7 @@ namespace hl {
 namespace {
 
 // The vendor's examples use springs up to 400 N/m; the rest is not published, and guessed low.
-DeviceInfo makeInfo() {
+DeviceInfo haplyInfo() {
   DeviceInfo info;
   info.name = "Haply Inverse3";
   info.workspace_max = Vec3::Constant(0.06);
@@ -25,7 +25,7 @@ DeviceInfo makeInfo() {
 
 }  // namespace
 
-HaplyDevice::HaplyDevice(const std::string& url) : address_(HaplyAddress::parse(url)), info_(makeInfo()) {}
+HaplyDevice::HaplyDevice(const std::string& url) : address_(HaplyAddress::parse(url)), info_(haplyInfo()) {}
 
 void HaplyDevice::open() {
   if (link_) return;
