@@ -11,8 +11,7 @@ std::unique_ptr<Link> openWebsocket(const ServerUrl& url) {
   WebsocketLinkSettings settings;
   settings.ca_file = url.ca_file;
   settings.connect_s = url.timeout_s;
-  const std::string host = url.host.find(':') == std::string::npos ? url.host : "[" + url.host + "]";
-  return connectWebsocket(url.scheme + "://" + host + ":" + std::to_string(url.port), settings);
+  return connectWebsocket({url.host, url.port, url.scheme == "hls"}, settings);
 }
 
 struct AllLinks {

@@ -25,11 +25,25 @@ std::string connectFailure(const ServerAddress& address, const boost::system::er
   return "cannot reach " + who + ": " + error.message();
 }
 
+const char* adviceFor(long verdict) {
+  switch (verdict) {
+    case X509_V_ERR_CERT_HAS_EXPIRED:
+      return "renew it on the server";
+    case X509_V_ERR_CERT_NOT_YET_VALID:
+      return "is the clock of this machine right?";
+    case X509_V_ERR_HOSTNAME_MISMATCH:
+    case X509_V_ERR_IP_ADDRESS_MISMATCH:
+      return "connect by a name or address that it is made for";
+    default:
+      return "give the file of its authority (ca=)";
+  }
+}
+
 std::string tlsFailure(const ServerAddress& address, SSL* handle, const boost::system::error_code& error) {
   const long verdict = SSL_get_verify_result(handle);
   if (verdict != X509_V_OK) {
     return "the certificate of " + address.text() + " is not trusted (" + X509_verify_cert_error_string(verdict) +
-           "); give the file of its authority";
+           "); " + adviceFor(verdict);
   }
   if (error == boost::beast::error::timeout) return address.text() + " does not answer to TLS; does it want hl:// ?";
   return address.text() + " speaks no TLS 1.3 (" + error.message() + "); does it want hl:// ?";

@@ -16,6 +16,6 @@ struct ServerAddress {
 };
 
 /// Throws hl::Error that shows the right form.
-ServerAddress parseServerAddress(const std::string& url);
+ServerAddress parseServerAddress(const std::string& text);
 
 }  // namespace hl

@@ -7,36 +7,16 @@
 #include <cstdlib>
 #include <functional>
 #include <map>
-#include <string_view>
+#include <vector>
 
 #include "base/error.h"
+#include "base/url.h"
 
 namespace hl::client {
 
 namespace {
 
 [[noreturn]] void fail(const std::string& what) { throw Error("the server's URL: " + what); }
-
-int hexDigit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  fail("a '%' must be followed by two hexadecimal digits");
-}
-
-std::string percentDecoded(std::string_view text) {
-  std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] != '%') {
-      out += text[i];
-      continue;
-    }
-    if (i + 2 >= text.size()) fail("a '%' must be followed by two hexadecimal digits");
-    out += static_cast<char>(16 * hexDigit(text[i + 1]) + hexDigit(text[i + 2]));
-    i += 2;
-  }
-  return out;
-}
 
 template <typename Number>
 Number numberOf(const std::string& option, const std::string& text, Number least, Number most) {
@@ -77,35 +57,23 @@ const auto& options() {
   return all;
 }
 
-void parseOptions(ServerUrl& url, std::string_view query) {
-  while (!query.empty()) {
-    const std::string_view option = query.substr(0, query.find('&'));
-    query.remove_prefix(std::min(option.size() + 1, query.size()));
-    const std::size_t equals = option.find('=');
-    const std::string_view name = option.substr(0, equals);
-    const auto found = options().find(name);
-    if (found == options().end() || equals == std::string_view::npos)
-      fail("'" + std::string(option) +
+void parseOptions(ServerUrl& url, const std::vector<UrlOption>& given) {
+  for (const UrlOption& option : given) {
+    const auto found = options().find(option.name);
+    if (found == options().end())
+      fail("'" + option.name +
            "' is not an option (name=, token=, device=, master=, keep=, state_rate=, timeout=, ca=)");
-    found->second(url, percentDecoded(option.substr(equals + 1)));
+    if (!option.value) fail("the option " + option.name + " has no value: write " + option.name + "=");
+    found->second(url, *option.value);
   }
 }
 
-// host, host:port, [IPv6], [IPv6]:port
-void parsePlace(ServerUrl& url, std::string_view place) {
-  while (place.ends_with('/')) place.remove_suffix(1);
-  std::size_t end = place.find(':');
-  if (place.starts_with('[')) {
-    const std::size_t close = place.find(']');
-    if (close == std::string_view::npos) fail("a '[' without ']'");
-    url.host = place.substr(1, close - 1);
-    end = close + 1;
-    if (end < place.size() && place[end] != ':') fail("only a port may follow ']'");
-  } else {
-    url.host = place.substr(0, end);
+Url urlOf(const std::string& text) {
+  try {
+    return parseUrl(text);
+  } catch (const Error& error) {
+    fail(error.what());
   }
-  if (url.host.empty()) fail("there is no host in it");
-  if (end < place.size()) url.port = numberOf<std::uint16_t>("the port", std::string(place.substr(end + 1)), 1, 65535);
 }
 
 }  // namespace
@@ -113,19 +81,16 @@ void parsePlace(ServerUrl& url, std::string_view place) {
 ServerUrl parseServerUrl(const std::string& text) {
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos || colon == 0) fail("it must begin with inproc:, hl:// or hls://");
+  const Url parts = urlOf(text);
   ServerUrl url;
-  url.scheme = text.substr(0, colon);
+  url.scheme = parts.scheme;
   url.name = program_invocation_short_name;
   if (const char* token = std::getenv("HL_TOKEN")) url.token = token;
-  std::string_view rest = std::string_view(text).substr(colon + 1);
-  const std::size_t question = rest.find('?');
-  if (question != std::string_view::npos) parseOptions(url, rest.substr(question + 1));
-  rest = rest.substr(0, question);
-  if (rest.starts_with("//")) {
-    parsePlace(url, rest.substr(2));
-  } else if (!rest.empty()) {
+  if (parts.host) url.host = *parts.host;
+  if (parts.port) url.port = *parts.port;
+  if (!parts.path.empty() && !(parts.host && parts.path == "/"))
     fail("after '" + url.scheme + ":' comes '//' and a host, or '?' and options");
-  }
+  parseOptions(url, parts.options);
   return url;
 }
 

@@ -12,8 +12,6 @@
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/asio/use_future.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/websocket/rfc6455.hpp>
-#include <boost/beast/websocket/stream.hpp>
 #include <deque>
 #include <future>
 #include <mutex>
@@ -24,6 +22,7 @@
 #include "base/error.h"
 #include "client/connect_stream.h"
 #include "client/reply_inbox.h"
+#include "wire/websocket.h"
 
 namespace hl {
 
@@ -42,8 +41,8 @@ std::chrono::nanoseconds duration(double seconds) {
 
 class WebsocketLink : public Link {
  public:
-  WebsocketLink(const std::string& url, const WebsocketLinkSettings& settings)
-      : address_(parseServerAddress(url)), settings_(settings), bell_(context_), linger_(context_) {
+  WebsocketLink(const ServerAddress& address, const WebsocketLinkSettings& settings)
+      : address_(address), settings_(settings), bell_(context_), linger_(context_) {
     if (address_.tls) tls_ = makeClientTls(settings.ca_file);
     auto connected = asio::co_spawn(context_, connect(), asio::use_future);
     thread_ = std::thread([this] { context_.run(); });
@@ -94,12 +93,12 @@ class WebsocketLink : public Link {
     patience.handshake_timeout = duration(settings_.connect_s);
     patience.idle_timeout = duration(settings_.silence_s);
     patience.keep_alive_pings = true;
-    socket_->set_option(patience);
-    socket_->read_message_max(settings_.reply_bytes);
-    socket_->write_buffer_bytes(kPiece_bytes);
-    socket_->binary(true);
+    socket_->setTimeout(patience);
+    socket_->setReadLimit(settings_.reply_bytes);
+    socket_->setPieceSize(kPiece_bytes);
+    socket_->setText(false);
     websocket::response_type response;
-    auto [error] = co_await socket_->async_handshake(response, address_.text(), "/hl", kAwait);
+    auto [error] = co_await socket_->shakeHands(response, address_.text(), "/hl");
     if (error) throw Error(handshakeFailure(error, response));
   }
 
@@ -125,7 +124,7 @@ class WebsocketLink : public Link {
   std::string reasonOf(const boost::system::error_code& error) const {
     const std::string who = address_.text();
     if (error == websocket::error::closed) {
-      const std::string reason(socket_->reason().reason.c_str());
+      const std::string reason = socket_->peerReason();
       return who + " ended the session" + (reason.empty() ? "" : ": " + reason);
     }
     if (error == beast::error::timeout) return who + " has fallen silent; the connection is lost";
@@ -142,7 +141,7 @@ class WebsocketLink : public Link {
   asio::awaitable<void> read() {
     while (!finished_) {
       beast::flat_buffer buffer;
-      auto [error, bytes] = co_await socket_->async_read(buffer, kAwait);
+      auto [error, bytes] = co_await socket_->read(buffer);
       if (error) {
         finish(reasonOf(error));
         co_return;
@@ -161,11 +160,11 @@ class WebsocketLink : public Link {
     while (!finished_) {
       const std::string* next = front();
       if (next != nullptr) {
-        auto [error, bytes] = co_await socket_->async_write(asio::buffer(*next), kAwait);
+        auto [error, bytes] = co_await socket_->write(asio::buffer(*next));
         if (error) co_return;  // read() knows why, or will
         popFront();
       } else if (closing_) {
-        co_await socket_->async_close(websocket::close_code::normal, kAwait);
+        co_await socket_->close(websocket::close_code::normal);
         finish("the program has ended the session");
       } else {
         bell_.expires_at(asio::steady_timer::time_point::max());
@@ -203,7 +202,7 @@ class WebsocketLink : public Link {
   asio::executor_work_guard<asio::io_context::executor_type> work_ = asio::make_work_guard(context_);
   std::unique_ptr<asio::ssl::context> tls_;
   std::unique_ptr<Stream> stream_;
-  std::optional<websocket::stream<Stream&>> socket_;
+  std::optional<Websocket> socket_;
   asio::steady_timer bell_, linger_;
   bool closing_ = false;  // the program wants no more
   bool finished_ = false;
@@ -217,8 +216,8 @@ class WebsocketLink : public Link {
 
 }  // namespace
 
-std::unique_ptr<Link> connectWebsocket(const std::string& url, const WebsocketLinkSettings& settings) {
-  return std::make_unique<WebsocketLink>(url, settings);
+std::unique_ptr<Link> connectWebsocket(const ServerAddress& address, const WebsocketLinkSettings& settings) {
+  return std::make_unique<WebsocketLink>(address, settings);
 }
 
 }  // namespace hl

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "client/server_address.h"
 #include "wire/link.h"
 
 namespace hl {
@@ -20,8 +21,8 @@ struct WebsocketLinkSettings {
   std::size_t replies = 65'536;                     ///< that wait to be taken; beyond it the link ends
 };
 
-/// Connects to hl://HOST[:PORT] or hls://HOST[:PORT] and returns when messages can be sent; the session itself begins
+/// Connects and returns when messages can be sent; the session itself begins
 /// with the first one, Open. Throws hl::Error with one line that says what is wrong and what to do.
-std::unique_ptr<Link> connectWebsocket(const std::string& url, const WebsocketLinkSettings& settings = {});
+std::unique_ptr<Link> connectWebsocket(const ServerAddress& address, const WebsocketLinkSettings& settings = {});
 
 }  // namespace hl

@@ -1,5 +1,7 @@
 #include "server/access.h"
 
+#include <arpa/inet.h>
+#include <netinet/in.h>
 #include <openssl/crypto.h>
 #include <openssl/sha.h>
 
@@ -43,7 +45,9 @@ bool isLoopbackHost(std::string_view host, unsigned port) {
   const std::string suffix = ":" + std::to_string(port);
   if (!host.ends_with(suffix)) return false;
   host.remove_suffix(suffix.size());
-  return host == "127.0.0.1" || host == "localhost" || host == "[::1]";
+  if (host == "localhost" || host == "[::1]") return true;
+  in_addr address{};  // any of 127.0.0.0/8, but no name: one may lead anywhere
+  return inet_pton(AF_INET, std::string(host).c_str(), &address) == 1 && ntohl(address.s_addr) >> 24 == IN_LOOPBACKNET;
 }
 
 void checkToken(std::string_view token) {
@@ -124,20 +128,6 @@ Access::Digest Access::digestOf(std::string_view text) {
   Digest digest;
   SHA256(reinterpret_cast<const unsigned char*>(text.data()), text.size(), digest.data());
   return digest;
-}
-
-std::string_view queryValue(std::string_view target, std::string_view name) {
-  const std::size_t begin = target.find('?');
-  if (begin == std::string_view::npos) return {};
-  std::string_view query = target.substr(begin + 1);
-  query = query.substr(0, query.find('#'));
-  while (!query.empty()) {
-    const std::string_view pair = query.substr(0, query.find('&'));
-    query.remove_prefix(std::min(pair.size() + 1, query.size()));
-    const std::size_t equals = pair.find('=');
-    if (equals != std::string_view::npos && pair.substr(0, equals) == name) return pair.substr(equals + 1);
-  }
-  return {};
 }
 
 }  // namespace hl

@@ -62,7 +62,4 @@ class Access {
   std::string cookie_value_;
 };
 
-/// The value of `name` in a target such as "/?a=1&token=abc"; empty when it is not there. Takes no percent signs apart.
-std::string_view queryValue(std::string_view target, std::string_view name);
-
 }  // namespace hl

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/experimental/awaitable_operators.hpp>
-#include <boost/beast/websocket/rfc6455.hpp>
 #include <chrono>
 #include <cmath>
 #include <exception>
@@ -78,10 +77,10 @@ bool HlCarrier::setUp() {
   patience.handshake_timeout = duration(world_.limits.handshake_s);
   patience.idle_timeout = duration(world_.limits.idle_s);
   patience.keep_alive_pings = true;
-  stream_.set_option(patience);
+  stream_.setTimeout(patience);
   // readMessage() counts the bytes, so that it can say why it refuses; here 0 is no limit.
-  stream_.read_message_max(0);
-  stream_.write_buffer_bytes(kPiece_bytes);
+  stream_.setReadLimit(0);
+  stream_.setPieceSize(kPiece_bytes);
   return !error;
 }
 
@@ -89,7 +88,7 @@ asio::awaitable<void> HlCarrier::run(http::request<http::string_body> request) {
   using namespace asio::experimental::awaitable_operators;
   const auto self = shared_from_this();
   if (!setUp()) co_return;
-  auto [refused] = co_await stream_.async_accept(request, kAwait);
+  auto [refused] = co_await stream_.accept(request);
   if (refused) co_return;
   connection_->farewell = [weak = weak_from_this()] {
     if (const auto carrier = weak.lock()) carrier->end({close_code::going_away, "the server stops", false, {}});
@@ -153,7 +152,7 @@ asio::awaitable<void> HlCarrier::read() {
 }
 
 asio::awaitable<void> HlCarrier::takeIn(const beast::flat_buffer& buffer) {
-  const MessageForm form = stream_.got_text() ? MessageForm::kJson : MessageForm::kBinary;
+  const MessageForm form = stream_.gotText() ? MessageForm::kJson : MessageForm::kBinary;
   if (!opened_) form_ = form;
   const auto data = buffer.cdata();
   const std::string_view bytes(static_cast<const char*>(data.data()), data.size());
@@ -172,7 +171,7 @@ asio::awaitable<void> HlCarrier::takeIn(const beast::flat_buffer& buffer) {
 asio::awaitable<bool> HlCarrier::readMessage(beast::flat_buffer& buffer) {
   const std::uint64_t most = opened_ ? world_.limits.message_bytes : world_.limits.open_bytes;
   do {
-    auto [error, bytes] = co_await stream_.async_read_some(buffer, kPiece_bytes, kAwait);
+    auto [error, bytes] = co_await stream_.readSome(buffer, kPiece_bytes);
     if (error) {
       if (error == websocket::condition::protocol_violation) world_.traffic.refuse(RefusedBecause::kMalformed);
       gone_ = true;
@@ -186,7 +185,7 @@ asio::awaitable<bool> HlCarrier::readMessage(beast::flat_buffer& buffer) {
                  (opened_ ? "send large meshes as uploads in parts" : "send Open first"));
       co_return false;
     }
-  } while (!stream_.is_message_done());
+  } while (!stream_.isMessageDone());
   ++world_.traffic.messages_in;
   co_return true;
 }
@@ -210,7 +209,9 @@ std::optional<HlCarrier::Ending> HlCarrier::open(MessageForm form, proto::Client
     return Ending{close_code::policy_error, "the first message must be open", true, RefusedBecause::kMalformed};
   }
   if (!trusted_ && !world_.access.allowsToken(message.open().token())) {
-    return Ending{close_code::policy_error, "wrong or no token; this server asks for one", true,
+    const bool none = message.open().token().empty();
+    return Ending{close_code::policy_error,
+                  none ? "this server asks for a token, and none came" : "the token is not this server's", true,
                   RefusedBecause::kAccess};
   }
   message.mutable_open()->clear_token();  // it has done its work: nobody else needs to know it
@@ -269,8 +270,8 @@ asio::awaitable<bool> HlCarrier::writeMessage(MessageForm form, const std::strin
     carrier->end({close_code::policy_error, "the client reads nothing", false, RefusedBecause::kSilent});
     carrier->connection_->stream.close();
   });
-  stream_.text(form == MessageForm::kJson);
-  auto [error, sent] = co_await stream_.async_write(asio::buffer(bytes), kAwait);
+  stream_.setText(form == MessageForm::kJson);
+  auto [error, sent] = co_await stream_.write(asio::buffer(bytes));
   write_deadline_.cancel();
   world_.traffic.bytes_out += sent;
   if (!error) ++world_.traffic.messages_out;
@@ -285,7 +286,7 @@ asio::awaitable<void> HlCarrier::sayGoodbye(const Ending& ending) {
     const bool sent = co_await writeMessage(form_, bytes);
     if (!sent) co_return;
   }
-  co_await stream_.async_close(closeReason(ending.code, ending.text), kAwait);
+  co_await stream_.close(closeReason(ending.code, ending.text));
 }
 
 }  // namespace hl

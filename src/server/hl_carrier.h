@@ -16,7 +16,7 @@
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/string_body.hpp>
-#include <boost/beast/websocket/stream.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,6 +28,7 @@
 #include "server/message_forms.h"
 #include "server/message_rate.h"
 #include "server/traffic.h"
+#include "wire/websocket.h"
 
 namespace hl {
 
@@ -86,7 +87,7 @@ class HlCarrier : public std::enable_shared_from_this<HlCarrier> {
 
   CarrierWorld world_;
   ConnectionPointer connection_;
-  boost::beast::websocket::stream<Stream&> stream_;
+  Websocket stream_;
   boost::asio::strand<boost::asio::thread_pool::executor_type> strand_;
   std::shared_ptr<CarrierBell> bell_;
   boost::asio::steady_timer open_deadline_, write_deadline_;

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "base/url.h"
+
 #include "server/connection.h"
 #include "server/event_log.h"
 #include "server/static_files.h"
@@ -64,7 +66,7 @@ HttpResponse HttpAnswers::answerGet(const HttpRequest& request) const {
   const std::string_view path = pathOf(target);
   // Health is for whoever watches over the server; it tells nothing else.
   if (path == "/healthz") return health(request);
-  const std::string_view token = queryValue(target, "token");
+  const std::string token = queryValue(target, "token");
   if (path == "/" && !token.empty()) return login(request, token);
   if (!isTrusted(request)) {
     return refuse(request, http::status::unauthorized,

@@ -15,6 +15,7 @@
 #include "base/error.h"
 #include "server/access.h"
 #include "server/client_session.h"
+#include "server/event_log.h"
 #include "server/hl_carrier.h"
 #include "server/http_answers.h"
 #include "server/listener.h"
@@ -104,7 +105,7 @@ class HttpServer::Impl {
         const bool upgraded = co_await upgrade(connection, request);
         if (upgraded) co_return;
       }
-      auto response = answer(request);
+      auto response = answer(connection->peer, request);
       auto [failed, sent] = co_await http::async_write(connection->stream, response, kAwait);
       if (failed || !response.keep_alive()) co_return;
     }
@@ -126,15 +127,21 @@ class HttpServer::Impl {
     co_return true;
   }
 
-  HttpResponse answer(const HttpRequest& request) {
+  HttpResponse answer(const std::string& peer, const HttpRequest& request) {
     if (websocket::is_upgrade(request) && request.target() == "/viewer" && pages_.full()) {
       traffic_.refuse(RefusedBecause::kFull);
       return HttpAnswers::refuse(request, http::status::service_unavailable, "too many pages; close one");
     }
     HttpResponse response = answers_.answer(request);
     const bool denied = response.result() == http::status::forbidden || response.result() == http::status::unauthorized;
-    if (denied) traffic_.refuse(RefusedBecause::kAccess);
+    if (denied) tellDenied(peer, request, response);
     return response;
+  }
+
+  void tellDenied(const std::string& peer, const HttpRequest& request, const HttpResponse& response) {
+    traffic_.refuse(RefusedBecause::kAccess);
+    const std::string host(request[http::field::host]);
+    logEvent(LogLevel::kWarning, "refused", {{"peer", peer}, {"host", host}, {"reason", response.body()}});
   }
 
   std::string fault() const { return monitor_.fault ? monitor_.fault() : std::string(); }

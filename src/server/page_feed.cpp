@@ -37,10 +37,10 @@ void PageFeed::stop() {
 
 asio::awaitable<void> PageFeed::serve(ConnectionPointer connection, http::request<http::string_body> request) {
   auto page = std::make_shared<Page>(connection);
-  page->stream.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
-  page->stream.read_message_max(limits_.page_message_bytes);
-  page->stream.binary(true);
-  auto [refused] = co_await page->stream.async_accept(request, kAwait);
+  page->stream.setTimeout(websocket::stream_base::timeout::suggested(beast::role_type::server));
+  page->stream.setReadLimit(limits_.page_message_bytes);
+  page->stream.setText(false);
+  auto [refused] = co_await page->stream.accept(request);
   if (refused) co_return;
   pages_.insert(page);
   asio::co_spawn(context_, greet(page), asio::detached);
@@ -59,7 +59,7 @@ asio::awaitable<void> PageFeed::listen(PagePointer page) {
   MessageRate rate(limits_.page_messages_Hz);
   while (true) {
     beast::flat_buffer buffer;
-    auto [error, bytes] = co_await page->stream.async_read(buffer, kAwait);
+    auto [error, bytes] = co_await page->stream.read(buffer);
     if (error) {
       if (error == websocket::error::message_too_big) traffic_.refuse(RefusedBecause::kTooLarge);
       co_return;
@@ -68,7 +68,7 @@ asio::awaitable<void> PageFeed::listen(PagePointer page) {
     traffic_.bytes_in += bytes;
     if (!rate.allow(monotonicNow_ns())) {
       traffic_.refuse(RefusedBecause::kTooFast);
-      co_await page->stream.async_close({websocket::close_code::policy_error, "too many messages"}, kAwait);
+      co_await page->stream.close({websocket::close_code::policy_error, "too many messages"});
       co_return;
     }
     callbacks_.receive(beast::buffers_to_string(buffer.data()));
@@ -103,7 +103,7 @@ asio::awaitable<void> PageFeed::send(PagePointer page, std::shared_ptr<const std
 }
 
 asio::awaitable<bool> PageFeed::write(PagePointer page, std::shared_ptr<const std::string> message) {
-  auto [error, bytes] = co_await page->stream.async_write(asio::buffer(*message), kAwait);
+  auto [error, bytes] = co_await page->stream.write(asio::buffer(*message));
   ++traffic_.messages_out;
   traffic_.bytes_out += bytes;
   co_return !error;

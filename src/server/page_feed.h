@@ -7,7 +7,6 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/string_body.hpp>
-#include <boost/beast/websocket/stream.hpp>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -18,6 +17,7 @@
 #include "server/http_server.h"
 #include "server/limits.h"
 #include "server/traffic.h"
+#include "wire/websocket.h"
 
 namespace hl {
 
@@ -41,7 +41,7 @@ class PageFeed {
   struct Page {
     explicit Page(ConnectionPointer owner) : connection(std::move(owner)), stream(connection->stream) {}
     ConnectionPointer connection;
-    boost::beast::websocket::stream<Stream&> stream;
+    Websocket stream;
     SceneSource scene;
     bool busy = true;  // a write is under way
   };

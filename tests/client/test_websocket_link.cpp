@@ -47,9 +47,13 @@ std::optional<proto::ServerReply> next(Link& link) {
   return reply;
 }
 
+std::unique_ptr<Link> connectTo(const std::string& url, const WebsocketLinkSettings& settings = {}) {
+  return connectWebsocket(parseServerAddress(url), settings);
+}
+
 std::string whyNot(const std::string& url, const WebsocketLinkSettings& settings = {}) {
   try {
-    connectWebsocket(url, settings);
+    connectTo(url, settings);
   } catch (const Error& error) {
     EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
     return error.what();
@@ -79,7 +83,7 @@ TEST(ServerAddress, TakesWhatPeopleWrite) {
 
 TEST(WebsocketLink, MessagesGoThereAndBack) {
   Served served;
-  const auto link = connectWebsocket(served.url());
+  const auto link = connectTo(served.url());
   link->send(openMessage());
   for (std::uint64_t i = 1; i <= 100; ++i) link->send(frameMessage(i));
   EXPECT_TRUE(next(*link)->has_welcome());
@@ -90,7 +94,7 @@ TEST(WebsocketLink, MessagesGoThereAndBack) {
 
 TEST(WebsocketLink, ALargeMeshArrivesWhole) {
   Served served;
-  const auto link = connectWebsocket(served.url());
+  const auto link = connectTo(served.url());
   link->send(openMessage());
   const proto::ClientMessage part = uploadOf(1, 250'000);
   constexpr std::size_t kParts = 32;  // 2 MB each
@@ -105,7 +109,7 @@ TEST(WebsocketLink, ALargeMeshArrivesWhole) {
 
 TEST(WebsocketLink, OfStatesThatWaitOnlyTheNewestIsKept) {
   Served served;
-  const auto link = connectWebsocket(served.url());
+  const auto link = connectTo(served.url());
   link->send(openMessage(1000));
   served.host.waitUntil([](const auto& record) { return record.ever == 1 && record.states_taken[0] >= 50; });
   EXPECT_TRUE(next(*link)->has_welcome());
@@ -118,7 +122,7 @@ TEST(WebsocketLink, OfStatesThatWaitOnlyTheNewestIsKept) {
 
 TEST(WebsocketLink, TheServersEndHasAReason) {
   Served served;
-  const auto link = connectWebsocket(served.url());
+  const auto link = connectTo(served.url());
   link->send(openMessage());
   EXPECT_TRUE(next(*link)->has_welcome());
   served.host.endAll("the device has been unplugged");
@@ -130,7 +134,7 @@ TEST(WebsocketLink, TheServersEndHasAReason) {
 
 TEST(WebsocketLink, AServerThatStopsSaysSo) {
   Served served;
-  const auto link = connectWebsocket(served.url());
+  const auto link = connectTo(served.url());
   link->send(openMessage());
   EXPECT_TRUE(next(*link)->has_welcome());
   served.server.stop();
@@ -142,7 +146,7 @@ TEST(WebsocketLink, ARefusalIsAReplyAndThenTheEnd) {
   HttpServerSettings settings;
   settings.token = "correct-horse-battery";
   Served served(settings);
-  const auto link = connectWebsocket(served.url());
+  const auto link = connectTo(served.url());
   link->send(openMessage(0, "wrong-horse-battery"));
   const auto reply = next(*link);
   ASSERT_TRUE(reply && reply->has_refusal());
@@ -155,7 +159,7 @@ TEST(WebsocketLink, WhatWasSentBeforeTheEndIsDelivered) {
   Served served;
   const proto::ClientMessage part = uploadOf(1, 250'000);
   {
-    const auto link = connectWebsocket(served.url());
+    const auto link = connectTo(served.url());
     link->send(openMessage());
     for (int i = 0; i < 8; ++i) link->send(part);
     link->send(frameMessage(77));
@@ -170,7 +174,7 @@ TEST(WebsocketLink, TooManyQueuedBytesEndIt) {
   Served served;
   WebsocketLinkSettings settings;
   settings.queue_bytes = 1'000'000;
-  const auto link = connectWebsocket(served.url(), settings);
+  const auto link = connectTo(served.url(), settings);
   link->send(openMessage());
   link->send(uploadOf(1, 200'000));
   while (link->ended().empty()) link->wait(1ms);
@@ -212,7 +216,7 @@ TEST(WebsocketLink, WithTlsTheCertificateIsVerified) {
   Served served(settings);
   WebsocketLinkSettings trust;
   trust.ca_file = settings.tls.certificate;
-  const auto link = connectWebsocket(served.url("hls"), trust);
+  const auto link = connectTo(served.url("hls"), trust);
   link->send(openMessage());
   EXPECT_TRUE(next(*link)->has_welcome());
 

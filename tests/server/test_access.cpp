@@ -17,11 +17,11 @@ std::string sentBack(const std::string& cookie) { return cookie.substr(0, cookie
 
 TEST(Access, OnLoopbackOnlyLoopbackHostsAndOriginsAreOurs) {
   const Access access({true, false, 1997, ""});
-  for (const char* host : {"127.0.0.1:1997", "localhost:1997", "[::1]:1997"}) {
+  for (const char* host : {"127.0.0.1:1997", "127.0.0.2:1997", "localhost:1997", "[::1]:1997"}) {
     EXPECT_TRUE(access.allowsHost(host)) << host;
     EXPECT_TRUE(access.allowsOrigin("http://" + std::string(host), "localhost:1997")) << host;
   }
-  for (const char* host : {"127.0.0.1", "evil.example:1997", "127.0.0.1:80", "127.0.0.1.evil.example:1997", ""}) {
+  for (const char* host : {"127.0.0.1", "evil.example:1997", "127.0.0.1:80", "127.0.0.1.evil.example:1997", "128.0.0.1:1997", "127.1:1997", ""}) {
     EXPECT_FALSE(access.allowsHost(host)) << host;
   }
   EXPECT_TRUE(access.allowsOrigin("", "localhost:1997"));
@@ -100,14 +100,6 @@ TEST(Access, ATokenIsLongEnoughAndFitsIntoAnAddress) {
   }
   EXPECT_NO_THROW(checkToken("0123456789abcdef"));
   EXPECT_THROW(checkToken(std::string(257, 'a')), Error);
-}
-
-TEST(Access, QueriesAreTakenApart) {
-  EXPECT_EQ(queryValue("/?token=abc", "token"), "abc");
-  EXPECT_EQ(queryValue("/?a=1&token=abc&b=2#token=x", "token"), "abc");
-  for (const char* target : {"/", "/?", "/?tokens=abc", "/?atoken=abc", "/token=abc", "/?&&=", "/?token"}) {
-    EXPECT_EQ(queryValue(target, "token"), "") << target;
-  }
 }
 
 }  // namespace

@@ -17,7 +17,6 @@
 #include <boost/beast/http/string_body.hpp>
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/stream.hpp>
-#include <charconv>
 #include <chrono>
 #include <future>
 #include <thread>
@@ -25,6 +24,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/realtime.h"
+#include "base/url.h"
 #include "device/exchange.h"
 #include "device/haply/haply_messages.h"
 
@@ -50,23 +50,26 @@ using Socket = websocket::stream<beast::tcp_stream>;
 
 }  // namespace
 
-HaplyAddress HaplyAddress::parse(const std::string& url) {
+HaplyAddress HaplyAddress::parse(const std::string& text) {
   HaplyAddress address;
-  if (url.empty()) return address;
-  const Error wrong("'" + url + "' is no address of a Haply service: it is ws://HOST or ws://HOST:PORT");
-  const std::string scheme = "ws://";
-  if (!url.starts_with(scheme)) throw wrong;
-  std::string rest = url.substr(scheme.size());
-  if (rest.ends_with('/')) rest.pop_back();
-  const std::size_t colon = rest.find(':');
-  address.host = rest.substr(0, colon);
-  if (address.host.empty() || rest.find('/') != std::string::npos) throw wrong;
-  if (colon == std::string::npos) return address;
-  const char* const end = rest.data() + rest.size();
-  const auto [stop, error] = std::from_chars(rest.data() + colon + 1, end, address.port);
-  if (error != std::errc() || stop != end || address.port == 0) throw wrong;
+  if (text.empty()) return address;
+  const auto refuse = [&](const std::string& why) {
+    throw Error("'" + text + "' is no address of a Haply service (" + why + "): it is ws://HOST or ws://HOST:PORT");
+  };
+  Url url;
+  try {
+    url = parseUrl(text);
+  } catch (const Error& error) {
+    refuse(error.what());
+  }
+  if (url.scheme != "ws" || !url.host) refuse("it does not begin with ws:// and a host");
+  if ((!url.path.empty() && url.path != "/") || !url.options.empty()) refuse("nothing follows the host and its port");
+  address.host = *url.host;
+  if (url.port) address.port = *url.port;
   return address;
 }
+
+std::string HaplyAddress::text() const { return "ws://" + hostAndPort(host, port); }
 
 class HaplyLink::Conversation {
  public:

@@ -15,8 +15,8 @@ struct HaplyAddress {
   std::uint16_t port = 10001;
 
   /// From ws://HOST[:PORT], or nothing. Throws hl::Error.
-  static HaplyAddress parse(const std::string& url);
-  std::string text() const { return "ws://" + host + ":" + std::to_string(port); }
+  static HaplyAddress parse(const std::string& text);
+  std::string text() const;
 };
 
 class HaplyLink {

@@ -1,0 +1,36 @@
+// Url: the parts of SCHEME://HOST:PORT/PATH?NAME=VALUE&..., taken apart by Boost.URL (RFC 3986): where a server is, and
+// what is wanted of it. The one place where addresses that people write are read.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hl {
+
+struct UrlOption {
+  std::string name;
+  std::optional<std::string> value;  ///< percent signs decoded; absent where there is no '='
+};
+
+struct Url {
+  std::string scheme;
+  std::optional<std::string> host;  ///< an IPv6 address without its brackets; absent without "//"
+  std::optional<std::uint16_t> port;
+  std::string path;
+  std::vector<UrlOption> options;
+};
+
+/// Throws hl::Error with the fault alone: the text is not told again, as it may hold a token.
+Url parseUrl(std::string_view text);
+
+/// host:port as people write it, with the brackets of an IPv6 address.
+std::string hostAndPort(const std::string& host, std::uint16_t port);
+
+/// The value of `name` in the target of an HTTP request, such as "/?a=1&token=abc"; percent signs stay as they are.
+/// Empty when it is not there.
+std::string queryValue(std::string_view target, std::string_view name);
+
+}  // namespace hl
