@@ -35,13 +35,29 @@ configure_preset() {
   fi
 }
 
-# Builds the given targets (default: all) in directory $1; one progress line on a terminal, errors only elsewhere.
+# Reads what ninja prints: tells how far it is, on one line that is written over on a terminal, every ten seconds
+# elsewhere; what compilers say passes through.
+show_progress() {
+  local line shown=$SECONDS counted=no
+  while IFS= read -r line; do
+    if [[ ! "$line" =~ ^\[([0-9]+)/([0-9]+)\]\  ]]; then
+      [[ "$line" == "ninja: "* ]] || printf '%s\n' "$line"
+    elif [[ -t 2 ]]; then
+      printf '\r%s: %s of %s compiled' "$script_name" "${BASH_REMATCH[1]}" "${BASH_REMATCH[2]}" >&2
+      counted=yes
+    elif ((SECONDS - shown >= 10)); then
+      say "${BASH_REMATCH[1]} of ${BASH_REMATCH[2]} compiled"
+      shown=$SECONDS
+    fi
+  done
+  if [[ $counted == yes ]]; then printf '\n' >&2; fi
+}
+
+# Builds the given targets (default: all) in directory $1, and says how far it is.
 build_dir() {
   local dir="$1"
   shift
-  local quiet=()
-  if [[ ! -t 1 ]]; then quiet=(--quiet); fi
   # A dry run tells whether there is anything to do, so that nothing to do says nothing.
   if ninja -C "$dir" -n "$@" 2>/dev/null | grep -q 'no work to do'; then return; fi
-  NINJA_STATUS="[%f/%t, %es] " ninja -C "$dir" -j "$(build_jobs)" "${quiet[@]}" "$@"
+  NINJA_STATUS="[%f/%t] " ninja -C "$dir" -j "$(build_jobs)" "$@" 2>&1 | show_progress
 }

@@ -8,7 +8,8 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 from PIL import Image  # noqa: E402
 
-FIGURES = Path(__file__).resolve().parent.parent.parent / "docs" / "figures"
+ROOT = Path(__file__).resolve().parent.parent.parent
+folder = ROOT / "docs" / "figures"  # where pictures go; scripts/figures --out sets another
 
 BLUE, RED, GREY, GREEN, ORANGE = "#2f6fb2", "#c0392b", "#5b6675", "#2e7d3a", "#b06a00"
 PURPLE, BROWN, PINK = "#7d4aa8", "#6d3b1f", "#c2478c"
@@ -62,7 +63,7 @@ def save(figure, name, *facts):
     figure.savefig(pixels, dpi=DPI)
     plt.close(figure)
     picture = Image.open(pixels).convert("RGB")
-    picture.quantize(COLOURS, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE).save(FIGURES / name, optimize=True)
-    print(f"docs/figures/{name}")
+    picture.quantize(COLOURS, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE).save(folder / name, optimize=True)
+    print(folder.relative_to(ROOT) / name if folder.is_relative_to(ROOT) else folder / name)
     for fact in facts:
         print(f"    {fact}")
