@@ -22,24 +22,20 @@ void bookCauses(Ledger& ledger, const Account::Causes& causes, double moved_J, d
     ledger.add(causes.stiffness_textured ? EnergyCause::kTexture : EnergyCause::kStiffness, stiffened_J);
 }
 
-// Several surfaces of different stiffness: the mean, weighted by their normal forces. The target stays between finger
-// and proxy, as in the paper's equation (4); a contact fades in with its lambda; s stays within those of the surfaces.
-// Softening each wall's own force, sum s_i lambda_i n_i, would keep none of these: in a narrow groove of one hard and
-// one soft wall it pushes sideways with 1 / (2 sin(opening / 2)) times the force.
-double stiffnessOf(const TickReport& report) {
-  double sum = 0, weighted = 0, least = 1, most = 0;
-  for (const ProxyContact& contact : report.contacts) {
-    const double weight = std::max(0.0, contact.multiplier_m);
-    sum += weight;
-    weighted += weight * contact.stiffness;
-    least = std::min(least, contact.stiffness);
-    most = std::max(most, contact.stiffness);
-  }
-  if (report.contacts.empty()) return 1;
-  return sum > 0 ? std::clamp(weighted / sum, least, most) : least;
+}  // namespace
+
+void MeanStiffness::add(double multiplier_m, double stiffness) {
+  const double weight_m = std::max(0.0, multiplier_m);
+  weights_m_ += weight_m;
+  weighted_m_ += weight_m * stiffness;
+  least_ = std::min(least_, stiffness);
+  most_ = std::max(most_, stiffness);
 }
 
-}  // namespace
+double MeanStiffness::value() const {
+  if (empty()) return 1;
+  return weights_m_ > 0 ? std::clamp(weighted_m_ / weights_m_, least_, most_) : least_;
+}
 
 Account::Account(const ProxyState& state, const ProxySettings& settings, const Vec3& finger)
     : settings_(settings),
@@ -71,17 +67,23 @@ double Account::affordable(const Vec3& proxy, const Vec3& step) const {
   return std::min(1.0, nearest + partWithin(at_nearest, step, std::max(0.0, left)));
 }
 
-void Account::close(ProxyState& state, const Causes& causes, TickReport& report) const {
+double Account::wantedStiffness(TickEnd end, const MeanStiffness& surfaces) const {
+  if (end == TickEnd::kOpen) return 1;
+  if (end == TickEnd::kOnItsWay && surfaces.empty()) return was_touching_ ? stiffness_before_ : 0;
+  return surfaces.value();
+}
+
+void Account::close(ProxyState& state, TickEnd end, const MeanStiffness& surfaces, const Causes& causes,
+                    TickReport& report) const {
   const Vec3 whole = state.position - finger_;
   const double distance_squared = whole.squaredNorm();
-  const bool touching = !report.contacts.empty();
-  double stiffness = stiffnessOf(report);
+  const bool touching = end != TickEnd::kOpen && (was_touching_ || !surfaces.empty());
+  double stiffness = wantedStiffness(end, surfaces);
   const double before = was_touching_ ? stiffness_before_ : stiffness;
   const double start_J = energy_J(before, distance_before_squared_);
+  const double most_J = start_J + (end == TickEnd::kOnItsWay ? 0 : budget_J_);
   const double wanted_J = energy_J(stiffness, distance_squared);
-  if (wanted_J > start_J + budget_J_) {
-    stiffness *= (start_J + budget_J_) / wanted_J;
-  }
+  if (wanted_J > most_J) stiffness *= most_J / wanted_J;
   report.target = stiffness == 1 ? state.position : Vec3(finger_ + stiffness * whole);
   const double moved_J = energy_J(before, distance_squared);
   const double end_J = energy_J(stiffness, distance_squared);
@@ -89,7 +91,7 @@ void Account::close(ProxyState& state, const Causes& causes, TickReport& report)
   bookCauses(state.ledger, causes, moved_J - start_J, end_J - moved_J);
   state.ledger.book(report.injected_J, was_touching_ && touching);
   state.touching = touching;
-  if (!touching) {
+  if (end != TickEnd::kContact) {
     state.rest_s = kStuck_s;
     state.creep = Vec3::Zero();
   }

@@ -2,13 +2,39 @@
 //
 //   before   E0 = 1/2 K s- |proxy- - finger|^2         after   E = 1/2 K s+ |proxy+ - finger|^2
 // at the same finger position, so that E - E0 is what the tick's rules did, not what the hand did. In the open, and on
-// the tick that lands, s- is s+: coming into contact charges nothing.
+// the tick that lands, s- is s+: coming into contact charges nothing. A tick that ends on its way, in the air between
+// a surface and the finger, is as soft as the surface that it left, and adds nothing; one that has met no surface pulls
+// nowhere.
 #pragma once
+
+#include <cstdint>
 
 #include "base/vec.h"
 #include "proxy/proxy.h"
 
 namespace hl {
+
+/// How the proxy ended a tick.
+enum class TickEnd : std::uint8_t {
+  kOpen,     ///< at the finger, with nothing to hold it
+  kContact,  ///< held by surfaces
+  kOnItsWay  ///< in the air: the tick was ended before the proxy came to the finger or to what holds it
+};
+
+/// The stiffness of several surfaces: the mean, weighted by their normal forces. The target stays between finger and
+/// proxy, as in the paper's equation (4); a contact fades in with its lambda; s stays within those of the surfaces.
+/// Softening each wall's own force, sum s_i lambda_i n_i, would keep none of these: in a narrow groove of one hard and
+/// one soft wall it pushes sideways with 1 / (2 sin(opening / 2)) times the force.
+class MeanStiffness {
+ public:
+  void add(double multiplier_m, double stiffness);
+  bool empty() const { return most_ < least_; }
+  double value() const;
+
+ private:
+  double weights_m_ = 0, weighted_m_ = 0;
+  double least_ = 1, most_ = 0;
+};
 
 class Account {
  public:
@@ -23,11 +49,14 @@ class Account {
     double shading = 0, bump = 0;
     bool stiffness_textured = false;
   };
-  /// Moves the target for the surfaces' stiffness as far as the energy reaches, books the tick, and fills the report.
-  void close(ProxyState& state, const Causes& causes, TickReport& report) const;
+  /// Moves the target for the stiffness of the surfaces that hold the proxy, or that did last, as far as the energy
+  /// reaches; books the tick, and fills the report.
+  void close(ProxyState& state, TickEnd end, const MeanStiffness& surfaces, const Causes& causes,
+             TickReport& report) const;
 
  private:
   double energy_J(double stiffness, double distance_squared) const;
+  double wantedStiffness(TickEnd end, const MeanStiffness& surfaces) const;
 
   const ProxySettings& settings_;
   const Vec3 finger_;

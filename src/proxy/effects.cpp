@@ -227,6 +227,14 @@ void Effects::moved(const SubGoal& sub_goal, const Vec3& step) {
   creep_m_ = sub_goal.creep > 0 ? Vec3(sub_goal.held / sub_goal.creep) : Vec3(Vec3::Zero());
 }
 
+double Effects::stiffnessAt(const SurfacePlace& place) const {
+  if (plain(place.primitive)) return 1;
+  const Surface surface = surfaceOf(place.primitive);
+  const SurfaceValue stiffness = surface.read(Quantity::kStiffness);
+  const Vec2 texcoord = stiffness.texture ? surface.texcoord(place.weights) : Vec2(Vec2::Zero());
+  return std::clamp(stiffness.at(texcoord), 0.0, 1.0);
+}
+
 ProxyContact Effects::describe(const ContactSet& set, const Holding& holding) const {
   const Vec3& point = set.contacts[holding.contact].point;
   if (plain(holding.place.primitive))

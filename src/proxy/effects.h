@@ -75,6 +75,8 @@ class Effects {
 
   /// A contact as the report gives it.
   ProxyContact describe(const ContactSet& set, const Holding& holding) const;
+  /// s of the surface there, 0..1.
+  double stiffnessAt(const SurfacePlace& place) const;
   bool stiffnessTextured(PrimitiveId primitive) const {
     return !plain(primitive) && surfaceOf(primitive).textured(Quantity::kStiffness);
   }

@@ -95,6 +95,7 @@ class Tick {
   bool spent_ = false;  // the energy that the tick may add has been used up
   int effect_passes_ = 0;
   double slid_m_ = 0;  // how far the steps since the last touch wanted to go along a surface; 0: the last did not
+  FixedVector<Holding, 3> held_by_;  // what has held the proxy last in this tick
   LeftBehind left_;
   bool around_ = false;  // what was left changes the sub-goal in hand
   int arounds_ = 0;      // so many in a row
@@ -354,14 +355,23 @@ void Tick::finish(const SubGoal& last, TickReport& report) {
       once && !set_.contacts.empty() ? effects_.subGoal(set_, state_.position, finger_ - state_.position) : last;
   // Stopped where the bent planes would let it go on: the true ones hold it.
   if (sub_goal.holding.empty() && !atRest(finger_ - state_.position)) sub_goal = plainSubGoal();
-  for (const Holding& holding : sub_goal.holding) report.contacts.push(effects_.describe(set_, holding));
+  MeanStiffness surfaces;
   bool stiffness_textured = false;
-  for (const ProxyContact& contact : report.contacts) {
-    stiffness_textured |= effects_.stiffnessTextured(contact.primitive);
+  for (const Holding& holding : sub_goal.holding) {
+    const ProxyContact contact = effects_.describe(set_, holding);
+    report.contacts.push(contact);
+    surfaces.add(contact.multiplier_m, contact.stiffness);
+    stiffness_textured |= effects_.stiffnessTextured(holding.place.primitive);
+  }
+  const TickEnd end = !sub_goal.holding.empty()           ? TickEnd::kContact
+                      : atRest(finger_ - state_.position) ? TickEnd::kOpen
+                                                          : TickEnd::kOnItsWay;
+  if (end == TickEnd::kOnItsWay) {
+    for (const Holding& holding : held_by_) surfaces.add(holding.multiplier_m, effects_.stiffnessAt(holding.place));
   }
   state_.creep = effects_.creep_m();
   state_.rest_s = effects_.hasSlipped() ? 0 : std::min(state_.rest_s + settings_.period_s, kStuck_s);
-  account_.close(state_, {sub_goal.shading, sub_goal.bump, stiffness_textured}, report);
+  account_.close(state_, end, surfaces, {sub_goal.shading, sub_goal.bump, stiffness_textured}, report);
 }
 
 TickReport Tick::run() {
@@ -379,6 +389,7 @@ TickReport Tick::run() {
     report.capped = !at_rest && (report.iterations >= settings_.iteration_cap || set_.overflow);
     if (at_rest || report.capped) break;
     ++report.iterations;
+    if (!sub_goal.holding.empty()) held_by_ = sub_goal.holding;
     if (!tryCurvatureStep()) advance(sub_goal);
     if (rests_) break;
   }

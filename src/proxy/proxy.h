@@ -44,7 +44,7 @@ inline constexpr double kStuck_s = 0.020;
 struct ProxyState {
   Vec3 position = Vec3::Zero();  ///< centre of the sphere
   bool free = false;             ///< false while no position clear of the scene has been found near the finger
-  bool touching = false;         ///< the last tick ended in contact
+  bool touching = false;         ///< the last tick ended in contact, or on its way from one to the next
   double rest_s = kStuck_s;      ///< since it last slipped along a surface; from kStuck_s on static friction holds it
   Vec3 creep = Vec3::Zero();     ///< m, how far it has crept from where it stuck, on the pre-sliding springs
   double stiffness = 1;          ///< s by which the last tick's target was pulled; 1 in the open

@@ -45,10 +45,10 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
 }
 
 // In the open the proxy is the finger of a moment ago: pulling to it would be a drag, so there is no target then, but
-// while a blend lets go.
+// while a blend lets go. A proxy that is still on its way from a surface goes on pulling.
 ServoTarget ProxyLoop::targetOf(std::int64_t now_ns, const Vec3& finger_D, const TickReport& report,
                                 std::int64_t blend_ns) {
-  const bool touches = report.valid && state_.free && !report.contacts.empty();
+  const bool touches = report.valid && state_.free && state_.touching;
   const Vec3 wanted = touches ? workspace_.toDevice(state_.position) : finger_D;
   const Vec3 before = pulled_ ? blend_.last() : finger_D;
   if (blend_ns > 0 && report.valid) blend_.begin(before, wanted, 1e-9 * static_cast<double>(blend_ns));

@@ -96,6 +96,47 @@ TEST(Stiffness, CrossingToAHarderFloorInjectsTheFormula) {
   }
 }
 
+// Edges, corners and faces of all directions, one material: what sends a proxy through the air within a tick.
+std::shared_ptr<const Snapshot> ridges(double stiffness) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> u(-1, 1);
+  Model model;
+  const auto corner = [&] { return Vec3(0.02 * u(random), 0.02 * u(random), 0.02 * u(random)); };
+  for (std::uint32_t i = 0; i < 40; ++i) {
+    for (int k = 0; k < 3; ++k) model.positions.push_back(corner());
+    model.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  model.materials[0].stiffness = stiffness;
+  return test::snapshotOf(std::move(model));
+}
+
+// A tick that has to end before the proxy has come to rest, wherever that is, pulls no harder than the surface does and
+// adds nothing; where it ends on its way from a surface, the servo goes on pulling.
+TEST(Stiffness, ATickThatIsEndedEarlyIsAsSoftAsTheSurface) {
+  constexpr double kSoft = 0.3;
+  const auto scene = ridges(kSoft);
+  int on_their_way = 0;
+  for (int cap = 1; cap <= 12; ++cap) {
+    ProxySettings settings = settingsOf(LedgerMode::kReport);
+    settings.iteration_cap = cap;
+    std::mt19937 random(static_cast<unsigned>(cap));
+    std::uniform_real_distribution<double> u(-1, 1);
+    ProxyState state = startProxy(*scene, settings, {0, 0, 0.05});
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3 finger(0.02 * u(random), 0.02 * u(random), 0.02 * u(random));
+      const bool touched = state.touching;
+      const TickReport report = tick(state, *scene, settings, finger);
+      const Vec3 whole = state.position - finger;
+      ASSERT_LE((report.target - finger).norm(), kSoft * whole.norm() + 1e-12) << "tick " << i << ", cap " << cap;
+      ASSERT_LE(report.injected_J, 1e-15) << "tick " << i << ", cap " << cap;
+      if (!report.contacts.empty() || whole.norm() < 1e-9) continue;
+      ++on_their_way;
+      ASSERT_EQ(state.touching, touched || (report.target - finger).norm() > 0);
+    }
+  }
+  EXPECT_GT(on_their_way, 100);
+}
+
 // Where nothing may be added a shaded proxy comes to rest, as on the true plane: it must not flip between two places
 // of equal energy from tick to tick.
 TEST(Ledger, WithoutEnergyTheProxyRestsInsteadOfFlipping) {
