@@ -168,10 +168,10 @@ void addBenchCommand(CLI::App& app) {
   auto options = std::make_shared<BenchOptions>();
   addWhatOptions(*command, *options);
   command->add_option("--radius", options->radius, "the fixed proxy radius in metres")
-      ->check(CLI::Validator(checkPositive, "POSITIVE"))
+      ->check(within(kLeastRadius_m, kMostNumber))
       ->capture_default_str();
   command->add_option("--radius-edges", options->radius_edges, "the scaled proxy radius in mean edges of the mesh")
-      ->check(CLI::Validator(checkPositive, "POSITIVE"))
+      ->check(within(kLeastNumber, kMostNumber))
       ->capture_default_str();
   command->add_option("--ticks", options->ticks, "ticks for each row")
       ->check(CLI::Range(100, 10'000'000))

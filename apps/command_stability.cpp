@@ -177,16 +177,16 @@ void addStabilityCommand(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--rates", options->rates_Hz, "servo steps a second, with commas (default: 500 to 4000)")
       ->delimiter(',')
-      ->check(CLI::Range(100.0, 20'000.0));
+      ->check(within(100, 20'000));
   command->add_option("--delays", options->delays, "more servo steps until the force, with commas (default: 0 to 4)")
       ->delimiter(',')
       ->check(CLI::Range(0, SimulatedDeviceSettings::kMostDelay));
   command->add_option("--damping", options->dampings_Ns_m, "B of the servo in N s/m, with commas")
       ->delimiter(',')
-      ->check(CLI::Range(0.0, 100.0))
+      ->check(within(0, 100))
       ->capture_default_str();
   command->add_option("--jitter", options->jitter_us, "how much later a sample may be taken than it says, in us")
-      ->check(CLI::Range(0.0, 1000.0))
+      ->check(within(0, 1000))
       ->capture_default_str();
   command->add_flag("--bends", options->bends, "a stylus that bends, 3.5 N/mm, and motor currents that lag 0.25 ms");
   command->add_flag("--quick", options->quick, "leave out the column 'together'");

@@ -113,17 +113,16 @@ void runTouch(TouchOptions options) {
 namespace {
 
 void addLoopOptions(CLI::App& command, TouchSettings& settings) {
-  const CLI::Validator positive(checkPositive, "POSITIVE");
   command.add_option("--radius", settings.radius_D, "proxy radius in metres at the hand")
-      ->check(positive)
+      ->check(within(kLeastRadius_m, kMostNumber))
       ->capture_default_str();
   command.add_option("--size", settings.side_D, "metres at the hand of the model's largest side")
-      ->check(positive)
+      ->check(within(kLeastNumber, kMostNumber))
       ->capture_default_str();
   command.add_option("--kp", settings.stiffness_N_m, "spring of the servo in N/m at the hand (default: the device's)")
-      ->check(positive);
+      ->check(within(kLeastNumber, kMostNumber));
   command.add_option("--damping", settings.damping_Ns_m, "damping of the servo in N s/m (default: the device's)")
-      ->check(CLI::Range(0.0, 100.0));
+      ->check(within(0, 100));
   command.add_flag("--timer-reference", settings.timer_reference,
                    "run a bare timer on the servo's core and count its misses too");
 }
@@ -147,7 +146,7 @@ void addTouchOptions(CLI::App& command, TouchOptions& options) {
                      "CSV t,x,y,z (s, m in the scene) that the simulated hand follows instead");
   command
       .add_option("--scale", options.scale, "metres of the scene for one metre of the hand (default: --size decides)")
-      ->check(CLI::Validator(checkPositive, "POSITIVE"));
+      ->check(within(kLeastNumber, kMostNumber));
   addLoopOptions(command, options.settings);
   addForceOptions(command, options.settings.servo, options.settings.servo_rate);
   addSurfaceOptions(command, options.settings.surfaces, options.settings.ledger);
@@ -155,7 +154,7 @@ void addTouchOptions(CLI::App& command, TouchOptions& options) {
   addHierarchyOption(command, options.scene);
   command.add_option("--page-dir", options.page_folder, "folder of the built page");
   command.add_option("--duration", options.duration_s, "end by itself after this many seconds")
-      ->check(CLI::Validator(checkPositive, "POSITIVE"));
+      ->check(within(kLeastNumber, kMostNumber));
   addBlackBoxOption(command, options.settings.recorder);
 }
 

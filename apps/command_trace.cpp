@@ -48,12 +48,11 @@ void addTraceCommand(CLI::App& app) {
   command->add_option("--path", options->path, "CSV with the header t,x,y,z: seconds and metres, one row a tick")
       ->required();
   command->add_option("--out", options->out, "CSV to write, one row for each row of the path")->required();
-  const CLI::Validator positive(checkPositive, "POSITIVE");
   command->add_option("--radius", options->settings.proxy.radius, "proxy radius in metres")
-      ->check(positive)
+      ->check(within(kLeastRadius_m, kMostNumber))
       ->capture_default_str();
   command->add_option("--kp", options->settings.proxy.spring_N_m, "spring of the servo in N/m")
-      ->check(positive)
+      ->check(within(kLeastNumber, kMostNumber))
       ->capture_default_str();
   addSurfaceOptions(*command, options->settings.proxy.surfaces, options->settings.proxy.ledger);
   const std::map<std::string, ShadingPasses> passes{{"converged", ShadingPasses::kConverged},

@@ -41,8 +41,12 @@ CLI::Option* addDeviceOption(CLI::App& command, std::string& device);
 /// Loads, scales and builds; progress of long loads and warnings go to stderr. Throws hl::Error.
 std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options);
 
-/// CLI checks: a finite number above zero, or of zero or more.
-std::string checkPositive(const std::string& text);
-std::string checkNotNegative(const std::string& text);
+/// CLI check: a number from `least` to `most`. NaN is none, which CLI::Range lets pass.
+CLI::Validator within(double least, double most);
+/// The same: a finite number above zero.
+CLI::Validator positive();
+
+// What numbers on the command line may be, so that no product of them, lengths and speeds leaves the range of doubles.
+inline constexpr double kLeastNumber = 1e-9, kMostNumber = 1e9, kLeastRadius_m = 1e-12;
 
 }  // namespace hl

@@ -24,6 +24,12 @@ void showProgress(double fraction) {
   std::fflush(stderr);
 }
 
+bool parseNumber(const std::string& text, double& value) {
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, value);
+  return error == std::errc() && end == last;
+}
+
 HierarchyKind hierarchyOf(const std::string& name) {
   for (const HierarchyKind kind : {HierarchyKind::kSpheres, HierarchyKind::kNone}) {
     if (name == nameOf(kind)) return kind;
@@ -52,15 +58,15 @@ void addHierarchyOption(CLI::App& command, SceneOptions& options) {
 }
 
 void addSizeOptions(CLI::App& command, SceneOptions& options) {
-  auto* scale = command.add_option("--scale", options.scale, "metres for one unit of the file (default 1)")
-                    ->check(CLI::Validator(checkPositive, "POSITIVE"));
+  auto* scale =
+      command.add_option("--scale", options.scale, "metres for one unit of the file (default 1)")->check(positive());
   command.add_option("--fit", options.fit, "scale and centre the model so that its largest side has this many metres")
-      ->check(CLI::Validator(checkPositive, "POSITIVE"))
+      ->check(positive())
       ->excludes(scale);
 }
 
 void addSurfaceOptions(CLI::App& command, MaterialOverride& surfaces, LedgerMode& ledger) {
-  const CLI::Validator friction(checkNotNegative, "NOT NEGATIVE");
+  const CLI::Validator friction = within(0, kMostNumber);
   const std::map<std::string, bool> shades{{"flat", false}, {"smooth", true}};
   const std::map<std::string, bool> switches{{"on", true}, {"off", false}};
   const std::map<std::string, LedgerMode> ledgers{
@@ -69,7 +75,7 @@ void addSurfaceOptions(CLI::App& command, MaterialOverride& surfaces, LedgerMode
       ->transform(CLI::Transformer(shades))
       ->option_text("flat|smooth (default: the scene's; flat for model files)");
   command.add_option("--stiffness", surfaces.stiffness, "surface stiffness: target = finger + s (proxy - finger)")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(within(0, 1))
       ->option_text("0..1 (default: the scene's; 1 for model files)");
   command.add_option("--static-friction", surfaces.static_friction, "mu_s; below mu_d it counts as mu_d")
       ->check(friction)
@@ -119,18 +125,23 @@ std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options) {
   return snapshot;
 }
 
-std::string checkNotNegative(const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool good = error == std::errc() && end == text.data() + text.size() && std::isfinite(value) && value >= 0;
-  return good ? std::string() : "'" + text + "' is not a number of zero or more";
+CLI::Validator within(double least, double most) {
+  const std::string range = fmt::format("{:g} to {:g}", least, most);
+  return {[least, most, range](const std::string& text) {
+            double value = 0;
+            const bool good = parseNumber(text, value) && value >= least && value <= most;
+            return good ? std::string() : "'" + text + "' is not a number from " + range;
+          },
+          range};
 }
 
-std::string checkPositive(const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool good = error == std::errc() && end == text.data() + text.size() && std::isfinite(value) && value > 0;
-  return good ? std::string() : "'" + text + "' is not a number above zero";
+CLI::Validator positive() {
+  return {[](const std::string& text) {
+            double value = 0;
+            const bool good = parseNumber(text, value) && std::isfinite(value) && value > 0;
+            return good ? std::string() : "'" + text + "' is not a number above zero";
+          },
+          "POSITIVE"};
 }
 
 }  // namespace hl

@@ -69,13 +69,12 @@ void setServoRate(ServoRate& rate, const std::string& text) {
 }
 
 void addSafetyOptions(CLI::App& app, ServoOptions& options) {
-  const CLI::Validator positive(checkPositive, "POSITIVE");
   app.add_option("--force-limit", options.force_limit_N, "never a force above this (default: the device's limit)")
-      ->check(positive)
+      ->check(within(kLeastNumber, kMostNumber))
       ->option_text("N")
       ->group(kGroup);
   app.add_option("--speed-limit", options.speed_limit_m_s, "a faster hand is a fault (default: the device's limit)")
-      ->check(positive)
+      ->check(within(kLeastNumber, kMostNumber))
       ->option_text("M/S")
       ->group(kGroup);
   app.add_option_function<std::string>(
@@ -87,14 +86,13 @@ void addSafetyOptions(CLI::App& app, ServoOptions& options) {
 }
 
 void addEffectOptions(CLI::App& app, ServoOptions& options) {
-  const CLI::Validator not_negative(checkNotNegative, "NOT NEGATIVE");
   Effects& effects = options.effects;
   app.add_option("--tool-mass", effects.tool_mass_kg, "of a tool at the tip, to be held up")
-      ->check(not_negative)
+      ->check(within(0, kMostNumber))
       ->option_text("KG")
       ->group(kGroup);
   app.add_option("--free-damping", effects.free_damping_Ns_m, "drag where nothing is touched")
-      ->check(CLI::Range(0.0, 100.0))
+      ->check(within(0, 100))
       ->option_text("N.s/m")
       ->group(kGroup);
   addNumbers(app, "--constant-force", "X,Y,Z", 3, "N at the hand: x right, y up, z toward the user",

@@ -25,7 +25,6 @@ void addNetworkOptions(CLI::App& app, HldOptions& options) {
 }
 
 void addDeviceOptions(CLI::App& app, HldOptions& options) {
-  const CLI::Validator positive(checkPositive, "POSITIVE");
   addDeviceOption(app, options.device)->group("Device");
   app.add_option("--devices", options.devices, "how many simulated ones, each with a proxy of its own")
       ->check(CLI::Range(1, 16))
@@ -40,7 +39,7 @@ void addDeviceOptions(CLI::App& app, HldOptions& options) {
       ->capture_default_str()
       ->group("Device");
   app.add_option("--radius", options.touch.radius_D, "proxy radius in metres at the hand")
-      ->check(positive)
+      ->check(within(kLeastRadius_m, kMostNumber))
       ->capture_default_str()
       ->group("Device");
 }
@@ -48,7 +47,7 @@ void addDeviceOptions(CLI::App& app, HldOptions& options) {
 template <typename Number>
 void addLimit(CLI::App& app, const std::string& name, Number& limit, const std::string& what) {
   app.add_option("--limit-" + name, limit, what)
-      ->check(CLI::Validator(checkPositive, "POSITIVE"))
+      ->check(std::is_integral_v<Number> ? positive() : within(kLeastNumber, kMostNumber))
       ->capture_default_str()
       ->group("Limits");
 }

@@ -70,7 +70,7 @@ enum {
   HL_TEXTURE = 0x1702    /**< turns texture coordinates when a vertex is drawn */
 };
 
-/** hlMaterial*: what a surface feels like; also the quantities a texture can modulate, with HL_HEIGHT. */
+/** hlMaterial*: what a surface feels like; also what a texture can modulate, with HL_HEIGHT. At most 1e9. */
 enum {
   HL_STIFFNESS = 0x48010,        /**< 0..1: the part of the servo's spring that the surface uses. Default 1. */
   HL_STATIC_FRICTION = 0x48011,  /**< mu_s >= 0; below mu_d it counts as mu_d. Default 0. */

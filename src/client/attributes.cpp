@@ -1,6 +1,7 @@
 #include "client/attributes.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "client/fault.h"
 
@@ -28,6 +29,8 @@ Look lookOf(const Attributes& attributes) {
 
 void requireInRange(HLenum quantity, double value) {
   requireFinite(value);
+  constexpr double kMost = 1e9;  // as the server takes it
+  if (std::abs(value) > kMost) throw Fault(HL_INVALID_VALUE, "the value must be at most 1e9");
   if (quantity == HL_HEIGHT) return;
   if (value < 0) throw Fault(HL_INVALID_VALUE, "the value must not be negative");
   if (quantity == HL_STIFFNESS && value > 1) throw Fault(HL_INVALID_VALUE, "a surface's stiffness must be 0 .. 1");

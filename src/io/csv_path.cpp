@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/finger_reach.h"
 
 namespace hl {
 
@@ -17,6 +18,9 @@ std::string_view trimmed(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
   return text;
 }
+
+// Shorter steps of time are none to the arithmetic of viscosity, longer times have none left.
+constexpr double kLeastStep_s = 1e-15, kMost_s = 1e15;
 
 // Exactly four finite numbers between commas.
 bool parseRow(std::string_view line, std::array<double, 4>& values) {
@@ -47,8 +51,12 @@ std::vector<PathSample> readPath(const std::string& file) {
     const auto where = [&] { return file + ":" + std::to_string(number) + ": "; };
     std::array<double, 4> v{};
     if (!parseRow(line, v)) throw Error(where() + "a row must be four finite numbers t,x,y,z");
-    if (!path.empty() && v[0] <= path.back().t) throw Error(where() + "t must grow from row to row");
-    path.push_back({v[0], Vec3(v[1], v[2], v[3])});
+    const Vec3 position(v[1], v[2], v[3]);
+    if (!canBeFinger(position) || std::abs(v[0]) > kMost_s)
+      throw Error(where() + "a row must lie within 1e15 m of the origin, and within 1e15 s of t = 0");
+    if (!path.empty() && !(v[0] - path.back().t >= kLeastStep_s))
+      throw Error(where() + "t must grow from row to row, by 1e-15 s at least");
+    path.push_back({v[0], position});
   }
   if (path.empty()) throw Error(file + ": there are no rows after the header");
   return path;

@@ -9,7 +9,7 @@
 namespace hl {
 
 struct PathSample {
-  double t = 0;  ///< s, strictly increasing
+  double t = 0;  ///< s, strictly increasing, by 1e-15 at least
   Vec3 position = Vec3::Zero();
 };
 

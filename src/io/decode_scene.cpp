@@ -2,7 +2,8 @@
 
 #include <fmt/core.h>
 
-#include <limits>
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "base/error.h"
@@ -11,8 +12,11 @@ namespace hl {
 
 namespace {
 
-constexpr double kAny = std::numeric_limits<double>::max();
 constexpr std::uint32_t kDefaultSize = 64;
+
+// The most that any quantity but stiffness may be, in its own unit: products of such numbers, forces and speeds stay
+// numbers. A height may be as much below zero.
+constexpr double kMostOfQuantity = 1e9;
 
 }  // namespace
 
@@ -25,8 +29,7 @@ void SceneDecoder::fail(const std::string& where, const std::string& message) co
 
 double SceneDecoder::checked(double value, double least, double most, const std::string& where) const {
   if (value >= least && value <= most) return value;
-  if (most == kAny) fail(where, fmt::format("{} must be at least {}", where, least));
-  fail(where, fmt::format("{} must be between {} and {}", where, least, most));
+  fail(where, fmt::format("{} must be between {:g} and {:g}", where, least, most));
 }
 
 std::uint32_t SceneDecoder::vertex(const Model& model, std::uint32_t index, const std::string& where) const {
@@ -42,6 +45,11 @@ void SceneDecoder::addVertices(Model& model, const proto::Primitives& in, const 
     fail(where + ".normals", where + ".normals must hold 3 numbers for each vertex");
   if (in.texcoords_size() != 0 && in.texcoords_size() != 2 * count)
     fail(where + ".texcoords", where + ".texcoords must hold 2 numbers for each vertex");
+  const auto finite = [](double number) { return std::isfinite(number); };
+  if (!std::all_of(in.normals().begin(), in.normals().end(), finite))
+    fail(where + ".normals", where + ".normals must hold finite numbers");
+  if (!std::all_of(in.texcoords().begin(), in.texcoords().end(), finite))
+    fail(where + ".texcoords", where + ".texcoords must hold finite numbers");
   model.positions.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < in.vertices_size(); i += 3)
     model.positions.emplace_back(in.vertices(i), in.vertices(i + 1), in.vertices(i + 2));
@@ -89,8 +97,8 @@ NamedTextureUse SceneDecoder::textureUse(const proto::MaterialTexture& in, const
   if (!proto::Quantity_IsValid(in.quantity())) fail(where + ".quantity", where + ".quantity is none that HL knows");
   const bool height = in.quantity() == proto::HEIGHT;
   if (height && !in.has_high()) fail(where, where + ": a bump map needs high, its amplitude in metres");
-  const double most = in.quantity() == proto::STIFFNESS ? 1 : kAny;
-  const double least = height ? -kAny : 0;
+  const double most = in.quantity() == proto::STIFFNESS ? 1 : kMostOfQuantity;
+  const double least = height ? -kMostOfQuantity : 0;
   return {in.texture(), checked(in.low(), least, most, where + ".low"),
           checked(in.has_high() ? in.high() : 1, least, most, where + ".high")};
 }
@@ -104,11 +112,11 @@ SurfaceChange SceneDecoder::surface(const proto::Material& in, const std::string
     fail(where + ".shade", where + ".shade must be SMOOTH or FLAT");
   if (in.has_shade()) change.smooth = in.shade() == proto::SMOOTH;
   set(change.stiffness, in.has_stiffness(), in.stiffness(), 1, ".stiffness");
-  set(change.static_friction, in.has_static_friction(), in.static_friction(), kAny, ".staticFriction");
-  set(change.dynamic_friction, in.has_dynamic_friction(), in.dynamic_friction(), kAny, ".dynamicFriction");
-  set(change.viscosity_Ns_m, in.has_viscosity_ns_m(), in.viscosity_ns_m(), kAny, ".viscosityNsM");
-  set(change.stribeck_m_s, in.has_stribeck_m_s(), in.stribeck_m_s(), kAny, ".stribeckMS");
-  set(change.presliding_N_m, in.has_presliding_n_m(), in.presliding_n_m(), kAny, ".preslidingNM");
+  set(change.static_friction, in.has_static_friction(), in.static_friction(), kMostOfQuantity, ".staticFriction");
+  set(change.dynamic_friction, in.has_dynamic_friction(), in.dynamic_friction(), kMostOfQuantity, ".dynamicFriction");
+  set(change.viscosity_Ns_m, in.has_viscosity_ns_m(), in.viscosity_ns_m(), kMostOfQuantity, ".viscosityNsM");
+  set(change.stribeck_m_s, in.has_stribeck_m_s(), in.stribeck_m_s(), kMostOfQuantity, ".stribeckMS");
+  set(change.presliding_N_m, in.has_presliding_n_m(), in.presliding_n_m(), kMostOfQuantity, ".preslidingNM");
   for (int i = 0; i < in.textures_size(); ++i) {
     const std::string at = pathOf(where + ".textures", i);
     NamedTextureUse use = textureUse(in.textures(i), at);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <span>
 
+#include "base/finger_reach.h"
 #include "proxy/account.h"
 #include "proxy/back_off.h"
 #include "proxy/bend.h"
@@ -432,7 +433,7 @@ double carryAlong(ProxyState& state, const SceneAt& scene, const ProxySettings& 
 
 ProxyState startProxy(const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
   ProxyState state;
-  if (!finger.allFinite()) return state;
+  if (!canBeFinger(finger)) return state;
   state.position = finger;
   state.time_ns = scene.time_ns();
   state.snapshot = scene.snapshot().number;
@@ -443,7 +444,7 @@ ProxyState startProxy(const SceneAt& scene, const ProxySettings& settings, const
 
 TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
   TickReport report;
-  if (!finger.allFinite()) {
+  if (!canBeFinger(finger)) {
     report.valid = false;
     report.target = state.position;
     return report;

@@ -75,7 +75,7 @@ struct TickReport {
   double moved_J = 0;          ///< what moving objects did to it before
   int iterations = 0;
   bool capped = false;  ///< the iteration cap or the room for contacts ended the tick before the local minimum
-  bool valid = true;    ///< false when the finger was not finite; then nothing has moved
+  bool valid = true;    ///< false when the finger was not finite or beyond kFarthestFinger_m; then nothing has moved
 };
 
 /// A proxy at the finger or, when the finger touches the scene, at a clear place nearby. RT-safe.

@@ -36,6 +36,11 @@ TEST(CsvPath, RefusesWithTheLineNumber) {
   EXPECT_NE(refusalOf("t,x,y,z\n0,0,0,0,0\n").find(":2:"), std::string::npos);
   EXPECT_NE(refusalOf("t,x,y,z\n0,0,0,zero\n").find(":2:"), std::string::npos);
   EXPECT_NE(refusalOf("t,x,y,z\n1,0,0,0\n1,0,0,0\n").find("must grow"), std::string::npos);
+  EXPECT_NE(refusalOf("t,x,y,z\n0,0,0,0\n1,0,1e200,0\n").find(":3: a row must lie within 1e15 m"), std::string::npos);
+  EXPECT_NE(refusalOf("t,x,y,z\n0,0,0,-1e308\n").find(":2: a row must lie within 1e15 m"), std::string::npos);
+  EXPECT_NE(refusalOf("t,x,y,z\n0,0,0,0\n1e308,0,0,0\n").find("within 1e15 s"), std::string::npos);
+  EXPECT_NE(refusalOf("t,x,y,z\n0,0,0,0\n1e-320,0,0,0\n").find("by 1e-15 s at least"), std::string::npos);
+  EXPECT_EQ(refusalOf("t,x,y,z\n0,0,0,1e15\n1e-3,0,-1e15,0\n"), "accepted");
   EXPECT_NE(refusalOf("t,x,y,z\n").find("no rows"), std::string::npos);
   EXPECT_NE(refusalOf("").find(":1:"), std::string::npos);
   EXPECT_THROW(readPath("/nonexistent/path.csv"), Error);

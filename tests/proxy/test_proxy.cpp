@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "base/finger_reach.h"
 #include "base/no_alloc.h"
 #include "geometry/scenes.h"
 #include "proxy/judge.h"
@@ -253,6 +254,21 @@ TEST(Proxy, AFingerThatIsNotFiniteMovesNothing) {
   const TickReport report = tick(state, *snapshot, kSettings, Vec3(0, std::numeric_limits<double>::quiet_NaN(), 0));
   EXPECT_FALSE(report.valid);
   EXPECT_EQ(state.position, Vec3(0, 0, 0.05));
+}
+
+// As far as its distance can be squared it is followed, or at least answered with numbers; beyond it moves nothing.
+TEST(Proxy, AFingerOfAnyNumberGivesNumbers) {
+  const auto snapshot = scene(box(Vec3(-0.01, -0.01, -0.01), Vec3(0.01, 0.01, 0.01)));
+  for (double size = 1; size < 1e308; size *= 10) {
+    for (const Vec3& way : {Vec3(1, 0, 0), Vec3(-0.6, 0.5, 0.7), Vec3(0, 0, -1)}) {
+      ProxyState state = startProxy(*snapshot, kSettings, Vec3(0.001, 0.002, 0.05));
+      const TickReport report = tick(state, *snapshot, kSettings, size * way);
+      EXPECT_EQ(report.valid, canBeFinger(size * way));
+      EXPECT_EQ(report.valid, size <= 1e15);
+      EXPECT_TRUE(state.position.allFinite() && report.target.allFinite()) << size;
+      EXPECT_TRUE(std::isfinite(report.injected_J) && std::isfinite(state.ledger.dissipated_J)) << size;
+    }
+  }
 }
 
 TEST(Proxy, StartsClearOfTheSceneWhereverTheFingerIs) {

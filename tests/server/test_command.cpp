@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <fstream>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -82,6 +83,38 @@ TEST(Command, BadInputIsOneLineAndExitCodeTwo) {
     EXPECT_EQ(result.code, 2) << arguments << "\n" << result.output;
     EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << arguments << "\n" << result.output;
   }
+}
+
+// Each option that takes a number: what is none, or larger than any that could be meant, is refused before anything
+// runs.
+TEST(Command, NoOptionTakesNaNInfinityOrANumberOutOfRange) {
+  const std::string path = hl::test::fileWith("hl_cmd_path.csv", "t,x,y,z\n0,0,0,0.2\n");
+  const std::string surfaces = "--stiffness --static-friction --dynamic-friction --viscosity ";
+  struct Options {
+    std::string command, names;
+  };
+  for (const Options& options :
+       {Options{"trace teapot --path " + path + " --out " + hl::test::tempFile("hl_cmd_out.csv"),
+                surfaces + "--radius --kp --scale --fit"},
+        Options{"touch plane:200 --no-open --port 0 --duration 0.01",
+                surfaces + "--radius --size --kp --damping --scale --servo-rate --force-limit --speed-limit "
+                           "--tool-mass --free-damping --constant-force --spring"},
+        Options{"touch plane:200 --no-open --port 0", "--duration --port"},
+        Options{"stability", "--rates --delays --damping --jitter"},
+        Options{"bench", "--radius --radius-edges --ticks --most"}, Options{"info teapot", "--scale --fit"}}) {
+    std::istringstream names(options.names);
+    for (std::string name; names >> name;) {
+      for (const char* number : {"nan", "NaN", "-nan", "inf", "-inf", "1e999", "-1", "x"}) {
+        const Result result = call(options.command + " " + name + "=" + number);
+        EXPECT_EQ(result.code, 2) << options.command << " " << name << "=" << number << "\n" << result.output;
+        EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << name << "\n" << result.output;
+      }
+    }
+  }
+  for (const char* large : {"--radius=1e200", "--kp=1e308", "--viscosity=1e308", "--static-friction=1e308"})
+    EXPECT_EQ(call("trace teapot --path " + path + " --out " + hl::test::tempFile("hl_cmd_out.csv") + " " + large).code,
+              2)
+        << large;
 }
 
 TEST(Command, TouchRunsAtTheRateThatIsAskedForOrAtTheHighestThatIsMeasured) {
