@@ -42,12 +42,19 @@ Account::Account(const ProxyState& state, const ProxySettings& settings, const V
       finger_(finger),
       was_touching_(state.touching),
       stiffness_before_(state.stiffness),
-      distance_before_squared_((state.position - finger).squaredNorm()),
+      proxy_before_(state.position),
       budget_J_(state.ledger.budget_J(settings.ledger)) {}
 
 double Account::energy_J(double stiffness, double distance_squared) const {
   const double scale = settings_.world_per_device;
   return springEnergy_J(settings_.spring_N_m, stiffness, distance_squared / (scale * scale));
+}
+
+// What a move of the proxy has done to the energy since the tick began: 1/2 K s (|e+|^2 - |e-|^2) by what lies between
+// the two places, so that it is right however far the finger is.
+double Account::moved_J(const Vec3& proxy, double stiffness) const {
+  const Vec3 apart = proxy - proxy_before_;
+  return energy_J(stiffness, apart.dot((proxy - finger_) + (proxy_before_ - finger_)));
 }
 
 // Along the step |proxy - finger|^2 falls to its nearest point and rises beyond. What rises beyond is paid for in full:
@@ -61,9 +68,10 @@ double Account::affordable(const Vec3& proxy, const Vec3& step) const {
   if (!(a > 0)) return 1;
   const double nearest = std::clamp(-step.dot(e) / a, 0.0, 1.0);
   const Vec3 at_nearest = e + nearest * step;
+  const double spent = moved_J(proxy + nearest * step, 1) / energy_J(1, 1);
   const double budget = budget_J_ / joule_per_square;
   // Earlier steps of the tick may have spent some of it.
-  const double left = std::min(budget, distance_before_squared_ + budget - at_nearest.squaredNorm());
+  const double left = std::min(budget, budget - spent);
   return std::min(1.0, nearest + partWithin(at_nearest, step, std::max(0.0, left)));
 }
 
@@ -80,15 +88,15 @@ void Account::close(ProxyState& state, TickEnd end, const MeanStiffness& surface
   const bool touching = end != TickEnd::kOpen && (was_touching_ || !surfaces.empty());
   double stiffness = wantedStiffness(end, surfaces);
   const double before = was_touching_ ? stiffness_before_ : stiffness;
-  const double start_J = energy_J(before, distance_before_squared_);
-  const double most_J = start_J + (end == TickEnd::kOnItsWay ? 0 : budget_J_);
-  const double wanted_J = energy_J(stiffness, distance_squared);
-  if (wanted_J > most_J) stiffness *= most_J / wanted_J;
+  const double per_stiffness_J = energy_J(1, distance_squared);
+  const double move_J = moved_J(state.position, before);
+  const double most_J = end == TickEnd::kOnItsWay ? 0 : budget_J_;
+  if (move_J + (stiffness - before) * per_stiffness_J > most_J)
+    stiffness = std::max(0.0, before + (most_J - move_J) / per_stiffness_J);
   report.target = stiffness == 1 ? state.position : Vec3(finger_ + stiffness * whole);
-  const double moved_J = energy_J(before, distance_squared);
-  const double end_J = energy_J(stiffness, distance_squared);
-  report.injected_J = end_J - start_J;
-  bookCauses(state.ledger, causes, moved_J - start_J, end_J - moved_J);
+  const double stiffened_J = (stiffness - before) * per_stiffness_J;
+  report.injected_J = move_J + stiffened_J;
+  bookCauses(state.ledger, causes, move_J, stiffened_J);
   state.ledger.book(report.injected_J, was_touching_ && touching);
   state.touching = touching;
   if (end != TickEnd::kContact) {

@@ -56,13 +56,14 @@ class Account {
 
  private:
   double energy_J(double stiffness, double distance_squared) const;
+  double moved_J(const Vec3& proxy, double stiffness) const;
   double wantedStiffness(TickEnd end, const MeanStiffness& surfaces) const;
 
   const ProxySettings& settings_;
   const Vec3 finger_;
   const bool was_touching_;
   const double stiffness_before_;
-  const double distance_before_squared_;
+  const Vec3 proxy_before_;
   const double budget_J_;
 };
 

@@ -1,7 +1,7 @@
 #include "proxy/proxy.h"
 
 #include <algorithm>
-#include <limits>
+#include <optional>
 #include <span>
 
 #include "base/finger_reach.h"
@@ -13,6 +13,7 @@
 #include "proxy/contacts.h"
 #include "proxy/curvature_step.h"
 #include "proxy/effects.h"
+#include "proxy/far_goal.h"
 #include "proxy/left_behind.h"
 #include "proxy/spring_energy.h"
 #include "proxy/tolerances.h"
@@ -46,6 +47,7 @@ class Tick {
         settings_(settings),
         tolerance_(Tolerances::of(settings.radius, scene.extent())),
         finger_(finger),
+        far_(kSweepPerExtent * (scene.extent() + tolerance_.reach)),
         goal_(finger),
         state_(state),
         account_(state, settings, finger),
@@ -64,11 +66,14 @@ class Tick {
   SubGoal plainSubGoal();
   bool aroundLeft(Vec3& step);
   SubGoal effectSubGoal();
-  bool atRest(const Vec3& step) const {
-    return step.norm() <= kRestPerGap * (finger_ - state_.position).norm() + tolerance_.rest;
-  }
+  /// The ways to the goal and to the finger, as far as steps aim.
+  Vec3 gap() const { return far_.shortened(goal_ - state_.position); }
+  Vec3 fingerGap() const { return far_.shortened(finger_ - state_.position); }
+  bool atRest(const Vec3& step) const { return step.norm() <= kRestPerGap * fingerGap().norm() + tolerance_.rest; }
+  bool nearer(const Vec3& a, const Vec3& b) const;
   bool slides() const { return !set_.contacts.empty() || around_; }
   bool sweep(Vec3& position, const Vec3& step);
+  void fly();
   double likelyWay_m() const;
   bool nearbyTells(const Vec3& from, const Vec3& motion, std::span<const PrimitiveId> contacts, bool& hit,
                    SceneImpact& out);
@@ -85,6 +90,7 @@ class Tick {
   const ProxySettings& settings_;
   const Tolerances tolerance_;
   const Vec3 finger_;
+  const FarGoal far_;
   Vec3 goal_;  // the finger; after the passes of this tick, where they want the proxy
   ProxyState& state_;
   Account account_;
@@ -111,8 +117,8 @@ class Tick {
   double boldness_ = 1;  // of the next one
   BackOff back_off_;     // from those that do not pay off
 
-  // The nearest that steps have come to this goal, and how many in a row have not come nearer: see advance().
-  double nearest2_ = std::numeric_limits<double>::infinity();  // m^2
+  // Where steps have come nearest to this goal, and how many in a row have not come nearer: see advance().
+  std::optional<Vec3> nearest_;
   int idle_ = 0;
   bool trembles_ = false;
 };
@@ -130,7 +136,7 @@ bool Tick::strays(const Vec3& gap) const {
 
 // The paper's sub-goal: the step toward the point nearest the goal above all contact planes.
 SubGoal Tick::plainSubGoal() {
-  const Vec3 gap = goal_ - state_.position;
+  const Vec3 gap = this->gap();
   const std::span<const Plane> planes(set_.planes.begin(), set_.planes.size());
   plain_ = nearestAbove(planes, gap, tolerance_.feasible);
   if (strays(gap)) {
@@ -164,7 +170,7 @@ bool Tick::aroundLeft(Vec3& step) {
   }
   const std::size_t own = planes.size();
   if (left_.addPlanes(scene_, state_.position, tolerance_.reach, planes) == 0) return false;
-  const Vec3 gap = goal_ - state_.position;
+  const Vec3 gap = this->gap();
   const SolverResult around = nearestAbove({planes.begin(), planes.size()}, gap, tolerance_.feasible);
   const auto* const active_end = around.active.begin() + static_cast<std::ptrdiff_t>(around.active_count);
   const bool counts = std::any_of(around.active.begin(), active_end, [&](std::size_t i) { return i >= own; });
@@ -178,7 +184,7 @@ bool Tick::aroundLeft(Vec3& step) {
 
 SubGoal Tick::effectSubGoal() {
   ++effect_passes_;
-  SubGoal result = effects_.subGoal(set_, state_.position, finger_ - state_.position);
+  SubGoal result = effects_.subGoal(set_, state_.position, fingerGap());
   if (!result.bent && !result.resisted) {  // nothing but the true planes after all
     felt_ = false;
     return plainSubGoal();
@@ -198,6 +204,12 @@ SubGoal Tick::subGoal() {
   SubGoal result = felt_ ? effectSubGoal() : plainSubGoal();
   if (spent_ && !set_.contacts.empty()) result.step = Vec3::Zero();
   return result;
+}
+
+// Whether a is nearer to the goal than b, |goal - a| < |goal - b|, however far the goal is: by what lies between them.
+bool Tick::nearer(const Vec3& a, const Vec3& b) const {
+  const Vec3 apart = a - b;
+  return 2 * apart.dot(goal_ - b) > apart.squaredNorm();
 }
 
 // Moves by `step`, or to the first impact with a primitive that is no contact yet. Returns whether the way was free.
@@ -279,10 +291,10 @@ bool Tick::tryCurvatureStep() {
 // nearer is undone. Returns whether it was.
 bool Tick::restoreIfWorse(bool last) {
   if (!pending_) return false;
-  const bool nearer = (goal_ - state_.position).squaredNorm() < (goal_ - checkpoint_).squaredNorm();
-  if (!nearer && !last && descents_ < kMostDescents) return false;
+  const bool pays = nearer(state_.position, checkpoint_);
+  if (!pays && !last && descents_ < kMostDescents) return false;
   pending_ = false;
-  if (nearer) {
+  if (pays) {
     boldness_ = std::min(kMostBoldness, boldness_ * kBolder);
     return false;
   }
@@ -314,30 +326,47 @@ bool Tick::settled() const {
 // How near steps have come to the goal before says nothing of this one.
 void Tick::aimAt(const Vec3& goal) {
   goal_ = goal;
-  nearest2_ = std::numeric_limits<double>::infinity();
+  nearest_.reset();
   idle_ = 0;
   trembles_ = false;
+}
+
+// In the open: to the finger, or to what is met first. All that can be met is in a ball about the scene; outside of it
+// the proxy is where its way enters the ball, or at the finger at once.
+void Tick::fly() {
+  const Vec3 from = state_.position, way = finger_ - from;
+  const FarGoal::Within ball = far_.within(from, way);
+  const bool misses = ball.leave < ball.enter;
+  if (!misses && ball.enter > 0) {
+    state_.position = from + ball.enter * way;
+    return state_.nearby.endAt(state_.position);
+  }
+  // In the open and unhindered the proxy *is* the finger, to the bit.
+  if (misses || sweep(state_.position, ball.leave * way)) state_.nearby.endAt(state_.position = finger_);
 }
 
 // One step of the proxy, as far as the way is free and the energy reaches. Planes that all but face each other cross
 // where rounding says: there the proxy would go to and fro among a few places for ever.
 void Tick::advance(const SubGoal& sub_goal) {
   const Vec3 from = state_.position;
-  const bool free = !slides();
   Vec3 step = sub_goal.step;
   if (sub_goal.bent || sub_goal.creeps || goal_ != finger_) {
     const double part = account_.affordable(from, step);
     spent_ = part < 1;
     step *= part;
   }
-  const bool whole = sweep(state_.position, step);
+  bool whole = false;
+  if (slides() || goal_ != finger_) {
+    whole = sweep(state_.position, step);
+  } else {
+    fly();
+  }
   ++descents_;
-  const double distance2 = (goal_ - state_.position).squaredNorm();
-  idle_ = distance2 < nearest2_ ? 0 : idle_ + 1;
-  nearest2_ = std::min(nearest2_, distance2);
-  trembles_ = !pending_ && idle_ >= kMostIdle && sub_goal.step.norm() <= tolerance_.lean() * (finger_ - from).norm();
-  // In the open and unhindered the proxy *is* the finger, to the bit.
-  if (whole && free && goal_ == finger_) state_.nearby.endAt(state_.position = finger_);
+  const bool gains = !nearest_ || nearer(state_.position, *nearest_);
+  idle_ = gains ? 0 : idle_ + 1;
+  if (gains) nearest_ = state_.position;
+  trembles_ = !pending_ && idle_ >= kMostIdle &&
+              sub_goal.step.norm() <= tolerance_.lean() * far_.shortened(finger_ - from).norm();
   if (felt_) effects_.moved(sub_goal, state_.position - from);
   if (!sub_goal.settles || !whole || spent_) return;
   rests_ = sub_goal.stays;
@@ -352,14 +381,14 @@ void Tick::finish(const SubGoal& last, TickReport& report) {
   const bool once = goal_ != finger_;
   goal_ = finger_;
   // After passes made once a tick: what holds the proxy where it has come to rest.
-  SubGoal sub_goal =
-      once && !set_.contacts.empty() ? effects_.subGoal(set_, state_.position, finger_ - state_.position) : last;
+  SubGoal sub_goal = once && !set_.contacts.empty() ? effects_.subGoal(set_, state_.position, fingerGap()) : last;
   // Stopped where the bent planes would let it go on: the true ones hold it.
   if (sub_goal.holding.empty() && !atRest(finger_ - state_.position)) sub_goal = plainSubGoal();
   MeanStiffness surfaces;
   bool stiffness_textured = false;
   for (const Holding& holding : sub_goal.holding) {
-    const ProxyContact contact = effects_.describe(set_, holding);
+    ProxyContact contact = effects_.describe(set_, holding);
+    contact.multiplier_m /= far_.part(finger_ - state_.position);
     report.contacts.push(contact);
     surfaces.add(contact.multiplier_m, contact.stiffness);
     stiffness_textured |= effects_.stiffnessTextured(holding.place.primitive);

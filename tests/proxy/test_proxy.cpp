@@ -318,6 +318,52 @@ TEST(Proxy, AFingerVeryFarAwayDoesNotTearItThrough) {
   EXPECT_GE(state.position.z(), kRadius * (1 - 1e-6));
 }
 
+// Into the corner of a box that leans, from inside: however far away the finger is, the proxy comes to the same place,
+// as for a finger of no end of distance; and back in the open it is the finger.
+TEST(Proxy, TheDirectionOfAFarFingerDecides) {
+  std::mt19937 random(12);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 20; ++i) {
+    const Vec3 toward = Vec3(normal(random), normal(random), normal(random)).normalized();
+    Model cup;
+    const auto point = [](double a, double b) {
+      const double polar = M_PI * b;
+      return Vec3(0.05 * std::sin(polar) * std::cos(2 * M_PI * a), 0.05 * std::sin(polar) * std::sin(2 * M_PI * a),
+                  0.05 * std::cos(polar));
+    };
+    append(cup, grid(17, 9, point));
+    const auto snapshot = scene(cup);
+    Vec3 at_unit;
+    for (double extents = 1e3; extents < 3e12; extents *= 10) {
+      ProxyState state = startProxy(*snapshot, kSettings, Vec3::Zero());
+      for (const double part : {0.5, 1.0, 1.0, 1.0}) {
+        const TickReport report = tick(state, *snapshot, kSettings, part * 0.05 * extents * toward);
+        ASSERT_FALSE(report.capped) << extents;
+        ASSERT_LE(report.injected_J, 0) << extents;
+      }
+      ASSERT_LE(judge::kktResidual(*snapshot, state.position, 0.05 * extents * toward, kRadius), 1e-8) << extents;
+      ASSERT_GE(judge::clearance(*snapshot, state.position, kRadius), kRadius * (1 - 1e-6)) << extents;
+      ASSERT_TRUE(extents < 3e6 || (state.position - at_unit).norm() <= 1e-9) << extents;
+      at_unit = state.position;
+    }
+  }
+}
+
+TEST(Proxy, AFarFingerInTheOpenIsReachedPastTheScene) {
+  const auto snapshot = scene(box(Vec3(-0.01, -0.01, -0.01), Vec3(0.01, 0.01, 0.01)));
+  for (double away = 1; away <= 1e15; away *= 10) {
+    ProxyState state = startProxy(*snapshot, kSettings, Vec3(0, 0, 0.05));
+    const TickReport report = tick(state, *snapshot, kSettings, away * Vec3(0.05, 0.02, 1));
+    ASSERT_EQ(state.position, away * Vec3(0.05, 0.02, 1));
+    ASSERT_LE(report.iterations, 4);
+    tick(state, *snapshot, kSettings, Vec3(0, 0, -0.05));
+    ASSERT_TRUE(away > 1e11 || std::abs(state.position.z() - 0.011) <= 1e-9) << away;  // onto the box, from beyond
+    const Vec3 aside = away * Vec3(-0.6, 0.8, 0.1);
+    ASSERT_LE(tick(state, *snapshot, kSettings, aside).iterations, 20) << away;
+    ASSERT_EQ(state.position, aside) << away;
+  }
+}
+
 TEST(Proxy, PinchedBetweenPlatesItStaysPut) {
   Model model = plate(0.1);
   append(model, grid(1, 1, [](double u, double v) { return Vec3(u - 0.5, v - 0.5, 2 * kRadius * (1 + 2e-10)); }));
