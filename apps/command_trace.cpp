@@ -34,8 +34,8 @@ void run(const TraceOptions& options) {
   const TraceTotals totals =
       runTrace(*snapshot, options.settings, path, [&](const TraceRow& row) { writer.write(row); });
   writer.close();
-  fmt::print(stderr, "{} ticks, {} in contact, {} stopped at the iteration cap\n", totals.ticks, totals.contacts,
-             totals.capped);
+  fmt::print(stderr, "{} ticks, {} in contact, {} stopped at the iteration cap, {} without a clear place\n",
+             totals.ticks, totals.contacts, totals.capped, totals.unplaced);
   printLedger(totals.ledger);
 }
 

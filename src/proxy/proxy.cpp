@@ -16,6 +16,7 @@
 #include "proxy/far_goal.h"
 #include "proxy/left_behind.h"
 #include "proxy/spring_energy.h"
+#include "proxy/start_search.h"
 #include "proxy/tolerances.h"
 
 namespace hl {
@@ -460,27 +461,35 @@ double carryAlong(ProxyState& state, const SceneAt& scene, const ProxySettings& 
 
 }  // namespace
 
-ProxyState startProxy(const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
-  ProxyState state;
-  if (!canBeFinger(finger)) return state;
-  state.position = finger;
+namespace {
+
+// Moves a proxy that is not free to a place where it can begin, if there is one among the next few.
+bool begin(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger, int places) {
+  const auto tolerance = Tolerances::of(settings.radius, scene.extent());
+  state.free = state.start.look(scene, tolerance, finger, places, state.position);
   state.time_ns = scene.time_ns();
   state.snapshot = scene.snapshot().number;
-  constexpr int kTries = 100;
-  state.free = findClearPlace(scene, Tolerances::of(settings.radius, scene.extent()), kTries, state.position);
+  return state.free;
+}
+
+}  // namespace
+
+ProxyState startProxy(const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
+  ProxyState state;
+  if (canBeFinger(finger)) begin(state, scene, settings, finger, StartSearch::kPlaces);
   return state;
 }
 
 TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
+  constexpr int kPlacesPerTick = 2;
   TickReport report;
   if (!canBeFinger(finger)) {
     report.valid = false;
     report.target = state.position;
     return report;
   }
-  if (!state.free) state = startProxy(scene, settings, finger);
-  if (!state.free) {
-    report.capped = true;
+  if (!state.free && !begin(state, scene, settings, finger, kPlacesPerTick)) {
+    report.placed = false;
     report.target = finger;
     return report;
   }

@@ -14,6 +14,7 @@
 #include "base/ledger.h"
 #include "base/vec.h"
 #include "proxy/nearby.h"
+#include "proxy/start_search.h"
 #include "proxy/surroundings.h"
 #include "scene/scene_at.h"
 
@@ -43,7 +44,7 @@ inline constexpr double kStuck_s = 0.020;
 /// World frame. Owned by the proxy loop.
 struct ProxyState {
   Vec3 position = Vec3::Zero();  ///< centre of the sphere
-  bool free = false;             ///< false while no position clear of the scene has been found near the finger
+  bool free = false;             ///< false while no place clear of the scene has been found near the finger
   bool touching = false;         ///< the last tick ended in contact, or on its way from one to the next
   double rest_s = kStuck_s;      ///< since it last slipped along a surface; from kStuck_s on static friction holds it
   Vec3 creep = Vec3::Zero();     ///< m, how far it has crept from where it stuck, on the pre-sliding springs
@@ -52,6 +53,7 @@ struct ProxyState {
   std::uint64_t snapshot = 0;    ///< number of that scene; 0: none yet
   std::uint64_t carrier = 0;     ///< key of the object whose friction holds it; 0: none
   Ledger ledger{};
+  StartSearch start{};  ///< while it is not free
   // What ticks have met of the scene; these decide nothing but how long the next one takes.
   Nearby nearby{};
   Surroundings surroundings{};
@@ -75,14 +77,18 @@ struct TickReport {
   double moved_J = 0;          ///< what moving objects did to it before
   int iterations = 0;
   bool capped = false;  ///< the iteration cap or the room for contacts ended the tick before the local minimum
+  bool placed = true;   ///< false while no place clear of the scene has been found near the finger: nothing pulls
   bool valid = true;    ///< false when the finger was not finite or beyond kFarthestFinger_m; then nothing has moved
 };
 
-/// A proxy at the finger or, when the finger touches the scene, at a clear place nearby. RT-safe.
+/// A proxy at the finger or, when the finger touches the scene, at a clear place nearby, looked for at once wherever
+/// there may be one: thousands of searches where there is none. A loop starts with ProxyState{} instead: each tick then
+/// looks at a few places, until one is clear. Does not allocate.
 ProxyState startProxy(const SceneAt& scene, const ProxySettings& settings, const Vec3& finger);
 
-/// Moves the proxy toward the finger under the rules of the surfaces it touches, and accounts for the energy. RT-safe.
-/// Afterwards |proxy - surface| >= radius. Without shading and bump maps |proxy - finger| is not larger than before.
+/// Moves the proxy, or one that is not free to a place where it can begin, toward the finger under the rules of the
+/// surfaces it touches, and accounts for the energy. RT-safe. Afterwards |proxy - surface| >= radius. Without shading
+/// and bump maps |proxy - finger| is not larger than before.
 TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger);
 
 }  // namespace hl

@@ -28,7 +28,7 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
   if (restart) {
     blend_ns = kAbruptBlend_ns;
     const Ledger kept = state_.ledger;
-    state_ = startProxy(scene, settings_, finger);
+    state_ = {};  // the tick finds where it begins
     state_.ledger = kept;
   }
   restarts_ = commands.restarts;

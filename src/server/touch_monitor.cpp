@@ -65,6 +65,8 @@ class TouchMonitor {
                static_cast<double>(memoryOf(*session_.snapshot())));
     out.single("hl_iteration_caps_total", MetricType::kCounter, "Ticks that hit the cap on their passes",
                static_cast<double>(proxy.capped));
+    out.single("hl_unplaced_ticks_total", MetricType::kCounter, "Ticks in which no place for the proxy was clear",
+               static_cast<double>(proxy.unplaced));
     writeLedger(out, proxy.ledger, servo.late);
     if (clients_ == nullptr) return;
     writeHierarchies(out, clients_->hierarchyCounts());

@@ -65,6 +65,7 @@ struct ProxyView {
   bool slipping = false;
   Ledger ledger;
   std::uint64_t capped = 0;
+  std::uint64_t unplaced = 0;  ///< ticks so far without a place for the proxy that is clear of the scene
   LoopSummary loop;
 };
 

@@ -29,6 +29,7 @@ TraceTotals runTrace(const Snapshot& snapshot, const TraceSettings& settings, co
     row(out);
     ++totals.ticks;
     totals.capped += report.capped ? 1 : 0;
+    totals.unplaced += report.placed ? 0 : 1;
     totals.contacts += report.contacts.empty() ? 0 : 1;
   }
   totals.ledger = state.ledger;

@@ -20,6 +20,7 @@ struct TraceTotals {
   std::uint64_t ticks = 0;
   std::uint64_t capped = 0;    ///< ticks that hit the iteration cap
   std::uint64_t contacts = 0;  ///< ticks that ended in contact
+  std::uint64_t unplaced = 0;  ///< ticks without a place for the proxy: none clear of the scene was near the finger
   Ledger ledger;               ///< of the whole trace
 };
 

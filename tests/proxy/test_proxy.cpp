@@ -284,8 +284,9 @@ TEST(Proxy, StartsClearOfTheSceneWhereverTheFingerIs) {
   }
 }
 
-// Between plates that lean by a billionth, the nearest place above both planes is a thousand kilometres away.
-TEST(Proxy, StartsNearTheFingerOrNotAtAll) {
+// Between plates that lean by a billionth, the nearest place above both planes is a thousand kilometres away; beyond
+// either plate there is one at once.
+TEST(Proxy, BetweenPlatesItStartsOutside) {
   for (const double half : {0.02, 10.0}) {
     Model plates = plate(half);
     append(plates, grid(1, 1, [=](double u, double v) {
@@ -295,9 +296,72 @@ TEST(Proxy, StartsNearTheFingerOrNotAtAll) {
     const auto snapshot = scene(plates);
     const Vec3 finger(0, 0, 0.1 * kRadius);
     const ProxyState state = startProxy(*snapshot, kSettings, finger);
-    EXPECT_EQ(state.free, half < 0.1);
-    EXPECT_LE((state.position - finger).norm(), 0.11);
+    EXPECT_TRUE(state.free);
+    EXPECT_LE((state.position - finger).norm(), 2 * kRadius);
   }
+}
+
+// A box of any thickness with a finger anywhere inside, thin walls within each other, a narrow wedge, a cage of bars.
+TEST(Proxy, StartsNearAFingerInsideAnything) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> u(-1, 1);
+  const auto starts = [&](const Model& model, const Vec3& half) {
+    const auto snapshot = scene(model);
+    for (int i = 0; i < 50; ++i) {
+      const Vec3 finger(half.x() * u(random), half.y() * u(random), half.z() * u(random));
+      const ProxyState state = startProxy(*snapshot, kSettings, finger);
+      ASSERT_TRUE(state.free) << finger.transpose();
+      ASSERT_LE((state.position - finger).norm(), 12 * kRadius) << finger.transpose();
+      ASSERT_GE(judge::clearance(*snapshot, state.position, kRadius), kRadius * (1 - 1e-6)) << finger.transpose();
+      ProxyState live;
+      int ticks = 1;
+      while (!tick(live, *snapshot, kSettings, finger).placed) ++ticks;
+      ASSERT_LE(ticks, StartSearch::kPlaces);
+      ASSERT_GE(judge::clearance(*snapshot, live.position, kRadius), kRadius * (1 - 1e-6));
+    }
+  };
+  for (const double thickness : {1e-6, 1e-4, 0.5e-3, 1e-3, 1.5e-3, 2e-3, 3e-3}) {
+    const Vec3 half(0.02, 0.015, thickness / 2);
+    starts(box(-half, half), half);
+  }
+  Model shells;
+  for (int i = 1; i <= 5; ++i) append(shells, box(Vec3::Constant(-0.8e-3 * i), Vec3::Constant(0.8e-3 * i)));
+  starts(shells, Vec3::Constant(4e-3));
+  Model wedge = grid(1, 1, [](double a, double b) { return Vec3(0.02 * a, 0.04 * b - 0.02, 0.002 * a); });
+  append(wedge, grid(1, 1, [](double a, double b) { return Vec3(0.02 * a, 0.04 * b - 0.02, -0.002 * a); }));
+  starts(wedge, Vec3(0.015, 0.01, 0.0005));
+  Model bars;
+  for (int i = -4; i <= 4; ++i) {
+    for (int k = -4; k <= 4; ++k)
+      append(bars, box(1e-3 * Vec3(1.5 * i - 0.1, -4, 1.5 * k - 0.1), 1e-3 * Vec3(1.5 * i + 0.1, 4, 1.5 * k + 0.1)));
+  }
+  starts(bars, Vec3::Constant(4e-3));
+}
+
+// Where plates without end lie closer than the proxy is wide there is no place: each tick says so, and what the session
+// has booked stays. When the finger has come out, the proxy begins.
+TEST(Proxy, WithoutAClearPlaceItSaysSoAndKeepsTheLedger) {
+  Model plates;
+  for (int i = 0; i <= 200; ++i)
+    append(plates, grid(1, 1, [=](double a, double b) { return Vec3(a - 0.5, b - 0.5, 1.5e-3 * (i - 100)); }));
+  const auto snapshot = scene(plates);
+  EXPECT_FALSE(startProxy(*snapshot, kSettings, Vec3(0.01, 0.02, 0.0003)).free);
+  ProxyState state;
+  state.ledger.injected_J = 0.25;
+  state.ledger.tank_J = 0.001;
+  const Vec3 inside(0.01, 0.02, 0.0003);
+  for (int i = 0; i < 1000; ++i) {
+    const TickReport report = tick(state, *snapshot, kSettings, inside);
+    ASSERT_FALSE(report.placed);
+    ASSERT_FALSE(state.free);
+    ASSERT_EQ(report.target, inside);
+    ASSERT_EQ(report.contacts.size(), 0u);
+  }
+  EXPECT_EQ(state.ledger.injected_J, 0.25);
+  EXPECT_EQ(state.ledger.tank_J, 0.001);
+  EXPECT_TRUE(tick(state, *snapshot, kSettings, Vec3(0.01, 0.02, 0.2)).placed);
+  EXPECT_EQ(state.position, Vec3(0.01, 0.02, 0.2));
+  EXPECT_EQ(state.ledger.tank_J, 0.001);
 }
 
 TEST(Proxy, WorksAtAnyScale) {

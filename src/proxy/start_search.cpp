@@ -1,0 +1,87 @@
+#include "proxy/start_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "proxy/clear_place.h"
+#include "proxy/contacts.h"
+
+namespace hl {
+
+namespace {
+
+// How often a place is pushed out of what it overlaps: the finger, which mostly has just come in, and any other.
+constexpr int kPushesOfFinger = 8, kPushes = 2;
+
+// So many of the things that the finger overlaps are passed through.
+constexpr int kBeyond = 12;
+
+// Directions: the middles of kAcross x kAcross cells on each side of a cube, 96 in all, up to 0.4 rad apart.
+constexpr int kAcross = 4, kDirections = 6 * kAcross * kAcross;
+
+// Radii of the spheres in reaches: 1, sqrt 2, 2, ... up to kFarthestStart.
+constexpr int kSpheres = 14;
+double sphereRadius(int sphere) { return std::ldexp(sphere % 2 == 0 ? 1 : M_SQRT2, sphere / 2); }
+
+Vec3 directionOf(int number) {
+  const int side = number / (kAcross * kAcross), cell = number % (kAcross * kAcross);
+  const auto middle = [](int i) { return (2 * i + 1.0) / kAcross - 1; };
+  Vec3 direction;
+  direction[side % 3] = side < 3 ? 1 : -1;
+  direction[(side + 1) % 3] = middle(cell % kAcross);
+  direction[(side + 2) % 3] = middle(cell / kAcross);
+  return direction.normalized();
+}
+
+// The contact so many of which are nearer to the centre; of the equally near, the first in the set's own order.
+const Contact& nearestBut(const ContactSet& set, std::size_t nearer) {
+  FixedVector<const Contact*, kMaxContacts> sorted;
+  for (const Contact& contact : set.contacts) sorted.push(&contact);
+  const auto before = [](const Contact* a, const Contact* b) {
+    return a->distance != b->distance ? a->distance < b->distance : a < b;
+  };
+  std::nth_element(sorted.begin(), sorted.begin() + nearer, sorted.end(), before);
+  return *sorted[nearer];
+}
+
+// Place `number` about the finger, which overlaps `set`. False: there is no such place.
+bool placeOf(int number, const ContactSet& set, double reach, const Vec3& finger, Vec3& place) {
+  if (number == 0) {
+    place = finger;
+    return true;
+  }
+  if (number <= kBeyond) {
+    const auto nearer = static_cast<std::size_t>(number - 1);
+    if (nearer >= set.contacts.size()) return false;
+    const Contact& contact = nearestBut(set, nearer);
+    place = contact.point - reach * contact.plane.normal;
+    return true;
+  }
+  const int around = number - 1 - kBeyond;
+  place = finger + reach * sphereRadius(around / kDirections) * directionOf(around % kDirections);
+  return true;
+}
+
+}  // namespace
+
+const int StartSearch::kPlaces = 1 + kBeyond + kSpheres * kDirections;
+
+bool StartSearch::look(const SceneAt& scene, const Tolerances& tolerance, const Vec3& finger, int places,
+                       Vec3& position) {
+  ContactSet set;
+  gatherContacts(scene, finger, tolerance.reach - tolerance.skin, tolerance.reach, set);
+  position = finger;
+  bool found = set.contacts.empty();
+  for (int i = 0; i < places && !found; ++i) {
+    Vec3 place;
+    const int pushes = next_ == 0 ? kPushesOfFinger : kPushes;
+    found = placeOf(next_, set, tolerance.reach, finger, place) && findClearPlace(scene, tolerance, pushes, place);
+    if (found) position = place;
+    next_ = (next_ + 1) % kPlaces;
+  }
+  if (found) next_ = 0;
+  return found;
+}
+
+}  // namespace hl
