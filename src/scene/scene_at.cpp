@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "geometry/queries.h"
+#include "scene/felt_order.h"
 
 namespace hl {
 
@@ -68,14 +69,17 @@ Vec3 SceneAt::edge(PrimitiveId id, Feature feature) const {
 
 bool SceneAt::precedes(PrimitiveId a, PrimitiveId b) const {
   Primitive p = primitive(a), q = primitive(b);
-  if (a.instance == b.instance) return hl::precedes(p, q);
-  const Pose pose_a = instance(a).motion.at(time_ns_), pose_b = instance(b).motion.at(time_ns_);
-  for (std::size_t i = 0; i < 3; ++i) {
-    p.vertex[i] = pose_a.toWorld(p.vertex[i]);
-    q.vertex[i] = pose_b.toWorld(q.vertex[i]);
+  if (a.instance != b.instance) {
+    const Pose pose_a = instance(a).motion.at(time_ns_), pose_b = instance(b).motion.at(time_ns_);
+    for (std::size_t i = 0; i < 3; ++i) {
+      p.vertex[i] = pose_a.toWorld(p.vertex[i]);
+      q.vertex[i] = pose_b.toWorld(q.vertex[i]);
+    }
   }
-  if (hl::precedes(p, q)) return true;
-  return !hl::precedes(q, p) && instance(a).key < instance(b).key;
+  if (p.vertex != q.vertex || p.kind != q.kind) return hl::precedes(p, q);
+  const int felt = compareFelt({instance(a), a.element, p}, {instance(b), b.element, q});
+  if (felt != 0) return felt < 0;
+  return a.instance != b.instance ? instance(a).key < instance(b).key : p.source < q.source;
 }
 
 void SceneAt::primitivesWithin(const Vec3& centre, double distance,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "base/no_alloc.h"
 #include "effect_scenes.h"
@@ -94,6 +95,34 @@ TEST(Stiffness, CrossingToAHarderFloorInjectsTheFormula) {
       EXPECT_NEAR(state.stiffness, 0.9, 1e-12);
     }
   }
+}
+
+// Two floors in one place: whichever is given first, the harder counts, and of equally hard ones the rougher.
+TEST(Stiffness, OfCoincidentSurfacesTheHarderCountsInAnyOrder) {
+  const auto floors = [](const Material& first, const Material& second) {
+    Model model = test::floorModel();
+    test::addRectangle(model, {-0.1, 0, 0.1}, {0.2, 0, 0}, {0, 0, -0.2}, Vec3::UnitY());
+    model.materials = {first, second};
+    model.triangle_materials = {0, 0, 1, 1};
+    return test::snapshotOf(std::move(model));
+  };
+  Material soft, hard, rough;
+  soft.stiffness = 0.25;
+  soft.dynamic_friction = 0.9;
+  hard.stiffness = rough.stiffness = 0.75;
+  rough.dynamic_friction = rough.static_friction = 0.5;
+  const ProxySettings settings = settingsOf(LedgerMode::kReport);
+  const auto pullAlong = [&](const Material& first, const Material& second) {
+    const auto scene = floors(first, second);
+    ProxyState state = startProxy(*scene, settings, {0.01, 0.01, 0});
+    tick(state, *scene, settings, {0.01, -0.001, 0});
+    tick(state, *scene, settings, {0.02, -0.001, 0});
+    return std::pair(state.position.x(), state.stiffness);
+  };
+  EXPECT_EQ(pullAlong(soft, hard), std::pair(0.02, 0.75));
+  EXPECT_EQ(pullAlong(hard, soft), std::pair(0.02, 0.75));
+  EXPECT_EQ(pullAlong(rough, hard), pullAlong(hard, rough));
+  EXPECT_LT(pullAlong(hard, rough).first, 0.0195);
 }
 
 // Edges, corners and faces of all directions, one material: what sends a proxy through the air within a tick.

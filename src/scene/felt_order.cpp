@@ -1,0 +1,74 @@
+#include "scene/felt_order.h"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+namespace hl {
+
+namespace {
+
+// -1 where a is larger: what is harder or rougher comes first.
+template <typename Value>
+int larger(const Value& a, const Value& b) {
+  return a > b ? -1 : a < b ? 1 : 0;
+}
+
+const Material& materialOf(const FeltPrimitive& one) {
+  return one.instance.surfaces->materials[one.instance.shape->materialOf(one.element)];
+}
+
+int compareNumbers(const Material& a, const Material& b) {
+  const auto numbers = [](const Material& m) {
+    return std::tuple(m.stiffness, m.dynamic_friction, m.static_friction, m.viscosity_Ns_m, m.stribeck_m_s,
+                      m.presliding_N_m, m.smooth);
+  };
+  return larger(numbers(a), numbers(b));
+}
+
+int compareImages(const Texture& a, const Texture& b) {
+  const auto shape = [](const Texture& t) { return std::tuple(t.width, t.height, t.wrap, t.filter); };
+  if (&a == &b) return 0;
+  const int shapes = larger(shape(a), shape(b));
+  return shapes != 0 ? shapes : larger(a.texels, b.texels);
+}
+
+int compareTextures(const FeltPrimitive& a, const FeltPrimitive& b) {
+  for (std::size_t i = 0; i < kQuantities; ++i) {
+    const TextureUse &one = materialOf(a).textures[i], &other = materialOf(b).textures[i];
+    const auto numbers = [](const TextureUse& use) { return std::tuple(use.used(), use.high, use.low); };
+    int order = larger(numbers(one), numbers(other));
+    if (order == 0 && one.used())
+      order = compareImages(*a.instance.surfaces->textures[one.texture], *b.instance.surfaces->textures[other.texture]);
+    if (order != 0) return order;
+  }
+  return 0;
+}
+
+// What the model says at its corners, in the order of the sorted vertices.
+int compareCorners(const FeltPrimitive& a, const FeltPrimitive& b) {
+  if (a.primitive.kind != PrimitiveKind::kTriangle) return 0;
+  const auto corners = [](const FeltPrimitive& one) {
+    const Model& model = one.instance.shape->model;
+    const auto& triangle = model.triangles[one.primitive.source];
+    std::array<double, 15> numbers{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t vertex = triangle[one.primitive.order[i]];
+      if (!model.normals.empty()) std::copy_n(model.normals[vertex].data(), 3, &numbers[5 * i]);
+      if (!model.texcoords.empty()) std::copy_n(model.texcoords[vertex].data(), 2, &numbers[5 * i + 3]);
+    }
+    return numbers;
+  };
+  return larger(corners(a), corners(b));
+}
+
+}  // namespace
+
+int compareFelt(const FeltPrimitive& a, const FeltPrimitive& b) {
+  const int numbers = compareNumbers(materialOf(a), materialOf(b));
+  if (numbers != 0) return numbers;
+  const int textures = compareTextures(a, b);
+  return textures != 0 ? textures : compareCorners(a, b);
+}
+
+}  // namespace hl
