@@ -7,6 +7,7 @@
 #include "base/finger_reach.h"
 #include "proxy/account.h"
 #include "proxy/back_off.h"
+#include "proxy/begin.h"
 #include "proxy/bend.h"
 #include "proxy/carry.h"
 #include "proxy/clear_place.h"
@@ -16,7 +17,6 @@
 #include "proxy/far_goal.h"
 #include "proxy/left_behind.h"
 #include "proxy/spring_energy.h"
-#include "proxy/start_search.h"
 #include "proxy/tolerances.h"
 
 namespace hl {
@@ -461,25 +461,6 @@ double carryAlong(ProxyState& state, const SceneAt& scene, const ProxySettings& 
 
 }  // namespace
 
-namespace {
-
-// Moves a proxy that is not free to a place where it can begin, if there is one among the next few.
-bool begin(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger, int places) {
-  const auto tolerance = Tolerances::of(settings.radius, scene.extent());
-  state.free = state.start.look(scene, tolerance, finger, places, state.position);
-  state.time_ns = scene.time_ns();
-  state.snapshot = scene.snapshot().number;
-  return state.free;
-}
-
-}  // namespace
-
-ProxyState startProxy(const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
-  ProxyState state;
-  if (canBeFinger(finger)) begin(state, scene, settings, finger, StartSearch::kPlaces);
-  return state;
-}
-
 TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
   constexpr int kPlacesPerTick = 2;
   TickReport report;
@@ -488,7 +469,7 @@ TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& se
     report.target = state.position;
     return report;
   }
-  if (!state.free && !begin(state, scene, settings, finger, kPlacesPerTick)) {
+  if (!state.free && !beginProxy(state, scene, settings, finger, kPlacesPerTick)) {
     report.placed = false;
     report.target = finger;
     return report;

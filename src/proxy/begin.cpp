@@ -1,0 +1,23 @@
+#include "proxy/begin.h"
+
+#include "base/finger_reach.h"
+#include "proxy/tolerances.h"
+
+namespace hl {
+
+bool beginProxy(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger,
+                int places) {
+  const auto tolerance = Tolerances::of(settings.radius, scene.extent());
+  state.free = state.start.look(scene, tolerance, finger, places, state.position);
+  state.time_ns = scene.time_ns();
+  state.snapshot = scene.snapshot().number;
+  return state.free;
+}
+
+ProxyState startProxy(const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
+  ProxyState state;
+  if (canBeFinger(finger)) beginProxy(state, scene, settings, finger, StartSearch::kPlaces);
+  return state;
+}
+
+}  // namespace hl
