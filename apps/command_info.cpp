@@ -43,6 +43,10 @@ void print(const Snapshot& snapshot) {
   fmt::print("name:       {}\n", model.name);
   fmt::print("primitives: {} ({} triangles, {} segments, {} points given; {} vertices)\n", primitives,
              model.triangles.size(), model.segments.size(), model.points.size(), model.positions.size());
+  if (model.reading.joined_vertices > 0)
+    fmt::print("joined:     {} vertices that were the same as others to the bit\n", model.reading.joined_vertices);
+  if (model.reading.single_precision)
+    fmt::print("precision:  model files are read in single precision: coordinates to 6e-8 of their size\n");
   fmt::print("normals:    {}\n", model.normals.empty() ? "none" : "per vertex");
   fmt::print("texcoords:  {}\n", model.texcoords.empty() ? "none" : "per vertex");
   fmt::print("size:       {:.6g} x {:.6g} x {:.6g} m\n", size.x(), size.y(), size.z());

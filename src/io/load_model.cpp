@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "io/file_ending.h"
 #include "io/isolated.h"
+#include "scene/weld.h"
 
 namespace hl {
 
@@ -72,6 +73,8 @@ Model loadModel(const std::string& path, const LoadOptions& options) {
   if (model.normals.size() != model.positions.size()) model.normals.clear();
   if (model.texcoords.size() != model.positions.size()) model.texcoords.clear();
   if (model.elements() == 0) throw Error(path + ": there is no geometry in it");
+  // Both readers keep coordinates as float, whatever the file has.
+  model.reading = {weldVertices(model), true};
   model.name = std::filesystem::path(path).filename().string();
   if (options.progress) options.progress(1);
   return model;

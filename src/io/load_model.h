@@ -17,7 +17,7 @@ struct LoadOptions {
 };
 
 /// Reads a file as it is: node transforms applied, polygons triangulated, normals and texture coordinates kept, lines
-/// and points too. What was skipped is in the model's warnings. Throws hl::Error, one line, for a file that cannot be
+/// and points too; vertices that are the same to the bit are joined. What was skipped is in the model's warnings. Throws hl::Error, one line, for a file that cannot be
 /// used. Parses in a child process: call it before the program starts threads.
 Model loadModel(const std::string& path, const LoadOptions& options = {});
 

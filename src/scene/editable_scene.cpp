@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/splitmix64.h"
 #include "scene/by_key.h"
 
 namespace hl {
@@ -38,11 +39,8 @@ Polar polarOf(const Mat3& linear) {
   return {rotation, (stretch / unit).array().round().matrix() * unit};
 }
 
-std::uint64_t mixed(std::uint64_t key, std::uint64_t next) {  // SplitMix64's finaliser
-  std::uint64_t x = key + 0x9e3779b97f4a7c15u + (next << 1 | 1) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
+std::uint64_t mixed(std::uint64_t key, std::uint64_t next) {
+  return splitmix64(key + (next << 1 | 1) * 0xbf58476d1ce4e5b9U);
 }
 
 }  // namespace

@@ -14,6 +14,12 @@
 
 namespace hl {
 
+/// What reading files has done to a model, for hl info.
+struct Reading {
+  std::size_t joined_vertices = 0;  ///< that were the same as others: see weldVertices()
+  bool single_precision = false;    ///< some coordinates have come through a reader that keeps 24 bits of each
+};
+
 /// Metres, world frame. Index lists refer to `positions`; polygons have been triangulated.
 struct Model {
   std::string name;
@@ -27,6 +33,7 @@ struct Model {
   std::vector<std::uint16_t> triangle_materials, segment_materials, point_materials;  ///< one per element, or empty
   std::vector<Texture> textures;
   std::vector<std::string> warnings;  ///< what was skipped while reading, one line each, with counts
+  Reading reading;
 
   Box bounds() const;  ///< of the vertices that an element uses
   std::size_t elements() const { return triangles.size() + segments.size() + points.size(); }

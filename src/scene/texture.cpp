@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/splitmix64.h"
 
 namespace hl {
 
@@ -39,12 +40,10 @@ Cell cellOf(const Texture& texture, const Vec2& uv) {
   return {i, j, x - static_cast<double>(i), y - static_cast<double>(j)};
 }
 
-// A hash of the texel's place to 0..1 (the mixing steps of Steele's splitmix64).
+// A hash of the texel's place to 0..1.
 float noiseAt(std::size_t i, std::size_t j) {
-  std::uint64_t x = (static_cast<std::uint64_t>(i) << 32) + j + 0x9e3779b97f4a7c15ULL;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
-  return static_cast<float>(static_cast<double>((x ^ (x >> 31)) >> 40) / 16777215.0);
+  const std::uint64_t x = splitmix64((static_cast<std::uint64_t>(i) << 32) + j);
+  return static_cast<float>(static_cast<double>(x >> 40) / 16777215.0);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Model files: each kind keeps what it holds; broken and hostile ones give one clear line.
 #include "io/load_model.h"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -12,7 +13,9 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "builtin.h"
 #include "io/isolated.h"
+#include "proxy/proxy.h"
 #include "scene/snapshot.h"
 #include "temp_folder.h"
 
@@ -45,6 +48,78 @@ TEST(LoadModel, ObjKeepsPolygonsNormalsAndTexcoords) {
 }
 
 TEST(LoadModel, ObjKeepsLines) { EXPECT_EQ(loadModel(fileWith("l.obj", kObj)).segments.size(), 1u); }
+
+// What a program that shares no vertices writes: three lines for each triangle, and normals where there are any.
+std::string separateObj(const Model& model) {
+  std::string obj;
+  const auto line = [&](const char* tag, const Vec3& v) {
+    obj += fmt::format("{} {:.9g} {:.9g} {:.9g}\n", tag, v.x(), v.y(), v.z());
+  };
+  for (const auto& triangle : model.triangles) {
+    for (const std::uint32_t index : triangle) {
+      line("v", model.positions[index]);
+      line("vn", model.normals[index]);
+    }
+  }
+  for (std::size_t i = 0; i < model.triangles.size(); ++i)
+    obj += fmt::format("f {0}//{0} {1}//{1} {2}//{2}\n", 3 * i + 1, 3 * i + 2, 3 * i + 3);
+  return obj;
+}
+
+// The same triangles, each with vertices of its own.
+Model separated(const Model& model) {
+  Model apart;
+  for (const auto& triangle : model.triangles) {
+    for (const std::uint32_t index : triangle) {
+      apart.positions.push_back(model.positions[index]);
+      apart.normals.push_back(model.normals[index]);
+    }
+    const auto end = static_cast<std::uint32_t>(apart.positions.size());
+    apart.triangles.push_back({end - 3, end - 2, end - 1});
+  }
+  apart.materials = model.materials;
+  return apart;
+}
+
+TEST(LoadModel, VerticesOfAScanAreJoined) {
+  const Model terrain = makeBuiltinScene("terrain:5000");
+  const Model scan = loadModel(fileWith("scan.obj", separateObj(terrain)));
+  EXPECT_EQ(scan.triangles.size(), terrain.triangles.size());
+  EXPECT_EQ(scan.positions.size(), terrain.positions.size());
+  EXPECT_EQ(scan.reading.joined_vertices, 3 * terrain.triangles.size() - terrain.positions.size());
+  EXPECT_TRUE(scan.reading.single_precision);
+  // Vertices, indices and the hierarchy: what docs/hierarchy.md says of a mesh with shared vertices.
+  EXPECT_LE(makeShape(scan)->geometryBytes() / scan.triangles.size(), 56u);
+}
+
+TEST(LoadModel, AWeldedModelIsTouchedWithTheSameBits) {
+  for (const bool smooth : {false, true}) {
+    Model scan = loadModel(fileWith("touched.obj", separateObj(makeBuiltinScene("terrain:2000"))));
+    scan.materials[0].smooth = smooth;
+    scan.materials[0].dynamic_friction = 0.2;
+    const Box box = scan.bounds();
+    const auto apart = makeSnapshot(separated(scan)), welded = makeSnapshot(std::move(scan));
+    ASSERT_GT(apart->shape().model.positions.size(), 5 * welded->shape().model.positions.size());
+    ProxySettings settings;
+    settings.radius = 0.01 * box.size().norm();
+    const auto finger = [&](int i) {
+      const double t = 1e-3 * i;
+      return Vec3(
+          box.centre() +
+          0.4 * Vec3(std::sin(7 * t), 0.5 * std::cos(11 * t) - 0.3, std::sin(5 * t + 1)).cwiseProduct(box.size()));
+    };
+    ProxyState a = startProxy({*apart, 0}, settings, finger(0)), b = startProxy({*welded, 0}, settings, finger(0));
+    int touching = 0;
+    for (int i = 1; i < 1000; ++i) {
+      const TickReport ra = tick(a, {*apart, 0}, settings, finger(i)), rb = tick(b, {*welded, 0}, settings, finger(i));
+      ASSERT_EQ(a.position, b.position) << i;
+      ASSERT_EQ(ra.target, rb.target) << i;
+      ASSERT_EQ(ra.injected_J, rb.injected_J) << i;
+      touching += ra.contacts.empty() ? 0 : 1;
+    }
+    EXPECT_GT(touching, 300);
+  }
+}
 
 TEST(LoadModel, StlAndPlyInText) {
   const char stl[] =
