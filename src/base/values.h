@@ -1,5 +1,5 @@
-// Values: a structure as two plain lists, in the order in which its visitFields() shows its members. What is written
-// this way comes back bit for bit.
+// Values: a structure as two plain lists, in the order of its fields (base/fields.h). What is written this way comes
+// back bit for bit.
 #pragma once
 
 #include <concepts>
@@ -7,8 +7,10 @@
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "base/fields.h"
 #include "base/vec.h"
 
 namespace hl {
@@ -29,7 +31,10 @@ class ValueWriter {
  public:
   explicit ValueWriter(Values& values) : values_(values) {}
   void operator()(const double& number) { values_.numbers.push_back(number); }
-  void operator()(const Vec3& v) { values_.numbers.insert(values_.numbers.end(), v.data(), v.data() + 3); }
+  template <int kRows, int kColumns>
+  void operator()(const Eigen::Matrix<double, kRows, kColumns>& m) {
+    values_.numbers.insert(values_.numbers.end(), m.data(), m.data() + m.size());
+  }
   template <typename T>
   requires std::integral<T> || std::is_enum_v<T>
   void operator()(const T& integer) { values_.integers.push_back(static_cast<std::int64_t>(integer)); }
@@ -38,38 +43,70 @@ class ValueWriter {
   Values& values_;
 };
 
-/// Sets each member that it is shown; what the lists do not have is left as it is, and complete() is false.
+/// How lists of values suit a structure.
+enum class Fit {
+  kFits,
+  kOtherForm,   ///< there are more or fewer of them: another version wrote them
+  kImpossible,  ///< a number that its field can not hold, or that its enumeration has no name for
+};
+
+/// Sets each member that it is shown; one that the lists have no good value for stays as it is.
 class ValueReader {
  public:
   explicit ValueReader(const Values& values) : values_(values) {}
-  void operator()(double& number) {
-    if (has(values_.numbers, number_, 1)) number = values_.numbers[number_];
-    number_ += 1;
+  void operator()(double& number) { take(&number, 1); }
+  template <int kRows, int kColumns>
+  void operator()(Eigen::Matrix<double, kRows, kColumns>& m) {
+    take(m.data(), static_cast<std::size_t>(m.size()));
   }
-  void operator()(Vec3& v) {
-    if (has(values_.numbers, number_, 3)) std::memcpy(v.data(), &values_.numbers[number_], 3 * sizeof(double));
-    number_ += 3;
+  template <std::integral T>
+  void operator()(T& integer) {
+    const std::int64_t* const read = next();
+    if (read == nullptr) return;
+    if (inRange<T>(*read)) {
+      integer = static_cast<T>(*read);
+    } else {
+      possible_ = false;
+    }
   }
   template <typename T>
-  requires std::integral<T> || std::is_enum_v<T>
-  void operator()(T& integer) {
-    if (has(values_.integers, integer_, 1)) integer = static_cast<T>(values_.integers[integer_]);
-    integer_ += 1;
+  requires std::is_enum_v<T>
+  void operator()(T& named) {
+    const std::int64_t* const read = next();
+    if (read == nullptr) return;
+    if (inRange<std::underlying_type_t<T>>(*read) && isNamed(static_cast<T>(*read))) {
+      named = static_cast<T>(*read);
+    } else {
+      possible_ = false;
+    }
   }
-  /// Exactly all has been read.
-  bool complete() const { return number_ == values_.numbers.size() && integer_ == values_.integers.size(); }
+  Fit fit() const {
+    if (number_ != values_.numbers.size() || integer_ != values_.integers.size()) return Fit::kOtherForm;
+    return possible_ ? Fit::kFits : Fit::kImpossible;
+  }
 
  private:
-  template <typename List>
-  static bool has(const List& list, std::size_t at, std::size_t count) {
-    return at + count <= list.size();
+  // 64-bit numbers without a sign go through those with one, and come back.
+  template <typename T>
+  static bool inRange(std::int64_t read) {
+    return static_cast<std::int64_t>(static_cast<T>(read)) == read;
+  }
+  void take(double* to, std::size_t count) {
+    if (number_ + count <= values_.numbers.size())
+      std::memcpy(to, values_.numbers.data() + number_, count * sizeof(double));
+    number_ += count;
+  }
+  const std::int64_t* next() {
+    const std::size_t at = integer_++;
+    return at < values_.integers.size() ? &values_.integers[at] : nullptr;
   }
 
   const Values& values_;
   std::size_t number_ = 0, integer_ = 0;
+  bool possible_ = true;
 };
 
-/// Everything that visitFields(value, visit) shows.
+/// All fields of `value`.
 template <typename T>
 Values valuesOf(T value) {
   Values values;
@@ -78,12 +115,12 @@ Values valuesOf(T value) {
   return values;
 }
 
-/// Sets `value` from what valuesOf() gave; false when it does not fit, as one of another version.
+/// Sets `value` from what valuesOf() gave.
 template <typename T>
-bool setFrom(const Values& values, T& value) {
+Fit setFrom(const Values& values, T& value) {
   ValueReader reader(values);
   visitFields(value, reader);
-  return reader.complete();
+  return reader.fit();
 }
 
 }  // namespace hl

@@ -15,7 +15,7 @@
 
 namespace hl {
 
-struct ServoSettings : SafetySettings {
+struct SpringSettings {
   double stiffness_N_m = 0;
   double damping_Ns_m = 0;   ///< acts only while in contact (target off the finger): free air has no drag
   double force_limit_N = 0;  ///< this and the next change only while no force is made
@@ -24,12 +24,14 @@ struct ServoSettings : SafetySettings {
   LedgerMode ledger = LedgerMode::kTank;  ///< what late hand-over may add
   Effects effects{};
   GuardSettings guard{};
+};
 
+/// Members are in the bases alone, so that recordings see them all: base/fields.h.
+struct ServoSettings : SafetySettings, SpringSettings {
   static ServoSettings of(const DeviceInfo& info);
 };
 
-/// Between steps; default-constructed it is off: arm() and disarm() of safety.h. Owned by the servo thread.
-struct ServoState : Safety {
+struct SpringState {
   Vec3 force_N = Vec3::Zero();       ///< last output
   Vec3 velocity_m_s = Vec3::Zero();  ///< filtered
   Vec3 last_position = Vec3::Zero();
@@ -40,6 +42,10 @@ struct ServoState : Safety {
   std::int64_t spring_time_ns = 0;  ///< of the target it was taken from
   PassivityGuard guard;
 };
+
+/// Between steps; default-constructed it is off: arm() and disarm() of safety.h. Owned by the servo thread.
+/// Members are in the bases alone, as those of ServoSettings.
+struct ServoState : Safety, SpringState {};
 
 struct ServoOutput {
   Vec3 force_N = Vec3::Zero();

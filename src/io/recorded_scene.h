@@ -8,7 +8,9 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 
+#include "io/recorded_model.h"
 #include "scene/snapshot.h"
 
 namespace hl {
@@ -44,6 +46,8 @@ class SceneReader {
   std::shared_ptr<const Snapshot> scene(const proto::RecordedScene& in) const;
 
  private:
+  MeshReader mesh_;
+  std::optional<std::uint64_t> begun_;  // the shape of which more parts follow
   std::map<std::uint64_t, std::shared_ptr<const Shape>> shapes_;
   std::map<std::uint64_t, std::shared_ptr<const Surfaces>> surfaces_;
 };

@@ -4,6 +4,8 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/fields.h"
+#include "io/recorded_values.h"
 
 namespace hl {
 
@@ -16,18 +18,21 @@ std::uint32_t flagsOf(const ServoRecord& record) {
          static_cast<std::uint32_t>(record.out.safety) << 6 | static_cast<std::uint32_t>(record.out.fault) << 9;
 }
 
-void setFlags(std::uint32_t flags, ServoRecord& record) {
-  record.sample.status = static_cast<DeviceStatus>(flags & 3);
-  record.sample.held = (flags >> 2 & 1) != 0;
-  record.command = static_cast<ServoCommand>(flags >> 3 & 3);
-  record.target.valid = (flags >> 5 & 1) != 0;
-  record.out.safety = static_cast<SafetyState>(flags >> 6 & 7);
-  record.out.fault = static_cast<FaultReason>(flags >> 9 & 15);
+template <typename Enum>
+Enum named(std::uint32_t number) {
+  const Enum value = static_cast<Enum>(number);
+  if (!isNamed(value)) throw Error("a servo step makes no sense: its flags say what there is not");
+  return value;
 }
 
-void add(google::protobuf::RepeatedField<double>& list, const Vec3& v) { list.Add(v.data(), v.data() + 3); }
-Vec3 at(const google::protobuf::RepeatedField<double>& list, int i) {
-  return {list[3 * i], list[3 * i + 1], list[3 * i + 2]};
+void setFlags(std::uint32_t flags, ServoRecord& record) {
+  if (flags >> 13 != 0) throw Error("a servo step makes no sense: its flags say what there is not");
+  record.sample.status = named<DeviceStatus>(flags & 3);
+  record.sample.held = (flags >> 2 & 1) != 0;
+  record.command = named<ServoCommand>(flags >> 3 & 3);
+  record.target.valid = (flags >> 5 & 1) != 0;
+  record.out.safety = named<SafetyState>(flags >> 6 & 7);
+  record.out.fault = named<FaultReason>(flags >> 9 & 15);
 }
 
 void addStep(const ServoRecord& record, std::int64_t before_ns, proto::ServoSteps& out) {
@@ -61,9 +66,9 @@ ServoRecord step(const proto::ServoSteps& in, int i, std::int64_t before_ns) {
 }
 
 bool consistent(const proto::ServoSteps& in) {
-  const int n = in.flags_size();
-  const auto all = [n](std::initializer_list<int> sizes, int each) {
-    return std::all_of(sizes.begin(), sizes.end(), [=](int size) { return size == each * n; });
+  const std::int64_t n = in.flags_size();
+  const auto all = [n](std::initializer_list<std::int64_t> sizes, std::int64_t each) {
+    return std::all_of(sizes.begin(), sizes.end(), [=](std::int64_t size) { return size == each * n; });
   };
   return n > 0 && in.settings_size() > 0 && in.settings(0).at() == 0 &&
          (in.weight_n_size() == 0 || in.weight_n_size() == 3 * n) && (in.age_ns_size() == 0 || in.age_ns_size() == n) &&
@@ -73,20 +78,7 @@ bool consistent(const proto::ServoSteps& in) {
          all({in.position_size(), in.target_proxy_size(), in.force_n_size()}, 3);
 }
 
-constexpr const char* kMisfit = "the recording does not fit this version of HL: replay it with the one that made it";
-
-}  // namespace
-
-void toProto(const Values& values, proto::Values& out) {
-  out.mutable_numbers()->Add(values.numbers.begin(), values.numbers.end());
-  out.mutable_integers()->Add(values.integers.begin(), values.integers.end());
-}
-
-Values fromProto(const proto::Values& in) {
-  return {{in.numbers().begin(), in.numbers().end()}, {in.integers().begin(), in.integers().end()}};
-}
-
-namespace {
+constexpr const char* kMisfit = "the lists of a block of servo steps do not agree";
 
 // What few devices tell is written for all steps or for none.
 void addRare(std::span<const ServoRecord> records, proto::ServoSteps& out) {
@@ -127,13 +119,14 @@ std::vector<ServoRecord> fromProto(const proto::ServoSteps& in) {
   std::int64_t before_ns = 0;
   for (int i = 0, change = 0; i < in.flags_size(); ++i) {
     if (change < in.settings_size() && in.settings(change).at() == static_cast<std::uint32_t>(i)) {
-      if (!setFrom(fromProto(in.settings(change++).values()), settings)) throw Error(kMisfit);
+      readValues(in.settings(change++).values(), "the servo's settings", settings);
     }
+    if (i == in.flags_size() - 1 && change != in.settings_size()) throw Error(kMisfit);
     records.push_back(step(in, i, before_ns));
     records.back().settings = settings;
     before_ns = records.back().sample.time_ns;
   }
-  if (!setFrom(fromProto(in.start()), records.front().before)) throw Error(kMisfit);
+  readValues(in.start(), "the servo's state", records.front().before);
   return records;
 }
 

@@ -6,13 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "base/values.h"
 #include "control/servo_record.h"
 
 namespace hl {
-
-void toProto(const Values& values, proto::Values& out);
-Values fromProto(const proto::Values& in);
 
 /// Consecutive steps, at least one; `first` is the number of the first.
 void toProto(std::span<const ServoRecord> records, std::uint64_t first, proto::ServoSteps& out);

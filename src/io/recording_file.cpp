@@ -19,7 +19,9 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the head of a block is written as it lies in memory");
 
-constexpr std::string_view kMagic = "HLREC1\r\n";
+// The number is that of the form: it rises when fields of the recorded structures change their order or meaning. When
+// one comes or goes the lists no longer fit, and that is told too.
+constexpr std::string_view kMagic = "HLREC2\r\n", kFirstForm = "HLREC1\r\n";
 // A block may be a mesh of tens of millions of triangles; protobuf's own limit.
 constexpr std::uint64_t kMostBlockBytes = 0x7fffffff;
 // Deflate packs no better than this; more is a damaged head, not worth its memory.
@@ -90,8 +92,10 @@ RecordingReader::RecordingReader(const std::string& path) : in_(path, std::ios::
   if (!in_ || error) throw Error(path + ": can not be read");
   std::array<char, kMagic.size()> magic{};
   in_.read(magic.data(), magic.size());
-  if (!in_ || std::string_view(magic.data(), magic.size()) != kMagic)
-    throw Error(path + ": this is no recording of hl record");
+  const std::string_view begin(magic.data(), magic.size());
+  if (begin == kFirstForm)
+    throw Error(path + ": is a recording of form 1, and this version of HL reads form 2: use the one that made it");
+  if (!in_ || begin != kMagic) throw Error(path + ": this is no recording of hl record");
   left_ -= magic.size();
 }
 
@@ -118,6 +122,12 @@ bool RecordingReader::next(proto::RecordingBlock& block) {
   }
   left_ -= sizeof(Head) + body.size();
   return true;
+}
+
+proto::RecordingStart startOf(RecordingReader& reader) {
+  proto::RecordingBlock block;
+  if (!reader.next(block) || !block.has_start()) throw Error("nothing of the recording can be read");
+  return block.start();
 }
 
 }  // namespace hl

@@ -51,4 +51,7 @@ class RecordingReader {
   std::string damage_;
 };
 
+/// The first block, which every recording begins with. Throws hl::Error when it is not there.
+proto::RecordingStart startOf(RecordingReader& reader);
+
 }  // namespace hl

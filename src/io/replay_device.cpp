@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "device/open_device.h"
 #include "io/recorded_servo.h"
+#include "io/recorded_values.h"
 #include "io/recording_file.h"
 
 namespace hl {
@@ -11,30 +12,45 @@ namespace {
 
 constexpr const char* kPrefix = "replay:";
 
-void setStart(const proto::RecordingStart& start, const std::string& file, DeviceInfo& info) {
-  if (!setFrom(fromProto(start.device()), info))
-    throw Error(file + ": was recorded by HL " + start.version() + ", of another form");
+// As the device was that was recorded.
+DeviceInfo infoOf(const proto::RecordingStart& start) {
+  DeviceInfo info;
+  readValues(start.device(), "the device", info);
+  checkRecorded(info);
   info.name = "replay of " + start.device_name();
   info.friction_N = 0;  // no hand feels it: it takes up nothing
+  return info;
+}
+
+// The samples that were good, by rising time, the first at 0.
+std::vector<DeviceSample> samplesOf(RecordingReader& reader) {
+  std::vector<DeviceSample> samples;
+  proto::RecordingBlock block;
+  while (reader.next(block)) {
+    if (!block.has_steps()) continue;
+    for (const ServoRecord& step : fromProto(block.steps())) {
+      const bool good = step.sample.status == DeviceStatus::kOk && step.sample.position.allFinite();
+      if (good) checkTime(step.sample.time_ns, "a step");
+      if (good && (samples.empty() || step.sample.time_ns > samples.back().time_ns)) samples.push_back(step.sample);
+    }
+  }
+  if (samples.size() < 2) throw Error("has no movement to be replayed");
+  const std::int64_t first_ns = samples.front().time_ns;
+  for (DeviceSample& sample : samples) sample.time_ns -= first_ns;
+  checkTime(samples.back().time_ns, "the end of the movement");
+  return samples;
 }
 
 }  // namespace
 
 void ReplayDevice::open() {
   RecordingReader reader(file_);
-  proto::RecordingBlock block;
-  samples_.clear();
-  while (reader.next(block)) {
-    if (block.has_start()) setStart(block.start(), file_, info_);
-    if (!block.has_steps()) continue;
-    for (const ServoRecord& step : fromProto(block.steps())) {
-      const bool good = step.sample.status == DeviceStatus::kOk && step.sample.position.allFinite();
-      if (good && (samples_.empty() || step.sample.time_ns > samples_.back().time_ns)) samples_.push_back(step.sample);
-    }
+  try {
+    info_ = infoOf(startOf(reader));
+    samples_ = samplesOf(reader);
+  } catch (const Error& error) {
+    throw Error(file_ + ": " + error.what());
   }
-  if (samples_.size() < 2) throw Error(file_ + ": has no movement to be replayed");
-  const std::int64_t first_ns = samples_.front().time_ns;
-  for (DeviceSample& sample : samples_) sample.time_ns -= first_ns;
 }
 
 // The moment goes up and down through the recording; the sample before it is never far from the last one asked for.

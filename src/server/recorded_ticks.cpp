@@ -1,23 +1,21 @@
 #include "server/recorded_ticks.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
+#include "base/clock.h"
 #include "base/error.h"
-#include "io/recorded_servo.h"
+#include "io/recorded_values.h"
 
 namespace hl {
 
 namespace {
 
-constexpr const char* kMisfit = "the recording does not fit this version of HL: replay it with the one that made it";
-
-void add(google::protobuf::RepeatedField<double>& list, const Vec3& v) { list.Add(v.data(), v.data() + 3); }
-Vec3 at(const google::protobuf::RepeatedField<double>& list, int i) {
-  return {list[3 * i], list[3 * i + 1], list[3 * i + 2]};
-}
+constexpr const char* kMisfit = "the lists of a block of ticks do not agree";
 
 void addTick(const TickRecord& record, std::int64_t before_ns, proto::ProxyTicks& out) {
-  out.add_time_ns(record.in.time_ns - before_ns);
+  out.add_time_ns(wrappedDifference_ns(record.in.time_ns, before_ns));
   add(*out.mutable_finger(), record.in.finger_D);
   add(*out.mutable_target_proxy(), record.target.proxy_D);
   out.add_target_stiffness(record.target.stiffness);
@@ -30,7 +28,8 @@ void addTick(const TickRecord& record, std::int64_t before_ns, proto::ProxyTicks
 
 TickRecord tickOf(const proto::ProxyTicks& in, int i, std::int64_t before_ns) {
   TickRecord record;
-  record.in.time_ns = before_ns + in.time_ns(i);
+  record.in.time_ns = wrappedSum_ns(before_ns, in.time_ns(i));
+  checkTime(record.in.time_ns, "a tick");
   record.in.finger_D = at(in.finger(), i);
   record.target = {at(in.target_proxy(), i), record.in.time_ns, in.target_valid(i), in.target_stiffness(i),
                    in.target_paid_j(i)};
@@ -41,15 +40,20 @@ TickRecord tickOf(const proto::ProxyTicks& in, int i, std::int64_t before_ns) {
 }
 
 // What a session never has: a file may say anything.
-bool possible(const TickContext& context) {
-  return context.commands.workspace.valid() && Workspace::validRadius(context.commands.radius_W) &&
-         context.spring.stiffness_N_m >= 0 && context.spring.period_s > 0;
+void checkRecorded(const TickContext& context) {
+  constexpr double kStiffest_N_m = 1e9, kShortest_s = 1e-9, kLongest_s = 1e3;
+  if (!context.commands.workspace.valid()) throw Error("the workspace makes no sense: it can not be computed with");
+  if (!Workspace::validRadius(context.commands.radius_W))
+    throw Error(fmt::format("the radius of the proxy makes no sense: {} m", context.commands.radius_W));
+  checkRecorded(context.commands.surfaces);
+  checkRanges("the spring", {{"stiffness_N_m", context.spring.stiffness_N_m, 0, kStiffest_N_m},
+                             {"period_s", context.spring.period_s, kShortest_s, kLongest_s}});
 }
 
 bool consistent(const proto::ProxyTicks& in) {
-  const int n = in.time_ns_size();
-  const auto all = [n](std::initializer_list<int> sizes, int each) {
-    return std::all_of(sizes.begin(), sizes.end(), [=](int size) { return size == each * n; });
+  const std::int64_t n = in.time_ns_size();
+  const auto all = [n](std::initializer_list<std::int64_t> sizes, std::int64_t each) {
+    return std::all_of(sizes.begin(), sizes.end(), [=](std::int64_t size) { return size == each * n; });
   };
   return n > 0 && in.commands_size() > 0 && in.commands(0).at() == 0 &&
          all({in.target_stiffness_size(), in.target_paid_j_size(), in.target_valid_size(), in.contacts_size(),
@@ -83,8 +87,10 @@ std::vector<TickRecord> fromProto(const proto::ProxyTicks& in) {
   std::int64_t before_ns = 0;
   for (int i = 0, change = 0; i < in.time_ns_size(); ++i) {
     if (change < in.commands_size() && in.commands(change).at() == static_cast<std::uint32_t>(i)) {
-      if (!setFrom(fromProto(in.commands(change++).values()), context) || !possible(context)) throw Error(kMisfit);
+      readValues(in.commands(change++).values(), "what ticks are told", context);
+      checkRecorded(context);
     }
+    if (i == in.time_ns_size() - 1 && change != in.commands_size()) throw Error(kMisfit);
     records.push_back(tickOf(in, i, before_ns));
     records.back().in.commands = context.commands;
     records.back().in.spring = context.spring;

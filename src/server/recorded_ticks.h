@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "base/values.h"
 #include "server/proxy_loop.h"
 
 namespace hl {
@@ -35,39 +34,6 @@ struct TickContext {
   SpringOfServo spring;
   std::uint64_t scene = 0;
 };
-
-template <typename Visit>
-void visitFields(ProxySettings& settings, Visit& visit) {
-  visit(settings.iteration_cap);
-  visit(settings.shading);
-}
-
-template <typename T, typename Visit>
-void visitOptional(std::optional<T>& optional, Visit& visit) {
-  bool there = optional.has_value();
-  T value = optional.value_or(T{});
-  visit(there);
-  visit(value);
-  optional = there ? std::optional<T>(value) : std::nullopt;
-}
-
-template <typename Visit>
-void visitFields(TickContext& context, Visit& visit) {
-  MaterialOverride& surfaces = context.commands.surfaces;
-  for (std::optional<double>* number :
-       {&surfaces.stiffness, &surfaces.static_friction, &surfaces.dynamic_friction, &surfaces.viscosity_Ns_m})
-    visitOptional(*number, visit);
-  visitOptional(surfaces.smooth, visit);
-  visit(surfaces.textures);
-  visit(context.commands.workspace.origin_W);
-  visit(context.commands.workspace.world_per_device);
-  visit(context.commands.radius_W);
-  visit(context.commands.restarts);
-  visit(context.spring.stiffness_N_m);
-  visit(context.spring.ledger);
-  visit(context.spring.period_s);
-  visit(context.scene);
-}
 
 /// Consecutive ticks, at least one; `first` is the number of the first.
 void toProto(std::span<const TickRecord> records, std::uint64_t first, proto::ProxyTicks& out);

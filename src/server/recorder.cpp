@@ -11,6 +11,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "io/recorded_servo.h"
+#include "io/recorded_values.h"
 
 namespace hl {
 

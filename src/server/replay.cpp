@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "io/recorded_scene.h"
 #include "io/recorded_servo.h"
+#include "io/recorded_values.h"
 #include "io/recording_file.h"
 
 namespace hl {
@@ -29,6 +30,13 @@ Values partsOf(const Parts&... parts) {
 Values partsOf(const ServoOutput& out) { return partsOf(out.force_N, out.safety, out.fault); }
 Values partsOf(const ServoTarget& t) { return partsOf(t.proxy_D, t.time_ns, t.valid, t.stiffness, t.paid_J); }
 
+/// How many are missing before number `first`. Blocks rise, and no session comes near the last number there is.
+std::uint64_t gapOf(std::uint64_t first, std::uint64_t next) {
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 62;
+  if (first < next || first > kMost) throw Error("its steps or ticks are not in their order");
+  return first - next;
+}
+
 /// The servo again. A gap, and each block after a difference, begins with the state that is recorded.
 class ServoReplay {
  public:
@@ -38,7 +46,7 @@ class ServoReplay {
     std::vector<ServoRecord> records = fromProto(message);
     // A black box begins in the middle.
     const bool gap = message.first() != next_ && (begun_ || !report_.black_box);
-    if (gap) report_.lost_steps += message.first() - next_;
+    if (gap) report_.lost_steps += gapOf(message.first(), next_);
     if (!begun_ || gap || report_.difference)
       state_ = records.front().before;
     else if (!(valuesOf(state_) == valuesOf(records.front().before)))
@@ -91,7 +99,7 @@ class ProxyReplay {
     const std::vector<TickRecord> records = fromProto(message);
     report_.ticks += records.size();
     if (message.first() != next_) {
-      report_.lost_ticks += message.first() - next_;
+      report_.lost_ticks += gapOf(message.first(), next_);
       unknown_ = true;
     }
     next_ = message.first();
@@ -141,27 +149,26 @@ class ProxyReplay {
   bool unknown_ = false;  // ticks are missing: what the proxy remembers is not known
 };
 
-proto::RecordingStart startOf(RecordingReader& reader, const std::string& path) {
-  proto::RecordingBlock block;
-  if (!reader.next(block) || !block.has_start()) throw Error(path + ": nothing of the recording can be read");
-  return block.start();
+ProxySettings proxySettingsOf(const proto::RecordingStart& start) {
+  constexpr double kMostPasses = 1e6;  // what a tick of a wrong file may cost
+  ProxySettings settings;
+  readValues(start.proxy(), "the proxy", settings);
+  checkRanges("the proxy", {{"iteration_cap", static_cast<double>(settings.iteration_cap), 1, kMostPasses}});
+  return settings;
 }
 
-}  // namespace
-
-ReplayReport replay(const std::string& path, const StepVisitor& visit) {
-  RecordingReader reader(path);
-  const proto::RecordingStart start = startOf(reader, path);
+ReplayReport replayed(RecordingReader& reader, const StepVisitor& visit) {
+  const proto::RecordingStart start = startOf(reader);
   ReplayReport report;
   report.version = start.version();
   report.device = start.device_name();
   report.black_box = start.black_box();
   report.fault = start.fault();
-  ProxySettings settings;
-  if (!setFrom(fromProto(start.proxy()), settings))
-    throw Error(path + ": was recorded by HL " + start.version() + ", of another form; replay it with that one");
+  DeviceInfo device;
+  readValues(start.device(), "the device", device);
+  checkRecorded(device);
   ServoReplay servo(report);
-  ProxyReplay proxy(report, settings);
+  ProxyReplay proxy(report, proxySettingsOf(start));
   proto::RecordingBlock block;
   while (reader.next(block)) {
     if (block.has_shape()) proxy.add(block.shape());
@@ -173,6 +180,17 @@ ReplayReport replay(const std::string& path, const StepVisitor& visit) {
   }
   report.damage = reader.damage();
   return report;
+}
+
+}  // namespace
+
+ReplayReport replay(const std::string& path, const StepVisitor& visit) {
+  RecordingReader reader(path);
+  try {
+    return replayed(reader, visit);
+  } catch (const Error& error) {
+    throw Error(path + ": " + error.what());
+  }
 }
 
 }  // namespace hl

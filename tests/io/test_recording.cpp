@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <random>
@@ -10,6 +11,7 @@
 #include "base/error.h"
 #include "io/recorded_scene.h"
 #include "io/recorded_servo.h"
+#include "io/recorded_values.h"
 #include "io/recording_file.h"
 #include "proxy/proxy.h"
 #include "temp_folder.h"
@@ -78,7 +80,7 @@ T scrambled(Random& random) {
   Values values = valuesOf(value);
   for (double& number : values.numbers) number = random.bits();
   for (std::int64_t& integer : values.integers) integer = random.below(2);
-  EXPECT_TRUE(setFrom(values, value));
+  EXPECT_EQ(setFrom(values, value), Fit::kFits);
   EXPECT_EQ(valuesOf(value), values);
   return value;
 }
@@ -107,6 +109,29 @@ TEST(RecordedServo, AnyStepsComeBackBitForBit) {
   }
 }
 
+TEST(RecordedServo, EveryNumberOfADeviceComesBack) {
+  DeviceInfo info;
+  info.servo_rate_Hz = 2000;
+  info.servo_rate_max_Hz = 8000;
+  info.resolution_m = 3e-5;
+  DeviceInfo back;
+  EXPECT_EQ(setFrom(valuesOf(info), back), Fit::kFits);
+  EXPECT_EQ(back.servo_rate_Hz, 2000);
+  EXPECT_EQ(back.servo_rate_max_Hz, 8000);
+  EXPECT_EQ(back.resolution_m, 3e-5);
+}
+
+TEST(RecordedServo, FlagsThatSayNothingAreRefused) {
+  Random random(4);
+  proto::ServoSteps good;
+  toProto(std::vector<ServoRecord>{randomRecord(random, {})}, 0, good);
+  for (const std::uint32_t flags : {3U, 5U << 6, 7U << 6, 10U << 9, 15U << 9, 1U << 13}) {
+    proto::ServoSteps bad = good;
+    bad.set_flags(0, flags);
+    EXPECT_THROW(fromProto(bad), Error) << flags;
+  }
+}
+
 TEST(RecordedServo, MessagesThatMakeNoSenseAreRefused) {
   Random random(2);
   const std::vector<ServoRecord> records{randomRecord(random, {})};
@@ -123,6 +148,9 @@ TEST(RecordedServo, MessagesThatMakeNoSenseAreRefused) {
   proto::ServoSteps no_settings = good;
   no_settings.clear_settings();
   EXPECT_THROW(fromProto(no_settings), Error);
+  proto::ServoSteps settings_of_no_step = good;
+  *settings_of_no_step.add_settings() = good.settings(0);
+  EXPECT_THROW(fromProto(settings_of_no_step), Error);
 }
 
 /// A soup of shaded, textured, rough triangles with some that are degenerate, a line and a point; and a second object
@@ -273,6 +301,7 @@ TEST(RecordedScene, ABentMeshOfAnotherMeshIsRefused) {
   EXPECT_NO_THROW(reader.scene(message));
   proto::RecordedShape other;
   other.set_id(77);
+  other.set_materials(1);
   for (int i = 0; i < 9; ++i) other.add_positions(i * i);
   for (std::uint32_t i = 0; i < 3; ++i) other.add_triangles(i);
   reader.add(other);
@@ -280,6 +309,83 @@ TEST(RecordedScene, ABentMeshOfAnotherMeshIsRefused) {
     message.mutable_instances(0)->set_before(id);
     EXPECT_THROW(reader.scene(message), Error) << id;
   }
+}
+
+TEST(RecordedScene, AMeshOfManyPartsComesBackWhole) {
+  Random random(11);
+  Model model;
+  for (std::uint32_t i = 0; i < 300'000; ++i) {
+    model.positions.push_back(random.vec());
+    model.texcoords.emplace_back(random.uniform(), random.uniform());
+  }
+  for (std::uint32_t i = 0; i < 700'000; ++i) {
+    model.triangles.push_back({i % 300'000, (7 * i + 1) % 300'000, (13 * i + 2) % 300'000});
+    model.triangle_materials.push_back(static_cast<std::uint16_t>(i % 3));
+  }
+  model.materials.resize(3);
+  const auto scene = makeSnapshot(model, HierarchyKind::kNone);
+  SceneWriter writer;
+  SceneReader reader;
+  int parts = 0;
+  const auto back = writtenAndRead(*scene, writer, reader, parts);
+  ASSERT_TRUE(back);
+  EXPECT_GT(parts, 3);
+  const Model &was = scene->shape().model, &is = back->shape().model;
+  EXPECT_TRUE(was.positions == is.positions && was.texcoords == is.texcoords && was.triangles == is.triangles &&
+              was.triangle_materials == is.triangle_materials);
+  EXPECT_EQ(is.materials.size(), 3u);
+}
+
+/// A triangle with everything that a mesh can have.
+proto::RecordedShape soundShape() {
+  proto::RecordedShape shape;
+  shape.set_id(1);
+  shape.set_materials(2);
+  for (int i = 0; i < 9; ++i) shape.add_positions(i * i % 7);
+  for (int i = 0; i < 9; ++i) shape.add_normals(i % 4 == 2 ? 1 : 0);
+  for (int i = 0; i < 6; ++i) shape.add_texcoords(0.1 * i);
+  for (std::uint32_t i = 0; i < 3; ++i) shape.add_triangles(i);
+  shape.add_triangle_materials(1);
+  return shape;
+}
+
+TEST(RecordedScene, AMeshThatCanNotBeIsRefusedInOneLine) {
+  using Change = void (*)(proto::RecordedShape&);
+  const std::vector<Change> changes{[](proto::RecordedShape& s) { s.add_positions(1); },
+                                    [](proto::RecordedShape& s) { s.mutable_normals()->Truncate(6); },
+                                    [](proto::RecordedShape& s) { s.set_normals(4, std::nan("")); },
+                                    [](proto::RecordedShape& s) { s.mutable_texcoords()->Truncate(2); },
+                                    [](proto::RecordedShape& s) { s.set_texcoords(1, HUGE_VAL); },
+                                    [](proto::RecordedShape& s) { s.set_triangles(1, 3); },
+                                    [](proto::RecordedShape& s) { s.add_triangles(0); },
+                                    [](proto::RecordedShape& s) { s.add_segments(0), s.add_segments(0xffffffff); },
+                                    [](proto::RecordedShape& s) { s.add_points(3); },
+                                    [](proto::RecordedShape& s) { s.set_triangle_materials(0, 0x10000); },
+                                    [](proto::RecordedShape& s) { s.add_triangle_materials(0); },
+                                    [](proto::RecordedShape& s) { s.add_point_materials(0); },
+                                    [](proto::RecordedShape& s) { s.set_materials(0); },
+                                    [](proto::RecordedShape& s) { s.set_materials(0xffffffff); },
+                                    [](proto::RecordedShape& s) { s.set_hierarchy(3); }};
+  EXPECT_NO_THROW(SceneReader().add(soundShape()));
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    proto::RecordedShape shape = soundShape();
+    changes[i](shape);
+    try {
+      SceneReader().add(shape);
+      ADD_FAILURE() << "change " << i << " was taken";
+    } catch (const Error& error) {
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    }
+  }
+}
+
+TEST(RecordedScene, APartOfAnotherMeshIsRefused) {
+  SceneReader reader;
+  proto::RecordedShape part = soundShape();
+  part.set_continues(true);
+  reader.add(part);
+  part.set_id(2);
+  EXPECT_THROW(reader.add(part), Error);
 }
 
 TEST(RecordedScene, MessagesThatMakeNoSenseAreRefused) {
@@ -361,6 +467,17 @@ TEST_F(RecordingFile, ADamagedBitEndsItWhereItIs) {
     file.open(path, std::ios::in | std::ios::out | std::ios::binary);
     file.seekp(at);
     file.put(byte);
+  }
+}
+
+TEST_F(RecordingFile, OfAnotherFormSaysWhich) {
+  std::fstream(path, std::ios::in | std::ios::out | std::ios::binary) << "HLREC1\r\n";
+  std::string damage;
+  try {
+    readAll(path, damage);
+    ADD_FAILURE() << "it was read";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("form 1"), std::string::npos) << error.what();
   }
 }
 

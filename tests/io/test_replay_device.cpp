@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/no_alloc.h"
 #include "io/recorded_servo.h"
+#include "io/recorded_values.h"
 #include "io/recording_file.h"
 #include "temp_folder.h"
 
@@ -24,20 +25,23 @@ class Replayed : public testing::Test {
   test::TempFolder folder;
   std::string path = (folder.path() / "a.hlr").string();
 
-  void record(int steps) const {
-    RecordingWriter writer(path);
-    proto::RecordingBlock start;
-    start.mutable_start()->set_device_name("pen");
+  static DeviceInfo pen() {
     DeviceInfo info;
     info.force_max_N = 3;
     info.friction_N = 0.1;
+    return info;
+  }
+  void record(int steps, const DeviceInfo& info = pen(), std::int64_t period_ns = kPeriod_ns) const {
+    RecordingWriter writer(path);
+    proto::RecordingBlock start;
+    start.mutable_start()->set_device_name("pen");
     toProto(valuesOf(info), *start.mutable_start()->mutable_device());
     writer.write(start);
     if (steps == 0) return;
     std::vector<ServoRecord> records(static_cast<std::size_t>(steps));
     for (int i = 0; i < steps; ++i) {
       DeviceSample& sample = records[static_cast<std::size_t>(i)].sample;
-      sample.time_ns = kBegin_ns + i * kPeriod_ns;
+      sample.time_ns = kBegin_ns + i * period_ns;
       sample.position = way(i);
       sample.buttons = i > steps / 2 ? 1 : 0;
       sample.status = i % 50 == 7 ? DeviceStatus::kLost : DeviceStatus::kOk;
@@ -77,6 +81,39 @@ TEST_F(Replayed, ALongPauseOfTheClockIsNoHarm) {
   device->read(0);
   const std::int64_t laps_ns = 1'000'003 * 2 * (kSteps - 1) * kPeriod_ns;
   EXPECT_EQ(device->read(laps_ns + 300 * kPeriod_ns).position, way(300));
+}
+
+TEST_F(Replayed, ADeviceThatThereIsNotIsRefusedInOneLine) {
+  using Change = void (*)(DeviceInfo&);
+  for (const Change change : std::vector<Change>{
+           [](DeviceInfo& info) { info.servo_rate_Hz = 0; },
+           [](DeviceInfo& info) { info.servo_rate_Hz = -1000; },
+           [](DeviceInfo& info) { info.servo_rate_Hz = 1e300; },
+           [](DeviceInfo& info) { info.servo_rate_Hz = std::nan(""); },
+           [](DeviceInfo& info) { info.servo_rate_max_Hz = 0; },
+           [](DeviceInfo& info) { info.force_max_N = -1; },
+           [](DeviceInfo& info) { info.stiffness_max_N_m = HUGE_VAL; },
+           [](DeviceInfo& info) { info.velocity_max_m_s = std::nan(""); },
+           [](DeviceInfo& info) { info.workspace_min.y() = 1; },
+           [](DeviceInfo& info) { info.workspace_max.z() = std::nan(""); },
+       }) {
+    DeviceInfo info = pen();
+    change(info);
+    record(kSteps, info);
+    try {
+      openAnyDevice("replay:" + path);
+      ADD_FAILURE() << "it was taken";
+    } catch (const Error& error) {
+      const std::string line = error.what();
+      EXPECT_EQ(line.find(path + ": the device makes no sense"), 0U) << line;
+      EXPECT_EQ(line.find('\n'), std::string::npos);
+    }
+  }
+}
+
+TEST_F(Replayed, TimesThatNoClockTellsAreRefused) {
+  record(3, pen(), std::int64_t{1} << 61);
+  EXPECT_THROW(openAnyDevice("replay:" + path), Error);
 }
 
 TEST_F(Replayed, WhatCanNotBeReplayedIsToldInOneLine) {

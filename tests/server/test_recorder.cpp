@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -17,6 +18,7 @@
 #include "base/no_alloc.h"
 #include "builtin.h"
 #include "device/simulated_device.h"
+#include "io/recorded_values.h"
 #include "server/replay.h"
 #include "server/touch_session.h"
 #include "server/touch_step.h"
@@ -240,6 +242,82 @@ TEST_F(Recording, NumbersThatNoSessionHasAreRefused) {
                  if (block.has_scene()) block.mutable_scene()->set_identity(1ULL << 60);
                }),
                Error);
+}
+
+/// The structure that a message holds, changed.
+template <typename T>
+void change(proto::Values& values, const std::function<void(T&)>& change_it) {
+  T value;
+  EXPECT_EQ(setFrom(fromProto(values), value), Fit::kFits);
+  change_it(value);
+  values.Clear();
+  toProto(valuesOf(value), values);
+}
+
+TEST_F(Recording, EachFieldOutOfItsRangeIsRefusedInOneLine) {
+  { Loops(settings()).run(3000); }  // blocks enough to be out of order
+  using Change = std::function<void(proto::RecordingBlock&)>;
+  const auto device = [](const std::function<void(DeviceInfo&)>& it) -> Change {
+    return [it](auto& block) {
+      if (block.has_start()) change<DeviceInfo>(*block.mutable_start()->mutable_device(), it);
+    };
+  };
+  const auto proxy = [](const std::function<void(ProxySettings&)>& it) -> Change {
+    return [it](auto& block) {
+      if (block.has_start()) change<ProxySettings>(*block.mutable_start()->mutable_proxy(), it);
+    };
+  };
+  const auto told = [](const std::function<void(TickContext&)>& it) -> Change {
+    return [it](auto& block) {
+      if (block.has_ticks()) change<TickContext>(*block.mutable_ticks()->mutable_commands(0)->mutable_values(), it);
+    };
+  };
+  const auto steps = [](const std::function<void(proto::ServoSteps&)>& it) -> Change {
+    return [it](auto& block) {
+      if (block.has_steps()) it(*block.mutable_steps());
+    };
+  };
+  const auto ticks = [](const std::function<void(proto::ProxyTicks&)>& it) -> Change {
+    return [it](auto& block) {
+      if (block.has_ticks()) it(*block.mutable_ticks());
+    };
+  };
+  const std::vector<std::pair<std::string, Change>> changes{
+      {"servo_rate_Hz", device([](auto& info) { info.servo_rate_Hz = 0; })},
+      {"velocity_max_m_s", device([](auto& info) { info.velocity_max_m_s = std::nan(""); })},
+      {"iteration_cap", proxy([](auto& settings) { settings.iteration_cap = 0; })},
+      {"iteration_cap", proxy([](auto& settings) { settings.iteration_cap = 2'000'000'000; })},
+      {"the proxy", proxy([](auto& settings) { settings.shading = static_cast<ShadingPasses>(9); })},
+      {"period_s", told([](auto& context) { context.spring.period_s = 0; })},
+      {"period_s", told([](auto& context) { context.spring.period_s = HUGE_VAL; })},
+      {"stiffness_N_m", told([](auto& context) { context.spring.stiffness_N_m = std::nan(""); })},
+      {"stiffness", told([](auto& context) { context.commands.surfaces.stiffness = 2; })},
+      {"viscosity_Ns_m", told([](auto& context) { context.commands.surfaces.viscosity_Ns_m = -1; })},
+      {"radius", told([](auto& context) { context.commands.radius_W = 0; })},
+      {"workspace", told([](auto& context) { context.commands.workspace.world_per_device = 0; })},
+      {"what ticks are told", told([](auto& context) { context.spring.ledger = static_cast<LedgerMode>(7); })},
+      {"no clock", ticks([](auto& message) { message.set_time_ns(0, INT64_MAX); })},
+      {"no clock", ticks([](auto& message) { message.set_time_ns(1, INT64_MIN); })},
+      {"order", steps([](auto& message) { message.set_first(message.first() == 0 ? 0 : 1); })},
+      {"order", ticks([](auto& message) { message.set_first(message.first() == 0 ? 0 : 1); })},
+      {"order", ticks([](auto& message) { message.set_first(~0ULL); })},
+      {"the servo's state", steps([](auto& message) { message.mutable_start()->set_integers(0, 99); })},
+      {"the servo's settings",
+       steps([](auto& message) { message.mutable_settings(0)->mutable_values()->set_integers(2, 99); })},
+  };
+  const std::string changed = (folder.path() / "b.hlr").string();
+  for (const auto& [what, it] : changes) {
+    rewrite(path, changed, it);
+    try {
+      replay(changed);
+      ADD_FAILURE() << what << " was taken";
+    } catch (const Error& error) {
+      const std::string line = error.what();
+      EXPECT_EQ(line.find(changed + ": "), 0U) << line;
+      EXPECT_NE(line.find(what), std::string::npos) << line;
+      EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+    }
+  }
 }
 
 // The rings hold 8192 steps, six seconds and what rounding up has given.

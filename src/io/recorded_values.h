@@ -1,0 +1,50 @@
+// Structures in the messages of a recording, and the rule that a file may say anything: a number that no session has
+// is refused with one line that names it.
+#pragma once
+
+#include <recording.pb.h>
+
+#include <initializer_list>
+#include <string>
+
+#include "base/values.h"
+#include "device/device.h"
+#include "scene/material.h"
+
+namespace hl {
+
+void toProto(const Values& values, proto::Values& out);
+Values fromProto(const proto::Values& in);
+
+/// Lists of vectors, three numbers each.
+void add(google::protobuf::RepeatedField<double>& list, const Vec3& v);
+Vec3 at(const google::protobuf::RepeatedField<double>& list, int i);
+
+/// A field, and what it may be.
+struct FieldRange {
+  const char* name;
+  double value, least, most;
+};
+
+/// Throws hl::Error for the first field that is out of its range, or no number. `what` has the fields: "the device".
+void checkRanges(const std::string& what, std::initializer_list<FieldRange> fields);
+/// What a device, or a surface, can be. Throws hl::Error.
+void checkRecorded(const DeviceInfo& info);
+void checkRecorded(const Material& material);
+void checkRecorded(const MaterialOverride& surfaces);
+
+/// Throws the hl::Error that says why the values of `what` do not fit.
+void requireFit(Fit fit, const std::string& what);
+
+/// Sets `value` to what was recorded of it. Throws hl::Error.
+template <typename T>
+void readValues(const proto::Values& in, const std::string& what, T& value) {
+  requireFit(setFrom(fromProto(in), value), what);
+}
+
+/// Times of a recording: no further from zero than this, so that twice the difference of two is a number of 64 bits.
+inline constexpr std::int64_t kMostTime_ns = std::int64_t{1} << 61;
+/// Throws hl::Error for a time beyond that.
+void checkTime(std::int64_t time_ns, const char* what);
+
+}  // namespace hl
