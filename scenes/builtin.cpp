@@ -55,11 +55,13 @@ Model makeBuiltinScene(const std::string& spec) {
                 "'; there are teapot[:N], walker, terrain:N, sphere:N, plane:N, pipe:N, pits:N, soup:N");
   }
   std::size_t n = builtin->usual;
+  if (colon != std::string::npos && builtin->usual == 0)
+    throw Error("'" + spec + "': there is one " + std::string(builtin->name) + ", which takes no number");
   if (colon != std::string::npos) {
     const std::string_view digits = std::string_view(spec).substr(colon + 1);
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), n);
     const std::size_t most = builtin->name == "teapot" ? 500 : kMostTriangles;
-    if (builtin->usual == 0 || error != std::errc() || end != digits.data() + digits.size() || n < 1 || n > most) {
+    if (error != std::errc() || end != digits.data() + digits.size() || n < 1 || n > most) {
       throw Error("'" + spec + "': N must be a whole number from 1 to " + std::to_string(most) +
                   ", as in terrain:100000");
     }

@@ -72,6 +72,15 @@ TEST(Builtin, PitsHaveCreasesWhereTheMeshCanFollowThem) {
   }
 }
 
+TEST(Builtin, ASceneOfOneSizeSaysSo) {
+  try {
+    loadScene("walker:3");
+    ADD_FAILURE() << "it was taken";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "'walker:3': there is one walker, which takes no number");
+  }
+}
+
 TEST(Builtin, BadNamesAreRefusedWithTheList) {
   for (const char* spec :
        {"tea", "terrain:", "terrain:x", "terrain:-1", "terrain:0", "terrain:99999999999", "walker:3", ""}) {
