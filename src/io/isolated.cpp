@@ -1,222 +1,209 @@
-// The child sends records through a pipe: a tag, a length, the bytes.
-//   'p' double        progress                'e' text    error               'm' arrays  the model, the last record
 #include "io/isolated.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
-#include <array>
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <exception>
-#include <vector>
+#include <new>
+#include <utility>
 
+#include "base/clock.h"
 #include "base/error.h"
+#include "base/machine_memory.h"
+#include "io/model_parts.h"
+#include "io/sandbox.h"
 
 namespace hl {
 
 namespace {
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{16} << 30;
+using Parse = std::function<Model(const std::function<void(double)>&)>;
 
-bool sendAll(int fd, const void* data, std::size_t size) {
-  const char* at = static_cast<const char*>(data);
-  while (size > 0) {
-    const ssize_t sent = ::write(fd, at, size);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent <= 0) return false;
-    at += sent;
-    size -= static_cast<std::size_t>(sent);
-  }
-  return true;
-}
+constexpr const char* kTooLong = "reading it takes too long: the file is corrupt, or too large";
+constexpr const char* kWaits =
+    "its reader waits for what does not come: it names a file that is none, or a disk does not answer";
+constexpr const char* kGarbage = "its reader gave what makes no sense: the file is corrupt";
 
-bool receiveAll(int fd, void* data, std::size_t size) {
-  char* at = static_cast<char*>(data);
-  while (size > 0) {
-    const ssize_t got = ::read(fd, at, size);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return false;
-    at += got;
-    size -= static_cast<std::size_t>(got);
-  }
-  return true;
-}
-
-// The other end is the same program: the bytes of a value are the message.
-template <typename T>
-bool sendList(int fd, const std::vector<T>& list) {
-  const std::uint64_t count = list.size();
-  return sendAll(fd, &count, sizeof count) && sendAll(fd, list.data(), count * sizeof(T));
-}
-
-template <typename T>
-bool receiveList(int fd, std::vector<T>& list) {
-  std::uint64_t count = 0;
-  if (!receiveAll(fd, &count, sizeof count) || count > kMostBytes / sizeof(T)) return false;
-  list.resize(count);
-  return receiveAll(fd, list.data(), count * sizeof(T));
-}
-
-std::vector<char> joined(const std::vector<std::string>& lines) {
-  std::vector<char> text;
-  for (const std::string& line : lines) {
-    text.insert(text.end(), line.begin(), line.end());
-    text.push_back('\n');
-  }
-  return text;
-}
-
-bool sendTextures(int fd, const std::vector<Texture>& textures) {
-  const std::uint64_t count = textures.size();
-  bool sent = sendAll(fd, &count, sizeof count);
-  for (const Texture& texture : textures) {
-    const std::array<std::uint64_t, 2> size{texture.width, texture.height};
-    sent = sent && sendAll(fd, size.data(), sizeof size) && sendList(fd, texture.texels);
-  }
-  return sent;
-}
-
-bool receiveTextures(int fd, std::vector<Texture>& textures) {
-  constexpr std::uint64_t kMost = 10'000;
-  std::uint64_t count = 0;
-  if (!receiveAll(fd, &count, sizeof count) || count > kMost) return false;
-  for (std::uint64_t i = 0; i < count; ++i) {
-    std::array<std::uint64_t, 2> size{};
-    Texture texture;
-    if (!receiveAll(fd, size.data(), sizeof size) || !receiveList(fd, texture.texels)) return false;
-    texture.width = size[0];
-    texture.height = size[1];
-    if (texture.width == 0 || texture.texels.size() / texture.width != texture.height) return false;
-    textures.push_back(std::move(texture));
-  }
-  return true;
-}
-
-void sendModel(int fd, const Model& model) {
-  const char tag = 'm';
-  (void)(sendAll(fd, &tag, 1) && sendList(fd, model.positions) && sendList(fd, model.normals) &&
-         sendList(fd, model.texcoords) && sendList(fd, model.triangles) && sendList(fd, model.segments) &&
-         sendList(fd, model.points) && sendTextures(fd, model.textures) && sendList(fd, model.materials) &&
-         sendList(fd, model.triangle_materials) && sendList(fd, model.segment_materials) &&
-         sendList(fd, model.point_materials) && sendList(fd, joined(model.warnings)));
-}
-
-bool receiveModel(int fd, Model& model) {
-  std::vector<char> warnings;
-  const bool whole = receiveList(fd, model.positions) && receiveList(fd, model.normals) &&
-                     receiveList(fd, model.texcoords) && receiveList(fd, model.triangles) &&
-                     receiveList(fd, model.segments) && receiveList(fd, model.points) &&
-                     receiveTextures(fd, model.textures) && receiveList(fd, model.materials) &&
-                     receiveList(fd, model.triangle_materials) && receiveList(fd, model.segment_materials) &&
-                     receiveList(fd, model.point_materials) && receiveList(fd, warnings);
-  std::string line;
-  for (const char c : warnings) {
-    if (c == '\n') {
-      model.warnings.push_back(line);
-      line.clear();
-    } else {
-      line += c;
-    }
-  }
-  return whole;
+void setLimit(int resource, rlim_t soft, rlim_t hard) {
+  const rlimit limit{soft, hard};
+  setrlimit(static_cast<__rlimit_resource>(resource), &limit);
 }
 
 void setLimits(const IsolationLimits& limits) {
-  const rlimit cpu{limits.cpu_s, limits.cpu_s + 2};
-  setrlimit(RLIMIT_CPU, &cpu);
-  const rlimit core{0, 0};
-  setrlimit(RLIMIT_CORE, &core);
+  constexpr rlim_t kMostFiles = 64, kAfterTheSignal_s = 2;
+  setLimit(RLIMIT_CPU, limits.cpu_s, limits.cpu_s + kAfterTheSignal_s);
+  setLimit(RLIMIT_CORE, 0, 0);
+  setLimit(RLIMIT_FSIZE, 0, 0);
+  setLimit(RLIMIT_NOFILE, kMostFiles, kMostFiles);
 #ifndef HL_SANITIZED  // sanitizers reserve terabytes of addresses
-  const rlimit memory{limits.memory_bytes, limits.memory_bytes};
-  setrlimit(RLIMIT_AS, &memory);
+  setLimit(RLIMIT_AS, limits.memory_bytes, limits.memory_bytes);
 #endif
 }
 
-[[noreturn]] void runChild(int fd, const IsolationLimits& limits,
-                           const std::function<Model(const std::function<void(double)>&)>& parse) {
-  for (const int handled : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGINT, SIGTERM}) signal(handled, SIG_DFL);
-  setLimits(limits);
-  const int quiet = open("/dev/null", O_WRONLY);  // parsers chat
-  dup2(quiet, STDERR_FILENO);
-  dup2(quiet, STDOUT_FILENO);
-  const auto report = [fd](double fraction) {
-    const char tag = 'p';
-    if (!sendAll(fd, &tag, 1) || !sendAll(fd, &fraction, sizeof fraction)) _exit(1);
-  };
+// What the parser gives, or why it gives nothing, goes through the pipe.
+void answer(PartSender& out, bool sandboxed, const Parse& parse) {
   std::string failure;
   try {
-    sendModel(fd, parse(report));
-    _exit(0);
+    Model model = parse([&](double fraction) { out.progress(fraction); });
+    if (!sandboxed) model.warnings.emplace_back("was read without a sandbox: this kernel has none");
+    return out.model(model);
   } catch (const std::bad_alloc&) {
     failure = "needs more memory than it may have";
   } catch (const std::exception& error) {
     failure = error.what();
   }
-  const char tag = 'e';
-  const std::vector<char> text(failure.begin(), failure.end());
-  (void)(sendAll(fd, &tag, 1) && sendList(fd, text));
+  out.failure(failure);
+}
+
+[[noreturn]] void runChild(int pipe, const IsolationLimits& limits, const Parse& parse) {
+  for (const int handled : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGINT, SIGTERM, SIGXCPU, SIGPIPE})
+    signal(handled, SIG_DFL);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const int out = closeDescriptorsBut(pipe);
+  setLimits(limits);
+  PartSender sender(out);
+  try {
+    answer(sender, allowReadingOnly(), parse);
+  } catch (const std::exception&) {
+    _exit(1);
+  }
   _exit(0);
 }
 
-// Reads records until the model, an error, or the end of the pipe.
-bool receiveResult(int fd, Model& model, std::string& failure, const std::function<void(double)>& progress) {
-  char tag = 0;
-  while (receiveAll(fd, &tag, 1)) {
-    if (tag == 'm') return receiveModel(fd, model);
-    if (tag == 'e') {
-      std::vector<char> text;
-      if (receiveList(fd, text)) failure.assign(text.begin(), text.end());
-      return false;
-    }
-    double fraction = 0;
-    if (tag != 'p' || !receiveAll(fd, &fraction, sizeof fraction)) return false;
-    if (progress) progress(fraction);
+/// A child process, and the end of the pipe that it writes to. Ends with this object.
+class Child {
+ public:
+  Child(const IsolationLimits& limits, const Parse& parse) {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) throw Error(std::string("no pipe: ") + std::strerror(errno));
+    id_ = fork();
+    if (id_ == 0) runChild(ends[1], limits, parse);
+    const int error = errno;
+    close(ends[1]);
+    pipe_ = ends[0];
+    if (id_ > 0) return;
+    close(pipe_);
+    throw Error(std::string("no process to read it in: ") + std::strerror(error));
   }
-  return false;
-}
+  ~Child() { end(); }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  int pipe() const { return pipe_; }
+  /// Processor time that it has used; of a child that is gone, what it was last time.
+  double cpu_s() {
+    clockid_t clock{};
+    timespec used{};
+    if (clock_getcpuclockid(id_, &clock) == 0 && clock_gettime(clock, &used) == 0)
+      cpu_s_ = static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+    return cpu_s_;
+  }
+  /// Kills it where it still runs; else what waitpid() tells of its own end, though it be only just under way.
+  int end() {
+    if (id_ <= 0) return status_;
+    kill(id_, SIGKILL);
+    while (waitpid(id_, &status_, 0) < 0 && errno == EINTR) {
+    }
+    id_ = 0;
+    close(pipe_);
+    return status_;
+  }
+
+ private:
+  pid_t id_ = 0;
+  int pipe_ = -1, status_ = 0;
+  double cpu_s_ = 0;
+};
+
+/// Bytes of the pipe, as long as the child keeps to its time.
+class PipeReader {
+ public:
+  PipeReader(Child& child, const IsolationLimits& limits)
+      : child_(child), limits_(limits), begin_ns_(monotonicNow_ns()), active_ns_(begin_ns_) {}
+
+  /// False at the end of the pipe. Throws hl::Error when the time is over.
+  bool read(void* data, std::size_t size) {
+    char* at = static_cast<char*>(data);
+    while (size > 0) {
+      if (!await()) continue;
+      const ssize_t got = ::read(child_.pipe(), at, size);
+      if (got < 0 && errno == EINTR) continue;
+      if (got <= 0) return false;
+      at += got;
+      size -= static_cast<std::size_t>(got);
+    }
+    return true;
+  }
+
+ private:
+  // Whether there is something to be read, within a moment.
+  bool await() {
+    constexpr int kLook_ms = 100;
+    constexpr double kWorks_s = 1e-3;  // of the processor: more than looking whether a file is there
+    pollfd ready{child_.pipe(), POLLIN, 0};
+    const bool there = poll(&ready, 1, kLook_ms) > 0;
+    const std::int64_t now_ns = monotonicNow_ns();
+    const double cpu_s = child_.cpu_s();
+    if (there || cpu_s > cpu_s_ + kWorks_s) {
+      active_ns_ = now_ns;
+      cpu_s_ = cpu_s;
+    }
+    if (1e-9 * static_cast<double>(now_ns - begin_ns_) > limits_.wall_s) throw Error(kTooLong);
+    if (1e-9 * static_cast<double>(now_ns - active_ns_) > limits_.idle_s) throw Error(kWaits);
+    return there;
+  }
+
+  Child& child_;
+  const IsolationLimits& limits_;
+  std::int64_t begin_ns_, active_ns_;
+  double cpu_s_ = 0;
+};
 
 std::string causeOf(int status) {
-  if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL)) {
-    return "reading it takes too long: the file is corrupt, or too large";
-  }
+  if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL)) return kTooLong;
   if (WIFSIGNALED(status)) return "its reader crashed: the file is corrupt";
   return "its reader stopped: the file is corrupt";
 }
 
-// The first line only: errors are one line.
-std::string firstLine(const std::string& text) { return text.substr(0, text.find_first_of("\r\n")); }
+// Takes in messages until the model is whole.
+Model receive(Child& child, const IsolationLimits& limits, const std::function<void(double)>& progress) {
+  PipeReader pipe(child, limits);
+  PartCollector collector(limits.memory_bytes);
+  std::string bytes;
+  proto::ReadingPart part;
+  for (std::uint32_t length = 0; pipe.read(&length, sizeof length);) {
+    if (length > kMostPartBytes) throw Error(kGarbage);
+    bytes.resize(length);
+    if (!pipe.read(bytes.data(), length)) break;
+    if (!part.ParseFromString(bytes)) throw Error(kGarbage);
+    const PartCollector::State state = collector.add(part, length, progress);
+    if (state == PartCollector::State::kFailed) throw Error(collector.failure());
+    if (state == PartCollector::State::kWhole) return collector.take();
+  }
+  throw Error(causeOf(child.end()));
+}
 
 }  // namespace
 
-Model runIsolated(const std::string& name, const IsolationLimits& limits,
-                  const std::function<Model(const std::function<void(double)>&)>& parse,
+Model runIsolated(const std::string& name, const IsolationLimits& limits, const Parse& parse,
                   const std::function<void(double)>& progress) {
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) throw Error(name + ": no pipe: " + std::strerror(errno));
-  const pid_t child = fork();
-  if (child < 0) {
-    close(ends[0]);
-    close(ends[1]);
-    throw Error(name + ": no process to read it in: " + std::strerror(errno));
+  IsolationLimits bounded = limits;
+  bounded.memory_bytes = std::min<std::uint64_t>(limits.memory_bytes, machineMemory_bytes());
+  try {
+    Child child(bounded, parse);
+    return receive(child, bounded, progress);
+  } catch (const Error& error) {
+    throw Error(name + ": " + error.what());
   }
-  if (child == 0) {
-    close(ends[0]);
-    runChild(ends[1], limits, parse);
-  }
-  close(ends[1]);
-  Model model;
-  std::string failure;
-  const bool whole = receiveResult(ends[0], model, failure, progress);
-  close(ends[0]);
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (!whole) throw Error(name + ": " + (failure.empty() ? causeOf(status) : firstLine(failure)));
-  return model;
 }
 
 }  // namespace hl

@@ -1,7 +1,8 @@
-// Isolated: runs a parser of foreign files in a child process with limits on time and memory, so that a corrupt or
-// hostile file ends the child and not HL.
+// Isolated: runs a parser of foreign files in a child process that may only read files and answer, with limits on time
+// and memory. A corrupt or hostile file ends the child and not HL, and what comes of it is checked.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 
@@ -11,11 +12,16 @@ namespace hl {
 
 struct IsolationLimits {
   unsigned cpu_s = 120;  ///< processor time of the parser
+  /// Of the parser, and of the model that it gives. Or the machine's memory, where that is less.
   std::size_t memory_bytes = std::size_t{12} << 30;
+  double wall_s = 600;  ///< from beginning to end
+  double idle_s = 10;   ///< without using the processor or giving anything: it waits for what will not come
 };
 
 /// Forks, runs `parse` in the child and returns its model. Throws hl::Error (with `name` in front) with what parse
-/// threw, or with what became of the child. Call it before the program starts threads: only the calling one goes along.
+/// threw, or with what became of the child; then it is gone. The child has no descriptors but its pipe, and a sandbox
+/// where the kernel has one (io/sandbox.h); where it has none, the model has a warning. Call it before the program
+/// starts threads: only the calling one goes along.
 /// `progress` is called here, with fractions that the child's parse reports through its argument.
 Model runIsolated(const std::string& name, const IsolationLimits& limits,
                   const std::function<Model(const std::function<void(double)>& report)>& parse,

@@ -4,6 +4,9 @@
 
 #include <assimp/Importer.hpp>
 #include <assimp/ProgressHandler.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -114,6 +117,18 @@ bool anyMesh(const aiScene& scene, bool (*has)(const aiMesh&)) {
   return false;
 }
 
+// assimp refuses an OBJ file of less than 16 bytes, which one point is: such a file gets blank lines at its end.
+const aiScene* readScene(Assimp::Importer& importer, const std::string& path) {
+  constexpr std::size_t kLeastObj = 16;
+  std::error_code error;
+  if (endingOf(path) != ".obj" || std::filesystem::file_size(path, error) >= kLeastObj || error)
+    return importer.ReadFile(path, aiProcess_Triangulate);
+  std::ifstream in(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  text.append(kLeastObj, '\n');
+  return importer.ReadFileFromMemory(text.data(), text.size(), aiProcess_Triangulate, "obj");
+}
+
 }  // namespace
 
 bool assimpReads(const std::string& ending) {
@@ -124,7 +139,7 @@ bool assimpReads(const std::string& ending) {
 Model parseWithAssimp(const std::string& path, const std::function<void(double)>& report) {
   Assimp::Importer importer;
   importer.SetProgressHandler(new Progress(report));  // owned by the importer
-  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
+  const aiScene* scene = readScene(importer, path);
   if (scene == nullptr) throw Error(std::string("cannot be understood: ") + importer.GetErrorString());
   Model model;
   GltfHaptics haptics = hapticsOf(path);

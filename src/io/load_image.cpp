@@ -21,16 +21,16 @@ namespace gil = boost::gil;
 
 constexpr std::size_t kMostTexels = std::size_t{64} << 20;
 
-void checkSize(std::size_t width, std::size_t height) {
+void checkSize(std::size_t width, std::size_t height, std::size_t most_texels) {
   if (width == 0 || height == 0) throw Error("has no pixels");
-  if (width > kMostTexels / height) throw Error("has more than 64 million pixels");
+  if (width > most_texels / height) throw Error("has more than " + std::to_string(most_texels) + " pixels");
 }
 
 // Sixteen bits a grey level hold both an 8-bit and a 16-bit file. Pictures run from the top row down, textures up.
 template <typename Tag>
-Texture decode(const std::string& path, Tag tag) {
+Texture decode(const std::string& path, Tag tag, std::size_t most_texels) {
   const auto info = gil::read_image_info(path, tag)._info;
-  checkSize(info._width, info._height);
+  checkSize(info._width, info._height, most_texels);
   gil::gray16_image_t image;
   gil::read_and_convert_image(path, image, tag);
   const auto view = gil::flipped_up_down_view(gil::const_view(image));
@@ -51,18 +51,19 @@ void checkJpegEnds(const std::string& path) {
   if (end == std::string::npos || end < bytes.size() / 2) throw Error("is torn: the end of the JPEG is missing");
 }
 
-Texture decode(const std::string& path, const std::string& ending) {
+}  // namespace
+
+Texture decodeImage(const std::string& path, std::size_t most_texels) {
+  const std::string ending = endingOf(path);
   try {
     if (ending != ".png") checkJpegEnds(path);
-    return ending == ".png" ? decode(path, gil::png_tag{}) : decode(path, gil::jpeg_tag{});
+    return ending == ".png" ? decode(path, gil::png_tag{}, most_texels) : decode(path, gil::jpeg_tag{}, most_texels);
   } catch (const Error&) {
     throw;
   } catch (const std::exception&) {
     throw Error(ending == ".png" ? "is not a sound PNG file" : "is not a sound JPEG file");
   }
 }
-
-}  // namespace
 
 Texture loadImage(const std::string& path) {
   const std::string ending = endingOf(path);
@@ -74,10 +75,11 @@ Texture loadImage(const std::string& path) {
       path, {},
       [&](const auto&) {
         Model carrier;
-        carrier.textures.push_back(decode(path, ending));
+        carrier.textures.push_back(decodeImage(path, kMostTexels));
         return carrier;
       },
       nullptr);
+  if (model.textures.size() != 1) throw Error(path + ": its reader gave no picture");
   model.textures.front().name = std::filesystem::path(path).filename().string();
   return std::move(model.textures.front());
 }

@@ -1,6 +1,7 @@
 // Images for textures: PNG and JPEG, as grey levels.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "scene/texture.h"
@@ -10,5 +11,8 @@ namespace hl {
 /// Reads a .png, .jpg or .jpeg file; colours become their luminance, transparency is left out, 16-bit PNG keeps its
 /// depth. The lowest row of the picture is v = 0. Decodes in a child process, like model files. Throws hl::Error.
 Texture loadImage(const std::string& path);
+
+/// For loadImage, in the child: by the ending. Throws hl::Error, without the path.
+Texture decodeImage(const std::string& path, std::size_t most_texels);
 
 }  // namespace hl

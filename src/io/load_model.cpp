@@ -56,25 +56,46 @@ void dropBadIndices(Model& model) {
     model.warnings.push_back("skipped " + std::to_string(dropped) + " elements with vertices that do not exist");
 }
 
+// A list that is not one for each vertex is none; what is no number is zero.
+template <typename Vector>
+void keepFinite(std::vector<Vector>& list, std::size_t vertices) {
+  if (list.size() != vertices) list.clear();
+  for (Vector& v : list) {
+    if (!v.allFinite()) v.setZero();
+  }
+}
+
+// A scan may be vertices and nothing else: then each is a point. Where a file has any face or edge, vertices without
+// one are left over from modelling.
+void makePointsOfBareVertices(Model& model) {
+  if (model.elements() > 0) return;
+  for (std::uint32_t i = 0; i < model.positions.size(); ++i) model.points.push_back(i);
+}
+
+// What the reader gives, made sound and small, in its own process.
+Model parsed(const std::string& path, const std::string& ending, const std::function<void(double)>& report) {
+  Model model = coinReads(ending) ? parseWithCoin(path, report) : parseWithAssimp(path, report);
+  makePointsOfBareVertices(model);
+  dropBadIndices(model);
+  keepFinite(model.normals, model.positions.size());
+  keepFinite(model.texcoords, model.positions.size());
+  // Both readers keep coordinates as float, whatever the file has.
+  model.reading = {weldVertices(model), true};
+  return model;
+}
+
 }  // namespace
 
 Model loadModel(const std::string& path, const LoadOptions& options) {
   checkReadable(path);
   const std::string ending = endingOf(path);
-  const bool coin = coinReads(ending);
-  if (!coin && !assimpReads(ending)) {
+  if (!coinReads(ending) && !assimpReads(ending)) {
     throw Error(path + ": files ending in '" + ending +
                 "' cannot be read; obj, ply, stl, gltf, glb, x3d, wrl and others can");
   }
   Model model = runIsolated(
-      path, {}, [&](const auto& report) { return coin ? parseWithCoin(path, report) : parseWithAssimp(path, report); },
-      options.progress);
-  dropBadIndices(model);
-  if (model.normals.size() != model.positions.size()) model.normals.clear();
-  if (model.texcoords.size() != model.positions.size()) model.texcoords.clear();
+      path, options.limits, [&](const auto& report) { return parsed(path, ending, report); }, options.progress);
   if (model.elements() == 0) throw Error(path + ": there is no geometry in it");
-  // Both readers keep coordinates as float, whatever the file has.
-  model.reading = {weldVertices(model), true};
   model.name = std::filesystem::path(path).filename().string();
   if (options.progress) options.progress(1);
   return model;

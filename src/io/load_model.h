@@ -5,11 +5,13 @@
 #include <functional>
 #include <string>
 
+#include "io/isolated.h"
 #include "scene/model.h"
 
 namespace hl {
 
 struct LoadOptions {
+  IsolationLimits limits{};                       ///< of the process that reads a model file
   std::function<void(double fraction)> progress;  ///< called while reading, 0..1
   /// Of a scene file, all objects together: some 5 GB. A few lines can ask for any number of copies.
   std::size_t most_primitives = 40'000'000;
@@ -17,8 +19,9 @@ struct LoadOptions {
 };
 
 /// Reads a file as it is: node transforms applied, polygons triangulated, normals and texture coordinates kept, lines
-/// and points too; vertices that are the same to the bit are joined. What was skipped is in the model's warnings. Throws hl::Error, one line, for a file that cannot be
-/// used. Parses in a child process: call it before the program starts threads.
+/// and points too; vertices that are the same to the bit are joined. What was skipped is in the model's warnings.
+/// Throws hl::Error, one line, for a file that cannot be used. Parses in a child process: call it before the program
+/// starts threads.
 Model loadModel(const std::string& path, const LoadOptions& options = {});
 
 /// For loadModel, in the child. Each throws on failure.

@@ -203,14 +203,28 @@ TEST(LoadModel, BadNumbersAreSkippedWithACount) {
   EXPECT_EQ(snapshot->primitives, 1u);
 }
 
-TEST(Isolated, AParserThatCrashesOrNeverEndsIsAnError) {
-  const auto crash = [](const auto&) -> Model { std::abort(); };
-  EXPECT_THROW(runIsolated("crash", {}, crash, nullptr), Error);
-  const auto spin = [](const auto&) -> Model {
-    for (std::atomic<int> i = 0;; ++i) {
-    }
-  };
-  EXPECT_THROW(runIsolated("spin", {1, std::size_t{1} << 30}, spin, nullptr), Error);
+constexpr char kPlyHead[] =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+
+TEST(LoadModel, VerticesAloneArePoints) {
+  const Model ply = loadModel(fileWith("p.ply", std::string(kPlyHead) + "end_header\n0 0 0\n1 0 0\n0 1 0\n"));
+  EXPECT_EQ(ply.points.size(), 3u);
+  EXPECT_EQ(ply.positions[ply.points[1]], Vec3(1, 0, 0));
+  EXPECT_EQ(loadModel(fileWith("bare.obj", "v 0 0 0\nv 1 2 3\nv 4 5 6\n")).points.size(), 3u);
+}
+
+TEST(LoadModel, OnePointIsAModel) {
+  for (const char* obj : {"v 1 2 3\n", "v 1 2 3\np 1\n"}) {
+    const Model model = loadModel(fileWith("one.obj", obj));
+    ASSERT_EQ(model.points.size(), 1u) << obj;
+    EXPECT_EQ(model.positions[model.points[0]], Vec3(1, 2, 3));
+  }
+}
+
+TEST(LoadModel, VerticesBesideFacesAreNoPoints) {
+  const std::string ply = std::string(kPlyHead) +
+                          "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n";
+  EXPECT_TRUE(loadModel(fileWith("f.ply", ply + "3 0 1 2\n")).points.empty());
 }
 
 TEST(LoadModel, TornFilesNeverCrash) {

@@ -1,0 +1,151 @@
+#include "io/model_parts.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "base/error.h"
+
+namespace hl {
+
+namespace {
+
+constexpr std::size_t kMostTextures = 10'000, kMostMaterials = 0xffff, kMostWarnings = 1000, kLongestLine = 1000;
+
+// As errors and warnings are: one line, of a length to be read.
+std::string oneLine(const std::string& text) {
+  return text.substr(0, std::min(kLongestLine, text.find_first_of("\r\n")));
+}
+
+bool writeAll(int descriptor, const char* data, std::size_t size) {
+  while (size > 0) {
+    const ssize_t written = ::write(descriptor, data, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    data += written;
+    size -= static_cast<std::size_t>(written);
+  }
+  return true;
+}
+
+}  // namespace
+
+void PartSender::send(const proto::ReadingPart& part) {
+  const std::size_t size = part.ByteSizeLong();
+  if (size > kMostPartBytes) throw Error("a part of it is too large");
+  const auto length = static_cast<std::uint32_t>(size);
+  bytes_.resize(sizeof length + size);
+  std::memcpy(bytes_.data(), &length, sizeof length);
+  part.SerializeToArray(bytes_.data() + sizeof length, static_cast<int>(size));
+  if (!writeAll(descriptor_, bytes_.data(), bytes_.size())) throw Error("nobody reads what is read");
+}
+
+void PartSender::progress(double fraction) {
+  proto::ReadingPart part;
+  part.set_progress(fraction);
+  send(part);
+}
+
+void PartSender::failure(const std::string& why) {
+  proto::ReadingPart part;
+  part.set_failure(oneLine(why));
+  send(part);
+}
+
+void PartSender::model(const Model& model) {
+  proto::ReadingPart part;
+  for (std::size_t i = 0; i < std::min(model.warnings.size(), kMostWarnings); ++i) {
+    part.set_warning(oneLine(model.warnings[i]));
+    send(part);
+  }
+  for (const Texture& texture : model.textures) {
+    toProto(texture, *part.mutable_texture());
+    send(part);
+    part.Clear();
+  }
+  for (const Material& material : model.materials) {
+    toProto(material, *part.mutable_material());
+    send(part);
+    part.Clear();
+  }
+  part.set_joined_vertices(model.reading.joined_vertices);
+  send(part);
+  part.set_single_precision(model.reading.single_precision);
+  send(part);
+  writeMesh(model, [&](proto::RecordedShape& mesh) {
+    part.mutable_mesh()->Swap(&mesh);
+    send(part);
+    part.mutable_mesh()->Swap(&mesh);  // its lists are filled again
+  });
+}
+
+void PartCollector::addTexture(const proto::RecordedTexture& texture) {
+  if (rest_.textures.size() >= kMostTextures) throw Error("it has too many textures");
+  rest_.textures.push_back(textureOf(texture));
+}
+
+void PartCollector::addMaterial(const proto::Values& material) {
+  if (rest_.materials.size() >= kMostMaterials) throw Error("it has too many materials");
+  rest_.materials.push_back(materialOf(material, rest_.textures.size()));
+}
+
+void PartCollector::addWarning(const std::string& warning) {
+  if (rest_.warnings.size() >= kMostWarnings) throw Error("it has too many warnings");
+  rest_.warnings.push_back(oneLine(warning));
+}
+
+PartCollector::State PartCollector::addMesh(const proto::RecordedShape& part) {
+  mesh_.add(part);
+  return part.continues() ? State::kMore : State::kWhole;
+}
+
+PartCollector::State PartCollector::add(const proto::ReadingPart& part, std::size_t bytes,
+                                        const std::function<void(double)>& progress) {
+  if (bytes > left_) throw Error("it is too large");
+  left_ -= bytes;
+  switch (part.body_case()) {
+    case proto::ReadingPart::kProgress:
+      if (progress && std::isfinite(part.progress())) progress(std::clamp(part.progress(), 0.0, 1.0));
+      return State::kMore;
+    case proto::ReadingPart::kFailure:
+      failure_ = oneLine(part.failure());
+      return State::kFailed;
+    case proto::ReadingPart::kWarning:
+      addWarning(part.warning());
+      return State::kMore;
+    case proto::ReadingPart::kTexture:
+      addTexture(part.texture());
+      return State::kMore;
+    case proto::ReadingPart::kMaterial:
+      addMaterial(part.material());
+      return State::kMore;
+    case proto::ReadingPart::kJoinedVertices:
+      rest_.reading.joined_vertices = part.joined_vertices();
+      return State::kMore;
+    case proto::ReadingPart::kSinglePrecision:
+      rest_.reading.single_precision = part.single_precision();
+      return State::kMore;
+    case proto::ReadingPart::kMesh:
+      return addMesh(part.mesh());
+    case proto::ReadingPart::BODY_NOT_SET:
+      break;
+  }
+  throw Error("it says nothing");
+}
+
+Model PartCollector::take() {
+  Model model = mesh_.take();
+  const std::size_t materials = model.materials.size();
+  model.materials = std::exchange(rest_.materials, {});
+  if (model.materials.size() != materials) throw Error("its materials do not agree");
+  model.textures = std::move(rest_.textures);
+  model.warnings = std::move(rest_.warnings);
+  model.reading = rest_.reading;
+  return model;
+}
+
+}  // namespace hl

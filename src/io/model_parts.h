@@ -1,0 +1,60 @@
+// A model on its way through a pipe, in the messages of proto/reading.proto. The sender is not trusted: what comes is
+// bounded before memory is taken for it, and checked as a recording is.
+#pragma once
+
+#include <reading.pb.h>
+
+#include <cstddef>
+#include <functional>
+#include <string>
+
+#include "io/recorded_model.h"
+#include "scene/model.h"
+
+namespace hl {
+
+/// The longest message: an image of 64 million texels, which are 4 bytes each, and what goes with it.
+inline constexpr std::uint32_t kMostPartBytes = (std::uint32_t{64} << 22) + 65'536;
+
+/// Writes messages to a descriptor. What can not be written is lost: then nobody reads.
+class PartSender {
+ public:
+  explicit PartSender(int descriptor) : descriptor_(descriptor) {}
+  void progress(double fraction);
+  void failure(const std::string& why);
+  /// The whole model, then nothing else.
+  void model(const Model& model);
+
+ private:
+  void send(const proto::ReadingPart& part);
+
+  int descriptor_;
+  std::string bytes_;
+};
+
+/// Puts a model together from messages.
+class PartCollector {
+ public:
+  enum class State { kMore, kWhole, kFailed };
+
+  /// `most_bytes`: of the messages together, and of the mesh.
+  explicit PartCollector(std::size_t most_bytes) : mesh_(most_bytes), left_(most_bytes) { rest_.materials.clear(); }
+  /// Throws hl::Error for a message that makes no sense, or one too many. `bytes` is its length.
+  State add(const proto::ReadingPart& part, std::size_t bytes, const std::function<void(double)>& progress);
+  const std::string& failure() const { return failure_; }
+  /// When it is whole, once.
+  Model take();
+
+ private:
+  State addMesh(const proto::RecordedShape& part);
+  void addTexture(const proto::RecordedTexture& texture);
+  void addMaterial(const proto::Values& material);
+  void addWarning(const std::string& warning);
+
+  Model rest_;  // all but the mesh
+  MeshReader mesh_;
+  std::size_t left_;
+  std::string failure_;
+};
+
+}  // namespace hl

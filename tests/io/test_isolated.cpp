@@ -1,0 +1,333 @@
+// The process that reads foreign files: whatever it does, the program that asked gets one line in bounded time and
+// keeps no process and no descriptor; and it can do nothing but read.
+#include "io/isolated.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <filesystem>
+#include <vector>
+
+#include "base/error.h"
+#include "io/load_image.h"
+#include "io/load_model.h"
+#include "io/model_parts.h"
+#include "io/sandbox.h"
+#include "temp_folder.h"
+
+namespace hl {
+namespace {
+
+namespace fs = std::filesystem;
+using test::fileWith;
+using test::tempFile;
+using Report = std::function<void(double)>;
+
+IsolationLimits small() {
+  IsolationLimits limits;
+  limits.cpu_s = 5;
+  limits.memory_bytes = std::size_t{1} << 30;
+  return limits;
+}
+
+/// For a reader that is to be refused anyway: not waited for.
+IsolationLimits hasty() {
+  IsolationLimits limits = small();
+  limits.idle_s = 0.5;
+  return limits;
+}
+
+std::ptrdiff_t openDescriptors() {
+  return std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator());
+}
+
+/// What is wrong with an error that ended a reading, or "".
+std::string faultOf(const std::string& line, std::ptrdiff_t descriptors_before) {
+  if (line.empty()) return "it was taken";
+  if (line.find('\n') != std::string::npos) return "more than one line: " + line;
+  if (openDescriptors() != descriptors_before) return "a descriptor is left open";
+  if (waitpid(-1, nullptr, WNOHANG) != -1 || errno != ECHILD) return "a process is left";
+  return "";
+}
+
+std::string refusalOf(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string refusalOf(const std::function<Model(const Report&)>& parse, const IsolationLimits& limits = small()) {
+  return refusalOf([&] { runIsolated("it", limits, parse, nullptr); });
+}
+
+void put(const void* data, std::size_t size) {
+  if (::write(kKeptDescriptor, data, size) < 0) _exit(1);
+}
+void putLength(std::uint32_t length) { put(&length, sizeof length); }
+
+Model points(std::size_t count) {
+  Model model;
+  for (std::size_t i = 0; i < count; ++i) model.positions.emplace_back(static_cast<double>(i), 0, 0);
+  for (std::uint32_t i = 0; i < count; ++i) model.points.push_back(i);
+  return model;
+}
+
+struct Misdeed {
+  const char* name;
+  std::function<Model(const Report&)> parse;
+};
+
+std::vector<Misdeed> misdeeds() {
+  return {
+      {"crashes", [](const Report&) -> Model { std::abort(); }},
+      {"is killed",
+       [](const Report&) -> Model {
+         raise(SIGKILL);
+         return {};
+       }},
+      {"stops", [](const Report&) -> Model { _exit(0); }},
+      {"waits",
+       [](const Report&) -> Model {
+         for (;;) pause();
+       }},
+      {"closes its pipe and waits",
+       [](const Report&) -> Model {
+         close(kKeptDescriptor);
+         for (;;) pause();
+       }},
+      {"writes garbage",
+       [](const Report&) -> Model {
+         for (int i = 0; i < 1000; ++i) put("garbage", 7);
+         _exit(0);
+       }},
+      {"writes a message that is none",
+       [](const Report&) -> Model {
+         putLength(4);
+         put("\xff\xff\xff\xff", 4);
+         _exit(0);
+       }},
+      {"says nothing",
+       [](const Report&) -> Model {
+         for (;;) putLength(0);
+       }},
+      {"tells of more than it writes",
+       [](const Report&) -> Model {
+         putLength(1'000'000);
+         put("x", 1);
+         _exit(0);
+       }},
+      {"tells of 4 GB",
+       [](const Report&) -> Model {
+         putLength(0xffffffff);
+         for (;;) pause();
+       }},
+      {"gives indices that are out of range",
+       [](const Report&) {
+         Model model = points(3);
+         model.points[1] = 3;
+         return model;
+       }},
+      {"gives normals that are too few",
+       [](const Report&) {
+         Model model = points(3);
+         model.normals.resize(2, Vec3::Zero());
+         return model;
+       }},
+      {"gives a texture without texels",
+       [](const Report&) {
+         Model model = points(3);
+         model.textures.resize(1);
+         return model;
+       }},
+      {"gives a material that is none",
+       [](const Report&) {
+         Model model = points(3);
+         model.materials[0].stiffness = -1;
+         return model;
+       }},
+      {"throws many lines", [](const Report&) -> Model { throw Error("one\ntwo\nthree"); }},
+  };
+}
+
+TEST(Isolated, WhateverTheReaderDoesIsOneLineAndNothingIsLeft) {
+  for (const Misdeed& misdeed : misdeeds()) {
+    const std::ptrdiff_t before = openDescriptors();
+    EXPECT_EQ(faultOf(refusalOf(misdeed.parse, hasty()), before), "") << misdeed.name;
+  }
+}
+
+TEST(Isolated, AModelComesBackWhole) {
+  Model model = points(600'000);
+  model.normals.assign(model.positions.size(), Vec3::UnitZ());
+  model.textures = {makeTexture("noise", 32)};
+  model.materials.resize(2);
+  model.materials[1].textureOf(Quantity::kStiffness) = {0, 0.25, 1};
+  model.point_materials.assign(model.points.size(), 1);
+  model.warnings = {"one", "two"};
+  model.reading = {7, true};
+  double last = 0;
+  const Model back = runIsolated(
+      "it", small(),
+      [&](const Report& report) {
+        report(0.25);
+        return model;
+      },
+      [&](double fraction) { last = fraction; });
+  EXPECT_EQ(last, 0.25);
+  EXPECT_TRUE(back.positions == model.positions && back.normals == model.normals && back.points == model.points &&
+              back.point_materials == model.point_materials && back.materials == model.materials);
+  EXPECT_EQ(back.textures[0].texels, model.textures[0].texels);
+  EXPECT_EQ(back.warnings, model.warnings);
+  EXPECT_EQ(back.reading.joined_vertices, 7u);
+}
+
+TEST(Isolated, TimeOfTheProcessorIsBounded) {
+  const auto spin = [](const Report&) -> Model {
+    for (std::atomic<int> i = 0;; ++i) {
+    }
+  };
+  IsolationLimits limits = small();
+  limits.cpu_s = 1;
+  EXPECT_NE(refusalOf(spin, limits).find("takes too long"), std::string::npos);
+}
+
+TEST(Isolated, SoIsAllTimeEvenOfOneThatTellsOfProgress) {
+  const auto chat = [](const Report& report) -> Model {
+    for (;; usleep(1000)) report(0.5);
+  };
+  IsolationLimits limits = small();
+  limits.wall_s = 1;
+  EXPECT_NE(refusalOf(chat, limits).find("takes too long"), std::string::npos);
+}
+
+#ifndef HL_SANITIZED  // sanitizers reserve terabytes of addresses: there the limit is not set
+TEST(Isolated, MemoryIsBounded) {
+  const auto hungry = [](const Report&) -> Model {
+    const std::vector<char> all(std::size_t{16} << 30, 'x');
+    return points(all.size() % 2);
+  };
+  EXPECT_NE(refusalOf(hungry).find("more memory"), std::string::npos);
+}
+#endif
+
+TEST(Isolated, AModelOfMoreThanTheMemoryIsRefusedWhereItComes) {
+  const auto endless = [](const Report&) -> Model {
+    PartSender sender(kKeptDescriptor);
+    proto::RecordedShape shape;
+    writeMesh(points(200'000), [&](proto::RecordedShape& part) { shape = part; });
+    shape.set_continues(true);
+    proto::ReadingPart part;
+    *part.mutable_mesh() = shape;
+    const std::string bytes = part.SerializeAsString();
+    for (;;) {
+      putLength(static_cast<std::uint32_t>(bytes.size()));
+      put(bytes.data(), bytes.size());
+    }
+  };
+  const std::ptrdiff_t before = openDescriptors();
+  EXPECT_EQ(faultOf(refusalOf(endless), before), "");
+}
+
+/// Tries what a reader of files has no use for; the names of what was not refused.
+std::string held() {
+  std::string done;
+  const std::string file = tempFile("written");
+  if (open(file.c_str(), O_WRONLY | O_CREAT, 0600) >= 0) done += " create";
+  if (open(tempFile("there").c_str(), O_RDWR) >= 0) done += " write";
+  if (truncate(tempFile("there").c_str(), 0) == 0) done += " truncate";
+  if (unlink(tempFile("there").c_str()) == 0) done += " unlink";
+  if (mkdir(tempFile("made").c_str(), 0700) == 0) done += " mkdir";
+  if (socket(AF_INET, SOCK_STREAM, 0) >= 0) done += " socket";
+  if (socket(AF_UNIX, SOCK_STREAM, 0) >= 0) done += " unix-socket";
+  if (kill(getppid(), 0) == 0) done += " signal";
+  const rlimit more{RLIM_INFINITY, RLIM_INFINITY};
+  if (setrlimit(RLIMIT_CPU, &more) == 0) done += " limit";
+  const pid_t child = fork();
+  if (child == 0) _exit(0);
+  if (child > 0) done += " fork";
+  if (open(tempFile("there").c_str(), O_RDONLY) < 0) done += " and can not read";
+  return done;
+}
+
+TEST(Isolated, TheReaderCanOnlyRead) {
+  fileWith("there", "something");
+  constexpr int kAboveThePipe = 50;
+  const int opened = open(tempFile("there").c_str(), O_RDWR), secret = fcntl(opened, F_DUPFD, kAboveThePipe);
+  close(opened);
+  const std::string refusal = refusalOf([&](const Report&) -> Model {
+    char byte = 0;
+    throw Error("done:" + held() + (::write(secret, "x", 1) == 1 ? " inherited" : "") +
+                (::read(secret, &byte, 1) == 1 ? " read" : ""));
+  });
+  close(secret);
+  EXPECT_EQ(refusal, "it: done:");
+}
+
+TEST(Sandbox, LandlockAloneKeepsFilesFromBeingWritten) {
+  fileWith("there", "something");
+  const pid_t child = fork();
+  if (child == 0) {
+    if (!allowReadingByLandlock()) _exit(2);
+    const bool wrote = open(tempFile("there").c_str(), O_RDWR) >= 0 || mkdir(tempFile("made").c_str(), 0700) == 0;
+    const bool read = open(tempFile("there").c_str(), O_RDONLY) >= 0;
+    _exit(wrote || !read ? 1 : 0);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (WEXITSTATUS(status) == 2) GTEST_SKIP() << "this kernel has no Landlock";
+  EXPECT_EQ(status, 0);
+}
+
+/// Model files that name files which are none.
+std::vector<std::string> trapsWith(const std::string& name) {
+  return {fileWith("trap.obj", "mtllib " + name + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n"),
+          fileWith("trap.wrl", "#VRML V2.0 utf8\nInline { url \"" + name + "\" }\n"),
+          fileWith("trap.gltf", R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
+    "bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":")" +
+                                    name + R"("}]})")};
+}
+
+TEST(LoadModel, AFileThatNamesAFifoDoesNotWaitForIt) {
+  mkfifo(tempFile("fifo").c_str(), 0600);
+  LoadOptions options;
+  options.limits = hasty();
+  for (const std::string& path : trapsWith("fifo")) {
+    const std::ptrdiff_t before = openDescriptors();
+    const std::string fault = faultOf(refusalOf([&] { loadModel(path, options); }), before);
+    EXPECT_TRUE(fault.empty() || fault == "it was taken") << path << ": " << fault;
+  }
+  EXPECT_NE(refusalOf([&] { loadModel(trapsWith("fifo")[0], options); }).find("waits"), std::string::npos);
+}
+
+TEST(LoadModel, AnEndlessFileIsNoHarm) {
+  fs::create_symlink("/dev/zero", tempFile("endless"));
+  LoadOptions options;
+  options.limits = hasty();
+  for (const std::string& path : trapsWith("endless")) {
+    const std::ptrdiff_t before = openDescriptors();
+    const std::string fault = faultOf(refusalOf([&] { loadModel(path, options); }), before);
+    EXPECT_TRUE(fault.empty() || fault == "it was taken") << path << ": " << fault;
+  }
+  for (const char* name : {"direct.obj", "direct.ply", "direct.wrl", "direct.png"}) {
+    fs::create_symlink("/dev/zero", tempFile(name));
+    const bool image = std::string(name).ends_with("png");
+    EXPECT_NE(refusalOf([&] { image ? void(loadImage(tempFile(name))) : void(loadModel(tempFile(name), options)); }),
+              "");
+  }
+}
+
+}  // namespace
+}  // namespace hl
