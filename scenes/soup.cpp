@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <random>
 
+#include "base/plain_math.h"
+
 namespace hl {
 
 namespace {
@@ -30,7 +32,7 @@ Vec3 direction(std::mt19937_64& random) {
 
 Model makeSoup(std::size_t triangles) {
   std::mt19937_64 random(1997);
-  const double edge = kSoupSide / std::cbrt(static_cast<double>(triangles));
+  const double edge = kSoupSide / plain::cubeRoot(static_cast<double>(triangles));
   // A lone triangle would be as large as the box and stick out of it.
   const double reach = std::min(edge / std::sqrt(3.0), 0.25 * kSoupSide);  // of a corner from the middle
   Model model;
@@ -44,7 +46,7 @@ Model makeSoup(std::size_t triangles) {
     const Vec3 v = normal.cross(u);
     for (int corner = 0; corner < 3; ++corner) {
       const double angle = 2 * M_PI / 3 * corner;
-      model.positions.push_back(middle + reach * (std::cos(angle) * u + std::sin(angle) * v));
+      model.positions.push_back(middle + reach * (plain::cos(angle) * u + plain::sin(angle) * v));
       model.normals.push_back(normal);
     }
     model.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/plain_math.h"
+
 namespace hl {
 
 namespace {
@@ -58,8 +60,8 @@ Model makeTerrain(std::size_t triangles) {
   return makeSurface(n, n, [](double u, double v) {
     const double x = kSide * (u - 0.5);
     const double z = kSide * (0.5 - v);
-    const double y = 0.009 * std::sin(40 * x + 0.4) * std::cos(33 * z) + 0.004 * std::sin(87 * x + 51 * z) +
-                     0.0015 * std::sin(190 * x - 0.8) * std::sin(170 * z + 0.3);
+    const double y = 0.009 * plain::sin(40 * x + 0.4) * plain::cos(33 * z) + 0.004 * plain::sin(87 * x + 51 * z) +
+                     0.0015 * plain::sin(190 * x - 0.8) * plain::sin(170 * z + 0.3);
     return Vec3(x, y, z);
   });
 }
@@ -69,8 +71,8 @@ Model makeBumpySphere(std::size_t triangles) {
   return makeSurface(2 * std::max(2u, n), std::max(2u, n), [](double u, double v) {
     const double azimuth = 2 * M_PI * u;
     const double polar = M_PI * (1 - v);
-    const Vec3 d(std::sin(polar) * std::sin(azimuth), std::cos(polar), std::sin(polar) * std::cos(azimuth));
-    return Vec3((0.1 + 0.004 * std::sin(22 * d.x()) * std::sin(19 * d.y() + 0.5) * std::sin(24 * d.z())) * d);
+    const Vec3 d(plain::sin(polar) * plain::sin(azimuth), plain::cos(polar), plain::sin(polar) * plain::cos(azimuth));
+    return Vec3((0.1 + 0.004 * plain::sin(22 * d.x()) * plain::sin(19 * d.y() + 0.5) * plain::sin(24 * d.z())) * d);
   });
 }
 
@@ -93,7 +95,7 @@ Model makePits(std::size_t triangles) {
 Model makeHalfPipe(std::size_t triangles) {
   const std::uint32_t n = cells(triangles);
   return makeSurface(n, n, [](double u, double v) {
-    return Vec3(-0.5 * kSide * std::cos(M_PI * u), -0.5 * kSide * std::sin(M_PI * u), kSide * (0.5 - v));
+    return Vec3(-0.5 * kSide * plain::cos(M_PI * u), -0.5 * kSide * plain::sin(M_PI * u), kSide * (0.5 - v));
   });
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/plain_math.h"
+
 namespace hl {
 
 namespace {
@@ -48,8 +50,8 @@ class Builder {
     for (int i = 0; i < sides; ++i) {
       const double a = 2 * M_PI * i / sides;
       const double b = 2 * M_PI * (i + 1) / sides;
-      const Vec3 da = std::cos(a) * e + std::sin(a) * f;
-      const Vec3 db = std::cos(b) * e + std::sin(b) * f;
+      const Vec3 da = plain::cos(a) * e + plain::sin(a) * f;
+      const Vec3 db = plain::cos(b) * e + plain::sin(b) * f;
       plate(from + r_from * da, from + r_from * db, to + r_to * db, to + r_to * da);
       triangle(from, from + r_from * db, from + r_from * da);
       triangle(to, to + r_to * da, to + r_to * db);
@@ -79,7 +81,7 @@ void addLeg(Builder& b, double x, double z, double stride) {
   b.cylinder(ankle - Vec3(0, 0.010, 0), ankle - Vec3(0, 0.014, 0), 0.016, 0.016, 48);
   for (int toe = 0; toe < 4; ++toe) {
     const double a = M_PI / 4 + toe * M_PI / 2;
-    b.box(ankle + Vec3(0.016 * std::cos(a), -0.011, 0.016 * std::sin(a)), Vec3(0.004, 0.003, 0.004), 0.7);
+    b.box(ankle + Vec3(0.016 * plain::cos(a), -0.011, 0.016 * plain::sin(a)), Vec3(0.004, 0.003, 0.004), 0.7);
   }
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/plain_math.h"
+
 namespace hl {
 
 double Drag::holding() const {
@@ -16,7 +18,7 @@ double Drag::rubbing(double slip) const {
   double sum = 0;
   for (const Rub& rub : rubs) {
     const double ratio = rub.stribeck_m > 0 ? slip / rub.stribeck_m : 1;
-    const double left = rub.stribeck_m > 0 ? std::exp(-ratio * ratio) : 0;
+    const double left = rub.stribeck_m > 0 ? plain::expOfNegative(-ratio * ratio) : 0;
     sum += rub.dynamic_m + left * (rub.static_m - rub.dynamic_m);
   }
   return sum;

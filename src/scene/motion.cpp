@@ -8,6 +8,8 @@
 
 #include <cmath>
 
+#include "base/plain_math.h"
+
 namespace hl {
 
 namespace {
@@ -25,7 +27,7 @@ Coefficients coefficientsOf(double angle) {
     return {1 - q2 / 6 * (1 - q2 / 20 * (1 - q2 / 42)), 0.5 - q2 / 24 * (1 - q2 / 30 * (1 - q2 / 56)),
             1.0 / 6 - q2 / 120 * (1 - q2 / 42 * (1 - q2 / 72))};
   }
-  return {std::sin(angle) / angle, (1 - std::cos(angle)) / q2, (angle - std::sin(angle)) / (q2 * angle)};
+  return {plain::sin(angle) / angle, (1 - plain::cos(angle)) / q2, (angle - plain::sin(angle)) / (q2 * angle)};
 }
 
 Mat3 crossMatrix(const Vec3& w) {
@@ -41,8 +43,11 @@ Mat3 slideMatrix(const Vec3& turn) {
 }
 
 Vec3 rotationVector(const Mat3& rotation) {
-  const Eigen::AngleAxisd turn(rotation);
-  return turn.angle() * turn.axis();
+  const Eigen::Quaterniond half(rotation);  // cos and sin of half the turn, the latter along its axis
+  const double sine = half.vec().norm();
+  if (!(sine > 0)) return Vec3::Zero();
+  const double angle = 2 * plain::angleOf(std::abs(half.w()), sine);
+  return (half.w() < 0 ? -angle : angle) / sine * half.vec();
 }
 
 }  // namespace

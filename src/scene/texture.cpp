@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/plain_math.h"
 #include "base/splitmix64.h"
 
 namespace hl {
@@ -99,7 +100,7 @@ Texture makeTexture(const std::string& kind, std::size_t size, double duty) {
     const double u = (static_cast<double>(i) + 0.5) / static_cast<double>(size);
     if (kind == "checker") return (2 * i < size) == (2 * j < size) ? 1.0f : 0.0f;
     if (kind == "lines") return u < duty ? 1.0f : 0.0f;
-    if (kind == "sine") return static_cast<float>(0.5 + 0.5 * std::sin(2 * M_PI * u));
+    if (kind == "sine") return static_cast<float>(0.5 + 0.5 * plain::sin(2 * M_PI * u));
     if (kind == "noise") return noiseAt(i, j);
     throw Error("there is no procedural texture '" + kind + "'; there are checker, lines, sine and noise");
   };
