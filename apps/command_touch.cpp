@@ -84,6 +84,7 @@ void runTouch(TouchOptions options) {
   options.settings.explore = options.explore == "on";
   if (options.scale > 0) options.settings.world_per_device = options.scale;
   if (!options.hand_path.empty()) options.settings.script = readScript(options.hand_path);
+  giveFreedMemoryBack();
   const sigset_t signals = blockSignals();
   HttpServerSettings http;
   http.port = static_cast<std::uint16_t>(options.port);
@@ -92,7 +93,8 @@ void runTouch(TouchOptions options) {
   TouchSession& session = touch.device();
   if (options.settings.script && !session.hasHand())
     throw Error("--hand-path moves a simulated hand, and a person holds this device");
-  HttpServer server(http, makeViewerFeed(session, HL_VERSION), &touch, makeTouchMonitor(session, &touch));
+  HttpServer server(http, makeViewerFeed(session, HL_VERSION, touch.memory().member()), &touch,
+                    makeTouchMonitor(session, &touch));
   touch.start();
   server.start();
   fmt::print(stderr, "{}: {} primitives; device: {}, {:g} Hz; 1 mm of the hand is {:.4g} mm of the scene\n",

@@ -58,6 +58,7 @@ void reloadToken(HttpServer& server, const std::string& file) {
 
 void serve(HldOptions& options) {
   openEventLog(options.log_format, options.log_level);
+  giveFreedMemoryBack();
   const sigset_t signals = blockSignals();
   options.touch.hand_firm = options.hand == "firm";
   options.touch.explore = options.explore == "on";
@@ -68,7 +69,8 @@ void serve(HldOptions& options) {
   const HttpServerSettings http = serverSettings(options);
   TouchServer touch(sceneOf(options.scene), {options.touch, options.devices, http.limits, HL_VERSION, options.device});
   TouchSession& session = touch.device();
-  HttpServer server(http, makeViewerFeed(session, HL_VERSION), &touch, makeTouchMonitor(session, &touch));
+  HttpServer server(http, makeViewerFeed(session, HL_VERSION, touch.memory().member()), &touch,
+                    makeTouchMonitor(session, &touch));
   touch.start();
   server.start();
   logReady(options, session, server.port());

@@ -63,7 +63,11 @@ void addLimitOptions(CLI::App& app, Limits& limits) {
   addLimit(app, "upload-bytes", limits.upload_bytes, "bytes of uploads that no frame has used yet, of one client");
   addLimit(app, "frames", limits.frames_Hz, "frames a second of one client");
   addLimit(app, "states", limits.state_rate_Hz, "states a second to one client");
-  addLimit(app, "memory-bytes", limits.memory_bytes, "bytes of memory for the scenes of all clients and their uploads");
+  addLimit(
+      app, "memory-bytes", limits.memory_bytes,
+      "bytes of memory for all scenes and whatever else clients and pages make the server keep; the program itself "
+      "takes about 100 MB beside");
+  addLimit(app, "kept", limits.kept, "clients that have gone and whose objects stay");
   addLimit(app, "sessions", limits.sessions, "clients at once");
   addLimit(app, "pages", limits.pages, "viewer pages at once");
   addLimit(app, "connections", limits.connections, "sockets at once");

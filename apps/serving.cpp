@@ -1,5 +1,6 @@
 #include "serving.h"
 
+#include <malloc.h>
 #include <time.h>
 
 #include <algorithm>
@@ -7,6 +8,16 @@
 #include <filesystem>
 
 namespace hl {
+
+// Large pieces go back one by one, at a size that does not grow with what was freed before. Small ones share one arena:
+// each arena keeps what it once was given, and a locked page cannot be given back from its middle.
+void giveFreedMemoryBack() {
+  constexpr int kLarge_bytes = 128 * 1024;
+  mallopt(M_MMAP_THRESHOLD, kLarge_bytes);
+  mallopt(M_TRIM_THRESHOLD, kLarge_bytes);
+  mallopt(M_MMAP_MAX, 1 << 20);
+  mallopt(M_ARENA_MAX, 1);
+}
 
 sigset_t blockSignals() {
   sigset_t signals;

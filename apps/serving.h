@@ -10,6 +10,10 @@
 
 namespace hl {
 
+/// Has malloc() return what is freed to the system, so that the memory of this process is what it uses. Before any
+/// other thread is started.
+void giveFreedMemoryBack();
+
 /// Blocks SIGINT, SIGTERM and SIGHUP in this thread and all that it starts, so that waitForSignal() takes them; SIGPIPE
 /// is ignored. Call it before any thread is started.
 sigset_t blockSignals();

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "scene/by_key.h"
 #include "server/decode_frame.h"
+#include "server/message_size.h"
 #include "touch.h"
 
 namespace hl::fuzz {
@@ -30,8 +31,8 @@ SceneEdit framesBefore() {
   shape.shape = makeShape(std::move(model));
   call.call = 1;
   SceneEdit edit;
-  edit.objects[1] = {std::move(shape)};
-  edit.world = {std::move(call)};
+  edit.objects[1] = std::make_shared<SceneItems>(1, std::move(shape));
+  edit.world = std::make_shared<SceneItems>(1, std::move(call));
   return edit;
 }
 
@@ -45,23 +46,23 @@ std::vector<Pose> posesOf(const EditableScene& scene) {
 
 void readMessage(MessageForm form, std::string_view bytes) {
   proto::ClientMessage message;
+  if (form == MessageForm::kBinary) outlineOf(bytes);
   const std::string refusal = decodeMessage(form, bytes, message);
   if (!refusal.empty()) {
     require(refusal.find('\n') == std::string::npos);
     return;
   }
   Uploads uploads;
-  if (message.has_upload()) uploads[message.upload().id()] = message.upload().part();
-  for (const proto::Upload& upload : message.uploads().parts()) uploads[upload.id()].MergeFrom(upload.part());
-  EditableScene scene(1, smallLimits());
+  if (message.has_upload()) uploads[message.upload().id()].push_back(message.upload().part());
+  for (const proto::Upload& upload : message.uploads().parts()) uploads[upload.id()].push_back(upload.part());
+  const MemoryBudget budget(std::uint64_t{1} << 20);
+  EditableScene scene(1, smallLimits(), budget);
   scene.apply(framesBefore());
   const std::vector<Pose> before = posesOf(scene);
   const std::vector<Instance> shown = followOn(scene.placed(), {}, 0, 0).instances;
   try {
-    MemoryBudget budget(std::uint64_t{1} << 20);
-    MemoryShare memory(budget);
-    const DecodedFrame frame = decodeFrame(message.frame(), uploads, smallLimits(), memory, [](double) {});
-    scene.apply(frame.edit, memory);
+    DecodedFrame frame = decodeFrame(message.frame(), uploads, smallLimits(), budget, [](double) {});
+    scene.apply(std::move(frame.edit));
   } catch (const Error& error) {
     require(posesOf(scene) == before && error.what()[0] != '\0');
     return;

@@ -68,6 +68,10 @@ class FakeSession : public ClientSession {
     record_->changed.notify_all();
   }
 
+  void refuse(const proto::ClientMessage&, const std::string& why) override {
+    replies_.emplace_back().mutable_refusal()->set_text(why);
+  }
+
   bool take(proto::ServerReply& reply) override {
     if (!replies_.empty()) {
       reply = std::move(replies_.front());

@@ -49,7 +49,7 @@ extern "C" {
  *         token=TEXT       where the server asks for one; default: the environment's HL_TOKEN
  *         device=N         number of the device whose state is wanted; default 0
  *         master=0|1       wants to set the device's proxy, workspace and spring; default 1; the first client gets it
- *         keep=0|1         objects stay touchable when the conversation ends, until `name` opens again; default 0
+ *         keep=0|1         objects stay touchable when the conversation ends, until `name` shows a frame; default 0
  *         state_rate=HZ    how often the state comes; default 60; 0: never
  *         timeout=SECONDS  how long to wait for the welcome; default 10
  *         ca=FILE          hls: certificates (PEM) that the server's is checked against; default: the system's

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "base/error.h"
@@ -56,6 +57,7 @@ void SceneDecoder::addVertices(Model& model, const proto::Primitives& in, const 
   model.normals.reserve(static_cast<std::size_t>(in.normals_size() / 3));
   for (int i = 0; i < in.normals_size(); i += 3)
     model.normals.push_back(Vec3(in.normals(i), in.normals(i + 1), in.normals(i + 2)).stableNormalized());
+  model.texcoords.reserve(static_cast<std::size_t>(in.texcoords_size() / 2));
   for (int i = 0; i < in.texcoords_size(); i += 2) model.texcoords.emplace_back(in.texcoords(i), in.texcoords(i + 1));
 }
 
@@ -63,7 +65,12 @@ void SceneDecoder::addElements(Model& model, const proto::Primitives& in, const 
   if (in.triangles_size() % 3 != 0) fail(where + ".triangles", where + ".triangles must hold 3 numbers each");
   if (in.segments_size() % 2 != 0) fail(where + ".segments", where + ".segments must hold 2 numbers each");
   const std::string triangles = where + ".triangles", segments = where + ".segments", points = where + ".points";
-  model.triangles.reserve(static_cast<std::size_t>(in.triangles_size() / 3));
+  std::size_t in_polygons = 0;
+  for (const proto::Polygon& polygon : in.polygons())
+    in_polygons += static_cast<std::size_t>(std::max(0, polygon.vertices_size() - 2));
+  model.triangles.reserve(static_cast<std::size_t>(in.triangles_size() / 3) + in_polygons);
+  model.segments.reserve(static_cast<std::size_t>(in.segments_size() / 2));
+  model.points.reserve(static_cast<std::size_t>(in.points_size()));
   for (int i = 0; i < in.triangles_size(); i += 3)
     model.triangles.push_back({vertex(model, in.triangles(i), triangles), vertex(model, in.triangles(i + 1), triangles),
                                vertex(model, in.triangles(i + 2), triangles)});

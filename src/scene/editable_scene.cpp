@@ -43,7 +43,36 @@ std::uint64_t mixed(std::uint64_t key, std::uint64_t next) {
   return splitmix64(key + (next << 1 | 1) * 0xbf58476d1ce4e5b9U);
 }
 
+constexpr std::size_t kPointer_bytes = 96;  // what a shared pointer takes to share, with malloc()'s own
+
 }  // namespace
+
+std::size_t bytesOfItems(std::size_t count) { return kObject_bytes + count * sizeof(SceneItem); }
+
+std::size_t bytesApart(const SceneItem& item) {
+  std::size_t bytes = item.placement ? kPointer_bytes + sizeof(Placement) : 0;
+  if (!item.surface) return bytes;
+  bytes += kPointer_bytes + sizeof(SurfaceChange);
+  for (const auto& use : item.surface->textures) {
+    if (use) bytes += use->texture.capacity();
+  }
+  return bytes;
+}
+
+std::size_t bytesInWorld() {
+  constexpr std::size_t kSnapshots = 5;
+  constexpr std::size_t kInSnapshot = sizeof(Instance) + sizeof(Box) + 64;  // a leaf of the tree over them
+  constexpr std::size_t kInLayout = 768;                                    // poses and places, and the page's message
+  constexpr std::size_t kWhileGrowing = 3;                                  // of a list that is twice as long at a time
+  return kWhileGrowing * sizeof(PlacedShape) + kSnapshots * kInSnapshot + kInLayout;
+}
+
+std::shared_ptr<SceneItems> copyOf(const SceneItems& items, const MemoryBudget& budget) {
+  MemoryShare memory(budget);
+  memory.take(bytesOfItems(items.size()));
+  for (const SceneItem& item : items) memory.take(bytesApart(item));
+  return withShare(std::make_shared<SceneItems>(items), std::move(memory));
+}
 
 void ModelSizes::add(const Model& model, const std::string& where) {
   constexpr std::size_t kVertices = 3;  // for one primitive, at most, when none shares any
@@ -57,12 +86,13 @@ void ModelSizes::add(const Model& model, const std::string& where) {
 // One walk over the calls of a state, from the world down to the shapes.
 class EditableScene::Flattening {
  public:
-  Flattening(const EditableScene& scene, const State& state, MemoryShare& memory)
-      : scene_(scene), state_(state), memory_(memory), copies_(scene.limits_) {}
+  Flattening(const EditableScene& scene, const State& state)
+      : scene_(scene), state_(state), memory_(scene.memory_), copies_(scene.limits_) {}
 
-  void run() { visit(*state_.world, {{}, {}, 0, 0, mixed(0, scene_.session_)}); }
-
-  std::vector<PlacedShape> placed;
+  PlacedShapes run() {
+    visit(*state_.world, {{}, {}, 0, 0, mixed(0, scene_.session_)});
+    return withShare(std::make_shared<const std::vector<PlacedShape>>(std::move(placed_)), std::move(memory_));
+  }
   std::map<Stretched, std::shared_ptr<const Shape>> stretched;
 
  private:
@@ -81,7 +111,8 @@ class EditableScene::Flattening {
 
   const EditableScene& scene_;
   const State& state_;
-  MemoryShare& memory_;
+  MemoryShare memory_;  // of what is placed and its surfaces
+  std::vector<PlacedShape> placed_;
   std::vector<std::uint32_t> path_;
   std::size_t visits_ = 0;
   ModelSizes copies_;  // a few bytes of matrix make one
@@ -97,7 +128,8 @@ void EditableScene::Flattening::visit(const SceneItems& items, const Call& calle
       throw Error("there are too many calls in the world; the limit on objects in it is " +
                   std::to_string(scene_.limits_.instances));
     const std::uint64_t key = mixed(mixed(caller.key, item.call), occurrences[item.call]++);
-    const Call call{caller.placement * item.placement, item.surface.over(caller.surface), caller.object,
+    const Call call{item.placement ? caller.placement * *item.placement : caller.placement,
+                    item.surface ? item.surface->over(caller.surface) : caller.surface, caller.object,
                     item.name.value_or(caller.name), key};
     item.shape ? add(item, call) : enter(item, call);
   }
@@ -119,7 +151,7 @@ void EditableScene::Flattening::enter(const SceneItem& item, const Call& call) {
 
 void EditableScene::Flattening::add(const SceneItem& item, const Call& call) {
   if (item.shape->primitives.empty()) return;
-  if (placed.size() >= scene_.limits_.instances)
+  if (placed_.size() >= scene_.limits_.instances)
     throw Error("there are more than " + std::to_string(scene_.limits_.instances) + " objects in the world");
   const Polar polar = polarOf(call.placement.linear);
   const Pose pose{polar.rotation, call.placement.offset};
@@ -128,7 +160,8 @@ void EditableScene::Flattening::add(const SceneItem& item, const Call& call) {
   if (shape->primitives.empty()) return;
   if (!pose.origin.allFinite() || !withinReach(box.min) || !withinReach(box.max))
     throw Error("an object lies farther than 1e9 m from the origin: nothing so far can be touched");
-  placed.push_back({shape, surfacesOf(call.surface), pose, call.key, scene_.session_, call.object, call.name});
+  memory_.take(bytesInWorld());
+  placed_.push_back({shape, surfacesOf(call.surface), pose, call.key, scene_.session_, call.object, call.name});
 }
 
 // A new copy takes its hierarchy from the one that it follows on, or else from the shape.
@@ -143,15 +176,18 @@ std::shared_ptr<const Shape> EditableScene::Flattening::shapeOf(const std::share
   const auto& made = scene_.stretched_;
   const auto known = made.find({shape->geometry, upper});
   if (known != made.end()) return slot = known->second;
-  memory_.take(bytesToMake(shape->model));
-  Model model = shape->model;
-  placeModel(model, {stretch, Vec3::Zero()});
   const auto before = made.find({shape->before, upper});
-  return slot = makeShape(std::move(model), before == made.end() ? *shape : *before->second);
+  return slot = makeCounted(scene_.memory_, bytesToMake(shape->model), [&] {
+           Model model = shape->model;
+           placeModel(model, {stretch, Vec3::Zero()});
+           return makeShape(std::move(model), before == made.end() ? *shape : *before->second);
+         });
 }
 
 std::shared_ptr<const Surfaces> EditableScene::Flattening::surfacesOf(const SurfaceChange& change) {
   if (last_surfaces_ && change == last_change_) return last_surfaces_;
+  memory_.take(kPointer_bytes + sizeof(Surfaces) + sizeof(Material) +
+               2 * kQuantities * sizeof(std::shared_ptr<const Texture>));
   auto surfaces = std::make_shared<Surfaces>();
   Material material = change.material();
   for (std::size_t i = 0; i < kQuantities; ++i) {
@@ -167,13 +203,13 @@ std::shared_ptr<const Surfaces> EditableScene::Flattening::surfacesOf(const Surf
   return last_surfaces_ = std::move(surfaces);
 }
 
-EditableScene::State EditableScene::after(const SceneEdit& edit) const {
+EditableScene::State EditableScene::after(SceneEdit edit) const {
   State next = state_;
   for (const std::string& name : edit.deleted_textures) next.textures.erase(name);
   for (const std::uint32_t id : edit.deleted_objects) next.objects.erase(id);
-  for (const auto& [name, texture] : edit.textures) next.textures[name] = texture;
-  for (const auto& [id, items] : edit.objects) next.objects[id] = std::make_shared<SceneItems>(items);
-  if (edit.world) next.world = std::make_shared<SceneItems>(*edit.world);
+  for (auto& [name, texture] : edit.textures) next.textures[name] = std::move(texture);
+  for (auto& [id, items] : edit.objects) next.objects[id] = std::move(items);
+  if (edit.world) next.world = std::move(edit.world);
   return next;
 }
 
@@ -196,40 +232,33 @@ void EditableScene::checkLimits(const State& state) const {
   add(*state.world);
 }
 
-void EditableScene::apply(const SceneEdit& edit) {
-  MemoryShare uncounted;
-  apply(edit, uncounted);
+EditableScene::Next EditableScene::prepare(SceneEdit edit) const {
+  Next next;
+  next.state = after(std::move(edit));
+  checkLimits(next.state);
+  Flattening flattening(*this, next.state);
+  next.placed = flattening.run();
+  next.stretched = std::move(flattening.stretched);
+  return next;
 }
 
-void EditableScene::apply(const SceneEdit& edit, MemoryShare& memory) {
-  State next = after(edit);
-  checkLimits(next);
-  Flattening flattening(*this, next, memory);
-  flattening.run();
-  state_ = std::move(next);
-  placed_ = std::move(flattening.placed);
-  stretched_ = std::move(flattening.stretched);
+void EditableScene::show(Next& next) noexcept {
+  std::swap(state_.textures, next.state.textures);
+  std::swap(state_.objects, next.state.objects);
+  std::swap(state_.world, next.state.world);
+  std::swap(placed_, next.placed);
+  std::swap(stretched_, next.stretched);
+}
+
+void EditableScene::apply(SceneEdit edit) {
+  Next next = prepare(std::move(edit));
+  show(next);
 }
 
 std::size_t EditableScene::primitives() const {
   std::size_t sum = 0;
-  for (const PlacedShape& placed : placed_) sum += placed.shape->primitives.size();
+  for (const PlacedShape& placed : *placed_) sum += placed.shape->primitives.size();
   return sum;
-}
-
-std::size_t EditableScene::bytes() const {
-  std::size_t bytes = 0;
-  std::set<const Shape*> counted;
-  const auto add = [&](const std::shared_ptr<const Shape>& shape) {
-    if (shape && counted.insert(shape.get()).second) bytes += shape->bytes();
-  };
-  for (const auto& [name, texture] : state_.textures) bytes += texture->texels.size() * sizeof(float);
-  for (const SceneItem& item : *state_.world) add(item.shape);
-  for (const auto& [id, items] : state_.objects) {
-    for (const SceneItem& item : *items) add(item.shape);
-  }
-  for (const auto& [key, copy] : stretched_) add(copy);
-  return bytes;
 }
 
 const SceneItems* EditableScene::items(std::uint32_t object) const {
@@ -240,28 +269,37 @@ const SceneItems* EditableScene::items(std::uint32_t object) const {
 
 std::shared_ptr<const Shape> EditableScene::worn() const {
   const auto found =
-      std::find_if(placed_.begin(), placed_.end(), [](const PlacedShape& p) { return p.shape->wear > kMostWear; });
-  return found == placed_.end() ? nullptr : found->shape;
+      std::find_if(placed_->begin(), placed_->end(), [](const PlacedShape& p) { return p.shape->wear > kMostWear; });
+  return found == placed_->end() ? nullptr : found->shape;
 }
 
-void EditableScene::replace(const std::shared_ptr<const Shape>& old, const std::shared_ptr<const Shape>& rebuilt) {
+EditableScene::Next EditableScene::prepareReplaced(const std::shared_ptr<const Shape>& old,
+                                                   const std::shared_ptr<const Shape>& rebuilt) const {
+  Next next;
+  next.state = state_;
+  next.stretched = stretched_;
   const auto in = [&](std::shared_ptr<const SceneItems>& items) {
     const auto holds = [&](const SceneItem& item) { return item.shape == old; };
     if (std::none_of(items->begin(), items->end(), holds)) return;
-    SceneItems next = *items;
-    for (SceneItem& item : next) {
+    const auto replaced = copyOf(*items, memory_);
+    for (SceneItem& item : *replaced) {
       if (holds(item)) item.shape = rebuilt;
     }
-    items = std::make_shared<SceneItems>(std::move(next));
+    items = replaced;
   };
-  in(state_.world);
-  for (auto& [id, items] : state_.objects) in(items);
-  for (PlacedShape& placed : placed_) {
-    if (placed.shape == old) placed.shape = rebuilt;
-  }
-  for (auto& [key, copy] : stretched_) {
+  in(next.state.world);
+  for (auto& [id, items] : next.state.objects) in(items);
+  for (auto& [key, copy] : next.stretched) {
     if (copy == old) copy = rebuilt;
   }
+  MemoryShare memory(memory_);
+  memory.take(placed_->size() * bytesInWorld());
+  auto placed = std::make_shared<std::vector<PlacedShape>>(*placed_);
+  for (PlacedShape& one : *placed) {
+    if (one.shape == old) one.shape = rebuilt;
+  }
+  next.placed = withShare(PlacedShapes(std::move(placed)), std::move(memory));
+  return next;
 }
 
 namespace {

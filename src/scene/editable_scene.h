@@ -19,33 +19,47 @@
 
 namespace hl {
 
-/// A shape, or a call of another object; placed in the frame of the object it belongs to.
+/// A shape, or a call of another object; placed in the frame of the object it belongs to. Small, as a message of a few
+/// megabytes may hold a million: what most leave out is kept apart.
 struct SceneItem {
-  std::shared_ptr<const Shape> shape;  ///< or empty:
-  std::uint32_t call = 0;              ///< id of the object called; one that does not exist is nothing
-  Placement placement;                 ///< invertible; scales and shears too
-  SurfaceChange surface;
-  std::optional<std::uint32_t> name;  ///< absent: the caller's
+  std::shared_ptr<const Shape> shape;              ///< or empty:
+  std::uint32_t call = 0;                          ///< id of the object called; one that does not exist is nothing
+  std::optional<std::uint32_t> name;               ///< absent: the caller's
+  std::shared_ptr<const Placement> placement;      ///< invertible; scales and shears too; null: in its object's frame
+  std::shared_ptr<const SurfaceChange> surface{};  ///< null: the caller's
 };
 using SceneItems = std::vector<SceneItem>;
+/// Memory that a list takes, of so many items.
+std::size_t bytesOfItems(std::size_t count);
+/// Memory that what an item keeps apart takes, but for its shape.
+std::size_t bytesApart(const SceneItem& item);
+/// Of the same shapes. Throws hl::Error when there is no memory for it.
+std::shared_ptr<SceneItems> copyOf(const SceneItems& items, const MemoryBudget& budget);
 
 /// One frame. First what is deleted, then what is new.
 struct SceneEdit {
   std::vector<std::string> deleted_textures;
   std::vector<std::uint32_t> deleted_objects;
   std::map<std::string, std::shared_ptr<const Texture>> textures;
-  std::map<std::uint32_t, SceneItems> objects;
-  std::optional<SceneItems> world;  ///< absent: as it is
+  std::map<std::uint32_t, std::shared_ptr<SceneItems>> objects;
+  std::shared_ptr<SceneItems> world;  ///< null: as it is
 };
 
-/// What one client may have.
+/// What one client may have in its scene.
 struct SceneLimits {
-  std::size_t objects = 65'536;
-  std::size_t primitives = 40'000'000;  ///< as many again in scaled copies; and three times as many vertices
-  std::size_t instances = 16'384;
-  std::size_t texture_bytes = std::size_t{256} << 20;
-  std::size_t nesting = 32;
+  std::uint64_t objects = 100'000;        ///< definitions, however short: see kObject_bytes
+  std::uint64_t primitives = 50'000'000;  ///< with its hierarchy about 64 bytes each: 3 GiB; as many again in scaled
+                                          ///< copies, and three times as many vertices
+  std::uint64_t instances = 100'000;      ///< objects in the world, each call counted
+  std::uint64_t texture_bytes = std::uint64_t{256} << 20;
+  std::uint32_t nesting = 32;  ///< calls within calls, as deep as GL's matrix stack
 };
+
+/// Memory that an object takes beside its items, and a texture beside its texels: in two maps while they are edited.
+inline constexpr std::size_t kObject_bytes = 512;
+/// Memory that a shape in the world takes, beside the shape: placed, and as an Instance of as many snapshots as there
+/// are at once (two that the loops may be in, one that is made, two that the page draws), with its layouts.
+std::size_t bytesInWorld();
 
 /// Adds up models against the limits. Vertices count as well: some that nothing refers to fill memory all the same.
 class ModelSizes {
@@ -68,27 +82,12 @@ struct PlacedShape {
   std::uint32_t session = 0, object = 0, name = 0;
 };
 
-/// Used by one thread at a time; apply() may take long, as scaled shapes are made there.
+/// What is in the world; shared by whoever shows it.
+using PlacedShapes = std::shared_ptr<const std::vector<PlacedShape>>;
+
+/// Used by one thread at a time; prepare() may take long, as scaled shapes are made there. What is made is counted
+/// against `memory` before it is, and until nobody has it any more.
 class EditableScene {
- public:
-  EditableScene(std::uint32_t session, const SceneLimits& limits) : session_(session), limits_(limits) {}
-
-  /// Throws hl::Error, and changes nothing, when a limit is passed, calls go in a circle, or a texture is missing. What
-  /// scaled copies take is added to `memory`, which may throw.
-  void apply(const SceneEdit& edit, MemoryShare& memory);
-  void apply(const SceneEdit& edit);  ///< of memory that nobody counts
-  /// What is in the world now.
-  const std::vector<PlacedShape>& placed() const { return placed_; }
-  std::size_t primitives() const;  ///< in the world, each instance counted
-  std::size_t bytes() const;       ///< of shapes, scaled copies and textures, in the world or not
-  /// Of an object, or of the world, 0; null where there is no such object. Until the next edit.
-  const SceneItems* items(std::uint32_t object) const;
-
-  /// One in the world whose hierarchy is worn beyond kMostWear; none when there is none.
-  std::shared_ptr<const Shape> worn() const;
-  /// Puts the shape that was rebuilt from `old` where that one was.
-  void replace(const std::shared_ptr<const Shape>& old, const std::shared_ptr<const Shape>& rebuilt);
-
  private:
   struct State {
     std::map<std::string, std::shared_ptr<const Texture>> textures;
@@ -97,15 +96,49 @@ class EditableScene {
   };
   /// The geometry of a shape and the stretch that it was made with: the upper half of a symmetric matrix.
   using Stretched = std::tuple<std::uint64_t, std::array<double, 6>>;
+
+ public:
+  /// The scene as it is to be next.
+  class Next {
+    friend class EditableScene;
+    State state;
+    PlacedShapes placed;
+    std::map<Stretched, std::shared_ptr<const Shape>> stretched;
+  };
+
+  EditableScene(std::uint32_t session, const SceneLimits& limits, MemoryBudget memory = {})
+      : session_(session), limits_(limits), memory_(std::move(memory)) {}
+
+  /// Throws hl::Error when a limit is passed, there is no memory, calls go in a circle, or a texture is missing.
+  Next prepare(SceneEdit edit) const;
+  /// The same with the shape that was rebuilt from `old` where that one was.
+  Next prepareReplaced(const std::shared_ptr<const Shape>& old, const std::shared_ptr<const Shape>& rebuilt) const;
+  /// What was prepared last, with no edit since. What was there before is in `next` then.
+  void show(Next& next) noexcept;
+  /// Both: the whole edit, or it throws and changes nothing.
+  void apply(SceneEdit edit);
+
+  /// What is in the world now.
+  const std::vector<PlacedShape>& placed() const { return *placed_; }
+  const PlacedShapes& sharedPlaced() const { return placed_; }
+  std::size_t primitives() const;  ///< in the world, each instance counted
+  /// Of an object, or of the world, 0; null where there is no such object. Until the next edit.
+  const SceneItems* items(std::uint32_t object) const;
+
+  /// One in the world whose hierarchy is worn beyond kMostWear; none when there is none.
+  std::shared_ptr<const Shape> worn() const;
+
+ private:
   class Flattening;
 
-  State after(const SceneEdit& edit) const;
+  State after(SceneEdit edit) const;
   void checkLimits(const State& state) const;
 
   const std::uint32_t session_;
   const SceneLimits limits_;
+  const MemoryBudget memory_;
   State state_;
-  std::vector<PlacedShape> placed_;
+  PlacedShapes placed_ = std::make_shared<std::vector<PlacedShape>>();
   std::map<Stretched, std::shared_ptr<const Shape>> stretched_;  // those in use
 };
 

@@ -61,6 +61,14 @@ std::size_t bytesOf(const std::vector<T>& list) {
   return list.capacity() * sizeof(T);
 }
 
+// What a shape of one triangle takes: itself, its pointers, and what malloc() needs for each of its lists.
+constexpr std::size_t kSmallest = 2048;
+
+// A hierarchy's two lists end in the middle of a huge page each.
+std::size_t hierarchyBytes(std::size_t bytes) {
+  return bytes < HugePages::kPage ? bytes : bytes + 2 * HugePages::kPage;
+}
+
 std::size_t meshBytes(const Model& model) {
   return bytesOf(model.positions) + bytesOf(model.triangles) + bytesOf(model.segments) + bytesOf(model.points);
 }
@@ -178,14 +186,27 @@ std::shared_ptr<const Shape> rebuilt(const Shape& worn) {
   return shape;
 }
 
-std::size_t bytesToMake(const Model& model) {
+std::size_t bytesToMake(const ModelCounts& counts) {
   // The hierarchy of a triangle takes 19 bytes at ten million, and while it is built 60 (the peak of the process).
   constexpr std::size_t kWhileBuilt = 64;
-  return meshBytes(model) + surfaceBytes(model) + kWhileBuilt * model.elements();
+  const std::size_t elements = counts.triangles + counts.segments + counts.points;
+  return kSmallest + sizeof(Vec3) * (counts.vertices + counts.normals) + sizeof(Vec2) * counts.texcoords +
+         3 * sizeof(std::uint32_t) * counts.triangles + 2 * sizeof(std::uint32_t) * counts.segments +
+         sizeof(std::uint32_t) * counts.points + hierarchyBytes(kWhileBuilt * elements);
+}
+
+std::size_t bytesToMake(const Model& model) {
+  const ModelCounts counts{model.positions.size(), model.normals.size(),  model.texcoords.size(),
+                           model.triangles.size(), model.segments.size(), model.points.size()};
+  return bytesToMake(counts) + bytesOf(model.triangle_materials) + bytesOf(model.segment_materials) +
+         bytesOf(model.point_materials);
 }
 
 std::size_t Shape::geometryBytes() const { return meshBytes(model) + primitives.bytes() + index->stats().bytes; }
 
-std::size_t Shape::bytes() const { return geometryBytes() + surfaceBytes(model) + bytesOf(material_of); }
+std::size_t Shape::bytes() const {
+  return kSmallest + meshBytes(model) + surfaceBytes(model) + bytesOf(material_of) + primitives.bytes() +
+         hierarchyBytes(index->stats().bytes);
+}
 
 }  // namespace hl

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/memory_budget.h"
 #include "geometry/primitives.h"
 #include "geometry/spatial_index.h"
 #include "scene/model.h"
@@ -41,7 +42,7 @@ struct Shape {
 
   /// Memory of what says where things are: vertices, index lists and hierarchy.
   std::size_t geometryBytes() const;
-  /// The same with normals, texture coordinates and material numbers; textures apart.
+  /// The same with normals, texture coordinates, material numbers and the shape itself; textures apart.
   std::size_t bytes() const;
   /// Number of the primitive's material in the list of the model, or of whatever stands in for it.
   std::size_t materialOf(std::uint32_t primitive) const { return material_of.empty() ? 0 : material_of[primitive]; }
@@ -58,8 +59,25 @@ bool isSameMesh(const Shape& a, const Shape& b);
 /// refitted: that is nine times as fast as building it. Else it is built, of the same kind.
 std::shared_ptr<const Shape> makeShape(Model given, const Shape& before);
 
+/// How much a model that is not there yet will have.
+struct ModelCounts {
+  std::size_t vertices = 0, normals = 0, texcoords = 0, triangles = 0, segments = 0, points = 0;
+};
+
 /// Memory that makeShape() takes of a model at most, the model's own among it, by its numbers alone.
+std::size_t bytesToMake(const ModelCounts& counts);
 std::size_t bytesToMake(const Model& model);
+
+/// What `make` makes, a shape, is counted from before it is made until nobody has it any more: first as
+/// `bytes_to_make`, then as what it takes. Throws hl::Error, and makes nothing, when there is no room.
+template <typename Make>
+std::shared_ptr<const Shape> makeCounted(const MemoryBudget& budget, std::size_t bytes_to_make, const Make& make) {
+  MemoryShare memory(budget);
+  memory.take(bytes_to_make);
+  std::shared_ptr<const Shape> shape = make();
+  memory.set(shape->bytes());
+  return withShare(std::move(shape), std::move(memory));
+}
 
 /// Beyond this wear a hierarchy should be built anew: a query enters twice as many boxes as it did then.
 inline constexpr double kMostWear = 2;

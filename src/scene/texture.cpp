@@ -104,6 +104,7 @@ Texture makeTexture(const std::string& kind, std::size_t size, double duty) {
     if (kind == "noise") return noiseAt(i, j);
     throw Error("there is no procedural texture '" + kind + "'; there are checker, lines, sine and noise");
   };
+  texture.texels.reserve(size * size);
   for (std::size_t j = 0; j < size; ++j) {
     for (std::size_t i = 0; i < size; ++i) texture.texels.push_back(value(i, j));
   }

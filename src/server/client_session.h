@@ -7,6 +7,8 @@
 #include <memory>
 #include <string>
 
+#include "base/memory_budget.h"
+
 namespace hl {
 
 /// Made by SessionHost::connect. receive(), take() and the destructor are called by one thread at a time, the
@@ -21,6 +23,11 @@ class ClientSession {
   /// What the client has sent; never waits for the device's loops or for a build. After end() is no longer empty it
   /// does nothing.
   virtual void receive(proto::ClientMessage message) = 0;
+  /// A message that there is no memory to decode; the outline has only what tells which one it is: the number of a
+  /// frame, the ids of uploads.
+  virtual void refuse(const proto::ClientMessage& outline, const std::string& why) = 0;
+  /// Against which what carries the session counts what it keeps for it. Any thread.
+  virtual MemoryBudget memory() const { return {}; }
   /// Takes the next reply to send; false when there is none now. Answers and events come in order; of states only the
   /// newest, when it is due at the client's rate: a carrier that is slow to ask misses states and nothing else.
   virtual bool take(proto::ServerReply& reply) = 0;

@@ -4,6 +4,7 @@
 #include <hl.pb.h>
 
 #include <functional>
+#include <list>
 #include <map>
 #include <string>
 #include <vector>
@@ -12,8 +13,11 @@
 
 namespace hl {
 
-/// What a client has sent ahead of a frame, by the ids it chose.
-using Uploads = std::map<std::uint64_t, proto::Primitives>;
+/// What a client has sent ahead of a frame, by the ids it chose, in the parts that it came in.
+using Uploads = std::map<std::uint64_t, std::list<proto::Primitives>>;
+
+/// Memory that a message takes, with malloc()'s own; `counted` is its SpaceUsedLong().
+inline std::uint64_t bytesOfMessage(std::uint64_t counted) { return counted + counted / 4; }
 
 /// The items that an object has so far, null where there is none; object 0 is the world. A shape that comes in the
 /// place of another follows on it: see makeShape.
@@ -22,14 +26,16 @@ using ItemsBefore = std::function<const SceneItems*(std::uint32_t object)>;
 struct DecodedFrame {
   SceneEdit edit;
   std::size_t refits = 0;             ///< hierarchies that were refitted, not built
-  std::vector<std::string> warnings;  ///< elements that were skipped, with counts
+  std::vector<std::string> warnings;  ///< elements that were skipped, with counts; the first few items
+  MemoryShare memory;                 ///< of the edit's lists, beside what its objects take
 };
 
 /// Takes long for large meshes: call it on a builder's thread. `progress` is told the part 0..1 of the shapes that are
-/// built, and may throw to give up. What the shapes take is added to `memory`, which may throw. Throws hl::Error, one
-/// line that names the value, for what cannot be used.
-DecodedFrame decodeFrame(const proto::Frame& frame, const Uploads& uploads, const SceneLimits& limits,
-                         MemoryShare& memory, const std::function<void(double)>& progress,
+/// built, and may throw to give up. What is made is counted against `memory` before it is, and until nobody has it any
+/// more. The parts of an upload that is used are one part afterwards. Throws hl::Error, one line that names the value,
+/// for what cannot be used, and when there is no memory for it.
+DecodedFrame decodeFrame(const proto::Frame& frame, Uploads& uploads, const SceneLimits& limits,
+                         const MemoryBudget& memory, const std::function<void(double)>& progress,
                          const ItemsBefore& before = {});
 
 }  // namespace hl

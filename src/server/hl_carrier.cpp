@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "server/carrier_bell.h"
 #include "server/event_log.h"
+#include "server/message_size.h"
 
 namespace hl {
 
@@ -136,27 +137,31 @@ void HlCarrier::expectOpen() {
 asio::awaitable<void> HlCarrier::read() {
   try {
     while (!ending_) {
-      beast::flat_buffer buffer;
-      const bool whole = co_await readMessage(buffer);
+      Incoming incoming(memory_);
+      const bool whole = co_await readMessage(incoming);
       if (!whole) break;
       if (!rate_.allow(monotonicNow_ns())) {
         refuse(close_code::policy_error, RefusedBecause::kTooFast,
                "too many messages a second; send fewer, larger ones");
         break;
       }
-      co_await takeIn(buffer);
+      co_await takeIn(incoming);
     }
   } catch (const std::bad_alloc&) {
     refuse(close_code::internal_error, RefusedBecause::kFailed, "the server has not enough memory for the message");
   }
 }
 
-asio::awaitable<void> HlCarrier::takeIn(const beast::flat_buffer& buffer) {
+asio::awaitable<void> HlCarrier::takeIn(const Incoming& incoming) {
   const MessageForm form = stream_.gotText() ? MessageForm::kJson : MessageForm::kBinary;
   if (!opened_) form_ = form;
-  const auto data = buffer.cdata();
+  const auto data = incoming.buffer.cdata();
   const std::string_view bytes(static_cast<const char*>(data.data()), data.size());
-  std::optional<Ending> trouble = co_await doOn(strand_, [&] { return handle(form, bytes); });
+  std::optional<Ending> trouble = co_await doOn(strand_, [&]() -> std::optional<Ending> {
+    if (incoming.no_room.empty()) return handle(form, bytes);
+    session_->refuse(outlineOf(bytes), incoming.no_room);
+    return {};
+  });
   if (trouble) {
     end(std::move(*trouble));
   } else if (!opened_) {
@@ -167,10 +172,15 @@ asio::awaitable<void> HlCarrier::takeIn(const beast::flat_buffer& buffer) {
   bell_->ring();
 }
 
-// One whole message, or false: the connection has ended, or the message is too large and refused.
-asio::awaitable<bool> HlCarrier::readMessage(beast::flat_buffer& buffer) {
+// One whole message, or false: the connection has ended, or the message is too large and refused. Of one that there is
+// no memory for, the beginning: the rest is read and dropped.
+asio::awaitable<bool> HlCarrier::readMessage(Incoming& incoming) {
   const std::uint64_t most = opened_ ? world_.limits.message_bytes : world_.limits.open_bytes;
+  std::uint64_t size = 0;
+  incoming.buffer.max_size(most + kPiece_bytes);
   do {
+    beast::flat_buffer dropped;
+    beast::flat_buffer& buffer = hasRoom(incoming) ? incoming.buffer : dropped;
     auto [error, bytes] = co_await stream_.readSome(buffer, kPiece_bytes);
     if (error) {
       if (error == websocket::condition::protocol_violation) world_.traffic.refuse(RefusedBecause::kMalformed);
@@ -179,7 +189,8 @@ asio::awaitable<bool> HlCarrier::readMessage(beast::flat_buffer& buffer) {
       co_return false;
     }
     world_.traffic.bytes_in += bytes;
-    if (buffer.size() > most) {
+    size += bytes;
+    if (size > most) {
       refuse(close_code::too_big, RefusedBecause::kTooLarge,
              "a message of more than " + std::to_string(most) + " bytes; " +
                  (opened_ ? "send large meshes as uploads in parts" : "send Open first"));
@@ -190,12 +201,30 @@ asio::awaitable<bool> HlCarrier::readMessage(beast::flat_buffer& buffer) {
   co_return true;
 }
 
+// For another piece; the buffer is copied to one of twice its size when it is full.
+bool HlCarrier::hasRoom(Incoming& incoming) {
+  constexpr std::uint64_t kWhileGrowing = 3;
+  if (!incoming.no_room.empty()) return false;
+  try {
+    incoming.memory.takeUpTo(kWhileGrowing * (incoming.buffer.size() + kPiece_bytes));
+    return true;
+  } catch (const Error& error) {
+    incoming.no_room = error.what();
+    return false;
+  }
+}
+
 std::optional<HlCarrier::Ending> HlCarrier::handle(MessageForm form, std::string_view bytes) {
   try {
     proto::ClientMessage message;
-    std::string fault = decodeMessage(form, bytes, message);
+    MemoryShare memory(memory_);
+    auto [fault, no_room] = decodeMessage(form, bytes, message, memory);
     if (!fault.empty()) return Ending{close_code::bad_payload, std::move(fault), true, RefusedBecause::kMalformed};
     if (!session_) return open(form, std::move(message));
+    if (!no_room.empty()) {
+      session_->refuse(message, no_room);
+      return {};
+    }
     session_->receive(std::move(message));
     return {};
   } catch (const std::exception& error) {
@@ -220,6 +249,7 @@ std::optional<HlCarrier::Ending> HlCarrier::open(MessageForm form, proto::Client
   } catch (const Error& error) {
     return Ending{close_code::try_again_later, error.what(), true, RefusedBecause::kFull};
   }
+  memory_ = session_->memory();
   logEvent(LogLevel::kInfo, "session_open",
            {{"peer", connection_->peer},
             {"client", message.open().client_name()},

@@ -61,6 +61,13 @@ class HlCarrier : public std::enable_shared_from_this<HlCarrier> {
     bool refusal = false;  // the text is also sent as a fatal Refusal
     RefusedBecause because = RefusedBecause::kFailed;
   };
+  // A message on its way in, or the beginning of one that there is no memory for.
+  struct Incoming {
+    explicit Incoming(const MemoryBudget& budget) : memory(budget) {}
+    boost::beast::flat_buffer buffer{};
+    MemoryShare memory;  // of the buffer
+    std::string no_room{};
+  };
   // What the writer has to do next.
   struct Next {
     std::optional<std::string> bytes{};  // to send
@@ -73,8 +80,9 @@ class HlCarrier : public std::enable_shared_from_this<HlCarrier> {
   void refuse(boost::beast::websocket::close_code code, RefusedBecause because, std::string text);
   void expectOpen();
   boost::asio::awaitable<void> read();
-  boost::asio::awaitable<bool> readMessage(boost::beast::flat_buffer& buffer);
-  boost::asio::awaitable<void> takeIn(const boost::beast::flat_buffer& buffer);
+  boost::asio::awaitable<bool> readMessage(Incoming& incoming);
+  static bool hasRoom(Incoming& incoming);
+  boost::asio::awaitable<void> takeIn(const Incoming& incoming);
   boost::asio::awaitable<void> write();
   boost::asio::awaitable<bool> writeMessage(MessageForm form, const std::string& bytes);
   boost::asio::awaitable<void> sayGoodbye(const Ending& ending);
@@ -100,6 +108,7 @@ class HlCarrier : public std::enable_shared_from_this<HlCarrier> {
   MessageForm form_ = MessageForm::kBinary;
 
   std::unique_ptr<ClientSession> session_;  // on the strand
+  MemoryBudget memory_;                     // the session's; set with it, before it is read elsewhere
 };
 
 }  // namespace hl

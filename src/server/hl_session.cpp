@@ -6,6 +6,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "server/message_forms.h"
 #include "server/touch_server.h"
 
 namespace hl {
@@ -17,10 +18,9 @@ constexpr std::size_t kMostReplies = 4096;      // that a client has not read: i
 constexpr std::size_t kMostWaitingFrames = 64;  // that are not built yet
 constexpr std::size_t kMostRefusedUploads = 1000;
 constexpr std::size_t kMostNameLength = 100;
-
-SceneLimits sceneLimits(const Limits& limits) {
-  return {limits.objects, limits.primitives, limits.instances, limits.texture_bytes, limits.nesting};
-}
+constexpr std::size_t kUpload_bytes = 512;  // of memory, for each besides its parts
+constexpr std::size_t kPart_bytes = 64;     // for each part besides its message
+constexpr std::size_t kReply_bytes = 64;    // for each that waits besides its message
 
 // What a log shows of a name.
 std::string plain(std::string name) {
@@ -37,14 +37,16 @@ HlSession::HlSession(TouchServer& server, std::uint32_t number, std::string peer
       number_(number),
       peer_(std::move(peer)),
       wake_(std::move(wake)),
-      upload_memory_(server.publisher_.memory()),
+      memory_(server.memory_.member()),
       frame_rate_(server.settings_.limits.frames_Hz) {}
 
 HlSession::~HlSession() {
   server_.leave(*this);
   if (!place_) return;
   server_.publisher_.detach(place_);
-  if (keep_objects_) {
+  const auto replaced = server_.publisher_.takeReplaced(place_);
+  if (replaced) server_.keep(client_name_, replaced);  // this client has shown nothing in their place
+  if (keep_objects_ && !replaced) {
     server_.keep(client_name_, place_);
   } else {
     server_.publisher_.remove(place_);
@@ -85,8 +87,8 @@ void HlSession::open(const proto::Open& open) {
   keep_objects_ = open.keep_objects();
   device_ = open.device();
   master_ = open.master() && server_.becomeMaster(device_, number_);
-  server_.dropKept(client_name_);
-  place_ = server_.publisher_.join(number_, sceneLimits(server_.settings_.limits), callbacks());
+  place_ =
+      server_.publisher_.join(number_, server_.settings_.limits, memory_, callbacks(), server_.takeKept(client_name_));
   proto::ServerReply reply;
   proto::Welcome& welcome = *reply.mutable_welcome();
   welcome.set_protocol_version(kProtocolVersion);
@@ -112,27 +114,31 @@ void HlSession::keepUpload(proto::Upload upload) {
   if (id == 0) return refuse("an upload needs an id above 0");
   if (refused_uploads_.contains(id)) return;
   // In memory a message may be many times what it was on the wire: an empty polygon is two bytes there.
-  const std::uint64_t bytes = sizeof(proto::Upload) + upload.part().SpaceUsedLong();
-  if (upload_memory_.bytes() + bytes > server_.settings_.limits.upload_bytes)
+  const bool fresh = !uploads_.contains(id);
+  const std::uint64_t bytes = (fresh ? kUpload_bytes : 0) + kPart_bytes + bytesOfMessage(upload.part().SpaceUsedLong());
+  if (upload_bytes_ + bytes > server_.settings_.limits.upload_bytes)
     return end("more than " + std::to_string(server_.settings_.limits.upload_bytes) +
                " bytes of memory are in uploads that no frame has used");
   try {
-    upload_memory_.take(bytes);
+    MemoryShare memory(memory_);
+    memory.take(bytes);
+    uploads_[id].push_back(std::move(*upload.mutable_part()));
+    memory_of_upload_.try_emplace(id, memory_).first->second.add(std::move(memory));
+    upload_bytes_ += bytes;
   } catch (const Error& error) {
     return refuseUpload(id, error.what());
   }
-  bytes_of_upload_[id] += bytes;
-  auto [place, fresh] = uploads_.try_emplace(id);
-  if (fresh) {
-    place->second = std::move(*upload.mutable_part());
-  } else {
-    place->second.MergeFrom(upload.part());
-  }
+}
+
+void HlSession::freeUpload(std::uint64_t id) {
+  const auto memory = memory_of_upload_.extract(id);
+  if (memory) upload_bytes_ -= memory.mapped().bytes();
+  uploads_.erase(id);
 }
 
 // A frame that refers to it will not find it.
 void HlSession::refuseUpload(std::uint64_t id, const std::string& why) {
-  if (uploads_.erase(id) != 0) upload_memory_.set(upload_memory_.bytes() - bytes_of_upload_.extract(id).mapped());
+  freeUpload(id);
   refused_uploads_.insert(id);
   if (refused_uploads_.size() > kMostRefusedUploads) return end(why);
   refuse("upload " + std::to_string(id) + ": " + why);
@@ -145,12 +151,12 @@ Uploads HlSession::takeUploads(const proto::Frame& frame, MemoryShare& memory) {
     for (const auto& item : items) {
       if (!item.has_upload()) continue;
       refused_uploads_.erase(item.upload());
-      auto node = uploads_.extract(item.upload());
-      if (!node) continue;
-      const std::uint64_t bytes = bytes_of_upload_.extract(item.upload()).mapped();
-      upload_memory_.set(upload_memory_.bytes() - bytes);
-      memory.set(memory.bytes() + bytes);
-      used.insert(std::move(node));
+      auto parts = uploads_.extract(item.upload());
+      if (!parts) continue;
+      auto share = memory_of_upload_.extract(item.upload());
+      upload_bytes_ -= share.mapped().bytes();
+      memory.add(std::move(share.mapped()));
+      used.insert(std::move(parts));
     }
   };
   for (const proto::ObjectDefinition& object : frame.objects()) take(object.items());
@@ -167,10 +173,10 @@ void HlSession::submit(proto::Frame frame) {
   if (!frame_rate_.allow(monotonicNow_ns())) return refuse("frames come faster than the server's limit", number);
   if (server_.publisher_.waiting(place_) >= kMostWaitingFrames)
     return refuse("frames come faster than they can be built", number);
-  MemoryShare memory(server_.publisher_.memory());
+  MemoryShare memory(memory_);
   Uploads uploads = takeUploads(frame, memory);
   try {
-    memory.take(frame.SpaceUsedLong());
+    memory.take(bytesOfMessage(frame.SpaceUsedLong()));
   } catch (const Error& error) {
     return refuse(error.what(), number);
   }
@@ -209,18 +215,41 @@ void HlSession::setStateRate(double rate_Hz) {
   next_state_s_ = server_.time_s();
 }
 
+HlSession::WaitingReply HlSession::counted(proto::ServerReply reply) const {
+  MemoryShare memory(memory_);
+  memory.take(kReply_bytes + bytesOfMessage(reply.SpaceUsedLong()));
+  return {std::move(reply), std::move(memory)};
+}
+
 void HlSession::reply(proto::ServerReply reply) {
-  {
+  try {
+    WaitingReply waiting = counted(std::move(reply));
     const std::lock_guard lock(mutex_);
-    replies_.push_back(std::move(reply));
+    replies_.push_back(std::move(waiting));
     if (replies_.size() > kMostReplies && end_.empty()) end_ = "the client does not read what it is told";
+  } catch (const Error& error) {
+    return end(error.what());
   }
   wake_();
 }
 
+// Messages that there is no memory to decode: as when they had been, and had not fitted.
+void HlSession::refuse(const proto::ClientMessage& outline, const std::string& why) {
+  if (!end().empty()) return;
+  if (outline.has_frame()) {
+    last_frame_ = std::max(last_frame_, outline.frame().number());
+    return refuse(why, outline.frame().number());
+  }
+  if (outline.has_upload()) return refuseUpload(outline.upload().id(), why);
+  if (!outline.has_uploads()) return refuse(why);
+  for (const proto::Upload& upload : outline.uploads().parts()) {
+    if (end().empty() && !refused_uploads_.contains(upload.id())) refuseUpload(upload.id(), why);
+  }
+}
+
 void HlSession::refuse(const std::string& why, std::uint64_t frame) {
   proto::ServerReply reply;
-  reply.mutable_refusal()->set_text(why);
+  reply.mutable_refusal()->set_text(oneLine(why));
   reply.mutable_refusal()->set_frame(frame);
   this->reply(std::move(reply));
 }
@@ -239,10 +268,10 @@ FrameCallbacks HlSession::callbacks() {
     reply.mutable_progress()->set_built(part);
     const std::lock_guard lock(mutex_);
     // Of progress nobody has read yet the newest is enough; small frames tell of none.
-    if (!replies_.empty() && replies_.back().has_progress()) {
-      replies_.back() = std::move(reply);
+    if (!replies_.empty() && replies_.back().reply.has_progress()) {
+      replies_.back().reply = std::move(reply);
     } else if (part < 1) {
-      replies_.push_back(std::move(reply));
+      replies_.push_back(counted(std::move(reply)));
     }
   };
   callbacks.shown = [this](std::uint64_t number, std::size_t primitives, const std::vector<std::string>& warnings) {
@@ -262,7 +291,7 @@ bool HlSession::take(proto::ServerReply& reply) {
   {
     const std::lock_guard lock(mutex_);
     if (!replies_.empty()) {
-      reply = std::move(replies_.front());
+      reply = std::move(replies_.front().reply);
       replies_.pop_front();
       return true;
     }

@@ -25,6 +25,8 @@ class HlSession final : public ClientSession {
   ~HlSession() override;
 
   void receive(proto::ClientMessage message) override;
+  void refuse(const proto::ClientMessage& outline, const std::string& why) override;
+  MemoryBudget memory() const override { return memory_; }
   bool take(proto::ServerReply& reply) override;
   double nextState_s() const override;
   std::string end() const override;
@@ -37,6 +39,11 @@ class HlSession final : public ClientSession {
   void end(const std::string& why);
 
  private:
+  struct WaitingReply {
+    proto::ServerReply reply;
+    MemoryShare memory;
+  };
+
   void open(const proto::Open& open);
   void keepUploads(proto::Uploads uploads);
   void keepUpload(proto::Upload upload);
@@ -46,6 +53,8 @@ class HlSession final : public ClientSession {
   void setDevice(const proto::DeviceSettings& settings);
   void setStateRate(double rate_Hz);
   void reply(proto::ServerReply reply);
+  WaitingReply counted(proto::ServerReply reply) const;
+  void freeUpload(std::uint64_t id);
   void refuse(const std::string& why, std::uint64_t frame = 0);
   FrameCallbacks callbacks();
 
@@ -53,6 +62,7 @@ class HlSession final : public ClientSession {
   const std::uint32_t number_;
   const std::string peer_;
   const WakeCarrier wake_;
+  const MemoryBudget memory_;  // of all that this client makes the server keep
 
   // Of the carrier's thread:
   bool opened_ = false, master_ = false, keep_objects_ = false;
@@ -60,16 +70,16 @@ class HlSession final : public ClientSession {
   std::atomic<std::uint32_t> device_{0};  // read by others
   std::shared_ptr<ScenePublisher::Place> place_;
   Uploads uploads_;
-  MemoryShare upload_memory_;
-  std::set<std::uint64_t> refused_uploads_;                           // of which no part is kept
-  std::unordered_map<std::uint64_t, std::uint64_t> bytes_of_upload_;  // by the id of the upload
+  std::unordered_map<std::uint64_t, MemoryShare> memory_of_upload_;  // by the id of the upload
+  std::uint64_t upload_bytes_ = 0;                                   // of all of them
+  std::set<std::uint64_t> refused_uploads_;                          // of which no part is kept
   std::uint64_t last_frame_ = 0;
   double state_period_s_ = 0;  // 0: no states
   double next_state_s_ = 0;    // server's clock
   MessageRate frame_rate_;
 
   mutable std::mutex mutex_;  // of what other threads bring
-  std::deque<proto::ServerReply> replies_;
+  std::deque<WaitingReply> replies_;
   std::string end_;
 };
 

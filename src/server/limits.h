@@ -7,30 +7,27 @@
 #include <cstdint>
 
 #include "base/machine_memory.h"
+#include "scene/editable_scene.h"
 
 namespace hl {
 
-struct Limits {
+struct Limits : SceneLimits {
   // One message.
   std::uint64_t message_bytes = std::uint64_t{4} << 20;  ///< large meshes come in parts; 4 MiB decode in milliseconds
   std::uint64_t open_bytes = std::uint64_t{16} << 10;    ///< until Open is accepted, from whoever it may be
   double messages_Hz = 2000;  ///< per session, with bursts of one second's worth: twice what a 1 kHz client sends
 
-  // What one session may own; the SessionHost counts these.
-  std::uint64_t objects = 100'000;        ///< definitions are a few hundred bytes each: tens of megabytes
-  std::uint64_t primitives = 50'000'000;  ///< with its hierarchy about 64 bytes each: 3 GiB
-  std::uint64_t instances = 100'000;      ///< objects in the world, each call counted
-  std::uint64_t texture_bytes = std::uint64_t{256} << 20;
-  std::uint32_t nesting = 32;                           ///< calls within calls, as deep as GL's matrix stack
+  // What one session may own, beside its scene.
   std::uint64_t upload_bytes = std::uint64_t{1} << 30;  ///< of memory, not yet used by a frame: 20 M vertices
   double frames_Hz = 250;       ///< each frame builds hierarchies; no display or simulation step needs more
   double state_rate_Hz = 1000;  ///< the rate of the loops: there is nothing newer to send
 
   // The server as a whole.
-  /// Of the scenes of all clients and what they have sent ahead; half of the machine's, as what is being replaced is
-  /// still there and not counted.
+  /// Of all that clients and pages make the server keep, beside what it takes when nobody is there: a MemoryBudget with
+  /// a part set aside for each session and each kept one. Half of the machine's: other programs run on it too.
   std::uint64_t memory_bytes = machineMemory_bytes() / 2;
   std::uint32_t sessions = 32;  ///< HL clients; the SessionHost counts them
+  std::uint32_t kept = 32;      ///< clients that have gone and whose objects stay: as many as may come again at once
   std::uint32_t pages = 16;     ///< viewer WebSockets at once; each costs a copy of the scene while it is sent
   std::uint64_t page_message_bytes = 4096;  ///< a page sends a few hundred
   double page_messages_Hz = 500;            ///< a pointer moves 60 to 240 times a second

@@ -1,17 +1,21 @@
 #include "server/message_forms.h"
 
 #include <google/protobuf/util/json_util.h>
+#include <google/protobuf/util/type_resolver_util.h>
 
 #include <climits>
+#include <memory>
+#include <utility>
+
+#include "base/error.h"
+#include "server/message_size.h"
 
 namespace hl {
 
 namespace json = google::protobuf::util;
 
-namespace {
-
 std::string oneLine(std::string text) {
-  constexpr std::size_t kMost = 300;  // the parser quotes what it does not like
+  constexpr std::size_t kMost = 300;
   for (char& c : text) {
     if (c == '\n' || c == '\r' || c == '\t') c = ' ';
   }
@@ -25,19 +29,46 @@ std::string oneLine(std::string text) {
   return text;
 }
 
+namespace {
+
+// Of text that is made binary: what the parser keeps of each pair of braces.
+constexpr std::uint64_t kOfText = 16;
+
+// The binary form of the text; why it has none, or empty.
+std::string toBinary(std::string_view text, std::string& binary) {
+  static const std::unique_ptr<json::TypeResolver> resolver(json::NewTypeResolverForDescriptorPool(
+      "type.googleapis.com", google::protobuf::DescriptorPool::generated_pool()));
+  const std::string type = "type.googleapis.com/" + proto::ClientMessage::descriptor()->full_name();
+  const auto status = json::JsonToBinaryString(resolver.get(), type, {text.data(), text.size()}, &binary);
+  return status.ok() ? "" : oneLine("the text message is not a ClientMessage in JSON: " + status.ToString());
+}
+
 }  // namespace
 
-std::string decodeMessage(MessageForm form, std::string_view bytes, proto::ClientMessage& message) {
-  if (bytes.size() > INT_MAX) return "the message is too large";
-  if (form == MessageForm::kBinary) {
-    const bool good = message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()));
-    if (!good) return "the binary message is not an hl.proto.ClientMessage";
-  } else {
-    const auto status = json::JsonStringToMessage({bytes.data(), bytes.size()}, &message);
-    if (!status.ok()) return oneLine("the text message is not a ClientMessage in JSON: " + status.ToString());
+Decoding decodeMessage(MessageForm form, std::string_view bytes, proto::ClientMessage& message, MemoryShare& memory) {
+  if (bytes.size() > INT_MAX) return {.fault = "the message is too large", .no_room = ""};
+  std::string binary;
+  try {
+    if (form == MessageForm::kJson) {
+      memory.take(kOfText * bytes.size());
+      if (std::string fault = toBinary(bytes, binary); !fault.empty()) return {std::move(fault), ""};
+      bytes = binary;
+    }
+    memory.take(bytesToDecode(bytes));
+  } catch (const Error& error) {
+    message = outlineOf(bytes);
+    return {.fault = "", .no_room = error.what()};
   }
-  if (message.body_case() == proto::ClientMessage::BODY_NOT_SET) return "the message is empty or of an unknown kind";
+  if (!message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())))
+    return {.fault = "the binary message is not an hl.proto.ClientMessage", .no_room = ""};
+  if (message.body_case() == proto::ClientMessage::BODY_NOT_SET)
+    return {.fault = "the message is empty or of an unknown kind", .no_room = ""};
   return {};
+}
+
+std::string decodeMessage(MessageForm form, std::string_view bytes, proto::ClientMessage& message) {
+  MemoryShare uncounted;
+  return decodeMessage(form, bytes, message, uncounted).fault;
 }
 
 std::string encodeReply(MessageForm form, const proto::ServerReply& reply) {

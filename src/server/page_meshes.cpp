@@ -3,7 +3,9 @@
 #include <hl.pb.h>
 
 #include <chrono>
+#include <exception>
 
+#include "base/error.h"
 #include "server/feed_messages.h"
 #include "server/wire_bytes.h"
 
@@ -11,7 +13,18 @@ namespace hl {
 
 namespace {
 
-PageMessage meshMessage(std::uint32_t number, const Shape& shape, const Look& look) {
+constexpr std::uint64_t kSmallest = 1024;  // of a mesh and its message beside its lists
+
+std::uint64_t messageBytes(const Model& model, const Look& look) {
+  std::uint64_t bytes =
+      kSmallest + 3 * sizeof(float) * (model.positions.size() + model.normals.size()) +
+      2 * sizeof(float) * model.texcoords.size() +
+      sizeof(std::uint32_t) * (3 * model.triangles.size() + 2 * model.segments.size() + model.points.size());
+  for (const auto& texture : look) bytes += texture ? texture->texels.size() : 0;
+  return bytes;
+}
+
+std::string meshMessage(std::uint32_t number, const Shape& shape, const Look& look) {
   const Model& model = shape.model;
   proto::ServerMessage message;
   proto::SceneMesh& out = *message.mutable_mesh();
@@ -26,10 +39,40 @@ PageMessage meshMessage(std::uint32_t number, const Shape& shape, const Look& lo
     toProto(shape.bounds.max, *out.mutable_bounds_max());
   }
   addSurfaceImages(model, look, out);
-  return std::make_shared<const std::string>(message.SerializeAsString());
+  return message.SerializeAsString();
+}
+
+std::string emptyMessage(std::uint32_t number) {
+  proto::ServerMessage message;
+  message.mutable_mesh()->set_number(number);
+  return message.SerializeAsString();
 }
 
 }  // namespace
+
+PageMeshes::Made PageMeshes::make(std::uint32_t number, const Shape& shape, const Look& look) const {
+  try {
+    const std::uint64_t bytes = messageBytes(shape.model, look);
+    if (bytes > most_bytes_)
+      throw Error("it would take " + std::to_string(bytes / 1'000'000) + " MB, and a page is sent " +
+                  std::to_string(most_bytes_ / 1'000'000) + " MB at most: show it in several objects");
+    MemoryShare memory(memory_);
+    memory.take(2 * bytes);  // the message is put together and then written
+    auto message = std::make_shared<const std::string>(meshMessage(number, shape, look));
+    memory.set(kSmallest + message->capacity());
+    return {number, withShare(std::move(message), std::move(memory)), {}};
+  } catch (const std::exception& error) {
+    return {number, std::make_shared<const std::string>(emptyMessage(number)),
+            std::string("a mesh can be touched but is not shown: ") + error.what()};
+  }
+}
+
+std::string PageMeshes::lacking() const {
+  for (const auto& [number, mesh] : meshes_) {
+    if (!mesh.lacking.empty()) return mesh.lacking;
+  }
+  return {};
+}
 
 std::uint32_t PageMeshes::numberOf(const Instance& instance) {
   Look look = lookOf(*instance.shape, *instance.surfaces);
@@ -47,13 +90,19 @@ std::vector<std::uint32_t> PageMeshes::numbersOf(const Snapshot& snapshot) {
   return numbers;
 }
 
+// What failed as a whole is made again.
 void PageMeshes::takeMade() {
   if (!making_.valid() || making_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-  for (auto& [number, message] : making_.get()) {
-    const auto mesh = meshes_.find(number);
-    if (mesh == meshes_.end()) continue;
-    mesh->second.message = std::move(message);
-    mesh->second.shape.reset();
+  try {
+    for (Made& made : making_.get()) {
+      const auto mesh = meshes_.find(made.number);
+      if (mesh == meshes_.end()) continue;
+      mesh->second.message = std::move(made.message);
+      mesh->second.lacking = std::move(made.lacking);
+      mesh->second.shape.reset();
+    }
+  } catch (const std::exception&) {
+    making_ = {};
   }
 }
 
@@ -65,11 +114,14 @@ bool PageMeshes::ready() {
   }
   if (lacking.empty()) return true;
   if (making_.valid()) return false;
-  making_ = std::async(std::launch::async, [lacking = std::move(lacking)] {
-    Made made;
-    for (const auto& [number, mesh] : lacking) made.emplace_back(number, meshMessage(number, *mesh.shape, mesh.look));
-    return made;
-  });
+  try {
+    making_ = std::async(std::launch::async, [this, lacking = std::move(lacking)] {
+      std::vector<Made> made;
+      for (const auto& [number, mesh] : lacking) made.push_back(make(number, *mesh.shape, mesh.look));
+      return made;
+    });
+  } catch (const std::exception&) {  // no thread now: there may be one at the next state
+  }
   return false;
 }
 

@@ -93,7 +93,7 @@ void PageScene::layOut(const PageScale& scale, std::int64_t now_ns) {
   if (!waiting_) meshes_.keep(layout_->meshes);
 }
 
-// Meshes come before the layout that places them, and are forgotten after it.
+// Meshes come before the layout that places them, and are forgotten after it. What cannot be shown is told once.
 PageMessage PageScene::next(PageMemory& page) const {
   if (!layout_) return nullptr;
   if (page.layout != layout_->number) {
@@ -103,8 +103,15 @@ PageMessage PageScene::next(PageMemory& page) const {
     page.layout = layout_->number;
     return layout_->message;
   }
-  if (page.meshes.size() == layout_->meshes.size()) return nullptr;
   proto::ServerMessage message;
+  if (std::string lacking = meshes_.lacking(); lacking != page.lacking) {
+    page.lacking = std::move(lacking);
+    if (!page.lacking.empty()) {
+      message.mutable_notice()->set_text(page.lacking);
+      return std::make_shared<const std::string>(message.SerializeAsString());
+    }
+  }
+  if (page.meshes.size() == layout_->meshes.size()) return nullptr;
   for (const std::uint32_t mesh : page.meshes) {
     if (!layout_->meshes.contains(mesh)) message.mutable_forget()->add_meshes(mesh);
   }

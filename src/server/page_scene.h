@@ -24,6 +24,7 @@ struct PageMemory {
   std::set<std::uint32_t> meshes;
   std::uint32_t layout = 0;
   std::shared_ptr<const void> presence;  ///< while one lives, somebody looks
+  std::string lacking{};                 ///< why it does not see everything
 };
 
 /// How large the proxy and the hand's space are in the scene.
@@ -39,6 +40,9 @@ class PageScene {
   /// Objects that rest away from where the layout has them get a new layout after this time, and so do objects that
   /// jump: no more often.
   static constexpr std::int64_t kSettle_ns = 1'000'000'000;
+
+  /// What pages are shown is counted against `memory`.
+  explicit PageScene(MemoryBudget memory = {}) : meshes_(std::move(memory)) {}
 
   /// For a page that has nothing yet.
   PageMemory open() const { return {{}, 0, presence_}; }

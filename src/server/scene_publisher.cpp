@@ -5,7 +5,6 @@
 #include <exception>
 #include <iterator>
 #include <new>
-#include <set>
 #include <utility>
 
 #include "base/clock.h"
@@ -23,26 +22,18 @@ constexpr double kMakingMargin = 1.5;  // of the time that the scene before took
 constexpr std::int64_t kLongestMove_ns = 100'000'000;
 constexpr auto kLoopPoll = std::chrono::microseconds(200);
 
-// Of the shapes that these were before they were bent.
-std::size_t bytesBefore(const std::vector<const Instance*>& shown) {
-  std::set<const Shape*> counted;
-  std::size_t bytes = 0;
-  for (const Instance* instance : shown) {
-    if (instance->before && counted.insert(instance->before.get()).second) bytes += instance->before->bytes();
-  }
-  return bytes;
-}
-
 }  // namespace
 
 class ScenePublisher::Place {
  public:
-  Place(std::uint32_t session, const SceneLimits& limits, FrameCallbacks callbacks, MemoryBudget& memory)
+  Place(std::uint32_t session, const SceneLimits& limits, MemoryBudget memory, FrameCallbacks callbacks,
+        std::shared_ptr<Place> replaced)
       : session_(session),
         limits_(limits),
-        scene_(session, limits),
+        memory_(std::move(memory)),
+        scene_(session, limits, memory_),
         callbacks_(std::move(callbacks)),
-        memory_(memory) {}
+        replaced_(std::move(replaced)) {}
 
  private:
   friend class ScenePublisher;
@@ -60,40 +51,35 @@ class ScenePublisher::Place {
 
   const std::uint32_t session_;
   const SceneLimits limits_;
+  const MemoryBudget memory_;
   EditableScene scene_;  // of the builder that has set building_
   std::mutex call_mutex_;
   FrameCallbacks callbacks_;
-  std::vector<const Instance*> shown_;  // of the publisher's thread: by rising key
+  // Of the publisher's thread:
+  std::vector<const Instance*> shown_;  // by rising key
+  PlacedShapes shown_placed_;           // what they were made from
   // Under the publisher's mutex:
   std::deque<Waiting> waiting_;
   bool building_ = false, removed_ = false;
   bool worn_ = false;        // a hierarchy of what was placed last is
   bool rebuilding_ = false;  // building_, but not a frame
   std::int64_t last_arrived_ns_ = 0;
-  std::int64_t move_ns_ = 0;                                // that what is placed takes to get there
-  std::shared_ptr<const std::vector<PlacedShape>> placed_;  // what is to be shown next; null when it is as it was
-  std::vector<Ready> ready_;                                // frames that are built and not yet shown
-  std::size_t bytes_ = 0;                                   // of scene_
-  MemoryShare memory_;  // that, and what the shapes shown were before they were bent
+  std::int64_t move_ns_ = 0;         // that what is placed takes to get there
+  PlacedShapes placed_;              // what is to be shown next; null when it is as it was
+  std::vector<Ready> ready_;         // frames that are built and not yet shown
+  std::shared_ptr<Place> replaced_;  // goes with the first frame
 };
 
 struct ScenePublisher::Part {
   std::shared_ptr<Place> place;
   bool gone;
-  std::shared_ptr<const std::vector<PlacedShape>> placed;  // null: as it is
+  PlacedShapes placed;  // null: as it is
   std::int64_t move_ns;
   std::size_t frames;  // of the place's ready ones
 };
 
-ScenePublisher::ScenePublisher(std::shared_ptr<const Snapshot> base, std::vector<TouchSession*> devices,
-                               std::uint64_t most_memory_bytes)
-    : base_(std::move(base)),
-      devices_(std::move(devices)),
-      memory_(most_memory_bytes),
-      base_memory_(memory_),
-      shown_(base_) {
-  base_memory_.set(memoryOf(*base_));
-}
+ScenePublisher::ScenePublisher(std::shared_ptr<const Snapshot> base, std::vector<TouchSession*> devices)
+    : base_(std::move(base)), devices_(std::move(devices)), shown_(base_) {}
 
 ScenePublisher::~ScenePublisher() { stop(); }
 
@@ -115,8 +101,9 @@ void ScenePublisher::stop() {
 }
 
 std::shared_ptr<ScenePublisher::Place> ScenePublisher::join(std::uint32_t session, const SceneLimits& limits,
-                                                            FrameCallbacks callbacks) {
-  auto place = std::make_shared<Place>(session, limits, std::move(callbacks), memory_);
+                                                            MemoryBudget memory, FrameCallbacks callbacks,
+                                                            std::shared_ptr<Place> replaced) {
+  auto place = std::make_shared<Place>(session, limits, std::move(memory), std::move(callbacks), std::move(replaced));
   const std::lock_guard lock(mutex_);
   places_.push_back(place);
   return place;
@@ -157,6 +144,11 @@ void ScenePublisher::remove(const std::shared_ptr<Place>& place) {
     dirty_ = true;
   }
   changed_.notify_all();
+}
+
+std::shared_ptr<ScenePublisher::Place> ScenePublisher::takeReplaced(const std::shared_ptr<Place>& place) {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(place->replaced_, nullptr);
 }
 
 // The client that has waited longest. Holding the mutex.
@@ -218,19 +210,20 @@ void ScenePublisher::build(Place& place, Waiting waiting) {
     place.tell([&](FrameCallbacks& callbacks) { callbacks.progress(number, part); });
   };
   try {
-    DecodedFrame decoded = decodeFrame(waiting.frame, waiting.uploads, place.limits_, waiting.memory, progress,
+    DecodedFrame decoded = decodeFrame(waiting.frame, waiting.uploads, place.limits_, place.memory_, progress,
                                        [&](std::uint32_t object) { return place.scene_.items(object); });
-    place.scene_.apply(decoded.edit, waiting.memory);
-    const std::size_t bytes = place.scene_.bytes();
-    auto placed = std::make_shared<const std::vector<PlacedShape>>(place.scene_.placed());
-    const std::lock_guard lock(mutex_);
-    place.memory_.set(place.bytes_ = bytes);
-    counts_.refits += decoded.refits;
-    place.placed_.swap(placed);
-    place.worn_ = place.scene_.worn() != nullptr;
+    EditableScene::Next next = place.scene_.prepare(std::move(decoded.edit));
+    PlacedShapes before;
+    const std::lock_guard lock(mutex_);  // what was there before is freed without it
     place.ready_.push_back({number, std::move(decoded.warnings)});
+    // From here on nothing throws.
+    place.scene_.show(next);
+    before = std::exchange(place.placed_, place.scene_.sharedPlaced());
+    counts_.refits += decoded.refits;
+    place.worn_ = place.scene_.worn() != nullptr;
     place.move_ns_ = moveTime_ns(waiting, place.last_arrived_ns_);
     place.last_arrived_ns_ = waiting.arrived_ns;
+    if (place.replaced_) std::exchange(place.replaced_, nullptr)->removed_ = true;
     dirty_ = true;
   } catch (const std::bad_alloc&) {
     place.tell([&](FrameCallbacks& callbacks) { callbacks.refused(number, "the server has no memory for it"); });
@@ -244,11 +237,12 @@ void ScenePublisher::build(Place& place, Waiting waiting) {
 void ScenePublisher::rebuild(Place& place) {
   try {
     const auto worn = place.scene_.worn();
-    place.scene_.replace(worn, rebuilt(*worn));
-    auto placed = std::make_shared<const std::vector<PlacedShape>>(place.scene_.placed());
+    const auto anew = makeCounted(place.memory_, bytesToMake(worn->model), [&] { return rebuilt(*worn); });
+    EditableScene::Next next = place.scene_.prepareReplaced(worn, anew);
     const std::lock_guard lock(mutex_);
     ++counts_.rebuilds;
-    place.placed_.swap(placed);
+    place.scene_.show(next);
+    place.placed_ = place.scene_.sharedPlaced();
     place.worn_ = place.scene_.worn() != nullptr;
     dirty_ = true;
   } catch (const std::exception&) {  // no memory for it: the worn one serves
@@ -274,6 +268,8 @@ void ScenePublisher::runPublisher() {
     }
     if (!waitForLoops()) return;
     publish();
+    if (!waitForLoops()) return;
+    for (TouchSession* device : devices_) device->dropSceneBefore();
   }
 }
 
@@ -323,11 +319,26 @@ std::int64_t ScenePublisher::assemble(const std::vector<Part>& parts, std::int64
   return blend_ns;
 }
 
+namespace {
+
+// The scene, which keeps the lists that it was made from: its instances are counted with them.
+std::shared_ptr<const Snapshot> keeping(std::vector<PlacedShapes> lists, std::shared_ptr<const Snapshot> scene) {
+  struct Both {
+    std::vector<PlacedShapes> lists;
+    std::shared_ptr<const Snapshot> scene;
+  };
+  const auto both = std::make_shared<const Both>(Both{std::move(lists), std::move(scene)});
+  return {both, both->scene.get()};
+}
+
+}  // namespace
+
 // Made before its motions begin: if it takes too long for that, once more.
 std::shared_ptr<const Snapshot> ScenePublisher::makeNext(const std::vector<Part>& parts) {
   std::shared_ptr<const Snapshot> next;
   double margin = kMakingMargin;
   for (int i = 0; i < kLeadTries; ++i, margin *= 2) {
+    next.reset();
     const std::int64_t now_ns = monotonicNow_ns();
     shown_begin_ns_ = now_ns + kLead_ns + static_cast<std::int64_t>(margin * static_cast<double>(making_ns_));
     std::vector<Instance> instances;
@@ -336,7 +347,11 @@ std::shared_ptr<const Snapshot> ScenePublisher::makeNext(const std::vector<Part>
     making_ns_ = monotonicNow_ns() - now_ns;
     if (now_ns + making_ns_ < shown_begin_ns_) break;
   }
-  return next;
+  std::vector<PlacedShapes> lists;
+  for (const Part& part : parts) {
+    if (!part.gone) lists.push_back(part.placed ? part.placed : part.place->shown_placed_);
+  }
+  return keeping(std::move(lists), std::move(next));
 }
 
 void ScenePublisher::publish() {
@@ -353,6 +368,8 @@ void ScenePublisher::keepShown(const std::shared_ptr<const Snapshot>& next, cons
   std::map<std::uint32_t, Place*> place_of;
   for (const Part& part : parts) {
     part.place->shown_.clear();
+    if (part.placed) part.place->shown_placed_ = part.placed;
+    if (part.gone) part.place->shown_placed_ = nullptr;
     place_of[part.place->session_] = part.place.get();
   }
   for (const Instance& instance : next->instances) {
@@ -364,7 +381,6 @@ void ScenePublisher::keepShown(const std::shared_ptr<const Snapshot>& next, cons
 
 void ScenePublisher::tellShown(const Part& part) {
   Place& place = *part.place;
-  const std::size_t bytes_before = bytesBefore(place.shown_);
   std::size_t primitives = 0;
   for (const Instance* instance : place.shown_) primitives += instance->shape->primitives.size();
   std::vector<Place::Ready> frames;
@@ -373,7 +389,6 @@ void ScenePublisher::tellShown(const Part& part) {
     const auto end = place.ready_.begin() + static_cast<std::ptrdiff_t>(part.frames);
     std::move(place.ready_.begin(), end, std::back_inserter(frames));
     place.ready_.erase(place.ready_.begin(), end);
-    place.memory_.set(place.bytes_ + bytes_before);
     if (part.gone && !place.building_) std::erase(places_, part.place);
   }
   place.tell([&](FrameCallbacks& callbacks) {

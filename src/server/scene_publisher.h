@@ -48,15 +48,16 @@ class ScenePublisher {
   /// A client's objects. Made by join(), shared with the publisher.
   class Place;
 
-  /// `base` is touchable besides what clients bring; with it their scenes may take so much memory. The devices must
-  /// outlive the publisher.
-  ScenePublisher(std::shared_ptr<const Snapshot> base, std::vector<TouchSession*> devices,
-                 std::uint64_t most_memory_bytes);
+  /// `base` is touchable besides what clients bring. The devices must outlive the publisher.
+  ScenePublisher(std::shared_ptr<const Snapshot> base, std::vector<TouchSession*> devices);
   ~ScenePublisher();
   void start();
   void stop();  ///< what is not shown by then never is; safe to call twice
 
-  std::shared_ptr<Place> join(std::uint32_t session, const SceneLimits& limits, FrameCallbacks callbacks);
+  /// What the client makes the publisher keep is counted against `memory`. `replaced`, if any, goes in the very scene
+  /// that shows the first frame.
+  std::shared_ptr<Place> join(std::uint32_t session, const SceneLimits& limits, MemoryBudget memory,
+                              FrameCallbacks callbacks, std::shared_ptr<Place> replaced = {});
   /// Any thread; returns at once. `uploads`: those that the frame refers to. `memory`: what both take, until it is
   /// built.
   void submit(const std::shared_ptr<Place>& place, proto::Frame frame, Uploads uploads, MemoryShare memory);
@@ -65,11 +66,9 @@ class ScenePublisher {
   /// No callback is under way or comes after this. The objects stay where they are until remove().
   void detach(const std::shared_ptr<Place>& place);
   void remove(const std::shared_ptr<Place>& place);
+  /// The one that was to be replaced, when no frame has been built yet: now it stays. Else null.
+  std::shared_ptr<Place> takeReplaced(const std::shared_ptr<Place>& place);
   HierarchyCounts counts() const;
-  /// What the base takes, scenes that are shown or being built, and what waits to be. A scene that another takes the
-  /// place of no longer counts, though it is kept until the loops have taken that one.
-  MemoryBudget& memory() { return memory_; }
-  const MemoryBudget& memory() const { return memory_; }
 
  private:
   struct Waiting {
@@ -98,8 +97,6 @@ class ScenePublisher {
 
   const std::shared_ptr<const Snapshot> base_;
   const std::vector<TouchSession*> devices_;
-  MemoryBudget memory_;
-  MemoryShare base_memory_;
   mutable std::mutex mutex_;  // of all below and of the places; no thread builds or waits while holding it
   std::condition_variable work_, changed_;
   std::vector<std::shared_ptr<Place>> places_;

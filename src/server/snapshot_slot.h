@@ -24,6 +24,8 @@ class SnapshotSlot {
     current_ = std::move(next);
     newest_.store(current_.get(), std::memory_order_release);
   }
+  /// Frees the one before, when the reader has done with it: taken(), and a step since. Publisher.
+  void dropBefore() { before_.reset(); }
   /// The newest that was published. Publisher.
   const std::shared_ptr<const Snapshot>& newest() const { return current_; }
 

@@ -12,6 +12,7 @@ namespace hl {
 
 namespace {
 
+constexpr std::uint32_t kPages = 1;  // they are one member of the budget
 constexpr auto kEventPeriod = std::chrono::milliseconds(4);
 
 std::vector<std::unique_ptr<TouchSession>> makeDevices(const std::shared_ptr<const Snapshot>& base,
@@ -36,10 +37,14 @@ std::vector<TouchSession*> pointersOf(const std::vector<std::unique_ptr<TouchSes
 
 TouchServer::TouchServer(std::shared_ptr<const Snapshot> base, const TouchServerSettings& settings)
     : settings_(settings),
+      memory_(settings.limits.memory_bytes, settings.limits.sessions + settings.limits.kept + kPages),
+      base_memory_(memory_),
       devices_(makeDevices(base, settings)),
-      publisher_(std::move(base), pointersOf(devices_), settings.limits.memory_bytes),
+      publisher_(base, pointersOf(devices_)),
       masters_(devices_.size(), 0),
-      buttons_(devices_.size(), 0) {}
+      buttons_(devices_.size(), 0) {
+  base_memory_.set(memoryOf(*base));
+}
 
 TouchServer::~TouchServer() { stop(); }
 
@@ -86,17 +91,25 @@ void TouchServer::leave(HlSession& session) {
 }
 
 void TouchServer::keep(const std::string& client_name, std::shared_ptr<ScenePublisher::Place> place) {
-  dropKept(client_name);
   const std::lock_guard lock(mutex_);
-  kept_[client_name] = std::move(place);
+  const auto named = [&](const auto& one) { return one.first == client_name; };
+  auto gone = std::find_if(kept_.begin(), kept_.end(), named);
+  if (gone == kept_.end() && kept_.size() >= settings_.limits.kept) gone = kept_.begin();
+  if (gone != kept_.end()) {
+    publisher_.remove(gone->second);
+    kept_.erase(gone);
+  }
+  kept_.emplace_back(client_name, std::move(place));
 }
 
-void TouchServer::dropKept(const std::string& client_name) {
+std::shared_ptr<ScenePublisher::Place> TouchServer::takeKept(const std::string& client_name) {
   const std::lock_guard lock(mutex_);
-  const auto found = kept_.find(client_name);
-  if (found == kept_.end()) return;
-  publisher_.remove(found->second);
+  const auto named = [&](const auto& one) { return one.first == client_name; };
+  const auto found = std::find_if(kept_.begin(), kept_.end(), named);
+  if (found == kept_.end()) return nullptr;
+  auto place = std::move(found->second);
   kept_.erase(found);
+  return place;
 }
 
 void TouchServer::setDeviceInfo(std::uint32_t device, proto::DeviceInfo& info) const {

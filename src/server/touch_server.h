@@ -42,7 +42,8 @@ class TouchServer final : public SessionHost {
   std::size_t devices() const { return devices_.size(); }
   std::size_t sessions() const;
   HierarchyCounts hierarchyCounts() const { return publisher_.counts(); }
-  const MemoryBudget& memory() const { return publisher_.memory(); }
+  /// Of all clients' scenes, what they have sent ahead and are told, and what pages are shown of it.
+  const MemoryBudget& memory() const { return memory_; }
   double time_s() const { return devices_[0]->time_s(); }
 
  private:
@@ -51,9 +52,10 @@ class TouchServer final : public SessionHost {
   // A role that one session at a time has.
   bool becomeMaster(std::uint32_t device, std::uint32_t session);
   void leave(HlSession& session);
-  // Objects whose client has gone and wanted them to stay.
+  // Objects whose client has gone and wanted them to stay. Of a name there are those of the client that left last; when
+  // there are too many, those that have been kept longest go.
   void keep(const std::string& client_name, std::shared_ptr<ScenePublisher::Place> place);
-  void dropKept(const std::string& client_name);
+  std::shared_ptr<ScenePublisher::Place> takeKept(const std::string& client_name);
   void describe(std::uint32_t device, proto::ClientState& state);
   void setDeviceInfo(std::uint32_t device, proto::DeviceInfo& info) const;
   void runEvents();
@@ -61,6 +63,8 @@ class TouchServer final : public SessionHost {
   void tellButtons(std::uint32_t device);
 
   const TouchServerSettings settings_;
+  const MemoryBudget memory_;
+  MemoryShare base_memory_;
   std::vector<std::unique_ptr<TouchSession>> devices_;
   ScenePublisher publisher_;
   std::atomic<bool> running_{false};
@@ -69,8 +73,8 @@ class TouchServer final : public SessionHost {
   mutable std::mutex mutex_;  // of what follows
   std::vector<HlSession*> sessions_;
   std::uint32_t last_session_ = 0;
-  std::vector<std::uint32_t> masters_;  // session by device; 0: none
-  std::map<std::string, std::shared_ptr<ScenePublisher::Place>> kept_;
+  std::vector<std::uint32_t> masters_;                                                // session by device; 0: none
+  std::vector<std::pair<std::string, std::shared_ptr<ScenePublisher::Place>>> kept_;  // by name; the oldest first
 
   std::mutex views_mutex_;              // of the devices' views for clients
   std::vector<std::uint32_t> buttons_;  // as told last; of the events' thread

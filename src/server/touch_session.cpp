@@ -382,6 +382,11 @@ void TouchSession::publish(std::shared_ptr<const Snapshot> snapshot) {
   scenes_.publish(std::move(snapshot));
 }
 
+void TouchSession::dropSceneBefore() {
+  const std::lock_guard lock(settings_mutex_);
+  scenes_.dropBefore();
+}
+
 bool TouchSession::ready(std::int64_t since_ns) const {
   return !running_ || (scenes_.taken() && last_tick_ns_.load(std::memory_order_acquire) >= since_ns);
 }

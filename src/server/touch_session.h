@@ -137,6 +137,8 @@ class TouchSession {
   void publish(std::shared_ptr<const Snapshot> snapshot);
   /// The proxy loop has taken the newest scene, and ticked at `since_ns` (monotonic) or later; or it does not run.
   bool ready(std::int64_t since_ns) const;
+  /// Frees the scene before the newest one; as publish(), by the same thread.
+  void dropSceneBefore();
   bool popEvent(TouchEvent& event) { return proxy_loop_.popEvent(event); }  ///< one thread only
   void setWorkspace(const Workspace& workspace);
   void setRadius(double radius_W);

@@ -3,6 +3,7 @@
 #include <hl.pb.h>
 
 #include <span>
+#include <utility>
 
 #include "base/clock.h"
 #include "server/feed_messages.h"
@@ -128,8 +129,8 @@ void receive(TouchSession& session, const std::string& bytes) {
 
 }  // namespace
 
-FeedCallbacks makeViewerFeed(TouchSession& session, const std::string& version) {
-  const auto scene = std::make_shared<PageScene>();
+FeedCallbacks makeViewerFeed(TouchSession& session, const std::string& version, MemoryBudget memory) {
+  const auto scene = std::make_shared<PageScene>(std::move(memory));
   const auto openPage = [scene] {
     return [scene, memory = std::make_shared<PageMemory>(scene->open())] { return scene->next(*memory); };
   };

@@ -4,12 +4,14 @@
 #include <memory>
 #include <string>
 
+#include "base/memory_budget.h"
 #include "server/http_server.h"
 #include "server/touch_session.h"
 
 namespace hl {
 
-/// The callbacks of an HttpServer for this session, which must outlive the server.
-FeedCallbacks makeViewerFeed(TouchSession& session, const std::string& version);
+/// The callbacks of an HttpServer for this session, which must outlive the server. What pages are shown is counted
+/// against `memory`.
+FeedCallbacks makeViewerFeed(TouchSession& session, const std::string& version, MemoryBudget memory = {});
 
 }  // namespace hl

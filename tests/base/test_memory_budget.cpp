@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <memory>
 #include <sstream>
 #include <thread>
 #include <vector>
@@ -28,8 +29,8 @@ TEST(MemoryBudget, WhatDoesNotFitIsRefusedAndTakesNothing) {
   } catch (const Error& error) {
     EXPECT_STREQ(
         error.what(),
-        "with this the scenes of all clients would take 101 MB; this server keeps 100 MB for them: show less, or "
-        "raise its limit on memory");
+        "there is no room for 1 MB more: the scenes of all clients take 100 MB of 100 MB that this server keeps for "
+        "them, with a part for each: show less, or raise its limit on memory");
   }
   EXPECT_THROW(second.take(std::numeric_limits<std::uint64_t>::max()), Error);
   EXPECT_EQ(second.bytes(), 40'000'000U);
@@ -61,6 +62,45 @@ TEST(MemoryBudget, WhatIsInUseAlreadyCountsWhateverIsLeft) {
   share.set(40);
   other.take(60);
   EXPECT_EQ(budget.used_bytes(), 100U);
+}
+
+TEST(MemoryBudget, AGreedyMemberLeavesAPartForEachOfTheOthers) {
+  const MemoryBudget budget(1000, 5);  // 100 for each
+  const MemoryBudget greedy = budget.member(), modest = budget.member();
+  MemoryShare all(greedy), some(modest);
+  EXPECT_THROW(all.take(601), Error);
+  all.take(600);
+  EXPECT_THROW(all.take(1), Error);
+  EXPECT_THROW(some.take(101), Error);
+  some.take(100);
+  all.set(550);
+  some.take(50);
+  EXPECT_EQ(budget.used_bytes(), 700U);
+  MemoryShare nobodys(budget);
+  EXPECT_THROW(nobodys.take(1), Error) << "only members have a part";
+}
+
+TEST(MemoryBudget, ThereAreNoMorePartsThanMembers) {
+  const MemoryBudget budget(1000, 1);
+  auto first = std::make_unique<MemoryBudget>(budget.member());
+  const MemoryBudget second = budget.member();
+  MemoryShare share(second);
+  EXPECT_THROW(share.take(501), Error);
+  first.reset();
+  const MemoryBudget third = budget.member();
+  MemoryShare whole(third);
+  whole.take(1000);
+}
+
+TEST(MemoryBudget, AnObjectKeepsItsShareAsLongAsAnybodyHasIt) {
+  const MemoryBudget budget(100);
+  MemoryShare share(budget);
+  share.take(40);
+  auto object = withShare(std::make_shared<int>(7), std::move(share));
+  const std::shared_ptr<const int> other = object;
+  object.reset();
+  EXPECT_EQ(*other, 7);
+  EXPECT_EQ(budget.used_bytes(), 40U);
 }
 
 TEST(MemoryBudget, AShareOfNothingTakesAll) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include <limits>
 
 #include "base/error.h"
@@ -20,17 +22,25 @@ std::shared_ptr<const Shape> triangle(double size = 1) {
   return makeShape(std::move(model), HierarchyKind::kBvh);
 }
 
+std::shared_ptr<SceneItems> listOf(SceneItems items) { return std::make_shared<SceneItems>(std::move(items)); }
+
+std::shared_ptr<const SurfaceChange> changeOf(const std::function<void(SurfaceChange&)>& set) {
+  auto change = std::make_shared<SurfaceChange>();
+  set(*change);
+  return change;
+}
+
 SceneItem shapeItem(std::shared_ptr<const Shape> shape, const Placement& placement = {}) {
   SceneItem item;
   item.shape = std::move(shape);
-  item.placement = placement;
+  item.placement = std::make_shared<const Placement>(placement);
   return item;
 }
 
 SceneItem callItem(std::uint32_t id, const Placement& placement = {}) {
   SceneItem item;
   item.call = id;
-  item.placement = placement;
+  item.placement = std::make_shared<const Placement>(placement);
   return item;
 }
 
@@ -40,7 +50,7 @@ Placement turn(double angle, const Vec3& offset) {
 
 SceneEdit worldOf(SceneItems items) {
   SceneEdit edit;
-  edit.world = std::move(items);
+  edit.world = listOf(std::move(items));
   return edit;
 }
 
@@ -59,8 +69,8 @@ TEST(EditableScene, CallsMultiplyTheirMatricesLikeGl) {
   const Placement arm = turn(0.3, {1, 2, 3}), hand = turn(-0.7, {0, 1, 0}),
                   finger{Mat3(2 * Mat3::Identity()), {0, 0, 1}};
   SceneEdit edit = worldOf({callItem(1, arm)});
-  edit.objects[1] = {callItem(2, hand)};
-  edit.objects[2] = {shapeItem(triangle(), finger)};
+  edit.objects[1] = listOf({callItem(2, hand)});
+  edit.objects[2] = listOf({shapeItem(triangle(), finger)});
   scene.apply(edit);
   const Placement whole = arm * hand * finger;
   const std::vector<Vec3> vertices = verticesOf(scene);
@@ -111,10 +121,10 @@ TEST(EditableScene, RigidCallsShareOneShapeAndScaledOnesAnother) {
   EditableScene scene(1, {});
   const auto shape = triangle();
   SceneEdit edit;
-  edit.objects[1] = {shapeItem(shape)};
+  edit.objects[1] = listOf({shapeItem(shape)});
   const Placement twice{Mat3(2 * Mat3::Identity()), Vec3::Zero()};
-  edit.world = SceneItems{callItem(1, turn(0.1, Vec3::Zero())), callItem(1, turn(0.2, {1, 0, 0})),
-                          callItem(1, turn(0.3, Vec3::Zero()) * twice), callItem(1, turn(0.4, Vec3::Zero()) * twice)};
+  edit.world = listOf({callItem(1, turn(0.1, Vec3::Zero())), callItem(1, turn(0.2, {1, 0, 0})),
+                       callItem(1, turn(0.3, Vec3::Zero()) * twice), callItem(1, turn(0.4, Vec3::Zero()) * twice)});
   scene.apply(edit);
   EXPECT_EQ(scene.placed()[0].shape, shape);
   EXPECT_EQ(scene.placed()[1].shape, shape);
@@ -122,7 +132,7 @@ TEST(EditableScene, RigidCallsShareOneShapeAndScaledOnesAnother) {
   EXPECT_EQ(scene.placed()[2].shape, scene.placed()[3].shape);
   EXPECT_EQ(scene.placed()[0].surfaces, scene.placed()[3].surfaces) << "all feel the same";
   const auto scaled = scene.placed()[2].shape;
-  edit.world->at(2).placement = turn(0.9, Vec3::Zero()) * twice;
+  edit.world->at(2).placement = std::make_shared<const Placement>(turn(0.9, Vec3::Zero()) * twice);
   scene.apply(worldOf(*edit.world));
   EXPECT_EQ(scene.placed()[2].shape, scaled) << "turned, not built again";
 }
@@ -156,14 +166,15 @@ TEST(EditableScene, ARebuiltShapeTakesThePlaceOfTheWornOneAndNothingIsAbrupt) {
   const auto cloud = makeShape(std::move(model), *row);
   const Placement twice{Mat3(2 * Mat3::Identity()), Vec3::Zero()};
   SceneEdit edit = worldOf({callItem(1), callItem(1, twice), shapeItem(cloud, turn(1, {5, 0, 0}))});
-  edit.objects[1] = {shapeItem(cloud)};
+  edit.objects[1] = listOf({shapeItem(cloud)});
   scene.apply(edit);
   const std::vector<PlacedShape> before = scene.placed();
   const Followed shown = followOn(before, {}, 0, 0);
   for (int rebuilds = 0; rebuilds < 2; ++rebuilds) {
     const auto worn = scene.worn();
     ASSERT_TRUE(worn);
-    scene.replace(worn, rebuilt(*worn));
+    EditableScene::Next next = scene.prepareReplaced(worn, rebuilt(*worn));
+    scene.show(next);
   }
   EXPECT_FALSE(scene.worn());
   EXPECT_EQ(followOn(scene.placed(), pointersByKey(shown.instances), 0, 0).blend_ns, 0);
@@ -181,14 +192,16 @@ TEST(EditableScene, ARebuiltShapeTakesThePlaceOfTheWornOneAndNothingIsAbrupt) {
 TEST(EditableScene, WhatAnItemLeavesOutItTakesFromItsCallers) {
   EditableScene scene(1, {});
   SceneItem inner = shapeItem(triangle());
-  inner.surface.dynamic_friction = 0.2;
+  inner.surface = changeOf([](SurfaceChange& s) { s.dynamic_friction = 0.2; });
   SceneItem call = callItem(1);
-  call.surface.dynamic_friction = 0.9;
-  call.surface.stiffness = 0.5;
-  call.surface.smooth = false;
+  call.surface = changeOf([](SurfaceChange& s) {
+    s.dynamic_friction = 0.9;
+    s.stiffness = 0.5;
+    s.smooth = false;
+  });
   call.name = 7;
   SceneEdit edit = worldOf({call, callItem(1)});
-  edit.objects[1] = {inner};
+  edit.objects[1] = listOf({inner});
   scene.apply(edit);
   const Material& first = scene.placed()[0].surfaces->materials[0];
   EXPECT_EQ(first.dynamic_friction, 0.2);
@@ -210,7 +223,7 @@ TEST(EditableScene, TexturesAreFoundByNameAndMayBeOverwritten) {
     return t;
   };
   SceneItem item = shapeItem(triangle());
-  item.surface.textures[0] = NamedTextureUse{"rough", 0.1, 0.9};
+  item.surface = changeOf([](SurfaceChange& s) { s.textures[0] = NamedTextureUse{"rough", 0.1, 0.9}; });
   SceneEdit edit = worldOf({item});
   EXPECT_THROW(scene.apply(edit), Error) << "there is no such texture";
   edit.textures["rough"] = texture(0.25f);
@@ -221,12 +234,11 @@ TEST(EditableScene, TexturesAreFoundByNameAndMayBeOverwritten) {
   overwrite.textures["rough"] = texture(0.75f);
   scene.apply(overwrite);
   EXPECT_EQ(scene.placed()[0].surfaces->textures[0]->texels[0], 0.75f);
-  item.surface.untextured = true;
-  item.surface.textures[0].reset();
+  item.surface = changeOf([](SurfaceChange& s) { s.untextured = true; });
   SceneItem call = callItem(1);
-  call.surface.textures[0] = NamedTextureUse{"rough", 0, 1};
+  call.surface = changeOf([](SurfaceChange& s) { s.textures[0] = NamedTextureUse{"rough", 0, 1}; });
   SceneEdit bare = worldOf({call});
-  bare.objects[1] = {item};
+  bare.objects[1] = listOf({item});
   scene.apply(bare);
   EXPECT_TRUE(scene.placed()[0].surfaces->textures.empty());
 }
@@ -234,11 +246,11 @@ TEST(EditableScene, TexturesAreFoundByNameAndMayBeOverwritten) {
 TEST(EditableScene, CirclesAreRefusedAndChangeNothing) {
   EditableScene scene(1, {});
   SceneEdit edit = worldOf({callItem(1)});
-  edit.objects[1] = {shapeItem(triangle())};
+  edit.objects[1] = listOf({shapeItem(triangle())});
   scene.apply(edit);
   SceneEdit circle;
-  circle.objects[1] = {shapeItem(triangle()), callItem(2)};
-  circle.objects[2] = {callItem(1)};
+  circle.objects[1] = listOf({shapeItem(triangle()), callItem(2)});
+  circle.objects[2] = listOf({callItem(1)});
   EXPECT_THROW(scene.apply(circle), Error);
   EXPECT_EQ(scene.placed().size(), 1u);
   scene.apply(worldOf({callItem(1), callItem(2)}));
@@ -253,17 +265,17 @@ TEST(EditableScene, LimitsHoldAndAHierarchyCannotExplode) {
   limits.nesting = 5;
   EditableScene scene(1, limits);
   SceneEdit deep = worldOf({callItem(1)});
-  for (std::uint32_t i = 1; i < 8; ++i) deep.objects[i] = {callItem(i + 1)};
+  for (std::uint32_t i = 1; i < 8; ++i) deep.objects[i] = listOf({callItem(i + 1)});
   EXPECT_THROW(scene.apply(deep), Error);
   SceneEdit wide = worldOf({callItem(1)});
-  for (std::uint32_t i = 1; i < 5; ++i) wide.objects[i] = SceneItems(100, callItem(i + 1));  // 1e8 visits
+  for (std::uint32_t i = 1; i < 5; ++i) wide.objects[i] = listOf(SceneItems(100, callItem(i + 1)));  // 1e8 visits
   EXPECT_THROW(scene.apply(wide), Error);
   EXPECT_THROW(scene.apply(worldOf(SceneItems(11, shapeItem(triangle())))), Error);
   EXPECT_THROW(scene.apply(worldOf(
                    {shapeItem(triangle()), shapeItem(triangle()), shapeItem(triangle()), shapeItem(triangle())})),
                Error);
   SceneEdit many;
-  for (std::uint32_t i = 1; i <= 41; ++i) many.objects[i] = {};
+  for (std::uint32_t i = 1; i <= 41; ++i) many.objects[i] = listOf({});
   EXPECT_THROW(scene.apply(many), Error);
   EXPECT_THROW(scene.apply(worldOf({shapeItem(triangle(), {Vec3(1, 1, 0).asDiagonal(), Vec3::Zero()})})), Error);
   EXPECT_TRUE(scene.placed().empty());
@@ -275,7 +287,7 @@ TEST(EditableScene, ScaledCopiesAreLimited) {
   limits.primitives = 3;
   EditableScene scene(1, limits);
   SceneEdit edit = worldOf({});
-  edit.objects[1] = {shapeItem(triangle())};
+  edit.objects[1] = listOf({shapeItem(triangle())});
   for (int i = 2; i <= 4; ++i) edit.world->push_back(callItem(1, {Mat3(i * Mat3::Identity()), Vec3::Zero()}));
   for (int i = 0; i < 5; ++i) edit.world->push_back(callItem(1, turn(0.1 * i, {1, 0, 0})));  // these share the mesh
   scene.apply(edit);
@@ -288,13 +300,13 @@ TEST(EditableScene, ScaledCopiesAreLimited) {
 TEST(EditableScene, DeletedObjectsAreGoneAndOverwrittenOnesChange) {
   EditableScene scene(1, {});
   SceneEdit edit = worldOf({callItem(1), callItem(2)});
-  edit.objects[1] = {shapeItem(triangle())};
-  edit.objects[2] = {shapeItem(triangle())};
+  edit.objects[1] = listOf({shapeItem(triangle())});
+  edit.objects[2] = listOf({shapeItem(triangle())});
   scene.apply(edit);
   EXPECT_EQ(scene.placed().size(), 2u);
   SceneEdit change;
   change.deleted_objects = {1};
-  change.objects[2] = {shapeItem(triangle(5))};
+  change.objects[2] = listOf({shapeItem(triangle(5))});
   scene.apply(change);
   ASSERT_EQ(scene.placed().size(), 1u);
   EXPECT_EQ(scene.placed()[0].shape->extent, 5);
@@ -304,7 +316,7 @@ TEST(EditableScene, KeysStayFromFrameToFrameAndDifferBetweenSessions) {
   EditableScene a(1, {}), b(2, {});
   const auto frame = [](double x) {
     SceneEdit edit = worldOf({callItem(1), callItem(1, turn(0, {x, 0, 0})), shapeItem(triangle())});
-    edit.objects[1] = {shapeItem(triangle()), shapeItem(triangle())};
+    edit.objects[1] = listOf({shapeItem(triangle()), shapeItem(triangle())});
     return edit;
   };
   a.apply(frame(0));
@@ -322,7 +334,7 @@ TEST(EditableScene, KeysStayFromFrameToFrameAndDifferBetweenSessions) {
 TEST(FollowOn, KnownObjectsMoveAndNewOnesAreThere) {
   EditableScene scene(1, {});
   SceneEdit edit = worldOf({callItem(1)});
-  edit.objects[1] = {shapeItem(triangle())};
+  edit.objects[1] = listOf({shapeItem(triangle())});
   scene.apply(edit);
   const Followed first = followOn(scene.placed(), {}, 100, 200);
   EXPECT_EQ(first.blend_ns, kAbruptBlend_ns);

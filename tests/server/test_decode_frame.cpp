@@ -8,6 +8,8 @@
 #include <string>
 
 #include "base/error.h"
+#include "server/message_forms.h"
+#include "server/message_size.h"
 
 namespace hl {
 namespace {
@@ -19,7 +21,7 @@ SceneLimits smallLimits() {
   return limits;
 }
 
-std::string refusalOf(const proto::Frame& frame, const Uploads& uploads = {}, MemoryShare memory = {}) {
+std::string refusalOf(const proto::Frame& frame, Uploads uploads = {}, const MemoryBudget& memory = {}) {
   try {
     decodeFrame(frame, uploads, smallLimits(), memory, [](double) {});
   } catch (const Error& error) {
@@ -47,7 +49,7 @@ TEST(DecodeFrame, TexturesShareTheRoomThereIs) {
 // An upload with no element: each item that refers to it would keep all of its vertices.
 TEST(DecodeFrame, VerticesOfUploadsAreCountedForEachItem) {
   Uploads uploads;
-  for (int i = 0; i < 12; ++i) uploads[1].add_vertices(i);
+  for (int i = 0; i < 12; ++i) uploads[1].emplace_back().add_vertices(i);
   proto::Frame frame;
   for (int i = 0; i < 8; ++i) frame.mutable_world()->add_items()->set_upload(1);
   EXPECT_EQ(refusalOf(frame, uploads), "accepted");
@@ -87,6 +89,113 @@ TEST(DecodeFrame, NumbersThatNobodyCanComputeWithAreRefused) {
     EXPECT_EQ(refused([&](proto::Material& m) { m.set_stribeck_m_s(bad); }), at + "stribeckMS" + range);
     EXPECT_EQ(refused([&](proto::Material& m) { m.set_presliding_n_m(bad); }), at + "preslidingNM" + range);
   }
+}
+
+// Four bytes on the wire each.
+TEST(DecodeFrame, ItemsAreCountedBeforeTheyAreMadeAndUntilTheyGo) {
+  constexpr int kItems = 10'000;
+  proto::Frame frame;
+  proto::ObjectDefinition& object = *frame.add_objects();
+  object.set_id(1);
+  for (int i = 0; i < kItems; ++i) object.add_items()->set_call(7);
+  const auto no_room = refusalOf(frame, {}, MemoryBudget(sizeof(SceneItem) * kItems));
+  EXPECT_NE(no_room.find("there is no room"), std::string::npos) << no_room;
+  EXPECT_NE(no_room.find("show less"), std::string::npos) << no_room;
+  const MemoryBudget budget(2 * sizeof(SceneItem) * kItems);
+  Uploads none;
+  {
+    const DecodedFrame decoded = decodeFrame(frame, none, smallLimits(), budget, [](double) {});
+    EXPECT_GE(budget.used_bytes(), sizeof(SceneItem) * kItems);
+  }
+  EXPECT_EQ(budget.used_bytes(), 0U);
+  EXPECT_LE(sizeof(SceneItem), 64U);
+}
+
+TEST(DecodeFrame, SurfacesPlacesNamesAndTexturesAreCounted) {
+  proto::Frame frame;
+  addTexture(frame, "a", 8);
+  for (int i = 0; i < 100; ++i) {
+    proto::Item& item = *frame.mutable_world()->add_items();
+    item.set_call(7);
+    for (int k = 0; k < 16; ++k) item.add_matrix(k % 5 == 0 ? 1 : 0);
+    proto::MaterialTexture& use = *item.mutable_material()->add_textures();
+    use.set_texture(std::string(200, 'x'));
+  }
+  const MemoryBudget budget(1'000'000);
+  Uploads none;
+  const DecodedFrame decoded = decodeFrame(frame, none, smallLimits(), budget, [](double) {});
+  EXPECT_GE(budget.used_bytes(),
+            64 * sizeof(float) + 100 * (sizeof(SceneItem) + sizeof(Placement) + sizeof(SurfaceChange) + 200));
+  frame.mutable_world()->mutable_items(3)->mutable_material()->mutable_textures(0)->set_texture(std::string(300, 'x'));
+  EXPECT_EQ(refusalOf(frame), "world.items[3].material.textures[0]: the name of a texture has at most 256 bytes");
+}
+
+TEST(DecodeFrame, WarningsHaveAnEnd) {
+  proto::Frame frame;
+  for (int i = 0; i < 100; ++i) {
+    proto::Primitives& line = *frame.mutable_world()->add_items()->mutable_primitives();
+    for (const double v : {0., 0., 0.}) line.add_vertices(v);
+    for (const std::uint32_t v : {0U, 0U}) line.add_segments(v);
+  }
+  Uploads none;
+  const DecodedFrame decoded = decodeFrame(frame, none, {}, {}, [](double) {});
+  EXPECT_EQ(decoded.warnings.size(), 21U);
+  EXPECT_EQ(decoded.warnings.back(), "and 80 more lines about what was skipped");
+}
+
+TEST(DecodeFrame, AnUploadInPartsIsOneMesh) {
+  Uploads uploads;
+  for (int part = 0; part < 3; ++part) {
+    proto::Primitives& p = uploads[1].emplace_back();
+    for (int i = 0; i < 3; ++i) p.add_vertices(part == i ? 1 : 0);
+    p.add_triangles(static_cast<std::uint32_t>(part));
+  }
+  proto::Frame frame;
+  frame.mutable_world()->add_items()->set_upload(1);
+  const DecodedFrame decoded = decodeFrame(frame, uploads, smallLimits(), MemoryBudget(100'000), [](double) {});
+  EXPECT_EQ(decoded.edit.world->at(0).shape->primitives.size(), 1U);
+}
+
+// What is counted before a message is decoded is at least what it then takes, whatever it is made of.
+TEST(MessageSize, IsAtLeastWhatTheMessageTakes) {
+  proto::ClientMessage calls, polygons, vertices, textures;
+  for (int i = 0; i < 1000; ++i) {
+    calls.mutable_frame()->mutable_world()->add_items()->set_call(1);
+    polygons.mutable_upload()->mutable_part()->add_polygons();
+    for (int k = 0; k < 9; ++k) vertices.mutable_upload()->mutable_part()->add_vertices(k);
+    for (int k = 0; k < 9; ++k) vertices.mutable_upload()->mutable_part()->add_triangles(1U << k);
+    textures.mutable_frame()->add_textures()->mutable_texels()->set_values("xyz");
+    textures.mutable_frame()->add_deleted_textures("some");
+  }
+  for (const proto::ClientMessage& message : {calls, polygons, vertices, textures}) {
+    proto::ClientMessage decoded;
+    ASSERT_TRUE(decoded.ParseFromString(message.SerializeAsString()));
+    const std::uint64_t counted = bytesToDecode(message.SerializeAsString());
+    EXPECT_GE(counted, bytesOfMessage(decoded.SpaceUsedLong())) << message.ShortDebugString().substr(0, 80);
+    EXPECT_LE(counted, 4 * decoded.SpaceUsedLong());
+  }
+}
+
+TEST(MessageSize, AMessageThatHasNoRoomIsKnownByItsOutline) {
+  proto::ClientMessage frame, upload, uploads, decoded;
+  frame.mutable_frame()->set_number(77);
+  for (int i = 0; i < 1000; ++i) frame.mutable_frame()->mutable_world()->add_items()->set_call(1);
+  const std::string wire = frame.SerializeAsString();
+  EXPECT_EQ(outlineOf(wire).frame().number(), 77U);
+  EXPECT_EQ(outlineOf(wire.substr(0, 100)).frame().number(), 77U) << "its beginning will do";
+  upload.mutable_upload()->set_id(5);
+  EXPECT_EQ(outlineOf(upload.SerializeAsString()).upload().id(), 5U);
+  for (const std::uint64_t id : {7U, 8U}) uploads.mutable_uploads()->add_parts()->set_id(id);
+  const proto::ClientMessage outline = outlineOf(uploads.SerializeAsString());
+  ASSERT_EQ(outline.uploads().parts_size(), 2);
+  EXPECT_EQ(outline.uploads().parts(1).id(), 8U);
+  const MemoryBudget budget(1000);
+  MemoryShare memory(budget);
+  const Decoding decoding = decodeMessage(MessageForm::kBinary, wire, decoded, memory);
+  EXPECT_EQ(decoding.fault, "");
+  EXPECT_NE(decoding.no_room, "");
+  EXPECT_EQ(decoded.frame().number(), 77U);
+  EXPECT_EQ(decoded.frame().world().items_size(), 0);
 }
 
 }  // namespace

@@ -230,5 +230,53 @@ TEST_F(PageSceneTest, ASceneWithANewMeshInEveryFrameIsShown) {
   EXPECT_EQ(shown, 3);
 }
 
+// A page without a mesh is told why, sees the rest, and goes on with the next scene.
+TEST(PageSceneMemory, AMeshThatDoesNotFitIsToldAndTheRestIsShown) {
+  const MemoryBudget budget(10'000);
+  PageScene scene(budget);
+  PageMemory page = scene.open();
+  const auto small = plane(8), large = plane(2000);
+  const auto drained = [&] {
+    std::vector<proto::ServerMessage> messages;
+    while (const PageMessage bytes = scene.next(page)) EXPECT_TRUE(messages.emplace_back().ParseFromString(*bytes));
+    return messages;
+  };
+  const auto show = [&](const std::shared_ptr<const Snapshot>& snapshot) {
+    while (true) {
+      scene.follow(snapshot, kScale, 0);
+      if (auto messages = drained(); !messages.empty()) return messages;
+      std::this_thread::yield();
+    }
+  };
+  const auto messages = show(makeSnapshot({instanceOf(1, large), instanceOf(2, small)}));
+  ASSERT_EQ(messages.size(), 4u);
+  EXPECT_EQ(messages[0].mesh().triangles().size(), 0u);
+  EXPECT_EQ(messages[1].mesh().triangles().size(), 8u * 3 * sizeof(std::uint32_t));
+  EXPECT_EQ(messages[2].layout().placed_size(), 2);
+  EXPECT_EQ(messages[3].notice().text().find("a mesh can be touched but is not shown: there is no room"), 0u)
+      << messages[3].notice().text();
+  EXPECT_GT(budget.used_bytes(), 0u);
+  EXPECT_EQ(show(makeSnapshot({instanceOf(2, small)})).front().layout().placed_size(), 1);
+  page = {};
+  scene.follow(nullptr, kScale, 0);
+  EXPECT_EQ(budget.used_bytes(), 0u) << "nobody looks";
+}
+
+// Protobuf writes no message of 2 GB.
+TEST(PageMeshes, AMeshBeyondTheLargestMessageIsToldNotSentEmpty) {
+  PageMeshes meshes({}, 5000);
+  const auto snapshot = makeSnapshot({instanceOf(1, plane(8)), instanceOf(2, plane(2000))});
+  const std::vector<std::uint32_t> numbers = meshes.numbersOf(*snapshot);
+  while (!meshes.ready()) std::this_thread::yield();
+  proto::ServerMessage small, large;
+  ASSERT_TRUE(small.ParseFromString(*meshes.message(numbers[0])));
+  ASSERT_TRUE(large.ParseFromString(*meshes.message(numbers[1])));
+  EXPECT_GT(small.mesh().triangles().size(), 0u);
+  EXPECT_EQ(large.mesh().number(), numbers[1]);
+  EXPECT_NE(meshes.lacking().find("several objects"), std::string::npos) << meshes.lacking();
+  meshes.keep({numbers[0]});
+  EXPECT_EQ(meshes.lacking(), "");
+}
+
 }  // namespace
 }  // namespace hl

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <cstdlib>
 #include <mutex>
+#include <new>
 
 #include "wait_for.h"
 
@@ -35,14 +38,18 @@ void call(proto::Frame& frame, double x) {
 /// A client of a publisher, and what it has been told.
 class Client {
  public:
-  Client(ScenePublisher& publisher, std::uint32_t session) : publisher_(publisher) {
+  Client(
+      ScenePublisher& publisher, std::uint32_t session, const MemoryBudget& memory = {},
+      std::function<void(std::uint64_t)> on_progress = [](std::uint64_t) {},
+      std::shared_ptr<ScenePublisher::Place> replaced = {})
+      : publisher_(publisher) {
     FrameCallbacks callbacks;
-    callbacks.progress = [](std::uint64_t, double) {};
+    callbacks.progress = [on_progress](std::uint64_t number, double) { on_progress(number); };
     callbacks.shown = [this](std::uint64_t number, std::size_t primitives, const std::vector<std::string>&) {
       tell(number, primitives);
     };
     callbacks.refused = [this](std::uint64_t number, const std::string&) { tell(number, kRefused); };
-    place = publisher.join(session, {}, std::move(callbacks));
+    place = publisher.join(session, {}, memory, std::move(callbacks), std::move(replaced));
   }
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
@@ -98,7 +105,7 @@ class ScenePublisherTest : public testing::Test {
 
   std::shared_ptr<const Snapshot> shown = makeSnapshot(std::vector<Instance>{}, "nothing");
   TouchSession session{shown, {}};
-  ScenePublisher publisher{shown, {&session}, 1'000'000'000};
+  ScenePublisher publisher{shown, {&session}};
 };
 
 TEST_F(ScenePublisherTest, EachFrameIsToldOnceAndInOrder) {
@@ -169,26 +176,131 @@ TEST_F(ScenePublisherTest, OneClientMovesComesAndGoesBesideAnother) {
 }
 
 TEST_F(ScenePublisherTest, WhatWasBentIsNotBentAgainByAFrameOfAnotherClient) {
-  Client bending(publisher, 1), other(publisher, 2);
+  const MemoryBudget memory(1'000'000'000);
+  Client bending(publisher, 1, memory), other(publisher, 2);
   proto::Frame frame = frameOf(1);
   define(frame, 1);
   call(frame, 0);
   bending.submit(frame);
   bending.told(1);
-  const std::uint64_t flat_bytes = publisher.memory().used_bytes();
   frame.clear_objects();
   frame.set_number(2);
   define(frame, 1.1);
   bending.submit(frame);
   bending.told(2);
   EXPECT_TRUE(shownOf(1).at(0)->before);
-  EXPECT_GT(publisher.memory().used_bytes(), flat_bytes) << "the shape before is still there";
+  EXPECT_GT(memory.used_bytes(), 2 * shownOf(1).at(0)->shape->bytes()) << "the shape before is still there";
   other.submit(frameOf(1));
   other.told(1);
   EXPECT_FALSE(shownOf(1).at(0)->before);
   EXPECT_EQ(shownOf(1).at(0)->shape->extent, 1.1);
-  EXPECT_EQ(publisher.memory().used_bytes(), flat_bytes);
+  const std::uint64_t two_shapes = 2 * shownOf(1).at(0)->shape->bytes();
+  shown.reset();
+  test::waitFor([&] { return memory.used_bytes() < two_shapes + 2 * bytesInWorld(); });
+}
+
+TEST_F(ScenePublisherTest, AClientThatHasGoneLeavesNothing) {
+  const MemoryBudget memory(1'000'000'000);
+  {
+    Client client(publisher, 1, memory);
+    proto::Frame frame = frameOf(1);
+    define(frame, 1);
+    call(frame, 0);
+    client.submit(frame);
+    client.told(1);
+    EXPECT_GT(memory.used_bytes(), 0U);
+  }
+  shown.reset();
+  test::waitFor([&] { return memory.used_bytes() == 0; });
+}
+
+TEST_F(ScenePublisherTest, AReplacedClientGoesInTheSceneThatShowsTheFirstFrame) {
+  Client before(publisher, 1);
+  proto::Frame frame = frameOf(1);
+  define(frame, 1);
+  call(frame, 0);
+  before.submit(frame);
+  before.told(1);
+  Client after(
+      publisher, 2, {}, [](std::uint64_t) {}, before.place);
+  Client other(publisher, 3);
+  other.submit(frameOf(1));
+  other.told(1);
+  EXPECT_EQ(shownOf(1).size(), 1U) << "until there is something in its place";
+  const std::uint64_t number = shown->number;
+  after.submit(frame);
+  after.told(1);
+  EXPECT_EQ(shownOf(2).size(), 1U);
+  EXPECT_EQ(shownOf(1).size(), 0U);
+  EXPECT_EQ(shown->number, number + 1) << "there was no scene with both, or with none";
+}
+
+// ---- Memory that is not there --------------------------------------------------------------------------------------
+
+// Fails the n-th allocation from now on of the thread that asked for it, once.
+std::atomic<int> order{0};  // what was asked for in an older one counts no more
+thread_local int fails_in = 0, fails_for = 0;
+
+void failIn(int allocations) {
+  fails_in = allocations;
+  fails_for = order;
+}
+
+bool failsNow() { return fails_in > 0 && fails_for == order && --fails_in == 0; }
+
+// A frame is told to be shown, or it is refused and nothing of it ever is, whichever allocation of its builder fails.
+TEST_F(ScenePublisherTest, AFrameHappensAsAWholeOrNotAtAllWhereverMemoryEnds) {
+  int fails = 0;
+  std::atomic<std::uint64_t> failing{0};
+  Client client(publisher, 1, MemoryBudget(1'000'000'000), [&](std::uint64_t number) {
+    if (number == failing) failIn(fails);
+  });
+  std::uint64_t number = 0;
+  std::size_t told = 0;
+  double size = 1;
+  proto::Frame frame = frameOf(++number);
+  define(frame, size);
+  call(frame, 0);
+  client.submit(frame);
+  client.told(++told);
+  bool refused = true;
+  for (fails = 1; refused; ++fails) {
+    frame = frameOf(++number);
+    define(frame, size + 1);
+    call(frame, 0);
+    failing = number;
+    client.submit(frame);
+    refused = client.told(++told).back().primitives == Client::kRefused;
+    ++order;
+    if (!refused) size += 1;
+    proto::Frame same;
+    same.set_number(++number);
+    client.submit(same);
+    ASSERT_EQ(client.told(++told).back().primitives, 1U);
+    ASSERT_EQ(shownOf(1).at(0)->shape->extent, size) << "after allocation " << fails << " failed";
+  }
+  EXPECT_GT(fails, 5) << "some did fail";
 }
 
 }  // namespace
 }  // namespace hl
+
+namespace {
+
+void* allocated(std::size_t size, std::size_t alignment) {
+  if (hl::failsNow()) throw std::bad_alloc();
+  void* const memory = std::aligned_alloc(alignment, (size + alignment) / alignment * alignment);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return allocated(size, alignof(std::max_align_t)); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return allocated(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
