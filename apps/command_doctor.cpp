@@ -66,6 +66,7 @@ RealtimeGrant examineTimer() {
 }
 
 void examine() {
+  lockProcessMemory();
   fmt::print("cores:              {}\n", std::thread::hardware_concurrency());
   const RealtimeGrant grant = examineTimer();
   fmt::print("real-time priority: {}\n", grant.fifo ? "granted (SCHED_FIFO)" : "refused");

@@ -1,14 +1,13 @@
 // hl touch: serves a scene with a device, and the page to see it, and to feel it with the mouse.
 #include <fmt/core.h>
-#include <unistd.h>
-
-#include <cstdlib>
 
 #include "base/error.h"
+#include "base/realtime.h"
 #include "commands.h"
 #include "force_options.h"
 #include "io/csv_path.h"
 #include "io/load_scene_file.h"
+#include "open_browser.h"
 #include "server/http_server.h"
 #include "server/touch_monitor.h"
 #include "server/touch_server.h"
@@ -19,17 +18,6 @@
 namespace hl {
 
 namespace {
-
-void openBrowser(const std::string& address) {
-  if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
-  const pid_t child = fork();
-  if (child != 0) return;
-  // A second fork: nobody has to wait for the browser.
-  if (fork() != 0) _exit(0);
-  setsid();
-  execlp("xdg-open", "xdg-open", address.c_str(), static_cast<char*>(nullptr));
-  _exit(127);
-}
 
 HandScript readScript(const std::string& file) {
   HandScript script;
@@ -85,6 +73,7 @@ void runTouch(TouchOptions options) {
   if (options.scale > 0) options.settings.world_per_device = options.scale;
   if (!options.hand_path.empty()) options.settings.script = readScript(options.hand_path);
   giveFreedMemoryBack();
+  lockProcessMemory();
   const sigset_t signals = blockSignals();
   HttpServerSettings http;
   http.port = static_cast<std::uint16_t>(options.port);

@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "base/error.h"
+#include "base/realtime.h"
 #include "hld_options.h"
 #include "server/touch_monitor.h"
 #include "server/touch_server.h"
@@ -59,6 +60,7 @@ void reloadToken(HttpServer& server, const std::string& file) {
 void serve(HldOptions& options) {
   openEventLog(options.log_format, options.log_level);
   giveFreedMemoryBack();
+  lockProcessMemory();
   const sigset_t signals = blockSignals();
   options.touch.hand_firm = options.hand == "firm";
   options.touch.explore = options.explore == "on";

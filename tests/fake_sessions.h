@@ -31,7 +31,8 @@ struct FakeRecord {
   int ever = 0;
   std::vector<int> states_taken;  // by session, in the order of their birth
   std::string end_all;            // why every session shall end
-  bool hold = false;              // a Frame is not taken in until this is false again
+  bool hold = false;              // a Frame with objects is not taken in until this is false again
+  int held = 0;                   // sessions that wait so
 };
 
 /// Answers Open with Welcome, a Frame with FrameShown, and sends states of `state_bytes` at the rate asked for.
@@ -59,7 +60,12 @@ class FakeSession : public ClientSession {
     if (message.has_frame()) replies_.emplace_back().mutable_frame_shown()->set_number(message.frame().number());
     if (message.has_state_rate()) rate_Hz_ = message.state_rate().rate_hz();
     std::unique_lock lock(record_->mutex);
-    if (message.has_frame()) record_->changed.wait(lock, [this] { return !record_->hold; });
+    if (message.frame().objects_size() > 0) {
+      ++record_->held;
+      record_->changed.notify_all();
+      record_->changed.wait(lock, [this] { return !record_->hold; });
+      --record_->held;
+    }
     if (message.has_upload()) {
       record_->upload_bytes += message.ByteSizeLong();
     } else {
@@ -144,7 +150,7 @@ class FakeHost : public SessionHost {
     wake_newest_();
   }
 
-  /// While `on`, a session that receives a Frame stays in receive(), as if it had much to decode.
+  /// While `on`, a session that receives a Frame with objects stays in receive(), as if it had much to decode.
   void holdFrames(bool on) {
     const std::scoped_lock lock(record_->mutex);
     record_->hold = on;
@@ -176,6 +182,9 @@ class FakeHost : public SessionHost {
   void waitUntil(Condition condition) const {
     std::unique_lock lock(record_->mutex);
     record_->changed.wait(lock, [&] { return condition(*record_); });
+  }
+  void waitForHeld(int count) const {
+    waitUntil([count](const FakeRecord& record) { return record.held == count; });
   }
   void waitForAlive(int count) const {
     waitUntil([count](const FakeRecord& record) { return record.alive == count; });

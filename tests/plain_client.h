@@ -87,6 +87,13 @@ class PlainClient {
     if (!good) return {};
     return reply;
   }
+  /// Whether another message comes, whatever is in it, before the server ends the connection.
+  bool nextBytes() {
+    beast::flat_buffer buffer;
+    beast::error_code error;
+    stream_.read(buffer, error);
+    return !error;
+  }
   /// The next reply that is no state.
   std::optional<proto::ServerReply> nextAnswer() {
     while (auto reply = next()) {

@@ -53,7 +53,10 @@ extern "C" {
  *         state_rate=HZ    how often the state comes; default 60; 0: never
  *         timeout=SECONDS  how long to wait for the welcome; default 10
  *         ca=FILE          hls: certificates (PEM) that the server's is checked against; default: the system's
- * An unknown option is an error. */
+ * An unknown option is an error.
+ *
+ * The loops of inproc: ask for SCHED_FIFO. They leave the program's memory alone: one that wants them safe from paging
+ * locks its memory itself, before, by mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT). */
 HL_API HLcontext* hlCreateContext(const char* url);
 /** Why the last hlCreateContext of this thread failed, in one line; "" when it did not. Valid until the thread's next
  * hlCreateContext. */

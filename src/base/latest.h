@@ -13,8 +13,9 @@ namespace hl {
 template <typename T>
 class Latest {
  public:
-  Latest() = default;
-  explicit Latest(const T& initial) { slots_.fill(Slot{initial}); }
+  /// Read before anything is written it gives `initial`: there is always one, as some types, Eigen's above all, are
+  /// left uninitialised by their own constructors.
+  explicit Latest(const T& initial) : slots_{Slot{initial}, Slot{initial}, Slot{initial}} {}
 
   /// Publishes `value`; an unread older value is overwritten.
   void write(const T& value) {
@@ -34,9 +35,9 @@ class Latest {
   static constexpr std::uint32_t kIndex = 3;
   static constexpr std::uint32_t kFresh = 4;
   struct alignas(64) Slot {
-    T value{};
+    T value;
   };
-  std::array<Slot, 3> slots_{};
+  std::array<Slot, 3> slots_;
   alignas(64) std::atomic<std::uint32_t> middle_{1};
   alignas(64) std::uint32_t back_ = 0;   // the writer's slot
   alignas(64) std::uint32_t front_ = 2;  // the reader's slot

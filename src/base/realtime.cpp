@@ -5,6 +5,7 @@
 #include <sys/mman.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <charconv>
 #include <cstddef>
@@ -25,15 +26,17 @@ constexpr bool kLocksSpin = true;
 constexpr bool kLocksSpin = false;
 #endif
 
-// Far more than a tick and a servo step need; a thread has 8 MB.
-constexpr std::size_t kStackBytes = 256 * 1024;
+// errno of lockProcessMemory(), 0 when it succeeded.
+constexpr int kNobodyAsked = -1;
+std::atomic<int> memory_lock{kNobodyAsked};
+
 constexpr std::size_t kPageBytes = 4096;
 constexpr std::size_t kEnoughToSpare = 4;
 
 [[gnu::noinline]] void touchStack() {
-  std::array<char, kStackBytes> stack;
+  std::array<char, kTouchedStack_bytes> stack;
   volatile char* const pages = stack.data();
-  for (std::size_t i = 0; i < kStackBytes; i += kPageBytes) pages[i] = 0;
+  for (std::size_t i = 0; i < kTouchedStack_bytes; i += kPageBytes) pages[i] = 0;
 }
 
 int numberAt(std::string_view& text) {
@@ -71,12 +74,15 @@ std::vector<int> allowedCores() {
   return cores;
 }
 
-bool pinTo(int core) {
+// 0, or why not.
+int pinTo(int core) {
   cpu_set_t only;
   CPU_ZERO(&only);
   CPU_SET(core, &only);
-  return pthread_setaffinity_np(pthread_self(), sizeof(only), &only) == 0;
+  return pthread_setaffinity_np(pthread_self(), sizeof(only), &only);
 }
+
+std::string reason(int error) { return error == kNobodyAsked ? "this program does not lock it" : std::strerror(error); }
 
 }  // namespace
 
@@ -88,6 +94,8 @@ int spareCore(int nth) {
   return allowed[allowed.size() - 1 - n];
 }
 
+void lockProcessMemory() { memory_lock = mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0 ? 0 : errno; }
+
 RealtimeGrant requestRealtime(int priority, int core) {
   RealtimeGrant grant;
   sched_param parameters{};
@@ -95,10 +103,12 @@ RealtimeGrant requestRealtime(int priority, int core) {
   const int refused = kLocksSpin ? ENOTSUP : pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
   grant.fifo = refused == 0;
   if (refused != 0) grant.why += std::string("no real-time priority (") + std::strerror(refused) + "). ";
-  grant.memory_locked = mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
-  if (!grant.memory_locked) grant.why += std::string("memory is not locked (") + std::strerror(errno) + "). ";
-  if (core >= 0 && pinTo(core)) grant.core = core;
-  if (core >= 0 && grant.core < 0) grant.why += "no core of its own (" + std::string(std::strerror(errno)) + "). ";
+  const int unlocked = memory_lock.load();
+  grant.memory_locked = unlocked == 0;
+  if (!grant.memory_locked) grant.why += "memory is not locked (" + reason(unlocked) + "). ";
+  const int unpinned = core < 0 ? 0 : pinTo(core);
+  if (core >= 0 && unpinned == 0) grant.core = core;
+  if (unpinned != 0) grant.why += "no core of its own (" + reason(unpinned) + "). ";
   touchStack();
   return grant;
 }

@@ -1,6 +1,7 @@
 // What a thread needs to be on time: priority, memory that is there, and a core of its own.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace hl {
@@ -11,7 +12,7 @@ inline constexpr int kServoPriority = 80;
 /// What the machine granted; `why` is one plain sentence for each thing refused, empty when all was granted.
 struct RealtimeGrant {
   bool fifo = false;           ///< the calling thread runs under SCHED_FIFO
-  bool memory_locked = false;  ///< mlockall succeeded
+  bool memory_locked = false;  ///< the process's, by lockProcessMemory()
   int core = -1;               ///< the only one that the thread runs on; -1: any
   std::string why;
 };
@@ -20,8 +21,16 @@ struct RealtimeGrant {
 /// (isolcpus), then, where the process has four or more, the last ones. -1: none can be spared. Setup only.
 int spareCore(int nth);
 
-/// Asks for SCHED_FIFO at `priority` (1..99), locked memory and `core` (-1: any) for the calling thread, and touches
-/// its stack, so that no page of it has to be found later. Setup only.
+/// Keeps all memory of this process where it is, now and later, each page from its first use on: what a loop reads has
+/// been written before, by whoever made it. For HL's own programs, before they start threads. Never from a library: the
+/// memory is its host's, and with a limit on locked memory every later allocation of the host could fail.
+void lockProcessMemory();
+
+/// What the stack of a loop has ready. A tick and a servo step have been seen to use a quarter of it.
+inline constexpr std::size_t kTouchedStack_bytes = std::size_t{512} * 1024;
+
+/// Asks for SCHED_FIFO at `priority` (1..99) and `core` (-1: any) for the calling thread, and touches its stack, so
+/// that no page of it has to be found later. Setup only.
 RealtimeGrant requestRealtime(int priority, int core = -1);
 
 }  // namespace hl

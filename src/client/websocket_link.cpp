@@ -20,6 +20,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/guarded_thread.h"
 #include "client/connect_stream.h"
 #include "client/reply_inbox.h"
 #include "wire/websocket.h"
@@ -45,7 +46,7 @@ class WebsocketLink : public Link {
       : address_(address), settings_(settings), bell_(context_), linger_(context_) {
     if (address_.tls) tls_ = makeClientTls(settings.ca_file);
     auto connected = asio::co_spawn(context_, connect(), asio::use_future);
-    thread_ = std::thread([this] { context_.run(); });
+    thread_ = startThread("hl client", [this] { context_.run(); });
     try {
       connected.get();
     } catch (...) {

@@ -46,7 +46,7 @@ class Exchange {
   static constexpr std::int64_t kStale_ns = 100'000'000;
   static constexpr std::int64_t kUnfed_ns = 50'000'000;
 
-  Latest<DeviceSample> samples_;  // their times are of the monotonic clock
+  Latest<DeviceSample> samples_{DeviceSample{}};  // their times are of the monotonic clock
   Latest<Vec3> forces_{Vec3::Zero()};
   std::int64_t taken_ns_ = 0;  // the newest sample on the clock of the servo; of the servo thread
   std::int64_t fed_ns_ = 0;    // of the other thread

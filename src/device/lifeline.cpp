@@ -3,6 +3,8 @@
 #include <chrono>
 #include <utility>
 
+#include "base/guarded_thread.h"
+
 namespace hl {
 
 namespace {
@@ -11,7 +13,8 @@ constexpr auto kPatience = std::chrono::milliseconds(50);  // between two looks;
 
 }  // namespace
 
-Lifeline::Lifeline(std::function<bool()> reopen) : reopen_(std::move(reopen)), thread_([this] { run(); }) {}
+Lifeline::Lifeline(std::function<bool()> reopen)
+    : reopen_(std::move(reopen)), thread_(startThread("lifeline", [this] { run(); })) {}
 
 Lifeline::~Lifeline() {
   running_ = false;

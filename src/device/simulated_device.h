@@ -86,7 +86,7 @@ class SimulatedDevice final : public Device, public SimulatedHand {
   Vec3 stylus_velocity_ = Vec3::Zero();
   HandState hand_;
   bool held_ = true;
-  Latest<Vec3> goal_;
+  Latest<Vec3> goal_{Vec3::Zero()};
   Vec3 goal_D_ = Vec3::Zero();
   std::atomic<bool> firm_{false};
   std::atomic<bool> holds_{true};

@@ -66,8 +66,9 @@ std::uint64_t SceneWriter::idOf(std::map<const Part*, Written<Part>>& written, c
   std::erase_if(written, [](const auto& entry) { return entry.second.part.expired(); });
   Written<Part>& entry = written[part.get()];
   if (entry.id == 0) {
+    // Known when it is written: where that fails it is not, and is tried again with the next scene.
+    encode_part(last_id_ + 1);
     entry = {part, ++last_id_};
-    encode_part(entry.id);
   }
   return entry.id;
 }

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <new>
 
 #include "base/error.h"
 
@@ -43,7 +44,7 @@ std::string packed(const std::string& raw) {
   std::string out(size, '\0');
   if (compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(raw.data()), raw.size(),
                 kLevel) != Z_OK)
-    throw Error("no memory to pack a block of the recording");
+    throw std::bad_alloc();
   out.resize(size);
   return out;
 }

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <optional>
 
+#include "base/guarded_thread.h"
 #include "server/connection.h"
 
 namespace hl {
@@ -18,13 +19,17 @@ class CarrierBell : public std::enable_shared_from_this<CarrierBell> {
  public:
   explicit CarrierBell(boost::asio::io_context& context) : context_(context), timer_(std::in_place, context) {}
 
-  /// Any thread; returns at once. Many rings before the writer has heard one are one.
-  void ring() {
+  /// Any thread; returns at once and throws nothing. Many rings before the writer has heard one are one. Without memory
+  /// to wake it, it hears the ring when it wakes by itself.
+  void ring() noexcept {
     const std::scoped_lock lock(mutex_);
-    if (closed_ || rung_) return;
+    if (closed_) return;
     rung_ = true;
-    boost::asio::post(context_, [self = shared_from_this()] {
-      if (self->timer_) self->timer_->cancel();
+    if (on_its_way_) return;
+    on_its_way_ = guarded([this] {
+      boost::asio::post(context_, [self = shared_from_this()] {
+        if (self->timer_) self->timer_->cancel();
+      });
     });
   }
 
@@ -47,7 +52,7 @@ class CarrierBell : public std::enable_shared_from_this<CarrierBell> {
   bool take() {
     const std::scoped_lock lock(mutex_);
     const bool rung = rung_;
-    rung_ = false;
+    rung_ = on_its_way_ = false;
     return rung;
   }
 
@@ -55,6 +60,7 @@ class CarrierBell : public std::enable_shared_from_this<CarrierBell> {
   std::optional<boost::asio::steady_timer> timer_;
   std::mutex mutex_;
   bool rung_ = false;
+  bool on_its_way_ = false;  // the ring, to the context's thread
   bool closed_ = false;
 };
 

@@ -38,7 +38,8 @@ class ClientSession {
   virtual std::string end() const = 0;
 };
 
-/// Called by any thread of the server when there is something to take; must return at once and must not call back.
+/// Called by any thread of the server when there is something to take; must return at once, must not call back and
+/// throws nothing.
 using WakeCarrier = std::function<void()>;
 
 /// Where carriers bring their clients.

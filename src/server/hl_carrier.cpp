@@ -11,6 +11,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/guarded_thread.h"
 #include "server/carrier_bell.h"
 #include "server/event_log.h"
 #include "server/message_size.h"
@@ -30,18 +31,13 @@ constexpr std::size_t kPiece_bytes = std::size_t{64} * 1024;  // of a message, f
 constexpr int kSendBuffer_bytes = 64 * 1024;
 constexpr double kShortestWait_s =
     1e-4;  // a state that is due but not there yet is asked for at most 10 000 times a second
-constexpr double kLongestWait_s = 3600;         // without states only the bell wakes
+constexpr double kLongestWait_s = 1;  // without states only the bell wakes, if there was memory to ring it
+// Such a message is decoded in well under a millisecond, in either form.
+constexpr std::size_t kLight_bytes = std::size_t{16} * 1024;
 constexpr std::size_t kMostReason_bytes = 123;  // RFC 6455, 5.5: what a close frame holds beside its code
 
 std::chrono::nanoseconds duration(double seconds) {
   return std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * seconds));
-}
-
-// Does `work` on the strand and comes back with its result.
-template <typename Strand, typename Work>
-asio::awaitable<std::invoke_result_t<Work>> doOn(Strand strand, Work work) {
-  co_return co_await asio::co_spawn(
-      strand, [&work]() -> asio::awaitable<std::invoke_result_t<Work>> { co_return work(); }, asio::use_awaitable);
 }
 
 // As much of `text` as fits, never half a UTF-8 character.
@@ -64,12 +60,35 @@ HlCarrier::HlCarrier(const CarrierWorld& world, ConnectionPointer connection, bo
     : world_(world),
       connection_(std::move(connection)),
       stream_(connection_->stream),
-      strand_(asio::make_strand(world.workers.get_executor())),
       bell_(std::make_shared<CarrierBell>(world.context)),
       open_deadline_(world.context),
       write_deadline_(world.context),
+      turn_over_(world.context, asio::steady_timer::time_point::max()),
       rate_(world.limits.messages_Hz),
       trusted_(trusted) {}
+
+// The session is one worker's.
+class HlCarrier::Turn {
+ public:
+  explicit Turn(HlCarrier& carrier) : carrier_(carrier) { carrier_.turn_ = true; }
+  ~Turn() {
+    carrier_.turn_ = false;
+    carrier_.turn_over_.cancel();
+  }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+
+ private:
+  HlCarrier& carrier_;
+};
+
+// Reader and writer take turns: who waits is woken before the other can have finished what it waits for.
+template <typename Work>
+asio::awaitable<std::invoke_result_t<Work>> HlCarrier::onSession(Workers& workers, Work work) {
+  while (turn_) co_await turn_over_.async_wait(kAwait);
+  const Turn turn(*this);
+  co_return co_await doOn(workers, std::move(work));
+}
 
 bool HlCarrier::setUp() {
   boost::system::error_code error;
@@ -100,17 +119,23 @@ asio::awaitable<void> HlCarrier::run(http::request<http::string_body> request) {
   co_await release();
 }
 
-// The session goes on the strand that it has lived on, and the bell no longer rings.
+// What a session leaves may be large. Without memory to ask a worker it goes here.
 asio::awaitable<void> HlCarrier::release() {
-  co_await doOn(strand_, [this] {
+  co_await onSession(world_.heavy_workers, [this] {
     session_.reset();
     return true;
   });
+}
+
+HlCarrier::~HlCarrier() {
+  session_.reset();
   bell_->close();
-  if (!opened_) co_return;
+  if (!opened_) return;
   --world_.traffic.sessions;
-  logEvent(LogLevel::kInfo, "session_end",
-           {{"peer", connection_->peer}, {"reason", ending_ ? ending_->text : std::string("the connection ended")}});
+  guarded([this] {
+    logEvent(LogLevel::kInfo, "session_end",
+             {{"peer", connection_->peer}, {"reason", ending_ ? ending_->text : std::string("the connection ended")}});
+  });
 }
 
 void HlCarrier::end(Ending ending) {
@@ -134,7 +159,21 @@ void HlCarrier::expectOpen() {
 
 // ---- From the client -----------------------------------------------------------------------------------------------
 
+// Ended by an exception, or dropped where it waited, it leaves a session that nobody listens to: that ends too.
 asio::awaitable<void> HlCarrier::read() {
+  const auto end = [this](bool* whole) {
+    if (*whole) return;
+    gone_ = true;
+    connection_->stream.close();
+    bell_->ring();
+  };
+  bool whole = false;
+  const std::unique_ptr<bool, decltype(end)> guard(&whole, end);
+  co_await readMessages();
+  whole = true;
+}
+
+asio::awaitable<void> HlCarrier::readMessages() {
   try {
     while (!ending_) {
       Incoming incoming(memory_);
@@ -157,7 +196,8 @@ asio::awaitable<void> HlCarrier::takeIn(const Incoming& incoming) {
   if (!opened_) form_ = form;
   const auto data = incoming.buffer.cdata();
   const std::string_view bytes(static_cast<const char*>(data.data()), data.size());
-  std::optional<Ending> trouble = co_await doOn(strand_, [&]() -> std::optional<Ending> {
+  Workers& workers = bytes.size() > kLight_bytes ? world_.heavy_workers : world_.light_workers;
+  std::optional<Ending> trouble = co_await onSession(workers, [&]() -> std::optional<Ending> {
     if (incoming.no_room.empty()) return handle(form, bytes);
     session_->refuse(outlineOf(bytes), incoming.no_room);
     return {};
@@ -271,13 +311,20 @@ HlCarrier::Next HlCarrier::next() {
   }
 }
 
+// Whatever the reader still waits for when this has ended, by whatever way, will not come.
 asio::awaitable<void> HlCarrier::write() {
+  const auto close = [](Stream* stream) { stream->close(); };
+  const std::unique_ptr<Stream, decltype(close)> guard(&connection_->stream, close);
+  co_await writeMessages();
+}
+
+asio::awaitable<void> HlCarrier::writeMessages() {
   while (!gone_) {
     if (ending_) {
       co_await sayGoodbye(*ending_);
       break;
     }
-    const Next todo = co_await doOn(strand_, [this] { return next(); });
+    const Next todo = co_await onSession(world_.light_workers, [this] { return next(); });
     if (todo.bytes) {
       const bool sent = co_await writeMessage(form_, *todo.bytes);
       if (!sent) break;
@@ -287,8 +334,6 @@ asio::awaitable<void> HlCarrier::write() {
       co_await bell_->wait(duration(todo.wait_s));
     }
   }
-  // Whatever the reader still waits for will not come.
-  connection_->stream.close();
 }
 
 asio::awaitable<bool> HlCarrier::writeMessage(MessageForm form, const std::string& bytes) {

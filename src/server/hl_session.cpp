@@ -225,8 +225,7 @@ void HlSession::reply(proto::ServerReply reply) {
   try {
     WaitingReply waiting = counted(std::move(reply));
     const std::lock_guard lock(mutex_);
-    replies_.push_back(std::move(waiting));
-    if (replies_.size() > kMostReplies && end_.empty()) end_ = "the client does not read what it is told";
+    push(std::move(waiting));
   } catch (const Error& error) {
     return end(error.what());
   }
@@ -245,6 +244,11 @@ void HlSession::refuse(const proto::ClientMessage& outline, const std::string& w
   for (const proto::Upload& upload : outline.uploads().parts()) {
     if (end().empty() && !refused_uploads_.contains(upload.id())) refuseUpload(upload.id(), why);
   }
+}
+
+void HlSession::push(WaitingReply reply) {
+  replies_.push_back(std::move(reply));
+  if (replies_.size() > kMostReplies && end_.empty()) end_ = "the client does not read what it is told";
 }
 
 void HlSession::refuse(const std::string& why, std::uint64_t frame) {
@@ -266,13 +270,18 @@ FrameCallbacks HlSession::callbacks() {
     proto::ServerReply reply;
     reply.mutable_progress()->set_frame(number);
     reply.mutable_progress()->set_built(part);
-    const std::lock_guard lock(mutex_);
-    // Of progress nobody has read yet the newest is enough; small frames tell of none.
-    if (!replies_.empty() && replies_.back().reply.has_progress()) {
-      replies_.back().reply = std::move(reply);
-    } else if (part < 1) {
-      replies_.push_back(counted(std::move(reply)));
+    {
+      const std::lock_guard lock(mutex_);
+      // Of progress nobody has read yet the newest is enough; small frames tell of none.
+      if (!replies_.empty() && replies_.back().reply.has_progress()) {
+        replies_.back().reply = std::move(reply);
+      } else if (part < 1) {
+        push(counted(std::move(reply)));
+      } else {
+        return;
+      }
     }
+    wake_();
   };
   callbacks.shown = [this](std::uint64_t number, std::size_t primitives, const std::vector<std::string>& warnings) {
     proto::ServerReply reply;

@@ -55,6 +55,7 @@ class HlSession final : public ClientSession {
   void reply(proto::ServerReply reply);
   WaitingReply counted(proto::ServerReply reply) const;
   void freeUpload(std::uint64_t id);
+  void push(WaitingReply reply);  // holding mutex_
   void refuse(const std::string& why, std::uint64_t frame = 0);
   FrameCallbacks callbacks();
 

@@ -53,15 +53,15 @@ HttpResponse HttpAnswers::refuse(const HttpRequest& request, http::status status
   return respond(request, status, kPlain, text + "\n");
 }
 
-HttpResponse HttpAnswers::answer(const HttpRequest& request) const {
+HttpResponse HttpAnswers::answer(const HttpRequest& request, const ServerCounts& counts) const {
   if (!mayConnect(request)) return refuse(request, http::status::forbidden, "only this server's own page may connect");
   if (request.method() != http::verb::get && request.method() != http::verb::head) {
     return refuse(request, http::status::method_not_allowed, "GET only");
   }
-  return answerGet(request);
+  return answerGet(request, counts);
 }
 
-HttpResponse HttpAnswers::answerGet(const HttpRequest& request) const {
+HttpResponse HttpAnswers::answerGet(const HttpRequest& request, const ServerCounts& counts) const {
   const std::string_view target = viewOf(request.target());
   const std::string_view path = pathOf(target);
   // Health is for whoever watches over the server; it tells nothing else.
@@ -72,7 +72,8 @@ HttpResponse HttpAnswers::answerGet(const HttpRequest& request) const {
     return refuse(request, http::status::unauthorized,
                   "this server asks for its token: open its address once with ?token=TOKEN at the end");
   }
-  if (path == "/metrics") return respond(request, http::status::ok, "text/plain; version=0.0.4", sources_.metrics());
+  if (path == "/metrics")
+    return respond(request, http::status::ok, "text/plain; version=0.0.4", sources_.metrics(counts));
   return file(request, target);
 }
 

@@ -9,19 +9,20 @@
 #include <string_view>
 
 #include "server/access.h"
+#include "server/traffic.h"
 
 namespace hl {
 
 using HttpRequest = boost::beast::http::request<boost::beast::http::string_body>;
 using HttpResponse = boost::beast::http::response<boost::beast::http::string_body>;
 
-/// In the server's thread.
+/// Any thread; the sources are asked by the one that answers.
 class HttpAnswers {
  public:
   struct Sources {
     std::string page_folder;
-    std::function<std::string()> fault;    ///< empty: healthy
-    std::function<std::string()> metrics;  ///< the whole text
+    std::function<std::string()> fault;                       ///< empty: healthy
+    std::function<std::string(const ServerCounts&)> metrics;  ///< the whole text
   };
   /// `access` outlives this.
   HttpAnswers(const Access& access, Sources sources);
@@ -31,12 +32,12 @@ class HttpAnswers {
   /// Has shown the token by its cookie or as a bearer, or none is asked for.
   bool isTrusted(const HttpRequest& request) const;
 
-  HttpResponse answer(const HttpRequest& request) const;
+  HttpResponse answer(const HttpRequest& request, const ServerCounts& counts) const;
   /// A refusal that a caller has decided on: `text` is one line.
   static HttpResponse refuse(const HttpRequest& request, boost::beast::http::status status, const std::string& text);
 
  private:
-  HttpResponse answerGet(const HttpRequest& request) const;
+  HttpResponse answerGet(const HttpRequest& request, const ServerCounts& counts) const;
   HttpResponse health(const HttpRequest& request) const;
   HttpResponse login(const HttpRequest& request, std::string_view token) const;
   HttpResponse file(const HttpRequest& request, std::string_view target) const;

@@ -2,7 +2,6 @@
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/post.hpp>
-#include <boost/asio/thread_pool.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/read.hpp>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/guarded_thread.h"
 #include "server/access.h"
 #include "server/client_session.h"
 #include "server/event_log.h"
@@ -21,6 +21,7 @@
 #include "server/listener.h"
 #include "server/page_feed.h"
 #include "server/traffic.h"
+#include "server/workers.h"
 
 namespace hl {
 
@@ -34,6 +35,7 @@ namespace {
 constexpr std::size_t kMaxRequest_bytes = std::size_t{16} * 1024;
 constexpr std::chrono::seconds kRequestTimeout(20);
 constexpr std::chrono::milliseconds kGrace(1000);  // for HL clients to answer the goodbye when the server stops
+constexpr std::chrono::milliseconds kLook(100);    // between two looks whether all that never ends is still there
 
 // TLS and a token are what stands between a stranger on the network and somebody's hand.
 ListenerSettings listenerSettings(const HttpServerSettings& settings) {
@@ -63,11 +65,15 @@ class HttpServer::Impl {
       : settings_(settings),
         monitor_(std::move(monitor)),
         host_(host),
-        workers_(settings.limits.workers),
+        light_workers_("light worker", 1),
+        heavy_workers_("worker", settings.limits.workers),
+        page_worker_("pages", 1),
         listener_(context_, listenerSettings(settings)),
         access_(accessSettings(settings, listener_.port())),
-        pages_(context_, settings.feed_rate_Hz, std::move(pages), monitor_.observe, settings_.limits, traffic_),
-        answers_(access_, {settings.page_folder, [this] { return fault(); }, [this] { return metrics(); }}) {}
+        pages_(context_, page_worker_, settings.feed_rate_Hz, std::move(pages), monitor_.observe, settings_.limits,
+               traffic_),
+        answers_(access_, {settings.page_folder, [this] { return fault(); },
+                           [this](const ServerCounts& counts) { return metrics(counts); }}) {}
 
   std::uint16_t port() const { return listener_.port(); }
   void setToken(const std::string& token) { access_.setToken(token); }
@@ -75,21 +81,38 @@ class HttpServer::Impl {
   void start() {
     listener_.start([this](ConnectionPointer connection) { return serve(std::move(connection)); });
     pages_.start();
-    thread_ = std::thread([this] { context_.run(); });
+    thread_ = startThread("network", [this] { run(); });
   }
 
   // Every coroutine ends because its socket or timer does; so the threads run out of work, and nothing is cut off.
   void stop() {
     if (!thread_.joinable()) return;
     asio::post(context_, [this] {
+      stopping_ = true;
       pages_.stop();
       listener_.stop(kGrace);
     });
     thread_.join();
-    workers_.join();
+    for (Workers* workers : {&light_workers_, &heavy_workers_, &page_worker_}) workers->join();
   }
 
  private:
+  // A handler that throws has lost its own work only. What never ends, accepting connections and telling pages, begins
+  // again where it was lost so.
+  void run() {
+    while (!stopping_ || !context_.stopped()) {
+      guarded([this] {
+        if (context_.stopped()) context_.restart();
+        context_.run_for(kLook);
+      });
+      if (stopping_) continue;
+      guarded([this] {
+        listener_.keepAccepting();
+        pages_.keepFeeding();
+      });
+    }
+  }
+
   // One HTTP connection; it may become a WebSocket.
   asio::awaitable<void> serve(ConnectionPointer connection) {
     beast::flat_buffer buffer;
@@ -105,7 +128,7 @@ class HttpServer::Impl {
         const bool upgraded = co_await upgrade(connection, request);
         if (upgraded) co_return;
       }
-      auto response = answer(connection->peer, request);
+      auto response = co_await answer(connection->peer, request);
       auto [failed, sent] = co_await http::async_write(connection->stream, response, kAwait);
       if (failed || !response.keep_alive()) co_return;
     }
@@ -121,21 +144,22 @@ class HttpServer::Impl {
     if (viewer) {
       co_await pages_.serve(connection, std::move(request));
     } else {
-      const CarrierWorld world{context_, workers_, *host_, access_, settings_.limits, traffic_};
+      const CarrierWorld world{context_, light_workers_, heavy_workers_, *host_, access_, settings_.limits, traffic_};
       co_await std::make_shared<HlCarrier>(world, connection, trusted)->run(std::move(request));
     }
     co_return true;
   }
 
-  HttpResponse answer(const std::string& peer, const HttpRequest& request) {
+  asio::awaitable<HttpResponse> answer(const std::string& peer, const HttpRequest& request) {
     if (websocket::is_upgrade(request) && request.target() == "/viewer" && pages_.full()) {
       traffic_.refuse(RefusedBecause::kFull);
-      return HttpAnswers::refuse(request, http::status::service_unavailable, "too many pages; close one");
+      co_return HttpAnswers::refuse(request, http::status::service_unavailable, "too many pages; close one");
     }
-    HttpResponse response = answers_.answer(request);
+    const ServerCounts counts{traffic_, listener_.connections(), pages_.pages(), listener_.refused()};
+    HttpResponse response = co_await doOn(page_worker_, [&] { return answers_.answer(request, counts); });
     const bool denied = response.result() == http::status::forbidden || response.result() == http::status::unauthorized;
     if (denied) tellDenied(peer, request, response);
-    return response;
+    co_return response;
   }
 
   void tellDenied(const std::string& peer, const HttpRequest& request, const HttpResponse& response) {
@@ -146,9 +170,9 @@ class HttpServer::Impl {
 
   std::string fault() const { return monitor_.fault ? monitor_.fault() : std::string(); }
 
-  std::string metrics() const {
+  std::string metrics(const ServerCounts& counts) const {
     MetricsText out;
-    writeTraffic(out, traffic_, listener_.connections(), pages_.pages(), listener_.refused());
+    writeTraffic(out, counts);
     if (monitor_.metrics) monitor_.metrics(out);
     return out.text();
   }
@@ -157,12 +181,14 @@ class HttpServer::Impl {
   MonitorCallbacks monitor_;
   SessionHost* host_;
   asio::io_context context_{1};
-  asio::thread_pool workers_;
+  Workers light_workers_, heavy_workers_;  // for HL clients
+  Workers page_worker_;                    // for what pages are told and what is asked over HTTP
   Traffic traffic_;
   Listener listener_;
   Access access_;
   PageFeed pages_;
   HttpAnswers answers_;
+  bool stopping_ = false;  // in the server's thread
   std::thread thread_;
 };
 

@@ -29,7 +29,8 @@ struct HttpServerSettings {
 /// Gives one page the next message of the scene that it lacks; empty when it has everything.
 using SceneSource = std::function<std::shared_ptr<const std::string>()>;
 
-/// Called in the server's thread. The strings are complete WebSocket binary messages.
+/// Called in one thread of the server's, beside the one that moves bytes. The strings are complete WebSocket binary
+/// messages.
 struct FeedCallbacks {
   std::function<std::string()> hello;
   std::function<SceneSource()> scene;  ///< once for each page; what it gives is asked before each state
@@ -37,8 +38,8 @@ struct FeedCallbacks {
   std::function<void(const std::string&)> receive;  ///< one message of at most Limits::page_message_bytes from a page
 };
 
-/// What the server tells about whatever it serves, without knowing it. Called in the server's thread; each may be
-/// empty.
+/// What the server tells about whatever it serves, without knowing it. Called in the thread of FeedCallbacks; each may
+/// be empty.
 struct MonitorCallbacks {
   std::function<void()> observe;              ///< at the feed's rate, whether anyone asks or not
   std::function<std::string()> fault;         ///< why it is not healthy, in one line; empty when it is

@@ -32,7 +32,7 @@ struct Limits : SceneLimits {
   std::uint64_t page_message_bytes = 4096;  ///< a page sends a few hundred
   double page_messages_Hz = 500;            ///< a pointer moves 60 to 240 times a second
   std::uint32_t connections = 256;  ///< sockets, whatever they are: far below a process's usual 1024 descriptors
-  std::uint32_t workers = 2;        ///< threads that decode clients' messages, beside the one that moves bytes
+  std::uint32_t workers = 2;        ///< threads that take in large messages, beside one for small ones and replies
 
   // Patience, in seconds.
   double handshake_s = 5;  ///< TLS, the WebSocket's upgrade, and then Open, each

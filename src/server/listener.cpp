@@ -1,10 +1,15 @@
 #include "server/listener.h"
 
+#include <fcntl.h>
+
 #include <boost/asio/co_spawn.hpp>
-#include <boost/asio/detached.hpp>
+#include <memory>
 #include <utility>
 
 #include "base/error.h"
+#include "base/flag.h"
+#include "base/guarded_thread.h"
+#include "server/workers.h"
 
 namespace hl {
 
@@ -21,7 +26,31 @@ std::string nameOf(const tcp::endpoint& endpoint) {
   return host + ":" + std::to_string(endpoint.port());
 }
 
+// A program that this one starts must not keep the port, nor somebody's connection.
+void keepFromChildren(int socket) { fcntl(socket, F_SETFD, FD_CLOEXEC); }
+
 }  // namespace
+
+// The place of one connection among all, until what serves it has ended, however that came.
+class Listener::Slot {
+ public:
+  Slot(Listener& listener, ConnectionPointer connection) : listener_(listener), connection_(std::move(connection)) {
+    listener_.connections_.insert(connection_);
+  }
+  ~Slot() {
+    connection_->farewell = nullptr;
+    connection_->stream.close();
+    listener_.connections_.erase(connection_);
+    if (listener_.stopping_ && listener_.connections_.empty()) listener_.pause_.cancel();
+  }
+  Slot(const Slot&) = delete;
+  Slot& operator=(const Slot&) = delete;
+  const ConnectionPointer& connection() const { return connection_; }
+
+ private:
+  Listener& listener_;
+  ConnectionPointer connection_;
+};
 
 asio::ip::address parseListenAddress(const std::string& text) {
   if (text == "localhost") return asio::ip::address_v4::loopback();
@@ -42,6 +71,7 @@ void Listener::listen(const ListenerSettings& settings) {
   boost::system::error_code error;
   const tcp::endpoint endpoint(settings.address, settings.port);
   acceptor_.open(endpoint.protocol(), error);
+  if (!error) keepFromChildren(acceptor_.native_handle());
   if (!error) acceptor_.set_option(asio::socket_base::reuse_address(true), error);
   if (!error) acceptor_.bind(endpoint, error);
   if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
@@ -53,10 +83,15 @@ void Listener::listen(const ListenerSettings& settings) {
 
 void Listener::start(ServeConnection serve) {
   serve_ = std::move(serve);
-  asio::co_spawn(context_, accept(), asio::detached);
+  keepAccepting();
+}
+
+void Listener::keepAccepting() {
+  if (!accepting_ && !stopping_) asio::co_spawn(context_, accept(), tellEnd);
 }
 
 asio::awaitable<void> Listener::accept() {
+  const Flag accepting(accepting_);
   while (!stopping_) {
     auto [error, socket] = co_await acceptor_.async_accept(kAwait);
     if (stopping_) co_return;
@@ -65,27 +100,28 @@ asio::awaitable<void> Listener::accept() {
       co_await pause_.async_wait(kAwait);
       continue;
     }
-    boost::system::error_code gone;
-    const tcp::endpoint peer = socket.remote_endpoint(gone);
-    if (gone || connections_.size() >= settings_.max_connections) {
-      ++refused_;
-      continue;  // and the socket closes
-    }
-    // Messages are small and their time matters more than their number of packets.
-    socket.set_option(tcp::no_delay(true), gone);
-    auto connection = std::make_shared<Connection>(Stream::Tcp(std::move(socket)), settings_.tls.get(), nameOf(peer));
-    connections_.insert(connection);
-    asio::co_spawn(context_, admit(std::move(connection)), asio::detached);
+    guarded([&] { take(std::move(socket)); });
   }
 }
 
-asio::awaitable<void> Listener::admit(ConnectionPointer connection) {
-  const bool welcome = co_await shakeHands(*connection);
-  if (welcome) co_await serve_(connection);
-  connection->farewell = nullptr;
-  connection->stream.close();
-  connections_.erase(connection);
-  if (stopping_ && connections_.empty()) pause_.cancel();
+void Listener::take(tcp::socket socket) {
+  boost::system::error_code gone;
+  const tcp::endpoint peer = socket.remote_endpoint(gone);
+  if (gone || connections_.size() >= settings_.max_connections) {
+    ++refused_;
+    return;  // and the socket closes
+  }
+  keepFromChildren(socket.native_handle());
+  // Messages are small and their time matters more than their number of packets.
+  socket.set_option(tcp::no_delay(true), gone);
+  auto slot = std::make_unique<Slot>(
+      *this, std::make_shared<Connection>(Stream::Tcp(std::move(socket)), settings_.tls.get(), nameOf(peer)));
+  asio::co_spawn(context_, admit(std::move(slot)), tellEnd);
+}
+
+asio::awaitable<void> Listener::admit(std::unique_ptr<Slot> slot) {
+  const bool welcome = co_await shakeHands(*slot->connection());
+  if (welcome) co_await serve_(slot->connection());
 }
 
 asio::awaitable<bool> Listener::shakeHands(Connection& connection) {
@@ -107,7 +143,7 @@ void Listener::stop(std::chrono::milliseconds grace) {
       connection->stream.close();
     }
   }
-  if (!connections_.empty()) asio::co_spawn(context_, closeLater(grace), asio::detached);
+  if (!connections_.empty()) asio::co_spawn(context_, closeLater(grace), tellEnd);
 }
 
 asio::awaitable<void> Listener::closeLater(std::chrono::milliseconds grace) {

@@ -39,6 +39,8 @@ class Listener {
   std::uint16_t port() const { return port_; }
 
   void start(ServeConnection serve);
+  /// Accepts again where that has ended for want of memory.
+  void keepAccepting();
   /// No new connections; those with a farewell get it and `grace` to leave, the others are closed.
   void stop(std::chrono::milliseconds grace);
 
@@ -46,9 +48,12 @@ class Listener {
   std::size_t refused() const { return refused_; }  ///< beyond max_connections, since the start
 
  private:
+  class Slot;
+
   void listen(const ListenerSettings& settings);
   boost::asio::awaitable<void> accept();
-  boost::asio::awaitable<void> admit(ConnectionPointer connection);
+  void take(boost::asio::ip::tcp::socket socket);
+  boost::asio::awaitable<void> admit(std::unique_ptr<Slot> slot);
   boost::asio::awaitable<bool> shakeHands(Connection& connection);
   boost::asio::awaitable<void> closeLater(std::chrono::milliseconds grace);
 
@@ -60,7 +65,7 @@ class Listener {
   ServeConnection serve_;
   std::set<ConnectionPointer> connections_;
   std::size_t refused_ = 0;
-  bool stopping_ = false;
+  bool accepting_ = false, stopping_ = false;
 };
 
 }  // namespace hl

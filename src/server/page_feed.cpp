@@ -1,7 +1,6 @@
 #include "server/page_feed.h"
 
 #include <boost/asio/co_spawn.hpp>
-#include <boost/asio/detached.hpp>
 #include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
@@ -9,6 +8,8 @@
 #include <utility>
 
 #include "base/clock.h"
+#include "base/flag.h"
+#include "base/guarded_thread.h"
 #include "server/message_rate.h"
 
 namespace hl {
@@ -18,9 +19,41 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 namespace websocket = beast::websocket;
 
-PageFeed::PageFeed(asio::io_context& context, double rate_Hz, FeedCallbacks callbacks, std::function<void()> beat,
-                   const Limits& limits, Traffic& traffic)
+// Among the pages, until what listens to it has ended, however that came.
+class PageFeed::Membership {
+ public:
+  Membership(PageFeed& feed, PagePointer page) : feed_(feed), page_(std::move(page)) { feed_.pages_.insert(page_); }
+  ~Membership() { feed_.pages_.erase(page_); }
+  Membership(const Membership&) = delete;
+  Membership& operator=(const Membership&) = delete;
+
+ private:
+  PageFeed& feed_;
+  PagePointer page_;
+};
+
+// Messages on their way to a page. When they do not all arrive the page does not know what it lacks: it is closed, and
+// will come again.
+class PageFeed::Delivery {
+ public:
+  explicit Delivery(Page& page) : page_(page) { page_.busy = true; }
+  ~Delivery() {
+    page_.busy = !arrived_;
+    if (!arrived_) page_.connection->stream.close();
+  }
+  Delivery(const Delivery&) = delete;
+  Delivery& operator=(const Delivery&) = delete;
+  void arrived() { arrived_ = true; }
+
+ private:
+  Page& page_;
+  bool arrived_ = false;
+};
+
+PageFeed::PageFeed(asio::io_context& context, Workers& worker, double rate_Hz, FeedCallbacks callbacks,
+                   std::function<void()> beat, const Limits& limits, Traffic& traffic)
     : context_(context),
+      worker_(worker),
       rate_Hz_(rate_Hz),
       callbacks_(std::move(callbacks)),
       beat_(std::move(beat)),
@@ -28,7 +61,9 @@ PageFeed::PageFeed(asio::io_context& context, double rate_Hz, FeedCallbacks call
       traffic_(traffic),
       timer_(context) {}
 
-void PageFeed::start() { asio::co_spawn(context_, feed(), asio::detached); }
+void PageFeed::keepFeeding() {
+  if (!feeding_ && !stopped_) asio::co_spawn(context_, feed(), tellEnd);
+}
 
 void PageFeed::stop() {
   stopped_ = true;
@@ -42,16 +77,19 @@ asio::awaitable<void> PageFeed::serve(ConnectionPointer connection, http::reques
   page->stream.setText(false);
   auto [refused] = co_await page->stream.accept(request);
   if (refused) co_return;
-  pages_.insert(page);
-  asio::co_spawn(context_, greet(page), asio::detached);
+  const Membership membership(*this, page);
+  asio::co_spawn(context_, greet(page), tellEnd);
   co_await listen(page);
-  pages_.erase(page);
 }
 
 asio::awaitable<void> PageFeed::greet(PagePointer page) {
-  page->scene = callbacks_.scene();
-  const bool greeted = co_await write(page, std::make_shared<const std::string>(callbacks_.hello()));
-  page->busy = !greeted;
+  Delivery delivery(*page);
+  const auto hello = co_await doOn(worker_, [&] {
+    page->scene = callbacks_.scene();
+    return std::make_shared<const std::string>(callbacks_.hello());
+  });
+  const bool greeted = co_await write(page, hello);
+  if (greeted) delivery.arrived();
 }
 
 // Reads until the page goes away, sends too fast or breaks the protocol.
@@ -71,35 +109,48 @@ asio::awaitable<void> PageFeed::listen(PagePointer page) {
       co_await page->stream.close({websocket::close_code::policy_error, "too many messages"});
       co_return;
     }
-    callbacks_.receive(beast::buffers_to_string(buffer.data()));
+    co_await doOn(worker_,
+                  [&] { return guarded([&] { callbacks_.receive(beast::buffers_to_string(buffer.data())); }); });
   }
 }
 
 // The same state to every page that is ready for one.
 asio::awaitable<void> PageFeed::feed() {
   const auto period = std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / rate_Hz_));
+  const Flag feeding(feeding_);
   while (!stopped_) {
     timer_.expires_after(period);
     co_await timer_.async_wait(kAwait);
     if (stopped_) co_return;
-    if (beat_) beat_();
-    const auto state = std::make_shared<const std::string>(callbacks_.state());
+    const auto state = co_await doOn(worker_, [this] { return newestState(); });
+    if (!state) continue;
     for (const PagePointer& page : pages_) {
-      if (page->busy) continue;
-      page->busy = true;
-      asio::co_spawn(context_, send(page, state), asio::detached);
+      if (!page->busy) asio::co_spawn(context_, send(page, state), tellEnd);
     }
   }
 }
 
+// Null where there was no memory for it.
+std::shared_ptr<const std::string> PageFeed::newestState() {
+  std::shared_ptr<const std::string> state;
+  guarded([&] {
+    if (beat_) beat_();
+    state = std::make_shared<const std::string>(callbacks_.state());
+  });
+  return state;
+}
+
 // What the page lacks of the scene goes first; while it is on its way the page gets no states.
 asio::awaitable<void> PageFeed::send(PagePointer page, std::shared_ptr<const std::string> state) {
-  while (const auto message = page->scene()) {
+  Delivery delivery(*page);
+  while (true) {
+    const auto message = co_await doOn(worker_, [&] { return page->scene(); });
+    if (!message) break;
     const bool sent = co_await write(page, message);
     if (!sent) co_return;
   }
   const bool sent = co_await write(page, state);
-  page->busy = !sent;
+  if (sent) delivery.arrived();
 }
 
 asio::awaitable<bool> PageFeed::write(PagePointer page, std::shared_ptr<const std::string> message) {

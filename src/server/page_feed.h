@@ -17,6 +17,7 @@
 #include "server/http_server.h"
 #include "server/limits.h"
 #include "server/traffic.h"
+#include "server/workers.h"
 #include "wire/websocket.h"
 
 namespace hl {
@@ -24,11 +25,13 @@ namespace hl {
 /// In the context's thread.
 class PageFeed {
  public:
-  /// `callbacks` and `beat`, which is called before each state, run in the context's thread.
-  PageFeed(boost::asio::io_context& context, double rate_Hz, FeedCallbacks callbacks, std::function<void()> beat,
-           const Limits& limits, Traffic& traffic);
+  /// `callbacks` and `beat`, which is called before each state, run on the one thread of `worker`.
+  PageFeed(boost::asio::io_context& context, Workers& worker, double rate_Hz, FeedCallbacks callbacks,
+           std::function<void()> beat, const Limits& limits, Traffic& traffic);
 
-  void start();
+  void start() { keepFeeding(); }
+  /// Feeds again where that has ended for want of memory.
+  void keepFeeding();
   void stop();  ///< no more states; the pages end with their connections
   bool full() const { return pages_.size() >= limits_.pages; }
   std::size_t pages() const { return pages_.size(); }
@@ -42,18 +45,22 @@ class PageFeed {
     explicit Page(ConnectionPointer owner) : connection(std::move(owner)), stream(connection->stream) {}
     ConnectionPointer connection;
     Websocket stream;
-    SceneSource scene;
-    bool busy = true;  // a write is under way
+    SceneSource scene;  // on the worker
+    bool busy = true;   // a write is under way
   };
   using PagePointer = std::shared_ptr<Page>;
+  class Membership;
+  class Delivery;
 
   boost::asio::awaitable<void> feed();
+  std::shared_ptr<const std::string> newestState();  // on the worker
   boost::asio::awaitable<void> greet(PagePointer page);
   boost::asio::awaitable<void> listen(PagePointer page);
   boost::asio::awaitable<void> send(PagePointer page, std::shared_ptr<const std::string> state);
   boost::asio::awaitable<bool> write(PagePointer page, std::shared_ptr<const std::string> message);
 
   boost::asio::io_context& context_;
+  Workers& worker_;
   double rate_Hz_;
   FeedCallbacks callbacks_;
   std::function<void()> beat_;
@@ -61,7 +68,7 @@ class PageFeed {
   Traffic& traffic_;
   boost::asio::steady_timer timer_;
   std::set<PagePointer> pages_;
-  bool stopped_ = false;
+  bool feeding_ = false, stopped_ = false;
 };
 
 }  // namespace hl

@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "base/error.h"
+#include "base/guarded_thread.h"
 #include "server/feed_messages.h"
 #include "server/wire_bytes.h"
 
@@ -78,9 +79,10 @@ std::uint32_t PageMeshes::numberOf(const Instance& instance) {
   Look look = lookOf(*instance.shape, *instance.surfaces);
   Identity identity{instance.shape->geometry, {}};
   for (const auto& texture : look) identity.second.push_back(texture.get());
-  const auto [known, fresh] = numbers_.try_emplace(std::move(identity), last_number_ + 1);
-  if (fresh) meshes_[++last_number_] = {instance.shape, std::move(look), nullptr};
-  return known->second;
+  if (const auto known = numbers_.find(identity); known != numbers_.end()) return known->second;
+  meshes_[last_number_ + 1] = {instance.shape, std::move(look), nullptr};
+  numbers_.emplace(std::move(identity), last_number_ + 1);  // last: a number has its mesh, whatever fails
+  return ++last_number_;
 }
 
 std::vector<std::uint32_t> PageMeshes::numbersOf(const Snapshot& snapshot) {
@@ -93,7 +95,7 @@ std::vector<std::uint32_t> PageMeshes::numbersOf(const Snapshot& snapshot) {
 // What failed as a whole is made again.
 void PageMeshes::takeMade() {
   if (!making_.valid() || making_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-  try {
+  guarded([this] {
     for (Made& made : making_.get()) {
       const auto mesh = meshes_.find(made.number);
       if (mesh == meshes_.end()) continue;
@@ -101,9 +103,7 @@ void PageMeshes::takeMade() {
       mesh->second.lacking = std::move(made.lacking);
       mesh->second.shape.reset();
     }
-  } catch (const std::exception&) {
-    making_ = {};
-  }
+  });
 }
 
 bool PageMeshes::ready() {
@@ -116,6 +116,7 @@ bool PageMeshes::ready() {
   if (making_.valid()) return false;
   try {
     making_ = std::async(std::launch::async, [this, lacking = std::move(lacking)] {
+      nameThread("page meshes");
       std::vector<Made> made;
       for (const auto& [number, mesh] : lacking) made.push_back(make(number, *mesh.shape, mesh.look));
       return made;

@@ -7,9 +7,11 @@
 #include <chrono>
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/guarded_thread.h"
 #include "io/recorded_servo.h"
 #include "io/recorded_values.h"
 
@@ -24,6 +26,8 @@ constexpr double kAfter_s = 0.2;
 constexpr auto kPeriod = std::chrono::milliseconds(20);
 // A block holds a tenth of a second, or what there is at the end; more makes files smaller and loses more to a kill.
 constexpr double kBlock_s = 0.1;
+// What is left at the end is worth more than one try, and the end must come.
+constexpr int kLastTries = 10;
 constexpr const char* kPrefix = "fault-";
 constexpr const char* kEnding = ".hlr";
 
@@ -39,22 +43,21 @@ std::int64_t unixNow_ms() {
 }
 
 // Gives `write` the records from `next` to `end` in runs without a gap, of at most `most`; what the ring no longer has
-// is passed over.
+// is passed over. `next` is the first that is not written yet, also when `write` throws.
 template <typename Record, typename Write>
 void forRuns(const LogRing<Record>& ring, std::uint64_t& next, std::uint64_t end, std::uint64_t most, Write write) {
   std::vector<Record> run;
-  std::uint64_t first = next;
+  std::uint64_t at = next;
   const auto flush = [&] {
-    if (!run.empty()) write(run, first);
+    if (!run.empty()) write(run, at - run.size());
     run.clear();
+    next = at;
   };
-  for (; next < end; ++next) {
+  for (; at < end; ++at) {
     Record record;
-    const bool there = ring.read(next, record);
+    const bool there = ring.read(at, record);
     if (!there || run.size() == most) flush();
-    if (!there) continue;
-    if (run.empty()) first = next;
-    run.push_back(record);
+    if (there) run.push_back(record);
   }
   flush();
 }
@@ -96,7 +99,7 @@ Recorder::~Recorder() { stop(); }
 void Recorder::start() {
   if (settings_.file.empty() && settings_.black_box_folder.empty()) return;
   running_ = true;
-  thread_ = std::thread([this] { run(); });
+  thread_ = startThread("recorder", [this] { run(); });
 }
 
 void Recorder::stop() {
@@ -120,10 +123,13 @@ void Recorder::tick(const TickInput& input, const ProxyStep& step, const Vec3& p
   ticks_.push({input, step.scene, step.held.target, proxy, step.report.contacts.size(), work_ns});
 }
 
-void Recorder::scene(std::shared_ptr<const Snapshot> scene) {
+void Recorder::scene(std::shared_ptr<const Snapshot> scene) noexcept {
   if (settings_.file.empty()) return;
-  const std::lock_guard lock(mutex_);
-  scenes_.push_back(std::move(scene));
+  const bool kept = guarded([&] {
+    const std::lock_guard lock(mutex_);
+    scenes_.push_back(std::move(scene));
+  });
+  if (!kept) scene_lost_ = true;
 }
 
 void Recorder::run() {
@@ -131,14 +137,15 @@ void Recorder::run() {
   while (running_) {
     wake_.wait_for(lock, kPeriod);
     lock.unlock();
-    drain(false);
+    guarded([this] { drain(false); });
     lock.lock();
   }
   lock.unlock();
-  drain(true);
+  int tries = 0;
+  keepTrying([&] { return tries++ < kLastTries; }, [this] { drain(true); });
 }
 
-// Ticks are counted before the scenes that they may have taken are asked for.
+// What it could not do for want of memory it does the next time.
 void Recorder::drain(bool all) {
   watchFaults(all);
   if (!file_) {
@@ -147,28 +154,37 @@ void Recorder::drain(bool all) {
     return;
   }
   try {
-    writeTicks(all);
-    writeSteps(all);
-    if (all)
-      endRecording("stopped");
-    else if (file_->bytes() > settings_.most_bytes)
-      endRecording(fmt::format("{} bytes are reached", settings_.most_bytes));
+    writeFile(all);
   } catch (const Error& error) {
-    tell(fmt::format("the recording ends: {}", error.what()));
     file_.reset();
+    tell(fmt::format("the recording ends: {}", error.what()));
   }
+}
+
+void Recorder::writeFile(bool all) {
+  if (scene_lost_) return endRecording("there was no memory to keep a scene for it");
+  writeTicks(all);
+  writeSteps(all);
+  if (all)
+    endRecording("stopped");
+  else if (file_->bytes() > settings_.most_bytes)
+    endRecording(fmt::format("{} bytes are reached", settings_.most_bytes));
+}
+
+std::shared_ptr<const Snapshot> Recorder::sceneToWrite() {
+  const std::lock_guard lock(mutex_);
+  return scenes_.empty() ? nullptr : scenes_.front();
 }
 
 void Recorder::writeScenes() {
-  std::vector<std::shared_ptr<const Snapshot>> scenes;
-  {
-    const std::lock_guard lock(mutex_);
-    scenes.swap(scenes_);
-  }
-  for (const auto& scene : scenes)
+  while (const auto scene = sceneToWrite()) {
     scene_writer_.write(*scene, [this](const proto::RecordingBlock& block) { file_->write(block); });
+    const std::lock_guard lock(mutex_);
+    scenes_.pop_front();
+  }
 }
 
+// Ticks are counted before the scenes that they may have taken are asked for.
 void Recorder::writeTicks(bool all) {
   const std::uint64_t end = ticks_.pushed();
   const std::uint64_t block = countOf(kBlock_s, std::max(session_.servo_rate_Hz, session_.proxy_rate_Hz));
@@ -196,8 +212,8 @@ void Recorder::endRecording(const std::string& reason) {
   proto::RecordingBlock end;
   end.mutable_end()->set_reason(reason);
   file_->write(end);
-  tell(fmt::format("recorded: {} ({} bytes; {})", file_->path(), file_->bytes(), reason));
-  file_.reset();
+  const auto file = std::move(file_);
+  tell(fmt::format("recorded: {} ({} bytes; {})", file->path(), file->bytes(), reason));
 }
 
 // A fault is written a little after it was; a stall at once, as no more steps may come.

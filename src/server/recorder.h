@@ -8,12 +8,12 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "base/log_ring.h"
 #include "control/servo_record.h"
@@ -55,15 +55,17 @@ class Recorder {
   void step(const ServoRecord& record) noexcept;
   /// A tick, by the loop that has made it; nothing where there was none. RT-safe.
   void tick(const TickInput& input, const ProxyStep& step, const Vec3& proxy, std::int64_t work_ns) noexcept;
-  /// Before the loops can take it. Any thread but theirs.
-  void scene(std::shared_ptr<const Snapshot> scene);
+  /// Before the loops can take it. Any thread but theirs. Without memory for it the recording ends.
+  void scene(std::shared_ptr<const Snapshot> scene) noexcept;
   /// The watchdog has found the servo standing still. Any thread.
   void stall() { stalled_.store(true, std::memory_order_release); }
 
  private:
   void run();
   void drain(bool all);
+  void writeFile(bool all);
   void writeScenes();
+  std::shared_ptr<const Snapshot> sceneToWrite();
   void writeTicks(bool all);
   void writeSteps(bool all);
   void endRecording(const std::string& reason);
@@ -78,7 +80,7 @@ class Recorder {
   LogRing<ServoRecord> steps_;
   LogRing<TickRecord> ticks_;
   std::atomic<std::uint64_t> fault_{0};  // 1 + number of the step that went into fault last; 0: none
-  std::atomic<bool> stalled_{false};
+  std::atomic<bool> stalled_{false}, scene_lost_{false};
 
   // Of the recorder's thread.
   std::unique_ptr<RecordingWriter> file_;
@@ -87,7 +89,7 @@ class Recorder {
 
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::vector<std::shared_ptr<const Snapshot>> scenes_;  // not yet written
+  std::deque<std::shared_ptr<const Snapshot>> scenes_;  // not yet written
   bool running_ = false;
   std::thread thread_;
 };

@@ -9,6 +9,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/guarded_thread.h"
 
 namespace hl {
 
@@ -66,7 +67,7 @@ class ScenePublisher::Place {
   std::int64_t last_arrived_ns_ = 0;
   std::int64_t move_ns_ = 0;         // that what is placed takes to get there
   PlacedShapes placed_;              // what is to be shown next; null when it is as it was
-  std::vector<Ready> ready_;         // frames that are built and not yet shown
+  std::deque<Ready> ready_;          // frames that are built and not yet told to be shown
   std::shared_ptr<Place> replaced_;  // goes with the first frame
 };
 
@@ -75,7 +76,8 @@ struct ScenePublisher::Part {
   bool gone;
   PlacedShapes placed;  // null: as it is
   std::int64_t move_ns;
-  std::size_t frames;  // of the place's ready ones
+  std::size_t frames;                  // of the place's ready ones
+  std::vector<const Instance*> shown;  // of the place, in the next scene
 };
 
 ScenePublisher::ScenePublisher(std::shared_ptr<const Snapshot> base, std::vector<TouchSession*> devices)
@@ -85,8 +87,8 @@ ScenePublisher::~ScenePublisher() { stop(); }
 
 void ScenePublisher::start() {
   running_ = true;
-  for (int i = 0; i < kBuilders; ++i) threads_.emplace_back([this] { runBuilder(); });
-  threads_.emplace_back([this] { runPublisher(); });
+  for (int i = 0; i < kBuilders; ++i) threads_.push_back(startThread("builder", [this] { runBuilder(); }));
+  threads_.push_back(startThread("publisher", [this] { runPublisher(); }));
 }
 
 void ScenePublisher::stop() {
@@ -193,7 +195,7 @@ void ScenePublisher::runBuilder() {
       place->waiting_.pop_front();
     }
     lock.unlock();
-    frame ? build(*place, std::move(waiting)) : rebuild(*place);
+    guarded([&] { frame ? build(*place, std::move(waiting)) : rebuild(*place); });
     lock.lock();
     place->building_ = place->rebuilding_ = false;
     if (place->removed_) dirty_ = true;  // the publisher has left it to this builder
@@ -226,10 +228,19 @@ void ScenePublisher::build(Place& place, Waiting waiting) {
     if (place.replaced_) std::exchange(place.replaced_, nullptr)->removed_ = true;
     dirty_ = true;
   } catch (const std::bad_alloc&) {
-    place.tell([&](FrameCallbacks& callbacks) { callbacks.refused(number, "the server has no memory for it"); });
+    return refuse(place, number, "the server has no memory for it");
   } catch (const std::exception& error) {
-    place.tell([&](FrameCallbacks& callbacks) { callbacks.refused(number, error.what()); });
+    return refuse(place, number, error.what());
   }
+}
+
+// What a client waits for is told in the end, however short memory is meanwhile.
+void ScenePublisher::tell(FunctionRef<void()> call) {
+  keepTrying([this] { return running_.load(); }, call);
+}
+
+void ScenePublisher::refuse(Place& place, std::uint64_t number, const char* why) {
+  tell([&] { place.tell([&](FrameCallbacks& callbacks) { callbacks.refused(number, why); }); });
 }
 
 // One hierarchy, so that a frame that comes meanwhile waits for no more. Nothing is felt of it: the geometry is the
@@ -267,7 +278,8 @@ void ScenePublisher::runPublisher() {
       if (!running_) return;
     }
     if (!waitForLoops()) return;
-    publish();
+    const bool shown = guarded([this] { publish(); });
+    if (!shown) std::this_thread::sleep_for(kAfterFailure);
     if (!waitForLoops()) return;
     for (TouchSession* device : devices_) device->dropSceneBefore();
   }
@@ -287,11 +299,21 @@ bool ScenePublisher::waitForLoops() {
 std::vector<ScenePublisher::Part> ScenePublisher::takeParts() {
   const std::lock_guard lock(mutex_);
   std::vector<Part> parts;
+  parts.reserve(places_.size());  // from here on nothing is thrown
   for (const auto& place : places_)
     parts.push_back(
-        {place, place->removed_, std::exchange(place->placed_, nullptr), place->move_ns_, place->ready_.size()});
+        {place, place->removed_, std::exchange(place->placed_, nullptr), place->move_ns_, place->ready_.size(), {}});
   dirty_ = false;
   return parts;
+}
+
+// They could not be shown: the next time, unless there is something newer by then.
+void ScenePublisher::giveBack(std::vector<Part>& parts) {
+  const std::lock_guard lock(mutex_);
+  for (Part& part : parts) {
+    if (!part.place->placed_) part.place->placed_ = std::move(part.placed);
+  }
+  dirty_ = true;
 }
 
 // What all clients have in the world from `begin_ns` on; returns Snapshot::blend_ns.
@@ -302,7 +324,7 @@ std::int64_t ScenePublisher::assemble(const std::vector<Part>& parts, std::int64
   for (const Part& part : parts) count += part.placed ? part.placed->size() : part.place->shown_.size();
   instances.reserve(count);
   instances = base_->instances;
-  for (const auto& [place, gone, placed, move_ns, frames] : parts) {
+  for (const auto& [place, gone, placed, move_ns, frames, shown] : parts) {
     if (gone) {
       if (!place->shown_.empty()) blend_ns = std::max(blend_ns, kAbruptBlend_ns);
     } else if (placed) {
@@ -355,26 +377,37 @@ std::shared_ptr<const Snapshot> ScenePublisher::makeNext(const std::vector<Part>
 }
 
 void ScenePublisher::publish() {
-  const std::vector<Part> parts = takeParts();
-  const auto next = makeNext(parts);
-  for (TouchSession* device : devices_) device->publish(next);
-  keepShown(next, parts);
+  std::vector<Part> parts = takeParts();
+  std::shared_ptr<const Snapshot> next;
+  try {
+    next = makeNext(parts);
+    listShown(*next, parts);
+  } catch (...) {
+    giveBack(parts);
+    throw;
+  }
+  show(next, parts);
   for (const Part& part : parts) tellShown(part);
   work_.notify_one();  // what is worn may be rebuilt now
 }
 
-// The scene, and for each client what of it is its own.
-void ScenePublisher::keepShown(const std::shared_ptr<const Snapshot>& next, const std::vector<Part>& parts) {
-  std::map<std::uint32_t, Place*> place_of;
-  for (const Part& part : parts) {
-    part.place->shown_.clear();
+// For each client what of the scene is its own.
+void ScenePublisher::listShown(const Snapshot& next, std::vector<Part>& parts) {
+  std::map<std::uint32_t, Part*> part_of;
+  for (Part& part : parts) part_of[part.place->session_] = &part;
+  for (const Instance& instance : next.instances) {
+    const auto found = part_of.find(instance.session);
+    if (found != part_of.end()) found->second->shown.push_back(&instance);
+  }
+}
+
+// To all devices or, had anything failed before, to none.
+void ScenePublisher::show(const std::shared_ptr<const Snapshot>& next, std::vector<Part>& parts) noexcept {
+  for (TouchSession* device : devices_) device->publish(next);
+  for (Part& part : parts) {
+    part.place->shown_.swap(part.shown);
     if (part.placed) part.place->shown_placed_ = part.placed;
     if (part.gone) part.place->shown_placed_ = nullptr;
-    place_of[part.place->session_] = part.place.get();
-  }
-  for (const Instance& instance : next->instances) {
-    const auto found = place_of.find(instance.session);
-    if (found != place_of.end()) found->second->shown_.push_back(&instance);
   }
   shown_ = next;
 }
@@ -383,17 +416,19 @@ void ScenePublisher::tellShown(const Part& part) {
   Place& place = *part.place;
   std::size_t primitives = 0;
   for (const Instance* instance : place.shown_) primitives += instance->shape->primitives.size();
-  std::vector<Place::Ready> frames;
   {
     const std::lock_guard lock(mutex_);
-    const auto end = place.ready_.begin() + static_cast<std::ptrdiff_t>(part.frames);
-    std::move(place.ready_.begin(), end, std::back_inserter(frames));
-    place.ready_.erase(place.ready_.begin(), end);
     if (part.gone && !place.building_) std::erase(places_, part.place);
   }
-  place.tell([&](FrameCallbacks& callbacks) {
-    for (const Place::Ready& frame : frames) callbacks.shown(frame.number, primitives, frame.warnings);
-  });
+  for (std::size_t i = 0; i < part.frames; ++i) {
+    std::unique_lock lock(mutex_);
+    const Place::Ready frame = std::move(place.ready_.front());
+    place.ready_.pop_front();
+    lock.unlock();
+    tell([&] {
+      place.tell([&](FrameCallbacks& callbacks) { callbacks.shown(frame.number, primitives, frame.warnings); });
+    });
+  }
 }
 
 }  // namespace hl

@@ -85,13 +85,17 @@ class ScenePublisher {
   std::shared_ptr<Place> placeToBuild();
   std::shared_ptr<Place> placeToRebuild();
   void build(Place& place, Waiting waiting);
+  void refuse(Place& place, std::uint64_t number, const char* why);
   void rebuild(Place& place);
   bool waitForLoops();
   std::vector<Part> takeParts();
+  void giveBack(std::vector<Part>& parts);
   std::int64_t assemble(const std::vector<Part>& parts, std::int64_t begin_ns, std::vector<Instance>& instances) const;
   std::shared_ptr<const Snapshot> makeNext(const std::vector<Part>& parts);
   void publish();
-  void keepShown(const std::shared_ptr<const Snapshot>& next, const std::vector<Part>& parts);
+  static void listShown(const Snapshot& next, std::vector<Part>& parts);
+  void show(const std::shared_ptr<const Snapshot>& next, std::vector<Part>& parts) noexcept;
+  void tell(FunctionRef<void()> call);
   void tellShown(const Part& part);
   static std::int64_t moveTime_ns(const Waiting& waiting, std::int64_t last_arrived_ns);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/guarded_thread.h"
 #include "base/realtime.h"
 #include "control/watchdog.h"
 
@@ -23,7 +24,7 @@ std::uint32_t ServoWatch::looks(bool real_time, double servo_rate_Hz) {
 
 void ServoWatch::start(std::uint32_t looks) {
   running_ = true;
-  thread_ = std::thread([this, looks] { run(looks); });
+  thread_ = startThread("servo watch", [this, looks] { run(looks); });
 }
 
 void ServoWatch::stop() {
@@ -38,7 +39,7 @@ void ServoWatch::run(std::uint32_t looks) {
     if (!watchdog.look(servo_.steps.load(std::memory_order_relaxed))) return;
     stalled_.store(true, std::memory_order_release);
     device_.stop();
-    on_stall_();
+    guarded(on_stall_);
   });
 }
 

@@ -1,9 +1,10 @@
 // SnapshotSlot: how a new scene reaches a real-time loop. The loop takes a pointer and never frees anything; the
-// publisher frees a scene when the loop has moved on to the next.
+// publisher frees a scene when the loop has moved on to the next, or has never taken it.
 #pragma once
 
 #include <atomic>
 #include <memory>
+#include <utility>
 
 #include "scene/snapshot.h"
 
@@ -12,34 +13,39 @@ namespace hl {
 /// One publisher (any one thread at a time, not real-time) and one reader.
 class SnapshotSlot {
  public:
-  explicit SnapshotSlot(std::shared_ptr<const Snapshot> first) : current_(std::move(first)), newest_(current_.get()) {
-    taken_ = newest_.load();
+  explicit SnapshotSlot(std::shared_ptr<const Snapshot> first) : newest_(first), current_(first.get()) {
+    in_use_ = std::move(first);
   }
 
-  /// Whether the reader has taken the newest one; only then another may be published.
-  bool taken() const { return taken_.load(std::memory_order_acquire) == newest_.load(std::memory_order_relaxed); }
-  /// Call it only when taken(), or when there is no reader.
+  /// Whether the reader has taken the newest one.
+  bool taken() const { return waiting_.load(std::memory_order_acquire) == nullptr; }
+  /// One that the reader has not taken by then it never will.
   void publish(std::shared_ptr<const Snapshot> next) {
-    before_ = std::move(current_);
-    current_ = std::move(next);
-    newest_.store(current_.get(), std::memory_order_release);
+    // The reader has begun to use the newest one, and so ended with the one before, if it no longer waits.
+    const bool taken = waiting_.exchange(next.get(), std::memory_order_acq_rel) == nullptr;
+    if (taken) in_use_ = std::move(newest_);
+    newest_ = std::move(next);
   }
-  /// Frees the one before, when the reader has done with it: taken(), and a step since. Publisher.
-  void dropBefore() { before_.reset(); }
+  /// Frees the one before, unless the reader may still be in it. Publisher.
+  void dropBefore() {
+    if (taken()) in_use_.reset();
+  }
   /// The newest that was published. Publisher.
-  const std::shared_ptr<const Snapshot>& newest() const { return current_; }
+  const std::shared_ptr<const Snapshot>& newest() const { return newest_; }
 
   /// The newest one; valid until the next call. Reader; RT-safe.
   const Snapshot& take() {
-    const Snapshot* snapshot = newest_.load(std::memory_order_acquire);
-    taken_.store(snapshot, std::memory_order_release);
-    return *snapshot;
+    if (waiting_.load(std::memory_order_relaxed) == nullptr) return *current_;
+    // Only the reader takes away, so there still is one, perhaps a newer.
+    current_ = waiting_.exchange(nullptr, std::memory_order_acq_rel);
+    return *current_;
   }
 
  private:
-  std::shared_ptr<const Snapshot> before_, current_;  // the reader may still be in the one before
-  std::atomic<const Snapshot*> newest_;
-  std::atomic<const Snapshot*> taken_{nullptr};
+  std::shared_ptr<const Snapshot> newest_;         // of the publisher, as the next
+  std::shared_ptr<const Snapshot> in_use_;         // the reader may be in this one, or in the newest
+  std::atomic<const Snapshot*> waiting_{nullptr};  // published and not taken
+  const Snapshot* current_;                        // of the reader
 };
 
 }  // namespace hl

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/clock.h"
+#include "base/guarded_thread.h"
 
 namespace hl {
 
@@ -50,6 +51,9 @@ class TouchMonitor {
     ProxyView proxy;
     session_.views(servo, proxy);
     if (servo.safety == SafetyState::kFault) return std::string("the servo is in fault: ") + faultText(servo.fault);
+    for (const ThreadFailures& thread : threadFailures()) {
+      if (thread.now) return std::string("the thread '") + thread.thread + "' fails at its work: see the log";
+    }
     return {};
   }
 
@@ -68,6 +72,7 @@ class TouchMonitor {
     out.single("hl_unplaced_ticks_total", MetricType::kCounter, "Ticks in which no place for the proxy was clear",
                static_cast<double>(proxy.unplaced));
     writeLedger(out, proxy.ledger, servo.late);
+    writeFailures(out);
     if (clients_ == nullptr) return;
     writeHierarchies(out, clients_->hierarchyCounts());
     writeMemory(out, clients_->memory());
@@ -134,6 +139,12 @@ class TouchMonitor {
                ledger.injected_J + late.injected_J);
     out.single("hl_ledger_dissipated_joules_total", kCounter, "Energy that they have taken away",
                ledger.dissipated_J + late.dissipated_J);
+  }
+
+  static void writeFailures(MetricsText& out) {
+    out.family("hl_thread_failures_total", MetricType::kCounter, "Pieces of work that threads could not do");
+    for (const ThreadFailures& thread : threadFailures())
+      out.sample(static_cast<double>(thread.count), {{"thread", thread.thread}});
   }
 
   static void writeHierarchies(MetricsText& out, const HierarchyCounts& counts) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/guarded_thread.h"
 #include "io/replay_device.h"
 #include "server/feed_messages.h"
 
@@ -52,7 +53,7 @@ void TouchServer::start() {
   if (running_.exchange(true)) return;
   for (const auto& device : devices_) device->start();
   publisher_.start();
-  events_ = std::thread([this] { runEvents(); });
+  events_ = startThread("events", [this] { runEvents(); });
 }
 
 void TouchServer::stop() {
@@ -131,9 +132,16 @@ void TouchServer::runEvents() {
   while (running_) {
     std::this_thread::sleep_for(kEventPeriod);
     for (std::uint32_t device = 0; device < devices_.size(); ++device) {
-      tellTouched(device);
-      tellButtons(device);
+      guarded([&] { tellTouched(device); });
+      guarded([&] { tellButtons(device); });
     }
+  }
+}
+
+void TouchServer::tellEach(const proto::Event& event, FunctionRef<bool(const HlSession&)> whom) {
+  const std::lock_guard lock(mutex_);
+  for (HlSession* session : sessions_) {
+    if (whom(*session)) guarded([&] { session->tell(event); });
   }
 }
 
@@ -147,10 +155,7 @@ void TouchServer::tellTouched(std::uint32_t device) {
     out.set_object(event.object.object);
     out.set_name(event.object.name);
     toProto(event.position_W, *out.mutable_position());
-    const std::lock_guard lock(mutex_);
-    for (HlSession* session : sessions_) {
-      if (session->number() == event.object.session) session->tell(out);
-    }
+    tellEach(out, [&](const HlSession& session) { return session.number() == event.object.session; });
   }
 }
 
@@ -171,10 +176,7 @@ void TouchServer::tellButtons(std::uint32_t device) {
     out.set_button(button);
     out.set_down((servo.buttons >> button & 1U) != 0);
     toProto(proxy.proxy, *out.mutable_position());
-    const std::lock_guard lock(mutex_);
-    for (HlSession* session : sessions_) {
-      if (session->device() == device) session->tell(out);
-    }
+    tellEach(out, [&](const HlSession& session) { return session.device() == device; });
   }
 }
 

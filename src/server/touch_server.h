@@ -59,6 +59,7 @@ class TouchServer final : public SessionHost {
   void describe(std::uint32_t device, proto::ClientState& state);
   void setDeviceInfo(std::uint32_t device, proto::DeviceInfo& info) const;
   void runEvents();
+  void tellEach(const proto::Event& event, FunctionRef<bool(const HlSession&)> whom);
   void tellTouched(std::uint32_t device);
   void tellButtons(std::uint32_t device);
 

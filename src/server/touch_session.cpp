@@ -97,11 +97,11 @@ void TouchSession::start() {
   running_ = true;
   arm_requests_ = 1;
   recorder_.start();
-  proxy_thread_ = std::thread([this] { runProxy(); });
-  servo_thread_ = std::thread([this] { runServo(); });
-  if (hasHand()) supervisor_thread_ = std::thread([this] { runSupervisor(); });
+  proxy_thread_ = startThread("proxy", [this] { runProxy(); });
+  servo_thread_ = startThread("servo", [this] { runServo(); });
+  if (hasHand()) supervisor_thread_ = startThread("supervisor", [this] { runSupervisor(); });
   while (!servo_ready_) std::this_thread::yield();
-  if (settings_.timer_reference) reference_thread_ = std::thread([this] { runReference(); });
+  if (settings_.timer_reference) reference_thread_ = startThread("bare timer", [this] { runReference(); });
   watch_.start(ServoWatch::looks(grant_.fifo, servo_rate_Hz_));
 }
 
@@ -130,11 +130,11 @@ void TouchSession::runServo() {
   LoopMeter meter;
   TickMessage last;
   std::uint64_t armed = 0;
-  runPeriodic(period_ns(servo_rate_Hz_), running_, servo_counters_, [&](std::int64_t) {
+  const auto makeStep = [&] {
     const std::int64_t now_ns = monotonicNow_ns();
     settings.stiffness_N_m = stiffness_.load(std::memory_order_relaxed);
     settings.ledger = ledger_.load(std::memory_order_relaxed);
-    const DeviceSample sample = device_->read(now_ns);
+    const DeviceSample sample = readDevice(now_ns);
     ServoCommand command = ServoCommand::kNone;
     // A device that is not ready, homing or connecting, arms when it is.
     if (const std::uint64_t wanted = arm_requests_.load(std::memory_order_relaxed); watch_.takeStall()) {
@@ -163,8 +163,25 @@ void TouchSession::runServo() {
                          meter.summary()};
     servo_view_.write(view);
     servo_for_clients_.write(view);
+  };
+  const auto forceEnds = [this] { device_->write(Vec3::Zero()); };
+  runPeriodic(period_ns(servo_rate_Hz_), running_, servo_counters_, [&](std::int64_t) {
+    if (guarded(makeStep)) return;
+    step_failed_ = true;
+    guarded(forceEnds);
   });
-  device_->write(Vec3::Zero());
+  guarded(forceEnds);
+}
+
+// A driver that throws has lost its device. After a step that threw elsewhere there is no sample either, so that none
+// is ticked with and the servo goes its way to zero force.
+DeviceSample TouchSession::readDevice(std::int64_t now_ns) noexcept {
+  DeviceSample sample;
+  const bool read = guarded([&] { sample = device_->read(now_ns); });
+  if (!read) sample = DeviceSample{};
+  if (!read) sample.time_ns = now_ns;
+  if (std::exchange(step_failed_, false) || !read) sample.status = DeviceStatus::kLost;
+  return sample;
 }
 
 // From the sample to the motors: with a tick on the way when it is the servo's turn to tick.
@@ -190,9 +207,8 @@ ServoOutput TouchSession::touchNow(TouchStep& step, const ServoSettings& setting
 
 void TouchSession::runProxy() {
   requestRealtime(kProxyPriority, spareCore(1));
-  Vec3 finger_D;
-  runPeriodic(period_ns(settings_.proxy_rate_Hz), running_, proxy_counters_, [&](std::int64_t) {
-    if (place_.onServo()) return;
+  Vec3 finger_D = Vec3::Zero();
+  const auto tick = [&] {
     const std::int64_t now_ns = monotonicNow_ns();
     const ProxyCommands& commands = ticking_.follow(*this);
     finger_D_.read(finger_D);
@@ -203,6 +219,9 @@ void TouchSession::runProxy() {
     ticks_.write({step.held, 1e-3f * static_cast<float>(work_ns)});
     recorder_.tick({now_ns, finger_D, commands, spring}, step, proxy_loop_.state().position, work_ns);
     show(step, now_ns, work_ns);
+  };
+  runPeriodic(period_ns(settings_.proxy_rate_Hz), running_, proxy_counters_, [&](std::int64_t) {
+    if (!place_.onServo()) guarded(tick);
   });
 }
 
@@ -256,7 +275,7 @@ void TouchSession::moveHand(const Commands& commands) {
     exploring_ = false;
     hand_->setHandGoal(clampToWorkspace(workspace.toDevice(*commands.goal_W)));
   } else if (commands.release) {
-    Vec3 finger_D;
+    Vec3 finger_D = Vec3::Zero();
     finger_for_supervisor_D_.read(finger_D);
     hand_->setHandGoal(clampToWorkspace(finger_D));
   } else if (exploring_) {
@@ -268,7 +287,7 @@ void TouchSession::moveHand(const Commands& commands) {
 void TouchSession::runSupervisor() {
   LoopCounters counters;
   std::int64_t pressed_ns = 0;
-  runPeriodic(kSupervisorPeriod_ns, running_, counters, [&](std::int64_t now_ns) {
+  const auto supervise = [&](std::int64_t now_ns) {
     const Commands commands = takeCommands();
     moveHand(commands);
     if (commands.buttons) {
@@ -277,7 +296,9 @@ void TouchSession::runSupervisor() {
     } else if (now_ns - pressed_ns > kPress_ns) {
       hand_->setHandButtons(0);
     }
-  });
+  };
+  runPeriodic(kSupervisorPeriod_ns, running_, counters,
+              [&](std::int64_t now_ns) { guarded([&] { supervise(now_ns); }); });
 }
 
 void TouchSession::setHandGoal(const Vec3& goal_W) {
@@ -388,7 +409,8 @@ void TouchSession::dropSceneBefore() {
 }
 
 bool TouchSession::ready(std::int64_t since_ns) const {
-  return !running_ || (scenes_.taken() && last_tick_ns_.load(std::memory_order_acquire) >= since_ns);
+  if (!running_ || watch_.stalled()) return true;
+  return scenes_.taken() && last_tick_ns_.load(std::memory_order_acquire) >= since_ns;
 }
 
 void TouchSession::rearm() { arm_requests_.fetch_add(1); }

@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "base/clock.h"
+#include "base/guarded_thread.h"
 #include "base/latest.h"
 #include "base/periodic.h"
 #include "base/realtime.h"
@@ -135,7 +136,8 @@ class TouchSession {
 
   /// Shows another scene. Not real-time; one thread at a time, and only when ready().
   void publish(std::shared_ptr<const Snapshot> snapshot);
-  /// The proxy loop has taken the newest scene, and ticked at `since_ns` (monotonic) or later; or it does not run.
+  /// Whoever ticks has taken the newest scene, and ticked at `since_ns` (monotonic) or later; or nobody does: the loops
+  /// do not run, or the servo stands still, without force, and will find the newest scene when it goes on.
   bool ready(std::int64_t since_ns) const;
   /// Frees the scene before the newest one; as publish(), by the same thread.
   void dropSceneBefore();
@@ -182,6 +184,7 @@ class TouchSession {
   void bringHandToStart();
   void startAt(const DeviceSample& sample);
   void runServo();
+  DeviceSample readDevice(std::int64_t now_ns) noexcept;
   void runReference();
   ServoOutput touchNow(TouchStep& step, const ServoSettings& settings, const DeviceSample& sample, TickMessage& last);
   void runProxy();
@@ -196,8 +199,9 @@ class TouchSession {
   TouchSettings settings_;
   std::unique_ptr<Device> device_;
   const double servo_rate_Hz_;
-  SimulatedHand* hand_;    // of the device; null when a person holds it
-  bool answered_ = false;  // the device did when it was read last; of the servo thread, once it runs
+  SimulatedHand* hand_;       // of the device; null when a person holds it
+  bool answered_ = false;     // the device did when it was read last; of the servo thread, once it runs, as the next
+  bool step_failed_ = false;  // the step before threw something: its device is taken for lost
   SnapshotSlot scenes_;
   ProxyLoop proxy_loop_;
   TickPlace place_;
@@ -205,13 +209,11 @@ class TouchSession {
   ServoSettings servo_settings_;
   std::int64_t start_ns_ = 0;
 
-  Latest<Vec3> finger_D_;
-  Latest<Vec3> finger_for_supervisor_D_;
-  Latest<TickMessage> ticks_;  // of the proxy loop
-  Latest<ServoView> servo_view_;
-  Latest<ProxyView> proxy_view_;
-  Latest<ServoView> servo_for_clients_;
-  Latest<ProxyView> proxy_for_clients_;
+  Latest<Vec3> finger_D_{Vec3::Zero()};
+  Latest<Vec3> finger_for_supervisor_D_{Vec3::Zero()};
+  Latest<TickMessage> ticks_{TickMessage{}};  // of the proxy loop
+  Latest<ServoView> servo_view_{ServoView{}}, servo_for_clients_{ServoView{}};
+  Latest<ProxyView> proxy_view_{ProxyView{}}, proxy_for_clients_{ProxyView{}};
   SpscRing<TouchSample, 1024> samples_;
 
   std::atomic<bool> running_{false};
@@ -231,7 +233,7 @@ class TouchSession {
   mutable std::mutex settings_mutex_;  // between the callers of commands; the real-time loops never see it
   ProxyCommands proxy_commands_;
   bool fitted_ = false;  // the workspace has been set, or fitted to a scene
-  Latest<ProxyCommands> commands_for_proxy_;
+  Latest<ProxyCommands> commands_for_proxy_{ProxyCommands{}};
   std::atomic<LedgerMode> ledger_{LedgerMode::kTank};
 
   std::mutex commands_mutex_;  // between page and supervisor; the loops never see it

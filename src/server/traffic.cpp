@@ -2,13 +2,13 @@
 
 namespace hl {
 
-void writeTraffic(MetricsText& out, const Traffic& traffic, std::size_t connections, std::size_t pages,
-                  std::size_t crowded_out) {
+void writeTraffic(MetricsText& out, const ServerCounts& counts) {
+  const Traffic& traffic = counts.traffic;
   const auto number = [](auto count) { return static_cast<double>(count); };
   using enum MetricType;
-  out.single("hl_connections", kGauge, "Sockets that are open", number(connections));
-  out.single("hl_connections_refused_total", kCounter, "Sockets closed for want of room", number(crowded_out));
-  out.single("hl_pages", kGauge, "Viewer pages that are open", number(pages));
+  out.single("hl_connections", kGauge, "Sockets that are open", number(counts.connections));
+  out.single("hl_connections_refused_total", kCounter, "Sockets closed for want of room", number(counts.crowded_out));
+  out.single("hl_pages", kGauge, "Viewer pages that are open", number(counts.pages));
   out.single("hl_sessions", kGauge, "HL clients that are connected", number(traffic.sessions));
   out.single("hl_sessions_total", kCounter, "HL clients since the start", number(traffic.sessions_opened));
   out.family("hl_messages_total", kCounter, "WebSocket messages");

@@ -32,9 +32,13 @@ struct Traffic {
   void refuse(RefusedBecause reason) { ++refused[static_cast<std::size_t>(reason)]; }
 };
 
-/// Its families, with what the sockets' owners count themselves: connections and pages now, connections closed for want
-/// of room since the start.
-void writeTraffic(MetricsText& out, const Traffic& traffic, std::size_t connections, std::size_t pages,
-                  std::size_t crowded_out);
+/// With what the sockets' owners count themselves.
+struct ServerCounts {
+  Traffic traffic;
+  std::size_t connections = 0, pages = 0;  ///< now
+  std::size_t crowded_out = 0;             ///< connections closed for want of room, since the start
+};
+
+void writeTraffic(MetricsText& out, const ServerCounts& counts);
 
 }  // namespace hl

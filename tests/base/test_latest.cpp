@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <thread>
+#include <type_traits>
+
+#include "base/vec.h"
 
 namespace hl {
 namespace {
@@ -17,6 +20,16 @@ struct Message {
     return message;
   }
 };
+
+// What nobody has written is never garbage: Eigen's vectors would be.
+static_assert(!std::is_default_constructible_v<Latest<Vec3>>);
+
+TEST(Latest, GivesItsInitialValueUntilOneIsWritten) {
+  Latest<Vec3> latest(Vec3(1, 2, 3));
+  Vec3 value = Vec3::Zero();
+  EXPECT_FALSE(latest.read(value));
+  EXPECT_EQ(value, Vec3(1, 2, 3));
+}
 
 TEST(Latest, GivesTheInitialValueUntilTheFirstWrite) {
   Latest<int> latest(7);

@@ -6,7 +6,7 @@
 #include <atomic>
 #include <thread>
 
-#include "base/no_alloc.h"
+#include "base/realtime_guard.h"
 
 namespace hl {
 namespace {
@@ -41,7 +41,7 @@ TEST(LogRing, HoldsTheLastOnesAndTellsWhatIsGone) {
 TEST(LogRing, PushAndReadDoNotAllocate) {
   LogRing<Value> ring(8);
   Value value{};
-  const NoAlloc guard;
+  const RealtimeGuard guard;
   ring.push(Value::of(1));
   ring.read(0, value);
 }

@@ -5,8 +5,12 @@
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
+#include <fstream>
 #include <numeric>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -104,6 +108,49 @@ TEST(SpareCore, IsOneOfSeveralAndNoTwoAreTheSame) {
     EXPECT_EQ(sched_getcpu(), first);
   });
   pinned.join();
+}
+
+std::size_t lockedMemory_kB() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    std::size_t kB = 0;
+    if (word == "VmLck:" && status >> kB) return kB;
+  }
+  return 0;
+}
+
+// The process may be a program of somebody else's, that has linked libhl.
+TEST(RequestRealtime, LeavesTheMemoryOfTheProcessAlone) {
+  const std::size_t before = lockedMemory_kB();
+  std::thread asking([] { EXPECT_FALSE(requestRealtime(1).memory_locked); });
+  asking.join();
+  EXPECT_EQ(lockedMemory_kB(), before);
+}
+
+// Locked for good: in a process of its own. What is not used yet takes no memory.
+TEST(LockProcessMemoryDeathTest, LocksWhatIsUsedAndIsTold) {
+  const auto work = [] {
+    constexpr std::size_t kUnused_bytes = std::size_t{64} << 20;
+    lockProcessMemory();
+    const RealtimeGrant grant = requestRealtime(1);
+    if (!grant.memory_locked) _exit(grant.why.find("memory is not locked") != std::string::npos ? 0 : 1);
+    void* const unused = mmap(nullptr, kUnused_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const bool small = static_cast<std::size_t>(usage.ru_maxrss) * 1024 < kUnused_bytes;
+    _exit(unused != MAP_FAILED && lockedMemory_kB() > 0 && small ? 0 : 2);
+  };
+  EXPECT_EXIT(work(), testing::ExitedWithCode(0), "");
+}
+
+TEST(RequestRealtime, SaysWhyACoreCouldNotBeHad) {
+  std::thread asking([] {
+    constexpr int kNoSuchCore = 1000;
+    const RealtimeGrant grant = requestRealtime(1, kNoSuchCore);
+    EXPECT_EQ(grant.core, -1);
+    EXPECT_NE(grant.why.find("no core of its own (Invalid argument)"), std::string::npos) << grant.why;
+  });
+  asking.join();
 }
 
 TEST(RequestRealtime, SaysWhyWhatWasRefused) {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "base/no_alloc.h"
+#include "base/realtime_guard.h"
 
 namespace hl {
 namespace {
@@ -219,7 +219,7 @@ TEST(Servo, ArmingAgainWhileOnChangesNothing) {
 
 TEST(Servo, StepDoesNotAllocate) {
   Bench bench = Bench::on();
-  const NoAlloc guard;
+  const RealtimeGuard guard;
   for (int i = 0; i < 1000; ++i) bench.step({0.001, 0, 0}, Vec3::Zero());
 }
 

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "base/error.h"
-#include "base/no_alloc.h"
+#include "base/realtime_guard.h"
 #include "device/fakes/bench.h"
 #include "device/open_device.h"
 #include "device/simulated_hand.h"
@@ -26,7 +26,7 @@ class DeviceContract : public testing::TestWithParam<BenchKind> {
   // One servo step of 1 ms that holds `force_N`.
   DeviceSample step(const Vec3& force_N = Vec3::Zero()) {
     bench_->arm().advance(1e-3);
-    const NoAlloc guard;  // it is a part of the servo step
+    const RealtimeGuard guard;  // it is a part of the servo step
     const DeviceSample sample = device_->read(bench_->arm().now_ns());
     device_->write(force_N);
     return sample;

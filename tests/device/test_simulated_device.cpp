@@ -7,7 +7,7 @@
 #include <random>
 
 #include "base/error.h"
-#include "base/no_alloc.h"
+#include "base/realtime_guard.h"
 #include "device/hand_script.h"
 #include "device/phantom_arm.h"
 
@@ -200,7 +200,7 @@ SimulatedDeviceSettings withEverything() {
 
 TEST(SimulatedDevice, ReadAndWriteDoNotAllocate) {
   SimulatedDevice device(withEverything());
-  const NoAlloc guard;
+  const RealtimeGuard guard;
   for (std::int64_t i = 0; i < 100; ++i) {
     device.setHandGoal({0.01, 0, 0});
     device.read(i * kPeriod_ns);

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "base/no_alloc.h"
+#include "base/realtime_guard.h"
 #include "geometry/scenes.h"
 
 namespace hl {
@@ -80,7 +80,7 @@ TEST(BoxTree, AskingAllocatesNothing) {
   test::Random random(7);
   const BoxTree tree(randomBoxes(random, 1000));
   std::size_t found = 0;
-  const NoAlloc guard;
+  const RealtimeGuard guard;
   tree.visitMet({Vec3::Zero(), Vec3::Constant(0.5)}, [&](std::uint32_t) { ++found; });
   EXPECT_GT(found, 0u);
 }

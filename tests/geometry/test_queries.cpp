@@ -8,7 +8,7 @@
 #include <cstring>
 #include <map>
 
-#include "base/no_alloc.h"
+#include "base/realtime_guard.h"
 #include "geometry/brute_force.h"
 #include "geometry/scenes.h"
 #include "geometry/sphere_tree.h"
@@ -196,7 +196,7 @@ TEST(Queries, NothingIsAllocated) {
     const Query query = randomQuery(random, 0.5, 0.1);
     std::size_t near = 0;
     FirstImpact impact;
-    const NoAlloc guard;
+    const RealtimeGuard guard;
     for (const SpatialIndex* hierarchy : asked.hierarchies()) {
       firstBy(*hierarchy, asked, query, impact);
       primitivesWithin(*hierarchy, asked.scene, query.from, query.radius,

@@ -15,7 +15,7 @@
 #include <limits>
 #include <numeric>
 
-#include "base/no_alloc.h"
+#include "base/realtime_guard.h"
 #include "geometry/brute_force.h"
 #include "geometry/closest_point.h"
 #include "geometry/queries.h"
@@ -447,7 +447,7 @@ TEST(WideBvh, QueriesAllocateNothing) {
     const Vec3 from = random.inCube(1), motion = random.inCube(0.5);
     std::size_t found = 0;
     FirstImpact impact;
-    const NoAlloc guard;
+    const RealtimeGuard guard;
     firstImpact(bvh, scene, from, motion, 0.05, 0, impact);
     primitivesWithin(bvh, scene, from, 0.1, [&](std::uint32_t, const ClosestPoint&) { ++found; });
   }

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/no_alloc.h"
+#include "base/realtime_guard.h"
 #include "io/recorded_servo.h"
 #include "io/recorded_values.h"
 #include "io/recording_file.h"
@@ -58,7 +58,7 @@ TEST_F(Replayed, TheFingerIsWhereItWasThenThereAndBack) {
   EXPECT_EQ(device->info().name, "replay of pen");
   EXPECT_EQ(device->info().force_max_N, 3);
   EXPECT_EQ(device->info().friction_N, 0);
-  const NoAlloc guard;
+  const RealtimeGuard guard;
   for (int i = 0; i < 5 * kSteps; ++i) {
     const int lap = i % (2 * (kSteps - 1));
     const int then = lap < kSteps ? lap : 2 * (kSteps - 1) - lap;

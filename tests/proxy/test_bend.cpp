@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "base/no_alloc.h"
+#include "base/realtime_guard.h"
 
 namespace hl {
 namespace {
@@ -285,7 +285,7 @@ TEST(Bend, AllocatesNothing) {
   const Vec3 finger(0, -0.004, 0);
   ProxyState state = restingOn(skin, finger);
   skin.bend(sheet([](double, double) { return 0.01; }));
-  const NoAlloc guard;
+  const RealtimeGuard guard;
   tick(state, skin.snapshot(), settingsOf(), finger);
 }
 

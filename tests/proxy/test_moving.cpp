@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "base/no_alloc.h"
+#include "base/realtime_guard.h"
 #include "effect_scenes.h"
 #include "geometry/scenes.h"
 #include "judge.h"
@@ -241,7 +241,7 @@ TEST(Moving, NoAllocation) {
   const auto snapshot = makeSnapshot({place(1, floor, Motion()), place(2, boxModel(Vec3::Constant(0.02)), motion)});
   const ProxySettings settings = settingsOf(0.5, 0.3);
   ProxyState state = startProxy({*snapshot, 0}, settings, Vec3(0, 0.01, 0));
-  const NoAlloc guard;
+  const RealtimeGuard guard;
   for (std::int64_t t = kMs; t < 20 * kMs; t += kMs) tick(state, {*snapshot, t}, settings, Vec3(0, -0.003, 0));
 }
 

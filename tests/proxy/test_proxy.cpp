@@ -8,7 +8,7 @@
 #include <random>
 
 #include "base/finger_reach.h"
-#include "base/no_alloc.h"
+#include "base/realtime_guard.h"
 #include "geometry/scenes.h"
 #include "proxy/judge.h"
 
@@ -469,11 +469,11 @@ TEST(Proxy, TheOrderOfPrimitivesAndTheHierarchyDoNotChangeABit) {
 }
 
 TEST(Proxy, ATickNeverTouchesTheHeap) {
-  const std::uint64_t before = NoAlloc::allocations();
+  const std::uint64_t before = RealtimeGuard::heapCalls();
   const auto snapshot = scene(box(Vec3::Constant(-0.01), Vec3::Constant(0.01)));
-  ASSERT_GT(NoAlloc::allocations(), before) << "the guard is not linked";
+  ASSERT_GT(RealtimeGuard::heapCalls(), before) << "the guard is not linked";
   ProxyState state = startProxy(*snapshot, kSettings, Vec3(0, 0, 0.05));
-  const NoAlloc guard;
+  const RealtimeGuard guard;
   for (int i = 0; i < 10'000; ++i) {
     tick(state, *snapshot, kSettings,
          Vec3(0.02 * std::sin(0.01 * i), 0.02 * std::cos(0.017 * i), 0.02 * std::sin(0.003 * i)));

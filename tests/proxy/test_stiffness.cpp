@@ -6,7 +6,7 @@
 #include <random>
 #include <utility>
 
-#include "base/no_alloc.h"
+#include "base/realtime_guard.h"
 #include "effect_scenes.h"
 #include "proxy/judge.h"
 #include "proxy/proxy.h"
@@ -285,7 +285,7 @@ TEST(Ledger, TicksWithEveryEffectDoNotAllocate) {
   const auto scene = soup(300);
   const ProxySettings settings = settingsOf(LedgerMode::kTank);
   ProxyState state = startProxy(*scene, settings, {0, 0, 0.06});
-  const NoAlloc guard;
+  const RealtimeGuard guard;
   for (int i = 0; i < 2000; ++i) {
     const double t = 1e-3 * i;
     tick(state, *scene, settings, 0.05 * Vec3(std::sin(7 * t), std::sin(5 * t + 1), std::cos(3 * t)));

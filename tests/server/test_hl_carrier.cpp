@@ -217,16 +217,34 @@ TEST(HlCarrier, SilenceInsteadOfOpenIsEnded) {
   EXPECT_EQ(served.host.ever(), 0);
 }
 
-TEST(HlCarrier, AMessageThatTakesLongDelaysItsOwnSessionOnly) {
+// One that is more than light work.
+proto::ClientMessage largeFrame(std::uint64_t number) {
+  constexpr int kNumbers = 30'000;
+  proto::ClientMessage message = frameMessage(number);
+  proto::Primitives& mesh = *message.mutable_frame()->add_objects()->add_items()->mutable_primitives();
+  for (int i = 0; i < kNumbers; ++i) mesh.add_vertices(i);
+  return message;
+}
+
+// As many as there are workers for them, and one more that waits for one.
+TEST(HlCarrier, LargeMessagesThatTakeLongDelayNeitherStatesNorSmallMessagesOfOthers) {
   Served served;
-  Welcomed busy(served);
+  const int workers = static_cast<int>(Limits{}.workers);
+  std::vector<std::unique_ptr<Welcomed>> busy;
+  for (int i = 0; i <= workers; ++i) busy.push_back(std::make_unique<Welcomed>(served));
   Welcomed other(served, 1000);
   served.host.holdFrames(true);
-  busy.send(frameMessage(1));
-  for (int i = 0; i < 100; ++i) ASSERT_TRUE(other.next()->has_state());
+  for (const auto& client : busy) client->send(largeFrame(1));
+  served.host.waitForHeld(workers);
+  for (std::uint64_t number = 1; number <= 100; ++number) {
+    ASSERT_TRUE(other.next()->has_state());
+    ASSERT_TRUE(other.isServed(number));
+  }
+  Welcomed late(served);
+  ASSERT_TRUE(late.isServed(1)) << "who comes meanwhile is welcome";
   EXPECT_EQ(test::request(served.port(), "/healthz").result_int(), 200u);
   served.host.holdFrames(false);
-  EXPECT_EQ(busy.nextAnswer()->frame_shown().number(), 1u);
+  for (const auto& client : busy) EXPECT_EQ(client->nextAnswer()->frame_shown().number(), 1u);
 }
 
 TEST(HlCarrier, ASlowReaderMissesStatesAndNothingElse) {

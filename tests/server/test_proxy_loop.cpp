@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "base/no_alloc.h"
+#include "base/realtime_guard.h"
 #include "scene/editable_scene.h"
 
 namespace hl {
@@ -186,7 +186,7 @@ TEST(ProxyLoop, AllocatesNothing) {
   Bench bench({floorAt(0)});
   bench.run(1, {0, 0.01, 0});
   bench.publish({floorAt(0.001), floorAt(-1, 6)});
-  const NoAlloc guard;
+  const RealtimeGuard guard;
   bench.run(100, {0, -0.005, 0});
 }
 

@@ -15,7 +15,7 @@
 #include <thread>
 
 #include "base/error.h"
-#include "base/no_alloc.h"
+#include "base/realtime_guard.h"
 #include "builtin.h"
 #include "device/simulated_device.h"
 #include "io/recorded_values.h"
@@ -340,7 +340,7 @@ TEST_F(Recording, TheTapsDoNotAllocate) {
   ProxyStep tick;
   tick.scene = 1;
   const ServoRecord step;
-  const NoAlloc guard;
+  const RealtimeGuard guard;
   recorder.step(step);
   recorder.tick({}, tick, Vec3::Zero(), 0);
 }

@@ -8,6 +8,8 @@
 #include <mutex>
 #include <new>
 
+#include "base/clock.h"
+#include "device/open_device.h"
 #include "wait_for.h"
 
 namespace hl {
@@ -280,6 +282,51 @@ TEST_F(ScenePublisherTest, AFrameHappensAsAWholeOrNotAtAllWhereverMemoryEnds) {
     ASSERT_EQ(shownOf(1).at(0)->shape->extent, size) << "after allocation " << fails << " failed";
   }
   EXPECT_GT(fails, 5) << "some did fail";
+}
+
+// A device whose driver may keep its caller.
+class KeepingDevice final : public Device {
+ public:
+  void open() override { own_->open(); }
+  void close() override { own_->close(); }
+  const DeviceInfo& info() const override { return own_->info(); }
+  void write(const Vec3& force_N) override { own_->write(force_N); }
+  DeviceSample read(std::int64_t now_ns) override {
+    test::waitFor([this] { return !keeps.load(); });
+    return own_->read(now_ns);
+  }
+  std::atomic<bool> keeps{false};
+
+ private:
+  std::unique_ptr<Device> own_ = openDevice("sim");
+};
+
+// More than one: the loop takes none of them.
+TEST(StalledServo, ScenesOfAllClientsGoOnAndTheNewestIsTakenAfterwards) {
+  auto device = std::make_unique<KeepingDevice>();
+  std::atomic<bool>& keeps = device->keeps;
+  const auto nothing = makeSnapshot(std::vector<Instance>{}, "nothing");
+  TouchSession session(nothing, {}, std::move(device));
+  ScenePublisher publisher(nothing, {&session}, 1'000'000'000);
+  session.start();
+  publisher.start();
+  keeps = true;
+  {
+    Client client(publisher, 1);
+    constexpr std::uint64_t kFrames = 20;
+    for (std::uint64_t i = 1; i <= kFrames; ++i) {
+      proto::Frame frame = frameOf(i);
+      if (i == 1) define(frame, 1);
+      call(frame, 0.001 * static_cast<double>(i));
+      client.submit(std::move(frame));
+      ASSERT_EQ(client.told(i).back().primitives, 1U);
+    }
+    keeps = false;
+    test::waitFor(
+        [&] { return session.ready(monotonicNow_ns() - 1'000'000'000) && session.servoTotals().steps > 100; });
+  }
+  publisher.stop();
+  session.stop();
 }
 
 }  // namespace

@@ -39,15 +39,15 @@ void addFloor(proto::Item& item, double y) {
 // A client that holds one session and remembers what it was told.
 class Client {
  public:
-  explicit Client(TouchServer& server) : session_(server.connect("test", [] {})) {}
+  explicit Client(TouchServer& server) : session_(server.connect("test", [this] { ++wakes_; })) {}
 
-  void open(const std::string& name = "test", bool master = true, bool keep = false) {
+  void open(const std::string& name = "test", bool master = true, bool keep = false, double state_rate_Hz = 1000) {
     proto::ClientMessage message;
     message.mutable_open()->set_protocol_version(1);
     message.mutable_open()->set_client_name(name);
     message.mutable_open()->set_master(master);
     message.mutable_open()->set_keep_objects(keep);
-    message.mutable_open()->set_state_rate_hz(1000);
+    message.mutable_open()->set_state_rate_hz(state_rate_Hz);
     session_->receive(message);
     ASSERT_TRUE(until([this] { return welcome_.protocol_version() == 1; }));
   }
@@ -101,9 +101,11 @@ class Client {
     if (reply.has_frame_shown()) shown_ = reply.frame_shown().number();
     if (reply.has_frame_shown()) shown_message_ = reply.frame_shown();
     if (reply.has_refusal()) refusal_ = reply.refusal();
+    if (reply.has_progress()) ++progress_;
     if (reply.has_event()) events_.push_back(reply.event());
   }
 
+  std::atomic<int> wakes_{0};
   std::unique_ptr<ClientSession> session_;
   proto::Welcome welcome_;
   proto::ClientState state_;
@@ -111,6 +113,7 @@ class Client {
   proto::FrameShown shown_message_;
   std::vector<proto::Event> events_;
   std::uint64_t shown_ = 0, number_ = 0;
+  int progress_ = 0;
 };
 
 class TouchServerTest : public testing::Test {
@@ -118,6 +121,18 @@ class TouchServerTest : public testing::Test {
   TouchServerTest() : server_(nothing(), settingsOf()) { server_.start(); }
   TouchServer server_;
 };
+
+// Without states nobody asks for what is there but when woken.
+TEST_F(TouchServerTest, ProgressWakesAClientThatAsksForNoStates) {
+  Client client(server_);
+  client.open("test", true, false, 0);
+  const int welcomed = client.wakes_;
+  proto::Frame frame = client.floorFrame(0);
+  addFloor(*frame.mutable_objects(0)->add_items(), 1);  // when the first of the two is built, half of the frame is
+  ASSERT_TRUE(client.show(frame));
+  EXPECT_GE(client.progress_, 1);
+  EXPECT_GE(client.wakes_, welcomed + 2) << "one for the progress, one for the frame";
+}
 
 TEST_F(TouchServerTest, OpenComesFirst) {
   Client client(server_);

@@ -5,7 +5,7 @@
 
 #include <deque>
 
-#include "base/no_alloc.h"
+#include "base/realtime_guard.h"
 #include "device/hand_script.h"
 #include "device/simulated_device.h"
 #include "proxy/effect_scenes.h"
@@ -150,7 +150,7 @@ TEST(TouchStep, AllocatesNothing) {
   Floor floor;
   const ServoSettings settings = undamped(premium10().info, 1000);
   floor.step_.onTime(floor.loop_, floor.commands_, settings, sampleAt(kMs, {0, 0.01, 0}));
-  const NoAlloc guard;
+  const RealtimeGuard guard;
   for (int i = 2; i < 100; ++i) {
     floor.step_.onTime(floor.loop_, floor.commands_, settings, sampleAt(i * kMs, {0, 0.001, 0}));
     floor.step_.late(floor.step_.tick().held, settings, sampleAt(i * kMs, {0, 0.001, 0}));

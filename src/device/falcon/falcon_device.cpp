@@ -9,6 +9,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/guarded_thread.h"
 #include "base/realtime.h"
 #include "device/falcon/falcon_firmware.h"
 #include "device/falcon/falcon_kinematics.h"
@@ -78,7 +79,7 @@ void FalconDevice::open() {
   if (running_) return;
   begin();
   running_ = true;
-  thread_ = std::thread([this] { run(); });
+  thread_ = startThread("falcon", [this] { run(); });
 }
 
 void FalconDevice::close() {

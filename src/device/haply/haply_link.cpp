@@ -23,6 +23,8 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/flag.h"
+#include "base/guarded_thread.h"
 #include "base/realtime.h"
 #include "base/url.h"
 #include "device/exchange.h"
@@ -73,7 +75,8 @@ std::string HaplyAddress::text() const { return "ws://" + hostAndPort(host, port
 
 class HaplyLink::Conversation {
  public:
-  explicit Conversation(HaplyAddress address) : address_(std::move(address)), thread_([this] { run(); }) {
+  explicit Conversation(HaplyAddress address)
+      : address_(std::move(address)), thread_(startThread("haply", [this] { run(); })) {
     const std::string why = begun_.get_future().get();
     if (why.empty()) return;
     end();
@@ -92,11 +95,12 @@ class HaplyLink::Conversation {
 
   void run() {
     requestRealtime(kPriority);
-    asio::co_spawn(context_, converseAlways(), asio::detached);
+    if (!conversing_) asio::co_spawn(context_, converseAlways(), asio::detached);
     context_.run();
   }
 
   asio::awaitable<void> converseAlways() {
+    const Flag conversing(conversing_);
     while (!ending_) {
       std::string why;
       try {
@@ -211,6 +215,7 @@ class HaplyLink::Conversation {
   std::atomic<bool> ending_{false};
   std::promise<std::string> begun_;
   bool told_ = false;
+  bool conversing_ = false;
   std::string device_id_;  // written before begun_ is told
   std::thread thread_;     // last: it uses all of the above
 };

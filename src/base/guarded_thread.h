@@ -1,0 +1,46 @@
+// Every thread of HL runs guarded: what it throws costs the piece of work that threw it, and never the process, whose
+// servo may be holding somebody's hand. Failures are counted by the name of their thread, and told.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <thread>
+
+#include "base/fixed_vector.h"
+#include "base/function_ref.h"
+
+namespace hl {
+
+/// After a failure a thread waits so long: what failed, memory for the most part, may be there again.
+inline constexpr auto kAfterFailure = std::chrono::milliseconds(10);
+
+/// A thread that runs `body` under `name`, a literal of at most 15 characters: the kernel shows no more. The body
+/// returns when its work is over; when an exception leaves it, it runs once more, after kAfterFailure.
+std::thread startThread(const char* name, std::function<void()> body);
+
+/// For a thread that somebody else has started: its name from now on. Never fails.
+void nameThread(const char* name) noexcept;
+/// Of the calling thread, as it was started; "" for one that is not HL's.
+const char* threadName() noexcept;
+
+/// Runs a piece of work. What it throws is counted for the calling thread, told, and goes no further. Returns whether
+/// nothing was thrown.
+bool guarded(FunctionRef<void()> work) noexcept;
+/// Until it throws nothing, or `wanted` no longer holds: for what must not be lost.
+void keepTrying(FunctionRef<bool()> wanted, FunctionRef<void()> work) noexcept;
+
+/// What threads of one name have thrown since the process began.
+struct ThreadFailures {
+  const char* thread = "";
+  std::uint64_t count = 0;
+  bool now = false;  ///< their newest piece of work failed
+};
+inline constexpr std::size_t kMostThreadNames = 32;
+FixedVector<ThreadFailures, kMostThreadNames> threadFailures();
+
+/// Told of each failure, by the thread that failed; may throw. The first is a line on stderr.
+using TellFailure = void (*)(const char* thread, const char* what);
+void setTellFailure(TellFailure tell);
+
+}  // namespace hl

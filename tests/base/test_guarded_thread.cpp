@@ -1,0 +1,110 @@
+// Guarded threads: what a piece of work throws ends that piece alone, is counted under the thread's name, and told.
+#include "base/guarded_thread.h"
+
+#include <gtest/gtest.h>
+#include <pthread.h>
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "base/failing_allocation.h"
+
+namespace hl {
+namespace {
+
+ThreadFailures failuresOf(const std::string& thread) {
+  for (const ThreadFailures& failures : threadFailures()) {
+    if (failures.thread == thread) return failures;
+  }
+  return {};
+}
+
+std::string told;  // of the thread that is joined before it is read
+
+TEST(GuardedThread, IsKnownToTheKernelByItsName) {
+  std::string kernel, own;
+  startThread("test name", [&] {
+    std::array<char, 16> name{};
+    pthread_getname_np(pthread_self(), name.data(), name.size());
+    kernel = name.data();
+    own = threadName();
+  }).join();
+  EXPECT_EQ(kernel, "test name");
+  EXPECT_EQ(own, "test name");
+  EXPECT_EQ(std::string(threadName()), "") << "this thread is the test's";
+}
+
+TEST(GuardedThread, WhatAPieceOfWorkThrowsIsCountedToldAndOver) {
+  setTellFailure([](const char* thread, const char* what) { told = std::string(thread) + ": " + what; });
+  startThread("test pieces", [] {
+    EXPECT_FALSE(guarded([] { throw std::runtime_error("a piece"); }));
+    EXPECT_TRUE(failuresOf("test pieces").now);
+    EXPECT_FALSE(guarded([] { throw 3; }));
+    EXPECT_TRUE(guarded([] {}));
+    EXPECT_FALSE(failuresOf("test pieces").now) << "its newest piece went well";
+  }).join();
+  setTellFailure(nullptr);
+  EXPECT_EQ(failuresOf("test pieces").count, 2u);
+  EXPECT_EQ(told, "test pieces: something that says nothing of itself");
+}
+
+TEST(GuardedThread, ABodyThatThrowsRunsOnceMore) {
+  int runs = 0;
+  startThread("test body", [&] {
+    if (++runs < 3) throw std::bad_alloc();
+  }).join();
+  EXPECT_EQ(runs, 3);
+  EXPECT_EQ(failuresOf("test body").count, 2u);
+}
+
+TEST(GuardedThread, OneThatCannotTellStillGoesOn) {
+  setTellFailure([](const char*, const char*) { throw std::bad_alloc(); });
+  EXPECT_FALSE(guarded([] { throw std::runtime_error("a piece"); }));
+  setTellFailure(nullptr);
+}
+
+TEST(GuardedThread, TriesUntilItSucceedsOrIsNoLongerWanted) {
+  int tries = 0;
+  keepTrying([] { return true; },
+             [&] {
+               if (++tries < 3) throw std::bad_alloc();
+             });
+  EXPECT_EQ(tries, 3);
+  keepTrying([&] { return tries < 5; },
+             [&] {
+               ++tries;
+               throw std::bad_alloc();
+             });
+  EXPECT_EQ(tries, 5);
+}
+
+// The test's own tool: the nth allocation of one thread fails, no other of it, and none of another thread.
+TEST(FailingAllocation, FailsOnceInItsThread) {
+  FailingAllocation::arm("test failing", 2);
+  std::vector<int> failed;
+  const auto allocate = [&failed](int number) {
+    try {
+      const auto owned = std::make_unique<std::array<char, 100>>();
+      const volatile char* const kept = owned->data();  // an allocation that nobody sees may be dropped
+      (void)kept[0];
+    } catch (const std::bad_alloc&) {
+      failed.push_back(number);
+    }
+  };
+  failed.reserve(10);
+  allocate(0);
+  startThread("test other", [&] { allocate(0); }).join();
+  startThread("test failing", [&] {
+    for (int number = 1; number < 5; ++number) allocate(number);
+  }).join();
+  EXPECT_TRUE(FailingAllocation::disarm());
+  EXPECT_EQ(failed, std::vector<int>{2});
+}
+
+}  // namespace
+}  // namespace hl
