@@ -52,18 +52,31 @@ class ProxyLoop {
   bool popEvent(TouchEvent& event) { return events_.pop(event); }
 
  private:
+  /// What the last tick began with and came to.
+  struct LastTick {
+    ProxyState from;
+    std::int64_t time_ns = 0;
+    Vec3 finger_D = Vec3::Zero();
+    Vec3 pull_D = Vec3::Zero();  ///< s (proxy - finger), without what fades of scenes before
+  };
+
   void follow(const ProxyCommands& commands, const SpringOfServo& spring);
+  void restart();
+  Vec3 changeOfPull(const Snapshot& snapshot);
+  bool touches(const ProxyState& state, const TickReport& report) const;
+  Vec3 pullOf(const ProxyState& state, const TickReport& report, const Vec3& finger_D) const;
+  double energyOf_J(const ServoTarget& target, const Vec3& finger_D) const;
   HeldContacts heldBy(const TickReport& report, const ServoTarget& target) const;
-  ServoTarget targetOf(std::int64_t now_ns, const Vec3& finger_D, const TickReport& report, std::int64_t blend_ns);
+  ServoTarget targetOf(std::int64_t now_ns, const Vec3& finger_D, const TickReport& report);
 
   SnapshotSlot& scenes_;
   ProxySettings settings_;
   Workspace workspace_;
   ProxyState state_;
   RecentPrimitives recent_;
+  LastTick last_;
   TargetBlend blend_;
-  double last_stiffness_ = 1;  // s that the servo was told
-  bool pulled_ = false;        // the servo was told to pull
+  ServoTarget told_;  // in the last tick
   std::uint64_t restarts_ = 0;
   TouchEvents events_;
 };

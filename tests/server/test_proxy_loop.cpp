@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "base/realtime_guard.h"
+#include "scene/by_key.h"
 #include "scene/editable_scene.h"
 
 namespace hl {
@@ -19,6 +22,13 @@ std::shared_ptr<const Shape> floorShape() {
   Model model;
   model.positions = {{-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}};
   model.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return makeShape(std::move(model), HierarchyKind::kBvh);
+}
+
+// The same with coordinates for textures.
+std::shared_ptr<const Shape> texturedFloor() {
+  Model model = floorShape()->model;
+  model.texcoords = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   return makeShape(std::move(model), HierarchyKind::kBvh);
 }
 
@@ -152,6 +162,132 @@ TEST(ProxyLoop, WhatBendsBesideWhatAppearsHurriesNothing) {
   }
   EXPECT_LT(most, kGentle_N);
   EXPECT_NEAR(bench.force_.y(), 1.5, 1e-6);
+}
+
+// What a client may send beside a finger that slides along a floor. All of it leaves the floor as it is.
+struct Beside {
+  const char* what;
+  std::function<std::vector<PlacedShape>(int frame)> frame;
+};
+
+std::shared_ptr<const Surfaces> texturedSurfaces(Quantity quantity, double low, double high, float texel) {
+  auto surfaces = std::make_shared<Surfaces>();
+  Material material;
+  material.textureOf(quantity) = {0, low, high};
+  surfaces->materials.push_back(material);
+  Texture texture;
+  texture.width = texture.height = 2;
+  texture.texels.assign(4, texel);
+  surfaces->textures.push_back(std::make_shared<const Texture>(texture));
+  return surfaces;
+}
+
+PlacedShape placed(std::uint64_t key, std::shared_ptr<const Shape> shape, std::shared_ptr<const Surfaces> surfaces,
+                   const Vec3& origin = Vec3::Zero()) {
+  return {std::move(shape), std::move(surfaces), {Mat3::Identity(), origin}, key, 2, 3, 9};
+}
+
+std::vector<Beside> allBeside() {
+  const auto floor = texturedFloor(), stone = floorShape();
+  const PlacedShape floor_there = placed(5, floor, surfacesOf(floor));
+  const auto beside = [=](std::shared_ptr<const Shape> shape, double x,
+                          std::shared_ptr<const Surfaces> surfaces) -> std::vector<PlacedShape> {
+    return {floor_there, placed(7, std::move(shape), std::move(surfaces), {x, -0.5, 0})};
+  };
+  const auto plain = surfacesOf(stone);
+  const auto redrawn = std::make_shared<std::shared_ptr<const Shape>>(floor);
+  const auto bent = std::make_shared<std::shared_ptr<const Shape>>(stone);
+  const auto odd = [](int frame) { return frame % 2 == 1; };
+  std::vector<Beside> all;
+  all.push_back({"nothing new", [=](int) { return beside(stone, 0, plain); }});
+  all.push_back({"the same quad redrawn", [=](int) -> std::vector<PlacedShape> {
+                   *redrawn = makeShape(Model((*redrawn)->model), **redrawn);
+                   return {placed(5, *redrawn, surfacesOf(*redrawn))};
+                 }});
+  all.push_back({"the same quad as another mesh", [=](int) -> std::vector<PlacedShape> {
+                   const auto anew = makeShape(Model(floor->model));
+                   return {placed(5, anew, surfacesOf(anew))};
+                 }});
+  all.push_back({"another object moved", [=](int frame) { return beside(stone, 1e-3 * frame, plain); }});
+  all.push_back({"another object bent", [=](int frame) {
+                   Model model = stone->model;
+                   model.positions[0].y() -= 1e-3 * frame;
+                   *bent = makeShape(std::move(model), **bent);
+                   return beside(*bent, 0, plain);
+                 }});
+  all.push_back({"another object comes and goes", [=](int frame) {
+                   return odd(frame) ? beside(stone, 0, plain) : std::vector<PlacedShape>{floor_there};
+                 }});
+  all.push_back({"another object's texture", [=](int frame) {
+                   const float texel = odd(frame) ? 0.2F : 0.7F;
+                   return beside(stone, 0, texturedSurfaces(Quantity::kDynamicFriction, 0, 1, texel));
+                 }});
+  all.push_back({"another object's material", [=](int frame) {
+                   auto surfaces = std::make_shared<Surfaces>(*plain);
+                   surfaces->materials[0].stiffness = odd(frame) ? 0.2 : 0.9;
+                   return beside(stone, 0, surfaces);
+                 }});
+  all.push_back({"the floor's own texture, with the same texels", [=](int) -> std::vector<PlacedShape> {
+                   return {placed(5, floor, texturedSurfaces(Quantity::kDynamicFriction, 0, 1, 0))};
+                 }});
+  return all;
+}
+
+TEST(ProxyLoop, WhatChangesNothingUnderTheFingerIsNoDrag) {
+  constexpr double kSpeed_m_s = 0.06;
+  for (const std::int64_t frame_ms : {5, 16}) {
+    for (const Beside& beside : allBeside()) {
+      std::vector<Instance> scene = followOn(beside.frame(0), {}, 0, 0).instances;
+      Bench bench(scene);
+      double x = -0.3;
+      bench.run(100, {x, 0.01, 0.1});
+      bench.run(100, {x, -0.003, 0.1});
+      double drag_N = 0;
+      for (int frame = 1; frame < 100; ++frame) {
+        const std::int64_t begin_ns = bench.time_ns_ + kMs;
+        Followed next =
+            followOn(beside.frame(frame), pointersByKey(std::as_const(scene)), begin_ns, begin_ns + frame_ms * kMs);
+        scene = next.instances;
+        bench.publish(std::move(next.instances), next.blend_ns);
+        for (int i = 0; i < frame_ms; ++i) {
+          x += kSpeed_m_s * 1e-3;
+          bench.run(1, {x, -0.003, 0.1});
+          ASSERT_NEAR(bench.force_.y(), 5, 1e-6) << beside.what;
+          drag_N = std::max(drag_N, bench.force_.head<1>().norm());
+          ASSERT_EQ(bench.last_.report.contacts.size(), 1u);
+        }
+      }
+      EXPECT_LT(drag_N / kSpeed_m_s, 1e-6) << "N s/m, " << beside.what << ", a frame each " << frame_ms << " ms";
+    }
+  }
+}
+
+TEST(ProxyLoop, FramesThatChangeNothingNearDoNotHoldUpWhatFades) {
+  Bench bench({floorAt(0)});
+  bench.run(1, {0, 0.01, 0});
+  bench.run(10, {0, -0.005, 0});
+  for (int frame = 0; frame < 12; ++frame) {
+    bench.publish(frame % 2 == 1 ? std::vector<Instance>{} : std::vector<Instance>{floorAt(-1, 7)});
+    EXPECT_LT(bench.run(5, {0, -0.005, 0}), kGentle_N);
+  }
+  EXPECT_EQ(bench.force_, Vec3::Zero()) << "60 ms after the floor has gone";
+}
+
+TEST(ProxyLoop, ASurfaceThatBecomesSofterPullsWithoutAJump) {
+  Instance soft = floorAt(0);
+  auto surfaces = std::make_shared<Surfaces>(*soft.surfaces);
+  surfaces->materials[0].stiffness = 0.25;
+  soft.surfaces = surfaces;
+  Bench bench({floorAt(0)});
+  bench.run(1, {0, 0.01, 0});
+  bench.run(10, {0, -0.004, 0});
+  EXPECT_NEAR(bench.force_.y(), 6, 1e-6);
+  bench.publish({soft});
+  EXPECT_LT(bench.run(60, {0, -0.004, 0}), kGentle_N);
+  EXPECT_NEAR(bench.force_.y(), 1.5, 1e-6);
+  bench.publish({floorAt(0)});
+  EXPECT_LT(bench.run(60, {0, -0.004, 0}), kGentle_N);
+  EXPECT_NEAR(bench.force_.y(), 6, 1e-6);
 }
 
 TEST(ProxyLoop, TellsWhatIsTouchedByTheNamesOfItsClient) {
