@@ -113,6 +113,18 @@ Primitive pointOf(const Vec3& a, std::uint32_t source) {
   return point;
 }
 
+Primitive shrunkenOf(PrimitiveKind kind, const std::array<Vec3, 3>& corners, std::uint32_t source) {
+  const auto& v = corners;
+  if (kind == PrimitiveKind::kTriangle) {
+    if (isTriangle(v[0], v[1], v[2])) return triangleOf(v[0], v[1], v[2], source);
+    const std::size_t opposite = outlineOf(v).corner;
+    const Vec3 &a = v[(opposite + 1) % 3], &b = v[(opposite + 2) % 3];
+    return isSegment(a, b) ? segmentOf(a, b, source) : pointOf(a, source);
+  }
+  if (kind == PrimitiveKind::kSegment && isSegment(v[0], v[1])) return segmentOf(v[0], v[1], source);
+  return pointOf(v[0], source);
+}
+
 bool makeTriangle(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t source, Primitive& out) {
   if (!isTriangle(a, b, c)) return false;
   out = triangleOf(a, b, c, source);

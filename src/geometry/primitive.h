@@ -40,6 +40,10 @@ Primitive triangleOf(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t 
 Primitive segmentOf(const Vec3& a, const Vec3& b, std::uint32_t source);
 Primitive pointOf(const Vec3& a, std::uint32_t source);
 
+/// What an element of this kind makes of its corners (a segment's last is not looked at) wherever they have gone within
+/// reach: a triangle that has shrunk to a line is its longest edge, and what has shrunk to a point is that. RT-safe.
+Primitive shrunkenOf(PrimitiveKind kind, const std::array<Vec3, 3>& corners, std::uint32_t source);
+
 /// Both at once: each returns false, and leaves `out` alone, where the vertices make none.
 bool makeTriangle(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t source, Primitive& out);
 bool makeSegment(const Vec3& a, const Vec3& b, std::uint32_t source, Primitive& out);

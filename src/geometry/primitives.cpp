@@ -27,6 +27,11 @@ Primitives::Primitives(const MeshView& mesh) : mesh_(mesh), size_(mesh.elements(
   for (const Run& run : runs) bounds_.extend(run.bounds);
 }
 
+Primitives::Primitives(const MeshView& mesh, std::vector<std::uint32_t> elements)
+    : mesh_(mesh), kept_(std::move(elements)), size_(kept_.size()), shrunken_(true) {
+  for (std::size_t i = 0; i < size_; ++i) extend(bounds_, corners(i));
+}
+
 Primitives::Run Primitives::look(std::size_t begin, std::size_t end) const {
   Run run;
   for (std::size_t i = begin; i < end; ++i) {
@@ -88,7 +93,12 @@ bool Primitives::valid(const Element& element) const {
   return in_range(mesh_.points[element.source]) && withinReach(corners(element)[0]);
 }
 
-PrimitiveKind Primitives::kind(std::size_t i) const { return ready_.empty() ? element(i).kind : ready_[i].kind; }
+PrimitiveKind Primitives::kind(std::size_t i) const {
+  if (shrunken_) return (*this)[i].kind;
+  return ready_.empty() ? element(i).kind : ready_[i].kind;
+}
+
+PrimitiveKind Primitives::elementKind(std::size_t i) const { return element(i).kind; }
 
 std::uint32_t Primitives::source(std::size_t i) const { return ready_.empty() ? element(i).source : ready_[i].source; }
 
@@ -96,6 +106,7 @@ Primitive Primitives::operator[](std::size_t i) const {
   if (!ready_.empty()) return ready_[i];
   const Element made_from = element(i);
   const auto v = corners(made_from);
+  if (shrunken_) return shrunkenOf(made_from.kind, v, made_from.source);
   switch (made_from.kind) {
     case PrimitiveKind::kTriangle:
       return triangleOf(v[0], v[1], v[2], made_from.source);

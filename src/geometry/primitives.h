@@ -35,6 +35,9 @@ class Primitives {
   /// Triangles first, then segments, then points; refused ones are left out. O(n) on all threads that oneTBB has; the
   /// result does not depend on their number. Setup only.
   explicit Primitives(const MeshView& mesh);
+  /// Those elements whose numbers among all (triangles, segments, points) are listed, by rising number, whatever they
+  /// have shrunk to: see shrunkenOf(). Their vertices must be within reach.
+  Primitives(const MeshView& mesh, std::vector<std::uint32_t> elements);
   /// Ready ones, in any order.
   Primitives(std::span<const Primitive> ready) : ready_(ready), size_(ready.size()) {}                // NOLINT: a view
   Primitives(const std::vector<Primitive>& ready) : Primitives(std::span<const Primitive>(ready)) {}  // NOLINT: a view
@@ -44,6 +47,8 @@ class Primitives {
   bool empty() const { return size_ == 0; }
   /// Whether the same elements make the same numbers here as there, for two meshes with the same lists.
   bool numberedAs(const Primitives& other) const { return size_ == other.size_ && kept_ == other.kept_; }
+  /// Number of the element that it is made from, among all of the mesh.
+  std::uint32_t elementNumber(std::size_t i) const { return kept_.empty() ? static_cast<std::uint32_t>(i) : kept_[i]; }
   /// Around all vertices that they have. O(1) of a mesh, O(n) of ready ones.
   Box bounds() const;
   /// Memory of its own, beside the mesh's.
@@ -51,6 +56,7 @@ class Primitives {
 
   Primitive operator[](std::size_t i) const;
   PrimitiveKind kind(std::size_t i) const;
+  PrimitiveKind elementKind(std::size_t i) const;  ///< of a mesh: before it shrank
   /// As Primitive::source.
   std::uint32_t source(std::size_t i) const;
   /// The vertices in the order given; a segment's last is there twice, a point's three times.
@@ -94,6 +100,7 @@ class Primitives {
   std::vector<std::uint32_t> kept_;  // numbers among all elements of the mesh; empty when none was refused
   std::span<const Primitive> ready_;
   std::size_t size_ = 0;
+  bool shrunken_ = false;  // some may have shrunk
   Refused refused_;
   Box bounds_;  // of a mesh
 };

@@ -69,9 +69,15 @@ bool precedes(const Primitive& a, const Primitive& b) {
 
 bool firstImpact(const SpatialIndex& index, const Primitives& primitives, const Vec3& from, const Vec3& motion,
                  double radius, double touching, FirstImpact& out) {
-  const auto read = [&](std::uint32_t candidate) { return primitives[candidate]; };
+  Primitive last;
+  const auto read = [&](std::uint32_t candidate) -> const Primitive& { return last = primitives[candidate]; };
+  return firstImpact(index, read, from, motion, radius, touching, out);
+}
+
+bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(std::uint32_t)> read, const Vec3& from,
+                 const Vec3& motion, double radius, double touching, FirstImpact& out) {
   const auto impact_of = [&](std::uint32_t candidate, double, Impact& impact) {
-    const Primitive primitive = primitives[candidate];
+    const Primitive& primitive = read(candidate);
     const ClosestPoint start = closestPoint(primitive, from);
     if (touching > 0 && start.distance <= touching) return false;
     return sweepSphere(primitive, start, from, motion, radius, impact);

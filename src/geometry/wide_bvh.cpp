@@ -4,6 +4,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <limits>
 
@@ -36,7 +37,9 @@ BlockScale WideBvh::scale() const {
 }
 
 WideBvh WideBvh::build(const Primitives& primitives) {
+  static std::atomic<std::uint64_t> built{0};
   WideBvh bvh;
+  bvh.tree_number_ = ++built;
   bvh.primitives_ = primitives.size();
   if (primitives.empty()) return bvh;
   assert(primitives.size() <= std::numeric_limits<std::uint32_t>::max());
@@ -58,6 +61,7 @@ WideBvh WideBvh::build(const Primitives& primitives) {
 WideBvh WideBvh::refit(const Primitives& moved) const {
   assert(moved.size() == primitives_);
   WideBvh bvh;
+  bvh.tree_number_ = tree_number_;
   bvh.primitives_ = primitives_;
   if (moved.empty()) return bvh;
   bvh.measure(moved);

@@ -27,6 +27,8 @@ class WideBvh final : public SpatialIndex {
   /// The same tree around the same primitives where they are now: as many, numbered as before. O(n) on all threads that
   /// oneTBB has; the result does not depend on their number. Setup only.
   WideBvh refit(const Primitives& moved) const;
+  /// Whether one was refitted from the other, or both from a third: node for node and block for block the same tree.
+  bool isTreeOf(const WideBvh& other) const { return tree_number_ == other.tree_number_; }
   /// Boxes that a query enters in the mean, by the surface area heuristic: small ones that it meets anywhere in the
   /// root's box.
   double cost() const { return cost_; }
@@ -42,6 +44,7 @@ class WideBvh final : public SpatialIndex {
   std::span<const WideBlock> blocks() const { return blocks_; }
   std::size_t primitives() const { return primitives_; }
   const Vec3& origin() const { return origin_; }  ///< what the coordinates of nodes and blocks are relative to
+  double extent() const { return extent_; }       ///< m: largest coordinate of a primitive
 
  private:
   // Origin, extent and half of it from where the primitives are.
@@ -54,9 +57,10 @@ class WideBvh final : public SpatialIndex {
   HugeVector<WideNode> nodes_;
   HugeVector<WideBlock> blocks_;
   std::size_t primitives_ = 0;
+  std::uint64_t tree_number_ = 0;  // of the build that it comes from
   Vec3 origin_ = Vec3::Zero();
-  double extent_ = 0;  // m: largest coordinate of a primitive
-  double half_ = 0;    // m: the same, relative to origin_
+  double extent_ = 0;
+  double half_ = 0;  // m: the same, relative to origin_
   int depth_ = 0;
   double cost_ = 0, built_cost_ = 0;
 };

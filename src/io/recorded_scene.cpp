@@ -95,7 +95,15 @@ void SceneWriter::write(const Snapshot& scene, const Write& write) {
       });
     };
     placed.set_shape(shapeId(instance.shape));
-    if (instance.before) placed.set_before(shapeId(instance.before));
+    const auto addWay = [&](const BendWay& way) {
+      proto::RecordedBendWay& recorded = *placed.add_bending();
+      recorded.set_from(shapeId(way.given_from()));
+      recorded.set_to(shapeId(way.given_to()));
+      recorded.set_begin_ns(way.begin_ns());
+      recorded.set_end_ns(way.end_ns());
+    };
+    if (instance.bending && instance.bending->earlier()) addWay(*instance.bending->earlier());
+    if (instance.bending) addWay(instance.bending->last());
     placed.set_surfaces(idOf(surfaces_, instance.surfaces, [&](std::uint64_t id) {
       proto::RecordingBlock part;
       part.mutable_surfaces()->set_id(id);
@@ -125,6 +133,21 @@ void SceneReader::add(const proto::RecordedSurfaces& in) {
   surfaces_[in.id()] = std::move(surfaces);
 }
 
+BendWay SceneReader::wayOf(const proto::RecordedBendWay& in, const Surfaces& surfaces) const {
+  const auto from = shapes_.find(in.from()), to = shapes_.find(in.to());
+  if (from == shapes_.end() || to == shapes_.end() || !isSameMesh(*from->second, *to->second)) throw Error(kBroken);
+  if (in.end_ns() <= in.begin_ns() || surfaces.materials.size() < to->second->model.materials.size())
+    throw Error(kBroken);
+  return {from->second, to->second, in.begin_ns(), in.end_ns()};
+}
+
+std::shared_ptr<const Bend> SceneReader::bendingOf(const proto::RecordedInstance& in,
+                                                      const Surfaces& surfaces) const {
+  if (in.bending_size() == 0) return nullptr;
+  if (in.bending_size() == 1) return std::make_shared<Bend>(wayOf(in.bending(0), surfaces));
+  return std::make_shared<Bend>(wayOf(in.bending(0), surfaces), wayOf(in.bending(1), surfaces));
+}
+
 std::shared_ptr<const Snapshot> SceneReader::scene(const proto::RecordedScene& in) const {
   constexpr double kLongestBlend_ns = 1e12;
   checkRanges("a scene", {{"blend_ns", static_cast<double>(in.blend_ns()), 0, kLongestBlend_ns}});
@@ -137,10 +160,7 @@ std::shared_ptr<const Snapshot> SceneReader::scene(const proto::RecordedScene& i
     const Ways ways = waysOf(placed.motion());
     instances.push_back({shape->second, surfaces->second, Motion(ways.earlier.screw(), ways.last.screw()), placed.key(),
                          placed.session(), placed.object(), placed.name()});
-    if (placed.before() == 0) continue;
-    const auto before = shapes_.find(placed.before());
-    if (before == shapes_.end() || !isSameMesh(*before->second, *shape->second)) throw Error(kBroken);
-    instances.back().before = before->second;
+    instances.back().bending = bendingOf(placed, *surfaces->second);
   }
   return makeSnapshot(std::move(instances), in.name(), in.number(), in.blend_ns());
 }

@@ -46,6 +46,9 @@ class SceneReader {
   std::shared_ptr<const Snapshot> scene(const proto::RecordedScene& in) const;
 
  private:
+  BendWay wayOf(const proto::RecordedBendWay& in, const Surfaces& surfaces) const;
+  std::shared_ptr<const Bend> bendingOf(const proto::RecordedInstance& in, const Surfaces& surfaces) const;
+
   MeshReader mesh_;
   std::optional<std::uint64_t> begun_;  // the shape of which more parts follow
   std::map<std::uint64_t, std::shared_ptr<const Shape>> shapes_;

@@ -33,7 +33,7 @@ class Carry {
         leader_(carrierOf(state)) {}
 
   void run() {
-    for (int left = kMostCarrySteps; left > 0 && now_ns_ < end_ns_; --left) step(left);
+    for (int left = kMostCarrySteps; left > 0 && now_ns_ < end_ns_; --left) bendsNear() ? creep(left) : step(left);
     if (now_ns_ < end_ns_) advance(end_ns_);
   }
 
@@ -47,7 +47,8 @@ class Carry {
     const auto& all = snapshot_.instances;
     const auto found = std::lower_bound(all.begin(), all.end(), state.carrier,
                                         [](const Instance& a, std::uint64_t key) { return a.key < key; });
-    if (state.carrier == 0 || found == all.end() || found->key != state.carrier || !found->motion.moves()) return kNone;
+    if (state.carrier == 0 || found == all.end() || found->key != state.carrier) return kNone;
+    if (!found->motion.moves() && !found->bending) return kNone;
     return static_cast<std::uint32_t>(found - all.begin());
   }
 
@@ -56,7 +57,13 @@ class Carry {
   void step(int left);
   void creep(int left);
   void advance(std::int64_t time_ns);
+  void pushOut();
   Vec3 carriedTo(std::int64_t time_ns) const;
+  Vec3 bentTo(const BendWay& way, std::int64_t time_ns) const;
+  bool bendsNear() const;
+  std::int64_t oneWayUntil() const;
+  double wayOf_m(const Instance& instance, std::int64_t until_ns, double clearance) const;
+  double partUntilBent(const Instance& instance, std::int64_t until_ns, double way_m) const;
   std::int64_t straightUntil() const;
   Meeting firstMeeting(std::int64_t until_ns, const Vec3& goal) const;
 
@@ -79,8 +86,44 @@ void Carry::forEachNear(const Vec3& a, const Vec3& b, Visit visit) const {
 // Where the leader takes the proxy by then.
 Vec3 Carry::carriedTo(std::int64_t time_ns) const {
   if (leader_ == kNone) return state_.position;
-  const Motion& motion = snapshot_.instances[leader_].motion;
-  return motion.at(time_ns).toWorld(motion.at(now_ns_).toObject(state_.position));
+  const Instance& leader = snapshot_.instances[leader_];
+  const Motion& motion = leader.motion;
+  Vec3 place = motion.at(now_ns_).toObject(state_.position);
+  if (const BendWay* const way = leader.bentAt(now_ns_)) place += bentTo(*way, time_ns);
+  return motion.at(time_ns).toWorld(place);
+}
+
+// How far the place of the leader nearest to the proxy goes by then, as its mesh bends; frame of the leader. Nothing
+// where it does not touch the proxy.
+Vec3 Carry::bentTo(const BendWay& way, std::int64_t time_ns) const {
+  constexpr double kTouching = 1.1;  // of the radius: what the proxy touched lies within
+  const SceneAt scene(snapshot_, now_ns_);
+  ClosestPoint nearest;
+  PrimitiveId held{kNone, 0};
+  scene.primitivesWithin(state_.position, kTouching * tolerance_.reach, [&](PrimitiveId id, const ClosestPoint& place) {
+    if (id.instance != leader_) return;
+    if (held.instance != kNone && place.distance > nearest.distance) return;
+    if (held.instance != kNone && place.distance == nearest.distance && !scene.precedes(id, held)) return;
+    held = id;
+    nearest = place;
+  });
+  if (held.instance == kNone) return Vec3::Zero();
+  const Primitive touched = scene.primitive(held);
+  if (touched.kind != way.to()->primitives.elementKind(held.element)) return Vec3::Zero();  // it has shrunk
+  const auto now = way.corners(held.element, way.part(now_ns_)), then = way.corners(held.element, way.part(time_ns));
+  Vec3 gone = Vec3::Zero();
+  for (std::size_t i = 0; i < 3; ++i) gone += nearest.weights[i] * (then[touched.order[i]] - now[touched.order[i]]);
+  return gone;
+}
+
+// Whether a mesh that bends may come near the proxy, or the way on which it is taken along.
+bool Carry::bendsNear() const {
+  if (now_ns_ >= snapshot_.bends_until_ns) return false;
+  const Vec3 to = carriedTo(end_ns_), margin = Vec3::Constant(2 * tolerance_.reach);
+  const Box region{state_.position.cwiseMin(to) - margin, state_.position.cwiseMax(to) + margin};
+  return std::any_of(snapshot_.bent.begin(), snapshot_.bent.end(), [&](std::uint32_t i) {
+    return snapshot_.instances[i].bentAt(now_ns_) != nullptr && snapshot_.reach[i].meets(region);
+  });
 }
 
 // Until when each object nearby stays on one screw and turns little enough for a straight sweep.
@@ -116,7 +159,21 @@ Carry::Meeting Carry::firstMeeting(std::int64_t until_ns, const Vec3& goal) cons
 void Carry::advance(std::int64_t time_ns) {
   state_.position = carriedTo(time_ns);
   now_ns_ = time_ns;
-  findClearPlace({snapshot_, now_ns_}, tolerance_, kPushTries, state_.position);
+  pushOut();
+}
+
+// Where there is no room for the proxy, to where there is room for half of it, or for a quarter, and so on: pinched,
+// its centre keeps away from all that closes in as far as it can.
+void Carry::pushOut() {
+  constexpr int kHalvings = 8;
+  const SceneAt scene(snapshot_, now_ns_);
+  Tolerances smaller = tolerance_;
+  for (int i = 0; i <= kHalvings; ++i, smaller.reach /= 2) {
+    Vec3 place = state_.position;
+    if (!findClearPlace(scene, smaller, kPushTries, place)) continue;
+    state_.position = place;
+    return;
+  }
 }
 
 void Carry::step(int left) {
@@ -134,22 +191,59 @@ void Carry::step(int left) {
   }
 }
 
-// Between two objects that close in: a little at a time, and each time out of both.
+// Until when each mesh that bends is on one way.
+std::int64_t Carry::oneWayUntil() const {
+  std::int64_t until_ns = end_ns_;
+  for (const std::uint32_t i : snapshot_.bent) {
+    const std::int64_t next_ns = snapshot_.instances[i].bending->last().begin_ns();
+    if (now_ns_ < next_ns) until_ns = std::min(until_ns, next_ns);
+  }
+  return until_ns;
+}
+
+// How far an object moves past the proxy until then, at most, not counting how it bends.
+double Carry::wayOf_m(const Instance& instance, std::int64_t until_ns, double clearance) const {
+  const Motion& motion = instance.motion;
+  if (!motion.moves()) return 0;
+  const Pose now = motion.at(now_ns_), end = motion.at(until_ns);
+  const double turn = (end.rotation - now.rotation).norm();
+  const double slide = (end.toWorld(now.toObject(state_.position)) - state_.position).norm();
+  return kArcPerChord * (slide + turn * clearance);
+}
+
+// The part of the time until then in which nothing of a bending mesh takes more than kCloseIn of its distance from the
+// proxy's centre, when all of the mesh also moves by `way_m` past it. What never comes nearer than half a radius on its
+// way need not be looked at.
+double Carry::partUntilBent(const Instance& instance, std::int64_t until_ns, double way_m) const {
+  const BendWay* const way = instance.bentAt(now_ns_);
+  if (way == nullptr) return 1;
+  const double begin = way->part(now_ns_), end = way->part(until_ns);
+  const Vec3 place = instance.motion.at(now_ns_).toObject(state_.position);
+  double part = 1;
+  way->index(begin, end).overlap(place, (1 - kCloseIn) * tolerance_.reach + way_m, [&](std::uint32_t primitive) {
+    const double distance = closestPoint(way->primitive(primitive, begin), place).distance;
+    const double most = (end - begin) * way->length_m(primitive) + way_m;
+    if (kCloseIn * distance < part * most) part = kCloseIn * distance / most;
+  });
+  return part;
+}
+
+// Between two objects that close in, or with meshes that bend: a little at a time, and each time out of all.
 void Carry::creep(int left) {
-  const auto left_ns = static_cast<double>(end_ns_ - now_ns_);
+  const std::int64_t until_ns = oneWayUntil();
+  const auto left_ns = static_cast<double>(until_ns - now_ns_);
   if (!(left_ns > 0)) return;
   const double clearance = clearanceAt({snapshot_, now_ns_}, state_.position, tolerance_.reach);
-  double way = 0;
-  forEachNear(state_.position, state_.position, [&](std::uint32_t, const Instance& instance) {
-    const Motion& motion = instance.motion;
-    if (!motion.moves()) return;
-    const Pose now = motion.at(now_ns_), end = motion.at(end_ns_);
-    const double turn = (end.rotation - now.rotation).norm();
-    const double slide = (end.toWorld(now.toObject(state_.position)) - state_.position).norm();
-    way = std::max(way, kArcPerChord * (slide + turn * clearance));
+  const Vec3 carried = carriedTo(until_ns);
+  const double carried_m = (carried - state_.position).norm();
+  double part = carried_m > 0 ? std::min(1.0, kCloseIn * clearance / carried_m) : 1;
+  forEachNear(state_.position, carried, [&](std::uint32_t, const Instance& instance) {
+    const double way_m = wayOf_m(instance, until_ns, clearance) + carried_m;
+    if (way_m > 0) part = std::min(part, kCloseIn * clearance / way_m);
+    part = std::min(part, partUntilBent(instance, until_ns, way_m));
   });
-  const double part = std::max(way > 0 ? kCloseIn * clearance / way : 1, 1.0 / left);
-  advance(now_ns_ + std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(part, 1.0) * left_ns)));
+  part = std::max(part, 1.0 / left);
+  advance(now_ns_ + std::max<std::int64_t>(1, static_cast<std::int64_t>(part * left_ns)));
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include "proxy/account.h"
 #include "proxy/back_off.h"
 #include "proxy/begin.h"
-#include "proxy/bend.h"
 #include "proxy/carry.h"
 #include "proxy/clear_place.h"
 #include "proxy/contacts.h"
@@ -452,7 +451,6 @@ double energyOf_J(const ProxyState& state, const ProxySettings& settings, const 
 // Moving objects do work on the hand; that is theirs, not the rules', and no tank pays for it.
 double carryAlong(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
   const double before_J = energyOf_J(state, settings, finger);
-  bend(state, scene, settings);
   carry(state, scene, settings);
   const double moved_J = energyOf_J(state, settings, finger) - before_J;
   if (moved_J > 0) state.ledger.add(EnergyCause::kMoving, moved_J);

@@ -4,7 +4,7 @@ namespace hl {
 
 Surface::Surface(const SceneAt& scene, const MaterialOverride& set, PrimitiveId id)
     : set_(set),
-      shape_(*scene.instance(id).shape),
+      shape_(scene.shape(id)),
       surfaces_(*scene.instance(id).surfaces),
       material_(surfaces_.materials[shape_.materialOf(id.element)]),
       triangle_(scene.kind(id) == PrimitiveKind::kTriangle) {

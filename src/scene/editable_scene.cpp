@@ -304,12 +304,29 @@ EditableScene::Next EditableScene::prepareReplaced(const std::shared_ptr<const S
 
 namespace {
 
+// Whether one object is the other, its mesh maybe bent: then it gets there by and by.
+bool isBent(const Instance& before, const PlacedShape& now) {
+  return before.shape->mesh == now.shape->mesh &&
+         before.shape->model.materials.size() <= now.surfaces->materials.size();
+}
+
 // Snapshot::blend_ns, as far as it is due to one object, which was there before where that is known.
-std::int64_t blendOf(const Instance* before, const Instance& now, std::int64_t frame_ns) {
+std::int64_t blendOf(const Instance* before, const Instance& now, const PlacedShape& placed) {
   if (before == nullptr || !(*before->surfaces == *now.surfaces)) return kAbruptBlend_ns;
   if (!now.motion.moves() && !(before->motion.to() == now.motion.to())) return kAbruptBlend_ns;
-  if (before->shape->geometry == now.shape->geometry) return 0;
-  return now.before && frame_ns > 0 ? frame_ns : kAbruptBlend_ns;
+  return before->shape->geometry == now.shape->geometry || isBent(*before, placed) ? 0 : kAbruptBlend_ns;
+}
+
+// A way that is over is forgotten, and with it the shape that it came from.
+std::shared_ptr<const Bend> bendingOf(const Instance& before, const PlacedShape& now, std::int64_t begin_ns,
+                                         std::int64_t end_ns) {
+  const bool goes_on = before.bending && before.bending->end_ns() > begin_ns;
+  const bool same = before.shape->geometry == now.shape->geometry;
+  if (!same && !isBent(before, now)) return nullptr;
+  if (same || before.shape->model.positions == now.shape->model.positions) return goes_on ? before.bending : nullptr;
+  if (end_ns <= begin_ns) end_ns = begin_ns + kAbruptBlend_ns;
+  if (goes_on) return std::make_shared<Bend>(before.bending->then(now.shape, begin_ns, end_ns));
+  return std::make_shared<Bend>(BendWay(before.shape, now.shape, begin_ns, end_ns));
 }
 
 Instance follow(const PlacedShape& now, const Instance* before, std::int64_t begin_ns, std::int64_t end_ns) {
@@ -320,8 +337,7 @@ Instance follow(const PlacedShape& now, const Instance* before, std::int64_t beg
     const bool rests = !before->motion.moves() || before->motion.last().end_ns() < begin_ns;
     if (!stays || !rests) instance.motion = stays ? before->motion : before->motion.then(now.pose, begin_ns, end_ns);
   }
-  if (before->shape->mesh == now.shape->mesh && before->shape->geometry != now.shape->geometry)
-    instance.before = before->shape;
+  instance.bending = bendingOf(*before, now, begin_ns, end_ns);
   return instance;
 }
 
@@ -337,7 +353,7 @@ Followed followOn(const std::vector<PlacedShape>& placed, std::span<const Instan
     at = std::find_if(at, last.end(), [&](const Instance* one) { return one->key >= now->key; });
     const Instance* const before = at != last.end() && (*at)->key == now->key ? *at : nullptr;
     result.instances.push_back(follow(*now, before, begin_ns, end_ns));
-    result.blend_ns = std::max(result.blend_ns, blendOf(before, result.instances.back(), end_ns - begin_ns));
+    result.blend_ns = std::max(result.blend_ns, blendOf(before, result.instances.back(), *now));
   }
   return result;
 }

@@ -149,7 +149,7 @@ struct Followed {
 
 /// The instances of the next snapshot, from those of this client in the last one, both by rising key: what was there
 /// moves from where it is at `begin_ns` to its new place until `end_ns`; what is new, or all when end_ns <= begin_ns,
-/// is there at once. What bends comes over in the same time.
+/// is there at once. What bends gets there in the same time, or in kAbruptBlend_ns; from where it is bent to already.
 Followed followOn(const std::vector<PlacedShape>& placed, std::span<const Instance* const> last, std::int64_t begin_ns,
                   std::int64_t end_ns);
 

@@ -23,10 +23,11 @@ class RecentPrimitives {
  public:
   RecentPrimitives() { of_.fill(kNone); }
 
-  /// What follows is of the snapshot of this identity: forgets what is here of another one.
-  void readFrom(std::uint64_t snapshot) {
-    if (snapshot_ != snapshot) of_.fill(kNone);
+  /// What follows is of the snapshot of this identity, at this moment: forgets what is here of another one.
+  void readFrom(std::uint64_t snapshot, std::int64_t moment) {
+    if (snapshot_ != snapshot || moment_ != moment) of_.fill(kNone);
     snapshot_ = snapshot;
+    moment_ = moment;
   }
 
   /// read() gives the primitive when it is not here. The reference is good until the next call.
@@ -51,6 +52,7 @@ class RecentPrimitives {
     Primitive primitive;
   };
   std::uint64_t snapshot_ = 0;  // none has this
+  std::int64_t moment_ = 0;
   std::array<PrimitiveId, kSlots> of_;
   std::array<Slot, kSlots> slots_;
 };

@@ -22,12 +22,32 @@ bool isEdge(const Primitive& primitive, Feature feature) {
   return primitive.kind == PrimitiveKind::kTriangle && feature >= Feature::kEdge0 && feature <= Feature::kEdge2;
 }
 
+// The index of an object at a moment.
+class IndexAt {
+ public:
+  IndexAt(const Instance& instance, std::int64_t time_ns) : resting_(*instance.shape->index) {
+    if (const BendWay* const way = instance.bentAt(time_ns))
+      moving_.emplace(way->index(way->part(time_ns), way->part(time_ns)));
+  }
+  const SpatialIndex& operator*() const { return moving_ ? *moving_ : resting_; }
+
+ private:
+  const SpatialIndex& resting_;
+  std::optional<MovingBvh> moving_;
+};
+
 void toWorld(const Pose& pose, ClosestPoint& nearest) {
   nearest.point = pose.toWorld(nearest.point);
   nearest.normal = pose.turnToWorld(nearest.normal);
 }
 
 }  // namespace
+
+Primitive SceneAt::read(PrimitiveId id) const {
+  const Instance& of = instance(id);
+  if (const BendWay* const way = of.bentAt(time_ns_)) return way->primitive(id.element, way->part(time_ns_));
+  return of.shape->primitives[id.element];
+}
 
 Vec3 SceneAt::turnToObject(PrimitiveId id, const Vec3& v_W) const {
   const Motion& motion = instance(id).motion;
@@ -87,17 +107,16 @@ void SceneAt::primitivesWithin(const Vec3& centre, double distance,
   const Box region = around(centre, centre, distance + kBoxSlack * snapshot_.extent);
   snapshot_.near.visitMet(region, [&](std::uint32_t i) {
     const Instance& instance = snapshot_.instances[i];
-    const Shape& shape = *instance.shape;
-    const auto read = [&](std::uint32_t element) -> const Primitive& { return primitive({i, element}); };
+    const IndexAt index(instance, time_ns_);
+    const auto read_one = [&](std::uint32_t element) -> const Primitive& { return primitive({i, element}); };
     if (instance.motion.identity()) {
-      hl::primitivesWithin(*shape.index, read, centre, distance,
-                           [&](std::uint32_t element, const ClosestPoint& nearest) {
-                             visit({i, element}, nearest);
-                           });
+      hl::primitivesWithin(*index, read_one, centre, distance, [&](std::uint32_t element, const ClosestPoint& nearest) {
+        visit({i, element}, nearest);
+      });
       return;
     }
     const Pose pose = instance.motion.at(time_ns_);
-    hl::primitivesWithin(*shape.index, read, pose.toObject(centre), distance,
+    hl::primitivesWithin(*index, read_one, pose.toObject(centre), distance,
                          [&](std::uint32_t element, const ClosestPoint& nearest_O) {
                            ClosestPoint nearest = nearest_O;
                            toWorld(pose, nearest);
@@ -122,7 +141,7 @@ bool keepEarlier(const SceneAt& scene, const Impact& hit, PrimitiveId id, const 
 
 }  // namespace
 
-// Asks each object near the way, ask(number, shape, from_O, motion_O, hit), and keeps the earliest impact. Once there
+// Asks each object near the way, ask(number, index, from_O, motion_O, hit), and keeps the earliest impact. Once there
 // is one, objects near only what lies beyond it are passed over.
 template <typename Ask>
 bool SceneAt::firstOf(const Vec3& from, const Vec3& motion, double distance, const Ask& ask, SceneImpact& out) const {
@@ -135,7 +154,8 @@ bool SceneAt::firstOf(const Vec3& from, const Vec3& motion, double distance, con
     const Vec3 from_O = moves.identity() ? from : pose.toObject(from);
     const Vec3 motion_O = moves.identity() ? motion : pose.turnToObject(motion);
     FirstImpact hit;
-    if (!ask(i, *snapshot_.instances[i].shape, from_O, motion_O, hit)) return;
+    const IndexAt index(snapshot_.instances[i], time_ns_);
+    if (!ask(i, *index, from_O, motion_O, hit)) return;
     if (!keepEarlier(*this, hit.impact, {i, hit.primitive}, pose, found, out)) return;
     region = around(from, from + hit.impact.t * motion, margin);
   });
@@ -144,8 +164,10 @@ bool SceneAt::firstOf(const Vec3& from, const Vec3& motion, double distance, con
 
 bool SceneAt::firstImpact(const Vec3& from, const Vec3& motion, double radius, double touching,
                           SceneImpact& out) const {
-  const auto ask = [&](std::uint32_t, const Shape& shape, const Vec3& from_O, const Vec3& motion_O, FirstImpact& hit) {
-    return hl::firstImpact(*shape.index, shape.primitives, from_O, motion_O, radius, touching, hit);
+  const auto ask = [&](std::uint32_t i, const SpatialIndex& index, const Vec3& from_O, const Vec3& motion_O,
+                       FirstImpact& hit) {
+    const auto read_one = [&](std::uint32_t element) -> const Primitive& { return primitive({i, element}); };
+    return hl::firstImpact(index, read_one, from_O, motion_O, radius, touching, hit);
   };
   return firstOf(from, motion, radius, ask, out);
 }
@@ -153,14 +175,14 @@ bool SceneAt::firstImpact(const Vec3& from, const Vec3& motion, double radius, d
 bool SceneAt::firstImpact(const Vec3& from, const Vec3& motion, double radius, double touching, double soon,
                           std::span<const PrimitiveId> contacts, FunctionRef<void(PrimitiveId)> meet,
                           SceneImpact& out) const {
-  const auto ask = [&](std::uint32_t i, const Shape& shape, const Vec3& from_O, const Vec3& motion_O,
+  const auto ask = [&](std::uint32_t i, const SpatialIndex& index, const Vec3& from_O, const Vec3& motion_O,
                        FirstImpact& hit) {
     const auto is_contact = [&](std::uint32_t element) {
       return std::find(contacts.begin(), contacts.end(), PrimitiveId{i, element}) != contacts.end();
     };
     const auto met = [&](std::uint32_t element) { meet({i, element}); };
-    const auto read = [&](std::uint32_t element) -> const Primitive& { return primitive({i, element}); };
-    return hl::firstImpact(*shape.index, read, from_O, motion_O, radius, touching, soon, is_contact, met, hit);
+    const auto read_one = [&](std::uint32_t element) -> const Primitive& { return primitive({i, element}); };
+    return hl::firstImpact(index, read_one, from_O, motion_O, radius, touching, soon, is_contact, met, hit);
   };
   return firstOf(from, motion, touching, ask, out);
 }

@@ -2,6 +2,7 @@
 // Questions go to each object near the place, in its own frame, and the answers come back.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -28,7 +29,7 @@ class SceneAt {
   /// With what earlier ticks of the same thread have read, which must outlive it too.
   SceneAt(const Snapshot& snapshot, std::int64_t time_ns, RecentPrimitives& recent)
       : snapshot_(snapshot), time_ns_(time_ns), recent_(recent) {
-    recent_.readFrom(snapshot.identity);
+    recent_.readFrom(snapshot.identity, std::min(time_ns, snapshot.bends_until_ns));
   }
   SceneAt(const SceneAt&) = delete;
   SceneAt& operator=(const SceneAt&) = delete;
@@ -38,11 +39,15 @@ class SceneAt {
   double extent() const { return snapshot_.extent; }
 
   const Instance& instance(PrimitiveId id) const { return snapshot_.instances[id.instance]; }
+  /// What the primitives of its instance are numbered by now.
+  const Shape& shape(PrimitiveId id) const { return instance(id).shapeAt(time_ns_); }
   /// In the frame of its object; good until another one is asked for.
   const Primitive& primitive(PrimitiveId id) const {
-    return recent_.get(id, [&] { return instance(id).shape->primitives[id.element]; });
+    return recent_.get(id, [&] { return read(id); });
   }
-  PrimitiveKind kind(PrimitiveId id) const { return instance(id).shape->primitives.kind(id.element); }
+  PrimitiveKind kind(PrimitiveId id) const {
+    return instance(id).bentAt(time_ns_) ? primitive(id).kind : instance(id).shape->primitives.kind(id.element);
+  }
   Vec3 turnToObject(PrimitiveId id, const Vec3& v_W) const;
   Vec3 turnToWorld(PrimitiveId id, const Vec3& v_O) const;
 
@@ -68,6 +73,7 @@ class SceneAt {
                         SceneImpact& out) const;
 
  private:
+  Primitive read(PrimitiveId id) const;
   template <typename Ask>
   bool firstOf(const Vec3& from, const Vec3& motion, double distance, const Ask& ask, SceneImpact& out) const;
 

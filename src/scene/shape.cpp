@@ -87,6 +87,12 @@ std::uint64_t nextGeometry() {
   return ++last;
 }
 
+void setBounds(Shape& shape) {
+  shape.bounds = shape.primitives.bounds();
+  shape.extent =
+      shape.bounds.empty() ? 0 : shape.bounds.min.cwiseAbs().cwiseMax(shape.bounds.max.cwiseAbs()).maxCoeff();
+}
+
 // All but the hierarchy.
 std::shared_ptr<Shape> shapeOf(Model given) {
   auto shape = std::make_shared<Shape>();
@@ -96,17 +102,14 @@ std::shared_ptr<Shape> shapeOf(Model given) {
   shape->model.positions.shrink_to_fit();
   shape->model.triangles.shrink_to_fit();
   const Model& model = shape->model;
-  shape->primitives = Primitives({model.positions, model.triangles, model.segments, model.points});
+  shape->primitives = Primitives(viewOf(model));
   const Primitives& primitives = shape->primitives;
   shape->warnings = model.warnings;
   warnSkipped(shape->warnings, primitives.refused().triangles, "triangles");
   warnSkipped(shape->warnings, primitives.refused().segments, "segments");
   warnSkipped(shape->warnings, primitives.refused().points, "points");
   shape->material_of = materialsOf(model, primitives);
-  shape->bounds = primitives.bounds();
-  if (!shape->bounds.empty()) {
-    shape->extent = shape->bounds.min.cwiseAbs().cwiseMax(shape->bounds.max.cwiseAbs()).maxCoeff();
-  }
+  setBounds(*shape);
   return shape;
 }
 
@@ -176,6 +179,41 @@ std::shared_ptr<const Shape> makeShape(Model given, const Shape& before) {
   shape->before = before.geometry;
   shape->index = std::move(refitted);
   return shape;
+}
+
+std::shared_ptr<const Shape> withTree(const Shape& shape, const WideBvh& tree) {
+  const auto made = shapeOf(shape.model);
+  made->geometry = shape.geometry;
+  made->mesh = shape.mesh;
+  made->index = std::make_unique<const WideBvh>(tree.refit(made->primitives));
+  return made;
+}
+
+std::shared_ptr<const Shape> shapeOfElements(const Model& model, std::vector<std::uint32_t> elements,
+                                             const WideBvh* tree) {
+  const auto made = shapeOf(model);
+  made->primitives = Primitives(viewOf(made->model), std::move(elements));
+  made->material_of = materialsOf(made->model, made->primitives);
+  made->index = std::make_unique<const WideBvh>(tree != nullptr ? tree->refit(made->primitives)
+                                                                : WideBvh::build(made->primitives));
+  setBounds(*made);
+  return made;
+}
+
+MeshView viewOf(const Model& model) { return {model.positions, model.triangles, model.segments, model.points}; }
+
+std::array<std::uint32_t, 3> verticesOf(const Shape& shape, std::uint32_t primitive) {
+  const Model& model = shape.model;
+  const std::uint32_t source = shape.primitives.source(primitive);
+  switch (shape.primitives.elementKind(primitive)) {
+    case PrimitiveKind::kTriangle:
+      return model.triangles[source];
+    case PrimitiveKind::kSegment:
+      return {model.segments[source][0], model.segments[source][1], model.segments[source][1]};
+    case PrimitiveKind::kPoint:
+      break;
+  }
+  return {model.points[source], model.points[source], model.points[source]};
 }
 
 std::shared_ptr<const Shape> rebuilt(const Shape& worn) {

@@ -2,6 +2,7 @@
 // shown.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -14,6 +15,8 @@
 #include "scene/model.h"
 
 namespace hl {
+
+class WideBvh;
 
 /// Which structure finds the primitives near the proxy: boxes with eight children each, the paper's sphere tree, or
 /// none (every primitive is tested). The results are the same.
@@ -58,6 +61,18 @@ bool isSameMesh(const Shape& a, const Shape& b);
 /// The same for what follows on `before`. Where both are the same mesh and skip the same elements, a wide hierarchy is
 /// refitted: that is nine times as fast as building it. Else it is built, of the same kind.
 std::shared_ptr<const Shape> makeShape(Model given, const Shape& before);
+
+/// For a mesh on its way (bending.h): the same mesh with the same vertices under another tree, refitted; `shape` is
+/// numbered as what the tree was built for. And a shape of some elements alone, as Primitives has them, under that
+/// tree, or under a new one where there is none. Allocate.
+std::shared_ptr<const Shape> withTree(const Shape& shape, const WideBvh& tree);
+std::shared_ptr<const Shape> shapeOfElements(const Model& model, std::vector<std::uint32_t> elements,
+                                             const WideBvh* tree);
+
+MeshView viewOf(const Model& model);
+/// Numbers of the vertices of a primitive, in the order given; the last is repeated where there are fewer than three.
+/// RT-safe.
+std::array<std::uint32_t, 3> verticesOf(const Shape& shape, std::uint32_t primitive);
 
 /// How much a model that is not there yet will have.
 struct ModelCounts {

@@ -1,11 +1,7 @@
 #include "scene/snapshot.h"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <set>
 #include <utility>
 
@@ -30,8 +26,15 @@ void addWay(Box& reach, const Box& object, const Screw& way) {
   addSphere(reach, end, radius);
 }
 
+// Of all shapes that it has on its way: what bends stays within the box around both ends.
+Box objectBox(const Instance& instance) {
+  Box box = instance.shape->bounds;
+  if (instance.bending) instance.bending->forEachShape([&](const auto& shape) { box.extend(shape->bounds); });
+  return box;
+}
+
 Box reachOf(const Instance& instance) {
-  const Box& object = instance.shape->bounds;
+  const Box object = objectBox(instance);
   if (object.empty()) return object;
   if (!instance.motion.moves()) return boxAt(object, instance.motion.to());
   Box reach;
@@ -42,21 +45,6 @@ Box reachOf(const Instance& instance) {
 
 double largestCoordinate(const Box& box) {
   return box.empty() ? 0 : box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff();
-}
-
-// Of meshes with as many vertices each.
-double largestMove_m(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
-  using Range = oneapi::tbb::blocked_range<std::size_t>;
-  constexpr std::size_t kGrain = 16384;
-  const auto largest = [&](const Range& range, double most2) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      const double moved2 = (to[i] - from[i]).squaredNorm();
-      if (moved2 > most2) most2 = moved2;  // never for a vertex that is not a number: no primitive has it
-    }
-    return most2;
-  };
-  const auto larger = [](double a, double b) { return std::max(a, b); };
-  return std::sqrt(oneapi::tbb::parallel_reduce(Range(0, to.size(), kGrain), 0.0, largest, larger));
 }
 
 // Each is moved once, and none where they are sorted already, as those of one client are.
@@ -97,9 +85,11 @@ std::size_t memoryOf(const Snapshot& snapshot) {
   std::size_t bytes = snapshot.instances.capacity() * sizeof(Instance) + snapshot.reach.capacity() * sizeof(Box) +
                       snapshot.bent.capacity() * sizeof(std::uint32_t) + snapshot.near.bytes();
   for (const Instance& instance : snapshot.instances) {
-    for (const Shape* shape : {instance.shape.get(), instance.before.get()}) {
-      if (shape != nullptr && counted.insert(shape).second) bytes += shape->bytes();
-    }
+    const auto add = [&](const std::shared_ptr<const Shape>& shape) {
+      if (counted.insert(shape.get()).second) bytes += shape->bytes();
+    };
+    add(instance.shape);
+    if (instance.bending) instance.bending->forEachShape(add);
     for (const auto& texture : instance.surfaces->textures) {
       if (counted.insert(texture.get()).second) bytes += texture->texels.capacity() * sizeof(texture->texels[0]);
     }
@@ -118,9 +108,9 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, st
   snapshot->instances = byKey(std::move(instances));
   for (Instance& instance : snapshot->instances) {
     instance.plain = allDefault(instance.surfaces->materials);
-    if (instance.before) {
-      instance.bent_m = largestMove_m(instance.before->model.positions, instance.shape->model.positions);
+    if (instance.bending) {
       snapshot->bent.push_back(static_cast<std::uint32_t>(snapshot->reach.size()));
+      snapshot->bends_until_ns = std::max(snapshot->bends_until_ns, instance.bending->end_ns());
     }
     snapshot->reach.push_back(reachOf(instance));
     const Box rest = boxAt(instance.shape->bounds, instance.motion.to());
@@ -128,11 +118,13 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, st
       snapshot->bounds.extend(rest.min);
       snapshot->bounds.extend(rest.max);
     }
-    snapshot->extent = std::max({snapshot->extent, instance.shape->extent, largestCoordinate(snapshot->reach.back())});
+    snapshot->extent =
+        std::max({snapshot->extent, largestCoordinate(objectBox(instance)), largestCoordinate(snapshot->reach.back())});
     if (instance.motion.moves())
       snapshot->moves_until_ns = std::max(snapshot->moves_until_ns, instance.motion.last().end_ns());
     snapshot->primitives += instance.shape->primitives.size();
   }
+  snapshot->moves_until_ns = std::max(snapshot->moves_until_ns, snapshot->bends_until_ns);
   snapshot->near = BoxTree(snapshot->reach);
   return snapshot;
 }

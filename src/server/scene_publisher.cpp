@@ -334,7 +334,7 @@ std::int64_t ScenePublisher::assemble(const std::vector<Part>& parts, std::int64
     } else {
       for (const Instance* instance : place->shown_) {
         instances.push_back(*instance);
-        instances.back().before.reset();  // it has not been bent again
+        if (instance->bending && instance->bending->end_ns() <= begin_ns) instances.back().bending.reset();
       }
     }
   }

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-
 #include <limits>
+#include <utility>
 
 #include "base/error.h"
 #include "geometry/scenes.h"
@@ -378,7 +378,7 @@ TEST(EditableScene, AMeshIsTheSameHoweverItsHierarchyIsMade) {
   }
 }
 
-TEST(EditableScene, ABentMeshKnowsWhatItWasInTheSceneThatWasShown) {
+TEST(EditableScene, ABentMeshGoesFromWhereItWasShown) {
   const auto bent = [](const Shape& shape) {
     Model model = shape.model;
     model.positions[1].y() += 0.1;
@@ -388,22 +388,79 @@ TEST(EditableScene, ABentMeshKnowsWhatItWasInTheSceneThatWasShown) {
   EditableScene scene(1, {});
   scene.apply(worldOf({shapeItem(shown)}));
   const Followed first = followOn(scene.placed(), {}, 100, 200);
-  EXPECT_FALSE(first.instances[0].before);
+  EXPECT_FALSE(first.instances[0].bending);
   scene.apply(worldOf({shapeItem(never_shown)}));
   scene.apply(worldOf({shapeItem(now)}));
   const Followed second = followOn(scene.placed(), pointersByKey(first.instances), 300, 400);
-  EXPECT_EQ(second.instances[0].before, shown);
-  EXPECT_EQ(second.blend_ns, 100) << "from frame to frame";
-  EXPECT_EQ(followOn(scene.placed(), pointersByKey(first.instances), 300, 300).blend_ns, kAbruptBlend_ns) << "at once";
+  ASSERT_TRUE(second.instances[0].bending);
+  const BendWay& way = second.instances[0].bending->last();
+  EXPECT_EQ(way.from(), shown);
+  EXPECT_EQ(way.to(), now);
+  EXPECT_EQ(way.begin_ns(), 300);
+  EXPECT_EQ(way.end_ns(), 400);
+  EXPECT_EQ(way.corners(0, 0.5)[1].y(), shown->model.positions[1].y() + 0.1);
+  EXPECT_EQ(second.blend_ns, 0);
   const auto snapshot = makeSnapshot(second.instances);
   EXPECT_EQ(snapshot->bent, std::vector<std::uint32_t>{0});
-  EXPECT_NEAR(snapshot->instances[0].bent_m, 0.2, 1e-15);
+  EXPECT_EQ(snapshot->bends_until_ns, 400);
+  EXPECT_EQ(snapshot->moves_until_ns, 400);
   EXPECT_GT(memoryOf(*snapshot), memoryOf(*makeSnapshot(first.instances)) + shown->geometryBytes());
+  const auto at_once = followOn(scene.placed(), pointersByKey(first.instances), 300, 300);
+  EXPECT_EQ(at_once.instances[0].bending->end_ns(), 300 + kAbruptBlend_ns) << "no interval is known";
+  EXPECT_EQ(at_once.blend_ns, 0);
   const auto same = followOn(scene.placed(), pointersByKey(second.instances), 500, 600);
-  EXPECT_FALSE(same.instances[0].before) << "it has not been bent again";
+  EXPECT_FALSE(same.instances[0].bending) << "it is there";
+  EXPECT_EQ(followOn(scene.placed(), pointersByKey(second.instances), 350, 450).instances[0].bending,
+            second.instances[0].bending)
+      << "it is on its way";
   scene.apply(worldOf({shapeItem(triangle(2))}));
-  EXPECT_FALSE(followOn(scene.placed(), pointersByKey(second.instances), 500, 600).instances[0].before)
+  EXPECT_FALSE(followOn(scene.placed(), pointersByKey(second.instances), 350, 450).instances[0].bending)
       << "another mesh";
+}
+
+TEST(EditableScene, AMeshThatIsRedrawnAsItWasDoesNotBend) {
+  const auto first = triangle(), again = makeShape(Model(first->model), *first);
+  EditableScene scene(1, {});
+  scene.apply(worldOf({shapeItem(first)}));
+  const Followed shown = followOn(scene.placed(), {}, 100, 200);
+  scene.apply(worldOf({shapeItem(again)}));
+  const Followed next = followOn(scene.placed(), pointersByKey(shown.instances), 300, 400);
+  EXPECT_FALSE(next.instances[0].bending);
+  EXPECT_EQ(next.blend_ns, 0);
+}
+
+// A way that has begun is gone to its end; one that has not is forgotten.
+TEST(EditableScene, ABendFollowsTheOneBefore) {
+  std::vector<std::shared_ptr<const Shape>> shapes{triangle()};
+  EditableScene scene(1, {});
+  const auto bendNext = [&] {
+    Model model = shapes.back()->model;
+    model.positions[1].y() += 0.1;
+    shapes.push_back(makeShape(std::move(model), *shapes.back()));
+    scene.apply(worldOf({shapeItem(shapes.back())}));
+  };
+  scene.apply(worldOf({shapeItem(shapes[0])}));
+  Followed shown = followOn(scene.placed(), {}, 0, 0);
+  const auto next = [&](std::int64_t begin_ns, std::int64_t end_ns) {
+    bendNext();
+    shown = followOn(scene.placed(), pointersByKey(std::as_const(shown.instances)), begin_ns, end_ns);
+    return shown.instances[0].bending;
+  };
+  next(100, 200);
+  auto bending = next(180, 280);
+  EXPECT_EQ(bending->earlier()->to(), shapes[1]);
+  EXPECT_EQ(bending->last().from(), shapes[1]);
+  EXPECT_EQ(bending->last().begin_ns(), 200);
+  EXPECT_EQ(bending->last().end_ns(), 280) << "no later than it should be";
+  bending = next(190, 290);
+  EXPECT_EQ(bending->earlier()->to(), shapes[1]);
+  EXPECT_EQ(bending->last().from(), shapes[1]);
+  EXPECT_EQ(bending->last().to(), shapes[3]);
+  EXPECT_EQ(bending->last().begin_ns(), 200);
+  bending = next(195, 205);
+  EXPECT_EQ(bending->last().end_ns(), 205);
+  bending = next(198, 199);
+  EXPECT_EQ(bending->last().end_ns(), 201) << "half the time that it asks for, rounded up";
 }
 
 }  // namespace

@@ -125,27 +125,64 @@ TEST(ProxyLoop, AMovingObjectIsFollowedAtOnce) {
 }
 
 // The floor `up` higher, as its client bent it.
-Instance bentFloor(const Instance& before, double up) {
+Instance bentFloor(const Instance& before, double up, std::int64_t begin_ns, std::int64_t end_ns) {
   Model model = before.shape->model;
   for (Vec3& p : model.positions) p.y() += up;
-  Instance now = before;
-  now.before = before.shape;
-  now.shape = makeShape(std::move(model), *before.shape);
-  return now;
+  const auto shape = makeShape(std::move(model), *before.shape);
+  const PlacedShape placed{shape, before.surfaces, before.motion.to(), before.key, 2, 3, 9};
+  const std::vector<const Instance*> last{&before};
+  return followOn({placed}, last, begin_ns, end_ns).instances.front();
 }
 
-// 1 mm up each frame of 20 ms.
-TEST(ProxyLoop, AMeshThatBendsIsFollowedFromFrameToFrame) {
+// 1 mm up each frame of 20 ms: it is where it should be at each moment, and contacts and force are of that place.
+TEST(ProxyLoop, AMeshThatBendsMovesAsAnObjectThatMoves) {
   Instance skin = floorAt(0);
   Bench bench({skin});
   bench.run(100, {0, 0.01, 0});
   bench.run(10, {0, -0.003, 0});
   for (int frame = 1; frame <= 4; ++frame) {
-    skin = bentFloor(skin, 0.001);
-    bench.publish({skin}, 20 * kMs);
-    EXPECT_NEAR(bench.run(20, {0, -0.003, 0}), 0.05, 1e-6) << "as much in every step";
+    skin = bentFloor(skin, 0.001, bench.time_ns_, bench.time_ns_ + 20 * kMs);
+    bench.publish({skin}, 0);
+    for (int i = 0; i < 20; ++i) {
+      EXPECT_NEAR(bench.run(1, {0, -0.003, 0}), 0.05, 1e-6) << "as much in every step";
+      ASSERT_EQ(bench.last_.report.contacts.size(), 1u);
+      EXPECT_NEAR(bench.last_.report.contacts[0].multiplier_m * kSpring_N_m, bench.force_.y(), 1e-6);
+    }
     EXPECT_NEAR(bench.force_.y(), 5 + frame, 1e-6) << "there when the next frame comes";
   }
+}
+
+// A floor that falls away from under the finger faster than the finger follows: no force without a contact.
+TEST(ProxyLoop, ForceAndContactsAreOfOnePlaceWhenAMeshGoes) {
+  Instance skin = floorAt(0);
+  Bench bench({skin});
+  bench.run(100, {0, 0.01, 0});
+  bench.run(10, {0, -0.003, 0});
+  skin = bentFloor(skin, -0.013, bench.time_ns_, bench.time_ns_ + 33 * kMs);
+  bench.publish({skin}, 0);
+  for (int i = 0; i < 40; ++i) {
+    EXPECT_LT(bench.run(1, {0, -0.003, 0}), 13.0 / 33 + 1e-6);
+    EXPECT_EQ(bench.last_.report.contacts.empty(), bench.force_.isZero(1e-9)) << i;
+  }
+  EXPECT_EQ(bench.force_, Vec3::Zero());
+}
+
+// Frames that come before the mesh is where the last one had it: it goes there first, then on.
+TEST(ProxyLoop, FramesThatComeEarlyMakeNoJump) {
+  Instance skin = floorAt(0);
+  Bench bench({skin});
+  bench.run(100, {0, 0.01, 0});
+  bench.run(10, {0, -0.003, 0});
+  double most = 0;
+  for (const int wait : {20, 14, 26, 20, 5, 3, 30, 20, 20}) {
+    const std::int64_t begin_ns = bench.time_ns_ + 3 * kMs;
+    skin = bentFloor(skin, 0.0002, begin_ns, begin_ns + 20 * kMs);
+    bench.publish({skin}, 0);
+    most = std::max(most, bench.run(wait, {0, -0.003, 0}));
+  }
+  bench.run(100, {0, -0.003, 0});
+  EXPECT_NEAR(bench.force_.y(), 5 + 9 * 0.2, 1e-6);
+  EXPECT_LT(most, 0.061) << "0.6 mm in 10 ms at most";
 }
 
 TEST(ProxyLoop, WhatBendsBesideWhatAppearsHurriesNothing) {
@@ -156,8 +193,8 @@ TEST(ProxyLoop, WhatBendsBesideWhatAppearsHurriesNothing) {
   bench.publish({skin, floorAt(0, 7)});
   double most = bench.run(10, {0, 0.0005, 0});
   for (int frame = 0; frame < 10; ++frame) {
-    skin = bentFloor(skin, 0.001);
-    bench.publish({skin, floorAt(0, 7)}, 8 * kMs);
+    skin = bentFloor(skin, 0.001, bench.time_ns_, bench.time_ns_ + 8 * kMs);
+    bench.publish({skin, floorAt(0, 7)}, 0);
     most = std::max(most, bench.run(8, {0, 0.0005, 0}));
   }
   EXPECT_LT(most, kGentle_N);

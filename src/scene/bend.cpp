@@ -1,0 +1,104 @@
+#include "scene/bend.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+namespace hl {
+
+namespace {
+
+const WideBvh* treeOf(const Shape& shape) { return dynamic_cast<const WideBvh*>(shape.index.get()); }
+
+bool allWithinReach(const std::array<Vec3, 3>& corners) {
+  return std::all_of(corners.begin(), corners.end(), [](const Vec3& corner) { return withinReach(corner); });
+}
+
+// The elements that either shape has as a primitive, but for those that go beyond reach.
+std::vector<std::uint32_t> elementsOf(const Shape& from, const Shape& to) {
+  const auto numbers = [](const Shape& shape) {
+    std::vector<std::uint32_t> result(shape.primitives.size());
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] = shape.primitives.elementNumber(i);
+    return result;
+  };
+  const std::vector<std::uint32_t> a = numbers(from), b = numbers(to);
+  std::vector<std::uint32_t> all;
+  all.reserve(std::max(a.size(), b.size()));
+  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
+  const Primitives shrunken(viewOf(to.model), all);
+  std::vector<std::uint32_t> result;
+  result.reserve(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (allWithinReach(shrunken.corners(i))) result.push_back(all[i]);
+  }
+  return result;
+}
+
+// `from`, with vertices that are beyond reach where they go to.
+Model within(const Model& from, const Model& to) {
+  Model model = from;
+  for (std::size_t i = 0; i < model.positions.size(); ++i) {
+    if (!withinReach(model.positions[i])) model.positions[i] = to.positions[i];
+  }
+  return model;
+}
+
+}  // namespace
+
+BendWay::BendWay(std::shared_ptr<const Shape> from, std::shared_ptr<const Shape> to, std::int64_t begin_ns,
+                 std::int64_t end_ns)
+    : given_from_(from),
+      given_to_(to),
+      from_(std::move(from)),
+      to_(std::move(to)),
+      begin_ns_(begin_ns),
+      end_ns_(end_ns) {
+  if (treeOf(*to_) == nullptr || !from_->primitives.numberedAs(to_->primitives)) {
+    const std::vector<std::uint32_t> elements = elementsOf(*from_, *to_);
+    to_ = shapeOfElements(to_->model, elements, nullptr);
+    from_ = shapeOfElements(within(from_->model, to_->model), elements, treeOf(*to_));
+  } else if (treeOf(*from_) == nullptr || !treeOf(*from_)->isTreeOf(*treeOf(*to_))) {
+    from_ = withTree(*from_, *treeOf(*to_));
+  }
+  from_tree_ = treeOf(*from_);
+  to_tree_ = treeOf(*to_);
+}
+
+double BendWay::part(std::int64_t time_ns) const {
+  if (time_ns <= begin_ns_) return 0;
+  if (time_ns >= end_ns_) return 1;
+  return static_cast<double>(time_ns - begin_ns_) / static_cast<double>(end_ns_ - begin_ns_);
+}
+
+std::array<Vec3, 3> BendWay::corners(std::uint32_t primitive, double part) const {
+  const std::array<std::uint32_t, 3> vertex = verticesOf(*to_, primitive);
+  std::array<Vec3, 3> result;
+  for (std::size_t i = 0; i < 3; ++i)
+    result[i] = (1 - part) * from_->model.positions[vertex[i]] + part * to_->model.positions[vertex[i]];
+  return result;
+}
+
+Primitive BendWay::primitive(std::uint32_t primitive, double part) const {
+  return shrunkenOf(to_->primitives.elementKind(primitive), corners(primitive, part),
+                    to_->primitives.source(primitive));
+}
+
+double BendWay::length_m(std::uint32_t primitive) const {
+  const auto begin = corners(primitive, 0), end = corners(primitive, 1);
+  double most2 = 0;
+  for (std::size_t i = 0; i < 3; ++i) most2 = std::max(most2, (end[i] - begin[i]).squaredNorm());
+  return std::sqrt(most2);
+}
+
+// What the last way needs beyond its own end it takes of the next: frames that come a little early do not add up.
+Bend Bend::then(const std::shared_ptr<const Shape>& to, std::int64_t begin_ns, std::int64_t end_ns) const {
+  const bool begun = last_.begin_ns() <= begin_ns;
+  const std::int64_t next_ns = begun ? std::max(begin_ns, last_.end_ns()) : last_.begin_ns();
+  const std::int64_t least_end_ns = next_ns + (end_ns - begin_ns + 1) / 2;
+  BendWay next(begun ? last_.given_to() : last_.given_from(), to, next_ns, std::max(end_ns, least_end_ns));
+  return {begun ? std::optional<BendWay>(last_) : earlier_, std::move(next)};
+}
+
+}  // namespace hl
