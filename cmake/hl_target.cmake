@@ -71,8 +71,10 @@ function(hl_test name)
   add_executable(${name} ${ARG_SOURCES})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(${name} PRIVATE ${ARG_LINK} hl_flags GTest::gtest GTest::gtest_main rapidcheck)
-  hl_test_headers(hl_test_headers${HL_LIGHT})
-  target_precompile_headers(${name} REUSE_FROM hl_test_headers${HL_LIGHT})
+  if(NOT "${ARG_SOURCES}" MATCHES "\\.c(;|$)")
+    hl_test_headers(hl_test_headers${HL_LIGHT})
+    target_precompile_headers(${name} REUSE_FROM hl_test_headers${HL_LIGHT})
+  endif()
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${ARG_TIMEOUT}
     # Black boxes of faults that tests bring about: not among those of whoever runs them.
     ENVIRONMENT "XDG_STATE_HOME=${CMAKE_BINARY_DIR}/test-state")
