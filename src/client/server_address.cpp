@@ -1,6 +1,7 @@
 #include "client/server_address.h"
 
 #include "base/error.h"
+#include "base/printable.h"
 #include "base/url.h"
 
 namespace hl {
@@ -8,6 +9,7 @@ namespace hl {
 std::string ServerAddress::text() const { return hostAndPort(host, port); }
 
 ServerAddress parseServerAddress(const std::string& text) {
+  checkPrintable(text, "an address");
   const auto refuse = [&](const std::string& why) {
     throw Error("'" + text + "' is no address of an HL server (" + why +
                 "); write hl://HOST, hl://HOST:PORT, or hls://HOST with TLS");

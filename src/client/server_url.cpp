@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/printable.h"
 #include "base/url.h"
 
 namespace hl::client {
@@ -79,6 +80,8 @@ Url urlOf(const std::string& text) {
 }  // namespace
 
 ServerUrl parseServerUrl(const std::string& text) {
+  checkPrintable(text, "an address");
+  checkPrintable(text, "an address");
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos || colon == 0) fail("it must begin with inproc:, hl:// or hls://");
   const Url parts = urlOf(text);

@@ -152,9 +152,26 @@ TEST(ServerUrl, HostsAndPorts) {
 }
 
 TEST(ServerUrl, NonsenseIsRefused) {
-  for (const char* url : {"", "host", ":x", "hl:host", "hl://", "hl://:5", "hl://h:", "hl://h:0", "hl://h:70000",
-                          "hl://h:5x", "hl://[::1", "hl://[::1]5", "hl://h?name", "hl://h?name=%4", "hl://h?name=%zz",
-                          "hl://h?device=-1", "hl://h?master=2", "hl://h?state_rate=nan", "hl://h?timeout=1s"}) {
+  for (const char* url : {"",
+                          "host",
+                          ":x",
+                          "hl:host",
+                          "hl://",
+                          "hl://:5",
+                          "hl://h:",
+                          "hl://h:0",
+                          "hl://h:70000",
+                          "hl://h:5x",
+                          "hl://[::1",
+                          "hl://[::1]5",
+                          "hl://h?name",
+                          "hl://h?name=%4",
+                          "hl://h?name=%zz",
+                          "hl://h?device=-1",
+                          "hl://h?master=2",
+                          "hl://h?state_rate=nan",
+                          "hl://h?timeout=1s",
+                          "hl://a\nb"}) {
     EXPECT_ANY_THROW(parseServerUrl(url)) << url;
   }
 }

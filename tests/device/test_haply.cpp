@@ -63,7 +63,7 @@ TEST(HaplyAddress, IsAWebSocketsOrIsRefused) {
   EXPECT_EQ(HaplyAddress::parse("ws://lab").text(), "ws://lab:10001");
   EXPECT_EQ(HaplyAddress::parse("ws://lab:7/").text(), "ws://lab:7");
   for (const char* url : {"lab", "ws://", "ws://:5", "wss://lab", "ws://lab:", "ws://lab:0", "ws://lab:70000",
-                          "ws://lab:1x", "ws://lab/path"})
+                          "ws://lab:1x", "ws://lab/path", "ws://la\nb"})
     EXPECT_THROW(HaplyAddress::parse(url), Error) << url;
 }
 

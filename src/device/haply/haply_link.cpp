@@ -26,6 +26,7 @@
 #include "base/flag.h"
 #include "base/guarded_thread.h"
 #include "base/realtime.h"
+#include "base/printable.h"
 #include "base/url.h"
 #include "device/exchange.h"
 #include "device/haply/haply_messages.h"
@@ -55,6 +56,7 @@ using Socket = websocket::stream<beast::tcp_stream>;
 HaplyAddress HaplyAddress::parse(const std::string& text) {
   HaplyAddress address;
   if (text.empty()) return address;
+  checkPrintable(text, "an address");
   const auto refuse = [&](const std::string& why) {
     throw Error("'" + text + "' is no address of a Haply service (" + why + "): it is ws://HOST or ws://HOST:PORT");
   };
