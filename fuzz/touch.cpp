@@ -1,7 +1,6 @@
 #include "touch.h"
 
 #include <cmath>
-#include <cstdlib>
 
 #include "proxy/proxy.h"
 
@@ -25,10 +24,6 @@ Place placeOf(const Box& bounds) {
 }
 
 }  // namespace
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 void touch(const Snapshot& snapshot) {
   constexpr int kTicks = 9;
