@@ -81,7 +81,6 @@ Url urlOf(const std::string& text) {
 
 ServerUrl parseServerUrl(const std::string& text) {
   checkPrintable(text, "an address");
-  checkPrintable(text, "an address");
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos || colon == 0) fail("it must begin with inproc:, hl:// or hls://");
   const Url parts = urlOf(text);
