@@ -10,7 +10,7 @@ namespace hl {
 namespace {
 
 // Relative to the origin of the hierarchy at the beginning of the way.
-struct Way {
+struct MovingWay {
   Vec3 from, motion;
   double reach;
   double limit = 1;  // part of the motion that still counts
@@ -22,7 +22,7 @@ class Pair {
   Pair(const WideBvh& from, const WideBvh& to, double begin, double end)
       : from_(from), to_(to), begin_(begin), end_(end), shift_(to.origin() - from.origin()) {}
 
-  Way way(const Vec3& from, const Vec3& motion, double radius) const {
+  MovingWay way(const Vec3& from, const Vec3& motion, double radius) const {
     // Rounding of sums of coordinates, a few parts in 2^53 of the largest; here there are twice as many as in WideBvh.
     constexpr double kRounding = 2e-14;
     const auto largest = [](const Vec3& v) { return v.cwiseAbs().maxCoeff(); };
@@ -32,7 +32,7 @@ class Pair {
 
   // Calls visit(primitive) for each whose box the sphere may enter up to way.limit, which visit() may shorten.
   template <typename Visit>
-  void walk(const Way& way, const Visit& visit) const {
+  void walk(const MovingWay& way, const Visit& visit) const {
     if (from_.primitives() == 0) return;
     std::array<std::uint32_t, kWideStackSize> waiting;
     std::size_t count = 0;
@@ -67,7 +67,7 @@ class Pair {
     return result / static_cast<double>(kFrameOne);
   }
 
-  Frame frameOf(const WideNode& node, const Way& way) const {
+  Frame frameOf(const WideNode& node, const MovingWay& way) const {
     const Vec3 begin = turned(node, way.from), end = turned(node, way.from + way.limit * way.motion);
     return {begin.cwiseMin(end), begin.cwiseMax(end), turned(node, shift_)};
   }
@@ -101,7 +101,7 @@ class Pair {
   }
 
   template <typename Visit>
-  void lookInto(std::uint32_t number, const Way& way, const Visit& visit) const {
+  void lookInto(std::uint32_t number, const MovingWay& way, const Visit& visit) const {
     const WideBlock &a = from_.blocks()[number], &b = to_.blocks()[number];
     const std::size_t left = from_.primitives() - std::size_t{number} * kWide;
     for (std::size_t lane = 0; lane < std::min(kWide, left); ++lane) {
@@ -135,7 +135,7 @@ void MovingBvh::sweep(const Vec3& from, const Vec3& motion, double radius, doubl
                       FunctionRef<double(std::uint32_t, double)> visit) const {
   constexpr double kLeastPart = 1.0 / 8192, kLarger = 8;
   const Pair pair(from_, to_, begin_, end_);
-  Way way = pair.way(from, motion, radius);
+  MovingWay way = pair.way(from, motion, radius);
   const double length = motion.norm();
   for (double part = soon < length ? std::max(kLeastPart, soon / length) : 1;; part = std::min(1.0, kLarger * part)) {
     way.limit = part;

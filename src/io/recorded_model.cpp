@@ -11,10 +11,10 @@ namespace hl {
 
 namespace {
 
-constexpr const char* kBroken = "a mesh makes no sense: its lists do not agree";
+constexpr const char* kBrokenMesh = "a mesh makes no sense: its lists do not agree";
 // Of each list: a part of a shaded and textured mesh is 20 MB.
 constexpr std::size_t kItemsInPart = std::size_t{1} << 18;
-constexpr std::size_t kMostMaterials = 0xffff;
+constexpr std::size_t kMostNumberedMaterials = 0xffff;
 
 // Lists of vectors and of indices lie in memory as they lie in the message. Adds the items of `part`, counted in parts.
 template <typename Number, typename Item>
@@ -34,7 +34,7 @@ template <typename Item, typename Number>
 void append(const google::protobuf::RepeatedField<Number>& in, std::vector<Item>& items) {
   constexpr std::size_t kEach = sizeof(Item) / sizeof(Number);
   const auto count = static_cast<std::size_t>(in.size());
-  if (count % kEach != 0) throw Error(kBroken);
+  if (count % kEach != 0) throw Error(kBrokenMesh);
   const std::size_t before = items.size();
   items.resize(before + count / kEach);
   if (count > 0) std::copy_n(in.data(), count, reinterpret_cast<Number*>(items.data() + before));
@@ -42,7 +42,7 @@ void append(const google::protobuf::RepeatedField<Number>& in, std::vector<Item>
 
 void appendMaterials(const google::protobuf::RepeatedField<std::uint32_t>& in, std::vector<std::uint16_t>& numbers) {
   for (const std::uint32_t number : in) {
-    if (number > kMostMaterials) throw Error(kBroken);
+    if (number > kMostNumberedMaterials) throw Error(kBrokenMesh);
     numbers.push_back(static_cast<std::uint16_t>(number));
   }
 }
@@ -109,7 +109,7 @@ void writeMesh(const Model& model, const std::function<void(proto::RecordedShape
 }
 
 void MeshReader::add(const proto::RecordedShape& part) {
-  if (part.materials() < 1 || part.materials() > kMostMaterials) throw Error(kBroken);
+  if (part.materials() < 1 || part.materials() > kMostNumberedMaterials) throw Error(kBrokenMesh);
   const std::size_t bytes = bytesOf(part);
   if (bytes > left_) throw Error("a mesh is too large");
   left_ -= bytes;
@@ -127,7 +127,7 @@ void MeshReader::add(const proto::RecordedShape& part) {
 }
 
 Model MeshReader::take() {
-  if (!listsAgree(model_)) throw Error(kBroken);
+  if (!listsAgree(model_)) throw Error(kBrokenMesh);
   if (!inRange(model_)) throw Error("a mesh makes no sense: it has elements with vertices that do not exist");
   if (!finite(model_.normals) || !finite(model_.texcoords))
     throw Error("a mesh makes no sense: a normal or texture coordinate is no number");

@@ -9,7 +9,7 @@ namespace hl {
 
 namespace {
 
-constexpr const char* kBroken = "a scene of the recording makes no sense";
+constexpr const char* kBrokenScene = "a scene of the recording makes no sense";
 
 // What a Screw is made of.
 struct Way {
@@ -115,8 +115,8 @@ void SceneWriter::write(const Snapshot& scene, const Write& write) {
 }
 
 void SceneReader::add(const proto::RecordedShape& in) {
-  if (in.hierarchy() > static_cast<std::uint32_t>(HierarchyKind::kNone)) throw Error(kBroken);
-  if (begun_ && *begun_ != in.id()) throw Error(kBroken);
+  if (in.hierarchy() > static_cast<std::uint32_t>(HierarchyKind::kNone)) throw Error(kBrokenScene);
+  if (begun_ && *begun_ != in.id()) throw Error(kBrokenScene);
   begun_ = in.id();
   mesh_.add(in);
   if (in.continues()) return;
@@ -135,14 +135,14 @@ void SceneReader::add(const proto::RecordedSurfaces& in) {
 
 BendWay SceneReader::wayOf(const proto::RecordedBendWay& in, const Surfaces& surfaces) const {
   const auto from = shapes_.find(in.from()), to = shapes_.find(in.to());
-  if (from == shapes_.end() || to == shapes_.end() || !isSameMesh(*from->second, *to->second)) throw Error(kBroken);
+  if (from == shapes_.end() || to == shapes_.end() || !isSameMesh(*from->second, *to->second))
+    throw Error(kBrokenScene);
   if (in.end_ns() <= in.begin_ns() || surfaces.materials.size() < to->second->model.materials.size())
-    throw Error(kBroken);
+    throw Error(kBrokenScene);
   return {from->second, to->second, in.begin_ns(), in.end_ns()};
 }
 
-std::shared_ptr<const Bend> SceneReader::bendingOf(const proto::RecordedInstance& in,
-                                                      const Surfaces& surfaces) const {
+std::shared_ptr<const Bend> SceneReader::bendingOf(const proto::RecordedInstance& in, const Surfaces& surfaces) const {
   if (in.bending_size() == 0) return nullptr;
   if (in.bending_size() == 1) return std::make_shared<Bend>(wayOf(in.bending(0), surfaces));
   return std::make_shared<Bend>(wayOf(in.bending(0), surfaces), wayOf(in.bending(1), surfaces));
@@ -155,8 +155,8 @@ std::shared_ptr<const Snapshot> SceneReader::scene(const proto::RecordedScene& i
   for (const proto::RecordedInstance& placed : in.instances()) {
     const auto shape = shapes_.find(placed.shape());
     const auto surfaces = surfaces_.find(placed.surfaces());
-    if (shape == shapes_.end() || surfaces == surfaces_.end()) throw Error(kBroken);
-    if (surfaces->second->materials.size() < shape->second->model.materials.size()) throw Error(kBroken);
+    if (shape == shapes_.end() || surfaces == surfaces_.end()) throw Error(kBrokenScene);
+    if (surfaces->second->materials.size() < shape->second->model.materials.size()) throw Error(kBrokenScene);
     const Ways ways = waysOf(placed.motion());
     instances.push_back({shape->second, surfaces->second, Motion(ways.earlier.screw(), ways.last.screw()), placed.key(),
                          placed.session(), placed.object(), placed.name()});
