@@ -69,6 +69,23 @@ TEST_F(TouchHd, WarmMotorsAreNoLossAndAFaultOfTheDeviceIs) {
   waitFor(DeviceStatus::kOk);  // opened again
 }
 
+// Until the scheduler calls for the first time nothing new is known; that it was lost before must not lose it again.
+TEST_F(TouchHd, IsNotLostAgainByWhatItToldBefore) {
+  const auto starts = fake<unsigned int()>("hlFakeStarts");
+  const unsigned int before = starts();
+  fake<void(bool)>("hlFakeHoldUp")(true);
+  fake<void(unsigned int)>("hlFakeError")(0x300);  // device fault
+  waitFor(DeviceStatus::kLost);
+  while (starts() == before) std::this_thread::yield();
+  for (int i = 0; i < 200; ++i) {  // four times as long as it takes to be opened again
+    EXPECT_EQ(device_.read(0).status, DeviceStatus::kNotReady);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  fake<void(bool)>("hlFakeHoldUp")(false);
+  waitFor(DeviceStatus::kOk);
+  EXPECT_EQ(starts(), before + 1);
+}
+
 TEST_F(TouchHd, AServoThatFeedsNoForceHoldsNone) {
   while (arm_->force_D().y() < 0.9) {
     device_.write(Vec3(0, 1, 0));

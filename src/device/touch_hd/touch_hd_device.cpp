@@ -77,6 +77,8 @@ std::string TouchHdDevice::begin() {
   calls_.enable(kForceOutput);
   calls_.set_scheduler_rate(kSchedulerRate_Hz);
   failed_ = false;
+  // Until the first frame nothing is known; what the scheduler told before it was stopped does not count any more.
+  exchange_.tell(monotonicNow_ns(), Vec3::Zero(), 0, DeviceStatus::kNotReady);
   const auto call = [](void* self) {
     static_cast<TouchHdDevice*>(self)->frame();
     return kCallAgain;

@@ -38,6 +38,8 @@ hl::Vec3 force = hl::Vec3::Zero();
 Callback* callback = nullptr;
 void* callback_user = nullptr;
 std::atomic<bool> running{false};
+std::atomic<bool> held_up{false};  // the scheduler has started, but does not call yet
+std::atomic<unsigned int> starts{0};
 std::thread scheduler;
 
 }  // namespace
@@ -46,6 +48,9 @@ std::thread scheduler;
 
 HL_EXPORT hl::test::FakeArm* hlFakeArm() { return &arm(); }
 HL_EXPORT unsigned int hlFakeCalibrationUpdates() { return calibration_updates; }
+HL_EXPORT unsigned int hlFakeStarts() { return starts; }
+// The next scheduler that starts calls nobody until it may.
+HL_EXPORT void hlFakeHoldUp(bool wait) { held_up = wait; }
 HL_EXPORT void hlFakeError(unsigned int code) { error = code; }
 
 HL_EXPORT Handle hdInitDevice(const char*) {
@@ -116,7 +121,9 @@ HL_EXPORT void hdUpdateCalibration(unsigned int style) {
 }
 HL_EXPORT void hdStartScheduler() {
   if (running.exchange(true)) return;
-  scheduler = std::thread([] {
+  scheduler = std::thread([late = held_up.load()] {
+    ++starts;
+    while (late && held_up && running) std::this_thread::yield();
     while (running) {
       if (callback != nullptr) callback(callback_user);
       std::this_thread::sleep_for(std::chrono::microseconds(500));
