@@ -56,6 +56,9 @@ endfunction()
 function(hl_test_headers name)
   if(NOT TARGET ${name})
     add_library(${name} OBJECT ${PROJECT_SOURCE_DIR}/tests/precompiled.cpp)
+    # As the programs that use them: those made with -fPIC are of no use to them.
+    set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+    target_compile_options(${name} PRIVATE -fPIE)
     target_link_libraries(${name} PRIVATE hl_flags Eigen3::Eigen GTest::gtest rapidcheck)
     target_precompile_headers(${name} PRIVATE <gtest/gtest.h> <rapidcheck/gtest.h> <Eigen/Core> <Eigen/Geometry>
       <fstream> <functional> <map> <memory> <mutex> <sstream> <string> <thread> <vector>)

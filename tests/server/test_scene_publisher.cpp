@@ -310,7 +310,7 @@ TEST(StalledServo, ScenesOfAllClientsGoOnAndTheNewestIsTakenAfterwards) {
   std::atomic<bool>& keeps = device->keeps;
   const auto nothing = makeSnapshot(std::vector<Instance>{}, "nothing");
   TouchSession session(nothing, {}, std::move(device));
-  ScenePublisher publisher(nothing, {&session}, 1'000'000'000);
+  ScenePublisher publisher(nothing, {&session});
   session.start();
   publisher.start();
   keeps = true;
