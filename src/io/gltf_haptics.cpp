@@ -105,7 +105,7 @@ void Reader::addTexture(const json::value& items, std::initializer_list<Quantity
     return;
   }
   try {
-    result_.textures.push_back(loadImage((folder_ / std::string(uri->as_string())).string()));
+    result_.textures.push_back(readImage((folder_ / std::string(uri->as_string())).string()));
   } catch (const Error& error) {
     result_.warnings.push_back(std::string("a haptic texture was left out: ") + error.what());
     return;

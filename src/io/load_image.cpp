@@ -51,8 +51,6 @@ void checkJpegEnds(const std::string& path) {
   if (end == std::string::npos || end < bytes.size() / 2) throw Error("is torn: the end of the JPEG is missing");
 }
 
-}  // namespace
-
 Texture decodeImage(const std::string& path, std::size_t most_texels) {
   const std::string ending = endingOf(path);
   try {
@@ -65,22 +63,34 @@ Texture decodeImage(const std::string& path, std::size_t most_texels) {
   }
 }
 
-Texture loadImage(const std::string& path) {
+void checkIsImage(const std::string& path) {
   const std::string ending = endingOf(path);
   if (ending != ".png" && ending != ".jpg" && ending != ".jpeg")
     throw Error(path + ": images must end in .png, .jpg or .jpeg");
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) throw Error(path + ": there is no such file");
+}
+
+}  // namespace
+
+Texture readImage(const std::string& path) {
+  checkIsImage(path);
+  Texture texture = decodeImage(path, kMostTexels);
+  texture.name = std::filesystem::path(path).filename().string();
+  return texture;
+}
+
+Texture loadImage(const std::string& path) {
+  checkIsImage(path);
   Model model = runIsolated(
       path, {},
       [&](const auto&) {
         Model carrier;
-        carrier.textures.push_back(decodeImage(path, kMostTexels));
+        carrier.textures.push_back(readImage(path));
         return carrier;
       },
       nullptr);
   if (model.textures.size() != 1) throw Error(path + ": its reader gave no picture");
-  model.textures.front().name = std::filesystem::path(path).filename().string();
   return std::move(model.textures.front());
 }
 

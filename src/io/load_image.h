@@ -12,7 +12,7 @@ namespace hl {
 /// depth. The lowest row of the picture is v = 0. Decodes in a child process, like model files. Throws hl::Error.
 Texture loadImage(const std::string& path);
 
-/// For loadImage, in the child: by the ending. Throws hl::Error, without the path.
-Texture decodeImage(const std::string& path, std::size_t most_texels);
+/// The same, in a process that reads a foreign file already (isolated.h).
+Texture readImage(const std::string& path);
 
 }  // namespace hl

@@ -125,8 +125,8 @@ TEST(TouchStep, ScenesGoOnWhileTheDeviceIsLost) {
   }
 }
 
-// What has changed in scenes that no tick saw may be anything: the hand is taken there as to what is new. A blend goes
-// on as long as the tick says no planes.
+// What has changed in scenes that no tick saw may be anything: the hand is taken there as to what is new, though the
+// newest of them says that nothing need be blended. A blend goes on as long as the tick says no planes.
 TEST(TouchStep, AfterScenesThatWereSkippedTheHandIsTakenOverSlowly) {
   const ServoSettings settings = undamped(premium10().info, 1000);
   DeviceSample lost = sampleAt(0, Vec3::Zero());
@@ -137,7 +137,11 @@ TEST(TouchStep, AfterScenesThatWereSkippedTheHandIsTakenOverSlowly) {
     ASSERT_FALSE(floor.step_.tick().held.planes_D.empty());
     for (int i = 1; i <= scenes; ++i) {
       const auto& last = *floor.scenes_.newest();
-      floor.scenes_.publish(makeSnapshot(last.instances, "next", last.number + 1, 0));
+      std::vector<Instance> raised = last.instances;
+      Pose higher = raised[0].motion.to();
+      higher.origin.y() += 0.0005;
+      raised[0].motion = Motion(higher);
+      floor.scenes_.publish(makeSnapshot(std::move(raised), "next", last.number + 1, 0));
       lost.time_ns = (100 + i) * kMs;
       floor.step_.onTime(floor.loop_, floor.commands_, settings, lost);
     }

