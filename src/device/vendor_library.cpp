@@ -20,9 +20,9 @@ std::string fileOf(const VendorLibraryName& name) {
 VendorLibrary::VendorLibrary(const VendorLibraryName& name)
     : file_(fileOf(name)), advice_(name.advice), handle_(dlopen(file_.c_str(), RTLD_NOW | RTLD_LOCAL)) {
   if (handle_ == nullptr) {
-    const char* reason = dlerror();
-    throw Error(std::string(reason != nullptr ? reason : file_.c_str()) + "; " + name.advice + ", or set " +
-                name.variable + " to its file");
+    const char* const told = dlerror();
+    const std::string reason = told != nullptr ? told : file_;  // kept: its own goes with the next call of the loader
+    throw Error(reason + "; " + name.advice + ", or set " + name.variable + " to its file");
   }
 }
 

@@ -184,7 +184,7 @@ TEST_P(VendorLibraries, MissingOnesAreALineThatSaysWhatToInstall) {
   device->write(Vec3(1, 0, 0));
   device->close();
   for (const DevicePresence& found : findDevices()) {
-    EXPECT_EQ(found.text == why, found.kind == GetParam().kind);
+    EXPECT_EQ(found.text == why, found.kind == GetParam().kind) << found.kind << ": " << found.text << "\nnot\n" << why;
   }
   EXPECT_EQ(openDevice("sim")->read(0).status, DeviceStatus::kOk);
 }
