@@ -162,17 +162,21 @@ void Carry::advance(std::int64_t time_ns) {
   pushOut();
 }
 
-// Where there is no room for the proxy, to where there is room for half of it, or for a quarter, and so on: pinched,
-// its centre keeps away from all that closes in as far as it can.
+// Where there is no room for the proxy, to the roomiest place that it finds by looking for room for all of it, for half
+// of it, for a quarter, and so on: pinched, its centre keeps away from all that closes in.
 void Carry::pushOut() {
-  constexpr int kHalvings = 8;
+  constexpr int kHalvings = 8, kPinchedTries = 8;
   const SceneAt scene(snapshot_, now_ns_);
+  const Vec3 from = state_.position;
+  double roomiest = 0;
   Tolerances smaller = tolerance_;
-  for (int i = 0; i <= kHalvings; ++i, smaller.reach /= 2) {
-    Vec3 place = state_.position;
-    if (!findClearPlace(scene, smaller, kPushTries, place)) continue;
+  for (int i = 0; i <= kHalvings && roomiest < smaller.reach; ++i, smaller.reach /= 2) {
+    Vec3 place = from;
+    const bool clear = findClearPlace(scene, smaller, i == 0 ? kPushTries : kPinchedTries, place);
+    const double room = clear && i == 0 ? tolerance_.reach : clearanceAt(scene, place, tolerance_.reach);
+    if (room <= roomiest) continue;
+    roomiest = room;
     state_.position = place;
-    return;
   }
 }
 

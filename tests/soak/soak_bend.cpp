@@ -5,8 +5,8 @@
 // no code with the proxy, its queries or its closest point.
 //
 // Where a mesh closes in on the proxy from all sides, or is folded through itself with the proxy in between, there is
-// no room for it and no side: such lives end and are counted apart. They are told by a proxy that is pinched: it has
-// not been clear of the meshes after a tick, by much more than rounding.
+// no room for it and no side: such lives end and are counted apart. They are told by a proxy that is pinched: it is not
+// clear of the meshes, by a tenth of its radius, or there is no room for it around.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -28,7 +28,8 @@ namespace {
 constexpr double kRadius = 1;  // all lengths are in radii
 constexpr int kBendingsPerLife = 25, kLivesPerPiece = 4;
 constexpr std::int64_t kTick_ns = 1'000'000;
-constexpr double kClear = kRadius * (1 - 1e-6);
+// Pushed by several faces and edges at once the proxy comes clear by and by; carry() ends that at kPushTries.
+constexpr double kClear = kRadius * (1 - 1e-4);
 // Below it the proxy's centre no longer has the room that each step leaves it.
 constexpr double kPinched = 0.9 * kRadius;
 
@@ -264,9 +265,8 @@ class Piece {
       model.positions = mesh.solid.bent(model.positions);
       auto next = makeShape(std::move(model), *mesh.shape);
       const bool goes_on = mesh.bending && mesh.bending->end_ns() > time_ns_;
-      mesh.bending =
-          std::make_shared<Bend>(goes_on ? mesh.bending->then(next, time_ns_, time_ns_ + frame_ns)
-                                            : Bend(BendWay(mesh.shape, next, time_ns_, time_ns_ + frame_ns)));
+      mesh.bending = std::make_shared<Bend>(goes_on ? mesh.bending->then(next, time_ns_, time_ns_ + frame_ns)
+                                                    : Bend(BendWay(mesh.shape, next, time_ns_, time_ns_ + frame_ns)));
       mesh.shape = std::move(next);
     }
     show();
@@ -313,9 +313,35 @@ class Piece {
       const Vec3 p = mesh.pose.toObject(state_.position);
       const double above = clearanceOf(mesh.shape->model, placesOf(mesh), p) / kRadius - 1;
       seen_.least_above = std::min(seen_.least_above, above);
+      if (above < kClear - 1 && !hasRoom()) {
+        pinched_ = true;
+        return;
+      }
       if (above < kClear - 1) return blame(fmt::format("the proxy is too near by {:.3g} radii", -above));
       if (windingOf(mesh) != mesh.winding) return blame("a mesh has passed the proxy");
     }
+  }
+  double clearanceAt(const Vec3& p) const {
+    double nearest = 2 * kRadius;
+    for (const Mesh& mesh : meshes_)
+      nearest = std::min(nearest, clearanceOf(mesh.shape->model, placesOf(mesh), mesh.pose.toObject(p)));
+    return nearest;
+  }
+  // Whether there is room for the proxy near it: climbs to where the clearance is largest, in steps that cross nothing.
+  bool hasRoom() {
+    Vec3 place = state_.position;
+    double most = clearanceAt(place);
+    for (double step = 0.1 * kRadius; step > 1e-7 * kRadius; step *= 0.9) {
+      for (int i = 0; i < 20; ++i) {
+        const Vec3 next = place + step * random_.direction();
+        const double clearance = clearanceAt(next);
+        if (clearance <= most) continue;
+        most = clearance;
+        place = next;
+      }
+      if (most >= kRadius) return true;
+    }
+    return false;
   }
   void blame(const std::string& what) {
     seen_.fault = fmt::format("bending {}, tick {}: {}", seen_.bendings, seen_.ticks, what);
