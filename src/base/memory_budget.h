@@ -60,6 +60,7 @@ class MemoryShare {
 template <typename T>
 std::shared_ptr<T> withShare(std::shared_ptr<T> object, MemoryShare share) {
   struct Both {
+    Both(MemoryShare taken, std::shared_ptr<T> given) : share(std::move(taken)), object(std::move(given)) {}
     MemoryShare share;  // in this order: it goes after the object
     std::shared_ptr<T> object;
   };
