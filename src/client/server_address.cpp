@@ -23,7 +23,9 @@ ServerAddress parseServerAddress(const std::string& text) {
   if (url.scheme != "hl" && url.scheme != "hls") refuse("it does not begin with hl:// or hls://");
   if (!url.host) refuse("there is no host in it");
   if ((!url.path.empty() && url.path != "/") || !url.options.empty()) refuse("nothing follows the host and its port");
-  ServerAddress address{*url.host, address.port, url.scheme == "hls"};
+  ServerAddress address;
+  address.host = *url.host;
+  address.tls = url.scheme == "hls";
   if (url.port) address.port = *url.port;
   return address;
 }
