@@ -22,8 +22,8 @@ inline constexpr int kMostBendRadii = kMostCarrySteps / 4;
 
 /// Part of the radius at which what moves counts as met: what rests on the proxy and slides along it has not met it.
 inline constexpr double kMetAt = 0.9;
-/// How often the proxy is pushed out of what has come too near: mostly once, but into a corner of rounded edges it comes
-/// by halves.
+/// How often the proxy is pushed out of what has come too near: mostly once, but into a corner of rounded edges it
+/// comes by halves.
 inline constexpr int kPushTries = 32;
 
 }  // namespace hl

@@ -319,7 +319,7 @@ std::int64_t blendOf(const Instance* before, const Instance& now, const PlacedSh
 
 // A way that is over is forgotten, and with it the shape that it came from.
 std::shared_ptr<const Bend> bendingOf(const Instance& before, const PlacedShape& now, std::int64_t begin_ns,
-                                         std::int64_t end_ns) {
+                                      std::int64_t end_ns) {
   const bool goes_on = before.bending && before.bending->end_ns() > begin_ns;
   const bool same = before.shape->geometry == now.shape->geometry;
   if (!same && !isBent(before, now)) return nullptr;
