@@ -87,6 +87,11 @@ inline bool isArmed(const Safety& safety) {
   return safety.safety != SafetyState::kOff && safety.safety != SafetyState::kFault;
 }
 
+/// Arming or on: what the spring does is felt.
+inline bool makesForce(const Safety& safety) {
+  return safety.safety == SafetyState::kArming || safety.safety == SafetyState::kOn;
+}
+
 /// Leaves off or fault; force starts from zero. Does nothing when armed already. RT-safe.
 void arm(Safety& safety);
 /// Zero force from the next step on. RT-safe.

@@ -66,7 +66,12 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
   last_.from = state_;
   ProxyStep step;
   step.scene = snapshot.identity;
+  const Ledger before = state_.ledger;
   step.report = tick(state_, scene, settings_, finger);
+  if (!spring.pulls) {
+    state_.ledger = before;
+    step.report.injected_J = step.report.moved_J = 0;
+  }
   for (const ProxyContact& contact : step.report.contacts) {
     const Instance& instance = scene.instance(contact.primitive);
     step.touched.push({instance.key, instance.session, instance.object, instance.name});

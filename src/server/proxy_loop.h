@@ -28,6 +28,7 @@ struct SpringOfServo {
   double stiffness_N_m = 1000;
   LedgerMode ledger = LedgerMode::kTank;
   double period_s = 1e-3;  ///< from tick to tick
+  bool pulls = true;       ///< false: the servo makes no force, so that a tick does nothing to any energy
 };
 
 struct ProxyStep {

@@ -150,6 +150,7 @@ void TouchSession::runServo() {
     const ServoState before = step.servo();
     apply(step.servo(), command);
     const ServoOutput out = touchNow(step, settings, sample, last);
+    makes_force_.store(makesForce(step.servo()), std::memory_order_relaxed);
     if (watch_.stalled()) device_->write(Vec3::Zero());  // found while this step stood still: its force is an old one
     finger_for_supervisor_D_.write(sample.position);
     samples_.push({1e-9 * static_cast<double>(now_ns - start_ns_), static_cast<float>(out.force_N.norm()),
@@ -195,11 +196,12 @@ ServoOutput TouchSession::touchNow(TouchStep& step, const ServoSettings& setting
     return out;
   }
   const std::int64_t begin_ns = monotonicNow_ns();
+  const SpringOfServo spring = springOf(settings, step.servo());
   const ServoOutput out = step.onTime(proxy_loop_, ticking_.follow(*this), settings, sample);
   device_->write(out.force_N);
   const std::int64_t work_ns = monotonicNow_ns() - begin_ns;
   last = {step.tick().held, 1e-3f * static_cast<float>(work_ns)};
-  recorder_.tick({sample.time_ns, sample.position, ticking_.commands, springOf(settings)}, step.tick(),
+  recorder_.tick({sample.time_ns, sample.position, ticking_.commands, spring}, step.tick(),
                  proxy_loop_.state().position, work_ns);
   show(step.tick(), begin_ns, work_ns);
   return out;
@@ -213,7 +215,7 @@ void TouchSession::runProxy() {
     const ProxyCommands& commands = ticking_.follow(*this);
     finger_D_.read(finger_D);
     const SpringOfServo spring{stiffness_.load(std::memory_order_relaxed), ledger_.load(std::memory_order_relaxed),
-                               1 / settings_.proxy_rate_Hz};
+                               1 / settings_.proxy_rate_Hz, makes_force_.load(std::memory_order_relaxed)};
     const ProxyStep step = proxy_loop_.step(now_ns, finger_D, commands, spring);
     const std::int64_t work_ns = monotonicNow_ns() - now_ns;
     ticks_.write({step.held, 1e-3f * static_cast<float>(work_ns)});

@@ -220,6 +220,7 @@ class TouchSession {
   std::atomic<bool> exploring_{false};
   std::atomic<bool> hand_firm_{false};
   std::atomic<double> stiffness_{0};
+  std::atomic<bool> makes_force_{false};  // as of the servo's last step
   std::atomic<std::int64_t> last_tick_ns_{0};
   std::atomic<std::uint64_t> tick_count_{0}, ticks_in_servo_steps_{0};
   std::atomic<std::uint64_t> arm_requests_{0};

@@ -5,7 +5,7 @@ namespace hl {
 ServoOutput TouchStep::onTime(ProxyLoop& loop, const ProxyCommands& commands, const ServoSettings& settings,
                               const DeviceSample& sample) {
   if (sample.status == DeviceStatus::kOk && sample.position.allFinite()) {
-    tick_ = loop.step(sample.time_ns, sample.position, commands, springOf(settings));
+    tick_ = loop.step(sample.time_ns, sample.position, commands, springOf(settings, servo_));
   } else {
     loop.skip();
     tick_.scene = 0;

@@ -12,8 +12,8 @@
 namespace hl {
 
 /// What a tick within a servo step must know of it.
-inline SpringOfServo springOf(const ServoSettings& settings) {
-  return {settings.stiffness_N_m, settings.ledger, settings.period_s};
+inline SpringOfServo springOf(const ServoSettings& settings, const Safety& safety) {
+  return {settings.stiffness_N_m, settings.ledger, settings.period_s, makesForce(safety)};
 }
 
 /// Owned by the servo thread. RT-safe.

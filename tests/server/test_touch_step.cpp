@@ -150,6 +150,39 @@ TEST(TouchStep, AfterScenesThatWereSkippedTheHandIsTakenOverSlowly) {
   }
 }
 
+// A surface of uneven stiffness and shading adds and takes energy all the way, were there a force.
+Model uneven() {
+  Model model = test::floorModel(Vec3(0.4, 1, 0));
+  model.textures = {makeTexture("noise", 16)};
+  model.materials[0].smooth = true;
+  model.materials[0].textureOf(Quantity::kStiffness) = {0, 0.3, 1};
+  return model;
+}
+
+TEST(TouchStep, TheLedgerStandsStillWhileTheServoMakesNoForce) {
+  Floor floor(uneven());
+  const ServoSettings settings = undamped(premium10().info, 1000);
+  floor.waitAt({0, 0.01, 0}, settings);
+  const auto stroke = [&](int from) {
+    for (int i = from; i < from + 200; ++i)
+      floor.step_.onTime(floor.loop_, floor.commands_, settings, sampleAt(i * kMs, {1e-4 * (i - from), -0.01, 0}));
+    return floor.loop_.state().ledger;
+  };
+  const Ledger armed = stroke(100);
+  EXPECT_GT(armed.injected_J, 1e-3);
+  EXPECT_GT(armed.dissipated_J, 1e-3);
+  fail(floor.step_.servo(), FaultReason::kTooFast);
+  const Ledger late = floor.step_.servo().spring.ledger;
+  const Ledger idle = stroke(300);
+  EXPECT_EQ(idle.injected_J, armed.injected_J);
+  EXPECT_EQ(idle.dissipated_J, armed.dissipated_J);
+  EXPECT_EQ(idle.tank_J, armed.tank_J);
+  EXPECT_EQ(idle.by_cause_J, armed.by_cause_J);
+  EXPECT_EQ(floor.step_.servo().spring.ledger.tank_J, late.tank_J);
+  arm(floor.step_.servo());
+  EXPECT_GT(stroke(500).dissipated_J, armed.dissipated_J);
+}
+
 TEST(TouchStep, AllocatesNothing) {
   Floor floor;
   const ServoSettings settings = undamped(premium10().info, 1000);
