@@ -26,7 +26,7 @@ int spareCore(int nth);
 /// memory is its host's, and with a limit on locked memory every later allocation of the host could fail.
 void lockProcessMemory();
 
-/// What the stack of a loop has ready. A tick and a servo step have been seen to use a quarter of it.
+/// What the stack of a loop has ready. A tick and a servo step use up to 0.2 MB (tests/server/test_stack_use.cpp).
 inline constexpr std::size_t kTouchedStack_bytes = std::size_t{512} * 1024;
 
 /// Asks for SCHED_FIFO at `priority` (1..99) and `core` (-1: any) for the calling thread, and touches its stack, so

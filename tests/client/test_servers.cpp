@@ -8,7 +8,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <functional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -303,6 +305,19 @@ TEST(Servers, AServerThatIsNotThereIsToldInOneLine) {
   const std::string why = hlGetConnectError();
   EXPECT_NE(why.find("127.0.0.1"), std::string::npos) << why;
   EXPECT_EQ(why.find('\n'), std::string::npos);
+}
+
+// The program may be anybody's: what it allocates later is not locked either.
+TEST(Inproc, LeavesTheMemoryOfTheProgramAlone) {
+  HLcontext* const context = hlCreateContext("inproc:");
+  ASSERT_NE(context, nullptr) << hlGetConnectError();
+  std::string locked_kB;
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    if (word == "VmLck:") status >> locked_kB;
+  }
+  EXPECT_EQ(locked_kB, "0");
+  hlDestroyContext(context);
 }
 
 }  // namespace
