@@ -118,7 +118,8 @@ TEST(SceneFile, ErrorsNameTheLine) {
   expect("{\n\"objects\": [{\"builtin\": \"plane:2\",\n\"material\": {\n\"stifness\": 1}}]}", "4", "stifness");
   expect("{\"objects\": [{\"builtin\": \"plane:2\"},\n{\"material\": {\"stiffness\":\n\"soft\"}}]}", "3", "stiffness");
   expect("{\"objects\": [{\"builtin\": \"plane:2\", \"material\": {\n\n\"stiffness\": 1.5}}]}", "3", "between 0");
-  expect("{\"objects\": [{\"builtin\": \"plane:2\", \"material\": {\n\"viscosityNsM\": -1}}]}", "2", "between 0 and 1e+09");
+  expect("{\"objects\": [{\"builtin\": \"plane:2\", \"material\": {\n\"viscosityNsM\": -1}}]}", "2",
+         "between 0 and 1e+09");
   expect("{\"objects\": [{\"builtin\": \"plane:2\", \"material\": {\n\"viscosityNsM\": 1e999}}]}", "2", "out of range");
   expect("{\"objects\": [\n{\"builtin\": \"plnae\"}]}", "2", "plnae");
   expect("{\"objects\": [\n\n{\"file\": \"none.obj\"}]}", "3", "none.obj");

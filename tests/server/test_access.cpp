@@ -21,7 +21,8 @@ TEST(Access, OnLoopbackOnlyLoopbackHostsAndOriginsAreOurs) {
     EXPECT_TRUE(access.allowsHost(host)) << host;
     EXPECT_TRUE(access.allowsOrigin("http://" + std::string(host), "localhost:1997")) << host;
   }
-  for (const char* host : {"127.0.0.1", "evil.example:1997", "127.0.0.1:80", "127.0.0.1.evil.example:1997", "128.0.0.1:1997", "127.1:1997", ""}) {
+  for (const char* host : {"127.0.0.1", "evil.example:1997", "127.0.0.1:80", "127.0.0.1.evil.example:1997",
+                           "128.0.0.1:1997", "127.1:1997", ""}) {
     EXPECT_FALSE(access.allowsHost(host)) << host;
   }
   EXPECT_TRUE(access.allowsOrigin("", "localhost:1997"));
