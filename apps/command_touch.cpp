@@ -41,7 +41,18 @@ void printDuty(const LoopTotals& servo) {
              servo.page_faults, servo.waits, servo.preempted);
 }
 
-void printTotals(const TouchSession& session) {
+void printVibration(TouchSession& session) {
+  ServoView servo;
+  ProxyView proxy;
+  session.views(servo, proxy);
+  const VibrationView& vibration = servo.vibration;
+  if (vibration.alarms == 0) return;
+  fmt::print(stderr, "the spring and the hand shook {} times, and it was softened", vibration.alarms);
+  if (vibration.limit_N_m > 0) fmt::print(stderr, "; at the end below {:.0f} N/m", vibration.limit_N_m);
+  fmt::print(stderr, "\n");
+}
+
+void printTotals(TouchSession& session) {
   const auto line = [](const char* name, const LoopTotals& t) {
     fmt::print(stderr, "{:<16}{:>10} steps, {} deadlines missed, at most {:.0f} us late\n", name, t.steps, t.missed,
                1e-3 * static_cast<double>(t.late_max_ns));
@@ -52,6 +63,7 @@ void printTotals(const TouchSession& session) {
   const LoopTotals ticks = session.proxyTotals();
   line("proxy:", ticks);
   fmt::print(stderr, "{} of {} ticks were part of a servo step\n", session.ticksInServoSteps(), ticks.steps);
+  printVibration(session);
   if (session.settings().timer_reference) line("bare timer:", session.referenceTotals());
 }
 

@@ -103,6 +103,12 @@ void addEffectOptions(CLI::App& app, ServoOptions& options) {
                effects.spring_N_m = n[0];
                effects.spring_D = Vec3(n[1], n[2], n[3]);
              });
+  app.add_option_function<std::string>(
+         "--vibration-guard", [&options](const std::string& text) { options.vibration.on = text == "on"; },
+         "soften the spring when it and the hand shake each other")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->option_text("on|off (default: on)")
+      ->group(kGroup);
   app.add_flag("--passivity-guard", options.guard.on, "damp a contact that gives more energy than it has taken")
       ->group(kGroup);
 }

@@ -226,7 +226,9 @@ enum {
   HL_WORKSPACE_ORIGIN = 0x480B0,       /**< 3; m: the world's point at the device's origin */
   HL_WORKSPACE_SCALE = 0x480B1,        /**< 1; metres of the world for one metre of the hand */
   HL_STATE_TIME = 0x480B2,             /**< 1; s since the server started, its clock, when the state was measured */
-  HL_STATE_AGE = 0x480B3               /**< 1; s since the state was taken here; infinite before the first */
+  HL_STATE_AGE = 0x480B3,              /**< 1; s since the state was taken here; infinite before the first */
+  HL_VIBRATIONS = 0x480B4,             /**< 1; times that spring and hand shook and the spring was softened */
+  HL_SPRING_LIMIT = 0x480B5            /**< 1; N/m that the spring is held below since; 0: there is no limit */
 };
 
 /** One contact of the proxy, from hlGetContacts. World frame. */

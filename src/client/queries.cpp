@@ -132,6 +132,8 @@ constexpr Query kQueriesOfState[] = {
     {HL_LEDGER_TANK_LEVEL, [](const HLcontext& c, Values& v) { v.add(state(c).ledger().tank_j()); }},
     {HL_LEDGER_INJECTED, [](const HLcontext& c, Values& v) { v.add(state(c).ledger().injected_j()); }},
     {HL_LEDGER_DISSIPATED, [](const HLcontext& c, Values& v) { v.add(state(c).ledger().dissipated_j()); }},
+    {HL_VIBRATIONS, [](const HLcontext& c, Values& v) { v.add(static_cast<double>(state(c).vibration().alarms())); }},
+    {HL_SPRING_LIMIT, [](const HLcontext& c, Values& v) { v.add(state(c).vibration().limit_n_m()); }},
     {HL_PROXY_RADIUS, [](const HLcontext& c, Values& v) { v.add(state(c).proxy_radius()); }},
     {HL_WORKSPACE_ORIGIN, [](const HLcontext& c, Values& v) { addVec(v, state(c).workspace().origin()); }},
     {HL_WORKSPACE_SCALE, [](const HLcontext& c, Values& v) { v.add(state(c).workspace().world_per_device()); }},

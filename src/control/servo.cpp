@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/plain_math.h"
+
 namespace hl {
 
 namespace {
@@ -15,7 +17,7 @@ ServoOutput output(const ServoState& state) { return {state.force_N, state.safet
 void updateVelocity(ServoState& state, const DeviceSample& sample) {
   const double dt = age_s(sample.time_ns, state.last_time_ns);
   if (state.has_last && dt > 0) {
-    const double blend = 1 - std::exp(-2 * M_PI * kVelocityCutoff_Hz * dt);
+    const double blend = 1 - plain::expOfNegative(-2 * M_PI * kVelocityCutoff_Hz * dt);
     state.velocity_m_s += blend * ((sample.position - state.last_position) / dt - state.velocity_m_s);
   }
   state.before_D[1] = state.has_last ? state.before_D[0] : sample.position;
@@ -29,6 +31,7 @@ void updateVelocity(ServoState& state, const DeviceSample& sample) {
 void rest(ServoState& state) {
   state.force_N = state.velocity_m_s = state.guard.held_N = Vec3::Zero();
   state.spring.pulling = state.has_last = false;
+  restVibration(state.vibration);
 }
 
 bool usable(const ServoSettings& settings, const ServoTarget& target, const DeviceSample& sample) {
@@ -46,11 +49,27 @@ Vec3 wantedForce(ServoState& state, const ServoSettings& settings, const ServoTa
   }
   const double paid_J = target.time_ns != state.spring_time_ns ? target.paid_J : 0;
   state.spring_time_ns = target.time_ns;
-  handOver(state.spring, settings.ledger, settings.stiffness_N_m, {target.proxy_D, target.stiffness}, paid_J,
-           state.before_D[1], sample.position);
+  const double stiffness_N_m = limitedStiffness_N_m(state.vibration, settings.stiffness_N_m, target.stiffness);
+  handOver(state.spring, settings.ledger, stiffness_N_m, {target.proxy_D, target.stiffness}, paid_J, state.before_D[1],
+           sample.position);
   const Vec3 gap = state.spring.end.stiffness * (state.spring.end.proxy_D - sample.position);
   if (gap.isZero(0)) return Vec3::Zero();
-  return settings.stiffness_N_m * gap - settings.damping_Ns_m * state.velocity_m_s;
+  return stiffness_N_m * gap - (settings.damping_Ns_m + state.vibration.damping_Ns_m) * state.velocity_m_s;
+}
+
+// What the vibration guard sees of this step.
+void lookForVibration(ServoState& state, const ServoSettings& settings, const Vec3& spring_N, const Vec3& finger_D) {
+  const SpringEnd& end = state.spring.end;
+  SpringStep step;
+  step.finger_D = finger_D;
+  step.pulling = state.spring.pulling;
+  if (step.pulling) {
+    step.stiffness_N_m = end.stiffness * limitedStiffness_N_m(state.vibration, settings.stiffness_N_m, end.stiffness);
+    step.gap = end.proxy_D - finger_D;
+    step.force_N = limited(spring_N, settings.force_limit_N);
+  }
+  watchVibration(state.vibration, settings.vibration, step, settings.stiffness_N_m, state.velocity_m_s,
+                 settings.period_s);
 }
 
 }  // namespace
@@ -77,6 +96,7 @@ ServoOutput stepServo(ServoState& state, const ServoSettings& settings, const Se
   updateVelocity(state, sample);
   Vec3 spring_N = wantedForce(state, settings, target, sample);
   const bool touching = state.spring.pulling;
+  lookForVibration(state, settings, spring_N, sample.position);
   Vec3 effects_N = part * effectForce(settings.effects, sample, state.velocity_m_s, touching);
   effects_N = effects_N.allFinite() ? limited(effects_N, settings.force_limit_N) : Vec3(Vec3::Zero());
   if (settings.guard.on)

@@ -11,6 +11,7 @@
 #include "control/passivity_guard.h"
 #include "control/safety.h"
 #include "control/servo_target.h"
+#include "control/vibration_guard.h"
 #include "device/device.h"
 
 namespace hl {
@@ -24,6 +25,7 @@ struct SpringSettings {
   LedgerMode ledger = LedgerMode::kTank;  ///< what late hand-over may add
   Effects effects{};
   GuardSettings guard{};
+  VibrationSettings vibration{};
 };
 
 /// Members are in the bases alone, so that recordings see them all: base/fields.h.
@@ -41,6 +43,7 @@ struct SpringState {
   HandOverState spring;             ///< where the spring is fixed
   std::int64_t spring_time_ns = 0;  ///< of the target it was taken from
   PassivityGuard guard;
+  VibrationGuard vibration;
 };
 
 /// Between steps; default-constructed it is off: arm() and disarm() of safety.h. Owned by the servo thread.

@@ -15,6 +15,7 @@ void ServoOptions::apply(ServoSettings& settings) const {
   settings.arm_again = arm_again;
   settings.effects = effects;
   settings.guard = guard;
+  settings.vibration = vibration;
 }
 
 }  // namespace hl

@@ -16,6 +16,7 @@ struct ServoOptions {
   bool arm_again = false;
   Effects effects{};
   GuardSettings guard{};
+  VibrationSettings vibration{};
 
   void apply(ServoSettings& settings) const;
 };

@@ -29,6 +29,12 @@ void toProto(const LoopSummary& loop, const LoopTotals& totals, proto::LoopStats
   out.set_steps(totals.steps);
 }
 
+void toProto(const VibrationView& vibration, proto::Vibration& out) {
+  out.set_limit_n_m(vibration.limit_N_m);
+  out.set_alarms(vibration.alarms);
+  out.set_dissipated_j(vibration.dissipated_J);
+}
+
 void toProto(const ProxyContact& contact, proto::ContactPlane& out) {
   toProto(contact.point, *out.mutable_point());
   toProto(contact.normal, *out.mutable_normal());
@@ -68,6 +74,7 @@ void toProto(const TouchSession& session, const ServoView& servo, const ProxyVie
   toProto(servo.loop, session.servoTotals(), *out.mutable_servo());
   toProto(proxy.loop, session.proxyTotals(), *out.mutable_proxy_loop());
   toProto(proxy.ledger, servo.late, session.ledger(), *out.mutable_ledger());
+  toProto(servo.vibration, *out.mutable_vibration());
   out.set_buttons(servo.buttons);
   out.set_proxy_radius(session.radius_W());
   toProto(workspace.origin_W, *out.mutable_workspace()->mutable_origin());

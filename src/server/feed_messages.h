@@ -10,6 +10,7 @@ namespace hl {
 void toProto(const Vec3& v, proto::Vec3& out);
 void toProto(const TouchSession& session, proto::DeviceInfo& out);
 void toProto(const LoopSummary& loop, const LoopTotals& totals, proto::LoopStats& out);
+void toProto(const VibrationView& vibration, proto::Vibration& out);
 void toProto(const ProxyContact& contact, proto::ContactPlane& out);
 /// The proxy's ledger and the servo's, which books late hand-over, as one.
 void toProto(const Ledger& ledger, const Ledger& late, LedgerMode mode, proto::Ledger& out);

@@ -41,6 +41,7 @@ class Session {
     settings_.damping_Ns_m = loop.damping_Ns_m;
     settings_.period_s = 1e-9 * static_cast<double>(period_ns_);
     settings_.ramp_s = settings_.period_s;
+    settings_.vibration.on = false;  // what the loop does by itself
     commands_.radius_W = kRadius_m;
     arm(step_.servo());
     for (double left_s = kReady_s; left_s > 0; left_s -= settings_.period_s) step();

@@ -73,6 +73,7 @@ class TouchMonitor {
                static_cast<double>(proxy.unplaced));
     writeLedger(out, proxy.ledger, servo.late);
     writeFailures(out);
+    writeVibration(out, servo.vibration);
     if (clients_ == nullptr) return;
     writeHierarchies(out, clients_->hierarchyCounts());
     writeMemory(out, clients_->memory());
@@ -145,6 +146,16 @@ class TouchMonitor {
     out.family("hl_thread_failures_total", MetricType::kCounter, "Pieces of work that threads could not do");
     for (const ThreadFailures& thread : threadFailures())
       out.sample(static_cast<double>(thread.count), {{"thread", thread.thread}});
+  }
+
+  static void writeVibration(MetricsText& out, const VibrationView& vibration) {
+    using enum MetricType;
+    out.single("hl_vibrations_total", kCounter, "Times that the spring and the hand shook and it was softened",
+               static_cast<double>(vibration.alarms));
+    out.single("hl_vibration_dissipated_joules_total", kCounter, "Energy that softening and its damper took",
+               vibration.dissipated_J);
+    out.single("hl_spring_limit_newtons_per_metre", kGauge, "The spring is held below it; 0: there is no limit",
+               vibration.limit_N_m);
   }
 
   static void writeHierarchies(MetricsText& out, const HierarchyCounts& counts) {

@@ -23,6 +23,8 @@ constexpr double kLift_D = 0.010;
 constexpr double kMostFriction = 10;
 constexpr double kMostViscosity_Ns_m = 1000;
 
+VibrationView viewOf(const VibrationGuard& guard) { return {guard.limit_N_m, guard.alarms, guard.dissipated_J}; }
+
 std::int64_t period_ns(double rate_Hz) { return static_cast<std::int64_t>(1e9 / rate_Hz); }
 
 }  // namespace
@@ -159,8 +161,13 @@ void TouchSession::runServo() {
     const std::int64_t work_ns = monotonicNow_ns() - now_ns;
     recorder_.step({before, command, settings, step.target(), sample, out, work_ns});
     meter.add(now_ns, work_ns);
-    const ServoView view{sample.buttons, sample.position, out.force_N,
-                         out.safety,     out.fault,       step.servo().spring.ledger,
+    const ServoView view{sample.buttons,
+                         sample.position,
+                         out.force_N,
+                         out.safety,
+                         out.fault,
+                         step.servo().spring.ledger,
+                         viewOf(step.servo().vibration),
                          meter.summary()};
     servo_view_.write(view);
     servo_for_clients_.write(view);

@@ -70,6 +70,13 @@ struct ProxyView {
   LoopSummary loop;
 };
 
+/// What the vibration guard has done.
+struct VibrationView {
+  double limit_N_m = 0;      ///< the spring is held below it; 0: there is no limit
+  std::uint64_t alarms = 0;  ///< how often it has softened the spring since the start
+  double dissipated_J = 0;   ///< what it has taken out of the spring and the hand
+};
+
 /// What the servo loop last did.
 struct ServoView {
   std::uint32_t buttons = 0;  ///< of the device, bit i: button i is down
@@ -78,6 +85,7 @@ struct ServoView {
   SafetyState safety = SafetyState::kOff;
   FaultReason fault{};
   Ledger late{};  ///< of the hand-over from proxy to servo
+  VibrationView vibration{};
   LoopSummary loop;
 };
 

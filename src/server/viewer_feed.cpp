@@ -81,6 +81,7 @@ std::string state(TouchSession& session, PageScene& scene) {
   toProto(proxy.ledger, servo.late, session.ledger(), *out.mutable_ledger());
   setSurfaces(*out.mutable_surfaces(), session.surfaces());
   out.set_slipping(proxy.slipping);
+  toProto(servo.vibration, *out.mutable_vibration());
   out.set_buttons(servo.buttons);
   const std::int64_t now_ns = monotonicNow_ns();
   scene.follow(session.snapshot(), {session.radius_W(), session.workspace().world_per_device}, now_ns);

@@ -95,6 +95,8 @@ TEST_F(CallsTest, QueriesAnswerFromTheLastStateTaken) {
   state.mutable_proxy_loop()->set_deadlines_missed(4);
   state.mutable_ledger()->set_mode(proto::STRICT);
   state.mutable_ledger()->set_injected_j(0.25);
+  state.mutable_vibration()->set_alarms(3);
+  state.mutable_vibration()->set_limit_n_m(420);
   state.set_proxy_radius(1e-3);
   state.set_time_s(12);
   EXPECT_EQ(number(HL_STATE_TIME), 0);
@@ -111,6 +113,8 @@ TEST_F(CallsTest, QueriesAnswerFromTheLastStateTaken) {
   EXPECT_EQ(integer(HL_PROXY_DEADLINES_MISSED), 4);
   EXPECT_EQ(integer(HL_LEDGER_MODE), HL_LEDGER_STRICT);
   EXPECT_EQ(number(HL_LEDGER_INJECTED), 0.25);
+  EXPECT_EQ(integer(HL_VIBRATIONS), 3);
+  EXPECT_EQ(number(HL_SPRING_LIMIT), 420);
   EXPECT_EQ(number(HL_PROXY_RADIUS), 1e-3);
   EXPECT_EQ(number(HL_STATE_TIME), 12);
   EXPECT_GE(number(HL_STATE_AGE), 0);
@@ -144,7 +148,7 @@ TEST_F(CallsTest, EveryQueryOfTheHeaderIsAnswered) {
   for (HLenum name = HL_STIFFNESS; name <= HL_PRESLIDING; ++name) names.push_back(name);
   for (HLenum name = HL_SESSION; name <= HL_FRAME_PRIMITIVES; ++name) names.push_back(name);
   for (HLenum name = HL_MAX_OBJECTS; name <= HL_SPRING_DAMPING; ++name) names.push_back(name);
-  for (HLenum name = HL_FINGER_POSITION; name <= HL_STATE_AGE; ++name) names.push_back(name);
+  for (HLenum name = HL_FINGER_POSITION; name <= HL_SPRING_LIMIT; ++name) names.push_back(name);
   for (const HLenum name : {HL_CURRENT_NORMAL,
                             HL_CURRENT_TEXTURE_COORDS,
                             HL_CURRENT_NAME,

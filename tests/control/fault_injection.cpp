@@ -90,6 +90,7 @@ void Life::changeSettings() {
   settings_.damping_Ns_m = uniform(0, 5);
   settings_.ledger = static_cast<LedgerMode>(random_() % 3);
   settings_.guard.on = oneIn(2);
+  settings_.vibration.on = oneIn(2);
   settings_.effects = {uniform(0, 0.2), uniform(0, 5), uniform(0, 500), within(0.1), within(3)};
   settings_.dead_man = static_cast<DeadMan>(random_() % 3);
   settings_.dead_man_button = static_cast<std::uint32_t>(random_() % 3);

@@ -39,6 +39,7 @@ Swing press(const Loop& loop) {
   settings.ramp_s = kPeriod_s;
   settings.ledger = LedgerMode::kReport;  // the hand-over must not mend what the guard is to mend
   settings.guard.on = loop.guard;
+  settings.vibration.on = false;
   ServoState state;
   arm(state);
   double y = 0.001, v = 0;

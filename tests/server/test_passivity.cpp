@@ -182,6 +182,7 @@ Swing pressOnFloor(LedgerMode mode, int late, unsigned seed) {
   settings.friction_N = 0;
   settings.target_stale_ns = 4 * late * kPeriod_ns;
   settings.ledger = mode;
+  settings.vibration.on = false;  // it would soften what diverges
   HeldMass plant = pressingOnTheFloor(seed);
   LateFloor floor(mode, late, settings.stiffness_N_m, plant.position);
   ServoState servo;

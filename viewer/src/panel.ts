@@ -79,6 +79,7 @@ export class Panel {
       element("safety").dataset.safety = "OFF";
       element("rearm").hidden = true;
       element("fault").hidden = true;
+      element("softened").hidden = true;
       setText("safety-state", "Not known");
     }
   }
@@ -173,6 +174,12 @@ export class Panel {
     element("rearm").hidden = !fault;
     element("fault").hidden = !fault;
     setText("fault", state.fault || "The server gave no reason.");
+    const limit_N_m = state.vibration?.limitNM ?? 0;
+    element("softened").hidden = limit_N_m === 0;
+    setText(
+      "softened",
+      `The spring shook with the hand: it is held below ${formatCount(Math.round(limit_N_m))}${kThinSpace}N/m.`,
+    );
   }
 
   private showStiffness(value_N_m: number): void {
