@@ -3,8 +3,7 @@
 namespace hl {
 
 bool Watchdog::look(std::uint64_t steps) {
-  // Before its first step the servo makes no force: there is nothing to stop.
-  if (steps != steps_ || steps == 0) {
+  if (steps != steps_) {
     steps_ = steps;
     unmoved_ = 0;
     return false;

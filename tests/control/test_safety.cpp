@@ -232,9 +232,8 @@ TEST(Safety, AFaultFromElsewhereCountsOnlyWhenArmed) {
   EXPECT_EQ(bench.state.fault, FaultReason::kStalled);
 }
 
-TEST(Watchdog, BarksOnceForEachStallAndNeverBeforeTheFirstStep) {
+TEST(Watchdog, BarksOnceForEachStall) {
   Watchdog dog(20);
-  for (int i = 0; i < 100; ++i) EXPECT_FALSE(dog.look(0));
   for (std::uint64_t steps = 1; steps < 100; ++steps) EXPECT_FALSE(dog.look(steps));
   for (int stall = 0; stall < 3; ++stall) {
     const auto steps = static_cast<std::uint64_t>(200 + stall);
@@ -246,6 +245,13 @@ TEST(Watchdog, BarksOnceForEachStallAndNeverBeforeTheFirstStep) {
 }
 
 // The servo thread hangs with a force on; stop() from another thread, and the motors are without current.
+TEST(Watchdog, AServoThatNeverBeginsStandsStill) {
+  Watchdog dog(20);
+  for (int look = 1; look < 20; ++look) EXPECT_FALSE(dog.look(0)) << look;
+  EXPECT_TRUE(dog.look(0));
+  EXPECT_FALSE(dog.look(1));
+}
+
 TEST(Watchdog, TheSimulatedDeviceStopsOutsideTheServosCalls) {
   SimulatedDevice device;
   device.read(0);
