@@ -169,9 +169,9 @@ std::size_t primitivesOf(std::size_t block, std::size_t all) { return std::min(k
 
 template <typename Make>
 HugeVector<WideBlock> makeBlocks(std::size_t count, const Make& make) {
-  constexpr std::size_t kGrain = 512;
+  constexpr std::size_t kBlocksOfATask = 512;
   HugeVector<WideBlock> blocks(count);
-  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, count, kGrain), [&](const auto& range) {
+  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, count, kBlocksOfATask), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) make(i, blocks[i]);
   });
   return blocks;

@@ -100,7 +100,7 @@ asio::awaitable<void> Listener::accept() {
       co_await pause_.async_wait(kAwait);
       continue;
     }
-    guarded([&] { take(std::move(socket)); });
+    guarded([this, &peer = socket] { take(std::move(peer)); });
   }
 }
 
