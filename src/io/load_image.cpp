@@ -1,13 +1,16 @@
 #include "io/load_image.h"
 
-#include <boost/gil.hpp>
-#include <boost/gil/extension/io/jpeg.hpp>
-#include <boost/gil/extension/io/png.hpp>
+#include <spng.h>
+#include <turbojpeg.h>
+
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "io/file_ending.h"
@@ -17,50 +20,84 @@ namespace hl {
 
 namespace {
 
-namespace gil = boost::gil;
-
 constexpr std::size_t kMostTexels = std::size_t{64} << 20;
+constexpr const char* kNoPng = "is not a sound PNG file: ";
+constexpr const char* kNoJpeg = "is not a sound JPEG file: ";
 
-void checkSize(std::size_t width, std::size_t height, std::size_t most_texels) {
-  if (width == 0 || height == 0) throw Error("has no pixels");
-  if (width > most_texels / height) throw Error("has more than " + std::to_string(most_texels) + " pixels");
+using Bytes = std::vector<unsigned char>;
+
+Bytes bytesOf(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-// Sixteen bits a grey level hold both an 8-bit and a 16-bit file. Pictures run from the top row down, textures up.
-template <typename Tag>
-Texture decode(const std::string& path, Tag tag, std::size_t most_texels) {
-  const auto info = gil::read_image_info(path, tag)._info;
-  checkSize(info._width, info._height, most_texels);
-  gil::gray16_image_t image;
-  gil::read_and_convert_image(path, image, tag);
-  const auto view = gil::flipped_up_down_view(gil::const_view(image));
+void checkSize(std::size_t width, std::size_t height) {
+  if (width == 0 || height == 0) throw Error("has no pixels");
+  if (width > kMostTexels / height) throw Error("has more than " + std::to_string(kMostTexels) + " pixels");
+}
+
+// ITU-R BT.601, as in a JPEG file. What is grey stays so to the bit.
+float luminance(float red, float green, float blue) {
+  if (red == green && green == blue) return red;
+  return 0.299f * red + 0.587f * green + 0.114f * blue;
+}
+
+// Pictures run from the top row down, textures up. `level(i)`: of the picture's pixel i, 0..1.
+template <typename Level>
+Texture textureOf(std::size_t width, std::size_t height, const Level& level) {
   Texture texture;
-  texture.width = static_cast<std::size_t>(view.width());
-  texture.height = static_cast<std::size_t>(view.height());
-  texture.texels.reserve(view.size());
-  for (const gil::gray16_pixel_t& pixel : view) texture.texels.push_back(static_cast<float>(pixel[0]) / 65535.0f);
+  texture.width = width;
+  texture.height = height;
+  texture.texels.reserve(width * height);
+  for (std::size_t row = height; row-- > 0;)
+    for (std::size_t column = 0; column < width; ++column) texture.texels.push_back(level(row * width + column));
   return texture;
 }
 
-// libjpeg fills up what is missing of a torn file with grey and says nothing. The end marker must be there, and not
-// only that of a thumbnail near the beginning.
-void checkJpegEnds(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  const std::size_t end = bytes.rfind("\xff\xd9");
-  if (end == std::string::npos || end < bytes.size() / 2) throw Error("is torn: the end of the JPEG is missing");
+void checkPng(int code) {
+  if (code != 0) throw Error(kNoPng + std::string(spng_strerror(code)));
 }
 
-Texture decodeImage(const std::string& path, std::size_t most_texels) {
-  const std::string ending = endingOf(path);
-  try {
-    if (ending != ".png") checkJpegEnds(path);
-    return ending == ".png" ? decode(path, gil::png_tag{}, most_texels) : decode(path, gil::jpeg_tag{}, most_texels);
-  } catch (const Error&) {
-    throw;
-  } catch (const std::exception&) {
-    throw Error(ending == ".png" ? "is not a sound PNG file" : "is not a sound JPEG file");
-  }
+// `Channel`: of what is decoded, RGBA.
+template <typename Channel>
+Texture decodeRgba(spng_ctx& png, const spng_ihdr& header, spng_format format) {
+  constexpr std::size_t kChannels = 4;
+  constexpr auto kFull = static_cast<float>(static_cast<Channel>(-1));
+  std::vector<Channel> rgba(kChannels * header.width * header.height);
+  checkPng(spng_decode_image(&png, rgba.data(), rgba.size() * sizeof(Channel), format, 0));
+  checkPng(spng_decode_chunks(&png));  // up to the end of the file
+  return textureOf(header.width, header.height, [&](std::size_t i) {
+    const Channel* const pixel = &rgba[kChannels * i];
+    return luminance(static_cast<float>(pixel[0]), static_cast<float>(pixel[1]), static_cast<float>(pixel[2])) / kFull;
+  });
+}
+
+Texture decodePng(const Bytes& bytes) {
+  const std::unique_ptr<spng_ctx, decltype(&spng_ctx_free)> png(spng_ctx_new(0), &spng_ctx_free);
+  if (!png) throw std::bad_alloc();
+  checkPng(spng_set_png_buffer(png.get(), bytes.data(), bytes.size()));
+  spng_ihdr header{};
+  checkPng(spng_get_ihdr(png.get(), &header));
+  checkSize(header.width, header.height);
+  return header.bit_depth == 16 ? decodeRgba<std::uint16_t>(*png, header, SPNG_FMT_RGBA16)
+                                : decodeRgba<std::uint8_t>(*png, header, SPNG_FMT_RGBA8);
+}
+
+// A torn file is no sound one, though the library would fill it up with grey: it says so by its return value.
+Texture decodeJpeg(const Bytes& bytes) {
+  const std::unique_ptr<void, decltype(&tjDestroy)> jpeg(tjInitDecompress(), &tjDestroy);
+  if (!jpeg) throw std::bad_alloc();
+  const auto check = [&](int code) {
+    if (code != 0) throw Error(kNoJpeg + std::string(tjGetErrorStr2(jpeg.get())));
+  };
+  int width = 0, height = 0, subsampling = 0, colours = 0;
+  const auto size = static_cast<unsigned long>(bytes.size());
+  check(tjDecompressHeader3(jpeg.get(), bytes.data(), size, &width, &height, &subsampling, &colours));
+  const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
+  checkSize(columns, rows);
+  Bytes grey(columns * rows);
+  check(tjDecompress2(jpeg.get(), bytes.data(), size, grey.data(), width, 0, height, TJPF_GRAY, 0));
+  return textureOf(columns, rows, [&](std::size_t i) { return static_cast<float>(grey[i]) / 255.0f; });
 }
 
 void checkIsImage(const std::string& path) {
@@ -75,7 +112,8 @@ void checkIsImage(const std::string& path) {
 
 Texture readImage(const std::string& path) {
   checkIsImage(path);
-  Texture texture = decodeImage(path, kMostTexels);
+  const Bytes bytes = bytesOf(path);
+  Texture texture = endingOf(path) == ".png" ? decodePng(bytes) : decodeJpeg(bytes);
   texture.name = std::filesystem::path(path).filename().string();
   return texture;
 }

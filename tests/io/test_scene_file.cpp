@@ -228,6 +228,17 @@ TEST(Image, JpegColoursBecomeLuminance) {
   EXPECT_NEAR(texture.texels[100], 1, 0.01);
 }
 
+TEST(Image, ColoursBecomeTheirLuminanceAndGreyStaysToTheBit) {
+  constexpr double kLuminance = (0.299 * 10 + 0.587 * 200 + 0.114 * 90) / 255;
+  boost::gil::rgb8_image_t image(2, 1, boost::gil::rgb8_pixel_t(10, 200, 90), 0);
+  boost::gil::view(image)(1, 0) = boost::gil::rgb8_pixel_t(77, 77, 77);
+  boost::gil::write_view(tempFile("colour.png"), boost::gil::const_view(image), boost::gil::png_tag{});
+  const Texture texture = loadImage(tempFile("colour.png"));
+  ASSERT_EQ(texture.texels.size(), 2U);
+  EXPECT_NEAR(texture.texels[0], kLuminance, 1e-6);
+  EXPECT_EQ(texture.texels[1], 77 / 255.0f);
+}
+
 TEST(Image, TornAndHostileFilesAreOneLine) {
   writePng(tempFile("whole.png"));
   std::ifstream in(tempFile("whole.png"), std::ios::binary);
@@ -245,6 +256,9 @@ TEST(Image, TornAndHostileFilesAreOneLine) {
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
     }
   }
+  std::string other_end = bytes;
+  other_end[other_end.find("IEND") + 3] = 'I';  // no chunk that anyone knows
+  EXPECT_THROW(readImage(fileWith("end.png", other_end)), Error) << "in this process";
   boost::gil::rgb8_image_t image(64, 64, boost::gil::rgb8_pixel_t(10, 200, 90), 0);
   boost::gil::write_view(tempFile("whole.jpg"), boost::gil::const_view(image), boost::gil::jpeg_tag{});
   std::ifstream jpeg(tempFile("whole.jpg"), std::ios::binary);

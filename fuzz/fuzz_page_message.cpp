@@ -1,0 +1,29 @@
+// Messages of pages: what the settings then are, and what every page is told of it.
+#include <cmath>
+
+#include "refusal.h"
+#include "server/viewer_feed.h"
+
+namespace {
+
+using namespace hl;
+
+void requireBounded(const TouchSession& session) {
+  const double stiffness_N_m = session.stiffness_N_m();
+  fuzz::require(stiffness_N_m >= 0 && stiffness_N_m <= session.deviceInfo().stiffness_max_N_m);
+  const MaterialOverride surfaces = session.surfaces();
+  for (const std::optional<double>& value :
+       {surfaces.stiffness, surfaces.static_friction, surfaces.dynamic_friction, surfaces.viscosity_Ns_m})
+    fuzz::require(!value || (*value >= 0 && std::isfinite(*value)));
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static TouchSession session(makeSnapshot(std::vector<Instance>{}, "nothing"), {});
+  static const FeedCallbacks feed = makeViewerFeed(session, "fuzzer");
+  feed.receive(fuzz::textOf(data, size));
+  requireBounded(session);
+  fuzz::require(!feed.hello().empty() && !feed.state().empty());
+  return 0;
+}
