@@ -42,6 +42,9 @@ void addDeviceOptions(CLI::App& app, HldOptions& options) {
       ->check(within(kLeastRadius_m, kMostNumber))
       ->capture_default_str()
       ->group("Device");
+  app.add_flag("--timer-reference", options.touch.timer_reference,
+               "run a bare timer on the servo's core and count its misses too")
+      ->group("Device");
 }
 
 template <typename Number>

@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "base/clock.h"
 #include "base/guarded_thread.h"
@@ -86,8 +87,9 @@ class TouchMonitor {
       LoopSummary second;
       LoopTotals totals;
     };
-    const std::array<Loop, 2> loops{
-        {{"servo", servo.loop, session_.servoTotals()}, {"proxy", proxy.loop, session_.proxyTotals()}}};
+    std::vector<Loop> loops{{"servo", servo.loop, session_.servoTotals()},
+                            {"proxy", proxy.loop, session_.proxyTotals()}};
+    if (session_.settings().timer_reference) loops.push_back({"bare timer", {}, session_.referenceTotals()});
     const auto family = [&](const char* name, MetricType type, const char* help, auto value) {
       out.family(name, type, help);
       for (const Loop& loop : loops) out.sample(static_cast<double>(value(loop)), {{"loop", loop.name}});
