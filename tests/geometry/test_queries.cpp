@@ -9,6 +9,7 @@
 #include <map>
 
 #include "base/realtime_guard.h"
+#include "cases.h"
 #include "geometry/brute_force.h"
 #include "geometry/scenes.h"
 #include "geometry/sphere_tree.h"
@@ -114,6 +115,7 @@ void compareScene(std::vector<Primitive> scene, int queries, double cube, double
   const Asked asked(std::move(scene));
   const Asked shuffled(std::move(mixed));
   int hits = 0;
+  queries = test::cases(queries);
   for (int i = 0; i < queries; ++i) {
     Query query = randomQuery(random, cube, size);
     query.from += place;

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "cases.h"
 #include "geometry/closest_point.h"
 #include "geometry/judge.h"
 #include "geometry/scenes.h"
@@ -87,7 +88,7 @@ Case grazingCase(test::Random& random) {
 
 TEST(SweepSphere, C06TimeOfImpactAgreesWithTheJudge) {
   test::Random random(21);
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < test::cases(20000); ++i) {
     judge(randomCase(random));
     if (HasFatalFailure()) FAIL() << "case " << i;
   }
@@ -95,7 +96,7 @@ TEST(SweepSphere, C06TimeOfImpactAgreesWithTheJudge) {
 
 TEST(SweepSphere, C06GrazingPathsAreWithinRounding) {
   test::Random random(22);
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < test::cases(20000); ++i) {
     judge(grazingCase(random));
     if (HasFatalFailure()) FAIL() << "case " << i;
   }
@@ -103,7 +104,7 @@ TEST(SweepSphere, C06GrazingPathsAreWithinRounding) {
 
 TEST(SweepSphere, C06AimedAtBordersBetweenFacesEdgesAndVerticesNothingIsMissed) {
   test::Random random(23);
-  for (int i = 0; i < 200000; ++i) {
+  for (int i = 0; i < test::cases(200000); ++i) {
     const Primitive primitive = test::randomPrimitive(random, 1, 1, 0);
     const double radius = std::pow(10.0, random.uniform(-5, 0));
     // Straight at a vertex or a point of an edge, along a normal of the border of two parts.
@@ -141,7 +142,7 @@ RC_GTEST_PROP(SweepSphere, C06EveryIntegerCaseAgreesWithTheJudge, ()) {
 
 TEST(SweepSphere, StartsInContactHitAtOnceWhenApproachingAndElseNever) {
   test::Random random(24);
-  for (int i = 0; i < 50000; ++i) {
+  for (int i = 0; i < test::cases(50000); ++i) {
     const Primitive primitive = test::randomPrimitive(random, 1, 1, 0);
     const Vec3 from = random.inCube(1.5);
     const ClosestPoint nearest = closestPoint(primitive, from);
@@ -160,7 +161,7 @@ TEST(SweepSphere, StartsInContactHitAtOnceWhenApproachingAndElseNever) {
 TEST(SweepSphere, WhatComesTooLateMayBeLeftOutButNothingElseChanges) {
   test::Random random(25);
   int told = 0, left_out = 0;
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < test::cases(100000); ++i) {
     const Primitive primitive = test::randomPrimitive(random, 1, 1, 0);
     const Vec3 from = random.inCube(2), motion = primitive.vertex[0] + random.inCube(0.3) - from;
     const double radius = 0.2 * random.uniform(0.1, 1);
@@ -180,8 +181,8 @@ TEST(SweepSphere, WhatComesTooLateMayBeLeftOutButNothingElseChanges) {
     told += hit_part;
     left_out += hit && !hit_part;
   }
-  EXPECT_GT(told, 1000);
-  EXPECT_GT(left_out, 1000);
+  EXPECT_GT(told, test::cases(1000));
+  EXPECT_GT(left_out, test::cases(1000));
 }
 
 TEST(SweepSphere, TheFaceIsTwoSided) {

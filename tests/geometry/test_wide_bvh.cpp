@@ -16,6 +16,7 @@
 #include <numeric>
 
 #include "base/realtime_guard.h"
+#include "cases.h"
 #include "geometry/brute_force.h"
 #include "geometry/closest_point.h"
 #include "geometry/queries.h"
@@ -219,7 +220,7 @@ std::vector<Primitive> sheets(test::Random& random) {
 
 TEST(WideBvh, AllThatALongWayTouchesIsProposed) {
   test::Random random(7);
-  for (int world = 0; world < 100; ++world) {
+  for (int world = 0; world < test::cases(100); ++world) {
     const auto scene = sheets(random);
     const WideBvh bvh = WideBvh::build(scene);
     for (int i = 0; i < 200; ++i) {
@@ -243,7 +244,7 @@ TEST(WideBvh, AllPrimitivesWithinTheRadiusAreProposedAndFewOthers) {
     const auto& scene = scenes[i];
     const WideBvh bvh = WideBvh::build(scene);
     std::size_t proposed = 0, within = 0;
-    for (int query = 0; query < 1000; ++query) {
+    for (int query = 0; query < test::cases(1000); ++query) {
       const Primitive& near = scene[static_cast<std::size_t>(random.below(static_cast<int>(scene.size())))];
       const double size = (near.vertex[1] - near.vertex[0]).norm() + 1e-3 * near.vertex[0].norm();
       const Vec3 centre = near.vertex[0] + 3 * size * random.inCube(1);
@@ -288,7 +289,7 @@ Numbers candidatesOfAll(const std::vector<std::vector<Primitive>>& scenes, const
   test::Random random(64);
   Numbers all;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
-    for (int query = 0; query < 500; ++query) {
+    for (int query = 0; query < test::cases(500); ++query) {
       const auto number = static_cast<std::size_t>(random.below(static_cast<int>(scenes[i].size())));
       const Vec3& near = scenes[i][number].vertex[0];
       const double size = (scenes[i][number].vertex[1] - near).norm() + 1e-3 * near.norm();
@@ -316,7 +317,7 @@ TEST(WideBvh, EveryInstructionSetProposesTheSameCandidatesInTheSameOrder) {
   std::vector<WideBvh> trees;
   for (const auto& scene : scenes) trees.push_back(WideBvh::build(scene));
   const Numbers expected = candidatesOfAll(scenes, trees);
-  EXPECT_GT(expected.size(), 50'000u);
+  EXPECT_GT(expected.size(), static_cast<std::size_t>(test::cases(50'000)));
   const TargetsRestored restored;
   std::string tested;
   for (std::int64_t rest = hwy::SupportedTargets() | HWY_SCALAR; rest != 0; rest &= rest - 1) {
@@ -354,7 +355,7 @@ TEST(WideBvh, NoneOneAndTwoPrimitivesWork) {
 TEST(WideBvh, TheSmallestIsFoundOnTheLongestWay) {
   test::Random random(66);
   int touched = 0;
-  for (int i = 0; i < 20'000; ++i) {
+  for (int i = 0; i < test::cases(20'000); ++i) {
     const double far = std::pow(10.0, random.uniform(-9, 8));
     std::vector<Primitive> scene(1);
     ASSERT_TRUE(makePoint(far * random.direction(), 0, scene[0]));
@@ -367,7 +368,7 @@ TEST(WideBvh, TheSmallestIsFoundOnTheLongestWay) {
     ASSERT_EQ(swept(bvh, from, motion, reach, 1), Numbers{0}) << far << ' ' << reach << ' ' << length;
     ASSERT_EQ(overlapping(bvh, from, 1.31 * reach), Numbers{0});
   }
-  EXPECT_GT(touched, 500);
+  EXPECT_GT(touched, test::cases(500));
 }
 
 // Where an impact is said to be likely decides only what is looked at first.
@@ -376,7 +377,7 @@ TEST(WideBvh, HowSoonAnImpactIsLikelyChangesNoAnswer) {
   const WideBvh bvh = WideBvh::build(scene);
   test::Random random(68);
   int hits = 0;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < test::cases(2000); ++i) {
     const double radius = 0.02, length = std::pow(10.0, random.uniform(-4, 1));
     const Vec3 at = scene[static_cast<std::size_t>(random.below(static_cast<int>(scene.size())))].vertex[0];
     const Vec3 from = at + (radius + std::pow(10.0, random.uniform(-6, 0))) * Vec3::UnitZ();
@@ -400,7 +401,7 @@ TEST(WideBvh, HowSoonAnImpactIsLikelyChangesNoAnswer) {
       ASSERT_EQ(found.primitive, judged.primitive) << soon;
     }
   }
-  EXPECT_GT(hits, 500);
+  EXPECT_GT(hits, test::cases(500));
 }
 
 // More boxes wait than there is room to serve them in the order they come.

@@ -10,6 +10,8 @@
 #include <random>
 #include <vector>
 
+#include "cases.h"
+
 namespace hl {
 namespace {
 
@@ -122,7 +124,7 @@ RC_GTEST_PROP(C08Solver, EveryIntegerSystemAgreesWithBruteForce, ()) {
 
 TEST(C08Solver, MillionRandomSystemsMeetTheDualBound) {
   Systems systems(1, 8);
-  for (int i = 0; i < 1'000'000; ++i) {
+  for (int i = 0; i < test::cases(1'000'000); ++i) {
     const std::vector<Plane> planes = systems.planes(16);
     const Vec3 goal = systems.goal();
     const SolverResult result = nearestAbove(planes, goal, kTolerance);
@@ -133,7 +135,7 @@ TEST(C08Solver, MillionRandomSystemsMeetTheDualBound) {
 
 TEST(C08Solver, AgreesWithBruteForceOverAllSetsOfThree) {
   Systems systems(2, 2);  // the judge's own formulas lose digits beyond
-  for (int i = 0; i < 100'000; ++i) {
+  for (int i = 0; i < test::cases(100'000); ++i) {
     const std::vector<Plane> planes = systems.planes(12);
     const Vec3 goal = systems.goal();
     const SolverResult result = nearestAbove(planes, goal, kTolerance);
@@ -156,7 +158,7 @@ TEST(C08Solver, SlidesAlongTheGrooveWhereTheHullTestSticks) {
 
 TEST(C09Solver, AtMostThreeActivePlanesWithMultipliersNotNegative) {
   Systems systems(3, 8);
-  for (int i = 0; i < 100'000; ++i) {
+  for (int i = 0; i < test::cases(100'000); ++i) {
     const std::vector<Plane> planes = systems.planes(16);
     const Vec3 goal = systems.goal();
     const SolverResult result = nearestAbove(planes, goal, kTolerance);
