@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/realtime_guard.h"
+#include "cases.h"
 #include "device/hand_script.h"
 #include "device/phantom_arm.h"
 
@@ -37,7 +38,7 @@ TEST(SimulatedDevice, StaticForceAtTheTipIsTheCommandedOneWithinOneDacCount) {
   std::uniform_real_distribution<> component(-0.8, 0.8);  // any direction within the 1.4 N that may be held
   std::int64_t now_ns = 0;
   device.read(now_ns);
-  for (int n = 0; n < 200; ++n) {
+  for (int n = 0; n < test::cases(200); ++n) {
     const Vec3 force(component(random), component(random), component(random));
     device.setHandGoal(0.05 * force);
     for (int i = 0; i < 200; ++i) {
@@ -101,7 +102,7 @@ TEST(SimulatedDevice, WholeWorkspaceBoxIsWithinReachOfTheHand) {
 TEST(SimulatedDevice, EnergyOfThePassiveArmNeverGrows) {
   std::mt19937 random(3);
   std::uniform_real_distribution<> rate(-5, 5);
-  for (int n = 0; n < 10; ++n) {
+  for (int n = 0; n < test::cases(10); ++n) {
     SimulatedDevice device(unheld());
     phantomOf(device).setJoints(phantomOf(device).joints(), {rate(random), rate(random), rate(random)});
     double energy_J = device.energy_J();
