@@ -36,6 +36,9 @@ std::vector<std::uint32_t> elementsOf(const Shape& from, const Shape& to) {
   return result;
 }
 
+// What elementsOf() has of lists at a time, for each primitive of either shape.
+constexpr std::size_t kBytesInLists = 6 * sizeof(std::uint32_t);
+
 // `from`, with vertices that are beyond reach where they go to.
 Model within(const Model& from, const Model& to) {
   Model model = from;
@@ -48,7 +51,7 @@ Model within(const Model& from, const Model& to) {
 }  // namespace
 
 BendWay::BendWay(std::shared_ptr<const Shape> from, std::shared_ptr<const Shape> to, std::int64_t begin_ns,
-                 std::int64_t end_ns)
+                 std::int64_t end_ns, const MemoryBudget& memory)
     : given_from_(from),
       given_to_(to),
       from_(std::move(from)),
@@ -56,11 +59,14 @@ BendWay::BendWay(std::shared_ptr<const Shape> from, std::shared_ptr<const Shape>
       begin_ns_(begin_ns),
       end_ns_(end_ns) {
   if (treeOf(*to_) == nullptr || !from_->primitives.numberedAs(to_->primitives)) {
+    MemoryShare lists(memory);
+    lists.take(kBytesInLists * (from_->primitives.size() + to_->primitives.size()));
     const std::vector<std::uint32_t> elements = elementsOf(*from_, *to_);
-    to_ = shapeOfElements(to_->model, elements, nullptr);
-    from_ = shapeOfElements(within(from_->model, to_->model), elements, treeOf(*to_));
+    to_ = makeCounted(memory, bytesToMake(to_->model), [&] { return shapeOfElements(to_->model, elements, nullptr); });
+    from_ = makeCounted(memory, bytesToMake(from_->model),
+                        [&] { return shapeOfElements(within(from_->model, to_->model), elements, treeOf(*to_)); });
   } else if (treeOf(*from_) == nullptr || !treeOf(*from_)->isTreeOf(*treeOf(*to_))) {
-    from_ = withTree(*from_, *treeOf(*to_));
+    from_ = makeCounted(memory, bytesToMake(from_->model), [&] { return withTree(*from_, *treeOf(*to_)); });
   }
   from_tree_ = treeOf(*from_);
   to_tree_ = treeOf(*to_);
@@ -93,11 +99,12 @@ double BendWay::length_m(std::uint32_t primitive) const {
 }
 
 // What the last way needs beyond its own end it takes of the next: frames that come a little early do not add up.
-Bend Bend::then(const std::shared_ptr<const Shape>& to, std::int64_t begin_ns, std::int64_t end_ns) const {
+Bend Bend::then(const std::shared_ptr<const Shape>& to, std::int64_t begin_ns, std::int64_t end_ns,
+                const MemoryBudget& memory) const {
   const bool begun = last_.begin_ns() <= begin_ns;
   const std::int64_t next_ns = begun ? std::max(begin_ns, last_.end_ns()) : last_.begin_ns();
   const std::int64_t least_end_ns = next_ns + (end_ns - begin_ns + 1) / 2;
-  BendWay next(begun ? last_.given_to() : last_.given_from(), to, next_ns, std::max(end_ns, least_end_ns));
+  BendWay next(begun ? last_.given_to() : last_.given_from(), to, next_ns, std::max(end_ns, least_end_ns), memory);
   return {begun ? std::optional<BendWay>(last_) : earlier_, std::move(next)};
 }
 

@@ -19,9 +19,10 @@ class BendWay {
  public:
   /// `begin_ns` < `end_ns`. Where the shapes do not fit together (other elements have shrunk to nothing in one than in
   /// the other, or the hierarchies were built apart) copies are made that do; then what has shrunk to a line or a point
-  /// is that, and a vertex that comes from beyond reach is at its end from the beginning. Allocates.
+  /// is that, and a vertex that comes from beyond reach is at its end from the beginning. Copies are counted against
+  /// `memory`; throws hl::Error when there is no room for them. Allocates.
   BendWay(std::shared_ptr<const Shape> from, std::shared_ptr<const Shape> to, std::int64_t begin_ns,
-          std::int64_t end_ns);
+          std::int64_t end_ns, const MemoryBudget& memory = {});
 
   const std::shared_ptr<const Shape>& from() const { return from_; }
   const std::shared_ptr<const Shape>& to() const { return to_; }
@@ -51,8 +52,9 @@ class Bend {
   /// Stays at last.from() until `last` begins.
   explicit Bend(BendWay last) : last_(std::move(last)) {}
   /// This one, and then to `to` at about `end_ns` > `begin_ns`: a way that has begun by `begin_ns` is gone to its end
-  /// first, one that has not is forgotten.
-  Bend then(const std::shared_ptr<const Shape>& to, std::int64_t begin_ns, std::int64_t end_ns) const;
+  /// first, one that has not is forgotten. Counted as a way is.
+  Bend then(const std::shared_ptr<const Shape>& to, std::int64_t begin_ns, std::int64_t end_ns,
+            const MemoryBudget& memory = {}) const;
 
   std::int64_t end_ns() const { return last_.end_ns(); }
   const std::optional<BendWay>& earlier() const { return earlier_; }

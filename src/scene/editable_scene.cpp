@@ -319,17 +319,21 @@ std::int64_t blendOf(const Instance* before, const Instance& now, const PlacedSh
 
 // A way that is over is forgotten, and with it the shape that it came from.
 std::shared_ptr<const Bend> bendingOf(const Instance& before, const PlacedShape& now, std::int64_t begin_ns,
-                                      std::int64_t end_ns) {
+                                      std::int64_t end_ns, const MemoryBudget& memory) {
   const bool goes_on = before.bending && before.bending->end_ns() > begin_ns;
   const bool same = before.shape->geometry == now.shape->geometry;
   if (!same && !isBent(before, now)) return nullptr;
   if (same || before.shape->model.positions == now.shape->model.positions) return goes_on ? before.bending : nullptr;
   if (end_ns <= begin_ns) end_ns = begin_ns + kAbruptBlend_ns;
-  if (goes_on) return std::make_shared<Bend>(before.bending->then(now.shape, begin_ns, end_ns));
-  return std::make_shared<Bend>(BendWay(before.shape, now.shape, begin_ns, end_ns));
+  MemoryShare own(memory);
+  own.take(kPointer_bytes + sizeof(Bend));
+  Bend bend = goes_on ? before.bending->then(now.shape, begin_ns, end_ns, memory)
+                      : Bend(BendWay(before.shape, now.shape, begin_ns, end_ns, memory));
+  return withShare(std::make_shared<const Bend>(std::move(bend)), std::move(own));
 }
 
-Instance follow(const PlacedShape& now, const Instance* before, std::int64_t begin_ns, std::int64_t end_ns) {
+Instance follow(const PlacedShape& now, const Instance* before, std::int64_t begin_ns, std::int64_t end_ns,
+                const MemoryBudget& memory, Followed& all) {
   Instance instance{now.shape, now.surfaces, Motion(now.pose), now.key, now.session, now.object, now.name};
   if (before == nullptr) return instance;
   if (end_ns > begin_ns) {
@@ -337,14 +341,19 @@ Instance follow(const PlacedShape& now, const Instance* before, std::int64_t beg
     const bool rests = !before->motion.moves() || before->motion.last().end_ns() < begin_ns;
     if (!stays || !rests) instance.motion = stays ? before->motion : before->motion.then(now.pose, begin_ns, end_ns);
   }
-  instance.bending = bendingOf(*before, now, begin_ns, end_ns);
+  try {
+    instance.bending = bendingOf(*before, now, begin_ns, end_ns, memory);
+  } catch (const Error&) {  // no room for what it needs on its way
+    ++all.jumps;
+    all.blend_ns = kAbruptBlend_ns;
+  }
   return instance;
 }
 
 }  // namespace
 
 Followed followOn(const std::vector<PlacedShape>& placed, std::span<const Instance* const> last, std::int64_t begin_ns,
-                  std::int64_t end_ns) {
+                  std::int64_t end_ns, const MemoryBudget& memory) {
   Followed result;
   if (placed.size() != last.size()) result.blend_ns = kAbruptBlend_ns;
   result.instances.reserve(placed.size());
@@ -352,7 +361,7 @@ Followed followOn(const std::vector<PlacedShape>& placed, std::span<const Instan
   for (const PlacedShape* now : pointersByKey(placed)) {
     at = std::find_if(at, last.end(), [&](const Instance* one) { return one->key >= now->key; });
     const Instance* const before = at != last.end() && (*at)->key == now->key ? *at : nullptr;
-    result.instances.push_back(follow(*now, before, begin_ns, end_ns));
+    result.instances.push_back(follow(*now, before, begin_ns, end_ns, memory, result));
     result.blend_ns = std::max(result.blend_ns, blendOf(before, result.instances.back(), *now));
   }
   return result;

@@ -145,12 +145,14 @@ class EditableScene {
 struct Followed {
   std::vector<Instance> instances;
   std::int64_t blend_ns = 0;  ///< for the next snapshot
+  std::size_t jumps = 0;      ///< meshes that would bend, had they the memory for it
 };
 
 /// The instances of the next snapshot, from those of this client in the last one, both by rising key: what was there
 /// moves from where it is at `begin_ns` to its new place until `end_ns`; what is new, or all when end_ns <= begin_ns,
 /// is there at once. What bends gets there in the same time, or in kAbruptBlend_ns; from where it is bent to already.
+/// What it needs for that is counted against `memory`; a mesh for which there is no room is there at once.
 Followed followOn(const std::vector<PlacedShape>& placed, std::span<const Instance* const> last, std::int64_t begin_ns,
-                  std::int64_t end_ns);
+                  std::int64_t end_ns, const MemoryBudget& memory = {});
 
 }  // namespace hl

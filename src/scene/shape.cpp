@@ -189,9 +189,8 @@ std::shared_ptr<const Shape> withTree(const Shape& shape, const WideBvh& tree) {
   return made;
 }
 
-std::shared_ptr<const Shape> shapeOfElements(const Model& model, std::vector<std::uint32_t> elements,
-                                             const WideBvh* tree) {
-  const auto made = shapeOf(model);
+std::shared_ptr<const Shape> shapeOfElements(Model model, std::vector<std::uint32_t> elements, const WideBvh* tree) {
+  const auto made = shapeOf(std::move(model));
   made->primitives = Primitives(viewOf(made->model), std::move(elements));
   made->material_of = materialsOf(made->model, made->primitives);
   made->index = std::make_unique<const WideBvh>(tree != nullptr ? tree->refit(made->primitives)

@@ -62,12 +62,11 @@ bool isSameMesh(const Shape& a, const Shape& b);
 /// refitted: that is nine times as fast as building it. Else it is built, of the same kind.
 std::shared_ptr<const Shape> makeShape(Model given, const Shape& before);
 
-/// For a mesh on its way (bending.h): the same mesh with the same vertices under another tree, refitted; `shape` is
+/// For a mesh on its way (bend.h): the same mesh with the same vertices under another tree, refitted; `shape` is
 /// numbered as what the tree was built for. And a shape of some elements alone, as Primitives has them, under that
 /// tree, or under a new one where there is none. Allocate.
 std::shared_ptr<const Shape> withTree(const Shape& shape, const WideBvh& tree);
-std::shared_ptr<const Shape> shapeOfElements(const Model& model, std::vector<std::uint32_t> elements,
-                                             const WideBvh* tree);
+std::shared_ptr<const Shape> shapeOfElements(Model model, std::vector<std::uint32_t> elements, const WideBvh* tree);
 
 MeshView viewOf(const Model& model);
 /// Numbers of the vertices of a primitive, in the order given; the last is repeated where there are fewer than three.

@@ -23,6 +23,11 @@ constexpr double kMakingMargin = 1.5;  // of the time that the scene before took
 constexpr std::int64_t kLongestMove_ns = 100'000'000;
 constexpr auto kLoopPoll = std::chrono::microseconds(200);
 
+std::string jumpWarning(std::size_t meshes) {
+  return std::to_string(meshes) +
+         " meshes are where they are to be at once: there is no room in the server's memory for what bends them";
+}
+
 }  // namespace
 
 class ScenePublisher::Place {
@@ -77,6 +82,7 @@ struct ScenePublisher::Part {
   PlacedShapes placed;  // null: as it is
   std::int64_t move_ns;
   std::size_t frames;                  // of the place's ready ones
+  std::size_t jumps;                   // Followed::jumps
   std::vector<const Instance*> shown;  // of the place, in the next scene
 };
 
@@ -302,7 +308,7 @@ std::vector<ScenePublisher::Part> ScenePublisher::takeParts() {
   parts.reserve(places_.size());  // from here on nothing is thrown
   for (const auto& place : places_)
     parts.push_back(
-        {place, place->removed_, std::exchange(place->placed_, nullptr), place->move_ns_, place->ready_.size(), {}});
+        {place, place->removed_, std::exchange(place->placed_, nullptr), place->move_ns_, place->ready_.size(), 0, {}});
   dirty_ = false;
   return parts;
 }
@@ -317,18 +323,19 @@ void ScenePublisher::giveBack(std::vector<Part>& parts) {
 }
 
 // What all clients have in the world from `begin_ns` on; returns Snapshot::blend_ns.
-std::int64_t ScenePublisher::assemble(const std::vector<Part>& parts, std::int64_t begin_ns,
+std::int64_t ScenePublisher::assemble(std::vector<Part>& parts, std::int64_t begin_ns,
                                       std::vector<Instance>& instances) const {
   std::int64_t blend_ns = 0;
   std::size_t count = base_->instances.size();
   for (const Part& part : parts) count += part.placed ? part.placed->size() : part.place->shown_.size();
   instances.reserve(count);
   instances = base_->instances;
-  for (const auto& [place, gone, placed, move_ns, frames, shown] : parts) {
+  for (auto& [place, gone, placed, move_ns, frames, jumps, shown] : parts) {
     if (gone) {
       if (!place->shown_.empty()) blend_ns = std::max(blend_ns, kAbruptBlend_ns);
     } else if (placed) {
-      Followed next = followOn(*placed, place->shown_, begin_ns, begin_ns + move_ns);
+      Followed next = followOn(*placed, place->shown_, begin_ns, begin_ns + move_ns, place->memory_);
+      jumps = next.jumps;
       blend_ns = std::max(blend_ns, next.blend_ns);
       std::move(next.instances.begin(), next.instances.end(), std::back_inserter(instances));
     } else {
@@ -356,7 +363,7 @@ std::shared_ptr<const Snapshot> keeping(std::vector<PlacedShapes> lists, std::sh
 }  // namespace
 
 // Made before its motions begin: if it takes too long for that, once more.
-std::shared_ptr<const Snapshot> ScenePublisher::makeNext(const std::vector<Part>& parts) {
+std::shared_ptr<const Snapshot> ScenePublisher::makeNext(std::vector<Part>& parts) {
   std::shared_ptr<const Snapshot> next;
   double margin = kMakingMargin;
   for (int i = 0; i < kLeadTries; ++i, margin *= 2) {
@@ -425,8 +432,11 @@ void ScenePublisher::tellShown(const Part& part) {
     const Place::Ready frame = std::move(place.ready_.front());
     place.ready_.pop_front();
     lock.unlock();
+    const bool last = i + 1 == part.frames;
     tell([&] {
-      place.tell([&](FrameCallbacks& callbacks) { callbacks.shown(frame.number, primitives, frame.warnings); });
+      std::vector<std::string> warnings = frame.warnings;
+      if (last && part.jumps > 0) warnings.push_back(jumpWarning(part.jumps));
+      place.tell([&](FrameCallbacks& callbacks) { callbacks.shown(frame.number, primitives, warnings); });
     });
   }
 }

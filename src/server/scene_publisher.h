@@ -90,8 +90,8 @@ class ScenePublisher {
   bool waitForLoops();
   std::vector<Part> takeParts();
   void giveBack(std::vector<Part>& parts);
-  std::int64_t assemble(const std::vector<Part>& parts, std::int64_t begin_ns, std::vector<Instance>& instances) const;
-  std::shared_ptr<const Snapshot> makeNext(const std::vector<Part>& parts);
+  std::int64_t assemble(std::vector<Part>& parts, std::int64_t begin_ns, std::vector<Instance>& instances) const;
+  std::shared_ptr<const Snapshot> makeNext(std::vector<Part>& parts);
   void publish();
   static void listShown(const Snapshot& next, std::vector<Part>& parts);
   void show(const std::shared_ptr<const Snapshot>& next, std::vector<Part>& parts) noexcept;
