@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "base/error.h"
@@ -25,6 +26,11 @@ constexpr std::size_t kMoved_bytes = 512;     // of one item whose vertices move
 void checkName(const std::string& name, const std::string& where) {
   if (name.size() > kMostName_bytes)
     throw Error(where + ": the name of a texture has at most " + std::to_string(kMostName_bytes) + " bytes");
+}
+
+// Messages name things as the client does: by the numbers of its objects and the names of its textures.
+std::string pathOfItems(std::uint32_t object) {
+  return object == 0 ? "world.items" : "object " + std::to_string(object) + ", items";
 }
 
 // What decoding it and building its shape takes.
@@ -92,12 +98,15 @@ class FrameDecoder {
   void addTextures();
   void addObjects();
   const SceneItems* itemsBefore(std::uint32_t object) const { return before_ ? before_(object) : nullptr; }
+  bool isThere(std::uint32_t object) const;
+  void warn(const std::string& where, const std::string& what);
+  void warnOfCalls();
   void addMoved();
   SceneItem& itemToMove(const proto::VertexUpdate& in, const std::string& where);
   void move(const proto::VertexUpdate& in, Model& model, const std::string& where);
   std::shared_ptr<const Shape> noted(std::shared_ptr<const Shape> shape, const std::string& where);
   std::shared_ptr<SceneItems> itemsOf(const google::protobuf::RepeatedPtrField<proto::Item>& items,
-                                      std::uint32_t object, const std::string& where);
+                                      std::uint32_t object);
   SceneItem itemOf(const proto::Item& in, const Shape* before, const std::string& where);
   static std::shared_ptr<const Placement> placementOf(const proto::Item& in, const std::string& where);
   std::shared_ptr<const SurfaceChange> surfaceOf(const proto::Item& in, const std::string& where) const;
@@ -115,7 +124,8 @@ class FrameDecoder {
   const ItemsBefore& before_;
   const SceneDecoder decoder_;
   DecodedFrame result_;
-  ModelSizes size_;  // each item makes a shape of its own, even if all refer to one upload
+  ModelSizes size_;                  // each item makes a shape of its own, even if all refer to one upload
+  std::set<std::uint32_t> deleted_;  // numbers of objects
   std::size_t more_warnings_ = 0;
   double items_ = 1, built_ = 0;
 };
@@ -128,33 +138,35 @@ void FrameDecoder::countItems() {
 void FrameDecoder::addTextures() {
   std::size_t room = limits_.texture_bytes / sizeof(float);  // a few bytes can ask for millions of texels
   for (int i = 0; i < frame_.textures_size(); ++i) {
-    const std::string where = pathOf("textures", i);
-    checkName(frame_.textures(i).name(), where);
+    const std::string& given = frame_.textures(i).name();
+    checkName(given, pathOf("textures", i));
+    const std::string where = given.empty() ? pathOf("textures", i) : "texture '" + given + "'";
     MemoryShare memory(memory_);
     memory.take(kObject_bytes + sizeof(float) * std::min<std::uint64_t>(room, texelsOf(frame_.textures(i))));
     auto texture = std::make_shared<const Texture>(decoder_.texture(frame_.textures(i), room, where));
     room -= texture->texels.size();
     const std::string name = texture->name;
     if (!result_.edit.textures.emplace(name, withShare(std::move(texture), std::move(memory))).second)
-      throw Error(where + ": there are two textures of the name '" + name + "'");
+      throw Error(where + " is there twice");
   }
   result_.edit.deleted_textures.assign(frame_.deleted_textures().begin(), frame_.deleted_textures().end());
 }
 
 void FrameDecoder::addObjects() {
   for (int i = 0; i < frame_.objects_size(); ++i) {
-    const std::string where = pathOf("objects", i);
     const proto::ObjectDefinition& object = frame_.objects(i);
-    if (object.id() == 0) throw Error(where + ".id must not be 0");
-    if (!result_.edit.objects.emplace(object.id(), itemsOf(object.items(), object.id(), where)).second)
-      throw Error(where + ": there are two objects of the id " + std::to_string(object.id()));
+    if (object.id() == 0) throw Error(pathOf("objects", i) + ".id must not be 0");
+    if (!result_.edit.objects.emplace(object.id(), itemsOf(object.items(), object.id())).second)
+      throw Error("object " + std::to_string(object.id()) + " is there twice");
   }
   result_.edit.deleted_objects.assign(frame_.deleted_objects().begin(), frame_.deleted_objects().end());
-  if (frame_.has_world()) result_.edit.world = itemsOf(frame_.world().items(), 0, "world");
+  deleted_.insert(frame_.deleted_objects().begin(), frame_.deleted_objects().end());
+  if (frame_.has_world()) result_.edit.world = itemsOf(frame_.world().items(), 0);
 }
 
 std::shared_ptr<SceneItems> FrameDecoder::itemsOf(const google::protobuf::RepeatedPtrField<proto::Item>& items,
-                                                  std::uint32_t object, const std::string& where) {
+                                                  std::uint32_t object) {
+  const std::string where = pathOfItems(object);
   const SceneItems* const before = itemsBefore(object);
   const auto count = static_cast<std::size_t>(items.size());
   MemoryShare memory(memory_);
@@ -163,8 +175,8 @@ std::shared_ptr<SceneItems> FrameDecoder::itemsOf(const google::protobuf::Repeat
   result->reserve(count);
   for (int i = 0; i < items.size(); ++i) {
     const bool known = before != nullptr && result->size() < before->size();
-    result->push_back(
-        itemOf(items[i], known ? before->at(result->size()).shape.get() : nullptr, pathOf(where + ".items", i)));
+    const Shape* const shape = known ? before->at(result->size()).shape.get() : nullptr;
+    result->push_back(itemOf(items[i], shape, pathOf(where, i)));
     memory.take(bytesApart(result->back()));
     progress_(++built_ / items_);
   }
@@ -176,12 +188,13 @@ SceneItem FrameDecoder::itemOf(const proto::Item& in, const Shape* before, const
   item.placement = placementOf(in, where + ".matrix");
   item.surface = surfaceOf(in, where + ".material");
   if (in.has_name()) item.name = in.name();
+  const std::string named = in.name() == 0 ? where : where + ", named " + std::to_string(in.name());
   switch (in.what_case()) {
     case proto::Item::kPrimitives:
-      item.shape = shapeOf(in.primitives(), in.material(), before, where + ".primitives");
+      item.shape = noted(shapeOf(in.primitives(), in.material(), before, where + ".primitives"), named);
       return item;
     case proto::Item::kUpload:
-      item.shape = shapeOf(upload(in.upload(), where), in.material(), before, where + ".upload");
+      item.shape = noted(shapeOf(upload(in.upload(), where), in.material(), before, where + ".upload"), named);
       return item;
     case proto::Item::kCall:
       if (in.call() == 0) throw Error(where + ".call must not be 0");
@@ -227,37 +240,51 @@ std::shared_ptr<const Placement> FrameDecoder::placementOf(const proto::Item& in
 std::shared_ptr<const Shape> FrameDecoder::shapeOf(const proto::Primitives& in, const proto::Material& material,
                                                    const Shape* before, const std::string& where) {
   const auto repeat = [](bool has, double value) { return has && std::isfinite(value) ? value : 1; };
-  return noted(makeCounted(memory_, bytesToBuild(in),
-                           [&] {
-                             Model model = decoder_.model(in, where);
-                             size_.add(model, where + ": ");
-                             repeatTexcoords(model, repeat(material.has_repeat_u(), material.repeat_u()),
-                                             repeat(material.has_repeat_v(), material.repeat_v()));
-                             return before != nullptr ? makeShape(std::move(model), *before)
-                                                      : makeShape(std::move(model));
-                           }),
-               where);
+  return makeCounted(memory_, bytesToBuild(in), [&] {
+    Model model = decoder_.model(in, where);
+    size_.add(model, where + ": ");
+    repeatTexcoords(model, repeat(material.has_repeat_u(), material.repeat_u()),
+                    repeat(material.has_repeat_v(), material.repeat_v()));
+    return before != nullptr ? makeShape(std::move(model), *before) : makeShape(std::move(model));
+  });
 }
 
 std::shared_ptr<const Shape> FrameDecoder::noted(std::shared_ptr<const Shape> shape, const std::string& where) {
   if (shape->before != 0) ++result_.refits;
-  for (const std::string& warning : shape->warnings) {
-    const bool room = result_.warnings.size() < kMostWarnings;
-    room ? result_.warnings.push_back(where + ": " + warning) : void(++more_warnings_);
-  }
+  for (const std::string& warning : shape->warnings) warn(where, warning);
   return shape;
+}
+
+void FrameDecoder::warn(const std::string& where, const std::string& what) {
+  const bool room = result_.warnings.size() < kMostWarnings;
+  room ? result_.warnings.push_back(where + ": " + what) : void(++more_warnings_);
+}
+
+// When the frame is shown.
+bool FrameDecoder::isThere(std::uint32_t object) const {
+  return result_.edit.objects.contains(object) || (!deleted_.contains(object) && itemsBefore(object) != nullptr);
+}
+
+// Of what is not there yet: it may come with a later frame, or be a mistake.
+void FrameDecoder::warnOfCalls() {
+  const auto look = [this](std::uint32_t object, const SceneItems& items) {
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      if (items[i].shape || isThere(items[i].call)) continue;
+      warn(pathOf(pathOfItems(object), static_cast<int>(i)),
+           "there is no object " + std::to_string(items[i].call) + " to call: nothing can be touched there");
+    }
+  };
+  for (const auto& [object, items] : result_.edit.objects) look(object, *items);
+  if (result_.edit.world) look(0, *result_.edit.world);
 }
 
 // In the edit; the other items of an object that is only moved stay as they were.
 SceneItem& FrameDecoder::itemToMove(const proto::VertexUpdate& in, const std::string& where) {
-  const auto& deleted = result_.edit.deleted_objects;
+  if (in.object() == 0 || !isThere(in.object()))
+    throw Error(where + ": there is no object " + std::to_string(in.object()));
   auto found = result_.edit.objects.find(in.object());
-  if (found == result_.edit.objects.end()) {
-    const bool gone = in.object() == 0 || std::find(deleted.begin(), deleted.end(), in.object()) != deleted.end();
-    const SceneItems* const before = gone ? nullptr : itemsBefore(in.object());
-    if (before == nullptr) throw Error(where + ": there is no object " + std::to_string(in.object()));
-    found = result_.edit.objects.emplace(in.object(), copyOf(*before, memory_)).first;
-  }
+  if (found == result_.edit.objects.end())
+    found = result_.edit.objects.emplace(in.object(), copyOf(*itemsBefore(in.object()), memory_)).first;
   SceneItems& items = *found->second;
   if (in.item() >= items.size() || !items[in.item()].shape)
     throw Error(where + ": item " + std::to_string(in.item()) + " of object " + std::to_string(in.object()) +
@@ -290,7 +317,6 @@ void FrameDecoder::addMoved() {
     SceneItem* item;
     Model model;
     MemoryShare memory;
-    std::string where;
   };
   std::map<std::pair<std::uint32_t, std::uint32_t>, Moved> all;
   for (int i = 0; i < frame_.moved_size(); ++i) {
@@ -301,7 +327,7 @@ void FrameDecoder::addMoved() {
       SceneItem& item = itemToMove(in, where);
       MemoryShare memory(memory_);
       memory.take(kMoved_bytes + bytesToMake(item.shape->model));
-      Moved moved{&item, item.shape->model, std::move(memory), where};
+      Moved moved{&item, item.shape->model, std::move(memory)};
       place = all.emplace(std::pair(in.object(), in.item()), std::move(moved)).first;
     }
     move(in, place->second.model, where);
@@ -310,7 +336,8 @@ void FrameDecoder::addMoved() {
     const auto before = moved.item->shape;
     const auto shape = makeShape(std::move(moved.model), *before);
     moved.memory.set(shape->bytes());
-    moved.item->shape = noted(withShare(shape, std::move(moved.memory)), moved.where);
+    const std::string where = pathOf(pathOfItems(key.first), static_cast<int>(key.second));
+    moved.item->shape = noted(withShare(shape, std::move(moved.memory)), where);
   }
 }
 
@@ -318,8 +345,10 @@ DecodedFrame FrameDecoder::run() {
   countItems();
   const int deleted = frame_.deleted_textures_size() + frame_.deleted_objects_size();
   result_.memory.take(kDeleted_bytes * static_cast<std::uint64_t>(deleted));
+  if (frame_.has_interval_s() && !(frame_.interval_s() >= 0)) throw Error("interval_s must not be below 0");
   addTextures();
   addObjects();
+  warnOfCalls();
   addMoved();
   if (more_warnings_ > 0)
     result_.warnings.push_back("and " + std::to_string(more_warnings_) + " more lines about what was skipped");

@@ -47,9 +47,10 @@ websocket::close_reason closeReason(close_code code, const std::string& text) {
   return {code, beast::string_view(text.data(), end)};
 }
 
-proto::ServerReply fatalRefusal(const std::string& text) {
+proto::ServerReply fatalRefusal(const std::string& text, std::uint64_t frame) {
   proto::ServerReply reply;
   reply.mutable_refusal()->set_text(text);
+  reply.mutable_refusal()->set_frame(frame);
   reply.mutable_refusal()->set_fatal(true);
   return reply;
 }
@@ -258,8 +259,9 @@ std::optional<HlCarrier::Ending> HlCarrier::handle(MessageForm form, std::string
   try {
     proto::ClientMessage message;
     MemoryShare memory(memory_);
-    auto [fault, no_room] = decodeMessage(form, bytes, message, memory);
-    if (!fault.empty()) return Ending{close_code::bad_payload, std::move(fault), true, RefusedBecause::kMalformed};
+    auto [fault, no_room, frame] = decodeMessage(form, bytes, message, memory);
+    if (!fault.empty())
+      return Ending{close_code::bad_payload, std::move(fault), true, RefusedBecause::kMalformed, frame};
     if (!session_) return open(form, std::move(message));
     if (!no_room.empty()) {
       session_->refuse(message, no_room);
@@ -357,7 +359,7 @@ asio::awaitable<void> HlCarrier::sayGoodbye(const Ending& ending) {
   if (ending.refusal) {
     world_.traffic.refuse(ending.because);
     logEvent(LogLevel::kWarning, "refused", {{"peer", connection_->peer}, {"reason", ending.text}});
-    const std::string bytes = encodeReply(form_, fatalRefusal(ending.text));
+    const std::string bytes = encodeReply(form_, fatalRefusal(ending.text, ending.frame));
     const bool sent = co_await writeMessage(form_, bytes);
     if (!sent) co_return;
   }

@@ -65,6 +65,7 @@ class HlCarrier : public std::enable_shared_from_this<HlCarrier> {
     std::string text;
     bool refusal = false;  // the text is also sent as a fatal Refusal
     RefusedBecause because = RefusedBecause::kFailed;
+    std::uint64_t frame = 0;  // that the text is about, if it is one
   };
   // A message on its way in, or the beginning of one that there is no memory for.
   struct Incoming {

@@ -30,6 +30,27 @@ std::string plain(std::string name) {
   return name;
 }
 
+Vec3 vecOf(const proto::Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+Workspace workspaceOf(const proto::DeviceSettings& settings) {
+  return {vecOf(settings.workspace().origin()), settings.workspace().world_per_device()};
+}
+
+// What cannot be set, or empty.
+std::string faultOf(const proto::DeviceSettings& settings, bool has_hand) {
+  if (settings.has_workspace() && !workspaceOf(settings).valid())
+    return "world_per_device must be 1e-9 to 1e9, and the origin within 1e9 m";
+  if (settings.has_proxy_radius() && !Workspace::validRadius(settings.proxy_radius()))
+    return "proxy_radius must be 1e-12 to 1e9 m";
+  if (settings.has_stiffness_n_m() && !(settings.stiffness_n_m() >= 0)) return "stiffness_N_m must not be below 0";
+  if (settings.has_ledger() && !proto::LedgerMode_IsValid(settings.ledger()))
+    return "ledger must be TANK, STRICT or REPORT";
+  if (settings.has_hand_goal() && !has_hand) return "a person holds the device; only a simulated hand can be moved";
+  if (settings.has_hand_goal() && !vecOf(settings.hand_goal().position()).allFinite())
+    return "hand_goal.position must hold finite numbers";
+  return "";
+}
+
 }  // namespace
 
 HlSession::HlSession(TouchServer& server, std::uint32_t number, std::string peer, WakeCarrier wake)
@@ -168,7 +189,9 @@ Uploads HlSession::takeUploads(const proto::Frame& frame, MemoryShare& memory) {
 void HlSession::submit(proto::Frame frame) {
   const std::uint64_t number = frame.number();
   if (number <= last_frame_)
-    return refuse("frames must have rising numbers; the last was " + std::to_string(last_frame_), number);
+    return refuse("frames must have rising numbers; the last was " + std::to_string(last_frame_) +
+                      (number == 0 ? ", and this one has none" : ""),
+                  number);
   last_frame_ = number;
   if (!frame_rate_.allow(monotonicNow_ns())) return refuse("frames come faster than the server's limit", number);
   if (server_.publisher_.waiting(place_) >= kMostWaitingFrames)
@@ -183,31 +206,25 @@ void HlSession::submit(proto::Frame frame) {
   server_.publisher_.submit(place_, std::move(frame), std::move(uploads), std::move(memory));
 }
 
+// Nothing of them is set when one is wrong.
 void HlSession::setDevice(const proto::DeviceSettings& settings) {
-  if (!master_) return refuse("another client is the device's master");
   TouchSession& device = server_.device(device_);
-  const proto::Vec3& o = settings.workspace().origin();
-  const Workspace workspace{Vec3(o.x(), o.y(), o.z()), settings.workspace().world_per_device()};
-  if (settings.has_workspace() && !workspace.valid())
-    return refuse("world_per_device must be 1e-9 to 1e9, and the origin within 1e9 m");
-  if (settings.has_proxy_radius() && !Workspace::validRadius(settings.proxy_radius()))
-    return refuse("proxy_radius must be 1e-12 to 1e9 m");
-  if (settings.has_hand_goal() && !device.hasHand())
-    return refuse("a person holds the device; only a simulated hand can be moved");
-  if (settings.has_workspace()) device.setWorkspace(workspace);
+  if (!master_)
+    return refuse(server_.hasMaster(device_) ? "another client is the device's master"
+                                             : "only the device's master sets it, and there is none: the first client "
+                                               "whose Open says master is");
+  if (const std::string fault = faultOf(settings, device.hasHand()); !fault.empty()) return refuse(fault);
+  if (settings.has_workspace()) device.setWorkspace(workspaceOf(settings));
   if (settings.has_proxy_radius()) device.setRadius(settings.proxy_radius());
   if (settings.has_stiffness_n_m()) device.setStiffness(settings.stiffness_n_m());
-  if (settings.has_ledger() && proto::LedgerMode_IsValid(settings.ledger()))
-    device.setLedger(static_cast<LedgerMode>(settings.ledger()));
+  if (settings.has_ledger()) device.setLedger(static_cast<LedgerMode>(settings.ledger()));
   if (settings.rearm()) device.rearm();
-  if (settings.has_hand_goal()) {
-    const proto::Vec3& p = settings.hand_goal().position();
-    device.setHandGoal(Vec3(p.x(), p.y(), p.z()));
-  }
+  if (settings.has_hand_goal()) device.setHandGoal(vecOf(settings.hand_goal().position()));
 }
 
 void HlSession::setStateRate(double rate_Hz) {
-  if (!(rate_Hz > 0)) {
+  if (!(rate_Hz >= 0)) return refuse("state_rate_Hz must not be below 0");
+  if (rate_Hz == 0) {
     state_period_s_ = 0;
     return;
   }

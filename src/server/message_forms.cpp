@@ -3,6 +3,9 @@
 #include <google/protobuf/util/json_util.h>
 #include <google/protobuf/util/type_resolver_util.h>
 
+#include <boost/json/parse.hpp>
+#include <boost/json/value.hpp>
+#include <charconv>
 #include <climits>
 #include <memory>
 #include <utility>
@@ -43,6 +46,21 @@ std::string toBinary(std::string_view text, std::string& binary) {
   return status.ok() ? "" : oneLine("the text message is not a ClientMessage in JSON: " + status.ToString());
 }
 
+// Of a text that is JSON but no message; 0 where it has none. A number of 64 bits may be written as a string.
+std::uint64_t frameNumberIn(std::string_view text) {
+  boost::json::error_code error;
+  const boost::json::value message = boost::json::parse({text.data(), text.size()}, error);
+  if (error) return 0;
+  const boost::json::value* const number = message.find_pointer("/frame/number", error);
+  if (number == nullptr) return 0;
+  if (const std::int64_t* const value = number->if_int64()) return *value < 0 ? 0 : static_cast<std::uint64_t>(*value);
+  if (const std::uint64_t* const value = number->if_uint64()) return *value;
+  std::uint64_t value = 0;
+  if (const boost::json::string* const digits = number->if_string())
+    std::from_chars(digits->data(), digits->data() + digits->size(), value);
+  return value;
+}
+
 }  // namespace
 
 Decoding decodeMessage(MessageForm form, std::string_view bytes, proto::ClientMessage& message, MemoryShare& memory) {
@@ -51,7 +69,10 @@ Decoding decodeMessage(MessageForm form, std::string_view bytes, proto::ClientMe
   try {
     if (form == MessageForm::kJson) {
       memory.take(kOfText * bytes.size());
-      if (std::string fault = toBinary(bytes, binary); !fault.empty()) return {std::move(fault), ""};
+      if (std::string fault = toBinary(bytes, binary); !fault.empty()) {
+        const std::uint64_t frame = frameNumberIn(bytes);
+        return {.fault = std::move(fault), .no_room = "", .frame = frame};
+      }
       bytes = binary;
     }
     memory.take(bytesToDecode(bytes));

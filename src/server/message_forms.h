@@ -16,8 +16,9 @@ enum class MessageForm : std::uint8_t { kBinary, kJson };
 
 /// Why a message could not be decoded, each in one line, or empty.
 struct Decoding {
-  std::string fault;    ///< it is none
-  std::string no_room;  ///< there is no memory for it: then the message is its outline
+  std::string fault;        ///< it is none
+  std::string no_room;      ///< there is no memory for it: then the message is its outline
+  std::uint64_t frame = 0;  ///< number of the frame that has the fault, where it can be told
 };
 
 /// Decodes `bytes` into `message`; what both take, and the decoding, is counted in `memory` before. Any thread.

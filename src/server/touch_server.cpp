@@ -85,6 +85,11 @@ bool TouchServer::becomeMaster(std::uint32_t device, std::uint32_t session) {
   return masters_[device] == session;
 }
 
+bool TouchServer::hasMaster(std::uint32_t device) const {
+  const std::lock_guard lock(mutex_);
+  return masters_[device] != 0;
+}
+
 void TouchServer::leave(HlSession& session) {
   const std::lock_guard lock(mutex_);
   std::erase(sessions_, &session);

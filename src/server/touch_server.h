@@ -51,6 +51,7 @@ class TouchServer final : public SessionHost {
 
   // A role that one session at a time has.
   bool becomeMaster(std::uint32_t device, std::uint32_t session);
+  bool hasMaster(std::uint32_t device) const;
   void leave(HlSession& session);
   // Objects whose client has gone and wanted them to stay. Of a name there are those of the client that left last; when
   // there are too many, those that have been kept longest go.

@@ -6,6 +6,7 @@
 
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "server/message_forms.h"
@@ -43,7 +44,7 @@ TEST(DecodeFrame, TexturesShareTheRoomThereIs) {
   addTexture(frame, "b", 6);
   EXPECT_EQ(refusalOf(frame), "accepted");
   addTexture(frame, "c", 4);
-  EXPECT_EQ(refusalOf(frame), "textures[2].procedural.size of 4 is too large: there is room for 12 texels");
+  EXPECT_EQ(refusalOf(frame), "texture 'c'.procedural.size of 4 is too large: there is room for 12 texels");
 }
 
 // An upload with no element: each item that refers to it would keep all of its vertices.
@@ -196,6 +197,80 @@ TEST(MessageSize, AMessageThatHasNoRoomIsKnownByItsOutline) {
   EXPECT_NE(decoding.no_room, "");
   EXPECT_EQ(decoded.frame().number(), 77U);
   EXPECT_EQ(decoded.frame().world().items_size(), 0);
+}
+
+// ---- What a client is told
+// -------------------------------------------------------------------------------------------
+
+std::vector<std::string> warningsOf(const proto::Frame& frame, const ItemsBefore& before = {}) {
+  Uploads none;
+  return decodeFrame(
+             frame, none, smallLimits(), {}, [](double) {}, before)
+      .warnings;
+}
+
+// A triangle, and one without extent.
+void addTriangles(proto::Item& item) {
+  for (const double x : {0, 0, 0, 1, 0, 0, 0, 1, 0}) item.mutable_primitives()->add_vertices(x);
+  for (const std::uint32_t i : {0u, 1u, 2u, 0u, 0u, 1u}) item.mutable_primitives()->add_triangles(i);
+}
+
+TEST(DecodeFrame, WarningsNameObjectsByTheirNumbersAndNames) {
+  proto::Frame frame;
+  frame.add_objects()->set_id(3);
+  proto::ObjectDefinition& object = *frame.add_objects();
+  object.set_id(77);
+  addTriangles(*object.add_items());
+  addTriangles(*object.add_items());
+  object.mutable_items(1)->set_name(5);
+  addTriangles(*frame.mutable_world()->add_items());
+  const std::string what = ": skipped 1 triangles that are degenerate, not finite or beyond 1e9 m";
+  EXPECT_EQ(warningsOf(frame),
+            (std::vector<std::string>{"object 77, items[0]" + what, "object 77, items[1], named 5" + what,
+                                      "world.items[0]" + what}));
+}
+
+TEST(DecodeFrame, FaultsNameObjectsByTheirNumbers) {
+  proto::Frame frame;
+  frame.add_objects()->set_id(3);
+  proto::ObjectDefinition& object = *frame.add_objects();
+  object.set_id(77);
+  object.add_items();
+  EXPECT_EQ(refusalOf(frame), "object 77, items[0]: an item needs primitives, an upload or a call");
+  object.clear_items();
+  addTriangles(*object.add_items());
+  object.mutable_items(0)->add_matrix(1);
+  EXPECT_EQ(refusalOf(frame), "object 77, items[0].matrix must hold 16 numbers, column by column");
+  object.set_id(3);
+  object.clear_items();
+  EXPECT_EQ(refusalOf(frame), "object 3 is there twice");
+}
+
+TEST(DecodeFrame, ACallOfWhatIsNotThereIsToldAndShown) {
+  const SceneItems none;
+  const ItemsBefore before = [&](std::uint32_t object) { return object == 6 ? &none : nullptr; };
+  proto::Frame frame;
+  proto::World& world = *frame.mutable_world();
+  for (const std::uint32_t object : {9u, 8u, 6u}) world.add_items()->set_call(object);
+  frame.add_objects()->set_id(8);
+  frame.mutable_objects(0)->add_items()->set_call(7);
+  const std::string what = " to call: nothing can be touched there";
+  EXPECT_EQ(warningsOf(frame, before), (std::vector<std::string>{"object 8, items[0]: there is no object 7" + what,
+                                                                 "world.items[0]: there is no object 9" + what}));
+  frame.add_deleted_objects(6);
+  EXPECT_EQ(warningsOf(frame, before).back(), "world.items[2]: there is no object 6" + what);
+  frame.add_objects()->set_id(6);
+  EXPECT_EQ(warningsOf(frame, before).size(), 2U) << "deleted, and defined anew";
+}
+
+TEST(DecodeFrame, ATimeThatIsNoneIsRefused) {
+  proto::Frame frame;
+  for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    frame.set_interval_s(bad);
+    EXPECT_EQ(refusalOf(frame), "interval_s must not be below 0");
+  }
+  frame.set_interval_s(0);
+  EXPECT_EQ(refusalOf(frame), "accepted");
 }
 
 }  // namespace

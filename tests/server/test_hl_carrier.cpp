@@ -124,6 +124,26 @@ TEST(HlCarrier, GarbageEndsItsSessionWithAReason) {
   EXPECT_TRUE(good.isServed(1));
 }
 
+// A client that sends many frames ahead knows which one has the mistake.
+TEST(HlCarrier, AFrameThatIsNoMessageIsRefusedByItsNumber) {
+  Served served;
+  const auto refusedFrame = [&](const std::string& text) {
+    Welcomed client(served);
+    client.sendText(text);
+    std::uint64_t frame = 0;
+    while (const auto reply = client.next()) {
+      if (reply->refusal().fatal()) frame = reply->refusal().frame();
+    }
+    return frame;
+  };
+  EXPECT_EQ(refusedFrame(R"({"frame": {"number": 7, "worlds": {}}})"), 7U);
+  EXPECT_EQ(refusedFrame(R"({"frame": {"number": "18446744073709551615", "interval_s": "x"}})"), UINT64_MAX);
+  EXPECT_EQ(refusedFrame(R"({"frame": {"number": -7}})"), 0U);
+  EXPECT_EQ(refusedFrame(R"({"frame": [7]})"), 0U);
+  EXPECT_EQ(refusedFrame(R"({"call": 9})"), 0U);
+  EXPECT_EQ(refusedFrame(R"({"frame": {"number": 7)"), 0U) << "it is no JSON";
+}
+
 TEST(HlCarrier, AnEmptyMessageAndTextThatIsNoTextAreGarbageToo) {
   Served served;
   Welcomed empty(served);

@@ -322,7 +322,7 @@ TEST_F(TouchServerTest, ARefusedFrameChangesNothingAndTheNextIsShown) {
   client.send(bad);
   ASSERT_TRUE(client.until([&] { return client.refusal_.frame() == bad.number(); }));
   EXPECT_EQ(client.refusal_.text(),
-            "objects[0].items[0].primitives.triangles: there is no vertex 77; the last is 4 - 1");
+            "object 4, items[0].primitives.triangles: there is no vertex 77; the last is 4 - 1");
   EXPECT_FALSE(client.refusal_.fatal());
   EXPECT_EQ(server_.device().snapshot()->bounds.max.y(), 0);
   client.send(bad);
@@ -518,10 +518,39 @@ TEST_F(TouchServerTest, OneClientIsTheDevicesMasterUntilItLeaves) {
   EXPECT_FALSE(second.welcome_.master());
   second.handTo({0, 0, 0});
   ASSERT_TRUE(second.until([&] { return !second.refusal_.text().empty(); }));
+  EXPECT_EQ(second.refusal_.text(), "another client is the device's master");
   first.reset();
+  second.refusal_.Clear();
+  second.handTo({0, 0, 0});
+  ASSERT_TRUE(second.until([&] { return !second.refusal_.text().empty(); }));
+  EXPECT_NE(second.refusal_.text().find("there is none"), std::string::npos) << second.refusal_.text();
   Client third(server_);
   third.open("third");
   EXPECT_TRUE(third.welcome_.master());
+}
+
+TEST_F(TouchServerTest, SettingsThatAreNoneAreRefusedAndNothingOfThemIsSet) {
+  Client client(server_);
+  client.open();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto refusalOf = [&](const std::function<void(proto::ClientMessage&)>& set) {
+    proto::ClientMessage message;
+    set(message);
+    client.refusal_.Clear();
+    client.session_->receive(message);
+    EXPECT_TRUE(client.until([&] { return !client.refusal_.text().empty(); }));
+    return client.refusal_.text();
+  };
+  for (const double bad : {-1.0, nan}) {
+    EXPECT_EQ(refusalOf([&](auto& m) { m.mutable_device()->set_stiffness_n_m(bad); }),
+              "stiffness_N_m must not be below 0");
+    EXPECT_EQ(refusalOf([&](auto& m) { m.mutable_state_rate()->set_rate_hz(bad); }),
+              "state_rate_Hz must not be below 0");
+  }
+  EXPECT_EQ(refusalOf([](auto& m) { m.mutable_device()->set_ledger(static_cast<proto::LedgerMode>(9)); }),
+            "ledger must be TANK, STRICT or REPORT");
+  EXPECT_EQ(refusalOf([&](auto& m) { m.mutable_device()->mutable_hand_goal()->mutable_position()->set_x(nan); }),
+            "hand_goal.position must hold finite numbers");
 }
 
 TEST_F(TouchServerTest, ClientsOwnTheirObjectsAndTakeThemAlong) {
