@@ -264,6 +264,11 @@ HL_API void hlBindTexture(HLenum target, HLuint texture);
  * is bound. */
 HL_API void hlTexImage2D(HLenum target, HLint level, HLint internal_format, HLsizei width, HLsizei height, HLint border,
                          HLenum format, HLenum type, const void* texels);
+/** Gives a part of the bound texture's image other texels: those of the columns `x` .. `x + width - 1` and the rows `y`
+ * .. `y + height - 1`; else as hlTexImage2D. NULL: nothing happens. HL_INVALID_VALUE: they are not all within the
+ * image. HL_INVALID_OPERATION: no texture is bound, or it has no image. */
+HL_API void hlTexSubImage2D(HLenum target, HLint level, HLint x, HLint y, HLsizei width, HLsizei height, HLenum format,
+                            HLenum type, const void* texels);
 /** Sets HL_TEXTURE_WRAP or HL_TEXTURE_FILTER of the bound texture. HL_INVALID_OPERATION: no texture is bound. */
 HL_API void hlTexParameteri(HLenum target, HLenum parameter, HLint value);
 /** Sets HL_TEXTURE_QUANTITY (to HL_STIFFNESS .. HL_VISCOSITY or HL_HEIGHT) of the active unit. `target` HL_TEXTURE_ENV.

@@ -1,6 +1,8 @@
 // Textures: images, units, and what they modulate.
 #include <hl/hl.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -45,6 +47,12 @@ void requireImageSize(const HLcontext& context, HLsizei width, HLsizei height) {
     throw Fault(HL_OUT_OF_MEMORY, "the image has " + std::to_string(bytes) +
                                       " texels, more than a message that the server takes (" + std::to_string(most) +
                                       " bytes)");
+}
+
+void requireWithin(const Texture& texture, HLint x, HLint y, HLsizei width, HLsizei height) {
+  if (x < 0 || y < 0 || width < 0 || height < 0 || width > texture.width - x || height > texture.height - y)
+    throw Fault(HL_INVALID_VALUE, "the part must be within the image of " + std::to_string(texture.width) + " x " +
+                                      std::to_string(texture.height) + " texels");
 }
 
 void setParameter(Texture& texture, HLenum parameter, HLenum value) {
@@ -133,6 +141,24 @@ void hlTexImage2D(HLenum target, HLint level, HLint internal_format, HLsizei wid
     texture.width = width;
     texture.height = height;
     texture.texels = std::move(image);
+  });
+}
+
+void hlTexSubImage2D(HLenum target, HLint level, HLint x, HLint y, HLsizei width, HLsizei height, HLenum format,
+                     HLenum type, const void* texels) {
+  call(__func__, [&](HLcontext& context) {
+    requireTarget(target);
+    if (level != 0) throw Fault(HL_INVALID_VALUE, "the level must be 0");
+    if (format != HL_LUMINANCE) throw Fault(HL_INVALID_ENUM, "the format must be HL_LUMINANCE");
+    const HLuint bound = activeUse(context).texture;
+    if (!context.textures.hasImage(bound)) throw Fault(HL_INVALID_OPERATION, "no texture with an image is bound");
+    requireWithin(context.textures.image(bound), x, y, width, height);
+    const std::string part = hl::client::readTexels(width, height, type, texels);
+    if (texels == nullptr || part.empty()) return;
+    Texture& texture = changeBound(context);
+    for (HLsizei row = 0; row < height; ++row)
+      std::copy_n(part.begin() + std::ptrdiff_t{row} * width, width,
+                  texture.texels.begin() + (std::ptrdiff_t{y} + row) * texture.width + x);
   });
 }
 

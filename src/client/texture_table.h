@@ -30,6 +30,8 @@ class TextureTable {
   /// Unknown textures are ignored.
   void remove(HLuint texture);
   bool hasImage(HLuint texture) const;
+  /// There must be one.
+  const Texture& image(HLuint texture) const { return textures_.at(texture); }
   /// There must be one. Its image, if it has one, goes with the next changes.
   Texture& change(HLuint texture);
 

@@ -293,6 +293,35 @@ TEST_F(Textures, FloatTexelsAreClampedAndRounded) {
   EXPECT_EQ(flushed().textures(0).texels().values(), std::string("\0\0", 2));
 }
 
+TEST_F(Textures, APartOfAnImageIsChanged) {
+  hlBindTexture(HL_TEXTURE_2D, 1);
+  const HLubyte part[] = {1, 2, 3, 4};
+  const auto luminance = static_cast<HLint>(HL_LUMINANCE);
+  hlTexSubImage2D(HL_TEXTURE_2D, 0, 0, 0, 2, 2, HL_LUMINANCE, HL_UNSIGNED_BYTE, part);
+  expectError(HL_INVALID_OPERATION);
+  hlTexImage2D(HL_TEXTURE_2D, 0, luminance, 4, 3, 0, HL_LUMINANCE, HL_UNSIGNED_BYTE, nullptr);
+  flushed();
+  hlTexSubImage2D(HL_TEXTURE_2D, 0, 2, 1, 2, 2, HL_LUMINANCE, HL_UNSIGNED_BYTE, part);
+  EXPECT_EQ(flushed().textures(0).texels().values(), std::string("\0\0\0\0\0\0\1\2\0\0\3\4", 12));
+  const HLfloat one = 1;
+  hlTexSubImage2D(HL_TEXTURE_2D, 0, 0, 2, 1, 1, HL_LUMINANCE, HL_FLOAT, &one);
+  EXPECT_EQ(flushed().textures(0).texels().values(), std::string("\0\0\0\0\0\0\1\2\xff\0\3\4", 12));
+  for (const auto& [x, y, width, height] : std::vector<std::array<HLint, 4>>{{-1, 0, 1, 1},
+                                                                             {0, -1, 1, 1},
+                                                                             {3, 0, 2, 1},
+                                                                             {0, 2, 1, 2},
+                                                                             {0, 0, -1, 1},
+                                                                             {5, 0, 0, 1},
+                                                                             {2147483647, 0, 2, 1}})
+    hlTexSubImage2D(HL_TEXTURE_2D, 0, x, y, width, height, HL_LUMINANCE, HL_UNSIGNED_BYTE, part),
+        expectError(HL_INVALID_VALUE);
+  hlTexSubImage2D(HL_TEXTURE_2D, 1, 0, 0, 1, 1, HL_LUMINANCE, HL_UNSIGNED_BYTE, part), expectError(HL_INVALID_VALUE);
+  hlTexSubImage2D(HL_TEXTURE_2D, 0, 0, 0, 1, 1, HL_FLOAT, HL_UNSIGNED_BYTE, part), expectError(HL_INVALID_ENUM);
+  hlTexSubImage2D(HL_TEXTURE_2D, 0, 0, 0, 1, 1, HL_LUMINANCE, HL_DOUBLE, part), expectError(HL_INVALID_ENUM);
+  hlTexSubImage2D(HL_TEXTURE_2D, 0, 0, 0, 1, 1, HL_LUMINANCE, HL_UNSIGNED_BYTE, nullptr);
+  EXPECT_EQ(flushed().number(), 0U) << "nothing has changed";
+}
+
 TEST_F(Textures, EnabledUnitsReachTheItemHigherOnesFirst) {
   const HLuint texture = image();
   hlEnable(HL_TEXTURE_2D);
