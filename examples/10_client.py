@@ -15,7 +15,7 @@ SQUARE = {"vertices": [-.05, 0, -.05, .05, 0, -.05, .05, 0, .05, -.05, 0, .05], 
 
 
 async def touch(url):
-    async with websockets.connect(url) as server:
+    async with websockets.connect(url, max_queue=None) as server:
         await server.send(json.dumps({"open": {"protocol_version": 1, "client_name": "10_client", "state_rate_Hz": 10}}))
         square = {"primitives": SQUARE, "material": {"static_friction": 0.4, "dynamic_friction": 0.2}, "name": 7}
         await server.send(json.dumps({"frame": {"number": 1, "world": {"items": [square]}}}))
