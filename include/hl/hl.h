@@ -41,7 +41,7 @@ extern "C" {
 /** Opens a conversation with a haptic server; waits until the server has welcomed it. NULL when that fails:
  * hlGetConnectError says why. Does not make the context current. Any thread.
  *
- * `url`:  inproc:              a server inside this process, with the simulated device; all contexts share it
+ * `url`:  inproc:              a server inside this process, with a simulated device; all contexts share it
  *         hl://host[:port]     a server elsewhere; port 1997 when left out
  *         hls://host[:port]    the same through TLS
  * and after a '?', options joined by '&' (values percent-encoded):
@@ -53,6 +53,8 @@ extern "C" {
  *         state_rate=HZ    how often the state comes; default 60; 0: never
  *         timeout=SECONDS  how long to wait for the welcome; default 10
  *         ca=FILE          hls: certificates (PEM) that the server's is checked against; default: the system's
+ *         sim=MODEL        inproc: the model of the simulated device, as hl touch --device sim:MODEL has it; the first
+ *                          context says which, and another one that is open beside it may not want another
  * An unknown option is an error.
  *
  * The loops of inproc: ask for SCHED_FIFO. They leave the program's memory alone: one that wants them safe from paging
@@ -308,6 +310,8 @@ HL_API void hlLedger(HLenum mode);
 HL_API void hlRearm(void);
 /** Simulated devices: where the hand wants to be, m in the world. */
 HL_API void hlHandGoal3d(HLdouble x, HLdouble y, HLdouble z);
+/** Simulated devices: HL_GRIP_LIGHT or HL_GRIP_FIRM. */
+HL_API void hlHandGrip(HLenum grip);
 
 /* ---- Queries and events: from the last state taken; never wait --------------------------------------------------- */
 
@@ -323,6 +327,14 @@ HL_API void hlGetDoublev(HLenum name, HLdouble* values); /**< see hlGetBooleanv 
 HL_API HLsizei hlGetContacts(HLsizei most, HLcontact* contacts);
 /** How often the state comes from now on, Hz, 0 .. HL_MAX_STATE_RATE; 0: never. Not only for the master. */
 HL_API void hlStateRate(HLdouble rate);
+
+/** From now on the states bring what the device did between them, each step of the servo, and the context keeps the
+ * newest `most` of these samples; 0: none, as at first. Where states come seldom or are taken late some are left out:
+ * the server has the last 1024, a second at 1 kHz. Not only for the master. HL_INVALID_VALUE: most < 0. */
+HL_API void hlKeepSamples(HLsizei most);
+/** Writes up to `most` of the samples that are kept, the oldest first, forgets those, and returns how many.
+ * HL_INVALID_VALUE: most < 0. */
+HL_API HLsizei hlTakeSamples(HLsizei most, HLsample* samples);
 
 /** From now on hlPoll calls `callback` for events of `kind` (HL_EVENT_...). NULL: such events are dropped, as at first.
  */

@@ -266,5 +266,18 @@ inline std::vector<HLcontact> contacts() {
   return all;
 }
 
+/// hlTakeSamples: all that came since the last time, the oldest first.
+inline std::vector<HLsample> takeSamples() {
+  constexpr HLsizei kAtATime = 256;
+  std::vector<HLsample> all;
+  for (HLsizei taken = kAtATime; taken == kAtATime;) {
+    const std::size_t before = all.size();
+    all.resize(before + kAtATime);
+    taken = hlTakeSamples(kAtATime, all.data() + before);
+    all.resize(before + static_cast<std::size_t>(taken));
+  }
+  return all;
+}
+
 }  // namespace calls
 }  // namespace hl

@@ -137,6 +137,12 @@ enum {
   HL_SAFETY_WAITING = 0x4804C /**< no force until somebody holds the dead-man switch */
 };
 
+/** hlHandGrip: how the hand of a simulated device holds it; HL_HAND_GRIP is the query. */
+enum {
+  HL_GRIP_LIGHT = 0x48058, /**< the default */
+  HL_GRIP_FIRM = 0x48059   /**< stiffer, and with more damping: stiffer springs are stable */
+};
+
 /** Kinds of events, for hlEventFunc. */
 enum {
   HL_EVENT_TOUCH = 0x48050,   /**< the proxy began to touch an object of this context */
@@ -228,7 +234,10 @@ enum {
   HL_STATE_TIME = 0x480B2,             /**< 1; s since the server started, its clock, when the state was measured */
   HL_STATE_AGE = 0x480B3,              /**< 1; s since the state was taken here; infinite before the first */
   HL_VIBRATIONS = 0x480B4,             /**< 1; times that spring and hand shook and the spring was softened */
-  HL_SPRING_LIMIT = 0x480B5            /**< 1; N/m that the spring is held below since; 0: there is no limit */
+  HL_SPRING_LIMIT = 0x480B5,           /**< 1; N/m that the spring is held below since; 0: there is no limit */
+  HL_HAND_GRIP = 0x480B6,              /**< 1; HL_GRIP_...; a person's hand is HL_GRIP_LIGHT */
+  HL_ITERATION_CAPS = 0x480B7,         /**< 1; ticks so far that hit the cap on their passes */
+  HL_UNPLACED_TICKS = 0x480B8          /**< 1; ticks so far without a clear place for the proxy: nothing pulled */
 };
 
 /** One contact of the proxy, from hlGetContacts. World frame. */
@@ -242,6 +251,14 @@ typedef struct HLcontact {
   HLuint name;              /**< 0: none */
   HLuint session;           /**< whose object it is: HL_SESSION for this context's */
 } HLcontact;
+
+/** One step of the servo, from hlTakeSamples. World frame. */
+typedef struct HLsample {
+  HLdouble time;        /**< s, the server's clock */
+  HLdouble position[3]; /**< m: of the finger */
+  HLdouble force[3];    /**< N at the hand */
+  HLuint buttons;       /**< bit i is set while button i is down */
+} HLsample;
 
 /** What happened. */
 typedef struct HLevent {

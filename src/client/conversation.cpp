@@ -77,6 +77,13 @@ void Conversation::send(const proto::StateRate& rate) {
   if (!ended_) link_->send(std::move(message));
 }
 
+void Conversation::keepSamples(std::size_t most) {
+  samples_.keep(most);
+  proto::ClientMessage message;
+  message.mutable_sample_request()->set_wanted(most > 0);
+  if (!ended_) link_->send(std::move(message));
+}
+
 void Conversation::takeRefusal(const proto::Refusal& refusal, ErrorState& errors) {
   ++refusals_;
   outbox_.refused(refusal.frame());
@@ -94,6 +101,8 @@ void Conversation::take(proto::ServerReply& reply, ErrorState& errors, EventQueu
       outbox_.shown(reply.frame_shown().number());
       return view_.take(std::move(*reply.mutable_frame_shown()));
     case proto::ServerReply::kState:
+      samples_.add(reply.state());
+      reply.mutable_state()->clear_samples();
       return view_.take(std::move(*reply.mutable_state()));
     case proto::ServerReply::kEvent:
       return events.push(reply.event());

@@ -12,6 +12,7 @@
 #include "client/error_state.h"
 #include "client/event_queue.h"
 #include "client/outbox.h"
+#include "client/sample_list.h"
 #include "client/server_url.h"
 #include "client/server_view.h"
 #include "wire/link.h"
@@ -36,6 +37,9 @@ class Conversation {
   /// Drops what waits once the conversation has ended.
   void send(proto::DeviceSettings settings);
   void send(const proto::StateRate& rate);
+  /// Asks for samples where there are to be some; 0: none.
+  void keepSamples(std::size_t most);
+  SampleList& samples() { return samples_; }
   /// Seconds of Frame.interval_s for the frames to come; empty: left to the server.
   void setInterval(std::optional<double> interval_s) { interval_s_ = interval_s; }
 
@@ -53,6 +57,7 @@ class Conversation {
   std::unique_ptr<Link> link_;
   ServerView view_;
   Outbox outbox_;
+  SampleList samples_;
   std::optional<double> interval_s_;
   std::optional<double> stiffness_N_m_;
   std::uint64_t refusals_ = 0;

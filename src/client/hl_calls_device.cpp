@@ -4,8 +4,11 @@
 #include "client/call.h"
 
 using hl::client::call;
+using hl::client::callOr;
 using hl::client::Fault;
 using hl::client::requireFinite;
+using hl::client::requireList;
+using hl::client::When;
 
 namespace {
 
@@ -76,6 +79,28 @@ void hlRearm(void) {
 void hlHandGoal3d(HLdouble x, HLdouble y, HLdouble z) {
   setDevice(__func__, [&](hl::proto::DeviceSettings& settings) {
     setVec(*settings.mutable_hand_goal()->mutable_position(), x, y, z);
+  });
+}
+
+void hlHandGrip(HLenum grip) {
+  setDevice(__func__, [&](hl::proto::DeviceSettings& settings) {
+    if (grip != HL_GRIP_LIGHT && grip != HL_GRIP_FIRM)
+      throw Fault(HL_INVALID_ENUM, "the grip must be HL_GRIP_LIGHT or HL_GRIP_FIRM");
+    settings.set_hand_firm(grip == HL_GRIP_FIRM);
+  });
+}
+
+void hlKeepSamples(HLsizei most) {
+  call(__func__, [&](HLcontext& context) {
+    if (most < 0) throw Fault(HL_INVALID_VALUE, "the number must not be negative");
+    context.conversation.keepSamples(static_cast<std::size_t>(most));
+  });
+}
+
+HLsizei hlTakeSamples(HLsizei most, HLsample* samples) {
+  return callOr<HLsizei>(0, __func__, When::kOutside, [&](HLcontext& context) {
+    requireList(most, samples);
+    return static_cast<HLsizei>(context.conversation.samples().take(static_cast<std::size_t>(most), samples));
   });
 }
 

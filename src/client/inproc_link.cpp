@@ -14,19 +14,26 @@ namespace hl::client {
 
 namespace {
 
-// The process's server: it is started for the first link and stopped after the last.
-std::shared_ptr<SessionHost> processServer() {
+// The process's server: it is started for the first link and stopped after the last. `sim`: the model of its device,
+// where the client wants a certain one.
+std::shared_ptr<SessionHost> processServer(const std::string& sim) {
   static std::mutex mutex;
   static std::weak_ptr<TouchServer> running;
+  static std::string device;  // of the running one
   const std::lock_guard lock(mutex);
+  const std::string wanted = sim.empty() ? "sim" : "sim:" + sim;
   std::shared_ptr<TouchServer> server = running.lock();
+  if (server && !sim.empty() && device != wanted)
+    throw Error("the server of this process has the device " + device + " already, and " + wanted + " is wanted");
   if (server) return server;
   TouchServerSettings settings;
+  settings.device = wanted;
   settings.touch.explore = false;
   settings.version = HL_VERSION;
   server = std::make_shared<TouchServer>(makeSnapshot(std::vector<Instance>{}, "inproc"), settings);
   server->start();
   running = server;
+  device = wanted;
   return server;
 }
 
@@ -103,7 +110,7 @@ class InprocLink final : public Link {
 
 std::unique_ptr<Link> openInproc(const ServerUrl& url) {
   if (!url.host.empty()) throw Error("inproc: is this process; it takes no host (got '" + url.host + "')");
-  return linkTo(processServer());
+  return linkTo(processServer(url.sim));
 }
 
 std::unique_ptr<Link> linkTo(std::shared_ptr<SessionHost> host) {

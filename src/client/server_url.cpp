@@ -40,6 +40,7 @@ const auto& options() {
       {"name", [](ServerUrl& url, const std::string& value) { url.name = value; }},
       {"token", [](ServerUrl& url, const std::string& value) { url.token = value; }},
       {"ca", [](ServerUrl& url, const std::string& value) { url.ca_file = value; }},
+      {"sim", [](ServerUrl& url, const std::string& value) { url.sim = value; }},
       {"device",
        [](ServerUrl& url, const std::string& value) {
          url.device = numberOf<std::uint32_t>("device", value, 0, UINT32_MAX);
@@ -63,7 +64,7 @@ void parseOptions(ServerUrl& url, const std::vector<UrlOption>& given) {
     const auto found = options().find(option.name);
     if (found == options().end())
       fail("'" + option.name +
-           "' is not an option (name=, token=, device=, master=, keep=, state_rate=, timeout=, ca=)");
+           "' is not an option (name=, token=, device=, master=, keep=, state_rate=, timeout=, ca=, sim=)");
     if (!option.value) fail("the option " + option.name + " has no value: write " + option.name + "=");
     found->second(url, *option.value);
   }
@@ -93,6 +94,8 @@ ServerUrl parseServerUrl(const std::string& text) {
   if (!parts.path.empty() && !(parts.host && parts.path == "/"))
     fail("after '" + url.scheme + ":' comes '//' and a host, or '?' and options");
   parseOptions(url, parts.options);
+  if (!url.sim.empty() && (url.scheme == "hl" || url.scheme == "hls"))
+    fail("the option sim is for inproc: alone; elsewhere the server has its device already");
   return url;
 }
 

@@ -18,6 +18,7 @@ struct ServerUrl {
   double state_rate_Hz = 60;
   double timeout_s = 10;  ///< for the welcome
   std::string ca_file;    ///< hls; empty: the system's certificates
+  std::string sim;        ///< inproc: model of the simulated device; empty: whichever there is
 };
 
 /// Throws hl::Error with one line that says what is wrong. The defaults of name and token come from the process.

@@ -76,9 +76,27 @@ void toProto(const TouchSession& session, const ServoView& servo, const ProxyVie
   toProto(proxy.ledger, servo.late, session.ledger(), *out.mutable_ledger());
   toProto(servo.vibration, *out.mutable_vibration());
   out.set_buttons(servo.buttons);
+  out.set_iteration_caps(proxy.capped);
+  out.set_unplaced_ticks(proxy.unplaced);
+  out.set_hand_firm(session.handFirm());
   out.set_proxy_radius(session.radius_W());
   toProto(workspace.origin_W, *out.mutable_workspace()->mutable_origin());
   out.mutable_workspace()->set_world_per_device(workspace.world_per_device);
+}
+
+void addMoments(const TouchSession& session, std::uint64_t& next, proto::ClientState& out) {
+  const LogRing<ServoMoment>& moments = session.moments();
+  const Workspace workspace = session.workspace();
+  const std::uint64_t end = moments.pushed();
+  if (end - next > moments.room()) next = end - moments.room();
+  for (ServoMoment moment; next < end; ++next) {
+    if (!moments.read(next, moment)) continue;  // the servo has passed it meanwhile
+    proto::DeviceSample& sample = *out.add_samples();
+    sample.set_time_s(session.time_s(moment.time_ns));
+    toProto(workspace.toWorld(moment.finger_D), *sample.mutable_finger());
+    toProto(moment.force_N, *sample.mutable_force_n());
+    sample.set_buttons(static_cast<std::uint32_t>(moment.buttons));
+  }
 }
 
 }  // namespace hl

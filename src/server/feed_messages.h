@@ -16,5 +16,7 @@ void toProto(const ProxyContact& contact, proto::ContactPlane& out);
 void toProto(const Ledger& ledger, const Ledger& late, LedgerMode mode, proto::Ledger& out);
 /// All that a client is told, but whether it is the master.
 void toProto(const TouchSession& session, const ServoView& servo, const ProxyView& proxy, proto::ClientState& out);
+/// What the device has done since its moment `next`, which is what comes next then.
+void addMoments(const TouchSession& session, std::uint64_t& next, proto::ClientState& out);
 
 }  // namespace hl

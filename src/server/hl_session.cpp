@@ -6,6 +6,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "server/feed_messages.h"
 #include "server/message_forms.h"
 #include "server/touch_server.h"
 
@@ -45,7 +46,8 @@ std::string faultOf(const proto::DeviceSettings& settings, bool has_hand) {
   if (settings.has_stiffness_n_m() && !(settings.stiffness_n_m() >= 0)) return "stiffness_N_m must not be below 0";
   if (settings.has_ledger() && !proto::LedgerMode_IsValid(settings.ledger()))
     return "ledger must be TANK, STRICT or REPORT";
-  if (settings.has_hand_goal() && !has_hand) return "a person holds the device; only a simulated hand can be moved";
+  if ((settings.has_hand_goal() || settings.has_hand_firm()) && !has_hand)
+    return "a person holds the device; only a simulated hand can be moved";
   if (settings.has_hand_goal() && !vecOf(settings.hand_goal().position()).allFinite())
     return "hand_goal.position must hold finite numbers";
   return "";
@@ -90,6 +92,8 @@ void HlSession::receive(proto::ClientMessage message) {
       return setStateRate(message.state_rate().rate_hz());
     case proto::ClientMessage::kDevice:
       return setDevice(message.device());
+    case proto::ClientMessage::kSampleRequest:
+      return wantSamples(message.sample_request().wanted());
     case proto::ClientMessage::BODY_NOT_SET:
       return refuse("a message with nothing in it that this server knows");
   }
@@ -219,6 +223,7 @@ void HlSession::setDevice(const proto::DeviceSettings& settings) {
   if (settings.has_stiffness_n_m()) device.setStiffness(settings.stiffness_n_m());
   if (settings.has_ledger()) device.setLedger(static_cast<LedgerMode>(settings.ledger()));
   if (settings.rearm()) device.rearm();
+  if (settings.has_hand_firm()) device.setHandFirm(settings.hand_firm());
   if (settings.has_hand_goal()) device.setHandGoal(vecOf(settings.hand_goal().position()));
 }
 
@@ -230,6 +235,15 @@ void HlSession::setStateRate(double rate_Hz) {
   }
   state_period_s_ = 1 / std::min(rate_Hz, server_.settings_.limits.state_rate_Hz);
   next_state_s_ = server_.time_s();
+}
+
+// From now on.
+void HlSession::wantSamples(bool wanted) {
+  if (!wanted) {
+    next_sample_.reset();
+  } else if (!next_sample_) {
+    next_sample_ = server_.device(device_).moments().pushed();
+  }
 }
 
 HlSession::WaitingReply HlSession::counted(proto::ServerReply reply) const {
@@ -330,6 +344,7 @@ bool HlSession::take(proto::ServerReply& reply) {
   reply.Clear();
   server_.describe(device_, *reply.mutable_state());
   reply.mutable_state()->set_master(master_);
+  if (next_sample_) addMoments(server_.device(device_), *next_sample_, *reply.mutable_state());
   return true;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <unordered_map>
@@ -52,6 +53,7 @@ class HlSession final : public ClientSession {
   Uploads takeUploads(const proto::Frame& frame, MemoryShare& memory);
   void setDevice(const proto::DeviceSettings& settings);
   void setStateRate(double rate_Hz);
+  void wantSamples(bool wanted);
   void reply(proto::ServerReply reply);
   WaitingReply counted(proto::ServerReply reply) const;
   void freeUpload(std::uint64_t id);
@@ -75,8 +77,9 @@ class HlSession final : public ClientSession {
   std::uint64_t upload_bytes_ = 0;                                   // of all of them
   std::set<std::uint64_t> refused_uploads_;                          // of which no part is kept
   std::uint64_t last_frame_ = 0;
-  double state_period_s_ = 0;  // 0: no states
-  double next_state_s_ = 0;    // server's clock
+  double state_period_s_ = 0;                 // 0: no states
+  double next_state_s_ = 0;                   // server's clock
+  std::optional<std::uint64_t> next_sample_;  // number of the device's moment; none: the client wants none
   MessageRate frame_rate_;
 
   mutable std::mutex mutex_;  // of what other threads bring

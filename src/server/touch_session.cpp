@@ -158,6 +158,7 @@ void TouchSession::runServo() {
     samples_.push({1e-9 * static_cast<double>(now_ns - start_ns_), static_cast<float>(out.force_N.norm()),
                    step.target().valid ? static_cast<float>((step.target().proxy_D - sample.position).norm()) : 0.0f,
                    last.work_us});
+    moments_.push({now_ns, sample.position, out.force_N, sample.buttons});
     const std::int64_t work_ns = monotonicNow_ns() - now_ns;
     recorder_.step({before, command, settings, step.target(), sample, out, work_ns});
     meter.add(now_ns, work_ns);

@@ -17,6 +17,7 @@
 #include "base/clock.h"
 #include "base/guarded_thread.h"
 #include "base/latest.h"
+#include "base/log_ring.h"
 #include "base/periodic.h"
 #include "base/realtime.h"
 #include "base/spsc_ring.h"
@@ -97,6 +98,14 @@ struct TouchSample {
   float tick_us = 0;        ///< work time of the newest tick
 };
 
+/// One servo step, for clients. Frame D.
+struct ServoMoment {
+  std::int64_t time_ns = 0;  ///< monotonic
+  Vec3 finger_D = Vec3::Zero();
+  Vec3 force_N = Vec3::Zero();
+  std::uint64_t buttons = 0;
+};
+
 /// See LoopCounters.
 struct LoopTotals {
   std::uint64_t steps = 0, missed = 0;
@@ -134,6 +143,8 @@ class TouchSession {
   void views(ServoView& servo, ProxyView& proxy);            ///< for the pages; one thread only
   void viewsForClients(ServoView& servo, ProxyView& proxy);  ///< for HL clients; one thread at a time
   bool popSample(TouchSample& sample) { return samples_.pop(sample); }
+  /// The last steps, newer ones in the place of older ones. Any thread.
+  const LogRing<ServoMoment>& moments() const { return moments_; }
   bool exploring() const { return exploring_.load(); }
   bool handFirm() const { return hand_firm_.load(); }
   double stiffness_N_m() const { return stiffness_.load(); }
@@ -223,6 +234,7 @@ class TouchSession {
   Latest<ServoView> servo_view_{ServoView{}}, servo_for_clients_{ServoView{}};
   Latest<ProxyView> proxy_view_{ProxyView{}}, proxy_for_clients_{ProxyView{}};
   SpscRing<TouchSample, 1024> samples_;
+  LogRing<ServoMoment> moments_{1024};
 
   std::atomic<bool> running_{false};
   std::atomic<bool> exploring_{false};

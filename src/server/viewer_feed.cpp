@@ -76,6 +76,7 @@ std::string state(TouchSession& session, PageScene& scene) {
   setSamples(out, session);
   out.set_exploring(session.exploring());
   out.set_iteration_caps(proxy.capped);
+  out.set_unplaced_ticks(proxy.unplaced);
   out.set_hand_firm(session.handFirm());
   out.set_stiffness_n_m(session.stiffness_N_m());
   toProto(proxy.ledger, servo.late, session.ledger(), *out.mutable_ledger());

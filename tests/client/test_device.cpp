@@ -33,6 +33,11 @@ TEST_F(CallsTest, DeviceSettingsGoAtOnce) {
   hlSpringd(1500);
   EXPECT_EQ(server->received.back().device().stiffness_n_m(), 1500);
   EXPECT_EQ(number(HL_SPRING_STIFFNESS), 1500);
+  hlHandGrip(HL_GRIP_FIRM);
+  EXPECT_TRUE(server->received.back().device().hand_firm());
+  hlHandGrip(HL_GRIP_LIGHT);
+  EXPECT_TRUE(server->received.back().device().has_hand_firm());
+  EXPECT_FALSE(server->received.back().device().hand_firm());
   hlStateRate(1000);
   EXPECT_EQ(server->received.back().state_rate().rate_hz(), 1000);
 }
@@ -47,9 +52,61 @@ TEST_F(CallsTest, DeviceSettingsOutOfRangeAreErrorsAndNotSent) {
   hlSpringd(0), expectError(HL_INVALID_VALUE);
   hlLedger(HL_POINTS), expectError(HL_INVALID_ENUM);
   hlHandGoal3d(0, kNaN, 0), expectError(HL_INVALID_VALUE);
+  hlHandGrip(HL_LEDGER_TANK), expectError(HL_INVALID_ENUM);
+  hlKeepSamples(-1), expectError(HL_INVALID_VALUE);
+  hlTakeSamples(-1, nullptr), expectError(HL_INVALID_VALUE);
   hlStateRate(-1), expectError(HL_INVALID_VALUE);
   hlStateRate(1001), expectError(HL_INVALID_VALUE);
   EXPECT_TRUE(server->received.empty());
+}
+
+void addSample(proto::ClientState& state, double time_s) {
+  proto::DeviceSample& sample = *state.add_samples();
+  sample.set_time_s(time_s);
+  sample.mutable_finger()->set_x(10 * time_s);
+  sample.mutable_force_n()->set_y(20 * time_s);
+  sample.set_buttons(2);
+}
+
+TEST_F(CallsTest, SamplesAreKeptUntilTheyAreTakenTheNewestOnes) {
+  HLsample taken[4];
+  addSample(server->tell(), 1);
+  hlPoll();
+  EXPECT_EQ(hlTakeSamples(4, taken), 0) << "nobody has asked";
+  hlKeepSamples(3);
+  EXPECT_TRUE(server->received.back().sample_request().wanted());
+  proto::ClientState& first = server->tell();
+  addSample(first, 1);
+  addSample(first, 2);
+  hlPoll();
+  addSample(server->tell(), 3);
+  addSample(server->tell(), 4);
+  hlPoll();
+  ASSERT_EQ(hlTakeSamples(2, taken), 2);
+  EXPECT_EQ(taken[0].time, 2);
+  EXPECT_EQ(taken[0].position[0], 20);
+  EXPECT_EQ(taken[0].force[1], 40);
+  EXPECT_EQ(taken[0].buttons, 2U);
+  EXPECT_EQ(taken[1].time, 3);
+  ASSERT_EQ(hlTakeSamples(4, taken), 1);
+  EXPECT_EQ(taken[0].time, 4);
+  hlKeepSamples(0);
+  EXPECT_FALSE(server->received.back().sample_request().wanted());
+  addSample(server->tell(), 5);
+  hlPoll();
+  EXPECT_EQ(hlTakeSamples(4, taken), 0);
+}
+
+TEST_F(CallsTest, CountsOfTicksAndTheGripAreQueries) {
+  EXPECT_EQ(integer(HL_HAND_GRIP), HL_GRIP_LIGHT);
+  proto::ClientState& state = server->tell();
+  state.set_iteration_caps(3);
+  state.set_unplaced_ticks(4);
+  state.set_hand_firm(true);
+  hlPoll();
+  EXPECT_EQ(integer(HL_ITERATION_CAPS), 3);
+  EXPECT_EQ(integer(HL_UNPLACED_TICKS), 4);
+  EXPECT_EQ(integer(HL_HAND_GRIP), HL_GRIP_FIRM);
 }
 
 TEST_F(CallsTest, OnlyTheMasterSetsTheDevice) {

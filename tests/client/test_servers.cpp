@@ -313,6 +313,41 @@ TEST(Servers, AServerThatIsNotThereIsToldInOneLine) {
   EXPECT_EQ(why.find('\n'), std::string::npos);
 }
 
+TEST(Inproc, TheFirstContextSaysWhichDeviceIsSimulated) {
+  HLcontext* const context = hlCreateContext("inproc:?sim=premium1.5");
+  ASSERT_NE(context, nullptr) << hlGetConnectError();
+  hlMakeCurrent(context);
+  EXPECT_NE(std::string(hlGetString(HL_DEVICE_NAME)).find("1.5"), std::string::npos) << hlGetString(HL_DEVICE_NAME);
+  HLcontext* const beside = hlCreateContext("inproc:");
+  EXPECT_NE(beside, nullptr) << hlGetConnectError();
+  EXPECT_EQ(hlCreateContext("inproc:?sim=premium1.0"), nullptr);
+  EXPECT_NE(std::string(hlGetConnectError()).find("sim:premium1.5"), std::string::npos) << hlGetConnectError();
+  hlDestroyContext(beside);
+  hlDestroyContext(context);
+  EXPECT_EQ(hlCreateContext("inproc:?sim=hammer"), nullptr);
+  EXPECT_NE(std::string(hlGetConnectError()).find("premium1.0"), std::string::npos) << hlGetConnectError();
+  EXPECT_EQ(hlCreateContext("hl://127.0.0.1:1?sim=premium1.5"), nullptr);
+  EXPECT_NE(std::string(hlGetConnectError()).find("inproc:"), std::string::npos) << hlGetConnectError();
+}
+
+TEST(Inproc, SamplesOfTheDeviceComeWithoutAGap) {
+  HLcontext* const context = hlCreateContext("inproc:?state_rate=60");
+  ASSERT_NE(context, nullptr) << hlGetConnectError();
+  hlMakeCurrent(context);
+  hlKeepSamples(100'000);
+  std::vector<HLsample> all;
+  EXPECT_TRUE(waitFor([&] {
+    HLsample some[64];
+    for (HLsizei count = 64; count == 64;) {
+      count = hlTakeSamples(64, some);
+      all.insert(all.end(), some, some + count);
+    }
+    return all.size() > 500;
+  }));
+  for (std::size_t i = 1; i < all.size(); ++i) ASSERT_GT(all[i].time, all[i - 1].time) << i;
+  hlDestroyContext(context);
+}
+
 // The program may be anybody's: what it allocates later is not locked either.
 TEST(Inproc, LeavesTheMemoryOfTheProgramAlone) {
   HLcontext* const context = hlCreateContext("inproc:");

@@ -536,6 +536,7 @@ TEST_F(TouchServerTest, SettingsThatAreNoneAreRefusedAndNothingOfThemIsSet) {
   const auto refusalOf = [&](const std::function<void(proto::ClientMessage&)>& set) {
     proto::ClientMessage message;
     set(message);
+    if (message.has_device()) message.mutable_device()->set_hand_firm(true);
     client.refusal_.Clear();
     client.session_->receive(message);
     EXPECT_TRUE(client.until([&] { return !client.refusal_.text().empty(); }));
@@ -551,6 +552,40 @@ TEST_F(TouchServerTest, SettingsThatAreNoneAreRefusedAndNothingOfThemIsSet) {
             "ledger must be TANK, STRICT or REPORT");
   EXPECT_EQ(refusalOf([&](auto& m) { m.mutable_device()->mutable_hand_goal()->mutable_position()->set_x(nan); }),
             "hand_goal.position must hold finite numbers");
+  EXPECT_FALSE(server_.device().handFirm());
+  proto::ClientMessage message;
+  message.mutable_device()->set_hand_firm(true);
+  client.session_->receive(message);
+  EXPECT_TRUE(client.until([&] { return client.state_.hand_firm(); }));
+}
+
+// However seldom states come, each step of the servo is told, once.
+TEST_F(TouchServerTest, SamplesTellOfAllThatTheDeviceDidBetweenTwoStates) {
+  Client client(server_);
+  client.open("test", true, false, 50);
+  ASSERT_TRUE(client.until([&] { return client.state_.time_s() > 0; }));
+  EXPECT_EQ(client.state_.samples_size(), 0) << "nobody has asked";
+  proto::ClientMessage message;
+  message.mutable_sample_request()->set_wanted(true);
+  const std::uint64_t first = server_.device().moments().pushed();
+  client.session_->receive(message);
+  std::vector<double> times_s;
+  int states = 0;
+  while (states < 10 || times_s.size() < 100) {
+    proto::ServerReply reply;
+    if (!client.session_->take(reply)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (!reply.has_state()) continue;
+    ++states;
+    for (const proto::DeviceSample& sample : reply.state().samples()) times_s.push_back(sample.time_s());
+  }
+  EXPECT_TRUE(std::is_sorted(times_s.begin(), times_s.end()));
+  EXPECT_EQ(std::adjacent_find(times_s.begin(), times_s.end()), times_s.end()) << "none comes twice";
+  EXPECT_LE(times_s.size(), server_.device().moments().pushed() - first);
+  message.mutable_sample_request()->set_wanted(false);
+  client.session_->receive(message);
+  const double asked_s = server_.time_s();
+  ASSERT_TRUE(client.until([&] { return client.state_.time_s() > asked_s; }));
+  EXPECT_EQ(client.state_.samples_size(), 0);
 }
 
 TEST_F(TouchServerTest, ClientsOwnTheirObjectsAndTakeThemAlong) {

@@ -139,6 +139,7 @@ export class Panel {
     setText("penetration", formatFixed(penetration_m === undefined ? undefined : penetration_m * 1e3, "mm", 2));
     setText("contacts", formatCount(state.contacts.length));
     setText("caps", formatCount(state.iterationCaps));
+    setText("unplaced", formatCount(state.unplacedTicks));
     this.showLoop("proxy", state.proxyLoop);
     this.showLoop("servo", state.servo);
     this.buttons_.show(state.buttons);

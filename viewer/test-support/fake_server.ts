@@ -179,7 +179,7 @@ export class FakeServer {
         servo: { ...loop, rateHz: 1000 },
         proxyLoop: { ...loop, rateHz: 1000 + 4 * Math.sin(this.time_s_) },
         buttons: this.buttons, layout: this.layout_, touched: inside && this.spheres > 0 ? [0] : [],
-        exploring: this.explore, handFirm: this.handFirm, stiffnessNM: this.stiffness_N_m, iterationCaps: 0n,
+        exploring: this.explore, handFirm: this.handFirm, stiffnessNM: this.stiffness_N_m, iterationCaps: 0n, unplacedTicks: 0n,
       },
     });
   }
