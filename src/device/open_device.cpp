@@ -75,7 +75,7 @@ std::string deviceSpecs() {
 }
 
 std::vector<DevicePresence> findDevices() {
-  const auto textOf = [](const DeviceKind& kind) -> std::string {
+  const auto text_of = [](const DeviceKind& kind) -> std::string {
     try {
       return kind.find();
     } catch (const Error& error) {
@@ -83,7 +83,8 @@ std::vector<DevicePresence> findDevices() {
     }
   };
   std::vector<DevicePresence> found;
-  for (const DeviceKind& kind : kKinds) found.push_back({kind.name, textOf(kind)});
+  found.reserve(std::size(kKinds));
+  for (const DeviceKind& kind : kKinds) found.push_back({kind.name, text_of(kind)});
   return found;
 }
 

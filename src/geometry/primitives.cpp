@@ -59,16 +59,16 @@ void Primitives::leaveOut(const std::vector<Run>& runs) {
   std::vector<std::uint32_t> kept;
   kept.reserve(size_ - refused_.sum());
   std::uint32_t next = 0;
-  const auto keepUpTo = [&](std::uint32_t end) {
+  const auto keep_up_to = [&](std::uint32_t end) {
     for (; next < end; ++next) kept.push_back(next);
   };
   for (const Run& run : runs) {
     for (const std::uint32_t number : run.refused) {
-      keepUpTo(number);
+      keep_up_to(number);
       next = number + 1;
     }
   }
-  keepUpTo(static_cast<std::uint32_t>(size_));
+  keep_up_to(static_cast<std::uint32_t>(size_));
   size_ = kept.size();
   kept_ = std::move(kept);
 }

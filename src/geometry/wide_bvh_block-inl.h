@@ -28,7 +28,7 @@ constexpr unsigned kAllLanes = (1u << kLanes) - 1;
 
 struct V3 {
   V x, y, z;
-  HWY_INLINE V3(V x_, V y_, V z_) : x(x_), y(y_), z(z_) {}
+  HWY_INLINE V3(V a, V b, V c) : x(a), y(b), z(c) {}
   // One vector at a time: GCC 12 else copies with wider moves, which then wait for the narrower stores before them.
   HWY_INLINE V3(const V3& other) : x(other.x), y(other.y), z(other.z) {}
   V3& operator=(const V3&) = delete;

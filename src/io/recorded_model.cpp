@@ -32,6 +32,7 @@ void addPart(const std::vector<Item>& items, std::size_t part, google::protobuf:
 
 template <typename Item, typename Number>
 void append(const google::protobuf::RepeatedField<Number>& in, std::vector<Item>& items) {
+  // NOLINTNEXTLINE(bugprone-sizeof-expression): an item may be one number
   constexpr std::size_t kEach = sizeof(Item) / sizeof(Number);
   const auto count = static_cast<std::size_t>(in.size());
   if (count % kEach != 0) throw Error(kBrokenMesh);

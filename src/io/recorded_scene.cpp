@@ -83,7 +83,7 @@ void SceneWriter::write(const Snapshot& scene, const Write& write) {
   for (const Instance& instance : scene.instances) {
     proto::RecordedInstance& placed = *out.add_instances();
     encode(instance, placed);
-    const auto shapeId = [&](const std::shared_ptr<const Shape>& shape) {
+    const auto shape_id = [&](const std::shared_ptr<const Shape>& shape) {
       return idOf(shapes_, shape, [&](std::uint64_t id) {
         writeMesh(shape->model, [&](proto::RecordedShape& mesh) {
           proto::RecordingBlock part;
@@ -94,16 +94,16 @@ void SceneWriter::write(const Snapshot& scene, const Write& write) {
         });
       });
     };
-    placed.set_shape(shapeId(instance.shape));
-    const auto addWay = [&](const BendWay& way) {
+    placed.set_shape(shape_id(instance.shape));
+    const auto add_way = [&](const BendWay& way) {
       proto::RecordedBendWay& recorded = *placed.add_bending();
-      recorded.set_from(shapeId(way.given_from()));
-      recorded.set_to(shapeId(way.given_to()));
+      recorded.set_from(shape_id(way.given_from()));
+      recorded.set_to(shape_id(way.given_to()));
       recorded.set_begin_ns(way.begin_ns());
       recorded.set_end_ns(way.end_ns());
     };
-    if (instance.bending && instance.bending->earlier()) addWay(*instance.bending->earlier());
-    if (instance.bending) addWay(instance.bending->last());
+    if (instance.bending && instance.bending->earlier()) add_way(*instance.bending->earlier());
+    if (instance.bending) add_way(instance.bending->last());
     placed.set_surfaces(idOf(surfaces_, instance.surfaces, [&](std::uint64_t id) {
       proto::RecordingBlock part;
       part.mutable_surfaces()->set_id(id);

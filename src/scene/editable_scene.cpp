@@ -234,20 +234,20 @@ void EditableScene::checkLimits(const State& state) const {
 
 EditableScene::Next EditableScene::prepare(SceneEdit edit) const {
   Next next;
-  next.state = after(std::move(edit));
-  checkLimits(next.state);
-  Flattening flattening(*this, next.state);
-  next.placed = flattening.run();
-  next.stretched = std::move(flattening.stretched);
+  next.state_ = after(std::move(edit));
+  checkLimits(next.state_);
+  Flattening flattening(*this, next.state_);
+  next.placed_ = flattening.run();
+  next.stretched_ = std::move(flattening.stretched);
   return next;
 }
 
 void EditableScene::show(Next& next) noexcept {
-  std::swap(state_.textures, next.state.textures);
-  std::swap(state_.objects, next.state.objects);
-  std::swap(state_.world, next.state.world);
-  std::swap(placed_, next.placed);
-  std::swap(stretched_, next.stretched);
+  std::swap(state_.textures, next.state_.textures);
+  std::swap(state_.objects, next.state_.objects);
+  std::swap(state_.world, next.state_.world);
+  std::swap(placed_, next.placed_);
+  std::swap(stretched_, next.stretched_);
 }
 
 void EditableScene::apply(SceneEdit edit) {
@@ -276,8 +276,8 @@ std::shared_ptr<const Shape> EditableScene::worn() const {
 EditableScene::Next EditableScene::prepareReplaced(const std::shared_ptr<const Shape>& old,
                                                    const std::shared_ptr<const Shape>& rebuilt) const {
   Next next;
-  next.state = state_;
-  next.stretched = stretched_;
+  next.state_ = state_;
+  next.stretched_ = stretched_;
   const auto in = [&](std::shared_ptr<const SceneItems>& items) {
     const auto holds = [&](const SceneItem& item) { return item.shape == old; };
     if (std::none_of(items->begin(), items->end(), holds)) return;
@@ -287,9 +287,9 @@ EditableScene::Next EditableScene::prepareReplaced(const std::shared_ptr<const S
     }
     items = replaced;
   };
-  in(next.state.world);
-  for (auto& [id, items] : next.state.objects) in(items);
-  for (auto& [key, copy] : next.stretched) {
+  in(next.state_.world);
+  for (auto& [id, items] : next.state_.objects) in(items);
+  for (auto& [key, copy] : next.stretched_) {
     if (copy == old) copy = rebuilt;
   }
   MemoryShare memory(memory_);
@@ -298,7 +298,7 @@ EditableScene::Next EditableScene::prepareReplaced(const std::shared_ptr<const S
   for (PlacedShape& one : *placed) {
     if (one.shape == old) one.shape = rebuilt;
   }
-  next.placed = withShare(PlacedShapes(std::move(placed)), std::move(memory));
+  next.placed_ = withShare(PlacedShapes(std::move(placed)), std::move(memory));
   return next;
 }
 

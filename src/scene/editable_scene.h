@@ -101,9 +101,9 @@ class EditableScene {
   /// The scene as it is to be next.
   class Next {
     friend class EditableScene;
-    State state;
-    PlacedShapes placed;
-    std::map<Stretched, std::shared_ptr<const Shape>> stretched;
+    State state_;
+    PlacedShapes placed_;
+    std::map<Stretched, std::shared_ptr<const Shape>> stretched_;
   };
 
   EditableScene(std::uint32_t session, const SceneLimits& limits, MemoryBudget memory = {})

@@ -36,6 +36,7 @@ class VertexBits {
   }
   template <typename Vector>
   static bool same(const std::vector<Vector>& list, std::size_t i, std::size_t j) {
+    // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): the bits decide
     return list.empty() || std::memcmp(list[i].data(), list[j].data(), sizeof(Vector)) == 0;
   }
 

@@ -132,7 +132,7 @@ void TouchSession::runServo() {
   LoopMeter meter;
   TickMessage last;
   std::uint64_t armed = 0;
-  const auto makeStep = [&] {
+  const auto make_step = [&] {
     const std::int64_t now_ns = monotonicNow_ns();
     settings.stiffness_N_m = stiffness_.load(std::memory_order_relaxed);
     settings.ledger = ledger_.load(std::memory_order_relaxed);
@@ -173,13 +173,13 @@ void TouchSession::runServo() {
     servo_view_.write(view);
     servo_for_clients_.write(view);
   };
-  const auto forceEnds = [this] { device_->write(Vec3::Zero()); };
+  const auto end_force = [this] { device_->write(Vec3::Zero()); };
   runPeriodic(period_ns(servo_rate_Hz_), running_, servo_counters_, [&](std::int64_t) {
-    if (guarded(makeStep)) return;
+    if (guarded(make_step)) return;
     step_failed_ = true;
-    guarded(forceEnds);
+    guarded(end_force);
   });
-  guarded(forceEnds);
+  guarded(end_force);
 }
 
 // A driver that throws has lost its device. After a step that threw elsewhere there is no sample either, so that none

@@ -133,10 +133,10 @@ void receive(TouchSession& session, const std::string& bytes) {
 
 FeedCallbacks makeViewerFeed(TouchSession& session, const std::string& version, MemoryBudget memory) {
   const auto scene = std::make_shared<PageScene>(std::move(memory));
-  const auto openPage = [scene] {
+  const auto open_page = [scene] {
     return [scene, memory = std::make_shared<PageMemory>(scene->open())] { return scene->next(*memory); };
   };
-  return {[&session, version] { return hello(session, version); }, openPage,
+  return {[&session, version] { return hello(session, version); }, open_page,
           [&session, scene] { return state(session, *scene); },
           [&session](const std::string& bytes) { receive(session, bytes); }};
 }

@@ -71,8 +71,8 @@ void readButtons(const json::value* grip, std::uint32_t& buttons) {
 }  // namespace
 
 HaplyDialect haplyDialectOf(std::string_view version) {
-  const auto isDigit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
-  const std::string text(std::find_if(version.begin(), version.end(), isDigit), version.end());
+  const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+  const std::string text(std::find_if(version.begin(), version.end(), is_digit), version.end());
   char* dot = nullptr;
   const long major = std::strtol(text.c_str(), &dot, 10);
   const long minor = *dot == '.' ? std::strtol(dot + 1, nullptr, 10) : 0;
