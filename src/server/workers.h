@@ -2,6 +2,8 @@
 #pragma once
 
 #include <boost/asio/awaitable.hpp>
+#include <boost/asio/bind_cancellation_slot.hpp>
+#include <boost/asio/cancellation_signal.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
@@ -47,13 +49,14 @@ inline void tellEnd(std::exception_ptr thrown) {
   if (thrown) guarded([&] { std::rethrow_exception(thrown); });
 }
 
-/// Does `work` there and comes back with its result, or with what it throws.
+/// Does `work` there and comes back with its result, or with what it throws. It cannot be cancelled: Boost 1.81 keeps a
+/// bare pointer to what is cancelled while it asks the worker, and by then that may be gone.
 template <typename Work>
 boost::asio::awaitable<std::invoke_result_t<Work>> doOn(Workers& workers, Work work) {
   using Result = std::invoke_result_t<Work>;
   co_return co_await boost::asio::co_spawn(
       workers.executor(), [&work]() -> boost::asio::awaitable<Result> { co_return work(); },
-      boost::asio::use_awaitable);
+      boost::asio::bind_cancellation_slot(boost::asio::cancellation_slot(), boost::asio::use_awaitable));
 }
 
 }  // namespace hl
