@@ -36,7 +36,7 @@ void touch(const Snapshot& snapshot) {
   for (int i = 0; i < kTicks; ++i) {
     const Vec3 finger = place.centre + (1 - 2.0 * i / (kTicks - 1)) * begin;
     const TickReport report = tick(state, {snapshot, i * 1'000'000}, settings, finger);
-    require(report.valid && state.position.allFinite() && report.target.allFinite());
+    require(report.valid() && state.position.allFinite() && report.target.allFinite());
   }
 }
 

@@ -38,7 +38,7 @@ TickTimes timeTicks(const Snapshot& snapshot, const ProxySettings& settings, con
       const std::int64_t time_ns = monotonicNow_ns() - start_ns;
       if (i < path.approach) continue;
       result.times.add(pass, time_ns);
-      result.capped += report.capped ? 1 : 0;
+      result.capped += report.capped() ? 1 : 0;
     }
   }
   return result;

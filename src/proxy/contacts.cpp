@@ -54,7 +54,7 @@ void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, d
   sort(set);
 }
 
-void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, double reach, Nearby& nearby,
+void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, double reach, SweepCache& nearby,
                     ContactSet& set) {
   clear(set);
   if (!nearby.covers(scene, centre, distance)) {
@@ -81,8 +81,8 @@ void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, d
   sort(set);
 }
 
-bool primitivesOf(const ContactSet& set, FixedVector<PrimitiveId, Nearby::kRoom>& primitives) {
-  static_assert(Nearby::kRoom < kMaxContacts, "so that a set with contacts or twins left out has too many");
+bool primitivesOf(const ContactSet& set, FixedVector<PrimitiveId, SweepCache::kRoom>& primitives) {
+  static_assert(SweepCache::kRoom < kMaxContacts, "so that a set with contacts or twins left out has too many");
   bool all = true;
   for (const Contact& contact : set.contacts) all = all && primitives.push(contact.primitive);
   for (const Contact& twin : set.twins) all = all && primitives.push(twin.primitive);

@@ -9,8 +9,8 @@
 #include "base/fixed_vector.h"
 #include "base/vec.h"
 #include "geometry/closest_point.h"
-#include "proxy/nearby.h"
 #include "proxy/solver.h"
+#include "proxy/sweep_cache.h"
 #include "scene/scene_at.h"
 
 namespace hl {
@@ -42,11 +42,11 @@ struct ContactSet {
 /// RT-safe.
 void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, double reach, ContactSet& set);
 /// The same, looking only through what is `nearby`; where that does not cover the place, it does afterwards.
-void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, double reach, Nearby& nearby,
+void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, double reach, SweepCache& nearby,
                     ContactSet& set);
 
 /// What the set was made from: its contacts and twins. Returns false when there are more. RT-safe.
-bool primitivesOf(const ContactSet& set, FixedVector<PrimitiveId, Nearby::kRoom>& primitives);
+bool primitivesOf(const ContactSet& set, FixedVector<PrimitiveId, SweepCache::kRoom>& primitives);
 
 /// Whether two contacts hold the proxy off by the same plane, bit by bit. RT-safe.
 inline bool samePlane(const Contact& a, const Contact& b) {

@@ -51,19 +51,19 @@ bool staysAbove(const ContactSet& set, const Vec3& step, double tolerance) {
 
 }  // namespace
 
-bool curvatureStep(const ContactSet& set, const SceneAt& scene, const SolverResult& sub_goal,
+bool curvatureStep(const ContactSet& set, const SceneAt& scene, const SolverResult& proposal,
                    const Tolerances& tolerance, double boldness, Vec3& step) {
   const double reach = tolerance.reach;
-  const Vec3& plain = sub_goal.point;
-  const auto contact = [&](std::size_t i) -> const Contact& { return set.contacts[sub_goal.active[i]]; };
+  const Vec3& plain = proposal.point;
+  const auto contact = [&](std::size_t i) -> const Contact& { return set.contacts[proposal.active[i]]; };
   const auto curved = [&](std::size_t i) { return contact(i).feature != Feature::kFace; };
-  if (sub_goal.active_count == 1 && curved(0)) {
-    step = onSurface(contact(0), sub_goal.multiplier[0], curvedDirections(contact(0), scene), plain, reach, boldness);
-  } else if (sub_goal.active_count == 2 && (curved(0) || curved(1))) {
+  if (proposal.active_count == 1 && curved(0)) {
+    step = onSurface(contact(0), proposal.multiplier[0], curvedDirections(contact(0), scene), plain, reach, boldness);
+  } else if (proposal.active_count == 2 && (curved(0) || curved(1))) {
     const Vec3 along = contact(0).plane.normal.cross(contact(1).plane.normal).normalized();
     double bend = 0;
     for (std::size_t i = 0; i < 2; ++i)
-      bend += bendOf(contact(i), sub_goal.multiplier[i]) * along.dot(curvedDirections(contact(i), scene) * along);
+      bend += bendOf(contact(i), proposal.multiplier[i]) * along.dot(curvedDirections(contact(i), scene) * along);
     step = onCurve(along, bend, plain, reach, boldness);
   } else {
     return false;

@@ -21,7 +21,7 @@ namespace hl {
 /// The step, if curvature matters here: an active contact is curved. `boldness`: 1, or less where such steps have not
 /// paid off, for a part of the step; or more where they have: then what is only made longer is made longer still.
 /// RT-safe.
-bool curvatureStep(const ContactSet& set, const SceneAt& scene, const SolverResult& sub_goal,
+bool curvatureStep(const ContactSet& set, const SceneAt& scene, const SolverResult& proposal,
                    const Tolerances& tolerance, double boldness, Vec3& step);
 
 }  // namespace hl

@@ -13,9 +13,8 @@
 #include "base/fixed_vector.h"
 #include "base/ledger.h"
 #include "base/vec.h"
-#include "proxy/nearby.h"
+#include "proxy/proxy_cache.h"
 #include "proxy/start_search.h"
-#include "proxy/surroundings.h"
 #include "scene/scene_at.h"
 
 namespace hl {
@@ -54,9 +53,7 @@ struct ProxyState {
   std::uint64_t carrier = 0;     ///< key of the object whose friction holds it; 0: none
   Ledger ledger{};
   StartSearch start{};  ///< while it is not free
-  // What ticks have met of the scene; these decide nothing but how long the next one takes.
-  Nearby nearby{};
-  Surroundings surroundings{};
+  ProxyCache cache{};
 };
 
 /// A plane that holds the proxy at the end of a tick.
@@ -70,15 +67,33 @@ struct ProxyContact {
   bool rough;              ///< friction or viscosity act here
 };
 
+/// Why a tick ended.
+enum class Ending : std::uint8_t {
+  kGoesOn,      ///< it has not
+  kReached,     ///< the proxy is at the finger: nothing is in the way
+  kStationary,  ///< no step comes nearer: the local minimum
+  kSettled,     ///< the same under the rules of the surfaces, found without another look
+  kStalled,     ///< only steps that rounding leads are left
+  kPostponed,   ///< what is left to slip is for the next tick
+  kNoEnergy,    ///< the energy that it may add is used up
+  kCrowded,     ///< more touches the proxy than there is room for
+  kCapped,      ///< the iteration cap
+  kUnplaced,    ///< no place clear of the scene has been found near the finger: nothing pulls
+  kInvalid,     ///< the finger was not finite or beyond kFarthestFinger_m: nothing has moved
+};
+inline constexpr std::size_t kEndings = 11;
+
 struct TickReport {
   FixedVector<ProxyContact, 3> contacts;
   Vec3 target = Vec3::Zero();  ///< where the servo pulls the finger: the proxy after stiffness
   double injected_J = 0;       ///< what the tick did to the spring's energy: added (positive) or dissipated (negative)
   double moved_J = 0;          ///< what moving objects did to it before
   int iterations = 0;
-  bool capped = false;  ///< the iteration cap or the room for contacts ended the tick before the local minimum
-  bool placed = true;   ///< false while no place clear of the scene has been found near the finger: nothing pulls
-  bool valid = true;    ///< false when the finger was not finite or beyond kFarthestFinger_m; then nothing has moved
+  Ending ending = Ending::kGoesOn;
+  /// Ended before the local minimum, at a valid place.
+  bool capped() const { return ending == Ending::kCapped || ending == Ending::kCrowded; }
+  bool placed() const { return ending != Ending::kUnplaced; }
+  bool valid() const { return ending != Ending::kInvalid; }
 };
 
 /// A proxy at the finger or, when the finger touches the scene, at a clear place nearby, looked for at once wherever

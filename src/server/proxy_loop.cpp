@@ -24,7 +24,7 @@ void ProxyLoop::restart() {
 }
 
 bool ProxyLoop::touches(const ProxyState& state, const TickReport& report) const {
-  return report.valid && state.free && state.touching;
+  return report.valid() && state.free && state.touching;
 }
 
 // In the open the proxy is the finger of a moment ago: pulling to it would be a drag, so there is no pull then. A proxy
@@ -91,7 +91,7 @@ ServoTarget ProxyLoop::targetOf(std::int64_t now_ns, const Vec3& finger_D, const
                      report.injected_J + std::max(0.0, report.moved_J)};
   if (touching) target.proxy_D = workspace_.toDevice(state_.position);
   const double stiffness = told_.valid ? std::max(target.stiffness, told_.stiffness) : target.stiffness;
-  if (blend_.active() && report.valid && stiffness > 0) {
+  if (blend_.active() && report.valid() && stiffness > 0) {
     target.valid = true;
     target.stiffness = stiffness;
     target.proxy_D = finger_D + (pull_D + fading_D) / stiffness;

@@ -54,7 +54,7 @@ void addTick(Hash& hash, const ProxyState& state, const TickReport& report) {
   hash.add(report.target);
   hash.add(report.injected_J);
   hash.add(report.moved_J);
-  hash.add(std::uint64_t{report.capped} << 1 | std::uint64_t{state.free});
+  hash.add(std::uint64_t{report.capped()} << 1 | std::uint64_t{state.free});
   for (const ProxyContact& contact : report.contacts) {
     hash.add(contact.point);
     hash.add(contact.normal);

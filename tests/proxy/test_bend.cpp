@@ -115,7 +115,7 @@ TEST(Bend, ASkinThatRisesAndFallsLiftsTheProxyWhateverItsSpeed) {
       height = std::clamp(height + move(random), -0.003, 0.05);
       skin.bend(sheet([&](double, double) { return height; }));
       const TickReport report = skin.feel(state, finger);
-      ASSERT_FALSE(report.capped);
+      ASSERT_FALSE(report.capped());
       ASSERT_NEAR(state.position.y() - height, kRadius, 1e-8) << "steps up to " << step << " m, frame " << frame;
     }
   }

@@ -100,7 +100,7 @@ TEST(CurvatureStep, AllButAtAnEdgeOfHillsItTakesFewSteps) {
     ProxyState state = startProxy(*snapshot, {kLarge}, finger + 3 * kLarge * above);
     if (!state.free) continue;
     const TickReport report = tick(state, *snapshot, {kLarge}, finger);
-    ASSERT_FALSE(report.capped) << i;
+    ASSERT_FALSE(report.capped()) << i;
     ASSERT_LE(judge::kktResidual(*snapshot, state.position, finger, kLarge), 1e-6) << i;
     ASSERT_GE(judge::clearance(*snapshot, state.position, kLarge), kLarge * (1 - 1e-6)) << i;
     ++ticks;

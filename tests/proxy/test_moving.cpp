@@ -216,7 +216,7 @@ TEST(Moving, ATumblingBoxNeverSwallowsTheProxy) {
       const Vec3 own = box.motion.at(t).toObject(state.position);
       ASSERT_TRUE((own.cwiseAbs().array() > half.array()).any()) << "seed " << seed << " t " << t;
       ASSERT_GE(judge::clearance({*snapshot, t}, state.position, kRadius), kRadius * (1 - 1e-6));
-      ASSERT_FALSE(report.capped);
+      ASSERT_FALSE(report.capped());
     }
     EXPECT_GT(contacts, 300);
   }

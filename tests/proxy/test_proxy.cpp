@@ -109,7 +109,7 @@ TEST(C03Proxy, InASlotOfItsOwnWidthNoTickIsCapped) {
     ProxyState state{far, true};
     for (int i = 0; i < 100; ++i) {
       const TickReport report = tick(state, *snapshot, kSettings, far + random.inCube(20 * kRadius));
-      ASSERT_FALSE(report.capped) << slot << ' ' << i;
+      ASSERT_FALSE(report.capped()) << slot << ' ' << i;
       EXPECT_GE(judge::clearance(*snapshot, state.position, 2 * kRadius), kRadius) << slot << ' ' << i;
       touching += state.touching;
     }
@@ -194,7 +194,7 @@ TEST(C10C12Proxy, NoTickTakesItFartherFromTheFinger) {
   for (int i = 0; i < kManyTicks; ++i) {
     finger = 0.99 * finger + point(2e-3);
     const double before = (state.position - finger).norm();
-    capped += tick(state, *snapshot, kSettings, finger).capped;
+    capped += tick(state, *snapshot, kSettings, finger).capped();
     ASSERT_LE((state.position - finger).norm(), before + 1e-12) << i;
     ASSERT_GE(judge::clearance(*snapshot, state.position, kRadius), kRadius * (1 - 1e-6)) << i;
     ASSERT_LE(judge::kktResidual(*snapshot, state.position, finger, kRadius), 1e-6) << i;
@@ -252,7 +252,7 @@ TEST(Proxy, AFingerThatIsNotFiniteMovesNothing) {
   const auto snapshot = scene(plate(0.1));
   ProxyState state = startProxy(*snapshot, kSettings, Vec3(0, 0, 0.05));
   const TickReport report = tick(state, *snapshot, kSettings, Vec3(0, std::numeric_limits<double>::quiet_NaN(), 0));
-  EXPECT_FALSE(report.valid);
+  EXPECT_FALSE(report.valid());
   EXPECT_EQ(state.position, Vec3(0, 0, 0.05));
 }
 
@@ -263,8 +263,8 @@ TEST(Proxy, AFingerOfAnyNumberGivesNumbers) {
     for (const Vec3& way : {Vec3(1, 0, 0), Vec3(-0.6, 0.5, 0.7), Vec3(0, 0, -1)}) {
       ProxyState state = startProxy(*snapshot, kSettings, Vec3(0.001, 0.002, 0.05));
       const TickReport report = tick(state, *snapshot, kSettings, size * way);
-      EXPECT_EQ(report.valid, canBeFinger(size * way));
-      EXPECT_EQ(report.valid, size <= 1e15);
+      EXPECT_EQ(report.valid(), canBeFinger(size * way));
+      EXPECT_EQ(report.valid(), size <= 1e15);
       EXPECT_TRUE(state.position.allFinite() && report.target.allFinite()) << size;
       EXPECT_TRUE(std::isfinite(report.injected_J) && std::isfinite(state.ledger.dissipated_J)) << size;
     }
@@ -315,7 +315,7 @@ TEST(Proxy, StartsNearAFingerInsideAnything) {
       ASSERT_GE(judge::clearance(*snapshot, state.position, kRadius), kRadius * (1 - 1e-6)) << finger.transpose();
       ProxyState live;
       int ticks = 1;
-      while (!tick(live, *snapshot, kSettings, finger).placed) ++ticks;
+      while (!tick(live, *snapshot, kSettings, finger).placed()) ++ticks;
       ASSERT_LE(ticks, StartSearch::kPlaces);
       ASSERT_GE(judge::clearance(*snapshot, live.position, kRadius), kRadius * (1 - 1e-6));
     }
@@ -352,14 +352,14 @@ TEST(Proxy, WithoutAClearPlaceItSaysSoAndKeepsTheLedger) {
   const Vec3 inside(0.01, 0.02, 0.0003);
   for (int i = 0; i < 1000; ++i) {
     const TickReport report = tick(state, *snapshot, kSettings, inside);
-    ASSERT_FALSE(report.placed);
+    ASSERT_FALSE(report.placed());
     ASSERT_FALSE(state.free);
     ASSERT_EQ(report.target, inside);
     ASSERT_EQ(report.contacts.size(), 0u);
   }
   EXPECT_EQ(state.ledger.injected_J, 0.25);
   EXPECT_EQ(state.ledger.tank_J, 0.001);
-  EXPECT_TRUE(tick(state, *snapshot, kSettings, Vec3(0.01, 0.02, 0.2)).placed);
+  EXPECT_TRUE(tick(state, *snapshot, kSettings, Vec3(0.01, 0.02, 0.2)).placed());
   EXPECT_EQ(state.position, Vec3(0.01, 0.02, 0.2));
   EXPECT_EQ(state.ledger.tank_J, 0.001);
 }
@@ -402,7 +402,7 @@ TEST(Proxy, TheDirectionOfAFarFingerDecides) {
       ProxyState state = startProxy(*snapshot, kSettings, Vec3::Zero());
       for (const double part : {0.5, 1.0, 1.0, 1.0}) {
         const TickReport report = tick(state, *snapshot, kSettings, part * 0.05 * extents * toward);
-        ASSERT_FALSE(report.capped) << extents;
+        ASSERT_FALSE(report.capped()) << extents;
         ASSERT_LE(report.injected_J, 0) << extents;
       }
       ASSERT_LE(judge::kktResidual(*snapshot, state.position, 0.05 * extents * toward, kRadius), 1e-8) << extents;

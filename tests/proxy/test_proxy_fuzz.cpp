@@ -64,7 +64,7 @@ TEST(C02Fuzz, PokesIntoATornSheetOfAMillionTrianglesNeverFallThrough) {
     ProxyState state = startProxy(*snapshot, settings, above);
     const Vec3 below = above + Vec3(4e-3 * uniform(random), 4e-3 * uniform(random),
                                     -side * (0.004 + 0.02 * std::abs(uniform(random))));
-    capped += tick(state, *snapshot, settings, below).capped;
+    capped += tick(state, *snapshot, settings, below).capped();
     through += state.position.z() * side < 0;
     if (i % 16 == 0) inside += judge::clearance(*snapshot, state.position, kRadius) < kRadius * (1 - 1e-6);
   }

@@ -32,7 +32,7 @@ SlideReport slide(const Snapshot& snapshot, Path path, double length, double spe
   for (int i = 0; i <= ticks; ++i) {
     const Vec3 finger = path(double(i) / ticks);
     const TickReport t = tick(state, snapshot, kSettings, finger);
-    report.capped += t.capped;
+    report.capped += t.capped();
     report.most_iterations = std::max(report.most_iterations, t.iterations);
     const double residual = judge::kktResidual(snapshot, state.position, finger, kRadius);
     report.worst_residual = std::max(report.worst_residual, residual);

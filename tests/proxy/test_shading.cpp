@@ -222,7 +222,7 @@ TEST(Shading, TwoShadedCylindersHoldTheProxyInTheCusp) {
   ProxyState state = startProxy(*scene, settings, {0, 1.5, 0.1});
   const Vec3 finger(0.01, 0.1, 0.1);
   const TickReport report = tick(state, *scene, settings, finger);
-  EXPECT_FALSE(report.capped);
+  EXPECT_FALSE(report.capped());
   ASSERT_EQ(report.contacts.size(), 2u);
   EXPECT_LT(std::abs(state.position.x()), 1e-3);
   Vec3 sum = Vec3::Zero();

@@ -88,7 +88,7 @@ class Piece {
     const TickReport report = tick(state_, {*world_.snapshot, 0, recent_}, world_.settings, finger);
     ++seen_.ticks;
     seen_.touching += state_.touching ? 1 : 0;
-    seen_.capped += report.capped ? 1 : 0;
+    seen_.capped += report.capped() ? 1 : 0;
     seen_.most_iterations = std::max(seen_.most_iterations, report.iterations);
     judge(report);
   }
@@ -97,7 +97,7 @@ class Piece {
     const Vec3& p = state_.position;
     if (!p.allFinite() || !report.target.allFinite()) return blame("the proxy is not finite");
     if (world_.rooms.room(world_.toRooms(p)) != room_) return blame("the proxy fell through");
-    if (!report.capped && seen_.ticks % kTicksPerLook != 0) return;
+    if (!report.capped() && seen_.ticks % kTicksPerLook != 0) return;
     const double radius = world_.settings.radius;
     const double above = clearance_.at(p, 2 * radius) / radius - 1;
     ++seen_.looks;

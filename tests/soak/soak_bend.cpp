@@ -284,7 +284,7 @@ class Piece {
     const TickReport report = tick(state_, scene, settings_, finger.next(state_.position));
     ++seen_.ticks;
     seen_.touching += state_.touching ? 1 : 0;
-    seen_.capped += report.capped ? 1 : 0;
+    seen_.capped += report.capped() ? 1 : 0;
     bool near = false;
     scene.primitivesWithin(state_.position, kPinched, [&](PrimitiveId, const ClosestPoint&) { near = true; });
     pinched_ = near || !state_.free;

@@ -129,19 +129,19 @@ class Run {
     const TickReport other = tick(shuffled_, *scene_.shuffled, scene_.settings, finger_);
     ++seen_.ticks;
     seen_.touching += report.contacts.empty() ? 0 : 1;
-    seen_.capped += report.capped ? 1 : 0;
-    seen_.unplaced += report.placed ? 0 : 1;
+    seen_.capped += report.capped() ? 1 : 0;
+    seen_.unplaced += report.placed() ? 0 : 1;
     if (state_.position != shuffled_.position || report.target != other.target)
       blame(fmt::format("the order of the primitives changes bits, by {:.3g} radii",
                         (state_.position - shuffled_.position).norm() / radius()));
     if (!state_.position.allFinite() || !report.target.allFinite() || !std::isfinite(report.injected_J))
       return blame("a number is not finite");
-    if (!report.placed) return judgeUnplaced(report);
+    if (!report.placed()) return judgeUnplaced(report);
     judgeClearance();
     if (before.free) judgeCrossing(before);
     judgeForce(report);
     if (before.free) judgeEnergy(before, report);
-    if (!report.capped) judgeRest(report);
+    if (!report.capped()) judgeRest(report);
   }
 
   void judgeUnplaced(const TickReport& report) {

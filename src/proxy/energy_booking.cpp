@@ -1,4 +1,4 @@
-#include "proxy/account.h"
+#include "proxy/energy_booking.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@ namespace hl {
 
 namespace {
 
-void bookCauses(Ledger& ledger, const Account::Causes& causes, double moved_J, double stiffened_J) {
+void bookCauses(Ledger& ledger, const EnergyBooking::Causes& causes, double moved_J, double stiffened_J) {
   if (moved_J > 0 && causes.shading + causes.bump == 0) {
     ledger.add(EnergyCause::kStiffness, moved_J);  // pre-sliding springs that creep back
   } else if (moved_J > 0) {
@@ -37,7 +37,7 @@ double MeanStiffness::value() const {
   return weights_m_ > 0 ? std::clamp(weighted_m_ / weights_m_, least_, most_) : least_;
 }
 
-Account::Account(const ProxyState& state, const ProxySettings& settings, const Vec3& finger)
+EnergyBooking::EnergyBooking(const ProxyState& state, const ProxySettings& settings, const Vec3& finger)
     : settings_(settings),
       finger_(finger),
       was_touching_(state.touching),
@@ -45,14 +45,14 @@ Account::Account(const ProxyState& state, const ProxySettings& settings, const V
       proxy_before_(state.position),
       budget_J_(state.ledger.budget_J(settings.ledger)) {}
 
-double Account::energy_J(double stiffness, double distance_squared) const {
+double EnergyBooking::energy_J(double stiffness, double distance_squared) const {
   const double scale = settings_.world_per_device;
   return springEnergy_J(settings_.spring_N_m, stiffness, distance_squared / (scale * scale));
 }
 
 // What a move of the proxy has done to the energy since the tick began: 1/2 K s (|e+|^2 - |e-|^2) by what lies between
 // the two places, so that it is right however far the finger is.
-double Account::moved_J(const Vec3& proxy, double stiffness) const {
+double EnergyBooking::moved_J(const Vec3& proxy, double stiffness) const {
   const Vec3 apart = proxy - proxy_before_;
   return energy_J(stiffness, apart.dot((proxy - finger_) + (proxy_before_ - finger_)));
 }
@@ -60,7 +60,7 @@ double Account::moved_J(const Vec3& proxy, double stiffness) const {
 // Along the step |proxy - finger|^2 falls to its nearest point and rises beyond. What rises beyond is paid for in full:
 // paying for it with the fall before would let the proxy jump to its mirror image beyond the finger, and back in the
 // next tick.
-double Account::affordable(const Vec3& proxy, const Vec3& step) const {
+double EnergyBooking::affordable(const Vec3& proxy, const Vec3& step) const {
   const double joule_per_square = energy_J(was_touching_ ? stiffness_before_ : 1, 1);
   if (!(joule_per_square > 0) || !std::isfinite(budget_J_)) return 1;
   const Vec3 e = proxy - finger_;
@@ -75,14 +75,20 @@ double Account::affordable(const Vec3& proxy, const Vec3& step) const {
   return std::min(1.0, nearest + partWithin(at_nearest, step, std::max(0.0, left)));
 }
 
-double Account::wantedStiffness(TickEnd end, const MeanStiffness& surfaces) const {
+Vec3 EnergyBooking::afford(const Vec3& proxy, const Vec3& step) {
+  const double part = affordable(proxy, step);
+  spent_ = part < 1;
+  return part * step;
+}
+
+double EnergyBooking::wantedStiffness(TickEnd end, const MeanStiffness& surfaces) const {
   if (end == TickEnd::kOpen) return 1;
   if (end == TickEnd::kOnItsWay && surfaces.empty()) return was_touching_ ? stiffness_before_ : 0;
   return surfaces.value();
 }
 
-void Account::close(ProxyState& state, TickEnd end, const MeanStiffness& surfaces, const Causes& causes,
-                    TickReport& report) const {
+void EnergyBooking::close(ProxyState& state, TickEnd end, const MeanStiffness& surfaces, const Causes& causes,
+                          TickReport& report) const {
   const Vec3 whole = state.position - finger_;
   const double distance_squared = whole.squaredNorm();
   const bool touching = end != TickEnd::kOpen && (was_touching_ || !surfaces.empty());

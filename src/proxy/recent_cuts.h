@@ -1,4 +1,4 @@
-// LeftBehind: what held the proxy in the last step and touches it no more. A sphere that rolls over an edge leaves it
+// RecentCuts: what held the proxy in the last step and touches it no more. A sphere that rolls over an edge leaves it
 // by the square of the step; straight on toward the goal it would meet the same edge again a nanometre farther. Between
 // two edges it would go to and fro, from one to the other, as alternating projections do. So the planes of what was
 // left count for one step more: where the obstacle is now, as seen from the proxy.
@@ -14,7 +14,7 @@
 namespace hl {
 
 /// For one tick. RT-safe.
-class LeftBehind {
+class RecentCuts {
  public:
   /// Among planes of so many contacts nothing more is asked.
   static constexpr std::size_t kMostPlanes = 16;

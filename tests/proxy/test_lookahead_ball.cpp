@@ -1,5 +1,5 @@
 // A ball ahead of the proxy against a search for each step: the same ticks to the bit, the same impacts.
-#include "proxy/surroundings.h"
+#include "proxy/lookahead_ball.h"
 
 #include <gtest/gtest.h>
 
@@ -37,8 +37,8 @@ Model floorWithPatch() {
 
 bool hasBall(const ProxyState& state, const SceneAt& scene) {
   const Tolerances tolerance = Tolerances::of(kRadius, scene.extent());
-  return state.nearby.covers(scene, state.position, tolerance.touching) &&
-         state.nearby.slack_m(state.position, tolerance.touching) > 0;
+  return state.cache.nearby.covers(scene, state.position, tolerance.touching) &&
+         state.cache.nearby.slack_m(state.position, tolerance.touching) > 0;
 }
 
 // A finger that wanders at some depth below the hills, and now and then jumps, stops, or comes up.
@@ -73,8 +73,8 @@ int ticksWithBall(const Snapshot& snapshot, const ProxySettings& settings, test:
   int with_ball = 0;
   for (int i = 0; i < ticks; ++i) {
     const Vec3& finger = wanderer.next();
-    b.nearby = Nearby();
-    b.surroundings.follow(Vec3::Constant(1e3));
+    b.cache.nearby = SweepCache();
+    b.cache.ahead.follow(Vec3::Constant(1e3));
     const TickReport lasting = tick(a, {snapshot, 0, recent}, settings, finger);
     const TickReport judged = tick(b, snapshot, settings, finger);
     EXPECT_EQ(a.position, b.position);
@@ -88,7 +88,7 @@ int ticksWithBall(const Snapshot& snapshot, const ProxySettings& settings, test:
   return with_ball;
 }
 
-TEST(Surroundings, ATickWithABallIsATickThatSearchesToTheBit) {
+TEST(LookaheadBall, ATickWithABallIsATickThatSearchesToTheBit) {
   test::Random random(61);
   for (const HierarchyKind kind : {HierarchyKind::kBvh, HierarchyKind::kSpheres}) {
     const auto snapshot = judge::scene(hills(0.03), kind);
@@ -99,7 +99,7 @@ TEST(Surroundings, ATickWithABallIsATickThatSearchesToTheBit) {
   }
 }
 
-TEST(Surroundings, OfObjectsThatStandTurnedTheSame) {
+TEST(LookaheadBall, OfObjectsThatStandTurnedTheSame) {
   test::Random random(62);
   std::vector<Instance> instances(2);
   for (std::size_t i = 0; i < instances.size(); ++i) {
@@ -112,13 +112,13 @@ TEST(Surroundings, OfObjectsThatStandTurnedTheSame) {
   EXPECT_GT(ticksWithBall(*makeSnapshot(instances), {kRadius}, random, 4000), 1000);
 }
 
-TEST(Surroundings, WhereTrianglesAreSmallThereIsNoBall) {
+TEST(LookaheadBall, WhereTrianglesAreSmallThereIsNoBall) {
   test::Random random(63);
   EXPECT_EQ(ticksWithBall(*judge::scene(hills(0.003)), {kRadius}, random, 1000), 0);
 }
 
 // One primitive after the other, against all of them.
-TEST(Surroundings, HoldAllThatTheWayCanTouch) {
+TEST(LookaheadBall, HoldAllThatTheWayCanTouch) {
   test::Random random(64);
   const auto snapshot = judge::scene(hills(0.03));
   const SceneAt scene(*snapshot);
@@ -131,14 +131,14 @@ TEST(Surroundings, HoldAllThatTheWayCanTouch) {
     tick(state, scene, {kRadius}, finger);
     ContactSet set;
     gatherContacts(scene, state.position, tolerance.touching, tolerance.reach, set);
-    Surroundings surroundings;
-    surroundings.follow(finger);
-    surroundings.follow(finger + kTravel * random.direction());
+    LookaheadBall ahead;
+    ahead.follow(finger);
+    ahead.follow(finger + kTravel * random.direction());
     Vec3 motion = random.uniform(0.2, 2) * kTravel * random.direction();
     for (const Contact& contact : set.contacts)
       motion -= std::min(0.0, motion.dot(contact.plane.normal)) * contact.plane.normal;
-    Nearby nearby;
-    if (!surroundings.find(scene, set, tolerance, state.position, motion, nearby)) continue;
+    SweepCache nearby;
+    if (!ahead.find(scene, set, tolerance, state.position, motion, nearby)) continue;
     ++found;
     std::vector<PrimitiveId> near;
     nearby.forEach(state.position, state.position + motion, tolerance.touching + tolerance.skin, [&](PrimitiveId id) {
@@ -168,7 +168,7 @@ TEST(Surroundings, HoldAllThatTheWayCanTouch) {
 }
 
 // On a large triangle among small ones the balls hold too much: soon nobody asks for them any more.
-TEST(Surroundings, BallsThatHoldTooMuchAreTriedLessAndLess) {
+TEST(LookaheadBall, BallsThatHoldTooMuchAreTriedLessAndLess) {
   const auto snapshot = judge::scene(floorWithPatch());
   const SceneAt scene(*snapshot);
   const Tolerances tolerance = Tolerances::of(kRadius, scene.extent());
@@ -176,20 +176,20 @@ TEST(Surroundings, BallsThatHoldTooMuchAreTriedLessAndLess) {
   ContactSet set;
   gatherContacts(scene, from, tolerance.touching, tolerance.reach, set);
   ASSERT_EQ(set.contacts.size(), 1u);
-  Surroundings surroundings;
-  surroundings.follow({0, 0, 0});
-  surroundings.follow({kTravel, 0, 0});
+  LookaheadBall ahead;
+  ahead.follow({0, 0, 0});
+  ahead.follow({kTravel, 0, 0});
   int tried = 0;
   for (int i = 0; i < 1000; ++i) {
-    Nearby nearby;
-    EXPECT_FALSE(surroundings.find(scene, set, tolerance, from, Vec3(kTravel, 0, 0), nearby));
+    SweepCache nearby;
+    EXPECT_FALSE(ahead.find(scene, set, tolerance, from, Vec3(kTravel, 0, 0), nearby));
     tried += nearby.size() > 0;
   }
   EXPECT_GE(tried, 5);
   EXPECT_LE(tried, 10);
 }
 
-TEST(Surroundings, WhatMovesHasNone) {
+TEST(LookaheadBall, WhatMovesHasNone) {
   Instance instance;
   instance.shape = makeShape(hills(0.03));
   instance.surfaces = surfacesOf(instance.shape);

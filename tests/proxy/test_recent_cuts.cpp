@@ -1,5 +1,5 @@
 // What the proxy has just left, and the planes that go on to count.
-#include "proxy/left_behind.h"
+#include "proxy/recent_cuts.h"
 
 #include <gtest/gtest.h>
 
@@ -42,8 +42,8 @@ class Left : public ::testing::Test {
   std::shared_ptr<const Snapshot> snapshot_ = wires();
   SceneAt scene_{*snapshot_};
   Tolerances tolerance_ = Tolerances::of(kRadius, scene_.extent());
-  LeftBehind left_;
-  LeftBehind::Planes planes_;
+  RecentCuts left_;
+  RecentCuts::Planes planes_;
 };
 
 TEST_F(Left, WhatIsStillTouchedIsNotLeft) {

@@ -1,4 +1,5 @@
-// Mixing: Anderson's acceleration of a fixed-point iteration x -> next(x), here of the proxy's place in a sub-goal.
+// AndersonMixing: Anderson's acceleration of a fixed-point iteration x -> next(x), here of the proxy's place in a
+// sub-goal.
 //
 // With f = next(x) - x of the last three passes, f0 the newest, it takes the combination
 //   g1, g2 = argmin |f0 - g1 (f0 - f1) - g2 (f1 - f2)|,   x = next0 - g1 (next0 - next1) - g2 (next1 - next2),
@@ -11,7 +12,7 @@
 namespace hl {
 
 /// RT-safe.
-class Mixing {
+class AndersonMixing {
  public:
   /// Where to look next, after `next` came out `change` away from where it was looked.
   Vec3 guess(const Vec3& next, const Vec3& change);

@@ -1,4 +1,4 @@
-#include "proxy/mixing.h"
+#include "proxy/anderson_mixing.h"
 
 #include <cmath>
 
@@ -14,7 +14,7 @@ constexpr double kParallelSquared = 1e-4;
 
 }  // namespace
 
-Vec3 Mixing::mixed(const Vec3& next, const Vec3& change) const {
+Vec3 AndersonMixing::mixed(const Vec3& next, const Vec3& change) const {
   if (passes_ == 0) return next;
   const Vec3 turn = change - last_change_, older_turn = last_change_ - older_change_;
   const double a = turn.squaredNorm(), b = turn.dot(older_turn), c = older_turn.squaredNorm();
@@ -30,7 +30,7 @@ Vec3 Mixing::mixed(const Vec3& next, const Vec3& change) const {
   return std::abs(g1) < kMostMixing ? Vec3(next - g1 * (next - last_next_)) : next;
 }
 
-Vec3 Mixing::guess(const Vec3& next, const Vec3& change) {
+Vec3 AndersonMixing::guess(const Vec3& next, const Vec3& change) {
   const Vec3 result = mixed(next, change);
   ++passes_;
   older_next_ = last_next_;

@@ -1,4 +1,4 @@
-// Account: one tick's entry in the energy ledger, and the target that comes out of it.
+// EnergyBooking: one tick's entry in the energy ledger, and the target that comes out of it.
 //
 //   before   E0 = 1/2 K s- |proxy- - finger|^2         after   E = 1/2 K s+ |proxy+ - finger|^2
 // at the same finger position, so that E - E0 is what the tick's rules did, not what the hand did. In the open, and on
@@ -36,13 +36,15 @@ class MeanStiffness {
   double least_ = 1, most_ = 0;
 };
 
-class Account {
+class EnergyBooking {
  public:
-  Account(const ProxyState& state, const ProxySettings& settings, const Vec3& finger);
+  EnergyBooking(const ProxyState& state, const ProxySettings& settings, const Vec3& finger);
 
-  /// The part 0..1 of a step that the tick's energy pays for: to the point nearest the finger, and beyond it as far as
-  /// the tank reaches. RT-safe.
-  double affordable(const Vec3& proxy, const Vec3& step) const;
+  /// The part of a step that the tick's energy pays for: to the point nearest the finger, and beyond it as far as the
+  /// tank reaches. RT-safe.
+  Vec3 afford(const Vec3& proxy, const Vec3& step);
+  /// The energy that the tick may add is used up: the last step could not be paid for as a whole.
+  bool spent() const { return spent_; }
 
   /// What bent the proxy's way, for booking by cause; the bends as BentNormal has them.
   struct Causes {
@@ -55,6 +57,7 @@ class Account {
              TickReport& report) const;
 
  private:
+  double affordable(const Vec3& proxy, const Vec3& step) const;
   double energy_J(double stiffness, double distance_squared) const;
   double moved_J(const Vec3& proxy, double stiffness) const;
   double wantedStiffness(TickEnd end, const MeanStiffness& surfaces) const;
@@ -65,6 +68,7 @@ class Account {
   const double stiffness_before_;
   const Vec3 proxy_before_;
   const double budget_J_;
+  bool spent_ = false;
 };
 
 }  // namespace hl

@@ -1,4 +1,4 @@
-#include "proxy/surroundings.h"
+#include "proxy/lookahead_ball.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ double area_m2(const Primitive& p) { return 0.5 * (p.vertex[1] - p.vertex[0]).cr
 
 // How much larger than the proxy a ball may be, so that its disc is as large as the triangles allow:
 // (R + s)^2 - R^2 = disc / pi.
-double Surroundings::slack_m(const SceneAt& scene, const ContactSet& set, double touching) const {
+double LookaheadBall::slack_m(const SceneAt& scene, const ContactSet& set, double touching) const {
   if (set.contacts.empty() || set.contacts.size() > kMostContacts) return 0;
   double area = area_m2(scene.primitive(set.contacts[0].primitive));
   for (std::size_t i = 1; i < set.contacts.size(); ++i)
@@ -32,8 +32,8 @@ double Surroundings::slack_m(const SceneAt& scene, const ContactSet& set, double
   return std::min(most, 0.5 * kMostTicks * travel_m_);
 }
 
-bool Surroundings::find(const SceneAt& scene, const ContactSet& set, const Tolerances& tolerance, const Vec3& from,
-                        const Vec3& motion, Nearby& nearby) {
+bool LookaheadBall::find(const SceneAt& scene, const ContactSet& set, const Tolerances& tolerance, const Vec3& from,
+                         const Vec3& motion, SweepCache& nearby) {
   const double length = motion.norm();
   const bool moves = scene.time_ns() < scene.snapshot().moves_until_ns;
   if (!(length > 0 && length <= kMostTicks * travel_m_) || moves || !back_off_.mayTry()) return false;

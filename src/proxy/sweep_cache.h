@@ -1,7 +1,7 @@
-// Nearby: primitives among which are all that come within some distance of a place. A sweep meets those that touch the
-// proxy where it ends, so the contacts there are found without asking the hierarchy again; and where nothing has moved
-// since, neither does the next tick. Where triangles are large a ball ahead of the proxy holds them for several ticks:
-// surroundings.h. What touches the proxy where it is now is kept measured, as the next tick begins there.
+// SweepCache: primitives among which are all that come within some distance of a place. A sweep meets those that touch
+// the proxy where it ends, so the contacts there are found without asking the hierarchy again; and where nothing has
+// moved since, neither does the next tick. Where triangles are large a ball ahead of the proxy holds them for several
+// ticks: ahead.h. What touches the proxy where it is now is kept measured, as the next tick begins there.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace hl {
 
 /// Plain values; RT-safe. World frame.
-class Nearby {
+class SweepCache {
  public:
   /// A sweep over a million triangles, a quarter of the proxy's radius wide, meets three in the mean.
   static constexpr std::size_t kRoom = 24;

@@ -1,10 +1,10 @@
-#include "proxy/effects.h"
+#include "proxy/surface_rules.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "proxy/mixing.h"
+#include "proxy/anderson_mixing.h"
 
 namespace hl {
 
@@ -24,7 +24,7 @@ constexpr double kMostSamples = 4096;
 
 }  // namespace
 
-bool Effects::any(const ContactSet& set) const {
+bool SurfaceRules::any(const ContactSet& set) const {
   return std::any_of(set.contacts.begin(), set.contacts.end(), [&](const Contact& contact) {
     if (plain(contact.primitive)) return false;
     const Surface surface = surfaceOf(contact.primitive);
@@ -33,14 +33,14 @@ bool Effects::any(const ContactSet& set) const {
 }
 
 // Whether a primitive that shares the edge or vertex under the contact has another normal there.
-bool Effects::creased(const ContactSet& set, const Contact& contact, const Vec3& normal) const {
+bool SurfaceRules::creased(const ContactSet& set, const Contact& contact, const Vec3& normal) const {
   return std::any_of(set.twins.begin(), set.twins.end(), [&](const Contact& twin) {
     if (!samePlane(twin, contact)) return false;
     return patchAt(placeOf(twin)).bend().normal.cross(normal).norm() > kCrease_rad;
   });
 }
 
-Effects::TouchedSet Effects::touchedNow(const ContactSet& set) const {
+SurfaceRules::TouchedSet SurfaceRules::touchedNow(const ContactSet& set) const {
   TouchedSet touched;
   for (const Contact& contact : set.contacts) {
     const Surface surface = surfaceOf(contact.primitive);
@@ -56,7 +56,7 @@ Effects::TouchedSet Effects::touchedNow(const ContactSet& set) const {
 }
 
 // The places touched and their bent normals when the passes have moved the proxy on, from `position` by `offset`.
-void Effects::moveOn(const ContactSet& set, const Vec3& position, const Vec3& offset, TouchedSet& touched) const {
+void SurfaceRules::moveOn(const ContactSet& set, const Vec3& position, const Vec3& offset, TouchedSet& touched) const {
   for (std::size_t i = 0; i < touched.size(); ++i) {
     Touched& now = touched[i];
     now.moved = now.patch.weightsOver(offset - now.patch_offset);
@@ -72,8 +72,8 @@ void Effects::moveOn(const ContactSet& set, const Vec3& position, const Vec3& of
 }
 
 // Pass 1: the point nearest the finger above the planes as they feel, each bent about where it holds the proxy now.
-SolverResult Effects::firstPass(const ContactSet& set, const TouchedSet& touched, const Vec3& gap,
-                                const Vec3& offset) const {
+SolverResult SurfaceRules::firstPass(const ContactSet& set, const TouchedSet& touched, const Vec3& gap,
+                                     const Vec3& offset) const {
   FixedVector<Plane, kMaxContacts> planes;
   for (std::size_t i = 0; i < touched.size(); ++i) {
     const double height = set.planes[i].normal.dot(offset) - set.planes[i].offset;
@@ -85,13 +85,13 @@ SolverResult Effects::firstPass(const ContactSet& set, const TouchedSet& touched
 }
 
 // The point nearest the goal above the true planes; where the proxy is when rounding leaves none.
-Vec3 Effects::aboveTruePlanes(const ContactSet& set, const Vec3& goal) const {
+Vec3 SurfaceRules::aboveTruePlanes(const ContactSet& set, const Vec3& goal) const {
   const SolverResult result = nearestAbove({set.planes.begin(), set.planes.size()}, goal, tolerance_.feasible);
   return result.violation <= tolerance_.feasible ? result.point : Vec3(Vec3::Zero());
 }
 
 // Pass 2: back above the true planes; a goal above all of them comes down to the nearest.
-Vec3 Effects::secondPass(const ContactSet& set, const Vec3& goal) const {
+Vec3 SurfaceRules::secondPass(const ContactSet& set, const Vec3& goal) const {
   if (set.planes.size() == 1)  // as most: from either side onto the plane
     return goal - (set.planes[0].normal.dot(goal) - set.planes[0].offset) * set.planes[0].normal;
   double lowest = std::numeric_limits<double>::infinity();
@@ -108,18 +108,18 @@ Vec3 Effects::secondPass(const ContactSet& set, const Vec3& goal) const {
 }
 
 // The slip along the way, after `before`.
-Vec3 Effects::slip(Resistance& resistance, const Drag& drag, const Vec3& way, const Slip& before,
-                   SubGoal& sub_goal) const {
+Vec3 SurfaceRules::slip(Resistance& resistance, const Drag& drag, const Vec3& way, const Slip& before,
+                        Proposal& proposal) const {
   const double pull = way.norm();
   if (!(pull > 0)) return Vec3::Zero();
   if (resistance.slipTextured()) resistance.setWay(way);
   if (resistance.texels() == 0) {
-    sub_goal.viscous = drag.viscous;
+    proposal.viscous = drag.viscous;
     return (slipLength(drag, pull, before) / pull) * way;
   }
   const int samples = 1 + static_cast<int>(std::min(kSamplesPerTexel * resistance.texels(), kMostSamples - 1));
   const auto drag_at = [&](double distance) { return resistance.at(distance / pull); };
-  const double length = slipLengthAlong(drag_at, pull, before, samples, sub_goal.viscous);
+  const double length = slipLengthAlong(drag_at, pull, before, samples, proposal.viscous);
   return std::min(length / pull, resistance.within() + kOverEdge * tolerance_.reach / pull) * way;
 }
 
@@ -129,24 +129,24 @@ Vec3 Effects::slip(Resistance& resistance, const Drag& drag, const Vec3& way, co
 //   |way - D| = creep |creep_m + D|,
 // and back when the pull falls: the elastic state z of Dahl's and Hayward and Armstrong's models, without their drift.
 // D comes from where the proxy got stuck: on a surface that turns, the springs may pull into what it touches now.
-Vec3 Effects::resistedStep(Resistance resistance, const Vec3& way, double slipped_now, SubGoal& sub_goal) const {
-  sub_goal.viscous = sub_goal.creep = 0;
-  sub_goal.creeps = false;
+Vec3 SurfaceRules::resistedStep(Resistance resistance, const Vec3& way, double slipped_now, Proposal& proposal) const {
+  proposal.viscous = proposal.creep = 0;
+  proposal.creeps = false;
   const Drag drag = resistance.here();
-  sub_goal.resisted = resistance.slipTextured() || drag.viscous > 0 || drag.holding() > 0;
-  if (!sub_goal.resisted) return way;
-  sub_goal.creep = drag.creep;
+  proposal.resisted = resistance.slipTextured() || drag.viscous > 0 || drag.holding() > 0;
+  if (!proposal.resisted) return way;
+  proposal.creep = drag.creep;
   const Slip before{slip_.length + slipped_now, slip_.viscous_m + drag.viscous * slipped_now};
   const bool stuck = !slipping_ && slipped_now == 0;
   Vec3 creep = drag.creep > 0 ? Vec3((way - drag.creep * creep_m_) / (1 + drag.creep)) : Vec3(Vec3::Zero());
   if (stuck && (way - creep).norm() <= drag.holding() + before.viscous_m) {
-    sub_goal.creeps = drag.creep > 0;
+    proposal.creeps = drag.creep > 0;
     return creep;
   }
-  return slip(resistance, drag, way, before, sub_goal);
+  return slip(resistance, drag, way, before, proposal);
 }
 
-Resistance Effects::resistanceOf(const TouchedSet& touched, const SolverResult& held) const {
+Resistance SurfaceRules::resistanceOf(const TouchedSet& touched, const SolverResult& held) const {
   Resistance resistance(settings_);
   for (std::size_t i = 0; i < held.active_count; ++i) {
     const Touched& by = touched[held.active[i]];
@@ -155,24 +155,24 @@ Resistance Effects::resistanceOf(const TouchedSet& touched, const SolverResult& 
   return resistance;
 }
 
-void Effects::tellHolding(const TouchedSet& touched, const SolverResult& held, SubGoal& sub_goal) const {
+void SurfaceRules::tellHolding(const TouchedSet& touched, const SolverResult& held, Proposal& proposal) const {
   for (std::size_t i = 0; i < held.active_count; ++i) {
     const Touched& by = touched[held.active[i]];
-    sub_goal.holding.push({held.active[i], by.patch.place(by.moved), by.bent.normal, held.multiplier[i]});
-    sub_goal.shading = std::max(sub_goal.shading, by.bent.shading);
-    sub_goal.bump = std::max(sub_goal.bump, by.bent.bump);
+    proposal.holding.push({held.active[i], by.patch.place(by.moved), by.bent.normal, held.multiplier[i]});
+    proposal.shading = std::max(proposal.shading, by.bent.shading);
+    proposal.bump = std::max(proposal.bump, by.bent.bump);
   }
 }
 
 // On planes that bend nowhere, a slip whose resistance is the same all along ends where the next would not move it.
-bool Effects::slipsAtOnce(const TouchedSet& touched, const SubGoal& sub_goal) const {
+bool SurfaceRules::slipsAtOnce(const TouchedSet& touched, const Proposal& proposal) const {
   const auto changes = [](const Touched& now) { return now.bends || now.roughness.slipTextured(); };
-  return sub_goal.resisted && !sub_goal.creeps && touched.size() <= kFewContacts &&
+  return proposal.resisted && !proposal.creeps && touched.size() <= kFewContacts &&
          std::none_of(touched.begin(), touched.end(), changes);
 }
 
 // Whether the planes, all of faces, are still those of the contacts after `step`.
-bool Effects::staysOnFaces(const ContactSet& set, const TouchedSet& touched, const Vec3& step) const {
+bool SurfaceRules::staysOnFaces(const ContactSet& set, const TouchedSet& touched, const Vec3& step) const {
   for (std::size_t i = 0; i < touched.size(); ++i) {
     const Patch& patch = touched[i].patch;
     if (set.contacts[i].feature != Feature::kFace) return false;
@@ -181,53 +181,62 @@ bool Effects::staysOnFaces(const ContactSet& set, const TouchedSet& touched, con
   return true;
 }
 
-// The passes are repeated here with the contacts in hand, which costs no search. Mixing takes out the main part of what
-// each would leave, a factor of sin^2(beta) + depth / radius.
-SubGoal Effects::subGoal(const ContactSet& set, const Vec3& position, const Vec3& gap) const {
+// The passes are repeated here with the contacts in hand, which costs no search. AndersonMixing takes out the main part
+// of what each would leave, a factor of sin^2(beta) + depth / radius.
+Proposal SurfaceRules::settle(const ContactSet& set, const Vec3& position, const Vec3& gap) const {
+  using Rest = Proposal::Rest;
   const bool few = set.contacts.size() <= kFewContacts;
   const double enough = kRestPerGap * gap.norm() + tolerance_.rest;
   TouchedSet touched = touchedNow(set);
   const auto any = [&](auto says) { return std::any_of(touched.begin(), touched.end(), says); };
   const bool resisting = any([](const Touched& now) { return now.roughness.acts(); });
-  SubGoal sub_goal;
+  Proposal proposal;
+  proposal.rule = Proposal::Rule::kFelt;
   Vec3 offset = Vec3::Zero();
-  Mixing mixing;
+  AndersonMixing mixing;
   for (int pass = 1;; ++pass) {
     const SolverResult held = firstPass(set, touched, gap, offset);
-    sub_goal.bent = sub_goal.bent || any([](const Touched& now) { return now.bent.bent(); });
+    proposal.bent = proposal.bent || any([](const Touched& now) { return now.bent.bent(); });
     const Vec3 way = held.point - offset;
-    const Vec3 resisted = resisting ? resistedStep(resistanceOf(touched, held), way, offset.norm(), sub_goal) : way;
+    const Vec3 resisted = resisting ? resistedStep(resistanceOf(touched, held), way, offset.norm(), proposal) : way;
     const Vec3 goal = offset + resisted;
-    sub_goal.held = way - resisted;
-    sub_goal.step = sub_goal.bent ? secondPass(set, goal) : sub_goal.creeps ? aboveTruePlanes(set, goal) : goal;
-    const Vec3 change = sub_goal.step - offset;
-    const bool repeats = few && sub_goal.bent && settings_.shading != ShadingPasses::kOnce;
-    sub_goal.settles = repeats ? change.norm() <= enough : slipsAtOnce(touched, sub_goal);
-    if (!repeats || sub_goal.settles || pass == kInnerPasses) {
-      tellHolding(touched, held, sub_goal);
-      sub_goal.stays = sub_goal.settles && staysOnFaces(set, touched, sub_goal.step);
-      return sub_goal;
+    proposal.held = way - resisted;
+    proposal.step = proposal.bent ? secondPass(set, goal) : proposal.creeps ? aboveTruePlanes(set, goal) : goal;
+    const Vec3 change = proposal.step - offset;
+    const bool repeats = few && proposal.bent && settings_.shading != ShadingPasses::kOnce;
+    const bool settles = repeats ? change.norm() <= enough : slipsAtOnce(touched, proposal);
+    if (!repeats || settles || pass == kInnerPasses) {
+      tellHolding(touched, held, proposal);
+      if (settles) proposal.rest = staysOnFaces(set, touched, proposal.step) ? Rest::kStays : Rest::kSettles;
+      return proposal;
     }
-    offset = mixing.guess(sub_goal.step, change);
+    offset = mixing.guess(proposal.step, change);
     moveOn(set, position, offset, touched);
   }
 }
 
-void Effects::moved(const SubGoal& sub_goal, const Vec3& step) {
+Proposal SurfaceRules::propose(const ContactSet& set, const Vec3& position, const Vec3& gap) {
+  ++proposals_;
+  Proposal proposal = settle(set, position, gap);
+  if (postpones()) proposal.step = Vec3::Zero();
+  return proposal;
+}
+
+void SurfaceRules::moved(const Proposal& proposal, const Vec3& step) {
   const double length = step.norm();
   if (!(length > 0)) return;
-  if (sub_goal.creeps) {
+  if (proposal.creeps) {
     creep_m_ += step;
     return;
   }
   slip_.length += length;
-  slip_.viscous_m += sub_goal.viscous * length;
+  slip_.viscous_m += proposal.viscous * length;
   slipping_ = true;
   // The springs slide along, stretched by the friction that they carry.
-  creep_m_ = sub_goal.creep > 0 ? Vec3(sub_goal.held / sub_goal.creep) : Vec3(Vec3::Zero());
+  creep_m_ = proposal.creep > 0 ? Vec3(proposal.held / proposal.creep) : Vec3(Vec3::Zero());
 }
 
-double Effects::stiffnessAt(const SurfacePlace& place) const {
+double SurfaceRules::stiffnessAt(const SurfacePlace& place) const {
   if (plain(place.primitive)) return 1;
   const Surface surface = surfaceOf(place.primitive);
   const SurfaceValue stiffness = surface.read(Quantity::kStiffness);
@@ -235,7 +244,7 @@ double Effects::stiffnessAt(const SurfacePlace& place) const {
   return std::clamp(stiffness.at(texcoord), 0.0, 1.0);
 }
 
-ProxyContact Effects::describe(const ContactSet& set, const Holding& holding) const {
+ProxyContact SurfaceRules::describe(const ContactSet& set, const Holding& holding) const {
   const Vec3& point = set.contacts[holding.contact].point;
   if (plain(holding.place.primitive))
     return {point, holding.normal, holding.multiplier_m, holding.place.primitive, 1, 0, false};

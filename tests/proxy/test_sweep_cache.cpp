@@ -1,5 +1,5 @@
 // What a sweep meets on its way against a search where it ends, and ticks that remember against ticks that do not.
-#include "proxy/nearby.h"
+#include "proxy/sweep_cache.h"
 
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ void expectSame(const ContactSet& a, const ContactSet& b) {
 }
 
 // From a place in contact or clear, with the contacts known, to the first impact or the end of the way.
-TEST(Nearby, HoldsTheContactsOfThePlaceWhereASweepEnds) {
+TEST(SweepCache, HoldsTheContactsOfThePlaceWhereASweepEnds) {
   test::Random random(21);
   int stopped = 0, touched = 0;
   for (const HierarchyKind kind : {HierarchyKind::kBvh, HierarchyKind::kSpheres}) {
@@ -62,12 +62,12 @@ TEST(Nearby, HoldsTheContactsOfThePlaceWhereASweepEnds) {
       for (int step = 0; step < 6; ++step) {
         ContactSet here, found, searched;
         gatherContacts(scene, place, tolerance.touching, tolerance.reach, here);
-        FixedVector<PrimitiveId, Nearby::kRoom> contacts;
+        FixedVector<PrimitiveId, SweepCache::kRoom> contacts;
         ASSERT_TRUE(primitivesOf(here, contacts));
         Vec3 motion = random.inCube(0.1);
         for (const Contact& contact : here.contacts)
           motion -= std::min(0.0, motion.dot(contact.plane.normal)) * contact.plane.normal;
-        Nearby nearby;
+        SweepCache nearby;
         nearby.begin(scene, tolerance.touching);
         SceneImpact impact, judged;
         const bool hit = scene.firstImpact(
@@ -93,7 +93,7 @@ TEST(Nearby, HoldsTheContactsOfThePlaceWhereASweepEnds) {
   EXPECT_GT(touched, 500);
 }
 
-TEST(Nearby, CoversNothingOfAnotherPlaceSceneOrTime) {
+TEST(SweepCache, CoversNothingOfAnotherPlaceSceneOrTime) {
   test::Random random(22);
   const auto snapshot = randomScene(random, 2, 5, HierarchyKind::kBvh);
   const auto other = makeSnapshot(snapshot->instances);
@@ -102,26 +102,26 @@ TEST(Nearby, CoversNothingOfAnotherPlaceSceneOrTime) {
   const auto moves = makeSnapshot(moving);
   const Vec3 place(0.01, 0.02, 0.03);
   const auto nearbyAt = [&](const SceneAt& scene) {
-    Nearby nearby;
+    SweepCache nearby;
     ContactSet set;
     gatherContacts(scene, place, kRadius, kRadius, nearby, set);
     return nearby;
   };
-  EXPECT_FALSE(Nearby().covers(*snapshot, Vec3::Zero(), 0));
-  const Nearby at_rest = nearbyAt({*snapshot, 5});
+  EXPECT_FALSE(SweepCache().covers(*snapshot, Vec3::Zero(), 0));
+  const SweepCache at_rest = nearbyAt({*snapshot, 5});
   EXPECT_TRUE(at_rest.covers({*snapshot, 5}, place, kRadius));
   EXPECT_TRUE(at_rest.covers({*snapshot, 6}, place, kRadius));
   EXPECT_FALSE(at_rest.covers({*snapshot, 5}, place + Vec3(0, 0, 1e-17 + 1e-16), kRadius));
   EXPECT_FALSE(at_rest.covers({*snapshot, 5}, place, 2 * kRadius));
   EXPECT_FALSE(at_rest.covers({*other, 5}, place, kRadius));
-  const Nearby on_the_way = nearbyAt({*moves, 50});
+  const SweepCache on_the_way = nearbyAt({*moves, 50});
   EXPECT_TRUE(on_the_way.covers({*moves, 50}, place, kRadius));
   EXPECT_FALSE(on_the_way.covers({*moves, 51}, place, kRadius));
   EXPECT_FALSE(on_the_way.covers({*moves, 200}, place, kRadius));
   EXPECT_TRUE(nearbyAt({*moves, 100}).covers({*moves, 200}, place, kRadius));
 }
 
-TEST(Nearby, MoreThanItHasRoomForIsNotCovered) {
+TEST(SweepCache, MoreThanItHasRoomForIsNotCovered) {
   std::vector<std::array<Vec3, 3>> fan;
   for (int i = 0; i < 40; ++i) {
     const double a = 2 * M_PI * i / 40, b = 2 * M_PI * (i + 1) / 40;
@@ -132,19 +132,19 @@ TEST(Nearby, MoreThanItHasRoomForIsNotCovered) {
   ProxyState state = startProxy(*snapshot, settings, {0, 0, 0.05});
   for (int i = 0; i < 5; ++i) {
     const TickReport report = tick(state, *snapshot, settings, {0, 0, -0.05 - 0.001 * i});
-    EXPECT_FALSE(report.capped);
+    EXPECT_FALSE(report.capped());
     EXPECT_NEAR(state.position.z(), kRadius, 1e-6);
   }
   // A place on the tip touches all forty.
   const Tolerances tolerance = Tolerances::of(kRadius, 1);
-  Nearby nearby;
+  SweepCache nearby;
   ContactSet set;
   gatherContacts(*snapshot, state.position, tolerance.touching, tolerance.reach, nearby, set);
   EXPECT_FALSE(nearby.covers(*snapshot, state.position, tolerance.touching));
 }
 
 // The judge forgets before every tick what the last one met.
-TEST(Nearby, ATickThatRemembersIsATickThatSearchesToTheBit) {
+TEST(SweepCache, ATickThatRemembersIsATickThatSearchesToTheBit) {
   test::Random random(23);
   RecentPrimitives recent;  // of one scene after the other
   for (int round = 0; round < 60; ++round) {
@@ -155,7 +155,7 @@ TEST(Nearby, ATickThatRemembersIsATickThatSearchesToTheBit) {
     Vec3 finger = a.position;
     for (int i = 0; i < 200; ++i) {
       finger = random.below(30) == 0 ? random.inCube(0.12) : Vec3(finger + random.inCube(0.004));
-      b.nearby = Nearby();
+      b.cache.nearby = SweepCache();
       const TickReport remembered = tick(a, {*snapshot, 0, recent}, settings, finger),
                        searched = tick(b, *snapshot, settings, finger);
       ASSERT_EQ(a.position, b.position);

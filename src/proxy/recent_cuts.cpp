@@ -1,4 +1,4 @@
-#include "proxy/left_behind.h"
+#include "proxy/recent_cuts.h"
 
 #include <algorithm>
 
@@ -14,7 +14,7 @@ bool touches(const ContactSet& set, PrimitiveId primitive) {
 
 }  // namespace
 
-void LeftBehind::look(const ContactSet& set) {
+void RecentCuts::look(const ContactSet& set) {
   left_.clear();
   for (const PrimitiveId primitive : holding_) {
     if (!touches(set, primitive)) left_.push(primitive);
@@ -22,7 +22,7 @@ void LeftBehind::look(const ContactSet& set) {
   holding_.clear();
 }
 
-std::size_t LeftBehind::addPlanes(const SceneAt& scene, const Vec3& position, double reach, Planes& planes) const {
+std::size_t RecentCuts::addPlanes(const SceneAt& scene, const Vec3& position, double reach, Planes& planes) const {
   constexpr double kNear = 1.001;
   const std::size_t before = planes.size();
   for (const PrimitiveId primitive : left_) {
@@ -32,7 +32,7 @@ std::size_t LeftBehind::addPlanes(const SceneAt& scene, const Vec3& position, do
   return planes.size() - before;
 }
 
-void LeftBehind::holdsStill() {
+void RecentCuts::holdsStill() {
   for (const PrimitiveId primitive : left_) holding_.push(primitive);
 }
 

@@ -1,0 +1,81 @@
+#include "proxy/constraints.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+
+namespace hl {
+
+namespace {
+
+// Steps in a row with cuts. Where the finger is all but at an edge, each goes a little farther around it and away from
+// it; then it is time to come down, and for Newton's step.
+constexpr int kMostCutsInARow = 8;
+
+std::span<const Plane> planesOf(const ContactSet& set) { return {set.planes.begin(), set.planes.size()}; }
+
+}  // namespace
+
+void Constraints::gather(const Vec3& position, SweepCache& cache) {
+  gatherContacts(input_.scene, position, input_.tolerance.touching, input_.tolerance.reach, cache, set_);
+}
+
+// Whether no step is above all planes, or only one that leads away from the goal by much more than the proxy is below
+// them: where planes all but face each other, they cross where rounding says.
+bool Constraints::strays(const Vec3& gap) const {
+  constexpr double kMostPerDepth = 16;
+  if (solved_.violation > input_.tolerance.feasible) return true;
+  if (set_.planes.size() < 2) return false;
+  double depth = input_.tolerance.skin;
+  for (const Plane& plane : set_.planes) depth = std::max(depth, plane.offset);
+  return (gap - solved_.point).norm() > gap.norm() + kMostPerDepth * depth;
+}
+
+Proposal Constraints::nearestTo(const Vec3& gap) {
+  solved_ = nearestAbove(planesOf(set_), gap, input_.tolerance.feasible);
+  if (strays(gap)) {
+    relaxToCentre(set_);
+    solved_ = nearestAbove(planesOf(set_), gap, input_.tolerance.feasible);
+    // Held from all sides closer than rounding can tell: stay.
+    if (strays(gap)) solved_.point = Vec3::Zero();
+  }
+  Proposal proposal;
+  proposal.step = solved_.point;
+  cuts_.look(set_);
+  for (std::size_t i = 0; i < solved_.active_count; ++i) {
+    const Contact& contact = set_.contacts[solved_.active[i]];
+    proposal.holding.push({solved_.active[i], placeOf(contact), contact.plane.normal, solved_.multiplier[i]});
+    cuts_.holds(contact.primitive);
+  }
+  return proposal;
+}
+
+void Constraints::addCuts(const Vec3& position, const Vec3& gap, double slid_m, Proposal& proposal) {
+  const bool counts =
+      !cuts_.empty() && cuts_in_a_row_ < kMostCutsInARow && solveWithCuts(position, gap, slid_m, proposal.step);
+  if (counts) proposal.rule = Proposal::Rule::kCuts;
+  cuts_in_a_row_ = counts ? cuts_in_a_row_ + 1 : 0;
+}
+
+// False where the cuts do not count; where the step goes so little that it is time to come down; and in the open where
+// it is much longer than the way slid since the last touch, as it would mostly end at once on something new.
+bool Constraints::solveWithCuts(const Vec3& position, const Vec3& gap, double slid_m, Vec3& step) {
+  constexpr double kLeastPerGap = 1e-5, kMostPerSlid = 2;
+  RecentCuts::Planes planes;
+  for (const Plane& plane : set_.planes) {
+    if (!planes.push(plane)) return false;
+  }
+  const std::size_t own = planes.size();
+  if (cuts_.addPlanes(input_.scene, position, input_.tolerance.reach, planes) == 0) return false;
+  const SolverResult all = nearestAbove({planes.begin(), planes.size()}, gap, input_.tolerance.feasible);
+  const auto* const active_end = all.active.begin() + static_cast<std::ptrdiff_t>(all.active_count);
+  const bool counts = std::any_of(all.active.begin(), active_end, [&](std::size_t i) { return i >= own; });
+  const double length = all.point.norm();
+  if (!counts || all.violation > input_.tolerance.feasible || length <= kLeastPerGap * gap.norm()) return false;
+  if (!touches() && length >= kMostPerSlid * slid_m) return false;
+  cuts_.holdsStill();
+  step = all.point;
+  return true;
+}
+
+}  // namespace hl

@@ -1,0 +1,37 @@
+#include "proxy/progress.h"
+
+#include <algorithm>
+
+namespace hl {
+
+namespace {
+
+// Steps in a row that come no nearer to the goal.
+constexpr int kMostIdle = 8;
+
+}  // namespace
+
+void Progress::cameTo(const Vec3& position, const Goal& goal, bool shortest) {
+  const bool gains = !nearest_ || goal.nearer(position, *nearest_);
+  idle_ = gains ? 0 : idle_ + 1;
+  if (gains) nearest_ = position;
+  stalled_ = shortest && idle_ >= kMostIdle;
+}
+
+// The planes of faces stay what they are when the proxy moves; those of edges and vertices turn.
+void Progress::settleOn(const ContactSet& set) {
+  for (const Contact& contact : set.contacts) {
+    if (contact.feature != Feature::kFace) return settled_on_.clear();
+    settled_on_.push(contact.primitive);
+  }
+}
+
+bool Progress::settledOn(const ContactSet& set) const {
+  const auto same = [](PrimitiveId primitive, const Contact& contact) {
+    return contact.feature == Feature::kFace && contact.primitive == primitive;
+  };
+  return !settled_on_.empty() &&
+         std::equal(settled_on_.begin(), settled_on_.end(), set.contacts.begin(), set.contacts.end(), same);
+}
+
+}  // namespace hl

@@ -1,0 +1,54 @@
+// Proposal: the step that a tick wants to make next, what holds it, and by which rule it was found.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/fixed_vector.h"
+#include "base/vec.h"
+#include "proxy/contacts.h"
+#include "proxy/surface.h"
+
+namespace hl {
+
+/// A contact that holds the proxy in a proposal.
+struct Holding {
+  std::size_t contact = 0;     ///< number in the contact set
+  SurfacePlace place;          ///< where it is touched; its normal is the true one
+  Vec3 normal = Vec3::Zero();  ///< as it feels
+  double multiplier_m = 0;
+};
+
+/// Where a contact is touched. RT-safe.
+inline SurfacePlace placeOf(const Contact& contact) {
+  return {contact.primitive, contact.plane.normal, contact.weights};
+}
+
+/// World frame, relative to the proxy.
+struct Proposal {
+  enum class Rule : std::uint8_t {
+    kPlain,  ///< the point nearest the goal above the planes of the contacts
+    kCuts,   ///< above those of what held the last step too (recent_cuts.h)
+    kFelt,   ///< under the rules of the surfaces (surface_rules.h)
+  };
+  /// Whether the passes over the surfaces' rules have come to an end.
+  enum class Rest : std::uint8_t {
+    kGoesOn,
+    kSettles,  ///< the proxy rests on these planes at the step's end
+    kStays,    ///< and there every contact is on the same face as now
+  };
+
+  Rule rule = Rule::kPlain;
+  Rest rest = Rest::kGoesOn;
+  bool bent = false;      ///< the step is not plain descent: it may raise the spring's energy
+  bool resisted = false;  ///< friction or viscosity act on it
+  bool creeps = false;    ///< static friction holds the proxy, on its pre-sliding springs
+  Vec3 step = Vec3::Zero();
+  FixedVector<Holding, 3> holding;
+  double shading = 0, bump = 0;  ///< the largest bends of what holds, as BentNormal has them
+  double viscous = 0;            ///< pull that viscosity uses for each metre of the step
+  double creep = 0;              ///< Drag::creep
+  Vec3 held = Vec3::Zero();      ///< m, the pull that friction holds after the step
+};
+
+}  // namespace hl

@@ -1,0 +1,161 @@
+#include "proxy/tick.h"
+
+#include <algorithm>
+
+#include "proxy/curvature_step.h"
+
+namespace hl {
+
+Tick::Tick(const SceneAt& scene, const ProxySettings& settings, ProxyState& state, const Vec3& finger)
+    : input_(scene, settings, finger),
+      state_(state),
+      goal_(finger),
+      booking_(state, settings, finger),
+      rules_(scene, settings, input_.tolerance, state.touching && state.rest_s < kStuck_s, state.creep),
+      constraints_(input_),
+      walk_(input_, state.cache) {}
+
+TickReport Tick::run() {
+  TickReport report;
+  while (true) {
+    look();
+    if (!progress_.settledOn(constraints_.set())) propose();
+    if (trial_.judge(goal_, input_.stationary(proposal_.step, state_.position), state_.position)) lookAgain();
+    report.ending = judge(report.iterations);
+    if (report.ending != Ending::kGoesOn) break;
+    ++report.iterations;
+    if (!proposal_.holding.empty()) held_by_ = proposal_.holding;
+    if (tryCurvedStep()) continue;
+    advance();
+    if (proposal_.rest == Proposal::Rest::kStays) {
+      report.ending = Ending::kSettled;
+      break;
+    }
+  }
+  if (trial_.conclude(goal_, state_.position)) lookAgain();  // what holds it there, not where it has been
+  close(report);
+  return report;
+}
+
+void Tick::lookAgain() {
+  look();
+  propose();
+}
+
+void Tick::propose() {
+  progress_.unsettle();
+  // The once-a-tick goal has been reached, or left behind over an edge: down to the surface, and no farther.
+  const bool passes_done = !goal_.isFinger();
+  if (passes_done && !constraints_.touches()) aimAt(input_.finger);
+  const bool felt = !passes_done && rules_.any(constraints_.set());
+  proposal_ = felt ? proposeFelt() : proposePlain();
+  if (booking_.spent() && constraints_.touches()) proposal_.step = Vec3::Zero();
+}
+
+Proposal Tick::proposePlain() {
+  const Vec3 gap = input_.far.shortened(goal_.place() - state_.position);
+  Proposal plain = constraints_.nearestTo(gap);
+  if (!trial_.open() && goal_.isFinger()) {
+    constraints_.addCuts(state_.position, gap, walk_.slid_m(), plain);
+  } else {
+    constraints_.leaveCutsOut();
+  }
+  return plain;
+}
+
+Proposal Tick::proposeFelt() {
+  Proposal felt = rules_.propose(constraints_.set(), state_.position, input_.gap(state_.position));
+  if (!felt.bent && !felt.resisted) return proposePlain();  // nothing but the true planes after all
+  if (felt.bent && input_.settings.shading == ShadingPasses::kOnce) aimAt(state_.position + felt.step);
+  return felt;
+}
+
+void Tick::aimAt(const Vec3& place) {
+  goal_.aimAt(place);
+  progress_.begin();
+}
+
+Ending Tick::judge(int iterations) const {
+  if (progress_.settledOn(constraints_.set())) return Ending::kSettled;
+  if (progress_.stalled()) return Ending::kStalled;
+  if (!trial_.open() && input_.stationary(proposal_.step, state_.position)) return endingOfRest();
+  if (constraints_.set().overflow) return Ending::kCrowded;
+  return iterations >= input_.settings.iteration_cap ? Ending::kCapped : Ending::kGoesOn;
+}
+
+// Why there is no step to make.
+Ending Tick::endingOfRest() const {
+  if (!constraints_.touches()) return Ending::kReached;
+  if (booking_.spent()) return Ending::kNoEnergy;
+  return proposal_.rule == Proposal::Rule::kFelt && rules_.postpones() ? Ending::kPostponed : Ending::kStationary;
+}
+
+// On a rounded edge or corner the tangent planes alone converge slowly; Newton's step uses the curvature.
+bool Tick::tryCurvedStep() {
+  const SolverResult& plain = constraints_.solved();
+  if (proposal_.rule != Proposal::Rule::kPlain || plain.active_count == 0 || !trial_.mayBegin()) return false;
+  const ContactSet& set = constraints_.set();
+  Vec3 step;
+  if (!curvatureStep(set, input_.scene, plain, input_.tolerance, trial_.boldness(), step)) return false;
+  Vec3 there = state_.position;
+  // Where something is in the way it may still have gone farther than the plain step would.
+  if (!walk_.go(set, true, step, there) && (there - state_.position).norm() <= plain.point.norm()) return false;
+  trial_.begin(state_.position);
+  state_.position = there;
+  return true;
+}
+
+// One step of the proxy, as far as the way is free and the energy reaches.
+void Tick::advance() {
+  const ContactSet& set = constraints_.set();
+  const Vec3 from = state_.position;
+  const bool along = constraints_.touches() || proposal_.rule == Proposal::Rule::kCuts;
+  const bool paid = proposal_.bent || proposal_.creeps || !goal_.isFinger();
+  const Vec3 step = paid ? booking_.afford(from, proposal_.step) : proposal_.step;
+  bool whole = false;
+  if (along || !goal_.isFinger()) {
+    whole = walk_.go(set, along, step, state_.position);
+  } else {
+    walk_.fly(set, state_.position);
+  }
+  trial_.descended();
+  const bool shortest = proposal_.step.norm() <= input_.tolerance.lean() * input_.gap(from).norm();
+  progress_.cameTo(state_.position, goal_, shortest && !trial_.open());
+  if (proposal_.rule == Proposal::Rule::kFelt) rules_.moved(proposal_, state_.position - from);
+  settle(whole && !booking_.spent(), state_.position - from);
+}
+
+// Keeps of the passes' end what is true after a step, made as a whole or not.
+void Tick::settle(bool whole, const Vec3& step) {
+  if (!whole) proposal_.rest = Proposal::Rest::kGoesOn;
+  if (proposal_.rest == Proposal::Rest::kSettles) progress_.settleOn(constraints_.set());
+  if (proposal_.rest == Proposal::Rest::kStays) constraints_.moveBy(step);
+}
+
+void Tick::close(TickReport& report) {
+  const bool once = !goal_.isFinger();
+  const bool at_finger = input_.stationary(input_.finger - state_.position, state_.position);
+  const Vec3 gap = input_.gap(state_.position);
+  // After passes made once a tick: what holds the proxy where it has come to rest.
+  if (once && constraints_.touches()) proposal_ = rules_.settle(constraints_.set(), state_.position, gap);
+  // Stopped where the bent planes would let it go on: the true ones hold it.
+  if (proposal_.holding.empty() && !at_finger) proposal_ = constraints_.nearestTo(gap);
+  const TickEnd end = !proposal_.holding.empty() ? TickEnd::kContact : at_finger ? TickEnd::kOpen : TickEnd::kOnItsWay;
+  EnergyBooking::Causes causes{proposal_.shading, proposal_.bump, false};
+  MeanStiffness surfaces;
+  for (const Holding& holding : proposal_.holding) {
+    ProxyContact contact = rules_.describe(constraints_.set(), holding);
+    contact.multiplier_m /= input_.far.part(input_.finger - state_.position);
+    report.contacts.push(contact);
+    surfaces.add(contact.multiplier_m, contact.stiffness);
+    causes.stiffness_textured |= rules_.stiffnessTextured(holding.place.primitive);
+  }
+  if (end == TickEnd::kOnItsWay) {
+    for (const Holding& holding : held_by_) surfaces.add(holding.multiplier_m, rules_.stiffnessAt(holding.place));
+  }
+  state_.creep = rules_.creep_m();
+  state_.rest_s = rules_.hasSlipped() ? 0 : std::min(state_.rest_s + input_.settings.period_s, kStuck_s);
+  booking_.close(state_, end, surfaces, causes, report);
+}
+
+}  // namespace hl

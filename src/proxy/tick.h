@@ -1,0 +1,59 @@
+// One tick's work: feasible sequential convex steps toward the finger.
+//
+//   minimise 1/2 |x - finger|^2 over the places x clear of the scene
+//
+// Each step linearises the obstacles in touch (constraints.h), solves the convex subproblem that they make, or what the
+// rules of the surfaces make of it (surface_rules.h), pays for what it may add to the spring's energy
+// (energy_booking.h) and goes until it meets something new (walk.h). A second-order step (curvature_step.h) is on trial
+// (trial.h); progress.h and the length of the step say when the tick has come to its end. Every place on the way is
+// valid, so the tick may end anywhere.
+#pragma once
+
+#include "proxy/constraints.h"
+#include "proxy/energy_booking.h"
+#include "proxy/goal.h"
+#include "proxy/progress.h"
+#include "proxy/proposal.h"
+#include "proxy/proxy.h"
+#include "proxy/surface_rules.h"
+#include "proxy/tick_input.h"
+#include "proxy/trial.h"
+#include "proxy/walk.h"
+
+namespace hl {
+
+/// RT-safe.
+class Tick {
+ public:
+  Tick(const SceneAt& scene, const ProxySettings& settings, ProxyState& state, const Vec3& finger);
+
+  TickReport run();
+
+ private:
+  void look() { constraints_.gather(state_.position, state_.cache.nearby); }
+  void lookAgain();
+  void propose();
+  Proposal proposePlain();
+  Proposal proposeFelt();
+  void aimAt(const Vec3& place);
+  Ending judge(int iterations) const;
+  Ending endingOfRest() const;
+  bool tryCurvedStep();
+  void advance();
+  void settle(bool whole, const Vec3& step);
+  void close(TickReport& report);
+
+  const TickInput input_;
+  ProxyState& state_;
+  Goal goal_;
+  EnergyBooking booking_;
+  SurfaceRules rules_;
+  Constraints constraints_;
+  Walk walk_;
+  Trial trial_;
+  Progress progress_;
+  Proposal proposal_;                // the step in hand
+  FixedVector<Holding, 3> held_by_;  // what has held the proxy last
+};
+
+}  // namespace hl

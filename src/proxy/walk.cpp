@@ -1,0 +1,81 @@
+#include "proxy/walk.h"
+
+#include <algorithm>
+
+namespace hl {
+
+bool Walk::go(const ContactSet& set, bool along, const Vec3& step, Vec3& position) {
+  const double length = step.norm();
+  const bool whole = length <= input_.longest_m;
+  const Vec3 motion = whole ? step : Vec3(step * (input_.longest_m / length));
+  SceneImpact impact;
+  const bool hit = firstImpact(set, along, position, motion, impact);
+  const double slid_before_m = set.contacts.empty() ? slid_m_ : 0;
+  slid_m_ = along ? slid_before_m + std::min(length, input_.longest_m) : 0;
+  position += hit ? Vec3(impact.impact.t * motion) : motion;
+  cache_.nearby.endAt(position);
+  return whole && !hit;
+}
+
+// All that can be met is in a ball about the scene; outside of it the proxy is where its way enters the ball, or at the
+// finger at once.
+void Walk::fly(const ContactSet& set, Vec3& position) {
+  const Vec3 from = position, way = input_.finger - from;
+  const FarGoal::Within ball = input_.far.within(from, way);
+  const bool misses = ball.leave < ball.enter;
+  if (!misses && ball.enter > 0) {
+    position = from + ball.enter * way;
+    return cache_.nearby.endAt(position);
+  }
+  // In the open and unhindered the proxy *is* the finger, to the bit.
+  if (misses || go(set, false, ball.leave * way, position)) cache_.nearby.endAt(position = input_.finger);
+}
+
+// How far a step mostly goes, which decides nothing but its cost: along a surface as far as it wants; and a proxy that
+// has come off a bent surface comes down on it after some hundredths of the way it slid.
+double Walk::likelyWay_m(bool along) const {
+  constexpr double kSlidePerReach = 2, kFallPerSlide = 0.02, kFallPerReach = 0.25;
+  if (along) return kSlidePerReach * input_.tolerance.reach;
+  return slid_m_ > 0 ? kFallPerSlide * slid_m_ : kFallPerReach * input_.tolerance.reach;
+}
+
+// Asks what is nearby alone. False where that cannot tell: nothing of it is hit on the part of the way that it covers,
+// and the way goes on; along a surface it mostly does.
+bool Walk::cacheTells(const ContactSet& set, bool along, const Vec3& from, const Vec3& motion,
+                      std::span<const PrimitiveId> contacts, bool& hit, SceneImpact& out) {
+  SweepCache& nearby = cache_.nearby;
+  const SceneAt& scene = input_.scene;
+  const Tolerances& tolerance = input_.tolerance;
+  if ((!along && !nearby.isBall()) || !nearby.covers(scene, from, tolerance.touching)) return false;
+  const bool whole = nearby.covers(scene, from + motion, tolerance.touching) ||
+                     (along && cache_.ahead.find(scene, set, tolerance, from, motion, nearby));
+  const double slack = whole || along ? 0 : nearby.slack_m(from, tolerance.touching);
+  if (!whole && slack <= 0) return false;
+  const double length = motion.norm();
+  const Vec3 to = from + (whole ? 1 : slack / length) * motion;
+  FixedVector<PrimitiveId, SweepCache::kRoom> met;
+  nearby.forEach(from, to, tolerance.touching + tolerance.skin, [&](PrimitiveId primitive) {
+    if (std::find(contacts.begin(), contacts.end(), primitive) == contacts.end()) met.push(primitive);
+  });
+  hit = scene.firstImpactAmong({met.begin(), met.size()}, from, motion, tolerance.swept, out);
+  return whole || (hit && out.impact.t * length <= slack);
+}
+
+bool Walk::firstImpact(const ContactSet& set, bool along, const Vec3& from, const Vec3& motion, SceneImpact& out) {
+  SweepCache& nearby = cache_.nearby;
+  const Tolerances& tolerance = input_.tolerance;
+  FixedVector<PrimitiveId, SweepCache::kRoom> known;
+  if (!primitivesOf(set, known)) {
+    nearby.forget();
+    return input_.scene.firstImpact(from, motion, tolerance.swept, tolerance.touching, out);
+  }
+  const std::span<const PrimitiveId> contacts(known.begin(), known.size());
+  bool hit = false;
+  if (cacheTells(set, along, from, motion, contacts, hit, out)) return hit;
+  nearby.begin(input_.scene, tolerance.touching);
+  return input_.scene.firstImpact(
+      from, motion, tolerance.swept, tolerance.touching, likelyWay_m(along), contacts,
+      [&](PrimitiveId primitive) { nearby.add(primitive); }, out);
+}
+
+}  // namespace hl
