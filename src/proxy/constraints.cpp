@@ -31,7 +31,7 @@ bool Constraints::strays(const Vec3& gap) const {
   return (gap - solved_.point).norm() > gap.norm() + kMostPerDepth * depth;
 }
 
-Proposal Constraints::nearestTo(const Vec3& gap) {
+void Constraints::nearestTo(const Vec3& gap, Proposal& proposal) {
   solved_ = nearestAbove(planesOf(set_), gap, input_.tolerance.feasible);
   if (strays(gap)) {
     relaxToCentre(set_);
@@ -39,7 +39,7 @@ Proposal Constraints::nearestTo(const Vec3& gap) {
     // Held from all sides closer than rounding can tell: stay.
     if (strays(gap)) solved_.point = Vec3::Zero();
   }
-  Proposal proposal;
+  proposal = {};
   proposal.step = solved_.point;
   cuts_.look(set_);
   for (std::size_t i = 0; i < solved_.active_count; ++i) {
@@ -47,7 +47,6 @@ Proposal Constraints::nearestTo(const Vec3& gap) {
     proposal.holding.push({solved_.active[i], placeOf(contact), contact.plane.normal, solved_.multiplier[i]});
     cuts_.holds(contact.primitive);
   }
-  return proposal;
 }
 
 void Constraints::addCuts(const Vec3& position, const Vec3& gap, double slid_m, Proposal& proposal) {

@@ -27,8 +27,8 @@ class Constraints {
   const ContactSet& set() const { return set_; }
   bool touches() const { return !set_.contacts.empty(); }
 
-  /// The step toward a goal `gap` away, by the planes of the contacts.
-  Proposal nearestTo(const Vec3& gap);
+  /// Proposes the step toward a goal `gap` away, by the planes of the contacts.
+  void nearestTo(const Vec3& gap, Proposal& proposal);
   /// The same by the recent cuts too, where they count: in the open only for steps up to some times `slid_m`, the way
   /// slid since the last touch.
   void addCuts(const Vec3& position, const Vec3& gap, double slid_m, Proposal& proposal);

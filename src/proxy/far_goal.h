@@ -6,6 +6,8 @@
 // In the open, where nothing holds the proxy, there is nothing to meet but within a ball about the scene.
 #pragma once
 
+#include <algorithm>
+
 #include "base/vec.h"
 
 namespace hl {
@@ -25,6 +27,7 @@ class FarGoal {
     const double aim = part(gap);
     return aim == 1 ? gap : Vec3(aim * gap);
   }
+  double shortened_m(const Vec3& gap) const { return std::min(gap.norm(), farthest_m_); }
 
   /// The part of a straight way within the ball, from `enter` to `leave`; nothing of it where leave < enter.
   struct Within {

@@ -11,11 +11,11 @@ constexpr int kMostIdle = 8;
 
 }  // namespace
 
-void Progress::cameTo(const Vec3& position, const Goal& goal, bool shortest) {
+bool Progress::idleAt(const Vec3& position, const Goal& goal) {
   const bool gains = !nearest_ || goal.nearer(position, *nearest_);
   idle_ = gains ? 0 : idle_ + 1;
   if (gains) nearest_ = position;
-  stalled_ = shortest && idle_ >= kMostIdle;
+  return idle_ >= kMostIdle;
 }
 
 // The planes of faces stay what they are when the proxy moves; those of edges and vertices turn.
@@ -26,12 +26,11 @@ void Progress::settleOn(const ContactSet& set) {
   }
 }
 
-bool Progress::settledOn(const ContactSet& set) const {
+bool Progress::sameFaces(const ContactSet& set) const {
   const auto same = [](PrimitiveId primitive, const Contact& contact) {
     return contact.feature == Feature::kFace && contact.primitive == primitive;
   };
-  return !settled_on_.empty() &&
-         std::equal(settled_on_.begin(), settled_on_.end(), set.contacts.begin(), set.contacts.end(), same);
+  return std::equal(settled_on_.begin(), settled_on_.end(), set.contacts.begin(), set.contacts.end(), same);
 }
 
 }  // namespace hl

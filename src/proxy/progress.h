@@ -21,16 +21,20 @@ class Progress {
  public:
   /// The goal is another one: how near steps have come to the one before says nothing of it.
   void begin() { *this = {}; }
-  /// The proxy has come there by a step; `shortest` (m): of that length or less it may be one that rounding leads.
-  void cameTo(const Vec3& position, const Goal& goal, bool shortest);
+  /// The proxy has come there by a step. Returns whether steps come no nearer: where this one is so short that rounding
+  /// may have led it, they have stalled.
+  bool idleAt(const Vec3& position, const Goal& goal);
+  void stall() { stalled_ = true; }
   bool stalled() const { return stalled_; }
 
   /// The passes have come to rest on these.
   void settleOn(const ContactSet& set);
   void unsettle() { settled_on_.clear(); }
-  bool settledOn(const ContactSet& set) const;
+  bool settledOn(const ContactSet& set) const { return !settled_on_.empty() && sameFaces(set); }
 
  private:
+  bool sameFaces(const ContactSet& set) const;
+
   std::optional<Vec3> nearest_;  // where steps have come nearest to the goal
   int idle_ = 0;                 // steps in a row that have not come nearer
   bool stalled_ = false;

@@ -36,23 +36,22 @@ double carryAlong(ProxyState& state, const SceneAt& scene, const ProxySettings& 
   return moved_J;
 }
 
+TickReport notRun(Ending why, const Vec3& target) {
+  TickReport report;
+  report.ending = why;
+  report.target = target;
+  return report;
+}
+
 }  // namespace
 
 TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
   constexpr int kPlacesPerTick = 2;
-  TickReport report;
-  if (!canBeFinger(finger)) {
-    report.ending = Ending::kInvalid;
-    report.target = state.position;
-    return report;
-  }
-  if (!state.free && !beginProxy(state, scene, settings, finger, kPlacesPerTick)) {
-    report.ending = Ending::kUnplaced;
-    report.target = finger;
-    return report;
-  }
+  if (!canBeFinger(finger)) return notRun(Ending::kInvalid, state.position);
+  if (!state.free && !beginProxy(state, scene, settings, finger, kPlacesPerTick))
+    return notRun(Ending::kUnplaced, finger);
   const double moved_J = carryAlong(state, scene, settings, finger);
-  report = Tick(scene, settings, state, finger).run();
+  TickReport report = Tick(scene, settings, state, finger).run();
   report.moved_J = moved_J;
   state.time_ns = scene.time_ns();
   state.snapshot = scene.snapshot().number;

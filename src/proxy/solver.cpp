@@ -176,12 +176,13 @@ SolverResult nearestAboveOne(const Plane& plane, const Vec3& goal, double strict
 
 SolverResult nearestAbove(std::span<const Plane> planes, const Vec3& goal, double tolerance) {
   const double strict = tolerance / 8;
+  SolverResult result;
+  result.point = goal;
+  if (planes.empty()) return result;
   if (planes.size() == 1) {
     const SolverResult one = nearestAboveOne(planes[0], goal, strict);
     if (one.violation <= strict) return one;
   }
-  SolverResult result;
-  result.point = goal;
   while (true) {
     const std::size_t j = mostViolated(planes, result.point, result.violation);
     ++result.rounds;

@@ -183,14 +183,14 @@ bool SurfaceRules::staysOnFaces(const ContactSet& set, const TouchedSet& touched
 
 // The passes are repeated here with the contacts in hand, which costs no search. AndersonMixing takes out the main part
 // of what each would leave, a factor of sin^2(beta) + depth / radius.
-Proposal SurfaceRules::settle(const ContactSet& set, const Vec3& position, const Vec3& gap) const {
+void SurfaceRules::settle(const ContactSet& set, const Vec3& position, const Vec3& gap, Proposal& proposal) const {
   using Rest = Proposal::Rest;
   const bool few = set.contacts.size() <= kFewContacts;
   const double enough = kRestPerGap * gap.norm() + tolerance_.rest;
   TouchedSet touched = touchedNow(set);
   const auto any = [&](auto says) { return std::any_of(touched.begin(), touched.end(), says); };
   const bool resisting = any([](const Touched& now) { return now.roughness.acts(); });
-  Proposal proposal;
+  proposal = {};
   proposal.rule = Proposal::Rule::kFelt;
   Vec3 offset = Vec3::Zero();
   AndersonMixing mixing;
@@ -208,18 +208,17 @@ Proposal SurfaceRules::settle(const ContactSet& set, const Vec3& position, const
     if (!repeats || settles || pass == kInnerPasses) {
       tellHolding(touched, held, proposal);
       if (settles) proposal.rest = staysOnFaces(set, touched, proposal.step) ? Rest::kStays : Rest::kSettles;
-      return proposal;
+      return;
     }
     offset = mixing.guess(proposal.step, change);
     moveOn(set, position, offset, touched);
   }
 }
 
-Proposal SurfaceRules::propose(const ContactSet& set, const Vec3& position, const Vec3& gap) {
+void SurfaceRules::propose(const ContactSet& set, const Vec3& position, const Vec3& gap, Proposal& proposal) {
   ++proposals_;
-  Proposal proposal = settle(set, position, gap);
+  settle(set, position, gap, proposal);
   if (postpones()) proposal.step = Vec3::Zero();
-  return proposal;
 }
 
 void SurfaceRules::moved(const Proposal& proposal, const Vec3& step) {

@@ -41,12 +41,12 @@ class SurfaceRules {
   /// Whether a surface in contact does anything beyond holding the proxy off.
   bool any(const ContactSet& set) const;
 
-  /// The step toward the finger, `gap` away from the proxy, under the rules of the surfaces in contact; none after so
-  /// many that the rest is for the next tick.
-  Proposal propose(const ContactSet& set, const Vec3& position, const Vec3& gap);
+  /// Proposes the step toward the finger, `gap` away from the proxy, under the rules of the surfaces in contact; none
+  /// after so many that the rest is for the next tick.
+  void propose(const ContactSet& set, const Vec3& position, const Vec3& gap, Proposal& proposal);
   bool postpones() const { return proposals_ > kMostProposals; }
   /// The same, however many there have been.
-  Proposal settle(const ContactSet& set, const Vec3& position, const Vec3& gap) const;
+  void settle(const ContactSet& set, const Vec3& position, const Vec3& gap, Proposal& proposal) const;
 
   /// The proxy has moved by `step`, a part of the proposal's: a slip, or a creep.
   void moved(const Proposal& proposal, const Vec3& step);

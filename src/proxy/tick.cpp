@@ -20,7 +20,7 @@ TickReport Tick::run() {
   while (true) {
     look();
     if (!progress_.settledOn(constraints_.set())) propose();
-    if (trial_.judge(goal_, input_.stationary(proposal_.step, state_.position), state_.position)) lookAgain();
+    if (trial_.open() && trial_.judge(goal_, atRest(), state_.position)) lookAgain();
     report.ending = judge(report.iterations);
     if (report.ending != Ending::kGoesOn) break;
     ++report.iterations;
@@ -48,26 +48,24 @@ void Tick::propose() {
   const bool passes_done = !goal_.isFinger();
   if (passes_done && !constraints_.touches()) aimAt(input_.finger);
   const bool felt = !passes_done && rules_.any(constraints_.set());
-  proposal_ = felt ? proposeFelt() : proposePlain();
+  felt ? proposeFelt() : proposePlain();
   if (booking_.spent() && constraints_.touches()) proposal_.step = Vec3::Zero();
 }
 
-Proposal Tick::proposePlain() {
+void Tick::proposePlain() {
   const Vec3 gap = input_.far.shortened(goal_.place() - state_.position);
-  Proposal plain = constraints_.nearestTo(gap);
+  constraints_.nearestTo(gap, proposal_);
   if (!trial_.open() && goal_.isFinger()) {
-    constraints_.addCuts(state_.position, gap, walk_.slid_m(), plain);
+    constraints_.addCuts(state_.position, gap, walk_.slid_m(), proposal_);
   } else {
     constraints_.leaveCutsOut();
   }
-  return plain;
 }
 
-Proposal Tick::proposeFelt() {
-  Proposal felt = rules_.propose(constraints_.set(), state_.position, input_.gap(state_.position));
-  if (!felt.bent && !felt.resisted) return proposePlain();  // nothing but the true planes after all
-  if (felt.bent && input_.settings.shading == ShadingPasses::kOnce) aimAt(state_.position + felt.step);
-  return felt;
+void Tick::proposeFelt() {
+  rules_.propose(constraints_.set(), state_.position, input_.gap(state_.position), proposal_);
+  if (!proposal_.bent && !proposal_.resisted) return proposePlain();  // nothing but the true planes after all
+  if (proposal_.bent && input_.settings.shading == ShadingPasses::kOnce) aimAt(state_.position + proposal_.step);
 }
 
 void Tick::aimAt(const Vec3& place) {
@@ -78,7 +76,7 @@ void Tick::aimAt(const Vec3& place) {
 Ending Tick::judge(int iterations) const {
   if (progress_.settledOn(constraints_.set())) return Ending::kSettled;
   if (progress_.stalled()) return Ending::kStalled;
-  if (!trial_.open() && input_.stationary(proposal_.step, state_.position)) return endingOfRest();
+  if (!trial_.open() && atRest()) return endingOfRest();
   if (constraints_.set().overflow) return Ending::kCrowded;
   return iterations >= input_.settings.iteration_cap ? Ending::kCapped : Ending::kGoesOn;
 }
@@ -119,10 +117,14 @@ void Tick::advance() {
     walk_.fly(set, state_.position);
   }
   trial_.descended();
-  const bool shortest = proposal_.step.norm() <= input_.tolerance.lean() * input_.gap(from).norm();
-  progress_.cameTo(state_.position, goal_, shortest && !trial_.open());
+  if (progress_.idleAt(state_.position, goal_) && !trial_.open() && ledByRounding(from)) progress_.stall();
   if (proposal_.rule == Proposal::Rule::kFelt) rules_.moved(proposal_, state_.position - from);
   settle(whole && !booking_.spent(), state_.position - from);
+}
+
+// Whether the step is as short as those of planes that lean by the skin.
+bool Tick::ledByRounding(const Vec3& from) const {
+  return proposal_.step.norm() <= input_.tolerance.lean() * input_.gap(from).norm();
 }
 
 // Keeps of the passes' end what is true after a step, made as a whole or not.
@@ -137,9 +139,9 @@ void Tick::close(TickReport& report) {
   const bool at_finger = input_.stationary(input_.finger - state_.position, state_.position);
   const Vec3 gap = input_.gap(state_.position);
   // After passes made once a tick: what holds the proxy where it has come to rest.
-  if (once && constraints_.touches()) proposal_ = rules_.settle(constraints_.set(), state_.position, gap);
+  if (once && constraints_.touches()) rules_.settle(constraints_.set(), state_.position, gap, proposal_);
   // Stopped where the bent planes would let it go on: the true ones hold it.
-  if (proposal_.holding.empty() && !at_finger) proposal_ = constraints_.nearestTo(gap);
+  if (proposal_.holding.empty() && !at_finger) constraints_.nearestTo(gap, proposal_);
   const TickEnd end = !proposal_.holding.empty() ? TickEnd::kContact : at_finger ? TickEnd::kOpen : TickEnd::kOnItsWay;
   EnergyBooking::Causes causes{proposal_.shading, proposal_.bump, false};
   MeanStiffness surfaces;

@@ -33,13 +33,15 @@ class Tick {
   void look() { constraints_.gather(state_.position, state_.cache.nearby); }
   void lookAgain();
   void propose();
-  Proposal proposePlain();
-  Proposal proposeFelt();
+  void proposePlain();
+  void proposeFelt();
+  bool atRest() const { return input_.stationary(proposal_.step, state_.position); }
   void aimAt(const Vec3& place);
   Ending judge(int iterations) const;
   Ending endingOfRest() const;
   bool tryCurvedStep();
   void advance();
+  bool ledByRounding(const Vec3& from) const;
   void settle(bool whole, const Vec3& step);
   void close(TickReport& report);
 

@@ -12,18 +12,13 @@ namespace hl {
 /// World frame. The scene and the settings must outlive it.
 struct TickInput {
   TickInput(const SceneAt& scene_now, const ProxySettings& rules, const Vec3& finger_now)
-      : scene(scene_now),
-        settings(rules),
-        finger(finger_now),
-        tolerance(Tolerances::of(rules.radius, scene_now.extent())),
-        longest_m(kSweepPerExtent * (scene_now.extent() + tolerance.reach)),
-        far(longest_m) {}
+      : TickInput(scene_now, rules, finger_now, scene_now.extent()) {}
 
   /// The way from the proxy to the finger, as far as steps aim.
   Vec3 gap(const Vec3& position) const { return far.shortened(finger - position); }
   /// Whether a step is so short that the proxy is stationary: kRestPerGap.
   bool stationary(const Vec3& step, const Vec3& position) const {
-    return step.norm() <= kRestPerGap * gap(position).norm() + tolerance.rest;
+    return step.norm() <= kRestPerGap * far.shortened_m(finger - position) + tolerance.rest;
   }
 
   const SceneAt& scene;
@@ -32,6 +27,15 @@ struct TickInput {
   const Tolerances tolerance;
   const double longest_m;  ///< of one sweep
   const FarGoal far;
+
+ private:
+  TickInput(const SceneAt& scene_now, const ProxySettings& rules, const Vec3& finger_now, double extent)
+      : scene(scene_now),
+        settings(rules),
+        finger(finger_now),
+        tolerance(Tolerances::of(rules.radius, extent)),
+        longest_m(kSweepPerExtent * (extent + tolerance.reach)),
+        far(longest_m) {}
 };
 
 }  // namespace hl

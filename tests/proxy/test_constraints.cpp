@@ -23,7 +23,9 @@ class ConstraintsTest : public testing::Test {
     Constraints constraints(input);
     SweepCache cache;
     constraints.gather(position, cache);
-    return constraints.nearestTo(input.gap(position));
+    Proposal proposal;
+    constraints.nearestTo(input.gap(position), proposal);
+    return proposal;
   }
   std::shared_ptr<const Snapshot> snapshot_ = floorAndWall();
   SceneAt scene_{*snapshot_};
@@ -64,7 +66,8 @@ TEST_F(ConstraintsTest, AStepIsFeasibleAndDescends) {
     Constraints constraints(input);
     SweepCache cache;
     constraints.gather(position, cache);
-    const Proposal proposal = constraints.nearestTo(input.gap(position));
+    Proposal proposal;
+    constraints.nearestTo(input.gap(position), proposal);
     touched += constraints.touches() ? 1 : 0;
     for (const Plane& plane : constraints.set().planes)
       EXPECT_GE(plane.normal.dot(proposal.step), plane.offset - input.tolerance.feasible);

@@ -11,31 +11,25 @@ namespace {
 
 const Goal kGoal(Vec3::Zero());
 
-TEST(Progress, StepsThatComeNoNearerStallAfterSomeAndOnlyWhileTheyAreShort) {
-  for (const bool shortest : {false, true}) {
-    Progress progress;
-    progress.cameTo(Vec3(0, 0, 1), kGoal, shortest);
-    for (int i = 0; i < 20; ++i) {
-      EXPECT_EQ(progress.stalled(), shortest && i >= 8) << i;
-      progress.cameTo(Vec3(0, 0, i % 2 == 0 ? 1 : 1.1), kGoal, shortest);
-    }
-  }
+TEST(Progress, StepsThatComeNoNearerIdleAfterSome) {
+  Progress progress;
+  EXPECT_FALSE(progress.idleAt(Vec3(0, 0, 1), kGoal));
+  for (int i = 1; i < 20; ++i) EXPECT_EQ(progress.idleAt(Vec3(0, 0, i % 2 == 0 ? 1 : 1.1), kGoal), i >= 8) << i;
 }
 
 TEST(Progress, OneThatComesNearerBeginsTheCountAnew) {
   Progress progress;
-  for (int i = 0; i < 100; ++i) {
-    progress.cameTo(Vec3(0, 0, i % 7 == 0 ? 1 - 1e-3 * i : 2), kGoal, true);
-    EXPECT_FALSE(progress.stalled());
-  }
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(progress.idleAt(Vec3(0, 0, i % 7 == 0 ? 1 - 1e-3 * i : 2), kGoal));
 }
 
 TEST(Progress, AnotherGoalBeginsTheCountAnew) {
   Progress progress;
-  for (int i = 0; i < 9; ++i) progress.cameTo(Vec3(0, 0, 1), kGoal, true);
+  for (int i = 0; i < 9; ++i) progress.idleAt(Vec3(0, 0, 1), kGoal);
+  progress.stall();
   EXPECT_TRUE(progress.stalled());
   progress.begin();
   EXPECT_FALSE(progress.stalled());
+  EXPECT_FALSE(progress.idleAt(Vec3(0, 0, 1), kGoal));
 }
 
 // A floor of two triangles, the proxy on one of them, on their common edge, and on the other.
