@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 
 namespace hl {
 
@@ -13,33 +15,68 @@ constexpr double kLongestPerReach = 1.0;
 // Below this change of the step the curvature is not worth leaving the surface for.
 constexpr double kWorthwhile = 1e-3;
 
+// How far a sphere about a vertex, or a cylinder about an edge, goes on toward `tangent` (unit, across the edge): the
+// tangent of the angle that the plane of the contact turns until another feature of its primitive is the nearest. At an
+// angle a the normal is cos(a) n + sin(a) tangent, and the feature is the nearest while no way from it into the
+// primitive has a positive part of that.
+double turnOf(const Contact& contact, const SceneAt& scene, const Vec3& tangent) {
+  const Primitive& primitive = scene.primitive(contact.primitive);
+  const auto number = static_cast<std::size_t>(contact.feature);
+  const bool on_edge = contact.feature < Feature::kVertex0;
+  const std::size_t here = number - static_cast<std::size_t>(on_edge ? Feature::kEdge0 : Feature::kVertex0);
+  const Vec3 normal = scene.turnToObject(contact.primitive, contact.plane.normal);
+  const Vec3 toward = scene.turnToObject(contact.primitive, tangent);
+  double turn = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(primitive.kind); ++i) {
+    if (on_edge ? primitive.kind != PrimitiveKind::kTriangle || i != here : i == here) continue;
+    // From the edge: what is along it is across neither the normal nor the tangent.
+    const Vec3 into = primitive.vertex[i] - primitive.vertex[on_edge ? (here + 1) % 3 : here];
+    const double closing = into.dot(toward);
+    if (closing > 0) turn = std::min(turn, std::max(0.0, -into.dot(normal)) / closing);
+  }
+  return turn;
+}
+
+// The same of all primitives that share the feature, and with it the plane.
+double sharedTurn(const ContactSet& set, const Contact& contact, const SceneAt& scene, const Vec3& tangent) {
+  double turn = turnOf(contact, scene, tangent);
+  for (const Contact& twin : set.twins) {
+    if (samePlane(twin, contact)) turn = std::min(turn, turnOf(twin, scene, tangent));
+  }
+  return turn;
+}
+
 // How many times as far as the plain step, of this length, a step in a direction of this curvature goes: Newton's, if
 // the distance to the goal has a minimum that way. Else it falls ever faster, as on the ridge of an edge: plain steps
-// grow geometrically there, and this one takes several at a stride.
-double stretch(double curvature, double length, double reach, double boldness) {
+// grow geometrically there, and this one goes to where the surface is another, `turn_m` from here, or takes several at
+// a stride.
+double stretch(double curvature, double length, double turn_m, double reach, double boldness) {
   constexpr double kMostStrides = 64;
   constexpr double kStridesPerReach = 0.003;  // an edge between faces that hardly bend ends soon
   const double longest = std::max(1.0, kLongestPerReach * reach / length);
   const double part = std::min(1.0, boldness), more = std::max(1.0, boldness);
   if (curvature > 0) return 1 + part * (std::min(1 / curvature, longest) - 1);
   const double strides = std::clamp(more * kStridesPerReach * reach / length, 1.0, more * kMostStrides);
-  return 1 + part * (std::min(strides, longest) - 1);
+  return 1 + part * (std::min(std::max(strides, turn_m / length), longest) - 1);
 }
 
 // How much the obstacle bends away below a step in the direction of its projector: 1 for the whole radius.
 double bendOf(const Contact& contact, double multiplier) { return multiplier / contact.distance; }
 
 // On one surface. The tangents in which it is curved are curved alike, so the Hessian is 1 - bend in them, else 1.
-Vec3 onSurface(const Contact& contact, double multiplier, const Mat3& curved, const Vec3& plain, double reach,
-               double boldness) {
-  const Vec3 part = curved * plain;
-  return plain + (stretch(1 - bendOf(contact, multiplier), part.norm(), reach, boldness) - 1) * part;
+Vec3 onSurface(const ContactSet& set, const SceneAt& scene, const Contact& contact, double multiplier,
+               const Vec3& plain, double reach, double boldness) {
+  const Vec3 part = curvedDirections(contact, scene) * plain;
+  const double length = part.norm(), curvature = 1 - bendOf(contact, multiplier);
+  const bool ends = curvature <= 0 && length > 0;
+  const double turn_m = ends ? contact.distance * sharedTurn(set, contact, scene, part / length) : 0;
+  return plain + (stretch(curvature, length, turn_m, reach, boldness) - 1) * part;
 }
 
 // Along the curve in which two surfaces meet; `bend` is that of both along it.
 Vec3 onCurve(const Vec3& along, double bend, const Vec3& plain, double reach, double boldness) {
   const double length = along.dot(plain);
-  return plain + (stretch(1 - bend, std::abs(length), reach, boldness) - 1) * length * along;
+  return plain + (stretch(1 - bend, std::abs(length), 0, reach, boldness) - 1) * length * along;
 }
 
 bool staysAbove(const ContactSet& set, const Vec3& step, double tolerance) {
@@ -58,7 +95,7 @@ bool curvatureStep(const ContactSet& set, const SceneAt& scene, const SolverResu
   const auto contact = [&](std::size_t i) -> const Contact& { return set.contacts[proposal.active[i]]; };
   const auto curved = [&](std::size_t i) { return contact(i).feature != Feature::kFace; };
   if (proposal.active_count == 1 && curved(0)) {
-    step = onSurface(contact(0), proposal.multiplier[0], curvedDirections(contact(0), scene), plain, reach, boldness);
+    step = onSurface(set, scene, contact(0), proposal.multiplier[0], plain, reach, boldness);
   } else if (proposal.active_count == 2 && (curved(0) || curved(1))) {
     const Vec3 along = contact(0).plane.normal.cross(contact(1).plane.normal).normalized();
     double bend = 0;

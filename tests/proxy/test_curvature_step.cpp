@@ -61,6 +61,31 @@ TEST(CurvatureStep, OffARidgeItGoesInStrides) {
   }
 }
 
+// What a finger near a single point, the end of a wire or a wire itself asks of one tick, wherever the proxy was
+// before: about a sphere, at the end of a cylinder, and about a cylinder. No plane tells how far round the proxy must
+// go.
+TEST(CurvatureStep, RoundAPointAndAWireItTakesFewSteps) {
+  test::Random random(1109);
+  Model point, wire;
+  point.positions = {Vec3::Zero()};
+  point.points = {0};
+  wire.positions = {Vec3::Zero(), Vec3(0.1, 0, 0)};
+  wire.segments = {{0, 1}};
+  for (const Model& model : {point, wire}) {
+    const auto snapshot = judge::scene(model);
+    for (int i = 0; i < 2000; ++i) {
+      ProxyState state = startProxy(*snapshot, kSettings, Vec3(random.direction() * 2 * kRadius));
+      const double depth = kRadius * std::pow(10, random.uniform(-9, 1));
+      tick(state, *snapshot, kSettings, -0.5 * state.position);
+      const Vec3 finger = depth * random.direction();
+      const TickReport report = tick(state, *snapshot, kSettings, finger);
+      EXPECT_LE(report.iterations, 16) << i << ": " << depth;
+      EXPECT_FALSE(report.capped());
+      EXPECT_LT(judge::kktResidual(*snapshot, state.position, finger, kRadius), 1e-6) << i << ": " << depth;
+    }
+  }
+}
+
 // The proxy hangs between two wires that lean, or slips through.
 TEST(CurvatureStep, BetweenWiresItSettles) {
   for (const double apart : {0.1e-3, 0.5e-3, 0.9e-3}) {
