@@ -5,8 +5,8 @@
 // contacts the solver's step is the gradient step z0 = T' (finger - x); Newton's is z = (T' H T)^-1 z0. For one sphere
 // or cylinder, at angle theta from the line through its axis and the finger, z = R tan(theta): the point of the tangent
 // straight above the solution, from where the way to the finger meets it exactly. Where H is not positive, as for a
-// finger beyond the axis of an edge, there is no minimum to go to, but down either side: to where the sphere or cylinder
-// ends, as another feature of a primitive that shares the edge or vertex is the nearest from there on.
+// finger beyond the axis of an edge, there is no minimum to go to, but down either side: to where the sphere or
+// cylinder ends, as another feature of a primitive that shares the edge or vertex is the nearest from there on.
 #pragma once
 
 #include <span>
