@@ -194,10 +194,10 @@ class Sweep {
   void run(double first_part) {
     constexpr double kLarger = 8;
     for (double part = first_part;; part = std::min(1.0, kLarger * part)) {
-      shorten(part);
+      shorten(std::min(part, soonest_));
       forEachFew(tree_, box_, [this](const FewNumbers& numbers) HWY_ATTR { look(numbers); });
       propose();
-      if (limit_ < part || part >= 1) return;
+      if (soonest_ <= part || part >= 1) return;
     }
   }
 
@@ -235,8 +235,8 @@ class Sweep {
       Candidate* earliest = candidates_;
       for (Candidate* one = candidates_ + 1; one < end; ++one) earliest = one->entry < earliest->entry ? one : earliest;
       if (earliest->entry > box_.limit) break;
-      const double sooner = visit_(earliest->primitive, limit_);
-      if (sooner < limit_) shorten(sooner);
+      soonest_ = std::min(soonest_, visit_(earliest->primitive, soonest_));
+      if (soonest_ < limit_) shorten(soonest_);
       if (proposed_count_ < kMostCandidates) proposed_[proposed_count_++] = earliest->primitive;
       *earliest = end[-1];
     }
@@ -256,7 +256,8 @@ class Sweep {
   const WideQuery& query_;
   FunctionRef<double(std::uint32_t, double)> visit_;
   BoxQuery box_;
-  double limit_ = 1;
+  double limit_ = 1;    // of the part looked at
+  double soonest_ = 1;  // impact; rounding may put the first a little beyond the part in which it is proposed
   std::size_t candidate_count_ = 0;
   Candidate candidates_[kMostCandidates];
   std::size_t proposed_count_ = 0;

@@ -404,6 +404,38 @@ TEST(WideBvh, HowSoonAnImpactIsLikelyChangesNoAnswer) {
   EXPECT_GT(hits, test::cases(500));
 }
 
+// A likely way may end within a rounding before the impact: what is proposed there lies beyond it, and ends the search.
+TEST(WideBvh, AnImpactALittleLaterThanLikelyEndsTheSearch) {
+  const std::vector<Primitive> scene = test::terrain(120);
+  const WideBvh bvh = WideBvh::build(scene);
+  test::Random random(69);
+  std::size_t most = 0;
+  for (int i = 0; i < test::cases(2000); ++i) {
+    const double radius = 0.02;
+    const Vec3 at = scene[static_cast<std::size_t>(random.below(static_cast<int>(scene.size())))].vertex[0];
+    const Vec3 from = at + 1.2 * radius * Vec3::UnitZ(),
+               motion = Vec3(random.uniform(-1, 1), random.uniform(-1, 1), -1);
+    const auto proposed = [&](double soon, double& first) {
+      std::size_t count = 0;
+      first = 1;
+      bvh.sweep(from, motion, radius, soon, [&](std::uint32_t number, double limit) {
+        ++count;
+        Impact impact;
+        if (!sweepSphere(scene[number], from, motion, radius, impact) || impact.t >= first) return limit;
+        return first = impact.t;
+      });
+      return count;
+    };
+    double first = 1, same = 1;
+    proposed(radius, first);
+    for (const double before : {1e-3, 1e-5, 1e-6, 1e-7, 1e-9, 0.0}) {
+      most = std::max(most, proposed((1 - before) * first * motion.norm(), same));
+      ASSERT_EQ(same, first);
+    }
+  }
+  EXPECT_LE(most, 100u);
+}
+
 // More boxes wait than there is room to serve them in the order they come.
 TEST(WideBvh, AQueryAroundEverythingVisitsEachPrimitiveOnce) {
   const std::vector<Primitive> scene = test::terrain(120);
