@@ -16,10 +16,11 @@ using bench::Row;
 
 constexpr const char* kHeader =
     "scene      motion   radius      mm triangles what                      p50       p99     p99.9       max  1x p99.9"
-    "    1x max     mean   ticks capped  build 1     all refit bytes   all  x plain   x tick  x query  wrong\n";
+    "    1x max     mean   ticks capped spent  build 1     all refit bytes   all  x plain   x tick  x query  wrong\n";
 constexpr const char* kCsvHeader =
     "scene,motion,radius,radius_m,who,question,hierarchy,surface,primitives,mean_edge_m,count,p50_us,p99_us,p999_us,"
-    "max_us,single_p999_us,single_max_us,mean_us,capped,build_one_thread_ns,build_ns,refit_ns,index_bytes,all_bytes,"
+    "max_us,single_p999_us,single_max_us,mean_us,capped,out_of_work,build_one_thread_ns,build_ns,refit_ns,index_bytes,"
+    "all_bytes,"
     "to_plain,to_tick,to_query,compared,different,note\n";
 
 // A number, or nothing where the row has none.
@@ -67,7 +68,7 @@ void BenchOutput::row(const Row& r) {
   const double single_p999 = r.single.percentile_us(0.999);
   fmt::print("{:>9.2f}{:>10.2f}{:>10.2f}{:>10.2f}{:>10.2f}{:>10.2f}", p50, p99, p999, r.times.max_us(), single_p999,
              r.single.max_us());
-  fmt::print("{:>9.2f}{:>8}{:>7}", r.times.mean_us(), r.times.count(), r.capped);
+  fmt::print("{:>9.2f}{:>8}{:>7}{:>6}", r.times.mean_us(), r.times.count(), r.capped, r.out_of_work);
   fmt::print("{:>9}{:>8}{:>6}{:>6}{:>6}{:>9}{:>9}{:>9}  {}{}\n", text(r.cost.build_one_thread_ns, 0, "-"),
              text(r.cost.build_ns, 0, "-"), text(r.cost.refit_ns, 0, "-"), text(r.cost.index_bytes, 0, "-"),
              text(r.cost.all_bytes, 0, "-"), text(r.to_plain, 2, "-"), text(r.to_tick, 2, "-"),
@@ -77,7 +78,8 @@ void BenchOutput::row(const Row& r) {
   csv_->print("{},{},{},{:.9g},{},{},{},{},{},{:.6g},", r.scene, r.motion, r.radius, r.radius_m, r.who, r.question,
               r.hierarchy, r.surface, r.primitives, r.mean_edge_m);
   csv_->print("{},{:.3f},{:.3f},{:.3f},{:.3f},", r.times.count(), p50, p99, p999, r.times.max_us());
-  csv_->print("{:.3f},{:.3f},{:.3f},{},", single_p999, r.single.max_us(), r.times.mean_us(), r.capped);
+  csv_->print("{:.3f},{:.3f},{:.3f},{},{},", single_p999, r.single.max_us(), r.times.mean_us(), r.capped,
+              r.out_of_work);
   csv_->print("{},{},{},{},{},{},{},{},{},{},{}\n", text(r.cost.build_one_thread_ns, 1, ""),
               text(r.cost.build_ns, 1, ""), text(r.cost.refit_ns, 1, ""), text(r.cost.index_bytes, 1, ""),
               text(r.cost.all_bytes, 1, ""), text(r.to_plain, 4, ""), text(r.to_tick, 4, ""), text(r.to_query, 4, ""),

@@ -26,7 +26,7 @@ constexpr std::size_t kLeast = 1000;
 struct SceneName {
   const char* name;
 };
-constexpr std::array<SceneName, 4> kScenes{{{"terrain"}, {"sphere"}, {"soup"}, {"pits"}}};
+constexpr std::array<SceneName, 5> kScenes{{{"terrain"}, {"rough"}, {"sphere"}, {"soup"}, {"pits"}}};
 const char* nameOf(SceneName scene) { return scene.name; }
 
 constexpr std::array kHierarchies{HierarchyKind::kBvh, HierarchyKind::kSpheres, HierarchyKind::kNone};
@@ -49,7 +49,7 @@ struct BenchOptions {
   std::string file;
   double radius = 1e-3;
   double radius_edges = 1;
-  std::size_t ticks = 20'000, most = 1'000'000;
+  std::size_t ticks = 20'000, most = 1'000'000, members = 1;
   bool all = false, peers = false, effects = true;
   std::string csv;
 };
@@ -65,11 +65,13 @@ std::vector<T> chosen(const std::array<T, N>& all, const std::vector<std::string
   return result;
 }
 
-bench::BenchScene builtinScene(const std::string& name, const BenchOptions& options) {
+bench::BenchScene builtinScene(const std::string& name, const std::string& member, const BenchOptions& options) {
   bench::BenchScene scene;
-  scene.name = name;
+  scene.name = name + member;
   for (std::size_t size = kLeast; size <= options.most; size *= 10) scene.sizes.push_back(size);
-  scene.make = [name](std::size_t size) { return makeBuiltinScene(name + ":" + std::to_string(size)); };
+  scene.make = [name, member](std::size_t size) {
+    return makeBuiltinScene(name + ":" + std::to_string(size) + member);
+  };
   scene.effects = options.effects && name == "terrain";
   return scene;
 }
@@ -92,7 +94,12 @@ std::vector<bench::BenchScene> scenesOf(const BenchOptions& options) {
   // A file alone is measured alone.
   if (!options.scenes.empty() || options.all || options.file.empty()) {
     for (const SceneName name : chosen(kScenes, options.scenes, options.all)) {
-      scenes.push_back(builtinScene(name.name, options));
+      if (name.name != std::string_view("rough")) {
+        scenes.push_back(builtinScene(name.name, "", options));
+        continue;
+      }
+      for (std::size_t member = 1; member <= options.members; ++member)
+        scenes.push_back(builtinScene(name.name, ":" + std::to_string(member), options));
     }
   }
   if (!options.file.empty()) scenes.push_back(fileScene(options.file));
@@ -146,6 +153,9 @@ void addWhatOptions(CLI::App& command, BenchOptions& options) {
   command
       .add_option("--scene", options.file, "a model file, fitted to 0.2 m (alone, unless --scenes or --all are there)")
       ->option_text("FILE");
+  command.add_option("--members", options.members, "how many of the terrains rough:N:1, rough:N:2, ... rough means")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
   addListOption(command, "--motions", options.motions, bench::kFingerMotions,
                 "how the finger moves, at 0.15 m/s and 1000 ticks a second (default: sliding)");
   addListOption(

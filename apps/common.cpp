@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/machine_memory.h"
+#include "builtin.h"
 #include "commands.h"
 #include "io/load_scene.h"
 #include "io/replay_device.h"
@@ -42,8 +43,7 @@ HierarchyKind hierarchyOf(const std::string& name) {
 void addSceneArgument(CLI::App& command, SceneOptions& options, bool required) {
   auto* argument = command.add_option(
       "scene", options.scene,
-      "a model file (obj, ply, stl, gltf, glb, x3d, wrl, ...) or a built-in scene: teapot[:N], walker, terrain:N, "
-      "sphere:N, plane:N, pipe:N, pits:N, soup:N");
+      std::string("a model file (obj, ply, stl, gltf, glb, x3d, wrl, ...) or a built-in scene: ") + kBuiltinScenes);
   if (required) {
     argument->required();
   } else {

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "rough.h"
 #include "soup.h"
 #include "surfaces.h"
 #include "teapot.h"
@@ -14,24 +15,36 @@ namespace hl {
 
 namespace {
 
-constexpr std::size_t kMostTriangles = 50'000'000;
+constexpr std::size_t kMostMember = 1'000'000'000;
 
 struct Builtin {
   std::string_view name;
   std::size_t usual;  ///< N when none is given; 0: the name takes no N
-  Model (*make)(std::size_t n);
+  Model (*make)(std::size_t n, std::size_t member);
+  std::size_t most = 50'000'000;  ///< N
+  bool family = false;            ///< takes the number of a member too
 };
 
-constexpr std::array<Builtin, 8> kBuiltins{{
+// Makes one of a kind that has no members.
+template <Model (*kMake)(std::size_t)>
+Model alone(std::size_t n, std::size_t) {
+  return kMake(n);
+}
+
+constexpr std::array<Builtin, 9> kBuiltins{{
     {"teapot", 1,
-     [](std::size_t n) { return n == 1 ? makeTeapot() : makeTeapot(static_cast<int>(n), static_cast<int>(n)); }},
-    {"walker", 0, [](std::size_t) { return makeWalker(); }},
-    {"terrain", 100'000, makeTerrain},
-    {"sphere", 20'000, makeBumpySphere},
-    {"plane", 20'000, makePlane},
-    {"pipe", 100'000, makeHalfPipe},
-    {"pits", 20'000, makePits},
-    {"soup", 20'000, makeSoup},
+     [](std::size_t n, std::size_t) {
+       return n == 1 ? makeTeapot() : makeTeapot(static_cast<int>(n), static_cast<int>(n));
+     },
+     500},
+    {"walker", 0, [](std::size_t, std::size_t) { return makeWalker(); }},
+    {"terrain", 100'000, alone<makeTerrain>},
+    {"rough", 100'000, [](std::size_t n, std::size_t member) { return makeRough(n, member); }, 50'000'000, true},
+    {"sphere", 20'000, alone<makeBumpySphere>},
+    {"plane", 20'000, alone<makePlane>},
+    {"pipe", 100'000, alone<makeHalfPipe>},
+    {"pits", 20'000, alone<makePits>},
+    {"soup", 20'000, alone<makeSoup>},
 }};
 
 const Builtin* find(std::string_view name) {
@@ -39,6 +52,12 @@ const Builtin* find(std::string_view name) {
     if (builtin.name == name) return &builtin;
   }
   return nullptr;
+}
+
+// A whole number from 1 to `most`.
+bool read(std::string_view digits, std::size_t most, std::size_t& number) {
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  return error == std::errc() && end == digits.data() + digits.size() && number >= 1 && number <= most;
 }
 
 }  // namespace
@@ -50,23 +69,19 @@ bool isBuiltinScene(const std::string& spec) {
 Model makeBuiltinScene(const std::string& spec) {
   const std::size_t colon = spec.find(':');
   const Builtin* builtin = find(std::string_view(spec).substr(0, colon));
-  if (builtin == nullptr) {
-    throw Error("no built-in scene '" + spec +
-                "'; there are teapot[:N], walker, terrain:N, sphere:N, plane:N, pipe:N, pits:N, soup:N");
-  }
-  std::size_t n = builtin->usual;
+  if (builtin == nullptr) throw Error("no built-in scene '" + spec + "'; there are " + kBuiltinScenes);
+  const std::string_view numbers = colon == std::string::npos ? "" : std::string_view(spec).substr(colon + 1);
+  const std::size_t second = builtin->family ? numbers.find(':') : std::string_view::npos;
   if (colon != std::string::npos && builtin->usual == 0)
     throw Error("'" + spec + "': there is one " + std::string(builtin->name) + ", which takes no number");
-  if (colon != std::string::npos) {
-    const std::string_view digits = std::string_view(spec).substr(colon + 1);
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), n);
-    const std::size_t most = builtin->name == "teapot" ? 500 : kMostTriangles;
-    if (error != std::errc() || end != digits.data() + digits.size() || n < 1 || n > most) {
-      throw Error("'" + spec + "': N must be a whole number from 1 to " + std::to_string(most) +
-                  ", as in terrain:100000");
-    }
-  }
-  Model model = builtin->make(n);
+  std::size_t n = builtin->usual, member = 1;
+  if (colon != std::string::npos && !read(numbers.substr(0, second), builtin->most, n))
+    throw Error("'" + spec + "': N must be a whole number from 1 to " + std::to_string(builtin->most) +
+                ", as in terrain:100000");
+  if (second != std::string_view::npos && !read(numbers.substr(second + 1), kMostMember, member))
+    throw Error("'" + spec + "': MEMBER must be a whole number from 1 to " + std::to_string(kMostMember) +
+                ", as in rough:100000:7");
+  Model model = builtin->make(n, member);
   model.name = spec;
   return model;
 }

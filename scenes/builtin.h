@@ -10,8 +10,11 @@ namespace hl {
 /// True for a name (with or without :N) of a built-in scene; a file of the same name must be given with its folder.
 bool isBuiltinScene(const std::string& spec);
 
-/// teapot[:N] | walker | terrain[:N] | sphere[:N] | plane[:N] | pipe[:N] | pits[:N] | soup[:N]. Throws hl::Error with
-/// the list for any other.
+/// What there is, for people to read.
+inline constexpr const char* kBuiltinScenes =
+    "teapot[:N], walker, terrain:N, rough:N[:MEMBER], sphere:N, plane:N, pipe:N, pits:N, soup:N";
+
+/// Throws hl::Error with the list for any other.
 Model makeBuiltinScene(const std::string& spec);
 
 }  // namespace hl

@@ -20,6 +20,10 @@ constexpr double kStartAbove_m = 0.01;       // over the top of the scene
 constexpr std::size_t kMostApproach = 5000;  // ticks; then the motion begins where the finger is
 constexpr double kDepth_m = 0.004;           // of a sliding finger beneath the proxy
 constexpr double kDeep_m = 0.015;            // of one that looks for corners
+constexpr double kTraced_m = 0.002;          // of one that traces the surface beneath it, in the mean
+constexpr double kTracedChange_m = 0.0015;   // by which that changes
+constexpr double kTracedWave_m = 0.07;       // of the course, for one such change
+constexpr double kTracedLead_m = 0.0003;     // how far ahead such a finger aims
 constexpr double kLift_m = 0.006;            // of a tap over where it touched
 constexpr double kTapSlope = 0.3;            // a tap goes sideways this much of its way
 constexpr double kClearance_m = 0.001;       // of a free proxy from the surface, at least
@@ -55,6 +59,8 @@ class Planner {
       hover();
     } else if (motion_ == FingerMotion::kTapping) {
       tap();
+    } else if (motion_ == FingerMotion::kTracing) {
+      trace();
     } else {
       turnTo(ahead(course_.levelOf(proxy()) - scale_ * (motion_ == FingerMotion::kCorners ? kDeep_m : kDepth_m)));
     }
@@ -71,6 +77,29 @@ class Planner {
       s_m_ += scale_ * kAdvance_m;
     }
     return course_.at(s_m_, level_m);
+  }
+
+  // To beneath the surface a little ahead on the course.
+  void trace() {
+    Vec3 place;
+    for (int i = 0; i < kMostAdvances; ++i) {
+      place = course_.at(
+          s_m_, surfaceLevel() -
+                    scale_ * (kTraced_m + kTracedChange_m * std::sin(2 * M_PI * s_m_ / (scale_ * kTracedWave_m))));
+      if ((place - finger_).norm() >= scale_ * kTracedLead_m) break;
+      s_m_ += 0.1 * scale_ * kAdvance_m;
+    }
+    direction_ = (place - finger_).normalized();
+  }
+
+  // Of what lies uppermost at this place of the course; the bottom where there is nothing.
+  double surfaceLevel() const {
+    const Vec3 top = course_.at(s_m_, course_.top_m() + settings_.radius);
+    const Vec3 down = course_.at(s_m_, std::max(course_.bottom_m(), -course_.top_m())) - top;
+    SceneImpact impact;
+    const double thin = 1e-3 * settings_.radius;
+    if (!SceneAt(snapshot_).firstImpact(top, down, thin, thin, impact)) return course_.bottom_m();
+    return course_.levelOf(top + impact.impact.t * down);
   }
 
   void turnTo(const Vec3& place) { direction_ = (direction_ + kTurn * (place - finger_).normalized()).normalized(); }
@@ -118,7 +147,7 @@ class Planner {
 }  // namespace
 
 const char* nameOf(FingerMotion motion) {
-  constexpr std::array<const char*, kFingerMotions.size()> kNames{"sliding", "free", "tapping", "corners"};
+  constexpr std::array<const char*, kFingerMotions.size()> kNames{"sliding", "free", "tapping", "corners", "tracing"};
   return kNames[static_cast<std::size_t>(motion)];
 }
 

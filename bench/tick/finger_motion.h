@@ -20,10 +20,11 @@ enum class FingerMotion : std::uint8_t {
   kFree,     ///< near the surface, never touching it
   kTapping,  ///< down until 4 mm beneath the proxy, up again, several times a second
   kCorners,  ///< 15 mm beneath the proxy, which so runs into every crease on its way
+  kTracing,  ///< 0.5 to 3.5 mm beneath the surface, up and down with all its detail
 };
 inline constexpr std::array kFingerMotions{FingerMotion::kSliding, FingerMotion::kFree, FingerMotion::kTapping,
-                                           FingerMotion::kCorners};
-/// "sliding", "free", "tapping" or "corners".
+                                           FingerMotion::kCorners, FingerMotion::kTracing};
+/// "sliding", "free", "tapping", "corners" or "tracing".
 const char* nameOf(FingerMotion motion);
 
 /// The finger, one place a tick, and where the proxy was after each. World frame.

@@ -77,6 +77,7 @@ void Round::putTicks(const Case& of, HierarchyKind hierarchy, Feel feel, const T
   row.times = ticks.times.middle();
   row.single = ticks.times.all();
   row.capped = ticks.capped;
+  row.out_of_work = ticks.out_of_work;
   row.cost = cost;
   row.to_plain = row.times.mean_us() / of.plain.mean_us();
   output_.row(row);

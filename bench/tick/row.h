@@ -21,9 +21,10 @@ struct Row {
   std::string hierarchy, surface;  ///< of HL; empty for a peer
   std::size_t primitives = 0;
   double mean_edge_m = 0;
-  Timing times;            ///< PassTimes::middle()
-  Timing single;           ///< PassTimes::all()
-  std::size_t capped = 0;  ///< ticks that the iteration cap ended
+  Timing times;                 ///< PassTimes::middle()
+  Timing single;                ///< PassTimes::all()
+  std::size_t capped = 0;       ///< ticks that the iteration cap ended
+  std::size_t out_of_work = 0;  ///< ticks that ended as they had done all that one may
   Cost cost{kNone, kNone, kNone, kNone, kNone};
   double to_plain = kNone;  ///< mean time of this tick over that of the same without surface effects
   double to_tick = kNone;   ///< median time of this query over that of HL's whole tick

@@ -31,7 +31,7 @@ TickTimes timeTicks(const Snapshot& snapshot, const ProxySettings& settings, con
   for (int pass = 0; pass < kPasses; ++pass) {
     ProxyState state = startProxy(snapshot, settings, path.fingers[0]);
     RecentPrimitives recent;
-    result.capped = 0;
+    result.capped = result.out_of_work = 0;
     for (std::size_t i = 1; i < end; ++i) {
       const std::int64_t start_ns = monotonicNow_ns();
       const TickReport report = tick(state, {snapshot, 0, recent}, settings, path.fingers[i]);
@@ -39,6 +39,7 @@ TickTimes timeTicks(const Snapshot& snapshot, const ProxySettings& settings, con
       if (i < path.approach) continue;
       result.times.add(pass, time_ns);
       result.capped += report.capped() ? 1 : 0;
+      result.out_of_work += report.ending == Ending::kOutOfWork ? 1 : 0;
     }
   }
   return result;

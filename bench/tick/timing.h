@@ -49,7 +49,8 @@ class PassTimes {
 
 struct TickTimes {
   PassTimes times;
-  std::size_t capped = 0;  ///< ticks that the iteration cap ended
+  std::size_t capped = 0;       ///< ticks that the iteration cap ended
+  std::size_t out_of_work = 0;  ///< ticks that ended as they had done all that one may
 };
 
 /// Moves a proxy along the path kPasses times, and times the ticks after its approach, at most `most` of them.

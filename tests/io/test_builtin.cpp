@@ -39,7 +39,7 @@ TEST(C62Builtin, TheWalkerHasThePapersPolygons) {
 }
 
 TEST(Builtin, SurfacesHaveAboutAsManyTrianglesAsAskedFor) {
-  for (const char* name : {"terrain", "sphere", "plane", "pipe"}) {
+  for (const char* name : {"terrain", "rough", "sphere", "plane", "pipe"}) {
     for (const int n : {1000, 50'000}) {
       const Model model = makeBuiltinScene(std::string(name) + ":" + std::to_string(n));
       EXPECT_NEAR(static_cast<double>(model.triangles.size()) / n, 1, 0.07) << model.name;
@@ -70,6 +70,23 @@ TEST(Builtin, PitsHaveCreasesWhereTheMeshCanFollowThem) {
     const Vec3 face = (pits.positions[t[1]] - a).cross(pits.positions[t[2]] - a).normalized();
     ASSERT_NEAR(face.y(), 1 / std::sqrt(3), 1e-6);  // none lies across a crease
   }
+}
+
+TEST(Builtin, MembersOfAFamilyDifferAndEachStaysTheSame) {
+  const Model one = makeBuiltinScene("rough:5000:1"), other = makeBuiltinScene("rough:5000:2");
+  EXPECT_EQ(one.positions, makeBuiltinScene("rough:5000").positions);
+  EXPECT_EQ(other.positions, makeBuiltinScene("rough:5000:2").positions);
+  EXPECT_NE(one.positions, other.positions);
+  for (int member = 1; member <= 20; ++member) {
+    const Model model = makeBuiltinScene("rough:5000:" + std::to_string(member));
+    EXPECT_LT(model.bounds().size().y(), 0.06) << member;  // a terrain, not a tower
+    EXPECT_GT(model.bounds().size().y(), 0.003) << member;
+  }
+}
+
+TEST(Builtin, AMemberIsAWholeNumber) {
+  for (const char* spec : {"rough:5000:0", "rough:5000:", "rough:5000:x", "rough:5000:1:2", "terrain:5000:1"})
+    EXPECT_THROW(makeBuiltinScene(spec), Error) << spec;
 }
 
 TEST(Builtin, ASceneOfOneSizeSaysSo) {

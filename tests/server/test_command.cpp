@@ -160,7 +160,8 @@ std::vector<std::vector<std::string>> readCsv(const std::string& name) {
 TEST(Command, BenchWritesARowForEachSceneMotionAndRadius) {
   const std::string out = hl::test::tempFile("hl_cmd_bench.csv");
   const Result result = call(
-      "bench --scenes terrain,sphere,soup,pits --motions sliding,free,tapping,corners --radii fixed,scaled "
+      "bench --scenes terrain,rough,sphere,soup,pits --motions sliding,free,tapping,corners,tracing --radii "
+      "fixed,scaled "
       "--hierarchies bvh --no-effects --most 10000 --ticks 200 --csv " +
       out);
   ASSERT_EQ(result.code, 0) << result.output;
