@@ -27,7 +27,8 @@ enum class ShadingPasses : std::uint8_t {
 
 struct ProxySettings {
   double radius = 0.001;        ///< m, > 0
-  int iteration_cap = 1000;     ///< a tick that needs more stops where it is, at a valid position
+  int iteration_cap = 1000;     ///< a tick that needs more steps stops where it is, at a valid position
+  int work_cap = 600;           ///< the same of one that does more than this (work.h)
   double spring_N_m = 1000;     ///< K of the servo, at the hand: scales viscosity and the ledger
   double period_s = 1e-3;       ///< T, one tick: scales viscosity
   double world_per_device = 1;  ///< metres of the scene for one of the hand: scales the ledger
@@ -78,10 +79,11 @@ enum class Ending : std::uint8_t {
   kNoEnergy,    ///< the energy that it may add is used up
   kCrowded,     ///< more touches the proxy than there is room for
   kCapped,      ///< the iteration cap
+  kOutOfWork,   ///< it has done as much as one tick may (work.h): the next goes on from here
   kUnplaced,    ///< no place clear of the scene has been found near the finger: nothing pulls
   kInvalid,     ///< the finger was not finite or beyond kFarthestFinger_m: nothing has moved
 };
-inline constexpr std::size_t kEndings = 11;
+inline constexpr std::size_t kEndings = 12;
 
 struct TickReport {
   FixedVector<ProxyContact, 3> contacts;

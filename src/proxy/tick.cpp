@@ -13,14 +13,15 @@ Tick::Tick(const SceneAt& scene, const ProxySettings& settings, ProxyState& stat
       booking_(state, settings, finger),
       rules_(scene, settings, input_.tolerance, state.touching && state.rest_s < kStuck_s, state.creep),
       constraints_(input_),
-      walk_(input_, state.cache) {}
+      walk_(input_, state.cache),
+      work_(settings.work_cap) {}
 
 TickReport Tick::run() {
   TickReport report;
   while (true) {
     look();
     if (!progress_.settledOn(constraints_.set())) propose();
-    if (trial_.open() && trial_.judge(goal_, atRest(), state_.position)) lookAgain();
+    if (trial_.open() && trial_.judge(goal_, atRest() || work_.usedUp(), state_.position)) lookAgain();
     report.ending = judge(report.iterations);
     if (report.ending != Ending::kGoesOn) break;
     ++report.iterations;
@@ -35,6 +36,11 @@ TickReport Tick::run() {
   if (trial_.conclude(goal_, state_.position)) lookAgain();  // what holds it there, not where it has been
   close(report);
   return report;
+}
+
+void Tick::look() {
+  constraints_.gather(state_.position, state_.cache.nearby);
+  work_.looked(constraints_.set());
 }
 
 void Tick::lookAgain() {
@@ -78,6 +84,7 @@ Ending Tick::judge(int iterations) const {
   if (progress_.stalled()) return Ending::kStalled;
   if (!trial_.open() && atRest()) return endingOfRest();
   if (constraints_.set().overflow) return Ending::kCrowded;
+  if (!trial_.open() && work_.ends()) return Ending::kOutOfWork;
   return iterations >= input_.settings.iteration_cap ? Ending::kCapped : Ending::kGoesOn;
 }
 
@@ -91,7 +98,8 @@ Ending Tick::endingOfRest() const {
 // On a rounded edge or corner the tangent planes alone converge slowly; Newton's step uses the curvature.
 bool Tick::tryCurvedStep() {
   const SolverResult& plain = constraints_.solved();
-  if (proposal_.rule != Proposal::Rule::kPlain || plain.active_count == 0 || !trial_.mayBegin()) return false;
+  if (proposal_.rule != Proposal::Rule::kPlain || plain.active_count == 0 || work_.usedUp() || !trial_.mayBegin())
+    return false;
   const ContactSet& set = constraints_.set();
   Vec3 step;
   if (!curvatureStep(set, input_.scene, plain, input_.tolerance, trial_.boldness(), step)) return false;
@@ -116,7 +124,7 @@ void Tick::advance() {
   } else {
     walk_.fly(set, state_.position);
   }
-  trial_.descended();
+  trial_.open() ? trial_.descended() : work_.stepped();
   if (progress_.idleAt(state_.position, goal_) && !trial_.open() && ledByRounding(from)) progress_.stall();
   if (proposal_.rule == Proposal::Rule::kFelt) rules_.moved(proposal_, state_.position - from);
   settle(whole && !booking_.spent(), state_.position - from);

@@ -5,8 +5,8 @@
 // Each step linearises the obstacles in touch (constraints.h), solves the convex subproblem that they make, or what the
 // rules of the surfaces make of it (surface_rules.h), pays for what it may add to the spring's energy
 // (energy_booking.h) and goes until it meets something new (walk.h). A second-order step (curvature_step.h) is on trial
-// (trial.h); progress.h and the length of the step say when the tick has come to its end. Every place on the way is
-// valid, so the tick may end anywhere.
+// (trial.h); progress.h and the length of the step say when the tick has come to its end, work.h when it has done
+// enough. Every place on the way is valid, so the tick may end anywhere.
 #pragma once
 
 #include "proxy/constraints.h"
@@ -19,6 +19,7 @@
 #include "proxy/tick_input.h"
 #include "proxy/trial.h"
 #include "proxy/walk.h"
+#include "proxy/work.h"
 
 namespace hl {
 
@@ -30,7 +31,7 @@ class Tick {
   TickReport run();
 
  private:
-  void look() { constraints_.gather(state_.position, state_.cache.nearby); }
+  void look();
   void lookAgain();
   void propose();
   void proposePlain();
@@ -54,6 +55,7 @@ class Tick {
   Walk walk_;
   Trial trial_;
   Progress progress_;
+  Work work_;
   Proposal proposal_;                // the step in hand
   FixedVector<Holding, 3> held_by_;  // what has held the proxy last
 };

@@ -122,9 +122,11 @@ TEST(CurvatureStep, AllButAtAnEdgeOfHillsItTakesFewSteps) {
         a + random.uniform(0, 1) * (b - a) + random.uniform(0.5, 3) * 1e-4 * kLarge * random.direction();
     if (finger.head<2>().norm() > 0.15) continue;
     const Vec3 above = Vec3(random.uniform(-1, 1), random.uniform(-1, 1), 2).normalized();
-    ProxyState state = startProxy(*snapshot, {kLarge}, finger + 3 * kLarge * above);
+    ProxySettings settings{kLarge};
+    settings.work_cap = 10'000;  // the proxy comes from far away: to the end, in one tick
+    ProxyState state = startProxy(*snapshot, settings, finger + 3 * kLarge * above);
     if (!state.free) continue;
-    const TickReport report = tick(state, *snapshot, {kLarge}, finger);
+    const TickReport report = tick(state, *snapshot, settings, finger);
     ASSERT_FALSE(report.capped()) << i;
     ASSERT_LE(judge::kktResidual(*snapshot, state.position, finger, kLarge), 1e-6) << i;
     ASSERT_GE(judge::clearance(*snapshot, state.position, kLarge), kLarge * (1 - 1e-6)) << i;

@@ -1,0 +1,100 @@
+// The budget of one tick: what is used up ends it at a valid place, and all ticks together come to the same end.
+#include "proxy/work.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "proxy/judge.h"
+#include "proxy/proxy.h"
+
+namespace hl {
+namespace {
+
+constexpr double kRadius = 1e-3;
+
+TEST(Work, ATickMayEndOnceItsWorkIsUsedUpAndItHasMadeAStep) {
+  const ContactSet nothing;
+  Work work(2 * Work::kPerLook);
+  work.stepped();
+  work.looked(nothing);
+  EXPECT_FALSE(work.usedUp());
+  work.looked(nothing);
+  EXPECT_TRUE(work.usedUp());
+  EXPECT_TRUE(work.ends());
+
+  Work without_step(0);
+  EXPECT_TRUE(without_step.usedUp());
+  EXPECT_FALSE(without_step.ends());
+}
+
+// A cone of so many sides about +z, its apex at the origin.
+Model cone(std::uint32_t sides) {
+  Model model;
+  model.positions.push_back(Vec3::Zero());
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const double angle = 2 * M_PI * i / sides;
+    model.positions.emplace_back(0.02 * std::cos(angle), 0.02 * std::sin(angle), -0.02);
+    model.triangles.push_back({0, 1 + i, 1 + (i + 1) % sides});
+  }
+  return model;
+}
+
+struct Arrival {
+  Vec3 place;
+  int ticks = 0, out_of_work = 0;
+};
+
+// With a finger that rests there, until a tick ends otherwise.
+Arrival rest(const Snapshot& scene, ProxyState state, const Vec3& finger, int work_cap) {
+  ProxySettings settings;
+  settings.radius = kRadius;
+  settings.work_cap = work_cap;
+  RecentPrimitives recent;
+  Arrival arrival;
+  double before = (state.position - finger).norm();
+  while (arrival.ticks < 2000) {
+    const TickReport report = tick(state, {scene, 0, recent}, settings, finger);
+    ++arrival.ticks;
+    EXPECT_GE(judge::clearance(scene, state.position, 2 * kRadius), kRadius * (1 - 1e-12));
+    const double now = (state.position - finger).norm();
+    EXPECT_LE(now, before * (1 + 1e-12));
+    EXPECT_LE(report.injected_J, 1e-15);
+    before = now;
+    if (report.ending != Ending::kOutOfWork) break;
+    ++arrival.out_of_work;
+  }
+  arrival.place = state.position;
+  return arrival;
+}
+
+TEST(Work, ARestingFingerBringsTheProxyToTheSamePlaceWithAnyBudget) {
+  const auto scene = judge::scene(cone(60));
+  const ProxySettings settings;
+  for (const Vec3& finger : {Vec3(3e-3, 2e-3, -6e-3), Vec3(1e-3, 4e-3, -5e-3), Vec3(-2e-3, 1e-3, -4e-3)}) {
+    const ProxyState start = startProxy(*scene, settings, {0, 0, 2e-3});
+    const Arrival all = rest(*scene, start, finger, 1'000'000);
+    const Arrival some = rest(*scene, start, finger, 60), least = rest(*scene, start, finger, 1);
+    EXPECT_EQ(all.out_of_work, 0);
+    EXPECT_GT(least.out_of_work, some.out_of_work);
+    EXPECT_NEAR((some.place - all.place).norm(), 0, 1e-6 * kRadius);
+    EXPECT_NEAR((least.place - all.place).norm(), 0, 1e-6 * kRadius);
+  }
+}
+
+TEST(Work, WithTheUsualBudgetNoTickAtAnApexOfAThousandSidesReachesTheIterationCap) {
+  const auto scene = judge::scene(cone(1000));
+  ProxySettings settings;
+  RecentPrimitives recent;
+  ProxyState state = startProxy(*scene, settings, {0, 0, 2e-3});
+  for (int i = 0; i < 300; ++i) {
+    const double angle = 0.37 * i, out = 2e-3 * std::exp(-0.05 * i);
+    const Vec3 finger(out * std::cos(angle), out * std::sin(angle), -1e-3 * (1 + i % 5));
+    const TickReport report = tick(state, {*scene, 0, recent}, settings, finger);
+    ASSERT_FALSE(report.ending == Ending::kCapped) << i;
+    ASSERT_GE(judge::clearance(*scene, state.position, 2 * kRadius), kRadius * (1 - 1e-12)) << i;
+  }
+}
+
+}  // namespace
+}  // namespace hl
