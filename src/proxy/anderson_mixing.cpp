@@ -2,17 +2,9 @@
 
 #include <cmath>
 
+#include "proxy/tolerances.h"
+
 namespace hl {
-
-namespace {
-
-// Farther than this the guess is no better than the pass itself: the passes hardly shrink, or a kink lies between.
-constexpr double kMostMixing = 0.9;
-
-// Square of the sine between the two differences: below it they are one direction to rounding.
-constexpr double kParallelSquared = 1e-4;
-
-}  // namespace
 
 Vec3 AndersonMixing::mixed(const Vec3& next, const Vec3& change) const {
   if (passes_ == 0) return next;
@@ -20,14 +12,14 @@ Vec3 AndersonMixing::mixed(const Vec3& next, const Vec3& change) const {
   const double a = turn.squaredNorm(), b = turn.dot(older_turn), c = older_turn.squaredNorm();
   const double with_turn = change.dot(turn), with_older = change.dot(older_turn);
   const double det = a * c - b * b;
-  if (passes_ > 1 && det > kParallelSquared * a * c) {
+  if (passes_ > 1 && det > convergence::kParallelSquared * a * c) {
     const double g1 = (c * with_turn - b * with_older) / det;
     const double g2 = (a * with_older - b * with_turn) / det;
-    if (std::abs(g1) < kMostMixing && std::abs(g2) < kMostMixing)
+    if (std::abs(g1) < convergence::kMostMixing && std::abs(g2) < convergence::kMostMixing)
       return next - g1 * (next - last_next_) - g2 * (last_next_ - older_next_);
   }
   const double g1 = with_turn / a;
-  return std::abs(g1) < kMostMixing ? Vec3(next - g1 * (next - last_next_)) : next;
+  return std::abs(g1) < convergence::kMostMixing ? Vec3(next - g1 * (next - last_next_)) : next;
 }
 
 Vec3 AndersonMixing::guess(const Vec3& next, const Vec3& change) {

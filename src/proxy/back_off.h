@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "proxy/tolerances.h"
+
 namespace hl {
 
 /// Plain values; RT-safe.
@@ -16,14 +18,13 @@ class BackOff {
     return false;
   }
   void failed() {
-    failures_ = std::min(failures_ + 1, kMostFailures);
+    failures_ = std::min(failures_ + 1, convergence::kMostFailures);
     left_out_ = 1 << failures_;
   }
   /// Failures count anew. Who never says so tries ever less often.
   void worked() { failures_ = 0; }
 
  private:
-  static constexpr int kMostFailures = 10;
   int failures_ = 0, left_out_ = 0;
 };
 

@@ -12,14 +12,6 @@ namespace hl {
 
 namespace {
 
-// In an object's frame the way of the proxy is taken for straight. It strays from that by R q^2 / 8 at a turn of q; at
-// this turn by 1/200 of its distance R from the axis.
-constexpr double kMostTurn_rad = 0.2;
-
-// Part of the clearance by which objects may close in on the proxy before it is pushed out again.
-constexpr double kCloseIn = 0.5;
-constexpr double kArcPerChord = 1.1;  // of a turn of at most kMostTurn_rad, with room to spare
-
 constexpr std::uint32_t kNone = 0xffffffff;
 
 class Carry {
@@ -33,7 +25,8 @@ class Carry {
         leader_(carrierOf(state)) {}
 
   void run() {
-    for (int left = kMostCarrySteps; left > 0 && now_ns_ < end_ns_; --left) bendsNear() ? creep(left) : step(left);
+    for (int left = convergence::kMostCarrySteps; left > 0 && now_ns_ < end_ns_; --left)
+      bendsNear() ? creep(left) : step(left);
     if (now_ns_ < end_ns_) advance(end_ns_);
   }
 
@@ -78,7 +71,7 @@ class Carry {
 // Visits the objects whose reach comes near the way from a to b.
 template <typename Visit>
 void Carry::forEachNear(const Vec3& a, const Vec3& b, Visit visit) const {
-  const Vec3 margin = Vec3::Constant(2 * tolerance_.reach);
+  const Vec3 margin = Vec3::Constant(convergence::kNearPerReach * tolerance_.reach);
   const Box region{a.cwiseMin(b) - margin, a.cwiseMax(b) + margin};
   snapshot_.near.visitMet(region, [&](std::uint32_t i) { visit(i, snapshot_.instances[i]); });
 }
@@ -96,17 +89,17 @@ Vec3 Carry::carriedTo(std::int64_t time_ns) const {
 // How far the place of the leader nearest to the proxy goes by then, as its mesh bends; frame of the leader. Nothing
 // where it does not touch the proxy.
 Vec3 Carry::bentTo(const BendWay& way, std::int64_t time_ns) const {
-  constexpr double kTouching = 1.1;  // of the radius: what the proxy touched lies within
   const SceneAt scene(snapshot_, now_ns_);
   ClosestPoint nearest;
   PrimitiveId held{kNone, 0};
-  scene.primitivesWithin(state_.position, kTouching * tolerance_.reach, [&](PrimitiveId id, const ClosestPoint& place) {
-    if (id.instance != leader_) return;
-    if (held.instance != kNone && place.distance > nearest.distance) return;
-    if (held.instance != kNone && place.distance == nearest.distance && !scene.precedes(id, held)) return;
-    held = id;
-    nearest = place;
-  });
+  scene.primitivesWithin(
+      state_.position, accuracy::kTouchingBend * tolerance_.reach, [&](PrimitiveId id, const ClosestPoint& place) {
+        if (id.instance != leader_) return;
+        if (held.instance != kNone && place.distance > nearest.distance) return;
+        if (held.instance != kNone && place.distance == nearest.distance && !scene.precedes(id, held)) return;
+        held = id;
+        nearest = place;
+      });
   if (held.instance == kNone) return Vec3::Zero();
   const Primitive touched = scene.primitive(held);
   if (touched.kind != way.to()->primitives.elementKind(held.element)) return Vec3::Zero();  // it has shrunk
@@ -119,7 +112,7 @@ Vec3 Carry::bentTo(const BendWay& way, std::int64_t time_ns) const {
 // Whether a mesh that bends may come near the proxy, or the way on which it is taken along.
 bool Carry::bendsNear() const {
   if (now_ns_ >= snapshot_.bends_until_ns) return false;
-  const Vec3 to = carriedTo(end_ns_), margin = Vec3::Constant(2 * tolerance_.reach);
+  const Vec3 to = carriedTo(end_ns_), margin = Vec3::Constant(convergence::kNearPerReach * tolerance_.reach);
   const Box region{state_.position.cwiseMin(to) - margin, state_.position.cwiseMax(to) + margin};
   return std::any_of(snapshot_.bent.begin(), snapshot_.bent.end(), [&](std::uint32_t i) {
     return snapshot_.instances[i].bentAt(now_ns_) != nullptr && snapshot_.reach[i].meets(region);
@@ -135,7 +128,8 @@ std::int64_t Carry::straightUntil() const {
     const Screw& screw = earlier ? motion.earlier() : motion.last();
     if (earlier && motion.moves()) until_ns = std::min(until_ns, motion.last().begin_ns());
     if (!screw.moves() || screw.angle() == 0) return;
-    const double way_ns = kMostTurn_rad / screw.angle() * static_cast<double>(screw.end_ns() - screw.begin_ns());
+    const double way_ns =
+        accuracy::kMostTurn_rad / screw.angle() * static_cast<double>(screw.end_ns() - screw.begin_ns());
     if (way_ns < static_cast<double>(until_ns - now_ns_))
       until_ns = now_ns_ + std::max<std::int64_t>(1, static_cast<std::int64_t>(way_ns));
   });
@@ -150,7 +144,8 @@ Carry::Meeting Carry::firstMeeting(std::int64_t until_ns, const Vec3& goal) cons
     const Vec3 to = instance.motion.at(until_ns).toObject(goal);
     const Shape& shape = *instance.shape;
     FirstImpact hit;
-    if (!firstImpact(*shape.index, shape.primitives, from, to - from, kMetAt * tolerance_.reach, -1, hit)) return;
+    if (!firstImpact(*shape.index, shape.primitives, from, to - from, accuracy::kMetAt * tolerance_.reach, -1, hit))
+      return;
     if (hit.impact.t < first.part || (hit.impact.t == first.part && i < first.instance)) first = {hit.impact.t, i};
   });
   return first;
@@ -165,14 +160,14 @@ void Carry::advance(std::int64_t time_ns) {
 // Where there is no room for the proxy, to the roomiest place that it finds by looking for room for all of it, for half
 // of it, for a quarter, and so on: pinched, its centre keeps away from all that closes in.
 void Carry::pushOut() {
-  constexpr int kHalvings = 8, kPinchedTries = 8;
   const SceneAt scene(snapshot_, now_ns_);
   const Vec3 from = state_.position;
   double roomiest = 0;
   Tolerances smaller = tolerance_;
-  for (int i = 0; i <= kHalvings && roomiest < smaller.reach; ++i, smaller.reach /= 2) {
+  for (int i = 0; i <= accuracy::kPinchHalvings && roomiest < smaller.reach; ++i, smaller.reach /= 2) {
     Vec3 place = from;
-    const bool clear = findClearPlace(scene, smaller, i == 0 ? kPushTries : kPinchedTries, place);
+    const bool clear =
+        findClearPlace(scene, smaller, i == 0 ? convergence::kPushTries : convergence::kPinchedTries, place);
     const double room = clear && i == 0 ? tolerance_.reach : clearanceAt(scene, place, tolerance_.reach);
     if (room <= roomiest) continue;
     roomiest = room;
@@ -212,7 +207,7 @@ double Carry::wayOf_m(const Instance& instance, std::int64_t until_ns, double cl
   const Pose now = motion.at(now_ns_), end = motion.at(until_ns);
   const double turn = (end.rotation - now.rotation).norm();
   const double slide = (end.toWorld(now.toObject(state_.position)) - state_.position).norm();
-  return kArcPerChord * (slide + turn * clearance);
+  return convergence::kArcPerChord * (slide + turn * clearance);
 }
 
 // The part of the time until then in which nothing of a bending mesh takes more than kCloseIn of its distance from the
@@ -224,11 +219,12 @@ double Carry::partUntilBent(const Instance& instance, std::int64_t until_ns, dou
   const double begin = way->part(now_ns_), end = way->part(until_ns);
   const Vec3 place = instance.motion.at(now_ns_).toObject(state_.position);
   double part = 1;
-  way->index(begin, end).overlap(place, (1 - kCloseIn) * tolerance_.reach + way_m, [&](std::uint32_t primitive) {
-    const double distance = closestPoint(way->primitive(primitive, begin), place).distance;
-    const double most = (end - begin) * way->length_m(primitive) + way_m;
-    if (kCloseIn * distance < part * most) part = kCloseIn * distance / most;
-  });
+  way->index(begin, end)
+      .overlap(place, (1 - convergence::kCloseIn) * tolerance_.reach + way_m, [&](std::uint32_t primitive) {
+        const double distance = closestPoint(way->primitive(primitive, begin), place).distance;
+        const double most = (end - begin) * way->length_m(primitive) + way_m;
+        if (convergence::kCloseIn * distance < part * most) part = convergence::kCloseIn * distance / most;
+      });
   return part;
 }
 
@@ -240,10 +236,10 @@ void Carry::creep(int left) {
   const double clearance = clearanceAt({snapshot_, now_ns_}, state_.position, tolerance_.reach);
   const Vec3 carried = carriedTo(until_ns);
   const double carried_m = (carried - state_.position).norm();
-  double part = carried_m > 0 ? std::min(1.0, kCloseIn * clearance / carried_m) : 1;
+  double part = carried_m > 0 ? std::min(1.0, convergence::kCloseIn * clearance / carried_m) : 1;
   forEachNear(state_.position, carried, [&](std::uint32_t, const Instance& instance) {
     const double way_m = wayOf_m(instance, until_ns, clearance) + carried_m;
-    if (way_m > 0) part = std::min(part, kCloseIn * clearance / way_m);
+    if (way_m > 0) part = std::min(part, convergence::kCloseIn * clearance / way_m);
     part = std::min(part, partUntilBent(instance, until_ns, way_m));
   });
   part = std::max(part, 1.0 / left);

@@ -16,14 +16,4 @@ namespace hl {
 /// kMostBendRadii of the proxy from one tick to the next may pass it.
 void carry(ProxyState& state, const SceneAt& scene, const ProxySettings& settings);
 
-inline constexpr int kMostCarrySteps = 64;
-/// Each step goes half a radius at least, where nothing pinches the proxy; half of that where friction takes it along.
-inline constexpr int kMostBendRadii = kMostCarrySteps / 4;
-
-/// Part of the radius at which what moves counts as met: what rests on the proxy and slides along it has not met it.
-inline constexpr double kMetAt = 0.9;
-/// How often the proxy is pushed out of what has come too near: mostly once, but into a corner of rounded edges it
-/// comes by halves.
-inline constexpr int kPushTries = 32;
-
 }  // namespace hl

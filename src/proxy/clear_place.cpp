@@ -8,8 +8,8 @@
 
 namespace hl {
 
-// Each step is swept by half the largest sphere that is clear of the scene where it starts. It is cut to one radius:
-// planes that all but face each other have their first place clear of all of them at any distance.
+// Each step is swept by a part of the largest sphere that is clear of the scene where it starts. It is cut to one
+// radius: planes that all but face each other have their first place clear of all of them at any distance.
 bool findClearPlace(const SceneAt& scene, const Tolerances& tolerance, int tries, Vec3& position) {
   ContactSet set;
   for (int i = 0; i < tries; ++i) {
@@ -22,7 +22,7 @@ bool findClearPlace(const SceneAt& scene, const Tolerances& tolerance, int tries
     const double length = step.norm();
     if (length > tolerance.reach) step *= tolerance.reach / length;
     SceneImpact impact;
-    const double safe = 0.5 * clearance;
+    const double safe = convergence::kPushedPart * clearance;
     if (safe > 0 && scene.firstImpact(position, step, safe, -1, impact)) {
       position += impact.impact.t * step;
     } else {

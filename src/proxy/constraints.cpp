@@ -8,10 +8,6 @@ namespace hl {
 
 namespace {
 
-// Steps in a row with cuts. Where the finger is all but at an edge, each goes a little farther around it and away from
-// it; then it is time to come down, and for Newton's step.
-constexpr int kMostCutsInARow = 8;
-
 std::span<const Plane> planesOf(const ContactSet& set) { return {set.planes.begin(), set.planes.size()}; }
 
 }  // namespace
@@ -23,12 +19,11 @@ void Constraints::gather(const Vec3& position, SweepCache& cache) {
 // Whether no step is above all planes, or only one that leads away from the goal by much more than the proxy is below
 // them: where planes all but face each other, they cross where rounding says.
 bool Constraints::strays(const Vec3& gap) const {
-  constexpr double kMostPerDepth = 16;
   if (solved_.violation > input_.tolerance.feasible) return true;
   if (set_.planes.size() < 2) return false;
   double depth = input_.tolerance.skin;
   for (const Plane& plane : set_.planes) depth = std::max(depth, plane.offset);
-  return (gap - solved_.point).norm() > gap.norm() + kMostPerDepth * depth;
+  return (gap - solved_.point).norm() > gap.norm() + accuracy::kMostStrayPerDepth * depth;
 }
 
 void Constraints::nearestTo(const Vec3& gap, Proposal& proposal) {
@@ -50,8 +45,8 @@ void Constraints::nearestTo(const Vec3& gap, Proposal& proposal) {
 }
 
 void Constraints::addCuts(const Vec3& position, const Vec3& gap, double slid_m, Proposal& proposal) {
-  const bool counts =
-      !cuts_.empty() && cuts_in_a_row_ < kMostCutsInARow && solveWithCuts(position, gap, slid_m, proposal.step);
+  const bool counts = !cuts_.empty() && cuts_in_a_row_ < convergence::kMostCutsInARow &&
+                      solveWithCuts(position, gap, slid_m, proposal.step);
   if (counts) proposal.rule = Proposal::Rule::kCuts;
   cuts_in_a_row_ = counts ? cuts_in_a_row_ + 1 : 0;
 }
@@ -59,7 +54,6 @@ void Constraints::addCuts(const Vec3& position, const Vec3& gap, double slid_m, 
 // False where the cuts do not count; where the step goes so little that it is time to come down; and in the open where
 // it is much longer than the way slid since the last touch, as it would mostly end at once on something new.
 bool Constraints::solveWithCuts(const Vec3& position, const Vec3& gap, double slid_m, Vec3& step) {
-  constexpr double kLeastPerGap = 1e-5, kMostPerSlid = 2;
   RecentCuts::Planes planes;
   for (const Plane& plane : set_.planes) {
     if (!planes.push(plane)) return false;
@@ -70,8 +64,9 @@ bool Constraints::solveWithCuts(const Vec3& position, const Vec3& gap, double sl
   const auto* const active_end = all.active.begin() + static_cast<std::ptrdiff_t>(all.active_count);
   const bool counts = std::any_of(all.active.begin(), active_end, [&](std::size_t i) { return i >= own; });
   const double length = all.point.norm();
-  if (!counts || all.violation > input_.tolerance.feasible || length <= kLeastPerGap * gap.norm()) return false;
-  if (!touches() && length >= kMostPerSlid * slid_m) return false;
+  if (!counts || all.violation > input_.tolerance.feasible || length <= convergence::kLeastCutPerGap * gap.norm())
+    return false;
+  if (!touches() && length >= convergence::kMostCutPerSlid * slid_m) return false;
   cuts_.holdsStill();
   step = all.point;
   return true;

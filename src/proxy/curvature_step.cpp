@@ -9,12 +9,6 @@ namespace hl {
 
 namespace {
 
-// A tangent of 45 degrees on the obstacle: Newton's step is cut there.
-constexpr double kLongestPerReach = 1.0;
-
-// Below this change of the step the curvature is not worth leaving the surface for.
-constexpr double kWorthwhile = 1e-3;
-
 // How far a sphere about a vertex, or a cylinder about an edge, goes on toward `tangent` (unit, across the edge): the
 // tangent of the angle that the plane of the contact turns until another feature of its primitive is the nearest. At an
 // angle a the normal is cos(a) n + sin(a) tangent, and the feature is the nearest while no way from it into the
@@ -51,8 +45,7 @@ double sharedTurn(const ContactSet& set, const Contact& contact, const SceneAt& 
 // grow geometrically there, and this one goes to where the surface is another, `turn_m` from here, or takes several at
 // a stride.
 double stretch(double curvature, double length, double turn_m, double reach, double boldness) {
-  constexpr double kMostStrides = 64;
-  constexpr double kStridesPerReach = 0.003;  // an edge between faces that hardly bend ends soon
+  using namespace convergence;
   const double longest = std::max(1.0, kLongestPerReach * reach / length);
   const double part = std::min(1.0, boldness), more = std::max(1.0, boldness);
   if (curvature > 0) return 1 + part * (std::min(1 / curvature, longest) - 1);
@@ -105,7 +98,7 @@ bool curvatureStep(const ContactSet& set, const SceneAt& scene, const SolverResu
   } else {
     return false;
   }
-  return step.allFinite() && (step - plain).norm() > kWorthwhile * plain.norm() &&
+  return step.allFinite() && (step - plain).norm() > convergence::kWorthwhile * plain.norm() &&
          staysAbove(set, step, tolerance.feasible);
 }
 

@@ -106,7 +106,7 @@ void EnergyBooking::close(ProxyState& state, TickEnd end, const MeanStiffness& s
   state.ledger.book(report.injected_J, was_touching_ && touching);
   state.touching = touching;
   if (end != TickEnd::kContact) {
-    state.rest_s = kStuck_s;
+    state.rest_s = accuracy::kStuck_s;
     state.creep = Vec3::Zero();
   }
   state.stiffness = touching ? stiffness : 1;

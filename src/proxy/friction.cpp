@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/plain_math.h"
+#include "proxy/tolerances.h"
 
 namespace hl {
 
@@ -27,9 +28,8 @@ double Drag::rubbing(double slip) const {
 // The resistance falls with the slip (Stribeck), so several slips may balance it: the largest is the one in which a
 // sliding proxy goes on sliding. From above, the iteration comes down to it.
 double slipLength(const Drag& drag, double pull, const Slip& before) {
-  constexpr int kRounds = 60;
   double slip = pull;
-  for (int i = 0; i < kRounds; ++i) {
+  for (int i = 0; i < accuracy::kSlipRounds; ++i) {
     const double next = (pull - drag.rubbing(before.length + slip) - before.viscous_m) / (1 + drag.viscous);
     if (!(next > 0)) return 0;
     if (next >= slip) break;
@@ -65,13 +65,11 @@ struct Balance {
 // change the balance is linear and the first guess is it; halving finds a jump of the drag, and the proxy goes just
 // over it, onto the line that holds it.
 Place restBetween(const Balance& balance, const Place& reached, Place there) {
-  constexpr int kRounds = 20;
-  constexpr double kBalanced = 1e-12;
   Place here = reached;
-  for (int i = 0; i < kRounds; ++i) {
+  for (int i = 0; i < accuracy::kRestRounds; ++i) {
     const double guess = here.at + (there.at - here.at) * here.left / (here.left - there.left);
     const Place guessed = balance.place(guess, reached);
-    if (std::abs(guessed.left) <= kBalanced * balance.pull) return guessed;
+    if (std::abs(guessed.left) <= accuracy::kBalanced * balance.pull) return guessed;
     const Place middle = balance.place(0.5 * (here.at + there.at), reached);
     (middle.left > 0 ? here : there) = middle;
   }

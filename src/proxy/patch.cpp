@@ -2,13 +2,11 @@
 
 #include <algorithm>
 
+#include "proxy/tolerances.h"
+
 namespace hl {
 
 namespace {
-
-// cos and sin of kShadingLimit_rad.
-constexpr double kLimitCos = 0.8660254037844386;
-constexpr double kLimitSin = 0.5;
 
 // Half the squared distance of two unit vectors: 1 - cos of the angle between them, without its cancellation.
 double bendBetween(const Vec3& a, const Vec3& b) { return 0.5 * (a - b).squaredNorm(); }
@@ -67,14 +65,15 @@ SurfacePlace Patch::place(const Vec2& moved) const {
 }
 
 void Patch::shade(const Vec2& moved, BentNormal& bent) const {
+  using namespace accuracy;
   const Vec3 sum = normal_sum_ + moved.x() * normal_edge_[0] + moved.y() * normal_edge_[1];
   const Vec3 shaded = sum.normalized();
   const double cosine = shaded.dot(place_.normal);
   if (!(cosine > 0)) return;
-  bent.shading = std::min(bendBetween(place_.normal, shaded), 1 - kLimitCos);
+  bent.shading = std::min(bendBetween(place_.normal, shaded), 1 - kShadingLimitCos);
   bent.normal = shaded;
-  if (cosine < kLimitCos)
-    bent.normal = kLimitCos * place_.normal + kLimitSin * (shaded - cosine * place_.normal).normalized();
+  if (cosine < kShadingLimitCos)
+    bent.normal = kShadingLimitCos * place_.normal + kShadingLimitSin * (shaded - cosine * place_.normal).normalized();
 }
 
 // The surface of height h over the plane has the normal N - grad h, grad h in metres per metre along the triangle.

@@ -10,10 +10,6 @@
 
 namespace hl {
 
-/// The paper's "usually less than 30 degrees": a shaded normal farther from the true one is turned back to this.
-/// Bending by beta can add up to 1/cos^2(beta) - 1 of the spring's energy, a third at 30 degrees.
-inline constexpr double kShadingLimit_rad = 0.5235987755982988;
-
 /// A normal bent by force shading and by a bump map, and how much each has bent it: 1 - cos of the angle.
 struct BentNormal {
   Vec3 normal = Vec3::UnitZ();
@@ -45,9 +41,9 @@ class Patch {
 
   /// Whether the surface may be shaded or bumped; when false, bend() gives the true normal everywhere.
   bool bends() const { return smooth_ || height_.texture; }
-  /// The normal as it feels: the vertex normals interpolated, no farther from the true normal than kShadingLimit_rad,
-  /// and the slope of the bump map. A triangle with a vertex normal that is missing, zero or points to the other side
-  /// has its true normal everywhere.
+  /// The normal as it feels: the vertex normals interpolated, no farther from the true normal than
+  /// accuracy::kShadingLimit_rad, and the slope of the bump map. A triangle with a vertex normal that is missing, zero
+  /// or points to the other side has its true normal everywhere.
   BentNormal bend(const Vec2& moved = Vec2::Zero()) const;
 
  private:

@@ -2,20 +2,15 @@
 
 #include <algorithm>
 
+#include "proxy/tolerances.h"
+
 namespace hl {
-
-namespace {
-
-// Steps in a row that come no nearer to the goal.
-constexpr int kMostIdle = 8;
-
-}  // namespace
 
 bool Progress::idleAt(const Vec3& position, const Goal& goal) {
   const bool gains = !nearest_ || goal.nearer(position, *nearest_);
   idle_ = gains ? 0 : idle_ + 1;
   if (gains) nearest_ = position;
-  return idle_ >= kMostIdle;
+  return idle_ >= convergence::kMostIdle;
 }
 
 // The planes of faces stay what they are when the proxy moves; those of edges and vertices turn.

@@ -38,7 +38,7 @@ class Progress {
   std::optional<Vec3> nearest_;  // where steps have come nearest to the goal
   int idle_ = 0;                 // steps in a row that have not come nearer
   bool stalled_ = false;
-  FixedVector<PrimitiveId, kFewContacts> settled_on_;  // faces; empty while the passes go on
+  FixedVector<PrimitiveId, convergence::kFewContacts> settled_on_;  // faces; empty while the passes go on
 };
 
 }  // namespace hl

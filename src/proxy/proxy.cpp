@@ -5,6 +5,7 @@
 #include "proxy/carry.h"
 #include "proxy/spring_energy.h"
 #include "proxy/tick.h"
+#include "proxy/tolerances.h"
 
 namespace hl {
 
@@ -46,9 +47,8 @@ TickReport notRun(Ending why, const Vec3& target) {
 }  // namespace
 
 TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
-  constexpr int kPlacesPerTick = 2;
   if (!canBeFinger(finger)) return notRun(Ending::kInvalid, state.position);
-  if (!state.free && !beginProxy(state, scene, settings, finger, kPlacesPerTick))
+  if (!state.free && !beginProxy(state, scene, settings, finger, convergence::kPlacesPerTick))
     return notRun(Ending::kUnplaced, finger);
   const double moved_J = carryAlong(state, scene, settings, finger);
   TickReport report = Tick(scene, settings, state, finger).run();

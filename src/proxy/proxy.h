@@ -15,6 +15,7 @@
 #include "base/vec.h"
 #include "proxy/proxy_cache.h"
 #include "proxy/start_search.h"
+#include "proxy/tolerances.h"
 #include "scene/scene_at.h"
 
 namespace hl {
@@ -37,21 +38,17 @@ struct ProxySettings {
   MaterialOverride surfaces{};  ///< set by the user over what the scene says
 };
 
-/// A proxy that has rested so long is stuck. Shorter than that it still slides: the encoder of a slow finger stands
-/// still between two counts, 3 ms at 10 mm/s and 30 um.
-inline constexpr double kStuck_s = 0.020;
-
 /// World frame. Owned by the proxy loop.
 struct ProxyState {
-  Vec3 position = Vec3::Zero();  ///< centre of the sphere
-  bool free = false;             ///< false while no place clear of the scene has been found near the finger
-  bool touching = false;         ///< the last tick ended in contact, or on its way from one to the next
-  double rest_s = kStuck_s;      ///< since it last slipped along a surface; from kStuck_s on static friction holds it
-  Vec3 creep = Vec3::Zero();     ///< m, how far it has crept from where it stuck, on the pre-sliding springs
-  double stiffness = 1;          ///< s by which the last tick's target was pulled; 1 in the open
-  std::int64_t time_ns = 0;      ///< of the scene in the last tick
-  std::uint64_t snapshot = 0;    ///< number of that scene; 0: none yet
-  std::uint64_t carrier = 0;     ///< key of the object whose friction holds it; 0: none
+  Vec3 position = Vec3::Zero();        ///< centre of the sphere
+  bool free = false;                   ///< false while no place clear of the scene has been found near the finger
+  bool touching = false;               ///< the last tick ended in contact, or on its way from one to the next
+  double rest_s = accuracy::kStuck_s;  ///< since it last slipped along a surface; from kStuck_s on it sticks
+  Vec3 creep = Vec3::Zero();           ///< m, how far it has crept from where it stuck, on the pre-sliding springs
+  double stiffness = 1;                ///< s by which the last tick's target was pulled; 1 in the open
+  std::int64_t time_ns = 0;            ///< of the scene in the last tick
+  std::uint64_t snapshot = 0;          ///< number of that scene; 0: none yet
+  std::uint64_t carrier = 0;           ///< key of the object whose friction holds it; 0: none
   Ledger ledger{};
   StartSearch start{};  ///< while it is not free
   ProxyCache cache{};

@@ -23,11 +23,10 @@ void RecentCuts::look(const ContactSet& set) {
 }
 
 std::size_t RecentCuts::addPlanes(const SceneAt& scene, const Vec3& position, double reach, Planes& planes) const {
-  constexpr double kNear = 1.001;
   const std::size_t before = planes.size();
   for (const PrimitiveId primitive : left_) {
     const ClosestPoint nearest = scene.closest(primitive, position);
-    if (nearest.distance <= kNear * reach) planes.push({nearest.normal, reach - nearest.distance});
+    if (nearest.distance <= convergence::kCutNear * reach) planes.push({nearest.normal, reach - nearest.distance});
   }
   return planes.size() - before;
 }

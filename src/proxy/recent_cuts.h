@@ -10,15 +10,14 @@
 #include "base/fixed_vector.h"
 #include "proxy/contacts.h"
 #include "proxy/solver.h"
+#include "proxy/tolerances.h"
 
 namespace hl {
 
 /// For one tick. RT-safe.
 class RecentCuts {
  public:
-  /// Among planes of so many contacts nothing more is asked.
-  static constexpr std::size_t kMostPlanes = 16;
-  using Planes = FixedVector<Plane, kMostPlanes>;
+  using Planes = FixedVector<Plane, convergence::kMostPlanesWithCuts>;
 
   /// Tells the contacts where the proxy is now. What holds() has named since the last call and is not among them has
   /// been left; what was left before is forgotten.
@@ -26,7 +25,7 @@ class RecentCuts {
   bool empty() const { return left_.empty(); }
 
   /// Adds to `planes`, relative to the proxy at `position`, those of what was left that keep it `reach` (m) away.
-  /// Returns how many; what is farther than a thousandth beyond reach no longer counts.
+  /// Returns how many; what is farther than kCutNear no longer counts.
   std::size_t addPlanes(const SceneAt& scene, const Vec3& position, double reach, Planes& planes) const;
 
   /// The next step is held by this one; or by all that was left.

@@ -10,18 +10,11 @@
 #include <cmath>
 #include <limits>
 
+#include "proxy/tolerances.h"
+
 namespace hl {
 
 namespace {
-
-// Directions whose sine is below this are the same direction to rounding: their crossing is not computed.
-constexpr double kParallel = 1e-14;
-
-// Multipliers below minus this fraction of the distance to the goal are truly negative: such a set is not optimal.
-constexpr double kNegative = 1e-6;
-
-// A bound on the number of rounds; each strictly raises the distance to the goal, so it is met only through rounding.
-constexpr std::size_t kMaxRounds = 200;
 
 using ActiveSet = std::array<std::size_t, 3>;
 
@@ -43,7 +36,7 @@ Line cut(const Plane& j, const Plane& a, const Vec3& origin) {
   const Vec3 u = a.normal - s * j.normal;
   const Vec3 m = u - u.dot(j.normal) * j.normal;
   const double length = m.norm();
-  if (length < kParallel) return {};
+  if (length < accuracy::kParallel) return {};
   return {m / length, (a.offset - s * j.offset - u.dot(origin)) / length, true};
 }
 
@@ -53,7 +46,7 @@ bool cross(const Line& a, const Line& b, const Vec3& plane_normal, Vec3& z) {
   const double s = b.normal.dot(a.normal) < 0 ? -1.0 : 1.0;
   const Vec3 w = b.normal - s * a.normal;
   const double sine = w.dot(along);
-  if (std::abs(sine) < kParallel) return false;
+  if (std::abs(sine) < accuracy::kParallel) return false;
   const Vec3 foot = a.offset * a.normal;
   z = foot + ((b.offset - s * a.offset - w.dot(foot)) / sine) * along;
   return true;
@@ -107,7 +100,8 @@ class Best {
 
  private:
   bool isBetter(const Candidate& candidate, double cost) const {
-    const bool same_point = best_.count > 0 && (candidate.point - best_.point).norm() <= 4 * tolerance_;
+    const bool same_point =
+        best_.count > 0 && (candidate.point - best_.point).norm() <= accuracy::kSamePoint * tolerance_;
     if (!same_point) return cost < cost_;
     return smallestMultiplier(planes_, candidate, goal_) > smallestMultiplier(planes_, best_, goal_);
   }
@@ -175,7 +169,7 @@ SolverResult nearestAboveOne(const Plane& plane, const Vec3& goal, double strict
 }  // namespace
 
 SolverResult nearestAbove(std::span<const Plane> planes, const Vec3& goal, double tolerance) {
-  const double strict = tolerance / 8;
+  const double strict = accuracy::kStrictPerTolerance * tolerance;
   SolverResult result;
   result.point = goal;
   if (planes.empty()) return result;
@@ -186,14 +180,14 @@ SolverResult nearestAbove(std::span<const Plane> planes, const Vec3& goal, doubl
   while (true) {
     const std::size_t j = mostViolated(planes, result.point, result.violation);
     ++result.rounds;
-    if (j == planes.size() || result.violation <= strict || result.rounds > kMaxRounds) break;
+    if (j == planes.size() || result.violation <= strict || result.rounds > convergence::kMostSolverRounds) break;
     const Candidate next = solveWith(planes, result.active, result.active_count, j, goal, strict);
     // A real violation moves the optimum away from the goal, with multipliers >= 0; one that comes of rounding alone
     // (planes that almost contradict or repeat each other) must not change the active set.
     const double distance = (next.point - goal).norm();
     const bool progress = distance > (result.point - goal).norm();
     if (!progress && result.violation <= tolerance) break;
-    if (smallestMultiplier(planes, next, goal) < -kNegative * distance) break;
+    if (smallestMultiplier(planes, next, goal) < -accuracy::kNegative * distance) break;
     result.point = next.point;
     result.active = next.active;
     result.active_count = next.count;

@@ -11,17 +11,11 @@ namespace hl {
 
 namespace {
 
-// How often a place is pushed out of what it overlaps: the finger, which mostly has just come in, and any other.
-constexpr int kPushesOfFinger = 8, kPushes = 2;
+using convergence::kAcross, convergence::kBeyond, convergence::kSpheres;
 
-// So many of the things that the finger overlaps are passed through.
-constexpr int kBeyond = 12;
+constexpr int kDirections = 6 * kAcross * kAcross;
 
-// Directions: the middles of kAcross x kAcross cells on each side of a cube, 96 in all, up to 0.4 rad apart.
-constexpr int kAcross = 4, kDirections = 6 * kAcross * kAcross;
-
-// Radii of the spheres in reaches: 1, sqrt 2, 2, ... up to kFarthestStart.
-constexpr int kSpheres = 14;
+// In reaches.
 double sphereRadius(int sphere) { return std::ldexp(sphere % 2 == 0 ? 1 : M_SQRT2, sphere / 2); }
 
 Vec3 directionOf(int number) {
@@ -75,7 +69,7 @@ bool StartSearch::look(const SceneAt& scene, const Tolerances& tolerance, const 
   bool found = set.contacts.empty();
   for (int i = 0; i < places && !found; ++i) {
     Vec3 place;
-    const int pushes = next_ == 0 ? kPushesOfFinger : kPushes;
+    const int pushes = next_ == 0 ? convergence::kPushesOfFinger : convergence::kPushesOfPlace;
     found = placeOf(next_, set, tolerance.reach, finger, place) && findClearPlace(scene, tolerance, pushes, place);
     if (found) position = place;
     next_ = (next_ + 1) % kPlaces;

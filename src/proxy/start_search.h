@@ -2,7 +2,7 @@
 // clear of the scene, each pushed a little out of what it overlaps:
 //   the finger itself;
 //   beyond each of the nearest things that it overlaps: of a thin wall, the outside;
-//   all around the finger, on spheres that grow to kFarthestStart radii.
+//   all around the finger, on spheres that grow to convergence::kFarthestStart radii.
 // Which is next is one number, so a search costs little in each tick, goes on in the next, and follows the finger.
 #pragma once
 
@@ -11,9 +11,6 @@
 #include "scene/scene_at.h"
 
 namespace hl {
-
-/// A place to begin is no farther from the finger than so many times the reach, and some pushes.
-inline constexpr double kFarthestStart = 100;
 
 /// Plain values; RT-safe.
 class StartSearch {

@@ -8,22 +8,6 @@
 
 namespace hl {
 
-namespace {
-
-// Neighbours whose shaded normals differ by more meet in a crease: the file means the edge to be seen, and felt.
-constexpr double kCrease_rad = 0.01;
-
-constexpr int kInnerPasses = 12;
-
-// The way over the edge of a textured triangle that makes its neighbour the one in contact, in proxy radii: the closest
-// point of the one left behind is then farther by 1/2 (1e-4)^2 = 5e-9 radii, 50 times the skin.
-constexpr double kOverEdge = 1e-4;
-
-constexpr double kSamplesPerTexel = 2;
-constexpr double kMostSamples = 4096;
-
-}  // namespace
-
 bool SurfaceRules::any(const ContactSet& set) const {
   return std::any_of(set.contacts.begin(), set.contacts.end(), [&](const Contact& contact) {
     if (plain(contact.primitive)) return false;
@@ -36,7 +20,7 @@ bool SurfaceRules::any(const ContactSet& set) const {
 bool SurfaceRules::creased(const ContactSet& set, const Contact& contact, const Vec3& normal) const {
   return std::any_of(set.twins.begin(), set.twins.end(), [&](const Contact& twin) {
     if (!samePlane(twin, contact)) return false;
-    return patchAt(placeOf(twin)).bend().normal.cross(normal).norm() > kCrease_rad;
+    return patchAt(placeOf(twin)).bend().normal.cross(normal).norm() > accuracy::kCrease_rad;
   });
 }
 
@@ -117,10 +101,11 @@ Vec3 SurfaceRules::slip(Resistance& resistance, const Drag& drag, const Vec3& wa
     proposal.viscous = drag.viscous;
     return (slipLength(drag, pull, before) / pull) * way;
   }
-  const int samples = 1 + static_cast<int>(std::min(kSamplesPerTexel * resistance.texels(), kMostSamples - 1));
+  const int samples =
+      1 + static_cast<int>(std::min(accuracy::kSamplesPerTexel * resistance.texels(), accuracy::kMostSamples - 1));
   const auto drag_at = [&](double distance) { return resistance.at(distance / pull); };
   const double length = slipLengthAlong(drag_at, pull, before, samples, proposal.viscous);
-  return std::min(length / pull, resistance.within() + kOverEdge * tolerance_.reach / pull) * way;
+  return std::min(length / pull, resistance.within() + accuracy::kOverEdge * tolerance_.reach / pull) * way;
 }
 
 // What friction lets the proxy go of the way, after `slipped_now` more than slip_ says.
@@ -167,7 +152,7 @@ void SurfaceRules::tellHolding(const TouchedSet& touched, const SolverResult& he
 // On planes that bend nowhere, a slip whose resistance is the same all along ends where the next would not move it.
 bool SurfaceRules::slipsAtOnce(const TouchedSet& touched, const Proposal& proposal) const {
   const auto changes = [](const Touched& now) { return now.bends || now.roughness.slipTextured(); };
-  return proposal.resisted && !proposal.creeps && touched.size() <= kFewContacts &&
+  return proposal.resisted && !proposal.creeps && touched.size() <= convergence::kFewContacts &&
          std::none_of(touched.begin(), touched.end(), changes);
 }
 
@@ -185,8 +170,8 @@ bool SurfaceRules::staysOnFaces(const ContactSet& set, const TouchedSet& touched
 // of what each would leave, a factor of sin^2(beta) + depth / radius.
 void SurfaceRules::settle(const ContactSet& set, const Vec3& position, const Vec3& gap, Proposal& proposal) const {
   using Rest = Proposal::Rest;
-  const bool few = set.contacts.size() <= kFewContacts;
-  const double enough = kRestPerGap * gap.norm() + tolerance_.rest;
+  const bool few = set.contacts.size() <= convergence::kFewContacts;
+  const double enough = accuracy::kRestPerGap * gap.norm() + tolerance_.rest;
   TouchedSet touched = touchedNow(set);
   const auto any = [&](auto says) { return std::any_of(touched.begin(), touched.end(), says); };
   const bool resisting = any([](const Touched& now) { return now.roughness.acts(); });
@@ -205,7 +190,7 @@ void SurfaceRules::settle(const ContactSet& set, const Vec3& position, const Vec
     const Vec3 change = proposal.step - offset;
     const bool repeats = few && proposal.bent && settings_.shading != ShadingPasses::kOnce;
     const bool settles = repeats ? change.norm() <= enough : slipsAtOnce(touched, proposal);
-    if (!repeats || settles || pass == kInnerPasses) {
+    if (!repeats || settles || pass == convergence::kInnerPasses) {
       tellHolding(touched, held, proposal);
       if (settles) proposal.rest = staysOnFaces(set, touched, proposal.step) ? Rest::kStays : Rest::kSettles;
       return;

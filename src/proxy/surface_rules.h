@@ -20,14 +20,8 @@
 
 namespace hl {
 
-/// Beyond so many contacts at once the passes are repeated by the tick itself, with the contacts found anew.
-inline constexpr std::size_t kFewContacts = 8;
-
 class SurfaceRules {
  public:
-  /// In contact under shading or friction, in one tick.
-  static constexpr int kMostProposals = 8;
-
   /// `creep_m`: how far the proxy has crept from where it stuck.
   SurfaceRules(const SceneAt& scene, const ProxySettings& settings, const Tolerances& tolerance, bool slipping,
                const Vec3& creep_m)
@@ -44,7 +38,7 @@ class SurfaceRules {
   /// Proposes the step toward the finger, `gap` away from the proxy, under the rules of the surfaces in contact; none
   /// after so many that the rest is for the next tick.
   void propose(const ContactSet& set, const Vec3& position, const Vec3& gap, Proposal& proposal);
-  bool postpones() const { return proposals_ > kMostProposals; }
+  bool postpones() const { return proposals_ > convergence::kMostProposals; }
   /// The same, however many there have been.
   void settle(const ContactSet& set, const Vec3& position, const Vec3& gap, Proposal& proposal) const;
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "base/fixed_vector.h"
+#include "proxy/tolerances.h"
 #include "scene/scene_at.h"
 
 namespace hl {
@@ -16,8 +17,7 @@ namespace hl {
 /// Plain values; RT-safe. World frame.
 class SweepCache {
  public:
-  /// A sweep over a million triangles, a quarter of the proxy's radius wide, meets three in the mean.
-  static constexpr std::size_t kRoom = 24;
+  static constexpr std::size_t kRoom = cost::kSweepRoom;
 
   struct Measured {
     PrimitiveId primitive;
@@ -104,7 +104,7 @@ class SweepCache {
   double distance_ = 0, measured_within_ = 0;
   Vec3 place_ = Vec3::Zero(), measured_at_ = Vec3::Zero();
   FixedVector<Neighbour, kRoom> neighbours_;
-  FixedVector<Measured, 4> measured_;  // mostly one or two
+  FixedVector<Measured, cost::kMeasuredRoom> measured_;
 };
 
 }  // namespace hl

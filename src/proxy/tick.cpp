@@ -11,7 +11,7 @@ Tick::Tick(const SceneAt& scene, const ProxySettings& settings, ProxyState& stat
       state_(state),
       goal_(finger),
       booking_(state, settings, finger),
-      rules_(scene, settings, input_.tolerance, state.touching && state.rest_s < kStuck_s, state.creep),
+      rules_(scene, settings, input_.tolerance, state.touching && state.rest_s < accuracy::kStuck_s, state.creep),
       constraints_(input_),
       walk_(input_, state.cache),
       work_(settings.work_cap) {}
@@ -164,7 +164,7 @@ void Tick::close(TickReport& report) {
     for (const Holding& holding : held_by_) surfaces.add(holding.multiplier_m, rules_.stiffnessAt(holding.place));
   }
   state_.creep = rules_.creep_m();
-  state_.rest_s = rules_.hasSlipped() ? 0 : std::min(state_.rest_s + input_.settings.period_s, kStuck_s);
+  state_.rest_s = rules_.hasSlipped() ? 0 : std::min(state_.rest_s + input_.settings.period_s, accuracy::kStuck_s);
   booking_.close(state_, end, surfaces, causes, report);
 }
 

@@ -16,9 +16,9 @@ struct TickInput {
 
   /// The way from the proxy to the finger, as far as steps aim.
   Vec3 gap(const Vec3& position) const { return far.shortened(finger - position); }
-  /// Whether a step is so short that the proxy is stationary: kRestPerGap.
+  /// Whether a step is so short that the proxy is stationary: accuracy::kRestPerGap.
   bool stationary(const Vec3& step, const Vec3& position) const {
-    return step.norm() <= kRestPerGap * far.shortened_m(finger - position) + tolerance.rest;
+    return step.norm() <= accuracy::kRestPerGap * far.shortened_m(finger - position) + tolerance.rest;
   }
 
   const SceneAt& scene;
@@ -34,7 +34,7 @@ struct TickInput {
         settings(rules),
         finger(finger_now),
         tolerance(Tolerances::of(rules.radius, extent)),
-        longest_m(kSweepPerExtent * (extent + tolerance.reach)),
+        longest_m(accuracy::kSweepPerExtent * (extent + tolerance.reach)),
         far(longest_m) {}
 };
 

@@ -2,17 +2,9 @@
 
 #include <algorithm>
 
+#include "proxy/tolerances.h"
+
 namespace hl {
-
-namespace {
-
-// Steps until a trial must have paid off: on its way down the proxy may meet another surface first.
-constexpr int kMostDescents = 8;
-
-// By how much steps become bolder when one has paid off, and less bold when one has not.
-constexpr double kBolder = 4, kMostBoldness = 1024;
-
-}  // namespace
 
 void Trial::begin(const Vec3& checkpoint) {
   checkpoint_ = checkpoint;
@@ -21,7 +13,7 @@ void Trial::begin(const Vec3& checkpoint) {
 
 bool Trial::judge(const Goal& goal, bool last, Vec3& position) {
   if (!open() || descents_ == 0) return false;
-  if (!last && descents_ < kMostDescents && !goal.nearer(position, *checkpoint_)) return false;
+  if (!last && descents_ < convergence::kMostDescents && !goal.nearer(position, *checkpoint_)) return false;
   return conclude(goal, position);
 }
 
@@ -30,10 +22,10 @@ bool Trial::conclude(const Goal& goal, Vec3& position) {
   const Vec3 from = *checkpoint_;
   checkpoint_.reset();
   if (goal.nearer(position, from)) {
-    boldness_ = std::min(kMostBoldness, boldness_ * kBolder);
+    boldness_ = std::min(convergence::kMostBoldness, boldness_ * convergence::kBolder);
     return false;
   }
-  boldness_ = std::min(1.0, boldness_) / kBolder;
+  boldness_ = std::min(1.0, boldness_) / convergence::kBolder;
   back_off_.failed();
   const bool moved = position != from;
   position = from;

@@ -34,7 +34,7 @@ void Walk::fly(const ContactSet& set, Vec3& position) {
 // How far a step mostly goes, which decides nothing but its cost: along a surface as far as it wants; and a proxy that
 // has come off a bent surface comes down on it after some hundredths of the way it slid.
 double Walk::likelyWay_m(bool along) const {
-  constexpr double kSlidePerReach = 2, kFallPerSlide = 0.02, kFallPerReach = 0.25;
+  using namespace cost;
   if (along) return kSlidePerReach * input_.tolerance.reach;
   return slid_m_ > 0 ? kFallPerSlide * slid_m_ : kFallPerReach * input_.tolerance.reach;
 }

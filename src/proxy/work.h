@@ -4,19 +4,18 @@
 #pragma once
 
 #include "proxy/contacts.h"
+#include "proxy/tolerances.h"
 
 namespace hl {
 
 /// For one tick. RT-safe.
 class Work {
  public:
-  /// A look at an empty place and the step that follows cost as much as so many primitives in contact, about 0.15 us
-  /// each.
-  static constexpr int kPerLook = 6;
-
   explicit Work(int most) : left_(most) {}
 
-  void looked(const ContactSet& set) { left_ -= kPerLook + static_cast<int>(set.contacts.size() + set.twins.size()); }
+  void looked(const ContactSet& set) {
+    left_ -= convergence::kWorkPerLook + static_cast<int>(set.contacts.size() + set.twins.size());
+  }
   /// The proxy has made a step that counts: not one on trial.
   void stepped() { has_stepped_ = true; }
 

@@ -203,7 +203,7 @@ TEST(Shading, TheAngleToTheTrueNormalIsLimited) {
   const ProxySettings settings = settingsOf(0.001, true);
   ProxyState state = startProxy(*scene, settings, {0, 0.01, 0.01});
   tick(state, *scene, settings, {0, -0.001, 0.01});
-  EXPECT_NEAR(state.position.x(), 0.002 * std::tan(kShadingLimit_rad), 1e-9);
+  EXPECT_NEAR(state.position.x(), 0.002 * std::tan(accuracy::kShadingLimit_rad), 1e-9);
 }
 
 // C22: two shaded cylinders side by side: the proxy rests in the cusp, r from both, pushed by both shaded normals.

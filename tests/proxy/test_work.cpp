@@ -15,7 +15,7 @@ constexpr double kRadius = 1e-3;
 
 TEST(Work, ATickMayEndOnceItsWorkIsUsedUpAndItHasMadeAStep) {
   const ContactSet nothing;
-  Work work(2 * Work::kPerLook);
+  Work work(2 * convergence::kWorkPerLook);
   work.stepped();
   work.looked(nothing);
   EXPECT_FALSE(work.usedUp());
