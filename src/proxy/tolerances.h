@@ -77,7 +77,7 @@ inline constexpr double kSamplesPerTexel = 2, kMostSamples = 4096;
 /// closest point of the one left behind is then farther by 1/2 (1e-4)^2 = 5e-9 radii, 50 times the skin.
 inline constexpr double kOverEdge = 1e-4;
 
-// What moves: carry.h.
+// What moves: rigid_sweep.h, pushed_proxy.h, push_out.h.
 
 /// rad. In an object's frame the way of the proxy is taken for straight. It strays from that by R q^2 / 8 at a turn of
 /// q; at this turn by 1/200 of its distance R from the axis.
@@ -166,12 +166,12 @@ inline constexpr double kFarthestStart = 100;
 /// Part of the clearance with which a push is swept, so that its centre passes nothing however that is rounded.
 inline constexpr double kPushedPart = 0.5;
 
-// What moves: carry.h.
+// What moves: pusher.h, small_step.h, push_out.h.
 
-/// Sweeps or pushes from one tick to the next.
+/// Sweeps or small steps from one tick to the next.
 inline constexpr int kMostCarrySteps = 64;
-/// Proxy radii that a mesh may bend from one tick to the next without passing: each step goes half a radius at least,
-/// where nothing pinches the proxy; half of that where friction takes it along.
+/// Proxy radii that a mesh may bend from one tick to the next without passing: each small step goes half a radius at
+/// least, where nothing pinches the proxy; half of that where friction takes it along.
 inline constexpr int kMostBendRadii = kMostCarrySteps / 4;
 /// Part of the clearance by which objects may close in on the proxy before it is pushed out again.
 inline constexpr double kCloseIn = 0.5;

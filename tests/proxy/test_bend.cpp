@@ -9,6 +9,7 @@
 #include <random>
 
 #include "base/realtime_guard.h"
+#include "moving_scenes.h"
 
 namespace hl {
 namespace {
@@ -23,26 +24,7 @@ ProxySettings settingsOf(double friction = 0) {
   return settings;
 }
 
-using Height = std::function<double(double x, double z)>;
-
-// A sheet of 0.1 m x 0.1 m around the origin.
-Model sheet(const Height& height, int cells = 40) {
-  Model model;
-  for (int i = 0; i <= cells; ++i) {
-    for (int k = 0; k <= cells; ++k) {
-      const double x = 0.1 * i / cells - 0.05, z = 0.1 * k / cells - 0.05;
-      model.positions.emplace_back(x, height(x, z), z);
-    }
-  }
-  const auto at = [cells](int i, int k) { return static_cast<std::uint32_t>(i * (cells + 1) + k); };
-  for (int i = 0; i < cells; ++i) {
-    for (int k = 0; k < cells; ++k) {
-      model.triangles.push_back({at(i, k), at(i, k + 1), at(i + 1, k)});
-      model.triangles.push_back({at(i + 1, k), at(i, k + 1), at(i + 1, k + 1)});
-    }
-  }
-  return model;
-}
+using test::sheet;
 
 constexpr std::int64_t kTick_ns = 1'000'000, kFrame_ns = 33 * kTick_ns;
 

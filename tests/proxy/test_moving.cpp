@@ -2,12 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 
 #include "base/realtime_guard.h"
-#include "effect_scenes.h"
 #include "geometry/scenes.h"
 #include "judge.h"
+#include "moving_scenes.h"
 #include "proxy/proxy.h"
 
 namespace hl {
@@ -24,39 +23,7 @@ ProxySettings settingsOf(double static_friction = 0, double dynamic_friction = 0
   return settings;
 }
 
-Model rectangle(const Vec3& corner, const Vec3& u, const Vec3& v) {
-  Model model;
-  test::addRectangle(model, corner, u, v, u.cross(v).normalized());
-  return model;
-}
-
-Model boxModel(const Vec3& half) {
-  Model model;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double side : {-1.0, 1.0}) {
-      Vec3 u = Vec3::Zero(), v = Vec3::Zero(), n = Vec3::Zero();
-      n[axis] = side * half[axis];
-      u[(axis + 1) % 3] = half[(axis + 1) % 3];
-      v[(axis + 2) % 3] = half[(axis + 2) % 3];
-      test::addRectangle(model, n - u - v, 2 * u, 2 * v, n.normalized());
-    }
-  }
-  return model;
-}
-
-Instance place(std::uint64_t key, Model model, const Motion& motion) {
-  Instance instance;
-  instance.key = key;
-  instance.shape = makeShape(std::move(model), HierarchyKind::kBvh);
-  instance.surfaces = surfacesOf(instance.shape);
-  instance.motion = motion;
-  return instance;
-}
-
-Pose at(const Vec3& origin) { return {Mat3::Identity(), origin}; }
-Pose turned(double angle, const Vec3& axis) {
-  return {Eigen::AngleAxisd(angle, axis).toRotationMatrix(), Vec3::Zero()};
-}
+using test::at, test::boxModel, test::place, test::rectangle, test::turned;
 
 // M1. A plate runs at the speed given into a finger that is held still, goes on for 60 mm, and comes back.
 TEST(Moving, APlateNeverPassesAHeldFinger) {

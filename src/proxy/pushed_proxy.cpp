@@ -1,0 +1,63 @@
+#include "proxy/pushed_proxy.h"
+
+#include <algorithm>
+
+namespace hl {
+
+namespace {
+
+// The primitive of the carrier that is nearest to the proxy, and where it is touched. False where none touches it.
+bool touchedOfCarrier(const PushedProxy& proxy, const SceneAt& scene, PrimitiveId& touched, ClosestPoint& nearest) {
+  bool found = false;
+  const double touching = accuracy::kTouchingBend * proxy.tolerance.reach;
+  scene.primitivesWithin(proxy.position, touching, [&](PrimitiveId id, const ClosestPoint& place) {
+    if (id.instance != proxy.carrier) return;
+    if (found && place.distance > nearest.distance) return;
+    if (found && place.distance == nearest.distance && !scene.precedes(id, touched)) return;
+    found = true;
+    touched = id;
+    nearest = place;
+  });
+  return found;
+}
+
+// How far the touched place of the carrier goes by then, as its mesh bends; frame of the carrier.
+Vec3 bentBy(const PushedProxy& proxy, const BendWay& way, std::int64_t time_ns) {
+  const SceneAt scene = proxy.scene();
+  PrimitiveId held;
+  ClosestPoint nearest;
+  if (!touchedOfCarrier(proxy, scene, held, nearest)) return Vec3::Zero();
+  const Primitive touched = scene.primitive(held);
+  if (touched.kind != way.to()->primitives.elementKind(held.element)) return Vec3::Zero();  // it has shrunk
+  const auto now = way.corners(held.element, way.part(proxy.now_ns));
+  const auto then = way.corners(held.element, way.part(time_ns));
+  Vec3 gone = Vec3::Zero();
+  for (std::size_t i = 0; i < 3; ++i) gone += nearest.weights[i] * (then[touched.order[i]] - now[touched.order[i]]);
+  return gone;
+}
+
+}  // namespace
+
+Vec3 PushedProxy::carriedTo(std::int64_t time_ns) const {
+  if (carrier == kNoInstance) return position;
+  const Instance& by = snapshot.instances[carrier];
+  Vec3 place = by.motion.at(now_ns).toObject(position);
+  if (const BendWay* const way = by.bentAt(now_ns)) place += bentBy(*this, *way, time_ns);
+  return by.motion.at(time_ns).toWorld(place);
+}
+
+Box PushedProxy::regionOf(const Vec3& way_end) const {
+  const Vec3 margin = Vec3::Constant(convergence::kNearPerReach * tolerance.reach);
+  return {position.cwiseMin(way_end) - margin, position.cwiseMax(way_end) + margin};
+}
+
+std::uint32_t movingInstance(const Snapshot& snapshot, std::uint64_t key) {
+  const auto& all = snapshot.instances;
+  const auto found =
+      std::lower_bound(all.begin(), all.end(), key, [](const Instance& a, std::uint64_t b) { return a.key < b; });
+  if (key == 0 || found == all.end() || found->key != key) return kNoInstance;
+  if (!found->motion.moves() && !found->bending) return kNoInstance;
+  return static_cast<std::uint32_t>(found - all.begin());
+}
+
+}  // namespace hl

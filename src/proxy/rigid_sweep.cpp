@@ -1,0 +1,60 @@
+#include "proxy/rigid_sweep.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/queries.h"
+
+namespace hl {
+
+namespace {
+
+// Until when each object nearby stays on one screw and turns little enough for a straight sweep.
+std::int64_t straightUntil(const PushedProxy& proxy) {
+  std::int64_t until_ns = proxy.end_ns;
+  proxy.forEachNear(proxy.position, [&](std::uint32_t, const Instance& instance) {
+    const Motion& motion = instance.motion;
+    const bool earlier = proxy.now_ns < motion.last().begin_ns();
+    const Screw& screw = earlier ? motion.earlier() : motion.last();
+    if (earlier && motion.moves()) until_ns = std::min(until_ns, motion.last().begin_ns());
+    if (!screw.moves() || screw.angle() == 0) return;
+    const auto whole_ns = static_cast<double>(screw.end_ns() - screw.begin_ns());
+    const double way_ns = accuracy::kMostTurn_rad / screw.angle() * whole_ns;
+    if (way_ns < static_cast<double>(until_ns - proxy.now_ns))
+      until_ns = proxy.now_ns + std::max<std::int64_t>(1, static_cast<std::int64_t>(way_ns));
+  });
+  return until_ns;
+}
+
+struct Meeting {
+  double part = 2;  // of the time until then; above 1: none
+  std::uint32_t instance = kNoInstance;
+};
+
+Meeting firstMeeting(const PushedProxy& proxy, std::int64_t until_ns) {
+  const Vec3 carried = proxy.carriedTo(until_ns);
+  const double met_m = accuracy::kMetAt * proxy.tolerance.reach;
+  Meeting first;
+  proxy.forEachNear(carried, [&](std::uint32_t i, const Instance& instance) {
+    if (i == proxy.carrier || (!instance.motion.moves() && proxy.carrier == kNoInstance)) return;
+    const Vec3 from = instance.motion.at(proxy.now_ns).toObject(proxy.position);
+    const Vec3 to = instance.motion.at(until_ns).toObject(carried);
+    const Shape& shape = *instance.shape;
+    FirstImpact hit;
+    if (!firstImpact(*shape.index, shape.primitives, from, to - from, met_m, -1, hit)) return;
+    if (hit.impact.t < first.part || (hit.impact.t == first.part && i < first.instance)) first = {hit.impact.t, i};
+  });
+  return first;
+}
+
+}  // namespace
+
+Advance rigidSweep(const PushedProxy& proxy) {
+  const std::int64_t until_ns = straightUntil(proxy);
+  const Meeting meeting = firstMeeting(proxy, until_ns);
+  if (meeting.part > 1) return {until_ns, kNoInstance};
+  const auto way_ns = static_cast<double>(until_ns - proxy.now_ns);
+  return {proxy.now_ns + static_cast<std::int64_t>(std::floor(meeting.part * way_ns)), meeting.instance};
+}
+
+}  // namespace hl

@@ -1,0 +1,85 @@
+#include "proxy/small_step.h"
+
+#include <algorithm>
+
+#include "geometry/closest_point.h"
+#include "proxy/clear_place.h"
+
+namespace hl {
+
+namespace {
+
+using convergence::kCloseIn;
+
+// Until when each mesh that bends is on one way.
+std::int64_t oneWayUntil(const PushedProxy& proxy) {
+  std::int64_t until_ns = proxy.end_ns;
+  for (const std::uint32_t i : proxy.snapshot.bent) {
+    const std::int64_t next_ns = proxy.snapshot.instances[i].bending->last().begin_ns();
+    if (proxy.now_ns < next_ns) until_ns = std::min(until_ns, next_ns);
+  }
+  return until_ns;
+}
+
+// How far an object moves past the proxy until then, at most, not counting how it bends.
+double wayOf_m(const PushedProxy& proxy, const Instance& instance, std::int64_t until_ns, double clearance) {
+  const Motion& motion = instance.motion;
+  if (!motion.moves()) return 0;
+  const Pose now = motion.at(proxy.now_ns), end = motion.at(until_ns);
+  const double turn = (end.rotation - now.rotation).norm();
+  const double slide = (end.toWorld(now.toObject(proxy.position)) - proxy.position).norm();
+  return convergence::kArcPerChord * (slide + turn * clearance);
+}
+
+// The part of the time until then in which nothing of a bending mesh takes more than kCloseIn of its distance from the
+// proxy's centre, when all of the mesh also moves by `way_m` past it. What never comes nearer than the rest of a radius
+// on its way need not be looked at.
+double partUntilBent(const PushedProxy& proxy, const Instance& instance, std::int64_t until_ns, double way_m) {
+  const BendWay* const way = instance.bentAt(proxy.now_ns);
+  if (way == nullptr) return 1;
+  const double begin = way->part(proxy.now_ns), end = way->part(until_ns);
+  const Vec3 place = instance.motion.at(proxy.now_ns).toObject(proxy.position);
+  const double within = (1 - kCloseIn) * proxy.tolerance.reach + way_m;
+  double part = 1;
+  way->index(begin, end).overlap(place, within, [&](std::uint32_t primitive) {
+    const double distance = closestPoint(way->primitive(primitive, begin), place).distance;
+    const double most = (end - begin) * way->length_m(primitive) + way_m;
+    if (kCloseIn * distance < part * most) part = kCloseIn * distance / most;
+  });
+  return part;
+}
+
+// The part of the time until then that a small step may take.
+double freePart(const PushedProxy& proxy, std::int64_t until_ns) {
+  const double clearance = clearanceAt(proxy.scene(), proxy.position, proxy.tolerance.reach);
+  const Vec3 carried = proxy.carriedTo(until_ns);
+  const double carried_m = (carried - proxy.position).norm();
+  double part = carried_m > 0 ? std::min(1.0, kCloseIn * clearance / carried_m) : 1;
+  proxy.forEachNear(carried, [&](std::uint32_t, const Instance& instance) {
+    const double way_m = wayOf_m(proxy, instance, until_ns, clearance) + carried_m;
+    if (way_m > 0) part = std::min(part, kCloseIn * clearance / way_m);
+    part = std::min(part, partUntilBent(proxy, instance, until_ns, way_m));
+  });
+  return part;
+}
+
+}  // namespace
+
+bool bendsNear(const PushedProxy& proxy) {
+  const Snapshot& snapshot = proxy.snapshot;
+  if (proxy.now_ns >= snapshot.bends_until_ns) return false;
+  const Box region = proxy.regionOf(proxy.carriedTo(proxy.end_ns));
+  return std::any_of(snapshot.bent.begin(), snapshot.bent.end(), [&](std::uint32_t i) {
+    return snapshot.instances[i].bentAt(proxy.now_ns) != nullptr && snapshot.reach[i].meets(region);
+  });
+}
+
+Advance smallStep(const PushedProxy& proxy, int left) {
+  const std::int64_t until_ns = oneWayUntil(proxy);
+  const auto left_ns = static_cast<double>(until_ns - proxy.now_ns);
+  if (!(left_ns > 0)) return {proxy.now_ns, kNoInstance};
+  const double part = std::max(freePart(proxy, until_ns), 1.0 / left);
+  return {proxy.now_ns + std::max<std::int64_t>(1, static_cast<std::int64_t>(part * left_ns)), kNoInstance};
+}
+
+}  // namespace hl
