@@ -41,16 +41,13 @@ double sharedTurn(const ContactSet& set, const Contact& contact, const SceneAt& 
 }
 
 // How many times as far as the plain step, of this length, a step in a direction of this curvature goes: Newton's, if
-// the distance to the goal has a minimum that way. Else it falls ever faster, as on the ridge of an edge: plain steps
-// grow geometrically there, and this one goes to where the surface is another, `turn_m` from here, or takes several at
-// a stride.
+// the distance to the goal has a minimum that way, else as far as it can; but no farther than to where the surface is
+// another, `turn_m` from here, and a little beyond, so that the next look finds it.
 double stretch(double curvature, double length, double turn_m, double reach, double boldness) {
   using namespace convergence;
-  const double longest = std::max(1.0, kLongestPerReach * reach / length);
-  const double part = std::min(1.0, boldness), more = std::max(1.0, boldness);
-  if (curvature > 0) return 1 + part * (std::min(1 / curvature, longest) - 1);
-  const double strides = std::clamp(more * kStridesPerReach * reach / length, 1.0, more * kMostStrides);
-  return 1 + part * (std::min(std::max(strides, turn_m / length), longest) - 1);
+  const double most = std::max(1.0, std::min(kLongestPerReach * reach, kTurnedBeyond * turn_m) / length);
+  const double newton = curvature > 0 ? std::min(1 / curvature, most) : most;
+  return 1 + std::min(1.0, boldness) * (newton - 1);
 }
 
 // How much the obstacle bends away below a step in the direction of its projector: 1 for the whole radius.
@@ -61,15 +58,27 @@ Vec3 onSurface(const ContactSet& set, const SceneAt& scene, const Contact& conta
                const Vec3& plain, double reach, double boldness) {
   const Vec3 part = curvedDirections(contact, scene) * plain;
   const double length = part.norm(), curvature = 1 - bendOf(contact, multiplier);
-  const bool ends = curvature <= 0 && length > 0;
-  const double turn_m = ends ? contact.distance * sharedTurn(set, contact, scene, part / length) : 0;
+  if (!(length > 0)) return plain;
+  const double turn_m = contact.distance * sharedTurn(set, contact, scene, part / length);
   return plain + (stretch(curvature, length, turn_m, reach, boldness) - 1) * part;
 }
 
-// Along the curve in which two surfaces meet; `bend` is that of both along it.
-Vec3 onCurve(const Vec3& along, double bend, const Vec3& plain, double reach, double boldness) {
+// Along the curve in which two surfaces meet; it bends as both do along it.
+Vec3 onCurve(const ContactSet& set, const SceneAt& scene, const SolverResult& proposal, double reach, double boldness) {
+  const auto contact = [&](std::size_t i) -> const Contact& { return set.contacts[proposal.active[i]]; };
+  const Vec3& plain = proposal.point;
+  Vec3 along = contact(0).plane.normal.cross(contact(1).plane.normal).normalized();
+  if (along.dot(plain) < 0) along = -along;
   const double length = along.dot(plain);
-  return plain + (stretch(1 - bend, std::abs(length), 0, reach, boldness) - 1) * length * along;
+  if (!(length > 0)) return plain;
+  double bend = 0, turn_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (contact(i).feature == Feature::kFace) continue;
+    const double curved = along.dot(curvedDirections(contact(i), scene) * along);
+    bend += bendOf(contact(i), proposal.multiplier[i]) * curved;
+    if (curved > 0) turn_m = std::min(turn_m, contact(i).distance * sharedTurn(set, contact(i), scene, along));
+  }
+  return plain + (stretch(1 - bend, length, turn_m, reach, boldness) - 1) * length * along;
 }
 
 bool staysAbove(const ContactSet& set, const Vec3& step, double tolerance) {
@@ -90,11 +99,7 @@ bool curvatureStep(const ContactSet& set, const SceneAt& scene, const SolverResu
   if (proposal.active_count == 1 && curved(0)) {
     step = onSurface(set, scene, contact(0), proposal.multiplier[0], plain, reach, boldness);
   } else if (proposal.active_count == 2 && (curved(0) || curved(1))) {
-    const Vec3 along = contact(0).plane.normal.cross(contact(1).plane.normal).normalized();
-    double bend = 0;
-    for (std::size_t i = 0; i < 2; ++i)
-      bend += bendOf(contact(i), proposal.multiplier[i]) * along.dot(curvedDirections(contact(i), scene) * along);
-    step = onCurve(along, bend, plain, reach, boldness);
+    step = onCurve(set, scene, proposal, reach, boldness);
   } else {
     return false;
   }

@@ -21,7 +21,8 @@ TickReport Tick::run() {
   while (true) {
     look();
     if (!progress_.settledOn(constraints_.set())) propose();
-    if (trial_.open() && trial_.judge(goal_, atRest() || work_.usedUp(), state_.position)) lookAgain();
+    if (trial_.open() && trial_.judge(goal_, proposal_.step.norm(), atRest() || work_.usedUp(), state_.position))
+      lookAgain();
     report.ending = judge(report.iterations);
     if (report.ending != Ending::kGoesOn) break;
     ++report.iterations;
@@ -98,14 +99,16 @@ Ending Tick::endingOfRest() const {
 // On a rounded edge or corner the tangent planes alone converge slowly; Newton's step uses the curvature.
 bool Tick::tryCurvedStep() {
   const SolverResult& plain = constraints_.solved();
-  if (proposal_.rule != Proposal::Rule::kPlain || plain.active_count == 0 || work_.usedUp() || !trial_.mayBegin())
+  if (proposal_.rule != Proposal::Rule::kPlain || plain.active_count == 0 || work_.usedUp() || trial_.open())
     return false;
   const ContactSet& set = constraints_.set();
+  const double plain_m = plain.point.norm();
   Vec3 step;
   if (!curvatureStep(set, input_.scene, plain, input_.tolerance, trial_.boldness(), step)) return false;
+  if (!trial_.mayBegin(step.norm() / plain_m)) return false;
   Vec3 there = state_.position;
   // Where something is in the way it may still have gone farther than the plain step would.
-  if (!walk_.go(set, true, step, there) && (there - state_.position).norm() <= plain.point.norm()) return false;
+  if (!walk_.go(set, true, step, there) && (there - state_.position).norm() <= plain_m) return false;
   trial_.begin(state_.position);
   state_.position = there;
   return true;

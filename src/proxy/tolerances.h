@@ -107,7 +107,7 @@ inline constexpr int kWorkPerLook = 6;
 
 /// Steps in a row with cuts. Where the finger is all but at an edge, each goes a little farther around it and away from
 /// it; then it is time to come down, and for Newton's step.
-inline constexpr int kMostCutsInARow = 8;
+inline constexpr int kMostCutsInARow = 3;
 /// A step by cuts shorter than this part of the gap goes so little that it is time to come down.
 inline constexpr double kLeastCutPerGap = 1e-5;
 /// In the open a step by cuts so many times as long as the way slid since the last touch would mostly end at once on
@@ -126,13 +126,15 @@ inline constexpr std::size_t kMostSolverRounds = 200;
 inline constexpr double kLongestPerReach = 1.0;
 /// Part of the plain step: below this change of it the curvature is not worth leaving the surface for.
 inline constexpr double kWorthwhile = 1e-3;
-/// Plain steps that are made at a stride down a ridge, at most; and the reaches of a stride, as an edge between faces
-/// that hardly bend ends soon.
-inline constexpr double kMostStrides = 64, kStridesPerReach = 0.003;
+/// Times the way to where a sphere or cylinder ends: a step goes a little beyond, so that the next look finds what
+/// follows.
+inline constexpr double kTurnedBeyond = 1.001;
 /// Steps until a trial must have paid off: on its way down the proxy may meet another surface first.
 inline constexpr int kMostDescents = 8;
 /// By how much steps become bolder when one has paid off, and less bold when one has not.
-inline constexpr double kBolder = 4, kMostBoldness = 1024;
+inline constexpr double kBolder = 2, kLessBold = 4;
+/// Times the plain step: a step on trial so long is never left out.
+inline constexpr double kMuchLonger = 8;
 /// Failures that count: after the n-th the next 2^n tries are left out, so what never works costs next to nothing.
 inline constexpr int kMostFailures = 10;
 
@@ -194,7 +196,7 @@ namespace cost {
 // How far a step mostly goes: walk.h.
 
 /// Along a surface as far as it wants.
-inline constexpr double kSlidePerReach = 2;
+inline constexpr double kSlidePerReach = 0.5;
 /// A proxy that has come off a bent surface comes down on it after some hundredths of the way it slid; one that has not
 /// slid falls a part of its reach.
 inline constexpr double kFallPerSlide = 0.02, kFallPerReach = 0.25;

@@ -11,10 +11,19 @@ void Trial::begin(const Vec3& checkpoint) {
   descents_ = 0;
 }
 
-bool Trial::judge(const Goal& goal, bool last, Vec3& position) {
+bool Trial::judge(const Goal& goal, double step_m, bool last, Vec3& position) {
   if (!open() || descents_ == 0) return false;
-  if (!last && descents_ < convergence::kMostDescents && !goal.nearer(position, *checkpoint_)) return false;
+  const bool nearer = goal.nearer(position, *checkpoint_);
+  if (!last && !nearer && descents_ < convergence::kMostDescents && !hopeless(goal, step_m, position)) return false;
   return conclude(goal, position);
+}
+
+// A step of length s comes nearer to the goal by s^2 / 2 of half the squared distance, and by about as much again where
+// the surface bends away below it. So much for each that is left.
+bool Trial::hopeless(const Goal& goal, double step_m, const Vec3& position) const {
+  const Vec3 apart = position - *checkpoint_;
+  const double lost_m2 = apart.squaredNorm() - 2 * apart.dot(goal.place() - *checkpoint_);
+  return lost_m2 > 2 * (convergence::kMostDescents - descents_) * step_m * step_m;
 }
 
 bool Trial::conclude(const Goal& goal, Vec3& position) {
@@ -22,10 +31,11 @@ bool Trial::conclude(const Goal& goal, Vec3& position) {
   const Vec3 from = *checkpoint_;
   checkpoint_.reset();
   if (goal.nearer(position, from)) {
-    boldness_ = std::min(convergence::kMostBoldness, boldness_ * convergence::kBolder);
+    boldness_ = std::min(1.0, boldness_ * convergence::kBolder);
+    back_off_.worked();
     return false;
   }
-  boldness_ = std::min(1.0, boldness_) / convergence::kBolder;
+  boldness_ /= convergence::kLessBold;
   back_off_.failed();
   const bool moved = position != from;
   position = from;

@@ -11,6 +11,7 @@
 #include "base/vec.h"
 #include "proxy/back_off.h"
 #include "proxy/goal.h"
+#include "proxy/tolerances.h"
 
 namespace hl {
 
@@ -18,21 +19,26 @@ namespace hl {
 class Trial {
  public:
   bool open() const { return checkpoint_.has_value(); }
-  /// Counts one try; false where it is to be left out.
-  bool mayBegin() { return !open() && back_off_.mayTry(); }
-  /// Of the next step: 1, more where such steps have paid off, less where they have not.
+  /// Counts one try of a step so many times as long as the plain one; false where it is to be left out. One that is much
+  /// longer never is: plain steps would get nowhere meanwhile.
+  bool mayBegin(double per_plain) {
+    return !open() && (back_off_.mayTry() || per_plain >= convergence::kMuchLonger);
+  }
+  /// Of the next step: 1, or less where such steps have not paid off.
   double boldness() const { return boldness_; }
 
   void begin(const Vec3& checkpoint);
   /// The proxy has made one step that comes down.
   void descended() { ++descents_; }
-  /// Where a trial is open, to be asked after each step that comes down. `last`: there is no other. Returns whether
-  /// the proxy has been put back.
-  bool judge(const Goal& goal, bool last, Vec3& position);
+  /// Where a trial is open, to be asked after each step that comes down. `step_m`: the length of the next; `last`: there
+  /// is none. Returns whether the proxy has been put back.
+  bool judge(const Goal& goal, double step_m, bool last, Vec3& position);
   /// The same when the tick ends.
   bool conclude(const Goal& goal, Vec3& position);
 
  private:
+  bool hopeless(const Goal& goal, double step_m, const Vec3& position) const;
+
   std::optional<Vec3> checkpoint_;  // of the open trial
   int descents_ = 0;                // steps since
   double boldness_ = 1;
