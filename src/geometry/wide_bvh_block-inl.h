@@ -110,15 +110,23 @@ HWY_INLINE V reachOf(const FewBlocks& blocks, std::size_t lane) {
 // The primitives of some lanes, and what of their nearest points does not depend on where one looks from.
 struct Corners {
   V3 a, b, c, ab, ac, normal;
-  V ab2, ac2, ab_ac;
+  V ab2, ac2, bc2, ab_ac;
+  V per_ab2, per_ac2, per_bc2;
 };
+
+// One over the square of a length; where that is 0, as of a point, what it is multiplied by is 0 too.
+HWY_INLINE V perSquare(V length2) {
+  return hn::Div(hn::Set(kFloats, 1.0f), hn::Max(length2, hn::Set(kFloats, 1e-30f)));
+}
 
 HWY_INLINE Corners cornersOf(const FewBlocks& blocks, std::size_t lane) {
   const auto corner = [&](std::size_t i) HWY_ATTR {
     return V3{coordinate(blocks, lane, i, 0), coordinate(blocks, lane, i, 1), coordinate(blocks, lane, i, 2)};
   };
   const V3 a = corner(0), b = corner(1), c = corner(2), ab = b - a, ac = c - a;
-  return {a, b, c, ab, ac, cross(ab, ac), dot(ab, ab), dot(ac, ac), dot(ab, ac)};
+  const V ab2 = dot(ab, ab), ac2 = dot(ac, ac), ab_ac = dot(ab, ac);
+  const V bc2 = hn::Sub(hn::Add(ab2, ac2), hn::Add(ab_ac, ab_ac));
+  return {a, b, c, ab, ac, cross(ab, ac), ab2, ac2, bc2, ab_ac, perSquare(ab2), perSquare(ac2), perSquare(bc2)};
 }
 
 // Of a point a + v ab + w ac.
@@ -132,20 +140,19 @@ struct OnEdge {
 };
 
 // An edge of length2 from a corner at distance2; `along` is the product of the edge and the way from there to the eye.
-HWY_INLINE OnEdge onEdge(V distance2, V along, V length2) {
-  const V positive = hn::Max(length2, hn::Set(kFloats, 1e-30f));  // of a point: then `along` is zero
-  const V s = hn::Min(hn::Max(hn::Div(along, positive), hn::Zero(kFloats)), hn::Set(kFloats, 1.0f));
+HWY_INLINE OnEdge onEdge(V distance2, V along, V length2, V per_length2) {
+  const V s = hn::Min(hn::Max(hn::Mul(along, per_length2), hn::Zero(kFloats)), hn::Set(kFloats, 1.0f));
   const V twice = hn::Sub(hn::Add(along, along), hn::Mul(s, length2));
   return {s, hn::Sub(distance2, hn::Mul(s, twice))};
 }
 
 HWY_INLINE Weights nearestOnEdges(const Corners& p, V distance2, V along_ab, V along_ac) {
   const V zero = hn::Zero(kFloats);
-  const OnEdge ab = onEdge(distance2, along_ab, p.ab2);
-  const OnEdge ac = onEdge(distance2, along_ac, p.ac2);
+  const OnEdge ab = onEdge(distance2, along_ab, p.ab2, p.per_ab2);
+  const OnEdge ac = onEdge(distance2, along_ac, p.ac2, p.per_ac2);
   const V b_distance2 = hn::Add(hn::Sub(distance2, hn::Add(along_ab, along_ab)), p.ab2);
   const V along_bc = hn::Add(hn::Sub(along_ac, along_ab), hn::Sub(p.ab2, p.ab_ac));
-  const OnEdge bc = onEdge(b_distance2, along_bc, hn::Sub(hn::Add(p.ab2, p.ac2), hn::Add(p.ab_ac, p.ab_ac)));
+  const OnEdge bc = onEdge(b_distance2, along_bc, p.bc2, p.per_bc2);
   const Mask by_ac = hn::Lt(ac.distance2, ab.distance2);
   const Mask by_bc = hn::Lt(bc.distance2, hn::Min(ab.distance2, ac.distance2));
   const V v = hn::IfThenElse(by_ac, zero, ab.s);
