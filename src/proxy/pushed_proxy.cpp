@@ -27,7 +27,7 @@ Vec3 bentBy(const PushedProxy& proxy, const BendWay& way, std::int64_t time_ns) 
   PrimitiveId held;
   ClosestPoint nearest;
   if (!touchedOfCarrier(proxy, scene, held, nearest)) return Vec3::Zero();
-  const Primitive touched = scene.primitive(held);
+  const Primitive& touched = scene.primitive(held);
   if (touched.kind != way.to()->primitives.elementKind(held.element)) return Vec3::Zero();  // it has shrunk
   const auto now = way.corners(held.element, way.part(proxy.now_ns));
   const auto then = way.corners(held.element, way.part(time_ns));
