@@ -7,6 +7,7 @@
 // a contact (a plane holds it off) or swept, never both and never neither, by one comparison with one distance.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -81,6 +82,11 @@ enum class Ending : std::uint8_t {
   kInvalid,     ///< the finger was not finite or beyond kFarthestFinger_m: nothing has moved
 };
 inline constexpr std::size_t kEndings = 12;
+inline constexpr std::array<const char*, kEndings> kEndingNames{"goes_on", "reached",     "stationary", "settled",
+                                                                "stalled", "postponed",   "no_energy",  "crowded",
+                                                                "capped",  "out_of_work", "unplaced",   "invalid"};
+/// As metrics, states of the server and hl trace call it.
+constexpr const char* nameOf(Ending ending) { return kEndingNames[static_cast<std::size_t>(ending)]; }
 
 struct TickReport {
   FixedVector<ProxyContact, 3> contacts;
