@@ -76,8 +76,8 @@ void toProto(const TouchSession& session, const ServoView& servo, const ProxyVie
   toProto(proxy.ledger, servo.late, session.ledger(), *out.mutable_ledger());
   toProto(servo.vibration, *out.mutable_vibration());
   out.set_buttons(servo.buttons);
-  out.set_iteration_caps(proxy.capped);
-  out.set_unplaced_ticks(proxy.unplaced);
+  out.set_iteration_caps(proxy.ended.capped());
+  out.set_unplaced_ticks(proxy.ended[Ending::kUnplaced]);
   out.set_hand_firm(session.handFirm());
   out.set_proxy_radius(session.radius_W());
   toProto(workspace.origin_W, *out.mutable_workspace()->mutable_origin());

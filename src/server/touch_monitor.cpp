@@ -69,9 +69,10 @@ class TouchMonitor {
     out.single("hl_scene_memory_bytes", MetricType::kGauge, "Memory of the scene that the finger touches",
                static_cast<double>(memoryOf(*session_.snapshot())));
     out.single("hl_iteration_caps_total", MetricType::kCounter, "Ticks that hit the cap on their passes",
-               static_cast<double>(proxy.capped));
+               static_cast<double>(proxy.ended.capped()));
     out.single("hl_unplaced_ticks_total", MetricType::kCounter, "Ticks in which no place for the proxy was clear",
-               static_cast<double>(proxy.unplaced));
+               static_cast<double>(proxy.ended[Ending::kUnplaced]));
+    writeEndings(out, proxy.ended);
     writeLedger(out, proxy.ledger, servo.late);
     writeFailures(out);
     writeVibration(out, servo.vibration);
@@ -125,6 +126,13 @@ class TouchMonitor {
       const std::string bound = i < kDutyBounds.size() ? fmt::format("{}", kDutyBounds[i]) : "+Inf";
       out.sample(static_cast<double>(sum), {{"le", bound}});
     }
+  }
+
+  static void writeEndings(MetricsText& out, const EndingCounts& ended) {
+    out.family("hl_ticks_ended_total", MetricType::kCounter, "Ticks by why they ended");
+    ended.each([&](Ending ending, std::uint64_t count) {
+      out.sample(static_cast<double>(count), {{"ending", nameOf(ending)}});
+    });
   }
 
   static void writeSafety(MetricsText& out, SafetyState safety) {

@@ -252,8 +252,7 @@ void TouchSession::show(const ProxyStep& step, std::int64_t now_ns, std::int64_t
   view.touched = step.touched;
   view.slipping = state.touching && state.rest_s == 0;
   view.ledger = state.ledger;
-  view.unplaced += step.report.placed() ? 0 : 1;
-  view.capped += step.report.capped() ? 1 : 0;
+  view.ended.add(step.report.ending);
   view.loop = ticking_.meter.summary();
   proxy_view_.write(view);
   proxy_for_clients_.write(view);

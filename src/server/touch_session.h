@@ -27,6 +27,7 @@
 #include "device/simulated_hand.h"
 #include "proxy/proxy.h"
 #include "scene/snapshot.h"
+#include "server/ending_counts.h"
 #include "server/exploration.h"
 #include "server/loop_meter.h"
 #include "server/proxy_loop.h"
@@ -66,8 +67,7 @@ struct ProxyView {
   FixedVector<ObjectName, 3> touched;  ///< of the contacts, one by one
   bool slipping = false;
   Ledger ledger;
-  std::uint64_t capped = 0;
-  std::uint64_t unplaced = 0;  ///< ticks so far without a place for the proxy that is clear of the scene
+  EndingCounts ended;  ///< ticks so far, by why they ended
   LoopSummary loop;
 };
 

@@ -107,6 +107,12 @@ TEST(Monitor, ATouchSessionIsHealthyWhileItsLoopsRun) {
         "\nhl_ledger_injected_joules_total ", "\nhl_bytes_total{direction=\"in\"} "}) {
     EXPECT_NE(response.body().find(line), std::string::npos) << line;
   }
+  // Each ending is there from the start, so that a rate of it can be asked for.
+  for (std::size_t i = 0; i < kEndings; ++i) {
+    const auto ending = static_cast<Ending>(i);
+    const std::string line = std::string("\nhl_ticks_ended_total{ending=\"") + nameOf(ending) + "\"} ";
+    EXPECT_EQ(response.body().find(line) != std::string::npos, ending != Ending::kGoesOn) << line;
+  }
   EXPECT_EQ(test::request(server.port(), "/healthz").result_int(), 200u);
   // Loops that have ended stand still, and that is noticed without anybody asking in between.
   session.stop();

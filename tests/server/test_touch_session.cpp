@@ -143,6 +143,20 @@ TEST(TouchSession, AFirstWorldAppearsBesideTheFingerNotAroundIt) {
   }
 }
 
+TEST(TouchSession, EachTickIsCountedByWhyItEnded) {
+  TouchSession session(makeSnapshot(makeBuiltinScene("plane:200"), HierarchyKind::kBvh), {});
+  session.start();
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  session.stop();
+  ServoView servo;
+  ProxyView proxy;
+  session.views(servo, proxy);
+  std::uint64_t ticks = 0;
+  proxy.ended.each([&](Ending, std::uint64_t count) { ticks += count; });
+  EXPECT_GT(ticks, 0u);
+  EXPECT_EQ(ticks, session.proxyTotals().steps);
+}
+
 TEST(TouchSession, BadCommandsChangeNothing) {
   const auto snapshot = makeSnapshot(makeBuiltinScene("plane:200"), HierarchyKind::kBvh);
   TouchSession session(snapshot, {});
