@@ -17,6 +17,16 @@ struct TraceOptions {
   TraceSettings settings;
 };
 
+void printEndings(const EndingCounts& ended) {
+  const char* separator = "ticks that ended:";
+  ended.each([&](Ending ending, std::uint64_t count) {
+    if (count == 0) return;
+    fmt::print(stderr, "{} {} {}", separator, nameOf(ending), count);
+    separator = ",";
+  });
+  fmt::print(stderr, "\n");
+}
+
 void printLedger(const Ledger& ledger) {
   fmt::print(stderr, "energy: {:.6g} mJ injected, {:.6g} mJ dissipated", 1e3 * ledger.injected_J,
              1e3 * ledger.dissipated_J);
@@ -35,7 +45,8 @@ void run(const TraceOptions& options) {
       runTrace(*snapshot, options.settings, path, [&](const TraceRow& row) { writer.write(row); });
   writer.close();
   fmt::print(stderr, "{} ticks, {} in contact, {} stopped at the iteration cap, {} without a clear place\n",
-             totals.ticks, totals.contacts, totals.capped, totals.unplaced);
+             totals.ticks, totals.contacts, totals.ended.capped(), totals.ended[Ending::kUnplaced]);
+  printEndings(totals.ended);
   printLedger(totals.ledger);
 }
 

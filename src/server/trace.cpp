@@ -28,8 +28,7 @@ TraceTotals runTrace(const Snapshot& snapshot, const TraceSettings& settings, co
     out.injected_J = report.injected_J;
     row(out);
     ++totals.ticks;
-    totals.capped += report.capped() ? 1 : 0;
-    totals.unplaced += report.placed() ? 0 : 1;
+    totals.ended.add(report.ending);
     totals.contacts += report.contacts.empty() ? 0 : 1;
   }
   totals.ledger = state.ledger;

@@ -9,6 +9,7 @@
 #include "io/trace_csv.h"
 #include "proxy/proxy.h"
 #include "scene/snapshot.h"
+#include "server/ending_counts.h"
 
 namespace hl {
 
@@ -18,9 +19,8 @@ struct TraceSettings {
 
 struct TraceTotals {
   std::uint64_t ticks = 0;
-  std::uint64_t capped = 0;    ///< ticks that hit the iteration cap
   std::uint64_t contacts = 0;  ///< ticks that ended in contact
-  std::uint64_t unplaced = 0;  ///< ticks without a place for the proxy: none clear of the scene was near the finger
+  EndingCounts ended;          ///< ticks by why they ended
   Ledger ledger;               ///< of the whole trace
 };
 

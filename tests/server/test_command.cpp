@@ -140,6 +140,14 @@ TEST(Command, TraceWritesOneRowForEachRow) {
   }
 }
 
+TEST(Command, TraceNamesTheEndingsThatOccurred) {
+  const std::string path =
+      hl::test::fileWith("hl_cmd_path3.csv", "t,x,y,z\n0,0,0.3,0\n0.001,0,0.2,0\n0.002,0,0.15,0\n");
+  const Result result = call("trace sphere:2000 --path " + path + " --out " + hl::test::tempFile("hl_cmd_out3.csv"));
+  ASSERT_EQ(result.code, 0) << result.output;
+  EXPECT_NE(result.output.find("\nticks that ended: reached 3\n"), std::string::npos) << result.output;
+}
+
 // Field by field, the rows of a CSV file without quotes.
 std::vector<std::vector<std::string>> readCsv(const std::string& name) {
   std::vector<std::vector<std::string>> rows;
