@@ -35,6 +35,20 @@ void toProto(const VibrationView& vibration, proto::Vibration& out) {
   out.set_dissipated_j(vibration.dissipated_J);
 }
 
+void toProto(const EndingCounts& ended, proto::TicksEnded& out) {
+  out.set_reached(ended[Ending::kReached]);
+  out.set_stationary(ended[Ending::kStationary]);
+  out.set_settled(ended[Ending::kSettled]);
+  out.set_stalled(ended[Ending::kStalled]);
+  out.set_postponed(ended[Ending::kPostponed]);
+  out.set_no_energy(ended[Ending::kNoEnergy]);
+  out.set_crowded(ended[Ending::kCrowded]);
+  out.set_capped(ended[Ending::kCapped]);
+  out.set_out_of_work(ended[Ending::kOutOfWork]);
+  out.set_unplaced(ended[Ending::kUnplaced]);
+  out.set_invalid(ended[Ending::kInvalid]);
+}
+
 void toProto(const ProxyContact& contact, proto::ContactPlane& out) {
   toProto(contact.point, *out.mutable_point());
   toProto(contact.normal, *out.mutable_normal());
@@ -76,8 +90,7 @@ void toProto(const TouchSession& session, const ServoView& servo, const ProxyVie
   toProto(proxy.ledger, servo.late, session.ledger(), *out.mutable_ledger());
   toProto(servo.vibration, *out.mutable_vibration());
   out.set_buttons(servo.buttons);
-  out.set_iteration_caps(proxy.ended.capped());
-  out.set_unplaced_ticks(proxy.ended[Ending::kUnplaced]);
+  setEndings(proxy.ended, out);
   out.set_hand_firm(session.handFirm());
   out.set_proxy_radius(session.radius_W());
   toProto(workspace.origin_W, *out.mutable_workspace()->mutable_origin());

@@ -75,8 +75,7 @@ std::string state(TouchSession& session, PageScene& scene) {
   toProto(proxy.loop, session.proxyTotals(), *out.mutable_proxy_loop());
   setSamples(out, session);
   out.set_exploring(session.exploring());
-  out.set_iteration_caps(proxy.ended.capped());
-  out.set_unplaced_ticks(proxy.ended[Ending::kUnplaced]);
+  setEndings(proxy.ended, out);
   out.set_hand_firm(session.handFirm());
   out.set_stiffness_n_m(session.stiffness_N_m());
   toProto(proxy.ledger, servo.late, session.ledger(), *out.mutable_ledger());

@@ -11,6 +11,7 @@
 
 #include "builtin.h"
 #include "geometry/queries.h"
+#include "server/feed_messages.h"
 #include "server/session_views.h"
 #include "server/viewer_feed.h"
 #include "wait_for.h"
@@ -143,7 +144,7 @@ TEST(TouchSession, AFirstWorldAppearsBesideTheFingerNotAroundIt) {
   }
 }
 
-TEST(TouchSession, EachTickIsCountedByWhyItEnded) {
+TEST(TouchSession, EachTickIsCountedByWhyItEndedAndPagesAndClientsAreTold) {
   TouchSession session(makeSnapshot(makeBuiltinScene("plane:200"), HierarchyKind::kBvh), {});
   session.start();
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
@@ -155,6 +156,15 @@ TEST(TouchSession, EachTickIsCountedByWhyItEnded) {
   proxy.ended.each([&](Ending, std::uint64_t count) { ticks += count; });
   EXPECT_GT(ticks, 0u);
   EXPECT_EQ(ticks, session.proxyTotals().steps);
+
+  proxy.ended.add(Ending::kOutOfWork);
+  proto::ClientState client;
+  toProto(session, servo, proxy, client);
+  EXPECT_EQ(client.ticks_ended().reached(), proxy.ended[Ending::kReached]);
+  EXPECT_EQ(client.ticks_ended().out_of_work(), proxy.ended[Ending::kOutOfWork]);
+  proto::ServerMessage page;
+  ASSERT_TRUE(page.ParseFromString(makeViewerFeed(session, "test").state()));
+  EXPECT_EQ(page.state().ticks_ended().reached(), proxy.ended[Ending::kReached]);
 }
 
 TEST(TouchSession, BadCommandsChangeNothing) {
