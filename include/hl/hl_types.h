@@ -237,7 +237,8 @@ enum {
   HL_SPRING_LIMIT = 0x480B5,           /**< 1; N/m that the spring is held below since; 0: there is no limit */
   HL_HAND_GRIP = 0x480B6,              /**< 1; HL_GRIP_...; a person's hand is HL_GRIP_LIGHT */
   HL_ITERATION_CAPS = 0x480B7,         /**< 1; ticks so far that hit the cap on their passes */
-  HL_UNPLACED_TICKS = 0x480B8          /**< 1; ticks so far without a clear place for the proxy: nothing pulled */
+  HL_UNPLACED_TICKS = 0x480B8,         /**< 1; ticks so far without a clear place for the proxy: nothing pulled */
+  HL_OUT_OF_WORK_TICKS = 0x480B9       /**< 1; ticks so far that did all they may; the next goes on from there */
 };
 
 /** One contact of the proxy, from hlGetContacts. World frame. */

@@ -137,6 +137,8 @@ constexpr Query kQueriesOfState[] = {
     {HL_HAND_GRIP, [](const HLcontext& c, Values& v) { v.add(state(c).hand_firm() ? HL_GRIP_FIRM : HL_GRIP_LIGHT); }},
     {HL_ITERATION_CAPS, [](const HLcontext& c, Values& v) { v.add(static_cast<double>(state(c).iteration_caps())); }},
     {HL_UNPLACED_TICKS, [](const HLcontext& c, Values& v) { v.add(static_cast<double>(state(c).unplaced_ticks())); }},
+    {HL_OUT_OF_WORK_TICKS,
+     [](const HLcontext& c, Values& v) { v.add(static_cast<double>(state(c).ticks_ended().out_of_work())); }},
     {HL_PROXY_RADIUS, [](const HLcontext& c, Values& v) { v.add(state(c).proxy_radius()); }},
     {HL_WORKSPACE_ORIGIN, [](const HLcontext& c, Values& v) { addVec(v, state(c).workspace().origin()); }},
     {HL_WORKSPACE_SCALE, [](const HLcontext& c, Values& v) { v.add(state(c).workspace().world_per_device()); }},

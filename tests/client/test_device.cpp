@@ -102,10 +102,12 @@ TEST_F(CallsTest, CountsOfTicksAndTheGripAreQueries) {
   proto::ClientState& state = server->tell();
   state.set_iteration_caps(3);
   state.set_unplaced_ticks(4);
+  state.mutable_ticks_ended()->set_out_of_work(5);
   state.set_hand_firm(true);
   hlPoll();
   EXPECT_EQ(integer(HL_ITERATION_CAPS), 3);
   EXPECT_EQ(integer(HL_UNPLACED_TICKS), 4);
+  EXPECT_EQ(integer(HL_OUT_OF_WORK_TICKS), 5);
   EXPECT_EQ(integer(HL_HAND_GRIP), HL_GRIP_FIRM);
 }
 
