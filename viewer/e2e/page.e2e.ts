@@ -3,7 +3,7 @@
 import { create } from "@bufbuild/protobuf";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
-import { LedgerMode, SurfacesSchema } from "../src/gen/hl_pb";
+import { LedgerMode, SurfacesSchema, TicksEndedSchema } from "../src/gen/hl_pb";
 import { FakeServer } from "../test-support/fake_server";
 import {
   expectTidyLayout, kSizes, launch, listen, modelPixels, openSection, resize, screenshot, states, type Complaints,
@@ -128,6 +128,21 @@ test("a slider under the pointer stays where it is, whatever another page sets",
   await page.mouse.up();
   await expect.poll(value).toBe(1.4);
   server.surfaces = create(SurfacesSchema);
+});
+
+test("ticks that were cut short are counted, and a tooltip tells why all of them ended", async () => {
+  const texts = () => Promise.all(["caps", "out-of-work", "unplaced"].map((id) => page.textContent(`#${id}`)));
+  await expect.poll(texts).toEqual(["0", "0", "0"]);
+  server.ticksEnded = create(TicksEndedSchema, { reached: 7n, crowded: 1n, capped: 2n, outOfWork: 4n, unplaced: 5n });
+  await expect.poll(texts).toEqual(["3", "4", "5"]);
+  expect(await page.getAttribute("#ticks-ended", "title")).toBe(
+    "Ticks by why they ended: reached 7, crowded 1, capped 2, out of work 4, unplaced 5",
+  );
+  const many = 999_999n;
+  server.ticksEnded = create(TicksEndedSchema, { capped: many, outOfWork: many, unplaced: many });
+  await expect.poll(() => page.textContent("#unplaced")).toMatch(/^999.999$/);
+  await expectTidyLayout(page, kSizes[0]);
+  server.ticksEnded = create(TicksEndedSchema);
 });
 
 test("the ledger: its mode, its tank, and a line for every cause", async () => {

@@ -15,6 +15,14 @@ export function setText(id: string, text: string): void {
   }
 }
 
+/** The tooltip. */
+export function setTitle(id: string, title: string): void {
+  const target = element(id);
+  if (target.title !== title) {
+    target.title = title;
+  }
+}
+
 /** Calls `act` whenever a pointer lets go, wherever it then is: a slider's drag often ends beside the slider. */
 export function onLetGo(act: () => void): void {
   window.addEventListener("pointerup", act);

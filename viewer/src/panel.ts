@@ -3,14 +3,15 @@
 import { SafetyState, type Hello, type LoopStats, type State } from "./gen/hl_pb";
 import type { LinkState } from "./connection";
 import { ButtonRow } from "./button_row";
-import { element, onLetGo, setText } from "./elements";
+import { element, onLetGo, setText, setTitle } from "./elements";
 import { kSendPeriod_ms, paced } from "./pace";
 import { Pending } from "./pending";
 import type { SettingsChange } from "./protocol";
 import type { Layout } from "./scene_messages";
 import type { Counts } from "./scene_store";
 import type { ThemeChoice } from "./theme";
-import { formatCount, formatFixed, formatScale, formatSi, kNoBreak, kThinSpace } from "./units";
+import { describeEndings } from "./ticks_ended";
+import { formatCount, formatFixed, formatScale, formatShortCount, formatSi, kNoBreak, kThinSpace } from "./units";
 
 export interface PanelActions {
   settings(change: SettingsChange): void;
@@ -138,8 +139,10 @@ export class Panel {
     setText("force", formatFixed(force_N, "N", 2));
     setText("penetration", formatFixed(penetration_m === undefined ? undefined : penetration_m * 1e3, "mm", 2));
     setText("contacts", formatCount(state.contacts.length));
-    setText("caps", formatCount(state.iterationCaps));
-    setText("unplaced", formatCount(state.unplacedTicks));
+    setText("caps", formatShortCount(state.iterationCaps));
+    setText("out-of-work", formatShortCount(state.ticksEnded?.outOfWork));
+    setText("unplaced", formatShortCount(state.unplacedTicks));
+    setTitle("ticks-ended", describeEndings(state.ticksEnded));
     this.showLoop("proxy", state.proxyLoop);
     this.showLoop("servo", state.servo);
     this.buttons_.show(state.buttons);

@@ -13,6 +13,8 @@ const kPrefixes: readonly (readonly [factor: number, symbol: string])[] = [
 
 export const kUnknown = "–";
 
+const kMillion = 1_000_000n;
+
 /** Narrow no-break space: between a number and its unit, and between groups of thousands. */
 export const kThinSpace = "\u202f";
 
@@ -68,6 +70,11 @@ export function formatCount(count: number | bigint | undefined): string {
   }
   const text = (typeof count === "number" ? Math.round(count) : count).toString();
   return text.replace(/\B(?=(\d{3})+(?!\d))/g, kThinSpace);
+}
+
+/** A count where there is little room: from a million on with three digits. */
+export function formatShortCount(count: bigint | undefined): string {
+  return count === undefined || count < kMillion ? formatCount(count) : formatSi(Number(count), "", 3);
 }
 
 /** How far the world moves for one millimetre of the hand. */

@@ -9,7 +9,8 @@ import { extname, join, normalize } from "node:path";
 import { fileURLToPath } from "node:url";
 import { WebSocketServer, type WebSocket } from "ws";
 import {
-  LedgerMode, SafetyState, ServerMessageSchema, SurfacesSchema, ViewerMessageSchema, type ViewerMessage,
+  LedgerMode, SafetyState, ServerMessageSchema, SurfacesSchema, TicksEndedSchema, ViewerMessageSchema,
+  type ViewerMessage,
 } from "../src/gen/hl_pb";
 import { kProtocolVersion } from "../src/protocol";
 import { add, length, scale, sub, type Vec } from "../src/vec";
@@ -40,6 +41,7 @@ export class FakeServer {
   fault = "";
   silent = false;
   buttons = 0;
+  ticksEnded = create(TicksEndedSchema);
   /** How many spheres there are, side by side; the first one is touched. */
   spheres = 1;
   private readonly http_: Server;
@@ -179,7 +181,9 @@ export class FakeServer {
         servo: { ...loop, rateHz: 1000 },
         proxyLoop: { ...loop, rateHz: 1000 + 4 * Math.sin(this.time_s_) },
         buttons: this.buttons, layout: this.layout_, touched: inside && this.spheres > 0 ? [0] : [],
-        exploring: this.explore, handFirm: this.handFirm, stiffnessNM: this.stiffness_N_m, iterationCaps: 0n, unplacedTicks: 0n,
+        exploring: this.explore, handFirm: this.handFirm, stiffnessNM: this.stiffness_N_m,
+        iterationCaps: this.ticksEnded.capped + this.ticksEnded.crowded,
+        unplacedTicks: this.ticksEnded.unplaced, ticksEnded: this.ticksEnded,
       },
     });
   }

@@ -1,6 +1,8 @@
 // Numbers on the page: always a unit, always readable, never "NaN".
 import { describe, expect, test } from "vitest";
-import { formatCount, formatFixed, formatScale, formatSi, formatTicks, kThinSpace, kUnknown } from "../src/units";
+import {
+  formatCount, formatFixed, formatScale, formatShortCount, formatSi, formatTicks, kThinSpace, kUnknown,
+} from "../src/units";
 
 const plain = (text: string) => text.replaceAll(kThinSpace, " ");
 
@@ -47,6 +49,13 @@ test("formatCount groups thousands, of numbers and of 64-bit counts", () => {
   expect(plain(formatCount(12345678901234567890n))).toBe("12 345 678 901 234 567 890");
   expect(formatCount(0)).toBe("0");
   expect(formatCount(NaN)).toBe(kUnknown);
+});
+
+test("formatShortCount rounds what has more than six digits", () => {
+  expect(plain(formatShortCount(999999n))).toBe("999 999");
+  expect(plain(formatShortCount(1000000n))).toBe("1.00 M");
+  expect(plain(formatShortCount(86_400_000n))).toBe("86.4 M");
+  expect(formatShortCount(undefined)).toBe(kUnknown);
 });
 
 test("formatScale tells the world's motion per millimetre of the hand", () => {
