@@ -153,7 +153,8 @@ ProxySettings proxySettingsOf(const proto::RecordingStart& start) {
   constexpr double kMostPasses = 1e6;  // what a tick of a wrong file may cost
   ProxySettings settings;
   readValues(start.proxy(), "the proxy", settings);
-  checkRanges("the proxy", {{"iteration_cap", static_cast<double>(settings.iteration_cap), 1, kMostPasses}});
+  checkRanges("the proxy", {{"iteration_cap", static_cast<double>(settings.iteration_cap), 1, kMostPasses},
+                            {"work_cap", static_cast<double>(settings.work_cap), 1, kMostPasses}});
   return settings;
 }
 
