@@ -21,7 +21,7 @@ class Dice {
   explicit Dice(std::uint64_t seed) : state_(splitmix64(seed)) {}
   double uniform(double low, double high) {
     state_ = splitmix64(state_);
-    return low + (high - low) * std::ldexp(static_cast<double>(state_ >> 11), -53);
+    return low + (high - low) * 0x1p-53 * static_cast<double>(state_ >> 11);
   }
 
  private:
@@ -37,8 +37,8 @@ double noise(std::uint64_t seed, double x, double z) {
     const auto at = static_cast<std::uint64_t>(static_cast<std::int64_t>(x0) + i) * 0x1f123bb5U +
                     static_cast<std::uint64_t>(static_cast<std::int64_t>(z0) + k);
     const std::uint64_t bits = splitmix64(seed ^ splitmix64(at));
-    const double gx = std::ldexp(static_cast<double>(bits & 0xffff), -15) - 1;
-    const double gz = std::ldexp(static_cast<double>(bits >> 16 & 0xffff), -15) - 1;
+    const double gx = 0x1p-15 * static_cast<double>(bits & 0xffff) - 1;
+    const double gz = 0x1p-15 * static_cast<double>(bits >> 16 & 0xffff) - 1;
     return gx * (fx - i) + gz * (fz - k);
   };
   const double a = corner(0, 0), b = corner(1, 0), c = corner(0, 1), d = corner(1, 1);

@@ -162,6 +162,85 @@ EggBox makeEggBox(test::Random& random, double height) {
   return box;
 }
 
+// Values at the crossings of a lattice, and between them by both ways.
+class Lattice {
+ public:
+  Lattice(test::Random& random, int cells, double height) : cells_(cells) {
+    for (int i = 0; i < (cells + 1) * (cells + 1); ++i) values_.push_back(random.uniform(-height, height));
+  }
+  /// x and y from 0 to 1.
+  double at(double x, double y) const {
+    const int i = std::min(cells_ - 1, static_cast<int>(x * cells_)),
+              j = std::min(cells_ - 1, static_cast<int>(y * cells_));
+    const double s = x * cells_ - i, t = y * cells_ - j;
+    return (1 - s) * ((1 - t) * value(i, j) + t * value(i, j + 1)) +
+           s * ((1 - t) * value(i + 1, j) + t * value(i + 1, j + 1));
+  }
+
+ private:
+  double value(int i, int j) const { return values_[static_cast<std::size_t>(i * (cells_ + 1) + j)]; }
+
+  int cells_;
+  std::vector<double> values_;
+};
+
+// Octaves from some radii down to a cell, each with slopes that are about a fixed part of those above it.
+EggBox makeRoughBox(test::Random& random) {
+  EggBox box{24 + random.below(25), random.uniform(0.1, 0.5), {}, {}};
+  const double side = box.cells * box.cell, gain = random.uniform(0.75, 1.15);
+  double slope = random.uniform(0.1, 0.6);
+  std::vector<Lattice> octaves;
+  for (int cells = 2 + random.below(2); cells <= box.cells; cells *= 2, slope *= gain)
+    octaves.emplace_back(random, cells, slope * side / cells);
+  for (int i = 0; i <= box.cells; ++i) {
+    for (int j = 0; j <= box.cells; ++j) {
+      double height = 0;
+      for (const Lattice& octave : octaves)
+        height += octave.at(static_cast<double>(i) / box.cells, static_cast<double>(j) / box.cells);
+      box.height.push_back(height);
+    }
+  }
+  for (int i = 0; i < box.cells * box.cells; ++i) box.turned.push_back(random.below(2) == 0);
+  return box;
+}
+
+// Triangles from the origin to each side of a ring about z, or, `gapped`, segments to its corners.
+void addRing(Model& model, const std::vector<Vec3>& ring, bool gapped) {
+  const auto first = static_cast<std::uint32_t>(model.positions.size()), n = static_cast<std::uint32_t>(ring.size());
+  model.positions.push_back(Vec3::Zero());
+  model.positions.insert(model.positions.end(), ring.begin(), ring.end());
+  for (std::uint32_t i = 0; i < n; ++i) {
+    if (gapped) {
+      model.segments.push_back({first, first + 1 + i});
+    } else {
+      model.triangles.push_back({first, first + 1 + i, first + 1 + (i + 1) % n});
+    }
+  }
+}
+
+// Triangles on one edge along x through the origin.
+void addBook(test::Random& random, Model& model, int pages, double size) {
+  const auto first = static_cast<std::uint32_t>(model.positions.size());
+  model.positions.insert(model.positions.end(), {Vec3(-size, 0, 0), Vec3(size, 0, 0)});
+  for (int i = 0; i < pages; ++i) {
+    const double angle = random.uniform(0, 2 * M_PI);
+    model.positions.emplace_back(size * random.uniform(-1, 1), size * std::cos(angle), size * std::sin(angle));
+    model.triangles.push_back({first, first + 1, first + 2 + static_cast<std::uint32_t>(i)});
+  }
+}
+
+std::vector<Vec3> makeRing(test::Random& random, int corners, double size) {
+  const double width = random.below(4) == 0 ? size * std::pow(10.0, random.uniform(-6, 0)) : size;
+  const double tip = random.below(5) == 0 ? 0 : size * random.uniform(-1, 1);
+  const double rough = random.below(2) == 0 ? 0 : size * std::pow(10.0, random.uniform(-9, -0.5));
+  std::vector<Vec3> ring;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * M_PI * i / corners;
+    ring.emplace_back(width * std::cos(angle), width * std::sin(angle), tip + rough * random.uniform(-1, 1));
+  }
+  return ring;
+}
+
 void addEggBox(Model& model, const EggBox& box) {
   for (int i = 0; i < box.cells; ++i) {
     for (int j = 0; j < box.cells; ++j) {
@@ -248,6 +327,34 @@ Rooms makeCorners(test::Random& random) {
   }
   addClutter(random, rooms.model, random.below(30), half);
   rooms.room = [half, egg_box](const Vec3& p) { return !inBox(p, half) ? kOutside : egg_box.isBelow(p) ? 1 : 0; };
+  return rooms;
+}
+
+Rooms makeRoughs(test::Random& random) {
+  const EggBox terrain = makeRoughBox(random);
+  const double side = terrain.cell * (0.5 * terrain.cells - 0.5);
+  const double top = *std::max_element(terrain.height.begin(), terrain.height.end());
+  const double bottom = *std::min_element(terrain.height.begin(), terrain.height.end());
+  const Vec3 half(side, side, std::max(top, -bottom) + 4);
+  Rooms rooms{{}, half, {}};
+  addBox(random, rooms.model, Vec3::Zero(), half);
+  addEggBox(rooms.model, terrain);
+  rooms.room = [half, terrain](const Vec3& p) { return !inBox(p, half) ? kOutside : terrain.isBelow(p) ? 1 : 0; };
+  return rooms;
+}
+
+Rooms makeApexes(test::Random& random) {
+  constexpr double kMostDegreeLg = 3;
+  const int degree = 3 + static_cast<int>(std::pow(10.0, random.uniform(0, kMostDegreeLg)) - 1);
+  const double size = std::pow(10.0, random.uniform(-1, 1));
+  const Vec3 half = Vec3::Constant(size + 4);
+  Rooms rooms{{}, half, [half](const Vec3& p) { return inBox(p, half) ? 0 : kOutside; }, {Vec3::Zero()}};
+  addBox(random, rooms.model, Vec3::Zero(), half);
+  if (random.below(5) == 0) {
+    addBook(random, rooms.model, degree, size);
+  } else {
+    addRing(rooms.model, makeRing(random, degree, size), random.below(5) == 0);
+  }
   return rooms;
 }
 

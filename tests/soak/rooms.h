@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "geometry/scenes.h"
 #include "scene/model.h"
@@ -14,6 +15,7 @@ struct Rooms {
   Model model;
   Vec3 half = Vec3::Zero();                ///< the model lies in about -half..half
   std::function<int(const Vec3& p)> room;  ///< in which room the centre of a clear sphere is
+  std::vector<Vec3> marks{};               ///< places that the finger looks for
 };
 
 /// A closed box of triangles that gape and cross, some missing, among random triangles, segments and points.
@@ -24,5 +26,11 @@ Rooms makePlates(test::Random& random);
 Rooms makeSlots(test::Random& random);
 /// A closed box over an egg-box, with needles, segments and points standing about.
 Rooms makeCorners(test::Random& random);
+
+/// A closed box over a terrain with detail of every size, from the box down to a part of the proxy.
+Rooms makeRoughs(test::Random& random);
+/// A closed box with one vertex or edge that many share: a cone, funnel, fan, needle, star of segments, or triangles
+/// about one edge; marked.
+Rooms makeApexes(test::Random& random);
 
 }  // namespace hl::soak

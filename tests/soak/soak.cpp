@@ -1,6 +1,6 @@
-// The long run of the proxy's tick: random motion over soup, thin plates, slots and corners. Looks for what must never
-// happen: a proxy that falls through, that is nearer to a surface than its radius (also where the iteration cap has
-// ended the tick), or that is not finite. Ends with code 1 when it has seen any of it.
+// The long run of the proxy's tick: random motion over soup, thin plates, slots, corners, rough terrain and apexes.
+// Looks for what must never happen: a proxy that falls through, that is nearer to a surface than its radius (also where
+// the iteration cap has ended the tick), or that is not finite. Ends with code 1 when it has seen any of it.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -35,7 +35,7 @@ struct Options {
 
 // What pieces have seen. `fault` is empty as long as nothing was wrong.
 struct Seen {
-  std::uint64_t pieces = 0, ticks = 0, touching = 0, capped = 0, looks = 0;
+  std::uint64_t pieces = 0, ticks = 0, touching = 0, capped = 0, out_of_work = 0, looks = 0;
   int most_iterations = 0;
   std::uint64_t most_capped = 0, most_capped_piece = 0;  // of the pieces
   double least_above = 1;                                // of clearance / radius - 1
@@ -46,6 +46,7 @@ struct Seen {
     ticks += other.ticks;
     touching += other.touching;
     capped += other.capped;
+    out_of_work += other.out_of_work;
     looks += other.looks;
     most_iterations = std::max(most_iterations, other.most_iterations);
     if (other.most_capped > most_capped) {
@@ -64,7 +65,7 @@ class Piece {
         random_(generatorOf(seed, number)),
         world_(makeWorld(random_, number % kKinds.size())),
         clearance_(world_.primitives),
-        finger_(random_, world_.rooms.half) {}
+        finger_(random_, world_.rooms.half, world_.rooms.marks) {}
 
   Seen run() {
     seen_.pieces = 1;
@@ -89,6 +90,7 @@ class Piece {
     ++seen_.ticks;
     seen_.touching += state_.touching ? 1 : 0;
     seen_.capped += report.capped() ? 1 : 0;
+    seen_.out_of_work += report.ending == Ending::kOutOfWork ? 1 : 0;
     seen_.most_iterations = std::max(seen_.most_iterations, report.iterations);
     judge(report);
   }
@@ -130,7 +132,10 @@ class Piece {
 
 Options parse(int argc, char** argv) {
   Options options;
-  CLI::App app("The long run of the proxy's tick: random motion over soup, thin plates, slots and corners.", "soak");
+  CLI::App app(
+      "The long run of the proxy's tick: random motion over soup, thin plates, slots, corners, rough terrain and "
+      "apexes.",
+      "soak");
   app.add_option("--seed", options.seed, "Of all random numbers")->capture_default_str();
   app.add_option("--ticks", options.ticks, "How many, rounded up to pieces of 10000")->capture_default_str();
   app.add_option("--threads", options.threads, "They do not change the outcome")
@@ -162,11 +167,11 @@ int report(const OfKind& of_kind, const Faults& faults) {
     const std::string most =
         seen.capped > 0 ? fmt::format(" ({} of them in piece {})", seen.most_capped, seen.most_capped_piece) : "";
     fmt::print(
-        "{}: {} ticks in {} scenes, {:.0f} % in contact, {} at the cap{}, at most {} iterations; "
+        "{}: {} ticks in {} scenes, {:.0f} % in contact, {} at the cap{}, {} out of work, at most {} iterations; "
         "clearance >= radius (1 + {:.2g}) at {} looks\n",
         kKinds[kind], seen.ticks, seen.pieces,
         100.0 * static_cast<double>(seen.touching) / static_cast<double>(seen.ticks), seen.capped, most,
-        seen.most_iterations, seen.least_above, seen.looks);
+        seen.out_of_work, seen.most_iterations, seen.least_above, seen.looks);
   }
   for (const auto& [piece, fault] : faults) fmt::print("{}\n", fault);
   fmt::print("{} faults\n", faults.size());

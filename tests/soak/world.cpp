@@ -63,7 +63,7 @@ std::vector<Primitive> primitivesOf(const Model& model) {
 }
 
 Rooms makeRooms(test::Random& random, std::size_t kind) {
-  constexpr std::array kMakers{makeSoup, makePlates, makeSlots, makeCorners};
+  constexpr std::array kMakers{makeSoup, makePlates, makeSlots, makeCorners, makeRoughs, makeApexes};
   return kMakers[kind](random);
 }
 

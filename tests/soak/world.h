@@ -11,7 +11,7 @@
 
 namespace hl::soak {
 
-inline constexpr std::array<const char*, 4> kKinds{"soup", "plates", "slots", "corners"};
+inline constexpr std::array<const char*, 6> kKinds{"soup", "plates", "slots", "corners", "roughs", "apexes"};
 
 struct World {
   Rooms rooms;          ///< in radii, in a frame of its own
