@@ -19,19 +19,17 @@ namespace hl {
 class Trial {
  public:
   bool open() const { return checkpoint_.has_value(); }
-  /// Counts one try of a step so many times as long as the plain one; false where it is to be left out. One that is much
-  /// longer never is: plain steps would get nowhere meanwhile.
-  bool mayBegin(double per_plain) {
-    return !open() && (back_off_.mayTry() || per_plain >= convergence::kMuchLonger);
-  }
+  /// Counts one try of a step so many times as long as the plain one; false where it is to be left out. One that is
+  /// much longer never is: plain steps would get nowhere meanwhile.
+  bool mayBegin(double per_plain) { return !open() && (back_off_.mayTry() || per_plain >= convergence::kMuchLonger); }
   /// Of the next step: 1, or less where such steps have not paid off.
   double boldness() const { return boldness_; }
 
   void begin(const Vec3& checkpoint);
   /// The proxy has made one step that comes down.
   void descended() { ++descents_; }
-  /// Where a trial is open, to be asked after each step that comes down. `step_m`: the length of the next; `last`: there
-  /// is none. Returns whether the proxy has been put back.
+  /// Where a trial is open, to be asked after each step that comes down. `step_m`: the length of the next; `last`:
+  /// there is none. Returns whether the proxy has been put back.
   bool judge(const Goal& goal, double step_m, bool last, Vec3& position);
   /// The same when the tick ends.
   bool conclude(const Goal& goal, Vec3& position);
