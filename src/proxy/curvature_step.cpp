@@ -47,7 +47,7 @@ double stretch(double curvature, double length, double turn_m, double reach, dou
   using namespace convergence;
   const double most = std::max(1.0, std::min(kLongestPerReach * reach, kTurnedBeyond * turn_m) / length);
   const double newton = curvature > 0 ? std::min(1 / curvature, most) : most;
-  return 1 + std::min(1.0, boldness) * (newton - 1);
+  return 1 + boldness * (newton - 1);
 }
 
 // How much the obstacle bends away below a step in the direction of its projector: 1 for the whole radius.
@@ -73,7 +73,6 @@ Vec3 onCurve(const ContactSet& set, const SceneAt& scene, const SolverResult& pr
   if (!(length > 0)) return plain;
   double bend = 0, turn_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < 2; ++i) {
-    if (contact(i).feature == Feature::kFace) continue;
     const double curved = along.dot(curvedDirections(contact(i), scene) * along);
     bend += bendOf(contact(i), proposal.multiplier[i]) * curved;
     if (curved > 0) turn_m = std::min(turn_m, contact(i).distance * sharedTurn(set, contact(i), scene, along));

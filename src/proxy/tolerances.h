@@ -195,7 +195,7 @@ namespace cost {
 
 // How far a step mostly goes: walk.h.
 
-/// Along a surface as far as it wants.
+/// Along a surface: over rough terrain most steps end within so many reaches, and others cost one more look.
 inline constexpr double kSlidePerReach = 0.5;
 /// A proxy that has come off a bent surface comes down on it after some hundredths of the way it slid; one that has not
 /// slid falls a part of its reach.

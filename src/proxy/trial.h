@@ -1,7 +1,7 @@
 // Trial: a watchdog line search (Chamberlain, Powell, Lemarechal and Pedersen 1982). A second-order step leaves the
 // surface for a moment and may end farther from the goal; within some steps that come down from it the proxy must be
 // nearer than where the trial began, else it goes back there. Steps that pay off become bolder; those that do not are
-// tried ever less often.
+// tried ever less often, unless they would go much farther than plain ones.
 //
 // Invariant: after a trial has ended the proxy is nearer to the goal than where it began, or there.
 #pragma once

@@ -31,7 +31,7 @@ void Walk::fly(const ContactSet& set, Vec3& position) {
   if (misses || go(set, false, ball.leave * way, position)) cache_.nearby.endAt(position = input_.finger);
 }
 
-// How far a step mostly goes, which decides nothing but its cost: along a surface as far as it wants; and a proxy that
+// How far a step mostly goes, which decides nothing but its cost: along a surface a part of the reach; and a proxy that
 // has come off a bent surface comes down on it after some hundredths of the way it slid.
 double Walk::likelyWay_m(bool along) const {
   using namespace cost;

@@ -204,13 +204,13 @@ EggBox makeRoughBox(test::Random& random) {
   return box;
 }
 
-// Triangles from the origin to each side of a ring about z, or, `gapped`, segments to its corners.
-void addRing(Model& model, const std::vector<Vec3>& ring, bool gapped) {
+// Triangles from the origin to each side of a ring about z, or segments to its corners.
+void addRing(Model& model, const std::vector<Vec3>& ring, bool segments) {
   const auto first = static_cast<std::uint32_t>(model.positions.size()), n = static_cast<std::uint32_t>(ring.size());
   model.positions.push_back(Vec3::Zero());
   model.positions.insert(model.positions.end(), ring.begin(), ring.end());
   for (std::uint32_t i = 0; i < n; ++i) {
-    if (gapped) {
+    if (segments) {
       model.segments.push_back({first, first + 1 + i});
     } else {
       model.triangles.push_back({first, first + 1 + i, first + 1 + (i + 1) % n});
