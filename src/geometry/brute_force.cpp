@@ -2,14 +2,16 @@
 
 namespace hl {
 
-void BruteForceIndex::overlap(const Vec3&, double, FunctionRef<void(std::uint32_t)> visit) const {
+std::size_t BruteForceIndex::overlap(const Vec3&, double, FunctionRef<void(std::uint32_t)> visit) const {
   for (std::size_t i = 0; i < primitives_; ++i) visit(static_cast<std::uint32_t>(i));
+  return primitives_;
 }
 
-void BruteForceIndex::sweep(const Vec3&, const Vec3&, double, double,
-                            FunctionRef<double(std::uint32_t, double)> visit) const {
+std::size_t BruteForceIndex::sweep(const Vec3&, const Vec3&, double, double,
+                                   FunctionRef<double(std::uint32_t, double)> visit) const {
   double limit = 1;
   for (std::size_t i = 0; i < primitives_; ++i) limit = visit(static_cast<std::uint32_t>(i), limit);
+  return primitives_;
 }
 
 IndexStats BruteForceIndex::stats() const { return IndexStats{0, primitives_, 0, 0}; }

@@ -30,15 +30,17 @@ class Pair {
     return {from - from_.origin(), motion, radius + kRounding * sizes};
   }
 
-  // Calls visit(primitive) for each whose box the sphere may enter up to way.limit, which visit() may shorten.
+  // Calls visit(primitive) for each whose box the sphere may enter up to way.limit, which visit() may shorten. Returns
+  // how many boxes it has looked at.
   template <typename Visit>
-  void walk(const MovingWay& way, const Visit& visit) const {
-    if (from_.primitives() == 0) return;
+  std::size_t walk(const MovingWay& way, const Visit& visit) const {
+    if (from_.primitives() == 0) return 0;
     std::array<std::uint32_t, kWideStackSize> waiting;
-    std::size_t count = 0;
+    std::size_t count = 0, looked = 0;
     waiting[count++] = from_.nodes().empty() ? kBlockLink : 0;
     while (count > 0) {
       const std::uint32_t link = waiting[--count];
+      looked += kWide;
       if ((link & kBlockLink) != 0) {
         lookInto(link & ~kBlockLink, way, visit);
         continue;
@@ -49,6 +51,7 @@ class Pair {
         if (a.child[lane] != kNoChild && meets(a, b, lane, frame, way.reach)) waiting[count++] = a.child[lane];
       }
     }
+    return looked;
   }
 
  private:
@@ -125,22 +128,24 @@ class Pair {
 
 }  // namespace
 
-void MovingBvh::overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t)> visit) const {
+std::size_t MovingBvh::overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t)> visit) const {
   const Pair pair(from_, to_, begin_, end_);
-  pair.walk(pair.way(centre, Vec3::Zero(), radius), visit);
+  return pair.walk(pair.way(centre, Vec3::Zero(), radius), visit);
 }
 
 // Looks at a part of the way, and at larger ones only where nothing is hit: goals are far, and most ways end soon.
-void MovingBvh::sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
-                      FunctionRef<double(std::uint32_t, double)> visit) const {
+std::size_t MovingBvh::sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
+                             FunctionRef<double(std::uint32_t, double)> visit) const {
   constexpr double kLeastPart = 1.0 / 8192, kLarger = 8;
   const Pair pair(from_, to_, begin_, end_);
   MovingWay way = pair.way(from, motion, radius);
   const double length = motion.norm();
+  std::size_t looked = 0;
   for (double part = soon < length ? std::max(kLeastPart, soon / length) : 1;; part = std::min(1.0, kLarger * part)) {
     way.limit = part;
-    pair.walk(way, [&](std::uint32_t primitive) { way.limit = std::min(way.limit, visit(primitive, way.limit)); });
-    if (way.limit < part || part >= 1) return;
+    looked +=
+        pair.walk(way, [&](std::uint32_t primitive) { way.limit = std::min(way.limit, visit(primitive, way.limit)); });
+    if (way.limit < part || part >= 1) return looked;
   }
 }
 

@@ -218,22 +218,22 @@ SphereTree SphereTree::build(const Primitives& primitives) {
   return tree;
 }
 
-void SphereTree::overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t)> visit) const {
-  sweep(centre, Vec3::Zero(), radius, 0, [&](std::uint32_t primitive, double limit) {
+std::size_t SphereTree::overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t)> visit) const {
+  return sweep(centre, Vec3::Zero(), radius, 0, [&](std::uint32_t primitive, double limit) {
     visit(primitive);
     return limit;
   });
 }
 
-void SphereTree::sweep(const Vec3& from, const Vec3& motion, double radius, double,
-                       FunctionRef<double(std::uint32_t, double)> visit) const {
-  if (leaves_.empty()) return;
+std::size_t SphereTree::sweep(const Vec3& from, const Vec3& motion, double radius, double,
+                              FunctionRef<double(std::uint32_t, double)> visit) const {
+  if (leaves_.empty()) return 0;
   struct Waiting {
     std::int32_t link;
     double entry;
   };
   std::array<Waiting, kStackSize> stack;
-  std::size_t waiting = 0;
+  std::size_t waiting = 0, looked = 1;
   const EntryTime entry(from, motion, radius);
   double limit = 1;
   Waiting now{nodes_.empty() ? ~0 : 0, entry(nodes_.empty() ? leaves_[0].sphere : nodes_[0].sphere)};
@@ -247,6 +247,7 @@ void SphereTree::sweep(const Vec3& from, const Vec3& motion, double radius, doub
         child[i] = {link,
                     entry(link >= 0 ? nodes_[static_cast<std::size_t>(link)].sphere : leaves_[leafOf(link)].sphere)};
       }
+      looked += 2;
       if (child[1].entry < child[0].entry) std::swap(child[0], child[1]);
       if (child[1].entry <= limit) {
         assert(waiting < kStackSize);
@@ -255,7 +256,7 @@ void SphereTree::sweep(const Vec3& from, const Vec3& motion, double radius, doub
       now = child[0];
     }
     if (now.entry <= limit) limit = visit(leaves_[leafOf(now.link)].primitive, limit);
-    if (waiting == 0) return;
+    if (waiting == 0) return looked;
     now = stack[--waiting];
   }
 }

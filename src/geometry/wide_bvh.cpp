@@ -84,21 +84,21 @@ double WideBvh::reach(const Vec3& from, const Vec3& motion, double radius) const
   return radius + kRounding * (largest(from) + largest(motion) + extent_);
 }
 
-void WideBvh::overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t)> visit) const {
-  if (primitives_ == 0) return;
+std::size_t WideBvh::overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t)> visit) const {
+  if (primitives_ == 0) return 0;
   const Vec3 at = centre - origin_;
-  overlapWide(tree(), {{at[0], at[1], at[2]}, {0, 0, 0}, reach(centre, Vec3::Zero(), radius)}, visit);
+  return overlapWide(tree(), {{at[0], at[1], at[2]}, {0, 0, 0}, reach(centre, Vec3::Zero(), radius)}, visit);
 }
 
-void WideBvh::sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
-                    FunctionRef<double(std::uint32_t, double)> visit) const {
+std::size_t WideBvh::sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
+                           FunctionRef<double(std::uint32_t, double)> visit) const {
   constexpr double kLeastPart = 1.0 / 8192;  // five walks more find what comes late
-  if (primitives_ == 0) return;
+  if (primitives_ == 0) return 0;
   const Vec3 at = from - origin_;
   const double length = motion.norm();
   const double first_part = soon < length ? std::max(kLeastPart, soon / length) : 1;
-  sweepWide(tree(), {{at[0], at[1], at[2]}, {motion[0], motion[1], motion[2]}, reach(from, motion, radius)}, first_part,
-            visit);
+  return sweepWide(tree(), {{at[0], at[1], at[2]}, {motion[0], motion[1], motion[2]}, reach(from, motion, radius)},
+                   first_part, visit);
 }
 
 IndexStats WideBvh::stats() const {

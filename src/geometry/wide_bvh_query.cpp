@@ -150,16 +150,18 @@ HWY_INLINE std::size_t takeLowest(unsigned& bits) {
 // Every block whose box the sphere may enter up to the limit, a few at a time; look() may shorten the limit. First come
 // first served: then what is looked at next does not hang on what the last look finds, and the processor has both in
 // hand at once. Where too many wait, the last come is served, as those that a depth-first walk leaves waiting are few.
+// Returns how many boxes and triangles it has looked at.
 template <typename Look>
-HWY_INLINE void forEachFew(const WideTree& tree, const BoxQuery& query, const Look& look) {
+HWY_INLINE std::size_t forEachFew(const WideTree& tree, const BoxQuery& query, const Look& look) {
   constexpr std::size_t kMostWaiting = 256;
   std::uint32_t links[kMostWaiting + kWide + kWideStackSize];
-  std::size_t first = 0, end = 0;
+  std::size_t first = 0, end = 0, looked = 0;
   links[end++] = tree.root;
   FewNumbers numbers{{}, 0};
   Way straight, turned;
   setEnd(straight, query);
   while (first < end) {
+    looked += kWide;
     const std::uint32_t link = end <= kMostWaiting ? links[first++] : links[--end];
     if (isBlock(link)) {
       numbers.block[numbers.count++] = link & ~kBlockLink;
@@ -174,10 +176,11 @@ HWY_INLINE void forEachFew(const WideTree& tree, const BoxQuery& query, const Lo
     end = addOverlapped(node, query, node.turned != 0 ? turned : straight, links, end);
   }
   if (numbers.count > 0) look(numbers);
+  return looked;
 }
 
-void overlap(const WideTree& tree, const WideQuery& query, FunctionRef<void(std::uint32_t)> visit) {
-  forEachFew(tree, boxQuery(tree, query), [&](const FewNumbers& numbers) HWY_ATTR {
+std::size_t overlap(const WideTree& tree, const WideQuery& query, FunctionRef<void(std::uint32_t)> visit) {
+  return forEachFew(tree, boxQuery(tree, query), [&](const FewNumbers& numbers) HWY_ATTR {
     FewBlocks blocks;
     setBlocks(blocks, tree, query, numbers);
     unsigned bits = withinReach(blocks) & usedLanes(tree, numbers);
@@ -191,13 +194,14 @@ class Sweep {
   HWY_INLINE Sweep(const WideTree& tree, const WideQuery& query, FunctionRef<double(std::uint32_t, double)> visit)
       : tree_(tree), query_(query), visit_(visit), box_(boxQuery(tree, query)) {}
 
-  void run(double first_part) {
+  std::size_t run(double first_part) {
+    std::size_t looked = 0;
     constexpr double kLarger = 8;
     for (double part = first_part;; part = std::min(1.0, kLarger * part)) {
       shorten(std::min(part, soonest_));
-      forEachFew(tree_, box_, [this](const FewNumbers& numbers) HWY_ATTR { look(numbers); });
+      looked += forEachFew(tree_, box_, [this](const FewNumbers& numbers) HWY_ATTR { look(numbers); });
       propose();
-      if (soonest_ <= part || part >= 1) return;
+      if (soonest_ <= part || part >= 1) return looked;
     }
   }
 
@@ -266,12 +270,12 @@ class Sweep {
 
 }  // namespace
 
-void overlapFor(const WideTree& tree, const WideQuery& query, FunctionRef<void(std::uint32_t)> visit) {
-  overlap(tree, query, visit);
+std::size_t overlapFor(const WideTree& tree, const WideQuery& query, FunctionRef<void(std::uint32_t)> visit) {
+  return overlap(tree, query, visit);
 }
-void sweepFor(const WideTree& tree, const WideQuery& query, double first_part,
-              FunctionRef<double(std::uint32_t, double)> visit) {
-  Sweep(tree, query, visit).run(first_part);
+std::size_t sweepFor(const WideTree& tree, const WideQuery& query, double first_part,
+                     FunctionRef<double(std::uint32_t, double)> visit) {
+  return Sweep(tree, query, visit).run(first_part);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -284,13 +288,13 @@ namespace hl {
 HWY_EXPORT(overlapFor);
 HWY_EXPORT(sweepFor);
 
-void overlapWide(const WideTree& tree, const WideQuery& query, FunctionRef<void(std::uint32_t)> visit) {
-  HWY_DYNAMIC_DISPATCH(overlapFor)(tree, query, visit);
+std::size_t overlapWide(const WideTree& tree, const WideQuery& query, FunctionRef<void(std::uint32_t)> visit) {
+  return HWY_DYNAMIC_DISPATCH(overlapFor)(tree, query, visit);
 }
 
-void sweepWide(const WideTree& tree, const WideQuery& query, double first_part,
-               FunctionRef<double(std::uint32_t, double)> visit) {
-  HWY_DYNAMIC_DISPATCH(sweepFor)(tree, query, first_part, visit);
+std::size_t sweepWide(const WideTree& tree, const WideQuery& query, double first_part,
+                      FunctionRef<double(std::uint32_t, double)> visit) {
+  return HWY_DYNAMIC_DISPATCH(sweepFor)(tree, query, first_part, visit);
 }
 
 }  // namespace hl

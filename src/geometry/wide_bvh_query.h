@@ -2,6 +2,7 @@
 // chosen when it runs. Each proposes the same candidates in the same order.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "base/function_ref.h"
@@ -25,9 +26,9 @@ struct WideQuery {
 };
 
 /// See SpatialIndex. RT-safe.
-void overlapWide(const WideTree& tree, const WideQuery& query, FunctionRef<void(std::uint32_t primitive)> visit);
+std::size_t overlapWide(const WideTree& tree, const WideQuery& query, FunctionRef<void(std::uint32_t primitive)> visit);
 /// `first_part`: of the motion, 0 < first_part <= 1; what is looked at before the rest.
-void sweepWide(const WideTree& tree, const WideQuery& query, double first_part,
-               FunctionRef<double(std::uint32_t primitive, double limit)> visit);
+std::size_t sweepWide(const WideTree& tree, const WideQuery& query, double first_part,
+                      FunctionRef<double(std::uint32_t primitive, double limit)> visit);
 
 }  // namespace hl

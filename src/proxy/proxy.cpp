@@ -46,12 +46,13 @@ TickReport notRun(Ending why, const Vec3& target) {
 
 }  // namespace
 
-TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
+TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger,
+                int most_looks) {
   if (!canBeFinger(finger)) return notRun(Ending::kInvalid, state.position);
   if (!state.free && !beginProxy(state, scene, settings, finger, convergence::kPlacesPerTick))
     return notRun(Ending::kUnplaced, finger);
   const double moved_J = carryAlong(state, scene, settings, finger);
-  TickReport report = Tick(scene, settings, state, finger).run();
+  TickReport report = Tick(scene, settings, state, finger, most_looks).run();
   report.moved_J = moved_J;
   state.time_ns = scene.time_ns();
   state.snapshot = scene.snapshot().number;

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "base/fixed_vector.h"
 #include "base/ledger.h"
@@ -27,10 +28,13 @@ enum class ShadingPasses : std::uint8_t {
   kOnce,       ///< once a tick, as the paper does; the fixed point is approached over the next ticks
 };
 
+/// A work_cap, or a number of looks, that no tick comes to.
+inline constexpr int kNoWorkCap = std::numeric_limits<int>::max();
+
 struct ProxySettings {
   double radius = 0.001;        ///< m, > 0
   int iteration_cap = 1000;     ///< a tick that needs more steps stops where it is, at a valid position
-  int work_cap = 600;           ///< the same of one that does more than this (work.h)
+  int work_cap = 10'000;        ///< the same of one that does more than this (work.h): some 50 us
   double spring_N_m = 1000;     ///< K of the servo, at the hand: scales viscosity and the ledger
   double period_s = 1e-3;       ///< T, one tick: scales viscosity
   double world_per_device = 1;  ///< metres of the scene for one of the hand: scales the ledger
@@ -94,6 +98,8 @@ struct TickReport {
   double injected_J = 0;       ///< what the tick did to the spring's energy: added (positive) or dissipated (negative)
   double moved_J = 0;          ///< what moving objects did to it before
   int iterations = 0;
+  std::size_t work = 0;  ///< what it has cost (work.h)
+  int used_up_at = 0;    ///< looks after which its work was used up; 0: it was not
   Ending ending = Ending::kGoesOn;
   /// Ended before the local minimum, at a valid place.
   bool capped() const { return ending == Ending::kCapped || ending == Ending::kCrowded; }
@@ -108,7 +114,9 @@ ProxyState startProxy(const SceneAt& scene, const ProxySettings& settings, const
 
 /// Moves the proxy, or one that is not free to a place where it can begin, toward the finger under the rules of the
 /// surfaces it touches, and accounts for the energy. RT-safe. Afterwards |proxy - surface| >= radius. Without shading
-/// and bump maps |proxy - finger| is not larger than before.
-TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger);
+/// and bump maps |proxy - finger| is not larger than before. `most_looks`, > 0: its work is used up after so many,
+/// as that of the tick was which is made again.
+TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger,
+                int most_looks = kNoWorkCap);
 
 }  // namespace hl

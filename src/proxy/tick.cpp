@@ -6,7 +6,7 @@
 
 namespace hl {
 
-Tick::Tick(const SceneAt& scene, const ProxySettings& settings, ProxyState& state, const Vec3& finger)
+Tick::Tick(const SceneAt& scene, const ProxySettings& settings, ProxyState& state, const Vec3& finger, int most_looks)
     : input_(scene, settings, finger),
       state_(state),
       goal_(finger),
@@ -14,7 +14,7 @@ Tick::Tick(const SceneAt& scene, const ProxySettings& settings, ProxyState& stat
       rules_(scene, settings, input_.tolerance, state.touching && state.rest_s < accuracy::kStuck_s, state.creep),
       constraints_(input_),
       walk_(input_, state.cache),
-      work_(settings.work_cap) {}
+      work_(input_.scene, static_cast<std::size_t>(settings.work_cap), most_looks) {}
 
 TickReport Tick::run() {
   TickReport report;
@@ -36,6 +36,8 @@ TickReport Tick::run() {
   }
   if (trial_.conclude(goal_, state_.position)) lookAgain();  // what holds it there, not where it has been
   close(report);
+  report.work = work_.done();
+  report.used_up_at = work_.usedUpAt();
   return report;
 }
 

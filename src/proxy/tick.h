@@ -26,7 +26,7 @@ namespace hl {
 /// RT-safe.
 class Tick {
  public:
-  Tick(const SceneAt& scene, const ProxySettings& settings, ProxyState& state, const Vec3& finger);
+  Tick(const SceneAt& scene, const ProxySettings& settings, ProxyState& state, const Vec3& finger, int most_looks);
 
   TickReport run();
 

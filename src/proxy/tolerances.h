@@ -95,13 +95,16 @@ inline constexpr int kPinchHalvings = 8;
 
 namespace convergence {
 
-// The end of a tick: progress.h, work.h.
+// The end of a tick: progress.h, work.h, walk.h.
 
 /// Steps in a row that come no nearer to the goal.
 inline constexpr int kMostIdle = 8;
-/// A look at an empty place and the step that follows cost as much as so many primitives in contact, about 0.15 us
-/// each.
-inline constexpr int kWorkPerLook = 6;
+/// Bounding volumes, each some 5 ns, that cost as much as a look at a place and the step that follows; as a contact
+/// found there; and as an exact test.
+inline constexpr std::size_t kWorkPerLook = 40, kWorkPerContact = 8, kWorkPerPrimitive = 16;
+
+/// Reaches of the first leg of a long way. A finger at 1 m/s goes one to five in a tick.
+inline constexpr double kFirstLegPerReach = 8;
 
 // The convex steps: constraints.h, recent_cuts.h, solver.h.
 

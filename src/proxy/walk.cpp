@@ -6,14 +6,16 @@ namespace hl {
 
 bool Walk::go(const ContactSet& set, bool along, const Vec3& step, Vec3& position) {
   const double length = step.norm();
-  const bool whole = length <= input_.longest_m;
-  const Vec3 motion = whole ? step : Vec3(step * (input_.longest_m / length));
+  const double longest_m = std::min(leg_m_, input_.longest_m);
+  const bool whole = length <= longest_m;
+  const Vec3 motion = whole ? step : Vec3(step * (longest_m / length));
   SceneImpact impact;
   const bool hit = firstImpact(set, along, position, motion, impact);
   const double slid_before_m = set.contacts.empty() ? slid_m_ : 0;
-  slid_m_ = along ? slid_before_m + std::min(length, input_.longest_m) : 0;
+  slid_m_ = along ? slid_before_m + std::min(length, longest_m) : 0;
   position += hit ? Vec3(impact.impact.t * motion) : motion;
   cache_.nearby.endAt(position);
+  if (!whole && !hit) leg_m_ *= 2;
   return whole && !hit;
 }
 

@@ -22,18 +22,33 @@ bool isEdge(const Primitive& primitive, Feature feature) {
   return primitive.kind == PrimitiveKind::kTriangle && feature >= Feature::kEdge0 && feature <= Feature::kEdge2;
 }
 
-// The index of an object at a moment.
-class IndexAt {
+// The index of an object at a moment, which adds up what it costs.
+class IndexAt final : public SpatialIndex {
  public:
-  IndexAt(const Instance& instance, std::int64_t time_ns) : resting_(*instance.shape->index) {
+  IndexAt(const Instance& instance, std::int64_t time_ns, QueryCost& cost)
+      : resting_(*instance.shape->index), cost_(cost) {
     if (const BendWay* const way = instance.bentAt(time_ns))
       moving_.emplace(way->index(way->part(time_ns), way->part(time_ns)));
   }
-  const SpatialIndex& operator*() const { return moving_ ? *moving_ : resting_; }
+  std::size_t overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t)> visit) const override {
+    return counted(now().overlap(centre, radius, visit));
+  }
+  std::size_t sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
+                    FunctionRef<double(std::uint32_t, double)> visit) const override {
+    return counted(now().sweep(from, motion, radius, soon, visit));
+  }
+  IndexStats stats() const override { return now().stats(); }
 
  private:
+  const SpatialIndex& now() const { return moving_ ? *moving_ : resting_; }
+  std::size_t counted(std::size_t volumes) const {
+    cost_.volumes += volumes;
+    return volumes;
+  }
+
   const SpatialIndex& resting_;
   std::optional<MovingBvh> moving_;
+  QueryCost& cost_;
 };
 
 void toWorld(const Pose& pose, ClosestPoint& nearest) {
@@ -107,16 +122,16 @@ void SceneAt::primitivesWithin(const Vec3& centre, double distance,
   const Box region = around(centre, centre, distance + kBoxSlack * snapshot_.extent);
   snapshot_.near.visitMet(region, [&](std::uint32_t i) {
     const Instance& instance = snapshot_.instances[i];
-    const IndexAt index(instance, time_ns_);
+    const IndexAt index(instance, time_ns_, cost_);
     const auto read_one = [&](std::uint32_t element) -> const Primitive& { return primitive({i, element}); };
     if (instance.motion.identity()) {
-      hl::primitivesWithin(*index, read_one, centre, distance, [&](std::uint32_t element, const ClosestPoint& nearest) {
+      hl::primitivesWithin(index, read_one, centre, distance, [&](std::uint32_t element, const ClosestPoint& nearest) {
         visit({i, element}, nearest);
       });
       return;
     }
     const Pose pose = instance.motion.at(time_ns_);
-    hl::primitivesWithin(*index, read_one, pose.toObject(centre), distance,
+    hl::primitivesWithin(index, read_one, pose.toObject(centre), distance,
                          [&](std::uint32_t element, const ClosestPoint& nearest_O) {
                            ClosestPoint nearest = nearest_O;
                            toWorld(pose, nearest);
@@ -154,8 +169,8 @@ bool SceneAt::firstOf(const Vec3& from, const Vec3& motion, double distance, con
     const Vec3 from_O = moves.identity() ? from : pose.toObject(from);
     const Vec3 motion_O = moves.identity() ? motion : pose.turnToObject(motion);
     FirstImpact hit;
-    const IndexAt index(snapshot_.instances[i], time_ns_);
-    if (!ask(i, *index, from_O, motion_O, hit)) return;
+    const IndexAt index(snapshot_.instances[i], time_ns_, cost_);
+    if (!ask(i, index, from_O, motion_O, hit)) return;
     if (!keepEarlier(*this, hit.impact, {i, hit.primitive}, pose, found, out)) return;
     region = around(from, from + hit.impact.t * motion, margin);
   });

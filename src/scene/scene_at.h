@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -21,6 +22,12 @@ struct SceneImpact {
   PrimitiveId primitive;
 };
 
+/// What questions have cost, the same on every machine. Other hierarchies and caches have other costs.
+struct QueryCost {
+  std::size_t volumes = 0;     ///< bounding volumes looked at
+  std::size_t primitives = 0;  ///< read, each for an exact test
+};
+
 /// A snapshot, which must outlive it, and a time; made for one tick, on one thread. RT-safe.
 class SceneAt {
  public:
@@ -37,12 +44,15 @@ class SceneAt {
   const Snapshot& snapshot() const { return snapshot_; }
   std::int64_t time_ns() const { return time_ns_; }
   double extent() const { return snapshot_.extent; }
+  /// Of all that has been asked so far.
+  const QueryCost& cost() const { return cost_; }
 
   const Instance& instance(PrimitiveId id) const { return snapshot_.instances[id.instance]; }
   /// What the primitives of its instance are numbered by now.
   const Shape& shape(PrimitiveId id) const { return instance(id).shapeAt(time_ns_); }
   /// In the frame of its object; good until another one is asked for.
   const Primitive& primitive(PrimitiveId id) const {
+    ++cost_.primitives;
     return recent_.get(id, [&] { return read(id); });
   }
   PrimitiveKind kind(PrimitiveId id) const {
@@ -81,6 +91,7 @@ class SceneAt {
   std::int64_t time_ns_;
   std::optional<RecentPrimitives> own_;
   RecentPrimitives& recent_;
+  mutable QueryCost cost_;
 };
 
 }  // namespace hl

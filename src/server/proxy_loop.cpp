@@ -36,11 +36,15 @@ Vec3 ProxyLoop::pullOf(const ProxyState& state, const TickReport& report, const 
 
 // By how much less the new scene pulls the finger than what came before: the last tick is made once more in the new
 // scene, from the same state with the same finger at the same time. So where nothing has changed that it met, nothing
-// is different, to the bit.
+// is different, to the bit. It ends after as many looks, not as much work, which may be other in the new scene.
 Vec3 ProxyLoop::changeOfPull(const Snapshot& snapshot) {
+  constexpr int kMostLooks = 64;  // more than a tick makes that is not out of work
+  ProxySettings settings = settings_;
+  settings.work_cap = kNoWorkCap;
+  const int looks = last_.used_up_at > 0 ? last_.used_up_at : kMostLooks;
   ProxyState again = last_.from;
   const SceneAt scene(snapshot, last_.time_ns, recent_);
-  const TickReport report = tick(again, scene, settings_, workspace_.toWorld(last_.finger_D));
+  const TickReport report = tick(again, scene, settings, workspace_.toWorld(last_.finger_D), looks);
   return last_.pull_D - pullOf(again, report, last_.finger_D);
 }
 
@@ -49,7 +53,7 @@ double ProxyLoop::energyOf_J(const ServoTarget& target, const Vec3& finger_D) co
 }
 
 ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const ProxyCommands& commands,
-                          const SpringOfServo& spring) {
+                          const SpringOfServo& spring, int most_looks) {
   follow(commands, spring);
   const Snapshot& snapshot = scenes_.take();
   const SceneAt scene(snapshot, now_ns, recent_);
@@ -67,7 +71,7 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
   ProxyStep step;
   step.scene = snapshot.identity;
   const Ledger before = state_.ledger;
-  step.report = tick(state_, scene, settings_, finger);
+  step.report = tick(state_, scene, settings_, finger, most_looks);
   if (!spring.pulls) {
     state_.ledger = before;
     step.report.injected_J = step.report.moved_J = 0;
@@ -100,6 +104,7 @@ ServoTarget ProxyLoop::targetOf(std::int64_t now_ns, const Vec3& finger_D, const
   last_.time_ns = now_ns;
   last_.finger_D = finger_D;
   last_.pull_D = pull_D;
+  last_.used_up_at = report.used_up_at;
   return told_ = target;
 }
 

@@ -44,8 +44,9 @@ class ProxyLoop {
   /// `settings`: passes and iterations; the rest comes with each step.
   ProxyLoop(SnapshotSlot& scenes, const ProxySettings& settings) : scenes_(scenes), settings_(settings) {}
 
-  /// One tick at `now_ns` with the finger at `finger_D`.
-  ProxyStep step(std::int64_t now_ns, const Vec3& finger_D, const ProxyCommands& commands, const SpringOfServo& spring);
+  /// One tick at `now_ns` with the finger at `finger_D`; `most_looks` as in tick().
+  ProxyStep step(std::int64_t now_ns, const Vec3& finger_D, const ProxyCommands& commands, const SpringOfServo& spring,
+                 int most_looks = kNoWorkCap);
   /// Instead of a tick, when nobody knows where the finger is: takes the newest scene all the same, so that clients who
   /// wait for theirs to be taken do not wait for the device.
   void skip() { scenes_.take(); }
@@ -59,6 +60,7 @@ class ProxyLoop {
     std::int64_t time_ns = 0;
     Vec3 finger_D = Vec3::Zero();
     Vec3 pull_D = Vec3::Zero();  ///< s (proxy - finger), without what fades of scenes before
+    int used_up_at = 0;          ///< of its report
   };
 
   void follow(const ProxyCommands& commands, const SpringOfServo& spring);

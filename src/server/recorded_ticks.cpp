@@ -12,6 +12,7 @@ namespace hl {
 
 namespace {
 
+constexpr std::uint32_t kMostLooks = 1'000'000;  // of a wrong file
 constexpr const char* kMisfit = "the lists of a block of ticks do not agree";
 
 void addTick(const TickRecord& record, std::int64_t before_ns, proto::ProxyTicks& out) {
@@ -24,6 +25,7 @@ void addTick(const TickRecord& record, std::int64_t before_ns, proto::ProxyTicks
   add(*out.mutable_proxy(), record.proxy);
   out.add_contacts(static_cast<std::uint32_t>(record.contacts));
   out.add_work_ns(record.work_ns);
+  out.add_used_up_at(static_cast<std::uint32_t>(record.used_up_at));
 }
 
 TickRecord tickOf(const proto::ProxyTicks& in, int i, std::int64_t before_ns) {
@@ -36,6 +38,7 @@ TickRecord tickOf(const proto::ProxyTicks& in, int i, std::int64_t before_ns) {
   record.proxy = at(in.proxy(), i);
   record.contacts = in.contacts(i);
   record.work_ns = in.work_ns(i);
+  if (in.used_up_at_size() > 0) record.used_up_at = static_cast<int>(std::min(in.used_up_at(i), kMostLooks));
   return record;
 }
 
@@ -59,6 +62,7 @@ bool consistent(const proto::ProxyTicks& in) {
          all({in.target_stiffness_size(), in.target_paid_j_size(), in.target_valid_size(), in.contacts_size(),
               in.work_ns_size()},
              1) &&
+         (in.used_up_at_size() == 0 || in.used_up_at_size() == n) &&
          all({in.finger_size(), in.target_proxy_size(), in.proxy_size()}, 3);
 }
 

@@ -26,6 +26,7 @@ struct TickRecord {
   Vec3 proxy = Vec3::Zero();  ///< world
   std::uint64_t contacts = 0;
   std::int64_t work_ns = 0;
+  int used_up_at = 0;  ///< as in TickReport
 };
 
 /// What seldom changes from tick to tick.

@@ -120,7 +120,8 @@ void Recorder::step(const ServoRecord& record) noexcept {
 
 void Recorder::tick(const TickInput& input, const ProxyStep& step, const Vec3& proxy, std::int64_t work_ns) noexcept {
   if (step.scene == 0) return;
-  ticks_.push({input, step.scene, step.held.target, proxy, step.report.contacts.size(), work_ns});
+  ticks_.push(
+      {input, step.scene, step.held.target, proxy, step.report.contacts.size(), work_ns, step.report.used_up_at});
 }
 
 void Recorder::scene(std::shared_ptr<const Snapshot> scene) noexcept {

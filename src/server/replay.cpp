@@ -124,7 +124,9 @@ class ProxyReplay {
   }
   void tick(const TickRecord& record, double time_s) {
     show(record.scene);
-    const ProxyStep step = loop_->step(record.in.time_ns, record.in.finger_D, record.in.commands, record.in.spring);
+    const int most_looks = record.used_up_at > 0 ? record.used_up_at : kNoWorkCap;
+    const ProxyStep step =
+        loop_->step(record.in.time_ns, record.in.finger_D, record.in.commands, record.in.spring, most_looks);
     const Vec3& proxy = loop_->state().position;
     if (report_.difference || partsOf(step.held.target) == partsOf(record.target)) {
       if (report_.difference || partsOf(proxy) == partsOf(record.proxy)) return;
@@ -153,8 +155,8 @@ ProxySettings proxySettingsOf(const proto::RecordingStart& start) {
   constexpr double kMostPasses = 1e6;  // what a tick of a wrong file may cost
   ProxySettings settings;
   readValues(start.proxy(), "the proxy", settings);
-  checkRanges("the proxy", {{"iteration_cap", static_cast<double>(settings.iteration_cap), 1, kMostPasses},
-                            {"work_cap", static_cast<double>(settings.work_cap), 1, kMostPasses}});
+  settings.work_cap = kNoWorkCap;  // each tick says after how many looks it had used up its work
+  checkRanges("the proxy", {{"iteration_cap", static_cast<double>(settings.iteration_cap), 1, kMostPasses}});
   return settings;
 }
 

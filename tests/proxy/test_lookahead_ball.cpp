@@ -65,8 +65,9 @@ class Wanderer {
 };
 
 // The judge forgets before every tick what the last one met, and takes its finger for one that comes from far away, for
-// which no ball is large enough.
-int ticksWithBall(const Snapshot& snapshot, const ProxySettings& settings, test::Random& random, int ticks) {
+// which no ball is large enough. Without a budget, which the two use up at different places.
+int ticksWithBall(const Snapshot& snapshot, ProxySettings settings, test::Random& random, int ticks) {
+  settings.work_cap = kNoWorkCap;
   ProxyState a = startProxy(snapshot, settings, {0, 0, 0.1}), b = a;
   RecentPrimitives recent;
   Wanderer wanderer(random);

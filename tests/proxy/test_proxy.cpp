@@ -21,7 +21,7 @@ using judge::triangles;
 
 constexpr double kRadius = 1e-3;
 constexpr double kExact = 1e-9 * kRadius;  // far above the skin of 3e-10 radii, far below anything felt
-const ProxySettings kSettings{kRadius, 1000};
+const ProxySettings kSettings{kRadius, 1000, kNoWorkCap};
 #ifdef HL_SANITIZED
 constexpr int kManyTicks = 5'000;
 #else
@@ -218,7 +218,7 @@ TEST(C11Proxy, CornersAndRoundedEdgesTakeFewIterations) {
   const auto corner = scene(walls);
   state = startProxy(*corner, kSettings, Vec3(0.01, 0.02, 0.03));
   report = tick(state, *corner, kSettings, Vec3(-0.01, -0.02, -0.005));
-  EXPECT_LE(report.iterations, 4);
+  EXPECT_LE(report.iterations, 6);  // two legs, and three walls
   EXPECT_NEAR((state.position - Vec3::Constant(kRadius)).norm(), 0, 2 * kExact);
   EXPECT_EQ(report.contacts.size(), 3u);
 }
@@ -419,7 +419,7 @@ TEST(Proxy, AFarFingerInTheOpenIsReachedPastTheScene) {
     ProxyState state = startProxy(*snapshot, kSettings, Vec3(0, 0, 0.05));
     const TickReport report = tick(state, *snapshot, kSettings, away * Vec3(0.05, 0.02, 1));
     ASSERT_EQ(state.position, away * Vec3(0.05, 0.02, 1));
-    ASSERT_LE(report.iterations, 4);
+    ASSERT_LE(report.iterations, 8);
     tick(state, *snapshot, kSettings, Vec3(0, 0, -0.05));
     ASSERT_TRUE(away > 1e11 || std::abs(state.position.z() - 0.011) <= 1e-9) << away;  // onto the box, from beyond
     const Vec3 aside = away * Vec3(-0.6, 0.8, 0.1);

@@ -218,7 +218,8 @@ TEST(Shading, TwoShadedCylindersHoldTheProxyInTheCusp) {
       model.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
   }
   const auto scene = test::snapshotOf(std::move(model));
-  const ProxySettings settings = settingsOf(0.1, true);
+  ProxySettings settings = settingsOf(0.1, true);
+  settings.work_cap = kNoWorkCap;  // the scene has no hierarchy
   ProxyState state = startProxy(*scene, settings, {0, 1.5, 0.1});
   const Vec3 finger(0.01, 0.1, 0.1);
   const TickReport report = tick(state, *scene, settings, finger);

@@ -15,7 +15,9 @@ constexpr double kRadius = 1e-3;
 
 TEST(Work, ATickMayEndOnceItsWorkIsUsedUpAndItHasMadeAStep) {
   const ContactSet nothing;
-  Work work(2 * convergence::kWorkPerLook);
+  const auto snapshot = judge::scene(Model{});
+  const SceneAt scene(*snapshot);
+  Work work(scene, 2 * convergence::kWorkPerLook, kNoWorkCap);
   work.stepped();
   work.looked(nothing);
   EXPECT_FALSE(work.usedUp());
@@ -23,9 +25,28 @@ TEST(Work, ATickMayEndOnceItsWorkIsUsedUpAndItHasMadeAStep) {
   EXPECT_TRUE(work.usedUp());
   EXPECT_TRUE(work.ends());
 
-  Work without_step(0);
+  Work without_step(scene, 0, kNoWorkCap);
+  without_step.looked(nothing);
   EXPECT_TRUE(without_step.usedUp());
   EXPECT_FALSE(without_step.ends());
+}
+
+TEST(Work, WhatTheSceneIsAskedIsCounted) {
+  Model model;
+  model.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  model.triangles = {{0, 1, 2}};
+  const auto snapshot = judge::scene(model);
+  const SceneAt scene(*snapshot);
+  const Work work(scene, 1000, kNoWorkCap);
+  EXPECT_EQ(work.done(), 0u);
+  scene.primitivesWithin({0.1, 0.1, 0.1}, 0.2, [](PrimitiveId, const ClosestPoint&) {});
+  EXPECT_EQ(scene.cost().volumes, 8u);  // one block of up to eight triangles
+  EXPECT_EQ(scene.cost().primitives, 1u);
+  EXPECT_EQ(work.done(), 8u + convergence::kWorkPerPrimitive);
+  SceneImpact impact;
+  EXPECT_TRUE(scene.firstImpact({0.1, 0.1, 1}, {0, 0, -2}, 0.01, -1, impact));
+  EXPECT_GT(scene.cost().volumes, 8u);
+  EXPECT_GT(scene.cost().primitives, 1u);
 }
 
 // A cone of so many sides about +z, its apex at the origin.
@@ -44,6 +65,27 @@ struct Arrival {
   Vec3 place;
   int ticks = 0, out_of_work = 0;
 };
+
+// By another hierarchy, which does other work.
+TEST(Work, ATickIsMadeAgainByItsLooks) {
+  const auto scene = judge::scene(cone(200)), other = judge::scene(cone(200), HierarchyKind::kNone);
+  ProxySettings settings, any;
+  any.work_cap = kNoWorkCap;
+  ProxyState state = startProxy(*scene, settings, {0, 0, 2e-3}), again = state;
+  int used_up = 0;
+  for (int i = 0; i < 300; ++i) {
+    const double angle = 0.37 * i, out = 2e-3 * std::exp(-0.05 * i);
+    const Vec3 finger(out * std::cos(angle), out * std::sin(angle), -1e-3 * (1 + i % 5));
+    const TickReport report = tick(state, *scene, settings, finger);
+    used_up += report.used_up_at > 0 ? 1 : 0;
+    const int looks = report.used_up_at > 0 ? report.used_up_at : kNoWorkCap;
+    const TickReport same = tick(again, *other, any, finger, looks);
+    ASSERT_EQ(state.position, again.position) << i;
+    ASSERT_EQ(report.iterations, same.iterations) << i;
+    ASSERT_EQ(report.ending, same.ending) << i;
+  }
+  EXPECT_GT(used_up, 10);
+}
 
 // With a finger that rests there, until a tick ends otherwise.
 Arrival rest(const Snapshot& scene, ProxyState state, const Vec3& finger, int work_cap) {
@@ -74,7 +116,7 @@ TEST(Work, ARestingFingerBringsTheProxyToTheSamePlaceWithAnyBudget) {
   for (const Vec3& finger : {Vec3(3e-3, 2e-3, -6e-3), Vec3(1e-3, 4e-3, -5e-3), Vec3(-2e-3, 1e-3, -4e-3)}) {
     const ProxyState start = startProxy(*scene, settings, {0, 0, 2e-3});
     const Arrival all = rest(*scene, start, finger, 1'000'000);
-    const Arrival some = rest(*scene, start, finger, 60), least = rest(*scene, start, finger, 1);
+    const Arrival some = rest(*scene, start, finger, 3000), least = rest(*scene, start, finger, 1);
     EXPECT_EQ(all.out_of_work, 0);
     EXPECT_GT(least.out_of_work, some.out_of_work);
     EXPECT_NEAR((some.place - all.place).norm(), 0, 1e-6 * kRadius);

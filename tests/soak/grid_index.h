@@ -33,21 +33,27 @@ class GridIndex final : public SpatialIndex {
     }
   }
 
-  void overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t)> visit) const override {
+  std::size_t overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t)> visit) const override {
     const Vec3 reach = Vec3::Constant(radius * (1 + kRounding));
+    std::size_t looked = 0;
     forEachCell(centre - reach, centre + reach, [&](std::size_t cell) {
       for (const std::uint32_t primitive : cells_[cell]) visit(primitive);
+      looked += cells_[cell].size();
     });
+    return looked;
   }
 
   /// All of the way's box, whatever the limit.
-  void sweep(const Vec3& from, const Vec3& motion, double radius, double /*soon*/,
-             FunctionRef<double(std::uint32_t, double)> visit) const override {
+  std::size_t sweep(const Vec3& from, const Vec3& motion, double radius, double /*soon*/,
+                    FunctionRef<double(std::uint32_t, double)> visit) const override {
     const Vec3 to = from + motion, reach = Vec3::Constant(radius * (1 + kRounding));
     double limit = 1;
+    std::size_t looked = 0;
     forEachCell(from.cwiseMin(to) - reach, from.cwiseMax(to) + reach, [&](std::size_t cell) {
       for (const std::uint32_t primitive : cells_[cell]) limit = visit(primitive, limit);
+      looked += cells_[cell].size();
     });
+    return looked;
   }
 
   IndexStats stats() const override { return {0, cells_.size(), 0, 0}; }

@@ -209,6 +209,7 @@ RandomScene drawScene(test::Random& random) {
   scene.settings.radius = random.below(2) == 0 ? 1e-3 : anySize(random, 1e-6, 1e3);
   scene.settings.world_per_device = scene.settings.radius / 1e-3;
   scene.settings.ledger = static_cast<LedgerMode>(random.below(3));
+  if (random.below(2) == 0) scene.settings.work_cap = kNoWorkCap;
   const double away = random.below(2) == 0 ? 0 : anySize(random, 1, 1e4);
   scene.centre_W = scene.settings.radius * away * random.direction();
   const double coarse = random.below(3) == 0 ? anySize(random, 1, 1e3) : 1;  // the scene, beside the proxy

@@ -131,7 +131,8 @@ class Run {
     seen_.touching += report.contacts.empty() ? 0 : 1;
     seen_.capped += report.capped() ? 1 : 0;
     seen_.unplaced += report.placed() ? 0 : 1;
-    if (state_.position != shuffled_.position || report.target != other.target)
+    const bool same = state_.position == shuffled_.position && report.target == other.target;
+    if (scene_.settings.work_cap == kNoWorkCap && !same)
       blame(fmt::format("the order of the primitives changes bits, by {:.3g} radii",
                         (state_.position - shuffled_.position).norm() / radius()));
     if (!state_.position.allFinite() || !report.target.allFinite() || !std::isfinite(report.injected_J))
@@ -196,6 +197,7 @@ class Run {
     const bool plain = scene_.effect == Effect::kNone || scene_.effect == Effect::kStiffness;
     const Vec3 pull = finger_ - state_.position;
     if (pull.norm() < 1e-6 * radius() + 64 * kEps * scene_.snapshot->extent) return;
+    if (report.ending == Ending::kOutOfWork) return;  // on its way
     if (plain) {
       std::vector<Vec3> normals = normalsAbout(state_.position);
       if (normals.size() > 40) return;
