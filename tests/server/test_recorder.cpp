@@ -44,9 +44,9 @@ class Loops {
   explicit Loops(const RecorderSettings& settings, bool start = true)
       : scenes_({sceneOf("sphere:500"), sceneOf("teapot"), sceneOf("terrain:2000")}),
         slot_(scenes_[0]),
-        proxy_(slot_, ProxySettings{}),
+        proxy_(slot_, hurried()),
         settings_(ServoSettings::of(device_.info())),
-        recorder_(settings, {device_.info(), 1000, 1000, ProxySettings{}}) {
+        recorder_(settings, {device_.info(), 1000, 1000, hurried()}) {
     commands_.radius_W = 0.002;
     recorder_.scene(scenes_[0]);
     if (start) recorder_.start();
@@ -64,6 +64,7 @@ class Loops {
     const ProxyStep tick = proxy_.step(now_ns_, finger_D_, commands_, input.spring);
     recorder_.tick(input, tick, proxy_.state().position, 1000);
     touching_ += tick.held.target.valid ? 1 : 0;
+    out_of_work_ += tick.report.ending == Ending::kOutOfWork ? 1 : 0;
     DeviceSample sample = device_.read(now_ns_);
     if (lost_) sample.status = DeviceStatus::kLost;
     finger_D_ = sample.position;
@@ -74,6 +75,7 @@ class Loops {
     device_.write(out.force_N);
   }
   int touching() const { return touching_; }
+  int outOfWork() const { return out_of_work_; }
   Recorder& recorder() { return recorder_; }
   void lose() { lost_ = true; }
 
@@ -104,10 +106,16 @@ class Loops {
   ServoCommand command_ = ServoCommand::kNone;
   Vec3 finger_D_ = Vec3::Zero();
   std::int64_t now_ns_ = 5'000'000'000, count_ = 0;
-  int touching_ = 0;
+  int touching_ = 0, out_of_work_ = 0;
   bool lost_ = false;
   std::mt19937 random_{1};
 
+  // So little work that some ticks run out of it.
+  static ProxySettings hurried() {
+    ProxySettings settings;
+    settings.work_cap = 50;
+    return settings;
+  }
   static SimulatedDeviceSettings coarse() {
     SimulatedDeviceSettings settings;
     settings.step_s = 100e-6;
@@ -137,6 +145,7 @@ TEST_F(Recording, IsReproducedBitForBit) {
     Loops loops(settings());
     loops.run(5000);
     EXPECT_GT(loops.touching(), 1000);
+    EXPECT_GT(loops.outOfWork(), 5);
   }
   int visited = 0, forced = 0;
   const ReplayReport report = replay(path, [&](double, const ServoRecord& step) {
