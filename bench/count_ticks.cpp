@@ -46,7 +46,7 @@ int run(const std::string& surface, const std::string& triangles) {
   const Vec3 centre = snapshot->bounds.centre(), size = snapshot->bounds.size();
   const double above = 0.5 * size.y() + kHeight, reach = 0.35 * std::min(size.x(), size.z());
   const ProxySettings settings;
-  RecentPrimitives recent;
+  ManyRecentPrimitives recent;
   ProxyState state = startProxy(*snapshot, settings, centre + above * Vec3::UnitY());
   for (int i = 0; i < kTicks; ++i) {
     const double s = kWay * i / reach;

@@ -30,7 +30,7 @@ TickTimes timeTicks(const Snapshot& snapshot, const ProxySettings& settings, con
   const std::size_t end = path.approach + std::min(most, path.fingers.size() - path.approach);
   for (int pass = 0; pass < kPasses; ++pass) {
     ProxyState state = startProxy(snapshot, settings, path.fingers[0]);
-    RecentPrimitives recent;
+    ManyRecentPrimitives recent;
     result.capped = result.out_of_work = 0;
     for (std::size_t i = 1; i < end; ++i) {
       const std::int64_t start_ns = monotonicNow_ns();

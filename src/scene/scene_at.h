@@ -89,7 +89,7 @@ class SceneAt {
 
   const Snapshot& snapshot_;
   std::int64_t time_ns_;
-  std::optional<RecentPrimitives> own_;
+  std::optional<FewRecentPrimitives> own_;
   RecentPrimitives& recent_;
   mutable QueryCost cost_;
 };

@@ -76,7 +76,7 @@ class ProxyLoop {
   ProxySettings settings_;
   Workspace workspace_;
   ProxyState state_;
-  RecentPrimitives recent_;
+  ManyRecentPrimitives recent_;
   LastTick last_;
   TargetBlend blend_;
   ServoTarget told_;  // in the last tick

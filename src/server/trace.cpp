@@ -9,7 +9,7 @@ TraceTotals runTrace(const Snapshot& snapshot, const TraceSettings& settings, co
   TraceTotals totals;
   if (path.empty()) return totals;
   ProxySettings proxy = settings.proxy;
-  RecentPrimitives recent;
+  ManyRecentPrimitives recent;
   ProxyState state = startProxy(snapshot, proxy, path.front().position);
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Vec3& finger = path[i].position;

@@ -221,7 +221,7 @@ std::vector<std::uint64_t> hashesOf(const Case& which, HierarchyKind hierarchy,
                                     const std::vector<std::int64_t>& ticks) {
   World world(which, hierarchy);
   Finger finger(world.model());
-  RecentPrimitives recent;
+  ManyRecentPrimitives recent;
   ProxySettings settings;
   settings.work_cap = kNoWorkCap;  // where a tick is out of work, hierarchies differ
   Hash hash;

@@ -69,7 +69,7 @@ class Wanderer {
 int ticksWithBall(const Snapshot& snapshot, ProxySettings settings, test::Random& random, int ticks) {
   settings.work_cap = kNoWorkCap;
   ProxyState a = startProxy(snapshot, settings, {0, 0, 0.1}), b = a;
-  RecentPrimitives recent;
+  ManyRecentPrimitives recent;
   Wanderer wanderer(random);
   int with_ball = 0;
   for (int i = 0; i < ticks; ++i) {

@@ -146,7 +146,7 @@ TEST(SweepCache, MoreThanItHasRoomForIsNotCovered) {
 // The judge forgets before every tick what the last one met.
 TEST(SweepCache, ATickThatRemembersIsATickThatSearchesToTheBit) {
   test::Random random(23);
-  RecentPrimitives recent;  // of one scene after the other
+  ManyRecentPrimitives recent;  // of one scene after the other
   for (int round = 0; round < 60; ++round) {
     const auto snapshot = randomScene(random, 2, 20, HierarchyKind::kBvh);
     ProxySettings settings{kRadius};

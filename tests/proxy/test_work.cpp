@@ -92,7 +92,7 @@ Arrival rest(const Snapshot& scene, ProxyState state, const Vec3& finger, int wo
   ProxySettings settings;
   settings.radius = kRadius;
   settings.work_cap = work_cap;
-  RecentPrimitives recent;
+  ManyRecentPrimitives recent;
   Arrival arrival;
   double before = (state.position - finger).norm();
   while (arrival.ticks < 2000) {
@@ -127,7 +127,7 @@ TEST(Work, ARestingFingerBringsTheProxyToTheSamePlaceWithAnyBudget) {
 TEST(Work, WithTheUsualBudgetNoTickAtAnApexOfAThousandSidesReachesTheIterationCap) {
   const auto scene = judge::scene(cone(1000));
   ProxySettings settings;
-  RecentPrimitives recent;
+  ManyRecentPrimitives recent;
   ProxyState state = startProxy(*scene, settings, {0, 0, 2e-3});
   for (int i = 0; i < 300; ++i) {
     const double angle = 0.37 * i, out = 2e-3 * std::exp(-0.05 * i);

@@ -166,7 +166,7 @@ TEST(SceneAt, ReachContainsTheWholeMotion) {
 
 TEST(SceneAt, WhatWasReadOfOneSnapshotIsNotTakenForAnother) {
   test::Random random(9);
-  RecentPrimitives recent;
+  ManyRecentPrimitives recent;
   for (int round = 0; round < 20; ++round) {
     const auto snapshot = makeSnapshot(randomModel(random));
     for (int tick = 0; tick < 3; ++tick) {

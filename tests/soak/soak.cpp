@@ -125,7 +125,7 @@ class Piece {
   const Clearance clearance_;
   Finger finger_;
   ProxyState state_;
-  RecentPrimitives recent_;
+  ManyRecentPrimitives recent_;
   int room_ = 0;
   Seen seen_;
 };
