@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 // Their vectors have no size at compile time, so they cannot be members.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
@@ -199,6 +200,7 @@ class Sweep {
     constexpr double kLarger = 8;
     for (double part = first_part;; part = std::min(1.0, kLarger * part)) {
       shorten(std::min(part, soonest_));
+      proposed_before_ = proposed_count_;
       looked += forEachFew(tree_, box_, [this](const FewNumbers& numbers) HWY_ATTR { look(numbers); });
       propose();
       if (soonest_ <= part || part >= 1) return looked;
@@ -227,7 +229,7 @@ class Sweep {
       const std::uint32_t primitive = blocks.primitive(lane);
       if (wasProposed(primitive)) continue;
       candidates_[candidate_count_++] = {primitive, entry[lane]};
-      if (candidate_count_ == kMostCandidates) propose();
+      if (candidate_count_ == kMostCandidates) proposeMany();
     }
   }
 
@@ -239,18 +241,33 @@ class Sweep {
       Candidate* earliest = candidates_;
       for (Candidate* one = candidates_ + 1; one < end; ++one) earliest = one->entry < earliest->entry ? one : earliest;
       if (earliest->entry > box_.limit) break;
-      soonest_ = std::min(soonest_, visit_(earliest->primitive, soonest_));
-      if (soonest_ < limit_) shorten(soonest_);
-      if (proposed_count_ < kMostCandidates) proposed_[proposed_count_++] = earliest->primitive;
+      propose(earliest->primitive);
       *earliest = end[-1];
     }
     candidate_count_ = 0;
   }
 
+  // Where so many are touched that choosing takes longer than it spares: after the earliest all in a row.
+  void proposeMany() {
+    const auto sooner = [](const Candidate& a, const Candidate& b) { return a.entry < b.entry; };
+    Candidate* const end = candidates_ + candidate_count_;
+    std::swap(*candidates_, *std::min_element(candidates_, end, sooner));
+    for (const Candidate* one = candidates_; one < end; ++one) {
+      if (one->entry <= box_.limit) propose(one->primitive);
+    }
+    candidate_count_ = 0;
+  }
+
+  HWY_INLINE void propose(std::uint32_t primitive) {
+    soonest_ = std::min(soonest_, visit_(primitive, soonest_));
+    if (soonest_ < limit_) shorten(soonest_);
+    if (proposed_count_ < kMostCandidates) proposed_[proposed_count_++] = primitive;
+  }
+
   // By an earlier walk. When it was entered would not tell: the box of its block may have been entered later, and then
   // no walk has looked at it. One that did not fit in is proposed again, which does no harm.
   HWY_INLINE bool wasProposed(std::uint32_t primitive) const {
-    const std::uint32_t* end = proposed_ + proposed_count_;
+    const std::uint32_t* end = proposed_ + proposed_before_;
     return std::find(proposed_, end, primitive) != end;
   }
 
@@ -264,7 +281,7 @@ class Sweep {
   double soonest_ = 1;  // impact; rounding may put the first a little beyond the part in which it is proposed
   std::size_t candidate_count_ = 0;
   Candidate candidates_[kMostCandidates];
-  std::size_t proposed_count_ = 0;
+  std::size_t proposed_count_ = 0, proposed_before_ = 0;  // in all; by earlier walks
   std::uint32_t proposed_[kMostCandidates];
 };
 
