@@ -26,6 +26,10 @@ int spareCore(int nth);
 /// memory is its host's, and with a limit on locked memory every later allocation of the host could fail.
 void lockProcessMemory();
 
+/// Reads each page of the programs and libraries of this process: code and constants that no loop is then the first to
+/// need, however seldom it needs them. lockProcessMemory() does so too. Setup only, some milliseconds.
+void touchPrograms();
+
 /// What the stack of a loop has ready. A tick and a servo step use up to 0.2 MB (tests/server/test_stack_use.cpp).
 inline constexpr std::size_t kTouchedStack_bytes = std::size_t{512} * 1024;
 

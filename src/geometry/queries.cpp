@@ -76,11 +76,17 @@ bool firstImpact(const SpatialIndex& index, const Primitives& primitives, const 
 
 bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(std::uint32_t)> read, const Vec3& from,
                  const Vec3& motion, double radius, double touching, FirstImpact& out) {
+  const auto is_contact = [&](const ClosestPoint& start) { return touching > 0 && start.distance <= touching; };
+  return firstImpact(index, read, from, motion, radius, is_contact, out);
+}
+
+bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(std::uint32_t)> read, const Vec3& from,
+                 const Vec3& motion, double radius, FunctionRef<bool(const ClosestPoint&)> is_contact,
+                 FirstImpact& out) {
   const auto impact_of = [&](std::uint32_t candidate, double, Impact& impact) {
     const Primitive& primitive = read(candidate);
     const ClosestPoint start = closestPoint(primitive, from);
-    if (touching > 0 && start.distance <= touching) return false;
-    return sweepSphere(primitive, start, from, motion, radius, impact);
+    return !is_contact(start) && sweepSphere(primitive, start, from, motion, radius, impact);
   };
   return firstOf(index, read, from, motion, radius, kSoonPerRadius * radius, impact_of, out);
 }

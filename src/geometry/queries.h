@@ -31,6 +31,10 @@ bool firstImpact(const SpatialIndex& index, const Primitives& primitives, const 
 /// The same for a caller who reads primitives in its own way.
 bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(std::uint32_t primitive)> read,
                  const Vec3& from, const Vec3& motion, double radius, double touching, FirstImpact& out);
+/// The same over all primitives but those of which `is_contact` says so, given the point nearest to `from`.
+bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(std::uint32_t primitive)> read,
+                 const Vec3& from, const Vec3& motion, double radius,
+                 FunctionRef<bool(const ClosestPoint& start)> is_contact, FirstImpact& out);
 /// The same for a caller who reads primitives in its own way and knows its contacts: `is_contact` says of a primitive
 /// whether it is within `touching`, which is more than `radius`, of `from`. Calls `meet` for some primitives (one maybe
 /// more than once), in no given order, among which is every one within `touching` of the place where the motion ends or

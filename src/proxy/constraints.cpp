@@ -12,8 +12,8 @@ std::span<const Plane> planesOf(const ContactSet& set) { return {set.planes.begi
 
 }  // namespace
 
-void Constraints::gather(const Vec3& position, SweepCache& cache) {
-  gatherContacts(input_.scene, position, input_.tolerance.touching, input_.tolerance.reach, cache, set_);
+void Constraints::gather(const Vec3& position, const Vec3& toward, SweepCache& cache) {
+  gatherContacts(input_.scene, position, toward, input_.tolerance.touching, input_.tolerance.reach, cache, set_);
 }
 
 // Whether no step is above all planes, or only one that leads away from the goal by much more than the proxy is below

@@ -22,8 +22,8 @@ class Constraints {
  public:
   explicit Constraints(const TickInput& input) : input_(input) {}
 
-  /// Looks for what touches the proxy there.
-  void gather(const Vec3& position, SweepCache& cache);
+  /// Looks for what touches the proxy there, which is to go `toward` somewhere.
+  void gather(const Vec3& position, const Vec3& toward, SweepCache& cache);
   const ContactSet& set() const { return set_; }
   bool touches() const { return !set_.contacts.empty(); }
 

@@ -17,10 +17,33 @@ void clear(ContactSet& set) {
   set.contacts.clear();
   set.planes.clear();
   set.twins.clear();
-  set.overflow = false;
+  set.crowd = false;
 }
 
-void add(const SceneAt& scene, PrimitiveId primitive, const ClosestPoint& nearest, double reach, ContactSet& set) {
+// Of a crowd those stay that the way goes into most; of equal ones, the nearest.
+struct Stays {
+  Vec3 toward;
+
+  bool operator()(const Contact& a, const Contact& b) const {
+    const double into_a = a.plane.normal.dot(toward), into_b = b.plane.normal.dot(toward);
+    if (into_a != into_b) return into_a < into_b;
+    return a.distance != b.distance ? a.distance < b.distance : key(a) < key(b);
+  }
+};
+
+// The contacts of a crowd are a heap, whose first goes first.
+void addToCrowd(const Contact& contact, const Vec3& toward, ContactSet& set) {
+  const Stays stays{toward};
+  if (!set.crowd) std::make_heap(set.contacts.begin(), set.contacts.end(), stays);
+  set.crowd = true;
+  if (!stays(contact, set.contacts[0])) return;
+  std::pop_heap(set.contacts.begin(), set.contacts.end(), stays);
+  set.contacts[kMaxContacts - 1] = contact;
+  std::push_heap(set.contacts.begin(), set.contacts.end(), stays);
+}
+
+void add(const SceneAt& scene, PrimitiveId primitive, const ClosestPoint& nearest, const Vec3& toward, double reach,
+         ContactSet& set) {
   Contact contact{{nearest.normal, reach - nearest.distance},
                   nearest.point,
                   nearest.distance,
@@ -30,7 +53,7 @@ void add(const SceneAt& scene, PrimitiveId primitive, const ClosestPoint& neares
   const auto same = [&](const Contact& other) { return samePlane(contact, other); };
   auto* twin = std::find_if(set.contacts.begin(), set.contacts.end(), same);
   if (twin == set.contacts.end()) {
-    set.overflow |= !set.contacts.push(contact);
+    if (!set.contacts.push(contact)) addToCrowd(contact, toward, set);
     return;
   }
   if (twin->primitive == primitive) return;  // the index may offer a primitive twice
@@ -39,6 +62,7 @@ void add(const SceneAt& scene, PrimitiveId primitive, const ClosestPoint& neares
 }
 
 void sort(ContactSet& set) {
+  if (set.crowd) set.twins.clear();
   std::sort(set.contacts.begin(), set.contacts.end(),
             [](const Contact& a, const Contact& b) { return key(a) < key(b); });
   for (const Contact& contact : set.contacts) set.planes.push(contact.plane);
@@ -49,13 +73,13 @@ void sort(ContactSet& set) {
 void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, double reach, ContactSet& set) {
   clear(set);
   scene.primitivesWithin(centre, distance, [&](PrimitiveId primitive, const ClosestPoint& nearest) {
-    add(scene, primitive, nearest, reach, set);
+    add(scene, primitive, nearest, Vec3::Zero(), reach, set);
   });
   sort(set);
 }
 
-void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, double reach, SweepCache& nearby,
-                    ContactSet& set) {
+void gatherContacts(const SceneAt& scene, const Vec3& centre, const Vec3& toward, double distance, double reach,
+                    SweepCache& nearby, ContactSet& set) {
   clear(set);
   if (!nearby.covers(scene, centre, distance)) {
     nearby.begin(scene, distance);
@@ -63,11 +87,11 @@ void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, d
     scene.primitivesWithin(centre, distance, [&](PrimitiveId primitive, const ClosestPoint& nearest) {
       nearby.add(primitive);
       nearby.addMeasured(primitive, nearest);
-      add(scene, primitive, nearest, reach, set);
+      add(scene, primitive, nearest, toward, reach, set);
     });
     nearby.endAt(centre);
   } else if (nearby.hasMeasured(centre, distance)) {
-    for (const auto& [primitive, nearest] : nearby.measured()) add(scene, primitive, nearest, reach, set);
+    for (const auto& [primitive, nearest] : nearby.measured()) add(scene, primitive, nearest, toward, reach, set);
   } else {
     const double skin = distance - reach;  // by which rounding never errs
     nearby.beginMeasured(centre, distance);
@@ -75,7 +99,7 @@ void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, d
       ClosestPoint nearest;
       if (!scene.closestWithin(primitive, centre, distance + skin, nearest) || nearest.distance > distance) return;
       nearby.addMeasured(primitive, nearest);
-      add(scene, primitive, nearest, reach, set);
+      add(scene, primitive, nearest, toward, reach, set);
     });
   }
   sort(set);
@@ -87,6 +111,11 @@ bool primitivesOf(const ContactSet& set, FixedVector<PrimitiveId, SweepCache::kR
   for (const Contact& contact : set.contacts) all = all && primitives.push(contact.primitive);
   for (const Contact& twin : set.twins) all = all && primitives.push(twin.primitive);
   return all;
+}
+
+bool holdsBy(const ContactSet& set, const Plane& plane) {
+  return std::any_of(set.planes.begin(), set.planes.end(),
+                     [&](const Plane& other) { return other.normal == plane.normal && other.offset == plane.offset; });
 }
 
 void moveContacts(ContactSet& set, const Vec3& step) {

@@ -25,28 +25,36 @@ struct Contact {
   std::array<double, 3> weights{1, 0, 0};  ///< of `point` in the primitive's sorted vertices
 };
 
-/// Room for contacts of one place. Coincident ones count once, so this many *different* planes within the skin.
-inline constexpr std::size_t kMaxContacts = 256;
+/// Room for contacts of one place. Coincident ones count once, so this many *different* planes within the skin. More of
+/// them are a crowd, as at the bottom of a pit of many sides.
+inline constexpr std::size_t kMaxContacts = 64;
+
+inline constexpr std::size_t kMaxTwins = 256;
 
 struct ContactSet {
   FixedVector<Contact, kMaxContacts> contacts;
   FixedVector<Plane, kMaxContacts> planes;  ///< contacts[i].plane, for the solver
-  /// Primitives that share the edge or vertex of a contact and with it the plane, bit by bit. Room for as many; more
+  /// Primitives that share the edge or vertex of a contact and with it the plane, bit by bit. Room for so many; more
   /// are left out.
-  FixedVector<Contact, kMaxContacts> twins;
-  bool overflow = false;
+  FixedVector<Contact, kMaxTwins> twins;
+  /// There is no room for all: those are left out that `toward` goes into least, and all twins.
+  bool crowd = false;
 };
 
 /// All primitives within `distance` of `centre`, as planes that hold the centre `reach` away from them.
 /// Sorted by plane; of bitwise equal planes the primitive that precedes() is the contact, the others are twins.
 /// RT-safe.
 void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, double reach, ContactSet& set);
-/// The same, looking only through what is `nearby`; where that does not cover the place, it does afterwards.
-void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, double reach, SweepCache& nearby,
-                    ContactSet& set);
+/// The same, looking only through what is `nearby`; where that does not cover the place, it does afterwards. `toward`:
+/// where the proxy is to go; it says who stays of a crowd.
+void gatherContacts(const SceneAt& scene, const Vec3& centre, const Vec3& toward, double distance, double reach,
+                    SweepCache& nearby, ContactSet& set);
 
 /// What the set was made from: its contacts and twins. Returns false when there are more. RT-safe.
 bool primitivesOf(const ContactSet& set, FixedVector<PrimitiveId, SweepCache::kRoom>& primitives);
+
+/// Whether one of the contacts holds the proxy off by this plane, bit by bit. RT-safe.
+bool holdsBy(const ContactSet& set, const Plane& plane);
 
 /// Whether two contacts hold the proxy off by the same plane, bit by bit. RT-safe.
 inline bool samePlane(const Contact& a, const Contact& b) {

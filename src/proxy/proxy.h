@@ -79,7 +79,7 @@ enum class Ending : std::uint8_t {
   kStalled,     ///< only steps that rounding leads are left
   kPostponed,   ///< what is left to slip is for the next tick
   kNoEnergy,    ///< the energy that it may add is used up
-  kCrowded,     ///< more touches the proxy than there is room for
+  kCrowded,     ///< more touches the proxy than there is room for, and lets it go no farther
   kCapped,      ///< the iteration cap
   kOutOfWork,   ///< it has done as much as one tick may (work.h): the next goes on from here
   kUnplaced,    ///< no place clear of the scene has been found near the finger: nothing pulls
@@ -102,7 +102,7 @@ struct TickReport {
   int used_up_at = 0;    ///< looks after which its work was used up; 0: it was not
   Ending ending = Ending::kGoesOn;
   /// Ended before the local minimum, at a valid place.
-  bool capped() const { return ending == Ending::kCapped || ending == Ending::kCrowded; }
+  bool capped() const { return ending == Ending::kCapped; }
   bool placed() const { return ending != Ending::kUnplaced; }
   bool valid() const { return ending != Ending::kInvalid; }
 };

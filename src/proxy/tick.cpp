@@ -21,8 +21,7 @@ TickReport Tick::run() {
   while (true) {
     look();
     if (!progress_.settledOn(constraints_.set())) propose();
-    if (trial_.open() && trial_.judge(goal_, proposal_.step.norm(), atRest() || work_.usedUp(), state_.position))
-      lookAgain();
+    if (trial_.open()) judgeTrial();
     report.ending = judge(report.iterations);
     if (report.ending != Ending::kGoesOn) break;
     ++report.iterations;
@@ -41,8 +40,14 @@ TickReport Tick::run() {
   return report;
 }
 
+void Tick::judgeTrial() {
+  const bool last = atRest() || work_.usedUp();
+  if (trial_.judge(goal_, proposal_.step.norm(), last, state_.position)) return lookAgain();
+  if (!trial_.open()) work_.stepped();  // it has paid off
+}
+
 void Tick::look() {
-  constraints_.gather(state_.position, state_.cache.nearby);
+  constraints_.gather(state_.position, goal_.place() - state_.position, state_.cache.nearby);
   work_.looked(constraints_.set());
 }
 
@@ -84,9 +89,8 @@ void Tick::aimAt(const Vec3& place) {
 
 Ending Tick::judge(int iterations) const {
   if (progress_.settledOn(constraints_.set())) return Ending::kSettled;
-  if (progress_.stalled()) return Ending::kStalled;
+  if (progress_.stalled()) return constraints_.set().crowd ? Ending::kCrowded : Ending::kStalled;
   if (!trial_.open() && atRest()) return endingOfRest();
-  if (constraints_.set().overflow) return Ending::kCrowded;
   if (!trial_.open() && work_.ends()) return Ending::kOutOfWork;
   return iterations >= input_.settings.iteration_cap ? Ending::kCapped : Ending::kGoesOn;
 }
@@ -131,6 +135,7 @@ void Tick::advance() {
   }
   trial_.open() ? trial_.descended() : work_.stepped();
   if (progress_.idleAt(state_.position, goal_) && !trial_.open() && ledByRounding(from)) progress_.stall();
+  if (heldByCrowd(from)) progress_.stall();
   if (proposal_.rule == Proposal::Rule::kFelt) rules_.moved(proposal_, state_.position - from);
   settle(whole && !booking_.spent(), state_.position - from);
 }
@@ -138,6 +143,11 @@ void Tick::advance() {
 // Whether the step is as short as those of planes that lean by the skin.
 bool Tick::ledByRounding(const Vec3& from) const {
   return proposal_.step.norm() <= input_.tolerance.lean() * input_.gap(from).norm();
+}
+
+// Whether what there was no room for lets it go no farther.
+bool Tick::heldByCrowd(const Vec3& from) const {
+  return constraints_.set().crowd && !trial_.open() && (state_.position - from).norm() <= input_.tolerance.skin;
 }
 
 // Keeps of the passes' end what is true after a step, made as a whole or not.

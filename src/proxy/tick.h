@@ -33,6 +33,7 @@ class Tick {
  private:
   void look();
   void lookAgain();
+  void judgeTrial();
   void propose();
   void proposePlain();
   void proposeFelt();
@@ -43,6 +44,7 @@ class Tick {
   bool tryCurvedStep();
   void advance();
   bool ledByRounding(const Vec3& from) const;
+  bool heldByCrowd(const Vec3& from) const;
   void settle(bool whole, const Vec3& step);
   void close(TickReport& report);
 

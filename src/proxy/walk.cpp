@@ -69,7 +69,13 @@ bool Walk::firstImpact(const ContactSet& set, bool along, const Vec3& from, cons
   FixedVector<PrimitiveId, SweepCache::kRoom> known;
   if (!primitivesOf(set, known)) {
     nearby.forget();
-    return input_.scene.firstImpact(from, motion, tolerance.swept, tolerance.touching, out);
+    return input_.scene.firstImpact(
+        from, motion, tolerance.swept,
+        [&](const ClosestPoint& start) {
+          return start.distance <= tolerance.touching &&
+                 (!set.crowd || holdsBy(set, {start.normal, tolerance.reach - start.distance}));
+        },
+        out);
   }
   const std::span<const PrimitiveId> contacts(known.begin(), known.size());
   bool hit = false;

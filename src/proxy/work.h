@@ -27,7 +27,7 @@ class Work {
     ++looks_;
     if (used_up_at_ == 0 && (done() >= most_ || looks_ >= most_looks_)) used_up_at_ = looks_;
   }
-  /// The proxy has made a step that counts: not one on trial.
+  /// The proxy has made a step that counts: not one on trial, before that has paid off.
   void stepped() { has_stepped_ = true; }
 
   /// Volumes.

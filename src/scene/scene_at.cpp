@@ -179,10 +179,21 @@ bool SceneAt::firstOf(const Vec3& from, const Vec3& motion, double distance, con
 
 bool SceneAt::firstImpact(const Vec3& from, const Vec3& motion, double radius, double touching,
                           SceneImpact& out) const {
+  const auto is_contact = [&](const ClosestPoint& start) { return touching > 0 && start.distance <= touching; };
+  return firstImpact(from, motion, radius, is_contact, out);
+}
+
+bool SceneAt::firstImpact(const Vec3& from, const Vec3& motion, double radius,
+                          FunctionRef<bool(const ClosestPoint&)> is_contact, SceneImpact& out) const {
   const auto ask = [&](std::uint32_t i, const SpatialIndex& index, const Vec3& from_O, const Vec3& motion_O,
                        FirstImpact& hit) {
     const auto read_one = [&](std::uint32_t element) -> const Primitive& { return primitive({i, element}); };
-    return hl::firstImpact(index, read_one, from_O, motion_O, radius, touching, hit);
+    const Motion& moves = instance({i, 0}).motion;
+    const auto is_contact_O = [&](ClosestPoint start) {
+      if (!moves.identity()) toWorld(moves.at(time_ns_), start);
+      return is_contact(start);
+    };
+    return hl::firstImpact(index, read_one, from_O, motion_O, radius, is_contact_O, hit);
   };
   return firstOf(from, motion, radius, ask, out);
 }

@@ -73,8 +73,10 @@ class SceneAt {
   /// Visits every primitive within `distance` (m, inclusive) of `centre`; may repeat one, in no given order.
   void primitivesWithin(const Vec3& centre, double distance,
                         FunctionRef<void(PrimitiveId primitive, const ClosestPoint& nearest)> visit) const;
-  /// As both firstImpact of geometry/queries.h; `contacts` are all that is_contact says of.
+  /// As those of geometry/queries.h; `contacts` are all that is_contact says of.
   bool firstImpact(const Vec3& from, const Vec3& motion, double radius, double touching, SceneImpact& out) const;
+  bool firstImpact(const Vec3& from, const Vec3& motion, double radius,
+                   FunctionRef<bool(const ClosestPoint& start)> is_contact, SceneImpact& out) const;
   bool firstImpact(const Vec3& from, const Vec3& motion, double radius, double touching, double soon,
                    std::span<const PrimitiveId> contacts, FunctionRef<void(PrimitiveId primitive)> meet,
                    SceneImpact& out) const;

@@ -16,7 +16,7 @@ class EndingCounts {
   void add(Ending ending) { ++counts_[static_cast<std::size_t>(ending)]; }
   std::uint64_t operator[](Ending ending) const { return counts_[static_cast<std::size_t>(ending)]; }
   /// As TickReport::capped().
-  std::uint64_t capped() const { return (*this)[Ending::kCapped] + (*this)[Ending::kCrowded]; }
+  std::uint64_t capped() const { return (*this)[Ending::kCapped]; }
 
   /// Calls use(ending, count) for each way in which a tick can end, in the order of Ending, also where the count is 0.
   template <typename Use>

@@ -7,6 +7,8 @@
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
+#include <filesystem>
+#include <utility>
 
 #include <fstream>
 #include <numeric>
@@ -144,6 +146,27 @@ TEST(LockProcessMemoryDeathTest, LocksWhatIsUsedAndIsTold) {
     _exit(unused != MAP_FAILED && lockedMemory_kB() > 0 && small ? 0 : 2);
   };
   EXPECT_EXIT(work(), testing::ExitedWithCode(0), "");
+}
+
+// Of the code of this program: how much of it there is, and how much has been touched.
+std::pair<std::size_t, std::size_t> codeAndTouched_kB() {
+  std::ifstream maps("/proc/self/smaps");
+  const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+  std::size_t size = 0, touched = 0;
+  bool code = false;
+  for (std::string line; std::getline(maps, line);) {
+    if (line.find('-') < line.find(' ')) code = line.find(" r-xp ") != std::string::npos && line.ends_with(program);
+    if (code && line.starts_with("Size:")) size += std::stoul(line.substr(5));
+    if (code && line.starts_with("Rss:")) touched += std::stoul(line.substr(4));
+  }
+  return {size, touched};
+}
+
+TEST(TouchPrograms, NoCodeIsLeftToBeFoundLater) {
+  touchPrograms();
+  const auto [size, touched] = codeAndTouched_kB();
+  EXPECT_GT(size, 0u);
+  EXPECT_EQ(touched, size);
 }
 
 TEST(RequestRealtime, SaysWhyACoreCouldNotBeHad) {

@@ -22,7 +22,7 @@ class ConstraintsTest : public testing::Test {
     const TickInput input(scene_, settings_, finger);
     Constraints constraints(input);
     SweepCache cache;
-    constraints.gather(position, cache);
+    constraints.gather(position, Vec3::Zero(), cache);
     Proposal proposal;
     constraints.nearestTo(input.gap(position), proposal);
     return proposal;
@@ -65,7 +65,7 @@ TEST_F(ConstraintsTest, AStepIsFeasibleAndDescends) {
     const TickInput input(scene_, settings_, finger);
     Constraints constraints(input);
     SweepCache cache;
-    constraints.gather(position, cache);
+    constraints.gather(position, Vec3::Zero(), cache);
     Proposal proposal;
     constraints.nearestTo(input.gap(position), proposal);
     touched += constraints.touches() ? 1 : 0;

@@ -158,7 +158,7 @@ TEST(LookaheadBall, HoldAllThatTheWayCanTouch) {
     }
     const Vec3 end = state.position + (hit ? among.impact.t : 1) * motion;
     ContactSet kept, searched;
-    gatherContacts(scene, end, tolerance.touching, tolerance.reach, nearby, kept);
+    gatherContacts(scene, end, Vec3::Zero(), tolerance.touching, tolerance.reach, nearby, kept);
     gatherContacts(scene, end, tolerance.touching, tolerance.reach, searched);
     ASSERT_EQ(kept.contacts.size(), searched.contacts.size());
     for (std::size_t k = 0; k < kept.contacts.size(); ++k)

@@ -81,7 +81,7 @@ TEST(SweepCache, HoldsTheContactsOfThePlaceWhereASweepEnds) {
         place += (hit ? impact.impact.t : 1) * motion;
         nearby.endAt(place);
         ASSERT_TRUE(nearby.covers(scene, place, tolerance.touching));
-        gatherContacts(scene, place, tolerance.touching, tolerance.reach, nearby, found);
+        gatherContacts(scene, place, Vec3::Zero(), tolerance.touching, tolerance.reach, nearby, found);
         gatherContacts(scene, place, tolerance.touching, tolerance.reach, searched);
         expectSame(found, searched);
         stopped += hit;
@@ -104,7 +104,7 @@ TEST(SweepCache, CoversNothingOfAnotherPlaceSceneOrTime) {
   const auto nearbyAt = [&](const SceneAt& scene) {
     SweepCache nearby;
     ContactSet set;
-    gatherContacts(scene, place, kRadius, kRadius, nearby, set);
+    gatherContacts(scene, place, Vec3::Zero(), kRadius, kRadius, nearby, set);
     return nearby;
   };
   EXPECT_FALSE(SweepCache().covers(*snapshot, Vec3::Zero(), 0));
@@ -139,7 +139,7 @@ TEST(SweepCache, MoreThanItHasRoomForIsNotCovered) {
   const Tolerances tolerance = Tolerances::of(kRadius, 1);
   SweepCache nearby;
   ContactSet set;
-  gatherContacts(*snapshot, state.position, tolerance.touching, tolerance.reach, nearby, set);
+  gatherContacts(*snapshot, state.position, Vec3::Zero(), tolerance.touching, tolerance.reach, nearby, set);
   EXPECT_FALSE(nearby.covers(*snapshot, state.position, tolerance.touching));
 }
 
