@@ -62,6 +62,11 @@ void addTraceCommand(CLI::App& app) {
   command->add_option("--radius", options->settings.proxy.radius, "proxy radius in metres")
       ->check(within(kLeastRadius_m, kMostNumber))
       ->capture_default_str();
+  command
+      ->add_option("--work-cap", options->settings.proxy.work_cap,
+                   "work after which a tick ends before its local minimum, for the next row to go on: in a live loop " +
+                       std::to_string(ProxySettings{}.work_cap) + " (default: any)")
+      ->check(CLI::Range(1, kNoWorkCap));
   command->add_option("--kp", options->settings.proxy.spring_N_m, "spring of the servo in N/m")
       ->check(within(kLeastNumber, kMostNumber))
       ->capture_default_str();

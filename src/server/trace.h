@@ -14,6 +14,9 @@
 namespace hl {
 
 struct TraceSettings {
+  /// Without a budget of work, as nothing waits for a row.
+  TraceSettings() { proxy.work_cap = kNoWorkCap; }
+
   ProxySettings proxy;  ///< the period is taken from the path, row by row
 };
 

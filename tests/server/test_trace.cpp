@@ -162,11 +162,9 @@ TEST(Trace, TheSameBitsEveryTimeAndWithoutTheHierarchy) {
   auto path = crossingPath(0.11, 0.3);
   path.resize(1500);
   std::vector<Vec3> first, second, third;
-  TraceSettings settings;
-  settings.proxy.work_cap = kNoWorkCap;
-  runTrace(*tree, settings, path, [&](const TraceRow& row) { first.push_back(row.force); });
-  runTrace(*tree, settings, path, [&](const TraceRow& row) { second.push_back(row.force); });
-  runTrace(*none, settings, path, [&](const TraceRow& row) { third.push_back(row.force); });
+  runTrace(*tree, {}, path, [&](const TraceRow& row) { first.push_back(row.force); });
+  runTrace(*tree, {}, path, [&](const TraceRow& row) { second.push_back(row.force); });
+  runTrace(*none, {}, path, [&](const TraceRow& row) { third.push_back(row.force); });
   EXPECT_EQ(first, second);
   EXPECT_EQ(first, third);
 }
