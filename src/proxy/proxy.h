@@ -34,7 +34,7 @@ inline constexpr int kNoWorkCap = std::numeric_limits<int>::max();
 struct ProxySettings {
   double radius = 0.001;        ///< m, > 0
   int iteration_cap = 1000;     ///< a tick that needs more steps stops where it is, at a valid position
-  int work_cap = 10'000;        ///< the same of one that does more than this (work.h): some 50 us
+  int work_cap = 9'000;         ///< the same of one that does more than this (work.h): some 50 us
   double spring_N_m = 1000;     ///< K of the servo, at the hand: scales viscosity and the ledger
   double period_s = 1e-3;       ///< T, one tick: scales viscosity
   double world_per_device = 1;  ///< metres of the scene for one of the hand: scales the ledger

@@ -101,7 +101,7 @@ namespace convergence {
 inline constexpr int kMostIdle = 8;
 /// Bounding volumes, each some 5 ns, that cost as much as a look at a place and the step that follows; as a contact
 /// found there; and as an exact test.
-inline constexpr std::size_t kWorkPerLook = 40, kWorkPerContact = 8, kWorkPerPrimitive = 16;
+inline constexpr std::size_t kWorkPerLook = 40, kWorkPerContact = 8, kWorkPerPrimitive = 8;
 
 /// Reaches of the first leg of a long way. A finger at 1 m/s goes one to five in a tick.
 inline constexpr double kFirstLegPerReach = 8;
