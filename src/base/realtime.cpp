@@ -87,7 +87,7 @@ int pinTo(int core) {
 }
 
 // A byte of each page. Between the globals of the sanitizers lies what must not be read.
-__attribute__((no_sanitize("address"))) void touchPages(std::uintptr_t first, std::size_t bytes) {
+__attribute__((no_sanitize("address", "thread"))) void touchPages(std::uintptr_t first, std::size_t bytes) {
   const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
   for (std::uintptr_t at = first & ~(page - 1); at < first + bytes; at += page)
     static_cast<void>(*reinterpret_cast<const volatile char*>(at));  // NOLINT: the linker says where it is
