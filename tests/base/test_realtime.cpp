@@ -7,13 +7,13 @@
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
-#include <filesystem>
-#include <utility>
 
+#include <filesystem>
 #include <fstream>
 #include <numeric>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "base/clock.h"

@@ -177,9 +177,8 @@ TEST(Command, BenchWritesARowForEachSceneMotionAndRadius) {
   ASSERT_EQ(rows.size(), 1u + 5 * 5 * 2 * 2);
   const std::string header =
       "scene,motion,radius,radius_m,who,question,hierarchy,surface,primitives,mean_edge_m,count,p50_us,p99_us,p999_us,"
-      "max_us,single_p999_us,single_max_us,mean_us,capped,out_of_work,build_one_thread_ns,build_ns,refit_ns,index_"
-      "bytes,all_bytes,"
-      "to_plain,to_tick,to_query,compared,different,note";
+      "max_us,single_p999_us,single_max_us,mean_us,capped,out_of_work,build_one_thread_ns,build_ns,refit_ns,"
+      "index_bytes,all_bytes,to_plain,to_tick,to_query,compared,different,note";
   std::string first;
   for (const std::string& name : rows[0]) first += (first.empty() ? "" : ",") + name;
   EXPECT_EQ(first, header);
