@@ -36,11 +36,13 @@ Vec3 ProxyLoop::pullOf(const ProxyState& state, const TickReport& report, const 
 
 // By how much less the new scene pulls the finger than what came before: the last tick is made once more in the new
 // scene, from the same state with the same finger at the same time. So where nothing has changed that it met, nothing
-// is different, to the bit. It ends after as many looks, not as much work, which may be other in the new scene.
+// is different, to the bit. It ends after as many looks, not as much work, which may be other in the new scene; its
+// budget, far above that of a tick, only keeps a scene of many triangles from making the loop late.
 Vec3 ProxyLoop::changeOfPull(const Snapshot& snapshot) {
-  constexpr int kMostLooks = 64;  // more than a tick makes that is not out of work
+  constexpr int kMostLooks = 64;     // more than a tick makes that is not out of work
+  constexpr int kMostWork = 50'000;  // some 0.25 ms
   ProxySettings settings = settings_;
-  settings.work_cap = kNoWorkCap;
+  settings.work_cap = kMostWork;
   const int looks = last_.used_up_at > 0 ? last_.used_up_at : kMostLooks;
   ProxyState again = last_.from;
   const SceneAt scene(snapshot, last_.time_ns, recent_);
