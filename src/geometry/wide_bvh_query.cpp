@@ -247,11 +247,18 @@ class Sweep {
     candidate_count_ = 0;
   }
 
-  // Where so many are touched that choosing takes longer than it spares: after the earliest all in a row.
+  // The earliest first. Where it spares fewer than half of the others, so many are touched that choosing takes longer
+  // than it spares: then all in a row.
   void proposeMany() {
     const auto sooner = [](const Candidate& a, const Candidate& b) { return a.entry < b.entry; };
-    Candidate* const end = candidates_ + candidate_count_;
-    std::swap(*candidates_, *std::min_element(candidates_, end, sooner));
+    Candidate* end = candidates_ + candidate_count_;
+    Candidate* const earliest = std::min_element(candidates_, end, sooner);
+    const std::uint32_t primitive = earliest->primitive;
+    *earliest = *--end;
+    propose(primitive);
+    end = std::remove_if(candidates_, end, [this](const Candidate& one) { return one.entry > box_.limit; });
+    candidate_count_ = static_cast<std::size_t>(end - candidates_);
+    if (candidate_count_ <= kMostCandidates / 2) return;
     for (const Candidate* one = candidates_; one < end; ++one) {
       if (one->entry <= box_.limit) propose(one->primitive);
     }

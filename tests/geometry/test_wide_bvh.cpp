@@ -190,7 +190,8 @@ TEST(WideBvh, FewPrimitivesAreProposedBeforeTheFirstImpact) {
   constexpr int kSweeps = 5000;
   for (int i = 0; i < kSweeps; ++i) {
     const Vec3& at = scene[static_cast<std::size_t>(random.below(static_cast<int>(scene.size())))].vertex[0];
-    const Vec3 from = at + Vec3(0, 0, 0.5), motion(random.uniform(-1, 1), random.uniform(-1, 1), -1);
+    const double along = random.uniform(-1, 1), across = random.uniform(-1, 1);
+    const Vec3 from = at + Vec3(0, 0, 0.5), motion(along, across, -1);
     bvh.sweep(from, motion, 0.05, 0.0125, [&](std::uint32_t number, double limit) {
       ++proposed;
       Impact impact;
