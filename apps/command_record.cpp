@@ -10,7 +10,7 @@ void addRecordCommand(CLI::App& app) {
   auto* command = app.add_subcommand("record", "as hl touch, and record the session into a file for hl replay");
   auto options = std::make_shared<TouchOptions>();
   addTouchOptions(*command, *options);
-  RecorderSettings& recorder = options->settings.recorder;
+  RecorderSettings& recorder = options->recorder;
   command->add_option("--out", recorder.file, "the file; what was there is overwritten")
       ->required()
       ->option_text("FILE")

@@ -9,6 +9,7 @@
 #include "io/load_scene_file.h"
 #include "open_browser.h"
 #include "server/http_server.h"
+#include "server/recorder.h"
 #include "server/touch_monitor.h"
 #include "server/touch_server.h"
 #include "server/viewer_feed.h"
@@ -69,8 +70,10 @@ void printTotals(TouchSession& session) {
 
 TouchServerSettings serverSettings(const TouchOptions& options, const Limits& limits) {
   TouchServerSettings settings{options.settings, 1, limits, HL_VERSION, options.device};
-  settings.touch.recorder.version = HL_VERSION;
-  settings.touch.recorder.tell = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  RecorderSettings recorder = options.recorder;
+  recorder.version = HL_VERSION;
+  recorder.tell = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  settings.touch.sink = recorderWith(recorder);
   return settings;
 }
 
@@ -158,7 +161,7 @@ void addTouchOptions(CLI::App& command, TouchOptions& options) {
   command.add_option("--page-dir", options.page_folder, "folder of the built page");
   command.add_option("--duration", options.duration_s, "end by itself after this many seconds")
       ->check(within(kLeastNumber, kMostNumber));
-  addBlackBoxOption(command, options.settings.recorder);
+  addBlackBoxOption(command, options.recorder);
 }
 
 void addTouchCommand(CLI::App& app) {

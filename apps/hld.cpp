@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/realtime.h"
 #include "hld_options.h"
+#include "server/recorder.h"
 #include "server/touch_monitor.h"
 #include "server/touch_server.h"
 #include "server/viewer_feed.h"
@@ -64,10 +65,9 @@ void serve(HldOptions& options) {
   const sigset_t signals = blockSignals();
   options.touch.hand_firm = options.hand == "firm";
   options.touch.explore = options.explore == "on";
-  options.touch.recorder.version = HL_VERSION;
-  options.touch.recorder.tell = [](const std::string& line) {
-    logEvent(LogLevel::kError, "fault", {{"reason", line}});
-  };
+  options.recorder.version = HL_VERSION;
+  options.recorder.tell = [](const std::string& line) { logEvent(LogLevel::kError, "fault", {{"reason", line}}); };
+  options.touch.sink = recorderWith(options.recorder);
   const HttpServerSettings http = serverSettings(options);
   TouchServer touch(sceneOf(options.scene), {options.touch, options.devices, http.limits, HL_VERSION, options.device});
   TouchSession& session = touch.device();

@@ -107,7 +107,7 @@ void addHldOptions(CLI::App& app, HldOptions& options) {
   addNetworkOptions(app, options);
   addDeviceOptions(app, options);
   addForceOptions(app, options.touch.servo, options.touch.servo_rate);
-  addBlackBoxOption(app, options.touch.recorder);
+  addBlackBoxOption(app, options.recorder);
   addLimitOptions(app, options.server.limits);
   addLogOptions(app, options);
 }

@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "server/event_log.h"
 #include "server/http_server.h"
+#include "server/recorder.h"
 #include "server/touch_session.h"
 
 namespace hl {
@@ -15,6 +16,7 @@ struct HldOptions {
   SceneOptions scene;         ///< of an empty name: nothing to touch at first
   HttpServerSettings server;  ///< but for the token
   TouchSettings touch;
+  RecorderSettings recorder;
   std::string token_file;     ///< empty: no token
   std::uint32_t devices = 1;  ///< of that kind
   std::string device = "sim";

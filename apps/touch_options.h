@@ -5,6 +5,7 @@
 #include <string>
 
 #include "commands.h"
+#include "server/recorder.h"
 #include "server/touch_session.h"
 
 namespace hl {
@@ -12,6 +13,7 @@ namespace hl {
 struct TouchOptions {
   SceneOptions scene;
   TouchSettings settings;
+  RecorderSettings recorder;
   std::string device = "sim";
   int port = 1997;
   bool no_open = false;

@@ -4,12 +4,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 
+#include "server/feed_callbacks.h"
 #include "server/limits.h"
-#include "server/metrics_text.h"
+#include "server/monitor_callbacks.h"
 #include "server/tls.h"
 
 namespace hl {
@@ -24,26 +24,6 @@ struct HttpServerSettings {
   TlsFiles tls{};                    ///< empty: none
   std::string token{};               ///< empty: none is asked for; else as checkToken() wants it
   Limits limits{};
-};
-
-/// Gives one page the next message of the scene that it lacks; empty when it has everything.
-using SceneSource = std::function<std::shared_ptr<const std::string>()>;
-
-/// Called in one thread of the server's, beside the one that moves bytes. The strings are complete WebSocket binary
-/// messages.
-struct FeedCallbacks {
-  std::function<std::string()> hello;
-  std::function<SceneSource()> scene;  ///< once for each page; what it gives is asked before each state
-  std::function<std::string()> state;
-  std::function<void(const std::string&)> receive;  ///< one message of at most Limits::page_message_bytes from a page
-};
-
-/// What the server tells about whatever it serves, without knowing it. Called in the thread of FeedCallbacks; each may
-/// be empty.
-struct MonitorCallbacks {
-  std::function<void()> observe;              ///< at the feed's rate, whether anyone asks or not
-  std::function<std::string()> fault;         ///< why it is not healthy, in one line; empty when it is
-  std::function<void(MetricsText&)> metrics;  ///< appends its own families
 };
 
 /// Constructed, started, stopped and destroyed by one thread.

@@ -14,7 +14,7 @@
 #include <string>
 
 #include "server/connection.h"
-#include "server/http_server.h"
+#include "server/feed_callbacks.h"
 #include "server/limits.h"
 #include "server/traffic.h"
 #include "server/workers.h"

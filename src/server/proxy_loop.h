@@ -31,6 +31,14 @@ struct SpringOfServo {
   bool pulls = true;       ///< false: the servo makes no force, so that a tick does nothing to any energy
 };
 
+/// What a tick is told.
+struct TickRequest {
+  std::int64_t time_ns = 0;
+  Vec3 finger_D = Vec3::Zero();
+  ProxyCommands commands;
+  SpringOfServo spring;
+};
+
 struct ProxyStep {
   std::uint64_t scene = 0;  ///< identity of the snapshot; 0: there was no tick
   HeldContacts held;        ///< the target, and how it goes on until the next tick

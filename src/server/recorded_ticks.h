@@ -11,16 +11,8 @@
 
 namespace hl {
 
-/// What a tick is told.
-struct TickInput {
-  std::int64_t time_ns = 0;
-  Vec3 finger_D = Vec3::Zero();
-  ProxyCommands commands;
-  SpringOfServo spring;
-};
-
 struct TickRecord {
-  TickInput in;
+  TickRequest in;
   std::uint64_t scene = 0;  ///< identity of the snapshot
   ServoTarget target;
   Vec3 proxy = Vec3::Zero();  ///< world

@@ -82,7 +82,7 @@ std::string blackBoxName() {
 
 }  // namespace
 
-Recorder::Recorder(const RecorderSettings& settings, const RecordedSession& session)
+Recorder::Recorder(const RecorderSettings& settings, const SessionInfo& session)
     : settings_(settings),
       session_(session),
       begin_unix_ms_(unixNow_ms()),
@@ -118,10 +118,11 @@ void Recorder::step(const ServoRecord& record) noexcept {
   if (fails && record.out.fault != FaultReason::kStalled) fault_.store(steps_.pushed(), std::memory_order_release);
 }
 
-void Recorder::tick(const TickInput& input, const ProxyStep& step, const Vec3& proxy, std::int64_t work_ns) noexcept {
+void Recorder::tick(const TickRequest& request, const ProxyStep& step, const Vec3& proxy,
+                    std::int64_t work_ns) noexcept {
   if (step.scene == 0) return;
   ticks_.push(
-      {input, step.scene, step.held.target, proxy, step.report.contacts.size(), work_ns, step.report.used_up_at});
+      {request, step.scene, step.held.target, proxy, step.report.contacts.size(), work_ns, step.report.used_up_at});
 }
 
 void Recorder::scene(std::shared_ptr<const Snapshot> scene) noexcept {
@@ -272,6 +273,10 @@ proto::RecordingBlock Recorder::startBlock(FaultReason reason) const {
 
 void Recorder::tell(const std::string& line) const {
   if (settings_.tell) settings_.tell(line);
+}
+
+MakeStepSink recorderWith(const RecorderSettings& settings) {
+  return [settings](const SessionInfo& session) { return std::make_unique<Recorder>(settings, session); };
 }
 
 }  // namespace hl

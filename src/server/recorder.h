@@ -19,8 +19,8 @@
 #include "control/servo_record.h"
 #include "io/recorded_scene.h"
 #include "io/recording_file.h"
-#include "server/proxy_loop.h"
 #include "server/recorded_ticks.h"
+#include "server/step_sink.h"
 
 namespace hl {
 
@@ -33,32 +33,23 @@ struct RecorderSettings {
   std::function<void(const std::string&)> tell;  ///< gets a line when a file is written or can not be; or empty
 };
 
-/// What a recording says of its session.
-struct RecordedSession {
-  DeviceInfo device;
-  double servo_rate_Hz = 1000, proxy_rate_Hz = 1000;
-  ProxySettings proxy;
-};
-
 /// Made, started, stopped and destroyed by one thread.
-class Recorder {
+class Recorder final : public StepSink {
  public:
   static constexpr double kBlackBox_s = 5;
 
   /// Makes the file of the session. Throws hl::Error.
-  Recorder(const RecorderSettings& settings, const RecordedSession& session);
-  ~Recorder();
-  void start();
-  void stop();  ///< when the loops have ended; writes what is left; safe to call twice
+  Recorder(const RecorderSettings& settings, const SessionInfo& session);
+  ~Recorder() override;
+  void start() override;
+  void stop() override;  ///< writes what is left
 
-  /// A step that the servo has made. Its thread; RT-safe.
-  void step(const ServoRecord& record) noexcept;
-  /// A tick, by the loop that has made it; nothing where there was none. RT-safe.
-  void tick(const TickInput& input, const ProxyStep& step, const Vec3& proxy, std::int64_t work_ns) noexcept;
-  /// Before the loops can take it. Any thread but theirs. Without memory for it the recording ends.
-  void scene(std::shared_ptr<const Snapshot> scene) noexcept;
-  /// The watchdog has found the servo standing still. Any thread.
-  void stall() { stalled_.store(true, std::memory_order_release); }
+  void step(const ServoRecord& record) noexcept override;
+  void tick(const TickRequest& request, const ProxyStep& step, const Vec3& proxy,
+            std::int64_t work_ns) noexcept override;
+  /// Without memory for it the recording ends.
+  void scene(std::shared_ptr<const Snapshot> scene) noexcept override;
+  void stall() noexcept override { stalled_.store(true, std::memory_order_release); }
 
  private:
   void run();
@@ -75,7 +66,7 @@ class Recorder {
   void tell(const std::string& line) const;
 
   const RecorderSettings settings_;
-  const RecordedSession session_;
+  const SessionInfo session_;
   const std::int64_t begin_unix_ms_, begin_ns_;
   LogRing<ServoRecord> steps_;
   LogRing<TickRecord> ticks_;
@@ -93,5 +84,8 @@ class Recorder {
   bool running_ = false;
   std::thread thread_;
 };
+
+/// For TouchSettings.
+MakeStepSink recorderWith(const RecorderSettings& settings);
 
 }  // namespace hl

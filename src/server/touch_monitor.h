@@ -1,7 +1,7 @@
 // TouchMonitor: the health and the numbers of a touch session, for /healthz and /metrics.
 #pragma once
 
-#include "server/http_server.h"
+#include "server/monitor_callbacks.h"
 #include "server/touch_server.h"
 
 namespace hl {

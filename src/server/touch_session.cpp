@@ -25,6 +25,21 @@ constexpr double kMostViscosity_Ns_m = 1000;
 
 VibrationView viewOf(const VibrationGuard& guard) { return {guard.limit_N_m, guard.alarms, guard.dissipated_J}; }
 
+// For a session that nobody records.
+class NoSink final : public StepSink {
+  void start() override {}
+  void stop() override {}
+  void step(const ServoRecord&) noexcept override {}
+  void tick(const TickRequest&, const ProxyStep&, const Vec3&, std::int64_t) noexcept override {}
+  void scene(std::shared_ptr<const Snapshot>) noexcept override {}
+  void stall() noexcept override {}
+};
+
+std::unique_ptr<StepSink> makeSink(const MakeStepSink& make, const SessionInfo& session) {
+  if (make) return make(session);
+  return std::make_unique<NoSink>();
+}
+
 std::int64_t period_ns(double rate_Hz) { return static_cast<std::int64_t>(1e9 / rate_Hz); }
 
 }  // namespace
@@ -38,9 +53,9 @@ TouchSession::TouchSession(std::shared_ptr<const Snapshot> snapshot, const Touch
       scenes_(std::move(snapshot)),
       proxy_loop_(scenes_, ProxySettings{}),
       place_(period_ns(servo_rate_Hz_)),
-      recorder_(settings.recorder, {device_->info(), servo_rate_Hz_, settings.proxy_rate_Hz, ProxySettings{}}),
-      watch_(*device_, servo_counters_, [this] { recorder_.stall(); }) {
-  recorder_.scene(scenes_.newest());
+      sink_(makeSink(settings.sink, {device_->info(), servo_rate_Hz_, settings.proxy_rate_Hz, ProxySettings{}})),
+      watch_(*device_, servo_counters_, [this] { sink_->stall(); }) {
+  sink_->scene(scenes_.newest());
   const Vec3 reach_D = device_->info().workspace_max - device_->info().workspace_min;
   settings_.side_D = std::min(settings_.side_D, reach_D.minCoeff());
   fitted_ = settings.world_per_device || !scenes_.newest()->bounds.empty();
@@ -98,7 +113,7 @@ void TouchSession::start() {
   start_ns_ = monotonicNow_ns();
   running_ = true;
   arm_requests_ = 1;
-  recorder_.start();
+  sink_->start();
   proxy_thread_ = startThread("proxy", [this] { runProxy(); });
   servo_thread_ = startThread("servo", [this] { runServo(); });
   if (hasHand()) supervisor_thread_ = startThread("supervisor", [this] { runSupervisor(); });
@@ -113,7 +128,7 @@ void TouchSession::stop() {
   for (std::thread* thread : {&supervisor_thread_, &servo_thread_, &proxy_thread_, &reference_thread_}) {
     if (thread->joinable()) thread->join();
   }
-  recorder_.stop();
+  sink_->stop();
 }
 
 // What keeps a thread waiting differs from core to core: so it shares the servo's.
@@ -160,7 +175,7 @@ void TouchSession::runServo() {
                    last.work_us});
     moments_.push({now_ns, sample.position, out.force_N, sample.buttons});
     const std::int64_t work_ns = monotonicNow_ns() - now_ns;
-    recorder_.step({before, command, settings, step.target(), sample, out, work_ns});
+    sink_->step({before, command, settings, step.target(), sample, out, work_ns});
     meter.add(now_ns, work_ns);
     const ServoView view{sample.buttons,
                          sample.position,
@@ -209,8 +224,8 @@ ServoOutput TouchSession::touchNow(TouchStep& step, const ServoSettings& setting
   device_->write(out.force_N);
   const std::int64_t work_ns = monotonicNow_ns() - begin_ns;
   last = {step.tick().held, 1e-3f * static_cast<float>(work_ns)};
-  recorder_.tick({sample.time_ns, sample.position, ticking_.commands, spring}, step.tick(),
-                 proxy_loop_.state().position, work_ns);
+  sink_->tick({sample.time_ns, sample.position, ticking_.commands, spring}, step.tick(), proxy_loop_.state().position,
+              work_ns);
   show(step.tick(), begin_ns, work_ns);
   return out;
 }
@@ -227,7 +242,7 @@ void TouchSession::runProxy() {
     const ProxyStep step = proxy_loop_.step(now_ns, finger_D, commands, spring);
     const std::int64_t work_ns = monotonicNow_ns() - now_ns;
     ticks_.write({step.held, 1e-3f * static_cast<float>(work_ns)});
-    recorder_.tick({now_ns, finger_D, commands, spring}, step, proxy_loop_.state().position, work_ns);
+    sink_->tick({now_ns, finger_D, commands, spring}, step, proxy_loop_.state().position, work_ns);
     show(step, now_ns, work_ns);
   };
   runPeriodic(period_ns(settings_.proxy_rate_Hz), running_, proxy_counters_, [&](std::int64_t) {
@@ -408,7 +423,7 @@ void TouchSession::publish(std::shared_ptr<const Snapshot> snapshot) {
     const Workspace workspace = Workspace::fit(snapshot->bounds, settings_.side_D);
     restartWith(workspace, settings_.radius_D * workspace.world_per_device);
   }
-  recorder_.scene(snapshot);
+  sink_->scene(snapshot);
   scenes_.publish(std::move(snapshot));
 }
 

@@ -31,10 +31,10 @@
 #include "server/exploration.h"
 #include "server/loop_meter.h"
 #include "server/proxy_loop.h"
-#include "server/recorder.h"
 #include "server/servo_rate.h"
 #include "server/servo_watch.h"
 #include "server/snapshot_slot.h"
+#include "server/step_sink.h"
 #include "server/tick_place.h"
 #include "server/touch_step.h"
 #include "server/workspace.h"
@@ -51,7 +51,7 @@ struct TouchSettings {
   std::optional<double> stiffness_N_m;  ///< K; the device's own when not given
   std::optional<double> damping_Ns_m;   ///< B
   ServoOptions servo{};
-  RecorderSettings recorder{};
+  MakeStepSink sink;       ///< of all that the loops do; empty: none
   bool hand_firm = false;  ///< of a simulated hand, as the next two
   bool explore = true;
   std::optional<HandScript> script;  ///< hand goals in the world frame instead of exploration
@@ -248,7 +248,7 @@ class TouchSession {
   std::atomic<bool> servo_ready_{false};
   RealtimeGrant grant_;
   LoopCounters servo_counters_, proxy_counters_, reference_counters_;
-  Recorder recorder_;
+  std::unique_ptr<StepSink> sink_;
   ServoWatch watch_;
 
   mutable std::mutex settings_mutex_;  // between the callers of commands; the real-time loops never see it

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/memory_budget.h"
-#include "server/http_server.h"
+#include "server/feed_callbacks.h"
 #include "server/touch_session.h"
 
 namespace hl {

@@ -12,6 +12,7 @@
 #include "io/recording_file.h"
 #include "plain_client.h"
 #include "server/http_server.h"
+#include "server/recorder.h"
 #include "server/replay.h"
 #include "server/touch_monitor.h"
 #include "server/touch_server.h"
@@ -27,7 +28,9 @@ using test::PlainClient;
 TouchServerSettings serverSettings(const std::string& recording) {
   TouchServerSettings settings;
   settings.touch.world_per_device = 1;
-  settings.touch.recorder.file = recording;
+  RecorderSettings recorder;
+  recorder.file = recording;
+  settings.touch.sink = recorderWith(recorder);
   settings.version = "test";
   return settings;
 }

@@ -60,7 +60,7 @@ class Loops {
     now_ns_ += kPeriod_ns + static_cast<std::int64_t>(random_() % 1000);
     ++count_;
     disturb();
-    const TickInput input{now_ns_, finger_D_, commands_, springOf(settings_, state_)};
+    const TickRequest input{now_ns_, finger_D_, commands_, springOf(settings_, state_)};
     const ProxyStep tick = proxy_.step(now_ns_, finger_D_, commands_, input.spring);
     recorder_.tick(input, tick, proxy_.state().position, 1000);
     touching_ += tick.held.target.valid ? 1 : 0;
@@ -441,7 +441,7 @@ TEST_F(Recording, BlackBoxesAreBounded) {
 
 TEST_F(Recording, AWholeSessionOnTheRealClockIsReproduced) {
   TouchSettings touch;
-  touch.recorder = settings();
+  touch.sink = recorderWith(settings());
   {
     TouchSession session(sceneOf("teapot"), touch);
     session.start();

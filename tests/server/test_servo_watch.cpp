@@ -8,6 +8,7 @@
 #include <functional>
 #include <thread>
 
+#include "server/recorder.h"
 #include "server/replay.h"
 #include "server/touch_session.h"
 #include "temp_folder.h"
@@ -112,8 +113,10 @@ TEST(ServoWatch, AStallLeavesABlackBoxWhileItLasts) {
   const test::TempFolder folder;
   std::atomic<bool> told{false};
   TouchSettings settings;
-  settings.recorder.black_box_folder = folder.path().string();
-  settings.recorder.tell = [&](const std::string&) { told = true; };
+  RecorderSettings recorder;
+  recorder.black_box_folder = folder.path().string();
+  recorder.tell = [&](const std::string&) { told = true; };
+  settings.sink = recorderWith(recorder);
   Bench bench(settings);
   bench.device->hangs = true;
   waitUntil([&] { return told.load(); });

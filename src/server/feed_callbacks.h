@@ -1,0 +1,22 @@
+// FeedCallbacks: what the pages' WebSockets carry, for whoever moves the bytes.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace hl {
+
+/// Gives one page the next message of the scene that it lacks; empty when it has everything.
+using SceneSource = std::function<std::shared_ptr<const std::string>()>;
+
+/// Called in one thread of the server's, beside the one that moves bytes. The strings are complete WebSocket binary
+/// messages.
+struct FeedCallbacks {
+  std::function<std::string()> hello;
+  std::function<SceneSource()> scene;  ///< once for each page; what it gives is asked before each state
+  std::function<std::string()> state;
+  std::function<void(const std::string&)> receive;  ///< one message of at most Limits::page_message_bytes from a page
+};
+
+}  // namespace hl
