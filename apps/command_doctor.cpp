@@ -10,8 +10,8 @@
 #include "base/timer_probe.h"
 #include "commands.h"
 #include "device/open_device.h"
-#include "server/servo_rate.h"
 #include "serving.h"
+#include "touch/servo_rate.h"
 
 namespace hl {
 

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "commands.h"
-#include "server/replay.h"
+#include "record/replay.h"
 
 namespace hl {
 

@@ -12,7 +12,7 @@
 
 #include "base/error.h"
 #include "commands.h"
-#include "server/stability.h"
+#include "tools/stability.h"
 
 namespace hl {
 

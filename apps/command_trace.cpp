@@ -4,7 +4,7 @@
 #include <map>
 
 #include "commands.h"
-#include "server/trace.h"
+#include "tools/trace.h"
 
 namespace hl {
 

@@ -11,7 +11,7 @@
 #include "builtin.h"
 #include "commands.h"
 #include "io/load_scene.h"
-#include "io/replay_device.h"
+#include "record/replay_device.h"
 
 namespace hl {
 

@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "control/servo_options.h"
-#include "server/servo_rate.h"
+#include "touch/servo_rate.h"
 
 namespace hl {
 

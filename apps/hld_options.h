@@ -5,10 +5,10 @@
 #include <string>
 
 #include "commands.h"
-#include "server/event_log.h"
-#include "server/http_server.h"
-#include "server/recorder.h"
-#include "server/touch_session.h"
+#include "http/http_server.h"
+#include "monitor/event_log.h"
+#include "record/recorder.h"
+#include "touch/touch_session.h"
 
 namespace hl {
 

@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "server/recorder.h"
+#include "record/recorder.h"
 
 namespace hl {
 

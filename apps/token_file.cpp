@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "base/error.h"
-#include "server/access.h"
+#include "http/access.h"
 
 namespace hl {
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "commands.h"
-#include "server/recorder.h"
-#include "server/touch_session.h"
+#include "record/recorder.h"
+#include "touch/touch_session.h"
 
 namespace hl {
 

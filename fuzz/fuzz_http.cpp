@@ -3,8 +3,8 @@
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 
+#include "http/http_answers.h"
 #include "refusal.h"
-#include "server/http_answers.h"
 
 namespace {
 

@@ -1,8 +1,8 @@
 // Messages of pages: what the settings then are, and what every page is told of it.
 #include <cmath>
 
+#include "page/viewer_feed.h"
 #include "refusal.h"
-#include "server/viewer_feed.h"
 
 namespace {
 

@@ -2,10 +2,10 @@
 // each after its length in two bytes, and the file is made of them with sound checksums.
 #include <cstring>
 
-#include "io/recording_file.h"
-#include "io/replay_device.h"
+#include "record/recording_file.h"
+#include "record/replay.h"
+#include "record/replay_device.h"
 #include "refusal.h"
-#include "server/replay.h"
 
 namespace {
 

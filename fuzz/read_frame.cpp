@@ -4,8 +4,8 @@
 
 #include "base/error.h"
 #include "scene/by_key.h"
-#include "server/decode_frame.h"
-#include "server/message_size.h"
+#include "session/decode_frame.h"
+#include "session/message_size.h"
 #include "touch.h"
 
 namespace hl::fuzz {

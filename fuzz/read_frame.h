@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "server/message_forms.h"
+#include "session/message_forms.h"
 
 namespace hl::fuzz {
 

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""Fails on an #include or a CMake link against the layers of HL, and on source files over 500 lines.
+"""Fails on an #include or a CMake link against the layers of HL, on a cycle of includes, and on source files over 500
+lines.
 
     scripts/check_layers.py [ROOT]
 
-A folder may use itself and folders of lower levels, never one beside or above it. Prints one line per fault; exit code 1.
+A folder may use itself and folders of lower levels, never one beside or above it. Within a folder too no two units, a
+header with the source of the same name, may use each other, by whatever way. Prints one line per fault; exit code 1.
 """
 import re
 import sys
@@ -15,15 +17,18 @@ LEVELS = {
     "scene": 2, "control": 2,
     "proxy": 3, "scenes": 3,
     "io": 4,
-    "server": 5,
-    "client": 6,
-    "bench": 7,
-    "apps": 8,
+    "touch": 5,
+    "record": 6, "tools": 6,
+    "session": 7,
+    "page": 8, "monitor": 8,
+    "http": 9, "client": 9,
+    "bench": 10,
+    "apps": 11,
 }
 # The proxy knows no threads, devices or messages, and the servo knows no scene, although their levels would allow it.
 NEVER = {"proxy": {"device", "control", "wire"}, "control": {"geometry", "wire"}, "scene": {"wire", "device"}}
 # Targets and generated headers that are not named after their folder.
-TARGET_FOLDERS = {"hl_proto": "wire", "hl_realtime_guard": "base", "hl_json": "base", "hl_url": "base", "hl_websocket": "wire", "hl": "apps", "hld": "apps", "hl_frames": "server", "hl_inproc_link": "client", "hl_websocket_link": "client",
+TARGET_FOLDERS = {"hl_proto": "wire", "hl_realtime_guard": "base", "hl_json": "base", "hl_url": "base", "hl_websocket": "wire", "hl": "apps", "hld": "apps", "hl_frames": "session", "hl_inproc_link": "client", "hl_websocket_link": "client",
                   "hl_links": "client"}
 HEADER_FOLDERS = {"hl.pb.h": "wire", "recording.pb.h": "wire"}
 # CMake's own words inside a link list, and the target that only carries compiler flags.
@@ -104,6 +109,37 @@ def check_cmake(folder, path, label):
                 yield f"{label}:{number}: {fault}: links {target}"
 
 
+def units_used(root):
+    """The units that each one includes, by their names without ending, such as proxy/tick."""
+    uses = {}
+    for folder, directory in folder_dirs(root):
+        for path in directory.rglob("*"):
+            if path.suffix not in SOURCE_SUFFIXES:
+                continue
+            unit = f"{folder}/{path.relative_to(directory).with_suffix('')}"
+            used = (match.group(1) for match in map(INCLUDE.match, path.read_text(encoding="utf-8").splitlines()) if match)
+            uses.setdefault(unit, set()).update(str(Path(one).with_suffix("")) for one in used)
+    return {unit: sorted(used & uses.keys() - {unit}) for unit, used in uses.items()}
+
+
+def check_cycles(uses):
+    """One fault for each way that leads back to a unit it has passed, found depth first."""
+    done, way = set(), []
+
+    def visit(unit):
+        if unit in way:
+            yield "a cycle of includes: " + " -> ".join(way[way.index(unit):] + [unit])
+        elif unit not in done:
+            way.append(unit)
+            for used in uses[unit]:
+                yield from visit(used)
+            way.pop()
+            done.add(unit)
+
+    for unit in sorted(uses):
+        yield from visit(unit)
+
+
 def check(root):
     """All faults of the tree at `root`, in the order of the folders."""
     faults = []
@@ -114,6 +150,7 @@ def check(root):
                 faults.extend(check_source(folder, path, label))
             elif path.name == "CMakeLists.txt":
                 faults.extend(check_cmake(folder, path, label))
+    faults.extend(check_cycles(units_used(root)))
     return faults
 
 

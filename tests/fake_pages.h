@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "server/http_server.h"
+#include "http/http_server.h"
 
 namespace hl::test {
 

@@ -17,7 +17,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
-#include "server/client_session.h"
+#include "session/client_session.h"
 
 namespace hl::test {
 

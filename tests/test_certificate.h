@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "server/tls.h"
+#include "http/tls.h"
 #include "temp_folder.h"
 
 namespace hl::test {

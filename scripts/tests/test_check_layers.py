@@ -51,7 +51,7 @@ class CheckLayers(unittest.TestCase):
         self.assertEqual(len(self.faults()), 1)
 
     def test_a_link_upward_fails_in_both_spellings(self):
-        self.write("src/scene/CMakeLists.txt", "hl_library(hl_scene SOURCES a.cpp\n  LINK hl_geometry hl_server)\n")
+        self.write("src/scene/CMakeLists.txt", "hl_library(hl_scene SOURCES a.cpp\n  LINK hl_geometry hl_session)\n")
         self.write("src/base/CMakeLists.txt", "target_link_libraries(hl_base PUBLIC hl_proto)\n")
         self.assertEqual(len(self.faults()), 2)
 
@@ -62,6 +62,15 @@ class CheckLayers(unittest.TestCase):
     def test_a_file_over_the_limit_fails(self):
         self.write("src/base/long.h", "//\n" * (check_layers.MAX_LINES + 1))
         self.assertEqual(len(self.faults()), 1)
+
+    def test_units_of_a_folder_that_use_each_other_fail(self):
+        self.write("src/proxy/a.h", "")
+        self.write("src/proxy/a.cpp", '#include "proxy/a.h"\n#include "proxy/b.h"\n')
+        self.write("src/proxy/b.h", '#include "proxy/c.h"\n')
+        self.write("src/proxy/c.h", "")
+        self.assertEqual(self.faults(), [])
+        self.write("src/proxy/c.cpp", '#include "proxy/a.h"\n')
+        self.assertEqual(self.faults(), ["a cycle of includes: proxy/a -> proxy/b -> proxy/c -> proxy/a"])
 
     def test_the_program_ends_with_code_1_on_a_fault(self):
         self.write("src/base/vec.h", '#include "apps/options.h"\n')

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "server/touch_server.h"
+#include "session/touch_server.h"
 
 namespace hl::client {
 

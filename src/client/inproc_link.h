@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "client/server_url.h"
-#include "server/client_session.h"
+#include "session/client_session.h"
 #include "wire/link.h"
 
 namespace hl::client {

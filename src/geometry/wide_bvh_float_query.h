@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/wide_bvh_query.h"
+#include "geometry/wide_bvh_layout.h"
 
 namespace hl {
 

@@ -48,4 +48,19 @@ inline constexpr double kWideDepthPerLg = 2.5;
 inline constexpr std::size_t kWideMostDepth = 72;
 inline constexpr std::size_t kWideStackSize = 7 * kWideMostDepth + 8;
 
+struct WideTree {
+  const WideNode* nodes;
+  const WideBlock* blocks;
+  std::uint32_t root;        ///< a link
+  std::uint32_t primitives;  ///< at least one; number k is in block k / 8
+  double extent;             ///< m: largest coordinate of its boxes
+};
+
+/// Relative to the hierarchy's origin, metres. `reach` is the radius with all that double arithmetic may be off by.
+struct WideQuery {
+  double from[3];
+  double motion[3];
+  double reach;
+};
+
 }  // namespace hl

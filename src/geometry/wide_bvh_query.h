@@ -10,21 +10,6 @@
 
 namespace hl {
 
-struct WideTree {
-  const WideNode* nodes;
-  const WideBlock* blocks;
-  std::uint32_t root;        ///< a link
-  std::uint32_t primitives;  ///< at least one; number k is in block k / 8
-  double extent;             ///< m: largest coordinate of its boxes
-};
-
-/// Relative to the hierarchy's origin, metres. `reach` is the radius with all that double arithmetic may be off by.
-struct WideQuery {
-  double from[3];
-  double motion[3];
-  double reach;
-};
-
 /// See SpatialIndex. RT-safe.
 std::size_t overlapWide(const WideTree& tree, const WideQuery& query, FunctionRef<void(std::uint32_t primitive)> visit);
 /// `first_part`: of the motion, 0 < first_part <= 1; what is looked at before the rest.

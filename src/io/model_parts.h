@@ -8,7 +8,7 @@
 #include <functional>
 #include <string>
 
-#include "io/recorded_model.h"
+#include "io/model_messages.h"
 #include "scene/model.h"
 
 namespace hl {

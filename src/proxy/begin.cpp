@@ -1,6 +1,5 @@
 #include "proxy/begin.h"
 
-#include "base/finger_reach.h"
 #include "proxy/tolerances.h"
 
 namespace hl {
@@ -12,12 +11,6 @@ bool beginProxy(ProxyState& state, const SceneAt& scene, const ProxySettings& se
   state.time_ns = scene.time_ns();
   state.snapshot = scene.snapshot().number;
   return state.free;
-}
-
-ProxyState startProxy(const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
-  ProxyState state;
-  if (canBeFinger(finger)) beginProxy(state, scene, settings, finger, StartSearch::kPlaces);
-  return state;
 }
 
 }  // namespace hl

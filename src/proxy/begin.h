@@ -1,7 +1,7 @@
 // Begin: the first place of a proxy, found by its start search. startProxy() of proxy.h looks everywhere at once.
 #pragma once
 
-#include "proxy/proxy.h"
+#include "proxy/proxy_state.h"
 
 namespace hl {
 

@@ -2,7 +2,7 @@
 // goes along with the object whose friction holds it, until an object meets it; that object then pushes it (pusher.h).
 #pragma once
 
-#include "proxy/proxy.h"
+#include "proxy/proxy_state.h"
 
 namespace hl {
 

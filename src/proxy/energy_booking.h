@@ -10,7 +10,8 @@
 #include <cstdint>
 
 #include "base/vec.h"
-#include "proxy/proxy.h"
+#include "proxy/proxy_state.h"
+#include "proxy/tick_report.h"
 
 namespace hl {
 

@@ -46,6 +46,12 @@ TickReport notRun(Ending why, const Vec3& target) {
 
 }  // namespace
 
+ProxyState startProxy(const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
+  ProxyState state;
+  if (canBeFinger(finger)) beginProxy(state, scene, settings, finger, StartSearch::kPlaces);
+  return state;
+}
+
 TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger,
                 int most_looks) {
   if (!canBeFinger(finger)) return notRun(Ending::kInvalid, state.position);

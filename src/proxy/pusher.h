@@ -6,7 +6,7 @@
 //   meshes that bend    go by small steps (small_step.h)
 #pragma once
 
-#include "proxy/proxy.h"
+#include "proxy/proxy_state.h"
 #include "proxy/pushed_proxy.h"
 
 namespace hl {

@@ -7,7 +7,7 @@
 #include "base/fixed_vector.h"
 #include "proxy/friction.h"
 #include "proxy/patch.h"
-#include "proxy/proxy.h"
+#include "proxy/proxy_state.h"
 #include "proxy/surface.h"
 
 namespace hl {

@@ -12,10 +12,11 @@
 #include "proxy/friction.h"
 #include "proxy/patch.h"
 #include "proxy/proposal.h"
-#include "proxy/proxy.h"
+#include "proxy/proxy_state.h"
 #include "proxy/resistance.h"
 #include "proxy/solver.h"
 #include "proxy/surface.h"
+#include "proxy/tick_report.h"
 #include "proxy/tolerances.h"
 
 namespace hl {

@@ -3,7 +3,7 @@
 
 #include "base/vec.h"
 #include "proxy/far_goal.h"
-#include "proxy/proxy.h"
+#include "proxy/proxy_state.h"
 #include "proxy/tolerances.h"
 #include "scene/scene_at.h"
 

@@ -10,15 +10,9 @@
 #include <memory>
 
 #include "geometry/primitive.h"
+#include "scene/primitive_id.h"
 
 namespace hl {
-
-/// A primitive of one instance of a snapshot.
-struct PrimitiveId {
-  std::uint32_t instance = 0;
-  std::uint32_t element = 0;  ///< index into its shape's primitives
-  bool operator==(const PrimitiveId&) const = default;
-};
 
 /// For one thread; RT-safe. Its room is that of one of the two below.
 class RecentPrimitives {

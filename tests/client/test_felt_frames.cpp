@@ -16,8 +16,8 @@
 #include "client/inproc_link.h"
 #include "client/open_link.h"
 #include "device/device_models.h"
-#include "server/touch_server.h"
-#include "server/touch_step.h"
+#include "session/touch_server.h"
+#include "touch/touch_step.h"
 
 namespace hl::client {
 namespace {

@@ -17,9 +17,9 @@
 #include "client/inproc_link.h"
 #include "client/open_link.h"
 #include "fake_pages.h"
-#include "server/http_server.h"
-#include "server/touch_server.h"
-#include "server/trace.h"
+#include "http/http_server.h"
+#include "session/touch_server.h"
+#include "tools/trace.h"
 
 namespace hl::client {
 namespace {

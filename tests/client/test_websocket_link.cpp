@@ -12,8 +12,8 @@
 #include "client/server_address.h"
 #include "fake_pages.h"
 #include "fake_sessions.h"
+#include "http/http_server.h"
 #include "plain_client.h"
-#include "server/http_server.h"
 #include "test_certificate.h"
 
 namespace hl {

@@ -10,6 +10,7 @@
 
 #include "base/realtime_guard.h"
 #include "moving_scenes.h"
+#include "proxy/proxy.h"
 
 namespace hl {
 namespace {

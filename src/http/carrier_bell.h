@@ -1,0 +1,67 @@
+// CarrierBell: wakes the writer of a carrier from any thread, and never after the carrier has gone.
+#pragma once
+
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "base/guarded_thread.h"
+#include "http/connection.h"
+
+namespace hl {
+
+class CarrierBell : public std::enable_shared_from_this<CarrierBell> {
+ public:
+  explicit CarrierBell(boost::asio::io_context& context) : context_(context), timer_(std::in_place, context) {}
+
+  /// Any thread; returns at once and throws nothing. Many rings before the writer has heard one are one. Without memory
+  /// to wake it, it hears the ring when it wakes by itself.
+  void ring() noexcept {
+    const std::scoped_lock lock(mutex_);
+    if (closed_) return;
+    rung_ = true;
+    if (on_its_way_) return;
+    on_its_way_ = guarded([this] {
+      boost::asio::post(context_, [self = shared_from_this()] {
+        if (self->timer_) self->timer_->cancel();
+      });
+    });
+  }
+
+  /// The context's thread: returns when rung, but after `longest` at the latest. A ring since the last wait counts.
+  boost::asio::awaitable<void> wait(std::chrono::nanoseconds longest) {
+    if (take()) co_return;
+    timer_->expires_after(longest);
+    co_await timer_->async_wait(kAwait);
+    take();
+  }
+
+  /// The context's thread, when nothing waits: from now on a ring does nothing, and the context may go.
+  void close() {
+    const std::scoped_lock lock(mutex_);
+    closed_ = true;
+    timer_.reset();
+  }
+
+ private:
+  bool take() {
+    const std::scoped_lock lock(mutex_);
+    const bool rung = rung_;
+    rung_ = on_its_way_ = false;
+    return rung;
+  }
+
+  boost::asio::io_context& context_;
+  std::optional<boost::asio::steady_timer> timer_;
+  std::mutex mutex_;
+  bool rung_ = false;
+  bool on_its_way_ = false;  // the ring, to the context's thread
+  bool closed_ = false;
+};
+
+}  // namespace hl

@@ -1,0 +1,49 @@
+// HttpAnswers: what a plain HTTP request gets: a file of the page, the login that turns a token into a cookie, the
+// server's health, its numbers, or a refusal.
+#pragma once
+
+#include <boost/beast/http/message.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "http/access.h"
+#include "http/traffic.h"
+
+namespace hl {
+
+using HttpRequest = boost::beast::http::request<boost::beast::http::string_body>;
+using HttpResponse = boost::beast::http::response<boost::beast::http::string_body>;
+
+/// Any thread; the sources are asked by the one that answers.
+class HttpAnswers {
+ public:
+  struct Sources {
+    std::string page_folder;
+    std::function<std::string()> fault;                       ///< empty: healthy
+    std::function<std::string(const ServerCounts&)> metrics;  ///< the whole text
+  };
+  /// `access` outlives this.
+  HttpAnswers(const Access& access, Sources sources);
+
+  /// Host and Origin are right. Tokens are another matter: see isTrusted().
+  bool mayConnect(const HttpRequest& request) const;
+  /// Has shown the token by its cookie or as a bearer, or none is asked for.
+  bool isTrusted(const HttpRequest& request) const;
+
+  HttpResponse answer(const HttpRequest& request, const ServerCounts& counts) const;
+  /// A refusal that a caller has decided on: `text` is one line.
+  static HttpResponse refuse(const HttpRequest& request, boost::beast::http::status status, const std::string& text);
+
+ private:
+  HttpResponse answerGet(const HttpRequest& request, const ServerCounts& counts) const;
+  HttpResponse health(const HttpRequest& request) const;
+  HttpResponse login(const HttpRequest& request, std::string_view token) const;
+  HttpResponse file(const HttpRequest& request, std::string_view target) const;
+
+  const Access& access_;
+  Sources sources_;
+};
+
+}  // namespace hl

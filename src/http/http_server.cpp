@@ -1,0 +1,204 @@
+#include "http/http_server.h"
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/read.hpp>
+#include <boost/beast/http/write.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include "base/error.h"
+#include "base/guarded_thread.h"
+#include "http/access.h"
+#include "http/hl_carrier.h"
+#include "http/http_answers.h"
+#include "http/listener.h"
+#include "http/page_feed.h"
+#include "http/traffic.h"
+#include "http/workers.h"
+#include "monitor/event_log.h"
+#include "session/client_session.h"
+
+namespace hl {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+
+namespace {
+
+constexpr std::size_t kMaxRequest_bytes = std::size_t{16} * 1024;
+constexpr std::chrono::seconds kRequestTimeout(20);
+constexpr std::chrono::milliseconds kGrace(1000);  // for HL clients to answer the goodbye when the server stops
+constexpr std::chrono::milliseconds kLook(100);    // between two looks whether all that never ends is still there
+
+// TLS and a token are what stands between a stranger on the network and somebody's hand.
+ListenerSettings listenerSettings(const HttpServerSettings& settings) {
+  ListenerSettings out;
+  out.address = parseListenAddress(settings.listen);
+  out.port = settings.port;
+  out.max_connections = settings.limits.connections;
+  out.handshake = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * settings.limits.handshake_s));
+  if (!out.address.is_loopback() && (settings.tls.empty() || settings.token.empty())) {
+    throw Error("listening on " + settings.listen +
+                ", beyond this machine, needs TLS and a token: give a certificate, its key and a token file, or listen "
+                "on 127.0.0.1");
+  }
+  if (!settings.tls.empty()) out.tls = makeServerTls(settings.tls);
+  return out;
+}
+
+AccessSettings accessSettings(const HttpServerSettings& settings, std::uint16_t port) {
+  return {parseListenAddress(settings.listen).is_loopback(), !settings.tls.empty(), port, settings.token};
+}
+
+}  // namespace
+
+class HttpServer::Impl {
+ public:
+  Impl(const HttpServerSettings& settings, FeedCallbacks pages, SessionHost* host, MonitorCallbacks monitor)
+      : settings_(settings),
+        monitor_(std::move(monitor)),
+        host_(host),
+        light_workers_("light worker", 1),
+        heavy_workers_("worker", settings.limits.workers),
+        page_worker_("pages", 1),
+        listener_(context_, listenerSettings(settings)),
+        access_(accessSettings(settings, listener_.port())),
+        pages_(context_, page_worker_, settings.feed_rate_Hz, std::move(pages), monitor_.observe, settings_.limits,
+               traffic_),
+        answers_(access_, {settings.page_folder, [this] { return fault(); },
+                           [this](const ServerCounts& counts) { return metrics(counts); }}) {}
+
+  std::uint16_t port() const { return listener_.port(); }
+  void setToken(const std::string& token) { access_.setToken(token); }
+
+  void start() {
+    listener_.start([this](ConnectionPointer connection) { return serve(std::move(connection)); });
+    pages_.start();
+    thread_ = startThread("network", [this] { run(); });
+  }
+
+  // Every coroutine ends because its socket or timer does; so the threads run out of work, and nothing is cut off.
+  void stop() {
+    if (!thread_.joinable()) return;
+    asio::post(context_, [this] {
+      stopping_ = true;
+      pages_.stop();
+      listener_.stop(kGrace);
+    });
+    thread_.join();
+    for (Workers* workers : {&light_workers_, &heavy_workers_, &page_worker_}) workers->join();
+  }
+
+ private:
+  // A handler that throws has lost its own work only. What never ends, accepting connections and telling pages, begins
+  // again where it was lost so.
+  void run() {
+    while (!stopping_ || !context_.stopped()) {
+      guarded([this] {
+        if (context_.stopped()) context_.restart();
+        context_.run_for(kLook);
+      });
+      if (stopping_) continue;
+      guarded([this] {
+        listener_.keepAccepting();
+        pages_.keepFeeding();
+      });
+    }
+  }
+
+  // One HTTP connection; it may become a WebSocket.
+  asio::awaitable<void> serve(ConnectionPointer connection) {
+    beast::flat_buffer buffer;
+    while (true) {
+      http::request_parser<http::string_body> parser;
+      parser.header_limit(kMaxRequest_bytes);
+      parser.body_limit(kMaxRequest_bytes);
+      connection->stream.tcp().expires_after(kRequestTimeout);
+      auto [error, bytes] = co_await http::async_read(connection->stream, buffer, parser, kAwait);
+      if (error) co_return;
+      HttpRequest request = parser.release();
+      if (websocket::is_upgrade(request) && answers_.mayConnect(request)) {
+        const bool upgraded = co_await upgrade(connection, request);
+        if (upgraded) co_return;
+      }
+      auto response = co_await answer(connection->peer, request);
+      auto [failed, sent] = co_await http::async_write(connection->stream, response, kAwait);
+      if (failed || !response.keep_alive()) co_return;
+    }
+  }
+
+  // Serves the WebSocket that is asked for, if it is one of ours and there is room; false: it has not been accepted.
+  asio::awaitable<bool> upgrade(ConnectionPointer connection, HttpRequest& request) {
+    const bool trusted = answers_.isTrusted(request);
+    const bool viewer = request.target() == "/viewer" && trusted && !pages_.full();
+    const bool client = request.target() == "/hl" && host_ != nullptr;
+    if (!viewer && !client) co_return false;
+    connection->stream.tcp().expires_never();  // WebSockets have their own timeouts
+    if (viewer) {
+      co_await pages_.serve(connection, std::move(request));
+    } else {
+      const CarrierWorld world{context_, light_workers_, heavy_workers_, *host_, access_, settings_.limits, traffic_};
+      co_await std::make_shared<HlCarrier>(world, connection, trusted)->run(std::move(request));
+    }
+    co_return true;
+  }
+
+  asio::awaitable<HttpResponse> answer(const std::string& peer, const HttpRequest& request) {
+    if (websocket::is_upgrade(request) && request.target() == "/viewer" && pages_.full()) {
+      traffic_.refuse(RefusedBecause::kFull);
+      co_return HttpAnswers::refuse(request, http::status::service_unavailable, "too many pages; close one");
+    }
+    const ServerCounts counts{traffic_, listener_.connections(), pages_.pages(), listener_.refused()};
+    HttpResponse response = co_await doOn(page_worker_, [&] { return answers_.answer(request, counts); });
+    const bool denied = response.result() == http::status::forbidden || response.result() == http::status::unauthorized;
+    if (denied) tellDenied(peer, request, response);
+    co_return response;
+  }
+
+  void tellDenied(const std::string& peer, const HttpRequest& request, const HttpResponse& response) {
+    traffic_.refuse(RefusedBecause::kAccess);
+    const std::string host(request[http::field::host]);
+    logEvent(LogLevel::kWarning, "refused", {{"peer", peer}, {"host", host}, {"reason", response.body()}});
+  }
+
+  std::string fault() const { return monitor_.fault ? monitor_.fault() : std::string(); }
+
+  std::string metrics(const ServerCounts& counts) const {
+    MetricsText out;
+    writeTraffic(out, counts);
+    if (monitor_.metrics) monitor_.metrics(out);
+    return out.text();
+  }
+
+  HttpServerSettings settings_;
+  MonitorCallbacks monitor_;
+  SessionHost* host_;
+  asio::io_context context_{1};
+  Workers light_workers_, heavy_workers_;  // for HL clients
+  Workers page_worker_;                    // for what pages are told and what is asked over HTTP
+  Traffic traffic_;
+  Listener listener_;
+  Access access_;
+  PageFeed pages_;
+  HttpAnswers answers_;
+  bool stopping_ = false;  // in the server's thread
+  std::thread thread_;
+};
+
+HttpServer::HttpServer(const HttpServerSettings& settings, FeedCallbacks pages, SessionHost* host,
+                       MonitorCallbacks monitor)
+    : impl_(std::make_unique<Impl>(settings, std::move(pages), host, std::move(monitor))) {}
+HttpServer::~HttpServer() { stop(); }
+std::uint16_t HttpServer::port() const { return impl_->port(); }
+void HttpServer::start() { impl_->start(); }
+void HttpServer::stop() { impl_->stop(); }
+void HttpServer::setToken(const std::string& token) { impl_->setToken(token); }
+
+}  // namespace hl

@@ -1,0 +1,44 @@
+// Traffic: what has gone through the sockets, for /metrics. Written and read by the server's thread alone.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "monitor/metrics_text.h"
+
+namespace hl {
+
+enum class RefusedBecause : std::uint8_t {
+  kAccess,     ///< foreign Host or Origin, wrong token
+  kMalformed,  ///< does not parse, or not what comes next
+  kTooLarge,
+  kTooFast,
+  kSilent,  ///< no Open in time, or reads nothing
+  kFull,    ///< no room for another page or session
+  kFailed,  ///< our own fault
+};
+inline constexpr std::size_t kRefusedReasons = 7;
+inline constexpr std::array<const char*, kRefusedReasons> kRefusedNames{"access", "malformed", "too_large", "too_fast",
+                                                                        "silent", "full",      "failed"};
+
+struct Traffic {
+  std::uint64_t sessions = 0;         ///< HL clients now
+  std::uint64_t sessions_opened = 0;  ///< since the start, as all below
+  std::uint64_t messages_in = 0, messages_out = 0;
+  std::uint64_t bytes_in = 0, bytes_out = 0;  ///< of WebSocket messages, without framing and TLS
+  std::array<std::uint64_t, kRefusedReasons> refused{};
+
+  void refuse(RefusedBecause reason) { ++refused[static_cast<std::size_t>(reason)]; }
+};
+
+/// With what the sockets' owners count themselves.
+struct ServerCounts {
+  Traffic traffic;
+  std::size_t connections = 0, pages = 0;  ///< now
+  std::size_t crowded_out = 0;             ///< connections closed for want of room, since the start
+};
+
+void writeTraffic(MetricsText& out, const ServerCounts& counts);
+
+}  // namespace hl

@@ -1,0 +1,95 @@
+#include "io/value_messages.h"
+
+#include <fmt/core.h>
+
+#include <limits>
+
+#include "base/error.h"
+
+namespace hl {
+
+namespace {
+
+constexpr double kAny = std::numeric_limits<double>::max();
+
+// A number that may be left out is in range then.
+double orLeast(const std::optional<double>& number) { return number.value_or(0); }
+
+}  // namespace
+
+void toProto(const Values& values, proto::Values& out) {
+  out.mutable_numbers()->Add(values.numbers.begin(), values.numbers.end());
+  out.mutable_integers()->Add(values.integers.begin(), values.integers.end());
+}
+
+Values fromProto(const proto::Values& in) {
+  return {{in.numbers().begin(), in.numbers().end()}, {in.integers().begin(), in.integers().end()}};
+}
+
+void add(google::protobuf::RepeatedField<double>& list, const Vec3& v) { list.Add(v.data(), v.data() + 3); }
+Vec3 at(const google::protobuf::RepeatedField<double>& list, int i) {
+  return {list[3 * i], list[3 * i + 1], list[3 * i + 2]};
+}
+
+void checkRanges(const std::string& what, std::initializer_list<FieldRange> fields) {
+  for (const FieldRange& field : fields) {
+    if (field.value >= field.least && field.value <= field.most) continue;
+    throw Error(fmt::format("{} makes no sense: {} is {}, not {} to {}", what, field.name, field.value, field.least,
+                            field.most));
+  }
+}
+
+void checkRecorded(const DeviceInfo& info) {
+  // Ten times what any device takes, and a workspace that a hand would not reach the ends of.
+  constexpr double kSlowest_Hz = 1, kFastest_Hz = 100e3, kFarthest_m = 1e3;
+  for (int i = 0; i < 3; ++i) {
+    checkRanges("the device", {{"workspace_min", info.workspace_min[i], -kFarthest_m, kFarthest_m},
+                               {"workspace_max", info.workspace_max[i], info.workspace_min[i], kFarthest_m}});
+  }
+  checkRanges("the device", {{"force_max_N", info.force_max_N, 0, kAny},
+                             {"force_continuous_N", info.force_continuous_N, 0, kAny},
+                             {"force_rate_max_N_s", info.force_rate_max_N_s, 0, kAny},
+                             {"stiffness_N_m", info.stiffness_N_m, 0, kAny},
+                             {"stiffness_max_N_m", info.stiffness_max_N_m, 0, kAny},
+                             {"damping_Ns_m", info.damping_Ns_m, 0, kAny},
+                             {"friction_N", info.friction_N, 0, kAny},
+                             {"resolution_m", info.resolution_m, 0, kAny},
+                             {"velocity_max_m_s", info.velocity_max_m_s, 0, kAny},
+                             {"servo_rate_Hz", info.servo_rate_Hz, kSlowest_Hz, kFastest_Hz},
+                             {"servo_rate_max_Hz", info.servo_rate_max_Hz, kSlowest_Hz, kFastest_Hz}});
+}
+
+void checkRecorded(const Material& material) {
+  checkRanges("a material", {{"stiffness", material.stiffness, 0, 1},
+                             {"static_friction", material.static_friction, 0, kAny},
+                             {"dynamic_friction", material.dynamic_friction, 0, kAny},
+                             {"viscosity_Ns_m", material.viscosity_Ns_m, 0, kAny},
+                             {"stribeck_m_s", material.stribeck_m_s, 0, kAny},
+                             {"presliding_N_m", material.presliding_N_m, 0, kAny}});
+  for (std::size_t q = 0; q < kQuantities; ++q) {
+    const TextureUse& use = material.textures[q];
+    const double most = static_cast<Quantity>(q) == Quantity::kStiffness ? 1 : kAny;
+    const double least = static_cast<Quantity>(q) == Quantity::kHeight ? -kAny : 0;
+    checkRanges("a texture of a material", {{"low", use.low, least, most}, {"high", use.high, least, most}});
+  }
+}
+
+void checkRecorded(const MaterialOverride& surfaces) {
+  checkRanges("what is set for all surfaces", {{"stiffness", orLeast(surfaces.stiffness), 0, 1},
+                                               {"static_friction", orLeast(surfaces.static_friction), 0, kAny},
+                                               {"dynamic_friction", orLeast(surfaces.dynamic_friction), 0, kAny},
+                                               {"viscosity_Ns_m", orLeast(surfaces.viscosity_Ns_m), 0, kAny}});
+}
+
+void requireFit(Fit fit, const std::string& what) {
+  if (fit == Fit::kOtherForm)
+    throw Error(what + " has another form than in this version of HL: replay it with the one that made it");
+  if (fit == Fit::kImpossible) throw Error(what + " makes no sense: it has a number that stands for nothing");
+}
+
+void checkTime(std::int64_t time_ns, const char* what) {
+  if (time_ns < -kMostTime_ns || time_ns > kMostTime_ns)
+    throw Error(fmt::format("{} is at {} ns, which no clock tells", what, time_ns));
+}
+
+}  // namespace hl

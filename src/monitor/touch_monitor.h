@@ -1,0 +1,14 @@
+// TouchMonitor: the health and the numbers of a touch session, for /healthz and /metrics.
+#pragma once
+
+#include "monitor/monitor_callbacks.h"
+#include "session/touch_server.h"
+
+namespace hl {
+
+/// For the HttpServer whose pages show this session (both use its views in the server's thread); the session must
+/// outlive the server. Not healthy: a loop that has made no step for a quarter of a second, or a servo in fault. With
+/// the clients' numbers where there is a server for them; it must outlive the other too.
+MonitorCallbacks makeTouchMonitor(TouchSession& session, const TouchServer* clients = nullptr);
+
+}  // namespace hl

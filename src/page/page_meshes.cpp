@@ -1,0 +1,134 @@
+#include "page/page_meshes.h"
+
+#include <hl.pb.h>
+
+#include <chrono>
+#include <exception>
+
+#include "base/error.h"
+#include "base/guarded_thread.h"
+#include "page/wire_bytes.h"
+#include "session/state_messages.h"
+
+namespace hl {
+
+namespace {
+
+constexpr std::uint64_t kSmallest = 1024;  // of a mesh and its message beside its lists
+
+std::uint64_t messageBytes(const Model& model, const Look& look) {
+  std::uint64_t bytes =
+      kSmallest + 3 * sizeof(float) * (model.positions.size() + model.normals.size()) +
+      2 * sizeof(float) * model.texcoords.size() +
+      sizeof(std::uint32_t) * (3 * model.triangles.size() + 2 * model.segments.size() + model.points.size());
+  for (const auto& texture : look) bytes += texture ? texture->texels.size() : 0;
+  return bytes;
+}
+
+std::string meshMessage(std::uint32_t number, const Shape& shape, const Look& look) {
+  const Model& model = shape.model;
+  proto::ServerMessage message;
+  proto::SceneMesh& out = *message.mutable_mesh();
+  out.set_number(number);
+  out.set_positions(floatsOf(model.positions));
+  out.set_normals(floatsOf(model.normals));
+  out.set_triangles(bytesOf(model.triangles));
+  out.set_segments(bytesOf(model.segments));
+  out.set_points(bytesOf(model.points));
+  if (!shape.bounds.empty()) {
+    toProto(shape.bounds.min, *out.mutable_bounds_min());
+    toProto(shape.bounds.max, *out.mutable_bounds_max());
+  }
+  addSurfaceImages(model, look, out);
+  return message.SerializeAsString();
+}
+
+std::string emptyMessage(std::uint32_t number) {
+  proto::ServerMessage message;
+  message.mutable_mesh()->set_number(number);
+  return message.SerializeAsString();
+}
+
+}  // namespace
+
+PageMeshes::Made PageMeshes::make(std::uint32_t number, const Shape& shape, const Look& look) const {
+  try {
+    const std::uint64_t bytes = messageBytes(shape.model, look);
+    if (bytes > most_bytes_)
+      throw Error("it would take " + std::to_string(bytes / 1'000'000) + " MB, and a page is sent " +
+                  std::to_string(most_bytes_ / 1'000'000) + " MB at most: show it in several objects");
+    MemoryShare memory(memory_);
+    memory.take(2 * bytes);  // the message is put together and then written
+    auto message = std::make_shared<const std::string>(meshMessage(number, shape, look));
+    memory.set(kSmallest + message->capacity());
+    return {number, withShare(std::move(message), std::move(memory)), {}};
+  } catch (const std::exception& error) {
+    return {number, std::make_shared<const std::string>(emptyMessage(number)),
+            std::string("a mesh can be touched but is not shown: ") + error.what()};
+  }
+}
+
+std::string PageMeshes::lacking() const {
+  for (const auto& [number, mesh] : meshes_) {
+    if (!mesh.lacking.empty()) return mesh.lacking;
+  }
+  return {};
+}
+
+std::uint32_t PageMeshes::numberOf(const Instance& instance) {
+  Look look = lookOf(*instance.shape, *instance.surfaces);
+  Identity identity{instance.shape->geometry, {}};
+  for (const auto& texture : look) identity.second.push_back(texture.get());
+  if (const auto known = numbers_.find(identity); known != numbers_.end()) return known->second;
+  meshes_[last_number_ + 1] = {instance.shape, std::move(look), nullptr};
+  numbers_.emplace(std::move(identity), last_number_ + 1);  // last: a number has its mesh, whatever fails
+  return ++last_number_;
+}
+
+std::vector<std::uint32_t> PageMeshes::numbersOf(const Snapshot& snapshot) {
+  std::vector<std::uint32_t> numbers;
+  numbers.reserve(snapshot.instances.size());
+  for (const Instance& instance : snapshot.instances) numbers.push_back(numberOf(instance));
+  return numbers;
+}
+
+// What failed as a whole is made again.
+void PageMeshes::takeMade() {
+  if (!making_.valid() || making_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  guarded([this] {
+    for (Made& made : making_.get()) {
+      const auto mesh = meshes_.find(made.number);
+      if (mesh == meshes_.end()) continue;
+      mesh->second.message = std::move(made.message);
+      mesh->second.lacking = std::move(made.lacking);
+      mesh->second.shape.reset();
+    }
+  });
+}
+
+bool PageMeshes::ready() {
+  takeMade();
+  std::vector<std::pair<std::uint32_t, Mesh>> lacking;
+  for (const auto& [number, mesh] : meshes_) {
+    if (!mesh.message) lacking.emplace_back(number, mesh);
+  }
+  if (lacking.empty()) return true;
+  if (making_.valid()) return false;
+  try {
+    making_ = std::async(std::launch::async, [this, lacking = std::move(lacking)] {
+      nameThread("page meshes");
+      std::vector<Made> made;
+      for (const auto& [number, mesh] : lacking) made.push_back(make(number, *mesh.shape, mesh.look));
+      return made;
+    });
+  } catch (const std::exception&) {  // no thread now: there may be one at the next state
+  }
+  return false;
+}
+
+void PageMeshes::keep(const std::set<std::uint32_t>& numbers) {
+  std::erase_if(numbers_, [&](const auto& entry) { return !numbers.contains(entry.second); });
+  std::erase_if(meshes_, [&](const auto& entry) { return !numbers.contains(entry.first); });
+}
+
+}  // namespace hl

@@ -1,0 +1,141 @@
+#include "page/page_scene.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "page/wire_bytes.h"
+#include "session/state_messages.h"
+
+namespace hl {
+
+namespace {
+
+Box boundsAt(const Snapshot& snapshot, std::int64_t now_ns) {
+  Box bounds;
+  for (const Instance& instance : snapshot.instances) {
+    const Box box = boxAt(instance.shape->bounds, instance.motion.at(now_ns));
+    if (box.empty()) continue;
+    bounds.extend(box.min);
+    bounds.extend(box.max);
+  }
+  return bounds;
+}
+
+}  // namespace
+
+void PageScene::follow(const std::shared_ptr<const Snapshot>& newest, const PageScale& scale, std::int64_t now_ns) {
+  if (presence_.use_count() == 1) {
+    shown_ = waiting_ = nullptr;
+    layout_.reset();
+    meshes_.keep({});
+    return;
+  }
+  takeNewest(newest);
+  if (shown_ && outdated(scale, now_ns)) layOut(scale, now_ns);
+}
+
+// A snapshot that waits for its meshes is shown before newer ones are looked at: else a scene with a new mesh in every
+// frame would never be shown.
+void PageScene::takeNewest(const std::shared_ptr<const Snapshot>& newest) {
+  if (!waiting_ && newest != shown_) {
+    waiting_ = newest;
+    waiting_places_.clear();
+    const std::vector<std::uint32_t> meshes = meshes_.numbersOf(*newest);
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+      const Instance& instance = newest->instances[i];
+      waiting_places_.push_back({instance.key, meshes[i], instance.session, instance.object, instance.name});
+    }
+  }
+  if (!waiting_ || !meshes_.ready()) return;
+  shown_ = std::exchange(waiting_, nullptr);
+  shown_places_ = std::move(waiting_places_);
+}
+
+bool PageScene::outdated(const PageScale& scale, std::int64_t now_ns) const {
+  if (!layout_ || layout_->scale != scale || layout_->name != shown_->name || layout_->places != shown_places_)
+    return true;
+  return now_ns - layout_->made_ns >= kSettle_ns && settledElsewhere(now_ns);
+}
+
+bool PageScene::settledElsewhere(std::int64_t now_ns) const {
+  for (std::size_t i = 0; i < shown_->instances.size(); ++i) {
+    const Motion& motion = shown_->instances[i].motion;
+    const bool rests = !motion.moves() || now_ns - motion.last().end_ns() >= kSettle_ns;
+    if (rests && !(motion.to() == layout_->poses[i])) return true;
+  }
+  return false;
+}
+
+void PageScene::layOut(const PageScale& scale, std::int64_t now_ns) {
+  proto::ServerMessage message;
+  proto::SceneLayout& out = *message.mutable_layout();
+  layout_ = Layout{++last_layout_, shown_->name, scale, shown_places_, {}, {}, now_ns, nullptr};
+  out.set_number(layout_->number);
+  out.set_name(layout_->name);
+  out.set_proxy_radius(scale.radius_W);
+  out.set_world_per_device(scale.world_per_device);
+  if (const Box bounds = boundsAt(*shown_, now_ns); !bounds.empty()) {
+    toProto(bounds.min, *out.mutable_bounds_min());
+    toProto(bounds.max, *out.mutable_bounds_max());
+  }
+  for (std::size_t i = 0; i < shown_places_.size(); ++i) {
+    const Place& place = shown_places_[i];
+    layout_->meshes.insert(place.mesh);
+    layout_->poses.push_back(shown_->instances[i].motion.at(now_ns));
+    appendPose(*out.mutable_poses(), layout_->poses.back());
+    proto::PlacedMesh& placed = *out.add_placed();
+    placed.set_mesh(place.mesh);
+    placed.set_session(place.session);
+    placed.set_object(place.object);
+    placed.set_name(place.name);
+  }
+  layout_->message = std::make_shared<const std::string>(message.SerializeAsString());
+  if (!waiting_) meshes_.keep(layout_->meshes);
+}
+
+// Meshes come before the layout that places them, and are forgotten after it. What cannot be shown is told once.
+PageMessage PageScene::next(PageMemory& page) const {
+  if (!layout_) return nullptr;
+  if (page.layout != layout_->number) {
+    for (const std::uint32_t mesh : layout_->meshes) {
+      if (page.meshes.insert(mesh).second) return meshes_.message(mesh);
+    }
+    page.layout = layout_->number;
+    return layout_->message;
+  }
+  proto::ServerMessage message;
+  if (std::string lacking = meshes_.lacking(); lacking != page.lacking) {
+    page.lacking = std::move(lacking);
+    if (!page.lacking.empty()) {
+      message.mutable_notice()->set_text(page.lacking);
+      return std::make_shared<const std::string>(message.SerializeAsString());
+    }
+  }
+  if (page.meshes.size() == layout_->meshes.size()) return nullptr;
+  for (const std::uint32_t mesh : page.meshes) {
+    if (!layout_->meshes.contains(mesh)) message.mutable_forget()->add_meshes(mesh);
+  }
+  page.meshes = layout_->meshes;
+  return std::make_shared<const std::string>(message.SerializeAsString());
+}
+
+void PageScene::describe(proto::State& state, std::span<const ObjectName> touched, std::int64_t now_ns) const {
+  if (!layout_) return;
+  state.set_layout(layout_->number);
+  for (std::size_t i = 0; i < layout_->poses.size(); ++i) {
+    const Pose pose = shown_->instances[i].motion.at(now_ns);
+    if (pose == layout_->poses[i]) continue;
+    state.add_moved(static_cast<std::uint32_t>(i));
+    appendPose(*state.mutable_moved_poses(), pose);
+  }
+  for (const ObjectName& object : touched) {
+    const auto at = std::lower_bound(layout_->places.begin(), layout_->places.end(), object.key,
+                                     [](const Place& place, std::uint64_t key) { return place.key < key; });
+    if (at == layout_->places.end() || at->key != object.key) continue;
+    const auto index = static_cast<std::uint32_t>(at - layout_->places.begin());
+    if (std::find(state.touched().begin(), state.touched().end(), index) == state.touched().end())
+      state.add_touched(index);
+  }
+}
+
+}  // namespace hl

@@ -1,0 +1,87 @@
+// PageScene: what pages are told of the scene while it changes. A layout says which meshes are where; it is sent again
+// only when something comes, goes or is scaled. What moves meanwhile is in each state, as a difference from the layout,
+// so that a page that misses states, or layouts, is right again with the next ones.
+#pragma once
+
+#include <hl.pb.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "page/page_meshes.h"
+#include "scene/snapshot.h"
+#include "touch/proxy_loop.h"
+
+namespace hl {
+
+/// What one page has been sent.
+struct PageMemory {
+  std::set<std::uint32_t> meshes;
+  std::uint32_t layout = 0;
+  std::shared_ptr<const void> presence;  ///< while one lives, somebody looks
+  std::string lacking{};                 ///< why it does not see everything
+};
+
+/// How large the proxy and the hand's space are in the scene.
+struct PageScale {
+  double radius_W = 0;  ///< m, of the proxy
+  double world_per_device = 1;
+  bool operator==(const PageScale&) const = default;
+};
+
+/// Used by one thread. Knows no sockets and no clock.
+class PageScene {
+ public:
+  /// Objects that rest away from where the layout has them get a new layout after this time, and so do objects that
+  /// jump: no more often.
+  static constexpr std::int64_t kSettle_ns = 1'000'000'000;
+
+  /// What pages are shown is counted against `memory`.
+  explicit PageScene(MemoryBudget memory = {}) : meshes_(std::move(memory)) {}
+
+  /// For a page that has nothing yet.
+  PageMemory open() const { return {{}, 0, presence_}; }
+  /// Shows the newest snapshot as soon as its meshes are ready; never waits for them. Call it before each state. While
+  /// nobody looks, nothing is kept.
+  void follow(const std::shared_ptr<const Snapshot>& newest, const PageScale& scale, std::int64_t now_ns);
+  /// The next message that the page lacks, which it then counts as having; empty when it has everything.
+  PageMessage next(PageMemory& page) const;
+  /// What has moved since the layout, and what of it is touched.
+  void describe(proto::State& state, std::span<const ObjectName> touched, std::int64_t now_ns) const;
+
+ private:
+  struct Place {
+    std::uint64_t key = 0;
+    std::uint32_t mesh = 0, session = 0, object = 0, name = 0;
+    bool operator==(const Place&) const = default;
+  };
+  struct Layout {
+    std::uint32_t number = 0;
+    std::string name;
+    PageScale scale;
+    std::vector<Place> places;  // of the instances of the snapshot, one by one
+    std::vector<Pose> poses;
+    std::set<std::uint32_t> meshes;
+    std::int64_t made_ns = 0;
+    PageMessage message;
+  };
+
+  void takeNewest(const std::shared_ptr<const Snapshot>& newest);
+  bool outdated(const PageScale& scale, std::int64_t now_ns) const;
+  bool settledElsewhere(std::int64_t now_ns) const;
+  void layOut(const PageScale& scale, std::int64_t now_ns);
+
+  std::shared_ptr<const void> presence_ = std::make_shared<char>();
+  PageMeshes meshes_;
+  std::shared_ptr<const Snapshot> shown_, waiting_;  // the second until its meshes are ready
+  std::vector<Place> shown_places_, waiting_places_;
+  std::optional<Layout> layout_;  // of what is shown
+  std::uint32_t last_layout_ = 0;
+};
+
+}  // namespace hl

@@ -1,0 +1,143 @@
+#include "page/viewer_feed.h"
+
+#include <hl.pb.h>
+
+#include <span>
+#include <utility>
+
+#include "base/clock.h"
+#include "page/page_scene.h"
+#include "session/state_messages.h"
+
+namespace hl {
+
+namespace {
+
+constexpr std::uint32_t kProtocolVersion = 2;
+constexpr int kMaxSamples = 100;
+
+std::string hello(const TouchSession& session, const std::string& version) {
+  proto::ServerMessage message;
+  proto::Hello& out = *message.mutable_hello();
+  out.set_protocol_version(kProtocolVersion);
+  out.set_server_version(version);
+  out.set_scene_name(session.snapshot()->name);
+  toProto(session, *out.mutable_device());
+  return message.SerializeAsString();
+}
+
+void setSamples(proto::State& state, TouchSession& session) {
+  TouchSample sample;
+  while (session.popSample(sample)) {
+    if (state.samples_size() >= kMaxSamples) continue;
+    proto::Sample& out = *state.add_samples();
+    out.set_time_s(sample.time_s);
+    out.set_force_n(sample.force_N);
+    out.set_penetration_m(sample.penetration_m);
+    out.set_tick_us(sample.tick_us);
+  }
+}
+
+void setSurfaces(proto::Surfaces& out, const MaterialOverride& surfaces) {
+  if (surfaces.stiffness) out.set_stiffness(*surfaces.stiffness);
+  if (surfaces.static_friction) out.set_static_friction(*surfaces.static_friction);
+  if (surfaces.dynamic_friction) out.set_dynamic_friction(*surfaces.dynamic_friction);
+  if (surfaces.viscosity_Ns_m) out.set_viscosity_ns_m(*surfaces.viscosity_Ns_m);
+  if (surfaces.smooth) out.set_smooth(*surfaces.smooth);
+  out.set_textures(surfaces.textures);
+}
+
+MaterialOverride surfacesOf(const proto::Surfaces& in) {
+  MaterialOverride surfaces;
+  if (in.has_stiffness()) surfaces.stiffness = in.stiffness();
+  if (in.has_static_friction()) surfaces.static_friction = in.static_friction();
+  if (in.has_dynamic_friction()) surfaces.dynamic_friction = in.dynamic_friction();
+  if (in.has_viscosity_ns_m()) surfaces.viscosity_Ns_m = in.viscosity_ns_m();
+  if (in.has_smooth()) surfaces.smooth = in.smooth();
+  surfaces.textures = !in.has_textures() || in.textures();
+  return surfaces;
+}
+
+std::string state(TouchSession& session, PageScene& scene) {
+  ServoView servo;
+  ProxyView proxy;
+  session.views(servo, proxy);
+  proto::ServerMessage message;
+  proto::State& out = *message.mutable_state();
+  out.set_time_s(session.time_s());
+  toProto(session.workspace().toWorld(servo.finger_D), *out.mutable_finger());
+  toProto(proxy.proxy, *out.mutable_proxy());
+  toProto(servo.force_N, *out.mutable_force_n());
+  for (const ProxyContact& contact : proxy.contacts) toProto(contact, *out.add_contacts());
+  out.set_safety(static_cast<proto::SafetyState>(servo.safety));
+  if (servo.safety == SafetyState::kFault) out.set_fault(faultText(servo.fault));
+  toProto(servo.loop, session.servoTotals(), *out.mutable_servo());
+  toProto(proxy.loop, session.proxyTotals(), *out.mutable_proxy_loop());
+  setSamples(out, session);
+  out.set_exploring(session.exploring());
+  setEndings(proxy.ended, out);
+  out.set_hand_firm(session.handFirm());
+  out.set_stiffness_n_m(session.stiffness_N_m());
+  toProto(proxy.ledger, servo.late, session.ledger(), *out.mutable_ledger());
+  setSurfaces(*out.mutable_surfaces(), session.surfaces());
+  out.set_slipping(proxy.slipping);
+  toProto(servo.vibration, *out.mutable_vibration());
+  out.set_buttons(servo.buttons);
+  const std::int64_t now_ns = monotonicNow_ns();
+  scene.follow(session.snapshot(), {session.radius_W(), session.workspace().world_per_device}, now_ns);
+  scene.describe(out, std::span(proxy.touched.begin(), proxy.touched.end()), now_ns);
+  return message.SerializeAsString();
+}
+
+void apply(TouchSession& session, const proto::Settings& settings) {
+  if (settings.has_explore()) session.setExplore(settings.explore());
+  if (settings.has_hand_firm()) session.setHandFirm(settings.hand_firm());
+  if (settings.has_stiffness_n_m()) session.setStiffness(settings.stiffness_n_m());
+  if (settings.has_surfaces()) session.setSurfaces(surfacesOf(settings.surfaces()));
+  if (settings.has_ledger() && proto::LedgerMode_IsValid(settings.ledger()))
+    session.setLedger(static_cast<LedgerMode>(settings.ledger()));
+}
+
+// A message that does not parse or asks for what does not exist changes nothing.
+void receive(TouchSession& session, const std::string& bytes) {
+  proto::ViewerMessage message;
+  if (!message.ParseFromString(bytes)) return;
+  switch (message.body_case()) {
+    case proto::ViewerMessage::kHandGoal: {
+      const proto::Vec3& p = message.hand_goal().position();
+      session.setHandGoal(Vec3(p.x(), p.y(), p.z()));
+      break;
+    }
+    case proto::ViewerMessage::kRelease:
+      session.release();
+      break;
+    case proto::ViewerMessage::kPress:
+      session.press(message.press().buttons());
+      break;
+    case proto::ViewerMessage::kSettings:
+      apply(session, message.settings());
+      break;
+    case proto::ViewerMessage::kRearm:
+      session.rearm();
+      break;
+    case proto::ViewerMessage::kExplore:
+      session.setExplore(true);
+      break;
+    case proto::ViewerMessage::BODY_NOT_SET:
+      break;
+  }
+}
+
+}  // namespace
+
+FeedCallbacks makeViewerFeed(TouchSession& session, const std::string& version, MemoryBudget memory) {
+  const auto scene = std::make_shared<PageScene>(std::move(memory));
+  const auto open_page = [scene] {
+    return [scene, memory = std::make_shared<PageMemory>(scene->open())] { return scene->next(*memory); };
+  };
+  return {[&session, version] { return hello(session, version); }, open_page,
+          [&session, scene] { return state(session, *scene); },
+          [&session](const std::string& bytes) { receive(session, bytes); }};
+}
+
+}  // namespace hl

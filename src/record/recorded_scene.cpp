@@ -1,0 +1,168 @@
+#include "record/recorded_scene.h"
+
+#include <utility>
+
+#include "base/error.h"
+#include "io/value_messages.h"
+
+namespace hl {
+
+namespace {
+
+constexpr const char* kBrokenScene = "a scene of the recording makes no sense";
+
+// What a Screw is made of.
+struct Way {
+  Pose from, to;
+  std::int64_t begin_ns = 0, end_ns = 0;
+
+  static Way of(const Screw& screw) { return {screw.from(), screw.to(), screw.begin_ns(), screw.end_ns()}; }
+  Screw screw() const { return {from, to, begin_ns, end_ns}; }
+};
+struct Ways {
+  Way earlier, last;
+};
+
+void checkPose(const Pose& pose) {
+  // Rotations are computed: to 1e-12, or so.
+  constexpr double kTurned = 1e-6;
+  const Mat3 off = pose.rotation * pose.rotation.transpose() - Mat3::Identity();
+  if (!(off.cwiseAbs().maxCoeff() < kTurned) || !withinReach(pose.origin))
+    throw Error("a motion makes no sense: a pose in it is not rigid, or out of reach");
+}
+
+Ways waysOf(const proto::Values& in) {
+  Ways ways;
+  readValues(in, "a motion", ways);
+  for (const Way& way : {ways.earlier, ways.last}) {
+    checkPose(way.from);
+    checkPose(way.to);
+    checkTime(way.begin_ns, "the beginning of a motion");
+    checkTime(way.end_ns, "the end of a motion");
+    if (way.begin_ns > way.end_ns) throw Error("a motion makes no sense: it ends before it begins");
+  }
+  return ways;
+}
+
+void encode(const Surfaces& surfaces, proto::RecordedSurfaces& out) {
+  for (const Material& material : surfaces.materials) toProto(material, *out.add_materials());
+  for (const auto& texture : surfaces.textures) toProto(*texture, *out.add_textures());
+}
+
+void encode(const Instance& instance, proto::RecordedInstance& out) {
+  const Ways ways{Way::of(instance.motion.earlier()), Way::of(instance.motion.last())};
+  toProto(valuesOf(ways), *out.mutable_motion());
+  out.set_key(instance.key);
+  out.set_session(instance.session);
+  out.set_object(instance.object);
+  out.set_name(instance.name);
+}
+
+}  // namespace
+
+template <typename Part, typename Encode>
+std::uint64_t SceneWriter::idOf(std::map<const Part*, Written<Part>>& written, const std::shared_ptr<const Part>& part,
+                                const Encode& encode_part) {
+  std::erase_if(written, [](const auto& entry) { return entry.second.part.expired(); });
+  Written<Part>& entry = written[part.get()];
+  if (entry.id == 0) {
+    // Known when it is written: where that fails it is not, and is tried again with the next scene.
+    encode_part(last_id_ + 1);
+    entry = {part, ++last_id_};
+  }
+  return entry.id;
+}
+
+void SceneWriter::write(const Snapshot& scene, const Write& write) {
+  proto::RecordingBlock block;
+  proto::RecordedScene& out = *block.mutable_scene();
+  out.set_identity(scene.identity);
+  out.set_number(scene.number);
+  out.set_blend_ns(scene.blend_ns);
+  out.set_name(scene.name);
+  for (const Instance& instance : scene.instances) {
+    proto::RecordedInstance& placed = *out.add_instances();
+    encode(instance, placed);
+    const auto shape_id = [&](const std::shared_ptr<const Shape>& shape) {
+      return idOf(shapes_, shape, [&](std::uint64_t id) {
+        writeMesh(shape->model, [&](proto::RecordedShape& mesh) {
+          proto::RecordingBlock part;
+          part.mutable_shape()->Swap(&mesh);
+          part.mutable_shape()->set_id(id);
+          part.mutable_shape()->set_hierarchy(static_cast<std::uint32_t>(shape->hierarchy));
+          write(part);
+        });
+      });
+    };
+    placed.set_shape(shape_id(instance.shape));
+    const auto add_way = [&](const BendWay& way) {
+      proto::RecordedBendWay& recorded = *placed.add_bending();
+      recorded.set_from(shape_id(way.given_from()));
+      recorded.set_to(shape_id(way.given_to()));
+      recorded.set_begin_ns(way.begin_ns());
+      recorded.set_end_ns(way.end_ns());
+    };
+    if (instance.bending && instance.bending->earlier()) add_way(*instance.bending->earlier());
+    if (instance.bending) add_way(instance.bending->last());
+    placed.set_surfaces(idOf(surfaces_, instance.surfaces, [&](std::uint64_t id) {
+      proto::RecordingBlock part;
+      part.mutable_surfaces()->set_id(id);
+      encode(*instance.surfaces, *part.mutable_surfaces());
+      write(part);
+    }));
+  }
+  write(block);
+}
+
+void SceneReader::add(const proto::RecordedShape& in) {
+  if (in.hierarchy() > static_cast<std::uint32_t>(HierarchyKind::kNone)) throw Error(kBrokenScene);
+  if (begun_ && *begun_ != in.id()) throw Error(kBrokenScene);
+  begun_ = in.id();
+  mesh_.add(in);
+  if (in.continues()) return;
+  begun_.reset();
+  shapes_[in.id()] = makeShape(mesh_.take(), static_cast<HierarchyKind>(in.hierarchy()));
+}
+
+void SceneReader::add(const proto::RecordedSurfaces& in) {
+  auto surfaces = std::make_shared<Surfaces>();
+  for (const proto::RecordedTexture& texture : in.textures())
+    surfaces->textures.push_back(std::make_shared<const Texture>(textureOf(texture)));
+  for (const proto::Values& values : in.materials())
+    surfaces->materials.push_back(materialOf(values, surfaces->textures.size()));
+  surfaces_[in.id()] = std::move(surfaces);
+}
+
+BendWay SceneReader::wayOf(const proto::RecordedBendWay& in, const Surfaces& surfaces) const {
+  const auto from = shapes_.find(in.from()), to = shapes_.find(in.to());
+  if (from == shapes_.end() || to == shapes_.end() || !isSameMesh(*from->second, *to->second))
+    throw Error(kBrokenScene);
+  if (in.end_ns() <= in.begin_ns() || surfaces.materials.size() < to->second->model.materials.size())
+    throw Error(kBrokenScene);
+  return {from->second, to->second, in.begin_ns(), in.end_ns()};
+}
+
+std::shared_ptr<const Bend> SceneReader::bendingOf(const proto::RecordedInstance& in, const Surfaces& surfaces) const {
+  if (in.bending_size() == 0) return nullptr;
+  if (in.bending_size() == 1) return std::make_shared<Bend>(wayOf(in.bending(0), surfaces));
+  return std::make_shared<Bend>(wayOf(in.bending(0), surfaces), wayOf(in.bending(1), surfaces));
+}
+
+std::shared_ptr<const Snapshot> SceneReader::scene(const proto::RecordedScene& in) const {
+  constexpr double kLongestBlend_ns = 1e12;
+  checkRanges("a scene", {{"blend_ns", static_cast<double>(in.blend_ns()), 0, kLongestBlend_ns}});
+  std::vector<Instance> instances;
+  for (const proto::RecordedInstance& placed : in.instances()) {
+    const auto shape = shapes_.find(placed.shape());
+    const auto surfaces = surfaces_.find(placed.surfaces());
+    if (shape == shapes_.end() || surfaces == surfaces_.end()) throw Error(kBrokenScene);
+    if (surfaces->second->materials.size() < shape->second->model.materials.size()) throw Error(kBrokenScene);
+    const Ways ways = waysOf(placed.motion());
+    instances.push_back({shape->second, surfaces->second, Motion(ways.earlier.screw(), ways.last.screw()), placed.key(),
+                         placed.session(), placed.object(), placed.name()});
+    instances.back().bending = bendingOf(placed, *surfaces->second);
+  }
+  return makeSnapshot(std::move(instances), in.name(), in.number(), in.blend_ns());
+}
+
+}  // namespace hl

@@ -1,0 +1,58 @@
+// Scenes between snapshots and the messages of a recording. Shapes and surfaces that several scenes share are written
+// once. What comes back is touched bit for bit as it was.
+#pragma once
+
+#include <recording.pb.h>
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "io/model_messages.h"
+#include "scene/snapshot.h"
+
+namespace hl {
+
+/// One thread.
+class SceneWriter {
+ public:
+  using Write = std::function<void(const proto::RecordingBlock& block)>;
+
+  /// The blocks of `scene`: what of it has not been written before, then the scene itself.
+  void write(const Snapshot& scene, const Write& write);
+
+ private:
+  template <typename Part>
+  struct Written {
+    std::weak_ptr<const Part> part;
+    std::uint64_t id = 0;
+  };
+  template <typename Part, typename Encode>
+  std::uint64_t idOf(std::map<const Part*, Written<Part>>& written, const std::shared_ptr<const Part>& part,
+                     const Encode& encode);
+
+  std::map<const Shape*, Written<Shape>> shapes_;
+  std::map<const Surfaces*, Written<Surfaces>> surfaces_;
+  std::uint64_t last_id_ = 0;
+};
+
+/// One thread. Everything throws hl::Error when the message makes no sense.
+class SceneReader {
+ public:
+  void add(const proto::RecordedShape& in);
+  void add(const proto::RecordedSurfaces& in);
+  std::shared_ptr<const Snapshot> scene(const proto::RecordedScene& in) const;
+
+ private:
+  BendWay wayOf(const proto::RecordedBendWay& in, const Surfaces& surfaces) const;
+  std::shared_ptr<const Bend> bendingOf(const proto::RecordedInstance& in, const Surfaces& surfaces) const;
+
+  MeshReader mesh_;
+  std::optional<std::uint64_t> begun_;  // the shape of which more parts follow
+  std::map<std::uint64_t, std::shared_ptr<const Shape>> shapes_;
+  std::map<std::uint64_t, std::shared_ptr<const Surfaces>> surfaces_;
+};
+
+}  // namespace hl

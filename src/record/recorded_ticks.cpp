@@ -1,0 +1,107 @@
+#include "record/recorded_ticks.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "io/value_messages.h"
+
+namespace hl {
+
+namespace {
+
+constexpr std::uint32_t kMostLooks = 1'000'000;  // of a wrong file
+constexpr const char* kTicksMisfit = "the lists of a block of ticks do not agree";
+
+void addTick(const TickRecord& record, std::int64_t before_ns, proto::ProxyTicks& out) {
+  out.add_time_ns(wrappedDifference_ns(record.in.time_ns, before_ns));
+  add(*out.mutable_finger(), record.in.finger_D);
+  add(*out.mutable_target_proxy(), record.target.proxy_D);
+  out.add_target_stiffness(record.target.stiffness);
+  out.add_target_paid_j(record.target.paid_J);
+  out.add_target_valid(record.target.valid);
+  add(*out.mutable_proxy(), record.proxy);
+  out.add_contacts(static_cast<std::uint32_t>(record.contacts));
+  out.add_work_ns(record.work_ns);
+  out.add_used_up_at(static_cast<std::uint32_t>(record.used_up_at));
+}
+
+TickRecord tickOf(const proto::ProxyTicks& in, int i, std::int64_t before_ns) {
+  TickRecord record;
+  record.in.time_ns = wrappedSum_ns(before_ns, in.time_ns(i));
+  checkTime(record.in.time_ns, "a tick");
+  record.in.finger_D = at(in.finger(), i);
+  record.target = {at(in.target_proxy(), i), record.in.time_ns, in.target_valid(i), in.target_stiffness(i),
+                   in.target_paid_j(i)};
+  record.proxy = at(in.proxy(), i);
+  record.contacts = in.contacts(i);
+  record.work_ns = in.work_ns(i);
+  if (in.used_up_at_size() > 0) record.used_up_at = static_cast<int>(std::min(in.used_up_at(i), kMostLooks));
+  return record;
+}
+
+// What a session never has: a file may say anything.
+void checkRecorded(const TickContext& context) {
+  constexpr double kStiffest_N_m = 1e9, kShortest_s = 1e-9, kLongest_s = 1e3;
+  if (!context.commands.workspace.valid()) throw Error("the workspace makes no sense: it can not be computed with");
+  if (!Workspace::validRadius(context.commands.radius_W))
+    throw Error(fmt::format("the radius of the proxy makes no sense: {} m", context.commands.radius_W));
+  checkRecorded(context.commands.surfaces);
+  checkRanges("the spring", {{"stiffness_N_m", context.spring.stiffness_N_m, 0, kStiffest_N_m},
+                             {"period_s", context.spring.period_s, kShortest_s, kLongest_s}});
+}
+
+bool consistent(const proto::ProxyTicks& in) {
+  const std::int64_t n = in.time_ns_size();
+  const auto all = [n](std::initializer_list<std::int64_t> sizes, std::int64_t each) {
+    return std::all_of(sizes.begin(), sizes.end(), [=](std::int64_t size) { return size == each * n; });
+  };
+  return n > 0 && in.commands_size() > 0 && in.commands(0).at() == 0 &&
+         all({in.target_stiffness_size(), in.target_paid_j_size(), in.target_valid_size(), in.contacts_size(),
+              in.work_ns_size()},
+             1) &&
+         (in.used_up_at_size() == 0 || in.used_up_at_size() == n) &&
+         all({in.finger_size(), in.target_proxy_size(), in.proxy_size()}, 3);
+}
+
+}  // namespace
+
+void toProto(std::span<const TickRecord> records, std::uint64_t first, proto::ProxyTicks& out) {
+  out.set_first(first);
+  Values context;
+  std::int64_t before_ns = 0;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    addTick(records[i], before_ns, out);
+    before_ns = records[i].in.time_ns;
+    Values now = valuesOf(TickContext{records[i].in.commands, records[i].in.spring, records[i].scene});
+    if (i > 0 && now == context) continue;
+    proto::ValuesChange& change = *out.add_commands();
+    change.set_at(static_cast<std::uint32_t>(i));
+    toProto(now, *change.mutable_values());
+    context = std::move(now);
+  }
+}
+
+std::vector<TickRecord> fromProto(const proto::ProxyTicks& in) {
+  if (!consistent(in)) throw Error(kTicksMisfit);
+  std::vector<TickRecord> records;
+  TickContext context;
+  std::int64_t before_ns = 0;
+  for (int i = 0, change = 0; i < in.time_ns_size(); ++i) {
+    if (change < in.commands_size() && in.commands(change).at() == static_cast<std::uint32_t>(i)) {
+      readValues(in.commands(change++).values(), "what ticks are told", context);
+      checkRecorded(context);
+    }
+    if (i == in.time_ns_size() - 1 && change != in.commands_size()) throw Error(kTicksMisfit);
+    records.push_back(tickOf(in, i, before_ns));
+    records.back().in.commands = context.commands;
+    records.back().in.spring = context.spring;
+    records.back().scene = context.scene;
+    before_ns = records.back().in.time_ns;
+  }
+  return records;
+}
+
+}  // namespace hl

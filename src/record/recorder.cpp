@@ -1,0 +1,282 @@
+#include "record/recorder.h"
+
+#include <fmt/chrono.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "base/guarded_thread.h"
+#include "io/value_messages.h"
+#include "record/recorded_servo.h"
+
+namespace hl {
+
+namespace {
+
+// The rings hold a second more than a black box: time enough to write it before it is overwritten.
+constexpr double kRing_s = Recorder::kBlackBox_s + 1;
+// A black box goes on for so long after the fault.
+constexpr double kAfter_s = 0.2;
+constexpr auto kPeriod = std::chrono::milliseconds(20);
+// A block holds a tenth of a second, or what there is at the end; more makes files smaller and loses more to a kill.
+constexpr double kBlock_s = 0.1;
+// What is left at the end is worth more than one try, and the end must come.
+constexpr int kLastTries = 10;
+constexpr const char* kPrefix = "fault-";
+constexpr const char* kEnding = ".hlr";
+
+std::size_t room(bool wanted, double rate_Hz) { return wanted ? static_cast<std::size_t>(kRing_s * rate_Hz) : 1; }
+
+std::uint64_t countOf(double seconds, double rate_Hz) {
+  return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(seconds * rate_Hz));
+}
+
+std::int64_t unixNow_ms() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
+}
+
+// Gives `write` the records from `next` to `end` in runs without a gap, of at most `most`; what the ring no longer has
+// is passed over. `next` is the first that is not written yet, also when `write` throws.
+template <typename Record, typename Write>
+void forRuns(const LogRing<Record>& ring, std::uint64_t& next, std::uint64_t end, std::uint64_t most, Write write) {
+  std::vector<Record> run;
+  std::uint64_t at = next;
+  const auto flush = [&] {
+    if (!run.empty()) write(run, at - run.size());
+    run.clear();
+    next = at;
+  };
+  for (; at < end; ++at) {
+    Record record;
+    const bool there = ring.read(at, record);
+    if (!there || run.size() == most) flush();
+    if (there) run.push_back(record);
+  }
+  flush();
+}
+
+// The oldest go first: their names begin with the time.
+void removeOldest(const std::filesystem::path& folder, std::size_t keep) {
+  std::vector<std::filesystem::path> boxes;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(kPrefix) && name.ends_with(kEnding)) boxes.push_back(entry.path());
+  }
+  std::sort(boxes.begin(), boxes.end());
+  for (std::size_t i = 0; i + keep < boxes.size(); ++i) std::filesystem::remove(boxes[i]);
+}
+
+std::string blackBoxName() {
+  static std::atomic<unsigned> made{0};
+  const std::int64_t now_ms = unixNow_ms();
+  return fmt::format("{}{:%Y%m%dT%H%M%S}.{:03}-{}{}", kPrefix, fmt::gmtime(static_cast<std::time_t>(now_ms / 1000)),
+                     now_ms % 1000, ++made, kEnding);
+}
+
+}  // namespace
+
+Recorder::Recorder(const RecorderSettings& settings, const SessionInfo& session)
+    : settings_(settings),
+      session_(session),
+      begin_unix_ms_(unixNow_ms()),
+      begin_ns_(monotonicNow_ns()),
+      steps_(room(!settings.file.empty() || !settings.black_box_folder.empty(), session.servo_rate_Hz)),
+      ticks_(room(!settings.file.empty(), std::max(session.servo_rate_Hz, session.proxy_rate_Hz))) {
+  if (settings_.file.empty()) return;
+  file_ = std::make_unique<RecordingWriter>(settings_.file);
+  file_->write(startBlock(FaultReason::kNone));
+}
+
+Recorder::~Recorder() { stop(); }
+
+void Recorder::start() {
+  if (settings_.file.empty() && settings_.black_box_folder.empty()) return;
+  running_ = true;
+  thread_ = startThread("recorder", [this] { run(); });
+}
+
+void Recorder::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!running_) return;
+    running_ = false;
+  }
+  wake_.notify_all();
+  thread_.join();
+}
+
+void Recorder::step(const ServoRecord& record) noexcept {
+  steps_.push(record);
+  const bool fails = record.out.safety == SafetyState::kFault && record.before.safety != SafetyState::kFault;
+  if (fails && record.out.fault != FaultReason::kStalled) fault_.store(steps_.pushed(), std::memory_order_release);
+}
+
+void Recorder::tick(const TickRequest& request, const ProxyStep& step, const Vec3& proxy,
+                    std::int64_t work_ns) noexcept {
+  if (step.scene == 0) return;
+  ticks_.push(
+      {request, step.scene, step.held.target, proxy, step.report.contacts.size(), work_ns, step.report.used_up_at});
+}
+
+void Recorder::scene(std::shared_ptr<const Snapshot> scene) noexcept {
+  if (settings_.file.empty()) return;
+  const bool kept = guarded([&] {
+    const std::lock_guard lock(mutex_);
+    scenes_.push_back(std::move(scene));
+  });
+  if (!kept) scene_lost_ = true;
+}
+
+void Recorder::run() {
+  std::unique_lock lock(mutex_);
+  while (running_) {
+    wake_.wait_for(lock, kPeriod);
+    lock.unlock();
+    guarded([this] { drain(false); });
+    lock.lock();
+  }
+  lock.unlock();
+  int tries = 0;
+  keepTrying([&] { return tries++ < kLastTries; }, [this] { drain(true); });
+}
+
+// What it could not do for want of memory it does the next time.
+void Recorder::drain(bool all) {
+  watchFaults(all);
+  if (!file_) {
+    const std::lock_guard lock(mutex_);
+    scenes_.clear();
+    return;
+  }
+  try {
+    writeFile(all);
+  } catch (const Error& error) {
+    file_.reset();
+    tell(fmt::format("the recording ends: {}", error.what()));
+  }
+}
+
+void Recorder::writeFile(bool all) {
+  if (scene_lost_) return endRecording("there was no memory to keep a scene for it");
+  writeTicks(all);
+  writeSteps(all);
+  if (all)
+    endRecording("stopped");
+  else if (file_->bytes() > settings_.most_bytes)
+    endRecording(fmt::format("{} bytes are reached", settings_.most_bytes));
+}
+
+std::shared_ptr<const Snapshot> Recorder::sceneToWrite() {
+  const std::lock_guard lock(mutex_);
+  return scenes_.empty() ? nullptr : scenes_.front();
+}
+
+void Recorder::writeScenes() {
+  while (const auto scene = sceneToWrite()) {
+    scene_writer_.write(*scene, [this](const proto::RecordingBlock& block) { file_->write(block); });
+    const std::lock_guard lock(mutex_);
+    scenes_.pop_front();
+  }
+}
+
+// Ticks are counted before the scenes that they may have taken are asked for.
+void Recorder::writeTicks(bool all) {
+  const std::uint64_t end = ticks_.pushed();
+  const std::uint64_t block = countOf(kBlock_s, std::max(session_.servo_rate_Hz, session_.proxy_rate_Hz));
+  if (!all && end - next_tick_ < block) return;
+  writeScenes();
+  forRuns(ticks_, next_tick_, end, 4 * block, [this](const std::vector<TickRecord>& run, std::uint64_t first) {
+    proto::RecordingBlock out;
+    toProto(run, first, *out.mutable_ticks());
+    file_->write(out);
+  });
+}
+
+void Recorder::writeSteps(bool all) {
+  const std::uint64_t end = steps_.pushed();
+  const std::uint64_t block = countOf(kBlock_s, session_.servo_rate_Hz);
+  if (!all && end - next_step_ < block) return;
+  forRuns(steps_, next_step_, end, 4 * block, [this](const std::vector<ServoRecord>& run, std::uint64_t first) {
+    proto::RecordingBlock out;
+    toProto(run, first, *out.mutable_steps());
+    file_->write(out);
+  });
+}
+
+void Recorder::endRecording(const std::string& reason) {
+  proto::RecordingBlock end;
+  end.mutable_end()->set_reason(reason);
+  file_->write(end);
+  const auto file = std::move(file_);
+  tell(fmt::format("recorded: {} ({} bytes; {})", file->path(), file->bytes(), reason));
+}
+
+// A fault is written a little after it was; a stall at once, as no more steps may come.
+void Recorder::watchFaults(bool all) {
+  if (settings_.black_box_folder.empty()) return;
+  if (stalled_.exchange(false, std::memory_order_acquire)) writeBlackBox(steps_.pushed(), FaultReason::kStalled);
+  const std::uint64_t fault = fault_.load(std::memory_order_acquire);
+  if (fault == fault_written_) return;
+  const std::uint64_t end = fault + countOf(kAfter_s, session_.servo_rate_Hz);
+  if (!all && steps_.pushed() < end) return;
+  fault_written_ = fault;
+  ServoRecord record;
+  if (!steps_.read(fault - 1, record)) return;
+  writeBlackBox(std::min(end, steps_.pushed()), record.out.fault);
+}
+
+void Recorder::writeBlackBox(std::uint64_t end, FaultReason reason) {
+  const std::filesystem::path folder = settings_.black_box_folder;
+  try {
+    std::filesystem::create_directories(folder);
+    removeOldest(folder, settings_.black_boxes - 1);
+    RecordingWriter box((folder / blackBoxName()).string());
+    box.write(startBlock(reason));
+    std::uint64_t next = end - std::min(end, countOf(kBlackBox_s + kAfter_s, session_.servo_rate_Hz));
+    forRuns(steps_, next, end, countOf(1, session_.servo_rate_Hz),
+            [&box](const std::vector<ServoRecord>& run, std::uint64_t first) {
+              proto::RecordingBlock out;
+              toProto(run, first, *out.mutable_steps());
+              box.write(out);
+            });
+    proto::RecordingBlock last;
+    last.mutable_end()->set_reason("black box");
+    box.write(last);
+    tell(fmt::format("fault: {}; black box: {}", faultText(reason), box.path()));
+  } catch (const std::exception& error) {
+    tell(fmt::format("fault: {}; no black box: {}", faultText(reason), error.what()));
+  }
+}
+
+proto::RecordingBlock Recorder::startBlock(FaultReason reason) const {
+  proto::RecordingBlock block;
+  proto::RecordingStart& start = *block.mutable_start();
+  start.set_version(settings_.version);
+  start.set_begin_unix_ms(begin_unix_ms_);
+  start.set_begin_ns(begin_ns_);
+  start.set_black_box(reason != FaultReason::kNone);
+  start.set_fault(faultText(reason));
+  start.set_device_name(session_.device.name);
+  toProto(valuesOf(session_.device), *start.mutable_device());
+  toProto(valuesOf(session_.proxy), *start.mutable_proxy());
+  start.set_servo_rate_hz(session_.servo_rate_Hz);
+  start.set_proxy_rate_hz(session_.proxy_rate_Hz);
+  return block;
+}
+
+void Recorder::tell(const std::string& line) const {
+  if (settings_.tell) settings_.tell(line);
+}
+
+MakeStepSink recorderWith(const RecorderSettings& settings) {
+  return [settings](const SessionInfo& session) { return std::make_unique<Recorder>(settings, session); };
+}
+
+}  // namespace hl

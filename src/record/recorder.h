@@ -1,0 +1,91 @@
+// Recorder: what the loops did, kept for later. The loops push each step and tick into rings of the last seconds and
+// never wait; a thread of its own reads them and writes two kinds of files (docs/recording.md): the session as it goes
+// on, and, when the servo goes into fault, a black box of the seconds before.
+#pragma once
+
+#include <recording.pb.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "base/log_ring.h"
+#include "control/servo_record.h"
+#include "record/recorded_scene.h"
+#include "record/recorded_ticks.h"
+#include "record/recording_file.h"
+#include "touch/step_sink.h"
+
+namespace hl {
+
+struct RecorderSettings {
+  std::string file;                              ///< of the session; empty: it is not recorded
+  std::uint64_t most_bytes = 4'000'000'000;      ///< of that file; then the recording ends, not the session
+  std::string black_box_folder;                  ///< made when needed; empty: no black boxes
+  std::size_t black_boxes = 20;                  ///< kept there, >= 1; the oldest go
+  std::string version;                           ///< of HL, for the files
+  std::function<void(const std::string&)> tell;  ///< gets a line when a file is written or can not be; or empty
+};
+
+/// Made, started, stopped and destroyed by one thread.
+class Recorder final : public StepSink {
+ public:
+  static constexpr double kBlackBox_s = 5;
+
+  /// Makes the file of the session. Throws hl::Error.
+  Recorder(const RecorderSettings& settings, const SessionInfo& session);
+  ~Recorder() override;
+  void start() override;
+  void stop() override;  ///< writes what is left
+
+  void step(const ServoRecord& record) noexcept override;
+  void tick(const TickRequest& request, const ProxyStep& step, const Vec3& proxy,
+            std::int64_t work_ns) noexcept override;
+  /// Without memory for it the recording ends.
+  void scene(std::shared_ptr<const Snapshot> scene) noexcept override;
+  void stall() noexcept override { stalled_.store(true, std::memory_order_release); }
+
+ private:
+  void run();
+  void drain(bool all);
+  void writeFile(bool all);
+  void writeScenes();
+  std::shared_ptr<const Snapshot> sceneToWrite();
+  void writeTicks(bool all);
+  void writeSteps(bool all);
+  void endRecording(const std::string& reason);
+  void watchFaults(bool all);
+  void writeBlackBox(std::uint64_t end, FaultReason reason);
+  proto::RecordingBlock startBlock(FaultReason reason) const;
+  void tell(const std::string& line) const;
+
+  const RecorderSettings settings_;
+  const SessionInfo session_;
+  const std::int64_t begin_unix_ms_, begin_ns_;
+  LogRing<ServoRecord> steps_;
+  LogRing<TickRecord> ticks_;
+  std::atomic<std::uint64_t> fault_{0};  // 1 + number of the step that went into fault last; 0: none
+  std::atomic<bool> stalled_{false}, scene_lost_{false};
+
+  // Of the recorder's thread.
+  std::unique_ptr<RecordingWriter> file_;
+  SceneWriter scene_writer_;
+  std::uint64_t next_step_ = 0, next_tick_ = 0, fault_written_ = 0;
+
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::deque<std::shared_ptr<const Snapshot>> scenes_;  // not yet written
+  bool running_ = false;
+  std::thread thread_;
+};
+
+/// For TouchSettings.
+MakeStepSink recorderWith(const RecorderSettings& settings);
+
+}  // namespace hl

@@ -1,0 +1,134 @@
+#include "record/recording_file.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <array>
+#include <bit>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <new>
+
+#include "base/error.h"
+
+namespace hl {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the head of a block is written as it lies in memory");
+
+// The number is that of the form: it rises when fields of the recorded structures change their order or meaning. When
+// one comes or goes the lists no longer fit, and that is told too.
+constexpr std::string_view kMagic = "HLREC2\r\n", kFirstForm = "HLREC1\r\n";
+// A block may be a mesh of tens of millions of triangles; protobuf's own limit.
+constexpr std::uint64_t kMostBlockBytes = 0x7fffffff;
+// Deflate packs no better than this; more is a damaged head, not worth its memory.
+constexpr std::uint64_t kMostPacking = 1100;
+// Blocks come ten times a second while forces are made: the time counts, not the last tenth of the size.
+constexpr int kLevel = 1;
+
+struct Head {
+  std::uint32_t packed_bytes = 0, raw_bytes = 0, crc = 0;
+};
+static_assert(sizeof(Head) == 12);
+
+std::uint32_t checksum(const std::string& bytes) {
+  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+std::string packed(const std::string& raw) {
+  uLongf size = compressBound(raw.size());
+  std::string out(size, '\0');
+  if (compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(raw.data()), raw.size(),
+                kLevel) != Z_OK)
+    throw std::bad_alloc();
+  out.resize(size);
+  return out;
+}
+
+bool unpack(const std::string& in, std::uint32_t raw_bytes, std::string& raw) {
+  raw.resize(raw_bytes);
+  uLongf size = raw_bytes;
+  return uncompress(reinterpret_cast<Bytef*>(raw.data()), &size, reinterpret_cast<const Bytef*>(in.data()),
+                    in.size()) == Z_OK &&
+         size == raw_bytes;
+}
+
+}  // namespace
+
+RecordingWriter::RecordingWriter(const std::string& path)
+    : path_(path), file_(open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)) {
+  if (file_ < 0) throw Error(path + ": can not be written: " + std::strerror(errno));
+  append(std::string(kMagic));
+}
+
+RecordingWriter::~RecordingWriter() { close(file_); }
+
+void RecordingWriter::append(const std::string& bytes) {
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t written = ::write(file_, bytes.data() + done, bytes.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) throw Error(path_ + ": can not be written any more: " + std::strerror(errno));
+    done += static_cast<std::size_t>(written);
+  }
+  bytes_ += bytes.size();
+}
+
+void RecordingWriter::write(const proto::RecordingBlock& block) {
+  const std::string raw = block.SerializeAsString();
+  if (raw.empty() || raw.size() > kMostBlockBytes) throw Error(path_ + ": a block of the recording is too large");
+  const std::string body = packed(raw);
+  const Head head{static_cast<std::uint32_t>(body.size()), static_cast<std::uint32_t>(raw.size()), checksum(body)};
+  std::string bytes(sizeof head, '\0');
+  std::memcpy(bytes.data(), &head, sizeof head);
+  append(bytes + body);
+}
+
+RecordingReader::RecordingReader(const std::string& path) : in_(path, std::ios::binary) {
+  std::error_code error;
+  left_ = std::filesystem::file_size(path, error);
+  if (!in_ || error) throw Error(path + ": can not be read");
+  std::array<char, kMagic.size()> magic{};
+  in_.read(magic.data(), magic.size());
+  const std::string_view begin(magic.data(), magic.size());
+  if (begin == kFirstForm)
+    throw Error(path + ": is a recording of form 1, and this version of HL reads form 2: use the one that made it");
+  if (!in_ || begin != kMagic) throw Error(path + ": this is no recording of hl record");
+  left_ -= magic.size();
+}
+
+bool RecordingReader::readBlock(std::string& body, std::uint32_t& raw_bytes) {
+  Head head;
+  if (left_ < sizeof head) return false;
+  in_.read(reinterpret_cast<char*>(&head), sizeof head);
+  if (!in_ || head.packed_bytes > left_ - sizeof head || head.raw_bytes > kMostBlockBytes ||
+      head.raw_bytes > kMostPacking * head.packed_bytes)
+    return false;
+  body.resize(head.packed_bytes);
+  in_.read(body.data(), head.packed_bytes);
+  raw_bytes = head.raw_bytes;
+  return in_ && checksum(body) == head.crc;
+}
+
+bool RecordingReader::next(proto::RecordingBlock& block) {
+  if (left_ == 0 || !damage_.empty()) return false;
+  std::string body, raw;
+  std::uint32_t raw_bytes = 0;
+  if (!readBlock(body, raw_bytes) || !unpack(body, raw_bytes, raw) || !block.ParseFromString(raw)) {
+    damage_ = fmt::format("its last {} bytes are cut short or damaged", left_);
+    return false;
+  }
+  left_ -= sizeof(Head) + body.size();
+  return true;
+}
+
+proto::RecordingStart startOf(RecordingReader& reader) {
+  proto::RecordingBlock block;
+  if (!reader.next(block) || !block.has_start()) throw Error("nothing of the recording can be read");
+  return block.start();
+}
+
+}  // namespace hl

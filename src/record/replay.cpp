@@ -1,0 +1,199 @@
+#include "record/replay.h"
+
+#include <fmt/core.h>
+
+#include <deque>
+#include <memory>
+#include <utility>
+
+#include "base/error.h"
+#include "io/value_messages.h"
+#include "record/recorded_scene.h"
+#include "record/recorded_servo.h"
+#include "record/recording_file.h"
+
+namespace hl {
+
+namespace {
+
+std::string textOf(const Vec3& v) { return fmt::format("({:.17g}, {:.17g}, {:.17g})", v.x(), v.y(), v.z()); }
+
+/// All that a step or a tick gives, to be compared bit for bit.
+template <typename... Parts>
+Values partsOf(const Parts&... parts) {
+  Values values;
+  ValueWriter writer(values);
+  (writer(parts), ...);
+  return values;
+}
+
+Values partsOf(const ServoOutput& out) { return partsOf(out.force_N, out.safety, out.fault); }
+Values partsOf(const ServoTarget& t) { return partsOf(t.proxy_D, t.time_ns, t.valid, t.stiffness, t.paid_J); }
+
+/// How many are missing before number `first`. Blocks rise, and no session comes near the last number there is.
+std::uint64_t gapOf(std::uint64_t first, std::uint64_t next) {
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 62;
+  if (first < next || first > kMost) throw Error("its steps or ticks are not in their order");
+  return first - next;
+}
+
+/// The servo again. A gap, and each block after a difference, begins with the state that is recorded.
+class ServoReplay {
+ public:
+  explicit ServoReplay(ReplayReport& report) : report_(report) {}
+
+  void play(const proto::ServoSteps& message, std::int64_t begin_ns, const StepVisitor& visit) {
+    std::vector<ServoRecord> records = fromProto(message);
+    // A black box begins in the middle.
+    const bool gap = message.first() != next_ && (begun_ || !report_.black_box);
+    if (gap) report_.lost_steps += gapOf(message.first(), next_);
+    if (!begun_ || gap || report_.difference)
+      state_ = records.front().before;
+    else if (!(valuesOf(state_) == valuesOf(records.front().before)))
+      differ(message.first(), age_s(records.front().sample.time_ns, begin_ns), "the state between two steps");
+    next_ = message.first();
+    for (const ServoRecord& record : records) {
+      const double time_s = age_s(record.sample.time_ns, begin_ns);
+      if (!begun_) report_.first_s = time_s;
+      begun_ = true;
+      step(record, time_s);
+      if (visit) visit(time_s, record);
+    }
+  }
+
+ private:
+  void step(const ServoRecord& record, double time_s) {
+    apply(state_, record.command);
+    const ServoOutput out = stepServo(state_, record.settings, record.target, record.sample);
+    if (!(partsOf(out) == partsOf(record.out)))
+      differ(next_, time_s,
+             fmt::format("force {} N, state {} are recorded, and {} N, state {} come out", textOf(record.out.force_N),
+                         static_cast<int>(record.out.safety), textOf(out.force_N), static_cast<int>(out.safety)));
+    report_.last_s = time_s;
+    ++report_.steps;
+    ++next_;
+  }
+  void differ(std::uint64_t number, double time_s, std::string text) {
+    if (!report_.difference) report_.difference = {"servo step", number, time_s, std::move(text)};
+  }
+
+  ReplayReport& report_;
+  ServoState state_;
+  std::uint64_t next_ = 0;
+  bool begun_ = false;
+};
+
+/// The proxy loop again, with the scenes as it took them.
+class ProxyReplay {
+ public:
+  ProxyReplay(ReplayReport& report, const ProxySettings& settings) : report_(report), settings_(settings) {}
+
+  void add(const proto::RecordedShape& shape) { reader_.add(shape); }
+  void add(const proto::RecordedSurfaces& surfaces) { reader_.add(surfaces); }
+  void add(const proto::RecordedScene& scene) {
+    scenes_.push_back({scene.identity(), reader_.scene(scene)});
+    ++report_.scenes;
+  }
+
+  void play(const proto::ProxyTicks& message, std::int64_t begin_ns) {
+    const std::vector<TickRecord> records = fromProto(message);
+    report_.ticks += records.size();
+    if (message.first() != next_) {
+      report_.lost_ticks += gapOf(message.first(), next_);
+      unknown_ = true;
+    }
+    next_ = message.first();
+    for (const TickRecord& record : records) {
+      unknown_ ? static_cast<void>(++report_.unchecked_ticks) : tick(record, age_s(record.in.time_ns, begin_ns));
+      ++next_;
+    }
+  }
+
+ private:
+  void show(std::uint64_t identity) {
+    if (shown_ == identity) return;
+    while (!scenes_.empty() && scenes_.front().identity != identity) scenes_.pop_front();
+    if (scenes_.empty()) throw Error("the recording lacks a scene that it touches");
+    if (slot_) {
+      slot_->publish(scenes_.front().snapshot);
+    } else {
+      slot_ = std::make_unique<SnapshotSlot>(scenes_.front().snapshot);
+      loop_ = std::make_unique<ProxyLoop>(*slot_, settings_);
+    }
+    shown_ = identity;
+  }
+  void tick(const TickRecord& record, double time_s) {
+    show(record.scene);
+    const int most_looks = record.used_up_at > 0 ? record.used_up_at : kNoWorkCap;
+    const ProxyStep step =
+        loop_->step(record.in.time_ns, record.in.finger_D, record.in.commands, record.in.spring, most_looks);
+    const Vec3& proxy = loop_->state().position;
+    if (report_.difference || partsOf(step.held.target) == partsOf(record.target)) {
+      if (report_.difference || partsOf(proxy) == partsOf(record.proxy)) return;
+    }
+    report_.difference = {
+        "tick", next_, time_s,
+        fmt::format("proxy {} m, target {} m are recorded, and {} m, {} m come out", textOf(record.proxy),
+                    textOf(record.target.proxy_D), textOf(proxy), textOf(step.held.target.proxy_D))};
+  }
+
+  ReplayReport& report_;
+  ProxySettings settings_;
+  SceneReader reader_;
+  struct Shown {
+    std::uint64_t identity;
+    std::shared_ptr<const Snapshot> snapshot;
+  };
+  std::deque<Shown> scenes_;  // as they were shown; the loop took them in this order, and may have passed some over
+  std::unique_ptr<SnapshotSlot> slot_;
+  std::unique_ptr<ProxyLoop> loop_;
+  std::uint64_t shown_ = 0, next_ = 0;
+  bool unknown_ = false;  // ticks are missing: what the proxy remembers is not known
+};
+
+ProxySettings proxySettingsOf(const proto::RecordingStart& start) {
+  constexpr double kMostPasses = 1e6;  // what a tick of a wrong file may cost
+  ProxySettings settings;
+  readValues(start.proxy(), "the proxy", settings);
+  settings.work_cap = kNoWorkCap;  // each tick says after how many looks it had used up its work
+  checkRanges("the proxy", {{"iteration_cap", static_cast<double>(settings.iteration_cap), 1, kMostPasses}});
+  return settings;
+}
+
+ReplayReport replayed(RecordingReader& reader, const StepVisitor& visit) {
+  const proto::RecordingStart start = startOf(reader);
+  ReplayReport report;
+  report.version = start.version();
+  report.device = start.device_name();
+  report.black_box = start.black_box();
+  report.fault = start.fault();
+  DeviceInfo device;
+  readValues(start.device(), "the device", device);
+  checkRecorded(device);
+  ServoReplay servo(report);
+  ProxyReplay proxy(report, proxySettingsOf(start));
+  proto::RecordingBlock block;
+  while (reader.next(block)) {
+    if (block.has_shape()) proxy.add(block.shape());
+    if (block.has_surfaces()) proxy.add(block.surfaces());
+    if (block.has_scene()) proxy.add(block.scene());
+    if (block.has_ticks()) proxy.play(block.ticks(), start.begin_ns());
+    if (block.has_steps()) servo.play(block.steps(), start.begin_ns(), visit);
+    if (block.has_end()) report.end = block.end().reason();
+  }
+  report.damage = reader.damage();
+  return report;
+}
+
+}  // namespace
+
+ReplayReport replay(const std::string& path, const StepVisitor& visit) {
+  RecordingReader reader(path);
+  try {
+    return replayed(reader, visit);
+  } catch (const Error& error) {
+    throw Error(path + ": " + error.what());
+  }
+}
+
+}  // namespace hl

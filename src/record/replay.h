@@ -1,0 +1,43 @@
+// Replay: runs the recorded session again, the real proxy loop and the real servo step on the recorded samples and
+// times, and holds what comes out against what is recorded, bit for bit.
+#pragma once
+
+#include <recording.pb.h>
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "control/servo_record.h"
+#include "record/recorded_ticks.h"
+
+namespace hl {
+
+/// The first step or tick of which something else comes out.
+struct ReplayDifference {
+  const char* what = "";  ///< "servo step" or "tick"
+  std::uint64_t number = 0;
+  double time_s = 0;  ///< since the recording began
+  std::string text;   ///< what is recorded, and what comes out
+};
+
+struct ReplayReport {
+  std::string version, device, fault;  ///< as recorded; `fault` of a black box
+  bool black_box = false;
+  std::uint64_t steps = 0, ticks = 0, scenes = 0;
+  std::uint64_t lost_steps = 0, lost_ticks = 0;  ///< that the recorder could not keep
+  std::uint64_t unchecked_ticks = 0;             ///< after lost ones: what the proxy did meanwhile is not known
+  double first_s = 0, last_s = 0;                ///< times of the first and last step
+  std::optional<ReplayDifference> difference;
+  std::string end;     ///< why it ends; empty: the program was killed
+  std::string damage;  ///< of the file, or empty
+};
+
+/// Called with each servo step that the file holds, in order; `time_s` since the recording began.
+using StepVisitor = std::function<void(double time_s, const ServoRecord& step)>;
+
+/// Throws hl::Error when the file is no recording, or one of another version.
+ReplayReport replay(const std::string& path, const StepVisitor& visit = {});
+
+}  // namespace hl

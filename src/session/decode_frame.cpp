@@ -1,0 +1,366 @@
+#include "session/decode_frame.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "base/error.h"
+#include "io/decode_scene.h"
+#include "io/scene_builder.h"
+
+namespace hl {
+
+namespace {
+
+[[noreturn]] void refuse(const std::string&, const std::string& message) { throw Error(message); }
+
+constexpr std::size_t kMostName_bytes = 256;  // of a texture: surfaces are copied, and their names with them
+constexpr std::size_t kMostWarnings = 20;     // a frame may skip something in each of a million items
+constexpr std::size_t kDeleted_bytes = 96;    // of a name or number in the edit's lists
+constexpr std::size_t kMoved_bytes = 512;     // of one item whose vertices move
+
+void checkName(const std::string& name, const std::string& where) {
+  if (name.size() > kMostName_bytes)
+    throw Error(where + ": the name of a texture has at most " + std::to_string(kMostName_bytes) + " bytes");
+}
+
+// Messages name things as the client does: by the numbers of its objects and the names of its textures.
+std::string pathOfItems(std::uint32_t object) {
+  return object == 0 ? "world.items" : "object " + std::to_string(object) + ", items";
+}
+
+// What decoding it and building its shape takes.
+std::uint64_t bytesToBuild(const proto::Primitives& in) {
+  const auto of = [](int count) { return static_cast<std::uint64_t>(count); };
+  std::uint64_t triangles = of(in.triangles_size()) / 3;
+  for (const proto::Polygon& polygon : in.polygons()) triangles += of(polygon.vertices_size());
+  return bytesToMake({.vertices = of(in.vertices_size()) / 3,
+                      .normals = of(in.normals_size()) / 3,
+                      .texcoords = of(in.texcoords_size()) / 2,
+                      .triangles = triangles,
+                      .segments = of(in.segments_size()) / 2,
+                      .points = of(in.points_size())});
+}
+
+std::uint64_t texelsOf(const proto::TextureImage& in) {
+  if (in.source_case() == proto::TextureImage::kTexels) return in.texels().values().size();
+  const std::uint64_t size = std::max(64U, in.procedural().size());
+  return size * size;
+}
+
+// The lists of all parts, in their order.
+void joinParts(std::list<proto::Primitives>& parts, MemoryShare& memory) {
+  if (parts.size() < 2) return;
+  std::uint64_t bytes = 0;
+  for (const proto::Primitives& part : parts) bytes += bytesOfMessage(part.SpaceUsedLong());
+  memory.take(bytes);
+  proto::Primitives whole;
+  std::array<int, 7> sum{};
+  for (const proto::Primitives& p : parts) {
+    const std::array<int, 7> of{p.vertices_size(), p.normals_size(),  p.texcoords_size(), p.triangles_size(),
+                                p.polygons_size(), p.segments_size(), p.points_size()};
+    std::transform(sum.begin(), sum.end(), of.begin(), sum.begin(), std::plus<>());
+  }
+  whole.mutable_vertices()->Reserve(sum[0]);
+  whole.mutable_normals()->Reserve(sum[1]);
+  whole.mutable_texcoords()->Reserve(sum[2]);
+  whole.mutable_triangles()->Reserve(sum[3]);
+  whole.mutable_polygons()->Reserve(sum[4]);
+  whole.mutable_segments()->Reserve(sum[5]);
+  whole.mutable_points()->Reserve(sum[6]);
+  for (; !parts.empty(); parts.pop_front()) whole.MergeFrom(parts.front());
+  parts.push_back(std::move(whole));
+}
+
+class FrameDecoder {
+ public:
+  FrameDecoder(const proto::Frame& frame, Uploads& uploads, const SceneLimits& limits, const MemoryBudget& memory,
+               const std::function<void(double)>& progress, const ItemsBefore& before)
+      : frame_(frame),
+        uploads_(uploads),
+        limits_(limits),
+        memory_(memory),
+        joined_(memory),
+        progress_(progress),
+        before_(before),
+        decoder_(refuse),
+        size_(limits) {
+    result_.memory = MemoryShare(memory);
+  }
+
+  DecodedFrame run();
+
+ private:
+  void addTextures();
+  void addObjects();
+  const SceneItems* itemsBefore(std::uint32_t object) const { return before_ ? before_(object) : nullptr; }
+  bool isThere(std::uint32_t object) const;
+  void warn(const std::string& where, const std::string& what);
+  void warnOfCalls();
+  void addMoved();
+  SceneItem& itemToMove(const proto::VertexUpdate& in, const std::string& where);
+  void move(const proto::VertexUpdate& in, Model& model, const std::string& where);
+  std::shared_ptr<const Shape> noted(std::shared_ptr<const Shape> shape, const std::string& where);
+  std::shared_ptr<SceneItems> itemsOf(const google::protobuf::RepeatedPtrField<proto::Item>& items,
+                                      std::uint32_t object);
+  SceneItem itemOf(const proto::Item& in, const Shape* before, const std::string& where);
+  static std::shared_ptr<const Placement> placementOf(const proto::Item& in, const std::string& where);
+  std::shared_ptr<const SurfaceChange> surfaceOf(const proto::Item& in, const std::string& where) const;
+  std::shared_ptr<const Shape> shapeOf(const proto::Primitives& in, const proto::Material& material,
+                                       const Shape* before, const std::string& where);
+  const proto::Primitives& upload(std::uint64_t id, const std::string& where);
+  void countItems();
+
+  const proto::Frame& frame_;
+  Uploads& uploads_;
+  const SceneLimits& limits_;
+  const MemoryBudget& memory_;
+  MemoryShare joined_;  // of uploads that came in parts
+  const std::function<void(double)>& progress_;
+  const ItemsBefore& before_;
+  const SceneDecoder decoder_;
+  DecodedFrame result_;
+  ModelSizes size_;                  // each item makes a shape of its own, even if all refer to one upload
+  std::set<std::uint32_t> deleted_;  // numbers of objects
+  std::size_t more_warnings_ = 0;
+  double items_ = 1, built_ = 0;
+};
+
+void FrameDecoder::countItems() {
+  items_ = frame_.world().items_size();
+  for (const proto::ObjectDefinition& object : frame_.objects()) items_ += object.items_size();
+}
+
+void FrameDecoder::addTextures() {
+  std::size_t room = limits_.texture_bytes / sizeof(float);  // a few bytes can ask for millions of texels
+  for (int i = 0; i < frame_.textures_size(); ++i) {
+    const std::string& given = frame_.textures(i).name();
+    checkName(given, pathOf("textures", i));
+    const std::string where = given.empty() ? pathOf("textures", i) : "texture '" + given + "'";
+    MemoryShare memory(memory_);
+    memory.take(kObject_bytes + sizeof(float) * std::min<std::uint64_t>(room, texelsOf(frame_.textures(i))));
+    auto texture = std::make_shared<const Texture>(decoder_.texture(frame_.textures(i), room, where));
+    room -= texture->texels.size();
+    const std::string name = texture->name;
+    if (!result_.edit.textures.emplace(name, withShare(std::move(texture), std::move(memory))).second)
+      throw Error(where + " is there twice");
+  }
+  result_.edit.deleted_textures.assign(frame_.deleted_textures().begin(), frame_.deleted_textures().end());
+}
+
+void FrameDecoder::addObjects() {
+  for (int i = 0; i < frame_.objects_size(); ++i) {
+    const proto::ObjectDefinition& object = frame_.objects(i);
+    if (object.id() == 0) throw Error(pathOf("objects", i) + ".id must not be 0");
+    if (!result_.edit.objects.emplace(object.id(), itemsOf(object.items(), object.id())).second)
+      throw Error("object " + std::to_string(object.id()) + " is there twice");
+  }
+  result_.edit.deleted_objects.assign(frame_.deleted_objects().begin(), frame_.deleted_objects().end());
+  deleted_.insert(frame_.deleted_objects().begin(), frame_.deleted_objects().end());
+  if (frame_.has_world()) result_.edit.world = itemsOf(frame_.world().items(), 0);
+}
+
+std::shared_ptr<SceneItems> FrameDecoder::itemsOf(const google::protobuf::RepeatedPtrField<proto::Item>& items,
+                                                  std::uint32_t object) {
+  const std::string where = pathOfItems(object);
+  const SceneItems* const before = itemsBefore(object);
+  const auto count = static_cast<std::size_t>(items.size());
+  MemoryShare memory(memory_);
+  memory.take(bytesOfItems(count));
+  auto result = std::make_shared<SceneItems>();
+  result->reserve(count);
+  for (int i = 0; i < items.size(); ++i) {
+    const bool known = before != nullptr && result->size() < before->size();
+    const Shape* const shape = known ? before->at(result->size()).shape.get() : nullptr;
+    result->push_back(itemOf(items[i], shape, pathOf(where, i)));
+    memory.take(bytesApart(result->back()));
+    progress_(++built_ / items_);
+  }
+  return withShare(std::move(result), std::move(memory));
+}
+
+SceneItem FrameDecoder::itemOf(const proto::Item& in, const Shape* before, const std::string& where) {
+  SceneItem item;
+  item.placement = placementOf(in, where + ".matrix");
+  item.surface = surfaceOf(in, where + ".material");
+  if (in.has_name()) item.name = in.name();
+  const std::string named = in.name() == 0 ? where : where + ", named " + std::to_string(in.name());
+  switch (in.what_case()) {
+    case proto::Item::kPrimitives:
+      item.shape = noted(shapeOf(in.primitives(), in.material(), before, where + ".primitives"), named);
+      return item;
+    case proto::Item::kUpload:
+      item.shape = noted(shapeOf(upload(in.upload(), where), in.material(), before, where + ".upload"), named);
+      return item;
+    case proto::Item::kCall:
+      if (in.call() == 0) throw Error(where + ".call must not be 0");
+      item.call = in.call();
+      return item;
+    case proto::Item::WHAT_NOT_SET:
+      break;
+  }
+  throw Error(where + ": an item needs primitives, an upload or a call");
+}
+
+std::shared_ptr<const SurfaceChange> FrameDecoder::surfaceOf(const proto::Item& in, const std::string& where) const {
+  if (!in.has_material() && !in.untextured()) return nullptr;
+  for (int i = 0; i < in.material().textures_size(); ++i)
+    checkName(in.material().textures(i).texture(), pathOf(where + ".textures", i));
+  SurfaceChange surface = decoder_.surface(in.material(), where);
+  surface.untextured = in.untextured();
+  return std::make_shared<const SurfaceChange>(std::move(surface));
+}
+
+const proto::Primitives& FrameDecoder::upload(std::uint64_t id, const std::string& where) {
+  const auto found = uploads_.find(id);
+  if (found == uploads_.end()) throw Error(where + ": there is no upload " + std::to_string(id));
+  joinParts(found->second, joined_);
+  return found->second.front();
+}
+
+std::shared_ptr<const Placement> FrameDecoder::placementOf(const proto::Item& in, const std::string& where) {
+  if (in.matrix_size() == 0) return nullptr;
+  Placement placement;
+  if (in.matrix_size() != 16) throw Error(where + " must hold 16 numbers, column by column");
+  for (int i = 0; i < 16; ++i) {
+    if (!std::isfinite(in.matrix(i))) throw Error(where + " must hold finite numbers");
+  }
+  if (in.matrix(3) != 0 || in.matrix(7) != 0 || in.matrix(11) != 0 || in.matrix(15) != 1)
+    throw Error(where + ": its last row must be 0 0 0 1");
+  for (int column = 0; column < 3; ++column)
+    placement.linear.col(column) = Vec3(in.matrix(4 * column), in.matrix(4 * column + 1), in.matrix(4 * column + 2));
+  placement.offset = Vec3(in.matrix(12), in.matrix(13), in.matrix(14));
+  return std::make_shared<const Placement>(placement);
+}
+
+std::shared_ptr<const Shape> FrameDecoder::shapeOf(const proto::Primitives& in, const proto::Material& material,
+                                                   const Shape* before, const std::string& where) {
+  const auto repeat = [](bool has, double value) { return has && std::isfinite(value) ? value : 1; };
+  return makeCounted(memory_, bytesToBuild(in), [&] {
+    Model model = decoder_.model(in, where);
+    size_.add(model, where + ": ");
+    repeatTexcoords(model, repeat(material.has_repeat_u(), material.repeat_u()),
+                    repeat(material.has_repeat_v(), material.repeat_v()));
+    return before != nullptr ? makeShape(std::move(model), *before) : makeShape(std::move(model));
+  });
+}
+
+std::shared_ptr<const Shape> FrameDecoder::noted(std::shared_ptr<const Shape> shape, const std::string& where) {
+  if (shape->before != 0) ++result_.refits;
+  for (const std::string& warning : shape->warnings) warn(where, warning);
+  return shape;
+}
+
+void FrameDecoder::warn(const std::string& where, const std::string& what) {
+  const bool room = result_.warnings.size() < kMostWarnings;
+  room ? result_.warnings.push_back(where + ": " + what) : void(++more_warnings_);
+}
+
+// When the frame is shown.
+bool FrameDecoder::isThere(std::uint32_t object) const {
+  return result_.edit.objects.contains(object) || (!deleted_.contains(object) && itemsBefore(object) != nullptr);
+}
+
+// Of what is not there yet: it may come with a later frame, or be a mistake.
+void FrameDecoder::warnOfCalls() {
+  const auto look = [this](std::uint32_t object, const SceneItems& items) {
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      if (items[i].shape || isThere(items[i].call)) continue;
+      warn(pathOf(pathOfItems(object), static_cast<int>(i)),
+           "there is no object " + std::to_string(items[i].call) + " to call: nothing can be touched there");
+    }
+  };
+  for (const auto& [object, items] : result_.edit.objects) look(object, *items);
+  if (result_.edit.world) look(0, *result_.edit.world);
+}
+
+// In the edit; the other items of an object that is only moved stay as they were.
+SceneItem& FrameDecoder::itemToMove(const proto::VertexUpdate& in, const std::string& where) {
+  if (in.object() == 0 || !isThere(in.object()))
+    throw Error(where + ": there is no object " + std::to_string(in.object()));
+  auto found = result_.edit.objects.find(in.object());
+  if (found == result_.edit.objects.end())
+    found = result_.edit.objects.emplace(in.object(), copyOf(*itemsBefore(in.object()), memory_)).first;
+  SceneItems& items = *found->second;
+  if (in.item() >= items.size() || !items[in.item()].shape)
+    throw Error(where + ": item " + std::to_string(in.item()) + " of object " + std::to_string(in.object()) +
+                " has no vertices");
+  return items[in.item()];
+}
+
+void FrameDecoder::move(const proto::VertexUpdate& in, Model& model, const std::string& where) {
+  if (in.what_case() == proto::VertexUpdate::WHAT_NOT_SET) throw Error(where + " needs primitives or an upload");
+  const proto::Primitives& primitives = in.has_upload() ? upload(in.upload(), where) : in.primitives();
+  MemoryShare memory(memory_);
+  memory.take(bytesToBuild(primitives));
+  const Model part = decoder_.model(primitives, where);
+  const auto finite = [](const Vec3& v) { return v.allFinite(); };
+  if (part.elements() != 0 || !part.texcoords.empty()) throw Error(where + " must hold vertices and normals alone");
+  if (!std::all_of(part.positions.begin(), part.positions.end(), finite) ||
+      !std::all_of(part.normals.begin(), part.normals.end(), finite))
+    throw Error(where + " must hold finite numbers");
+  const std::size_t count = model.positions.size();
+  if (in.first() > count || part.positions.size() > count - in.first())
+    throw Error(where + ": the item has " + std::to_string(count) + " vertices, no more");
+  if (!part.normals.empty() && model.normals.empty()) throw Error(where + ": the item's vertices have no normals");
+  std::copy(part.positions.begin(), part.positions.end(), model.positions.begin() + in.first());
+  if (!part.normals.empty()) std::copy(part.normals.begin(), part.normals.end(), model.normals.begin() + in.first());
+}
+
+// However many updates an item has, its shape is made once.
+void FrameDecoder::addMoved() {
+  struct Moved {
+    SceneItem* item;
+    Model model;
+    MemoryShare memory;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Moved> all;
+  for (int i = 0; i < frame_.moved_size(); ++i) {
+    const proto::VertexUpdate& in = frame_.moved(i);
+    const std::string where = pathOf("moved", i);
+    auto place = all.find({in.object(), in.item()});
+    if (place == all.end()) {
+      SceneItem& item = itemToMove(in, where);
+      MemoryShare memory(memory_);
+      memory.take(kMoved_bytes + bytesToMake(item.shape->model));
+      Moved moved{&item, item.shape->model, std::move(memory)};
+      place = all.emplace(std::pair(in.object(), in.item()), std::move(moved)).first;
+    }
+    move(in, place->second.model, where);
+  }
+  for (auto& [key, moved] : all) {
+    const auto before = moved.item->shape;
+    const auto shape = makeShape(std::move(moved.model), *before);
+    moved.memory.set(shape->bytes());
+    const std::string where = pathOf(pathOfItems(key.first), static_cast<int>(key.second));
+    moved.item->shape = noted(withShare(shape, std::move(moved.memory)), where);
+  }
+}
+
+DecodedFrame FrameDecoder::run() {
+  countItems();
+  const int deleted = frame_.deleted_textures_size() + frame_.deleted_objects_size();
+  result_.memory.take(kDeleted_bytes * static_cast<std::uint64_t>(deleted));
+  if (frame_.has_interval_s() && !(frame_.interval_s() >= 0)) throw Error("interval_s must not be below 0");
+  addTextures();
+  addObjects();
+  warnOfCalls();
+  addMoved();
+  if (more_warnings_ > 0)
+    result_.warnings.push_back("and " + std::to_string(more_warnings_) + " more lines about what was skipped");
+  return std::move(result_);
+}
+
+}  // namespace
+
+DecodedFrame decodeFrame(const proto::Frame& frame, Uploads& uploads, const SceneLimits& limits,
+                         const MemoryBudget& memory, const std::function<void(double)>& progress,
+                         const ItemsBefore& before) {
+  return FrameDecoder(frame, uploads, limits, memory, progress, before).run();
+}
+
+}  // namespace hl

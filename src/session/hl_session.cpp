@@ -1,0 +1,370 @@
+#include "session/hl_session.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "session/message_forms.h"
+#include "session/state_messages.h"
+
+namespace hl {
+
+namespace {
+
+constexpr std::uint32_t kProtocolVersion = 1;
+constexpr std::size_t kMostReplies = 4096;      // that a client has not read: it does not read at all
+constexpr std::size_t kMostWaitingFrames = 64;  // that are not built yet
+constexpr std::size_t kMostRefusedUploads = 1000;
+constexpr std::size_t kMostNameLength = 100;
+constexpr std::size_t kUpload_bytes = 512;  // of memory, for each besides its parts
+constexpr std::size_t kPart_bytes = 64;     // for each part besides its message
+constexpr std::size_t kReply_bytes = 64;    // for each that waits besides its message
+
+// What a log shows of a name.
+std::string plain(std::string name) {
+  name.resize(std::min(name.size(), kMostNameLength));
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
+  return name;
+}
+
+Vec3 vecOf(const proto::Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+Workspace workspaceOf(const proto::DeviceSettings& settings) {
+  return {vecOf(settings.workspace().origin()), settings.workspace().world_per_device()};
+}
+
+// What cannot be set, or empty.
+std::string faultOf(const proto::DeviceSettings& settings, bool has_hand) {
+  if (settings.has_workspace() && !workspaceOf(settings).valid())
+    return "world_per_device must be 1e-9 to 1e9, and the origin within 1e9 m";
+  if (settings.has_proxy_radius() && !Workspace::validRadius(settings.proxy_radius()))
+    return "proxy_radius must be 1e-12 to 1e9 m";
+  if (settings.has_stiffness_n_m() && !(settings.stiffness_n_m() >= 0)) return "stiffness_N_m must not be below 0";
+  if (settings.has_ledger() && !proto::LedgerMode_IsValid(settings.ledger()))
+    return "ledger must be TANK, STRICT or REPORT";
+  if ((settings.has_hand_goal() || settings.has_hand_firm()) && !has_hand)
+    return "a person holds the device; only a simulated hand can be moved";
+  if (settings.has_hand_goal() && !vecOf(settings.hand_goal().position()).allFinite())
+    return "hand_goal.position must hold finite numbers";
+  return "";
+}
+
+}  // namespace
+
+HlSession::HlSession(TouchWorld& world, std::uint32_t number, std::string peer, WakeCarrier wake,
+                     std::function<void(const HlSession&)> leave)
+    : world_(world),
+      number_(number),
+      peer_(std::move(peer)),
+      wake_(std::move(wake)),
+      leave_(std::move(leave)),
+      memory_(world.memory().member()),
+      frame_rate_(world.limits().frames_Hz) {}
+
+HlSession::~HlSession() {
+  leave_(*this);
+  world_.giveUpMaster(number_);
+  if (!place_) return;
+  world_.publisher().detach(place_);
+  const auto replaced = world_.publisher().takeReplaced(place_);
+  if (replaced) world_.keep(client_name_, replaced);  // this client has shown nothing in their place
+  if (keep_objects_ && !replaced) {
+    world_.keep(client_name_, place_);
+  } else {
+    world_.publisher().remove(place_);
+  }
+}
+
+void HlSession::receive(proto::ClientMessage message) {
+  if (!end().empty()) return;
+  if (!opened_ && message.body_case() != proto::ClientMessage::kOpen) return end("the first message must be open");
+  switch (message.body_case()) {
+    case proto::ClientMessage::kOpen:
+      return open(message.open());
+    case proto::ClientMessage::kUpload:
+      return keepUpload(std::move(*message.mutable_upload()));
+    case proto::ClientMessage::kUploads:
+      return keepUploads(std::move(*message.mutable_uploads()));
+    case proto::ClientMessage::kFrame:
+      return submit(std::move(*message.mutable_frame()));
+    case proto::ClientMessage::kStateRate:
+      return setStateRate(message.state_rate().rate_hz());
+    case proto::ClientMessage::kDevice:
+      return setDevice(message.device());
+    case proto::ClientMessage::kSampleRequest:
+      return wantSamples(message.sample_request().wanted());
+    case proto::ClientMessage::BODY_NOT_SET:
+      return refuse("a message with nothing in it that this server knows");
+  }
+}
+
+void HlSession::open(const proto::Open& open) {
+  if (opened_) return refuse("this session is open already");
+  if (open.protocol_version() != kProtocolVersion)
+    return end("this server speaks version " + std::to_string(kProtocolVersion) + " of the protocol, the client " +
+               std::to_string(open.protocol_version()));
+  if (open.device() >= world_.devices())
+    return end("there is no device " + std::to_string(open.device()) + "; the server has " +
+               std::to_string(world_.devices()));
+  opened_ = true;
+  client_name_ = plain(open.client_name());
+  keep_objects_ = open.keep_objects();
+  device_ = open.device();
+  master_ = open.master() && world_.becomeMaster(device_, number_);
+  place_ = world_.publisher().join(number_, world_.limits(), memory_, callbacks(), world_.takeKept(client_name_));
+  proto::ServerReply reply;
+  proto::Welcome& welcome = *reply.mutable_welcome();
+  welcome.set_protocol_version(kProtocolVersion);
+  welcome.set_server_version(world_.settings().version);
+  welcome.set_session(number_);
+  welcome.set_master(master_);
+  for (std::uint32_t i = 0; i < world_.devices(); ++i) toProto(world_.device(i), *welcome.add_devices());
+  *welcome.mutable_limits() = toProto(world_.limits());
+  this->reply(std::move(reply));
+  setStateRate(open.state_rate_hz());
+}
+
+// A message holds millions of parts that are empty: no more of them are answered than a client may leave unread.
+void HlSession::keepUploads(proto::Uploads uploads) {
+  for (proto::Upload& upload : *uploads.mutable_parts()) {
+    if (!end().empty()) return;
+    keepUpload(std::move(upload));
+  }
+}
+
+void HlSession::keepUpload(proto::Upload upload) {
+  const std::uint64_t id = upload.id();
+  if (id == 0) return refuse("an upload needs an id above 0");
+  if (refused_uploads_.contains(id)) return;
+  // In memory a message may be many times what it was on the wire: an empty polygon is two bytes there.
+  const bool fresh = !uploads_.contains(id);
+  const std::uint64_t bytes = (fresh ? kUpload_bytes : 0) + kPart_bytes + bytesOfMessage(upload.part().SpaceUsedLong());
+  if (upload_bytes_ + bytes > world_.limits().upload_bytes)
+    return end("more than " + std::to_string(world_.limits().upload_bytes) +
+               " bytes of memory are in uploads that no frame has used");
+  try {
+    MemoryShare memory(memory_);
+    memory.take(bytes);
+    uploads_[id].push_back(std::move(*upload.mutable_part()));
+    memory_of_upload_.try_emplace(id, memory_).first->second.add(std::move(memory));
+    upload_bytes_ += bytes;
+  } catch (const Error& error) {
+    return refuseUpload(id, error.what());
+  }
+}
+
+void HlSession::freeUpload(std::uint64_t id) {
+  const auto memory = memory_of_upload_.extract(id);
+  if (memory) upload_bytes_ -= memory.mapped().bytes();
+  uploads_.erase(id);
+}
+
+// A frame that refers to it will not find it.
+void HlSession::refuseUpload(std::uint64_t id, const std::string& why) {
+  freeUpload(id);
+  refused_uploads_.insert(id);
+  if (refused_uploads_.size() > kMostRefusedUploads) return end(why);
+  refuse("upload " + std::to_string(id) + ": " + why);
+}
+
+// Their memory goes over to that of the frame.
+Uploads HlSession::takeUploads(const proto::Frame& frame, MemoryShare& memory) {
+  Uploads used;
+  const auto take = [&](const auto& items) {
+    for (const auto& item : items) {
+      if (!item.has_upload()) continue;
+      refused_uploads_.erase(item.upload());
+      auto parts = uploads_.extract(item.upload());
+      if (!parts) continue;
+      auto share = memory_of_upload_.extract(item.upload());
+      upload_bytes_ -= share.mapped().bytes();
+      memory.add(std::move(share.mapped()));
+      used.insert(std::move(parts));
+    }
+  };
+  for (const proto::ObjectDefinition& object : frame.objects()) take(object.items());
+  take(frame.world().items());
+  take(frame.moved());
+  return used;
+}
+
+void HlSession::submit(proto::Frame frame) {
+  const std::uint64_t number = frame.number();
+  if (number <= last_frame_)
+    return refuse("frames must have rising numbers; the last was " + std::to_string(last_frame_) +
+                      (number == 0 ? ", and this one has none" : ""),
+                  number);
+  last_frame_ = number;
+  if (!frame_rate_.allow(monotonicNow_ns())) return refuse("frames come faster than the server's limit", number);
+  if (world_.publisher().waiting(place_) >= kMostWaitingFrames)
+    return refuse("frames come faster than they can be built", number);
+  MemoryShare memory(memory_);
+  Uploads uploads = takeUploads(frame, memory);
+  try {
+    memory.take(bytesOfMessage(frame.SpaceUsedLong()));
+  } catch (const Error& error) {
+    return refuse(error.what(), number);
+  }
+  world_.publisher().submit(place_, std::move(frame), std::move(uploads), std::move(memory));
+}
+
+// Nothing of them is set when one is wrong.
+void HlSession::setDevice(const proto::DeviceSettings& settings) {
+  TouchSession& device = world_.device(device_);
+  if (!master_)
+    return refuse(world_.hasMaster(device_) ? "another client is the device's master"
+                                            : "only the device's master sets it, and there is none: the first client "
+                                              "whose Open says master is");
+  if (const std::string fault = faultOf(settings, device.hasHand()); !fault.empty()) return refuse(fault);
+  if (settings.has_workspace()) device.setWorkspace(workspaceOf(settings));
+  if (settings.has_proxy_radius()) device.setRadius(settings.proxy_radius());
+  if (settings.has_stiffness_n_m()) device.setStiffness(settings.stiffness_n_m());
+  if (settings.has_ledger()) device.setLedger(static_cast<LedgerMode>(settings.ledger()));
+  if (settings.rearm()) device.rearm();
+  if (settings.has_hand_firm()) device.setHandFirm(settings.hand_firm());
+  if (settings.has_hand_goal()) device.setHandGoal(vecOf(settings.hand_goal().position()));
+}
+
+void HlSession::setStateRate(double rate_Hz) {
+  if (!(rate_Hz >= 0)) return refuse("state_rate_Hz must not be below 0");
+  if (rate_Hz == 0) {
+    state_period_s_ = 0;
+    return;
+  }
+  state_period_s_ = 1 / std::min(rate_Hz, world_.limits().state_rate_Hz);
+  next_state_s_ = world_.time_s();
+}
+
+// From now on.
+void HlSession::wantSamples(bool wanted) {
+  if (!wanted) {
+    next_sample_.reset();
+  } else if (!next_sample_) {
+    next_sample_ = world_.device(device_).moments().pushed();
+  }
+}
+
+HlSession::WaitingReply HlSession::counted(proto::ServerReply reply) const {
+  MemoryShare memory(memory_);
+  memory.take(kReply_bytes + bytesOfMessage(reply.SpaceUsedLong()));
+  return {std::move(reply), std::move(memory)};
+}
+
+void HlSession::reply(proto::ServerReply reply) {
+  try {
+    WaitingReply waiting = counted(std::move(reply));
+    const std::lock_guard lock(mutex_);
+    push(std::move(waiting));
+  } catch (const Error& error) {
+    return end(error.what());
+  }
+  wake_();
+}
+
+// Messages that there is no memory to decode: as when they had been, and had not fitted.
+void HlSession::refuse(const proto::ClientMessage& outline, const std::string& why) {
+  if (!end().empty()) return;
+  if (outline.has_frame()) {
+    last_frame_ = std::max(last_frame_, outline.frame().number());
+    return refuse(why, outline.frame().number());
+  }
+  if (outline.has_upload()) return refuseUpload(outline.upload().id(), why);
+  if (!outline.has_uploads()) return refuse(why);
+  for (const proto::Upload& upload : outline.uploads().parts()) {
+    if (end().empty() && !refused_uploads_.contains(upload.id())) refuseUpload(upload.id(), why);
+  }
+}
+
+void HlSession::push(WaitingReply reply) {
+  replies_.push_back(std::move(reply));
+  if (replies_.size() > kMostReplies && end_.empty()) end_ = "the client does not read what it is told";
+}
+
+void HlSession::refuse(const std::string& why, std::uint64_t frame) {
+  proto::ServerReply reply;
+  reply.mutable_refusal()->set_text(oneLine(why));
+  reply.mutable_refusal()->set_frame(frame);
+  this->reply(std::move(reply));
+}
+
+void HlSession::tell(const proto::Event& event) {
+  proto::ServerReply reply;
+  *reply.mutable_event() = event;
+  this->reply(std::move(reply));
+}
+
+FrameCallbacks HlSession::callbacks() {
+  FrameCallbacks callbacks;
+  callbacks.progress = [this](std::uint64_t number, double part) {
+    proto::ServerReply reply;
+    reply.mutable_progress()->set_frame(number);
+    reply.mutable_progress()->set_built(part);
+    {
+      const std::lock_guard lock(mutex_);
+      // Of progress nobody has read yet the newest is enough; small frames tell of none.
+      if (!replies_.empty() && replies_.back().reply.has_progress()) {
+        replies_.back().reply = std::move(reply);
+      } else if (part < 1) {
+        push(counted(std::move(reply)));
+      } else {
+        return;
+      }
+    }
+    wake_();
+  };
+  callbacks.shown = [this](std::uint64_t number, std::size_t primitives, const std::vector<std::string>& warnings) {
+    proto::ServerReply reply;
+    proto::FrameShown& shown = *reply.mutable_frame_shown();
+    shown.set_number(number);
+    shown.set_time_s(world_.time_s());
+    shown.set_primitives(primitives);
+    for (const std::string& warning : warnings) shown.add_warnings(warning);
+    this->reply(std::move(reply));
+  };
+  callbacks.refused = [this](std::uint64_t number, const std::string& why) { refuse(why, number); };
+  return callbacks;
+}
+
+bool HlSession::take(proto::ServerReply& reply) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!replies_.empty()) {
+      reply = std::move(replies_.front().reply);
+      replies_.pop_front();
+      return true;
+    }
+    if (!end_.empty()) return false;
+  }
+  if (nextState_s() > 0) return false;
+  const double now_s = world_.time_s();
+  // At the rate asked for, without catching up on what was missed.
+  next_state_s_ = std::max(next_state_s_ + state_period_s_, now_s);
+  reply.Clear();
+  world_.describe(device_, *reply.mutable_state());
+  reply.mutable_state()->set_master(master_);
+  if (next_sample_) addMoments(world_.device(device_), *next_sample_, *reply.mutable_state());
+  return true;
+}
+
+double HlSession::nextState_s() const {
+  if (state_period_s_ == 0) return std::numeric_limits<double>::infinity();
+  return std::max(0.0, next_state_s_ - world_.time_s());
+}
+
+std::string HlSession::end() const {
+  const std::lock_guard lock(mutex_);
+  return end_;
+}
+
+void HlSession::end(const std::string& why) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (end_.empty()) end_ = why;
+  }
+  wake_();
+}
+
+}  // namespace hl

@@ -1,0 +1,444 @@
+#include "session/scene_publisher.h"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <iterator>
+#include <new>
+#include <utility>
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "base/guarded_thread.h"
+
+namespace hl {
+
+namespace {
+
+// Motion begins a little after the scene is shown, so that every loop has taken it by then.
+constexpr std::int64_t kLead_ns = 2'000'000;
+constexpr int kLeadTries = 4;
+constexpr double kMakingMargin = 1.5;  // of the time that the scene before took to make; doubled with each try
+// Between two frames that are farther apart than this, nothing was meant to be seen moving all the time.
+constexpr std::int64_t kLongestMove_ns = 100'000'000;
+constexpr auto kLoopPoll = std::chrono::microseconds(200);
+
+std::string jumpWarning(std::size_t meshes) {
+  return std::to_string(meshes) +
+         " meshes are where they are to be at once: there is no room in the server's memory for what bends them";
+}
+
+}  // namespace
+
+class ScenePublisher::Place {
+ public:
+  Place(std::uint32_t session, const SceneLimits& limits, MemoryBudget memory, FrameCallbacks callbacks,
+        std::shared_ptr<Place> replaced)
+      : session_(session),
+        limits_(limits),
+        memory_(std::move(memory)),
+        scene_(session, limits, memory_),
+        callbacks_(std::move(callbacks)),
+        replaced_(std::move(replaced)) {}
+
+ private:
+  friend class ScenePublisher;
+  struct Ready {
+    std::uint64_t number;
+    std::vector<std::string> warnings;
+  };
+
+  /// Calls back unless the client has gone.
+  template <typename Call>
+  void tell(Call call) {
+    const std::lock_guard lock(call_mutex_);
+    if (callbacks_.shown) call(callbacks_);
+  }
+
+  const std::uint32_t session_;
+  const SceneLimits limits_;
+  const MemoryBudget memory_;
+  EditableScene scene_;  // of the builder that has set building_
+  std::mutex call_mutex_;
+  FrameCallbacks callbacks_;
+  // Of the publisher's thread:
+  std::vector<const Instance*> shown_;  // by rising key
+  PlacedShapes shown_placed_;           // what they were made from
+  // Under the publisher's mutex:
+  std::deque<Waiting> waiting_;
+  bool building_ = false, removed_ = false;
+  bool worn_ = false;        // a hierarchy of what was placed last is
+  bool rebuilding_ = false;  // building_, but not a frame
+  std::int64_t last_arrived_ns_ = 0;
+  std::int64_t move_ns_ = 0;         // that what is placed takes to get there
+  PlacedShapes placed_;              // what is to be shown next; null when it is as it was
+  std::deque<Ready> ready_;          // frames that are built and not yet told to be shown
+  std::shared_ptr<Place> replaced_;  // goes with the first frame
+};
+
+struct ScenePublisher::Part {
+  std::shared_ptr<Place> place;
+  bool gone;
+  PlacedShapes placed;  // null: as it is
+  std::int64_t move_ns;
+  std::size_t frames;                  // of the place's ready ones
+  std::size_t jumps;                   // Followed::jumps
+  std::vector<const Instance*> shown;  // of the place, in the next scene
+};
+
+ScenePublisher::ScenePublisher(std::shared_ptr<const Snapshot> base, std::vector<TouchSession*> devices)
+    : base_(std::move(base)), devices_(std::move(devices)), shown_(base_) {}
+
+ScenePublisher::~ScenePublisher() { stop(); }
+
+void ScenePublisher::start() {
+  running_ = true;
+  for (int i = 0; i < kBuilders; ++i) threads_.push_back(startThread("builder", [this] { runBuilder(); }));
+  threads_.push_back(startThread("publisher", [this] { runPublisher(); }));
+}
+
+void ScenePublisher::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    running_ = false;
+  }
+  work_.notify_all();
+  changed_.notify_all();
+  for (std::thread& thread : threads_) thread.join();
+  threads_.clear();
+}
+
+std::shared_ptr<ScenePublisher::Place> ScenePublisher::join(std::uint32_t session, const SceneLimits& limits,
+                                                            MemoryBudget memory, FrameCallbacks callbacks,
+                                                            std::shared_ptr<Place> replaced) {
+  auto place = std::make_shared<Place>(session, limits, std::move(memory), std::move(callbacks), std::move(replaced));
+  const std::lock_guard lock(mutex_);
+  places_.push_back(place);
+  return place;
+}
+
+void ScenePublisher::submit(const std::shared_ptr<Place>& place, proto::Frame frame, Uploads uploads,
+                            MemoryShare memory) {
+  {
+    const std::lock_guard lock(mutex_);
+    place->waiting_.push_back({std::move(frame), std::move(uploads), std::move(memory), monotonicNow_ns()});
+  }
+  work_.notify_one();
+}
+
+std::size_t ScenePublisher::waiting(const std::shared_ptr<Place>& place) const {
+  const std::lock_guard lock(mutex_);
+  return place->waiting_.size() + (place->building_ && !place->rebuilding_ ? 1 : 0) + place->ready_.size();
+}
+
+HierarchyCounts ScenePublisher::counts() const {
+  const std::lock_guard lock(mutex_);
+  return counts_;
+}
+
+void ScenePublisher::detach(const std::shared_ptr<Place>& place) {
+  {
+    const std::lock_guard lock(mutex_);
+    place->waiting_.clear();
+  }
+  const std::lock_guard lock(place->call_mutex_);
+  place->callbacks_ = {};
+}
+
+void ScenePublisher::remove(const std::shared_ptr<Place>& place) {
+  {
+    const std::lock_guard lock(mutex_);
+    place->removed_ = true;
+    dirty_ = true;
+  }
+  changed_.notify_all();
+}
+
+std::shared_ptr<ScenePublisher::Place> ScenePublisher::takeReplaced(const std::shared_ptr<Place>& place) {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(place->replaced_, nullptr);
+}
+
+// The client that has waited longest. Holding the mutex.
+std::shared_ptr<ScenePublisher::Place> ScenePublisher::placeToBuild() {
+  std::shared_ptr<Place> oldest;
+  for (const auto& place : places_) {
+    if (place->building_ || place->removed_ || place->waiting_.empty()) continue;
+    if (!oldest || place->waiting_.front().arrived_ns < oldest->waiting_.front().arrived_ns) oldest = place;
+  }
+  return oldest;
+}
+
+// Only when no frame waits, and one at a time: the other builders are for frames. Holding the mutex.
+std::shared_ptr<ScenePublisher::Place> ScenePublisher::placeToRebuild() {
+  std::shared_ptr<Place> worn;
+  for (const auto& place : places_) {
+    if (place->rebuilding_) return nullptr;
+    const bool idle = !place->building_ && !place->removed_ && place->waiting_.empty();
+    const bool shown = !place->placed_ && place->ready_.empty();
+    if (place->worn_ && idle && shown && !worn) worn = place;
+  }
+  return worn;
+}
+
+void ScenePublisher::runBuilder() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    std::shared_ptr<Place> place;
+    bool frame = false;
+    work_.wait(lock, [&] {
+      place = placeToBuild();
+      frame = place != nullptr;
+      if (!frame) place = placeToRebuild();
+      return !running_ || place;
+    });
+    if (!running_) return;
+    place->building_ = true;
+    place->rebuilding_ = !frame;
+    Waiting waiting;
+    if (frame) {
+      waiting = std::move(place->waiting_.front());
+      place->waiting_.pop_front();
+    }
+    lock.unlock();
+    guarded([&] { frame ? build(*place, std::move(waiting)) : rebuild(*place); });
+    lock.lock();
+    place->building_ = place->rebuilding_ = false;
+    if (place->removed_) dirty_ = true;  // the publisher has left it to this builder
+    if (!place->waiting_.empty()) work_.notify_one();
+    changed_.notify_all();
+  }
+}
+
+// A frame that cannot be shown changes nothing but to be told so. Its messages go with it, before anyone is locked out.
+void ScenePublisher::build(Place& place, Waiting waiting) {
+  const std::uint64_t number = waiting.frame.number();
+  const auto progress = [&](double part) {
+    if (!running_) throw Error("the server is closing");
+    place.tell([&](FrameCallbacks& callbacks) { callbacks.progress(number, part); });
+  };
+  try {
+    DecodedFrame decoded = decodeFrame(waiting.frame, waiting.uploads, place.limits_, place.memory_, progress,
+                                       [&](std::uint32_t object) { return place.scene_.items(object); });
+    EditableScene::Next next = place.scene_.prepare(std::move(decoded.edit));
+    PlacedShapes before;
+    const std::lock_guard lock(mutex_);  // what was there before is freed without it
+    place.ready_.push_back({number, std::move(decoded.warnings)});
+    // From here on nothing throws.
+    place.scene_.show(next);
+    before = std::exchange(place.placed_, place.scene_.sharedPlaced());
+    counts_.refits += decoded.refits;
+    place.worn_ = place.scene_.worn() != nullptr;
+    place.move_ns_ = moveTime_ns(waiting, place.last_arrived_ns_);
+    place.last_arrived_ns_ = waiting.arrived_ns;
+    if (place.replaced_) std::exchange(place.replaced_, nullptr)->removed_ = true;
+    dirty_ = true;
+  } catch (const std::bad_alloc&) {
+    return refuse(place, number, "the server has no memory for it");
+  } catch (const std::exception& error) {
+    return refuse(place, number, error.what());
+  }
+}
+
+// What a client waits for is told in the end, however short memory is meanwhile.
+void ScenePublisher::tell(FunctionRef<void()> call) {
+  keepTrying([this] { return running_.load(); }, call);
+}
+
+void ScenePublisher::refuse(Place& place, std::uint64_t number, const char* why) {
+  tell([&] { place.tell([&](FrameCallbacks& callbacks) { callbacks.refused(number, why); }); });
+}
+
+// One hierarchy, so that a frame that comes meanwhile waits for no more. Nothing is felt of it: the geometry is the
+// same.
+void ScenePublisher::rebuild(Place& place) {
+  try {
+    const auto worn = place.scene_.worn();
+    const auto anew = makeCounted(place.memory_, bytesToMake(worn->model), [&] { return rebuilt(*worn); });
+    EditableScene::Next next = place.scene_.prepareReplaced(worn, anew);
+    const std::lock_guard lock(mutex_);
+    ++counts_.rebuilds;
+    place.scene_.show(next);
+    place.placed_ = place.scene_.sharedPlaced();
+    place.worn_ = place.scene_.worn() != nullptr;
+    dirty_ = true;
+  } catch (const std::exception&) {  // no memory for it: the worn one serves
+    const std::lock_guard lock(mutex_);
+    place.worn_ = false;
+  }
+}
+
+// What the client asks for, or else the time since its last frame.
+std::int64_t ScenePublisher::moveTime_ns(const Waiting& waiting, std::int64_t last_arrived_ns) {
+  const double wanted_ns = waiting.frame.has_interval_s() ? 1e9 * waiting.frame.interval_s()
+                                                          : static_cast<double>(waiting.arrived_ns - last_arrived_ns);
+  if (!(wanted_ns > 0)) return 0;
+  return static_cast<std::int64_t>(std::min(wanted_ns, static_cast<double>(kLongestMove_ns)));
+}
+
+void ScenePublisher::runPublisher() {
+  while (true) {
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [&] { return !running_ || dirty_; });
+      if (!running_) return;
+    }
+    if (!waitForLoops()) return;
+    const bool shown = guarded([this] { publish(); });
+    if (!shown) std::this_thread::sleep_for(kAfterFailure);
+    if (!waitForLoops()) return;
+    for (TouchSession* device : devices_) device->dropSceneBefore();
+  }
+}
+
+// Until every loop has taken the scene before and lives in the part of its motions that is still known to the next.
+bool ScenePublisher::waitForLoops() {
+  const auto ready = [&](const TouchSession* device) { return device->ready(shown_begin_ns_); };
+  while (!std::all_of(devices_.begin(), devices_.end(), ready)) {
+    std::this_thread::sleep_for(kLoopPoll);
+    const std::lock_guard lock(mutex_);
+    if (!running_) return false;
+  }
+  return true;
+}
+
+std::vector<ScenePublisher::Part> ScenePublisher::takeParts() {
+  const std::lock_guard lock(mutex_);
+  std::vector<Part> parts;
+  parts.reserve(places_.size());  // from here on nothing is thrown
+  for (const auto& place : places_)
+    parts.push_back(
+        {place, place->removed_, std::exchange(place->placed_, nullptr), place->move_ns_, place->ready_.size(), 0, {}});
+  dirty_ = false;
+  return parts;
+}
+
+// They could not be shown: the next time, unless there is something newer by then.
+void ScenePublisher::giveBack(std::vector<Part>& parts) {
+  const std::lock_guard lock(mutex_);
+  for (Part& part : parts) {
+    if (!part.place->placed_) part.place->placed_ = std::move(part.placed);
+  }
+  dirty_ = true;
+}
+
+// What all clients have in the world from `begin_ns` on; returns Snapshot::blend_ns.
+std::int64_t ScenePublisher::assemble(std::vector<Part>& parts, std::int64_t begin_ns,
+                                      std::vector<Instance>& instances) const {
+  std::int64_t blend_ns = 0;
+  std::size_t count = base_->instances.size();
+  for (const Part& part : parts) count += part.placed ? part.placed->size() : part.place->shown_.size();
+  instances.reserve(count);
+  instances = base_->instances;
+  for (auto& [place, gone, placed, move_ns, frames, jumps, shown] : parts) {
+    if (gone) {
+      if (!place->shown_.empty()) blend_ns = std::max(blend_ns, kAbruptBlend_ns);
+    } else if (placed) {
+      Followed next = followOn(*placed, place->shown_, begin_ns, begin_ns + move_ns, place->memory_);
+      jumps = next.jumps;
+      blend_ns = std::max(blend_ns, next.blend_ns);
+      std::move(next.instances.begin(), next.instances.end(), std::back_inserter(instances));
+    } else {
+      for (const Instance* instance : place->shown_) {
+        instances.push_back(*instance);
+        if (instance->bending && instance->bending->end_ns() <= begin_ns) instances.back().bending.reset();
+      }
+    }
+  }
+  return blend_ns;
+}
+
+namespace {
+
+// The scene, which keeps the lists that it was made from: its instances are counted with them.
+std::shared_ptr<const Snapshot> keeping(std::vector<PlacedShapes> lists, std::shared_ptr<const Snapshot> scene) {
+  struct Both {
+    std::vector<PlacedShapes> lists;
+    std::shared_ptr<const Snapshot> scene;
+  };
+  const auto both = std::make_shared<const Both>(Both{std::move(lists), std::move(scene)});
+  return {both, both->scene.get()};
+}
+
+}  // namespace
+
+// Made before its motions begin: if it takes too long for that, once more.
+std::shared_ptr<const Snapshot> ScenePublisher::makeNext(std::vector<Part>& parts) {
+  std::shared_ptr<const Snapshot> next;
+  double margin = kMakingMargin;
+  for (int i = 0; i < kLeadTries; ++i, margin *= 2) {
+    next.reset();
+    const std::int64_t now_ns = monotonicNow_ns();
+    shown_begin_ns_ = now_ns + kLead_ns + static_cast<std::int64_t>(margin * static_cast<double>(making_ns_));
+    std::vector<Instance> instances;
+    const std::int64_t blend_ns = assemble(parts, shown_begin_ns_, instances);
+    next = makeSnapshot(std::move(instances), base_->name, shown_->number + 1, blend_ns);
+    making_ns_ = monotonicNow_ns() - now_ns;
+    if (now_ns + making_ns_ < shown_begin_ns_) break;
+  }
+  std::vector<PlacedShapes> lists;
+  for (const Part& part : parts) {
+    if (!part.gone) lists.push_back(part.placed ? part.placed : part.place->shown_placed_);
+  }
+  return keeping(std::move(lists), std::move(next));
+}
+
+void ScenePublisher::publish() {
+  std::vector<Part> parts = takeParts();
+  std::shared_ptr<const Snapshot> next;
+  try {
+    next = makeNext(parts);
+    listShown(*next, parts);
+  } catch (...) {
+    giveBack(parts);
+    throw;
+  }
+  show(next, parts);
+  for (const Part& part : parts) tellShown(part);
+  work_.notify_one();  // what is worn may be rebuilt now
+}
+
+// For each client what of the scene is its own.
+void ScenePublisher::listShown(const Snapshot& next, std::vector<Part>& parts) {
+  std::map<std::uint32_t, Part*> part_of;
+  for (Part& part : parts) part_of[part.place->session_] = &part;
+  for (const Instance& instance : next.instances) {
+    const auto found = part_of.find(instance.session);
+    if (found != part_of.end()) found->second->shown.push_back(&instance);
+  }
+}
+
+// To all devices or, had anything failed before, to none.
+void ScenePublisher::show(const std::shared_ptr<const Snapshot>& next, std::vector<Part>& parts) noexcept {
+  for (TouchSession* device : devices_) device->publish(next);
+  for (Part& part : parts) {
+    part.place->shown_.swap(part.shown);
+    if (part.placed) part.place->shown_placed_ = part.placed;
+    if (part.gone) part.place->shown_placed_ = nullptr;
+  }
+  shown_ = next;
+}
+
+void ScenePublisher::tellShown(const Part& part) {
+  Place& place = *part.place;
+  std::size_t primitives = 0;
+  for (const Instance* instance : place.shown_) primitives += instance->shape->primitives.size();
+  {
+    const std::lock_guard lock(mutex_);
+    if (part.gone && !place.building_) std::erase(places_, part.place);
+  }
+  for (std::size_t i = 0; i < part.frames; ++i) {
+    std::unique_lock lock(mutex_);
+    const Place::Ready frame = std::move(place.ready_.front());
+    place.ready_.pop_front();
+    lock.unlock();
+    const bool last = i + 1 == part.frames;
+    tell([&] {
+      std::vector<std::string> warnings = frame.warnings;
+      if (last && part.jumps > 0) warnings.push_back(jumpWarning(part.jumps));
+      place.tell([&](FrameCallbacks& callbacks) { callbacks.shown(frame.number, primitives, warnings); });
+    });
+  }
+}
+
+}  // namespace hl

@@ -1,0 +1,117 @@
+// ScenePublisher: from the frames of all clients to the one scene that the devices touch.
+//
+//   builders   decode frames and build their shapes, each client's in order, several clients at once; where a refitted
+//              hierarchy is worn they build it anew, one at a time, once it is shown and its client has no frame
+//              waiting
+//   publisher  puts what is ready together and shows it to the loops when they have taken the scene before
+// The old scene stays touchable meanwhile.
+#pragma once
+
+#include <hl.pb.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/memory_budget.h"
+#include "scene/editable_scene.h"
+#include "session/decode_frame.h"
+#include "touch/touch_session.h"
+
+namespace hl {
+
+/// What becomes of a client's frames; all three are needed. Called by the publisher's threads, one call at a time for
+/// one client.
+struct FrameCallbacks {
+  std::function<void(std::uint64_t number, double part)> progress;
+  std::function<void(std::uint64_t number, std::size_t primitives, const std::vector<std::string>& warnings)> shown;
+  std::function<void(std::uint64_t number, const std::string& why)> refused;
+};
+
+/// Hierarchies of clients' shapes since the start.
+struct HierarchyCounts {
+  std::uint64_t refits = 0;    ///< of redefined objects
+  std::uint64_t rebuilds = 0;  ///< of those that were worn
+};
+
+class ScenePublisher {
+ public:
+  static constexpr int kBuilders = 2;
+
+  /// A client's objects. Made by join(), shared with the publisher.
+  class Place;
+
+  /// `base` is touchable besides what clients bring. The devices must outlive the publisher.
+  ScenePublisher(std::shared_ptr<const Snapshot> base, std::vector<TouchSession*> devices);
+  ~ScenePublisher();
+  void start();
+  void stop();  ///< what is not shown by then never is; safe to call twice
+
+  /// What the client makes the publisher keep is counted against `memory`. `replaced`, if any, goes in the very scene
+  /// that shows the first frame.
+  std::shared_ptr<Place> join(std::uint32_t session, const SceneLimits& limits, MemoryBudget memory,
+                              FrameCallbacks callbacks, std::shared_ptr<Place> replaced = {});
+  /// Any thread; returns at once. `uploads`: those that the frame refers to. `memory`: what both take, until it is
+  /// built.
+  void submit(const std::shared_ptr<Place>& place, proto::Frame frame, Uploads uploads, MemoryShare memory);
+  /// Frames that are submitted and not yet shown or refused.
+  std::size_t waiting(const std::shared_ptr<Place>& place) const;
+  /// No callback is under way or comes after this. The objects stay where they are until remove().
+  void detach(const std::shared_ptr<Place>& place);
+  void remove(const std::shared_ptr<Place>& place);
+  /// The one that was to be replaced, when no frame has been built yet: now it stays. Else null.
+  std::shared_ptr<Place> takeReplaced(const std::shared_ptr<Place>& place);
+  HierarchyCounts counts() const;
+
+ private:
+  struct Waiting {
+    proto::Frame frame;
+    Uploads uploads;
+    MemoryShare memory;
+    std::int64_t arrived_ns = 0;
+  };
+  /// Of the next scene: what one client has in it.
+  struct Part;
+
+  void runBuilder();
+  void runPublisher();
+  std::shared_ptr<Place> placeToBuild();
+  std::shared_ptr<Place> placeToRebuild();
+  void build(Place& place, Waiting waiting);
+  void refuse(Place& place, std::uint64_t number, const char* why);
+  void rebuild(Place& place);
+  bool waitForLoops();
+  std::vector<Part> takeParts();
+  void giveBack(std::vector<Part>& parts);
+  std::int64_t assemble(std::vector<Part>& parts, std::int64_t begin_ns, std::vector<Instance>& instances) const;
+  std::shared_ptr<const Snapshot> makeNext(std::vector<Part>& parts);
+  void publish();
+  static void listShown(const Snapshot& next, std::vector<Part>& parts);
+  void show(const std::shared_ptr<const Snapshot>& next, std::vector<Part>& parts) noexcept;
+  void tell(FunctionRef<void()> call);
+  void tellShown(const Part& part);
+  static std::int64_t moveTime_ns(const Waiting& waiting, std::int64_t last_arrived_ns);
+
+  const std::shared_ptr<const Snapshot> base_;
+  const std::vector<TouchSession*> devices_;
+  mutable std::mutex mutex_;  // of all below and of the places; no thread builds or waits while holding it
+  std::condition_variable work_, changed_;
+  std::vector<std::shared_ptr<Place>> places_;
+  std::atomic<bool> running_{false};
+  bool dirty_ = false;
+  HierarchyCounts counts_;
+  // Of the publisher's thread:
+  std::shared_ptr<const Snapshot> shown_;
+  std::int64_t shown_begin_ns_ = 0;
+  std::int64_t making_ns_ = 0;  // what the last one took
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace hl

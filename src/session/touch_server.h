@@ -1,0 +1,57 @@
+// TouchServer: everything between HL clients and devices: their sessions, and the world that they share.
+#pragma once
+
+#include <hl.pb.h>
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/function_ref.h"
+#include "session/client_session.h"
+#include "session/hl_session.h"
+#include "session/touch_world.h"
+
+namespace hl {
+
+/// Constructed, started, stopped and destroyed by one thread; it outlives its sessions. connect(): any thread.
+class TouchServer final : public SessionHost {
+ public:
+  /// `base` is touchable besides what clients bring; it may be empty. Throws hl::Error when a device cannot be had.
+  TouchServer(std::shared_ptr<const Snapshot> base, const TouchServerSettings& settings);
+  ~TouchServer() override;
+  void start();
+  void stop();  ///< zero force, then the rest; safe to call twice
+
+  std::unique_ptr<ClientSession> connect(const std::string& peer, WakeCarrier wake) override;
+
+  TouchSession& device(std::size_t number = 0) { return world_.device(number); }
+  std::size_t devices() const { return world_.devices(); }
+  std::size_t sessions() const;
+  HierarchyCounts hierarchyCounts() const { return world_.publisher().counts(); }
+  /// Of all clients' scenes, what they have sent ahead and are told, and what pages are shown of it.
+  const MemoryBudget& memory() const { return world_.memory(); }
+  double time_s() const { return world_.time_s(); }
+
+ private:
+  void leave(const HlSession& session);
+  void runEvents();
+  void tellEach(const proto::Event& event, FunctionRef<bool(const HlSession&)> whom);
+  void tellTouched(std::uint32_t device);
+  void tellButtons(std::uint32_t device);
+
+  TouchWorld world_;
+  std::atomic<bool> running_{false};
+  std::thread events_;
+  std::vector<std::uint32_t> buttons_;  // by device, as told last; of the events' thread
+
+  mutable std::mutex mutex_;  // of what follows
+  std::vector<HlSession*> sessions_;
+  std::uint32_t last_session_ = 0;
+};
+
+}  // namespace hl

@@ -1,0 +1,105 @@
+#include "session/touch_world.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "record/replay_device.h"
+#include "session/state_messages.h"
+
+namespace hl {
+
+namespace {
+
+constexpr std::uint32_t kPages = 1;  // they are one member of the budget
+
+std::vector<std::unique_ptr<TouchSession>> makeDevices(const std::shared_ptr<const Snapshot>& base,
+                                                       const TouchServerSettings& settings) {
+  std::vector<std::unique_ptr<TouchSession>> devices;
+  for (std::uint32_t i = 0; i < std::max(1U, settings.devices); ++i) {
+    std::unique_ptr<Device> device = openAnyDevice(settings.device);
+    if (settings.devices > 1 && device->hand() == nullptr)
+      throw Error("of '" + settings.device + "' there is one device; only simulated ones may be several");
+    devices.push_back(std::make_unique<TouchSession>(base, settings.touch, std::move(device)));
+  }
+  return devices;
+}
+
+std::vector<TouchSession*> pointersOf(const std::vector<std::unique_ptr<TouchSession>>& devices) {
+  std::vector<TouchSession*> pointers;
+  for (const auto& device : devices) pointers.push_back(device.get());
+  return pointers;
+}
+
+}  // namespace
+
+TouchWorld::TouchWorld(std::shared_ptr<const Snapshot> base, const TouchServerSettings& settings)
+    : settings_(settings),
+      memory_(settings.limits.memory_bytes, settings.limits.sessions + settings.limits.kept + kPages),
+      base_memory_(memory_),
+      devices_(makeDevices(base, settings)),
+      publisher_(base, pointersOf(devices_)),
+      masters_(devices_.size(), 0) {
+  base_memory_.set(memoryOf(*base));
+}
+
+void TouchWorld::start() {
+  for (const auto& device : devices_) device->start();
+  publisher_.start();
+}
+
+void TouchWorld::stop() {
+  for (const auto& device : devices_) device->stop();
+  publisher_.stop();
+}
+
+bool TouchWorld::becomeMaster(std::uint32_t device, std::uint32_t session) {
+  const std::lock_guard lock(mutex_);
+  if (masters_[device] == 0) masters_[device] = session;
+  return masters_[device] == session;
+}
+
+bool TouchWorld::hasMaster(std::uint32_t device) const {
+  const std::lock_guard lock(mutex_);
+  return masters_[device] != 0;
+}
+
+void TouchWorld::giveUpMaster(std::uint32_t session) {
+  const std::lock_guard lock(mutex_);
+  std::replace(masters_.begin(), masters_.end(), session, 0U);
+}
+
+void TouchWorld::keep(const std::string& client_name, std::shared_ptr<ScenePublisher::Place> place) {
+  const std::lock_guard lock(mutex_);
+  const auto named = [&](const auto& one) { return one.first == client_name; };
+  auto gone = std::find_if(kept_.begin(), kept_.end(), named);
+  if (gone == kept_.end() && kept_.size() >= settings_.limits.kept) gone = kept_.begin();
+  if (gone != kept_.end()) {
+    publisher_.remove(gone->second);
+    kept_.erase(gone);
+  }
+  kept_.emplace_back(client_name, std::move(place));
+}
+
+std::shared_ptr<ScenePublisher::Place> TouchWorld::takeKept(const std::string& client_name) {
+  const std::lock_guard lock(mutex_);
+  const auto named = [&](const auto& one) { return one.first == client_name; };
+  const auto found = std::find_if(kept_.begin(), kept_.end(), named);
+  if (found == kept_.end()) return nullptr;
+  auto place = std::move(found->second);
+  kept_.erase(found);
+  return place;
+}
+
+void TouchWorld::views(std::uint32_t device, ServoView& servo, ProxyView& proxy) {
+  const std::lock_guard lock(views_mutex_);
+  devices_[device]->viewsForClients(servo, proxy);
+}
+
+void TouchWorld::describe(std::uint32_t device, proto::ClientState& state) {
+  ServoView servo;
+  ProxyView proxy;
+  views(device, servo, proxy);
+  toProto(*devices_[device], servo, proxy, state);
+}
+
+}  // namespace hl

@@ -1,0 +1,75 @@
+// TouchWorld: what the sessions of all clients share: the devices with their loops and masters, the publisher of
+// scenes, and the objects of clients that have gone.
+#pragma once
+
+#include <hl.pb.h>
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/memory_budget.h"
+#include "session/limits.h"
+#include "session/scene_publisher.h"
+#include "touch/touch_session.h"
+
+namespace hl {
+
+struct TouchServerSettings {
+  TouchSettings touch;        ///< of each device
+  std::uint32_t devices = 1;  ///< 1..16, each with a proxy of its own; more than one only of simulated ones
+  Limits limits{};
+  std::string version;         ///< of the server, for Welcome
+  std::string device = "sim";  ///< as openAnyDevice() takes it
+};
+
+/// Constructed, started, stopped and destroyed by one thread. The rest: any thread.
+class TouchWorld {
+ public:
+  /// `base` is touchable besides what clients bring; it may be empty. Throws hl::Error when a device cannot be had.
+  TouchWorld(std::shared_ptr<const Snapshot> base, const TouchServerSettings& settings);
+  void start();
+  void stop();  ///< zero force, then the rest; once
+
+  const TouchServerSettings& settings() const { return settings_; }
+  const Limits& limits() const { return settings_.limits; }
+  TouchSession& device(std::size_t number) { return *devices_[number]; }
+  std::size_t devices() const { return devices_.size(); }
+  ScenePublisher& publisher() { return publisher_; }
+  const ScenePublisher& publisher() const { return publisher_; }
+  const MemoryBudget& memory() const { return memory_; }
+  double time_s() const { return devices_[0]->time_s(); }
+
+  /// A role that one session at a time has; whether this one has it now.
+  bool becomeMaster(std::uint32_t device, std::uint32_t session);
+  bool hasMaster(std::uint32_t device) const;
+  /// The session has ended: it is no master any more.
+  void giveUpMaster(std::uint32_t session);
+
+  /// Objects whose client has gone and wanted them to stay. Of a name there are those of the client that left last;
+  /// when there are too many, those that have been kept longest go.
+  void keep(const std::string& client_name, std::shared_ptr<ScenePublisher::Place> place);
+  /// Null when there are none of this name.
+  std::shared_ptr<ScenePublisher::Place> takeKept(const std::string& client_name);
+
+  void views(std::uint32_t device, ServoView& servo, ProxyView& proxy);
+  void describe(std::uint32_t device, proto::ClientState& state);
+
+ private:
+  const TouchServerSettings settings_;
+  const MemoryBudget memory_;
+  MemoryShare base_memory_;
+  std::vector<std::unique_ptr<TouchSession>> devices_;
+  ScenePublisher publisher_;
+
+  mutable std::mutex mutex_;                                                          // of what follows
+  std::vector<std::uint32_t> masters_;                                                // session by device; 0: none
+  std::vector<std::pair<std::string, std::shared_ptr<ScenePublisher::Place>>> kept_;  // by name; the oldest first
+
+  std::mutex views_mutex_;  // of the devices' views for clients
+};
+
+}  // namespace hl

@@ -1,0 +1,34 @@
+// Trace: a scene felt along a recorded finger path, offline, on a virtual clock. The contract is docs/trace.md.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "io/csv_path.h"
+#include "io/trace_csv.h"
+#include "proxy/proxy.h"
+#include "scene/snapshot.h"
+#include "touch/ending_counts.h"
+
+namespace hl {
+
+struct TraceSettings {
+  /// Without a budget of work, as nothing waits for a row.
+  TraceSettings() { proxy.work_cap = kNoWorkCap; }
+
+  ProxySettings proxy;  ///< the period is taken from the path, row by row
+};
+
+struct TraceTotals {
+  std::uint64_t ticks = 0;
+  std::uint64_t contacts = 0;  ///< ticks that ended in contact
+  EndingCounts ended;          ///< ticks by why they ended
+  Ledger ledger;               ///< of the whole trace
+};
+
+/// One tick per sample; the proxy starts at the first one. Calls `row` with each result in order.
+TraceTotals runTrace(const Snapshot& snapshot, const TraceSettings& settings, const std::vector<PathSample>& path,
+                     const std::function<void(const TraceRow&)>& row);
+
+}  // namespace hl

@@ -1,0 +1,129 @@
+#include "touch/proxy_loop.h"
+
+#include <algorithm>
+
+#include "proxy/spring_energy.h"
+
+namespace hl {
+
+void ProxyLoop::follow(const ProxyCommands& commands, const SpringOfServo& spring) {
+  workspace_ = commands.workspace;
+  settings_.radius = commands.radius_W;
+  settings_.surfaces = commands.surfaces;
+  settings_.world_per_device = workspace_.world_per_device;
+  settings_.spring_N_m = spring.stiffness_N_m;
+  settings_.ledger = spring.ledger;
+  settings_.period_s = spring.period_s;
+}
+
+// The next tick finds where it begins.
+void ProxyLoop::restart() {
+  const Ledger kept = state_.ledger;
+  state_ = {};
+  state_.ledger = kept;
+}
+
+bool ProxyLoop::touches(const ProxyState& state, const TickReport& report) const {
+  return report.valid() && state.free && state.touching;
+}
+
+// In the open the proxy is the finger of a moment ago: pulling to it would be a drag, so there is no pull then. A proxy
+// that is still on its way from a surface goes on pulling.
+Vec3 ProxyLoop::pullOf(const ProxyState& state, const TickReport& report, const Vec3& finger_D) const {
+  if (!touches(state, report)) return Vec3::Zero();
+  return state.stiffness * (workspace_.toDevice(state.position) - finger_D);
+}
+
+// By how much less the new scene pulls the finger than what came before: the last tick is made once more in the new
+// scene, from the same state with the same finger at the same time. So where nothing has changed that it met, nothing
+// is different, to the bit. It ends after as many looks, not as much work, which may be other in the new scene; its
+// budget, far above that of a tick, only keeps a scene of many triangles from making the loop late.
+Vec3 ProxyLoop::changeOfPull(const Snapshot& snapshot) {
+  constexpr int kMostLooks = 64;     // more than a tick makes that is not out of work
+  constexpr int kMostWork = 50'000;  // some 0.25 ms
+  ProxySettings settings = settings_;
+  settings.work_cap = kMostWork;
+  const int looks = last_.used_up_at > 0 ? last_.used_up_at : kMostLooks;
+  ProxyState again = last_.from;
+  const SceneAt scene(snapshot, last_.time_ns, recent_);
+  const TickReport report = tick(again, scene, settings, workspace_.toWorld(last_.finger_D), looks);
+  return last_.pull_D - pullOf(again, report, last_.finger_D);
+}
+
+double ProxyLoop::energyOf_J(const ServoTarget& target, const Vec3& finger_D) const {
+  return springEnergy_J(settings_.spring_N_m, target.stiffness, (target.proxy_D - finger_D).squaredNorm());
+}
+
+ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const ProxyCommands& commands,
+                          const SpringOfServo& spring, int most_looks) {
+  follow(commands, spring);
+  const Snapshot& snapshot = scenes_.take();
+  const SceneAt scene(snapshot, now_ns, recent_);
+  const Vec3 finger = workspace_.toWorld(finger_D);
+  const bool skipped = snapshot.number > state_.snapshot + 1;  // others, with what they changed
+  const std::int64_t blend_ns = skipped ? kAbruptBlend_ns : snapshot.blend_ns;
+  const bool anew = state_.snapshot == 0 || commands.restarts != restarts_;
+  restarts_ = commands.restarts;
+  if (anew) {
+    restart();
+  } else if (snapshot.number != state_.snapshot && blend_ns > 0) {
+    blend_.add(changeOfPull(snapshot), 1e-9 * static_cast<double>(blend_ns));
+  }
+  last_.from = state_;
+  ProxyStep step;
+  step.scene = snapshot.identity;
+  const Ledger before = state_.ledger;
+  step.report = tick(state_, scene, settings_, finger, most_looks);
+  if (!spring.pulls) {
+    state_.ledger = before;
+    step.report.injected_J = step.report.moved_J = 0;
+  }
+  for (const ProxyContact& contact : step.report.contacts) {
+    const Instance& instance = scene.instance(contact.primitive);
+    step.touched.push({instance.key, instance.session, instance.object, instance.name});
+  }
+  if (anew) blend_.add(last_.pull_D - pullOf(state_, step.report, finger_D), 1e-9 * kAbruptBlend_ns);
+  step.held = heldBy(step.report, targetOf(now_ns, finger_D, step.report));
+  events_.follow(now_ns, step.touched, state_.position);
+  return step;
+}
+
+// While a pull fades out, it is told with no less stiffness than it was made with.
+ServoTarget ProxyLoop::targetOf(std::int64_t now_ns, const Vec3& finger_D, const TickReport& report) {
+  const bool touching = touches(state_, report);
+  const Vec3 pull_D = pullOf(state_, report, finger_D);
+  const Vec3 fading_D = blend_.step(settings_.period_s);
+  ServoTarget target{finger_D, now_ns, touching, touching ? state_.stiffness : told_.stiffness,
+                     report.injected_J + std::max(0.0, report.moved_J)};
+  if (touching) target.proxy_D = workspace_.toDevice(state_.position);
+  const double stiffness = told_.valid ? std::max(target.stiffness, told_.stiffness) : target.stiffness;
+  if (blend_.active() && report.valid() && stiffness > 0) {
+    target.valid = true;
+    target.stiffness = stiffness;
+    target.proxy_D = finger_D + (pull_D + fading_D) / stiffness;
+    target.paid_J = energyOf_J(target, finger_D) - (told_.valid ? energyOf_J(told_, finger_D) : 0);
+  }
+  last_.time_ns = now_ns;
+  last_.finger_D = finger_D;
+  last_.pull_D = pull_D;
+  last_.used_up_at = report.used_up_at;
+  return told_ = target;
+}
+
+// Smooth surfaces let the proxy slide until the next tick; friction would hold it, so there it stays. While a blend
+// goes on, the target is not where the contacts hold the proxy.
+HeldContacts ProxyLoop::heldBy(const TickReport& report, const ServoTarget& target) const {
+  HeldContacts held;
+  held.target = target;
+  if (blend_.active()) return held;
+  for (const ProxyContact& contact : report.contacts) {
+    if (contact.rough) {
+      held.planes_D.clear();
+      break;
+    }
+    held.planes_D.push({contact.normal, contact.normal.dot(target.proxy_D)});
+  }
+  return held;
+}
+
+}  // namespace hl

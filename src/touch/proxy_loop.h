@@ -1,0 +1,95 @@
+// ProxyLoop: one tick as the real-time loops do it, without a thread: takes the newest scene and settings, ticks, and
+// tells the servo where to pull, and the server what was touched.
+#pragma once
+
+#include <cstdint>
+
+#include "control/servo.h"
+#include "proxy/proxy.h"
+#include "touch/held_contacts.h"
+#include "touch/snapshot_slot.h"
+#include "touch/target_blend.h"
+#include "touch/touch_events.h"
+#include "touch/workspace.h"
+
+namespace hl {
+
+/// What may change while the loop runs.
+struct ProxyCommands {
+  MaterialOverride surfaces{};
+  Workspace workspace;
+  double radius_W = 0.002;  ///< m, world, > 0
+  /// Counts changes of workspace or radius: the proxy then starts anew where the finger is.
+  std::uint64_t restarts = 0;
+};
+
+/// What a tick must know of the servo.
+struct SpringOfServo {
+  double stiffness_N_m = 1000;
+  LedgerMode ledger = LedgerMode::kTank;
+  double period_s = 1e-3;  ///< from tick to tick
+  bool pulls = true;       ///< false: the servo makes no force, so that a tick does nothing to any energy
+};
+
+/// What a tick is told.
+struct TickRequest {
+  std::int64_t time_ns = 0;
+  Vec3 finger_D = Vec3::Zero();
+  ProxyCommands commands;
+  SpringOfServo spring;
+};
+
+struct ProxyStep {
+  std::uint64_t scene = 0;  ///< identity of the snapshot; 0: there was no tick
+  HeldContacts held;        ///< the target, and how it goes on until the next tick
+  TickReport report;
+  FixedVector<ObjectName, 3> touched;  ///< of report.contacts, one by one
+};
+
+/// step() and skip() by one thread at a time, RT-safe; popEvent() by one other.
+class ProxyLoop {
+ public:
+  /// `settings`: passes and iterations; the rest comes with each step.
+  ProxyLoop(SnapshotSlot& scenes, const ProxySettings& settings) : scenes_(scenes), settings_(settings) {}
+
+  /// One tick at `now_ns` with the finger at `finger_D`; `most_looks` as in tick().
+  ProxyStep step(std::int64_t now_ns, const Vec3& finger_D, const ProxyCommands& commands, const SpringOfServo& spring,
+                 int most_looks = kNoWorkCap);
+  /// Instead of a tick, when nobody knows where the finger is: takes the newest scene all the same, so that clients who
+  /// wait for theirs to be taken do not wait for the device.
+  void skip() { scenes_.take(); }
+  const ProxyState& state() const { return state_; }
+  bool popEvent(TouchEvent& event) { return events_.pop(event); }
+
+ private:
+  /// What the last tick began with and came to.
+  struct LastTick {
+    ProxyState from;
+    std::int64_t time_ns = 0;
+    Vec3 finger_D = Vec3::Zero();
+    Vec3 pull_D = Vec3::Zero();  ///< s (proxy - finger), without what fades of scenes before
+    int used_up_at = 0;          ///< of its report
+  };
+
+  void follow(const ProxyCommands& commands, const SpringOfServo& spring);
+  void restart();
+  Vec3 changeOfPull(const Snapshot& snapshot);
+  bool touches(const ProxyState& state, const TickReport& report) const;
+  Vec3 pullOf(const ProxyState& state, const TickReport& report, const Vec3& finger_D) const;
+  double energyOf_J(const ServoTarget& target, const Vec3& finger_D) const;
+  HeldContacts heldBy(const TickReport& report, const ServoTarget& target) const;
+  ServoTarget targetOf(std::int64_t now_ns, const Vec3& finger_D, const TickReport& report);
+
+  SnapshotSlot& scenes_;
+  ProxySettings settings_;
+  Workspace workspace_;
+  ProxyState state_;
+  ManyRecentPrimitives recent_;
+  LastTick last_;
+  TargetBlend blend_;
+  ServoTarget told_;  // in the last tick
+  std::uint64_t restarts_ = 0;
+  TouchEvents events_;
+};
+
+}  // namespace hl

@@ -1,0 +1,45 @@
+// StepSink: gets all that the loops do, step by step, such as a recorder. The loops know no more of it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "control/servo_record.h"
+#include "touch/proxy_loop.h"
+
+namespace hl {
+
+/// What is the same in all steps of a session.
+struct SessionInfo {
+  DeviceInfo device;
+  double servo_rate_Hz = 1000, proxy_rate_Hz = 1000;
+  ProxySettings proxy;
+};
+
+/// Made, started, stopped and destroyed by one thread.
+class StepSink {
+ public:
+  StepSink() = default;
+  StepSink(const StepSink&) = delete;
+  StepSink& operator=(const StepSink&) = delete;
+  virtual ~StepSink() = default;
+
+  virtual void start() = 0;
+  virtual void stop() = 0;  ///< when the loops have ended; safe to call twice
+
+  /// A step that the servo has made. Its thread; RT-safe.
+  virtual void step(const ServoRecord& record) noexcept = 0;
+  /// A tick, by the loop that has made it; `step.scene` is 0 where there was none. RT-safe.
+  virtual void tick(const TickRequest& request, const ProxyStep& step, const Vec3& proxy,
+                    std::int64_t work_ns) noexcept = 0;
+  /// Before the loops can take it. Any thread but theirs.
+  virtual void scene(std::shared_ptr<const Snapshot> scene) noexcept = 0;
+  /// The watchdog has found the servo standing still. Any thread.
+  virtual void stall() noexcept = 0;
+};
+
+/// May throw hl::Error.
+using MakeStepSink = std::function<std::unique_ptr<StepSink>(const SessionInfo&)>;
+
+}  // namespace hl

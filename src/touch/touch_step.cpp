@@ -1,0 +1,24 @@
+#include "touch/touch_step.h"
+
+namespace hl {
+
+ServoOutput TouchStep::onTime(ProxyLoop& loop, const ProxyCommands& commands, const ServoSettings& settings,
+                              const DeviceSample& sample) {
+  if (sample.status == DeviceStatus::kOk && sample.position.allFinite()) {
+    tick_ = loop.step(sample.time_ns, sample.position, commands, springOf(settings, servo_));
+  } else {
+    loop.skip();
+    tick_.scene = 0;
+    tick_.held = HeldContacts{};
+    tick_.held.target.time_ns = sample.time_ns;
+  }
+  target_ = tick_.held.target;
+  return stepServo(servo_, settings, target_, sample);
+}
+
+ServoOutput TouchStep::late(const HeldContacts& held, const ServoSettings& settings, const DeviceSample& sample) {
+  target_ = held.at(sample.position);
+  return stepServo(servo_, settings, target_, sample);
+}
+
+}  // namespace hl

@@ -1,0 +1,282 @@
+// What pages are told of a scene that changes: each mesh once, layouts only when something comes or goes, what moves in
+// the states, and what may be forgotten.
+#include "page/page_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <thread>
+
+#include "builtin.h"
+
+namespace hl {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+const PageScale kScale{0.002, 1.5};
+
+std::shared_ptr<const Shape> plane(int triangles) {
+  return makeShape(makeBuiltinScene("plane:" + std::to_string(triangles)), HierarchyKind::kNone);
+}
+
+Instance instanceOf(std::uint64_t key, const std::shared_ptr<const Shape>& shape, const Motion& motion = Motion()) {
+  return {shape, surfacesOf(shape), motion, key, 1, static_cast<std::uint32_t>(10 * key), 0};
+}
+
+Pose at(double x, double y = 0, double z = 0) { return {Mat3::Identity(), {x, y, z}}; }
+
+class PageSceneTest : public testing::Test {
+ protected:
+  std::vector<proto::ServerMessage> drain(PageMemory& page) const {
+    std::vector<proto::ServerMessage> messages;
+    while (const PageMessage bytes = scene_.next(page)) EXPECT_TRUE(messages.emplace_back().ParseFromString(*bytes));
+    return messages;
+  }
+  /// Shows a snapshot with meshes that may have to be made first, on their own thread.
+  std::vector<proto::ServerMessage> show(const std::shared_ptr<const Snapshot>& snapshot, std::int64_t now_ns = 0) {
+    while (true) {
+      scene_.follow(snapshot, kScale, now_ns);
+      if (auto messages = drain(page_); !messages.empty()) return messages;
+      std::this_thread::yield();
+    }
+  }
+  proto::State stateAt(std::int64_t now_ns, std::vector<ObjectName> touched = {}) const {
+    proto::State state;
+    scene_.describe(state, touched, now_ns);
+    return state;
+  }
+  static float poseNumber(const std::string& poses, std::size_t instance, std::size_t i) {
+    float number = 0;
+    std::memcpy(&number, poses.data() + sizeof number * (12 * instance + i), sizeof number);
+    return number;
+  }
+
+  PageScene scene_;
+  PageMemory page_ = scene_.open();
+  const std::shared_ptr<const Shape> small_ = plane(8), large_ = plane(200);
+};
+
+TEST_F(PageSceneTest, AMeshIsSentOnceHoweverOftenItIsPlaced) {
+  const auto snapshot = makeSnapshot(
+      {instanceOf(1, small_), instanceOf(2, large_, Motion(at(0.5))), instanceOf(3, small_, Motion(at(0, 0, 3)))},
+      "three");
+  const auto messages = show(snapshot);
+  ASSERT_EQ(messages.size(), 3u);
+  EXPECT_EQ(messages[0].mesh().triangles().size(), 8u * 3 * sizeof(std::uint32_t));
+  EXPECT_EQ(messages[1].mesh().triangles().size(), 200u * 3 * sizeof(std::uint32_t));
+  const proto::SceneLayout& layout = messages[2].layout();
+  EXPECT_EQ(layout.name(), "three");
+  EXPECT_EQ(layout.proxy_radius(), kScale.radius_W);
+  EXPECT_EQ(layout.world_per_device(), kScale.world_per_device);
+  EXPECT_EQ(layout.bounds_max().z(), snapshot->bounds.max.z());
+  ASSERT_EQ(layout.placed_size(), 3);
+  EXPECT_EQ(layout.placed(0).mesh(), messages[0].mesh().number());
+  EXPECT_EQ(layout.placed(1).mesh(), messages[1].mesh().number());
+  EXPECT_EQ(layout.placed(2).mesh(), messages[0].mesh().number());
+  EXPECT_EQ(layout.placed(1).object(), 20u);
+  EXPECT_EQ(poseNumber(layout.poses(), 1, 3), 0.5f);
+  EXPECT_EQ(poseNumber(layout.poses(), 2, 11), 3.0f);
+  EXPECT_EQ(poseNumber(layout.poses(), 2, 10), 1.0f);
+  EXPECT_EQ(stateAt(0).layout(), layout.number());
+}
+
+TEST_F(PageSceneTest, ASecondPageGetsTheSameBytes) {
+  show(makeSnapshot({instanceOf(1, small_)}));
+  PageMemory first = scene_.open(), second = scene_.open();
+  while (const PageMessage bytes = scene_.next(first)) EXPECT_EQ(scene_.next(second).get(), bytes.get());
+  EXPECT_EQ(scene_.next(second), nullptr);
+}
+
+TEST_F(PageSceneTest, WhatMovesIsInTheStatesAndNoLayoutIsSent) {
+  show(makeSnapshot({instanceOf(1, small_), instanceOf(2, small_)}));
+  const Motion moving = Motion().then(at(2), 100 * kMs, 300 * kMs);
+  const auto snapshot = makeSnapshot({instanceOf(1, small_), instanceOf(2, small_, moving)});
+  for (std::int64_t t = 100; t < 900; t += 50) {
+    scene_.follow(snapshot, kScale, t * kMs);
+    EXPECT_TRUE(drain(page_).empty()) << t;
+  }
+  EXPECT_EQ(stateAt(100 * kMs).moved_size(), 0);
+  for (const auto& [ms, x] : {std::pair{200, 1.0f}, {300, 2.0f}, {800, 2.0f}}) {
+    const proto::State state = stateAt(ms * kMs);
+    ASSERT_EQ(state.moved_size(), 1) << "where it has come to rest it is still elsewhere than in the layout";
+    EXPECT_EQ(state.moved(0), 1u);
+    EXPECT_NEAR(poseNumber(state.moved_poses(), 0, 3), x, 1e-6f);
+  }
+}
+
+TEST_F(PageSceneTest, WhatHasComeToRestGetsANewLayoutAfterAWhile) {
+  show(makeSnapshot({instanceOf(1, small_)}));
+  const auto snapshot = makeSnapshot({instanceOf(1, small_, Motion().then(at(2), 0, 1500 * kMs))});
+  scene_.follow(snapshot, kScale, 1200 * kMs);
+  EXPECT_TRUE(drain(page_).empty()) << "still moving";
+  scene_.follow(snapshot, kScale, 2400 * kMs);
+  EXPECT_TRUE(drain(page_).empty()) << "it may move on with its client's next frame";
+  scene_.follow(snapshot, kScale, 2500 * kMs);
+  const auto messages = drain(page_);
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_EQ(poseNumber(messages[0].layout().poses(), 0, 3), 2.0f);
+  EXPECT_EQ(messages[0].layout().bounds_max().x(), snapshot->bounds.max.x());
+  EXPECT_EQ(stateAt(2600 * kMs).moved_size(), 0);
+  scene_.follow(snapshot, kScale, 9000 * kMs);
+  EXPECT_TRUE(drain(page_).empty());
+}
+
+TEST_F(PageSceneTest, WhatJumpsIsThereAtOnceAndGetsALayoutOnceASecond) {
+  show(makeSnapshot({instanceOf(1, small_)}));
+  int layouts = 0;
+  for (std::int64_t t = 0; t <= 3000; t += 20) {
+    scene_.follow(makeSnapshot({instanceOf(1, small_, Motion(at(1 + static_cast<double>(t))))}), kScale, t * kMs);
+    layouts += static_cast<int>(drain(page_).size());
+    const proto::State state = stateAt(t * kMs);
+    EXPECT_EQ(state.moved_size(), layouts > 0 && t % 1000 == 0 ? 0 : 1) << t;
+  }
+  EXPECT_EQ(layouts, 3);
+}
+
+TEST_F(PageSceneTest, ALayoutComesWhenSomethingComesOrIsRenamedOrScaled) {
+  show(makeSnapshot({instanceOf(1, small_)}));
+  const auto more = makeSnapshot({instanceOf(1, small_), instanceOf(4, small_)});
+  EXPECT_EQ(show(more).size(), 1u);
+  scene_.follow(more, {kScale.radius_W, 3}, 0);
+  EXPECT_EQ(drain(page_).at(0).layout().world_per_device(), 3);
+  EXPECT_EQ(show(makeSnapshot({instanceOf(1, small_), instanceOf(4, small_)}, "other")).at(0).layout().name(), "other");
+}
+
+TEST_F(PageSceneTest, MeshesThatAreGoneMayBeForgottenAndComeBackUnderANewNumber) {
+  const auto both = makeSnapshot({instanceOf(1, small_), instanceOf(2, large_)});
+  const auto first = show(both);
+  const auto without = show(makeSnapshot({instanceOf(1, small_)}));
+  ASSERT_EQ(without.size(), 2u);
+  EXPECT_EQ(without[0].layout().placed_size(), 1);
+  ASSERT_EQ(without[1].forget().meshes_size(), 1);
+  EXPECT_EQ(without[1].forget().meshes(0), first[1].mesh().number());
+  const auto again = show(makeSnapshot({instanceOf(1, small_), instanceOf(2, large_)}));
+  ASSERT_EQ(again.size(), 2u);
+  EXPECT_GT(again[0].mesh().number(), first[1].mesh().number());
+}
+
+TEST_F(PageSceneTest, APageThatReadsSlowlyGetsOnlyTheNewest) {
+  PageMemory slow = scene_.open();
+  for (std::uint64_t count = 1; count <= 5; ++count) {
+    std::vector<Instance> instances;
+    for (std::uint64_t key = 1; key <= count; ++key) instances.push_back(instanceOf(key, small_));
+    show(makeSnapshot(std::move(instances)));
+  }
+  const auto messages = drain(slow);
+  ASSERT_EQ(messages.size(), 2u);
+  EXPECT_EQ(messages[1].layout().placed_size(), 5);
+}
+
+TEST_F(PageSceneTest, AnEmptySceneIsALayoutWithNothingInIt) {
+  const auto messages = show(makeSnapshot(std::vector<Instance>{}));
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_EQ(messages[0].layout().placed_size(), 0);
+  EXPECT_FALSE(messages[0].layout().has_bounds_min());
+}
+
+TEST_F(PageSceneTest, WhatIsTouchedIsTold) {
+  show(makeSnapshot({instanceOf(3, small_), instanceOf(7, small_)}));
+  const proto::State state = stateAt(0, {{7, 1, 70, 0}, {5, 1, 50, 0}, {7, 1, 70, 0}});
+  ASSERT_EQ(state.touched_size(), 1) << "once each, and only what is in the layout";
+  EXPECT_EQ(state.touched(0), 1u);
+}
+
+TEST_F(PageSceneTest, TheSameShapeWithAnotherTextureIsAnotherMesh) {
+  Model model = makeBuiltinScene("plane:8");
+  model.texcoords.assign(model.positions.size(), Vec2::Zero());
+  const auto shape = makeShape(std::move(model), HierarchyKind::kNone);
+  const auto look = [&](const char* kind) {
+    auto surfaces = std::make_shared<Surfaces>();
+    surfaces->materials.resize(shape->model.materials.size());
+    surfaces->materials[0].textureOf(Quantity::kHeight) = {0, 0, 0.001};
+    surfaces->textures.push_back(std::make_shared<const Texture>(makeTexture(kind, 4)));
+    return surfaces;
+  };
+  std::vector<Instance> instances{instanceOf(1, shape), instanceOf(2, shape), instanceOf(3, shape),
+                                  instanceOf(4, shape)};
+  instances[0].surfaces = look("checker");
+  instances[1].surfaces = look("sine");
+  instances[2].surfaces = std::make_shared<const Surfaces>(*instances[1].surfaces);
+  const auto messages = show(makeSnapshot(std::move(instances)));
+  ASSERT_EQ(messages.size(), 4u) << "checker, sine, plain and the layout";
+  const proto::SceneLayout& layout = messages[3].layout();
+  EXPECT_NE(layout.placed(0).mesh(), layout.placed(1).mesh());
+  EXPECT_EQ(layout.placed(1).mesh(), layout.placed(2).mesh());
+  EXPECT_NE(layout.placed(0).mesh(), layout.placed(3).mesh());
+}
+
+TEST_F(PageSceneTest, NothingIsKeptWhileNobodyLooks) {
+  const std::weak_ptr<const Shape> watched = [&] {
+    const auto shape = plane(50);
+    show(makeSnapshot({instanceOf(1, shape)}));
+    return shape;
+  }();
+  EXPECT_FALSE(watched.expired());
+  page_ = {};
+  scene_.follow(makeSnapshot({instanceOf(1, small_)}), kScale, 0);
+  EXPECT_EQ(stateAt(0).layout(), 0u);
+  while (!watched.expired()) std::this_thread::yield();  // the thread that made its message may hold it a moment longer
+  page_ = scene_.open();
+  EXPECT_EQ(show(makeSnapshot({instanceOf(1, small_)})).size(), 2u);
+}
+
+TEST_F(PageSceneTest, ASceneWithANewMeshInEveryFrameIsShown) {
+  int shown = 0;
+  for (int i = 0; i < 2000 && shown < 3; ++i) {
+    scene_.follow(makeSnapshot({instanceOf(1, plane(8))}), kScale, i * kMs);
+    for (const proto::ServerMessage& message : drain(page_)) shown += message.has_layout() ? 1 : 0;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(shown, 3);
+}
+
+// A page without a mesh is told why, sees the rest, and goes on with the next scene.
+TEST(PageSceneMemory, AMeshThatDoesNotFitIsToldAndTheRestIsShown) {
+  const MemoryBudget budget(10'000);
+  PageScene scene(budget);
+  PageMemory page = scene.open();
+  const auto small = plane(8), large = plane(2000);
+  const auto drained = [&] {
+    std::vector<proto::ServerMessage> messages;
+    while (const PageMessage bytes = scene.next(page)) EXPECT_TRUE(messages.emplace_back().ParseFromString(*bytes));
+    return messages;
+  };
+  const auto show = [&](const std::shared_ptr<const Snapshot>& snapshot) {
+    while (true) {
+      scene.follow(snapshot, kScale, 0);
+      if (auto messages = drained(); !messages.empty()) return messages;
+      std::this_thread::yield();
+    }
+  };
+  const auto messages = show(makeSnapshot({instanceOf(1, large), instanceOf(2, small)}));
+  ASSERT_EQ(messages.size(), 4u);
+  EXPECT_EQ(messages[0].mesh().triangles().size(), 0u);
+  EXPECT_EQ(messages[1].mesh().triangles().size(), 8u * 3 * sizeof(std::uint32_t));
+  EXPECT_EQ(messages[2].layout().placed_size(), 2);
+  EXPECT_EQ(messages[3].notice().text().find("a mesh can be touched but is not shown: there is no room"), 0u)
+      << messages[3].notice().text();
+  EXPECT_GT(budget.used_bytes(), 0u);
+  EXPECT_EQ(show(makeSnapshot({instanceOf(2, small)})).front().layout().placed_size(), 1);
+  page = {};
+  scene.follow(nullptr, kScale, 0);
+  EXPECT_EQ(budget.used_bytes(), 0u) << "nobody looks";
+}
+
+// Protobuf writes no message of 2 GB.
+TEST(PageMeshes, AMeshBeyondTheLargestMessageIsToldNotSentEmpty) {
+  PageMeshes meshes({}, 5000);
+  const auto snapshot = makeSnapshot({instanceOf(1, plane(8)), instanceOf(2, plane(2000))});
+  const std::vector<std::uint32_t> numbers = meshes.numbersOf(*snapshot);
+  while (!meshes.ready()) std::this_thread::yield();
+  proto::ServerMessage small, large;
+  ASSERT_TRUE(small.ParseFromString(*meshes.message(numbers[0])));
+  ASSERT_TRUE(large.ParseFromString(*meshes.message(numbers[1])));
+  EXPECT_GT(small.mesh().triangles().size(), 0u);
+  EXPECT_EQ(large.mesh().number(), numbers[1]);
+  EXPECT_NE(meshes.lacking().find("several objects"), std::string::npos) << meshes.lacking();
+  meshes.keep({numbers[0]});
+  EXPECT_EQ(meshes.lacking(), "");
+}
+
+}  // namespace
+}  // namespace hl

@@ -1,0 +1,277 @@
+// Frames of a few bytes that ask for more memory than a session may have, and numbers that are none, are refused before
+// anything is made of them.
+#include "session/decode_frame.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "session/message_forms.h"
+#include "session/message_size.h"
+
+namespace hl {
+namespace {
+
+SceneLimits smallLimits() {
+  SceneLimits limits;
+  limits.primitives = 10;
+  limits.texture_bytes = 64 * sizeof(float);
+  return limits;
+}
+
+std::string refusalOf(const proto::Frame& frame, Uploads uploads = {}, const MemoryBudget& memory = {}) {
+  try {
+    decodeFrame(frame, uploads, smallLimits(), memory, [](double) {});
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+void addTexture(proto::Frame& frame, const std::string& name, std::uint32_t size) {
+  proto::TextureImage& texture = *frame.add_textures();
+  texture.set_name(name);
+  texture.mutable_procedural()->set_kind("checker");
+  texture.mutable_procedural()->set_size(size);
+}
+
+TEST(DecodeFrame, TexturesShareTheRoomThereIs) {
+  proto::Frame frame;
+  addTexture(frame, "a", 4);
+  addTexture(frame, "b", 6);
+  EXPECT_EQ(refusalOf(frame), "accepted");
+  addTexture(frame, "c", 4);
+  EXPECT_EQ(refusalOf(frame), "texture 'c'.procedural.size of 4 is too large: there is room for 12 texels");
+}
+
+// An upload with no element: each item that refers to it would keep all of its vertices.
+TEST(DecodeFrame, VerticesOfUploadsAreCountedForEachItem) {
+  Uploads uploads;
+  for (int i = 0; i < 12; ++i) uploads[1].emplace_back().add_vertices(i);
+  proto::Frame frame;
+  for (int i = 0; i < 8; ++i) frame.mutable_world()->add_items()->set_upload(1);
+  EXPECT_EQ(refusalOf(frame, uploads), "accepted");
+  frame.mutable_world()->add_items()->set_upload(1);
+  EXPECT_EQ(refusalOf(frame, uploads), "world.items[8].upload: there are more than 10 x 3 vertices");
+}
+
+// What is not finite, or so large that products of it would not be, is refused where it comes in.
+TEST(DecodeFrame, NumbersThatNobodyCanComputeWithAreRefused) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  const auto with = [](auto set) {
+    proto::Frame frame;
+    proto::Item& item = *frame.mutable_world()->add_items();
+    for (const double x : {0, 0, 0, 1, 0, 0, 0, 1, 0}) item.mutable_primitives()->add_vertices(x);
+    for (const std::uint32_t i : {0u, 1u, 2u}) item.mutable_primitives()->add_triangles(i);
+    set(item);
+    return refusalOf(frame);
+  };
+  EXPECT_EQ(with([](proto::Item&) {}), "accepted");
+  for (const double bad : {nan, inf, -inf}) {
+    EXPECT_EQ(with([&](proto::Item& item) {
+                for (int i = 0; i < 9; ++i) item.mutable_primitives()->add_normals(i == 4 ? bad : 1);
+              }),
+              "world.items[0].primitives.normals must hold finite numbers");
+    EXPECT_EQ(with([&](proto::Item& item) {
+                for (int i = 0; i < 6; ++i) item.mutable_primitives()->add_texcoords(i == 4 ? bad : 1);
+              }),
+              "world.items[0].primitives.texcoords must hold finite numbers");
+  }
+  for (const double bad : {nan, inf, -1.0, 1e10, 1e308}) {
+    const auto refused = [&](auto set) { return with([&](proto::Item& item) { set(*item.mutable_material()); }); };
+    const std::string range = " must be between 0 and 1e+09", at = "world.items[0].material.";
+    EXPECT_EQ(refused([&](proto::Material& m) { m.set_stiffness(bad); }), at + "stiffness must be between 0 and 1");
+    EXPECT_EQ(refused([&](proto::Material& m) { m.set_static_friction(bad); }), at + "staticFriction" + range);
+    EXPECT_EQ(refused([&](proto::Material& m) { m.set_dynamic_friction(bad); }), at + "dynamicFriction" + range);
+    EXPECT_EQ(refused([&](proto::Material& m) { m.set_viscosity_ns_m(bad); }), at + "viscosityNsM" + range);
+    EXPECT_EQ(refused([&](proto::Material& m) { m.set_stribeck_m_s(bad); }), at + "stribeckMS" + range);
+    EXPECT_EQ(refused([&](proto::Material& m) { m.set_presliding_n_m(bad); }), at + "preslidingNM" + range);
+  }
+}
+
+// Four bytes on the wire each.
+TEST(DecodeFrame, ItemsAreCountedBeforeTheyAreMadeAndUntilTheyGo) {
+  constexpr int kItems = 10'000;
+  proto::Frame frame;
+  proto::ObjectDefinition& object = *frame.add_objects();
+  object.set_id(1);
+  for (int i = 0; i < kItems; ++i) object.add_items()->set_call(7);
+  const auto no_room = refusalOf(frame, {}, MemoryBudget(sizeof(SceneItem) * kItems));
+  EXPECT_NE(no_room.find("there is no room"), std::string::npos) << no_room;
+  EXPECT_NE(no_room.find("show less"), std::string::npos) << no_room;
+  const MemoryBudget budget(2 * sizeof(SceneItem) * kItems);
+  Uploads none;
+  {
+    const DecodedFrame decoded = decodeFrame(frame, none, smallLimits(), budget, [](double) {});
+    EXPECT_GE(budget.used_bytes(), sizeof(SceneItem) * kItems);
+  }
+  EXPECT_EQ(budget.used_bytes(), 0U);
+  EXPECT_LE(sizeof(SceneItem), 64U);
+}
+
+TEST(DecodeFrame, SurfacesPlacesNamesAndTexturesAreCounted) {
+  proto::Frame frame;
+  addTexture(frame, "a", 8);
+  for (int i = 0; i < 100; ++i) {
+    proto::Item& item = *frame.mutable_world()->add_items();
+    item.set_call(7);
+    for (int k = 0; k < 16; ++k) item.add_matrix(k % 5 == 0 ? 1 : 0);
+    proto::MaterialTexture& use = *item.mutable_material()->add_textures();
+    use.set_texture(std::string(200, 'x'));
+  }
+  const MemoryBudget budget(1'000'000);
+  Uploads none;
+  const DecodedFrame decoded = decodeFrame(frame, none, smallLimits(), budget, [](double) {});
+  EXPECT_GE(budget.used_bytes(),
+            64 * sizeof(float) + 100 * (sizeof(SceneItem) + sizeof(Placement) + sizeof(SurfaceChange) + 200));
+  frame.mutable_world()->mutable_items(3)->mutable_material()->mutable_textures(0)->set_texture(std::string(300, 'x'));
+  EXPECT_EQ(refusalOf(frame), "world.items[3].material.textures[0]: the name of a texture has at most 256 bytes");
+}
+
+TEST(DecodeFrame, WarningsHaveAnEnd) {
+  proto::Frame frame;
+  for (int i = 0; i < 100; ++i) {
+    proto::Primitives& line = *frame.mutable_world()->add_items()->mutable_primitives();
+    for (const double v : {0., 0., 0.}) line.add_vertices(v);
+    for (const std::uint32_t v : {0U, 0U}) line.add_segments(v);
+  }
+  Uploads none;
+  const DecodedFrame decoded = decodeFrame(frame, none, {}, {}, [](double) {});
+  EXPECT_EQ(decoded.warnings.size(), 21U);
+  EXPECT_EQ(decoded.warnings.back(), "and 80 more lines about what was skipped");
+}
+
+TEST(DecodeFrame, AnUploadInPartsIsOneMesh) {
+  Uploads uploads;
+  for (int part = 0; part < 3; ++part) {
+    proto::Primitives& p = uploads[1].emplace_back();
+    for (int i = 0; i < 3; ++i) p.add_vertices(part == i ? 1 : 0);
+    p.add_triangles(static_cast<std::uint32_t>(part));
+  }
+  proto::Frame frame;
+  frame.mutable_world()->add_items()->set_upload(1);
+  const DecodedFrame decoded = decodeFrame(frame, uploads, smallLimits(), MemoryBudget(100'000), [](double) {});
+  EXPECT_EQ(decoded.edit.world->at(0).shape->primitives.size(), 1U);
+}
+
+// What is counted before a message is decoded is at least what it then takes, whatever it is made of.
+TEST(MessageSize, IsAtLeastWhatTheMessageTakes) {
+  proto::ClientMessage calls, polygons, vertices, textures;
+  for (int i = 0; i < 1000; ++i) {
+    calls.mutable_frame()->mutable_world()->add_items()->set_call(1);
+    polygons.mutable_upload()->mutable_part()->add_polygons();
+    for (int k = 0; k < 9; ++k) vertices.mutable_upload()->mutable_part()->add_vertices(k);
+    for (int k = 0; k < 9; ++k) vertices.mutable_upload()->mutable_part()->add_triangles(1U << k);
+    textures.mutable_frame()->add_textures()->mutable_texels()->set_values("xyz");
+    textures.mutable_frame()->add_deleted_textures("some");
+  }
+  for (const proto::ClientMessage& message : {calls, polygons, vertices, textures}) {
+    proto::ClientMessage decoded;
+    ASSERT_TRUE(decoded.ParseFromString(message.SerializeAsString()));
+    const std::uint64_t counted = bytesToDecode(message.SerializeAsString());
+    EXPECT_GE(counted, bytesOfMessage(decoded.SpaceUsedLong())) << message.ShortDebugString().substr(0, 80);
+    EXPECT_LE(counted, 4 * decoded.SpaceUsedLong());
+  }
+}
+
+TEST(MessageSize, AMessageThatHasNoRoomIsKnownByItsOutline) {
+  proto::ClientMessage frame, upload, uploads, decoded;
+  frame.mutable_frame()->set_number(77);
+  for (int i = 0; i < 1000; ++i) frame.mutable_frame()->mutable_world()->add_items()->set_call(1);
+  const std::string wire = frame.SerializeAsString();
+  EXPECT_EQ(outlineOf(wire).frame().number(), 77U);
+  EXPECT_EQ(outlineOf(wire.substr(0, 100)).frame().number(), 77U) << "its beginning will do";
+  upload.mutable_upload()->set_id(5);
+  EXPECT_EQ(outlineOf(upload.SerializeAsString()).upload().id(), 5U);
+  for (const std::uint64_t id : {7U, 8U}) uploads.mutable_uploads()->add_parts()->set_id(id);
+  const proto::ClientMessage outline = outlineOf(uploads.SerializeAsString());
+  ASSERT_EQ(outline.uploads().parts_size(), 2);
+  EXPECT_EQ(outline.uploads().parts(1).id(), 8U);
+  const MemoryBudget budget(1000);
+  MemoryShare memory(budget);
+  const Decoding decoding = decodeMessage(MessageForm::kBinary, wire, decoded, memory);
+  EXPECT_EQ(decoding.fault, "");
+  EXPECT_NE(decoding.no_room, "");
+  EXPECT_EQ(decoded.frame().number(), 77U);
+  EXPECT_EQ(decoded.frame().world().items_size(), 0);
+}
+
+// ---- What a client is told
+// -------------------------------------------------------------------------------------------
+
+std::vector<std::string> warningsOf(const proto::Frame& frame, const ItemsBefore& before = {}) {
+  Uploads none;
+  return decodeFrame(
+             frame, none, smallLimits(), {}, [](double) {}, before)
+      .warnings;
+}
+
+// A triangle, and one without extent.
+void addTriangles(proto::Item& item) {
+  for (const double x : {0, 0, 0, 1, 0, 0, 0, 1, 0}) item.mutable_primitives()->add_vertices(x);
+  for (const std::uint32_t i : {0u, 1u, 2u, 0u, 0u, 1u}) item.mutable_primitives()->add_triangles(i);
+}
+
+TEST(DecodeFrame, WarningsNameObjectsByTheirNumbersAndNames) {
+  proto::Frame frame;
+  frame.add_objects()->set_id(3);
+  proto::ObjectDefinition& object = *frame.add_objects();
+  object.set_id(77);
+  addTriangles(*object.add_items());
+  addTriangles(*object.add_items());
+  object.mutable_items(1)->set_name(5);
+  addTriangles(*frame.mutable_world()->add_items());
+  const std::string what = ": skipped 1 triangles that are degenerate, not finite or beyond 1e9 m";
+  EXPECT_EQ(warningsOf(frame),
+            (std::vector<std::string>{"object 77, items[0]" + what, "object 77, items[1], named 5" + what,
+                                      "world.items[0]" + what}));
+}
+
+TEST(DecodeFrame, FaultsNameObjectsByTheirNumbers) {
+  proto::Frame frame;
+  frame.add_objects()->set_id(3);
+  proto::ObjectDefinition& object = *frame.add_objects();
+  object.set_id(77);
+  object.add_items();
+  EXPECT_EQ(refusalOf(frame), "object 77, items[0]: an item needs primitives, an upload or a call");
+  object.clear_items();
+  addTriangles(*object.add_items());
+  object.mutable_items(0)->add_matrix(1);
+  EXPECT_EQ(refusalOf(frame), "object 77, items[0].matrix must hold 16 numbers, column by column");
+  object.set_id(3);
+  object.clear_items();
+  EXPECT_EQ(refusalOf(frame), "object 3 is there twice");
+}
+
+TEST(DecodeFrame, ACallOfWhatIsNotThereIsToldAndShown) {
+  const SceneItems none;
+  const ItemsBefore before = [&](std::uint32_t object) { return object == 6 ? &none : nullptr; };
+  proto::Frame frame;
+  proto::World& world = *frame.mutable_world();
+  for (const std::uint32_t object : {9u, 8u, 6u}) world.add_items()->set_call(object);
+  frame.add_objects()->set_id(8);
+  frame.mutable_objects(0)->add_items()->set_call(7);
+  const std::string what = " to call: nothing can be touched there";
+  EXPECT_EQ(warningsOf(frame, before), (std::vector<std::string>{"object 8, items[0]: there is no object 7" + what,
+                                                                 "world.items[0]: there is no object 9" + what}));
+  frame.add_deleted_objects(6);
+  EXPECT_EQ(warningsOf(frame, before).back(), "world.items[2]: there is no object 6" + what);
+  frame.add_objects()->set_id(6);
+  EXPECT_EQ(warningsOf(frame, before).size(), 2U) << "deleted, and defined anew";
+}
+
+TEST(DecodeFrame, ATimeThatIsNoneIsRefused) {
+  proto::Frame frame;
+  for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    frame.set_interval_s(bad);
+    EXPECT_EQ(refusalOf(frame), "interval_s must not be below 0");
+  }
+  frame.set_interval_s(0);
+  EXPECT_EQ(refusalOf(frame), "accepted");
+}
+
+}  // namespace
+}  // namespace hl
