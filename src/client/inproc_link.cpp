@@ -62,7 +62,7 @@ class InprocLink final : public Link {
   explicit InprocLink(std::shared_ptr<SessionHost> host)
       : host_(std::move(host)),
         bell_(std::make_shared<Bell>()),
-        session_(host_->connect("inproc", [bell = bell_] { bell->ring(); })) {}
+        session_(host_->connect([bell = bell_] { bell->ring(); })) {}
 
   void send(proto::ClientMessage message) override { session_->receive(std::move(message)); }
   std::size_t queuedBytes() const override { return 0; }

@@ -38,13 +38,12 @@ DeviceSample SimulatedDevice::read(std::int64_t now_ns) {
   if (goal_.read(goal) && goal.allFinite()) goal_D_ = goal;
   if (stopped_.exchange(false, std::memory_order_acquire)) dropForce();
   const std::int64_t taken_ns = now_ns + static_cast<std::int64_t>(jitter_ns());
-  if (has_time_) {
+  if (time_ns_) {
     const double elapsed_s =
-        std::clamp(1e-9 * static_cast<double>(taken_ns - time_ns_), 0.0, settings_.longest_advance_s);
+        std::clamp(1e-9 * static_cast<double>(taken_ns - *time_ns_), 0.0, settings_.longest_advance_s);
     const int steps = static_cast<int>(std::ceil(elapsed_s / settings_.step_s));
     for (int i = 0; i < steps; ++i) step(elapsed_s / steps);
   }
-  has_time_ = true;
   time_ns_ = taken_ns;
   return {now_ns, arm_->countedTip_D(), buttons_.load(std::memory_order_relaxed), DeviceStatus::kOk, held_};
 }

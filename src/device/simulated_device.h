@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <random>
 
 #include "base/latest.h"
@@ -94,9 +95,8 @@ class SimulatedDevice final : public Device, public SimulatedHand {
   std::array<Vec3, SimulatedDeviceSettings::kMostDelay + 1> on_the_way_;  // forces, a ring
   std::size_t written_ = 0;
   std::mt19937 random_;
-  std::atomic<bool> stopped_{false};  // the motors are without current from the next advance on
-  std::int64_t time_ns_ = 0;
-  bool has_time_ = false;
+  std::atomic<bool> stopped_{false};     // the motors are without current from the next advance on
+  std::optional<std::int64_t> time_ns_;  // of the last reading
 };
 
 }  // namespace hl

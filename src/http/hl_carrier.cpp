@@ -287,7 +287,7 @@ std::optional<HlCarrier::Ending> HlCarrier::open(MessageForm form, proto::Client
   }
   message.mutable_open()->clear_token();  // it has done its work: nobody else needs to know it
   try {
-    session_ = world_.host.connect(connection_->peer, [bell = bell_] { bell->ring(); });
+    session_ = world_.host.connect([bell = bell_] { bell->ring(); });
   } catch (const Error& error) {
     return Ending{close_code::try_again_later, error.what(), true, RefusedBecause::kFull};
   }

@@ -85,8 +85,7 @@ std::string blackBoxName() {
 Recorder::Recorder(const RecorderSettings& settings, const SessionInfo& session)
     : settings_(settings),
       session_(session),
-      begin_unix_ms_(unixNow_ms()),
-      begin_ns_(monotonicNow_ns()),
+      begin_{unixNow_ms(), monotonicNow_ns()},
       steps_(room(!settings.file.empty() || !settings.black_box_folder.empty(), session.servo_rate_Hz)),
       ticks_(room(!settings.file.empty(), std::max(session.servo_rate_Hz, session.proxy_rate_Hz))) {
   if (settings_.file.empty()) return;
@@ -190,9 +189,9 @@ void Recorder::writeScenes() {
 void Recorder::writeTicks(bool all) {
   const std::uint64_t end = ticks_.pushed();
   const std::uint64_t block = countOf(kBlock_s, std::max(session_.servo_rate_Hz, session_.proxy_rate_Hz));
-  if (!all && end - next_tick_ < block) return;
+  if (!all && end - written_.ticks < block) return;
   writeScenes();
-  forRuns(ticks_, next_tick_, end, 4 * block, [this](const std::vector<TickRecord>& run, std::uint64_t first) {
+  forRuns(ticks_, written_.ticks, end, 4 * block, [this](const std::vector<TickRecord>& run, std::uint64_t first) {
     proto::RecordingBlock out;
     toProto(run, first, *out.mutable_ticks());
     file_->write(out);
@@ -202,8 +201,8 @@ void Recorder::writeTicks(bool all) {
 void Recorder::writeSteps(bool all) {
   const std::uint64_t end = steps_.pushed();
   const std::uint64_t block = countOf(kBlock_s, session_.servo_rate_Hz);
-  if (!all && end - next_step_ < block) return;
-  forRuns(steps_, next_step_, end, 4 * block, [this](const std::vector<ServoRecord>& run, std::uint64_t first) {
+  if (!all && end - written_.steps < block) return;
+  forRuns(steps_, written_.steps, end, 4 * block, [this](const std::vector<ServoRecord>& run, std::uint64_t first) {
     proto::RecordingBlock out;
     toProto(run, first, *out.mutable_steps());
     file_->write(out);
@@ -223,10 +222,10 @@ void Recorder::watchFaults(bool all) {
   if (settings_.black_box_folder.empty()) return;
   if (stalled_.exchange(false, std::memory_order_acquire)) writeBlackBox(steps_.pushed(), FaultReason::kStalled);
   const std::uint64_t fault = fault_.load(std::memory_order_acquire);
-  if (fault == fault_written_) return;
+  if (fault == written_.fault) return;
   const std::uint64_t end = fault + countOf(kAfter_s, session_.servo_rate_Hz);
   if (!all && steps_.pushed() < end) return;
-  fault_written_ = fault;
+  written_.fault = fault;
   ServoRecord record;
   if (!steps_.read(fault - 1, record)) return;
   writeBlackBox(std::min(end, steps_.pushed()), record.out.fault);
@@ -259,8 +258,8 @@ proto::RecordingBlock Recorder::startBlock(FaultReason reason) const {
   proto::RecordingBlock block;
   proto::RecordingStart& start = *block.mutable_start();
   start.set_version(settings_.version);
-  start.set_begin_unix_ms(begin_unix_ms_);
-  start.set_begin_ns(begin_ns_);
+  start.set_begin_unix_ms(begin_.unix_ms);
+  start.set_begin_ns(begin_.monotonic_ns);
   start.set_black_box(reason != FaultReason::kNone);
   start.set_fault(faultText(reason));
   start.set_device_name(session_.device.name);

@@ -52,6 +52,16 @@ class Recorder final : public StepSink {
   void stall() noexcept override { stalled_.store(true, std::memory_order_release); }
 
  private:
+  /// One moment on two clocks.
+  struct RecordingBegin {
+    std::int64_t unix_ms, monotonic_ns;
+  };
+  /// How far it has come.
+  struct Written {
+    std::uint64_t steps = 0, ticks = 0;  // numbers of the next
+    std::uint64_t fault = 0;             // the last
+  };
+
   void run();
   void drain(bool all);
   void writeFile(bool all);
@@ -67,7 +77,7 @@ class Recorder final : public StepSink {
 
   const RecorderSettings settings_;
   const SessionInfo session_;
-  const std::int64_t begin_unix_ms_, begin_ns_;
+  const RecordingBegin begin_;
   LogRing<ServoRecord> steps_;
   LogRing<TickRecord> ticks_;
   std::atomic<std::uint64_t> fault_{0};  // 1 + number of the step that went into fault last; 0: none
@@ -76,7 +86,7 @@ class Recorder final : public StepSink {
   // Of the recorder's thread.
   std::unique_ptr<RecordingWriter> file_;
   SceneWriter scene_writer_;
-  std::uint64_t next_step_ = 0, next_tick_ = 0, fault_written_ = 0;
+  Written written_;
 
   std::mutex mutex_;
   std::condition_variable wake_;

@@ -49,8 +49,8 @@ class SessionHost {
   SessionHost(const SessionHost&) = delete;
   SessionHost& operator=(const SessionHost&) = delete;
   virtual ~SessionHost() = default;
-  /// `peer`: who it is, for the logs. Any thread. Throws hl::Error when there is no room for another session.
-  virtual std::unique_ptr<ClientSession> connect(const std::string& peer, WakeCarrier wake) = 0;
+  /// Any thread. Throws hl::Error when there is no room for another session.
+  virtual std::unique_ptr<ClientSession> connect(WakeCarrier wake) = 0;
 };
 
 }  // namespace hl

@@ -14,13 +14,9 @@ namespace hl {
 namespace {
 
 constexpr std::uint32_t kProtocolVersion = 1;
-constexpr std::size_t kMostReplies = 4096;      // that a client has not read: it does not read at all
 constexpr std::size_t kMostWaitingFrames = 64;  // that are not built yet
 constexpr std::size_t kMostRefusedUploads = 1000;
 constexpr std::size_t kMostNameLength = 100;
-constexpr std::size_t kUpload_bytes = 512;  // of memory, for each besides its parts
-constexpr std::size_t kPart_bytes = 64;     // for each part besides its message
-constexpr std::size_t kReply_bytes = 64;    // for each that waits besides its message
 
 // What a log shows of a name.
 std::string plain(std::string name) {
@@ -54,14 +50,14 @@ std::string faultOf(const proto::DeviceSettings& settings, bool has_hand) {
 
 }  // namespace
 
-HlSession::HlSession(TouchWorld& world, std::uint32_t number, std::string peer, WakeCarrier wake,
+HlSession::HlSession(TouchWorld& world, std::uint32_t number, WakeCarrier wake,
                      std::function<void(const HlSession&)> leave)
     : world_(world),
       number_(number),
-      peer_(std::move(peer)),
-      wake_(std::move(wake)),
       leave_(std::move(leave)),
       memory_(world.memory().member()),
+      replies_(memory_, std::move(wake)),
+      uploads_(memory_, world.limits().upload_bytes),
       frame_rate_(world.limits().frames_Hz) {}
 
 HlSession::~HlSession() {
@@ -123,7 +119,7 @@ void HlSession::open(const proto::Open& open) {
   welcome.set_master(master_);
   for (std::uint32_t i = 0; i < world_.devices(); ++i) toProto(world_.device(i), *welcome.add_devices());
   *welcome.mutable_limits() = toProto(world_.limits());
-  this->reply(std::move(reply));
+  replies_.push(std::move(reply));
   setStateRate(open.state_rate_hz());
 }
 
@@ -138,57 +134,21 @@ void HlSession::keepUploads(proto::Uploads uploads) {
 void HlSession::keepUpload(proto::Upload upload) {
   const std::uint64_t id = upload.id();
   if (id == 0) return refuse("an upload needs an id above 0");
-  if (refused_uploads_.contains(id)) return;
-  // In memory a message may be many times what it was on the wire: an empty polygon is two bytes there.
-  const bool fresh = !uploads_.contains(id);
-  const std::uint64_t bytes = (fresh ? kUpload_bytes : 0) + kPart_bytes + bytesOfMessage(upload.part().SpaceUsedLong());
-  if (upload_bytes_ + bytes > world_.limits().upload_bytes)
+  if (uploads_.refused(id)) return;
+  if (uploads_.tooLarge(upload))
     return end("more than " + std::to_string(world_.limits().upload_bytes) +
                " bytes of memory are in uploads that no frame has used");
   try {
-    MemoryShare memory(memory_);
-    memory.take(bytes);
-    uploads_[id].push_back(std::move(*upload.mutable_part()));
-    memory_of_upload_.try_emplace(id, memory_).first->second.add(std::move(memory));
-    upload_bytes_ += bytes;
+    uploads_.add(std::move(upload));
   } catch (const Error& error) {
     return refuseUpload(id, error.what());
   }
 }
 
-void HlSession::freeUpload(std::uint64_t id) {
-  const auto memory = memory_of_upload_.extract(id);
-  if (memory) upload_bytes_ -= memory.mapped().bytes();
-  uploads_.erase(id);
-}
-
-// A frame that refers to it will not find it.
 void HlSession::refuseUpload(std::uint64_t id, const std::string& why) {
-  freeUpload(id);
-  refused_uploads_.insert(id);
-  if (refused_uploads_.size() > kMostRefusedUploads) return end(why);
+  uploads_.refuse(id);
+  if (uploads_.refusals() > kMostRefusedUploads) return end(why);
   refuse("upload " + std::to_string(id) + ": " + why);
-}
-
-// Their memory goes over to that of the frame.
-Uploads HlSession::takeUploads(const proto::Frame& frame, MemoryShare& memory) {
-  Uploads used;
-  const auto take = [&](const auto& items) {
-    for (const auto& item : items) {
-      if (!item.has_upload()) continue;
-      refused_uploads_.erase(item.upload());
-      auto parts = uploads_.extract(item.upload());
-      if (!parts) continue;
-      auto share = memory_of_upload_.extract(item.upload());
-      upload_bytes_ -= share.mapped().bytes();
-      memory.add(std::move(share.mapped()));
-      used.insert(std::move(parts));
-    }
-  };
-  for (const proto::ObjectDefinition& object : frame.objects()) take(object.items());
-  take(frame.world().items());
-  take(frame.moved());
-  return used;
 }
 
 void HlSession::submit(proto::Frame frame) {
@@ -202,7 +162,7 @@ void HlSession::submit(proto::Frame frame) {
   if (world_.publisher().waiting(place_) >= kMostWaitingFrames)
     return refuse("frames come faster than they can be built", number);
   MemoryShare memory(memory_);
-  Uploads uploads = takeUploads(frame, memory);
+  Uploads uploads = uploads_.take(frame, memory);
   try {
     memory.take(bytesOfMessage(frame.SpaceUsedLong()));
   } catch (const Error& error) {
@@ -230,12 +190,7 @@ void HlSession::setDevice(const proto::DeviceSettings& settings) {
 
 void HlSession::setStateRate(double rate_Hz) {
   if (!(rate_Hz >= 0)) return refuse("state_rate_Hz must not be below 0");
-  if (rate_Hz == 0) {
-    state_period_s_ = 0;
-    return;
-  }
-  state_period_s_ = 1 / std::min(rate_Hz, world_.limits().state_rate_Hz);
-  next_state_s_ = world_.time_s();
+  states_ = {rate_Hz > 0 ? 1 / std::min(rate_Hz, world_.limits().state_rate_Hz) : 0, world_.time_s()};
 }
 
 // From now on.
@@ -245,23 +200,6 @@ void HlSession::wantSamples(bool wanted) {
   } else if (!next_sample_) {
     next_sample_ = world_.device(device_).moments().pushed();
   }
-}
-
-HlSession::WaitingReply HlSession::counted(proto::ServerReply reply) const {
-  MemoryShare memory(memory_);
-  memory.take(kReply_bytes + bytesOfMessage(reply.SpaceUsedLong()));
-  return {std::move(reply), std::move(memory)};
-}
-
-void HlSession::reply(proto::ServerReply reply) {
-  try {
-    WaitingReply waiting = counted(std::move(reply));
-    const std::lock_guard lock(mutex_);
-    push(std::move(waiting));
-  } catch (const Error& error) {
-    return end(error.what());
-  }
-  wake_();
 }
 
 // Messages that there is no memory to decode: as when they had been, and had not fitted.
@@ -274,47 +212,26 @@ void HlSession::refuse(const proto::ClientMessage& outline, const std::string& w
   if (outline.has_upload()) return refuseUpload(outline.upload().id(), why);
   if (!outline.has_uploads()) return refuse(why);
   for (const proto::Upload& upload : outline.uploads().parts()) {
-    if (end().empty() && !refused_uploads_.contains(upload.id())) refuseUpload(upload.id(), why);
+    if (end().empty() && !uploads_.refused(upload.id())) refuseUpload(upload.id(), why);
   }
-}
-
-void HlSession::push(WaitingReply reply) {
-  replies_.push_back(std::move(reply));
-  if (replies_.size() > kMostReplies && end_.empty()) end_ = "the client does not read what it is told";
 }
 
 void HlSession::refuse(const std::string& why, std::uint64_t frame) {
   proto::ServerReply reply;
   reply.mutable_refusal()->set_text(oneLine(why));
   reply.mutable_refusal()->set_frame(frame);
-  this->reply(std::move(reply));
+  replies_.push(std::move(reply));
 }
 
 void HlSession::tell(const proto::Event& event) {
   proto::ServerReply reply;
   *reply.mutable_event() = event;
-  this->reply(std::move(reply));
+  replies_.push(std::move(reply));
 }
 
 FrameCallbacks HlSession::callbacks() {
   FrameCallbacks callbacks;
-  callbacks.progress = [this](std::uint64_t number, double part) {
-    proto::ServerReply reply;
-    reply.mutable_progress()->set_frame(number);
-    reply.mutable_progress()->set_built(part);
-    {
-      const std::lock_guard lock(mutex_);
-      // Of progress nobody has read yet the newest is enough; small frames tell of none.
-      if (!replies_.empty() && replies_.back().reply.has_progress()) {
-        replies_.back().reply = std::move(reply);
-      } else if (part < 1) {
-        push(counted(std::move(reply)));
-      } else {
-        return;
-      }
-    }
-    wake_();
-  };
+  callbacks.progress = [this](std::uint64_t number, double part) { replies_.pushProgress(number, part); };
   callbacks.shown = [this](std::uint64_t number, std::size_t primitives, const std::vector<std::string>& warnings) {
     proto::ServerReply reply;
     proto::FrameShown& shown = *reply.mutable_frame_shown();
@@ -322,26 +239,18 @@ FrameCallbacks HlSession::callbacks() {
     shown.set_time_s(world_.time_s());
     shown.set_primitives(primitives);
     for (const std::string& warning : warnings) shown.add_warnings(warning);
-    this->reply(std::move(reply));
+    replies_.push(std::move(reply));
   };
   callbacks.refused = [this](std::uint64_t number, const std::string& why) { refuse(why, number); };
   return callbacks;
 }
 
 bool HlSession::take(proto::ServerReply& reply) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (!replies_.empty()) {
-      reply = std::move(replies_.front().reply);
-      replies_.pop_front();
-      return true;
-    }
-    if (!end_.empty()) return false;
-  }
-  if (nextState_s() > 0) return false;
+  if (replies_.take(reply)) return true;
+  if (!end().empty() || nextState_s() > 0) return false;
   const double now_s = world_.time_s();
   // At the rate asked for, without catching up on what was missed.
-  next_state_s_ = std::max(next_state_s_ + state_period_s_, now_s);
+  states_.next_s = std::max(states_.next_s + states_.period_s, now_s);
   reply.Clear();
   world_.describe(device_, *reply.mutable_state());
   reply.mutable_state()->set_master(master_);
@@ -350,21 +259,8 @@ bool HlSession::take(proto::ServerReply& reply) {
 }
 
 double HlSession::nextState_s() const {
-  if (state_period_s_ == 0) return std::numeric_limits<double>::infinity();
-  return std::max(0.0, next_state_s_ - world_.time_s());
-}
-
-std::string HlSession::end() const {
-  const std::lock_guard lock(mutex_);
-  return end_;
-}
-
-void HlSession::end(const std::string& why) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (end_.empty()) end_ = why;
-  }
-  wake_();
+  if (states_.period_s == 0) return std::numeric_limits<double>::infinity();
+  return std::max(0.0, states_.next_s - world_.time_s());
 }
 
 }  // namespace hl

@@ -3,28 +3,25 @@
 
 #include <atomic>
 #include <cstdint>
-#include <deque>
 #include <functional>
-#include <mutex>
 #include <optional>
-#include <set>
 #include <string>
-#include <unordered_map>
 
 #include "base/memory_budget.h"
 #include "session/client_session.h"
 #include "session/limits.h"
 #include "session/message_rate.h"
+#include "session/reply_queue.h"
 #include "session/scene_publisher.h"
 #include "session/touch_world.h"
+#include "session/upload_store.h"
 
 namespace hl {
 
 class HlSession final : public ClientSession {
  public:
   /// `leave` is called first of all that the destructor does: from then on nobody may tell() it anything.
-  HlSession(TouchWorld& world, std::uint32_t number, std::string peer, WakeCarrier wake,
-            std::function<void(const HlSession&)> leave);
+  HlSession(TouchWorld& world, std::uint32_t number, WakeCarrier wake, std::function<void(const HlSession&)> leave);
   ~HlSession() override;
 
   void receive(proto::ClientMessage message) override;
@@ -32,19 +29,20 @@ class HlSession final : public ClientSession {
   MemoryBudget memory() const override { return memory_; }
   bool take(proto::ServerReply& reply) override;
   double nextState_s() const override;
-  std::string end() const override;
+  std::string end() const override { return replies_.end(); }
 
   std::uint32_t number() const { return number_; }
   std::uint32_t device() const { return device_; }
   /// An object of this session was touched or left, or a button of its device moved. Any thread.
   void tell(const proto::Event& event);
   /// Ends the session with this reason. Any thread.
-  void end(const std::string& why);
+  void end(const std::string& why) { replies_.end(why); }
 
  private:
-  struct WaitingReply {
-    proto::ServerReply reply;
-    MemoryShare memory;
+  /// When the client is told of the state.
+  struct StateTimer {
+    double period_s = 0;  // 0: never
+    double next_s = 0;    // server's clock
   };
 
   void open(const proto::Open& open);
@@ -52,42 +50,28 @@ class HlSession final : public ClientSession {
   void keepUpload(proto::Upload upload);
   void submit(proto::Frame frame);
   void refuseUpload(std::uint64_t id, const std::string& why);
-  Uploads takeUploads(const proto::Frame& frame, MemoryShare& memory);
   void setDevice(const proto::DeviceSettings& settings);
   void setStateRate(double rate_Hz);
   void wantSamples(bool wanted);
-  void reply(proto::ServerReply reply);
-  WaitingReply counted(proto::ServerReply reply) const;
-  void freeUpload(std::uint64_t id);
-  void push(WaitingReply reply);  // holding mutex_
   void refuse(const std::string& why, std::uint64_t frame = 0);
   FrameCallbacks callbacks();
 
   TouchWorld& world_;
   const std::uint32_t number_;
-  const std::string peer_;
-  const WakeCarrier wake_;
   const std::function<void(const HlSession&)> leave_;
   const MemoryBudget memory_;  // of all that this client makes the server keep
+  ReplyQueue replies_;
 
   // Of the carrier's thread:
   bool opened_ = false, master_ = false, keep_objects_ = false;
   std::string client_name_;
   std::atomic<std::uint32_t> device_{0};  // read by others
   std::shared_ptr<ScenePublisher::Place> place_;
-  Uploads uploads_;
-  std::unordered_map<std::uint64_t, MemoryShare> memory_of_upload_;  // by the id of the upload
-  std::uint64_t upload_bytes_ = 0;                                   // of all of them
-  std::set<std::uint64_t> refused_uploads_;                          // of which no part is kept
+  UploadStore uploads_;
   std::uint64_t last_frame_ = 0;
-  double state_period_s_ = 0;                 // 0: no states
-  double next_state_s_ = 0;                   // server's clock
+  StateTimer states_;
   std::optional<std::uint64_t> next_sample_;  // number of the device's moment; none: the client wants none
   MessageRate frame_rate_;
-
-  mutable std::mutex mutex_;  // of what other threads bring
-  std::deque<WaitingReply> replies_;
-  std::string end_;
 };
 
 }  // namespace hl

@@ -43,6 +43,7 @@ class ScenePublisher::Place {
 
  private:
   friend class ScenePublisher;
+  enum class Work : std::uint8_t { kNone, kFrame, kHierarchies };
   struct Ready {
     std::uint64_t number;
     std::vector<std::string> warnings;
@@ -58,17 +59,18 @@ class ScenePublisher::Place {
   const std::uint32_t session_;
   const SceneLimits limits_;
   const MemoryBudget memory_;
-  EditableScene scene_;  // of the builder that has set building_
+  EditableScene scene_;  // of the builder that has set work_
   std::mutex call_mutex_;
   FrameCallbacks callbacks_;
-  // Of the publisher's thread:
-  std::vector<const Instance*> shown_;  // by rising key
-  PlacedShapes shown_placed_;           // what they were made from
+  struct Shown {
+    std::vector<const Instance*> instances;  // by rising key
+    PlacedShapes placed;                     // what they were made from
+  } shown_;                                  // of the publisher's thread
   // Under the publisher's mutex:
   std::deque<Waiting> waiting_;
-  bool building_ = false, removed_ = false;
-  bool worn_ = false;        // a hierarchy of what was placed last is
-  bool rebuilding_ = false;  // building_, but not a frame
+  Work work_ = Work::kNone;  // of a builder
+  bool removed_ = false;
+  bool worn_ = false;  // a hierarchy of what was placed last is
   std::int64_t last_arrived_ns_ = 0;
   std::int64_t move_ns_ = 0;         // that what is placed takes to get there
   PlacedShapes placed_;              // what is to be shown next; null when it is as it was
@@ -128,7 +130,7 @@ void ScenePublisher::submit(const std::shared_ptr<Place>& place, proto::Frame fr
 
 std::size_t ScenePublisher::waiting(const std::shared_ptr<Place>& place) const {
   const std::lock_guard lock(mutex_);
-  return place->waiting_.size() + (place->building_ && !place->rebuilding_ ? 1 : 0) + place->ready_.size();
+  return place->waiting_.size() + (place->work_ == Place::Work::kFrame ? 1 : 0) + place->ready_.size();
 }
 
 HierarchyCounts ScenePublisher::counts() const {
@@ -163,7 +165,7 @@ std::shared_ptr<ScenePublisher::Place> ScenePublisher::takeReplaced(const std::s
 std::shared_ptr<ScenePublisher::Place> ScenePublisher::placeToBuild() {
   std::shared_ptr<Place> oldest;
   for (const auto& place : places_) {
-    if (place->building_ || place->removed_ || place->waiting_.empty()) continue;
+    if (place->work_ != Place::Work::kNone || place->removed_ || place->waiting_.empty()) continue;
     if (!oldest || place->waiting_.front().arrived_ns < oldest->waiting_.front().arrived_ns) oldest = place;
   }
   return oldest;
@@ -173,8 +175,8 @@ std::shared_ptr<ScenePublisher::Place> ScenePublisher::placeToBuild() {
 std::shared_ptr<ScenePublisher::Place> ScenePublisher::placeToRebuild() {
   std::shared_ptr<Place> worn;
   for (const auto& place : places_) {
-    if (place->rebuilding_) return nullptr;
-    const bool idle = !place->building_ && !place->removed_ && place->waiting_.empty();
+    if (place->work_ == Place::Work::kHierarchies) return nullptr;
+    const bool idle = place->work_ == Place::Work::kNone && !place->removed_ && place->waiting_.empty();
     const bool shown = !place->placed_ && place->ready_.empty();
     if (place->worn_ && idle && shown && !worn) worn = place;
   }
@@ -193,8 +195,7 @@ void ScenePublisher::runBuilder() {
       return !running_ || place;
     });
     if (!running_) return;
-    place->building_ = true;
-    place->rebuilding_ = !frame;
+    place->work_ = frame ? Place::Work::kFrame : Place::Work::kHierarchies;
     Waiting waiting;
     if (frame) {
       waiting = std::move(place->waiting_.front());
@@ -203,7 +204,7 @@ void ScenePublisher::runBuilder() {
     lock.unlock();
     guarded([&] { frame ? build(*place, std::move(waiting)) : rebuild(*place); });
     lock.lock();
-    place->building_ = place->rebuilding_ = false;
+    place->work_ = Place::Work::kNone;
     if (place->removed_) dirty_ = true;  // the publisher has left it to this builder
     if (!place->waiting_.empty()) work_.notify_one();
     changed_.notify_all();
@@ -327,19 +328,19 @@ std::int64_t ScenePublisher::assemble(std::vector<Part>& parts, std::int64_t beg
                                       std::vector<Instance>& instances) const {
   std::int64_t blend_ns = 0;
   std::size_t count = base_->instances.size();
-  for (const Part& part : parts) count += part.placed ? part.placed->size() : part.place->shown_.size();
+  for (const Part& part : parts) count += part.placed ? part.placed->size() : part.place->shown_.instances.size();
   instances.reserve(count);
   instances = base_->instances;
   for (auto& [place, gone, placed, move_ns, frames, jumps, shown] : parts) {
     if (gone) {
-      if (!place->shown_.empty()) blend_ns = std::max(blend_ns, kAbruptBlend_ns);
+      if (!place->shown_.instances.empty()) blend_ns = std::max(blend_ns, kAbruptBlend_ns);
     } else if (placed) {
-      Followed next = followOn(*placed, place->shown_, begin_ns, begin_ns + move_ns, place->memory_);
+      Followed next = followOn(*placed, place->shown_.instances, begin_ns, begin_ns + move_ns, place->memory_);
       jumps = next.jumps;
       blend_ns = std::max(blend_ns, next.blend_ns);
       std::move(next.instances.begin(), next.instances.end(), std::back_inserter(instances));
     } else {
-      for (const Instance* instance : place->shown_) {
+      for (const Instance* instance : place->shown_.instances) {
         instances.push_back(*instance);
         if (instance->bending && instance->bending->end_ns() <= begin_ns) instances.back().bending.reset();
       }
@@ -378,7 +379,7 @@ std::shared_ptr<const Snapshot> ScenePublisher::makeNext(std::vector<Part>& part
   }
   std::vector<PlacedShapes> lists;
   for (const Part& part : parts) {
-    if (!part.gone) lists.push_back(part.placed ? part.placed : part.place->shown_placed_);
+    if (!part.gone) lists.push_back(part.placed ? part.placed : part.place->shown_.placed);
   }
   return keeping(std::move(lists), std::move(next));
 }
@@ -412,9 +413,9 @@ void ScenePublisher::listShown(const Snapshot& next, std::vector<Part>& parts) {
 void ScenePublisher::show(const std::shared_ptr<const Snapshot>& next, std::vector<Part>& parts) noexcept {
   for (TouchSession* device : devices_) device->publish(next);
   for (Part& part : parts) {
-    part.place->shown_.swap(part.shown);
-    if (part.placed) part.place->shown_placed_ = part.placed;
-    if (part.gone) part.place->shown_placed_ = nullptr;
+    part.place->shown_.instances.swap(part.shown);
+    if (part.placed) part.place->shown_.placed = part.placed;
+    if (part.gone) part.place->shown_.placed = nullptr;
   }
   shown_ = next;
 }
@@ -422,10 +423,10 @@ void ScenePublisher::show(const std::shared_ptr<const Snapshot>& next, std::vect
 void ScenePublisher::tellShown(const Part& part) {
   Place& place = *part.place;
   std::size_t primitives = 0;
-  for (const Instance* instance : place.shown_) primitives += instance->shape->primitives.size();
+  for (const Instance* instance : place.shown_.instances) primitives += instance->shape->primitives.size();
   {
     const std::lock_guard lock(mutex_);
-    if (part.gone && !place.building_) std::erase(places_, part.place);
+    if (part.gone && place.work_ == Place::Work::kNone) std::erase(places_, part.place);
   }
   for (std::size_t i = 0; i < part.frames; ++i) {
     std::unique_lock lock(mutex_);

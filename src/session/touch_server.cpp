@@ -35,11 +35,11 @@ void TouchServer::stop() {
   for (HlSession* session : sessions_) session->end("the server is closing");
 }
 
-std::unique_ptr<ClientSession> TouchServer::connect(const std::string& peer, WakeCarrier wake) {
+std::unique_ptr<ClientSession> TouchServer::connect(WakeCarrier wake) {
   const std::lock_guard lock(mutex_);
   if (sessions_.size() >= world_.limits().sessions)
     throw Error("the server has " + std::to_string(sessions_.size()) + " clients already");
-  auto session = std::make_unique<HlSession>(world_, ++last_session_, peer, std::move(wake),
+  auto session = std::make_unique<HlSession>(world_, ++last_session_, std::move(wake),
                                              [this](const HlSession& gone) { leave(gone); });
   sessions_.push_back(session.get());
   return session;

@@ -1,4 +1,4 @@
-// TickPlace: which of the two loops ticks. On the servo thread a tick sees the sample of its own step, and the path
+// LoopChooser: which of the two loops ticks. On the servo thread a tick sees the sample of its own step, and the path
 // from encoder to motor is one step long; but a tick that takes longer than the step makes the force late. So the servo
 // thread ticks as long as nearly all ticks fit, and hands them to the proxy thread when too many do not.
 //
@@ -14,9 +14,9 @@
 namespace hl {
 
 /// Each loop ticks only while it is its turn; took() by the loop that has ticked. RT-safe.
-class TickPlace {
+class LoopChooser {
  public:
-  explicit TickPlace(std::int64_t servo_period_ns) : room_ns_(servo_period_ns / 2) {}
+  explicit LoopChooser(std::int64_t servo_period_ns) : room_ns_(servo_period_ns / 2) {}
 
   bool onServo() const { return on_servo_.load(std::memory_order_acquire); }
   /// How long the tick took; the next one may be the other loop's.

@@ -39,7 +39,7 @@ void addFloor(proto::Item& item, double y) {
 // A client that holds one session and remembers what it was told.
 class Client {
  public:
-  explicit Client(TouchServer& server) : session_(server.connect("test", [this] { ++wakes_; })) {}
+  explicit Client(TouchServer& server) : session_(server.connect([this] { ++wakes_; })) {}
 
   void open(const std::string& name = "test", bool master = true, bool keep = false, double state_rate_Hz = 1000) {
     proto::ClientMessage message;
@@ -717,8 +717,8 @@ TEST_F(TouchServerTest, AThousandClientsComeAndGo) {
 TEST_F(TouchServerTest, TooManyClientsAreTurnedAway) {
   std::vector<std::unique_ptr<ClientSession>> sessions;
   const std::uint32_t most = settingsOf().limits.sessions;
-  for (std::uint32_t i = 0; i < most; ++i) sessions.push_back(server_.connect("test", [] {}));
-  EXPECT_THROW(server_.connect("test", [] {}), Error);
+  for (std::uint32_t i = 0; i < most; ++i) sessions.push_back(server_.connect([] {}));
+  EXPECT_THROW(server_.connect([] {}), Error);
 }
 
 TEST_F(TouchServerTest, EachDeviceHasAProxyOfItsOwn) {

@@ -194,14 +194,14 @@ TEST(TouchStep, AllocatesNothing) {
   }
 }
 
-TEST(TickPlace, TicksThatFitStayOnTheServo) {
-  TickPlace place(kMs);
+TEST(LoopChooser, TicksThatFitStayOnTheServo) {
+  LoopChooser place(kMs);
   for (int i = 0; i < 10'000; ++i) place.took(i % 120 == 0 ? 700'000 : 20'000);  // one late in 120
   EXPECT_TRUE(place.onServo());
 }
 
-TEST(TickPlace, TooManyLateTicksGoToTheProxyLoopAndComeBackWhenTheyFitAgain) {
-  TickPlace place(kMs);
+TEST(LoopChooser, TooManyLateTicksGoToTheProxyLoopAndComeBackWhenTheyFitAgain) {
+  LoopChooser place(kMs);
   for (int i = 0; i < 4; ++i) place.took(600'000);
   EXPECT_TRUE(place.onServo());
   place.took(600'000);
@@ -214,8 +214,8 @@ TEST(TickPlace, TooManyLateTicksGoToTheProxyLoopAndComeBackWhenTheyFitAgain) {
   EXPECT_TRUE(place.onServo());
 }
 
-TEST(TickPlace, OneTickOfManyPeriodsIsEnough) {
-  TickPlace place(kMs);
+TEST(LoopChooser, OneTickOfManyPeriodsIsEnough) {
+  LoopChooser place(kMs);
   place.took(100 * kMs);
   EXPECT_FALSE(place.onServo());
 }

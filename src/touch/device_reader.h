@@ -1,0 +1,31 @@
+// DeviceReader: the device as the servo loop reads it, whatever its driver does.
+#pragma once
+
+#include <cstdint>
+
+#include "device/device.h"
+#include "touch/loop_exchange.h"
+
+namespace hl {
+
+/// One thread at a time; RT-safe.
+class DeviceReader {
+ public:
+  DeviceReader(Device& device, LoopExchange& exchange) : device_(device), exchange_(exchange) {}
+
+  /// Before the loops run: tells the proxy's loop where the finger is.
+  DeviceSample look(std::int64_t now_ns) noexcept;
+  /// The same, and counts arrivals. A driver that throws has lost its device. After a step that threw elsewhere there
+  /// is no sample either, so that none is ticked with and the servo goes its way to zero force.
+  DeviceSample read(std::int64_t now_ns) noexcept;
+  /// The step threw something, in the driver or elsewhere.
+  void stepFailed() { step_failed_ = true; }
+
+ private:
+  Device& device_;
+  LoopExchange& exchange_;
+  bool answered_ = false;  // when it was read last
+  bool step_failed_ = false;
+};
+
+}  // namespace hl

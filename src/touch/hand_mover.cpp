@@ -1,0 +1,142 @@
+#include "touch/hand_mover.h"
+
+#include <utility>
+
+#include "base/clock.h"
+#include "base/guarded_thread.h"
+#include "base/periodic.h"
+#include "touch/exploration.h"
+
+namespace hl {
+
+namespace {
+
+constexpr std::int64_t kPeriod_ns = 16'666'667;
+constexpr std::int64_t kPress_ns = 1'000'000'000;  // after which a button comes up by itself
+constexpr double kApproach_s = 3.0;                // virtual time for the hand to reach the start
+constexpr double kStartAbove_D = 0.020;            // m above the model at the hand
+constexpr double kPress_D = 0.012;                 // m, how far beneath the surface the exploring hand aims
+constexpr double kLift_D = 0.010;
+
+}  // namespace
+
+HandMover::HandMover(Device& device, const TouchSettings& settings, const LiveSettings& live, LoopExchange& exchange,
+                     SceneNow scene)
+    : device_(device),
+      hand_(device.hand()),
+      script_(settings.script),
+      live_(live),
+      exchange_(exchange),
+      scene_(std::move(scene)),
+      exploring_(hasHand() && (settings.explore || settings.script)),
+      firm_(settings.hand_firm) {}
+
+// The hand moves freely, without force, on a virtual clock that ends now; the real clock then goes on from there.
+void HandMover::bringToStart() {
+  if (!hasHand()) return;
+  const Workspace workspace = live_.workspace();
+  const Box bounds = scene_()->bounds;
+  // Of the scene, or of the first world that will be fitted to the hand: it must not appear around the finger.
+  const double top_D = 0.5 * (bounds.empty() ? live_.side_D() : bounds.size().y() / workspace.world_per_device);
+  Vec3 goal_D = clampToWorkspace(Vec3(0, top_D + kStartAbove_D, 0));
+  if (script_) goal_D = clampToWorkspace(workspace.toDevice(script_->at(0)));
+  hand_->setHandGoal(goal_D);
+  const std::int64_t now_ns = monotonicNow_ns();
+  const std::int64_t step_ns = 1'000'000;
+  for (std::int64_t t = now_ns - static_cast<std::int64_t>(kApproach_s * 1e9); t < now_ns; t += step_ns) {
+    device_.read(t);
+    device_.write(Vec3::Zero());
+  }
+}
+
+void HandMover::start(std::int64_t begin_ns) {
+  if (!hasHand()) return;
+  begin_ns_ = begin_ns;
+  running_ = true;
+  thread_ = startThread("supervisor", [this] { run(); });
+}
+
+void HandMover::stop() {
+  if (running_.exchange(false)) thread_.join();
+}
+
+void HandMover::run() {
+  LoopCounters counters;
+  const auto move = [&](std::int64_t now_ns) {
+    const Commands commands = takeCommands();
+    follow(commands);
+    follow(commands.buttons, now_ns);
+  };
+  runPeriodic(kPeriod_ns, running_, counters, [&](std::int64_t now_ns) { guarded([&] { move(now_ns); }); });
+}
+
+HandMover::Commands HandMover::takeCommands() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(commands_, {});
+}
+
+// A person, the script or the exploration, in this order.
+void HandMover::follow(const Commands& commands) {
+  if (commands.explore) exploring_ = *commands.explore;
+  const Workspace workspace = live_.workspace();
+  if (commands.goal_W) {
+    exploring_ = false;
+    hand_->setHandGoal(clampToWorkspace(workspace.toDevice(*commands.goal_W)));
+  } else if (commands.release) {
+    Vec3 finger_D = Vec3::Zero();
+    exchange_.finger_for_hand_D.read(finger_D);
+    hand_->setHandGoal(clampToWorkspace(finger_D));
+  } else if (exploring_) {
+    if (const auto goal_W = strokingGoal()) hand_->setHandGoal(clampToWorkspace(workspace.toDevice(*goal_W)));
+  }
+  hand_->setHandFirm(firm_);
+}
+
+void HandMover::follow(std::optional<std::uint32_t> buttons, std::int64_t now_ns) {
+  if (buttons) {
+    hand_->setHandButtons(*buttons);
+    pressed_ns_ = now_ns;
+  } else if (now_ns - pressed_ns_ > kPress_ns) {
+    hand_->setHandButtons(0);
+  }
+}
+
+// With nothing to stroke the hand waits.
+std::optional<Vec3> HandMover::strokingGoal() const {
+  const std::int64_t now_ns = monotonicNow_ns();
+  const double time_s = 1e-9 * static_cast<double>(now_ns - begin_ns_);
+  if (script_) return script_->at(time_s);
+  const std::shared_ptr<const Snapshot> scene = scene_();
+  if (scene->bounds.empty()) return {};
+  const double scale = live_.workspace().world_per_device;
+  return explore({*scene, now_ns}, {kPress_D * scale, kLift_D * scale, live_.radius_W()}, time_s);
+}
+
+Vec3 HandMover::clampToWorkspace(const Vec3& goal_D) const {
+  return goal_D.cwiseMax(device_.info().workspace_min).cwiseMin(device_.info().workspace_max);
+}
+
+void HandMover::setGoal(const Vec3& goal_W) {
+  if (!goal_W.allFinite()) return;
+  const std::lock_guard lock(mutex_);
+  commands_.goal_W = goal_W;
+  commands_.release = false;
+}
+
+void HandMover::release() {
+  const std::lock_guard lock(mutex_);
+  commands_.release = true;
+  commands_.goal_W.reset();
+}
+
+void HandMover::press(std::uint32_t buttons) {
+  const std::lock_guard lock(mutex_);
+  commands_.buttons = buttons;
+}
+
+void HandMover::setExplore(bool on) {
+  const std::lock_guard lock(mutex_);
+  commands_.explore = on;
+}
+
+}  // namespace hl

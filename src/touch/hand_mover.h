@@ -1,0 +1,76 @@
+// HandMover: where a simulated hand wants to be, 60 times a second: as a person says, a script, or the exploration.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "device/device.h"
+#include "device/hand_script.h"
+#include "device/simulated_hand.h"
+#include "scene/snapshot.h"
+#include "touch/live_settings.h"
+#include "touch/loop_exchange.h"
+
+namespace hl {
+
+/// Constructed, started, stopped and destroyed by one thread. The rest: any thread; it changes nothing when a person
+/// holds the device.
+class HandMover {
+ public:
+  /// Gives the scene that is shown. Any thread.
+  using SceneNow = std::function<std::shared_ptr<const Snapshot>()>;
+
+  /// All but `settings` must outlive it.
+  HandMover(Device& device, const TouchSettings& settings, const LiveSettings& live, LoopExchange& exchange,
+            SceneNow scene);
+  ~HandMover() { stop(); }
+
+  /// Before start(): brings the hand to a place clear of the scene, on a virtual clock.
+  void bringToStart();
+  void start(std::int64_t begin_ns);  ///< time zero of script and exploration
+  void stop();                        ///< safe to call twice
+
+  bool hasHand() const { return hand_ != nullptr; }
+  void setGoal(const Vec3& goal_W);  ///< a person takes over from the exploration
+  void release();
+  void press(std::uint32_t buttons);
+  void setExplore(bool on);
+  void setFirm(bool firm) { firm_ = firm; }
+  bool exploring() const { return exploring_.load(); }
+  bool firm() const { return firm_.load(); }
+
+ private:
+  struct Commands {
+    std::optional<Vec3> goal_W;
+    bool release = false;
+    std::optional<bool> explore;
+    std::optional<std::uint32_t> buttons;
+  };
+
+  void run();
+  Commands takeCommands();
+  void follow(const Commands& commands);
+  void follow(std::optional<std::uint32_t> buttons, std::int64_t now_ns);
+  std::optional<Vec3> strokingGoal() const;
+  Vec3 clampToWorkspace(const Vec3& goal_D) const;
+
+  Device& device_;
+  SimulatedHand* const hand_;  // of the device; null when a person holds it
+  const std::optional<HandScript> script_;
+  const LiveSettings& live_;
+  LoopExchange& exchange_;
+  const SceneNow scene_;
+  std::int64_t begin_ns_ = 0, pressed_ns_ = 0;
+  std::atomic<bool> exploring_, firm_;
+  std::mutex mutex_;  // of the next; the real-time loops never see it
+  Commands commands_;
+  std::atomic<bool> running_{false};
+  std::thread thread_;
+};
+
+}  // namespace hl

@@ -1,0 +1,94 @@
+#include "touch/live_settings.h"
+
+#include <algorithm>
+
+namespace hl {
+
+namespace {
+
+// What a page may ask of a surface: beyond, a finger could not be moved.
+constexpr double kMostFriction = 10;
+constexpr double kMostViscosity_Ns_m = 1000;
+
+double smallestReach_D(const DeviceInfo& device) { return (device.workspace_max - device.workspace_min).minCoeff(); }
+
+}  // namespace
+
+LiveSettings::LiveSettings(const TouchSettings& settings, const DeviceInfo& device, const Box& bounds)
+    : radius_D_(settings.radius_D),
+      side_D_(std::min(settings.side_D, smallestReach_D(device))),
+      stiffness_max_N_m_(device.stiffness_max_N_m),
+      ledger_(settings.ledger),
+      fitted_(settings.world_per_device || !bounds.empty()) {
+  commands_.workspace = Workspace::fit(bounds, side_D_);
+  if (settings.world_per_device) commands_.workspace.world_per_device = *settings.world_per_device;
+  commands_.radius_W = radius_D_ * commands_.workspace.world_per_device;
+  setSurfaces(settings.surfaces);
+  setStiffness(settings.stiffness_N_m.value_or(device.stiffness_N_m));
+}
+
+void LiveSettings::setStiffness(double stiffness_N_m) {
+  if (!(stiffness_N_m >= 0)) return;
+  stiffness_ = std::min(stiffness_N_m, stiffness_max_N_m_);
+}
+
+void LiveSettings::setSurfaces(const MaterialOverride& surfaces) {
+  const auto within = [](std::optional<double>& value, double most) {
+    if (value && !(*value >= 0)) value.reset();
+    if (value) value = std::min(*value, most);
+  };
+  const std::lock_guard lock(mutex_);
+  MaterialOverride& own = commands_.surfaces;
+  own = surfaces;
+  within(own.stiffness, 1);
+  within(own.static_friction, kMostFriction);
+  within(own.dynamic_friction, kMostFriction);
+  within(own.viscosity_Ns_m, kMostViscosity_Ns_m);
+  commands_for_proxy_.write(commands_);
+}
+
+void LiveSettings::restartWith(const Workspace& workspace, double radius_W) {
+  commands_.workspace = workspace;
+  commands_.radius_W = radius_W;
+  ++commands_.restarts;
+  commands_for_proxy_.write(commands_);
+}
+
+void LiveSettings::setWorkspace(const Workspace& workspace) {
+  if (!workspace.valid()) return;
+  const std::lock_guard lock(mutex_);
+  fitted_ = true;
+  const double radius_D = commands_.radius_W / commands_.workspace.world_per_device;
+  restartWith(workspace, radius_D * workspace.world_per_device);
+}
+
+void LiveSettings::setRadius(double radius_W) {
+  if (!Workspace::validRadius(radius_W)) return;
+  const std::lock_guard lock(mutex_);
+  restartWith(commands_.workspace, radius_W);
+}
+
+void LiveSettings::fit(const Box& bounds) {
+  const std::lock_guard lock(mutex_);
+  if (fitted_ || bounds.empty()) return;
+  fitted_ = true;
+  const Workspace workspace = Workspace::fit(bounds, side_D_);
+  restartWith(workspace, radius_D_ * workspace.world_per_device);
+}
+
+MaterialOverride LiveSettings::surfaces() const {
+  const std::lock_guard lock(mutex_);
+  return commands_.surfaces;
+}
+
+Workspace LiveSettings::workspace() const {
+  const std::lock_guard lock(mutex_);
+  return commands_.workspace;
+}
+
+double LiveSettings::radius_W() const {
+  const std::lock_guard lock(mutex_);
+  return commands_.radius_W;
+}
+
+}  // namespace hl

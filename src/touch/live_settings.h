@@ -1,0 +1,57 @@
+// LiveSettings: what users may change while the loops run. The loops never wait for those who set it.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+
+#include "base/latest.h"
+#include "device/device.h"
+#include "geometry/primitive.h"
+#include "touch/proxy_loop.h"
+#include "touch/touch_settings.h"
+
+namespace hl {
+
+/// Setters and getters: any thread. The loops use proxyCommands(), by one of them at a time, stiffness_N_m(), ledger()
+/// and armRequests(); these are RT-safe.
+class LiveSettings {
+ public:
+  /// The workspace is fitted to `bounds`, or to the first scene that is not empty.
+  LiveSettings(const TouchSettings& settings, const DeviceInfo& device, const Box& bounds);
+
+  void setStiffness(double stiffness_N_m);             ///< clamped to what the device accepts
+  void setSurfaces(const MaterialOverride& surfaces);  ///< replaces what was set before; numbers out of range are cut
+  void setLedger(LedgerMode mode) { ledger_ = mode; }
+  void setWorkspace(const Workspace& workspace);
+  void setRadius(double radius_W);
+  /// A scene is about to be shown.
+  void fit(const Box& bounds);
+  void rearm() { arm_requests_.fetch_add(1); }
+
+  MaterialOverride surfaces() const;
+  Workspace workspace() const;
+  double radius_W() const;
+  double side_D() const { return side_D_; }  ///< m, of a model that is fitted
+
+  double stiffness_N_m() const { return stiffness_.load(std::memory_order_relaxed); }
+  LedgerMode ledger() const { return ledger_.load(std::memory_order_relaxed); }
+  /// Counts them.
+  std::uint64_t armRequests() const { return arm_requests_.load(std::memory_order_relaxed); }
+  void proxyCommands(ProxyCommands& commands) { commands_for_proxy_.read(commands); }
+
+ private:
+  void restartWith(const Workspace& workspace, double radius_W);  // holding mutex_
+
+  const double radius_D_, side_D_, stiffness_max_N_m_;
+  std::atomic<double> stiffness_{0};
+  std::atomic<LedgerMode> ledger_{LedgerMode::kTank};
+  std::atomic<std::uint64_t> arm_requests_{0};
+
+  mutable std::mutex mutex_;  // of what follows; the loops never see it
+  ProxyCommands commands_;
+  bool fitted_ = false;  // the workspace has been set, or fitted to a scene
+  Latest<ProxyCommands> commands_for_proxy_{ProxyCommands{}};
+};
+
+}  // namespace hl

@@ -1,0 +1,30 @@
+// LoopExchange: what the servo's loop, the proxy's loop and the hand's thread tell each other. Each datum has one
+// writer and one reader.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "base/latest.h"
+#include "base/vec.h"
+#include "touch/held_contacts.h"
+
+namespace hl {
+
+/// What a tick came to, for the servo.
+struct TickMessage {
+  HeldContacts held;
+  float work_us = 0;
+};
+
+/// Frame D.
+struct LoopExchange {
+  Latest<Vec3> finger_D{Vec3::Zero()};           ///< servo to proxy
+  Latest<Vec3> finger_for_hand_D{Vec3::Zero()};  ///< servo to hand
+  Latest<TickMessage> ticks{TickMessage{}};      ///< proxy to servo
+  std::atomic<bool> makes_force{false};          ///< as of the servo's last step
+  /// Times that the device began to answer: the finger is elsewhere then.
+  std::atomic<std::uint64_t> arrivals{0};
+};
+
+}  // namespace hl

@@ -1,0 +1,136 @@
+#include "touch/servo_loop.h"
+
+#include <sched.h>
+
+#include "base/clock.h"
+#include "base/guarded_thread.h"
+#include "base/periodic.h"
+
+namespace hl {
+
+namespace {
+
+ServoSettings servoSettingsOf(const TouchSettings& settings, const DeviceInfo& device, double rate_Hz) {
+  ServoSettings servo = ServoSettings::of(device);
+  servo.period_s = 1 / rate_Hz;
+  if (settings.damping_Ns_m) servo.damping_Ns_m = *settings.damping_Ns_m;
+  settings.servo.apply(servo);
+  return servo;
+}
+
+VibrationView viewOf(const VibrationGuard& guard) { return {guard.limit_N_m, guard.alarms, guard.dissipated_J}; }
+
+}  // namespace
+
+ServoLoop::ServoLoop(const LoopParts& parts, const TouchSettings& settings, double rate_Hz)
+    : parts_(parts),
+      reader_(parts.device, parts.exchange),
+      settings_(servoSettingsOf(settings, parts.device.info(), rate_Hz)),
+      share_core_(settings.timer_reference),
+      watch_(parts.device, counters_, [this] { parts_.sink.stall(); }) {}
+
+void ServoLoop::look() {
+  const DeviceSample sample = reader_.look(monotonicNow_ns());
+  if (sample.status == DeviceStatus::kOk) parts_.exchange.finger_for_hand_D.write(sample.position);
+}
+
+void ServoLoop::start(std::int64_t begin_ns) {
+  begin_ns_ = begin_ns;
+  running_ = true;
+  thread_ = startThread("servo", [this] { run(); });
+  while (!ready_) std::this_thread::yield();
+  watch_.start(ServoWatch::looks(grant_.fifo, 1 / settings_.period_s));
+}
+
+void ServoLoop::stop() {
+  if (!running_.exchange(false)) return;
+  watch_.stop();
+  thread_.join();
+}
+
+void ServoLoop::run() {
+  int core = spareCore(0);
+  if (core < 0 && share_core_) core = sched_getcpu();
+  grant_ = requestRealtime(kServoPriority, core);
+  ready_ = true;
+  const auto end_force = [this] { parts_.device.write(Vec3::Zero()); };
+  runPeriodic(periodOf_ns(1 / settings_.period_s), running_, counters_, [&](std::int64_t) {
+    if (guarded([this] { step(); })) return;
+    reader_.stepFailed();
+    guarded(end_force);
+  });
+  guarded(end_force);
+}
+
+void ServoLoop::step() {
+  const std::int64_t now_ns = monotonicNow_ns();
+  settings_.stiffness_N_m = parts_.live.stiffness_N_m();
+  settings_.ledger = parts_.live.ledger();
+  const DeviceSample sample = reader_.read(now_ns);
+  const ServoCommand command = commandFor(sample);
+  const ServoState before = step_.servo();
+  apply(step_.servo(), command);
+  const ServoOutput out = touch(sample);
+  parts_.exchange.makes_force.store(makesForce(step_.servo()), std::memory_order_relaxed);
+  // Found while this step stood still: its force is an old one.
+  if (watch_.stalled()) parts_.device.write(Vec3::Zero());
+  parts_.exchange.finger_for_hand_D.write(sample.position);
+  tell({before, command, settings_, step_.target(), sample, out, 0}, now_ns);
+}
+
+// A device that is not ready, homing or connecting, arms when it is.
+ServoCommand ServoLoop::commandFor(const DeviceSample& sample) {
+  const std::uint64_t wanted = parts_.live.armRequests();
+  if (watch_.takeStall()) return ServoCommand::kStall;
+  if (wanted == armed_ || sample.status == DeviceStatus::kNotReady) return ServoCommand::kNone;
+  armed_ = wanted;
+  return ServoCommand::kArm;
+}
+
+// From the sample to the motors.
+ServoOutput ServoLoop::touch(const DeviceSample& sample) {
+  if (parts_.ticker.onServo()) return tickAndTouch(sample);
+  TickMessage newest;
+  if (parts_.exchange.ticks.read(newest) && newest.held.target.time_ns > last_tick_.held.target.time_ns)
+    last_tick_ = newest;
+  const ServoOutput out = step_.late(last_tick_.held, settings_, sample);
+  parts_.device.write(out.force_N);
+  return out;
+}
+
+ServoOutput ServoLoop::tickAndTouch(const DeviceSample& sample) {
+  const std::int64_t begin_ns = monotonicNow_ns();
+  const SpringOfServo spring = springOf(settings_, step_.servo());
+  const ProxyCommands& commands = parts_.ticker.follow();
+  const ServoOutput out = step_.onTime(parts_.ticker.loop(), commands, settings_, sample);
+  parts_.device.write(out.force_N);
+  const std::int64_t work_ns = monotonicNow_ns() - begin_ns;
+  last_tick_ = {step_.tick().held, 1e-3f * static_cast<float>(work_ns)};
+  parts_.ticker.done({sample.time_ns, sample.position, commands, spring}, step_.tick(), begin_ns, work_ns);
+  return out;
+}
+
+void ServoLoop::tell(const ServoRecord& record, std::int64_t begin_ns) {
+  const DeviceSample& sample = record.sample;
+  const ServoOutput& out = record.out;
+  const ServoTarget& target = record.target;
+  const double penetration_m = target.valid ? (target.proxy_D - sample.position).norm() : 0;
+  parts_.views.samples.push({1e-9 * static_cast<double>(begin_ns - begin_ns_), static_cast<float>(out.force_N.norm()),
+                             static_cast<float>(penetration_m), last_tick_.work_us});
+  parts_.views.moments.push({begin_ns, sample.position, out.force_N, sample.buttons});
+  ServoRecord timed = record;
+  timed.work_ns = monotonicNow_ns() - begin_ns;
+  parts_.sink.step(timed);
+  meter_.add(begin_ns, timed.work_ns);
+  parts_.views.servo.write({sample.buttons, sample.position, out.force_N, out.safety, out.fault,
+                            step_.servo().spring.ledger, viewOf(step_.servo().vibration), meter_.summary()});
+}
+
+void ServoLoop::tellStall(ServoView& view) const {
+  if (!watch_.stalled()) return;
+  view.force_N = Vec3::Zero();
+  view.safety = SafetyState::kFault;
+  view.fault = FaultReason::kStalled;
+}
+
+}  // namespace hl

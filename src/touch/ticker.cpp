@@ -1,0 +1,43 @@
+#include "touch/ticker.h"
+
+namespace hl {
+
+Ticker::Ticker(SnapshotSlot& scenes, LiveSettings& live, LoopExchange& exchange, TouchViews& views, StepSink& sink,
+               std::int64_t servo_period_ns)
+    : live_(live),
+      exchange_(exchange),
+      views_(views),
+      sink_(sink),
+      loop_(scenes, ProxySettings{}),
+      chooser_(servo_period_ns) {}
+
+const ProxyCommands& Ticker::follow() {
+  const std::uint64_t arrivals = exchange_.arrivals.load(std::memory_order_acquire);
+  live_.proxyCommands(commands_);
+  commands_.restarts += arrivals;
+  return commands_;
+}
+
+void Ticker::done(const TickRequest& request, const ProxyStep& step, std::int64_t begin_ns, std::int64_t work_ns) {
+  sink_.tick(request, step, loop_.state().position, work_ns);
+  meter_.add(begin_ns, work_ns);
+  show(step);
+  ticks_.fetch_add(1, std::memory_order_relaxed);
+  if (chooser_.onServo()) ticks_in_servo_steps_.fetch_add(1, std::memory_order_relaxed);
+  last_ns_.store(begin_ns, std::memory_order_release);
+  chooser_.took(work_ns);
+}
+
+void Ticker::show(const ProxyStep& step) {
+  const ProxyState& state = loop_.state();
+  view_.proxy = state.position;
+  view_.contacts = step.report.contacts;
+  view_.touched = step.touched;
+  view_.slipping = state.touching && state.rest_s == 0;
+  view_.ledger = state.ledger;
+  view_.ended.add(step.report.ending);
+  view_.loop = meter_.summary();
+  views_.proxy.write(view_);
+}
+
+}  // namespace hl
