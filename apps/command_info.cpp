@@ -2,7 +2,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
+#include <string>
 
 #include "commands.h"
 #include "scene/bump_gain.h"
@@ -11,22 +11,29 @@ namespace hl {
 
 namespace {
 
-constexpr std::array<const char*, kQuantities> kQuantityNames{"stiffness", "static friction", "dynamic friction",
-                                                              "viscosity", "height"};
-constexpr std::array<const char*, kQuantities> kQuantityUnits{"", "", "", " N s/m", " m"};
+void printTexture(const Model& model, const TextureUse& use, const std::string& name, const std::string& unit) {
+  if (!use.used()) return;
+  const Texture& texture = model.textures[use.texture];
+  fmt::print("  {} from texture {} ({} x {}): {:.4g} to {:.4g}{}\n", name, texture.name, texture.width, texture.height,
+             use.low, use.high, unit);
+}
 
+// Of the numbers those that are not what they are where nobody says any.
 void printMaterial(const Snapshot& snapshot, std::size_t number) {
-  const Material& m = snapshot.shape().model.materials[number];
-  fmt::print("material {}: stiffness {:.4g}, friction {:.4g} static {:.4g} dynamic, viscosity {:.4g} N s/m, {}\n",
-             number, m.stiffness, m.static_friction, m.dynamic_friction, m.viscosity_Ns_m,
-             m.smooth ? "smooth" : "flat");
-  for (std::size_t q = 0; q < kQuantities; ++q) {
-    const TextureUse& use = m.textures[q];
-    if (!use.used()) continue;
-    const Texture& texture = snapshot.shape().model.textures[use.texture];
-    fmt::print("  {} from texture {} ({} x {}): {:.4g} to {:.4g}{}\n", kQuantityNames[q], texture.name, texture.width,
-               texture.height, use.low, use.high, kQuantityUnits[q]);
+  const Model& model = snapshot.shape().model;
+  const Material& m = model.materials[number];
+  fmt::print("material {}: {}", number, m.smooth ? "smooth" : "flat");
+  const auto unitOf = [](const QuantityInfo& info) { return *info.unit == 0 ? "" : std::string(" ") + info.unit; };
+  for (std::size_t i = 0; i < kNumbers; ++i) {
+    const double value = m.*kMaterialNumbers[i];
+    const QuantityInfo& info = kQuantityInfo[i];
+    if (value != info.otherwise || info.quantity == Quantity::kStiffness)
+      fmt::print(", {} {:.4g}{}", plainName(info), value, unitOf(info));
   }
+  fmt::print("\n");
+  for (std::size_t i = 0; i < kNumbers; ++i)
+    printTexture(model, m.textures[i], plainName(kQuantityInfo[i]), unitOf(kQuantityInfo[i]));
+  printTexture(model, m.textureOf(Quantity::kHeight), "height", " m");
   // The default device: 0.5 N s/m at 1 kHz.
   const double curvature = bumpCurvature_per_m(snapshot, number);
   if (curvature > 0)

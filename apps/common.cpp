@@ -66,7 +66,6 @@ void addSizeOptions(CLI::App& command, SceneOptions& options) {
 }
 
 void addSurfaceOptions(CLI::App& command, MaterialOverride& surfaces, LedgerMode& ledger) {
-  const CLI::Validator friction = within(0, kMostNumber);
   const std::map<std::string, bool> shades{{"flat", false}, {"smooth", true}};
   const std::map<std::string, bool> switches{{"on", true}, {"off", false}};
   const std::map<std::string, LedgerMode> ledgers{
@@ -74,18 +73,14 @@ void addSurfaceOptions(CLI::App& command, MaterialOverride& surfaces, LedgerMode
   command.add_option("--shade", surfaces.smooth, "flat: true facets; smooth: forces along interpolated vertex normals")
       ->transform(CLI::Transformer(shades))
       ->option_text("flat|smooth (default: the scene's; flat for model files)");
-  command.add_option("--stiffness", surfaces.stiffness, "surface stiffness: target = finger + s (proxy - finger)")
-      ->check(within(0, 1))
-      ->option_text("0..1 (default: the scene's; 1 for model files)");
-  command.add_option("--static-friction", surfaces.static_friction, "mu_s; below mu_d it counts as mu_d")
-      ->check(friction)
-      ->option_text("MU (default: the scene's; 0 for model files)");
-  command.add_option("--dynamic-friction", surfaces.dynamic_friction, "mu_d")
-      ->check(friction)
-      ->option_text("MU (default: the scene's; 0 for model files)");
-  command.add_option("--viscosity", surfaces.viscosity_Ns_m, "drag of the surface per speed of the proxy")
-      ->check(friction)
-      ->option_text("N.s/m (default: the scene's; 0 for model files)");
+  for (std::size_t i = 0; i < kNumbers; ++i) {
+    const QuantityInfo& info = kQuantityInfo[i];
+    const std::string unit = *info.unit == 0 ? "" : std::string(" ") + info.unit;
+    command.add_option(optionName(info), surfaces.number(i), info.words)
+        ->check(within(0, std::min(info.most, kMostNumber)))
+        ->option_text(
+            fmt::format("0..{:g}{} (default: the scene's; {:g} for model files)", info.most, unit, info.otherwise));
+  }
   command.add_option("--textures", surfaces.textures, "read the scene's textures, or leave them out")
       ->transform(CLI::Transformer(switches))
       ->option_text("on|off (default: on)");

@@ -1,6 +1,4 @@
 // Messages of pages: what the settings then are, and what every page is told of it.
-#include <cmath>
-
 #include "page/viewer_feed.h"
 #include "refusal.h"
 
@@ -12,9 +10,10 @@ void requireBounded(const TouchSession& session) {
   const double stiffness_N_m = session.stiffness_N_m();
   fuzz::require(stiffness_N_m >= 0 && stiffness_N_m <= session.deviceInfo().stiffness_max_N_m);
   const MaterialOverride surfaces = session.surfaces();
-  for (const std::optional<double>& value :
-       {surfaces.stiffness, surfaces.static_friction, surfaces.dynamic_friction, surfaces.viscosity_Ns_m})
-    fuzz::require(!value || (*value >= 0 && std::isfinite(*value)));
+  for (std::size_t i = 0; i < kNumbers; ++i) {
+    const std::optional<double>& value = surfaces.number(i);
+    fuzz::require(!value || (*value >= 0 && *value <= kQuantityInfo[i].most_set));
+  }
 }
 
 }  // namespace

@@ -239,8 +239,8 @@ HL_API void hlScaled(HLdouble x, HLdouble y, HLdouble z); /**< see hlScalef */
 
 /* ---- Surface -------------------------------------------------------------------------------------------------- */
 
-/** Sets a quantity of the surface (HL_STIFFNESS .. HL_PRESLIDING; unit, range and default there) of what is drawn next.
- * HL_INVALID_VALUE: out of its range. */
+/** Sets a quantity of the surface (HL_STIFFNESS .. HL_PRESLIDING, HL_ADHESION; unit, range and default there) of what
+ * is drawn next. HL_INVALID_VALUE: out of its range. */
 HL_API void hlMaterialf(HLenum quantity, HLfloat value);
 HL_API void hlMateriald(HLenum quantity, HLdouble value); /**< see hlMaterialf */
 /** HL_SMOOTH or HL_FLAT, for what is drawn next. */

@@ -181,3 +181,19 @@ def texture(bench):
     plots[0].set_title("Lines of friction μ_d = 0.5, pressed with 2 N")
     plots[-1].set_xlabel("finger along the floor (mm)")
     save(figure, "paper_texture.png", *facts)
+
+
+def adhesion(bench):
+    """Force against the finger's height over a floor of adhesion 1 N: down, 0.5 mm in, and up until it lets go."""
+    scene, most = floor_file(bench), 1.0
+    down, up = (0.0, RADIUS + 1.5e-3), (0.0, RADIUS - 0.5e-3)
+    rows = bench.trace(scene, straight(down, up, speed=0.01) + straight(up, (0.0, RADIUS + 2e-3), speed=0.01),
+                       "--adhesion", str(most))
+    height = [MM * (row["finger_y"] - RADIUS) for row in rows]
+    force = [row["force_y"] for row in rows]
+    figure, plot = canvas(1, 1, 4.0)
+    plot.axhline(-most, color=GREY, lw=1, ls=":")
+    plot.plot(height, force, color=BLUE, lw=1.8)
+    style(plot, "finger's height above contact (mm)", "force on the finger (N)", "Adhesion of 1 N, K = 1000 N/m: down and up again")
+    pulled = min(force)
+    save(figure, "adhesion.png", f"strongest pull {-pulled:.4f} N at {height[force.index(pulled)]:.4f} mm; adhesion {most:g} N")

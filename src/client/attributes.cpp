@@ -7,6 +7,12 @@
 
 namespace hl::client {
 
+std::optional<std::size_t> numberOf(HLenum quantity) {
+  const auto found = std::find(kQuantityEnums.begin(), kQuantityEnums.end(), quantity);
+  if (found == kQuantityEnums.end()) return {};
+  return static_cast<std::size_t>(found - kQuantityEnums.begin());
+}
+
 bool hasTextures(const Attributes& attributes) {
   const TextureUnits& units = attributes.textures;
   for (std::size_t unit = 0; unit < kTextureUnits; ++unit)
@@ -29,8 +35,7 @@ Look lookOf(const Attributes& attributes) {
 
 void requireInRange(HLenum quantity, double value) {
   requireFinite(value);
-  constexpr double kMost = 1e9;  // as the server takes it
-  if (std::abs(value) > kMost) throw Fault(HL_INVALID_VALUE, "the value must be at most 1e9");
+  if (std::abs(value) > kMostHeight_m) throw Fault(HL_INVALID_VALUE, "the value must be at most 1e9");
   if (quantity == HL_HEIGHT) return;
   if (value < 0) throw Fault(HL_INVALID_VALUE, "the value must not be negative");
   if (quantity == HL_STIFFNESS && value > 1) throw Fault(HL_INVALID_VALUE, "a surface's stiffness must be 0 .. 1");

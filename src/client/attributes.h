@@ -9,19 +9,28 @@
 #include <optional>
 #include <vector>
 
+#include "base/quantities.h"
 #include "base/vec.h"
 
 namespace hl::client {
 
-inline constexpr std::size_t kMaterialQuantities = HL_PRESLIDING - HL_STIFFNESS + 1;
+/// Of each number of a surface, in the order of the table.
+inline constexpr std::array<HLenum, kNumbers> kQuantityEnums{
+#define HL_QUANTITY(quantity, field, NAME, ...) HL_##NAME,
+#include "base/quantities.def"
+#undef HL_QUANTITY
+};
+/// Its place in the table; none: it is no number of a surface.
+std::optional<std::size_t> numberOf(HLenum quantity);
+
 /// One for each quantity that a texture can modulate: more could not be felt apart.
 inline constexpr std::size_t kTextureUnits = 5;
 inline constexpr std::size_t kAttribDepth = 16;  ///< as GL demands
 inline constexpr std::size_t kNameDepth = 64;    ///< as GL demands
 
 struct Surface {
-  std::array<std::optional<double>, kMaterialQuantities> quantities;  ///< by HL_... - HL_STIFFNESS
-  std::optional<HLenum> shade;                                        ///< HL_FLAT or HL_SMOOTH
+  std::array<std::optional<double>, kNumbers> quantities;  ///< in the order of the table
+  std::optional<HLenum> shade;                             ///< HL_FLAT or HL_SMOOTH
   bool operator==(const Surface&) const = default;
 };
 
@@ -80,9 +89,6 @@ bool hasTextures(const Attributes& attributes);
 
 /// The range of a quantity of hlMaterial or hlTexEnv. Throws Fault HL_INVALID_VALUE.
 void requireInRange(HLenum quantity, double value);
-
-/// The default of a quantity of hlMaterial.
-inline double defaultOf(HLenum quantity) { return quantity == HL_STIFFNESS ? 1 : 0; }
 
 /// Attributes with GL's attribute and name stacks.
 class AttributeStack {

@@ -35,23 +35,22 @@ void fillPrimitives(const Geometry& geometry, proto::Primitives& out) {
   assign(out.mutable_points(), geometry.points);
 }
 
+proto::Quantity quantityOf(HLenum quantity) {
+  proto::Quantity named = proto::HEIGHT;
+  if (const auto number = numberOf(quantity)) proto::Quantity_Parse(kQuantityInfo[*number].name, &named);
+  return named;
+}
+
 void fillMaterial(const Look& look, proto::Material& out) {
-  const auto set = [&](HLenum quantity, auto setter) {
-    const auto& value = look.surface.quantities[quantity - HL_STIFFNESS];
-    if (value) (out.*setter)(*value);
-  };
-  set(HL_STIFFNESS, &proto::Material::set_stiffness);
-  set(HL_STATIC_FRICTION, &proto::Material::set_static_friction);
-  set(HL_DYNAMIC_FRICTION, &proto::Material::set_dynamic_friction);
-  set(HL_VISCOSITY, &proto::Material::set_viscosity_ns_m);
-  set(HL_STRIBECK, &proto::Material::set_stribeck_m_s);
-  set(HL_PRESLIDING, &proto::Material::set_presliding_n_m);
+  for (std::size_t i = 0; i < kNumbers; ++i) {
+    if (const auto& value = look.surface.quantities[i])
+      out.GetReflection()->SetDouble(&out, out.GetDescriptor()->FindFieldByName(kQuantityInfo[i].field), *value);
+  }
   if (look.surface.shade) out.set_shade(*look.surface.shade == HL_FLAT ? proto::FLAT : proto::SMOOTH);
   for (const TextureUse& use : look.textures) {
     proto::MaterialTexture& texture = *out.add_textures();
     texture.set_texture(std::to_string(use.texture));
-    texture.set_quantity(use.quantity == HL_HEIGHT ? proto::HEIGHT
-                                                   : static_cast<proto::Quantity>(use.quantity - HL_STIFFNESS));
+    texture.set_quantity(quantityOf(use.quantity));
     texture.set_low(use.low);
     texture.set_high(use.high);
   }

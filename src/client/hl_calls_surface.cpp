@@ -13,10 +13,10 @@ namespace {
 
 void material(const char* function, HLenum quantity, double value) {
   call(function, [&](HLcontext& context) {
-    if (quantity < HL_STIFFNESS || quantity > HL_PRESLIDING)
-      throw Fault(HL_INVALID_ENUM, "the quantity must be HL_STIFFNESS .. HL_PRESLIDING");
+    const auto number = hl::client::numberOf(quantity);
+    if (!number) throw Fault(HL_INVALID_ENUM, "the quantity must be one of HL_STIFFNESS .. HL_PRESLIDING, HL_ADHESION");
     hl::client::requireInRange(quantity, value);
-    context.draw.attributes.now.surface.quantities[quantity - HL_STIFFNESS] = value;
+    context.draw.attributes.now.surface.quantities[*number] = value;
   });
 }
 

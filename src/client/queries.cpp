@@ -33,9 +33,10 @@ void addAll(Values& values, const Array& numbers) {
   for (const double number : numbers) values.add(number);
 }
 
-template <HLenum Name>
-void addQuantity(const HLcontext& c, Values& values) {
-  values.add(attributes(c).surface.quantities[Name - HL_STIFFNESS].value_or(defaultOf(Name)));
+bool answerQuantity(const HLcontext& c, HLenum name, Values& values) {
+  const auto number = numberOf(name);
+  if (number) values.add(attributes(c).surface.quantities[*number].value_or(kQuantityInfo[*number].otherwise));
+  return number.has_value();
 }
 
 double frameProgress(const HLcontext& c) {
@@ -80,12 +81,6 @@ constexpr Query kQueriesOfCalls[] = {
     {HL_MAX_MODELVIEW_STACK_DEPTH, [](const HLcontext&, Values& v) { v.add(kModelviewDepth); }},
     {HL_MAX_NAME_STACK_DEPTH, [](const HLcontext&, Values& v) { v.add(kNameDepth); }},
     {HL_MAX_TEXTURE_STACK_DEPTH, [](const HLcontext&, Values& v) { v.add(kTextureDepth); }},
-    {HL_STIFFNESS, addQuantity<HL_STIFFNESS>},
-    {HL_STATIC_FRICTION, addQuantity<HL_STATIC_FRICTION>},
-    {HL_DYNAMIC_FRICTION, addQuantity<HL_DYNAMIC_FRICTION>},
-    {HL_VISCOSITY, addQuantity<HL_VISCOSITY>},
-    {HL_STRIBECK, addQuantity<HL_STRIBECK>},
-    {HL_PRESLIDING, addQuantity<HL_PRESLIDING>},
 };
 
 constexpr Query kQueriesOfServer[] = {
@@ -181,7 +176,7 @@ Values answer(const HLcontext& context, HLenum name) {
   Values values;
   const bool answered = answerFrom(kQueriesOfState, context, name, values) ||
                         answerFrom(kQueriesOfCalls, context, name, values) ||
-                        answerFrom(kQueriesOfServer, context, name, values);
+                        answerFrom(kQueriesOfServer, context, name, values) || answerQuantity(context, name, values);
   if (!answered) throw Fault(HL_INVALID_ENUM, "not a query");
   return values;
 }

@@ -15,11 +15,18 @@ namespace {
 
 constexpr std::uint32_t kDefaultSize = 64;
 
-// The most that any quantity but stiffness may be, in its own unit: products of such numbers, forces and speeds stay
-// numbers. A height may be as much below zero.
-constexpr double kMostOfQuantity = 1e9;
+const google::protobuf::FieldDescriptor& fieldOf(const google::protobuf::Message& message, const char* name) {
+  return *message.GetDescriptor()->FindFieldByName(name);
+}
 
 }  // namespace
+
+Quantity quantityOf(proto::Quantity quantity) {
+  if (quantity == proto::HEIGHT) return Quantity::kHeight;
+  const std::string& name = proto::Quantity_Name(quantity);
+  const auto named = [&](const QuantityInfo& info) { return info.name == name; };
+  return std::find_if(kQuantityInfo.begin(), kQuantityInfo.end(), named)->quantity;
+}
 
 std::string pathOf(const std::string& list, int index) { return list + "[" + std::to_string(index) + "]"; }
 
@@ -104,30 +111,27 @@ NamedTextureUse SceneDecoder::textureUse(const proto::MaterialTexture& in, const
   if (!proto::Quantity_IsValid(in.quantity())) fail(where + ".quantity", where + ".quantity is none that HL knows");
   const bool height = in.quantity() == proto::HEIGHT;
   if (height && !in.has_high()) fail(where, where + ": a bump map needs high, its amplitude in metres");
-  const double most = in.quantity() == proto::STIFFNESS ? 1 : kMostOfQuantity;
-  const double least = height ? -kMostOfQuantity : 0;
+  const double most = height ? kMostHeight_m : kQuantityInfo[static_cast<std::size_t>(quantityOf(in.quantity()))].most;
+  const double least = height ? -kMostHeight_m : 0;
   return {in.texture(), checked(in.low(), least, most, where + ".low"),
           checked(in.has_high() ? in.high() : 1, least, most, where + ".high")};
 }
 
 SurfaceChange SceneDecoder::surface(const proto::Material& in, const std::string& where) const {
   SurfaceChange change;
-  const auto set = [&](std::optional<double>& to, bool has, double value, double most, const char* name) {
-    if (has) to = checked(value, 0, most, where + name);
-  };
   if (in.has_shade() && !proto::Shade_IsValid(in.shade()))
     fail(where + ".shade", where + ".shade must be SMOOTH or FLAT");
   if (in.has_shade()) change.smooth = in.shade() == proto::SMOOTH;
-  set(change.stiffness, in.has_stiffness(), in.stiffness(), 1, ".stiffness");
-  set(change.static_friction, in.has_static_friction(), in.static_friction(), kMostOfQuantity, ".staticFriction");
-  set(change.dynamic_friction, in.has_dynamic_friction(), in.dynamic_friction(), kMostOfQuantity, ".dynamicFriction");
-  set(change.viscosity_Ns_m, in.has_viscosity_ns_m(), in.viscosity_ns_m(), kMostOfQuantity, ".viscosityNsM");
-  set(change.stribeck_m_s, in.has_stribeck_m_s(), in.stribeck_m_s(), kMostOfQuantity, ".stribeckMS");
-  set(change.presliding_N_m, in.has_presliding_n_m(), in.presliding_n_m(), kMostOfQuantity, ".preslidingNM");
+  for (std::size_t i = 0; i < kNumbers; ++i) {
+    const google::protobuf::FieldDescriptor& field = fieldOf(in, kQuantityInfo[i].field);
+    if (!in.GetReflection()->HasField(in, &field)) continue;
+    change.*kSaidNumbers<SurfaceChange>[i] =
+        checked(in.GetReflection()->GetDouble(in, &field), 0, kQuantityInfo[i].most, where + "." + field.json_name());
+  }
   for (int i = 0; i < in.textures_size(); ++i) {
     const std::string at = pathOf(where + ".textures", i);
     NamedTextureUse use = textureUse(in.textures(i), at);
-    auto& slot = change.textures[static_cast<std::size_t>(in.textures(i).quantity())];
+    auto& slot = change.textures[static_cast<std::size_t>(quantityOf(in.textures(i).quantity()))];
     if (slot) fail(at, at + ": there are two textures of one quantity");
     slot = std::move(use);
   }

@@ -42,6 +42,9 @@ class SceneDecoder {
 };
 
 /// "list[3]".
+/// What a texture modulates; the message has names of its own for it.
+Quantity quantityOf(proto::Quantity quantity);
+
 std::string pathOf(const std::string& list, int index);
 
 }  // namespace hl

@@ -146,7 +146,7 @@ Material SceneFile::materialOf(const proto::Material& in, const std::string& whe
   const SurfaceChange surface = decoder_.surface(in, where);
   Material material = surface.material();
   for (int i = 0; i < in.textures_size(); ++i) {
-    const auto quantity = static_cast<std::size_t>(in.textures(i).quantity());
+    const auto quantity = static_cast<std::size_t>(quantityOf(in.textures(i).quantity()));
     const NamedTextureUse& use = *surface.textures[quantity];
     const auto found = textures_.find(use.texture);
     const std::string at = pathOf(where + ".textures", i);

@@ -12,9 +12,6 @@ namespace {
 
 constexpr double kAny = std::numeric_limits<double>::max();
 
-// A number that may be left out is in range then.
-double orLeast(const std::optional<double>& number) { return number.value_or(0); }
-
 }  // namespace
 
 void toProto(const Values& values, proto::Values& out) {
@@ -60,25 +57,22 @@ void checkRecorded(const DeviceInfo& info) {
 }
 
 void checkRecorded(const Material& material) {
-  checkRanges("a material", {{"stiffness", material.stiffness, 0, 1},
-                             {"static_friction", material.static_friction, 0, kAny},
-                             {"dynamic_friction", material.dynamic_friction, 0, kAny},
-                             {"viscosity_Ns_m", material.viscosity_Ns_m, 0, kAny},
-                             {"stribeck_m_s", material.stribeck_m_s, 0, kAny},
-                             {"presliding_N_m", material.presliding_N_m, 0, kAny}});
-  for (std::size_t q = 0; q < kQuantities; ++q) {
-    const TextureUse& use = material.textures[q];
-    const double most = static_cast<Quantity>(q) == Quantity::kStiffness ? 1 : kAny;
-    const double least = static_cast<Quantity>(q) == Quantity::kHeight ? -kAny : 0;
-    checkRanges("a texture of a material", {{"low", use.low, least, most}, {"high", use.high, least, most}});
+  for (std::size_t i = 0; i < kNumbers; ++i) {
+    const QuantityInfo& info = kQuantityInfo[i];
+    checkRanges("a material", {{info.field, material.*kMaterialNumbers[i], 0, info.most}});
+    const TextureUse& use = material.textures[i];
+    checkRanges("a texture of a material", {{"low", use.low, 0, info.most}, {"high", use.high, 0, info.most}});
   }
+  const TextureUse& height = material.textureOf(Quantity::kHeight);
+  checkRanges("a bump map of a material", {{"low", height.low, -kMostHeight_m, kMostHeight_m},
+                                           {"high", height.high, -kMostHeight_m, kMostHeight_m}});
 }
 
 void checkRecorded(const MaterialOverride& surfaces) {
-  checkRanges("what is set for all surfaces", {{"stiffness", orLeast(surfaces.stiffness), 0, 1},
-                                               {"static_friction", orLeast(surfaces.static_friction), 0, kAny},
-                                               {"dynamic_friction", orLeast(surfaces.dynamic_friction), 0, kAny},
-                                               {"viscosity_Ns_m", orLeast(surfaces.viscosity_Ns_m), 0, kAny}});
+  for (std::size_t i = 0; i < kNumbers; ++i) {
+    const QuantityInfo& info = kQuantityInfo[i];
+    checkRanges("what is set for all surfaces", {{info.field, surfaces.number(i).value_or(0), 0, info.most}});
+  }
 }
 
 void requireFit(Fit fit, const std::string& what) {

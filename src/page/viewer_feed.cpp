@@ -16,6 +16,15 @@ namespace {
 constexpr std::uint32_t kProtocolVersion = 2;
 constexpr int kMaxSamples = 100;
 
+void describe(const QuantityInfo& info, proto::QuantityInfo& out) {
+  out.set_field(proto::Surfaces::descriptor()->FindFieldByName(info.field)->json_name());
+  out.set_name(plainName(info));
+  out.set_unit(info.unit);
+  out.set_usual(info.usual);
+  out.set_otherwise(info.otherwise);
+  out.set_words(info.words);
+}
+
 std::string hello(const TouchSession& session, const std::string& version) {
   proto::ServerMessage message;
   proto::Hello& out = *message.mutable_hello();
@@ -23,6 +32,9 @@ std::string hello(const TouchSession& session, const std::string& version) {
   out.set_server_version(version);
   out.set_scene_name(session.snapshot()->name);
   toProto(session, *out.mutable_device());
+  for (const QuantityInfo& info : kQuantityInfo) {
+    if (info.usual > 0) describe(info, *out.add_quantities());
+  }
   return message.SerializeAsString();
 }
 
@@ -38,21 +50,24 @@ void setSamples(proto::State& state, TouchSession& session) {
   }
 }
 
+const google::protobuf::FieldDescriptor& fieldOf(const proto::Surfaces& surfaces, std::size_t number) {
+  return *surfaces.GetDescriptor()->FindFieldByName(kQuantityInfo[number].field);
+}
+
 void setSurfaces(proto::Surfaces& out, const MaterialOverride& surfaces) {
-  if (surfaces.stiffness) out.set_stiffness(*surfaces.stiffness);
-  if (surfaces.static_friction) out.set_static_friction(*surfaces.static_friction);
-  if (surfaces.dynamic_friction) out.set_dynamic_friction(*surfaces.dynamic_friction);
-  if (surfaces.viscosity_Ns_m) out.set_viscosity_ns_m(*surfaces.viscosity_Ns_m);
+  for (std::size_t i = 0; i < kNumbers; ++i) {
+    if (surfaces.number(i)) out.GetReflection()->SetDouble(&out, &fieldOf(out, i), *surfaces.number(i));
+  }
   if (surfaces.smooth) out.set_smooth(*surfaces.smooth);
   out.set_textures(surfaces.textures);
 }
 
 MaterialOverride surfacesOf(const proto::Surfaces& in) {
   MaterialOverride surfaces;
-  if (in.has_stiffness()) surfaces.stiffness = in.stiffness();
-  if (in.has_static_friction()) surfaces.static_friction = in.static_friction();
-  if (in.has_dynamic_friction()) surfaces.dynamic_friction = in.dynamic_friction();
-  if (in.has_viscosity_ns_m()) surfaces.viscosity_Ns_m = in.viscosity_ns_m();
+  for (std::size_t i = 0; i < kNumbers; ++i) {
+    const auto& field = fieldOf(in, i);
+    if (in.GetReflection()->HasField(in, &field)) surfaces.number(i) = in.GetReflection()->GetDouble(in, &field);
+  }
   if (in.has_smooth()) surfaces.smooth = in.smooth();
   surfaces.textures = !in.has_textures() || in.textures();
   return surfaces;

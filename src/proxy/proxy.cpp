@@ -1,6 +1,7 @@
 #include "proxy/proxy.h"
 
 #include "base/finger_reach.h"
+#include "proxy/adhesion.h"
 #include "proxy/begin.h"
 #include "proxy/carry.h"
 #include "proxy/spring_energy.h"
@@ -58,11 +59,13 @@ TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& se
   if (!state.free && !beginProxy(state, scene, settings, finger, convergence::kPlacesPerTick))
     return notRun(Ending::kUnplaced, finger);
   const double moved_J = carryAlong(state, scene, settings, finger);
-  TickReport report = Tick(scene, settings, state, finger, most_looks).run();
+  TickReport report = state.adhering.empty() ? Tick(scene, settings, state, finger, most_looks).run()
+                                             : tickHeld(state, scene, settings, finger, most_looks);
   report.moved_J = moved_J;
   state.time_ns = scene.time_ns();
   state.snapshot = scene.snapshot().number;
   state.carrier = carrierOf(scene, report);
+  state.adhering = adheringOf(scene, settings, report);
   return report;
 }
 

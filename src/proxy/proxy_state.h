@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "base/fixed_vector.h"
 #include "base/ledger.h"
 #include "base/vec.h"
 #include "proxy/proxy_cache.h"
@@ -34,6 +35,13 @@ struct ProxySettings {
   MaterialOverride surfaces{};  ///< set by the user over what the scene says
 };
 
+/// A surface that keeps the proxy until it is pulled off by more than `adhesion_N` along `normal`.
+struct AdheringContact {
+  Vec3 normal;  ///< unit, from the surface to the proxy
+  double adhesion_N;
+};
+using AdheringContacts = FixedVector<AdheringContact, 3>;
+
 /// World frame. Owned by the proxy loop.
 struct ProxyState {
   Vec3 position = Vec3::Zero();        ///< centre of the sphere
@@ -45,6 +53,7 @@ struct ProxyState {
   std::int64_t time_ns = 0;            ///< of the scene in the last tick
   std::uint64_t snapshot = 0;          ///< number of that scene; 0: none yet
   std::uint64_t carrier = 0;           ///< key of the object whose friction holds it; 0: none
+  AdheringContacts adhering{};         ///< those of the last tick (adhesion.h)
   Ledger ledger{};
   StartSearch start{};  ///< while it is not free
   ProxyCache cache{};

@@ -7,7 +7,7 @@ namespace hl {
 
 Roughness Roughness::of(const Surface& surface) {
   return {surface.read(Quantity::kStaticFriction), surface.read(Quantity::kDynamicFriction),
-          surface.read(Quantity::kViscosity), surface.stribeck_m_s(), surface.presliding_N_m()};
+          surface.read(Quantity::kViscosity), surface.plain(Quantity::kStribeck), surface.plain(Quantity::kPresliding)};
 }
 
 void Resistance::add(const Roughness& roughness, const Patch& patch, const Vec2& moved, double normal_m) {

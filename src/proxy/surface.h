@@ -48,8 +48,8 @@ class Surface {
 
   /// kHeight without a texture is 0.
   SurfaceValue read(Quantity quantity) const;
-  double stribeck_m_s() const { return material_.stribeck_m_s; }
-  double presliding_N_m() const { return material_.presliding_N_m; }
+  /// Of a quantity that no texture modulates.
+  double plain(Quantity quantity) const { return overridden(quantity).value_or(number(quantity)); }
 
  private:
   std::size_t corner(std::size_t sorted) const { return shape_.model.triangles[source_][order_[sorted]]; }
@@ -68,35 +68,11 @@ class Surface {
 
 inline const std::optional<double>& Surface::overridden(Quantity quantity) const {
   static constexpr std::optional<double> kNever;
-  switch (quantity) {
-    case Quantity::kStiffness:
-      return set_.stiffness;
-    case Quantity::kStaticFriction:
-      return set_.static_friction;
-    case Quantity::kDynamicFriction:
-      return set_.dynamic_friction;
-    case Quantity::kViscosity:
-      return set_.viscosity_Ns_m;
-    case Quantity::kHeight:
-      break;
-  }
-  return kNever;
+  return quantity == Quantity::kHeight ? kNever : set_.number(static_cast<std::size_t>(quantity));
 }
 
 inline double Surface::number(Quantity quantity) const {
-  switch (quantity) {
-    case Quantity::kStiffness:
-      return material_.stiffness;
-    case Quantity::kStaticFriction:
-      return material_.static_friction;
-    case Quantity::kDynamicFriction:
-      return material_.dynamic_friction;
-    case Quantity::kViscosity:
-      return material_.viscosity_Ns_m;
-    case Quantity::kHeight:
-      break;
-  }
-  return 0;
+  return quantity == Quantity::kHeight ? 0 : material_.*kMaterialNumbers[static_cast<std::size_t>(quantity)];
 }
 
 inline SurfaceValue Surface::read(Quantity quantity) const {

@@ -36,6 +36,7 @@ TickReport Tick::run() {
   if (trial_.conclude(goal_, state_.position)) lookAgain();  // what holds it there, not where it has been
   close(report);
   report.work = work_.done();
+  report.looks = work_.looks();
   report.used_up_at = work_.usedUpAt();
   return report;
 }

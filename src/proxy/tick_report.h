@@ -51,6 +51,7 @@ struct TickReport {
   double moved_J = 0;          ///< what moving objects did to it before
   int iterations = 0;
   std::size_t work = 0;  ///< what it has cost (work.h)
+  int looks = 0;         ///< at what is near the proxy
   int used_up_at = 0;    ///< looks after which its work was used up; 0: it was not
   Ending ending = Ending::kGoesOn;
   /// Ended before the local minimum, at a valid place.

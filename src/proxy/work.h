@@ -35,6 +35,7 @@ class Work {
     const QueryCost& cost = scene_.cost();
     return done_ + cost.volumes + convergence::kWorkPerPrimitive * cost.primitives;
   }
+  int looks() const { return looks_; }
   /// Looks after which it was used up; 0: it is not.
   int usedUpAt() const { return used_up_at_; }
   /// Nothing new should be begun.

@@ -20,8 +20,10 @@ const Material& materialOf(const FeltPrimitive& one) {
 
 int compareNumbers(const Material& a, const Material& b) {
   const auto numbers = [](const Material& m) {
-    return std::tuple(m.stiffness, m.dynamic_friction, m.static_friction, m.viscosity_Ns_m, m.stribeck_m_s,
-                      m.presliding_N_m, m.smooth);
+    std::array<double, kNumbers + 1> all{};
+    for (std::size_t i = 0; i < kNumbers; ++i) all[i] = m.*kMaterialNumbers[i];
+    all[kNumbers] = m.smooth ? 1 : 0;
+    return all;
   };
   return larger(numbers(a), numbers(b));
 }

@@ -1,4 +1,5 @@
-// Material: how a surface feels. Each quantity is a number, or a texture that moves it within a stated range.
+// Material: how a surface feels. Each quantity (base/quantities.def) is a number, or a texture that moves it within a
+// stated range.
 #pragma once
 
 #include <array>
@@ -6,11 +7,9 @@
 #include <cstdint>
 #include <optional>
 
-namespace hl {
+#include "base/quantities.h"
 
-/// What a texture can modulate. kHeight is a bump map: it bends the normal and moves nothing.
-enum class Quantity : std::uint8_t { kStiffness, kStaticFriction, kDynamicFriction, kViscosity, kHeight };
-inline constexpr std::size_t kQuantities = 5;
+namespace hl {
 
 /// Texture number `texture` of the scene gives the quantity low + (high - low) * texel, in the quantity's unit
 /// (kHeight: m).
@@ -24,13 +23,10 @@ struct TextureUse {
 };
 
 struct Material {
-  double stiffness = 1;         ///< s in 0..1: the part of the servo's spring that this surface uses
-  double static_friction = 0;   ///< mu_s >= 0; below dynamic_friction it counts as dynamic_friction
-  double dynamic_friction = 0;  ///< mu_d >= 0
-  double viscosity_Ns_m = 0;    ///< b >= 0 at the hand: drag per speed of the proxy
-  double stribeck_m_s = 0;      ///< > 0: mu falls from mu_s to mu_d as exp(-(v / stribeck)^2); 0: at once
-  double presliding_N_m = 0;    ///< > 0: a stuck proxy creeps on a spring of this stiffness; 0: it does not move
-  bool smooth = false;          ///< force shading by vertex normals (HL_SMOOTH); else HL_FLAT
+#define HL_QUANTITY(quantity, field, NAME, unit, most, otherwise, ...) double field = otherwise;
+#include "base/quantities.def"
+#undef HL_QUANTITY
+  bool smooth = false;  ///< force shading by vertex normals (HL_SMOOTH); else HL_FLAT
   std::array<TextureUse, kQuantities> textures{};
 
   const TextureUse& textureOf(Quantity quantity) const { return textures[static_cast<std::size_t>(quantity)]; }
@@ -38,15 +34,39 @@ struct Material {
   bool operator==(const Material&) const = default;
 };
 
+/// The number of each quantity but kHeight, in the order of the table.
+inline constexpr std::array<double Material::*, kNumbers> kMaterialNumbers{
+#define HL_QUANTITY(quantity, field, ...) &Material::field,
+#include "base/quantities.def"
+#undef HL_QUANTITY
+};
+
+/// The same of a structure where each of them may be said or left out.
+template <typename Said>
+inline constexpr std::array<std::optional<double> Said::*, kNumbers> kSaidNumbers{
+#define HL_QUANTITY(quantity, field, ...) &Said::field,
+#include "base/quantities.def"
+#undef HL_QUANTITY
+};
+
 /// What a user sets for every surface at once, over what the scene says; what is not set stays as it is.
 /// A number set here also replaces the texture of its quantity.
 struct MaterialOverride {
-  std::optional<double> stiffness, static_friction, dynamic_friction, viscosity_Ns_m;
+#define HL_QUANTITY(quantity, field, ...) std::optional<double> field;
+#include "base/quantities.def"
+#undef HL_QUANTITY
   std::optional<bool> smooth;
   bool textures = true;  ///< false: every texture is left out
 
+  const std::optional<double>& number(std::size_t i) const { return this->*kSaidNumbers<MaterialOverride>[i]; }
+  std::optional<double>& number(std::size_t i) { return this->*kSaidNumbers<MaterialOverride>[i]; }
   /// Whether it leaves the default material, which has no textures, what it is.
-  bool keepsDefault() const { return !(stiffness || static_friction || dynamic_friction || viscosity_Ns_m || smooth); }
+  bool keepsDefault() const {
+    for (std::size_t i = 0; i < kNumbers; ++i) {
+      if (number(i)) return false;
+    }
+    return !smooth;
+  }
 };
 
 }  // namespace hl

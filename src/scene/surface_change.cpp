@@ -13,12 +13,7 @@ void inherit(std::optional<T>& own, const std::optional<T>& callers) {
 
 SurfaceChange SurfaceChange::over(const SurfaceChange& caller) const {
   SurfaceChange result = *this;
-  inherit(result.stiffness, caller.stiffness);
-  inherit(result.static_friction, caller.static_friction);
-  inherit(result.dynamic_friction, caller.dynamic_friction);
-  inherit(result.viscosity_Ns_m, caller.viscosity_Ns_m);
-  inherit(result.stribeck_m_s, caller.stribeck_m_s);
-  inherit(result.presliding_N_m, caller.presliding_N_m);
+  for (const auto number : kSaidNumbers<SurfaceChange>) inherit(result.*number, caller.*number);
   inherit(result.smooth, caller.smooth);
   if (untextured) return result;
   for (std::size_t i = 0; i < kQuantities; ++i) inherit(result.textures[i], caller.textures[i]);
@@ -27,12 +22,9 @@ SurfaceChange SurfaceChange::over(const SurfaceChange& caller) const {
 
 Material SurfaceChange::material() const {
   Material m;
-  m.stiffness = stiffness.value_or(m.stiffness);
-  m.static_friction = static_friction.value_or(m.static_friction);
-  m.dynamic_friction = dynamic_friction.value_or(m.dynamic_friction);
-  m.viscosity_Ns_m = viscosity_Ns_m.value_or(m.viscosity_Ns_m);
-  m.stribeck_m_s = stribeck_m_s.value_or(m.stribeck_m_s);
-  m.presliding_N_m = presliding_N_m.value_or(m.presliding_N_m);
+  for (std::size_t i = 0; i < kNumbers; ++i) {
+    if (const auto& said = this->*kSaidNumbers<SurfaceChange>[i]) m.*kMaterialNumbers[i] = *said;
+  }
   m.smooth = smooth.value_or(true);
   return m;
 }

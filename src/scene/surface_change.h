@@ -18,7 +18,9 @@ struct NamedTextureUse {
 };
 
 struct SurfaceChange {
-  std::optional<double> stiffness, static_friction, dynamic_friction, viscosity_Ns_m, stribeck_m_s, presliding_N_m;
+#define HL_QUANTITY(quantity, field, ...) std::optional<double> field;
+#include "base/quantities.def"
+#undef HL_QUANTITY
   std::optional<bool> smooth;
   std::array<std::optional<NamedTextureUse>, kQuantities> textures{};
   bool untextured = false;  ///< without the textures of the caller

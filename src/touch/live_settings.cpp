@@ -6,10 +6,6 @@ namespace hl {
 
 namespace {
 
-// What a page may ask of a surface: beyond, a finger could not be moved.
-constexpr double kMostFriction = 10;
-constexpr double kMostViscosity_Ns_m = 1000;
-
 double smallestReach_D(const DeviceInfo& device) { return (device.workspace_max - device.workspace_min).minCoeff(); }
 
 }  // namespace
@@ -33,17 +29,14 @@ void LiveSettings::setStiffness(double stiffness_N_m) {
 }
 
 void LiveSettings::setSurfaces(const MaterialOverride& surfaces) {
-  const auto within = [](std::optional<double>& value, double most) {
-    if (value && !(*value >= 0)) value.reset();
-    if (value) value = std::min(*value, most);
-  };
   const std::lock_guard lock(mutex_);
   MaterialOverride& own = commands_.surfaces;
   own = surfaces;
-  within(own.stiffness, 1);
-  within(own.static_friction, kMostFriction);
-  within(own.dynamic_friction, kMostFriction);
-  within(own.viscosity_Ns_m, kMostViscosity_Ns_m);
+  for (std::size_t i = 0; i < kNumbers; ++i) {
+    std::optional<double>& number = own.number(i);
+    if (number && !(*number >= 0)) number.reset();
+    if (number) number = std::min(*number, kQuantityInfo[i].most_set);
+  }
   commands_for_proxy_.write(commands_);
 }
 

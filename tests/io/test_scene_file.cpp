@@ -94,7 +94,7 @@ TEST(SceneFile, EveryFieldArrives) {
 }
 
 TEST(SceneFile, TheExamplesLoad) {
-  for (const char* name : {"friction_lanes", "textured_tiles"}) {
+  for (const char* name : {"friction_lanes", "sticky_pads", "textured_tiles"}) {
     const Model model = loadSceneFile(std::string(HL_EXAMPLES) + "/" + name + ".hl.json");
     EXPECT_EQ(model.triangles.size(), 8u);
     EXPECT_EQ(model.materials.size(), 4u);

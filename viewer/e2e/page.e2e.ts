@@ -85,7 +85,7 @@ test("settings reach the server: exploration, grip, stiffness within the device'
   await expect.poll(() => page.isChecked("#explore")).toBe(true);
   await page.keyboard.press("e");
   await expect.poll(() => server.explore).toBe(false);
-  await page.check("#grip-firm", { force: true });
+  await page.click("label:has(#grip-firm)");
   await expect.poll(() => server.handFirm).toBe(true);
   expect(await page.getAttribute("#stiffness", "max")).toBe("3500");
   await page.fill("#stiffness", "2000");
@@ -97,8 +97,8 @@ test("surface controls reach the server whole, and what the server says moves th
   await openSection(page, "surface");
   const texts = () => page.locator("#surface-fold output").allTextContents();
   expect(await texts()).toEqual(["scene", "scene", "scene", "scene"]);
-  await page.fill("#static-friction", "0.8");
-  await page.fill("#viscosity", "5");
+  await page.fill("#surface-static-friction", "0.8");
+  await page.fill("#surface-viscosity", "5");
   await page.check("#shading");
   await page.uncheck("#textures");
   await expect.poll(() => server.surfaces).toMatchObject({
@@ -106,7 +106,7 @@ test("surface controls reach the server whole, and what the server says moves th
   });
   expect(server.surfaces.stiffness).toBeUndefined();
   server.surfaces = create(SurfacesSchema, { stiffness: 0.5, dynamicFriction: 0.25 });
-  await expect.poll(texts).toEqual(["50\u202f%", "scene", "0.25", "scene"]);
+  await expect.poll(texts).toEqual(["0.50", "scene", "0.25", "scene"]);
   await page.click("#surface-reset");
   await expect.poll(() => server.surfaces).toEqual(create(SurfacesSchema));
   await expect.poll(texts).toEqual(["scene", "scene", "scene", "scene"]);
@@ -114,8 +114,8 @@ test("surface controls reach the server whole, and what the server says moves th
 
 test("a slider under the pointer stays where it is, whatever another page sets", async () => {
   await openSection(page, "surface");
-  const box = (await page.locator("#static-friction").boundingBox())!;
-  const value = () => page.inputValue("#static-friction").then(Number);
+  const box = (await page.locator("#surface-static-friction").boundingBox())!;
+  const value = () => page.inputValue("#surface-static-friction").then(Number);
   await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
   await page.mouse.down();
   await expect.poll(() => server.surfaces.staticFriction).toBeCloseTo(0.75, 1);
@@ -147,7 +147,7 @@ test("ticks that were cut short are counted, and a tooltip tells why all of them
 
 test("the ledger: its mode, its tank, and a line for every cause", async () => {
   await openSection(page, "surface");
-  await page.check("#ledger-report", { force: true });
+  await page.click("label:has(#ledger-report)");
   await expect.poll(() => server.ledger).toBe(LedgerMode.REPORT);
   await expect.poll(() => page.getAttribute("#tank-row", "class")).toMatch(/idle/);
   server.ledger = LedgerMode.TANK;

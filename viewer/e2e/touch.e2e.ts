@@ -139,8 +139,8 @@ describe.skipIf(!kProgram)("hl touch teapot", () => {
 
   test("surface controls act at once, and what the server says moves them", async () => {
     await openSection(page, "surface");
-    await page.fill("#static-friction", "0.8");
-    await page.fill("#dynamic-friction", "0.4");
+    await page.fill("#surface-static-friction", "0.8");
+    await page.fill("#surface-dynamic-friction", "0.4");
     await page.uncheck("#shading");
     await page.check("#ledger-strict", { force: true });
     await page.waitForFunction(() => {
@@ -150,11 +150,11 @@ describe.skipIf(!kProgram)("hl touch teapot", () => {
     });
     const other = await browser.newPage({ viewport: kSizes[0] });
     await other.goto(touch.url);
-    await other.waitForFunction(() => document.querySelector("#static-friction-value")?.textContent === "0.80");
+    await other.waitForFunction(() => document.querySelector("#surface-static-friction-value")?.textContent === "0.80");
     await other.click("#surface-reset");
-    await page.waitForFunction(() => document.querySelector("#static-friction-value")?.textContent === "scene");
+    await page.waitForFunction(() => document.querySelector("#surface-static-friction-value")?.textContent === "scene");
     await other.close();
-    await page.fill("#static-friction", "0.6");
+    await page.fill("#surface-static-friction", "0.6");
     await page.check("#ledger-tank", { force: true });
     expect(await page.locator("#plot-energy canvas").count()).toBe(1);
   });
@@ -165,7 +165,8 @@ describe.skipIf(!kProgram)("hl touch teapot", () => {
     await page.keyboard.press("c");
     for (const theme of ["light", "dark"]) {
       await openSection(page, "view");
-      await page.check(`input[name=theme][value=${theme}]`, { force: true });
+      // The label is what is seen, and what waits until the folds stand still; the button itself is hidden.
+      await page.click(`label:has(input[name=theme][value=${theme}])`);
       for (const size of kSizes) {
         for (const section of ["view", "surface"] as const) {
           await openSection(page, section);

@@ -166,6 +166,7 @@ class App {
     this.hand_.cancel();
     this.hand_.movable = this.buttons_.enabled = hello.device?.simulatedHand ?? false;
     this.panel_.showHello(hello);
+    this.surfacePanel_.showQuantities(hello.quantities);
     this.surfacePanel_.forget();
     this.ledgerPanel_.forget();
     this.probe_.setForceMax(hello.device?.forceMaxN ?? 0);

@@ -2,28 +2,26 @@
 // controls, so that two pages agree; pending.ts says when it may.
 
 import { element, onLetGo, setText } from "./elements";
-import type { Surfaces } from "./gen/hl_pb";
+import type { QuantityInfo, Surfaces } from "./gen/hl_pb";
 import { kSendPeriod_ms, paced } from "./pace";
 import { Pending } from "./pending";
 import type { SettingsChange } from "./protocol";
-import { kKnobs, kSurfaceFields, settingsOf, type Knob, type SurfaceSettings } from "./surfaces";
+import { knobOf, settingsOf, type Knob, type SurfaceField, type SurfaceSettings } from "./surfaces";
 
 const kSceneDecides = "scene";
-
-type Field = (typeof kSurfaceFields)[number];
 
 export class SurfacePanel {
   private readonly pending_ = new Pending<number | boolean | undefined>();
   private readonly sendSurfaces_: () => void;
   private said_: SurfaceSettings = {};
+  private knobs_: readonly Knob[] = [];
 
   constructor(send: (change: SettingsChange) => void) {
     // The message replaces everything that was set, so it is put together when it goes out, not when it was asked for.
     this.sendSurfaces_ = paced(() => send({ surfaces: this.chosen() }), kSendPeriod_ms);
-    kKnobs.forEach((knob) => this.prepare(knob));
     this.onSwitch("shading", "smooth");
     this.onSwitch("textures", "textures");
-    element("surface-reset").addEventListener("click", () => this.choose(kSurfaceFields, undefined));
+    element("surface-reset").addEventListener("click", () => this.choose(this.fields(), undefined));
     onLetGo(() => this.pending_.letGo(performance.now()));
     this.show();
   }
@@ -33,21 +31,48 @@ export class SurfacePanel {
     this.pending_.clear();
   }
 
+  /** The numbers that the server knows: a slider for each. */
+  showQuantities(quantities: readonly QuantityInfo[]): void {
+    this.knobs_ = quantities.map(knobOf);
+    element("surface-knobs").replaceChildren(...this.knobs_.map((knob) => this.made(knob)));
+    this.show();
+  }
+
   /** What the server says is set. */
   showSurfaces(surfaces: Surfaces | undefined): void {
     this.said_ = settingsOf(surfaces);
     this.show();
   }
 
-  private prepare(knob: Knob): void {
-    const slider = element<HTMLInputElement>(knob.id);
+  private fields(): readonly SurfaceField[] {
+    return [...this.knobs_.map((knob) => knob.field), "smooth", "textures"];
+  }
+
+  private made(knob: Knob): HTMLElement {
+    const label = document.createElement("label");
+    label.className = "knob";
+    label.htmlFor = knob.id;
+    const name = document.createElement("span");
+    name.textContent = knob.label;
+    name.title = knob.title;
+    const value = document.createElement("output");
+    value.id = `${knob.id}-value`;
+    label.append(name, value, this.sliderOf(knob));
+    return label;
+  }
+
+  private sliderOf(knob: Knob): HTMLInputElement {
+    const slider = document.createElement("input");
+    slider.id = knob.id;
+    slider.type = "range";
     slider.min = "0";
     slider.max = String(knob.max);
     slider.step = String(knob.step);
-    slider.addEventListener("input", () => this.choose([knob.quantity], slider.valueAsNumber));
+    slider.addEventListener("input", () => this.choose([knob.field], slider.valueAsNumber));
     slider.addEventListener("pointerdown", () => {
-      this.pending_.hold(knob.quantity, this.chosen()[knob.quantity], performance.now());
+      this.pending_.hold(knob.field, this.chosen()[knob.field], performance.now());
     });
+    return slider;
   }
 
   private onSwitch(id: string, field: "smooth" | "textures"): void {
@@ -57,7 +82,7 @@ export class SurfacePanel {
     box.addEventListener("change", () => this.choose([field], box.checked ? on : false));
   }
 
-  private choose(fields: readonly Field[], value: number | boolean | undefined): void {
+  private choose(fields: readonly SurfaceField[], value: number | boolean | undefined): void {
     fields.forEach((field) => this.pending_.set(field, value, performance.now()));
     this.show();
     this.sendSurfaces_();
@@ -66,14 +91,14 @@ export class SurfacePanel {
   /** What the server says, and over it what the user has just chosen. */
   private chosen(): SurfaceSettings {
     const now_ms = performance.now();
-    const entries = kSurfaceFields.map((field) => [field, this.pending_.resolve(field, this.said_[field], now_ms)]);
+    const entries = this.fields().map((field) => [field, this.pending_.resolve(field, this.said_[field], now_ms)]);
     return Object.fromEntries(entries.filter(([, value]) => value !== undefined)) as SurfaceSettings;
   }
 
   private show(): void {
     const chosen = this.chosen();
-    for (const knob of kKnobs) {
-      const value = chosen[knob.quantity];
+    for (const knob of this.knobs_) {
+      const value = chosen[knob.field] as number | undefined;
       const slider = element<HTMLInputElement>(knob.id);
       slider.value = String(value ?? knob.rest);
       setText(`${knob.id}-value`, value === undefined ? kSceneDecides : knob.text(value));

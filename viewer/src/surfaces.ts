@@ -1,23 +1,19 @@
-// What the user sets for every surface at once, over what the scene says: the quantities, their ranges and their words.
+// What the user sets for every surface at once, over what the scene says. Which numbers there are, their ranges and
+// their words the server tells (Hello.quantities).
 
-import type { Surfaces } from "./gen/hl_pb";
+import type { QuantityInfo, Surfaces } from "./gen/hl_pb";
 import { formatFixed } from "./units";
 
 /** Absent: as the scene says. */
-export interface SurfaceSettings {
-  stiffness?: number;
-  staticFriction?: number;
-  dynamicFriction?: number;
-  viscosityNsM?: number;
-  smooth?: boolean;
-  textures?: boolean;
-}
+export type SurfaceSettings = Partial<Omit<Surfaces, "$typeName" | "$unknown">>;
+export type SurfaceField = keyof SurfaceSettings;
 
-export type SurfaceNumber = "stiffness" | "staticFriction" | "dynamicFriction" | "viscosityNsM";
-
+/** A slider. */
 export interface Knob {
   readonly id: string;
-  readonly quantity: SurfaceNumber;
+  readonly label: string;
+  readonly title: string;
+  readonly field: SurfaceField;
   readonly max: number;
   readonly step: number;
   /** Where the thumb rests while the scene decides. */
@@ -25,34 +21,29 @@ export interface Knob {
   text(value: number): string;
 }
 
-export const kKnobs: readonly Knob[] = [
-  {
-    id: "surface-stiffness", quantity: "stiffness", max: 1, step: 0.01, rest: 1,
-    text: (value) => formatFixed(100 * value, "%", 0),
-  },
-  { id: "static-friction", quantity: "staticFriction", max: 1.5, step: 0.01, rest: 0, text: (value) => value.toFixed(2) },
-  { id: "dynamic-friction", quantity: "dynamicFriction", max: 1.5, step: 0.01, rest: 0, text: (value) => value.toFixed(2) },
-  {
-    id: "viscosity", quantity: "viscosityNsM", max: 20, step: 0.1, rest: 0,
-    text: (value) => formatFixed(value, "N\u202fs/m", 1),
-  },
-];
+/** A power of ten, so that a slider has 50 steps or more. */
+function stepOf(most: number): number {
+  return 10 ** Math.floor(Math.log10(most / 50));
+}
 
-export const kSurfaceFields = [...kKnobs.map((knob) => knob.quantity), "smooth", "textures"] as const;
+export function knobOf(info: QuantityInfo): Knob {
+  const step = stepOf(info.usual);
+  const decimals = Math.max(0, Math.round(-Math.log10(step)));
+  return {
+    id: `surface-${info.name.replaceAll(" ", "-")}`,
+    label: info.name.charAt(0).toUpperCase() + info.name.slice(1),
+    title: info.words,
+    field: info.field as SurfaceField,
+    max: info.usual,
+    step,
+    rest: info.otherwise,
+    text: (value) => (info.unit === "" ? value.toFixed(decimals) : formatFixed(value, info.unit.replace(" ", "\u202f"), decimals)),
+  };
+}
 
 /** The message as plain settings, without the fields that are not set. Textures that are not left out are not set. */
 export function settingsOf(message: Surfaces | undefined): SurfaceSettings {
-  const settings: SurfaceSettings = {};
-  if (message === undefined) {
-    return settings;
-  }
-  for (const { quantity } of kKnobs) {
-    const value = message[quantity];
-    if (value !== undefined && Number.isFinite(value)) {
-      settings[quantity] = value;
-    }
-  }
-  if (message.smooth !== undefined) settings.smooth = message.smooth;
-  if (message.textures === false) settings.textures = false;
-  return settings;
+  const entries = Object.entries(message ?? {}).filter(([field, value]) =>
+    typeof value === "number" ? Number.isFinite(value) : typeof value === "boolean" && !(field === "textures" && value));
+  return Object.fromEntries(entries);
 }

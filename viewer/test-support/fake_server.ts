@@ -113,7 +113,13 @@ export class FakeServer {
       name: "simulated sphere", forceMaxN: 8.5, stiffnessNM: 1000, stiffnessMaxNM: 3500, dampingNsM: 1,
       servoRateHz: 1000, proxyRateHz: 1000, simulatedHand: this.simulatedHand,
     };
-    const hello = { protocolVersion: kProtocolVersion, serverVersion: "fake", sceneName: "sphere", device };
+    const quantities = [
+      { field: "stiffness", name: "stiffness", usual: 1, otherwise: 1, words: "part of the spring" },
+      { field: "staticFriction", name: "static friction", usual: 1.5, words: "mu_s" },
+      { field: "dynamicFriction", name: "dynamic friction", usual: 1.5, words: "mu_d" },
+      { field: "viscosityNsM", name: "viscosity", unit: "N s/m", usual: 20, words: "drag" },
+    ];
+    const hello = { protocolVersion: kProtocolVersion, serverVersion: "fake", sceneName: "sphere", device, quantities };
     socket.send(encode({ case: "hello", value: hello }));
     socket.send(encode(sphereMesh(64, 128)));
     socket.send(encode(this.layout()));

@@ -1,7 +1,7 @@
 import { create } from "@bufbuild/protobuf";
 import { describe, expect, test } from "vitest";
-import { SurfacesSchema } from "../src/gen/hl_pb";
-import { kKnobs, settingsOf } from "../src/surfaces";
+import { QuantityInfoSchema, SurfacesSchema } from "../src/gen/hl_pb";
+import { knobOf, settingsOf } from "../src/surfaces";
 
 describe("surface settings", () => {
   test("keep only what is set, zero and false too", () => {
@@ -19,9 +19,14 @@ describe("surface settings", () => {
     expect(settingsOf(create(SurfacesSchema, { textures: false }))).toEqual({ textures: false });
   });
 
-  test("each knob writes its own unit and rests within its range", () => {
-    const texts = kKnobs.map((knob) => knob.text(knob.max));
-    expect(texts).toEqual(["100\u202f%", "1.50", "1.50", "20.0\u202fN\u202fs/m"]);
-    expect(kKnobs.every((knob) => knob.rest >= 0 && knob.rest <= knob.max)).toBe(true);
+  test("a knob has the range, the unit and the words that the server tells", () => {
+    const knob = knobOf(create(QuantityInfoSchema, {
+      field: "viscosityNsM", name: "viscosity", unit: "N s/m", usual: 20, otherwise: 0, words: "drag",
+    }));
+    expect(knob).toMatchObject({ id: "surface-viscosity", label: "Viscosity", field: "viscosityNsM", max: 20, step: 0.1, rest: 0 });
+    expect(knob.text(20)).toBe("20.0\u202fN\u202fs/m");
+    const friction = knobOf(create(QuantityInfoSchema, { field: "staticFriction", name: "static friction", usual: 1.5 }));
+    expect(friction).toMatchObject({ id: "surface-static-friction", label: "Static friction", step: 0.01 });
+    expect(friction.text(1.5)).toBe("1.50");
   });
 });
