@@ -47,7 +47,7 @@ test("shows the model, and panels that do not overlap, in dark and light at both
   await page.check("#planes");
   await page.check("#cones");
   for (const theme of ["dark", "light"]) {
-    await page.check(`input[name=theme][value=${theme}]`, { force: true });
+    await page.click(`label:has(input[name=theme][value=${theme}])`);
     server.slipping = theme === "light";
     for (const size of kSizes) {
       for (const section of ["view", "surface"] as const) {
@@ -72,11 +72,11 @@ test("gives a usable page in a small window", async () => {
 
 test("remembers the theme that was chosen", async () => {
   await openSection(page, "view");
-  await page.check("input[name=theme][value=light]", { force: true });
+  await page.click("label:has(input[name=theme][value=light])");
   await page.reload();
   expect(await page.evaluate(() => document.documentElement.dataset.theme)).toBe("light");
   await openSection(page, "view");
-  await page.check("input[name=theme][value=system]", { force: true });
+  await page.click("label:has(input[name=theme][value=system])");
   expect(await page.evaluate(() => document.documentElement.dataset.theme)).toBe("dark");
   await page.waitForFunction(() => window.__hl.samples > 10);
 });

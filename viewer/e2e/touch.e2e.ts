@@ -142,7 +142,7 @@ describe.skipIf(!kProgram)("hl touch teapot", () => {
     await page.fill("#surface-static-friction", "0.8");
     await page.fill("#surface-dynamic-friction", "0.4");
     await page.uncheck("#shading");
-    await page.check("#ledger-strict", { force: true });
+    await page.click("label:has(#ledger-strict)");
     await page.waitForFunction(() => {
       const { surfaces, ledger } = window.__hl;
       return surfaces.staticFriction === 0.8 && surfaces.dynamicFriction === 0.4 && surfaces.smooth === false &&
@@ -155,7 +155,7 @@ describe.skipIf(!kProgram)("hl touch teapot", () => {
     await page.waitForFunction(() => document.querySelector("#surface-static-friction-value")?.textContent === "scene");
     await other.close();
     await page.fill("#surface-static-friction", "0.6");
-    await page.check("#ledger-tank", { force: true });
+    await page.click("label:has(#ledger-tank)");
     expect(await page.locator("#plot-energy canvas").count()).toBe(1);
   });
 
