@@ -17,7 +17,7 @@ void clear(ContactSet& set) {
   set.contacts.clear();
   set.planes.clear();
   set.twins.clear();
-  set.crowd = false;
+  set.crowd = set.twins_lost = false;
 }
 
 // Of a crowd those stay that the way goes into most; of equal ones, the nearest.
@@ -58,11 +58,11 @@ void add(const SceneAt& scene, PrimitiveId primitive, const ClosestPoint& neares
   }
   if (twin->primitive == primitive) return;  // the index may offer a primitive twice
   if (scene.precedes(primitive, twin->primitive)) std::swap(*twin, contact);
-  set.twins.push(contact);
+  if (!set.twins.push(contact)) set.twins_lost = true;
 }
 
 void sort(ContactSet& set) {
-  if (set.crowd) set.twins.clear();
+  if (set.crowd || set.twins_lost) set.twins.clear();
   std::sort(set.contacts.begin(), set.contacts.end(),
             [](const Contact& a, const Contact& b) { return key(a) < key(b); });
   for (const Contact& contact : set.contacts) set.planes.push(contact.plane);

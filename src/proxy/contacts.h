@@ -34,9 +34,10 @@ inline constexpr std::size_t kMaxTwins = 256;
 struct ContactSet {
   FixedVector<Contact, kMaxContacts> contacts;
   FixedVector<Plane, kMaxContacts> planes;  ///< contacts[i].plane, for the solver
-  /// Primitives that share the edge or vertex of a contact and with it the plane, bit by bit. Room for so many; more
-  /// are left out.
+  /// Primitives that share the edge or vertex of a contact and with it the plane, bit by bit. Of more than there is
+  /// room for none is kept: which ones are met first must not count.
   FixedVector<Contact, kMaxTwins> twins;
+  bool twins_lost = false;
   /// There is no room for all: those are left out that `toward` goes into least, and all twins.
   bool crowd = false;
 };

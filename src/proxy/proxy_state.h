@@ -24,9 +24,10 @@ enum class ShadingPasses : std::uint8_t {
 inline constexpr int kNoWorkCap = std::numeric_limits<int>::max();
 
 struct ProxySettings {
-  double radius = 0.001;        ///< m, > 0
-  int iteration_cap = 1000;     ///< a tick that needs more steps stops where it is, at a valid position
-  int work_cap = 9'000;         ///< the same of one that does more than this (work.h): some 50 us
+  double radius = 0.001;     ///< m, > 0
+  int iteration_cap = 1000;  ///< a tick that needs more steps stops where it is, at a valid position
+  int work_cap = 9'000;  ///< the same of one that does more than this (work.h): some 50 us. Many such ticks in a row
+                         ///< may do 16 times it
   double spring_N_m = 1000;     ///< K of the servo, at the hand: scales viscosity and the ledger
   double period_s = 1e-3;       ///< T, one tick: scales viscosity
   double world_per_device = 1;  ///< metres of the scene for one of the hand: scales the ledger
@@ -55,6 +56,7 @@ struct ProxyState {
   std::uint64_t carrier = 0;           ///< key of the object whose friction holds it; 0: none
   AdheringContacts adhering{};         ///< those of the last tick (adhesion.h)
   Ledger ledger{};
+  int out_of_work = 0;  ///< ticks in a row that ended so: more of them may do more (mostWork in tick.cpp)
   StartSearch start{};  ///< while it is not free
   ProxyCache cache{};
 };

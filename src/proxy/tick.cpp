@@ -6,6 +6,21 @@
 
 namespace hl {
 
+namespace {
+
+// Volumes.
+std::size_t mostWork(const ProxySettings& settings, const ProxyState& state) {
+  return static_cast<std::size_t>(settings.work_cap) << (state.out_of_work / convergence::kTicksPerDoubling);
+}
+
+// Ticks in a row that ended so, as far as they count.
+int outOfWork(const ProxyState& state, Ending ending) {
+  constexpr int kMost = convergence::kTicksPerDoubling * convergence::kMostDoublings;
+  return ending == Ending::kOutOfWork ? std::min(state.out_of_work + 1, kMost) : 0;
+}
+
+}  // namespace
+
 Tick::Tick(const SceneAt& scene, const ProxySettings& settings, ProxyState& state, const Vec3& finger, int most_looks)
     : input_(scene, settings, finger),
       state_(state),
@@ -14,7 +29,7 @@ Tick::Tick(const SceneAt& scene, const ProxySettings& settings, ProxyState& stat
       rules_(scene, settings, input_.tolerance, state.touching && state.rest_s < accuracy::kStuck_s, state.creep),
       constraints_(input_),
       walk_(input_, state.cache),
-      work_(input_.scene, static_cast<std::size_t>(settings.work_cap), most_looks) {}
+      work_(input_.scene, mostWork(settings, state), most_looks) {}
 
 TickReport Tick::run() {
   TickReport report;
@@ -179,6 +194,7 @@ void Tick::close(TickReport& report) {
   if (end == TickEnd::kOnItsWay) {
     for (const Holding& holding : held_by_) surfaces.add(holding.multiplier_m, rules_.stiffnessAt(holding.place));
   }
+  state_.out_of_work = outOfWork(state_, report.ending);
   state_.creep = rules_.creep_m();
   state_.rest_s = rules_.hasSlipped() ? 0 : std::min(state_.rest_s + input_.settings.period_s, accuracy::kStuck_s);
   booking_.close(state_, end, surfaces, causes, report);

@@ -13,9 +13,10 @@ namespace hl {
 
 /// A plane that holds the proxy at the end of a tick.
 struct ProxyContact {
-  Vec3 point;           ///< on the surface, nearest the proxy
-  Vec3 normal;          ///< unit, from the surface to the proxy, bent by shading and bump
-  double multiplier_m;  ///< its share of proxy - finger: sum multiplier_m * normal; times K it is the normal force
+  Vec3 point;   ///< on the surface, nearest the proxy
+  Vec3 normal;  ///< unit, from the surface to the proxy, bent by shading and bump
+  /// Its share of proxy - finger: sum multiplier_m * normal; times K s it is the normal force; below 0: it pulls.
+  double multiplier_m;
   PrimitiveId primitive;
   double stiffness;        ///< s of the surface here, 0..1
   double static_friction;  ///< mu_s

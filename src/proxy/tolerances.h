@@ -102,6 +102,9 @@ inline constexpr int kMostIdle = 8;
 /// Bounding volumes, each some 5 ns, that cost as much as a look at a place and the step that follows; as a contact
 /// found there; and as an exact test.
 inline constexpr std::size_t kWorkPerLook = 40, kWorkPerContact = 8, kWorkPerPrimitive = 8;
+/// After so many ticks in a row that ran out of work the next may do twice as much, and so on up to 16 times. About a
+/// vertex of 300 triangles a second-order step does not pay off within one tick's work: the proxy would never arrive.
+inline constexpr int kTicksPerDoubling = 8, kMostDoublings = 4;
 
 /// Reaches of the first leg of a long way. A finger at 1 m/s goes one to five in a tick.
 inline constexpr double kFirstLegPerReach = 8;

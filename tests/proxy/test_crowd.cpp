@@ -121,5 +121,24 @@ TEST(Crowd, NothingOfItIsPassed) {
   }
 }
 
+// More triangles share the vertex than there is room for twins.
+TEST(Crowd, TheOrderOfTrianglesAtAVertexDoesNotCount) {
+  test::Random random(83);
+  for (const double depth : {0.01, -0.01}) {
+    const Model model = pit(400, depth);
+    Model other = model;
+    std::shuffle(other.triangles.begin(), other.triangles.end(), std::mt19937(7));
+    const auto scene = judge::scene(model), shuffled = judge::scene(other, HierarchyKind::kNone);
+    const Vec3 from(0, 0, depth > 0 ? -3 * kRadius : 3 * kRadius);
+    ProxyState a = startProxy(*scene, unlimited(), from), b = startProxy(*shuffled, unlimited(), from);
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 finger = 1e-2 * kRadius * random.direction();
+      tick(a, *scene, unlimited(), finger);
+      tick(b, *shuffled, unlimited(), finger);
+      ASSERT_EQ(a.position, b.position) << depth << " " << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace hl

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "proxy/judge.h"
 #include "proxy/proxy.h"
@@ -50,12 +51,12 @@ TEST(Work, WhatTheSceneIsAskedIsCounted) {
 }
 
 // A cone of so many sides about +z, its apex at the origin.
-Model cone(std::uint32_t sides) {
+Model cone(std::uint32_t sides, double height = 0.02) {
   Model model;
   model.positions.push_back(Vec3::Zero());
   for (std::uint32_t i = 0; i < sides; ++i) {
     const double angle = 2 * M_PI * i / sides;
-    model.positions.emplace_back(0.02 * std::cos(angle), 0.02 * std::sin(angle), -0.02);
+    model.positions.emplace_back(0.02 * std::cos(angle), 0.02 * std::sin(angle), -height);
     model.triangles.push_back({0, 1 + i, 1 + (i + 1) % sides});
   }
   return model;
@@ -121,6 +122,24 @@ TEST(Work, ARestingFingerBringsTheProxyToTheSamePlaceWithAnyBudget) {
     EXPECT_GT(least.out_of_work, some.out_of_work);
     EXPECT_NEAR((some.place - all.place).norm(), 0, 1e-6 * kRadius);
     EXPECT_NEAR((least.place - all.place).norm(), 0, 1e-6 * kRadius);
+  }
+}
+
+// Drawn at random: a finger some micrometres from the vertex, where the directions in which the proxy may rest differ
+// least, came to no end there.
+TEST(Work, AFingerAtAVertexOfHundredsOfSidesBringsTheProxyToItsPlaceWithTheUsualBudget) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> spread(-1, 1), decade(-4, -2), slope(-2, 0.7);
+  for (int i = 0; i < 60; ++i) {
+    const double above = i % 2 == 0 ? 1 : -1;  // a tip, or from inside a pit's other side
+    const auto scene = judge::scene(cone(i % 3 == 0 ? 1000 : 300, above * 0.02 * std::pow(10, slope(random))));
+    const Vec3 finger = kRadius * std::pow(10, decade(random)) * Vec3(spread(random), spread(random), spread(random));
+    const Vec3 from = kRadius * Vec3(2 * spread(random), 2 * spread(random), 3 * above);
+    const ProxyState start = startProxy(*scene, ProxySettings{}, from);
+    const Arrival all = rest(*scene, start, finger, kNoWorkCap);
+    const Arrival usual = rest(*scene, start, finger, ProxySettings{}.work_cap);
+    EXPECT_LT(usual.ticks, 200) << i;
+    EXPECT_NEAR((usual.place - all.place).norm(), 0, 1e-6 * kRadius) << i;
   }
 }
 
