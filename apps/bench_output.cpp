@@ -4,9 +4,6 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <system_error>
-
-#include "base/error.h"
 
 namespace hl {
 
@@ -41,15 +38,11 @@ std::string wrongOf(const Row& row) {
 
 }  // namespace
 
-BenchOutput::BenchOutput(const std::string& csv) {
+BenchOutput::BenchOutput(const std::string& csv, const std::string& scene) {
   if (!csv.empty()) {
-    try {
-      csv_.emplace(fmt::output_file(csv));
-      csv_->print(kCsvHeader);
-      csv_->flush();
-    } catch (const std::system_error& error) {
-      throw Error("cannot write " + csv + ": " + error.what());
-    }
+    csv_.emplace(csv, std::initializer_list<std::string>{scene});
+    csv_->write(kCsvHeader);
+    csv_->flush();
   }
   fmt::print(kHeader);
   std::fflush(stdout);

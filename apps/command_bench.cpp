@@ -129,7 +129,7 @@ void run(const BenchOptions& options) {
   plan.radius_edges = options.radius_edges;
   plan.ticks = options.ticks;
   plan.peers = built_in && (options.peers || options.all);
-  BenchOutput output(options.csv);
+  BenchOutput output(options.csv, options.file);
   output.note(interruptionsNote());
   if (options.all && !built_in) output.note(std::string("peers left out: ") + kNoPeers);
   runSuite(plan, output.sink());

@@ -1,5 +1,7 @@
 // hl record: hl touch, and everything that the loops do into a file.
 #include <CLI/CLI.hpp>
+#include <cstdint>
+#include <limits>
 
 #include "commands.h"
 #include "touch_options.h"
@@ -19,6 +21,7 @@ void addRecordCommand(CLI::App& app) {
       ->add_option("--max-size", recorder.most_bytes,
                    "the recording ends when the file is so large; the session goes on")
       ->transform(CLI::AsSizeValue(true))
+      ->check(CLI::Range(std::uint64_t{1}, std::numeric_limits<std::uint64_t>::max() / 2))
       ->option_text("BYTES, or with kB, MB, GB (default: 4 GB)")
       ->group("Recording");
   command->callback([options] { runTouch(*options); });

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <memory>
 
-#include "base/error.h"
 #include "commands.h"
+#include "io/output_file.h"
 #include "record/replay.h"
 
 namespace hl {
@@ -18,26 +18,22 @@ constexpr std::array<const char*, 5> kStates{"off", "arming", "on", "fault", "wa
 
 class CsvFile {
  public:
-  explicit CsvFile(const std::string& path) : file_(std::fopen(path.c_str(), "w")) {
-    if (file_ == nullptr) throw Error(path + ": can not be written");
-    fmt::print(file_,
-               "t,finger_x,finger_y,finger_z,proxy_x,proxy_y,proxy_z,touching,stiffness,force_x,force_y,force_z,"
-               "speed,state,fault,work_ns\n");
+  CsvFile(const std::string& path, const std::string& recording) : file_(path, {recording}) {
+    file_.write(
+        "t,finger_x,finger_y,finger_z,proxy_x,proxy_y,proxy_z,touching,stiffness,force_x,force_y,force_z,"
+        "speed,state,fault,work_ns\n");
   }
-  ~CsvFile() { std::fclose(file_); }
-  CsvFile(const CsvFile&) = delete;
-  CsvFile& operator=(const CsvFile&) = delete;
 
   void add(double time_s, const ServoRecord& step) {
     const Vec3 &finger = step.sample.position, &proxy = step.target.proxy_D, &force = step.out.force_N;
-    fmt::print(file_,
-               "{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.9g},{},"
-               "\"{}\",{}\n",
-               time_s, finger.x(), finger.y(), finger.z(), proxy.x(), proxy.y(), proxy.z(), step.target.valid ? 1 : 0,
-               step.target.stiffness, force.x(), force.y(), force.z(), speed(time_s, finger),
-               kStates[static_cast<std::size_t>(step.out.safety) % kStates.size()], faultText(step.out.fault),
-               step.work_ns);
+    file_.print(
+        "{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.9g},{},"
+        "\"{}\",{}\n",
+        time_s, finger.x(), finger.y(), finger.z(), proxy.x(), proxy.y(), proxy.z(), step.target.valid ? 1 : 0,
+        step.target.stiffness, force.x(), force.y(), force.z(), speed(time_s, finger),
+        kStates[static_cast<std::size_t>(step.out.safety) % kStates.size()], faultText(step.out.fault), step.work_ns);
   }
+  void close() { file_.close(); }
 
  private:
   // Of the finger since the step before, m/s.
@@ -49,7 +45,7 @@ class CsvFile {
     return speed_m_s;
   }
 
-  std::FILE* file_;
+  OutputFile file_;
   double last_s_ = -1;
   Vec3 last_finger_ = Vec3::Zero();
 };
@@ -75,11 +71,13 @@ void print(const std::string& file, const ReplayReport& report) {
 }
 
 void run(const std::string& file, const std::string& csv_path) {
+  if (!csv_path.empty()) requireNotRead(csv_path, {file});
   std::unique_ptr<CsvFile> csv;  // made with the first step: a file that is no recording overwrites nothing
   const ReplayReport report = replay(file, [&](double time_s, const ServoRecord& step) {
-    if (!csv && !csv_path.empty()) csv = std::make_unique<CsvFile>(csv_path);
+    if (!csv && !csv_path.empty()) csv = std::make_unique<CsvFile>(csv_path, file);
     if (csv) csv->add(time_s, step);
   });
+  if (csv) csv->close();
   print(file, report);
   std::fflush(stdout);
   if (report.difference) throw CLI::RuntimeError(kDiffers);

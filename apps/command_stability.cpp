@@ -1,6 +1,5 @@
 // hl stability: how stiff a simulated device lets a surface be, by rate, delay, grip and damping.
 #include <fmt/core.h>
-#include <fmt/os.h>
 #include <tbb/parallel_for.h>
 #include <unistd.h>
 
@@ -10,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
 #include "commands.h"
+#include "io/output_file.h"
 #include "tools/stability.h"
 
 namespace hl {
@@ -114,16 +113,7 @@ void printTable(const std::vector<StabilityRow>& rows, bool quick) {
       "beyond the one they must wait for. B: damping of the servo.\n");
 }
 
-std::optional<fmt::ostream> openCsv(const std::string& file) {
-  if (file.empty()) return {};
-  try {
-    return fmt::output_file(file);
-  } catch (const std::system_error& error) {
-    throw Error(file + ": cannot be written: " + error.code().message());
-  }
-}
-
-void writeCsv(fmt::ostream& csv, const std::vector<StabilityRow>& rows, bool quick) {
+void writeCsv(OutputFile& csv, const std::vector<StabilityRow>& rows, bool quick) {
   csv.print("device,grip,rate_Hz,delay_steps,damping_Ns_m,bends,jitter_s,one_by_one_N_m,together_N_m\n");
   for (const StabilityRow& row : rows) {
     const SimulatedDeviceSettings& device = row.loop.device;
@@ -131,6 +121,7 @@ void writeCsv(fmt::ostream& csv, const std::vector<StabilityRow>& rows, bool qui
               device.delay_steps, row.loop.damping_Ns_m, device.bends ? 1 : 0, device.jitter_s, row.one_by_one_N_m,
               quick ? "" : fmt::format("{:.0f}", row.together_N_m));
   }
+  csv.close();
 }
 
 // b / (T (1/2 + d)) against what the whole loop does with a device of mass and damper alone.
@@ -152,7 +143,8 @@ void printTheory() {
 
 void run(const StabilityOptions& options) {
   if (options.theory) return printTheory();
-  auto csv = openCsv(options.csv);
+  std::optional<OutputFile> csv;  // opened first: what is measured for minutes can be written then
+  if (!options.csv.empty()) csv.emplace(options.csv);
   std::vector<StabilityRow> rows = rowsOf(options);
   measure(rows, options.quick);
   printTable(rows, options.quick);

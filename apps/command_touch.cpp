@@ -8,10 +8,12 @@
 #include "http/http_server.h"
 #include "io/csv_path.h"
 #include "io/load_scene_file.h"
+#include "io/output_file.h"
 #include "monitor/touch_monitor.h"
 #include "open_browser.h"
 #include "page/viewer_feed.h"
 #include "record/recorder.h"
+#include "record/replay_device.h"
 #include "serving.h"
 #include "session/touch_server.h"
 #include "touch_options.h"
@@ -80,6 +82,8 @@ TouchServerSettings serverSettings(const TouchOptions& options, const Limits& li
 }  // namespace
 
 void runTouch(TouchOptions options) {
+  if (!options.recorder.file.empty())
+    requireNotRead(options.recorder.file, {options.scene.scene, options.hand_path, replayedFile(options.device)});
   const auto snapshot = loadSnapshot(options.scene);
   options.settings.hand_firm = options.hand == "firm";
   // A scene file says how its surfaces feel; a bare model feels as smooth as it looks.

@@ -40,7 +40,7 @@ void printLedger(const Ledger& ledger) {
 void run(const TraceOptions& options) {
   const std::vector<PathSample> path = readPath(options.path);
   const auto snapshot = loadSnapshot(options.scene);
-  TraceWriter writer(options.out);
+  TraceWriter writer(options.out, {options.scene.scene, options.path});
   const TraceTotals totals =
       runTrace(*snapshot, options.settings, path, [&](const TraceRow& row) { writer.write(row); });
   writer.close();
@@ -76,7 +76,7 @@ void addTraceCommand(CLI::App& app) {
   command
       ->add_option("--shading-passes", options->settings.proxy.shading,
                    "how often the two passes of shading run in one tick")
-      ->transform(CLI::Transformer(passes))
+      ->transform(CLI::CheckedTransformer(passes))
       ->option_text("converged|once (default: converged)");
   addSizeOptions(*command, options->scene);
   addHierarchyOption(*command, options->scene);

@@ -71,7 +71,7 @@ void addSurfaceOptions(CLI::App& command, MaterialOverride& surfaces, LedgerMode
   const std::map<std::string, LedgerMode> ledgers{
       {"tank", LedgerMode::kTank}, {"strict", LedgerMode::kStrict}, {"report", LedgerMode::kReport}};
   command.add_option("--shade", surfaces.smooth, "flat: true facets; smooth: forces along interpolated vertex normals")
-      ->transform(CLI::Transformer(shades))
+      ->transform(CLI::CheckedTransformer(shades))
       ->option_text("flat|smooth (default: the scene's; flat for model files)");
   for (std::size_t i = 0; i < kNumbers; ++i) {
     const QuantityInfo& info = kQuantityInfo[i];
@@ -82,11 +82,11 @@ void addSurfaceOptions(CLI::App& command, MaterialOverride& surfaces, LedgerMode
             fmt::format("0..{:g}{} (default: the scene's; {:g} for model files)", info.most, unit, info.otherwise));
   }
   command.add_option("--textures", surfaces.textures, "read the scene's textures, or leave them out")
-      ->transform(CLI::Transformer(switches))
+      ->transform(CLI::CheckedTransformer(switches))
       ->option_text("on|off (default: on)");
   command
       .add_option("--ledger", ledger, "energy that the surfaces may add: from a tank of 10 mJ, none, or any, counted")
-      ->transform(CLI::Transformer(ledgers))
+      ->transform(CLI::CheckedTransformer(ledgers))
       ->option_text("tank|strict|report (default: tank)");
 }
 

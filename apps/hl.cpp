@@ -3,9 +3,20 @@
 
 #include <CLI/CLI.hpp>
 #include <exception>
+#include <string>
 
 #include "base/error.h"
 #include "commands.h"
+
+namespace {
+
+std::string unknownCommand(const CLI::App& app, const std::string& word) {
+  std::string names;
+  for (const CLI::App* command : app.get_subcommands({})) names += (names.empty() ? "" : ", ") + command->get_name();
+  return "there is no command '" + word + "'; there are " + names;
+}
+
+}  // namespace
 
 // NOLINTNEXTLINE(bugprone-exception-escape): only when not even stderr can be written
 int main(int argc, char** argv) {
@@ -27,7 +38,8 @@ int main(int argc, char** argv) {
   } catch (const CLI::RuntimeError& failed) {  // told already
     return failed.get_exit_code();
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "hl: {} (try --help)\n", error.what());
+    const bool unknown = argc > 1 && app.get_subcommands().empty();
+    fmt::print(stderr, "hl: {} (try --help)\n", unknown ? unknownCommand(app, argv[1]) : error.what());
     return 2;
   } catch (const hl::Error& error) {
     fmt::print(stderr, "hl: {}\n", error.what());

@@ -87,11 +87,11 @@ void addLogOptions(CLI::App& app, HldOptions& options) {
                                                {"error", LogLevel::kError}};
   const std::map<std::string, LogFormat> formats{{"keyvalue", LogFormat::kKeyValue}, {"json", LogFormat::kJson}};
   app.add_option("--log-level", options.log_level, "what is written to stderr")
-      ->transform(CLI::Transformer(levels))
+      ->transform(CLI::CheckedTransformer(levels))
       ->option_text("debug|info|warning|error (default: info)")
       ->group("Log");
   app.add_option("--log-format", options.log_format, "one line an event, as key=value or as JSON")
-      ->transform(CLI::Transformer(formats))
+      ->transform(CLI::CheckedTransformer(formats))
       ->option_text("keyvalue|json (default: keyvalue)")
       ->group("Log");
 }

@@ -2,6 +2,7 @@
 
 #include <boost/url/parse.hpp>
 #include <boost/url/url_view.hpp>
+#include <charconv>
 
 #include "base/error.h"
 
@@ -12,8 +13,11 @@ namespace urls = boost::urls;
 namespace {
 
 std::uint16_t portOf(const urls::url_view& url) {
-  const std::uint16_t port = url.port_number();  // 0 where it is none
-  if (port == 0) throw Error("the port must be a number from 1 to 65535");
+  const std::string digits(url.port());  // its number of Boost 1.81 wraps around
+  std::uint16_t port = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
+  if (error != std::errc() || end != digits.data() + digits.size() || port == 0)
+    throw Error("the port must be a number from 1 to 65535");
   return port;
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "io/check_ply.h"
 #include "io/file_ending.h"
 #include "io/gltf_haptics.h"
 #include "io/load_model.h"
@@ -121,6 +122,7 @@ bool anyMesh(const aiScene& scene, bool (*has)(const aiMesh&)) {
 const aiScene* readScene(Assimp::Importer& importer, const std::string& path) {
   constexpr std::size_t kLeastObj = 16;
   std::error_code error;
+  if (endingOf(path) == ".ply") checkPly(path);
   if (endingOf(path) != ".obj" || std::filesystem::file_size(path, error) >= kLeastObj || error)
     return importer.ReadFile(path, aiProcess_Triangulate);
   std::ifstream in(path, std::ios::binary);

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
+#include <initializer_list>
 #include <string>
 
 #include "base/vec.h"
+#include "io/output_file.h"
 
 namespace hl {
 
@@ -22,16 +23,13 @@ struct TraceRow {
 /// Throws hl::Error when the file cannot be written.
 class TraceWriter {
  public:
-  explicit TraceWriter(const std::string& file);
-  ~TraceWriter();
-  TraceWriter(const TraceWriter&) = delete;
-  TraceWriter& operator=(const TraceWriter&) = delete;
+  /// `read`: files that it may not overwrite.
+  explicit TraceWriter(const std::string& file, std::initializer_list<std::string> read = {});
   void write(const TraceRow& row);
-  void close();  ///< flushes; without it, a failure of the last write goes unnoticed
+  void close() { file_.close(); }  ///< without it, a failure of the last write goes unnoticed
 
  private:
-  std::string name_;
-  std::FILE* file_;
+  OutputFile file_;
 };
 
 }  // namespace hl

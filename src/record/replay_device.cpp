@@ -72,9 +72,13 @@ DeviceSample ReplayDevice::read(std::int64_t now_ns) {
   return sample;
 }
 
+std::string replayedFile(const std::string& spec) {
+  return spec.starts_with(kReplayPrefix) ? spec.substr(std::string(kReplayPrefix).size()) : "";
+}
+
 std::unique_ptr<Device> makeAnyDevice(const std::string& spec) {
   if (!spec.starts_with(kReplayPrefix)) return makeDevice(spec);
-  const std::string file = spec.substr(std::string(kReplayPrefix).size());
+  const std::string file = replayedFile(spec);
   if (file.empty()) throw Error("replay: which file? Write replay:FILE, of hl record");
   return std::make_unique<ReplayDevice>(file);
 }

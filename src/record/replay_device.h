@@ -33,6 +33,8 @@ class ReplayDevice final : public Device {
 /// Every device there is: those of openDevice() and replay:FILE. Throws hl::Error.
 std::unique_ptr<Device> makeAnyDevice(const std::string& spec);
 std::unique_ptr<Device> openAnyDevice(const std::string& spec);
+/// The file that it replays; empty: none.
+std::string replayedFile(const std::string& spec);
 /// How to write every spec, with | between them.
 std::string anyDeviceSpecs();
 

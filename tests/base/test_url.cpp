@@ -28,8 +28,9 @@ TEST(Url, WhatIsNotThereIsAbsent) {
 }
 
 TEST(Url, NonsenseIsRefusedWithoutTellingItAgain) {
-  for (const char* text : {"", "lab", "hl://secret:", "hl://secret:0", "hl://secret:70000", "hl://a secret",
-                           "hl://[::1", "hl://u@secret", "hl://h?token=secret%4", "hl://h?token=secret#x", "hl://"}) {
+  for (const char* text :
+       {"", "lab", "hl://secret:", "hl://secret:0", "hl://secret:70000", "hl://secret:99999", "hl://secret:111955",
+        "hl://a secret", "hl://[::1", "hl://u@secret", "hl://h?token=secret%4", "hl://h?token=secret#x", "hl://"}) {
     try {
       parseUrl(text);
       ADD_FAILURE() << text;

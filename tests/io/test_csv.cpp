@@ -1,11 +1,13 @@
 // Finger paths and traces: what is accepted, what is refused and how, and that no digit is lost.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "base/error.h"
 #include "io/csv_path.h"
+#include "io/output_file.h"
 #include "io/trace_csv.h"
 #include "temp_folder.h"
 
@@ -75,6 +77,22 @@ TEST(TraceCsv, SaysWhenItCannotWrite) {
   TraceWriter full("/dev/full");
   full.write({});
   EXPECT_THROW(full.close(), Error);
+}
+
+TEST(OutputFile, LeavesWhatIsReadAsItIs) {
+  const std::string name = test::tempFile("path.csv");
+  std::ofstream(name) << "kept";
+  EXPECT_THROW(OutputFile(name, {"teapot", name}), Error);
+  std::filesystem::create_symlink(name, name + ".link");
+  EXPECT_THROW(OutputFile(name + ".link", {name}), Error);
+  std::string text;
+  std::ifstream(name) >> text;
+  EXPECT_EQ(text, "kept");
+  OutputFile other(name + ".out", {name});
+  other.print("{},{}\n", 1, 2);
+  other.close();
+  std::ifstream(name + ".out") >> text;
+  EXPECT_EQ(text, "1,2");
 }
 
 }  // namespace

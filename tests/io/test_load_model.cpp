@@ -196,6 +196,19 @@ TEST(LoadModel, RefusalsAreOneLineThatNamesTheFile) {
   }
 }
 
+// Read as it is, the first would take minutes and the second be a model with one corner at the origin.
+TEST(LoadModel, APlyFileThatIsCutSaysSo) {
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_index\nend_header\n";
+  const std::string whole = header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  EXPECT_EQ(loadModel(fileWith("whole.ply", whole)).triangles.size(), 1U);
+  for (std::size_t bytes = 4; bytes + 2 < header.size(); bytes += 7)
+    EXPECT_NE(refusalOf(fileWith("head.ply", whole.substr(0, bytes))).find("end_header"), std::string::npos) << bytes;
+  EXPECT_NE(refusalOf(fileWith("cut.ply", header + "0 0 0\n1 0 0\n")).find("4 elements, and 2 lines"),
+            std::string::npos);
+}
+
 TEST(LoadModel, BadNumbersAreSkippedWithACount) {
   const Model model =
       loadModel(fileWith("nan.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nf 1 2 3\nf 1 2 4\nf 1 1 2\n"));

@@ -1,0 +1,65 @@
+#include "io/check_ply.h"
+
+#include <fmt/core.h>
+
+#include <cstdint>
+#include <fstream>
+#include <sstream>
+
+#include "base/error.h"
+
+namespace hl {
+
+namespace {
+
+constexpr std::size_t kMostHeader_bytes = 1 << 20;  // comments and all
+
+struct PlyHeader {
+  bool ascii = false;
+  std::uint64_t elements = 0;  // of all kinds
+};
+
+// Lines end by LF, CR LF or, in files of old, CR alone: what is between CR and LF is an empty line.
+bool nextLine(std::istream& in, std::string& line) {
+  line.clear();
+  for (int byte = in.get(); in; byte = in.get()) {
+    if (byte == '\n' || byte == '\r') return true;
+    line += static_cast<char>(byte);
+  }
+  return !line.empty();
+}
+
+PlyHeader headerOf(std::istream& in) {
+  PlyHeader header;
+  std::size_t bytes = 0;
+  for (std::string line; bytes < kMostHeader_bytes && nextLine(in, line); bytes += line.size() + 1) {
+    std::istringstream words(line);
+    std::string word, second;
+    std::uint64_t count = 0;
+    words >> word >> second;
+    if (word == "end_header") return header;
+    if (word == "format") header.ascii = second == "ascii";
+    if (word == "element" && words >> count) header.elements += count;
+  }
+  throw Error("its header has no end: the line end_header is missing, or the file is cut");
+}
+
+// An element is a line.
+std::uint64_t linesLeft(std::istream& in) {
+  std::uint64_t lines = 0;
+  for (std::string line; nextLine(in, line);) lines += line.find_first_not_of(" \t") != std::string::npos ? 1 : 0;
+  return lines;
+}
+
+}  // namespace
+
+void checkPly(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  const PlyHeader header = headerOf(in);
+  if (!header.ascii) return;
+  const std::uint64_t lines = linesLeft(in);
+  if (lines < header.elements)
+    throw Error(fmt::format("it is cut: its header tells of {} elements, and {} lines follow", header.elements, lines));
+}
+
+}  // namespace hl
