@@ -21,7 +21,7 @@ namespace hl {
 namespace {
 
 constexpr double kSide_m = 0.2;  // of a scene from a file, as of the built-in ones
-constexpr std::size_t kLeast = 1000;
+constexpr std::size_t kMin = 1000;
 
 struct SceneName {
   const char* name;
@@ -68,7 +68,7 @@ std::vector<T> chosen(const std::array<T, N>& all, const std::vector<std::string
 bench::BenchScene builtinScene(const std::string& name, const std::string& member, const BenchOptions& options) {
   bench::BenchScene scene;
   scene.name = name + member;
-  for (std::size_t size = kLeast; size <= options.most; size *= 10) scene.sizes.push_back(size);
+  for (std::size_t size = kMin; size <= options.most; size *= 10) scene.sizes.push_back(size);
   scene.make = [name, member](std::size_t size) {
     return makeBuiltinScene(name + ":" + std::to_string(size) + member);
   };
@@ -178,10 +178,10 @@ void addBenchCommand(CLI::App& app) {
   auto options = std::make_shared<BenchOptions>();
   addWhatOptions(*command, *options);
   command->add_option("--radius", options->radius, "the fixed proxy radius in metres")
-      ->check(within(kLeastRadius_m, kMostNumber))
+      ->check(within(kMinRadius_m, kMaxNumber))
       ->capture_default_str();
   command->add_option("--radius-edges", options->radius_edges, "the scaled proxy radius in mean edges of the mesh")
-      ->check(within(kLeastNumber, kMostNumber))
+      ->check(within(kMinNumber, kMaxNumber))
       ->capture_default_str();
   command->add_option("--ticks", options->ticks, "ticks for each row")
       ->check(CLI::Range(100, 10'000'000))

@@ -64,10 +64,10 @@ void print(const Snapshot& snapshot) {
   fmt::print("hierarchy:  {} nodes, {} leaves, depth {}\n", stats.nodes, stats.leaves, stats.depth);
   fmt::print("memory:     {:.1f} MB; vertices, indices and hierarchy: {} bytes a primitive\n",
              1e-6 * static_cast<double>(memoryOf(snapshot)), snapshot.shape().geometryBytes() / primitives);
-  constexpr std::size_t kMostPrinted = 20;
+  constexpr std::size_t kMaxPrinted = 20;
   const std::size_t materials = model.materials.size();
-  for (std::size_t i = 0; i < std::min(materials, kMostPrinted); ++i) printMaterial(snapshot, i);
-  if (materials > kMostPrinted) fmt::print("and {} materials more\n", materials - kMostPrinted);
+  for (std::size_t i = 0; i < std::min(materials, kMaxPrinted); ++i) printMaterial(snapshot, i);
+  if (materials > kMaxPrinted) fmt::print("and {} materials more\n", materials - kMaxPrinted);
   fmt::print("warnings:   {}\n", snapshot.warnings.empty() ? "none" : "");
   for (const std::string& warning : snapshot.warnings) fmt::print("  {}\n", warning);
 }

@@ -172,7 +172,7 @@ void addStabilityCommand(CLI::App& app) {
       ->check(within(100, 20'000));
   command->add_option("--delays", options->delays, "more servo steps until the force, with commas (default: 0 to 4)")
       ->delimiter(',')
-      ->check(CLI::Range(0, SimulatedDeviceSettings::kMostDelay));
+      ->check(CLI::Range(0, SimulatedDeviceSettings::kMaxDelay));
   command->add_option("--damping", options->dampings_Ns_m, "B of the servo in N s/m, with commas")
       ->delimiter(',')
       ->check(within(0, 100))

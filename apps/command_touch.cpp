@@ -124,13 +124,13 @@ namespace {
 
 void addLoopOptions(CLI::App& command, TouchSettings& settings) {
   command.add_option("--radius", settings.radius_D, "proxy radius in metres at the hand")
-      ->check(within(kLeastRadius_m, kMostNumber))
+      ->check(within(kMinRadius_m, kMaxNumber))
       ->capture_default_str();
   command.add_option("--size", settings.side_D, "metres at the hand of the model's largest side")
-      ->check(within(kLeastNumber, kMostNumber))
+      ->check(within(kMinNumber, kMaxNumber))
       ->capture_default_str();
   command.add_option("--kp", settings.stiffness_N_m, "spring of the servo in N/m at the hand (default: the device's)")
-      ->check(within(kLeastNumber, kMostNumber));
+      ->check(within(kMinNumber, kMaxNumber));
   command.add_option("--damping", settings.damping_Ns_m, "damping of the servo in N s/m (default: the device's)")
       ->check(within(0, 100));
   command.add_flag("--timer-reference", settings.timer_reference,
@@ -156,7 +156,7 @@ void addTouchOptions(CLI::App& command, TouchOptions& options) {
                      "CSV t,x,y,z (s, m in the scene) that the simulated hand follows instead");
   command
       .add_option("--scale", options.scale, "metres of the scene for one metre of the hand (default: --size decides)")
-      ->check(within(kLeastNumber, kMostNumber));
+      ->check(within(kMinNumber, kMaxNumber));
   addLoopOptions(command, options.settings);
   addForceOptions(command, options.settings.servo, options.settings.servo_rate);
   addSurfaceOptions(command, options.settings.surfaces, options.settings.ledger);
@@ -164,7 +164,7 @@ void addTouchOptions(CLI::App& command, TouchOptions& options) {
   addHierarchyOption(command, options.scene);
   command.add_option("--page-dir", options.page_folder, "folder of the built page");
   command.add_option("--duration", options.duration_s, "end by itself after this many seconds")
-      ->check(within(kLeastNumber, kMostNumber));
+      ->check(within(kMinNumber, kMaxNumber));
   addBlackBoxOption(command, options.recorder);
 }
 

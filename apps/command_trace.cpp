@@ -60,7 +60,7 @@ void addTraceCommand(CLI::App& app) {
       ->required();
   command->add_option("--out", options->out, "CSV to write, one row for each row of the path")->required();
   command->add_option("--radius", options->settings.proxy.radius, "proxy radius in metres")
-      ->check(within(kLeastRadius_m, kMostNumber))
+      ->check(within(kMinRadius_m, kMaxNumber))
       ->capture_default_str();
   command
       ->add_option("--work-cap", options->settings.proxy.work_cap,
@@ -68,7 +68,7 @@ void addTraceCommand(CLI::App& app) {
                        std::to_string(ProxySettings{}.work_cap) + " (default: any)")
       ->check(CLI::Range(1, kNoWorkCap));
   command->add_option("--kp", options->settings.proxy.spring_N_m, "spring of the servo in N/m")
-      ->check(within(kLeastNumber, kMostNumber))
+      ->check(within(kMinNumber, kMaxNumber))
       ->capture_default_str();
   addSurfaceOptions(*command, options->settings.proxy.surfaces, options->settings.proxy.ledger);
   const std::map<std::string, ShadingPasses> passes{{"converged", ShadingPasses::kConverged},

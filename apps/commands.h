@@ -47,6 +47,6 @@ CLI::Validator within(double least, double most);
 CLI::Validator positive();
 
 // What numbers on the command line may be, so that no product of them, lengths and speeds leaves the range of doubles.
-inline constexpr double kLeastNumber = 1e-9, kMostNumber = 1e9, kLeastRadius_m = 1e-12;
+inline constexpr double kMinNumber = 1e-9, kMaxNumber = 1e9, kMinRadius_m = 1e-12;
 
 }  // namespace hl

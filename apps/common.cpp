@@ -77,7 +77,7 @@ void addSurfaceOptions(CLI::App& command, MaterialOverride& surfaces, LedgerMode
     const QuantityInfo& info = kQuantityInfo[i];
     const std::string unit = *info.unit == 0 ? "" : std::string(" ") + info.unit;
     command.add_option(optionName(info), surfaces.number(i), info.words)
-        ->check(within(0, std::min(info.most, kMostNumber)))
+        ->check(within(0, std::min(info.most, kMaxNumber)))
         ->option_text(
             fmt::format("0..{:g}{} (default: the scene's; {:g} for model files)", info.most, unit, info.otherwise));
   }

@@ -70,11 +70,11 @@ void setServoRate(ServoRate& rate, const std::string& text) {
 
 void addSafetyOptions(CLI::App& app, ServoOptions& options) {
   app.add_option("--force-limit", options.force_limit_N, "never a force above this (default: the device's limit)")
-      ->check(within(kLeastNumber, kMostNumber))
+      ->check(within(kMinNumber, kMaxNumber))
       ->option_text("N")
       ->group(kGroup);
   app.add_option("--speed-limit", options.speed_limit_m_s, "a faster hand is a fault (default: the device's limit)")
-      ->check(within(kLeastNumber, kMostNumber))
+      ->check(within(kMinNumber, kMaxNumber))
       ->option_text("M/S")
       ->group(kGroup);
   app.add_option_function<std::string>(
@@ -88,7 +88,7 @@ void addSafetyOptions(CLI::App& app, ServoOptions& options) {
 void addEffectOptions(CLI::App& app, ServoOptions& options) {
   Effects& effects = options.effects;
   app.add_option("--tool-mass", effects.tool_mass_kg, "of a tool at the tip, to be held up")
-      ->check(within(0, kMostNumber))
+      ->check(within(0, kMaxNumber))
       ->option_text("KG")
       ->group(kGroup);
   app.add_option("--free-damping", effects.free_damping_Ns_m, "drag where nothing is touched")

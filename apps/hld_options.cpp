@@ -39,7 +39,7 @@ void addDeviceOptions(CLI::App& app, HldOptions& options) {
       ->capture_default_str()
       ->group("Device");
   app.add_option("--radius", options.touch.radius_D, "proxy radius in metres at the hand")
-      ->check(within(kLeastRadius_m, kMostNumber))
+      ->check(within(kMinRadius_m, kMaxNumber))
       ->capture_default_str()
       ->group("Device");
   app.add_flag("--timer-reference", options.touch.timer_reference,
@@ -50,7 +50,7 @@ void addDeviceOptions(CLI::App& app, HldOptions& options) {
 template <typename Number>
 void addLimit(CLI::App& app, const std::string& name, Number& limit, const std::string& what) {
   app.add_option("--limit-" + name, limit, what)
-      ->check(std::is_integral_v<Number> ? positive() : within(kLeastNumber, kMostNumber))
+      ->check(std::is_integral_v<Number> ? positive() : within(kMinNumber, kMaxNumber))
       ->capture_default_str()
       ->group("Limits");
 }

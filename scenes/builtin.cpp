@@ -15,7 +15,7 @@ namespace hl {
 
 namespace {
 
-constexpr std::size_t kMostMember = 1'000'000'000;
+constexpr std::size_t kMaxMember = 1'000'000'000;
 
 struct Builtin {
   std::string_view name;
@@ -78,8 +78,8 @@ Model makeBuiltinScene(const std::string& spec) {
   if (colon != std::string::npos && !read(numbers.substr(0, second), builtin->most, n))
     throw Error("'" + spec + "': N must be a whole number from 1 to " + std::to_string(builtin->most) +
                 ", as in terrain:100000");
-  if (second != std::string_view::npos && !read(numbers.substr(second + 1), kMostMember, member))
-    throw Error("'" + spec + "': MEMBER must be a whole number from 1 to " + std::to_string(kMostMember) +
+  if (second != std::string_view::npos && !read(numbers.substr(second + 1), kMaxMember, member))
+    throw Error("'" + spec + "': MEMBER must be a whole number from 1 to " + std::to_string(kMaxMember) +
                 ", as in rough:100000:7");
   Model model = builtin->make(n, member);
   model.name = spec;

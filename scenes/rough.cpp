@@ -13,7 +13,7 @@ namespace hl {
 namespace {
 
 constexpr double kRoughSide = 0.2;  // m
-constexpr int kMostOctaves = 8;
+constexpr int kMaxOctaves = 8;
 
 // Numbers of a member, one after another.
 class Dice {
@@ -60,7 +60,7 @@ struct Octave {
 };
 
 struct Rough {
-  std::array<Octave, kMostOctaves> octaves;
+  std::array<Octave, kMaxOctaves> octaves;
   int count;
 
   double at(double x, double z) const {
@@ -75,7 +75,7 @@ Rough roughOf(std::uint64_t member) {
   constexpr double kLacunarity = 2;
   Dice dice(member);
   Rough rough{};
-  rough.count = static_cast<int>(dice.uniform(5, kMostOctaves + 1));
+  rough.count = static_cast<int>(dice.uniform(5, kMaxOctaves + 1));
   double wavelength_m = dice.uniform(0.05, 0.12), slope = dice.uniform(0.15, 0.5);
   const double gain = dice.uniform(0.75, 1.15), ridges = dice.uniform(-0.5, 1);
   for (int i = 0; i < rough.count; ++i) {
@@ -87,7 +87,7 @@ Rough roughOf(std::uint64_t member) {
               plain::sin(angle),
               dice.uniform(0, 1000),
               dice.uniform(0, 1) < ridges,
-              splitmix64(member * kMostOctaves + static_cast<std::uint64_t>(i))};
+              splitmix64(member * kMaxOctaves + static_cast<std::uint64_t>(i))};
     wavelength_m /= kLacunarity;
     slope *= gain;
   }

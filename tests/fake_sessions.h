@@ -128,7 +128,7 @@ class FakeHost : public SessionHost {
  public:
   explicit FakeHost(std::size_t state_bytes = 100, int most = 1'000'000) : state_bytes_(state_bytes), most_(most) {}
 
-  std::unique_ptr<ClientSession> connect(WakeCarrier wake) override {
+  std::unique_ptr<ClientSession> connect(WakeSession wake) override {
     const std::scoped_lock lock(mutex_);
     if (alive() >= most_) throw Error("no room for another session");
     auto session = std::make_unique<FakeSession>(record_, state_bytes_);
@@ -196,7 +196,7 @@ class FakeHost : public SessionHost {
   int most_;
   std::mutex mutex_;  // guards what follows
   FakeSession* newest_ = nullptr;
-  WakeCarrier wake_newest_;
+  WakeSession wake_newest_;
 };
 
 }  // namespace hl::test

@@ -12,22 +12,22 @@ namespace {
 
 // Lengths are of the hand.
 constexpr double kStep_m = kSpeed_m_s * kPeriod_s;
-constexpr double kTurn = 0.2;                // a step's weight of the wanted direction: a bend of about 1 mm
-constexpr double kLead_m = 0.003;            // how far ahead on the course the finger aims
-constexpr double kAdvance_m = 1e-4;          // the course is followed in pieces this long
-constexpr int kMostAdvances = 1000;          // a scene without extent has no course to follow
-constexpr double kStartAbove_m = 0.01;       // over the top of the scene
-constexpr std::size_t kMostApproach = 5000;  // ticks; then the motion begins where the finger is
-constexpr double kDepth_m = 0.004;           // of a sliding finger beneath the proxy
-constexpr double kDeep_m = 0.015;            // of one that looks for corners
-constexpr double kTraced_m = 0.002;          // of one that traces the surface beneath it, in the mean
-constexpr double kTracedChange_m = 0.0015;   // by which that changes
-constexpr double kTracedWave_m = 0.07;       // of the course, for one such change
-constexpr double kTracedLead_m = 0.0003;     // how far ahead such a finger aims
-constexpr double kLift_m = 0.006;            // of a tap over where it touched
-constexpr double kTapSlope = 0.3;            // a tap goes sideways this much of its way
-constexpr double kClearance_m = 0.001;       // of a free proxy from the surface, at least
-constexpr double kHover_m = 0.002;           // of a free proxy from the surface, at most, once it has come near
+constexpr double kTurn = 0.2;               // a step's weight of the wanted direction: a bend of about 1 mm
+constexpr double kLead_m = 0.003;           // how far ahead on the course the finger aims
+constexpr double kAdvance_m = 1e-4;         // the course is followed in pieces this long
+constexpr int kMaxAdvances = 1000;          // a scene without extent has no course to follow
+constexpr double kStartAbove_m = 0.01;      // over the top of the scene
+constexpr std::size_t kMaxApproach = 5000;  // ticks; then the motion begins where the finger is
+constexpr double kDepth_m = 0.004;          // of a sliding finger beneath the proxy
+constexpr double kDeep_m = 0.015;           // of one that looks for corners
+constexpr double kTraced_m = 0.002;         // of one that traces the surface beneath it, in the mean
+constexpr double kTracedChange_m = 0.0015;  // by which that changes
+constexpr double kTracedWave_m = 0.07;      // of the course, for one such change
+constexpr double kTracedLead_m = 0.0003;    // how far ahead such a finger aims
+constexpr double kLift_m = 0.006;           // of a tap over where it touched
+constexpr double kTapSlope = 0.3;           // a tap goes sideways this much of its way
+constexpr double kClearance_m = 0.001;      // of a free proxy from the surface, at least
+constexpr double kHover_m = 0.002;          // of a free proxy from the surface, at most, once it has come near
 
 // The nearest point of the scene within `reach` of `p`; its distance is infinite when there is none.
 ClosestPoint nearest(const Snapshot& snapshot, const Vec3& p, double reach) {
@@ -73,7 +73,7 @@ class Planner {
   // Where to go on the course, at this level.
   Vec3 ahead(double level_m) {
     level_m = std::max(level_m, course_.bottom_m());
-    for (int i = 0; i < kMostAdvances && (course_.at(s_m_, level_m) - finger_).norm() < scale_ * kLead_m; ++i) {
+    for (int i = 0; i < kMaxAdvances && (course_.at(s_m_, level_m) - finger_).norm() < scale_ * kLead_m; ++i) {
       s_m_ += scale_ * kAdvance_m;
     }
     return course_.at(s_m_, level_m);
@@ -82,7 +82,7 @@ class Planner {
   // To beneath the surface a little ahead on the course.
   void trace() {
     Vec3 place;
-    for (int i = 0; i < kMostAdvances; ++i) {
+    for (int i = 0; i < kMaxAdvances; ++i) {
       place = course_.at(
           s_m_, surfaceLevel() -
                     scale_ * (kTraced_m + kTracedChange_m * std::sin(2 * M_PI * s_m_ / (scale_ * kTracedWave_m))));
@@ -160,7 +160,7 @@ Path planPath(const Snapshot& snapshot, FingerMotion motion, const ProxySettings
     path.proxies.push_back(planner.proxy());
   };
   keep();
-  while (!planner.arrived() && path.fingers.size() < kMostApproach) {
+  while (!planner.arrived() && path.fingers.size() < kMaxApproach) {
     planner.step();
     keep();
   }

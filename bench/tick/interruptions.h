@@ -9,11 +9,11 @@
 namespace hl::bench {
 
 struct Interruptions {
-  Timing gaps;         ///< between readings of the clock, where they are longer than kLeastGap_ns
+  Timing gaps;         ///< between readings of the clock, where they are longer than kMinGap_ns
   double seconds = 0;  ///< that were looked at
 };
 /// Reading the clock takes some 20 ns, and a step out of the caches less than this.
-inline constexpr std::int64_t kLeastGap_ns = 2000;
+inline constexpr std::int64_t kMinGap_ns = 2000;
 
 /// Reads the clock for so long, s.
 Interruptions measureInterruptions(double seconds);

@@ -13,7 +13,7 @@ namespace {
 constexpr double kNear = 1.01;
 // Of the radius: how far out of the surface the swept sphere starts.
 constexpr double kLift = 1;
-constexpr std::size_t kLeast = 100;
+constexpr std::size_t kMin = 100;
 
 }  // namespace
 
@@ -48,7 +48,7 @@ Answers timeAnswers(Peer& peer, Question question, std::span<const Probe> probes
   for (const Probe& probe : probes) {
     answers.metres.push_back(timed(0, probe));
     const auto since_ns = static_cast<double>(monotonicNow_ns() - begin_ns);
-    if (answers.metres.size() >= kLeast && since_ns > 1e9 * most_s / kPasses) break;
+    if (answers.metres.size() >= kMin && since_ns > 1e9 * most_s / kPasses) break;
   }
   for (int pass = 1; pass < kPasses; ++pass) {
     for (const Probe& probe : probes.first(answers.metres.size())) timed(pass, probe);

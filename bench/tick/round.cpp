@@ -13,7 +13,7 @@ namespace hl::bench {
 
 namespace {
 
-constexpr std::size_t kMostForNone = 11'000;  // primitives: testing every one takes a millisecond and more
+constexpr std::size_t kMaxForNone = 11'000;  // primitives: testing every one takes a millisecond and more
 constexpr std::size_t kTicksForNone = 1000;
 constexpr double kPeerRow_s = 5;  // of questions to a peer, for one row
 
@@ -121,7 +121,7 @@ void Round::measureHierarchies() const {
   if (of == nullptr) return;
   for (const HierarchyKind kind : plan_.hierarchies) {
     const bool none = kind == HierarchyKind::kNone;
-    if (kind == HierarchyKind::kBvh || (none && plain_->primitives > kMostForNone)) continue;
+    if (kind == HierarchyKind::kBvh || (none && plain_->primitives > kMaxForNone)) continue;
     say(std::string("hierarchy ") + hl::nameOf(kind) + " on " + number(plain_->primitives));
     const auto shape = makeShape(Model(shape_->model), kind);
     const auto snapshot = makeSnapshotOf(shape, Feel::kPlain);

@@ -244,9 +244,9 @@ enum {
 
 /** One contact of the proxy, from hlGetContacts. World frame. */
 typedef struct HLcontact {
-  HLdouble point[3];        /**< m, on the surface */
-  HLdouble normal[3];       /**< unit, away from the surface, as it feels: bent by shading and bump maps */
-  HLdouble share;           /**< m: its part of proxy - finger; times K and `stiffness` it is its force; below 0: it pulls */
+  HLdouble point[3];  /**< m, on the surface */
+  HLdouble normal[3]; /**< unit, away from the surface, as it feels: bent by shading and bump maps */
+  HLdouble share;     /**< m: its part of proxy - finger; times K and `stiffness` it is its force; below 0: it pulls */
   HLdouble static_friction; /**< mu_s there */
   HLdouble stiffness;       /**< 0..1 there */
   HLuint object;            /**< the innermost object; 0: drawn outside of objects */

@@ -79,7 +79,7 @@ void visitField(T& field, Visit& visit) {
 /// Whether an enumeration has a name for the number `value`; for those that count from 0 without a gap, to 32 at most.
 template <typename Enum>
 bool isNamed(Enum value) {
-  constexpr std::size_t kMost = 32;
+  constexpr std::size_t kMax = 32;
   // For a number without a name both compilers print "= (Type)7" here.
   const auto named = []<Enum kValue>() {
     return std::string_view(__PRETTY_FUNCTION__).find("= (") == std::string_view::npos;
@@ -87,7 +87,7 @@ bool isNamed(Enum value) {
   return [&]<std::size_t... kNumbers>(std::index_sequence<kNumbers...>) {
     return ((value == static_cast<Enum>(kNumbers) && named.template operator()<static_cast<Enum>(kNumbers)>()) || ...);
   }
-  (std::make_index_sequence<kMost>());
+  (std::make_index_sequence<kMax>());
 }
 
 }  // namespace hl

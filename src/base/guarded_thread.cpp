@@ -23,7 +23,7 @@ struct Failures {
   std::atomic<bool> now{false};
 };
 // Filled from the front; never emptied. Names are few and known when HL is built.
-constinit std::array<Failures, kMostThreadNames> failures_of{};
+constinit std::array<Failures, kMaxThreadNames> failures_of{};
 
 // snprintf to the stack and write(2): telling of a failure needs no memory.
 void tellStderr(const char* thread, const char* what) {
@@ -104,8 +104,8 @@ std::thread startThread(const char* name, std::function<void()> body) {
   });
 }
 
-FixedVector<ThreadFailures, kMostThreadNames> threadFailures() {
-  FixedVector<ThreadFailures, kMostThreadNames> all;
+FixedVector<ThreadFailures, kMaxThreadNames> threadFailures() {
+  FixedVector<ThreadFailures, kMaxThreadNames> all;
   for (const Failures& failures : failures_of) {
     const char* const thread = failures.thread.load();
     if (thread == nullptr) break;

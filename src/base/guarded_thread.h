@@ -36,8 +36,8 @@ struct ThreadFailures {
   std::uint64_t count = 0;
   bool now = false;  ///< their newest piece of work failed
 };
-inline constexpr std::size_t kMostThreadNames = 32;
-FixedVector<ThreadFailures, kMostThreadNames> threadFailures();
+inline constexpr std::size_t kMaxThreadNames = 32;
+FixedVector<ThreadFailures, kMaxThreadNames> threadFailures();
 
 /// Told of each failure, by the thread that failed; may throw. The first is a line on stderr.
 using TellFailure = void (*)(const char* thread, const char* what);

@@ -37,7 +37,7 @@ inline constexpr std::size_t kNumbers = kQuantityInfo.size();
 inline constexpr std::size_t kQuantities = kNumbers + 1;
 
 /// Of a bump map, m, either way.
-inline constexpr double kMostHeight_m = 1e9;
+inline constexpr double kMaxHeight_m = 1e9;
 
 /// For people: "static friction".
 std::string plainName(const QuantityInfo& info);

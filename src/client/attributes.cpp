@@ -35,7 +35,7 @@ Look lookOf(const Attributes& attributes) {
 
 void requireInRange(HLenum quantity, double value) {
   requireFinite(value);
-  if (std::abs(value) > kMostHeight_m) throw Fault(HL_INVALID_VALUE, "the value must be at most 1e9");
+  if (std::abs(value) > kMaxHeight_m) throw Fault(HL_INVALID_VALUE, "the value must be at most 1e9");
   if (quantity == HL_HEIGHT) return;
   if (value < 0) throw Fault(HL_INVALID_VALUE, "the value must not be negative");
   if (quantity == HL_STIFFNESS && value > 1) throw Fault(HL_INVALID_VALUE, "a surface's stiffness must be 0 .. 1");

@@ -7,7 +7,7 @@ namespace hl::client {
 namespace {
 
 // A table of all numbers from the least to the largest that is named takes no more memory than so many lists of them.
-constexpr std::size_t kMostPerIndex = 4;
+constexpr std::size_t kMaxPerIndex = 4;
 
 // Replaces each number by its place among those named, by a table.
 void numberByTable(Elements& elements, std::uint32_t least, std::size_t range) {
@@ -41,7 +41,7 @@ Elements elementsOf(const Indices& indices, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) elements.order.push_back(indices.at(i));
   const auto [least, most] = std::minmax_element(elements.order.begin(), elements.order.end());
   const std::size_t range = std::size_t{*most} - *least + 1;
-  if (range <= kMostPerIndex * count) {
+  if (range <= kMaxPerIndex * count) {
     numberByTable(elements, *least, range);
   } else {
     numberBySearch(elements);

@@ -42,7 +42,7 @@ void EventQueue::setCallback(HLenum kind, HLeventfunc callback, void* user) {
 void EventQueue::push(const proto::Event& event) {
   const auto kind = static_cast<std::size_t>(event.kind());
   if (kind >= callbacks_.size() || callbacks_[kind].function == nullptr) return;
-  if (events_.size() == kMostEvents) events_.pop_front();
+  if (events_.size() == kMaxEvents) events_.pop_front();
   events_.push_back(eventOf(event));
 }
 

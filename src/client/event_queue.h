@@ -11,7 +11,7 @@
 namespace hl::client {
 
 /// Of events that nobody polls the oldest are dropped: this is seconds of them.
-inline constexpr std::size_t kMostEvents = 1024;
+inline constexpr std::size_t kMaxEvents = 1024;
 
 class EventQueue {
  public:

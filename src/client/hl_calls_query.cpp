@@ -25,8 +25,8 @@ void get(const char* function, HLenum name, Number* values, Convert convert) {
 }
 
 HLint rounded(double value) {
-  constexpr double kLeast = std::numeric_limits<HLint>::min(), kMost = std::numeric_limits<HLint>::max();
-  return std::isnan(value) ? 0 : static_cast<HLint>(std::clamp(std::round(value), kLeast, kMost));
+  constexpr double kMin = std::numeric_limits<HLint>::min(), kMax = std::numeric_limits<HLint>::max();
+  return std::isnan(value) ? 0 : static_cast<HLint>(std::clamp(std::round(value), kMin, kMax));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 using hl::client::call;
 using hl::client::callOr;
 using hl::client::Fault;
-using hl::client::kMostTextureSide;
+using hl::client::kMaxTextureSide;
 using hl::client::kTextureUnits;
 using hl::client::requireList;
 using hl::client::Texture;
@@ -39,8 +39,8 @@ Texture& changeBound(HLcontext& context) {
 }
 
 void requireImageSize(const HLcontext& context, HLsizei width, HLsizei height) {
-  if (width < 1 || height < 1 || width > kMostTextureSide || height > kMostTextureSide)
-    throw Fault(HL_INVALID_VALUE, "an image has 1 .. " + std::to_string(kMostTextureSide) + " texels along a side");
+  if (width < 1 || height < 1 || width > kMaxTextureSide || height > kMaxTextureSide)
+    throw Fault(HL_INVALID_VALUE, "an image has 1 .. " + std::to_string(kMaxTextureSide) + " texels along a side");
   const std::uint64_t bytes = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   const std::uint64_t most = context.conversation.view().limits().message_bytes();
   if (most != 0 && bytes + kFrameReserve > most)

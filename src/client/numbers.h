@@ -59,10 +59,10 @@ class Numbers {
   struct Free {
     void operator()(double* data) const { std::free(data); }
   };
-  static constexpr std::size_t kLeastRoom = 96;  // 32 vertices: small primitives never grow
+  static constexpr std::size_t kMinRoom = 96;  // 32 vertices: small primitives never grow
 
   void grow(std::size_t needed) {
-    const std::size_t room = std::max({needed, room_ + room_ / 2, kLeastRoom});
+    const std::size_t room = std::max({needed, room_ + room_ / 2, kMinRoom});
     auto* data = static_cast<double*>(std::realloc(data_.get(), room * sizeof(double)));
     if (data == nullptr) throw std::bad_alloc();
     static_cast<void>(data_.release());  // realloc has freed or kept it

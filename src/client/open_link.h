@@ -1,4 +1,4 @@
-// Which carrier brings the messages to a server: by the scheme of its URL. The calls know no carrier, so that a program
+// Which link brings the messages to a server: by the scheme of its URL. The calls know no link, so that a program
 // links only those it uses.
 #pragma once
 

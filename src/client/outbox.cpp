@@ -16,8 +16,8 @@ std::int64_t Outbox::untilAllowed_ns(const proto::Limits& limits) const {
 
 Outbox::Outcome Outbox::trySend(Link& link, const proto::Limits& limits, std::optional<double> interval_s) {
   if (!hasWaiting()) return Outcome::kNothingToSend;
-  if (link.queuedBytes() > kMostQueuedBytes) return Outcome::kTooMuchQueued;
-  if (untilAllowed_ns(limits) > 0 || unanswered_.size() >= kMostUnanswered) return Outcome::kTooEarly;
+  if (link.queuedBytes() > kMaxQueuedBytes) return Outcome::kTooMuchQueued;
+  if (untilAllowed_ns(limits) > 0 || unanswered_.size() >= kMaxUnanswered) return Outcome::kTooEarly;
   FrameMessages messages =
       buildMessages(std::exchange(waiting_, {}), {last_sent_ + 1, interval_s, limits, next_upload_});
   for (proto::ClientMessage& upload : messages.uploads) link.send(std::move(upload));

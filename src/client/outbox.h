@@ -16,11 +16,11 @@
 namespace hl::client {
 
 /// With more than this on its way to the server the next frame waits: a slow network must not fill the memory.
-inline constexpr std::size_t kMostQueuedBytes = std::size_t{16} << 20;
+inline constexpr std::size_t kMaxQueuedBytes = std::size_t{16} << 20;
 
 /// With so many frames unanswered the next one waits: the server is still building them, and shows what is newest
 /// sooner when it has not to build all between. At 60 frames a second this covers a network of a quarter of a second.
-inline constexpr std::size_t kMostUnanswered = 16;
+inline constexpr std::size_t kMaxUnanswered = 16;
 
 class Outbox {
  public:

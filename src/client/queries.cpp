@@ -75,7 +75,7 @@ constexpr Query kQueriesOfCalls[] = {
      [](const HLcontext& c, Values& v) { v.add(static_cast<double>(HL_TEXTURE0 + attributes(c).textures.active)); }},
     {HL_TEXTURE_BINDING_2D,
      [](const HLcontext& c, Values& v) { v.add(attributes(c).textures.uses[attributes(c).textures.active].texture); }},
-    {HL_MAX_TEXTURE_SIZE, [](const HLcontext&, Values& v) { v.add(kMostTextureSide); }},
+    {HL_MAX_TEXTURE_SIZE, [](const HLcontext&, Values& v) { v.add(kMaxTextureSide); }},
     {HL_MAX_TEXTURE_UNITS, [](const HLcontext&, Values& v) { v.add(kTextureUnits); }},
     {HL_MAX_ATTRIB_STACK_DEPTH, [](const HLcontext&, Values& v) { v.add(kAttribDepth); }},
     {HL_MAX_MODELVIEW_STACK_DEPTH, [](const HLcontext&, Values& v) { v.add(kModelviewDepth); }},

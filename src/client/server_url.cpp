@@ -30,7 +30,7 @@ Number numberOf(const std::string& option, const std::string& text, Number least
 
 bool flagOf(const std::string& option, const std::string& text) { return numberOf<int>(option, text, 0, 1) == 1; }
 
-constexpr double kMostRate_Hz = 1e6;  // no server sends more: anything above is a slip of the pen
+constexpr double kMaxRate_Hz = 1e6;  // no server sends more: anything above is a slip of the pen
 constexpr double kLongestTimeout_s = 1e6;
 
 // The options by name; each writes its value into the URL.
@@ -49,7 +49,7 @@ const auto& options() {
       {"keep", [](ServerUrl& url, const std::string& value) { url.keep = flagOf("keep", value); }},
       {"state_rate",
        [](ServerUrl& url, const std::string& value) {
-         url.state_rate_Hz = numberOf<double>("state_rate", value, 0, kMostRate_Hz);
+         url.state_rate_Hz = numberOf<double>("state_rate", value, 0, kMaxRate_Hz);
        }},
       {"timeout",
        [](ServerUrl& url, const std::string& value) {

@@ -10,7 +10,7 @@
 namespace hl::client {
 
 /// Most texels along a side; the whole image must also fit into one message of the server's.
-inline constexpr HLsizei kMostTextureSide = 8192;
+inline constexpr HLsizei kMaxTextureSide = 8192;
 
 struct Texture {
   HLenum wrap = HL_REPEAT;

@@ -24,10 +24,10 @@ constexpr double kGrows = 1.15;         // three large swings on end by so much:
 constexpr double kOwnPart = 0.7;        // of a swing is the finger's own
 constexpr double kCriticalPart = 0.15;  // of the critical stiffness: a gain margin of 6 and more
 constexpr double kZeta = 0.4;           // of the damper
-constexpr double kLeastDrop = 0.5, kMostDrop = 0.02;  // of K s in one softening
-constexpr double kOpen_s = 1;                         // in the open, after which ...
-constexpr double kRise = 1.1;                         // ... the limit goes up by so much
-constexpr std::uint32_t kRow = 6;                     // swings: two sums of four, a period apart
+constexpr double kMinDrop = 0.5, kMaxDrop = 0.02;  // of K s in one softening
+constexpr double kOpen_s = 1;                      // in the open, after which ...
+constexpr double kRise = 1.1;                      // ... the limit goes up by so much
+constexpr std::uint32_t kRow = 6;                  // swings: two sums of four, a period apart
 
 using Mark = AxisSwings::Mark;
 using Swing = AxisSwings::Swing;
@@ -112,7 +112,7 @@ void soften(VibrationGuard& guard, const AxisSwings& axis, const SpringStep& ste
   const double swing_N = one.force_N + other.force_N;
   const double critical_N_m = way_m > 0 ? std::min(swing_N / way_m, guard.used_N_m) : guard.used_N_m;
   const double limit_N_m =
-      std::clamp(kCriticalPart * critical_N_m, kMostDrop * guard.used_N_m, kLeastDrop * guard.used_N_m);
+      std::clamp(kCriticalPart * critical_N_m, kMaxDrop * guard.used_N_m, kMinDrop * guard.used_N_m);
   const double w_1_s = 2 * M_PI / (period_s * (one.steps + other.steps));
   guard.damping_Ns_m = 2 * kZeta * std::sqrt(limit_N_m * critical_N_m) / w_1_s;
   if (step.pulling) guard.dissipated_J += 0.5 * (step.stiffness_N_m - limit_N_m) * step.gap.squaredNorm();

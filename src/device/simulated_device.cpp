@@ -7,7 +7,7 @@ namespace hl {
 
 SimulatedDevice::SimulatedDevice(const SimulatedDeviceSettings& settings)
     : settings_(settings), arm_(makeArm(settings.model, settings.current_lag_s)), random_(settings.seed) {
-  settings_.delay_steps = std::clamp(settings.delay_steps, 0, SimulatedDeviceSettings::kMostDelay);
+  settings_.delay_steps = std::clamp(settings.delay_steps, 0, SimulatedDeviceSettings::kMaxDelay);
   on_the_way_.fill(Vec3::Zero());
   firm_ = settings.firm;
   holds_ = held_ = settings.held;

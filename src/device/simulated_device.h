@@ -35,13 +35,13 @@ struct SimulatedDeviceSettings {
   bool bends = false;
   Bending bending;
   double current_lag_s = 0;         ///< of the motors; 0.25 ms is usual
-  int delay_steps = 0;              ///< writes after which a force reaches the motors, 0..kMostDelay
+  int delay_steps = 0;              ///< writes after which a force reaches the motors, 0..kMaxDelay
   double jitter_s = 0;              ///< a reading is taken so much later than it says, at most
   std::uint32_t seed = 1;           ///< of the jitter
   double step_s = 10e-6;            ///< of the integration
   double longest_advance_s = 0.02;  ///< per read; a longer gap of the clock is not simulated
 
-  static constexpr int kMostDelay = 15;
+  static constexpr int kMaxDelay = 15;
 };
 
 /// The tip starts at the origin of D. The same calls give the same bits.
@@ -92,7 +92,7 @@ class SimulatedDevice final : public Device, public SimulatedHand {
   std::atomic<bool> firm_{false};
   std::atomic<bool> holds_{true};
   std::atomic<std::uint32_t> buttons_{0};
-  std::array<Vec3, SimulatedDeviceSettings::kMostDelay + 1> on_the_way_;  // forces, a ring
+  std::array<Vec3, SimulatedDeviceSettings::kMaxDelay + 1> on_the_way_;  // forces, a ring
   std::size_t written_ = 0;
   std::mt19937 random_;
   std::atomic<bool> stopped_{false};     // the motors are without current from the next advance on

@@ -136,12 +136,12 @@ std::size_t MovingBvh::overlap(const Vec3& centre, double radius, FunctionRef<vo
 // Looks at a part of the way, and at larger ones only where nothing is hit: goals are far, and most ways end soon.
 std::size_t MovingBvh::sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
                              FunctionRef<double(std::uint32_t, double)> visit) const {
-  constexpr double kLeastPart = 1.0 / 8192, kLarger = 8;
+  constexpr double kMinPart = 1.0 / 8192, kLarger = 8;
   const Pair pair(from_, to_, begin_, end_);
   MovingWay way = pair.way(from, motion, radius);
   const double length = motion.norm();
   std::size_t looked = 0;
-  for (double part = soon < length ? std::max(kLeastPart, soon / length) : 1;; part = std::min(1.0, kLarger * part)) {
+  for (double part = soon < length ? std::max(kMinPart, soon / length) : 1;; part = std::min(1.0, kLarger * part)) {
     way.limit = part;
     looked +=
         pair.walk(way, [&](std::uint32_t primitive) { way.limit = std::min(way.limit, visit(primitive, way.limit)); });

@@ -92,11 +92,11 @@ std::size_t WideBvh::overlap(const Vec3& centre, double radius, FunctionRef<void
 
 std::size_t WideBvh::sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
                            FunctionRef<double(std::uint32_t, double)> visit) const {
-  constexpr double kLeastPart = 1.0 / 8192;  // five walks more find what comes late
+  constexpr double kMinPart = 1.0 / 8192;  // five walks more find what comes late
   if (primitives_ == 0) return 0;
   const Vec3 at = from - origin_;
   const double length = motion.norm();
-  const double first_part = soon < length ? std::max(kLeastPart, soon / length) : 1;
+  const double first_part = soon < length ? std::max(kMinPart, soon / length) : 1;
   return sweepWide(tree(), {{at[0], at[1], at[2]}, {motion[0], motion[1], motion[2]}, reach(from, motion, radius)},
                    first_part, visit);
 }

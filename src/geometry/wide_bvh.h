@@ -33,7 +33,7 @@ class WideBvh final : public SpatialIndex {
   /// root's box.
   double cost() const { return cost_; }
   /// The same in multiples of what it was when the tree was built.
-  double wear() const { return cost_ == 0 ? 1 : cost_ / built_cost_; }
+  double costRatio() const { return cost_ == 0 ? 1 : cost_ / built_cost_; }
 
   std::size_t overlap(const Vec3& centre, double radius,
                       FunctionRef<void(std::uint32_t primitive)> visit) const override;

@@ -52,7 +52,7 @@ struct BlockQuery {
 inline BlockQuery blockQuery(const WideBlock& block, const WideQuery& query) {
   constexpr double kPacked = 1;           // steps: a vertex is off by at most sqrt(3) / 2
   constexpr double kBlockSize = 1 << 17;  // more than the sum of the coordinates of a vertex
-  constexpr double kMostSize = 1e18;      // steps: sums of its squares are numbers of single precision
+  constexpr double kMaxSize = 1e18;       // steps: sums of its squares are numbers of single precision
   const double per_step = block.per_step;
   double from[3], motion[3], size = kBlockSize;
   for (int i = 0; i < 3; ++i) {
@@ -62,7 +62,7 @@ inline BlockQuery blockQuery(const WideBlock& block, const WideQuery& query) {
   }
   const double reach = query.reach * per_step;
   // Of a block so small beside the query nothing is told in single precision: all of it may be touched.
-  const bool told = size + reach < kMostSize;
+  const bool told = size + reach < kMaxSize;
   BlockQuery packed;
   for (int i = 0; i < 3; ++i) {
     packed.from[i] = told ? static_cast<float>(from[i]) : 0;

@@ -154,8 +154,8 @@ HWY_INLINE std::size_t takeLowest(unsigned& bits) {
 // Returns how many boxes and triangles it has looked at.
 template <typename Look>
 HWY_INLINE std::size_t forEachFew(const WideTree& tree, const BoxQuery& query, const Look& look) {
-  constexpr std::size_t kMostWaiting = 256;
-  std::uint32_t links[kMostWaiting + kWide + kWideStackSize];
+  constexpr std::size_t kMaxWaiting = 256;
+  std::uint32_t links[kMaxWaiting + kWide + kWideStackSize];
   std::size_t first = 0, end = 0, looked = 0;
   links[end++] = tree.root;
   FewNumbers numbers{{}, 0};
@@ -163,7 +163,7 @@ HWY_INLINE std::size_t forEachFew(const WideTree& tree, const BoxQuery& query, c
   setEnd(straight, query);
   while (first < end) {
     looked += kWide;
-    const std::uint32_t link = end <= kMostWaiting ? links[first++] : links[--end];
+    const std::uint32_t link = end <= kMaxWaiting ? links[first++] : links[--end];
     if (isBlock(link)) {
       numbers.block[numbers.count++] = link & ~kBlockLink;
       if (numbers.count == kFewBlocks) {
@@ -229,7 +229,7 @@ class Sweep {
       const std::uint32_t primitive = blocks.primitive(lane);
       if (wasProposed(primitive)) continue;
       candidates_[candidate_count_++] = {primitive, entry[lane]};
-      if (candidate_count_ == kMostCandidates) proposeMany();
+      if (candidate_count_ == kMaxCandidates) proposeMany();
     }
   }
 
@@ -258,7 +258,7 @@ class Sweep {
     propose(primitive);
     end = std::remove_if(candidates_, end, [this](const Candidate& one) { return one.entry > box_.limit; });
     candidate_count_ = static_cast<std::size_t>(end - candidates_);
-    if (candidate_count_ <= kMostCandidates / 2) return;
+    if (candidate_count_ <= kMaxCandidates / 2) return;
     for (const Candidate* one = candidates_; one < end; ++one) {
       if (one->entry <= box_.limit) propose(one->primitive);
     }
@@ -268,7 +268,7 @@ class Sweep {
   HWY_INLINE void propose(std::uint32_t primitive) {
     soonest_ = std::min(soonest_, visit_(primitive, soonest_));
     if (soonest_ < limit_) shorten(soonest_);
-    if (proposed_count_ < kMostCandidates) proposed_[proposed_count_++] = primitive;
+    if (proposed_count_ < kMaxCandidates) proposed_[proposed_count_++] = primitive;
   }
 
   // By an earlier walk. When it was entered would not tell: the box of its block may have been entered later, and then
@@ -278,7 +278,7 @@ class Sweep {
     return std::find(proposed_, end, primitive) != end;
   }
 
-  static constexpr std::size_t kMostCandidates = 48;
+  static constexpr std::size_t kMaxCandidates = 48;
 
   const WideTree& tree_;
   const WideQuery& query_;
@@ -287,9 +287,9 @@ class Sweep {
   double limit_ = 1;    // of the part looked at
   double soonest_ = 1;  // impact; rounding may put the first a little beyond the part in which it is proposed
   std::size_t candidate_count_ = 0;
-  Candidate candidates_[kMostCandidates];
+  Candidate candidates_[kMaxCandidates];
   std::size_t proposed_count_ = 0, proposed_before_ = 0;  // in all; by earlier walks
-  std::uint32_t proposed_[kMostCandidates];
+  std::uint32_t proposed_[kMaxCandidates];
 };
 
 }  // namespace

@@ -13,8 +13,8 @@ namespace hl {
 
 namespace {
 
-constexpr std::size_t kLeastToken = 16;  // characters: 96 bits when random
-constexpr std::size_t kMostToken = 256;
+constexpr std::size_t kMinToken = 16;  // characters: 96 bits when random
+constexpr std::size_t kMaxToken = 256;
 // So that the cookie's value is not the token's own digest.
 constexpr std::string_view kCookieSalt = "hl page cookie of ";
 
@@ -51,7 +51,7 @@ bool isLoopbackHost(std::string_view host, unsigned port) {
 }
 
 void checkToken(std::string_view token) {
-  if (token.size() < kLeastToken || token.size() > kMostToken || !std::ranges::all_of(token, isTokenCharacter)) {
+  if (token.size() < kMinToken || token.size() > kMaxToken || !std::ranges::all_of(token, isTokenCharacter)) {
     throw Error("a token is 16 to 256 characters of A-Z a-z 0-9 . _ ~ -; make one with: openssl rand -hex 32");
   }
 }

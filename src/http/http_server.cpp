@@ -14,11 +14,11 @@
 #include "base/error.h"
 #include "base/guarded_thread.h"
 #include "http/access.h"
-#include "http/hl_carrier.h"
 #include "http/http_answers.h"
 #include "http/listener.h"
 #include "http/page_feed.h"
 #include "http/traffic.h"
+#include "http/websocket_session.h"
 #include "http/workers.h"
 #include "monitor/event_log.h"
 #include "session/client_session.h"
@@ -144,8 +144,9 @@ class HttpServer::Impl {
     if (viewer) {
       co_await pages_.serve(connection, std::move(request));
     } else {
-      const CarrierWorld world{context_, light_workers_, heavy_workers_, *host_, access_, settings_.limits, traffic_};
-      co_await std::make_shared<HlCarrier>(world, connection, trusted)->run(std::move(request));
+      const WebSocketContext world{context_, light_workers_,   heavy_workers_, *host_,
+                                   access_,  settings_.limits, traffic_};
+      co_await std::make_shared<WebSocketSession>(world, connection, trusted)->run(std::move(request));
     }
     co_return true;
   }

@@ -12,7 +12,7 @@ namespace hl {
 
 namespace {
 
-constexpr std::size_t kMostHeader_bytes = 1 << 20;  // comments and all
+constexpr std::size_t kMaxHeader_bytes = 1 << 20;  // comments and all
 
 struct PlyHeader {
   bool ascii = false;
@@ -32,7 +32,7 @@ bool nextLine(std::istream& in, std::string& line) {
 PlyHeader headerOf(std::istream& in) {
   PlyHeader header;
   std::size_t bytes = 0;
-  for (std::string line; bytes < kMostHeader_bytes && nextLine(in, line); bytes += line.size() + 1) {
+  for (std::string line; bytes < kMaxHeader_bytes && nextLine(in, line); bytes += line.size() + 1) {
     std::istringstream words(line);
     std::string word, second;
     std::uint64_t count = 0;

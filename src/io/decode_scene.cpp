@@ -111,8 +111,8 @@ NamedTextureUse SceneDecoder::textureUse(const proto::MaterialTexture& in, const
   if (!proto::Quantity_IsValid(in.quantity())) fail(where + ".quantity", where + ".quantity is none that HL knows");
   const bool height = in.quantity() == proto::HEIGHT;
   if (height && !in.has_high()) fail(where, where + ": a bump map needs high, its amplitude in metres");
-  const double most = height ? kMostHeight_m : kQuantityInfo[static_cast<std::size_t>(quantityOf(in.quantity()))].most;
-  const double least = height ? -kMostHeight_m : 0;
+  const double most = height ? kMaxHeight_m : kQuantityInfo[static_cast<std::size_t>(quantityOf(in.quantity()))].most;
+  const double least = height ? -kMaxHeight_m : 0;
   return {in.texture(), checked(in.low(), least, most, where + ".low"),
           checked(in.has_high() ? in.high() : 1, least, most, where + ".high")};
 }

@@ -123,11 +123,11 @@ void Reader::readMpeg(const json::value& node, Material& material, bool& given) 
   const json::value* haptic =
       elementOf(materials, *mesh, {"extensions", "MPEG_haptic_material", "hapticMaterialIndex"});
   if (haptic == nullptr) return;
-  constexpr double kMostFriction = 100;
+  constexpr double kMaxFriction = 100;
   if (const json::value* stiffness = find(*haptic, {"stiffness"}))
     addTexture(*stiffness, {Quantity::kStiffness}, 1, material);
   if (const json::value* friction = find(*haptic, {"friction"}))
-    addTexture(*friction, {Quantity::kStaticFriction, Quantity::kDynamicFriction}, kMostFriction, material);
+    addTexture(*friction, {Quantity::kStaticFriction, Quantity::kDynamicFriction}, kMaxFriction, material);
   for (const char* other : {"vibrotactileTexture", "temperature", "vibration", "custom"}) {
     if (find(*haptic, {other}) != nullptr)
       result_.warnings.push_back(std::string("MPEG_haptic_material: ") + other + " is not felt by HL");

@@ -39,11 +39,11 @@ void setLimit(int resource, rlim_t soft, rlim_t hard) {
 }
 
 void setLimits(const IsolationLimits& limits) {
-  constexpr rlim_t kMostFiles = 64, kAfterTheSignal_s = 2;
+  constexpr rlim_t kMaxFiles = 64, kAfterTheSignal_s = 2;
   setLimit(RLIMIT_CPU, limits.cpu_s, limits.cpu_s + kAfterTheSignal_s);
   setLimit(RLIMIT_CORE, 0, 0);
   setLimit(RLIMIT_FSIZE, 0, 0);
-  setLimit(RLIMIT_NOFILE, kMostFiles, kMostFiles);
+  setLimit(RLIMIT_NOFILE, kMaxFiles, kMaxFiles);
 #ifndef HL_SANITIZED  // sanitizers reserve terabytes of addresses
   setLimit(RLIMIT_AS, limits.memory_bytes, limits.memory_bytes);
 #endif
@@ -181,7 +181,7 @@ Model receive(Child& child, const IsolationLimits& limits, const std::function<v
   std::string bytes;
   proto::ReadingPart part;
   for (std::uint32_t length = 0; pipe.read(&length, sizeof length);) {
-    if (length > kMostPartBytes) throw Error(kGarbage);
+    if (length > kMaxPartBytes) throw Error(kGarbage);
     bytes.resize(length);
     if (!pipe.read(bytes.data(), length)) break;
     if (!part.ParseFromString(bytes)) throw Error(kGarbage);

@@ -120,14 +120,14 @@ bool anyMesh(const aiScene& scene, bool (*has)(const aiMesh&)) {
 
 // assimp refuses an OBJ file of less than 16 bytes, which one point is: such a file gets blank lines at its end.
 const aiScene* readScene(Assimp::Importer& importer, const std::string& path) {
-  constexpr std::size_t kLeastObj = 16;
+  constexpr std::size_t kMinObj = 16;
   std::error_code error;
   if (endingOf(path) == ".ply") checkPly(path);
-  if (endingOf(path) != ".obj" || std::filesystem::file_size(path, error) >= kLeastObj || error)
+  if (endingOf(path) != ".obj" || std::filesystem::file_size(path, error) >= kMinObj || error)
     return importer.ReadFile(path, aiProcess_Triangulate);
   std::ifstream in(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  text.append(kLeastObj, '\n');
+  text.append(kMinObj, '\n');
   return importer.ReadFileFromMemory(text.data(), text.size(), aiProcess_Triangulate, "obj");
 }
 

@@ -20,7 +20,7 @@ namespace hl {
 
 namespace {
 
-constexpr std::size_t kMostTexels = std::size_t{64} << 20;
+constexpr std::size_t kMaxTexels = std::size_t{64} << 20;
 constexpr const char* kNoPng = "is not a sound PNG file: ";
 constexpr const char* kNoJpeg = "is not a sound JPEG file: ";
 
@@ -33,7 +33,7 @@ Bytes bytesOf(const std::string& path) {
 
 void checkSize(std::size_t width, std::size_t height) {
   if (width == 0 || height == 0) throw Error("has no pixels");
-  if (width > kMostTexels / height) throw Error("has more than " + std::to_string(kMostTexels) + " pixels");
+  if (width > kMaxTexels / height) throw Error("has more than " + std::to_string(kMaxTexels) + " pixels");
 }
 
 // ITU-R BT.601, as in a JPEG file. What is grey stays so to the bit.

@@ -26,14 +26,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostFileBytes = std::uintmax_t{64} << 20;
-constexpr std::size_t kMostFileTexels = std::size_t{8192} * 8192;
-constexpr int kMostObjects = 60'000;  // materials are counted in 16 bits
+constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{64} << 20;
+constexpr std::size_t kMaxFileTexels = std::size_t{8192} * 8192;
+constexpr int kMaxObjects = 60'000;  // materials are counted in 16 bits
 
 std::string readText(const std::string& path) {
   std::error_code error;
   if (!fs::is_regular_file(path, error)) throw Error(path + ": there is no such file");
-  if (fs::file_size(path, error) > kMostFileBytes)
+  if (fs::file_size(path, error) > kMaxFileBytes)
     throw Error(path + ": is larger than 64 MB; put meshes in model files");
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -133,7 +133,7 @@ void SceneFile::addTexture(Model& model, const proto::TextureImage& in, const st
     }
     decoder_.setReading(in, texture, where);
   } else {
-    texture = decoder_.texture(in, std::min(kMostFileTexels, options_.most_texels - texels_), where);
+    texture = decoder_.texture(in, std::min(kMaxFileTexels, options_.most_texels - texels_), where);
   }
   texels_ += texture.texels.size();
   if (texels_ > options_.most_texels)
@@ -203,7 +203,7 @@ Placement SceneFile::placementOf(const proto::Transform& in, const std::string& 
 Model SceneFile::build() {
   checkFinite(scene_, "");
   const double units = scene_.units() == 0 ? 1 : decoder_.checked(scene_.units(), 1e-9, 1e9, "units");
-  if (scene_.objects_size() > kMostObjects) throw Error(path_ + ": there are more than 60000 objects in it");
+  if (scene_.objects_size() > kMaxObjects) throw Error(path_ + ": there are more than 60000 objects in it");
   Model whole;
   whole.name = fs::path(path_).filename().string();
   whole.materials.clear();

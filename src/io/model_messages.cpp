@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kBrokenMesh = "a mesh makes no sense: its lists do not agree";
 // Of each list: a part of a shaded and textured mesh is 20 MB.
 constexpr std::size_t kItemsInPart = std::size_t{1} << 18;
-constexpr std::size_t kMostNumberedMaterials = 0xffff;
+constexpr std::size_t kMaxNumberedMaterials = 0xffff;
 
 // Lists of vectors and of indices lie in memory as they lie in the message. Adds the items of `part`, counted in parts.
 template <typename Number, typename Item>
@@ -43,7 +43,7 @@ void append(const google::protobuf::RepeatedField<Number>& in, std::vector<Item>
 
 void appendMaterials(const google::protobuf::RepeatedField<std::uint32_t>& in, std::vector<std::uint16_t>& numbers) {
   for (const std::uint32_t number : in) {
-    if (number > kMostNumberedMaterials) throw Error(kBrokenMesh);
+    if (number > kMaxNumberedMaterials) throw Error(kBrokenMesh);
     numbers.push_back(static_cast<std::uint16_t>(number));
   }
 }
@@ -110,7 +110,7 @@ void writeMesh(const Model& model, const std::function<void(proto::RecordedShape
 }
 
 void MeshReader::add(const proto::RecordedShape& part) {
-  if (part.materials() < 1 || part.materials() > kMostNumberedMaterials) throw Error(kBrokenMesh);
+  if (part.materials() < 1 || part.materials() > kMaxNumberedMaterials) throw Error(kBrokenMesh);
   const std::size_t bytes = bytesOf(part);
   if (bytes > left_) throw Error("a mesh is too large");
   left_ -= bytes;

@@ -14,7 +14,7 @@ namespace hl {
 
 namespace {
 
-constexpr std::size_t kMostTextures = 10'000, kMostMaterials = 0xffff, kMostWarnings = 1000, kLongestLine = 1000;
+constexpr std::size_t kMaxTextures = 10'000, kMaxMaterials = 0xffff, kMaxWarnings = 1000, kLongestLine = 1000;
 
 // As errors and warnings are: one line, of a length to be read.
 std::string oneLine(const std::string& text) {
@@ -36,7 +36,7 @@ bool writeAll(int descriptor, const char* data, std::size_t size) {
 
 void PartSender::send(const proto::ReadingPart& part) {
   const std::size_t size = part.ByteSizeLong();
-  if (size > kMostPartBytes) throw Error("a part of it is too large");
+  if (size > kMaxPartBytes) throw Error("a part of it is too large");
   const auto length = static_cast<std::uint32_t>(size);
   bytes_.resize(sizeof length + size);
   std::memcpy(bytes_.data(), &length, sizeof length);
@@ -58,7 +58,7 @@ void PartSender::failure(const std::string& why) {
 
 void PartSender::model(const Model& model) {
   proto::ReadingPart part;
-  for (std::size_t i = 0; i < std::min(model.warnings.size(), kMostWarnings); ++i) {
+  for (std::size_t i = 0; i < std::min(model.warnings.size(), kMaxWarnings); ++i) {
     part.set_warning(oneLine(model.warnings[i]));
     send(part);
   }
@@ -84,17 +84,17 @@ void PartSender::model(const Model& model) {
 }
 
 void PartCollector::addTexture(const proto::RecordedTexture& texture) {
-  if (rest_.textures.size() >= kMostTextures) throw Error("it has too many textures");
+  if (rest_.textures.size() >= kMaxTextures) throw Error("it has too many textures");
   rest_.textures.push_back(textureOf(texture));
 }
 
 void PartCollector::addMaterial(const proto::Values& material) {
-  if (rest_.materials.size() >= kMostMaterials) throw Error("it has too many materials");
+  if (rest_.materials.size() >= kMaxMaterials) throw Error("it has too many materials");
   rest_.materials.push_back(materialOf(material, rest_.textures.size()));
 }
 
 void PartCollector::addWarning(const std::string& warning) {
-  if (rest_.warnings.size() >= kMostWarnings) throw Error("it has too many warnings");
+  if (rest_.warnings.size() >= kMaxWarnings) throw Error("it has too many warnings");
   rest_.warnings.push_back(oneLine(warning));
 }
 

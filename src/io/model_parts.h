@@ -14,7 +14,7 @@
 namespace hl {
 
 /// The longest message: an image of 64 million texels, which are 4 bytes each, and what goes with it.
-inline constexpr std::uint32_t kMostPartBytes = (std::uint32_t{64} << 22) + 65'536;
+inline constexpr std::uint32_t kMaxPartBytes = (std::uint32_t{64} << 22) + 65'536;
 
 /// Writes messages to a descriptor. What can not be written is lost: then nobody reads.
 class PartSender {

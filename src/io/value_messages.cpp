@@ -64,8 +64,8 @@ void checkRecorded(const Material& material) {
     checkRanges("a texture of a material", {{"low", use.low, 0, info.most}, {"high", use.high, 0, info.most}});
   }
   const TextureUse& height = material.textureOf(Quantity::kHeight);
-  checkRanges("a bump map of a material", {{"low", height.low, -kMostHeight_m, kMostHeight_m},
-                                           {"high", height.high, -kMostHeight_m, kMostHeight_m}});
+  checkRanges("a bump map of a material",
+              {{"low", height.low, -kMaxHeight_m, kMaxHeight_m}, {"high", height.high, -kMaxHeight_m, kMaxHeight_m}});
 }
 
 void checkRecorded(const MaterialOverride& surfaces) {
@@ -82,7 +82,7 @@ void requireFit(Fit fit, const std::string& what) {
 }
 
 void checkTime(std::int64_t time_ns, const char* what) {
-  if (time_ns < -kMostTime_ns || time_ns > kMostTime_ns)
+  if (time_ns < -kMaxTime_ns || time_ns > kMaxTime_ns)
     throw Error(fmt::format("{} is at {} ns, which no clock tells", what, time_ns));
 }
 

@@ -43,7 +43,7 @@ void readValues(const proto::Values& in, const std::string& what, T& value) {
 }
 
 /// Times of a recording: no further from zero than this, so that twice the difference of two is a number of 64 bits.
-inline constexpr std::int64_t kMostTime_ns = std::int64_t{1} << 61;
+inline constexpr std::int64_t kMaxTime_ns = std::int64_t{1} << 61;
 /// Throws hl::Error for a time beyond that.
 void checkTime(std::int64_t time_ns, const char* what);
 

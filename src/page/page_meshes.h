@@ -24,11 +24,11 @@ using PageMessage = std::shared_ptr<const std::string>;
 class PageMeshes {
  public:
   /// Protobuf takes no more.
-  static constexpr std::uint64_t kMostMessage_bytes = (std::uint64_t{1} << 31) - 1024;
+  static constexpr std::uint64_t kMaxMessage_bytes = (std::uint64_t{1} << 31) - 1024;
 
   /// Messages are counted against `memory`. A mesh for which there is none, or whose message would be larger than
   /// `most_bytes`, has a message without primitives.
-  explicit PageMeshes(MemoryBudget memory = {}, std::uint64_t most_bytes = kMostMessage_bytes)
+  explicit PageMeshes(MemoryBudget memory = {}, std::uint64_t most_bytes = kMaxMessage_bytes)
       : memory_(std::move(memory)), most_bytes_(most_bytes) {}
 
   /// The number of the mesh of each instance; new ones start to be made ready.

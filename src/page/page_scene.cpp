@@ -79,7 +79,7 @@ void PageScene::layOut(const PageScale& scale, std::int64_t now_ns) {
     toProto(bounds.max, *out.mutable_bounds_max());
   }
   for (std::size_t i = 0; i < shown_places_.size(); ++i) {
-    const Place& place = shown_places_[i];
+    const MeshPlacement& place = shown_places_[i];
     layout_->meshes.insert(place.mesh);
     layout_->poses.push_back(shown_->instances[i].motion.at(now_ns));
     appendPose(*out.mutable_poses(), layout_->poses.back());
@@ -130,7 +130,7 @@ void PageScene::describe(proto::State& state, std::span<const ObjectName> touche
   }
   for (const ObjectName& object : touched) {
     const auto at = std::lower_bound(layout_->places.begin(), layout_->places.end(), object.key,
-                                     [](const Place& place, std::uint64_t key) { return place.key < key; });
+                                     [](const MeshPlacement& place, std::uint64_t key) { return place.key < key; });
     if (at == layout_->places.end() || at->key != object.key) continue;
     const auto index = static_cast<std::uint32_t>(at - layout_->places.begin());
     if (std::find(state.touched().begin(), state.touched().end(), index) == state.touched().end())

@@ -55,16 +55,16 @@ class PageScene {
   void describe(proto::State& state, std::span<const ObjectName> touched, std::int64_t now_ns) const;
 
  private:
-  struct Place {
+  struct MeshPlacement {
     std::uint64_t key = 0;
     std::uint32_t mesh = 0, session = 0, object = 0, name = 0;
-    bool operator==(const Place&) const = default;
+    bool operator==(const MeshPlacement&) const = default;
   };
   struct Layout {
     std::uint32_t number = 0;
     std::string name;
     PageScale scale;
-    std::vector<Place> places;  // of the instances of the snapshot, one by one
+    std::vector<MeshPlacement> places;  // of the instances of the snapshot, one by one
     std::vector<Pose> poses;
     std::set<std::uint32_t> meshes;
     std::int64_t made_ns = 0;
@@ -79,7 +79,7 @@ class PageScene {
   std::shared_ptr<const void> presence_ = std::make_shared<char>();
   PageMeshes meshes_;
   std::shared_ptr<const Snapshot> shown_, waiting_;  // the second until its meshes are ready
-  std::vector<Place> shown_places_, waiting_places_;
+  std::vector<MeshPlacement> shown_places_, waiting_places_;
   std::optional<Layout> layout_;  // of what is shown
   std::uint32_t last_layout_ = 0;
 };

@@ -10,7 +10,7 @@ namespace hl {
 
 namespace {
 
-constexpr std::size_t kMostTexels = std::size_t{16} << 20;
+constexpr std::size_t kMaxTexels = std::size_t{16} << 20;
 
 std::shared_ptr<const Texture> shownTexture(const Material& material, const Surfaces& surfaces) {
   constexpr std::array<Quantity, kQuantities> kOrder{Quantity::kHeight, Quantity::kStaticFriction,
@@ -18,7 +18,7 @@ std::shared_ptr<const Texture> shownTexture(const Material& material, const Surf
                                                      Quantity::kStiffness};
   for (const Quantity quantity : kOrder) {
     const TextureUse& use = material.textureOf(quantity);
-    if (use.used() && surfaces.textures[use.texture]->texels.size() <= kMostTexels)
+    if (use.used() && surfaces.textures[use.texture]->texels.size() <= kMaxTexels)
       return surfaces.textures[use.texture];
   }
   return nullptr;

@@ -15,11 +15,11 @@ Vec3 AndersonMixing::mixed(const Vec3& next, const Vec3& change) const {
   if (passes_ > 1 && det > convergence::kParallelSquared * a * c) {
     const double g1 = (c * with_turn - b * with_older) / det;
     const double g2 = (a * with_older - b * with_turn) / det;
-    if (std::abs(g1) < convergence::kMostMixing && std::abs(g2) < convergence::kMostMixing)
+    if (std::abs(g1) < convergence::kMaxMixing && std::abs(g2) < convergence::kMaxMixing)
       return next - g1 * (next - last_next_) - g2 * (last_next_ - older_next_);
   }
   const double g1 = with_turn / a;
-  return std::abs(g1) < convergence::kMostMixing ? Vec3(next - g1 * (next - last_next_)) : next;
+  return std::abs(g1) < convergence::kMaxMixing ? Vec3(next - g1 * (next - last_next_)) : next;
 }
 
 Vec3 AndersonMixing::guess(const Vec3& next, const Vec3& change) {

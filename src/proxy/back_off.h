@@ -18,7 +18,7 @@ class BackOff {
     return false;
   }
   void failed() {
-    failures_ = std::min(failures_ + 1, convergence::kMostFailures);
+    failures_ = std::min(failures_ + 1, convergence::kMaxFailures);
     left_out_ = 1 << failures_;
   }
   /// Failures count anew. Who never says so tries ever less often.

@@ -23,7 +23,7 @@ bool Constraints::strays(const Vec3& gap) const {
   if (set_.planes.size() < 2) return false;
   double depth = input_.tolerance.skin;
   for (const Plane& plane : set_.planes) depth = std::max(depth, plane.offset);
-  return (gap - solved_.point).norm() > gap.norm() + accuracy::kMostStrayPerDepth * depth;
+  return (gap - solved_.point).norm() > gap.norm() + accuracy::kMaxStrayPerDepth * depth;
 }
 
 void Constraints::nearestTo(const Vec3& gap, Proposal& proposal) {
@@ -39,13 +39,13 @@ void Constraints::nearestTo(const Vec3& gap, Proposal& proposal) {
   cuts_.look(set_);
   for (std::size_t i = 0; i < solved_.active_count; ++i) {
     const Contact& contact = set_.contacts[solved_.active[i]];
-    proposal.holding.push({solved_.active[i], placeOf(contact), contact.plane.normal, solved_.multiplier[i]});
+    proposal.active.push({solved_.active[i], placeOf(contact), contact.plane.normal, solved_.multiplier[i]});
     cuts_.holds(contact.primitive);
   }
 }
 
 void Constraints::addCuts(const Vec3& position, const Vec3& gap, double slid_m, Proposal& proposal) {
-  const bool counts = !cuts_.empty() && cuts_in_a_row_ < convergence::kMostCutsInARow &&
+  const bool counts = !cuts_.empty() && cuts_in_a_row_ < convergence::kMaxCutsInARow &&
                       solveWithCuts(position, gap, slid_m, proposal.step);
   if (counts) proposal.rule = Proposal::Rule::kCuts;
   cuts_in_a_row_ = counts ? cuts_in_a_row_ + 1 : 0;
@@ -64,9 +64,9 @@ bool Constraints::solveWithCuts(const Vec3& position, const Vec3& gap, double sl
   const auto* const active_end = all.active.begin() + static_cast<std::ptrdiff_t>(all.active_count);
   const bool counts = std::any_of(all.active.begin(), active_end, [&](std::size_t i) { return i >= own; });
   const double length = all.point.norm();
-  if (!counts || all.violation > input_.tolerance.feasible || length <= convergence::kLeastCutPerGap * gap.norm())
+  if (!counts || all.violation > input_.tolerance.feasible || length <= convergence::kMinCutPerGap * gap.norm())
     return false;
-  if (!touches() && length >= convergence::kMostCutPerSlid * slid_m) return false;
+  if (!touches() && length >= convergence::kMaxCutPerSlid * slid_m) return false;
   cuts_.holdsStill();
   step = all.point;
   return true;

@@ -51,13 +51,13 @@ double stretch(double curvature, double length, double turn_m, double reach, dou
 }
 
 // How much the obstacle bends away below a step in the direction of its projector: 1 for the whole radius.
-double bendOf(const Contact& contact, double multiplier) { return multiplier / contact.distance; }
+double curvatureOf(const Contact& contact, double multiplier) { return multiplier / contact.distance; }
 
 // On one surface. The tangents in which it is curved are curved alike, so the Hessian is 1 - bend in them, else 1.
 Vec3 onSurface(const ContactSet& set, const SceneAt& scene, const Contact& contact, double multiplier,
                const Vec3& plain, double reach, double boldness) {
   const Vec3 part = curvedDirections(contact, scene) * plain;
-  const double length = part.norm(), curvature = 1 - bendOf(contact, multiplier);
+  const double length = part.norm(), curvature = 1 - curvatureOf(contact, multiplier);
   if (!(length > 0)) return plain;
   const double turn_m = contact.distance * sharedTurn(set, contact, scene, part / length);
   return plain + (stretch(curvature, length, turn_m, reach, boldness) - 1) * part;
@@ -74,7 +74,7 @@ Vec3 onCurve(const ContactSet& set, const SceneAt& scene, const SolverResult& pr
   double bend = 0, turn_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < 2; ++i) {
     const double curved = along.dot(curvedDirections(contact(i), scene) * along);
-    bend += bendOf(contact(i), proposal.multiplier[i]) * curved;
+    bend += curvatureOf(contact(i), proposal.multiplier[i]) * curved;
     if (curved > 0) turn_m = std::min(turn_m, contact(i).distance * sharedTurn(set, contact(i), scene, along));
   }
   return plain + (stretch(1 - bend, length, turn_m, reach, boldness) - 1) * length * along;

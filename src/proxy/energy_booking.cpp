@@ -107,7 +107,7 @@ void EnergyBooking::close(ProxyState& state, TickEnd end, const MeanStiffness& s
   state.touching = touching;
   if (end != TickEnd::kContact) {
     state.rest_s = accuracy::kStuck_s;
-    state.creep = Vec3::Zero();
+    state.presliding_m = Vec3::Zero();
   }
   state.stiffness = touching ? stiffness : 1;
 }

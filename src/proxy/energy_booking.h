@@ -47,7 +47,7 @@ class EnergyBooking {
   /// The energy that the tick may add is used up: the last step could not be paid for as a whole.
   bool spent() const { return spent_; }
 
-  /// What bent the proxy's way, for booking by cause; the bends as BentNormal has them.
+  /// What bent the proxy's way, for booking by cause; the bends as ShadingNormal has them.
   struct Causes {
     double shading = 0, bump = 0;
     bool stiffness_textured = false;

@@ -8,16 +8,16 @@
 
 namespace hl {
 
-double Drag::holding() const {
+double SlipResistance::staticPull() const {
   double sum = 0;
-  for (const Rub& rub : rubs) sum += rub.static_m;
+  for (const ContactFriction& rub : contacts) sum += rub.static_m;
   return sum;
 }
 
 // mu(v) = mu_d + (mu_s - mu_d) exp(-(v / v_s)^2): the Stribeck curve.
-double Drag::rubbing(double slip) const {
+double SlipResistance::coulombPull(double slip) const {
   double sum = 0;
-  for (const Rub& rub : rubs) {
+  for (const ContactFriction& rub : contacts) {
     const double ratio = rub.stribeck_m > 0 ? slip / rub.stribeck_m : 1;
     const double left = rub.stribeck_m > 0 ? plain::expOfNegative(-ratio * ratio) : 0;
     sum += rub.dynamic_m + left * (rub.static_m - rub.dynamic_m);
@@ -27,10 +27,10 @@ double Drag::rubbing(double slip) const {
 
 // The resistance falls with the slip (Stribeck), so several slips may balance it: the largest is the one in which a
 // sliding proxy goes on sliding. From above, the iteration comes down to it.
-double slipLength(const Drag& drag, double pull, const Slip& before) {
+double slipLength(const SlipResistance& drag, double pull, const Slip& before) {
   double slip = pull;
   for (int i = 0; i < accuracy::kSlipRounds; ++i) {
-    const double next = (pull - drag.rubbing(before.length + slip) - before.viscous_m) / (1 + drag.viscous);
+    const double next = (pull - drag.coulombPull(before.length + slip) - before.viscous_m) / (1 + drag.viscous);
     if (!(next > 0)) return 0;
     if (next >= slip) break;
     slip = next;
@@ -49,15 +49,15 @@ struct Place {
 
 // The way of a slip whose drag changes: how far the resistance is from holding the proxy at a place.
 struct Balance {
-  FunctionRef<DragAlong(double)> drag_at;
+  FunctionRef<SlidingResistance(double)> drag_at;
   double pull;
   double before_m;  // used up by viscosity before this slip
 
   // `reached`: the last sample at which the proxy still slipped.
   Place place(double at, const Place& reached) const {
-    const DragAlong drag = drag_at(at);
+    const SlidingResistance drag = drag_at(at);
     const double used = reached.used + drag.viscous * (at - reached.at);
-    return {at, pull - at - drag.rubbing_m - before_m - used, used};
+    return {at, pull - at - drag.coulomb_m - before_m - used, used};
   }
 };
 
@@ -78,7 +78,7 @@ Place restBetween(const Balance& balance, const Place& reached, Place there) {
 
 }  // namespace
 
-double slipLengthAlong(FunctionRef<DragAlong(double)> drag_at, double pull, const Slip& before, int samples,
+double slipLengthAlong(FunctionRef<SlidingResistance(double)> drag_at, double pull, const Slip& before, int samples,
                        double& viscous) {
   const Balance balance{drag_at, pull, before.viscous_m};
   Place reached = balance.place(0, {0, 0, 0});

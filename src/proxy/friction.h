@@ -14,43 +14,44 @@
 namespace hl {
 
 /// One contact's part in the resistance. Metres: newtons over K.
-struct Rub {
+struct ContactFriction {
   double static_m = 0;    ///< mu_s lambda
   double dynamic_m = 0;   ///< mu_d lambda, at most static_m
   double stribeck_m = 0;  ///< slip in one tick at the Stribeck speed; 0: dynamic as soon as it slips
 };
 
 /// What resists a slip: all contacts together, along one direction.
-struct Drag {
-  FixedVector<Rub, 3> rubs;
+struct SlipResistance {
+  FixedVector<ContactFriction, 3> contacts;
   double viscous = 0;  ///< sum of b / (K T): metres of pull for a metre of slip in one tick
-  double creep = 0;    ///< sum of sigma_0 / K, the pre-sliding springs: metres of pull for a metre of creep; 0: rigid
+  double presliding_ratio =
+      0;  ///< sum of sigma_0 / K, the pre-sliding springs: metres of pull for a metre of creep; 0: rigid
 
   /// The pull that is held without any slip.
-  double holding() const;
+  double staticPull() const;
   /// The resistance without its viscous part when the proxy slips `slip` metres in this tick.
-  double rubbing(double slip) const;
+  double coulombPull(double slip) const;
 };
 
 /// What resists at one place of a way along which it changes, without the Stribeck curve.
-struct DragAlong {
-  double rubbing_m = 0;  ///< sum of mu_d lambda
-  double viscous = 0;    ///< as Drag's
+struct SlidingResistance {
+  double coulomb_m = 0;  ///< sum of mu_d lambda
+  double viscous = 0;    ///< as SlipResistance's
 };
 
 /// The slip so far in this tick.
 struct Slip {
   double length = 0;     ///< m
-  double viscous_m = 0;  ///< the pull that viscosity has used up: integral of Drag::viscous over the length
+  double viscous_m = 0;  ///< the pull that viscosity has used up: integral of SlipResistance::viscous over the length
 };
 
 /// The further slip under a pull of `pull` metres; 0 when the resistance holds it. RT-safe.
-double slipLength(const Drag& drag, double pull, const Slip& before);
+double slipLength(const SlipResistance& drag, double pull, const Slip& before);
 
 /// The same where the drag changes along the way: `drag_at` tells it for a distance from here and is sampled `samples`
 /// times over the pull: stops where the resistance first holds the proxy, so no narrow line of friction is missed.
 /// `viscous` becomes the mean over the way. RT-safe.
-double slipLengthAlong(FunctionRef<DragAlong(double)> drag_at, double pull, const Slip& before, int samples,
+double slipLengthAlong(FunctionRef<SlidingResistance(double)> drag_at, double pull, const Slip& before, int samples,
                        double& viscous);
 
 }  // namespace hl

@@ -15,27 +15,27 @@ double area_m2(const Primitive& p) { return 0.5 * (p.vertex[1] - p.vertex[0]).cr
 // How much larger than the proxy a ball may be, so that its disc is as large as the triangles allow:
 // (R + s)^2 - R^2 = disc / pi.
 double LookaheadBall::slack_m(const SceneAt& scene, const ContactSet& set, double touching) const {
-  if (set.contacts.empty() || set.contacts.size() > cost::kMostBallContacts) return 0;
+  if (set.contacts.empty() || set.contacts.size() > cost::kMaxBallContacts) return 0;
   double area = area_m2(scene.primitive(set.contacts[0].primitive));
   for (std::size_t i = 1; i < set.contacts.size(); ++i)
     area = std::min(area, area_m2(scene.primitive(set.contacts[i].primitive)));
   const double most = std::sqrt(touching * touching + area / (M_PI * cost::kTrianglePerDisc)) - touching;
-  return std::min(most, 0.5 * cost::kMostBallTicks * travel_m_);
+  return std::min(most, 0.5 * cost::kMaxBallTicks * travel_m_);
 }
 
 bool LookaheadBall::find(const SceneAt& scene, const ContactSet& set, const Tolerances& tolerance, const Vec3& from,
                          const Vec3& motion, SweepCache& nearby) {
   const double length = motion.norm();
   const bool moves = scene.time_ns() < scene.snapshot().moves_until_ns;
-  if (!(length > 0 && length <= cost::kMostBallTicks * travel_m_) || moves || !back_off_.mayTry()) return false;
+  if (!(length > 0 && length <= cost::kMaxBallTicks * travel_m_) || moves || !back_off_.mayTry()) return false;
   const double slack = slack_m(scene, set, tolerance.touching);
-  if (2 * slack < std::max(length, cost::kLeastBallTicks * travel_m_)) return false;
+  if (2 * slack < std::max(length, cost::kMinBallTicks * travel_m_)) return false;
   const Vec3 centre = from + slack / length * motion;
   const double covered = tolerance.touching + slack + tolerance.skin;
   nearby.beginAround(scene, centre, covered);
   scene.primitivesWithin(centre, covered + tolerance.skin,
                          [&](PrimitiveId primitive, const ClosestPoint& nearest) { nearby.add(primitive, nearest); });
-  if (nearby.size() <= cost::kMostInBall) {
+  if (nearby.size() <= cost::kMaxInBall) {
     back_off_.worked();
   } else {
     back_off_.failed();

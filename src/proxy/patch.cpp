@@ -9,11 +9,11 @@ namespace hl {
 namespace {
 
 // Half the squared distance of two unit vectors: 1 - cos of the angle between them, without its cancellation.
-double bendBetween(const Vec3& a, const Vec3& b) { return 0.5 * (a - b).squaredNorm(); }
+double angleMeasure(const Vec3& a, const Vec3& b) { return 0.5 * (a - b).squaredNorm(); }
 
 }  // namespace
 
-Patch::Patch(const SceneAt& scene, const Surface& surface, const SurfacePlace& place)
+Patch::Patch(const SceneAt& scene, const Surface& surface, const SurfacePoint& place)
     : place_(place), triangle_(surface.isTriangle()), smooth_(surface.smooth()), textured_(surface.textured()) {
   if (triangle_) readPlane(scene, surface);
   if (textured_) readTexcoords(surface);
@@ -56,41 +56,41 @@ bool Patch::covers(const Vec2& moved) const {
   return on_face && made[0] - moved.x() - moved.y() >= 0 && made[1] + moved.x() >= 0 && made[2] + moved.y() >= 0;
 }
 
-SurfacePlace Patch::place(const Vec2& moved) const {
-  SurfacePlace place = place_;
+SurfacePoint Patch::place(const Vec2& moved) const {
+  SurfacePoint place = place_;
   place.weights[0] -= moved.x() + moved.y();
   place.weights[1] += moved.x();
   place.weights[2] += moved.y();
   return place;
 }
 
-void Patch::shade(const Vec2& moved, BentNormal& bent) const {
+void Patch::shade(const Vec2& moved, ShadingNormal& felt) const {
   using namespace accuracy;
   const Vec3 sum = normal_sum_ + moved.x() * normal_edge_[0] + moved.y() * normal_edge_[1];
   const Vec3 shaded = sum.normalized();
   const double cosine = shaded.dot(place_.normal);
   if (!(cosine > 0)) return;
-  bent.shading = std::min(bendBetween(place_.normal, shaded), 1 - kShadingLimitCos);
-  bent.normal = shaded;
+  felt.shading = std::min(angleMeasure(place_.normal, shaded), 1 - kShadingLimitCos);
+  felt.normal = shaded;
   if (cosine < kShadingLimitCos)
-    bent.normal = kShadingLimitCos * place_.normal + kShadingLimitSin * (shaded - cosine * place_.normal).normalized();
+    felt.normal = kShadingLimitCos * place_.normal + kShadingLimitSin * (shaded - cosine * place_.normal).normalized();
 }
 
 // The surface of height h over the plane has the normal N - grad h, grad h in metres per metre along the triangle.
-void Patch::bump(const Vec2& moved, BentNormal& bent) const {
+void Patch::bump(const Vec2& moved, ShadingNormal& felt) const {
   const Vec2 slope = height_.range * height_.texture->gradient(texcoord(moved));
   const Vec3 gradient = slope.dot(texcoord_edge_[0]) * slope_[0] + slope.dot(texcoord_edge_[1]) * slope_[1];
-  const Vec3 normal = (bent.normal - (gradient - gradient.dot(bent.normal) * bent.normal)).normalized();
+  const Vec3 normal = (felt.normal - (gradient - gradient.dot(felt.normal) * felt.normal)).normalized();
   if (!(normal.dot(place_.normal) > 0)) return;
-  bent.bump = bendBetween(bent.normal, normal);
-  bent.normal = normal;
+  felt.bump = angleMeasure(felt.normal, normal);
+  felt.normal = normal;
 }
 
-BentNormal Patch::bend(const Vec2& moved) const {
-  BentNormal bent{place_.normal, 0, 0};
-  if (smooth_) shade(moved, bent);
-  if (height_.texture) bump(moved, bent);
-  return bent;
+ShadingNormal Patch::shadingNormal(const Vec2& moved) const {
+  ShadingNormal felt{place_.normal, 0, 0};
+  if (smooth_) shade(moved, felt);
+  if (height_.texture) bump(moved, felt);
+  return felt;
 }
 
 }  // namespace hl

@@ -10,18 +10,19 @@
 
 namespace hl {
 
-/// A normal bent by force shading and by a bump map, and how much each has bent it: 1 - cos of the angle.
-struct BentNormal {
+/// The normal that is felt: turned away from the true one by force shading and by a bump map, and how far each turns
+/// it: 1 - cos of the angle.
+struct ShadingNormal {
   Vec3 normal = Vec3::UnitZ();
   double shading = 0;
   double bump = 0;
-  bool bent() const { return shading > 0 || bump > 0; }
+  bool differs() const { return shading > 0 || bump > 0; }
 };
 
 /// RT-safe. The scene must outlive it.
 class Patch {
  public:
-  Patch(const SceneAt& scene, const Surface& surface, const SurfacePlace& place);
+  Patch(const SceneAt& scene, const Surface& surface, const SurfacePoint& place);
 
   /// What a step (m) in the plane of the triangle changes in the weights of its vertices 1 and 2.
   Vec2 weightsOver(const Vec3& step) const { return {slope_[0].dot(step), slope_[1].dot(step)}; }
@@ -34,26 +35,26 @@ class Patch {
   /// everywhere.
   bool holds(const Vec2& moved) const { return (!smooth_ && !textured_) || covers(moved); }
   /// As if the plane of the triangle had no edges.
-  SurfacePlace place(const Vec2& moved) const;
+  SurfacePoint place(const Vec2& moved) const;
   /// Of a textured triangle only; without an edge too.
   Vec2 texcoord(const Vec2& moved) const { return texcoord_ + texcoordOver(moved); }
   Vec2 texcoordOver(const Vec2& moved) const { return moved.x() * texcoord_edge_[0] + moved.y() * texcoord_edge_[1]; }
 
   /// Whether the surface may be shaded or bumped; when false, bend() gives the true normal everywhere.
-  bool bends() const { return smooth_ || height_.texture; }
+  bool shaded() const { return smooth_ || height_.texture; }
   /// The normal as it feels: the vertex normals interpolated, no farther from the true normal than
   /// accuracy::kShadingLimit_rad, and the slope of the bump map. A triangle with a vertex normal that is missing, zero
   /// or points to the other side has its true normal everywhere.
-  BentNormal bend(const Vec2& moved = Vec2::Zero()) const;
+  ShadingNormal shadingNormal(const Vec2& moved = Vec2::Zero()) const;
 
  private:
   void readPlane(const SceneAt& scene, const Surface& surface);
   void readNormals(const std::array<Vec3, 3>& normal);
   void readTexcoords(const Surface& surface);
-  void shade(const Vec2& moved, BentNormal& bent) const;
-  void bump(const Vec2& moved, BentNormal& bent) const;
+  void shade(const Vec2& moved, ShadingNormal& felt) const;
+  void bump(const Vec2& moved, ShadingNormal& felt) const;
 
-  SurfacePlace place_;
+  SurfacePoint place_;
   bool triangle_, smooth_, textured_;
   SurfaceValue height_;  // m; without a texture there is no bump map
   // What follows is read only where it is needed; edge 0 and 1 are e1 and e2.

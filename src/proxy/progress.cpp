@@ -10,7 +10,7 @@ bool Progress::idleAt(const Vec3& position, const Goal& goal) {
   const bool gains = !nearest_ || goal.nearer(position, *nearest_);
   idle_ = gains ? 0 : idle_ + 1;
   if (gains) nearest_ = position;
-  return idle_ >= convergence::kMostIdle;
+  return idle_ >= convergence::kMaxIdle;
 }
 
 // The planes of faces stay what they are when the proxy moves; those of edges and vertices turn.

@@ -12,15 +12,15 @@
 namespace hl {
 
 /// A contact that holds the proxy in a proposal.
-struct Holding {
+struct ActiveContact {
   std::size_t contact = 0;     ///< number in the contact set
-  SurfacePlace place;          ///< where it is touched; its normal is the true one
+  SurfacePoint place;          ///< where it is touched; its normal is the true one
   Vec3 normal = Vec3::Zero();  ///< as it feels
   double multiplier_m = 0;
 };
 
 /// Where a contact is touched. RT-safe.
-inline SurfacePlace placeOf(const Contact& contact) {
+inline SurfacePoint placeOf(const Contact& contact) {
   return {contact.primitive, contact.plane.normal, contact.weights};
 }
 
@@ -40,14 +40,14 @@ struct Proposal {
 
   Rule rule = Rule::kPlain;
   Rest rest = Rest::kGoesOn;
-  bool bent = false;      ///< the step is not plain descent: it may raise the spring's energy
-  bool resisted = false;  ///< friction or viscosity act on it
-  bool creeps = false;    ///< static friction holds the proxy, on its pre-sliding springs
+  bool may_raise_energy = false;  ///< the step is not plain descent: it may raise the spring's energy
+  bool resisted = false;          ///< friction or viscosity act on it
+  bool preslides = false;         ///< static friction holds the proxy, on its pre-sliding springs
   Vec3 step = Vec3::Zero();
-  FixedVector<Holding, 3> holding;
-  double shading = 0, bump = 0;  ///< the largest bends of what holds, as BentNormal has them
+  FixedVector<ActiveContact, 3> active;
+  double shading = 0, bump = 0;  ///< the largest bends of what holds, as ShadingNormal has them
   double viscous = 0;            ///< pull that viscosity uses for each metre of the step
-  double creep = 0;              ///< Drag::creep
+  double presliding_ratio = 0;   ///< Drag::creep
   Vec3 held = Vec3::Zero();      ///< m, the pull that friction holds after the step
 };
 

@@ -49,7 +49,7 @@ struct ProxyState {
   bool free = false;                   ///< false while no place clear of the scene has been found near the finger
   bool touching = false;               ///< the last tick ended in contact, or on its way from one to the next
   double rest_s = accuracy::kStuck_s;  ///< since it last slipped along a surface; from kStuck_s on it sticks
-  Vec3 creep = Vec3::Zero();           ///< m, how far it has crept from where it stuck, on the pre-sliding springs
+  Vec3 presliding_m = Vec3::Zero();    ///< m, how far it has crept from where it stuck, on the pre-sliding springs
   double stiffness = 1;                ///< s by which the last tick's target was pulled; 1 in the open
   std::int64_t time_ns = 0;            ///< of the scene in the last tick
   std::uint64_t snapshot = 0;          ///< number of that scene; 0: none yet

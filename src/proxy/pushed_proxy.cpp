@@ -9,7 +9,7 @@ namespace {
 // The primitive of the carrier that is nearest to the proxy, and where it is touched. False where none touches it.
 bool touchedOfCarrier(const PushedProxy& proxy, const SceneAt& scene, PrimitiveId& touched, ClosestPoint& nearest) {
   bool found = false;
-  const double touching = accuracy::kTouchingBend * proxy.tolerance.reach;
+  const double touching = accuracy::kTouchingDeforming * proxy.tolerance.reach;
   scene.primitivesWithin(proxy.position, touching, [&](PrimitiveId id, const ClosestPoint& place) {
     if (id.instance != proxy.carrier) return;
     if (found && place.distance > nearest.distance) return;
@@ -22,7 +22,7 @@ bool touchedOfCarrier(const PushedProxy& proxy, const SceneAt& scene, PrimitiveI
 }
 
 // How far the touched place of the carrier goes by then, as its mesh bends; frame of the carrier.
-Vec3 bentBy(const PushedProxy& proxy, const BendWay& way, std::int64_t time_ns) {
+Vec3 deformedBy(const PushedProxy& proxy, const MeshTransition& way, std::int64_t time_ns) {
   const SceneAt scene = proxy.scene();
   PrimitiveId held;
   ClosestPoint nearest;
@@ -42,7 +42,7 @@ Vec3 PushedProxy::carriedTo(std::int64_t time_ns) const {
   if (carrier == kNoInstance) return position;
   const Instance& by = snapshot.instances[carrier];
   Vec3 place = by.motion.at(now_ns).toObject(position);
-  if (const BendWay* const way = by.bentAt(now_ns)) place += bentBy(*this, *way, time_ns);
+  if (const MeshTransition* const way = by.transitionAt(now_ns)) place += deformedBy(*this, *way, time_ns);
   return by.motion.at(time_ns).toWorld(place);
 }
 
@@ -56,7 +56,7 @@ std::uint32_t movingInstance(const Snapshot& snapshot, std::uint64_t key) {
   const auto found =
       std::lower_bound(all.begin(), all.end(), key, [](const Instance& a, std::uint64_t b) { return a.key < b; });
   if (key == 0 || found == all.end() || found->key != key) return kNoInstance;
-  if (!found->motion.moves() && !found->bending) return kNoInstance;
+  if (!found->motion.moves() && !found->mesh_motion) return kNoInstance;
   return static_cast<std::uint32_t>(found - all.begin());
 }
 

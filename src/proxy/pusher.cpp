@@ -11,8 +11,8 @@ Pusher::Pusher(const ProxyState& state, const Snapshot& snapshot, const ProxySet
              state.position, movingInstance(snapshot, state.carrier)} {}
 
 Vec3 Pusher::run() {
-  for (int left = convergence::kMostCarrySteps; left > 0 && proxy_.now_ns < proxy_.end_ns; --left)
-    bendsNear(proxy_) ? step(left) : sweep(left);
+  for (int left = convergence::kMaxCarrySteps; left > 0 && proxy_.now_ns < proxy_.end_ns; --left)
+    deformsNear(proxy_) ? step(left) : sweep(left);
   goOnTo(proxy_.end_ns);
   return proxy_.position;
 }

@@ -17,7 +17,7 @@ namespace hl {
 /// For one tick. RT-safe.
 class RecentCuts {
  public:
-  using Planes = FixedVector<Plane, convergence::kMostPlanesWithCuts>;
+  using Planes = FixedVector<Plane, convergence::kMaxPlanesWithCuts>;
 
   /// Tells the contacts where the proxy is now. What holds() has named since the last call and is not among them has
   /// been left; what was left before is forgotten.

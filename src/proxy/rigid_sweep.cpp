@@ -19,7 +19,7 @@ std::int64_t straightUntil(const PushedProxy& proxy) {
     if (earlier && motion.moves()) until_ns = std::min(until_ns, motion.last().begin_ns());
     if (!screw.moves() || screw.angle() == 0) return;
     const auto whole_ns = static_cast<double>(screw.end_ns() - screw.begin_ns());
-    const double way_ns = accuracy::kMostTurn_rad / screw.angle() * whole_ns;
+    const double way_ns = accuracy::kMaxTurn_rad / screw.angle() * whole_ns;
     if (way_ns < static_cast<double>(until_ns - proxy.now_ns))
       until_ns = proxy.now_ns + std::max<std::int64_t>(1, static_cast<std::int64_t>(way_ns));
   });

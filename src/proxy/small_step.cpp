@@ -14,8 +14,8 @@ using convergence::kCloseIn;
 // Until when each mesh that bends is on one way.
 std::int64_t oneWayUntil(const PushedProxy& proxy) {
   std::int64_t until_ns = proxy.end_ns;
-  for (const std::uint32_t i : proxy.snapshot.bent) {
-    const std::int64_t next_ns = proxy.snapshot.instances[i].bending->last().begin_ns();
+  for (const std::uint32_t i : proxy.snapshot.deforming) {
+    const std::int64_t next_ns = proxy.snapshot.instances[i].mesh_motion->last().begin_ns();
     if (proxy.now_ns < next_ns) until_ns = std::min(until_ns, next_ns);
   }
   return until_ns;
@@ -34,8 +34,8 @@ double wayOf_m(const PushedProxy& proxy, const Instance& instance, std::int64_t 
 // The part of the time until then in which nothing of a bending mesh takes more than kCloseIn of its distance from the
 // proxy's centre, when all of the mesh also moves by `way_m` past it. What never comes nearer than the rest of a radius
 // on its way need not be looked at.
-double partUntilBent(const PushedProxy& proxy, const Instance& instance, std::int64_t until_ns, double way_m) {
-  const BendWay* const way = instance.bentAt(proxy.now_ns);
+double partUntilClose(const PushedProxy& proxy, const Instance& instance, std::int64_t until_ns, double way_m) {
+  const MeshTransition* const way = instance.transitionAt(proxy.now_ns);
   if (way == nullptr) return 1;
   const double begin = way->part(proxy.now_ns), end = way->part(until_ns);
   const Vec3 place = instance.motion.at(proxy.now_ns).toObject(proxy.position);
@@ -58,19 +58,19 @@ double freePart(const PushedProxy& proxy, std::int64_t until_ns) {
   proxy.forEachNear(carried, [&](std::uint32_t, const Instance& instance) {
     const double way_m = wayOf_m(proxy, instance, until_ns, clearance) + carried_m;
     if (way_m > 0) part = std::min(part, kCloseIn * clearance / way_m);
-    part = std::min(part, partUntilBent(proxy, instance, until_ns, way_m));
+    part = std::min(part, partUntilClose(proxy, instance, until_ns, way_m));
   });
   return part;
 }
 
 }  // namespace
 
-bool bendsNear(const PushedProxy& proxy) {
+bool deformsNear(const PushedProxy& proxy) {
   const Snapshot& snapshot = proxy.snapshot;
-  if (proxy.now_ns >= snapshot.bends_until_ns) return false;
+  if (proxy.now_ns >= snapshot.deforms_until_ns) return false;
   const Box region = proxy.regionOf(proxy.carriedTo(proxy.end_ns));
-  return std::any_of(snapshot.bent.begin(), snapshot.bent.end(), [&](std::uint32_t i) {
-    return snapshot.instances[i].bentAt(proxy.now_ns) != nullptr && snapshot.reach[i].meets(region);
+  return std::any_of(snapshot.deforming.begin(), snapshot.deforming.end(), [&](std::uint32_t i) {
+    return snapshot.instances[i].transitionAt(proxy.now_ns) != nullptr && snapshot.reach[i].meets(region);
   });
 }
 

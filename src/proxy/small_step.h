@@ -8,7 +8,7 @@
 namespace hl {
 
 /// Whether a mesh that bends may come near the proxy, or the way on which it is taken along. RT-safe.
-bool bendsNear(const PushedProxy& proxy);
+bool deformsNear(const PushedProxy& proxy);
 
 /// Until something has taken convergence::kCloseIn of the room, or the tick comes. `left`: steps that are left until
 /// then; the last goes all the way. RT-safe.

@@ -180,7 +180,7 @@ SolverResult nearestAbove(std::span<const Plane> planes, const Vec3& goal, doubl
   while (true) {
     const std::size_t j = mostViolated(planes, result.point, result.violation);
     ++result.rounds;
-    if (j == planes.size() || result.violation <= strict || result.rounds > convergence::kMostSolverRounds) break;
+    if (j == planes.size() || result.violation <= strict || result.rounds > convergence::kMaxSolverRounds) break;
     const Candidate next = solveWith(planes, result.active, result.active_count, j, goal, strict);
     // A real violation moves the optimum away from the goal, with multipliers >= 0; one that comes of rounding alone
     // (planes that almost contradict or repeat each other) must not change the active set.

@@ -11,7 +11,7 @@
 namespace hl {
 
 /// A place on a primitive, as the closest-point query gives it.
-struct SurfacePlace {
+struct SurfacePoint {
   PrimitiveId primitive;
   Vec3 normal = Vec3::UnitZ();             ///< true one: unit, toward the proxy
   std::array<double, 3> weights{1, 0, 0};  ///< of the primitive's sorted vertices

@@ -12,7 +12,7 @@ bool SurfaceRules::any(const ContactSet& set) const {
   return std::any_of(set.contacts.begin(), set.contacts.end(), [&](const Contact& contact) {
     if (plain(contact.primitive)) return false;
     const Surface surface = surfaceOf(contact.primitive);
-    return surface.smooth() || surface.textured(Quantity::kHeight) || Roughness::of(surface).acts();
+    return surface.smooth() || surface.textured(Quantity::kHeight) || SurfaceFriction::of(surface).acts();
   });
 }
 
@@ -20,7 +20,7 @@ bool SurfaceRules::any(const ContactSet& set) const {
 bool SurfaceRules::creased(const ContactSet& set, const Contact& contact, const Vec3& normal) const {
   return std::any_of(set.twins.begin(), set.twins.end(), [&](const Contact& twin) {
     if (!samePlane(twin, contact)) return false;
-    return patchAt(placeOf(twin)).bend().normal.cross(normal).norm() > accuracy::kCrease_rad;
+    return patchAt(placeOf(twin)).shadingNormal().normal.cross(normal).norm() > accuracy::kCrease_rad;
   });
 }
 
@@ -29,11 +29,11 @@ SurfaceRules::TouchedSet SurfaceRules::touchedNow(const ContactSet& set) const {
   for (const Contact& contact : set.contacts) {
     const Surface surface = surfaceOf(contact.primitive);
     Touched now{
-        Patch(scene_, surface, placeOf(contact)), Vec3::Zero(), Vec2::Zero(), {}, false, Roughness::of(surface)};
-    now.bends = now.patch.bends();
-    if (now.bends) now.bent = now.patch.bend();
-    if (now.bent.bent() && creased(set, contact, now.bent.normal)) now.bends = false;
-    if (!now.bends) now.bent = {contact.plane.normal, 0, 0};
+        Patch(scene_, surface, placeOf(contact)), Vec3::Zero(), Vec2::Zero(), {}, false, SurfaceFriction::of(surface)};
+    now.shaded = now.patch.shaded();
+    if (now.shaded) now.shading_normal = now.patch.shadingNormal();
+    if (now.shading_normal.differs() && creased(set, contact, now.shading_normal.normal)) now.shaded = false;
+    if (!now.shaded) now.shading_normal = {contact.plane.normal, 0, 0};
     touched.push(now);
   }
   return touched;
@@ -51,7 +51,7 @@ void SurfaceRules::moveOn(const ContactSet& set, const Vec3& position, const Vec
       now.patch_offset = offset;
       now.moved = Vec2::Zero();
     }
-    if (now.bends) now.bent = now.patch.bend(now.moved);
+    if (now.shaded) now.shading_normal = now.patch.shadingNormal(now.moved);
   }
 }
 
@@ -61,7 +61,7 @@ SolverResult SurfaceRules::firstPass(const ContactSet& set, const TouchedSet& to
   FixedVector<Plane, kMaxContacts> planes;
   for (std::size_t i = 0; i < touched.size(); ++i) {
     const double height = set.planes[i].normal.dot(offset) - set.planes[i].offset;
-    planes.push({touched[i].bent.normal, touched[i].bent.normal.dot(offset) - height});
+    planes.push({touched[i].shading_normal.normal, touched[i].shading_normal.normal.dot(offset) - height});
   }
   SolverResult held = nearestAbove({planes.begin(), planes.size()}, gap, tolerance_.feasible);
   if (held.violation > tolerance_.feasible) held.point = offset;
@@ -92,7 +92,7 @@ Vec3 SurfaceRules::secondPass(const ContactSet& set, const Vec3& goal) const {
 }
 
 // The slip along the way, after `before`.
-Vec3 SurfaceRules::slip(Resistance& resistance, const Drag& drag, const Vec3& way, const Slip& before,
+Vec3 SurfaceRules::slip(FrictionOnWay& resistance, const SlipResistance& drag, const Vec3& way, const Slip& before,
                         Proposal& proposal) const {
   const double pull = way.norm();
   if (!(pull > 0)) return Vec3::Zero();
@@ -102,7 +102,7 @@ Vec3 SurfaceRules::slip(Resistance& resistance, const Drag& drag, const Vec3& wa
     return (slipLength(drag, pull, before) / pull) * way;
   }
   const int samples =
-      1 + static_cast<int>(std::min(accuracy::kSamplesPerTexel * resistance.texels(), accuracy::kMostSamples - 1));
+      1 + static_cast<int>(std::min(accuracy::kSamplesPerTexel * resistance.texels(), accuracy::kMaxSamples - 1));
   const auto drag_at = [&](double distance) { return resistance.at(distance / pull); };
   const double length = slipLengthAlong(drag_at, pull, before, samples, proposal.viscous);
   return std::min(length / pull, resistance.within() + accuracy::kOverEdge * tolerance_.reach / pull) * way;
@@ -111,48 +111,51 @@ Vec3 SurfaceRules::slip(Resistance& resistance, const Drag& drag, const Vec3& wa
 // What friction lets the proxy go of the way, after `slipped_now` more than slip_ says.
 //
 // A stuck proxy with pre-sliding springs creeps to where they balance the pull that is left,
-//   |way - D| = creep |creep_m + D|,
+//   |way - D| = presliding_ratio |presliding_m + D|,
 // and back when the pull falls: the elastic state z of Dahl's and Hayward and Armstrong's models, without their drift.
 // D comes from where the proxy got stuck: on a surface that turns, the springs may pull into what it touches now.
-Vec3 SurfaceRules::resistedStep(Resistance resistance, const Vec3& way, double slipped_now, Proposal& proposal) const {
-  proposal.viscous = proposal.creep = 0;
-  proposal.creeps = false;
-  const Drag drag = resistance.here();
-  proposal.resisted = resistance.slipTextured() || drag.viscous > 0 || drag.holding() > 0;
+Vec3 SurfaceRules::resistedStep(FrictionOnWay resistance, const Vec3& way, double slipped_now,
+                                Proposal& proposal) const {
+  proposal.viscous = proposal.presliding_ratio = 0;
+  proposal.preslides = false;
+  const SlipResistance drag = resistance.here();
+  proposal.resisted = resistance.slipTextured() || drag.viscous > 0 || drag.staticPull() > 0;
   if (!proposal.resisted) return way;
-  proposal.creep = drag.creep;
+  proposal.presliding_ratio = drag.presliding_ratio;
   const Slip before{slip_.length + slipped_now, slip_.viscous_m + drag.viscous * slipped_now};
   const bool stuck = !slipping_ && slipped_now == 0;
-  Vec3 creep = drag.creep > 0 ? Vec3((way - drag.creep * creep_m_) / (1 + drag.creep)) : Vec3(Vec3::Zero());
-  if (stuck && (way - creep).norm() <= drag.holding() + before.viscous_m) {
-    proposal.creeps = drag.creep > 0;
-    return creep;
+  Vec3 offset = drag.presliding_ratio > 0
+                    ? Vec3((way - drag.presliding_ratio * presliding_m_) / (1 + drag.presliding_ratio))
+                    : Vec3(Vec3::Zero());
+  if (stuck && (way - offset).norm() <= drag.staticPull() + before.viscous_m) {
+    proposal.preslides = drag.presliding_ratio > 0;
+    return offset;
   }
   return slip(resistance, drag, way, before, proposal);
 }
 
-Resistance SurfaceRules::resistanceOf(const TouchedSet& touched, const SolverResult& held) const {
-  Resistance resistance(settings_);
+FrictionOnWay SurfaceRules::frictionOf(const TouchedSet& touched, const SolverResult& held) const {
+  FrictionOnWay resistance(settings_);
   for (std::size_t i = 0; i < held.active_count; ++i) {
     const Touched& by = touched[held.active[i]];
-    resistance.add(by.roughness, by.patch, by.moved, held.multiplier[i]);
+    resistance.add(by.friction, by.patch, by.moved, held.multiplier[i]);
   }
   return resistance;
 }
 
-void SurfaceRules::tellHolding(const TouchedSet& touched, const SolverResult& held, Proposal& proposal) const {
+void SurfaceRules::listActive(const TouchedSet& touched, const SolverResult& held, Proposal& proposal) const {
   for (std::size_t i = 0; i < held.active_count; ++i) {
     const Touched& by = touched[held.active[i]];
-    proposal.holding.push({held.active[i], by.patch.place(by.moved), by.bent.normal, held.multiplier[i]});
-    proposal.shading = std::max(proposal.shading, by.bent.shading);
-    proposal.bump = std::max(proposal.bump, by.bent.bump);
+    proposal.active.push({held.active[i], by.patch.place(by.moved), by.shading_normal.normal, held.multiplier[i]});
+    proposal.shading = std::max(proposal.shading, by.shading_normal.shading);
+    proposal.bump = std::max(proposal.bump, by.shading_normal.bump);
   }
 }
 
 // On planes that bend nowhere, a slip whose resistance is the same all along ends where the next would not move it.
 bool SurfaceRules::slipsAtOnce(const TouchedSet& touched, const Proposal& proposal) const {
-  const auto changes = [](const Touched& now) { return now.bends || now.roughness.slipTextured(); };
-  return proposal.resisted && !proposal.creeps && touched.size() <= convergence::kFewContacts &&
+  const auto changes = [](const Touched& now) { return now.shaded || now.friction.slipTextured(); };
+  return proposal.resisted && !proposal.preslides && touched.size() <= convergence::kFewContacts &&
          std::none_of(touched.begin(), touched.end(), changes);
 }
 
@@ -174,24 +177,27 @@ void SurfaceRules::settle(const ContactSet& set, const Vec3& position, const Vec
   const double enough = accuracy::kRestPerGap * gap.norm() + tolerance_.rest;
   TouchedSet touched = touchedNow(set);
   const auto any = [&](auto says) { return std::any_of(touched.begin(), touched.end(), says); };
-  const bool resisting = any([](const Touched& now) { return now.roughness.acts(); });
+  const bool resisting = any([](const Touched& now) { return now.friction.acts(); });
   proposal = {};
   proposal.rule = Proposal::Rule::kFelt;
   Vec3 offset = Vec3::Zero();
   AndersonMixing mixing;
   for (int pass = 1;; ++pass) {
     const SolverResult held = firstPass(set, touched, gap, offset);
-    proposal.bent = proposal.bent || any([](const Touched& now) { return now.bent.bent(); });
+    proposal.may_raise_energy =
+        proposal.may_raise_energy || any([](const Touched& now) { return now.shading_normal.differs(); });
     const Vec3 way = held.point - offset;
-    const Vec3 resisted = resisting ? resistedStep(resistanceOf(touched, held), way, offset.norm(), proposal) : way;
+    const Vec3 resisted = resisting ? resistedStep(frictionOf(touched, held), way, offset.norm(), proposal) : way;
     const Vec3 goal = offset + resisted;
     proposal.held = way - resisted;
-    proposal.step = proposal.bent ? secondPass(set, goal) : proposal.creeps ? aboveTruePlanes(set, goal) : goal;
+    proposal.step = proposal.may_raise_energy ? secondPass(set, goal)
+                    : proposal.preslides      ? aboveTruePlanes(set, goal)
+                                              : goal;
     const Vec3 change = proposal.step - offset;
-    const bool repeats = few && proposal.bent && settings_.shading != ShadingPasses::kOnce;
+    const bool repeats = few && proposal.may_raise_energy && settings_.shading != ShadingPasses::kOnce;
     const bool settles = repeats ? change.norm() <= enough : slipsAtOnce(touched, proposal);
     if (!repeats || settles || pass == convergence::kInnerPasses) {
-      tellHolding(touched, held, proposal);
+      listActive(touched, held, proposal);
       if (settles) proposal.rest = staysOnFaces(set, touched, proposal.step) ? Rest::kStays : Rest::kSettles;
       return;
     }
@@ -209,18 +215,18 @@ void SurfaceRules::propose(const ContactSet& set, const Vec3& position, const Ve
 void SurfaceRules::moved(const Proposal& proposal, const Vec3& step) {
   const double length = step.norm();
   if (!(length > 0)) return;
-  if (proposal.creeps) {
-    creep_m_ += step;
+  if (proposal.preslides) {
+    presliding_m_ += step;
     return;
   }
   slip_.length += length;
   slip_.viscous_m += proposal.viscous * length;
   slipping_ = true;
   // The springs slide along, stretched by the friction that they carry.
-  creep_m_ = proposal.creep > 0 ? Vec3(proposal.held / proposal.creep) : Vec3(Vec3::Zero());
+  presliding_m_ = proposal.presliding_ratio > 0 ? Vec3(proposal.held / proposal.presliding_ratio) : Vec3(Vec3::Zero());
 }
 
-double SurfaceRules::stiffnessAt(const SurfacePlace& place) const {
+double SurfaceRules::stiffnessAt(const SurfacePoint& place) const {
   if (plain(place.primitive)) return 1;
   const Surface surface = surfaceOf(place.primitive);
   const SurfaceValue stiffness = surface.read(Quantity::kStiffness);
@@ -228,22 +234,22 @@ double SurfaceRules::stiffnessAt(const SurfacePlace& place) const {
   return std::clamp(stiffness.at(texcoord), 0.0, 1.0);
 }
 
-ProxyContact SurfaceRules::describe(const ContactSet& set, const Holding& holding) const {
-  const Vec3& point = set.contacts[holding.contact].point;
-  if (plain(holding.place.primitive))
-    return {point, holding.normal, holding.multiplier_m, holding.place.primitive, 1, 0, false};
-  const Surface surface = surfaceOf(holding.place.primitive);
+ProxyContact SurfaceRules::describe(const ContactSet& set, const ActiveContact& active) const {
+  const Vec3& point = set.contacts[active.contact].point;
+  if (plain(active.place.primitive))
+    return {point, active.normal, active.multiplier_m, active.place.primitive, 1, 0, false};
+  const Surface surface = surfaceOf(active.place.primitive);
   const SurfaceValue stiffness = surface.read(Quantity::kStiffness);
-  const Roughness roughness = Roughness::of(surface);
-  const bool textured = stiffness.texture || roughness.fixed.texture;
-  const Vec2 texcoord = textured ? surface.texcoord(holding.place.weights) : Vec2(Vec2::Zero());
+  const SurfaceFriction friction = SurfaceFriction::of(surface);
+  const bool textured = stiffness.texture || friction.fixed.texture;
+  const Vec2 texcoord = textured ? surface.texcoord(active.place.weights) : Vec2(Vec2::Zero());
   return {point,
-          holding.normal,
-          holding.multiplier_m,
-          holding.place.primitive,
+          active.normal,
+          active.multiplier_m,
+          active.place.primitive,
           std::clamp(stiffness.at(texcoord), 0.0, 1.0),
-          std::max(0.0, roughness.fixed.at(texcoord)),
-          roughness.acts()};
+          std::max(0.0, friction.fixed.at(texcoord)),
+          friction.acts()};
 }
 
 }  // namespace hl

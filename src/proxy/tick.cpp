@@ -15,8 +15,8 @@ std::size_t mostWork(const ProxySettings& settings, const ProxyState& state) {
 
 // Ticks in a row that ended so, as far as they count.
 int outOfWork(const ProxyState& state, Ending ending) {
-  constexpr int kMost = convergence::kTicksPerDoubling * convergence::kMostDoublings;
-  return ending == Ending::kOutOfWork ? std::min(state.out_of_work + 1, kMost) : 0;
+  constexpr int kMax = convergence::kTicksPerDoubling * convergence::kMaxDoublings;
+  return ending == Ending::kOutOfWork ? std::min(state.out_of_work + 1, kMax) : 0;
 }
 
 }  // namespace
@@ -26,7 +26,8 @@ Tick::Tick(const SceneAt& scene, const ProxySettings& settings, ProxyState& stat
       state_(state),
       goal_(finger),
       booking_(state, settings, finger),
-      rules_(scene, settings, input_.tolerance, state.touching && state.rest_s < accuracy::kStuck_s, state.creep),
+      rules_(scene, settings, input_.tolerance, state.touching && state.rest_s < accuracy::kStuck_s,
+             state.presliding_m),
       constraints_(input_),
       walk_(input_, state.cache),
       work_(input_.scene, mostWork(settings, state), most_looks) {}
@@ -40,7 +41,7 @@ TickReport Tick::run() {
     report.ending = judge(report.iterations);
     if (report.ending != Ending::kGoesOn) break;
     ++report.iterations;
-    if (!proposal_.holding.empty()) held_by_ = proposal_.holding;
+    if (!proposal_.active.empty()) last_active_ = proposal_.active;
     if (tryCurvedStep()) continue;
     advance();
     if (proposal_.rest == Proposal::Rest::kStays) {
@@ -94,8 +95,10 @@ void Tick::proposePlain() {
 
 void Tick::proposeFelt() {
   rules_.propose(constraints_.set(), state_.position, input_.gap(state_.position), proposal_);
-  if (!proposal_.bent && !proposal_.resisted) return proposePlain();  // nothing but the true planes after all
-  if (proposal_.bent && input_.settings.shading == ShadingPasses::kOnce) aimAt(state_.position + proposal_.step);
+  if (!proposal_.may_raise_energy && !proposal_.resisted)
+    return proposePlain();  // nothing but the true planes after all
+  if (proposal_.may_raise_energy && input_.settings.shading == ShadingPasses::kOnce)
+    aimAt(state_.position + proposal_.step);
 }
 
 void Tick::aimAt(const Vec3& place) {
@@ -141,7 +144,7 @@ void Tick::advance() {
   const ContactSet& set = constraints_.set();
   const Vec3 from = state_.position;
   const bool along = constraints_.touches() || proposal_.rule == Proposal::Rule::kCuts;
-  const bool paid = proposal_.bent || proposal_.creeps || !goal_.isFinger();
+  const bool paid = proposal_.may_raise_energy || proposal_.preslides || !goal_.isFinger();
   const Vec3 step = paid ? booking_.afford(from, proposal_.step) : proposal_.step;
   bool whole = false;
   if (along || !goal_.isFinger()) {
@@ -180,22 +183,23 @@ void Tick::close(TickReport& report) {
   // After passes made once a tick: what holds the proxy where it has come to rest.
   if (once && constraints_.touches()) rules_.settle(constraints_.set(), state_.position, gap, proposal_);
   // Stopped where the bent planes would let it go on: the true ones hold it.
-  if (proposal_.holding.empty() && !at_finger) constraints_.nearestTo(gap, proposal_);
-  const TickEnd end = !proposal_.holding.empty() ? TickEnd::kContact : at_finger ? TickEnd::kOpen : TickEnd::kOnItsWay;
+  if (proposal_.active.empty() && !at_finger) constraints_.nearestTo(gap, proposal_);
+  const TickEnd end = !proposal_.active.empty() ? TickEnd::kContact : at_finger ? TickEnd::kOpen : TickEnd::kOnItsWay;
   EnergyBooking::Causes causes{proposal_.shading, proposal_.bump, false};
   MeanStiffness surfaces;
-  for (const Holding& holding : proposal_.holding) {
-    ProxyContact contact = rules_.describe(constraints_.set(), holding);
+  for (const ActiveContact& active : proposal_.active) {
+    ProxyContact contact = rules_.describe(constraints_.set(), active);
     contact.multiplier_m /= input_.far.part(input_.finger - state_.position);
     report.contacts.push(contact);
     surfaces.add(contact.multiplier_m, contact.stiffness);
-    causes.stiffness_textured |= rules_.stiffnessTextured(holding.place.primitive);
+    causes.stiffness_textured |= rules_.stiffnessTextured(active.place.primitive);
   }
   if (end == TickEnd::kOnItsWay) {
-    for (const Holding& holding : held_by_) surfaces.add(holding.multiplier_m, rules_.stiffnessAt(holding.place));
+    for (const ActiveContact& active : last_active_)
+      surfaces.add(active.multiplier_m, rules_.stiffnessAt(active.place));
   }
   state_.out_of_work = outOfWork(state_, report.ending);
-  state_.creep = rules_.creep_m();
+  state_.presliding_m = rules_.presliding_m();
   state_.rest_s = rules_.hasSlipped() ? 0 : std::min(state_.rest_s + input_.settings.period_s, accuracy::kStuck_s);
   booking_.close(state_, end, surfaces, causes, report);
 }

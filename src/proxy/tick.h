@@ -59,8 +59,8 @@ class Tick {
   Trial trial_;
   Progress progress_;
   Work work_;
-  Proposal proposal_;                // the step in hand
-  FixedVector<Holding, 3> held_by_;  // what has held the proxy last
+  Proposal proposal_;                          // the step in hand
+  FixedVector<ActiveContact, 3> last_active_;  // what has held the proxy last
 };
 
 }  // namespace hl

@@ -41,7 +41,7 @@ inline constexpr double kRestPerGap = 1e-8;
 /// A sweep is cut to this many times the size of the scene: the impact time's rounding then stays below the skin.
 inline constexpr double kSweepPerExtent = 100;
 /// A step that leads away from the goal by so many times the depth of the proxy below its planes is one of rounding.
-inline constexpr double kMostStrayPerDepth = 16;
+inline constexpr double kMaxStrayPerDepth = 16;
 
 // The solver: solver.h.
 
@@ -72,7 +72,7 @@ inline constexpr int kRestRounds = 20;
 /// Part of the pull to which the resistance balances it there.
 inline constexpr double kBalanced = 1e-12;
 /// Samples of a slip for each texel that it crosses, and at most: no narrow line of friction is missed.
-inline constexpr double kSamplesPerTexel = 2, kMostSamples = 4096;
+inline constexpr double kSamplesPerTexel = 2, kMaxSamples = 4096;
 /// The way over the edge of a textured triangle that makes its neighbour the one in contact, in proxy radii: the
 /// closest point of the one left behind is then farther by 1/2 (1e-4)^2 = 5e-9 radii, 50 times the skin.
 inline constexpr double kOverEdge = 1e-4;
@@ -81,11 +81,11 @@ inline constexpr double kOverEdge = 1e-4;
 
 /// rad. In an object's frame the way of the proxy is taken for straight. It strays from that by R q^2 / 8 at a turn of
 /// q; at this turn by 1/200 of its distance R from the axis.
-inline constexpr double kMostTurn_rad = 0.2;
+inline constexpr double kMaxTurn_rad = 0.2;
 /// Part of the radius at which what moves counts as met: what rests on the proxy and slides along it has not met it.
 inline constexpr double kMetAt = 0.9;
 /// Of the radius: what the proxy touches of a mesh that bends and takes it along lies within.
-inline constexpr double kTouchingBend = 1.1;
+inline constexpr double kTouchingDeforming = 1.1;
 /// How often the room that is looked for in a pinch is halved: the last is 1/256 of the radius.
 inline constexpr int kPinchHalvings = 8;
 
@@ -98,13 +98,13 @@ namespace convergence {
 // The end of a tick: progress.h, work.h, walk.h.
 
 /// Steps in a row that come no nearer to the goal.
-inline constexpr int kMostIdle = 8;
+inline constexpr int kMaxIdle = 8;
 /// Bounding volumes, each some 5 ns, that cost as much as a look at a place and the step that follows; as a contact
 /// found there; and as an exact test.
 inline constexpr std::size_t kWorkPerLook = 40, kWorkPerContact = 8, kWorkPerPrimitive = 8;
 /// After so many ticks in a row that ran out of work the next may do twice as much, and so on up to 16 times. About a
 /// vertex of 300 triangles a second-order step does not pay off within one tick's work: the proxy would never arrive.
-inline constexpr int kTicksPerDoubling = 8, kMostDoublings = 4;
+inline constexpr int kTicksPerDoubling = 8, kMaxDoublings = 4;
 
 /// Reaches of the first leg of a long way. A finger at 1 m/s goes one to five in a tick.
 inline constexpr double kFirstLegPerReach = 8;
@@ -113,18 +113,18 @@ inline constexpr double kFirstLegPerReach = 8;
 
 /// Steps in a row with cuts. Where the finger is all but at an edge, each goes a little farther around it and away from
 /// it; then it is time to come down, and for Newton's step.
-inline constexpr int kMostCutsInARow = 3;
+inline constexpr int kMaxCutsInARow = 3;
 /// A step by cuts shorter than this part of the gap goes so little that it is time to come down.
-inline constexpr double kLeastCutPerGap = 1e-5;
+inline constexpr double kMinCutPerGap = 1e-5;
 /// In the open a step by cuts so many times as long as the way slid since the last touch would mostly end at once on
 /// something new.
-inline constexpr double kMostCutPerSlid = 2;
+inline constexpr double kMaxCutPerSlid = 2;
 /// Reaches within which what was left still counts as a cut: a thousandth beyond.
 inline constexpr double kCutNear = 1.001;
 /// Among planes of so many contacts no cuts are asked for.
-inline constexpr std::size_t kMostPlanesWithCuts = 16;
+inline constexpr std::size_t kMaxPlanesWithCuts = 16;
 /// A bound on the solver's rounds; each strictly raises the distance to the goal, so it is met only through rounding.
-inline constexpr std::size_t kMostSolverRounds = 200;
+inline constexpr std::size_t kMaxSolverRounds = 200;
 
 // Second-order steps on trial: curvature_step.h, trial.h, back_off.h.
 
@@ -136,24 +136,24 @@ inline constexpr double kWorthwhile = 1e-3;
 /// follows.
 inline constexpr double kTurnedBeyond = 1.001;
 /// Steps until a trial must have paid off: on its way down the proxy may meet another surface first.
-inline constexpr int kMostDescents = 8;
+inline constexpr int kMaxDescents = 8;
 /// By how much steps become bolder when one has paid off, and less bold when one has not.
 inline constexpr double kBolder = 2, kLessBold = 4;
 /// Times the plain step: a step on trial so long is never left out.
 inline constexpr double kMuchLonger = 8;
 /// Failures that count: after the n-th the next 2^n tries are left out, so what never works costs next to nothing.
-inline constexpr int kMostFailures = 10;
+inline constexpr int kMaxFailures = 10;
 
 // The passes over the rules of the surfaces: surface_rules.h, anderson_mixing.h.
 
 /// Passes in one sub-goal; each leaves sin^2(beta) + depth / radius of what the one before did.
 inline constexpr int kInnerPasses = 12;
 /// Sub-goals in contact under shading or friction, in one tick; the rest is for the next.
-inline constexpr int kMostProposals = 8;
+inline constexpr int kMaxProposals = 8;
 /// Beyond so many contacts at once the passes are repeated by the tick itself, with the contacts found anew.
 inline constexpr std::size_t kFewContacts = 8;
 /// Farther than this the guess is no better than the pass itself: the passes hardly shrink, or a kink lies between.
-inline constexpr double kMostMixing = 0.9;
+inline constexpr double kMaxMixing = 0.9;
 /// Square of the sine between the two differences: below it they are one direction to rounding.
 inline constexpr double kParallelSquared = 1e-4;
 
@@ -177,13 +177,13 @@ inline constexpr double kPushedPart = 0.5;
 // What moves: pusher.h, small_step.h, push_out.h.
 
 /// Sweeps or small steps from one tick to the next.
-inline constexpr int kMostCarrySteps = 64;
+inline constexpr int kMaxCarrySteps = 64;
 /// Proxy radii that a mesh may bend from one tick to the next without passing: each small step goes half a radius at
 /// least, where nothing pinches the proxy; half of that where friction takes it along.
-inline constexpr int kMostBendRadii = kMostCarrySteps / 4;
+inline constexpr int kMaxDeformRadii = kMaxCarrySteps / 4;
 /// Part of the clearance by which objects may close in on the proxy before it is pushed out again.
 inline constexpr double kCloseIn = 0.5;
-/// Of a turn of at most kMostTurn_rad, with room to spare.
+/// Of a turn of at most kMaxTurn_rad, with room to spare.
 inline constexpr double kArcPerChord = 1.1;
 /// Reaches about the way of the proxy within which objects are looked at.
 inline constexpr double kNearPerReach = 2;
@@ -217,13 +217,13 @@ inline constexpr std::size_t kMeasuredRoom = 4;
 // One search for several ticks: lookahead_ball.h.
 
 /// Ticks that a ball serves at least, and at most: its search takes as long as two sweeps.
-inline constexpr double kLeastBallTicks = 3, kMostBallTicks = 6;
+inline constexpr double kMinBallTicks = 3, kMaxBallTicks = 6;
 /// The area of the smallest triangle touched over that of the disc which the ball cuts out of its plane.
 inline constexpr double kTrianglePerDisc = 0.5;
 /// Contacts of a proxy that is worth a ball.
-inline constexpr std::size_t kMostBallContacts = 3;
+inline constexpr std::size_t kMaxBallContacts = 3;
 /// Primitives in a ball that was worth it.
-inline constexpr std::size_t kMostInBall = 8;
+inline constexpr std::size_t kMaxInBall = 8;
 
 }  // namespace cost
 

@@ -14,7 +14,7 @@ void Trial::begin(const Vec3& checkpoint) {
 bool Trial::judge(const Goal& goal, double step_m, bool last, Vec3& position) {
   if (!open() || descents_ == 0) return false;
   const bool nearer = goal.nearer(position, *checkpoint_);
-  if (!last && !nearer && descents_ < convergence::kMostDescents && !hopeless(goal, step_m, position)) return false;
+  if (!last && !nearer && descents_ < convergence::kMaxDescents && !hopeless(goal, step_m, position)) return false;
   return conclude(goal, position);
 }
 
@@ -23,7 +23,7 @@ bool Trial::judge(const Goal& goal, double step_m, bool last, Vec3& position) {
 bool Trial::hopeless(const Goal& goal, double step_m, const Vec3& position) const {
   const Vec3 apart = position - *checkpoint_;
   const double lost_m2 = apart.squaredNorm() - 2 * apart.dot(goal.place() - *checkpoint_);
-  return lost_m2 > 2 * (convergence::kMostDescents - descents_) * step_m * step_m;
+  return lost_m2 > 2 * (convergence::kMaxDescents - descents_) * step_m * step_m;
 }
 
 bool Trial::conclude(const Goal& goal, Vec3& position) {

@@ -95,15 +95,15 @@ void SceneWriter::write(const Snapshot& scene, const Write& write) {
       });
     };
     placed.set_shape(shape_id(instance.shape));
-    const auto add_way = [&](const BendWay& way) {
-      proto::RecordedBendWay& recorded = *placed.add_bending();
+    const auto add_way = [&](const MeshTransition& way) {
+      proto::RecordedMeshTransition& recorded = *placed.add_mesh_motion();
       recorded.set_from(shape_id(way.given_from()));
       recorded.set_to(shape_id(way.given_to()));
       recorded.set_begin_ns(way.begin_ns());
       recorded.set_end_ns(way.end_ns());
     };
-    if (instance.bending && instance.bending->earlier()) add_way(*instance.bending->earlier());
-    if (instance.bending) add_way(instance.bending->last());
+    if (instance.mesh_motion && instance.mesh_motion->earlier()) add_way(*instance.mesh_motion->earlier());
+    if (instance.mesh_motion) add_way(instance.mesh_motion->last());
     placed.set_surfaces(idOf(surfaces_, instance.surfaces, [&](std::uint64_t id) {
       proto::RecordingBlock part;
       part.mutable_surfaces()->set_id(id);
@@ -133,7 +133,7 @@ void SceneReader::add(const proto::RecordedSurfaces& in) {
   surfaces_[in.id()] = std::move(surfaces);
 }
 
-BendWay SceneReader::wayOf(const proto::RecordedBendWay& in, const Surfaces& surfaces) const {
+MeshTransition SceneReader::wayOf(const proto::RecordedMeshTransition& in, const Surfaces& surfaces) const {
   const auto from = shapes_.find(in.from()), to = shapes_.find(in.to());
   if (from == shapes_.end() || to == shapes_.end() || !isSameMesh(*from->second, *to->second))
     throw Error(kBrokenScene);
@@ -142,10 +142,11 @@ BendWay SceneReader::wayOf(const proto::RecordedBendWay& in, const Surfaces& sur
   return {from->second, to->second, in.begin_ns(), in.end_ns()};
 }
 
-std::shared_ptr<const Bend> SceneReader::bendingOf(const proto::RecordedInstance& in, const Surfaces& surfaces) const {
-  if (in.bending_size() == 0) return nullptr;
-  if (in.bending_size() == 1) return std::make_shared<Bend>(wayOf(in.bending(0), surfaces));
-  return std::make_shared<Bend>(wayOf(in.bending(0), surfaces), wayOf(in.bending(1), surfaces));
+std::shared_ptr<const MeshMotion> SceneReader::meshMotionOf(const proto::RecordedInstance& in,
+                                                            const Surfaces& surfaces) const {
+  if (in.mesh_motion_size() == 0) return nullptr;
+  if (in.mesh_motion_size() == 1) return std::make_shared<MeshMotion>(wayOf(in.mesh_motion(0), surfaces));
+  return std::make_shared<MeshMotion>(wayOf(in.mesh_motion(0), surfaces), wayOf(in.mesh_motion(1), surfaces));
 }
 
 std::shared_ptr<const Snapshot> SceneReader::scene(const proto::RecordedScene& in) const {
@@ -160,7 +161,7 @@ std::shared_ptr<const Snapshot> SceneReader::scene(const proto::RecordedScene& i
     const Ways ways = waysOf(placed.motion());
     instances.push_back({shape->second, surfaces->second, Motion(ways.earlier.screw(), ways.last.screw()), placed.key(),
                          placed.session(), placed.object(), placed.name()});
-    instances.back().bending = bendingOf(placed, *surfaces->second);
+    instances.back().mesh_motion = meshMotionOf(placed, *surfaces->second);
   }
   return makeSnapshot(std::move(instances), in.name(), in.number(), in.blend_ns());
 }

@@ -46,8 +46,8 @@ class SceneReader {
   std::shared_ptr<const Snapshot> scene(const proto::RecordedScene& in) const;
 
  private:
-  BendWay wayOf(const proto::RecordedBendWay& in, const Surfaces& surfaces) const;
-  std::shared_ptr<const Bend> bendingOf(const proto::RecordedInstance& in, const Surfaces& surfaces) const;
+  MeshTransition wayOf(const proto::RecordedMeshTransition& in, const Surfaces& surfaces) const;
+  std::shared_ptr<const MeshMotion> meshMotionOf(const proto::RecordedInstance& in, const Surfaces& surfaces) const;
 
   MeshReader mesh_;
   std::optional<std::uint64_t> begun_;  // the shape of which more parts follow

@@ -12,7 +12,7 @@ namespace hl {
 
 namespace {
 
-constexpr std::uint32_t kMostLooks = 1'000'000;  // of a wrong file
+constexpr std::uint32_t kMaxLooks = 1'000'000;  // of a wrong file
 constexpr const char* kTicksMisfit = "the lists of a block of ticks do not agree";
 
 void addTick(const TickRecord& record, std::int64_t before_ns, proto::ProxyTicks& out) {
@@ -38,7 +38,7 @@ TickRecord tickOf(const proto::ProxyTicks& in, int i, std::int64_t before_ns) {
   record.proxy = at(in.proxy(), i);
   record.contacts = in.contacts(i);
   record.work_ns = in.work_ns(i);
-  if (in.used_up_at_size() > 0) record.used_up_at = static_cast<int>(std::min(in.used_up_at(i), kMostLooks));
+  if (in.used_up_at_size() > 0) record.used_up_at = static_cast<int>(std::min(in.used_up_at(i), kMaxLooks));
   return record;
 }
 

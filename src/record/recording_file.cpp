@@ -24,9 +24,9 @@ static_assert(std::endian::native == std::endian::little, "the head of a block i
 // one comes or goes the lists no longer fit, and that is told too.
 constexpr std::string_view kMagic = "HLREC2\r\n", kFirstForm = "HLREC1\r\n";
 // A block may be a mesh of tens of millions of triangles; protobuf's own limit.
-constexpr std::uint64_t kMostBlockBytes = 0x7fffffff;
+constexpr std::uint64_t kMaxBlockBytes = 0x7fffffff;
 // Deflate packs no better than this; more is a damaged head, not worth its memory.
-constexpr std::uint64_t kMostPacking = 1100;
+constexpr std::uint64_t kMaxPacking = 1100;
 // Blocks come ten times a second while forces are made: the time counts, not the last tenth of the size.
 constexpr int kLevel = 1;
 
@@ -79,7 +79,7 @@ void RecordingWriter::append(const std::string& bytes) {
 
 void RecordingWriter::write(const proto::RecordingBlock& block) {
   const std::string raw = block.SerializeAsString();
-  if (raw.empty() || raw.size() > kMostBlockBytes) throw Error(path_ + ": a block of the recording is too large");
+  if (raw.empty() || raw.size() > kMaxBlockBytes) throw Error(path_ + ": a block of the recording is too large");
   const std::string body = packed(raw);
   const Head head{static_cast<std::uint32_t>(body.size()), static_cast<std::uint32_t>(raw.size()), checksum(body)};
   std::string bytes(sizeof head, '\0');
@@ -104,8 +104,8 @@ bool RecordingReader::readBlock(std::string& body, std::uint32_t& raw_bytes) {
   Head head;
   if (left_ < sizeof head) return false;
   in_.read(reinterpret_cast<char*>(&head), sizeof head);
-  if (!in_ || head.packed_bytes > left_ - sizeof head || head.raw_bytes > kMostBlockBytes ||
-      head.raw_bytes > kMostPacking * head.packed_bytes)
+  if (!in_ || head.packed_bytes > left_ - sizeof head || head.raw_bytes > kMaxBlockBytes ||
+      head.raw_bytes > kMaxPacking * head.packed_bytes)
     return false;
   body.resize(head.packed_bytes);
   in_.read(body.data(), head.packed_bytes);

@@ -32,8 +32,8 @@ Values partsOf(const ServoTarget& t) { return partsOf(t.proxy_D, t.time_ns, t.va
 
 /// How many are missing before number `first`. Blocks rise, and no session comes near the last number there is.
 std::uint64_t gapOf(std::uint64_t first, std::uint64_t next) {
-  constexpr std::uint64_t kMost = std::uint64_t{1} << 62;
-  if (first < next || first > kMost) throw Error("its steps or ticks are not in their order");
+  constexpr std::uint64_t kMax = std::uint64_t{1} << 62;
+  if (first < next || first > kMax) throw Error("its steps or ticks are not in their order");
   return first - next;
 }
 
@@ -152,11 +152,11 @@ class ProxyReplay {
 };
 
 ProxySettings proxySettingsOf(const proto::RecordingStart& start) {
-  constexpr double kMostPasses = 1e6;  // what a tick of a wrong file may cost
+  constexpr double kMaxPasses = 1e6;  // what a tick of a wrong file may cost
   ProxySettings settings;
   readValues(start.proxy(), "the proxy", settings);
   settings.work_cap = kNoWorkCap;  // each tick says after how many looks it had used up its work
-  checkRanges("the proxy", {{"iteration_cap", static_cast<double>(settings.iteration_cap), 1, kMostPasses}});
+  checkRanges("the proxy", {{"iteration_cap", static_cast<double>(settings.iteration_cap), 1, kMaxPasses}});
   return settings;
 }
 

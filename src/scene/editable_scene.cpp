@@ -267,9 +267,9 @@ const SceneItems* EditableScene::items(std::uint32_t object) const {
   return found == state_.objects.end() ? nullptr : found->second.get();
 }
 
-std::shared_ptr<const Shape> EditableScene::worn() const {
-  const auto found =
-      std::find_if(placed_->begin(), placed_->end(), [](const PlacedShape& p) { return p.shape->wear > kMostWear; });
+std::shared_ptr<const Shape> EditableScene::toRebuild() const {
+  const auto found = std::find_if(placed_->begin(), placed_->end(),
+                                  [](const PlacedShape& p) { return p.shape->cost_ratio > kMaxCostRatio; });
   return found == placed_->end() ? nullptr : found->shape;
 }
 
@@ -305,7 +305,7 @@ EditableScene::Next EditableScene::prepareReplaced(const std::shared_ptr<const S
 namespace {
 
 // Whether one object is the other, its mesh maybe bent: then it gets there by and by.
-bool isBent(const Instance& before, const PlacedShape& now) {
+bool isDeformed(const Instance& before, const PlacedShape& now) {
   return before.shape->mesh == now.shape->mesh &&
          before.shape->model.materials.size() <= now.surfaces->materials.size();
 }
@@ -314,22 +314,23 @@ bool isBent(const Instance& before, const PlacedShape& now) {
 std::int64_t blendOf(const Instance* before, const Instance& now, const PlacedShape& placed) {
   if (before == nullptr || !(*before->surfaces == *now.surfaces)) return kAbruptBlend_ns;
   if (!now.motion.moves() && !(before->motion.to() == now.motion.to())) return kAbruptBlend_ns;
-  return before->shape->geometry == now.shape->geometry || isBent(*before, placed) ? 0 : kAbruptBlend_ns;
+  return before->shape->geometry == now.shape->geometry || isDeformed(*before, placed) ? 0 : kAbruptBlend_ns;
 }
 
 // A way that is over is forgotten, and with it the shape that it came from.
-std::shared_ptr<const Bend> bendingOf(const Instance& before, const PlacedShape& now, std::int64_t begin_ns,
-                                      std::int64_t end_ns, const MemoryBudget& memory) {
-  const bool goes_on = before.bending && before.bending->end_ns() > begin_ns;
+std::shared_ptr<const MeshMotion> meshMotionOf(const Instance& before, const PlacedShape& now, std::int64_t begin_ns,
+                                               std::int64_t end_ns, const MemoryBudget& memory) {
+  const bool goes_on = before.mesh_motion && before.mesh_motion->end_ns() > begin_ns;
   const bool same = before.shape->geometry == now.shape->geometry;
-  if (!same && !isBent(before, now)) return nullptr;
-  if (same || before.shape->model.positions == now.shape->model.positions) return goes_on ? before.bending : nullptr;
+  if (!same && !isDeformed(before, now)) return nullptr;
+  if (same || before.shape->model.positions == now.shape->model.positions)
+    return goes_on ? before.mesh_motion : nullptr;
   if (end_ns <= begin_ns) end_ns = begin_ns + kAbruptBlend_ns;
   MemoryShare own(memory);
-  own.take(kPointer_bytes + sizeof(Bend));
-  Bend bend = goes_on ? before.bending->then(now.shape, begin_ns, end_ns, memory)
-                      : Bend(BendWay(before.shape, now.shape, begin_ns, end_ns, memory));
-  return withShare(std::make_shared<const Bend>(std::move(bend)), std::move(own));
+  own.take(kPointer_bytes + sizeof(MeshMotion));
+  MeshMotion motion = goes_on ? before.mesh_motion->then(now.shape, begin_ns, end_ns, memory)
+                              : MeshMotion(MeshTransition(before.shape, now.shape, begin_ns, end_ns, memory));
+  return withShare(std::make_shared<const MeshMotion>(std::move(motion)), std::move(own));
 }
 
 Instance follow(const PlacedShape& now, const Instance* before, std::int64_t begin_ns, std::int64_t end_ns,
@@ -342,7 +343,7 @@ Instance follow(const PlacedShape& now, const Instance* before, std::int64_t beg
     if (!stays || !rests) instance.motion = stays ? before->motion : before->motion.then(now.pose, begin_ns, end_ns);
   }
   try {
-    instance.bending = bendingOf(*before, now, begin_ns, end_ns, memory);
+    instance.mesh_motion = meshMotionOf(*before, now, begin_ns, end_ns, memory);
   } catch (const Error&) {  // no room for what it needs on its way
     ++all.jumps;
     all.blend_ns = kAbruptBlend_ns;

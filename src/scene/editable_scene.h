@@ -125,8 +125,8 @@ class EditableScene {
   /// Of an object, or of the world, 0; null where there is no such object. Until the next edit.
   const SceneItems* items(std::uint32_t object) const;
 
-  /// One in the world whose hierarchy is worn beyond kMostWear; none when there is none.
-  std::shared_ptr<const Shape> worn() const;
+  /// One in the world whose hierarchy is worn beyond kMaxCostRatio; none when there is none.
+  std::shared_ptr<const Shape> toRebuild() const;
 
  private:
   class Flattening;

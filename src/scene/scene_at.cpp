@@ -27,7 +27,7 @@ class IndexAt final : public SpatialIndex {
  public:
   IndexAt(const Instance& instance, std::int64_t time_ns, QueryCost& cost)
       : resting_(*instance.shape->index), cost_(cost) {
-    if (const BendWay* const way = instance.bentAt(time_ns))
+    if (const MeshTransition* const way = instance.transitionAt(time_ns))
       moving_.emplace(way->index(way->part(time_ns), way->part(time_ns)));
   }
   std::size_t overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t)> visit) const override {
@@ -60,7 +60,8 @@ void toWorld(const Pose& pose, ClosestPoint& nearest) {
 
 Primitive SceneAt::read(PrimitiveId id) const {
   const Instance& of = instance(id);
-  if (const BendWay* const way = of.bentAt(time_ns_)) return way->primitive(id.element, way->part(time_ns_));
+  if (const MeshTransition* const way = of.transitionAt(time_ns_))
+    return way->primitive(id.element, way->part(time_ns_));
   return of.shape->primitives[id.element];
 }
 

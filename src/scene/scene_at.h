@@ -36,7 +36,7 @@ class SceneAt {
   /// With what earlier ticks of the same thread have read, which must outlive it too.
   SceneAt(const Snapshot& snapshot, std::int64_t time_ns, RecentPrimitives& recent)
       : snapshot_(snapshot), time_ns_(time_ns), recent_(recent) {
-    recent_.readFrom(snapshot.identity, std::min(time_ns, snapshot.bends_until_ns));
+    recent_.readFrom(snapshot.identity, std::min(time_ns, snapshot.deforms_until_ns));
   }
   SceneAt(const SceneAt&) = delete;
   SceneAt& operator=(const SceneAt&) = delete;
@@ -56,7 +56,7 @@ class SceneAt {
     return recent_.get(id, [&] { return read(id); });
   }
   PrimitiveKind kind(PrimitiveId id) const {
-    return instance(id).bentAt(time_ns_) ? primitive(id).kind : instance(id).shape->primitives.kind(id.element);
+    return instance(id).transitionAt(time_ns_) ? primitive(id).kind : instance(id).shape->primitives.kind(id.element);
   }
   Vec3 turnToObject(PrimitiveId id, const Vec3& v_W) const;
   Vec3 turnToWorld(PrimitiveId id, const Vec3& v_O) const;

@@ -175,7 +175,7 @@ std::shared_ptr<const Shape> makeShape(Model given, const Shape& before) {
     return shape;
   }
   auto refitted = std::make_unique<const WideBvh>(tree->refit(shape->primitives));
-  shape->wear = refitted->wear();
+  shape->cost_ratio = refitted->costRatio();
   shape->before = before.geometry;
   shape->index = std::move(refitted);
   return shape;

@@ -35,7 +35,7 @@ struct Shape {
   std::vector<std::uint16_t> material_of;  ///< one per primitive, or empty: all use material 0
   HierarchyKind hierarchy = HierarchyKind::kBvh;
   std::unique_ptr<const SpatialIndex> index;
-  double wear = 1;             ///< of a refitted hierarchy: see WideBvh::wear
+  double cost_ratio = 1;       ///< of a refitted hierarchy: see WideBvh::costRatio
   std::uint64_t geometry = 0;  ///< above 0; another shape has the same number only when it was rebuilt from this one
   std::uint64_t before = 0;    ///< geometry of the shape that the hierarchy was refitted from; 0: it was built
   std::uint64_t mesh = 0;      ///< above 0; shapes with the same number are one mesh, bent: see isSameMesh()
@@ -94,7 +94,7 @@ std::shared_ptr<const Shape> makeCounted(const MemoryBudget& budget, std::size_t
 }
 
 /// Beyond this wear a hierarchy should be built anew: a query enters twice as many boxes as it did then.
-inline constexpr double kMostWear = 2;
+inline constexpr double kMaxCostRatio = 2;
 /// The same geometry with a hierarchy that is built for it: the same answers to the bit. Takes long.
 std::shared_ptr<const Shape> rebuilt(const Shape& worn);
 

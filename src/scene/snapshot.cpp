@@ -29,7 +29,7 @@ void addWay(Box& reach, const Box& object, const Screw& way) {
 // Of all shapes that it has on its way: what bends stays within the box around both ends.
 Box objectBox(const Instance& instance) {
   Box box = instance.shape->bounds;
-  if (instance.bending) instance.bending->forEachShape([&](const auto& shape) { box.extend(shape->bounds); });
+  if (instance.mesh_motion) instance.mesh_motion->forEachShape([&](const auto& shape) { box.extend(shape->bounds); });
   return box;
 }
 
@@ -83,13 +83,13 @@ std::shared_ptr<const Surfaces> surfacesOf(const std::shared_ptr<const Shape>& s
 std::size_t memoryOf(const Snapshot& snapshot) {
   std::set<const void*> counted;
   std::size_t bytes = snapshot.instances.capacity() * sizeof(Instance) + snapshot.reach.capacity() * sizeof(Box) +
-                      snapshot.bent.capacity() * sizeof(std::uint32_t) + snapshot.near.bytes();
+                      snapshot.deforming.capacity() * sizeof(std::uint32_t) + snapshot.near.bytes();
   for (const Instance& instance : snapshot.instances) {
     const auto add = [&](const std::shared_ptr<const Shape>& shape) {
       if (counted.insert(shape.get()).second) bytes += shape->bytes();
     };
     add(instance.shape);
-    if (instance.bending) instance.bending->forEachShape(add);
+    if (instance.mesh_motion) instance.mesh_motion->forEachShape(add);
     for (const auto& texture : instance.surfaces->textures) {
       if (counted.insert(texture.get()).second) bytes += texture->texels.capacity() * sizeof(texture->texels[0]);
     }
@@ -108,9 +108,9 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, st
   snapshot->instances = byKey(std::move(instances));
   for (Instance& instance : snapshot->instances) {
     instance.plain = allDefault(instance.surfaces->materials);
-    if (instance.bending) {
-      snapshot->bent.push_back(static_cast<std::uint32_t>(snapshot->reach.size()));
-      snapshot->bends_until_ns = std::max(snapshot->bends_until_ns, instance.bending->end_ns());
+    if (instance.mesh_motion) {
+      snapshot->deforming.push_back(static_cast<std::uint32_t>(snapshot->reach.size()));
+      snapshot->deforms_until_ns = std::max(snapshot->deforms_until_ns, instance.mesh_motion->end_ns());
     }
     snapshot->reach.push_back(reachOf(instance));
     const Box rest = boxAt(instance.shape->bounds, instance.motion.to());
@@ -124,7 +124,7 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, st
       snapshot->moves_until_ns = std::max(snapshot->moves_until_ns, instance.motion.last().end_ns());
     snapshot->primitives += instance.shape->primitives.size();
   }
-  snapshot->moves_until_ns = std::max(snapshot->moves_until_ns, snapshot->bends_until_ns);
+  snapshot->moves_until_ns = std::max(snapshot->moves_until_ns, snapshot->deforms_until_ns);
   snapshot->near = BoxTree(snapshot->reach);
   return snapshot;
 }

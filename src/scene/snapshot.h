@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "geometry/box_tree.h"
-#include "scene/bend.h"
 #include "scene/material.h"
+#include "scene/mesh_motion.h"
 #include "scene/motion.h"
 #include "scene/shape.h"
 #include "scene/texture.h"
@@ -31,15 +31,15 @@ struct Instance {
   std::uint64_t key = 0;  ///< the same object in the next snapshot has the same one; unique in a snapshot
   std::uint32_t session = 0, object = 0, name = 0;  ///< whose it is and what its client calls it
   bool plain = false;  ///< no surface of it does more than hold off: all materials are the default; by makeSnapshot
-  std::shared_ptr<const Bend> bending{};  ///< how the mesh gets to `shape`, where it does not stay as it is
+  std::shared_ptr<const MeshMotion> mesh_motion{};  ///< how the mesh gets to `shape`, where it does not stay as it is
 
   /// The way it is bent on at this moment, or null where it is `shape`.
-  const BendWay* bentAt(std::int64_t time_ns) const {
-    return bending && time_ns < bending->end_ns() ? &bending->at(time_ns) : nullptr;
+  const MeshTransition* transitionAt(std::int64_t time_ns) const {
+    return mesh_motion && time_ns < mesh_motion->end_ns() ? &mesh_motion->at(time_ns) : nullptr;
   }
   /// What numbers its primitives and says of their surfaces at this moment.
   const Shape& shapeAt(std::int64_t time_ns) const {
-    const BendWay* const way = bentAt(time_ns);
+    const MeshTransition* const way = transitionAt(time_ns);
     return way ? *way->to() : *shape;
   }
 };
@@ -50,16 +50,16 @@ inline constexpr std::int64_t kAbruptBlend_ns = 60'000'000;
 
 /// Immutable after makeSnapshot; read by any thread. Metres, world frame.
 struct Snapshot {
-  std::vector<Instance> instances;  ///< by rising key
-  std::vector<Box> reach;           ///< of each instance: all of it during the whole motion, world
-  BoxTree near;                     ///< finds instances by their reach
-  std::vector<std::uint32_t> bent;  ///< instances that bend
-  Box bounds;                       ///< of all of them where they come to rest
+  std::vector<Instance> instances;       ///< by rising key
+  std::vector<Box> reach;                ///< of each instance: all of it during the whole motion, world
+  BoxTree near;                          ///< finds instances by their reach
+  std::vector<std::uint32_t> deforming;  ///< instances that bend
+  Box bounds;                            ///< of all of them where they come to rest
   /// m: largest coordinate, in the world or in an object; distances are known to a few units in its last place.
   double extent = 0;
-  std::int64_t moves_until_ns = std::numeric_limits<std::int64_t>::min();  ///< after that all is at rest
-  std::int64_t bends_until_ns = std::numeric_limits<std::int64_t>::min();  ///< and after that each mesh is its shape
-  std::uint64_t number = 1;                                                ///< of one server's snapshots, rising
+  std::int64_t moves_until_ns = std::numeric_limits<std::int64_t>::min();    ///< after that all is at rest
+  std::int64_t deforms_until_ns = std::numeric_limits<std::int64_t>::min();  ///< and after that each mesh is its shape
+  std::uint64_t number = 1;                                                  ///< of one server's snapshots, rising
   std::uint64_t identity = 0;  ///< no other snapshot made in this program has the same one
   std::int64_t blend_ns = 0;   ///< how long the hand is to take from what the one before had in other places
   std::size_t primitives = 0;  ///< each instance counted

@@ -12,7 +12,7 @@
 namespace hl {
 
 /// Made by SessionHost::connect. receive(), take() and the destructor are called by one thread at a time, the
-/// carrier's. When the session is destroyed its objects go, or stay where the client asked for that.
+/// connection's. When the session is destroyed its objects go, or stay where the client asked for that.
 class ClientSession {
  public:
   ClientSession() = default;
@@ -29,9 +29,9 @@ class ClientSession {
   /// Against which what carries the session counts what it keeps for it. Any thread.
   virtual MemoryBudget memory() const { return {}; }
   /// Takes the next reply to send; false when there is none now. Answers and events come in order; of states only the
-  /// newest, when it is due at the client's rate: a carrier that is slow to ask misses states and nothing else.
+  /// newest, when it is due at the client's rate: a connection that is slow to ask misses states and nothing else.
   virtual bool take(proto::ServerReply& reply) = 0;
-  /// Seconds until the next state is due, for the carrier's timer; infinity without states. Answers and events come
+  /// Seconds until the next state is due, for the connection's timer; infinity without states. Answers and events come
   /// with a call of `wake` instead.
   virtual double nextState_s() const = 0;
   /// Why the server ends the session, in one line, when the replies before have been taken; empty while it lives.
@@ -40,9 +40,9 @@ class ClientSession {
 
 /// Called by any thread of the server when there is something to take; must return at once, must not call back and
 /// throws nothing.
-using WakeCarrier = std::function<void()>;
+using WakeSession = std::function<void()>;
 
-/// Where carriers bring their clients.
+/// Where connections bring their clients.
 class SessionHost {
  public:
   SessionHost() = default;
@@ -50,7 +50,7 @@ class SessionHost {
   SessionHost& operator=(const SessionHost&) = delete;
   virtual ~SessionHost() = default;
   /// Any thread. Throws hl::Error when there is no room for another session.
-  virtual std::unique_ptr<ClientSession> connect(WakeCarrier wake) = 0;
+  virtual std::unique_ptr<ClientSession> connect(WakeSession wake) = 0;
 };
 
 }  // namespace hl

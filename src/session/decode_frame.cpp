@@ -18,14 +18,14 @@ namespace {
 
 [[noreturn]] void refuse(const std::string&, const std::string& message) { throw Error(message); }
 
-constexpr std::size_t kMostName_bytes = 256;  // of a texture: surfaces are copied, and their names with them
-constexpr std::size_t kMostWarnings = 20;     // a frame may skip something in each of a million items
-constexpr std::size_t kDeleted_bytes = 96;    // of a name or number in the edit's lists
-constexpr std::size_t kMoved_bytes = 512;     // of one item whose vertices move
+constexpr std::size_t kMaxName_bytes = 256;  // of a texture: surfaces are copied, and their names with them
+constexpr std::size_t kMaxWarnings = 20;     // a frame may skip something in each of a million items
+constexpr std::size_t kDeleted_bytes = 96;   // of a name or number in the edit's lists
+constexpr std::size_t kMoved_bytes = 512;    // of one item whose vertices move
 
 void checkName(const std::string& name, const std::string& where) {
-  if (name.size() > kMostName_bytes)
-    throw Error(where + ": the name of a texture has at most " + std::to_string(kMostName_bytes) + " bytes");
+  if (name.size() > kMaxName_bytes)
+    throw Error(where + ": the name of a texture has at most " + std::to_string(kMaxName_bytes) + " bytes");
 }
 
 // Messages name things as the client does: by the numbers of its objects and the names of its textures.
@@ -256,7 +256,7 @@ std::shared_ptr<const Shape> FrameDecoder::noted(std::shared_ptr<const Shape> sh
 }
 
 void FrameDecoder::warn(const std::string& where, const std::string& what) {
-  const bool room = result_.warnings.size() < kMostWarnings;
+  const bool room = result_.warnings.size() < kMaxWarnings;
   room ? result_.warnings.push_back(where + ": " + what) : void(++more_warnings_);
 }
 

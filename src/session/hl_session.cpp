@@ -14,13 +14,13 @@ namespace hl {
 namespace {
 
 constexpr std::uint32_t kProtocolVersion = 1;
-constexpr std::size_t kMostWaitingFrames = 64;  // that are not built yet
-constexpr std::size_t kMostRefusedUploads = 1000;
-constexpr std::size_t kMostNameLength = 100;
+constexpr std::size_t kMaxWaitingFrames = 64;  // that are not built yet
+constexpr std::size_t kMaxRefusedUploads = 1000;
+constexpr std::size_t kMaxNameLength = 100;
 
 // What a log shows of a name.
 std::string plain(std::string name) {
-  name.resize(std::min(name.size(), kMostNameLength));
+  name.resize(std::min(name.size(), kMaxNameLength));
   std::replace_if(
       name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
   return name;
@@ -50,7 +50,7 @@ std::string faultOf(const proto::DeviceSettings& settings, bool has_hand) {
 
 }  // namespace
 
-HlSession::HlSession(TouchWorld& world, std::uint32_t number, WakeCarrier wake,
+HlSession::HlSession(TouchWorld& world, std::uint32_t number, WakeSession wake,
                      std::function<void(const HlSession&)> leave)
     : world_(world),
       number_(number),
@@ -147,7 +147,7 @@ void HlSession::keepUpload(proto::Upload upload) {
 
 void HlSession::refuseUpload(std::uint64_t id, const std::string& why) {
   uploads_.refuse(id);
-  if (uploads_.refusals() > kMostRefusedUploads) return end(why);
+  if (uploads_.refusals() > kMaxRefusedUploads) return end(why);
   refuse("upload " + std::to_string(id) + ": " + why);
 }
 
@@ -159,7 +159,7 @@ void HlSession::submit(proto::Frame frame) {
                   number);
   last_frame_ = number;
   if (!frame_rate_.allow(monotonicNow_ns())) return refuse("frames come faster than the server's limit", number);
-  if (world_.publisher().waiting(place_) >= kMostWaitingFrames)
+  if (world_.publisher().waiting(place_) >= kMaxWaitingFrames)
     return refuse("frames come faster than they can be built", number);
   MemoryShare memory(memory_);
   Uploads uploads = uploads_.take(frame, memory);

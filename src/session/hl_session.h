@@ -21,7 +21,7 @@ namespace hl {
 class HlSession final : public ClientSession {
  public:
   /// `leave` is called first of all that the destructor does: from then on nobody may tell() it anything.
-  HlSession(TouchWorld& world, std::uint32_t number, WakeCarrier wake, std::function<void(const HlSession&)> leave);
+  HlSession(TouchWorld& world, std::uint32_t number, WakeSession wake, std::function<void(const HlSession&)> leave);
   ~HlSession() override;
 
   void receive(proto::ClientMessage message) override;
@@ -62,11 +62,11 @@ class HlSession final : public ClientSession {
   const MemoryBudget memory_;  // of all that this client makes the server keep
   ReplyQueue replies_;
 
-  // Of the carrier's thread:
+  // Of the connection's thread:
   bool opened_ = false, master_ = false, keep_objects_ = false;
   std::string client_name_;
   std::atomic<std::uint32_t> device_{0};  // read by others
-  std::shared_ptr<ScenePublisher::Place> place_;
+  std::shared_ptr<ScenePublisher::ClientScene> place_;
   UploadStore uploads_;
   std::uint64_t last_frame_ = 0;
   StateTimer states_;

@@ -18,13 +18,13 @@ namespace hl {
 namespace json = google::protobuf::util;
 
 std::string oneLine(std::string text) {
-  constexpr std::size_t kMost = 300;
+  constexpr std::size_t kMax = 300;
   for (char& c : text) {
     if (c == '\n' || c == '\r' || c == '\t') c = ' ';
   }
-  if (text.size() > kMost) {
+  if (text.size() > kMax) {
     // Never in the middle of a UTF-8 character.
-    std::size_t end = kMost;
+    std::size_t end = kMax;
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
     text.resize(end);
     text += "...";

@@ -23,8 +23,8 @@ constexpr std::uint64_t kWhileGrowing = 3;  // of a list that is twice as long a
 constexpr std::uint64_t kPointer = 8;       // in a list of messages
 constexpr std::uint64_t kString = 64;       // beside its bytes
 constexpr std::uint64_t kUnknown = 128;     // a field that the schema does not have: it is kept all the same
-constexpr std::uint32_t kMostFields = 64;   // numbers of fields in the schema are below
-constexpr int kMostOutlined = 2000;         // uploads: more are refused as one
+constexpr std::uint32_t kMaxFields = 64;    // numbers of fields in the schema are below
+constexpr int kMaxOutlined = 2000;          // uploads: more are refused as one
 
 // What one field of the schema takes.
 struct Layout;
@@ -35,7 +35,7 @@ struct Field {
 };
 struct Layout {
   std::uint64_t bytes = 0;
-  std::array<Field, kMostFields> fields{};
+  std::array<Field, kMaxFields> fields{};
 };
 
 std::uint64_t elementBytes(const FieldDescriptor& field) {
@@ -90,7 +90,7 @@ class Scan {
     bytes_ += layout.bytes + kAllocated + kWhileGrowing * kPointer;
     while (const std::uint32_t tag = in_.ReadTag()) {
       const auto number = static_cast<std::uint32_t>(Wire::GetTagFieldNumber(tag));
-      if (!field(number < kMostFields ? layout.fields[number] : Field{}, Wire::GetTagWireType(tag))) return false;
+      if (!field(number < kMaxFields ? layout.fields[number] : Field{}, Wire::GetTagWireType(tag))) return false;
     }
     return in_.ConsumedEntireMessage() || in_.BytesUntilLimit() == 0;
   }
@@ -173,7 +173,7 @@ proto::ClientMessage outlineOf(std::string_view wire) {
     outline.mutable_upload()->set_id(numberIn(inside, proto::Upload::kIdFieldNumber).value_or(0));
   if (number != proto::ClientMessage::kUploads) return outline;
   auto& parts = *outline.mutable_uploads()->mutable_parts();
-  for (auto part = takeField(inside); part && parts.size() < kMostOutlined; part = takeField(inside))
+  for (auto part = takeField(inside); part && parts.size() < kMaxOutlined; part = takeField(inside))
     parts.Add()->set_id(numberIn(part->second, proto::Upload::kIdFieldNumber).value_or(0));
   return outline;
 }

@@ -6,8 +6,8 @@ namespace hl {
 
 namespace {
 
-constexpr std::size_t kMostReplies = 4096;  // that a client has not read: it does not read at all
-constexpr std::size_t kReply_bytes = 64;    // for each that waits besides its message
+constexpr std::size_t kMaxReplies = 4096;  // that a client has not read: it does not read at all
+constexpr std::size_t kReply_bytes = 64;   // for each that waits besides its message
 
 }  // namespace
 
@@ -19,7 +19,7 @@ ReplyQueue::Waiting ReplyQueue::counted(proto::ServerReply reply) const {
 
 void ReplyQueue::add(Waiting waiting) {
   waiting_.push_back(std::move(waiting));
-  if (waiting_.size() > kMostReplies && end_.empty()) end_ = "the client does not read what it is told";
+  if (waiting_.size() > kMaxReplies && end_.empty()) end_ = "the client does not read what it is told";
 }
 
 void ReplyQueue::push(proto::ServerReply reply) {

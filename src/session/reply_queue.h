@@ -16,7 +16,7 @@ namespace hl {
 class ReplyQueue {
  public:
   /// What waits is counted against `memory`.
-  ReplyQueue(const MemoryBudget& memory, WakeCarrier wake) : memory_(memory), wake_(std::move(wake)) {}
+  ReplyQueue(const MemoryBudget& memory, WakeSession wake) : memory_(memory), wake_(std::move(wake)) {}
 
   /// Where there is no memory for it, or the client reads nothing, the session ends.
   void push(proto::ServerReply reply);
@@ -41,7 +41,7 @@ class ReplyQueue {
   void add(Waiting waiting);  // holding mutex_
 
   const MemoryBudget memory_;
-  const WakeCarrier wake_;
+  const WakeSession wake_;
   mutable std::mutex mutex_;  // of what follows
   std::deque<Waiting> waiting_;
   std::string end_;

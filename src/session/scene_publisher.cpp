@@ -30,10 +30,10 @@ std::string jumpWarning(std::size_t meshes) {
 
 }  // namespace
 
-class ScenePublisher::Place {
+class ScenePublisher::ClientScene {
  public:
-  Place(std::uint32_t session, const SceneLimits& limits, MemoryBudget memory, FrameCallbacks callbacks,
-        std::shared_ptr<Place> replaced)
+  ClientScene(std::uint32_t session, const SceneLimits& limits, MemoryBudget memory, FrameCallbacks callbacks,
+              std::shared_ptr<ClientScene> replaced)
       : session_(session),
         limits_(limits),
         memory_(std::move(memory)),
@@ -70,22 +70,22 @@ class ScenePublisher::Place {
   std::deque<Waiting> waiting_;
   Work work_ = Work::kNone;  // of a builder
   bool removed_ = false;
-  bool worn_ = false;  // a hierarchy of what was placed last is
+  bool to_rebuild_ = false;  // a hierarchy of what was placed last is
   std::int64_t last_arrived_ns_ = 0;
-  std::int64_t move_ns_ = 0;         // that what is placed takes to get there
-  PlacedShapes placed_;              // what is to be shown next; null when it is as it was
-  std::deque<Ready> ready_;          // frames that are built and not yet told to be shown
-  std::shared_ptr<Place> replaced_;  // goes with the first frame
+  std::int64_t move_ns_ = 0;               // that what is placed takes to get there
+  PlacedShapes placed_;                    // what is to be shown next; null when it is as it was
+  std::deque<Ready> ready_;                // frames that are built and not yet told to be shown
+  std::shared_ptr<ClientScene> replaced_;  // goes with the first frame
 };
 
 struct ScenePublisher::Part {
-  std::shared_ptr<Place> place;
+  std::shared_ptr<ClientScene> client;
   bool gone;
   PlacedShapes placed;  // null: as it is
   std::int64_t move_ns;
-  std::size_t frames;                  // of the place's ready ones
+  std::size_t frames;                  // of the client's ready ones
   std::size_t jumps;                   // Followed::jumps
-  std::vector<const Instance*> shown;  // of the place, in the next scene
+  std::vector<const Instance*> shown;  // of the client, in the next scene
 };
 
 ScenePublisher::ScenePublisher(std::shared_ptr<const Snapshot> base, std::vector<TouchSession*> devices)
@@ -110,27 +110,28 @@ void ScenePublisher::stop() {
   threads_.clear();
 }
 
-std::shared_ptr<ScenePublisher::Place> ScenePublisher::join(std::uint32_t session, const SceneLimits& limits,
-                                                            MemoryBudget memory, FrameCallbacks callbacks,
-                                                            std::shared_ptr<Place> replaced) {
-  auto place = std::make_shared<Place>(session, limits, std::move(memory), std::move(callbacks), std::move(replaced));
+std::shared_ptr<ScenePublisher::ClientScene> ScenePublisher::join(std::uint32_t session, const SceneLimits& limits,
+                                                                  MemoryBudget memory, FrameCallbacks callbacks,
+                                                                  std::shared_ptr<ClientScene> replaced) {
+  auto client =
+      std::make_shared<ClientScene>(session, limits, std::move(memory), std::move(callbacks), std::move(replaced));
   const std::lock_guard lock(mutex_);
-  places_.push_back(place);
-  return place;
+  clients_.push_back(client);
+  return client;
 }
 
-void ScenePublisher::submit(const std::shared_ptr<Place>& place, proto::Frame frame, Uploads uploads,
+void ScenePublisher::submit(const std::shared_ptr<ClientScene>& client, proto::Frame frame, Uploads uploads,
                             MemoryShare memory) {
   {
     const std::lock_guard lock(mutex_);
-    place->waiting_.push_back({std::move(frame), std::move(uploads), std::move(memory), monotonicNow_ns()});
+    client->waiting_.push_back({std::move(frame), std::move(uploads), std::move(memory), monotonicNow_ns()});
   }
   work_.notify_one();
 }
 
-std::size_t ScenePublisher::waiting(const std::shared_ptr<Place>& place) const {
+std::size_t ScenePublisher::waiting(const std::shared_ptr<ClientScene>& client) const {
   const std::lock_guard lock(mutex_);
-  return place->waiting_.size() + (place->work_ == Place::Work::kFrame ? 1 : 0) + place->ready_.size();
+  return client->waiting_.size() + (client->work_ == ClientScene::Work::kFrame ? 1 : 0) + client->ready_.size();
 }
 
 HierarchyCounts ScenePublisher::counts() const {
@@ -138,106 +139,106 @@ HierarchyCounts ScenePublisher::counts() const {
   return counts_;
 }
 
-void ScenePublisher::detach(const std::shared_ptr<Place>& place) {
+void ScenePublisher::detach(const std::shared_ptr<ClientScene>& client) {
   {
     const std::lock_guard lock(mutex_);
-    place->waiting_.clear();
+    client->waiting_.clear();
   }
-  const std::lock_guard lock(place->call_mutex_);
-  place->callbacks_ = {};
+  const std::lock_guard lock(client->call_mutex_);
+  client->callbacks_ = {};
 }
 
-void ScenePublisher::remove(const std::shared_ptr<Place>& place) {
+void ScenePublisher::remove(const std::shared_ptr<ClientScene>& client) {
   {
     const std::lock_guard lock(mutex_);
-    place->removed_ = true;
+    client->removed_ = true;
     dirty_ = true;
   }
   changed_.notify_all();
 }
 
-std::shared_ptr<ScenePublisher::Place> ScenePublisher::takeReplaced(const std::shared_ptr<Place>& place) {
+std::shared_ptr<ScenePublisher::ClientScene> ScenePublisher::takeReplaced(const std::shared_ptr<ClientScene>& client) {
   const std::lock_guard lock(mutex_);
-  return std::exchange(place->replaced_, nullptr);
+  return std::exchange(client->replaced_, nullptr);
 }
 
 // The client that has waited longest. Holding the mutex.
-std::shared_ptr<ScenePublisher::Place> ScenePublisher::placeToBuild() {
-  std::shared_ptr<Place> oldest;
-  for (const auto& place : places_) {
-    if (place->work_ != Place::Work::kNone || place->removed_ || place->waiting_.empty()) continue;
-    if (!oldest || place->waiting_.front().arrived_ns < oldest->waiting_.front().arrived_ns) oldest = place;
+std::shared_ptr<ScenePublisher::ClientScene> ScenePublisher::sceneToBuild() {
+  std::shared_ptr<ClientScene> oldest;
+  for (const auto& client : clients_) {
+    if (client->work_ != ClientScene::Work::kNone || client->removed_ || client->waiting_.empty()) continue;
+    if (!oldest || client->waiting_.front().arrived_ns < oldest->waiting_.front().arrived_ns) oldest = client;
   }
   return oldest;
 }
 
 // Only when no frame waits, and one at a time: the other builders are for frames. Holding the mutex.
-std::shared_ptr<ScenePublisher::Place> ScenePublisher::placeToRebuild() {
-  std::shared_ptr<Place> worn;
-  for (const auto& place : places_) {
-    if (place->work_ == Place::Work::kHierarchies) return nullptr;
-    const bool idle = place->work_ == Place::Work::kNone && !place->removed_ && place->waiting_.empty();
-    const bool shown = !place->placed_ && place->ready_.empty();
-    if (place->worn_ && idle && shown && !worn) worn = place;
+std::shared_ptr<ScenePublisher::ClientScene> ScenePublisher::sceneToRebuild() {
+  std::shared_ptr<ClientScene> outdated;
+  for (const auto& client : clients_) {
+    if (client->work_ == ClientScene::Work::kHierarchies) return nullptr;
+    const bool idle = client->work_ == ClientScene::Work::kNone && !client->removed_ && client->waiting_.empty();
+    const bool shown = !client->placed_ && client->ready_.empty();
+    if (client->to_rebuild_ && idle && shown && !outdated) outdated = client;
   }
-  return worn;
+  return outdated;
 }
 
 void ScenePublisher::runBuilder() {
   std::unique_lock lock(mutex_);
   while (true) {
-    std::shared_ptr<Place> place;
+    std::shared_ptr<ClientScene> client;
     bool frame = false;
     work_.wait(lock, [&] {
-      place = placeToBuild();
-      frame = place != nullptr;
-      if (!frame) place = placeToRebuild();
-      return !running_ || place;
+      client = sceneToBuild();
+      frame = client != nullptr;
+      if (!frame) client = sceneToRebuild();
+      return !running_ || client;
     });
     if (!running_) return;
-    place->work_ = frame ? Place::Work::kFrame : Place::Work::kHierarchies;
+    client->work_ = frame ? ClientScene::Work::kFrame : ClientScene::Work::kHierarchies;
     Waiting waiting;
     if (frame) {
-      waiting = std::move(place->waiting_.front());
-      place->waiting_.pop_front();
+      waiting = std::move(client->waiting_.front());
+      client->waiting_.pop_front();
     }
     lock.unlock();
-    guarded([&] { frame ? build(*place, std::move(waiting)) : rebuild(*place); });
+    guarded([&] { frame ? build(*client, std::move(waiting)) : rebuild(*client); });
     lock.lock();
-    place->work_ = Place::Work::kNone;
-    if (place->removed_) dirty_ = true;  // the publisher has left it to this builder
-    if (!place->waiting_.empty()) work_.notify_one();
+    client->work_ = ClientScene::Work::kNone;
+    if (client->removed_) dirty_ = true;  // the publisher has left it to this builder
+    if (!client->waiting_.empty()) work_.notify_one();
     changed_.notify_all();
   }
 }
 
 // A frame that cannot be shown changes nothing but to be told so. Its messages go with it, before anyone is locked out.
-void ScenePublisher::build(Place& place, Waiting waiting) {
+void ScenePublisher::build(ClientScene& client, Waiting waiting) {
   const std::uint64_t number = waiting.frame.number();
   const auto progress = [&](double part) {
     if (!running_) throw Error("the server is closing");
-    place.tell([&](FrameCallbacks& callbacks) { callbacks.progress(number, part); });
+    client.tell([&](FrameCallbacks& callbacks) { callbacks.progress(number, part); });
   };
   try {
-    DecodedFrame decoded = decodeFrame(waiting.frame, waiting.uploads, place.limits_, place.memory_, progress,
-                                       [&](std::uint32_t object) { return place.scene_.items(object); });
-    EditableScene::Next next = place.scene_.prepare(std::move(decoded.edit));
+    DecodedFrame decoded = decodeFrame(waiting.frame, waiting.uploads, client.limits_, client.memory_, progress,
+                                       [&](std::uint32_t object) { return client.scene_.items(object); });
+    EditableScene::Next next = client.scene_.prepare(std::move(decoded.edit));
     PlacedShapes before;
     const std::lock_guard lock(mutex_);  // what was there before is freed without it
-    place.ready_.push_back({number, std::move(decoded.warnings)});
+    client.ready_.push_back({number, std::move(decoded.warnings)});
     // From here on nothing throws.
-    place.scene_.show(next);
-    before = std::exchange(place.placed_, place.scene_.sharedPlaced());
+    client.scene_.show(next);
+    before = std::exchange(client.placed_, client.scene_.sharedPlaced());
     counts_.refits += decoded.refits;
-    place.worn_ = place.scene_.worn() != nullptr;
-    place.move_ns_ = moveTime_ns(waiting, place.last_arrived_ns_);
-    place.last_arrived_ns_ = waiting.arrived_ns;
-    if (place.replaced_) std::exchange(place.replaced_, nullptr)->removed_ = true;
+    client.to_rebuild_ = client.scene_.toRebuild() != nullptr;
+    client.move_ns_ = moveTime_ns(waiting, client.last_arrived_ns_);
+    client.last_arrived_ns_ = waiting.arrived_ns;
+    if (client.replaced_) std::exchange(client.replaced_, nullptr)->removed_ = true;
     dirty_ = true;
   } catch (const std::bad_alloc&) {
-    return refuse(place, number, "the server has no memory for it");
+    return refuse(client, number, "the server has no memory for it");
   } catch (const std::exception& error) {
-    return refuse(place, number, error.what());
+    return refuse(client, number, error.what());
   }
 }
 
@@ -246,26 +247,26 @@ void ScenePublisher::tell(FunctionRef<void()> call) {
   keepTrying([this] { return running_.load(); }, call);
 }
 
-void ScenePublisher::refuse(Place& place, std::uint64_t number, const char* why) {
-  tell([&] { place.tell([&](FrameCallbacks& callbacks) { callbacks.refused(number, why); }); });
+void ScenePublisher::refuse(ClientScene& client, std::uint64_t number, const char* why) {
+  tell([&] { client.tell([&](FrameCallbacks& callbacks) { callbacks.refused(number, why); }); });
 }
 
 // One hierarchy, so that a frame that comes meanwhile waits for no more. Nothing is felt of it: the geometry is the
 // same.
-void ScenePublisher::rebuild(Place& place) {
+void ScenePublisher::rebuild(ClientScene& client) {
   try {
-    const auto worn = place.scene_.worn();
-    const auto anew = makeCounted(place.memory_, bytesToMake(worn->model), [&] { return rebuilt(*worn); });
-    EditableScene::Next next = place.scene_.prepareReplaced(worn, anew);
+    const auto outdated = client.scene_.toRebuild();
+    const auto anew = makeCounted(client.memory_, bytesToMake(outdated->model), [&] { return rebuilt(*outdated); });
+    EditableScene::Next next = client.scene_.prepareReplaced(outdated, anew);
     const std::lock_guard lock(mutex_);
     ++counts_.rebuilds;
-    place.scene_.show(next);
-    place.placed_ = place.scene_.sharedPlaced();
-    place.worn_ = place.scene_.worn() != nullptr;
+    client.scene_.show(next);
+    client.placed_ = client.scene_.sharedPlaced();
+    client.to_rebuild_ = client.scene_.toRebuild() != nullptr;
     dirty_ = true;
-  } catch (const std::exception&) {  // no memory for it: the worn one serves
+  } catch (const std::exception&) {  // no memory for it: the outdated one serves
     const std::lock_guard lock(mutex_);
-    place.worn_ = false;
+    client.to_rebuild_ = false;
   }
 }
 
@@ -306,10 +307,15 @@ bool ScenePublisher::waitForLoops() {
 std::vector<ScenePublisher::Part> ScenePublisher::takeParts() {
   const std::lock_guard lock(mutex_);
   std::vector<Part> parts;
-  parts.reserve(places_.size());  // from here on nothing is thrown
-  for (const auto& place : places_)
-    parts.push_back(
-        {place, place->removed_, std::exchange(place->placed_, nullptr), place->move_ns_, place->ready_.size(), 0, {}});
+  parts.reserve(clients_.size());  // from here on nothing is thrown
+  for (const auto& client : clients_)
+    parts.push_back({client,
+                     client->removed_,
+                     std::exchange(client->placed_, nullptr),
+                     client->move_ns_,
+                     client->ready_.size(),
+                     0,
+                     {}});
   dirty_ = false;
   return parts;
 }
@@ -318,7 +324,7 @@ std::vector<ScenePublisher::Part> ScenePublisher::takeParts() {
 void ScenePublisher::giveBack(std::vector<Part>& parts) {
   const std::lock_guard lock(mutex_);
   for (Part& part : parts) {
-    if (!part.place->placed_) part.place->placed_ = std::move(part.placed);
+    if (!part.client->placed_) part.client->placed_ = std::move(part.placed);
   }
   dirty_ = true;
 }
@@ -328,21 +334,21 @@ std::int64_t ScenePublisher::assemble(std::vector<Part>& parts, std::int64_t beg
                                       std::vector<Instance>& instances) const {
   std::int64_t blend_ns = 0;
   std::size_t count = base_->instances.size();
-  for (const Part& part : parts) count += part.placed ? part.placed->size() : part.place->shown_.instances.size();
+  for (const Part& part : parts) count += part.placed ? part.placed->size() : part.client->shown_.instances.size();
   instances.reserve(count);
   instances = base_->instances;
-  for (auto& [place, gone, placed, move_ns, frames, jumps, shown] : parts) {
+  for (auto& [client, gone, placed, move_ns, frames, jumps, shown] : parts) {
     if (gone) {
-      if (!place->shown_.instances.empty()) blend_ns = std::max(blend_ns, kAbruptBlend_ns);
+      if (!client->shown_.instances.empty()) blend_ns = std::max(blend_ns, kAbruptBlend_ns);
     } else if (placed) {
-      Followed next = followOn(*placed, place->shown_.instances, begin_ns, begin_ns + move_ns, place->memory_);
+      Followed next = followOn(*placed, client->shown_.instances, begin_ns, begin_ns + move_ns, client->memory_);
       jumps = next.jumps;
       blend_ns = std::max(blend_ns, next.blend_ns);
       std::move(next.instances.begin(), next.instances.end(), std::back_inserter(instances));
     } else {
-      for (const Instance* instance : place->shown_.instances) {
+      for (const Instance* instance : client->shown_.instances) {
         instances.push_back(*instance);
-        if (instance->bending && instance->bending->end_ns() <= begin_ns) instances.back().bending.reset();
+        if (instance->mesh_motion && instance->mesh_motion->end_ns() <= begin_ns) instances.back().mesh_motion.reset();
       }
     }
   }
@@ -379,7 +385,7 @@ std::shared_ptr<const Snapshot> ScenePublisher::makeNext(std::vector<Part>& part
   }
   std::vector<PlacedShapes> lists;
   for (const Part& part : parts) {
-    if (!part.gone) lists.push_back(part.placed ? part.placed : part.place->shown_.placed);
+    if (!part.gone) lists.push_back(part.placed ? part.placed : part.client->shown_.placed);
   }
   return keeping(std::move(lists), std::move(next));
 }
@@ -396,13 +402,13 @@ void ScenePublisher::publish() {
   }
   show(next, parts);
   for (const Part& part : parts) tellShown(part);
-  work_.notify_one();  // what is worn may be rebuilt now
+  work_.notify_one();  // what is outdated may be rebuilt now
 }
 
 // For each client what of the scene is its own.
 void ScenePublisher::listShown(const Snapshot& next, std::vector<Part>& parts) {
   std::map<std::uint32_t, Part*> part_of;
-  for (Part& part : parts) part_of[part.place->session_] = &part;
+  for (Part& part : parts) part_of[part.client->session_] = &part;
   for (const Instance& instance : next.instances) {
     const auto found = part_of.find(instance.session);
     if (found != part_of.end()) found->second->shown.push_back(&instance);
@@ -413,31 +419,31 @@ void ScenePublisher::listShown(const Snapshot& next, std::vector<Part>& parts) {
 void ScenePublisher::show(const std::shared_ptr<const Snapshot>& next, std::vector<Part>& parts) noexcept {
   for (TouchSession* device : devices_) device->publish(next);
   for (Part& part : parts) {
-    part.place->shown_.instances.swap(part.shown);
-    if (part.placed) part.place->shown_.placed = part.placed;
-    if (part.gone) part.place->shown_.placed = nullptr;
+    part.client->shown_.instances.swap(part.shown);
+    if (part.placed) part.client->shown_.placed = part.placed;
+    if (part.gone) part.client->shown_.placed = nullptr;
   }
   shown_ = next;
 }
 
 void ScenePublisher::tellShown(const Part& part) {
-  Place& place = *part.place;
+  ClientScene& client = *part.client;
   std::size_t primitives = 0;
-  for (const Instance* instance : place.shown_.instances) primitives += instance->shape->primitives.size();
+  for (const Instance* instance : client.shown_.instances) primitives += instance->shape->primitives.size();
   {
     const std::lock_guard lock(mutex_);
-    if (part.gone && place.work_ == Place::Work::kNone) std::erase(places_, part.place);
+    if (part.gone && client.work_ == ClientScene::Work::kNone) std::erase(clients_, part.client);
   }
   for (std::size_t i = 0; i < part.frames; ++i) {
     std::unique_lock lock(mutex_);
-    const Place::Ready frame = std::move(place.ready_.front());
-    place.ready_.pop_front();
+    const ClientScene::Ready frame = std::move(client.ready_.front());
+    client.ready_.pop_front();
     lock.unlock();
     const bool last = i + 1 == part.frames;
     tell([&] {
       std::vector<std::string> warnings = frame.warnings;
       if (last && part.jumps > 0) warnings.push_back(jumpWarning(part.jumps));
-      place.tell([&](FrameCallbacks& callbacks) { callbacks.shown(frame.number, primitives, warnings); });
+      client.tell([&](FrameCallbacks& callbacks) { callbacks.shown(frame.number, primitives, warnings); });
     });
   }
 }

@@ -38,7 +38,7 @@ struct FrameCallbacks {
 /// Hierarchies of clients' shapes since the start.
 struct HierarchyCounts {
   std::uint64_t refits = 0;    ///< of redefined objects
-  std::uint64_t rebuilds = 0;  ///< of those that were worn
+  std::uint64_t rebuilds = 0;  ///< of those that were outdated
 };
 
 class ScenePublisher {
@@ -46,7 +46,7 @@ class ScenePublisher {
   static constexpr int kBuilders = 2;
 
   /// A client's objects. Made by join(), shared with the publisher.
-  class Place;
+  class ClientScene;
 
   /// `base` is touchable besides what clients bring. The devices must outlive the publisher.
   ScenePublisher(std::shared_ptr<const Snapshot> base, std::vector<TouchSession*> devices);
@@ -56,18 +56,18 @@ class ScenePublisher {
 
   /// What the client makes the publisher keep is counted against `memory`. `replaced`, if any, goes in the very scene
   /// that shows the first frame.
-  std::shared_ptr<Place> join(std::uint32_t session, const SceneLimits& limits, MemoryBudget memory,
-                              FrameCallbacks callbacks, std::shared_ptr<Place> replaced = {});
+  std::shared_ptr<ClientScene> join(std::uint32_t session, const SceneLimits& limits, MemoryBudget memory,
+                                    FrameCallbacks callbacks, std::shared_ptr<ClientScene> replaced = {});
   /// Any thread; returns at once. `uploads`: those that the frame refers to. `memory`: what both take, until it is
   /// built.
-  void submit(const std::shared_ptr<Place>& place, proto::Frame frame, Uploads uploads, MemoryShare memory);
+  void submit(const std::shared_ptr<ClientScene>& client, proto::Frame frame, Uploads uploads, MemoryShare memory);
   /// Frames that are submitted and not yet shown or refused.
-  std::size_t waiting(const std::shared_ptr<Place>& place) const;
+  std::size_t waiting(const std::shared_ptr<ClientScene>& client) const;
   /// No callback is under way or comes after this. The objects stay where they are until remove().
-  void detach(const std::shared_ptr<Place>& place);
-  void remove(const std::shared_ptr<Place>& place);
+  void detach(const std::shared_ptr<ClientScene>& client);
+  void remove(const std::shared_ptr<ClientScene>& client);
   /// The one that was to be replaced, when no frame has been built yet: now it stays. Else null.
-  std::shared_ptr<Place> takeReplaced(const std::shared_ptr<Place>& place);
+  std::shared_ptr<ClientScene> takeReplaced(const std::shared_ptr<ClientScene>& client);
   HierarchyCounts counts() const;
 
  private:
@@ -82,11 +82,11 @@ class ScenePublisher {
 
   void runBuilder();
   void runPublisher();
-  std::shared_ptr<Place> placeToBuild();
-  std::shared_ptr<Place> placeToRebuild();
-  void build(Place& place, Waiting waiting);
-  void refuse(Place& place, std::uint64_t number, const char* why);
-  void rebuild(Place& place);
+  std::shared_ptr<ClientScene> sceneToBuild();
+  std::shared_ptr<ClientScene> sceneToRebuild();
+  void build(ClientScene& client, Waiting waiting);
+  void refuse(ClientScene& client, std::uint64_t number, const char* why);
+  void rebuild(ClientScene& client);
   bool waitForLoops();
   std::vector<Part> takeParts();
   void giveBack(std::vector<Part>& parts);
@@ -103,7 +103,7 @@ class ScenePublisher {
   const std::vector<TouchSession*> devices_;
   mutable std::mutex mutex_;  // of all below and of the places; no thread builds or waits while holding it
   std::condition_variable work_, changed_;
-  std::vector<std::shared_ptr<Place>> places_;
+  std::vector<std::shared_ptr<ClientScene>> clients_;
   std::atomic<bool> running_{false};
   bool dirty_ = false;
   HierarchyCounts counts_;

@@ -35,7 +35,7 @@ void TouchServer::stop() {
   for (HlSession* session : sessions_) session->end("the server is closing");
 }
 
-std::unique_ptr<ClientSession> TouchServer::connect(WakeCarrier wake) {
+std::unique_ptr<ClientSession> TouchServer::connect(WakeSession wake) {
   const std::lock_guard lock(mutex_);
   if (sessions_.size() >= world_.limits().sessions)
     throw Error("the server has " + std::to_string(sessions_.size()) + " clients already");

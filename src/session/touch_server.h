@@ -27,7 +27,7 @@ class TouchServer final : public SessionHost {
   void start();
   void stop();  ///< zero force, then the rest; safe to call twice
 
-  std::unique_ptr<ClientSession> connect(WakeCarrier wake) override;
+  std::unique_ptr<ClientSession> connect(WakeSession wake) override;
 
   TouchSession& device(std::size_t number = 0) { return world_.device(number); }
   std::size_t devices() const { return world_.devices(); }

@@ -68,7 +68,7 @@ void TouchWorld::giveUpMaster(std::uint32_t session) {
   std::replace(masters_.begin(), masters_.end(), session, 0U);
 }
 
-void TouchWorld::keep(const std::string& client_name, std::shared_ptr<ScenePublisher::Place> place) {
+void TouchWorld::keep(const std::string& client_name, std::shared_ptr<ScenePublisher::ClientScene> place) {
   const std::lock_guard lock(mutex_);
   const auto named = [&](const auto& one) { return one.first == client_name; };
   auto gone = std::find_if(kept_.begin(), kept_.end(), named);
@@ -80,7 +80,7 @@ void TouchWorld::keep(const std::string& client_name, std::shared_ptr<ScenePubli
   kept_.emplace_back(client_name, std::move(place));
 }
 
-std::shared_ptr<ScenePublisher::Place> TouchWorld::takeKept(const std::string& client_name) {
+std::shared_ptr<ScenePublisher::ClientScene> TouchWorld::takeKept(const std::string& client_name) {
   const std::lock_guard lock(mutex_);
   const auto named = [&](const auto& one) { return one.first == client_name; };
   const auto found = std::find_if(kept_.begin(), kept_.end(), named);

@@ -51,9 +51,9 @@ class TouchWorld {
 
   /// Objects whose client has gone and wanted them to stay. Of a name there are those of the client that left last;
   /// when there are too many, those that have been kept longest go.
-  void keep(const std::string& client_name, std::shared_ptr<ScenePublisher::Place> place);
+  void keep(const std::string& client_name, std::shared_ptr<ScenePublisher::ClientScene> place);
   /// Null when there are none of this name.
-  std::shared_ptr<ScenePublisher::Place> takeKept(const std::string& client_name);
+  std::shared_ptr<ScenePublisher::ClientScene> takeKept(const std::string& client_name);
 
   void views(std::uint32_t device, ServoView& servo, ProxyView& proxy);
   void describe(std::uint32_t device, proto::ClientState& state);
@@ -65,9 +65,9 @@ class TouchWorld {
   std::vector<std::unique_ptr<TouchSession>> devices_;
   ScenePublisher publisher_;
 
-  mutable std::mutex mutex_;                                                          // of what follows
-  std::vector<std::uint32_t> masters_;                                                // session by device; 0: none
-  std::vector<std::pair<std::string, std::shared_ptr<ScenePublisher::Place>>> kept_;  // by name; the oldest first
+  mutable std::mutex mutex_;            // of what follows
+  std::vector<std::uint32_t> masters_;  // session by device; 0: none
+  std::vector<std::pair<std::string, std::shared_ptr<ScenePublisher::ClientScene>>> kept_;  // by name; the oldest first
 
   std::mutex views_mutex_;  // of the devices' views for clients
 };

@@ -3,7 +3,7 @@
 // thread ticks as long as nearly all ticks fit, and hands them to the proxy thread when too many do not.
 //
 // A debt decides. Each half of a servo period that a tick takes beyond the first adds kCost to it, each tick that fits
-// takes one off: below one in kCost that is late it stays near zero. At kMost the ticks go to the proxy thread; there
+// takes one off: below one in kCost that is late it stays near zero. At kMax the ticks go to the proxy thread; there
 // they must fit in half as much, and when they have paid kBack they return.
 #pragma once
 
@@ -23,8 +23,8 @@ class LoopChooser {
   void took(std::int64_t work_ns) {
     const bool servo = on_servo_.load(std::memory_order_relaxed);
     const std::int64_t over = work_ns / (servo ? room_ns_ : room_ns_ / 2);
-    debt_ = std::clamp<std::int64_t>(debt_ + (over > 0 ? std::min(over, kMost) * kCost : -1), 0, kMost);
-    if (servo && debt_ == kMost) {
+    debt_ = std::clamp<std::int64_t>(debt_ + (over > 0 ? std::min(over, kMax) * kCost : -1), 0, kMax);
+    if (servo && debt_ == kMax) {
       debt_ = kBack;
       on_servo_.store(false, std::memory_order_release);
     } else if (!servo && debt_ == 0) {
@@ -33,7 +33,7 @@ class LoopChooser {
   }
 
   static constexpr std::int64_t kCost = 100;  ///< one late tick in so many is no harm
-  static constexpr std::int64_t kMost = 500;  ///< five late ones on end, or one of two and a half periods
+  static constexpr std::int64_t kMax = 500;   ///< five late ones on end, or one of two and a half periods
   static constexpr std::int64_t kBack = 500;  ///< ticks that must fit before they return
 
  private:

@@ -39,11 +39,11 @@ Vec3 ProxyLoop::pullOf(const ProxyState& state, const TickReport& report, const 
 // is different, to the bit. It ends after as many looks, not as much work, which may be other in the new scene; its
 // budget, far above that of a tick, only keeps a scene of many triangles from making the loop late.
 Vec3 ProxyLoop::changeOfPull(const Snapshot& snapshot) {
-  constexpr int kMostLooks = 64;     // more than a tick makes that is not out of work
-  constexpr int kMostWork = 50'000;  // some 0.25 ms
+  constexpr int kMaxLooks = 64;     // more than a tick makes that is not out of work
+  constexpr int kMaxWork = 50'000;  // some 0.25 ms
   ProxySettings settings = settings_;
-  settings.work_cap = kMostWork;
-  const int looks = last_.used_up_at > 0 ? last_.used_up_at : kMostLooks;
+  settings.work_cap = kMaxWork;
+  const int looks = last_.used_up_at > 0 ? last_.used_up_at : kMaxLooks;
   ProxyState again = last_.from;
   const SceneAt scene(snapshot, last_.time_ns, recent_);
   const TickReport report = tick(again, scene, settings, workspace_.toWorld(last_.finger_D), looks);

@@ -20,8 +20,8 @@ struct Workspace {
 
   /// Whether lengths at the hand and in the world both stay numbers that can be computed with.
   bool valid() const {
-    constexpr double kMostScale = 1e9;
-    return withinReach(origin_W) && world_per_device <= kMostScale && world_per_device >= 1 / kMostScale;
+    constexpr double kMaxScale = 1e9;
+    return withinReach(origin_W) && world_per_device <= kMaxScale && world_per_device >= 1 / kMaxScale;
   }
   /// The same of a proxy's radius, m.
   static bool validRadius(double radius_W) { return radius_W >= 1e-12 && radius_W <= kFarthest_m; }

@@ -105,7 +105,7 @@ TEST(Interruptions, AreTheGapsBetweenReadingsOfTheClock) {
   const Interruptions found = measureInterruptions(0.05);
   EXPECT_EQ(found.seconds, 0.05);
   if (found.gaps.count() > 0) {
-    EXPECT_GE(found.gaps.total_ns(), kLeastGap_ns * static_cast<std::int64_t>(found.gaps.count()));
+    EXPECT_GE(found.gaps.total_ns(), kMinGap_ns * static_cast<std::int64_t>(found.gaps.count()));
   }
 }
 

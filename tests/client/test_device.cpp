@@ -289,8 +289,8 @@ TEST_F(CallsTest, KindsWithoutACallbackAreDropped) {
 TEST_F(CallsTest, OfEventsThatNobodyPollsTheLastAreKept) {
   Heard heard;
   hlEventFunc(HL_EVENT_TOUCH, Heard::note, &heard);
-  for (HLuint i = 1; i <= kMostEvents + 3; ++i) happen(*server, proto::TOUCH, i);
-  EXPECT_EQ(hlPoll(), static_cast<HLint>(kMostEvents));
+  for (HLuint i = 1; i <= kMaxEvents + 3; ++i) happen(*server, proto::TOUCH, i);
+  EXPECT_EQ(hlPoll(), static_cast<HLint>(kMaxEvents));
   EXPECT_EQ(heard.events[0].object, 4U);
 }
 

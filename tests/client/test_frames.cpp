@@ -117,19 +117,19 @@ TEST_F(CallsTest, RefusedFrameIsAnErrorWithItsReason) {
 
 TEST_F(CallsTest, FramesWaitWithoutAnErrorWhileTheServerBuildsMany) {
   server->shows_frames = false;
-  for (std::size_t i = 0; i < kMostUnanswered + 5; ++i) {
+  for (std::size_t i = 0; i < kMaxUnanswered + 5; ++i) {
     triangle(static_cast<double>(i));
     hlFlush();
   }
-  EXPECT_EQ(server->frames().size(), kMostUnanswered);
+  EXPECT_EQ(server->frames().size(), kMaxUnanswered);
   server->show(1);
   hlPoll();
-  ASSERT_EQ(server->frames().size(), kMostUnanswered + 1);
-  EXPECT_EQ(server->frames().back().world().items(0).primitives().vertices(0), kMostUnanswered + 4.0);
+  ASSERT_EQ(server->frames().size(), kMaxUnanswered + 1);
+  EXPECT_EQ(server->frames().back().world().items(0).primitives().vertices(0), kMaxUnanswered + 4.0);
 }
 
 TEST_F(CallsTest, FrameWaitsWhileTheNetworkIsBusyAndLaterOnesJoinIt) {
-  server->queued_bytes = kMostQueuedBytes + 1;
+  server->queued_bytes = kMaxQueuedBytes + 1;
   hlNewObject(1);
   hlEndObject();
   triangle(1);
@@ -154,7 +154,7 @@ TEST_F(CallsTest, FrameWaitsWhileTheNetworkIsBusyAndLaterOnesJoinIt) {
 }
 
 TEST_F(CallsTest, DeletionUndoesADefinitionThatWaits) {
-  server->queued_bytes = kMostQueuedBytes + 1;
+  server->queued_bytes = kMaxQueuedBytes + 1;
   hlNewObject(1);
   hlEndObject();
   hlFlush();

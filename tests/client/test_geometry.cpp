@@ -48,10 +48,10 @@ TEST_F(PrimitivesOf, QuadStripGoesRound) {
   EXPECT_EQ(triangles(HL_QUAD_STRIP, 7), (List{0, 1, 3, 0, 3, 2, 2, 3, 5, 2, 5, 4}));
 }
 TEST_F(PrimitivesOf, TooFewVerticesAreNothingAndLeaveTheWorldAlone) {
-  constexpr std::array<int, 10> kLeast{1, 2, 2, 2, 3, 3, 3, 4, 4, 3};
+  constexpr std::array<int, 10> kMin{1, 2, 2, 2, 3, 3, 3, 4, 4, 3};
   for (HLenum mode = HL_POINTS; mode <= HL_POLYGON; ++mode) {
     hlBegin(mode);
-    for (int i = 1; i < kLeast[mode]; ++i) hlVertex2f(0, 0);
+    for (int i = 1; i < kMin[mode]; ++i) hlVertex2f(0, 0);
     hlEnd();
   }
   EXPECT_EQ(flushed().number(), 0U);

@@ -130,7 +130,7 @@ void scene(const std::function<void()>& dome) {
 // The scene as it is when what is on its way has arrived.
 std::shared_ptr<const Snapshot> arrived(const Snapshot& snapshot) {
   std::vector<Instance> instances = snapshot.instances;
-  for (Instance& instance : instances) instance.bending.reset();
+  for (Instance& instance : instances) instance.mesh_motion.reset();
   return makeSnapshot(std::move(instances), snapshot.name);
 }
 

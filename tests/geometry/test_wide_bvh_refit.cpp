@@ -147,7 +147,7 @@ TEST(WideBvhRefit, WhatHasNotMovedKeepsEveryByte) {
     const WideBvh refitted = built.refit(primitives);
     EXPECT_TRUE(sameBytes(refitted, built));
     EXPECT_EQ(refitted.cost(), built.cost());
-    EXPECT_EQ(refitted.wear(), 1);
+    EXPECT_EQ(refitted.costRatio(), 1);
     EXPECT_EQ(refitted.stats().depth, built.stats().depth);
     EXPECT_EQ(refitted.origin(), built.origin());
   }
@@ -191,16 +191,16 @@ TEST(WideBvhRefit, FewPrimitivesAndThoseWithoutAreaOrLengthWork) {
 TEST(WideBvhRefit, WearStaysLowWhereAMeshBendsAndGrowsWhereItIsShuffled) {
   const Mesh mesh = sheet(100);
   const WideBvh built = WideBvh::build(mesh.primitives());
-  EXPECT_EQ(built.wear(), 1);
+  EXPECT_EQ(built.costRatio(), 1);
   EXPECT_GT(built.cost(), 1);
-  const auto wearOf = [&](const Movement& movement) {
+  const auto costRatioOf = [&](const Movement& movement) {
     const Mesh now = moved(mesh, movement);
-    return built.refit(now.primitives()).wear();
+    return built.refit(now.primitives()).costRatio();
   };
-  EXPECT_NEAR(wearOf([](const Vec3& p) { return Vec3(10 * p + Vec3(3, 4, 5)); }), 1, 1e-3);
-  EXPECT_LT(wearOf([](const Vec3& p) { return Vec3(p.x(), p.y(), p.z() + 0.02 * std::sin(20 * p.x())); }), 1.5);
+  EXPECT_NEAR(costRatioOf([](const Vec3& p) { return Vec3(10 * p + Vec3(3, 4, 5)); }), 1, 1e-3);
+  EXPECT_LT(costRatioOf([](const Vec3& p) { return Vec3(p.x(), p.y(), p.z() + 0.02 * std::sin(20 * p.x())); }), 1.5);
   test::Random random(84);
-  EXPECT_GT(wearOf([&](const Vec3&) { return random.inCube(0.5); }), 20);
+  EXPECT_GT(costRatioOf([&](const Vec3&) { return random.inCube(0.5); }), 20);
 }
 
 TEST(WideBvhRefit, ARowOfPointsCanBeJudgedToo) {
@@ -209,7 +209,7 @@ TEST(WideBvhRefit, ARowOfPointsCanBeJudgedToo) {
   const WideBvh built = WideBvh::build(mesh.primitives());
   test::Random random(85);
   const Mesh now = moved(mesh, [&](const Vec3&) { return Vec3(random.uniform(0, 1000), 0, 0); });
-  EXPECT_GT(built.refit(now.primitives()).wear(), 5);
+  EXPECT_GT(built.refit(now.primitives()).costRatio(), 5);
 }
 
 }  // namespace

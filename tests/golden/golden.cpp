@@ -17,7 +17,7 @@ namespace hl::golden {
 namespace {
 
 constexpr std::int64_t kFewTicks = 1000, kAllTicks = 100'000;
-constexpr std::size_t kMostWithoutHierarchy = 10'000;  // primitives: each is looked at in every step
+constexpr std::size_t kMaxWithoutHierarchy = 10'000;  // primitives: each is looked at in every step
 
 struct Kept {
   std::uint64_t few = 0, all = 0;
@@ -71,7 +71,7 @@ class Judge {
 void compareHierarchies(Judge& judge) {
   for (const Case& one : cases()) {
     for (const HierarchyKind hierarchy : {HierarchyKind::kSpheres, HierarchyKind::kNone}) {
-      const bool slow = hierarchy == HierarchyKind::kNone && elementsOf(one) > kMostWithoutHierarchy;
+      const bool slow = hierarchy == HierarchyKind::kNone && elementsOf(one) > kMaxWithoutHierarchy;
       if (slow) continue;
       judge.expect(one.name, true, hashesOf(one, hierarchy, {kFewTicks}).front(),
                    std::string("hierarchy ") + nameOf(hierarchy));

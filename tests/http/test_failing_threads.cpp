@@ -142,7 +142,7 @@ class FailingThreads : public testing::TestWithParam<const char*> {
 };
 
 // So many rounds of work at the most until the allocation has failed: a thread need not make so many.
-constexpr int kMostRounds = 40;
+constexpr int kMaxRounds = 40;
 constexpr int kAllocations = 60;  // that fail one by one
 
 TEST_P(FailingThreads, CostOnePieceOfWork) {
@@ -153,7 +153,7 @@ TEST_P(FailingThreads, CostOnePieceOfWork) {
     test::waitFor([&] { return client.work() && page.work(); });
     const std::uint64_t steps = touch_.device().servoTotals().steps;
     FailingAllocation::arm(GetParam(), nth);
-    for (int round = 0; round < kMostRounds && !FailingAllocation::hasFailed(); ++round) {
+    for (int round = 0; round < kMaxRounds && !FailingAllocation::hasFailed(); ++round) {
       client.work();
       page.work();
     }

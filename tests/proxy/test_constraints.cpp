@@ -35,7 +35,7 @@ class ConstraintsTest : public testing::Test {
 TEST_F(ConstraintsTest, InTheOpenTheStepIsTheWayToTheFinger) {
   const Proposal open = proposeAt({0, 0.1, 0}, {0.05, 0.2, 0});
   EXPECT_EQ(open.step, Vec3(0.05, 0.2, 0) - Vec3(0, 0.1, 0));
-  EXPECT_TRUE(open.holding.empty());
+  EXPECT_TRUE(open.active.empty());
   EXPECT_EQ(open.rule, Proposal::Rule::kPlain);
 }
 
@@ -43,14 +43,14 @@ TEST_F(ConstraintsTest, OnAFloorItGoesAlongAndTheFloorHolds) {
   const Proposal along = proposeAt({0, kRadius, -0.5}, {0.01, -0.02, -0.5});
   EXPECT_NEAR(along.step.x(), 0.01, 1e-12);
   EXPECT_NEAR(along.step.y(), 0, 1e-12);
-  ASSERT_EQ(along.holding.size(), 1u);
-  EXPECT_NEAR(along.holding[0].multiplier_m, 0.02 + kRadius, 1e-9);
-  EXPECT_EQ(along.holding[0].normal, Vec3::UnitY());
+  ASSERT_EQ(along.active.size(), 1u);
+  EXPECT_NEAR(along.active[0].multiplier_m, 0.02 + kRadius, 1e-9);
+  EXPECT_EQ(along.active[0].normal, Vec3::UnitY());
 }
 
 TEST_F(ConstraintsTest, InACornerBothHold) {
   const Proposal corner = proposeAt({0.1 - kRadius, kRadius, -0.5}, {0.2, -0.02, -0.4});
-  EXPECT_EQ(corner.holding.size(), 2u);
+  EXPECT_EQ(corner.active.size(), 2u);
   EXPECT_NEAR(corner.step.z(), 0.1, 1e-9);
   EXPECT_NEAR(corner.step.x(), 0, 1e-9);
 }

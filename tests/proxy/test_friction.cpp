@@ -152,9 +152,9 @@ TEST(Friction, AnInterruptedSlipGoesOnAsIfItHadNotBeen) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> u(0, 1);
   for (int i = 0; i < 10'000; ++i) {
-    Drag resistance;
+    SlipResistance resistance;
     const double dynamic = 1e-3 * u(random);
-    resistance.rubs.push({dynamic * (1 + u(random)), dynamic, 0});
+    resistance.contacts.push({dynamic * (1 + u(random)), dynamic, 0});
     resistance.viscous = 10 * u(random);
     const double pull = 3e-3 * u(random);
     const double whole = slipLength(resistance, pull, {});
@@ -219,7 +219,7 @@ TEST(Friction, PreSlidingNeverPullsTheProxyIntoAnotherSurface) {
   settings.surfaces = {};
   ProxyState state = startProxy(*scene, settings, {0, 0.01, 0});
   for (const double x : {0.0, -0.5 * kDepth}) tick(state, *scene, settings, {x, kRadius - kDepth, 0});
-  EXPECT_LT(state.creep.x(), -0.05 * kDepth);
+  EXPECT_LT(state.presliding_m.x(), -0.05 * kDepth);
   tick(state, *scene, settings, {0.02, 0.01, 0});
   EXPECT_LE(state.position.x(), 0.02 - kRadius);
 }

@@ -58,9 +58,9 @@ TEST(Patch, SaysWhatAnotherSearchSays) {
     ++covered;
     const Patch anew = patchAt(scene, surface, after);
     for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(patch.place(moved).weights[k], after.weights[k], 1e-9) << i;
-    EXPECT_LT((patch.bend(moved).normal - anew.bend().normal).norm(), 1e-6)
+    EXPECT_LT((patch.shadingNormal(moved).normal - anew.shadingNormal().normal).norm(), 1e-6)
         << i;  // 1e4 of the bump map's slope a metre
-    EXPECT_NEAR(patch.bend(moved).shading, anew.bend().shading, 1e-8) << i;
+    EXPECT_NEAR(patch.shadingNormal(moved).shading, anew.shadingNormal().shading, 1e-8) << i;
     EXPECT_LT((patch.texcoord(moved) - anew.texcoord(Vec2::Zero())).norm(), 1e-8) << i;
   }
   EXPECT_GT(covered, 500);
@@ -85,10 +85,10 @@ TEST(Patch, WithoutUsableNormalsFeelsAsItIs) {
   MaterialOverride plain;
   plain.textures = false;
   const Primitive& triangle = scene.primitive(kTriangle);
-  const SurfacePlace behind{kTriangle, -scene.turnToWorld(kTriangle, triangle.normal), {0.3, 0.3, 0.4}};
+  const SurfacePoint behind{kTriangle, -scene.turnToWorld(kTriangle, triangle.normal), {0.3, 0.3, 0.4}};
   const Patch patch(scene, Surface(scene, plain, kTriangle), behind);
-  EXPECT_FALSE(patch.bend().bent());
-  EXPECT_EQ(patch.bend().normal, behind.normal);
+  EXPECT_FALSE(patch.shadingNormal().differs());
+  EXPECT_EQ(patch.shadingNormal().normal, behind.normal);
 }
 
 }  // namespace

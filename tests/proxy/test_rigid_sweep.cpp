@@ -50,7 +50,7 @@ TEST(RigidSweep, WhatTurnsGoesNoFartherThanAStraightWayIsTrue) {
   const Motion turning = Motion().then(test::turned(1, Vec3::UnitZ()), 0, 10 * kMs);
   const auto scene = makeSnapshot({test::place(1, plate(), turning)});
   const Advance free = sweepIn(*scene, {0, 0.3, 0}, 10 * kMs);
-  EXPECT_NEAR(static_cast<double>(free.until_ns), accuracy::kMostTurn_rad * 10e6, 2);
+  EXPECT_NEAR(static_cast<double>(free.until_ns), accuracy::kMaxTurn_rad * 10e6, 2);
 }
 
 TEST(RigidSweep, ItEndsWhereAnObjectTakesAnotherScrew) {

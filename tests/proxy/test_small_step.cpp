@@ -22,17 +22,17 @@ PushedProxy proxyIn(const Snapshot& scene, const Vec3& position, std::int64_t en
 }
 
 std::shared_ptr<const Snapshot> rising(double to) {
-  return makeSnapshot({test::bending(1, test::flatSheet(0), test::flatSheet(to), 0, 10 * kMs)});
+  return makeSnapshot({test::mesh_motion(1, test::flatSheet(0), test::flatSheet(to), 0, 10 * kMs)});
 }
 
 TEST(SmallStep, AMeshBendsNearWhereItsReachDoesWhileItBends) {
   const auto scene = rising(0.01);
-  EXPECT_TRUE(bendsNear(proxyIn(*scene, {0, 0.01 + 1.9 * kRadius, 0})));
-  EXPECT_FALSE(bendsNear(proxyIn(*scene, {0, 0.01 + 2.1 * kRadius, 0}))) << "beyond all its places";
+  EXPECT_TRUE(deformsNear(proxyIn(*scene, {0, 0.01 + 1.9 * kRadius, 0})));
+  EXPECT_FALSE(deformsNear(proxyIn(*scene, {0, 0.01 + 2.1 * kRadius, 0}))) << "beyond all its places";
   PushedProxy later = proxyIn(*scene, {0, 0.01, 0}, 20 * kMs);
   later.now_ns = 10 * kMs;
-  EXPECT_FALSE(bendsNear(later)) << "it has come to rest";
-  EXPECT_FALSE(bendsNear(proxyIn(*makeSnapshot({test::place(1, test::flatSheet(0), Motion())}), {0, 0, 0})));
+  EXPECT_FALSE(deformsNear(later)) << "it has come to rest";
+  EXPECT_FALSE(deformsNear(proxyIn(*makeSnapshot({test::place(1, test::flatSheet(0), Motion())}), {0, 0, 0})));
 }
 
 TEST(SmallStep, AMeshTakesHalfOfTheRoomAndNoLess) {
@@ -64,13 +64,13 @@ TEST(SmallStep, ObjectsThatMoveTakeNoMoreThanHalfOfTheRoom) {
 }
 
 TEST(SmallStep, ItEndsWhereAMeshTakesAnotherWay) {
-  Instance skin = test::bending(1, test::flatSheet(0), test::flatSheet(1e-4), 0, 4 * kMs);
+  Instance skin = test::mesh_motion(1, test::flatSheet(0), test::flatSheet(1e-4), 0, 4 * kMs);
   const auto next = makeShape(test::flatSheet(0), *skin.shape);
-  skin.bending = std::make_shared<Bend>(skin.bending->then(next, 2 * kMs, 9 * kMs));
+  skin.mesh_motion = std::make_shared<MeshMotion>(skin.mesh_motion->then(next, 2 * kMs, 9 * kMs));
   skin.shape = next;
   const auto scene = makeSnapshot({skin});
   EXPECT_EQ(smallStep(proxyIn(*scene, {0, kRadius, 0}), kManyLeft).until_ns,
-            scene->instances[0].bending->last().begin_ns());
+            scene->instances[0].mesh_motion->last().begin_ns());
 }
 
 // Any wave into any other: at each moment until the end of the step the centre keeps half of its room, or half a
@@ -84,7 +84,7 @@ RC_GTEST_PROP(SmallStep, TheCentreKeepsHalfOfItsRoomAllTheWay, (std::uint64_t se
     for (Vec3& p : model.positions) p += aside;
     return model;
   };
-  const auto scene = makeSnapshot({test::bending(1, wave(), wave(), 0, 10 * kMs)});
+  const auto scene = makeSnapshot({test::mesh_motion(1, wave(), wave(), 0, 10 * kMs)});
   const Vec3 place = random.inCube(0.02);
   const double room = judge::clearance({*scene, 0}, place, kRadius);
   RC_PRE(room > 0.01 * kRadius);

@@ -35,8 +35,8 @@ struct At {
     position = place;
     gatherContacts(scene, place, tolerance.touching, tolerance.reach, set);
   }
-  SurfaceRules rules(bool slipping = false, const Vec3& creep_m = Vec3::Zero()) const {
-    return {scene, settings, tolerance, slipping, creep_m};
+  SurfaceRules rules(bool slipping = false, const Vec3& presliding_m = Vec3::Zero()) const {
+    return {scene, settings, tolerance, slipping, presliding_m};
   }
   Proposal propose(SurfaceRules& by, const Vec3& finger) const {
     Proposal proposal;
@@ -100,8 +100,8 @@ TEST(SurfaceRules, AFloorLetsTheProxySlipByTheFormula) {
     EXPECT_NEAR((proposal.step - Vec3(pull > 0.5 * depth ? slip : 0, 0, 0)).norm(), 0, 1e-12) << pull;
     EXPECT_NEAR((at.propose(slipping, at.finger(pull, depth)).step - Vec3(slip, 0, 0)).norm(), 0, 1e-12) << pull;
     EXPECT_TRUE(proposal.resisted);
-    ASSERT_EQ(proposal.holding.size(), 1u);
-    EXPECT_NEAR(proposal.holding[0].multiplier_m, depth, 1e-9);
+    ASSERT_EQ(proposal.active.size(), 1u);
+    EXPECT_NEAR(proposal.active[0].multiplier_m, depth, 1e-9);
   }
 }
 
@@ -110,7 +110,7 @@ TEST(SurfaceRules, AfterManyProposalsTheRestIsForTheNextTick) {
   settings.surfaces.viscosity_Ns_m = 2;
   const OnFloor at(settings);
   SurfaceRules rules = at.rules();
-  for (int i = 0; i < convergence::kMostProposals; ++i) {
+  for (int i = 0; i < convergence::kMaxProposals; ++i) {
     EXPECT_GT(at.propose(rules, at.finger(0.001, 0.001)).step.norm(), 0);
     EXPECT_FALSE(rules.postpones());
   }
@@ -142,11 +142,11 @@ TEST(SurfaceRules, AStuckProxyCreepsOnItsSprings) {
   SurfaceRules rules = at.rules();
   const Vec3 finger = at.finger(0.0004, 0.002);
   const Proposal first = at.propose(rules, finger);
-  EXPECT_TRUE(first.creeps);
+  EXPECT_TRUE(first.preslides);
   EXPECT_NEAR(first.step.x(), 0.0001, 1e-12);
   rules.moved(first, first.step);
   at.goTo(at.position + first.step);
-  EXPECT_EQ(rules.creep_m(), first.step);
+  EXPECT_EQ(rules.presliding_m(), first.step);
   EXPECT_FALSE(rules.hasSlipped());
   EXPECT_LE(at.propose(rules, finger).step.norm(), 1e-12) << "balanced";
 }
@@ -189,7 +189,7 @@ RC_GTEST_PROP(SurfaceRules, UnderFrictionAStepIsAPartOfTheFreeWay, (std::uint64_
   const Vec3 finger = bumps.finger(), way = at.freeWay(finger);
   SurfaceRules rules = at.rules(bumps.random.below(2) == 0);
   const Proposal proposal = at.propose(rules, finger);
-  RC_ASSERT(!proposal.bent);
+  RC_ASSERT(!proposal.may_raise_energy);
   RC_ASSERT(proposal.step.norm() <= way.norm() * (1 + 1e-12));
   RC_ASSERT(proposal.step.cross(way).norm() <= 1e-12 * way.squaredNorm());
   RC_ASSERT(proposal.step.dot(way) >= 0);
@@ -207,10 +207,9 @@ RC_GTEST_PROP(SurfaceRules, AShadedStepStaysAboveTheTruePlanes, (std::uint64_t s
   for (int i = 0; i < 8; ++i) {
     const Proposal proposal = at.propose(rules, bumps.finger());
     RC_ASSERT(at.depthBelowPlanes(proposal.step) <= at.tolerance.feasible);
-    for (const Holding& holding : proposal.holding) {
-      RC_ASSERT(std::abs(holding.normal.norm() - 1) <= 1e-12);
-      RC_ASSERT(std::acos(std::min(1.0, holding.normal.dot(holding.place.normal))) <=
-                accuracy::kShadingLimit_rad + 1e-7);
+    for (const ActiveContact& active : proposal.active) {
+      RC_ASSERT(std::abs(active.normal.norm() - 1) <= 1e-12);
+      RC_ASSERT(std::acos(std::min(1.0, active.normal.dot(active.place.normal))) <= accuracy::kShadingLimit_rad + 1e-7);
     }
   }
 }
@@ -278,13 +277,13 @@ TEST(SurfaceRules, AContactIsToldWithItsStiffnessAndFriction) {
   const OnFloor at(settings);
   SurfaceRules rules = at.rules();
   const Proposal proposal = at.propose(rules, at.finger(0.001, 0.002));
-  ASSERT_EQ(proposal.holding.size(), 1u);
-  const ProxyContact contact = rules.describe(at.set, proposal.holding[0]);
+  ASSERT_EQ(proposal.active.size(), 1u);
+  const ProxyContact contact = rules.describe(at.set, proposal.active[0]);
   EXPECT_EQ(contact.stiffness, 1) << "within 0..1";
   EXPECT_EQ(contact.static_friction, 0.4);
   EXPECT_TRUE(contact.rough);
   EXPECT_EQ(contact.normal, Vec3(Vec3::UnitY()));
-  EXPECT_EQ(rules.stiffnessAt(proposal.holding[0].place), 1);
+  EXPECT_EQ(rules.stiffnessAt(proposal.active[0].place), 1);
 }
 
 }  // namespace

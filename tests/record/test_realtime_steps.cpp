@@ -108,12 +108,12 @@ class VirtualServo {
 
 // The steps in which a page was missed, for the parent to read.
 struct MissedPages {
-  static constexpr std::size_t kMost = 1024;
-  std::array<int, kMost> steps{};
+  static constexpr std::size_t kMax = 1024;
+  std::array<int, kMax> steps{};
   std::size_t count = 0;
 
   void add(int step) {
-    if (count < kMost) steps[count++] = step;
+    if (count < kMax) steps[count++] = step;
   }
 };
 

@@ -261,7 +261,7 @@ std::shared_ptr<const Snapshot> bent(const Snapshot& scene, Random& random) {
   const auto shape = makeShape(std::move(model), *before);
   for (Instance& instance : instances) {
     instance.shape = shape;
-    instance.bending = std::make_shared<Bend>(BendWay(before, shape, 0, kBend_ns));
+    instance.mesh_motion = std::make_shared<MeshMotion>(MeshTransition(before, shape, 0, kBend_ns));
   }
   return makeSnapshot(std::move(instances), scene.name, scene.number + 1);
 }
@@ -276,7 +276,7 @@ TEST(RecordedScene, ABentMeshPushesTheProxyAsItDid) {
     next = bent(*scene, random);
     const auto one = writtenAndRead(*scene, writer, reader, parts),
                other = writtenAndRead(*next, writer, reader, parts);
-    ASSERT_TRUE(one && other && other->bent.size() == 2);
+    ASSERT_TRUE(one && other && other->deforming.size() == 2);
     const Vec3 finger = 0.03 * random.vec();
     ProxySettings settings;
     settings.work_cap = kNoWorkCap;  // the scene that was read has another hierarchy, which does other work
@@ -312,7 +312,7 @@ TEST(RecordedScene, ABentMeshOfAnotherMeshIsRefused) {
   for (std::uint32_t i = 0; i < 3; ++i) other.add_triangles(i);
   reader.add(other);
   for (const std::uint64_t id : {77, 78}) {
-    message.mutable_instances(0)->mutable_bending(0)->set_from(id);
+    message.mutable_instances(0)->mutable_mesh_motion(0)->set_from(id);
     EXPECT_THROW(reader.scene(message), Error) << id;
   }
 }

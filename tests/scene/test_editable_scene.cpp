@@ -171,21 +171,21 @@ TEST(EditableScene, ARebuiltShapeTakesThePlaceOfTheWornOneAndNothingIsAbrupt) {
   const std::vector<PlacedShape> before = scene.placed();
   const Followed shown = followOn(before, {}, 0, 0);
   for (int rebuilds = 0; rebuilds < 2; ++rebuilds) {
-    const auto worn = scene.worn();
+    const auto worn = scene.toRebuild();
     ASSERT_TRUE(worn);
     EditableScene::Next next = scene.prepareReplaced(worn, rebuilt(*worn));
     scene.show(next);
   }
-  EXPECT_FALSE(scene.worn());
+  EXPECT_FALSE(scene.toRebuild());
   EXPECT_EQ(followOn(scene.placed(), pointersByKey(shown.instances), 0, 0).blend_ns, 0);
   for (std::size_t i = 0; i < before.size(); ++i) {
     EXPECT_NE(scene.placed()[i].shape, before[i].shape);
     EXPECT_EQ(scene.placed()[i].shape->model.positions, before[i].shape->model.positions);
   }
-  EXPECT_EQ(scene.items(0)->at(2).shape->wear, 1);
+  EXPECT_EQ(scene.items(0)->at(2).shape->cost_ratio, 1);
   EXPECT_EQ(scene.items(1)->at(0).shape, scene.items(0)->at(2).shape);
   scene.apply(worldOf({callItem(1), callItem(1, twice)}));
-  EXPECT_EQ(scene.placed()[1].shape->wear, 1) << "the scaled copy is the rebuilt one still";
+  EXPECT_EQ(scene.placed()[1].shape->cost_ratio, 1) << "the scaled copy is the rebuilt one still";
   EXPECT_EQ(scene.items(2), nullptr);
 }
 
@@ -388,12 +388,12 @@ TEST(EditableScene, ABentMeshGoesFromWhereItWasShown) {
   EditableScene scene(1, {});
   scene.apply(worldOf({shapeItem(shown)}));
   const Followed first = followOn(scene.placed(), {}, 100, 200);
-  EXPECT_FALSE(first.instances[0].bending);
+  EXPECT_FALSE(first.instances[0].mesh_motion);
   scene.apply(worldOf({shapeItem(never_shown)}));
   scene.apply(worldOf({shapeItem(now)}));
   const Followed second = followOn(scene.placed(), pointersByKey(first.instances), 300, 400);
-  ASSERT_TRUE(second.instances[0].bending);
-  const BendWay& way = second.instances[0].bending->last();
+  ASSERT_TRUE(second.instances[0].mesh_motion);
+  const MeshTransition& way = second.instances[0].mesh_motion->last();
   EXPECT_EQ(way.from(), shown);
   EXPECT_EQ(way.to(), now);
   EXPECT_EQ(way.begin_ns(), 300);
@@ -401,20 +401,20 @@ TEST(EditableScene, ABentMeshGoesFromWhereItWasShown) {
   EXPECT_EQ(way.corners(0, 0.5)[1].y(), shown->model.positions[1].y() + 0.1);
   EXPECT_EQ(second.blend_ns, 0);
   const auto snapshot = makeSnapshot(second.instances);
-  EXPECT_EQ(snapshot->bent, std::vector<std::uint32_t>{0});
-  EXPECT_EQ(snapshot->bends_until_ns, 400);
+  EXPECT_EQ(snapshot->deforming, std::vector<std::uint32_t>{0});
+  EXPECT_EQ(snapshot->deforms_until_ns, 400);
   EXPECT_EQ(snapshot->moves_until_ns, 400);
   EXPECT_GT(memoryOf(*snapshot), memoryOf(*makeSnapshot(first.instances)) + shown->geometryBytes());
   const auto at_once = followOn(scene.placed(), pointersByKey(first.instances), 300, 300);
-  EXPECT_EQ(at_once.instances[0].bending->end_ns(), 300 + kAbruptBlend_ns) << "no interval is known";
+  EXPECT_EQ(at_once.instances[0].mesh_motion->end_ns(), 300 + kAbruptBlend_ns) << "no interval is known";
   EXPECT_EQ(at_once.blend_ns, 0);
   const auto same = followOn(scene.placed(), pointersByKey(second.instances), 500, 600);
-  EXPECT_FALSE(same.instances[0].bending) << "it is there";
-  EXPECT_EQ(followOn(scene.placed(), pointersByKey(second.instances), 350, 450).instances[0].bending,
-            second.instances[0].bending)
+  EXPECT_FALSE(same.instances[0].mesh_motion) << "it is there";
+  EXPECT_EQ(followOn(scene.placed(), pointersByKey(second.instances), 350, 450).instances[0].mesh_motion,
+            second.instances[0].mesh_motion)
       << "it is on its way";
   scene.apply(worldOf({shapeItem(triangle(2))}));
-  EXPECT_FALSE(followOn(scene.placed(), pointersByKey(second.instances), 350, 450).instances[0].bending)
+  EXPECT_FALSE(followOn(scene.placed(), pointersByKey(second.instances), 350, 450).instances[0].mesh_motion)
       << "another mesh";
 }
 
@@ -425,7 +425,7 @@ TEST(EditableScene, AMeshThatIsRedrawnAsItWasDoesNotBend) {
   const Followed shown = followOn(scene.placed(), {}, 100, 200);
   scene.apply(worldOf({shapeItem(again)}));
   const Followed next = followOn(scene.placed(), pointersByKey(shown.instances), 300, 400);
-  EXPECT_FALSE(next.instances[0].bending);
+  EXPECT_FALSE(next.instances[0].mesh_motion);
   EXPECT_EQ(next.blend_ns, 0);
 }
 
@@ -444,23 +444,23 @@ TEST(EditableScene, ABendFollowsTheOneBefore) {
   const auto next = [&](std::int64_t begin_ns, std::int64_t end_ns) {
     bendNext();
     shown = followOn(scene.placed(), pointersByKey(std::as_const(shown.instances)), begin_ns, end_ns);
-    return shown.instances[0].bending;
+    return shown.instances[0].mesh_motion;
   };
   next(100, 200);
-  auto bending = next(180, 280);
-  EXPECT_EQ(bending->earlier()->to(), shapes[1]);
-  EXPECT_EQ(bending->last().from(), shapes[1]);
-  EXPECT_EQ(bending->last().begin_ns(), 200);
-  EXPECT_EQ(bending->last().end_ns(), 280) << "no later than it should be";
-  bending = next(190, 290);
-  EXPECT_EQ(bending->earlier()->to(), shapes[1]);
-  EXPECT_EQ(bending->last().from(), shapes[1]);
-  EXPECT_EQ(bending->last().to(), shapes[3]);
-  EXPECT_EQ(bending->last().begin_ns(), 200);
-  bending = next(195, 205);
-  EXPECT_EQ(bending->last().end_ns(), 205);
-  bending = next(198, 199);
-  EXPECT_EQ(bending->last().end_ns(), 201) << "half the time that it asks for, rounded up";
+  auto mesh_motion = next(180, 280);
+  EXPECT_EQ(mesh_motion->earlier()->to(), shapes[1]);
+  EXPECT_EQ(mesh_motion->last().from(), shapes[1]);
+  EXPECT_EQ(mesh_motion->last().begin_ns(), 200);
+  EXPECT_EQ(mesh_motion->last().end_ns(), 280) << "no later than it should be";
+  mesh_motion = next(190, 290);
+  EXPECT_EQ(mesh_motion->earlier()->to(), shapes[1]);
+  EXPECT_EQ(mesh_motion->last().from(), shapes[1]);
+  EXPECT_EQ(mesh_motion->last().to(), shapes[3]);
+  EXPECT_EQ(mesh_motion->last().begin_ns(), 200);
+  mesh_motion = next(195, 205);
+  EXPECT_EQ(mesh_motion->last().end_ns(), 205);
+  mesh_motion = next(198, 199);
+  EXPECT_EQ(mesh_motion->last().end_ns(), 201) << "half the time that it asks for, rounded up";
 }
 
 }  // namespace

@@ -64,10 +64,10 @@ TEST(Shape, IsRefittedWhereOnlyVerticesHaveMoved) {
     expectSameAnswers(*refitted, *built);
     before = refitted;
   }
-  EXPECT_GT(before->wear, kMostWear);
+  EXPECT_GT(before->cost_ratio, kMaxCostRatio);
   const auto anew = rebuilt(*before);
   EXPECT_EQ(anew->geometry, before->geometry);
-  EXPECT_EQ(anew->wear, 1);
+  EXPECT_EQ(anew->cost_ratio, 1);
   EXPECT_EQ(anew->before, 0u);
   expectSameAnswers(*anew, *before);
 }

@@ -43,7 +43,7 @@ class Client {
   Client(
       ScenePublisher& publisher, std::uint32_t session, const MemoryBudget& memory = {},
       std::function<void(std::uint64_t)> on_progress = [](std::uint64_t) {},
-      std::shared_ptr<ScenePublisher::Place> replaced = {})
+      std::shared_ptr<ScenePublisher::ClientScene> replaced = {})
       : publisher_(publisher) {
     FrameCallbacks callbacks;
     callbacks.progress = [on_progress](std::uint64_t number, double) { on_progress(number); };
@@ -84,7 +84,7 @@ class Client {
     return warnings_;
   }
 
-  std::shared_ptr<ScenePublisher::Place> place;
+  std::shared_ptr<ScenePublisher::ClientScene> place;
 
  private:
   void tell(std::uint64_t number, std::size_t primitives, std::size_t warnings) {
@@ -187,24 +187,24 @@ TEST_F(ScenePublisherTest, OneClientMovesComesAndGoesBesideAnother) {
 
 TEST_F(ScenePublisherTest, WhatHasBeenBentIsAShapeAloneInAFrameOfAnotherClient) {
   const MemoryBudget memory(1'000'000'000);
-  Client bending(publisher, 1, memory), other(publisher, 2);
+  Client mesh_motion(publisher, 1, memory), other(publisher, 2);
   proto::Frame frame = frameOf(1);
   define(frame, 1);
   call(frame, 0);
-  bending.submit(frame);
-  bending.told(1);
+  mesh_motion.submit(frame);
+  mesh_motion.told(1);
   frame.clear_objects();
   frame.set_number(2);
   define(frame, 1.1);
-  bending.submit(frame);
-  bending.told(2);
-  EXPECT_TRUE(shownOf(1).at(0)->bending);
+  mesh_motion.submit(frame);
+  mesh_motion.told(2);
+  EXPECT_TRUE(shownOf(1).at(0)->mesh_motion);
   EXPECT_GT(memory.used_bytes(), 2 * shownOf(1).at(0)->shape->bytes()) << "the shape that it comes from is still there";
   std::uint64_t frames = 0;
   test::waitFor([&] {  // until it has got there
     other.submit(frameOf(++frames));
     other.told(frames);
-    return !shownOf(1).at(0)->bending;
+    return !shownOf(1).at(0)->mesh_motion;
   });
   EXPECT_EQ(shownOf(1).at(0)->shape->extent, 1.1);
   const std::uint64_t two_shapes = 2 * shownOf(1).at(0)->shape->bytes();
@@ -237,12 +237,12 @@ TEST_F(ScenePublisherTest, WhatBendsIsCounted) {
   client.submit(frameOfStrip(2, 1));
   client.told(2);
   shownOf(1);
-  const auto& bending = shown->instances.at(0).bending;
-  ASSERT_TRUE(bending);
-  ASSERT_NE(bending->last().from(), bending->last().given_from()) << "they are copies";
-  ASSERT_NE(bending->last().to(), bending->last().given_to());
+  const auto& mesh_motion = shown->instances.at(0).mesh_motion;
+  ASSERT_TRUE(mesh_motion);
+  ASSERT_NE(mesh_motion->last().from(), mesh_motion->last().given_from()) << "they are copies";
+  ASSERT_NE(mesh_motion->last().to(), mesh_motion->last().given_to());
   std::uint64_t bytes = 0;
-  bending->forEachShape([&](const std::shared_ptr<const Shape>& shape) { bytes += shape->bytes(); });
+  mesh_motion->forEachShape([&](const std::shared_ptr<const Shape>& shape) { bytes += shape->bytes(); });
   EXPECT_GT(memory.used_bytes(), bytes);
   EXPECT_EQ(client.warnings(), 0U);
 }
@@ -262,7 +262,7 @@ TEST_F(ScenePublisherTest, WhatHasNoRoomToBendIsThereAtOnceAndTheFrameSaysSo) {
   EXPECT_EQ(client.told(1).back().primitives, 999U);
   client.submit(frameOfStrip(2, 1));
   EXPECT_EQ(client.told(2).back().primitives, 1000U);
-  EXPECT_FALSE(shownOf(1).at(0)->bending);
+  EXPECT_FALSE(shownOf(1).at(0)->mesh_motion);
   EXPECT_EQ(shown->blend_ns, kAbruptBlend_ns);
   EXPECT_EQ(client.warnings(), 1U);
   shown.reset();

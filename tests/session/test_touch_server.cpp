@@ -212,7 +212,7 @@ TEST_F(TouchServerTest, ARedefinedObjectIsRefittedAndRebuiltInTheBackgroundWhenI
   EXPECT_EQ(server_.hierarchyCounts().rebuilds, 1u);
   const auto rebuilt = server_.device().snapshot();
   EXPECT_EQ(rebuilt->shape().geometry, geometry);
-  EXPECT_EQ(rebuilt->shape().wear, 1);
+  EXPECT_EQ(rebuilt->shape().cost_ratio, 1);
   EXPECT_EQ(rebuilt->blend_ns, 0);
   ASSERT_TRUE(client.show(rowFrame(client, 700)));
   EXPECT_EQ(server_.device().snapshot()->shape().before, geometry) << "from the one that was rebuilt";

@@ -344,8 +344,8 @@ Rooms makeRoughs(test::Random& random) {
 }
 
 Rooms makeApexes(test::Random& random) {
-  constexpr double kMostDegreeLg = 3;
-  const int degree = 3 + static_cast<int>(std::pow(10.0, random.uniform(0, kMostDegreeLg)) - 1);
+  constexpr double kMaxDegreeLg = 3;
+  const int degree = 3 + static_cast<int>(std::pow(10.0, random.uniform(0, kMaxDegreeLg)) - 1);
   const double size = std::pow(10.0, random.uniform(-1, 1));
   const Vec3 half = Vec3::Constant(size + 4);
   Rooms rooms{{}, half, [half](const Vec3& p) { return inBox(p, half) ? 0 : kOutside; }, {Vec3::Zero()}};

@@ -24,7 +24,7 @@ constexpr int kTicksPerLife = 1'000;  // then a new proxy begins elsewhere
 constexpr int kTicksPerLook = 4;      // at the clearance; ticks at the cap are all looked at
 // Where two edges of a needle or of a very thin plate are equally near to rounding, the plane of the wrong one leans by
 // about the root of that rounding, eps extent / radius; in so many radii of way the proxy comes nearer by as much.
-constexpr double kMostWay = 20;
+constexpr double kMaxWay = 20;
 
 struct Options {
   std::uint64_t seed = 1;
@@ -110,7 +110,7 @@ class Piece {
   // Of the clearance, in radii.
   double rounding() const {
     constexpr double kEps = std::numeric_limits<double>::epsilon();
-    return kMostWay * std::sqrt(kEps * world_.snapshot->extent / world_.settings.radius);
+    return kMaxWay * std::sqrt(kEps * world_.snapshot->extent / world_.settings.radius);
   }
 
   void blame(const std::string& what) {

@@ -26,10 +26,10 @@ constexpr int kMovingTicks = 60, kRestingTicks = 20, kStretch = 20;  // of one s
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 // Where a tick ends between edges that all but face each other: docs/trace.md.
-constexpr double kMostResidual = 1.5e-5;
+constexpr double kMaxResidual = 1.5e-5;
 
 // radii: between planes that contradict each other by rounding the proxy is held within the skin, 1e-10 of the radius.
-constexpr double kMostAway = 1e-10;
+constexpr double kMaxAway = 1e-10;
 
 // How often the surface is wound about a place, by the solid angle of each triangle (van Oosterom and Strackee 1983).
 double windingNumber(const std::vector<std::array<Vec3, 3>>& solid, const Vec3& place) {
@@ -188,7 +188,7 @@ class Run {
                         before.ledger.tank_J));
     if (adds) return;
     const double far = (before.position - finger_).norm(), now = (state_.position - finger_).norm();
-    if (now > far + kMostAway * radius() + 64 * kEps * (far + scene_.snapshot->extent))
+    if (now > far + kMaxAway * radius() + 64 * kEps * (far + scene_.snapshot->extent))
       blame(fmt::format("the proxy has gone away from the finger, by {:.3g} radii", (now - far) / radius()));
   }
 
@@ -203,7 +203,7 @@ class Run {
       if (normals.size() > 40) return;
       const double residual = unresisted(normals, pull.normalized());
       seen_.most_residual = std::max(seen_.most_residual, residual);
-      if (residual > kMostResidual) blame(fmt::format("the proxy is not at rest: residual {:.3g}", residual));
+      if (residual > kMaxResidual) blame(fmt::format("the proxy is not at rest: residual {:.3g}", residual));
     } else if (scene_.effect == Effect::kFriction && resting_ticks_ > kRestingTicks / 2) {
       Vec3 along = pull;
       double most = 0;

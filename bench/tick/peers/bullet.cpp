@@ -11,7 +11,7 @@ namespace hl::bench {
 namespace {
 
 // The quantised tree counts the triangles of a part in 21 bits.
-constexpr std::size_t kMostInPart = 1'000'000;
+constexpr std::size_t kMaxInPart = 1'000'000;
 
 // A sweep ends where the squared distance is below 1e-4 units, whatever these are: here that is 1 um.
 constexpr double kUnit_m = 1e-4;
@@ -28,9 +28,9 @@ class Bullet final : public Peer {
     for (const auto& t : mesh.triangles) {
       for (const std::uint32_t index : t) indices_.push_back(static_cast<int>(index));
     }
-    for (std::size_t first = 0; first < mesh.triangles.size(); first += kMostInPart) {
+    for (std::size_t first = 0; first < mesh.triangles.size(); first += kMaxInPart) {
       btIndexedMesh part;
-      part.m_numTriangles = static_cast<int>(std::min(kMostInPart, mesh.triangles.size() - first));
+      part.m_numTriangles = static_cast<int>(std::min(kMaxInPart, mesh.triangles.size() - first));
       part.m_triangleIndexBase = reinterpret_cast<const unsigned char*>(&indices_[3 * first]);
       part.m_triangleIndexStride = 3 * sizeof(int);
       part.m_numVertices = static_cast<int>(positions_.size());

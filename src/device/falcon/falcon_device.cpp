@@ -22,12 +22,12 @@ namespace {
 constexpr double kCount_rad = 2 * M_PI / (4 * 320) * (14.25 / 110);
 constexpr double kZero_rad = 35 * M_PI / 180;
 constexpr double kCounts_Nm = 10'000;  // of a motor for one Nm at the thigh, against its angle
-constexpr double kMostCounts = 4096;
+constexpr double kMaxCounts = 4096;
 
 constexpr auto kPeriod = std::chrono::microseconds(500);  // between two frames; the USB chip makes it about 1 ms
 constexpr auto kRetry = std::chrono::milliseconds(100);
 constexpr int kPriority = 75;  // SCHED_FIFO; below the servo, above the proxy
-constexpr int kMostSilences = 3;
+constexpr int kMaxSilences = 3;
 
 // Force, stiffness and damping as CHAI3D assumes them (chai3d/chai3d, src/devices); 4 x 4 x 4 inches and 400 dpi by the
 // vendor.
@@ -54,7 +54,7 @@ Vec3 anglesOf(const std::array<std::int16_t, 3>& encoders) {
 // Too much for one motor makes all of them weaker: the direction of the force stays.
 std::array<std::int16_t, 3> motorsFor(const Vec3& torques_Nm) {
   Vec3 counts = -kCounts_Nm * torques_Nm;
-  counts *= std::min(1.0, kMostCounts / std::max(1.0, counts.cwiseAbs().maxCoeff()));
+  counts *= std::min(1.0, kMaxCounts / std::max(1.0, counts.cwiseAbs().maxCoeff()));
   std::array<std::int16_t, 3> motors{};
   for (int leg = 0; leg < 3; ++leg)
     motors[static_cast<std::size_t>(leg)] = static_cast<std::int16_t>(std::lround(counts[leg]));
@@ -119,7 +119,7 @@ void FalconDevice::run() {
   while (running_) {
     const auto next = std::chrono::steady_clock::now() + kPeriod;
     silences = here && step(exchange_->wantedForce()) ? 0 : silences + 1;
-    if (silences >= kMostSilences) {
+    if (silences >= kMaxSilences) {
       exchange_->tellLost();
       here = beginAgain();
       if (here) silences = 0;

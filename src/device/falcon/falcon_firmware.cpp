@@ -14,9 +14,9 @@ namespace {
 constexpr std::array<std::uint8_t, 3> kQuestion{0x0a, 0x43, 0x0d};
 constexpr std::array<std::uint8_t, 4> kAnswer{0x0a, 0x44, 0x2c, 0x0d};
 constexpr std::array<std::uint8_t, 1> kReady{'A'};
-constexpr int kMostQuestions = 100;
+constexpr int kMaxQuestions = 100;
 constexpr std::size_t kPiece = 62;  // one packet of the USB chip without its two bytes of status
-constexpr std::size_t kMostBytes = std::size_t{1} << 20;
+constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
 
 // Reads until `expected` has come; false when the device falls silent first.
 bool expect(FalconTransport& transport, std::span<const std::uint8_t> expected) {
@@ -33,7 +33,7 @@ bool expect(FalconTransport& transport, std::span<const std::uint8_t> expected) 
 
 bool findLoader(FalconTransport& transport) {
   if (!transport.set(FalconLine::kAsk)) return false;
-  for (int i = 0; i < kMostQuestions; ++i) {
+  for (int i = 0; i < kMaxQuestions; ++i) {
     if (!transport.write(kQuestion)) return false;
     if (expect(transport, kAnswer)) return true;
   }
@@ -49,7 +49,7 @@ std::vector<std::uint8_t> readFalconFirmware(const std::string& file) {
         "libnifalcon have it)");
   std::ifstream in(file, std::ios::binary);
   std::vector<std::uint8_t> firmware((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  if (!in.is_open() || firmware.empty() || firmware.size() > kMostBytes)
+  if (!in.is_open() || firmware.empty() || firmware.size() > kMaxBytes)
     throw Error(file + " is no firmware of a Falcon: it cannot be read, is empty or too large");
   return firmware;
 }

@@ -60,13 +60,13 @@ Mat3 falconAngleRates(const Vec3& tip_F, const Vec3& angles) {
 // Newton; from one sample of the encoders to the next one step is enough. From far away a full step could leave the
 // workspace: then a shorter one.
 bool falconTip(const Vec3& angles, Vec3& tip_F) {
-  constexpr int kMostSteps = 40;
+  constexpr int kMaxSteps = 40;
   constexpr double kClose_rad = 1e-10;
   constexpr double kLongestStep_m = 0.02;
   Vec3 tip = tip_F, there;
   double longest_m = kLongestStep_m;
   if (!falconAngles(tip, there)) return false;
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMaxSteps; ++i) {
     const Vec3 missing = angles - there;
     if (missing.norm() < kClose_rad) {
       tip_F = tip;

@@ -16,7 +16,7 @@ constexpr VendorLibraryName kLibrary{
 
 // Places in the array that dhdGetStatus fills; newer versions fill more than the 16 of SDK 3.
 constexpr std::size_t kPower = 0, kConnected = 1, kReset = 3, kForce = 5, kError = 9, kForceOffCause = 14;
-constexpr std::size_t kMostStatuses = 64;
+constexpr std::size_t kMaxStatuses = 64;
 // A person has switched the forces off: nobody else may switch them on.
 constexpr int kOffByButton = 1, kOffByDeadMan = 6;
 
@@ -95,7 +95,7 @@ void ForceDimensionDevice::close() {
 // Forces that went off by themselves (too fast, watchdog) come on again; the servo, told of it, has begun anew by then.
 DeviceStatus ForceDimensionDevice::examine(std::int64_t now_ns) {
   examined_ns_ = now_ns;
-  std::array<int, kMostStatuses> status{};
+  std::array<int, kMaxStatuses> status{};
   if (calls_.status(status.data(), id_) < 0) return DeviceStatus::kLost;
   if (status[kPower] == 0 || status[kConnected] == 0 || status[kError] != 0) return DeviceStatus::kLost;
   if (status[kReset] != 0) return DeviceStatus::kNotReady;  // its place is not known before it is calibrated

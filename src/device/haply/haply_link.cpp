@@ -47,7 +47,7 @@ constexpr auto kRetry = std::chrono::milliseconds(100);
 constexpr auto kPeriod = std::chrono::microseconds(250);  // between two messages: the device's 4 kHz, and no more
 constexpr int kPriority = 75;                             // SCHED_FIFO; below the servo, above the proxy
 constexpr std::uint16_t kOldHttpPort = 10000;             // of services before 3.5
-constexpr std::size_t kMostBytes = std::size_t{1} << 20;
+constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
 
 using Socket = websocket::stream<beast::tcp_stream>;
 
@@ -175,7 +175,7 @@ class HaplyLink::Conversation {
                              ": install it (haply-inverse-service, from haply.co) and start it";
     const bool reached = co_await reach(socket.next_layer(), address_.port);
     if (!reached) co_return none;
-    socket.read_message_max(kMostBytes);
+    socket.read_message_max(kMaxBytes);
     auto [error] = co_await socket.async_handshake(address_.host + ":" + std::to_string(address_.port), "/", kAwait);
     co_return error ? none : "";
   }

@@ -1,4 +1,4 @@
-#include "scene/bend.h"
+#include "scene/mesh_motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,8 +50,8 @@ Model within(const Model& from, const Model& to) {
 
 }  // namespace
 
-BendWay::BendWay(std::shared_ptr<const Shape> from, std::shared_ptr<const Shape> to, std::int64_t begin_ns,
-                 std::int64_t end_ns, const MemoryBudget& memory)
+MeshTransition::MeshTransition(std::shared_ptr<const Shape> from, std::shared_ptr<const Shape> to,
+                               std::int64_t begin_ns, std::int64_t end_ns, const MemoryBudget& memory)
     : given_from_(from),
       given_to_(to),
       from_(std::move(from)),
@@ -72,13 +72,13 @@ BendWay::BendWay(std::shared_ptr<const Shape> from, std::shared_ptr<const Shape>
   to_tree_ = treeOf(*to_);
 }
 
-double BendWay::part(std::int64_t time_ns) const {
+double MeshTransition::part(std::int64_t time_ns) const {
   if (time_ns <= begin_ns_) return 0;
   if (time_ns >= end_ns_) return 1;
   return static_cast<double>(time_ns - begin_ns_) / static_cast<double>(end_ns_ - begin_ns_);
 }
 
-std::array<Vec3, 3> BendWay::corners(std::uint32_t primitive, double part) const {
+std::array<Vec3, 3> MeshTransition::corners(std::uint32_t primitive, double part) const {
   const std::array<std::uint32_t, 3> vertex = verticesOf(*to_, primitive);
   std::array<Vec3, 3> result;
   for (std::size_t i = 0; i < 3; ++i)
@@ -86,12 +86,12 @@ std::array<Vec3, 3> BendWay::corners(std::uint32_t primitive, double part) const
   return result;
 }
 
-Primitive BendWay::primitive(std::uint32_t primitive, double part) const {
+Primitive MeshTransition::primitive(std::uint32_t primitive, double part) const {
   return shrunkenOf(to_->primitives.elementKind(primitive), corners(primitive, part),
                     to_->primitives.source(primitive));
 }
 
-double BendWay::length_m(std::uint32_t primitive) const {
+double MeshTransition::length_m(std::uint32_t primitive) const {
   const auto begin = corners(primitive, 0), end = corners(primitive, 1);
   double most2 = 0;
   for (std::size_t i = 0; i < 3; ++i) most2 = std::max(most2, (end[i] - begin[i]).squaredNorm());
@@ -99,13 +99,14 @@ double BendWay::length_m(std::uint32_t primitive) const {
 }
 
 // What the last way needs beyond its own end it takes of the next: frames that come a little early do not add up.
-Bend Bend::then(const std::shared_ptr<const Shape>& to, std::int64_t begin_ns, std::int64_t end_ns,
-                const MemoryBudget& memory) const {
+MeshMotion MeshMotion::then(const std::shared_ptr<const Shape>& to, std::int64_t begin_ns, std::int64_t end_ns,
+                            const MemoryBudget& memory) const {
   const bool begun = last_.begin_ns() <= begin_ns;
   const std::int64_t next_ns = begun ? std::max(begin_ns, last_.end_ns()) : last_.begin_ns();
   const std::int64_t least_end_ns = next_ns + (end_ns - begin_ns + 1) / 2;
-  BendWay next(begun ? last_.given_to() : last_.given_from(), to, next_ns, std::max(end_ns, least_end_ns), memory);
-  return {begun ? std::optional<BendWay>(last_) : earlier_, std::move(next)};
+  MeshTransition next(begun ? last_.given_to() : last_.given_from(), to, next_ns, std::max(end_ns, least_end_ns),
+                      memory);
+  return {begun ? std::optional<MeshTransition>(last_) : earlier_, std::move(next)};
 }
 
 }  // namespace hl

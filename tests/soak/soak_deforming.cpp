@@ -213,7 +213,7 @@ class Piece {
     Solid solid;
     Pose pose;
     std::shared_ptr<const Shape> shape;
-    std::shared_ptr<const Bend> bending;
+    std::shared_ptr<const MeshMotion> mesh_motion;
     int winding = 0;
   };
 
@@ -250,7 +250,7 @@ class Piece {
       instance.surfaces = surfacesOf(instance.shape);
       instance.motion = Motion(meshes_[i].pose);
       instance.key = i + 1;
-      instance.bending = meshes_[i].bending;
+      instance.mesh_motion = meshes_[i].mesh_motion;
       instances.push_back(std::move(instance));
     }
     scene_ = makeSnapshot(std::move(instances), "bending", ++number_);
@@ -265,9 +265,10 @@ class Piece {
       Model model = mesh.shape->model;
       model.positions = mesh.solid.bent(model.positions);
       auto next = makeShape(std::move(model), *mesh.shape);
-      const bool goes_on = mesh.bending && mesh.bending->end_ns() > time_ns_;
-      mesh.bending = std::make_shared<Bend>(goes_on ? mesh.bending->then(next, time_ns_, time_ns_ + frame_ns)
-                                                    : Bend(BendWay(mesh.shape, next, time_ns_, time_ns_ + frame_ns)));
+      const bool goes_on = mesh.mesh_motion && mesh.mesh_motion->end_ns() > time_ns_;
+      mesh.mesh_motion = std::make_shared<MeshMotion>(
+          goes_on ? mesh.mesh_motion->then(next, time_ns_, time_ns_ + frame_ns)
+                  : MeshMotion(MeshTransition(mesh.shape, next, time_ns_, time_ns_ + frame_ns)));
       mesh.shape = std::move(next);
     }
     show();
@@ -292,8 +293,8 @@ class Piece {
 
   std::vector<Vec3> placesOf(const Mesh& mesh) const {
     std::vector<Vec3> places = mesh.shape->model.positions;
-    if (mesh.bending && time_ns_ < mesh.bending->end_ns()) {
-      const BendWay& way = mesh.bending->at(time_ns_);
+    if (mesh.mesh_motion && time_ns_ < mesh.mesh_motion->end_ns()) {
+      const MeshTransition& way = mesh.mesh_motion->at(time_ns_);
       const double part = std::clamp(
           static_cast<double>(time_ns_ - way.begin_ns()) / static_cast<double>(way.end_ns() - way.begin_ns()), 0.0,
           1.0);
@@ -342,7 +343,7 @@ struct Options {
 
 Options parse(int argc, char** argv) {
   Options options;
-  CLI::App app("The long run of meshes that bend against a proxy.", "soak_bend");
+  CLI::App app("The long run of meshes that bend against a proxy.", "soak_deforming");
   app.add_option("--seed", options.seed, "Of all random numbers")->capture_default_str();
   app.add_option("--bendings", options.bendings, "How many at most, rounded up to pieces of 100")
       ->capture_default_str();
@@ -369,7 +370,7 @@ int run(const Options& options) {
     all.add(seen);
     if (seen.fault.empty()) return;
     faults[number] =
-        fmt::format("FAULT in {}; again: soak_bend --seed {} --piece {}", seen.fault, options.seed, number);
+        fmt::format("FAULT in {}; again: soak_deforming --seed {} --piece {}", seen.fault, options.seed, number);
     fmt::print(stderr, "{}\n", faults[number]);
   };
   runPieces(

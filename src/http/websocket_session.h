@@ -1,5 +1,5 @@
-// HlCarrier: one HL client at the WebSocket /hl: carries its messages to a ClientSession and the session's replies
-// back.
+// WebSocketSession: one HL client at the WebSocket /hl: carries its messages to a ClientSession and the session's
+// replies back.
 //
 //   the server's thread moves bytes:   read ----.                      .---> write, when woken or a state is due
 //   the workers do the rest:                    decode -> receive, take -> encode
@@ -32,10 +32,10 @@
 
 namespace hl {
 
-class CarrierBell;
+class SessionWaker;
 
-/// What all carriers of a server share; outlives them.
-struct CarrierWorld {
+/// What all sessions of a server share; outlives them.
+struct WebSocketContext {
   boost::asio::io_context& context;  ///< the server's thread
   Workers& light_workers;
   Workers& heavy_workers;
@@ -46,14 +46,14 @@ struct CarrierWorld {
 };
 
 /// In the server's thread, but for what its comment says.
-class HlCarrier : public std::enable_shared_from_this<HlCarrier> {
+class WebSocketSession : public std::enable_shared_from_this<WebSocketSession> {
  public:
   /// `trusted`: the connection has shown the token's cookie, so that Open needs no token.
-  HlCarrier(const CarrierWorld& world, ConnectionPointer connection, bool trusted);
+  WebSocketSession(const WebSocketContext& world, ConnectionPointer connection, bool trusted);
 
-  ~HlCarrier();
-  HlCarrier(const HlCarrier&) = delete;
-  HlCarrier& operator=(const HlCarrier&) = delete;
+  ~WebSocketSession();
+  WebSocketSession(const WebSocketSession&) = delete;
+  WebSocketSession& operator=(const WebSocketSession&) = delete;
 
   /// Accepts the WebSocket and serves it until it ends, for whatever reason. Called once.
   boost::asio::awaitable<void> run(boost::beast::http::request<boost::beast::http::string_body> request);
@@ -105,10 +105,10 @@ class HlCarrier : public std::enable_shared_from_this<HlCarrier> {
   std::optional<Ending> open(MessageForm form, proto::ClientMessage message);
   Next next();
 
-  CarrierWorld world_;
+  WebSocketContext world_;
   ConnectionPointer connection_;
   Websocket stream_;
-  std::shared_ptr<CarrierBell> bell_;
+  std::shared_ptr<SessionWaker> waker_;
   boost::asio::steady_timer open_deadline_, write_deadline_;
   boost::asio::steady_timer turn_over_;  // cancelled when a turn of the session is over
   bool turn_ = false;                    // a worker has the session

@@ -40,8 +40,8 @@ class Skin {
   void bend(Model model, std::int64_t frame_ns = kFrame_ns) {
     const auto before = snapshot_->instances.front().shape;
     auto shape = makeShape(std::move(model), *before);
-    auto bending = std::make_shared<Bend>(BendWay(before, shape, time_ns_, time_ns_ + frame_ns));
-    show(std::move(shape), std::move(bending));
+    auto mesh_motion = std::make_shared<MeshMotion>(MeshTransition(before, shape, time_ns_, time_ns_ + frame_ns));
+    show(std::move(shape), std::move(mesh_motion));
   }
   // Ticks once, now; or until it has come to rest, with a look after each tick.
   TickReport tickNow(ProxyState& state, const Vec3& finger, double friction = 0) const {
@@ -54,19 +54,19 @@ class Skin {
       time_ns_ += kTick_ns;
       report = tickNow(state, finger, friction);
       if (look) look();
-    } while (time_ns_ < snapshot_->bends_until_ns);
+    } while (time_ns_ < snapshot_->deforms_until_ns);
     return report;
   }
   SceneAt now() const { return {*snapshot_, time_ns_}; }
 
  private:
-  void show(std::shared_ptr<const Shape> shape, std::shared_ptr<const Bend> bending) {
+  void show(std::shared_ptr<const Shape> shape, std::shared_ptr<const MeshMotion> mesh_motion) {
     Instance instance;
     instance.surfaces = surfacesOf(shape);
     instance.shape = std::move(shape);
     instance.motion = Motion(pose_);
     instance.key = 1;
-    instance.bending = std::move(bending);
+    instance.mesh_motion = std::move(mesh_motion);
     std::vector<Instance> all = others_;
     all.push_back(std::move(instance));
     snapshot_ = makeSnapshot(std::move(all), "skin", ++number_);

@@ -1,7 +1,7 @@
 // HL clients over real sockets on loopback: what they say arrives, in both forms, and a client that misbehaves in any
 // way is ended with a reason while another one goes on as if nothing had happened.
 #include "fake_pages.h"
-#include "http/hl_carrier.h"
+#include "http/websocket_session.h"
 
 #include <google/protobuf/util/message_differencer.h>
 #include <gtest/gtest.h>
@@ -53,14 +53,14 @@ struct Welcomed : PlainClient {
   }
 };
 
-TEST(HlCarrier, AnswersInBinaryToBinary) {
+TEST(WebSocketSession, AnswersInBinaryToBinary) {
   Served served;
   Welcomed client(served);
   EXPECT_FALSE(client.gotText());
   EXPECT_TRUE(client.isServed(7));
 }
 
-TEST(HlCarrier, AnswersInJsonToJson) {
+TEST(WebSocketSession, AnswersInJsonToJson) {
   Served served;
   PlainClient client(served.port());
   client.sendText(R"({"open": {"protocol_version": 1, "state_rate_Hz": 100}})");
@@ -73,7 +73,7 @@ TEST(HlCarrier, AnswersInJsonToJson) {
   EXPECT_NE(client.text().find("\"proxy_radius\":0"), std::string::npos) << client.text();
 }
 
-TEST(HlCarrier, AFrameInEitherFormIsTheSameMessage) {
+TEST(WebSocketSession, AFrameInEitherFormIsTheSameMessage) {
   Served served;
   Welcomed client(served);
   proto::ClientMessage message = frameMessage(5);
@@ -97,7 +97,7 @@ TEST(HlCarrier, AFrameInEitherFormIsTheSameMessage) {
   EXPECT_FALSE(client.gotText());
 }
 
-TEST(HlCarrier, AnEventComesWithoutWaitingForAnything) {
+TEST(WebSocketSession, AnEventComesWithoutWaitingForAnything) {
   Served served;
   Welcomed client(served);
   for (int i = 0; i < 20; ++i) {
@@ -106,7 +106,7 @@ TEST(HlCarrier, AnEventComesWithoutWaitingForAnything) {
   }
 }
 
-TEST(HlCarrier, GarbageEndsItsSessionWithAReason) {
+TEST(WebSocketSession, GarbageEndsItsSessionWithAReason) {
   Served served;
   Welcomed good(served);
   for (const bool text : {false, true}) {
@@ -125,7 +125,7 @@ TEST(HlCarrier, GarbageEndsItsSessionWithAReason) {
 }
 
 // A client that sends many frames ahead knows which one has the mistake.
-TEST(HlCarrier, AFrameThatIsNoMessageIsRefusedByItsNumber) {
+TEST(WebSocketSession, AFrameThatIsNoMessageIsRefusedByItsNumber) {
   Served served;
   const auto refusedFrame = [&](const std::string& text) {
     Welcomed client(served);
@@ -144,7 +144,7 @@ TEST(HlCarrier, AFrameThatIsNoMessageIsRefusedByItsNumber) {
   EXPECT_EQ(refusedFrame(R"({"frame": {"number": 7)"), 0U) << "it is no JSON";
 }
 
-TEST(HlCarrier, AnEmptyMessageAndTextThatIsNoTextAreGarbageToo) {
+TEST(WebSocketSession, AnEmptyMessageAndTextThatIsNoTextAreGarbageToo) {
   Served served;
   Welcomed empty(served);
   empty.sendBinary("");
@@ -176,7 +176,7 @@ TEST(MessageForms, BytesOfAnyKindAreDecodedOrRefusedInOneLine) {
   }
 }
 
-TEST(HlCarrier, NothingComesBeforeOpen) {
+TEST(WebSocketSession, NothingComesBeforeOpen) {
   Served served;
   PlainClient client(served.port());
   client.send(frameMessage(1));
@@ -185,7 +185,7 @@ TEST(HlCarrier, NothingComesBeforeOpen) {
   EXPECT_EQ(served.host.ever(), 0);
 }
 
-TEST(HlCarrier, AMessageTooLargeEndsItsSessionWithAReason) {
+TEST(WebSocketSession, AMessageTooLargeEndsItsSessionWithAReason) {
   Limits limits;
   limits.message_bytes = 100'000;
   Served served(withLimits(limits));
@@ -202,7 +202,7 @@ TEST(HlCarrier, AMessageTooLargeEndsItsSessionWithAReason) {
   EXPECT_TRUE(good.isServed(1));
 }
 
-TEST(HlCarrier, AStrangerMaySendLittle) {
+TEST(WebSocketSession, AStrangerMaySendLittle) {
   Served served;
   PlainClient client(served.port());
   proto::ClientMessage message = openMessage();
@@ -213,7 +213,7 @@ TEST(HlCarrier, AStrangerMaySendLittle) {
   EXPECT_EQ(served.host.ever(), 0);
 }
 
-TEST(HlCarrier, AFloodEndsItsSession) {
+TEST(WebSocketSession, AFloodEndsItsSession) {
   Limits limits;
   limits.messages_Hz = 100;
   Served served(withLimits(limits));
@@ -227,7 +227,7 @@ TEST(HlCarrier, AFloodEndsItsSession) {
   EXPECT_TRUE(good.isServed(1));
 }
 
-TEST(HlCarrier, SilenceInsteadOfOpenIsEnded) {
+TEST(WebSocketSession, SilenceInsteadOfOpenIsEnded) {
   Limits limits;
   limits.handshake_s = 0.3;
   Served served(withLimits(limits));
@@ -247,7 +247,7 @@ proto::ClientMessage largeFrame(std::uint64_t number) {
 }
 
 // As many as there are workers for them, and one more that waits for one.
-TEST(HlCarrier, LargeMessagesThatTakeLongDelayNeitherStatesNorSmallMessagesOfOthers) {
+TEST(WebSocketSession, LargeMessagesThatTakeLongDelayNeitherStatesNorSmallMessagesOfOthers) {
   Served served;
   const int workers = static_cast<int>(Limits{}.workers);
   std::vector<std::unique_ptr<Welcomed>> busy;
@@ -267,7 +267,7 @@ TEST(HlCarrier, LargeMessagesThatTakeLongDelayNeitherStatesNorSmallMessagesOfOth
   for (const auto& client : busy) EXPECT_EQ(client->nextAnswer()->frame_shown().number(), 1u);
 }
 
-TEST(HlCarrier, ASlowReaderMissesStatesAndNothingElse) {
+TEST(WebSocketSession, ASlowReaderMissesStatesAndNothingElse) {
   constexpr std::size_t kState_bytes = 200'000;
   Served served({}, kState_bytes);
   PlainClient slow(served.port(), {}, "/hl", 16 * 1024);
@@ -291,7 +291,7 @@ TEST(HlCarrier, ASlowReaderMissesStatesAndNothingElse) {
   }
 }
 
-TEST(HlCarrier, AReaderThatStallsForGoodIsEnded) {
+TEST(WebSocketSession, AReaderThatStallsForGoodIsEnded) {
   Limits limits;
   limits.write_s = 0.5;
   Served served(withLimits(limits), 200'000);
@@ -303,7 +303,7 @@ TEST(HlCarrier, AReaderThatStallsForGoodIsEnded) {
   EXPECT_TRUE(other.isServed(1));
 }
 
-TEST(HlCarrier, AHalfOpenConnectionIsEnded) {
+TEST(WebSocketSession, AHalfOpenConnectionIsEnded) {
   Limits limits;
   limits.idle_s = 0.3;
   Served served(withLimits(limits));
@@ -314,7 +314,7 @@ TEST(HlCarrier, AHalfOpenConnectionIsEnded) {
   served.host.waitForAlive(0);
 }
 
-TEST(HlCarrier, AClientThatOnlyListensIsKept) {
+TEST(WebSocketSession, AClientThatOnlyListensIsKept) {
   Limits limits;
   limits.idle_s = 0.2;
   Served served(withLimits(limits));
@@ -324,7 +324,7 @@ TEST(HlCarrier, AClientThatOnlyListensIsKept) {
   EXPECT_EQ(served.host.alive(), 1);
 }
 
-TEST(HlCarrier, WithoutRoomAClientIsToldSo) {
+TEST(WebSocketSession, WithoutRoomAClientIsToldSo) {
   Served served({}, 100, 1);
   Welcomed first(served);
   PlainClient second(served.port());
@@ -334,7 +334,7 @@ TEST(HlCarrier, WithoutRoomAClientIsToldSo) {
   EXPECT_TRUE(first.isServed(1));
 }
 
-TEST(HlCarrier, TheTokenIsAskedForAndGoesNoFurther) {
+TEST(WebSocketSession, TheTokenIsAskedForAndGoesNoFurther) {
   HttpServerSettings settings;
   settings.token = "correct-horse-battery";
   Served served(settings);
@@ -351,7 +351,7 @@ TEST(HlCarrier, TheTokenIsAskedForAndGoesNoFurther) {
   EXPECT_EQ(served.host.received().front().open().token(), "");
 }
 
-TEST(HlCarrier, ANewTokenCountsForNewSessions) {
+TEST(WebSocketSession, ANewTokenCountsForNewSessions) {
   HttpServerSettings settings;
   settings.token = "correct-horse-battery";
   Served served(settings);
@@ -368,7 +368,7 @@ TEST(HlCarrier, ANewTokenCountsForNewSessions) {
   EXPECT_TRUE(fresh.next()->has_welcome());
 }
 
-TEST(HlCarrier, OnlyProgramsAndTheOwnPageMayConnect) {
+TEST(WebSocketSession, OnlyProgramsAndTheOwnPageMayConnect) {
   Served served;
   const std::string own = "http://127.0.0.1:" + std::to_string(served.port());
   PlainClient page(served.port(), {{boost::beast::http::field::origin, own}});
@@ -380,14 +380,14 @@ TEST(HlCarrier, OnlyProgramsAndTheOwnPageMayConnect) {
                boost::system::system_error);
 }
 
-TEST(HlCarrier, WithoutASessionHostThereIsNoSuchPlace) {
+TEST(WebSocketSession, WithoutASessionHostThereIsNoSuchPlace) {
   HttpServer server(Served::adjusted({}), test::fakePages());
   server.start();
   EXPECT_EQ(test::request(server.port(), "/hl").result_int(), 404u);
   EXPECT_THROW(PlainClient client(server.port()), boost::system::system_error);
 }
 
-TEST(HlCarrier, TheSessionsOwnEndReachesTheClient) {
+TEST(WebSocketSession, TheSessionsOwnEndReachesTheClient) {
   Served served;
   Welcomed client(served);
   served.host.endAll("the device has been unplugged");
@@ -396,7 +396,7 @@ TEST(HlCarrier, TheSessionsOwnEndReachesTheClient) {
   served.host.waitForAlive(0);
 }
 
-TEST(HlCarrier, AServerThatStopsSaysGoodbye) {
+TEST(WebSocketSession, AServerThatStopsSaysGoodbye) {
   Served served;
   Welcomed client(served, 1000);
   Welcomed deaf(served, 1000);
@@ -432,7 +432,7 @@ void comeAndGo(Served& served, int times) {
   }
 }
 
-TEST(HlCarrier, AThousandClientsLeaveNothingBehind) {
+TEST(WebSocketSession, AThousandClientsLeaveNothingBehind) {
   Served served;
   const std::size_t descriptors = openDescriptors();
   comeAndGo(served, 200);

@@ -1,4 +1,4 @@
-// CarrierBell: wakes the writer of a carrier from any thread, and never after the carrier has gone.
+// SessionWaker: wakes the writer of a session from any thread, and never after the session has gone.
 #pragma once
 
 #include <boost/asio/awaitable.hpp>
@@ -15,16 +15,16 @@
 
 namespace hl {
 
-class CarrierBell : public std::enable_shared_from_this<CarrierBell> {
+class SessionWaker : public std::enable_shared_from_this<SessionWaker> {
  public:
-  explicit CarrierBell(boost::asio::io_context& context) : context_(context), timer_(std::in_place, context) {}
+  explicit SessionWaker(boost::asio::io_context& context) : context_(context), timer_(std::in_place, context) {}
 
   /// Any thread; returns at once and throws nothing. Many rings before the writer has heard one are one. Without memory
   /// to wake it, it hears the ring when it wakes by itself.
-  void ring() noexcept {
+  void wake() noexcept {
     const std::scoped_lock lock(mutex_);
     if (closed_) return;
-    rung_ = true;
+    woken_ = true;
     if (on_its_way_) return;
     on_its_way_ = guarded([this] {
       boost::asio::post(context_, [self = shared_from_this()] {
@@ -33,7 +33,7 @@ class CarrierBell : public std::enable_shared_from_this<CarrierBell> {
     });
   }
 
-  /// The context's thread: returns when rung, but after `longest` at the latest. A ring since the last wait counts.
+  /// The context's thread: returns when woken, but after `longest` at the latest. A ring since the last wait counts.
   boost::asio::awaitable<void> wait(std::chrono::nanoseconds longest) {
     if (take()) co_return;
     timer_->expires_after(longest);
@@ -51,15 +51,15 @@ class CarrierBell : public std::enable_shared_from_this<CarrierBell> {
  private:
   bool take() {
     const std::scoped_lock lock(mutex_);
-    const bool rung = rung_;
-    rung_ = on_its_way_ = false;
-    return rung;
+    const bool woken = woken_;
+    woken_ = on_its_way_ = false;
+    return woken;
   }
 
   boost::asio::io_context& context_;
   std::optional<boost::asio::steady_timer> timer_;
   std::mutex mutex_;
-  bool rung_ = false;
+  bool woken_ = false;
   bool on_its_way_ = false;  // the ring, to the context's thread
   bool closed_ = false;
 };

@@ -1,4 +1,4 @@
-#include "http/hl_carrier.h"
+#include "http/websocket_session.h"
 
 #include <algorithm>
 #include <boost/asio/co_spawn.hpp>
@@ -12,7 +12,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/guarded_thread.h"
-#include "http/carrier_bell.h"
+#include "http/session_waker.h"
 #include "monitor/event_log.h"
 #include "session/message_size.h"
 
@@ -31,10 +31,10 @@ constexpr std::size_t kPiece_bytes = std::size_t{64} * 1024;  // of a message, f
 constexpr int kSendBuffer_bytes = 64 * 1024;
 constexpr double kShortestWait_s =
     1e-4;  // a state that is due but not there yet is asked for at most 10 000 times a second
-constexpr double kLongestWait_s = 1;  // without states only the bell wakes, if there was memory to ring it
+constexpr double kLongestWait_s = 1;  // without states only the waker wakes, if there was memory to ring it
 // Such a message is decoded in well under a millisecond, in either form.
 constexpr std::size_t kLight_bytes = std::size_t{16} * 1024;
-constexpr std::size_t kMostReason_bytes = 123;  // RFC 6455, 5.5: what a close frame holds beside its code
+constexpr std::size_t kMaxReason_bytes = 123;  // RFC 6455, 5.5: what a close frame holds beside its code
 
 std::chrono::nanoseconds duration(double seconds) {
   return std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * seconds));
@@ -42,7 +42,7 @@ std::chrono::nanoseconds duration(double seconds) {
 
 // As much of `text` as fits, never half a UTF-8 character.
 websocket::close_reason closeReason(close_code code, const std::string& text) {
-  std::size_t end = std::min(text.size(), kMostReason_bytes);
+  std::size_t end = std::min(text.size(), kMaxReason_bytes);
   while (end > 0 && end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
   return {code, beast::string_view(text.data(), end)};
 }
@@ -57,11 +57,11 @@ proto::ServerReply fatalRefusal(const std::string& text, std::uint64_t frame) {
 
 }  // namespace
 
-HlCarrier::HlCarrier(const CarrierWorld& world, ConnectionPointer connection, bool trusted)
+WebSocketSession::WebSocketSession(const WebSocketContext& world, ConnectionPointer connection, bool trusted)
     : world_(world),
       connection_(std::move(connection)),
       stream_(connection_->stream),
-      bell_(std::make_shared<CarrierBell>(world.context)),
+      waker_(std::make_shared<SessionWaker>(world.context)),
       open_deadline_(world.context),
       write_deadline_(world.context),
       turn_over_(world.context, asio::steady_timer::time_point::max()),
@@ -69,29 +69,29 @@ HlCarrier::HlCarrier(const CarrierWorld& world, ConnectionPointer connection, bo
       trusted_(trusted) {}
 
 // The session is one worker's.
-class HlCarrier::Turn {
+class WebSocketSession::Turn {
  public:
-  explicit Turn(HlCarrier& carrier) : carrier_(carrier) { carrier_.turn_ = true; }
+  explicit Turn(WebSocketSession& session) : session_(session) { session_.turn_ = true; }
   ~Turn() {
-    carrier_.turn_ = false;
-    carrier_.turn_over_.cancel();
+    session_.turn_ = false;
+    session_.turn_over_.cancel();
   }
   Turn(const Turn&) = delete;
   Turn& operator=(const Turn&) = delete;
 
  private:
-  HlCarrier& carrier_;
+  WebSocketSession& session_;
 };
 
 // Reader and writer take turns: who waits is woken before the other can have finished what it waits for.
 template <typename Work>
-asio::awaitable<std::invoke_result_t<Work>> HlCarrier::onSession(Workers& workers, Work work) {
+asio::awaitable<std::invoke_result_t<Work>> WebSocketSession::onSession(Workers& workers, Work work) {
   while (turn_) co_await turn_over_.async_wait(kAwait);
   const Turn turn(*this);
   co_return co_await doOn(workers, std::move(work));
 }
 
-bool HlCarrier::setUp() {
+bool WebSocketSession::setUp() {
   boost::system::error_code error;
   connection_->stream.tcp().socket().set_option(asio::socket_base::send_buffer_size(kSendBuffer_bytes), error);
   websocket::stream_base::timeout patience{};
@@ -105,14 +105,14 @@ bool HlCarrier::setUp() {
   return !error;
 }
 
-asio::awaitable<void> HlCarrier::run(http::request<http::string_body> request) {
+asio::awaitable<void> WebSocketSession::run(http::request<http::string_body> request) {
   using namespace asio::experimental::awaitable_operators;
   const auto self = shared_from_this();
   if (!setUp()) co_return;
   auto [refused] = co_await stream_.accept(request);
   if (refused) co_return;
   connection_->farewell = [weak = weak_from_this()] {
-    if (const auto carrier = weak.lock()) carrier->end({close_code::going_away, "the server stops", false, {}});
+    if (const auto session = weak.lock()) session->end({close_code::going_away, "the server stops", false, {}});
   };
   expectOpen();
   co_await (read() && write());
@@ -121,16 +121,16 @@ asio::awaitable<void> HlCarrier::run(http::request<http::string_body> request) {
 }
 
 // What a session leaves may be large. Without memory to ask a worker it goes here.
-asio::awaitable<void> HlCarrier::release() {
+asio::awaitable<void> WebSocketSession::release() {
   co_await onSession(world_.heavy_workers, [this] {
     session_.reset();
     return true;
   });
 }
 
-HlCarrier::~HlCarrier() {
+WebSocketSession::~WebSocketSession() {
   session_.reset();
-  bell_->close();
+  waker_->close();
   if (!opened_) return;
   --world_.traffic.sessions;
   guarded([this] {
@@ -139,34 +139,34 @@ HlCarrier::~HlCarrier() {
   });
 }
 
-void HlCarrier::end(Ending ending) {
+void WebSocketSession::end(Ending ending) {
   if (ending_) return;
   ending_ = std::move(ending);
-  bell_->ring();
+  waker_->wake();
 }
 
-void HlCarrier::refuse(close_code code, RefusedBecause because, std::string text) {
+void WebSocketSession::refuse(close_code code, RefusedBecause because, std::string text) {
   end({code, std::move(text), true, because});
 }
 
-void HlCarrier::expectOpen() {
+void WebSocketSession::expectOpen() {
   open_deadline_.expires_after(duration(world_.limits.handshake_s));
   open_deadline_.async_wait([weak = weak_from_this()](boost::system::error_code cancelled) {
-    const auto carrier = weak.lock();
-    if (cancelled || !carrier || carrier->opened_) return;
-    carrier->refuse(close_code::policy_error, RefusedBecause::kSilent, "no Open came in time; send it first");
+    const auto session = weak.lock();
+    if (cancelled || !session || session->opened_) return;
+    session->refuse(close_code::policy_error, RefusedBecause::kSilent, "no Open came in time; send it first");
   });
 }
 
 // ---- From the client -----------------------------------------------------------------------------------------------
 
 // Ended by an exception, or dropped where it waited, it leaves a session that nobody listens to: that ends too.
-asio::awaitable<void> HlCarrier::read() {
+asio::awaitable<void> WebSocketSession::read() {
   const auto end = [this](bool* whole) {
     if (*whole) return;
     gone_ = true;
     connection_->stream.close();
-    bell_->ring();
+    waker_->wake();
   };
   bool whole = false;
   const std::unique_ptr<bool, decltype(end)> guard(&whole, end);
@@ -174,7 +174,7 @@ asio::awaitable<void> HlCarrier::read() {
   whole = true;
 }
 
-asio::awaitable<void> HlCarrier::readMessages() {
+asio::awaitable<void> WebSocketSession::readMessages() {
   try {
     while (!ending_) {
       Incoming incoming(memory_);
@@ -192,7 +192,7 @@ asio::awaitable<void> HlCarrier::readMessages() {
   }
 }
 
-asio::awaitable<void> HlCarrier::takeIn(const Incoming& incoming) {
+asio::awaitable<void> WebSocketSession::takeIn(const Incoming& incoming) {
   const MessageForm form = stream_.gotText() ? MessageForm::kJson : MessageForm::kBinary;
   if (!opened_) form_ = form;
   const auto data = incoming.buffer.cdata();
@@ -210,12 +210,12 @@ asio::awaitable<void> HlCarrier::takeIn(const Incoming& incoming) {
     ++world_.traffic.sessions;
     ++world_.traffic.sessions_opened;
   }
-  bell_->ring();
+  waker_->wake();
 }
 
 // One whole message, or false: the connection has ended, or the message is too large and refused. Of one that there is
 // no memory for, the beginning: the rest is read and dropped.
-asio::awaitable<bool> HlCarrier::readMessage(Incoming& incoming) {
+asio::awaitable<bool> WebSocketSession::readMessage(Incoming& incoming) {
   const std::uint64_t most = opened_ ? world_.limits.message_bytes : world_.limits.open_bytes;
   std::uint64_t size = 0;
   incoming.buffer.max_size(most + kPiece_bytes);
@@ -226,7 +226,7 @@ asio::awaitable<bool> HlCarrier::readMessage(Incoming& incoming) {
     if (error) {
       if (error == websocket::condition::protocol_violation) world_.traffic.refuse(RefusedBecause::kMalformed);
       gone_ = true;
-      bell_->ring();
+      waker_->wake();
       co_return false;
     }
     world_.traffic.bytes_in += bytes;
@@ -243,7 +243,7 @@ asio::awaitable<bool> HlCarrier::readMessage(Incoming& incoming) {
 }
 
 // For another piece; the buffer is copied to one of twice its size when it is full.
-bool HlCarrier::hasRoom(Incoming& incoming) {
+bool WebSocketSession::hasRoom(Incoming& incoming) {
   constexpr std::uint64_t kWhileGrowing = 3;
   if (!incoming.no_room.empty()) return false;
   try {
@@ -255,7 +255,7 @@ bool HlCarrier::hasRoom(Incoming& incoming) {
   }
 }
 
-std::optional<HlCarrier::Ending> HlCarrier::handle(MessageForm form, std::string_view bytes) {
+std::optional<WebSocketSession::Ending> WebSocketSession::handle(MessageForm form, std::string_view bytes) {
   try {
     proto::ClientMessage message;
     MemoryShare memory(memory_);
@@ -275,7 +275,7 @@ std::optional<HlCarrier::Ending> HlCarrier::handle(MessageForm form, std::string
   }
 }
 
-std::optional<HlCarrier::Ending> HlCarrier::open(MessageForm form, proto::ClientMessage message) {
+std::optional<WebSocketSession::Ending> WebSocketSession::open(MessageForm form, proto::ClientMessage message) {
   if (!message.has_open()) {
     return Ending{close_code::policy_error, "the first message must be open", true, RefusedBecause::kMalformed};
   }
@@ -287,7 +287,7 @@ std::optional<HlCarrier::Ending> HlCarrier::open(MessageForm form, proto::Client
   }
   message.mutable_open()->clear_token();  // it has done its work: nobody else needs to know it
   try {
-    session_ = world_.host.connect([bell = bell_] { bell->ring(); });
+    session_ = world_.host.connect([waker = waker_] { waker->wake(); });
   } catch (const Error& error) {
     return Ending{close_code::try_again_later, error.what(), true, RefusedBecause::kFull};
   }
@@ -302,7 +302,7 @@ std::optional<HlCarrier::Ending> HlCarrier::open(MessageForm form, proto::Client
 
 // ---- To the client -------------------------------------------------------------------------------------------------
 
-HlCarrier::Next HlCarrier::next() {
+WebSocketSession::Next WebSocketSession::next() {
   if (!session_) return {.wait_s = kLongestWait_s};
   try {
     proto::ServerReply reply;
@@ -314,13 +314,13 @@ HlCarrier::Next HlCarrier::next() {
 }
 
 // Whatever the reader still waits for when this has ended, by whatever way, will not come.
-asio::awaitable<void> HlCarrier::write() {
+asio::awaitable<void> WebSocketSession::write() {
   const auto close = [](Stream* stream) { stream->close(); };
   const std::unique_ptr<Stream, decltype(close)> guard(&connection_->stream, close);
   co_await writeMessages();
 }
 
-asio::awaitable<void> HlCarrier::writeMessages() {
+asio::awaitable<void> WebSocketSession::writeMessages() {
   while (!gone_) {
     if (ending_) {
       co_await sayGoodbye(*ending_);
@@ -333,19 +333,19 @@ asio::awaitable<void> HlCarrier::writeMessages() {
     } else if (!todo.end.empty()) {
       end({close_code::policy_error, todo.end, false, {}});
     } else {
-      co_await bell_->wait(duration(todo.wait_s));
+      co_await waker_->wait(duration(todo.wait_s));
     }
   }
 }
 
-asio::awaitable<bool> HlCarrier::writeMessage(MessageForm form, const std::string& bytes) {
+asio::awaitable<bool> WebSocketSession::writeMessage(MessageForm form, const std::string& bytes) {
   write_deadline_.expires_after(duration(world_.limits.write_s));
   write_deadline_.async_wait([weak = weak_from_this()](boost::system::error_code cancelled) {
-    const auto carrier = weak.lock();
-    if (cancelled || !carrier) return;
-    carrier->world_.traffic.refuse(RefusedBecause::kSilent);
-    carrier->end({close_code::policy_error, "the client reads nothing", false, RefusedBecause::kSilent});
-    carrier->connection_->stream.close();
+    const auto session = weak.lock();
+    if (cancelled || !session) return;
+    session->world_.traffic.refuse(RefusedBecause::kSilent);
+    session->end({close_code::policy_error, "the client reads nothing", false, RefusedBecause::kSilent});
+    session->connection_->stream.close();
   });
   stream_.setText(form == MessageForm::kJson);
   auto [error, sent] = co_await stream_.write(asio::buffer(bytes));
@@ -355,7 +355,7 @@ asio::awaitable<bool> HlCarrier::writeMessage(MessageForm form, const std::strin
   co_return !error;
 }
 
-asio::awaitable<void> HlCarrier::sayGoodbye(const Ending& ending) {
+asio::awaitable<void> WebSocketSession::sayGoodbye(const Ending& ending) {
   if (ending.refusal) {
     world_.traffic.refuse(ending.because);
     logEvent(LogLevel::kWarning, "refused", {{"peer", connection_->peer}, {"reason", ending.text}});

@@ -15,14 +15,14 @@ namespace hl {
 
 /// One way between two shapes of one mesh, which number their primitives alike and have one tree. Immutable; any
 /// thread.
-class BendWay {
+class MeshTransition {
  public:
   /// `begin_ns` < `end_ns`. Where the shapes do not fit together (other elements have shrunk to nothing in one than in
   /// the other, or the hierarchies were built apart) copies are made that do; then what has shrunk to a line or a point
   /// is that, and a vertex that comes from beyond reach is at its end from the beginning. Copies are counted against
   /// `memory`; throws hl::Error when there is no room for them. Allocates.
-  BendWay(std::shared_ptr<const Shape> from, std::shared_ptr<const Shape> to, std::int64_t begin_ns,
-          std::int64_t end_ns, const MemoryBudget& memory = {});
+  MeshTransition(std::shared_ptr<const Shape> from, std::shared_ptr<const Shape> to, std::int64_t begin_ns,
+                 std::int64_t end_ns, const MemoryBudget& memory = {});
 
   const std::shared_ptr<const Shape>& from() const { return from_; }
   const std::shared_ptr<const Shape>& to() const { return to_; }
@@ -47,33 +47,36 @@ class BendWay {
 };
 
 /// One way, or one that follows another. Immutable; any thread.
-class Bend {
+class MeshMotion {
  public:
   /// Stays at last.from() until `last` begins.
-  explicit Bend(BendWay last) : last_(std::move(last)) {}
+  explicit MeshMotion(MeshTransition last) : last_(std::move(last)) {}
   /// This one, and then to `to` at about `end_ns` > `begin_ns`: a way that has begun by `begin_ns` is gone to its end
   /// first, one that has not is forgotten. Counted as a way is.
-  Bend then(const std::shared_ptr<const Shape>& to, std::int64_t begin_ns, std::int64_t end_ns,
-            const MemoryBudget& memory = {}) const;
+  MeshMotion then(const std::shared_ptr<const Shape>& to, std::int64_t begin_ns, std::int64_t end_ns,
+                  const MemoryBudget& memory = {}) const;
 
   std::int64_t end_ns() const { return last_.end_ns(); }
-  const std::optional<BendWay>& earlier() const { return earlier_; }
-  const BendWay& last() const { return last_; }
-  const BendWay& at(std::int64_t time_ns) const { return earlier_ && time_ns < last_.begin_ns() ? *earlier_ : last_; }
+  const std::optional<MeshTransition>& earlier() const { return earlier_; }
+  const MeshTransition& last() const { return last_; }
+  const MeshTransition& at(std::int64_t time_ns) const {
+    return earlier_ && time_ns < last_.begin_ns() ? *earlier_ : last_;
+  }
   /// As two that say so of themselves.
-  Bend(std::optional<BendWay> earlier, BendWay last) : earlier_(std::move(earlier)), last_(std::move(last)) {}
+  MeshMotion(std::optional<MeshTransition> earlier, MeshTransition last)
+      : earlier_(std::move(earlier)), last_(std::move(last)) {}
   /// Calls visit(shape) for each shape that is kept for it.
   template <typename Visit>
   void forEachShape(const Visit& visit) const {
-    for (const BendWay* way : {earlier_ ? &*earlier_ : nullptr, &last_}) {
+    for (const MeshTransition* way : {earlier_ ? &*earlier_ : nullptr, &last_}) {
       if (way == nullptr) continue;
       for (const auto* shape : {&way->given_from(), &way->given_to(), &way->from(), &way->to()}) visit(*shape);
     }
   }
 
  private:
-  std::optional<BendWay> earlier_;
-  BendWay last_;
+  std::optional<MeshTransition> earlier_;
+  MeshTransition last_;
 };
 
 }  // namespace hl

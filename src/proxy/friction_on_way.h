@@ -1,4 +1,4 @@
-// Resistance: what friction and viscosity of the contacts do to a slip along one straight way. The surfaces are read
+// FrictionOnWay: what friction and viscosity of the contacts do to a slip along one straight way. The surfaces are read
 // once for all places on the way: along it the texture coordinates are linear.
 #pragma once
 
@@ -13,11 +13,11 @@
 namespace hl {
 
 /// What a surface does against a slip, read once for all places on it.
-struct Roughness {
+struct SurfaceFriction {
   SurfaceValue fixed, dynamic, viscosity;  ///< mu_s, mu_d, b in N s/m
   double stribeck_m_s = 0, presliding_N_m = 0;
 
-  static Roughness of(const Surface& surface);
+  static SurfaceFriction of(const Surface& surface);
   bool textured() const { return fixed.texture || slipTextured(); }
   /// Whether what resists a slip changes along it; static friction only says when one begins.
   bool slipTextured() const { return dynamic.texture || viscosity.texture; }
@@ -26,39 +26,39 @@ struct Roughness {
 };
 
 /// RT-safe. What is added must outlive it.
-class Resistance {
+class FrictionOnWay {
  public:
-  explicit Resistance(const ProxySettings& settings) : settings_(settings) {}
+  explicit FrictionOnWay(const ProxySettings& settings) : settings_(settings) {}
 
   /// One more contact, touched where the patch has `moved` to, with a normal force of `normal_m`.
-  void add(const Roughness& roughness, const Patch& patch, const Vec2& moved, double normal_m);
+  void add(const SurfaceFriction& friction, const Patch& patch, const Vec2& moved, double normal_m);
 
-  Drag here() const;
+  SlipResistance here() const;
   bool slipTextured() const { return slip_textured_; }
 
   /// Where the slip goes. Until now there is no way: everywhere is here.
   void setWay(const Vec3& way);
   /// At a part 0..1 of the way, of a proxy that slides.
-  DragAlong at(double part) const;
+  SlidingResistance at(double part) const;
   /// Texels that the way crosses, in the finest of the textures.
   double texels() const { return texels_; }
   /// The part of the way after which a textured triangle is left behind: beyond, its texture says nothing.
   double within() const { return within_; }
 
  private:
-  struct Rubbing {
-    const Roughness* roughness;
+  struct TouchedSurface {
+    const SurfaceFriction* friction;
     const Patch* patch;
     Vec2 moved;
     double normal_m, stribeck_m;
     Vec2 texcoord, texcoord_way;
   };
-  void countTexels(const Rubbing& rubbing);
-  void findEdge(const SurfacePlace& from, const Vec2& way);
+  void countTexels(const TouchedSurface& surface);
+  void findEdge(const SurfacePoint& from, const Vec2& way);
 
   const ProxySettings& settings_;
-  FixedVector<Rubbing, 3> rubbings_;
-  double creep_ = 0;
+  FixedVector<TouchedSurface, 3> surfaces_;
+  double presliding_ratio_ = 0;
   bool slip_textured_ = false;
   double texels_ = 0;
   double within_ = std::numeric_limits<double>::infinity();
