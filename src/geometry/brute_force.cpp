@@ -2,13 +2,13 @@
 
 namespace hl {
 
-std::size_t BruteForceIndex::overlap(const Vec3&, double, FunctionRef<void(std::uint32_t)> visit) const {
+std::size_t BruteForceIndex::overlap(const Vec3&, double, FunctionRef<void(ElementId)> visit) const {
   for (std::size_t i = 0; i < primitives_; ++i) visit(static_cast<std::uint32_t>(i));
   return primitives_;
 }
 
 std::size_t BruteForceIndex::sweep(const Vec3&, const Vec3&, double, double,
-                                   FunctionRef<double(std::uint32_t, double)> visit) const {
+                                   FunctionRef<double(ElementId, double)> visit) const {
   double limit = 1;
   for (std::size_t i = 0; i < primitives_; ++i) limit = visit(static_cast<std::uint32_t>(i), limit);
   return primitives_;

@@ -9,10 +9,9 @@ namespace hl {
 class BruteForceIndex final : public SpatialIndex {
  public:
   explicit BruteForceIndex(std::size_t primitives) : primitives_(primitives) {}
-  std::size_t overlap(const Vec3& centre, double radius,
-                      FunctionRef<void(std::uint32_t primitive)> visit) const override;
+  std::size_t overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId primitive)> visit) const override;
   std::size_t sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
-                    FunctionRef<double(std::uint32_t primitive, double limit)> visit) const override;
+                    FunctionRef<double(ElementId primitive, double limit)> visit) const override;
   IndexStats stats() const override;
 
  private:

@@ -128,14 +128,14 @@ class Pair {
 
 }  // namespace
 
-std::size_t MovingBvh::overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t)> visit) const {
+std::size_t MovingBvh::overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId)> visit) const {
   const Pair pair(from_, to_, begin_, end_);
   return pair.walk(pair.way(centre, Vec3::Zero(), radius), visit);
 }
 
 // Looks at a part of the way, and at larger ones only where nothing is hit: goals are far, and most ways end soon.
 std::size_t MovingBvh::sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
-                             FunctionRef<double(std::uint32_t, double)> visit) const {
+                             FunctionRef<double(ElementId, double)> visit) const {
   constexpr double kMinPart = 1.0 / 8192, kLarger = 8;
   const Pair pair(from_, to_, begin_, end_);
   MovingWay way = pair.way(from, motion, radius);
@@ -144,7 +144,7 @@ std::size_t MovingBvh::sweep(const Vec3& from, const Vec3& motion, double radius
   for (double part = soon < length ? std::max(kMinPart, soon / length) : 1;; part = std::min(1.0, kLarger * part)) {
     way.limit = part;
     looked +=
-        pair.walk(way, [&](std::uint32_t primitive) { way.limit = std::min(way.limit, visit(primitive, way.limit)); });
+        pair.walk(way, [&](ElementId primitive) { way.limit = std::min(way.limit, visit(primitive, way.limit)); });
     if (way.limit < part || part >= 1) return looked;
   }
 }

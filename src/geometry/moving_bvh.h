@@ -17,10 +17,9 @@ class MovingBvh final : public SpatialIndex {
       : from_(from), to_(to), begin_(begin), end_(end) {}
   MovingBvh(const WideBvh& from, const WideBvh& to, double part) : MovingBvh(from, to, part, part) {}
 
-  std::size_t overlap(const Vec3& centre, double radius,
-                      FunctionRef<void(std::uint32_t primitive)> visit) const override;
+  std::size_t overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId primitive)> visit) const override;
   std::size_t sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
-                    FunctionRef<double(std::uint32_t primitive, double limit)> visit) const override;
+                    FunctionRef<double(ElementId primitive, double limit)> visit) const override;
   IndexStats stats() const override { return to_.stats(); }
 
  private:

@@ -82,7 +82,7 @@ bool isTriangle(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 bool isSegment(const Vec3& a, const Vec3& b) { return withinReach(a) && withinReach(b) && (b - a).squaredNorm() > 0; }
 
-Primitive triangleOf(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t source) {
+Primitive triangleOf(const Vec3& a, const Vec3& b, const Vec3& c, ElementId source) {
   Primitive triangle;
   triangle.kind = PrimitiveKind::kTriangle;
   triangle.source = source;
@@ -93,7 +93,7 @@ Primitive triangleOf(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t 
   return triangle;
 }
 
-Primitive segmentOf(const Vec3& a, const Vec3& b, std::uint32_t source) {
+Primitive segmentOf(const Vec3& a, const Vec3& b, ElementId source) {
   Primitive segment;
   segment.kind = PrimitiveKind::kSegment;
   segment.source = source;
@@ -104,7 +104,7 @@ Primitive segmentOf(const Vec3& a, const Vec3& b, std::uint32_t source) {
   return segment;
 }
 
-Primitive pointOf(const Vec3& a, std::uint32_t source) {
+Primitive pointOf(const Vec3& a, ElementId source) {
   Primitive point;
   point.kind = PrimitiveKind::kPoint;
   point.source = source;
@@ -113,7 +113,7 @@ Primitive pointOf(const Vec3& a, std::uint32_t source) {
   return point;
 }
 
-Primitive shrunkenOf(PrimitiveKind kind, const std::array<Vec3, 3>& corners, std::uint32_t source) {
+Primitive shrunkenOf(PrimitiveKind kind, const std::array<Vec3, 3>& corners, ElementId source) {
   const auto& v = corners;
   if (kind == PrimitiveKind::kTriangle) {
     if (isTriangle(v[0], v[1], v[2])) return triangleOf(v[0], v[1], v[2], source);
@@ -125,19 +125,19 @@ Primitive shrunkenOf(PrimitiveKind kind, const std::array<Vec3, 3>& corners, std
   return pointOf(v[0], source);
 }
 
-bool makeTriangle(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t source, Primitive& out) {
+bool makeTriangle(const Vec3& a, const Vec3& b, const Vec3& c, ElementId source, Primitive& out) {
   if (!isTriangle(a, b, c)) return false;
   out = triangleOf(a, b, c, source);
   return true;
 }
 
-bool makeSegment(const Vec3& a, const Vec3& b, std::uint32_t source, Primitive& out) {
+bool makeSegment(const Vec3& a, const Vec3& b, ElementId source, Primitive& out) {
   if (!isSegment(a, b)) return false;
   out = segmentOf(a, b, source);
   return true;
 }
 
-bool makePoint(const Vec3& a, std::uint32_t source, Primitive& out) {
+bool makePoint(const Vec3& a, ElementId source, Primitive& out) {
   if (!withinReach(a)) return false;
   out = pointOf(a, source);
   return true;

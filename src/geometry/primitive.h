@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "base/vec.h"
+#include "geometry/element_id.h"
 
 namespace hl {
 
@@ -21,7 +22,7 @@ struct Primitive {
   Vec3 normal = Vec3::Zero();  ///< unit face normal by the right-hand rule of the *given* order; triangles only
   PrimitiveKind kind = PrimitiveKind::kPoint;
   std::array<std::uint8_t, 3> order{0, 1, 2};  ///< vertex[i] was given as number order[i]
-  std::uint32_t source = 0;  ///< index of the element it was made from, in its model's list of that kind
+  ElementId source = 0;  ///< index of the element it was made from, in its model's list of that kind
 };
 
 /// Nothing beyond can be touched. A proxy of a metre still finds its way there, and no product of lengths that geometry
@@ -36,18 +37,18 @@ bool isTriangle(const Vec3& a, const Vec3& b, const Vec3& c);
 bool isSegment(const Vec3& a, const Vec3& b);
 
 /// The primitive that they make. RT-safe.
-Primitive triangleOf(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t source);
-Primitive segmentOf(const Vec3& a, const Vec3& b, std::uint32_t source);
-Primitive pointOf(const Vec3& a, std::uint32_t source);
+Primitive triangleOf(const Vec3& a, const Vec3& b, const Vec3& c, ElementId source);
+Primitive segmentOf(const Vec3& a, const Vec3& b, ElementId source);
+Primitive pointOf(const Vec3& a, ElementId source);
 
 /// What an element of this kind makes of its corners (a segment's last is not looked at) wherever they have gone within
 /// reach: a triangle that has shrunk to a line is its longest edge, and what has shrunk to a point is that. RT-safe.
-Primitive shrunkenOf(PrimitiveKind kind, const std::array<Vec3, 3>& corners, std::uint32_t source);
+Primitive shrunkenOf(PrimitiveKind kind, const std::array<Vec3, 3>& corners, ElementId source);
 
 /// Both at once: each returns false, and leaves `out` alone, where the vertices make none.
-bool makeTriangle(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t source, Primitive& out);
-bool makeSegment(const Vec3& a, const Vec3& b, std::uint32_t source, Primitive& out);
-bool makePoint(const Vec3& a, std::uint32_t source, Primitive& out);
+bool makeTriangle(const Vec3& a, const Vec3& b, const Vec3& c, ElementId source, Primitive& out);
+bool makeSegment(const Vec3& a, const Vec3& b, ElementId source, Primitive& out);
+bool makePoint(const Vec3& a, ElementId source, Primitive& out);
 
 /// Below this ratio of height to longest edge the face normal of a triangle has fewer than five good digits.
 inline constexpr double kSliver = 1e-11;

@@ -20,15 +20,15 @@ int compareVertices(const Primitive& a, const Primitive& b) {
 // The last few primitives looked at: an index that covers a primitive with many leaves proposes it many times in a row.
 class RecentlySeen {
  public:
-  bool testAndAdd(std::uint32_t primitive) {
+  bool testAndAdd(ElementId primitive) {
     if (std::find(seen_.begin(), seen_.end(), primitive) != seen_.end()) return true;
     seen_[next_++ % seen_.size()] = primitive;
     return false;
   }
 
  private:
-  static constexpr std::uint32_t kNone = 0xffffffff;
-  std::array<std::uint32_t, 4> seen_{kNone, kNone, kNone, kNone};
+  static constexpr ElementId kNone = ~ElementId{0};
+  std::array<ElementId, 4> seen_{kNone, kNone, kNone, kNone};
   std::size_t next_ = 0;
 };
 
@@ -41,7 +41,7 @@ bool firstOf(const SpatialIndex& index, const Read& read, const Vec3& from, cons
              double soon, const ImpactOf& impact_of, FirstImpact& out) {
   bool found = false;
   RecentlySeen seen;
-  index.sweep(from, motion, proposed, soon, [&](std::uint32_t candidate, double limit) {
+  index.sweep(from, motion, proposed, soon, [&](ElementId candidate, double limit) {
     Impact impact;
     if (seen.testAndAdd(candidate) || !impact_of(candidate, found ? out.impact.t : 1, impact)) return limit;
     if (found) {
@@ -70,20 +70,20 @@ bool precedes(const Primitive& a, const Primitive& b) {
 bool firstImpact(const SpatialIndex& index, const Primitives& primitives, const Vec3& from, const Vec3& motion,
                  double radius, double touching, FirstImpact& out) {
   Primitive last;
-  const auto read = [&](std::uint32_t candidate) -> const Primitive& { return last = primitives[candidate]; };
+  const auto read = [&](ElementId candidate) -> const Primitive& { return last = primitives[candidate]; };
   return firstImpact(index, read, from, motion, radius, touching, out);
 }
 
-bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(std::uint32_t)> read, const Vec3& from,
+bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(ElementId)> read, const Vec3& from,
                  const Vec3& motion, double radius, double touching, FirstImpact& out) {
   const auto is_contact = [&](const ClosestPoint& start) { return touching > 0 && start.distance <= touching; };
   return firstImpact(index, read, from, motion, radius, is_contact, out);
 }
 
-bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(std::uint32_t)> read, const Vec3& from,
+bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(ElementId)> read, const Vec3& from,
                  const Vec3& motion, double radius, FunctionRef<bool(const ClosestPoint&)> is_contact,
                  FirstImpact& out) {
-  const auto impact_of = [&](std::uint32_t candidate, double, Impact& impact) {
+  const auto impact_of = [&](ElementId candidate, double, Impact& impact) {
     const Primitive& primitive = read(candidate);
     const ClosestPoint start = closestPoint(primitive, from);
     return !is_contact(start) && sweepSphere(primitive, start, from, motion, radius, impact);
@@ -93,11 +93,11 @@ bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(std::ui
 
 // What is within `touching` where the way ends has been within a little more than that before: so it is proposed even
 // when the end is off by rounding.
-bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(std::uint32_t)> read, const Vec3& from,
+bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(ElementId)> read, const Vec3& from,
                  const Vec3& motion, double radius, double touching, double soon,
-                 FunctionRef<bool(std::uint32_t)> is_contact, FunctionRef<void(std::uint32_t)> meet, FirstImpact& out) {
+                 FunctionRef<bool(ElementId)> is_contact, FunctionRef<void(ElementId)> meet, FirstImpact& out) {
   const double proposed = touching + (touching - radius);
-  const auto impact_of = [&](std::uint32_t candidate, double latest, Impact& impact) {
+  const auto impact_of = [&](ElementId candidate, double latest, Impact& impact) {
     meet(candidate);
     return !is_contact(candidate) && sweepSphereFromOutside(read(candidate), from, motion, radius, latest, impact);
   };
@@ -105,16 +105,16 @@ bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(std::ui
 }
 
 void primitivesWithin(const SpatialIndex& index, const Primitives& primitives, const Vec3& centre, double distance,
-                      FunctionRef<void(std::uint32_t, const ClosestPoint&)> visit) {
+                      FunctionRef<void(ElementId, const ClosestPoint&)> visit) {
   Primitive last;
-  const auto read = [&](std::uint32_t candidate) -> const Primitive& { return last = primitives[candidate]; };
+  const auto read = [&](ElementId candidate) -> const Primitive& { return last = primitives[candidate]; };
   primitivesWithin(index, read, centre, distance, visit);
 }
 
-void primitivesWithin(const SpatialIndex& index, FunctionRef<const Primitive&(std::uint32_t)> read, const Vec3& centre,
-                      double distance, FunctionRef<void(std::uint32_t, const ClosestPoint&)> visit) {
+void primitivesWithin(const SpatialIndex& index, FunctionRef<const Primitive&(ElementId)> read, const Vec3& centre,
+                      double distance, FunctionRef<void(ElementId, const ClosestPoint&)> visit) {
   RecentlySeen seen;
-  index.overlap(centre, distance, [&](std::uint32_t candidate) {
+  index.overlap(centre, distance, [&](ElementId candidate) {
     if (seen.testAndAdd(candidate)) return;
     const ClosestPoint nearest = closestPoint(read(candidate), centre);
     if (nearest.distance <= distance) visit(candidate, nearest);

@@ -14,7 +14,7 @@ namespace hl {
 /// Valid only when firstImpact returned true.
 struct FirstImpact {
   Impact impact;
-  std::uint32_t primitive = 0;
+  ElementId primitive = 0;
 };
 
 /// Whether `a` comes before `b`: by their vertices, lexicographically; copies are told apart by where they came from.
@@ -29,28 +29,28 @@ bool firstImpact(const SpatialIndex& index, const Primitives& primitives, const 
                  double radius, double touching, FirstImpact& out);
 
 /// The same for a caller who reads primitives in its own way.
-bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(std::uint32_t primitive)> read,
-                 const Vec3& from, const Vec3& motion, double radius, double touching, FirstImpact& out);
+bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(ElementId primitive)> read, const Vec3& from,
+                 const Vec3& motion, double radius, double touching, FirstImpact& out);
 /// The same over all primitives but those of which `is_contact` says so, given the point nearest to `from`.
-bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(std::uint32_t primitive)> read,
-                 const Vec3& from, const Vec3& motion, double radius,
-                 FunctionRef<bool(const ClosestPoint& start)> is_contact, FirstImpact& out);
+bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(ElementId primitive)> read, const Vec3& from,
+                 const Vec3& motion, double radius, FunctionRef<bool(const ClosestPoint& start)> is_contact,
+                 FirstImpact& out);
 /// The same for a caller who reads primitives in its own way and knows its contacts: `is_contact` says of a primitive
 /// whether it is within `touching`, which is more than `radius`, of `from`. Calls `meet` for some primitives (one maybe
 /// more than once), in no given order, among which is every one within `touching` of the place where the motion ends or
 /// is stopped, and of any place that rounding puts a little aside. `soon` as in SpatialIndex::sweep.
-bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(std::uint32_t primitive)> read,
-                 const Vec3& from, const Vec3& motion, double radius, double touching, double soon,
-                 FunctionRef<bool(std::uint32_t primitive)> is_contact, FunctionRef<void(std::uint32_t primitive)> meet,
+bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(ElementId primitive)> read, const Vec3& from,
+                 const Vec3& motion, double radius, double touching, double soon,
+                 FunctionRef<bool(ElementId primitive)> is_contact, FunctionRef<void(ElementId primitive)> meet,
                  FirstImpact& out);
 
 /// Visits every primitive within `distance` (m, inclusive) of `centre`, exactly; may repeat one, in no given order.
 /// RT-safe, any thread.
 void primitivesWithin(const SpatialIndex& index, const Primitives& primitives, const Vec3& centre, double distance,
-                      FunctionRef<void(std::uint32_t primitive, const ClosestPoint& nearest)> visit);
+                      FunctionRef<void(ElementId primitive, const ClosestPoint& nearest)> visit);
 /// The same for a caller who reads primitives in its own way.
-void primitivesWithin(const SpatialIndex& index, FunctionRef<const Primitive&(std::uint32_t primitive)> read,
+void primitivesWithin(const SpatialIndex& index, FunctionRef<const Primitive&(ElementId primitive)> read,
                       const Vec3& centre, double distance,
-                      FunctionRef<void(std::uint32_t primitive, const ClosestPoint& nearest)> visit);
+                      FunctionRef<void(ElementId primitive, const ClosestPoint& nearest)> visit);
 
 }  // namespace hl

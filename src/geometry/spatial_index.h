@@ -7,6 +7,7 @@
 
 #include "base/function_ref.h"
 #include "base/vec.h"
+#include "geometry/element_id.h"
 
 namespace hl {
 
@@ -26,14 +27,14 @@ class SpatialIndex {
   /// Visits every primitive that may come within `radius` of `centre` (metres); may repeat one, in no given order.
   /// Returns its cost.
   virtual std::size_t overlap(const Vec3& centre, double radius,
-                              FunctionRef<void(std::uint32_t primitive)> visit) const = 0;
+                              FunctionRef<void(ElementId primitive)> visit) const = 0;
   /// Visits every primitive that a sphere of `radius` moving from `from` by `motion` may touch before the limit, near
   /// ones first where the structure can tell; may repeat one. `visit` is given the present limit (it starts at 1, a
   /// fraction of the motion) and returns the new one, which must not be larger: later candidates are then searched
   /// only up to it. `soon` (m, >= 0): an impact is likely within so much of the way; it decides nothing but how long an
   /// answer takes. Returns its cost.
   virtual std::size_t sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
-                            FunctionRef<double(std::uint32_t primitive, double limit)> visit) const = 0;
+                            FunctionRef<double(ElementId primitive, double limit)> visit) const = 0;
   virtual IndexStats stats() const = 0;
 };
 

@@ -218,15 +218,15 @@ SphereTree SphereTree::build(const Primitives& primitives) {
   return tree;
 }
 
-std::size_t SphereTree::overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t)> visit) const {
-  return sweep(centre, Vec3::Zero(), radius, 0, [&](std::uint32_t primitive, double limit) {
+std::size_t SphereTree::overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId)> visit) const {
+  return sweep(centre, Vec3::Zero(), radius, 0, [&](ElementId primitive, double limit) {
     visit(primitive);
     return limit;
   });
 }
 
 std::size_t SphereTree::sweep(const Vec3& from, const Vec3& motion, double radius, double,
-                              FunctionRef<double(std::uint32_t, double)> visit) const {
+                              FunctionRef<double(ElementId, double)> visit) const {
   if (leaves_.empty()) return 0;
   struct Waiting {
     std::int32_t link;

@@ -40,10 +40,9 @@ class SphereTree final : public SpatialIndex {
   /// Builds in O(n lg n); at most 64 leaves a primitive. Setup only. Empty input gives an index that visits nothing.
   static SphereTree build(const Primitives& primitives);
 
-  std::size_t overlap(const Vec3& centre, double radius,
-                      FunctionRef<void(std::uint32_t primitive)> visit) const override;
+  std::size_t overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId primitive)> visit) const override;
   std::size_t sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
-                    FunctionRef<double(std::uint32_t primitive, double limit)> visit) const override;
+                    FunctionRef<double(ElementId primitive, double limit)> visit) const override;
   IndexStats stats() const override;
 
   std::span<const Node> nodes() const { return nodes_; }  ///< nodes()[0] is the root; one leaf alone has no node

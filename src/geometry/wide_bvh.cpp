@@ -84,14 +84,14 @@ double WideBvh::reach(const Vec3& from, const Vec3& motion, double radius) const
   return radius + kRounding * (largest(from) + largest(motion) + extent_);
 }
 
-std::size_t WideBvh::overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t)> visit) const {
+std::size_t WideBvh::overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId)> visit) const {
   if (primitives_ == 0) return 0;
   const Vec3 at = centre - origin_;
   return overlapWide(tree(), {{at[0], at[1], at[2]}, {0, 0, 0}, reach(centre, Vec3::Zero(), radius)}, visit);
 }
 
 std::size_t WideBvh::sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
-                           FunctionRef<double(std::uint32_t, double)> visit) const {
+                           FunctionRef<double(ElementId, double)> visit) const {
   constexpr double kMinPart = 1.0 / 8192;  // five walks more find what comes late
   if (primitives_ == 0) return 0;
   const Vec3 at = from - origin_;

@@ -35,10 +35,9 @@ class WideBvh final : public SpatialIndex {
   /// The same in multiples of what it was when the tree was built.
   double costRatio() const { return cost_ == 0 ? 1 : cost_ / built_cost_; }
 
-  std::size_t overlap(const Vec3& centre, double radius,
-                      FunctionRef<void(std::uint32_t primitive)> visit) const override;
+  std::size_t overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId primitive)> visit) const override;
   std::size_t sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
-                    FunctionRef<double(std::uint32_t primitive, double limit)> visit) const override;
+                    FunctionRef<double(ElementId primitive, double limit)> visit) const override;
   IndexStats stats() const override;
 
   std::span<const WideNode> nodes() const { return nodes_; }  ///< nodes()[0] is the root; one block alone has no node

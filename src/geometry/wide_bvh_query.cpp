@@ -180,7 +180,7 @@ HWY_INLINE std::size_t forEachFew(const WideTree& tree, const BoxQuery& query, c
   return looked;
 }
 
-std::size_t overlap(const WideTree& tree, const WideQuery& query, FunctionRef<void(std::uint32_t)> visit) {
+std::size_t overlap(const WideTree& tree, const WideQuery& query, FunctionRef<void(ElementId)> visit) {
   return forEachFew(tree, boxQuery(tree, query), [&](const FewNumbers& numbers) HWY_ATTR {
     FewBlocks blocks;
     setBlocks(blocks, tree, query, numbers);
@@ -192,7 +192,7 @@ std::size_t overlap(const WideTree& tree, const WideQuery& query, FunctionRef<vo
 // Looks at a part of the way, and at larger ones only where nothing is hit: goals are far, and most ways end soon.
 class Sweep {
  public:
-  HWY_INLINE Sweep(const WideTree& tree, const WideQuery& query, FunctionRef<double(std::uint32_t, double)> visit)
+  HWY_INLINE Sweep(const WideTree& tree, const WideQuery& query, FunctionRef<double(ElementId, double)> visit)
       : tree_(tree), query_(query), visit_(visit), box_(boxQuery(tree, query)) {}
 
   std::size_t run(double first_part) {
@@ -282,7 +282,7 @@ class Sweep {
 
   const WideTree& tree_;
   const WideQuery& query_;
-  FunctionRef<double(std::uint32_t, double)> visit_;
+  FunctionRef<double(ElementId, double)> visit_;
   BoxQuery box_;
   double limit_ = 1;    // of the part looked at
   double soonest_ = 1;  // impact; rounding may put the first a little beyond the part in which it is proposed
@@ -294,11 +294,11 @@ class Sweep {
 
 }  // namespace
 
-std::size_t overlapFor(const WideTree& tree, const WideQuery& query, FunctionRef<void(std::uint32_t)> visit) {
+std::size_t overlapFor(const WideTree& tree, const WideQuery& query, FunctionRef<void(ElementId)> visit) {
   return overlap(tree, query, visit);
 }
 std::size_t sweepFor(const WideTree& tree, const WideQuery& query, double first_part,
-                     FunctionRef<double(std::uint32_t, double)> visit) {
+                     FunctionRef<double(ElementId, double)> visit) {
   return Sweep(tree, query, visit).run(first_part);
 }
 
@@ -312,12 +312,12 @@ namespace hl {
 HWY_EXPORT(overlapFor);
 HWY_EXPORT(sweepFor);
 
-std::size_t overlapWide(const WideTree& tree, const WideQuery& query, FunctionRef<void(std::uint32_t)> visit) {
+std::size_t overlapWide(const WideTree& tree, const WideQuery& query, FunctionRef<void(ElementId)> visit) {
   return HWY_DYNAMIC_DISPATCH(overlapFor)(tree, query, visit);
 }
 
 std::size_t sweepWide(const WideTree& tree, const WideQuery& query, double first_part,
-                      FunctionRef<double(std::uint32_t, double)> visit) {
+                      FunctionRef<double(ElementId, double)> visit) {
   return HWY_DYNAMIC_DISPATCH(sweepFor)(tree, query, first_part, visit);
 }
 

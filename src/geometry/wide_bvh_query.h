@@ -6,14 +6,15 @@
 #include <cstdint>
 
 #include "base/function_ref.h"
+#include "geometry/element_id.h"
 #include "geometry/wide_bvh_layout.h"
 
 namespace hl {
 
 /// See SpatialIndex. RT-safe.
-std::size_t overlapWide(const WideTree& tree, const WideQuery& query, FunctionRef<void(std::uint32_t primitive)> visit);
+std::size_t overlapWide(const WideTree& tree, const WideQuery& query, FunctionRef<void(ElementId primitive)> visit);
 /// `first_part`: of the motion, 0 < first_part <= 1; what is looked at before the rest.
 std::size_t sweepWide(const WideTree& tree, const WideQuery& query, double first_part,
-                      FunctionRef<double(std::uint32_t primitive, double limit)> visit);
+                      FunctionRef<double(ElementId primitive, double limit)> visit);
 
 }  // namespace hl

@@ -2,6 +2,7 @@
 
 #include <hl.pb.h>
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 
@@ -15,6 +16,8 @@ namespace hl {
 namespace {
 
 constexpr std::uint64_t kSmallest = 1024;  // of a mesh and its message beside its lists
+// Three corners with normals, and three indices.
+constexpr std::uint64_t kDrawnTriangle_bytes = 6 * 3 * sizeof(float) + 3 * sizeof(std::uint32_t);
 
 std::uint64_t messageBytes(const Model& model, const Look& look) {
   std::uint64_t bytes =
@@ -25,8 +28,27 @@ std::uint64_t messageBytes(const Model& model, const Look& look) {
   return bytes;
 }
 
-std::string meshMessage(std::uint32_t number, const Shape& shape, const Look& look) {
-  const Model& model = shape.model;
+// What is drawn of a surface that is no mesh: all its triangles, each with corners of its own.
+Model drawnOf(const PrimitiveSource& source) {
+  Model model;
+  for (ElementId id = 0; id < source.count(); ++id) {
+    const auto first = static_cast<std::uint32_t>(model.positions.size());
+    for (const Vec3& corner : source.corners(id)) {
+      model.positions.push_back(corner);
+      model.normals.push_back(source.trueNormal(id, corner));
+    }
+    model.triangles.push_back({first, first + 1, first + 2});
+  }
+  return model;
+}
+
+std::uint64_t messageBytes(const Shape& shape, const Look& look) {
+  if (!shape.source) return messageBytes(shape.model, look);
+  constexpr ElementId kMost = 1'000'000'000;  // far beyond any message
+  return kSmallest + kDrawnTriangle_bytes * std::min(shape.count(), kMost);
+}
+
+std::string meshMessage(std::uint32_t number, const Shape& shape, const Model& model, const Look& look) {
   proto::ServerMessage message;
   proto::SceneMesh& out = *message.mutable_mesh();
   out.set_number(number);
@@ -53,13 +75,15 @@ std::string emptyMessage(std::uint32_t number) {
 
 PageMeshes::Made PageMeshes::make(std::uint32_t number, const Shape& shape, const Look& look) const {
   try {
-    const std::uint64_t bytes = messageBytes(shape.model, look);
+    const std::uint64_t bytes = messageBytes(shape, look);
     if (bytes > most_bytes_)
       throw Error("it would take " + std::to_string(bytes / 1'000'000) + " MB, and a page is sent " +
                   std::to_string(most_bytes_ / 1'000'000) + " MB at most: show it in several objects");
     MemoryShare memory(memory_);
     memory.take(2 * bytes);  // the message is put together and then written
-    auto message = std::make_shared<const std::string>(meshMessage(number, shape, look));
+    const Model drawn = shape.source ? drawnOf(*shape.source) : Model{};
+    auto message =
+        std::make_shared<const std::string>(meshMessage(number, shape, shape.source ? drawn : shape.model, look));
     memory.set(kSmallest + message->capacity());
     return {number, withShare(std::move(message), std::move(memory)), {}};
   } catch (const std::exception& error) {

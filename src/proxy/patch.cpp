@@ -23,10 +23,10 @@ void Patch::readPlane(const SceneAt& scene, const Surface& surface) {
   const Primitive& triangle = scene.primitive(place_.primitive);
   Vec3 e1 = triangle.vertex[1] - triangle.vertex[0], e2 = triangle.vertex[2] - triangle.vertex[0];
   std::array<Vec3, 3> normal;
-  if (smooth_) normal = {surface.normal(0), surface.normal(1), surface.normal(2)};
-  const Motion& motion = scene.instance(place_.primitive).motion;
-  if (!motion.identity()) {
-    const Mat3 turn = motion.at(scene.time_ns()).rotation;
+  if (smooth_) normal = {surface.normal(triangle, 0), surface.normal(triangle, 1), surface.normal(triangle, 2)};
+  const Instance& instance = scene.instance(place_.primitive);
+  if (!instance.atWorld()) {
+    const Mat3 turn = instance.poses().at(scene.time_ns()).rotation;
     e1 = turn * e1;
     e2 = turn * e2;
     if (smooth_) normal = {turn * normal[0], turn * normal[1], turn * normal[2]};

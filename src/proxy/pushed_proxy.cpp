@@ -41,9 +41,9 @@ Vec3 deformedBy(const PushedProxy& proxy, const MeshTransition& way, std::int64_
 Vec3 PushedProxy::carriedTo(std::int64_t time_ns) const {
   if (carrier == kNoInstance) return position;
   const Instance& by = snapshot.instances[carrier];
-  Vec3 place = by.motion.at(now_ns).toObject(position);
+  Vec3 place = by.poses().at(now_ns).toObject(position);
   if (const MeshTransition* const way = by.transitionAt(now_ns)) place += deformedBy(*this, *way, time_ns);
-  return by.motion.at(time_ns).toWorld(place);
+  return by.poses().at(time_ns).toWorld(place);
 }
 
 Box PushedProxy::regionOf(const Vec3& way_end) const {
@@ -56,7 +56,7 @@ std::uint32_t movingInstance(const Snapshot& snapshot, std::uint64_t key) {
   const auto found =
       std::lower_bound(all.begin(), all.end(), key, [](const Instance& a, std::uint64_t b) { return a.key < b; });
   if (key == 0 || found == all.end() || found->key != key) return kNoInstance;
-  if (!found->motion.moves() && !found->mesh_motion) return kNoInstance;
+  if (!found->poses().moves() && !found->mesh_motion) return kNoInstance;
   return static_cast<std::uint32_t>(found - all.begin());
 }
 

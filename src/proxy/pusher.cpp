@@ -21,7 +21,7 @@ void Pusher::sweep(int left) {
   const Advance free = rigidSweep(proxy_);
   goOnTo(free.until_ns);
   if (free.met == kNoInstance) return;
-  const bool carries = proxy_.carrier == kNoInstance && proxy_.snapshot.instances[free.met].motion.moves();
+  const bool carries = proxy_.carrier == kNoInstance && proxy_.snapshot.instances[free.met].poses().moves();
   proxy_.carrier = carries ? free.met : kNoInstance;
   if (!carries) step(left);
 }

@@ -13,15 +13,7 @@ namespace {
 std::int64_t straightUntil(const PushedProxy& proxy) {
   std::int64_t until_ns = proxy.end_ns;
   proxy.forEachNear(proxy.position, [&](std::uint32_t, const Instance& instance) {
-    const Motion& motion = instance.motion;
-    const bool earlier = proxy.now_ns < motion.last().begin_ns();
-    const Screw& screw = earlier ? motion.earlier() : motion.last();
-    if (earlier && motion.moves()) until_ns = std::min(until_ns, motion.last().begin_ns());
-    if (!screw.moves() || screw.angle() == 0) return;
-    const auto whole_ns = static_cast<double>(screw.end_ns() - screw.begin_ns());
-    const double way_ns = accuracy::kMaxTurn_rad / screw.angle() * whole_ns;
-    if (way_ns < static_cast<double>(until_ns - proxy.now_ns))
-      until_ns = proxy.now_ns + std::max<std::int64_t>(1, static_cast<std::int64_t>(way_ns));
+    until_ns = instance.poses().straightUntil(proxy.now_ns, until_ns, accuracy::kMaxTurn_rad);
   });
   return until_ns;
 }
@@ -36,12 +28,14 @@ Meeting firstMeeting(const PushedProxy& proxy, std::int64_t until_ns) {
   const double met_m = accuracy::kMetAt * proxy.tolerance.reach;
   Meeting first;
   proxy.forEachNear(carried, [&](std::uint32_t i, const Instance& instance) {
-    if (i == proxy.carrier || (!instance.motion.moves() && proxy.carrier == kNoInstance)) return;
-    const Vec3 from = instance.motion.at(proxy.now_ns).toObject(proxy.position);
-    const Vec3 to = instance.motion.at(until_ns).toObject(carried);
+    if (i == proxy.carrier || (!instance.poses().moves() && proxy.carrier == kNoInstance)) return;
+    const Vec3 from = instance.poses().at(proxy.now_ns).toObject(proxy.position);
+    const Vec3 to = instance.poses().at(until_ns).toObject(carried);
     const Shape& shape = *instance.shape;
+    Primitive last;
+    const auto read = [&](ElementId id) -> const Primitive& { return last = shape.primitive(id); };
     FirstImpact hit;
-    if (!firstImpact(*shape.index, shape.primitives, from, to - from, met_m, -1, hit)) return;
+    if (!firstImpact(*shape.index, read, from, to - from, met_m, -1, hit)) return;
     if (hit.impact.t < first.part || (hit.impact.t == first.part && i < first.instance)) first = {hit.impact.t, i};
   });
   return first;

@@ -23,9 +23,9 @@ std::int64_t oneWayUntil(const PushedProxy& proxy) {
 
 // How far an object moves past the proxy until then, at most, not counting how it bends.
 double wayOf_m(const PushedProxy& proxy, const Instance& instance, std::int64_t until_ns, double clearance) {
-  const Motion& motion = instance.motion;
-  if (!motion.moves()) return 0;
-  const Pose now = motion.at(proxy.now_ns), end = motion.at(until_ns);
+  const PoseSource& poses = instance.poses();
+  if (!poses.moves()) return 0;
+  const Pose now = poses.at(proxy.now_ns), end = poses.at(until_ns);
   const double turn = (end.rotation - now.rotation).norm();
   const double slide = (end.toWorld(now.toObject(proxy.position)) - proxy.position).norm();
   return convergence::kArcPerChord * (slide + turn * clearance);
@@ -38,10 +38,10 @@ double partUntilClose(const PushedProxy& proxy, const Instance& instance, std::i
   const MeshTransition* const way = instance.transitionAt(proxy.now_ns);
   if (way == nullptr) return 1;
   const double begin = way->part(proxy.now_ns), end = way->part(until_ns);
-  const Vec3 place = instance.motion.at(proxy.now_ns).toObject(proxy.position);
+  const Vec3 place = instance.poses().at(proxy.now_ns).toObject(proxy.position);
   const double within = (1 - kCloseIn) * proxy.tolerance.reach + way_m;
   double part = 1;
-  way->index(begin, end).overlap(place, within, [&](std::uint32_t primitive) {
+  way->index(begin, end).overlap(place, within, [&](ElementId primitive) {
     const double distance = closestPoint(way->primitive(primitive, begin), place).distance;
     const double most = (end - begin) * way->length_m(primitive) + way_m;
     if (kCloseIn * distance < part * most) part = kCloseIn * distance / most;

@@ -4,13 +4,14 @@ namespace hl {
 
 Surface::Surface(const SceneAt& scene, const MaterialOverride& set, PrimitiveId id)
     : set_(set),
+      id_(id.element),
       shape_(scene.shape(id)),
       surfaces_(*scene.instance(id).surfaces),
       material_(surfaces_.materials[shape_.materialOf(id.element)]),
       triangle_(scene.kind(id) == PrimitiveKind::kTriangle) {
-  smooth_ = isTriangle() && set.smooth.value_or(material_.smooth) && !shape_.model.normals.empty();
+  smooth_ = isTriangle() && set.smooth.value_or(material_.smooth) && shape_.hasNormals();
   mapped_ = isTriangle() && set.textures && !shape_.model.texcoords.empty();
-  if (!smooth_ && !mapped_) return;
+  if (!mapped_) return;
   const Primitive& primitive = scene.primitive(id);
   source_ = primitive.source;
   order_ = primitive.order;

@@ -32,8 +32,10 @@ class Surface {
   bool isTriangle() const { return triangle_; }
   /// Whether it is to be shaded by the normals of its vertices.
   bool smooth() const { return smooth_; }
-  /// Of a triangle with normals, in the frame of its object.
-  const Vec3& normal(std::size_t sorted) const { return shape_.model.normals[corner(sorted)]; }
+  /// At a corner of the triangle that this is, where it is smooth; frame of its object.
+  Vec3 normal(const Primitive& triangle, std::size_t sorted) const {
+    return shape_.cornerNormal(id_, triangle, sorted);
+  }
 
   /// Whether a texture modulates the quantity, or any of them.
   bool textured(Quantity quantity) const {
@@ -58,11 +60,12 @@ class Surface {
   double number(Quantity quantity) const;
 
   const MaterialOverride& set_;
+  const ElementId id_;
   const Shape& shape_;
   const Surfaces& surfaces_;
   const Material& material_;
   bool triangle_, smooth_, mapped_;
-  std::uint32_t source_ = 0;             // as Primitive has it, of a smooth or mapped triangle
+  ElementId source_ = 0;                 // as Primitive has it, of a mapped triangle
   std::array<std::uint8_t, 3> order_{};  // the same
 };
 

@@ -81,9 +81,11 @@ void SceneWriter::write(const Snapshot& scene, const Write& write) {
   out.set_blend_ns(scene.blend_ns);
   out.set_name(scene.name);
   for (const Instance& instance : scene.instances) {
+    if (instance.driver) throw Error("an object that is driven cannot be recorded");
     proto::RecordedInstance& placed = *out.add_instances();
     encode(instance, placed);
     const auto shape_id = [&](const std::shared_ptr<const Shape>& shape) {
+      if (shape->source) throw Error("a surface that is no mesh cannot be recorded");
       return idOf(shapes_, shape, [&](std::uint64_t id) {
         writeMesh(shape->model, [&](proto::RecordedShape& mesh) {
           proto::RecordingBlock part;

@@ -150,14 +150,14 @@ void EditableScene::Flattening::enter(const SceneItem& item, const Call& call) {
 }
 
 void EditableScene::Flattening::add(const SceneItem& item, const Call& call) {
-  if (item.shape->primitives.empty()) return;
+  if (item.shape->count() == 0) return;
   if (placed_.size() >= scene_.limits_.instances)
     throw Error("there are more than " + std::to_string(scene_.limits_.instances) + " objects in the world");
   const Polar polar = polarOf(call.placement.linear);
   const Pose pose{polar.rotation, call.placement.offset};
   const std::shared_ptr<const Shape> shape = shapeOf(item.shape, polar.stretch);
   const Box box = boxAt(shape->bounds, pose);
-  if (shape->primitives.empty()) return;
+  if (shape->count() == 0) return;
   if (!pose.origin.allFinite() || !withinReach(box.min) || !withinReach(box.max))
     throw Error("an object lies farther than 1e9 m from the origin: nothing so far can be touched");
   memory_.take(bytesInWorld());
@@ -168,6 +168,7 @@ void EditableScene::Flattening::add(const SceneItem& item, const Call& call) {
 std::shared_ptr<const Shape> EditableScene::Flattening::shapeOf(const std::shared_ptr<const Shape>& shape,
                                                                 const Mat3& stretch) {
   if (stretch == Mat3::Identity()) return shape;
+  if (shape->source) throw Error("a surface that is no mesh cannot be scaled");
   const std::array<double, 6> upper{stretch(0, 0), stretch(0, 1), stretch(0, 2),
                                     stretch(1, 1), stretch(1, 2), stretch(2, 2)};
   auto& slot = stretched[{shape->geometry, upper}];
@@ -257,7 +258,7 @@ void EditableScene::apply(SceneEdit edit) {
 
 std::size_t EditableScene::primitives() const {
   std::size_t sum = 0;
-  for (const PlacedShape& placed : *placed_) sum += placed.shape->primitives.size();
+  for (const PlacedShape& placed : *placed_) sum += placed.shape->count();
   return sum;
 }
 

@@ -51,13 +51,14 @@ int compareTextures(const FeltPrimitive& a, const FeltPrimitive& b) {
 int compareCorners(const FeltPrimitive& a, const FeltPrimitive& b) {
   if (a.primitive.kind != PrimitiveKind::kTriangle) return 0;
   const auto corners = [](const FeltPrimitive& one) {
-    const Model& model = one.instance.shape->model;
-    const auto& triangle = model.triangles[one.primitive.source];
+    const Shape& shape = *one.instance.shape;
+    const Model& model = shape.model;
     std::array<double, 15> numbers{};
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t vertex = triangle[one.primitive.order[i]];
-      if (!model.normals.empty()) std::copy_n(model.normals[vertex].data(), 3, &numbers[5 * i]);
-      if (!model.texcoords.empty()) std::copy_n(model.texcoords[vertex].data(), 2, &numbers[5 * i + 3]);
+      if (shape.hasNormals()) std::copy_n(shape.cornerNormal(one.element, one.primitive, i).data(), 3, &numbers[5 * i]);
+      if (model.texcoords.empty()) continue;
+      const std::uint32_t vertex = model.triangles[one.primitive.source][one.primitive.order[i]];
+      std::copy_n(model.texcoords[vertex].data(), 2, &numbers[5 * i + 3]);
     }
     return numbers;
   };

@@ -13,7 +13,7 @@ namespace hl {
 
 struct FeltPrimitive {
   const Instance& instance;
-  std::uint32_t element;       ///< number in the instance's shape
+  ElementId element;           ///< number in the instance's shape
   const Primitive& primitive;  ///< that element
 };
 

@@ -78,7 +78,7 @@ double MeshTransition::part(std::int64_t time_ns) const {
   return static_cast<double>(time_ns - begin_ns_) / static_cast<double>(end_ns_ - begin_ns_);
 }
 
-std::array<Vec3, 3> MeshTransition::corners(std::uint32_t primitive, double part) const {
+std::array<Vec3, 3> MeshTransition::corners(ElementId primitive, double part) const {
   const std::array<std::uint32_t, 3> vertex = verticesOf(*to_, primitive);
   std::array<Vec3, 3> result;
   for (std::size_t i = 0; i < 3; ++i)
@@ -86,12 +86,12 @@ std::array<Vec3, 3> MeshTransition::corners(std::uint32_t primitive, double part
   return result;
 }
 
-Primitive MeshTransition::primitive(std::uint32_t primitive, double part) const {
+Primitive MeshTransition::primitive(ElementId primitive, double part) const {
   return shrunkenOf(to_->primitives.elementKind(primitive), corners(primitive, part),
                     to_->primitives.source(primitive));
 }
 
-double MeshTransition::length_m(std::uint32_t primitive) const {
+double MeshTransition::length_m(ElementId primitive) const {
   const auto begin = corners(primitive, 0), end = corners(primitive, 1);
   double most2 = 0;
   for (std::size_t i = 0; i < 3; ++i) most2 = std::max(most2, (end[i] - begin[i]).squaredNorm());

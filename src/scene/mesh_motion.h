@@ -34,10 +34,10 @@ class MeshTransition {
   /// Of the way, 0..1. RT-safe, as all below.
   double part(std::int64_t time_ns) const;
   /// Of a primitive of to(), in the order given.
-  std::array<Vec3, 3> corners(std::uint32_t primitive, double part) const;
-  Primitive primitive(std::uint32_t primitive, double part) const;
+  std::array<Vec3, 3> corners(ElementId primitive, double part) const;
+  Primitive primitive(ElementId primitive, double part) const;
   /// How far its fastest corner moves in all, m.
-  double length_m(std::uint32_t primitive) const;
+  double length_m(ElementId primitive) const;
   MovingBvh index(double begin, double end) const { return {*from_tree_, *to_tree_, begin, end}; }
 
  private:

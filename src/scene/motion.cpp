@@ -6,6 +6,7 @@
 // and along the way, s in 0..1, the rotation exp(s w) and the translation s V(s w) v.
 #include "scene/motion.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/plain_math.h"
@@ -50,6 +51,21 @@ Vec3 rotationVector(const Mat3& rotation) {
   return (half.w() < 0 ? -angle : angle) / sine * half.vec();
 }
 
+void addSphere(Box& box, const Vec3& centre, double radius) {
+  box.extend(centre - Vec3::Constant(radius));
+  box.extend(centre + Vec3::Constant(radius));
+}
+
+// While it moves: the sphere about its box moves with a centre that strays from its two ends by no more than their
+// distance, as a turn is at most half a circle and the axis of a screw is straight.
+void addWay(Box& reach, const Box& object, const Screw& way) {
+  const Vec3 begin = way.from().toWorld(object.centre());
+  const Vec3 end = way.to().toWorld(object.centre());
+  const double radius = 0.5 * object.size().norm() + (way.angle() > 0 ? (end - begin).norm() : 0.0);
+  addSphere(reach, begin, radius);
+  addSphere(reach, end, radius);
+}
+
 }  // namespace
 
 Screw::Screw(const Pose& from, const Pose& to, std::int64_t begin_ns, std::int64_t end_ns)
@@ -79,6 +95,27 @@ Motion Motion::then(const Pose& to, std::int64_t begin_ns, std::int64_t end_ns) 
   next.last_ = Screw(at(begin_ns), to, begin_ns, end_ns);
   next.identity_ = !next.moves() && to == Pose{};
   return next;
+}
+
+std::int64_t Motion::straightUntil(std::int64_t now_ns, std::int64_t until_ns, double turn_rad) const {
+  const bool earlier = now_ns < last_.begin_ns();
+  const Screw& screw = earlier ? earlier_ : last_;
+  if (earlier && moves()) until_ns = std::min(until_ns, last_.begin_ns());
+  if (!screw.moves() || screw.angle() == 0) return until_ns;
+  const auto whole_ns = static_cast<double>(screw.end_ns() - screw.begin_ns());
+  const double way_ns = turn_rad / screw.angle() * whole_ns;
+  if (way_ns < static_cast<double>(until_ns - now_ns))
+    return now_ns + std::max<std::int64_t>(1, static_cast<std::int64_t>(way_ns));
+  return until_ns;
+}
+
+Box Motion::reach(const Box& object) const {
+  if (object.empty()) return object;
+  if (!moves()) return boxAt(object, to());
+  Box reach;
+  addWay(reach, object, earlier_);
+  addWay(reach, object, last_);
+  return reach;
 }
 
 }  // namespace hl

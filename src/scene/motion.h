@@ -5,20 +5,9 @@
 #include <cstdint>
 
 #include "base/vec.h"
+#include "scene/pose_source.h"
 
 namespace hl {
-
-/// A rigid placement: p_W = rotation * p_O + origin.
-struct Pose {
-  Mat3 rotation = Mat3::Identity();
-  Vec3 origin = Vec3::Zero();
-
-  Vec3 toWorld(const Vec3& p_O) const { return rotation * p_O + origin; }
-  Vec3 toObject(const Vec3& p_W) const { return rotation.transpose() * (p_W - origin); }
-  Vec3 turnToWorld(const Vec3& v_O) const { return rotation * v_O; }
-  Vec3 turnToObject(const Vec3& v_W) const { return rotation.transpose() * v_W; }
-  bool operator==(const Pose& other) const { return rotation == other.rotation && origin == other.origin; }
-};
 
 /// One way between two poses. Immutable; any thread.
 class Screw {
@@ -45,7 +34,7 @@ class Screw {
 };
 
 /// At rest, or on a screw that follows another without a jump. Immutable; any thread.
-class Motion {
+class Motion final : public PoseSource {
  public:
   /// At rest for ever.
   explicit Motion(const Pose& pose = {}) : earlier_(pose), last_(pose), identity_(pose == Pose{}) {}
@@ -55,12 +44,17 @@ class Motion {
   /// This motion until `begin_ns`, and from where it is then to `to` at `end_ns` > `begin_ns`.
   Motion then(const Pose& to, std::int64_t begin_ns, std::int64_t end_ns) const;
 
-  bool moves() const { return earlier_.moves() || last_.moves(); }
+  bool moves() const override { return earlier_.moves() || last_.moves(); }
   bool identity() const { return identity_; }  ///< at rest, and object frame and world are one
   const Screw& earlier() const { return earlier_; }
   const Screw& last() const { return last_; }
-  const Pose& to() const { return last_.to(); }  ///< where it comes to rest
-  Pose at(std::int64_t time_ns) const { return time_ns < last_.begin_ns() ? earlier_.at(time_ns) : last_.at(time_ns); }
+  Pose to() const override { return last_.to(); }
+  Pose at(std::int64_t time_ns) const override {
+    return time_ns < last_.begin_ns() ? earlier_.at(time_ns) : last_.at(time_ns);
+  }
+  std::int64_t straightUntil(std::int64_t now_ns, std::int64_t until_ns, double turn_rad) const override;
+  std::int64_t restsFrom_ns() const override { return last_.end_ns(); }
+  Box reach(const Box& object) const override;
 
  private:
   Screw earlier_, last_;

@@ -3,12 +3,14 @@
 
 #include <cstdint>
 
+#include "geometry/element_id.h"
+
 namespace hl {
 
 /// A primitive of one instance of a snapshot.
 struct PrimitiveId {
   std::uint32_t instance = 0;
-  std::uint32_t element = 0;  ///< index into its shape's primitives
+  ElementId element = 0;  ///< number among its shape's primitives
   bool operator==(const PrimitiveId&) const = default;
 };
 

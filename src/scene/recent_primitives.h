@@ -44,7 +44,7 @@ class RecentPrimitives {
     Slot() {}  // NOLINT: = default would be deleted by the union
     Primitive primitive;
   };
-  static constexpr PrimitiveId kNone{0xffffffff, 0xffffffff};
+  static constexpr PrimitiveId kNone{0xffffffff, ~ElementId{0}};
 
   RecentPrimitives() = default;
   ~RecentPrimitives() = default;

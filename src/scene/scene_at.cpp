@@ -30,11 +30,11 @@ class IndexAt final : public SpatialIndex {
     if (const MeshTransition* const way = instance.transitionAt(time_ns))
       moving_.emplace(way->index(way->part(time_ns), way->part(time_ns)));
   }
-  std::size_t overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t)> visit) const override {
+  std::size_t overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId)> visit) const override {
     return counted(now().overlap(centre, radius, visit));
   }
   std::size_t sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
-                    FunctionRef<double(std::uint32_t, double)> visit) const override {
+                    FunctionRef<double(ElementId, double)> visit) const override {
     return counted(now().sweep(from, motion, radius, soon, visit));
   }
   IndexStats stats() const override { return now().stats(); }
@@ -62,17 +62,15 @@ Primitive SceneAt::read(PrimitiveId id) const {
   const Instance& of = instance(id);
   if (const MeshTransition* const way = of.transitionAt(time_ns_))
     return way->primitive(id.element, way->part(time_ns_));
-  return of.shape->primitives[id.element];
+  return of.shape->primitive(id.element);
 }
 
 Vec3 SceneAt::turnToObject(PrimitiveId id, const Vec3& v_W) const {
-  const Motion& motion = instance(id).motion;
-  return motion.identity() ? v_W : motion.at(time_ns_).turnToObject(v_W);
+  return instance(id).atWorld() ? v_W : instance(id).poses().at(time_ns_).turnToObject(v_W);
 }
 
 Vec3 SceneAt::turnToWorld(PrimitiveId id, const Vec3& v_O) const {
-  const Motion& motion = instance(id).motion;
-  return motion.identity() ? v_O : motion.at(time_ns_).turnToWorld(v_O);
+  return instance(id).atWorld() ? v_O : instance(id).poses().at(time_ns_).turnToWorld(v_O);
 }
 
 ClosestPoint SceneAt::closest(PrimitiveId id, const Vec3& p) const {
@@ -82,10 +80,9 @@ ClosestPoint SceneAt::closest(PrimitiveId id, const Vec3& p) const {
 }
 
 bool SceneAt::closestWithin(PrimitiveId id, const Vec3& p, double distance, ClosestPoint& out) const {
-  const Motion& motion = instance(id).motion;
   const Primitive& asked = primitive(id);
-  if (motion.identity()) return closestPointWithin(asked, p, distance, out);
-  const Pose pose = motion.at(time_ns_);
+  if (instance(id).atWorld()) return closestPointWithin(asked, p, distance, out);
+  const Pose pose = instance(id).poses().at(time_ns_);
   if (!closestPointWithin(asked, pose.toObject(p), distance, out)) return false;
   toWorld(pose, out);
   return true;
@@ -106,7 +103,7 @@ Vec3 SceneAt::edge(PrimitiveId id, Feature feature) const {
 bool SceneAt::precedes(PrimitiveId a, PrimitiveId b) const {
   Primitive p = primitive(a), q = primitive(b);
   if (a.instance != b.instance) {
-    const Pose pose_a = instance(a).motion.at(time_ns_), pose_b = instance(b).motion.at(time_ns_);
+    const Pose pose_a = instance(a).poses().at(time_ns_), pose_b = instance(b).poses().at(time_ns_);
     for (std::size_t i = 0; i < 3; ++i) {
       p.vertex[i] = pose_a.toWorld(p.vertex[i]);
       q.vertex[i] = pose_b.toWorld(q.vertex[i]);
@@ -124,16 +121,16 @@ void SceneAt::primitivesWithin(const Vec3& centre, double distance,
   snapshot_.near.visitMet(region, [&](std::uint32_t i) {
     const Instance& instance = snapshot_.instances[i];
     const IndexAt index(instance, time_ns_, cost_);
-    const auto read_one = [&](std::uint32_t element) -> const Primitive& { return primitive({i, element}); };
-    if (instance.motion.identity()) {
-      hl::primitivesWithin(index, read_one, centre, distance, [&](std::uint32_t element, const ClosestPoint& nearest) {
+    const auto read_one = [&](ElementId element) -> const Primitive& { return primitive({i, element}); };
+    if (instance.atWorld()) {
+      hl::primitivesWithin(index, read_one, centre, distance, [&](ElementId element, const ClosestPoint& nearest) {
         visit({i, element}, nearest);
       });
       return;
     }
-    const Pose pose = instance.motion.at(time_ns_);
+    const Pose pose = instance.poses().at(time_ns_);
     hl::primitivesWithin(index, read_one, pose.toObject(centre), distance,
-                         [&](std::uint32_t element, const ClosestPoint& nearest_O) {
+                         [&](ElementId element, const ClosestPoint& nearest_O) {
                            ClosestPoint nearest = nearest_O;
                            toWorld(pose, nearest);
                            visit({i, element}, nearest);
@@ -151,7 +148,7 @@ bool keepEarlier(const SceneAt& scene, const Impact& hit, PrimitiveId id, const 
   if (found && hit.t == out.impact.t && !scene.precedes(id, out.primitive)) return false;
   found = true;
   out = {hit, id};
-  if (!scene.instance(id).motion.identity()) out.impact.normal = pose.turnToWorld(hit.normal);
+  if (!scene.instance(id).atWorld()) out.impact.normal = pose.turnToWorld(hit.normal);
   return true;
 }
 
@@ -165,12 +162,13 @@ bool SceneAt::firstOf(const Vec3& from, const Vec3& motion, double distance, con
   Box region = around(from, from + motion, margin);
   bool found = false;
   snapshot_.near.visitMet(region, [&](std::uint32_t i) {
-    const Motion& moves = snapshot_.instances[i].motion;
-    const Pose pose = moves.identity() ? Pose{} : moves.at(time_ns_);
-    const Vec3 from_O = moves.identity() ? from : pose.toObject(from);
-    const Vec3 motion_O = moves.identity() ? motion : pose.turnToObject(motion);
+    const Instance& instance = snapshot_.instances[i];
+    const bool at_world = instance.atWorld();
+    const Pose pose = at_world ? Pose{} : instance.poses().at(time_ns_);
+    const Vec3 from_O = at_world ? from : pose.toObject(from);
+    const Vec3 motion_O = at_world ? motion : pose.turnToObject(motion);
     FirstImpact hit;
-    const IndexAt index(snapshot_.instances[i], time_ns_, cost_);
+    const IndexAt index(instance, time_ns_, cost_);
     if (!ask(i, index, from_O, motion_O, hit)) return;
     if (!keepEarlier(*this, hit.impact, {i, hit.primitive}, pose, found, out)) return;
     region = around(from, from + hit.impact.t * motion, margin);
@@ -188,10 +186,10 @@ bool SceneAt::firstImpact(const Vec3& from, const Vec3& motion, double radius,
                           FunctionRef<bool(const ClosestPoint&)> is_contact, SceneImpact& out) const {
   const auto ask = [&](std::uint32_t i, const SpatialIndex& index, const Vec3& from_O, const Vec3& motion_O,
                        FirstImpact& hit) {
-    const auto read_one = [&](std::uint32_t element) -> const Primitive& { return primitive({i, element}); };
-    const Motion& moves = instance({i, 0}).motion;
+    const auto read_one = [&](ElementId element) -> const Primitive& { return primitive({i, element}); };
+    const Instance& of = instance({i, 0});
     const auto is_contact_O = [&](ClosestPoint start) {
-      if (!moves.identity()) toWorld(moves.at(time_ns_), start);
+      if (!of.atWorld()) toWorld(of.poses().at(time_ns_), start);
       return is_contact(start);
     };
     return hl::firstImpact(index, read_one, from_O, motion_O, radius, is_contact_O, hit);
@@ -204,11 +202,11 @@ bool SceneAt::firstImpact(const Vec3& from, const Vec3& motion, double radius, d
                           SceneImpact& out) const {
   const auto ask = [&](std::uint32_t i, const SpatialIndex& index, const Vec3& from_O, const Vec3& motion_O,
                        FirstImpact& hit) {
-    const auto is_contact = [&](std::uint32_t element) {
+    const auto is_contact = [&](ElementId element) {
       return std::find(contacts.begin(), contacts.end(), PrimitiveId{i, element}) != contacts.end();
     };
-    const auto met = [&](std::uint32_t element) { meet({i, element}); };
-    const auto read_one = [&](std::uint32_t element) -> const Primitive& { return primitive({i, element}); };
+    const auto met = [&](ElementId element) { meet({i, element}); };
+    const auto read_one = [&](ElementId element) -> const Primitive& { return primitive({i, element}); };
     return hl::firstImpact(index, read_one, from_O, motion_O, radius, touching, soon, is_contact, met, hit);
   };
   return firstOf(from, motion, touching, ask, out);
@@ -218,10 +216,10 @@ bool SceneAt::firstImpactAmong(std::span<const PrimitiveId> primitives, const Ve
                                double radius, SceneImpact& out) const {
   bool found = false;
   for (const PrimitiveId id : primitives) {
-    const Motion& moves = instance(id).motion;
-    const Pose pose = moves.identity() ? Pose{} : moves.at(time_ns_);
-    const Vec3 from_O = moves.identity() ? from : pose.toObject(from);
-    const Vec3 motion_O = moves.identity() ? motion : pose.turnToObject(motion);
+    const bool at_world = instance(id).atWorld();
+    const Pose pose = at_world ? Pose{} : instance(id).poses().at(time_ns_);
+    const Vec3 from_O = at_world ? from : pose.toObject(from);
+    const Vec3 motion_O = at_world ? motion : pose.turnToObject(motion);
     Impact impact;
     if (!sweepSphereFromOutside(primitive(id), from_O, motion_O, radius, found ? out.impact.t : 1, impact)) continue;
     keepEarlier(*this, impact, id, pose, found, out);

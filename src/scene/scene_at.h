@@ -56,7 +56,7 @@ class SceneAt {
     return recent_.get(id, [&] { return read(id); });
   }
   PrimitiveKind kind(PrimitiveId id) const {
-    return instance(id).transitionAt(time_ns_) ? primitive(id).kind : instance(id).shape->primitives.kind(id.element);
+    return instance(id).transitionAt(time_ns_) ? primitive(id).kind : instance(id).shape->kind(id.element);
   }
   Vec3 turnToObject(PrimitiveId id, const Vec3& v_W) const;
   Vec3 turnToWorld(PrimitiveId id, const Vec3& v_O) const;

@@ -88,7 +88,7 @@ std::uint64_t nextGeometry() {
 }
 
 void setBounds(Shape& shape) {
-  shape.bounds = shape.primitives.bounds();
+  shape.bounds = shape.source ? shape.source->bounds() : shape.primitives.bounds();
   shape.extent =
       shape.bounds.empty() ? 0 : shape.bounds.min.cwiseAbs().cwiseMax(shape.bounds.max.cwiseAbs()).maxCoeff();
 }
@@ -158,10 +158,21 @@ std::shared_ptr<const Shape> makeShape(Model given, HierarchyKind hierarchy) {
   return shape;
 }
 
+std::shared_ptr<const Shape> makeShape(std::shared_ptr<const PrimitiveSource> source, const Material& material) {
+  auto shape = std::make_shared<Shape>();
+  shape->geometry = shape->mesh = nextGeometry();
+  shape->model.materials = {material};
+  shape->source = std::move(source);
+  shape->index = shape->source->makeIndex();
+  setBounds(*shape);
+  return shape;
+}
+
 // Triangles are turned by where their vertices are.
 bool isSameMesh(const Shape& a, const Shape& b) {
   const Model &p = a.model, &q = b.model;
-  return p.positions.size() == q.positions.size() && p.segments == q.segments && p.points == q.points &&
+  return !a.source && !b.source && p.positions.size() == q.positions.size() && p.segments == q.segments &&
+         p.points == q.points &&
          std::equal(p.triangles.begin(), p.triangles.end(), q.triangles.begin(), q.triangles.end(), sameButTurned);
 }
 
@@ -201,7 +212,7 @@ std::shared_ptr<const Shape> shapeOfElements(Model model, std::vector<std::uint3
 
 MeshView viewOf(const Model& model) { return {model.positions, model.triangles, model.segments, model.points}; }
 
-std::array<std::uint32_t, 3> verticesOf(const Shape& shape, std::uint32_t primitive) {
+std::array<std::uint32_t, 3> verticesOf(const Shape& shape, ElementId primitive) {
   const Model& model = shape.model;
   const std::uint32_t source = shape.primitives.source(primitive);
   switch (shape.primitives.elementKind(primitive)) {
@@ -239,11 +250,13 @@ std::size_t bytesToMake(const Model& model) {
          bytesOf(model.point_materials);
 }
 
-std::size_t Shape::geometryBytes() const { return meshBytes(model) + primitives.bytes() + index->stats().bytes; }
+std::size_t Shape::geometryBytes() const {
+  return meshBytes(model) + primitives.bytes() + (source ? source->bytes() : 0) + index->stats().bytes;
+}
 
 std::size_t Shape::bytes() const {
   return kSmallest + meshBytes(model) + surfaceBytes(model) + bytesOf(material_of) + primitives.bytes() +
-         hierarchyBytes(index->stats().bytes);
+         (source ? source->bytes() : 0) + hierarchyBytes(index->stats().bytes);
 }
 
 }  // namespace hl

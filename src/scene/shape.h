@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/memory_budget.h"
+#include "geometry/primitive_source.h"
 #include "geometry/primitives.h"
 #include "geometry/spatial_index.h"
 #include "scene/model.h"
@@ -28,11 +29,13 @@ const char* nameOf(HierarchyKind hierarchy);
 /// Builds the structure over `primitives`. Allocates; never called by a real-time thread.
 std::unique_ptr<const SpatialIndex> makeIndex(const Primitives& primitives, HierarchyKind hierarchy);
 
-/// Immutable after makeShape; read by any thread. Metres, object frame.
+/// A mesh, or a surface that makes its primitives on request. Immutable after makeShape; read by any thread. Metres,
+/// object frame.
 struct Shape {
-  Model model;
-  Primitives primitives;                   ///< of the model
-  std::vector<std::uint16_t> material_of;  ///< one per primitive, or empty: all use material 0
+  Model model;                                    ///< without vertices where there is a source
+  Primitives primitives;                          ///< of the model
+  std::shared_ptr<const PrimitiveSource> source;  ///< null: it is a mesh
+  std::vector<std::uint16_t> material_of;         ///< one per primitive, or empty: all use material 0
   HierarchyKind hierarchy = HierarchyKind::kBvh;
   std::unique_ptr<const SpatialIndex> index;
   double cost_ratio = 1;       ///< of a refitted hierarchy: see WideBvh::costRatio
@@ -47,13 +50,27 @@ struct Shape {
   std::size_t geometryBytes() const;
   /// The same with normals, texture coordinates, material numbers and the shape itself; textures apart.
   std::size_t bytes() const;
+  // Its primitives, whoever makes them; RT-safe. `id` < count().
+  ElementId count() const { return source ? source->count() : primitives.size(); }
+  Primitive primitive(ElementId id) const { return source ? primitiveOf(*source, id) : primitives[id]; }
+  PrimitiveKind kind(ElementId id) const { return source ? PrimitiveKind::kTriangle : primitives.kind(id); }
+  /// Whether its triangles have normals at their corners.
+  bool hasNormals() const { return source || !model.normals.empty(); }
+  /// The normal at a corner of one of its triangles, of a shape that has them.
+  Vec3 cornerNormal(ElementId id, const Primitive& triangle, std::size_t sorted) const {
+    if (source) return source->trueNormal(id, triangle.vertex[sorted]);
+    return model.normals[model.triangles[triangle.source][triangle.order[sorted]]];
+  }
   /// Number of the primitive's material in the list of the model, or of whatever stands in for it.
-  std::size_t materialOf(std::uint32_t primitive) const { return material_of.empty() ? 0 : material_of[primitive]; }
+  std::size_t materialOf(ElementId id) const { return material_of.empty() ? 0 : material_of[id]; }
 };
 
 /// Takes over the model. Degenerate and non-finite elements, and indices out of range, are skipped and counted in
 /// `warnings`. Allocates; never called by a real-time thread.
 std::shared_ptr<const Shape> makeShape(Model given, HierarchyKind hierarchy = HierarchyKind::kBvh);
+
+/// A surface that is no mesh, all of one material. Allocates; never called by a real-time thread.
+std::shared_ptr<const Shape> makeShape(std::shared_ptr<const PrimitiveSource> source, const Material& material = {});
 
 /// Whether one is the other with its vertices moved: the same index lists, whatever of them is skipped.
 bool isSameMesh(const Shape& a, const Shape& b);
@@ -71,7 +88,7 @@ std::shared_ptr<const Shape> shapeOfElements(Model model, std::vector<std::uint3
 MeshView viewOf(const Model& model);
 /// Numbers of the vertices of a primitive, in the order given; the last is repeated where there are fewer than three.
 /// RT-safe.
-std::array<std::uint32_t, 3> verticesOf(const Shape& shape, std::uint32_t primitive);
+std::array<std::uint32_t, 3> verticesOf(const Shape& shape, ElementId primitive);
 
 /// How much a model that is not there yet will have.
 struct ModelCounts {

@@ -11,21 +11,6 @@ namespace hl {
 
 namespace {
 
-void addSphere(Box& box, const Vec3& centre, double radius) {
-  box.extend(centre - Vec3::Constant(radius));
-  box.extend(centre + Vec3::Constant(radius));
-}
-
-// While it moves: the sphere about its box moves with a centre that strays from its two ends by no more than their
-// distance, as a turn is at most half a circle and the axis of a screw is straight.
-void addWay(Box& reach, const Box& object, const Screw& way) {
-  const Vec3 begin = way.from().toWorld(object.centre());
-  const Vec3 end = way.to().toWorld(object.centre());
-  const double radius = 0.5 * object.size().norm() + (way.angle() > 0 ? (end - begin).norm() : 0.0);
-  addSphere(reach, begin, radius);
-  addSphere(reach, end, radius);
-}
-
 // Of all shapes that it has on its way: what bends stays within the box around both ends.
 Box objectBox(const Instance& instance) {
   Box box = instance.shape->bounds;
@@ -36,11 +21,7 @@ Box objectBox(const Instance& instance) {
 Box reachOf(const Instance& instance) {
   const Box object = objectBox(instance);
   if (object.empty()) return object;
-  if (!instance.motion.moves()) return boxAt(object, instance.motion.to());
-  Box reach;
-  addWay(reach, object, instance.motion.earlier());
-  addWay(reach, object, instance.motion.last());
-  return reach;
+  return instance.poses().reach(object);
 }
 
 double largestCoordinate(const Box& box) {
@@ -62,16 +43,6 @@ bool allDefault(const std::vector<Material>& materials) {
 }
 
 }  // namespace
-
-Box boxAt(const Box& object, const Pose& pose) {
-  if (object.empty() || pose == Pose{}) return object;
-  const Vec3 centre = pose.toWorld(object.centre());
-  const Vec3 half = pose.rotation.cwiseAbs() * (0.5 * object.size());
-  Box box;
-  box.extend(centre - half);
-  box.extend(centre + half);
-  return box;
-}
 
 std::shared_ptr<const Surfaces> surfacesOf(const std::shared_ptr<const Shape>& shape) {
   auto surfaces = std::make_shared<Surfaces>();
@@ -113,16 +84,16 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, st
       snapshot->deforms_until_ns = std::max(snapshot->deforms_until_ns, instance.mesh_motion->end_ns());
     }
     snapshot->reach.push_back(reachOf(instance));
-    const Box rest = boxAt(instance.shape->bounds, instance.motion.to());
+    const Box rest = boxAt(instance.shape->bounds, instance.poses().to());
     if (!rest.empty()) {
       snapshot->bounds.extend(rest.min);
       snapshot->bounds.extend(rest.max);
     }
     snapshot->extent =
         std::max({snapshot->extent, largestCoordinate(objectBox(instance)), largestCoordinate(snapshot->reach.back())});
-    if (instance.motion.moves())
-      snapshot->moves_until_ns = std::max(snapshot->moves_until_ns, instance.motion.last().end_ns());
-    snapshot->primitives += instance.shape->primitives.size();
+    if (instance.poses().moves())
+      snapshot->moves_until_ns = std::max(snapshot->moves_until_ns, instance.poses().restsFrom_ns());
+    snapshot->primitives += instance.shape->count();
   }
   snapshot->moves_until_ns = std::max(snapshot->moves_until_ns, snapshot->deforms_until_ns);
   snapshot->near = BoxTree(snapshot->reach);

@@ -27,12 +27,19 @@ struct Surfaces {
 struct Instance {
   std::shared_ptr<const Shape> shape;
   std::shared_ptr<const Surfaces> surfaces;
-  Motion motion;
+  Motion motion;          ///< as its client shows it
   std::uint64_t key = 0;  ///< the same object in the next snapshot has the same one; unique in a snapshot
   std::uint32_t session = 0, object = 0, name = 0;  ///< whose it is and what its client calls it
   bool plain = false;  ///< no surface of it does more than hold off: all materials are the default; by makeSnapshot
   std::shared_ptr<const MeshMotion> mesh_motion{};  ///< how the mesh gets to `shape`, where it does not stay as it is
 
+  /// Who moves it in place of its client; null: nobody.
+  std::shared_ptr<const PoseSource> driver{};
+
+  /// Where it is.
+  const PoseSource& poses() const { return driver ? *driver : static_cast<const PoseSource&>(motion); }
+  /// Whether it is at rest where its frame and the world's are one.
+  bool atWorld() const { return !driver && motion.identity(); }
   /// The way it is bent on at this moment, or null where it is `shape`.
   const MeshTransition* transitionAt(std::int64_t time_ns) const {
     return mesh_motion && time_ns < mesh_motion->end_ns() ? &mesh_motion->at(time_ns) : nullptr;
@@ -68,9 +75,6 @@ struct Snapshot {
 
   const Shape& shape(std::size_t instance = 0) const { return *instances[instance].shape; }
 };
-
-/// Holds all of an object's box when the object is at `pose`; the object's own box when they share a frame.
-Box boxAt(const Box& object, const Pose& pose);
 
 /// The surfaces as the shape's own model describes them.
 std::shared_ptr<const Surfaces> surfacesOf(const std::shared_ptr<const Shape>& shape);

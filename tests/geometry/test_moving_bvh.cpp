@@ -85,7 +85,7 @@ TEST(MovingBvh, FindsAllThatComesNearWithinItsTime) {
     const Vec3 centre = random.inCube(1.5);
     const double radius = random.uniform(0, 0.4);
     std::set<std::uint32_t> found;
-    MovingBvh(moving.from(), moving.to(), begin, end).overlap(centre, radius, [&](std::uint32_t primitive) {
+    MovingBvh(moving.from(), moving.to(), begin, end).overlap(centre, radius, [&](ElementId primitive) {
       found.insert(primitive);
     });
     for (std::uint32_t k = 0; k < moving.size(); ++k) {

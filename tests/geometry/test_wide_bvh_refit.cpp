@@ -101,7 +101,7 @@ Answers ask(const SpatialIndex& index, const Primitives& primitives, const Query
   Answers answers;
   answers.hit = firstImpact(index, primitives, query.from, query.motion, query.radius, 0, answers.first);
   primitivesWithin(index, primitives, query.from, query.radius,
-                   [&](std::uint32_t primitive, const ClosestPoint& at) { answers.near[primitive] = at.distance; });
+                   [&](ElementId primitive, const ClosestPoint& at) { answers.near[primitive] = at.distance; });
   return answers;
 }
 

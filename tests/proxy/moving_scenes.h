@@ -62,7 +62,7 @@ inline Instance place(std::uint64_t key, Model model, const Motion& motion) {
 }
 
 /// A mesh that bends from one model to another of the same index lists.
-inline Instance mesh_motion(std::uint64_t key, Model from, Model to, std::int64_t begin_ns, std::int64_t end_ns) {
+inline Instance deforming(std::uint64_t key, Model from, Model to, std::int64_t begin_ns, std::int64_t end_ns) {
   Instance instance = place(key, std::move(from), Motion());
   const auto before = instance.shape;
   instance.shape = makeShape(std::move(to), *before);

@@ -19,7 +19,7 @@ TEST(PushedProxy, OnlyWhatMovesOrBendsTakesItAlong) {
   const Motion moving = Motion().then(test::at({0, 0.1, 0}), 0, kMs);
   const auto scene =
       makeSnapshot({test::place(3, test::flatSheet(0), Motion()), test::place(5, test::flatSheet(0), moving),
-                    test::mesh_motion(7, test::flatSheet(0), test::flatSheet(0.01), 0, kMs)});
+                    test::deforming(7, test::flatSheet(0), test::flatSheet(0.01), 0, kMs)});
   EXPECT_EQ(movingInstance(*scene, 5), 1u);
   EXPECT_EQ(movingInstance(*scene, 7), 2u);
   for (const std::uint64_t key : {0, 3, 4, 6, 8}) EXPECT_EQ(movingInstance(*scene, key), kNoInstance) << key;
@@ -46,7 +46,7 @@ TEST(PushedProxy, ACarrierThatMovesKeepsItWhereItIsInItsFrame) {
 TEST(PushedProxy, AMeshThatBendsTakesItWhereTheTouchedPlaceGoes) {
   Model drawn = test::flatSheet(0.004);
   for (Vec3& p : drawn.positions) p.x() += 0.002;
-  const auto scene = makeSnapshot({test::mesh_motion(1, test::flatSheet(0), drawn, 0, 10 * kMs)});
+  const auto scene = makeSnapshot({test::deforming(1, test::flatSheet(0), drawn, 0, 10 * kMs)});
   const Vec3 touching(0.0013, 0.0008 + 1.05 * kRadius, 0.0007), beyond = touching + Vec3(0, 0.1 * kRadius, 0);
   EXPECT_NEAR((proxyIn(*scene, touching, 0).carriedTo(7 * kMs) - touching - Vec3(0.001, 0.002, 0)).norm(), 0, 1e-12);
   EXPECT_EQ(proxyIn(*scene, beyond, 0).carriedTo(7 * kMs), beyond) << "what it does not touch leaves it";
@@ -59,7 +59,7 @@ TEST(PushedProxy, OfTwoPlacesTouchedTheNearestDecides) {
     for (Vec3& p : model.positions) p.z() += by * (p.x() + 0.05);
     return model;
   };
-  const auto scene = makeSnapshot({test::mesh_motion(1, slope(0), slope(0.1), 0, 10 * kMs)});
+  const auto scene = makeSnapshot({test::deforming(1, slope(0), slope(0.1), 0, 10 * kMs)});
   const Vec3 normal = Vec3(-0.5, 1, 0).normalized(), foot(0.0096, 0.0048, 0.0021);
   const PushedProxy proxy = proxyIn(*scene, foot + kRadius * normal, 0);
   // From 2 to 10 ms: 8/10 of 0.1 (x + 0.05). The triangles beyond x = 0.01 are touched too.

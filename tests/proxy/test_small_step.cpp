@@ -22,7 +22,7 @@ PushedProxy proxyIn(const Snapshot& scene, const Vec3& position, std::int64_t en
 }
 
 std::shared_ptr<const Snapshot> rising(double to) {
-  return makeSnapshot({test::mesh_motion(1, test::flatSheet(0), test::flatSheet(to), 0, 10 * kMs)});
+  return makeSnapshot({test::deforming(1, test::flatSheet(0), test::flatSheet(to), 0, 10 * kMs)});
 }
 
 TEST(SmallStep, AMeshBendsNearWhereItsReachDoesWhileItBends) {
@@ -64,7 +64,7 @@ TEST(SmallStep, ObjectsThatMoveTakeNoMoreThanHalfOfTheRoom) {
 }
 
 TEST(SmallStep, ItEndsWhereAMeshTakesAnotherWay) {
-  Instance skin = test::mesh_motion(1, test::flatSheet(0), test::flatSheet(1e-4), 0, 4 * kMs);
+  Instance skin = test::deforming(1, test::flatSheet(0), test::flatSheet(1e-4), 0, 4 * kMs);
   const auto next = makeShape(test::flatSheet(0), *skin.shape);
   skin.mesh_motion = std::make_shared<MeshMotion>(skin.mesh_motion->then(next, 2 * kMs, 9 * kMs));
   skin.shape = next;
@@ -84,7 +84,7 @@ RC_GTEST_PROP(SmallStep, TheCentreKeepsHalfOfItsRoomAllTheWay, (std::uint64_t se
     for (Vec3& p : model.positions) p += aside;
     return model;
   };
-  const auto scene = makeSnapshot({test::mesh_motion(1, wave(), wave(), 0, 10 * kMs)});
+  const auto scene = makeSnapshot({test::deforming(1, wave(), wave(), 0, 10 * kMs)});
   const Vec3 place = random.inCube(0.02);
   const double room = judge::clearance({*scene, 0}, place, kRadius);
   RC_PRE(room > 0.01 * kRadius);

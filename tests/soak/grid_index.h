@@ -33,7 +33,7 @@ class GridIndex final : public SpatialIndex {
     }
   }
 
-  std::size_t overlap(const Vec3& centre, double radius, FunctionRef<void(std::uint32_t)> visit) const override {
+  std::size_t overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId)> visit) const override {
     const Vec3 reach = Vec3::Constant(radius * (1 + kRounding));
     std::size_t looked = 0;
     forEachCell(centre - reach, centre + reach, [&](std::size_t cell) {
@@ -45,7 +45,7 @@ class GridIndex final : public SpatialIndex {
 
   /// All of the way's box, whatever the limit.
   std::size_t sweep(const Vec3& from, const Vec3& motion, double radius, double /*soon*/,
-                    FunctionRef<double(std::uint32_t, double)> visit) const override {
+                    FunctionRef<double(ElementId, double)> visit) const override {
     const Vec3 to = from + motion, reach = Vec3::Constant(radius * (1 + kRounding));
     double limit = 1;
     std::size_t looked = 0;
