@@ -59,7 +59,7 @@ void addLimitOptions(CLI::App& app, Limits& limits) {
   addLimit(app, "message-bytes", limits.message_bytes, "bytes of one message");
   addLimit(app, "messages", limits.messages_Hz, "messages a second of one client");
   addLimit(app, "objects", limits.objects, "objects of one client");
-  addLimit(app, "primitives", limits.primitives, "primitives of one client");
+  addLimit(app, "scene-bytes", limits.scene_bytes, "bytes of memory for the shapes of one client");
   addLimit(app, "instances", limits.instances, "objects in the world of one client");
   addLimit(app, "texture-bytes", limits.texture_bytes, "bytes of the textures of one client");
   addLimit(app, "nesting", limits.nesting, "calls of objects within objects");

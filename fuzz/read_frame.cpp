@@ -15,7 +15,7 @@ namespace {
 SceneLimits smallLimits() {
   SceneLimits limits;
   limits.objects = 64;
-  limits.primitives = 2000;
+  limits.scene_bytes = 500'000;
   limits.instances = 64;
   limits.texture_bytes = 1U << 16;
   limits.nesting = 8;

@@ -199,7 +199,7 @@ enum {
   HL_FRAME_WAITING = 0x48086,        /**< 1; HL_TRUE: a flushed frame waits here to be sent */
   HL_FRAME_PRIMITIVES = 0x48087,     /**< 1; primitives of this context in the world that is shown */
   HL_MAX_OBJECTS = 0x48090,          /**< 1; objects this context may define */
-  HL_MAX_PRIMITIVES = 0x48091,       /**< 1; primitives in them, each object counted once */
+  HL_MAX_SCENE_BYTES = 0x48091,      /**< 1; bytes of memory of their shapes: a triangle takes about 90 */
   HL_MAX_INSTANCES = 0x48092,        /**< 1; objects in the world, each call counted */
   HL_MAX_NESTING = 0x48093,          /**< 1; calls within calls */
   HL_MAX_TEXTURE_BYTES = 0x48094,    /**< 1; of all textures */

@@ -95,7 +95,7 @@ constexpr Query kQueriesOfServer[] = {
     {HL_FRAME_PRIMITIVES,
      [](const HLcontext& c, Values& v) { v.add(static_cast<double>(view(c).shown().primitives())); }},
     {HL_MAX_OBJECTS, [](const HLcontext& c, Values& v) { v.add(static_cast<double>(limits(c).objects())); }},
-    {HL_MAX_PRIMITIVES, [](const HLcontext& c, Values& v) { v.add(static_cast<double>(limits(c).primitives())); }},
+    {HL_MAX_SCENE_BYTES, [](const HLcontext& c, Values& v) { v.add(static_cast<double>(limits(c).scene_bytes())); }},
     {HL_MAX_INSTANCES, [](const HLcontext& c, Values& v) { v.add(static_cast<double>(limits(c).instances())); }},
     {HL_MAX_NESTING, [](const HLcontext& c, Values& v) { v.add(limits(c).nesting()); }},
     {HL_MAX_TEXTURE_BYTES,

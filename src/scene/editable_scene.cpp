@@ -75,12 +75,10 @@ std::shared_ptr<SceneItems> copyOf(const SceneItems& items, const MemoryBudget& 
 }
 
 void ModelSizes::add(const Model& model, const std::string& where) {
-  constexpr std::size_t kVertices = 3;  // for one primitive, at most, when none shares any
-  primitives_ += model.elements();
-  vertices_ += model.positions.size();
-  if (primitives_ > most_) throw Error(where + "there are more than " + std::to_string(most_) + " primitives");
-  if (vertices_ / kVertices > most_)
-    throw Error(where + "there are more than " + std::to_string(most_) + " x 3 vertices");
+  bytes_ += bytesToMake(model);
+  if (bytes_ <= most_bytes_) return;
+  throw Error(where + "the shapes need more than the " + std::to_string(most_bytes_) +
+              " bytes that one client may have");
 }
 
 // One walk over the calls of a state, from the world down to the shapes.

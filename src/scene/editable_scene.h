@@ -47,10 +47,11 @@ struct SceneEdit {
 
 /// What one client may have in its scene.
 struct SceneLimits {
-  std::uint64_t objects = 100'000;        ///< definitions, however short: see kObject_bytes
-  std::uint64_t primitives = 50'000'000;  ///< with its hierarchy about 64 bytes each: 3 GiB; as many again in scaled
-                                          ///< copies, and three times as many vertices
-  std::uint64_t instances = 100'000;      ///< objects in the world, each call counted
+  std::uint64_t objects = 100'000;  ///< definitions, however short: see kObject_bytes
+  /// Memory of its shapes with their hierarchies, by bytesToMake(); as much again for scaled copies. Some 45 million
+  /// triangles.
+  std::uint64_t scene_bytes = std::uint64_t{4} << 30;
+  std::uint64_t instances = 100'000;  ///< objects in the world, each call counted
   std::uint64_t texture_bytes = std::uint64_t{256} << 20;
   std::uint32_t nesting = 32;  ///< calls within calls, as deep as GL's matrix stack
 };
@@ -61,16 +62,16 @@ inline constexpr std::size_t kObject_bytes = 512;
 /// are at once (two that the loops may be in, one that is made, two that the page draws), with its layouts.
 std::size_t bytesInWorld();
 
-/// Adds up models against the limits. Vertices count as well: some that nothing refers to fill memory all the same.
+/// Adds up what shapes will take against the limit.
 class ModelSizes {
  public:
-  explicit ModelSizes(const SceneLimits& limits) : most_(limits.primitives) {}
+  explicit ModelSizes(const SceneLimits& limits) : most_bytes_(limits.scene_bytes) {}
   /// Throws hl::Error, with `where` in front, when there is more than the limits allow.
   void add(const Model& model, const std::string& where = {});
 
  private:
-  const std::size_t most_;
-  std::size_t primitives_ = 0, vertices_ = 0;
+  const std::size_t most_bytes_;
+  std::size_t bytes_ = 0;
 };
 
 /// A shape as it comes to rest in the world, before it is known how it gets there.

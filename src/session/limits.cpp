@@ -6,7 +6,7 @@ proto::Limits toProto(const Limits& limits) {
   proto::Limits out;
   out.set_message_bytes(limits.message_bytes);
   out.set_objects(limits.objects);
-  out.set_primitives(limits.primitives);
+  out.set_scene_bytes(limits.scene_bytes);
   out.set_instances(limits.instances);
   out.set_texture_bytes(limits.texture_bytes);
   out.set_nesting(limits.nesting);

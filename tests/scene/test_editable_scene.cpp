@@ -260,7 +260,7 @@ TEST(EditableScene, CirclesAreRefusedAndChangeNothing) {
 TEST(EditableScene, LimitsHoldAndAHierarchyCannotExplode) {
   SceneLimits limits;
   limits.objects = 40;
-  limits.primitives = 3;
+  limits.scene_bytes = 3 * bytesToMake(triangle()->model);
   limits.instances = 10;
   limits.nesting = 5;
   EditableScene scene(1, limits);
@@ -284,7 +284,7 @@ TEST(EditableScene, LimitsHoldAndAHierarchyCannotExplode) {
 // Sixteen numbers of a matrix make a copy of a mesh of any size.
 TEST(EditableScene, ScaledCopiesAreLimited) {
   SceneLimits limits;
-  limits.primitives = 3;
+  limits.scene_bytes = 3 * bytesToMake(triangle()->model);
   EditableScene scene(1, limits);
   SceneEdit edit = worldOf({});
   edit.objects[1] = listOf({shapeItem(triangle())});

@@ -17,7 +17,7 @@ namespace {
 
 SceneLimits smallLimits() {
   SceneLimits limits;
-  limits.primitives = 10;
+  limits.scene_bytes = 18'000;  // eight of the smallest
   limits.texture_bytes = 64 * sizeof(float);
   return limits;
 }
@@ -55,7 +55,8 @@ TEST(DecodeFrame, VerticesOfUploadsAreCountedForEachItem) {
   for (int i = 0; i < 8; ++i) frame.mutable_world()->add_items()->set_upload(1);
   EXPECT_EQ(refusalOf(frame, uploads), "accepted");
   frame.mutable_world()->add_items()->set_upload(1);
-  EXPECT_EQ(refusalOf(frame, uploads), "world.items[8].upload: there are more than 10 x 3 vertices");
+  EXPECT_EQ(refusalOf(frame, uploads),
+            "world.items[8].upload: the shapes need more than the 18000 bytes that one client may have");
 }
 
 // What is not finite, or so large that products of it would not be, is refused where it comes in.

@@ -160,7 +160,7 @@ TEST_F(TouchServerTest, WelcomeTellsOfDevicesAndLimits) {
   EXPECT_TRUE(client.welcome_.master());
   ASSERT_EQ(client.welcome_.devices_size(), 1);
   EXPECT_GT(client.welcome_.devices(0).force_max_n(), 1);
-  EXPECT_GT(client.welcome_.limits().primitives(), 1'000'000u);
+  EXPECT_GT(client.welcome_.limits().scene_bytes(), 100'000'000u);
 }
 
 TEST_F(TouchServerTest, AFrameIsShownTouchedAndToldOfByItsNames) {
