@@ -162,7 +162,7 @@ void addTouchOptions(CLI::App& command, TouchOptions& options) {
   addSurfaceOptions(command, options.settings.surfaces, options.settings.ledger);
   command.get_option("--shade")->option_text("flat|smooth (default: the scene's; smooth for model files)");
   addHierarchyOption(command, options.scene);
-  command.add_option("--page-dir", options.page_folder, "folder of the built page");
+  command.add_option("--page-dir", options.page_folder, "folder of the built page")->check(CLI::ExistingDirectory);
   command.add_option("--duration", options.duration_s, "end by itself after this many seconds")
       ->check(within(kMinNumber, kMaxNumber));
   addBlackBoxOption(command, options.recorder);

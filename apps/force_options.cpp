@@ -85,10 +85,12 @@ void addSafetyOptions(CLI::App& app, ServoOptions& options) {
   app.add_flag("--arm-again", options.arm_again, "when a lost device has returned, arm by itself")->group(kGroup);
 }
 
+constexpr double kHeaviestTool_kg = 10;  // its weight is far beyond what any device holds up
+
 void addEffectOptions(CLI::App& app, ServoOptions& options) {
   Effects& effects = options.effects;
   app.add_option("--tool-mass", effects.tool_mass_kg, "of a tool at the tip, to be held up")
-      ->check(within(0, kMaxNumber))
+      ->check(within(0, kHeaviestTool_kg))
       ->option_text("KG")
       ->group(kGroup);
   app.add_option("--free-damping", effects.free_damping_Ns_m, "drag where nothing is touched")

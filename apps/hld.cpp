@@ -89,6 +89,19 @@ void serve(HldOptions& options) {
 
 }  // namespace hl
 
+namespace {
+
+// With the file that options are read from, where there is one.
+std::string told(const CLI::App& app, const CLI::ParseError& error) {
+  constexpr std::string_view kUnknown = "INI was not able to parse ";
+  std::string text = error.what();
+  if (text.starts_with(kUnknown)) text = "there is no option '" + text.substr(kUnknown.size()) + "'";
+  const CLI::Option* const config = app.get_config_ptr();
+  return config->empty() ? text : text + ", on the command line or in " + config->as<std::string>();
+}
+
+}  // namespace
+
 // NOLINTNEXTLINE(bugprone-exception-escape): only when not even stderr can be written
 int main(int argc, char** argv) {
   CLI::App app("The HL server: a haptic device and a scene, for clients and pages.", "hld");
@@ -101,7 +114,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& asked) {  // --help, --version
     return app.exit(asked);
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "hld: {} (try --help)\n", error.what());
+    fmt::print(stderr, "hld: {} (try --help)\n", told(app, error));
     return 2;
   } catch (const hl::Error& error) {
     fmt::print(stderr, "hld: {}\n", error.what());

@@ -1,5 +1,6 @@
 #include "hld_options.h"
 
+#include <limits>
 #include <map>
 
 #include "force_options.h"
@@ -15,13 +16,18 @@ void addNetworkOptions(CLI::App& app, HldOptions& options) {
                  "address to listen on; beyond loopback (0.0.0.0, ::, ...) TLS and a token are needed")
       ->capture_default_str()
       ->group("Network");
-  app.add_option("--port", server.port, "port; 0 for any free one")->capture_default_str()->group("Network");
+  app.add_option("--port", server.port, "port; 0 for any free one")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str()
+      ->group("Network");
   app.add_option("--tls-certificate", server.tls.certificate, "PEM file: the certificate and its chain")
       ->group("Network");
   app.add_option("--tls-key", server.tls.key, "PEM file: the certificate's key")->group("Network");
   app.add_option("--token-file", options.token_file, "file with the token that clients must show; read again on SIGHUP")
       ->group("Network");
-  app.add_option("--page-dir", server.page_folder, "folder of the built page")->group("Network");
+  app.add_option("--page-dir", server.page_folder, "folder of the built page")
+      ->check(CLI::ExistingDirectory)
+      ->group("Network");
 }
 
 void addDeviceOptions(CLI::App& app, HldOptions& options) {
@@ -47,12 +53,16 @@ void addDeviceOptions(CLI::App& app, HldOptions& options) {
       ->group("Device");
 }
 
+// Less has no room for one session with one triangle.
+constexpr std::uint64_t kLeastMemory_bytes = 1'000'000;
+
 template <typename Number>
-void addLimit(CLI::App& app, const std::string& name, Number& limit, const std::string& what) {
-  app.add_option("--limit-" + name, limit, what)
-      ->check(std::is_integral_v<Number> ? positive() : within(kMinNumber, kMaxNumber))
-      ->capture_default_str()
-      ->group("Limits");
+void addLimit(CLI::App& app, const std::string& name, Number& limit, const std::string& what, Number least = 0) {
+  CLI::Option* const option = app.add_option("--limit-" + name, limit, what)
+                                  ->check(std::is_integral_v<Number> ? positive() : within(kMinNumber, kMaxNumber))
+                                  ->capture_default_str()
+                                  ->group("Limits");
+  if (least > 0) option->check(CLI::Range(least, std::numeric_limits<Number>::max()));
 }
 
 void addLimitOptions(CLI::App& app, Limits& limits) {
@@ -69,7 +79,8 @@ void addLimitOptions(CLI::App& app, Limits& limits) {
   addLimit(
       app, "memory-bytes", limits.memory_bytes,
       "bytes of memory for all scenes and whatever else clients and pages make the server keep; the program itself "
-      "takes about 100 MB beside");
+      "takes about 100 MB beside",
+      kLeastMemory_bytes);
   addLimit(app, "kept", limits.kept, "clients that have gone and whose objects stay");
   addLimit(app, "sessions", limits.sessions, "clients at once");
   addLimit(app, "pages", limits.pages, "viewer pages at once");

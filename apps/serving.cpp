@@ -53,12 +53,22 @@ std::string defaultBlackBoxFolder() {
   return {};
 }
 
+// A fault is no time to find that its folder cannot be made.
+std::string madeFolder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw CLI::ValidationError("--black-box", folder + " cannot be made: " + error.message());
+  return folder;
+}
+
 void addBlackBoxOption(CLI::App& command, RecorderSettings& recorder) {
   recorder.black_box_folder = defaultBlackBoxFolder();
   command
       .add_option_function<std::string>(
           "--black-box",
-          [&recorder](const std::string& folder) { recorder.black_box_folder = folder == "off" ? "" : folder; },
+          [&recorder](const std::string& folder) {
+            recorder.black_box_folder = folder == "off" ? "" : madeFolder(folder);
+          },
           "where the last 5 s before a fault are written; the newest 20 files stay")
       ->option_text("DIR|off (default: " + (recorder.black_box_folder.empty() ? "off" : recorder.black_box_folder) +
                     ")")

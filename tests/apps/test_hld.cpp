@@ -188,11 +188,13 @@ TEST(Hld, BadInputIsOneLineAndExitCodeTwo) {
   const std::string misspelt = fileWith("misspelt.conf", "lissten = \"127.0.0.1\"\n");
   const std::string bad_token = fileWith("bad_token", "short\n");
   const std::vector<std::vector<std::string>> cases = {
-      {"--listen", "0.0.0.0"},      {"--listen", "nowhere"},         {"--port", "70000"},
-      {"--config", "/nonexistent"}, {"--config", misspelt},          {"--token-file", "/nonexistent"},
-      {"--token-file", bad_token},  {"--scene", "nosuch"},           {"--device", "theremin"},
-      {"--explore", "maybe"},       {"--limit-pages", "0"},          {"--tls-key", "/nonexistent"},
-      {"--log-level", "loud"},      {"--limit-message-bytes", "-1"}, {"surplus"}};
+      {"--listen", "0.0.0.0"},       {"--listen", "nowhere"},         {"--port", "70000"},
+      {"--config", "/nonexistent"},  {"--config", misspelt},          {"--token-file", "/nonexistent"},
+      {"--token-file", bad_token},   {"--scene", "nosuch"},           {"--device", "theremin"},
+      {"--explore", "maybe"},        {"--limit-pages", "0"},          {"--tls-key", "/nonexistent"},
+      {"--log-level", "loud"},       {"--limit-message-bytes", "-1"}, {"surplus"},
+      {"--limit-memory-bytes", "1"}, {"--limit-memory-bytes", "-5"},  {"--page-dir", "/nonexistent"},
+      {"--black-box", "/proc/none"}, {"--tool-mass", "100"}};
   for (std::vector<std::string> arguments : cases) {
     const std::string name = arguments.back();
     if (arguments.front() != "--port") arguments.insert(arguments.end(), {"--port", "0"});
