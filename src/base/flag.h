@@ -1,4 +1,4 @@
-// Flag: tells whether something still runs that may end by a return, by an exception, or by being dropped where it
+// Flag: says whether something still runs that may end by a return, by an exception, or by being dropped where it
 // waits, as a coroutine may.
 #pragma once
 

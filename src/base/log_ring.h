@@ -1,4 +1,4 @@
-// LogRing: the last values of a loop, for whoever wants to read them later. The writer never waits and never asks: it
+// LogRing: the last values of a loop, to be read later. The writer never waits and never asks: it
 // overwrites the oldest. A reader counts, so it knows what it has missed.
 #pragma once
 

@@ -1,5 +1,5 @@
 // MemoryBudget: what all clients may make a server keep. What does not fit is refused before it is made; the machine
-// would end the whole server. Half of a budget is for whoever comes first; the other half is set aside in equal parts,
+// would end the whole server. Half of a budget is for those who come first; the other half is set aside in equal parts,
 // one for each member, so that a greedy client leaves room for a modest one.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace hl {
 class MemoryBudget {
  public:
   MemoryBudget() = default;  ///< of memory that nobody counts
-  /// Without members all of it is for whoever comes first.
+  /// Without members all of it is for those who come first.
   explicit MemoryBudget(std::uint64_t most_bytes, std::uint32_t members = 0);
   /// The same budget as a new member has it. One beyond their number has no part set aside.
   MemoryBudget member() const;

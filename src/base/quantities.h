@@ -8,7 +8,7 @@
 
 namespace hl {
 
-/// kHeight is a bump map: no number, and always a texture; it bends the normal and moves nothing. m.
+/// kHeight is a bump map: no number, and always a texture; it turns the normal and moves nothing. m.
 enum class Quantity : std::uint8_t {
 #define HL_QUANTITY(quantity, ...) quantity,
 #include "base/quantities.def"

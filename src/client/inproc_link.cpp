@@ -37,7 +37,7 @@ std::shared_ptr<SessionHost> processServer(const std::string& sim) {
   return server;
 }
 
-// What the server's threads ring when there is a reply.
+// What the server's threads call when there is a reply.
 struct Bell {
   std::mutex mutex;
   std::condition_variable rung_or_late;

@@ -1,4 +1,4 @@
-// ServerUrl: what hlCreateContext is told: where the server is and what the client wants of it.
+// ServerUrl: the argument of hlCreateContext: where the server is and what the client wants of it.
 #pragma once
 
 #include <cstdint>

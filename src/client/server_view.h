@@ -1,4 +1,4 @@
-// ServerView: what the server has told so far. Queries answer from it.
+// ServerView: what the server has sent so far. Queries answer from it.
 #pragma once
 
 #include <hl.pb.h>
@@ -19,7 +19,7 @@ class ServerView {
 
   const proto::Welcome& welcome() const { return welcome_; }
   const proto::Limits& limits() const { return welcome_.limits(); }
-  /// The context's device; empty when the server has not told of it.
+  /// The context's device; empty when the server has not sent it.
   const proto::DeviceInfo& device() const;
   /// The newest state; empty before the first.
   const proto::ClientState& state() const { return state_; }

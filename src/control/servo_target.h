@@ -1,4 +1,4 @@
-// ServoTarget: what the proxy tells the servo.
+// ServoTarget: where the servo pulls the device, by the proxy.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Watchdog: tells from outside when the servo stands still. It counts its own looks, not the clock's time: when the
+// Watchdog: notices from outside when the servo stands still. It counts its own looks, not the clock's time: when the
 // whole machine has paused, watchdog and servo alike, nobody is to blame.
 #pragma once
 

@@ -105,7 +105,7 @@ class Primitives {
   Box bounds_;  // of a mesh
 };
 
-// In sight of the loops that read a million of them.
+// Inline: loops read millions of them.
 
 inline Primitives::Element Primitives::element(std::size_t i) const {
   std::size_t number = kept_.empty() ? i : kept_[i];

@@ -17,7 +17,7 @@ struct FirstImpact {
   ElementId primitive = 0;
 };
 
-/// Whether `a` comes before `b`: by their vertices, lexicographically; copies are told apart by where they came from.
+/// Whether `a` comes before `b`: by their vertices, lexicographically; copies are distinguished by their source.
 /// The order in which primitives were given decides nothing. RT-safe.
 bool precedes(const Primitive& a, const Primitive& b);
 

@@ -38,7 +38,7 @@ bool firstRoot(double distance, double speed, double b, double k, double radius,
 }
 
 // Whether the moving point stays farther than R from the centre or axis for ever, k > R |m|, by more than rounding:
-// told from squares, so that most parts are done without a root. The rest is for firstRoot().
+// decided by squares, so that most parts are done without a root. The rest is for firstRoot().
 bool passesBy(double k2, double speed2, double radius) {
   constexpr double kRounding = 1e-12;
   return k2 > (1 + kRounding) * radius * radius * speed2;
@@ -128,7 +128,7 @@ bool hitVertices(const Primitive& primitive, const Vec3& from, const Vec3& motio
   return limit < kNone;
 }
 
-// Nothing is told to be hit before `no_sooner`: so whoever looks for the first impact of many may leave out what is
+// No hit is returned before `no_sooner`: so a search for the first impact of many may leave out what is
 // late by that, and finds the same.
 bool hitTriangle(const Primitive& triangle, const Vec3& from, const Vec3& motion, double radius, double latest,
                  Impact& out) {

@@ -22,11 +22,11 @@ struct Impact {
 /// A sphere that starts within `radius` hits at t = 0 when it approaches (motion . normal < 0) and else never, as the
 /// primitive is convex. Returns false, and leaves `out` alone, when nothing is hit. RT-safe, any thread.
 bool sweepSphere(const Primitive& primitive, const Vec3& from, const Vec3& motion, double radius, Impact& out);
-/// The same for whoever has the closest point of `from` at hand.
+/// The same for a caller that has the closest point of `from`.
 bool sweepSphere(const Primitive& primitive, const ClosestPoint& start, const Vec3& from, const Vec3& motion,
                  double radius, Impact& out);
-/// The same for whoever knows that the sphere starts farther than `radius`, and does not care for what is hit after
-/// `latest`, a fraction of the motion: that may be told or not.
+/// The same for a caller that knows that the sphere starts farther than `radius`, and ignores what is hit after
+/// `latest`, a fraction of the motion: such a hit may be returned or not.
 bool sweepSphereFromOutside(const Primitive& primitive, const Vec3& from, const Vec3& motion, double radius,
                             double latest, Impact& out);
 

@@ -201,7 +201,7 @@ HWY_INLINE unsigned withinReach(const FewBlocks& blocks) {
 }
 
 // Conservative advancement (Mirtich 1996) of the sphere toward the primitives of one vector: no touch before it crosses
-// a separating plane, and from there the next plane tells more.
+// a separating plane, and from there the next plane is tighter.
 class Advance {
  public:
   HWY_INLINE Advance(const FewBlocks& blocks, std::size_t lane)

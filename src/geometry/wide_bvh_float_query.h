@@ -61,7 +61,7 @@ inline BlockQuery blockQuery(const WideBlock& block, const WideQuery& query) {
     size += std::abs(from[i]) + std::abs(motion[i]);
   }
   const double reach = query.reach * per_step;
-  // Of a block so small beside the query nothing is told in single precision: all of it may be touched.
+  // For a block so small beside the query single precision decides nothing: all of it may be touched.
   const bool told = size + reach < kMaxSize;
   BlockQuery packed;
   for (int i = 0; i < 3; ++i) {

@@ -271,7 +271,7 @@ class Sweep {
     if (proposed_count_ < kMaxCandidates) proposed_[proposed_count_++] = primitive;
   }
 
-  // By an earlier walk. When it was entered would not tell: the box of its block may have been entered later, and then
+  // By an earlier walk. The order of entry would not say: the box of its block may have been entered later, and then
   // no walk has looked at it. One that did not fit in is proposed again, which does no harm.
   HWY_INLINE bool wasProposed(std::uint32_t primitive) const {
     const std::uint32_t* end = proposed_ + proposed_before_;

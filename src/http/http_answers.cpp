@@ -64,7 +64,7 @@ HttpResponse HttpAnswers::answer(const HttpRequest& request, const ServerCounts&
 HttpResponse HttpAnswers::answerGet(const HttpRequest& request, const ServerCounts& counts) const {
   const std::string_view target = viewOf(request.target());
   const std::string_view path = pathOf(target);
-  // Health is for whoever watches over the server; it tells nothing else.
+  // Health is for whoever monitors the server; it says nothing else.
   if (path == "/healthz") return health(request);
   const std::string token = queryValue(target, "token");
   if (path == "/" && !token.empty()) return login(request, token);

@@ -19,8 +19,8 @@ class SessionWaker : public std::enable_shared_from_this<SessionWaker> {
  public:
   explicit SessionWaker(boost::asio::io_context& context) : context_(context), timer_(std::in_place, context) {}
 
-  /// Any thread; returns at once and throws nothing. Many rings before the writer has heard one are one. Without memory
-  /// to wake it, it hears the ring when it wakes by itself.
+  /// Any thread; returns at once and throws nothing. Several calls before the writer wakes count as one. Without memory
+  /// to wake it, it sees the call when it wakes by itself.
   void wake() noexcept {
     const std::scoped_lock lock(mutex_);
     if (closed_) return;
@@ -33,7 +33,8 @@ class SessionWaker : public std::enable_shared_from_this<SessionWaker> {
     });
   }
 
-  /// The context's thread: returns when woken, but after `longest` at the latest. A ring since the last wait counts.
+  /// The context's thread: returns when woken, but after `longest` at the latest. A call of wake() since the last wait
+  /// counts.
   boost::asio::awaitable<void> wait(std::chrono::nanoseconds longest) {
     if (take()) co_return;
     timer_->expires_after(longest);
@@ -41,7 +42,7 @@ class SessionWaker : public std::enable_shared_from_this<SessionWaker> {
     take();
   }
 
-  /// The context's thread, when nothing waits: from now on a ring does nothing, and the context may go.
+  /// The context's thread, when nothing waits: from now on wake() does nothing, and the context may go.
   void close() {
     const std::scoped_lock lock(mutex_);
     closed_ = true;
@@ -60,7 +61,7 @@ class SessionWaker : public std::enable_shared_from_this<SessionWaker> {
   std::optional<boost::asio::steady_timer> timer_;
   std::mutex mutex_;
   bool woken_ = false;
-  bool on_its_way_ = false;  // the ring, to the context's thread
+  bool on_its_way_ = false;  // the posted call, to the context's thread
   bool closed_ = false;
 };
 

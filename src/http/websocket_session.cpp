@@ -31,7 +31,7 @@ constexpr std::size_t kPiece_bytes = std::size_t{64} * 1024;  // of a message, f
 constexpr int kSendBuffer_bytes = 64 * 1024;
 constexpr double kShortestWait_s =
     1e-4;  // a state that is due but not there yet is asked for at most 10 000 times a second
-constexpr double kLongestWait_s = 1;  // without states only the waker wakes, if there was memory to ring it
+constexpr double kLongestWait_s = 1;  // without states only the waker wakes, if there was memory for it
 // Such a message is decoded in well under a millisecond, in either form.
 constexpr std::size_t kLight_bytes = std::size_t{16} * 1024;
 constexpr std::size_t kMaxReason_bytes = 123;  // RFC 6455, 5.5: what a close frame holds beside its code

@@ -1,4 +1,4 @@
-// MonitorCallbacks: health and numbers, for whoever is asked for them.
+// MonitorCallbacks: health and numbers, for the code that serves them.
 #pragma once
 
 #include <functional>
@@ -8,7 +8,7 @@
 
 namespace hl {
 
-/// What the server tells about whatever it serves, without knowing it. Called in the thread of FeedCallbacks; each may
+/// What the server publishes about what it serves, without knowing it. Called in the thread of FeedCallbacks; each may
 /// be empty.
 struct MonitorCallbacks {
   std::function<void()> observe;              ///< at the feed's rate, whether anyone asks or not

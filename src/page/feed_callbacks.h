@@ -1,4 +1,4 @@
-// FeedCallbacks: what the pages' WebSockets carry, for whoever moves the bytes.
+// FeedCallbacks: what the pages' WebSockets carry, for the code that moves the bytes.
 #pragma once
 
 #include <functional>

@@ -76,7 +76,7 @@ class HeldTick {
     return springEnergy_J(settings_.spring_N_m, state.stiffness, square_D);
   }
 
-  // What was told of the goal is told of the finger.
+  // The report is of the finger, not of the goal.
   void take(ProxyState& there, double added_J, TickReport& report) {
     there.ledger = state_.ledger;
     there.ledger.book(added_J, true);

@@ -31,16 +31,16 @@ void Constraints::nearestTo(const Vec3& gap, Proposal& proposal) {
   if (strays(gap)) {
     relaxToCentre(set_);
     solved_ = nearestAbove(planesOf(set_), gap, input_.tolerance.feasible);
-    // Held from all sides closer than rounding can tell: stay.
+    // Held from all sides, closer than rounding resolves: stay.
     if (strays(gap)) solved_.point = Vec3::Zero();
   }
   proposal = {};
   proposal.step = solved_.point;
-  cuts_.look(set_);
+  cuts_.update(set_);
   for (std::size_t i = 0; i < solved_.active_count; ++i) {
     const Contact& contact = set_.contacts[solved_.active[i]];
     proposal.active.push({solved_.active[i], placeOf(contact), contact.plane.normal, solved_.multiplier[i]});
-    cuts_.holds(contact.primitive);
+    cuts_.addActive(contact.primitive);
   }
 }
 
@@ -67,7 +67,7 @@ bool Constraints::solveWithCuts(const Vec3& position, const Vec3& gap, double sl
   if (!counts || all.violation > input_.tolerance.feasible || length <= convergence::kMinCutPerGap * gap.norm())
     return false;
   if (!touches() && length >= convergence::kMaxCutPerSlid * slid_m) return false;
-  cuts_.holdsStill();
+  cuts_.keepActive();
   step = all.point;
   return true;
 }

@@ -1,10 +1,9 @@
-// Constraints: what holds the proxy where it is, and the step that this allows. Each obstacle is convex, so the
-// half-space above its tangent plane in configuration space is free of it; the step is the solution of the convex
-// subproblem that these planes make:
+// Constraints: the primitives that touch the proxy, and the step that they allow. Each obstacle is convex, so the
+// half-space above its tangent plane in configuration space is free of it. The step solves the convex subproblem:
 //
 //   min |x - goal|   above the plane of each contact, and of each recent cut (recent_cuts.h)
 //
-// Invariant: a proposed step, and each part of it, keeps the proxy `reach` away from all that it touches now, to within
+// Invariant: a proposed step, and each part of it, keeps the proxy `reach` away from all contacts, to within
 // Tolerances::feasible; and it ends no farther from the goal.
 #pragma once
 
@@ -22,7 +21,7 @@ class Constraints {
  public:
   explicit Constraints(const TickInput& input) : input_(input) {}
 
-  /// Looks for what touches the proxy there, which is to go `toward` somewhere.
+  /// Finds the contacts of the proxy at `position`; `toward` is the way that it wants to go.
   void gather(const Vec3& position, const Vec3& toward, SweepCache& cache);
   const ContactSet& set() const { return set_; }
   bool touches() const { return !set_.contacts.empty(); }

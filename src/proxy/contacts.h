@@ -34,30 +34,30 @@ inline constexpr std::size_t kMaxTwins = 256;
 struct ContactSet {
   FixedVector<Contact, kMaxContacts> contacts;
   FixedVector<Plane, kMaxContacts> planes;  ///< contacts[i].plane, for the solver
-  /// Primitives that share the edge or vertex of a contact and with it the plane, bit by bit. Of more than there is
-  /// room for none is kept: which ones are met first must not count.
+  /// Primitives that share the edge or vertex of a contact, and so its plane, bit by bit. If there are more than there
+  /// is room for, none is kept: the order in which they are met must not change the result.
   FixedVector<Contact, kMaxTwins> twins;
   bool twins_lost = false;
-  /// There is no room for all: those are left out that `toward` goes into least, and all twins.
+  /// There are more contacts than room. Those are kept that `toward` goes into most, and no twins.
   bool crowd = false;
 };
 
-/// All primitives within `distance` of `centre`, as planes that hold the centre `reach` away from them.
+/// All primitives within `distance` of `centre`, as planes that keep the centre `reach` away from them.
 /// Sorted by plane; of bitwise equal planes the primitive that precedes() is the contact, the others are twins.
 /// RT-safe.
 void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, double reach, ContactSet& set);
-/// The same, looking only through what is `nearby`; where that does not cover the place, it does afterwards. `toward`:
-/// where the proxy is to go; it says who stays of a crowd.
+/// The same from the cache `nearby`, which is filled first where it does not cover the place. `toward`: the way that
+/// the proxy wants to go; it decides which contacts of a crowd are kept.
 void gatherContacts(const SceneAt& scene, const Vec3& centre, const Vec3& toward, double distance, double reach,
                     SweepCache& nearby, ContactSet& set);
 
-/// What the set was made from: its contacts and twins. Returns false when there are more. RT-safe.
+/// The primitives of the set's contacts and twins. Returns false when there are more than fit. RT-safe.
 bool primitivesOf(const ContactSet& set, FixedVector<PrimitiveId, SweepCache::kRoom>& primitives);
 
-/// Whether one of the contacts holds the proxy off by this plane, bit by bit. RT-safe.
+/// Whether one of the contacts has this plane, bit by bit. RT-safe.
 bool holdsBy(const ContactSet& set, const Plane& plane);
 
-/// Whether two contacts hold the proxy off by the same plane, bit by bit. RT-safe.
+/// Whether two contacts have the same plane, bit by bit. RT-safe.
 inline bool samePlane(const Contact& a, const Contact& b) {
   return a.plane.normal == b.plane.normal && a.plane.offset == b.plane.offset;
 }

@@ -50,10 +50,10 @@ double stretch(double curvature, double length, double turn_m, double reach, dou
   return 1 + boldness * (newton - 1);
 }
 
-// How much the obstacle bends away below a step in the direction of its projector: 1 for the whole radius.
+// How much the obstacle curves away below a step in the direction of its projector: 1 for the whole radius.
 double curvatureOf(const Contact& contact, double multiplier) { return multiplier / contact.distance; }
 
-// On one surface. The tangents in which it is curved are curved alike, so the Hessian is 1 - bend in them, else 1.
+// On one surface. The tangents in which it is curved are curved alike, so the Hessian is 1 - curvature in them, else 1.
 Vec3 onSurface(const ContactSet& set, const SceneAt& scene, const Contact& contact, double multiplier,
                const Vec3& plain, double reach, double boldness) {
   const Vec3 part = curvedDirections(contact, scene) * plain;
@@ -63,7 +63,7 @@ Vec3 onSurface(const ContactSet& set, const SceneAt& scene, const Contact& conta
   return plain + (stretch(curvature, length, turn_m, reach, boldness) - 1) * part;
 }
 
-// Along the curve in which two surfaces meet; it bends as both do along it.
+// Along the curve in which two surfaces meet; its curvature is that of both along it.
 Vec3 onCurve(const ContactSet& set, const SceneAt& scene, const SolverResult& proposal, double reach, double boldness) {
   const auto contact = [&](std::size_t i) -> const Contact& { return set.contacts[proposal.active[i]]; };
   const Vec3& plain = proposal.point;

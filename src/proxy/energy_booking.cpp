@@ -11,7 +11,7 @@ namespace {
 
 void bookCauses(Ledger& ledger, const EnergyBooking::Causes& causes, double moved_J, double stiffened_J) {
   if (moved_J > 0 && causes.shading + causes.bump == 0) {
-    ledger.add(EnergyCause::kStiffness, moved_J);  // pre-sliding springs that creep back
+    ledger.add(EnergyCause::kStiffness, moved_J);  // pre-sliding springs that relax
   } else if (moved_J > 0) {
     const double bends = causes.shading + causes.bump;
     const double bump = causes.bump / bends;

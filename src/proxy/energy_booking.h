@@ -1,10 +1,10 @@
 // EnergyBooking: one tick's entry in the energy ledger, and the target that comes out of it.
 //
 //   before   E0 = 1/2 K s- |proxy- - finger|^2         after   E = 1/2 K s+ |proxy+ - finger|^2
-// at the same finger position, so that E - E0 is what the tick's rules did, not what the hand did. In the open, and on
-// the tick that lands, s- is s+: coming into contact charges nothing. A tick that ends on its way, in the air between
-// a surface and the finger, is as soft as the surface that it left, and adds nothing; one that has met no surface pulls
-// nowhere.
+// at the same finger position, so E - E0 is the work of the tick's rules, not of the hand. In free space, and in the
+// tick of the first contact, s- = s+: making contact books nothing. A tick that ends in free space between a surface
+// and the finger has the stiffness of the surface that it left, and adds nothing; if it has met no surface, there is no
+// force.
 #pragma once
 
 #include <cstdint>
@@ -47,7 +47,7 @@ class EnergyBooking {
   /// The energy that the tick may add is used up: the last step could not be paid for as a whole.
   bool spent() const { return spent_; }
 
-  /// What bent the proxy's way, for booking by cause; the bends as ShadingNormal has them.
+  /// What turned the proxy's way, for booking by cause; measures as in ShadingNormal.
   struct Causes {
     double shading = 0, bump = 0;
     bool stiffness_textured = false;

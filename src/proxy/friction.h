@@ -25,7 +25,7 @@ struct SlipResistance {
   FixedVector<ContactFriction, 3> contacts;
   double viscous = 0;  ///< sum of b / (K T): metres of pull for a metre of slip in one tick
   double presliding_ratio =
-      0;  ///< sum of sigma_0 / K, the pre-sliding springs: metres of pull for a metre of creep; 0: rigid
+      0;  ///< sum of sigma_0 / K, the pre-sliding springs: metres of pull for a metre of offset; 0: rigid
 
   /// The pull that is held without any slip.
   double staticPull() const;
@@ -48,9 +48,9 @@ struct Slip {
 /// The further slip under a pull of `pull` metres; 0 when the resistance holds it. RT-safe.
 double slipLength(const SlipResistance& drag, double pull, const Slip& before);
 
-/// The same where the drag changes along the way: `drag_at` tells it for a distance from here and is sampled `samples`
-/// times over the pull: stops where the resistance first holds the proxy, so no narrow line of friction is missed.
-/// `viscous` becomes the mean over the way. RT-safe.
+/// The same where the drag changes along the way: `drag_at` returns it for a distance from here and is sampled
+/// `samples` times over the pull: stops where the resistance first holds the proxy, so no narrow line of friction is
+/// missed. `viscous` becomes the mean over the way. RT-safe.
 double slipLengthAlong(FunctionRef<SlidingResistance(double)> drag_at, double pull, const Slip& before, int samples,
                        double& viscous);
 

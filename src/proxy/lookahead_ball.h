@@ -1,6 +1,6 @@
-// LookaheadBall: one search for several ticks. Where triangles are large beside the steps of the proxy, a ball ahead of
-// it holds all that the next ticks can touch, and that is little: until the proxy leaves the ball, nothing else is
-// asked. Where triangles are small the ball would hold too many, and each step asks the hierarchy.
+// LookaheadBall: one search for several ticks. Where triangles are larger than the steps of the proxy, a ball ahead of
+// it contains the few primitives that the next ticks can touch: until the proxy leaves the ball, no other search is
+// needed. Where triangles are small the ball would contain too many, and each step searches the hierarchy.
 #pragma once
 
 #include "proxy/back_off.h"
@@ -18,8 +18,8 @@ class LookaheadBall {
     travel_m_ = (finger - finger_).norm();
     finger_ = finger;
   }
-  /// Fills `nearby` with what a ball holds that begins at `from`, goes on along `motion` for some ticks, and covers all
-  /// of it. False, mostly with `nearby` as it was, where that is not worth it. `set` is what touches the proxy now.
+  /// Fills `nearby` with the primitives in a ball that contains `from` and, for some ticks, the way along `motion`.
+  /// Returns false, mostly with `nearby` unchanged, where it is not worth it. `set`: the contacts now.
   bool find(const SceneAt& scene, const ContactSet& set, const Tolerances& tolerance, const Vec3& from,
             const Vec3& motion, SweepCache& nearby);
 

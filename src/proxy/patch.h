@@ -40,7 +40,7 @@ class Patch {
   Vec2 texcoord(const Vec2& moved) const { return texcoord_ + texcoordOver(moved); }
   Vec2 texcoordOver(const Vec2& moved) const { return moved.x() * texcoord_edge_[0] + moved.y() * texcoord_edge_[1]; }
 
-  /// Whether the surface may be shaded or bumped; when false, bend() gives the true normal everywhere.
+  /// Whether the surface may be shaded or bumped; when false, shadingNormal() is the true normal everywhere.
   bool shaded() const { return smooth_ || height_.texture; }
   /// The normal as it feels: the vertex normals interpolated, no farther from the true normal than
   /// accuracy::kShadingLimit_rad, and the slope of the bump map. A triangle with a vertex normal that is missing, zero

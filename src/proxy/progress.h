@@ -1,9 +1,8 @@
-// Progress: when the steps of a tick have come to an end other than by a step of no length:
-//   stalled   steps come no nearer to the goal, and are as short as those of planes that lean by the skin: rounding
-//             leads them. Planes that all but face each other cross where rounding says; there the proxy would go to
-//             and fro among a few places for ever.
-//   settled   the passes over the surfaces' rules have come to rest, on faces that still hold the proxy: another look
-//             would find what the last pass found.
+// Progress: two ways in which a tick ends although its next step is not zero:
+//   stalled   the steps come no nearer to the goal and are so short that rounding decides them. The crossing of planes
+//             that nearly face each other is decided by rounding; the proxy would move among a few places for ever.
+//   settled   the passes over the surfaces' rules have converged, on faces that still touch the proxy: another search
+//             would find the same.
 #pragma once
 
 #include <optional>
@@ -19,15 +18,15 @@ namespace hl {
 /// For one tick. World frame. RT-safe.
 class Progress {
  public:
-  /// The goal is another one: how near steps have come to the one before says nothing of it.
+  /// For a new goal: forgets the progress toward the old one.
   void begin() { *this = {}; }
-  /// The proxy has come there by a step. Returns whether steps come no nearer: where this one is so short that rounding
-  /// may have led it, they have stalled.
+  /// After each step. Returns whether the last steps have come no nearer: if this one is so short that rounding may
+  /// have decided it, the tick has stalled.
   bool idleAt(const Vec3& position, const Goal& goal);
   void stall() { stalled_ = true; }
   bool stalled() const { return stalled_; }
 
-  /// The passes have come to rest on these.
+  /// The passes have converged on these contacts.
   void settleOn(const ContactSet& set);
   void unsettle() { settled_on_.clear(); }
   bool settledOn(const ContactSet& set) const { return !settled_on_.empty() && sameFaces(set); }

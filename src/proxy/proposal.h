@@ -45,9 +45,9 @@ struct Proposal {
   bool preslides = false;         ///< static friction holds the proxy, on its pre-sliding springs
   Vec3 step = Vec3::Zero();
   FixedVector<ActiveContact, 3> active;
-  double shading = 0, bump = 0;  ///< the largest bends of what holds, as ShadingNormal has them
+  double shading = 0, bump = 0;  ///< the largest of the active contacts, as in ShadingNormal
   double viscous = 0;            ///< pull that viscosity uses for each metre of the step
-  double presliding_ratio = 0;   ///< Drag::creep
+  double presliding_ratio = 0;   ///< SlipResistance::presliding_ratio
   Vec3 held = Vec3::Zero();      ///< m, the pull that friction holds after the step
 };
 

@@ -21,7 +21,7 @@ bool touchedOfCarrier(const PushedProxy& proxy, const SceneAt& scene, PrimitiveI
   return found;
 }
 
-// How far the touched place of the carrier goes by then, as its mesh bends; frame of the carrier.
+// How far the touched point of the carrier moves by then, as its mesh deforms; frame of the carrier.
 Vec3 deformedBy(const PushedProxy& proxy, const MeshTransition& way, std::int64_t time_ns) {
   const SceneAt scene = proxy.scene();
   PrimitiveId held;

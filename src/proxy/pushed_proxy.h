@@ -39,7 +39,7 @@ struct Advance {
   std::uint32_t met = kNoInstance;  ///< the instance that ends it
 };
 
-/// The number of the object with this key, where it moves or bends.
+/// The number of the object with this key, where it moves or deforms.
 std::uint32_t movingInstance(const Snapshot& snapshot, std::uint64_t key);
 
 }  // namespace hl

@@ -3,7 +3,7 @@
 //
 //   objects that move   are swept in their own frame (rigid_sweep.h). The first that meets the proxy carries it from
 //                       there on; where another meets it then, the two close in, and it goes on by small steps
-//   meshes that bend    go by small steps (small_step.h)
+//   meshes that deform  go by small steps (small_step.h)
 #pragma once
 
 #include "proxy/proxy_state.h"

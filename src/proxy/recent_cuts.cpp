@@ -14,12 +14,12 @@ bool touches(const ContactSet& set, PrimitiveId primitive) {
 
 }  // namespace
 
-void RecentCuts::look(const ContactSet& set) {
+void RecentCuts::update(const ContactSet& set) {
   left_.clear();
-  for (const PrimitiveId primitive : holding_) {
+  for (const PrimitiveId primitive : active_) {
     if (!touches(set, primitive)) left_.push(primitive);
   }
-  holding_.clear();
+  active_.clear();
 }
 
 std::size_t RecentCuts::addPlanes(const SceneAt& scene, const Vec3& position, double reach, Planes& planes) const {
@@ -31,8 +31,8 @@ std::size_t RecentCuts::addPlanes(const SceneAt& scene, const Vec3& position, do
   return planes.size() - before;
 }
 
-void RecentCuts::holdsStill() {
-  for (const PrimitiveId primitive : left_) holding_.push(primitive);
+void RecentCuts::keepActive() {
+  for (const PrimitiveId primitive : left_) active_.push(primitive);
 }
 
 }  // namespace hl

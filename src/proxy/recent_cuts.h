@@ -1,10 +1,10 @@
-// RecentCuts: what held the proxy in the last step and touches it no more. A sphere that rolls over an edge leaves it
-// by the square of the step; straight on toward the goal it would meet the same edge again a nanometre farther. Between
-// two edges it would go to and fro, from one to the other, as alternating projections do. So the planes of what was
-// left count for one step more: where the obstacle is now, as seen from the proxy.
+// RecentCuts: primitives that were active in the last step and no longer touch the proxy. A sphere that rolls over an
+// edge leaves it by the square of the step; on its way to the goal it would meet the same edge again a nanometre
+// farther. Between two edges it would alternate, as alternating projections do. So the planes of these primitives count
+// for one more step, with the place of the proxy now.
 //
-// That is sound, as obstacles are convex: no step above such a plane meets its obstacle, and the proxy itself lies
-// above it, so the step ends no farther from the goal. Whether the proxy rests is told by what touches it alone.
+// This is sound because obstacles are convex: a step above such a plane does not meet the obstacle, and the proxy lies
+// above the plane, so the step ends no farther from the goal. Whether the proxy rests depends only on what touches it.
 #pragma once
 
 #include "base/fixed_vector.h"
@@ -19,23 +19,23 @@ class RecentCuts {
  public:
   using Planes = FixedVector<Plane, convergence::kMaxPlanesWithCuts>;
 
-  /// Tells the contacts where the proxy is now. What holds() has named since the last call and is not among them has
-  /// been left; what was left before is forgotten.
-  void look(const ContactSet& set);
+  /// `set`: the contacts where the proxy is now. Primitives added by addActive() since the last call that are not among
+  /// them become cuts; earlier cuts are dropped.
+  void update(const ContactSet& set);
   bool empty() const { return left_.empty(); }
 
-  /// Adds to `planes`, relative to the proxy at `position`, those of what was left that keep it `reach` (m) away.
-  /// Returns how many; what is farther than kCutNear no longer counts.
+  /// Adds the planes of the cuts to `planes`, relative to the proxy at `position`: each keeps it `reach` (m) away.
+  /// Returns how many; a primitive farther than kCutNear is no cut any more.
   std::size_t addPlanes(const SceneAt& scene, const Vec3& position, double reach, Planes& planes) const;
 
-  /// The next step is held by this one; or by all that was left.
-  void holds(PrimitiveId primitive) { holding_.push(primitive); }
-  void holdsStill();
+  /// The plane of this primitive is active in the next step; or those of all cuts are.
+  void addActive(PrimitiveId primitive) { active_.push(primitive); }
+  void keepActive();
 
  private:
   static constexpr std::size_t kRoom = 6;  // three planes determine a step, twice
 
-  FixedVector<PrimitiveId, kRoom> holding_, left_;
+  FixedVector<PrimitiveId, kRoom> active_, left_;
 };
 
 }  // namespace hl

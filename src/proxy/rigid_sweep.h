@@ -6,8 +6,8 @@
 
 namespace hl {
 
-/// Until an object meets the proxy, as told in `met`; or until one turns too far for a straight sweep, changes its
-/// screw, or the tick comes. Objects have met it where they come within accuracy::kMetAt of the reach. RT-safe.
+/// Until an object meets the proxy, as told in `met`; or until an object turns too far for a straight sweep, changes
+/// its screw, or the tick comes. Objects have met it where they come within accuracy::kMetAt of the reach. RT-safe.
 Advance rigidSweep(const PushedProxy& proxy);
 
 }  // namespace hl

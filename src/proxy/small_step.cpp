@@ -11,7 +11,7 @@ namespace {
 
 using convergence::kCloseIn;
 
-// Until when each mesh that bends is on one way.
+// Until when each deforming mesh stays on one transition.
 std::int64_t oneWayUntil(const PushedProxy& proxy) {
   std::int64_t until_ns = proxy.end_ns;
   for (const std::uint32_t i : proxy.snapshot.deforming) {
@@ -21,7 +21,7 @@ std::int64_t oneWayUntil(const PushedProxy& proxy) {
   return until_ns;
 }
 
-// How far an object moves past the proxy until then, at most, not counting how it bends.
+// How far an object moves past the proxy until then, at most, without its deformation.
 double wayOf_m(const PushedProxy& proxy, const Instance& instance, std::int64_t until_ns, double clearance) {
   const PoseSource& poses = instance.poses();
   if (!poses.moves()) return 0;

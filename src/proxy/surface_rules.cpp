@@ -39,7 +39,7 @@ SurfaceRules::TouchedSet SurfaceRules::touchedNow(const ContactSet& set) const {
   return touched;
 }
 
-// The places touched and their bent normals when the passes have moved the proxy on, from `position` by `offset`.
+// The points touched and their shading normals after the passes have moved the proxy from `position` by `offset`.
 void SurfaceRules::moveOn(const ContactSet& set, const Vec3& position, const Vec3& offset, TouchedSet& touched) const {
   for (std::size_t i = 0; i < touched.size(); ++i) {
     Touched& now = touched[i];
@@ -55,7 +55,7 @@ void SurfaceRules::moveOn(const ContactSet& set, const Vec3& position, const Vec
   }
 }
 
-// Pass 1: the point nearest the finger above the planes as they feel, each bent about where it holds the proxy now.
+// Pass 1: the point nearest the finger above the shaded planes, each turned about the point where it is touched now.
 SolverResult SurfaceRules::firstPass(const ContactSet& set, const TouchedSet& touched, const Vec3& gap,
                                      const Vec3& offset) const {
   FixedVector<Plane, kMaxContacts> planes;
@@ -110,7 +110,7 @@ Vec3 SurfaceRules::slip(FrictionOnWay& resistance, const SlipResistance& drag, c
 
 // What friction lets the proxy go of the way, after `slipped_now` more than slip_ says.
 //
-// A stuck proxy with pre-sliding springs creeps to where they balance the pull that is left,
+// A stuck proxy with pre-sliding springs moves to where they balance the pull that is left,
 //   |way - D| = presliding_ratio |presliding_m + D|,
 // and back when the pull falls: the elastic state z of Dahl's and Hayward and Armstrong's models, without their drift.
 // D comes from where the proxy got stuck: on a surface that turns, the springs may pull into what it touches now.
@@ -152,7 +152,7 @@ void SurfaceRules::listActive(const TouchedSet& touched, const SolverResult& hel
   }
 }
 
-// On planes that bend nowhere, a slip whose resistance is the same all along ends where the next would not move it.
+// On planes without shading, a slip with the same resistance all along ends where the next would not move the proxy.
 bool SurfaceRules::slipsAtOnce(const TouchedSet& touched, const Proposal& proposal) const {
   const auto changes = [](const Touched& now) { return now.shaded || now.friction.slipTextured(); };
   return proposal.resisted && !proposal.preslides && touched.size() <= convergence::kFewContacts &&

@@ -1,7 +1,7 @@
 // SurfaceRules: what surfaces do to the proxy's way. Each is only a rule for where the next sub-goal is (the paper's
 // sections 4 and 5):
 //
-//   shading, bump   pass 1 solves with the planes bent, pass 2 takes the result as the goal above the true planes
+//   shading, bump   pass 1 solves with shaded planes, pass 2 takes the result as the goal above the true planes
 //   friction        the sub-goal of pass 1 is pulled back toward where the proxy is
 //   stiffness       the proxy stays; the target moves from it toward the finger
 // Frames: world; "offset" is relative to the proxy at the start of the sub-goal.
@@ -43,7 +43,7 @@ class SurfaceRules {
   /// The same, however many there have been.
   void settle(const ContactSet& set, const Vec3& position, const Vec3& gap, Proposal& proposal) const;
 
-  /// The proxy has moved by `step`, a part of the proposal's: a slip, or a creep.
+  /// The proxy has moved by `step`, a part of the proposal's: a slip, or a pre-sliding step.
   void moved(const Proposal& proposal, const Vec3& step);
   const Vec3& presliding_m() const { return presliding_m_; }
   bool hasSlipped() const { return slip_.length > 0; }

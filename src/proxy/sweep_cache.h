@@ -1,7 +1,7 @@
-// SweepCache: primitives among which are all that come within some distance of a place. A sweep meets those that touch
-// the proxy where it ends, so the contacts there are found without asking the hierarchy again; and where nothing has
-// moved since, neither does the next tick. Where triangles are large a ball ahead of the proxy holds them for several
-// ticks: ahead.h. What touches the proxy where it is now is kept measured, as the next tick begins there.
+// SweepCache: a superset of the primitives within some distance of a place. A sweep meets all primitives that touch the
+// proxy where it ends, so the contacts there need no other search; if nothing has moved since, neither does the next
+// tick. Where triangles are large, the cache holds those of a ball ahead of the proxy (lookahead_ball.h). The closest
+// points of the present contacts are kept too, as the next tick begins there.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ class SweepCache {
     ClosestPoint nearest;
   };
 
-  /// Begins anew: all primitives within `distance` (m) of a place to be told by endAt() are going to be added.
+  /// Begins anew: all primitives within `distance` (m) of the place that endAt() gives will be added.
   void begin(const SceneAt& scene, double distance) {
     neighbours_.clear();
     room_left_ = true;

@@ -182,7 +182,7 @@ void Tick::close(TickReport& report) {
   const Vec3 gap = input_.gap(state_.position);
   // After passes made once a tick: what holds the proxy where it has come to rest.
   if (once && constraints_.touches()) rules_.settle(constraints_.set(), state_.position, gap, proposal_);
-  // Stopped where the bent planes would let it go on: the true ones hold it.
+  // Stopped where the shaded planes would let it go on: the true ones hold it.
   if (proposal_.active.empty() && !at_finger) constraints_.nearestTo(gap, proposal_);
   const TickEnd end = !proposal_.active.empty() ? TickEnd::kContact : at_finger ? TickEnd::kOpen : TickEnd::kOnItsWay;
   EnergyBooking::Causes causes{proposal_.shading, proposal_.bump, false};

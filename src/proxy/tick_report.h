@@ -14,7 +14,7 @@ namespace hl {
 /// A plane that holds the proxy at the end of a tick.
 struct ProxyContact {
   Vec3 point;   ///< on the surface, nearest the proxy
-  Vec3 normal;  ///< unit, from the surface to the proxy, bent by shading and bump
+  Vec3 normal;  ///< unit, from the surface to the proxy; the shading normal
   /// Its share of proxy - finger: sum multiplier_m * normal; times K s it is the normal force; below 0: it pulls.
   double multiplier_m;
   PrimitiveId primitive;

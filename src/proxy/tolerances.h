@@ -84,7 +84,7 @@ inline constexpr double kOverEdge = 1e-4;
 inline constexpr double kMaxTurn_rad = 0.2;
 /// Part of the radius at which what moves counts as met: what rests on the proxy and slides along it has not met it.
 inline constexpr double kMetAt = 0.9;
-/// Of the radius: what the proxy touches of a mesh that bends and takes it along lies within.
+/// Of the radius: what the proxy touches of a deforming mesh that carries it lies within.
 inline constexpr double kTouchingDeforming = 1.1;
 /// How often the room that is looked for in a pinch is halved: the last is 1/256 of the radius.
 inline constexpr int kPinchHalvings = 8;
@@ -178,7 +178,7 @@ inline constexpr double kPushedPart = 0.5;
 
 /// Sweeps or small steps from one tick to the next.
 inline constexpr int kMaxCarrySteps = 64;
-/// Proxy radii that a mesh may bend from one tick to the next without passing: each small step goes half a radius at
+/// Proxy radii that a mesh may deform from one tick to the next without passing: each small step goes half a radius at
 /// least, where nothing pinches the proxy; half of that where friction takes it along.
 inline constexpr int kMaxDeformRadii = kMaxCarrySteps / 4;
 /// Part of the clearance by which objects may close in on the proxy before it is pushed out again.
@@ -203,8 +203,8 @@ namespace cost {
 
 /// Along a surface: over rough terrain most steps end within so many reaches, and others cost one more look.
 inline constexpr double kSlidePerReach = 0.5;
-/// A proxy that has come off a bent surface comes down on it after some hundredths of the way it slid; one that has not
-/// slid falls a part of its reach.
+/// A proxy that has come off a curved surface comes down on it after some hundredths of the way it slid; one that has
+/// not slid falls a part of its reach.
 inline constexpr double kFallPerSlide = 0.02, kFallPerReach = 0.25;
 
 // What is kept of a search for the next: sweep_cache.h.

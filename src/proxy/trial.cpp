@@ -19,7 +19,7 @@ bool Trial::judge(const Goal& goal, double step_m, bool last, Vec3& position) {
 }
 
 // A step of length s comes nearer to the goal by s^2 / 2 of half the squared distance, and by about as much again where
-// the surface bends away below it. So much for each that is left.
+// the surface curves away below it. As much for each step that is left.
 bool Trial::hopeless(const Goal& goal, double step_m, const Vec3& position) const {
   const Vec3 apart = position - *checkpoint_;
   const double lost_m2 = apart.squaredNorm() - 2 * apart.dot(goal.place() - *checkpoint_);

@@ -34,17 +34,17 @@ void Walk::fly(const ContactSet& set, Vec3& position) {
 }
 
 // How far a step mostly goes, which decides nothing but its cost: along a surface a part of the reach; and a proxy that
-// has come off a bent surface comes down on it after some hundredths of the way it slid.
+// has come off a curved surface comes down on it after some hundredths of the way it slid.
 double Walk::likelyWay_m(bool along) const {
   using namespace cost;
   if (along) return kSlidePerReach * input_.tolerance.reach;
   return slid_m_ > 0 ? kFallPerSlide * slid_m_ : kFallPerReach * input_.tolerance.reach;
 }
 
-// Asks what is nearby alone. False where that cannot tell: nothing of it is hit on the part of the way that it covers,
-// and the way goes on; along a surface it mostly does.
-bool Walk::cacheTells(const ContactSet& set, bool along, const Vec3& from, const Vec3& motion,
-                      std::span<const PrimitiveId> contacts, bool& hit, SceneImpact& out) {
+// Asks the cached neighbours only. False where they are not enough: nothing of it is hit on the part of the way that it
+// covers, and the way goes on; along a surface it mostly does.
+bool Walk::cacheAnswers(const ContactSet& set, bool along, const Vec3& from, const Vec3& motion,
+                        std::span<const PrimitiveId> contacts, bool& hit, SceneImpact& out) {
   SweepCache& nearby = cache_.nearby;
   const SceneAt& scene = input_.scene;
   const Tolerances& tolerance = input_.tolerance;
@@ -79,7 +79,7 @@ bool Walk::firstImpact(const ContactSet& set, bool along, const Vec3& from, cons
   }
   const std::span<const PrimitiveId> contacts(known.begin(), known.size());
   bool hit = false;
-  if (cacheTells(set, along, from, motion, contacts, hit, out)) return hit;
+  if (cacheAnswers(set, along, from, motion, contacts, hit, out)) return hit;
   nearby.begin(input_.scene, tolerance.touching);
   return input_.scene.firstImpact(
       from, motion, tolerance.swept, tolerance.touching, likelyWay_m(along), contacts,

@@ -1,10 +1,10 @@
-// Walk: moves the proxy by a step, or to its first impact with a primitive that is no contact yet. Contacts are held
-// off by their planes, all other primitives are swept; none is both and none is neither.
+// Walk: moves the proxy by a step, or to its first impact with a primitive that is no contact yet. Contacts are kept
+// away by their planes, all other primitives are swept: never both, never neither.
 //
-// What a sweep costs grows with the square of its length and more, and no tick can end within one. So a long way is
-// gone in legs, each a step of the tick.
+// The cost of a sweep grows faster than the square of its length, and a tick cannot end within a sweep. So a long way
+// is split into legs, each a step of the tick.
 //
-// Invariant: the proxy's centre stays `swept` away from all that is no contact, so the way is free.
+// Invariant: the proxy's centre stays `swept` away from every primitive that is no contact.
 #pragma once
 
 #include <span>
@@ -36,8 +36,8 @@ class Walk {
 
  private:
   double likelyWay_m(bool along) const;
-  bool cacheTells(const ContactSet& set, bool along, const Vec3& from, const Vec3& motion,
-                  std::span<const PrimitiveId> contacts, bool& hit, SceneImpact& out);
+  bool cacheAnswers(const ContactSet& set, bool along, const Vec3& from, const Vec3& motion,
+                    std::span<const PrimitiveId> contacts, bool& hit, SceneImpact& out);
   bool firstImpact(const ContactSet& set, bool along, const Vec3& from, const Vec3& motion, SceneImpact& out);
 
   const TickInput& input_;

@@ -1,6 +1,6 @@
 // How much a bump map adds to the stiffness that the servo feels, and what the device's damping allows.
 //
-// A height h under a normal force f bends the force by f grad h, so along the surface it changes by f h'' for a metre:
+// A height h under a normal force f turns the force by f grad h, so along the surface it changes by f h'' a metre:
 // the map acts as a spring of f h'' newtons a metre. A sampled spring k is passive on a device of damping b when
 // b >= k T / 2 (science: the same bound as for a wall), so f must stay below 2 b / (T h'').
 #pragma once

@@ -303,7 +303,7 @@ EditableScene::Next EditableScene::prepareReplaced(const std::shared_ptr<const S
 
 namespace {
 
-// Whether one object is the other, its mesh maybe bent: then it gets there by and by.
+// Whether one object is the other, with its mesh maybe deformed: then it moves there in time.
 bool isDeformed(const Instance& before, const PlacedShape& now) {
   return before.shape->mesh == now.shape->mesh &&
          before.shape->model.materials.size() <= now.surfaces->materials.size();

@@ -83,7 +83,7 @@ struct PlacedShape {
   std::uint32_t session = 0, object = 0, name = 0;
 };
 
-/// What is in the world; shared by whoever shows it.
+/// What is in the world; shared by all who show it.
 using PlacedShapes = std::shared_ptr<const std::vector<PlacedShape>>;
 
 /// Used by one thread at a time; prepare() may take long, as scaled shapes are made there. What is made is counted
@@ -126,7 +126,7 @@ class EditableScene {
   /// Of an object, or of the world, 0; null where there is no such object. Until the next edit.
   const SceneItems* items(std::uint32_t object) const;
 
-  /// One in the world whose hierarchy is worn beyond kMaxCostRatio; none when there is none.
+  /// A shape in the world whose hierarchy has a cost ratio above kMaxCostRatio; null when there is none.
   std::shared_ptr<const Shape> toRebuild() const;
 
  private:
@@ -146,12 +146,12 @@ class EditableScene {
 struct Followed {
   std::vector<Instance> instances;
   std::int64_t blend_ns = 0;  ///< for the next snapshot
-  std::size_t jumps = 0;      ///< meshes that would bend, had they the memory for it
+  std::size_t jumps = 0;      ///< meshes that jump, as there is no memory for their motion
 };
 
 /// The instances of the next snapshot, from those of this client in the last one, both by rising key: what was there
 /// moves from where it is at `begin_ns` to its new place until `end_ns`; what is new, or all when end_ns <= begin_ns,
-/// is there at once. What bends gets there in the same time, or in kAbruptBlend_ns; from where it is bent to already.
+/// is there at once. A mesh that deforms gets there in the same time, or in kAbruptBlend_ns; from where it is now.
 /// What it needs for that is counted against `memory`; a mesh for which there is no room is there at once.
 Followed followOn(const std::vector<PlacedShape>& placed, std::span<const Instance* const> last, std::int64_t begin_ns,
                   std::int64_t end_ns, const MemoryBudget& memory = {});

@@ -1,5 +1,5 @@
 // Bend: how a mesh gets from one shape to the next. Each vertex goes on a straight line at constant speed, so
-// between two frames of its client a mesh that bends is in one place at every moment, as an object that moves is
+// between two frames of its client a mesh that deforms is in one place at every moment, as an object that moves is
 // (motion.h).
 #pragma once
 

@@ -57,7 +57,7 @@ class RecentPrimitives {
   void forget() { std::fill(of_, of_ + last_ + 1, kNone); }
 
  private:
-  static constexpr std::uint32_t kStride = 11;  // sends the same element of neighbouring instances to other slots
+  static constexpr ElementId kStride = 11;  // sends the same element of neighbouring instances to other slots
 
   PrimitiveId* of_ = nullptr;
   Slot* slots_ = nullptr;

@@ -41,7 +41,7 @@ struct Shape {
   double cost_ratio = 1;       ///< of a refitted hierarchy: see WideBvh::costRatio
   std::uint64_t geometry = 0;  ///< above 0; another shape has the same number only when it was rebuilt from this one
   std::uint64_t before = 0;    ///< geometry of the shape that the hierarchy was refitted from; 0: it was built
-  std::uint64_t mesh = 0;      ///< above 0; shapes with the same number are one mesh, bent: see isSameMesh()
+  std::uint64_t mesh = 0;      ///< above 0; shapes with the same number are one mesh, deformed: see isSameMesh()
   Box bounds;
   double extent = 0;                  ///< m: largest coordinate
   std::vector<std::string> warnings;  ///< the model's, and what was skipped here
@@ -50,7 +50,7 @@ struct Shape {
   std::size_t geometryBytes() const;
   /// The same with normals, texture coordinates, material numbers and the shape itself; textures apart.
   std::size_t bytes() const;
-  // Its primitives, whoever makes them; RT-safe. `id` < count().
+  // Its primitives, of the mesh or the source; RT-safe. `id` < count().
   ElementId count() const { return source ? source->count() : primitives.size(); }
   Primitive primitive(ElementId id) const { return source ? primitiveOf(*source, id) : primitives[id]; }
   PrimitiveKind kind(ElementId id) const { return source ? PrimitiveKind::kTriangle : primitives.kind(id); }
@@ -79,7 +79,7 @@ bool isSameMesh(const Shape& a, const Shape& b);
 /// refitted: that is nine times as fast as building it. Else it is built, of the same kind.
 std::shared_ptr<const Shape> makeShape(Model given, const Shape& before);
 
-/// For a mesh on its way (bend.h): the same mesh with the same vertices under another tree, refitted; `shape` is
+/// For a mesh in motion (mesh_motion.h): the same mesh with the same vertices under another tree, refitted; `shape` is
 /// numbered as what the tree was built for. And a shape of some elements alone, as Primitives has them, under that
 /// tree, or under a new one where there is none. Allocate.
 std::shared_ptr<const Shape> withTree(const Shape& shape, const WideBvh& tree);

@@ -11,7 +11,7 @@ namespace hl {
 
 namespace {
 
-// Of all shapes that it has on its way: what bends stays within the box around both ends.
+// Of all shapes of its mesh: between two of them it stays within the box around both.
 Box objectBox(const Instance& instance) {
   Box box = instance.shape->bounds;
   if (instance.mesh_motion) instance.mesh_motion->forEachShape([&](const auto& shape) { box.extend(shape->bounds); });

@@ -40,7 +40,7 @@ struct Instance {
   const PoseSource& poses() const { return driver ? *driver : static_cast<const PoseSource&>(motion); }
   /// Whether it is at rest where its frame and the world's are one.
   bool atWorld() const { return !driver && motion.identity(); }
-  /// The way it is bent on at this moment, or null where it is `shape`.
+  /// How its mesh moves at this moment; null where it is `shape`.
   const MeshTransition* transitionAt(std::int64_t time_ns) const {
     return mesh_motion && time_ns < mesh_motion->end_ns() ? &mesh_motion->at(time_ns) : nullptr;
   }
@@ -60,7 +60,7 @@ struct Snapshot {
   std::vector<Instance> instances;       ///< by rising key
   std::vector<Box> reach;                ///< of each instance: all of it during the whole motion, world
   BoxTree near;                          ///< finds instances by their reach
-  std::vector<std::uint32_t> deforming;  ///< instances that bend
+  std::vector<std::uint32_t> deforming;  ///< instances whose mesh moves
   Box bounds;                            ///< of all of them where they come to rest
   /// m: largest coordinate, in the world or in an object; distances are known to a few units in its last place.
   double extent = 0;

@@ -1,5 +1,4 @@
-// SurfaceChange: what one part of a hierarchy says about its surface. What it leaves out it takes from whoever calls
-// it.
+// SurfaceChange: what one part of a hierarchy says about its surface. What it leaves out it takes from its caller.
 #pragma once
 
 #include <array>

@@ -26,7 +26,7 @@ struct Texture {
   /// The value at (u, v). RT-safe.
   double sample(const Vec2& uv) const;
   /// d sample / d(u, v) of the image with central differences at the texels and bilinear between them: continuous, so
-  /// that a bump map bends the normal without jumps. RT-safe.
+  /// that a bump map turns the normal without jumps. RT-safe.
   Vec2 gradient(const Vec2& uv) const;
 
  private:

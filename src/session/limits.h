@@ -14,7 +14,7 @@ namespace hl {
 struct Limits : SceneLimits {
   // One message.
   std::uint64_t message_bytes = std::uint64_t{4} << 20;  ///< large meshes come in parts; 4 MiB decode in milliseconds
-  std::uint64_t open_bytes = std::uint64_t{16} << 10;    ///< until Open is accepted, from whoever it may be
+  std::uint64_t open_bytes = std::uint64_t{16} << 10;    ///< until Open is accepted, from anybody
   double messages_Hz = 2000;  ///< per session, with bursts of one second's worth: twice what a 1 kHz client sends
 
   // What one session may own, beside its scene.

@@ -1,4 +1,4 @@
-// ReplyQueue: what a session has to tell its client, until what carries it takes it away.
+// ReplyQueue: what a session has to tell its client, until the connection takes it.
 #pragma once
 
 #include <hl.pb.h>

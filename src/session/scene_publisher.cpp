@@ -212,7 +212,8 @@ void ScenePublisher::runBuilder() {
   }
 }
 
-// A frame that cannot be shown changes nothing but to be told so. Its messages go with it, before anyone is locked out.
+// A frame that cannot be shown changes nothing; its client is told why. Its messages go with it, before anyone is
+// locked out.
 void ScenePublisher::build(ClientScene& client, Waiting waiting) {
   const std::uint64_t number = waiting.frame.number();
   const auto progress = [&](double part) {
@@ -242,7 +243,7 @@ void ScenePublisher::build(ClientScene& client, Waiting waiting) {
   }
 }
 
-// What a client waits for is told in the end, however short memory is meanwhile.
+// A client gets the answer that it waits for in the end, however short memory is meanwhile.
 void ScenePublisher::tell(FunctionRef<void()> call) {
   keepTrying([this] { return running_.load(); }, call);
 }

@@ -1,8 +1,8 @@
 // ScenePublisher: from the frames of all clients to the one scene that the devices touch.
 //
 //   builders   decode frames and build their shapes, each client's in order, several clients at once; where a refitted
-//              hierarchy is worn they build it anew, one at a time, once it is shown and its client has no frame
-//              waiting
+//              hierarchy has become slow they build it anew, one at a time, once it is shown and its client has no
+//              frame waiting
 //   publisher  puts what is ready together and shows it to the loops when they have taken the scene before
 // The old scene stays touchable meanwhile.
 #pragma once

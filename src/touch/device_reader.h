@@ -13,7 +13,7 @@ class DeviceReader {
  public:
   DeviceReader(Device& device, LoopExchange& exchange) : device_(device), exchange_(exchange) {}
 
-  /// Before the loops run: tells the proxy's loop where the finger is.
+  /// Before the loops run: gives the proxy's loop the place of the finger.
   DeviceSample look(std::int64_t now_ns) noexcept;
   /// The same, and counts arrivals. A driver that throws has lost its device. After a step that threw elsewhere there
   /// is no sample either, so that none is ticked with and the servo goes its way to zero force.

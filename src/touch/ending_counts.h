@@ -1,5 +1,5 @@
-// EndingCounts: how many ticks ended for which reason, so that whoever runs a session or a trace can tell those that
-// were cut short from those that came to rest.
+// EndingCounts: how many ticks ended for which reason, so that those who run a session or a trace can distinguish those
+// that were cut short from those that came to rest.
 #pragma once
 
 #include <array>

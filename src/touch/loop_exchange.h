@@ -1,4 +1,4 @@
-// LoopExchange: what the servo's loop, the proxy's loop and the hand's thread tell each other. Each datum has one
+// LoopExchange: what the servo's loop, the proxy's loop and the hand's thread exchange. Each datum has one
 // writer and one reader.
 #pragma once
 

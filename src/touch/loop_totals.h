@@ -1,4 +1,4 @@
-// What a loop has counted since its start, as it is told.
+// What a loop has counted since its start.
 #pragma once
 
 #include <algorithm>

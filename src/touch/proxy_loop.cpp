@@ -88,7 +88,7 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
   return step;
 }
 
-// While a pull fades out, it is told with no less stiffness than it was made with.
+// While a pull fades out, it keeps at least the stiffness that it was made with.
 ServoTarget ProxyLoop::targetOf(std::int64_t now_ns, const Vec3& finger_D, const TickReport& report) {
   const bool touching = touches(state_, report);
   const Vec3 pull_D = pullOf(state_, report, finger_D);

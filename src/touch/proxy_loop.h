@@ -1,5 +1,5 @@
 // ProxyLoop: one tick as the real-time loops do it, without a thread: takes the newest scene and settings, ticks, and
-// tells the servo where to pull, and the server what was touched.
+// gives the servo its target, and the server what was touched.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ struct SpringOfServo {
   bool pulls = true;       ///< false: the servo makes no force, so that a tick does nothing to any energy
 };
 
-/// What a tick is told.
+/// Input of a tick.
 struct TickRequest {
   std::int64_t time_ns = 0;
   Vec3 finger_D = Vec3::Zero();

@@ -32,7 +32,7 @@ class ServoLoop {
   const RealtimeGrant& grant() const { return grant_; }
   /// It stands still, or has and has not noticed yet.
   bool stalled() const { return watch_.stalled(); }
-  /// What stands still cannot tell so itself.
+  /// For a loop that stands still, which cannot report it itself.
   void tellStall(ServoView& view) const;
 
  private:

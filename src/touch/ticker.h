@@ -1,4 +1,4 @@
-// Ticker: the ticks, by whichever of the two loops makes them: what they are told, and who is told of them.
+// Ticker: the ticks, by whichever of the two loops makes them: their input, and who gets their results.
 #pragma once
 
 #include <atomic>

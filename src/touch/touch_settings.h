@@ -1,4 +1,4 @@
-// What a touch session is told before it begins.
+// Settings of a touch session, fixed when it begins.
 #pragma once
 
 #include <optional>
@@ -28,7 +28,7 @@ struct TouchSettings {
   std::optional<HandScript> script;  ///< hand goals in the world frame instead of exploration
   MaterialOverride surfaces{};       ///< over what the scene says
   LedgerMode ledger = LedgerMode::kTank;
-  bool timer_reference = false;  ///< run a bare timer thread on the servo's core, to tell the machine's own hiccups
+  bool timer_reference = false;  ///< run a bare timer thread on the servo's core, to measure the machine's own delays
 };
 
 }  // namespace hl

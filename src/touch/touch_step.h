@@ -26,7 +26,7 @@ class TouchStep {
   ServoOutput late(const HeldContacts& held, const ServoSettings& settings, const DeviceSample& sample);
 
   ServoState& servo() { return servo_; }
-  /// Where the servo was told to pull in the last step.
+  /// The target of the servo in the last step.
   const ServoTarget& target() const { return target_; }
   /// What the last tick on time found.
   const ProxyStep& tick() const { return tick_; }

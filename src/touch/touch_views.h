@@ -74,7 +74,7 @@ struct ForPagesAndClients {
   }
 };
 
-/// Each member has one writer, the loop that it tells of, and one reader.
+/// Each member has one writer, the loop that it describes, and one reader.
 struct TouchViews {
   ForPagesAndClients<ServoView> servo;
   ForPagesAndClients<ProxyView> proxy;

@@ -34,8 +34,8 @@ class Left : public ::testing::Test {
   void touchFirst() {
     const ContactSet set = contactsAt(kAboveFirst);
     ASSERT_EQ(set.contacts.size(), 1u);
-    left_.look(set);
-    left_.holds(set.contacts[0].primitive);
+    left_.update(set);
+    left_.addActive(set.contacts[0].primitive);
   }
 
   const Vec3 kAboveFirst{-1e-3, 0, kRadius};
@@ -48,14 +48,14 @@ class Left : public ::testing::Test {
 
 TEST_F(Left, WhatIsStillTouchedIsNotLeft) {
   touchFirst();
-  left_.look(contactsAt(kAboveFirst));
+  left_.update(contactsAt(kAboveFirst));
   EXPECT_TRUE(left_.empty());
 }
 
 TEST_F(Left, ItsPlaneIsThatOfWhereTheProxyIsNow) {
   touchFirst();
   const Vec3 away(-1e-3 + 1e-5, 0, kRadius);  // a step along the tangent
-  left_.look(contactsAt(away));
+  left_.update(contactsAt(away));
   ASSERT_EQ(planesAt(away), 1u);
   const Vec3 normal = Vec3(1e-5, 0, kRadius).normalized();
   EXPECT_LT((planes_[0].normal - normal).norm(), 1e-12);
@@ -65,19 +65,19 @@ TEST_F(Left, ItsPlaneIsThatOfWhereTheProxyIsNow) {
 TEST_F(Left, ItCountsForOneStepUnlessThatIsHeldByItStill) {
   const Vec3 away(-1e-3 + 1e-5, 0, kRadius);
   touchFirst();
-  left_.look(contactsAt(away));
+  left_.update(contactsAt(away));
   EXPECT_FALSE(left_.empty());
-  left_.holdsStill();
-  left_.look(contactsAt(away));
+  left_.keepActive();
+  left_.update(contactsAt(away));
   EXPECT_FALSE(left_.empty());
-  left_.look(contactsAt(away));
+  left_.update(contactsAt(away));
   EXPECT_TRUE(left_.empty());
 }
 
 TEST_F(Left, WhatIsFarNoLongerCounts) {
   touchFirst();
   const Vec3 away(-1e-3, 0, 1.1 * kRadius);
-  left_.look(contactsAt(away));
+  left_.update(contactsAt(away));
   EXPECT_FALSE(left_.empty());
   EXPECT_EQ(planesAt(away), 0u);
 }
