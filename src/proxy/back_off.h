@@ -1,5 +1,5 @@
-// BackOff: when to try again what has failed. After the n-th failure the next 2^n tries are left out, 1024 at most:
-// what never works costs next to nothing.
+// BackOff: after the n-th failure in a row, skips the next 2^n tries, at most 1024. A method that never works then
+// costs almost nothing.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace hl {
 /// Plain values; RT-safe.
 class BackOff {
  public:
-  /// Counts one try; false where it is to be left out.
+  /// Counts one try. Returns false if it is to be skipped.
   bool mayTry() {
     if (left_out_ == 0) return true;
     --left_out_;
@@ -21,7 +21,7 @@ class BackOff {
     failures_ = std::min(failures_ + 1, convergence::kMaxFailures);
     left_out_ = 1 << failures_;
   }
-  /// Failures count anew. Who never says so tries ever less often.
+  /// Resets the number of failures. Must be called after a success, otherwise tries become ever rarer.
   void worked() { failures_ = 0; }
 
  private:

@@ -1,9 +1,9 @@
-// Progress: when the steps of a tick have come to an end other than by a step of no length:
-//   stalled   steps come no nearer to the goal, and are as short as those of planes that lean by the skin: rounding
-//             leads them. Planes that all but face each other cross where rounding says; there the proxy would go to
-//             and fro among a few places for ever.
-//   settled   the passes over the surfaces' rules have come to rest, on faces that still hold the proxy: another look
-//             would find what the last pass found.
+// Progress: ends a tick whose steps do not shrink to zero.
+//   stalled   steps come no nearer to the goal and are as short as steps between planes tilted by rounding within the
+//             skin. Planes that almost face each other intersect at a point that rounding decides; the proxy would move
+//             between a few positions for ever.
+//   settled   the passes over the rules of the surfaces have converged, and the contacts are still the same faces:
+//             gathering contacts again would give the same result.
 #pragma once
 
 #include <optional>
@@ -19,15 +19,15 @@ namespace hl {
 /// For one tick. World frame. RT-safe.
 class Progress {
  public:
-  /// The goal is another one: how near steps have come to the one before says nothing of it.
+  /// To be called when the goal changes: the progress toward the old goal is no longer valid.
   void begin() { *this = {}; }
-  /// The proxy has come there by a step. Returns whether steps come no nearer: where this one is so short that rounding
-  /// may have led it, they have stalled.
+  /// Records that a step ended at `position`. Returns whether recent steps have come no nearer to the goal. The caller
+  /// then checks whether the step is short enough to be caused by rounding.
   bool idleAt(const Vec3& position, const Goal& goal);
   void stall() { stalled_ = true; }
   bool stalled() const { return stalled_; }
 
-  /// The passes have come to rest on these.
+  /// Records that the passes have converged on these contacts.
   void settleOn(const ContactSet& set);
   void unsettle() { settled_on_.clear(); }
   bool settledOn(const ContactSet& set) const { return !settled_on_.empty() && sameFaces(set); }
@@ -35,10 +35,10 @@ class Progress {
  private:
   bool sameFaces(const ContactSet& set) const;
 
-  std::optional<Vec3> nearest_;  // where steps have come nearest to the goal
-  int idle_ = 0;                 // steps in a row that have not come nearer
+  std::optional<Vec3> nearest_;  // the recorded position nearest to the goal
+  int idle_ = 0;                 // consecutive steps that came no nearer
   bool stalled_ = false;
-  FixedVector<PrimitiveId, convergence::kFewContacts> settled_on_;  // faces; empty while the passes go on
+  FixedVector<PrimitiveId, convergence::kFewContacts> settled_on_;  // faces; empty while the passes have not converged
 };
 
 }  // namespace hl

@@ -1,10 +1,11 @@
-// RecentCuts: what held the proxy in the last step and touches it no more. A sphere that rolls over an edge leaves it
-// by the square of the step; straight on toward the goal it would meet the same edge again a nanometre farther. Between
-// two edges it would go to and fro, from one to the other, as alternating projections do. So the planes of what was
-// left count for one step more: where the obstacle is now, as seen from the proxy.
+// RecentCuts: primitives that were active in the last step and are no longer contacts. A sphere that rolls over an edge
+// leaves it by a distance of second order in the step. A straight step toward the goal would meet the same edge again a
+// nanometre farther. Between two edges the proxy would alternate, as alternating projections do. So the planes of these
+// primitives stay constraints (cuts) for one more step, computed anew at the proxy's position.
 //
-// That is sound, as obstacles are convex: no step above such a plane meets its obstacle, and the proxy itself lies
-// above it, so the step ends no farther from the goal. Whether the proxy rests is told by what touches it alone.
+// This is sound because obstacles are convex: a step above such a plane does not meet its obstacle. The proxy itself is
+// above the plane, so the step ends no farther from the goal. Whether the proxy is at rest is decided by the contacts
+// alone.
 #pragma once
 
 #include "base/fixed_vector.h"
@@ -19,21 +20,21 @@ class RecentCuts {
  public:
   using Planes = FixedVector<Plane, convergence::kMaxPlanesWithCuts>;
 
-  /// Tells the contacts where the proxy is now. What holds() has named since the last call and is not among them has
-  /// been left; what was left before is forgotten.
+  /// To be called with the contacts at the new position. The primitives named by holds() since the last call that are
+  /// not in `set` become the cuts. Older cuts are dropped.
   void look(const ContactSet& set);
   bool empty() const { return left_.empty(); }
 
-  /// Adds to `planes`, relative to the proxy at `position`, those of what was left that keep it `reach` (m) away.
-  /// Returns how many; what is farther than kCutNear no longer counts.
+  /// Appends to `planes` those of the cuts, relative to `position`, that keep the proxy `reach` (m) away. Cuts farther
+  /// than kCutNear reaches are skipped. Returns the number added.
   std::size_t addPlanes(const SceneAt& scene, const Vec3& position, double reach, Planes& planes) const;
 
-  /// The next step is held by this one; or by all that was left.
+  /// Records that `primitive` is active in the next step; holdsStill() records this of all cuts.
   void holds(PrimitiveId primitive) { holding_.push(primitive); }
   void holdsStill();
 
  private:
-  static constexpr std::size_t kRoom = 6;  // three planes determine a step, twice
+  static constexpr std::size_t kRoom = 6;  // at most three active planes per step, for two steps
 
   FixedVector<PrimitiveId, kRoom> holding_, left_;
 };
