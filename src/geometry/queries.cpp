@@ -49,8 +49,7 @@ bool firstOf(const SpatialIndex& index, const Read& read, const Vec3& from, cons
     if (found) {
       if (impact.t > out.impact.t) return limit;
       if (impact.t == out.impact.t) {
-        const Primitive first =
-            read(out.primitive);  // NOLINT: a copy, as read() may return the same reference for both
+        const Primitive first = read(out.primitive);  // NOLINT: a copy, as read() may reuse its result
         if (!precedes(read(candidate), first)) return limit;
       }
     }

@@ -68,8 +68,7 @@ Mat3 facing(const WideBlock& block) {
   const auto corners = cornersOf(block);
   const Lanes3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
   const Lanes length2 = normal[0].square() + normal[1].square() + normal[2].square();
-  const Lanes per_length =
-      length2.max(1.0f).rsqrt();  // max with 1: for a primitive without area, or with less than a step's
+  const Lanes per_length = length2.max(1.0f).rsqrt();  // 1: for a primitive without area, or less than a step's
   const double step2 = 1 / (static_cast<double>(block.per_step) * static_cast<double>(block.per_step));
   Mat3 sum;
   for (std::size_t i = 0; i < 3; ++i) {

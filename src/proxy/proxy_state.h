@@ -45,17 +45,16 @@ using AdheringContacts = FixedVector<AdheringContact, 3>;
 
 /// World frame. Owned by the proxy loop.
 struct ProxyState {
-  Vec3 position = Vec3::Zero();  ///< centre of the sphere
-  bool free = false;             ///< false until a position clear of the scene has been found near the finger
-  bool touching = false;         ///< the last tick ended in contact, or between two contacts
-  double rest_s =
-      accuracy::kStuck_s;            ///< time since the last slip along a surface; from kStuck_s on the proxy is stuck
-  Vec3 presliding_m = Vec3::Zero();  ///< m, pre-sliding offset from where the proxy stuck
-  double stiffness = 1;              ///< stiffness s of the last tick's target; 1 without contact
-  std::int64_t time_ns = 0;          ///< scene time of the last tick
-  std::uint64_t snapshot = 0;        ///< number of the snapshot of the last tick; 0: none yet
-  std::uint64_t carrier = 0;         ///< key of the object whose friction holds the proxy; 0: none
-  AdheringContacts adhering{};       ///< adhesive contacts of the last tick (adhesion.h)
+  Vec3 position = Vec3::Zero();        ///< centre of the sphere
+  bool free = false;                   ///< false until a position clear of the scene has been found near the finger
+  bool touching = false;               ///< the last tick ended in contact, or between two contacts
+  double rest_s = accuracy::kStuck_s;  ///< time since the last slip; from kStuck_s on it is stuck
+  Vec3 presliding_m = Vec3::Zero();    ///< m, pre-sliding offset from where the proxy stuck
+  double stiffness = 1;                ///< stiffness s of the last tick's target; 1 without contact
+  std::int64_t time_ns = 0;            ///< scene time of the last tick
+  std::uint64_t snapshot = 0;          ///< number of the snapshot of the last tick; 0: none yet
+  std::uint64_t carrier = 0;           ///< key of the object whose friction holds the proxy; 0: none
+  AdheringContacts adhering{};         ///< adhesive contacts of the last tick (adhesion.h)
   Ledger ledger{};
   int out_of_work = 0;  ///< consecutive ticks that ran out of work; more of them raise the limit (mostWork in tick.cpp)
   StartSearch start{};  ///< used while the proxy is not free

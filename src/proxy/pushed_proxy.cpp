@@ -29,8 +29,7 @@ Vec3 deformedBy(const PushedProxy& proxy, const MeshTransition& way, std::int64_
   ClosestPoint nearest;
   if (!touchedOfCarrier(proxy, scene, held, nearest)) return Vec3::Zero();
   const Primitive& touched = scene.primitive(held);
-  if (touched.kind != way.to()->primitives.elementKind(held.element))
-    return Vec3::Zero();  // the triangle has degenerated
+  if (touched.kind != way.to()->primitives.elementKind(held.element)) return Vec3::Zero();  // it is degenerate
   const auto now = way.corners(held.element, way.part(proxy.now_ns));
   const auto then = way.corners(held.element, way.part(time_ns));
   Vec3 gone = Vec3::Zero();

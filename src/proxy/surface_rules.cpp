@@ -55,8 +55,8 @@ void SurfaceRules::moveOn(const ContactSet& set, const Vec3& position, const Vec
   }
 }
 
-// Pass 1: the point nearest the finger above the planes with shading normals. Each plane is turned about the contact's
-// point on the true plane at the current offset.
+// Pass 1: the point nearest the finger above the planes with shading normals. Each turned plane keeps its distance from
+// the current offset.
 SolverResult SurfaceRules::firstPass(const ContactSet& set, const TouchedSet& touched, const Vec3& gap,
                                      const Vec3& offset) const {
   FixedVector<Plane, kMaxContacts> planes;
@@ -115,8 +115,8 @@ Vec3 SurfaceRules::slip(FrictionOnWay& resistance, const SlipResistance& drag, c
 // With pre-sliding springs a stuck proxy moves by D to where the springs balance the remaining pull,
 //   |way - D| = presliding_ratio |presliding_m + D|,
 // and moves back when the pull falls. This is the elastic state z of the models by Dahl and by Hayward and Armstrong,
-// without their drift. D is measured from where the proxy stuck. On a curved surface the springs may therefore pull
-// into the surface that the proxy now touches.
+// without their drift. The springs are attached where the proxy stuck. So on a curved surface D may point into the
+// surface that the proxy now touches.
 Vec3 SurfaceRules::resistedStep(FrictionOnWay resistance, const Vec3& way, double slipped_now,
                                 Proposal& proposal) const {
   proposal.viscous = proposal.presliding_ratio = 0;

@@ -49,8 +49,7 @@ TickReport Tick::run() {
       break;
     }
   }
-  if (trial_.conclude(goal_, state_.position))
-    lookAgain();  // the contacts and the step must belong to the restored position
+  if (trial_.conclude(goal_, state_.position)) lookAgain();  // the contacts at the restored position
   close(report);
   report.work = work_.done();
   report.looks = work_.looks();

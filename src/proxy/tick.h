@@ -1,12 +1,12 @@
 // One tick: feasible sequential convex steps of the proxy toward the finger.
 //
 //   minimise 1/2 |x - finger|^2 over all positions x that are clear of the scene
+//
 // Each step linearises the obstacles in contact (constraints.h) and solves the resulting convex subproblem, modified by
-// the rules of the surfaces (surface_rules.h). A step that may raise the spring's energy is shortened to what the
-// energy budget allows (energy_booking.h). The proxy then moves by the step or up to the first new impact (walk.h). A
-// second-order step (curvature_step.h) is made on trial (trial.h). The tick ends when the step is short enough, when
-// steps make no more progress (progress.h), or when the work limit is reached (work.h). Every position on the way is
-// valid, so the tick may end at any of them.
+// the rules of the surfaces (surface_rules.h). Steps that may raise the spring's energy are shortened to the energy
+// budget (energy_booking.h). The proxy moves by the step or up to the first new impact (walk.h). Second-order steps
+// (curvature_step.h) are made on trial (trial.h). The tick ends when the step is short enough, without more progress
+// (progress.h), or at the work limit (work.h). Every position on the way is valid, so the tick may end anywhere.
 #pragma once
 
 #include "proxy/constraints.h"

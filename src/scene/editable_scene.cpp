@@ -115,8 +115,7 @@ class EditableScene::Flattening {
   std::size_t visits_ = 0;
   ModelSizes copies_;  // sizes of the stretched copies; a small matrix makes a copy of a large shape
   SurfaceChange last_change_;
-  std::shared_ptr<const Surfaces>
-      last_surfaces_;  // for last_change_, as most objects have the surface of the previous one
+  std::shared_ptr<const Surfaces> last_surfaces_;  // of last_change_; most objects repeat it
 };
 
 // The n-th call of an object is identified with its n-th call in the last frame, and so is the n-th shape.

@@ -23,7 +23,7 @@ namespace hl {
 /// a few megabytes may contain a million items; members that are usually absent are stored separately.
 struct SceneItem {
   std::shared_ptr<const Shape> shape;              ///< empty: the item is a call
-  std::uint32_t call = 0;                          ///< id of the called object; an unknown id draws nothing
+  std::uint32_t call = 0;                          ///< id of the called object; an unknown id has no effect
   std::optional<std::uint32_t> name;               ///< absent: the name of the caller
   std::shared_ptr<const Placement> placement;      ///< invertible, may scale and shear; null: identity
   std::shared_ptr<const SurfaceChange> surface{};  ///< null: the surface of the caller
@@ -152,8 +152,8 @@ struct Followed {
 
 /// The instances of the next snapshot, from those of this client in the last one; both sorted by key. An object that
 /// existed moves from its pose at `begin_ns` to its new pose at `end_ns`. A new object is at its pose at once, as are
-/// all if end_ns <= begin_ns. A mesh that deforms does so in the same time, or in kAbruptBlend_ns, starting from its
-/// current deformation. The memory for this is counted in `memory`; a mesh for which there is no room changes at once.
+/// all if end_ns <= begin_ns. A mesh deforms in the same time, or in kAbruptBlend_ns; a transition that has begun is
+/// completed first. The memory for this is counted in `memory`; a mesh for which there is no room changes at once.
 Followed followOn(const std::vector<PlacedShape>& placed, std::span<const Instance* const> last, std::int64_t begin_ns,
                   std::int64_t end_ns, const MemoryBudget& memory = {});
 

@@ -40,9 +40,8 @@ struct Shape {
   std::unique_ptr<const SpatialIndex> index;
   double cost_ratio = 1;       ///< query cost of a refitted hierarchy over that of a new one: see WideBvh::costRatio
   std::uint64_t geometry = 0;  ///< > 0; only copies with another hierarchy have the same number
-  std::uint64_t before =
-      0;                   ///< geometry of the shape from which the hierarchy was refitted; 0: the hierarchy was built
-  std::uint64_t mesh = 0;  ///< > 0; shapes with the same number are one mesh, deformed: see isSameMesh()
+  std::uint64_t before = 0;    ///< geometry of the shape that was refitted; 0: the hierarchy was built
+  std::uint64_t mesh = 0;      ///< > 0; shapes with the same number are one mesh, deformed: see isSameMesh()
   Box bounds;
   double extent = 0;                  ///< m: largest absolute coordinate
   std::vector<std::string> warnings;  ///< warnings of the model, and skipped elements

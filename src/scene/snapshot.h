@@ -69,8 +69,7 @@ struct Snapshot {
   std::int64_t deforms_until_ns = std::numeric_limits<std::int64_t>::min();  ///< from then on each mesh is its shape
   std::uint64_t number = 1;    ///< increases from snapshot to snapshot of one server
   std::uint64_t identity = 0;  ///< unique among all snapshots of the process
-  std::int64_t blend_ns =
-      0;  ///< duration of the transition of the force from the previous snapshot, if objects changed abruptly
+  std::int64_t blend_ns = 0;   ///< of the force transition, if objects changed abruptly since the last one
   std::size_t primitives = 0;  ///< total over all instances
   std::string name;
   std::vector<std::string> warnings;

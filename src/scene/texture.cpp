@@ -14,8 +14,7 @@ namespace {
 
 std::size_t wrapped(std::ptrdiff_t i, std::size_t size, Wrap wrap) {
   const auto n = static_cast<std::ptrdiff_t>(size);
-  if (i >= 0 && i < n)
-    return static_cast<std::size_t>(i);  // the usual case; a division costs more than the rest of the function
+  if (i >= 0 && i < n) return static_cast<std::size_t>(i);  // usual; a division costs more than all the rest
   if (wrap == Wrap::kClamp) return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, n - 1));
   const std::ptrdiff_t rest = i % n;
   return static_cast<std::size_t>(rest < 0 ? rest + n : rest);
