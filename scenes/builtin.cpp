@@ -19,13 +19,13 @@ constexpr std::size_t kMaxMember = 1'000'000'000;
 
 struct Builtin {
   std::string_view name;
-  std::size_t usual;  ///< N when none is given; 0: the name takes no N
+  std::size_t usual;  ///< default N; 0: the name takes no N
   Model (*make)(std::size_t n, std::size_t member);
-  std::size_t most = 50'000'000;  ///< N
-  bool family = false;            ///< takes the number of a member too
+  std::size_t most = 50'000'000;  ///< maximum N
+  bool family = false;            ///< also takes the number of a member
 };
 
-// Makes one of a kind that has no members.
+// Makes a scene of a kind without members.
 template <Model (*kMake)(std::size_t)>
 Model alone(std::size_t n, std::size_t) {
   return kMake(n);

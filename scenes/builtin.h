@@ -1,4 +1,4 @@
-// The built-in scenes, by name: touched, watched, timed and tested from one source.
+// The built-in scenes, by name: one source for use, display, benchmarks and tests.
 #pragma once
 
 #include <string>
@@ -7,14 +7,14 @@
 
 namespace hl {
 
-/// True for a name (with or without :N) of a built-in scene; a file of the same name must be given with its folder.
+/// True for the name of a built-in scene, with or without :N. A file with the same name must be given with its folder.
 bool isBuiltinScene(const std::string& spec);
 
-/// What there is, for people to read.
+/// List of the names, for help texts.
 inline constexpr const char* kBuiltinScenes =
     "teapot[:N], walker, terrain:N, rough:N[:MEMBER], sphere:N, plane:N, pipe:N, pits:N, soup:N";
 
-/// Throws hl::Error with the list for any other.
+/// Throws hl::Error with the list of names if the name is unknown.
 Model makeBuiltinScene(const std::string& spec);
 
 }  // namespace hl

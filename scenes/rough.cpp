@@ -15,7 +15,7 @@ namespace {
 constexpr double kRoughSide = 0.2;  // m
 constexpr int kMaxOctaves = 8;
 
-// Numbers of a member, one after another.
+// Pseudo-random numbers of a member.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : state_(splitmix64(seed)) {}
@@ -28,7 +28,7 @@ class Dice {
   std::uint64_t state_;
 };
 
-// Noise of gradients on a lattice (Perlin, "Improving noise", 2002): in -1..1, 0 at the whole numbers, slopes about 1.
+// Gradient noise on a lattice (Perlin, "Improving noise", 2002): in -1..1, 0 at integers, slopes about 1.
 double noise(std::uint64_t seed, double x, double z) {
   const double x0 = std::floor(x), z0 = std::floor(z);
   const double fx = x - x0, fz = z - z0;
@@ -46,10 +46,10 @@ double noise(std::uint64_t seed, double x, double z) {
   return a + u * (b - a) + v * ((c + u * (d - c)) - (a + u * (b - a)));
 }
 
-// One size of detail.
+// Detail of one size.
 struct Octave {
   double per_m, height_m, cosine, sine, shift;
-  bool ridged;  // sharp crests in place of smooth ones
+  bool ridged;  // sharp crests instead of smooth ones
   std::uint64_t seed;
 
   double at(double x, double z) const {
@@ -70,7 +70,8 @@ struct Rough {
   }
 };
 
-// Five to eight octaves from about half the side down, each with slopes that are about a fixed part of those above it.
+// Five to eight octaves from about half the side down. The slopes of each are about a fixed fraction of those of the
+// previous one.
 Rough roughOf(std::uint64_t member) {
   constexpr double kLacunarity = 2;
   Dice dice(member);

@@ -1,5 +1,5 @@
-// Rough: a family of terrains with detail of every size, from half the side of the scene down to the proxy. Members
-// differ in all that is free: so a finger meets what no scene was made for.
+// Rough: a family of random terrains with detail of all sizes, from half the side of the scene down to the proxy. All
+// free parameters differ between members, so tests meet surfaces that were not designed for them.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,8 @@
 
 namespace hl {
 
-/// About so many triangles, y up, 0.2 m across, with exact normals. The same member is the same to the bit everywhere.
+/// About `triangles` triangles, y up, 0.2 m across, with exact normals. The same member has the same bits on every
+/// machine.
 Model makeRough(std::size_t triangles, std::uint64_t member);
 
 }  // namespace hl

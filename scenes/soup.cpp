@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kSoupSide = 0.2;  // m
 
-// The standard's distributions differ from library to library; this does not.
+// The distributions of the standard library differ between implementations; this function does not. Range -1..1.
 double uniform(std::mt19937_64& random) { return std::ldexp(static_cast<double>(random() >> 11), -52) - 1; }
 
 Vec3 inCube(std::mt19937_64& random) {
@@ -33,8 +33,8 @@ Vec3 direction(std::mt19937_64& random) {
 Model makeSoup(std::size_t triangles) {
   std::mt19937_64 random(1997);
   const double edge = kSoupSide / plain::cubeRoot(static_cast<double>(triangles));
-  // A lone triangle would be as large as the box and stick out of it.
-  const double reach = std::min(edge / std::sqrt(3.0), 0.25 * kSoupSide);  // of a corner from the middle
+  // A single triangle would be as large as the box and extend beyond it.
+  const double reach = std::min(edge / std::sqrt(3.0), 0.25 * kSoupSide);  // m, from the centre to a vertex
   Model model;
   model.positions.reserve(3 * triangles);
   model.normals.reserve(3 * triangles);

@@ -1,4 +1,4 @@
-// Random triangles that fill a box: what has no surface, no order and no neighbours.
+// Random triangles that fill a box, without surface, order or neighbours.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace hl {
 
-/// `triangles` equilateral ones in a box of 0.2 m, y up, each turned at random. Their edge is the mean distance between
-/// their centres, so the soup looks the same whatever their number. The same number gives the same soup.
+/// `triangles` equilateral triangles with random orientations in a box of 0.2 m, y up. Their edge is the mean distance
+/// of their centres, so the soup looks the same for every number. The same number gives the same soup.
 Model makeSoup(std::size_t triangles);
 
 }  // namespace hl

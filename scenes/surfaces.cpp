@@ -13,7 +13,7 @@ constexpr double kSide = 0.2;         // m
 constexpr double kDifference = 1e-5;  // of u and v, for the normals
 
 Vec3 normalOf(const std::function<Vec3(double, double)>& surface, double u, double v) {
-  // Kept away from the ends: at a pole one derivative vanishes, and a little beside it the normal is the same.
+  // Kept away from the ends: at a pole one derivative vanishes, and the normal close to it is the same.
   const double a = std::clamp(u, 2 * kDifference, 1 - 2 * kDifference);
   const double b = std::clamp(v, 2 * kDifference, 1 - 2 * kDifference);
   const Vec3 du = surface(a + kDifference, b) - surface(a - kDifference, b);
@@ -82,7 +82,7 @@ Model makePlane(std::size_t triangles) {
 }
 
 Model makePits(std::size_t triangles) {
-  // Ridges and valleys of a wave lie on lines of the grid, where the mesh can be sharp.
+  // Ridges and valleys lie on grid lines, where the mesh can be sharp.
   constexpr std::uint32_t kWaves = 10;
   const std::uint32_t n = 2 * kWaves * std::max(1u, (cells(triangles) + kWaves) / (2 * kWaves));
   return makeSurface(n, n, [](double u, double v) {

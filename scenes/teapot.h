@@ -5,8 +5,8 @@
 
 namespace hl {
 
-/// `around` cells across and `along` cells down each patch. The default gives 3408 triangles, the nearest to the
-/// paper's 3416 that 32 equal patches give when the triangles of no area at lid and bottom centre are left out.
+/// `around` cells across and `along` cells down each patch. The default gives 3408 triangles, the nearest number to the
+/// paper's 3416 for 32 equal patches; triangles without area at the centres of lid and bottom are left out.
 Model makeTeapot(int around = 6, int along = 9);
 
 }  // namespace hl

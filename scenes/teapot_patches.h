@@ -1,4 +1,4 @@
-// Martin Newell's teapot: 32 bicubic Bezier patches over 306 control points (z up, his units). Public numbers.
+// Martin Newell's teapot: 32 bicubic Bezier patches over 306 control points (z up, original units). Public data.
 #pragma once
 
 #include <array>

@@ -11,7 +11,7 @@ namespace hl {
 
 namespace {
 
-// Collects flat-shaded parts: every triangle has vertices of its own.
+// Collects flat-shaded parts: every triangle has its own vertices.
 class Builder {
  public:
   void triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -42,7 +42,7 @@ class Builder {
     plate(p[0], p[4], p[6], p[2]);
     plate(p[1], p[3], p[7], p[5]);
   }
-  // A closed cylinder or cone between two centres: 4 triangles a side.
+  // A closed cylinder or cone between two centres: 4 triangles per side.
   void cylinder(const Vec3& from, const Vec3& to, double r_from, double r_to, int sides) {
     const Vec3 axis = (to - from).normalized();
     const Vec3 e = axis.unitOrthogonal();
@@ -115,7 +115,8 @@ void addHead(Builder& b) {
   }
 }
 
-// Armour: plates without thickness, a little off the hull and off each other, as many as fill up the number.
+// Armour: plates of zero thickness, a little away from the hull and from each other, as many as are needed for the
+// total number of triangles.
 void addArmour(Builder& b) {
   const std::size_t plates = (kWalkerTriangles - b.triangles()) / 2;
   const std::size_t columns = 48;

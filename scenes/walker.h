@@ -1,5 +1,5 @@
-// A four-legged walker of 11 088 triangles, in the place of the paper's Figure 9: many intersecting boxes, cylinders
-// and plates without thickness, with gaps between them, as graphics models are.
+// A four-legged walker of 11 088 triangles, a replacement for the paper's Figure 9: many intersecting boxes, cylinders
+// and plates of zero thickness, with gaps between them, as is usual in graphics models.
 #pragma once
 
 #include <cstddef>

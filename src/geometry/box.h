@@ -5,7 +5,7 @@
 
 namespace hl {
 
-/// Empty when min > max.
+/// Empty if min > max on any axis.
 struct Box {
   Vec3 min = Vec3::Constant(1e300);
   Vec3 max = Vec3::Constant(-1e300);
@@ -18,7 +18,7 @@ struct Box {
     max = max.cwiseMax(box.max);
   }
   bool empty() const { return (min.array() > max.array()).any(); }
-  /// Whether they have a point in common; an empty box has none.
+  /// Whether the boxes have a common point; an empty box has none.
   bool meets(const Box& other) const {
     return (min.array() <= other.max.array()).all() && (other.min.array() <= max.array()).all();
   }

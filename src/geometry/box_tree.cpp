@@ -21,7 +21,7 @@ BoxTree::BoxTree(std::span<const Box> boxes) {
   build(0, boxes_.size());
 }
 
-// Boxes of one centre are distinguished by their number, so that the same boxes give the same tree.
+// Boxes with the same centre are ordered by their number, so that the same boxes give the same tree.
 void BoxTree::build(std::size_t begin, std::size_t end) {
   const std::size_t own = nodes_.size();
   Node node;

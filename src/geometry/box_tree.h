@@ -1,6 +1,6 @@
-// BoxTree: finds which of many boxes meet a region: the hierarchy over the objects of a scene, as WideBvh is over the
-// primitives of one. Halved at the median of the longest side, and made anew for each frame in n lg n steps: a tree
-// kept from the frame before would be worse wherever objects have moved far.
+// BoxTree: finds the boxes that meet a region: the hierarchy over the objects of a scene, as WideBvh is over the
+// primitives of one object. It is split at the median of the longest side. It is built anew for each frame in O(n lg
+// n): a refitted tree would be worse if objects have moved far.
 #pragma once
 
 #include <cstddef>
@@ -20,18 +20,18 @@ class BoxTree {
   /// Empty boxes are never found. Allocates.
   explicit BoxTree(std::span<const Box> boxes);
 
-  /// Visits every box that meets the region, by its number, once, in an order that only the boxes decide. `visit` may
-  /// make the region smaller for those to come.
+  /// Visits every box that meets the region once, by its number, in an order that depends only on the boxes. `visit`
+  /// may shrink the region for the boxes still to come.
   void visitMet(const Box& region, FunctionRef<void(std::uint32_t box)> visit) const;
   std::size_t bytes() const { return nodes_.capacity() * sizeof(Node) + boxes_.capacity() * sizeof(Numbered); }
 
  private:
-  // In the order of a walk from the root, so that what follows a node is its first child, and `past` the node after its
-  // last descendant: a walk needs no stack.
+  // In depth-first order: the first child follows its parent, and `past` is the node after the last descendant. So a
+  // traversal needs no stack.
   struct Node {
     Box box;
     std::uint32_t past = 0;
-    std::uint32_t begin = 0, end = 0;  // of boxes_; a leaf's own, else none
+    std::uint32_t begin = 0, end = 0;  // range in boxes_ of a leaf; empty for inner nodes
   };
   struct Numbered {
     Box box;

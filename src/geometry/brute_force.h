@@ -1,11 +1,12 @@
-// BruteForceIndex: proposes every primitive to every query. The judge of all other structures, and `--hierarchy none`.
+// BruteForceIndex: proposes every primitive to every query. The reference for all other structures, and `--hierarchy
+// none`.
 #pragma once
 
 #include "geometry/spatial_index.h"
 
 namespace hl {
 
-/// See SpatialIndex; holds nothing but the number of primitives.
+/// See SpatialIndex; stores only the number of primitives.
 class BruteForceIndex final : public SpatialIndex {
  public:
   explicit BruteForceIndex(std::size_t primitives) : primitives_(primitives) {}

@@ -10,8 +10,8 @@ namespace hl {
 
 namespace {
 
-// Nearest point of the segment from vertex[edge.begin] to vertex[edge.end]: q = u + s (v - u) with
-// s = (p - u).(v - u) / |v - u|^2 cut to [0, 1]. The ends are taken exactly, not as u + 1 (v - u).
+// Nearest point of the segment from vertex[edge.begin] to vertex[edge.end]: q = u + s (v - u) with s = (p - u).(v - u)
+// / |v - u|^2 clamped to [0, 1]. The ends are used exactly, not as u + 1 (v - u).
 void nearestOnEdge(const Primitive& primitive, std::size_t number, const Vec3& p, ClosestPoint& best) {
   const Edge& edge = kEdges[number];
   const Vec3& u = primitive.vertex[edge.begin];

@@ -1,4 +1,4 @@
-// Closest point of a primitive to a point: the distance that "touching" means, and the direction of a contact.
+// Closest point of a primitive to a point. It defines the distance of a contact and its direction.
 #pragma once
 
 #include <array>
@@ -20,11 +20,11 @@ struct ClosestPoint {
   std::array<double, 3> weights{1, 0, 0};  ///< point = sum of weights[i] * vertex[i] (sorted order), each in [0, 1]
 };
 
-/// Nearest point of `primitive` to `p`. Neighbours that share an edge or a vertex give the same bits on it.
-/// RT-safe, any thread. A non-finite p gives non-finite results.
+/// Nearest point of `primitive` to `p`. Primitives that share an edge or a vertex give the same bits on it. RT-safe,
+/// any thread. A non-finite p gives non-finite results.
 ClosestPoint closestPoint(const Primitive& primitive, const Vec3& p);
-/// The same, unless the plane of a triangle is farther than `distance` (m): then, as all of it is farther, false at
-/// once.
+/// As closestPoint(), but returns false at once if the plane of a triangle is farther than `distance` (m), as then the
+/// triangle is too. `out` is then unchanged.
 bool closestPointWithin(const Primitive& primitive, const Vec3& p, double distance, ClosestPoint& out);
 
 }  // namespace hl

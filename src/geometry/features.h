@@ -1,4 +1,4 @@
-// Edges of a primitive: which vertices they join and how a place on them is named. Internal to src/geometry.
+// Edges of a primitive: the vertices they join, and the name of a point on them. Internal to src/geometry.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace hl {
 
-/// Ends of edge i, opposite vertex i, the lexicographically smaller vertex first: every primitive that has the edge
-/// starts its sums at the same end.
+/// Ends of edge i, which is opposite vertex i. The lexicographically smaller vertex is first, so that all primitives
+/// with this edge start their sums at the same end.
 struct Edge {
   std::size_t begin;
   std::size_t end;
@@ -37,8 +37,8 @@ inline std::array<double, 3> edgeWeights(const Edge& edge, double s) {
   return weights;
 }
 
-/// Twice the signed areas of the triangles that p spans with each edge, seen along the face normal; all have the sign
-/// of the whole exactly when p projects into the triangle; signs are chosen so that inside is positive.
+/// Twice the signed areas of the triangles formed by p and each edge, seen along the face normal. All are >= 0 exactly
+/// if p projects into the triangle.
 struct FaceAreas {
   std::array<double, 3> area{};
   bool inside() const { return area[0] >= 0 && area[1] >= 0 && area[2] >= 0; }
@@ -52,7 +52,7 @@ struct FaceAreas {
 
 inline FaceAreas faceAreas(const Primitive& triangle, const Vec3& p) {
   const auto& v = triangle.vertex;
-  // The sorted vertices turn around the normal the other way when sorting was an odd permutation.
+  // If sorting was an odd permutation, the sorted vertices have the opposite orientation.
   const bool even = (triangle.order[0] + 1) % 3 == triangle.order[1];
   const Vec3 n = even ? triangle.normal : Vec3(-triangle.normal);
   FaceAreas areas;

@@ -8,7 +8,7 @@
 
 namespace hl {
 
-/// Four lanes, the last one free: a box is two registers.
+/// Four lanes each, the last one unused, so a box is two registers.
 struct FloatBox {
   Eigen::Array4f min = Eigen::Array4f::Constant(std::numeric_limits<float>::infinity());
   Eigen::Array4f max = Eigen::Array4f::Constant(-std::numeric_limits<float>::infinity());
@@ -23,9 +23,10 @@ struct FloatBox {
   }
 };
 
-/// The bounds grow by 2^-22 of themselves, four times what rounding to single precision moves them, and by the smallest
-/// normal float. Computed, not measured: GCC 12 takes a double that was narrowed and widened again for the double
-/// itself. Each step keeps order, so the box of several primitives is that of their boxes, to the bit.
+/// Rounds the bounds outward: by a relative 2^-22, four times the rounding error of single precision, and by the
+/// smallest normal float. This bound is used instead of the actual rounding error because GCC 12 replaces a double that
+/// was narrowed and widened again by the original double. Each operation is monotonic, so the box of several primitives
+/// is exactly the union of their boxes.
 inline FloatBox roundedOutward(const Vec3& low, const Vec3& high) {
   constexpr float kOutward = 1.0f / (1 << 22);
   FloatBox box;

@@ -9,29 +9,29 @@ namespace hl {
 
 namespace {
 
-// Relative to the origin of the hierarchy at the beginning of the way.
+// The moving sphere, relative to the origin of the first hierarchy.
 struct MovingWay {
   Vec3 from, motion;
   double reach;
-  double limit = 1;  // part of the motion that still counts
+  double limit = 1;  // fraction of the motion that still has to be searched
 };
 
-// The two ends as one tree, over some part of the way between them.
+// The two hierarchies as one tree, over a range of the transition.
 class Pair {
  public:
   Pair(const WideBvh& from, const WideBvh& to, double begin, double end)
       : from_(from), to_(to), begin_(begin), end_(end), shift_(to.origin() - from.origin()) {}
 
   MovingWay way(const Vec3& from, const Vec3& motion, double radius) const {
-    // Rounding of sums of coordinates, a few parts in 2^53 of the largest; here there are twice as many as in WideBvh.
+    // Rounding of sums of coordinates, a few units of 2^-53 times the largest; twice as many sums as in WideBvh.
     constexpr double kRounding = 2e-14;
     const auto largest = [](const Vec3& v) { return v.cwiseAbs().maxCoeff(); };
     const double sizes = largest(from) + largest(motion) + from_.extent() + to_.extent();
     return {from - from_.origin(), motion, radius + kRounding * sizes};
   }
 
-  // Calls visit(primitive) for each whose box the sphere may enter up to way.limit, which visit() may shorten. Returns
-  // how many boxes it has looked at.
+  // Calls visit(primitive) for each primitive whose box the sphere may enter up to way.limit, which visit() may reduce.
+  // Returns the number of boxes visited.
   template <typename Visit>
   std::size_t walk(const MovingWay& way, const Visit& visit) const {
     if (from_.primitives() == 0) return 0;
@@ -55,7 +55,7 @@ class Pair {
   }
 
  private:
-  // The box of the way in the frame of a node, and how far the origins are apart there.
+  // The bounds of the way in the frame of a node, and the offset of the origins in that frame.
   struct Frame {
     Vec3 low, high, shift;
   };
@@ -77,7 +77,7 @@ class Pair {
 
   double between(double a, double b, double part) const { return (1 - part) * a + part * b; }
 
-  // Square of how far, along one axis, what lies at low..high at the ends stays from the way.
+  // Squared distance along one axis between the way and an interval that moves from low_a..high_a to low_b..high_b.
   double apart2(double low_a, double high_a, double low_b, double high_b, double way_low, double way_high) const {
     const double low = std::min(between(low_a, low_b, begin_), between(low_a, low_b, end_));
     const double high = std::max(between(high_a, high_b, begin_), between(high_a, high_b, end_));
@@ -95,7 +95,7 @@ class Pair {
     return sum2 <= reach * reach;
   }
 
-  // Along one axis, with what rounding to steps may hide.
+  // Bounds of a primitive along one axis, with a margin for the quantisation.
   static std::array<double, 2> extentOf(const WideBlock& block, std::size_t axis, std::size_t lane) {
     const auto [least, most] =
         std::minmax({block.vertex[0][axis][lane], block.vertex[1][axis][lane], block.vertex[2][axis][lane]});
@@ -133,7 +133,8 @@ std::size_t MovingBvh::overlap(const Vec3& centre, double radius, FunctionRef<vo
   return pair.walk(pair.way(centre, Vec3::Zero(), radius), visit);
 }
 
-// Looks at a part of the way, and at larger ones only where nothing is hit: goals are far, and most ways end soon.
+// Searches a first part of the way, and larger parts only if nothing is hit: goals are far away, and most ways end
+// soon.
 std::size_t MovingBvh::sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
                              FunctionRef<double(ElementId, double)> visit) const {
   constexpr double kMinPart = 1.0 / 8192, kLarger = 8;

@@ -1,6 +1,6 @@
-// MovingBvh: a mesh on its way from one place to another, asked at a moment between. Its vertices move on straight
-// lines, so what two boxes hold at the two ends lies, at every moment between, within the box between those two: the
-// hierarchies of both ends, which are one tree, are walked as one.
+// MovingBvh: queries of a deforming mesh at a moment between two shapes. Its vertices move on straight lines. So the
+// contents of a box of the first shape and of the same box of the second always lie within the box interpolated between
+// the two. The hierarchies of both shapes, which are the same tree, are traversed together.
 #pragma once
 
 #include "geometry/spatial_index.h"
@@ -8,11 +8,11 @@
 
 namespace hl {
 
-/// A view for one question or some; made on the stack. RT-safe.
+/// A view for one query or a few; made on the stack. RT-safe.
 class MovingBvh final : public SpatialIndex {
  public:
-  /// `from` and `to`, which must outlive it, are the same tree (WideBvh::isTreeOf). At all parts of the way from
-  /// `begin` to `end`, 0 <= begin <= end <= 1: what comes near at any of them is near.
+  /// `from` and `to`, which must outlive this object, are the same tree (WideBvh::isTreeOf). A query covers all
+  /// fractions of the transition from `begin` to `end`, 0 <= begin <= end <= 1: it finds what is near at any of them.
   MovingBvh(const WideBvh& from, const WideBvh& to, double begin, double end)
       : from_(from), to_(to), begin_(begin), end_(end) {}
   MovingBvh(const WideBvh& from, const WideBvh& to, double part) : MovingBvh(from, to, part, part) {}

@@ -11,7 +11,7 @@ bool lexicographicallyLess(const Vec3& a, const Vec3& b) {
   return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
 }
 
-// Adding zero turns -0 into +0, so that equal vertices have equal bits.
+// Adding zero changes -0 to +0, so that equal vertices have equal bits.
 Vec3 canonical(const Vec3& a) { return (a.array() + 0.0).matrix(); }
 
 // Sorts the first `count` vertices; returns whether the permutation is odd.
@@ -28,8 +28,8 @@ bool sortVertices(Primitive& primitive, int count) {
   return odd;
 }
 
-// The longest edge of a triangle, the corner opposite to it, and the cross product of the two shorter edges, which has
-// the least rounding: about epsilon |e1| |e2|, and they are the smallest factors.
+// The longest edge of a triangle, the vertex opposite to it, and the cross product of the two shorter edges. This
+// product has the smallest rounding error: about epsilon |e1| |e2|, with the smallest possible factors.
 struct Outline {
   std::size_t corner;
   double longest2;  // m^2
@@ -49,11 +49,12 @@ Outline outlineOf(const std::array<Vec3, 3>& v) {
   return outline;
 }
 
-// One step of Newton's: the length is off by a rounding, not by two or three.
+// One Newton step: the length then has an error of one rounding instead of two or three.
 Vec3 unit(const Vec3& almost) { return (1.5 - 0.5 * almost.squaredNorm()) * almost; }
 
-// Where a triangle is thin, rounding tilts its normal along the longest edge, where it costs most; the tilt is taken
-// out. What remains turns it about that edge, over a height so small that no distance notices.
+// The normal of a thin triangle. Rounding tilts it along the longest edge, where the effect on distances is largest;
+// this tilt is removed. The remaining error turns the normal about that edge, over a height too small to affect
+// distances.
 Vec3 thinNormal(const std::array<Vec3, 3>& v) {
   const Outline outline = outlineOf(v);
   const Vec3 along = (v[(outline.corner + 2) % 3] - v[(outline.corner + 1) % 3]).normalized();
@@ -62,7 +63,7 @@ Vec3 thinNormal(const std::array<Vec3, 3>& v) {
   return normal;
 }
 
-// By the right-hand rule.
+// Unit normal by the right-hand rule.
 Vec3 normalOf(const std::array<Vec3, 3>& v) {
   constexpr double kThin = 0.1;  // sine of the angle at the first vertex: above it the tilt is below 1e-14 rad
   const Vec3 ab = v[1] - v[0], ac = v[2] - v[0];

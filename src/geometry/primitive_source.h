@@ -1,5 +1,5 @@
-// PrimitiveSource: a surface that is no mesh. Its triangles are made when they are asked for, so it may have more of
-// them than there is memory for: a height field, a volume, a formula.
+// PrimitiveSource: a surface that is not a mesh. Its triangles are computed on request, so there may be more of them
+// than fit into memory: a height field, a volume, a formula.
 #pragma once
 
 #include <array>
@@ -14,22 +14,22 @@
 
 namespace hl {
 
-/// Immutable; metres, frame of the object. What says RT-safe is called by any thread, and returns the same bits for the
-/// same arguments.
+/// Immutable; metres, object frame. Functions marked RT-safe may be called by any thread and return the same bits for
+/// the same arguments.
 class PrimitiveSource {
  public:
   virtual ~PrimitiveSource() = default;
-  /// Triangles. RT-safe.
+  /// Number of triangles. RT-safe.
   virtual ElementId count() const = 0;
-  /// The three corners, which make a triangle (isTriangle), counterclockwise as seen from outside. RT-safe.
+  /// The three vertices, which form a valid triangle (isTriangle), counterclockwise seen from outside. RT-safe.
   virtual std::array<Vec3, 3> corners(ElementId id) const = 0;
-  /// Unit normal, outward, of the surface that the triangle approximates, near `point` of it. RT-safe.
+  /// Outward unit normal of the exact surface that the triangle approximates, near `point` on the triangle. RT-safe.
   virtual Vec3 trueNormal(ElementId id, const Vec3& point) const = 0;
-  /// Around all corners.
+  /// Bounds of all vertices.
   virtual Box bounds() const = 0;
-  /// What finds its triangles; the source outlives it. Setup only.
+  /// Makes the index of its triangles; the source must outlive it. Setup only.
   virtual std::unique_ptr<const SpatialIndex> makeIndex() const = 0;
-  /// Memory of its own.
+  /// Memory of the source, bytes.
   virtual std::size_t bytes() const = 0;
 };
 

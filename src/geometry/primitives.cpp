@@ -45,7 +45,7 @@ Primitives::Run Primitives::look(std::size_t begin, std::size_t end) const {
   return run;
 }
 
-// Names the elements that are kept, where some are not.
+// Lists the elements that are kept, if some are refused.
 void Primitives::leaveOut(const std::vector<Run>& runs) {
   for (const Run& run : runs) {
     for (const std::uint32_t number : run.refused) {

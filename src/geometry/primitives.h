@@ -1,5 +1,5 @@
-// Primitives: those of one shape, each put together from the vertices and index lists of its mesh when it is asked for.
-// Kept ready they would take 104 bytes each; the mesh is there anyway, at 12 to 24 for a triangle.
+// Primitives: the primitives of one shape, each computed from the vertices and index lists of the mesh when it is read.
+// Stored, they would take 104 bytes each; the mesh itself takes 12 to 24 bytes per triangle.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace hl {
 
-/// Views of what a mesh is made of. Indices count in `positions`; metres.
+/// Views of the lists of a mesh. Indices refer to `positions`; metres.
 struct MeshView {
   std::span<const Vec3> positions;
   std::span<const std::array<std::uint32_t, 3>> triangles;
@@ -22,44 +22,45 @@ struct MeshView {
   std::size_t elements() const { return triangles.size() + segments.size() + points.size(); }
 };
 
-/// A view: what it was made from must outlive it and stay as it is. Reading is RT-safe, on any thread.
+/// A view: the mesh must outlive it and must not change. Reading is RT-safe, on any thread.
 class Primitives {
  public:
-  /// Elements that make no primitive, by kind: degenerate, out of reach, or with an index out of range.
+  /// Number of elements that are not valid primitives, by kind: degenerate, out of reach, or with an index out of
+  /// range.
   struct Refused {
     std::size_t triangles = 0, segments = 0, points = 0;
     std::size_t sum() const { return triangles + segments + points; }
   };
 
   Primitives() = default;
-  /// Triangles first, then segments, then points; refused ones are left out. O(n) on all threads that oneTBB has; the
+  /// Triangles first, then segments, then points; refused elements are left out. O(n) on all threads of oneTBB; the
   /// result does not depend on their number. Setup only.
   explicit Primitives(const MeshView& mesh);
-  /// Those elements whose numbers among all (triangles, segments, points) are listed, by rising number, whatever they
-  /// have shrunk to: see shrunkenOf(). Their vertices must be within reach.
+  /// The listed elements only, degenerate or not: see shrunkenOf(). `elements`: increasing numbers among all elements
+  /// (triangles, segments, points). Their vertices must be within reach.
   Primitives(const MeshView& mesh, std::vector<std::uint32_t> elements);
-  /// Ready ones, in any order.
+  /// A list of primitives, in any order.
   Primitives(std::span<const Primitive> ready) : ready_(ready), size_(ready.size()) {}                // NOLINT: a view
   Primitives(const std::vector<Primitive>& ready) : Primitives(std::span<const Primitive>(ready)) {}  // NOLINT: a view
 
   const Refused& refused() const { return refused_; }
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
-  /// Whether the same elements make the same numbers here as there, for two meshes with the same lists.
+  /// Whether the same elements have the same numbers in both, for two meshes with the same lists.
   bool numberedAs(const Primitives& other) const { return size_ == other.size_ && kept_ == other.kept_; }
-  /// Number of the element that it is made from, among all of the mesh.
+  /// Number of the element of primitive i, among all elements of the mesh.
   std::uint32_t elementNumber(std::size_t i) const { return kept_.empty() ? static_cast<std::uint32_t>(i) : kept_[i]; }
-  /// Around all vertices that they have. O(1) of a mesh, O(n) of ready ones.
+  /// Bounds of all vertices used. O(1) for a mesh, O(n) for a list of primitives.
   Box bounds() const;
-  /// Memory of its own, beside the mesh's.
+  /// Memory, bytes, without the mesh.
   std::size_t bytes() const { return kept_.capacity() * sizeof(std::uint32_t); }
 
   Primitive operator[](std::size_t i) const;
   PrimitiveKind kind(std::size_t i) const;
-  PrimitiveKind elementKind(std::size_t i) const;  ///< of a mesh: before it shrank
+  PrimitiveKind elementKind(std::size_t i) const;  ///< of a mesh: the kind before it became degenerate
   /// As Primitive::source.
   std::uint32_t source(std::size_t i) const;
-  /// The vertices in the order given; a segment's last is there twice, a point's three times.
+  /// The vertices in the given order; a segment's last vertex is repeated once, a point's twice.
   std::array<Vec3, 3> corners(std::size_t i) const;
 
   class Iterator {
@@ -80,16 +81,16 @@ class Primitives {
   Iterator end() const { return {*this, size_}; }
 
  private:
-  /// An element of the mesh: which list, and where in it.
+  /// An element of the mesh: its list, and its index in the list.
   struct Element {
     PrimitiveKind kind;
     std::uint32_t source;
   };
   Element element(std::size_t i) const;
-  /// Some elements in a row, looked at by one thread.
+  /// A range of elements checked by one thread.
   struct Run {
-    Box bounds;                          // of those that make a primitive
-    std::vector<std::uint32_t> refused;  // numbers of the others among all elements
+    Box bounds;                          // of the valid elements
+    std::vector<std::uint32_t> refused;  // numbers of the invalid elements among all elements
   };
   Run look(std::size_t begin, std::size_t end) const;
   void leaveOut(const std::vector<Run>& runs);
@@ -100,12 +101,12 @@ class Primitives {
   std::vector<std::uint32_t> kept_;  // numbers among all elements of the mesh; empty when none was refused
   std::span<const Primitive> ready_;
   std::size_t size_ = 0;
-  bool shrunken_ = false;  // some may have shrunk
+  bool shrunken_ = false;  // some elements may be degenerate
   Refused refused_;
-  Box bounds_;  // of a mesh
+  Box bounds_;  // bounds, if it is a mesh
 };
 
-// Inline: loops read millions of them.
+// Inline for loops over millions of primitives.
 
 inline Primitives::Element Primitives::element(std::size_t i) const {
   std::size_t number = kept_.empty() ? i : kept_[i];

@@ -17,7 +17,8 @@ int compareVertices(const Primitive& a, const Primitive& b) {
   return 0;
 }
 
-// The last few primitives looked at: an index that covers a primitive with many leaves proposes it many times in a row.
+// The last few primitives tested: an index that covers a primitive with many leaves proposes it many times in
+// succession.
 class RecentlySeen {
  public:
   bool testAndAdd(ElementId primitive) {
@@ -32,10 +33,11 @@ class RecentlySeen {
   std::size_t next_ = 0;
 };
 
-// For who does not know how soon an impact is likely: a sphere that starts near a surface mostly hits it so soon.
+// Default for `soon`: a sphere that starts near a surface usually hits within this distance.
 constexpr double kSoonPerRadius = 0.25;
 
-// The earliest of the impacts that impact_of() finds among what the index proposes for a sphere of radius `proposed`.
+// The earliest impact returned by impact_of() among the primitives that the index proposes for a sphere of radius
+// `proposed`.
 template <typename Read, typename ImpactOf>
 bool firstOf(const SpatialIndex& index, const Read& read, const Vec3& from, const Vec3& motion, double proposed,
              double soon, const ImpactOf& impact_of, FirstImpact& out) {
@@ -47,7 +49,7 @@ bool firstOf(const SpatialIndex& index, const Read& read, const Vec3& from, cons
     if (found) {
       if (impact.t > out.impact.t) return limit;
       if (impact.t == out.impact.t) {
-        const Primitive first = read(out.primitive);  // NOLINT: a copy, as read() may hand out one place for both
+        const Primitive first = read(out.primitive);  // NOLINT: a copy, as read() may reuse its result
         if (!precedes(read(candidate), first)) return limit;
       }
     }
@@ -91,8 +93,8 @@ bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(Element
   return firstOf(index, read, from, motion, radius, kSoonPerRadius * radius, impact_of, out);
 }
 
-// What is within `touching` where the way ends has been within a little more than that before: so it is proposed even
-// when the end is off by rounding.
+// A primitive within `touching` at the end of the way is proposed even if rounding moves the end, as it is within a
+// slightly larger distance before the end.
 bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(ElementId)> read, const Vec3& from,
                  const Vec3& motion, double radius, double touching, double soon,
                  FunctionRef<bool(ElementId)> is_contact, FunctionRef<void(ElementId)> meet, FirstImpact& out) {

@@ -1,4 +1,5 @@
-// The two exact questions of the proxy, the same for every SpatialIndex: what is hit first, and what is near.
+// The two exact queries of the proxy, the same for every SpatialIndex: the first impact, and the primitives within a
+// distance.
 #pragma once
 
 #include <cstdint>
@@ -17,38 +18,38 @@ struct FirstImpact {
   ElementId primitive = 0;
 };
 
-/// Whether `a` comes before `b`: by their vertices, lexicographically; copies are distinguished by their source.
-/// The order in which primitives were given decides nothing. RT-safe.
+/// Whether `a` comes before `b`: by their vertices, lexicographically; copies are ordered by kind and source. The order
+/// in the input does not matter otherwise. RT-safe.
 bool precedes(const Primitive& a, const Primitive& b);
 
-/// First impact of a sphere of `radius` moving from `from` by `motion`, over all primitives but those whose
-/// closestPoint(from).distance <= `touching` (m): they are the caller's contacts; pass 0 or less to skip none. The
-/// result does not depend on the index or on the order of the primitives: equal times are decided by the vertices,
-/// lexicographically. Returns false, and leaves `out` alone, for no impact. RT-safe, any thread.
+/// First impact of a sphere of `radius` moving from `from` by `motion`, over all primitives except the caller's
+/// contacts: those with closestPoint(from).distance <= `touching` (m); 0 or less skips none. The result does not depend
+/// on the index or on the order of the primitives: at equal times precedes() decides. Returns false, and leaves `out`
+/// unchanged, if there is no impact. RT-safe, any thread.
 bool firstImpact(const SpatialIndex& index, const Primitives& primitives, const Vec3& from, const Vec3& motion,
                  double radius, double touching, FirstImpact& out);
 
-/// The same for a caller who reads primitives in its own way.
+/// The same, with a function that reads primitives.
 bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(ElementId primitive)> read, const Vec3& from,
                  const Vec3& motion, double radius, double touching, FirstImpact& out);
-/// The same over all primitives but those of which `is_contact` says so, given the point nearest to `from`.
+/// The same over all primitives except those for which is_contact(point nearest to `from`) is true.
 bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(ElementId primitive)> read, const Vec3& from,
                  const Vec3& motion, double radius, FunctionRef<bool(const ClosestPoint& start)> is_contact,
                  FirstImpact& out);
-/// The same for a caller who reads primitives in its own way and knows its contacts: `is_contact` says of a primitive
-/// whether it is within `touching`, which is more than `radius`, of `from`. Calls `meet` for some primitives (one maybe
-/// more than once), in no given order, among which is every one within `touching` of the place where the motion ends or
-/// is stopped, and of any place that rounding puts a little aside. `soon` as in SpatialIndex::sweep.
+/// The same for known contacts: `is_contact` returns whether a primitive is within `touching` (> `radius`) of `from`.
+/// Calls `meet`, in no given order and possibly repeatedly, for a set of primitives. The set includes all within
+/// `touching` of the position at which the motion ends or is stopped, even if rounding moves this position a little.
+/// `soon` as in SpatialIndex::sweep.
 bool firstImpact(const SpatialIndex& index, FunctionRef<const Primitive&(ElementId primitive)> read, const Vec3& from,
                  const Vec3& motion, double radius, double touching, double soon,
                  FunctionRef<bool(ElementId primitive)> is_contact, FunctionRef<void(ElementId primitive)> meet,
                  FirstImpact& out);
 
-/// Visits every primitive within `distance` (m, inclusive) of `centre`, exactly; may repeat one, in no given order.
-/// RT-safe, any thread.
+/// Visits exactly the primitives within `distance` (m, inclusive) of `centre`, in no given order, possibly more than
+/// once. RT-safe, any thread.
 void primitivesWithin(const SpatialIndex& index, const Primitives& primitives, const Vec3& centre, double distance,
                       FunctionRef<void(ElementId primitive, const ClosestPoint& nearest)> visit);
-/// The same for a caller who reads primitives in its own way.
+/// The same, with a function that reads primitives.
 void primitivesWithin(const SpatialIndex& index, FunctionRef<const Primitive&(ElementId primitive)> read,
                       const Vec3& centre, double distance,
                       FunctionRef<void(ElementId primitive, const ClosestPoint& nearest)> visit);

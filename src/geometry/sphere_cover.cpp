@@ -47,8 +47,8 @@ struct FlatTriangle {
   Vec3 at(double u, double v) const { return origin + u * x + v * y; }
 };
 
-// Rows of equal height along the base; in each, cells of equal width across what the triangle covers of the row, which
-// is widest at the row's bottom as the apex projects onto the base. Returns the number of cells.
+// Rows of equal height along the base. Each row is split into cells of equal width over the part that the triangle
+// covers; this is widest at the bottom of the row, as the apex projects onto the base. Returns the number of cells.
 int scanConvert(const FlatTriangle& flat, double cell, FunctionRef<void(const Ball&)> visit) {
   int count = 0;
   const int rows = std::max(1, static_cast<int>(std::ceil(flat.height / cell)));
@@ -100,7 +100,7 @@ Ball boundingBall(const Primitive& primitive) {
   const Vec3 n = a.cross(b);
   const Vec3 to_centre = (a.squaredNorm() * b - b.squaredNorm() * a).cross(n) / (2 * n.squaredNorm());
   const Ball circle = ballAround(primitive, apex + to_centre);
-  // Rounding of a thin triangle may spoil the circle; the ball on the longest edge is never much larger.
+  // Rounding may make the circle of a thin triangle wrong; the ball on the longest edge is never much larger.
   const Ball diameter = ballAround(primitive, 0.5 * (v[kEdges[number].begin] + v[kEdges[number].end]));
   return circle.radius < diameter.radius ? circle : diameter;
 }

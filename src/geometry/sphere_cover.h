@@ -1,4 +1,4 @@
-// Covers one primitive with small spheres, like scan conversion (the paper's section 6.2). Internal to src/geometry.
+// Covers one primitive with small spheres by scan conversion (the paper's section 6.2). Internal to src/geometry.
 #pragma once
 
 #include "base/function_ref.h"

@@ -16,13 +16,13 @@ using Sphere = SphereTree::Sphere;
 using Leaf = SphereTree::Leaf;
 using Node = SphereTree::Node;
 
-// Depth allowed per lg of the number of leaves. The middle split is kept while halving from there on could still end
-// within it, so the traversal's stack and the work of the build are bounded for every input.
+// Maximum depth per lg of the number of leaves. The middle split is used as long as halving from there on can still
+// meet this limit. So the stack of the traversal and the cost of the build are bounded for every input.
 constexpr double kDepthPerLg = 2.5;
-// 2.5 * 31, the most for an index of 31 bits; a depth-first walk keeps at most one waiting child for each level.
+// 2.5 * 31, the maximum for an index of 31 bits; a depth-first traversal keeps at most one waiting child per level.
 constexpr std::size_t kStackSize = 80;
 
-// Number of the leaf that a negative link stands for.
+// Number of the leaf of a negative link.
 std::size_t leafOf(std::int32_t link) {
   const std::int32_t leaf = ~link;
   return static_cast<std::size_t>(leaf);
@@ -30,10 +30,11 @@ std::size_t leafOf(std::int32_t link) {
 
 Vec3 centreOf(const Sphere& sphere) { return {sphere.centre[0], sphere.centre[1], sphere.centre[2]}; }
 
-// Single precision, containing the given sphere: the radius grows by 2^-22 of the coordinates, which is more than the
-// centre moves (at most sqrt(3) 2^-24), and by one part in 2^20 before it is rounded itself; both leave ample room for
-// the double sums of the cover and of queries. The move is bounded, not measured, and the function is not inlined,
-// because GCC 12 at -O2 takes a double that was narrowed and widened again in one function for the double itself.
+// A single-precision sphere that contains the given sphere. The radius grows by 2^-22 of the coordinates, more than the
+// centre moves by rounding (at most sqrt(3) 2^-24), and by a relative 2^-20 before it is rounded itself. Both leave
+// enough margin for the double-precision sums of the cover and of queries. This bound is used instead of the actual
+// rounding error, and the function is not inlined, because GCC 12 at -O2 replaces a double that was narrowed and
+// widened again in one function by the original double.
 [[gnu::noinline]] Sphere roundedUp(const Vec3& centre, double radius) {
   constexpr double kRelative = 1 + 1.0 / (1 << 20);
   constexpr double kOfCoordinates = 1.0 / (1 << 22);
@@ -131,7 +132,7 @@ class SphereTreeBuilder {
   }
 
   Sphere smallerOfBoth(std::size_t begin, std::size_t end, const Vec3& box_middle, const std::array<Sphere, 2>& child) {
-    // The second heuristic: about the middle of the box, just large enough for all leaves.
+    // The second heuristic: centred at the middle of the box, just large enough for all leaves.
     double radius = 0;
     for (std::size_t i = begin; i < end; ++i) {
       radius = std::max(radius, (centreOf(leaves_[i].sphere) - box_middle).norm() + leaves_[i].sphere.radius);
@@ -164,7 +165,7 @@ double leafRadius(const Primitives& primitives) {
 }
 
 // Lower bound of the time at which a point moving from w (relative to the centre of a sphere) by m comes within `reach`
-// of the centre; 2 when never. See sweep.cpp for the roots; all margins are on the early side.
+// of the centre; 2 if never. See sweep.cpp for the roots; all margins make the time earlier.
 class EntryTime {
  public:
   EntryTime(const Vec3& from, const Vec3& motion, double radius)
@@ -177,7 +178,7 @@ class EntryTime {
   double operator()(const Sphere& sphere) const {
     constexpr double kNever = 2;
     constexpr double kWider = 1 + 1e-12;   // of the reach: rounding of the squares
-    constexpr double kEarlier = 1 - 1e-7;  // of the time: a grazing root has half the digits
+    constexpr double kEarlier = 1 - 1e-7;  // of the time: a grazing root has half of the digits
     const double reach = (slack_ + sphere.radius) * kWider;
     const Vec3 w = from_ - centreOf(sphere);
     const double c = w.squaredNorm() - reach * reach;
@@ -238,7 +239,7 @@ std::size_t SphereTree::sweep(const Vec3& from, const Vec3& motion, double radiu
   double limit = 1;
   Waiting now{nodes_.empty() ? ~0 : 0, entry(nodes_.empty() ? leaves_[0].sphere : nodes_[0].sphere)};
   while (true) {
-    // Down to a leaf by the nearer child; the farther one waits.
+    // Descends to a leaf by the nearer child; the farther child waits on the stack.
     while (now.entry <= limit && now.link >= 0) {
       const Node& node = nodes_[static_cast<std::size_t>(now.link)];
       std::array<Waiting, 2> child{};

@@ -1,6 +1,6 @@
-// SphereTree: the paper's hierarchy (section 6.2, after Quinlan 1994). Each primitive is covered with small spheres
-// like scan conversion; a binary tree over them is split at the middle of the longest axis of the box of leaf centres.
-// A node contains all leaf spheres below it, not its child nodes; its radius is the smaller of two heuristics.
+// SphereTree: the paper's hierarchy (section 6.2, after Quinlan 1994). Each primitive is covered with small spheres by
+// scan conversion. A binary tree over the spheres is split at the middle of the longest axis of the box of leaf
+// centres. A node contains all leaf spheres below it, not its child nodes; its radius is the smaller of two heuristics.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace hl {
 /// See SpatialIndex. Immutable once built; may be moved and copied.
 class SphereTree final : public SpatialIndex {
  public:
-  /// Rounded outward: as a set of points it contains the sphere it was computed from in double.
+  /// Rounded outward: contains the sphere from which it was computed in double precision.
   struct Sphere {
     std::array<float, 3> centre{};
     float radius = 0;
@@ -33,11 +33,11 @@ class SphereTree final : public SpatialIndex {
   };
   /// Work of the build, for tests of its growth.
   struct BuildWork {
-    std::uint64_t leaf_visits = 0;    ///< leaves looked at, summed over all levels
-    std::uint64_t median_splits = 0;  ///< nodes where the middle split was replaced to keep the depth bounded
+    std::uint64_t leaf_visits = 0;    ///< leaves visited, summed over all levels
+    std::uint64_t median_splits = 0;  ///< nodes where the middle split was replaced to limit the depth
   };
 
-  /// Builds in O(n lg n); at most 64 leaves a primitive. Setup only. Empty input gives an index that visits nothing.
+  /// Builds in O(n lg n); at most 64 leaves per primitive. Setup only. Empty input gives an index that visits nothing.
   static SphereTree build(const Primitives& primitives);
 
   std::size_t overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId primitive)> visit) const override;
@@ -45,7 +45,7 @@ class SphereTree final : public SpatialIndex {
                     FunctionRef<double(ElementId primitive, double limit)> visit) const override;
   IndexStats stats() const override;
 
-  std::span<const Node> nodes() const { return nodes_; }  ///< nodes()[0] is the root; one leaf alone has no node
+  std::span<const Node> nodes() const { return nodes_; }  ///< nodes()[0] is the root; a single leaf has no node
   std::span<const Leaf> leaves() const { return leaves_; }
   const BuildWork& buildWork() const { return work_; }
 

@@ -7,25 +7,25 @@
 #include "geometry/closest_point.h"
 #include "geometry/features.h"
 
-// A sphere of radius R against a primitive is a point against the primitive grown by R, which for a triangle is the
+// A sphere of radius R against a primitive is a point against the primitive grown by R. For a triangle this is the
 // union of a slab (the face moved by R to both sides), three finite cylinders about the edges and three spheres about
-// the vertices. Each part lies within the whole, so the first contact is the earliest of the parts; neighbouring parts
-// are tangent, so a part missed by rounding at its border is replaced by its neighbour with an error of second order.
+// the vertices. Each part lies within the union, so the first contact is the earliest of the parts. Neighbouring parts
+// are tangent, so if rounding misses a part at its border, its neighbour gives an error of second order only.
 //
-// Round parts, with w = from - centre (sphere) or the parts of w and m across the axis (cylinder, axis unit vector e):
+// Round parts, with w = from - centre (sphere), or the components of w and m across the axis (cylinder, unit vector e):
 //   |w + t m|^2 = R^2   <=>   a t^2 + 2 b t + c = 0,  a = m.m,  b = w.m,  c = (|w| - R)(|w| + R)
-// The discriminant b^2 - a c cancels badly for far starts. By Lagrange's identity |w|^2 |m|^2 - (w.m)^2 = |w x m|^2,
+// The discriminant b^2 - a c loses digits for distant starts. By Lagrange's identity |w|^2 |m|^2 - (w.m)^2 = |w x m|^2,
 //   disc = R^2 |m|^2 - |w x m|^2 = (R |m| - k)(R |m| + k),   k = |w x m|
-// and the first root without cancellation, as b < 0 for an approach, is t = c / (-b + sqrt(disc)).
-// Across an axis |w|, |m| and w.m become |w x e|, |m x e| and (w x e).(m x e), and k = |(w x m).e|.
+// and the first root without cancellation, as b < 0 for an approach, is t = c / (-b + sqrt(disc)). Across an axis |w|,
+// |m| and w.m become |w x e|, |m x e| and (w x e).(m x e), and k = |(w x m).e|.
 
 namespace hl {
 
 namespace {
 
-// First root of a round part in [0, 1], or false. A start that rounding puts inside (c <= 0) counts as touching.
+// First root of a round part in [0, 1]; false if there is none. A start inside by rounding (c <= 0) counts as touching.
 bool firstRoot(double distance, double speed, double b, double k, double radius, double& t) {
-  if (!(b < 0)) return false;  // moves away, or not at all
+  if (!(b < 0)) return false;  // moves away, or does not move
   const double c = (distance - radius) * (distance + radius);
   if (c <= 0) {
     t = 0;
@@ -37,8 +37,8 @@ bool firstRoot(double distance, double speed, double b, double k, double radius,
   return t <= 1;
 }
 
-// Whether the moving point stays farther than R from the centre or axis for ever, k > R |m|, by more than rounding:
-// decided by squares, so that most parts are done without a root. The rest is for firstRoot().
+// Whether the moving point always stays farther than R from the centre or axis, k > R |m|, by more than the rounding
+// error. Computed from squares, so that most parts need no square root. All other cases are left to firstRoot().
 bool passesBy(double k2, double speed2, double radius) {
   constexpr double kRounding = 1e-12;
   return k2 > (1 + kRounding) * radius * radius * speed2;
@@ -64,7 +64,7 @@ void hitEdge(const Primitive& primitive, std::size_t number, Feature feature, co
   const Edge& edge = kEdges[number];
   const Vec3 along = primitive.vertex[edge.end] - primitive.vertex[edge.begin];
   const Vec3 w = from - primitive.vertex[edge.begin];
-  const Vec3 w_long = w.cross(along), m_long = motion.cross(along);  // across, times the edge's length
+  const Vec3 w_long = w.cross(along), m_long = motion.cross(along);  // components across the edge, times its length
   const double k_long = w.cross(motion).dot(along);
   if (!(w_long.dot(m_long) < 0) || passesBy(k_long * k_long, m_long.squaredNorm(), radius)) return;
   const double length = along.norm();
@@ -75,7 +75,7 @@ void hitEdge(const Primitive& primitive, std::size_t number, Feature feature, co
   if (!firstRoot(w_across.norm(), m_across.norm(), w_across.dot(m_across), std::abs(w.cross(motion).dot(e)), radius, t))
     return;
   if (!(t < limit)) return;
-  // The cylinder ends at the vertices; beyond them their spheres are hit.
+  // The cylinder ends at the vertices; beyond them the spheres are hit.
   const Vec3 at = w + t * motion;
   const double s = at.dot(e) / length;
   if (!(s >= 0 && s <= 1)) return;
@@ -86,17 +86,17 @@ void hitEdge(const Primitive& primitive, std::size_t number, Feature feature, co
   out.weights = edgeWeights(edge, s);
 }
 
-// The slab between the two offset faces, which holds the whole obstacle. Times are fractions of the motion.
+// The slab between the two offset faces, which contains the whole obstacle. Times are fractions of the motion.
 struct Slab {
-  double side;       // of the face on which the motion starts
+  double side;       // side of the face on which the motion starts
   double closing;    // m, toward the face
-  double enters;     // 0: it starts within
-  double no_sooner;  // than this is anything hit, however distances have been rounded
+  double enters;     // time of entry; 0: the motion starts within the slab
+  double no_sooner;  // lower bound of any impact, despite rounding of distances
 };
 
 Slab slabOf(const Primitive& triangle, const Vec3& from, const Vec3& motion, double radius) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
-  constexpr double kRounding = 1e-12;  // of the lengths that heights and the roots of edges are computed from
+  constexpr double kRounding = 1e-12;  // of the lengths from which heights and edge roots are computed
   const Vec3 w = from - triangle.vertex[0];
   const double height = triangle.normal.dot(w);
   const double side = height < 0 ? -1.0 : 1.0;
@@ -107,7 +107,7 @@ Slab slabOf(const Primitive& triangle, const Vec3& from, const Vec3& motion, dou
   return {side, closing, after(gap), after(surely)};
 }
 
-// As the obstacle lies within the slab, nothing else is hit earlier.
+// The obstacle lies within the slab, so nothing else is hit earlier.
 bool hitFace(const Primitive& triangle, const Slab& slab, const Vec3& from, const Vec3& motion, Impact& out) {
   if (!(slab.closing > 0 && slab.enters <= 1)) return false;
   const FaceAreas areas = faceAreas(triangle, from + slab.enters * motion);
@@ -128,8 +128,8 @@ bool hitVertices(const Primitive& primitive, const Vec3& from, const Vec3& motio
   return limit < kNone;
 }
 
-// No hit is returned before `no_sooner`: so a search for the first impact of many may leave out what is
-// late by that, and finds the same.
+// No impact is reported before `no_sooner`. So a search for the first impact of many primitives may skip this one if
+// `no_sooner` is too late, with the same result.
 bool hitTriangle(const Primitive& triangle, const Vec3& from, const Vec3& motion, double radius, double latest,
                  Impact& out) {
   const Slab slab = slabOf(triangle, from, motion, radius);

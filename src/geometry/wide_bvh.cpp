@@ -29,7 +29,7 @@ void WideBvh::measure(const Primitives& primitives) {
   extent_ = std::max(largest(bounds.min), largest(bounds.max));
 }
 
-// Where all primitives are one point, nothing else says how fine its place must be.
+// If all primitives are one point, nothing else defines the resolution of its position.
 BlockScale WideBvh::scale() const {
   constexpr double kSmallest_m = 1e-12;
   constexpr double kSmallestPerExtent = 1.0 / (1LL << 40);
@@ -79,7 +79,7 @@ WideTree WideBvh::tree() const {
 }
 
 double WideBvh::reach(const Vec3& from, const Vec3& motion, double radius) const {
-  // Rounding of coordinate sums, a few parts in 2^53 of the largest coordinate.
+  // Rounding of coordinate sums, a few units of 2^-53 times the largest coordinate.
   constexpr double kRounding = 1e-14;
   return radius + kRounding * (largest(from) + largest(motion) + extent_);
 }
@@ -92,7 +92,7 @@ std::size_t WideBvh::overlap(const Vec3& centre, double radius, FunctionRef<void
 
 std::size_t WideBvh::sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
                            FunctionRef<double(ElementId, double)> visit) const {
-  constexpr double kMinPart = 1.0 / 8192;  // five walks more find what comes late
+  constexpr double kMinPart = 1.0 / 8192;  // at most five more traversals then cover the whole way
   if (primitives_ == 0) return 0;
   const Vec3 at = from - origin_;
   const double length = motion.norm();

@@ -1,5 +1,6 @@
-// What a sphere may touch of the primitives of a few blocks, all at once: from lower bounds of the distance, by planes
-// that separate it from each. Part of wide_bvh_query.cpp, compiled with it for each instruction set.
+// Finds the primitives of a few blocks that a sphere may touch, all at once. It uses lower bounds of the distance, from
+// planes that separate the sphere from each primitive. Part of wide_bvh_query.cpp, compiled with it for each
+// instruction set.
 #if defined(HL_GEOMETRY_WIDE_BVH_BLOCK_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef HL_GEOMETRY_WIDE_BVH_BLOCK_INL_H
 #undef HL_GEOMETRY_WIDE_BVH_BLOCK_INL_H
@@ -18,7 +19,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A vector holds the primitives of two blocks where the processor has so many lanes, else a part of one.
+// A vector holds the primitives of two blocks if the processor has enough lanes, else a part of one block.
 using D = hn::CappedTag<float, 2 * kWide>;
 using V = hn::Vec<D>;
 using Mask = hn::Mask<D>;
@@ -29,7 +30,7 @@ constexpr unsigned kAllLanes = (1u << kLanes) - 1;
 struct V3 {
   V x, y, z;
   HWY_INLINE V3(V a, V b, V c) : x(a), y(b), z(c) {}
-  // One vector at a time: GCC 12 else copies with wider moves, which then wait for the narrower stores before them.
+  // Copies one vector at a time: otherwise GCC 12 uses wider moves, which wait for the narrower stores before them.
   HWY_INLINE V3(const V3& other) : x(other.x), y(other.y), z(other.z) {}
   V3& operator=(const V3&) = delete;
 };
@@ -54,8 +55,8 @@ HWY_INLINE unsigned bitsOf(Mask mask) {
   return bytes[0] | static_cast<unsigned>(bytes[1]) << 8;
 }
 
-// Blocks that are looked at together, each with the query in its coordinates. Lanes count through all of them; behind
-// an odd number of blocks the last is there once more.
+// Blocks that are tested together, each with the query in its coordinates. Lanes count through all blocks. After an odd
+// number of blocks the last one is repeated.
 constexpr std::size_t kFewBlocks = 4;
 constexpr std::size_t kFewLanes = kFewBlocks * kWide;
 
@@ -68,7 +69,8 @@ struct FewBlocks {
   std::uint32_t primitive(std::size_t lane) const { return block[lane / kWide]->primitive[lane % kWide]; }
 };
 
-// The vector from `lane` on, of part(which block, its first lane, floats): of one block, or of one half from each.
+// The vector that starts at `lane`, from part(block number, its first lane, floats): from one block, or one half from
+// each of two blocks.
 template <typename Part>
 HWY_INLINE V ofBlocks(std::size_t lane, const Part& part) {
 #if HWY_TARGET != HWY_SCALAR
@@ -89,7 +91,7 @@ HWY_INLINE V coordinate(const FewBlocks& blocks, std::size_t lane, std::size_t v
   });
 }
 
-// number(query) of the query in each block's coordinates.
+// number(query) for the query in the coordinates of each block.
 template <typename Number>
 HWY_INLINE V ofQueries(const FewBlocks& blocks, std::size_t lane, const Number& number) {
   return ofBlocks(lane, [&](std::size_t which, std::size_t, auto floats)
@@ -107,14 +109,15 @@ HWY_INLINE V reachOf(const FewBlocks& blocks, std::size_t lane) {
   return ofQueries(blocks, lane, [](const BlockQuery& query) { return query.reach; });
 }
 
-// The primitives of some lanes, and what of their nearest points does not depend on where one looks from.
+// The primitives of some lanes, with the terms of their nearest points that do not depend on the eye (the sphere's
+// centre).
 struct Corners {
   V3 a, b, c, ab, ac, normal;
   V ab2, ac2, bc2, ab_ac;
   V per_ab2, per_ac2, per_bc2;
 };
 
-// One over the square of a length; where that is 0, as of a point, what it is multiplied by is 0 too.
+// The reciprocal of a squared length. If the length is 0, as for a point, it is only multiplied by 0.
 HWY_INLINE V perSquare(V length2) {
   return hn::Div(hn::Set(kFloats, 1.0f), hn::Max(length2, hn::Set(kFloats, 1e-30f)));
 }
@@ -129,17 +132,18 @@ HWY_INLINE Corners cornersOf(const FewBlocks& blocks, std::size_t lane) {
   return {a, b, c, ab, ac, cross(ab, ac), ab2, ac2, bc2, ab_ac, perSquare(ab2), perSquare(ac2), perSquare(bc2)};
 }
 
-// Of a point a + v ab + w ac.
+// Weights of a point a + v ab + w ac.
 struct Weights {
   V v, w;
 };
 
-// The place on an edge nearest to the eye, as a part of the edge, and the square of its distance.
+// The point on an edge nearest to the eye, as a fraction of the edge, and its squared distance.
 struct OnEdge {
   V s, distance2;
 };
 
-// An edge of length2 from a corner at distance2; `along` is the product of the edge and the way from there to the eye.
+// For an edge of squared length length2, from a vertex at squared distance distance2; `along`: the dot product of the
+// edge and the vector from the vertex to the eye.
 HWY_INLINE OnEdge onEdge(V distance2, V along, V length2, V per_length2) {
   const V s = hn::Min(hn::Max(hn::Mul(along, per_length2), hn::Zero(kFloats)), hn::Set(kFloats, 1.0f));
   const V twice = hn::Sub(hn::Add(along, along), hn::Mul(s, length2));
@@ -160,15 +164,15 @@ HWY_INLINE Weights nearestOnEdges(const Corners& p, V distance2, V along_ab, V a
   return {hn::IfThenElse(by_bc, hn::Sub(hn::Set(kFloats, 1.0f), bc.s), v), hn::IfThenElse(by_bc, bc.s, w)};
 }
 
-// A direction from the eye toward the point of the primitive nearest to it, of any length; a is the way from the eye to
-// its first corner. However rough it is, what follows from it is true: see Plane.
+// A vector of any length from the eye toward the nearest point of the primitive; `a` is the vector from the eye to the
+// first vertex. The result may be inaccurate: any direction gives a valid bound, see Plane.
 HWY_INLINE V3 towards(const Corners& p, const V3& a) {
   const V zero = hn::Zero(kFloats);
   const V along_ab = hn::Neg(dot(a, p.ab));
   const V along_ac = hn::Neg(dot(a, p.ac));
   const Weights edge = nearestOnEdges(p, dot(a, a), along_ab, along_ac);
   const V3 on_edge = sum(a, sum(scaled(p.ab, edge.v), scaled(p.ac, edge.w)));
-  // Inside the face the weights, times the determinant, are positive and their sum is less than it.
+  // Inside the face the weights, times the determinant, are positive, and their sum is less than the determinant.
   const V v = hn::Sub(hn::Mul(p.ac2, along_ab), hn::Mul(p.ab_ac, along_ac));
   const V w = hn::Sub(hn::Mul(p.ab2, along_ac), hn::Mul(p.ab_ac, along_ab));
   const V determinant = hn::Sub(hn::Mul(p.ab2, p.ac2), hn::Mul(p.ab_ac, p.ab_ac));
@@ -177,8 +181,9 @@ HWY_INLINE V3 towards(const Corners& p, const V3& a) {
   return choose(inside, scaled(p.normal, side), on_edge);
 }
 
-// A plane that separates: with n = `toward`, the primitive lies at n . x >= nearest, the sphere about the eye at
-// n . x <= edge. Any n proves that they are apart when nearest > edge; that nearest in distance proves the most.
+// A separating plane: with n = `toward`, the primitive lies at n . x >= nearest and the sphere about the eye at n . x
+// <= edge. Any n with nearest > edge proves that they are disjoint; the n toward the nearest point gives the best
+// bound.
 struct Plane {
   V nearest, edge;
 };
@@ -188,7 +193,7 @@ HWY_INLINE Plane planeAlong(const V3& toward, const Corners& p, const V3& eye, V
   return {nearest, hn::Mul(reach, hn::Sqrt(dot(toward, toward)))};
 }
 
-// Which primitives may be within reach.
+// Bits of the primitives that may be within reach.
 HWY_INLINE unsigned withinReach(const FewBlocks& blocks) {
   unsigned bits = 0;
   for (std::size_t lane = 0; lane < blocks.lanes(); lane += kLanes) {
@@ -200,8 +205,8 @@ HWY_INLINE unsigned withinReach(const FewBlocks& blocks) {
   return bits;
 }
 
-// Conservative advancement (Mirtich 1996) of the sphere toward the primitives of one vector: no touch before it crosses
-// a separating plane, and from there the next plane is tighter.
+// Conservative advancement (Mirtich 1996) of the sphere toward the primitives of one vector: there is no contact before
+// the sphere crosses a separating plane, and at that point a new plane gives a better bound.
 class Advance {
  public:
   HWY_INLINE Advance(const FewBlocks& blocks, std::size_t lane)
@@ -211,7 +216,7 @@ class Advance {
         reach_(reachOf(blocks, lane)),
         time_(hn::Zero(kFloats)) {}
 
-  // Returns whether another step would change anything before `latest`.
+  // Returns whether another step can change the result before `latest`.
   HWY_INLINE bool step(V latest) {
     const V3 eye = sum(from_, scaled(motion_, time_));
     const V3 toward = towards(corners_, corners_.a - eye);
@@ -225,10 +230,10 @@ class Advance {
     return !hn::AllFalse(kFloats, hn::And(apart, hn::Le(time_, latest)));
   }
 
-  // Which may be touched up to `latest`, and lower bounds of when.
+  // Bits of the primitives that may be touched up to `latest`, and lower bounds of their times.
   HWY_INLINE unsigned touched(V latest, float* entry) const {
     hn::Store(time_, kFloats, entry);
-    return bitsOf(hn::Gt(time_, latest)) ^ kAllLanes;  // whatever is not surely later, not-a-number too
+    return bitsOf(hn::Gt(time_, latest)) ^ kAllLanes;  // all that are not certainly later, including NaN
   }
 
  private:
@@ -238,16 +243,17 @@ class Advance {
   V time_;
 };
 
-// All of them together, as each step waits for the one before it: one vector alone leaves the processor idle.
+// Interleaves several vectors, as each step depends on the previous one: one vector alone would leave the processor
+// idle.
 template <typename... Advances>
 HWY_INLINE void advance(V latest, Advances&... all) {
   constexpr int kSteps = 3;
   for (int i = 0; i < kSteps; ++i) {
-    if ((... | unsigned{all.step(latest)}) == 0) return;  // no ||: all of them step
+    if ((... | unsigned{all.step(latest)}) == 0) return;  // no ||, so that all of them make a step
   }
 }
 
-// Which primitives may be touched up to the limit, and lower bounds of when.
+// Bits of the primitives that may be touched up to the limit, and lower bounds of their times.
 HWY_INLINE unsigned touched(const FewBlocks& blocks, float limit, float* entry) {
   const V latest = hn::Set(kFloats, limit);
   unsigned bits = 0;

@@ -19,11 +19,11 @@ namespace hl {
 
 namespace {
 
-// A query is a sphere, not a point: boxes count as grown by this part of the root's largest side. So a row of points,
-// which has no area, can be judged too.
+// A query is a sphere, not a point, so boxes count as enlarged by this fraction of the root's largest side. Then a row
+// of points, which has no area, also has a cost.
 constexpr double kGrown = 1e-3;
 
-// Levels from the root whose children are worth a thread each: beneath them are hundreds of blocks.
+// Number of levels from the root whose children are processed in parallel: below them are hundreds of blocks.
 int parallelLevels(std::size_t blocks) {
   constexpr std::size_t kBlocksPerThread = 512;
   int levels = 0;
@@ -37,7 +37,7 @@ void forEachLane(int parallel_levels, const Each& each) {
   for (std::size_t lane = 0; lane < kWide; ++lane) each(lane);
 }
 
-// One number of each primitive of a block.
+// One number per primitive of a block.
 using Lanes = Eigen::Array<float, kWide, 1>;
 using Lanes3 = std::array<Lanes, 3>;
 
@@ -47,7 +47,7 @@ Lanes lanesOf(const std::int16_t (&values)[kWide]) {
   return lanes;
 }
 
-// In steps from the block's origin.
+// Vertices in quantisation steps from the block's origin.
 std::array<Lanes3, 3> cornersOf(const WideBlock& block) {
   std::array<Lanes3, 3> corners;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -62,13 +62,13 @@ Lanes3 cross(const Lanes3& a, const Lanes3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-// What the faces of a block or node add up to: the sum of area * n n', with n the normal of a face. Its eigenvector of
-// the largest eigenvalue is where most of them face, whichever side of theirs is the front.
+// The sum of area * n n' over the faces of a block or node, with n the normal of a face. Its eigenvector of the largest
+// eigenvalue is the direction that most faces have, regardless of their side.
 Mat3 facing(const WideBlock& block) {
   const auto corners = cornersOf(block);
   const Lanes3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
   const Lanes length2 = normal[0].square() + normal[1].square() + normal[2].square();
-  const Lanes per_length = length2.max(1.0f).rsqrt();  // 1: a primitive without area, or less than a step's
+  const Lanes per_length = length2.max(1.0f).rsqrt();  // 1: for a primitive without area, or less than a step's
   const double step2 = 1 / (static_cast<double>(block.per_step) * static_cast<double>(block.per_step));
   Mat3 sum;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -81,8 +81,8 @@ Mat3 facing(const WideBlock& block) {
   return sum;
 }
 
-// The least rotation that takes the nearest axis to `normal`: boxes of neighbours, cut along the axes, then lie side by
-// side. Rows are the frame's axes.
+// The smallest rotation that takes the nearest axis to `normal`: boxes of neighbours, split along the axes, then lie
+// side by side. Rows are the axes of the frame.
 Mat3 rotationTo(const Vec3& normal) {
   Eigen::Index axis = 0;
   normal.cwiseAbs().maxCoeff(&axis);
@@ -90,13 +90,15 @@ Mat3 rotationTo(const Vec3& normal) {
   return Eigen::Quaterniond::FromTwoVectors(normal, from).toRotationMatrix();
 }
 
-// Below this part of all, a common direction of faces is of no use: the axes will do.
+// Below this fraction of the total, a common direction of faces gives no advantage and the axes are used.
 constexpr double kCommon = 0.7;
 
-// Nodes higher above the blocks are large beside a sphere and their faces point everywhere; turning a query costs time.
+// Maximum height of nodes with a frame. Higher nodes are large compared to a sphere and their faces point in all
+// directions, and turning a query takes time.
 constexpr int kTurnedHeight = 2;
 
-// Shrunk so that rounding the frame to whole parts of kFrameOne, sqrt(9) / 2 of them in all, lengthens no vector.
+// The frame is scaled down so that rounding it to multiples of 1 / kFrameOne, with an error of at most sqrt(9) / 2 of
+// them, lengthens no vector.
 void setFrame(WideNode& node, const Mat3& faces) {
   constexpr double kShrunk = 1 - 2 / static_cast<double>(kFrameOne);
   const Eigen::SelfAdjointEigenSolver<Mat3> directions(faces);
@@ -113,7 +115,7 @@ void setFrame(WideNode& node, const Mat3& faces) {
 
 struct Beneath {
   Mat3 faces = Mat3::Zero();
-  int height = 0;  // nodes down to the farthest block
+  int height = 0;  // number of nodes down to the farthest block
 };
 
 // NOLINTNEXTLINE(misc-no-recursion): to the tree's bounded depth
@@ -150,8 +152,7 @@ Mat3 frameOf(const WideNode& node) {
 }
 
 FloatBox boxIn(const WideNode& node, const WideBlock& block) {
-  constexpr double kPacked =
-      1;  // steps: a vertex is off by at most sqrt(3) / 2, the products by far less than the rest
+  constexpr double kPacked = 1;  // steps: the error of a vertex is at most sqrt(3) / 2, that of the products far less
   const Mat3 frame = frameOf(node);
   const auto corners = cornersOf(block);
   Vec3 low, high;
@@ -178,7 +179,7 @@ FloatBox laneOf(const WideNode& node, std::size_t lane) {
   return box;
 }
 
-// Around the boxes of a node below, turned from its frame into that of `node`.
+// Bounds, in the frame of `node`, of the boxes of its child node.
 FloatBox boxIn(const WideNode& node, const WideNode& child) {
   const Mat3 turn = frameOf(node) * frameOf(child).inverse();
   const Mat3 sizes = turn.cwiseAbs();
@@ -218,7 +219,7 @@ Eigen::Array3d sidesOf(const FloatBox& box) { return (box.max - box.min).head<3>
 
 double halfArea(const Eigen::Array3d& sides) { return sides[0] * sides[1] + sides[1] * sides[2] + sides[2] * sides[0]; }
 
-// Of the boxes of its children, each grown so far.
+// Total area of the boxes of its children, each enlarged by `grown`.
 double areaBeneath(const WideNode& node, double grown) {
   double sum = 0;
   for (std::size_t lane = 0; lane < kWide; ++lane) {
@@ -250,7 +251,7 @@ double costOf(const HugeVector<WideNode>& nodes) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) sum += areaBeneath(nodes[i], grown);
     return sum;
   };
-  // Deterministic: sums in an order that does not depend on the number of threads.
+  // Deterministic: the order of the sum does not depend on the number of threads.
   const double sum =
       oneapi::tbb::parallel_deterministic_reduce(Range(0, nodes.size(), kGrain), 0.0, add, std::plus<>());
   return sum / halfArea(sidesOf(root) + grown);

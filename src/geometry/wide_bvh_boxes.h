@@ -1,6 +1,6 @@
-// The nodes of a WideBvh: frames along the faces beneath them, and the boxes of their children there. On a slope, boxes
-// along the axes stick out of the surface, so a sphere that touches it enters many that it does not touch; boxes along
-// the slope do not.
+// The nodes of a WideBvh: frames aligned with the faces below them, and the boxes of their children in these frames. On
+// a slope, axis-aligned boxes extend beyond the surface, so a sphere in contact enters many boxes without touching
+// their contents. Boxes aligned with the slope avoid this.
 #pragma once
 
 #include "base/huge_pages.h"
@@ -8,14 +8,14 @@
 
 namespace hl {
 
-/// Sets the frame of each node. O(n), on all threads that oneTBB has; the result does not depend on their number.
+/// Sets the frame of each node. O(n) on all threads of oneTBB; the result does not depend on their number.
 void orient(HugeVector<WideNode>& nodes, const HugeVector<WideBlock>& blocks);
 
-/// The nodes with their boxes, each in its frame, around the blocks where they are now. As orient().
+/// The nodes with the bounds of their children, each in its frame, for the current blocks. Complexity as orient().
 HugeVector<WideNode> enclosed(const HugeVector<WideNode>& nodes, const HugeVector<WideBlock>& blocks);
 
-/// Boxes entered by a small query somewhere in the root's box: the sum of their areas in parts of the root's. 0 for no
-/// nodes.
+/// Expected number of boxes that a small query in the root's box enters: the sum of the box areas divided by the root's
+/// area. 0 for no nodes.
 double costOf(const HugeVector<WideNode>& nodes);
 
 }  // namespace hl

@@ -14,20 +14,20 @@ namespace {
 using Array4f = Eigen::Array4f;
 
 constexpr std::size_t kBins = 16;
-constexpr std::size_t kParallelBlocks = 512;  // below, a task costs more than it brings
+constexpr std::size_t kParallelBlocks = 512;  // below this a task costs more than it saves
 
 int levelsByHalving(std::size_t blocks) { return blocks < 2 ? 0 : static_cast<int>(std::bit_width(blocks - 1)); }
 
 std::size_t blocksFor(std::size_t primitives) { return (primitives + kWide - 1) / kWide; }
 
-// Twice the centre, which orders as well and rounds less.
+// Twice the centre: the same order with less rounding.
 Array4f middle(const FloatBox& box) { return box.min + box.max; }
 
 struct Extent {
   FloatBox box, middles;
 };
 
-// Numbers the bins of the middles along the three axes. An axis on which they hardly differ has one bin.
+// Assigns bins to the centres along the three axes. An axis on which they hardly differ has one bin.
 class Binning {
  public:
   explicit Binning(const FloatBox& middles) : low_(middles.min) {
@@ -63,14 +63,14 @@ struct Bin {
 };
 using Bins = std::array<Bin, kBins>;
 
-// Before which bin of which axis to cut; no axis is best when all primitives are in one bin.
+// The split: before a bin of an axis. There is no best axis if all primitives are in one bin.
 struct Cut {
   float cost = std::numeric_limits<float>::infinity();
   std::size_t axis = 3;
   std::size_t bin = 0;
 };
 
-// Cost of a child: its area times its number of blocks, as each block that is entered costs the same, full or not.
+// Cost of a child: its area times its number of blocks, as a block costs the same whether it is full or not.
 float costOf(const Bin& child) { return child.box.halfArea() * static_cast<float>(blocksFor(child.count)); }
 
 void improve(const Bins& bins, std::size_t axis, Cut& best) {
@@ -137,7 +137,7 @@ class BinaryTreeBuilder {
     return extent;
   }
 
-  // Orders the run so that its first blocks go left; returns how many.
+  // Orders the run so that the primitives of the left child come first; returns their number of blocks.
   std::size_t split(Run run, const FloatBox& middles, int depth) const {
     const std::size_t blocks = blocksFor(run.size());
     const Binning binning(middles);
@@ -173,8 +173,8 @@ class BinaryTreeBuilder {
     return best;
   }
 
-  // A run parted at `from` along the axis is parted at `to` instead, so that the blocks of the left child are full: the
-  // few between are those of the larger side that lie nearest to the other.
+  // Moves the split of a run from `from` to `to` along the axis, so that the blocks of the left child are full. The few
+  // primitives between are those of the larger side that are nearest to the other side.
   static void moveBoundary(Run run, std::size_t from, std::size_t to, std::size_t axis) {
     const auto i = static_cast<Eigen::Index>(axis);
     const auto at = [&](const BoxedPrimitive& p) { return p.box.min[i] + p.box.max[i]; };

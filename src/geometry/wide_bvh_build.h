@@ -1,4 +1,4 @@
-// The first half of building a WideBvh: a binary tree of boxes whose leaves are runs of eight primitives.
+// The first part of building a WideBvh: a binary tree of boxes whose leaves are runs of eight primitives.
 #pragma once
 
 #include <array>
@@ -12,10 +12,10 @@
 
 namespace hl {
 
-/// A primitive in the making: its box, rounded outward, and its number in the free lanes.
+/// A primitive during the build: its box, rounded outward, with its number in the unused lanes.
 struct BoxedPrimitive {
   FloatBox box;
-  // In two halves, as numbers: the bits of an integer may be a float that slows arithmetic down.
+  // Stored as two numbers: the bits of an integer could be a denormal float, which slows arithmetic down.
   void setNumber(std::uint32_t number) {
     box.min[3] = static_cast<float>(number & 0xffffu);
     box.max[3] = static_cast<float>(number >> 16);
@@ -32,8 +32,8 @@ struct BinaryNode {
 };
 
 struct BinaryTree {
-  std::vector<BoxedPrimitive> primitives;  ///< block k has those from 8 k up to 8 (k + 1)
-  std::vector<BinaryNode> nodes;           ///< number k splits before block k, so number 0 is unused
+  std::vector<BoxedPrimitive> primitives;  ///< block k holds primitives 8 k to 8 (k + 1) - 1
+  std::vector<BinaryNode> nodes;           ///< node k splits before block k, so node 0 is unused
   std::vector<FloatBox> blocks;
   std::uint32_t root = kBlockLink;
 

@@ -1,5 +1,6 @@
-// A query in single precision, for the boxes of a WideBvh and for the packed coordinates of one block. All margins are
-// on the side of proposing too much: distances grow by more than single precision can be off.
+// A query in single precision, for the boxes of a WideBvh and for the quantised coordinates of one block. All margins
+// are conservative: distances grow by more than the error of single precision, so too much is proposed, never too
+// little.
 #pragma once
 
 #include <algorithm>
@@ -10,15 +11,15 @@
 
 namespace hl {
 
-/// Of all coordinates that take part: some sixteen roundings of 2^-24 each; none of the sums has more.
+/// Relative error over all coordinates involved: about sixteen roundings of 2^-24 each; no sum has more.
 inline constexpr double kWideRounding = 1e-6;
 
 inline double largestOf(const double (&v)[3]) { return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])}); }
 
-/// The same for boxes: their frame adds a product and a sum of three to each coordinate.
+/// The same for boxes: the frame adds a product and a sum of three terms per coordinate.
 inline constexpr double kFramedRounding = 3e-6;
 
-/// The moving sphere for boxes, up to `limit` (a fraction of the motion).
+/// The moving sphere for box tests, up to `limit` (a fraction of the motion).
 struct BoxQuery {
   alignas(16) float from[4], motion[4];  ///< the fourth is 0
   float reach2, limit;
@@ -26,7 +27,7 @@ struct BoxQuery {
 
 /// Shortens the way to `limit`.
 inline void setLimit(BoxQuery& box, double limit) {
-  constexpr float kLater = 1 + 1e-6f;  // of the time: its own rounding
+  constexpr float kLater = 1 + 1e-6f;  // factor on the time, for its rounding
   box.limit = static_cast<float>(limit) * kLater;
 }
 
@@ -43,16 +44,16 @@ inline BoxQuery boxQuery(const WideTree& tree, const WideQuery& query) {
   return box;
 }
 
-/// The moving sphere in the packed coordinates of a block.
+/// The moving sphere in the quantised coordinates of a block.
 struct BlockQuery {
   float from[3], motion[3];
   float reach;
 };
 
 inline BlockQuery blockQuery(const WideBlock& block, const WideQuery& query) {
-  constexpr double kPacked = 1;           // steps: a vertex is off by at most sqrt(3) / 2
+  constexpr double kPacked = 1;           // steps: the error of a vertex is at most sqrt(3) / 2
   constexpr double kBlockSize = 1 << 17;  // more than the sum of the coordinates of a vertex
-  constexpr double kMaxSize = 1e18;       // steps: sums of its squares are numbers of single precision
+  constexpr double kMaxSize = 1e18;       // steps: sums of its squares do not overflow single precision
   const double per_step = block.per_step;
   double from[3], motion[3], size = kBlockSize;
   for (int i = 0; i < 3; ++i) {
@@ -61,7 +62,7 @@ inline BlockQuery blockQuery(const WideBlock& block, const WideQuery& query) {
     size += std::abs(from[i]) + std::abs(motion[i]);
   }
   const double reach = query.reach * per_step;
-  // For a block so small beside the query single precision decides nothing: all of it may be touched.
+  // A block this small compared to the query cannot be tested in single precision: all its primitives are proposed.
   const bool told = size + reach < kMaxSize;
   BlockQuery packed;
   for (int i = 0; i < 3; ++i) {

@@ -17,14 +17,14 @@ namespace {
 
 using Links = FixedVector<std::uint32_t, kWide>;
 
-// Which binary nodes become wide ones: those whose boxes have the least total area, as the chance that a query enters a
-// box grows with its area. By dynamic programming from the blocks up (Ylitie et al. 2017): cost(link, m) is the least
-// cost of a subtree given as at most m children of a wide node above it.
+// Chooses the binary nodes that become wide nodes: those with the least total box area, as the probability that a query
+// enters a box grows with its area. Dynamic programming from the blocks up (Ylitie et al. 2017): cost(link, m) is the
+// minimum cost of a subtree represented by at most m children of a wide node above it.
 class Collapse {
  public:
   explicit Collapse(const BinaryTree& tree) : tree_(tree), cost_(tree.nodes.size()) { fill(tree.root); }
 
-  // The children of the wide node that stands for `link`.
+  // The children of the wide node for `link`.
   Links childrenOf(std::uint32_t link) const {
     Links links;
     part(link, kWide, links);
@@ -34,7 +34,7 @@ class Collapse {
  private:
   struct Shares {
     float cost;
-    std::size_t left;  // of the m children, those that stand for the left side
+    std::size_t left;  // number of the m children for the left side
   };
 
   float cost(std::uint32_t link, std::size_t m) const { return isBlock(link) ? 0 : cost_[link][m - 1]; }
@@ -64,7 +64,7 @@ class Collapse {
     place(child[1], m - best.left, links);
   }
 
-  // As one child where that is no dearer than as several.
+  // Uses one child if that costs no more than several.
   void place(std::uint32_t link, std::size_t m, Links& links) const {
     while (m > 1 && cost(link, m) == cost(link, m - 1)) --m;
     if (m == 1) {
@@ -104,14 +104,14 @@ class Widener {
   int depth_ = 0;
 };
 
-// Smallest power of two by which `largest` becomes at most what 16 bits hold.
+// The step: the smallest power of two such that `largest`, divided by it, fits into 16 bits.
 double stepFor(double largest) {
   int exponent = 0;
   std::frexp(largest / std::numeric_limits<std::int16_t>::max(), &exponent);
   return std::ldexp(1.0, exponent);
 }
 
-// One block in the making. Its lanes have their primitives' numbers.
+// A block during packing. Its lanes hold the numbers of their primitives.
 class BlockPacker {
  public:
   BlockPacker(WideBlock& block, std::size_t count, const Primitives& primitives, const BlockScale& scale)
@@ -147,7 +147,7 @@ class BlockPacker {
   using Corners = Eigen::Array<double, 3 * kWide, 3>;
 
   void packAxis(Eigen::Index axis, double per_step) {
-    // Adding so much leaves the nearest whole number in the last bits.
+    // Adding this number leaves the nearest integer in the low bits.
     constexpr double kWholeInLastBits = 1.5 * (1LL << 52);
     const Eigen::Array<double, 3 * kWide, 1> steps =
         (at_.col(axis) - static_cast<double>(block_.origin[axis])) * per_step + kWholeInLastBits;
@@ -162,7 +162,7 @@ class BlockPacker {
   WideBlock& block_;
   const std::size_t count_;
   const double smallest_;
-  Corners at_;  // of vertex after vertex, lane by lane; lanes without a primitive repeat the first
+  Corners at_;  // by vertex, then by lane; lanes without a primitive repeat the first
 };
 
 std::size_t primitivesOf(std::size_t block, std::size_t all) { return std::min(kWide, all - block * kWide); }

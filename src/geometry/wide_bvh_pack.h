@@ -1,4 +1,4 @@
-// The second half of building a WideBvh: the binary tree becomes nodes of eight children, its runs become blocks.
+// The second part of building a WideBvh: the binary tree is converted to nodes of eight children, its runs to blocks.
 #pragma once
 
 #include <span>
@@ -14,12 +14,12 @@ namespace hl {
 /// The box of a primitive's corners relative to `origin`, rounded outward.
 BoxedPrimitive boxed(const std::array<Vec3, 3>& corners, std::uint32_t number, const Vec3& origin);
 
-/// Nodes in depth-first order, their frames and boxes not set yet; none for a tree of one block; `depth` becomes the
-/// number of nodes on the longest path.
+/// Nodes in depth-first order, without frames and boxes; none for a tree of one block. `depth` is set to the number of
+/// nodes on the longest path.
 HugeVector<WideNode> widen(const BinaryTree& tree, int& depth);
 
-/// What the coordinates of blocks are relative to. Blocks count as at least `smallest` (m) large, which keeps the
-/// coordinates of a query in their steps in range.
+/// Origin of the coordinates of blocks, and their minimum size. Smaller blocks count as `smallest` (m), so that the
+/// coordinates of a query in quantisation steps stay in range.
 struct BlockScale {
   Vec3 origin;
   double smallest;
@@ -27,7 +27,7 @@ struct BlockScale {
 
 HugeVector<WideBlock> pack(const BinaryTree& tree, const Primitives& primitives, const BlockScale& scale);
 
-/// The same primitives in the same lanes, where they are now.
+/// The same primitives in the same lanes, at their current positions.
 HugeVector<WideBlock> repack(const HugeVector<WideBlock>& blocks, const Primitives& moved, const BlockScale& scale);
 
 }  // namespace hl

@@ -1,14 +1,14 @@
-// Compiled once for each instruction set (foreach_target includes this file again). Multiplications and additions stay
-// apart, never fused, so that all sets round alike.
+// Compiled once for each instruction set (foreach_target includes this file again). Multiplications and additions are
+// never fused, so that all instruction sets round alike.
 #include "geometry/wide_bvh_query.h"
 
 #include <algorithm>
 #include <iterator>
 #include <utility>
 
-// Their vectors have no size at compile time, so they cannot be members.
+// Vectors of these sets have no size at compile time, so they cannot be members.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
-// The scalar code too, everywhere, so that it is tested everywhere.
+// Also compiles the scalar code on every machine, so that it is tested.
 #define HWY_COMPILE_ALL_ATTAINABLE
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "geometry/wide_bvh_query.cpp"
@@ -28,7 +28,7 @@ HWY_INLINE unsigned usedLanes(const WideTree& tree, std::uint32_t block) {
   return left >= kWide ? 0xffu : (1u << left) - 1;
 }
 
-// Numbers of blocks that are looked at together.
+// Numbers of blocks that are tested together.
 struct FewNumbers {
   std::uint32_t block[kFewBlocks];
   std::size_t count;
@@ -56,7 +56,7 @@ using Boxes = hn::CappedTag<float, kWide>;
 constexpr Boxes kBoxes;
 constexpr std::size_t kBoxLanes = hn::MaxLanes(kBoxes);
 
-// By axis of a node's frame; the fourth is of no use.
+// By axis of a node's frame; the fourth is unused.
 using Axes = hn::CappedTag<float, 4>;
 constexpr Axes kAxes;
 constexpr std::size_t kAxisLanes = hn::MaxLanes(kAxes);
@@ -74,7 +74,7 @@ HWY_INLINE PerAxis framed(const WideNode& node, std::size_t lane, const float (&
   return hn::Mul(hn::Add(hn::Add(part(0), part(1)), part(2)), hn::Set(kAxes, 1 / kFrameOne));
 }
 
-// The box of the way up to the limit, in the frame of a node or that of the hierarchy.
+// Bounds of the way up to the limit, in the frame of a node or of the hierarchy.
 struct Way {
   HWY_ALIGN float min[4], max[4];
 };
@@ -95,7 +95,7 @@ HWY_INLINE void turn(Way& way, const BoxQuery& query, const WideNode& node) {
     setEnd(way, lane, framed(node, lane, query.from), framed(node, lane, query.motion), query.limit);
 }
 
-// Square of the distance between the box of the way and the boxes from `lane` on.
+// Squared distance between the bounds of the way and the boxes from `lane` on.
 HWY_INLINE hn::Vec<Boxes> distance2(const WideNode& node, std::size_t lane, const Way& way) {
   auto sum2 = hn::Zero(kBoxes);
   for (int axis = 0; axis < 3; ++axis) {
@@ -109,7 +109,7 @@ HWY_INLINE hn::Vec<Boxes> distance2(const WideNode& node, std::size_t lane, cons
   return sum2;
 }
 
-// The set bits of each number, the lowest first.
+// The positions of the set bits of each number, the lowest first.
 struct SetBits {
   std::uint8_t of[1 << kBoxLanes][kWide] = {};
 
@@ -124,9 +124,9 @@ struct SetBits {
 };
 constexpr SetBits kSetBits;
 
-// Writes the links of the children that the sphere may enter to the end of a list of `count`; returns how many it
-// holds. Writes a vector, of which what is beyond them means nothing. (Where the processor cannot compress, Highway's
-// Compress has a table, which GCC copies to the stack each time: a kilobyte a node.)
+// Appends the links of the children that the sphere may enter to a list of `count` links; returns the new length. It
+// writes a whole vector, whose elements beyond the new length are meaningless. (On processors without a compress
+// instruction Highway's Compress uses a table, which GCC copies to the stack each time: a kilobyte per node.)
 HWY_INLINE std::size_t addOverlapped(const WideNode& node, const BoxQuery& query, const Way& way, std::uint32_t* links,
                                      std::size_t count) {
   const hn::RebindToUnsigned<Boxes> whole;
@@ -148,10 +148,10 @@ HWY_INLINE std::size_t takeLowest(unsigned& bits) {
   return lane;
 }
 
-// Every block whose box the sphere may enter up to the limit, a few at a time; look() may shorten the limit. First come
-// first served: then what is looked at next does not hang on what the last look finds, and the processor has both in
-// hand at once. Where too many wait, the last come is served, as those that a depth-first walk leaves waiting are few.
-// Returns how many boxes and triangles it has looked at.
+// Calls look() for all blocks whose boxes the sphere may enter up to the limit, a few at a time; look() may reduce the
+// limit. The waiting nodes form a queue (first in, first out): the next node then does not depend on the result of the
+// last test, and the processor can work on both at once. If too many wait, the last one is taken, as in a depth-first
+// traversal, which keeps few waiting. Returns the number of boxes and triangles visited.
 template <typename Look>
 HWY_INLINE std::size_t forEachFew(const WideTree& tree, const BoxQuery& query, const Look& look) {
   constexpr std::size_t kMaxWaiting = 256;
@@ -189,7 +189,8 @@ std::size_t overlap(const WideTree& tree, const WideQuery& query, FunctionRef<vo
   });
 }
 
-// Looks at a part of the way, and at larger ones only where nothing is hit: goals are far, and most ways end soon.
+// Searches a first part of the way, and larger parts only if nothing is hit: goals are far away, and most ways end
+// soon.
 class Sweep {
  public:
   HWY_INLINE Sweep(const WideTree& tree, const WideQuery& query, FunctionRef<double(ElementId, double)> visit)
@@ -208,7 +209,7 @@ class Sweep {
   }
 
  private:
-  // `entry` is a lower bound of when it is touched.
+  // `entry` is a lower bound of the time at which it is touched.
   struct Candidate {
     std::uint32_t primitive;
     float entry;
@@ -233,8 +234,8 @@ class Sweep {
     }
   }
 
-  // The earliest first, as each impact found spares those after it: so candidates wait until the walk has ended or
-  // there are too many. Most are spared, so they are not sorted.
+  // Proposes the earliest candidate first, as an impact removes all later candidates. So candidates wait until the
+  // traversal ends or there are too many. Most are removed, so they are not sorted.
   HWY_INLINE void propose() {
     for (; candidate_count_ > 0; --candidate_count_) {
       Candidate* const end = candidates_ + candidate_count_;
@@ -247,8 +248,8 @@ class Sweep {
     candidate_count_ = 0;
   }
 
-  // The earliest first. Where it spares fewer than half of the others, so many are touched that choosing takes longer
-  // than it spares: then all in a row.
+  // Proposes the earliest first. If it removes fewer than half of the others, very many primitives are touched, and
+  // choosing takes longer than it saves: then all are proposed in sequence.
   void proposeMany() {
     const auto sooner = [](const Candidate& a, const Candidate& b) { return a.entry < b.entry; };
     Candidate* end = candidates_ + candidate_count_;
@@ -271,8 +272,9 @@ class Sweep {
     if (proposed_count_ < kMaxCandidates) proposed_[proposed_count_++] = primitive;
   }
 
-  // By an earlier walk. The order of entry would not say: the box of its block may have been entered later, and then
-  // no walk has looked at it. One that did not fit in is proposed again, which does no harm.
+  // Whether an earlier traversal proposed it. The time at which it was entered does not show this: the box of its block
+  // may have been entered later, and then no traversal has tested it. A candidate that did not fit into the list is
+  // proposed again, which does no harm.
   HWY_INLINE bool wasProposed(std::uint32_t primitive) const {
     const std::uint32_t* end = proposed_ + proposed_before_;
     return std::find(proposed_, end, primitive) != end;
@@ -284,11 +286,11 @@ class Sweep {
   const WideQuery& query_;
   FunctionRef<double(ElementId, double)> visit_;
   BoxQuery box_;
-  double limit_ = 1;    // of the part looked at
-  double soonest_ = 1;  // impact; rounding may put the first a little beyond the part in which it is proposed
+  double limit_ = 1;    // limit of the part that is searched
+  double soonest_ = 1;  // earliest impact; by rounding it may be a little beyond the part in which it is proposed
   std::size_t candidate_count_ = 0;
   Candidate candidates_[kMaxCandidates];
-  std::size_t proposed_count_ = 0, proposed_before_ = 0;  // in all; by earlier walks
+  std::size_t proposed_count_ = 0, proposed_before_ = 0;  // in total; by earlier traversals
   std::uint32_t proposed_[kMaxCandidates];
 };
 

@@ -1,5 +1,5 @@
-// How a WideBvh is asked: walks over its nodes and blocks, compiled for every instruction set the program may meet and
-// chosen when it runs. Each proposes the same candidates in the same order.
+// Queries of a WideBvh: traversals of its nodes and blocks, compiled for every supported instruction set and selected
+// at run time. All versions propose the same candidates in the same order.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace hl {
 
 /// See SpatialIndex. RT-safe.
 std::size_t overlapWide(const WideTree& tree, const WideQuery& query, FunctionRef<void(ElementId primitive)> visit);
-/// `first_part`: of the motion, 0 < first_part <= 1; what is looked at before the rest.
+/// `first_part`: the fraction of the motion that is searched first, 0 < first_part <= 1.
 std::size_t sweepWide(const WideTree& tree, const WideQuery& query, double first_part,
                       FunctionRef<double(ElementId primitive, double limit)> visit);
 

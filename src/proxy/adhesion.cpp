@@ -40,7 +40,7 @@ class HeldTick {
   }
 
  private:
-  /// m, world: how far the finger is off along the normal, and how far it may be.
+  /// m, world: distance of the finger from the proxy along the normal, and the maximum at which the contact holds.
   double pull(const AdheringContact& contact) const { return contact.normal.dot(finger_ - state_.position); }
   double room(const AdheringContact& contact) const { return contact.adhesion_N * world_per_N_; }
   bool pulled() const {
@@ -76,7 +76,7 @@ class HeldTick {
     return springEnergy_J(settings_.spring_N_m, state.stiffness, square_D);
   }
 
-  // The report is of the finger, not of the goal.
+  // Accepts a tick toward another goal: books its energy and converts the report from that goal to the finger.
   void take(ProxyState& there, double added_J, TickReport& report) {
     there.ledger = state_.ledger;
     there.ledger.book(added_J, true);
@@ -93,11 +93,11 @@ class HeldTick {
     const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> shares = normals.colPivHouseholderQr().solve(whole);
     for (std::size_t i = 0; i < report.contacts.size(); ++i) {
       report.contacts[i].multiplier_m = shares[static_cast<Eigen::Index>(i)];
-      report.contacts[i].rough = true;  // it stays where it is put until the next tick
+      report.contacts[i].rough = true;  // the contact carries the proxy with the object until the next tick
     }
   }
 
-  // Of a tick that does not count: nothing has moved.
+  // Report of a tick that does not count: the proxy has not moved.
   TickReport stay(const TickReport& tried) {
     TickReport report;
     report.ending = Ending::kOutOfWork;
@@ -110,7 +110,7 @@ class HeldTick {
 
   TickReport toFinger(int looks) { return tickTo(finger_, state_, looks); }
 
-  /// After so many looks.
+  /// A tick toward `goal`, after `looks` looks of earlier attempts.
   TickReport tickTo(const Vec3& goal, ProxyState& state, int looks) const {
     TickReport report = Tick(scene_, settings_, state, goal, most_looks_ - looks).run();
     report.looks += looks;
@@ -124,7 +124,7 @@ class HeldTick {
   const Vec3 finger_;
   const int most_looks_;
   const double world_per_N_;
-  AdheringContacts holding_;  // that the pull has not overcome
+  AdheringContacts holding_;  // contacts whose adhesion exceeds the pull
 };
 
 }  // namespace

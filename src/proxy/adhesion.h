@@ -1,11 +1,11 @@
-// Adhesion: surfaces that keep the proxy until it is pulled off by more than their adhesion A.
+// Adhesion: surfaces that hold the proxy until the pull exceeds their adhesion A.
 //
-// While such a surface holds the proxy, the tick's goal is not the finger but a place beneath the surface: the finger
-// on the tangent plane, pressed by what of A the pull leaves, by a radius at most. So the proxy follows the surface,
-// and friction acts as if it were pressed by N + A (Derjaguin, Muller, Toporov 1975: the adhesive force adds to the
-// load). A tick to this goal counts only if the proxy comes no farther from the finger by it: adhesion never adds to
-// the energy of the spring. Where it does not count the proxy stays where it is, as long as the pull is below A, or
-// lets go.
+// While such a surface holds the proxy, the goal of the tick is not the finger but a point below the surface: the
+// finger projected onto the tangent plane, and lowered by what the pull leaves of A, at most by a radius. So the proxy
+// follows the surface, and friction acts as for a normal force of N + A (Derjaguin, Muller, Toporov 1975: the adhesive
+// force adds to the load). A tick to this goal counts only if the proxy comes no farther from the finger: adhesion
+// never adds energy to the spring. If the tick does not count, the proxy stays where it is while the pull is below A,
+// and is released otherwise.
 #pragma once
 
 #include "proxy/proxy_state.h"
@@ -14,11 +14,12 @@
 
 namespace hl {
 
-/// A tick of a proxy that `state.adhering` holds. RT-safe; at most three ticks that share one budget of work.
+/// A tick of a proxy that is held by the contacts `state.adhering`. RT-safe; at most three ticks, which share one work
+/// limit.
 TickReport tickHeld(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger,
                     int most_looks);
 
-/// Those of the contacts whose surfaces are adhesive. RT-safe.
+/// The contacts of the report whose surfaces are adhesive. RT-safe.
 AdheringContacts adheringOf(const SceneAt& scene, const ProxySettings& settings, const TickReport& report);
 
 }  // namespace hl

@@ -1,5 +1,5 @@
-// BackOff: exponential back-off. After the n-th failure in a row the next 2^n tries are skipped, 1024 at most, so a
-// method that never works costs almost nothing.
+// BackOff: after the n-th failure in a row, skips the next 2^n tries, at most 1024. A method that never works then
+// costs almost nothing.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace hl {
 /// Plain values; RT-safe.
 class BackOff {
  public:
-  /// Counts one try; false: skip it.
+  /// Counts one try. Returns false if it is to be skipped.
   bool mayTry() {
     if (left_out_ == 0) return true;
     --left_out_;
@@ -21,7 +21,7 @@ class BackOff {
     failures_ = std::min(failures_ + 1, convergence::kMaxFailures);
     left_out_ = 1 << failures_;
   }
-  /// Resets the count of failures.
+  /// Resets the number of failures. Must be called after a success, otherwise tries become ever rarer.
   void worked() { failures_ = 0; }
 
  private:

@@ -8,8 +8,8 @@
 
 namespace hl {
 
-// Each step is swept by a part of the largest sphere that is clear of the scene where it starts. It is cut to one
-// radius: planes that all but face each other have their first place clear of all of them at any distance.
+// Each step is swept with a fraction of the largest sphere that is clear of the scene at its start. Its length is
+// limited to one radius, because planes that almost face each other may have their first common point at any distance.
 bool findClearPlace(const SceneAt& scene, const Tolerances& tolerance, int tries, Vec3& position) {
   ContactSet set;
   for (int i = 0; i < tries; ++i) {

@@ -16,8 +16,8 @@ void Constraints::gather(const Vec3& position, const Vec3& toward, SweepCache& c
   gatherContacts(input_.scene, position, toward, input_.tolerance.touching, input_.tolerance.reach, cache, set_);
 }
 
-// Whether no step is above all planes, or only one that leads away from the goal by much more than the proxy is below
-// them: where planes all but face each other, they cross where rounding says.
+// Whether the subproblem is infeasible, or its step leads away from the goal by much more than the proxy is below the
+// planes. The second happens where planes almost face each other: rounding decides where they intersect.
 bool Constraints::strays(const Vec3& gap) const {
   if (solved_.violation > input_.tolerance.feasible) return true;
   if (set_.planes.size() < 2) return false;
@@ -31,7 +31,7 @@ void Constraints::nearestTo(const Vec3& gap, Proposal& proposal) {
   if (strays(gap)) {
     relaxToCentre(set_);
     solved_ = nearestAbove(planesOf(set_), gap, input_.tolerance.feasible);
-    // Held from all sides, closer than rounding resolves: stay.
+    // The planes enclose the proxy more tightly than rounding can resolve: make no step.
     if (strays(gap)) solved_.point = Vec3::Zero();
   }
   proposal = {};
@@ -51,8 +51,9 @@ void Constraints::addCuts(const Vec3& position, const Vec3& gap, double slid_m, 
   cuts_in_a_row_ = counts ? cuts_in_a_row_ + 1 : 0;
 }
 
-// False where the cuts do not count; where the step goes so little that it is time to come down; and in the open where
-// it is much longer than the way slid since the last touch, as it would mostly end at once on something new.
+// Returns false if no cut is active; if the step is so short that the proxy should come down to the surface; and,
+// without contacts, if the step is much longer than the way slid since the last contact, as it would usually end at
+// once at a new primitive.
 bool Constraints::solveWithCuts(const Vec3& position, const Vec3& gap, double slid_m, Vec3& step) {
   RecentCuts::Planes planes;
   for (const Plane& plane : set_.planes) {

@@ -1,10 +1,10 @@
-// Constraints: the primitives that touch the proxy, and the step that they allow. Each obstacle is convex, so the
-// half-space above its tangent plane in configuration space is free of it. The step solves the convex subproblem:
+// Constraints: the contacts at the proxy's position, and the step that they allow. Each obstacle is convex, so the
+// half-space above its tangent plane in configuration space is free of it. The step solves the convex subproblem
 //
 //   min |x - goal|   above the plane of each contact, and of each recent cut (recent_cuts.h)
 //
-// Invariant: a proposed step, and each part of it, keeps the proxy `reach` away from all contacts, to within
-// Tolerances::feasible; and it ends no farther from the goal.
+// Invariant: at the end of a proposed step, and everywhere on it, the proxy is `reach` away from all current contacts,
+// to within Tolerances::feasible. The step ends no farther from the goal.
 #pragma once
 
 #include "base/vec.h"
@@ -21,22 +21,23 @@ class Constraints {
  public:
   explicit Constraints(const TickInput& input) : input_(input) {}
 
-  /// Finds the contacts of the proxy at `position`; `toward` is the way that it wants to go.
+  /// Gathers the contacts at `position`. `toward`: the vector to the goal; it decides which contacts are kept if there
+  /// are too many.
   void gather(const Vec3& position, const Vec3& toward, SweepCache& cache);
   const ContactSet& set() const { return set_; }
   bool touches() const { return !set_.contacts.empty(); }
 
-  /// Proposes the step toward a goal `gap` away, by the planes of the contacts.
+  /// Proposes the step toward a goal at the offset `gap`, above the planes of the contacts.
   void nearestTo(const Vec3& gap, Proposal& proposal);
-  /// The same by the recent cuts too, where they count: in the open only for steps up to some times `slid_m`, the way
-  /// slid since the last touch.
+  /// Replaces the step by one that is also above the recent cuts, if any of them is active. Without contacts only a
+  /// step of up to kMaxCutPerSlid times `slid_m` is taken. `slid_m`: the way slid since the last contact.
   void addCuts(const Vec3& position, const Vec3& gap, double slid_m, Proposal& proposal);
-  /// Cuts have not been asked for this time.
+  /// Resets the count of consecutive steps with cuts.
   void leaveCutsOut() { cuts_in_a_row_ = 0; }
-  /// What nearestTo() has solved last.
+  /// Solver result of the last nearestTo().
   const SolverResult& solved() const { return solved_; }
 
-  /// The proxy has moved by `step` and every contact has stayed on its face.
+  /// Updates the contacts for a proxy that has moved by `step`, when every contact has stayed on its face.
   void moveBy(const Vec3& step) { moveContacts(set_, step); }
 
  private:
@@ -47,7 +48,7 @@ class Constraints {
   ContactSet set_;
   SolverResult solved_;
   RecentCuts cuts_;
-  int cuts_in_a_row_ = 0;  // steps
+  int cuts_in_a_row_ = 0;  // consecutive steps with active cuts
 };
 
 }  // namespace hl

@@ -20,7 +20,7 @@ void clear(ContactSet& set) {
   set.crowd = set.twins_lost = false;
 }
 
-// Of a crowd those stay that the way goes into most; of equal ones, the nearest.
+// Order of the contacts of a crowd: first the planes that the motion `toward` enters most, then the nearest.
 struct Stays {
   Vec3 toward;
 
@@ -31,7 +31,7 @@ struct Stays {
   }
 };
 
-// The contacts of a crowd are a heap, whose first goes first.
+// The contacts of a crowd are a heap. Its first element is the next to be dropped.
 void addToCrowd(const Contact& contact, const Vec3& toward, ContactSet& set) {
   const Stays stays{toward};
   if (!set.crowd) std::make_heap(set.contacts.begin(), set.contacts.end(), stays);
@@ -93,7 +93,7 @@ void gatherContacts(const SceneAt& scene, const Vec3& centre, const Vec3& toward
   } else if (nearby.hasMeasured(centre, distance)) {
     for (const auto& [primitive, nearest] : nearby.measured()) add(scene, primitive, nearest, toward, reach, set);
   } else {
-    const double skin = distance - reach;  // by which rounding never errs
+    const double skin = distance - reach;  // larger than any rounding error
     nearby.beginMeasured(centre, distance);
     nearby.forEach(centre, centre, distance + skin, [&](PrimitiveId primitive) {
       ClosestPoint nearest;

@@ -1,4 +1,5 @@
-// Contacts: the primitives that touch the proxy, as planes of configuration space, in an order given by geometry alone.
+// Contacts: the primitives that touch the proxy, as planes of configuration space. Their order depends on the geometry
+// alone, not on the order of the search.
 #pragma once
 
 #include <array>
@@ -22,11 +23,11 @@ struct Contact {
   double distance = 0;        ///< m, from the proxy's centre
   Feature feature = Feature::kFace;
   PrimitiveId primitive;
-  std::array<double, 3> weights{1, 0, 0};  ///< of `point` in the primitive's sorted vertices
+  std::array<double, 3> weights{1, 0, 0};  ///< barycentric weights of `point` for the primitive's sorted vertices
 };
 
-/// Room for contacts of one place. Coincident ones count once, so this many *different* planes within the skin. More of
-/// them are a crowd, as at the bottom of a pit of many sides.
+/// Maximum number of contacts at one position. Contacts with bitwise equal planes count once, so this is the number of
+/// different planes within the skin. A larger number is a crowd, as at the bottom of a pit with many sides.
 inline constexpr std::size_t kMaxContacts = 64;
 
 inline constexpr std::size_t kMaxTwins = 256;
@@ -34,27 +35,27 @@ inline constexpr std::size_t kMaxTwins = 256;
 struct ContactSet {
   FixedVector<Contact, kMaxContacts> contacts;
   FixedVector<Plane, kMaxContacts> planes;  ///< contacts[i].plane, for the solver
-  /// Primitives that share the edge or vertex of a contact, and so its plane, bit by bit. If there are more than there
-  /// is room for, none is kept: the order in which they are met must not change the result.
+  /// Primitives that share the edge or vertex of a contact, and so have the same plane bit by bit. If they do not all
+  /// fit, none is kept, as the result must not depend on the order of the search.
   FixedVector<Contact, kMaxTwins> twins;
   bool twins_lost = false;
-  /// There are more contacts than room. Those are kept that `toward` goes into most, and no twins.
+  /// There were too many contacts. Those were dropped whose planes the motion `toward` enters least, and all twins.
   bool crowd = false;
 };
 
-/// All primitives within `distance` of `centre`, as planes that keep the centre `reach` away from them.
-/// Sorted by plane; of bitwise equal planes the primitive that precedes() is the contact, the others are twins.
-/// RT-safe.
+/// Fills `set` with all primitives within `distance` of `centre`, as planes that keep the centre `reach` away from
+/// them. Sorted by plane. Of bitwise equal planes, the primitive that comes first by precedes() is the contact, and the
+/// others are twins. RT-safe.
 void gatherContacts(const SceneAt& scene, const Vec3& centre, double distance, double reach, ContactSet& set);
-/// The same from the cache `nearby`, which is filled first where it does not cover the place. `toward`: the way that
-/// the proxy wants to go; it decides which contacts of a crowd are kept.
+/// The same, but searches only the cache `nearby`. If the cache does not cover `centre`, the scene is searched and the
+/// cache filled. `toward`: the intended motion; it decides which contacts of a crowd are kept.
 void gatherContacts(const SceneAt& scene, const Vec3& centre, const Vec3& toward, double distance, double reach,
                     SweepCache& nearby, ContactSet& set);
 
-/// The primitives of the set's contacts and twins. Returns false when there are more than fit. RT-safe.
+/// Lists the contacts and twins of the set. Returns false if there are too many. RT-safe.
 bool primitivesOf(const ContactSet& set, FixedVector<PrimitiveId, SweepCache::kRoom>& primitives);
 
-/// Whether one of the contacts has this plane, bit by bit. RT-safe.
+/// Whether a contact of the set has this plane, bit by bit. RT-safe.
 bool holdsBy(const ContactSet& set, const Plane& plane);
 
 /// Whether two contacts have the same plane, bit by bit. RT-safe.
@@ -62,13 +63,14 @@ inline bool samePlane(const Contact& a, const Contact& b) {
   return a.plane.normal == b.plane.normal && a.plane.offset == b.plane.offset;
 }
 
-/// The set after the proxy has moved by `step` (m) and every contact has stayed on its face. RT-safe.
+/// Updates the set for a proxy that has moved by `step` (m), when every contact has stayed on its face. RT-safe.
 void moveContacts(ContactSet& set, const Vec3& step);
 
-/// Lets every plane pass through the centre at least: used when the exact offsets contradict each other by rounding.
+/// Lowers the offset of every plane so that the centre is feasible (offset <= 0). Used when the exact offsets
+/// contradict each other by rounding.
 void relaxToCentre(ContactSet& set);
 
-/// Directions, as an orthogonal projector, in which a contact's configuration-space obstacle is curved with radius
+/// Orthogonal projector on the directions in which the contact's configuration-space obstacle is curved with radius
 /// `distance`: none for a face, across the edge for an edge, all tangents for a vertex.
 Mat3 curvedDirections(const Contact& contact, const SceneAt& scene);
 

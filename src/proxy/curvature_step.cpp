@@ -9,10 +9,10 @@ namespace hl {
 
 namespace {
 
-// How far a sphere about a vertex, or a cylinder about an edge, goes on toward `tangent` (unit, across the edge): the
-// tangent of the angle that the plane of the contact turns until another feature of its primitive is the nearest. At an
-// angle a the normal is cos(a) n + sin(a) tangent, and the feature is the nearest while no way from it into the
-// primitive has a positive part of that.
+// How far a vertex sphere or an edge cylinder extends toward `tangent` (unit, across the edge): the tangent of the
+// angle that the plane of the contact turns until another feature of the same primitive is the nearest. At an angle a
+// the normal is cos(a) n + sin(a) tangent. The feature is the nearest while no direction from it into the primitive has
+// a positive component along that normal.
 double turnOf(const Contact& contact, const SceneAt& scene, const Vec3& tangent) {
   const Primitive& primitive = scene.primitive(contact.primitive);
   const auto number = static_cast<std::size_t>(contact.feature);
@@ -23,7 +23,7 @@ double turnOf(const Contact& contact, const SceneAt& scene, const Vec3& tangent)
   double turn = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < static_cast<std::size_t>(primitive.kind); ++i) {
     if (on_edge ? primitive.kind != PrimitiveKind::kTriangle || i != here : i == here) continue;
-    // From the edge: what is along it is across neither the normal nor the tangent.
+    // From the edge: a component along the edge is perpendicular to both the normal and the tangent.
     const Vec3 into = primitive.vertex[i] - primitive.vertex[on_edge ? (here + 1) % 3 : here];
     const double closing = into.dot(toward);
     if (closing > 0) turn = std::min(turn, std::max(0.0, -into.dot(normal)) / closing);
@@ -31,7 +31,7 @@ double turnOf(const Contact& contact, const SceneAt& scene, const Vec3& tangent)
   return turn;
 }
 
-// The same of all primitives that share the feature, and with it the plane.
+// The minimum over all primitives that share the feature and its plane.
 double sharedTurn(const ContactSet& set, const Contact& contact, const SceneAt& scene, const Vec3& tangent) {
   double turn = turnOf(contact, scene, tangent);
   for (const Contact& twin : set.twins) {
@@ -40,9 +40,9 @@ double sharedTurn(const ContactSet& set, const Contact& contact, const SceneAt& 
   return turn;
 }
 
-// How many times as far as the plain step, of this length, a step in a direction of this curvature goes: Newton's, if
-// the distance to the goal has a minimum that way, else as far as it can; but no farther than to where the surface is
-// another, `turn_m` from here, and a little beyond, so that the next look finds it.
+// The length of the curved step divided by `length`, that of the plain step. It is Newton's step if the distance to the
+// goal has a minimum in this direction, else as long as possible. It ends at most a little beyond the end of the
+// surface, `turn_m` from here, so that the next look finds the next feature.
 double stretch(double curvature, double length, double turn_m, double reach, double boldness) {
   using namespace convergence;
   const double most = std::max(1.0, std::min(kLongestPerReach * reach, kTurnedBeyond * turn_m) / length);
@@ -50,10 +50,12 @@ double stretch(double curvature, double length, double turn_m, double reach, dou
   return 1 + boldness * (newton - 1);
 }
 
-// How much the obstacle curves away below a step in the direction of its projector: 1 for the whole radius.
+// Curvature term lambda_i / d_i of the obstacle in a curved direction; 1 if the finger lies on the axis or centre of
+// curvature.
 double curvatureOf(const Contact& contact, double multiplier) { return multiplier / contact.distance; }
 
-// On one surface. The tangents in which it is curved are curved alike, so the Hessian is 1 - curvature in them, else 1.
+// Step on one surface. All its curved tangents have the same curvature, so the Hessian is 1 - lambda / d in them, else
+// 1.
 Vec3 onSurface(const ContactSet& set, const SceneAt& scene, const Contact& contact, double multiplier,
                const Vec3& plain, double reach, double boldness) {
   const Vec3 part = curvedDirections(contact, scene) * plain;
@@ -63,7 +65,7 @@ Vec3 onSurface(const ContactSet& set, const SceneAt& scene, const Contact& conta
   return plain + (stretch(curvature, length, turn_m, reach, boldness) - 1) * part;
 }
 
-// Along the curve in which two surfaces meet; its curvature is that of both along it.
+// Step along the curve in which two surfaces meet. Its curvature term is the sum of theirs along it.
 Vec3 onCurve(const ContactSet& set, const SceneAt& scene, const SolverResult& proposal, double reach, double boldness) {
   const auto contact = [&](std::size_t i) -> const Contact& { return set.contacts[proposal.active[i]]; };
   const Vec3& plain = proposal.point;

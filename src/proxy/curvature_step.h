@@ -1,13 +1,13 @@
 // Newton's step along curved configuration-space obstacles (edge cylinders, vertex spheres).
 //
-// Minimise 1/2 |x - finger|^2 subject to d_i(x) = R for the active contacts. With multipliers lambda_i the Lagrangian's
-// Hessian is H = I - sum lambda_i P_i / d_i, P_i the projector on the curved directions. On the tangent space T of the
-// contacts the solver's step is the gradient step z0 = T' (finger - x); Newton's is z = (T' H T)^-1 z0. For one sphere
-// or cylinder, at angle theta from the line through its axis and the finger, z = R tan(theta): the point of the tangent
-// straight above the solution, from where the way to the finger meets it exactly. Where H is not positive, as for a
-// finger beyond the axis of an edge, there is no minimum to go to, but down either side. Either way the step goes no
-// farther than to where the sphere or cylinder ends, as another feature of a primitive that shares the edge or vertex
-// is the nearest from there on. The same along the curve in which two obstacles meet.
+// Minimise 1/2 |x - finger|^2 subject to d_i(x) = R for the active contacts. With multipliers lambda_i the Hessian of
+// the Lagrangian is H = I - sum lambda_i P_i / d_i, with P_i the projector on the curved directions. On the tangent
+// space T of the contacts the solver's step is the gradient step z0 = T' (finger - x); Newton's step is z = (T' H T)^-1
+// z0. For one sphere or cylinder, at angle theta from the line through its axis and the finger, z = R tan(theta): the
+// point of the tangent straight above the solution, from which the way to the finger meets the solution exactly. If H
+// is not positive, as for a finger beyond the axis of an edge, there is no minimum, and the proxy can descend on either
+// side. In both cases the step ends where the sphere or cylinder ends, because from there on another feature of a
+// primitive that shares the edge or vertex is the nearest. The same holds along the curve in which two obstacles meet.
 #pragma once
 
 #include <span>
@@ -19,8 +19,8 @@
 
 namespace hl {
 
-/// The step, if curvature matters here: an active contact is curved. `boldness`: 1, or less where such steps have not
-/// paid off, for a part of the step. RT-safe.
+/// The step, if an active contact is curved and the curvature matters; else returns false. `boldness`: the fraction of
+/// Newton's step to use, 1, or less after failures. RT-safe.
 bool curvatureStep(const ContactSet& set, const SceneAt& scene, const SolverResult& proposal,
                    const Tolerances& tolerance, double boldness, Vec3& step);
 

@@ -11,7 +11,7 @@ namespace {
 
 void bookCauses(Ledger& ledger, const EnergyBooking::Causes& causes, double moved_J, double stiffened_J) {
   if (moved_J > 0 && causes.shading + causes.bump == 0) {
-    ledger.add(EnergyCause::kStiffness, moved_J);  // pre-sliding springs that relax
+    ledger.add(EnergyCause::kStiffness, moved_J);  // pre-sliding springs that move the proxy back
   } else if (moved_J > 0) {
     const double bends = causes.shading + causes.bump;
     const double bump = causes.bump / bends;
@@ -50,16 +50,16 @@ double EnergyBooking::energy_J(double stiffness, double distance_squared) const 
   return springEnergy_J(settings_.spring_N_m, stiffness, distance_squared / (scale * scale));
 }
 
-// What a move of the proxy has done to the energy since the tick began: 1/2 K s (|e+|^2 - |e-|^2) by what lies between
-// the two places, so that it is right however far the finger is.
+// Energy change, J, by the proxy's motion since the tick began: 1/2 K s (|e+|^2 - |e-|^2). It is computed from the
+// difference of the two positions, so that it is accurate however far the finger is.
 double EnergyBooking::moved_J(const Vec3& proxy, double stiffness) const {
   const Vec3 apart = proxy - proxy_before_;
   return energy_J(stiffness, apart.dot((proxy - finger_) + (proxy_before_ - finger_)));
 }
 
-// Along the step |proxy - finger|^2 falls to its nearest point and rises beyond. What rises beyond is paid for in full:
-// paying for it with the fall before would let the proxy jump to its mirror image beyond the finger, and back in the
-// next tick.
+// Along the step |proxy - finger|^2 falls up to the nearest point and rises beyond it. The rise is paid for in full. If
+// the fall before it were credited, the proxy could jump to its mirror image beyond the finger, and back in the next
+// tick.
 double EnergyBooking::affordable(const Vec3& proxy, const Vec3& step) const {
   const double joule_per_square = energy_J(was_touching_ ? stiffness_before_ : 1, 1);
   if (!(joule_per_square > 0) || !std::isfinite(budget_J_)) return 1;

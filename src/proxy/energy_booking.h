@@ -1,10 +1,10 @@
-// EnergyBooking: one tick's entry in the energy ledger, and the target that comes out of it.
+// EnergyBooking: books the energy of one tick in the ledger and limits it, and computes the target from this.
 //
 //   before   E0 = 1/2 K s- |proxy- - finger|^2         after   E = 1/2 K s+ |proxy+ - finger|^2
-// at the same finger position, so E - E0 is the work of the tick's rules, not of the hand. In free space, and in the
-// tick of the first contact, s- = s+: making contact books nothing. A tick that ends in free space between a surface
-// and the finger has the stiffness of the surface that it left, and adds nothing; if it has met no surface, there is no
-// force.
+// Both use the same finger position, so E - E0 is the change by the tick's rules, not by the hand. Without contact, and
+// in the tick that makes contact, s- is s+: making contact changes no energy. A tick that ends on its way, between the
+// surface that it left and the finger, keeps the stiffness of that surface and adds no energy. If it has met no
+// surface, there is no force.
 #pragma once
 
 #include <cstdint>
@@ -15,17 +15,17 @@
 
 namespace hl {
 
-/// How the proxy ended a tick.
+/// State of the proxy at the end of a tick.
 enum class TickEnd : std::uint8_t {
-  kOpen,     ///< at the finger, with nothing to hold it
-  kContact,  ///< held by surfaces
-  kOnItsWay  ///< in the air: the tick was ended before the proxy came to the finger or to what holds it
+  kOpen,     ///< at the finger, without active contacts
+  kContact,  ///< held by active contacts
+  kOnItsWay  ///< without contact: the tick ended before the proxy came to the finger or to a contact
 };
 
-/// The stiffness of several surfaces: the mean, weighted by their normal forces. The target stays between finger and
-/// proxy, as in the paper's equation (4); a contact fades in with its lambda; s stays within those of the surfaces.
-/// Softening each wall's own force, sum s_i lambda_i n_i, would keep none of these: in a narrow groove of one hard and
-/// one soft wall it pushes sideways with 1 / (2 sin(opening / 2)) times the force.
+/// Stiffness of several surfaces: the mean, weighted by their normal forces. Then the target stays between finger and
+/// proxy, as in the paper's equation (4); a contact fades in with its lambda; s stays in the range of the surfaces'
+/// values. Softening each surface's own force, sum s_i lambda_i n_i, has none of these properties: in a narrow groove
+/// of one hard and one soft wall it pushes sideways with 1 / (2 sin(opening / 2)) times the force.
 class MeanStiffness {
  public:
   void add(double multiplier_m, double stiffness);
@@ -41,19 +41,19 @@ class EnergyBooking {
  public:
   EnergyBooking(const ProxyState& state, const ProxySettings& settings, const Vec3& finger);
 
-  /// The part of a step that the tick's energy pays for: to the point nearest the finger, and beyond it as far as the
-  /// tank reaches. RT-safe.
+  /// The part of `step` that the tick's energy budget allows: up to the point nearest the finger, and beyond it as far
+  /// as the budget allows. RT-safe.
   Vec3 afford(const Vec3& proxy, const Vec3& step);
-  /// The energy that the tick may add is used up: the last step could not be paid for as a whole.
+  /// Whether the energy budget is used up: the last step was shortened.
   bool spent() const { return spent_; }
 
-  /// What turned the proxy's way, for booking by cause; measures as in ShadingNormal.
+  /// Causes of an energy increase, for booking; `shading` and `bump` as in ShadingNormal.
   struct Causes {
     double shading = 0, bump = 0;
     bool stiffness_textured = false;
   };
-  /// Moves the target for the stiffness of the surfaces that hold the proxy, or that did last, as far as the energy
-  /// reaches; books the tick, and fills the report.
+  /// Moves the target by the stiffness of the active surfaces, or of those active last, as far as the energy budget
+  /// allows. Books the tick and fills the report.
   void close(ProxyState& state, TickEnd end, const MeanStiffness& surfaces, const Causes& causes,
              TickReport& report) const;
 

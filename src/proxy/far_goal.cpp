@@ -5,7 +5,8 @@
 
 namespace hl {
 
-// About the place of the way that is nearest to the centre, which is known to a rounding of where the way begins.
+// Computed about the point of the way nearest to the centre, which is accurate to the rounding error of the start of
+// the way.
 FarGoal::Within FarGoal::within(const Vec3& from, const Vec3& way) const {
   const double radius = 0.5 * farthest_m_;
   const bool inside = from.squaredNorm() <= radius * radius;

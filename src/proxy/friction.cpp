@@ -25,8 +25,8 @@ double SlipResistance::coulombPull(double slip) const {
   return sum;
 }
 
-// The resistance falls with the slip (Stribeck), so several slips may balance it: the largest is the one in which a
-// sliding proxy goes on sliding. From above, the iteration comes down to it.
+// The resistance falls with the slip (Stribeck), so several slips may balance it. The largest is the one at which a
+// sliding proxy keeps sliding. The fixed-point iteration starts above it and decreases to it.
 double slipLength(const SlipResistance& drag, double pull, const Slip& before) {
   double slip = pull;
   for (int i = 0; i < accuracy::kSlipRounds; ++i) {
@@ -40,20 +40,20 @@ double slipLength(const SlipResistance& drag, double pull, const Slip& before) {
 
 namespace {
 
-// A place on the way of a slip.
+// A point of a slip.
 struct Place {
-  double at;    // metres from its start
-  double left;  // of the pull; negative: held before it
-  double used;  // by viscosity up to there
+  double at;    // m from the start of the slip
+  double left;  // remaining pull minus resistance, m; negative: the proxy stops before this point
+  double used;  // pull used up by viscosity up to this point, m
 };
 
-// The way of a slip whose drag changes: how far the resistance is from holding the proxy at a place.
+// The balance of pull and resistance along a slip whose resistance changes.
 struct Balance {
   FunctionRef<SlidingResistance(double)> drag_at;
   double pull;
-  double before_m;  // used up by viscosity before this slip
+  double before_m;  // pull used up by viscosity before this slip, m
 
-  // `reached`: the last sample at which the proxy still slipped.
+  // `reached`: the last sample at which the proxy still slips.
   Place place(double at, const Place& reached) const {
     const SlidingResistance drag = drag_at(at);
     const double used = reached.used + drag.viscous * (at - reached.at);
@@ -61,9 +61,9 @@ struct Balance {
   }
 };
 
-// Where, between the last sample that slips and `there` that does not, the proxy comes to rest. Where the drag does not
-// change the balance is linear and the first guess is it; halving finds a jump of the drag, and the proxy goes just
-// over it, onto the line that holds it.
+// The rest point between the last sample that slips, `reached`, and a sample that does not, `there`. For a constant
+// resistance the balance is linear, and the first (secant) guess is exact. Otherwise bisection finds a jump of the
+// resistance; the result lies just beyond the jump, on the line that holds the proxy.
 Place restBetween(const Balance& balance, const Place& reached, Place there) {
   Place here = reached;
   for (int i = 0; i < accuracy::kRestRounds; ++i) {

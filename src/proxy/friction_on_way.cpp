@@ -72,7 +72,7 @@ void FrictionOnWay::countTexels(const TouchedSurface& surface) {
 
 void FrictionOnWay::findEdge(const SurfacePoint& from, const Vec2& way) {
   const auto& now = from.weights;
-  if (!(now[0] > 0 && now[1] > 0 && now[2] > 0)) return;  // on an edge already
+  if (!(now[0] > 0 && now[1] > 0 && now[2] > 0)) return;  // the point is already on an edge
   const std::array<double, 3> change{-way.x() - way.y(), way.x(), way.y()};
   for (std::size_t k = 0; k < 3; ++k) {
     if (now[k] + change[k] < 0) within_ = std::min(within_, -now[k] / change[k]);

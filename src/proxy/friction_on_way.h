@@ -1,5 +1,5 @@
-// FrictionOnWay: what friction and viscosity of the contacts do to a slip along one straight way. The surfaces are read
-// once for all places on the way: along it the texture coordinates are linear.
+// FrictionOnWay: friction and viscosity of all contacts along one straight slip. The surface properties are read once
+// for the whole slip, as the texture coordinates are linear along it.
 #pragma once
 
 #include <limits>
@@ -12,37 +12,38 @@
 
 namespace hl {
 
-/// What a surface does against a slip, read once for all places on it.
+/// Friction properties of a surface, read once for all points on it.
 struct SurfaceFriction {
   SurfaceValue fixed, dynamic, viscosity;  ///< mu_s, mu_d, b in N s/m
   double stribeck_m_s = 0, presliding_N_m = 0;
 
   static SurfaceFriction of(const Surface& surface);
   bool textured() const { return fixed.texture || slipTextured(); }
-  /// Whether what resists a slip changes along it; static friction only says when one begins.
+  /// Whether the resistance changes along a slip. Static friction does not count: it only decides when a slip begins.
   bool slipTextured() const { return dynamic.texture || viscosity.texture; }
-  /// Whether there is any, somewhere on the surface.
+  /// Whether there is friction or viscosity anywhere on the surface.
   bool acts() const { return textured() || fixed.low > 0 || dynamic.low > 0 || viscosity.low > 0; }
 };
 
-/// RT-safe. What is added must outlive it.
+/// RT-safe. The objects passed to add() must outlive this object.
 class FrictionOnWay {
  public:
   explicit FrictionOnWay(const ProxySettings& settings) : settings_(settings) {}
 
-  /// One more contact, touched where the patch has `moved` to, with a normal force of `normal_m`.
+  /// Adds a contact at the point of `patch` after a change of weights `moved`, with a normal force of `normal_m`
+  /// (newtons over K).
   void add(const SurfaceFriction& friction, const Patch& patch, const Vec2& moved, double normal_m);
 
   SlipResistance here() const;
   bool slipTextured() const { return slip_textured_; }
 
-  /// Where the slip goes. Until now there is no way: everywhere is here.
+  /// Sets the vector of the slip. Before this call texture coordinates are constant along the way.
   void setWay(const Vec3& way);
-  /// At a part 0..1 of the way, of a proxy that slides.
+  /// Resistance to a sliding proxy at a fraction `part` (0..1) of the way.
   SlidingResistance at(double part) const;
-  /// Texels that the way crosses, in the finest of the textures.
+  /// Number of texels that the way crosses, in the finest texture.
   double texels() const { return texels_; }
-  /// The part of the way after which a textured triangle is left behind: beyond, its texture says nothing.
+  /// Fraction of the way at which it leaves a textured triangle. Beyond it the texture is not valid.
   double within() const { return within_; }
 
  private:

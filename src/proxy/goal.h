@@ -1,5 +1,5 @@
-// Goal: what the steps of a tick go toward. That is the finger; or, where force shading runs once a tick, the place
-// where its two passes want the proxy, until the proxy is there or has left the surface.
+// Goal: the point toward which the steps of a tick go. It is the finger. If force shading runs once per tick, it is the
+// result of its two passes, until the proxy has reached it or has left the surface.
 #pragma once
 
 #include "base/vec.h"
@@ -16,8 +16,8 @@ class Goal {
   void aimAt(const Vec3& place) { place_ = place; }
   void aimAtFinger() { place_ = finger_; }
 
-  /// Whether a is nearer to the goal than b, |goal - a| < |goal - b|, however far the goal is: by what lies between a
-  /// and b.
+  /// Whether a is nearer to the goal than b, |goal - a| < |goal - b|. Computed from the difference of a and b, so that
+  /// it is accurate however far the goal is.
   bool nearer(const Vec3& a, const Vec3& b) const {
     const Vec3 apart = a - b;
     return 2 * apart.dot(place_ - b) > apart.squaredNorm();

@@ -7,13 +7,13 @@ namespace hl {
 
 namespace {
 
-// 0 for what has none.
+// Area of a triangle; 0 for other primitives.
 double area_m2(const Primitive& p) { return 0.5 * (p.vertex[1] - p.vertex[0]).cross(p.vertex[2] - p.vertex[0]).norm(); }
 
 }  // namespace
 
-// How much larger than the proxy a ball may be, so that its disc is as large as the triangles allow:
-// (R + s)^2 - R^2 = disc / pi.
+// How much larger than the proxy a ball may be, m, so that its disc is as large as the triangles allow: (R + s)^2 - R^2
+// = disc / pi.
 double LookaheadBall::slack_m(const SceneAt& scene, const ContactSet& set, double touching) const {
   if (set.contacts.empty() || set.contacts.size() > cost::kMaxBallContacts) return 0;
   double area = area_m2(scene.primitive(set.contacts[0].primitive));

@@ -1,6 +1,7 @@
-// LookaheadBall: one search for several ticks. Where triangles are larger than the steps of the proxy, a ball ahead of
-// it contains the few primitives that the next ticks can touch: until the proxy leaves the ball, no other search is
-// needed. Where triangles are small the ball would contain too many, and each step searches the hierarchy.
+// LookaheadBall: one search for several ticks. If triangles are large compared to the steps of the proxy, a ball ahead
+// of it contains all primitives that the next ticks can touch, and these are few. Until the proxy leaves the ball, the
+// hierarchy is not searched. If triangles are small the ball would contain too many, and each step searches the
+// hierarchy.
 #pragma once
 
 #include "proxy/back_off.h"
@@ -10,16 +11,17 @@
 
 namespace hl {
 
-/// Plain values; RT-safe. It decides nothing but how long a tick takes.
+/// Plain values; RT-safe. It affects only the computing time.
 class LookaheadBall {
  public:
-  /// A tick begins, with the finger there.
+  /// To be called at the start of each tick.
   void follow(const Vec3& finger) {
     travel_m_ = (finger - finger_).norm();
     finger_ = finger;
   }
-  /// Fills `nearby` with the primitives in a ball that contains `from` and, for some ticks, the way along `motion`.
-  /// Returns false, mostly with `nearby` unchanged, where it is not worth it. `set`: the contacts now.
+  /// Fills `nearby` with the primitives of a ball that starts at `from` and extends along `motion` for some ticks.
+  /// `set`: the current contacts. Returns false if a ball is not worthwhile or does not cover the whole motion;
+  /// `nearby` is then usually unchanged.
   bool find(const SceneAt& scene, const ContactSet& set, const Tolerances& tolerance, const Vec3& from,
             const Vec3& motion, SweepCache& nearby);
 
@@ -27,8 +29,8 @@ class LookaheadBall {
   double slack_m(const SceneAt& scene, const ContactSet& set, double touching) const;
 
   Vec3 finger_ = Vec3::Zero();
-  double travel_m_ = 0;  // of the finger, in this tick
-  BackOff back_off_;     // from balls with too much in them
+  double travel_m_ = 0;  // motion of the finger in this tick
+  BackOff back_off_;     // after balls with too many primitives
 };
 
 }  // namespace hl

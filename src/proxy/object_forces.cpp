@@ -9,7 +9,7 @@ namespace {
 
 using Shares = std::array<double, 3>;
 
-// The parts of the contacts in what is not along their normals; they add up to 1.
+// Shares of the contacts in the force that is not along their normals; their sum is 1.
 Shares frictionShares(const TickReport& report) {
   Shares shares{};
   double sum = 0;

@@ -1,8 +1,9 @@
-// Object forces: what each object does to the hand in a tick, so that whatever moves the objects can push back.
+// Object forces: the force of each object on the hand in a tick, so that a simulation that moves the objects can apply
+// the reaction.
 //
-// The spring's force K s (proxy - finger) is that of the active contacts: contact i presses with K s lambda_i along its
-// normal; what is left is friction, shared out by how much friction each contact may give, mu_i lambda_i, and where
-// none has any, by lambda_i.
+// The spring's force K s (proxy - finger) is shared by the active contacts. Contact i presses with K s lambda_i along
+// its normal. The rest is friction, divided in proportion to the friction limit of each contact, mu_i lambda_i, or to
+// lambda_i if no contact has friction.
 #pragma once
 
 #include <cstdint>
@@ -14,17 +15,17 @@
 
 namespace hl {
 
-/// On the hand, by one object; the hand does the opposite to the object.
+/// Force of one object on the hand. The hand applies the opposite force to the object.
 struct ObjectForce {
-  std::uint64_t key = 0;      ///< Instance::key; 0: the proxy was on its way, and no object holds it
-  Vec3 point = Vec3::Zero();  ///< m, world: where it acts on the object; the proxy, for no object
+  std::uint64_t key = 0;      ///< Instance::key; 0: no object holds the proxy, which is on its way
+  Vec3 point = Vec3::Zero();  ///< m, world: point of action on the object; the proxy's position if key is 0
   Vec3 force_N = Vec3::Zero();
 };
-/// One for each active contact at most; no two of one object.
+/// At most one per active contact, and one per object.
 using ObjectForces = FixedVector<ObjectForce, 3>;
 
-/// Of the tick that left `state` and `report` with the finger there. The sum is K (target - finger) / world_per_device,
-/// to rounding. RT-safe.
+/// Forces after the tick that returned `state` and `report` for `finger`. Their sum is K (target - finger) /
+/// world_per_device, to rounding. RT-safe.
 ObjectForces objectForces(const SceneAt& scene, const ProxySettings& settings, const ProxyState& state,
                           const TickReport& report, const Vec3& finger);
 

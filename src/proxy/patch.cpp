@@ -8,7 +8,7 @@ namespace hl {
 
 namespace {
 
-// Half the squared distance of two unit vectors: 1 - cos of the angle between them, without its cancellation.
+// Half the squared distance of two unit vectors. This is 1 - cos of their angle, without the cancellation.
 double angleMeasure(const Vec3& a, const Vec3& b) { return 0.5 * (a - b).squaredNorm(); }
 
 }  // namespace
@@ -76,7 +76,7 @@ void Patch::shade(const Vec2& moved, ShadingNormal& felt) const {
     felt.normal = kShadingLimitCos * place_.normal + kShadingLimitSin * (shaded - cosine * place_.normal).normalized();
 }
 
-// The surface of height h over the plane has the normal N - grad h, grad h in metres per metre along the triangle.
+// A surface of height h above the plane has the normal N - grad h, with grad h in metres per metre along the triangle.
 void Patch::bump(const Vec2& moved, ShadingNormal& felt) const {
   const Vec2 slope = height_.range * height_.texture->gradient(texcoord(moved));
   const Vec3 gradient = slope.dot(texcoord_edge_[0]) * slope_[0] + slope.dot(texcoord_edge_[1]) * slope_[1];

@@ -1,6 +1,6 @@
-// Patch: the surface around a contact, read once for all the passes of a sub-goal. In the plane of a triangle with
-// edges e1, e2 from vertex 0 the weights are linear in the place, and with them the texture coordinates and the sum of
-// the vertex normals:
+// Patch: the surface around a contact, read once for all passes of a sub-goal. In the plane of a triangle with edges
+// e1, e2 from vertex 0, the barycentric weights are linear in the position, and so are the texture coordinates and the
+// sum of the vertex normals:
 //   w_i(x + d) = w_i(x) + g_i . d,   c = e1 x e2,   g_1 = e2 x c / |c|^2,   g_2 = c x e1 / |c|^2,   g_0 = -g_1 - g_2.
 // World frame.
 #pragma once
@@ -10,8 +10,8 @@
 
 namespace hl {
 
-/// The normal that is felt: turned away from the true one by force shading and by a bump map, and how far each turns
-/// it: 1 - cos of the angle.
+/// The shading normal: the true normal turned by force shading and by a bump map. `shading` and `bump` say how far each
+/// turns the normal: 1 - cos of the angle.
 struct ShadingNormal {
   Vec3 normal = Vec3::UnitZ();
   double shading = 0;
@@ -24,27 +24,25 @@ class Patch {
  public:
   Patch(const SceneAt& scene, const Surface& surface, const SurfacePoint& place);
 
-  /// What a step (m) in the plane of the triangle changes in the weights of its vertices 1 and 2.
+  /// Change of the weights of vertices 1 and 2 for a step (m) in the plane of the triangle.
   Vec2 weightsOver(const Vec3& step) const { return {slope_[0].dot(step), slope_[1].dot(step)}; }
 
-  // From here on `moved` is what the weights have changed since the place that the patch was made for.
+  // In the functions below `moved` is the change of the weights from the point for which the patch was made.
 
-  /// Whether the contact, made on the face of a triangle, is still there.
+  /// Whether the patch was made on the face of a triangle, and the moved point is still on this face.
   bool covers(const Vec2& moved) const;
-  /// Whether the patch still says what the surface is: on the face, and always where the surface is the same
-  /// everywhere.
+  /// Whether the patch is valid at the moved point: on the same face, or anywhere if the surface is uniform.
   bool holds(const Vec2& moved) const { return (!smooth_ && !textured_) || covers(moved); }
-  /// As if the plane of the triangle had no edges.
+  /// The moved point. The plane of the triangle counts as unbounded.
   SurfacePoint place(const Vec2& moved) const;
-  /// Of a textured triangle only; without an edge too.
+  /// Texture coordinates, for a textured triangle only. The plane of the triangle counts as unbounded.
   Vec2 texcoord(const Vec2& moved) const { return texcoord_ + texcoordOver(moved); }
   Vec2 texcoordOver(const Vec2& moved) const { return moved.x() * texcoord_edge_[0] + moved.y() * texcoord_edge_[1]; }
 
-  /// Whether the surface may be shaded or bumped; when false, shadingNormal() is the true normal everywhere.
+  /// Whether the surface has shading or a bump map; if not, shadingNormal() is the true normal everywhere.
   bool shaded() const { return smooth_ || height_.texture; }
-  /// The normal as it feels: the vertex normals interpolated, no farther from the true normal than
-  /// accuracy::kShadingLimit_rad, and the slope of the bump map. A triangle with a vertex normal that is missing, zero
-  /// or points to the other side has its true normal everywhere.
+  /// The interpolated vertex normals, at most accuracy::kShadingLimit_rad from the true normal, and then the slope of
+  /// the bump map. A triangle with a vertex normal that is missing, zero or on the other side is not shaded.
   ShadingNormal shadingNormal(const Vec2& moved = Vec2::Zero()) const;
 
  private:
@@ -56,12 +54,12 @@ class Patch {
 
   SurfacePoint place_;
   bool triangle_, smooth_, textured_;
-  SurfaceValue height_;  // m; without a texture there is no bump map
-  // What follows is read only where it is needed; edge 0 and 1 are e1 and e2.
+  SurfaceValue height_;  // m; without a texture: no bump map
+  // The members below are set only if they are needed. Edges 0 and 1 are e1 and e2.
   std::array<Vec3, 2> slope_{Vec3::Zero(), Vec3::Zero()};  // 1/m, g_1 and g_2
-  Vec3 normal_sum_;                                        // of the vertex normals, at the place
-  std::array<Vec3, 2> normal_edge_;                        // its change along an edge
-  Vec2 texcoord_;                                          // at the place
+  Vec3 normal_sum_;                                        // weighted sum of the vertex normals at the point
+  std::array<Vec3, 2> normal_edge_;                        // change of the sum along each edge
+  Vec2 texcoord_;                                          // at the point
   std::array<Vec2, 2> texcoord_edge_;
 };
 

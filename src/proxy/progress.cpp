@@ -13,7 +13,8 @@ bool Progress::idleAt(const Vec3& position, const Goal& goal) {
   return idle_ >= convergence::kMaxIdle;
 }
 
-// The planes of faces stay what they are when the proxy moves; those of edges and vertices turn.
+// The plane of a face does not change when the proxy moves. The planes of edges and vertices turn, so they do not
+// settle.
 void Progress::settleOn(const ContactSet& set) {
   for (const Contact& contact : set.contacts) {
     if (contact.feature != Feature::kFace) return settled_on_.clear();

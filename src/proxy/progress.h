@@ -1,8 +1,9 @@
-// Progress: two ways in which a tick ends although its next step is not zero:
-//   stalled   the steps come no nearer to the goal and are so short that rounding decides them. The crossing of planes
-//             that nearly face each other is decided by rounding; the proxy would move among a few places for ever.
-//   settled   the passes over the surfaces' rules have converged, on faces that still touch the proxy: another search
-//             would find the same.
+// Progress: ends a tick whose steps do not shrink to zero.
+//   stalled   steps come no nearer to the goal and are as short as steps between planes tilted by rounding within the
+//             skin. Planes that almost face each other intersect at a point that rounding decides; the proxy would move
+//             between a few positions for ever.
+//   settled   the passes over the rules of the surfaces have converged, and the contacts are still the same faces:
+//             gathering contacts again would give the same result.
 #pragma once
 
 #include <optional>
@@ -18,15 +19,15 @@ namespace hl {
 /// For one tick. World frame. RT-safe.
 class Progress {
  public:
-  /// For a new goal: forgets the progress toward the old one.
+  /// To be called when the goal changes: the progress toward the old goal is no longer valid.
   void begin() { *this = {}; }
-  /// After each step. Returns whether the last steps have come no nearer: if this one is so short that rounding may
-  /// have decided it, the tick has stalled.
+  /// Records that a step ended at `position`. Returns whether recent steps have come no nearer to the goal. The caller
+  /// then checks whether the step is short enough to be caused by rounding.
   bool idleAt(const Vec3& position, const Goal& goal);
   void stall() { stalled_ = true; }
   bool stalled() const { return stalled_; }
 
-  /// The passes have converged on these contacts.
+  /// Records that the passes have converged on these contacts.
   void settleOn(const ContactSet& set);
   void unsettle() { settled_on_.clear(); }
   bool settledOn(const ContactSet& set) const { return !settled_on_.empty() && sameFaces(set); }
@@ -34,10 +35,10 @@ class Progress {
  private:
   bool sameFaces(const ContactSet& set) const;
 
-  std::optional<Vec3> nearest_;  // where steps have come nearest to the goal
-  int idle_ = 0;                 // steps in a row that have not come nearer
+  std::optional<Vec3> nearest_;  // the recorded position nearest to the goal
+  int idle_ = 0;                 // consecutive steps that came no nearer
   bool stalled_ = false;
-  FixedVector<PrimitiveId, convergence::kFewContacts> settled_on_;  // faces; empty while the passes go on
+  FixedVector<PrimitiveId, convergence::kFewContacts> settled_on_;  // faces; empty while the passes have not converged
 };
 
 }  // namespace hl

@@ -1,4 +1,4 @@
-// Proposal: the step that a tick wants to make next, what holds it, and by which rule it was found.
+// Proposal: the next step of a tick, its active contacts, and the rule by which it was found.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +11,15 @@
 
 namespace hl {
 
-/// A contact that holds the proxy in a proposal.
+/// An active contact of a proposal.
 struct ActiveContact {
   std::size_t contact = 0;     ///< number in the contact set
-  SurfacePoint place;          ///< where it is touched; its normal is the true one
-  Vec3 normal = Vec3::Zero();  ///< as it feels
+  SurfacePoint place;          ///< the contact point, with the true normal
+  Vec3 normal = Vec3::Zero();  ///< the shading normal
   double multiplier_m = 0;
 };
 
-/// Where a contact is touched. RT-safe.
+/// The contact point of a contact. RT-safe.
 inline SurfacePoint placeOf(const Contact& contact) {
   return {contact.primitive, contact.plane.normal, contact.weights};
 }
@@ -28,14 +28,14 @@ inline SurfacePoint placeOf(const Contact& contact) {
 struct Proposal {
   enum class Rule : std::uint8_t {
     kPlain,  ///< the point nearest the goal above the planes of the contacts
-    kCuts,   ///< above those of what held the last step too (recent_cuts.h)
+    kCuts,   ///< also above the planes of the recent cuts (recent_cuts.h)
     kFelt,   ///< under the rules of the surfaces (surface_rules.h)
   };
-  /// Whether the passes over the surfaces' rules have come to an end.
+  /// Whether the passes over the rules of the surfaces have converged.
   enum class Rest : std::uint8_t {
     kGoesOn,
     kSettles,  ///< the proxy rests on these planes at the step's end
-    kStays,    ///< and there every contact is on the same face as now
+    kStays,    ///< the same, and there every contact is on the same face as now
   };
 
   Rule rule = Rule::kPlain;
@@ -45,8 +45,8 @@ struct Proposal {
   bool preslides = false;         ///< static friction holds the proxy, on its pre-sliding springs
   Vec3 step = Vec3::Zero();
   FixedVector<ActiveContact, 3> active;
-  double shading = 0, bump = 0;  ///< the largest of the active contacts, as in ShadingNormal
-  double viscous = 0;            ///< pull that viscosity uses for each metre of the step
+  double shading = 0, bump = 0;  ///< the largest turns of the active shading normals, as in ShadingNormal
+  double viscous = 0;            ///< pull used up by viscosity per metre of the step
   double presliding_ratio = 0;   ///< SlipResistance::presliding_ratio
   Vec3 held = Vec3::Zero();      ///< m, the pull that friction holds after the step
 };

@@ -12,7 +12,7 @@ namespace hl {
 
 namespace {
 
-// The part of the next tick that depends on where the proxy has come to rest: the object whose friction holds it.
+// Key of the object whose friction holds the proxy most strongly; it carries the proxy in the next tick. 0: none.
 std::uint64_t carrierOf(const SceneAt& scene, const TickReport& report) {
   double most = 0;
   std::uint64_t key = 0;
@@ -29,7 +29,8 @@ double energyOf_J(const ProxyState& state, const ProxySettings& settings, const 
   return springEnergy_J(settings.spring_N_m, state.stiffness, gap_D.squaredNorm());
 }
 
-// Moving objects do work on the hand; that is theirs, not the rules', and no tank pays for it.
+// Moves the proxy with the moving objects. Returns the energy change, J. This work is done by the objects, not by the
+// rules of the surfaces, so no tank pays for it.
 double carryAlong(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
   const double before_J = energyOf_J(state, settings, finger);
   carry(state, scene, settings);

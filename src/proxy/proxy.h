@@ -1,10 +1,10 @@
 // The proxy (the paper's section 3): a sphere that follows the finger by direct linear motion and never enters an
 // object. A pure function of (state, snapshot, finger): no threads, devices or clocks.
 //
-// One tick repeats: gather the primitives in contact; each is convex, so the half-space above its tangent plane in
-// configuration space is free of it. Solve for the sub-goal nearest the finger above all of these planes, sweep the
-// sphere toward it past all *other* primitives, and stop at the first impact. The split is exact: a primitive is either
-// a contact (a plane holds it off) or swept, never both and never neither, by one comparison with one distance.
+// One tick repeats: gather the primitives in contact. Each is convex, so the half-space above its tangent plane in
+// configuration space is free of it. Solve for the sub-goal nearest the finger above all these planes. Sweep the sphere
+// toward it past all *other* primitives, and stop at the first impact. One comparison with one distance decides whether
+// a primitive is a contact (its plane holds the proxy) or swept, so every primitive is exactly one of the two.
 #pragma once
 
 #include "proxy/proxy_state.h"
@@ -13,15 +13,16 @@
 
 namespace hl {
 
-/// A proxy at the finger or, when the finger touches the scene, at a clear place nearby, looked for at once wherever
-/// there may be one: thousands of searches where there is none. A loop starts with ProxyState{} instead: each tick then
-/// looks at a few places, until one is clear. Does not allocate.
+/// A proxy at the finger or, if the finger touches the scene, at a clear position nearby. The whole start search is
+/// done at once: thousands of queries if there is no such position. A real-time loop starts with ProxyState{} instead;
+/// each tick then tests a few candidates. Does not allocate.
 ProxyState startProxy(const SceneAt& scene, const ProxySettings& settings, const Vec3& finger);
 
-/// Moves the proxy, or one that is not free to a place where it can begin, toward the finger under the rules of the
-/// surfaces it touches, and accounts for the energy. RT-safe. Afterwards |proxy - surface| >= radius. Without shading
-/// and bump maps |proxy - finger| is not larger than before. `most_looks`, > 0: its work is used up after so many,
-/// as that of the tick was which is made again.
+/// Moves the proxy toward the finger under the rules of the surfaces in contact, and books the energy. A proxy that is
+/// not yet free is first moved to a start position, if one is found. Afterwards |proxy - surface| >= radius. Without
+/// shading and bump maps |proxy - finger| does not increase. `most_looks` (> 0) limits the number of looks (work.h): a
+/// recorded tick is replayed with its recorded number. A finger that is not finite or too far changes nothing
+/// (Ending::kInvalid). RT-safe.
 TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger,
                 int most_looks = kNoWorkCap);
 

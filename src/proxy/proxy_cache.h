@@ -1,4 +1,4 @@
-// Proxy cache: what ticks have met of the scene. It decides nothing but how long the next tick takes.
+// Proxy cache: primitives that previous ticks have found. It affects only the computing time.
 #pragma once
 
 #include "proxy/lookahead_ball.h"
@@ -6,7 +6,7 @@
 
 namespace hl {
 
-/// Plain values. Owned by the proxy loop, as the state.
+/// Plain values. Owned by the proxy loop, like the state.
 struct ProxyCache {
   SweepCache nearby{};
   LookaheadBall ahead{};

@@ -1,4 +1,5 @@
-// Push out: where a proxy goes that things have come too near to; pinched, its centre keeps away from all of them.
+// Push out: moves the proxy away from objects that have come too near. If it is pinched, its centre still stays outside
+// all of them.
 #pragma once
 
 #include "base/vec.h"
@@ -7,8 +8,8 @@
 
 namespace hl {
 
-/// The place clear of the scene by tolerance.reach that is found from `from`. Where there is no room for the proxy, the
-/// roomiest place that is found by looking for room for all of it, for half of it, for a quarter, and so on. The centre
+/// A position found from `from` that is clear of the scene by tolerance.reach. If there is none, the search is repeated
+/// for half the reach, a quarter, and so on, and the position with the largest clearance is returned. The centre
 /// crosses no surface on the way. RT-safe.
 Vec3 pushedOut(const SceneAt& scene, const Tolerances& tolerance, const Vec3& from);
 

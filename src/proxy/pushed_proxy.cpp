@@ -6,7 +6,8 @@ namespace hl {
 
 namespace {
 
-// The primitive of the carrier that is nearest to the proxy, and where it is touched. False where none touches it.
+// Finds the primitive of the carrier nearest to the proxy, and its nearest point. Returns false if the carrier does not
+// touch the proxy.
 bool touchedOfCarrier(const PushedProxy& proxy, const SceneAt& scene, PrimitiveId& touched, ClosestPoint& nearest) {
   bool found = false;
   const double touching = accuracy::kTouchingDeforming * proxy.tolerance.reach;
@@ -21,14 +22,14 @@ bool touchedOfCarrier(const PushedProxy& proxy, const SceneAt& scene, PrimitiveI
   return found;
 }
 
-// How far the touched point of the carrier moves by then, as its mesh deforms; frame of the carrier.
+// Displacement of the carrier's contact point until `time_ns` by the deformation of its mesh; frame of the carrier.
 Vec3 deformedBy(const PushedProxy& proxy, const MeshTransition& way, std::int64_t time_ns) {
   const SceneAt scene = proxy.scene();
   PrimitiveId held;
   ClosestPoint nearest;
   if (!touchedOfCarrier(proxy, scene, held, nearest)) return Vec3::Zero();
   const Primitive& touched = scene.primitive(held);
-  if (touched.kind != way.to()->primitives.elementKind(held.element)) return Vec3::Zero();  // it has shrunk
+  if (touched.kind != way.to()->primitives.elementKind(held.element)) return Vec3::Zero();  // it is degenerate
   const auto now = way.corners(held.element, way.part(proxy.now_ns));
   const auto then = way.corners(held.element, way.part(time_ns));
   Vec3 gone = Vec3::Zero();

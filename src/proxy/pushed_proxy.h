@@ -1,5 +1,5 @@
-// PushedProxy: the proxy at one moment between two ticks, while what moves pushes it or takes it along. It stands
-// still, or goes with its carrier: the object whose friction holds it, or that has met it first.
+// PushedProxy: the proxy at one moment between two ticks, while moving objects push or carry it. It stands still or
+// moves with its carrier: the object whose friction holds it, or the object that met it first.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@ inline constexpr std::uint32_t kNoInstance = 0xffffffff;
 /// World frame. The snapshot must outlive it. RT-safe.
 struct PushedProxy {
   SceneAt scene() const { return {snapshot, now_ns}; }
-  /// Where the carrier takes it by then.
+  /// Position of the proxy at `time_ns`, carried by its carrier from now on.
   Vec3 carriedTo(std::int64_t time_ns) const;
-  /// What comes nearer than this to the way of the proxy is looked at.
+  /// Region around the way from the proxy to `way_end`. Objects outside it are not considered.
   Box regionOf(const Vec3& way_end) const;
-  /// Calls visit(number, instance) for the objects whose reach comes near the way to `way_end`.
+  /// Calls visit(number, instance) for the objects whose region of motion (Snapshot::reach) meets regionOf(way_end).
   template <typename Visit>
   void forEachNear(const Vec3& way_end, const Visit& visit) const {
     snapshot.near.visitMet(regionOf(way_end), [&](std::uint32_t i) { visit(i, snapshot.instances[i]); });
@@ -27,19 +27,19 @@ struct PushedProxy {
 
   const Snapshot& snapshot;
   const Tolerances tolerance;
-  const std::int64_t end_ns;  ///< of the next tick: until then things move
+  const std::int64_t end_ns;  ///< time of the next tick
   std::int64_t now_ns;
   Vec3 position;
-  std::uint32_t carrier = kNoInstance;  ///< number of the instance
+  std::uint32_t carrier = kNoInstance;  ///< number of the instance; kNoInstance: none
 };
 
-/// How far time may go on at once: until then nothing passes the proxy, which goes where its carrier takes it.
+/// The next advance of time: until `until_ns` nothing passes the proxy, which moves with its carrier.
 struct Advance {
   std::int64_t until_ns = 0;
-  std::uint32_t met = kNoInstance;  ///< the instance that ends it
+  std::uint32_t met = kNoInstance;  ///< the instance whose impact ends the advance
 };
 
-/// The number of the object with this key, where it moves or deforms.
+/// Number of the instance with this key, if it moves or deforms; else kNoInstance.
 std::uint32_t movingInstance(const Snapshot& snapshot, std::uint64_t key);
 
 }  // namespace hl

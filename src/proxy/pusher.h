@@ -1,9 +1,11 @@
-// Pusher: what moves pushes the proxy. From one tick to the next time goes on by advances, each so far that nothing can
-// have passed the proxy; after each it goes where its carrier takes it, and is pushed out of what has come too near.
+// Pusher: moves the proxy with the moving objects from one tick to the next. Time advances in steps, each so short that
+// nothing can pass the proxy. In each step the proxy moves with its carrier, and is then pushed out of objects that
+// have come too near.
 //
-//   objects that move   are swept in their own frame (rigid_sweep.h). The first that meets the proxy carries it from
-//                       there on; where another meets it then, the two close in, and it goes on by small steps
-//   meshes that deform  go by small steps (small_step.h)
+//   rigid objects       are swept in their own frame (rigid_sweep.h). The first one that meets the proxy becomes its
+//                       carrier. If another object meets a proxy with a carrier, the two close in on it, and time
+//                       advances by small steps
+//   deforming meshes    small steps (small_step.h)
 #pragma once
 
 #include "proxy/proxy_state.h"
@@ -11,13 +13,13 @@
 
 namespace hl {
 
-/// For one time between two ticks. RT-safe.
+/// For one interval between two ticks. RT-safe.
 class Pusher {
  public:
-  /// From state.time_ns, where the proxy is at state.position, to `end_ns`.
+  /// From state.time_ns, with the proxy at state.position, to `end_ns`.
   Pusher(const ProxyState& state, const Snapshot& snapshot, const ProxySettings& settings, std::int64_t end_ns);
 
-  /// Where the proxy is in the end.
+  /// Returns the position of the proxy at `end_ns`.
   Vec3 run();
 
  private:

@@ -1,10 +1,11 @@
-// RecentCuts: primitives that were active in the last step and no longer touch the proxy. A sphere that rolls over an
-// edge leaves it by the square of the step; on its way to the goal it would meet the same edge again a nanometre
-// farther. Between two edges it would alternate, as alternating projections do. So the planes of these primitives count
-// for one more step, with the place of the proxy now.
+// RecentCuts: primitives that were active in the last step and are no longer contacts. A sphere that rolls over an edge
+// leaves it by a distance of second order in the step. A straight step toward the goal would meet the same edge again a
+// nanometre farther. Between two edges the proxy would alternate, as alternating projections do. So the planes of these
+// primitives stay constraints (cuts) for one more step, computed anew at the proxy's position.
 //
-// This is sound because obstacles are convex: a step above such a plane does not meet the obstacle, and the proxy lies
-// above the plane, so the step ends no farther from the goal. Whether the proxy rests depends only on what touches it.
+// This is sound because obstacles are convex: a step above such a plane does not meet its obstacle. The proxy itself is
+// above the plane, so the step ends no farther from the goal. Whether the proxy is at rest is decided by the contacts
+// alone.
 #pragma once
 
 #include "base/fixed_vector.h"
@@ -19,21 +20,21 @@ class RecentCuts {
  public:
   using Planes = FixedVector<Plane, convergence::kMaxPlanesWithCuts>;
 
-  /// `set`: the contacts where the proxy is now. Primitives added by addActive() since the last call that are not among
-  /// them become cuts; earlier cuts are dropped.
-  void update(const ContactSet& set);
+  /// To be called with the contacts at the new position. The primitives named by holds() since the last call that are
+  /// not in `set` become the cuts. Older cuts are dropped.
+  void look(const ContactSet& set);
   bool empty() const { return left_.empty(); }
 
-  /// Adds the planes of the cuts to `planes`, relative to the proxy at `position`: each keeps it `reach` (m) away.
-  /// Returns how many; a primitive farther than kCutNear is no cut any more.
+  /// Appends to `planes` those of the cuts, relative to `position`, that keep the proxy `reach` (m) away. Cuts farther
+  /// than kCutNear reaches are skipped. Returns the number added.
   std::size_t addPlanes(const SceneAt& scene, const Vec3& position, double reach, Planes& planes) const;
 
-  /// The plane of this primitive is active in the next step; or those of all cuts are.
-  void addActive(PrimitiveId primitive) { active_.push(primitive); }
-  void keepActive();
+  /// Records that `primitive` is active in the next step; holdsStill() records this of all cuts.
+  void holds(PrimitiveId primitive) { holding_.push(primitive); }
+  void holdsStill();
 
  private:
-  static constexpr std::size_t kRoom = 6;  // three planes determine a step, twice
+  static constexpr std::size_t kRoom = 6;  // at most three active planes per step, for two steps
 
   FixedVector<PrimitiveId, kRoom> active_, left_;
 };

@@ -9,7 +9,7 @@ namespace hl {
 
 namespace {
 
-// Until when each object nearby stays on one screw and turns little enough for a straight sweep.
+// Time until which each object nearby stays on one screw and turns little enough for a straight sweep.
 std::int64_t straightUntil(const PushedProxy& proxy) {
   std::int64_t until_ns = proxy.end_ns;
   proxy.forEachNear(proxy.position, [&](std::uint32_t, const Instance& instance) {
@@ -19,7 +19,7 @@ std::int64_t straightUntil(const PushedProxy& proxy) {
 }
 
 struct Meeting {
-  double part = 2;  // of the time until then; above 1: none
+  double part = 2;  // fraction of the time until `until_ns`; above 1: no meeting
   std::uint32_t instance = kNoInstance;
 };
 

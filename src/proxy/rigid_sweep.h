@@ -1,13 +1,13 @@
-// Rigid sweep: how far time may go on while objects move on screws. In the frame of an object the proxy goes past it on
-// an all but straight way, so a sweep along that finds when the two meet, at any speed.
+// Rigid sweep: how far time may advance while objects move on screws. In the frame of an object the proxy moves on an
+// almost straight line, so a sweep along it finds the time of impact, at any speed.
 #pragma once
 
 #include "proxy/pushed_proxy.h"
 
 namespace hl {
 
-/// Until an object meets the proxy, as told in `met`; or until an object turns too far for a straight sweep, changes
-/// its screw, or the tick comes. Objects have met it where they come within accuracy::kMetAt of the reach. RT-safe.
+/// The advance until an object meets the proxy (`met`); until an object turns too far for a straight sweep or changes
+/// its screw; or until the next tick. An object meets the proxy at accuracy::kMetAt of the reach. RT-safe.
 Advance rigidSweep(const PushedProxy& proxy);
 
 }  // namespace hl

@@ -11,7 +11,7 @@ namespace {
 
 using convergence::kCloseIn;
 
-// Until when each deforming mesh stays on one transition.
+// Time until which each deforming mesh stays on one transition.
 std::int64_t oneWayUntil(const PushedProxy& proxy) {
   std::int64_t until_ns = proxy.end_ns;
   for (const std::uint32_t i : proxy.snapshot.deforming) {
@@ -21,7 +21,7 @@ std::int64_t oneWayUntil(const PushedProxy& proxy) {
   return until_ns;
 }
 
-// How far an object moves past the proxy until then, at most, without its deformation.
+// Maximum motion of an object past the proxy until `until_ns`, m, without its deformation.
 double wayOf_m(const PushedProxy& proxy, const Instance& instance, std::int64_t until_ns, double clearance) {
   const PoseSource& poses = instance.poses();
   if (!poses.moves()) return 0;
@@ -31,9 +31,9 @@ double wayOf_m(const PushedProxy& proxy, const Instance& instance, std::int64_t 
   return convergence::kArcPerChord * (slide + turn * clearance);
 }
 
-// The part of the time until then in which nothing of a bending mesh takes more than kCloseIn of its distance from the
-// proxy's centre, when all of the mesh also moves by `way_m` past it. What never comes nearer than the rest of a radius
-// on its way need not be looked at.
+// The fraction of the time until `until_ns` in which no part of a deforming mesh uses up more than kCloseIn of its
+// distance from the proxy's centre, if the mesh also moves by `way_m` past it. Primitives that stay farther than (1 -
+// kCloseIn) of a reach on their whole way are skipped.
 double partUntilClose(const PushedProxy& proxy, const Instance& instance, std::int64_t until_ns, double way_m) {
   const MeshTransition* const way = instance.transitionAt(proxy.now_ns);
   if (way == nullptr) return 1;
@@ -49,7 +49,7 @@ double partUntilClose(const PushedProxy& proxy, const Instance& instance, std::i
   return part;
 }
 
-// The part of the time until then that a small step may take.
+// The fraction of the time until `until_ns` that a small step may take.
 double freePart(const PushedProxy& proxy, std::int64_t until_ns) {
   const double clearance = clearanceAt(proxy.scene(), proxy.position, proxy.tolerance.reach);
   const Vec3 carried = proxy.carriedTo(until_ns);

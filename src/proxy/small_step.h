@@ -1,17 +1,17 @@
-// Small step: how far time may advance while meshes deform, which have no frame in which they are at rest, or while
-// several objects close in on the proxy. Nothing takes more than a part of the room that the proxy's centre has; so
-// nothing crosses it before the proxy is pushed out again.
+// Small step: how far time may advance while meshes deform (they have no frame in which they stand still), or while
+// several objects close in on the proxy. In one step nothing uses up more than a fraction of the clearance of the
+// proxy's centre, so nothing crosses the centre before the proxy is pushed out again.
 #pragma once
 
 #include "proxy/pushed_proxy.h"
 
 namespace hl {
 
-/// Whether a deforming mesh may come near the proxy, or near the way on which the proxy is carried. RT-safe.
+/// Whether a deforming mesh may come near the proxy or near its path with the carrier. RT-safe.
 bool deformsNear(const PushedProxy& proxy);
 
-/// Until something has taken convergence::kCloseIn of the room, or the tick comes. `left`: steps that are left until
-/// then; the last goes all the way. RT-safe.
+/// The advance until something has used up convergence::kCloseIn of the clearance, or until the next tick. `left`:
+/// number of steps left; the last one goes to the end. RT-safe.
 Advance smallStep(const PushedProxy& proxy, int left);
 
 }  // namespace hl

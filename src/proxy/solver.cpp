@@ -1,9 +1,10 @@
-// Derivation. Let plane j be active. y0 = goal + (c_j - n_j.goal) n_j is the nearest point on it. Another plane a cuts
-// plane j in a line. Write n_a = s n_j + u with s = +-1, the sign of n_a.n_j. Its part within plane j is
+// Derivation. Let plane j be active. y0 = goal + (c_j - n_j.goal) n_j is the nearest point on it. Another plane a
+// intersects plane j in a line. Write n_a = s n_j + u with s = +-1, the sign of n_a.n_j. The component of n_a within
+// plane j is
 //   m_a = u - (u.n_j) n_j,          and for x = y0 + z on plane j:   n_a.x >= c_a   <=>   m_a.z >= c_a - s c_j - u.y0.
-// For nearly parallel planes u is small and exact (Sterbenz), so the right side and m_a keep their relative precision,
-// where 1 - (n_a.n_j)^2 and c_a - n_a.y0 would lose it. The same step once more, within plane j, gives the corner of
-// three planes.
+// For nearly parallel planes u is small and exact (Sterbenz), so m_a and the right side keep their relative precision;
+// 1 - (n_a.n_j)^2 and c_a - n_a.y0 would lose it. The same step again, within plane j, gives the corner of three
+// planes.
 #include "proxy/solver.h"
 
 #include <algorithm>
@@ -24,7 +25,7 @@ struct Candidate {
   std::size_t count = 0;
 };
 
-// The line that plane a draws in plane j: normal . z = offset for x = origin + z; unit normal within plane j.
+// The line in which plane a intersects plane j: normal . z = offset for x = origin + z; unit normal within plane j.
 struct Line {
   Vec3 normal = Vec3::Zero();
   double offset = 0;
@@ -40,7 +41,7 @@ Line cut(const Plane& j, const Plane& a, const Vec3& origin) {
   return {m / length, (a.offset - s * j.offset - u.dot(origin)) / length, true};
 }
 
-// Where two lines of plane j cross, relative to their origin.
+// Intersection of two lines of plane j, relative to their origin.
 bool cross(const Line& a, const Line& b, const Vec3& plane_normal, Vec3& z) {
   const Vec3 along = plane_normal.cross(a.normal);
   const double s = b.normal.dot(a.normal) < 0 ? -1.0 : 1.0;
@@ -52,7 +53,8 @@ bool cross(const Line& a, const Line& b, const Vec3& plane_normal, Vec3& z) {
   return true;
 }
 
-// Solves d = sum lambda_i n_i for the normals of a set by cross products (Cramer), exact also for nearly parallel ones.
+// Solves d = sum lambda_i n_i for the normals of a set by cross products (Cramer's rule), accurate also for nearly
+// parallel normals.
 std::array<double, 3> multipliersOf(std::span<const Plane> planes, const ActiveSet& set, std::size_t count,
                                     const Vec3& d) {
   const auto n = [&](std::size_t i) -> const Vec3& { return planes[set[i]].normal; };
@@ -79,8 +81,9 @@ double worstViolation(std::span<const Plane> planes, const ActiveSet& set, std::
   return worst;
 }
 
-// Keeps the best of the candidates: feasible before infeasible, then nearest (or, infeasible, least violation).
-// Where more planes meet than needed, several sets give one point: the one with the largest multipliers is kept.
+// Keeps the best candidate: feasible before infeasible, then nearest (or, if infeasible, least violation). If more
+// planes than needed meet in one point, several sets give that point: the set with the largest smallest multiplier is
+// kept.
 class Best {
  public:
   Best(std::span<const Plane> planes, const ActiveSet& basis, std::size_t count, const Vec3& goal, double tolerance)
@@ -116,7 +119,7 @@ class Best {
   double cost_ = std::numeric_limits<double>::infinity();
 };
 
-// The optimum over the planes of `basis` and plane j, which is active in it: all subsets that contain j are tried.
+// The optimum over the planes of `basis` and plane j, which is active: all subsets that contain j are tried.
 Candidate solveWith(std::span<const Plane> planes, const ActiveSet& basis, std::size_t count, std::size_t j,
                     const Vec3& goal, double tolerance) {
   const Plane& plane = planes[j];
@@ -153,7 +156,7 @@ std::size_t mostViolated(std::span<const Plane> planes, const Vec3& x, double& v
   return worst;
 }
 
-// One plane, as most contacts are: straight onto it.
+// One plane, the usual case: the projection onto it.
 SolverResult nearestAboveOne(const Plane& plane, const Vec3& goal, double strict) {
   SolverResult result;
   result.rounds = 1;
@@ -182,7 +185,7 @@ SolverResult nearestAbove(std::span<const Plane> planes, const Vec3& goal, doubl
     ++result.rounds;
     if (j == planes.size() || result.violation <= strict || result.rounds > convergence::kMaxSolverRounds) break;
     const Candidate next = solveWith(planes, result.active, result.active_count, j, goal, strict);
-    // A real violation moves the optimum away from the goal, with multipliers >= 0; one that comes of rounding alone
+    // A real violation moves the optimum away from the goal, with multipliers >= 0. A violation caused by rounding
     // (planes that almost contradict or repeat each other) must not change the active set.
     const double distance = (next.point - goal).norm();
     const bool progress = distance > (result.point - goal).norm();

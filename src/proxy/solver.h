@@ -1,6 +1,6 @@
-// The exact solver of the paper's equation (1): the point nearest the goal that is above every plane.
-// The paper's search on the hull of the normals is wrong for three planes and more (the hull truncates the polar cone);
-// this is a dual active-set method for three dimensions: at most three planes are active, and the most violated joins.
+// The exact solver of the paper's equation (1): the point nearest the goal above all planes. The paper's search on the
+// hull of the normals is wrong for three or more planes, as the hull truncates the polar cone. This is a dual
+// active-set method for three dimensions: at most three planes are active, and the most violated plane joins.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace hl {
 
-/// The half-space normal . x >= offset; `normal` is unit. Metres.
+/// The half-space normal . x >= offset, offset in m; `normal` is unit.
 struct Plane {
   Vec3 normal = Vec3::Zero();
   double offset = 0;
@@ -22,12 +22,12 @@ struct SolverResult {
   std::size_t active_count = 0;         ///< 0..3
   std::array<std::size_t, 3> active{};  ///< indices of the active planes
   std::array<double, 3> multiplier{};   ///< m, >= 0: point - goal = sum multiplier_i normal_i
-  double violation = 0;                 ///< m, largest by which a plane is violated; above tolerance = infeasible
+  double violation = 0;                 ///< m, largest violation of a plane; above the tolerance: infeasible
   std::size_t rounds = 0;               ///< passes over the planes
 };
 
-/// min |x - goal| subject to every plane, each met to within `tolerance` (m, > 0). The result depends on the order of
-/// the planes only in rounding; sort them for equal bits. RT-safe, time linear in the number of planes per round.
+/// min |x - goal| subject to every plane, each met to within `tolerance` (m, > 0). The order of the planes changes the
+/// result only by rounding; sort them for identical bits. RT-safe; each round is linear in the number of planes.
 SolverResult nearestAbove(std::span<const Plane> planes, const Vec3& goal, double tolerance);
 
 }  // namespace hl

@@ -28,7 +28,8 @@ Vec3 directionOf(int number) {
   return direction.normalized();
 }
 
-// The contact so many of which are nearer to the centre; of the equally near, the first in the set's own order.
+// The contact that has exactly `nearer` contacts before it, sorted by distance from the centre and then by the order of
+// the set.
 const Contact& nearestBut(const ContactSet& set, std::size_t nearer) {
   FixedVector<const Contact*, kMaxContacts> sorted;
   for (const Contact& contact : set.contacts) sorted.push(&contact);
@@ -39,7 +40,7 @@ const Contact& nearestBut(const ContactSet& set, std::size_t nearer) {
   return *sorted[nearer];
 }
 
-// Place `number` about the finger, which overlaps `set`. False: there is no such place.
+// Candidate `number` for the finger, whose contacts are `set`. Returns false if it does not exist.
 bool placeOf(int number, const ContactSet& set, double reach, const Vec3& finger, Vec3& place) {
   if (number == 0) {
     place = finger;

@@ -1,9 +1,10 @@
-// Start search: where a proxy begins whose finger is inside something. Places are tried one after another until one is
-// clear of the scene, each pushed a little out of what it overlaps:
+// Start search: finds a start position for a proxy whose finger is inside an object. Candidates are tried one after
+// another, each pushed a little out of what it overlaps, until one is clear of the scene:
 //   the finger itself;
-//   beyond each of the nearest things that it overlaps: of a thin wall, the outside;
-//   all around the finger, on spheres that grow to convergence::kFarthestStart radii.
-// Which is next is one number, so a search costs little in each tick, goes on in the next, and follows the finger.
+//   the far side of each of the nearest primitives that it overlaps: for a thin wall, the outside;
+//   points around the finger, on spheres that grow to convergence::kFarthestStart reaches.
+// The state of the search is the number of the next candidate. So the search can be spread over several ticks, and it
+// follows the finger.
 #pragma once
 
 #include "base/vec.h"
@@ -15,11 +16,11 @@ namespace hl {
 /// Plain values; RT-safe.
 class StartSearch {
  public:
-  /// Looks at the finger and the next `places` places about it. Returns whether one is clear; it is in `position` then,
-  /// and the search begins anew.
+  /// Tests the finger and the next `places` candidates. Returns whether one is clear; then `position` is set to it and
+  /// the search restarts.
   bool look(const SceneAt& scene, const Tolerances& tolerance, const Vec3& finger, int places, Vec3& position);
 
-  /// So many places are all there are; then it begins with the first again.
+  /// Number of candidates; after the last the search restarts with the first.
   static const int kPlaces;
 
  private:

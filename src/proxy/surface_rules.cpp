@@ -16,7 +16,7 @@ bool SurfaceRules::any(const ContactSet& set) const {
   });
 }
 
-// Whether a primitive that shares the edge or vertex under the contact has another normal there.
+// Whether a primitive that shares the contact's edge or vertex has a different shading normal there (a crease).
 bool SurfaceRules::creased(const ContactSet& set, const Contact& contact, const Vec3& normal) const {
   return std::any_of(set.twins.begin(), set.twins.end(), [&](const Contact& twin) {
     if (!samePlane(twin, contact)) return false;
@@ -39,7 +39,7 @@ SurfaceRules::TouchedSet SurfaceRules::touchedNow(const ContactSet& set) const {
   return touched;
 }
 
-// The points touched and their shading normals after the passes have moved the proxy from `position` by `offset`.
+// Updates the contact points and shading normals for a proxy moved from `position` by `offset`.
 void SurfaceRules::moveOn(const ContactSet& set, const Vec3& position, const Vec3& offset, TouchedSet& touched) const {
   for (std::size_t i = 0; i < touched.size(); ++i) {
     Touched& now = touched[i];
@@ -55,7 +55,8 @@ void SurfaceRules::moveOn(const ContactSet& set, const Vec3& position, const Vec
   }
 }
 
-// Pass 1: the point nearest the finger above the shaded planes, each turned about the point where it is touched now.
+// Pass 1: the point nearest the finger above the planes with shading normals. Each turned plane keeps its distance from
+// the current offset.
 SolverResult SurfaceRules::firstPass(const ContactSet& set, const TouchedSet& touched, const Vec3& gap,
                                      const Vec3& offset) const {
   FixedVector<Plane, kMaxContacts> planes;
@@ -68,15 +69,16 @@ SolverResult SurfaceRules::firstPass(const ContactSet& set, const TouchedSet& to
   return held;
 }
 
-// The point nearest the goal above the true planes; where the proxy is when rounding leaves none.
+// The point nearest the goal above the true planes; the proxy's position if rounding makes the planes infeasible.
 Vec3 SurfaceRules::aboveTruePlanes(const ContactSet& set, const Vec3& goal) const {
   const SolverResult result = nearestAbove({set.planes.begin(), set.planes.size()}, goal, tolerance_.feasible);
   return result.violation <= tolerance_.feasible ? result.point : Vec3(Vec3::Zero());
 }
 
-// Pass 2: back above the true planes; a goal above all of them comes down to the nearest.
+// Pass 2: projects the goal onto the feasible region of the true planes. A goal above all planes is first lowered onto
+// the nearest plane.
 Vec3 SurfaceRules::secondPass(const ContactSet& set, const Vec3& goal) const {
-  if (set.planes.size() == 1)  // as most: from either side onto the plane
+  if (set.planes.size() == 1)  // the usual case: project onto the plane, from either side
     return goal - (set.planes[0].normal.dot(goal) - set.planes[0].offset) * set.planes[0].normal;
   double lowest = std::numeric_limits<double>::infinity();
   Vec3 down = Vec3::Zero();
@@ -91,7 +93,7 @@ Vec3 SurfaceRules::secondPass(const ContactSet& set, const Vec3& goal) const {
   return aboveTruePlanes(set, lowered);
 }
 
-// The slip along the way, after `before`.
+// The slip along `way`, after the slip `before` of this tick.
 Vec3 SurfaceRules::slip(FrictionOnWay& resistance, const SlipResistance& drag, const Vec3& way, const Slip& before,
                         Proposal& proposal) const {
   const double pull = way.norm();
@@ -108,12 +110,13 @@ Vec3 SurfaceRules::slip(FrictionOnWay& resistance, const SlipResistance& drag, c
   return std::min(length / pull, resistance.within() + accuracy::kOverEdge * tolerance_.reach / pull) * way;
 }
 
-// What friction lets the proxy go of the way, after `slipped_now` more than slip_ says.
+// The part of `way` that friction allows, after a slip of slip_.length + `slipped_now`.
 //
-// A stuck proxy with pre-sliding springs moves to where they balance the pull that is left,
+// With pre-sliding springs a stuck proxy moves by D to where the springs balance the remaining pull,
 //   |way - D| = presliding_ratio |presliding_m + D|,
-// and back when the pull falls: the elastic state z of Dahl's and Hayward and Armstrong's models, without their drift.
-// D comes from where the proxy got stuck: on a surface that turns, the springs may pull into what it touches now.
+// and moves back when the pull falls. This is the elastic state z of the models by Dahl and by Hayward and Armstrong,
+// without their drift. The springs are attached where the proxy stuck. So on a curved surface D may point into the
+// surface that the proxy now touches.
 Vec3 SurfaceRules::resistedStep(FrictionOnWay resistance, const Vec3& way, double slipped_now,
                                 Proposal& proposal) const {
   proposal.viscous = proposal.presliding_ratio = 0;
@@ -152,14 +155,15 @@ void SurfaceRules::listActive(const TouchedSet& touched, const SolverResult& hel
   }
 }
 
-// On planes without shading, a slip with the same resistance all along ends where the next would not move the proxy.
+// Whether one pass gives the final slip: planes without shading, and a resistance that is constant along the slip. A
+// further pass would not move the proxy.
 bool SurfaceRules::slipsAtOnce(const TouchedSet& touched, const Proposal& proposal) const {
   const auto changes = [](const Touched& now) { return now.shaded || now.friction.slipTextured(); };
   return proposal.resisted && !proposal.preslides && touched.size() <= convergence::kFewContacts &&
          std::none_of(touched.begin(), touched.end(), changes);
 }
 
-// Whether the planes, all of faces, are still those of the contacts after `step`.
+// Whether all contacts are faces and still hold on the same faces after `step`.
 bool SurfaceRules::staysOnFaces(const ContactSet& set, const TouchedSet& touched, const Vec3& step) const {
   for (std::size_t i = 0; i < touched.size(); ++i) {
     const Patch& patch = touched[i].patch;
@@ -169,8 +173,8 @@ bool SurfaceRules::staysOnFaces(const ContactSet& set, const TouchedSet& touched
   return true;
 }
 
-// The passes are repeated here with the contacts in hand, which costs no search. AndersonMixing takes out the main part
-// of what each would leave, a factor of sin^2(beta) + depth / radius.
+// The passes are repeated here with the same contacts, which needs no search. Each pass leaves a fraction sin^2(beta) +
+// depth / radius of the error; AndersonMixing removes most of that.
 void SurfaceRules::settle(const ContactSet& set, const Vec3& position, const Vec3& gap, Proposal& proposal) const {
   using Rest = Proposal::Rest;
   const bool few = set.contacts.size() <= convergence::kFewContacts;
@@ -222,7 +226,7 @@ void SurfaceRules::moved(const Proposal& proposal, const Vec3& step) {
   slip_.length += length;
   slip_.viscous_m += proposal.viscous * length;
   slipping_ = true;
-  // The springs slide along, stretched by the friction that they carry.
+  // During a slip the springs stay stretched by the friction force that they carry.
   presliding_m_ = proposal.presliding_ratio > 0 ? Vec3(proposal.held / proposal.presliding_ratio) : Vec3(Vec3::Zero());
 }
 

@@ -1,10 +1,11 @@
-// SurfaceRules: what surfaces do to the proxy's way. Each is only a rule for where the next sub-goal is (the paper's
-// sections 4 and 5):
+// SurfaceRules: how the surfaces in contact change the proxy's step. Each rule only changes the next sub-goal (the
+// paper's sections 4 and 5):
 //
-//   shading, bump   pass 1 solves with shaded planes, pass 2 takes the result as the goal above the true planes
-//   friction        the sub-goal of pass 1 is pulled back toward where the proxy is
-//   stiffness       the proxy stays; the target moves from it toward the finger
-// Frames: world; "offset" is relative to the proxy at the start of the sub-goal.
+//   shading, bump   pass 1 solves with planes turned to their shading normals; pass 2 takes the result as its goal and
+//                   solves with the true planes
+//   friction        the sub-goal of pass 1 is pulled back toward the proxy
+//   stiffness       the proxy does not change; the target moves from the proxy toward the finger
+// World frame; an "offset" is relative to the proxy at the start of the sub-goal.
 #pragma once
 
 #include "base/vec.h"
@@ -23,7 +24,8 @@ namespace hl {
 
 class SurfaceRules {
  public:
-  /// `presliding_m`: how far the proxy has crept from where it stuck.
+  /// `slipping`: the proxy slides at the start of the tick. `presliding_m`: pre-sliding offset of the proxy from where
+  /// it stuck, m.
   SurfaceRules(const SceneAt& scene, const ProxySettings& settings, const Tolerances& tolerance, bool slipping,
                const Vec3& presliding_m)
       : scene_(scene),
@@ -33,42 +35,43 @@ class SurfaceRules {
         presliding_m_(presliding_m),
         as_default_(settings.surfaces.keepsDefault()) {}
 
-  /// Whether a surface in contact does anything beyond holding the proxy off.
+  /// Whether a surface in contact has shading, a bump map or friction.
   bool any(const ContactSet& set) const;
 
-  /// Proposes the step toward the finger, `gap` away from the proxy, under the rules of the surfaces in contact; none
-  /// after so many that the rest is for the next tick.
+  /// Proposes the step toward the finger, at the offset `gap` from the proxy, under the rules of the surfaces in
+  /// contact. After kMaxProposals proposals in one tick the step is zero: the rest is left to the next tick.
   void propose(const ContactSet& set, const Vec3& position, const Vec3& gap, Proposal& proposal);
   bool postpones() const { return proposals_ > convergence::kMaxProposals; }
-  /// The same, however many there have been.
+  /// As propose(), without the limit.
   void settle(const ContactSet& set, const Vec3& position, const Vec3& gap, Proposal& proposal) const;
 
-  /// The proxy has moved by `step`, a part of the proposal's: a slip, or a pre-sliding step.
+  /// To be called when the proxy has moved by `step`, a part of the proposed step. Updates the slip or the pre-sliding
+  /// offset.
   void moved(const Proposal& proposal, const Vec3& step);
   const Vec3& presliding_m() const { return presliding_m_; }
   bool hasSlipped() const { return slip_.length > 0; }
 
-  /// A contact as the report gives it.
+  /// The contact with its surface properties, for the tick report.
   ProxyContact describe(const ContactSet& set, const ActiveContact& active) const;
-  /// s of the surface there, 0..1.
+  /// Stiffness s of the surface at `place`, 0..1.
   double stiffnessAt(const SurfacePoint& place) const;
   bool stiffnessTextured(PrimitiveId primitive) const {
     return !plain(primitive) && surfaceOf(primitive).textured(Quantity::kStiffness);
   }
 
  private:
-  /// A contact as it is while the passes move the proxy on.
+  /// State of one contact during the passes.
   struct Touched {
     Patch patch;
-    Vec3 patch_offset;  ///< where the proxy was when the patch was made
-    Vec2 moved;         ///< since then, as the patch counts it
+    Vec3 patch_offset;  ///< offset of the proxy for which the patch was made
+    Vec2 moved;         ///< change of the weights since then (patch.h)
     ShadingNormal shading_normal;
     bool shaded;
-    SurfaceFriction friction;  ///< read only when friction acts somewhere
+    SurfaceFriction friction;  ///< used only if some contact has friction
   };
   using TouchedSet = FixedVector<Touched, kMaxContacts>;
 
-  /// Whether its surface does nothing but hold off: then nobody needs to ask what it is made of.
+  /// Whether the surface of the primitive has no rules, known without reading its material.
   bool plain(PrimitiveId primitive) const { return as_default_ && scene_.instance(primitive).plain; }
   Surface surfaceOf(PrimitiveId primitive) const { return {scene_, settings_.surfaces, primitive}; }
   Patch patchAt(const SurfacePoint& place) const { return {scene_, surfaceOf(place.primitive), place}; }
@@ -93,7 +96,7 @@ class SurfaceRules {
   bool slipping_;
   Vec3 presliding_m_;
   int proposals_ = 0;
-  bool as_default_;  // the user has set nothing that changes the default material
+  bool as_default_;  // no user setting changes the default material
 };
 
 }  // namespace hl

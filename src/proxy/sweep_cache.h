@@ -1,7 +1,8 @@
-// SweepCache: a superset of the primitives within some distance of a place. A sweep meets all primitives that touch the
-// proxy where it ends, so the contacts there need no other search; if nothing has moved since, neither does the next
-// tick. Where triangles are large, the cache holds those of a ball ahead of the proxy (lookahead_ball.h). The closest
-// points of the present contacts are kept too, as the next tick begins there.
+// SweepCache: a set of primitives that includes all within some distance of a position. A sweep visits all primitives
+// that touch the proxy at its end, so the contacts there are found without another search of the hierarchy. If nothing
+// moves, the next tick uses the same set. If triangles are large, a ball ahead of the proxy supplies them for several
+// ticks (lookahead_ball.h). The closest points of the contacts at the proxy's position are kept too, as the next tick
+// starts there.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +25,7 @@ class SweepCache {
     ClosestPoint nearest;
   };
 
-  /// Begins anew: all primitives within `distance` (m) of the place that endAt() gives will be added.
+  /// Clears the set. The caller then adds all primitives within `distance` (m) of a position that it gives by endAt().
   void begin(const SceneAt& scene, double distance) {
     neighbours_.clear();
     room_left_ = true;
@@ -33,7 +34,7 @@ class SweepCache {
     time_ns_ = scene.time_ns();
     distance_ = distance;
   }
-  /// The same of a place that is known: endAt() changes nothing.
+  /// As begin(), for a position that is known: endAt() then has no effect.
   void beginAround(const SceneAt& scene, const Vec3& place, double distance) {
     begin(scene, distance);
     place_ = place;
@@ -43,18 +44,18 @@ class SweepCache {
     if (!place_known_) place_ = place;
   }
   void add(PrimitiveId primitive) { push({primitive, Vec3::Zero(), 0}); }
-  /// The same of one whose point nearest to some place is known: as it is convex, all of it lies behind the plane
-  /// there.
+  /// Adds a primitive whose closest point to some position is known. As it is convex, all of it lies behind the plane
+  /// at that point.
   void add(PrimitiveId primitive, const ClosestPoint& nearest) {
     push({primitive, nearest.normal, nearest.normal.dot(nearest.point)});
   }
   void forget() { room_left_ = false; }
   std::size_t size() const { return neighbours_.size(); }
-  /// Begun around a place: it may cover others too.
+  /// Whether the set was begun by beginAround(); it may then cover other positions too.
   bool isBall() const { return place_known_; }
 
-  /// Whether all that are within `distance` of `place` in this scene have been added; where two places are covered, so
-  /// is the way between them.
+  /// Whether the set includes all primitives within `distance` of `place` in this scene. If two positions are covered,
+  /// so is the segment between them.
   bool covers(const SceneAt& scene, const Vec3& place, double distance) const {
     const bool still =
         scene.time_ns() == time_ns_ || scene.snapshot().moves_until_ns <= std::min(time_ns_, scene.time_ns());
@@ -62,9 +63,9 @@ class SweepCache {
     return room_left_ && scene_ == scene.snapshot().identity && still && slack >= 0 &&
            (place - place_).squaredNorm() <= slack * slack;
   }
-  /// How far from `place`, which is covered, everything else is, m.
+  /// How far the proxy may move from the covered position `place` and still be covered for `distance`, m.
   double slack_m(const Vec3& place, double distance) const { return distance_ - distance - (place - place_).norm(); }
-  /// Calls visit(primitive) for those that may come within `distance` of the way between two places that are covered.
+  /// Calls visit(primitive) for those that may come within `distance` of the segment between two covered positions.
   template <typename Visit>
   void forEach(const Vec3& from, const Vec3& to, double distance, const Visit& visit) const {
     for (const Neighbour& one : neighbours_) {
@@ -73,7 +74,8 @@ class SweepCache {
     }
   }
 
-  /// Begins anew with what touches: all within `distance` of `place`, which must be covered, are going to be measured.
+  /// Clears the closest points. The caller then adds those of all primitives within `distance` of `place`, which must
+  /// be covered.
   void beginMeasured(const Vec3& place, double distance) {
     measured_.clear();
     measured_all_ = true;
@@ -83,7 +85,7 @@ class SweepCache {
   void addMeasured(PrimitiveId primitive, const ClosestPoint& nearest) {
     measured_all_ = measured_.push({primitive, nearest}) && measured_all_;
   }
-  /// Whether measured() holds all that touches there, if the place is covered.
+  /// Whether measured() includes all primitives within `distance` of `place`, if the position is covered.
   bool hasMeasured(const Vec3& place, double distance) const {
     return measured_all_ && measured_at_ == place && measured_within_ == distance;
   }
@@ -92,14 +94,14 @@ class SweepCache {
  private:
   struct Neighbour {
     PrimitiveId primitive;
-    Vec3 normal;  // unit, or zero where nothing is known: all of it lies at normal . x <= offset
+    Vec3 normal;  // unit, or zero if unknown: all of the primitive lies at normal . x <= offset
     double offset;
   };
 
   void push(const Neighbour& one) { room_left_ = neighbours_.push(one) && room_left_; }
 
   bool room_left_ = false, place_known_ = false, measured_all_ = false;
-  std::uint64_t scene_ = 0;  // no snapshot's identity
+  std::uint64_t scene_ = 0;  // 0 is the identity of no snapshot
   std::int64_t time_ns_ = 0;
   double distance_ = 0, measured_within_ = 0;
   Vec3 place_ = Vec3::Zero(), measured_at_ = Vec3::Zero();

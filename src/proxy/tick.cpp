@@ -8,12 +8,12 @@ namespace hl {
 
 namespace {
 
-// Volumes.
+// Work limit of this tick, in bounding volumes.
 std::size_t mostWork(const ProxySettings& settings, const ProxyState& state) {
   return static_cast<std::size_t>(settings.work_cap) << (state.out_of_work / convergence::kTicksPerDoubling);
 }
 
-// Ticks in a row that ended so, as far as they count.
+// Consecutive ticks that ran out of work, capped where more make no difference.
 int outOfWork(const ProxyState& state, Ending ending) {
   constexpr int kMax = convergence::kTicksPerDoubling * convergence::kMaxDoublings;
   return ending == Ending::kOutOfWork ? std::min(state.out_of_work + 1, kMax) : 0;
@@ -49,7 +49,7 @@ TickReport Tick::run() {
       break;
     }
   }
-  if (trial_.conclude(goal_, state_.position)) lookAgain();  // what holds it there, not where it has been
+  if (trial_.conclude(goal_, state_.position)) lookAgain();  // the contacts at the restored position
   close(report);
   report.work = work_.done();
   report.looks = work_.looks();
@@ -60,7 +60,7 @@ TickReport Tick::run() {
 void Tick::judgeTrial() {
   const bool last = atRest() || work_.usedUp();
   if (trial_.judge(goal_, proposal_.step.norm(), last, state_.position)) return lookAgain();
-  if (!trial_.open()) work_.stepped();  // it has paid off
+  if (!trial_.open()) work_.stepped();  // the trial was accepted
 }
 
 void Tick::look() {
@@ -75,7 +75,8 @@ void Tick::lookAgain() {
 
 void Tick::propose() {
   progress_.unsettle();
-  // The once-a-tick goal has been reached, or left behind over an edge: down to the surface, and no farther.
+  // The once-a-tick goal has been reached, or the proxy has left the surface over an edge: move down to the surface,
+  // and no farther.
   const bool passes_done = !goal_.isFinger();
   if (passes_done && !constraints_.touches()) aimAt(input_.finger);
   const bool felt = !passes_done && rules_.any(constraints_.set());
@@ -95,8 +96,7 @@ void Tick::proposePlain() {
 
 void Tick::proposeFelt() {
   rules_.propose(constraints_.set(), state_.position, input_.gap(state_.position), proposal_);
-  if (!proposal_.may_raise_energy && !proposal_.resisted)
-    return proposePlain();  // nothing but the true planes after all
+  if (!proposal_.may_raise_energy && !proposal_.resisted) return proposePlain();  // only the true planes act here
   if (proposal_.may_raise_energy && input_.settings.shading == ShadingPasses::kOnce)
     aimAt(state_.position + proposal_.step);
 }
@@ -114,14 +114,14 @@ Ending Tick::judge(int iterations) const {
   return iterations >= input_.settings.iteration_cap ? Ending::kCapped : Ending::kGoesOn;
 }
 
-// Why there is no step to make.
+// Why the proxy is at rest.
 Ending Tick::endingOfRest() const {
   if (!constraints_.touches()) return Ending::kReached;
   if (booking_.spent()) return Ending::kNoEnergy;
   return proposal_.rule == Proposal::Rule::kFelt && rules_.postpones() ? Ending::kPostponed : Ending::kStationary;
 }
 
-// On a rounded edge or corner the tangent planes alone converge slowly; Newton's step uses the curvature.
+// On a rounded edge or corner, steps by tangent planes alone converge slowly. Newton's step uses the curvature.
 bool Tick::tryCurvedStep() {
   const SolverResult& plain = constraints_.solved();
   if (proposal_.rule != Proposal::Rule::kPlain || plain.active_count == 0 || work_.usedUp() || trial_.open())
@@ -132,14 +132,14 @@ bool Tick::tryCurvedStep() {
   if (!curvatureStep(set, input_.scene, plain, input_.tolerance, trial_.boldness(), step)) return false;
   if (!trial_.mayBegin(step.norm() / plain_m)) return false;
   Vec3 there = state_.position;
-  // Where something is in the way it may still have gone farther than the plain step would.
+  // A step that is stopped by an impact counts only if it went farther than the plain step would.
   if (!walk_.go(set, true, step, there) && (there - state_.position).norm() <= plain_m) return false;
   trial_.begin(state_.position);
   state_.position = there;
   return true;
 }
 
-// One step of the proxy, as far as the way is free and the energy reaches.
+// Makes one step, shortened by impacts and by the energy budget.
 void Tick::advance() {
   const ContactSet& set = constraints_.set();
   const Vec3 from = state_.position;
@@ -159,17 +159,17 @@ void Tick::advance() {
   settle(whole && !booking_.spent(), state_.position - from);
 }
 
-// Whether the step is as short as those of planes that lean by the skin.
+// Whether the step is as short as steps between planes that are tilted by rounding within the skin (Tolerances::lean).
 bool Tick::ledByRounding(const Vec3& from) const {
   return proposal_.step.norm() <= input_.tolerance.lean() * input_.gap(from).norm();
 }
 
-// Whether what there was no room for lets it go no farther.
+// Whether contacts that did not fit into the set (a crowd) stop the proxy.
 bool Tick::heldByCrowd(const Vec3& from) const {
   return constraints_.set().crowd && !trial_.open() && (state_.position - from).norm() <= input_.tolerance.skin;
 }
 
-// Keeps of the passes' end what is true after a step, made as a whole or not.
+// Updates proposal_.rest after a step. `whole`: the step was made in full; otherwise the passes have not ended.
 void Tick::settle(bool whole, const Vec3& step) {
   if (!whole) proposal_.rest = Proposal::Rest::kGoesOn;
   if (proposal_.rest == Proposal::Rest::kSettles) progress_.settleOn(constraints_.set());
@@ -180,9 +180,9 @@ void Tick::close(TickReport& report) {
   const bool once = !goal_.isFinger();
   const bool at_finger = input_.stationary(input_.finger - state_.position, state_.position);
   const Vec3 gap = input_.gap(state_.position);
-  // After passes made once a tick: what holds the proxy where it has come to rest.
+  // After passes that run once a tick: find the contacts that hold the proxy at its final position.
   if (once && constraints_.touches()) rules_.settle(constraints_.set(), state_.position, gap, proposal_);
-  // Stopped where the shaded planes would let it go on: the true ones hold it.
+  // No plane with a shading normal holds the proxy here: use the true planes.
   if (proposal_.active.empty() && !at_finger) constraints_.nearestTo(gap, proposal_);
   const TickEnd end = !proposal_.active.empty() ? TickEnd::kContact : at_finger ? TickEnd::kOpen : TickEnd::kOnItsWay;
   EnergyBooking::Causes causes{proposal_.shading, proposal_.bump, false};

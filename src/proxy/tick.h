@@ -1,12 +1,12 @@
-// One tick's work: feasible sequential convex steps toward the finger.
+// One tick: feasible sequential convex steps of the proxy toward the finger.
 //
-//   minimise 1/2 |x - finger|^2 over the places x clear of the scene
+//   minimise 1/2 |x - finger|^2 over all positions x that are clear of the scene
 //
-// Each step linearises the obstacles in touch (constraints.h), solves the convex subproblem that they make, or what the
-// rules of the surfaces make of it (surface_rules.h), pays for what it may add to the spring's energy
-// (energy_booking.h) and goes until it meets something new (walk.h). A second-order step (curvature_step.h) is on trial
-// (trial.h); progress.h and the length of the step say when the tick has come to its end, work.h when it has done
-// enough. Every place on the way is valid, so the tick may end anywhere.
+// Each step linearises the obstacles in contact (constraints.h) and solves the resulting convex subproblem, modified by
+// the rules of the surfaces (surface_rules.h). Steps that may raise the spring's energy are shortened to the energy
+// budget (energy_booking.h). The proxy moves by the step or up to the first new impact (walk.h). Second-order steps
+// (curvature_step.h) are made on trial (trial.h). The tick ends when the step is short enough, without more progress
+// (progress.h), or at the work limit (work.h). Every position on the way is valid, so the tick may end anywhere.
 #pragma once
 
 #include "proxy/constraints.h"
@@ -59,8 +59,8 @@ class Tick {
   Trial trial_;
   Progress progress_;
   Work work_;
-  Proposal proposal_;                          // the step in hand
-  FixedVector<ActiveContact, 3> last_active_;  // what has held the proxy last
+  Proposal proposal_;                          // the current step
+  FixedVector<ActiveContact, 3> last_active_;  // active contacts of the last step that had any
 };
 
 }  // namespace hl

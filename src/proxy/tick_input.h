@@ -1,4 +1,4 @@
-// Tick input: what the stages of one tick share and none of them changes.
+// Tick input: constant data that all stages of one tick share.
 #pragma once
 
 #include "base/vec.h"
@@ -9,14 +9,14 @@
 
 namespace hl {
 
-/// World frame. The scene and the settings must outlive it.
+/// World frame. The scene and the settings must outlive this object.
 struct TickInput {
   TickInput(const SceneAt& scene_now, const ProxySettings& rules, const Vec3& finger_now)
       : TickInput(scene_now, rules, finger_now, scene_now.extent()) {}
 
-  /// The way from the proxy to the finger, as far as steps aim.
+  /// Vector from `position` to the finger, shortened to the length at which steps may aim (far_goal.h).
   Vec3 gap(const Vec3& position) const { return far.shortened(finger - position); }
-  /// Whether a step is so short that the proxy is stationary: accuracy::kRestPerGap.
+  /// Whether `step` is below the rest threshold at `position` (accuracy::kRestPerGap).
   bool stationary(const Vec3& step, const Vec3& position) const {
     return step.norm() <= accuracy::kRestPerGap * far.shortened_m(finger - position) + tolerance.rest;
   }
@@ -25,7 +25,7 @@ struct TickInput {
   const ProxySettings& settings;
   const Vec3 finger;
   const Tolerances tolerance;
-  const double longest_m;  ///< of one sweep
+  const double longest_m;  ///< longest sweep
   const FarGoal far;
 
  private:

@@ -1,11 +1,11 @@
-// Every number that tunes a tick, with its unit and its reason. Three groups say what a change of one may do:
+// Every number that tunes a tick, with its unit and its reason, in three groups:
 //
 //   accuracy      changes where the proxy comes to rest
-//   convergence   decides by which way, and after how many steps, it gets there
-//   cost          decides nothing but time
+//   convergence   changes the path to that point and the number of steps
+//   cost          changes only the computing time
 //
-// "Per" names what a length scales with: the proxy radius, the gap to the finger, the size of the scene. Elsewhere are
-// what the user sets (ProxySettings), rooms that are only room (kMaxContacts), and factors of mathematics.
+// "Per" in a name says what a length scales with: the proxy radius, the gap to the finger, the size of the scene. Not
+// in this file: user settings (ProxySettings), capacities (kMaxContacts), and mathematical constants.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@
 
 namespace hl {
 
-// ---- Accuracy: what changes where the proxy comes to rest ----
+// ---- Accuracy: where the proxy comes to rest ----
 
 namespace accuracy {
 
@@ -22,222 +22,234 @@ inline constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 // Skin and reach: Tolerances, below.
 
-/// Skin: a part of the radius that no finger feels, and far more than the rounding of distances in the scene, which is
-/// some units of kEps times its size.
+/// Skin: too small to feel, and much larger than the rounding error of distances in the scene, which is a few kEps
+/// times the size of the scene.
 inline constexpr double kSkinPerRadius = 1e-10;
 inline constexpr double kSkinPerExtent = 512 * kEps;
-/// Skins beyond the nominal radius at which the proxy is held, and within which a primitive is a contact.
+/// In skins beyond the nominal radius: the distance at which the proxy is held, and the distance within which a
+/// primitive is a contact.
 inline constexpr double kReachSkins = 2, kTouchingSkins = 3;
-/// By which a plane may be violated: far below the skin, far above rounding.
+/// Tolerance for the violation of a plane: far below the skin, far above rounding.
 inline constexpr double kFeasiblePerSkin = 0.25;
-/// A step shorter than this is of rounding.
+/// A shorter step is a rounding error.
 inline constexpr double kRestPerExtent = 8 * kEps;
 
 // The local minimum: tick.h, constraints.h.
 
-/// It is reached when the step that the solver still wants is below this part of the gap: the way from the proxy to
-/// the finger, which is what is felt.
+/// The local minimum is reached when the solver's step is below this fraction of the gap. The gap is the vector from
+/// the proxy to the finger, which determines the force.
 inline constexpr double kRestPerGap = 1e-8;
-/// A sweep is cut to this many times the size of the scene: the impact time's rounding then stays below the skin.
+/// Maximum length of a sweep, in sizes of the scene. Rounding of the impact time then stays below the skin.
 inline constexpr double kSweepPerExtent = 100;
-/// A step that leads away from the goal by so many times the depth of the proxy below its planes is one of rounding.
+/// A step that increases the distance to the goal by more than this many times the depth of the proxy below its planes
+/// is a rounding error.
 inline constexpr double kMaxStrayPerDepth = 16;
 
 // The solver: solver.h.
 
-/// Directions whose sine is below this are the same direction to rounding: their crossing is not computed.
+/// Sine of the angle below which two directions count as parallel; their intersection is not computed.
 inline constexpr double kParallel = 1e-14;
-/// Multipliers below minus this part of the distance to the goal are truly negative: such a set is not optimal.
+/// A multiplier below minus this fraction of the distance to the goal is truly negative: the active set is not optimal.
 inline constexpr double kNegative = 1e-6;
-/// Part of the tolerance to which the solver itself meets its planes, so that its result passes.
+/// The solver meets its planes to this fraction of the tolerance, so that its result passes the caller's check.
 inline constexpr double kStrictPerTolerance = 0.125;
-/// Candidates no farther apart than so many of these are one point.
+/// Candidates at most this many tolerances apart are the same point.
 inline constexpr double kSamePoint = 4;
 
 // The rules of the surfaces: surface_rules.h, patch.h, friction.h.
 
-/// rad. The paper's "usually less than 30 degrees": a shaded normal farther from the true one is turned back to this.
-/// Bending by beta can add up to 1/cos^2(beta) - 1 of the spring's energy, a third at 30 degrees.
+/// rad. The paper's "usually less than 30 degrees": a shading normal at a larger angle from the true normal is limited
+/// to this angle. Turning by beta can add up to 1/cos^2(beta) - 1 of the spring's energy, a third at 30 degrees.
 inline constexpr double kShadingLimit_rad = 0.5235987755982988;
 inline constexpr double kShadingLimitCos = 0.8660254037844386, kShadingLimitSin = 0.5;
-/// rad. Neighbours whose shaded normals differ by more meet in a crease: the file means the edge to be seen, and felt.
+/// rad. If the shading normals of neighbours differ by more, their edge is a crease: the model wants it to be seen and
+/// felt.
 inline constexpr double kCrease_rad = 0.01;
-/// s. A proxy that has rested so long is stuck. Shorter than that it still slides: the encoder of a slow finger stands
-/// still between two counts, 3 ms at 10 mm/s and 30 um.
+/// s. A proxy that has not slipped for this time is stuck; before that it counts as sliding. The encoder of a slow
+/// finger does not change between two counts: 3 ms at 10 mm/s and 30 um.
 inline constexpr double kStuck_s = 0.020;
-/// Rounds in which a slip comes down to where the Stribeck curve balances it.
+/// Maximum number of iterations for the slip that balances the Stribeck curve.
 inline constexpr int kSlipRounds = 60;
-/// Rounds for the place of rest on textured friction: each halves the part of the way that is left at least.
+/// Maximum number of iterations for the rest point on textured friction. Each at least halves the interval.
 inline constexpr int kRestRounds = 20;
-/// Part of the pull to which the resistance balances it there.
+/// Relative accuracy of the balance at the rest point, as a fraction of the pull.
 inline constexpr double kBalanced = 1e-12;
-/// Samples of a slip for each texel that it crosses, and at most: no narrow line of friction is missed.
+/// Samples of a slip per texel crossed, and maximum number of samples. They ensure that no narrow line of friction is
+/// missed.
 inline constexpr double kSamplesPerTexel = 2, kMaxSamples = 4096;
-/// The way over the edge of a textured triangle that makes its neighbour the one in contact, in proxy radii: the
-/// closest point of the one left behind is then farther by 1/2 (1e-4)^2 = 5e-9 radii, 50 times the skin.
+/// Distance beyond the edge of a textured triangle, in proxy radii, at which its neighbour becomes the contact. The
+/// closest point of the previous triangle is then farther away by 1/2 (1e-4)^2 = 5e-9 radii, 50 times the skin.
 inline constexpr double kOverEdge = 1e-4;
 
 // What moves: rigid_sweep.h, pushed_proxy.h, push_out.h.
 
-/// rad. In an object's frame the way of the proxy is taken for straight. It strays from that by R q^2 / 8 at a turn of
-/// q; at this turn by 1/200 of its distance R from the axis.
+/// rad. Maximum turn of an object per sweep. In the object's frame the proxy's path is approximated by a straight line.
+/// For a turn of q the error is R q^2 / 8, with R the distance from the axis: at this turn R / 200.
 inline constexpr double kMaxTurn_rad = 0.2;
-/// Part of the radius at which what moves counts as met: what rests on the proxy and slides along it has not met it.
+/// Distance, as a fraction of the radius, at which a moving object counts as meeting the proxy. An object that rests on
+/// the proxy and slides along it stays farther away.
 inline constexpr double kMetAt = 0.9;
-/// Of the radius: what the proxy touches of a deforming mesh that carries it lies within.
+/// In radii: distance within which the proxy touches a deforming mesh that carries it.
 inline constexpr double kTouchingDeforming = 1.1;
-/// How often the room that is looked for in a pinch is halved: the last is 1/256 of the radius.
+/// Number of times that the required clearance is halved in a pinch. The last is 1/256 of the radius.
 inline constexpr int kPinchHalvings = 8;
 
 }  // namespace accuracy
 
-// ---- Convergence: what decides by which way, and after how many steps, the proxy gets there ----
+// ---- Convergence: the path to that point, and the number of steps ----
 
 namespace convergence {
 
 // The end of a tick: progress.h, work.h, walk.h.
 
-/// Steps in a row that come no nearer to the goal.
+/// Consecutive steps that come no nearer to the goal.
 inline constexpr int kMaxIdle = 8;
-/// Bounding volumes, each some 5 ns, that cost as much as a look at a place and the step that follows; as a contact
-/// found there; and as an exact test.
+/// Cost, in bounding volumes of about 5 ns each, of a look at a position including the step that follows; of a contact
+/// found there; and of an exact test.
 inline constexpr std::size_t kWorkPerLook = 40, kWorkPerContact = 8, kWorkPerPrimitive = 8;
-/// After so many ticks in a row that ran out of work the next may do twice as much, and so on up to 16 times. About a
-/// vertex of 300 triangles a second-order step does not pay off within one tick's work: the proxy would never arrive.
+/// After this many consecutive ticks that ran out of work, the limit doubles, up to 16 times. At a vertex of 300
+/// triangles a second-order step does not succeed within the work of one tick: without this the proxy would never
+/// arrive.
 inline constexpr int kTicksPerDoubling = 8, kMaxDoublings = 4;
 
-/// Reaches of the first leg of a long way. A finger at 1 m/s goes one to five in a tick.
+/// In reaches: the first leg of a long step. A finger at 1 m/s moves one to five reaches per tick.
 inline constexpr double kFirstLegPerReach = 8;
 
 // The convex steps: constraints.h, recent_cuts.h, solver.h.
 
-/// Steps in a row with cuts. Where the finger is all but at an edge, each goes a little farther around it and away from
-/// it; then it is time to come down, and for Newton's step.
+/// Consecutive steps with cuts. If the finger is almost at an edge, each such step goes a little farther around the
+/// edge and away from it. Then the proxy must come down to the surface, for Newton's step.
 inline constexpr int kMaxCutsInARow = 3;
-/// A step by cuts shorter than this part of the gap goes so little that it is time to come down.
+/// Minimum length of a step with cuts, as a fraction of the gap. After a shorter one the proxy should come down to the
+/// surface.
 inline constexpr double kMinCutPerGap = 1e-5;
-/// In the open a step by cuts so many times as long as the way slid since the last touch would mostly end at once on
-/// something new.
+/// Maximum length of a step with cuts and without contact, in lengths slid since the last contact. A longer one would
+/// usually end at once at a new primitive.
 inline constexpr double kMaxCutPerSlid = 2;
-/// Reaches within which what was left still counts as a cut: a thousandth beyond.
+/// In reaches: distance up to which a primitive can still be a cut, 0.1% beyond the reach.
 inline constexpr double kCutNear = 1.001;
-/// Among planes of so many contacts no cuts are asked for.
+/// Maximum number of planes together with cuts; with more there are no cuts.
 inline constexpr std::size_t kMaxPlanesWithCuts = 16;
-/// A bound on the solver's rounds; each strictly raises the distance to the goal, so it is met only through rounding.
+/// Maximum number of rounds of the solver. Each round increases the distance to the goal, so only rounding errors can
+/// reach the limit.
 inline constexpr std::size_t kMaxSolverRounds = 200;
 
 // Second-order steps on trial: curvature_step.h, trial.h, back_off.h.
 
-/// Reaches: a tangent of 45 degrees on the obstacle. Newton's step is cut there.
+/// In reaches: maximum length of Newton's step, the tangent of 45 degrees on the obstacle.
 inline constexpr double kLongestPerReach = 1.0;
-/// Part of the plain step: below this change of it the curvature is not worth leaving the surface for.
+/// Minimum change of the plain step by the curvature, relative to the plain step. A smaller change is not worth leaving
+/// the surface.
 inline constexpr double kWorthwhile = 1e-3;
-/// Times the way to where a sphere or cylinder ends: a step goes a little beyond, so that the next look finds what
-/// follows.
+/// Maximum length of a step along a sphere or cylinder, relative to the distance to its end. It goes a little beyond
+/// the end so that the next look finds the next feature.
 inline constexpr double kTurnedBeyond = 1.001;
-/// Steps until a trial must have paid off: on its way down the proxy may meet another surface first.
+/// Plain steps until a trial must have succeeded. The proxy may meet another surface first.
 inline constexpr int kMaxDescents = 8;
-/// By how much steps become bolder when one has paid off, and less bold when one has not.
+/// Factor on the trial step after a success, and divisor after a failure.
 inline constexpr double kBolder = 2, kLessBold = 4;
-/// Times the plain step: a step on trial so long is never left out.
+/// A trial step this many times as long as the plain step is never skipped.
 inline constexpr double kMuchLonger = 8;
-/// Failures that count: after the n-th the next 2^n tries are left out, so what never works costs next to nothing.
+/// Maximum number of failures counted. After the n-th failure 2^n tries are skipped, so a method that never works costs
+/// almost nothing.
 inline constexpr int kMaxFailures = 10;
 
 // The passes over the rules of the surfaces: surface_rules.h, anderson_mixing.h.
 
-/// Passes in one sub-goal; each leaves sin^2(beta) + depth / radius of what the one before did.
+/// Maximum number of passes per sub-goal. Each leaves sin^2(beta) + depth / radius of the error of the one before.
 inline constexpr int kInnerPasses = 12;
-/// Sub-goals in contact under shading or friction, in one tick; the rest is for the next.
+/// Sub-goals per tick under shading or friction. The rest is left to the next tick.
 inline constexpr int kMaxProposals = 8;
-/// Beyond so many contacts at once the passes are repeated by the tick itself, with the contacts found anew.
+/// With more contacts each pass is a step of the tick, with contacts gathered anew.
 inline constexpr std::size_t kFewContacts = 8;
-/// Farther than this the guess is no better than the pass itself: the passes hardly shrink, or a kink lies between.
+/// Maximum mixing coefficient. A larger one gives no better guess than the pass itself: the passes converge too slowly,
+/// or there is a kink between them.
 inline constexpr double kMaxMixing = 0.9;
-/// Square of the sine between the two differences: below it they are one direction to rounding.
+/// Squared sine of the angle between the two differences, below which they are parallel to rounding.
 inline constexpr double kParallelSquared = 1e-4;
 
 // Where a proxy begins: start_search.h, clear_place.h.
 
-/// Places that a tick looks at.
+/// Candidate positions per tick.
 inline constexpr int kPlacesPerTick = 2;
-/// How often a place is pushed out of what it overlaps: the finger, which mostly has just come in, and any other.
+/// Maximum number of pushes of a candidate out of what it overlaps: for the finger, which usually has just entered a
+/// surface, and for any other candidate.
 inline constexpr int kPushesOfFinger = 8, kPushesOfPlace = 2;
-/// So many of the things that the finger overlaps are passed through.
+/// Number of primitives overlapping the finger whose far side is tried.
 inline constexpr int kBeyond = 12;
-/// Directions: the middles of kAcross x kAcross cells on each side of a cube, 96 in all, up to 0.4 rad apart.
+/// Directions: the centres of kAcross x kAcross cells on each side of a cube, 96 in all, up to 0.4 rad apart.
 inline constexpr int kAcross = 4;
-/// Spheres of places: their radii in reaches are 1, sqrt 2, 2, ... up to kFarthestStart.
+/// Number of spheres of candidates. Their radii in reaches are 1, sqrt 2, 2, ... up to kFarthestStart.
 inline constexpr int kSpheres = 14;
-/// A place to begin is no farther from the finger than so many times the reach, and some pushes.
+/// In reaches: maximum distance of a candidate from the finger, not counting the pushes.
 inline constexpr double kFarthestStart = 100;
-/// Part of the clearance with which a push is swept, so that its centre passes nothing however that is rounded.
+/// Radius of the sweep of a push, as a fraction of the clearance. Despite rounding, the centre then crosses no surface.
 inline constexpr double kPushedPart = 0.5;
 
 // What moves: pusher.h, small_step.h, push_out.h.
 
-/// Sweeps or small steps from one tick to the next.
+/// Maximum number of sweeps or small steps between two ticks.
 inline constexpr int kMaxCarrySteps = 64;
-/// Proxy radii that a mesh may deform from one tick to the next without passing: each small step goes half a radius at
-/// least, where nothing pinches the proxy; half of that where friction takes it along.
+/// Maximum deformation of a mesh between two ticks, in proxy radii, at which it cannot pass the proxy. Each small step
+/// covers at least half a radius if nothing pinches the proxy, and half of that if friction carries it along.
 inline constexpr int kMaxDeformRadii = kMaxCarrySteps / 4;
-/// Part of the clearance by which objects may close in on the proxy before it is pushed out again.
+/// Fraction of the clearance by which objects may approach before the proxy is pushed out again.
 inline constexpr double kCloseIn = 0.5;
-/// Of a turn of at most kMaxTurn_rad, with room to spare.
+/// Upper bound of arc over chord for a turn of at most kMaxTurn_rad, with a margin.
 inline constexpr double kArcPerChord = 1.1;
-/// Reaches about the way of the proxy within which objects are looked at.
+/// In reaches: margin around the proxy's path within which objects are considered.
 inline constexpr double kNearPerReach = 2;
-/// How often the proxy is pushed out of what has come too near: mostly once, but into a corner of rounded edges it
-/// comes by halves.
+/// Maximum number of pushes out of what has come too near. One is usually enough, but in a corner of rounded edges the
+/// remaining overlap only halves with each push.
 inline constexpr int kPushTries = 32;
-/// The same for each smaller room that is looked for in a pinch.
+/// The same for each reduced clearance in a pinch.
 inline constexpr int kPinchedTries = 8;
 
 }  // namespace convergence
 
-// ---- Cost: what decides nothing but time ----
+// ---- Cost: only the computing time ----
 
 namespace cost {
 
-// How far a step mostly goes: walk.h.
+// The typical length of a step: walk.h.
 
-/// Along a surface: over rough terrain most steps end within so many reaches, and others cost one more look.
+/// In reaches, along a surface. On rough terrain most steps are shorter; a longer one costs one more look.
 inline constexpr double kSlidePerReach = 0.5;
-/// A proxy that has come off a curved surface comes down on it after some hundredths of the way it slid; one that has
-/// not slid falls a part of its reach.
+/// A proxy that has left a curved surface meets it again after some hundredths of the way that it slid. A proxy that
+/// has not slid falls a fraction of its reach.
 inline constexpr double kFallPerSlide = 0.02, kFallPerReach = 0.25;
 
-// What is kept of a search for the next: sweep_cache.h.
+// What is kept of a search for the next one: sweep_cache.h.
 
-/// Primitives. A sweep over a million triangles, a quarter of the proxy's radius wide, meets three in the mean.
+/// Primitives. A sweep over a million triangles, each a quarter of the proxy's radius wide, meets three on average.
 inline constexpr std::size_t kSweepRoom = 24;
-/// Primitives that touch and are kept measured: mostly one or two.
+/// Contacts whose closest points are kept: usually one or two.
 inline constexpr std::size_t kMeasuredRoom = 4;
 
 // One search for several ticks: lookahead_ball.h.
 
-/// Ticks that a ball serves at least, and at most: its search takes as long as two sweeps.
+/// Minimum and maximum number of ticks for which a ball is made. Its search costs as much as two sweeps.
 inline constexpr double kMinBallTicks = 3, kMaxBallTicks = 6;
-/// The area of the smallest triangle touched over that of the disc which the ball cuts out of its plane.
+/// Area of the smallest triangle in contact, divided by the area of the disc that the ball cuts out of its plane.
 inline constexpr double kTrianglePerDisc = 0.5;
-/// Contacts of a proxy that is worth a ball.
+/// Maximum number of contacts for which a ball is made.
 inline constexpr std::size_t kMaxBallContacts = 3;
-/// Primitives in a ball that was worth it.
+/// Maximum number of primitives in a useful ball.
 inline constexpr std::size_t kMaxInBall = 8;
 
 }  // namespace cost
 
-/// The accuracy of one scene, m. Distances in a scene of coordinates up to `extent` carry a rounding error of some
-/// units of eps * extent.
+/// Tolerances for one scene, m. With coordinates up to `extent`, distances have a rounding error of a few eps * extent.
 struct Tolerances {
   double skin;      ///< the width within which a primitive counts as a contact
-  double reach;     ///< radius at which the proxy is held; above the nominal one, so that rounding never enters it
-  double swept;     ///< radius of the sweep: less by a rounding, so that on a flat surface it stops at no neighbour
-  double touching;  ///< a primitive no farther than this is a contact (a plane); all others are swept
-  double feasible;  ///< by which a plane may be violated
-  double rest;      ///< a step shorter than this is no step
+  double reach;     ///< distance at which the proxy is held; above the nominal radius, so that rounding never enters it
+  double swept;     ///< radius of the sweep: smaller by the rounding error, so that on a flat surface it stops at no
+                    ///< neighbour
+  double touching;  ///< a primitive up to this distance is a contact (a plane); all others are swept
+  double feasible;  ///< allowed violation of a plane
+  double rest;      ///< a shorter step is no step
 
-  /// rad: so far the plane of a neighbour within the skin may lean, as an edge is round: skin = radius lean^2 / 2.
+  /// rad: maximum tilt of the plane of a neighbour within the skin, as an edge is rounded: skin = radius lean^2 / 2.
   double lean() const { return std::sqrt(2 * skin / (reach - accuracy::kReachSkins * skin)); }
 
   static Tolerances of(double radius, double extent) {

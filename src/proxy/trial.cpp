@@ -18,8 +18,8 @@ bool Trial::judge(const Goal& goal, double step_m, bool last, Vec3& position) {
   return conclude(goal, position);
 }
 
-// A step of length s comes nearer to the goal by s^2 / 2 of half the squared distance, and by about as much again where
-// the surface curves away below it. As much for each step that is left.
+// A plain step of length s reduces half the squared distance to the goal by s^2 / 2, and by about as much again where
+// the surface curves away below it. The trial is hopeless if all remaining steps together cannot make up the loss.
 bool Trial::hopeless(const Goal& goal, double step_m, const Vec3& position) const {
   const Vec3 apart = position - *checkpoint_;
   const double lost_m2 = apart.squaredNorm() - 2 * apart.dot(goal.place() - *checkpoint_);

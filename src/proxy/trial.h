@@ -1,9 +1,10 @@
 // Trial: a watchdog line search (Chamberlain, Powell, Lemarechal and Pedersen 1982). A second-order step leaves the
-// surface for a moment and may end farther from the goal; within some steps that come down from it the proxy must be
-// nearer than where the trial began, else it goes back there. Steps that pay off become bolder; those that do not are
-// tried ever less often, unless they would go much farther than plain ones.
+// surface and may end farther from the goal. A few plain steps then bring the proxy back to the surface. If after these
+// it is not nearer to the goal than at the start of the trial (the checkpoint), it returns to the checkpoint. After a
+// success the next trial step is longer. After a failure it is shorter, and more tries are skipped unless the step
+// would be much longer than a plain one.
 //
-// Invariant: after a trial has ended the proxy is nearer to the goal than where it began, or there.
+// Invariant: when a trial has ended, the proxy is nearer to the goal than the checkpoint, or at the checkpoint.
 #pragma once
 
 #include <optional>
@@ -19,26 +20,26 @@ namespace hl {
 class Trial {
  public:
   bool open() const { return checkpoint_.has_value(); }
-  /// Counts one try of a step so many times as long as the plain one; false where it is to be left out. One that is
-  /// much longer never is: plain steps would get nowhere meanwhile.
+  /// Counts one try of a step that is `per_plain` times as long as the plain step. Returns false if it is to be
+  /// skipped. A step that is much longer is never skipped, as plain steps would progress too slowly.
   bool mayBegin(double per_plain) { return !open() && (back_off_.mayTry() || per_plain >= convergence::kMuchLonger); }
-  /// Of the next step: 1, or less where such steps have not paid off.
+  /// Fraction of the Newton step to use next: 1, or less after failures.
   double boldness() const { return boldness_; }
 
   void begin(const Vec3& checkpoint);
-  /// The proxy has made one step that comes down.
+  /// Counts one plain step of the open trial.
   void descended() { ++descents_; }
-  /// Where a trial is open, to be asked after each step that comes down. `step_m`: the length of the next; `last`:
-  /// there is none. Returns whether the proxy has been put back.
+  /// To be called after each plain step of an open trial. `step_m`: length of the next step. `last`: there is no next
+  /// step. Returns whether `position` was reset to the checkpoint.
   bool judge(const Goal& goal, double step_m, bool last, Vec3& position);
-  /// The same when the tick ends.
+  /// Ends the open trial at once, as judge() does. Returns whether `position` was reset to the checkpoint.
   bool conclude(const Goal& goal, Vec3& position);
 
  private:
   bool hopeless(const Goal& goal, double step_m, const Vec3& position) const;
 
-  std::optional<Vec3> checkpoint_;  // of the open trial
-  int descents_ = 0;                // steps since
+  std::optional<Vec3> checkpoint_;  // start of the open trial
+  int descents_ = 0;                // plain steps since the checkpoint
   double boldness_ = 1;
   BackOff back_off_;
 };

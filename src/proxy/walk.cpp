@@ -19,8 +19,8 @@ bool Walk::go(const ContactSet& set, bool along, const Vec3& step, Vec3& positio
   return whole && !hit;
 }
 
-// All that can be met is in a ball about the scene; outside of it the proxy is where its way enters the ball, or at the
-// finger at once.
+// All primitives lie within a ball about the scene. If the proxy is outside it, it moves to where its way enters the
+// ball, or directly to the finger if the way does not meet the ball.
 void Walk::fly(const ContactSet& set, Vec3& position) {
   const Vec3 from = position, way = input_.finger - from;
   const FarGoal::Within ball = input_.far.within(from, way);
@@ -29,22 +29,23 @@ void Walk::fly(const ContactSet& set, Vec3& position) {
     position = from + ball.enter * way;
     return cache_.nearby.endAt(position);
   }
-  // In the open and unhindered the proxy *is* the finger, to the bit.
+  // Without contact the proxy equals the finger bit by bit.
   if (misses || go(set, false, ball.leave * way, position)) cache_.nearby.endAt(position = input_.finger);
 }
 
-// How far a step mostly goes, which decides nothing but its cost: along a surface a part of the reach; and a proxy that
-// has come off a curved surface comes down on it after some hundredths of the way it slid.
+// Typical length of a step. It affects only the cost. Along a surface: a fraction of the reach. A proxy that has left a
+// convex surface meets it again after some hundredths of the way that it slid.
 double Walk::likelyWay_m(bool along) const {
   using namespace cost;
   if (along) return kSlidePerReach * input_.tolerance.reach;
   return slid_m_ > 0 ? kFallPerSlide * slid_m_ : kFallPerReach * input_.tolerance.reach;
 }
 
-// Asks the cached neighbours only. False where they are not enough: nothing of it is hit on the part of the way that it
-// covers, and the way goes on; along a surface it mostly does.
-bool Walk::cacheAnswers(const ContactSet& set, bool along, const Vec3& from, const Vec3& motion,
-                        std::span<const PrimitiveId> contacts, bool& hit, SceneImpact& out) {
+// Finds the first impact from the cache alone. Returns false if the cache does not suffice: it covers only a part of
+// the way and has no impact on that part. Along a surface a partly covered way is not tested, as it usually continues
+// beyond the covered part.
+bool Walk::cacheTells(const ContactSet& set, bool along, const Vec3& from, const Vec3& motion,
+                      std::span<const PrimitiveId> contacts, bool& hit, SceneImpact& out) {
   SweepCache& nearby = cache_.nearby;
   const SceneAt& scene = input_.scene;
   const Tolerances& tolerance = input_.tolerance;

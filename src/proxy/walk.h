@@ -1,10 +1,11 @@
-// Walk: moves the proxy by a step, or to its first impact with a primitive that is no contact yet. Contacts are kept
-// away by their planes, all other primitives are swept: never both, never neither.
+// Walk: moves the proxy by a step, or up to its first impact with a primitive that is not yet a contact. Contacts are
+// kept away by their planes, and all other primitives are swept: every primitive is treated in exactly one of these
+// ways.
 //
-// The cost of a sweep grows faster than the square of its length, and a tick cannot end within a sweep. So a long way
-// is split into legs, each a step of the tick.
+// The cost of a sweep grows at least with the square of its length, and a tick cannot end within a sweep. So a long way
+// is split into legs, and each leg is one step of the tick.
 //
-// Invariant: the proxy's centre stays `swept` away from every primitive that is no contact.
+// Invariant: the proxy's centre stays at least Tolerances::swept away from all primitives that are not contacts.
 #pragma once
 
 #include <span>
@@ -25,13 +26,14 @@ class Walk {
     cache.ahead.follow(input.finger);
   }
 
-  /// Moves `position` by `step`, or by its first leg; `along`: along a surface. Returns whether it has gone the whole
-  /// way.
+  /// Moves `position` by `step`, by the first leg of it, or up to the first impact. `along`: the step follows a
+  /// surface. Returns whether the whole step was made.
   bool go(const ContactSet& set, bool along, const Vec3& step, Vec3& position);
-  /// In the open: to the finger, or to what is met first.
+  /// Without contacts: moves to the finger, or up to the first impact.
   void fly(const ContactSet& set, Vec3& position);
 
-  /// How far the steps since the last touch wanted to go along a surface, m; 0: the last did not.
+  /// Length of the steps along a surface, as requested, since the last contact, m; 0: the last step did not follow a
+  /// surface.
   double slid_m() const { return slid_m_; }
 
  private:
@@ -43,7 +45,7 @@ class Walk {
   const TickInput& input_;
   ProxyCache& cache_;
   double slid_m_ = 0;
-  double leg_m_;  // of the longest sweep that comes next: twice that after each leg
+  double leg_m_;  // longest sweep of the next step; doubled after each leg
 };
 
 }  // namespace hl

@@ -1,10 +1,10 @@
-// Work: how much one tick has done. It is counted, not timed, so that every machine and instruction set comes to the
-// same number; its unit is a bounding volume looked at, some 5 ns. A tick whose work is used up ends where it is; the
-// next goes on from there. So that all ticks together come to the end, each makes one step that comes nearer.
+// Work: the cost of one tick. It is counted, not timed, so that it is the same on every machine and instruction set.
+// Unit: one bounding volume visited, about 5 ns. A tick that reaches its limit ends where it is, and the next tick
+// continues from there. Each tick makes at least one step that comes nearer, so that the proxy arrives in the end.
 //
-// Two hierarchies, and ticks that find other things in their caches, do different work for the same answer: they may
-// differ in where a tick ends that is out of work, and in nothing else. A recorded tick is made again by the number of
-// looks after which its work was used up, whatever they cost now.
+// Different hierarchies, or different contents of the caches, need different work for the same answer. They may only
+// change where a tick ends that reaches its limit. A recorded tick is replayed by the number of looks after which the
+// limit was reached, whatever these looks cost in the replay. A look is one gathering of contacts at a position.
 #pragma once
 
 #include <cstddef>
@@ -18,29 +18,30 @@ namespace hl {
 /// For one tick. RT-safe.
 class Work {
  public:
-  /// `most` volumes and `most_looks`. `scene`, which counts what it is asked, must outlive it.
+  /// Limits: `most` volumes and `most_looks` looks. `scene`, which counts the cost of its queries, must outlive this
+  /// object.
   Work(const SceneAt& scene, std::size_t most, int most_looks) : scene_(scene), most_(most), most_looks_(most_looks) {}
 
-  /// The proxy has looked at a place, which comes with a step.
+  /// Counts one look, which includes the step that follows.
   void looked(const ContactSet& set) {
     done_ += convergence::kWorkPerLook + convergence::kWorkPerContact * (set.contacts.size() + set.twins.size());
     ++looks_;
     if (used_up_at_ == 0 && (done() >= most_ || looks_ >= most_looks_)) used_up_at_ = looks_;
   }
-  /// The proxy has made a step that counts: not one on trial, before that has paid off.
+  /// Records a step that counts: any plain step outside a trial, or an accepted trial.
   void stepped() { has_stepped_ = true; }
 
-  /// Volumes.
+  /// Work so far, in bounding volumes.
   std::size_t done() const {
     const QueryCost& cost = scene_.cost();
     return done_ + cost.volumes + convergence::kWorkPerPrimitive * cost.primitives;
   }
   int looks() const { return looks_; }
-  /// Looks after which it was used up; 0: it is not.
+  /// Number of looks after which the limit was reached; 0: not reached.
   int usedUpAt() const { return used_up_at_; }
-  /// Nothing new should be begun.
+  /// Whether the limit is reached: no new trial should begin.
   bool usedUp() const { return used_up_at_ > 0; }
-  /// The tick may end.
+  /// Whether the tick may end: the limit is reached and a step that counts has been made.
   bool ends() const { return usedUp() && has_stepped_; }
 
  private:

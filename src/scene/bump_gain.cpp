@@ -24,7 +24,7 @@ double imageCurvature(const Texture& texture) {
   return most;
 }
 
-// Largest change of u or v for a metre along a triangle: the edges bound the gradient of an affine map from below, its
+// Largest change of u or v per metre on a triangle. The edges bound the gradient of an affine map from below, its
 // heights from above; |grad u| = |du1 e2 - du2 e1| / (2 area).
 double texcoordSlope(const Model& model, const std::array<std::uint32_t, 3>& t) {
   const Vec3 e1 = model.positions[t[1]] - model.positions[t[0]], e2 = model.positions[t[2]] - model.positions[t[0]];

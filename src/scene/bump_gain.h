@@ -1,19 +1,19 @@
-// How much a bump map adds to the stiffness that the servo feels, and what the device's damping allows.
+// The stiffness that a bump map adds to the servo, and the limit set by the device's damping.
 //
-// A height h under a normal force f turns the force by f grad h, so along the surface it changes by f h'' a metre:
-// the map acts as a spring of f h'' newtons a metre. A sampled spring k is passive on a device of damping b when
-// b >= k T / 2 (science: the same bound as for a wall), so f must stay below 2 b / (T h'').
+// A height h under a normal force f turns the force by f grad h, so along the surface the force changes by f h'' per
+// metre: the map acts as a spring of f h'' N/m. A sampled spring k is passive on a device with damping b if b >= k T /
+// 2 (the same bound as for a wall), so f must stay below 2 b / (T h'').
 #pragma once
 
 #include "scene/snapshot.h"
 
 namespace hl {
 
-/// The largest second derivative of a material's bump map over the triangles that use it, 1/m; 0 without one. For
-/// h = A sin(2 pi x / w) it is A (2 pi / w)^2. Linear in texels and triangles; not for real-time threads.
+/// The largest second derivative of a material's bump map over the triangles that use it, 1/m; 0 without a map. For h =
+/// A sin(2 pi x / w) it is A (2 pi / w)^2. Linear in texels and triangles; not for real-time threads.
 double bumpCurvature_per_m(const Snapshot& snapshot, std::size_t material);
 
-/// The normal force in newtons up to which a bump map of this curvature is passive.
+/// The normal force, N, up to which a bump map of this curvature is passive.
 inline double passiveForce_N(double curvature_per_m, double damping_Ns_m, double period_s) {
   return 2 * damping_Ns_m / (period_s * curvature_per_m);
 }

@@ -6,8 +6,8 @@
 
 namespace hl {
 
-/// Pointers to all of a range of Instance or PlacedShape, by rising key; good as long as the range is. They are large:
-/// sorting pointers moves none of them. Allocates.
+/// Pointers to all elements of a range of Instance or PlacedShape, sorted by key; valid as long as the range. The
+/// elements are large: sorting pointers moves none of them. Allocates.
 template <typename Range>
 auto pointersByKey(Range& range) {
   std::vector<decltype(&*range.begin())> pointers;

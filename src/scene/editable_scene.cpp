@@ -14,13 +14,13 @@ namespace hl {
 
 namespace {
 
-// A stretch is known to the rounding of the matrices it came through; beyond this part of it, it is the same stretch.
+// Rounding error of a stretch from the product of matrices, relative; closer stretches are the same.
 constexpr double kSameStretch = 1.0 / (std::int64_t{1} << 36);
-constexpr double kRigid = 1e-12;               // products of rotations, a hundred deep, are nearer than this to one
-constexpr double kFlattest = 1e-9;             // smallest to largest factor of a stretch that can still be touched
-constexpr std::size_t kVisitsPerInstance = 8;  // of items, in a hierarchy of many calls and few shapes
+constexpr double kRigid = 1e-12;               // error of a product of a hundred rotations is below this
+constexpr double kFlattest = 1e-9;             // minimum ratio of the smallest to the largest stretch
+constexpr std::size_t kVisitsPerInstance = 8;  // limit of visited items, for a hierarchy of many calls and few shapes
 
-// linear = rotation * stretch, the polar form; a mirror image is part of the stretch.
+// Polar decomposition linear = rotation * stretch; a reflection is part of the stretch.
 struct Polar {
   Mat3 rotation, stretch;
 };
@@ -43,7 +43,7 @@ std::uint64_t mixed(std::uint64_t key, std::uint64_t next) {
   return splitmix64(key + (next << 1 | 1) * 0xbf58476d1ce4e5b9U);
 }
 
-constexpr std::size_t kPointer_bytes = 96;  // what a shared pointer takes to share, with malloc()'s own
+constexpr std::size_t kPointer_bytes = 96;  // control block of a shared pointer, with the overhead of malloc()
 
 }  // namespace
 
@@ -61,9 +61,9 @@ std::size_t bytesApart(const SceneItem& item) {
 
 std::size_t bytesInWorld() {
   constexpr std::size_t kSnapshots = 5;
-  constexpr std::size_t kInSnapshot = sizeof(Instance) + sizeof(Box) + 64;  // a leaf of the tree over them
-  constexpr std::size_t kInLayout = 768;                                    // poses and places, and the page's message
-  constexpr std::size_t kWhileGrowing = 3;                                  // of a list that is twice as long at a time
+  constexpr std::size_t kInSnapshot = sizeof(Instance) + sizeof(Box) + 64;  // with the leaf of the tree over instances
+  constexpr std::size_t kInLayout = 768;    // poses and positions, and the message to the page
+  constexpr std::size_t kWhileGrowing = 3;  // while a list is doubled, old and new exist
   return kWhileGrowing * sizeof(PlacedShape) + kSnapshots * kInSnapshot + kInLayout;
 }
 
@@ -81,7 +81,7 @@ void ModelSizes::add(const Model& model, const std::string& where) {
               " bytes that one client may have");
 }
 
-// One walk over the calls of a state, from the world down to the shapes.
+// One traversal of the calls of a state, from the world down to the shapes.
 class EditableScene::Flattening {
  public:
   Flattening(const EditableScene& scene, const State& state)
@@ -109,16 +109,16 @@ class EditableScene::Flattening {
 
   const EditableScene& scene_;
   const State& state_;
-  MemoryShare memory_;  // of what is placed and its surfaces
+  MemoryShare memory_;  // memory of the placed shapes and their surfaces
   std::vector<PlacedShape> placed_;
   std::vector<std::uint32_t> path_;
   std::size_t visits_ = 0;
-  ModelSizes copies_;  // a few bytes of matrix make one
+  ModelSizes copies_;  // sizes of the stretched copies; a small matrix makes a copy of a large shape
   SurfaceChange last_change_;
-  std::shared_ptr<const Surfaces> last_surfaces_;  // of that: most objects feel as the one before
+  std::shared_ptr<const Surfaces> last_surfaces_;  // of last_change_; most objects repeat it
 };
 
-// The n-th call of an object is the same one as in the last frame, and so is the n-th shape.
+// The n-th call of an object is identified with its n-th call in the last frame, and so is the n-th shape.
 void EditableScene::Flattening::visit(const SceneItems& items, const Call& caller) {
   std::map<std::uint32_t, std::uint64_t> occurrences;
   for (const SceneItem& item : items) {
@@ -162,7 +162,7 @@ void EditableScene::Flattening::add(const SceneItem& item, const Call& call) {
   placed_.push_back({shape, surfacesOf(call.surface), pose, call.key, scene_.session_, call.object, call.name});
 }
 
-// A new copy takes its hierarchy from the one that it follows on, or else from the shape.
+// The hierarchy of a new copy is refitted from that of the copy that it replaces, or else from that of the shape.
 std::shared_ptr<const Shape> EditableScene::Flattening::shapeOf(const std::shared_ptr<const Shape>& shape,
                                                                 const Mat3& stretch) {
   if (stretch == Mat3::Identity()) return shape;
@@ -303,20 +303,20 @@ EditableScene::Next EditableScene::prepareReplaced(const std::shared_ptr<const S
 
 namespace {
 
-// Whether one object is the other, with its mesh maybe deformed: then it moves there in time.
+// Whether `now` is the object `before`, possibly with a deformed mesh; then the mesh changes by a transition.
 bool isDeformed(const Instance& before, const PlacedShape& now) {
   return before.shape->mesh == now.shape->mesh &&
          before.shape->model.materials.size() <= now.surfaces->materials.size();
 }
 
-// Snapshot::blend_ns, as far as it is due to one object, which was there before where that is known.
+// Contribution of one object to Snapshot::blend_ns. `before`: the object in the last snapshot; null: none.
 std::int64_t blendOf(const Instance* before, const Instance& now, const PlacedShape& placed) {
   if (before == nullptr || !(*before->surfaces == *now.surfaces)) return kAbruptBlend_ns;
   if (!now.motion.moves() && !(before->motion.to() == now.motion.to())) return kAbruptBlend_ns;
   return before->shape->geometry == now.shape->geometry || isDeformed(*before, placed) ? 0 : kAbruptBlend_ns;
 }
 
-// A way that is over is forgotten, and with it the shape that it came from.
+// A transition that has ended is dropped, and with it the shape at its start.
 std::shared_ptr<const MeshMotion> meshMotionOf(const Instance& before, const PlacedShape& now, std::int64_t begin_ns,
                                                std::int64_t end_ns, const MemoryBudget& memory) {
   const bool goes_on = before.mesh_motion && before.mesh_motion->end_ns() > begin_ns;
@@ -343,7 +343,7 @@ Instance follow(const PlacedShape& now, const Instance* before, std::int64_t beg
   }
   try {
     instance.mesh_motion = meshMotionOf(*before, now, begin_ns, end_ns, memory);
-  } catch (const Error&) {  // no room for what it needs on its way
+  } catch (const Error&) {  // no memory for the transition
     ++all.jumps;
     all.blend_ns = kAbruptBlend_ns;
   }

@@ -8,7 +8,7 @@ namespace hl {
 
 namespace {
 
-// -1 where a is larger: what is harder or rougher comes first.
+// -1 if a is larger: the harder or rougher one comes first.
 template <typename Value>
 int larger(const Value& a, const Value& b) {
   return a > b ? -1 : a < b ? 1 : 0;
@@ -47,7 +47,7 @@ int compareTextures(const FeltPrimitive& a, const FeltPrimitive& b) {
   return 0;
 }
 
-// What the model says at its corners, in the order of the sorted vertices.
+// Compares the model's vertex data, in the order of the sorted vertices.
 int compareCorners(const FeltPrimitive& a, const FeltPrimitive& b) {
   if (a.primitive.kind != PrimitiveKind::kTriangle) return 0;
   const auto corners = [](const FeltPrimitive& one) {

@@ -1,7 +1,7 @@
-// Felt order: which of two primitives with the same vertices counts. Where surfaces lie on each other only one can be
-// felt, and what the file lists first must not decide. The harder one counts: of the higher stiffness; of equally hard
-// ones the rougher, by dynamic friction, static friction, viscosity, and the rest; of equal materials what their
-// textures, vertex normals and texture coordinates say. What is equal in all of this feels the same.
+// Felt order: which of two primitives with the same vertices counts as the contact. If surfaces coincide only one can
+// be felt, and the order in the file must not decide. The one with the higher stiffness counts; at equal stiffness the
+// rougher one, by dynamic friction, static friction, viscosity and the other quantities; for equal materials the
+// textures, vertex normals and texture coordinates decide. If all of these are equal, both feel the same.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct FeltPrimitive {
   const Primitive& primitive;  ///< that element
 };
 
-/// -1 where `a` counts, 1 where `b` does, 0 where they feel the same. RT-safe.
+/// -1 if `a` counts, 1 if `b` counts, 0 if they feel the same. RT-safe.
 int compareFelt(const FeltPrimitive& a, const FeltPrimitive& b);
 
 }  // namespace hl

@@ -1,5 +1,5 @@
-// Material: how a surface feels. Each quantity (base/quantities.def) is a number, or a texture that moves it within a
-// stated range.
+// Material: the haptic properties of a surface. Each quantity (base/quantities.def) is a constant, or a texture mapped
+// to a range.
 #pragma once
 
 #include <array>
@@ -34,14 +34,14 @@ struct Material {
   bool operator==(const Material&) const = default;
 };
 
-/// The number of each quantity but kHeight, in the order of the table.
+/// The constant of each quantity except kHeight, in the order of the table.
 inline constexpr std::array<double Material::*, kNumbers> kMaterialNumbers{
 #define HL_QUANTITY(quantity, field, ...) &Material::field,
 #include "base/quantities.def"
 #undef HL_QUANTITY
 };
 
-/// The same of a structure where each of them may be said or left out.
+/// The same for a structure in which each of them is optional.
 template <typename Said>
 inline constexpr std::array<std::optional<double> Said::*, kNumbers> kSaidNumbers{
 #define HL_QUANTITY(quantity, field, ...) &Said::field,
@@ -49,18 +49,18 @@ inline constexpr std::array<std::optional<double> Said::*, kNumbers> kSaidNumber
 #undef HL_QUANTITY
 };
 
-/// What a user sets for every surface at once, over what the scene says; what is not set stays as it is.
-/// A number set here also replaces the texture of its quantity.
+/// User settings for all surfaces, which override the scene; quantities that are not set are unchanged. A number set
+/// here also replaces the texture of its quantity.
 struct MaterialOverride {
 #define HL_QUANTITY(quantity, field, ...) std::optional<double> field;
 #include "base/quantities.def"
 #undef HL_QUANTITY
   std::optional<bool> smooth;
-  bool textures = true;  ///< false: every texture is left out
+  bool textures = true;  ///< false: textures are ignored
 
   const std::optional<double>& number(std::size_t i) const { return this->*kSaidNumbers<MaterialOverride>[i]; }
   std::optional<double>& number(std::size_t i) { return this->*kSaidNumbers<MaterialOverride>[i]; }
-  /// Whether it leaves the default material, which has no textures, what it is.
+  /// Whether the default material, which has no textures, is unchanged by these settings.
   bool keepsDefault() const {
     for (std::size_t i = 0; i < kNumbers; ++i) {
       if (number(i)) return false;

@@ -16,7 +16,7 @@ bool allWithinReach(const std::array<Vec3, 3>& corners) {
   return std::all_of(corners.begin(), corners.end(), [](const Vec3& corner) { return withinReach(corner); });
 }
 
-// The elements that either shape has as a primitive, but for those that go beyond reach.
+// The elements that are a primitive in either shape, except those with vertices beyond reach.
 std::vector<std::uint32_t> elementsOf(const Shape& from, const Shape& to) {
   const auto numbers = [](const Shape& shape) {
     std::vector<std::uint32_t> result(shape.primitives.size());
@@ -36,10 +36,10 @@ std::vector<std::uint32_t> elementsOf(const Shape& from, const Shape& to) {
   return result;
 }
 
-// What elementsOf() has of lists at a time, for each primitive of either shape.
+// Memory of the lists in elementsOf(), for each primitive of either shape.
 constexpr std::size_t kBytesInLists = 6 * sizeof(std::uint32_t);
 
-// `from`, with vertices that are beyond reach where they go to.
+// `from`, with each vertex that is beyond reach replaced by that of `to`.
 Model within(const Model& from, const Model& to) {
   Model model = from;
   for (std::size_t i = 0; i < model.positions.size(); ++i) {
@@ -98,7 +98,8 @@ double MeshTransition::length_m(ElementId primitive) const {
   return std::sqrt(most2);
 }
 
-// What the last way needs beyond its own end it takes of the next: frames that come a little early do not add up.
+// If the last transition ends after `begin_ns`, the new one is shortened by that time, at most to half. So delays do
+// not add up when frames come a little early.
 MeshMotion MeshMotion::then(const std::shared_ptr<const Shape>& to, std::int64_t begin_ns, std::int64_t end_ns,
                             const MemoryBudget& memory) const {
   const bool begun = last_.begin_ns() <= begin_ns;

@@ -1,6 +1,5 @@
-// Bend: how a mesh gets from one shape to the next. Each vertex goes on a straight line at constant speed, so
-// between two frames of its client a mesh that deforms is in one place at every moment, as an object that moves is
-// (motion.h).
+// MeshMotion: how a mesh deforms from one shape to the next. Each vertex moves on a straight line at constant speed. So
+// between two frames of its client the mesh is defined at every moment, like the pose of a moving object (motion.h).
 #pragma once
 
 #include <array>
@@ -13,30 +12,30 @@
 
 namespace hl {
 
-/// One way between two shapes of one mesh, which number their primitives alike and have one tree. Immutable; any
-/// thread.
+/// A transition between two shapes of one mesh. The shapes number their primitives alike and have the same tree.
+/// Immutable; any thread.
 class MeshTransition {
  public:
-  /// `begin_ns` < `end_ns`. Where the shapes do not fit together (other elements have shrunk to nothing in one than in
-  /// the other, or the hierarchies were built apart) copies are made that do; then what has shrunk to a line or a point
-  /// is that, and a vertex that comes from beyond reach is at its end from the beginning. Copies are counted against
-  /// `memory`; throws hl::Error when there is no room for them. Allocates.
+  /// `begin_ns` < `end_ns`. Copies are made if the shapes do not match: if different elements are degenerate in them,
+  /// or if their hierarchies were built separately. In the copies, an element that has shrunk to a line or a point is a
+  /// segment or a point, and a vertex beyond reach is at its end position from the start. The copies are counted in
+  /// `memory`; throws hl::Error if there is no room. Allocates.
   MeshTransition(std::shared_ptr<const Shape> from, std::shared_ptr<const Shape> to, std::int64_t begin_ns,
                  std::int64_t end_ns, const MemoryBudget& memory = {});
 
   const std::shared_ptr<const Shape>& from() const { return from_; }
   const std::shared_ptr<const Shape>& to() const { return to_; }
-  /// What from() and to() were made from, or they themselves.
+  /// The shapes given to the constructor; from() and to() are these or copies of them.
   const std::shared_ptr<const Shape>& given_from() const { return given_from_; }
   const std::shared_ptr<const Shape>& given_to() const { return given_to_; }
   std::int64_t begin_ns() const { return begin_ns_; }
   std::int64_t end_ns() const { return end_ns_; }
-  /// Of the way, 0..1. RT-safe, as all below.
+  /// Fraction of the transition, 0..1. RT-safe, like the functions below.
   double part(std::int64_t time_ns) const;
-  /// Of a primitive of to(), in the order given.
+  /// Vertices of a primitive of to(), in the given order.
   std::array<Vec3, 3> corners(ElementId primitive, double part) const;
   Primitive primitive(ElementId primitive, double part) const;
-  /// How far its fastest corner moves in all, m.
+  /// Length of the path of its fastest vertex, m.
   double length_m(ElementId primitive) const;
   MovingBvh index(double begin, double end) const { return {*from_tree_, *to_tree_, begin, end}; }
 
@@ -46,13 +45,13 @@ class MeshTransition {
   std::int64_t begin_ns_, end_ns_;
 };
 
-/// One way, or one that follows another. Immutable; any thread.
+/// One transition, or two in succession. Immutable; any thread.
 class MeshMotion {
  public:
-  /// Stays at last.from() until `last` begins.
+  /// The mesh is last.from() until `last` begins.
   explicit MeshMotion(MeshTransition last) : last_(std::move(last)) {}
-  /// This one, and then to `to` at about `end_ns` > `begin_ns`: a way that has begun by `begin_ns` is gone to its end
-  /// first, one that has not is forgotten. Counted as a way is.
+  /// This motion, and then a transition to `to` that ends at about `end_ns` > `begin_ns`. A transition that has begun
+  /// by `begin_ns` is completed first; one that has not is dropped. Memory is counted as for a transition.
   MeshMotion then(const std::shared_ptr<const Shape>& to, std::int64_t begin_ns, std::int64_t end_ns,
                   const MemoryBudget& memory = {}) const;
 
@@ -62,10 +61,10 @@ class MeshMotion {
   const MeshTransition& at(std::int64_t time_ns) const {
     return earlier_ && time_ns < last_.begin_ns() ? *earlier_ : last_;
   }
-  /// As two that say so of themselves.
+  /// From two transitions, as returned by earlier() and last().
   MeshMotion(std::optional<MeshTransition> earlier, MeshTransition last)
       : earlier_(std::move(earlier)), last_(std::move(last)) {}
-  /// Calls visit(shape) for each shape that is kept for it.
+  /// Calls visit(shape) for each shape that the motion keeps.
   template <typename Visit>
   void forEachShape(const Visit& visit) const {
     for (const MeshTransition* way : {earlier_ ? &*earlier_ : nullptr, &last_}) {

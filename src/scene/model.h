@@ -1,4 +1,5 @@
-// Model: what a file or a generator gives: vertices with optional normals and texture coordinates, and index lists.
+// Model: the output of a file reader or generator: vertices with optional normals and texture coordinates, and index
+// lists.
 #pragma once
 
 #include <array>
@@ -14,22 +15,22 @@
 
 namespace hl {
 
-/// What reading files has done to a model, for hl info.
+/// Changes made while reading a file, for `hl info`.
 struct Reading {
-  std::size_t joined_vertices = 0;  ///< that were the same as others: see weldVertices()
-  bool single_precision = false;    ///< some coordinates have come through a reader that keeps 24 bits of each
+  std::size_t joined_vertices = 0;  ///< vertices joined with identical ones: see weldVertices()
+  bool single_precision = false;    ///< some coordinates were read by a reader with 24 bits of precision
 };
 
 /// Metres, world frame. Index lists refer to `positions`; polygons have been triangulated.
 struct Model {
   std::string name;
   std::vector<Vec3> positions;
-  std::vector<Vec3> normals;    ///< one per position, or empty; a zero vector means "none given"
+  std::vector<Vec3> normals;    ///< one per position, or empty; zero means no normal
   std::vector<Vec2> texcoords;  ///< one per position, or empty
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::array<std::uint32_t, 2>> segments;
   std::vector<std::uint32_t> points;
-  std::vector<Material> materials{Material{}};  ///< at least one; elements use number 0 unless told otherwise
+  std::vector<Material> materials{Material{}};  ///< at least one; elements without a material number use 0
   std::vector<std::uint16_t> triangle_materials, segment_materials, point_materials;  ///< one per element, or empty
   std::vector<Texture> textures;
   std::vector<std::string> warnings;  ///< what was skipped while reading, one line each, with counts
@@ -44,7 +45,7 @@ struct Placement {
   Mat3 linear = Mat3::Identity();
   Vec3 offset = Vec3::Zero();
 
-  /// First `inner`, then this.
+  /// The placement that applies `inner` first, then this one.
   Placement operator*(const Placement& inner) const { return {linear * inner.linear, linear * inner.offset + offset}; }
 };
 

@@ -1,9 +1,9 @@
 // The exponential of a twist (w, v), |w| = q, with the cross-product matrix W of w:
 //
-//   exp = (I + A W + B W^2,  V v),   V = I + B W + C W^2,   A = sin q / q,  B = (1 - cos q) / q^2,  C = (q - sin q) /
-//   q^3
+//   exp = (I + A W + B W^2,  V v),   V = I + B W + C W^2,
+//   A = sin q / q,  B = (1 - cos q) / q^2,  C = (q - sin q) / q^3
 //
-// and along the way, s in 0..1, the rotation exp(s w) and the translation s V(s w) v.
+// At a fraction s in 0..1 of the motion the rotation is exp(s w) and the translation s V(s w) v.
 #include "scene/motion.h"
 
 #include <algorithm>
@@ -15,7 +15,8 @@ namespace hl {
 
 namespace {
 
-// Below this angle the closed forms of B and C lose their digits; two terms of the series are then exact to 1e-18.
+// Below this angle the closed forms of B and C lose digits by cancellation; two terms of the series are then exact to
+// 1e-18.
 constexpr double kSeries_rad = 1e-2;
 
 struct Coefficients {
@@ -44,7 +45,7 @@ Mat3 slideMatrix(const Vec3& turn) {
 }
 
 Vec3 rotationVector(const Mat3& rotation) {
-  const Eigen::Quaterniond half(rotation);  // cos and sin of half the turn, the latter along its axis
+  const Eigen::Quaterniond half(rotation);  // cos and sin of half the angle, the latter along the axis
   const double sine = half.vec().norm();
   if (!(sine > 0)) return Vec3::Zero();
   const double angle = 2 * plain::angleOf(std::abs(half.w()), sine);
@@ -56,8 +57,8 @@ void addSphere(Box& box, const Vec3& centre, double radius) {
   box.extend(centre + Vec3::Constant(radius));
 }
 
-// While it moves: the sphere about its box moves with a centre that strays from its two ends by no more than their
-// distance, as a turn is at most half a circle and the axis of a screw is straight.
+// Bounds of the motion. The bounding sphere of the box moves; its centre is never farther from either end point than
+// the end points are from each other, as a turn is at most half a circle and the axis of a screw is straight.
 void addWay(Box& reach, const Box& object, const Screw& way) {
   const Vec3 begin = way.from().toWorld(object.centre());
   const Vec3 end = way.to().toWorld(object.centre());

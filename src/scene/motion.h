@@ -1,5 +1,5 @@
-// Motion: where an object is at each moment. Between two frames of its client it moves on a screw: turning at a
-// constant rate about one axis and sliding along it, so that what is hinged to a fixed point stays hinged.
+// Motion: the pose of an object over time. Between two frames of its client it moves on a screw: it turns at a constant
+// rate about one axis and slides along it. So an object hinged to a fixed point stays hinged.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace hl {
 
-/// One way between two poses. Immutable; any thread.
+/// A screw motion between two poses. Immutable; any thread.
 class Screw {
  public:
-  /// `begin_ns` < `end_ns`; a turn of more than half a circle goes the short way round.
+  /// `begin_ns` < `end_ns`. A turn of more than half a circle takes the shorter direction.
   Screw(const Pose& from, const Pose& to, std::int64_t begin_ns, std::int64_t end_ns);
   explicit Screw(const Pose& rest) : from_(rest), to_(rest) {}
 
@@ -22,7 +22,7 @@ class Screw {
   std::int64_t begin_ns() const { return begin_ns_; }
   std::int64_t end_ns() const { return end_ns_; }
   double angle() const { return turn_.norm(); }  ///< rad
-  /// The same bits for the same moment; exactly from() until begin and to() from end on. RT-safe.
+  /// The same bits for the same time; exactly from() before the begin and to() after the end. RT-safe.
   Pose at(std::int64_t time_ns) const;
 
  private:
@@ -33,15 +33,15 @@ class Screw {
   Vec3 slide_ = Vec3::Zero();  // m, v of the twist (turn, v) with exp(turn, v) = to * from^-1
 };
 
-/// At rest, or on a screw that follows another without a jump. Immutable; any thread.
+/// At rest, or on one or two successive screws without a jump. Immutable; any thread.
 class Motion final : public PoseSource {
  public:
-  /// At rest for ever.
+  /// Permanently at rest.
   explicit Motion(const Pose& pose = {}) : earlier_(pose), last_(pose), identity_(pose == Pose{}) {}
-  /// As one that says so of itself with earlier() and last().
+  /// From two screws, as returned by earlier() and last().
   Motion(const Screw& earlier, const Screw& last)
       : earlier_(earlier), last_(last), identity_(!moves() && last.to() == Pose{}) {}
-  /// This motion until `begin_ns`, and from where it is then to `to` at `end_ns` > `begin_ns`.
+  /// This motion until `begin_ns`, and then a screw from the pose at that time to `to` at `end_ns` > `begin_ns`.
   Motion then(const Pose& to, std::int64_t begin_ns, std::int64_t end_ns) const;
 
   bool moves() const override { return earlier_.moves() || last_.moves(); }

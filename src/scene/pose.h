@@ -1,4 +1,4 @@
-// Pose: where an object is, and how it is turned.
+// Pose: position and orientation of an object.
 #pragma once
 
 #include "base/vec.h"
@@ -18,7 +18,7 @@ struct Pose {
   bool operator==(const Pose& other) const { return rotation == other.rotation && origin == other.origin; }
 };
 
-/// Holds all of an object's box when the object is at `pose`; the object's own box when they share a frame.
+/// A box that contains the object's box at `pose`; the box itself if `pose` is the identity.
 Box boxAt(const Box& object, const Pose& pose);
 
 }  // namespace hl

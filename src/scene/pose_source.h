@@ -1,5 +1,5 @@
-// PoseSource: who says where an object is at each moment: its client, by a motion from frame to frame (motion.h), or
-// whatever else drives it.
+// PoseSource: gives the pose of an object over time: a motion from frame to frame by its client (motion.h), or another
+// driver.
 #pragma once
 
 #include <cstdint>
@@ -10,25 +10,25 @@
 
 namespace hl {
 
-/// Immutable as far as it is seen: the same moment has the same bits, for every thread. World frame.
+/// Logically immutable: the same time gives the same bits in every thread. World frame.
 class PoseSource {
  public:
-  /// restsFrom_ns() of one that never rests.
+  /// restsFrom_ns() of an object that never rests.
   static constexpr std::int64_t kNever_ns = std::numeric_limits<std::int64_t>::max();
 
   virtual ~PoseSource() = default;
   /// RT-safe.
   virtual Pose at(std::int64_t time_ns) const = 0;
-  /// The latest moment in (now_ns, until_ns] up to which it turns by no more than `turn_rad` and its velocity does not
-  /// jump: until then the proxy may be swept on a straight line in its frame. RT-safe.
+  /// The latest time in (now_ns, until_ns] up to which the object turns by at most `turn_rad` and its velocity does not
+  /// jump. Until then the proxy may be swept on a straight line in the object's frame. RT-safe.
   virtual std::int64_t straightUntil(std::int64_t now_ns, std::int64_t until_ns, double turn_rad) const = 0;
-  /// Whether it is at different places at different moments. RT-safe.
+  /// Whether the pose changes over time. RT-safe.
   virtual bool moves() const = 0;
-  /// From then on it is at to(). RT-safe.
+  /// From this time on the pose is to(). RT-safe.
   virtual std::int64_t restsFrom_ns() const = 0;
-  /// Where it comes to rest; of one that never rests, any of its places. RT-safe.
+  /// The final pose; any of its poses for an object that never rests. RT-safe.
   virtual Pose to() const = 0;
-  /// Holds all of an object with this box in its own frame, at every moment.
+  /// A box that contains an object at all times, from its box in its own frame.
   virtual Box reach(const Box& object) const = 0;
 };
 

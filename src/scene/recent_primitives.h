@@ -1,5 +1,5 @@
-// RecentPrimitives: the primitives read last. A tick reads the same few in each of its sweeps, and where they end; so,
-// mostly, does the next tick.
+// RecentPrimitives: a cache of the primitives read last. A tick reads the same few in each sweep and at its end, and
+// the next tick usually reads them again.
 #pragma once
 
 #include <algorithm>
@@ -14,20 +14,21 @@
 
 namespace hl {
 
-/// For one thread; RT-safe. Its room is that of one of the two below.
+/// For one thread; RT-safe. The capacity is that of one of the two types below.
 class RecentPrimitives {
  public:
   RecentPrimitives(const RecentPrimitives&) = delete;
   RecentPrimitives& operator=(const RecentPrimitives&) = delete;
 
-  /// What follows is of the snapshot of this identity, at this moment: forgets what is here of another one.
+  /// The following reads are from the snapshot with this identity, at this time. Clears the cache if either has
+  /// changed.
   void readFrom(std::uint64_t snapshot, std::int64_t moment) {
     if (snapshot_ != snapshot || moment_ != moment) forget();
     snapshot_ = snapshot;
     moment_ = moment;
   }
 
-  /// read() gives the primitive when it is not here. The reference is good until the next call.
+  /// Returns the primitive; calls read() if it is not in the cache. The reference is valid until the next call.
   template <typename Read>
   const Primitive& get(PrimitiveId id, const Read& read) {
     const std::size_t slot = (id.element + kStride * id.instance) & last_;
@@ -39,7 +40,7 @@ class RecentPrimitives {
   }
 
  protected:
-  // Left uninitialised until it is read: clearing all of them would cost as much as reading some.
+  // Uninitialised until it is read: clearing all slots would cost as much as reading some primitives.
   union Slot {
     Slot() {}  // NOLINT: = default would be deleted by the union
     Primitive primitive;
@@ -57,12 +58,12 @@ class RecentPrimitives {
   void forget() { std::fill(of_, of_ + last_ + 1, kNone); }
 
  private:
-  static constexpr ElementId kStride = 11;  // sends the same element of neighbouring instances to other slots
+  static constexpr std::uint32_t kStride = 11;  // maps the same element of neighbouring instances to different slots
 
   PrimitiveId* of_ = nullptr;
   Slot* slots_ = nullptr;
   std::size_t last_ = 0;
-  std::uint64_t snapshot_ = 0;  // none has this
+  std::uint64_t snapshot_ = 0;  // 0: no snapshot has this identity
   std::int64_t moment_ = 0;
 };
 
@@ -70,7 +71,7 @@ class RecentPrimitives {
 template <std::size_t kSlots>
 class RecentPrimitivesOf final : public RecentPrimitives {
  public:
-  // Where it takes several pages all are written once, so that no tick is the first to touch one.
+  // If the cache takes several pages, all are written once here, so that no tick causes a page fault.
   RecentPrimitivesOf() {
     constexpr std::size_t kPage = 4096;
     if constexpr (sizeof(primitives_) > kPage)
@@ -83,9 +84,9 @@ class RecentPrimitivesOf final : public RecentPrimitives {
   std::array<Slot, kSlots> primitives_;
 };
 
-/// For one question or a few: mostly a tick reads fewer.
+/// For one query or a few: a tick usually reads fewer primitives.
 using FewRecentPrimitives = RecentPrimitivesOf<32>;
-/// For tick after tick: where a thousand primitives meet, each of its questions reads all of them.
+/// For many ticks. Where a thousand primitives meet, each query of a tick reads all of them.
 using ManyRecentPrimitives = RecentPrimitivesOf<1024>;
 
 }  // namespace hl

@@ -10,7 +10,7 @@ namespace hl {
 
 namespace {
 
-// A box answers for the rounding of the coordinates it was made from by this part of the scene's size.
+// Margin of a box for the rounding of its coordinates, as a fraction of the size of the scene.
 constexpr double kBoxSlack = 1e-12;
 
 Box around(const Vec3& from, const Vec3& to, double distance) {
@@ -22,7 +22,7 @@ bool isEdge(const Primitive& primitive, Feature feature) {
   return primitive.kind == PrimitiveKind::kTriangle && feature >= Feature::kEdge0 && feature <= Feature::kEdge2;
 }
 
-// The index of an object at a moment, which adds up what it costs.
+// The index of an object at one moment. It adds up the cost of its queries.
 class IndexAt final : public SpatialIndex {
  public:
   IndexAt(const Instance& instance, std::int64_t time_ns, QueryCost& cost)
@@ -140,8 +140,8 @@ void SceneAt::primitivesWithin(const Vec3& centre, double distance,
 
 namespace {
 
-// Keeps the earlier of two impacts; of the same time, that of the primitive that precedes. `hit` is in the frame of its
-// object. Returns whether that was it.
+// Keeps the earlier of two impacts; at equal times that of the primitive that precedes(). `hit` is in the frame of its
+// object. Returns whether `hit` was kept.
 bool keepEarlier(const SceneAt& scene, const Impact& hit, PrimitiveId id, const Pose& pose, bool& found,
                  SceneImpact& out) {
   if (found && hit.t > out.impact.t) return false;
@@ -154,8 +154,8 @@ bool keepEarlier(const SceneAt& scene, const Impact& hit, PrimitiveId id, const 
 
 }  // namespace
 
-// Asks each object near the way, ask(number, index, from_O, motion_O, hit), and keeps the earliest impact. Once there
-// is one, objects near only what lies beyond it are passed over.
+// Calls ask(number, index, from_O, motion_O, hit) for each object near the way and keeps the earliest impact. After an
+// impact is found, objects near only the rest of the way are skipped.
 template <typename Ask>
 bool SceneAt::firstOf(const Vec3& from, const Vec3& motion, double distance, const Ask& ask, SceneImpact& out) const {
   const double margin = distance + kBoxSlack * snapshot_.extent;

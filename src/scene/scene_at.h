@@ -1,5 +1,5 @@
-// SceneAt: a snapshot at one moment, as the proxy asks it: what is near, what is hit first, in the world frame.
-// Questions go to each object near the place, in its own frame, and the answers come back.
+// SceneAt: a snapshot at one moment, for the proxy's queries: nearby primitives and first impact, in the world frame. A
+// query is passed to each object near the position, in its own frame, and the results are transformed back.
 #pragma once
 
 #include <algorithm>
@@ -22,18 +22,18 @@ struct SceneImpact {
   PrimitiveId primitive;
 };
 
-/// What questions have cost, the same on every machine. Other hierarchies and caches have other costs.
+/// Cost of the queries, the same on every machine. It depends on the hierarchies and caches.
 struct QueryCost {
-  std::size_t volumes = 0;     ///< bounding volumes looked at
-  std::size_t primitives = 0;  ///< read, each for an exact test
+  std::size_t volumes = 0;     ///< bounding volumes visited
+  std::size_t primitives = 0;  ///< primitives read, each for an exact test
 };
 
-/// A snapshot, which must outlive it, and a time; made for one tick, on one thread. RT-safe.
+/// A snapshot, which must outlive this object, and a time. Made for one tick, on one thread. RT-safe.
 class SceneAt {
  public:
-  SceneAt(const Snapshot& snapshot, std::int64_t time_ns = 0)  // NOLINT: a snapshot at rest is a scene
+  SceneAt(const Snapshot& snapshot, std::int64_t time_ns = 0)  // NOLINT: implicit, as a snapshot at rest is a scene
       : snapshot_(snapshot), time_ns_(time_ns), recent_(own_.emplace()) {}
-  /// With what earlier ticks of the same thread have read, which must outlive it too.
+  /// With a cache of primitives read by earlier ticks of the same thread, which must outlive this object too.
   SceneAt(const Snapshot& snapshot, std::int64_t time_ns, RecentPrimitives& recent)
       : snapshot_(snapshot), time_ns_(time_ns), recent_(recent) {
     recent_.readFrom(snapshot.identity, std::min(time_ns, snapshot.deforms_until_ns));
@@ -44,13 +44,13 @@ class SceneAt {
   const Snapshot& snapshot() const { return snapshot_; }
   std::int64_t time_ns() const { return time_ns_; }
   double extent() const { return snapshot_.extent; }
-  /// Of all that has been asked so far.
+  /// Total of all queries so far.
   const QueryCost& cost() const { return cost_; }
 
   const Instance& instance(PrimitiveId id) const { return snapshot_.instances[id.instance]; }
-  /// What the primitives of its instance are numbered by now.
+  /// The shape that numbers the primitives of the instance at this time.
   const Shape& shape(PrimitiveId id) const { return instance(id).shapeAt(time_ns_); }
-  /// In the frame of its object; good until another one is asked for.
+  /// In the frame of its object; valid until the next call.
   const Primitive& primitive(PrimitiveId id) const {
     ++cost_.primitives;
     return recent_.get(id, [&] { return read(id); });
@@ -61,26 +61,26 @@ class SceneAt {
   Vec3 turnToObject(PrimitiveId id, const Vec3& v_W) const;
   Vec3 turnToWorld(PrimitiveId id, const Vec3& v_O) const;
 
-  /// As those of geometry/closest_point.h, in the world frame.
+  /// As closestPoint() and closestPointWithin() of geometry/closest_point.h, in the world frame.
   ClosestPoint closest(PrimitiveId id, const Vec3& p) const;
   bool closestWithin(PrimitiveId id, const Vec3& p, double distance, ClosestPoint& out) const;
   /// Unit direction of the edge that `feature` names, or of a segment; world frame.
   Vec3 edge(PrimitiveId id, Feature feature) const;
-  /// Whether `a` comes before `b` by where they are, and copies by what they are; never by the order they were given
-  /// in.
+  /// Whether `a` comes before `b`: by their positions, and for copies by their properties; never by their order in the
+  /// input.
   bool precedes(PrimitiveId a, PrimitiveId b) const;
 
-  /// Visits every primitive within `distance` (m, inclusive) of `centre`; may repeat one, in no given order.
+  /// Visits every primitive within `distance` (m, inclusive) of `centre`, in no given order, possibly more than once.
   void primitivesWithin(const Vec3& centre, double distance,
                         FunctionRef<void(PrimitiveId primitive, const ClosestPoint& nearest)> visit) const;
-  /// As those of geometry/queries.h; `contacts` are all that is_contact says of.
+  /// As firstImpact() of geometry/queries.h; `contacts` are all primitives for which is_contact is true.
   bool firstImpact(const Vec3& from, const Vec3& motion, double radius, double touching, SceneImpact& out) const;
   bool firstImpact(const Vec3& from, const Vec3& motion, double radius,
                    FunctionRef<bool(const ClosestPoint& start)> is_contact, SceneImpact& out) const;
   bool firstImpact(const Vec3& from, const Vec3& motion, double radius, double touching, double soon,
                    std::span<const PrimitiveId> contacts, FunctionRef<void(PrimitiveId primitive)> meet,
                    SceneImpact& out) const;
-  /// The same among these primitives alone, none of which is a contact: all are farther than `radius` from `from`.
+  /// As firstImpact(), among the given primitives only. None is a contact: all are farther than `radius` from `from`.
   bool firstImpactAmong(std::span<const PrimitiveId> primitives, const Vec3& from, const Vec3& motion, double radius,
                         SceneImpact& out) const;
 

@@ -38,8 +38,8 @@ std::vector<std::uint16_t> materialsOf(const Model& model, const Primitives& pri
   return result;
 }
 
-// Turns each triangle until its smallest vertex comes first: then sorting its vertices, which reading it does, needs
-// one comparison that can not be foretold in place of three. It stays the same triangle, seen from the same side.
+// Rotates the vertices of each triangle so that the smallest comes first. Sorting them on reading then needs one
+// unpredictable comparison instead of three. The triangle and its orientation stay the same.
 void turnTriangles(Model& model) {
   using Range = oneapi::tbb::blocked_range<std::size_t>;
   constexpr std::size_t kGrain = 4096;
@@ -61,10 +61,10 @@ std::size_t bytesOf(const std::vector<T>& list) {
   return list.capacity() * sizeof(T);
 }
 
-// What a shape of one triangle takes: itself, its pointers, and what malloc() needs for each of its lists.
+// Memory of the smallest shape: itself, its pointers, and the overhead of malloc() for each of its lists.
 constexpr std::size_t kSmallest = 2048;
 
-// A hierarchy's two lists end in the middle of a huge page each.
+// Each of a hierarchy's two lists may end within a huge page.
 std::size_t hierarchyBytes(std::size_t bytes) {
   return bytes < HugePages::kPage ? bytes : bytes + 2 * HugePages::kPage;
 }
@@ -93,7 +93,7 @@ void setBounds(Shape& shape) {
       shape.bounds.empty() ? 0 : shape.bounds.min.cwiseAbs().cwiseMax(shape.bounds.max.cwiseAbs()).maxCoeff();
 }
 
-// All but the hierarchy.
+// The shape without its hierarchy.
 std::shared_ptr<Shape> shapeOf(Model given) {
   auto shape = std::make_shared<Shape>();
   shape->geometry = shape->mesh = nextGeometry();
@@ -118,7 +118,8 @@ void layInHugePages(const std::vector<T>& list) {
   HugePages::collapse(list.data(), list.size() * sizeof(T));
 }
 
-// What is built lives long enough to be worth moving; what is refitted is followed by the next frame.
+// Moves the vertices to huge pages. A built shape lives long enough for that; a refitted one is replaced in the next
+// frame.
 void buildIndex(Shape& shape, HierarchyKind hierarchy) {
   layInHugePages(shape.model.positions);
   layInHugePages(shape.model.triangles);
@@ -168,7 +169,7 @@ std::shared_ptr<const Shape> makeShape(std::shared_ptr<const PrimitiveSource> so
   return shape;
 }
 
-// Triangles are turned by where their vertices are.
+// The vertices of a triangle may be rotated differently, as the rotation depends on their positions.
 bool isSameMesh(const Shape& a, const Shape& b) {
   const Model &p = a.model, &q = b.model;
   return !a.source && !b.source && p.positions.size() == q.positions.size() && p.segments == q.segments &&
@@ -235,7 +236,7 @@ std::shared_ptr<const Shape> rebuilt(const Shape& worn) {
 }
 
 std::size_t bytesToMake(const ModelCounts& counts) {
-  // The hierarchy of a triangle takes 19 bytes at ten million, and while it is built 60 (the peak of the process).
+  // The hierarchy takes 19 bytes per triangle at ten million, and 60 while it is built (the peak of the process).
   constexpr std::size_t kWhileBuilt = 64;
   const std::size_t elements = counts.triangles + counts.segments + counts.points;
   return kSmallest + sizeof(Vec3) * (counts.vertices + counts.normals) + sizeof(Vec2) * counts.texcoords +

@@ -1,5 +1,5 @@
-// Shape: a model made ready for touch: its primitives and the hierarchy over them. Shared by all places where it is
-// shown.
+// Shape: a model prepared for contact queries: its primitives and the hierarchy over them. Shared by all instances of
+// it.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ namespace hl {
 
 class WideBvh;
 
-/// Which structure finds the primitives near the proxy: boxes with eight children each, the paper's sphere tree, or
-/// none (every primitive is tested). The results are the same.
+/// The structure that finds the primitives near the proxy: a hierarchy of boxes with eight children each, the paper's
+/// sphere tree, or none (every primitive is tested). The results are the same.
 enum class HierarchyKind : std::uint8_t { kBvh, kSpheres, kNone };
 
 /// "bvh", "spheres" or "none".
@@ -29,78 +29,78 @@ const char* nameOf(HierarchyKind hierarchy);
 /// Builds the structure over `primitives`. Allocates; never called by a real-time thread.
 std::unique_ptr<const SpatialIndex> makeIndex(const Primitives& primitives, HierarchyKind hierarchy);
 
-/// A mesh, or a surface that makes its primitives on request. Immutable after makeShape; read by any thread. Metres,
+/// A mesh, or a surface that computes its primitives on request. Immutable after makeShape; read by any thread. Metres,
 /// object frame.
 struct Shape {
-  Model model;                                    ///< without vertices where there is a source
-  Primitives primitives;                          ///< of the model
-  std::shared_ptr<const PrimitiveSource> source;  ///< null: it is a mesh
+  Model model;                                    ///< no vertices if there is a source
+  Primitives primitives;                          ///< primitives of the model
+  std::shared_ptr<const PrimitiveSource> source;  ///< null: the shape is a mesh
   std::vector<std::uint16_t> material_of;         ///< one per primitive, or empty: all use material 0
   HierarchyKind hierarchy = HierarchyKind::kBvh;
   std::unique_ptr<const SpatialIndex> index;
-  double cost_ratio = 1;       ///< of a refitted hierarchy: see WideBvh::costRatio
-  std::uint64_t geometry = 0;  ///< above 0; another shape has the same number only when it was rebuilt from this one
-  std::uint64_t before = 0;    ///< geometry of the shape that the hierarchy was refitted from; 0: it was built
-  std::uint64_t mesh = 0;      ///< above 0; shapes with the same number are one mesh, deformed: see isSameMesh()
+  double cost_ratio = 1;       ///< query cost of a refitted hierarchy over that of a new one: see WideBvh::costRatio
+  std::uint64_t geometry = 0;  ///< > 0; only copies with another hierarchy have the same number
+  std::uint64_t before = 0;    ///< geometry of the shape that was refitted; 0: the hierarchy was built
+  std::uint64_t mesh = 0;      ///< > 0; shapes with the same number are one mesh, deformed: see isSameMesh()
   Box bounds;
-  double extent = 0;                  ///< m: largest coordinate
-  std::vector<std::string> warnings;  ///< the model's, and what was skipped here
+  double extent = 0;                  ///< m: largest absolute coordinate
+  std::vector<std::string> warnings;  ///< warnings of the model, and skipped elements
 
-  /// Memory of what says where things are: vertices, index lists and hierarchy.
+  /// Memory of the geometry: vertices, index lists and hierarchy.
   std::size_t geometryBytes() const;
-  /// The same with normals, texture coordinates, material numbers and the shape itself; textures apart.
+  /// As geometryBytes(), plus normals, texture coordinates, material numbers and the shape itself; without textures.
   std::size_t bytes() const;
-  // Its primitives, of the mesh or the source; RT-safe. `id` < count().
+  // The primitives, of a mesh or of a source; RT-safe. `id` < count().
   ElementId count() const { return source ? source->count() : primitives.size(); }
   Primitive primitive(ElementId id) const { return source ? primitiveOf(*source, id) : primitives[id]; }
   PrimitiveKind kind(ElementId id) const { return source ? PrimitiveKind::kTriangle : primitives.kind(id); }
-  /// Whether its triangles have normals at their corners.
+  /// Whether its triangles have vertex normals.
   bool hasNormals() const { return source || !model.normals.empty(); }
-  /// The normal at a corner of one of its triangles, of a shape that has them.
+  /// The vertex normal of a triangle; requires hasNormals(). `sorted`: number among the sorted vertices.
   Vec3 cornerNormal(ElementId id, const Primitive& triangle, std::size_t sorted) const {
     if (source) return source->trueNormal(id, triangle.vertex[sorted]);
     return model.normals[model.triangles[triangle.source][triangle.order[sorted]]];
   }
-  /// Number of the primitive's material in the list of the model, or of whatever stands in for it.
+  /// Number of the primitive's material in the model's list, or in the list that replaces it (Surfaces).
   std::size_t materialOf(ElementId id) const { return material_of.empty() ? 0 : material_of[id]; }
 };
 
-/// Takes over the model. Degenerate and non-finite elements, and indices out of range, are skipped and counted in
-/// `warnings`. Allocates; never called by a real-time thread.
+/// Takes ownership of the model. Elements that are degenerate, non-finite or have an index out of range are skipped and
+/// counted in `warnings`. Allocates; never called by a real-time thread.
 std::shared_ptr<const Shape> makeShape(Model given, HierarchyKind hierarchy = HierarchyKind::kBvh);
 
-/// A surface that is no mesh, all of one material. Allocates; never called by a real-time thread.
+/// A surface that is not a mesh, with one material. Allocates; never called by a real-time thread.
 std::shared_ptr<const Shape> makeShape(std::shared_ptr<const PrimitiveSource> source, const Material& material = {});
 
-/// Whether one is the other with its vertices moved: the same index lists, whatever of them is skipped.
+/// Whether one is the other with moved vertices: they have the same index lists; skipped elements do not matter.
 bool isSameMesh(const Shape& a, const Shape& b);
 
-/// The same for what follows on `before`. Where both are the same mesh and skip the same elements, a wide hierarchy is
-/// refitted: that is nine times as fast as building it. Else it is built, of the same kind.
+/// As makeShape(), for a shape that replaces `before`. If both are the same mesh and skip the same elements, a wide
+/// hierarchy is refitted, which is nine times as fast as building it. Otherwise a hierarchy of the same kind is built.
 std::shared_ptr<const Shape> makeShape(Model given, const Shape& before);
 
-/// For a mesh in motion (mesh_motion.h): the same mesh with the same vertices under another tree, refitted; `shape` is
-/// numbered as what the tree was built for. And a shape of some elements alone, as Primitives has them, under that
-/// tree, or under a new one where there is none. Allocate.
+/// For deforming meshes (mesh_motion.h). withTree(): the same mesh with a refitted copy of `tree`; it keeps the numbers
+/// `geometry` and `mesh`. shapeOfElements(): a shape of the listed elements only (see Primitives), with a refitted copy
+/// of `tree`, or a new hierarchy if `tree` is null. Both allocate.
 std::shared_ptr<const Shape> withTree(const Shape& shape, const WideBvh& tree);
 std::shared_ptr<const Shape> shapeOfElements(Model model, std::vector<std::uint32_t> elements, const WideBvh* tree);
 
 MeshView viewOf(const Model& model);
-/// Numbers of the vertices of a primitive, in the order given; the last is repeated where there are fewer than three.
-/// RT-safe.
+/// Vertex numbers of a primitive, in the given order; the last is repeated if there are fewer than three. RT-safe.
 std::array<std::uint32_t, 3> verticesOf(const Shape& shape, ElementId primitive);
 
-/// How much a model that is not there yet will have.
+/// The sizes of a model that does not exist yet.
 struct ModelCounts {
   std::size_t vertices = 0, normals = 0, texcoords = 0, triangles = 0, segments = 0, points = 0;
 };
 
-/// Memory that makeShape() takes of a model at most, the model's own among it, by its numbers alone.
+/// Upper bound of the memory that makeShape() uses for a model, including the model itself, from the sizes alone.
 std::size_t bytesToMake(const ModelCounts& counts);
 std::size_t bytesToMake(const Model& model);
 
-/// What `make` makes, a shape, is counted from before it is made until nobody has it any more: first as
-/// `bytes_to_make`, then as what it takes. Throws hl::Error, and makes nothing, when there is no room.
+/// Calls `make` and counts the memory of the shape that it returns, from before the call until the last owner releases
+/// the shape: first as `bytes_to_make`, then as its actual size. If there is no room, throws hl::Error and does not
+/// call `make`.
 template <typename Make>
 std::shared_ptr<const Shape> makeCounted(const MemoryBudget& budget, std::size_t bytes_to_make, const Make& make) {
   MemoryShare memory(budget);
@@ -110,9 +110,9 @@ std::shared_ptr<const Shape> makeCounted(const MemoryBudget& budget, std::size_t
   return withShare(std::move(shape), std::move(memory));
 }
 
-/// Beyond this wear a hierarchy should be built anew: a query enters twice as many boxes as it did then.
+/// With a larger cost ratio a hierarchy should be rebuilt: a query enters twice as many boxes as when it was built.
 inline constexpr double kMaxCostRatio = 2;
-/// The same geometry with a hierarchy that is built for it: the same answers to the bit. Takes long.
+/// The same geometry with a newly built hierarchy; query results are identical bit by bit. Slow.
 std::shared_ptr<const Shape> rebuilt(const Shape& worn);
 
 }  // namespace hl

@@ -11,7 +11,7 @@ namespace hl {
 
 namespace {
 
-// Of all shapes of its mesh: between two of them it stays within the box around both.
+// Bounds of all shapes of the mesh motion: during a transition a mesh stays within the bounds of its two ends.
 Box objectBox(const Instance& instance) {
   Box box = instance.shape->bounds;
   if (instance.mesh_motion) instance.mesh_motion->forEachShape([&](const auto& shape) { box.extend(shape->bounds); });
@@ -28,7 +28,7 @@ double largestCoordinate(const Box& box) {
   return box.empty() ? 0 : box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff();
 }
 
-// Each is moved once, and none where they are sorted already, as those of one client are.
+// Each instance is moved once, or not at all if they are sorted already, as those of one client are.
 std::vector<Instance> byKey(std::vector<Instance> instances) {
   const auto before = [](const Instance& a, const Instance& b) { return a.key < b.key; };
   if (std::is_sorted(instances.begin(), instances.end(), before)) return instances;

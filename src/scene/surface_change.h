@@ -1,4 +1,5 @@
-// SurfaceChange: what one part of a hierarchy says about its surface. What it leaves out it takes from its caller.
+// SurfaceChange: the surface properties set by one part of a hierarchy. Properties that are not set are those of the
+// caller.
 #pragma once
 
 #include <array>
@@ -9,7 +10,7 @@
 
 namespace hl {
 
-/// A texture by the name that its scene knows it by.
+/// A texture, by its name in the scene.
 struct NamedTextureUse {
   std::string texture;
   double low = 0, high = 1;  ///< as in TextureUse
@@ -22,11 +23,11 @@ struct SurfaceChange {
 #undef HL_QUANTITY
   std::optional<bool> smooth;
   std::array<std::optional<NamedTextureUse>, kQuantities> textures{};
-  bool untextured = false;  ///< without the textures of the caller
+  bool untextured = false;  ///< the textures of the caller are not used
 
-  /// This, and where it says nothing what the caller says.
+  /// These properties; those not set are taken from `caller`.
   SurfaceChange over(const SurfaceChange& caller) const;
-  /// The material it comes to; what nobody said is Material's default, and smooth. Textures are left out.
+  /// The resulting material; properties that are not set are Material's defaults, but smooth is on. Without textures.
   Material material() const;
   bool operator==(const SurfaceChange&) const = default;
 };

@@ -14,16 +14,16 @@ namespace {
 
 std::size_t wrapped(std::ptrdiff_t i, std::size_t size, Wrap wrap) {
   const auto n = static_cast<std::ptrdiff_t>(size);
-  if (i >= 0 && i < n) return static_cast<std::size_t>(i);  // mostly; a division costs more than all the rest
+  if (i >= 0 && i < n) return static_cast<std::size_t>(i);  // usual; a division costs more than all the rest
   if (wrap == Wrap::kClamp) return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, n - 1));
   const std::ptrdiff_t rest = i % n;
   return static_cast<std::size_t>(rest < 0 ? rest + n : rest);
 }
 
-// Coordinates far out of range have no fraction left: they read the first texel.
+// Coordinates far out of range have no fractional digits; they read the first texel.
 double bounded(double x) { return std::abs(x) < 1e9 ? x : 0.0; }
 
-// std::floor of a bounded x, without its call.
+// std::floor of a bounded x, without a function call.
 std::ptrdiff_t floored(double x) {
   const auto toward_zero = static_cast<std::ptrdiff_t>(x);
   return toward_zero - (x < static_cast<double>(toward_zero) ? 1 : 0);
@@ -41,7 +41,7 @@ Cell cellOf(const Texture& texture, const Vec2& uv) {
   return {i, j, x - static_cast<double>(i), y - static_cast<double>(j)};
 }
 
-// A hash of the texel's place to 0..1.
+// A hash of the texel's position, mapped to 0..1.
 float noiseAt(std::size_t i, std::size_t j) {
   const std::uint64_t x = splitmix64((static_cast<std::uint64_t>(i) << 32) + j);
   return static_cast<float>(static_cast<double>(x >> 40) / 16777215.0);
@@ -65,14 +65,15 @@ double Texture::sample(const Vec2& uv) const {
 
 Vec2 Texture::gradient(const Vec2& uv) const {
   const Cell c = cellOf(*this, uv);
-  std::array<std::size_t, 4> columns{}, rows{};  // from one before the cell to one behind it
+  std::array<std::size_t, 4> columns{}, rows{};  // from one before the cell to one after it
   for (std::size_t k = 0; k < 4; ++k) {
     const auto off = static_cast<std::ptrdiff_t>(k) - 1;
     columns[k] = column(c.i + off);
     rows[k] = row(c.j + off);
   }
   const auto at = [&](std::size_t i, std::size_t j) { return static_cast<double>(texels[rows[j] + columns[i]]); };
-  // Differences across two texels, blended over the cell: of the blend of the rows, and of that of the columns.
+  // Central differences over two texels, interpolated in the cell: along u of the interpolated rows, along v of the
+  // interpolated columns.
   const auto along_u = [&](std::size_t i) { return (1 - c.t) * at(i, 1) + c.t * at(i, 2); };
   const auto along_v = [&](std::size_t j) { return (1 - c.s) * at(1, j) + c.s * at(2, j); };
   const double u = (1 - c.s) * (along_u(2) - along_u(0)) + c.s * (along_u(3) - along_u(1));

@@ -1,4 +1,4 @@
-// Texture: an image of one quantity over a surface, read with GL's rules of wrapping and filtering.
+// Texture: an image of one quantity on a surface, sampled by GL's rules of wrapping and filtering.
 #pragma once
 
 #include <cstddef>
@@ -25,8 +25,8 @@ struct Texture {
 
   /// The value at (u, v). RT-safe.
   double sample(const Vec2& uv) const;
-  /// d sample / d(u, v) of the image with central differences at the texels and bilinear between them: continuous, so
-  /// that a bump map turns the normal without jumps. RT-safe.
+  /// d sample / d(u, v), with central differences at the texels and bilinear interpolation between them. It is
+  /// continuous, so a bump map turns the normal without jumps. RT-safe.
   Vec2 gradient(const Vec2& uv) const;
 
  private:
@@ -37,8 +37,8 @@ struct Texture {
 /// Throws hl::Error unless sizes and texels agree and every texel is in 0..1.
 void checkTexture(const Texture& texture);
 
-/// "checker", "lines", "sine" or "noise": one tile of `size` x `size` texels, to be repeated. lines: `duty` (0..1) of
-/// the tile is 1, the rest 0; sine: 1/2 + 1/2 sin(2 pi u). Throws hl::Error for another name.
+/// "checker", "lines", "sine" or "noise": one tile of `size` x `size` texels, to be repeated. lines: a fraction `duty`
+/// (0..1) of the tile is 1, the rest 0; sine: 1/2 + 1/2 sin(2 pi u). Throws hl::Error for another name.
 Texture makeTexture(const std::string& kind, std::size_t size, double duty = 0.5);
 
 }  // namespace hl

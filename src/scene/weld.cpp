@@ -1,4 +1,4 @@
-// An open hash table of vertex numbers: the first vertex with a key stands for all later ones.
+// An open-addressing hash table of vertex numbers: the first vertex with a key replaces all later ones.
 #include "scene/weld.h"
 
 #include <bit>
@@ -13,7 +13,7 @@ namespace hl {
 
 namespace {
 
-// The bits of one vertex, as they are compared. Zeros of both signs differ, and a NaN is itself.
+// The bits of one vertex, for comparison. Zeros of different sign differ, and a NaN equals itself.
 class VertexBits {
  public:
   explicit VertexBits(const Model& model) : model_(model) {}
@@ -43,7 +43,7 @@ class VertexBits {
   const Model& model_;
 };
 
-// The new number of each vertex, and how many there are.
+// The new number of each vertex, and the number of vertices.
 struct Numbering {
   std::vector<std::uint32_t> now;
   std::size_t count = 0;
@@ -65,7 +65,7 @@ Numbering numberingOf(const Model& model) {
   return numbering;
 }
 
-// The first vertex of each number moves to its new place, which is never behind the old one.
+// Moves the first vertex of each number to its new index, which is never larger than the old one.
 template <typename Vector>
 void keepFirst(std::vector<Vector>& list, const Numbering& numbering) {
   if (list.empty()) return;

@@ -1,5 +1,5 @@
-// Welding: vertices that are the same in everything become one. Files without shared indices (STL; OBJ as assimp gives
-// it) have three vertices for each triangle, which takes twice the memory of the mesh with its hierarchy.
+// Welding: joins identical vertices. Files without shared indices (STL; OBJ as assimp returns it) have three vertices
+// per triangle, which takes twice the memory of the mesh with its hierarchy.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +8,9 @@
 
 namespace hl {
 
-/// Joins vertices with the same bits of position, normal and texture coordinate. Elements keep their order and their
-/// places, so they are touched with the same bits of force. Vertices keep the order of their first use in the list.
-/// O(n); returns how many are gone. An index out of range stays out of range.
+/// Joins vertices with the same bits of position, normal and texture coordinate. Elements keep their order and
+/// positions, so the forces are the same bit by bit. Vertices keep the order of their first use in the list. O(n).
+/// Returns the number of vertices removed. An index out of range stays out of range.
 std::size_t weldVertices(Model& model);
 
 }  // namespace hl
