@@ -20,18 +20,18 @@ class RecentCuts {
  public:
   using Planes = FixedVector<Plane, convergence::kMaxPlanesWithCuts>;
 
-  /// To be called with the contacts at the new position. The primitives named by holds() since the last call that are
-  /// not in `set` become the cuts. Older cuts are dropped.
-  void look(const ContactSet& set);
+  /// To be called with the contacts at the new position. The primitives given to addActive() since the last call that
+  /// are not in `set` become the cuts. Older cuts are dropped.
+  void update(const ContactSet& set);
   bool empty() const { return left_.empty(); }
 
   /// Appends to `planes` those of the cuts, relative to `position`, that keep the proxy `reach` (m) away. Cuts farther
   /// than kCutNear reaches are skipped. Returns the number added.
   std::size_t addPlanes(const SceneAt& scene, const Vec3& position, double reach, Planes& planes) const;
 
-  /// Records that `primitive` is active in the next step; holdsStill() records this of all cuts.
-  void holds(PrimitiveId primitive) { holding_.push(primitive); }
-  void holdsStill();
+  /// Records that `primitive` is active in the next step; keepActive() records this of all cuts.
+  void addActive(PrimitiveId primitive) { active_.push(primitive); }
+  void keepActive();
 
  private:
   static constexpr std::size_t kRoom = 6;  // at most three active planes per step, for two steps

@@ -44,8 +44,8 @@ double Walk::likelyWay_m(bool along) const {
 // Finds the first impact from the cache alone. Returns false if the cache does not suffice: it covers only a part of
 // the way and has no impact on that part. Along a surface a partly covered way is not tested, as it usually continues
 // beyond the covered part.
-bool Walk::cacheTells(const ContactSet& set, bool along, const Vec3& from, const Vec3& motion,
-                      std::span<const PrimitiveId> contacts, bool& hit, SceneImpact& out) {
+bool Walk::cacheAnswers(const ContactSet& set, bool along, const Vec3& from, const Vec3& motion,
+                        std::span<const PrimitiveId> contacts, bool& hit, SceneImpact& out) {
   SweepCache& nearby = cache_.nearby;
   const SceneAt& scene = input_.scene;
   const Tolerances& tolerance = input_.tolerance;

@@ -58,7 +58,7 @@ class RecentPrimitives {
   void forget() { std::fill(of_, of_ + last_ + 1, kNone); }
 
  private:
-  static constexpr std::uint32_t kStride = 11;  // maps the same element of neighbouring instances to different slots
+  static constexpr ElementId kStride = 11;  // maps the same element of neighbouring instances to different slots
 
   PrimitiveId* of_ = nullptr;
   Slot* slots_ = nullptr;
