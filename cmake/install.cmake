@@ -1,10 +1,12 @@
-# What `cmake --install` puts where, in three components that are also three Debian packages (cmake/packages.cmake):
-# libhl (the library), libhl-dev (what a program is built with), hl-tools (hl, hld and the page).
+# What `cmake --install` puts where, in four components that are also four Debian packages (cmake/packages.cmake):
+# libhl and libhlbatch (the libraries), libhl-dev (what a program is built with), hl-tools (hl, hld and the page).
 include(CMakePackageConfigHelpers)
 set(cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/hl)
 
 install(TARGETS hl_shared EXPORT hl_targets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libhl NAMELINK_COMPONENT libhl-dev)
+install(TARGETS hl_batch_shared EXPORT hl_targets
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libhlbatch NAMELINK_COMPONENT libhl-dev)
 
 install(DIRECTORY include/hl DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT libhl-dev)
 install(EXPORT hl_targets NAMESPACE hl:: FILE hlTargets.cmake DESTINATION ${cmake_folder} COMPONENT libhl-dev)
@@ -29,6 +31,6 @@ install(FILES packaging/hld.conf DESTINATION share/doc/hl-tools COMPONENT hl-too
 install(FILES packaging/hld.service DESTINATION lib/systemd/system COMPONENT hl-tools)
 
 # Debian wants the licence of each package beside it.
-foreach(component libhl libhl-dev hl-tools)
+foreach(component libhl libhlbatch libhl-dev hl-tools)
   install(FILES LICENSE DESTINATION share/doc/${component} RENAME copyright COMPONENT ${component})
 endforeach()

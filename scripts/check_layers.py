@@ -19,7 +19,7 @@ LEVELS = {
     "io": 4,
     "touch": 5,
     "record": 6, "tools": 6,
-    "session": 7,
+    "session": 7, "batch": 7,
     "page": 8, "monitor": 8,
     "http": 9, "client": 9,
     "bench": 10,
@@ -28,7 +28,7 @@ LEVELS = {
 # The proxy knows no threads, devices or messages, and the servo knows no scene, although their levels would allow it.
 NEVER = {"proxy": {"device", "control", "wire"}, "control": {"geometry", "wire"}, "scene": {"wire", "device"}}
 # Targets and generated headers that are not named after their folder.
-TARGET_FOLDERS = {"hl_proto": "wire", "hl_realtime_guard": "base", "hl_json": "base", "hl_url": "base", "hl_websocket": "wire", "hl": "apps", "hld": "apps", "hl_frames": "session", "hl_inproc_link": "client", "hl_websocket_link": "client",
+TARGET_FOLDERS = {"hl_proto": "wire", "hl_realtime_guard": "base", "hl_json": "base", "hl_url": "base", "hl_websocket": "wire", "hl": "apps", "hld": "apps", "hl_frames": "session", "hl_batch_shared": "batch", "hl_inproc_link": "client", "hl_websocket_link": "client",
                   "hl_links": "client"}
 HEADER_FOLDERS = {"hl.pb.h": "wire", "recording.pb.h": "wire"}
 # CMake's own words inside a link list, and the target that only carries compiler flags.

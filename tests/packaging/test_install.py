@@ -58,6 +58,12 @@ class Installed(unittest.TestCase):
         symbols = run("nm", "-D", "--defined-only", "--format=just-symbols", self.library / "libhl.so").split()
         self.assertEqual(sorted(symbols), sorted(declared))
 
+    def test_only_the_batch_calls_are_visible(self):
+        declared = re.findall(r"^HL_API [\w* ]*?\b(hl[A-Z]\w*)\(",
+                              (SOURCE / "include/hl/hl_batch.h").read_text(encoding="utf-8"), re.MULTILINE)
+        symbols = run("nm", "-D", "--defined-only", "--format=just-symbols", self.library / "libhlbatch.so").split()
+        self.assertEqual(sorted(symbols), sorted(declared))
+
     def test_the_library_says_its_version(self):
         dynamic = run("readelf", "-d", self.library / "libhl.so")
         self.assertRegex(dynamic, r"SONAME.*\[libhl\.so\.\d+\.\d+\]")
@@ -134,7 +140,7 @@ class DebianPackages(unittest.TestCase):
         return run("dpkg-deb", "--contents", self.packages[package])
 
     def test_there_is_one_for_each_purpose(self):
-        self.assertEqual(sorted(self.packages), ["hl-tools", "libhl", "libhl-dev"])
+        self.assertEqual(sorted(self.packages), ["hl-tools", "libhl", "libhl-dev", "libhlbatch"])
 
     def test_the_library_depends_on_what_it_is_linked_with(self):
         self.assertRegex(self.field("libhl", "Depends"), r"libprotobuf32.*libssl3|libssl3.*libprotobuf32")
@@ -142,7 +148,7 @@ class DebianPackages(unittest.TestCase):
         self.assertNotRegex(self.content("libhl"), r"libhl\.so ->|hl\.h")
 
     def test_building_needs_the_same_version(self):
-        self.assertEqual(self.field("libhl-dev", "Depends"), f"libhl (= {self.field('libhl', 'Version')})")
+        self.assertEqual(self.field("libhl-dev", "Depends"), "libhl (= {0}), libhlbatch (= {0})".format(self.field("libhl", "Version")))
         for file in [r"libhl\.so -> ", "include/hl/hl.h", "hlConfig.cmake", "pkgconfig/hl.pc", "examples/01_sphere.c"]:
             self.assertRegex(self.content("libhl-dev"), file)
 

@@ -1,0 +1,111 @@
+/* HL in batches: many fingers, or many recorded paths, over one scene; without a server, a device or a clock. For
+ * simulation, learning and analysis. C99 and C++. The library is libhlbatch.
+ *
+ * Results. Each finger has the same bits as if it were alone, whatever the number of threads and the hierarchy.
+ *
+ * Errors. A call that fails changes nothing but what its comment says, and returns an error that is not HL_NO_ERROR;
+ * hlBatchError says why in one line. HL_INVALID_VALUE: an argument, or a number that is not finite. HL_OUT_OF_MEMORY.
+ *
+ * Threads. Calls are made by any thread. A scene may be used by several at once, fingers by one at a time. `threads`
+ * is how many a call may use at once, 0: all that the machine has. No call holds a lock while it computes.
+ *
+ * Arrays. Rows of numbers one after the other, C order. Metres, seconds, newtons, world frame. */
+#ifndef HL_HL_BATCH_H
+#define HL_HL_BATCH_H
+
+#include <hl/hl_types.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifndef HL_API
+#define HL_API __attribute__((visibility("default")))
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Why the last call of this thread that failed did so; "" before the first. Valid until the next one that fails. */
+HL_API const char* hlBatchError(void);
+
+/* ---- Scenes ---------------------------------------------------------------------------------------------------- */
+
+/** What can be touched; immutable. */
+typedef struct HLbatchScene HLbatchScene;
+
+/** A model file, a scene file (*.hl.json) or a built-in scene by its name ("teapot", "terrain:100000"). `size`: metres
+ * of its largest side, 0: as it is. NULL when that fails. Model files are parsed in a child process without rights. */
+HL_API HLbatchScene* hlBatchLoadScene(const char* name, HLdouble size);
+/** Triangles: `vertices` x 3 coordinates, and `triangles` x 3 indices. `normals`, one a vertex, are for smooth shading;
+ * NULL: none. Degenerate triangles are left out. NULL when that fails. */
+HL_API HLbatchScene* hlBatchMakeScene(const HLdouble* positions, const HLdouble* normals, size_t vertices,
+                                      const HLuint* indices, size_t triangles);
+/** Fingers that were made with the scene keep it. NULL: nothing happens. */
+HL_API void hlBatchDeleteScene(HLbatchScene* scene);
+/** How many triangles, segments and points it has. */
+HL_API size_t hlBatchScenePrimitives(const HLbatchScene* scene);
+/** The box around it: 3 numbers each. Of an empty scene `low` is above `high`. */
+HL_API void hlBatchSceneBounds(const HLbatchScene* scene, HLdouble* low, HLdouble* high);
+
+/* ---- Settings -------------------------------------------------------------------------------------------------- */
+
+/** Made by hlBatchSettings, then changed. */
+typedef struct HLbatchSettings {
+  HLdouble radius;      /**< m, > 0: of the proxy; at first 0.002 */
+  HLdouble spring;      /**< N/m, > 0: force = spring (target - finger); at first 1000 */
+  HLdouble period;      /**< s, > 0: between two steps of fingers; a trace takes it from its path. At first 0.001 */
+  HLint smooth;         /**< HL_TRUE, HL_FALSE: smooth shading of all surfaces; -1, at first: as the scene says */
+  HLdouble surface[16]; /**< by hlBatchSurface; negative, at first: as the scene says */
+} HLbatchSettings;
+
+HL_API void hlBatchSettings(HLbatchSettings* settings);
+/** Sets one quantity of all surfaces: HL_STIFFNESS, HL_STATIC_FRICTION, HL_DYNAMIC_FRICTION, HL_VISCOSITY, HL_STRIBECK,
+ * HL_PRESLIDING or HL_ADHESION, in the units of hlMaterial. */
+HL_API HLenum hlBatchSurface(HLbatchSettings* settings, HLenum quantity, HLdouble value);
+
+/* ---- Results --------------------------------------------------------------------------------------------------- */
+
+/** Where each row of a result goes: a finger, or a sample of a path. NULL: it is not wanted. */
+typedef struct HLbatchResult {
+  HLdouble* proxy;    /**< x 3, m: centre of the proxy */
+  HLdouble* force;    /**< x 3, N: on the hand, of the spring */
+  HLint* contacts;    /**< 0..3: planes that hold the proxy */
+  HLdouble* injected; /**< J: what the tick added to the spring's energy; below 0: took away */
+} HLbatchResult;
+
+/* ---- Paths ----------------------------------------------------------------------------------------------------- */
+
+/** Feels the scene along `paths` recorded paths, each by a finger of its own that begins at its first sample, as
+ * hl trace does. `samples`: all samples x 4, t, x, y, z, path after path, t rising within each; path i ends before
+ * sample ends[i]. */
+HL_API HLenum hlBatchTrace(const HLbatchScene* scene, const HLbatchSettings* settings, size_t paths, const size_t* ends,
+                           const HLdouble* samples, HLint threads, const HLbatchResult* result);
+
+/* ---- Fingers --------------------------------------------------------------------------------------------------- */
+
+/** Fingers that are stepped together, each with a proxy of its own. They do not feel each other. */
+typedef struct HLbatchFingers HLbatchFingers;
+
+/** NULL when that fails. */
+HL_API HLbatchFingers* hlBatchMakeFingers(const HLbatchScene* scene, const HLbatchSettings* settings, size_t fingers);
+HL_API void hlBatchDeleteFingers(HLbatchFingers* fingers);
+/** Each finger goes to its position (x 3) and its proxy follows: one tick. The first step, and the one after a reset,
+ * begins a proxy where the finger is, or near it where the finger is within something. */
+HL_API HLenum hlBatchStep(HLbatchFingers* fingers, const HLdouble* positions, HLint threads,
+                          const HLbatchResult* result);
+/** Those with a mask other than 0 begin anew with their next step; NULL: all. */
+HL_API void hlBatchResetFingers(HLbatchFingers* fingers, const unsigned char* mask);
+
+/* ---- Closest points -------------------------------------------------------------------------------------------- */
+
+/** Of each of `count` points (x 3) the nearest point of the scene, at any distance. Each output may be NULL: `nearest`
+ * x 3, m; `distance`, m; `normal` x 3, unit, from the surface to the point; `primitive`, its number in the model. In an
+ * empty scene distances are infinite, and the rest is 0. */
+HL_API HLenum hlBatchClosest(const HLbatchScene* scene, size_t count, const HLdouble* points, HLint threads,
+                             HLdouble* nearest, HLdouble* distance, HLdouble* normal, uint64_t* primitive);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* HL_HL_BATCH_H */

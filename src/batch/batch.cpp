@@ -1,0 +1,77 @@
+#include "batch/batch.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <limits>
+
+#include "batch/on_threads.h"
+#include "tools/trace.h"
+
+namespace hl {
+
+namespace {
+
+using Range = oneapi::tbb::blocked_range<std::size_t>;
+
+}  // namespace
+
+void traceBatch(const Snapshot& scene, const ProxySettings& settings, std::span<const PathSample> samples,
+                std::span<const std::size_t> ends, int threads, BatchSink sink) {
+  TraceSettings trace;
+  trace.proxy = settings;
+  onThreads(threads, [&] {
+    oneapi::tbb::parallel_for(std::size_t{0}, ends.size(), [&](std::size_t path) {
+      const std::size_t begin = path == 0 ? 0 : ends[path - 1];
+      const std::vector<PathSample> own(samples.begin() + static_cast<std::ptrdiff_t>(begin),
+                                        samples.begin() + static_cast<std::ptrdiff_t>(ends[path]));
+      std::size_t next = begin;
+      runTrace(scene, trace, own, [&](const TraceRow& row) {
+        sink(next++, {row.proxy, row.force, row.contacts, row.injected_J});
+      });
+    });
+  });
+}
+
+void FingerBatch::step(std::span<const Vec3> fingers, int threads, BatchSink sink) {
+  constexpr std::size_t kGrain = 16;  // each range begins with nothing read
+  onThreads(threads, [&] {
+    oneapi::tbb::parallel_for(Range(0, states_.size(), kGrain), [&](const Range& range) {
+      ManyRecentPrimitives recent;
+      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+        const SceneAt scene(*scene_, 0, recent);
+        if (begun_[i] == 0) states_[i] = startProxy(scene, settings_, fingers[i]);
+        begun_[i] = 1;
+        const TickReport report = tick(states_[i], scene, settings_, fingers[i]);
+        sink(i, {states_[i].position, settings_.spring_N_m * (report.target - fingers[i]),
+                 static_cast<int>(report.contacts.size()), report.injected_J});
+      }
+    });
+  });
+}
+
+// Looks farther and farther, from the scene's box on. What is found within a distance is all that is there.
+NearestPoint nearestPoint(const SceneAt& scene, const Vec3& point) {
+  constexpr double kFirstPart = 1e-3, kFarther = 4;
+  NearestPoint nearest;
+  nearest.at.distance = std::numeric_limits<double>::infinity();
+  const Box& box = scene.snapshot().bounds;
+  if (box.empty()) return nearest;
+  const double to_box = (point - point.cwiseMax(box.min).cwiseMin(box.max)).norm();
+  const double farthest = to_box + box.size().norm();
+  bool found = false;
+  const auto keep = [&](PrimitiveId id, const ClosestPoint& at) {
+    if (found && at.distance > nearest.at.distance) return;
+    if (found && at.distance == nearest.at.distance && !scene.precedes(id, nearest.primitive)) return;
+    found = true;
+    nearest = {at, id};
+  };
+  for (double part = kFirstPart; !found; part *= kFarther) {
+    const double distance = to_box + std::min(part, 2.0) * box.size().norm() + scene.extent() * kFirstPart * part;
+    scene.primitivesWithin(point, distance, keep);
+    if (distance > 2 * farthest) break;
+  }
+  return nearest;
+}
+
+}  // namespace hl

@@ -1,0 +1,242 @@
+// The calls of hl_batch.h: arrays are checked and read here, and everything else is batch.h's.
+#include <hl/hl_batch.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <new>
+#include <string>
+
+#include "base/error.h"
+#include "base/quantities.h"
+#include "batch/batch.h"
+#include "batch/on_threads.h"
+#include "io/load_scene.h"
+#include "scene/model.h"
+
+struct HLbatchScene {
+  std::shared_ptr<const hl::Snapshot> snapshot;
+};
+
+struct HLbatchFingers {
+  hl::FingerBatch batch;
+};
+
+namespace {
+
+using namespace hl;
+
+thread_local std::string last_error;
+
+constexpr std::array<HLenum, kNumbers> kQuantityOf{
+#define HL_QUANTITY(quantity, field, NAME, ...) HL_##NAME,
+#include "base/quantities.def"
+#undef HL_QUANTITY
+};
+static_assert(kNumbers <= std::size(HLbatchSettings{}.surface));
+
+// Runs `work`; what it throws becomes an error code and a line.
+template <typename Work>
+HLenum guardedCall(const char* call, const Work& work) {
+  try {
+    work();
+    return HL_NO_ERROR;
+  } catch (const std::bad_alloc&) {
+    last_error = std::string(call) + ": there is not enough memory";
+    return HL_OUT_OF_MEMORY;
+  } catch (const std::exception& error) {
+    last_error = std::string(call) + ": " + error.what();
+    return HL_INVALID_VALUE;
+  }
+}
+
+void require(bool holds, const char* what) {
+  if (!holds) throw Error(what);
+}
+
+void requireFinite(const HLdouble* numbers, std::size_t count, const char* what) {
+  require(std::all_of(numbers, numbers + count, [](double x) { return std::isfinite(x); }), what);
+}
+
+// Without a budget of work: nothing waits for a step, and so the machine decides nothing.
+ProxySettings settingsOf(const HLbatchSettings* given) {
+  require(given != nullptr, "settings is NULL; hlBatchSettings makes some");
+  const auto positive = [](double x) { return std::isfinite(x) && x > 0; };
+  require(positive(given->radius) && positive(given->spring) && positive(given->period),
+          "radius, spring and period must be finite and above zero");
+  ProxySettings settings;
+  settings.radius = given->radius;
+  settings.spring_N_m = given->spring;
+  settings.period_s = given->period;
+  settings.work_cap = kNoWorkCap;
+  if (given->smooth >= 0) settings.surfaces.smooth = given->smooth != 0;
+  for (std::size_t i = 0; i < kNumbers; ++i) {
+    if (given->surface[i] >= 0) settings.surfaces.number(i) = given->surface[i];
+  }
+  return settings;
+}
+
+void requireThreads(HLint threads) { require(threads >= 0, "threads must not be negative"); }
+
+Vec3 vecAt(const HLdouble* numbers, std::size_t i) {
+  return Vec3(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);
+}
+
+void put(HLdouble* numbers, std::size_t i, const Vec3& v) {
+  if (numbers != nullptr) std::copy_n(v.data(), 3, numbers + 3 * i);
+}
+
+void put(const HLbatchResult& result, std::size_t i, const BatchRow& row) {
+  put(result.proxy, i, row.proxy);
+  put(result.force, i, row.force_N);
+  if (result.contacts != nullptr) result.contacts[i] = row.contacts;
+  if (result.injected != nullptr) result.injected[i] = row.injected_J;
+}
+
+HLbatchScene* sceneOf(Model model) {
+  auto snapshot = makeSnapshot(std::move(model));
+  require(snapshot->primitives > 0, "nothing in it can be touched");
+  return new HLbatchScene{std::move(snapshot)};
+}
+
+std::vector<PathSample> samplesOf(const HLdouble* numbers, std::size_t paths, const std::size_t* ends) {
+  std::vector<PathSample> samples;
+  std::size_t begin = 0;
+  for (std::size_t path = 0; path < paths; begin = ends[path++]) {
+    require(ends[path] >= begin, "ends must not fall");
+    requireFinite(numbers + 4 * begin, 4 * (ends[path] - begin), "samples must be finite");
+    for (std::size_t i = begin; i < ends[path]; ++i) {
+      const HLdouble* const row = numbers + 4 * i;
+      require(i == begin || row[0] > samples.back().t, "the times of a path must rise");
+      samples.push_back({row[0], Vec3(row[1], row[2], row[3])});
+    }
+  }
+  return samples;
+}
+
+}  // namespace
+
+const char* hlBatchError(void) { return last_error.c_str(); }
+
+HLbatchScene* hlBatchLoadScene(const char* name, HLdouble size) {
+  HLbatchScene* scene = nullptr;
+  guardedCall(__func__, [&] {
+    require(name != nullptr, "name is NULL");
+    require(std::isfinite(size) && size >= 0, "size must be finite and not negative");
+    Model model = loadScene(name);
+    if (size > 0) fitModel(model, size);
+    scene = sceneOf(std::move(model));
+  });
+  return scene;
+}
+
+HLbatchScene* hlBatchMakeScene(const HLdouble* positions, const HLdouble* normals, size_t vertices,
+                               const HLuint* indices, size_t triangles) {
+  HLbatchScene* scene = nullptr;
+  guardedCall(__func__, [&] {
+    require(positions != nullptr && indices != nullptr, "positions or indices is NULL");
+    requireFinite(positions, 3 * vertices, "positions must be finite");
+    if (normals != nullptr) requireFinite(normals, 3 * vertices, "normals must be finite");
+    require(std::all_of(indices, indices + 3 * triangles, [&](HLuint i) { return i < vertices; }),
+            "an index names no vertex");
+    Model model;
+    for (std::size_t i = 0; i < vertices; ++i) model.positions.push_back(vecAt(positions, i));
+    for (std::size_t i = 0; normals != nullptr && i < vertices; ++i) model.normals.push_back(vecAt(normals, i));
+    for (std::size_t i = 0; i < triangles; ++i)
+      model.triangles.push_back({indices[3 * i], indices[3 * i + 1], indices[3 * i + 2]});
+    model.materials[0].smooth = normals != nullptr;
+    scene = sceneOf(std::move(model));
+  });
+  return scene;
+}
+
+void hlBatchDeleteScene(HLbatchScene* scene) { delete scene; }
+
+size_t hlBatchScenePrimitives(const HLbatchScene* scene) { return scene != nullptr ? scene->snapshot->primitives : 0; }
+
+void hlBatchSceneBounds(const HLbatchScene* scene, HLdouble* low, HLdouble* high) {
+  if (scene == nullptr) return;
+  put(low, 0, scene->snapshot->bounds.min);
+  put(high, 0, scene->snapshot->bounds.max);
+}
+
+void hlBatchSettings(HLbatchSettings* settings) {
+  if (settings == nullptr) return;
+  const ProxySettings usual;
+  *settings = {0.002, usual.spring_N_m, usual.period_s, -1, {}};
+  std::fill(std::begin(settings->surface), std::end(settings->surface), -1.0);
+}
+
+HLenum hlBatchSurface(HLbatchSettings* settings, HLenum quantity, HLdouble value) {
+  return guardedCall(__func__, [&] {
+    require(settings != nullptr, "settings is NULL");
+    const auto found = std::find(kQuantityOf.begin(), kQuantityOf.end(), quantity);
+    require(found != kQuantityOf.end(), "there is no such quantity");
+    const auto i = static_cast<std::size_t>(found - kQuantityOf.begin());
+    require(value >= 0 && value <= kQuantityInfo[i].most_set, "the value is out of its range");
+    settings->surface[i] = value;
+  });
+}
+
+HLenum hlBatchTrace(const HLbatchScene* scene, const HLbatchSettings* settings, size_t paths, const size_t* ends,
+                    const HLdouble* samples, HLint threads, const HLbatchResult* result) {
+  return guardedCall(__func__, [&] {
+    require(scene != nullptr && result != nullptr, "scene or result is NULL");
+    require(paths == 0 || (ends != nullptr && samples != nullptr), "ends or samples is NULL");
+    requireThreads(threads);
+    const ProxySettings rules = settingsOf(settings);
+    const std::vector<PathSample> read = samplesOf(samples, paths, ends);
+    traceBatch(*scene->snapshot, rules, read, {ends, paths}, threads,
+               [&](std::size_t i, const BatchRow& row) { put(*result, i, row); });
+  });
+}
+
+HLbatchFingers* hlBatchMakeFingers(const HLbatchScene* scene, const HLbatchSettings* settings, size_t fingers) {
+  HLbatchFingers* made = nullptr;
+  guardedCall(__func__, [&] {
+    require(scene != nullptr, "scene is NULL");
+    made = new HLbatchFingers{FingerBatch(scene->snapshot, settingsOf(settings), fingers)};
+  });
+  return made;
+}
+
+void hlBatchDeleteFingers(HLbatchFingers* fingers) { delete fingers; }
+
+HLenum hlBatchStep(HLbatchFingers* fingers, const HLdouble* positions, HLint threads, const HLbatchResult* result) {
+  return guardedCall(__func__, [&] {
+    require(fingers != nullptr && positions != nullptr && result != nullptr, "fingers, positions or result is NULL");
+    requireThreads(threads);
+    requireFinite(positions, 3 * fingers->batch.size(), "positions must be finite");
+    std::vector<Vec3> places;
+    places.reserve(fingers->batch.size());
+    for (std::size_t i = 0; i < fingers->batch.size(); ++i) places.push_back(vecAt(positions, i));
+    fingers->batch.step(places, threads, [&](std::size_t i, const BatchRow& row) { put(*result, i, row); });
+  });
+}
+
+void hlBatchResetFingers(HLbatchFingers* fingers, const unsigned char* mask) {
+  if (fingers == nullptr) return;
+  for (std::size_t i = 0; i < fingers->batch.size(); ++i) {
+    if (mask == nullptr || mask[i] != 0) fingers->batch.reset(i);
+  }
+}
+
+HLenum hlBatchClosest(const HLbatchScene* scene, size_t count, const HLdouble* points, HLint threads, HLdouble* nearest,
+                      HLdouble* distance, HLdouble* normal, uint64_t* primitive) {
+  return guardedCall(__func__, [&] {
+    require(scene != nullptr && (points != nullptr || count == 0), "scene or points is NULL");
+    requireThreads(threads);
+    requireFinite(points, 3 * count, "points must be finite");
+    onThreads(threads, [&] {
+      oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+        const NearestPoint found = nearestPoint(SceneAt(*scene->snapshot), vecAt(points, i));
+        put(nearest, i, found.at.point);
+        put(normal, i, found.at.normal);
+        if (distance != nullptr) distance[i] = found.at.distance;
+        if (primitive != nullptr) primitive[i] = found.primitive.element;
+      });
+    });
+  });
+}
