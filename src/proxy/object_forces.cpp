@@ -40,17 +40,17 @@ void add(ObjectForces& forces, std::uint64_t key, const Vec3& point, const Vec3&
 ObjectForces objectForces(const SceneAt& scene, const ProxySettings& settings, const ProxyState& state,
                           const TickReport& report, const Vec3& finger) {
   ObjectForces forces;
-  const double N_per_m = settings.spring_N_m / settings.world_per_device;
-  const Vec3 total_N = N_per_m * (report.target - finger);
+  const double spring_N_m = settings.spring_N_m / settings.world_per_device;
+  const Vec3 total_N = spring_N_m * (report.target - finger);
   Vec3 tangential_N = total_N;
-  const auto normalOf_N = [&](const ProxyContact& contact) -> Vec3 {
-    return N_per_m * state.stiffness * contact.multiplier_m * contact.normal;
+  const auto normal_N = [&](const ProxyContact& contact) -> Vec3 {
+    return spring_N_m * state.stiffness * contact.multiplier_m * contact.normal;
   };
-  for (const ProxyContact& contact : report.contacts) tangential_N -= normalOf_N(contact);
+  for (const ProxyContact& contact : report.contacts) tangential_N -= normal_N(contact);
   const Shares shares = frictionShares(report);
   for (std::size_t i = 0; i < report.contacts.size(); ++i) {
     const ProxyContact& contact = report.contacts[i];
-    add(forces, scene.instance(contact.primitive).key, contact.point, normalOf_N(contact) + shares[i] * tangential_N);
+    add(forces, scene.instance(contact.primitive).key, contact.point, normal_N(contact) + shares[i] * tangential_N);
   }
   if (forces.empty() && total_N != Vec3::Zero()) add(forces, 0, state.position, total_N);
   return forces;
