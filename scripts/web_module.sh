@@ -1,0 +1,54 @@
+# Makes build/web-module/hl_web.{mjs,wasm}: the engine and the simulated device for a browser, with Debian's emscripten.
+# Sourced by scripts/build.
+
+# One source for each folder: headers are most of the compiling.
+web_sources() {
+  local out="$1" folder file
+  for folder in geometry scene proxy control; do
+    for file in "$root/src/$folder"/*.cpp; do
+      if [[ "$file" != */wide_bvh_query.cpp ]]; then echo "#include \"$file\""; fi
+    done >"$out/$folder.cpp"
+  done
+  # Includes itself, once for each instruction set.
+  echo "#include \"$root/src/geometry/wide_bvh_query.cpp\"" >"$out/query.cpp"
+  for file in src/base/{ledger,plain_math,quantities}.cpp src/device/{device_models,hand,mass_arm,phantom}.cpp \
+    src/device/{phantom_arm,simulated_device}.cpp src/touch/{exploration,held_contacts,proxy_loop,touch_step}.cpp \
+    src/touch/touch_events.cpp; do
+    echo "#include \"$root/$file\""
+  done >"$out/rest.cpp"
+  for file in "$root"/scenes/*.cpp; do echo "#include \"$file\""; done >"$out/scenes.cpp"
+  for file in "$root"/web/*.cpp; do echo "#include \"$file\""; done >"$out/web.cpp"
+}
+
+# Debian's system libraries, read only, in a cache folder that the user may write its lock to.
+web_cache() {
+  mkdir -p "$1"
+  ln -sfn /usr/share/emscripten/cache/sysroot "$1/sysroot"
+  ln -sfn /usr/share/emscripten/cache/sysroot_install.stamp "$1/sysroot_install.stamp"
+  ln -sfn /usr/share/emscripten/cache/build "$1/build"
+}
+
+build_web_module() {
+  local out="$root/build/web-module" source
+  local -a flags=(-std=c++20 -O2 -DNDEBUG -ffp-contract=off -fexceptions)
+  mkdir -p "$out/include"
+  web_sources "$out"
+  web_cache "$out/cache"
+  ln -sfn /usr/include/eigen3/Eigen "$out/include/Eigen"
+  ln -sfn /usr/include/hwy "$out/include/hwy"
+  export EM_CACHE="$out/cache" NODE_PATH=/usr/share/nodejs
+  flags+=(-I "$root/web/serial_tbb" -I "$root/src" -I "$root" -I "$root/scenes" -I "$root/web")
+  flags+=(-isystem "$out/include" -include "$root/web/missing_std.h")
+  for source in geometry scene proxy control query rest scenes web; do echo "$source"; done |
+    xargs -P 2 -I {} em++ "${flags[@]}" -c "$out/{}.cpp" -o "$out/{}.o" || die "the web module does not compile"
+  em++ -O2 -fexceptions "$out"/*.o -o "$out/hl_web.mjs" \
+    -s MODULARIZE=1 -s EXPORT_ES6=1 -s ENVIRONMENT=worker -s ALLOW_MEMORY_GROWTH=1 -s FILESYSTEM=0 \
+    -s DYNAMIC_EXECUTION=0 -s EXPORTED_RUNTIME_METHODS='["UTF8ToString","stringToUTF8"]' \
+    -s EXPORTED_FUNCTIONS="$(web_exports)" || die "the web module does not link"
+}
+
+# Everything that web/hl_web.h declares.
+web_exports() {
+  grep -o 'hlWeb[A-Za-z]*(' "$root/web/hl_web.h" | sort -u | sed 's/^/"_/; s/($/"/' | paste -sd, |
+    sed 's/^/["_malloc","_free",/; s/$/]/'
+}

@@ -1,0 +1,134 @@
+#include "hl_web.h"
+
+#include <cmath>
+#include <exception>
+#include <memory>
+#include <string>
+
+#include "base/error.h"
+#include "builtin.h"
+#include "session.h"
+
+namespace {
+
+std::unique_ptr<hl::WebSession> session;
+std::string last_error;
+
+/// 1, or 0 with the reason in last_error.
+template <typename Do>
+int tried(const Do& act) {
+  try {
+    act();
+    return 1;
+  } catch (const std::exception& error) {
+    last_error = error.what();
+    return 0;
+  }
+}
+
+void start(hl::Model model) {
+  auto snapshot = hl::makeSnapshot(std::move(model));
+  if (snapshot->primitives == 0) throw hl::Error("nothing in this model can be touched: it has no valid triangle");
+  session = std::make_unique<hl::WebSession>(std::move(snapshot));
+}
+
+hl::Model meshModel(const char* name, const double* positions, std::uint32_t vertices, const std::uint32_t* indices,
+                    std::uint32_t triangles) {
+  hl::Model model;
+  model.name = name;
+  for (std::uint32_t i = 0; i < vertices; ++i) model.positions.emplace_back(hl::Vec3::Map(positions + 3 * i));
+  for (std::uint32_t i = 0; i < triangles; ++i) {
+    const std::uint32_t* corner = indices + 3 * i;
+    for (int k = 0; k < 3; ++k) {
+      if (corner[k] >= vertices) throw hl::Error("a triangle of this model has a corner that does not exist");
+    }
+    model.triangles.push_back({corner[0], corner[1], corner[2]});
+  }
+  return model;
+}
+
+hl::ProxySettings traceSettings(double radius, const double* surface, int smooth) {
+  hl::ProxySettings settings;
+  settings.work_cap = hl::kNoWorkCap;
+  settings.radius = radius;
+  for (std::size_t i = 0; i < hl::kNumbers; ++i) {
+    if (!std::isnan(surface[i])) settings.surfaces.number(i) = surface[i];
+  }
+  if (smooth >= 0) settings.surfaces.smooth = smooth == 1;
+  return settings;
+}
+
+double* put(double* out, const hl::Vec3& v) { return std::copy(v.data(), v.data() + 3, out); }
+
+// Tick for tick what runTrace() of tools/trace.cpp does.
+void trace(const hl::Snapshot& snapshot, hl::ProxySettings settings, const double* path, int rows, double* out) {
+  hl::ManyRecentPrimitives recent;
+  hl::ProxyState state = hl::startProxy(snapshot, settings, hl::Vec3::Map(path + 1));
+  for (int i = 0; i < rows; ++i) {
+    const double* row = path + 4 * i;
+    const hl::Vec3 finger = hl::Vec3::Map(row + 1);
+    if (i > 0) settings.period_s = row[0] - row[-4];
+    const hl::TickReport report = hl::tick(state, {snapshot, 0, recent}, settings, finger);
+    out = put(put(out, state.position), report.target);
+    out = put(out, settings.spring_N_m * (report.target - finger));
+    *out++ = static_cast<double>(report.contacts.size());
+    *out++ = report.iterations;
+    *out++ = report.injected_J;
+  }
+}
+
+}  // namespace
+
+static_assert(hl::kNumbers == kHlWebQuantities && hl::kEnergyCauses == kHlWebCauses &&
+              hl::kEndings == kHlWebEndings + 1);
+
+const char* hlWebError() { return last_error.c_str(); }
+
+int hlWebLoadBuiltin(const char* name) {
+  return tried([&] { start(hl::makeBuiltinScene(name)); });
+}
+
+int hlWebLoadMesh(const char* name, const double* positions, std::uint32_t vertices, const std::uint32_t* indices,
+                  std::uint32_t triangles) {
+  return tried([&] { start(meshModel(name, positions, vertices, indices, triangles)); });
+}
+
+const HlWebScene* hlWebScene() { return &session->scene(); }
+const double* hlWebPositions() { return session->model().positions.data()->data(); }
+const double* hlWebNormals() { return session->model().normals.data()->data(); }
+const std::uint32_t* hlWebTriangles() { return session->model().triangles.data()->data(); }
+void hlWebStep(int steps) { session->step(steps); }
+const HlWebState* hlWebState() { return &session->state(); }
+const char* hlWebFault() { return session->fault(); }
+void hlWebGoal(double x, double y, double z) { session->setGoal({x, y, z}); }
+void hlWebRelease() { session->release(); }
+void hlWebPress(std::uint32_t buttons) { session->press(buttons); }
+void hlWebRearm() { session->rearm(); }
+void hlWebExplore(int on) { session->setExplore(on != 0); }
+void hlWebFirm(int firm) { session->setFirm(firm != 0); }
+void hlWebStiffness(double stiffness_N_m) { session->setStiffness(stiffness_N_m); }
+
+void hlWebLedger(int mode) {
+  if (mode >= 0 && mode <= 2) session->setLedger(static_cast<hl::LedgerMode>(mode));
+}
+
+void hlWebSurface(int quantity, double value) {
+  std::optional<double>& number = session->surfaces().number(static_cast<std::size_t>(quantity));
+  number.reset();
+  if (std::isfinite(value)) number = std::clamp(value, 0.0, hl::kQuantityInfo[quantity].most_set);
+}
+
+void hlWebLook(int smooth, int textures) {
+  hl::MaterialOverride& surfaces = session->surfaces();
+  surfaces.smooth.reset();
+  if (smooth >= 0) surfaces.smooth = smooth == 1;
+  surfaces.textures = textures != 0;
+}
+
+int hlWebTrace(const char* builtin, double radius, const double* surface, int smooth, const double* path, int rows,
+               double* out) {
+  return tried([&] {
+    const auto snapshot = hl::makeSnapshot(hl::makeBuiltinScene(builtin));
+    trace(*snapshot, traceSettings(radius, surface, smooth), path, rows, out);
+  });
+}

@@ -1,0 +1,79 @@
+/* HL in a browser, on one thread: a built-in scene or a mesh, the simulated device with its hand, and the servo with a
+ * tick in each step, on a virtual clock. Metres, newtons, seconds; world frame. One session per module. */
+#ifndef HL_WEB_H
+#define HL_WEB_H
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { kHlWebContacts = 3, kHlWebQuantities = 7, kHlWebCauses = 5, kHlWebEndings = 11 };
+
+/** Numbers only, so that a caller reads it as an array. */
+typedef struct {
+  double point[3], normal[3], multiplier_m, static_friction, stiffness;
+} HlWebContact;
+
+typedef struct {
+  double time_s, finger[3], proxy[3], force_N[3];
+  double safety, fault; /**< numbers of SafetyState and FaultReason */
+  double penetration_m; /**< at the hand */
+  double slipping, exploring, firm, buttons, stiffness_N_m;
+  double vibration_limit_N_m, vibration_alarms, vibration_dissipated_J;
+  double tank_J, injected_J, dissipated_J, by_cause_J[kHlWebCauses]; /**< late hand-over: in the last cause */
+  double endings[kHlWebEndings];                                     /**< from Ending::kReached on */
+  double steps, contacts;
+  HlWebContact contact[kHlWebContacts];
+} HlWebState;
+
+/** What does not change while a scene is shown. */
+typedef struct {
+  double force_max_N, stiffness_N_m, stiffness_max_N_m, damping_Ns_m, rate_Hz;
+  double bounds_min[3], bounds_max[3], radius, world_per_device;
+  double vertices, normals, triangles; /**< numbers of them; normals: 0, or as vertices */
+} HlWebScene;
+
+/** Why the last call that returned 0 failed, in one line. */
+const char* hlWebError(void);
+/** Starts a session on a built-in scene, as `hl touch` names it. 0: failed, and the session before goes on. */
+int hlWebLoadBuiltin(const char* name);
+/** The same on triangles: 3 numbers a vertex, 3 indices a triangle. Flat. */
+int hlWebLoadMesh(const char* name, const double* positions, uint32_t vertices, const uint32_t* indices,
+                  uint32_t triangles);
+
+/** The next calls: only in a session. */
+const HlWebScene* hlWebScene(void);
+const double* hlWebPositions(void);
+const double* hlWebNormals(void);
+const uint32_t* hlWebTriangles(void);
+/** `steps` servo steps. */
+void hlWebStep(int steps);
+const HlWebState* hlWebState(void);
+/** One line for a state in fault. */
+const char* hlWebFault(void);
+/** Where the hand wants to be; ends the exploration. */
+void hlWebGoal(double x, double y, double z);
+void hlWebRelease(void);
+void hlWebPress(uint32_t buttons);
+void hlWebRearm(void);
+void hlWebExplore(int on);
+void hlWebFirm(int firm);
+void hlWebStiffness(double stiffness_N_m);
+void hlWebLedger(int mode);
+/** Number `quantity` of base/quantities.def, for all surfaces; NaN: as in the scene. */
+void hlWebSurface(int quantity, double value);
+/** smooth: -1 as in the scene, 0 flat, 1 smooth. */
+void hlWebLook(int smooth, int textures);
+
+/** As `hl trace`: `rows` of t x y z in, and for each 12 numbers out: proxy, target, force, contacts, iterations,
+ * injected J. `surface`: kHlWebQuantities numbers, NaN: as in the scene. 0: failed. */
+int hlWebTrace(const char* builtin, double radius, const double* surface, int smooth, const double* path, int rows,
+               double* out);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

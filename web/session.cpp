@@ -1,0 +1,152 @@
+#include "session.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "touch/exploration.h"
+
+namespace hl {
+
+namespace {
+
+constexpr double kSide_D = 0.12, kRadius_D = 0.002;  // m at the hand, as hl touch without options
+constexpr double kApproach_s = 3, kStartAbove_D = 0.020;
+constexpr double kPress_D = 0.012, kLift_D = 0.010;  // m, of the exploring hand
+constexpr int kStepsOfHand = 16;                     // the hand's goal is moved about 60 times a second
+
+void put(double* out, const Vec3& v) { std::copy(v.data(), v.data() + 3, out); }
+
+double smallestReach_D(const DeviceInfo& info) { return (info.workspace_max - info.workspace_min).minCoeff(); }
+
+}  // namespace
+
+WebSession::WebSession(std::shared_ptr<const Snapshot> snapshot)
+    : snapshot_(std::move(snapshot)),
+      scenes_(snapshot_),
+      loop_(scenes_, ProxySettings{}),
+      settings_(ServoSettings::of(device_.info())),
+      period_ns_(static_cast<std::int64_t>(1e9 / device_.info().servo_rate_Hz)) {
+  settings_.period_s = 1 / device_.info().servo_rate_Hz;
+  commands_.workspace = Workspace::fit(snapshot_->bounds, std::min(kSide_D, smallestReach_D(device_.info())));
+  commands_.radius_W = kRadius_D * commands_.workspace.world_per_device;
+  describeScene();
+  bringToStart();
+  rearm();
+}
+
+void WebSession::bringToStart() {
+  const double top_D = 0.5 * snapshot_->bounds.size().y() / commands_.workspace.world_per_device;
+  device_.setHandGoal(clamped(Vec3(0, top_D + kStartAbove_D, 0)));
+  const auto end_ns = static_cast<std::int64_t>(1e9 * kApproach_s);
+  for (; now_ns_ < end_ns; now_ns_ += 1'000'000) {
+    sample_ = device_.read(now_ns_);
+    device_.write(Vec3::Zero());
+  }
+  begin_ns_ = now_ns_;
+}
+
+void WebSession::step(int steps) {
+  for (int i = 0; i < steps; ++i) oneStep();
+}
+
+void WebSession::oneStep() {
+  if (exploring_ && steps_ % kStepsOfHand == 0) moveHand();
+  now_ns_ += period_ns_;
+  sample_ = device_.read(now_ns_);
+  out_ = step_.onTime(loop_, commands_, settings_, sample_);
+  device_.write(out_.force_N);
+  endings_.add(step_.tick().report.ending);
+  ++steps_;
+}
+
+void WebSession::moveHand() {
+  const double scale = commands_.workspace.world_per_device;
+  const ExplorationSettings stroke{kPress_D * scale, kLift_D * scale, commands_.radius_W};
+  const Vec3 goal_W = explore({*snapshot_, now_ns_}, stroke, 1e-9 * static_cast<double>(now_ns_ - begin_ns_));
+  device_.setHandGoal(clamped(commands_.workspace.toDevice(goal_W)));
+}
+
+Vec3 WebSession::clamped(const Vec3& goal_D) const {
+  return goal_D.cwiseMax(device_.info().workspace_min).cwiseMin(device_.info().workspace_max);
+}
+
+void WebSession::setGoal(const Vec3& goal_W) {
+  if (!goal_W.allFinite()) return;
+  exploring_ = false;
+  device_.setHandGoal(clamped(commands_.workspace.toDevice(goal_W)));
+}
+
+void WebSession::release() { device_.setHandGoal(clamped(sample_.position)); }
+
+void WebSession::setFirm(bool firm) {
+  firm_ = firm;
+  device_.setHandFirm(firm);
+}
+
+void WebSession::setStiffness(double stiffness_N_m) {
+  if (stiffness_N_m > 0) settings_.stiffness_N_m = std::min(stiffness_N_m, device_.info().stiffness_max_N_m);
+}
+
+void WebSession::describeScene() {
+  const DeviceInfo& info = device_.info();
+  scene_.force_max_N = info.force_max_N;
+  scene_.stiffness_N_m = settings_.stiffness_N_m;
+  scene_.stiffness_max_N_m = info.stiffness_max_N_m;
+  scene_.damping_Ns_m = settings_.damping_Ns_m;
+  scene_.rate_Hz = info.servo_rate_Hz;
+  put(scene_.bounds_min, snapshot_->bounds.min);
+  put(scene_.bounds_max, snapshot_->bounds.max);
+  scene_.radius = commands_.radius_W;
+  scene_.world_per_device = commands_.workspace.world_per_device;
+  scene_.vertices = static_cast<double>(model().positions.size());
+  scene_.normals = static_cast<double>(model().normals.size());
+  scene_.triangles = static_cast<double>(model().triangles.size());
+}
+
+const HlWebState& WebSession::state() {
+  const ProxyStep& tick = step_.tick();
+  state_.time_s = 1e-9 * static_cast<double>(now_ns_ - begin_ns_);
+  put(state_.finger, commands_.workspace.toWorld(sample_.position));
+  put(state_.proxy, loop_.state().position);
+  put(state_.force_N, out_.force_N);
+  state_.safety = static_cast<double>(out_.safety);
+  state_.fault = static_cast<double>(out_.fault);
+  const ServoTarget& target = step_.target();
+  state_.penetration_m = target.valid ? (target.proxy_D - sample_.position).norm() : 0;
+  state_.slipping = loop_.state().touching && loop_.state().rest_s == 0;
+  state_.exploring = exploring_;
+  state_.firm = firm_;
+  state_.buttons = sample_.buttons;
+  state_.stiffness_N_m = settings_.stiffness_N_m;
+  state_.steps = static_cast<double>(steps_);
+  state_.contacts = static_cast<double>(tick.report.contacts.size());
+  for (std::size_t i = 0; i < tick.report.contacts.size(); ++i) {
+    const ProxyContact& contact = tick.report.contacts[i];
+    HlWebContact& out = state_.contact[i];
+    put(out.point, contact.point);
+    put(out.normal, contact.normal);
+    out.multiplier_m = contact.multiplier_m;
+    out.static_friction = contact.static_friction;
+    out.stiffness = contact.stiffness;
+  }
+  describeEnergy();
+  return state_;
+}
+
+void WebSession::describeEnergy() {
+  const Ledger& ledger = loop_.state().ledger;
+  const Ledger& late = step_.servo().spring.ledger;
+  state_.tank_J = ledger.tank_J;
+  state_.injected_J = ledger.injected_J + late.injected_J;
+  state_.dissipated_J = ledger.dissipated_J + late.dissipated_J;
+  for (std::size_t i = 0; i < kEnergyCauses; ++i) state_.by_cause_J[i] = ledger.by_cause_J[i];
+  state_.by_cause_J[kEnergyCauses - 1] = late.by_cause_J[kEnergyCauses - 1];
+  const VibrationGuard& guard = step_.servo().vibration;
+  state_.vibration_limit_N_m = guard.limit_N_m;
+  state_.vibration_alarms = static_cast<double>(guard.alarms);
+  state_.vibration_dissipated_J = guard.dissipated_J;
+  std::size_t i = 0;
+  endings_.each([&](Ending, std::uint64_t count) { state_.endings[i++] = static_cast<double>(count); });
+}
+
+}  // namespace hl
