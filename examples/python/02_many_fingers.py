@@ -1,4 +1,4 @@
-"""What 65536 fingers feel at once: the force over a teapot when all are pressed down by 2 mm."""
+"""What 65536 fingers feel at once: the force over a teapot when all are pressed down by 1 mm."""
 # %%
 import sys
 
@@ -10,7 +10,7 @@ import hl
 scene = hl.Scene("teapot", size=0.1)
 print(scene)
 
-# %% A finger for each pixel begins above the scene. `closest` is not needed: the proxy finds the surface.
+# %% A finger for each pixel begins above the scene.
 low, high = scene.bounds
 side = 256
 x, z = np.meshgrid(np.linspace(low[0], high[0], side), np.linspace(low[2], high[2], side), indexing="ij")
@@ -18,11 +18,11 @@ above = np.column_stack([x.ravel(), np.full(x.size, high[1] + 0.01), z.ravel()])
 fingers = hl.Fingers(scene, len(above), hl.Settings(radius=0.0005, spring=500.0, smooth=True))
 fingers.step(above)
 
-# %% All go down, one tick for each 0.5 mm; a finger whose proxy has stayed behind by 2 mm stops there.
+# %% All go down, one tick for each 0.5 mm; a finger stops where its proxy has stayed behind by 1 mm.
 positions = above.copy()
 for _ in range(int((high[1] - low[1] + 0.02) / 0.0005)):
     felt = fingers.step(positions)
-    moving = felt.proxy[:, 1] - positions[:, 1] < 0.002
+    moving = felt.proxy[:, 1] - positions[:, 1] < 0.001
     positions[moving, 1] -= 0.0005
 touching = np.linalg.norm(felt.force, axis=1) > 0
 print(f"{np.count_nonzero(touching)} of {len(above)} fingers touch")
