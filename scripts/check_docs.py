@@ -4,8 +4,8 @@ of HL that there is not.
 
     scripts/check_docs.py [ROOT]
 
-Looks at README.md, CONTRIBUTING.md and docs/*.md. A call or constant (hlName, HL_NAME) is in the public headers; or, as
-a variable of the environment or of CMake, in the sources. Prints one line per fault; exit code 1.
+Looks at README.md, CONTRIBUTING.md, CHANGELOG.md and docs/*.md. A call or constant (hlName, HL_NAME) is in the public
+headers; or, as a variable of the environment or of CMake, in the sources. Prints one line per fault; exit code 1.
 """
 import argparse
 import re
@@ -23,7 +23,7 @@ HEADER_OF_CSV = re.compile(r"^[\w,]+$")  # cannot be broken
 
 
 def documents(root):
-    return [root / "README.md", root / "CONTRIBUTING.md", *sorted((root / "docs").glob("*.md"))]
+    return [root / "README.md", root / "CONTRIBUTING.md", root / "CHANGELOG.md", *sorted((root / "docs").glob("*.md"))]
 
 
 def faults_of(path, root):
