@@ -4,4 +4,7 @@
 
 void useFingers(const double* positions, double* proxies, double* forces, HLint* contacts);
 
-void useFingers(const double* positions, double* proxies, double* forces, HLint* contacts) { /* block */ }
+void useFingers(const double* positions, double* proxies, double* forces, HLint* contacts) {
+  /* block */
+  (void)positions;
+}
