@@ -9,6 +9,15 @@ install(TARGETS hl_shared EXPORT hl_targets
 install(TARGETS hl_batch_shared EXPORT hl_targets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libhlbatch NAMELINK_COMPONENT libhl-dev)
 
+# The reference of the calls, made from the headers.
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+file(GLOB public_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/hl/*)
+add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/reference.html
+  DEPENDS scripts/reference scripts/reference_headers.py ${public_headers}
+  COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/scripts/reference --out ${PROJECT_BINARY_DIR}/reference.html)
+add_custom_target(reference ALL DEPENDS ${PROJECT_BINARY_DIR}/reference.html)
+add_dependencies(programs reference)
+
 install(DIRECTORY include/hl DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT libhl-dev)
 install(EXPORT hl_targets NAMESPACE hl:: FILE hlTargets.cmake DESTINATION ${cmake_folder} COMPONENT libhl-dev)
 configure_package_config_file(cmake/hlConfig.cmake.in ${PROJECT_BINARY_DIR}/hlConfig.cmake
@@ -21,6 +30,8 @@ install(FILES ${PROJECT_BINARY_DIR}/hlConfig.cmake ${PROJECT_BINARY_DIR}/hlConfi
   DESTINATION ${cmake_folder} COMPONENT libhl-dev)
 install(FILES ${PROJECT_BINARY_DIR}/hl.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT libhl-dev)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT libhl-dev)
+install(FILES ${PROJECT_BINARY_DIR}/reference.html DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT libhl-dev)
+install(DIRECTORY csharp DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT libhl-dev)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT libhl-dev)
 install(FILES scenes/teapot_patches.h DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT libhl-dev)
 
