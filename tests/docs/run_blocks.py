@@ -108,8 +108,23 @@ class Runner:
             (self.folder / name).write_bytes(white_png())
         call([self.arguments.hl, "info", scene])
 
+    def run_package(self, block):
+        """A program with the Python package. A recording for it is there."""
+        package = Path(self.arguments.build) / "python"
+        if not package.is_dir():
+            self.look_at(block)
+            return
+        if "session.hlr" in block.text:
+            call([self.arguments.hl, "record", "teapot", "--out", self.folder / "session.hlr", "--duration", "1",
+                  "--no-open", "--port", "0"])
+        call(["/usr/bin/python3", "-c", block.text], cwd=self.folder,
+             env={**os.environ, "PYTHONPATH": str(package), "MPLBACKEND": "Agg"})
+
     def run_python(self, block):
         """A client of the server that the text names: its own one here. Until the server has said a few things."""
+        if block.text.startswith("import hl"):
+            self.run_package(block)
+            return
         server = Server(self.arguments.hld, None, ())
         program = subprocess.Popen(["/usr/bin/python3", "-u", "-c", block.text.replace(DEFAULT_ADDRESS, server.address)],
                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
