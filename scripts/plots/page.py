@@ -9,7 +9,7 @@ from plots.browser import Browser, Program, built, server
 
 PICTURE = (1280, 720, 0.8)   # the page's size and the picture's for one of it
 CLIENT = (480, 560, 1)       # of a page that is the client itself
-FILM = (1280, 720, 0.625)
+FILM = (1280, 720, 1)
 LONG_S = 600                 # an example goes on until its picture is taken
 SHOWN = "window.__hl && __hl.triangles + __hl.objects > 0"
 # Felt, and for long enough that the plots tell something.
