@@ -58,6 +58,18 @@ namespace HL {
         public double? Stiffness_N_m;
         public Vec3? HandGoal;           // simulated devices
         public bool Rearm;               // leave the fault
+
+        // What this and then `later` change.
+        internal DeviceSettings With(DeviceSettings later) {
+            return new DeviceSettings {
+                ProxyRadius = later.ProxyRadius ?? ProxyRadius,
+                WorkspaceOrigin = later.WorkspaceOrigin ?? WorkspaceOrigin,
+                WorldPerDevice = later.WorkspaceOrigin.HasValue ? later.WorldPerDevice : WorldPerDevice,
+                Stiffness_N_m = later.Stiffness_N_m ?? Stiffness_N_m,
+                HandGoal = later.HandGoal ?? HandGoal,
+                Rearm = later.Rearm || Rearm
+            };
+        }
     }
 
     public struct Touched {
@@ -115,11 +127,11 @@ namespace HL {
         readonly CancellationTokenSource stop = new CancellationTokenSource();
         readonly SemaphoreSlim wake = new SemaphoreSlim(0);
         readonly Queue<TouchEvent> events = new Queue<TouchEvent>();
-        readonly Queue<byte[]> settings = new Queue<byte[]>();
         readonly ClientOptions options;
         readonly Uri address;
         Draft drawing = new Draft();     // since the last Flush
         Draft waiting = new Draft();     // flushed, not sent
+        DeviceSettings setting;          // not sent; null: none
         ulong sent, answered, nextUpload = 1;
         ulong messageLimit = 1 << 22;
         double frameLimit_Hz = 250;
@@ -170,8 +182,10 @@ namespace HL {
             Wake();
         }
 
+        /// <summary>Changes the device at once, not with the frame. Of what is set faster than it can be sent the newest
+        /// goes.</summary>
         public void Set(DeviceSettings changes) {
-            lock (gate) settings.Enqueue(Messages.Device(changes));
+            lock (gate) setting = (setting ?? new DeviceSettings()).With(changes);
             Wake();
         }
 
@@ -275,7 +289,7 @@ namespace HL {
                 Reader limits = welcome.Nested();
                 while (limits.Next()) {
                     if (limits.Field == 1) messageLimit = limits.Number;
-                    if (limits.Field == 8) frameLimit_Hz = limits.Double();
+                    if (limits.Field == 8 && limits.Double() > 0) frameLimit_Hz = Math.Max(0.01, limits.Double());
                 }
             }
             stop.CancelAfter(disposed ? CloseWait_ms : Timeout.Infinite);
@@ -340,12 +354,12 @@ namespace HL {
         // False: this was all, and the client is disposed.
         async Task<bool> SendWhatThereIs() {
             for (;;) {
-                byte[] setting;
-                while ((setting = TakeSetting()) != null) await Send(setting).ConfigureAwait(false);
+                DeviceSettings changes = TakeSetting();
+                if (changes != null) await Send(Messages.Device(changes)).ConfigureAwait(false);
                 ulong number;
                 Draft draft = TakeDraft(out number);
-                if (draft == null) lock (gate) return !disposed || !waiting.IsEmpty;
-                await SendFrame(number, draft).ConfigureAwait(false);
+                if (draft != null) await SendFrame(number, draft).ConfigureAwait(false);
+                if (draft == null && changes == null) lock (gate) return !disposed || !waiting.IsEmpty;
                 await Task.Delay(TimeSpan.FromSeconds(1 / frameLimit_Hz), stop.Token).ConfigureAwait(false);
             }
         }
@@ -363,7 +377,13 @@ namespace HL {
             Happened(new TouchEvent { Kind = TouchEventKind.Refused, Frame = number, Text = text });
         }
 
-        byte[] TakeSetting() { lock (gate) return settings.Count > 0 ? settings.Dequeue() : null; }
+        DeviceSettings TakeSetting() {
+            lock (gate) {
+                DeviceSettings taken = setting;
+                setting = null;
+                return taken;
+            }
+        }
 
         // Null: nothing waits, or the server has enough to do.
         Draft TakeDraft(out ulong number) {

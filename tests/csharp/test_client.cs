@@ -148,6 +148,25 @@ static class TestClient {
         while (client.Poll(out taken)) Expect(taken.Kind != TouchEventKind.Refused, taken.Text);
     }
 
+    // More settings than a server takes messages: of each kind the newest goes.
+    static void FastSettingsAreMerged(string url) {
+        var client = new HapticClient(url, new ClientOptions { StateRate_Hz = 200 });
+        client.SetWorld(new TouchItem { Mesh = Floor(1, 0.001) });
+        client.Set(new DeviceSettings { WorkspaceOrigin = new Vec3(0, 1, 0), HandGoal = new Vec3(0, 1, 0) });
+        client.Flush();
+        Next(client, TouchEventKind.FrameShown);
+        for (int i = 0; i <= 200000; ++i) {
+            client.Set(new DeviceSettings { ProxyRadius = 0.003 });
+            client.Set(new DeviceSettings { HandGoal = new Vec3(0, 1 + 1e-7 * i, 0) });
+            if (i % 20 == 0) Thread.Sleep(0);
+        }
+        WaitFor(() => client.Status == ClientStatus.Closed || client.Newest.Finger.Y > 1.015);
+        Expect(client.Status == ClientStatus.Open, "open: " + client.Reason);
+        Expect(Math.Abs(client.Newest.ProxyRadius - 0.003) < 1e-12, "the radius");
+        client.Dispose();
+        ReasonOf(client);
+    }
+
     static void SecondClientIsNotMaster(string url) {
         var first = new HapticClient(url);
         WaitFor(() => first.Status == ClientStatus.Open);
@@ -186,8 +205,8 @@ static class TestClient {
 
     static int Main(string[] arguments) {
         var cases = new Action<string>[] { BadAddresses, NobodyThere, NoAnswer, LargeMeshIsFelt, RefusedFrameChangesNothing,
-            TooLargeFrameIsRefusedHere, FastFramesAreMerged, SecondClientIsNotMaster, WrongToken, RightToken,
-            ServerGoesAway };
+            TooLargeFrameIsRefusedHere, FastFramesAreMerged, FastSettingsAreMerged, SecondClientIsNotMaster, WrongToken,
+            RightToken, ServerGoesAway };
         cases.Single(one => one.Method.Name == arguments[0])(arguments[1]);
         return 0;
     }
