@@ -16,6 +16,7 @@ import { LiveScene } from "./live_scene";
 import { Notices } from "./notices";
 import { Panel } from "./panel";
 import { kWindow_s, LivePlot } from "./plots";
+import { Press, type SurfaceHit } from "./press";
 import { ProbeView } from "./probe_view";
 import {
   encodeHandGoal, encodePress, encodeRearm, encodeRelease, encodeSettings, kProtocolVersion,
@@ -27,7 +28,8 @@ import type { SceneStore } from "./scene_store";
 import { Stage, type Insets } from "./stage";
 import { SurfacePanel } from "./surface_panel";
 import { ThemeSwitch } from "./theme";
-import { length } from "./vec";
+import { planWay, surfaceUnder, type AimScene } from "./touch_aim";
+import { length, sub, type Vec } from "./vec";
 import { knownVec } from "./wire_values";
 
 const kPlotPeriod_ms = 50;
@@ -109,8 +111,37 @@ class App {
       finger: () => (this.connection_.state === "live" ? knownVec(this.state_?.finger) : undefined),
       goal: (position) => this.connection_.send(encodeHandGoal(position)),
       release: () => this.connection_.send(encodeRelease()),
-      isTarget: (x_px, y_px) => this.isNearHand(x_px, y_px) || this.live_.model.isHit(this.stage_.rayAt(x_px, y_px)),
+      proxy: () => knownVec(this.state_?.proxy),
+      press: (x_px, y_px) => this.press(x_px, y_px),
+      surface: (x_px, y_px) => this.surfaceAt(x_px, y_px),
+      isTarget: (x_px, y_px) => this.isNearHand(x_px, y_px) || this.surfaceAt(x_px, y_px) !== undefined,
     });
+  }
+
+  private aimScene(): AimScene {
+    const { layout, model, store } = this.live_;
+    const worldPerHand = layout !== undefined && layout.worldPerDevice > 0 ? layout.worldPerDevice : 1;
+    return { model, bounds: model.bounds(store.poses), proxyRadius_m: layout?.proxyRadius_m ?? 0, worldPerHand };
+  }
+
+  private surfaceAt(x_px: number, y_px: number): SurfaceHit | undefined {
+    return surfaceUnder(this.aimScene(), this.stage_.rayAt(x_px, y_px));
+  }
+
+  /** A press on the marks of a hand that touches nothing takes the hand; any other press on the model touches it there. */
+  private press(x_px: number, y_px: number): Press | undefined {
+    const hit = this.surfaceAt(x_px, y_px);
+    const touching = (this.state_?.contacts.length ?? 0) > 0;
+    if (hit === undefined || (!touching && this.isNearHand(x_px, y_px))) {
+      return undefined;
+    }
+    return new Press(this.aimScene().worldPerHand, hit, (to) => this.wayTo(to));
+  }
+
+  private wayTo(to: Vec): Vec[] {
+    const proxy = knownVec(this.state_?.proxy) ?? to;
+    const finger = knownVec(this.state_?.finger) ?? proxy;
+    return planWay(this.aimScene(), proxy, sub(proxy, finger), to);
   }
 
   private makePanel(): Panel {

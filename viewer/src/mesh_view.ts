@@ -4,6 +4,8 @@
 import * as THREE from "three";
 import { imageTexture } from "./image_texture";
 import { kPoseNumbers, type Bounds, type Mesh } from "./scene_messages";
+import { RayTree, type Accept } from "./ray_tree";
+import type { Vec } from "./vec";
 import { orientTowardNormals } from "./winding";
 
 /** What all meshes are drawn with. `tint` is what the plain surface's colour is multiplied by where it is touched. */
@@ -17,15 +19,32 @@ export interface Palette {
   readonly touchedPoints: THREE.PointsMaterial;
 }
 
+/** Where a ray meets a surface. World frame. */
+export interface Meeting {
+  /** In lengths of the ray's direction. */
+  readonly distance: number;
+  readonly point: Vec;
+  /** Unit; of the shading, where the mesh has one. */
+  readonly normal: Vec;
+}
+
 type Surface = THREE.InstancedMesh<THREE.BufferGeometry, THREE.Material[]>;
 type Mark = THREE.LineSegments | THREE.Points;
 
+/** Shading normals that are farther than 60 degrees off the facet are no guide to where the surface is. */
+const kLeaning = 0.5;
 const kUntouched = new THREE.Color(1, 1, 1);
 
 export class MeshView {
   readonly group = new THREE.Group();
   readonly triangles: number;
   private readonly palette_: Palette;
+  private readonly mesh_: Mesh;
+  /** Around the mesh in its own frame. */
+  private readonly ball_: THREE.Sphere;
+  private readonly sphere_ = new THREE.Sphere();
+  /** Made when the first ray comes. */
+  private tree_: RayTree | undefined;
   private readonly bounds_: THREE.Box3;
   /** The plain one, then one for each texture. */
   private readonly materials_: THREE.MeshStandardMaterial[] = [];
@@ -42,7 +61,9 @@ export class MeshView {
 
   constructor(mesh: Mesh, palette: Palette) {
     this.palette_ = palette;
+    this.mesh_ = mesh;
     this.bounds_ = boxOf(mesh.bounds);
+    this.ball_ = this.bounds_.getBoundingSphere(new THREE.Sphere());
     this.triangles = mesh.triangles.length / 3;
     this.hasNormals_ = mesh.normals !== undefined;
     const position = new THREE.BufferAttribute(mesh.positions, 3);
@@ -115,12 +136,30 @@ export class MeshView {
     this.materials_.forEach((material) => material.color.copy(this.palette_.model));
   }
 
-  isHit(raycaster: THREE.Raycaster): boolean {
-    if (this.surface_ === undefined) {
-      return false;
+  /** Where a ray of the world first meets the surface at a place; `accept` is asked of points of the world. */
+  cast(place: number, origin: Vec, direction: Vec, farthest: number, accept?: Accept): Meeting | undefined {
+    const surface = this.surface_;
+    if (surface === undefined || place >= surface.count) {
+      return undefined;
     }
-    this.surface_.boundingSphere = null;  // of where it was asked last
-    return raycaster.intersectObject(this.surface_, false).length > 0;
+    const toWorld = new THREE.Matrix4();
+    surface.getMatrixAt(place, toWorld);
+    const ray = new THREE.Ray(three(origin), three(direction));
+    if (!ray.intersectsSphere(this.sphere_.copy(this.ball_).applyMatrix4(toWorld))) {
+      return undefined;
+    }
+    const toMesh = toWorld.clone().invert();
+    const from = three(origin).applyMatrix4(toMesh);
+    const along = three(origin).add(three(direction)).applyMatrix4(toMesh).sub(from);
+    const counts = accept && ((point: Vec) => accept(three(point).applyMatrix4(toWorld)));
+    this.tree_ ??= new RayTree(this.mesh_.positions, this.mesh_.triangles);
+    const hit = this.tree_.cast(from, along, farthest, counts);
+    if (hit === undefined) {
+      return undefined;
+    }
+    const normal = this.normalAt(hit.triangle, hit.u, hit.v).applyNormalMatrix(new THREE.Matrix3().getNormalMatrix(toWorld));
+    const point = three(direction).multiplyScalar(hit.distance).add(three(origin));
+    return { distance: hit.distance, point: plain(point), normal: plain(normal) };
   }
 
   /** Adds the box of one place to `bounds`. */
@@ -140,6 +179,23 @@ export class MeshView {
       material.map?.dispose();
       material.dispose();
     }
+  }
+
+  /** Of the shading, unless it leans far off the facet: then of the facet. */
+  private normalAt(triangle: number, u: number, v: number): THREE.Vector3 {
+    const { positions, normals, triangles } = this.mesh_;
+    const corners = [0, 1, 2].map((corner) => triangles[3 * triangle + corner]!);
+    const at = (values: Float32Array, i: number) => new THREE.Vector3().fromArray(values, 3 * corners[i]!);
+    const a = at(positions, 0);
+    const facet = at(positions, 1).sub(a).cross(at(positions, 2).sub(a)).normalize();
+    if (normals === undefined) {
+      return facet;
+    }
+    const weights = [1 - u - v, u, v];
+    const shaded = new THREE.Vector3();
+    weights.forEach((weight, i) => shaded.addScaledVector(at(normals, i), weight));
+    shaded.normalize();
+    return Math.abs(shaded.dot(facet)) > kLeaning ? shaded : facet;
   }
 
   /** Normals, and for textured triangles the material of their image. */
@@ -256,4 +312,12 @@ function writeMatrix(out: THREE.TypedArray | number[], to: number, poses: Float3
     }
     out[to + 4 * column + 3] = column === 3 ? 1 : 0;
   }
+}
+
+function three({ x, y, z }: Vec): THREE.Vector3 {
+  return new THREE.Vector3(x, y, z);
+}
+
+function plain({ x, y, z }: THREE.Vector3): Vec {
+  return { x, y, z };
 }

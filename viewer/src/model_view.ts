@@ -2,9 +2,10 @@
 // states. What the proxy touches has a tint, when there is more than one object to tell apart.
 
 import * as THREE from "three";
-import { MeshView, type Palette } from "./mesh_view";
+import { MeshView, type Meeting, type Palette } from "./mesh_view";
 import type { Bounds, Layout, Mesh } from "./scene_messages";
 import { themeColour } from "./theme";
+import type { Vec } from "./vec";
 
 /** Above this, drawing every mesh edge would only fill the screen and the memory. */
 const kEdgesMaxTriangles = 2_000_000;
@@ -111,9 +112,14 @@ export class ModelView {
     this.mark(this.touched_, true);
   }
 
-  /** True when the ray meets a surface; scenes too large to ask in one frame count as met. */
-  isHit(raycaster: THREE.Raycaster): boolean {
-    return this.triangles_ > kEdgesMaxTriangles || [...this.views_.values()].some((view) => view.isHit(raycaster));
+  /** Where a ray first meets a surface, and of which object; surfaces beyond `farthest` lengths of `direction` are not met. */
+  cast(origin: Vec, direction: Vec, farthest = Infinity): (Meeting & { readonly object: number }) | undefined {
+    let best: (Meeting & { readonly object: number }) | undefined;
+    this.placed_.forEach((placed, object) => {
+      const met = placed?.view.cast(placed.place, origin, direction, best?.distance ?? farthest);
+      best = met === undefined ? best : { ...met, object };
+    });
+    return best;
   }
 
   /** Of everything where it is now; undefined when there is nothing. */

@@ -140,11 +140,13 @@ export class Stage {
     return { x: ((ndc.x + 1) / 2) * width, y: ((1 - ndc.y) / 2) * height, depth_m };
   }
 
-  rayAt(x_px: number, y_px: number): THREE.Raycaster {
+  /** Through a pixel of the canvas. World frame, the direction is a unit vector. */
+  rayAt(x_px: number, y_px: number): { origin: Vec; direction: Vec } {
     const { width, height } = this.size_px;
+    this.camera.updateMatrixWorld();
     const raycaster = new THREE.Raycaster();
     raycaster.setFromCamera(new THREE.Vector2((x_px / width) * 2 - 1, 1 - (y_px / height) * 2), this.camera);
-    return raycaster;
+    return { origin: plain(raycaster.ray.origin), direction: plain(raycaster.ray.direction) };
   }
 
   draw(): void {
