@@ -5,7 +5,7 @@
 
 import * as THREE from "three";
 import { depthOf, metresPerPixel, moveInDepth, moveInView, wheelPixels } from "./hand_mapping";
-import type { Press, SurfaceHit } from "./press";
+import type { Errand, Press, SurfaceHit } from "./press";
 import type { Stage } from "./stage";
 import { add, length, scale, sub, type Vec } from "./vec";
 
@@ -60,6 +60,8 @@ export class HandInput {
   private depth_px_ = 0;
   private last_px_ = { x: 0, y: 0 };
   private press_: Press | undefined;
+  /** The hand goes along this by itself. */
+  private errand_: Errand | undefined;
   private began_ms_ = 0;
   private goal_: Vec | undefined;
   private unsent_ = false;
@@ -68,7 +70,7 @@ export class HandInput {
   constructor(stage: Stage, hooks: HandHooks) {
     this.stage_ = stage;
     this.hooks_ = hooks;
-    this.canvas_ = stage.renderer.domElement;
+    this.canvas_ = stage.canvas;
     stage.controls.mouseButtons = { LEFT: null, MIDDLE: THREE.MOUSE.PAN, RIGHT: THREE.MOUSE.ROTATE };
     stage.controls.touches = { ONE: null, TWO: THREE.TOUCH.DOLLY_ROTATE };
     // Capture: this listener decides about the gesture before the orbit controls see it.
@@ -90,10 +92,17 @@ export class HandInput {
   /** Moves by the keys held and sends the goal when it changed. Once per drawn frame. */
   frame(): void {
     this.moveByKeys();
-    this.followPress();
+    this.followLeader();
     if (this.unsent_ && this.goal_ !== undefined) {
       this.hooks_.goal(this.goal_);
       this.unsent_ = false;
+    }
+  }
+
+  /** Leads the hand along a way, then leaves it there; a press or a key ends it. */
+  send(errand: Errand): void {
+    if (this.pointer_ === undefined && this.pressed_.size === 0 && this.grab()) {
+      this.errand_ = errand;
     }
   }
 
@@ -101,6 +110,7 @@ export class HandInput {
   cancel(): void {
     this.pointer_ = this.depthPointer_ = undefined;
     this.pressed_.clear();
+    this.errand_ = undefined;
     this.letGo();
   }
 
@@ -187,13 +197,19 @@ export class HandInput {
     }
   }
 
-  /** A press leads the hand to where it is to touch, and keeps it there. */
-  private followPress(): void {
+  /** A press leads the hand to where it is to touch, and keeps it there; an errand leaves it. */
+  private followLeader(): void {
     const proxy = this.hooks_.proxy();
-    if (this.press_ === undefined || this.goal_ === undefined || proxy === undefined) {
+    const leader = this.press_ ?? this.errand_;
+    if (leader === undefined || this.goal_ === undefined || proxy === undefined) {
       return;
     }
-    const goal = this.press_.goal(proxy, performance.now());
+    if (this.errand_?.ended === true) {
+      this.errand_ = undefined;
+      this.letGo();
+      return;
+    }
+    const goal = leader.goal(proxy, performance.now());
     if (length(sub(goal, this.goal_)) > 0) {
       this.setGoal(goal);
     }
@@ -260,6 +276,10 @@ export class HandInput {
 
   /** Takes the hand where the finger is. */
   private grab(): boolean {
+    if (this.errand_ !== undefined) {
+      this.errand_ = undefined;
+      this.goal_ = undefined;
+    }
     if (this.movable) {
       this.goal_ ??= this.hooks_.finger();
     }
@@ -277,7 +297,7 @@ export class HandInput {
 
   /** Ends the hold when neither pointer nor key holds any more. */
   private letGo(): void {
-    if (this.pointer_ !== undefined || this.pressed_.size > 0 || this.goal_ === undefined) {
+    if (this.pointer_ !== undefined || this.pressed_.size > 0 || this.errand_ || this.goal_ === undefined) {
       return;
     }
     if (this.unsent_) {

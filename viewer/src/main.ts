@@ -9,6 +9,7 @@ import { element } from "./elements";
 import { showEmptyHint } from "./empty_hint";
 import type { Hello, State } from "./gen/hl_pb";
 import { depthOf, metresPerPixel } from "./hand_mapping";
+import { HandFinder } from "./hand_finder";
 import { HandInput } from "./hand_input";
 import { diagonalOf } from "./fit";
 import { LedgerPanel } from "./ledger_panel";
@@ -16,14 +17,16 @@ import { LiveScene } from "./live_scene";
 import { Notices } from "./notices";
 import { Panel } from "./panel";
 import { kWindow_s, LivePlot } from "./plots";
-import { Press, type SurfaceHit } from "./press";
+import { Errand, kAbove_D, Press, type SurfaceHit } from "./press";
 import { ProbeView } from "./probe_view";
 import {
   encodeHandGoal, encodePress, encodeRearm, encodeRelease, encodeSettings, kProtocolVersion,
   type Incoming, type SettingsChange,
 } from "./protocol";
+import { beside } from "./route";
 import { SampleRing } from "./samples";
 import type { Bounds, Layout } from "./scene_messages";
+import { ScaleBar } from "./scale_bar";
 import type { SceneStore } from "./scene_store";
 import { Stage, type Insets } from "./stage";
 import { SurfacePanel } from "./surface_panel";
@@ -40,15 +43,19 @@ const kSampleCapacity = 65536;
 const kRateCapacity = 1024;
 /** A press this near to the proxy or the finger is meant for the hand. */
 const kGrabRadius_px = 30;
+const kUp: Vec = { x: 0, y: 1, z: 0 };
+const kDown: Vec = { x: 0, y: -1, z: 0 };
 
 class App {
-  private readonly stage_ = new Stage(element<HTMLCanvasElement>("canvas"));
   private readonly live_ = new LiveScene({
     shown: (store, layout) => this.showLayout(store, layout),
     fit: (bounds) => this.fit(bounds),
   });
   private readonly probe_ = new ProbeView();
   private readonly notices_ = new Notices();
+  private readonly stage_ = new Stage(element<HTMLCanvasElement>("canvas"), (reason) => this.notices_.stand("drawing", reason));
+  private readonly finder_ = new HandFinder(() => this.bringHandBack());
+  private readonly scaleBar_ = new ScaleBar();
   private readonly samples_ = new SampleRing(kSampleCapacity, 2);
   private readonly rates_ = new SampleRing(kRateCapacity, 2);
   private readonly energy_ = new SampleRing(kRateCapacity, 5);
@@ -144,6 +151,15 @@ class App {
     return planWay(this.aimScene(), proxy, sub(proxy, finger), to);
   }
 
+  /** To a place above what is in the middle of the view, or to what the view turns about. */
+  private bringHandBack(): void {
+    const { left, right, top, bottom } = this.stage_.visible;
+    const hit = this.surfaceAt((left + right) / 2, (top + bottom) / 2);
+    const scene = this.aimScene();
+    const to = hit ? beside(hit.point, hit.normal, kAbove_D * scene.worldPerHand) : this.stage_.target;
+    this.hand_.send(new Errand(scene.worldPerHand, this.wayTo(to)));
+  }
+
   private makePanel(): Panel {
     return new Panel({
       settings: (change) => this.tell(change),
@@ -154,7 +170,9 @@ class App {
       edges: (shown) => this.live_.model.setEdges(shown),
       flat: (flat) => this.live_.model.setFlat(flat),
       orbitFromEmpty: (on) => (this.hand_.orbitFromEmpty = on),
+      dropLine: (shown) => this.probe_.drop.setShown(shown),
       resetView: () => this.live_.refit(),
+      bringHandBack: () => this.bringHandBack(),
     });
   }
 
@@ -267,10 +285,28 @@ class App {
   private showProbe(): void {
     const proxy = knownVec(this.state_?.proxy);
     this.probe_.update(this.state_);
+    const view = this.stage_.viewFrame();
+    this.scaleBar_.show(metresPerPixel(view, depthOf(view, this.stage_.target)));
+    this.showFinder(knownVec(this.state_?.finger));
     if (proxy !== undefined) {
-      const view = this.stage_.viewFrame();
-      this.probe_.face(this.stage_.camera, metresPerPixel(view, depthOf(view, proxy)));
+      const pixel_m = metresPerPixel(view, depthOf(view, proxy));
+      this.probe_.face(this.stage_.camera, pixel_m);
+      this.probe_.drop.update(proxy, this.below(proxy), this.probe_.radius_m, pixel_m);
     }
+  }
+
+  private showFinder(finger: Vec | undefined): void {
+    const shown = finger !== undefined && this.connection_.state === "live";
+    const distance_m = shown ? length(sub(finger, this.stage_.target)) : 0;
+    this.finder_.show(shown ? this.stage_.project(finger) : undefined, this.stage_.visible, distance_m);
+  }
+
+  /** What is straight below a place: a surface or the floor. */
+  private below(place: Vec): { point: Vec; normal: Vec } | undefined {
+    const floor = this.stage_.floorBelow(place);
+    const reach_m = floor === undefined ? Infinity : place.y - floor.y;
+    const met = this.live_.model.cast(place, kDown, reach_m);
+    return met ?? (floor && { point: floor, normal: kUp });
   }
 
   private showPlots(): void {

@@ -124,6 +124,7 @@ export class MeshView {
 
   setEdges(shown: boolean): void {
     this.edgesShown_ = shown;
+    this.materials_.forEach((material) => (material.polygonOffset = shown));
     if (shown && this.edges_ === undefined && this.surface_ !== undefined) {
       this.makeEdges(this.surface_);
     }
@@ -298,7 +299,8 @@ function surfaceMaterial(map: THREE.Texture | null = null): THREE.MeshStandardMa
     roughness: 0.62,
     metalness: 0,
     side: THREE.DoubleSide,
-    polygonOffset: true,
+    // Only while edges are drawn in the same place: at a silhouette it would let the back through.
+    polygonOffset: false,
     polygonOffsetFactor: 1,
     polygonOffsetUnits: 1,
   });

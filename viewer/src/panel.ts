@@ -22,7 +22,9 @@ export interface PanelActions {
   edges(shown: boolean): void;
   flat(flat: boolean): void;
   orbitFromEmpty(on: boolean): void;
+  dropLine(shown: boolean): void;
   resetView(): void;
+  bringHandBack(): void;
 }
 
 /** From this height of the window on all sections fit. */
@@ -57,12 +59,14 @@ export class Panel {
     this.onCheck("cones", (on) => actions.cones(on));
     this.onCheck("edges", (on) => actions.edges(on));
     this.onCheck("flat", (on) => actions.flat(on));
+    this.onCheck("drop", (on) => actions.dropLine(on));
     this.onCheck("empty-orbit", (on) => actions.orbitFromEmpty(on));
     this.onChoice("grip", (value) => this.tell("grip", value === "firm", { handFirm: value === "firm" }));
     this.onChoice("theme", (value) => actions.theme(value as ThemeChoice));
     this.onStiffness();
     element("rearm").addEventListener("click", () => actions.rearm());
     element("reset-view").addEventListener("click", () => actions.resetView());
+    element("bring-back").addEventListener("click", () => actions.bringHandBack());
     element("help-open").addEventListener("click", () => element<HTMLDialogElement>("help").showModal());
     window.addEventListener("keydown", (event) => this.shortcut(event));
     this.foldByHeight();
@@ -242,7 +246,7 @@ export class Panel {
       return;
     }
     const ids: Readonly<Record<string, string>> = {
-      e: "explore", p: "planes", c: "cones", m: "edges", f: "flat", r: "reset-view", "?": "help-open",
+      e: "explore", p: "planes", c: "cones", m: "edges", f: "flat", d: "drop", b: "bring-back", r: "reset-view", "?": "help-open",
     };
     const id = ids[event.key.toLowerCase()];
     if (id !== undefined) {

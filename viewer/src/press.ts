@@ -40,6 +40,36 @@ const kPush_D = 0.04;
 /** A hand that has come no farther for so long is held by something: it goes straight. */
 const kHeld_ms = 1000;
 
+/** A hand led along a way until it is there, or held by something. */
+export class Errand {
+  private readonly walk_: Walk;
+  private readonly world_per_hand_: number;
+  private came_m_ = 0;
+  private came_ms_: number | undefined;
+  private ended_ = false;
+
+  constructor(worldPerHand: number, way: readonly Vec[]) {
+    this.world_per_hand_ = worldPerHand;
+    this.walk_ = new Walk(way);
+  }
+
+  get ended(): boolean {
+    return this.ended_;
+  }
+
+  /** What the hand has to want now, when the proxy is at `proxy`. */
+  goal(proxy: Vec, now_ms: number): Vec {
+    const next = this.walk_.next(proxy, kLead_D * this.world_per_hand_);
+    if (this.walk_.done_m > this.came_m_ || this.came_ms_ === undefined) {
+      this.came_m_ = this.walk_.done_m;
+      this.came_ms_ = now_ms;
+    }
+    const there = length(sub(proxy, this.walk_.end)) < kReached_D * this.world_per_hand_;
+    this.ended_ ||= there || now_ms - this.came_ms_ > kHeld_ms;
+    return next;
+  }
+}
+
 export class Press {
   private readonly world_per_hand_: number;
   private readonly plan_: (to: Vec) => Vec[];
@@ -47,9 +77,7 @@ export class Press {
   private deeper_m_ = 0;
   /** Where the hand is to be while the pointer is beside the model. */
   private beside_: Vec | undefined;
-  private walk_: Walk | undefined;
-  private came_m_ = 0;
-  private came_ms_: number | undefined;
+  private way_: Errand | undefined;
 
   /** `plan` finds the way of the hand to a place. */
   constructor(worldPerHand: number, hit: SurfaceHit, plan: (to: Vec) => Vec[]) {
@@ -61,7 +89,7 @@ export class Press {
 
   /** True while the hand is on its way. */
   get coming(): boolean {
-    return this.walk_ !== undefined;
+    return this.way_ !== undefined;
   }
 
   /** The object that is pressed. */
@@ -89,7 +117,7 @@ export class Press {
   /** The pointer is beside the model: the hand goes there. */
   leave(place: Vec): void {
     this.beside_ = place;
-    this.walk_ = undefined;
+    this.way_ = undefined;
   }
 
   deepen(distance_m: number): void {
@@ -99,32 +127,26 @@ export class Press {
 
   /** What the hand has to want now, when the proxy is at `proxy`. */
   goal(proxy: Vec, now_ms: number): Vec {
-    const walk = this.walk_;
-    if (walk === undefined) {
+    const way = this.way_;
+    if (way === undefined) {
       return this.beside_ ?? this.pressed;
     }
-    const next = walk.next(proxy, kLead_D * this.world_per_hand_);
-    if (walk.done_m > this.came_m_ || this.came_ms_ === undefined) {
-      this.came_m_ = walk.done_m;
-      this.came_ms_ = now_ms;
-    }
-    if (this.isThere(proxy, walk.end) || now_ms - this.came_ms_ > kHeld_ms) {
-      this.walk_ = undefined;
+    const next = way.goal(proxy, now_ms);
+    if (way.ended || this.isNear(proxy)) {
+      this.way_ = undefined;
       return this.pressed;
     }
     return next;
   }
 
-  /** Above the surface, or already so near to it that there is nothing to go around. */
-  private isThere(proxy: Vec, end: Vec): boolean {
+  /** Already so near to the surface, on its seen side, that there is nothing to go around. */
+  private isNear(proxy: Vec): boolean {
     const offset = sub(proxy, this.hit_.point);
-    const near = length(offset) < kAbove_D * this.world_per_hand_ && dot(offset, this.hit_.normal) > 0;
-    return near || length(sub(proxy, end)) < kReached_D * this.world_per_hand_;
+    return length(offset) < kAbove_D * this.world_per_hand_ && dot(offset, this.hit_.normal) > 0;
   }
 
   private approach(): void {
-    this.walk_ = new Walk(this.plan_(beside(this.hit_.point, this.hit_.normal, kAbove_D * this.world_per_hand_)));
-    this.came_m_ = 0;
-    this.came_ms_ = undefined;
+    const above = beside(this.hit_.point, this.hit_.normal, kAbove_D * this.world_per_hand_);
+    this.way_ = new Errand(this.world_per_hand_, this.plan_(above));
   }
 }
