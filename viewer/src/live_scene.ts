@@ -24,6 +24,7 @@ export class LiveScene {
   private fitted_: Bounds | undefined;
   /** There have been objects since the scene was new or empty. */
   private begun_ = false;
+  private name_: string | undefined;
   private moves_: Moves | undefined;
   private touched_: readonly number[] = [];
 
@@ -44,8 +45,12 @@ export class LiveScene {
     return this.touched_;
   }
 
-  /** A server begins: nothing of what another one told is valid. */
-  clear(): void {
+  /** A server begins: nothing of what another one told is valid. Another scene is fitted anew, whatever its size. */
+  clear(name: string): void {
+    if (name !== this.name_) {
+      this.fitted_ = undefined;
+    }
+    this.name_ = name;
     this.store_.clear();
     this.model.clear();
     this.begun_ = false;

@@ -2,10 +2,11 @@
 // everything on the screen follows in animation frames, so a slow browser draws less often but never lags behind.
 
 import "./style.css";
+import { Announcer } from "./announcer";
 import { ButtonInput } from "./button_input";
 import { Connection, type LinkState } from "./connection";
 import { publishDebugState } from "./debug_state";
-import { element } from "./elements";
+import { element, setText } from "./elements";
 import { showEmptyHint } from "./empty_hint";
 import type { Hello, State } from "./gen/hl_pb";
 import { depthOf, metresPerPixel } from "./hand_mapping";
@@ -32,7 +33,9 @@ import { Stage, type Insets } from "./stage";
 import { SurfacePanel } from "./surface_panel";
 import { ThemeSwitch } from "./theme";
 import { planWay, surfaceUnder, type AimScene } from "./touch_aim";
+import { formatFixed } from "./units";
 import { length, sub, type Vec } from "./vec";
+import { kVibrationWindow_s, VibrationAlarm } from "./vibration";
 import { knownVec } from "./wire_values";
 
 const kPlotPeriod_ms = 50;
@@ -61,11 +64,8 @@ class App {
   private readonly energy_ = new SampleRing(kRateCapacity, 5);
   private readonly plots_ = {
     force: new LivePlot(element("plot-force"), { unit: "N", series: [{ colour: "force", fill: true }], smallestTop: 1 }),
-    penetration: new LivePlot(element("plot-penetration"), {
-      unit: "m", series: [{ colour: "penetration", fill: true }], smallestTop: 1e-3,
-    }),
     rates: new LivePlot(element("plot-rates"), {
-      unit: "Hz", series: [{ colour: "servo" }, { colour: "proxy" }], smallestTop: 1000,
+      unit: "Hz", series: [{ colour: "proxy", width: 4 }, { colour: "servo" }], smallestTop: 1000,
     }),
     energy: new LivePlot(element("plot-energy"), {
       unit: "J",
@@ -73,6 +73,8 @@ class App {
       smallestTop: 1e-3,
     }),
   };
+  private readonly announcer_ = new Announcer((text) => setText("announce", text));
+  private readonly vibration_ = new VibrationAlarm();
   private readonly hand_: HandInput;
   private readonly buttons_ = new ButtonInput((down) => this.connection_.send(encodePress(down)));
   private readonly panel_: Panel;
@@ -211,7 +213,7 @@ class App {
     const renewed = this.serverVersion_ !== undefined && this.serverVersion_ !== hello.serverVersion;
     this.notices_.stand("version", other || renewed ? "The server has another version. Reload this page." : undefined);
     this.serverVersion_ = hello.serverVersion;
-    this.live_.clear();
+    this.live_.clear(hello.sceneName);
     this.hand_.cancel();
     this.hand_.movable = this.buttons_.enabled = hello.device?.simulatedHand ?? false;
     this.panel_.showHello(hello);
@@ -219,6 +221,7 @@ class App {
     this.surfacePanel_.forget();
     this.ledgerPanel_.forget();
     this.probe_.setForceMax(hello.device?.forceMaxN ?? 0);
+    this.plots_.force.setLimit(hello.device?.forceMaxN ?? 0);
     this.samples_.clear();
     this.rates_.clear();
     this.energy_.clear();
@@ -249,7 +252,7 @@ class App {
       const { shadingJ, stiffnessJ, textureJ, movingJ, lateJ } = energy;
       this.energy_.push(state.timeS, shadingJ, stiffnessJ, textureJ, movingJ, lateJ);
     }
-    this.rates_.push(state.timeS, state.servo?.rateHz ?? NaN, state.proxyLoop?.rateHz ?? NaN);
+    this.rates_.push(state.timeS, state.proxyLoop?.rateHz ?? NaN, state.servo?.rateHz ?? NaN);
   }
 
   private linkChanged(link: LinkState): void {
@@ -310,9 +313,8 @@ class App {
   }
 
   private showPlots(): void {
-    const [times, force, penetration] = this.samples_.window(kWindow_s, this.plots_.force.buckets);
+    const [times, force] = this.samples_.window(kWindow_s, this.plots_.force.buckets);
     this.plots_.force.show([times, force!]);
-    this.plots_.penetration.show([times, penetration!]);
     this.plots_.rates.show(this.rates_.window(kWindow_s, this.plots_.rates.buckets));
     this.plots_.energy.show(this.energy_.window(kWindow_s, this.plots_.energy.buckets));
   }
@@ -320,10 +322,27 @@ class App {
   private showNumbers(): void {
     const state = this.state_!;
     const force = knownVec(state.forceN);
-    this.panel_.showState(state, force === undefined ? NaN : length(force), state.samples.at(-1)?.penetrationM);
+    const force_N = force === undefined ? NaN : length(force);
+    this.panel_.showState(state, force_N, state.samples.at(-1)?.penetrationM);
+    this.announcer_.hear(this.touchedInWords(state), force_N, performance.now());
+    this.tellVibration();
     this.surfacePanel_.showSurfaces(state.surfaces);
     this.ledgerPanel_.show(state.ledger);
     this.stateFresh_ = false;
+  }
+
+  private touchedInWords(state: State): string {
+    const several = this.live_.store.counts().objects > 1;
+    const objects = state.touched.map((object) => `object ${object + 1}`);
+    return state.contacts.length === 0 ? "" : several && objects.length > 0 ? objects.join(" and ") : "the model";
+  }
+
+  private tellVibration(): void {
+    const { times, values } = this.samples_.last(0, kVibrationWindow_s);
+    const swing = this.vibration_.judge(times, values);
+    const text = swing && `The force vibrates by ${formatFixed(swing.force_N, "N", 1)} at ` +
+      `${formatFixed(swing.rate_Hz, "Hz", 0)}: the spring is too stiff for this device and grip. Lower it.`;
+    this.notices_.stand("vibration", text, "warn");
   }
 
   private isNearHand(x_px: number, y_px: number): boolean {

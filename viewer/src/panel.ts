@@ -105,6 +105,8 @@ export class Panel {
     slider.min = String(kStiffnessMin_N_m);
     slider.max = String(Math.floor(highest / kStiffnessStep_N_m) * kStiffnessStep_N_m);
     slider.step = String(kStiffnessStep_N_m);
+    slider.title = `The device's own: ${formatCount(recommended)}${kThinSpace}N/m, at the tick`;
+    element("stiffness-ticks").replaceChildren(new Option("", String(recommended)));
     this.showStiffness(recommended);
   }
 
@@ -128,7 +130,8 @@ export class Panel {
     ];
     const present = parts.filter(([count]) => count > 0);
     setText("model-size", present.map(([count, what]) => `${formatCount(count)}${kNoBreak}${what}`).join(", ") || "empty");
-    setText("proxy-radius", formatSi(layout.proxyRadius_m, "m"));
+    const atHand_m = layout.proxyRadius_m / layout.worldPerDevice;
+    setText("proxy-radius", `${formatSi(layout.proxyRadius_m, "m")} / ${formatSi(atHand_m, "m")}`);
     setText("scale", formatScale(layout.worldPerDevice));
   }
 
@@ -141,6 +144,7 @@ export class Panel {
   /** `penetration_m` as in the newest sample. */
   showState(state: State, force_N: number, penetration_m: number | undefined): void {
     setText("force", formatFixed(force_N, "N", 2));
+    setText("force-badge", formatFixed(force_N, "N", 2));
     setText("penetration", formatFixed(penetration_m === undefined ? undefined : penetration_m * 1e3, "mm", 2));
     setText("contacts", formatCount(state.contacts.length));
     setText("caps", formatShortCount(state.iterationCaps));
@@ -182,6 +186,8 @@ export class Panel {
     element("rearm").hidden = !fault;
     element("fault").hidden = !fault;
     setText("fault", state.fault || "The server gave no reason.");
+    const forceless = state.safety !== SafetyState.ON && state.safety !== SafetyState.ARMING;
+    setText("energy-note", forceless ? "not felt: no force" : "total since the start");
     const limit_N_m = state.vibration?.limitNM ?? 0;
     element("softened").hidden = limit_N_m === 0;
     setText(

@@ -45,6 +45,9 @@ export class ProbeView {
   constructor() {
     const sphere = new THREE.SphereGeometry(1, 32, 20);
     this.proxy_ = new THREE.Mesh(sphere, new THREE.MeshStandardMaterial({ roughness: 0.35 }));
+    // Drawn after the finger, which would hide it otherwise.
+    this.proxy_.material.transparent = true;
+    this.proxy_.renderOrder = 1;
     this.ghost_ = new THREE.Mesh(sphere, overlay(THREE.MeshBasicMaterial, 0.35));
     this.ring_ = new THREE.Mesh(new THREE.RingGeometry(0.86, 1, 48), overlay(THREE.MeshBasicMaterial, 0.7));
     this.finger_ = new THREE.Mesh(new THREE.SphereGeometry(1, 16, 12), overlay(THREE.MeshBasicMaterial, 0.55));

@@ -25,6 +25,7 @@ const kSceneFriction = 0.5;
 const kStatePeriod_ms = 16;
 const kSamplesPerState = 16;
 const kSphereMesh = 1;
+const kForceMax_N = 8.5;
 
 type Body = NonNullable<MessageInitShape<typeof ServerMessageSchema>["body"]>;
 
@@ -38,6 +39,9 @@ export class FakeServer {
   surfaces = create(SurfacesSchema);
   ledger = LedgerMode.TANK;
   slipping = false;
+  /** The force swings between none and the device's limit. */
+  shaking = false;
+  name = "sphere";
   fault = "";
   silent = false;
   buttons = 0;
@@ -100,6 +104,13 @@ export class FakeServer {
     this.send(this.layout());
   }
 
+  /** As if the server ended and another one began with another scene. */
+  begin(name: string, spheres: number): void {
+    this.name = name;
+    this.spheres = spheres;
+    this.sockets_.clients.forEach((socket) => socket.terminate());
+  }
+
   async close(): Promise<void> {
     clearInterval(this.timer_);
     this.sockets_.clients.forEach((socket) => socket.terminate());
@@ -110,7 +121,7 @@ export class FakeServer {
   private greet(socket: WebSocket): void {
     socket.on("message", (data: Buffer) => this.obey(fromBinary(ViewerMessageSchema, new Uint8Array(data))));
     const device = {
-      name: "simulated sphere", forceMaxN: 8.5, stiffnessNM: 1000, stiffnessMaxNM: 3500, dampingNsM: 1,
+      name: "simulated sphere", forceMaxN: kForceMax_N, stiffnessNM: 1000, stiffnessMaxNM: 3500, dampingNsM: 1,
       servoRateHz: 1000, proxyRateHz: 1000, simulatedHand: this.simulatedHand,
     };
     const quantities = [
@@ -119,7 +130,7 @@ export class FakeServer {
       { field: "dynamicFriction", name: "dynamic friction", usual: 1.5, words: "mu_d" },
       { field: "viscosityNsM", name: "viscosity", unit: "N s/m", usual: 20, words: "drag" },
     ];
-    const hello = { protocolVersion: kProtocolVersion, serverVersion: "fake", sceneName: "sphere", device, quantities };
+    const hello = { protocolVersion: kProtocolVersion, serverVersion: "fake", sceneName: this.name, device, quantities };
     socket.send(encode({ case: "hello", value: hello }));
     socket.send(encode(sphereMesh(64, 128)));
     socket.send(encode(this.layout()));
@@ -168,7 +179,7 @@ export class FakeServer {
     const span_s = this.time_s_ - before_s;
     const samples = Array.from({ length: kSamplesPerState }, (_, i) => ({
       timeS: before_s + (span_s * (i + 1)) / kSamplesPerState,
-      forceN: length(force) * (1 + 0.01 * Math.sin(i * 1.7)),
+      forceN: this.shaking ? kForceMax_N * (i % kSamplesPerState < kSamplesPerState / 2 ? 0 : 1) : length(force) * (1 + 0.01 * Math.sin(i * 1.7)),
       penetrationM: length(sub(proxy, this.finger_)),
       tickUs: 2.5,
     }));
@@ -203,7 +214,7 @@ export class FakeServer {
     return {
       case: "layout",
       value: {
-        number: this.layout_, name: "sphere", proxyRadius: kProxy_m, worldPerDevice: 1,
+        number: this.layout_, name: this.name, proxyRadius: kProxy_m, worldPerDevice: 1,
         placed: poses.map(() => ({ mesh: kSphereMesh })), poses: bytesOf(Float32Array.from(poses.flat())),
         ...(this.spheres > 0 ? bounds : {}),
       },
