@@ -113,7 +113,7 @@ export async function expectTidyLayout(page: Page, size: { width: number; height
 }
 
 /** In low windows only one section is open. */
-export async function openSection(page: Page, name: "surface" | "view"): Promise<void> {
+export async function openSection(page: Page, name: "surface" | "view" | "more"): Promise<void> {
   await page.evaluate((id) => (document.querySelector<HTMLDetailsElement>(id)!.open = true), `#${name}-fold`);
 }
 

@@ -7,7 +7,7 @@ import * as THREE from "three";
 import { depthOf, metresPerPixel, moveInDepth, moveInView, wheelPixels } from "./hand_mapping";
 import type { Errand, Press, SurfaceHit } from "./press";
 import type { Stage } from "./stage";
-import { add, length, scale, sub, type Vec } from "./vec";
+import { add, kZero, length, scale, sub, type Vec } from "./vec";
 
 export interface HandHooks {
   /** Where the finger is now; undefined before the first state: no drag can start. */
@@ -53,6 +53,7 @@ export class HandInput {
   private readonly hooks_: HandHooks;
   private readonly canvas_: HTMLCanvasElement;
   private readonly pressed_ = new Set<string>();
+  private pushed_: Vec = kZero;
   private readonly touches_ = new Set<number>();
   private pointer_: number | undefined;
   /** A second finger that moves the hand in depth. */
@@ -85,6 +86,11 @@ export class HandInput {
     window.addEventListener("blur", () => this.cancel());
   }
 
+  /** The object that is pressed. */
+  get pressedObject(): number | undefined {
+    return this.press_?.object;
+  }
+
   get holding(): boolean {
     return this.goal_ !== undefined;
   }
@@ -99,9 +105,22 @@ export class HandInput {
     }
   }
 
+  /** A gamepad pushes in this direction, as keys do; zero lets go. */
+  push(direction: Vec): void {
+    const pushed = length(direction) > 0;
+    if (pushed === length(this.pushed_) > 0 && !pushed) {
+      return;
+    }
+    this.moveByKeys();
+    this.pushed_ = pushed && (this.holding || this.grab()) ? direction : kZero;
+    if (!pushed) {
+      this.letGo();
+    }
+  }
+
   /** Leads the hand along a way, then leaves it there; a press or a key ends it. */
   send(errand: Errand): void {
-    if (this.pointer_ === undefined && this.pressed_.size === 0 && this.grab()) {
+    if (this.pointer_ === undefined && this.pressed_.size === 0 && length(this.pushed_) === 0 && this.grab()) {
       this.errand_ = errand;
     }
   }
@@ -111,6 +130,7 @@ export class HandInput {
     this.pointer_ = this.depthPointer_ = undefined;
     this.pressed_.clear();
     this.errand_ = undefined;
+    this.pushed_ = kZero;
     this.letGo();
   }
 
@@ -261,10 +281,10 @@ export class HandInput {
     const elapsed_s = Math.min(kKeyStep_s, (now_ms - this.moved_ms_) / 1000);
     this.moved_ms_ = now_ms;
     const goal = this.goal_;
-    if (this.pressed_.size === 0 || goal === undefined) {
+    if (goal === undefined || (this.pressed_.size === 0 && length(this.pushed_) === 0)) {
       return;
     }
-    let direction: Vec = { x: 0, y: 0, z: 0 };
+    let direction = this.pushed_;
     for (const code of this.pressed_) {
       direction = add(direction, kKeys[code]!);
     }
@@ -297,7 +317,8 @@ export class HandInput {
 
   /** Ends the hold when neither pointer nor key holds any more. */
   private letGo(): void {
-    if (this.pointer_ !== undefined || this.pressed_.size > 0 || this.errand_ || this.goal_ === undefined) {
+    const held = this.pointer_ !== undefined || this.pressed_.size > 0 || length(this.pushed_) > 0;
+    if (held || this.errand_ !== undefined || this.goal_ === undefined) {
       return;
     }
     if (this.unsent_) {

@@ -9,8 +9,8 @@ import { publishDebugState } from "./debug_state";
 import { element, setText } from "./elements";
 import { showEmptyHint } from "./empty_hint";
 import type { Hello, State } from "./gen/hl_pb";
+import { padState } from "./gamepad";
 import { depthOf, metresPerPixel } from "./hand_mapping";
-import { HandFinder } from "./hand_finder";
 import { HandInput } from "./hand_input";
 import { diagonalOf } from "./fit";
 import { LedgerPanel } from "./ledger_panel";
@@ -18,24 +18,25 @@ import { LiveScene } from "./live_scene";
 import { Notices } from "./notices";
 import { Panel } from "./panel";
 import { kWindow_s, LivePlot } from "./plots";
-import { Errand, kAbove_D, Press, type SurfaceHit } from "./press";
+import { Pointing } from "./pointing";
 import { ProbeView } from "./probe_view";
 import {
   encodeHandGoal, encodePress, encodeRearm, encodeRelease, encodeSettings, kProtocolVersion,
   type Incoming, type SettingsChange,
 } from "./protocol";
-import { beside } from "./route";
 import { SampleRing } from "./samples";
 import type { Bounds, Layout } from "./scene_messages";
 import { ScaleBar } from "./scale_bar";
 import type { SceneStore } from "./scene_store";
+import { Sharing } from "./sharing";
 import { Stage, type Insets } from "./stage";
 import { SurfacePanel } from "./surface_panel";
 import { ThemeSwitch } from "./theme";
-import { planWay, surfaceUnder, type AimScene } from "./touch_aim";
+import { TouchSound } from "./touch_sound";
 import { formatFixed } from "./units";
-import { length, sub, type Vec } from "./vec";
+import { length } from "./vec";
 import { kVibrationWindow_s, VibrationAlarm } from "./vibration";
+import { ViewMemory } from "./view_memory";
 import { knownVec } from "./wire_values";
 
 const kPlotPeriod_ms = 50;
@@ -44,10 +45,6 @@ const kNumbersPeriod_ms = 100;
 /** Ten seconds of a 6 kHz loop: the most that State.samples can carry. */
 const kSampleCapacity = 65536;
 const kRateCapacity = 1024;
-/** A press this near to the proxy or the finger is meant for the hand. */
-const kGrabRadius_px = 30;
-const kUp: Vec = { x: 0, y: 1, z: 0 };
-const kDown: Vec = { x: 0, y: -1, z: 0 };
 
 class App {
   private readonly live_ = new LiveScene({
@@ -57,7 +54,7 @@ class App {
   private readonly probe_ = new ProbeView();
   private readonly notices_ = new Notices();
   private readonly stage_ = new Stage(element<HTMLCanvasElement>("canvas"), (reason) => this.notices_.stand("drawing", reason));
-  private readonly finder_ = new HandFinder(() => this.bringHandBack());
+  private readonly pointing_ = new Pointing(this.stage_, this.live_, () => this.state_);
   private readonly scaleBar_ = new ScaleBar();
   private readonly samples_ = new SampleRing(kSampleCapacity, 2);
   private readonly rates_ = new SampleRing(kRateCapacity, 2);
@@ -73,6 +70,9 @@ class App {
       smallestTop: 1e-3,
     }),
   };
+  private readonly sound_ = new TouchSound();
+  private readonly sharing_ = new Sharing(this.samples_, () => this.live_.layout?.name ?? "");
+  private readonly memory_: ViewMemory;
   private readonly announcer_ = new Announcer((text) => setText("announce", text));
   private readonly vibration_ = new VibrationAlarm();
   private readonly hand_: HandInput;
@@ -92,6 +92,7 @@ class App {
     this.stage_.scene.add(this.live_.model.group, this.probe_.group);
     this.hand_ = this.makeHand();
     this.panel_ = this.makePanel();
+    this.memory_ = new ViewMemory();
     this.surfacePanel_ = new SurfacePanel((change) => this.tell(change));
     this.ledgerPanel_ = new LedgerPanel((change) => this.tell(change));
     this.theme_ = new ThemeSwitch(() => this.applyTheme());
@@ -116,50 +117,16 @@ class App {
   }
 
   private makeHand(): HandInput {
+    const { pointing_: pointing } = this;
     return new HandInput(this.stage_, {
       finger: () => (this.connection_.state === "live" ? knownVec(this.state_?.finger) : undefined),
+      proxy: () => knownVec(this.state_?.proxy),
       goal: (position) => this.connection_.send(encodeHandGoal(position)),
       release: () => this.connection_.send(encodeRelease()),
-      proxy: () => knownVec(this.state_?.proxy),
-      press: (x_px, y_px) => this.press(x_px, y_px),
-      surface: (x_px, y_px) => this.surfaceAt(x_px, y_px),
-      isTarget: (x_px, y_px) => this.isNearHand(x_px, y_px) || this.surfaceAt(x_px, y_px) !== undefined,
+      press: (x_px, y_px) => pointing.press(x_px, y_px),
+      surface: (x_px, y_px) => pointing.surfaceAt(x_px, y_px),
+      isTarget: (x_px, y_px) => pointing.isNearHand(x_px, y_px) || pointing.surfaceAt(x_px, y_px) !== undefined,
     });
-  }
-
-  private aimScene(): AimScene {
-    const { layout, model, store } = this.live_;
-    const worldPerHand = layout !== undefined && layout.worldPerDevice > 0 ? layout.worldPerDevice : 1;
-    return { model, bounds: model.bounds(store.poses), proxyRadius_m: layout?.proxyRadius_m ?? 0, worldPerHand };
-  }
-
-  private surfaceAt(x_px: number, y_px: number): SurfaceHit | undefined {
-    return surfaceUnder(this.aimScene(), this.stage_.rayAt(x_px, y_px));
-  }
-
-  /** A press on the marks of a hand that touches nothing takes the hand; any other press on the model touches it there. */
-  private press(x_px: number, y_px: number): Press | undefined {
-    const hit = this.surfaceAt(x_px, y_px);
-    const touching = (this.state_?.contacts.length ?? 0) > 0;
-    if (hit === undefined || (!touching && this.isNearHand(x_px, y_px))) {
-      return undefined;
-    }
-    return new Press(this.aimScene().worldPerHand, hit, (to) => this.wayTo(to));
-  }
-
-  private wayTo(to: Vec): Vec[] {
-    const proxy = knownVec(this.state_?.proxy) ?? to;
-    const finger = knownVec(this.state_?.finger) ?? proxy;
-    return planWay(this.aimScene(), proxy, sub(proxy, finger), to);
-  }
-
-  /** To a place above what is in the middle of the view, or to what the view turns about. */
-  private bringHandBack(): void {
-    const { left, right, top, bottom } = this.stage_.visible;
-    const hit = this.surfaceAt((left + right) / 2, (top + bottom) / 2);
-    const scene = this.aimScene();
-    const to = hit ? beside(hit.point, hit.normal, kAbove_D * scene.worldPerHand) : this.stage_.target;
-    this.hand_.send(new Errand(scene.worldPerHand, this.wayTo(to)));
   }
 
   private makePanel(): Panel {
@@ -174,7 +141,13 @@ class App {
       orbitFromEmpty: (on) => (this.hand_.orbitFromEmpty = on),
       dropLine: (shown) => this.probe_.drop.setShown(shown),
       resetView: () => this.live_.refit(),
-      bringHandBack: () => this.bringHandBack(),
+      bringHandBack: () => this.pointing_.bringBack(this.hand_),
+      section: (side, share) => this.pointing_.cut(side, share),
+      sound: (on) => this.sound_.setOn(on),
+      pause: (paused) => this.sharing_.setPaused(paused),
+      copyLink: () => void this.sharing_.copyLink(this.stage_, this.memory_, this.notices_),
+      savePicture: () => void this.sharing_.savePicture(this.stage_),
+      saveSamples: () => this.sharing_.saveSamples(),
     });
   }
 
@@ -222,6 +195,7 @@ class App {
     this.ledgerPanel_.forget();
     this.probe_.setForceMax(hello.device?.forceMaxN ?? 0);
     this.plots_.force.setLimit(hello.device?.forceMaxN ?? 0);
+    this.sound_.setLimit(hello.device?.forceMaxN ?? 0);
     this.samples_.clear();
     this.rates_.clear();
     this.energy_.clear();
@@ -231,6 +205,7 @@ class App {
     this.probe_.setRadius(layout.proxyRadius_m);
     this.panel_.showLayout(layout, store.counts());
     showEmptyHint(layout.placed.length === 0);
+    this.pointing_.layoutChanged();
     if (layout.bounds !== undefined) {
       this.stage_.lowerFloor(layout.bounds.min.y);
     }
@@ -239,6 +214,10 @@ class App {
   private fit(bounds: Bounds): void {
     this.stage_.setBounds(bounds.min, bounds.max);
     this.probe_.setDiagonal(diagonalOf(bounds));
+    const linked = this.memory_.takeCamera();
+    if (linked !== undefined) {
+      this.stage_.lookFrom(linked.position, linked.target);
+    }
   }
 
   private takeState(state: State): void {
@@ -252,6 +231,7 @@ class App {
       const { shadingJ, stiffnessJ, textureJ, movingJ, lateJ } = energy;
       this.energy_.push(state.timeS, shadingJ, stiffnessJ, textureJ, movingJ, lateJ);
     }
+    this.sound_.hear(state, this.samples_, this.pointing_.worldPerHand);
     this.rates_.push(state.timeS, state.proxyLoop?.rateHz ?? NaN, state.servo?.rateHz ?? NaN);
   }
 
@@ -266,16 +246,19 @@ class App {
       // What was heard last is not what is so now.
       this.stateFresh_ = false;
       this.hand_.cancel();
+      this.sound_.silence();
     }
   }
 
   private frame(now_ms: number): void {
     requestAnimationFrame((next_ms) => this.frame(next_ms));
+    this.followPad();
     this.hand_.frame();
     this.live_.frame();
+    this.pointing_.showPicked(this.hand_.pressedObject);
     this.showProbe();
     this.stage_.draw();
-    if (this.stateFresh_ && now_ms - this.lastPlot_ms_ >= kPlotPeriod_ms) {
+    if (this.stateFresh_ && !this.sharing_.paused && now_ms - this.lastPlot_ms_ >= kPlotPeriod_ms) {
       this.lastPlot_ms_ = now_ms;
       this.showPlots();
     }
@@ -290,26 +273,18 @@ class App {
     this.probe_.update(this.state_);
     const view = this.stage_.viewFrame();
     this.scaleBar_.show(metresPerPixel(view, depthOf(view, this.stage_.target)));
-    this.showFinder(knownVec(this.state_?.finger));
+    this.pointing_.showFinder(this.connection_.state === "live", this.hand_);
     if (proxy !== undefined) {
       const pixel_m = metresPerPixel(view, depthOf(view, proxy));
       this.probe_.face(this.stage_.camera, pixel_m);
-      this.probe_.drop.update(proxy, this.below(proxy), this.probe_.radius_m, pixel_m);
+      this.probe_.drop.update(proxy, this.pointing_.below(proxy), this.probe_.radius_m, pixel_m);
     }
   }
 
-  private showFinder(finger: Vec | undefined): void {
-    const shown = finger !== undefined && this.connection_.state === "live";
-    const distance_m = shown ? length(sub(finger, this.stage_.target)) : 0;
-    this.finder_.show(shown ? this.stage_.project(finger) : undefined, this.stage_.visible, distance_m);
-  }
-
-  /** What is straight below a place: a surface or the floor. */
-  private below(place: Vec): { point: Vec; normal: Vec } | undefined {
-    const floor = this.stage_.floorBelow(place);
-    const reach_m = floor === undefined ? Infinity : place.y - floor.y;
-    const met = this.live_.model.cast(place, kDown, reach_m);
-    return met ?? (floor && { point: floor, normal: kUp });
+  private followPad(): void {
+    const { direction, buttons } = padState(navigator.getGamepads?.() ?? []);
+    this.hand_.push(direction);
+    this.buttons_.setPad(buttons);
   }
 
   private showPlots(): void {
@@ -343,13 +318,6 @@ class App {
     const text = swing && `The force vibrates by ${formatFixed(swing.force_N, "N", 1)} at ` +
       `${formatFixed(swing.rate_Hz, "Hz", 0)}: the spring is too stiff for this device and grip. Lower it.`;
     this.notices_.stand("vibration", text, "warn");
-  }
-
-  private isNearHand(x_px: number, y_px: number): boolean {
-    return [knownVec(this.state_?.proxy), knownVec(this.state_?.finger)].some((point) => {
-      const at = point === undefined ? undefined : this.stage_.project(point);
-      return at !== undefined && Math.hypot(at.x - x_px, at.y - y_px) < kGrabRadius_px;
-    });
   }
 
   private applyTheme(): void {

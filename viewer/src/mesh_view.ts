@@ -12,6 +12,8 @@ import { orientTowardNormals } from "./winding";
 export interface Palette {
   readonly model: THREE.Color;
   readonly tint: THREE.Color;
+  /** The same where the pointer is. */
+  readonly pointed: THREE.Color;
   readonly edges: THREE.MeshBasicMaterial;
   readonly lines: THREE.LineBasicMaterial;
   readonly points: THREE.PointsMaterial;
@@ -27,6 +29,8 @@ export interface Meeting {
   /** Unit; of the shading, where the mesh has one. */
   readonly normal: Vec;
 }
+
+export type Highlight = "none" | "pointed" | "touched";
 
 type Surface = THREE.InstancedMesh<THREE.BufferGeometry, THREE.Material[]>;
 type Mark = THREE.LineSegments | THREE.Points;
@@ -101,10 +105,11 @@ export class MeshView {
     }
   }
 
-  setTouched(place: number, touched: boolean): void {
+  setMark(place: number, mark: Highlight): void {
     const { palette_: palette, surface_: surface } = this;
+    const touched = mark !== "none";
     if (surface !== undefined) {
-      surface.setColorAt(place, touched ? palette.tint : kUntouched);
+      surface.setColorAt(place, mark === "touched" ? palette.tint : mark === "pointed" ? palette.pointed : kUntouched);
       surface.instanceColor!.needsUpdate = true;
     }
     for (const mark of this.marks_[place] ?? []) {
@@ -113,6 +118,11 @@ export class MeshView {
         : [palette.lines, palette.touchedLines];
       mark.material = touched ? bright : plain;
     }
+  }
+
+  /** Draws only what is in front of these planes. */
+  setClip(planes: THREE.Plane[]): void {
+    this.materials_.forEach((material) => (material.clippingPlanes = planes));
   }
 
   setFlat(flat: boolean): void {

@@ -9,6 +9,7 @@ import { Pending } from "./pending";
 import type { SettingsChange } from "./protocol";
 import type { Layout } from "./scene_messages";
 import type { Counts } from "./scene_store";
+import type { Side } from "./section";
 import type { ThemeChoice } from "./theme";
 import { describeEndings } from "./ticks_ended";
 import { formatCount, formatFixed, formatScale, formatShortCount, formatSi, kNoBreak, kThinSpace } from "./units";
@@ -25,6 +26,12 @@ export interface PanelActions {
   dropLine(shown: boolean): void;
   resetView(): void;
   bringHandBack(): void;
+  section(side: Side, share: number): void;
+  sound(on: boolean): void;
+  pause(paused: boolean): void;
+  copyLink(): void;
+  savePicture(): void;
+  saveSamples(): void;
 }
 
 /** From this height of the window on all sections fit. */
@@ -67,6 +74,12 @@ export class Panel {
     element("rearm").addEventListener("click", () => actions.rearm());
     element("reset-view").addEventListener("click", () => actions.resetView());
     element("bring-back").addEventListener("click", () => actions.bringHandBack());
+    this.onCheck("sound", (on) => actions.sound(on));
+    this.onCheck("pause", (on) => actions.pause(on));
+    this.onSection();
+    element("copy-link").addEventListener("click", () => actions.copyLink());
+    element("save-picture").addEventListener("click", () => actions.savePicture());
+    element("save-samples").addEventListener("click", () => actions.saveSamples());
     element("help-open").addEventListener("click", () => element<HTMLDialogElement>("help").showModal());
     window.addEventListener("keydown", (event) => this.shortcut(event));
     this.foldByHeight();
@@ -130,8 +143,8 @@ export class Panel {
     ];
     const present = parts.filter(([count]) => count > 0);
     setText("model-size", present.map(([count, what]) => `${formatCount(count)}${kNoBreak}${what}`).join(", ") || "empty");
-    const atHand_m = layout.proxyRadius_m / layout.worldPerDevice;
-    setText("proxy-radius", `${formatSi(layout.proxyRadius_m, "m")} / ${formatSi(atHand_m, "m")}`);
+    setText("proxy-radius", formatSi(layout.proxyRadius_m, "m"));
+    setText("proxy-radius-hand", formatSi(layout.proxyRadius_m / layout.worldPerDevice, "m"));
     setText("scale", formatScale(layout.worldPerDevice));
   }
 
@@ -215,6 +228,17 @@ export class Panel {
     onLetGo(() => this.pending_.letGo(performance.now()));
   }
 
+  private onSection(): void {
+    const side = element<HTMLSelectElement>("section");
+    const share = element<HTMLInputElement>("section-at");
+    const act = () => {
+      share.hidden = side.value === "off";
+      this.actions_.section(side.value as Side, share.valueAsNumber);
+    };
+    side.addEventListener("change", act);
+    share.addEventListener("input", act);
+  }
+
   private tell(control: string, value: boolean, change: SettingsChange): void {
     this.pending_.set(control, value, performance.now());
     this.actions_.settings(change);
@@ -252,7 +276,7 @@ export class Panel {
       return;
     }
     const ids: Readonly<Record<string, string>> = {
-      e: "explore", p: "planes", c: "cones", m: "edges", f: "flat", d: "drop", b: "bring-back", r: "reset-view", "?": "help-open",
+      e: "explore", p: "planes", c: "cones", m: "edges", f: "flat", d: "drop", b: "bring-back", t: "pause", r: "reset-view", "?": "help-open",
     };
     const id = ids[event.key.toLowerCase()];
     if (id !== undefined) {

@@ -121,6 +121,19 @@ export class Stage {
     this.controls.update();
   }
 
+  /** Where the eye is, and what it looks at. */
+  get eye(): { position: Vec; target: Vec } {
+    return { position: plain(this.camera.position), target: this.target };
+  }
+
+  /** As if the user had turned the view so. */
+  lookFrom(position: Vec, target: Vec): void {
+    this.untouched_ = false;
+    this.camera.position.set(position.x, position.y, position.z);
+    this.controls.target.set(target.x, target.y, target.z);
+    this.controls.update();
+  }
+
   /** Follows the window; `insets` are the panels. A view that the user has not moved keeps showing the whole model. */
   resize(insets: Insets): void {
     this.insets_ = insets;
@@ -189,6 +202,16 @@ export class Stage {
     this.renderer_?.render(this.scene, this.camera);
   }
 
+  /** The picture of the view alone; undefined where nothing can be drawn. */
+  async picture(): Promise<Blob | undefined> {
+    if (this.renderer_ === undefined) {
+      return undefined;
+    }
+    // What was drawn is gone as soon as the browser has shown it.
+    this.renderer_.render(this.scene, this.camera);
+    return new Promise((resolve) => this.canvas.toBlob((blob) => resolve(blob ?? undefined), "image/png"));
+  }
+
   private free(): { width: number; height: number } {
     const { width, height } = this.size_px;
     return {
@@ -236,6 +259,7 @@ function makeRenderer(canvas: HTMLCanvasElement): THREE.WebGLRenderer | undefine
     return undefined;
   }
   const renderer = new THREE.WebGLRenderer({ canvas, context });
+  renderer.localClippingEnabled = true;
   renderer.setPixelRatio(Math.min(window.devicePixelRatio, kPixelRatioMax));
   return renderer;
 }

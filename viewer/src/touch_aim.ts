@@ -5,6 +5,7 @@ import type { ModelView } from "./model_view";
 import type { SurfaceHit } from "./press";
 import { beside, placesAround, route, type Free } from "./route";
 import type { Bounds } from "./scene_messages";
+import { keeps, type Section } from "./section";
 import { add, cross, dot, length, scale, sub, unit, type Vec } from "./vec";
 
 /** A way around the scene keeps this far from it, m at the hand. */
@@ -28,11 +29,14 @@ export interface AimScene {
   readonly bounds: Bounds | undefined;
   readonly proxyRadius_m: number;
   readonly worldPerHand: number;
+  /** What is drawn; what is not is looked through. */
+  readonly section: Section | undefined;
 }
 
 /** What the ray of a pixel meets first. */
-export function surfaceUnder({ model, proxyRadius_m }: AimScene, ray: Ray): SurfaceHit | undefined {
-  const met = model.cast(ray.origin, ray.direction);
+export function surfaceUnder({ model, proxyRadius_m, section }: AimScene, ray: Ray): SurfaceHit | undefined {
+  const drawn = section && ((point: Vec) => keeps(section, point));
+  const met = model.cast(ray.origin, ray.direction, Infinity, drawn);
   if (met === undefined) {
     return undefined;
   }
