@@ -5,7 +5,7 @@ import * as THREE from "three";
 import { imageTexture } from "./image_texture";
 import { kPoseNumbers, type Bounds, type Mesh } from "./scene_messages";
 import { RayTree, type Accept } from "./ray_tree";
-import type { Vec } from "./vec";
+import { length, type Vec } from "./vec";
 import { orientTowardNormals } from "./winding";
 
 /** What all meshes are drawn with. `tint` is what the plain surface's colour is multiplied by where it is touched. */
@@ -155,8 +155,10 @@ export class MeshView {
     }
     const toWorld = new THREE.Matrix4();
     surface.getMatrixAt(place, toWorld);
-    const ray = new THREE.Ray(three(origin), three(direction));
-    if (!ray.intersectsSphere(this.sphere_.copy(this.ball_).applyMatrix4(toWorld))) {
+    const ray = new THREE.Ray(three(origin), three(direction).normalize());
+    const ball = this.sphere_.copy(this.ball_).applyMatrix4(toWorld);
+    const nearest_m = ray.origin.distanceTo(ball.center) - ball.radius;
+    if (nearest_m > farthest * length(direction) || !ray.intersectsSphere(ball)) {
       return undefined;
     }
     const toMesh = toWorld.clone().invert();

@@ -255,11 +255,14 @@ export class Panel {
     }
   }
 
-  /** In a low window only one of the foldable sections is open, so that the card never has to scroll. */
+  /**
+   * In a low window only one of the foldable sections is open, so that the card never has to scroll. The last one, of what
+   * is rarely used, is opened by the user alone.
+   */
   private foldByHeight(): void {
     const folds = [...document.querySelectorAll<HTMLDetailsElement>("#controls details")];
     const low = () => window.innerHeight < kTall_px;
-    const fit = () => folds.forEach((fold, i) => (fold.open = !low() || i === 0));
+    const fit = () => folds.forEach((fold, i) => (fold.open = i === 0 || (!low() && i < folds.length - 1)));
     for (const fold of folds) {
       fold.addEventListener("toggle", () => {
         if (fold.open && low()) {

@@ -119,9 +119,12 @@ export class Pointing {
 
   private aimScene(): AimScene {
     const { layout, model, store } = this.live_;
-    const bounds = model.bounds(store.poses);
     return {
-      model, bounds, proxyRadius_m: layout?.proxyRadius_m ?? 0, worldPerHand: this.worldPerHand, section: this.section_,
+      model,
+      bounds: () => model.bounds(store.poses),
+      proxyRadius_m: layout?.proxyRadius_m ?? 0,
+      worldPerHand: this.worldPerHand,
+      section: this.section_,
     };
   }
 

@@ -26,7 +26,8 @@ export interface Ray {
 
 export interface AimScene {
   readonly model: ModelView;
-  readonly bounds: Bounds | undefined;
+  /** Of everything where it is now. */
+  bounds(): Bounds | undefined;
   readonly proxyRadius_m: number;
   readonly worldPerHand: number;
   /** What is drawn; what is not is looked through. */
@@ -49,7 +50,8 @@ export function surfaceUnder({ model, proxyRadius_m, section }: AimScene, ray: R
 
 /** The proxy's way from `from`, where `off` leads away from what it touches, to `to`. */
 export function planWay(scene: AimScene, from: Vec, off: Vec, to: Vec): Vec[] {
-  const { bounds, worldPerHand } = scene;
+  const { worldPerHand } = scene;
+  const bounds = scene.bounds();
   if (bounds === undefined) {
     return [from, to];
   }
