@@ -60,6 +60,14 @@ test("a force that vibrates is told, with the device's limit in the plot, and no
   await page.waitForSelector("[data-cause=vibration]", { state: "detached" });
 });
 
+test("a spring that the server holds below what is set is told at its slider", async () => {
+  server.held_N_m = 563.6;
+  await expect.poll(() => page.textContent("#stiffness-value")).toMatch(/^1.000.N\/m, held at 564$/);
+  expect(await page.textContent("#softened")).toMatch(/held below 564/);
+  server.held_N_m = 0;
+  await expect.poll(() => page.textContent("#stiffness-value")).toMatch(/^1.000.N\/m$/);
+});
+
 test("a screen reader hears what is touched, seldom, and no number that runs", async () => {
   server.explore = true;
   const said = await page.evaluate(async () => {

@@ -93,6 +93,23 @@ test("tells the object under the pointer and lights it, and what is pressed with
   await page.mouse.move(640, 640);
 });
 
+test("a press follows what moves under a pointer that rests", async () => {
+  const at = await page.evaluate(() => window.__hl.project({ x: 0, y: 0, z: 0 }));
+  const goals = () => server.received.flatMap(({ body }) => (body.case === "handGoal" ? [body.value.position!.z] : []));
+  const spread_m = () => Math.max(...goals()) - Math.min(...goals());
+  await page.mouse.move(at.x, at.y);
+  await page.mouse.down();
+  await states(page, 90);
+  server.received.length = 0;
+  await states(page, 20);
+  expect(goals().length === 0 || spread_m() < 1e-3).toBe(true);
+  server.swaying = true;
+  await expect.poll(() => goals().length > 10 && spread_m() > 0.01).toBe(true);
+  server.swaying = false;
+  await page.mouse.up();
+  await page.mouse.move(640, 640);
+});
+
 test("a section takes a part of the picture away, and nothing else", async () => {
   await openSection(page, "view");
   await states(page, 30);

@@ -5,8 +5,9 @@ import { overlay } from "./overlay";
 import { themeColour } from "./theme";
 import type { Vec } from "./vec";
 
-/** The spot is at least this large. */
-const kSpot_px = 5;
+/** The spot's radius: a part of the proxy's, and at least so much. */
+const kSpotPart = 0.6;
+const kSpot_px = 4;
 const kUp = new THREE.Vector3(0, 0, 1);
 
 export class DropLine {
@@ -45,6 +46,6 @@ export class DropLine {
     ends.needsUpdate = true;
     this.spot_.position.set(point.x, point.y, point.z);
     this.spot_.quaternion.setFromUnitVectors(kUp, new THREE.Vector3(normal.x, normal.y, normal.z).normalize());
-    this.spot_.scale.setScalar(Math.max(radius_m, kSpot_px * metresPerPixel));
+    this.spot_.scale.setScalar(Math.max(kSpotPart * radius_m, kSpot_px * metresPerPixel));
   }
 }

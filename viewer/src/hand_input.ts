@@ -15,6 +15,8 @@ export interface HandHooks {
   proxy(): Vec | undefined;
   /** A press at this pixel touches the model; undefined: it takes the hand where it is. */
   press(x_px: number, y_px: number): Press | undefined;
+  /** Whether objects are elsewhere than they were in the last frame. */
+  moving(): boolean;
   /** What the pixel shows of the model. */
   surface(x_px: number, y_px: number): SurfaceHit | undefined;
   goal(position: Vec): void;
@@ -228,6 +230,11 @@ export class HandInput {
       this.errand_ = undefined;
       this.letGo();
       return;
+    }
+    // What moves under a pointer that rests is followed.
+    const hit = this.press_ && this.hooks_.moving() ? this.hooks_.surface(this.last_px_.x, this.last_px_.y) : undefined;
+    if (hit !== undefined) {
+      this.press_!.slide(hit);
     }
     const goal = leader.goal(proxy, performance.now());
     if (length(sub(goal, this.goal_)) > 0) {

@@ -26,6 +26,7 @@ export class LiveScene {
   private begun_ = false;
   private name_: string | undefined;
   private moves_: Moves | undefined;
+  private moving_ = false;
   private touched_: readonly number[] = [];
 
   constructor(hooks: SceneHooks) {
@@ -38,6 +39,11 @@ export class LiveScene {
 
   get layout(): Layout | undefined {
     return this.store_.layout;
+  }
+
+  /** Whether the newest state moved objects. */
+  get moving(): boolean {
+    return this.moving_;
   }
 
   /** Objects of the layout that are touched. */
@@ -84,6 +90,7 @@ export class LiveScene {
   /** Only the newest moves count; they are shown in the next frame. */
   take(state: State, moves: Moves): void {
     this.moves_ = moves;
+    this.moving_ = moves.indices.length > 0;
     this.touched_ = state.layout === this.layout?.number ? state.touched : [];
   }
 

@@ -123,6 +123,7 @@ class App {
       proxy: () => knownVec(this.state_?.proxy),
       goal: (position) => this.connection_.send(encodeHandGoal(position)),
       release: () => this.connection_.send(encodeRelease()),
+      moving: () => this.live_.moving,
       press: (x_px, y_px) => pointing.press(x_px, y_px),
       surface: (x_px, y_px) => pointing.surfaceAt(x_px, y_px),
       isTarget: (x_px, y_px) => pointing.isNearHand(x_px, y_px) || pointing.surfaceAt(x_px, y_px) !== undefined,

@@ -177,7 +177,8 @@ export class Panel {
     const firm = this.pending_.resolve<boolean>("grip", state.handFirm, now_ms);
     element<HTMLInputElement>(firm ? "grip-firm" : "grip-light").checked = true;
     if (state.stiffnessNM > 0) {
-      this.showStiffness(this.pending_.resolve<number>("stiffness", state.stiffnessNM, now_ms));
+      const held_N_m = state.vibration?.limitNM ?? 0;
+      this.showStiffness(this.pending_.resolve<number>("stiffness", state.stiffnessNM, now_ms), held_N_m);
     }
   }
 
@@ -209,9 +210,12 @@ export class Panel {
     );
   }
 
-  private showStiffness(value_N_m: number): void {
+  /** `held_N_m`: what the server holds it below, because it shook; 0: nothing. */
+  private showStiffness(value_N_m: number, held_N_m = 0): void {
     element<HTMLInputElement>("stiffness").value = String(value_N_m);
-    setText("stiffness-value", `${formatCount(value_N_m)}${kThinSpace}N/m`);
+    const held = held_N_m > 0 && held_N_m < value_N_m ? `, held at ${formatCount(Math.round(held_N_m))}` : "";
+    setText("stiffness-value", `${formatCount(value_N_m)}${kThinSpace}N/m${held}`);
+    element("stiffness-value").classList.toggle("held", held !== "");
   }
 
   private onStiffness(): void {

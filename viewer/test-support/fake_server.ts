@@ -26,6 +26,7 @@ const kStatePeriod_ms = 16;
 const kSamplesPerState = 16;
 const kSphereMesh = 1;
 const kForceMax_N = 8.5;
+const kSway_m = 0.01;
 
 type Body = NonNullable<MessageInitShape<typeof ServerMessageSchema>["body"]>;
 
@@ -39,6 +40,10 @@ export class FakeServer {
   surfaces = create(SurfacesSchema);
   ledger = LedgerMode.TANK;
   slipping = false;
+  /** What the server holds the spring below, N/m; 0: nothing. */
+  held_N_m = 0;
+  /** The first sphere sways toward the viewer and back. */
+  swaying = false;
   /** The force swings between none and the device's limit. */
   shaking = false;
   name = "sphere";
@@ -190,6 +195,8 @@ export class FakeServer {
       value: {
         timeS: this.time_s_, finger: this.finger_, proxy, forceN: force, samples,
         contacts: inside ? [this.contact(normal)] : [],
+        ...(this.swaying ? { moved: [0], movedPoses: bytesOf(this.swayed()) } : {}),
+        vibration: { limitNM: this.held_N_m },
         slipping: inside && this.slipping,
         ledger: this.ledgerNow(),
         surfaces: { ...this.surfaces, textures: this.surfaces.textures ?? true },
@@ -219,6 +226,10 @@ export class FakeServer {
         ...(this.spheres > 0 ? bounds : {}),
       },
     };
+  }
+
+  private swayed(): Float32Array {
+    return Float32Array.of(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, kSway_m * Math.sin(2 * this.time_s_));
   }
 
   private contact(normal: Vec) {
