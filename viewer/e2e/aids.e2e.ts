@@ -4,7 +4,9 @@
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
 import { FakeServer } from "../test-support/fake_server";
-import { expectTidyLayout, kSizes, launch, listen, openSection, resize, screenshot, states, type Complaints } from "./browser";
+import {
+  expectTidyLayout, kSizes, launch, listen, openSection, resize, screenshot, states, type Complaints,
+} from "./browser";
 
 let browser: Browser;
 let server: FakeServer;
@@ -60,7 +62,10 @@ test("the key B brings the hand back too", async () => {
   await page.mouse.up();
   const from = await page.evaluate(() => window.__hl.finger!);
   await page.keyboard.press("b");
-  await page.waitForFunction(({ x, y }) => Math.hypot(window.__hl.finger!.x - x, window.__hl.finger!.y - y) > 0.01, from);
+  await page.waitForFunction(({ x, y }) => {
+    const { finger } = window.__hl;
+    return Math.hypot(finger!.x - x, finger!.y - y) > 0.01;
+  }, from);
   await expect.poll(() => server.received.at(-1)?.body.case).toBe("release");
 });
 
@@ -114,7 +119,10 @@ async function speckles(): Promise<number> {
     const context = canvas.getContext("2d")!;
     context.drawImage(image, 0, 0);
     const { data: pixels, width, height } = context.getImageData(0, 0, image.width, image.height);
-    const light = (x: number, y: number) => pixels[4 * (y * width + x)]! + pixels[4 * (y * width + x) + 1]! + pixels[4 * (y * width + x) + 2]!;
+    const light = (x: number, y: number) => {
+      const at = 4 * (y * width + x);
+      return pixels[at]! + pixels[at + 1]! + pixels[at + 2]!;
+    };
     let count = 0;
     for (let y = 1; y < height - 1; ++y) {
       for (let x = 1; x < width - 1; ++x) {

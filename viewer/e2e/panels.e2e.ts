@@ -4,7 +4,9 @@
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
 import { FakeServer } from "../test-support/fake_server";
-import { expectTidyLayout, kSizes, launch, listen, openSection, resize, screenshot, states, type Complaints } from "./browser";
+import {
+  expectTidyLayout, kSizes, launch, listen, openSection, resize, screenshot, states, type Complaints,
+} from "./browser";
 
 const kPhone = { width: 390, height: 844 };
 const kTarget_px = 44;
@@ -95,6 +97,12 @@ test("has one heading of the first rank, and the view can take the focus", async
   expect(await page.evaluate(() => document.activeElement?.id)).toBe("canvas");
 });
 
+/** Waits for states of a server that has begun with so many objects. */
+const shown = (objects: number) =>
+  page.waitForFunction(
+    (count) => window.__hl.link === "live" && window.__hl.objects === count && window.__hl.samples > 50, objects,
+  );
+
 test("another model at the same address is fitted anew, the same one leaves the view as it is", async () => {
   const place = () => page.evaluate(() => window.__hl.project({ x: 0, y: 0, z: 0.05 }));
   await page.keyboard.press("r");
@@ -106,15 +114,15 @@ test("another model at the same address is fitted anew, the same one leaves the 
   await states(page, 60);
   const before = await place();
   server.begin("sphere", 1);
-  await page.waitForFunction(() => window.__hl.link === "live" && window.__hl.objects === 1 && window.__hl.samples > 50);
+  await shown(1);
   expect(await place()).toEqual(before);
   server.begin("two spheres", 2);
-  await page.waitForFunction(() => window.__hl.link === "live" && window.__hl.objects === 2 && window.__hl.samples > 50);
+  await shown(2);
   // Both are in the part of the window that the cards leave free.
   const far = await page.evaluate(() => window.__hl.project({ x: 0.2, y: 0, z: 0 }));
   expect(far.x).toBeLessThan(940);
   server.begin("sphere", 1);
-  await page.waitForFunction(() => window.__hl.link === "live" && window.__hl.objects === 1 && window.__hl.samples > 50);
+  await shown(1);
 });
 
 test("on a telephone nothing overflows, the force is in the view, and targets are large", async () => {
@@ -131,7 +139,8 @@ test("on a telephone nothing overflows, the force is in the view, and targets ar
   expect(badge.y).toBeGreaterThanOrEqual(0);
   await screenshot(phone, "panels_phone");
   const small = await phone.evaluate((least) =>
-    [...document.querySelectorAll<HTMLElement>("#controls button, #controls summary, #controls select, #controls .switch, #controls .inline, #controls .segments label, #controls input[type=range]")]
+    ["button", "summary", "select", ".switch", ".inline", ".segments label", "input[type=range]"]
+      .flatMap((kind) => [...document.querySelectorAll<HTMLElement>(`#controls ${kind}`)])
       .filter((target) => target.offsetParent !== null && target.getBoundingClientRect().height < least)
       .map((target) => `${target.id || target.textContent} ${target.getBoundingClientRect().height}`), kTarget_px);
   expect(small).toEqual([]);

@@ -1,5 +1,8 @@
 // A press on the model touches it there: against real servers, judged by what they say of contact and force.
 
+import { mkdtempSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
 import { kSizes, launch, listen, screenshot, states, type Complaints } from "./browser";
@@ -14,6 +17,41 @@ interface Felt {
   /** From the pointer to the proxy's picture. */
   readonly off_px: number;
 }
+
+/** Two plates side by side, of different materials, in one file. */
+const kTwoMaterials = {
+  objects: [
+    { builtin: "plane:8", material: { staticFriction: 0.4, dynamicFriction: 0.2 } },
+    { builtin: "plane:8", transform: { translate: { x: 1.5 } }, material: { stiffness: 0.3 } },
+  ],
+};
+
+describe.skipIf(!kProgram)("the pointer", () => {
+  test("tells the materials of a scene file, each where it is", async () => {
+    const file = join(mkdtempSync(join(tmpdir(), "hl-page-")), "two.hl.json");
+    writeFileSync(file, JSON.stringify(kTwoMaterials));
+    const touch = await startTouch(0, file);
+    const browser = await launch();
+    try {
+      const page = await browser.newPage({ viewport: kSizes[0] });
+      await page.goto(touch.url);
+      await page.waitForFunction(() => window.__hl.triangles === 16 && window.__hl.samples > 100);
+      const { left, right } = await page.evaluate(() => {
+        const { boundsMin: low, boundsMax: high } = window.__hl;
+        const middle = { y: (low!.y + high!.y) / 2, z: (low!.z + high!.z) / 2 };
+        const at = (share: number) => window.__hl.project({ x: low!.x + share * (high!.x - low!.x), ...middle });
+        return { left: at(0.1), right: at(0.9) };
+      });
+      await page.mouse.move(left.x, left.y);
+      await expect.poll(() => page.textContent("#picked")).toBe("The model: stiffness 1, friction 0.4, sliding 0.2");
+      await page.mouse.move(right.x, right.y);
+      await expect.poll(() => page.textContent("#picked")).toBe("The model: stiffness 0.3, friction 0");
+    } finally {
+      await browser.close();
+      touch.process.kill("SIGKILL");
+    }
+  });
+});
 
 describe.skipIf(!kProgram)("a press on the model", () => {
   let touch: Touch;

@@ -35,7 +35,9 @@ export class DropLine {
   }
 
   /** From the proxy to `foot`, where the surface has `normal`; undefined: there is nothing below. */
-  update(proxy: Vec | undefined, foot: { point: Vec; normal: Vec } | undefined, radius_m: number, metresPerPixel: number): void {
+  update(
+    proxy: Vec | undefined, foot: { point: Vec; normal: Vec } | undefined, radius_m: number, metresPerPixel: number,
+  ): void {
     this.group.visible = this.shown_ && proxy !== undefined && foot !== undefined;
     if (!this.shown_ || proxy === undefined || foot === undefined) {
       return;

@@ -1,4 +1,5 @@
-// Where an arrow stands that points to what is not in view: on the edge of the visible part, on the line from its middle.
+// Where an arrow stands that points to what is not in view: on the edge of the visible part, on the line from its
+// middle.
 
 /** A part of the canvas, CSS pixels. */
 export interface Rect {
@@ -15,7 +16,10 @@ export interface EdgeMark {
   readonly angle_rad: number;
 }
 
-/** Undefined while the point is in view. Behind the eye a point's picture is upside down: the way to it is the other way. */
+/**
+ * Undefined while the point is in view. Behind the eye a point's picture is upside down: the way to it is the other
+ * way.
+ */
 export function edgeMark(
   point: { x: number; y: number; depth_m: number }, view: Rect, margin_px: { x: number; y: number },
 ): EdgeMark | undefined {

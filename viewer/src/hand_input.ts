@@ -1,7 +1,7 @@
-// Mouse, touch and keys to hand goals. A press on the model (left button or one finger) touches what is under the pointer
-// (press.ts); elsewhere a drag moves the goal in the view plane. The wheel, Shift or a second finger during a drag, and
-// W/S or PageUp/PageDown, move it in depth, arrow keys sideways. The orbit controls keep every other gesture. At most one
-// goal is sent per drawn frame.
+// Mouse, touch and keys to hand goals. A press on the model (left button or one finger) touches what is under the
+// pointer (press.ts); elsewhere a drag moves the goal in the view plane. The wheel, Shift or a second finger during a
+// drag, and W/S or PageUp/PageDown, move it in depth, arrow keys sideways. The orbit controls keep every other gesture.
+// At most one goal is sent per drawn frame.
 
 import * as THREE from "three";
 import { depthOf, metresPerPixel, moveInDepth, moveInView, wheelPixels } from "./hand_mapping";
@@ -88,9 +88,9 @@ export class HandInput {
     window.addEventListener("blur", () => this.cancel());
   }
 
-  /** The object that is pressed. */
-  get pressedObject(): number | undefined {
-    return this.press_?.object;
+  /** What is pressed of the model. */
+  get pressed(): SurfaceHit | undefined {
+    return this.press_?.hit;
   }
 
   get holding(): boolean {

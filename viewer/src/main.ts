@@ -53,14 +53,18 @@ class App {
   });
   private readonly probe_ = new ProbeView();
   private readonly notices_ = new Notices();
-  private readonly stage_ = new Stage(element<HTMLCanvasElement>("canvas"), (reason) => this.notices_.stand("drawing", reason));
+  private readonly stage_ = new Stage(element<HTMLCanvasElement>("canvas"), (reason) => {
+    this.notices_.stand("drawing", reason);
+  });
   private readonly pointing_ = new Pointing(this.stage_, this.live_, () => this.state_);
   private readonly scaleBar_ = new ScaleBar();
   private readonly samples_ = new SampleRing(kSampleCapacity, 2);
   private readonly rates_ = new SampleRing(kRateCapacity, 2);
   private readonly energy_ = new SampleRing(kRateCapacity, 5);
   private readonly plots_ = {
-    force: new LivePlot(element("plot-force"), { unit: "N", series: [{ colour: "force", fill: true }], smallestTop: 1 }),
+    force: new LivePlot(element("plot-force"), {
+      unit: "N", series: [{ colour: "force", fill: true }], smallestTop: 1,
+    }),
     rates: new LivePlot(element("plot-rates"), {
       unit: "Hz", series: [{ colour: "proxy", width: 4 }, { colour: "servo" }], smallestTop: 1000,
     }),
@@ -256,7 +260,7 @@ class App {
     this.followPad();
     this.hand_.frame();
     this.live_.frame();
-    this.pointing_.showPicked(this.hand_.pressedObject);
+    this.pointing_.showPicked(this.hand_.pressed);
     this.showProbe();
     this.stage_.draw();
     if (this.stateFresh_ && !this.sharing_.paused && now_ms - this.lastPlot_ms_ >= kPlotPeriod_ms) {

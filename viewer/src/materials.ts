@@ -65,7 +65,7 @@ export function originOf({ pair }: SurfacePreset): string {
   return pair === undefined ? "Invented." : `Friction measured: ${pair}. Rest invented.`;
 }
 
-/** The part of a preset that a server with these quantities understands; what it leaves open is 0 or as the scene says. */
+/** The part of a preset that a server with these quantities understands; what it leaves open is as the scene says. */
 export function settingsFor(preset: SurfacePreset, known: readonly string[]): SurfaceSettings {
   return Object.fromEntries(Object.entries(preset.settings).filter(([field]) => known.includes(field)));
 }

@@ -28,6 +28,8 @@ export interface Meeting {
   readonly point: Vec;
   /** Unit; of the shading, where the mesh has one. */
   readonly normal: Vec;
+  /** Number of the material there. */
+  readonly material: number;
 }
 
 export type Highlight = "none" | "pointed" | "touched";
@@ -170,9 +172,11 @@ export class MeshView {
     if (hit === undefined) {
       return undefined;
     }
-    const normal = this.normalAt(hit.triangle, hit.u, hit.v).applyNormalMatrix(new THREE.Matrix3().getNormalMatrix(toWorld));
+    const normal = this.normalAt(hit.triangle, hit.u, hit.v);
+    normal.applyNormalMatrix(new THREE.Matrix3().getNormalMatrix(toWorld));
     const point = three(direction).multiplyScalar(hit.distance).add(three(origin));
-    return { distance: hit.distance, point: plain(point), normal: plain(normal) };
+    const material = this.mesh_.triangleMaterials[hit.triangle] ?? 0;
+    return { distance: hit.distance, point: plain(point), normal: plain(normal), material };
   }
 
   /** Adds the box of one place to `bounds`. */

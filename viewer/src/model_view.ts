@@ -18,6 +18,9 @@ interface Placed {
   readonly place: number;
 }
 
+/** With the index into the layout. */
+export type ObjectMeeting = Meeting & { readonly object: number };
+
 export class ModelView {
   readonly group = new THREE.Group();
   private readonly views_ = new Map<number, MeshView>();
@@ -110,7 +113,8 @@ export class ModelView {
   setSection(section: Section | undefined): void {
     const { palette_: palette } = this;
     this.clip_ = section === undefined ? [] : [planeOf(section)];
-    for (const material of [palette.edges, palette.lines, palette.points, palette.touchedLines, palette.touchedPoints]) {
+    const { edges, lines, points, touchedLines, touchedPoints } = palette;
+    for (const material of [edges, lines, points, touchedLines, touchedPoints]) {
       material.clippingPlanes = this.clip_;
     }
     this.views_.forEach((view) => view.setClip(this.clip_));
@@ -148,8 +152,8 @@ export class ModelView {
    * Where a ray first meets a surface, and of which object: within `farthest` lengths of `direction`, at a point of the
    * world that `accept` takes.
    */
-  cast(origin: Vec, direction: Vec, farthest = Infinity, accept?: Accept): (Meeting & { readonly object: number }) | undefined {
-    let best: (Meeting & { readonly object: number }) | undefined;
+  cast(origin: Vec, direction: Vec, farthest = Infinity, accept?: Accept): ObjectMeeting | undefined {
+    let best: ObjectMeeting | undefined;
     this.placed_.forEach((placed, object) => {
       const met = placed?.view.cast(placed.place, origin, direction, best?.distance ?? farthest, accept);
       best = met === undefined ? best : { ...met, object };

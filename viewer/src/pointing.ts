@@ -11,6 +11,7 @@ import { Errand, kAbove_D, Press, type SurfaceHit } from "./press";
 import { beside } from "./route";
 import { sectionOf, type Section, type Side } from "./section";
 import type { Stage } from "./stage";
+import { settingsOf } from "./surfaces";
 import { planWay, surfaceUnder, type AimScene } from "./touch_aim";
 import { length, sub, type Vec } from "./vec";
 import { knownVec } from "./wire_values";
@@ -49,7 +50,9 @@ export class Pointing {
     return surfaceUnder(this.aimScene(), this.stage_.rayAt(x_px, y_px));
   }
 
-  /** A press on the marks of a hand that touches nothing takes the hand; any other press on the model touches it there. */
+  /**
+   * A press on the marks of a hand that touches nothing takes the hand; any other press on the model touches it there.
+   */
   press(x_px: number, y_px: number): Press | undefined {
     const hit = this.surfaceAt(x_px, y_px);
     const touching = (this.state_()?.contacts.length ?? 0) > 0;
@@ -104,16 +107,16 @@ export class Pointing {
     this.finder_.show(finger && this.stage_.project(finger), this.stage_.visible, distance_m);
   }
 
-  /** Tells what is pressed or else under the pointer, and what its surface is like where it is touched. */
-  showPicked(pressed: number | undefined): void {
+  /** Tells what is pressed or else under the pointer: the object and its material there. */
+  showPicked(pressed: SurfaceHit | undefined): void {
     const placed = this.live_.layout?.placed ?? [];
     const at = this.pointer_px_;
-    const object = pressed ?? (at && placed.length > 1 ? this.surfaceAt(at.x, at.y)?.object : undefined);
-    this.live_.model.setPointed(object);
-    element("picked").hidden = object === undefined;
-    if (object !== undefined) {
-      const touched = this.live_.touched.includes(object) ? this.state_()?.contacts[0] : undefined;
-      setText("picked", describeObject(object, placed[object], placed.length, touched));
+    const hit = pressed ?? (at && this.surfaceAt(at.x, at.y));
+    this.live_.model.setPointed(hit?.object);
+    element("picked").hidden = hit === undefined;
+    if (hit !== undefined) {
+      const over = settingsOf(this.state_()?.surfaces);
+      setText("picked", describeObject(hit.object, placed[hit.object], placed.length, hit.material, over));
     }
   }
 

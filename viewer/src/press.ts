@@ -1,10 +1,10 @@
-// A press on the model: where the simulated hand has to want to be, so that the proxy touches what is under the pointer.
-// First the way there, around whatever is in between, then into the surface, then along it as the pointer moves.
+// A press on the model: where the simulated hand has to want to be, so that the proxy touches what is under the
+// pointer. First the way there, around whatever is in between, then into the surface, then along it with the pointer.
 //
 //   goal = hit - depth n        force = depth / (1 / K + 1 / k_arm + 1 / k_pad)
 //
-// with the spring K of the servo and the springs of the arm and the fingerpad of the simulated hand: 200 and 300 N/m for
-// its light grip, 400 and 800 N/m for the firm one. K = 1000 N/m makes a depth of 12 mm 1.3 N and 2.5 N.
+// with the spring K of the servo and the springs of the arm and the fingerpad of the simulated hand: 200 and 300 N/m
+// for its light grip, 400 and 800 N/m for the firm one. K = 1000 N/m makes a depth of 12 mm 1.3 N and 2.5 N.
 
 import { beside, Walk } from "./route";
 import { dot, length, scale, sub, type Vec } from "./vec";
@@ -18,6 +18,8 @@ export interface SurfaceHit {
   readonly thickness_m: number;
   /** Index into the layout. */
   readonly object: number;
+  /** Number of its material there. */
+  readonly material: number;
 }
 
 /** Depth beneath the surface, m at the hand: that of the exploring hand. */
@@ -92,9 +94,9 @@ export class Press {
     return this.way_ !== undefined;
   }
 
-  /** The object that is pressed. */
-  get object(): number {
-    return this.hit_.object;
+  /** What is pressed. */
+  get hit(): SurfaceHit {
+    return this.hit_;
   }
 
   /** Where the hand has to want to be to touch what is pressed. */

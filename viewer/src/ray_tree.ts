@@ -1,5 +1,5 @@
-// Where a ray meets a mesh first: a tree of boxes over the triangles, which is split only where a ray comes along. So the
-// first ray into a million triangles costs a few passes over them, and every later one microseconds.
+// Where a ray meets a mesh first: a tree of boxes over the triangles, which is split only where a ray comes along. So
+// the first ray into a million triangles costs a few passes over them, and every later one microseconds.
 
 import type { Vec } from "./vec";
 
@@ -67,8 +67,9 @@ export class RayTree {
         best = this.castAtLeaf(node, ray, best);
         continue;
       }
-      const [a, b] = children.map((child): [Node, number] => [child, entry(child.box, ray)]) as [[Node, number], [Node, number]];
-      open.push(...(a[1] < b[1] ? [b, a] : [a, b]));
+      const [a, b] = [entry(children[0].box, ray), entry(children[1].box, ray)];
+      const [first, second]: [Node, number][] = [[children[0], a], [children[1], b]];
+      open.push(...(a < b ? [second!, first!] : [first!, second!]));
     }
     return best.triangle < 0 ? undefined : best;
   }
@@ -84,7 +85,8 @@ export class RayTree {
   /** Moeller and Trumbore's test. */
   private meet(triangle: number, ray: Ray, farthest: number): RayHit | undefined {
     const p = this.positions_;
-    const [a, b, c] = [0, 1, 2].map((corner) => 3 * this.triangles_[3 * triangle + corner]!) as [number, number, number];
+    const t = this.triangles_;
+    const [a, b, c] = [3 * t[3 * triangle]!, 3 * t[3 * triangle + 1]!, 3 * t[3 * triangle + 2]!];
     const [dx, dy, dz] = ray.direction as [number, number, number];
     const [ax, ay, az] = [p[a]!, p[a + 1]!, p[a + 2]!];
     const [bx, by, bz] = [p[b]! - ax, p[b + 1]! - ay, p[b + 2]! - az];
@@ -111,7 +113,7 @@ export class RayTree {
     return node.children;
   }
 
-  /** Reorders the node's triangles about the middle of their centres, along the longest side; half by half if all are alike. */
+  /** Reorders the node's triangles about the middle of their centres, along the longest side; halves what is alike. */
   private partition(node: Node): number {
     const sides = [0, 1, 2].map((axis) => node.box[axis + 3]! - node.box[axis]!);
     const axis = sides.indexOf(Math.max(...sides));

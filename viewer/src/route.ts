@@ -1,5 +1,5 @@
-// The way of the hand to a place: straight if nothing is in between, else the shortest way over places around the scene.
-// The proxy cannot pass through what is touched, so a hand that went straight would be held on the wrong side.
+// The way of the hand to a place: straight if nothing is in between, else the shortest way over places around it. The
+// proxy cannot pass through what is touched, so a hand that went straight would be held on the wrong side.
 
 import type { Bounds } from "./scene_messages";
 import { add, length, mix, scale, sub, type Vec } from "./vec";

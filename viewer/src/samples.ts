@@ -62,7 +62,8 @@ export class SampleRing {
   last(channel: number, window_s: number): { times: number[]; values: number[] } {
     const first = this.lowerBound((this.latestTime ?? 0) - window_s);
     const slots = Array.from({ length: this.size_ - first }, (_, i) => this.slot(first + i));
-    return { times: slots.map((slot) => this.times_[slot]!), values: slots.map((slot) => this.values_[channel]![slot]!) };
+    const values = this.values_[channel]!;
+    return { times: slots.map((slot) => this.times_[slot]!), values: slots.map((slot) => values[slot]!) };
   }
 
   /** Largest value of `channel` since `from_s`; 0 when there is none. */

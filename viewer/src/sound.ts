@@ -1,4 +1,5 @@
-// The sound of touch in WebAudio: a tone and a band of noise, whose levels sound_levels.ts decides. Silent until asked for.
+// The sound of touch in WebAudio: a tone and a band of noise, whose levels sound_levels.ts decides. Silent until asked
+// for.
 
 import type { Levels } from "./sound_levels";
 
@@ -40,7 +41,9 @@ export class Sound {
       return;
     }
     const { context, tone, toneGain, band, noiseGain } = this.nodes_;
-    const glide = (parameter: AudioParam, value: number) => parameter.setTargetAtTime(value, context.currentTime, kGlide_s);
+    const glide = (parameter: AudioParam, value: number) => {
+      parameter.setTargetAtTime(value, context.currentTime, kGlide_s);
+    };
     glide(toneGain.gain, levels.tone);
     glide(tone.frequency, levels.pitch_Hz);
     glide(noiseGain.gain, levels.noise);

@@ -1,5 +1,5 @@
-// What the force sounds like, for those without a device: a tone that grows and rises with the force, and noise that grows
-// with how fast the force ripples and the proxy slides.
+// What the force sounds like, for those without a device: a tone that grows and rises with the force, and noise that
+// grows with how fast the force ripples and the proxy slides.
 
 export interface Felt {
   readonly force_N: number;
@@ -51,5 +51,6 @@ function part(value: number): number {
 
 export function deviation(values: readonly number[]): number {
   const mean = values.reduce((sum, value) => sum + value, 0) / values.length;
-  return values.length === 0 ? 0 : Math.sqrt(values.reduce((sum, value) => sum + (value - mean) ** 2, 0) / values.length);
+  const squares = values.reduce((sum, value) => sum + (value - mean) ** 2, 0);
+  return values.length === 0 ? 0 : Math.sqrt(squares / values.length);
 }

@@ -254,7 +254,7 @@ export class Stage {
 
 /** Undefined where WebGL is switched off or not there. */
 function makeRenderer(canvas: HTMLCanvasElement): THREE.WebGLRenderer | undefined {
-  const context = canvas.getContext("webgl2", { antialias: !drawsInSoftware(), alpha: true, powerPreference: "default" });
+  const context = canvas.getContext("webgl2", { antialias: !drawsInSoftware(), alpha: true });
   if (context === null) {
     return undefined;
   }

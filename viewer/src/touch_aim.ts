@@ -45,7 +45,8 @@ export function surfaceUnder({ model, proxyRadius_m, section }: AimScene, ray: R
   const inward = scale(normal, -1);
   const skip_m = kSkip * proxyRadius_m;
   const back = model.cast(beside(met.point, inward, skip_m), inward);
-  return { point: met.point, normal, thickness_m: back?.distance ?? Infinity, object: met.object };
+  const { point, object, material } = met;
+  return { point, normal, thickness_m: back?.distance ?? Infinity, object, material };
 }
 
 /** The proxy's way from `from`, where `off` leads away from what it touches, to `to`. */

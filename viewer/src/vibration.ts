@@ -1,5 +1,5 @@
-// Whether the force vibrates: it swings widely about its mean, again and again, as when the spring is stiffer than device
-// and hand can hold. One bump, a stroke over a texture that is felt as a change of some tenths, or a slow push is none.
+// Whether the force vibrates: it swings widely about its mean, again and again, as when the spring is stiffer than
+// device and hand can hold. One bump, a texture that is felt as a change of some tenths, or a slow push is none.
 
 /** The last so many seconds are judged. */
 export const kVibrationWindow_s = 0.3;

@@ -1,5 +1,5 @@
-// How the view is set, as text: kept in this browser, and in the fragment of a link that shows somebody else the same view.
-// Neither holds anything but this: no token, no address of the server.
+// How the view is set, as text: kept in this browser, and in the fragment of a link that shows somebody else the same
+// view. Neither holds anything but this: no token, no address of the server.
 
 import { kSides, type Side } from "./section";
 import { isFiniteVec, type Vec } from "./vec";

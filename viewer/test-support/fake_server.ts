@@ -26,6 +26,7 @@ const kStatePeriod_ms = 16;
 const kSamplesPerState = 16;
 const kSphereMesh = 1;
 const kForceMax_N = 8.5;
+const kMaterial = { stiffness: 1, staticFriction: kSceneFriction, dynamicFriction: 0.3, viscosityNsM: 0 };
 const kSway_m = 0.01;
 
 type Body = NonNullable<MessageInitShape<typeof ServerMessageSchema>["body"]>;
@@ -184,7 +185,9 @@ export class FakeServer {
     const span_s = this.time_s_ - before_s;
     const samples = Array.from({ length: kSamplesPerState }, (_, i) => ({
       timeS: before_s + (span_s * (i + 1)) / kSamplesPerState,
-      forceN: this.shaking ? kForceMax_N * (i % kSamplesPerState < kSamplesPerState / 2 ? 0 : 1) : length(force) * (1 + 0.01 * Math.sin(i * 1.7)),
+      forceN: this.shaking
+        ? (i < kSamplesPerState / 2 ? 0 : kForceMax_N)
+        : length(force) * (1 + 0.01 * Math.sin(i * 1.7)),
       penetrationM: length(sub(proxy, this.finger_)),
       tickUs: 2.5,
     }));
@@ -222,7 +225,7 @@ export class FakeServer {
       case: "layout",
       value: {
         number: this.layout_, name: this.name, proxyRadius: kProxy_m, worldPerDevice: 1,
-        placed: poses.map(() => ({ mesh: kSphereMesh })), poses: bytesOf(Float32Array.from(poses.flat())),
+        placed: poses.map(() => ({ mesh: kSphereMesh, materials: [kMaterial] })), poses: bytesOf(Float32Array.from(poses.flat())),
         ...(this.spheres > 0 ? bounds : {}),
       },
     };

@@ -2,7 +2,8 @@ import { expect, test } from "vitest";
 import { padState, type Pad } from "../src/gamepad";
 
 function pad(axes: number[], pressed: number[] = [], id = "Usual Gamepad"): Pad {
-  return { id, connected: true, axes, buttons: Array.from({ length: 12 }, (_, i) => ({ pressed: pressed.includes(i) })) };
+  const buttons = Array.from({ length: 12 }, (_, i) => ({ pressed: pressed.includes(i) }));
+  return { id, connected: true, axes, buttons };
 }
 
 const kNowhere = { x: 0, y: 0, z: 0 };

@@ -13,6 +13,7 @@ const kSquare: Mesh = {
   points: new Uint32Array(),
   texcoords: undefined,
   looks: [],
+  triangleMaterials: Uint16Array.of(3, 4),
   bounds: { min: { x: -1, y: -1, z: 0 }, max: { x: 1, y: 1, z: 0 } },
 };
 
@@ -30,6 +31,7 @@ test("the nearest of several places, and which it is", () => {
   const view = model([0, 2]);
   const down = view.cast({ x: 0.5, y: 0.5, z: 9 }, { x: 0, y: 0, z: -1 })!;
   expect(down.object).toBe(1);
+  expect(down.material).toBe(3);
   expect(down.distance).toBeCloseTo(7, 6);
   expect(down.point.z).toBeCloseTo(2, 6);
   expect(Math.abs(down.normal.z)).toBeCloseTo(1, 6);

@@ -7,7 +7,7 @@ const kUp: Vec = { x: 0, y: 0, z: 1 };
 const kScale = 10;
 
 function hitAt(x: number, thickness_m = Infinity): SurfaceHit {
-  return { point: { x, y: 0, z: 0 }, normal: kUp, thickness_m, object: 0 };
+  return { point: { x, y: 0, z: 0 }, normal: kUp, thickness_m, object: 0, material: 0 };
 }
 
 /** What the hand wants after it has gone to each goal at once, 20 ms after each other. */

@@ -7,7 +7,9 @@ function window(force: (time_s: number) => number, from_s = 0): [number[], numbe
   return [times, times.map(force)];
 }
 
-const sine = (rate_Hz: number, force_N: number) => (time_s: number) => 2 + force_N * Math.sin(2 * Math.PI * rate_Hz * time_s);
+function sine(rate_Hz: number, force_N: number): (time_s: number) => number {
+  return (time_s) => 2 + force_N * Math.sin(2 * Math.PI * rate_Hz * time_s);
+}
 
 test("tells swing and rate of a vibration", () => {
   const swing = swingOf(...window(sine(60, 1.5)));
