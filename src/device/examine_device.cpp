@@ -45,7 +45,9 @@ constexpr std::array kNeeds{
 const Needs& needsOf(const std::string& spec) {
   makeDevice(spec);  // refuses what is none
   const std::string kind = spec.substr(0, spec.find(':'));
-  return *std::ranges::find_if(kNeeds, [&](const Needs& needs) { return kind == needs.kind; });
+  static constexpr Needs kNothing{"", {}, nullptr, "calibrate it as its vendor tells"};
+  const auto* const found = std::ranges::find_if(kNeeds, [&](const Needs& needs) { return kind == needs.kind; });
+  return found == kNeeds.end() ? kNothing : *found;
 }
 
 std::string listOf(const std::vector<UsbDevice>& devices) {

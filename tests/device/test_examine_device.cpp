@@ -95,6 +95,10 @@ TEST(ExamineDevice, OneThatCannotBeOpenedSaysWhy) {
   bench->arm().lost = false;
 }
 
+TEST(ExamineDevice, EveryKindOfDeviceIsKnown) {
+  for (const DevicePresence& device : findDevices()) EXPECT_FALSE(examineSurroundings(device.kind, {}).empty());
+}
+
 TEST(ExamineDevice, WhatIsNoDeviceIsRefused) { EXPECT_THROW(examineSurroundings("theremin", {}), Error); }
 
 }  // namespace
