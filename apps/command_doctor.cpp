@@ -1,23 +1,29 @@
-// hl doctor: what this machine grants, and which devices are present.
+// hl doctor: what this machine grants, and which devices are present; or one device, looked at closely.
 #include <fmt/core.h>
 
-#include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
-#include <thread>
 
-#include "base/realtime.h"
-#include "base/timer_probe.h"
 #include "commands.h"
 #include "device/open_device.h"
+#include "doctor_device.h"
+#include "doctor_machine.h"
+#include "doctor_report.h"
+#include "io/output_file.h"
 #include "serving.h"
-#include "touch/servo_rate.h"
 
 namespace hl {
 
 namespace {
 
-constexpr auto kMeasure = std::chrono::seconds(1);
+constexpr int kFoundFaults = 1;  // exit code
+
+struct DoctorOptions {
+  std::string device;  ///< empty: none in particular
+  bool self_test = false;
+  std::string report;  ///< file; empty: none
+};
 
 // How many there are, and the newest: their names begin with the time.
 void printBlackBoxes() {
@@ -37,63 +43,80 @@ void printBlackBoxes() {
     fmt::print("{} black boxes; hl replay {}\n", count, newest);
 }
 
-void print(const TimerProbe& timer) {
-  const auto us = [](std::uint64_t ns) { return 1e-3 * static_cast<double>(ns); };
-  fmt::print("{:<20}late by {:.0f} us median, {:.0f} us at p99.9, {:.0f} us at most; {} of {} missed\n",
-             fmt::format("timer at {:g} kHz:", 1e-3 * timer.rate_Hz), us(timer.late.percentile_ns(0.5)),
-             us(timer.late.percentile_ns(0.999)), us(timer.late.max_ns()), timer.counters.deadlines_missed.load(),
-             timer.counters.steps.load());
-}
-
-// Prints what the machine does at each rate; returns what it granted.
-RealtimeGrant examineTimer() {
-  double highest_Hz = 0;
-  RealtimeGrant grant;
-  for (const double rate_Hz : kServoRates_Hz) {
-    TimerProbe timer;
-    timer.rate_Hz = rate_Hz;
-    timer.run(kMeasure);
-    print(timer);
-    grant = timer.grant;
-    if (timer.holds()) highest_Hz = rate_Hz;
-  }
-  if (highest_Hz == 0)
-    fmt::print("servo rate:         1 kHz is more than this machine holds just now: late by over half a period\n");
-  else
-    fmt::print("servo rate:         up to {:g} kHz: late by less than half a period in 999 of 1000 steps\n",
-               1e-3 * highest_Hz);
-  return grant;
-}
-
-void examine() {
-  lockProcessMemory();
-  fmt::print("cores:              {}\n", std::thread::hardware_concurrency());
-  const RealtimeGrant grant = examineTimer();
-  fmt::print("real-time priority: {}\n", grant.fifo ? "granted (SCHED_FIFO)" : "refused");
-  fmt::print("locked memory:      {}\n", grant.memory_locked ? "granted" : "refused");
-  fmt::print("core of its own:    {}\n",
-             grant.core < 0 ? "none to spare: a process needs four, or one that the kernel keeps free (isolcpus)"
-                            : fmt::format("number {}", grant.core));
+void printPresentDevices() {
   for (const char* head = "devices:"; const DevicePresence& device : findDevices()) {
     fmt::print("{:<20}{:<7}{}\n", head, device.kind, device.text);
     head = "";
   }
+  fmt::print("{:<20}one of them closely: hl doctor DEVICE\n", "");
+}
+
+void printAdvice(const RealtimeGrant& grant) {
+  if (grant.fifo && grant.memory_locked) return;
+  fmt::print(
+      "advice:             let your user have real time: in /etc/security/limits.conf add\n"
+      "                      @audio - rtprio 95\n"
+      "                      @audio - memlock unlimited\n"
+      "                    put the user into the group audio, and log in again. HL works without, less evenly.\n");
+}
+
+MachineExamination examineAndPrintMachine() {
+  const MachineExamination machine = examineMachine();
+  print(machine);
+  return machine;
+}
+
+void examineAll(OutputFile* report) {
+  const MachineExamination machine = examineAndPrintMachine();
+  printPresentDevices();
   printBlackBoxes();
-  if (!grant.fifo || !grant.memory_locked) {
-    fmt::print(
-        "advice:             let your user have real time: in /etc/security/limits.conf add\n"
-        "                      @audio - rtprio 95\n"
-        "                      @audio - memlock unlimited\n"
-        "                    put the user into the group audio, and log in again. HL works without, less evenly.\n");
+  printAdvice(machine.grant);
+  if (report != nullptr) report->write(reportOf(machine, {}));
+}
+
+/// Whether all is good.
+bool examineOne(const DoctorOptions& options, OutputFile* report) {
+  const DeviceExamination device = examineDevice(options.device, options.self_test);
+  if (report != nullptr) {
+    const MachineExamination machine = examineAndPrintMachine();
+    printAdvice(machine.grant);
+    report->write(reportOf(machine, device));
   }
+  return device.good();
+}
+
+void runDoctor(const DoctorOptions& options) {
+  if (options.self_test && options.device.empty())
+    throw CLI::ValidationError("--self-test needs a device", "for example hl doctor sim --self-test");
+  if (!options.device.empty()) makeDevice(options.device);  // refuses what is none, before a file is begun
+  std::optional<OutputFile> report;
+  if (!options.report.empty()) report.emplace(options.report);
+  OutputFile* const out = report ? &*report : nullptr;
+  bool good = true;
+  if (options.device.empty())
+    examineAll(out);
+  else
+    good = examineOne(options, out);
+  if (report) {
+    report->close();
+    fmt::print("report:             {}; read it before you send it\n", options.report);
+  }
+  if (!good) throw CLI::RuntimeError(kFoundFaults);
 }
 
 }  // namespace
 
 void addDoctorCommand(CLI::App& app) {
-  auto* command =
-      app.add_subcommand("doctor", "what this machine grants (priority, memory, timer) and which devices are present");
-  command->callback(examine);
+  auto options = std::make_shared<DoctorOptions>();
+  auto* command = app.add_subcommand(
+      "doctor", "what this machine grants and which devices are present; or one device, looked at closely");
+  command->add_option("device", options->device, "a device to look at closely: " + deviceSpecs());
+  command->add_flag("--self-test", options->self_test,
+                    "test the device for 20 s: does it move, do forces pull the right way, how late; the hand that "
+                    "holds it must do what is asked");
+  command->add_option("--report", options->report,
+                      "write what was found to this file, as JSON, without names of users: to be sent in");
+  command->callback([options] { runDoctor(*options); });
 }
 
 }  // namespace hl

@@ -1,5 +1,6 @@
-# What `cmake --install` puts where, in four components that are also four Debian packages (cmake/packages.cmake):
-# libhl and libhlbatch (the libraries), libhl-dev (what a program is built with), hl-tools (hl, hld and the page).
+# What `cmake --install` puts where, in components that are also Debian packages (cmake/packages.cmake): libhl and
+# libhlbatch (the libraries), libhl-dev (what a program is built with), hl-tools (hl, hld and the page); python3-hl is in
+# python/CMakeLists.txt.
 include(CMakePackageConfigHelpers)
 set(cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/hl)
 
@@ -7,6 +8,15 @@ install(TARGETS hl_shared EXPORT hl_targets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libhl NAMELINK_COMPONENT libhl-dev)
 install(TARGETS hl_batch_shared EXPORT hl_targets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libhlbatch NAMELINK_COMPONENT libhl-dev)
+
+# The reference of the calls, made from the headers.
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+file(GLOB public_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/hl/*)
+add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/reference.html
+  DEPENDS scripts/reference scripts/reference_headers.py ${public_headers}
+  COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/scripts/reference --out ${PROJECT_BINARY_DIR}/reference.html)
+add_custom_target(reference ALL DEPENDS ${PROJECT_BINARY_DIR}/reference.html)
+add_dependencies(programs reference)
 
 install(DIRECTORY include/hl DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT libhl-dev)
 install(EXPORT hl_targets NAMESPACE hl:: FILE hlTargets.cmake DESTINATION ${cmake_folder} COMPONENT libhl-dev)
@@ -20,6 +30,8 @@ install(FILES ${PROJECT_BINARY_DIR}/hlConfig.cmake ${PROJECT_BINARY_DIR}/hlConfi
   DESTINATION ${cmake_folder} COMPONENT libhl-dev)
 install(FILES ${PROJECT_BINARY_DIR}/hl.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT libhl-dev)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT libhl-dev)
+install(FILES ${PROJECT_BINARY_DIR}/reference.html DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT libhl-dev)
+install(DIRECTORY csharp DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT libhl-dev)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT libhl-dev)
 install(FILES scenes/teapot_patches.h DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT libhl-dev)
 

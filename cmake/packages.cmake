@@ -1,5 +1,5 @@
-# `cpack --config build/CPackConfig.cmake -B build/packages` makes the Debian packages libhl, libhlbatch, libhl-dev and hl-tools of
-# what cmake/install.cmake installs.
+# `cpack --config build/CPackConfig.cmake -B build/packages` makes the Debian packages libhl, libhlbatch, libhl-dev and
+# hl-tools of what cmake/install.cmake installs, and python3-hl where the Python package is built.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME hl)
 set(CPACK_PACKAGE_CONTACT "The authors of HL <hl@localhost>")
@@ -7,13 +7,16 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Makes 3-D graphics touchable with force-f
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL libhl libhlbatch libhl-dev hl-tools)
+if(HL_BUILD_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python3-hl)
+endif()
 
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
-foreach(component libhl libhlbatch libhl-dev hl-tools)
+foreach(component ${CPACK_COMPONENTS_ALL})
   string(TOUPPER ${component} upper)
   set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${component})
 endforeach()
@@ -24,6 +27,10 @@ set(CPACK_DEBIAN_LIBHL-DEV_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_LIBHL-DEV_PACKAGE_DEPENDS "libhl (= ${PROJECT_VERSION}), libhlbatch (= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_HL-TOOLS_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_HL-TOOLS_PACKAGE_SUGGESTS libhl-dev)
+set(CPACK_DEBIAN_PYTHON3-HL_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON3-HL_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+set(CPACK_DEBIAN_PYTHON3-HL_PACKAGE_SUGGESTS "python3-matplotlib, hl-tools")
+set(CPACK_COMPONENT_PYTHON3-HL_DESCRIPTION "The Python package hl: fingers, paths and scenes in numpy arrays.")
 set(CPACK_COMPONENT_LIBHL_DESCRIPTION "The library libhl.so that programs are linked with.")
 set(CPACK_COMPONENT_LIBHLBATCH_DESCRIPTION "The library libhlbatch.so: many fingers and paths at once, without a server.")
 set(CPACK_COMPONENT_LIBHL-DEV_DESCRIPTION "Headers, CMake and pkg-config files, documents and examples.")

@@ -23,7 +23,7 @@ LEVELS = {
     "page": 8, "monitor": 8,
     "http": 9, "client": 9,
     "bench": 10,
-    "apps": 11,
+    "apps": 11, "python": 11,
 }
 # The proxy knows no threads, devices or messages, and the servo knows no scene, although their levels would allow it.
 NEVER = {"proxy": {"device", "control", "wire"}, "control": {"geometry", "wire"}, "scene": {"wire", "device"}}
@@ -44,7 +44,7 @@ LINK_CALL = re.compile(r"\b(hl_library|target_link_libraries)\s*\(([^)]*)\)")
 def folder_dirs(root):
     """(folder name, directory) of every layer that exists."""
     for name in LEVELS:
-        directory = root / name if name in ("apps", "bench", "scenes") else root / "src" / name
+        directory = root / name if name in ("apps", "bench", "scenes", "python") else root / "src" / name
         if directory.is_dir():
             yield name, directory
 

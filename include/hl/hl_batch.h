@@ -58,6 +58,7 @@ typedef struct HLbatchSettings {
   HLdouble surface[16]; /**< by hlBatchSurface; negative, at first: as the scene says */
 } HLbatchSettings;
 
+/** Writes what a scene is felt with where nothing else is wanted. NULL: nothing happens. */
 HL_API void hlBatchSettings(HLbatchSettings* settings);
 /** Sets one quantity of all surfaces: HL_STIFFNESS, HL_STATIC_FRICTION, HL_DYNAMIC_FRICTION, HL_VISCOSITY, HL_STRIBECK,
  * HL_PRESLIDING or HL_ADHESION, in the units of hlMaterial. */
@@ -88,6 +89,7 @@ typedef struct HLbatchFingers HLbatchFingers;
 
 /** NULL when that fails. */
 HL_API HLbatchFingers* hlBatchMakeFingers(const HLbatchScene* scene, const HLbatchSettings* settings, size_t fingers);
+/** NULL: nothing happens. */
 HL_API void hlBatchDeleteFingers(HLbatchFingers* fingers);
 /** Each finger goes to its position (x 3) and its proxy follows: one tick. The first step, and the one after a reset,
  * begins a proxy where the finger is, or near it where the finger is within something. */

@@ -1,4 +1,4 @@
-"""check_docs finds long lines and dead links, and passes clean documents."""
+"""check_docs finds long lines, dead links and names that HL does not have, and passes clean documents."""
 import sys
 import tempfile
 import unittest
@@ -35,6 +35,24 @@ class CheckDocs(unittest.TestCase):
 
     def test_code_has_no_links(self):
         self.assertEqual(self.write("```\n[=](double t)\n```\n"), [])
+
+    def test_a_call_or_constant_that_there_is_not_is_named(self):
+        (self.root / "include/hl").mkdir(parents=True)
+        (self.root / "include/hl/hl.h").write_text("void hlFlush(void); enum { HL_FORCE = 1 };\n", encoding="utf-8")
+        self.assertEqual(self.write("`hlFlush` and `HL_FORCE`, families as `hlProxy*`\n"), [])
+        self.assertEqual(self.write("`hlFlushed`\n`HL_POWER`\n"),
+                         ["docs/page.md:1: hlFlushed is in no header of include/hl",
+                          "docs/page.md:2: HL_POWER is in no header of include/hl"])
+
+    def test_names_of_another_library_are_only_in_its_column(self):
+        self.assertEqual(self.write("| OpenHaptics | HL |\n|---|---|\n| `hlEndFrame` | nothing |\n"), [])
+        self.assertEqual(self.write("| OpenHaptics | HL |\n|---|---|\n| nothing | `hlEndFrame` |\n"),
+                         ["docs/page.md:3: hlEndFrame is in no header of include/hl"])
+
+    def test_a_variable_of_the_environment_is_in_the_sources(self):
+        (self.root / "src").mkdir()
+        (self.root / "src/token.cpp").write_text('getenv("HL_TOKEN")\n', encoding="utf-8")
+        self.assertEqual(self.write("`HL_TOKEN`\n"), [])
 
 
 if __name__ == "__main__":

@@ -50,27 +50,10 @@ void FingerBatch::step(std::span<const Vec3> fingers, int threads, BatchSink sin
   });
 }
 
-// Looks farther and farther, from the scene's box on. What is found within a distance is all that is there.
 NearestPoint nearestPoint(const SceneAt& scene, const Vec3& point) {
-  constexpr double kFirstPart = 1e-3, kFarther = 4;
   NearestPoint nearest;
-  nearest.at.distance = std::numeric_limits<double>::infinity();
-  const Box& box = scene.snapshot().bounds;
-  if (box.empty()) return nearest;
-  const double to_box = (point - point.cwiseMax(box.min).cwiseMin(box.max)).norm();
-  const double farthest = to_box + box.size().norm();
-  bool found = false;
-  const auto keep = [&](PrimitiveId id, const ClosestPoint& at) {
-    if (found && at.distance > nearest.at.distance) return;
-    if (found && at.distance == nearest.at.distance && !scene.precedes(id, nearest.primitive)) return;
-    found = true;
-    nearest = {at, id};
-  };
-  for (double part = kFirstPart; !found; part *= kFarther) {
-    const double distance = to_box + std::min(part, 2.0) * box.size().norm() + scene.extent() * kFirstPart * part;
-    scene.primitivesWithin(point, distance, keep);
-    if (distance > 2 * farthest) break;
-  }
+  if (!scene.nearest(point, nearest.primitive, nearest.at))
+    nearest.at.distance = std::numeric_limits<double>::infinity();
   return nearest;
 }
 

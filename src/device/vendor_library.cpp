@@ -1,8 +1,10 @@
 #include "device/vendor_library.h"
 
 #include <dlfcn.h>
+#include <link.h>
 
 #include <cstdlib>
+#include <filesystem>
 
 #include "base/error.h"
 
@@ -24,6 +26,14 @@ VendorLibrary::VendorLibrary(const VendorLibraryName& name)
     const std::string reason = told != nullptr ? told : file_;  // kept: its own goes with the next call of the loader
     throw Error(reason + "; " + name.advice + ", or set " + name.variable + " to its file");
   }
+}
+
+std::string VendorLibrary::description() const {
+  link_map* map = nullptr;
+  if (dlinfo(handle_, RTLD_DI_LINKMAP, &map) != 0 || map == nullptr) return file_;
+  std::error_code none;
+  const std::filesystem::path real = std::filesystem::canonical(map->l_name, none);
+  return none ? file_ : real.filename().string();
 }
 
 VendorLibrary::~VendorLibrary() { dlclose(handle_); }

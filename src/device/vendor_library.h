@@ -19,6 +19,9 @@ class VendorLibrary {
   VendorLibrary(const VendorLibrary&) = delete;
   VendorLibrary& operator=(const VendorLibrary&) = delete;
 
+  /// Which file the loader has taken, under its true name: vendors write the version there. Folders are left out.
+  std::string description() const;
+
   /// `function` as the library has it. Throws hl::Error when it has none of this name.
   template <typename Function>
   void bind(Function*& function, const char* name) const {

@@ -35,6 +35,14 @@ class SpatialIndex {
   /// Returns the cost.
   virtual std::size_t sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
                             FunctionRef<double(ElementId primitive, double limit)> visit) const = 0;
+  /// Visits at least every primitive whose distance from `centre` is not above the limit, possibly more than once; near
+  /// ones first if the structure can order them. `visit` receives the current limit (m, initially `farthest`, which may
+  /// be infinite) and returns the new one, which must not be larger. Returns the cost.
+  virtual std::size_t nearest(const Vec3& centre, double farthest,
+                              FunctionRef<double(ElementId primitive, double limit)> visit) const {
+    double limit = farthest;
+    return overlap(centre, farthest, [&](ElementId primitive) { limit = visit(primitive, limit); });
+  }
   virtual IndexStats stats() const = 0;
 };
 

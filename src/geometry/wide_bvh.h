@@ -17,7 +17,7 @@
 
 namespace hl {
 
-/// See SpatialIndex; both queries propose each primitive once. Immutable once built; may be moved and copied.
+/// See SpatialIndex; all queries propose each primitive once. Immutable once built; may be moved and copied.
 /// Coordinates up to 1e15 m.
 class WideBvh final : public SpatialIndex {
  public:
@@ -38,6 +38,8 @@ class WideBvh final : public SpatialIndex {
   std::size_t overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId primitive)> visit) const override;
   std::size_t sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
                     FunctionRef<double(ElementId primitive, double limit)> visit) const override;
+  std::size_t nearest(const Vec3& centre, double farthest,
+                      FunctionRef<double(ElementId primitive, double limit)> visit) const override;
   IndexStats stats() const override;
 
   std::span<const WideNode> nodes() const { return nodes_; }  ///< nodes()[0] is the root; a single block has no node

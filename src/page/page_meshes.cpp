@@ -23,7 +23,8 @@ std::uint64_t messageBytes(const Model& model, const Look& look) {
   std::uint64_t bytes =
       kSmallest + 3 * sizeof(float) * (model.positions.size() + model.normals.size()) +
       2 * sizeof(float) * model.texcoords.size() +
-      sizeof(std::uint32_t) * (3 * model.triangles.size() + 2 * model.segments.size() + model.points.size());
+      sizeof(std::uint32_t) * (3 * model.triangles.size() + 2 * model.segments.size() + model.points.size()) +
+      sizeof(std::uint16_t) * model.triangle_materials.size();
   for (const auto& texture : look) bytes += texture ? texture->texels.size() : 0;
   return bytes;
 }
@@ -62,6 +63,7 @@ std::string meshMessage(std::uint32_t number, const Shape& shape, const Model& m
     toProto(shape.bounds.max, *out.mutable_bounds_max());
   }
   addSurfaceImages(model, look, out);
+  out.set_triangle_materials(bytesOf(model.triangle_materials));
   return message.SerializeAsString();
 }
 

@@ -1,8 +1,10 @@
 #include "page/page_scene.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
+#include "page/told_materials.h"
 #include "page/wire_bytes.h"
 #include "session/state_messages.h"
 
@@ -22,6 +24,13 @@ Box boundsAt(const Snapshot& snapshot, std::int64_t now_ns) {
 }
 
 }  // namespace
+
+bool PageScene::MeshPlacement::operator==(const MeshPlacement& other) const {
+  const auto names = [](const MeshPlacement& place) {
+    return std::tie(place.key, place.mesh, place.session, place.object, place.name);
+  };
+  return names(*this) == names(other) && (surfaces == other.surfaces || *surfaces == *other.surfaces);
+}
 
 void PageScene::follow(const std::shared_ptr<const Snapshot>& newest, const PageScale& scale, std::int64_t now_ns) {
   if (presence_.use_count() == 1) {
@@ -43,7 +52,8 @@ void PageScene::takeNewest(const std::shared_ptr<const Snapshot>& newest) {
     const std::vector<std::uint32_t> meshes = meshes_.numbersOf(*newest);
     for (std::size_t i = 0; i < meshes.size(); ++i) {
       const Instance& instance = newest->instances[i];
-      waiting_places_.push_back({instance.key, meshes[i], instance.session, instance.object, instance.name});
+      waiting_places_.push_back(
+          {instance.key, meshes[i], instance.session, instance.object, instance.name, instance.surfaces});
     }
   }
   if (!waiting_ || !meshes_.ready()) return;
@@ -88,6 +98,7 @@ void PageScene::layOut(const PageScale& scale, std::int64_t now_ns) {
     placed.set_session(place.session);
     placed.set_object(place.object);
     placed.set_name(place.name);
+    addMaterials(*place.surfaces, placed);
   }
   layout_->message = std::make_shared<const std::string>(message.SerializeAsString());
   if (!waiting_) meshes_.keep(layout_->meshes);

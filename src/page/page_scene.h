@@ -58,7 +58,8 @@ class PageScene {
   struct MeshPlacement {
     std::uint64_t key = 0;
     std::uint32_t mesh = 0, session = 0, object = 0, name = 0;
-    bool operator==(const MeshPlacement&) const = default;
+    std::shared_ptr<const Surfaces> surfaces{};
+    bool operator==(const MeshPlacement& other) const;
   };
   struct Layout {
     std::uint32_t number = 0;

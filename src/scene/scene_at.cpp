@@ -37,6 +37,10 @@ class IndexAt final : public SpatialIndex {
                     FunctionRef<double(ElementId, double)> visit) const override {
     return counted(now().sweep(from, motion, radius, soon, visit));
   }
+  std::size_t nearest(const Vec3& centre, double farthest,
+                      FunctionRef<double(ElementId, double)> visit) const override {
+    return counted(now().nearest(centre, farthest, visit));
+  }
   IndexStats stats() const override { return now().stats(); }
 
  private:
@@ -77,6 +81,32 @@ ClosestPoint SceneAt::closest(PrimitiveId id, const Vec3& p) const {
   ClosestPoint nearest;
   closestWithin(id, p, std::numeric_limits<double>::infinity(), nearest);
   return nearest;
+}
+
+bool SceneAt::nearest(const Vec3& point, PrimitiveId& primitive, ClosestPoint& at) const {
+  double limit = std::numeric_limits<double>::infinity();
+  bool found = false;
+  Box region = around(point, point, limit);
+  const auto keepNearer = [&](PrimitiveId asked) {
+    ClosestPoint place;
+    if (!closestWithin(asked, point, limit, place) || place.distance > limit) return;
+    if (found && place.distance == limit && !precedes(asked, primitive)) return;
+    found = true;
+    primitive = asked;
+    at = place;
+    limit = place.distance;
+    region = around(point, point, limit + kBoxSlack * snapshot_.extent);
+  };
+  snapshot_.near.visitMet(region, [&](std::uint32_t i) {
+    const Instance& instance = snapshot_.instances[i];
+    const IndexAt index(instance, time_ns_, cost_);
+    const Vec3 centre = instance.atWorld() ? point : instance.poses().at(time_ns_).toObject(point);
+    index.nearest(centre, limit, [&](ElementId element, double) {
+      keepNearer({i, element});
+      return limit;
+    });
+  });
+  return found;
 }
 
 bool SceneAt::closestWithin(PrimitiveId id, const Vec3& p, double distance, ClosestPoint& out) const {

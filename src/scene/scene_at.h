@@ -73,6 +73,9 @@ class SceneAt {
   /// Visits every primitive within `distance` (m, inclusive) of `centre`, in no given order, possibly more than once.
   void primitivesWithin(const Vec3& centre, double distance,
                         FunctionRef<void(PrimitiveId primitive, const ClosestPoint& nearest)> visit) const;
+  /// The primitive nearest to `point`, at any distance; of several precedes() decides. False: the scene is empty, and
+  /// the rest is unchanged.
+  bool nearest(const Vec3& point, PrimitiveId& primitive, ClosestPoint& at) const;
   /// As firstImpact() of geometry/queries.h; `contacts` are all primitives for which is_contact is true.
   bool firstImpact(const Vec3& from, const Vec3& motion, double radius, double touching, SceneImpact& out) const;
   bool firstImpact(const Vec3& from, const Vec3& motion, double radius,

@@ -37,6 +37,34 @@ TEST(Command, HelpForEachCommand) {
   }
 }
 
+std::string contentOf(const std::string& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// Whether it passes depends on what else the machine does meanwhile: tests/tools/test_self_test.cpp has that.
+TEST(Command, DoctorTestsADeviceAndWritesAReport) {
+  const std::string report = hl::test::tempFile("doctor.json");
+  const Result result = call("doctor sim --self-test --report " + report);
+  EXPECT_LE(result.code, 1) << result.output;
+  for (const char* told : {"locale: ", "ready: ", "self-test: ", "pull +1", "verdict: ", "servo rate: ", "report: "})
+    EXPECT_NE(result.output.find(told), std::string::npos) << told << result.output;
+  const std::string written = contentOf(report);
+  for (const char* key : {"hl_doctor", "machine", "findings", "self_test", "passed", "pulls"})
+    EXPECT_NE(written.find(key), std::string::npos) << key << written;
+}
+
+TEST(Command, DoctorsReportNamesNobody) {
+  const std::string report = hl::test::tempFile("doctor_names.json");
+  setenv("HL_DHD_LIBRARY", "/home/anna/sdk/libdhd.so.3", 1);
+  const Result result = call("doctor dhd --report " + report);
+  unsetenv("HL_DHD_LIBRARY");
+  EXPECT_EQ(result.code, 1);
+  const std::string written = contentOf(report);
+  EXPECT_NE(written.find("~/sdk/libdhd.so.3"), std::string::npos) << written;
+  EXPECT_EQ(written.find("anna"), std::string::npos) << written;
+}
+
 TEST(Command, BadInputIsOneLineAndExitCodeTwo) {
   const std::string path = hl::test::fileWith("hl_cmd_path.csv", "t,x,y,z\n0,0,0,0.2\n0.001,0,0,0.1\n");
   const std::string bad = hl::test::fileWith("hl_cmd_bad.csv", "t,x,y,z\n0,0,nan,0.2\n");
@@ -46,6 +74,9 @@ TEST(Command, BadInputIsOneLineAndExitCodeTwo) {
         std::string("fly"),
         std::string("info"),
         std::string("info nosuch"),
+        std::string("doctor theremin"),
+        std::string("doctor --self-test"),
+        std::string("doctor sim --report /nonexistent/report.json"),
         std::string("info /nonexistent.obj"),
         "trace teapot --path " + bad + " --out " + out,
         "trace teapot --path /nonexistent.csv --out " + out,

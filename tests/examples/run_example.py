@@ -21,8 +21,8 @@ DURATIONS_S = [4, 8, 16, 64]
 class Server:
     """A running hld on a free port; `address` is HOST:PORT."""
 
-    def __init__(self, hld, folder):
-        command = [hld, "--port", "0", "--explore", "on"] + (["--page-dir", folder] if folder else [])
+    def __init__(self, hld, folder, options=("--explore", "on")):
+        command = [hld, "--port", "0", *options] + (["--page-dir", folder] if folder else [])
         self.process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
         for line in self.process.stderr:
             found = re.search(r"event=ready address=http://(\S+?)/", line)

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <map>
 
 #include "base/realtime_guard.h"
@@ -61,16 +62,40 @@ bool firstBy(const SpatialIndex& index, const Asked& asked, const Query& query, 
   return firstImpact(index, asked.scene, query.from, query.motion, query.radius, query.touching, out);
 }
 
+struct Nearest {
+  double distance;
+  std::uint64_t source;
+  bool operator==(const Nearest&) const = default;
+};
+
+// Of several at the same distance the first by precedes().
+Nearest nearestBy(const SpatialIndex& index, const Asked& asked, const Vec3& from, double farthest) {
+  const Primitive* nearest = nullptr;
+  double distance = farthest;
+  index.nearest(from, farthest, [&](ElementId i, double limit) {
+    EXPECT_EQ(limit, distance);
+    const double here = closestPoint(asked.scene[i], from).distance;
+    if (here > distance || (nearest != nullptr && here == distance && !precedes(asked.scene[i], *nearest)))
+      return limit;
+    nearest = &asked.scene[i];
+    return distance = here;
+  });
+  return {distance, nearest != nullptr ? nearest->source : ~std::uint64_t{0}};
+}
+
 void compare(const Asked& asked, const Asked& shuffled, const Query& query, int& hits) {
   FirstImpact by_brute;
   const bool hit = firstBy(asked.brute, asked, query, by_brute);
   if (hit) ++hits;
   const Near near = nearBy(asked.brute, asked, query);
+  const double farthest = query.touching > 0 ? query.radius : std::numeric_limits<double>::infinity();
+  const Nearest nearest = nearestBy(asked.brute, asked, query.from, farthest);
   for (const Asked* order : {&asked, &shuffled}) {
     for (const SpatialIndex* hierarchy : order->hierarchies()) {
       FirstImpact by_hierarchy;
       ASSERT_EQ(firstBy(*hierarchy, *order, query, by_hierarchy), hit);
       ASSERT_EQ(nearBy(*hierarchy, *order, query), near);
+      ASSERT_EQ(nearestBy(*hierarchy, *order, query.from, farthest), nearest);
       if (!hit) continue;
       ASSERT_TRUE(sameBits(by_hierarchy.impact, by_brute.impact));
       ASSERT_EQ(order->scene[by_hierarchy.primitive].source, asked.scene[by_brute.primitive].source);

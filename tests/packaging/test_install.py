@@ -33,6 +33,9 @@ def cache(name):
     return re.search(rf"^{name}(?::\w+)?=(.*)$", (BUILD / "CMakeCache.txt").read_text(encoding="utf-8"), re.MULTILINE).group(1)
 
 
+HAS_PYTHON = "HL_BUILD_PYTHON:BOOL=ON" in (BUILD / "CMakeCache.txt").read_text(encoding="utf-8")
+
+
 class Installed(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -140,7 +143,15 @@ class DebianPackages(unittest.TestCase):
         return run("dpkg-deb", "--contents", self.packages[package])
 
     def test_there_is_one_for_each_purpose(self):
-        self.assertEqual(sorted(self.packages), ["hl-tools", "libhl", "libhl-dev", "libhlbatch"])
+        self.assertEqual(sorted(self.packages), ["hl-tools", "libhl", "libhl-dev", "libhlbatch"] + ["python3-hl"] * HAS_PYTHON)
+
+    @unittest.skipUnless(HAS_PYTHON, "the Python package is not built")
+    def test_python_finds_its_package_where_it_is_unpacked(self):
+        self.assertRegex(self.field("python3-hl", "Depends"), r"libprotobuf32.*python3-numpy|python3-numpy.*libprotobuf32")
+        run("dpkg-deb", "--extract", self.packages["python3-hl"], self.folder / "python-root")
+        program = "import hl; print(hl.Scene('teapot').primitives > 1000, hl.__file__)"
+        place = self.folder / "python-root/usr/lib/python3/dist-packages"
+        self.assertIn(f"True {place}", run("/usr/bin/python3", "-c", program, env={**os.environ, "PYTHONPATH": str(place)}))
 
     def test_the_library_depends_on_what_it_is_linked_with(self):
         self.assertRegex(self.field("libhl", "Depends"), r"libprotobuf32.*libssl3|libssl3.*libprotobuf32")

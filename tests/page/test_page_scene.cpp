@@ -205,6 +205,29 @@ TEST_F(PageSceneTest, TheSameShapeWithAnotherTextureIsAnotherMesh) {
   EXPECT_NE(layout.placed(0).mesh(), layout.placed(3).mesh());
 }
 
+TEST_F(PageSceneTest, MaterialsAreToldByNumberAndAgainWhenTheyChange) {
+  Model model = makeBuiltinScene("plane:8");
+  model.materials.resize(2);
+  model.materials[1].static_friction = 0.5;
+  model.triangle_materials.assign(8, 1);
+  const auto shape = makeShape(model, HierarchyKind::kNone);
+  const auto messages = show(makeSnapshot({instanceOf(1, shape)}));
+  EXPECT_EQ(messages[0].mesh().triangle_materials().size(), 8u * sizeof(std::uint16_t));
+  const proto::PlacedMesh& placed = messages[1].layout().placed(0);
+  ASSERT_EQ(placed.materials_size(), 2);
+  EXPECT_EQ(placed.materials(0).static_friction(), 0);
+  EXPECT_EQ(placed.materials(1).static_friction(), 0.5);
+  EXPECT_EQ(placed.materials(1).stiffness(), 1);
+
+  auto surfaces = std::make_shared<Surfaces>(*surfacesOf(shape));
+  surfaces->materials[1].stiffness = 0.25;
+  Instance other = instanceOf(1, shape);
+  other.surfaces = surfaces;
+  const auto changed = show(makeSnapshot({other}));
+  ASSERT_EQ(changed.size(), 1u);
+  EXPECT_EQ(changed[0].layout().placed(0).materials(1).stiffness(), 0.25);
+}
+
 TEST_F(PageSceneTest, NothingIsKeptWhileNobodyLooks) {
   const std::weak_ptr<const Shape> watched = [&] {
     const auto shape = plane(50);

@@ -196,18 +196,43 @@ test("on a touch screen one finger drags the hand, a second one makes it a camer
   const marker = () => screen.evaluate(() => window.__hl.project({ x: 0, y: 0, z: 0.05 }).x);
   const last = () => server.received.at(-1)?.body.case;
   server.received.length = 0;
-  await touch("touchStart", [600, 400]);
-  await touch("touchMove", [620, 400]);
+  await touch("touchStart", [340, 600]);
+  await touch("touchMove", [360, 600]);
   await expect.poll(last).toBe("handGoal");
   const before = await marker();
-  await touch("touchStart", [620, 400], [720, 400]);
+  await touch("touchStart", [360, 600], [460, 600]);
   await expect.poll(last).toBe("release");
   for (let i = 1; i <= 8; ++i) {
-    await touch("touchMove", [620 + 10 * i, 400], [720 + 10 * i, 400]);
+    await touch("touchMove", [360 + 10 * i, 600], [460 + 10 * i, 600]);
   }
   await expect.poll(async () => Math.abs((await marker()) - before)).toBeGreaterThan(5);
   await touch("touchEnd");
   expect(last()).toBe("release");
+  await context.close();
+});
+
+test("on a touch screen a finger presses the model, and a second one changes the depth", async () => {
+  const context = await browser.newContext({ viewport: kSizes[0], hasTouch: true });
+  const screen = await context.newPage();
+  await screen.goto(server.url);
+  await screen.waitForFunction(() => window.__hl.samples > 10);
+  const cdp = await context.newCDPSession(screen);
+  const touch = (type: "touchStart" | "touchMove" | "touchEnd", ...at: [number, number][]) =>
+    cdp.send("Input.dispatchTouchEvent", { type, touchPoints: at.map(([x, y], id) => ({ x, y, id })) });
+  const at = await screen.evaluate(() => window.__hl.project({ x: 0, y: 0, z: 0 }));
+  const goals = () => server.received.flatMap(({ body }) => (body.case === "handGoal" ? [body.value.position!] : []));
+  const radius_m = () => Math.hypot(goals().at(-1)?.x ?? NaN, goals().at(-1)?.y ?? NaN, goals().at(-1)?.z ?? NaN);
+  const separation_m = () => screen.evaluate(() => window.__hl.separation_m!);
+  server.received.length = 0;
+  await touch("touchStart", [at.x, at.y]);
+  // The sphere of 50 mm, pressed 12 mm deep.
+  await expect.poll(radius_m).toBeCloseTo(0.038, 3);
+  await expect.poll(separation_m).toBeGreaterThan(0.01);
+  await touch("touchStart", [at.x, at.y], [at.x + 80, at.y]);
+  await touch("touchMove", [at.x, at.y], [at.x + 80, at.y - 40]);
+  await expect.poll(radius_m).toBeLessThan(0.033);
+  await touch("touchEnd");
+  await expect.poll(() => server.received.at(-1)?.body.case).toBe("release");
   await context.close();
 });
 

@@ -2,8 +2,6 @@
 // the force rises, and the proxy stays outside: judged here from the bytes on the wire against every triangle, not by
 // the page. Then the server dies and comes back. HL_BIN names the `hl` program; without it these tests are skipped.
 
-import { spawn, type ChildProcess } from "node:child_process";
-import { createInterface } from "node:readline";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
 import { decodeServerMessage } from "../src/protocol";
@@ -14,40 +12,14 @@ import { distanceToTriangles } from "../test-support/closest_point";
 import {
   expectTidyLayout, kSizes, launch, listen, modelPixels, openSection, resize, screenshot, states, type Complaints,
 } from "./browser";
+import { ended, kProgram, startTouch, type Touch } from "./programs";
 
-const kProgram = process.env.HL_BIN;
 /** Positions of the mesh arrive as float32: exact to about this share of the model's size. */
 const kWireRounding = 1e-6;
 
 interface Pixel {
   readonly x: number;
   readonly y: number;
-}
-
-interface Touch {
-  readonly process: ChildProcess;
-  readonly url: string;
-}
-
-/** Starts `hl touch teapot` and waits for the line that says it is ready. */
-async function startTouch(port: number): Promise<Touch> {
-  const child = spawn(kProgram!, ["touch", "teapot", "--port", String(port), "--no-open"], {
-    stdio: ["ignore", "pipe", "inherit"],
-  });
-  for await (const line of createInterface({ input: child.stdout! })) {
-    const match = /^page: (http:\/\/127\.0\.0\.1:\d+\/)$/.exec(line);
-    if (match) {
-      child.stdout!.resume();
-      return { process: child, url: match[1]! };
-    }
-  }
-  throw new Error("hl touch ended without telling its page");
-}
-
-function ended(child: ChildProcess): Promise<number | null> {
-  return child.exitCode !== null || child.signalCode !== null
-    ? Promise.resolve(child.exitCode)
-    : new Promise((resolve) => child.once("exit", (code) => resolve(code)));
 }
 
 /** The scene, whose one object's frame is the world, and every proxy and finger that came over the wire. */

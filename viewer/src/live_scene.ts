@@ -24,7 +24,9 @@ export class LiveScene {
   private fitted_: Bounds | undefined;
   /** There have been objects since the scene was new or empty. */
   private begun_ = false;
+  private name_: string | undefined;
   private moves_: Moves | undefined;
+  private moving_ = false;
   private touched_: readonly number[] = [];
 
   constructor(hooks: SceneHooks) {
@@ -39,13 +41,22 @@ export class LiveScene {
     return this.store_.layout;
   }
 
+  /** Whether the newest state moved objects. */
+  get moving(): boolean {
+    return this.moving_;
+  }
+
   /** Objects of the layout that are touched. */
   get touched(): readonly number[] {
     return this.touched_;
   }
 
-  /** A server begins: nothing of what another one told is valid. */
-  clear(): void {
+  /** A server begins: nothing of what another one told is valid. Another scene is fitted anew, whatever its size. */
+  clear(name: string): void {
+    if (name !== this.name_) {
+      this.fitted_ = undefined;
+    }
+    this.name_ = name;
     this.store_.clear();
     this.model.clear();
     this.begun_ = false;
@@ -79,6 +90,7 @@ export class LiveScene {
   /** Only the newest moves count; they are shown in the next frame. */
   take(state: State, moves: Moves): void {
     this.moves_ = moves;
+    this.moving_ = moves.indices.length > 0;
     this.touched_ = state.layout === this.layout?.number ? state.touched : [];
   }
 

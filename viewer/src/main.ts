@@ -2,12 +2,14 @@
 // everything on the screen follows in animation frames, so a slow browser draws less often but never lags behind.
 
 import "./style.css";
+import { Announcer } from "./announcer";
 import { ButtonInput } from "./button_input";
 import { Connection, type LinkState } from "./connection";
 import { publishDebugState } from "./debug_state";
-import { element } from "./elements";
+import { element, setText } from "./elements";
 import { showEmptyHint } from "./empty_hint";
 import type { Hello, State } from "./gen/hl_pb";
+import { padState } from "./gamepad";
 import { depthOf, metresPerPixel } from "./hand_mapping";
 import { HandInput } from "./hand_input";
 import { diagonalOf } from "./fit";
@@ -16,6 +18,7 @@ import { LiveScene } from "./live_scene";
 import { Notices } from "./notices";
 import { Panel } from "./panel";
 import { kWindow_s, LivePlot } from "./plots";
+import { Pointing } from "./pointing";
 import { ProbeView } from "./probe_view";
 import {
   encodeHandGoal, encodePress, encodeRearm, encodeRelease, encodeSettings, kProtocolVersion,
@@ -23,11 +26,17 @@ import {
 } from "./protocol";
 import { SampleRing } from "./samples";
 import type { Bounds, Layout } from "./scene_messages";
+import { ScaleBar } from "./scale_bar";
 import type { SceneStore } from "./scene_store";
+import { Sharing } from "./sharing";
 import { Stage, type Insets } from "./stage";
 import { SurfacePanel } from "./surface_panel";
 import { ThemeSwitch } from "./theme";
+import { TouchSound } from "./touch_sound";
+import { formatFixed } from "./units";
 import { length } from "./vec";
+import { kVibrationWindow_s, VibrationAlarm } from "./vibration";
+import { ViewMemory } from "./view_memory";
 import { knownVec } from "./wire_values";
 
 const kPlotPeriod_ms = 50;
@@ -36,27 +45,28 @@ const kNumbersPeriod_ms = 100;
 /** Ten seconds of a 6 kHz loop: the most that State.samples can carry. */
 const kSampleCapacity = 65536;
 const kRateCapacity = 1024;
-/** A press this near to the proxy or the finger is meant for the hand. */
-const kGrabRadius_px = 30;
 
 class App {
-  private readonly stage_ = new Stage(element<HTMLCanvasElement>("canvas"));
   private readonly live_ = new LiveScene({
     shown: (store, layout) => this.showLayout(store, layout),
     fit: (bounds) => this.fit(bounds),
   });
   private readonly probe_ = new ProbeView();
   private readonly notices_ = new Notices();
+  private readonly stage_ = new Stage(element<HTMLCanvasElement>("canvas"), (reason) => {
+    this.notices_.stand("drawing", reason);
+  });
+  private readonly pointing_ = new Pointing(this.stage_, this.live_, () => this.state_);
+  private readonly scaleBar_ = new ScaleBar();
   private readonly samples_ = new SampleRing(kSampleCapacity, 2);
   private readonly rates_ = new SampleRing(kRateCapacity, 2);
   private readonly energy_ = new SampleRing(kRateCapacity, 5);
   private readonly plots_ = {
-    force: new LivePlot(element("plot-force"), { unit: "N", series: [{ colour: "force", fill: true }], smallestTop: 1 }),
-    penetration: new LivePlot(element("plot-penetration"), {
-      unit: "m", series: [{ colour: "penetration", fill: true }], smallestTop: 1e-3,
+    force: new LivePlot(element("plot-force"), {
+      unit: "N", series: [{ colour: "force", fill: true }], smallestTop: 1,
     }),
     rates: new LivePlot(element("plot-rates"), {
-      unit: "Hz", series: [{ colour: "servo" }, { colour: "proxy" }], smallestTop: 1000,
+      unit: "Hz", series: [{ colour: "proxy", width: 4 }, { colour: "servo" }], smallestTop: 1000,
     }),
     energy: new LivePlot(element("plot-energy"), {
       unit: "J",
@@ -64,6 +74,11 @@ class App {
       smallestTop: 1e-3,
     }),
   };
+  private readonly sound_ = new TouchSound();
+  private readonly sharing_ = new Sharing(this.samples_, () => this.live_.layout?.name ?? "");
+  private readonly memory_: ViewMemory;
+  private readonly announcer_ = new Announcer((text) => setText("announce", text));
+  private readonly vibration_ = new VibrationAlarm();
   private readonly hand_: HandInput;
   private readonly buttons_ = new ButtonInput((down) => this.connection_.send(encodePress(down)));
   private readonly panel_: Panel;
@@ -81,6 +96,7 @@ class App {
     this.stage_.scene.add(this.live_.model.group, this.probe_.group);
     this.hand_ = this.makeHand();
     this.panel_ = this.makePanel();
+    this.memory_ = new ViewMemory();
     this.surfacePanel_ = new SurfacePanel((change) => this.tell(change));
     this.ledgerPanel_ = new LedgerPanel((change) => this.tell(change));
     this.theme_ = new ThemeSwitch(() => this.applyTheme());
@@ -105,11 +121,16 @@ class App {
   }
 
   private makeHand(): HandInput {
+    const { pointing_: pointing } = this;
     return new HandInput(this.stage_, {
       finger: () => (this.connection_.state === "live" ? knownVec(this.state_?.finger) : undefined),
+      proxy: () => knownVec(this.state_?.proxy),
       goal: (position) => this.connection_.send(encodeHandGoal(position)),
       release: () => this.connection_.send(encodeRelease()),
-      isTarget: (x_px, y_px) => this.isNearHand(x_px, y_px) || this.live_.model.isHit(this.stage_.rayAt(x_px, y_px)),
+      moving: () => this.live_.moving,
+      press: (x_px, y_px) => pointing.press(x_px, y_px),
+      surface: (x_px, y_px) => pointing.surfaceAt(x_px, y_px),
+      isTarget: (x_px, y_px) => pointing.isNearHand(x_px, y_px) || pointing.surfaceAt(x_px, y_px) !== undefined,
     });
   }
 
@@ -123,7 +144,15 @@ class App {
       edges: (shown) => this.live_.model.setEdges(shown),
       flat: (flat) => this.live_.model.setFlat(flat),
       orbitFromEmpty: (on) => (this.hand_.orbitFromEmpty = on),
+      dropLine: (shown) => this.probe_.drop.setShown(shown),
       resetView: () => this.live_.refit(),
+      bringHandBack: () => this.pointing_.bringBack(this.hand_),
+      section: (side, share) => this.pointing_.cut(side, share),
+      sound: (on) => this.sound_.setOn(on),
+      pause: (paused) => this.sharing_.setPaused(paused),
+      copyLink: () => void this.sharing_.copyLink(this.stage_, this.memory_, this.notices_),
+      savePicture: () => void this.sharing_.savePicture(this.stage_),
+      saveSamples: () => this.sharing_.saveSamples(),
     });
   }
 
@@ -162,7 +191,7 @@ class App {
     const renewed = this.serverVersion_ !== undefined && this.serverVersion_ !== hello.serverVersion;
     this.notices_.stand("version", other || renewed ? "The server has another version. Reload this page." : undefined);
     this.serverVersion_ = hello.serverVersion;
-    this.live_.clear();
+    this.live_.clear(hello.sceneName);
     this.hand_.cancel();
     this.hand_.movable = this.buttons_.enabled = hello.device?.simulatedHand ?? false;
     this.panel_.showHello(hello);
@@ -170,6 +199,8 @@ class App {
     this.surfacePanel_.forget();
     this.ledgerPanel_.forget();
     this.probe_.setForceMax(hello.device?.forceMaxN ?? 0);
+    this.plots_.force.setLimit(hello.device?.forceMaxN ?? 0);
+    this.sound_.setLimit(hello.device?.forceMaxN ?? 0);
     this.samples_.clear();
     this.rates_.clear();
     this.energy_.clear();
@@ -179,6 +210,7 @@ class App {
     this.probe_.setRadius(layout.proxyRadius_m);
     this.panel_.showLayout(layout, store.counts());
     showEmptyHint(layout.placed.length === 0);
+    this.pointing_.layoutChanged();
     if (layout.bounds !== undefined) {
       this.stage_.lowerFloor(layout.bounds.min.y);
     }
@@ -187,6 +219,10 @@ class App {
   private fit(bounds: Bounds): void {
     this.stage_.setBounds(bounds.min, bounds.max);
     this.probe_.setDiagonal(diagonalOf(bounds));
+    const linked = this.memory_.takeCamera();
+    if (linked !== undefined) {
+      this.stage_.lookFrom(linked.position, linked.target);
+    }
   }
 
   private takeState(state: State): void {
@@ -200,7 +236,8 @@ class App {
       const { shadingJ, stiffnessJ, textureJ, movingJ, lateJ } = energy;
       this.energy_.push(state.timeS, shadingJ, stiffnessJ, textureJ, movingJ, lateJ);
     }
-    this.rates_.push(state.timeS, state.servo?.rateHz ?? NaN, state.proxyLoop?.rateHz ?? NaN);
+    this.sound_.hear(state, this.samples_, this.pointing_.worldPerHand);
+    this.rates_.push(state.timeS, state.proxyLoop?.rateHz ?? NaN, state.servo?.rateHz ?? NaN);
   }
 
   private linkChanged(link: LinkState): void {
@@ -214,16 +251,19 @@ class App {
       // What was heard last is not what is so now.
       this.stateFresh_ = false;
       this.hand_.cancel();
+      this.sound_.silence();
     }
   }
 
   private frame(now_ms: number): void {
     requestAnimationFrame((next_ms) => this.frame(next_ms));
+    this.followPad();
     this.hand_.frame();
     this.live_.frame();
+    this.pointing_.showPicked(this.hand_.pressed);
     this.showProbe();
     this.stage_.draw();
-    if (this.stateFresh_ && now_ms - this.lastPlot_ms_ >= kPlotPeriod_ms) {
+    if (this.stateFresh_ && !this.sharing_.paused && now_ms - this.lastPlot_ms_ >= kPlotPeriod_ms) {
       this.lastPlot_ms_ = now_ms;
       this.showPlots();
     }
@@ -236,16 +276,25 @@ class App {
   private showProbe(): void {
     const proxy = knownVec(this.state_?.proxy);
     this.probe_.update(this.state_);
+    const view = this.stage_.viewFrame();
+    this.scaleBar_.show(metresPerPixel(view, depthOf(view, this.stage_.target)));
+    this.pointing_.showFinder(this.connection_.state === "live", this.hand_);
     if (proxy !== undefined) {
-      const view = this.stage_.viewFrame();
-      this.probe_.face(this.stage_.camera, metresPerPixel(view, depthOf(view, proxy)));
+      const pixel_m = metresPerPixel(view, depthOf(view, proxy));
+      this.probe_.face(this.stage_.camera, pixel_m);
+      this.probe_.drop.update(proxy, this.pointing_.below(proxy), this.probe_.radius_m, pixel_m);
     }
   }
 
+  private followPad(): void {
+    const { direction, buttons } = padState(navigator.getGamepads?.() ?? []);
+    this.hand_.push(direction);
+    this.buttons_.setPad(buttons);
+  }
+
   private showPlots(): void {
-    const [times, force, penetration] = this.samples_.window(kWindow_s, this.plots_.force.buckets);
+    const [times, force] = this.samples_.window(kWindow_s, this.plots_.force.buckets);
     this.plots_.force.show([times, force!]);
-    this.plots_.penetration.show([times, penetration!]);
     this.plots_.rates.show(this.rates_.window(kWindow_s, this.plots_.rates.buckets));
     this.plots_.energy.show(this.energy_.window(kWindow_s, this.plots_.energy.buckets));
   }
@@ -253,17 +302,27 @@ class App {
   private showNumbers(): void {
     const state = this.state_!;
     const force = knownVec(state.forceN);
-    this.panel_.showState(state, force === undefined ? NaN : length(force), state.samples.at(-1)?.penetrationM);
+    const force_N = force === undefined ? NaN : length(force);
+    this.panel_.showState(state, force_N, state.samples.at(-1)?.penetrationM);
+    this.announcer_.hear(this.touchedInWords(state), force_N, performance.now());
+    this.tellVibration();
     this.surfacePanel_.showSurfaces(state.surfaces);
     this.ledgerPanel_.show(state.ledger);
     this.stateFresh_ = false;
   }
 
-  private isNearHand(x_px: number, y_px: number): boolean {
-    return [knownVec(this.state_?.proxy), knownVec(this.state_?.finger)].some((point) => {
-      const at = point === undefined ? undefined : this.stage_.project(point);
-      return at !== undefined && Math.hypot(at.x - x_px, at.y - y_px) < kGrabRadius_px;
-    });
+  private touchedInWords(state: State): string {
+    const several = this.live_.store.counts().objects > 1;
+    const objects = state.touched.map((object) => `object ${object + 1}`);
+    return state.contacts.length === 0 ? "" : several && objects.length > 0 ? objects.join(" and ") : "the model";
+  }
+
+  private tellVibration(): void {
+    const { times, values } = this.samples_.last(0, kVibrationWindow_s);
+    const swing = this.vibration_.judge(times, values);
+    const text = swing && `The force vibrates by ${formatFixed(swing.force_N, "N", 1)} at ` +
+      `${formatFixed(swing.rate_Hz, "Hz", 0)}: the spring is too stiff for this device and grip. Lower it.`;
+    this.notices_.stand("vibration", text, "warn");
   }
 
   private applyTheme(): void {

@@ -4,12 +4,16 @@
 import * as THREE from "three";
 import { imageTexture } from "./image_texture";
 import { kPoseNumbers, type Bounds, type Mesh } from "./scene_messages";
+import { RayTree, type Accept } from "./ray_tree";
+import { length, type Vec } from "./vec";
 import { orientTowardNormals } from "./winding";
 
 /** What all meshes are drawn with. `tint` is what the plain surface's colour is multiplied by where it is touched. */
 export interface Palette {
   readonly model: THREE.Color;
   readonly tint: THREE.Color;
+  /** The same where the pointer is. */
+  readonly pointed: THREE.Color;
   readonly edges: THREE.MeshBasicMaterial;
   readonly lines: THREE.LineBasicMaterial;
   readonly points: THREE.PointsMaterial;
@@ -17,15 +21,36 @@ export interface Palette {
   readonly touchedPoints: THREE.PointsMaterial;
 }
 
+/** Where a ray meets a surface. World frame. */
+export interface Meeting {
+  /** In lengths of the ray's direction. */
+  readonly distance: number;
+  readonly point: Vec;
+  /** Unit; of the shading, where the mesh has one. */
+  readonly normal: Vec;
+  /** Number of the material there. */
+  readonly material: number;
+}
+
+export type Highlight = "none" | "pointed" | "touched";
+
 type Surface = THREE.InstancedMesh<THREE.BufferGeometry, THREE.Material[]>;
 type Mark = THREE.LineSegments | THREE.Points;
 
+/** Shading normals that are farther than 60 degrees off the facet are no guide to where the surface is. */
+const kLeaning = 0.5;
 const kUntouched = new THREE.Color(1, 1, 1);
 
 export class MeshView {
   readonly group = new THREE.Group();
   readonly triangles: number;
   private readonly palette_: Palette;
+  private readonly mesh_: Mesh;
+  /** Around the mesh in its own frame. */
+  private readonly ball_: THREE.Sphere;
+  private readonly sphere_ = new THREE.Sphere();
+  /** Made when the first ray comes. */
+  private tree_: RayTree | undefined;
   private readonly bounds_: THREE.Box3;
   /** The plain one, then one for each texture. */
   private readonly materials_: THREE.MeshStandardMaterial[] = [];
@@ -42,7 +67,9 @@ export class MeshView {
 
   constructor(mesh: Mesh, palette: Palette) {
     this.palette_ = palette;
+    this.mesh_ = mesh;
     this.bounds_ = boxOf(mesh.bounds);
+    this.ball_ = this.bounds_.getBoundingSphere(new THREE.Sphere());
     this.triangles = mesh.triangles.length / 3;
     this.hasNormals_ = mesh.normals !== undefined;
     const position = new THREE.BufferAttribute(mesh.positions, 3);
@@ -80,10 +107,11 @@ export class MeshView {
     }
   }
 
-  setTouched(place: number, touched: boolean): void {
+  setMark(place: number, mark: Highlight): void {
     const { palette_: palette, surface_: surface } = this;
+    const touched = mark !== "none";
     if (surface !== undefined) {
-      surface.setColorAt(place, touched ? palette.tint : kUntouched);
+      surface.setColorAt(place, mark === "touched" ? palette.tint : mark === "pointed" ? palette.pointed : kUntouched);
       surface.instanceColor!.needsUpdate = true;
     }
     for (const mark of this.marks_[place] ?? []) {
@@ -92,6 +120,11 @@ export class MeshView {
         : [palette.lines, palette.touchedLines];
       mark.material = touched ? bright : plain;
     }
+  }
+
+  /** Draws only what is in front of these planes. */
+  setClip(planes: THREE.Plane[]): void {
+    this.materials_.forEach((material) => (material.clippingPlanes = planes));
   }
 
   setFlat(flat: boolean): void {
@@ -103,6 +136,7 @@ export class MeshView {
 
   setEdges(shown: boolean): void {
     this.edgesShown_ = shown;
+    this.materials_.forEach((material) => (material.polygonOffset = shown));
     if (shown && this.edges_ === undefined && this.surface_ !== undefined) {
       this.makeEdges(this.surface_);
     }
@@ -115,12 +149,34 @@ export class MeshView {
     this.materials_.forEach((material) => material.color.copy(this.palette_.model));
   }
 
-  isHit(raycaster: THREE.Raycaster): boolean {
-    if (this.surface_ === undefined) {
-      return false;
+  /** Where a ray of the world first meets the surface at a place; `accept` is asked of points of the world. */
+  cast(place: number, origin: Vec, direction: Vec, farthest: number, accept?: Accept): Meeting | undefined {
+    const surface = this.surface_;
+    if (surface === undefined || place >= surface.count) {
+      return undefined;
     }
-    this.surface_.boundingSphere = null;  // of where it was asked last
-    return raycaster.intersectObject(this.surface_, false).length > 0;
+    const toWorld = new THREE.Matrix4();
+    surface.getMatrixAt(place, toWorld);
+    const ray = new THREE.Ray(three(origin), three(direction).normalize());
+    const ball = this.sphere_.copy(this.ball_).applyMatrix4(toWorld);
+    const nearest_m = ray.origin.distanceTo(ball.center) - ball.radius;
+    if (nearest_m > farthest * length(direction) || !ray.intersectsSphere(ball)) {
+      return undefined;
+    }
+    const toMesh = toWorld.clone().invert();
+    const from = three(origin).applyMatrix4(toMesh);
+    const along = three(origin).add(three(direction)).applyMatrix4(toMesh).sub(from);
+    const counts = accept && ((point: Vec) => accept(three(point).applyMatrix4(toWorld)));
+    this.tree_ ??= new RayTree(this.mesh_.positions, this.mesh_.triangles);
+    const hit = this.tree_.cast(from, along, farthest, counts);
+    if (hit === undefined) {
+      return undefined;
+    }
+    const normal = this.normalAt(hit.triangle, hit.u, hit.v);
+    normal.applyNormalMatrix(new THREE.Matrix3().getNormalMatrix(toWorld));
+    const point = three(direction).multiplyScalar(hit.distance).add(three(origin));
+    const material = this.mesh_.triangleMaterials[hit.triangle] ?? 0;
+    return { distance: hit.distance, point: plain(point), normal: plain(normal), material };
   }
 
   /** Adds the box of one place to `bounds`. */
@@ -140,6 +196,23 @@ export class MeshView {
       material.map?.dispose();
       material.dispose();
     }
+  }
+
+  /** Of the shading, unless it leans far off the facet: then of the facet. */
+  private normalAt(triangle: number, u: number, v: number): THREE.Vector3 {
+    const { positions, normals, triangles } = this.mesh_;
+    const corners = [0, 1, 2].map((corner) => triangles[3 * triangle + corner]!);
+    const at = (values: Float32Array, i: number) => new THREE.Vector3().fromArray(values, 3 * corners[i]!);
+    const a = at(positions, 0);
+    const facet = at(positions, 1).sub(a).cross(at(positions, 2).sub(a)).normalize();
+    if (normals === undefined) {
+      return facet;
+    }
+    const weights = [1 - u - v, u, v];
+    const shaded = new THREE.Vector3();
+    weights.forEach((weight, i) => shaded.addScaledVector(at(normals, i), weight));
+    shaded.normalize();
+    return Math.abs(shaded.dot(facet)) > kLeaning ? shaded : facet;
   }
 
   /** Normals, and for textured triangles the material of their image. */
@@ -242,7 +315,8 @@ function surfaceMaterial(map: THREE.Texture | null = null): THREE.MeshStandardMa
     roughness: 0.62,
     metalness: 0,
     side: THREE.DoubleSide,
-    polygonOffset: true,
+    // Only while edges are drawn in the same place: at a silhouette it would let the back through.
+    polygonOffset: false,
     polygonOffsetFactor: 1,
     polygonOffsetUnits: 1,
   });
@@ -256,4 +330,12 @@ function writeMatrix(out: THREE.TypedArray | number[], to: number, poses: Float3
     }
     out[to + 4 * column + 3] = column === 3 ? 1 : 0;
   }
+}
+
+function three({ x, y, z }: Vec): THREE.Vector3 {
+  return new THREE.Vector3(x, y, z);
+}
+
+function plain({ x, y, z }: THREE.Vector3): Vec {
+  return { x, y, z };
 }

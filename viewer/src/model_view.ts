@@ -2,9 +2,12 @@
 // states. What the proxy touches has a tint, when there is more than one object to tell apart.
 
 import * as THREE from "three";
-import { MeshView, type Palette } from "./mesh_view";
+import { MeshView, type Highlight, type Meeting, type Palette } from "./mesh_view";
+import type { Accept } from "./ray_tree";
 import type { Bounds, Layout, Mesh } from "./scene_messages";
+import type { Section } from "./section";
 import { themeColour } from "./theme";
+import type { Vec } from "./vec";
 
 /** Above this, drawing every mesh edge would only fill the screen and the memory. */
 const kEdgesMaxTriangles = 2_000_000;
@@ -15,6 +18,9 @@ interface Placed {
   readonly place: number;
 }
 
+/** With the index into the layout. */
+export type ObjectMeeting = Meeting & { readonly object: number };
+
 export class ModelView {
   readonly group = new THREE.Group();
   private readonly views_ = new Map<number, MeshView>();
@@ -22,6 +28,8 @@ export class ModelView {
   /** By index into the layout; undefined where its mesh is not known. */
   private placed_: (Placed | undefined)[] = [];
   private touched_: readonly number[] = [];
+  private pointed_: number | undefined;
+  private clip_: THREE.Plane[] = [];
   private triangles_ = 0;
   private flat_ = false;
   private showEdges_ = false;
@@ -30,6 +38,7 @@ export class ModelView {
     this.drop(mesh.number);
     const view = new MeshView(mesh, this.palette_);
     view.setFlat(this.flat_);
+    view.setClip(this.clip_);
     this.views_.set(mesh.number, view);
     this.group.add(view.group);
   }
@@ -46,8 +55,9 @@ export class ModelView {
   }
 
   setLayout(layout: Layout, poses: Float32Array): void {
-    this.mark(this.touched_, false);
+    this.mark(this.touched_, "none");
     this.touched_ = [];
+    this.setPointed(undefined);
     const counts = new Map<MeshView, number>();
     this.placed_ = layout.placed.map(({ mesh }) => {
       const view = this.views_.get(mesh);
@@ -80,10 +90,34 @@ export class ModelView {
   setTouched(indices: readonly number[]): void {
     const now = this.placed_.length > 1 ? indices : [];
     if (now.length !== this.touched_.length || now.some((index, i) => index !== this.touched_[i])) {
-      this.mark(this.touched_, false);
-      this.mark(now, true);
+      this.mark(this.touched_, "none");
+      this.mark(now, "touched");
       this.touched_ = [...now];
+      this.showPointed();
     }
+  }
+
+  /** Shows which object of several the pointer is on. */
+  setPointed(object: number | undefined): void {
+    if (object === this.pointed_) {
+      return;
+    }
+    if (this.pointed_ !== undefined && !this.touched_.includes(this.pointed_)) {
+      this.mark([this.pointed_], "none");
+    }
+    this.pointed_ = object;
+    this.showPointed();
+  }
+
+  /** Draws only what the section leaves; all of it when there is none. */
+  setSection(section: Section | undefined): void {
+    const { palette_: palette } = this;
+    this.clip_ = section === undefined ? [] : [planeOf(section)];
+    const { edges, lines, points, touchedLines, touchedPoints } = palette;
+    for (const material of [edges, lines, points, touchedLines, touchedPoints]) {
+      material.clippingPlanes = this.clip_;
+    }
+    this.views_.forEach((view) => view.setClip(this.clip_));
   }
 
   /** Facets instead of interpolated normals; what has no normals is always shown so. */
@@ -98,7 +132,7 @@ export class ModelView {
   }
 
   applyTheme(): void {
-    const { model, tint, edges, lines, points, touchedLines, touchedPoints } = this.palette_;
+    const { model, tint, pointed, edges, lines, points, touchedLines, touchedPoints } = this.palette_;
     model.set(themeColour("model"));
     const touched = new THREE.Color(themeColour("model-touched"));
     tint.setRGB(touched.r / model.r, touched.g / model.g, touched.b / model.b);
@@ -108,12 +142,23 @@ export class ModelView {
     touchedLines.color.set(themeColour("accent"));
     touchedPoints.color.set(themeColour("accent"));
     this.views_.forEach((view) => view.applyTheme());
-    this.mark(this.touched_, true);
+    const under = new THREE.Color(themeColour("model-pointed"));
+    pointed.setRGB(under.r / model.r, under.g / model.g, under.b / model.b);
+    this.mark(this.touched_, "touched");
+    this.showPointed();
   }
 
-  /** True when the ray meets a surface; scenes too large to ask in one frame count as met. */
-  isHit(raycaster: THREE.Raycaster): boolean {
-    return this.triangles_ > kEdgesMaxTriangles || [...this.views_.values()].some((view) => view.isHit(raycaster));
+  /**
+   * Where a ray first meets a surface, and of which object: within `farthest` lengths of `direction`, at a point of the
+   * world that `accept` takes.
+   */
+  cast(origin: Vec, direction: Vec, farthest = Infinity, accept?: Accept): ObjectMeeting | undefined {
+    let best: ObjectMeeting | undefined;
+    this.placed_.forEach((placed, object) => {
+      const met = placed?.view.cast(placed.place, origin, direction, best?.distance ?? farthest, accept);
+      best = met === undefined ? best : { ...met, object };
+    });
+    return best;
   }
 
   /** Of everything where it is now; undefined when there is nothing. */
@@ -124,10 +169,16 @@ export class ModelView {
     return box.isEmpty() ? undefined : { min: plain(box.min), max: plain(box.max) };
   }
 
-  private mark(indices: readonly number[], touched: boolean): void {
+  private mark(indices: readonly number[], mark: Highlight): void {
     for (const i of indices) {
       const placed = this.placed_[i];
-      placed?.view.setTouched(placed.place, touched);
+      placed?.view.setMark(placed.place, mark);
+    }
+  }
+
+  private showPointed(): void {
+    if (this.pointed_ !== undefined && this.placed_.length > 1 && !this.touched_.includes(this.pointed_)) {
+      this.mark([this.pointed_], "pointed");
     }
   }
 
@@ -142,11 +193,16 @@ export class ModelView {
   }
 }
 
+function planeOf({ normal, constant_m }: Section): THREE.Plane {
+  return new THREE.Plane(new THREE.Vector3(normal.x, normal.y, normal.z), constant_m);
+}
+
 function makePalette(): Palette {
   const point = { size: kPointSize_px, sizeAttenuation: false };
   return {
     model: new THREE.Color(),
     tint: new THREE.Color(),
+    pointed: new THREE.Color(),
     edges: new THREE.MeshBasicMaterial({ wireframe: true, transparent: true, opacity: 0.22 }),
     lines: new THREE.LineBasicMaterial(),
     points: new THREE.PointsMaterial(point),

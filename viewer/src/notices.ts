@@ -9,7 +9,7 @@ export class Notices {
   private readonly standing_ = new Map<string, HTMLElement>();
 
   /** Shows or replaces the banner of one cause; undefined removes it. */
-  stand(cause: string, text: string | undefined): void {
+  stand(cause: string, text: string | undefined, kind: "bad" | "warn" = "bad"): void {
     const old = this.standing_.get(cause);
     if (text === undefined) {
       old?.remove();
@@ -17,14 +17,16 @@ export class Notices {
       return;
     }
     const banner = old ?? document.createElement("div");
-    banner.className = "notice bad";
+    banner.className = `notice ${kind}`;
     banner.dataset.cause = cause;
-    banner.setAttribute("role", "alert");
+    banner.setAttribute("role", kind === "bad" ? "alert" : "status");
     if (banner.textContent !== text) {
       banner.textContent = text;
     }
-    this.standing_.set(cause, banner);
-    this.host_.prepend(banner);
+    if (old === undefined) {
+      this.standing_.set(cause, banner);
+      this.host_.prepend(banner);
+    }
   }
 
   /** A message of the server, with a button to close it; the oldest ones go first. */

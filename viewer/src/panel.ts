@@ -9,6 +9,7 @@ import { Pending } from "./pending";
 import type { SettingsChange } from "./protocol";
 import type { Layout } from "./scene_messages";
 import type { Counts } from "./scene_store";
+import type { Side } from "./section";
 import type { ThemeChoice } from "./theme";
 import { describeEndings } from "./ticks_ended";
 import { formatCount, formatFixed, formatScale, formatShortCount, formatSi, kNoBreak, kThinSpace } from "./units";
@@ -22,7 +23,15 @@ export interface PanelActions {
   edges(shown: boolean): void;
   flat(flat: boolean): void;
   orbitFromEmpty(on: boolean): void;
+  dropLine(shown: boolean): void;
   resetView(): void;
+  bringHandBack(): void;
+  section(side: Side, share: number): void;
+  sound(on: boolean): void;
+  pause(paused: boolean): void;
+  copyLink(): void;
+  savePicture(): void;
+  saveSamples(): void;
 }
 
 /** From this height of the window on all sections fit. */
@@ -57,12 +66,20 @@ export class Panel {
     this.onCheck("cones", (on) => actions.cones(on));
     this.onCheck("edges", (on) => actions.edges(on));
     this.onCheck("flat", (on) => actions.flat(on));
+    this.onCheck("drop", (on) => actions.dropLine(on));
     this.onCheck("empty-orbit", (on) => actions.orbitFromEmpty(on));
     this.onChoice("grip", (value) => this.tell("grip", value === "firm", { handFirm: value === "firm" }));
     this.onChoice("theme", (value) => actions.theme(value as ThemeChoice));
     this.onStiffness();
     element("rearm").addEventListener("click", () => actions.rearm());
     element("reset-view").addEventListener("click", () => actions.resetView());
+    element("bring-back").addEventListener("click", () => actions.bringHandBack());
+    this.onCheck("sound", (on) => actions.sound(on));
+    this.onCheck("pause", (on) => actions.pause(on));
+    this.onSection();
+    element("copy-link").addEventListener("click", () => actions.copyLink());
+    element("save-picture").addEventListener("click", () => actions.savePicture());
+    element("save-samples").addEventListener("click", () => actions.saveSamples());
     element("help-open").addEventListener("click", () => element<HTMLDialogElement>("help").showModal());
     window.addEventListener("keydown", (event) => this.shortcut(event));
     this.foldByHeight();
@@ -101,6 +118,8 @@ export class Panel {
     slider.min = String(kStiffnessMin_N_m);
     slider.max = String(Math.floor(highest / kStiffnessStep_N_m) * kStiffnessStep_N_m);
     slider.step = String(kStiffnessStep_N_m);
+    slider.title = `The device's own: ${formatCount(recommended)}${kThinSpace}N/m, at the tick`;
+    element("stiffness-ticks").replaceChildren(new Option("", String(recommended)));
     this.showStiffness(recommended);
   }
 
@@ -125,6 +144,7 @@ export class Panel {
     const present = parts.filter(([count]) => count > 0);
     setText("model-size", present.map(([count, what]) => `${formatCount(count)}${kNoBreak}${what}`).join(", ") || "empty");
     setText("proxy-radius", formatSi(layout.proxyRadius_m, "m"));
+    setText("proxy-radius-hand", formatSi(layout.proxyRadius_m / layout.worldPerDevice, "m"));
     setText("scale", formatScale(layout.worldPerDevice));
   }
 
@@ -137,6 +157,7 @@ export class Panel {
   /** `penetration_m` as in the newest sample. */
   showState(state: State, force_N: number, penetration_m: number | undefined): void {
     setText("force", formatFixed(force_N, "N", 2));
+    setText("force-badge", formatFixed(force_N, "N", 2));
     setText("penetration", formatFixed(penetration_m === undefined ? undefined : penetration_m * 1e3, "mm", 2));
     setText("contacts", formatCount(state.contacts.length));
     setText("caps", formatShortCount(state.iterationCaps));
@@ -156,7 +177,8 @@ export class Panel {
     const firm = this.pending_.resolve<boolean>("grip", state.handFirm, now_ms);
     element<HTMLInputElement>(firm ? "grip-firm" : "grip-light").checked = true;
     if (state.stiffnessNM > 0) {
-      this.showStiffness(this.pending_.resolve<number>("stiffness", state.stiffnessNM, now_ms));
+      const held_N_m = state.vibration?.limitNM ?? 0;
+      this.showStiffness(this.pending_.resolve<number>("stiffness", state.stiffnessNM, now_ms), held_N_m);
     }
   }
 
@@ -178,6 +200,8 @@ export class Panel {
     element("rearm").hidden = !fault;
     element("fault").hidden = !fault;
     setText("fault", state.fault || "The server gave no reason.");
+    const forceless = state.safety !== SafetyState.ON && state.safety !== SafetyState.ARMING;
+    setText("energy-note", forceless ? "not felt: no force" : "total since the start");
     const limit_N_m = state.vibration?.limitNM ?? 0;
     element("softened").hidden = limit_N_m === 0;
     setText(
@@ -186,9 +210,12 @@ export class Panel {
     );
   }
 
-  private showStiffness(value_N_m: number): void {
+  /** `held_N_m`: what the server holds it below, because it shook; 0: nothing. */
+  private showStiffness(value_N_m: number, held_N_m = 0): void {
     element<HTMLInputElement>("stiffness").value = String(value_N_m);
-    setText("stiffness-value", `${formatCount(value_N_m)}${kThinSpace}N/m`);
+    const held = held_N_m > 0 && held_N_m < value_N_m ? `, held at ${formatCount(Math.round(held_N_m))}` : "";
+    setText("stiffness-value", `${formatCount(value_N_m)}${kThinSpace}N/m${held}`);
+    element("stiffness-value").classList.toggle("held", held !== "");
   }
 
   private onStiffness(): void {
@@ -203,6 +230,17 @@ export class Panel {
       this.pending_.hold("stiffness", slider.valueAsNumber, performance.now());
     });
     onLetGo(() => this.pending_.letGo(performance.now()));
+  }
+
+  private onSection(): void {
+    const side = element<HTMLSelectElement>("section");
+    const share = element<HTMLInputElement>("section-at");
+    const act = () => {
+      share.hidden = side.value === "off";
+      this.actions_.section(side.value as Side, share.valueAsNumber);
+    };
+    side.addEventListener("change", act);
+    share.addEventListener("input", act);
   }
 
   private tell(control: string, value: boolean, change: SettingsChange): void {
@@ -221,11 +259,14 @@ export class Panel {
     }
   }
 
-  /** In a low window only one of the foldable sections is open, so that the card never has to scroll. */
+  /**
+   * In a low window only one of the foldable sections is open, so that the card never has to scroll. The last one, of what
+   * is rarely used, is opened by the user alone.
+   */
   private foldByHeight(): void {
     const folds = [...document.querySelectorAll<HTMLDetailsElement>("#controls details")];
     const low = () => window.innerHeight < kTall_px;
-    const fit = () => folds.forEach((fold, i) => (fold.open = !low() || i === 0));
+    const fit = () => folds.forEach((fold, i) => (fold.open = i === 0 || (!low() && i < folds.length - 1)));
     for (const fold of folds) {
       fold.addEventListener("toggle", () => {
         if (fold.open && low()) {
@@ -242,7 +283,7 @@ export class Panel {
       return;
     }
     const ids: Readonly<Record<string, string>> = {
-      e: "explore", p: "planes", c: "cones", m: "edges", f: "flat", r: "reset-view", "?": "help-open",
+      e: "explore", p: "planes", c: "cones", m: "edges", f: "flat", d: "drop", b: "bring-back", t: "pause", r: "reset-view", "?": "help-open",
     };
     const id = ids[event.key.toLowerCase()];
     if (id !== undefined) {

@@ -12,6 +12,8 @@ export interface PlotSeries {
   /** Name of the colour variable in the style sheet. */
   readonly colour: string;
   readonly fill?: boolean;
+  /** Pixels; a wide line shows beneath a narrow one of the same values. */
+  readonly width?: number;
 }
 
 export interface PlotOptions {
@@ -23,17 +25,21 @@ export interface PlotOptions {
 
 const kFont = "11px system-ui, sans-serif";
 const kAxisWidth_px = 52;
+const kLine_px = 1.5;
+/** From this part of the limit on, the plot shows the limit. */
+const kNearLimit = 0.5;
 const kXAxisHeight_px = 22;
 const kXTicks_s = [-kWindow_s, -kWindow_s / 2, 0];
 
 export class LivePlot {
   private readonly plot_: uPlot;
   private readonly host_: HTMLElement;
+  private limit_ = 0;
 
   constructor(host: HTMLElement, options: PlotOptions) {
     this.host_ = host;
     const empty: Columns = [new Float64Array(), ...options.series.map(() => new Float64Array())];
-    this.plot_ = new uPlot(plotOptions(options, host), empty, host);
+    this.plot_ = new uPlot(plotOptions(options, host, () => this.limit_), empty, host);
     new ResizeObserver(() => this.fit()).observe(host);
   }
 
@@ -44,6 +50,11 @@ export class LivePlot {
 
   show(columns: Columns): void {
     this.plot_.setData(columns);
+  }
+
+  /** Values never go above this; 0: no limit is known. */
+  setLimit(limit: number): void {
+    this.limit_ = limit;
   }
 
   applyTheme(): void {
@@ -58,7 +69,7 @@ export class LivePlot {
   }
 }
 
-function plotOptions(options: PlotOptions, host: HTMLElement): uPlot.Options {
+function plotOptions(options: PlotOptions, host: HTMLElement, limit: () => number): uPlot.Options {
   const axis: Partial<uPlot.Axis> = {
     stroke: () => themeColour("muted"),
     font: kFont,
@@ -73,14 +84,15 @@ function plotOptions(options: PlotOptions, host: HTMLElement): uPlot.Options {
     padding: [6, 16, 0, 0],
     scales: {
       x: { time: false, range: () => [-kWindow_s, 0] },
-      y: { range: (_plot, _low, high) => [0, Math.max(options.smallestTop, (high || 0) * 1.08)] },
+      y: { range: (_plot, _low, high) => [0, topOf(options.smallestTop, high || 0, limit())] },
     },
+    hooks: { draw: [(plot) => drawLimit(plot, limit())] },
     series: [
       {},
       ...options.series.map((series): uPlot.Series => ({
         stroke: () => themeColour(series.colour),
         ...(series.fill === true ? { fill: () => `${themeColour(series.colour)}24` } : {}),
-        width: 1.5,
+        width: series.width ?? kLine_px,
         points: { show: false },
       })),
     ],
@@ -95,6 +107,30 @@ function plotOptions(options: PlotOptions, host: HTMLElement): uPlot.Options {
       },
     ],
   };
+}
+
+/** Where the scale ends: with the limit in view when the values come near it. */
+function topOf(smallest: number, high: number, limit: number): number {
+  return 1.08 * Math.max(smallest / 1.08, high, high > kNearLimit * limit ? limit : 0);
+}
+
+/** A dashed line, when it is in view. */
+function drawLimit(plot: uPlot, limit: number): void {
+  const top = plot.scales.y?.max ?? 0;
+  if (!(limit > 0) || limit > top) {
+    return;
+  }
+  const { ctx: context, bbox } = plot;
+  const y = plot.valToPos(limit, "y", true);
+  context.save();
+  context.strokeStyle = themeColour("bad");
+  context.setLineDash([6, 4]);
+  context.lineWidth = window.devicePixelRatio;
+  context.beginPath();
+  context.moveTo(bbox.left, y);
+  context.lineTo(bbox.left + bbox.width, y);
+  context.stroke();
+  context.restore();
 }
 
 function timeLabel(time_s: number): string {

@@ -4,6 +4,7 @@
 
 import * as THREE from "three";
 import type { ContactPlane, State } from "./gen/hl_pb";
+import { DropLine } from "./drop_line";
 import { FrictionCones } from "./friction_cones";
 import { overlay } from "./overlay";
 import { themeColour } from "./theme";
@@ -24,6 +25,7 @@ const kFinger_px = 5;
 export class ProbeView {
   readonly group = new THREE.Group();
   readonly cones = new FrictionCones();
+  readonly drop = new DropLine();
   private readonly proxy_: THREE.Mesh<THREE.SphereGeometry, THREE.MeshStandardMaterial>;
   private readonly ghost_: THREE.Mesh<THREE.SphereGeometry, THREE.MeshBasicMaterial>;
   private readonly ring_: THREE.Mesh<THREE.RingGeometry, THREE.MeshBasicMaterial>;
@@ -43,6 +45,9 @@ export class ProbeView {
   constructor() {
     const sphere = new THREE.SphereGeometry(1, 32, 20);
     this.proxy_ = new THREE.Mesh(sphere, new THREE.MeshStandardMaterial({ roughness: 0.35 }));
+    // Drawn after the finger, which would hide it otherwise.
+    this.proxy_.material.transparent = true;
+    this.proxy_.renderOrder = 1;
     this.ghost_ = new THREE.Mesh(sphere, overlay(THREE.MeshBasicMaterial, 0.35));
     this.ring_ = new THREE.Mesh(new THREE.RingGeometry(0.86, 1, 48), overlay(THREE.MeshBasicMaterial, 0.7));
     this.finger_ = new THREE.Mesh(new THREE.SphereGeometry(1, 16, 12), overlay(THREE.MeshBasicMaterial, 0.55));
@@ -53,7 +58,7 @@ export class ProbeView {
     this.shaft_ = new THREE.Mesh(new THREE.CylinderGeometry(1, 1, 1, 16).translate(0, 0.5, 0), arrowMaterial);
     this.tip_ = new THREE.Mesh(new THREE.ConeGeometry(1, 1, 20).translate(0, 0.5, 0), arrowMaterial);
     this.arrow_.add(this.shaft_, this.tip_);
-    this.group.add(this.proxy_, this.ghost_, this.ring_, this.finger_, this.line_, this.arrow_, this.cones.group);
+    this.group.add(this.proxy_, this.ghost_, this.ring_, this.finger_, this.line_, this.arrow_, this.cones.group, this.drop.group);
     for (let i = 0; i < kPlanesMax; ++i) {
       this.planes_.push(this.makePlane());
     }
@@ -72,6 +77,10 @@ export class ProbeView {
     this.ghost_.scale.setScalar(this.radius_m_);
   }
 
+  get radius_m(): number {
+    return this.radius_m_;
+  }
+
   setForceMax(force_N: number): void {
     this.forceMax_N_ = force_N > 0 ? force_N : 10;
   }
@@ -82,6 +91,7 @@ export class ProbeView {
 
   applyTheme(): void {
     this.cones.applyTheme();
+    this.drop.applyTheme();
     this.proxy_.material.color.set(themeColour("proxy"));
     this.proxy_.material.emissive.set(themeColour("proxy")).multiplyScalar(0.35);
     this.ghost_.material.color.set(themeColour("proxy"));

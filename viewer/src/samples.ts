@@ -58,6 +58,14 @@ export class SampleRing {
     this.size_ = 0;
   }
 
+  /** Times and values of `channel` in the last `window_s` seconds. */
+  last(channel: number, window_s: number): { times: number[]; values: number[] } {
+    const first = this.lowerBound((this.latestTime ?? 0) - window_s);
+    const slots = Array.from({ length: this.size_ - first }, (_, i) => this.slot(first + i));
+    const values = this.values_[channel]!;
+    return { times: slots.map((slot) => this.times_[slot]!), values: slots.map((slot) => values[slot]!) };
+  }
+
   /** Largest value of `channel` since `from_s`; 0 when there is none. */
   maximum(channel: number, from_s: number): number {
     let largest = 0;

@@ -3,7 +3,7 @@
 
 import type { PlacedMesh, SceneLayout, SceneMesh, State, SurfaceImage } from "./gen/hl_pb";
 import type { Vec } from "./vec";
-import { floats, indices, knownVec, ProtocolError } from "./wire_values";
+import { floats, indices, knownVec, ProtocolError, shorts } from "./wire_values";
 
 /** Numbers of a pose: 3 x 4, row by row, object to world. */
 export const kPoseNumbers = 12;
@@ -29,6 +29,8 @@ export interface Mesh {
   readonly points: Uint32Array;
   readonly texcoords: Float32Array | undefined;
   readonly looks: readonly SurfaceLook[];
+  /** Material number of each triangle; empty: all have 0. */
+  readonly triangleMaterials: Uint16Array;
   readonly bounds: Bounds | undefined;
 }
 
@@ -68,6 +70,7 @@ export function checkMesh(mesh: SceneMesh): Mesh {
     segments: indices(mesh.segments, 2, vertices, "segments"),
     points: indices(mesh.points, 1, vertices, "points"),
     ...checkLooks(mesh, vertices),
+    triangleMaterials: checkMaterials(mesh),
     bounds: boundsOf(mesh),
   };
 }
@@ -98,6 +101,14 @@ function boundsOf(message: SceneMesh | SceneLayout): Bounds | undefined {
   const min = knownVec(message.boundsMin);
   const max = knownVec(message.boundsMax);
   return min === undefined || max === undefined ? undefined : { min, max };
+}
+
+function checkMaterials(mesh: SceneMesh): Uint16Array {
+  const numbers = shorts(mesh.triangleMaterials, "material numbers");
+  if (numbers.length !== 0 && numbers.length !== mesh.triangles.length / 12) {
+    throw new ProtocolError("the scene has not one material per triangle");
+  }
+  return numbers;
 }
 
 function checkLooks(mesh: SceneMesh, vertices: number): { texcoords: Float32Array | undefined; looks: SurfaceLook[] } {

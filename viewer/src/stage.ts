@@ -3,6 +3,7 @@
 
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import type { Rect } from "./edge_mark";
 import { depthOf, type ViewFrame } from "./hand_mapping";
 import { themeColour } from "./theme";
 import type { Vec } from "./vec";
@@ -23,7 +24,9 @@ export interface Insets {
 }
 
 export class Stage {
-  readonly renderer: THREE.WebGLRenderer;
+  readonly canvas: HTMLCanvasElement;
+  /** Undefined in a browser that cannot draw: all else works. */
+  private readonly renderer_: THREE.WebGLRenderer | undefined;
   readonly camera = new THREE.PerspectiveCamera(kFovY_deg, 1, 0.01, 100);
   readonly controls: OrbitControls;
   readonly scene = new THREE.Scene();
@@ -35,9 +38,17 @@ export class Stage {
   private untouched_ = true;
   private drawn_ms_ = 0;
 
-  constructor(canvas: HTMLCanvasElement) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !drawsInSoftware() });
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, kPixelRatioMax));
+  /** `cannotDraw` is told why nothing is drawn, and undefined when it is again. */
+  constructor(canvas: HTMLCanvasElement, cannotDraw: (reason: string | undefined) => void) {
+    this.canvas = canvas;
+    this.renderer_ = makeRenderer(canvas);
+    if (this.renderer_ === undefined) {
+      cannotDraw("This browser cannot draw in 3-D: WebGL is switched off or not there. Numbers and controls work.");
+    }
+    canvas.addEventListener("webglcontextlost", () => {
+      cannotDraw("The browser took the graphics away from this page. Numbers and controls work. Reload to draw again.");
+    });
+    canvas.addEventListener("webglcontextrestored", () => cannotDraw(undefined));
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = true;
     this.controls.addEventListener("start", () => (this.untouched_ = false));
@@ -52,8 +63,26 @@ export class Stage {
   }
 
   get size_px(): { width: number; height: number } {
-    const canvas = this.renderer.domElement;
+    const { canvas } = this;
     return { width: canvas.clientWidth, height: canvas.clientHeight };
+  }
+
+  /** The part of the canvas that no panel covers, CSS pixels. */
+  get visible(): Rect {
+    const { width, height } = this.size_px;
+    const { left, right, top, bottom } = this.insets_;
+    return { left, top, right: width - right, bottom: height - bottom };
+  }
+
+  /** What the view turns about. */
+  get target(): Vec {
+    return plain(this.controls.target);
+  }
+
+  /** Where the floor is beneath a place. */
+  floorBelow(place: Vec): Vec | undefined {
+    const floor_m = this.floor_?.position.y;
+    return floor_m === undefined || place.y < floor_m ? undefined : { ...place, y: floor_m };
   }
 
   setBounds(boundsMin: Vec, boundsMax: Vec): void {
@@ -92,13 +121,28 @@ export class Stage {
     this.controls.update();
   }
 
+  /** Where the eye is, and what it looks at. */
+  get eye(): { position: Vec; target: Vec } {
+    return { position: plain(this.camera.position), target: this.target };
+  }
+
+  /** As if the user had turned the view so. */
+  lookFrom(position: Vec, target: Vec): void {
+    this.untouched_ = false;
+    this.camera.position.set(position.x, position.y, position.z);
+    this.controls.target.set(target.x, target.y, target.z);
+    this.controls.update();
+  }
+
   /** Follows the window; `insets` are the panels. A view that the user has not moved keeps showing the whole model. */
   resize(insets: Insets): void {
     this.insets_ = insets;
-    const canvas = this.renderer.domElement;
+    const { canvas } = this;
     const width = Math.max(1, canvas.parentElement?.clientWidth ?? 1);
     const height = Math.max(1, canvas.parentElement?.clientHeight ?? 1);
-    this.renderer.setSize(width, height, true);
+    this.renderer_?.setSize(width, height, true);
+    canvas.style.width = `${width}px`;
+    canvas.style.height = `${height}px`;
     this.camera.aspect = width / height;
     const shiftX = (insets.right - insets.left) / 2;
     const shiftY = (insets.bottom - insets.top) / 2;
@@ -140,11 +184,13 @@ export class Stage {
     return { x: ((ndc.x + 1) / 2) * width, y: ((1 - ndc.y) / 2) * height, depth_m };
   }
 
-  rayAt(x_px: number, y_px: number): THREE.Raycaster {
+  /** Through a pixel of the canvas. World frame, the direction is a unit vector. */
+  rayAt(x_px: number, y_px: number): { origin: Vec; direction: Vec } {
     const { width, height } = this.size_px;
+    this.camera.updateMatrixWorld();
     const raycaster = new THREE.Raycaster();
     raycaster.setFromCamera(new THREE.Vector2((x_px / width) * 2 - 1, 1 - (y_px / height) * 2), this.camera);
-    return raycaster;
+    return { origin: plain(raycaster.ray.origin), direction: plain(raycaster.ray.direction) };
   }
 
   draw(): void {
@@ -153,7 +199,17 @@ export class Stage {
     this.controls.dampingFactor = 1 - Math.exp(-(now_ms - this.drawn_ms_) / kDamping_ms);
     this.drawn_ms_ = now_ms;
     this.controls.update();
-    this.renderer.render(this.scene, this.camera);
+    this.renderer_?.render(this.scene, this.camera);
+  }
+
+  /** The picture of the view alone; undefined where nothing can be drawn. */
+  async picture(): Promise<Blob | undefined> {
+    if (this.renderer_ === undefined) {
+      return undefined;
+    }
+    // What was drawn is gone as soon as the browser has shown it.
+    this.renderer_.render(this.scene, this.camera);
+    return new Promise((resolve) => this.canvas.toBlob((blob) => resolve(blob ?? undefined), "image/png"));
   }
 
   private free(): { width: number; height: number } {
@@ -194,6 +250,18 @@ export class Stage {
     this.floor_.position.copy(centre);
     this.scene.add(this.floor_);
   }
+}
+
+/** Undefined where WebGL is switched off or not there. */
+function makeRenderer(canvas: HTMLCanvasElement): THREE.WebGLRenderer | undefined {
+  const context = canvas.getContext("webgl2", { antialias: !drawsInSoftware(), alpha: true });
+  if (context === null) {
+    return undefined;
+  }
+  const renderer = new THREE.WebGLRenderer({ canvas, context });
+  renderer.localClippingEnabled = true;
+  renderer.setPixelRatio(Math.min(window.devicePixelRatio, kPixelRatioMax));
+  return renderer;
 }
 
 /** True when no graphics card draws: then smooth edges would cost two thirds of the frames. */

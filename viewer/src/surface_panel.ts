@@ -3,6 +3,7 @@
 
 import { element, onLetGo, setText } from "./elements";
 import type { QuantityInfo, Surfaces } from "./gen/hl_pb";
+import { kPresets, originOf, presetOf, settingsFor } from "./materials";
 import { kSendPeriod_ms, paced } from "./pace";
 import { Pending } from "./pending";
 import type { SettingsChange } from "./protocol";
@@ -22,6 +23,7 @@ export class SurfacePanel {
     this.onSwitch("shading", "smooth");
     this.onSwitch("textures", "textures");
     element("surface-reset").addEventListener("click", () => this.choose(this.fields(), undefined));
+    this.onPreset();
     onLetGo(() => this.pending_.letGo(performance.now()));
     this.show();
   }
@@ -57,6 +59,7 @@ export class SurfacePanel {
     name.title = knob.title;
     const value = document.createElement("output");
     value.id = `${knob.id}-value`;
+    value.setAttribute("aria-live", "off");
     label.append(name, value, this.sliderOf(knob));
     return label;
   }
@@ -82,6 +85,35 @@ export class SurfacePanel {
     box.addEventListener("change", () => this.choose([field], box.checked ? on : false));
   }
 
+  private onPreset(): void {
+    const select = element<HTMLSelectElement>("material");
+    select.append(...kPresets.map(({ name }) => new Option(name)));
+    select.addEventListener("change", () => {
+      const preset = kPresets.find(({ name }) => name === select.value);
+      const settings = preset === undefined ? {} : settingsFor(preset, this.knobFields());
+      this.knobFields().forEach((field) => this.pending_.set(field, settings[field], performance.now()));
+      this.show();
+      this.sendSurfaces_();
+    });
+  }
+
+  private knobFields(): readonly SurfaceField[] {
+    return this.knobs_.map(({ field }) => field);
+  }
+
+  /** The preset that the sliders show, the scene's own values, or some of the user's. */
+  private showPreset(chosen: SurfaceSettings): void {
+    const fields = this.knobFields();
+    const preset = presetOf(chosen, fields);
+    const own = fields.every((field) => chosen[field] === undefined);
+    const value = own ? kSceneDecides : (preset?.name ?? "own");
+    const select = element<HTMLSelectElement>("material");
+    if (select.value !== value && document.activeElement !== select) {
+      select.value = value;
+    }
+    setText("material-origin", own || preset === undefined ? "" : originOf(preset));
+  }
+
   private choose(fields: readonly SurfaceField[], value: number | boolean | undefined): void {
     fields.forEach((field) => this.pending_.set(field, value, performance.now()));
     this.show();
@@ -97,6 +129,7 @@ export class SurfacePanel {
 
   private show(): void {
     const chosen = this.chosen();
+    this.showPreset(chosen);
     for (const knob of this.knobs_) {
       const value = chosen[knob.field] as number | undefined;
       const slider = element<HTMLInputElement>(knob.id);

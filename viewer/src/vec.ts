@@ -25,10 +25,25 @@ export function dot(a: Vec, b: Vec): number {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+export function cross(a: Vec, b: Vec): Vec {
+  return { x: a.y * b.z - a.z * b.y, y: a.z * b.x - a.x * b.z, z: a.x * b.y - a.y * b.x };
+}
+
 export function length(a: Vec): number {
   return Math.hypot(a.x, a.y, a.z);
 }
 
 export function isFiniteVec(a: Vec): boolean {
   return Number.isFinite(a.x) && Number.isFinite(a.y) && Number.isFinite(a.z);
+}
+
+/** Of length 1; of a zero vector: itself. */
+export function unit(a: Vec): Vec {
+  const size = length(a);
+  return size > 0 ? scale(a, 1 / size) : a;
+}
+
+/** From `a` at 0 to `b` at 1. */
+export function mix(a: Vec, b: Vec, t: number): Vec {
+  return add(a, scale(sub(b, a), t));
 }

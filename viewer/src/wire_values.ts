@@ -42,3 +42,12 @@ export function indices(bytes: Uint8Array, corners: number, vertices: number, wh
   }
   return values;
 }
+
+/** Whole numbers of two bytes. */
+export function shorts(bytes: Uint8Array, what: string): Uint16Array {
+  if (bytes.byteLength % 2 !== 0) {
+    throw new ProtocolError(`the scene's ${what} are cut short`);
+  }
+  const own = new Uint8Array(bytes);
+  return new Uint16Array(own.buffer, 0, own.byteLength / 2);
+}

@@ -25,6 +25,9 @@ const kSceneFriction = 0.5;
 const kStatePeriod_ms = 16;
 const kSamplesPerState = 16;
 const kSphereMesh = 1;
+const kForceMax_N = 8.5;
+const kMaterial = { stiffness: 1, staticFriction: kSceneFriction, dynamicFriction: 0.3, viscosityNsM: 0 };
+const kSway_m = 0.01;
 
 type Body = NonNullable<MessageInitShape<typeof ServerMessageSchema>["body"]>;
 
@@ -38,6 +41,13 @@ export class FakeServer {
   surfaces = create(SurfacesSchema);
   ledger = LedgerMode.TANK;
   slipping = false;
+  /** What the server holds the spring below, N/m; 0: nothing. */
+  held_N_m = 0;
+  /** The first sphere sways toward the viewer and back. */
+  swaying = false;
+  /** The force swings between none and the device's limit. */
+  shaking = false;
+  name = "sphere";
   fault = "";
   silent = false;
   buttons = 0;
@@ -100,6 +110,13 @@ export class FakeServer {
     this.send(this.layout());
   }
 
+  /** As if the server ended and another one began with another scene. */
+  begin(name: string, spheres: number): void {
+    this.name = name;
+    this.spheres = spheres;
+    this.sockets_.clients.forEach((socket) => socket.terminate());
+  }
+
   async close(): Promise<void> {
     clearInterval(this.timer_);
     this.sockets_.clients.forEach((socket) => socket.terminate());
@@ -110,7 +127,7 @@ export class FakeServer {
   private greet(socket: WebSocket): void {
     socket.on("message", (data: Buffer) => this.obey(fromBinary(ViewerMessageSchema, new Uint8Array(data))));
     const device = {
-      name: "simulated sphere", forceMaxN: 8.5, stiffnessNM: 1000, stiffnessMaxNM: 3500, dampingNsM: 1,
+      name: "simulated sphere", forceMaxN: kForceMax_N, stiffnessNM: 1000, stiffnessMaxNM: 3500, dampingNsM: 1,
       servoRateHz: 1000, proxyRateHz: 1000, simulatedHand: this.simulatedHand,
     };
     const quantities = [
@@ -119,7 +136,7 @@ export class FakeServer {
       { field: "dynamicFriction", name: "dynamic friction", usual: 1.5, words: "mu_d" },
       { field: "viscosityNsM", name: "viscosity", unit: "N s/m", usual: 20, words: "drag" },
     ];
-    const hello = { protocolVersion: kProtocolVersion, serverVersion: "fake", sceneName: "sphere", device, quantities };
+    const hello = { protocolVersion: kProtocolVersion, serverVersion: "fake", sceneName: this.name, device, quantities };
     socket.send(encode({ case: "hello", value: hello }));
     socket.send(encode(sphereMesh(64, 128)));
     socket.send(encode(this.layout()));
@@ -168,7 +185,9 @@ export class FakeServer {
     const span_s = this.time_s_ - before_s;
     const samples = Array.from({ length: kSamplesPerState }, (_, i) => ({
       timeS: before_s + (span_s * (i + 1)) / kSamplesPerState,
-      forceN: length(force) * (1 + 0.01 * Math.sin(i * 1.7)),
+      forceN: this.shaking
+        ? (i < kSamplesPerState / 2 ? 0 : kForceMax_N)
+        : length(force) * (1 + 0.01 * Math.sin(i * 1.7)),
       penetrationM: length(sub(proxy, this.finger_)),
       tickUs: 2.5,
     }));
@@ -179,6 +198,8 @@ export class FakeServer {
       value: {
         timeS: this.time_s_, finger: this.finger_, proxy, forceN: force, samples,
         contacts: inside ? [this.contact(normal)] : [],
+        ...(this.swaying ? { moved: [0], movedPoses: bytesOf(this.swayed()) } : {}),
+        vibration: { limitNM: this.held_N_m },
         slipping: inside && this.slipping,
         ledger: this.ledgerNow(),
         surfaces: { ...this.surfaces, textures: this.surfaces.textures ?? true },
@@ -203,11 +224,15 @@ export class FakeServer {
     return {
       case: "layout",
       value: {
-        number: this.layout_, name: "sphere", proxyRadius: kProxy_m, worldPerDevice: 1,
-        placed: poses.map(() => ({ mesh: kSphereMesh })), poses: bytesOf(Float32Array.from(poses.flat())),
+        number: this.layout_, name: this.name, proxyRadius: kProxy_m, worldPerDevice: 1,
+        placed: poses.map(() => ({ mesh: kSphereMesh, materials: [kMaterial] })), poses: bytesOf(Float32Array.from(poses.flat())),
         ...(this.spheres > 0 ? bounds : {}),
       },
     };
+  }
+
+  private swayed(): Float32Array {
+    return Float32Array.of(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, kSway_m * Math.sin(2 * this.time_s_));
   }
 
   private contact(normal: Vec) {

@@ -89,6 +89,8 @@ describe("meshes", () => {
     ["half a vertex", { positions: new Uint8Array(8), normals: new Uint8Array() }],
     ["a position that is not a number", { positions: bytes(Float32Array.of(0, 0, NaN, 0, 0, 0, 0, 0, 0)) }],
     ["textures without coordinates", { images: [kImage], parts: [kPart] }],
+    ["two material numbers for one triangle", { triangleMaterials: Uint8Array.of(1, 0, 1, 0) }],
+    ["a material number cut short", { triangleMaterials: Uint8Array.of(1) }],
     ["a texture cut short", { ...kTextured, images: [{ ...kImage, width: 3 }] }],
     ["a part without its texture", { ...kTextured, parts: [{ ...kPart, image: 1 }] }],
     ["a part beyond the triangles", { ...kTextured, parts: [{ ...kPart, triangles: 2 }] }],

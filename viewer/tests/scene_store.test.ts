@@ -22,7 +22,7 @@ function moves(number: number, indices: number[], ...xs: number[]): Moves {
 function mesh(number: number, triangles: number, points = 0): Mesh {
   return {
     number, positions: new Float32Array(9), normals: undefined, triangles: new Uint32Array(3 * triangles),
-    segments: new Uint32Array(), points: new Uint32Array(points), texcoords: undefined, looks: [], bounds: undefined,
+    segments: new Uint32Array(), points: new Uint32Array(points), texcoords: undefined, looks: [], triangleMaterials: new Uint16Array(), bounds: undefined,
   };
 }
 

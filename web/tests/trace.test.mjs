@@ -20,7 +20,7 @@ const kCases = [
   { scene: "teapot", surface: {}, size: 0.05 },
   { scene: "teapot", surface: { "--static-friction": 0.6, "--dynamic-friction": 0.4 }, size: 0.05 },
   { scene: "teapot", surface: {}, shade: "smooth", size: 0.05 },
-  { scene: "sphere:2000", surface: { "--viscosity": 2, "--stiffness": 0.7 }, shade: "smooth", size: 0.05 },
+  { scene: "sphere:2000", surface: { "--viscosity": 2, "--stiffness": 0.7 }, shade: "smooth", size: 0.1 },
   { scene: "terrain:10000", surface: { "--static-friction": 0.3 }, size: 0.05 },
   { scene: "pits:1000", surface: {}, size: 0.05 },
 ];

@@ -10,10 +10,6 @@ namespace hl {
 
 namespace {
 
-constexpr VendorLibraryName kLibrary{
-    "libdhd.so.3", "HL_DHD_LIBRARY",
-    "install the Force Dimension SDK (version 3, free for owners, from forcedimension.com)"};
-
 // Places in the array that dhdGetStatus fills; newer versions fill more than the 16 of SDK 3.
 constexpr std::size_t kPower = 0, kConnected = 1, kReset = 3, kForce = 5, kError = 9, kForceOffCause = 14;
 constexpr std::size_t kMaxStatuses = 64;

@@ -13,6 +13,10 @@ namespace hl {
 
 class ForceDimensionDevice final : public Device {
  public:
+  static constexpr VendorLibraryName kLibrary{
+      "libdhd.so.3", "HL_DHD_LIBRARY",
+      "install the Force Dimension SDK (version 3, free for owners, from forcedimension.com)"};
+
   ~ForceDimensionDevice() override { close(); }
 
   void open() override;

@@ -7,10 +7,6 @@ namespace hl {
 
 namespace {
 
-constexpr VendorLibraryName kLibrary{
-    "libHD.so", "HL_HD_LIBRARY",
-    "install 3D Systems' OpenHaptics 3.4 and the Touch driver for Linux (from support.3dsystems.com)"};
-
 // Names and codes of the library's own header, hdDefines.h.
 constexpr unsigned int kInvalidHandle = 0xFFFFFFFF;
 constexpr unsigned int kCurrentButtons = 0x2000, kCurrentPosition = 0x2050, kModelType = 0x2501;

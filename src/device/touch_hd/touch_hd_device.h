@@ -17,6 +17,10 @@ namespace hl {
 /// sample and takes the newest force, and neither waits for the other.
 class TouchHdDevice final : public Device {
  public:
+  static constexpr VendorLibraryName kLibrary{
+      "libHD.so", "HL_HD_LIBRARY",
+      "install 3D Systems' OpenHaptics 3.4 and the Touch driver for Linux (from support.3dsystems.com)"};
+
   ~TouchHdDevice() override { close(); }
 
   void open() override;

@@ -1,0 +1,754 @@
+// HapticClient: touch from C#, without native code and without packages: the protocol of docs/protocol.md over a
+// WebSocket. One file to copy, hence its length; C# 7 and .NET Standard 2.0, so .NET, Mono and Unity take it.
+// docs/csharp.md is the guide.
+//
+// Messages are written in protobuf's binary form, by hand: smaller than JSON, no decimal commas of the machine's
+// language, and a field that a newer server adds is skipped by its length.
+//
+// Units: metre, newton, second. Frames: right-handed, world. No call waits for the network. All calls: any thread.
+using System;
+using System.Collections.Generic;
+using System.Net.WebSockets;
+using System.Text;
+using System.Threading;
+using System.Threading.Tasks;
+
+namespace HL {
+    public struct Vec3 {
+        public double X, Y, Z;
+        public Vec3(double x, double y, double z) { X = x; Y = y; Z = z; }
+    }
+
+    /// <summary>Vertices, and lists of their numbers from 0. Copied when it is given to the client.</summary>
+    public sealed class TouchMesh {
+        public double[] Vertices;   // x y z each, m
+        public double[] Normals;    // x y z each, or null: flat
+        public double[] TexCoords;  // u v each, or null
+        public int[] Triangles;     // three each; both sides are touched
+        public int[] Segments;      // two each
+        public int[] Points;        // one each
+    }
+
+    /// <summary>How a surface feels. Null: as the call that places it says; at last the server's default.</summary>
+    public sealed class TouchMaterial {
+        public double? Stiffness;        // 0..1
+        public double? StaticFriction;   // >= 0
+        public double? DynamicFriction;  // >= 0
+        public double? Viscosity_Ns_m;   // >= 0
+        public double? Stribeck_m_s;     // >= 0
+        public double? Presliding_N_m;   // >= 0
+        public double? Adhesion_N;       // >= 0
+        public bool? Flat;               // true: normals are ignored
+    }
+
+    /// <summary>A mesh, or a call of an object by its number; placed by a matrix.</summary>
+    public sealed class TouchItem {
+        public TouchMesh Mesh;
+        public uint Object;        // > 0: a call, and no mesh
+        public double[] Matrix;    // 16 numbers, column by column, last row 0 0 0 1; null: identity
+        public TouchMaterial Material;
+        public uint? Name;         // told when it is touched
+    }
+
+    /// <summary>Settings of the device, for its master. Null: unchanged.</summary>
+    public sealed class DeviceSettings {
+        public double? ProxyRadius;      // m, world
+        public Vec3? WorkspaceOrigin;    // of the hand's space, world
+        public double WorldPerDevice = 1;  // m of world per m of hand; used with WorkspaceOrigin
+        public double? Stiffness_N_m;
+        public Vec3? HandGoal;           // simulated devices
+        public bool Rearm;               // leave the fault
+
+        // What this and then `later` change.
+        internal DeviceSettings With(DeviceSettings later) {
+            return new DeviceSettings {
+                ProxyRadius = later.ProxyRadius ?? ProxyRadius,
+                WorkspaceOrigin = later.WorkspaceOrigin ?? WorkspaceOrigin,
+                WorldPerDevice = later.WorkspaceOrigin.HasValue ? later.WorldPerDevice : WorldPerDevice,
+                Stiffness_N_m = later.Stiffness_N_m ?? Stiffness_N_m,
+                HandGoal = later.HandGoal ?? HandGoal,
+                Rearm = later.Rearm || Rearm
+            };
+        }
+    }
+
+    public struct Touched {
+        public uint Object, Name, Session;
+        public Vec3 Point, Normal;
+    }
+
+    public enum Safety { Off, Arming, On, Fault, Waiting }
+
+    /// <summary>The device and the proxy at one moment. Never changes once made.</summary>
+    public sealed class TouchState {
+        public double Time_s;      // server's clock
+        public Vec3 Finger, Proxy, Force_N;
+        public Touched[] Touched;
+        public Safety Safety;
+        public string Fault = "";
+        public uint Buttons;       // bit i: button i is down
+        public double ProxyRadius;
+        public bool Master;
+    }
+
+    public enum TouchEventKind { Touch, Untouch, Button, FrameShown, Warning, Refused }
+
+    public sealed class TouchEvent {
+        public TouchEventKind Kind;
+        public double Time_s;
+        public uint Object, Name;  // Touch, Untouch
+        public Vec3 Position;      // of the proxy
+        public uint Button;
+        public bool Down;
+        public ulong Frame;        // FrameShown, Warning, Refused
+        public string Text = "";   // Warning, Refused: one line
+    }
+
+    public sealed class ClientOptions {
+        public string Name = "C#";       // for the server's logs
+        public string Token = "";        // where the server asks for one
+        public uint Device;
+        public bool Master = true;       // wants to set the device; the first client gets it
+        public bool KeepObjects;         // objects stay touchable when this client has gone
+        public double StateRate_Hz = 60;
+        public double Timeout_s = 10;    // for the welcome
+    }
+
+    public enum ClientStatus { Connecting, Open, Closed }
+
+    public sealed class HapticClient : IDisposable {
+        const int MaxUnanswered = 16;    // frames; with more the server is still building, and the next one waits
+        const int MaxEvents = 4096;      // events that nobody takes; then the oldest go
+        const int MaxReplyBytes = 1 << 24;
+        const int CloseWait_ms = 2000;
+
+        readonly object gate = new object();
+        readonly ClientWebSocket socket = new ClientWebSocket();
+        readonly CancellationTokenSource stop = new CancellationTokenSource();
+        readonly SemaphoreSlim wake = new SemaphoreSlim(0);
+        readonly Queue<TouchEvent> events = new Queue<TouchEvent>();
+        readonly ClientOptions options;
+        readonly Uri address;
+        Draft drawing = new Draft();     // since the last Flush
+        Draft waiting = new Draft();     // flushed, not sent
+        DeviceSettings setting;          // not sent; null: none
+        ulong sent, answered, nextUpload = 1;
+        ulong messageLimit = 1 << 22;
+        double frameLimit_Hz = 250;
+        bool disposed;
+        volatile ClientStatus status = ClientStatus.Connecting;
+        volatile string reason = "";
+        volatile TouchState newest;
+
+        /// <summary>Begins to connect, and returns at once. `url`: ws:// or wss://HOST:PORT/hl, or hl:// or
+        /// hls://HOST[:PORT]; "?token=..." may follow. ArgumentException: it is none.</summary>
+        public HapticClient(string url, ClientOptions options = null) {
+            this.options = options ?? new ClientOptions();
+            string token = this.options.Token;
+            address = Address.Parse(url, ref token);
+            stop.CancelAfter(TimeSpan.FromSeconds(this.options.Timeout_s));
+            Ended = Task.Run(() => Converse(token));
+        }
+
+        public ClientStatus Status { get { return status; } }
+        /// <summary>Why it is closed, in one line; "" before.</summary>
+        public string Reason { get { return reason; } }
+        /// <summary>The newest state; null before the first.</summary>
+        public TouchState Newest { get { return newest; } }
+        /// <summary>Ends when the conversation has; never fails. To connect again, make another client.</summary>
+        public Task Ended { get; private set; }
+
+        /// <summary>Defines or overwrites object `id` > 0 in the next frame.</summary>
+        public void Define(uint id, params TouchItem[] items) {
+            if (id == 0) throw new ArgumentException("the number of an object is above 0");
+            lock (gate) drawing.Objects[id] = Content.Of(items, 2, ref nextUpload);
+        }
+
+        /// <summary>Deletes object `id` in the next frame.</summary>
+        public void Delete(uint id) { lock (gate) drawing.Objects[id] = null; }
+
+        /// <summary>What the world consists of from the next frame on.</summary>
+        public void SetWorld(params TouchItem[] items) {
+            lock (gate) drawing.World = Content.Of(items, 1, ref nextUpload);
+        }
+
+        /// <summary>Ends the frame: all that was given since the last is felt at once. While the server cannot take it,
+        /// it waits, together with those that follow: the later world, the later definitions.</summary>
+        public void Flush() {
+            lock (gate) {
+                waiting.Merge(drawing);
+                drawing = new Draft();
+            }
+            Wake();
+        }
+
+        /// <summary>Changes the device at once, not with the frame. Of what is set faster than it can be sent the newest
+        /// goes.</summary>
+        public void Set(DeviceSettings changes) {
+            lock (gate) setting = (setting ?? new DeviceSettings()).With(changes);
+            Wake();
+        }
+
+        /// <summary>Takes the oldest event; false: there is none.</summary>
+        public bool Poll(out TouchEvent taken) {
+            lock (gate) {
+                taken = events.Count > 0 ? events.Dequeue() : null;
+                return taken != null;
+            }
+        }
+
+        /// <summary>Sends what is flushed and closes, in the background: see Ended.</summary>
+        public void Dispose() {
+            lock (gate) {
+                if (disposed) return;
+                disposed = true;
+            }
+            if (status == ClientStatus.Closed) return;
+            stop.CancelAfter(status == ClientStatus.Open ? CloseWait_ms : 0);
+            Wake();
+        }
+
+        void Wake() { if (status != ClientStatus.Closed) wake.Release(); }
+
+        // The whole life of the connection, on threads of the pool.
+        async Task Converse(string token) {
+            string why;
+            try {
+                await Connect().ConfigureAwait(false);
+                await Send(Messages.Open(options, token)).ConfigureAwait(false);
+                why = await ReceiveAll().ConfigureAwait(false);
+            }
+            catch (Exception error) {
+                why = Explain(error);
+            }
+            if (reason.Length == 0) reason = why;
+            status = ClientStatus.Closed;
+            stop.Cancel();
+            socket.Dispose();
+        }
+
+        // Mono does not heed the token while it waits for the answer to the upgrade: then the attempt is left alone.
+        async Task Connect() {
+            Task connected = socket.ConnectAsync(address, stop.Token);
+            await Task.WhenAny(connected, Task.Delay(Timeout.Infinite, stop.Token)).ConfigureAwait(false);
+            if (connected.IsCompleted) await connected.ConfigureAwait(false);
+            stop.Token.ThrowIfCancellationRequested();
+        }
+
+        string Explain(Exception error) {
+            if (disposed) return "closed by this program";
+            string where = address.Scheme + "://" + address.Authority;
+            if (stop.IsCancellationRequested && status == ClientStatus.Connecting)
+                return "no welcome from " + where + " within " + options.Timeout_s + " s; is it an HL server?";
+            Exception inner = error.GetBaseException();
+            string text = inner.Message.Split('\n')[0].Trim();
+            return status == ClientStatus.Connecting
+                ? "cannot reach " + where + ": " + text + "; is hld running there?"
+                : "the connection to " + where + " broke: " + text;
+        }
+
+        Task Send(byte[] message) {
+            return socket.SendAsync(new ArraySegment<byte>(message), WebSocketMessageType.Binary, true, stop.Token);
+        }
+
+        // Returns why the server has closed.
+        async Task<string> ReceiveAll() {
+            var buffer = new byte[1 << 16];
+            int size = 0;
+            for (;;) {
+                if (size == buffer.Length) Array.Resize(ref buffer, 2 * size);
+                if (size > MaxReplyBytes) throw new InvalidOperationException("a reply has more than 16 MiB");
+                var part = await socket.ReceiveAsync(new ArraySegment<byte>(buffer, size, buffer.Length - size),
+                    stop.Token).ConfigureAwait(false);
+                if (part.MessageType == WebSocketMessageType.Close) {
+                    string text = part.CloseStatusDescription;
+                    return disposed ? "closed by this program"
+                        : string.IsNullOrEmpty(text) ? "the server has closed the connection" : text;
+                }
+                size += part.Count;
+                if (!part.EndOfMessage) continue;
+                Take(new Reader(buffer, 0, size));
+                size = 0;
+            }
+        }
+
+        // One ServerReply.
+        void Take(Reader reply) {
+            while (reply.Next()) {
+                if (reply.Field == 1) Welcome(reply.Nested());
+                else if (reply.Field == 2) Refusal(reply.Nested());
+                else if (reply.Field == 4) Shown(reply.Nested());
+                else if (reply.Field == 5) newest = Replies.State(reply.Nested());
+                else if (reply.Field == 6) Happened(Replies.Event(reply.Nested()));
+            }
+        }
+
+        void Welcome(Reader welcome) {
+            while (welcome.Next()) {
+                if (welcome.Field != 6) continue;
+                Reader limits = welcome.Nested();
+                while (limits.Next()) {
+                    if (limits.Field == 1) messageLimit = limits.Number;
+                    if (limits.Field == 8 && limits.Double() > 0) frameLimit_Hz = Math.Max(0.01, limits.Double());
+                }
+            }
+            stop.CancelAfter(disposed ? CloseWait_ms : Timeout.Infinite);
+            status = ClientStatus.Open;
+            Task.Run(SendAll);
+        }
+
+        void Refusal(Reader refusal) {
+            var refused = new TouchEvent { Kind = TouchEventKind.Refused };
+            bool fatal = false;
+            while (refusal.Next()) {
+                if (refusal.Field == 1) refused.Text = refusal.Text();
+                if (refusal.Field == 2) fatal = refusal.Number != 0;
+                if (refusal.Field == 3) refused.Frame = refusal.Number;
+            }
+            if (fatal) reason = refused.Text;
+            Answered(refused.Frame);
+            Happened(refused);
+        }
+
+        void Shown(Reader shown) {
+            var frame = new TouchEvent { Kind = TouchEventKind.FrameShown };
+            var warnings = new List<string>();
+            while (shown.Next()) {
+                if (shown.Field == 1) frame.Frame = shown.Number;
+                if (shown.Field == 2) frame.Time_s = shown.Double();
+                if (shown.Field == 4) warnings.Add(shown.Text());
+            }
+            Answered(frame.Frame);
+            Happened(frame);
+            foreach (string text in warnings)
+                Happened(new TouchEvent { Kind = TouchEventKind.Warning, Frame = frame.Frame, Text = text });
+        }
+
+        void Answered(ulong frame) {
+            lock (gate) answered = Math.Max(answered, frame);
+            Wake();
+        }
+
+        // Motions are left out: the newest state has them.
+        void Happened(TouchEvent happened) {
+            if (happened == null) return;
+            lock (gate) {
+                if (events.Count == MaxEvents) events.Dequeue();
+                events.Enqueue(happened);
+            }
+        }
+
+        async Task SendAll() {
+            try {
+                while (await SendWhatThereIs().ConfigureAwait(false))
+                    await wake.WaitAsync(stop.Token).ConfigureAwait(false);
+                await socket.CloseOutputAsync(WebSocketCloseStatus.NormalClosure, "", stop.Token).ConfigureAwait(false);
+            }
+            catch (OperationCanceledException) { }
+            catch (Exception error) {  // the receiver ends with it
+                if (reason.Length == 0) reason = Explain(error);
+                stop.Cancel();
+            }
+        }
+
+        // False: this was all, and the client is disposed.
+        async Task<bool> SendWhatThereIs() {
+            for (;;) {
+                DeviceSettings changes = TakeSetting();
+                if (changes != null) await Send(Messages.Device(changes)).ConfigureAwait(false);
+                ulong number;
+                Draft draft = TakeDraft(out number);
+                if (draft != null) await SendFrame(number, draft).ConfigureAwait(false);
+                if (draft == null && changes == null) lock (gate) return !disposed || !waiting.IsEmpty;
+                await Task.Delay(TimeSpan.FromSeconds(1 / frameLimit_Hz), stop.Token).ConfigureAwait(false);
+            }
+        }
+
+        async Task SendFrame(ulong number, Draft draft) {
+            byte[] frame = draft.Frame(number);
+            if ((ulong)frame.Length <= messageLimit) {
+                foreach (byte[] message in draft.Uploads()) await Send(message).ConfigureAwait(false);
+                await Send(frame).ConfigureAwait(false);
+                return;
+            }
+            Answered(number);
+            string text = "the frame is larger than the " + messageLimit + " bytes of a message: " +
+                "define its objects in several frames";
+            Happened(new TouchEvent { Kind = TouchEventKind.Refused, Frame = number, Text = text });
+        }
+
+        DeviceSettings TakeSetting() {
+            lock (gate) {
+                DeviceSettings taken = setting;
+                setting = null;
+                return taken;
+            }
+        }
+
+        // Null: nothing waits, or the server has enough to do.
+        Draft TakeDraft(out ulong number) {
+            lock (gate) {
+                number = sent + 1;
+                if (waiting.IsEmpty || sent - answered >= MaxUnanswered) return null;
+                sent = number;
+                Draft draft = waiting;
+                waiting = new Draft();
+                return draft;
+            }
+        }
+    }
+
+    static class Address {
+        // ws://HOST:PORT/hl from any of the four forms; `token` from the query, if there is one.
+        internal static Uri Parse(string url, ref string token) {
+            Uri given;
+            string scheme = Uri.TryCreate(url, UriKind.Absolute, out given) ? given.Scheme : "";
+            bool own = scheme == "hl" || scheme == "hls";
+            if ((!own && scheme != "ws" && scheme != "wss") || given.Host.Length == 0)
+                throw new ArgumentException("'" + url + "' is no address of a server; they are hl://HOST[:PORT] " +
+                    "and ws://HOST:PORT/hl");
+            string query = given.Query;
+            if (query.StartsWith("?token=")) token = Uri.UnescapeDataString(query.Substring("?token=".Length));
+            else if (query.Length > 1) throw new ArgumentException("'" + query + "': the only option is ?token=TEXT");
+            var address = new UriBuilder(given) { Query = "" };
+            if (own) {
+                address.Scheme = scheme == "hls" ? "wss" : "ws";
+                address.Port = given.Port > 0 ? given.Port : 1997;
+            }
+            if (address.Path == "" || address.Path == "/") address.Path = "/hl";
+            return address.Uri;
+        }
+    }
+
+    // What the next frame changes. An object that is null is deleted.
+    sealed class Draft {
+        internal readonly Dictionary<uint, Content> Objects = new Dictionary<uint, Content>();
+        internal Content World;
+
+        internal bool IsEmpty { get { return World == null && Objects.Count == 0; } }
+
+        internal void Merge(Draft later) {
+            foreach (var entry in later.Objects) Objects[entry.Key] = entry.Value;
+            World = later.World ?? World;
+        }
+
+        internal IEnumerable<byte[]> Uploads() {
+            foreach (Content content in Objects.Values)
+                if (content != null) foreach (byte[] upload in content.Uploads) yield return upload;
+            if (World != null) foreach (byte[] upload in World.Uploads) yield return upload;
+        }
+
+        internal byte[] Frame(ulong number) {
+            var frame = new Writer().Number(1, number);
+            foreach (var entry in Objects) {
+                if (entry.Value == null) frame.Number(5, entry.Key);
+                else frame.Nested(4, new Writer().Number(1, entry.Key).Append(entry.Value.Items));
+            }
+            if (World != null) frame.Nested(6, World.Items);
+            return new Writer().Nested(3, frame).ToArray();
+        }
+    }
+
+    // Items as they are sent, and the uploads that they refer to.
+    sealed class Content {
+        const int LargeMesh_bytes = 1 << 14;  // goes as an upload, so that frames stay within the limit of a message
+        const int NumbersPerPart = 1 << 17;   // at most 1 MiB: what is sent behind a part waits for it
+
+        internal readonly Writer Items = new Writer();
+        internal readonly List<byte[]> Uploads = new List<byte[]>();
+
+        internal static Content Of(TouchItem[] items, int field, ref ulong nextUpload) {
+            var content = new Content();
+            foreach (TouchItem item in items) {
+                if ((item.Mesh == null) == (item.Object == 0))
+                    throw new ArgumentException("an item has either a mesh or the number of an object");
+                content.Items.Nested(field, content.One(item, ref nextUpload));
+            }
+            return content;
+        }
+
+        Writer One(TouchItem item, ref ulong nextUpload) {
+            var sent = new Writer();
+            if (item.Mesh == null) sent.Number(3, item.Object);
+            else if (SizeOf(item.Mesh) < LargeMesh_bytes) sent.Nested(1, Whole(item.Mesh));
+            else {
+                sent.Number(2, nextUpload);
+                AddUploads(item.Mesh, nextUpload++);
+            }
+            if (item.Matrix != null) {
+                if (item.Matrix.Length != 16) throw new ArgumentException("a matrix has 16 numbers");
+                sent.Doubles(4, item.Matrix, 0, 16);
+            }
+            if (item.Material != null) sent.Nested(5, Messages.Material(item.Material));
+            if (item.Name.HasValue) sent.Number(6, item.Name.Value);
+            return sent;
+        }
+
+        static int Length(Array list) { return list == null ? 0 : list.Length; }
+
+        static int SizeOf(TouchMesh mesh) {
+            if (Length(mesh.Vertices) % 3 != 0) throw new ArgumentException("a vertex has three numbers");
+            return 8 * (Length(mesh.Vertices) + Length(mesh.Normals) + Length(mesh.TexCoords)) +
+                4 * (Length(mesh.Triangles) + Length(mesh.Segments) + Length(mesh.Points));
+        }
+
+        static Writer Whole(TouchMesh mesh) {
+            var all = new Writer();
+            foreach (Writer part in Parts(mesh)) all.Append(part);
+            return all;
+        }
+
+        void AddUploads(TouchMesh mesh, ulong id) {
+            foreach (Writer part in Parts(mesh))
+                Uploads.Add(new Writer().Nested(2, new Writer().Number(1, id).Nested(2, part)).ToArray());
+        }
+
+        // Messages of Primitives, to be merged in this order: their lists are appended.
+        static IEnumerable<Writer> Parts(TouchMesh mesh) {
+            double[][] numbers = { mesh.Vertices, mesh.Normals, mesh.TexCoords };
+            for (int field = 1; field <= 3; ++field)
+                for (int first = 0; first < Length(numbers[field - 1]); first += NumbersPerPart)
+                    yield return new Writer().Doubles(field, numbers[field - 1], first, NumbersPerPart);
+            int[][] indices = { mesh.Triangles, mesh.Segments, mesh.Points };
+            int[] fields = { 4, 6, 7 };
+            for (int list = 0; list < 3; ++list)
+                for (int first = 0; first < Length(indices[list]); first += NumbersPerPart)
+                    yield return new Writer().Indices(fields[list], indices[list], first, NumbersPerPart);
+        }
+    }
+
+    // Bodies of what the client sends; numbers of fields as in proto/hl.proto.
+    static class Messages {
+        internal static byte[] Open(ClientOptions options, string token) {
+            var open = new Writer().Number(1, 1).Text(2, options.Name).Text(3, token).Number(4, options.Device)
+                .Flag(5, options.Master).Flag(6, options.KeepObjects).Double(7, options.StateRate_Hz);
+            return new Writer().Nested(1, open).ToArray();
+        }
+
+        internal static Writer Material(TouchMaterial material) {
+            var sent = new Writer().Double(1, material.Stiffness).Double(2, material.StaticFriction)
+                .Double(3, material.DynamicFriction).Double(4, material.Viscosity_Ns_m).Double(5, material.Stribeck_m_s)
+                .Double(10, material.Presliding_N_m).Double(11, material.Adhesion_N);
+            return material.Flat.HasValue ? sent.Flag(6, material.Flat.Value) : sent;
+        }
+
+        internal static byte[] Device(DeviceSettings changes) {
+            var sent = new Writer().Double(1, changes.ProxyRadius).Double(3, changes.Stiffness_N_m);
+            if (changes.WorkspaceOrigin.HasValue) {
+                Writer origin = Vector(changes.WorkspaceOrigin.Value);
+                sent.Nested(2, new Writer().Nested(1, origin).Double(2, changes.WorldPerDevice));
+            }
+            if (changes.Rearm) sent.Flag(5, true);
+            if (changes.HandGoal.HasValue) sent.Nested(6, new Writer().Nested(1, Vector(changes.HandGoal.Value)));
+            return new Writer().Nested(5, sent).ToArray();
+        }
+
+        static Writer Vector(Vec3 v) { return new Writer().Double(1, v.X).Double(2, v.Y).Double(3, v.Z); }
+    }
+
+    // What the server sends, read.
+    static class Replies {
+        internal static TouchState State(Reader from) {
+            var state = new TouchState();
+            var touched = new List<Touched>();
+            while (from.Next()) {
+                switch (from.Field) {
+                    case 1: state.Time_s = from.Double(); break;
+                    case 2: state.Finger = Vector(from.Nested()); break;
+                    case 3: state.Proxy = Vector(from.Nested()); break;
+                    case 4: state.Force_N = Vector(from.Nested()); break;
+                    case 5: touched.Add(TouchedObject(from.Nested())); break;
+                    case 6: state.Safety = (Safety)from.Number; break;
+                    case 7: state.Fault = from.Text(); break;
+                    case 11: state.Buttons = (uint)from.Number; break;
+                    case 12: state.ProxyRadius = from.Double(); break;
+                    case 14: state.Master = from.Number != 0; break;
+                }
+            }
+            state.Touched = touched.ToArray();
+            return state;
+        }
+
+        static Touched TouchedObject(Reader from) {
+            var touched = new Touched();
+            while (from.Next()) {
+                if (from.Field == 1) touched.Object = (uint)from.Number;
+                if (from.Field == 2) touched.Name = (uint)from.Number;
+                if (from.Field == 3) touched.Session = (uint)from.Number;
+                if (from.Field != 4) continue;
+                Reader plane = from.Nested();
+                while (plane.Next()) {
+                    if (plane.Field == 1) touched.Point = Vector(plane.Nested());
+                    if (plane.Field == 2) touched.Normal = Vector(plane.Nested());
+                }
+            }
+            return touched;
+        }
+
+        // Null: a motion, or a kind of event that this client does not know.
+        internal static TouchEvent Event(Reader from) {
+            var happened = new TouchEvent();
+            ulong kind = 0;
+            while (from.Next()) {
+                switch (from.Field) {
+                    case 1: kind = from.Number; break;
+                    case 2: happened.Time_s = from.Double(); break;
+                    case 3: happened.Object = (uint)from.Number; break;
+                    case 4: happened.Name = (uint)from.Number; break;
+                    case 5: happened.Position = Vector(from.Nested()); break;
+                    case 6: happened.Button = (uint)from.Number; break;
+                    case 7: happened.Down = from.Number != 0; break;
+                }
+            }
+            happened.Kind = (TouchEventKind)kind;
+            return kind <= (ulong)TouchEventKind.Button ? happened : null;
+        }
+
+        static Vec3 Vector(Reader from) {
+            var v = new Vec3();
+            while (from.Next()) {
+                if (from.Field == 1) v.X = from.Double();
+                if (from.Field == 2) v.Y = from.Double();
+                if (from.Field == 3) v.Z = from.Double();
+            }
+            return v;
+        }
+    }
+
+    // Writes fields of protobuf's binary form; each call returns the writer.
+    sealed class Writer {
+        byte[] bytes = new byte[64];
+        int size;
+
+        internal byte[] ToArray() {
+            var all = new byte[size];
+            Buffer.BlockCopy(bytes, 0, all, 0, size);
+            return all;
+        }
+
+        void Reserve(int more) {
+            if (size + more > bytes.Length) Array.Resize(ref bytes, Math.Max(2 * bytes.Length, size + more));
+        }
+
+        void Varint(ulong value) {
+            Reserve(10);
+            for (; value >= 0x80; value >>= 7) bytes[size++] = (byte)(value | 0x80);
+            bytes[size++] = (byte)value;
+        }
+
+        void Raw(double value) {
+            Reserve(8);
+            long bits = BitConverter.DoubleToInt64Bits(value);
+            for (int shift = 0; shift < 64; shift += 8) bytes[size++] = (byte)(bits >> shift);
+        }
+
+        void Raw(byte[] from, int count) {
+            Reserve(count);
+            Buffer.BlockCopy(from, 0, bytes, size, count);
+            size += count;
+        }
+
+        // Wire types: 0 a varint, 1 eight bytes, 2 a length and so many bytes.
+        void Key(int field, int wireType) { Varint((ulong)(field << 3 | wireType)); }
+
+        internal Writer Number(int field, ulong value) { Key(field, 0); Varint(value); return this; }
+        internal Writer Flag(int field, bool value) { return Number(field, value ? 1UL : 0UL); }
+
+        internal Writer Double(int field, double? value) {
+            if (!value.HasValue) return this;
+            Key(field, 1);
+            Raw(value.Value);
+            return this;
+        }
+
+        internal Writer Text(int field, string text) {
+            byte[] utf8 = Encoding.UTF8.GetBytes(text ?? "");
+            Key(field, 2);
+            Varint((ulong)utf8.Length);
+            Raw(utf8, utf8.Length);
+            return this;
+        }
+
+        internal Writer Append(Writer other) { Raw(other.bytes, other.size); return this; }
+
+        internal Writer Nested(int field, Writer message) {
+            Key(field, 2);
+            Varint((ulong)message.size);
+            return Append(message);
+        }
+
+        // At most `most` numbers from number `first` on.
+        internal Writer Doubles(int field, double[] values, int first, int most) {
+            int count = Math.Min(most, values.Length - first);
+            Key(field, 2);
+            Varint(8 * (ulong)count);
+            Reserve(8 * count);
+            for (int i = first; i < first + count; ++i) Raw(values[i]);
+            return this;
+        }
+
+        internal Writer Indices(int field, int[] values, int first, int most) {
+            var packed = new Writer();
+            int count = Math.Min(most, values.Length - first);
+            for (int i = first; i < first + count; ++i) packed.Varint((uint)values[i]);
+            return Nested(field, packed);
+        }
+    }
+
+    // Goes through the fields of one message.
+    struct Reader {
+        readonly byte[] bytes;
+        readonly int end;
+        int at, begin, length;
+        internal int Field;
+        internal ulong Number;  // of the field; or its length
+
+        internal Reader(byte[] bytes, int begin, int count) : this() {
+            this.bytes = bytes;
+            at = begin;
+            end = begin + count;
+        }
+
+        internal bool Next() {
+            if (at >= end) return false;
+            ulong key = Varint();
+            Field = (int)(key >> 3);
+            int wireType = (int)(key & 7);
+            if (wireType == 0) Number = Varint();
+            else if (wireType == 1) Number = Fixed(8);
+            else if (wireType == 5) Number = Fixed(4);
+            else if (wireType == 2) Skip(Varint());
+            else throw new FormatException("a reply is no message of HL");
+            return true;
+        }
+
+        internal double Double() { return BitConverter.Int64BitsToDouble((long)Number); }
+        internal Reader Nested() { return new Reader(bytes, begin, length); }
+        internal string Text() { return Encoding.UTF8.GetString(bytes, begin, length); }
+
+        void Skip(ulong count) {
+            if (count > (ulong)(end - at)) throw new FormatException("a reply is cut");
+            begin = at;
+            length = (int)count;
+            at += length;
+        }
+
+        ulong Fixed(int count) {
+            Skip((ulong)count);
+            ulong value = 0;
+            for (int i = count - 1; i >= 0; --i) value = value << 8 | bytes[begin + i];
+            return value;
+        }
+
+        ulong Varint() {
+            ulong value = 0;
+            for (int shift = 0; shift < 64; shift += 7) {
+                if (at >= end) throw new FormatException("a reply is cut");
+                byte part = bytes[at++];
+                value |= (ulong)(part & 0x7f) << shift;
+                if (part < 0x80) return value;
+            }
+            throw new FormatException("a reply is no message of HL");
+        }
+    }
+}

@@ -1,0 +1,431 @@
+"""A conversation with a haptic server: draw a scene in frames, and take what the device does and feels.
+
+    with hl.connect("inproc:") as touch:
+        with touch.frame():
+            touch.draw(vertices, triangles)
+        print(touch.state().force)
+
+Servo and proxy run in the server's own threads, never in Python: a program that is slow, or waits, changes no force.
+A Touch is used by one thread at a time.
+"""
+
+import asyncio
+import contextlib
+import math
+from dataclasses import dataclass
+from types import TracebackType
+from typing import Any, AsyncIterator, Callable, Dict, Iterator, Optional, Type
+from urllib.parse import urlencode
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _hl, calls
+from .batch import SURFACE
+from .errors import InvalidOperationError, InvalidValueError
+
+Floats = npt.NDArray[np.float64]
+
+_SAFETY = {
+    calls.HL_SAFETY_OFF: "off",
+    calls.HL_SAFETY_ARMING: "arming",
+    calls.HL_SAFETY_ON: "on",
+    calls.HL_SAFETY_FAULT: "fault",
+    calls.HL_SAFETY_WAITING: "waiting",
+}
+_LEDGERS = {"tank": calls.HL_LEDGER_TANK, "strict": calls.HL_LEDGER_STRICT, "report": calls.HL_LEDGER_REPORT}
+_GRIPS = {"light": calls.HL_GRIP_LIGHT, "firm": calls.HL_GRIP_FIRM}
+_SHADINGS = {"flat": calls.HL_FLAT, "smooth": calls.HL_SMOOTH}
+_EVENTS = {
+    "touch": calls.HL_EVENT_TOUCH,
+    "untouch": calls.HL_EVENT_UNTOUCH,
+    "button": calls.HL_EVENT_BUTTON,
+    "motion": calls.HL_EVENT_MOTION,
+}
+_QUANTITIES = {**SURFACE, "height": calls.HL_HEIGHT}
+
+
+@dataclass(frozen=True)
+class State:
+    """The device and what it touches, at one time. World frame."""
+
+    time: float  #: s, the server's clock
+    age: float  #: s since it was taken here; infinite before the first
+    finger: Floats  #: (3,), m
+    proxy: Floats  #: (3,), m
+    force: Floats  #: (3,), N at the hand
+    contacts: int  #: how many; Touch.contacts() has them
+    touched_object: int  #: that presses hardest; 0: none
+    touched_name: int  #: its name; 0: none
+    buttons: int  #: bit i is set while button i is down
+    safety: str  #: "off", "arming", "on", "fault" or "waiting"
+    servo_rate: float  #: Hz
+    proxy_rate: float  #: Hz
+
+    @property
+    def touching(self) -> bool:
+        return self.contacts > 0
+
+
+def connect(url: str = "inproc:", **options: Any) -> "Touch":
+    """Opens a conversation; waits until the server has welcomed it.
+
+    url: "inproc:" (a server inside this process, with a simulated device), "hl://host[:port]", or "hls://..." with
+        TLS.
+    options: name, token, device, master, keep, state_rate (Hz), timeout (s), ca, sim: as hl.h says of hlCreateContext.
+
+    Raises ConnectError with the reason.
+    """
+    if options:
+        url += ("&" if "?" in url else "?") + urlencode({key: _option(value) for key, value in options.items()})
+    return Touch(_hl.Context(url))
+
+
+def _option(value: Any) -> Any:
+    return int(value) if isinstance(value, bool) else value
+
+
+class Touch:
+    """A conversation with a server, made by `connect`. Closes at the end of `with`."""
+
+    def __init__(self, context: _hl.Context) -> None:
+        self._context = context
+        self._is_abandoned = False
+
+    def __enter__(self) -> "Touch":
+        return self
+
+    def __exit__(
+        self,
+        kind: Optional[Type[BaseException]],
+        error: Optional[BaseException],
+        where: Optional[TracebackType],
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Ends the conversation; twice is allowed. Its objects are gone, unless it was opened with keep=1."""
+        self._context.close()
+
+    def make_current(self) -> None:
+        """Makes it the thread's current context, for `hl.calls`. The methods here do that themselves."""
+        self._context.make_current()
+
+    # ---- Frames
+
+    @contextlib.contextmanager
+    def frame(self, wait: bool = True) -> Iterator["Touch"]:
+        """One frame: what is drawn inside becomes touchable all at once, and replaces the world of the frame before.
+
+        A frame that draws nothing leaves the world, and changes only what it defines or updates. wait: until it is
+        shown. After an exception inside, nothing is sent, and the next frame begins with an empty world.
+        """
+        self.make_current()
+        if self._is_abandoned:
+            calls.hlClear()
+            self._is_abandoned = False
+        try:
+            yield self
+        except BaseException:
+            self._is_abandoned = True
+            raise
+        self.make_current()
+        if wait:
+            calls.hlFinish()
+        else:
+            calls.hlFlush()
+
+    def clear(self) -> None:
+        """Begins the frame with an empty world."""
+        self.make_current()
+        calls.hlClear()
+
+    def frame_interval(self, seconds: float) -> None:
+        """Objects move to their new places within this time, s; 0: at once; negative: as long as the last frame took."""
+        self.make_current()
+        calls.hlFrameInterval(seconds)
+
+    # ---- Drawing
+
+    def draw(
+        self,
+        vertices: npt.ArrayLike,
+        indices: Optional[npt.ArrayLike] = None,
+        *,
+        normals: Optional[npt.ArrayLike] = None,
+        texcoords: Optional[npt.ArrayLike] = None,
+        mode: int = calls.HL_TRIANGLES,
+    ) -> None:
+        """Draws vertices, (n, 3) in m: triangles, or what `mode` says (HL_POINTS .. HL_POLYGON of hl.calls).
+
+        indices: whole numbers below n, of any shape, such as (m, 3); None: the vertices in their order. normals, for
+        smooth shading: (n, 3). texcoords: (n, 2).
+        """
+        self.make_current()
+        if indices is None:
+            calls.hlDrawArrays(mode, vertices, normals, texcoords)
+            return
+        array = np.asarray(indices)
+        if array.size > 0 and not np.issubdtype(array.dtype, np.integer):
+            raise InvalidValueError(f"indices must be integers, and are {array.dtype}")
+        if array.size > 0 and (array.min() < 0 or array.max() >= len(np.asarray(vertices))):
+            raise InvalidValueError("an index must be below the number of vertices")
+        calls.hlDrawElements(mode, vertices, array.astype(np.uint32), normals, texcoords)
+
+    @contextlib.contextmanager
+    def define(self, number: Optional[int] = None) -> Iterator[int]:
+        """Defines an object, new or again, by what is drawn inside; gives its number, for `place`."""
+        self.make_current()
+        if number is None:
+            number = calls.hlGenObjects(1)[0]
+        calls.hlNewObject(number)
+        try:
+            yield number
+        finally:
+            self.make_current()
+            calls.hlEndObject()
+
+    def place(self, number: int, pose: Optional[npt.ArrayLike] = None) -> None:
+        """Puts an object into the world: (4, 4), from its frame to the world; None: as it is defined."""
+        with self.matrix(np.eye(4) if pose is None else pose):
+            calls.hlCallObject(number)
+
+    def update_vertices(
+        self, number: int, vertices: npt.ArrayLike, first: int = 0, normals: Optional[npt.ArrayLike] = None
+    ) -> None:
+        """Moves the vertices of an object from number `first` on: (n, 3), m. What bends pushes the proxy."""
+        self.make_current()
+        calls.hlUpdateVertices(number, vertices, first, normals)
+
+    def delete(self, *numbers: int) -> None:
+        """Forgets objects."""
+        self.make_current()
+        calls.hlDeleteObjects(list(numbers))
+
+    @contextlib.contextmanager
+    def matrix(self, pose: npt.ArrayLike) -> Iterator[None]:
+        """What is drawn inside is placed by this (4, 4) matrix, and by those around it."""
+        array = np.asarray(pose, dtype=np.float64)
+        if array.shape != (4, 4):
+            raise InvalidValueError(f"a pose must have the shape (4, 4), and has {array.shape}")
+        self.make_current()
+        calls.hlPushMatrix()
+        try:
+            calls.hlMultMatrixd(array.T.ravel().tolist())
+            yield
+        finally:
+            self.make_current()
+            calls.hlPopMatrix()
+
+    @contextlib.contextmanager
+    def name(self, number: int) -> Iterator[None]:
+        """What is drawn inside has this name, which states and events tell."""
+        self.make_current()
+        calls.hlPushName(number)
+        try:
+            yield
+        finally:
+            self.make_current()
+            calls.hlPopName()
+
+    # ---- Surface
+
+    def material(self, **quantities: float) -> None:
+        """Sets what is drawn next: stiffness (0..1), static_friction, dynamic_friction, viscosity (N s/m), stribeck
+        (m/s), presliding (N/m), adhesion (N)."""
+        self.make_current()
+        for key, value in quantities.items():
+            calls.hlMateriald(_chosen(SURFACE, key, "quantity"), value)
+
+    def shade(self, model: str) -> None:
+        """"flat" or "smooth", for what is drawn next."""
+        self.make_current()
+        calls.hlShadeModel(_chosen(_SHADINGS, model, "shading"))
+
+    @contextlib.contextmanager
+    def surface(self, shade: Optional[str] = None, **quantities: float) -> Iterator[None]:
+        """What is drawn inside has this surface; see material and shade."""
+        self.make_current()
+        calls.hlPushAttrib(calls.HL_SURFACE_BIT)
+        try:
+            self.material(**quantities)
+            if shade is not None:
+                self.shade(shade)
+            yield
+        finally:
+            self.make_current()
+            calls.hlPopAttrib()
+
+    def make_texture(self, texels: npt.ArrayLike) -> int:
+        """A texture, (height, width), the row of v = 0 first; uint8, or floats 0..1. Gives its number."""
+        self.make_current()
+        number = calls.hlGenTextures(1)[0]
+        calls.hlPushAttrib(calls.HL_TEXTURE_BIT)
+        try:
+            calls.hlBindTexture(calls.HL_TEXTURE_2D, number)
+            calls.hlTexImage2D(np.asarray(texels))
+        finally:
+            calls.hlPopAttrib()
+        return number
+
+    @contextlib.contextmanager
+    def texture(self, number: int, quantity: str, low: float, high: float, unit: int = 0) -> Iterator[None]:
+        """What is drawn inside, with texcoords, has a quantity that goes from `low`, where a texel is 0, to `high`.
+
+        quantity: one of material's, or "height" (m): a bump map. Several quantities at once take several units.
+        """
+        self.make_current()
+        calls.hlPushAttrib(calls.HL_TEXTURE_BIT)
+        try:
+            calls.hlActiveTexture(calls.HL_TEXTURE0 + unit)
+            calls.hlBindTexture(calls.HL_TEXTURE_2D, number)
+            calls.hlTexEnvi(
+                calls.HL_TEXTURE_ENV, calls.HL_TEXTURE_QUANTITY, _chosen(_QUANTITIES, quantity, "quantity")
+            )
+            calls.hlTexEnvd(calls.HL_TEXTURE_ENV, calls.HL_TEXTURE_LOW, low)
+            calls.hlTexEnvd(calls.HL_TEXTURE_ENV, calls.HL_TEXTURE_HIGH, high)
+            calls.hlEnable(calls.HL_TEXTURE_2D)
+            yield
+        finally:
+            self.make_current()
+            calls.hlPopAttrib()
+
+    # ---- Device: for the client that came first
+
+    def proxy_radius(self, radius: float) -> None:
+        """m in the world, > 0."""
+        self.make_current()
+        calls.hlProxyd(calls.HL_PROXY_RADIUS, radius)
+
+    def spring(self, stiffness: float) -> None:
+        """K of the servo, N/m at the hand."""
+        self.make_current()
+        calls.hlSpringd(stiffness)
+
+    def workspace(self, origin: npt.ArrayLike, world_per_device: float) -> None:
+        """The world's point at the device's origin, (3,) in m, and metres of the world for one metre of the hand."""
+        self.make_current()
+        x, y, z = _vector(origin, "origin")
+        calls.hlWorkspaced(x, y, z, world_per_device)
+
+    def ledger(self, mode: str) -> None:
+        """What happens to energy that surfaces add: "tank", "strict" or "report"."""
+        self.make_current()
+        calls.hlLedger(_chosen(_LEDGERS, mode, "ledger"))
+
+    def rearm(self) -> None:
+        """Leaves a fault; the force rises from zero."""
+        self.make_current()
+        calls.hlRearm()
+
+    def hand_goal(self, position: npt.ArrayLike) -> None:
+        """Simulated devices: where the hand wants to be, (3,), m in the world."""
+        self.make_current()
+        calls.hlHandGoal3d(*_vector(position, "position"))
+
+    def hand_grip(self, grip: str) -> None:
+        """Simulated devices: "light" or "firm"."""
+        self.make_current()
+        calls.hlHandGrip(_chosen(_GRIPS, grip, "grip"))
+
+    # ---- What comes back
+
+    def poll(self) -> int:
+        """Takes what the server has sent, and calls the functions given to `on`; how many it called."""
+        return self._context.poll()
+
+    def on(self, kind: str, function: Optional[Callable[[_hl.Event], None]]) -> None:
+        """`poll` calls `function(event)` for each "touch", "untouch", "button" or "motion"; None: no more.
+
+        An event has kind, time (s), object, name, position (of the proxy, m), button and down. What a function raises,
+        `poll` raises when all have run.
+        """
+        self._context.on_event(_chosen(_EVENTS, kind, "event"), function)
+
+    def state(self) -> State:
+        """The newest state that has come; does not wait."""
+        self.poll()
+        get = calls.hlGetDoublev
+        return State(
+            time=get(calls.HL_STATE_TIME),
+            age=get(calls.HL_STATE_AGE),
+            finger=np.array(get(calls.HL_FINGER_POSITION)),
+            proxy=np.array(get(calls.HL_PROXY_POSITION)),
+            force=np.array(get(calls.HL_FORCE)),
+            contacts=calls.hlGetIntegerv(calls.HL_CONTACT_COUNT),
+            touched_object=int(get(calls.HL_TOUCHED_OBJECT)),
+            touched_name=int(get(calls.HL_TOUCHED_NAME)),
+            buttons=int(get(calls.HL_BUTTONS)),
+            safety=_SAFETY[calls.hlGetIntegerv(calls.HL_SAFETY_STATE)],
+            servo_rate=get(calls.HL_SERVO_RATE),
+            proxy_rate=get(calls.HL_PROXY_RATE),
+        )
+
+    async def states(self, rate: float = 60.0) -> AsyncIterator[State]:
+        """The newest states as they come, at most `rate` a second; what came between is left out.
+
+        Callbacks of `on` are called too. Ends with ConnectionLostError when the conversation does.
+        """
+        if not (math.isfinite(rate) and rate > 0):
+            raise InvalidValueError("rate must be above 0")
+        self.make_current()
+        calls.hlStateRate(rate)
+        before = -math.inf
+        while True:
+            state = self.state()
+            if math.isfinite(state.age) and state.time > before:
+                before = state.time
+                yield state
+            await asyncio.sleep(0.5 / rate)
+
+    def contacts(self) -> npt.NDArray[np.void]:
+        """The contacts of the newest state, hardest first: a structured array with point (m), normal, share (m),
+        static_friction, stiffness, object, name, session."""
+        self.poll()
+        return calls.hlGetContacts()
+
+    def keep_samples(self, most: int) -> None:
+        """From now on keep the newest `most` steps of the servo, for `samples`; 0: none."""
+        self.make_current()
+        calls.hlKeepSamples(most)
+
+    def samples(self) -> npt.NDArray[np.void]:
+        """The steps of the servo since the last time: a structured array with time (s), position (m), force (N),
+        buttons."""
+        self.poll()
+        return calls.hlTakeSamples()
+
+    def get(self, query: int) -> Any:
+        """The value of any query of hl.h, such as hl.calls.HL_MAX_OBJECTS: a number, or an array."""
+        self.make_current()
+        value = calls.hlGetDoublev(query)
+        return np.array(value) if isinstance(value, list) else value
+
+    @property
+    def device_name(self) -> str:
+        self.make_current()
+        return calls.hlGetString(calls.HL_DEVICE_NAME)
+
+    @property
+    def server_version(self) -> str:
+        self.make_current()
+        return calls.hlGetString(calls.HL_SERVER_VERSION)
+
+    @property
+    def is_master(self) -> bool:
+        """Whether it may set the device's proxy, workspace and spring: the client that came first."""
+        self.make_current()
+        return bool(calls.hlGetIntegerv(calls.HL_MASTER))
+
+
+def _chosen(table: Dict[str, int], key: str, what: str) -> int:
+    if key not in table:
+        raise InvalidValueError(f"there is no {what} '{key}': {', '.join(table)}")
+    return table[key]
+
+
+def _vector(numbers: npt.ArrayLike, name: str) -> Any:
+    array = np.asarray(numbers, dtype=np.float64)
+    if array.shape != (3,):
+        raise InvalidValueError(f"{name} must be three numbers, and has the shape {array.shape}")
+    return array.tolist()

@@ -1,0 +1,172 @@
+// The calls of hl.h that take or return arrays and texts: numpy arrays in place of pointers and sizes.
+#include <hl/hl.hpp>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "arrays.h"
+#include "calls.h"
+
+namespace py = pybind11;
+
+namespace {
+
+using Bytes = py::array_t<HLubyte, py::array::c_style | py::array::forcecast>;
+using Floats = py::array_t<HLfloat, py::array::c_style | py::array::forcecast>;
+using Optional = std::optional<Doubles>;
+
+/// What hl.h counts by 32 bits.
+HLsizei sizeOf(std::size_t count, const char* name) {
+  if (count > static_cast<std::size_t>(std::numeric_limits<HLsizei>::max()))
+    throw CallFailed(HL_INVALID_VALUE, std::string("too many ") + name);
+  return static_cast<HLsizei>(count);
+}
+
+hl::VertexArrays<HLdouble> arraysOf(const Doubles& vertices, const Optional& normals, const Optional& texcoords) {
+  const std::size_t count = rowsOf(vertices, 3, "vertices");
+  sizeOf(count, "vertices");
+  const double* const normal = rowsOrNone(normals, count, 3, "normals");
+  const double* const texcoord = rowsOrNone(texcoords, count, 2, "texcoords");
+  return {{vertices.data(), 3 * count},
+          {normal, normal != nullptr ? 3 * count : 0},
+          {texcoord, texcoord != nullptr ? 2 * count : 0}};
+}
+
+void drawArrays(HLenum mode, const Doubles& vertices, const Optional& normals, const Optional& texcoords) {
+  requireContext();
+  hl::drawArrays(mode, arraysOf(vertices, normals, texcoords));
+  throwFailure();
+}
+
+void drawElements(HLenum mode, const Doubles& vertices, const Indices& indices, const Optional& normals,
+                  const Optional& texcoords) {
+  requireContext();
+  const auto arrays = arraysOf(vertices, normals, texcoords);
+  const std::span<const HLuint> all(indices.data(), static_cast<std::size_t>(indices.size()));
+  sizeOf(all.size(), "indices");
+  try {
+    hl::drawElements(mode, arrays, all);
+  } catch (const std::invalid_argument& error) {
+    throw CallFailed(HL_INVALID_VALUE, error.what());
+  }
+  throwFailure();
+}
+
+void updateVertices(HLuint object, const Doubles& vertices, HLint first, const Optional& normals) {
+  requireContext();
+  const std::size_t count = rowsOf(vertices, 3, "vertices");
+  hlUpdateVertices(object, first, sizeOf(count, "vertices"), vertices.data(), rowsOrNone(normals, count, 3, "normals"));
+  throwFailure();
+}
+
+std::vector<HLuint> numbersOf(void (*generate)(HLsizei, HLuint*), HLsizei n) {
+  requireContext();
+  std::vector<HLuint> numbers(n > 0 ? static_cast<std::size_t>(n) : 0);
+  generate(n, numbers.data());
+  throwFailure();
+  return numbers;
+}
+
+void forget(void (*remove)(HLsizei, const HLuint*), const std::vector<HLuint>& numbers) {
+  requireContext();
+  remove(sizeOf(numbers.size(), "numbers"), numbers.data());
+  throwFailure();
+}
+
+/// Texels of HL_UNSIGNED_BYTE when the array has them, else of HL_FLOAT; `use(width, height, type, texels)`.
+template <typename Use>
+void withTexels(const py::array& texels, const Use& use) {
+  requireContext();
+  if (texels.ndim() != 2)
+    throw CallFailed(HL_INVALID_VALUE, "texels must have the shape (height, width), and has " + shapeText(texels));
+  const HLsizei width = sizeOf(static_cast<std::size_t>(texels.shape(1)), "texels");
+  const HLsizei height = sizeOf(static_cast<std::size_t>(texels.shape(0)), "texels");
+  if (py::isinstance<py::array_t<HLubyte>>(texels)) {
+    const Bytes bytes(texels);
+    use(width, height, HL_UNSIGNED_BYTE, bytes.data());
+  } else {
+    const Floats floats(texels);
+    use(width, height, HL_FLOAT, floats.data());
+  }
+  throwFailure();
+}
+
+void texImage(const py::array& texels) {
+  withTexels(texels, [](HLsizei width, HLsizei height, HLenum type, const void* data) {
+    hlTexImage2D(HL_TEXTURE_2D, 0, HL_LUMINANCE, width, height, 0, HL_LUMINANCE, type, data);
+  });
+}
+
+void texSubImage(HLint x, HLint y, const py::array& texels) {
+  withTexels(texels, [x, y](HLsizei width, HLsizei height, HLenum type, const void* data) {
+    hlTexSubImage2D(HL_TEXTURE_2D, 0, x, y, width, height, HL_LUMINANCE, type, data);
+  });
+}
+
+/// A number, or a list where the query has several.
+template <typename Number>
+py::object query(void (*call)(HLenum, Number*), HLenum name) {
+  requireContext();
+  std::array<Number, 16> values{};  // no query has more
+  call(name, values.data());
+  throwFailure();
+  const std::size_t count = valuesOf(name);
+  if (count == 1) return py::cast(values[0]);
+  return py::cast(std::vector<Number>(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count)));
+}
+
+std::string stringOf(HLenum name) {
+  requireContext();
+  const char* const text = hlGetString(name);
+  throwFailure();
+  return text != nullptr ? text : "";
+}
+
+template <typename Row>
+py::array_t<Row> structuredArray(const std::vector<Row>& rows) {
+  return py::array_t<Row>(static_cast<py::ssize_t>(rows.size()), rows.data());
+}
+
+}  // namespace
+
+void bindArrayCalls(py::module_& module) {
+  PYBIND11_NUMPY_DTYPE(HLcontact, point, normal, share, static_friction, stiffness, object, name, session);
+  PYBIND11_NUMPY_DTYPE(HLsample, time, position, force, buttons);
+  const auto none = py::none();
+  module.def("hlDrawArrays", &drawArrays, py::arg("mode"), py::arg("vertices"), py::arg("normals") = none,
+             py::arg("texcoords") = none);
+  module.def("hlDrawElements", &drawElements, py::arg("mode"), py::arg("vertices"), py::arg("indices"),
+             py::arg("normals") = none, py::arg("texcoords") = none);
+  module.def("hlUpdateVertices", &updateVertices, py::arg("object"), py::arg("vertices"), py::arg("first") = 0,
+             py::arg("normals") = none);
+  module.def(
+      "hlGenObjects", [](HLsizei n) { return numbersOf(&hlGenObjects, n); }, py::arg("n"));
+  module.def(
+      "hlGenTextures", [](HLsizei n) { return numbersOf(&hlGenTextures, n); }, py::arg("n"));
+  module.def(
+      "hlDeleteObjects", [](const std::vector<HLuint>& objects) { forget(&hlDeleteObjects, objects); },
+      py::arg("objects"));
+  module.def(
+      "hlDeleteTextures", [](const std::vector<HLuint>& textures) { forget(&hlDeleteTextures, textures); },
+      py::arg("textures"));
+  module.def("hlTexImage2D", &texImage, py::arg("texels"));
+  module.def("hlTexSubImage2D", &texSubImage, py::arg("x"), py::arg("y"), py::arg("texels"));
+  module.def(
+      "hlGetDoublev", [](HLenum name) { return query(&hlGetDoublev, name); }, py::arg("name"));
+  module.def(
+      "hlGetFloatv", [](HLenum name) { return query(&hlGetFloatv, name); }, py::arg("name"));
+  module.def(
+      "hlGetIntegerv", [](HLenum name) { return query(&hlGetIntegerv, name); }, py::arg("name"));
+  module.def(
+      "hlGetBooleanv", [](HLenum name) { return query(&hlGetBooleanv, name); }, py::arg("name"));
+  module.def("hlGetString", &stringOf, py::arg("name"));
+  module.def("hlGetContacts", [] {
+    requireContext();
+    return structuredArray(hl::contacts());
+  });
+  module.def("hlTakeSamples", [] {
+    requireContext();
+    return structuredArray(hl::takeSamples());
+  });
+}

@@ -1,0 +1,158 @@
+// Contexts in Python: who is current, errors as exceptions, events as callbacks on the thread that polls.
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <hl/hl.hpp>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "bindings.h"
+#include "calls.h"
+#include "errors.h"
+
+namespace py = pybind11;
+
+namespace {
+
+/// The first error that a call has made on this thread since the last one that was thrown.
+struct Failure {
+  HLenum code = HL_NO_ERROR;
+  std::string text;
+};
+thread_local Failure failure;
+
+void keepFailure(HLenum code, const char* text, void*) {
+  if (failure.code == HL_NO_ERROR) failure = {code, text};
+}
+
+/// The thread may be without a context then, and its error is kept elsewhere.
+[[noreturn]] void throwOfThread(HLenum otherwise, const char* text) {
+  throwFailure();
+  const HLenum code = hlGetError();
+  throw CallFailed(code != HL_NO_ERROR ? code : otherwise, text);
+}
+
+class Context {
+ public:
+  explicit Context(const std::string& url) : context_(open(url)) { hlErrorFunc(&keepFailure, nullptr); }
+  /// A context that is current on another thread cannot be destroyed here; it ends with the process.
+  ~Context() {
+    try {
+      close();
+    } catch (const CallFailed&) {
+      static_cast<void>(context_.release());
+    }
+  }
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  bool isOpen() const { return context_ != nullptr; }
+  bool isCurrent() const { return context_ && hlGetCurrentContext() == context_->get(); }
+  void makeCurrent() {
+    if (!context_) throw CallFailed(HL_INVALID_OPERATION, "the connection is closed");
+    if (!isCurrent() && hlMakeCurrent(context_->get()) == HL_FALSE)
+      throwOfThread(HL_INVALID_OPERATION, "the context is current on another thread");
+  }
+  /// Twice is allowed.
+  void close() {
+    if (!context_) return;
+    makeCurrent();
+    const py::gil_scoped_release other_threads_run;
+    context_.reset();
+  }
+  void onEvent(HLenum kind, std::function<void(const HLevent&)> function) {
+    makeCurrent();
+    context_->onEvent(kind, std::move(function));
+    throwFailure();
+  }
+  int poll() {
+    makeCurrent();
+    const int delivered = context_->poll();
+    throwFailure();
+    return delivered;
+  }
+
+ private:
+  static std::unique_ptr<hl::Context> open(const std::string& url) {
+    try {
+      const py::gil_scoped_release other_threads_run;
+      return std::make_unique<hl::Context>(url);
+    } catch (const hl::CallError& error) {
+      throw CallFailed(HL_NO_CONTEXT, error.what());
+    }
+  }
+
+  std::unique_ptr<hl::Context> context_;
+};
+
+void finish() {
+  requireContext();
+  {
+    const py::gil_scoped_release other_threads_run;
+    hlFinish();
+  }
+  throwFailure();
+}
+
+bool finishTimeout(double seconds) {
+  requireContext();
+  bool all_is_shown = false;
+  {
+    const py::gil_scoped_release other_threads_run;
+    all_is_shown = hlFinishTimeout(seconds) != HL_FALSE;
+  }
+  throwFailure();
+  return all_is_shown;
+}
+
+void bindEvent(py::module_& module) {
+  py::class_<HLevent>(module, "Event")
+      .def_readonly("kind", &HLevent::kind)
+      .def_readonly("time", &HLevent::time)
+      .def_readonly("object", &HLevent::object)
+      .def_readonly("name", &HLevent::name)
+      .def_property_readonly("position", [](const HLevent& event) { return py::array_t<double>(3, event.position); })
+      .def_readonly("button", &HLevent::button)
+      .def_property_readonly("down", [](const HLevent& event) { return event.down != HL_FALSE; });
+}
+
+}  // namespace
+
+void throwFailure() {
+  if (failure.code == HL_NO_ERROR) return;
+  const Failure first = std::exchange(failure, {});
+  throw CallFailed(first.code, first.text);
+}
+
+void requireContext() {
+  if (hlGetCurrentContext() == nullptr)
+    throw CallFailed(HL_INVALID_OPERATION, "this thread has no current context; hl.connect makes one");
+}
+
+void bindContext(py::module_& module) {
+  bindEvent(module);
+  py::class_<Context>(module, "Context")
+      .def(py::init<const std::string&>(), py::arg("url"))
+      .def_property_readonly("is_open", &Context::isOpen)
+      .def_property_readonly("is_current", &Context::isCurrent)
+      .def("make_current", &Context::makeCurrent)
+      .def("close", &Context::close)
+      .def("on_event", &Context::onEvent, py::arg("kind"), py::arg("function"))
+      .def("poll", &Context::poll);
+}
+
+void bindWaitingCalls(py::module_& module) {
+  module.def("hlFinish", &finish);
+  module.def("hlFinishTimeout", &finishTimeout, py::arg("seconds"));
+}
+
+void bindCalls(py::module_& module) {
+  bindContext(module);
+  py::module_ calls = module.def_submodule("calls");
+  bindWaitingCalls(calls);
+  bindPlainCalls(calls);
+  bindArrayCalls(calls);
+  bindConstants(calls);
+}

@@ -1,0 +1,92 @@
+"""Pictures of the page: one of each example while it is touched, and a film."""
+import asyncio
+import io
+
+from PIL import Image
+
+from plots import look
+from plots.browser import Browser, Program, built, server
+
+PICTURE = (1280, 720, 0.8)   # the page's size and the picture's for one of it
+CLIENT = (480, 560, 1)       # of a page that is the client itself
+FILM = (1280, 720, 1)
+LONG_S = 600                 # an example goes on until its picture is taken
+SHOWN = "window.__hl && __hl.triangles + __hl.objects > 0"
+# Felt, and for long enough that the plots tell something.
+TOUCHED = "window.__hl && __hl.force_N && Math.hypot(...['x', 'y', 'z'].map((axis) => __hl.force_N[axis])) > 0.3"
+PLOTS_S = 4
+FILM_S, FILM_QUALITY = 10, 60
+
+EXAMPLES = ["01_sphere", "02_teapot_with_material", "03_lines_and_points", "04_hierarchy", "05_moving_paddle",
+            "06_textures", "07_events_buttons", "08_browser", "10_client", "11_web_client", "13_client"]
+
+
+def told(path):
+    print(path.relative_to(look.ROOT) if path.is_relative_to(look.ROOT) else path)
+
+
+def command_of(name, programs, address):
+    url = f"hl://{address}"
+    if name == "08_browser":
+        return [built(programs, f"examples/{name}"), look.ROOT / "tests/examples/square.x3d", url, LONG_S]
+    if name == "10_client":
+        return ["/usr/bin/python3", look.ROOT / "examples/10_client.py", f"ws://{address}/hl", LONG_S]
+    if name == "13_client":
+        return ["mono", built(programs, "../tests/csharp/13_client.exe"), url, LONG_S]  # the tests build it
+    return [built(programs, f"examples/{name}"), url, LONG_S]
+
+
+def write(png, name):
+    picture = Image.open(io.BytesIO(png)).convert("RGB")
+    path = look.folder / "examples" / f"{name}.png"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    picture.quantize(look.COLOURS, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE).save(path, optimize=True)
+    told(path)
+
+
+async def picture_of(name, programs):
+    if name == "11_web_client":  # the page is the client
+        with server(built(programs, "hld"), look.ROOT / "examples") as served:
+            async with Browser(*CLIENT) as browser:
+                page = f"http://{served.found.group(1)}/11_web_client.html"
+                await browser.open(page, "document.getElementById('touched').textContent.startsWith('touching')")
+                write(await browser.picture(), name)
+        return
+    with server(built(programs, "hld")) as served:
+        address = served.found.group(1)
+        with Program(command_of(name, programs, address)):
+            async with Browser(*PICTURE) as browser:
+                await browser.open(f"http://{address}/", SHOWN)
+                await asyncio.sleep(PLOTS_S)
+                await browser.wait_for(TOUCHED)
+                write(await browser.picture(), name)
+
+
+def gallery(programs, names=None):
+    for name in names or EXAMPLES:
+        asyncio.run(picture_of(name, programs))
+
+
+async def frames_of(browser):
+    """Pictures, and of each the time until the next, ms."""
+    frames = [(time_s, Image.open(io.BytesIO(jpeg)).convert("RGB")) async for time_s, jpeg in browser.frames(FILM_S)]
+    times_s = [time_s for time_s, _ in frames]
+    return [picture for _, picture in frames[:-1]], [round(1e3 * (b - a)) for a, b in zip(times_s, times_s[1:])]
+
+
+async def film_of(programs):
+    touch = [built(programs, "hl"), "touch", "teapot", "--no-open", "--port", "0"]
+    with Program(touch, r"page: (http://\S+/)") as served:
+        async with Browser(*FILM) as browser:
+            await browser.open(served.found.group(1), SHOWN)
+            await browser.wait_for(TOUCHED)
+            return await frames_of(browser)
+
+
+def film(programs):
+    frames, durations_ms = asyncio.run(film_of(programs))
+    path = look.folder / "film.webp"
+    frames[0].save(path, save_all=True, append_images=frames[1:], duration=durations_ms, loop=0,
+                   quality=FILM_QUALITY, method=4)
+    told(path)
+    print(f"    {len(frames)} frames in {FILM_S} s, {path.stat().st_size // 1000} kB")

@@ -1,0 +1,213 @@
+// What HapticClient promises, against a server: test_client.exe CASE URL. Ends with code 0, or prints what is wrong.
+using System;
+using System.Linq;
+using System.Net;
+using System.Net.Sockets;
+using System.Threading;
+using HL;
+
+static class TestClient {
+    const uint Name = 7;
+
+    static void Expect(bool holds, string what) {
+        if (!holds) throw new Exception("not so: " + what);
+    }
+
+    // For as long as it takes: the test's runner ends what hangs.
+    static void WaitFor(Func<bool> holds) {
+        while (!holds()) Thread.Sleep(2);
+    }
+
+    static string ReasonOf(HapticClient client) {
+        client.Ended.Wait();
+        Expect(client.Status == ClientStatus.Closed, "closed");
+        Expect(!client.Reason.Contains("\n"), "one line: " + client.Reason);
+        return client.Reason;
+    }
+
+    static TouchEvent Next(HapticClient client, params TouchEventKind[] kinds) {
+        TouchEvent taken = null;
+        WaitFor(() => client.Status == ClientStatus.Closed || client.Poll(out taken) && kinds.Contains(taken.Kind));
+        Expect(client.Status != ClientStatus.Closed, "open: " + client.Reason);
+        return taken;
+    }
+
+    // A level square of `side` metres, of cells * cells cells.
+    static TouchMesh Floor(int cells, double side) {
+        var vertices = new double[3 * (cells + 1) * (cells + 1)];
+        for (int i = 0; i <= cells; ++i) {
+            for (int j = 0; j <= cells; ++j) {
+                vertices[3 * (i * (cells + 1) + j)] = side * (1.0 * i / cells - 0.5);
+                vertices[3 * (i * (cells + 1) + j) + 2] = side * (1.0 * j / cells - 0.5);
+            }
+        }
+        var triangles = new int[6 * cells * cells];
+        for (int cell = 0; cell < cells * cells; ++cell) {
+            int corner = cell / cells * (cells + 1) + cell % cells;
+            int[] six = { corner, corner + 1, corner + cells + 1, corner + 1, corner + cells + 2, corner + cells + 1 };
+            six.CopyTo(triangles, 6 * cell);
+        }
+        return new TouchMesh { Vertices = vertices, Triangles = triangles };
+    }
+
+    static void BadAddresses(string url) {
+        foreach (string bad in new[] { "", "nonsense", "http://127.0.0.1", "hl://", "hl://127.0.0.1?speed=3" }) {
+            bool refused = false;
+            try {
+                new HapticClient(bad);
+            } catch (ArgumentException error) {
+                refused = !error.Message.Contains("\n");
+            }
+            Expect(refused, "'" + bad + "' is refused");
+        }
+    }
+
+    static void NobodyThere(string url) {
+        var client = new HapticClient("hl://127.0.0.1:1");
+        for (uint i = 1; i <= 1000; ++i) {
+            client.Define(i, new TouchItem { Mesh = Floor(1, 0.1) });
+            client.Flush();
+        }
+        string reason = ReasonOf(client);
+        Expect(reason.StartsWith("cannot reach ws://127.0.0.1:1: "), reason);
+        client.Flush();  // and so on, to no effect
+        client.Dispose();
+    }
+
+    static void NoAnswer(string url) {
+        var silent = new TcpListener(IPAddress.Loopback, 0);
+        silent.Start();
+        string where = "127.0.0.1:" + ((IPEndPoint)silent.LocalEndpoint).Port;
+        var client = new HapticClient("hl://" + where, new ClientOptions { Timeout_s = 0.2 });
+        string reason = ReasonOf(client);
+        Expect(reason.StartsWith("no welcome from ws://" + where), reason);
+        var given_up = new HapticClient("hl://" + where);
+        given_up.Dispose();
+        Expect(ReasonOf(given_up) == "closed by this program", given_up.Reason);
+        silent.Stop();
+    }
+
+    // 40 000 vertices and 80 000 triangles go in parts; a simulated hand presses on them.
+    static void LargeMeshIsFelt(string url) {
+        var client = new HapticClient(url, new ClientOptions { StateRate_Hz = 200 });
+        client.Define(1, new TouchItem { Mesh = Floor(200, 0.2), Material = new TouchMaterial { StaticFriction = 0.3 } });
+        client.SetWorld(new TouchItem { Object = 1, Name = Name });
+        client.Set(new DeviceSettings { WorkspaceOrigin = new Vec3(0, 0, 0), HandGoal = new Vec3(0, 0.02, 0) });
+        client.Flush();
+        Next(client, TouchEventKind.FrameShown);
+        Expect(client.Newest == null || client.Newest.Master, "master");
+        WaitFor(() => client.Newest?.Finger.Y > 0.015);
+        client.Set(new DeviceSettings { HandGoal = new Vec3(0, -0.02, 0) });
+        WaitFor(() => client.Newest.Touched.Any(touched => touched.Name == Name && touched.Object == 1));
+        Expect(Next(client, TouchEventKind.Touch).Name == Name, "the event's name");
+        WaitFor(() => client.Newest.Force_N.Y > 0.3 && client.Newest.Touched.Length > 0);
+        TouchState state = client.Newest;
+        Expect(state.Proxy.Y > state.Finger.Y, "the proxy stays above the finger");
+        Expect(Math.Abs(state.Touched[0].Normal.Y - 1) < 1e-9, "the normal is up");
+        client.Dispose();
+        ReasonOf(client);
+    }
+
+    static void RefusedFrameChangesNothing(string url) {
+        var client = new HapticClient(url);
+        client.SetWorld(new TouchItem { Mesh = Floor(1, 0.1), Matrix = new double[16] });
+        client.Flush();
+        TouchEvent refused = Next(client, TouchEventKind.Refused);
+        Expect(refused.Frame == 1 && refused.Text.Length > 10 && !refused.Text.Contains("\n"), refused.Text);
+        client.SetWorld(new TouchItem { Mesh = Floor(1, 0.1) });
+        client.Flush();
+        Next(client, TouchEventKind.FrameShown);
+        client.Dispose();
+        ReasonOf(client);
+    }
+
+    static void TooLargeFrameIsRefusedHere(string url) {
+        var client = new HapticClient(url);
+        client.SetWorld(Enumerable.Range(0, 600).Select(i => new TouchItem { Mesh = Floor(16, 0.1) }).ToArray());
+        client.Flush();
+        Expect(Next(client, TouchEventKind.Refused).Text.Contains("several frames"), "the advice");
+        client.SetWorld(new TouchItem { Mesh = Floor(16, 0.1) });
+        client.Flush();
+        Next(client, TouchEventKind.FrameShown);
+        client.Dispose();
+        ReasonOf(client);
+    }
+
+    // Far more frames than a server takes: they are put together, and none is refused.
+    static void FastFramesAreMerged(string url) {
+        var client = new HapticClient(url);
+        WaitFor(() => client.Status == ClientStatus.Open);
+        for (uint i = 1; i <= 20000; ++i) {
+            client.Define(1 + i % 50, new TouchItem { Mesh = Floor(1, 0.1) });
+            client.SetWorld(new TouchItem { Object = 1 + i % 50 });
+            client.Flush();
+        }
+        client.Dispose();
+        ReasonOf(client);
+        TouchEvent taken;
+        while (client.Poll(out taken)) Expect(taken.Kind != TouchEventKind.Refused, taken.Text);
+    }
+
+    // More settings than a server takes messages: of each kind the newest goes.
+    static void FastSettingsAreMerged(string url) {
+        var client = new HapticClient(url, new ClientOptions { StateRate_Hz = 200 });
+        client.SetWorld(new TouchItem { Mesh = Floor(1, 0.001) });
+        client.Set(new DeviceSettings { WorkspaceOrigin = new Vec3(0, 1, 0), HandGoal = new Vec3(0, 1, 0) });
+        client.Flush();
+        Next(client, TouchEventKind.FrameShown);
+        for (int i = 0; i <= 200000; ++i) {
+            client.Set(new DeviceSettings { ProxyRadius = 0.003 });
+            client.Set(new DeviceSettings { HandGoal = new Vec3(0, 1 + 1e-7 * i, 0) });
+            if (i % 20 == 0) Thread.Sleep(0);
+        }
+        WaitFor(() => client.Status == ClientStatus.Closed || client.Newest.Finger.Y > 1.015);
+        Expect(client.Status == ClientStatus.Open, "open: " + client.Reason);
+        Expect(Math.Abs(client.Newest.ProxyRadius - 0.003) < 1e-12, "the radius");
+        client.Dispose();
+        ReasonOf(client);
+    }
+
+    static void SecondClientIsNotMaster(string url) {
+        var first = new HapticClient(url);
+        WaitFor(() => first.Status == ClientStatus.Open);
+        var second = new HapticClient(url);
+        second.Set(new DeviceSettings { ProxyRadius = 0.002 });
+        Expect(Next(second, TouchEventKind.Refused).Text.Contains("master"), "it says why");
+        WaitFor(() => second.Newest != null);
+        Expect(!second.Newest.Master, "the state says so");
+        first.Dispose();
+        second.Dispose();
+        ReasonOf(first);
+        ReasonOf(second);
+    }
+
+    static void WrongToken(string url) {
+        string reason = ReasonOf(new HapticClient(url, new ClientOptions { Token = "wrong" }));
+        Expect(reason.Contains("token"), reason);
+    }
+
+    static void RightToken(string url) {
+        var client = new HapticClient(url + "?token=right%2dtoken-of-the-test");
+        WaitFor(() => client.Status != ClientStatus.Connecting);
+        Expect(client.Status == ClientStatus.Open, client.Reason);
+        client.Dispose();
+        ReasonOf(client);
+    }
+
+    // The runner stops the server when it reads "open".
+    static void ServerGoesAway(string url) {
+        var client = new HapticClient(url);
+        WaitFor(() => client.Status == ClientStatus.Open);
+        Console.WriteLine("open");
+        string reason = ReasonOf(client);
+        Expect(reason.Length > 0 && reason != "closed by this program", reason);
+    }
+
+    static int Main(string[] arguments) {
+        var cases = new Action<string>[] { BadAddresses, NobodyThere, NoAnswer, LargeMeshIsFelt, RefusedFrameChangesNothing,
+            TooLargeFrameIsRefusedHere, FastFramesAreMerged, FastSettingsAreMerged, SecondClientIsNotMaster, WrongToken,
+            RightToken, ServerGoesAway };
+        cases.Single(one => one.Method.Name == arguments[0])(arguments[1]);
+        return 0;
+    }
+}

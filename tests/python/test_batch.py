@@ -1,0 +1,230 @@
+"""hl.Scene, Fingers, trace and closest: closed forms, the same bits alone and together, errors, threads, memory."""
+import csv
+import gc
+import os
+import re
+import resource
+import subprocess
+import tempfile
+import threading
+import time
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import hl
+from hl import _hl
+
+HL = os.environ["HL_PROGRAM"]
+SQUARE = (np.array([[-0.1, 0, -0.1], [0.1, 0, -0.1], [0.1, 0, 0.1], [-0.1, 0, 0.1]]), np.array([[0, 1, 2], [0, 2, 3]]))
+
+
+def random_walks(scene, walks, steps, seed):
+    """(walks, steps, 3): wandering fingers in and around the scene's box."""
+    random = np.random.default_rng(seed)
+    low, high = scene.bounds
+    begin = random.uniform(low, high, (walks, 1, 3))
+    return begin + np.cumsum(random.normal(0, 0.01 * np.max(high - low), (walks, steps, 3)), axis=1)
+
+
+class ClosedForms(unittest.TestCase):
+    def test_a_plane_pushes_by_spring_times_depth(self):
+        plane = hl.Scene(*SQUARE)
+        fingers = hl.Fingers(plane, 3, hl.Settings(radius=0.001, spring=500))
+        above = np.array([[0, 0.01, 0], [0.02, 0.01, 0.01], [0, 0.02, 0]])
+        fingers.step(above)
+        felt = fingers.step(above - [0, 0.015, 0])
+        depth = np.maximum(0, 0.001 - (above[:, 1] - 0.015))
+        np.testing.assert_allclose(felt.force, np.outer(500 * depth, [0, 1, 0]), atol=1e-9)
+        np.testing.assert_array_equal(felt.contacts, [1, 1, 0])
+
+    def test_friction_pulls_back_by_mu_times_the_normal_force(self):
+        plane = hl.Scene(*SQUARE)
+        t = np.arange(2000) * 1e-3
+        path = np.column_stack([t, 0.02 * t, np.full_like(t, -0.001), np.zeros_like(t)])
+        path[0, 2] = 0.01
+        felt = hl.trace(plane, path, hl.Settings(static_friction=0.4, dynamic_friction=0.4))
+        self.assertAlmostEqual(-felt.force[-1, 0] / felt.force[-1, 1], 0.4, places=6)
+
+    def test_closest_points_of_a_plane(self):
+        nearest = hl.closest(hl.Scene(*SQUARE), [[0.01, 0.05, 0.02], [0.3, -0.1, 0]])
+        np.testing.assert_allclose(nearest.point, [[0.01, 0, 0.02], [0.1, 0, 0]], atol=1e-15)
+        np.testing.assert_allclose(nearest.distance, [0.05, np.hypot(0.2, 0.1)])
+        np.testing.assert_allclose(nearest.normal[0], [0, 1, 0], atol=1e-12)
+
+    def test_bounds_and_count(self):
+        scene = hl.Scene("teapot", size=0.1)
+        self.assertAlmostEqual(float(np.max(scene.bounds[1] - scene.bounds[0])), 0.1)
+        self.assertGreater(scene.primitives, 1000)
+        self.assertIn("primitives", repr(scene))
+
+
+class SameBits(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scene = hl.Scene("rough:20000", size=0.1)
+        cls.settings = hl.Settings(static_friction=0.3, dynamic_friction=0.2, smooth=True)
+
+    def assert_same(self, one, other):
+        for a, b in zip(one, other):
+            self.assertEqual(a.tobytes(), np.ascontiguousarray(b).tobytes())
+
+    def test_fingers_together_are_as_fingers_alone(self):
+        walks = random_walks(self.scene, 40, 60, 1)
+        together = hl.Fingers(self.scene, 40, self.settings)
+        alone = [hl.Fingers(self.scene, 1, self.settings) for _ in walks]
+        for step in range(walks.shape[1]):
+            all_felt = together.step(walks[:, step], threads=step % 3)
+            for i, finger in enumerate(alone):
+                self.assert_same(finger.step(walks[i : i + 1, step]), [part[i : i + 1] for part in all_felt])
+
+    def test_paths_together_are_as_paths_alone_in_every_form(self):
+        walks = random_walks(self.scene, 6, 80, 2)
+        t = np.broadcast_to(np.arange(80)[:, None] * 1e-3, (6, 80, 1))
+        paths = np.concatenate([t, walks], axis=2)
+        block = hl.trace(self.scene, paths, self.settings, threads=2)
+        listed = hl.trace(self.scene, [paths[0], paths[1][:33], paths[2][:0]], self.settings)
+        self.assertEqual(block.proxy.shape, (6, 80, 3))
+        self.assertEqual(listed[2].force.shape, (0, 3))
+        for i, path in enumerate(paths):
+            self.assert_same(hl.trace(self.scene, path, self.settings), [part[i] for part in block])
+        self.assert_same(listed[0], [part[0] for part in block])
+        self.assert_same(listed[1], [part[1][:33] for part in block])
+
+    def test_a_trace_is_that_of_the_command(self):
+        walk = random_walks(self.scene, 1, 300, 3)[0]
+        path = np.column_stack([np.arange(300) * 1e-3, walk])
+        with tempfile.TemporaryDirectory() as folder:
+            rows, out = Path(folder) / "p.csv", Path(folder) / "o.csv"
+            rows.write_text("t,x,y,z\n" + "".join(",".join(map(repr, row)) + "\n" for row in path.tolist()), encoding="ascii")
+            subprocess.run([HL, "trace", "rough:20000", "--fit", "0.1", "--path", rows, "--out", out, "--radius", "0.002",
+                            "--dynamic-friction", "0.2", "--static-friction", "0.3", "--shade", "smooth"], check=True)
+            with out.open(encoding="ascii") as file:
+                table = list(csv.DictReader(file))
+        felt = hl.trace(self.scene, path, self.settings)
+        for row, force, proxy in zip(table, felt.force, felt.proxy):
+            self.assertEqual([float(row[f"force_{axis}"]) for axis in "xyz"], force.tolist())
+            self.assertEqual([float(row[f"proxy_{axis}"]) for axis in "xyz"], proxy.tolist())
+
+    def test_a_reset_begins_anew(self):
+        fingers = hl.Fingers(self.scene, 2, self.settings)
+        walks = random_walks(self.scene, 2, 20, 4)
+        first = [fingers.step(walks[:, i]) for i in range(20)]
+        fingers.reset([True, False])
+        fingers.reset()
+        for i in range(20):
+            self.assert_same(fingers.step(walks[:, i]), first[i])
+
+
+class Errors(unittest.TestCase):
+    def test_each_is_told_in_a_line_and_is_a_value_error(self):
+        scene = hl.Scene(*SQUARE)
+        fingers = hl.Fingers(scene, 2)
+        wrong = [
+            ("there is no such file", lambda: hl.Scene("missing.obj")),
+            ("nothing in it can be touched", lambda: hl.Scene(np.zeros((3, 3)), [[0, 1, 2]])),
+            ("needs triangles", lambda: hl.Scene(SQUARE[0])),
+            ("must be integers", lambda: hl.Scene(SQUARE[0], [[0.0, 1.0, 2.0]])),
+            ("names no vertex", lambda: hl.Scene(SQUARE[0], [[0, 1, 9]])),
+            ("names no vertex", lambda: hl.Scene(SQUARE[0], [[0, 1, -1]])),
+            ("shape (n, 3)", lambda: hl.Scene([[0, 0]], [[0, 0, 0]])),
+            ("must be finite", lambda: hl.Scene(SQUARE[0] * np.nan, SQUARE[1])),
+            ("one row for each vertex", lambda: hl.Scene(*SQUARE, [[0, 1, 0]])),
+            ("one row for each finger", lambda: fingers.step([[0, 0, 0]])),
+            ("must be finite", lambda: fingers.step([[0, 0, 0], [np.inf, 0, 0]])),
+            ("one element for each finger", lambda: fingers.reset([True])),
+            ("must not be negative", lambda: fingers.step(np.zeros((2, 3)), threads=-1)),
+            ("must rise", lambda: hl.trace(scene, [[0, 0, 0, 0], [0, 0, 0, 0]])),
+            ("(n, 4)", lambda: hl.trace(scene, np.zeros((3, 3)))),
+            ("above zero", lambda: hl.Fingers(scene, 1, hl.Settings(radius=0))),
+            ("out of its range", lambda: hl.Fingers(scene, 1, hl.Settings(stiffness=1.5))),
+            ("shape (n, 3)", lambda: hl.closest(scene, [0, 0, 0])),
+        ]
+        for text, call in wrong:
+            with self.subTest(text), self.assertRaises(hl.InvalidValueError) as raised:
+                call()
+            self.assertIn(text, str(raised.exception))
+            self.assertNotIn("\n", str(raised.exception))
+            self.assertIsInstance(raised.exception, ValueError)
+        fingers.step(np.zeros((2, 3)))
+
+    def test_settings_have_every_quantity_of_a_surface(self):
+        table = (Path(os.environ["HL_SOURCE"]) / "src/base/quantities.def").read_text(encoding="utf-8")
+        rows = re.findall(r"^HL_QUANTITY\(\w+,\s*\w+,\s*(\w+)", table, re.MULTILINE)
+        self.assertEqual([name.upper() for name in hl.batch.SURFACE], rows)
+        for name, number in hl.batch.SURFACE.items():
+            self.assertEqual(getattr(_hl.calls, "HL_" + name.upper()), number)
+            hl.Fingers(hl.Scene(*SQUARE), 1, hl.Settings(**{name: 0.5}))
+
+
+class Threads(unittest.TestCase):
+    def test_other_threads_run_while_a_call_computes(self):
+        scene = hl.Scene("terrain:100000", size=0.2)
+        path = np.column_stack([np.arange(200000) * 1e-3, random_walks(scene, 1, 200000, 5)[0] % 0.2 - 0.1])
+        counted, ends = [0], threading.Event()
+
+        def count():
+            while not ends.is_set():
+                counted[0] += 1
+                time.sleep(0.001)
+
+        counter = threading.Thread(target=count)
+        counter.start()
+        try:
+            before = counted[0]
+            hl.trace(scene, path, threads=1)
+            during = counted[0] - before
+        finally:
+            ends.set()
+            counter.join()
+        # A lock that is held lets at most one turn through at each end of the call.
+        self.assertGreater(during, 10)
+
+    def test_threads_may_share_a_scene_and_fingers(self):
+        scene = hl.Scene("teapot", size=0.1)
+        fingers = hl.Fingers(scene, 50)
+        failed = []
+
+        def work(seed):
+            try:
+                for walk in random_walks(scene, 30, 50, seed):
+                    fingers.step(walk)
+                    hl.closest(scene, walk)
+            except hl.Error as error:
+                failed.append(error)
+
+        threads = [threading.Thread(target=work, args=(seed,)) for seed in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(failed, [])
+
+    def test_a_file_is_read_after_threads_have_been_used(self):
+        hl.closest(hl.Scene("teapot"), np.zeros((1000, 3)))
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "square.obj"
+            file.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", encoding="ascii")
+            self.assertEqual(hl.Scene(file).primitives, 1)
+
+
+class Memory(unittest.TestCase):
+    def test_a_hundred_thousand_scenes_leave_nothing(self):
+        def make(count):
+            for _ in range(count):
+                scene = hl.Scene(*SQUARE)
+                hl.Fingers(scene, 2).step(np.zeros((2, 3)), threads=1)
+
+        make(5000)  # what is made once is made
+        gc.collect()
+        objects, before_kB = len(gc.get_objects()), resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        make(100000)
+        gc.collect()
+        self.assertLessEqual(len(gc.get_objects()), objects + 10)
+        # A leak of one scene (some kB) each would be hundreds of MB; what is tolerated is the allocator's slack.
+        self.assertLess(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before_kB, 4096)
+
+
+if __name__ == "__main__":
+    unittest.main()

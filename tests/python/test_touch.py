@@ -1,0 +1,246 @@
+"""hl.connect: frames, what is felt, events, errors; against a server in the process and one beside it."""
+import asyncio
+import json
+import os
+import re
+import signal
+import subprocess
+import threading
+import time
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import hl
+
+SOURCE = Path(os.environ["HL_SOURCE"])
+HLD = os.environ["HLD_PROGRAM"]
+PATIENCE_S = 20.0
+FLOOR = (np.array([[-0.1, 0, -0.1], [0.1, 0, -0.1], [0.1, 0, 0.1], [-0.1, 0, 0.1]]), np.array([[0, 1, 2], [0, 2, 3]]))
+
+
+def wait_for(what, condition):
+    """The first true value of `condition()`; the test fails when it never comes."""
+    ends = time.monotonic() + PATIENCE_S
+    while time.monotonic() < ends:
+        found = condition()
+        if found:
+            return found
+        time.sleep(0.01)
+    raise AssertionError(f"waited in vain for {what}")
+
+
+class Touching(unittest.TestCase):
+    def setUp(self):
+        self.touch = self.enterContext(hl.connect(name="test"))
+
+    def show_floor(self, **surface):
+        with self.touch.frame():
+            with self.touch.name(7), self.touch.surface(**surface):
+                self.touch.draw(*FLOOR)
+        self.touch.hand_goal([0, -0.01, 0])
+
+    def test_what_is_drawn_is_felt(self):
+        self.show_floor()
+        (state,) = wait_for("a touch", lambda: [s for s in [self.touch.state()] if s.force[1] > 0.3 and s.safety == "on"])
+        self.assertTrue(state.touching)
+        self.assertEqual(state.touched_name, 7)
+        self.assertGreater(state.proxy[1], 0)
+        spring = self.touch.get(hl.calls.HL_SPRING_STIFFNESS)
+        np.testing.assert_allclose(state.force, spring * (state.proxy - state.finger), atol=1.0)
+        contact = self.touch.contacts()[0]
+        np.testing.assert_allclose(contact["normal"], [0, 1, 0], atol=1e-9)
+        self.assertEqual(contact["name"], 7)
+
+    def test_events_come_to_functions_on_this_thread(self):
+        events = []
+        self.touch.on("touch", lambda event: events.append((event.name, event.position[1], threading.get_ident())))
+        self.show_floor()
+        wait_for("an event", lambda: self.touch.poll() and events)
+        self.assertEqual((events[0][0], events[0][2]), (7, threading.get_ident()))
+        self.touch.on("touch", None)
+
+    def test_what_a_callback_raises_comes_out_of_poll(self):
+        def fail(event):
+            raise KeyError(event.name)
+
+        self.touch.on("touch", fail)
+        self.show_floor()
+
+        def poll():
+            try:
+                self.touch.poll()
+            except KeyError as error:
+                return error
+            return None
+
+        self.assertEqual(wait_for("the exception", poll).args, (7,))
+
+    def test_samples_are_a_structured_array(self):
+        self.touch.keep_samples(500)
+        (samples,) = wait_for("samples", lambda: [s for s in [self.touch.samples()] if len(s) > 10])
+        np.testing.assert_allclose(np.diff(samples["time"]), 1e-3, atol=5e-3)
+        self.assertEqual(samples["position"].shape, (len(samples), 3))
+
+    def test_objects_are_placed_bent_and_forgotten(self):
+        with self.touch.frame():
+            with self.touch.define() as floor:
+                self.touch.draw(*FLOOR)
+            self.touch.place(floor)
+        low = np.eye(4)
+        low[1, 3] = -0.02
+        with self.touch.frame():
+            self.touch.place(floor, low)
+        with self.touch.frame():
+            self.touch.update_vertices(floor, FLOOR[0] + [0, 0.001, 0])
+        self.assertEqual(self.touch.get(hl.calls.HL_FRAME_PRIMITIVES), 2)
+        with self.touch.frame():
+            self.touch.delete(floor)
+        self.assertEqual(self.touch.get(hl.calls.HL_FRAME_PRIMITIVES), 0)
+
+    def test_a_texture_changes_what_is_felt(self):
+        soft = self.touch.make_texture(np.zeros((2, 2)))
+        self.touch.make_texture(np.full((2, 3), 255, dtype=np.uint8))
+        with self.touch.frame():
+            with self.touch.texture(soft, "stiffness", 0.25, 1.0):
+                self.touch.draw(*FLOOR, texcoords=np.zeros((4, 2)))
+        self.touch.hand_goal([0, -0.01, 0])
+        wait_for("a soft contact", lambda: len(c := self.touch.contacts()) > 0 and abs(c[0]["stiffness"] - 0.25) < 1e-6)
+
+    def test_the_device_is_set(self):
+        self.touch.spring(300.0)
+        self.touch.workspace([0, 0.01, 0], 2.0)
+        self.touch.proxy_radius(0.003)
+        self.touch.ledger("strict")
+        self.touch.hand_grip("firm")
+        wait_for("the settings", lambda: self.touch.poll() >= 0 and self.touch.get(hl.calls.HL_WORKSPACE_SCALE) == 2.0)
+        self.assertEqual(self.touch.get(hl.calls.HL_PROXY_RADIUS), 0.003)
+        self.assertEqual(self.touch.get(hl.calls.HL_SPRING_STIFFNESS), 300.0)
+        self.assertTrue(self.touch.is_master)
+        self.assertIn("simulated", self.touch.device_name)
+
+    def test_a_frame_that_fails_is_not_sent(self):
+        self.show_floor()
+        with self.assertRaises(ZeroDivisionError), self.touch.frame():
+            self.touch.draw(*FLOOR)
+            self.touch.draw(*FLOOR)
+            raise ZeroDivisionError
+        self.assertEqual(self.touch.get(hl.calls.HL_FRAME_PRIMITIVES), 2)
+        with self.touch.frame():
+            self.touch.draw(*FLOOR)
+        self.assertEqual(self.touch.get(hl.calls.HL_FRAME_PRIMITIVES), 2)
+
+    def test_errors_are_exceptions_with_one_line(self):
+        wrong = [
+            (hl.InvalidValueError, "stiffness", lambda: self.touch.material(stiffness=2)),
+            (hl.InvalidValueError, "no quantity 'softness'", lambda: self.touch.material(softness=2)),
+            (hl.InvalidValueError, "below the number of vertices", lambda: self.touch.draw(FLOOR[0], [[0, 1, 4]])),
+            (hl.InvalidValueError, "shape (n, 3)", lambda: self.touch.draw([[0, 0]])),
+            (hl.InvalidValueError, "must be integers", lambda: self.touch.draw(FLOOR[0], [[0, 1, 2.5]])),
+            (hl.InvalidValueError, "shape (4, 4)", lambda: self.touch.place(1, np.eye(3))),
+            (hl.InvalidValueError, "three numbers", lambda: self.touch.hand_goal([1, 2])),
+            (hl.InvalidValueError, "no event", lambda: self.touch.on("tuch", print)),
+            (hl.InvalidValueError, "", lambda: self.touch.hand_goal([np.nan, 0, 0])),
+            (hl.InvalidOperationError, "", lambda: hl.calls.hlPopMatrix()),
+            (hl.InvalidOperationError, "", lambda: hl.calls.hlEnd()),
+        ]
+        self.touch.make_current()
+        for kind, text, call in wrong:
+            with self.subTest(text), self.assertRaisesRegex(kind, re.escape(text)):
+                call()
+        hl.calls.hlBegin(hl.calls.HL_TRIANGLES)
+        with self.assertRaises(hl.InvalidOperationError):
+            hl.calls.hlPushMatrix()
+        hl.calls.hlEnd()
+
+    def test_closed_is_closed(self):
+        self.touch.close()
+        self.touch.close()
+        with self.assertRaises(hl.InvalidOperationError):
+            self.touch.state()
+        with self.assertRaises(hl.InvalidOperationError):
+            hl.calls.hlFlush()
+
+    def test_one_context_is_used_by_one_thread_at_a_time(self):
+        failed = []
+
+        def use():
+            try:
+                self.touch.state()
+            except hl.InvalidOperationError as error:
+                failed.append(error)
+
+        self.touch.make_current()
+        other = threading.Thread(target=use)
+        other.start()
+        other.join()
+        self.assertEqual(len(failed), 1)
+
+    def test_two_contexts_take_turns(self):
+        with hl.connect(name="second") as second:
+            with second.frame():
+                second.draw(*FLOOR)
+            with self.touch.frame():
+                self.touch.draw(FLOOR[0][:3])
+            self.assertEqual(second.get(hl.calls.HL_FRAME_PRIMITIVES), 2)
+            self.assertEqual(self.touch.get(hl.calls.HL_FRAME_PRIMITIVES), 1)
+
+    def test_states_come_as_an_async_stream(self):
+        async def take(count):
+            times = []
+            async for state in self.touch.states(200):
+                times.append(state.time)
+                if len(times) == count:
+                    return times
+
+        times = asyncio.run(asyncio.wait_for(take(20), PATIENCE_S))
+        self.assertTrue(np.all(np.diff(times) > 0))
+
+
+class AServerBesideIt(unittest.TestCase):
+    def test_it_is_reached_by_its_address_and_its_end_is_told(self):
+        server = subprocess.Popen([HLD, "--port", "0", "--log-format", "json"], stderr=subprocess.PIPE, text=True)
+        with server.stderr:
+            address = next(json.loads(line) for line in server.stderr if '"ready"' in line)["address"]
+            with hl.connect("hl://" + address.split("//")[1].rstrip("/"), name="far", state_rate=100) as touch:
+                with touch.frame():
+                    touch.draw(*FLOOR)
+                self.assertEqual(touch.get(hl.calls.HL_FRAME_PRIMITIVES), 2)
+                self.assertEqual(touch.server_version, hl.__version__)
+                server.send_signal(signal.SIGTERM)
+                server.wait()
+                with self.assertRaises(hl.ConnectionLostError):
+                    wait_for("the end", touch.poll)
+
+    def test_nobody_there_is_told(self):
+        with self.assertRaisesRegex(hl.ConnectError, "refused the connection"):
+            hl.connect("hl://127.0.0.1:9")
+        with self.assertRaisesRegex(hl.ConnectError, "speed"):
+            hl.connect("inproc:", speed=3)
+
+
+class EveryCall(unittest.TestCase):
+    # What stands in their place is in docs/python.md.
+    ELSEWHERE = {"hlCreateContext", "hlGetConnectError", "hlMakeCurrent", "hlGetCurrentContext", "hlDestroyContext",
+                 "hlGetError", "hlErrorFunc", "hlEventFunc", "hlPoll", "hlVertexPointer", "hlNormalPointer",
+                 "hlTexCoordPointer", "hlEnableClientState", "hlDisableClientState"}
+
+    def test_of_hl_h_is_there_with_its_constants(self):
+        header = (SOURCE / "include/hl/hl.h").read_text(encoding="utf-8")
+        names = set(re.findall(r"^HL_API [\w* ]*?\b(hl[A-Z]\w*)\(", header, re.MULTILINE))
+        self.assertEqual(names - set(dir(hl.calls)), self.ELSEWHERE)
+        types = (SOURCE / "include/hl/hl_types.h").read_text(encoding="utf-8")
+        for name, value in re.findall(r"\b(HL_\w+) = (\w+)", types):
+            self.assertEqual(getattr(hl.calls, name), int(value, 0), name)
+
+    def test_queries_have_as_many_values_as_hl_types_says(self):
+        with hl.connect():
+            self.assertEqual(len(hl.calls.hlGetDoublev(hl.calls.HL_MODELVIEW_MATRIX)), 16)
+            self.assertEqual(len(hl.calls.hlGetFloatv(hl.calls.HL_FORCE)), 3)
+            self.assertEqual(hl.calls.hlGetIntegerv(hl.calls.HL_MATRIX_MODE), hl.calls.HL_MODELVIEW)
+            self.assertEqual(hl.calls.hlGetString(hl.calls.HL_VENDOR), "HL")
+
+
+if __name__ == "__main__":
+    unittest.main()
