@@ -136,6 +136,7 @@ namespace HL {
         ulong messageLimit = 1 << 22;
         double frameLimit_Hz = 250;
         bool disposed;
+        Task leftAlone;                  // an attempt to connect that was given up
         volatile ClientStatus status = ClientStatus.Connecting;
         volatile string reason = "";
         volatile TouchState newest;
@@ -182,8 +183,8 @@ namespace HL {
             Wake();
         }
 
-        /// <summary>Changes the device at once, not with the frame. Of what is set faster than it can be sent the newest
-        /// goes.</summary>
+        /// <summary>Changes the device at once, not with the frame. Of what is set faster than it can be sent the
+        /// newest goes.</summary>
         public void Set(DeviceSettings changes) {
             lock (gate) setting = (setting ?? new DeviceSettings()).With(changes);
             Wake();
@@ -224,15 +225,24 @@ namespace HL {
             if (reason.Length == 0) reason = why;
             status = ClientStatus.Closed;
             stop.Cancel();
-            socket.Dispose();
+            if (leftAlone == null) socket.Dispose();
         }
 
-        // Mono does not heed the token while it waits for the answer to the upgrade: then the attempt is left alone.
+        // An attempt that takes too long is left alone, and its socket goes when it ends: Mono does not heed a token
+        // while it waits for the answer to the upgrade, and has failed where the socket was closed under it.
         async Task Connect() {
-            Task connected = socket.ConnectAsync(address, stop.Token);
+            Task connected = socket.ConnectAsync(address, CancellationToken.None);
             await Task.WhenAny(connected, Task.Delay(Timeout.Infinite, stop.Token)).ConfigureAwait(false);
-            if (connected.IsCompleted) await connected.ConfigureAwait(false);
-            stop.Token.ThrowIfCancellationRequested();
+            if (connected.IsCompleted) {
+                await connected.ConfigureAwait(false);
+                stop.Token.ThrowIfCancellationRequested();
+                return;
+            }
+            leftAlone = connected.ContinueWith(ended => {
+                if (ended.Exception == null) socket.Abort();
+                socket.Dispose();
+            });
+            throw new OperationCanceledException();
         }
 
         string Explain(Exception error) {

@@ -26,7 +26,8 @@ def run(mono, program, hld, case):
         token.chmod(0o600)
         server = Server(hld, "", ["--explore", "off"] + (["--token-file", str(token)] if case.endswith("Token") else []))
         client = subprocess.Popen([mono, program, case, f"hl://{server.address}"], stdout=subprocess.PIPE,
-                                  stderr=subprocess.STDOUT, text=True, env=ENVIRONMENT)
+                                  stderr=subprocess.STDOUT, text=True, env=ENVIRONMENT,
+                                  cwd=folder)  # Mono writes its crashes there
         stopped = False
         for line in client.stdout:
             print(line, end="")
