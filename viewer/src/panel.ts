@@ -183,7 +183,8 @@ export class Panel {
   }
 
   private showLoop(prefix: string, loop: LoopStats | undefined): void {
-    const micro = (value: number | undefined) => (value === undefined ? undefined : value * 1e-6);
+    // 0: the loop does not measure its steps, as in a page without a server. A real step takes longer.
+    const micro = (value: number | undefined) => (value === undefined || value === 0 ? undefined : value * 1e-6);
     setText(`${prefix}-rate`, formatSi(loop?.rateHz, "Hz", 4));
     setText(`${prefix}-p50`, formatSi(micro(loop?.timeP50Us), "s"));
     setText(`${prefix}-p999`, formatSi(micro(loop?.timeP999Us), "s"));
