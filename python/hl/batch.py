@@ -50,13 +50,19 @@ class Scene:
         if isinstance(source, (str, os.PathLike)):
             if triangles is not None or normals is not None:
                 raise InvalidValueError("a scene is made of a file or of arrays, not of both")
-            self._scene = _hl.BatchScene(os.fspath(source), size)
+            self._source: Any = (os.fspath(source), size)
+            self._scene = _hl.BatchScene(os.fspath(source), float(size))
         else:
             if triangles is None:
                 raise InvalidValueError("a scene of arrays needs triangles: an array of shape (m, 3)")
             if size != 0:
                 raise InvalidValueError("size is for files; scale the vertices")
-            self._scene = _hl.BatchScene(source, _indices(triangles), normals)
+            self._source = None
+            self._scene = _hl.BatchScene(
+                _floats(source, "vertices"),
+                _indices(triangles),
+                None if normals is None else _floats(normals, "normals"),
+            )
 
     @property
     def primitives(self) -> int:
@@ -67,6 +73,18 @@ class Scene:
     def bounds(self) -> Floats:
         """The box around it, (2, 3), m: the lowest corner and the highest."""
         return self._scene.bounds
+
+    def __copy__(self) -> "Scene":
+        return self
+
+    def __deepcopy__(self, _memo: Any) -> "Scene":
+        return self
+
+    def __reduce__(self) -> Any:
+        """Another process reads it anew."""
+        if self._source is None:
+            raise TypeError("a scene of arrays cannot be pickled: send the arrays, and make it there")
+        return _scene_of, self._source
 
     def __repr__(self) -> str:
         low, high = self.bounds
@@ -118,8 +136,10 @@ class Fingers:
     """
 
     def __init__(self, scene: Scene, count: int, settings: Optional[Settings] = None) -> None:
+        if count < 0:
+            raise InvalidValueError("count must not be negative")
         self._count = count
-        self._fingers = _hl.BatchFingers(scene._scene, (settings or Settings())._native(), count)
+        self._fingers = _hl.BatchFingers(_native_scene(scene), (settings or Settings())._native(), count)
 
     def __len__(self) -> int:
         return self._count
@@ -130,7 +150,7 @@ class Fingers:
         The first step, and the one after a reset, begins a proxy where the finger is, or near it where the finger is
         within something. `threads`: how many to use, 0: all.
         """
-        return Felt(*self._fingers.step(positions, threads))
+        return Felt(*self._fingers.step(_floats(positions, "positions"), threads))
 
     def reset(self, mask: Optional[npt.ArrayLike] = None) -> None:
         """Those with a mask that is true, (len,), begin anew with their next step; None: all."""
@@ -155,14 +175,14 @@ def trace(scene: Scene, paths: Any, settings: Optional[Settings] = None, threads
     """
     native = (settings or Settings())._native()
     if isinstance(paths, (list, tuple)) and all(np.ndim(path) == 2 for path in paths):
-        return _trace_list(scene, [np.asarray(path, dtype=np.float64) for path in paths], native, threads)
-    array = np.asarray(paths, dtype=np.float64)
+        return _trace_list(scene, [_floats(path, "paths") for path in paths], native, threads)
+    array = _floats(paths, "paths")
     if array.ndim not in (2, 3) or array.shape[-1] != 4:
         raise InvalidValueError(f"paths must have the shape (n, 4) or (m, n, 4), and has {array.shape}")
     samples = array.reshape(-1, 4)
     length = array.shape[-2]
     ends = [length * (i + 1) for i in range(len(samples) // length if length > 0 else 0)]
-    proxy, force, contacts, injected = _hl.trace(scene._scene, native, samples, ends, threads)
+    proxy, force, contacts, injected = _hl.trace(_native_scene(scene), native, samples, ends, threads)
     shape = array.shape[:-1]
     return Felt(proxy.reshape(shape + (3,)), force.reshape(shape + (3,)), contacts.reshape(shape), injected.reshape(shape))
 
@@ -173,7 +193,7 @@ def _trace_list(scene: Scene, paths: List[Floats], settings: _hl.BatchSettings, 
             raise InvalidValueError(f"each path must have the shape (n, 4), and one has {path.shape}")
     ends = np.cumsum([len(path) for path in paths], dtype=int)
     samples = np.concatenate(paths) if paths else np.empty((0, 4))
-    proxy, force, contacts, injected = _hl.trace(scene._scene, settings, samples, ends.tolist(), threads)
+    proxy, force, contacts, injected = _hl.trace(_native_scene(scene), settings, samples, ends.tolist(), threads)
     parts = [slice(end - len(path), end) for path, end in zip(paths, ends)]
     return [Felt(proxy[part], force[part], contacts[part], injected[part]) for part in parts]
 
@@ -189,7 +209,24 @@ class Closest(NamedTuple):
 
 def closest(scene: Scene, points: npt.ArrayLike, threads: int = 0) -> Closest:
     """Of each of the points, (n, 3) in m, the nearest point of the scene, at any distance."""
-    return Closest(*_hl.closest(scene._scene, points, threads))
+    return Closest(*_hl.closest(_native_scene(scene), _floats(points, "points"), threads))
+
+
+def _scene_of(source: str, size: float) -> Scene:
+    return Scene(source, size=size)
+
+
+def _native_scene(scene: Scene) -> _hl.BatchScene:
+    if not isinstance(scene, Scene):
+        raise InvalidValueError(f"scene must be an hl.Scene, and is {type(scene).__name__}")
+    return scene._scene
+
+
+def _floats(numbers: npt.ArrayLike, name: str) -> Floats:
+    try:
+        return np.asarray(numbers, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InvalidValueError(f"{name} must be numbers: {error}") from None
 
 
 def _indices(triangles: npt.ArrayLike) -> npt.NDArray[np.uint32]:

@@ -76,6 +76,8 @@ def connect(url: str = "inproc:", **options: Any) -> "Touch":
 
     Raises ConnectError with the reason.
     """
+    if not isinstance(url, str):
+        raise InvalidValueError("url must be a text, such as inproc: or hl://127.0.0.1")
     if options:
         url += ("&" if "?" in url else "?") + urlencode({key: _option(value) for key, value in options.items()})
     return Touch(_hl.Context(url))

@@ -1,7 +1,9 @@
 """hl.Scene, Fingers, trace and closest: closed forms, the same bits alone and together, errors, threads, memory."""
+import copy
 import csv
 import gc
 import os
+import pickle
 import re
 import resource
 import subprocess
@@ -140,6 +142,12 @@ class Errors(unittest.TestCase):
             ("above zero", lambda: hl.Fingers(scene, 1, hl.Settings(radius=0))),
             ("out of its range", lambda: hl.Fingers(scene, 1, hl.Settings(stiffness=1.5))),
             ("shape (n, 3)", lambda: hl.closest(scene, [0, 0, 0])),
+            ("must be numbers", lambda: hl.closest(scene, "abc")),
+            ("must be numbers", lambda: fingers.step([["a", "b", "c"]] * 2)),
+            ("must be numbers", lambda: hl.Scene([["a", "b", "c"]], [[0, 0, 0]])),
+            ("must be an hl.Scene", lambda: hl.Fingers(fingers, 2)),
+            ("not be negative", lambda: hl.Fingers(scene, -1)),
+            ("not enough memory", lambda: hl.Fingers(scene, 10**15)),
         ]
         for text, call in wrong:
             with self.subTest(text), self.assertRaises(hl.InvalidValueError) as raised:
@@ -207,6 +215,16 @@ class Threads(unittest.TestCase):
             file = Path(folder) / "square.obj"
             file.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", encoding="ascii")
             self.assertEqual(hl.Scene(file).primitives, 1)
+
+
+class OtherProcesses(unittest.TestCase):
+    def test_a_scene_of_a_name_is_made_anew_there(self):
+        scene = hl.Scene("teapot", size=0.1)
+        again = pickle.loads(pickle.dumps(scene))
+        np.testing.assert_array_equal(again.bounds, scene.bounds)
+        self.assertIs(copy.deepcopy(scene), scene)
+        with self.assertRaisesRegex(TypeError, "send the arrays"):
+            pickle.dumps(hl.Scene(*SQUARE))
 
 
 class Memory(unittest.TestCase):
