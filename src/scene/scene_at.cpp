@@ -87,7 +87,7 @@ bool SceneAt::nearest(const Vec3& point, PrimitiveId& primitive, ClosestPoint& a
   double limit = std::numeric_limits<double>::infinity();
   bool found = false;
   Box region = around(point, point, limit);
-  const auto keepNearer = [&](PrimitiveId asked) {
+  const auto keep_nearer = [&](PrimitiveId asked) {
     ClosestPoint place;
     if (!closestWithin(asked, point, limit, place) || place.distance > limit) return;
     if (found && place.distance == limit && !precedes(asked, primitive)) return;
@@ -102,7 +102,7 @@ bool SceneAt::nearest(const Vec3& point, PrimitiveId& primitive, ClosestPoint& a
     const IndexAt index(instance, time_ns_, cost_);
     const Vec3 centre = instance.atWorld() ? point : instance.poses().at(time_ns_).toObject(point);
     index.nearest(centre, limit, [&](ElementId element, double) {
-      keepNearer({i, element});
+      keep_nearer({i, element});
       return limit;
     });
   });
