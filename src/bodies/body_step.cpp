@@ -36,7 +36,7 @@ constexpr int kMostSweeps = 1000, kLeastSweeps = 20;
 
 RowSolverLimits limitsFor(std::size_t rows) {
   const int sweeps = kMostUpdates / static_cast<int>(rows + 1);
-  return {std::clamp(sweeps, kLeastSweeps, kMostSweeps), 1e-12};
+  return {std::clamp(sweeps, kLeastSweeps, kMostSweeps), 1e-11};
 }
 
 double meanOf(double x, double y) { return std::sqrt(x * y); }

@@ -41,8 +41,9 @@ struct Row {
   Vec3 dragged = Vec3::Zero();    ///< N s, on a across the normal
   bool slipping = false;
   // Made by prepareRow().
-  double normal_step = 0, drag_step = 0;  ///< kg, impulse per velocity
-  double approach = 0;                    ///< m/s along the normal before the step
+  Vec3 change = Vec3::Zero(), search = Vec3::Zero();  ///< N s, in the last sweep, and the solver's direction
+  double normal_step = 0, drag_step = 0;              ///< kg, impulse per velocity
+  double approach = 0;                                ///< m/s along the normal before the step
 };
 
 }  // namespace hl

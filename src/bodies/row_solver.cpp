@@ -54,6 +54,21 @@ Vec3 solveRow(Row& row, std::span<Node> nodes, double period_s) {
   return change;
 }
 
+// Goes on along the last direction; `part` is |g|^2 over the last |g|^2. Where the changes grow, it begins anew.
+void searchOn(std::span<Row> rows, std::span<Node> nodes, double part) {
+  for (Row& row : rows) {
+    if (part > 1) {
+      row.search = row.change;
+      continue;
+    }
+    const Vec3 way = part * row.search;
+    row.pressed += row.normal.dot(way);
+    row.dragged += acrossOf(way, row.normal);
+    applyImpulse(row, nodes, way);
+    row.search = way + row.change;
+  }
+}
+
 }  // namespace
 
 Vec3 relativeVelocity(const Row& row, std::span<const Node> nodes) {
@@ -76,13 +91,20 @@ void prepareRow(Row& row, std::span<Node> nodes) {
 }
 
 int solveRows(std::span<Row> rows, std::span<Node> nodes, double period_s, const RowSolverLimits& limits) {
+  double last_square = 0;
+  for (Row& row : rows) row.search.setZero();
   for (int sweep = 1; sweep <= limits.sweeps; ++sweep) {
-    double changed = 0, largest = 0;
+    double square = 0, changed = 0, largest = 0;
     for (Row& row : rows) {
-      changed = std::max(changed, solveRow(row, nodes, period_s).squaredNorm());
+      row.change = solveRow(row, nodes, period_s);
+      square += row.change.squaredNorm();
+      changed = std::max(changed, row.change.squaredNorm());
       largest = std::max(largest, row.pressed * row.pressed);
     }
     if (changed <= limits.done * limits.done * largest) return sweep;
+    if (sweep == limits.sweeps) break;
+    searchOn(rows, nodes, last_square > 0 ? square / last_square : 2);
+    last_square = square;
   }
   return limits.sweeps;
 }

@@ -1,6 +1,10 @@
 // Row solver: the impulses of all contacts of a step at once, by projected Gauss-Seidel: row after row, each as if the
 // others were known, until nothing changes. The friction impulse is projected onto the disc of Coulomb's cone, with a
 // step along the slip and not by components: where it rests, it opposes the slip exactly.
+//
+// The changes of a sweep are taken as a gradient for the nonlinear method of conjugate gradients (M. Silcowitz-Hansen,
+// S. Niebe, K. Erleben, A nonsmooth nonlinear conjugate gradient method for interactive contact force problems, The
+// Visual Computer 26, 2010): blocks in a row or a stack need tens of sweeps in place of thousands.
 #pragma once
 
 #include <span>
@@ -11,7 +15,7 @@ namespace hl {
 
 struct RowSolverLimits {
   int sweeps = 60;
-  double done = 1e-12;  ///< largest change of an impulse in a sweep over the largest impulse
+  double done = 1e-11;  ///< largest change of an impulse in a sweep over the largest impulse
 };
 
 /// Sets the steps of the row and applies the impulses with which it begins. RT-safe.
