@@ -24,6 +24,7 @@ class Meetings {
   /// All within `margin` (m). The order depends on keys and places alone. RT-safe: what finds no room is counted.
   void find(const World& world, const WorldState& state, const PlacedBodies& placed, double margin);
   std::vector<Meeting>& all() { return meetings_; }
+  const std::vector<Meeting>& all() const { return meetings_; }
   std::size_t dropped() const { return dropped_; }
   /// The scene without bodies, as find() saw it; null if there is none.
   const SceneAt* scene() const { return scene_ ? &*scene_ : nullptr; }

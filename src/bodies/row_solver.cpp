@@ -71,6 +71,14 @@ void searchOn(std::span<Row> rows, std::span<Node> nodes, double part) {
 
 }  // namespace
 
+RowSolverLimits limitsFor(std::size_t rows) {
+  constexpr int kMostUpdates = 20'000;  // of single rows, some 2 ms
+  constexpr int kMostSweeps = 1000, kLeastSweeps = 20;
+  RowSolverLimits limits;
+  limits.sweeps = std::clamp(kMostUpdates / static_cast<int>(rows + 1), kLeastSweeps, kMostSweeps);
+  return limits;
+}
+
 Vec3 relativeVelocity(const Row& row, std::span<const Node> nodes) {
   Vec3 velocity = nodes[static_cast<std::size_t>(row.a)].velocityAt(row.arm_a);
   if (row.b != Row::kFixed) velocity -= nodes[static_cast<std::size_t>(row.b)].velocityAt(row.arm_b);

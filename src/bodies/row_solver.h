@@ -7,6 +7,7 @@
 // Visual Computer 26, 2010): blocks in a row or a stack need tens of sweeps in place of thousands.
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "bodies/row.h"
@@ -17,6 +18,8 @@ struct RowSolverLimits {
   int sweeps = 60;
   double done = 1e-11;  ///< largest change of an impulse in a sweep over the largest impulse
 };
+/// By which the work of a step is bounded.
+RowSolverLimits limitsFor(std::size_t rows);
 
 /// Sets the steps of the row and applies the impulses with which it begins. RT-safe.
 void prepareRow(Row& row, std::span<Node> nodes);
