@@ -127,16 +127,21 @@ void BodyStepper::book(EnergyBook& energy, std::span<const GivenImpulses> given)
   }
 }
 
-// A body that may not go at all is wedged in a way that the rows do not see: it loses its velocity too, which would grow
-// from step to step.
-void BodyStepper::stopWedged(EnergyBook& energy) {
+// A body that stops short again and again is held in a way that the rows do not see: it loses velocity as it does way,
+// or gravity would make it faster from step to step while it stays.
+void BodyStepper::slowHeld(WorldState& state) {
   for (std::size_t i = 0; i < problem_.bodies(); ++i) {
-    if (plan_.ways().parts[i] > 0) continue;
+    const double part = plan_.ways().parts[i];
+    int& stopped_short = state.bodies[i].stopped_short;
+    stopped_short = part < 1 ? stopped_short + 1 : 0;
+    if (stopped_short < 2) continue;
     Node& node = problem_.nodes[i];
     const Mat3 inertia = problem_.turned[i] * world().bodies[i].mass.inertia_kg_m2 * problem_.turned[i].transpose();
-    energy.contact_J += world().bodies[i].mass.mass_kg * node.velocity.squaredNorm() / 2;
-    energy.contact_J += node.spin.dot(inertia * node.spin) / 2;
-    node.velocity = node.spin = Vec3::Zero();
+    const double kinetic_J =
+        (world().bodies[i].mass.mass_kg * node.velocity.squaredNorm() + node.spin.dot(inertia * node.spin)) / 2;
+    state.energy.contact_J += (1 - part * part) * kinetic_J;
+    node.velocity *= part;
+    node.spin *= part;
   }
 }
 
@@ -170,7 +175,7 @@ BodyStepReport BodyStepper::step(WorldState& state, double period_s, std::span<c
   bounce(report);
   tellHands(given);
   book(state.energy, given);
-  stopWedged(state.energy);
+  slowHeld(state);
   move(state);
   contacts_.remember(state.memory);
   ++state.steps;

@@ -43,7 +43,7 @@ class BodyStepper {
   void bounce(BodyStepReport& report);
   void tellHands(std::span<GivenImpulses> given) const;
   void book(EnergyBook& energy, std::span<const GivenImpulses> given) const;
-  void stopWedged(EnergyBook& energy);
+  void slowHeld(WorldState& state);
   void move(WorldState& state) const;
 
   BodyProblem problem_;

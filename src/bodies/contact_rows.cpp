@@ -127,7 +127,7 @@ bool ContactRows::goesThrough(const Meeting& meeting, std::size_t number) const 
   return point.gap + problem_.period_s * meeting.manifold.normal.dot(velocity) < -kTouching_m;
 }
 
-// What turns or is fast is looked at where it would end, once it has rows: they were made for the begin.
+// What turns or is fast is looked at where it would end: its rows, if it has any, were made for the begin.
 void ContactRows::addOfMeeting(WorldState& state, Meeting& meeting) {
   bool predicted = false;
   for (std::size_t point = 0; point < meeting.manifold.points.size(); ++point) predicted |= goesThrough(meeting, point);
@@ -138,7 +138,7 @@ void ContactRows::addOfMeeting(WorldState& state, Meeting& meeting) {
     for (std::size_t point = 0; point < meeting.manifold.points.size(); ++point) {
       if (goesThrough(meeting, point) && !hasTwin(meeting, point)) addRow(state.memory, meeting, point);
     }
-  } else if (meeting.used != 0 && (pace.fast || pace.turns) && overlapAtEnd() > kHeld_m) {
+  } else if ((pace.fast || pace.turns) && overlapAtEnd() > kHeld_m) {
     addRowsOfEnd(meeting, end);
   }
 }

@@ -50,6 +50,7 @@ struct BodyState {
   Eigen::Quaterniond turned = Eigen::Quaterniond::Identity();
   Vec3 velocity = Vec3::Zero();  ///< m/s, of the centre
   Vec3 spin = Vec3::Zero();      ///< rad/s
+  int stopped_short = 0;         ///< consecutive steps that went a part of their way only (motion_plan.h)
 };
 
 /// Plain values but for the lists, whose room is made by startWorld().

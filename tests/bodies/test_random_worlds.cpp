@@ -77,15 +77,14 @@ struct RandomWorld {
   std::vector<Vec3> velocities, spins;
 };
 
-int worldsToRun() {
-  const char* const said = std::getenv("HL_RANDOM_WORLDS");
-  return said == nullptr ? 20 : std::atoi(said);
+int numberIn(const char* variable, int otherwise) {
+  const char* const said = std::getenv(variable);
+  return said == nullptr ? otherwise : std::atoi(said);
 }
 
 TEST(RandomWorlds, NothingLeavesAClosedRoom) {
-  const char* const first = std::getenv("HL_FIRST_WORLD");
-  const int begin = first == nullptr ? 0 : std::atoi(first);
-  for (int seed = begin; seed < begin + worldsToRun(); ++seed) {
+  const int begin = numberIn("HL_FIRST_WORLD", 0);
+  for (int seed = begin; seed < begin + numberIn("HL_RANDOM_WORLDS", 20); ++seed) {
     RandomWorld made(static_cast<std::uint64_t>(seed));
     Playground play(made.world, made.poses);
     for (std::size_t i = 0; i < made.velocities.size(); ++i) {
@@ -93,24 +92,16 @@ TEST(RandomWorlds, NothingLeavesAClosedRoom) {
       play.state.bodies[i].spin = made.spins[i];
     }
     const double begin_J = play.energy_J();
-    double deepest = 0;
-    int capped = 0;
     for (int step = 0; step < 1000; ++step) {
       const BodyStepReport report = play.step();
-      deepest = std::max(deepest, report.deepest);
       ASSERT_EQ(report.dropped, 0u);
-      capped += report.sweeps > 500;
       const EnergyBook& book = play.state.energy;
       const double told = book.solver_J - book.contact_J - book.friction_J;
-      ASSERT_NEAR(play.energy_J() - begin_J, told, 1e-9 * (1 + begin_J)) << seed << " step " << step;
+      ASSERT_NEAR(play.energy_J() - begin_J, told, 1e-9 * (1 + std::abs(begin_J))) << seed << " step " << step;
       ASSERT_LT(play.energy_J() - begin_J, 0.05 * (1e-3 + std::abs(begin_J))) << seed << " step " << step;
       for (const BodyState& body : play.state.bodies)
         ASSERT_TRUE(body.centre.allFinite() && body.centre.cwiseAbs().maxCoeff() < kRoom_m) << seed << " step " << step;
     }
-    if (std::getenv("HL_TELL") != nullptr)
-      std::printf("%d bodies %zu deepest %.3g E %.3g -> %.3g contact %.3g friction %.3g solver %.3g capped %d\n", seed,
-                  play.state.bodies.size(), deepest, begin_J, play.energy_J(), play.state.energy.contact_J,
-                  play.state.energy.friction_J, play.state.energy.solver_J, capped);
   }
 }
 
