@@ -5,21 +5,10 @@
 // points decide.
 #pragma once
 
-#include <cstdint>
-#include <span>
-
 #include "base/fixed_vector.h"
-#include "bodies/convex.h"
+#include "bodies/placed_convex.h"
 
 namespace hl {
-
-/// A convex shape in the world; all that it refers to must outlive it.
-struct PlacedConvex {
-  const Convex* shape = nullptr;     ///< topology and radius
-  std::span<const Vec3> vertices{};  ///< m, world
-  std::span<const Vec3> normals{};   ///< of the faces, world
-  Vec3 centre = Vec3::Zero();        ///< m, world: inside the shape
-};
 
 struct ManifoldPoint {
   Vec3 point = Vec3::Zero();  ///< m, world, halfway between the shapes

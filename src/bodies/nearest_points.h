@@ -1,7 +1,7 @@
 // Nearest points of two convex shapes that are apart, by trying all pairs of features.
 #pragma once
 
-#include "bodies/manifold.h"
+#include "bodies/placed_convex.h"
 
 namespace hl {
 
