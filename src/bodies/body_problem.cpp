@@ -23,10 +23,8 @@ BodyProblem::BodyProblem(std::shared_ptr<const World> of) : world(std::move(of))
 }
 
 int BodyProblem::numberOf(std::uint64_t key) const {
-  const auto at = std::lower_bound(world->bodies.begin(), world->bodies.end(), key,
-                                   [](const Body& body, std::uint64_t k) { return body.key < k; });
-  const bool found = at != world->bodies.end() && at->key == key;
-  return found ? static_cast<int>(at - world->bodies.begin()) : Row::kFixed;
+  const Body* const body = world->find(key);
+  return body != nullptr ? static_cast<int>(body - world->bodies.data()) : Row::kFixed;
 }
 
 PlacedConvex BodyProblem::atEnd(const WorldState& state, std::size_t body, const BodyWays& plan,

@@ -31,35 +31,27 @@ void BodyStepper::begin(const WorldState& state, double period_s) {
   problem_.placed.place(world(), state);
 }
 
-// Pays what is owed, and adds the hand's node and rows.
-void BodyStepper::addHand(const HandNode& hand, std::size_t number, ContactMemory& memory, GivenImpulses& given) {
+// Pays what is owed, and adds the hand's node. A light body would fly away with what it is owed, farther than the
+// spring is long: it gets the part that the spring's own node, of mass K T^2, would leave it in an inelastic impact.
+void BodyStepper::addHand(const HandNode& hand, GivenImpulses& given) {
   given.clear();
+  const double node_kg = hand.spring_N_m * problem_.period_s * problem_.period_s;
   for (const BodyImpulse& owed : hand.owed) {
     const int body = problem_.numberOf(owed.key);
     if (body == Row::kFixed) continue;
     Node& node = problem_.nodes[static_cast<std::size_t>(body)];
-    node.push(owed.impulse_N_s, owed.point - node.centre);
-    given.push(owed);
+    const Vec3 arm = owed.point - node.centre;
+    BodyImpulse paid = owed;
+    paid.impulse_N_s /= 1 + node_kg * node.mobilityAt(arm, owed.impulse_N_s);
+    node.push(paid.impulse_N_s, arm);
+    given.push(paid);
   }
-  const double period_s = problem_.period_s;
   Node node;
-  node.velocity = -hand.stretch / period_s;
-  node.inverse_mass = 1 / (hand.spring_N_m * period_s * period_s);
+  node.velocity = -hand.stretch / problem_.period_s;
+  node.inverse_mass = 1 / node_kg;
+  node.centre = hand.proxy;
   problem_.nodes.push_back(node);
   problem_.before.push_back(node);
-  for (const HandContact& contact : hand.contacts) {
-    Row row;
-    row.pair = {~std::uint64_t{number}, contact.key};
-    row.a = static_cast<int>(problem_.nodes.size() - 1);
-    row.b = contact.key == 0 ? Row::kFixed : problem_.numberOf(contact.key);
-    row.normal = contact.normal;
-    if (row.b != Row::kFixed) row.arm_b = contact.point - problem_.nodes[static_cast<std::size_t>(row.b)].centre;
-    row.static_friction = contact.static_friction;
-    row.dynamic_friction = contact.dynamic_friction;
-    contacts_.recall(row, memory);
-    row.friction = contact.slipping ? row.dynamic_friction : row.static_friction;
-    problem_.rows.push_back(row);
-  }
 }
 
 // Nothing moves farther in this step: twice the speed of the fastest, for one that is hit, and two that meet.
@@ -92,15 +84,10 @@ void BodyStepper::bounce(BodyStepReport& report) {
 void BodyStepper::tellHands(std::span<GivenImpulses> given) const {
   for (const Row& row : problem_.rows) {
     const auto a = static_cast<std::size_t>(row.a);
-    if (a < problem_.bodies()) continue;
-    BodyImpulse told;
-    told.impulse_N_s = -(row.pressed * row.normal + row.dragged);
-    told.point = row.arm_b;
-    if (row.b != Row::kFixed) {
-      told.key = world().bodies[static_cast<std::size_t>(row.b)].key;
-      told.point += problem_.nodes[static_cast<std::size_t>(row.b)].centre;
-    }
-    given[a - problem_.bodies()].push(told);
+    if (a < problem_.bodies() || row.b == Row::kFixed || !(row.pressed > 0)) continue;
+    const auto b = static_cast<std::size_t>(row.b);
+    given[a - problem_.bodies()].push(
+        {world().bodies[b].key, row.arm_b + problem_.nodes[b].centre, -(row.pressed * row.normal + row.dragged)});
   }
 }
 
@@ -164,8 +151,9 @@ BodyStepReport BodyStepper::step(WorldState& state, double period_s, std::span<c
                                  std::span<GivenImpulses> given) {
   BodyStepReport report;
   begin(state, period_s);
-  for (std::size_t hand = 0; hand < hands.size(); ++hand) addHand(hands[hand], hand, state.memory, given[hand]);
+  for (std::size_t hand = 0; hand < hands.size(); ++hand) addHand(hands[hand], given[hand]);
   const double margin_m = margin();
+  for (std::size_t hand = 0; hand < hands.size(); ++hand) hand_rows_.add(hands[hand], hand, margin_m, state.memory);
   problem_.meetings.find(world(), state, problem_.placed, margin_m);
   contacts_.addBearing(state.memory);
   for (Row& row : problem_.rows) prepareRow(row, problem_.nodes);

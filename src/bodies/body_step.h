@@ -8,7 +8,7 @@
 #include <span>
 
 #include "bodies/contact_rows.h"
-#include "bodies/hand_node.h"
+#include "bodies/hand_rows.h"
 #include "bodies/motion_plan.h"
 
 namespace hl {
@@ -37,7 +37,7 @@ class BodyStepper {
 
  private:
   void begin(const WorldState& state, double period_s);
-  void addHand(const HandNode& hand, std::size_t number, ContactMemory& memory, GivenImpulses& given);
+  void addHand(const HandNode& hand, GivenImpulses& given);
   double margin() const;
   void solve(BodyStepReport& report);
   void bounce(BodyStepReport& report);
@@ -48,6 +48,7 @@ class BodyStepper {
 
   BodyProblem problem_;
   ContactRows contacts_{problem_};
+  HandRows hand_rows_{problem_};
   MotionPlan plan_{problem_};
 };
 

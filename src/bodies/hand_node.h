@@ -33,6 +33,8 @@ struct BodyImpulse {
 };
 
 struct HandNode {
+  Vec3 proxy = Vec3::Zero();    ///< m, world: its centre
+  double radius_m = 0;          ///< of the proxy; > 0: it also meets what it does not touch yet
   Vec3 stretch = Vec3::Zero();  ///< m, proxy - finger
   double spring_N_m = 1000;     ///< > 0, with the stiffness of the surface
   FixedVector<HandContact, kContactsOfHand> contacts;

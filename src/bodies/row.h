@@ -17,6 +17,13 @@ struct Node {
   Vec3 centre = Vec3::Zero();  ///< m, world
 
   Vec3 velocityAt(const Vec3& arm) const { return velocity + spin.cross(arm); }
+  /// 1/kg: velocity at `arm` along the direction of an impulse there, over the impulse.
+  double mobilityAt(const Vec3& arm, const Vec3& impulse) const {
+    const double square = impulse.squaredNorm();
+    if (!(square > 0)) return inverse_mass;
+    const Vec3 turning = arm.cross(impulse);
+    return inverse_mass + turning.dot(inverse_inertia * turning) / square;
+  }
   /// The impulse (N s) acts at `arm` from the centre.
   void push(const Vec3& impulse, const Vec3& arm) {
     velocity += inverse_mass * impulse;

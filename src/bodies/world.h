@@ -1,6 +1,7 @@
 // World: the rigid bodies of a scene, and their state, which a step changes (body_step.h).
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -36,10 +37,17 @@ struct World {
   std::shared_ptr<const Snapshot> fixed;  ///< what bodies stand on: at rest; null: nothing
   BodySurface fixed_surface{};            ///< of all of `fixed`
   Vec3 gravity_m_s2 = Vec3(0, -9.81, 0);
+
+  /// Null: there is no such body. RT-safe.
+  const Body* find(std::uint64_t key) const {
+    const auto at = std::lower_bound(bodies.begin(), bodies.end(), key,
+                                     [](const Body& body, std::uint64_t k) { return body.key < k; });
+    return at != bodies.end() && at->key == key ? &*at : nullptr;
+  }
 };
 
 /// A step has no more contacts, each of the bodies with 64 points; the rest is dropped, and counted.
-inline constexpr std::size_t kMostHands = 8, kContactsOfHand = 3, kContactsPerBody = 64;
+inline constexpr std::size_t kMostHands = 8, kContactsOfHand = 8, kContactsPerBody = 64;
 inline std::size_t mostRows(const World& world) {
   return kMostHands * kContactsOfHand + kContactsPerBody * world.bodies.size();
 }

@@ -22,6 +22,8 @@ void BodyWorld::step(std::int64_t now_ns, double period_s, const HandAtBodies& h
   begun_ = true;
   if (first || now_ns <= before_ns) return;
   HandNode node;
+  node.proxy = hand.proxy;
+  node.radius_m = hand.spring_N_m > 0 ? hand.radius_m : 0;
   node.stretch = hand.stretch;
   node.spring_N_m = hand.spring_N_m;
   if (hand.spring_N_m > 0) node.contacts = hand.contacts;
@@ -30,22 +32,22 @@ void BodyWorld::step(std::int64_t now_ns, double period_s, const HandAtBodies& h
   if (!(node.spring_N_m > 0)) node.spring_N_m = 1;
   report_ = stepper_.step(state_, period_s, std::span(&node, there ? 1 : 0), std::span(&given_, there ? 1 : 0));
   if (!there) given_.clear();
-  paid_ = there ? owed_.size() : 0;
-  owed_.clear();
+  paid_ = there ? node.owed.size() : 0;
+  for (std::size_t i = 0; i < paid_ && i < given_.size(); ++i) owed_[i].impulse_N_s -= given_[i].impulse_N_s;
   for (std::size_t i = 0; i < poses_.size(); ++i)
     poses_[i]->moveTo(poseOf(world().bodies[i], state_.bodies[i]), before_ns, now_ns);
 }
 
-// Of each object: what the hand felt, less what the step has given.
+// Of each object: what the hand felt, less what the step has given, beside what is owed from before.
 void BodyWorld::settle(const ObjectForces& forces, double period_s) {
-  owed_.clear();
   const auto add = [&](std::uint64_t key, const Vec3& point, const Vec3& impulse) {
     for (BodyImpulse& one : owed_) {
       if (one.key != key) continue;
       one.impulse_N_s += impulse;
+      one.point = point;
       return;
     }
-    owed_.push({key, point, impulse});
+    if (world().find(key) != nullptr) owed_.push({key, point, impulse});
   };
   for (const ObjectForce& force : forces) add(force.key, force.point, -period_s * force.force_N);
   for (std::size_t i = paid_; i < given_.size(); ++i) add(given_[i].key, given_[i].point, -given_[i].impulse_N_s);

@@ -18,6 +18,8 @@ namespace hl {
 /// What the last tick left: the proxy's contacts and spring. World frame.
 struct HandAtBodies {
   FixedVector<HandContact, kContactsOfHand> contacts;
+  Vec3 proxy = Vec3::Zero();    ///< m
+  double radius_m = 0;          ///< of the proxy; 0: it is nowhere
   Vec3 stretch = Vec3::Zero();  ///< m, proxy - the finger of now
   double spring_N_m = 0;        ///< with the stiffness of the surface; 0: the servo makes no force
 };
@@ -32,6 +34,12 @@ class BodyWorld {
   void step(std::int64_t now_ns, double period_s, const HandAtBodies& hand);
   /// After the tick: what each object's contact gives the hand. RT-safe.
   void settle(const ObjectForces& forces, double period_s);
+
+  /// Of body number `i`, m/s and rad/s; between two steps. RT-safe.
+  void set(std::size_t i, const Vec3& velocity, const Vec3& spin) {
+    state_.bodies[i].velocity = velocity;
+    state_.bodies[i].spin = spin;
+  }
 
   const World& world() const { return stepper_.world(); }
   const WorldState& state() const { return state_; }

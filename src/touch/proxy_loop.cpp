@@ -93,8 +93,10 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
 void ProxyLoop::moveBodies(std::int64_t now_ns, const Vec3& finger, const SpringOfServo& spring) {
   HandAtBodies hand;
   hand.contacts = held_by_;
+  hand.proxy = state_.position;
+  hand.radius_m = settings_.radius;
   hand.stretch = state_.position - finger;
-  if (spring.pulls && state_.touching)
+  if (spring.pulls && state_.free)
     hand.spring_N_m = spring.stiffness_N_m * state_.stiffness / workspace_.world_per_device;
   bodies_->step(now_ns, spring.period_s, hand);
 }

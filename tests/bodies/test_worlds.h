@@ -88,10 +88,10 @@ struct Pusher {
     force_N = spring_N_m * (proxy - finger);
     Vec3 got = Vec3::Zero();
     for (const BodyImpulse& one : given) got += one.impulse_N_s;
-    Vec3 due = -period_s * force_N;
+    Vec3 due = -period_s * force_N - got;
     for (const BodyImpulse& one : owed) due += one.impulse_N_s;
     owed.clear();
-    owed.push({key, proxy, due - got});
+    owed.push({key, proxy, due});
   }
 };
 

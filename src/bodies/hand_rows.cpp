@@ -1,0 +1,95 @@
+#include "bodies/hand_rows.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "bodies/nearest_points.h"
+
+namespace hl {
+
+namespace {
+
+// rad: near contacts with nearly the normal of another row of the hand are not looked at.
+constexpr double kSameNormal = 0.1;
+// Of the scene, no more than these.
+constexpr std::size_t kMostNear = 16;
+
+}  // namespace
+
+void HandRows::add(const HandNode& hand, std::size_t number, double margin, ContactMemory& memory) {
+  const auto node = static_cast<int>(problem_.bodies() + number);
+  const std::uint64_t name = ~std::uint64_t{number};
+  for (const HandContact& contact : hand.contacts) addHeld(contact, node, name, memory);
+  if (!(hand.radius_m > 0)) return;
+  const std::size_t before = problem_.rows.size();
+  addNearBodies(hand, node, name, margin, memory);
+  const bool meets_bodies = problem_.rows.size() > before ||
+                            std::any_of(hand.contacts.begin(), hand.contacts.end(), [&](const HandContact& contact) {
+                              return problem_.numberOf(contact.key) != Row::kFixed;
+                            });
+  if (meets_bodies && problem_.meetings.scene() != nullptr) addNearScene(hand, node, name, margin, memory);
+}
+
+void HandRows::addHeld(const HandContact& contact, int node, std::uint64_t name, ContactMemory& memory) {
+  Row row;
+  row.pair = {name, contact.key};
+  row.a = node;
+  row.b = contact.key == 0 ? Row::kFixed : problem_.numberOf(contact.key);
+  row.normal = contact.normal;
+  if (row.b != Row::kFixed) row.arm_b = contact.point - problem_.nodes[static_cast<std::size_t>(row.b)].centre;
+  row.static_friction = contact.static_friction;
+  row.dynamic_friction = contact.dynamic_friction;
+  contacts_.recall(row, memory);
+  row.friction = contact.slipping ? row.dynamic_friction : row.static_friction;
+  problem_.rows.push_back(row);
+}
+
+// One row a body: along the line between the nearest points.
+void HandRows::addNearBodies(const HandNode& hand, int node, std::uint64_t name, double margin, ContactMemory& memory) {
+  for (std::size_t i = 0; i < problem_.bodies(); ++i) {
+    const double near = problem_.reachOf(i) + hand.radius_m + margin;
+    if ((problem_.nodes[i].centre - hand.proxy).squaredNorm() > near * near) continue;
+    const PlacedConvex& shape = problem_.placed[i];
+    const NearestPoints nearest = nearestToPoint(hand.proxy, shape);
+    Row row;
+    row.gap = nearest.distance - shape.shape->radius - hand.radius_m;
+    if (row.gap > margin) continue;
+    row.pair = {name, problem_.world->bodies[i].key};
+    row.a = node;
+    row.b = static_cast<int>(i);
+    row.normal = nearest.normal;
+    row.arm_b = nearest.on_b + shape.shape->radius * nearest.normal - problem_.nodes[i].centre;
+    addNear(row, memory);
+  }
+}
+
+void HandRows::addNearScene(const HandNode& hand, int node, std::uint64_t name, double margin, ContactMemory& memory) {
+  const SceneAt& scene = *problem_.meetings.scene();
+  FixedVector<ClosestPoint, kMostNear> near;
+  scene.primitivesWithin(hand.proxy, hand.radius_m + margin,
+                         [&](PrimitiveId, const ClosestPoint& point) { near.push(point); });
+  std::sort(near.begin(), near.end(), [](const ClosestPoint& x, const ClosestPoint& y) {
+    return std::tuple(x.distance, x.normal.x(), x.normal.y(), x.normal.z()) <
+           std::tuple(y.distance, y.normal.x(), y.normal.y(), y.normal.z());
+  });
+  for (const ClosestPoint& point : near) {
+    Row row;
+    row.pair = {name, 0};
+    row.a = node;
+    row.normal = point.normal;
+    row.gap = point.distance - hand.radius_m;
+    addNear(row, memory);
+  }
+}
+
+void HandRows::addNear(Row row, ContactMemory& memory) {
+  const bool known = std::any_of(problem_.rows.begin(), problem_.rows.end(), [&](const Row& other) {
+    return other.a == row.a && other.b == row.b &&
+           (other.normal - row.normal).squaredNorm() < kSameNormal * kSameNormal;
+  });
+  if (known || problem_.rows.size() == problem_.rows.capacity()) return;
+  contacts_.recall(row, memory);
+  problem_.rows.push_back(row);
+}
+
+}  // namespace hl

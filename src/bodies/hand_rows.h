@@ -1,0 +1,29 @@
+// Hand rows: what holds a hand's proxy, and what it will meet within the step: a body that comes flying, the wall
+// behind it. Without the latter a body would feel the hand one step late, and a light one be flung away.
+#pragma once
+
+#include "bodies/body_problem.h"
+#include "bodies/contact_rows.h"
+#include "bodies/hand_node.h"
+
+namespace hl {
+
+/// By one thread at a time.
+class HandRows {
+ public:
+  explicit HandRows(BodyProblem& problem) : problem_(problem), contacts_(problem) {}
+
+  /// Rows of hand number `hand`, whose node is there; for what is nearer than `margin` (m). RT-safe.
+  void add(const HandNode& hand, std::size_t number, double margin, ContactMemory& memory);
+
+ private:
+  void addHeld(const HandContact& contact, int node, std::uint64_t name, ContactMemory& memory);
+  void addNearBodies(const HandNode& hand, int node, std::uint64_t name, double margin, ContactMemory& memory);
+  void addNearScene(const HandNode& hand, int node, std::uint64_t name, double margin, ContactMemory& memory);
+  void addNear(Row row, ContactMemory& memory);
+
+  BodyProblem& problem_;
+  ContactRows contacts_;
+};
+
+}  // namespace hl
