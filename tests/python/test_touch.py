@@ -63,6 +63,13 @@ class Touching(unittest.TestCase):
         self.assertEqual((events[0][0], events[0][2]), (7, threading.get_ident()))
         self.touch.on("touch", None)
 
+    def test_a_hand_that_moves_on_is_an_event(self):
+        events = []
+        self.touch.on("motion", events.append)
+        self.touch.hand_goal([0.03, 0, 0])
+        wait_for("a motion", lambda: self.touch.poll() and events)
+        self.assertEqual(events[0].kind, hl.calls.HL_EVENT_MOTION)
+
     def test_what_a_callback_raises_comes_out_of_poll(self):
         def fail(event):
             raise KeyError(event.name)
