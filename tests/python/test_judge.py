@@ -21,6 +21,7 @@ HL = os.environ["HL_PROGRAM"]
 
 CLEARANCE = 1e-6  # parts of the radius by which a proxy may be nearer than its radius (docs/trace.md)
 UNRESISTED = 2e-5  # parts of the pull that contacts may leave: 1.5e-5 (docs/trace.md), and what this judge rounds
+TANK_J = 0.01  # what the energy tank holds at first; only what contacts dissipate refills it (docs/trace.md)
 TOUCHING = 1e-7  # parts of the radius: what is nearer counts as a contact; hl's own skin is 1e-10
 BOX = np.array([[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4],
                 [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5]])  # outward
@@ -206,6 +207,20 @@ class RandomCases(unittest.TestCase):
         energy = np.max(pull**2) / case.spring
         self.assertLessEqual(np.max(felt.injected), 1e-9 * energy + 1e-12)
 
+    def test_shading_by_any_normals_keeps_proxies_clear_and_adds_what_the_tank_held(self):
+        self.each_case(self.check_shading_by_any_normals_keeps_proxies_clear_and_adds_what_the_tank_held)
+
+    def check_shading_by_any_normals_keeps_proxies_clear_and_adds_what_the_tank_held(self, case):
+        normals = case.random.normal(size=case.vertices.shape)
+        normals[case.random.random(len(normals)) < 0.1] = 0  # no normal
+        scene = hl.Scene(case.vertices, case.indices, normals)
+        felt = hl.trace(scene, case.path, case.settings(), threads=1)
+        judged = Judged(case, felt)
+        self.assertEqual(judged.nearer_than_allowed().tolist(), [])
+        self.assertEqual(judged.passed_through().tolist(), [])
+        rounding = 1e-9 * np.sum(np.abs(felt.injected))
+        self.assertLessEqual(np.max(np.cumsum(felt.injected)), TANK_J + rounding)
+
     def test_friction_on_one_plane_is_within_its_cone(self):
         self.each_case(self.check_friction_on_one_plane_is_within_its_cone)
 
@@ -260,11 +275,16 @@ class RandomCases(unittest.TestCase):
         together = hl.trace(case.scene, paths, settings, threads=2)
         alone = [hl.trace(case.scene, path, settings, threads=1) for path in paths]
         fingers = hl.Fingers(case.scene, 3, settings)
-        steps = [fingers.step(paths[:, i, 1:]) for i in range(paths.shape[1])]
+        steps = [fingers.step(paths[:, i, 1:], threads=i % 3) for i in range(paths.shape[1])]
         for part in range(4):
             self.assertEqual(np.stack([felt[part] for felt in alone]).tobytes(), together[part].tobytes())
             stepped = np.stack([felt[part] for felt in steps], axis=1)
             self.assertEqual(stepped.tobytes(), together[part].tobytes())
+        half = paths.shape[1] // 2
+        fingers.reset([False, True, False])
+        again = [fingers.step(paths[:, i, 1:]).proxy[1] for i in range(half, paths.shape[1])]
+        anew = hl.trace(case.scene, paths[1, half:], settings).proxy
+        self.assertEqual(np.stack(again).tobytes(), anew.tobytes())
 
 
 class TheJudge(unittest.TestCase):
