@@ -30,7 +30,7 @@ T* made(T* pointer) {
 template <typename Call>
 void checkBatchHearingSignals(std::size_t rows, const Call& call) {
   constexpr std::size_t kFewRows = 256;  // some ms, for which a thread is not worth its 30 us
-  if (rows <= kFewRows) {
+  if (rows <= kFewRows || !isMainThread()) {
     const py::gil_scoped_release other_threads_run;
     return checkBatch(call());
   }

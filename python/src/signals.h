@@ -17,8 +17,16 @@ inline void hearSignals() {
   if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
 }
 
+/// Whether this is the thread that hears signals. Another one must not take the interpreter's lock on the way: when the
+/// interpreter has ended meanwhile, a thread that asks for it is ended too, in the middle of C++.
+inline bool isMainThread() {
+  const pybind11::object main = pybind11::module_::import("threading").attr("main_thread")();
+  return main.attr("ident").cast<unsigned long>() == PyThread_get_thread_ident();
+}
+
 /// Runs `call` on a thread of its own, without the interpreter's lock, while this one hears signals. When a handler
-/// raises, `stop` becomes true, so that `call` ends early, and what was raised is thrown; else what `call` throws.
+/// raises, `stop` becomes true, so that `call` ends early, and what was raised is thrown; else what `call` throws. For
+/// the main thread.
 template <typename Call>
 void runHearingSignals(std::atomic<bool>& stop, const Call& call) {
   std::optional<pybind11::error_already_set> raised;

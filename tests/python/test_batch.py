@@ -307,6 +307,18 @@ class Signals(unittest.TestCase):
         self.assertEqual(hl.trace(scene, path[:2000]).force.tobytes(), expected.force.tobytes())
 
 
+    def test_a_thread_that_computes_when_the_program_ends_does_no_harm(self):
+        program = """if True:
+            import threading, time
+            import hl, numpy as np
+            scene = hl.Scene("terrain:100000", size=0.2)
+            points = np.random.default_rng(0).uniform(-0.1, 0.1, (2000000, 3))
+            threading.Thread(target=lambda: hl.closest(scene, points, threads=1), daemon=True).start()
+            time.sleep(0.3)"""
+        for _ in range(3):
+            self.assertEqual(subprocess.run([sys.executable, "-c", program], check=False).returncode, 0)
+
+
 class OtherProcesses(unittest.TestCase):
     def test_fingers_are_not_copied_by_chance(self):
         fingers = hl.Fingers(hl.Scene(*SQUARE), 1)
