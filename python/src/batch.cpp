@@ -9,6 +9,7 @@
 #include "arrays.h"
 #include "batch/ends_early.h"
 #include "bindings.h"
+#include "other_threads_run.h"
 #include "signals.h"
 
 namespace py = pybind11;
@@ -31,7 +32,7 @@ template <typename Call>
 void checkBatchHearingSignals(std::size_t rows, const Call& call) {
   constexpr std::size_t kFewRows = 256;  // some ms, for which a thread is not worth its 30 us
   if (rows <= kFewRows || !isMainThread()) {
-    const py::gil_scoped_release other_threads_run;
+    const OtherThreadsRun other_threads_run;
     return checkBatch(call());
   }
   std::atomic<bool> stop = false;
@@ -61,7 +62,7 @@ struct Fingers {
 };
 
 std::unique_ptr<Scene> loadScene(const std::string& name, double size) {
-  const py::gil_scoped_release other_threads_run;
+  const OtherThreadsRun other_threads_run;
   return std::make_unique<Scene>(made(hlBatchLoadScene(name.c_str(), size)));
 }
 
@@ -70,7 +71,7 @@ std::unique_ptr<Scene> makeScene(const Doubles& vertices, const Indices& triangl
   const std::size_t count = rowsOf(vertices, 3, "vertices");
   const std::size_t faces = rowsOf(triangles, 3, "triangles");
   const double* const smooth = rowsOrNone(normals, count, 3, "normals");
-  const py::gil_scoped_release other_threads_run;
+  const OtherThreadsRun other_threads_run;
   return std::make_unique<Scene>(made(hlBatchMakeScene(vertices.data(), smooth, count, triangles.data(), faces)));
 }
 
@@ -134,7 +135,7 @@ py::tuple step(Fingers& fingers, const Doubles& positions, int threads) {
   Rows rows(fingers.count);
   const HLbatchResult result = rows.pointers();
   {
-    const py::gil_scoped_release other_threads_run;
+    const OtherThreadsRun other_threads_run;
     const std::scoped_lock lock(fingers.one_at_a_time);
     checkBatch(hlBatchStep(fingers.handle.get(), positions.data(), threads, &result));
   }
@@ -145,7 +146,7 @@ void reset(Fingers& fingers, const std::optional<py::array_t<bool, py::array::c_
   if (mask && (mask->ndim() != 1 || static_cast<std::size_t>(mask->shape(0)) != fingers.count))
     throw CallFailed(HL_INVALID_VALUE, "mask must have one element for each finger, and has " + shapeText(*mask));
   const auto* const chosen = mask ? reinterpret_cast<const unsigned char*>(mask->data()) : nullptr;
-  const py::gil_scoped_release other_threads_run;
+  const OtherThreadsRun other_threads_run;
   const std::scoped_lock lock(fingers.one_at_a_time);
   hlBatchResetFingers(fingers.handle.get(), chosen);
 }

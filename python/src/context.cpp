@@ -13,6 +13,7 @@
 #include "bindings.h"
 #include "calls.h"
 #include "errors.h"
+#include "other_threads_run.h"
 #include "signals.h"
 
 namespace py = pybind11;
@@ -80,7 +81,7 @@ class Context {
     if (!context_) return;
     makeCurrent();
     current_ = nullptr;
-    const py::gil_scoped_release other_threads_run;
+    const OtherThreadsRun other_threads_run;
     context_.reset();
   }
   void onEvent(HLenum kind, std::function<void(const HLevent&)> function) {
@@ -98,7 +99,7 @@ class Context {
  private:
   static std::unique_ptr<hl::Context> open(const std::string& url) {
     try {
-      const py::gil_scoped_release other_threads_run;
+      const OtherThreadsRun other_threads_run;
       return std::make_unique<hl::Context>(url);
     } catch (const hl::CallError& error) {
       throw CallFailed(HL_NO_CONTEXT, error.what());
@@ -117,7 +118,7 @@ bool finishTimeout(double seconds) {
   for (double left_s = seconds;; left_s -= slice_s) {
     bool all_is_shown = false;
     {
-      const py::gil_scoped_release other_threads_run;
+      const OtherThreadsRun other_threads_run;
       all_is_shown = hlFinishTimeout(std::min(left_s, slice_s)) != HL_FALSE;
     }
     throwFailure();

@@ -8,6 +8,8 @@
 #include <future>
 #include <optional>
 
+#include "other_threads_run.h"
+
 /// How late Ctrl-C is heard.
 inline constexpr std::chrono::milliseconds kHearingPeriod{50};
 
@@ -32,7 +34,7 @@ void runHearingSignals(std::atomic<bool>& stop, const Call& call) {
   std::optional<pybind11::error_already_set> raised;
   std::future<void> ended = std::async(std::launch::async, call);
   {
-    const pybind11::gil_scoped_release other_threads_run;
+    const OtherThreadsRun other_threads_run;
     while (!raised && ended.wait_for(kHearingPeriod) != std::future_status::ready) {
       const pybind11::gil_scoped_acquire lock;
       if (PyErr_CheckSignals() == 0) continue;

@@ -307,16 +307,21 @@ class Signals(unittest.TestCase):
         self.assertEqual(hl.trace(scene, path[:2000]).force.tobytes(), expected.force.tobytes())
 
 
-    def test_a_thread_that_computes_when_the_program_ends_does_no_harm(self):
+    def test_daemon_threads_that_compute_when_the_program_ends_do_no_harm(self):
         program = """if True:
-            import threading, time
+            import sys, threading, time
             import hl, numpy as np
-            scene = hl.Scene("terrain:100000", size=0.2)
-            points = np.random.default_rng(0).uniform(-0.1, 0.1, (2000000, 3))
-            threading.Thread(target=lambda: hl.closest(scene, points, threads=1), daemon=True).start()
-            time.sleep(0.3)"""
-        for _ in range(3):
-            self.assertEqual(subprocess.run([sys.executable, "-c", program], check=False).returncode, 0)
+            scene = hl.Scene("teapot", size=0.1)
+            points = np.random.default_rng(0).uniform(-0.1, 0.1, (int(sys.argv[1]), 3))
+            def compute():
+                while True:
+                    hl.closest(scene, points, threads=1)
+            for _ in range(3):
+                threading.Thread(target=compute, daemon=True).start()
+            time.sleep(0.2)"""
+        for count in (20, 200, 300, 100000):
+            done = subprocess.run([sys.executable, "-c", program, str(count)], check=False)
+            self.assertEqual(done.returncode, 0)
 
 
 class OtherProcesses(unittest.TestCase):
