@@ -144,9 +144,9 @@ class Judged:
     def stopped_in_the_open(self):
         """Rows whose way to the finger was clear, and which are not there."""
         rows = []
-        for i in range(1, len(self.finger)):
-            if self.without_place[i] or self.without_place[i - 1] or np.all(self.felt.proxy[i] == self.finger[i]):
-                continue
+        rounding = 1e-12 * self.case.radius + 1e-15 * np.max(np.abs(self.finger))
+        away = np.linalg.norm(self.felt.proxy - self.finger, axis=1) > rounding
+        for i in 1 + np.flatnonzero(away[1:] & ~self.without_place[1:] & ~self.without_place[:-1]):
             if judge.way_is_clear(self.felt.proxy[i - 1], self.finger[i], self.case.triangles, self.case.radius):
                 rows.append(i)
         return np.array(rows, dtype=int)
