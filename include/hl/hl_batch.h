@@ -7,9 +7,11 @@
  * hlBatchError says why in one line. HL_INVALID_VALUE: an argument, or a number that is not finite. HL_OUT_OF_MEMORY.
  *
  * Threads. Calls are made by any thread. A scene may be used by several at once, fingers by one at a time. `threads`
- * is how many a call may use at once, 0: all that the machine has. No call holds a lock while it computes.
+ * is how many a call may use at once, 0: all that the machine has; no call uses more than those. No call holds a lock
+ * while it computes.
  *
- * Arrays. Rows of numbers one after the other, C order. Metres, seconds, newtons, world frame. */
+ * Arrays. Rows of numbers one after the other, C order. Metres, seconds, newtons, world frame. Fingers and points lie
+ * within 1e15 m of the origin. */
 #ifndef HL_HL_BATCH_H
 #define HL_HL_BATCH_H
 
@@ -51,9 +53,9 @@ HL_API void hlBatchSceneBounds(const HLbatchScene* scene, HLdouble* low, HLdoubl
 
 /** Made by hlBatchSettings, then changed. */
 typedef struct HLbatchSettings {
-  HLdouble radius;      /**< m, > 0: of the proxy; at first 0.002 */
-  HLdouble spring;      /**< N/m, > 0: force = spring (target - finger); at first 1000 */
-  HLdouble period;      /**< s, > 0: between two steps of fingers; a trace takes it from its path. At first 0.001 */
+  HLdouble radius;      /**< m, 1e-12 to 1e9: of the proxy; at first 0.002 */
+  HLdouble spring;      /**< N/m, 1e-9 to 1e9: force = spring (target - finger); at first 1000 */
+  HLdouble period;      /**< s, 1e-15 to 1e15: between two steps of fingers; a trace has its path's. At first 0.001 */
   HLint smooth;         /**< HL_TRUE, HL_FALSE: smooth shading of all surfaces; -1, at first: as the scene says */
   HLdouble surface[16]; /**< by hlBatchSurface; negative, at first: as the scene says */
 } HLbatchSettings;
@@ -77,8 +79,8 @@ typedef struct HLbatchResult {
 /* ---- Paths ----------------------------------------------------------------------------------------------------- */
 
 /** Feels the scene along `paths` recorded paths, each by a finger of its own that begins at its first sample, as
- * hl trace does. `samples`: all samples x 4, t, x, y, z, path after path, t rising within each; path i ends before
- * sample ends[i]. */
+ * hl trace does. `samples`: all samples x 4, t, x, y, z, path after path, t rising within each by 1e-15 s at least, and
+ * within 1e15 s of 0; path i ends before sample ends[i]. */
 HL_API HLenum hlBatchTrace(const HLbatchScene* scene, const HLbatchSettings* settings, size_t paths, const size_t* ends,
                            const HLdouble* samples, HLint threads, const HLbatchResult* result);
 
@@ -101,8 +103,9 @@ HL_API void hlBatchResetFingers(HLbatchFingers* fingers, const unsigned char* ma
 /* ---- Closest points -------------------------------------------------------------------------------------------- */
 
 /** Of each of `count` points (x 3) the nearest point of the scene, at any distance. Each output may be NULL: `nearest`
- * x 3, m; `distance`, m; `normal` x 3, unit, from the surface to the point; `primitive`, its number in the model. In an
- * empty scene distances are infinite, and the rest is 0. */
+ * x 3, m; `distance`, m; `normal` x 3, unit, from the surface to the point; `primitive`, its number in the model: the
+ * row of hlBatchMakeScene's triangles; of a file first the triangles, then the segments, then the points. Degenerate
+ * ones, which cannot be touched, count too. */
 HL_API HLenum hlBatchClosest(const HLbatchScene* scene, size_t count, const HLdouble* points, HLint threads,
                              HLdouble* nearest, HLdouble* distance, HLdouble* normal, uint64_t* primitive);
 

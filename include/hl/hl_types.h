@@ -149,7 +149,7 @@ enum {
   HL_EVENT_TOUCH = 0x48050,   /**< the proxy began to touch an object of this context */
   HL_EVENT_UNTOUCH = 0x48051, /**< the proxy left it, and did not come back within 20 ms */
   HL_EVENT_BUTTON = 0x48052,  /**< a button of the device went down or up */
-  HL_EVENT_MOTION = 0x48053   /**< the finger has moved on */
+  HL_EVENT_MOTION = 0x48053   /**< in a state the finger has moved on, by 1 mm at the hand */
 };
 
 /** hlGetString. */

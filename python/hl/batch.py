@@ -1,7 +1,8 @@
 """Many fingers, paths and points over one scene: without a server, a device or a clock.
 
 Lengths are metres, forces newtons, times seconds, all in the world frame. Every finger has the same bits as if it were
-alone, whatever the number of threads. Other threads of Python run while a call computes.
+alone, whatever the number of threads. Other threads of Python run while a call computes, and Ctrl-C ends trace and
+closest.
 """
 
 import os
@@ -11,10 +12,9 @@ from typing import Any, List, NamedTuple, Optional, Sequence, Tuple, Union, over
 import numpy as np
 import numpy.typing as npt
 
-from . import _hl
+from . import _hl, arguments
+from .arguments import Floats
 from .errors import InvalidValueError
-
-Floats = npt.NDArray[np.float64]
 
 # The fields of Settings that are a quantity of the surface: their constant in hl.h.
 SURFACE = {
@@ -35,34 +35,36 @@ class Scene:
         "terrain:100000"). `size`: metres of its largest side; 0: as it is, one unit of the file is a metre. Files are
         read in a child process without rights.
     Scene(vertices, triangles, normals=None): arrays (n, 3) in m, (m, 3) of integers, (n, 3). `normals` are for smooth
-        shading. Degenerate triangles are left out.
+        shading. Degenerate triangles, and those beyond 1e9 m, are left out: `primitives` counts the others.
 
-    Raises InvalidValueError: there is no such file, or nothing in it can be touched.
+    Raises InvalidValueError: there is no such file, or nothing in it can be touched. Ctrl-C is heard when it is made.
     """
 
     @overload
-    def __init__(self, source: Union[str, "os.PathLike[str]"], *, size: float = 0.0) -> None: ...
+    def __init__(self, source: Union[str, bytes, "os.PathLike[Any]"], *, size: float = 0.0) -> None: ...
     @overload
     def __init__(
-        self, source: npt.ArrayLike, triangles: npt.ArrayLike, normals: Optional[npt.ArrayLike] = None
+        self, vertices: npt.ArrayLike, /, triangles: npt.ArrayLike, normals: Optional[npt.ArrayLike] = None
     ) -> None: ...
-    def __init__(self, source: Any, triangles: Any = None, normals: Any = None, *, size: float = 0.0) -> None:
-        if isinstance(source, (str, os.PathLike)):
-            if triangles is not None or normals is not None:
+    @overload
+    def __init__(
+        self, *, vertices: npt.ArrayLike, triangles: npt.ArrayLike, normals: Optional[npt.ArrayLike] = None
+    ) -> None: ...
+    def __init__(
+        self, source: Any = None, triangles: Any = None, normals: Any = None, *, size: Any = 0.0, vertices: Any = None
+    ) -> None:
+        if isinstance(source, (str, bytes, os.PathLike)):
+            if isinstance(triangles, (int, float)):
+                raise InvalidValueError(f"the size is given by its name: hl.Scene({source!r}, size={triangles})")
+            if not (triangles is None and normals is None and vertices is None):
                 raise InvalidValueError("a scene is made of a file or of arrays, not of both")
-            self._source: Any = (os.fspath(source), size)
-            self._scene = _hl.BatchScene(os.fspath(source), float(size))
+            self._source: Any = (os.fspath(source), arguments.number(size, "size"))
+            self._scene = _hl.BatchScene(arguments.path(source), self._source[1])
         else:
-            if triangles is None:
-                raise InvalidValueError("a scene of arrays needs triangles: an array of shape (m, 3)")
-            if size != 0:
-                raise InvalidValueError("size is for files; scale the vertices")
+            if (source is None) == (vertices is None):
+                raise InvalidValueError("a scene is made of a file, or of vertices and triangles")
             self._source = None
-            self._scene = _hl.BatchScene(
-                _floats(source, "vertices"),
-                _indices(triangles),
-                None if normals is None else _floats(normals, "normals"),
-            )
+            self._scene = _made_of(vertices if source is None else source, triangles, normals, size)
 
     @property
     def primitives(self) -> int:
@@ -99,24 +101,31 @@ class Settings:
     None leaves a quantity of the surface as the scene has it; a number is for all surfaces.
     """
 
-    radius: float = 0.002  #: of the proxy, m, > 0
-    spring: float = 1000.0  #: N/m, > 0: force = spring * (target - finger)
-    period: float = 0.001  #: s, > 0: between two steps of Fingers; trace takes it from its paths
+    radius: float = 0.002  #: of the proxy, m, 1e-12 to 1e9
+    spring: float = 1000.0  #: N/m, 1e-9 to 1e9: force = spring * (target - finger)
+    period: float = 0.001  #: s: between two steps of Fingers; trace takes it from its paths
     smooth: Optional[bool] = None  #: shading by normals
     stiffness: Optional[float] = None  #: 0..1: the part of the spring that the surface uses
-    static_friction: Optional[float] = None  #: mu_s >= 0
-    dynamic_friction: Optional[float] = None  #: mu_d >= 0
-    viscosity: Optional[float] = None  #: N s/m, >= 0
+    static_friction: Optional[float] = None  #: mu_s, 0..10; below mu_d it counts as mu_d
+    dynamic_friction: Optional[float] = None  #: mu_d, 0..10
+    viscosity: Optional[float] = None  #: N s/m, 0..1000
     stribeck: Optional[float] = None  #: m/s, >= 0
     presliding: Optional[float] = None  #: N/m, >= 0
-    adhesion: Optional[float] = None  #: N, >= 0
+    adhesion: Optional[float] = None  #: N, 0..100
 
     def _native(self) -> _hl.BatchSettings:
-        native = _hl.BatchSettings(self.radius, self.spring, self.period, self.smooth)
+        if self.smooth not in (None, False, True):
+            raise InvalidValueError("smooth must be True, False or None")
+        native = _hl.BatchSettings(
+            arguments.number(self.radius, "radius"),
+            arguments.number(self.spring, "spring"),
+            arguments.number(self.period, "period"),
+            None if self.smooth is None else bool(self.smooth),
+        )
         for field in fields(self):
             value = getattr(self, field.name)
             if field.name in SURFACE and value is not None:
-                native.set_surface(SURFACE[field.name], value)
+                native.set_surface(SURFACE[field.name], arguments.number(value, field.name))
         return native
 
 
@@ -136,13 +145,14 @@ class Fingers:
     """
 
     def __init__(self, scene: Scene, count: int, settings: Optional[Settings] = None) -> None:
-        if count < 0:
-            raise InvalidValueError("count must not be negative")
-        self._count = count
-        self._fingers = _hl.BatchFingers(_native_scene(scene), (settings or Settings())._native(), count)
+        self._count = arguments.whole(count, "count", most=2**60)
+        self._fingers = _hl.BatchFingers(_native_scene(scene), _native_settings(settings), self._count)
 
     def __len__(self) -> int:
         return self._count
+
+    def __reduce__(self) -> Any:
+        raise TypeError("fingers cannot be copied or pickled: make others, and step them the same way")
 
     def step(self, positions: npt.ArrayLike, threads: int = 0) -> Felt:
         """Moves each finger to its position, (len, 3), and its proxy follows: one tick.
@@ -150,11 +160,11 @@ class Fingers:
         The first step, and the one after a reset, begins a proxy where the finger is, or near it where the finger is
         within something. `threads`: how many to use, 0: all.
         """
-        return Felt(*self._fingers.step(_floats(positions, "positions"), threads))
+        return Felt(*self._fingers.step(arguments.floats(positions, "positions"), arguments.threads(threads)))
 
     def reset(self, mask: Optional[npt.ArrayLike] = None) -> None:
-        """Those with a mask that is true, (len,), begin anew with their next step; None: all."""
-        self._fingers.reset(None if mask is None else np.asarray(mask))
+        """Those with a mask that is True, (len,) of booleans, begin anew with their next step; None: all."""
+        self._fingers.reset(None if mask is None else arguments.booleans(mask, "mask"))
 
 
 Path = npt.ArrayLike
@@ -169,14 +179,14 @@ def trace(
 def trace(scene: Scene, paths: Any, settings: Optional[Settings] = None, threads: int = 0) -> Any:
     """Feels the scene along recorded paths, each by a finger of its own, as the command `hl trace` does.
 
-    A path is an array (n, 4): t, x, y, z, with rising t; the proxy begins at its first row.
+    A path is an array (n, 4): t, x, y, z, with t that rises by 1e-15 s at least; the proxy begins at its first row.
     `paths`: one path, or (m, n, 4): returns a Felt of arrays (n, ...) or (m, n, ...); or a list of paths of any
     lengths: returns a list of Felt.
     """
-    native = (settings or Settings())._native()
-    if isinstance(paths, (list, tuple)) and all(np.ndim(path) == 2 for path in paths):
-        return _trace_list(scene, [_floats(path, "paths") for path in paths], native, threads)
-    array = _floats(paths, "paths")
+    native, threads = _native_settings(settings), arguments.threads(threads)
+    if isinstance(paths, (list, tuple)) and all(arguments.dimensions(path) == 2 for path in paths):
+        return _trace_list(scene, [arguments.floats(path, "each path") for path in paths], native, threads)
+    array = arguments.floats(paths, "paths")
     if array.ndim not in (2, 3) or array.shape[-1] != 4:
         raise InvalidValueError(f"paths must have the shape (n, 4) or (m, n, 4), and has {array.shape}")
     samples = array.reshape(-1, 4)
@@ -202,14 +212,14 @@ class Closest(NamedTuple):
     """The nearest points of a scene."""
 
     point: Floats  #: (n, 3), m: on the surface
-    distance: Floats  #: (n,), m; infinite where there is nothing
+    distance: Floats  #: (n,), m
     normal: Floats  #: (n, 3): unit, from the surface to the point asked for
-    primitive: npt.NDArray[np.uint64]  #: (n,): its number in the model
+    primitive: npt.NDArray[np.uint64]  #: (n,): its row in the array of triangles; of a file: its number in the model
 
 
 def closest(scene: Scene, points: npt.ArrayLike, threads: int = 0) -> Closest:
     """Of each of the points, (n, 3) in m, the nearest point of the scene, at any distance."""
-    return Closest(*_hl.closest(_native_scene(scene), _floats(points, "points"), threads))
+    return Closest(*_hl.closest(_native_scene(scene), arguments.floats(points, "points"), arguments.threads(threads)))
 
 
 def _scene_of(source: str, size: float) -> Scene:
@@ -222,19 +232,24 @@ def _native_scene(scene: Scene) -> _hl.BatchScene:
     return scene._scene
 
 
-def _floats(numbers: npt.ArrayLike, name: str) -> Floats:
-    try:
-        return np.asarray(numbers, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise InvalidValueError(f"{name} must be numbers: {error}") from None
+def _native_settings(settings: Optional[Settings]) -> _hl.BatchSettings:
+    if settings is not None and not isinstance(settings, Settings):
+        raise InvalidValueError(f"settings must be an hl.Settings, and is {type(settings).__name__}")
+    return (settings or Settings())._native()
 
 
-def _indices(triangles: npt.ArrayLike) -> npt.NDArray[np.uint32]:
-    array = np.asarray(triangles)
-    if array.size == 0:
-        return np.empty((0, 3), dtype=np.uint32)
-    if not np.issubdtype(array.dtype, np.integer):
-        raise InvalidValueError(f"triangles must be integers, and are {array.dtype}")
-    if array.min() < 0 or array.max() > np.iinfo(np.uint32).max:
+def _made_of(vertices: Any, triangles: Any, normals: Any, size: Any) -> _hl.BatchScene:
+    if triangles is None:
+        raise InvalidValueError("a scene of arrays needs triangles: an array of shape (m, 3)")
+    if size != 0:
+        raise InvalidValueError("size is for files; scale the vertices")
+    indices = arguments.integers(triangles, "triangles")
+    if indices.size == 0:
+        indices = np.empty((0, 3), dtype=np.uint32)
+    elif indices.min() < 0 or indices.max() > np.iinfo(np.uint32).max:
         raise InvalidValueError("an index names no vertex")
-    return array.astype(np.uint32)
+    return _hl.BatchScene(
+        arguments.floats(vertices, "vertices"),
+        indices.astype(np.uint32),
+        None if normals is None else arguments.floats(normals, "normals"),
+    )

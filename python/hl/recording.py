@@ -7,13 +7,13 @@ from typing import Any, Union
 import numpy as np
 import numpy.typing as npt
 
-from . import _hl
+from . import _hl, arguments
 
 #: What `steps["state"]` counts.
 STATES = ("off", "arming", "on", "fault", "waiting")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Recording:
     """What a recording holds.
 
@@ -47,7 +47,6 @@ def read_recording(path: Union[str, "os.PathLike[str]"]) -> Recording:
 
     It is taken as it is written; `hl replay` runs it again and compares.
     """
-    name = os.fspath(path)
-    read = _hl.Recording(name)
-    return Recording(name, read.version, read.device, read.servo_rate, read.proxy_rate, read.black_box, read.fault,
-                     read.end, read.damage, read.steps, read.ticks)
+    read = _hl.Recording(arguments.path(path))
+    return Recording(os.fsdecode(path), read.version, read.device, read.servo_rate, read.proxy_rate, read.black_box,
+                     read.fault, read.end, read.damage, read.steps, read.ticks)

@@ -12,6 +12,7 @@ A Touch is used by one thread at a time.
 import asyncio
 import contextlib
 import math
+import weakref
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Any, AsyncIterator, Callable, Dict, Iterator, Optional, Type
@@ -20,11 +21,10 @@ from urllib.parse import urlencode
 import numpy as np
 import numpy.typing as npt
 
-from . import _hl, calls
+from . import _hl, arguments, calls
+from .arguments import Floats
 from .batch import SURFACE
 from .errors import InvalidOperationError, InvalidValueError
-
-Floats = npt.NDArray[np.float64]
 
 _SAFETY = {
     calls.HL_SAFETY_OFF: "off",
@@ -45,7 +45,7 @@ _EVENTS = {
 _QUANTITIES = {**SURFACE, "height": calls.HL_HEIGHT}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class State:
     """The device and what it touches, at one time. World frame."""
 
@@ -88,11 +88,15 @@ def _option(value: Any) -> Any:
 
 
 class Touch:
-    """A conversation with a server, made by `connect`. Closes at the end of `with`."""
+    """A conversation with a server, made by `connect`. Closes at the end of `with`.
+
+    When the conversation has ended, every call but `close` raises ConnectionLostError with the reason.
+    """
 
     def __init__(self, context: _hl.Context) -> None:
         self._context = context
-        self._is_abandoned = False
+        self._is_abandoned = self._is_in_frame = False
+        self._functions: Dict[int, Callable[[_hl.Event], None]] = {}  # given to `on`, by kind
 
     def __enter__(self) -> "Touch":
         return self
@@ -123,14 +127,18 @@ class Touch:
         shown. After an exception inside, nothing is sent, and the next frame begins with an empty world.
         """
         self.make_current()
+        if self._is_in_frame:
+            raise InvalidOperationError("a frame is open: a frame cannot be within another one")
         if self._is_abandoned:
             calls.hlClear()
-            self._is_abandoned = False
+        self._is_abandoned, self._is_in_frame = False, True
         try:
             yield self
         except BaseException:
             self._is_abandoned = True
             raise
+        finally:
+            self._is_in_frame = False
         self.make_current()
         if wait:
             calls.hlFinish()
@@ -145,7 +153,7 @@ class Touch:
     def frame_interval(self, seconds: float) -> None:
         """Objects move to their new places within this time, s; 0: at once; negative: as long as the last frame took."""
         self.make_current()
-        calls.hlFrameInterval(seconds)
+        calls.hlFrameInterval(arguments.number(seconds, "seconds"))
 
     # ---- Drawing
 
@@ -164,22 +172,22 @@ class Touch:
         smooth shading: (n, 3). texcoords: (n, 2).
         """
         self.make_current()
+        mode = arguments.whole(mode, "mode")
+        points = arguments.floats(vertices, "vertices")
+        others = (_optional_floats(normals, "normals"), _optional_floats(texcoords, "texcoords"))
         if indices is None:
-            calls.hlDrawArrays(mode, vertices, normals, texcoords)
+            calls.hlDrawArrays(mode, points, *others)
             return
-        array = np.asarray(indices)
-        if array.size > 0 and not np.issubdtype(array.dtype, np.integer):
-            raise InvalidValueError(f"indices must be integers, and are {array.dtype}")
-        if array.size > 0 and (array.min() < 0 or array.max() >= len(np.asarray(vertices))):
+        array = arguments.integers(indices, "indices")
+        if array.size > 0 and points.ndim == 2 and (array.min() < 0 or array.max() >= len(points)):
             raise InvalidValueError("an index must be below the number of vertices")
-        calls.hlDrawElements(mode, vertices, array.astype(np.uint32), normals, texcoords)
+        calls.hlDrawElements(mode, points, array.astype(np.uint32), *others)
 
     @contextlib.contextmanager
     def define(self, number: Optional[int] = None) -> Iterator[int]:
         """Defines an object, new or again, by what is drawn inside; gives its number, for `place`."""
         self.make_current()
-        if number is None:
-            number = calls.hlGenObjects(1)[0]
+        number = calls.hlGenObjects(1)[0] if number is None else arguments.whole(number, "the object's number")
         calls.hlNewObject(number)
         try:
             yield number
@@ -189,6 +197,7 @@ class Touch:
 
     def place(self, number: int, pose: Optional[npt.ArrayLike] = None) -> None:
         """Puts an object into the world: (4, 4), from its frame to the world; None: as it is defined."""
+        number = arguments.whole(number, "the object's number")
         with self.matrix(np.eye(4) if pose is None else pose):
             calls.hlCallObject(number)
 
@@ -197,17 +206,22 @@ class Touch:
     ) -> None:
         """Moves the vertices of an object from number `first` on: (n, 3), m. What bends pushes the proxy."""
         self.make_current()
-        calls.hlUpdateVertices(number, vertices, first, normals)
+        calls.hlUpdateVertices(
+            arguments.whole(number, "the object's number"),
+            arguments.floats(vertices, "vertices"),
+            arguments.whole(first, "first", most=2**31 - 1),
+            _optional_floats(normals, "normals"),
+        )
 
     def delete(self, *numbers: int) -> None:
         """Forgets objects."""
         self.make_current()
-        calls.hlDeleteObjects(list(numbers))
+        calls.hlDeleteObjects([arguments.whole(number, "the object's number") for number in numbers])
 
     @contextlib.contextmanager
     def matrix(self, pose: npt.ArrayLike) -> Iterator[None]:
         """What is drawn inside is placed by this (4, 4) matrix, and by those around it."""
-        array = np.asarray(pose, dtype=np.float64)
+        array = arguments.floats(pose, "a pose")
         if array.shape != (4, 4):
             raise InvalidValueError(f"a pose must have the shape (4, 4), and has {array.shape}")
         self.make_current()
@@ -223,7 +237,7 @@ class Touch:
     def name(self, number: int) -> Iterator[None]:
         """What is drawn inside has this name, which states and events tell."""
         self.make_current()
-        calls.hlPushName(number)
+        calls.hlPushName(arguments.whole(number, "a name"))
         try:
             yield
         finally:
@@ -237,7 +251,7 @@ class Touch:
         (m/s), presliding (N/m), adhesion (N)."""
         self.make_current()
         for key, value in quantities.items():
-            calls.hlMateriald(_chosen(SURFACE, key, "quantity"), value)
+            calls.hlMateriald(_chosen(SURFACE, key, "quantity"), arguments.number(value, key))
 
     def shade(self, model: str) -> None:
         """"flat" or "smooth", for what is drawn next."""
@@ -261,11 +275,12 @@ class Touch:
     def make_texture(self, texels: npt.ArrayLike) -> int:
         """A texture, (height, width), the row of v = 0 first; uint8, or floats 0..1. Gives its number."""
         self.make_current()
+        array = _texels(texels)
         number = calls.hlGenTextures(1)[0]
         calls.hlPushAttrib(calls.HL_TEXTURE_BIT)
         try:
             calls.hlBindTexture(calls.HL_TEXTURE_2D, number)
-            calls.hlTexImage2D(np.asarray(texels))
+            calls.hlTexImage2D(array)
         finally:
             calls.hlPopAttrib()
         return number
@@ -279,13 +294,13 @@ class Touch:
         self.make_current()
         calls.hlPushAttrib(calls.HL_TEXTURE_BIT)
         try:
-            calls.hlActiveTexture(calls.HL_TEXTURE0 + unit)
-            calls.hlBindTexture(calls.HL_TEXTURE_2D, number)
+            calls.hlActiveTexture(calls.HL_TEXTURE0 + arguments.whole(unit, "unit", most=31))
+            calls.hlBindTexture(calls.HL_TEXTURE_2D, arguments.whole(number, "the texture's number"))
             calls.hlTexEnvi(
                 calls.HL_TEXTURE_ENV, calls.HL_TEXTURE_QUANTITY, _chosen(_QUANTITIES, quantity, "quantity")
             )
-            calls.hlTexEnvd(calls.HL_TEXTURE_ENV, calls.HL_TEXTURE_LOW, low)
-            calls.hlTexEnvd(calls.HL_TEXTURE_ENV, calls.HL_TEXTURE_HIGH, high)
+            calls.hlTexEnvd(calls.HL_TEXTURE_ENV, calls.HL_TEXTURE_LOW, arguments.number(low, "low"))
+            calls.hlTexEnvd(calls.HL_TEXTURE_ENV, calls.HL_TEXTURE_HIGH, arguments.number(high, "high"))
             calls.hlEnable(calls.HL_TEXTURE_2D)
             yield
         finally:
@@ -297,18 +312,18 @@ class Touch:
     def proxy_radius(self, radius: float) -> None:
         """m in the world, > 0."""
         self.make_current()
-        calls.hlProxyd(calls.HL_PROXY_RADIUS, radius)
+        calls.hlProxyd(calls.HL_PROXY_RADIUS, arguments.number(radius, "radius"))
 
     def spring(self, stiffness: float) -> None:
         """K of the servo, N/m at the hand."""
         self.make_current()
-        calls.hlSpringd(stiffness)
+        calls.hlSpringd(arguments.number(stiffness, "stiffness"))
 
     def workspace(self, origin: npt.ArrayLike, world_per_device: float) -> None:
         """The world's point at the device's origin, (3,) in m, and metres of the world for one metre of the hand."""
         self.make_current()
         x, y, z = _vector(origin, "origin")
-        calls.hlWorkspaced(x, y, z, world_per_device)
+        calls.hlWorkspaced(x, y, z, arguments.number(world_per_device, "world_per_device"))
 
     def ledger(self, mode: str) -> None:
         """What happens to energy that surfaces add: "tank", "strict" or "report"."""
@@ -342,7 +357,15 @@ class Touch:
         An event has kind, time (s), object, name, position (of the proxy, m), button and down. What a function raises,
         `poll` raises when all have run.
         """
-        self._context.on_event(_chosen(_EVENTS, kind, "event"), function)
+        number = _chosen(_EVENTS, kind, "event")
+        if function is None:
+            self._context.on_event(number, None)
+            self._functions.pop(number, None)
+            return
+        if not callable(function):
+            raise InvalidValueError("function must be one that can be called, or None")
+        self._context.on_event(number, _Caller(self))
+        self._functions[number] = function
 
     def state(self) -> State:
         """The newest state that has come; does not wait."""
@@ -368,6 +391,7 @@ class Touch:
 
         Callbacks of `on` are called too. Ends with ConnectionLostError when the conversation does.
         """
+        rate = arguments.number(rate, "rate")
         if not (math.isfinite(rate) and rate > 0):
             raise InvalidValueError("rate must be above 0")
         self.make_current()
@@ -389,18 +413,18 @@ class Touch:
     def keep_samples(self, most: int) -> None:
         """From now on keep the newest `most` steps of the servo, for `samples`; 0: none."""
         self.make_current()
-        calls.hlKeepSamples(most)
+        calls.hlKeepSamples(arguments.whole(most, "the number of samples", most=2**31 - 1))
 
     def samples(self) -> npt.NDArray[np.void]:
         """The steps of the servo since the last time: a structured array with time (s), position (m), force (N),
-        buttons."""
+        buttons. Takes them out."""
         self.poll()
         return calls.hlTakeSamples()
 
     def get(self, query: int) -> Any:
         """The value of any query of hl.h, such as hl.calls.HL_MAX_OBJECTS: a number, or an array."""
         self.make_current()
-        value = calls.hlGetDoublev(query)
+        value = calls.hlGetDoublev(arguments.whole(query, "a query"))
         return np.array(value) if isinstance(value, list) else value
 
     @property
@@ -420,14 +444,42 @@ class Touch:
         return bool(calls.hlGetIntegerv(calls.HL_MASTER))
 
 
+class _Caller:
+    """What C++ keeps in place of a function: it does not keep the Touch, so that a function may, and all go together."""
+
+    def __init__(self, touch: Touch) -> None:
+        self._touch = weakref.ref(touch)
+
+    def __call__(self, event: _hl.Event) -> None:
+        touch = self._touch()
+        function = None if touch is None else touch._functions.get(event.kind)
+        if function is not None:
+            function(event)
+
+
+def _optional_floats(numbers: Optional[npt.ArrayLike], name: str) -> Optional[Floats]:
+    return None if numbers is None else arguments.floats(numbers, name)
+
+
+def _texels(texels: npt.ArrayLike) -> npt.NDArray[Any]:
+    array = np.asarray(texels)
+    if array.dtype == np.uint8:
+        return array
+    if array.dtype.kind != "f":
+        raise InvalidValueError(f"texels must be uint8, or floats 0..1, and are {array.dtype}")
+    if array.size > 0 and (array.min() < 0 or array.max() > 1):
+        raise InvalidValueError("texels that are floats must be 0..1; those of 0..255 are uint8")
+    return array
+
+
 def _chosen(table: Dict[str, int], key: str, what: str) -> int:
-    if key not in table:
+    if not isinstance(key, str) or key not in table:
         raise InvalidValueError(f"there is no {what} '{key}': {', '.join(table)}")
     return table[key]
 
 
 def _vector(numbers: npt.ArrayLike, name: str) -> Any:
-    array = np.asarray(numbers, dtype=np.float64)
+    array = arguments.floats(numbers, name)
     if array.shape != (3,):
         raise InvalidValueError(f"{name} must be three numbers, and has the shape {array.shape}")
     return array.tolist()

@@ -1,4 +1,4 @@
-// The calls of hl_batch.h. Other Python threads run while they compute.
+// The calls of hl_batch.h. Other Python threads run while they compute, and Ctrl-C is heard.
 #include <hl/hl_batch.h>
 #include <pybind11/stl.h>
 
@@ -7,7 +7,10 @@
 #include <vector>
 
 #include "arrays.h"
+#include "batch/ends_early.h"
 #include "bindings.h"
+#include "other_threads_run.h"
+#include "signals.h"
 
 namespace py = pybind11;
 
@@ -22,6 +25,21 @@ template <typename T>
 T* made(T* pointer) {
   if (pointer == nullptr) throw CallFailed(HL_INVALID_VALUE, hlBatchError());
   return pointer;
+}
+
+/// Makes a call of hl_batch.h without the interpreter's lock; Ctrl-C ends it. `rows`: what it computes.
+template <typename Call>
+void checkBatchHearingSignals(std::size_t rows, const Call& call) {
+  constexpr std::size_t kFewRows = 256;  // some ms, for which a thread is not worth its 30 us
+  if (rows <= kFewRows || !isMainThread()) {
+    const OtherThreadsRun other_threads_run;
+    return checkBatch(call());
+  }
+  std::atomic<bool> stop = false;
+  runHearingSignals(stop, [&] {
+    const hl::EndsEarly ends_early(stop);
+    checkBatch(call());
+  });
 }
 
 struct DeleteBatch {
@@ -44,7 +62,7 @@ struct Fingers {
 };
 
 std::unique_ptr<Scene> loadScene(const std::string& name, double size) {
-  const py::gil_scoped_release other_threads_run;
+  const OtherThreadsRun other_threads_run;
   return std::make_unique<Scene>(made(hlBatchLoadScene(name.c_str(), size)));
 }
 
@@ -53,7 +71,7 @@ std::unique_ptr<Scene> makeScene(const Doubles& vertices, const Indices& triangl
   const std::size_t count = rowsOf(vertices, 3, "vertices");
   const std::size_t faces = rowsOf(triangles, 3, "triangles");
   const double* const smooth = rowsOrNone(normals, count, 3, "normals");
-  const py::gil_scoped_release other_threads_run;
+  const OtherThreadsRun other_threads_run;
   return std::make_unique<Scene>(made(hlBatchMakeScene(vertices.data(), smooth, count, triangles.data(), faces)));
 }
 
@@ -100,10 +118,9 @@ py::tuple trace(const Scene& scene, const HLbatchSettings& settings, const Doubl
     throw CallFailed(HL_INVALID_VALUE, "the last path must end the samples");
   Rows rows(count);
   const HLbatchResult result = rows.pointers();
-  {
-    const py::gil_scoped_release other_threads_run;
-    checkBatch(hlBatchTrace(scene.handle.get(), &settings, ends.size(), ends.data(), samples.data(), threads, &result));
-  }
+  checkBatchHearingSignals(count, [&] {
+    return hlBatchTrace(scene.handle.get(), &settings, ends.size(), ends.data(), samples.data(), threads, &result);
+  });
   return rows.tuple();
 }
 
@@ -118,7 +135,7 @@ py::tuple step(Fingers& fingers, const Doubles& positions, int threads) {
   Rows rows(fingers.count);
   const HLbatchResult result = rows.pointers();
   {
-    const py::gil_scoped_release other_threads_run;
+    const OtherThreadsRun other_threads_run;
     const std::scoped_lock lock(fingers.one_at_a_time);
     checkBatch(hlBatchStep(fingers.handle.get(), positions.data(), threads, &result));
   }
@@ -129,7 +146,7 @@ void reset(Fingers& fingers, const std::optional<py::array_t<bool, py::array::c_
   if (mask && (mask->ndim() != 1 || static_cast<std::size_t>(mask->shape(0)) != fingers.count))
     throw CallFailed(HL_INVALID_VALUE, "mask must have one element for each finger, and has " + shapeText(*mask));
   const auto* const chosen = mask ? reinterpret_cast<const unsigned char*>(mask->data()) : nullptr;
-  const py::gil_scoped_release other_threads_run;
+  const OtherThreadsRun other_threads_run;
   const std::scoped_lock lock(fingers.one_at_a_time);
   hlBatchResetFingers(fingers.handle.get(), chosen);
 }
@@ -140,10 +157,8 @@ py::tuple closest(const Scene& scene, const Doubles& points, int threads) {
   py::array_t<std::uint64_t> primitive(static_cast<py::ssize_t>(count));
   double *const to = nearest.mutable_data(), *const unit = normal.mutable_data(), *const far = distance.mutable_data();
   std::uint64_t* const number = primitive.mutable_data();
-  {
-    const py::gil_scoped_release other_threads_run;
-    checkBatch(hlBatchClosest(scene.handle.get(), count, points.data(), threads, to, far, unit, number));
-  }
+  checkBatchHearingSignals(
+      count, [&] { return hlBatchClosest(scene.handle.get(), count, points.data(), threads, to, far, unit, number); });
   return py::make_tuple(nearest, distance, normal, primitive);
 }
 

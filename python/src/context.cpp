@@ -3,7 +3,9 @@
 #include <pybind11/numpy.h>
 #include <hl/hl.hpp>
 
+#include <algorithm>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -11,6 +13,8 @@
 #include "bindings.h"
 #include "calls.h"
 #include "errors.h"
+#include "other_threads_run.h"
+#include "signals.h"
 
 namespace py = pybind11;
 
@@ -23,8 +27,9 @@ struct Failure {
 };
 thread_local Failure failure;
 
-void keepFailure(HLenum code, const char* text, void*) {
+void keepFailure(HLenum code, const char* text, void* lost) {
   if (failure.code == HL_NO_ERROR) failure = {code, text};
+  if (code == HL_CONNECTION_LOST) *static_cast<std::string*>(lost) = text;
 }
 
 /// The thread may be without a context then, and its error is kept elsewhere.
@@ -36,7 +41,10 @@ void keepFailure(HLenum code, const char* text, void*) {
 
 class Context {
  public:
-  explicit Context(const std::string& url) : context_(open(url)) { hlErrorFunc(&keepFailure, nullptr); }
+  explicit Context(const std::string& url) : context_(open(url)) {
+    hlErrorFunc(&keepFailure, &lost_);
+    current_ = this;
+  }
   /// A context that is current on another thread cannot be destroyed here; it ends with the process.
   ~Context() {
     try {
@@ -54,21 +62,35 @@ class Context {
     if (!context_) throw CallFailed(HL_INVALID_OPERATION, "the connection is closed");
     if (!isCurrent() && hlMakeCurrent(context_->get()) == HL_FALSE)
       throwOfThread(HL_INVALID_OPERATION, "the context is current on another thread");
+    current_ = this;
   }
+  /// As makeCurrent(), for a call that needs the server.
+  void makeCurrentAndLive() {
+    makeCurrent();
+    requireLive();
+  }
+  /// hl.h tells the end of a conversation once; here every call after it throws it, so that no loop goes on with what
+  /// was felt last.
+  void requireLive() const {
+    if (!lost_.empty()) throw CallFailed(HL_CONNECTION_LOST, lost_);
+  }
+  /// The thread's; null: it has none.
+  static const Context* current() { return current_ != nullptr && current_->isCurrent() ? current_ : nullptr; }
   /// Twice is allowed.
   void close() {
     if (!context_) return;
     makeCurrent();
-    const py::gil_scoped_release other_threads_run;
+    current_ = nullptr;
+    const OtherThreadsRun other_threads_run;
     context_.reset();
   }
   void onEvent(HLenum kind, std::function<void(const HLevent&)> function) {
-    makeCurrent();
+    makeCurrentAndLive();
     context_->onEvent(kind, std::move(function));
     throwFailure();
   }
   int poll() {
-    makeCurrent();
+    makeCurrentAndLive();
     const int delivered = context_->poll();
     throwFailure();
     return delivered;
@@ -77,35 +99,35 @@ class Context {
  private:
   static std::unique_ptr<hl::Context> open(const std::string& url) {
     try {
-      const py::gil_scoped_release other_threads_run;
+      const OtherThreadsRun other_threads_run;
       return std::make_unique<hl::Context>(url);
     } catch (const hl::CallError& error) {
       throw CallFailed(HL_NO_CONTEXT, error.what());
     }
   }
 
+  inline static thread_local Context* current_ = nullptr;  // may be that of a context that is current no more
+
+  std::string lost_;  ///< why the conversation has ended; empty: it has not
   std::unique_ptr<hl::Context> context_;
 };
 
-void finish() {
-  requireContext();
-  {
-    const py::gil_scoped_release other_threads_run;
-    hlFinish();
-  }
-  throwFailure();
-}
-
 bool finishTimeout(double seconds) {
   requireContext();
-  bool all_is_shown = false;
-  {
-    const py::gil_scoped_release other_threads_run;
-    all_is_shown = hlFinishTimeout(seconds) != HL_FALSE;
+  const double slice_s = std::chrono::duration<double>(kHearingPeriod).count();
+  for (double left_s = seconds;; left_s -= slice_s) {
+    bool all_is_shown = false;
+    {
+      const OtherThreadsRun other_threads_run;
+      all_is_shown = hlFinishTimeout(std::min(left_s, slice_s)) != HL_FALSE;
+    }
+    throwFailure();
+    if (all_is_shown || left_s <= slice_s) return all_is_shown;
+    hearSignals();
   }
-  throwFailure();
-  return all_is_shown;
 }
+
+void finish() { finishTimeout(std::numeric_limits<double>::max()); }
 
 void bindEvent(py::module_& module) {
   py::class_<HLevent>(module, "Event")
@@ -129,6 +151,7 @@ void throwFailure() {
 void requireContext() {
   if (hlGetCurrentContext() == nullptr)
     throw CallFailed(HL_INVALID_OPERATION, "this thread has no current context; hl.connect makes one");
+  if (const Context* const context = Context::current()) context->requireLive();
 }
 
 void bindContext(py::module_& module) {
@@ -137,7 +160,7 @@ void bindContext(py::module_& module) {
       .def(py::init<const std::string&>(), py::arg("url"))
       .def_property_readonly("is_open", &Context::isOpen)
       .def_property_readonly("is_current", &Context::isCurrent)
-      .def("make_current", &Context::makeCurrent)
+      .def("make_current", &Context::makeCurrentAndLive)
       .def("close", &Context::close)
       .def("on_event", &Context::onEvent, py::arg("kind"), py::arg("function"))
       .def("poll", &Context::poll);

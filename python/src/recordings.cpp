@@ -7,6 +7,7 @@
 
 #include "bindings.h"
 #include "control/servo_target.h"
+#include "other_threads_run.h"
 #include "record/recorded_servo.h"
 #include "record/recorded_ticks.h"
 #include "record/recording_file.h"
@@ -79,7 +80,7 @@ struct Recording {
 };
 
 Recording readRecording(const std::string& path) {
-  const py::gil_scoped_release other_threads_run;
+  const OtherThreadsRun other_threads_run;
   hl::RecordingReader reader(path);
   const hl::proto::RecordingStart start = hl::startOf(reader);
   Recording all{start.version(),   start.device_name(),   start.fault(),         "", "",

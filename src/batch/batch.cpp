@@ -57,4 +57,9 @@ NearestPoint nearestPoint(const SceneAt& scene, const Vec3& point) {
   return nearest;
 }
 
+std::uint64_t numberInModel(const Snapshot& scene, const PrimitiveId& primitive) {
+  const Shape& shape = scene.shape(primitive.instance);
+  return shape.source ? primitive.element : shape.primitives.elementNumber(primitive.element);
+}
+
 }  // namespace hl

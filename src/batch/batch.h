@@ -51,5 +51,8 @@ struct NearestPoint {
   PrimitiveId primitive;
 };
 NearestPoint nearestPoint(const SceneAt& scene, const Vec3& point);
+/// Its number among the elements that the model was made with: triangles, then segments, then points; degenerate ones,
+/// which cannot be touched, count too.
+std::uint64_t numberInModel(const Snapshot& scene, const PrimitiveId& primitive);
 
 }  // namespace hl

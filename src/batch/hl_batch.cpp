@@ -7,11 +7,15 @@
 #include <cmath>
 #include <cstring>
 #include <new>
+#include <sstream>
+#include <stdexcept>
 #include <string>
 
 #include "base/error.h"
+#include "base/finger_reach.h"
 #include "base/quantities.h"
 #include "batch/batch.h"
+#include "batch/ends_early.h"
 #include "batch/on_threads.h"
 #include "io/load_scene.h"
 #include "scene/model.h"
@@ -46,6 +50,9 @@ HLenum guardedCall(const char* call, const Work& work) {
   } catch (const std::bad_alloc&) {
     last_error = std::string(call) + ": there is not enough memory";
     return HL_OUT_OF_MEMORY;
+  } catch (const std::length_error&) {  // of a vector
+    last_error = std::string(call) + ": there is not enough memory";
+    return HL_OUT_OF_MEMORY;
   } catch (const std::exception& error) {
     last_error = std::string(call) + ": " + error.what();
     return HL_INVALID_VALUE;
@@ -56,16 +63,30 @@ void require(bool holds, const char* what) {
   if (!holds) throw Error(what);
 }
 
+std::string outOfRange(const QuantityInfo& quantity) {
+  std::ostringstream text;
+  text << "HL_" << quantity.name << " is out of its range, 0 to " << quantity.most_set;
+  return text.str();
+}
+
+// As hl trace: no product of them, lengths and speeds leaves the range of doubles.
+constexpr double kMinRadius_m = 1e-12, kMaxRadius_m = 1e9, kMinSpring_N_m = 1e-9, kMaxSpring_N_m = 1e9;
+
 void requireFinite(const HLdouble* numbers, std::size_t count, const char* what) {
   require(std::all_of(numbers, numbers + count, [](double x) { return std::isfinite(x); }), what);
+}
+
+// Where a finger, or a point that is asked for, may be.
+void requireReach(const HLdouble* numbers, std::size_t count, const char* what) {
+  require(std::all_of(numbers, numbers + count, [](double x) { return std::abs(x) <= kFarthestFinger_m; }), what);
 }
 
 // Without a budget of work: nothing waits for a step, and so the machine decides nothing.
 ProxySettings settingsOf(const HLbatchSettings* given) {
   require(given != nullptr, "settings is NULL; hlBatchSettings makes some");
-  const auto positive = [](double x) { return std::isfinite(x) && x > 0; };
-  require(positive(given->radius) && positive(given->spring) && positive(given->period),
-          "radius, spring and period must be finite and above zero");
+  require(given->radius >= kMinRadius_m && given->radius <= kMaxRadius_m, "the radius must be 1e-12 to 1e9 m");
+  require(given->spring >= kMinSpring_N_m && given->spring <= kMaxSpring_N_m, "the spring must be 1e-9 to 1e9 N/m");
+  require(given->period >= kMinStep_s && given->period <= kLastTime_s, "the period must be 1e-15 to 1e15 s");
   ProxySettings settings;
   settings.radius = given->radius;
   settings.spring_N_m = given->spring;
@@ -97,7 +118,8 @@ void put(const HLbatchResult& result, std::size_t i, const BatchRow& row) {
 
 HLbatchScene* sceneOf(Model model) {
   auto snapshot = makeSnapshot(std::move(model));
-  require(snapshot->primitives > 0, "nothing in it can be touched");
+  if (snapshot->primitives == 0)
+    throw Error("nothing in it can be touched" + (snapshot->warnings.empty() ? "" : ": " + snapshot->warnings.back()));
   return new HLbatchScene{std::move(snapshot)};
 }
 
@@ -106,10 +128,11 @@ std::vector<PathSample> samplesOf(const HLdouble* numbers, std::size_t paths, co
   std::size_t begin = 0;
   for (std::size_t path = 0; path < paths; begin = ends[path++]) {
     require(ends[path] >= begin, "ends must not fall");
-    requireFinite(numbers + 4 * begin, 4 * (ends[path] - begin), "samples must be finite");
+    requireReach(numbers + 4 * begin, 4 * (ends[path] - begin), "samples must be finite, and within 1e15 m and s of 0");
     for (std::size_t i = begin; i < ends[path]; ++i) {
       const HLdouble* const row = numbers + 4 * i;
-      require(i == begin || row[0] > samples.back().t, "the times of a path must rise");
+      require(i == begin || row[0] - samples.back().t >= kMinStep_s,
+              "the times of a path must rise, by 1e-15 s at least");
       samples.push_back({row[0], Vec3(row[1], row[2], row[3])});
     }
   }
@@ -175,7 +198,7 @@ HLenum hlBatchSurface(HLbatchSettings* settings, HLenum quantity, HLdouble value
     const auto found = std::find(kQuantityOf.begin(), kQuantityOf.end(), quantity);
     require(found != kQuantityOf.end(), "there is no such quantity");
     const auto i = static_cast<std::size_t>(found - kQuantityOf.begin());
-    require(value >= 0 && value <= kQuantityInfo[i].most_set, "the value is out of its range");
+    if (!(value >= 0 && value <= kQuantityInfo[i].most_set)) throw Error(outOfRange(kQuantityInfo[i]));
     settings->surface[i] = value;
   });
 }
@@ -189,7 +212,10 @@ HLenum hlBatchTrace(const HLbatchScene* scene, const HLbatchSettings* settings, 
     const ProxySettings rules = settingsOf(settings);
     const std::vector<PathSample> read = samplesOf(samples, paths, ends);
     traceBatch(*scene->snapshot, rules, read, {ends, paths}, threads,
-               [&](std::size_t i, const BatchRow& row) { put(*result, i, row); });
+               [&, stop = EndsEarly::ofThisThread()](std::size_t i, const BatchRow& row) {
+                 throwIfStopped(stop);
+                 put(*result, i, row);
+               });
   });
 }
 
@@ -208,7 +234,7 @@ HLenum hlBatchStep(HLbatchFingers* fingers, const HLdouble* positions, HLint thr
   return guardedCall(__func__, [&] {
     require(fingers != nullptr && positions != nullptr && result != nullptr, "fingers, positions or result is NULL");
     requireThreads(threads);
-    requireFinite(positions, 3 * fingers->batch.size(), "positions must be finite");
+    requireReach(positions, 3 * fingers->batch.size(), "positions must be finite, and within 1e15 m of the origin");
     std::vector<Vec3> places;
     places.reserve(fingers->batch.size());
     for (std::size_t i = 0; i < fingers->batch.size(); ++i) places.push_back(vecAt(positions, i));
@@ -228,14 +254,15 @@ HLenum hlBatchClosest(const HLbatchScene* scene, size_t count, const HLdouble* p
   return guardedCall(__func__, [&] {
     require(scene != nullptr && (points != nullptr || count == 0), "scene or points is NULL");
     requireThreads(threads);
-    requireFinite(points, 3 * count, "points must be finite");
-    onThreads(threads, [&] {
+    requireReach(points, 3 * count, "points must be finite, and within 1e15 m of the origin");
+    onThreads(threads, [&, stop = EndsEarly::ofThisThread()] {
       oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+        throwIfStopped(stop);
         const NearestPoint found = nearestPoint(SceneAt(*scene->snapshot), vecAt(points, i));
         put(nearest, i, found.at.point);
         put(normal, i, found.at.normal);
         if (distance != nullptr) distance[i] = found.at.distance;
-        if (primitive != nullptr) primitive[i] = found.primitive.element;
+        if (primitive != nullptr) primitive[i] = numberInModel(*scene->snapshot, found.primitive);
       });
     });
   });

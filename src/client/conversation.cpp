@@ -103,6 +103,7 @@ void Conversation::take(proto::ServerReply& reply, ErrorState& errors, EventQueu
     case proto::ServerReply::kState:
       samples_.add(reply.state());
       reply.mutable_state()->clear_samples();
+      events.pushMotion(reply.state());
       return view_.take(std::move(*reply.mutable_state()));
     case proto::ServerReply::kEvent:
       return events.push(reply.event());

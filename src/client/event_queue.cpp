@@ -1,5 +1,7 @@
 #include "client/event_queue.h"
 
+#include <cmath>
+
 #include "client/fault.h"
 
 namespace hl::client {
@@ -20,6 +22,10 @@ HLevent eventOf(const proto::Event& in) {
   return event;
 }
 
+double distanceOf(const proto::Vec3& a, const proto::Vec3& b) {
+  return std::hypot(a.x() - b.x(), a.y() - b.y(), a.z() - b.z());
+}
+
 // Says that callbacks are running for as long as it lives.
 class Delivering {
  public:
@@ -37,6 +43,7 @@ class Delivering {
 void EventQueue::setCallback(HLenum kind, HLeventfunc callback, void* user) {
   if (kind < HL_EVENT_TOUCH || kind > HL_EVENT_MOTION) throw Fault(HL_INVALID_ENUM, "the kind must be HL_EVENT_...");
   callbacks_[kind - HL_EVENT_TOUCH] = {callback, user};
+  if (kind == HL_EVENT_MOTION) told_.reset();
 }
 
 void EventQueue::push(const proto::Event& event) {
@@ -44,6 +51,19 @@ void EventQueue::push(const proto::Event& event) {
   if (kind >= callbacks_.size() || callbacks_[kind].function == nullptr) return;
   if (events_.size() == kMaxEvents) events_.pop_front();
   events_.push_back(eventOf(event));
+}
+
+void EventQueue::pushMotion(const proto::ClientState& state) {
+  if (callbacks_[proto::MOTION].function == nullptr) return;
+  const bool is_first = !told_;
+  if (!is_first && distanceOf(state.finger(), *told_) < kMotion_m * state.workspace().world_per_device()) return;
+  told_ = state.finger();
+  if (is_first) return;
+  proto::Event event;
+  event.set_kind(proto::MOTION);
+  event.set_time_s(state.time_s());
+  *event.mutable_position() = state.proxy();
+  push(event);
 }
 
 int EventQueue::deliver() {

@@ -19,9 +19,6 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-// Shorter steps of time are none to the arithmetic of viscosity, longer times have none left.
-constexpr double kMinStep_s = 1e-15, kMost_s = 1e15;
-
 // Exactly four finite numbers between commas.
 bool parseRow(std::string_view line, std::array<double, 4>& values) {
   for (std::size_t i = 0; i < 4; ++i) {
@@ -52,7 +49,7 @@ std::vector<PathSample> readPath(const std::string& file) {
     std::array<double, 4> v{};
     if (!parseRow(line, v)) throw Error(where() + "a row must be four finite numbers t,x,y,z");
     const Vec3 position(v[1], v[2], v[3]);
-    if (!canBeFinger(position) || std::abs(v[0]) > kMost_s)
+    if (!canBeFinger(position) || std::abs(v[0]) > kLastTime_s)
       throw Error(where() + "a row must lie within 1e15 m of the origin, and within 1e15 s of t = 0");
     if (!path.empty() && !(v[0] - path.back().t >= kMinStep_s))
       throw Error(where() + "t must grow from row to row, by 1e-15 s at least");

@@ -8,6 +8,9 @@
 
 namespace hl {
 
+/// Shorter steps of time are none to the arithmetic of viscosity, longer times have none left.
+inline constexpr double kMinStep_s = 1e-15, kLastTime_s = 1e15;
+
 struct PathSample {
   double t = 0;  ///< s, strictly increasing, by 1e-15 at least
   Vec3 position = Vec3::Zero();

@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 #include <hl/hl_batch.h>
 
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <thread>
 #include <vector>
 
+#include "batch/ends_early.h"
 #include "geometry/scenes.h"
 #include "io/load_scene.h"
 #include "tools/trace.h"
@@ -174,6 +176,37 @@ TEST(Batch, ClosestPointsAreThoseOfAllPrimitives) {
   }
 }
 
+TEST(Batch, APrimitiveIsTheRowOfItsTriangleWhateverWasLeftOut) {
+  const double corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 0, 0, 6, 0, 0, 5, 1, 0};
+  const HLuint triangles[] = {0, 0, 1, 0, 1, 2, 3, 3, 3, 3, 4, 5};
+  const Scene scene(hlBatchMakeScene(corners, nullptr, 6, triangles, 4), &hlBatchDeleteScene);
+  ASSERT_EQ(hlBatchScenePrimitives(scene.get()), 2U);
+  const double points[] = {0.1, 0.1, 1, 5.1, 0.1, 1};
+  uint64_t primitive[2] = {};
+  ASSERT_EQ(hlBatchClosest(scene.get(), 2, points, 0, nullptr, nullptr, nullptr, primitive), HL_NO_ERROR);
+  EXPECT_EQ(primitive[0], 1U);
+  EXPECT_EQ(primitive[1], 3U);
+}
+
+TEST(Batch, ACallThatIsToldToEndsEarlyWithAnError) {
+  const Scene scene = load("teapot");
+  const std::vector<double> points(3000);
+  std::vector<double> distance(1000);
+  std::atomic<bool> stop = false;
+  const auto closest = [&](HLint threads) {
+    return hlBatchClosest(scene.get(), 1000, points.data(), threads, nullptr, distance.data(), nullptr, nullptr);
+  };
+  {
+    const EndsEarly ends_early(stop);
+    EXPECT_EQ(closest(1), HL_NO_ERROR);
+    stop = true;
+    EXPECT_EQ(closest(1), HL_INVALID_VALUE);
+    EXPECT_STREQ(hlBatchError(), "hlBatchClosest: the call was ended early");
+    EXPECT_EQ(closest(0), HL_INVALID_VALUE);
+  }
+  EXPECT_EQ(closest(1'000'000), HL_NO_ERROR) << "and with as many threads as there are";
+}
+
 TEST(Batch, AFingerBeginsAnewAfterAReset) {
   const double wall[] = {0, -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1};
   const HLuint triangles[] = {0, 1, 2, 0, 2, 3};
@@ -238,7 +271,7 @@ TEST(Batch, BadInputIsRefusedWithALine) {
   const double falling[] = {0, 0, 0, 0, 0, 0, 0, 0};
   const std::size_t end = 2;
   EXPECT_EQ(hlBatchTrace(scene.get(), &settings, 1, &end, falling, 0, &at), HL_INVALID_VALUE);
-  EXPECT_EQ(std::string(hlBatchError()), "hlBatchTrace: the times of a path must rise");
+  EXPECT_EQ(std::string(hlBatchError()), "hlBatchTrace: the times of a path must rise, by 1e-15 s at least");
   hlBatchDeleteScene(nullptr);
   hlBatchDeleteFingers(nullptr);
   hlBatchResetFingers(nullptr, nullptr);

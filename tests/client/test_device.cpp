@@ -286,6 +286,27 @@ TEST_F(CallsTest, KindsWithoutACallbackAreDropped) {
   hlEventFunc(HL_PROXY_RADIUS, Heard::note, &heard), expectError(HL_INVALID_ENUM);
 }
 
+TEST_F(CallsTest, AMotionIsAnEventWhenTheHandHasGoneAMillimetre) {
+  const auto fingerAt = [&](double x) {
+    proto::ClientState& state = *server->replies.emplace_back().mutable_state();
+    state.set_time_s(x);
+    state.mutable_finger()->set_x(x);
+    state.mutable_proxy()->set_x(x + 1);
+    state.mutable_workspace()->set_world_per_device(10);
+  };
+  Heard heard;
+  fingerAt(0);
+  EXPECT_EQ(hlPoll(), 0);
+  hlEventFunc(HL_EVENT_MOTION, Heard::note, &heard);
+  for (const double x : {1.0, 1.004, 1.008, 1.012, 1.02, 1.023}) fingerAt(x);
+  EXPECT_EQ(hlPoll(), 2);
+  ASSERT_EQ(heard.events.size(), 2U);
+  EXPECT_EQ(heard.events[0].kind, HL_EVENT_MOTION);
+  EXPECT_EQ(heard.events[0].time, 1.012);
+  EXPECT_EQ(heard.events[0].position[0], 2.012);
+  EXPECT_EQ(heard.events[1].time, 1.023);
+}
+
 TEST_F(CallsTest, OfEventsThatNobodyPollsTheLastAreKept) {
   Heard heard;
   hlEventFunc(HL_EVENT_TOUCH, Heard::note, &heard);

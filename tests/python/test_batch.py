@@ -6,7 +6,9 @@ import os
 import pickle
 import re
 import resource
+import signal
 import subprocess
+import sys
 import tempfile
 import threading
 import time
@@ -54,6 +56,24 @@ class ClosedForms(unittest.TestCase):
         np.testing.assert_allclose(nearest.point, [[0.01, 0, 0.02], [0.1, 0, 0]], atol=1e-15)
         np.testing.assert_allclose(nearest.distance, [0.05, np.hypot(0.2, 0.1)])
         np.testing.assert_allclose(nearest.normal[0], [0, 1, 0], atol=1e-12)
+
+    def test_a_primitive_is_the_row_of_its_triangle_whatever_was_left_out(self):
+        vertices, triangles = SQUARE
+        rows = np.array([[0, 0, 1], triangles[0], [2, 2, 2], triangles[1]])
+        found = hl.closest(hl.Scene(vertices, rows), [[0.05, 0.01, -0.05], [-0.05, 0.01, 0.05]])
+        self.assertEqual(found.primitive.tolist(), [1, 3])
+
+    def test_arrays_of_every_layout_and_type_are_the_same_points(self):
+        scene = hl.Scene("teapot", size=0.1)
+        points = np.random.default_rng(1).normal(0, 0.05, (64, 3)).astype(np.float32)
+        wide = np.zeros((128, 6), dtype=np.float32)
+        wide[::2, ::2] = points
+        unaligned = np.frombuffer(b"x" + points.tobytes(), dtype=np.uint8)[1:].view(np.float32).reshape(-1, 3)
+        expected = hl.closest(scene, points)
+        for same in (wide[::2, ::2], np.asfortranarray(points), points[::-1].copy()[::-1], points.astype(">f8"),
+                     unaligned, points.astype(object), points.astype(np.longdouble), points.tolist()):
+            for one, other in zip(hl.closest(scene, same), expected):
+                np.testing.assert_array_equal(one, other)
 
     def test_bounds_and_count(self):
         scene = hl.Scene("teapot", size=0.1)
@@ -139,7 +159,7 @@ class Errors(unittest.TestCase):
             ("must not be negative", lambda: fingers.step(np.zeros((2, 3)), threads=-1)),
             ("must rise", lambda: hl.trace(scene, [[0, 0, 0, 0], [0, 0, 0, 0]])),
             ("(n, 4)", lambda: hl.trace(scene, np.zeros((3, 3)))),
-            ("above zero", lambda: hl.Fingers(scene, 1, hl.Settings(radius=0))),
+            ("1e-12 to 1e9", lambda: hl.Fingers(scene, 1, hl.Settings(radius=0))),
             ("out of its range", lambda: hl.Fingers(scene, 1, hl.Settings(stiffness=1.5))),
             ("shape (n, 3)", lambda: hl.closest(scene, [0, 0, 0])),
             ("must be numbers", lambda: hl.closest(scene, "abc")),
@@ -147,6 +167,33 @@ class Errors(unittest.TestCase):
             ("must be numbers", lambda: hl.Scene([["a", "b", "c"]], [[0, 0, 0]])),
             ("must be an hl.Scene", lambda: hl.Fingers(fingers, 2)),
             ("not be negative", lambda: hl.Fingers(scene, -1)),
+            ("count must be a whole number, and is 1.5", lambda: hl.Fingers(scene, 1.5)),
+            ("count must be", lambda: hl.Fingers(scene, 2**70)),
+            ("threads must be a whole number, and is None", lambda: fingers.step(np.zeros((2, 3)), threads=None)),
+            ("threads must be a whole number", lambda: hl.closest(scene, np.zeros((2, 3)), threads=1.5)),
+            ("settings must be an hl.Settings, and is float", lambda: hl.trace(scene, np.zeros((1, 4)), 0.001)),
+            ("settings must be an hl.Settings, and is dict", lambda: hl.Fingers(scene, 1, {})),
+            ("radius must be a number, and is 'a'", lambda: hl.Fingers(scene, 1, hl.Settings(radius="a"))),
+            ("viscosity must be a number", lambda: hl.Fingers(scene, 1, hl.Settings(viscosity="a"))),
+            ("smooth must be", lambda: hl.Fingers(scene, 1, hl.Settings(smooth="yes"))),
+            ("HL_STATIC_FRICTION is out of its range, 0 to 10",
+             lambda: hl.Fingers(scene, 1, hl.Settings(static_friction=11))),
+            ("1e-9 to 1e9", lambda: hl.Fingers(scene, 1, hl.Settings(spring=1e30))),
+            ("1e-15 to 1e15", lambda: hl.Fingers(scene, 1, hl.Settings(period=1e-300))),
+            ("within 1e15", lambda: fingers.step(np.full((2, 3), 1e16))),
+            ("within 1e15", lambda: hl.closest(scene, [[1e160, 0, 0]])),
+            ("within 1e15", lambda: hl.trace(scene, [[0, 1e300, 0, 0]])),
+            ("must rise, by 1e-15 s", lambda: hl.trace(scene, [[0, 0, 0, 0], [1e-300, 0, 0, 0]])),
+            ("beyond 1e9 m", lambda: hl.Scene(SQUARE[0] * 1e20, SQUARE[1])),
+            ("must be numbers, and are complex128", lambda: hl.closest(scene, np.zeros((2, 3), complex))),
+            ("must be numbers, and are datetime64", lambda: hl.closest(scene, np.zeros((2, 3), "M8[s]"))),
+            ("mask must be booleans, and are int64", lambda: fingers.reset([0, 1])),
+            ("must be integers", lambda: hl.Scene(SQUARE[0], [[0, 1, 2], [0, 1]])),
+            ("size must be a number", lambda: hl.Scene("teapot", size="big")),
+            ("hl.Scene('teapot', size=0.1)", lambda: hl.Scene("teapot", 0.1)),
+            ("a zero in it", lambda: hl.Scene("teapot\0")),
+            ("no such file", lambda: hl.Scene(b"\xff.obj")),
+            ("of a file, or of vertices", hl.Scene),
             ("not enough memory", lambda: hl.Fingers(scene, 10**15)),
         ]
         for text, call in wrong:
@@ -156,6 +203,7 @@ class Errors(unittest.TestCase):
             self.assertNotIn("\n", str(raised.exception))
             self.assertIsInstance(raised.exception, ValueError)
         fingers.step(np.zeros((2, 3)))
+        self.assertEqual(hl.Scene(vertices=SQUARE[0], triangles=SQUARE[1]).primitives, 2)
 
     def test_settings_have_every_quantity_of_a_surface(self):
         table = (Path(os.environ["HL_SOURCE"]) / "src/base/quantities.def").read_text(encoding="utf-8")
@@ -209,6 +257,13 @@ class Threads(unittest.TestCase):
             thread.join()
         self.assertEqual(failed, [])
 
+    def test_more_threads_than_the_machine_has_are_as_all(self):
+        scene = hl.Scene("teapot", size=0.1)
+        points = random_walks(scene, 1, 500, 6)[0]
+        expected = hl.closest(scene, points, threads=1).distance.tobytes()
+        for threads in (1000, 10**6, 2**70):
+            self.assertEqual(hl.closest(scene, points, threads=threads).distance.tobytes(), expected)
+
     def test_a_file_is_read_after_threads_have_been_used(self):
         hl.closest(hl.Scene("teapot"), np.zeros((1000, 3)))
         with tempfile.TemporaryDirectory() as folder:
@@ -217,7 +272,78 @@ class Threads(unittest.TestCase):
             self.assertEqual(hl.Scene(file).primitives, 1)
 
 
+class Interrupted(Exception):
+    pass
+
+
+class Signals(unittest.TestCase):
+    """A signal that is heard only when a call has ended runs its handler once, however often it came meanwhile."""
+
+    def interrupt_when_heard_thrice(self, call):
+        heard = []
+
+        def hear(_number, _frame):
+            heard.append(1)
+            if len(heard) == 3:
+                raise Interrupted
+
+        before = signal.signal(signal.SIGALRM, hear)
+        signal.setitimer(signal.ITIMER_REAL, 0.01, 0.01)
+        try:
+            call()
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, before)
+
+    def test_they_end_long_calls_and_leave_nothing_behind(self):
+        scene = hl.Scene("rough:20000", size=0.1)
+        walk = random_walks(scene, 1, 600000, 7)[0] % 0.1 - 0.05
+        path = np.column_stack([np.arange(len(walk)) * 1e-3, walk])
+        expected = hl.trace(scene, path[:2000])
+        for call in (lambda: hl.trace(scene, path), lambda: hl.trace(scene, [path, path], threads=1),
+                     lambda: hl.closest(scene, walk)):
+            with self.assertRaises(Interrupted):
+                self.interrupt_when_heard_thrice(call)
+        self.assertEqual(hl.trace(scene, path[:2000]).force.tobytes(), expected.force.tobytes())
+
+
+    def test_daemon_threads_that_compute_when_the_program_ends_do_no_harm(self):
+        program = """if True:
+            import sys, threading, time
+            import hl, numpy as np
+            scene = hl.Scene("teapot", size=0.1)
+            points = np.random.default_rng(0).uniform(-0.1, 0.1, (int(sys.argv[1]), 3))
+            def compute():
+                while True:
+                    hl.closest(scene, points, threads=1)
+            for _ in range(3):
+                threading.Thread(target=compute, daemon=True).start()
+            time.sleep(0.2)"""
+        for count in (20, 200, 300, 100000):
+            done = subprocess.run([sys.executable, "-c", program, str(count)], check=False)
+            self.assertEqual(done.returncode, 0)
+
+
 class OtherProcesses(unittest.TestCase):
+    def test_fingers_are_not_copied_by_chance(self):
+        fingers = hl.Fingers(hl.Scene(*SQUARE), 1)
+        for copied in (copy.copy, copy.deepcopy, pickle.dumps):
+            with self.assertRaisesRegex(TypeError, "make others"):
+                copied(fingers)
+
+    def test_a_subinterpreter_is_refused(self):
+        program = """if True:
+            import _xxsubinterpreters as interpreters
+            try:
+                interpreters.run_string(interpreters.create(), "import hl")
+            except interpreters.RunFailedError as error:
+                print(error)
+            import hl
+            print(hl.Scene("teapot").primitives > 0)"""
+        said = subprocess.run([sys.executable, "-c", program], check=True, stdout=subprocess.PIPE, text=True).stdout
+        self.assertIn("does not run in a subinterpreter", said)
+        self.assertIn("True", said)
+
     def test_a_scene_of_a_name_is_made_anew_there(self):
         scene = hl.Scene("teapot", size=0.1)
         again = pickle.loads(pickle.dumps(scene))

@@ -1,5 +1,6 @@
 """hl.connect: frames, what is felt, events, errors; against a server in the process and one beside it."""
 import asyncio
+import gc
 import json
 import os
 import re
@@ -8,6 +9,7 @@ import subprocess
 import threading
 import time
 import unittest
+import weakref
 from pathlib import Path
 
 import numpy as np
@@ -60,6 +62,13 @@ class Touching(unittest.TestCase):
         wait_for("an event", lambda: self.touch.poll() and events)
         self.assertEqual((events[0][0], events[0][2]), (7, threading.get_ident()))
         self.touch.on("touch", None)
+
+    def test_a_hand_that_moves_on_is_an_event(self):
+        events = []
+        self.touch.on("motion", events.append)
+        self.touch.hand_goal([0.03, 0, 0])
+        wait_for("a motion", lambda: self.touch.poll() and events)
+        self.assertEqual(events[0].kind, hl.calls.HL_EVENT_MOTION)
 
     def test_what_a_callback_raises_comes_out_of_poll(self):
         def fail(event):
@@ -142,6 +151,22 @@ class Touching(unittest.TestCase):
             (hl.InvalidValueError, "three numbers", lambda: self.touch.hand_goal([1, 2])),
             (hl.InvalidValueError, "no event", lambda: self.touch.on("tuch", print)),
             (hl.InvalidValueError, "", lambda: self.touch.hand_goal([np.nan, 0, 0])),
+            (hl.InvalidValueError, "must be numbers", lambda: self.touch.hand_goal("abc")),
+            (hl.InvalidValueError, "radius must be a number, and is 'a'", lambda: self.touch.proxy_radius("a")),
+            (hl.InvalidValueError, "stiffness must be a number", lambda: self.touch.material(stiffness="x")),
+            (hl.InvalidValueError, "a name must be a whole number", lambda: self.touch.name("box").__enter__()),
+            (hl.InvalidValueError, "a name must not be negative", lambda: self.touch.name(-1).__enter__()),
+            (hl.InvalidValueError, "the object's number must be", lambda: self.touch.place("x")),
+            (hl.InvalidValueError, "a pose must be numbers", lambda: self.touch.place(1, "pose")),
+            (hl.InvalidValueError, "vertices must be numbers", lambda: self.touch.draw([[0, 0, 0], [1]])),
+            (hl.InvalidValueError, "indices must be integers", lambda: self.touch.draw(FLOOR[0], [[0, 1], [2]])),
+            (hl.InvalidValueError, "shape (n, 3)", lambda: self.touch.draw(None, [[0]])),
+            (hl.InvalidValueError, "mode must be", lambda: self.touch.draw(FLOOR[0], mode="triangles")),
+            (hl.InvalidValueError, "uint8, or floats", lambda: self.touch.make_texture([[0, 255]])),
+            (hl.InvalidValueError, "floats must be 0..1", lambda: self.touch.make_texture([[0.0, 255.0]])),
+            (hl.InvalidValueError, "can be called", lambda: self.touch.on("touch", 3)),
+            (hl.InvalidValueError, "no shading", lambda: self.touch.shade(["flat"])),
+            (hl.InvalidValueError, "a query must be", lambda: self.touch.get("HL_FORCE")),
             (hl.InvalidOperationError, "", lambda: hl.calls.hlPopMatrix()),
             (hl.InvalidOperationError, "", lambda: hl.calls.hlEnd()),
         ]
@@ -153,6 +178,31 @@ class Touching(unittest.TestCase):
         with self.assertRaises(hl.InvalidOperationError):
             hl.calls.hlPushMatrix()
         hl.calls.hlEnd()
+
+    def test_a_frame_within_a_frame_is_refused(self):
+        with self.touch.frame():
+            self.touch.draw(*FLOOR)
+            with self.assertRaisesRegex(hl.InvalidOperationError, "within another"):
+                with self.touch.frame():
+                    pass
+        self.assertEqual(self.touch.get(hl.calls.HL_FRAME_PRIMITIVES), 2)
+
+    def test_what_keeps_its_touch_and_is_called_by_it_is_freed(self):
+        class Experiment:
+            def __init__(self):
+                self.touch = hl.connect(name="freed")
+                self.touch.on("touch", self.hear)
+
+            def hear(self, event):
+                pass
+
+        gone = weakref.ref(Experiment())
+        gc.collect()
+        self.assertIsNone(gone())
+
+    def test_states_may_be_compared(self):
+        state = self.touch.state()
+        self.assertTrue(state == state and state != self.touch.state())
 
     def test_closed_is_closed(self):
         self.touch.close()
@@ -212,6 +262,37 @@ class AServerBesideIt(unittest.TestCase):
                 server.wait()
                 with self.assertRaises(hl.ConnectionLostError):
                     wait_for("the end", touch.poll)
+                for call in (touch.state, touch.poll, touch.samples, touch.frame().__enter__, hl.calls.hlFinish,
+                             lambda: touch.hand_goal([0, 0, 0])):
+                    with self.assertRaises(hl.ConnectionLostError):
+                        call()  # not once alone
+                with self.assertRaises(hl.ConnectionLostError):
+                    asyncio.run(touch.states().__anext__())
+
+    def test_a_signal_is_heard_while_a_frame_waits_for_a_server_that_is_stuck(self):
+        class Heard(Exception):
+            pass
+
+        def hear(_number, _frame):
+            raise Heard
+
+        server = subprocess.Popen([HLD, "--port", "0", "--log-format", "json"], stderr=subprocess.PIPE, text=True)
+        before = signal.signal(signal.SIGALRM, hear)
+        try:
+            address = next(json.loads(line) for line in server.stderr if '"ready"' in line)["address"]
+            with hl.connect("hl://" + address.split("//")[1].rstrip("/")) as touch:
+                server.send_signal(signal.SIGSTOP)
+                signal.setitimer(signal.ITIMER_REAL, 0.1)
+                with self.assertRaises(Heard), touch.frame():
+                    touch.draw(*FLOOR)
+                server.send_signal(signal.SIGCONT)
+                with touch.frame():
+                    touch.draw(*FLOOR)
+                self.assertEqual(touch.get(hl.calls.HL_FRAME_PRIMITIVES), 2)
+        finally:
+            signal.signal(signal.SIGALRM, before)
+            server.kill()
+            server.communicate()
 
     def test_nobody_there_is_told(self):
         with self.assertRaisesRegex(hl.ConnectError, "refused the connection"):

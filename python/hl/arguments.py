@@ -1,0 +1,94 @@
+"""What users give: taken as C++ wants it, or refused by an InvalidValueError, whose line says what to give."""
+
+import operator
+import os
+from typing import Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from .errors import InvalidValueError
+
+Floats = npt.NDArray[np.float64]
+
+_MOST_THREADS = 2**20  # more than any machine has; hl uses no more than the machine's
+
+
+def number(value: Any, name: str) -> float:
+    """A text is none, although float() would read it."""
+    try:
+        if not isinstance(value, (str, bytes, bytearray)):
+            return float(value)
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise InvalidValueError(f"{name} must be a number, and is {_shown(value)}")
+
+
+def whole(value: Any, name: str, least: int = 0, most: int = 2**32 - 1) -> int:
+    try:
+        result = operator.index(value)
+    except TypeError:
+        raise InvalidValueError(f"{name} must be a whole number, and is {_shown(value)}") from None
+    if result < least:
+        least_told = "not be negative" if least == 0 else f"be {least} or more"
+        raise InvalidValueError(f"{name} must {least_told}, and is {result}")
+    if result > most:
+        raise InvalidValueError(f"{name} must be {most} or less, and is {result}")
+    return result
+
+
+def threads(value: Any) -> int:
+    return min(whole(value, "threads", most=2**1000), _MOST_THREADS)
+
+
+def floats(numbers: Any, name: str) -> Floats:
+    try:
+        array = np.asarray(numbers)
+        if array.dtype.kind in "fiubO":
+            return np.asarray(array, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise InvalidValueError(f"{name} must be numbers: {error}") from None
+    raise InvalidValueError(f"{name} must be numbers, and are {array.dtype}")
+
+
+def dimensions(numbers: Any) -> int:
+    """Of nested lists whose lengths differ: 2, so that they are refused as an array."""
+    try:
+        return int(np.ndim(numbers))
+    except ValueError:
+        return 2
+
+
+def integers(numbers: Any, name: str) -> npt.NDArray[Any]:
+    """Of any shape; an empty one of any type."""
+    try:
+        array = np.asarray(numbers)
+    except ValueError as error:
+        raise InvalidValueError(f"{name} must be integers: {error}") from None
+    if array.size > 0 and not np.issubdtype(array.dtype, np.integer):
+        raise InvalidValueError(f"{name} must be integers, and are {array.dtype}")
+    return array
+
+
+def booleans(values: Any, name: str) -> npt.NDArray[np.bool_]:
+    """Numbers are refused: a list of indices would be taken for a mask."""
+    try:
+        array = np.asarray(values)
+    except ValueError as error:
+        raise InvalidValueError(f"{name} must be booleans: {error}") from None
+    if array.size > 0 and array.dtype != np.bool_:
+        raise InvalidValueError(f"{name} must be booleans, and are {array.dtype}")
+    return array.astype(np.bool_)
+
+
+def path(source: Union[str, bytes, "os.PathLike[Any]"]) -> bytes:
+    """The name of a file as the system has it, which need not be Unicode."""
+    name = os.fsencode(source)
+    if b"\0" in name:
+        raise InvalidValueError("a name must not have a zero in it")
+    return name
+
+
+def _shown(value: Any) -> str:
+    text = repr(value) if isinstance(value, (int, float, str, bytes, type(None))) else type(value).__name__
+    return text if len(text) <= 60 else text[:57] + "..."
