@@ -9,8 +9,8 @@ export interface FileOpener {
   /** In one line why it opens nothing now; undefined: it does. */
   refusal(): string | undefined;
   /**
-   * Opens a file. `tell` shows a line while it goes on. Resolves with the line that says what is open now; rejects with an
-   * Error whose message is one line for the user, and then what was open before still is.
+   * Opens a file. `tell` shows a line while it goes on. Resolves with the line that says what is open now, or "" where that
+   * is plain to see; rejects with an Error whose message is one line for the user, and then what was open before still is.
    */
   open(file: File, tell: (line: string) => void): Promise<string>;
 }
@@ -91,7 +91,10 @@ export class FileDrop {
     }
     this.busy_ = true;
     try {
-      this.lines_.tell(await opener.open(file, (line) => this.lines_.stand(kCause, line, "plain")), false);
+      const opened = await opener.open(file, (line) => this.lines_.stand(kCause, line, "plain"));
+      if (opened !== "") {
+        this.lines_.tell(opened, false);
+      }
     } catch (error) {
       this.lines_.tell(error instanceof Error ? error.message : String(error), true);
     } finally {
