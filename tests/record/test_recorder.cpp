@@ -398,6 +398,34 @@ TEST_F(PageRecording, BegunInTheMiddleOfASessionItIsReplayedBitForBit) {
   }
 }
 
+TEST_F(PageRecording, AMemoryOfTheProxyThatNoSessionHasIsRefused) {
+  Loops loops(forPages());
+  loops.run(300);
+  begin(loops);
+  loops.run(300);
+  const FilePointer file = end();
+  const std::string changed = (folder.path() / "b.hlr").string();
+  const auto taken = [&](const std::function<void(proto::RecordedProxy&)>& change_it) {
+    rewrite(pathOf(file), changed, [&](proto::RecordingBlock& block) {
+      if (block.has_proxy()) change_it(*block.mutable_proxy());
+    });
+    replay(changed);
+  };
+  int numbers = 0;
+  EXPECT_NO_THROW(taken([&](auto& proxy) { numbers = proxy.memory().numbers_size(); }));
+  EXPECT_GT(numbers, 20);
+  for (int i = 0; i < numbers; ++i) {
+    for (const double wrong : {std::nan(""), HUGE_VAL})
+      EXPECT_THROW(taken([&](auto& proxy) { proxy.mutable_memory()->set_numbers(i, wrong); }), Error) << i;
+  }
+  EXPECT_THROW(taken([](auto& proxy) { proxy.mutable_memory()->add_numbers(0); }), Error);
+  EXPECT_THROW(taken([](auto& proxy) { proxy.add_adhering(1); }), Error);
+  EXPECT_THROW(taken([](auto& proxy) {
+                 for (const double number : {0.5, 0.0, 0.0, 1.0}) proxy.add_adhering(number);
+               }),
+               Error);
+}
+
 TEST_F(PageRecording, IsOneAtATimeAndForItsPageAlone) {
   Loops loops(forPages());
   loops.run(100);
@@ -445,7 +473,11 @@ TEST_F(PageRecording, OfASceneThatCannotBeRecordedSaysSo) {
   ask(true);
   for (std::int64_t now_ns = kPeriod_ns; phase() == Phase::kStarting; now_ns += kPeriod_ns) {
     const TickRequest request{now_ns, Vec3(0, 0.2, 0), {}, {}};
-    recorder.tick(request, proxy.step(now_ns, request.finger_D, request.commands, request.spring), proxy, 0);
+    const ProxyStep step = proxy.step(now_ns, request.finger_D, request.commands, request.spring);
+    {
+      const RealtimeGuard guard;  // also in the tick whose memory the recorder wants
+      recorder.tick(request, step, proxy, 0);
+    }
     std::this_thread::sleep_for(std::chrono::microseconds(100));
   }
   EXPECT_EQ(phase(), Phase::kNone);
