@@ -152,17 +152,16 @@ void Recorder::run() {
 // What it could not do for want of memory it does the next time.
 void Recorder::drain(bool all) {
   watchFaults(all);
-  if (settings_.pages && settings_.file.empty()) followPages();
-  if (!file_) return forgetOldScenes();
+  const bool for_pages = settings_.pages && settings_.file.empty();
   try {
-    writeFile(all);
+    if (for_pages) followPages();
+    if (file_) writeFile(all);
   } catch (const Error& error) {
     file_.reset();
-    if (std::exchange(written_.page, 0) != 0)
-      settings_.pages->refuse(error.what());
-    else
-      tell(fmt::format("the recording ends: {}", error.what()));
+    written_.page = 0;
+    for_pages ? settings_.pages->refuse(error.what()) : tell(fmt::format("the recording ends: {}", error.what()));
   }
+  if (!file_) forgetOldScenes();
 }
 
 void Recorder::writeFile(bool all) {
@@ -223,28 +222,18 @@ void Recorder::followPages() {
   const auto wanted = settings_.pages->wanted(monotonicNow_ns());
   if (written_.page != 0 && wanted != written_.page) return endForPage();
   if (written_.page != 0) return;
-  if (!wanted) {
-    if (settings_.pages->status().phase == PageRecordingStatus::Phase::kStarting) settings_.pages->drop();
-    capture_.wanted_ns = 0;
-    return;
-  }
-  try {
-    beginForPage();
-  } catch (const Error& error) {
-    file_.reset();
-    written_.page = 0;
-    settings_.pages->refuse(error.what());
-  }
+  if (wanted) return beginForPage(*wanted);
+  if (settings_.pages->status().phase == PageRecordingStatus::Phase::kStarting) settings_.pages->drop();
+  capture_.wanted_ns = 0;
 }
 
-void Recorder::beginForPage() {
+void Recorder::beginForPage(std::uint32_t page) {
   const std::int64_t now_ns = monotonicNow_ns();
   if (capture_.wanted_ns == 0) {
     capture_.wanted_ns = now_ns;
     capture_.phase.store(Capture::kWanted, std::memory_order_release);
   } else if (captured(now_ns)) {
-    written_.page = settings_.pages->status().owner;
-    openForPage();
+    openForPage(page);
   }
 }
 
@@ -252,7 +241,7 @@ void Recorder::beginForPage() {
 bool Recorder::captured(std::int64_t now_ns) {
   constexpr double kMaxWait_s = 2;
   if (1e-9 * static_cast<double>(now_ns - capture_.wanted_ns) > kMaxWait_s)
-    throw Error("nothing moves the proxy now, or the scene changes all the time: try again later");
+    throw Error("the loops make no ticks now, or the scene changes all the time: try again later");
   TickRecord next;
   if (capture_.phase.load(std::memory_order_acquire) != Capture::kTaken || ticks_.pushed() == capture_.next_tick)
     return false;
@@ -262,21 +251,23 @@ bool Recorder::captured(std::int64_t now_ns) {
   return false;
 }
 
-void Recorder::openForPage() {
+void Recorder::openForPage(std::uint32_t page) {
   // Each primitive takes a few indices, and a share of the vertices: no fewer bytes than this.
   constexpr std::uint64_t kLeast_bytes = 8;
+  capture_.wanted_ns = 0;
   if (scenes_.next()->primitives * kLeast_bytes > PageRecordings::kMaxBytes)
     throw Error("the scene is too large for a recording by the page: use hl record");
-  capture_.wanted_ns = 0;
   scene_writer_ = SceneWriter();
   begin_ = {unixNow_ms(), monotonicNow_ns()};
   written_.first_tick = written_.ticks = capture_.next_tick;
   written_.first_step = written_.steps = steps_.pushed();
-  file_ = std::make_unique<RecordingWriter>(makePrivateFile(), "the recording");
-  file_->write(startBlock(FaultReason::kNone));
+  auto file = std::make_unique<RecordingWriter>(makePrivateFile(), "the recording");
+  file->write(startBlock(FaultReason::kNone));
   proto::RecordingBlock memory;
   toProto(capture_.memory, *memory.mutable_proxy());
-  file_->write(memory);
+  file->write(memory);
+  file_ = std::move(file);
+  written_.page = page;
   writeScenes();
   tellPages();
 }

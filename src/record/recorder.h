@@ -63,7 +63,7 @@ class Recorder final : public StepSink {
     std::uint64_t steps = 0, ticks = 0;            // numbers of the next
     std::uint64_t first_step = 0, first_tick = 0;  // of the file
     std::uint64_t fault = 0;                       // the last
-    std::uint32_t page = 0;                        // whose recording the file is; 0: no page\'s
+    std::uint32_t page = 0;                        // whose recording the file is; 0: no page's
   };
   /// What the proxy remembered after a tick, taken by the loop that made it, when the recorder's thread wants it.
   struct Capture {
@@ -82,9 +82,9 @@ class Recorder final : public StepSink {
   void writeSteps(bool all);
   void endRecording(const std::string& reason);
   void followPages();
-  void beginForPage();
+  void beginForPage(std::uint32_t page);
   bool captured(std::int64_t now_ns);
-  void openForPage();
+  void openForPage(std::uint32_t page);
   void endForPage();
   void tellPages();
   void forgetOldScenes();
