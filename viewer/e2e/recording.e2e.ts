@@ -1,5 +1,5 @@
-// Recordings on the page, against the real `hl`: recorded by a button, run again by hl replay, shown on the timeline; and the
-// scene saved as a file that hl trace feels. HL_BIN names the program; without it these tests are skipped.
+// Recordings on the page, against the real `hl`: recorded by a button, run again by hl replay, shown on the timeline;
+// and the scene saved as a file that hl trace feels. HL_BIN names the program; without it these tests are skipped.
 
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -44,7 +44,11 @@ describe.skipIf(!kProgram)("recordings and scene files", () => {
   const recordOf = (target: Page) => target.evaluate(() => document.getElementById("record")!.click());
   const told = (target: Page) => target.textContent("#record-told");
   const shown = (target: Page) => target.evaluate(() => window.__hl.recording);
-  const choose = (file: string | { name: string; mimeType: string; buffer: Buffer }) => page.setInputFiles("#file", file);
+  const frames = (count: number) => page.evaluate(async (wanted) => {
+    for (let i = 0; i < wanted; ++i) await new Promise((resolve) => requestAnimationFrame(resolve));
+  }, count);
+  type Given = Parameters<Page["setInputFiles"]>[1];
+  const choose = (file: Given) => page.setInputFiles("#file", file);
 
   test("records the session, tells other pages, and hl replay runs the file again bit for bit", async () => {
     const other = await context.newPage();
@@ -85,6 +89,16 @@ describe.skipIf(!kProgram)("recordings and scene files", () => {
 
   test("shows a recording on the timeline, and goes back to the live session", async () => {
     const proxy = () => page.evaluate(() => window.__hl.proxy);
+    const eye = () => page.evaluate(() => [0, 0.05].map((y) => window.__hl.project({ x: 0.01, y, z: 0.02 })));
+    await page.mouse.move(600, 560);
+    await page.mouse.down({ button: "right" });
+    await page.mouse.move(660, 540, { steps: 4 });
+    await page.mouse.up({ button: "right" });
+    let turned = await eye();
+    for (let last: typeof turned = []; JSON.stringify(last) !== JSON.stringify(turned); ) {
+      await frames(10);
+      [last, turned] = [turned, await eye()];
+    }
     await choose(recordingFile);
     await page.waitForSelector("#timeline:visible");
     const { length_s } = (await shown(page))!;
@@ -93,7 +107,7 @@ describe.skipIf(!kProgram)("recordings and scene files", () => {
     await page.waitForFunction(() => window.__hl.triangles > 0 && window.__hl.proxy !== undefined);
     await expect.poll(() => modelPixels(page)).toBeGreaterThan(0.02);
     const still = await proxy();
-    await page.waitForTimeout(200);
+    await frames(10);
     expect(await proxy()).toEqual(still);
     // The slider has the focus: keys move it, and it says where it is.
     const slider = page.getByRole("slider", { name: "Time in the recording" });
@@ -120,6 +134,10 @@ describe.skipIf(!kProgram)("recordings and scene files", () => {
     await states(page, 5);
     expect(await page.evaluate(() => [window.__hl.link, window.__hl.triangles > 0, window.__hl.sceneName]))
       .toEqual(["live", true, "teapot"]);
+    (await eye()).forEach(({ x, y }, i) => {
+      expect(Math.hypot(x - turned[i]!.x, y - turned[i]!.y)).toBeLessThan(1);
+    });
+    await page.keyboard.press("r");
   });
 
   test("while a recording is shown the hand is not driven, and the live scene goes on", async () => {
@@ -220,8 +238,9 @@ describe.skipIf(!kProgram)("recordings and scene files", () => {
       const first = head!.split(",").indexOf("force_x");
       return lines.map((line) => line.split(",").slice(first, first + 3).map(Number));
     };
-    const surfaces = ["--stiffness", "0.5", "--static-friction", "0.6", "--dynamic-friction", "0.4", "--shade", "smooth"];
-    const [ours, theirs] = [traced(file, "--shade", "smooth"), traced("teapot", ...surfaces)];
+    const surfaces = ["--stiffness", "0.5", "--static-friction", "0.6", "--dynamic-friction", "0.4"];
+    const theirs = traced("teapot", ...surfaces, "--shade", "smooth");
+    const ours = traced(file, "--shade", "smooth");
     expect(Math.max(...theirs.flat().map(Math.abs))).toBeGreaterThan(0.5);
     // A float has 24 bits: of coordinates of 0.1 m, 6e-9 m, and at 1000 N/m 6e-6 N.
     const apart = ours.map((force, i) => Math.hypot(...force.map((value, k) => value - theirs[i]![k]!)));

@@ -104,6 +104,8 @@ class App {
   private readonly timeline_: Timeline;
   /** The live scene, while a recording is shown. */
   private held_: SceneHold | undefined;
+  /** From where the user had turned the view to it. */
+  private eye_: Stage["eye"] | undefined;
   private readonly connection_: Connection;
   private state_: State | undefined;
   private serverVersion_: string | undefined;
@@ -200,6 +202,7 @@ class App {
   /** What the server goes on telling of its scene is kept; nothing is sent to it that changes anything. */
   private leaveLive(): void {
     this.held_ = new SceneHold(this.live_.store);
+    this.eye_ = this.stage_.isTurned ? this.stage_.eye : undefined;
     this.hand_.cancel();
     this.hand_.movable = this.buttons_.enabled = false;
     this.sound_.silence();
@@ -215,6 +218,9 @@ class App {
     this.live_.clear(this.liveName_);
     this.hand_.movable = this.buttons_.enabled = this.simulatedHand_;
     messages.forEach((message) => this.receive(message));
+    if (this.eye_ !== undefined && messages[0]?.kind !== "hello") {
+      this.stage_.lookFrom(this.eye_.position, this.eye_.target);
+    }
   }
 
   /** While a recording is shown the session is not touched. */

@@ -1,5 +1,5 @@
-// The button that records the session on the server, and the line that tells of it. The recording of another page is told
-// too; there is one at a time.
+// The button that records the session on the server, and the line that tells of it. The recording of another page is
+// told too; there is one at a time.
 
 import { element, setText } from "./elements";
 import { PageRecording_Phase as Phase, type PageRecording } from "./gen/hl_pb";
@@ -12,7 +12,9 @@ export type SendRecord = (on: boolean, owner: number) => void;
 export class RecordPanel {
   private readonly clerk_: RecordingClerk;
 
-  constructor(send: SendRecord, private readonly sceneName_: () => string, private readonly tell_: (text: string) => void) {
+  constructor(
+    send: SendRecord, private readonly sceneName_: () => string, private readonly tell_: (text: string) => void,
+  ) {
     this.clerk_ = new RecordingClerk(send);
     element("record").addEventListener("click", () => this.clerk_.press(newOwner()));
   }

@@ -1,5 +1,5 @@
-// What the page asks of the server's recorder, and what is to be shown of the answers. A recording is asked for again and
-// again: a page that has gone asks no more, and its recording ends.
+// What the page asks of the server's recorder, and what is to be shown of the answers. A recording is asked for again
+// and again: a page that has gone asks no more, and its recording ends.
 
 import { PageRecording_Phase as Phase, type PageRecording } from "./gen/hl_pb";
 import { formatFixed, formatSi } from "./units";

@@ -1,5 +1,5 @@
-// The scene as a scene file (docs/scene-files.md): everything where it is now, with the materials that are felt now. The
-// geometry is in the file, so that it opens by itself.
+// The scene as a scene file (docs/scene-files.md): everything where it is now, with the materials that are felt now.
+// The geometry is in the file, so that it opens by itself.
 
 import { kPoseNumbers, type Mesh } from "./scene_messages";
 import type { SceneStore } from "./scene_store";
@@ -12,6 +12,8 @@ const kMaxObjects = 60_000;
 const kPiece = 20_000;
 /** A float's digits. */
 const kDigits = 9;
+
+const kNoTextures = "The file has no textures: the page does not know them. What they change is as without them.";
 
 /** Fields of a Material that are numbers. */
 const kNumbers = [
@@ -36,7 +38,7 @@ export async function sceneFile(store: SceneStore, over: SurfaceSettings): Promi
     parts.push(piece);
     bytes += piece.length;
     if (bytes > kMaxBytes) {
-      throw new Error("The scene is too large for a scene file, which has 64 MB at most: put its meshes into model files.");
+      throw new Error("The scene is too large for a scene file of 64 MB at most: put its meshes into model files.");
     }
     if (performance.now() - began_ms > kSlice_ms) {
       await new Promise((resolve) => setTimeout(resolve));
@@ -45,7 +47,7 @@ export async function sceneFile(store: SceneStore, over: SurfaceSettings): Promi
   }
   return {
     content: new Blob(parts, { type: "application/json" }),
-    lacking: textured ? "The file has no textures: the page does not know them. What they change is as without them." : undefined,
+    lacking: textured ? kNoTextures : undefined,
   };
 }
 
@@ -156,10 +158,12 @@ function* list(name: string, count: number, at: (index: number) => number): Gene
   yield "]";
 }
 
+type MaterialJson = Record<string, number | string>;
+
 /** As a Material of the schema. A quantity that only an image says is left out, which `textured` is told. */
-function materialOf(surface: SurfaceSettings, over: SurfaceSettings, textured: () => void): Record<string, number | string> {
+function materialOf(surface: SurfaceSettings, over: SurfaceSettings, textured: () => void): MaterialJson {
   const felt: SurfaceSettings = { ...surface, ...over };
-  const material: Record<string, number | string> = {};
+  const material: MaterialJson = {};
   for (const field of kNumbers) {
     const value = felt[field];
     if (value !== undefined) {

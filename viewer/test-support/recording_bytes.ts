@@ -38,7 +38,10 @@ export const kShape: BlockBody = {
 const kNoTextures = Array.from({ length: 8 }, () => 0xffffffffn);
 export const kSurfaces: BlockBody = {
   case: "surfaces",
-  value: { id: 1n, materials: [{ numbers: [0.5, 0.4, 0.3, 0, 0, 0, 2, ...Array(16).fill(0)], integers: [1n, ...kNoTextures] }] },
+  value: {
+    id: 1n,
+    materials: [{ numbers: [0.5, 0.4, 0.3, 0, 0, 0, 2, ...Array(16).fill(0)], integers: [1n, ...kNoTextures] }],
+  },
 };
 export const kScene: BlockBody = {
   case: "scene",

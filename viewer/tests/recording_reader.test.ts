@@ -26,7 +26,8 @@ describe("a recording", () => {
     expect(moment.state.proxy).toMatchObject({ x: expect.closeTo(3, 5), y: expect.closeTo(0.1, 5) });
     expect(moment.state.forceN!.y).toBeCloseTo(2, 5);
     expect(moment.penetration_m).toBeCloseTo(0.01, 6);
-    expect(moment).toMatchObject({ scene: 0, contacts: 1, scale: { radius_m: 0.02, worldPerDevice: 10 }, state: { safety: 2 } });
+    const scale = { radius_m: 0.02, worldPerDevice: 10 };
+    expect(moment).toMatchObject({ scene: 0, contacts: 1, scale, state: { safety: 2 } });
   });
 
   test("has its scene, with materials and names, and where its objects were", async () => {
@@ -43,13 +44,15 @@ describe("a recording", () => {
   });
 
   test("of a black box has the steps without a scene", async () => {
-    const start: BlockBody = { case: "start", value: { ...(kStart.value as object), blackBox: true, fault: "it was too fast" } };
+    const value = { ...(kStart.value as object), blackBox: true, fault: "it was too fast" };
+    const start: BlockBody = { case: "start", value };
     const recording = await read(fileOf(start, steps(5)));
     expect(recording).toMatchObject({ blackBox: true, fault: "it was too fast", end: "the program was killed" });
     const moment = momentOf(recording, 0.31);
     expect(moment.scene).toBe(-1);
     expect(moment.state.finger!.x).toBeCloseTo(0.03, 6);
-    expect(layoutOf(recording, -1, moment.scale, 0)).toMatchObject({ name: "black box", placed: [], bounds: undefined });
+    const layout = layoutOf(recording, -1, moment.scale, 0);
+    expect(layout).toMatchObject({ name: "black box", placed: [], bounds: undefined });
   });
 
   test("that is cut or damaged is shown as far as it is good", async () => {

@@ -24,11 +24,13 @@ function storeOf(mesh: Mesh, materials: object[], pose: Float32Array = kTurned):
   const store = new SceneStore();
   store.add(mesh);
   const placed = [create(PlacedMeshSchema, { mesh: 1, materials })];
-  store.setLayout({ number: 1, name: "a", bounds: undefined, proxyRadius_m: 1, worldPerDevice: 1, placed, poses: pose });
+  const scale = { bounds: undefined, proxyRadius_m: 1, worldPerDevice: 1 };
+  store.setLayout({ number: 1, name: "a", ...scale, placed, poses: pose });
   return store;
 }
 
-const parsed = async (...args: Parameters<typeof sceneFile>) => JSON.parse(await (await sceneFile(...args)).content.text());
+const parsed = async (...args: Parameters<typeof sceneFile>) =>
+  JSON.parse(await (await sceneFile(...args)).content.text());
 
 describe("a scene file", () => {
   test("has every object where it is now, in the world", async () => {
@@ -42,7 +44,8 @@ describe("a scene file", () => {
   });
 
   test("has the scene's materials, and over them what the user has set", async () => {
-    const { objects } = await parsed(storeOf(meshOf(), [kMaterial]), { staticFriction: 0.9, adhesionN: 2, smooth: false });
+    const over = { staticFriction: 0.9, adhesionN: 2, smooth: false };
+    const { objects } = await parsed(storeOf(meshOf(), [kMaterial]), over);
     expect(objects[0].material).toEqual({
       stiffness: 1, staticFriction: 0.9, dynamicFriction: 0.3, viscosityNsM: 0, adhesionN: 2, shade: "FLAT",
     });
@@ -51,11 +54,10 @@ describe("a scene file", () => {
   test("parts a mesh by its materials, with the vertices that each part uses", async () => {
     const mesh = meshOf({ triangleMaterials: Uint16Array.of(0, 1), points: Uint32Array.of(3) });
     const { objects } = await parsed(storeOf(mesh, [kMaterial, { ...kMaterial, stiffness: 0.5 }]), {});
-    expect(objects.map(({ primitives, material }: { primitives: object; material: object }) => ({ primitives, material })))
-      .toMatchObject([
-        { primitives: { triangles: [0, 1, 2], points: [3] }, material: { stiffness: 1 } },
-        { primitives: { triangles: [2, 1, 0] }, material: { stiffness: 0.5 } },
-      ]);
+    expect(objects).toMatchObject([
+      { primitives: { triangles: [0, 1, 2], points: [3] }, material: { stiffness: 1 } },
+      { primitives: { triangles: [2, 1, 0] }, material: { stiffness: 0.5 } },
+    ]);
     expect(objects[1].primitives.vertices).toHaveLength(9);
   });
 

@@ -1,5 +1,5 @@
-// The numbers of HL's structures in a recording: lists in the order of their declarations (src/base/fields.h). A list of
-// another length was written by another version.
+// The numbers of HL's structures in a recording: lists in the order of their declarations (src/base/fields.h). A list
+// of another length was written by another version.
 
 import type { Values } from "../gen/recording_pb";
 import type { SurfaceSettings } from "../surfaces";
@@ -18,6 +18,8 @@ function requireForm(values: Values | undefined, numbers: number, integers: numb
   return values;
 }
 
+type Triple = [number, number, number];
+
 /** What ticks are told (TickContext of src/record/recorded_ticks.h). */
 export interface TickContext {
   readonly origin: Vec;
@@ -28,10 +30,10 @@ export interface TickContext {
 }
 
 export function tickContext(values: Values | undefined): TickContext {
-  // Numbers: the quantities, the workspace's origin and scale, the radius, the spring's stiffness and period. Integers: a
-  // flag for each quantity, two for shading, one for textures, restarts, ledger, pulls, scene.
+  // Numbers: the quantities, the workspace's origin and scale, the radius, the spring's stiffness and period. Integers:
+  // a flag for each quantity, two for shading, one for textures, restarts, ledger, pulls, scene.
   const { numbers, integers } = requireForm(values, kQuantities.length + 7, kQuantities.length + 7, "ticks");
-  const [x, y, z, worldPerDevice, radius_m] = numbers.slice(kQuantities.length) as [number, number, number, number, number];
+  const [x, y, z, worldPerDevice, radius_m] = numbers.slice(kQuantities.length) as [...Triple, number, number];
   if (![x, y, z].every(Number.isFinite) || !(worldPerDevice > 0) || !(radius_m > 0)) {
     throw new RecordingError("makes no sense: its workspace or radius is no number");
   }
@@ -67,10 +69,12 @@ export function waysOf(values: Values | undefined, seconds: (time_ns: bigint) =>
 
 /** A material, without what a texture modulates. */
 export function materialOf(values: Values): SurfaceSettings {
-  // Numbers: the quantities, low and high of each texture and of the bump map. Integers: smooth, number of each texture.
+  // Numbers: the quantities, low and high of each texture and of the bump map. Integers: smooth, the number of each.
   const textures = kQuantities.length + 1;
-  const { numbers, integers } = requireForm(values, kQuantities.length + 2 * textures, 1 + textures, "a material");
+  const count = kQuantities.length + 2 * textures;
+  const { numbers, integers } = requireForm(values, count, 1 + textures, "a material");
   const kNoTexture = 0xffffffffn;
-  const known = kQuantities.map((field, i) => [field, integers[1 + i] === kNoTexture ? numbers[i] : undefined] as const);
+  const known = kQuantities.map((field, i) =>
+    [field, integers[1 + i] === kNoTexture ? numbers[i] : undefined] as const);
   return { ...Object.fromEntries(known.filter(([, value]) => value !== undefined)), smooth: integers[0] !== 0n };
 }

@@ -28,7 +28,9 @@ export interface Scale {
 }
 
 /** Columns of Recording.steps. Finger: device frame. */
-export const enum StepColumn { kForce_N, kPenetration_m, kForceX, kForceY, kForceZ, kFingerX, kFingerY, kFingerZ, kSafety }
+export const enum StepColumn {
+  kForce_N, kPenetration_m, kForceX, kForceY, kForceZ, kFingerX, kFingerY, kFingerZ, kSafety,
+}
 export const kStepColumns = 9;
 /** Columns of Recording.ticks. World frame. */
 export const enum TickColumn { kContacts, kScene, kProxyX, kProxyY, kProxyZ, kFingerX, kFingerY, kFingerZ }

@@ -1,5 +1,5 @@
-// The blocks of a recording file (proto/recording.proto): its head, their sizes and checksums. A block that is cut short or
-// damaged ends the recording: what is before it is good. Reads the file piece by piece.
+// The blocks of a recording file (proto/recording.proto): its head, their sizes and checksums. A block that is cut
+// short or damaged ends the recording: what is before it is good. Reads the file piece by piece.
 
 import { fromBinary } from "@bufbuild/protobuf";
 import { RecordingBlockSchema, type RecordingBlock } from "../gen/recording_pb";
@@ -42,7 +42,7 @@ class Pieces {
   }
 }
 
-/** Calls `take` with each block and the share of the file that is read. Gives what is wrong with the end, in one line. */
+/** Calls `take` with each block and the share of the file that is read. Gives what is wrong with its end, in a line. */
 export async function readBlocks(
   file: Blob, take: (block: RecordingBlock, share: number) => void,
 ): Promise<string | undefined> {
@@ -62,7 +62,8 @@ export async function readBlocks(
 async function checkMagic(pieces: Pieces): Promise<void> {
   const magic = String.fromCharCode(...(await pieces.take(Math.min(pieces.left, kMagic.length))));
   if (magic === kFirstForm) {
-    throw new RecordingError("is a recording of form 1, and this page reads form 2: use the version of HL that made it");
+    throw new RecordingError(
+      "is a recording of form 1, and this page reads form 2: use the version of HL that made it");
   }
   if (magic !== kMagic) {
     throw new RecordingError("is no recording of HL");

@@ -1,8 +1,9 @@
-// Reads a recording file into what the page shows of it. A file may say anything: what does not agree with itself is refused
-// in one line.
+// Reads a recording file into what the page shows of it. A file may say anything: what does not agree with itself is
+// refused in one line.
 
 import type {
-  ProxyTicks, RecordedScene as SceneMessage, RecordedShape, RecordedSurfaces, RecordingBlock, RecordingStart, ServoSteps,
+  ProxyTicks, RecordedScene as SceneMessage, RecordedShape, RecordedSurfaces, RecordingBlock, RecordingStart,
+  ServoSteps,
 } from "../gen/recording_pb";
 import type { Mesh } from "../scene_messages";
 import type { SurfaceSettings } from "../surfaces";

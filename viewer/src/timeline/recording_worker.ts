@@ -30,7 +30,8 @@ async function answer(file: Blob): Promise<void> {
     });
     post({ kind: "recording", recording }, buffersOf(recording));
   } catch (error) {
-    post({ kind: "refused", why: error instanceof RecordingError ? error.message : `cannot be read (${String(error)})` });
+    const why = error instanceof RecordingError ? error.message : `cannot be read (${String(error)})`;
+    post({ kind: "refused", why });
   }
 }
 

@@ -197,7 +197,8 @@ function isPressable(target: EventTarget | null): boolean {
 function originOf({ device, begin_unix_ms, servoRate_Hz, end, fault, steps }: Recording): string {
   const begin = new Date(begin_unix_ms).toLocaleString();
   const why = fault === "" ? `ended: ${end}` : `fault: ${fault}`;
-  return `${device}, ${begin}; ${formatCount(steps.times.length)} steps at ${formatFixed(servoRate_Hz, "Hz", 0)}; ${why}`;
+  const count = formatCount(steps.times.length);
+  return `${device}, ${begin}; ${count} steps at ${formatFixed(servoRate_Hz, "Hz", 0)}; ${why}`;
 }
 
 function showNumbers({ force_N, penetration_m, contacts, state }: RecordedMoment): void {

@@ -1,5 +1,5 @@
-// What was recorded over time: columns of numbers that rise with it, of bounded size. A long recording is thinned: of two
-// neighbours the one with the larger first value stays, so that no peak of a force is lost.
+// What was recorded over time: columns of numbers that rise with it, of bounded size. A long recording is thinned: of
+// two neighbours the one with the larger first value stays, so that no peak of a force is lost.
 
 export interface Track {
   /** Seconds, rising. */
@@ -41,7 +41,8 @@ export class TrackBuilder {
   }
 
   track(): Track {
-    return { times: this.times_.slice(0, this.size_), columns: this.columns_.map((column) => column.slice(0, this.size_)) };
+    const columns = this.columns_.map((column) => column.slice(0, this.size_));
+    return { times: this.times_.slice(0, this.size_), columns };
   }
 
   private set(at: number, time_s: number, values: number[]): void {
