@@ -12,6 +12,7 @@
 #include "monitor/touch_monitor.h"
 #include "open_browser.h"
 #include "page/viewer_feed.h"
+#include "record/page_recordings.h"
 #include "record/recorder.h"
 #include "record/replay_device.h"
 #include "serving.h"
@@ -91,6 +92,8 @@ void runTouch(TouchOptions options) {
   options.settings.explore = options.explore == "on";
   if (options.scale > 0) options.settings.world_per_device = options.scale;
   if (!options.hand_path.empty()) options.settings.script = readScript(options.hand_path);
+  // hl record has all of the session in its file.
+  if (options.recorder.file.empty()) options.recorder.pages = std::make_shared<PageRecordings>();
   giveFreedMemoryBack();
   lockProcessMemory();
   const sigset_t signals = blockSignals();
@@ -101,8 +104,9 @@ void runTouch(TouchOptions options) {
   TouchSession& session = touch.device();
   if (options.settings.script && !session.hasHand())
     throw Error("--hand-path moves a simulated hand, and a person holds this device");
-  HttpServer server(http, makeViewerFeed(session, HL_VERSION, touch.memory().member()), &touch,
-                    makeTouchMonitor(session, &touch));
+  const auto& recordings = options.recorder.pages;
+  HttpServer server(http, makeViewerFeed(session, HL_VERSION, touch.memory().member(), recordings), &touch,
+                    makeTouchMonitor(session, &touch, recordings));
   touch.start();
   server.start();
   fmt::print(stderr, "{}: {} primitives; device: {}, {:g} Hz; 1 mm of the hand is {:.4g} mm of the scene\n",

@@ -1,5 +1,7 @@
 #include "http/http_answers.h"
 
+#include <charconv>
+#include <system_error>
 #include <utility>
 
 #include "base/url.h"
@@ -16,8 +18,8 @@ namespace {
 
 constexpr const char* kPlain = "text/plain; charset=utf-8";
 
-HttpResponse respond(const HttpRequest& request, http::status status, const std::string& mime, std::string body) {
-  HttpResponse response(status, request.version());
+template <typename Response>
+void setHead(const HttpRequest& request, const std::string& mime, Response& response) {
   response.set(http::field::server, "hl");
   response.set(http::field::content_type, mime);
   response.set(http::field::cache_control, "no-cache");
@@ -28,6 +30,11 @@ HttpResponse respond(const HttpRequest& request, http::status status, const std:
       "default-src 'self'; connect-src 'self' ws: wss:; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
       "worker-src 'self' blob:; frame-ancestors 'none'");
   response.keep_alive(request.keep_alive());
+}
+
+HttpResponse respond(const HttpRequest& request, http::status status, const std::string& mime, std::string body) {
+  HttpResponse response(status, request.version());
+  setHead(request, mime, response);
   response.content_length(body.size());
   if (request.method() != http::verb::head) response.body() = std::move(body);
   return response;
@@ -47,6 +54,25 @@ bool HttpAnswers::mayConnect(const HttpRequest& request) const {
 bool HttpAnswers::isTrusted(const HttpRequest& request) const {
   return access_.allowsCookies(viewOf(request[http::field::cookie])) ||
          access_.allowsBearer(viewOf(request[http::field::authorization]));
+}
+
+bool HttpAnswers::asksForRecording(const HttpRequest& request) const {
+  return request.method() == http::verb::get && pathOf(viewOf(request.target())) == "/recording.hlr" &&
+         mayConnect(request) && isTrusted(request);
+}
+
+std::uint32_t HttpAnswers::ownerOf(const HttpRequest& request) {
+  const std::string text = queryValue(viewOf(request.target()), "owner");
+  std::uint32_t owner = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), owner);
+  return error == std::errc() && end == text.data() + text.size() ? owner : 0;
+}
+
+HttpFileResponse HttpAnswers::sendRecording(const HttpRequest& request) {
+  HttpFileResponse response(http::status::ok, request.version());
+  setHead(request, "application/octet-stream", response);
+  response.set(http::field::content_disposition, "attachment");
+  return response;
 }
 
 HttpResponse HttpAnswers::refuse(const HttpRequest& request, http::status status, const std::string& text) {

@@ -2,8 +2,10 @@
 // server's health, its numbers, or a refusal.
 #pragma once
 
+#include <boost/beast/http/file_body.hpp>
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/string_body.hpp>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -15,6 +17,7 @@ namespace hl {
 
 using HttpRequest = boost::beast::http::request<boost::beast::http::string_body>;
 using HttpResponse = boost::beast::http::response<boost::beast::http::string_body>;
+using HttpFileResponse = boost::beast::http::response<boost::beast::http::file_body>;
 
 /// Any thread; the sources are asked by the one that answers.
 class HttpAnswers {
@@ -33,6 +36,13 @@ class HttpAnswers {
   bool isTrusted(const HttpRequest& request) const;
 
   HttpResponse answer(const HttpRequest& request, const ServerCounts& counts) const;
+  /// Whether the finished recording of a page is asked for, by one who may have it.
+  bool asksForRecording(const HttpRequest& request) const;
+  /// Whose: the number in the address; 0: there is none.
+  static std::uint32_t ownerOf(const HttpRequest& request);
+  /// The head of that answer.
+  static HttpFileResponse sendRecording(const HttpRequest& request);
+
   /// A refusal that a caller has decided on: `text` is one line.
   static HttpResponse refuse(const HttpRequest& request, boost::beast::http::status status, const std::string& text);
 

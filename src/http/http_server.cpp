@@ -1,7 +1,10 @@
 #include "http/http_server.h"
 
+#include <unistd.h>
+
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/beast/core/file_posix.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/read.hpp>
@@ -34,8 +37,9 @@ namespace {
 
 constexpr std::size_t kMaxRequest_bytes = std::size_t{16} * 1024;
 constexpr std::chrono::seconds kRequestTimeout(20);
-constexpr std::chrono::milliseconds kGrace(1000);  // for HL clients to answer the goodbye when the server stops
-constexpr std::chrono::milliseconds kLook(100);    // between two looks whether all that never ends is still there
+constexpr std::chrono::minutes kDownloadTimeout(10);  // a recording of 200 MB at 3 Mbit/s
+constexpr std::chrono::milliseconds kGrace(1000);     // for HL clients to answer the goodbye when the server stops
+constexpr std::chrono::milliseconds kLook(100);       // between two looks whether all that never ends is still there
 
 // TLS and a token are what stands between a stranger on the network and somebody's hand.
 ListenerSettings listenerSettings(const HttpServerSettings& settings) {
@@ -70,6 +74,7 @@ class HttpServer::Impl {
         page_worker_("pages", 1),
         listener_(context_, listenerSettings(settings)),
         access_(accessSettings(settings, listener_.port())),
+        recording_(pages.recording),
         pages_(context_, page_worker_, settings.feed_rate_Hz, std::move(pages), monitor_.observe, settings_.limits,
                traffic_),
         answers_(access_, {settings.page_folder, [this] { return fault(); },
@@ -128,6 +133,11 @@ class HttpServer::Impl {
         const bool upgraded = co_await upgrade(connection, request);
         if (upgraded) co_return;
       }
+      if (answers_.asksForRecording(request)) {
+        const bool goes_on = co_await sendRecording(connection, request);
+        if (!goes_on) co_return;
+        continue;
+      }
       auto response = co_await answer(connection->peer, request);
       auto [failed, sent] = co_await http::async_write(connection->stream, response, kAwait);
       if (failed || !response.keep_alive()) co_return;
@@ -149,6 +159,26 @@ class HttpServer::Impl {
       co_await std::make_shared<WebSocketSession>(world, connection, trusted)->run(std::move(request));
     }
     co_return true;
+  }
+
+  // The file goes out piece by piece; false: the connection has ended.
+  asio::awaitable<bool> sendRecording(ConnectionPointer connection, const HttpRequest& request) {
+    const FilePointer file = recording_ ? recording_(HttpAnswers::ownerOf(request)) : nullptr;
+    if (!file) {
+      auto refusal = HttpAnswers::refuse(request, http::status::not_found, "this recording is no longer there");
+      auto [failed, sent] = co_await http::async_write(connection->stream, refusal, kAwait);
+      co_return !failed && refusal.keep_alive();
+    }
+    HttpFileResponse response = HttpAnswers::sendRecording(request);
+    beast::file_posix opened;
+    opened.native_handle(dup(file->descriptor()));
+    beast::error_code error;
+    response.body().reset(std::move(opened), error);
+    if (error) co_return false;
+    response.prepare_payload();
+    connection->stream.tcp().expires_after(kDownloadTimeout);
+    auto [failed, sent] = co_await http::async_write(connection->stream, response, kAwait);
+    co_return !failed && response.keep_alive();
   }
 
   asio::awaitable<HttpResponse> answer(const std::string& peer, const HttpRequest& request) {
@@ -187,6 +217,7 @@ class HttpServer::Impl {
   Traffic traffic_;
   Listener listener_;
   Access access_;
+  std::function<FilePointer(std::uint32_t owner)> recording_;
   PageFeed pages_;
   HttpAnswers answers_;
   bool stopping_ = false;  // in the server's thread

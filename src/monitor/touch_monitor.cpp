@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/clock.h"
@@ -35,7 +36,8 @@ class StepWatch {
 
 class TouchMonitor {
  public:
-  TouchMonitor(TouchSession& session, const TouchServer* clients) : session_(session), clients_(clients) {}
+  TouchMonitor(TouchSession& session, const TouchServer* clients, std::shared_ptr<const PageRecordings> recordings)
+      : session_(session), clients_(clients), recordings_(std::move(recordings)) {}
 
   void observe() {
     const std::int64_t now_ns = monotonicNow_ns();
@@ -76,6 +78,7 @@ class TouchMonitor {
     writeLedger(out, proxy.ledger, servo.late);
     writeFailures(out);
     writeVibration(out, servo.vibration);
+    if (recordings_) writeRecordings(out, recordings_->status());
     if (clients_ == nullptr) return;
     writeHierarchies(out, clients_->hierarchyCounts());
     writeMemory(out, clients_->memory());
@@ -168,6 +171,16 @@ class TouchMonitor {
                vibration.limit_N_m);
   }
 
+  static void writeRecordings(MetricsText& out, const PageRecordingStatus& status) {
+    using enum MetricType;
+    using Phase = PageRecordingStatus::Phase;
+    out.single("hl_page_recordings_total", kCounter, "Recordings that pages have begun",
+               static_cast<double>(status.begun));
+    out.single("hl_page_recording_running", kGauge, "1 while one runs", status.phase == Phase::kRunning ? 1 : 0);
+    out.single("hl_page_recording_bytes", kGauge, "Size of the one that runs or can be fetched",
+               static_cast<double>(status.bytes));
+  }
+
   static void writeHierarchies(MetricsText& out, const HierarchyCounts& counts) {
     using enum MetricType;
     out.single("hl_hierarchy_refits_total", kCounter, "Redefined objects whose hierarchy was refitted, not built",
@@ -186,13 +199,15 @@ class TouchMonitor {
 
   TouchSession& session_;
   const TouchServer* const clients_;
+  const std::shared_ptr<const PageRecordings> recordings_;
   StepWatch servo_, proxy_;
 };
 
 }  // namespace
 
-MonitorCallbacks makeTouchMonitor(TouchSession& session, const TouchServer* clients) {
-  const auto monitor = std::make_shared<TouchMonitor>(session, clients);
+MonitorCallbacks makeTouchMonitor(TouchSession& session, const TouchServer* clients,
+                                  std::shared_ptr<const PageRecordings> recordings) {
+  const auto monitor = std::make_shared<TouchMonitor>(session, clients, std::move(recordings));
   return {[monitor] { monitor->observe(); }, [monitor] { return monitor->fault(); },
           [monitor](MetricsText& out) { monitor->write(out); }};
 }

@@ -1,9 +1,12 @@
 // FeedCallbacks: what the pages' WebSockets carry, for the code that moves the bytes.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
+
+#include "record/open_file.h"
 
 namespace hl {
 
@@ -17,6 +20,8 @@ struct FeedCallbacks {
   std::function<SceneSource()> scene;  ///< once for each page; what it gives is asked before each state
   std::function<std::string()> state;
   std::function<void(const std::string&)> receive;  ///< one message of at most Limits::page_message_bytes from a page
+  /// A finished recording of a page, or null. Any thread; may be empty.
+  std::function<FilePointer(std::uint32_t owner)> recording{};
 };
 
 }  // namespace hl

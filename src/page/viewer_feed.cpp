@@ -73,7 +73,17 @@ MaterialOverride surfacesOf(const proto::Surfaces& in) {
   return surfaces;
 }
 
-std::string state(TouchSession& session, PageScene& scene) {
+void setRecording(proto::PageRecording& out, const PageRecordingStatus& status) {
+  out.set_phase(static_cast<proto::PageRecording::Phase>(status.phase));
+  out.set_owner(status.owner);
+  out.set_time_s(status.time_s);
+  out.set_bytes(status.bytes);
+  out.set_text(status.text);
+  out.set_max_time_s(PageRecordings::kMaxTime_s);
+  out.set_max_bytes(PageRecordings::kMaxBytes);
+}
+
+std::string state(TouchSession& session, PageScene& scene, const PageRecordings* recordings) {
   ServoView servo;
   ProxyView proxy;
   session.views(servo, proxy);
@@ -98,6 +108,7 @@ std::string state(TouchSession& session, PageScene& scene) {
   out.set_slipping(proxy.slipping);
   toProto(servo.vibration, *out.mutable_vibration());
   out.set_buttons(servo.buttons);
+  if (recordings != nullptr) setRecording(*out.mutable_recording(), recordings->status());
   const std::int64_t now_ns = monotonicNow_ns();
   scene.follow(session.snapshot(), {session.radius_W(), session.workspace().world_per_device}, now_ns);
   scene.describe(out, std::span(proxy.touched.begin(), proxy.touched.end()), now_ns);
@@ -114,7 +125,7 @@ void apply(TouchSession& session, const proto::Settings& settings) {
 }
 
 // A message that does not parse or asks for what does not exist changes nothing.
-void receive(TouchSession& session, const std::string& bytes) {
+void receive(TouchSession& session, PageRecordings* recordings, const std::string& bytes) {
   proto::ViewerMessage message;
   if (!message.ParseFromString(bytes)) return;
   switch (message.body_case()) {
@@ -138,6 +149,9 @@ void receive(TouchSession& session, const std::string& bytes) {
     case proto::ViewerMessage::kExplore:
       session.setExplore(true);
       break;
+    case proto::ViewerMessage::kRecord:
+      if (recordings != nullptr) recordings->ask(message.record().owner(), message.record().on(), monotonicNow_ns());
+      break;
     case proto::ViewerMessage::BODY_NOT_SET:
       break;
   }
@@ -145,14 +159,16 @@ void receive(TouchSession& session, const std::string& bytes) {
 
 }  // namespace
 
-FeedCallbacks makeViewerFeed(TouchSession& session, const std::string& version, MemoryBudget memory) {
+FeedCallbacks makeViewerFeed(TouchSession& session, const std::string& version, MemoryBudget memory,
+                             std::shared_ptr<PageRecordings> recordings) {
   const auto scene = std::make_shared<PageScene>(std::move(memory));
   const auto open_page = [scene] {
     return [scene, memory = std::make_shared<PageMemory>(scene->open())] { return scene->next(*memory); };
   };
   return {[&session, version] { return hello(session, version); }, open_page,
-          [&session, scene] { return state(session, *scene); },
-          [&session](const std::string& bytes) { receive(session, bytes); }};
+          [&session, scene, recordings] { return state(session, *scene, recordings.get()); },
+          [&session, recordings](const std::string& bytes) { receive(session, recordings.get(), bytes); },
+          [recordings](std::uint32_t owner) { return recordings ? recordings->open(owner) : nullptr; }};
 }
 
 }  // namespace hl

@@ -6,12 +6,14 @@
 
 #include "base/memory_budget.h"
 #include "page/feed_callbacks.h"
+#include "record/page_recordings.h"
 #include "touch/touch_session.h"
 
 namespace hl {
 
 /// The callbacks of an HttpServer for this session, which must outlive the server. What pages are shown is counted
-/// against `memory`.
-FeedCallbacks makeViewerFeed(TouchSession& session, const std::string& version, MemoryBudget memory = {});
+/// against `memory`. `recordings`: those of the session's recorder; null: pages cannot record.
+FeedCallbacks makeViewerFeed(TouchSession& session, const std::string& version, MemoryBudget memory = {},
+                             std::shared_ptr<PageRecordings> recordings = nullptr);
 
 }  // namespace hl

@@ -16,6 +16,11 @@ namespace hl {
 /// Plain values; RT-safe.
 class StartSearch {
  public:
+  StartSearch() = default;
+  /// Goes on where another one was, as next() told; 0 <= `next` < kPlaces.
+  explicit StartSearch(int next) : next_(next) {}
+  int next() const { return next_; }
+
   /// Tests the finger and the next `places` candidates. Returns whether one is clear; then `position` is set to it and
   /// the search restarts.
   bool look(const SceneAt& scene, const Tolerances& tolerance, const Vec3& finger, int places, Vec3& position);

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/guarded_thread.h"
 #include "io/value_messages.h"
+#include "record/recorded_proxy.h"
 #include "record/recorded_servo.h"
 
 namespace hl {
@@ -86,8 +87,9 @@ Recorder::Recorder(const RecorderSettings& settings, const SessionInfo& session)
     : settings_(settings),
       session_(session),
       begin_{unixNow_ms(), monotonicNow_ns()},
-      steps_(room(!settings.file.empty() || !settings.black_box_folder.empty(), session.servo_rate_Hz)),
-      ticks_(room(!settings.file.empty(), std::max(session.servo_rate_Hz, session.proxy_rate_Hz))) {
+      steps_(
+          room(!settings.file.empty() || settings.pages || !settings.black_box_folder.empty(), session.servo_rate_Hz)),
+      ticks_(room(!settings.file.empty() || settings.pages, std::max(session.servo_rate_Hz, session.proxy_rate_Hz))) {
   if (settings_.file.empty()) return;
   file_ = std::make_unique<RecordingWriter>(settings_.file);
   file_->write(startBlock(FaultReason::kNone));
@@ -96,7 +98,7 @@ Recorder::Recorder(const RecorderSettings& settings, const SessionInfo& session)
 Recorder::~Recorder() { stop(); }
 
 void Recorder::start() {
-  if (settings_.file.empty() && settings_.black_box_folder.empty()) return;
+  if (settings_.file.empty() && settings_.black_box_folder.empty() && !settings_.pages) return;
   running_ = true;
   thread_ = startThread("recorder", [this] { run(); });
 }
@@ -117,20 +119,21 @@ void Recorder::step(const ServoRecord& record) noexcept {
   if (fails && record.out.fault != FaultReason::kStalled) fault_.store(steps_.pushed(), std::memory_order_release);
 }
 
-void Recorder::tick(const TickRequest& request, const ProxyStep& step, const Vec3& proxy,
+void Recorder::tick(const TickRequest& request, const ProxyStep& step, const ProxyLoop& proxy,
                     std::int64_t work_ns) noexcept {
   if (step.scene == 0) return;
-  ticks_.push(
-      {request, step.scene, step.held.target, proxy, step.report.contacts.size(), work_ns, step.report.used_up_at});
+  ticks_.push({request, step.scene, step.held.target, proxy.state().position, step.report.contacts.size(), work_ns,
+               step.report.used_up_at});
+  if (capture_.phase.load(std::memory_order_acquire) != Capture::kWanted) return;
+  capture_.memory = proxy.memory();
+  capture_.scene = step.scene;
+  capture_.next_tick = ticks_.pushed();
+  capture_.phase.store(Capture::kTaken, std::memory_order_release);
 }
 
 void Recorder::scene(std::shared_ptr<const Snapshot> scene) noexcept {
-  if (settings_.file.empty()) return;
-  const bool kept = guarded([&] {
-    const std::lock_guard lock(mutex_);
-    scenes_.push_back(std::move(scene));
-  });
-  if (!kept) scene_lost_ = true;
+  if (settings_.file.empty() && !settings_.pages) return;
+  scenes_.push(std::move(scene));
 }
 
 void Recorder::run() {
@@ -149,39 +152,35 @@ void Recorder::run() {
 // What it could not do for want of memory it does the next time.
 void Recorder::drain(bool all) {
   watchFaults(all);
-  if (!file_) {
-    const std::lock_guard lock(mutex_);
-    scenes_.clear();
-    return;
-  }
+  const bool for_pages = settings_.pages && settings_.file.empty();
   try {
-    writeFile(all);
+    if (for_pages) followPages();
+    if (file_) writeFile(all);
   } catch (const Error& error) {
     file_.reset();
-    tell(fmt::format("the recording ends: {}", error.what()));
+    written_.page = 0;
+    for_pages ? settings_.pages->refuse(error.what()) : tell(fmt::format("the recording ends: {}", error.what()));
   }
+  if (!file_) forgetOldScenes();
 }
 
 void Recorder::writeFile(bool all) {
-  if (scene_lost_) return endRecording("there was no memory to keep a scene for it");
+  if (scenes_.hasLost()) return endRecording("there was no memory to keep a scene for it");
   writeTicks(all);
   writeSteps(all);
-  if (all)
+  if (written_.page != 0)
+    tellPages();
+  else if (all)
     endRecording("stopped");
   else if (file_->bytes() > settings_.most_bytes)
     endRecording(fmt::format("{} bytes are reached", settings_.most_bytes));
 }
 
-std::shared_ptr<const Snapshot> Recorder::sceneToWrite() {
-  const std::lock_guard lock(mutex_);
-  return scenes_.empty() ? nullptr : scenes_.front();
-}
-
+// Where a page may ask for another recording the last one stays: the loops may be in it for long.
 void Recorder::writeScenes() {
-  while (const auto scene = sceneToWrite()) {
+  while (const auto scene = scenes_.next()) {
     scene_writer_.write(*scene, [this](const proto::RecordingBlock& block) { file_->write(block); });
-    const std::lock_guard lock(mutex_);
-    scenes_.pop_front();
+    scenes_.written(settings_.pages != nullptr);
   }
 }
 
@@ -193,7 +192,7 @@ void Recorder::writeTicks(bool all) {
   writeScenes();
   forRuns(ticks_, written_.ticks, end, 4 * block, [this](const std::vector<TickRecord>& run, std::uint64_t first) {
     proto::RecordingBlock out;
-    toProto(run, first, *out.mutable_ticks());
+    toProto(run, first - written_.first_tick, *out.mutable_ticks());
     file_->write(out);
   });
 }
@@ -204,7 +203,7 @@ void Recorder::writeSteps(bool all) {
   if (!all && end - written_.steps < block) return;
   forRuns(steps_, written_.steps, end, 4 * block, [this](const std::vector<ServoRecord>& run, std::uint64_t first) {
     proto::RecordingBlock out;
-    toProto(run, first, *out.mutable_steps());
+    toProto(run, first - written_.first_step, *out.mutable_steps());
     file_->write(out);
   });
 }
@@ -214,7 +213,91 @@ void Recorder::endRecording(const std::string& reason) {
   end.mutable_end()->set_reason(reason);
   file_->write(end);
   const auto file = std::move(file_);
+  if (std::exchange(written_.page, 0) != 0) return settings_.pages->keep(file->file(), reason, monotonicNow_ns());
   tell(fmt::format("recorded: {} ({} bytes; {})", file->path(), file->bytes(), reason));
+}
+
+// A recording that a page wants begins when the proxy's memory is known, and ends when the page does not want it.
+void Recorder::followPages() {
+  const auto wanted = settings_.pages->wanted(monotonicNow_ns());
+  if (written_.page != 0 && wanted != written_.page) return endForPage();
+  if (written_.page != 0) return;
+  if (wanted) return beginForPage(*wanted);
+  if (settings_.pages->status().phase == PageRecordingStatus::Phase::kStarting) settings_.pages->drop();
+  capture_.wanted_ns = 0;
+}
+
+void Recorder::beginForPage(std::uint32_t page) {
+  const std::int64_t now_ns = monotonicNow_ns();
+  if (capture_.wanted_ns == 0) {
+    capture_.wanted_ns = now_ns;
+    capture_.phase.store(Capture::kWanted, std::memory_order_release);
+  } else if (captured(now_ns)) {
+    openForPage(page);
+  }
+}
+
+// The next tick must be in the scene of the last one: what the proxy keeps for a change of scenes is not recorded.
+bool Recorder::captured(std::int64_t now_ns) {
+  constexpr double kMaxWait_s = 2;
+  if (1e-9 * static_cast<double>(now_ns - capture_.wanted_ns) > kMaxWait_s)
+    throw Error("the loops make no ticks now, or the scene changes all the time: try again later");
+  TickRecord next;
+  if (capture_.phase.load(std::memory_order_acquire) != Capture::kTaken || ticks_.pushed() == capture_.next_tick)
+    return false;
+  if (ticks_.read(capture_.next_tick, next) && next.scene == capture_.scene && scenes_.beginAt(capture_.scene))
+    return true;
+  capture_.phase.store(Capture::kWanted, std::memory_order_release);
+  return false;
+}
+
+void Recorder::openForPage(std::uint32_t page) {
+  // Each primitive takes a few indices, and a share of the vertices: no fewer bytes than this.
+  constexpr std::uint64_t kLeast_bytes = 8;
+  capture_.wanted_ns = 0;
+  if (scenes_.next()->primitives * kLeast_bytes > PageRecordings::kMaxBytes)
+    throw Error("the scene is too large for a recording by the page: use hl record");
+  scene_writer_ = SceneWriter();
+  begin_ = {unixNow_ms(), monotonicNow_ns()};
+  written_.first_tick = written_.ticks = capture_.next_tick;
+  written_.first_step = written_.steps = steps_.pushed();
+  auto file = std::make_unique<RecordingWriter>(makePrivateFile(), "the recording");
+  file->write(startBlock(FaultReason::kNone));
+  proto::RecordingBlock memory;
+  toProto(capture_.memory, *memory.mutable_proxy());
+  file->write(memory);
+  file_ = std::move(file);
+  written_.page = page;
+  writeScenes();
+  tellPages();
+}
+
+void Recorder::endForPage() {
+  if (settings_.pages->abandoned()) {
+    file_.reset();
+    written_.page = 0;
+    return settings_.pages->drop();
+  }
+  writeTicks(true);
+  writeSteps(true);
+  endRecording("stopped");
+}
+
+void Recorder::tellPages() {
+  const double time_s = 1e-9 * static_cast<double>(monotonicNow_ns() - begin_.monotonic_ns);
+  settings_.pages->tell(time_s, file_->bytes());
+  if (file_->bytes() > PageRecordings::kMaxBytes)
+    endRecording(fmt::format("{} MB are reached", PageRecordings::kMaxBytes / 1'000'000));
+  else if (time_s > PageRecordings::kMaxTime_s)
+    endRecording(fmt::format("{:.0f} minutes are reached", PageRecordings::kMaxTime_s / 60));
+}
+
+// A recording may begin at any time, in the scene of the last tick.
+void Recorder::forgetOldScenes() {
+  TickRecord last;
+  const std::uint64_t ticks = ticks_.pushed();
+  const bool ticked = ticks > 0 && ticks_.read(ticks - 1, last);
+  scenes_.forgetBefore(ticked ? std::optional(last.scene) : std::nullopt);
 }
 
 // A fault is written a little after it was; a stall at once, as no more steps may come.

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 #include <new>
+#include <utility>
 
 #include "base/error.h"
 
@@ -57,19 +58,23 @@ bool unpack(const std::string& in, std::uint32_t raw_bytes, std::string& raw) {
          size == raw_bytes;
 }
 
+FilePointer madeFile(const std::string& path) {
+  const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (descriptor < 0) throw Error(path + ": can not be written: " + std::strerror(errno));
+  return std::make_shared<const OpenFile>(descriptor);
+}
+
 }  // namespace
 
-RecordingWriter::RecordingWriter(const std::string& path)
-    : path_(path), file_(open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)) {
-  if (file_ < 0) throw Error(path + ": can not be written: " + std::strerror(errno));
+RecordingWriter::RecordingWriter(const std::string& path) : RecordingWriter(madeFile(path), path) {}
+
+RecordingWriter::RecordingWriter(FilePointer file, std::string name) : path_(std::move(name)), file_(std::move(file)) {
   append(std::string(kMagic));
 }
 
-RecordingWriter::~RecordingWriter() { close(file_); }
-
 void RecordingWriter::append(const std::string& bytes) {
   for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t written = ::write(file_, bytes.data() + done, bytes.size() - done);
+    const ssize_t written = ::write(file_->descriptor(), bytes.data() + done, bytes.size() - done);
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) throw Error(path_ + ": can not be written any more: " + std::strerror(errno));
     done += static_cast<std::size_t>(written);

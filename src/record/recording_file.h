@@ -8,6 +8,8 @@
 #include <fstream>
 #include <string>
 
+#include "record/open_file.h"
+
 namespace hl {
 
 /// One thread. What is given to write() is with the operating system when it returns: killing the program loses none.
@@ -15,7 +17,9 @@ class RecordingWriter {
  public:
   /// Makes the file, or empties it. Throws hl::Error.
   explicit RecordingWriter(const std::string& path);
-  ~RecordingWriter();
+  /// Writes to an empty file that is open already; `name` is for messages.
+  RecordingWriter(FilePointer file, std::string name);
+  ~RecordingWriter() = default;
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
 
@@ -23,12 +27,13 @@ class RecordingWriter {
   void write(const proto::RecordingBlock& block);
   std::uint64_t bytes() const { return bytes_; }  ///< of the file so far
   const std::string& path() const { return path_; }
+  const FilePointer& file() const { return file_; }
 
  private:
   void append(const std::string& bytes);
 
   std::string path_;
-  int file_;
+  FilePointer file_;
   std::uint64_t bytes_ = 0;
 };
 

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "io/value_messages.h"
+#include "record/recorded_proxy.h"
 #include "record/recorded_scene.h"
 #include "record/recorded_servo.h"
 #include "record/recording_file.h"
@@ -90,6 +91,7 @@ class ProxyReplay {
 
   void add(const proto::RecordedShape& shape) { reader_.add(shape); }
   void add(const proto::RecordedSurfaces& surfaces) { reader_.add(surfaces); }
+  void add(const proto::RecordedProxy& proxy) { memory_ = fromProto(proxy); }
   void add(const proto::RecordedScene& scene) {
     scenes_.push_back({scene.identity(), reader_.scene(scene)});
     ++report_.scenes;
@@ -119,6 +121,7 @@ class ProxyReplay {
     } else {
       slot_ = std::make_unique<SnapshotSlot>(scenes_.front().snapshot);
       loop_ = std::make_unique<ProxyLoop>(*slot_, settings_);
+      if (memory_) loop_->resume(*memory_);
     }
     shown_ = identity;
   }
@@ -139,6 +142,7 @@ class ProxyReplay {
 
   ReplayReport& report_;
   ProxySettings settings_;
+  std::optional<ProxyMemory> memory_;  // before the first tick, where the recording begins within a session
   SceneReader reader_;
   struct Shown {
     std::uint64_t identity;
@@ -177,6 +181,7 @@ ReplayReport replayed(RecordingReader& reader, const StepVisitor& visit) {
     if (block.has_shape()) proxy.add(block.shape());
     if (block.has_surfaces()) proxy.add(block.surfaces());
     if (block.has_scene()) proxy.add(block.scene());
+    if (block.has_proxy()) proxy.add(block.proxy());
     if (block.has_ticks()) proxy.play(block.ticks(), start.begin_ns());
     if (block.has_steps()) servo.play(block.steps(), start.begin_ns(), visit);
     if (block.has_end()) report.end = block.end().reason();

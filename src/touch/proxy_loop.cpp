@@ -16,6 +16,13 @@ void ProxyLoop::follow(const ProxyCommands& commands, const SpringOfServo& sprin
   settings_.period_s = spring.period_s;
 }
 
+void ProxyLoop::resume(const ProxyMemory& memory) {
+  state_ = memory.state;
+  blend_ = TargetBlend(memory.fading);
+  told_ = memory.told;
+  restarts_ = memory.restarts;
+}
+
 // The next tick finds where it begins.
 void ProxyLoop::restart() {
   const Ledger kept = state_.ledger;

@@ -47,6 +47,14 @@ struct ProxyStep {
   FixedVector<ObjectName, 3> touched;  ///< of report.contacts, one by one
 };
 
+/// What the ticks so far have left for the next one, in the scene of the last one.
+struct ProxyMemory {
+  ProxyState state;
+  FadingPull fading;
+  ServoTarget told;            ///< in the last tick
+  std::uint64_t restarts = 0;  ///< as in ProxyCommands
+};
+
 /// step() and skip() by one thread at a time, RT-safe; popEvent() by one other.
 class ProxyLoop {
  public:
@@ -62,6 +70,9 @@ class ProxyLoop {
   /// wait for theirs to be taken do not wait for the device.
   void skip() { scenes_.take(); }
   const ProxyState& state() const { return state_; }
+  ProxyMemory memory() const { return {state_, blend_.fading(), told_, restarts_}; }
+  /// Before the first step: goes on as the loop did that had this memory, if its scene is the one that step() takes.
+  void resume(const ProxyMemory& memory);
   bool popEvent(TouchEvent& event) { return events_.pop(event); }
 
  private:

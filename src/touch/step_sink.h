@@ -30,8 +30,8 @@ class StepSink {
 
   /// A step that the servo has made. Its thread; RT-safe.
   virtual void step(const ServoRecord& record) noexcept = 0;
-  /// A tick, by the loop that has made it; `step.scene` is 0 where there was none. RT-safe.
-  virtual void tick(const TickRequest& request, const ProxyStep& step, const Vec3& proxy,
+  /// A tick of `proxy`, by the loop that has made it; `step.scene` is 0 where there was none. RT-safe.
+  virtual void tick(const TickRequest& request, const ProxyStep& step, const ProxyLoop& proxy,
                     std::int64_t work_ns) noexcept = 0;
   /// Before the loops can take it. Any thread but theirs.
   virtual void scene(std::shared_ptr<const Snapshot> scene) noexcept = 0;

@@ -19,7 +19,7 @@ const ProxyCommands& Ticker::follow() {
 }
 
 void Ticker::done(const TickRequest& request, const ProxyStep& step, std::int64_t begin_ns, std::int64_t work_ns) {
-  sink_.tick(request, step, loop_.state().position, work_ns);
+  sink_.tick(request, step, loop_, work_ns);
   meter_.add(begin_ns, work_ns);
   show(step);
   ticks_.fetch_add(1, std::memory_order_relaxed);

@@ -11,7 +11,7 @@ class NoSink final : public StepSink {
   void start() override {}
   void stop() override {}
   void step(const ServoRecord&) noexcept override {}
-  void tick(const TickRequest&, const ProxyStep&, const Vec3&, std::int64_t) noexcept override {}
+  void tick(const TickRequest&, const ProxyStep&, const ProxyLoop&, std::int64_t) noexcept override {}
   void scene(std::shared_ptr<const Snapshot>) noexcept override {}
   void stall() noexcept override {}
 };

@@ -2,6 +2,7 @@
 #include "http/http_server.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <boost/asio.hpp>
@@ -24,8 +25,22 @@ class HttpServerTest : public testing::Test {
   HttpServerTest()
       : server_({0, "/nonexistent", 200},
                 {[] { return std::string("hello"); }, [] { return sceneOnce(); }, [] { return std::string("state"); },
-                 [this](const std::string& m) { received_ += m.size(); }}) {
+                 [this](const std::string& m) { received_ += m.size(); },
+                 [](std::uint32_t owner) { return owner == kOwner ? recording() : nullptr; }}) {
     server_.start();
+  }
+  // Larger than what a socket takes at once.
+  static std::string recordedBytes() {
+    std::string bytes(3'000'000, '\0');
+    for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * 7 + i / 1000);
+    return bytes;
+  }
+  static FilePointer recording() {
+    FilePointer file = makePrivateFile();
+    const std::string bytes = recordedBytes();
+    EXPECT_EQ(::write(file->descriptor(), bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
+    ::lseek(file->descriptor(), 0, SEEK_SET);
+    return file;
   }
   static SceneSource sceneOnce() {
     return [left = std::make_shared<const std::string>("scene")]() mutable { return std::exchange(left, nullptr); };
@@ -64,6 +79,7 @@ class HttpServerTest : public testing::Test {
     return boost::beast::buffers_to_string(buffer.data());
   }
 
+  static constexpr std::uint32_t kOwner = 4'000'000'000;
   asio::io_context context_;
   std::atomic<std::size_t> received_{0};
   HttpServer server_;
@@ -76,6 +92,27 @@ TEST_F(HttpServerTest, AnswersItsOwnPageAndRefusesForeigners) {
   EXPECT_EQ(statusOf("/", "evil.example"), 403u);
   EXPECT_EQ(statusOf("/../../etc/passwd", host()), 404u);
   EXPECT_EQ(statusOf("/", host(), "", http::verb::post), 405u);
+}
+
+TEST_F(HttpServerTest, SendsARecordingToItsPageAlone) {
+  const std::string target = "/recording.hlr?owner=" + std::to_string(kOwner);
+  tcp::socket socket = connect();
+  for (int again = 0; again < 2; ++again) {  // the connection goes on
+    http::request<http::empty_body> request(http::verb::get, target, 11);
+    request.set(http::field::host, host());
+    http::write(socket, request);
+    boost::beast::flat_buffer buffer;
+    http::response_parser<http::string_body> response;
+    http::read(socket, buffer, response);
+    EXPECT_EQ(response.get()[http::field::content_disposition], "attachment");
+    EXPECT_TRUE(response.get().body() == recordedBytes());
+  }
+  EXPECT_EQ(statusOf("/recording.hlr?owner=1", host()), 404u);
+  EXPECT_EQ(statusOf("/recording.hlr?owner=4000000000x", host()), 404u);
+  EXPECT_EQ(statusOf("/recording.hlr", host()), 404u);
+  EXPECT_EQ(statusOf(target, host(), "http://evil.example"), 403u);
+  EXPECT_EQ(statusOf(target, "evil.example"), 403u);
+  EXPECT_EQ(statusOf(target, host(), "", http::verb::post), 405u);
 }
 
 TEST_F(HttpServerTest, APageGetsHelloSceneThenStates) {

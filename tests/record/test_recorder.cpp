@@ -14,6 +14,7 @@
 #include <random>
 #include <thread>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "base/realtime_guard.h"
 #include "builtin.h"
@@ -62,7 +63,7 @@ class Loops {
     disturb();
     const TickRequest input{now_ns_, finger_D_, commands_, springOf(settings_, state_)};
     const ProxyStep tick = proxy_.step(now_ns_, finger_D_, commands_, input.spring);
-    recorder_.tick(input, tick, proxy_.state().position, 1000);
+    recorder_.tick(input, tick, proxy_, 1000);
     touching_ += tick.held.target.valid ? 1 : 0;
     out_of_work_ += tick.report.ending == Ending::kOutOfWork ? 1 : 0;
     DeviceSample sample = device_.read(now_ns_);
@@ -344,14 +345,155 @@ TEST_F(Recording, ARecorderThatGetsNoTimeTellsWhatItHasMissed) {
   EXPECT_EQ(report.unchecked_ticks, 8192u);
 }
 
+/// A recording that a page asks for while the loops run.
+class PageRecording : public Recording {
+ protected:
+  static constexpr std::uint32_t kPage = 7;
+  using Phase = PageRecordingStatus::Phase;
+  std::shared_ptr<PageRecordings> pages = std::make_shared<PageRecordings>();
+
+  RecorderSettings forPages() const {
+    RecorderSettings settings;
+    settings.pages = pages;
+    settings.version = "test";
+    return settings;
+  }
+  void ask(bool on, std::uint32_t owner = kPage) const { pages->ask(owner, on, monotonicNow_ns()); }
+  Phase phase() const { return pages->status().phase; }
+  void begin(Loops& loops) const {
+    ask(true);
+    while (phase() == Phase::kStarting) {
+      loops.step();
+      std::this_thread::sleep_for(std::chrono::microseconds(100));
+    }
+    ASSERT_EQ(phase(), Phase::kRunning) << pages->status().text;
+  }
+  FilePointer end() const {
+    ask(false);
+    test::waitFor([&] { return phase() == Phase::kReady; });
+    return pages->open(kPage);
+  }
+  static std::string pathOf(const FilePointer& file) { return "/proc/self/fd/" + std::to_string(file->descriptor()); }
+};
+
+TEST_F(PageRecording, BegunInTheMiddleOfASessionItIsReplayedBitForBit) {
+  Loops loops(forPages());
+  for (const int before : {300, 1700}) {
+    loops.run(before);
+    begin(loops);
+    const int touching = loops.touching();
+    loops.run(2500);
+    EXPECT_GT(loops.touching(), touching);
+    const FilePointer file = end();
+    ASSERT_TRUE(file);
+    const ReplayReport report = replay(pathOf(file));
+    EXPECT_FALSE(report.difference) << report.difference->what << ' ' << report.difference->number << ": "
+                                    << report.difference->text;
+    EXPECT_GE(report.steps, 2500u);
+    EXPECT_GE(report.ticks, 2500u);
+    EXPECT_GE(report.scenes, 3u);
+    EXPECT_EQ(report.lost_steps + report.lost_ticks + report.unchecked_ticks, 0u);
+    EXPECT_EQ(report.end, "stopped");
+    pages->drop();
+  }
+}
+
+TEST_F(PageRecording, AMemoryOfTheProxyThatNoSessionHasIsRefused) {
+  Loops loops(forPages());
+  loops.run(300);
+  begin(loops);
+  loops.run(300);
+  const FilePointer file = end();
+  const std::string changed = (folder.path() / "b.hlr").string();
+  const auto taken = [&](const std::function<void(proto::RecordedProxy&)>& change_it) {
+    rewrite(pathOf(file), changed, [&](proto::RecordingBlock& block) {
+      if (block.has_proxy()) change_it(*block.mutable_proxy());
+    });
+    replay(changed);
+  };
+  int numbers = 0;
+  EXPECT_NO_THROW(taken([&](auto& proxy) { numbers = proxy.memory().numbers_size(); }));
+  EXPECT_GT(numbers, 20);
+  for (int i = 0; i < numbers; ++i) {
+    for (const double wrong : {std::nan(""), HUGE_VAL})
+      EXPECT_THROW(taken([&](auto& proxy) { proxy.mutable_memory()->set_numbers(i, wrong); }), Error) << i;
+  }
+  EXPECT_THROW(taken([](auto& proxy) { proxy.mutable_memory()->add_numbers(0); }), Error);
+  EXPECT_THROW(taken([](auto& proxy) { proxy.add_adhering(1); }), Error);
+  EXPECT_THROW(taken([](auto& proxy) {
+                 for (const double number : {0.5, 0.0, 0.0, 1.0}) proxy.add_adhering(number);
+               }),
+               Error);
+}
+
+TEST_F(PageRecording, IsOneAtATimeAndForItsPageAlone) {
+  Loops loops(forPages());
+  loops.run(100);
+  begin(loops);
+  ask(true, kPage + 1);
+  EXPECT_EQ(pages->status().owner, kPage);
+  ask(false, kPage + 1);
+  EXPECT_EQ(phase(), Phase::kRunning);
+  EXPECT_FALSE(pages->open(kPage));
+  loops.run(500);
+  EXPECT_TRUE(end());
+  EXPECT_FALSE(pages->open(kPage + 1));
+  // What the page still repeats begins no other one.
+  ask(true);
+  EXPECT_EQ(phase(), Phase::kReady);
+  EXPECT_EQ(pages->status().begun, 1u);
+}
+
+TEST_F(PageRecording, EndsAndIsGoneWhenItsPageFallsSilent) {
+  Loops loops(forPages());
+  loops.run(100);
+  begin(loops);
+  pages->ask(kPage, true, monotonicNow_ns() - static_cast<std::int64_t>(1e9 * PageRecordings::kMaxSilence_s) - 1);
+  test::waitFor([&] { return phase() == Phase::kNone; });
+  EXPECT_FALSE(pages->open(kPage));
+}
+
+TEST_F(PageRecording, OfASceneThatCannotBeRecordedSaysSo) {
+  struct Still final : PoseSource {
+    bool moves() const override { return false; }
+    Pose to() const override { return {}; }
+    Pose at(std::int64_t) const override { return {}; }
+    std::int64_t straightUntil(std::int64_t, std::int64_t until_ns, double) const override { return until_ns; }
+    std::int64_t restsFrom_ns() const override { return 0; }
+    Box reach(const Box& object) const override { return object; }
+  };
+  std::vector<Instance> instances = sceneOf("teapot")->instances;
+  instances[0].driver = std::make_shared<Still>();
+  const auto scene = makeSnapshot(std::move(instances));
+  Recorder recorder(forPages(), {SimulatedDevice().info(), 1000, 1000, {}});
+  recorder.scene(scene);
+  recorder.start();
+  SnapshotSlot slot(scene);
+  ProxyLoop proxy(slot, {});
+  ask(true);
+  for (std::int64_t now_ns = kPeriod_ns; phase() == Phase::kStarting; now_ns += kPeriod_ns) {
+    const TickRequest request{now_ns, Vec3(0, 0.2, 0), {}, {}};
+    const ProxyStep step = proxy.step(now_ns, request.finger_D, request.commands, request.spring);
+    {
+      const RealtimeGuard guard;  // also in the tick whose memory the recorder wants
+      recorder.tick(request, step, proxy, 0);
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+  }
+  EXPECT_EQ(phase(), Phase::kNone);
+  EXPECT_EQ(pages->status().text, "an object that is driven cannot be recorded");
+}
+
 TEST_F(Recording, TheTapsDoNotAllocate) {
   Recorder recorder(settings(), {SimulatedDevice().info(), 1000, 1000, {}});
   ProxyStep tick;
   tick.scene = 1;
+  SnapshotSlot scenes(sceneOf("teapot"));
+  const ProxyLoop proxy(scenes, {});
   const ServoRecord step;
   const RealtimeGuard guard;
   recorder.step(step);
-  recorder.tick({}, tick, Vec3::Zero(), 0);
+  recorder.tick({}, tick, proxy, 0);
 }
 
 TEST_F(Recording, ItEndsAtItsSizeAndTheSessionGoesOn) {

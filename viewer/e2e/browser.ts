@@ -93,7 +93,7 @@ export function states(page: Page, count = 1): Promise<void> {
 export async function expectTidyLayout(page: Page, size: { width: number; height: number }): Promise<void> {
   await resize(page, size);
   const boxes = await page.evaluate(() =>
-    ["controls", "readouts", "notices", "hints", "key", "scale-bar"].map((id) => {
+    ["controls", "readouts", "notices", "hints", "key", "scale-bar", "timeline"].map((id) => {
       const target = document.getElementById(id)!;
       const { left, top, right, bottom } = target.getBoundingClientRect();
       const clipped = target.scrollHeight > target.clientHeight + 1 || target.scrollWidth > target.clientWidth + 1;

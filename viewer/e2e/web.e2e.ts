@@ -8,6 +8,7 @@ import type { AddressInfo } from "node:net";
 import { extname, join } from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
+import { fileOf, kWhole } from "../test-support/recording_bytes";
 import { launch, listen, screenshot, type Complaints } from "./browser";
 
 const folder = process.env.HL_WEB ?? "../build/web";
@@ -51,6 +52,18 @@ describe.skipIf(process.env.HL_WEB === undefined && !existsSync(folder))("the pa
     await page.waitForFunction(() => window.__hl.contacts > 0 && window.__hl.peak(1).force_N > 0);
     console.log(`first touch ${((performance.now() - begin_ms) / 1000).toFixed(1)} s after the page was asked for`);
     await screenshot(page, "web_teapot");
+    expect(complaints).toEqual({ errors: [], foreign: [] });
+  });
+
+  test("shows a recording, and goes back to its own session", async () => {
+    const buffer = Buffer.from(await fileOf(...kWhole).arrayBuffer());
+    await page.setInputFiles("#file", { name: "a.hlr", mimeType: "", buffer });
+    await page.waitForFunction(() => window.__hl.recording !== undefined && window.__hl.triangles === 1);
+    await page.keyboard.press("End");
+    await page.waitForFunction(() => window.__hl.proxy!.x > 3.9);
+    expect(await page.textContent("#recorded-origin")).toContain("a device");
+    await page.keyboard.press("Escape");
+    await page.waitForFunction(() => window.__hl.recording === undefined && window.__hl.triangles > 1000);
     expect(complaints).toEqual({ errors: [], foreign: [] });
   });
 });

@@ -1,4 +1,4 @@
-// Generates src/gen/hl_pb.ts from the one schema, proto/hl.proto, with protoc and the npm plugin protoc-gen-es.
+// Generates src/gen/hl_pb.ts and recording_pb.ts from the schemas, proto/hl.proto and recording.proto, with protoc and the npm plugin protoc-gen-es.
 // The result is never committed, so page and server cannot drift apart.
 import { spawnSync } from "node:child_process";
 import { mkdirSync } from "node:fs";
@@ -11,7 +11,7 @@ const outDir = join(viewerDir, "src", "gen");
 mkdirSync(outDir, { recursive: true });
 
 const pluginDir = join(viewerDir, "node_modules", ".bin");
-const result = spawnSync("protoc", [`-I${protoDir}`, `--es_out=${outDir}`, "--es_opt=target=ts", "hl.proto"], {
+const result = spawnSync("protoc", [`-I${protoDir}`, `--es_out=${outDir}`, "--es_opt=target=ts", "hl.proto", "recording.proto"], {
   stdio: "inherit",
   env: { ...process.env, PATH: `${pluginDir}${delimiter}${process.env.PATH ?? ""}` },
 });

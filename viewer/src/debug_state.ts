@@ -15,7 +15,14 @@ export interface DebugSources {
   state(): State | undefined;
   samples(): SampleRing;
   holding(): boolean;
+  recording(): RecordingShown | undefined;
   project(point: Vec): { x: number; y: number; depth_m: number };
+}
+
+export interface RecordingShown {
+  readonly length_s: number;
+  readonly time_s: number;
+  readonly playing: boolean;
 }
 
 export interface DebugState {
@@ -46,6 +53,8 @@ export interface DebugState {
   readonly surfaces: SurfaceSettings;
   readonly ledger: string;
   readonly holding: boolean;
+  /** The recording that is shown in the place of the live session. */
+  readonly recording: RecordingShown | undefined;
   readonly samples: number;
   /** Where the origin of an object is now. */
   originOf(object: number): Vec;
@@ -93,6 +102,7 @@ function makeDebugState(sources: DebugSources): DebugState {
     get ledger() { return LedgerMode[sources.state()?.ledger?.mode ?? LedgerMode.TANK]; },
     get exploring() { return sources.state()?.exploring ?? false; },
     get holding() { return sources.holding(); },
+    get recording() { return sources.recording(); },
     get samples() { return sources.samples().size; },
     originOf: (object) => {
       const [x, y, z] = [3, 7, 11].map((i) => sources.scene().store.poses[kPoseNumbers * object + i] ?? NaN);

@@ -8,6 +8,8 @@ import { Connection, type LinkState } from "./connection";
 import { publishDebugState } from "./debug_state";
 import { element, setText } from "./elements";
 import { showEmptyHint } from "./empty_hint";
+import { FileDrop } from "./file_drop";
+import { FileInput } from "./file_input";
 import type { Hello, State } from "./gen/hl_pb";
 import { padState } from "./gamepad";
 import { depthOf, metresPerPixel } from "./hand_mapping";
@@ -15,13 +17,15 @@ import { HandInput } from "./hand_input";
 import { diagonalOf } from "./fit";
 import { LedgerPanel } from "./ledger_panel";
 import { LiveScene } from "./live_scene";
+import { ModelFile } from "./model_file";
 import { Notices } from "./notices";
 import { Panel } from "./panel";
+import { RecordPanel } from "./record_panel";
 import { kWindow_s, LivePlot } from "./plots";
 import { Pointing } from "./pointing";
 import { ProbeView } from "./probe_view";
 import {
-  encodeHandGoal, encodePress, encodeRearm, encodeRelease, encodeSettings, kProtocolVersion,
+  encodeHandGoal, encodePress, encodeRearm, encodeRecord, encodeRelease, encodeSettings, kProtocolVersion,
   type Incoming, type SettingsChange,
 } from "./protocol";
 import { SampleRing } from "./samples";
@@ -31,7 +35,11 @@ import type { SceneStore } from "./scene_store";
 import { Sharing } from "./sharing";
 import { Stage, type Insets } from "./stage";
 import { SurfacePanel } from "./surface_panel";
+import { settingsOf } from "./surfaces";
 import { ThemeSwitch } from "./theme";
+import { RecordingFile } from "./timeline/recording_file";
+import { SceneHold } from "./timeline/scene_hold";
+import { Timeline } from "./timeline/timeline";
 import { TouchSound } from "./touch_sound";
 import { formatFixed } from "./units";
 import { length } from "./vec";
@@ -53,6 +61,10 @@ class App {
   });
   private readonly probe_ = new ProbeView();
   private readonly notices_ = new Notices();
+  private readonly recordingFile_ = new RecordingFile((recording, name) => this.timeline_.open(recording, name));
+  private readonly modelFile_ = new ModelFile();
+  /** What opens which file. */
+  private readonly files_ = new FileInput(new FileDrop([this.recordingFile_, this.modelFile_], this.notices_));
   private readonly stage_ = new Stage(element<HTMLCanvasElement>("canvas"), (reason) => {
     this.notices_.stand("drawing", reason);
   });
@@ -80,14 +92,25 @@ class App {
   private readonly announcer_ = new Announcer((text) => setText("announce", text));
   private readonly vibration_ = new VibrationAlarm();
   private readonly hand_: HandInput;
-  private readonly buttons_ = new ButtonInput((down) => this.connection_.send(encodePress(down)));
+  private readonly buttons_ = new ButtonInput((down) => this.send(encodePress(down)));
+  private readonly recordPanel_ = new RecordPanel(
+    (on, owner) => this.connection_.send(encodeRecord(on, owner)), () => this.live_.layout?.name ?? "",
+    (text) => this.notices_.tell(text, false),
+  );
   private readonly panel_: Panel;
   private readonly surfacePanel_: SurfacePanel;
   private readonly ledgerPanel_: LedgerPanel;
   private readonly theme_: ThemeSwitch;
+  private readonly timeline_: Timeline;
+  /** The live scene, while a recording is shown. */
+  private held_: SceneHold | undefined;
+  /** From where the user had turned the view to it. */
+  private eye_: Stage["eye"] | undefined;
   private readonly connection_: Connection;
   private state_: State | undefined;
   private serverVersion_: string | undefined;
+  private liveName_ = "";
+  private simulatedHand_ = false;
   private stateFresh_ = false;
   private lastPlot_ms_ = 0;
   private lastNumbers_ms_ = 0;
@@ -99,6 +122,7 @@ class App {
     this.memory_ = new ViewMemory();
     this.surfacePanel_ = new SurfacePanel((change) => this.tell(change));
     this.ledgerPanel_ = new LedgerPanel((change) => this.tell(change));
+    this.timeline_ = this.makeTimeline();
     this.theme_ = new ThemeSwitch(() => this.applyTheme());
     this.panel_.showTheme(this.theme_.choice);
     this.followWindow();
@@ -115,6 +139,7 @@ class App {
       state: () => this.state_,
       samples: () => this.samples_,
       holding: () => this.hand_.holding,
+      recording: () => this.timeline_.recording,
       project: (point) => this.stage_.project(point),
     });
     requestAnimationFrame((now_ms) => this.frame(now_ms));
@@ -125,8 +150,8 @@ class App {
     return new HandInput(this.stage_, {
       finger: () => (this.connection_.state === "live" ? knownVec(this.state_?.finger) : undefined),
       proxy: () => knownVec(this.state_?.proxy),
-      goal: (position) => this.connection_.send(encodeHandGoal(position)),
-      release: () => this.connection_.send(encodeRelease()),
+      goal: (position) => this.send(encodeHandGoal(position)),
+      release: () => this.send(encodeRelease()),
       moving: () => this.live_.moving,
       press: (x_px, y_px) => pointing.press(x_px, y_px),
       surface: (x_px, y_px) => pointing.surfaceAt(x_px, y_px),
@@ -137,7 +162,7 @@ class App {
   private makePanel(): Panel {
     return new Panel({
       settings: (change) => this.tell(change),
-      rearm: () => this.connection_.send(encodeRearm()),
+      rearm: () => this.send(encodeRearm()),
       theme: (choice) => this.theme_.choose(choice),
       planes: (shown) => this.probe_.setPlanesShown(shown),
       cones: (shown) => this.probe_.cones.setShown(shown),
@@ -153,14 +178,70 @@ class App {
       copyLink: () => void this.sharing_.copyLink(this.stage_, this.memory_, this.notices_),
       savePicture: () => void this.sharing_.savePicture(this.stage_),
       saveSamples: () => this.sharing_.saveSamples(),
+      saveScene: () => {
+        void this.sharing_.saveScene(this.live_.store, settingsOf(this.state_?.surfaces), this.notices_);
+      },
     });
   }
 
+  private makeTimeline(): Timeline {
+    return new Timeline({
+      opened: () => this.leaveLive(),
+      closed: () => this.backToLive(),
+      scene: (layout, added, gone) => {
+        if (this.live_.layout === undefined) {
+          this.live_.clear(`recording ${layout.name}`);
+        }
+        added.forEach((mesh) => this.live_.add(mesh));
+        this.live_.setLayout(layout);
+        this.live_.forget(gone);
+      },
+    });
+  }
+
+  /** What the server goes on telling of its scene is kept; nothing is sent to it that changes anything. */
+  private leaveLive(): void {
+    this.held_ = new SceneHold(this.live_.store);
+    this.eye_ = this.stage_.isTurned ? this.stage_.eye : undefined;
+    this.hand_.cancel();
+    this.hand_.movable = this.buttons_.enabled = false;
+    this.sound_.silence();
+    this.stateFresh_ = false;
+    this.state_ = undefined;
+    this.live_.clear("recording");
+  }
+
+  private backToLive(): void {
+    const messages = this.held_?.messages() ?? [];
+    this.held_ = undefined;
+    this.state_ = undefined;
+    this.live_.clear(this.liveName_);
+    this.hand_.movable = this.buttons_.enabled = this.simulatedHand_;
+    messages.forEach((message) => this.receive(message));
+    if (this.eye_ !== undefined && messages[0]?.kind !== "hello") {
+      this.stage_.lookFrom(this.eye_.position, this.eye_.target);
+    }
+  }
+
+  /** While a recording is shown the session is not touched. */
+  private send(message: Uint8Array<ArrayBuffer>): void {
+    if (this.held_ === undefined) {
+      this.connection_.send(message);
+    }
+  }
+
   private tell(change: SettingsChange): void {
-    this.connection_.send(encodeSettings(change));
+    this.send(encodeSettings(change));
   }
 
   private receive(message: Incoming): void {
+    if (message.kind === "state") {
+      this.recordPanel_.hear(message.state.recording, performance.now());
+    }
+    if (this.held_ !== undefined && message.kind !== "notice") {
+      this.held_.take(message);
+      return;
+    }
     switch (message.kind) {
       case "hello":
         this.greet(message.hello);
@@ -191,9 +272,13 @@ class App {
     const renewed = this.serverVersion_ !== undefined && this.serverVersion_ !== hello.serverVersion;
     this.notices_.stand("version", other || renewed ? "The server has another version. Reload this page." : undefined);
     this.serverVersion_ = hello.serverVersion;
+    this.modelFile_.limit_bytes = Number(hello.uploadBytes);
+    this.files_.showOffered();
+    this.liveName_ = hello.sceneName;
     this.live_.clear(hello.sceneName);
     this.hand_.cancel();
-    this.hand_.movable = this.buttons_.enabled = hello.device?.simulatedHand ?? false;
+    this.simulatedHand_ = hello.device?.simulatedHand ?? false;
+    this.hand_.movable = this.buttons_.enabled = this.simulatedHand_;
     this.panel_.showHello(hello);
     this.surfacePanel_.showQuantities(hello.quantities);
     this.surfacePanel_.forget();
@@ -259,6 +344,7 @@ class App {
     requestAnimationFrame((next_ms) => this.frame(next_ms));
     this.followPad();
     this.hand_.frame();
+    this.showRecorded(now_ms);
     this.live_.frame();
     this.pointing_.showPicked(this.hand_.pressed);
     this.showProbe();
@@ -273,12 +359,21 @@ class App {
     }
   }
 
+  private showRecorded(now_ms: number): void {
+    const moment = this.timeline_.frame(now_ms);
+    if (moment !== undefined) {
+      this.state_ = moment.state;
+      this.live_.take(moment.state, moment.moves);
+      this.probe_.setRadius(moment.scale.radius_m);
+    }
+  }
+
   private showProbe(): void {
     const proxy = knownVec(this.state_?.proxy);
     this.probe_.update(this.state_);
     const view = this.stage_.viewFrame();
     this.scaleBar_.show(metresPerPixel(view, depthOf(view, this.stage_.target)));
-    this.pointing_.showFinder(this.connection_.state === "live", this.hand_);
+    this.pointing_.showFinder(this.connection_.state === "live" && this.held_ === undefined, this.hand_);
     if (proxy !== undefined) {
       const pixel_m = metresPerPixel(view, depthOf(view, proxy));
       this.probe_.face(this.stage_.camera, pixel_m);
@@ -330,6 +425,7 @@ class App {
     this.live_.model.applyTheme();
     this.probe_.applyTheme();
     Object.values(this.plots_).forEach((plot) => plot.applyTheme());
+    this.timeline_.applyTheme();
   }
 
   private followWindow(): void {

@@ -32,6 +32,7 @@ export interface PanelActions {
   copyLink(): void;
   savePicture(): void;
   saveSamples(): void;
+  saveScene(): void;
 }
 
 /** From this height of the window on all sections fit. */
@@ -80,6 +81,7 @@ export class Panel {
     element("copy-link").addEventListener("click", () => actions.copyLink());
     element("save-picture").addEventListener("click", () => actions.savePicture());
     element("save-samples").addEventListener("click", () => actions.saveSamples());
+    element("save-scene").addEventListener("click", () => actions.saveScene());
     element("help-open").addEventListener("click", () => element<HTMLDialogElement>("help").showModal());
     window.addEventListener("keydown", (event) => this.shortcut(event));
     this.foldByHeight();
@@ -287,7 +289,8 @@ export class Panel {
       e: "explore", p: "planes", c: "cones", m: "edges", f: "flat", d: "drop", b: "bring-back", t: "pause", r: "reset-view", "?": "help-open",
     };
     const id = ids[event.key.toLowerCase()];
-    if (id !== undefined) {
+    const away = document.documentElement.dataset.mode === "recorded";
+    if (id !== undefined && !(away && element(id).closest(".live-only") !== null)) {
       element(id).click();
     }
   }

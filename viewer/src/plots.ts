@@ -21,6 +21,8 @@ export interface PlotOptions {
   readonly series: readonly PlotSeries[];
   /** The scale never shows less than this, in the unit: a resting hand must not look like an earthquake. */
   readonly smallestTop: number;
+  /** What it shows in the place of the last seconds. */
+  readonly whole?: { readonly length_s: () => number; readonly now_s: () => number };
 }
 
 const kFont = "11px system-ui, sans-serif";
@@ -57,6 +59,17 @@ export class LivePlot {
     this.limit_ = limit;
   }
 
+  /** Draws the mark of the time anew. */
+  redraw(): void {
+    this.plot_.redraw(false, false);
+  }
+
+  /** The share 0..1 of its width that is at `x_px` of the host. */
+  shareAt(x_px: number): number {
+    const { left, width } = this.plot_.bbox;
+    return Math.min(1, Math.max(0, (x_px * window.devicePixelRatio - left) / Math.max(1, width)));
+  }
+
   applyTheme(): void {
     this.plot_.redraw(true, true);
   }
@@ -70,6 +83,7 @@ export class LivePlot {
 }
 
 function plotOptions(options: PlotOptions, host: HTMLElement, limit: () => number): uPlot.Options {
+  const { whole } = options;
   const axis: Partial<uPlot.Axis> = {
     stroke: () => themeColour("muted"),
     font: kFont,
@@ -83,10 +97,12 @@ function plotOptions(options: PlotOptions, host: HTMLElement, limit: () => numbe
     legend: { show: false },
     padding: [6, 16, 0, 0],
     scales: {
-      x: { time: false, range: () => [-kWindow_s, 0] },
+      x: { time: false, range: () => (whole === undefined ? [-kWindow_s, 0] : [0, Math.max(whole.length_s(), 1e-3)]) },
       y: { range: (_plot, _low, high) => [0, topOf(options.smallestTop, high || 0, limit())] },
     },
-    hooks: { draw: [(plot) => drawLimit(plot, limit())] },
+    hooks: {
+      draw: [(plot) => drawLimit(plot, limit()), (plot) => whole !== undefined && drawNow(plot, whole.now_s())],
+    },
     series: [
       {},
       ...options.series.map((series): uPlot.Series => ({
@@ -97,7 +113,13 @@ function plotOptions(options: PlotOptions, host: HTMLElement, limit: () => numbe
       })),
     ],
     axes: [
-      { ...axis, size: kXAxisHeight_px, gap: 6, splits: () => kXTicks_s, values: (_plot, ticks) => ticks.map(timeLabel) },
+      {
+        ...axis,
+        size: kXAxisHeight_px,
+        gap: 6,
+        ...(whole === undefined ? { splits: () => kXTicks_s } : { space: 60 }),
+        values: (_plot, ticks) => ticks.map(whole === undefined ? timeLabel : (tick) => `${tick}\u202fs`),
+      },
       {
         ...axis,
         size: kAxisWidth_px,
@@ -129,6 +151,20 @@ function drawLimit(plot: uPlot, limit: number): void {
   context.beginPath();
   context.moveTo(bbox.left, y);
   context.lineTo(bbox.left + bbox.width, y);
+  context.stroke();
+  context.restore();
+}
+
+/** An upright line at the time that is shown. */
+function drawNow(plot: uPlot, now_s: number): void {
+  const { ctx: context, bbox } = plot;
+  const x = plot.valToPos(now_s, "x", true);
+  context.save();
+  context.strokeStyle = themeColour("text");
+  context.lineWidth = window.devicePixelRatio;
+  context.beginPath();
+  context.moveTo(x, bbox.top);
+  context.lineTo(x, bbox.top + bbox.height);
   context.stroke();
   context.restore();
 }

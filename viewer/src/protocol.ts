@@ -78,6 +78,11 @@ export function encodeRearm(): Uint8Array<ArrayBuffer> {
   return encode({ case: "rearm", value: {} });
 }
 
+/** Begins or ends the recording with the number `owner`. */
+export function encodeRecord(on: boolean, owner: number): Uint8Array<ArrayBuffer> {
+  return encode({ case: "record", value: { on, owner } });
+}
+
 export function encodeSettings(change: SettingsChange): Uint8Array<ArrayBuffer> {
   return encode({ case: "settings", value: change });
 }

@@ -1,11 +1,14 @@
-// What the user takes away from the page: a link to this view, a picture, the samples that the plots show.
+// What the user takes away from the page: a link to this view, a picture, the samples that the plots show, the scene.
 
 import { csvOf } from "./csv";
 import type { Notices } from "./notices";
 import { kWindow_s } from "./plots";
 import type { SampleRing } from "./samples";
 import { fileName, saveFile } from "./save";
+import { sceneFile } from "./scene_file";
+import type { SceneStore } from "./scene_store";
 import type { Stage } from "./stage";
+import type { SurfaceSettings } from "./surfaces";
 import type { ViewMemory } from "./view_memory";
 
 export class Sharing {
@@ -45,6 +48,19 @@ export class Sharing {
   saveSamples(): void {
     const table = new Blob([this.held_ ?? this.table()], { type: "text/csv" });
     saveFile(fileName(this.sceneName_(), new Date(), "csv"), table);
+  }
+
+  /** Everything as it is now, with the materials that are felt: what the user has set is `over` the scene's. */
+  async saveScene(store: SceneStore, over: SurfaceSettings, notices: Notices): Promise<void> {
+    try {
+      const { content, lacking } = await sceneFile(store, over);
+      saveFile(fileName(this.sceneName_(), new Date(), "hl.json"), content);
+      if (lacking !== undefined) {
+        notices.tell(lacking, false);
+      }
+    } catch (error) {
+      notices.tell(error instanceof Error ? error.message : String(error), true);
+    }
   }
 
   private table(): string {

@@ -121,6 +121,11 @@ export class Stage {
     this.controls.update();
   }
 
+  /** Whether the user, or a link, has turned the view. */
+  get isTurned(): boolean {
+    return !this.untouched_;
+  }
+
   /** Where the eye is, and what it looks at. */
   get eye(): { position: Vec; target: Vec } {
     return { position: plain(this.camera.position), target: this.target };

@@ -1,0 +1,113 @@
+#include "record/recorded_proxy.h"
+
+#include <limits>
+
+#include "base/error.h"
+#include "io/value_messages.h"
+
+namespace hl {
+
+namespace {
+
+// A ProxyMemory as one list; the contacts that hold the proxy are beside it, as their number varies.
+struct MemoryValues {
+  Vec3 position = Vec3::Zero();
+  bool free = false, touching = false;
+  double rest_s = 0;
+  Vec3 presliding_m = Vec3::Zero();
+  double stiffness = 1;
+  std::int64_t time_ns = 0;
+  std::uint64_t snapshot = 0, carrier = 0;
+  Ledger ledger;
+  int out_of_work = 0, start = 0;
+  FadingPull fading;
+  ServoTarget told;
+  std::uint64_t restarts = 0;
+};
+
+constexpr double kMaxMemory = 1e12;  // joules, seconds, metres: far beyond any session
+
+void checkVector(const char* name, const Vec3& v) {
+  for (int i = 0; i < 3; ++i) checkRanges("the memory of the proxy", {{name, v[i], -kMaxMemory, kMaxMemory}});
+}
+
+void checkMemory(const MemoryValues& in) {
+  checkVector("position", in.position);
+  checkVector("presliding_m", in.presliding_m);
+  checkVector("offset", in.fading.offset);
+  checkVector("proxy_D", in.told.proxy_D);
+  checkTime(in.time_ns, "the last tick before the recording");
+  checkTime(in.told.time_ns, "the last target before the recording");
+  checkRanges("the memory of the proxy",
+              {{"rest_s", in.rest_s, 0, kMaxMemory},
+               {"stiffness", in.stiffness, 0, 1},
+               {"out_of_work", static_cast<double>(in.out_of_work), 0, std::numeric_limits<int>::max()},
+               {"start", static_cast<double>(in.start), 0, static_cast<double>(StartSearch::kPlaces - 1)},
+               {"duration_s", in.fading.duration_s, in.fading.left_s, kMaxMemory},
+               {"left_s", in.fading.left_s, 0, kMaxMemory},
+               {"told.stiffness", in.told.stiffness, 0, 1},
+               {"told.paid_J", in.told.paid_J, -kMaxMemory, kMaxMemory},
+               {"tank_J", in.ledger.tank_J, 0, kMaxMemory},
+               {"injected_J", in.ledger.injected_J, -kMaxMemory, kMaxMemory},
+               {"dissipated_J", in.ledger.dissipated_J, -kMaxMemory, kMaxMemory}});
+  for (const double joules : in.ledger.by_cause_J)
+    checkRanges("the memory of the proxy", {{"by_cause_J", joules, -kMaxMemory, kMaxMemory}});
+}
+
+AdheringContacts adheringOf(const proto::RecordedProxy& in) {
+  constexpr double kUnit = 1e-6;  // of a normal, which is computed
+  constexpr int kNumbersEach = 4;
+  AdheringContacts adhering;
+  const int count = in.adhering_size() / kNumbersEach;
+  if (in.adhering_size() % kNumbersEach != 0 || static_cast<std::size_t>(count) > AdheringContacts::capacity())
+    throw Error("the contacts that hold the proxy make no sense");
+  for (int i = 0; i < count; ++i) {
+    const double* const values = in.adhering().data() + static_cast<std::ptrdiff_t>(kNumbersEach) * i;
+    const AdheringContact contact{{values[0], values[1], values[2]}, values[3]};
+    checkRanges("a contact that holds the proxy", {{"its normal's length", contact.normal.norm(), 1 - kUnit, 1 + kUnit},
+                                                   {"adhesion_N", contact.adhesion_N, 0, kMaxMemory}});
+    adhering.push(contact);
+  }
+  return adhering;
+}
+
+}  // namespace
+
+void toProto(const ProxyMemory& memory, proto::RecordedProxy& out) {
+  const ProxyState& state = memory.state;
+  const MemoryValues values{state.position,    state.free,         state.touching, state.rest_s,  state.presliding_m,
+                            state.stiffness,   state.time_ns,      state.snapshot, state.carrier, state.ledger,
+                            state.out_of_work, state.start.next(), memory.fading,  memory.told,   memory.restarts};
+  toProto(valuesOf(values), *out.mutable_memory());
+  for (const AdheringContact& contact : state.adhering) {
+    add(*out.mutable_adhering(), contact.normal);
+    out.add_adhering(contact.adhesion_N);
+  }
+}
+
+ProxyMemory fromProto(const proto::RecordedProxy& in) {
+  MemoryValues values;
+  readValues(in.memory(), "the memory of the proxy", values);
+  checkMemory(values);
+  ProxyMemory memory;
+  ProxyState& state = memory.state;
+  state.position = values.position;
+  state.free = values.free;
+  state.touching = values.touching;
+  state.rest_s = values.rest_s;
+  state.presliding_m = values.presliding_m;
+  state.stiffness = values.stiffness;
+  state.time_ns = values.time_ns;
+  state.snapshot = values.snapshot;
+  state.carrier = values.carrier;
+  state.adhering = adheringOf(in);
+  state.ledger = values.ledger;
+  state.out_of_work = values.out_of_work;
+  state.start = StartSearch(values.start);
+  memory.fading = values.fading;
+  memory.told = values.told;
+  memory.restarts = values.restarts;
+  return memory;
+}
+
+}  // namespace hl

@@ -1,0 +1,55 @@
+// A recording as the page shows it.
+
+import type { Mesh } from "../scene_messages";
+import type { SurfaceSettings } from "../surfaces";
+import type { Way } from "./recorded_values";
+import type { Track } from "./track";
+
+export interface RecordedInstance {
+  /** Number of a mesh. */
+  readonly mesh: number;
+  readonly ways: readonly [Way, Way];
+  readonly session: number;
+  readonly object: number;
+  readonly name: number;
+  readonly materials: readonly SurfaceSettings[];
+}
+
+export interface RecordedScene {
+  readonly name: string;
+  readonly instances: readonly RecordedInstance[];
+}
+
+/** Of ticks, from a moment on. */
+export interface Scale {
+  readonly from_s: number;
+  readonly radius_m: number;
+  readonly worldPerDevice: number;
+}
+
+/** Columns of Recording.steps. Finger: device frame. */
+export const enum StepColumn {
+  kForce_N, kPenetration_m, kForceX, kForceY, kForceZ, kFingerX, kFingerY, kFingerZ, kSafety,
+}
+export const kStepColumns = 9;
+/** Columns of Recording.ticks. World frame. */
+export const enum TickColumn { kContacts, kScene, kProxyX, kProxyY, kProxyZ, kFingerX, kFingerY, kFingerZ }
+export const kTickColumns = 8;
+
+export interface Recording {
+  readonly version: string;
+  readonly device: string;
+  readonly begin_unix_ms: number;
+  readonly servoRate_Hz: number;
+  readonly blackBox: boolean;
+  /** Reason of a black box. */
+  readonly fault: string;
+  /** Why it ends. */
+  readonly end: string;
+  readonly length_s: number;
+  readonly steps: Track;
+  readonly ticks: Track;
+  readonly scales: readonly Scale[];
+  readonly meshes: readonly Mesh[];
+  readonly scenes: readonly RecordedScene[];
+}

@@ -1,0 +1,201 @@
+// Reads a recording file into what the page shows of it. A file may say anything: what does not agree with itself is
+// refused in one line.
+
+import type {
+  ProxyTicks, RecordedScene as SceneMessage, RecordedShape, RecordedSurfaces, RecordingBlock, RecordingStart,
+  ServoSteps,
+} from "../gen/recording_pb";
+import type { Mesh } from "../scene_messages";
+import type { SurfaceSettings } from "../surfaces";
+import { MeshParts } from "./recorded_mesh";
+import { materialOf, tickContext, waysOf, type TickContext } from "./recorded_values";
+import { kStepColumns, kTickColumns, type RecordedScene, type Recording, type Scale } from "./recording";
+import { readBlocks, RecordingError } from "./recording_blocks";
+import { TrackBuilder } from "./track";
+
+/** Samples that the page keeps of each loop: at 1 kHz all of half an hour; of more every second, every fourth, ... */
+const kMaxSamples = 2_000_000;
+const kMaxMesh_bytes = 2 ** 30;
+/** Of all scenes together. */
+const kMaxInstances = 1_000_000;
+
+const kBroken = "makes no sense: the lists of a block do not agree";
+
+/** `progress`: the share that is read. Throws RecordingError with what follows the name of the file in a sentence. */
+export async function readRecording(file: Blob, progress: (share: number) => void): Promise<Recording> {
+  const reader = new RecordingReader();
+  const damage = await readBlocks(file, (block, share) => {
+    reader.take(block);
+    progress(share);
+  });
+  return reader.recording(damage);
+}
+
+class RecordingReader {
+  private start_: RecordingStart | undefined;
+  /** Time 0 of what is shown, ns. */
+  private origin_ns_: bigint | undefined;
+  private last_s_ = 0;
+  private end_ = "";
+  private readonly steps_ = new TrackBuilder(kStepColumns, kMaxSamples);
+  private readonly ticks_ = new TrackBuilder(kTickColumns, kMaxSamples);
+  private readonly scales_: Scale[] = [];
+  private readonly parts_ = new MeshParts();
+  private readonly meshes_ = new Map<bigint, Mesh>();
+  private mesh_bytes_ = 0;
+  private lastMesh_ = 0;
+  private readonly surfaces_ = new Map<bigint, readonly SurfaceSettings[]>();
+  /** Scenes wait for the first time, which their motions are told relative to. */
+  private readonly messages_: SceneMessage[] = [];
+  private readonly sceneNumbers_ = new Map<bigint, number>();
+  private instances_ = 0;
+
+  take({ body }: RecordingBlock): void {
+    if (this.start_ === undefined) {
+      if (body.case !== "start") {
+        throw new RecordingError("is no recording of HL: it does not begin as one");
+      }
+      this.start_ = body.value;
+      return;
+    }
+    switch (body.case) {
+      case "shape": return this.addShape(body.value);
+      case "surfaces": return this.addSurfaces(body.value);
+      case "scene": return this.addScene(body.value);
+      case "ticks": return this.addTicks(body.value);
+      case "steps": return this.addSteps(body.value);
+      case "end":
+        this.end_ = body.value.reason;
+        return;
+      default:
+    }
+  }
+
+  recording(damage: string | undefined): Recording {
+    const start = this.start_;
+    if (start === undefined) {
+      throw new RecordingError(damage === undefined ? "is empty" : "is cut short: nothing of it can be read");
+    }
+    const [steps, ticks] = [this.steps_.track(), this.ticks_.track()];
+    if (steps.times.length === 0) {
+      throw new RecordingError("holds no steps: there is nothing to show");
+    }
+    return {
+      version: start.version, device: start.deviceName, begin_unix_ms: Number(start.beginUnixMs),
+      servoRate_Hz: start.servoRateHz, blackBox: start.blackBox, fault: start.fault,
+      end: damage ?? (this.end_ || "the program was killed"),
+      length_s: this.last_s_, steps, ticks, scales: this.scales_, meshes: [...this.meshes_.values()],
+      scenes: this.messages_.map((message) => this.sceneOf(message)),
+    };
+  }
+
+  private seconds(time_ns: bigint): number {
+    return 1e-9 * Number(time_ns - (this.origin_ns_ ?? 0n));
+  }
+
+  private addShape(shape: RecordedShape): void {
+    this.mesh_bytes_ += 4 * (shape.positions.length + shape.normals.length + shape.triangles.length);
+    if (this.mesh_bytes_ > kMaxMesh_bytes) {
+      throw new RecordingError("has meshes of more than 1 GB, too many for the page: use hl replay");
+    }
+    const mesh = this.parts_.add(this.lastMesh_ + 1, shape);
+    if (mesh !== undefined) {
+      this.lastMesh_ += 1;
+      this.meshes_.set(shape.id, mesh);
+    }
+  }
+
+  private addSurfaces(surfaces: RecordedSurfaces): void {
+    this.surfaces_.set(surfaces.id, surfaces.materials.map(materialOf));
+  }
+
+  private addScene(scene: SceneMessage): void {
+    this.instances_ += scene.instances.length;
+    if (this.instances_ > kMaxInstances) {
+      throw new RecordingError("has too many objects and scenes for the page: use hl replay");
+    }
+    if (scene.instances.some(({ shape }) => !this.meshes_.has(shape))) {
+      throw new RecordingError("makes no sense: a scene in it lacks a mesh");
+    }
+    this.sceneNumbers_.set(scene.identity, this.messages_.length);
+    this.messages_.push(scene);
+  }
+
+  private sceneOf(scene: SceneMessage): RecordedScene {
+    return {
+      name: scene.name,
+      instances: scene.instances.map(({ shape, surfaces, motion, session, object, name }) => ({
+        mesh: this.meshes_.get(shape)!.number, ways: waysOf(motion, (time_ns) => this.seconds(time_ns)),
+        session, object, name, materials: this.surfaces_.get(surfaces) ?? [],
+      })),
+    };
+  }
+
+  private addTicks(ticks: ProxyTicks): void {
+    const count = ticks.timeNs.length;
+    if (count === 0 || ticks.commands[0]?.at !== 0 || ticks.contacts.length !== count ||
+        [ticks.finger, ticks.proxy].some((list) => list.length !== 3 * count)) {
+      throw new RecordingError(kBroken);
+    }
+    let context: TickContext | undefined;
+    let scene = 0;
+    let next = 0;
+    this.eachTime(ticks.timeNs, (time_s, i) => {
+      if (ticks.commands[next]?.at === i) {
+        context = tickContext(ticks.commands[next]!.values);
+        scene = this.sceneNumber(context);
+        this.follow(time_s, context);
+        next += 1;
+      }
+      const { origin: { x, y, z }, worldPerDevice: scale } = context!;
+      const { finger, proxy } = ticks;
+      this.ticks_.add(
+        time_s, ticks.contacts[i]!, scene, proxy[3 * i]!, proxy[3 * i + 1]!, proxy[3 * i + 2]!,
+        x + scale * finger[3 * i]!, y + scale * finger[3 * i + 1]!, z + scale * finger[3 * i + 2]!,
+      );
+    });
+  }
+
+  private sceneNumber({ scene }: TickContext): number {
+    const number = this.sceneNumbers_.get(scene);
+    if (number === undefined) {
+      throw new RecordingError("makes no sense: it lacks a scene that it touches");
+    }
+    return number;
+  }
+
+  private follow(from_s: number, { radius_m, worldPerDevice }: TickContext): void {
+    const last = this.scales_.at(-1);
+    if (last?.radius_m !== radius_m || last.worldPerDevice !== worldPerDevice) {
+      this.scales_.push({ from_s, radius_m, worldPerDevice });
+    }
+  }
+
+  private addSteps(steps: ServoSteps): void {
+    const count = steps.timeNs.length;
+    const { forceN: force, position, targetProxy: target, flags } = steps;
+    if (count === 0 || flags.length !== count || [force, position, target].some((list) => list.length !== 3 * count)) {
+      throw new RecordingError(kBroken);
+    }
+    this.eachTime(steps.timeNs, (time_s, i) => {
+      const at = 3 * i;
+      const vec = (list: readonly number[]) => [list[at]!, list[at + 1]!, list[at + 2]!] as const;
+      const [f, p, t] = [vec(force), vec(position), vec(target)];
+      const valid = ((flags[i]! >>> 5) & 1) === 1;
+      const penetration_m = valid ? Math.hypot(t[0] - p[0], t[1] - p[1], t[2] - p[2]) : 0;
+      this.steps_.add(time_s, Math.hypot(...f), penetration_m, ...f, ...p, (flags[i]! >>> 6) & 7);
+      this.last_s_ = Math.max(this.last_s_, time_s);
+    });
+  }
+
+  /** Each time is told as the difference to the one before. */
+  private eachTime(differences: readonly bigint[], act: (time_s: number, index: number) => void): void {
+    const first = differences[0]!;
+    this.origin_ns_ ??= first;
+    let time_ns = Number(first - this.origin_ns_);
+    differences.forEach((difference, i) => {
+      time_ns += i === 0 ? 0 : Number(difference);
+      act(1e-9 * time_ns, i);
+    });
+  }
+}
