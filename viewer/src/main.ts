@@ -8,6 +8,8 @@ import { Connection, type LinkState } from "./connection";
 import { publishDebugState } from "./debug_state";
 import { element, setText } from "./elements";
 import { showEmptyHint } from "./empty_hint";
+import { FileDrop } from "./file_drop";
+import { FileInput } from "./file_input";
 import type { Hello, State } from "./gen/hl_pb";
 import { padState } from "./gamepad";
 import { depthOf, metresPerPixel } from "./hand_mapping";
@@ -15,6 +17,7 @@ import { HandInput } from "./hand_input";
 import { diagonalOf } from "./fit";
 import { LedgerPanel } from "./ledger_panel";
 import { LiveScene } from "./live_scene";
+import { ModelFile } from "./model_file";
 import { Notices } from "./notices";
 import { Panel } from "./panel";
 import { kWindow_s, LivePlot } from "./plots";
@@ -53,6 +56,9 @@ class App {
   });
   private readonly probe_ = new ProbeView();
   private readonly notices_ = new Notices();
+  private readonly modelFile_ = new ModelFile();
+  /** What opens which file. */
+  private readonly files_ = new FileInput(new FileDrop([this.modelFile_], this.notices_));
   private readonly stage_ = new Stage(element<HTMLCanvasElement>("canvas"), (reason) => {
     this.notices_.stand("drawing", reason);
   });
@@ -191,6 +197,8 @@ class App {
     const renewed = this.serverVersion_ !== undefined && this.serverVersion_ !== hello.serverVersion;
     this.notices_.stand("version", other || renewed ? "The server has another version. Reload this page." : undefined);
     this.serverVersion_ = hello.serverVersion;
+    this.modelFile_.limit_bytes = Number(hello.uploadBytes);
+    this.files_.showOffered();
     this.live_.clear(hello.sceneName);
     this.hand_.cancel();
     this.hand_.movable = this.buttons_.enabled = hello.device?.simulatedHand ?? false;

@@ -9,7 +9,7 @@ export class Notices {
   private readonly standing_ = new Map<string, HTMLElement>();
 
   /** Shows or replaces the banner of one cause; undefined removes it. */
-  stand(cause: string, text: string | undefined, kind: "bad" | "warn" = "bad"): void {
+  stand(cause: string, text: string | undefined, kind: "bad" | "warn" | "plain" = "bad"): void {
     const old = this.standing_.get(cause);
     if (text === undefined) {
       old?.remove();

@@ -1,0 +1,102 @@
+// A file that the user drops on the page or chooses. A table says what opens which ending; this module finds the opener,
+// tells how far it is, and what came of it. One file at a time.
+
+export interface FileOpener {
+  /** What it opens, in the plural, for a sentence. */
+  readonly what: string;
+  /** Of the names, in lower case and with the dot; kAnyEnding: every file that no other opener takes. */
+  readonly endings: readonly string[];
+  /** In one line why it opens nothing now; undefined: it does. */
+  refusal(): string | undefined;
+  /**
+   * Opens a file. `tell` shows a line while it goes on. Resolves with the line that says what is open now; rejects with an
+   * Error whose message is one line for the user, and then what was open before still is.
+   */
+  open(file: File, tell: (line: string) => void): Promise<string>;
+}
+
+export const kAnyEnding = "*";
+
+/** Where the lines go; Notices is one. */
+export interface FileLines {
+  stand(cause: string, text: string | undefined, kind: "bad" | "warn" | "plain"): void;
+  tell(text: string, bad: boolean): void;
+}
+
+const kShownName_characters = 60;
+const kCause = "file";
+
+/** A file's name as it may be shown: one line without control characters, of bounded length. */
+export function shownName(name: string): string {
+  const clean = name.replace(/[\p{Cc}\p{Cf}\p{Zl}\p{Zp}]/gu, "").trim() || "file";
+  const letters = [...clean];
+  return letters.length <= kShownName_characters ? clean : `${letters.slice(0, kShownName_characters - 1).join("")}…`;
+}
+
+/** The opener of the longest ending that fits, so that ".hl.json" goes before ".json". */
+export function openerOf(openers: readonly FileOpener[], name: string): FileOpener | undefined {
+  const lower = name.toLowerCase();
+  let found: FileOpener | undefined;
+  let longest = -1;
+  for (const opener of openers) {
+    for (const ending of opener.endings) {
+      const length = ending === kAnyEnding ? 0 : ending.length;
+      if (length > longest && (ending === kAnyEnding || lower.endsWith(ending))) {
+        found = opener;
+        longest = length;
+      }
+    }
+  }
+  return found;
+}
+
+/** The one line for a file that nothing opens. */
+export function unopened(openers: readonly FileOpener[], name: string): string {
+  const kinds = openers.filter((opener) => opener.refusal() === undefined)
+    .map(({ what, endings }) => `${what} (${endings.join(", ")})`);
+  return `${shownName(name)} cannot be opened here; ${kinds.join(" and ")} can.`;
+}
+
+export class FileDrop {
+  private busy_ = false;
+
+  constructor(private readonly openers_: readonly FileOpener[], private readonly lines_: FileLines) {}
+
+  /** Whether anything can be opened now. */
+  get offered(): boolean {
+    return this.openers_.some((opener) => opener.refusal() === undefined);
+  }
+
+  /** What was dropped or chosen; one file counts. */
+  async take(files: readonly File[]): Promise<void> {
+    const [file] = files;
+    if (file === undefined) {
+      return;
+    }
+    if (files.length > 1) {
+      this.lines_.tell(`${files.length} files at once: give one file.`, true);
+    } else if (this.busy_) {
+      this.lines_.tell(`Busy with another file: give ${shownName(file.name)} again when it is done.`, true);
+    } else {
+      await this.open(file);
+    }
+  }
+
+  private async open(file: File): Promise<void> {
+    const opener = openerOf(this.openers_, file.name);
+    const refusal = opener === undefined ? unopened(this.openers_, file.name) : opener.refusal();
+    if (opener === undefined || refusal !== undefined) {
+      this.lines_.tell(refusal!, true);
+      return;
+    }
+    this.busy_ = true;
+    try {
+      this.lines_.tell(await opener.open(file, (line) => this.lines_.stand(kCause, line, "plain")), false);
+    } catch (error) {
+      this.lines_.tell(error instanceof Error ? error.message : String(error), true);
+    } finally {
+      this.busy_ = false;
+      this.lines_.stand(kCause, undefined, "plain");
+    }
+  }
+}

@@ -1,0 +1,54 @@
+// Opens a model file: sends it to the server, which reads it and puts it in the place of the scene.
+
+import { kAnyEnding, shownName, type FileOpener } from "./file_drop";
+import { formatSi } from "./units";
+
+/** Of the server's answer, one JSON object. */
+interface Opened {
+  readonly line?: string;
+}
+
+export class ModelFile implements FileOpener {
+  readonly what = "3-D models";
+  readonly endings = [kAnyEnding];
+  /** The largest file that the server takes, bytes; 0: it takes none. */
+  limit_bytes = 0;
+
+  refusal(): string | undefined {
+    return this.limit_bytes > 0 ? undefined : "This server takes no files: start it with hl touch --upload on.";
+  }
+
+  open(file: File, tell: (line: string) => void): Promise<string> {
+    const name = shownName(file.name);
+    if (file.size === 0) {
+      return Promise.reject(new Error(`${name} is empty.`));
+    }
+    if (file.size > this.limit_bytes) {
+      return Promise.reject(new Error(
+        `${name} has ${formatSi(file.size, "B")}; this server takes ${formatSi(this.limit_bytes, "B")} at most.`));
+    }
+    return new Promise((resolve, reject) => this.send(file, name, { tell, resolve, reject }));
+  }
+
+  private send(file: File, name: string, on: {
+    tell(line: string): void; resolve(line: string): void; reject(error: Error): void;
+  }): void {
+    const request = new XMLHttpRequest();
+    request.upload.onprogress = ({ loaded, total }) => {
+      const part = Math.floor((100 * loaded) / Math.max(total, 1));
+      on.tell(`Sending ${name}: ${formatSi(loaded, "B")} of ${formatSi(total, "B")}, ${part} %`);
+    };
+    request.upload.onload = () => on.tell(`Reading ${name}…`);
+    request.onload = () => {
+      if (request.status === 200) {
+        on.resolve((JSON.parse(request.responseText) as Opened).line ?? `${name} is open.`);
+      } else {
+        on.reject(new Error(request.responseText.trim() || `The server refused ${name} (${request.status}).`));
+      }
+    };
+    request.onerror = () => on.reject(new Error(`${name} could not be sent: the connection broke.`));
+    request.open("POST", `upload?name=${encodeURIComponent(name)}`);
+    request.setRequestHeader("Content-Type", "application/octet-stream");
+    request.send(file);
+  }
+}

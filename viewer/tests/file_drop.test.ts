@@ -1,0 +1,98 @@
+// What opens a file, and the lines that the user reads on the way.
+import { describe, expect, test } from "vitest";
+import { FileDrop, kAnyEnding, openerOf, shownName, unopened, type FileOpener } from "../src/file_drop";
+
+function opener(what: string, endings: string[], open: FileOpener["open"] = async () => `${what} open`): FileOpener {
+  return { what, endings, refusal: () => undefined, open };
+}
+
+class Lines {
+  readonly told: string[] = [];
+  readonly stood: string[] = [];
+  standing: string | undefined;
+
+  stand(_cause: string, text: string | undefined): void {
+    this.standing = text;
+    if (text !== undefined) this.stood.push(text);
+  }
+
+  tell(text: string, bad: boolean): void {
+    this.told.push(`${bad ? "bad" : "good"}: ${text}`);
+  }
+}
+
+const fileOf = (name: string) => new File(["x"], name);
+
+describe("the table", () => {
+  const models = opener("models", [kAnyEnding]);
+  const recordings = opener("recordings", [".hlr"]);
+  const scenes = opener("scenes", [".hl.json"]);
+  const table = [models, recordings, scenes];
+
+  test("finds the opener by the ending, in either case; the longest ending counts", () => {
+    expect(openerOf(table, "a.HLR")).toBe(recordings);
+    expect(openerOf(table, "a.hl.json")).toBe(scenes);
+    expect(openerOf(table, "a.json")).toBe(models);
+    expect(openerOf(table, "hlr")).toBe(models);
+    expect(openerOf([recordings], "a.obj")).toBeUndefined();
+  });
+
+  test("says what can be opened", () => {
+    expect(unopened([recordings, scenes], "a.obj")).toBe(
+      "a.obj cannot be opened here; recordings (.hlr) and scenes (.hl.json) can.");
+  });
+});
+
+test("a shown name is one line of bounded length", () => {
+  expect(shownName("a\n\u0000b\u202e.obj")).toBe("ab.obj");
+  expect(shownName("")).toBe("file");
+  expect([...shownName("é".repeat(10_000))]).toHaveLength(60);
+});
+
+describe("a file that is given", () => {
+  test("is opened, with lines on the way", async () => {
+    const lines = new Lines();
+    const drop = new FileDrop([opener("models", [".obj"], async (file, tell) => {
+      tell("reading");
+      return `${file.name} is open.`;
+    })], lines);
+    await drop.take([fileOf("a.obj")]);
+    expect(lines).toMatchObject({ told: ["good: a.obj is open."], stood: ["reading"], standing: undefined });
+  });
+
+  test("that fails gives its one line, and the next one is taken", async () => {
+    const lines = new Lines();
+    const drop = new FileDrop([opener("models", [".obj"], () => Promise.reject(new Error("no good")))], lines);
+    await drop.take([fileOf("a.obj")]);
+    await drop.take([fileOf("a.obj")]);
+    expect(lines.told).toEqual(["bad: no good", "bad: no good"]);
+  });
+
+  test("waits for nobody: a second one is told to come again", async () => {
+    const lines = new Lines();
+    let finish = (_: string) => {};
+    const drop = new FileDrop([opener("models", [".obj"], () => new Promise((resolve) => (finish = resolve)))], lines);
+    const first = drop.take([fileOf("a.obj")]);
+    await drop.take([fileOf("b.obj")]);
+    finish("done");
+    await first;
+    expect(lines.told).toEqual(["bad: Busy with another file: give b.obj again when it is done.", "good: done"]);
+  });
+
+  test("of several, or of no known kind, or when nothing is opened now, is refused in a line", async () => {
+    const lines = new Lines();
+    const closed = { ...opener("models", [".obj"]), refusal: () => "This server takes no files." };
+    const drop = new FileDrop([closed, opener("recordings", [".hlr"])], lines);
+    await drop.take([]);
+    await drop.take([fileOf("a.hlr"), fileOf("b.hlr")]);
+    await drop.take([fileOf("a.xyz")]);
+    await drop.take([fileOf("a.obj")]);
+    expect(lines.told).toEqual([
+      "bad: 2 files at once: give one file.",
+      "bad: a.xyz cannot be opened here; recordings (.hlr) can.",
+      "bad: This server takes no files.",
+    ]);
+    expect(drop.offered).toBe(true);
+    expect(new FileDrop([closed], lines).offered).toBe(false);
+  });
+});
