@@ -49,6 +49,11 @@ bool HttpAnswers::isTrusted(const HttpRequest& request) const {
          access_.allowsBearer(viewOf(request[http::field::authorization]));
 }
 
+HttpResponse HttpAnswers::reply(const HttpRequest& request, http::status status, const std::string& mime,
+                                std::string body) {
+  return respond(request, status, mime, std::move(body));
+}
+
 HttpResponse HttpAnswers::refuse(const HttpRequest& request, http::status status, const std::string& text) {
   return respond(request, status, kPlain, text + "\n");
 }

@@ -33,6 +33,9 @@ class HttpAnswers {
   bool isTrusted(const HttpRequest& request) const;
 
   HttpResponse answer(const HttpRequest& request, const ServerCounts& counts) const;
+  /// What a caller has decided on, with the headers that every answer has.
+  static HttpResponse reply(const HttpRequest& request, boost::beast::http::status status, const std::string& mime,
+                            std::string body);
   /// A refusal that a caller has decided on: `text` is one line.
   static HttpResponse refuse(const HttpRequest& request, boost::beast::http::status status, const std::string& text);
 

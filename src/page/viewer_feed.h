@@ -1,6 +1,7 @@
 // ViewerFeed: between a touch session and the page, in the messages of proto/hl.proto.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -11,7 +12,8 @@
 namespace hl {
 
 /// The callbacks of an HttpServer for this session, which must outlive the server. What pages are shown is counted
-/// against `memory`.
-FeedCallbacks makeViewerFeed(TouchSession& session, const std::string& version, MemoryBudget memory = {});
+/// against `memory`. `upload_bytes`: the largest file that they may send, 0: none.
+FeedCallbacks makeViewerFeed(TouchSession& session, const std::string& version, MemoryBudget memory = {},
+                             std::uint64_t upload_bytes = 0);
 
 }  // namespace hl

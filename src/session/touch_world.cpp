@@ -52,6 +52,13 @@ void TouchWorld::stop() {
   publisher_.stop();
 }
 
+void TouchWorld::replaceBase(const std::shared_ptr<const Snapshot>& base) {
+  MemoryShare share(memory_);
+  share.take(memoryOf(*base));
+  if (!publisher_.replaceBase(base)) throw Error("the server is closing");
+  base_memory_ = std::move(share);
+}
+
 bool TouchWorld::becomeMaster(std::uint32_t device, std::uint32_t session) {
   const std::lock_guard lock(mutex_);
   if (masters_[device] == 0) masters_[device] = session;

@@ -43,6 +43,9 @@ class TouchWorld {
   const MemoryBudget& memory() const { return memory_; }
   double time_s() const { return devices_[0]->time_s(); }
 
+  /// See TouchServer::replaceScene().
+  void replaceBase(const std::shared_ptr<const Snapshot>& base);
+
   /// A role that one session at a time has; whether this one has it now.
   bool becomeMaster(std::uint32_t device, std::uint32_t session);
   bool hasMaster(std::uint32_t device) const;

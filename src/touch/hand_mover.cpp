@@ -34,12 +34,7 @@ HandMover::HandMover(Device& device, const TouchSettings& settings, const LiveSe
 // The hand moves freely, without force, on a virtual clock that ends now; the real clock then goes on from there.
 void HandMover::bringToStart() {
   if (!hasHand()) return;
-  const Workspace workspace = live_.workspace();
-  const Box bounds = scene_()->bounds;
-  // Of the scene, or of the first world that will be fitted to the hand: it must not appear around the finger.
-  const double top_D = 0.5 * (bounds.empty() ? live_.side_D() : bounds.size().y() / workspace.world_per_device);
-  Vec3 goal_D = clampToWorkspace(Vec3(0, top_D + kStartAbove_D, 0));
-  if (script_) goal_D = clampToWorkspace(workspace.toDevice(script_->at(0)));
+  const Vec3 goal_D = script_ ? clampToWorkspace(live_.workspace().toDevice(script_->at(0))) : clearGoal_D();
   hand_->setHandGoal(goal_D);
   const std::int64_t now_ns = monotonicNow_ns();
   const std::int64_t step_ns = 1'000'000;
@@ -47,6 +42,13 @@ void HandMover::bringToStart() {
     device_.read(t);
     device_.write(Vec3::Zero());
   }
+}
+
+// Above the scene, or above the first world that will be fitted to the hand: it must not appear around the finger.
+Vec3 HandMover::clearGoal_D() const {
+  const Box bounds = scene_()->bounds;
+  const double top_D = 0.5 * (bounds.empty() ? live_.side_D() : bounds.size().y() / live_.workspace().world_per_device);
+  return clampToWorkspace(Vec3(0, top_D + kStartAbove_D, 0));
 }
 
 void HandMover::start(std::int64_t begin_ns) {
@@ -82,6 +84,8 @@ void HandMover::follow(const Commands& commands) {
   if (commands.goal_W) {
     exploring_ = false;
     hand_->setHandGoal(clampToWorkspace(workspace.toDevice(*commands.goal_W)));
+  } else if (commands.clear) {
+    hand_->setHandGoal(clearGoal_D());
   } else if (commands.release) {
     Vec3 finger_D = Vec3::Zero();
     exchange_.finger_for_hand_D.read(finger_D);
@@ -120,12 +124,19 @@ void HandMover::setGoal(const Vec3& goal_W) {
   if (!goal_W.allFinite()) return;
   const std::lock_guard lock(mutex_);
   commands_.goal_W = goal_W;
-  commands_.release = false;
+  commands_.release = commands_.clear = false;
 }
 
 void HandMover::release() {
   const std::lock_guard lock(mutex_);
   commands_.release = true;
+  commands_.goal_W.reset();
+}
+
+// What a person wanted of the scene before is over.
+void HandMover::moveClear() {
+  const std::lock_guard lock(mutex_);
+  commands_.clear = true;
   commands_.goal_W.reset();
 }
 

@@ -38,6 +38,9 @@ class HandMover {
   bool hasHand() const { return hand_ != nullptr; }
   void setGoal(const Vec3& goal_W);  ///< a person takes over from the exploration
   void release();
+  /// To the place where bringToStart() brings it, at the speed of a hand: another scene is there. An exploration goes
+  /// on in that scene.
+  void moveClear();
   void press(std::uint32_t buttons);
   void setExplore(bool on);
   void setFirm(bool firm) { firm_ = firm; }
@@ -47,7 +50,7 @@ class HandMover {
  private:
   struct Commands {
     std::optional<Vec3> goal_W;
-    bool release = false;
+    bool release = false, clear = false;
     std::optional<bool> explore;
     std::optional<std::uint32_t> buttons;
   };
@@ -57,6 +60,7 @@ class HandMover {
   void follow(const Commands& commands);
   void follow(std::optional<std::uint32_t> buttons, std::int64_t now_ns);
   std::optional<Vec3> strokingGoal() const;
+  Vec3 clearGoal_D() const;
   Vec3 clampToWorkspace(const Vec3& goal_D) const;
 
   Device& device_;

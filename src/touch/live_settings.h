@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 
 #include "base/latest.h"
 #include "device/device.h"
@@ -27,6 +28,9 @@ class LiveSettings {
   void setRadius(double radius_W);
   /// A scene is about to be shown.
   void fit(const Box& bounds);
+  /// Another scene is about to be shown in the place of the one before: fitted as the first one was, whatever has been
+  /// set since.
+  void refit(const Box& bounds);
   void rearm() { arm_requests_.fetch_add(1); }
 
   MaterialOverride surfaces() const;
@@ -42,8 +46,10 @@ class LiveSettings {
 
  private:
   void restartWith(const Workspace& workspace, double radius_W);  // holding mutex_
+  Workspace fitted(const Box& bounds) const;
 
   const double radius_D_, side_D_, stiffness_max_N_m_;
+  const std::optional<double> world_per_device_;  // in the place of what would fit
   std::atomic<double> stiffness_{0};
   std::atomic<LedgerMode> ledger_{LedgerMode::kTank};
   std::atomic<std::uint64_t> arm_requests_{0};

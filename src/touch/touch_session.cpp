@@ -67,6 +67,16 @@ void TouchSession::stop() {
 
 void TouchSession::publish(std::shared_ptr<const Snapshot> snapshot) {
   live_.fit(snapshot->bounds);
+  show(std::move(snapshot));
+}
+
+void TouchSession::publishAnew(std::shared_ptr<const Snapshot> snapshot) {
+  live_.refit(snapshot->bounds);
+  show(std::move(snapshot));
+  hand_.moveClear();
+}
+
+void TouchSession::show(std::shared_ptr<const Snapshot> snapshot) {
   sink_->scene(snapshot);
   const std::lock_guard lock(scenes_mutex_);
   scenes_.publish(std::move(snapshot));

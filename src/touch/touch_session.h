@@ -75,6 +75,8 @@ class TouchSession {
 
   /// Shows another scene. Not real-time; one thread at a time, and only when ready().
   void publish(std::shared_ptr<const Snapshot> snapshot);
+  /// The same of one that is no change of the scene before: it is fitted to the hand, and a simulated hand moves clear.
+  void publishAnew(std::shared_ptr<const Snapshot> snapshot);
   /// Whoever ticks has taken the newest scene, and ticked at `since_ns` (monotonic) or later; or nobody does: the loops
   /// do not run, or the servo stands still, without force, and will find the newest scene when it goes on.
   bool ready(std::int64_t since_ns) const;
@@ -94,6 +96,7 @@ class TouchSession {
   const RealtimeGrant& grant() const { return servo_.grant(); }
 
  private:
+  void show(std::shared_ptr<const Snapshot> snapshot);
   LoopParts parts() { return {*device_, live_, exchange_, ticker_, views_, *sink_}; }
 
   const TouchSettings settings_;
