@@ -1,5 +1,7 @@
 #include "touch/hand_mover.h"
 
+#include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "base/clock.h"
@@ -34,7 +36,11 @@ HandMover::HandMover(Device& device, const TouchSettings& settings, const LiveSe
 // The hand moves freely, without force, on a virtual clock that ends now; the real clock then goes on from there.
 void HandMover::bringToStart() {
   if (!hasHand()) return;
-  const Vec3 goal_D = script_ ? clampToWorkspace(live_.workspace().toDevice(script_->at(0))) : clearGoal_D();
+  const Workspace workspace = live_.workspace();
+  const Box bounds = scene_()->bounds;
+  // Of the scene, or of the first world that will be fitted to the hand: it must not appear around the finger.
+  const double top_D = 0.5 * (bounds.empty() ? live_.side_D() : bounds.size().y() / workspace.world_per_device);
+  const Vec3 goal_D = script_ ? clampToWorkspace(workspace.toDevice(script_->at(0))) : above(top_D);
   hand_->setHandGoal(goal_D);
   const std::int64_t now_ns = monotonicNow_ns();
   const std::int64_t step_ns = 1'000'000;
@@ -44,12 +50,7 @@ void HandMover::bringToStart() {
   }
 }
 
-// Above the scene, or above the first world that will be fitted to the hand: it must not appear around the finger.
-Vec3 HandMover::clearGoal_D() const {
-  const Box bounds = scene_()->bounds;
-  const double top_D = 0.5 * (bounds.empty() ? live_.side_D() : bounds.size().y() / live_.workspace().world_per_device);
-  return clampToWorkspace(Vec3(0, top_D + kStartAbove_D, 0));
-}
+Vec3 HandMover::above(double top_D) const { return clampToWorkspace(Vec3(0, top_D + kStartAbove_D, 0)); }
 
 void HandMover::start(std::int64_t begin_ns) {
   if (!hasHand()) return;
@@ -80,12 +81,11 @@ HandMover::Commands HandMover::takeCommands() {
 // A person, the script or the exploration, in this order.
 void HandMover::follow(const Commands& commands) {
   if (commands.explore) exploring_ = *commands.explore;
+  if (aside_top_D_ >= 0) return holdAside();
   const Workspace workspace = live_.workspace();
   if (commands.goal_W) {
     exploring_ = false;
     hand_->setHandGoal(clampToWorkspace(workspace.toDevice(*commands.goal_W)));
-  } else if (commands.clear) {
-    hand_->setHandGoal(clearGoal_D());
   } else if (commands.release) {
     Vec3 finger_D = Vec3::Zero();
     exchange_.finger_for_hand_D.read(finger_D);
@@ -124,7 +124,7 @@ void HandMover::setGoal(const Vec3& goal_W) {
   if (!goal_W.allFinite()) return;
   const std::lock_guard lock(mutex_);
   commands_.goal_W = goal_W;
-  commands_.release = commands_.clear = false;
+  commands_.release = false;
 }
 
 void HandMover::release() {
@@ -133,11 +133,33 @@ void HandMover::release() {
   commands_.goal_W.reset();
 }
 
-// What a person wanted of the scene before is over.
-void HandMover::moveClear() {
-  const std::lock_guard lock(mutex_);
-  commands_.clear = true;
-  commands_.goal_W.reset();
+bool HandMover::moveAside(double top_D, double most_s) {
+  if (!hasHand()) return true;
+  aside_ = false;
+  aside_top_D_ = std::max(0.0, top_D);
+  constexpr auto kLook = std::chrono::milliseconds(5);
+  const std::int64_t end_ns = monotonicNow_ns() + static_cast<std::int64_t>(1e9 * most_s);
+  while (running_ && !aside_ && monotonicNow_ns() < end_ns) std::this_thread::sleep_for(kLook);
+  return aside_;
+}
+
+// What was wanted meanwhile is over.
+void HandMover::free() {
+  {
+    const std::lock_guard lock(mutex_);
+    commands_.goal_W.reset();
+    commands_.release = false;
+  }
+  aside_top_D_ = kFree;
+}
+
+void HandMover::holdAside() {
+  constexpr double kThere_m = 0.005;
+  const Vec3 goal_D = above(aside_top_D_);
+  hand_->setHandGoal(goal_D);
+  Vec3 finger_D = Vec3::Zero();
+  exchange_.finger_for_hand_D.read(finger_D);
+  aside_ = (finger_D - goal_D).norm() < kThere_m;
 }
 
 void HandMover::press(std::uint32_t buttons) {

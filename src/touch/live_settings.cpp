@@ -75,7 +75,12 @@ void LiveSettings::fit(const Box& bounds) {
   restartWith(workspace, radius_D_ * workspace.world_per_device);
 }
 
+double LiveSettings::topOfFitted_D(const Box& bounds) const {
+  return bounds.empty() ? 0 : 0.5 * bounds.size().y() / fitted(bounds).world_per_device;
+}
+
 void LiveSettings::refit(const Box& bounds) {
+  if (bounds.empty()) return;
   const Workspace workspace = fitted(bounds);
   const std::lock_guard lock(mutex_);
   fitted_ = true;

@@ -36,6 +36,8 @@ class LiveSettings {
   MaterialOverride surfaces() const;
   Workspace workspace() const;
   double radius_W() const;
+  /// How high a scene of these bounds would reach at the hand, m above its origin, were it fitted.
+  double topOfFitted_D(const Box& bounds) const;
   double side_D() const { return side_D_; }  ///< m, of a model that is fitted
 
   double stiffness_N_m() const { return stiffness_.load(std::memory_order_relaxed); }

@@ -1,5 +1,6 @@
 #include "touch/touch_session.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace hl {
@@ -73,7 +74,12 @@ void TouchSession::publish(std::shared_ptr<const Snapshot> snapshot) {
 void TouchSession::publishAnew(std::shared_ptr<const Snapshot> snapshot) {
   live_.refit(snapshot->bounds);
   show(std::move(snapshot));
-  hand_.moveClear();
+}
+
+bool TouchSession::moveHandAside(const Box& bounds, double most_s) {
+  const Box there = snapshot()->bounds;
+  const double top_D = there.empty() ? 0 : live_.workspace().toDevice(there.max).y();
+  return hand_.moveAside(std::max(top_D, live_.topOfFitted_D(bounds)), most_s);
 }
 
 void TouchSession::show(std::shared_ptr<const Snapshot> snapshot) {

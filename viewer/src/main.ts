@@ -53,10 +53,11 @@ class App {
   private readonly live_ = new LiveScene({
     shown: (store, layout) => this.showLayout(store, layout),
     fit: (bounds) => this.fit(bounds),
+    replaced: () => this.hand_.cancel(),
   });
   private readonly probe_ = new ProbeView();
   private readonly notices_ = new Notices();
-  private readonly modelFile_ = new ModelFile();
+  private readonly modelFile_ = new ModelFile((expected) => this.live_.expectOther(expected));
   /** What opens which file. */
   private readonly files_ = new FileInput(new FileDrop([this.modelFile_], this.notices_));
   private readonly stage_ = new Stage(element<HTMLCanvasElement>("canvas"), (reason) => {
