@@ -13,7 +13,7 @@ web_sources() {
   echo "#include \"$root/src/geometry/wide_bvh_query.cpp\"" >"$out/query.cpp"
   for file in src/base/{ledger,plain_math,quantities}.cpp src/device/{device_models,hand,mass_arm,phantom}.cpp \
     src/device/{phantom_arm,simulated_device}.cpp src/touch/{exploration,held_contacts,proxy_loop,touch_step}.cpp \
-    src/touch/touch_events.cpp; do
+    src/touch/touch_events.cpp src/tools/trace.cpp; do
     echo "#include \"$root/$file\""
   done >"$out/rest.cpp"
   for file in "$root"/scenes/*.cpp; do echo "#include \"$file\""; done >"$out/scenes.cpp"

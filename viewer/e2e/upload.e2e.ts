@@ -6,28 +6,10 @@ import { join } from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
 import { expectTidyLayout, kSizes, launch, listen, resize, screenshot, states, type Complaints } from "./browser";
+import { boxObj, drop } from "./files";
 import { kProgram, startTouch, type Touch } from "./programs";
 
 const kPhone = { width: 390, height: 844 };
-
-/** A closed box of the sides given in metres, as an OBJ file. */
-function boxObj(x: number, y: number, z: number, head = ""): string {
-  const corners = Array.from({ length: 8 }, (_, i) => `v ${i & 1 ? x : 0} ${i & 2 ? y : 0} ${i & 4 ? z : 0}`);
-  const faces = ["1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"].map((corners) => `f ${corners}`);
-  return `${head}${[...corners, ...faces].join("\n")}\n`;
-}
-
-/** Drops a file on the page, as a browser does it. */
-export async function drop(page: Page, name: string, content: string): Promise<void> {
-  const data = await page.evaluateHandle(([name, content]) => {
-    const transfer = new DataTransfer();
-    transfer.items.add(new File([content!], name!));
-    return transfer;
-  }, [name, content]);
-  for (const type of ["dragenter", "dragover", "drop"]) {
-    await page.dispatchEvent("#canvas", type, { dataTransfer: data });
-  }
-}
 
 describe.skipIf(!kProgram)("a file of the user's", () => {
   const folder = mkdtempSync(join(tmpdir(), "hl-upload-"));
@@ -87,13 +69,7 @@ describe.skipIf(!kProgram)("a file of the user's", () => {
   });
 
   test("is dropped; what it names beside it is left out in a line", async () => {
-    await page.dispatchEvent("#canvas", "dragenter", {
-      dataTransfer: await page.evaluateHandle(() => {
-        const transfer = new DataTransfer();
-        transfer.items.add(new File(["x"], "x.obj"));
-        return transfer;
-      }),
-    });
+    await drop(page, "plate.obj", "", ["dragenter"]);
     await expect.poll(() => page.isVisible("#drop-target")).toBe(true);
     await screenshot(page, "upload_target");
     await drop(page, "plate.obj", boxObj(1, 0.2, 1, "mtllib plate.mtl\n"));

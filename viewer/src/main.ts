@@ -114,6 +114,7 @@ class App {
     this.connection_ = new Connection(address.href, {
       message: (message) => this.receive(message),
       link: (link) => this.linkChanged(link),
+      refused: (line) => this.notices_.tell(line, true),
       violation: (reason) => this.notices_.tell(`Connection closed: ${reason}.`, true),
     });
     publishDebugState({
