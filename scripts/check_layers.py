@@ -15,7 +15,7 @@ LEVELS = {
     "base": 0,
     "geometry": 1, "wire": 1, "device": 1,
     "scene": 2, "control": 2,
-    "proxy": 3, "scenes": 3,
+    "proxy": 3, "bodies": 3, "scenes": 3,
     "io": 4,
     "touch": 5,
     "record": 6, "tools": 6,

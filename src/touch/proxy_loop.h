@@ -6,6 +6,7 @@
 
 #include "control/servo.h"
 #include "proxy/proxy.h"
+#include "touch/body_world.h"
 #include "touch/held_contacts.h"
 #include "touch/snapshot_slot.h"
 #include "touch/target_blend.h"
@@ -50,7 +51,9 @@ struct ProxyStep {
 class ProxyLoop {
  public:
   /// `settings`: passes and iterations; the rest comes with each step.
-  ProxyLoop(SnapshotSlot& scenes, const ProxySettings& settings) : scenes_(scenes), settings_(settings) {}
+  /// `bodies`: those of the scene, which must outlive the loop; null: none.
+  ProxyLoop(SnapshotSlot& scenes, const ProxySettings& settings, BodyWorld* bodies = nullptr)
+      : scenes_(scenes), settings_(settings), bodies_(bodies) {}
 
   /// One tick at `now_ns` with the finger at `finger_D`; `most_looks` as in tick().
   ProxyStep step(std::int64_t now_ns, const Vec3& finger_D, const ProxyCommands& commands, const SpringOfServo& spring,
@@ -72,6 +75,8 @@ class ProxyLoop {
   };
 
   void follow(const ProxyCommands& commands, const SpringOfServo& spring);
+  void moveBodies(std::int64_t now_ns, const Vec3& finger, const SpringOfServo& spring);
+  void settleBodies(const SceneAt& scene, const TickReport& report, const Vec3& finger, const SpringOfServo& spring);
   void restart();
   Vec3 changeOfPull(const Snapshot& snapshot);
   bool touches(const ProxyState& state, const TickReport& report) const;
@@ -82,6 +87,8 @@ class ProxyLoop {
 
   SnapshotSlot& scenes_;
   ProxySettings settings_;
+  BodyWorld* bodies_;
+  FixedVector<HandContact, kContactsOfHand> held_by_;  // at the end of the last tick
   Workspace workspace_;
   ProxyState state_;
   ManyRecentPrimitives recent_;

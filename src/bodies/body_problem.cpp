@@ -1,0 +1,72 @@
+#include "bodies/body_problem.h"
+
+#include <algorithm>
+
+#include "bodies/free_motion.h"
+
+namespace hl {
+
+namespace {
+
+// Where a pair moves by more than this part of its size in a step, an end pose does not show what it passed.
+constexpr double kFast = 0.1;
+// rad; a body that turns by less in a step goes straight: what the turn bends is 5e-7 of its size.
+constexpr double kStraight_rad = 1e-3;
+
+}  // namespace
+
+BodyProblem::BodyProblem(std::shared_ptr<const World> of) : world(std::move(of)), placed(*world), meetings(*world) {
+  turned.resize(bodies());
+  nodes.reserve(bodies() + kMostHands);
+  before.reserve(bodies() + kMostHands);
+  rows.reserve(mostRows(*world));
+}
+
+int BodyProblem::numberOf(std::uint64_t key) const {
+  const auto at = std::lower_bound(world->bodies.begin(), world->bodies.end(), key,
+                                   [](const Body& body, std::uint64_t k) { return body.key < k; });
+  const bool found = at != world->bodies.end() && at->key == key;
+  return found ? static_cast<int>(at - world->bodies.begin()) : Row::kFixed;
+}
+
+PlacedConvex BodyProblem::atEnd(const WorldState& state, std::size_t body, const BodyWays& plan,
+                                PlacedRoom& room) const {
+  BodyState moved = state.bodies[body];
+  moved.spin = plan.turns[body];
+  moveFreely(world->bodies[body], moved, plan.parts[body] * plan.ways[body], plan.parts[body] * period_s);
+  return hl::placed(world->bodies[body], moved, room);
+}
+
+bool BodyProblem::meetsAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan,
+                             Manifold& end) const {
+  PlacedRoom room_a, room_b;
+  const PlacedConvex a = atEnd(state, static_cast<std::size_t>(meeting.a), plan, room_a);
+  if (meeting.b != Row::kFixed)
+    return findManifold(a, atEnd(state, static_cast<std::size_t>(meeting.b), plan, room_b), 0, end);
+  const SceneAt& scene = *meetings.scene();
+  const Pose pose = scene.instance(meeting.primitive).poses().to();
+  return findManifold(a, hl::placed(scene.primitive(meeting.primitive), pose, room_b), 0, end);
+}
+
+Pace paceOf(const BodyProblem& problem, const Meeting& meeting) {
+  Pace pace;
+  double size = 0, way = 0;
+  for (const int number : {meeting.a, meeting.b}) {
+    if (number == Row::kFixed) continue;
+    const auto i = static_cast<std::size_t>(number);
+    const double reach = problem.reachOf(i), turn = problem.period_s * problem.nodes[i].spin.norm();
+    size = size == 0 ? reach : std::min(size, reach);
+    way += problem.period_s * problem.nodes[i].velocity.norm() + turn * reach;
+    pace.turns |= turn > kStraight_rad && problem.world->bodies[i].shape.vertices.size() > 1;
+  }
+  pace.fast = way > kFast * size;
+  return pace;
+}
+
+double deepestOf(const Manifold& manifold) {
+  double deepest = 0;
+  for (const ManifoldPoint& point : manifold.points) deepest = std::max(deepest, -point.gap);
+  return deepest;
+}
+
+}  // namespace hl

@@ -1,0 +1,59 @@
+// Body problem: what one step solves: the velocities of bodies and hands, and the contacts between them.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "bodies/meetings.h"
+#include "bodies/placed_bodies.h"
+#include "bodies/row.h"
+#include "bodies/world.h"
+
+namespace hl {
+
+/// How far bodies go in a step.
+struct BodyWays {
+  std::vector<Vec3> ways;     ///< m, of the centres
+  std::vector<Vec3> turns;    ///< rad/s, while they move
+  std::vector<double> parts;  ///< 0..1 of both, that nothing is in the way of
+};
+
+/// Made once for a world; its lists have room for any step. By one thread at a time.
+struct BodyProblem {
+  explicit BodyProblem(std::shared_ptr<const World> of);
+
+  std::size_t bodies() const { return world->bodies.size(); }
+  /// Row::kFixed if there is no such body.
+  int numberOf(std::uint64_t key) const;
+  double reachOf(std::size_t body) const { return world->bodies[body].shape.reach; }
+  /// The shape of a body after its part of the way. RT-safe.
+  PlacedConvex atEnd(const WorldState& state, std::size_t body, const BodyWays& plan, PlacedRoom& room) const;
+  /// Where the pair would meet then; false: it would be apart. RT-safe.
+  bool meetsAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan, Manifold& end) const;
+
+  std::shared_ptr<const World> world;
+  PlacedBodies placed;
+  Meetings meetings;
+  std::vector<Mat3> turned;  ///< of each body at the begin of the step
+  std::vector<Node> nodes;   ///< bodies, then hands
+  std::vector<Node> before;  ///< the same, before gravity
+  std::vector<Row> rows;
+  double period_s = 1e-3;
+};
+
+/// How a pair moves: whether rows made for its begin may miss its end.
+struct Pace {
+  bool fast = false, turns = false;
+};
+Pace paceOf(const BodyProblem& problem, const Meeting& meeting);
+
+/// m; the greatest overlap of a manifold, >= 0.
+double deepestOf(const Manifold& manifold);
+
+/// m; a contact with no more of a gap bears load, and no less of an overlap is pushed apart. At 1000 N/m a nanometre is
+/// a micronewton; rounding at a metre is a millionth of it.
+inline constexpr double kTouching_m = 1e-9;
+/// m; a contact that bore load keeps its row up to this gap, so that the rows of what rests are the same in each step.
+inline constexpr double kHeld_m = 1e-6;
+
+}  // namespace hl

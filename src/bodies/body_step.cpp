@@ -1,0 +1,188 @@
+#include "bodies/body_step.h"
+
+#include <algorithm>
+
+#include "bodies/free_motion.h"
+#include "bodies/row_solver.h"
+
+namespace hl {
+
+namespace {
+
+// m/s; slower impacts do not bounce, so that what rests comes to rest.
+constexpr double kBounces_m_s = 0.02;
+// How often rows are added for what the motion found would pass. What is left stops short (motion_plan.h).
+constexpr int kRounds = 8;
+
+}  // namespace
+
+void BodyStepper::begin(const WorldState& state, double period_s) {
+  problem_.period_s = period_s;
+  problem_.nodes.clear();
+  problem_.rows.clear();
+  for (std::size_t i = 0; i < state.bodies.size(); ++i) {
+    const BodyState& body = state.bodies[i];
+    problem_.turned[i] = body.turned.toRotationMatrix();
+    problem_.nodes.push_back({body.velocity, body.spin, 1 / world().bodies[i].mass.mass_kg,
+                              inverseInertia(world().bodies[i], body), body.centre});
+  }
+  problem_.before = problem_.nodes;
+  for (Node& node : problem_.nodes) node.velocity += period_s * world().gravity_m_s2;
+  problem_.placed.place(world(), state);
+}
+
+// Pays what is owed, and adds the hand's node and rows.
+void BodyStepper::addHand(const HandNode& hand, std::size_t number, ContactMemory& memory, GivenImpulses& given) {
+  given.clear();
+  for (const BodyImpulse& owed : hand.owed) {
+    const int body = problem_.numberOf(owed.key);
+    if (body == Row::kFixed) continue;
+    Node& node = problem_.nodes[static_cast<std::size_t>(body)];
+    node.push(owed.impulse_N_s, owed.point - node.centre);
+    given.push(owed);
+  }
+  const double period_s = problem_.period_s;
+  Node node;
+  node.velocity = -hand.stretch / period_s;
+  node.inverse_mass = 1 / (hand.spring_N_m * period_s * period_s);
+  problem_.nodes.push_back(node);
+  problem_.before.push_back(node);
+  for (const HandContact& contact : hand.contacts) {
+    Row row;
+    row.pair = {~std::uint64_t{number}, contact.key};
+    row.a = static_cast<int>(problem_.nodes.size() - 1);
+    row.b = contact.key == 0 ? Row::kFixed : problem_.numberOf(contact.key);
+    row.normal = contact.normal;
+    if (row.b != Row::kFixed) row.arm_b = contact.point - problem_.nodes[static_cast<std::size_t>(row.b)].centre;
+    row.static_friction = contact.static_friction;
+    row.dynamic_friction = contact.dynamic_friction;
+    contacts_.recall(row, memory);
+    row.friction = contact.slipping ? row.dynamic_friction : row.static_friction;
+    problem_.rows.push_back(row);
+  }
+}
+
+// Nothing moves farther in this step: twice the speed of the fastest, for one that is hit, and two that meet.
+double BodyStepper::margin() const {
+  double fastest = 0;
+  for (std::size_t i = 0; i < problem_.nodes.size(); ++i) {
+    const double reach = i < problem_.bodies() ? problem_.reachOf(i) : 0;
+    fastest = std::max(fastest, problem_.nodes[i].velocity.norm() + problem_.nodes[i].spin.norm() * reach);
+  }
+  return 4 * problem_.period_s * fastest + kTouching_m;
+}
+
+void BodyStepper::solve(BodyStepReport& report) {
+  const RowSolverLimits limits = limitsFor(problem_.rows.size());
+  const int sweeps = solveRows(problem_.rows, problem_.nodes, problem_.period_s, limits);
+  report.sweeps = std::max(report.sweeps, sweeps);
+  report.converged = sweeps < limits.sweeps;
+}
+
+void BodyStepper::bounce(BodyStepReport& report) {
+  bool any = false;
+  for (Row& row : problem_.rows) {
+    if (!(row.pressed > 0) || row.restitution == 0 || row.approach > -kBounces_m_s) continue;
+    row.least_velocity = -row.restitution * row.approach;
+    any = true;
+  }
+  if (any) solve(report);
+}
+
+void BodyStepper::tellHands(std::span<GivenImpulses> given) const {
+  for (const Row& row : problem_.rows) {
+    const auto a = static_cast<std::size_t>(row.a);
+    if (a < problem_.bodies()) continue;
+    BodyImpulse told;
+    told.impulse_N_s = -(row.pressed * row.normal + row.dragged);
+    told.point = row.arm_b;
+    if (row.b != Row::kFixed) {
+      told.key = world().bodies[static_cast<std::size_t>(row.b)].key;
+      told.point += problem_.nodes[static_cast<std::size_t>(row.b)].centre;
+    }
+    given[a - problem_.bodies()].push(told);
+  }
+}
+
+void BodyStepper::book(EnergyBook& energy, std::span<const GivenImpulses> given) const {
+  for (const Row& row : problem_.rows) {
+    if (static_cast<std::size_t>(row.a) >= problem_.bodies()) continue;
+    const Vec3 mean = (relativeVelocity(row, problem_.before) + relativeVelocity(row, problem_.nodes)) / 2;
+    energy.contact_J -= row.pressed * row.normal.dot(mean);
+    energy.friction_J -= row.dragged.dot(mean);
+  }
+  for (const GivenImpulses& hand : given) {
+    for (const BodyImpulse& one : hand) {
+      const int number = problem_.numberOf(one.key);
+      if (number == Row::kFixed) continue;
+      const Node &now = problem_.nodes[static_cast<std::size_t>(number)],
+                 &was = problem_.before[static_cast<std::size_t>(number)];
+      const Vec3 arm = one.point - now.centre;
+      energy.by_hand_J += one.impulse_N_s.dot(now.velocityAt(arm) + was.velocityAt(arm)) / 2;
+    }
+  }
+  for (std::size_t i = 0; i < problem_.bodies(); ++i) {
+    const Vec3 mean_way = problem_.period_s / 2 * (problem_.before[i].velocity + problem_.nodes[i].velocity);
+    energy.solver_J += world().bodies[i].mass.mass_kg * world().gravity_m_s2.dot(mean_way - plan_.wayOf(i));
+  }
+}
+
+// A body that stops short again and again is held in a way that the rows do not see: it loses velocity as it does way,
+// or gravity would make it faster from step to step while it stays.
+void BodyStepper::slowHeld(WorldState& state) {
+  for (std::size_t i = 0; i < problem_.bodies(); ++i) {
+    const double part = plan_.ways().parts[i];
+    int& stopped_short = state.bodies[i].stopped_short;
+    stopped_short = part < 1 ? stopped_short + 1 : 0;
+    if (stopped_short < 2) continue;
+    Node& node = problem_.nodes[i];
+    const Mat3 inertia = problem_.turned[i] * world().bodies[i].mass.inertia_kg_m2 * problem_.turned[i].transpose();
+    const double kinetic_J =
+        (world().bodies[i].mass.mass_kg * node.velocity.squaredNorm() + node.spin.dot(inertia * node.spin)) / 2;
+    state.energy.contact_J += (1 - part * part) * kinetic_J;
+    node.velocity *= part;
+    node.spin *= part;
+  }
+}
+
+// The angular momentum after the impulses stays; the turn is that of the spin before bounces.
+void BodyStepper::move(WorldState& state) const {
+  for (std::size_t i = 0; i < state.bodies.size(); ++i) {
+    const Body& body = world().bodies[i];
+    const Node& node = problem_.nodes[i];
+    BodyState& one = state.bodies[i];
+    const Vec3 momentum = inertiaOf(body, one) * node.spin;
+    one.velocity = node.velocity;
+    one.spin = plan_.ways().turns[i];
+    moveFreely(body, one, plan_.wayOf(i), plan_.ways().parts[i] * problem_.period_s);
+    one.spin = inverseInertia(body, one) * momentum;
+    state.energy.solver_J += momentum.dot(one.spin - node.spin) / 2;
+  }
+}
+
+BodyStepReport BodyStepper::step(WorldState& state, double period_s, std::span<const HandNode> hands,
+                                 std::span<GivenImpulses> given) {
+  BodyStepReport report;
+  begin(state, period_s);
+  for (std::size_t hand = 0; hand < hands.size(); ++hand) addHand(hands[hand], hand, state.memory, given[hand]);
+  const double margin_m = margin();
+  problem_.meetings.find(world(), state, problem_.placed, margin_m);
+  contacts_.addBearing(state.memory);
+  for (Row& row : problem_.rows) prepareRow(row, problem_.nodes);
+  solve(report);
+  for (int round = 0; round < kRounds && contacts_.addPassed(state); ++round) solve(report);
+  plan_.make(state, margin_m, report.converged);
+  bounce(report);
+  tellHands(given);
+  book(state.energy, given);
+  slowHeld(state);
+  move(state);
+  contacts_.remember(state.memory);
+  ++state.steps;
+  report.rows = static_cast<int>(problem_.rows.size());
+  report.dropped = problem_.meetings.dropped();
+  for (const Row& row : problem_.rows) report.deepest = std::max(report.deepest, -row.gap);
+  return report;
+}
+
+}  // namespace hl

@@ -1,0 +1,54 @@
+// Body step: moves all bodies of a world by one step of the servo. The hands are nodes of the same solve.
+//
+//   velocities after gravity -> rows for what bore load and for the hands -> impulses -> rows for what would be passed
+//   through -> impulses -> plan of the motion -> bounces -> new poses
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "bodies/contact_rows.h"
+#include "bodies/hand_node.h"
+#include "bodies/motion_plan.h"
+
+namespace hl {
+
+struct BodyStepReport {
+  int rows = 0;
+  int sweeps = 0;           ///< of the longest solve
+  bool converged = true;    ///< false: a solve ended at its limit of work
+  std::size_t dropped = 0;  ///< contacts without room
+  double deepest = 0;       ///< m, greatest overlap at the begin of the step, >= 0
+};
+
+/// By one thread at a time.
+class BodyStepper {
+ public:
+  explicit BodyStepper(std::shared_ptr<const World> world) : problem_(std::move(world)) {}
+  BodyStepper(const BodyStepper&) = delete;
+  BodyStepper& operator=(const BodyStepper&) = delete;
+
+  /// Moves `state` by `period_s` (> 0). `given`: room for each hand's impulses, of kMostHands at most. RT-safe.
+  BodyStepReport step(WorldState& state, double period_s, std::span<const HandNode> hands,
+                      std::span<GivenImpulses> given);
+  const World& world() const { return *problem_.world; }
+  /// Of the last step.
+  std::span<const Row> rows() const { return problem_.rows; }
+
+ private:
+  void begin(const WorldState& state, double period_s);
+  void addHand(const HandNode& hand, std::size_t number, ContactMemory& memory, GivenImpulses& given);
+  double margin() const;
+  void solve(BodyStepReport& report);
+  void bounce(BodyStepReport& report);
+  void tellHands(std::span<GivenImpulses> given) const;
+  void book(EnergyBook& energy, std::span<const GivenImpulses> given) const;
+  void slowHeld(WorldState& state);
+  void move(WorldState& state) const;
+
+  BodyProblem problem_;
+  ContactRows contacts_{problem_};
+  MotionPlan plan_{problem_};
+};
+
+}  // namespace hl

@@ -1,0 +1,183 @@
+#include "bodies/contact_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "bodies/row_solver.h"
+
+namespace hl {
+
+namespace {
+
+// Of the size of a body, and rad: contacts as near as that are one.
+constexpr double kTwin = 1e-3;
+// Of the size of a body: a contact as near as that to one of the last step goes on from its impulse.
+constexpr double kSamePlace = 0.05;
+
+double meanOf(double x, double y) { return std::sqrt(x * y); }
+
+BodySurface between(const BodySurface& x, const BodySurface& y) {
+  return {meanOf(x.static_friction, y.static_friction), meanOf(x.dynamic_friction, y.dynamic_friction),
+          meanOf(x.restitution, y.restitution)};
+}
+
+}  // namespace
+
+ContactRows::ContactRows(BodyProblem& problem) : problem_(problem) {
+  plan_.ways.resize(problem.bodies());
+  plan_.turns.resize(problem.bodies());
+  plan_.parts.assign(problem.bodies(), 1);
+  touching_.reserve(problem.rows.capacity());
+}
+
+Row ContactRows::rowOf(const Meeting& meeting, std::size_t number) const {
+  const Body& body = problem_.world->bodies[static_cast<std::size_t>(meeting.a)];
+  const bool fixed = meeting.b == Row::kFixed;
+  const BodySurface surface =
+      between(body.surface, fixed ? problem_.world->fixed_surface
+                                  : problem_.world->bodies[static_cast<std::size_t>(meeting.b)].surface);
+  const ManifoldPoint& point = meeting.manifold.points[number];
+  Row row;
+  row.pair = {body.key, fixed ? 0 : problem_.world->bodies[static_cast<std::size_t>(meeting.b)].key};
+  row.a = meeting.a;
+  row.b = meeting.b;
+  row.normal = meeting.manifold.normal;
+  row.arm_a = point.point - problem_.nodes[static_cast<std::size_t>(row.a)].centre;
+  if (!fixed) row.arm_b = point.point - problem_.nodes[static_cast<std::size_t>(row.b)].centre;
+  row.gap = point.gap;
+  row.restitution = surface.restitution;
+  row.static_friction = surface.static_friction;
+  row.dynamic_friction = surface.dynamic_friction;
+  row.friction = row.static_friction;
+  return row;
+}
+
+void ContactRows::addRow(ContactMemory& memory, Meeting& meeting, std::size_t number) {
+  if (problem_.rows.size() == problem_.rows.capacity()) return;
+  meeting.used |= 1u << number;
+  Row row = rowOf(meeting, number);
+  recall(row, memory);
+  row.approach = row.normal.dot(relativeVelocity(row, problem_.nodes));
+  problem_.rows.push_back(row);
+}
+
+Vec3 ContactRows::placeOf(const Row& row) const {
+  const auto a = static_cast<std::size_t>(row.a);
+  return a < problem_.turned.size() ? Vec3(problem_.turned[a].transpose() * row.arm_a) : row.normal;
+}
+
+// Of a hand, whose contacts all are at its proxy, the normal takes the place of the place.
+void ContactRows::recall(Row& row, ContactMemory& memory) const {
+  const auto a = static_cast<std::size_t>(row.a);
+  const double near = a < problem_.turned.size() ? kSamePlace * problem_.world->bodies[a].shape.reach : kSamePlace;
+  RememberedContact* const last = memory.find(row.pair, placeOf(row), near);
+  if (last == nullptr) return;
+  last->taken = true;
+  row.pressed = last->pressed;
+  row.dragged = last->dragged;
+  row.slipping = last->slipped;
+  row.friction = row.slipping ? row.dynamic_friction : row.static_friction;
+}
+
+// What bore load in the last step, and has not come off since. Of the contacts near the place where one bore, the
+// nearest goes on with it.
+void ContactRows::addBearing(ContactMemory& memory) {
+  std::vector<Meeting>& meetings = problem_.meetings.all();
+  touching_.clear();
+  for (std::uint32_t i = 0; i < meetings.size(); ++i) {
+    const auto& points = meetings[i].manifold.points;
+    for (std::uint32_t point = 0; point < points.size() && touching_.size() < touching_.capacity(); ++point) {
+      if (points[point].gap <= kHeld_m) touching_.push_back({i, point, points[point].gap});
+    }
+  }
+  std::sort(touching_.begin(), touching_.end(), [&](const Touching& x, const Touching& y) {
+    const Meeting &of_x = meetings[x.meeting], &of_y = meetings[y.meeting];
+    return std::tie(of_x.a, of_x.b, x.gap, x.meeting, x.point) < std::tie(of_y.a, of_y.b, y.gap, y.meeting, y.point);
+  });
+  for (const Touching& one : touching_) {
+    if (hasTwin(meetings[one.meeting], one.point)) continue;
+    addRow(memory, meetings[one.meeting], one.point);
+    if (problem_.rows.back().pressed > 0) continue;
+    problem_.rows.pop_back();
+    meetings[one.meeting].used &= ~(1u << one.point);
+  }
+}
+
+// A row that bears at the same place in the same direction: the triangle on the other side of an edge.
+bool ContactRows::hasTwin(const Meeting& meeting, std::size_t number) const {
+  const ManifoldPoint& point = meeting.manifold.points[number];
+  const Vec3 arm = point.point - problem_.nodes[static_cast<std::size_t>(meeting.a)].centre;
+  const double near = kTwin * problem_.world->bodies[static_cast<std::size_t>(meeting.a)].shape.reach;
+  return std::any_of(problem_.rows.begin(), problem_.rows.end(), [&](const Row& row) {
+    return row.a == meeting.a && row.b == meeting.b && (row.arm_a - arm).squaredNorm() < near * near &&
+           (row.normal - meeting.manifold.normal).squaredNorm() < kTwin * kTwin;
+  });
+}
+
+bool ContactRows::goesThrough(const Meeting& meeting, std::size_t number) const {
+  if (meeting.uses(number)) return false;
+  const ManifoldPoint& point = meeting.manifold.points[number];
+  const Node& a = problem_.nodes[static_cast<std::size_t>(meeting.a)];
+  Vec3 velocity = a.velocityAt(point.point - a.centre);
+  if (meeting.b != Row::kFixed) {
+    const Node& b = problem_.nodes[static_cast<std::size_t>(meeting.b)];
+    velocity -= b.velocityAt(point.point - b.centre);
+  }
+  return point.gap + problem_.period_s * meeting.manifold.normal.dot(velocity) < -kTouching_m;
+}
+
+// What turns or is fast is looked at where it would end: its rows, if it has any, were made for the begin.
+void ContactRows::addOfMeeting(WorldState& state, Meeting& meeting) {
+  bool predicted = false;
+  for (std::size_t point = 0; point < meeting.manifold.points.size(); ++point) predicted |= goesThrough(meeting, point);
+  const Pace pace = paceOf(problem_, meeting);
+  Manifold end;
+  const auto overlapAtEnd = [&] { return problem_.meetsAtEnd(state, meeting, plan_, end) ? deepestOf(end) : 0; };
+  if (predicted && (pace.fast || overlapAtEnd() > kTouching_m)) {
+    for (std::size_t point = 0; point < meeting.manifold.points.size(); ++point) {
+      if (goesThrough(meeting, point) && !hasTwin(meeting, point)) addRow(state.memory, meeting, point);
+    }
+  } else if ((pace.fast || pace.turns) && overlapAtEnd() > kHeld_m) {
+    addRowsOfEnd(meeting, end);
+  }
+}
+
+bool ContactRows::addPassed(WorldState& state) {
+  const std::size_t before = problem_.rows.size();
+  for (std::size_t i = 0; i < problem_.bodies(); ++i) {
+    plan_.ways[i] = problem_.period_s * problem_.nodes[i].velocity;
+    plan_.turns[i] = problem_.nodes[i].spin;
+  }
+  for (Meeting& meeting : problem_.meetings.all()) addOfMeeting(state, meeting);
+  for (std::size_t i = before; i < problem_.rows.size(); ++i) prepareRow(problem_.rows[i], problem_.nodes);
+  return problem_.rows.size() > before;
+}
+
+// The same contact, as it would be at the end: its gap there is what the motion found makes of the row's gap.
+void ContactRows::addRowsOfEnd(const Meeting& meeting, const Manifold& end) {
+  Meeting at_end = meeting;
+  at_end.manifold = end;
+  const auto wayOf = [&](int number) {
+    return number == Row::kFixed ? Vec3(Vec3::Zero())
+                                 : Vec3(problem_.period_s * problem_.nodes[static_cast<std::size_t>(number)].velocity);
+  };
+  for (std::size_t point = 0; point < end.points.size(); ++point) {
+    if (problem_.rows.size() == problem_.rows.capacity()) return;
+    Row row = rowOf(at_end, point);
+    row.arm_a -= wayOf(row.a);
+    if (row.b != Row::kFixed) row.arm_b -= wayOf(row.b);
+    row.approach = row.normal.dot(relativeVelocity(row, problem_.nodes));
+    row.gap = end.points[point].gap - problem_.period_s * row.approach;
+    problem_.rows.push_back(row);
+  }
+}
+
+void ContactRows::remember(ContactMemory& memory) const {
+  memory.clear();
+  for (const Row& row : problem_.rows)
+    memory.add({row.pair, placeOf(row), row.pressed, row.dragged, row.slipping, false});
+  memory.sort();
+}
+
+}  // namespace hl

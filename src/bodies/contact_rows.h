@@ -1,0 +1,44 @@
+// Contact rows: which contacts of a step have a row: those that bore load in the last step, and those that the motion
+// found would go through. So a body that slides over a flat mesh meets the edges ahead of it, and none of them stops
+// it.
+#pragma once
+
+#include "bodies/body_problem.h"
+
+namespace hl {
+
+/// By one thread at a time.
+class ContactRows {
+ public:
+  explicit ContactRows(BodyProblem& problem);
+
+  /// Rows for what bore load in the last step, and has not come off since. RT-safe.
+  void addBearing(ContactMemory& memory);
+  /// Rows for what the velocities found would pass through in this step. False: nothing. RT-safe.
+  bool addPassed(WorldState& state);
+  /// What the row begins with: the impulses that acted at its place in the last step. RT-safe.
+  void recall(Row& row, ContactMemory& memory) const;
+  /// The impulses of this step, for the next. RT-safe.
+  void remember(ContactMemory& memory) const;
+
+ private:
+  /// A point of a meeting without a gap.
+  struct Touching {
+    std::uint32_t meeting = 0, point = 0;
+    double gap = 0;
+  };
+
+  Row rowOf(const Meeting& meeting, std::size_t point) const;
+  void addRow(ContactMemory& memory, Meeting& meeting, std::size_t point);
+  void addRowsOfEnd(const Meeting& meeting, const Manifold& end);
+  bool hasTwin(const Meeting& meeting, std::size_t point) const;
+  bool goesThrough(const Meeting& meeting, std::size_t point) const;
+  void addOfMeeting(WorldState& state, Meeting& meeting);
+  Vec3 placeOf(const Row& row) const;
+
+  BodyProblem& problem_;
+  BodyWays plan_;  // as the velocities found would have it
+  std::vector<Touching> touching_;
+};
+
+}  // namespace hl

@@ -1,0 +1,43 @@
+// Convex: the shape by which bodies collide: a convex polytope (a point, a segment, a polyhedron) grown by a radius. So
+// balls, capsules, boxes and hulls are one kind, and a triangle of the scene is one too.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace hl {
+
+/// Immutable. Metres; frame of the body: origin at the centre of mass, axes of the object.
+struct Convex {
+  using Index = std::uint16_t;  ///< of a vertex
+  struct Face {
+    Vec3 normal;                 ///< unit, outward
+    std::vector<Index> corners;  ///< counterclockwise, seen from outside
+  };
+  std::vector<Vec3> vertices;  ///< at least one
+  struct Edge {
+    Index begin, end;
+    Index direction;  ///< number in `directions`
+  };
+  std::vector<Edge> edges;
+  std::vector<std::array<Index, 2>> directions;  ///< of all edges, each once: from one vertex to the other
+  std::vector<Face> faces;                       ///< none of a point or segment; a triangle has two
+  double radius = 0;                             ///< m, >= 0
+  double reach = 0;                              ///< m, greatest distance from the origin
+};
+
+/// No shape has more: the work of a step is bounded.
+inline constexpr std::size_t kMostVertices = 64, kMostFaces = 124;
+
+/// Each argument > 0.
+Convex ballShape(double radius);
+Convex boxShape(const Vec3& half);
+/// Along z, from -half_length to half_length, grown by the radius.
+Convex capsuleShape(double half_length, double radius);
+/// A two-sided triangle whose vertices are set later (PlacedConvex): faces 0 and 1 have opposite normals.
+Convex triangleTopology();
+
+}  // namespace hl

@@ -1,0 +1,198 @@
+#include "bodies/manifold.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bodies/nearest_points.h"
+
+namespace hl {
+
+namespace {
+
+constexpr double kUnparted = std::numeric_limits<double>::infinity();
+// By so much of the size of the shapes another axis must part them farther than a face of b: bodies that slide over the
+// seams of a flat mesh touch its faces, not the sides of the next triangle.
+constexpr double kPreference = 1e-6;
+// Squared sine between two edges below which they count as parallel: a face parts the shapes as well.
+constexpr double kParallel = 1e-6;
+constexpr std::size_t kMostCorners = 64;  // of a polygon while it is clipped
+
+struct Axis {
+  Vec3 normal = Vec3::UnitZ();  // from b toward a
+  double separation = -kUnparted;
+  std::size_t face = 0;                          // of a or b
+  std::size_t direction_a = 0, direction_b = 0;  // of edges
+};
+
+double lowest(std::span<const Vec3> vertices, const Vec3& direction) {
+  double least = kUnparted;
+  for (const Vec3& vertex : vertices) least = std::min(least, direction.dot(vertex));
+  return least;
+}
+
+// The face of `of` that parts it farthest from `other`; the normal points away from `of`.
+Axis bestFace(const PlacedConvex& of, const PlacedConvex& other) {
+  Axis best;
+  for (std::size_t face = 0; face < of.normals.size(); ++face) {
+    const Vec3& normal = of.normals[face];
+    const double separation =
+        lowest(other.vertices, normal) - normal.dot(of.vertices[of.shape->faces[face].corners[0]]);
+    if (separation > best.separation) best = {normal, separation, face, 0, 0};
+  }
+  return best;
+}
+
+Vec3 directionOf(const PlacedConvex& of, std::size_t number) {
+  const auto& ends = of.shape->directions[number];
+  return of.vertices[ends[1]] - of.vertices[ends[0]];
+}
+
+Axis bestEdges(const PlacedConvex& a, const PlacedConvex& b) {
+  Axis best;
+  for (std::size_t i = 0; i < a.shape->directions.size(); ++i) {
+    const Vec3 da = directionOf(a, i);
+    for (std::size_t j = 0; j < b.shape->directions.size(); ++j) {
+      const Vec3 db = directionOf(b, j);
+      Vec3 normal = da.cross(db);
+      const double square = normal.squaredNorm();
+      if (square <= kParallel * da.squaredNorm() * db.squaredNorm()) continue;
+      normal /= std::sqrt(square);
+      if (normal.dot(a.centre - b.centre) < 0) normal = -normal;
+      const double separation = lowest(a.vertices, normal) + lowest(b.vertices, -normal);
+      if (separation > best.separation) best = {normal, separation, 0, i, j};
+    }
+  }
+  return best;
+}
+
+// The edge of this direction that lies farthest along `toward`.
+const Convex::Edge& extremeEdge(const PlacedConvex& of, std::size_t direction, const Vec3& toward) {
+  const Convex::Edge* best = nullptr;
+  double farthest = -kUnparted;
+  for (const Convex::Edge& edge : of.shape->edges) {
+    if (edge.direction != direction) continue;
+    const double along = toward.dot(of.vertices[edge.begin] + of.vertices[edge.end]);
+    if (along > farthest) {
+      farthest = along;
+      best = &edge;
+    }
+  }
+  return *best;
+}
+
+// Adds the point halfway between `on_a` and `on_b`, which lie `distance` apart along the normal before the shapes are
+// grown.
+void addPoint(Manifold& out, const Vec3& on_a, double distance, double radius_a, double radius_b, double margin) {
+  const double gap = distance - radius_a - radius_b;
+  if (gap > margin) return;
+  out.points.push({on_a - (radius_a + gap / 2) * out.normal, gap});
+}
+
+using Polygon = FixedVector<Vec3, kMostCorners>;
+
+// What `of` turns toward the face: the face most opposed to its normal, or a whole segment.
+Polygon incidentPolygon(const PlacedConvex& of, const Vec3& normal) {
+  Polygon polygon;
+  if (of.normals.empty()) {
+    for (const Vec3& vertex : of.vertices) polygon.push(vertex);
+    return polygon;
+  }
+  std::size_t opposed = 0;
+  for (std::size_t face = 1; face < of.normals.size(); ++face) {
+    if (of.normals[face].dot(normal) < of.normals[opposed].dot(normal)) opposed = face;
+  }
+  for (const Convex::Index corner : of.shape->faces[opposed].corners) polygon.push(of.vertices[corner]);
+  return polygon;
+}
+
+// Sutherland and Hodgman: keeps what lies below the plane, and what is above by no more than `slack` (m), so that the
+// corners of blocks that stand flush on each other all stay.
+Polygon clipped(const Polygon& polygon, const Vec3& from, const Vec3& outward, double slack) {
+  Polygon kept;
+  const std::size_t corners = polygon.size();
+  for (std::size_t i = 0; i < corners; ++i) {
+    const Vec3 &here = polygon[i], &next = polygon[(i + 1) % corners];
+    const double above = outward.dot(here - from) - slack, above_next = outward.dot(next - from) - slack;
+    if (above <= 0) kept.push(here);
+    const bool way_back = corners == 2 && i == 1;  // of a segment
+    if (!way_back && ((above < 0 && above_next > 0) || (above > 0 && above_next < 0)))
+      kept.push(here + above / (above - above_next) * (next - here));
+  }
+  return kept;
+}
+
+// `reference` has the face, whose normal points to `incident`. `sign`: 1 if the reference is b.
+void clipAgainstFace(const PlacedConvex& reference, std::size_t face, const PlacedConvex& incident, double sign,
+                     double slack, double margin, Manifold& out) {
+  const Vec3& normal = reference.normals[face];
+  const auto& corners = reference.shape->faces[face].corners;
+  Polygon polygon = incidentPolygon(incident, normal);
+  for (std::size_t i = 0; i < corners.size() && !polygon.empty(); ++i) {
+    const Vec3& from = reference.vertices[corners[i]];
+    const Vec3& to = reference.vertices[corners[(i + 1) % corners.size()]];
+    polygon = clipped(polygon, from, (to - from).cross(normal).normalized(), slack);
+  }
+  out.normal = sign * normal;
+  const double radius_i = incident.shape->radius, radius_r = reference.shape->radius;
+  for (const Vec3& corner : polygon) {
+    const double distance = normal.dot(corner - reference.vertices[corners[0]]);
+    const Vec3 on_a = sign > 0 ? corner : Vec3(corner - distance * normal);
+    addPoint(out, on_a, distance, sign > 0 ? radius_i : radius_r, sign > 0 ? radius_r : radius_i, margin);
+  }
+}
+
+// Where the two edges pass each other, if they do within their lengths.
+void crossEdges(const PlacedConvex& a, const PlacedConvex& b, const Axis& axis, double margin, Manifold& out) {
+  const Convex::Edge& ea = extremeEdge(a, axis.direction_a, -axis.normal);
+  const Convex::Edge& eb = extremeEdge(b, axis.direction_b, axis.normal);
+  const Vec3 &a0 = a.vertices[ea.begin], &b0 = b.vertices[eb.begin];
+  const Vec3 da = a.vertices[ea.end] - a0, db = b.vertices[eb.end] - b0, r = a0 - b0;
+  const double aa = da.squaredNorm(), bb = db.squaredNorm(), ab = da.dot(db);
+  const double determinant = aa * bb - ab * ab;
+  const double s = (ab * db.dot(r) - bb * da.dot(r)) / determinant;
+  const double t = (aa * db.dot(r) - ab * da.dot(r)) / determinant;
+  if (s < 0 || s > 1 || t < 0 || t > 1) return;
+  out.normal = axis.normal;
+  addPoint(out, a0 + s * da, axis.separation, a.shape->radius, b.shape->radius, margin);
+}
+
+bool pointAndPolytope(const PlacedConvex& point, const PlacedConvex& polytope, double sign, double margin,
+                      Manifold& out) {
+  const NearestPoints nearest = nearestToPoint(point.vertices[0], polytope);
+  out.normal = sign * nearest.normal;
+  const Vec3& on_a = sign > 0 ? nearest.on_a : nearest.on_b;
+  addPoint(out, on_a, nearest.distance, sign > 0 ? point.shape->radius : polytope.shape->radius,
+           sign > 0 ? polytope.shape->radius : point.shape->radius, margin);
+  return !out.points.empty();
+}
+
+}  // namespace
+
+bool findManifold(const PlacedConvex& a, const PlacedConvex& b, double margin, Manifold& out) {
+  out.points.clear();
+  if (a.vertices.size() == 1) return pointAndPolytope(a, b, 1, margin, out);
+  if (b.vertices.size() == 1) return pointAndPolytope(b, a, -1, margin, out);
+  const double radii = a.shape->radius + b.shape->radius;
+  const Axis of_b = bestFace(b, a), of_a = bestFace(a, b);
+  if (std::max(of_a.separation, of_b.separation) - radii > margin) return false;
+  const Axis of_edges = bestEdges(a, b);
+  if (of_edges.separation - radii > margin) return false;
+  const double preference = kPreference * std::min(a.shape->reach, b.shape->reach > 0 ? b.shape->reach : kUnparted);
+  const double best_face = std::max(of_b.separation, of_a.separation - preference);
+  if (of_edges.separation > best_face + preference) {
+    crossEdges(a, b, of_edges, margin, out);
+  } else if (of_a.separation > of_b.separation + preference) {
+    clipAgainstFace(a, of_a.face, b, -1, preference, margin, out);
+  } else if (of_b.separation > -kUnparted) {
+    clipAgainstFace(b, of_b.face, a, 1, preference, margin, out);
+  }
+  if (!out.points.empty()) return true;
+  NearestPoints nearest;
+  if (!nearestPoints(a, b, nearest)) return false;
+  out.normal = nearest.normal;
+  addPoint(out, nearest.on_a, nearest.distance, a.shape->radius, b.shape->radius, margin);
+  return !out.points.empty();
+}
+
+}  // namespace hl

@@ -1,0 +1,45 @@
+// Meetings: the pairs that may touch within a step: bodies with bodies, and bodies with primitives of the fixed scene.
+#pragma once
+
+#include <vector>
+
+#include "bodies/placed_bodies.h"
+#include "scene/scene_at.h"
+
+namespace hl {
+
+struct Meeting {
+  int a = 0, b = 0;         ///< numbers of bodies; b is Row::kFixed for the scene
+  PrimitiveId primitive{};  ///< of the scene
+  Manifold manifold;
+  std::uint32_t used = 0;  ///< bit i: point i of the manifold has a row
+
+  bool uses(std::size_t point) const { return (used >> point & 1) != 0; }
+};
+
+/// By one thread at a time.
+class Meetings {
+ public:
+  explicit Meetings(const World& world);
+  /// All within `margin` (m). The order depends on keys and places alone. RT-safe: what finds no room is counted.
+  void find(const World& world, const WorldState& state, const PlacedBodies& placed, double margin);
+  std::vector<Meeting>& all() { return meetings_; }
+  const std::vector<Meeting>& all() const { return meetings_; }
+  std::size_t dropped() const { return dropped_; }
+  /// The scene without bodies, as find() saw it; null if there is none.
+  const SceneAt* scene() const { return scene_ ? &*scene_ : nullptr; }
+
+ private:
+  void withScene(const WorldState& state, const World& world, const PlacedBodies& placed, double margin);
+  void withBodies(const WorldState& state, const World& world, const PlacedBodies& placed, double margin);
+  void add(const Meeting& meeting);
+
+  std::vector<Meeting> meetings_;
+  std::vector<PrimitiveId> near_;
+  std::vector<std::uint32_t> along_x_;
+  ManyRecentPrimitives recent_;
+  std::optional<SceneAt> scene_;
+  std::size_t dropped_ = 0;
+};
+
+}  // namespace hl

@@ -1,0 +1,36 @@
+// Motion plan: how far each body goes in a step. What the rows could not keep apart, since they are linear and the
+// solver has an end, stops short: a body that would end inside another, or beyond it, goes a part of its way only. Its
+// velocity stays, so that the next step has the impact.
+#pragma once
+
+#include "bodies/body_problem.h"
+
+namespace hl {
+
+/// By one thread at a time.
+class MotionPlan {
+ public:
+  explicit MotionPlan(const BodyProblem& problem);
+
+  /// From the solved velocities; no body's point goes farther than `margin` / 2 (m). `converged`: of the solver.
+  /// RT-safe.
+  void make(const WorldState& state, double margin, bool converged);
+  const BodyWays& ways() const { return plan_; }
+  /// m, of the way that the bodies go.
+  Vec3 wayOf(std::size_t body) const { return plan_.parts[body] * plan_.ways[body]; }
+
+ private:
+  void goWithVelocities();
+  void pushApart();
+  void limit(double margin);
+  void stopShort(const WorldState& state, bool converged);
+  bool passes(const WorldState& state, const Meeting& meeting) const;
+  bool shorten(const WorldState& state, const Meeting& meeting);
+
+  const BodyProblem& problem_;
+  BodyWays plan_;
+  std::vector<Node> apart_;  // velocities that only push overlapping bodies apart
+  std::vector<Row> overlaps_;
+};
+
+}  // namespace hl

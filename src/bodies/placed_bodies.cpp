@@ -1,0 +1,72 @@
+#include "bodies/placed_bodies.h"
+
+namespace hl {
+
+namespace {
+
+const Convex& topologyOf(PrimitiveKind kind) {
+  static const Convex point = [] {
+    Convex shape;
+    shape.vertices.resize(1);
+    return shape;
+  }();
+  static const Convex segment = [] {
+    Convex shape = capsuleShape(1, 0);
+    shape.reach = 0;
+    return shape;
+  }();
+  static const Convex triangle = triangleTopology();
+  if (kind == PrimitiveKind::kPoint) return point;
+  return kind == PrimitiveKind::kSegment ? segment : triangle;
+}
+
+}  // namespace
+
+PlacedConvex placed(const Body& body, const BodyState& state, std::span<Vec3> vertices, std::span<Vec3> normals) {
+  const Mat3 rotation = state.turned.toRotationMatrix();
+  const Convex& shape = body.shape;
+  for (std::size_t i = 0; i < shape.vertices.size(); ++i) vertices[i] = state.centre + rotation * shape.vertices[i];
+  for (std::size_t i = 0; i < shape.faces.size(); ++i) normals[i] = rotation * shape.faces[i].normal;
+  return {&shape, vertices.first(shape.vertices.size()), normals.first(shape.faces.size()), state.centre};
+}
+
+PlacedConvex placed(const Body& body, const BodyState& state, PlacedRoom& room) {
+  return placed(body, state, room.vertices, room.normals);
+}
+
+PlacedConvex placed(const Primitive& primitive, const Pose& pose, PlacedRoom& room) {
+  const Convex& shape = topologyOf(primitive.kind);
+  const std::size_t vertices = shape.vertices.size();
+  for (std::size_t i = 0; i < vertices; ++i) room.vertices[i] = pose.toWorld(primitive.vertex[i]);
+  PlacedConvex out{&shape, std::span<const Vec3>(room.vertices).first(vertices), {}, Vec3::Zero()};
+  for (const Vec3& vertex : out.vertices) out.centre += vertex / static_cast<double>(vertices);
+  if (primitive.kind != PrimitiveKind::kTriangle) return out;
+  // The corners are sorted, so that the face may wind the other way round.
+  room.normals[0] = (room.vertices[1] - room.vertices[0]).cross(room.vertices[2] - room.vertices[0]).normalized();
+  room.normals[1] = -room.normals[0];
+  out.normals = std::span<const Vec3>(room.normals).first(2);
+  return out;
+}
+
+PlacedBodies::PlacedBodies(const World& world) : placed_(world.bodies.size()) {
+  std::size_t vertices = 0, normals = 0;
+  for (const Body& body : world.bodies) {
+    vertices += body.shape.vertices.size();
+    normals += body.shape.faces.size();
+  }
+  vertices_.resize(vertices);
+  normals_.resize(normals);
+}
+
+void PlacedBodies::place(const World& world, const WorldState& state) {
+  std::size_t vertex = 0, normal = 0;
+  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+    const Convex& shape = world.bodies[i].shape;
+    placed_[i] = placed(world.bodies[i], state.bodies[i], std::span(vertices_).subspan(vertex),
+                        std::span(normals_).subspan(normal));
+    vertex += shape.vertices.size();
+    normal += shape.faces.size();
+  }
+}
+
+}  // namespace hl

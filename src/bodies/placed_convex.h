@@ -1,0 +1,18 @@
+// PlacedConvex: a convex shape at a pose in the world.
+#pragma once
+
+#include <span>
+
+#include "bodies/convex.h"
+
+namespace hl {
+
+/// A convex shape in the world; all that it refers to must outlive it.
+struct PlacedConvex {
+  const Convex* shape = nullptr;     ///< topology and radius
+  std::span<const Vec3> vertices{};  ///< m, world
+  std::span<const Vec3> normals{};   ///< of the faces, world
+  Vec3 centre = Vec3::Zero();        ///< m, world: inside the shape
+};
+
+}  // namespace hl

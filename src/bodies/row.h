@@ -1,0 +1,49 @@
+// Rows: the unknown velocities of a step (nodes), and the contacts between them (rows).
+#pragma once
+
+#include <cstdint>
+
+#include "base/vec.h"
+#include "bodies/contact_memory.h"
+
+namespace hl {
+
+/// Something with a velocity: a body, or a hand (no inertia: it does not turn).
+struct Node {
+  Vec3 velocity = Vec3::Zero();  ///< m/s
+  Vec3 spin = Vec3::Zero();      ///< rad/s
+  double inverse_mass = 0;       ///< 1/kg
+  Mat3 inverse_inertia = Mat3::Zero();
+  Vec3 centre = Vec3::Zero();  ///< m, world
+
+  Vec3 velocityAt(const Vec3& arm) const { return velocity + spin.cross(arm); }
+  /// The impulse (N s) acts at `arm` from the centre.
+  void push(const Vec3& impulse, const Vec3& arm) {
+    velocity += inverse_mass * impulse;
+    spin += inverse_inertia * arm.cross(impulse);
+  }
+};
+
+/// A point of contact. Along the normal gap + T v >= 0; across it Coulomb's cone.
+struct Row {
+  static constexpr int kFixed = -1;
+  static constexpr double kNone = -1e300;
+  ContactPair pair{};
+  int a = 0, b = kFixed;  ///< numbers of nodes; the normal points from b to a
+  Vec3 normal = Vec3::UnitZ();
+  Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();  ///< m, world, from the centres
+  double gap = 0;                                   ///< m
+  double static_friction = 0, dynamic_friction = 0;
+  double friction = 0;  ///< of this step: static while it sticks
+  double restitution = 0;
+  double least_velocity = kNone;  ///< m/s along the normal, that the row demands besides; kNone: nothing
+  double pressed = 0;             ///< N s, >= 0, on a along the normal
+  Vec3 dragged = Vec3::Zero();    ///< N s, on a across the normal
+  bool slipping = false;
+  // Made by prepareRow().
+  Vec3 change = Vec3::Zero(), search = Vec3::Zero();  ///< N s, in the last sweep, and the solver's direction
+  double normal_step = 0, drag_step = 0;              ///< kg, impulse per velocity
+  double approach = 0;                                ///< m/s along the normal before the step
+};
+
+}  // namespace hl

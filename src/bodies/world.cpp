@@ -1,0 +1,51 @@
+#include "bodies/world.h"
+
+namespace hl {
+
+WorldState startWorld(const World& world, const std::vector<Pose>& poses) {
+  WorldState state;
+  state.bodies.resize(world.bodies.size());
+  state.memory.reserve(mostRows(world));
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    BodyState& body = state.bodies[i];
+    body.turned = Eigen::Quaterniond(poses[i].rotation).normalized();
+    body.centre = poses[i].toWorld(world.bodies[i].mass.centre_O);
+  }
+  return state;
+}
+
+Pose poseOf(const Body& body, const BodyState& state) {
+  Pose pose;
+  pose.rotation = state.turned.toRotationMatrix();
+  pose.origin = state.centre - pose.rotation * body.mass.centre_O;
+  return pose;
+}
+
+Mat3 inertiaOf(const Body& body, const BodyState& state) {
+  const Mat3 rotation = state.turned.toRotationMatrix();
+  return rotation * body.mass.inertia_kg_m2 * rotation.transpose();
+}
+
+Mat3 inverseInertia(const Body& body, const BodyState& state) {
+  const Mat3 rotation = state.turned.toRotationMatrix();
+  return rotation * body.mass.inertia_kg_m2.inverse() * rotation.transpose();
+}
+
+double kineticEnergy_J(const World& world, const WorldState& state) {
+  double sum = 0;
+  for (std::size_t i = 0; i < state.bodies.size(); ++i) {
+    const BodyState& body = state.bodies[i];
+    sum += world.bodies[i].mass.mass_kg * body.velocity.squaredNorm() / 2;
+    sum += body.spin.dot(inertiaOf(world.bodies[i], body) * body.spin) / 2;
+  }
+  return sum;
+}
+
+double gravityEnergy_J(const World& world, const WorldState& state) {
+  double sum = 0;
+  for (std::size_t i = 0; i < state.bodies.size(); ++i)
+    sum -= world.bodies[i].mass.mass_kg * world.gravity_m_s2.dot(state.bodies[i].centre);
+  return sum;
+}
+
+}  // namespace hl

@@ -1,0 +1,75 @@
+// World: the rigid bodies of a scene, and their state, which a step changes (body_step.h).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "bodies/contact_memory.h"
+#include "bodies/convex.h"
+#include "bodies/energy_book.h"
+#include "bodies/mass.h"
+#include "scene/pose.h"
+#include "scene/snapshot.h"
+
+namespace hl {
+
+/// How a surface meets another body. Of two that touch, the geometric mean of each counts.
+struct BodySurface {
+  double static_friction = 0.5;   ///< >= dynamic_friction
+  double dynamic_friction = 0.5;  ///< >= 0
+  double restitution = 0;         ///< 0..1
+  bool operator==(const BodySurface&) const = default;
+};
+
+struct Body {
+  std::uint64_t key = 0;  ///< as Instance::key; unique in a world; > 0
+  Mass mass{};
+  Convex shape;
+  BodySurface surface{};
+};
+
+/// Immutable while it is stepped.
+struct World {
+  std::vector<Body> bodies;               ///< sorted by key
+  std::shared_ptr<const Snapshot> fixed;  ///< what bodies stand on: at rest; null: nothing
+  BodySurface fixed_surface{};            ///< of all of `fixed`
+  Vec3 gravity_m_s2 = Vec3(0, -9.81, 0);
+};
+
+/// A step has no more contacts, each of the bodies with 64 points; the rest is dropped, and counted.
+inline constexpr std::size_t kMostHands = 8, kContactsOfHand = 3, kContactsPerBody = 64;
+inline std::size_t mostRows(const World& world) {
+  return kMostHands * kContactsOfHand + kContactsPerBody * world.bodies.size();
+}
+
+/// World frame.
+struct BodyState {
+  Vec3 centre = Vec3::Zero();  ///< m, of mass
+  Eigen::Quaterniond turned = Eigen::Quaterniond::Identity();
+  Vec3 velocity = Vec3::Zero();  ///< m/s, of the centre
+  Vec3 spin = Vec3::Zero();      ///< rad/s
+  int stopped_short = 0;         ///< consecutive steps that went a part of their way only (motion_plan.h)
+};
+
+/// Plain values but for the lists, whose room is made by startWorld().
+struct WorldState {
+  std::vector<BodyState> bodies;  ///< as World::bodies
+  ContactMemory memory;
+  EnergyBook energy{};
+  std::uint64_t steps = 0;
+};
+
+/// Each body at a pose of its object frame, at rest. `poses`: as World::bodies. Allocates.
+WorldState startWorld(const World& world, const std::vector<Pose>& poses);
+/// The pose of the object frame. RT-safe.
+Pose poseOf(const Body& body, const BodyState& state);
+/// Inverse of the inertia about the centre of mass, world frame, 1/(kg m^2). RT-safe.
+Mat3 inverseInertia(const Body& body, const BodyState& state);
+Mat3 inertiaOf(const Body& body, const BodyState& state);
+/// Joules. RT-safe.
+double kineticEnergy_J(const World& world, const WorldState& state);
+double gravityEnergy_J(const World& world, const WorldState& state);
+
+}  // namespace hl

@@ -1,0 +1,54 @@
+// BodyWorld: the bodies of a scene within the loop that ticks. Each tick is
+//
+//   step the bodies, the proxy a node among them -> carry -> tick -> settle
+//
+// so that a body has answered the very sample for which the tick is made. What the tick's force gives the hand beyond
+// what the bodies got is owed to them, and paid in the next step: action is reaction to rounding.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "bodies/body_poses.h"
+#include "bodies/body_step.h"
+#include "proxy/object_forces.h"
+
+namespace hl {
+
+/// What the last tick left: the proxy's contacts and spring. World frame.
+struct HandAtBodies {
+  FixedVector<HandContact, kContactsOfHand> contacts;
+  Vec3 stretch = Vec3::Zero();  ///< m, proxy - the finger of now
+  double spring_N_m = 0;        ///< with the stiffness of the surface; 0: the servo makes no force
+};
+
+/// By the loop that ticks.
+class BodyWorld {
+ public:
+  /// `poses`: the drivers of the instances of the bodies, as World::bodies.
+  BodyWorld(std::shared_ptr<const World> world, std::vector<std::shared_ptr<BodyPoses>> poses);
+
+  /// Moves the bodies from the last step's moment to `now_ns`, by `period_s` of their time. RT-safe.
+  void step(std::int64_t now_ns, double period_s, const HandAtBodies& hand);
+  /// After the tick: what each object's contact gives the hand. RT-safe.
+  void settle(const ObjectForces& forces, double period_s);
+
+  const World& world() const { return stepper_.world(); }
+  const WorldState& state() const { return state_; }
+  const BodyStepReport& report() const { return report_; }
+  /// N s that bodies are still to get.
+  Vec3 owed_N_s() const;
+
+ private:
+  BodyStepper stepper_;
+  WorldState state_;
+  std::vector<std::shared_ptr<BodyPoses>> poses_;
+  FixedVector<BodyImpulse, kContactsOfHand> owed_;
+  GivenImpulses given_;
+  std::size_t paid_ = 0;  // the first of given_: what was owed
+  BodyStepReport report_;
+  std::int64_t time_ns_ = 0;
+  bool begun_ = false;
+};
+
+}  // namespace hl

@@ -1,0 +1,66 @@
+// Manifolds of convex shapes.
+#include <gtest/gtest.h>
+
+#include "bodies/placed_bodies.h"
+
+namespace hl {
+namespace {
+
+struct PlacedShape {
+  PlacedShape(const Convex& shape, const Vec3& centre,
+              const Eigen::Quaterniond& turned = Eigen::Quaterniond::Identity()) {
+    body.shape = shape;
+    BodyState state;
+    state.centre = centre;
+    state.turned = turned;
+    at = placed(body, state, room);
+  }
+  Body body;
+  PlacedRoom room;
+  PlacedConvex at;
+};
+
+TEST(Manifold, ABoxOnABoxHasFourPoints) {
+  const Convex shape = boxShape(Vec3(0.1, 0.1, 0.1));
+  const PlacedShape a(shape, Vec3(0.01, 0.2001, 0)), b(shape, Vec3::Zero());
+  Manifold found;
+  ASSERT_TRUE(findManifold(a.at, b.at, 0.01, found));
+  EXPECT_EQ(found.points.size(), 4u);
+  EXPECT_LT((found.normal - Vec3::UnitY()).norm(), 1e-12);
+  for (const ManifoldPoint& point : found.points) EXPECT_NEAR(point.gap, 1e-4, 1e-12);
+  EXPECT_FALSE(findManifold(a.at, b.at, 1e-5, found));
+}
+
+TEST(Manifold, CrossedEdgesHaveOnePoint) {
+  const Convex shape = boxShape(Vec3(0.1, 0.1, 0.1));
+  const Eigen::Quaterniond about_x(Eigen::AngleAxisd(0.25 * 3.14159265358979, Vec3::UnitX()));
+  const Eigen::Quaterniond about_z(Eigen::AngleAxisd(0.25 * 3.14159265358979, Vec3::UnitZ()));
+  const double half = 0.1 * std::sqrt(2.0);
+  const PlacedShape a(shape, Vec3(0, 2 * half + 0.001, 0), about_x), b(shape, Vec3::Zero(), about_z);
+  Manifold found;
+  ASSERT_TRUE(findManifold(a.at, b.at, 0.01, found));
+  ASSERT_EQ(found.points.size(), 1u);
+  EXPECT_NEAR(found.points[0].gap, 0.001, 1e-9);
+  EXPECT_LT((found.normal - Vec3::UnitY()).norm(), 1e-9);
+}
+
+TEST(Manifold, CornersThatAreApartMeetAlongTheLineBetweenThem) {
+  const Convex shape = boxShape(Vec3(0.1, 0.1, 0.1));
+  const PlacedShape a(shape, Vec3(0.201, 0.202, 0.202)), b(shape, Vec3::Zero());
+  Manifold found;
+  ASSERT_TRUE(findManifold(a.at, b.at, 0.01, found));
+  ASSERT_EQ(found.points.size(), 1u);
+  EXPECT_NEAR(found.points[0].gap, 0.003, 1e-12);
+  EXPECT_LT((found.normal - Vec3(1, 2, 2) / 3).norm(), 1e-9);
+}
+
+TEST(Manifold, ACapsuleLiesOnABoxWithTwoPoints) {
+  const PlacedShape a(capsuleShape(0.05, 0.01), Vec3(0, 0.11, 0)), b(boxShape(Vec3(0.1, 0.1, 0.1)), Vec3::Zero());
+  Manifold found;
+  ASSERT_TRUE(findManifold(a.at, b.at, 0.001, found));
+  EXPECT_EQ(found.points.size(), 2u);
+  for (const ManifoldPoint& point : found.points) EXPECT_NEAR(point.gap, 0, 1e-12);
+}
+
+}  // namespace
+}  // namespace hl

@@ -1,0 +1,109 @@
+// Random worlds in a closed room: nothing leaves it, nothing passes through anything, and every joule is told.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <random>
+
+#include "test_worlds.h"
+
+namespace hl {
+namespace {
+
+using namespace test;
+
+constexpr double kRoom_m = 0.15;  // half of its sides
+
+Model roomModel() {
+  const Convex walls = boxShape(Vec3::Constant(kRoom_m));
+  Model model;
+  model.positions = walls.vertices;
+  for (const Convex::Face& face : walls.faces) {
+    model.triangles.push_back({face.corners[0], face.corners[1], face.corners[2]});
+    model.triangles.push_back({face.corners[0], face.corners[2], face.corners[3]});
+  }
+  return model;
+}
+
+struct RandomWorld {
+  explicit RandomWorld(std::uint64_t seed) : random(seed) {
+    world.fixed = makeSnapshot(roomModel());
+    const int count = 2 + static_cast<int>(random() % 12);
+    world.gravity_m_s2 = Vec3(0, random() % 2 == 0 ? -9.81 : 0, 0);
+    for (int i = 0; i < count; ++i) addBody(i, count);
+  }
+  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
+  Vec3 direction() {
+    std::normal_distribution<double> normal;
+    return Vec3(normal(random), normal(random), normal(random)).normalized();
+  }
+  // Bodies begin in the cells of a grid, so that none touches another.
+  void addBody(int number, int count) {
+    const int side = static_cast<int>(std::ceil(std::cbrt(static_cast<double>(count))));
+    const double cell = 1.9 * kRoom_m / side, most = 0.45 * cell;
+    const Vec3 at = Vec3::Constant(-0.95 * kRoom_m) +
+                    cell * Vec3(number % side + 0.5, number / side % side + 0.5, number / side / side + 0.5);
+    const double mass = std::exp(between(std::log(1e-6), std::log(1.0)));
+    const BodySurface surface{0.7, between(0, 0.7), between(0, 1)};
+    const auto key = static_cast<std::uint64_t>(number + 1);
+    const double size = between(0.2, 1) * most;
+    switch (random() % 4) {
+      case 0:
+        world.bodies.push_back({key, massOfBall(mass, size), ballShape(size), surface});
+        break;
+      case 1: {
+        const Vec3 half = Vec3(between(0.2, 1), between(0.2, 1), between(0.2, 1)) * size / std::sqrt(3.0);
+        world.bodies.push_back({key, massOfBox(mass, half), boxShape(half), surface});
+        break;
+      }
+      case 2: {
+        const Vec3 half(0.7 * size, 0.0005, 0.7 * size);  // a plate of 1 mm
+        world.bodies.push_back({key, massOfBox(mass, half), boxShape(half), surface});
+        break;
+      }
+      default:
+        world.bodies.push_back(
+            {key, massOfCapsule(mass, 0.6 * size, 0.3 * size), capsuleShape(0.6 * size, 0.3 * size), surface});
+    }
+    poses.push_back(placeAt(at, Eigen::AngleAxisd(between(0, 3), direction()).toRotationMatrix()));
+    const double hot = random() % 3 == 0 ? 1 : 0.1;
+    velocities.emplace_back(hot * between(0, 10) * direction());
+    spins.emplace_back(hot * between(0, 100) * direction());
+  }
+
+  std::mt19937_64 random;
+  World world;
+  std::vector<Pose> poses;
+  std::vector<Vec3> velocities, spins;
+};
+
+int numberIn(const char* variable, int otherwise) {
+  const char* const said = std::getenv(variable);
+  return said == nullptr ? otherwise : std::atoi(said);
+}
+
+TEST(RandomWorlds, NothingLeavesAClosedRoom) {
+  const int begin = numberIn("HL_FIRST_WORLD", 0);
+  for (int seed = begin; seed < begin + numberIn("HL_RANDOM_WORLDS", 20); ++seed) {
+    RandomWorld made(static_cast<std::uint64_t>(seed));
+    Playground play(made.world, made.poses);
+    for (std::size_t i = 0; i < made.velocities.size(); ++i) {
+      play.state.bodies[i].velocity = made.velocities[i];
+      play.state.bodies[i].spin = made.spins[i];
+    }
+    const double begin_J = play.energy_J();
+    for (int step = 0; step < 1000; ++step) {
+      const BodyStepReport report = play.step();
+      ASSERT_EQ(report.dropped, 0u);
+      const EnergyBook& book = play.state.energy;
+      const double told = book.solver_J - book.contact_J - book.friction_J;
+      ASSERT_NEAR(play.energy_J() - begin_J, told, 1e-9 * (1 + std::abs(begin_J))) << seed << " step " << step;
+      ASSERT_LT(play.energy_J() - begin_J, 0.05 * (1e-3 + std::abs(begin_J))) << seed << " step " << step;
+      for (const BodyState& body : play.state.bodies)
+        ASSERT_TRUE(body.centre.allFinite() && body.centre.cwiseAbs().maxCoeff() < kRoom_m) << seed << " step " << step;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hl

@@ -1,0 +1,215 @@
+// Bodies within the servo step: what a device feels of them, and they of it.
+#include "touch/body_world.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "base/realtime_guard.h"
+#include "device/device_models.h"
+#include "proxy/effect_scenes.h"
+#include "touch/touch_step.h"
+
+namespace hl {
+namespace {
+
+constexpr double kRadius_m = 0.001;
+constexpr std::int64_t kMs = 1'000'000;
+
+double between(std::mt19937_64& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+Model boxModel(const Vec3& half) {
+  const Convex shape = boxShape(half);
+  Model model;
+  model.positions = shape.vertices;
+  for (const Convex::Face& face : shape.faces) {
+    model.triangles.push_back({face.corners[0], face.corners[1], face.corners[2]});
+    model.triangles.push_back({face.corners[0], face.corners[2], face.corners[3]});
+  }
+  return model;
+}
+
+Instance instanceOf(Model model, std::uint64_t key) {
+  Instance instance;
+  instance.shape = makeShape(std::move(model), HierarchyKind::kNone);
+  instance.surfaces = surfacesOf(instance.shape);
+  instance.key = key;
+  return instance;
+}
+
+ServoSettings undamped(double stiffness_N_m) {
+  ServoSettings settings = ServoSettings::of(premium10().info);
+  settings.stiffness_N_m = stiffness_N_m;
+  settings.damping_Ns_m = 0;
+  settings.ramp_s = settings.period_s;
+  settings.friction_N = 0;
+  settings.velocity_limit_m_s = 100;
+  settings.force_rate_limit_N_s = 1e9;
+  settings.ledger = LedgerMode::kReport;
+  return settings;
+}
+
+// Blocks, and a floor that they stand on; a device's finger among them.
+class Bench {
+ public:
+  struct Block {
+    double mass_kg = 0.1;
+    Vec3 half = Vec3::Constant(0.02);
+    Vec3 at = Vec3(0, 0.02, 0);
+  };
+
+  Bench(const std::vector<Block>& blocks, double friction, double gravity = 9.81) {
+    World world;
+    world.fixed = test::snapshotOf(test::floorModel());
+    world.fixed_surface = {friction, friction, 0};
+    world.gravity_m_s2 = Vec3(0, -gravity, 0);
+    std::vector<Instance> instances{instanceOf(test::floorModel(), 1)};
+    std::uint64_t key = 2;
+    for (const Block& block : blocks) {
+      world.bodies.push_back(
+          {key, massOfBox(block.mass_kg, block.half), boxShape(block.half), {friction, friction, 0}});
+      Instance instance = instanceOf(boxModel(block.half), key++);
+      poses_.push_back(
+          std::make_shared<BodyPoses>(Pose{Mat3::Identity(), block.at}, Box{Vec3::Constant(-1), Vec3::Constant(1)}));
+      instance.driver = poses_.back();
+      instances.push_back(std::move(instance));
+    }
+    scenes_.emplace(makeSnapshot(std::move(instances)));
+    world_ = std::make_unique<BodyWorld>(std::make_shared<const World>(std::move(world)), poses_);
+    loop_.emplace(*scenes_, ProxySettings{}, world_.get());
+    arm(step_.servo());
+    commands_.radius_W = kRadius_m;
+  }
+
+  // The force on the hand; the finger is there at the begin of the step.
+  Vec3 step(const Vec3& finger, const ServoSettings& settings) {
+    DeviceSample sample;
+    sample.time_ns = time_ns_ += kMs;
+    sample.position = finger;
+    sample.status = DeviceStatus::kOk;
+    force_ = step_.onTime(*loop_, commands_, settings, sample).force_N;
+    given_ += settings.period_s * force_;
+    return force_;
+  }
+  const BodyState& body(std::size_t i = 0) const { return world_->state().bodies[i]; }
+  Vec3 momentum() const {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = 0; i < world_->world().bodies.size(); ++i)
+      sum += world_->world().bodies[i].mass.mass_kg * body(i).velocity;
+    return sum;
+  }
+  // N s: on the hand, on the bodies, and owed to them.
+  Vec3 imbalance() const { return given_ + momentum() + world_->owed_N_s(); }
+  const Vec3& proxy() const { return loop_->state().position; }
+  const BodyWorld& world() const { return *world_; }
+
+ private:
+  std::vector<std::shared_ptr<BodyPoses>> poses_;
+  std::optional<SnapshotSlot> scenes_;
+  std::unique_ptr<BodyWorld> world_;
+  std::optional<ProxyLoop> loop_;
+  TouchStep step_;
+  ProxyCommands commands_;
+  std::int64_t time_ns_ = 0;
+  Vec3 force_ = Vec3::Zero(), given_ = Vec3::Zero();
+};
+
+// Moves the finger from `from` at this velocity; returns the last force.
+Vec3 sweep(Bench& bench, const ServoSettings& settings, Vec3& finger, const Vec3& velocity, double seconds) {
+  Vec3 force = Vec3::Zero();
+  for (double t = 0; t < seconds; t += settings.period_s) {
+    finger += settings.period_s * velocity;
+    force = bench.step(finger, settings);
+  }
+  return force;
+}
+
+TEST(BodyWorld, R1TheHandFeelsTheFrictionOfTheBlockThatItPushes) {
+  Bench bench({{}}, 0.4);
+  const ServoSettings settings = undamped(1000);
+  Vec3 finger(-0.03, 0.02, 0);
+  sweep(bench, settings, finger, Vec3::Zero(), 0.1);
+  const Vec3 force = sweep(bench, settings, finger, Vec3(0.01, 0, 0), 5);
+  EXPECT_NEAR(force.x(), -0.3924, 1e-5);
+  EXPECT_LT(std::abs(force.y()) + std::abs(force.z()), 1e-5);
+  EXPECT_NEAR(bench.body().centre.x(), finger.x() + 0.0003924 + kRadius_m + 0.02, 0.001);
+}
+
+TEST(BodyWorld, ActionIsReactionToRounding) {
+  Bench bench({{0.1, Vec3(0.02, 0.02, 0.02), Vec3(0, 0.05, 0)}, {0.03, Vec3(0.01, 0.02, 0.01), Vec3(0.05, 0.05, 0)}}, 0,
+              0);
+  const ServoSettings settings = undamped(1000);
+  std::mt19937_64 random(7);
+  Vec3 finger(-0.04, 0.05, 0), velocity = Vec3::Zero();
+  for (int i = 0; i < 5000; ++i) {
+    velocity = 0.99 * velocity +
+               0.01 * Vec3(between(random, -0.5, 0.7), between(random, -0.2, 0.2), between(random, -0.2, 0.2));
+    finger += 1e-3 * velocity;
+    bench.step(finger, settings);
+    ASSERT_LT(bench.imbalance().norm(), 1e-12) << i;
+  }
+  EXPECT_GT(bench.momentum().norm(), 1e-4) << "nothing was touched";
+}
+
+TEST(BodyWorld, R25ABodyOfAMillionTonsFeelsLikeAWall) {
+  Bench heavy({{1e10, Vec3::Constant(0.02), Vec3(0, 0.02, 0)}}, 0.5, 0);
+  Bench wall({{1e15, Vec3::Constant(0.02), Vec3(0, 0.02, 0)}}, 0.5, 0);
+  const ServoSettings settings = undamped(1000);
+  std::mt19937_64 random(11);
+  Vec3 finger(-0.03, 0.02, 0);
+  for (int i = 0; i < 20000; ++i) {
+    finger += Vec3(between(random, -1, 1), between(random, -1, 1), between(random, -1, 1)) * 0.0005 +
+              0.001 * (Vec3(0, 0.03, 0) - finger);
+    EXPECT_LT((heavy.step(finger, settings) - wall.step(finger, settings)).norm(), 1e-5) << i;
+  }
+}
+
+TEST(BodyWorld, ABodyThatFallsOnTheFingerStaysOnIt) {
+  Bench bench({{0.05, Vec3(0.03, 0.005, 0.03), Vec3(0, 0.06, 0)}}, 0.5);
+  ServoSettings settings = undamped(500);
+  Vec3 finger(0, 0.03, 0);
+  const Vec3 force = sweep(bench, settings, finger, Vec3::Zero(), 4);
+  EXPECT_NEAR(force.y(), -0.05 * 9.81, 0.02);
+  EXPECT_GT(bench.body().centre.y(), 0.03);
+}
+
+TEST(BodyWorld, AStepTakesNoMemory) {
+  Bench bench({{}, {0.1, Vec3::Constant(0.02), Vec3(0.05, 0.02, 0)}}, 0.4);
+  const ServoSettings settings = undamped(1000);
+  Vec3 finger(-0.03, 0.02, 0);
+  sweep(bench, settings, finger, Vec3(0.05, 0, 0), 0.1);
+  const RealtimeGuard guard;
+  for (int i = 0; i < 1000; ++i) {
+    finger.x() += 0.0001;
+    bench.step(finger, settings);
+  }
+}
+
+// dynamics of a finger of 75 g against a body in the open, both free: b is what keeps its oscillation from growing.
+TEST(BodyWorld, R22ABodyNeedsLessDampingThanAWall) {
+  const auto grows = [](double mass_kg, double damping_Ns_m) {
+    Bench bench({{mass_kg, Vec3::Constant(0.02), Vec3(0.021, 0.06, 0)}}, 0, 0);
+    const ServoSettings settings = undamped(1000);
+    constexpr double kFinger_kg = 0.075;
+    Vec3 finger(-0.01, 0.06, 0);
+    sweep(bench, settings, finger, Vec3(0.1, 0, 0), 0.105);
+    // Held against it: the body is pushed by a constant force that the finger bears.
+    Vec3 velocity(0.1, 0, 0);
+    const double decay = std::exp(-damping_Ns_m / kFinger_kg * 1e-3);
+    double most_early = 0, most_late = 0;
+    for (int i = 0; i < 3000; ++i) {
+      const Vec3 force = bench.step(finger, settings);
+      velocity = decay * velocity + (1 - decay) / damping_Ns_m * force;
+      finger += 1e-3 * velocity;
+      (i < 1000 ? most_early : most_late) = std::max(i < 1000 ? most_early : most_late, force.norm());
+    }
+    return most_late > most_early;
+  };
+  EXPECT_FALSE(grows(0.1, 0.05));
+}
+
+}  // namespace
+}  // namespace hl
