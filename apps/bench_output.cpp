@@ -9,8 +9,6 @@ namespace hl {
 
 namespace {
 
-using bench::Row;
-
 constexpr const char* kHeader =
     "scene      motion   radius      mm triangles what                      p50       p99     p99.9       max  1x p99.9"
     "    1x max     mean   ticks capped spent  build 1     all refit bytes   all  x plain   x tick  x query  wrong\n";
@@ -26,12 +24,12 @@ std::string text(double value, int digits, const char* none) {
 }
 
 // As "tick bvh friction", "near embree".
-std::string whatOf(const Row& row) {
+std::string whatOf(const bench::Row& row) {
   if (row.question == "tick") return "tick " + row.hierarchy + (row.surface == "plain" ? "" : " " + row.surface);
   return row.question + " " + row.who;
 }
 
-std::string wrongOf(const Row& row) {
+std::string wrongOf(const bench::Row& row) {
   if (row.agreement.compared == 0) return "-";
   return fmt::format("{} of {}", row.agreement.different, row.agreement.compared);
 }
@@ -49,11 +47,11 @@ BenchOutput::BenchOutput(const std::string& csv, const std::string& scene) {
 }
 
 bench::SuiteOutput BenchOutput::sink() {
-  return {[this](const Row& r) { row(r); }, [this](const bench::Growth& g) { growth(g); },
+  return {[this](const bench::Row& r) { row(r); }, [this](const bench::Growth& g) { growth(g); },
           [this](const std::string& text) { note(text); }, [this](const std::string& text) { progress(text); }};
 }
 
-void BenchOutput::row(const Row& r) {
+void BenchOutput::row(const bench::Row& r) {
   clearProgress();
   const double p50 = r.times.median_us(), p99 = r.times.percentile_us(0.99), p999 = r.times.percentile_us(0.999);
   fmt::print("{:<10} {:<8} {:<6} {:>7.4g} {:>9} {:<20}", r.scene, r.motion, r.radius, 1e3 * r.radius_m, r.primitives,

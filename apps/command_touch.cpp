@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/realtime.h"
 #include "commands.h"
+#include "file_opener.h"
 #include "force_options.h"
 #include "http/http_server.h"
 #include "io/csv_path.h"
@@ -88,7 +89,8 @@ void runTouch(TouchOptions options) {
   const auto snapshot = loadSnapshot(options.scene);
   options.settings.hand_firm = options.hand == "firm";
   // A scene file says how its surfaces feel; a bare model feels as smooth as it looks.
-  if (!isSceneFile(options.scene.scene) && !options.settings.surfaces.smooth) options.settings.surfaces.smooth = true;
+  const bool shade_untold = !options.settings.surfaces.smooth;
+  if (!isSceneFile(options.scene.scene) && shade_untold) options.settings.surfaces.smooth = true;
   options.settings.explore = options.explore == "on";
   if (options.scale > 0) options.settings.world_per_device = options.scale;
   if (!options.hand_path.empty()) options.settings.script = readScript(options.hand_path);
@@ -104,9 +106,15 @@ void runTouch(TouchOptions options) {
   TouchSession& session = touch.device();
   if (options.settings.script && !session.hasHand())
     throw Error("--hand-path moves a simulated hand, and a person holds this device");
+  FileOpener opener(touch, hierarchyOf(options.scene), shade_untold);
+  if (options.upload == "on") {
+    http.upload.limit_bytes = kUpload_bytes;
+    http.upload.open = [&](int descriptor, const std::string& name) { return opener.open(descriptor, name); };
+  }
   const auto& recordings = options.recorder.pages;
-  HttpServer server(http, makeViewerFeed(session, HL_VERSION, touch.memory().member(), recordings), &touch,
-                    makeTouchMonitor(session, &touch, recordings));
+  HttpServer server(
+      http, makeViewerFeed(session, HL_VERSION, touch.memory().member(), recordings, http.upload.limit_bytes), &touch,
+      makeTouchMonitor(session, &touch, recordings));
   touch.start();
   server.start();
   fmt::print(stderr, "{}: {} primitives; device: {}, {:g} Hz; 1 mm of the hand is {:.4g} mm of the scene\n",
@@ -119,6 +127,7 @@ void runTouch(TouchOptions options) {
   std::fflush(stdout);
   if (!options.no_open) openBrowser(address);
   waitForSignal(signals, options.duration_s);
+  opener.giveUp();
   server.stop();
   touch.stop();
   printTotals(session);
@@ -166,6 +175,14 @@ void addTouchOptions(CLI::App& command, TouchOptions& options) {
   addSurfaceOptions(command, options.settings.surfaces, options.settings.ledger);
   command.get_option("--shade")->option_text("flat|smooth (default: the scene's; smooth for model files)");
   addHierarchyOption(command, options.scene);
+  command
+      .add_option(
+          "--upload", options.upload,
+          fmt::format("whether the page may open model files of its user, of {} MB at most, in the place of the "
+                      "scene",
+                      kUpload_bytes / 1'000'000))
+      ->check(CLI::IsMember({"on", "off"}))
+      ->capture_default_str();
   command.add_option("--page-dir", options.page_folder, "folder of the built page")->check(CLI::ExistingDirectory);
   command.add_option("--duration", options.duration_s, "end by itself after this many seconds")
       ->check(within(kMinNumber, kMaxNumber));

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "commands.h"
+#include "io/trace_csv.h"
 #include "tools/trace.h"
 
 namespace hl {

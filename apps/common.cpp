@@ -31,14 +31,21 @@ bool parseNumber(const std::string& text, double& value) {
   return error == std::errc() && end == last;
 }
 
-HierarchyKind hierarchyOf(const std::string& name) {
+}  // namespace
+
+HierarchyKind hierarchyOf(const SceneOptions& options) {
   for (const HierarchyKind kind : {HierarchyKind::kSpheres, HierarchyKind::kNone}) {
-    if (name == nameOf(kind)) return kind;
+    if (options.hierarchy == nameOf(kind)) return kind;
   }
   return HierarchyKind::kBvh;
 }
 
-}  // namespace
+void requireMemory(const Model& model, const std::string& name, std::uint64_t there_bytes) {
+  const std::uint64_t needed = bytesToMake(model);
+  if (needed > there_bytes)
+    throw Error(fmt::format("{}: this scene takes {:.1f} GB of memory, and there are {:.1f} GB", name,
+                            1e-9 * static_cast<double>(needed), 1e-9 * static_cast<double>(there_bytes)));
+}
 
 void addSceneArgument(CLI::App& command, SceneOptions& options, bool required) {
   auto* argument = command.add_option(
@@ -110,11 +117,8 @@ std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options) {
   Model model = loadScene(options.scene, load);
   if (options.scale > 0) scaleModel(model, options.scale);
   if (options.fit > 0) fitModel(model, options.fit);
-  const std::uint64_t needed = bytesToMake(model), there = machineMemory_bytes();
-  if (needed > there)
-    throw Error(fmt::format("{}: this scene takes {:.1f} GB of memory, and there are {:.1f} GB", options.scene,
-                            1e-9 * static_cast<double>(needed), 1e-9 * static_cast<double>(there)));
-  auto snapshot = makeSnapshot(std::move(model), hierarchyOf(options.hierarchy));
+  requireMemory(model, options.scene, machineMemory_bytes());
+  auto snapshot = makeSnapshot(std::move(model), hierarchyOf(options));
   for (const std::string& warning : snapshot->warnings) fmt::print(stderr, "{}: {}\n", options.scene, warning);
   if (snapshot->primitives == 0) throw Error(options.scene + ": nothing in it can be touched");
   return snapshot;

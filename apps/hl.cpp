@@ -4,9 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <string>
+#include <string_view>
 
 #include "base/error.h"
 #include "commands.h"
+#include "file_opener.h"
+#include "io/load_sent.h"
 
 namespace {
 
@@ -20,6 +23,7 @@ std::string unknownCommand(const CLI::App& app, const std::string& word) {
 
 // NOLINTNEXTLINE(bugprone-exception-escape): only when not even stderr can be written
 int main(int argc, char** argv) {
+  if (argc == 3 && std::string_view(argv[1]) == hl::kReadSent) hl::readSent(argv[2]);
   CLI::App app("HL, the haptic library: makes 3-D worlds touchable.", "hl");
   app.set_version_flag("--version", std::string("hl ") + HL_VERSION);
   app.require_subcommand(1);

@@ -20,6 +20,7 @@ struct TouchOptions {
   std::string hand = "light";
   std::string explore = "on";
   std::string hand_path;
+  std::string upload = "on";
   std::string page_folder;
   double scale = 0;
   double duration_s = 0;

@@ -4,6 +4,7 @@
 #include <boost/beast/websocket/rfc6455.hpp>
 
 #include "http/http_answers.h"
+#include "http/upload_request.h"
 #include "refusal.h"
 
 namespace {
@@ -49,6 +50,19 @@ void answer(const HttpAnswers& answers, const HttpRequest& request) {
   if (boost::beast::websocket::is_upgrade(request)) answers.mayConnect(request);
 }
 
+// Who may send a file, and what its name may be.
+void upload(const HttpAnswers& answers, const HttpRequest& request) {
+  const std::string_view target{request.target().data(), request.target().size()};
+  const std::string name = uploadName(target);
+  fuzz::require(name.size() <= 255 && name.find('/') == std::string::npos && name != "..");
+  for (const char c : name) fuzz::require(static_cast<unsigned char>(c) >= ' ');
+  constexpr std::uint64_t kLimit_bytes = 1000;
+  const auto refusal = refusalOf(request, {request.body().size(), false}, answers, kLimit_bytes);
+  if (refusal) return fuzz::require(refusal->text.find('\n') == std::string::npos);
+  fuzz::require(answers.mayConnect(request) && answers.isTrusted(request) && !name.empty());
+  fuzz::require(!request.body().empty() && request.body().size() <= kLimit_bytes);
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -58,6 +72,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const HttpAnswers answers(access, {pageFolder(), [] { return std::string(); },
                                      [](const ServerCounts&) { return std::string("hl_up 1\n"); }});
   HttpRequest request;
-  if (parsed(data + 1, size - 1, request)) answer(answers, request);
+  if (!parsed(data + 1, size - 1, request)) return 0;
+  answer(answers, request);
+  upload(answers, request);
   return 0;
 }

@@ -4,7 +4,7 @@
 # One source for each folder: headers are most of the compiling.
 web_sources() {
   local out="$1" folder file
-  for folder in geometry scene proxy control; do
+  for folder in geometry scene bodies proxy control; do
     for file in "$root/src/$folder"/*.cpp; do
       if [[ "$file" != */wide_bvh_query.cpp ]]; then echo "#include \"$file\""; fi
     done >"$out/$folder.cpp"
@@ -12,8 +12,8 @@ web_sources() {
   # Includes itself, once for each instruction set.
   echo "#include \"$root/src/geometry/wide_bvh_query.cpp\"" >"$out/query.cpp"
   for file in src/base/{ledger,plain_math,quantities}.cpp src/device/{device_models,hand,mass_arm,phantom}.cpp \
-    src/device/{phantom_arm,simulated_device}.cpp src/touch/{exploration,held_contacts,proxy_loop,touch_step}.cpp \
-    src/touch/touch_events.cpp; do
+    src/device/{phantom_arm,simulated_device}.cpp src/touch/{body_world,exploration,held_contacts,proxy_loop}.cpp \
+    src/touch/{touch_events,touch_step}.cpp src/tools/trace.cpp; do
     echo "#include \"$root/$file\""
   done >"$out/rest.cpp"
   for file in "$root"/scenes/*.cpp; do echo "#include \"$file\""; done >"$out/scenes.cpp"
@@ -45,7 +45,7 @@ build_web_module() {
   # Eigen asks for MMX's header, and uses nothing of it.
   : >"$out/include/mmintrin.h"
   em++ "${flags[@]}" -c "$out/query.cpp" -o "$out/query.o" || die "the web module does not compile"
-  for source in geometry scene proxy control rest scenes web; do echo "$source"; done |
+  for source in geometry scene bodies proxy control rest scenes web; do echo "$source"; done |
     xargs -P 2 -I {} em++ "${flags[@]}" $sse2 -c "$out/{}.cpp" -o "$out/{}.o" || die "the web module does not compile"
   em++ -O2 -fexceptions "$out"/*.o -o "$out/hl_web.mjs" \
     -s MODULARIZE=1 -s EXPORT_ES6=1 -s ENVIRONMENT=worker -s ALLOW_MEMORY_GROWTH=1 -s FILESYSTEM=0 \

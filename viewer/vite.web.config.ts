@@ -21,6 +21,7 @@ function contentPolicyPlugin(): Plugin {
 
 const alias = [
   { find: /^\.\/connection$/, replacement: path("src/local/connection.ts") },
+  { find: /^\.\/model_file$/, replacement: path("src/local/model_file.ts") },
   { find: /^hl-web-module$/, replacement: `${moduleFolder}/hl_web.mjs` },
   { find: /^hl-web-binary/, replacement: `${moduleFolder}/hl_web.wasm` },
 ];

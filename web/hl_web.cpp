@@ -3,11 +3,15 @@
 #include <cmath>
 #include <exception>
 #include <memory>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "builtin.h"
+#include "scene/weld.h"
 #include "session.h"
+#include "tools/trace.h"
 
 namespace {
 
@@ -34,6 +38,8 @@ void start(hl::Model model) {
 
 hl::Model meshModel(const char* name, const double* positions, std::uint32_t vertices, const std::uint32_t* indices,
                     std::uint32_t triangles) {
+  if (triangles == 0) throw hl::Error("there is no triangle in it");
+  if (triangles > kHlWebMostTriangles) throw hl::Error("it has more than a million triangles");
   hl::Model model;
   model.name = name;
   for (std::uint32_t i = 0; i < vertices; ++i) model.positions.emplace_back(hl::Vec3::Map(positions + 3 * i));
@@ -44,37 +50,38 @@ hl::Model meshModel(const char* name, const double* positions, std::uint32_t ver
     }
     model.triangles.push_back({corner[0], corner[1], corner[2]});
   }
+  hl::weldVertices(model);
   return model;
 }
 
-hl::ProxySettings traceSettings(double radius, const double* surface, int smooth) {
-  hl::ProxySettings settings;
-  settings.work_cap = hl::kNoWorkCap;
+hl::TraceSettings traceSettings(double radius, const double* surface, int smooth) {
+  hl::TraceSettings trace;
+  hl::ProxySettings& settings = trace.proxy;
   settings.radius = radius;
   for (std::size_t i = 0; i < hl::kNumbers; ++i) {
     if (!std::isnan(surface[i])) settings.surfaces.number(i) = surface[i];
   }
   if (smooth >= 0) settings.surfaces.smooth = smooth == 1;
-  return settings;
+  return trace;
 }
 
 double* put(double* out, const hl::Vec3& v) { return std::copy(v.data(), v.data() + 3, out); }
 
-// Tick for tick what runTrace() of tools/trace.cpp does.
-void trace(const hl::Snapshot& snapshot, hl::ProxySettings settings, const double* path, int rows, double* out) {
-  hl::ManyRecentPrimitives recent;
-  hl::ProxyState state = hl::startProxy(snapshot, settings, hl::Vec3::Map(path + 1));
-  for (int i = 0; i < rows; ++i) {
-    const double* row = path + 4 * i;
-    const hl::Vec3 finger = hl::Vec3::Map(row + 1);
-    if (i > 0) settings.period_s = row[0] - row[-4];
-    const hl::TickReport report = hl::tick(state, {snapshot, 0, recent}, settings, finger);
-    out = put(put(out, state.position), report.target);
-    out = put(out, settings.spring_N_m * (report.target - finger));
-    *out++ = static_cast<double>(report.contacts.size());
-    *out++ = report.iterations;
-    *out++ = report.injected_J;
+std::vector<hl::PathSample> pathOf(const double* path, int rows) {
+  std::vector<hl::PathSample> samples;
+  for (int i = 0; i < rows; ++i) samples.push_back({path[4 * i], hl::Vec3::Map(path + 4 * i + 1)});
+  return samples;
+}
+
+// One line for each quantity of base/quantities.def, in their order.
+std::string quantityLines() {
+  std::ostringstream lines;
+  lines.precision(17);
+  for (const hl::QuantityInfo& info : hl::kQuantityInfo) {
+    lines << info.field << '\t' << hl::plainName(info) << '\t' << info.unit << '\t' << info.usual << '\t'
+          << info.otherwise << '\t' << info.words << '\n';
   }
+  return lines.str();
 }
 
 }  // namespace
@@ -86,6 +93,12 @@ const char* hlWebError() { return last_error.c_str(); }
 
 int hlWebLoadBuiltin(const char* name) {
   return tried([&] { start(hl::makeBuiltinScene(name)); });
+}
+
+const char* hlWebScenes() { return hl::kBuiltinScenes; }
+const char* hlWebQuantities() {
+  static const std::string lines = quantityLines();
+  return lines.c_str();
 }
 
 int hlWebLoadMesh(const char* name, const double* positions, std::uint32_t vertices, const std::uint32_t* indices,
@@ -129,6 +142,11 @@ int hlWebTrace(const char* builtin, double radius, const double* surface, int sm
                double* out) {
   return tried([&] {
     const auto snapshot = hl::makeSnapshot(hl::makeBuiltinScene(builtin));
-    trace(*snapshot, traceSettings(radius, surface, smooth), path, rows, out);
+    hl::runTrace(*snapshot, traceSettings(radius, surface, smooth), pathOf(path, rows), [&](const hl::TraceRow& row) {
+      out = put(put(put(out, row.proxy), row.target), row.force);
+      *out++ = row.contacts;
+      *out++ = row.iterations;
+      *out++ = row.injected_J;
+    });
   });
 }

@@ -9,6 +9,7 @@
 extern "C" {
 #endif
 
+enum { kHlWebMostTriangles = 1000000 };
 enum { kHlWebContacts = 3, kHlWebQuantities = 7, kHlWebCauses = 5, kHlWebEndings = 11 };
 
 /** Numbers only, so that a caller reads it as an array. */
@@ -39,7 +40,13 @@ typedef struct {
 const char* hlWebError(void);
 /** Starts a session on a built-in scene, as `hl touch` names it. 0: failed, and the session before goes on. */
 int hlWebLoadBuiltin(const char* name);
-/** The same on triangles: 3 numbers a vertex, 3 indices a triangle. Flat. */
+/** The names of the built-in scenes as help texts list them: "teapot[:N], walker, terrain:N, ...". */
+const char* hlWebScenes(void);
+/** A line for each row of base/quantities.def, in their order: field, name, unit, usual, otherwise and words, with tabs
+ * between. */
+const char* hlWebQuantities(void);
+/** The same as hlWebLoadBuiltin on triangles, kHlWebMostTriangles at most: 3 numbers a vertex, 3 indices a triangle.
+ * Vertices with the same bits are joined. Flat. */
 int hlWebLoadMesh(const char* name, const double* positions, uint32_t vertices, const uint32_t* indices,
                   uint32_t triangles);
 

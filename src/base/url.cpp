@@ -61,4 +61,9 @@ std::string queryValue(std::string_view target, std::string_view name) {
   return {};
 }
 
+std::string queryBytes(std::string_view target, std::string_view name) {
+  const std::string value = queryValue(target, name);
+  return urls::pct_string_view(value).decode();
+}
+
 }  // namespace hl

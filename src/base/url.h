@@ -32,5 +32,7 @@ std::string hostAndPort(const std::string& host, std::uint16_t port);
 /// The value of `name` in the target of an HTTP request, such as "/?a=1&token=abc"; percent signs stay as they are.
 /// Empty when it is not there.
 std::string queryValue(std::string_view target, std::string_view name);
+/// The same with percent signs decoded: any bytes.
+std::string queryBytes(std::string_view target, std::string_view name);
 
 }  // namespace hl

@@ -75,6 +75,11 @@ HttpFileResponse HttpAnswers::sendRecording(const HttpRequest& request) {
   return response;
 }
 
+HttpResponse HttpAnswers::reply(const HttpRequest& request, http::status status, const std::string& mime,
+                                std::string body) {
+  return respond(request, status, mime, std::move(body));
+}
+
 HttpResponse HttpAnswers::refuse(const HttpRequest& request, http::status status, const std::string& text) {
   return respond(request, status, kPlain, text + "\n");
 }

@@ -43,6 +43,9 @@ class HttpAnswers {
   /// The head of that answer.
   static HttpFileResponse sendRecording(const HttpRequest& request);
 
+  /// What a caller has decided on, with the headers that every answer has.
+  static HttpResponse reply(const HttpRequest& request, boost::beast::http::status status, const std::string& mime,
+                            std::string body);
   /// A refusal that a caller has decided on: `text` is one line.
   static HttpResponse refuse(const HttpRequest& request, boost::beast::http::status status, const std::string& text);
 

@@ -21,6 +21,7 @@
 #include "http/listener.h"
 #include "http/page_feed.h"
 #include "http/traffic.h"
+#include "http/upload_receiver.h"
 #include "http/websocket_session.h"
 #include "http/workers.h"
 #include "monitor/event_log.h"
@@ -78,7 +79,8 @@ class HttpServer::Impl {
         pages_(context_, page_worker_, settings.feed_rate_Hz, std::move(pages), monitor_.observe, settings_.limits,
                traffic_),
         answers_(access_, {settings.page_folder, [this] { return fault(); },
-                           [this](const ServerCounts& counts) { return metrics(counts); }}) {}
+                           [this](const ServerCounts& counts) { return metrics(counts); }}),
+        uploads_(context_, settings.upload, answers_, traffic_) {}
 
   std::uint16_t port() const { return listener_.port(); }
   void setToken(const std::string& token) { access_.setToken(token); }
@@ -99,6 +101,7 @@ class HttpServer::Impl {
     });
     thread_.join();
     for (Workers* workers : {&light_workers_, &heavy_workers_, &page_worker_}) workers->join();
+    uploads_.join();
   }
 
  private:
@@ -122,10 +125,20 @@ class HttpServer::Impl {
   asio::awaitable<void> serve(ConnectionPointer connection) {
     beast::flat_buffer buffer;
     while (true) {
-      http::request_parser<http::string_body> parser;
-      parser.header_limit(kMaxRequest_bytes);
-      parser.body_limit(kMaxRequest_bytes);
+      HeadParser head;
+      head.header_limit(kMaxRequest_bytes);
+      head.body_limit(boost::none);  // files have a limit of their own
       connection->stream.tcp().expires_after(kRequestTimeout);
+      auto [no_head, head_bytes] = co_await http::async_read_header(connection->stream, buffer, head, kAwait);
+      if (no_head) co_return;
+      if (isUpload(viewOf(head.get().target()))) {
+        const bool goes_on = co_await uploads_.serve(connection, buffer, head);
+        if (!goes_on) co_return;
+        continue;
+      }
+      if (head.content_length().value_or(0) > kMaxRequest_bytes) co_return;
+      http::request_parser<http::string_body> parser(std::move(head));
+      parser.body_limit(kMaxRequest_bytes);
       auto [error, bytes] = co_await http::async_read(connection->stream, buffer, parser, kAwait);
       if (error) co_return;
       HttpRequest request = parser.release();
@@ -220,6 +233,7 @@ class HttpServer::Impl {
   std::function<FilePointer(std::uint32_t owner)> recording_;
   PageFeed pages_;
   HttpAnswers answers_;
+  UploadReceiver uploads_;
   bool stopping_ = false;  // in the server's thread
   std::thread thread_;
 };

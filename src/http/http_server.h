@@ -1,4 +1,4 @@
-// HttpServer: the page and its WebSocket /viewer, HL clients at /hl, /healthz and /metrics, on one port.
+// HttpServer: the page and its WebSocket /viewer, HL clients at /hl, /healthz, /metrics and /upload, on one port.
 // One thread moves bytes and talks with the pages; a few workers decode what HL clients send. Loopback only unless told
 // otherwise; beyond it insists on TLS and a token. Every message is bounded, and nothing is queued for a slow reader.
 #pragma once
@@ -8,6 +8,7 @@
 #include <string>
 
 #include "http/tls.h"
+#include "http/upload_settings.h"
 #include "monitor/monitor_callbacks.h"
 #include "page/feed_callbacks.h"
 #include "session/limits.h"
@@ -24,6 +25,7 @@ struct HttpServerSettings {
   TlsFiles tls{};                    ///< empty: none
   std::string token{};               ///< empty: none is asked for; else as checkToken() wants it
   Limits limits{};
+  UploadSettings upload{};
 };
 
 /// Constructed, started, stopped and destroyed by one thread.

@@ -21,6 +21,11 @@ void writeTraffic(MetricsText& out, const ServerCounts& counts) {
   for (std::size_t i = 0; i < kRefusedReasons; ++i) {
     out.sample(number(traffic.refused[i]), {{"reason", kRefusedNames[i]}});
   }
+  out.family("hl_uploads_total", kCounter, "Files that pages sent, by what became of them");
+  for (std::size_t i = 0; i < kUploadResults; ++i) {
+    out.sample(number(traffic.uploads[i]), {{"result", kUploadResultNames[i]}});
+  }
+  out.single("hl_upload_bytes_total", kCounter, "Bytes of these files", number(traffic.upload_bytes));
 }
 
 }  // namespace hl

@@ -64,8 +64,8 @@ const json::value* elementOf(const json::array& list, const json::value& value,
 
 class Reader {
  public:
-  Reader(const std::string& path, const json::value& file)
-      : folder_(std::filesystem::path(path).parent_path()), file_(file) {}
+  Reader(const std::string& path, const json::value& file, bool alone)
+      : folder_(std::filesystem::path(path).parent_path()), file_(file), alone_(alone) {}
 
   GltfHaptics read();
 
@@ -78,6 +78,7 @@ class Reader {
 
   const std::filesystem::path folder_;
   const json::value& file_;
+  const bool alone_;
   GltfHaptics result_;
 };
 
@@ -102,6 +103,10 @@ void Reader::addTexture(const json::value& items, std::initializer_list<Quantity
   const json::value* uri = image == nullptr ? nullptr : find(*image, {"uri"});
   if (uri == nullptr || !uri->is_string() || uri->as_string().starts_with("data:")) {
     result_.warnings.push_back("a haptic texture whose image is not a file was left out");
+    return;
+  }
+  if (alone_) {
+    result_.warnings.push_back("a haptic texture was left out: its image is another file, and this one comes alone");
     return;
   }
   try {
@@ -165,7 +170,7 @@ GltfHaptics Reader::read() {
 
 }  // namespace
 
-GltfHaptics readGltfHaptics(const std::string& path) {
+GltfHaptics readGltfHaptics(const std::string& path, bool alone) {
   const std::string text = jsonTextOf(path);
   const bool speaks_of_touch = text.find("KHR_physics_rigid_bodies") != std::string::npos ||
                                text.find("MPEG_haptic_material") != std::string::npos;
@@ -173,7 +178,7 @@ GltfHaptics readGltfHaptics(const std::string& path) {
   json::error_code error;
   const json::value file = json::parse(text, error);
   if (error) return {};
-  return Reader(path, file).read();
+  return Reader(path, file, alone).read();
 }
 
 }  // namespace hl

@@ -23,7 +23,8 @@ struct GltfHaptics {
 /// Reads the JSON of a .gltf or .glb file. A node's material is that of its collider (KHR) or of its mesh (MPEG; wins).
 /// Nodes without a name, or with one that several have, are left out with a warning: they could not be told apart
 /// later. MPEG gives no units: a texture's range is 0..1 unless its `extras` have "low" and "high"; its one friction is
-/// both static and dynamic. Images must be files. Never throws for what is missing or strange, only warns.
-GltfHaptics readGltfHaptics(const std::string& path);
+/// both static and dynamic. Images must be files, and of one that comes `alone` there are none. Never throws for what
+/// is missing or strange, only warns.
+GltfHaptics readGltfHaptics(const std::string& path, bool alone = false);
 
 }  // namespace hl

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <spawn.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -64,11 +65,21 @@ void answer(PartSender& out, bool sandboxed, const Parse& parse) {
   out.failure(failure);
 }
 
-[[noreturn]] void runChild(int pipe, const IsolationLimits& limits, const Parse& parse) {
+// Where memory is short, this process is the one to go.
+void offerToTheKernel() {
+  const int file = open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
+  if (file < 0) return;
+  constexpr std::string_view kFirst = "1000";
+  [[maybe_unused]] const ssize_t written = write(file, kFirst.data(), kFirst.size());
+  close(file);
+}
+
+[[noreturn]] void runChild(int pipe, int file, const IsolationLimits& limits, const Parse& parse) {
   for (const int handled : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGINT, SIGTERM, SIGXCPU, SIGPIPE})
     signal(handled, SIG_DFL);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  const int out = closeDescriptorsBut(pipe);
+  offerToTheKernel();
+  const int out = closeDescriptorsBut(pipe, file);
   setLimits(limits);
   PartSender sender(out);
   try {
@@ -79,20 +90,49 @@ void answer(PartSender& out, bool sandboxed, const Parse& parse) {
   _exit(0);
 }
 
+// Gives the number of the process, or that of an error, negative.
+using StartChild = std::function<pid_t(int pipe)>;
+
+pid_t forkChild(int pipe, const IsolationLimits& limits, const Parse& parse) {
+  const pid_t id = fork();
+  if (id == 0) runChild(pipe, -1, limits, parse);
+  return id > 0 ? id : -errno;
+}
+
+// The servers' threads block signals; a reader must not.
+pid_t startProgram(int pipe, const ReaderProgram& program, int descriptor) {
+  posix_spawnattr_t attributes;
+  posix_spawn_file_actions_t files;
+  posix_spawnattr_init(&attributes);
+  posix_spawn_file_actions_init(&files);
+  sigset_t none;
+  sigemptyset(&none);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
+  posix_spawn_file_actions_adddup2(&files, descriptor, STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&files, pipe, STDOUT_FILENO);
+  std::vector<char*> words;
+  for (const std::string& word : program.words) words.push_back(const_cast<char*>(word.c_str()));
+  words.push_back(nullptr);
+  pid_t id = 0;
+  const int error = posix_spawn(&id, program.file.c_str(), &files, &attributes, words.data(), environ);
+  posix_spawn_file_actions_destroy(&files);
+  posix_spawnattr_destroy(&attributes);
+  return error == 0 ? id : -error;
+}
+
 /// A child process, and the end of the pipe that it writes to. Ends with this object.
 class Child {
  public:
-  Child(const IsolationLimits& limits, const Parse& parse) {
+  explicit Child(const StartChild& start) {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) throw Error(std::string("no pipe: ") + std::strerror(errno));
-    id_ = fork();
-    if (id_ == 0) runChild(ends[1], limits, parse);
-    const int error = errno;
+    id_ = start(ends[1]);
     close(ends[1]);
     pipe_ = ends[0];
     if (id_ > 0) return;
     close(pipe_);
-    throw Error(std::string("no process to read it in: ") + std::strerror(error));
+    throw Error(std::string("no process to read it in: ") + std::strerror(-id_));
   }
   ~Child() { end(); }
   Child(const Child&) = delete;
@@ -127,8 +167,8 @@ class Child {
 /// Bytes of the pipe, as long as the child keeps to its time.
 class PipeReader {
  public:
-  PipeReader(Child& child, const IsolationLimits& limits)
-      : child_(child), limits_(limits), begin_ns_(monotonicNow_ns()), active_ns_(begin_ns_) {}
+  PipeReader(Child& child, const IsolationLimits& limits, const std::atomic<bool>& given_up)
+      : child_(child), limits_(limits), given_up_(given_up), begin_ns_(monotonicNow_ns()), active_ns_(begin_ns_) {}
 
   /// False at the end of the pipe. Throws hl::Error when the time is over.
   bool read(void* data, std::size_t size) {
@@ -151,6 +191,7 @@ class PipeReader {
     constexpr double kWorks_s = 1e-3;  // of the processor: more than looking whether a file is there
     pollfd ready{child_.pipe(), POLLIN, 0};
     const bool there = poll(&ready, 1, kLook_ms) > 0;
+    if (given_up_) throw Error("the reading was given up");
     const std::int64_t now_ns = monotonicNow_ns();
     const double cpu_s = child_.cpu_s();
     if (there || cpu_s > cpu_s_ + kWorks_s) {
@@ -164,6 +205,7 @@ class PipeReader {
 
   Child& child_;
   const IsolationLimits& limits_;
+  const std::atomic<bool>& given_up_;
   std::int64_t begin_ns_, active_ns_;
   double cpu_s_ = 0;
 };
@@ -175,8 +217,9 @@ std::string causeOf(int status) {
 }
 
 // Takes in messages until the model is whole.
-Model receive(Child& child, const IsolationLimits& limits, const std::function<void(double)>& progress) {
-  PipeReader pipe(child, limits);
+Model receive(Child& child, const IsolationLimits& limits, const std::atomic<bool>& given_up,
+              const std::function<void(double)>& progress) {
+  PipeReader pipe(child, limits, given_up);
   PartCollector collector(limits.memory_bytes);
   std::string bytes;
   proto::ReadingPart part;
@@ -192,18 +235,41 @@ Model receive(Child& child, const IsolationLimits& limits, const std::function<v
   throw Error(causeOf(child.end()));
 }
 
+Model run(const std::string& name, const IsolationLimits& limits, const StartChild& start,
+          const std::atomic<bool>& given_up, const std::function<void(double)>& progress) {
+  try {
+    Child child(start);
+    return receive(child, limits, given_up, progress);
+  } catch (const Error& error) {
+    throw Error(name + ": " + error.what());
+  }
+}
+
+IsolationLimits bounded(IsolationLimits limits) {
+  limits.memory_bytes = std::min<std::uint64_t>(limits.memory_bytes, machineMemory_bytes());
+  return limits;
+}
+
 }  // namespace
 
 Model runIsolated(const std::string& name, const IsolationLimits& limits, const Parse& parse,
                   const std::function<void(double)>& progress) {
-  IsolationLimits bounded = limits;
-  bounded.memory_bytes = std::min<std::uint64_t>(limits.memory_bytes, machineMemory_bytes());
-  try {
-    Child child(bounded, parse);
-    return receive(child, bounded, progress);
-  } catch (const Error& error) {
-    throw Error(name + ": " + error.what());
-  }
+  const IsolationLimits within = bounded(limits);
+  const std::atomic<bool> given_up{false};
+  return run(
+      name, within, [&](int pipe) { return forkChild(pipe, within, parse); }, given_up, progress);
+}
+
+Model runProgram(const std::string& name, const IsolationLimits& limits, const ReaderProgram& program, int descriptor,
+                 const std::atomic<bool>& given_up) {
+  const auto start = [&](int pipe) { return startProgram(pipe, program, descriptor); };
+  return run(name, bounded(limits), start, given_up, {});
+}
+
+void answerAsProgram(const IsolationLimits& limits, const Parse& parse) {
+  constexpr int kYielding = 10;  // to the loops of the server that waits for it
+  setpriority(PRIO_PROCESS, 0, kYielding);
+  runChild(STDOUT_FILENO, STDIN_FILENO, bounded(limits), parse);
 }
 
 }  // namespace hl

@@ -2,9 +2,11 @@
 // and memory. A corrupt or hostile file ends the child and not HL, and what comes of it is checked.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "scene/model.h"
 
@@ -26,5 +28,21 @@ struct IsolationLimits {
 Model runIsolated(const std::string& name, const IsolationLimits& limits,
                   const std::function<Model(const std::function<void(double)>& report)>& parse,
                   const std::function<void(double)>& progress);
+
+/// What a reading program is started with: its file, and its words, the name first.
+struct ReaderProgram {
+  std::string file;
+  std::vector<std::string> words;
+};
+
+/// The same from a process with threads, which must not fork: starts `program`, with `descriptor` as its standard input
+/// and the pipe as its standard output; it calls answerAsProgram(). Ends, with an error, soon after `given_up` is set.
+Model runProgram(const std::string& name, const IsolationLimits& limits, const ReaderProgram& program, int descriptor,
+                 const std::atomic<bool>& given_up);
+
+/// In that program, before it has done anything else: does what the child of runIsolated() does, and ends. The file is
+/// kKeptFile of io/sandbox.h.
+[[noreturn]] void answerAsProgram(const IsolationLimits& limits,
+                                  const std::function<Model(const std::function<void(double)>& report)>& parse);
 
 }  // namespace hl

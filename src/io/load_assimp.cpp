@@ -1,6 +1,7 @@
 // Model files through assimp: the scene graph flattened into one model.
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <fcntl.h>
 
 #include <assimp/Importer.hpp>
 #include <assimp/ProgressHandler.hpp>
@@ -8,13 +9,15 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "base/error.h"
 #include "io/check_ply.h"
-#include "io/file_ending.h"
 #include "io/gltf_haptics.h"
 #include "io/load_model.h"
+#include "io/only_file.h"
+#include "io/sandbox.h"
 
 namespace hl {
 
@@ -94,9 +97,8 @@ void appendNode(Import& import, const aiNode& node, const Eigen::Matrix4d& paren
     appendNode(import, *node.mChildren[i], to_world, material, depth + 1);
 }
 
-GltfHaptics hapticsOf(const std::string& path) {
-  const std::string ending = endingOf(path);
-  return ending == ".gltf" || ending == ".glb" ? readGltfHaptics(path) : GltfHaptics{};
+GltfHaptics hapticsOf(const ModelFile& file) {
+  return file.ending == ".gltf" || file.ending == ".glb" ? readGltfHaptics(file.path, file.alone) : GltfHaptics{};
 }
 
 // Lists that would say "material 0" for every element are left out.
@@ -118,13 +120,36 @@ bool anyMesh(const aiScene& scene, bool (*has)(const aiMesh&)) {
   return false;
 }
 
+std::string listOf(const std::set<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+// The file by its descriptor; from then on nothing else can be opened.
+const aiScene* readAlone(Assimp::Importer& importer, const ModelFile& file, Model& model) {
+  const int descriptor = open(file.path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) throw Error("cannot be opened");
+  if (!forbidOpening()) throw Error(kNoFilters);
+  auto* only = new OnlyFile(descriptor, file.ending);
+  importer.SetIOHandler(only);  // owned by the importer
+  const aiScene* scene = importer.ReadFile(only->name(), aiProcess_Triangulate);
+  if (only->missing().empty()) return scene;
+  const std::string missing = listOf(only->missing());
+  if (scene == nullptr)
+    throw Error("needs " + missing + ", and a file comes alone: put all into one, a .glb for example");
+  model.warnings.push_back("comes alone, without " + missing);
+  return scene;
+}
+
 // assimp refuses an OBJ file of less than 16 bytes, which one point is: such a file gets blank lines at its end.
-const aiScene* readScene(Assimp::Importer& importer, const std::string& path) {
+const aiScene* readScene(Assimp::Importer& importer, const ModelFile& file, Model& model) {
   constexpr std::size_t kMinObj = 16;
   std::error_code error;
-  if (endingOf(path) == ".ply") checkPly(path);
-  if (endingOf(path) != ".obj" || std::filesystem::file_size(path, error) >= kMinObj || error)
-    return importer.ReadFile(path, aiProcess_Triangulate);
+  const std::string& path = file.path;
+  if (file.ending == ".ply") checkPly(path);
+  if (file.ending != ".obj" || std::filesystem::file_size(path, error) >= kMinObj || error)
+    return file.alone ? readAlone(importer, file, model) : importer.ReadFile(path, aiProcess_Triangulate);
   std::ifstream in(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   text.append(kMinObj, '\n');
@@ -138,13 +163,13 @@ bool assimpReads(const std::string& ending) {
   return !ending.empty() && Assimp::Importer().IsExtensionSupported(ending);
 }
 
-Model parseWithAssimp(const std::string& path, const std::function<void(double)>& report) {
+Model parseWithAssimp(const ModelFile& file, const std::function<void(double)>& report) {
   Assimp::Importer importer;
   importer.SetProgressHandler(new Progress(report));  // owned by the importer
-  const aiScene* scene = readScene(importer, path);
-  if (scene == nullptr) throw Error(std::string("cannot be understood: ") + importer.GetErrorString());
   Model model;
-  GltfHaptics haptics = hapticsOf(path);
+  GltfHaptics haptics = hapticsOf(file);
+  const aiScene* scene = readScene(importer, file, model);
+  if (scene == nullptr) throw Error(std::string("cannot be understood: ") + importer.GetErrorString());
   Import import{*scene, haptics, model};
   if (scene->mRootNode != nullptr) appendNode(import, *scene->mRootNode, Eigen::Matrix4d::Identity(), 0, 0);
   addHaptics(model, std::move(haptics));

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "io/load_model.h"
+#include "io/sandbox.h"
 
 namespace hl {
 
@@ -70,11 +71,12 @@ void addPoint(void* data, SoCallbackAction*, const SoPrimitiveVertex* a) {
 
 }  // namespace
 
-Model parseWithCoin(const std::string& path, const std::function<void(double)>& report) {
+Model parseWithCoin(const ModelFile& file, const std::function<void(double)>& report) {
   SoDB::init();
   SoReadError::setHandlerCallback(keepFirstError, nullptr);
   SoInput input;
-  if (!input.openFile(path.c_str(), true)) throw Error("cannot be opened");
+  if (!input.openFile(file.path.c_str(), true)) throw Error("cannot be opened");
+  if (file.alone && !forbidOpening()) throw Error(kNoFilters);
   SoSeparator* root = SoDB::readAll(&input);
   if (root == nullptr)
     throw Error("cannot be understood: " + (first_read_error.empty() ? "no VRML" : first_read_error));

@@ -72,9 +72,16 @@ void makePointsOfBareVertices(Model& model) {
   for (std::uint32_t i = 0; i < model.positions.size(); ++i) model.points.push_back(i);
 }
 
-// What the reader gives, made sound and small, in its own process.
-Model parsed(const std::string& path, const std::string& ending, const std::function<void(double)>& report) {
-  Model model = coinReads(ending) ? parseWithCoin(path, report) : parseWithAssimp(path, report);
+}  // namespace
+
+bool readsEnding(const std::string& ending) { return coinReads(ending) || assimpReads(ending); }
+
+std::string cannotBeRead(const std::string& ending) {
+  return "files ending in '" + ending + "' cannot be read; obj, ply, stl, gltf, glb, x3d, wrl and others can";
+}
+
+Model parseModel(const ModelFile& file, const std::function<void(double)>& report) {
+  Model model = coinReads(file.ending) ? parseWithCoin(file, report) : parseWithAssimp(file, report);
   makePointsOfBareVertices(model);
   dropBadIndices(model);
   keepFinite(model.normals, model.positions.size());
@@ -84,17 +91,16 @@ Model parsed(const std::string& path, const std::string& ending, const std::func
   return model;
 }
 
-}  // namespace
-
 Model loadModel(const std::string& path, const LoadOptions& options) {
   checkReadable(path);
   const std::string ending = endingOf(path);
-  if (!coinReads(ending) && !assimpReads(ending)) {
-    throw Error(path + ": files ending in '" + ending +
-                "' cannot be read; obj, ply, stl, gltf, glb, x3d, wrl and others can");
-  }
+  if (!readsEnding(ending)) throw Error(path + ": " + cannotBeRead(ending));
   Model model = runIsolated(
-      path, options.limits, [&](const auto& report) { return parsed(path, ending, report); }, options.progress);
+      path, options.limits,
+      [&](const auto& report) {
+        return parseModel({path, ending}, report);
+      },
+      options.progress);
   if (model.elements() == 0) throw Error(path + ": there is no geometry in it");
   model.name = std::filesystem::path(path).filename().string();
   if (options.progress) options.progress(1);

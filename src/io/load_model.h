@@ -16,6 +16,7 @@ struct LoadOptions {
   /// Of a scene file, all objects together: some 5 GB. A few lines can ask for any number of copies.
   std::size_t most_primitives = 40'000'000;
   std::size_t most_texels = std::size_t{256} << 20;  ///< of a scene file, all textures together: 1 GiB
+  bool alone = false;  ///< no file beside it is read: a scene file that names one is refused
 };
 
 /// Reads a file as it is: node transforms applied, polygons triangulated, normals and texture coordinates kept, lines
@@ -24,9 +25,23 @@ struct LoadOptions {
 /// starts threads.
 Model loadModel(const std::string& path, const LoadOptions& options = {});
 
-/// For loadModel, in the child. Each throws on failure.
-Model parseWithAssimp(const std::string& path, const std::function<void(double)>& report);
-Model parseWithCoin(const std::string& path, const std::function<void(double)>& report);
+/// Whether a reader takes files of this ending (".obj"), and the words for one that none takes.
+bool readsEnding(const std::string& ending);
+std::string cannotBeRead(const std::string& ending);
+
+/// A file in the process that reads it.
+struct ModelFile {
+  std::string path;
+  std::string ending;  ///< as endingOf()
+  bool alone = false;  ///< nothing else may be opened; what it names beside it becomes a warning
+};
+
+/// What the reader gives, made sound and small. In a process of its own; throws on failure.
+Model parseModel(const ModelFile& file, const std::function<void(double)>& report);
+
+/// For parseModel.
+Model parseWithAssimp(const ModelFile& file, const std::function<void(double)>& report);
+Model parseWithCoin(const ModelFile& file, const std::function<void(double)>& report);
 /// True when assimp has a reader for this ending (".obj").
 bool assimpReads(const std::string& ending);
 

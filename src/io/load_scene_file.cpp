@@ -29,6 +29,7 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{64} << 20;
 constexpr std::size_t kMaxFileTexels = std::size_t{8192} * 8192;
 constexpr int kMaxObjects = 60'000;  // materials are counted in 16 bits
+constexpr const char* kAlone = "names another file, and this one comes alone";
 
 std::string readText(const std::string& path) {
   std::error_code error;
@@ -46,6 +47,7 @@ class SceneFile {
  public:
   SceneFile(const std::string& path, const LoadOptions& options)
       : path_(path),
+        place_(options.alone ? "line " : path + ":"),
         folder_(fs::path(path).parent_path()),
         options_(options),
         text_(readText(path)),
@@ -61,7 +63,7 @@ class SceneFile {
   [[noreturn]] void fail(const std::string& where, std::string message) const {
     std::replace_if(
         message.begin(), message.end(), [](unsigned char c) { return c < ' '; }, '?');
-    throw Error(path_ + ":" + std::to_string(lines_.lineOf(where)) + ": " + message);
+    throw Error(place_ + std::to_string(lines_.lineOf(where)) + ": " + message);
   }
   void parse();
   void checkFinite(const google::protobuf::Message& message, const std::string& where) const;
@@ -72,6 +74,7 @@ class SceneFile {
   Placement placementOf(const proto::Transform& in, const std::string& where) const;
 
   const std::string path_;
+  const std::string place_;  // what stands before the line's number in errors
   const fs::path folder_;
   const LoadOptions& options_;
   const std::string text_;
@@ -126,6 +129,7 @@ void SceneFile::addTexture(Model& model, const proto::TextureImage& in, const st
   if (textures_.contains(in.name())) fail(where, where + ": there are two textures of the name '" + in.name() + "'");
   Texture texture;
   if (in.source_case() == proto::TextureImage::kFile) {
+    if (options_.alone) fail(where, where + ".file: " + kAlone);
     try {
       texture = loadImage((folder_ / in.file()).string());
     } catch (const Error& error) {
@@ -158,6 +162,7 @@ Material SceneFile::materialOf(const proto::Material& in, const std::string& whe
 
 Model SceneFile::fileModel(const std::string& name, const std::string& where) {
   if (isSceneFile(name)) fail(where, where + ": a scene file cannot hold another");
+  if (options_.alone) fail(where, where + ": " + kAlone);
   const auto found = files_.find(name);
   if (found != files_.end()) return found->second;
   try {

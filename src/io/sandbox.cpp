@@ -63,6 +63,7 @@ constexpr std::array kAllowed{
     SCMP_SYS(sched_yield),
     SCMP_SYS(sched_getaffinity),
     SCMP_SYS(restart_syscall),
+    SCMP_SYS(seccomp),  // another filter can only take away more
     SCMP_SYS(exit),
     SCMP_SYS(exit_group),
 #ifdef HL_SANITIZED
@@ -91,13 +92,15 @@ int landlockRuleset(const landlock_ruleset_attr* attributes, std::size_t size, u
 
 }  // namespace
 
-int closeDescriptorsBut(int kept) {
+int closeDescriptorsBut(int kept, int file) {
   constexpr int kAboveAll = 10;  // clear of the numbers that are given anew
   const int aside = fcntl(kept, F_DUPFD, kAboveAll);
+  const int file_aside = file < 0 ? -1 : fcntl(file, F_DUPFD, kAboveAll);
   const int nothing = open("/dev/null", O_RDWR);
   for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nothing, standard);
   dup2(aside, kKeptDescriptor);
-  close_range(kKeptDescriptor + 1, ~0U, 0);
+  if (file_aside >= 0) dup2(file_aside, kKeptFile);
+  close_range((file_aside >= 0 ? kKeptFile : kKeptDescriptor) + 1, ~0U, 0);
   return kKeptDescriptor;
 }
 
@@ -124,6 +127,16 @@ bool allowReadingByLandlock() {
   const bool done = prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && syscall(SYS_landlock_restrict_self, rules, 0) == 0;
   close(rules);
   return done;
+}
+
+bool forbidOpening() {
+  const std::unique_ptr<void, void (*)(void*)> filter(seccomp_init(SCMP_ACT_ALLOW), seccomp_release);
+  if (!filter) return false;
+  // The first filter has set what this attribute asks for, and forbids the call that sets it.
+  int failed = seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_NNP, 0);
+  for (const int call : {SCMP_SYS(open), SCMP_SYS(openat), SCMP_SYS(openat2)})
+    failed |= seccomp_rule_add(filter.get(), SCMP_ACT_ERRNO(EACCES), call, 0);
+  return failed == 0 && seccomp_load(filter.get()) == 0;
 }
 
 bool allowReadingOnly() {

@@ -25,11 +25,12 @@ void describe(const QuantityInfo& info, proto::QuantityInfo& out) {
   out.set_words(info.words);
 }
 
-std::string hello(const TouchSession& session, const std::string& version) {
+std::string hello(const TouchSession& session, const std::string& version, std::uint64_t upload_bytes) {
   proto::ServerMessage message;
   proto::Hello& out = *message.mutable_hello();
   out.set_protocol_version(kProtocolVersion);
   out.set_server_version(version);
+  out.set_upload_bytes(upload_bytes);
   out.set_scene_name(session.snapshot()->name);
   toProto(session, *out.mutable_device());
   for (const QuantityInfo& info : kQuantityInfo) {
@@ -160,12 +161,12 @@ void receive(TouchSession& session, PageRecordings* recordings, const std::strin
 }  // namespace
 
 FeedCallbacks makeViewerFeed(TouchSession& session, const std::string& version, MemoryBudget memory,
-                             std::shared_ptr<PageRecordings> recordings) {
+                             std::shared_ptr<PageRecordings> recordings, std::uint64_t upload_bytes) {
   const auto scene = std::make_shared<PageScene>(std::move(memory));
   const auto open_page = [scene] {
     return [scene, memory = std::make_shared<PageMemory>(scene->open())] { return scene->next(*memory); };
   };
-  return {[&session, version] { return hello(session, version); }, open_page,
+  return {[&session, version, upload_bytes] { return hello(session, version, upload_bytes); }, open_page,
           [&session, scene, recordings] { return state(session, *scene, recordings.get()); },
           [&session, recordings](const std::string& bytes) { receive(session, recordings.get(), bytes); },
           [recordings](std::uint32_t owner) { return recordings ? recordings->open(owner) : nullptr; }};

@@ -1,6 +1,7 @@
 // ViewerFeed: between a touch session and the page, in the messages of proto/hl.proto.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -12,8 +13,9 @@
 namespace hl {
 
 /// The callbacks of an HttpServer for this session, which must outlive the server. What pages are shown is counted
-/// against `memory`. `recordings`: those of the session's recorder; null: pages cannot record.
+/// against `memory`. `recordings`: those of the session's recorder; null: pages cannot record. `upload_bytes`: the
+/// largest file that they may send, 0: none.
 FeedCallbacks makeViewerFeed(TouchSession& session, const std::string& version, MemoryBudget memory = {},
-                             std::shared_ptr<PageRecordings> recordings = nullptr);
+                             std::shared_ptr<PageRecordings> recordings = nullptr, std::uint64_t upload_bytes = 0);
 
 }  // namespace hl

@@ -89,12 +89,13 @@ struct ScenePublisher::Part {
 };
 
 ScenePublisher::ScenePublisher(std::shared_ptr<const Snapshot> base, std::vector<TouchSession*> devices)
-    : base_(std::move(base)), devices_(std::move(devices)), shown_(base_) {}
+    : devices_(std::move(devices)), base_(std::move(base)), shown_(base_.now()) {}
 
 ScenePublisher::~ScenePublisher() { stop(); }
 
 void ScenePublisher::start() {
   running_ = true;
+  base_.open();
   for (int i = 0; i < kBuilders; ++i) threads_.push_back(startThread("builder", [this] { runBuilder(); }));
   threads_.push_back(startThread("publisher", [this] { runPublisher(); }));
 }
@@ -107,6 +108,7 @@ void ScenePublisher::stop() {
   work_.notify_all();
   changed_.notify_all();
   for (std::thread& thread : threads_) thread.join();
+  base_.stop();
   threads_.clear();
 }
 
@@ -160,6 +162,16 @@ void ScenePublisher::remove(const std::shared_ptr<ClientScene>& client) {
 std::shared_ptr<ScenePublisher::ClientScene> ScenePublisher::takeReplaced(const std::shared_ptr<ClientScene>& client) {
   const std::lock_guard lock(mutex_);
   return std::exchange(client->replaced_, nullptr);
+}
+
+bool ScenePublisher::replaceBase(const std::shared_ptr<const Snapshot>& base) {
+  const std::uint64_t number = base_.replace(base);
+  {
+    const std::lock_guard lock(mutex_);
+    dirty_ = true;
+  }
+  changed_.notify_all();
+  return base_.awaitShown(number);
 }
 
 // The client that has waited longest. Holding the mutex.
@@ -334,10 +346,11 @@ void ScenePublisher::giveBack(std::vector<Part>& parts) {
 std::int64_t ScenePublisher::assemble(std::vector<Part>& parts, std::int64_t begin_ns,
                                       std::vector<Instance>& instances) const {
   std::int64_t blend_ns = 0;
-  std::size_t count = base_->instances.size();
+  std::size_t count = base_.now()->instances.size();
   for (const Part& part : parts) count += part.placed ? part.placed->size() : part.client->shown_.instances.size();
   instances.reserve(count);
-  instances = base_->instances;
+  base_.appendTo(instances);
+  if (base_.other()) blend_ns = kAbruptBlend_ns;
   for (auto& [client, gone, placed, move_ns, frames, jumps, shown] : parts) {
     if (gone) {
       if (!client->shown_.instances.empty()) blend_ns = std::max(blend_ns, kAbruptBlend_ns);
@@ -380,7 +393,7 @@ std::shared_ptr<const Snapshot> ScenePublisher::makeNext(std::vector<Part>& part
     shown_begin_ns_ = now_ns + kLead_ns + static_cast<std::int64_t>(margin * static_cast<double>(making_ns_));
     std::vector<Instance> instances;
     const std::int64_t blend_ns = assemble(parts, shown_begin_ns_, instances);
-    next = makeSnapshot(std::move(instances), base_->name, shown_->number + 1, blend_ns);
+    next = makeSnapshot(std::move(instances), base_.now()->name, shown_->number + 1, blend_ns);
     making_ns_ = monotonicNow_ns() - now_ns;
     if (now_ns + making_ns_ < shown_begin_ns_) break;
   }
@@ -392,6 +405,7 @@ std::shared_ptr<const Snapshot> ScenePublisher::makeNext(std::vector<Part>& part
 }
 
 void ScenePublisher::publish() {
+  base_.takeNext();
   std::vector<Part> parts = takeParts();
   std::shared_ptr<const Snapshot> next;
   try {
@@ -418,13 +432,14 @@ void ScenePublisher::listShown(const Snapshot& next, std::vector<Part>& parts) {
 
 // To all devices or, had anything failed before, to none.
 void ScenePublisher::show(const std::shared_ptr<const Snapshot>& next, std::vector<Part>& parts) noexcept {
-  for (TouchSession* device : devices_) device->publish(next);
+  for (TouchSession* device : devices_) base_.other() ? device->publishAnew(next) : device->publish(next);
   for (Part& part : parts) {
     part.client->shown_.instances.swap(part.shown);
     if (part.placed) part.client->shown_.placed = part.placed;
     if (part.gone) part.client->shown_.placed = nullptr;
   }
   shown_ = next;
+  if (base_.other()) base_.markShown();
 }
 
 void ScenePublisher::tellShown(const Part& part) {

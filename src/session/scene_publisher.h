@@ -22,6 +22,7 @@
 
 #include "base/memory_budget.h"
 #include "scene/editable_scene.h"
+#include "session/base_scene.h"
 #include "session/decode_frame.h"
 #include "touch/touch_session.h"
 
@@ -70,6 +71,10 @@ class ScenePublisher {
   std::shared_ptr<ClientScene> takeReplaced(const std::shared_ptr<ClientScene>& client);
   HierarchyCounts counts() const;
 
+  /// Shows `base` in the place of the one before, fitted to the devices anew, as soon as the loops have taken the scene
+  /// before. Returns when it is shown; false: the publisher has stopped before. Any thread but the publisher's own.
+  bool replaceBase(const std::shared_ptr<const Snapshot>& base);
+
  private:
   struct Waiting {
     proto::Frame frame;
@@ -99,7 +104,6 @@ class ScenePublisher {
   void tellShown(const Part& part);
   static std::int64_t moveTime_ns(const Waiting& waiting, std::int64_t last_arrived_ns);
 
-  const std::shared_ptr<const Snapshot> base_;
   const std::vector<TouchSession*> devices_;
   mutable std::mutex mutex_;  // of all below and of the places; no thread builds or waits while holding it
   std::condition_variable work_, changed_;
@@ -108,6 +112,7 @@ class ScenePublisher {
   bool dirty_ = false;
   HierarchyCounts counts_;
   // Of the publisher's thread:
+  BaseScene base_;  // guards itself what others use of it
   std::shared_ptr<const Snapshot> shown_;
   std::int64_t shown_begin_ns_ = 0;
   std::int64_t making_ns_ = 0;  // what the last one took

@@ -50,6 +50,11 @@ std::size_t TouchServer::sessions() const {
   return sessions_.size();
 }
 
+void TouchServer::replaceScene(const std::shared_ptr<const Snapshot>& scene) {
+  if (sessions() > 0) throw Error("a program is connected and has its own objects in this scene: end it first");
+  world_.replaceBase(scene);
+}
+
 void TouchServer::leave(const HlSession& session) {
   const std::lock_guard lock(mutex_);
   std::erase(sessions_, &session);

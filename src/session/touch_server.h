@@ -29,6 +29,11 @@ class TouchServer final : public SessionHost {
 
   std::unique_ptr<ClientSession> connect(WakeSession wake) override;
 
+  /// Another scene of the server's own in the place of the one before, fitted to the devices anew; returns when it is
+  /// shown. Throws hl::Error, and changes nothing, while clients are connected, whose scene it would put elsewhere in
+  /// their hands, when there is no memory for it, or when the server stops. Any thread; one at a time.
+  void replaceScene(const std::shared_ptr<const Snapshot>& scene);
+
   TouchSession& device(std::size_t number = 0) { return world_.device(number); }
   std::size_t devices() const { return world_.devices(); }
   std::size_t sessions() const;

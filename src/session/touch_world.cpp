@@ -52,6 +52,31 @@ void TouchWorld::stop() {
   publisher_.stop();
 }
 
+void TouchWorld::replaceBase(const std::shared_ptr<const Snapshot>& base) {
+  MemoryShare share(memory_);
+  share.take(memoryOf(*base));
+  const bool shown = showBase(base);
+  for (const auto& device : devices_) device->freeHand();
+  if (!shown) throw Error("the server is closing");
+  base_memory_ = std::move(share);
+}
+
+bool TouchWorld::moveHandsAside(const Box& bounds, double most_s) {
+  bool aside = true;
+  for (const auto& device : devices_) aside &= device->moveHandAside(bounds, most_s);
+  return aside;
+}
+
+// Where the scene before keeps a hand from its way, that scene goes first.
+bool TouchWorld::showBase(const std::shared_ptr<const Snapshot>& base) {
+  constexpr double kPatience_s = 1;
+  if (!moveHandsAside(base->bounds, kPatience_s)) {
+    if (!publisher_.replaceBase(makeSnapshot(std::vector<Instance>{}, base->name))) return false;
+    moveHandsAside(base->bounds, kPatience_s);
+  }
+  return publisher_.replaceBase(base);
+}
+
 bool TouchWorld::becomeMaster(std::uint32_t device, std::uint32_t session) {
   const std::lock_guard lock(mutex_);
   if (masters_[device] == 0) masters_[device] = session;

@@ -43,6 +43,10 @@ class TouchWorld {
   const MemoryBudget& memory() const { return memory_; }
   double time_s() const { return devices_[0]->time_s(); }
 
+  /// See TouchServer::replaceScene(). A simulated hand is above both scenes meanwhile: of a soup of triangles nobody
+  /// can say whether a finger is inside.
+  void replaceBase(const std::shared_ptr<const Snapshot>& base);
+
   /// A role that one session at a time has; whether this one has it now.
   bool becomeMaster(std::uint32_t device, std::uint32_t session);
   bool hasMaster(std::uint32_t device) const;
@@ -59,6 +63,9 @@ class TouchWorld {
   void describe(std::uint32_t device, proto::ClientState& state);
 
  private:
+  bool moveHandsAside(const Box& bounds, double most_s);
+  bool showBase(const std::shared_ptr<const Snapshot>& base);
+
   const TouchServerSettings settings_;
   const MemoryBudget memory_;
   MemoryShare base_memory_;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/csv_path.h"
-#include "io/trace_csv.h"
+#include "io/trace_row.h"
 #include "proxy/proxy.h"
 #include "scene/snapshot.h"
 #include "touch/ending_counts.h"

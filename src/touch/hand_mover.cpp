@@ -1,5 +1,7 @@
 #include "touch/hand_mover.h"
 
+#include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "base/clock.h"
@@ -38,8 +40,7 @@ void HandMover::bringToStart() {
   const Box bounds = scene_()->bounds;
   // Of the scene, or of the first world that will be fitted to the hand: it must not appear around the finger.
   const double top_D = 0.5 * (bounds.empty() ? live_.side_D() : bounds.size().y() / workspace.world_per_device);
-  Vec3 goal_D = clampToWorkspace(Vec3(0, top_D + kStartAbove_D, 0));
-  if (script_) goal_D = clampToWorkspace(workspace.toDevice(script_->at(0)));
+  const Vec3 goal_D = script_ ? clampToWorkspace(workspace.toDevice(script_->at(0))) : above(top_D);
   hand_->setHandGoal(goal_D);
   const std::int64_t now_ns = monotonicNow_ns();
   const std::int64_t step_ns = 1'000'000;
@@ -48,6 +49,8 @@ void HandMover::bringToStart() {
     device_.write(Vec3::Zero());
   }
 }
+
+Vec3 HandMover::above(double top_D) const { return clampToWorkspace(Vec3(0, top_D + kStartAbove_D, 0)); }
 
 void HandMover::start(std::int64_t begin_ns) {
   if (!hasHand()) return;
@@ -78,6 +81,7 @@ HandMover::Commands HandMover::takeCommands() {
 // A person, the script or the exploration, in this order.
 void HandMover::follow(const Commands& commands) {
   if (commands.explore) exploring_ = *commands.explore;
+  if (aside_top_D_ >= 0) return holdAside();
   const Workspace workspace = live_.workspace();
   if (commands.goal_W) {
     exploring_ = false;
@@ -127,6 +131,35 @@ void HandMover::release() {
   const std::lock_guard lock(mutex_);
   commands_.release = true;
   commands_.goal_W.reset();
+}
+
+bool HandMover::moveAside(double top_D, double most_s) {
+  if (!hasHand()) return true;
+  aside_ = false;
+  aside_top_D_ = std::max(0.0, top_D);
+  constexpr auto kLook = std::chrono::milliseconds(5);
+  const std::int64_t end_ns = monotonicNow_ns() + static_cast<std::int64_t>(1e9 * most_s);
+  while (running_ && !aside_ && monotonicNow_ns() < end_ns) std::this_thread::sleep_for(kLook);
+  return aside_;
+}
+
+// What was wanted meanwhile is over.
+void HandMover::free() {
+  {
+    const std::lock_guard lock(mutex_);
+    commands_.goal_W.reset();
+    commands_.release = false;
+  }
+  aside_top_D_ = kFree;
+}
+
+void HandMover::holdAside() {
+  constexpr double kThere_m = 0.005;
+  const Vec3 goal_D = above(aside_top_D_);
+  hand_->setHandGoal(goal_D);
+  Vec3 finger_D = Vec3::Zero();
+  exchange_.finger_for_hand_D.read(finger_D);
+  aside_ = (finger_D - goal_D).norm() < kThere_m;
 }
 
 void HandMover::press(std::uint32_t buttons) {

@@ -38,6 +38,11 @@ class HandMover {
   bool hasHand() const { return hand_ != nullptr; }
   void setGoal(const Vec3& goal_W);  ///< a person takes over from the exploration
   void release();
+  /// To a place above everything that is no higher than `top_D` (m, device frame), whatever else it is told, until
+  /// free(). Waits until it is there, `most_s` at most: the scene may hold it. Whether it is there, or there is no
+  /// hand.
+  bool moveAside(double top_D, double most_s);
+  void free();
   void press(std::uint32_t buttons);
   void setExplore(bool on);
   void setFirm(bool firm) { firm_ = firm; }
@@ -45,6 +50,8 @@ class HandMover {
   bool firm() const { return firm_.load(); }
 
  private:
+  static constexpr double kFree = -1;
+
   struct Commands {
     std::optional<Vec3> goal_W;
     bool release = false;
@@ -57,6 +64,8 @@ class HandMover {
   void follow(const Commands& commands);
   void follow(std::optional<std::uint32_t> buttons, std::int64_t now_ns);
   std::optional<Vec3> strokingGoal() const;
+  Vec3 above(double top_D) const;
+  void holdAside();
   Vec3 clampToWorkspace(const Vec3& goal_D) const;
 
   Device& device_;
@@ -69,6 +78,8 @@ class HandMover {
   std::atomic<bool> exploring_, firm_;
   std::mutex mutex_;  // of the next; the real-time loops never see it
   Commands commands_;
+  std::atomic<double> aside_top_D_{kFree};  // m; kFree: it is where it is told
+  std::atomic<bool> aside_{false};          // it has come there
   std::atomic<bool> running_{false};
   std::thread thread_;
 };

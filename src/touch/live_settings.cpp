@@ -14,13 +14,19 @@ LiveSettings::LiveSettings(const TouchSettings& settings, const DeviceInfo& devi
     : radius_D_(settings.radius_D),
       side_D_(std::min(settings.side_D, smallestReach_D(device))),
       stiffness_max_N_m_(device.stiffness_max_N_m),
+      world_per_device_(settings.world_per_device),
       ledger_(settings.ledger),
       fitted_(settings.world_per_device || !bounds.empty()) {
-  commands_.workspace = Workspace::fit(bounds, side_D_);
-  if (settings.world_per_device) commands_.workspace.world_per_device = *settings.world_per_device;
+  commands_.workspace = fitted(bounds);
   commands_.radius_W = radius_D_ * commands_.workspace.world_per_device;
   setSurfaces(settings.surfaces);
   setStiffness(settings.stiffness_N_m.value_or(device.stiffness_N_m));
+}
+
+Workspace LiveSettings::fitted(const Box& bounds) const {
+  Workspace workspace = Workspace::fit(bounds, side_D_);
+  if (world_per_device_) workspace.world_per_device = *world_per_device_;
+  return workspace;
 }
 
 void LiveSettings::setStiffness(double stiffness_N_m) {
@@ -66,6 +72,18 @@ void LiveSettings::fit(const Box& bounds) {
   if (fitted_ || bounds.empty()) return;
   fitted_ = true;
   const Workspace workspace = Workspace::fit(bounds, side_D_);
+  restartWith(workspace, radius_D_ * workspace.world_per_device);
+}
+
+double LiveSettings::topOfFitted_D(const Box& bounds) const {
+  return bounds.empty() ? 0 : 0.5 * bounds.size().y() / fitted(bounds).world_per_device;
+}
+
+void LiveSettings::refit(const Box& bounds) {
+  if (bounds.empty()) return;
+  const Workspace workspace = fitted(bounds);
+  const std::lock_guard lock(mutex_);
+  fitted_ = true;
   restartWith(workspace, radius_D_ * workspace.world_per_device);
 }
 

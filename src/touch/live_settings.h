@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 
 #include "base/latest.h"
 #include "device/device.h"
@@ -27,11 +28,16 @@ class LiveSettings {
   void setRadius(double radius_W);
   /// A scene is about to be shown.
   void fit(const Box& bounds);
+  /// Another scene is about to be shown in the place of the one before: fitted as the first one was, whatever has been
+  /// set since.
+  void refit(const Box& bounds);
   void rearm() { arm_requests_.fetch_add(1); }
 
   MaterialOverride surfaces() const;
   Workspace workspace() const;
   double radius_W() const;
+  /// How high a scene of these bounds would reach at the hand, m above its origin, were it fitted.
+  double topOfFitted_D(const Box& bounds) const;
   double side_D() const { return side_D_; }  ///< m, of a model that is fitted
 
   double stiffness_N_m() const { return stiffness_.load(std::memory_order_relaxed); }
@@ -42,8 +48,10 @@ class LiveSettings {
 
  private:
   void restartWith(const Workspace& workspace, double radius_W);  // holding mutex_
+  Workspace fitted(const Box& bounds) const;
 
   const double radius_D_, side_D_, stiffness_max_N_m_;
+  const std::optional<double> world_per_device_;  // in the place of what would fit
   std::atomic<double> stiffness_{0};
   std::atomic<LedgerMode> ledger_{LedgerMode::kTank};
   std::atomic<std::uint64_t> arm_requests_{0};

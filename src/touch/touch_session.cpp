@@ -1,5 +1,6 @@
 #include "touch/touch_session.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace hl {
@@ -67,6 +68,21 @@ void TouchSession::stop() {
 
 void TouchSession::publish(std::shared_ptr<const Snapshot> snapshot) {
   live_.fit(snapshot->bounds);
+  show(std::move(snapshot));
+}
+
+void TouchSession::publishAnew(std::shared_ptr<const Snapshot> snapshot) {
+  live_.refit(snapshot->bounds);
+  show(std::move(snapshot));
+}
+
+bool TouchSession::moveHandAside(const Box& bounds, double most_s) {
+  const Box there = snapshot()->bounds;
+  const double top_D = there.empty() ? 0 : live_.workspace().toDevice(there.max).y();
+  return hand_.moveAside(std::max(top_D, live_.topOfFitted_D(bounds)), most_s);
+}
+
+void TouchSession::show(std::shared_ptr<const Snapshot> snapshot) {
   sink_->scene(snapshot);
   const std::lock_guard lock(scenes_mutex_);
   scenes_.publish(std::move(snapshot));

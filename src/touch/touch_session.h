@@ -75,6 +75,12 @@ class TouchSession {
 
   /// Shows another scene. Not real-time; one thread at a time, and only when ready().
   void publish(std::shared_ptr<const Snapshot> snapshot);
+  /// The same of one that is no change of the scene before: it is fitted to the hand.
+  void publishAnew(std::shared_ptr<const Snapshot> snapshot);
+  /// A simulated hand goes above this scene, which is to come, and above the one that is there, and stays there until
+  /// freeHand(). Waits for it; false: it is not there after `most_s`, as something holds it. Not real-time.
+  bool moveHandAside(const Box& bounds, double most_s);
+  void freeHand() { hand_.free(); }
   /// Whoever ticks has taken the newest scene, and ticked at `since_ns` (monotonic) or later; or nobody does: the loops
   /// do not run, or the servo stands still, without force, and will find the newest scene when it goes on.
   bool ready(std::int64_t since_ns) const;
@@ -94,6 +100,7 @@ class TouchSession {
   const RealtimeGrant& grant() const { return servo_.grant(); }
 
  private:
+  void show(std::shared_ptr<const Snapshot> snapshot);
   LoopParts parts() { return {*device_, live_, exchange_, ticker_, views_, *sink_}; }
 
   const TouchSettings settings_;

@@ -123,6 +123,70 @@ class TouchServerTest : public testing::Test {
 };
 
 // Without states nobody asks for what is there but when woken.
+std::shared_ptr<const Snapshot> boxScene(const std::string& name, double half) {
+  Model model;
+  for (int i = 0; i < 8; ++i)
+    model.positions.emplace_back((i & 1 ? half : -half), (i & 2 ? half : -half), (i & 4 ? half : -half));
+  for (const auto& [a, b, c, d] : {std::array<std::uint32_t, 4>{0, 2, 3, 1},
+                                   {4, 5, 7, 6},
+                                   {0, 1, 5, 4},
+                                   {2, 6, 7, 3},
+                                   {0, 4, 6, 2},
+                                   {1, 3, 7, 5}}) {
+    model.triangles.push_back({a, b, c});
+    model.triangles.push_back({a, c, d});
+  }
+  model.name = name;
+  return makeSnapshot(std::move(model));
+}
+
+// The finger of the simulated hand, in the scene.
+Vec3 fingerOf(TouchSession& session) {
+  ServoView servo;
+  ProxyView proxy;
+  session.views(servo, proxy);
+  return session.workspace().toWorld(servo.finger_D);
+}
+
+TEST(ReplaceScene, ShowsAnotherFittedToTheHandWhichIsAboveItThen) {
+  TouchServerSettings settings = settingsOf();
+  settings.touch.world_per_device.reset();
+  TouchServer server(boxScene("small", 1), settings);
+  server.start();
+  TouchSession& session = server.device();
+  const double scale = session.workspace().world_per_device;
+  session.setHandGoal({0, 0, 0});  // onto the box
+  const std::uint64_t key = session.snapshot()->instances.at(0).key;
+  server.replaceScene(boxScene("large", 10));
+  EXPECT_EQ(session.snapshot()->name, "large");
+  EXPECT_NE(session.snapshot()->instances.at(0).key, key);
+  EXPECT_NEAR(session.workspace().world_per_device, 10 * scale, 1e-9);
+  EXPECT_GT(fingerOf(session).y(), 10);
+  server.replaceScene(boxScene("small again", 1));
+  EXPECT_NEAR(session.workspace().world_per_device, scale, 1e-12);
+}
+
+TEST(ReplaceScene, FreesAHandThatTheSceneBeforeHolds) {
+  TouchServerSettings settings = settingsOf();
+  settings.touch.world_per_device.reset();
+  TouchServer server(nothing(), settings);
+  server.start();
+  TouchSession& session = server.device();
+  ASSERT_TRUE(session.moveHandAside({}, 10));  // 2 cm above the origin, and then a box closes around it
+  session.publishAnew(boxScene("around", 1));
+  server.replaceScene(boxScene("next", 1));
+  EXPECT_EQ(session.snapshot()->name, "next");
+  EXPECT_GT(fingerOf(session).y(), 1);
+}
+
+TEST(ReplaceScene, IsRefusedWhileAClientHasItsObjectsThere) {
+  TouchServer server(boxScene("small", 1), settingsOf());
+  server.start();
+  Client client(server);
+  EXPECT_THROW(server.replaceScene(boxScene("large", 10)), Error);
+  EXPECT_EQ(server.device().snapshot()->name, "small");
+}
+
 TEST_F(TouchServerTest, ProgressWakesAClientThatAsksForNoStates) {
   Client client(server_);
   client.open("test", true, false, 0);

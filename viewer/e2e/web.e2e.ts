@@ -9,7 +9,8 @@ import { extname, join } from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
 import { fileOf, kWhole } from "../test-support/recording_bytes";
-import { launch, listen, screenshot, type Complaints } from "./browser";
+import { expectTidyLayout, kSizes, launch, listen, resize, screenshot, type Complaints } from "./browser";
+import { boxObj, boxPly, boxStl, drop } from "./files";
 
 const folder = process.env.HL_WEB ?? "../build/web";
 const kTypes: Readonly<Record<string, string>> = {
@@ -64,6 +65,115 @@ describe.skipIf(process.env.HL_WEB === undefined && !existsSync(folder))("the pa
     expect(await page.textContent("#recorded-origin")).toContain("a device");
     await page.keyboard.press("Escape");
     await page.waitForFunction(() => window.__hl.recording === undefined && window.__hl.triangles > 1000);
+    expect(complaints).toEqual({ errors: [], foreign: [] });
+  });
+
+  const told = () => page.locator(".notice.told span").last().textContent();
+  const sceneOf = () => page.evaluate(() => [window.__hl.sceneName, window.__hl.triangles]);
+  const steps = (then: number) => page.waitForFunction((time) => window.__hl.time_s! > time, then);
+
+  /** Presses where a point of the scene is drawn, and waits until it is felt there. */
+  async function press(point: { x: number; y: number; z: number }): Promise<void> {
+    const at = await page.evaluate((point) => window.__hl.project(point), point);
+    await page.mouse.move(at.x, at.y);
+    await page.mouse.down();
+    await page.waitForFunction(() => window.__hl.contacts > 0 && window.__hl.peak(0.2).force_N > 0.2);
+  }
+
+  test("has the sliders of the engine's own quantities", async () => {
+    const labels = await page.locator("#surface-knobs label > span").allTextContents();
+    expect(labels).toEqual(["Stiffness", "Static friction", "Dynamic friction", "Viscosity", "Adhesion"]);
+  });
+
+  test("is pressed and dragged", async () => {
+    await page.uncheck("#explore");
+    const { boundsMin: low, boundsMax: high } = await page.evaluate(() => window.__hl);
+    const middle = { x: (low!.x + high!.x) / 2, y: (low!.y + high!.y) / 2, z: high!.z };
+    await press(middle);
+    const before = await page.evaluate(() => window.__hl.proxy!);
+    const at = await page.evaluate((point) => window.__hl.project(point), { ...middle, x: middle.x + 0.2 * (high!.x - low!.x) });
+    await page.mouse.move(at.x, at.y, { steps: 10 });
+    await page.waitForFunction(
+      ({ x, side }) => window.__hl.proxy!.x > x + 0.08 * side && window.__hl.contacts > 0,
+      { x: before.x, side: high!.x - low!.x });
+    await page.mouse.up();
+  });
+
+  test("shows another built-in scene, and keeps what was set", async () => {
+    await page.check("#grip-firm", { force: true });
+    const scenes = await page.locator("#scene option").allTextContents();
+    expect(scenes).toContain("teapot");
+    expect(scenes).toContain("terrain:10000");
+    expect(await page.inputValue("#scene")).toBe("teapot");
+    for (const scene of scenes) {
+      await page.selectOption("#scene", scene);
+      await page.waitForFunction((name) => window.__hl.sceneName === name, scene);
+    }
+    await page.selectOption("#scene", "sphere:10000");
+    await page.waitForFunction(() => window.__hl.sceneName === "sphere:10000");
+    await page.waitForFunction(() => document.querySelector<HTMLInputElement>("#grip-firm")!.checked);
+    expect(await page.evaluate(() => window.__hl.meshes)).toBe(1);
+    await expectTidyLayout(page, kSizes[0]);
+    await screenshot(page, "web_sphere");
+  });
+
+  test.each([["box.obj", boxObj(2)], ["box.stl", boxStl(3)], ["box.ply", boxPly(4)]])(
+    "opens %s, and it is felt where it is pressed", async (name, content) => {
+      await drop(page, name, content);
+      await expect.poll(sceneOf).toEqual([name, 12]);
+      await expect.poll(told).toMatch(new RegExp(`^${name}: 12 triangles; 1.mm of the hand is `));
+      const side = await page.evaluate(() => window.__hl.boundsMax!.x);
+      await press({ x: side / 2, y: side / 2, z: side });
+      expect(await page.evaluate(() => window.__hl.proxy!.z)).toBeGreaterThan(side);
+      await page.mouse.up();
+    });
+
+  test.each([
+    ["bad.obj", "no model", "bad.obj: there is no triangle in it."],
+    ["holes.obj", "v 0 0 0\nf 1 2 3\n", "holes.obj: a vertex of it is no number."],
+    ["flat.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 1 1\n", /^flat\.obj: nothing in this model can be touched/],
+    ["empty.stl", "", "empty.stl is empty."],
+    ["cut.ply", "ply\nformat ascii 1.0\nelement vertex 3\n", /^cut\.ply: /],
+    ["a.glb", "glTF", "a.glb cannot be opened here; recordings (.hlr) and 3-D models (.obj, .stl, .ply) can."],
+  ])("that is no good gets one line, and the scene stays: %s", async (name, content, line) => {
+    await drop(page, name, content);
+    await expect.poll(told).toMatch(line);
+    expect(await sceneOf()).toEqual(["box.ply", 12]);
+    await steps(await page.evaluate(() => window.__hl.time_s!));
+    complaints.errors.length = 0; // readers of files warn in the console
+  });
+
+  test("stops its clock while it is hidden, says so, and goes on", async () => {
+    const setHidden = (hidden: boolean) => page.evaluate((hidden) => {
+      Object.defineProperty(document, "hidden", { value: hidden, configurable: true });
+      document.dispatchEvent(new Event("visibilitychange"));
+    }, hidden);
+    await setHidden(true);
+    await expect.poll(() => page.title()).toBe("HL: stopped while hidden");
+    // What was on its way has come when two looks see the same.
+    let stopped = NaN;
+    await expect.poll(async () => {
+      const [before, now] = [stopped, await page.evaluate(() => window.__hl.time_s!)];
+      stopped = now;
+      return before === now;
+    }).toBe(true);
+    await page.waitForTimeout(500);
+    expect(await page.evaluate(() => window.__hl.time_s)).toBe(stopped);
+    await setHidden(false);
+    await steps(stopped);
+    expect(await page.title()).toBe("HL");
+    expect(await page.evaluate(() => window.__hl.time_s! - 0.4), "what it missed is left out").toBeLessThan(stopped);
+  });
+
+  test("shows the teapot where the address names no scene, and says so", async () => {
+    const other = await browser.newPage({ viewport: kSizes[0], colorScheme: "light" });
+    await other.goto(`${origin}?scene=nosuch`);
+    await other.waitForFunction(() => window.__hl.sceneName === "teapot" && window.__hl.samples > 0);
+    expect(await other.textContent(".notice.told span")).toMatch(/^no built-in scene 'nosuch'; there are teapot/);
+    await screenshot(other, "web_nosuch");
+    await resize(other, { width: 390, height: 844 });
+    await screenshot(other, "web_phone");
+    await other.close();
     expect(complaints).toEqual({ errors: [], foreign: [] });
   });
 });

@@ -14,6 +14,8 @@ export interface ConnectionEvents {
   link(state: LinkState): void;
   /** The server sent something that breaks the protocol; the connection is closed and tried again. */
   violation(reason: string): void;
+  /** What the user asked for is not possible; everything stays as it was. */
+  refused(line: string): void;
 }
 
 const kWatch_ms = 250;

@@ -14,6 +14,8 @@ export interface SceneHooks {
   shown(store: SceneStore, layout: Layout): void;
   /** The camera should show all of `bounds`. */
   fit(bounds: Bounds): void;
+  /** Another scene has taken the place of the one before, at the same server. */
+  replaced(): void;
 }
 
 export class LiveScene {
@@ -25,6 +27,8 @@ export class LiveScene {
   /** There have been objects since the scene was new or empty. */
   private begun_ = false;
   private name_: string | undefined;
+  /** Meshes of the scene in whose place another one is to come. */
+  private leaving_: ReadonlySet<number> | undefined;
   private moves_: Moves | undefined;
   private moving_ = false;
   private touched_: readonly number[] = [];
@@ -57,6 +61,7 @@ export class LiveScene {
       this.fitted_ = undefined;
     }
     this.name_ = name;
+    this.leaving_ = undefined;
     this.store_.clear();
     this.model.clear();
     this.begun_ = false;
@@ -74,7 +79,18 @@ export class LiveScene {
     this.model.forget(meshes);
   }
 
+  /** A file of this page is about to take the place of the scene, perhaps under the same name; or is not, after all. */
+  expectOther(expected: boolean): void {
+    this.leaving_ = expected ? new Set(this.layout?.placed.map(({ mesh }) => mesh)) : undefined;
+  }
+
   setLayout(layout: Layout): void {
+    if (this.isOther(layout)) {
+      this.name_ = layout.name;
+      this.leaving_ = this.fitted_ = undefined;
+      this.begun_ = false;
+      this.hooks_.replaced();
+    }
     this.store_.setLayout(layout);
     this.model.setLayout(layout, this.store_.poses);
     this.touched_ = [];
@@ -85,6 +101,12 @@ export class LiveScene {
     }
     this.begun_ = layout.bounds !== undefined;
     this.hooks_.shown(this.store_, layout);
+  }
+
+  private isOther(layout: Layout): boolean {
+    const left = this.leaving_ !== undefined && layout.placed.length > 0 &&
+      layout.placed.every(({ mesh }) => !this.leaving_!.has(mesh));
+    return left || (layout.name !== "" && layout.name !== this.name_);
   }
 
   /** Only the newest moves count; they are shown in the next frame. */

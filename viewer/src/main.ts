@@ -58,11 +58,12 @@ class App {
   private readonly live_ = new LiveScene({
     shown: (store, layout) => this.showLayout(store, layout),
     fit: (bounds) => this.fit(bounds),
+    replaced: () => this.hand_.cancel(),
   });
   private readonly probe_ = new ProbeView();
   private readonly notices_ = new Notices();
   private readonly recordingFile_ = new RecordingFile((recording, name) => this.timeline_.open(recording, name));
-  private readonly modelFile_ = new ModelFile();
+  private readonly modelFile_ = new ModelFile((expected) => this.live_.expectOther(expected));
   /** What opens which file. */
   private readonly files_ = new FileInput(new FileDrop([this.recordingFile_, this.modelFile_], this.notices_));
   private readonly stage_ = new Stage(element<HTMLCanvasElement>("canvas"), (reason) => {
@@ -131,6 +132,7 @@ class App {
     this.connection_ = new Connection(address.href, {
       message: (message) => this.receive(message),
       link: (link) => this.linkChanged(link),
+      refused: (line) => this.notices_.tell(line, true),
       violation: (reason) => this.notices_.tell(`Connection closed: ${reason}.`, true),
     });
     publishDebugState({

@@ -1,11 +1,21 @@
 // Opens a model file: sends it to the server, which reads it and puts it in the place of the scene.
 
 import { kAnyEnding, shownName, type FileOpener } from "./file_drop";
-import { formatSi } from "./units";
+import { formatCount, formatSi, kThinSpace } from "./units";
 
-/** Of the server's answer, one JSON object. */
+/** What the server answers. */
 interface Opened {
-  readonly line?: string;
+  readonly name: string;
+  readonly triangles: number;
+  readonly world_per_device: number;
+  readonly warnings: readonly string[];
+}
+
+/** What is open now, in one line. */
+export function openedLine(name: string, opened: Omit<Opened, "name">): string {
+  const warnings = opened.warnings.map((warning) => ` ${warning}.`).join("");
+  return `${name}: ${formatCount(opened.triangles)} triangles; 1${kThinSpace}mm of the hand is ` +
+    `${formatSi(opened.world_per_device * 1e-3, "m")} of the scene.${warnings}`;
 }
 
 export class ModelFile implements FileOpener {
@@ -13,6 +23,9 @@ export class ModelFile implements FileOpener {
   readonly endings = [kAnyEnding];
   /** The largest file that the server takes, bytes; 0: it takes none. */
   limit_bytes = 0;
+
+  /** `expect`: a file begins to take the place of the scene, or does not after all. */
+  constructor(private readonly expect_: (expected: boolean) => void) {}
 
   refusal(): string | undefined {
     return this.limit_bytes > 0 ? undefined : "This server takes no files: start it with hl touch --upload on.";
@@ -27,7 +40,13 @@ export class ModelFile implements FileOpener {
       return Promise.reject(new Error(
         `${name} has ${formatSi(file.size, "B")}; this server takes ${formatSi(this.limit_bytes, "B")} at most.`));
     }
-    return new Promise((resolve, reject) => this.send(file, name, { tell, resolve, reject }));
+    this.expect_(true);
+    return new Promise<string>((resolve, reject) => this.send(file, name, { tell, resolve, reject })).catch(
+      (error: unknown) => {
+        this.expect_(false);
+        throw error;
+      },
+    );
   }
 
   private send(file: File, name: string, on: {
@@ -41,7 +60,8 @@ export class ModelFile implements FileOpener {
     request.upload.onload = () => on.tell(`Reading ${name}…`);
     request.onload = () => {
       if (request.status === 200) {
-        on.resolve((JSON.parse(request.responseText) as Opened).line ?? `${name} is open.`);
+        const opened = JSON.parse(request.responseText) as Opened;
+        on.resolve(openedLine(opened.name, opened));
       } else {
         on.reject(new Error(request.responseText.trim() || `The server refused ${name} (${request.status}).`));
       }

@@ -2,19 +2,25 @@
 
 import type { ConnectionEvents, LinkState } from "../connection";
 import { decodeServerMessage } from "../protocol";
+import { engine } from "./engine_worker";
+import { ScenePicker } from "./scene_picker";
 
 export type { ConnectionEvents, LinkState };
 
 const kScene = "teapot";
 
 export class Connection {
-  private readonly worker_ = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
   private state_: LinkState = "connecting";
+  private readonly picker_ = new ScenePicker((name) => this.pick(name));
 
   constructor(_url: string, private readonly events_: ConnectionEvents) {
-    this.worker_.onmessage = (event: MessageEvent<Uint8Array | string>) => this.receive(event.data);
-    this.worker_.onerror = (event) => this.failed(event.message);
-    this.worker_.postMessage({ scene: new URLSearchParams(location.search).get("scene") ?? kScene });
+    engine.listen({
+      bytes: (bytes) => this.receive(bytes),
+      scenes: (list) => this.picker_.show(list),
+      broken: (reason) => events_.violation(reason),
+    });
+    void this.begin(new URLSearchParams(location.search).get("scene") ?? kScene);
+    followVisibility();
   }
 
   get state(): LinkState {
@@ -22,22 +28,42 @@ export class Connection {
   }
 
   send(bytes: Uint8Array<ArrayBuffer>): void {
-    this.worker_.postMessage(bytes);
+    engine.send(bytes);
   }
 
-  private receive(data: Uint8Array | string): void {
-    if (typeof data === "string") {
-      this.failed(data);
-      return;
+  /** A scene of the address that does not exist is told, and the page has one all the same. */
+  private async begin(name: string): Promise<void> {
+    const loaded = await this.pick(name);
+    if (!loaded && name !== kScene) await this.pick(kScene);
+  }
+
+  private async pick(name: string): Promise<boolean> {
+    try {
+      await engine.load(name);
+      return true;
+    } catch (error) {
+      this.picker_.select(undefined);
+      this.events_.refused((error as Error).message);
+      return false;
     }
+  }
+
+  private receive(bytes: Uint8Array): void {
     if (this.state_ !== "live") {
       this.state_ = "live";
       this.events_.link("live");
     }
-    this.events_.message(decodeServerMessage(data));
+    const message = decodeServerMessage(bytes);
+    if (message.kind === "layout") this.picker_.select(message.layout.name);
+    this.events_.message(message);
   }
+}
 
-  private failed(reason: string): void {
-    this.events_.violation(reason);
-  }
+/** Nobody touches what nobody sees: a hidden page stops the engine's clock, and its title says so. */
+function followVisibility(): void {
+  const title = document.title;
+  document.addEventListener("visibilitychange", () => {
+    engine.setRunning(!document.hidden);
+    document.title = document.hidden ? `${title}: stopped while hidden` : title;
+  });
 }

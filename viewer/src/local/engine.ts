@@ -9,6 +9,9 @@ export interface Module {
   _free(pointer: number): void;
   _hlWebError(): number;
   _hlWebLoadBuiltin(name: number): number;
+  _hlWebLoadMesh(name: number, positions: number, vertices: number, indices: number, triangles: number): number;
+  _hlWebScenes(): number;
+  _hlWebQuantities(): number;
   _hlWebScene(): number;
   _hlWebPositions(): number;
   _hlWebNormals(): number;
@@ -51,13 +54,28 @@ export class Numbers {
   }
 }
 
-/** Throws with the engine's own words. */
-export function loadBuiltin(module: Module, name: string): void {
-  const text = module._malloc(kName_bytes);
-  module.stringToUTF8(name, text, kName_bytes);
-  const loaded = module._hlWebLoadBuiltin(text);
-  module._free(text);
-  if (loaded === 0) {
-    throw new Error(module.UTF8ToString(module._hlWebError()));
+/** Calls with memory of the engine's; it is given back. Throws with the engine's own words when the call gives 0. */
+function load(module: Module, name: string, bytes: readonly ArrayBufferView[], call: (at: number[]) => number): void {
+  const sizes = [kName_bytes, ...bytes.map(({ byteLength }) => byteLength)];
+  const at = sizes.map((size) => module._malloc(size));
+  try {
+    if (at.includes(0)) throw new Error("this browser has no memory for it");
+    module.stringToUTF8(name, at[0]!, kName_bytes);
+    bytes.forEach(({ buffer, byteOffset, byteLength }, i) =>
+      new Uint8Array(module.HEAPU32.buffer).set(new Uint8Array(buffer, byteOffset, byteLength), at[i + 1]!));
+    if (call(at) === 0) throw new Error(module.UTF8ToString(module._hlWebError()));
+  } finally {
+    at.forEach((pointer) => module._free(pointer));
   }
+}
+
+/** Throws with the engine's own words; then the scene before goes on. */
+export function loadBuiltin(module: Module, name: string): void {
+  load(module, name, [], ([text]) => module._hlWebLoadBuiltin(text!));
+}
+
+/** The same of triangles: 3 numbers a vertex, 3 indices a triangle. */
+export function loadMesh(module: Module, name: string, positions: Float64Array, triangles: Uint32Array): void {
+  load(module, name, [positions, triangles], ([text, points, corners]) =>
+    module._hlWebLoadMesh(text!, points!, positions.length / 3, corners!, triangles.length / 3));
 }

@@ -4,18 +4,13 @@ import { create, toBinary } from "@bufbuild/protobuf";
 import { ServerMessageSchema, type ServerMessage } from "../gen/hl_pb";
 import { kProtocolVersion } from "../protocol";
 import { Numbers, type Module } from "./engine";
+import type { EngineQuantity } from "./quantities";
 
 type Body = NonNullable<NonNullable<Parameters<typeof create<typeof ServerMessageSchema>>[1]>["body"]>;
 
-/** As in base/quantities.def, those with a slider; the name is that of the field in JSON. */
-const kQuantities = [
-  ["stiffness", "stiffness", "", 1, 1, "target = finger + s (proxy - finger)"],
-  ["staticFriction", "static friction", "", 1.5, 0, "mu_s; below mu_d it counts as mu_d"],
-  ["dynamicFriction", "dynamic friction", "", 1.5, 0, "mu_d"],
-  ["viscosityNsM", "viscosity", "N s/m", 20, 0, "drag per speed of the proxy"],
-  ["adhesionN", "adhesion", "N", 5, 0, "the surface keeps the proxy until it is pulled off by more than this"],
-] as const;
 const kContacts = 3;
+/** Numbers of HlWebScene before those of the scene. */
+const kOfDevice = 5;
 const kRow = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
 
 function encode(body: Body): Uint8Array<ArrayBuffer> {
@@ -25,31 +20,39 @@ function encode(body: Body): Uint8Array<ArrayBuffer> {
 
 const bytesOf = (values: Float32Array | Uint32Array) => new Uint8Array(values.buffer, values.byteOffset, values.byteLength);
 
-/** Hello, the mesh and its layout: what a page is told first. */
-export function sceneMessages(module: Module, name: string): Uint8Array<ArrayBuffer>[] {
+/** What a page is told first. */
+export function helloMessage(
+  module: Module, name: string, quantities: readonly EngineQuantity[],
+): Uint8Array<ArrayBuffer> {
   const n = new Numbers(module, module._hlWebScene());
   const [forceMaxN, stiffnessNM, stiffnessMaxNM, dampingNsM, rate] = [n.next(), n.next(), n.next(), n.next(), n.next()];
+  const device = {
+    name: "simulated device in this browser", forceMaxN, stiffnessNM, stiffnessMaxNM, dampingNsM, servoRateHz: rate,
+    proxyRateHz: rate, simulatedHand: true,
+  };
+  return encode({ case: "hello", value: {
+    protocolVersion: kProtocolVersion, serverVersion: "browser", sceneName: name, device,
+    quantities: quantities.filter(({ usual }) => usual > 0) } });
+}
+
+/** The mesh of the scene and its layout, both of this number; the one before is forgotten. */
+export function sceneMessages(module: Module, name: string, number: number): Uint8Array<ArrayBuffer>[] {
+  const n = new Numbers(module, module._hlWebScene());
+  n.list(kOfDevice);
   const [boundsMin, boundsMax, proxyRadius, worldPerDevice] = [n.vec(), n.vec(), n.next(), n.next()];
   const [vertices, normals, triangles] = [n.next(), n.next(), n.next()];
   const floats = (pointer: number, count: number) =>
     bytesOf(Float32Array.from(module.HEAPF64.subarray(pointer / 8, pointer / 8 + 3 * count)));
   const first = module._hlWebTriangles() / 4;
-  const device = {
-    name: "simulated device in this browser", forceMaxN, stiffnessNM, stiffnessMaxNM, dampingNsM, servoRateHz: rate,
-    proxyRateHz: rate, simulatedHand: true,
-  };
-  const quantities = kQuantities.map(([field, label, unit, usual, otherwise, words]) => (
-    { field, name: label, unit, usual, otherwise, words }));
   return [
-    encode({ case: "hello", value: {
-      protocolVersion: kProtocolVersion, serverVersion: "browser", sceneName: name, device, quantities } }),
     encode({ case: "mesh", value: {
-      number: 1, boundsMin, boundsMax, positions: floats(module._hlWebPositions(), vertices),
+      number, boundsMin, boundsMax, positions: floats(module._hlWebPositions(), vertices),
       normals: floats(normals > 0 ? module._hlWebNormals() : 0, normals),
       triangles: bytesOf(module.HEAPU32.slice(first, first + 3 * triangles)) } }),
     encode({ case: "layout", value: {
-      number: 1, name, boundsMin, boundsMax, proxyRadius, worldPerDevice, placed: [{ mesh: 1 }],
+      number, name, boundsMin, boundsMax, proxyRadius, worldPerDevice, placed: [{ mesh: number }],
       poses: bytesOf(Float32Array.from(kRow)) } }),
+    ...(number > 1 ? [encode({ case: "forget", value: { meshes: [number - 1] } })] : []),
   ];
 }
 
@@ -57,7 +60,7 @@ export interface Sample { timeS: number; forceN: number; penetrationM: number; t
 
 /** The rate is of the real clock. */
 export function stateMessage(
-  module: Module, samples: readonly Sample[], rateHz: number, surfaces: object,
+  module: Module, samples: readonly Sample[], rateHz: number, surfaces: object, layout: number,
 ): Uint8Array<ArrayBuffer> {
   const n = new Numbers(module, module._hlWebState());
   const value = {
@@ -83,7 +86,7 @@ export function stateMessage(
   return encode({ case: "state", value: {
     ...value, contacts, slipping: slipping !== 0, exploring: exploring !== 0, handFirm: firm !== 0, buttons, stiffnessNM,
     vibration: { limitNM, alarms, dissipatedJ: vibrationJ }, ledger, ticksEnded, iterationCaps: ticksEnded.capped,
-    unplacedTicks: ticksEnded.unplaced, servo: { rateHz, steps }, proxyLoop: { rateHz, steps }, layout: 1,
+    unplacedTicks: ticksEnded.unplaced, servo: { rateHz, steps }, proxyLoop: { rateHz, steps }, layout,
     samples: [...samples], surfaces, touched: count > 0 ? [0] : [],
   } });
 }

@@ -4,8 +4,10 @@ import { fromBinary } from "@bufbuild/protobuf";
 import makeModule from "hl-web-module";
 import binaryUrl from "hl-web-binary?url";
 import { ViewerMessageSchema, type Settings, type Surfaces } from "../gen/hl_pb";
-import { loadBuiltin, Numbers, type Module } from "./engine";
-import { sceneMessages, stateMessage, type Sample } from "./messages";
+import { loadBuiltin, loadMesh, Numbers, type Module } from "./engine";
+import type { Loaded, Order, Word } from "./engine_worker";
+import { helloMessage, sceneMessages, stateMessage, type Sample } from "./messages";
+import { parseQuantities, type EngineQuantity } from "./quantities";
 
 const kTimer_ms = 4;
 const kState_ms = 16;
@@ -14,11 +16,18 @@ const kMostSteps = 20;
 /** Steps between two samples of the plots. */
 const kSampleSteps = 4;
 const kRateWindow_ms = 1000;
-/** In the order of base/quantities.def. */
-const kFields = ["stiffness", "staticFriction", "dynamicFriction", "viscosityNsM", "stribeckMS", "preslidingNM", "adhesionN"] as const;
-
+/** Numbers of HlWebScene, and where world_per_device stands, before those of vertices, normals and triangles. */
+const kSceneNumbers = 16;
+const kScaleAt = 12;
 class Server {
+  private readonly quantities_: readonly EngineQuantity[];
   private surfaces_: Partial<Surfaces> = { textures: true };
+  /** What the user has set, for the next scene: the engine begins each with its own. */
+  private kept_: Partial<Settings> = {};
+  /** Of the scenes that have been shown; the last one's mesh and layout have it. */
+  private scenes_ = 0;
+  private timer_: ReturnType<typeof setInterval> | undefined;
+  private running_ = true;
   private samples_: Sample[] = [];
   private last_ms_ = performance.now();
   private told_ms_ = 0;
@@ -26,9 +35,36 @@ class Server {
   private window_ms_ = performance.now();
   private rate_Hz_ = 0;
 
-  constructor(private readonly module_: Module, name: string) {
-    sceneMessages(module_, name).forEach((bytes) => this.post(bytes));
-    setInterval(() => this.run(), kTimer_ms);
+  constructor(private readonly module_: Module) {
+    this.quantities_ = parseQuantities(module_.UTF8ToString(module_._hlWebQuantities()));
+  }
+
+  /** `make` loads it, or throws and changes nothing. */
+  show(name: string, make: (module: Module) => void): Loaded {
+    make(this.module_);
+    this.scenes_ += 1;
+    this.apply(this.kept_);
+    if (this.scenes_ === 1) this.post(helloMessage(this.module_, name, this.quantities_));
+    sceneMessages(this.module_, name, this.scenes_).forEach((bytes) => this.post(bytes));
+    this.schedule();
+    const n = new Numbers(this.module_, this.module_._hlWebScene());
+    const [worldPerDevice, , , triangles] = n.list(kSceneNumbers).slice(kScaleAt) as [number, number, number, number];
+    return { triangles, worldPerDevice };
+  }
+
+  setRunning(running: boolean): void {
+    this.running_ = running;
+    this.schedule();
+  }
+
+  /** The time that it stood still is left out. */
+  private schedule(): void {
+    clearInterval(this.timer_);
+    this.timer_ = undefined;
+    if (!this.running_ || this.scenes_ === 0) return;
+    this.last_ms_ = this.window_ms_ = performance.now();
+    this.counted_ = 0;
+    this.timer_ = setInterval(() => this.run(), kTimer_ms);
   }
 
   receive(bytes: Uint8Array): void {
@@ -36,6 +72,7 @@ class Server {
     const module = this.module_;
     if (body.case === "handGoal" && body.value.position !== undefined) {
       const { x, y, z } = body.value.position;
+      this.kept_.explore = false;
       module._hlWebGoal(x, y, z);
     } else if (body.case === "release") {
       module._hlWebRelease();
@@ -44,13 +81,19 @@ class Server {
     } else if (body.case === "rearm") {
       module._hlWebRearm();
     } else if (body.case === "explore") {
-      module._hlWebExplore(1);
+      this.set({ explore: true });
     } else if (body.case === "settings") {
       this.set(body.value);
     }
   }
 
-  private set(settings: Settings): void {
+  private set(settings: Partial<Settings>): void {
+    const told = Object.entries(settings).filter(([, value]) => value !== undefined);
+    Object.assign(this.kept_, Object.fromEntries(told));
+    this.apply(settings);
+  }
+
+  private apply(settings: Partial<Settings>): void {
     const module = this.module_;
     if (settings.explore !== undefined) module._hlWebExplore(Number(settings.explore));
     if (settings.handFirm !== undefined) module._hlWebFirm(Number(settings.handFirm));
@@ -58,7 +101,7 @@ class Server {
     if (settings.ledger !== undefined) module._hlWebLedger(settings.ledger);
     const surfaces = settings.surfaces;
     if (surfaces === undefined) return;
-    kFields.forEach((field, i) => module._hlWebSurface(i, surfaces[field] ?? NaN));
+    this.quantities_.forEach(({ field }, i) => module._hlWebSurface(i, surfaces[field] ?? NaN));
     const smooth = surfaces.smooth === undefined ? -1 : Number(surfaces.smooth);
     module._hlWebLook(smooth, Number(surfaces.textures ?? true));
     this.surfaces_ = { ...surfaces, textures: surfaces.textures ?? true };
@@ -73,7 +116,7 @@ class Server {
     this.count(steps, now_ms);
     if (now_ms - this.told_ms_ < kState_ms) return;
     this.told_ms_ = now_ms;
-    this.post(stateMessage(this.module_, this.samples_.splice(0), this.rate_Hz_, this.surfaces_));
+    this.post(stateMessage(this.module_, this.samples_.splice(0), this.rate_Hz_, this.surfaces_, this.scenes_));
   }
 
   private step(steps: number): void {
@@ -102,23 +145,35 @@ class Server {
   }
 }
 
-async function serve(name: string): Promise<Server> {
+async function start(): Promise<Server> {
   const response = await fetch(binaryUrl);
   if (!response.ok) throw new Error(`${binaryUrl} cannot be loaded (${response.status}): reload the page`);
   const module = await makeModule({ wasmBinary: await response.arrayBuffer() });
-  loadBuiltin(module, name);
-  return new Server(module, name);
+  tell({ scenes: module.UTF8ToString(module._hlWebScenes()) });
+  return new Server(module);
+}
+
+function tell(word: Word): void {
+  postMessage(word);
+}
+
+function load(server: Server, order: Extract<Order, { load: number }>): Loaded {
+  if ("scene" in order) return server.show(order.scene, (module) => loadBuiltin(module, order.scene));
+  const { name, positions, triangles } = order.mesh;
+  return server.show(name, (module) => loadMesh(module, name, positions, triangles));
 }
 
 let server: Server | undefined;
-onmessage = (event: MessageEvent<{ scene: string } | Uint8Array>) => {
-  const data = event.data;
+const started = start().then((made) => (server = made));
+onmessage = ({ data }: MessageEvent<Order | Uint8Array>) => {
   if (data instanceof Uint8Array) {
     server?.receive(data);
-    return;
+  } else if ("running" in data) {
+    void started.then((made) => made.setRunning(data.running), () => undefined);
+  } else {
+    started.then((made) => load(made, data)).then(
+      (loaded) => tell({ load: data.load, loaded }),
+      (error: unknown) => tell({ load: data.load, error: error instanceof Error ? error.message : String(error) }),
+    );
   }
-  serve(data.scene).then(
-    (made) => (server = made),
-    (error: unknown) => postMessage(error instanceof Error ? error.message : String(error)),
-  );
 };

@@ -1,0 +1,63 @@
+#include "file_opener.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/error.h"
+#include "io/load_scene_file.h"
+#include "io/load_sent.h"
+#include "monitor/event_log.h"
+
+namespace hl {
+
+namespace {
+
+constexpr std::size_t kMostWarnings = 5;  // that a page is told
+
+std::string answerOf(const Snapshot& scene, double world_per_device) {
+  std::size_t triangles = 0;
+  for (const Instance& instance : scene.instances) triangles += instance.shape->model.triangles.size();
+  std::string warnings;
+  for (std::size_t i = 0; i < std::min(scene.warnings.size(), kMostWarnings); ++i)
+    warnings += (i > 0 ? "," : "") + jsonString(scene.warnings[i]);
+  return fmt::format(R"({{"name":{},"triangles":{},"primitives":{},"world_per_device":{:.6g},"warnings":[{}]}})",
+                     jsonString(scene.name), triangles, scene.primitives, world_per_device, warnings);
+}
+
+// How a bare model is shaded, and a scene file by itself, where the user has not said it.
+void shade(TouchSession& session, bool smooth) {
+  MaterialOverride surfaces = session.surfaces();
+  surfaces.smooth.reset();
+  if (smooth) surfaces.smooth = true;
+  session.setSurfaces(surfaces);
+}
+
+}  // namespace
+
+// What it may give is what the server has room for.
+Model FileOpener::read(int descriptor, const std::string& name) const {
+  const MemoryBudget& memory = touch_.memory();
+  const std::uint64_t left = memory.most_bytes() - std::min(memory.used_bytes(), memory.most_bytes());
+  IsolationLimits limits;
+  limits.memory_bytes = std::min<std::uint64_t>(limits.memory_bytes, left);
+  Model model = loadSent(descriptor, name, {"/proc/self/exe", {"hl", kReadSent}}, limits, given_up_);
+  requireMemory(model, name, left);
+  return model;
+}
+
+std::string FileOpener::open(int descriptor, const std::string& name) {
+  const std::shared_ptr<const Snapshot> scene = makeSnapshot(read(descriptor, name), hierarchy_);
+  if (scene->primitives == 0) throw Error(name + ": nothing in it can be touched");
+  if (given_up_) throw Error("the server is closing");
+  touch_.replaceScene(scene);
+  TouchSession& session = touch_.device();
+  if (smooth_) shade(session, !isSceneFile("scene" + sentEndingOf(name)));
+  const double scale = session.workspace().world_per_device;
+  fmt::print(stderr, "{}: {} primitives; 1 mm of the hand is {:.4g} mm of the scene\n", name, scene->primitives, scale);
+  for (const std::string& warning : scene->warnings) fmt::print(stderr, "{}: {}\n", name, warning);
+  return answerOf(*scene, scale);
+}
+
+}  // namespace hl

@@ -1,0 +1,56 @@
+#include "io/load_sent.h"
+
+#include <sys/stat.h>
+
+#include <utility>
+
+#include "base/error.h"
+#include "io/file_ending.h"
+#include "io/load_model.h"
+#include "io/load_scene_file.h"
+#include "io/sandbox.h"
+
+namespace hl {
+
+namespace {
+
+constexpr const char* kSceneEnding = ".hl.json";
+
+std::string pathOfSent() { return "/proc/self/fd/" + std::to_string(kKeptFile); }
+
+Model parseSent(const std::string& ending, const std::function<void(double)>& report) {
+  if (ending != kSceneEnding) return parseModel({pathOfSent(), ending, true}, report);
+  LoadOptions options;
+  options.alone = true;
+  return loadSceneFile(pathOfSent(), options);
+}
+
+}  // namespace
+
+std::string sentEndingOf(const std::string& name) {
+  const std::string ending = endingOf(name);
+  if (ending != ".json") return ending;
+  const std::string stem = name.substr(0, name.size() - ending.size());
+  return endingOf(stem) + ending;
+}
+
+bool readsSent(const std::string& ending) { return ending == kSceneEnding || readsEnding(ending); }
+
+Model loadSent(int descriptor, const std::string& name, ReaderProgram program, const IsolationLimits& limits,
+               const std::atomic<bool>& given_up) {
+  struct stat status {};
+  if (fstat(descriptor, &status) != 0 || status.st_size == 0) throw Error(name + ": is empty");
+  const std::string ending = sentEndingOf(name);
+  if (!readsSent(ending)) throw Error(name + ": " + cannotBeRead(ending));
+  program.words.push_back(ending);
+  Model model = runProgram(name, limits, program, descriptor, given_up);
+  if (model.elements() == 0) throw Error(name + ": there is no geometry in it");
+  model.name = name;
+  return model;
+}
+
+void readSent(const std::string& ending) {
+  answerAsProgram({}, [&](const auto& report) { return parseSent(ending, report); });
+}
+
+}  // namespace hl

@@ -1,0 +1,26 @@
+// Model files that were sent to a server: open descriptors without a name on the disk, read by a program of their own
+// that can open nothing else.
+#pragma once
+
+#include <atomic>
+#include <string>
+
+#include "io/isolated.h"
+#include "scene/model.h"
+
+namespace hl {
+
+/// The ending of a file's name that decides what reads it: ".obj" of "A.OBJ", ".hl.json" of a scene file.
+std::string sentEndingOf(const std::string& name);
+/// Whether one of the readers takes files of this ending.
+bool readsSent(const std::string& ending);
+
+/// As loadScene() of a file, but from a process with threads, and without any other file that it names. `program` is
+/// one that calls readSent(); the ending is added to its words. `name` is that of the model, and for errors.
+Model loadSent(int descriptor, const std::string& name, ReaderProgram program, const IsolationLimits& limits,
+               const std::atomic<bool>& given_up);
+
+/// What the program does: reads its standard input, gives the model on its standard output, and ends.
+[[noreturn]] void readSent(const std::string& ending);
+
+}  // namespace hl

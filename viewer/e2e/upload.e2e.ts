@@ -1,0 +1,136 @@
+// A file of the user's in the place of the scene, against a real server: chosen and dropped, good and bad, and felt.
+
+import { mkdtempSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import type { Browser, Page } from "playwright-core";
+import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
+import { expectTidyLayout, kSizes, launch, listen, resize, screenshot, states, type Complaints } from "./browser";
+import { boxObj, drop } from "./files";
+import { kProgram, startTouch, type Touch } from "./programs";
+
+const kPhone = { width: 390, height: 844 };
+
+describe.skipIf(!kProgram)("a file of the user's", () => {
+  const folder = mkdtempSync(join(tmpdir(), "hl-upload-"));
+  let touch: Touch;
+  let browser: Browser;
+  let page: Page;
+  let complaints: Complaints;
+
+  beforeAll(async () => {
+    touch = await startTouch(0);
+    browser = await launch();
+    page = await browser.newPage({ viewport: kSizes[0], colorScheme: "dark" });
+    complaints = listen(page, touch.url);
+    await page.goto(touch.url);
+    await page.waitForFunction(() => window.__hl.triangles > 0 && window.__hl.samples > 100);
+  });
+
+  afterAll(async () => {
+    await browser?.close();
+    touch?.process.kill("SIGKILL");
+  });
+
+  afterEach(() => page.mouse.up());
+
+  const told = () => page.locator(".notice.told span").last().textContent();
+
+  async function choose(name: string, content: string): Promise<void> {
+    const file = join(folder, name);
+    writeFileSync(file, content);
+    const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.click("#open-file")]);
+    await chooser.setFiles(file);
+  }
+
+  test("is chosen, becomes the scene, fits the view and is felt where it is pressed", async () => {
+    await choose("box.obj", boxObj(4, 2, 3));
+    await page.waitForFunction(() => window.__hl.sceneName === "box.obj" && window.__hl.triangles === 12);
+    await expect.poll(told).toMatch(/^box\.obj: 12 triangles; 1.mm of the hand is 33\.3.mm of the scene\.$/);
+    await page.uncheck("#explore");
+    const { low, high, middle } = await page.evaluate(() => {
+      const { boundsMin: low, boundsMax: high } = window.__hl;
+      return { low: window.__hl.project(low!), high: window.__hl.project(high!),
+        middle: window.__hl.project({ x: 2, y: 1, z: 3 }) };
+    });
+    const onCanvas = (at: { x: number; y: number }) => at.x > 0 && at.x < 1280 && at.y > 0 && at.y < 720;
+    expect(onCanvas(low) && onCanvas(high), "the box is in view").toBe(true);
+    expect(Math.hypot(high.x - low.x, high.y - low.y), "and fills it").toBeGreaterThan(200);
+    await page.mouse.move(middle.x, middle.y);
+    await page.mouse.down();
+    await page.waitForFunction(() => window.__hl.contacts > 0 && window.__hl.peak(0.2).force_N > 0.2);
+    await states(page, 60);
+    const { proxy, force_N, contacts } = await page.evaluate(() => window.__hl);
+    expect(contacts).toBe(1);
+    expect(proxy!.z, "the proxy is outside of the box").toBeGreaterThan(3);
+    expect(force_N!.z, "and its force points out").toBeGreaterThan(0.2);
+    await screenshot(page, "upload_chosen");
+    await page.mouse.up();
+  });
+
+  test("is dropped; what it names beside it is left out in a line", async () => {
+    await drop(page, "plate.obj", "", ["dragenter"]);
+    await expect.poll(() => page.isVisible("#drop-target")).toBe(true);
+    await screenshot(page, "upload_target");
+    await drop(page, "plate.obj", boxObj(1, 0.2, 1, "mtllib plate.mtl\n"));
+    await page.waitForFunction(() => window.__hl.sceneName === "plate.obj");
+    await expect.poll(() => page.isVisible("#drop-target")).toBe(false);
+    await expect.poll(told).toMatch(/^plate\.obj: 12 triangles; .* comes alone, without plate\.mtl\.$/);
+  });
+
+  test("of the same name is another scene, too, and the view fits it", async () => {
+    await drop(page, "plate.obj", boxObj(100, 100, 100));
+    await page.waitForFunction(() => window.__hl.boundsMax?.x === 100);
+    const high = await page.evaluate(() => window.__hl.project(window.__hl.boundsMax!));
+    expect(high.x > 0 && high.x < 1280 && high.y > 0 && high.y < 720).toBe(true);
+  });
+
+  test.each([
+    ["bad.obj", "no model\n", "bad.obj: there is no geometry in it"],
+    ["empty.obj", "", "empty.obj is empty."],
+    ["picture.xyz", "x", /^picture\.xyz: files ending in '\.xyz' cannot be read/],
+    ["beside.gltf", '{"asset":{"version":"2.0"},"buffers":[{"uri":"beside.bin","byteLength":36}],' +
+      '"bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,' +
+      '"type":"VEC3"}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}],' +
+      '"scenes":[{"nodes":[0]}],"scene":0}', /^beside\.gltf: needs beside\.bin, and a file comes alone/],
+  ])("that is no good gets one line, and the scene stays: %s", async (name, content, line) => {
+    await drop(page, name, content);
+    await expect.poll(told).toMatch(line);
+    expect(await page.evaluate(() => [window.__hl.sceneName, window.__hl.boundsMax?.x])).toEqual(["plate.obj", 100]);
+    complaints.errors.length = 0; // the browser logs the answer that refuses
+  });
+
+  test("leaves a tidy page, in the dark, in the light, and on a phone", async () => {
+    await choose("box.obj", boxObj(4, 2, 3));
+    await page.waitForFunction(() => window.__hl.sceneName === "box.obj");
+    for (let last = page.locator(".notice.told button").last(); (await last.count()) > 0; ) await last.click();
+    for (const size of kSizes) await expectTidyLayout(page, size);
+    await resize(page, kSizes[0]);
+    await drop(page, "other.obj", boxObj(4, 2, 3));
+    await expect.poll(told).toMatch(/^other/);
+    await page.emulateMedia({ colorScheme: "light" });
+    await screenshot(page, "upload_light");
+    await resize(page, kPhone);
+    await screenshot(page, "upload_phone");
+    expect(complaints).toEqual({ errors: [], foreign: [] });
+  });
+});
+
+describe.skipIf(!kProgram)("a server that takes no files", () => {
+  test("has no button, and says no to what is dropped", async () => {
+    const touch = await startTouch(0, "teapot", "--upload", "off");
+    const browser = await launch();
+    try {
+      const page = await browser.newPage({ viewport: kSizes[0] });
+      await page.goto(touch.url);
+      await page.waitForFunction(() => window.__hl.samples > 0);
+      expect(await page.isVisible("#open-file")).toBe(false);
+      await drop(page, "a.obj", boxObj(1, 1, 1));
+      await expect.poll(() => page.textContent(".notice.told span")).toBe(
+        "This server takes no files: start it with hl touch --upload on.");
+    } finally {
+      await browser.close();
+      touch.process.kill("SIGKILL");
+    }
+  });
+});
