@@ -24,13 +24,19 @@ export interface FileLines {
 }
 
 const kShownName_characters = 60;
+/** Of a long name the end stays: it tells the server how to read the file, and the user what it is. */
+const kShownEnd_characters = 16;
 const kCause = "file";
 
 /** A file's name as it may be shown: one line without control characters, of bounded length. */
 export function shownName(name: string): string {
-  const clean = name.replace(/[\p{Cc}\p{Cf}\p{Zl}\p{Zp}]/gu, "").trim() || "file";
+  const clean = name.replace(/[\p{Cc}\p{Cf}\p{Cs}\p{Zl}\p{Zp}]/gu, "").trim() || "file";
   const letters = [...clean];
-  return letters.length <= kShownName_characters ? clean : `${letters.slice(0, kShownName_characters - 1).join("")}…`;
+  if (letters.length <= kShownName_characters) {
+    return clean;
+  }
+  const begin = letters.slice(0, kShownName_characters - 1 - kShownEnd_characters);
+  return `${begin.join("")}…${letters.slice(-kShownEnd_characters).join("")}`;
 }
 
 /** The opener of the longest ending that fits, so that ".hl.json" goes before ".json". */

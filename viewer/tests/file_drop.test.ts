@@ -47,6 +47,12 @@ test("a shown name is one line of bounded length", () => {
   expect(shownName("a\n\u0000b\u202e.obj")).toBe("ab.obj");
   expect(shownName("")).toBe("file");
   expect([...shownName("é".repeat(10_000))]).toHaveLength(60);
+  expect(shownName("a\ud800.stl")).toBe("a.stl");
+});
+
+test("a long name keeps its ending, which says how the file is read", () => {
+  expect(shownName(`${"long ".repeat(40)}.hl.json`)).toMatch(/^long .*….*\.hl\.json$/);
+  expect([...shownName(`${"é".repeat(100)}.obj`)]).toHaveLength(60);
 });
 
 describe("a file that is given", () => {
