@@ -203,10 +203,12 @@ class App {
 
   /** What the server goes on telling of its scene is kept; nothing is sent to it that changes anything. */
   private leaveLive(): void {
+    // Before the session is out of reach: the server is told to let go.
+    this.hand_.cancel();
     this.held_ = new SceneHold(this.live_.store);
     this.eye_ = this.stage_.isTurned ? this.stage_.eye : undefined;
-    this.hand_.cancel();
     this.hand_.movable = this.buttons_.enabled = false;
+    this.notices_.stand("vibration", undefined);
     this.sound_.silence();
     this.stateFresh_ = false;
     this.state_ = undefined;
@@ -296,7 +298,7 @@ class App {
   private showLayout(store: SceneStore, layout: Layout): void {
     this.probe_.setRadius(layout.proxyRadius_m);
     this.panel_.showLayout(layout, store.counts());
-    showEmptyHint(layout.placed.length === 0);
+    showEmptyHint(layout.placed.length === 0 && this.held_ === undefined);
     this.pointing_.layoutChanged();
     if (layout.bounds !== undefined) {
       this.stage_.lowerFloor(layout.bounds.min.y);
