@@ -5,6 +5,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
+import { fileOf, kWhole } from "../test-support/recording_bytes";
 import { expectTidyLayout, kSizes, launch, listen, resize, screenshot, states, type Complaints } from "./browser";
 import { boxObj, drop } from "./files";
 import { kProgram, startTouch, type Touch } from "./programs";
@@ -100,6 +101,19 @@ describe.skipIf(!kProgram)("a file of the user's", () => {
     complaints.errors.length = 0; // the browser logs the answer that refuses
   });
 
+  test("is shown in the place of a recording", async () => {
+    const buffer = Buffer.from(await fileOf(...kWhole).arrayBuffer());
+    await page.setInputFiles("#file", { name: "a.hlr", mimeType: "", buffer });
+    await page.waitForFunction(() => window.__hl.sceneName === "a scene");
+    await drop(page, "tall.obj", boxObj(1, 3, 1));
+    await page.waitForFunction(() => window.__hl.sceneName === "tall.obj" && window.__hl.recording === undefined);
+    const { low, high } = await page.evaluate(() => ({
+      low: window.__hl.project(window.__hl.boundsMin!), high: window.__hl.project(window.__hl.boundsMax!),
+    }));
+    expect(low.y - high.y, "the view fits it").toBeGreaterThan(200);
+    expect(low.y).toBeLessThan(kSizes[0].height);
+  });
+
   test("leaves a tidy page, in the dark, in the light, and on a phone", async () => {
     await choose("box.obj", boxObj(4, 2, 3));
     await page.waitForFunction(() => window.__hl.sceneName === "box.obj");
@@ -117,17 +131,19 @@ describe.skipIf(!kProgram)("a file of the user's", () => {
 });
 
 describe.skipIf(!kProgram)("a server that takes no files", () => {
-  test("has no button, and says no to what is dropped", async () => {
+  test("says no to a model that is dropped, and still shows recordings", async () => {
     const touch = await startTouch(0, "teapot", "--upload", "off");
     const browser = await launch();
     try {
       const page = await browser.newPage({ viewport: kSizes[0] });
       await page.goto(touch.url);
       await page.waitForFunction(() => window.__hl.samples > 0);
-      expect(await page.isVisible("#open-file")).toBe(false);
       await drop(page, "a.obj", boxObj(1, 1, 1));
       await expect.poll(() => page.textContent(".notice.told span")).toBe(
         "This server takes no files: start it with hl touch --upload on.");
+      const buffer = Buffer.from(await fileOf(...kWhole).arrayBuffer());
+      await page.setInputFiles("#file", { name: "a.hlr", mimeType: "", buffer });
+      await page.waitForFunction(() => window.__hl.sceneName === "a scene");
     } finally {
       await browser.close();
       touch.process.kill("SIGKILL");

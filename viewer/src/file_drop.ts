@@ -63,6 +63,15 @@ export function unopened(openers: readonly FileOpener[], name: string): string {
   return `${shownName(name)} cannot be opened here; ${kinds.join(" and ")} can.`;
 }
 
+/** A folder looks like a file until it is read, and a file may have gone since it was chosen. */
+async function isReadable(file: File): Promise<boolean> {
+  return file.slice(0, 1).arrayBuffer().then(() => true, () => false);
+}
+
+function unreadable(name: string): string {
+  return `${shownName(name)} cannot be read: it is a folder, or it has been moved, changed or deleted. Give the file again.`;
+}
+
 export class FileDrop {
   private busy_ = false;
 
@@ -102,7 +111,8 @@ export class FileDrop {
         this.lines_.tell(opened, false);
       }
     } catch (error) {
-      this.lines_.tell(error instanceof Error ? error.message : String(error), true);
+      const why = error instanceof Error ? error.message : String(error);
+      this.lines_.tell((await isReadable(file)) ? why : unreadable(file.name), true);
     } finally {
       this.busy_ = false;
       this.lines_.stand(kCause, undefined, "plain");

@@ -63,7 +63,9 @@ class App {
   private readonly probe_ = new ProbeView();
   private readonly notices_ = new Notices();
   private readonly recordingFile_ = new RecordingFile((recording, name) => this.timeline_.open(recording, name));
-  private readonly modelFile_ = new ModelFile((expected) => this.live_.expectOther(expected));
+  private readonly modelFile_ = new ModelFile(
+    (expected) => this.live_.expectOther(expected), () => this.showOpened(),
+  );
   /** What opens which file. */
   private readonly files_ = new FileInput(new FileDrop([this.recordingFile_, this.modelFile_], this.notices_));
   private readonly stage_ = new Stage(element<HTMLCanvasElement>("canvas"), (reason) => {
@@ -224,6 +226,15 @@ class App {
     messages.forEach((message) => this.receive(message));
     if (this.eye_ !== undefined && messages[0]?.kind !== "hello") {
       this.stage_.lookFrom(this.eye_.position, this.eye_.target);
+    }
+  }
+
+  /** A model that the user has opened is shown, in the place of a recording too. Its layout may come later. */
+  private showOpened(): void {
+    if (this.timeline_.isOpen) {
+      this.eye_ = undefined;
+      this.timeline_.close();
+      this.live_.expectOther(true);
     }
   }
 

@@ -24,8 +24,8 @@ export class ModelFile implements FileOpener {
   /** The largest file that the server takes, bytes; 0: it takes none. */
   limit_bytes = 0;
 
-  /** `expect`: a file begins to take the place of the scene, or does not after all. */
-  constructor(private readonly expect_: (expected: boolean) => void) {}
+  /** `expect`: a file begins to take the place of the scene, or does not after all; `opened`: it has. */
+  constructor(private readonly expect_: (expected: boolean) => void, private readonly opened_: () => void) {}
 
   refusal(): string | undefined {
     return this.limit_bytes > 0 ? undefined : "This server takes no files: start it with hl touch --upload on.";
@@ -61,6 +61,7 @@ export class ModelFile implements FileOpener {
     request.onload = () => {
       if (request.status === 200) {
         const opened = JSON.parse(request.responseText) as Opened;
+        this.opened_();
         on.resolve(openedLine(opened.name, opened));
       } else {
         on.reject(new Error(request.responseText.trim() || `The server refused ${name} (${request.status}).`));

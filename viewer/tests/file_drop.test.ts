@@ -74,6 +74,16 @@ describe("a file that is given", () => {
     expect(lines.told).toEqual(["bad: no good", "bad: no good"]);
   });
 
+  test("that is a folder, or has gone meanwhile, is said to be so, whatever its opener says", async () => {
+    const lines = new Lines();
+    const gone = fileOf("a.obj");
+    gone.slice = () => ({ arrayBuffer: () => Promise.reject(new Error("not found")) }) as unknown as Blob;
+    await new FileDrop([opener("models", [".obj"], () => Promise.reject(new Error("broke")))], lines).take([gone]);
+    expect(lines.told).toEqual([
+      "bad: a.obj cannot be read: it is a folder, or it has been moved, changed or deleted. Give the file again.",
+    ]);
+  });
+
   test("waits for nobody: a second one is told to come again", async () => {
     const lines = new Lines();
     let finish = (_: string) => {};

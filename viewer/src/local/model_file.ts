@@ -35,7 +35,7 @@ export class ModelFile implements FileOpener {
   /** Of a server; here there is none. */
   limit_bytes = 0;
 
-  constructor(private readonly expect_: (expected: boolean) => void) {}
+  constructor(private readonly expect_: (expected: boolean) => void, private readonly opened_: () => void) {}
 
   refusal(): undefined {
     return undefined;
@@ -52,6 +52,7 @@ export class ModelFile implements FileOpener {
       const ending = this.endings.find((one) => file.name.toLowerCase().endsWith(one))!;
       const mesh = await readBeside(file, ending);
       const { triangles, worldPerDevice } = await engine.load({ name, ...mesh });
+      this.opened_();
       return `${name}: ${formatCount(triangles)} triangles; 1${kThinSpace}mm of the hand is ` +
         `${formatSi(worldPerDevice * 1e-3, "m")} of the scene.`;
     } catch (error) {
