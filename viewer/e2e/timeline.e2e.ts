@@ -3,9 +3,10 @@
 
 import type { Browser, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect, test } from "vitest";
+import { PageRecording_Phase } from "../src/gen/hl_pb";
 import { FakeServer } from "../test-support/fake_server";
 import { fileOf, kStart, kWhole, steps as recordedSteps, type BlockBody } from "../test-support/recording_bytes";
-import { kSizes, launch, listen, screenshot, type Complaints } from "./browser";
+import { kSizes, launch, listen, openSection, screenshot, type Complaints } from "./browser";
 
 const kPhone = { width: 390, height: 844 };
 const kBlackBox: BlockBody = {
@@ -65,6 +66,7 @@ test("a black box does not ask for a client to bring objects", async () => {
   await show(page, [kBlackBox, recordedSteps(31)]);
   await page.waitForFunction(() => window.__hl.sceneName === "black box");
   expect(await page.isVisible("#empty")).toBe(false);
+  expect(await page.textContent("#proxy-radius")).toBe("–");
   await screenshot(page, "timeline_black_box");
 });
 
@@ -74,6 +76,30 @@ test("a second recording takes the place of the first, and the live scene comes 
   await page.waitForFunction(() => window.__hl.sceneName === "black box");
   await page.keyboard.press("Escape");
   await page.waitForFunction(() => window.__hl.sceneName === "sphere" && window.__hl.triangles > 1000);
+});
+
+test("what was told of a recording is not shown while the server is silent", async () => {
+  server.recording = { phase: PageRecording_Phase.RUNNING, owner: 5, timeS: 1, bytes: 1n, maxTimeS: 600, maxBytes: 9n };
+  await openSection(page, "more");
+  await page.waitForSelector("#record-told:visible");
+  server.recording = { phase: PageRecording_Phase.NONE };
+  await page.waitForSelector("#record:enabled");
+  server.silent = true;
+  await page.waitForSelector("#record:disabled");
+  server.silent = false;
+  await page.waitForSelector("#record:enabled");
+});
+
+test("on a phone a notice leaves the force in sight", async () => {
+  const phone = await browser.newPage({ viewport: kPhone });
+  await phone.goto(server.url);
+  await phone.waitForFunction(() => window.__hl.samples > 50);
+  await phone.setInputFiles("#file", { name: "a.hlr", mimeType: "", buffer: Buffer.from("no recording") });
+  const badge = (await phone.locator("#force-badge").boundingBox())!;
+  const notice = (await phone.locator(".notice.told").boundingBox())!;
+  expect(notice.y).toBeGreaterThanOrEqual(badge.y + badge.height);
+  await screenshot(phone, "timeline_notice_phone");
+  await phone.close();
 });
 
 test("on a touch screen a finger that is drawn along a plot goes through the times", async () => {

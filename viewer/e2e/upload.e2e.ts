@@ -76,7 +76,7 @@ describe.skipIf(!kProgram)("a file of the user's", () => {
     await drop(page, "plate.obj", boxObj(1, 0.2, 1, "mtllib plate.mtl\n"));
     await page.waitForFunction(() => window.__hl.sceneName === "plate.obj");
     await expect.poll(() => page.isVisible("#drop-target")).toBe(false);
-    await expect.poll(told).toMatch(/^plate\.obj: 12 triangles; .* comes alone, without plate\.mtl\.$/);
+    await expect.poll(told).toMatch(/^plate\.obj: 12 triangles; .* Comes alone, without plate\.mtl\.$/);
   });
 
   test("of the same name is another scene, too, and the view fits it", async () => {

@@ -352,6 +352,7 @@ class App {
       this.stateFresh_ = false;
       this.hand_.cancel();
       this.sound_.silence();
+      this.recordPanel_.lose();
     }
   }
 

@@ -1,22 +1,8 @@
 // Opens a model file: sends it to the server, which reads it and puts it in the place of the scene.
 
 import { kAnyEnding, shownName, type FileOpener } from "./file_drop";
-import { formatCount, formatSi, kThinSpace } from "./units";
-
-/** What the server answers. */
-interface Opened {
-  readonly name: string;
-  readonly triangles: number;
-  readonly world_per_device: number;
-  readonly warnings: readonly string[];
-}
-
-/** What is open now, in one line. */
-export function openedLine(name: string, opened: Omit<Opened, "name">): string {
-  const warnings = opened.warnings.map((warning) => ` ${warning}.`).join("");
-  return `${name}: ${formatCount(opened.triangles)} triangles; 1${kThinSpace}mm of the hand is ` +
-    `${formatSi(opened.world_per_device * 1e-3, "m")} of the scene.${warnings}`;
-}
+import { openedLine, type Opened } from "./opened_line";
+import { formatSi } from "./units";
 
 export class ModelFile implements FileOpener {
   readonly what = "3-D models";

@@ -1,7 +1,8 @@
 // In the place of ../model_file in the page without a server: the file is read by a worker and given to the engine.
 
 import { shownName, type FileOpener } from "../file_drop";
-import { formatCount, formatSi, kThinSpace } from "../units";
+import { openedLine } from "../opened_line";
+import { formatSi } from "../units";
 import { engine } from "./engine_worker";
 import { kMeshEndings, type Triangles } from "./mesh_file";
 
@@ -53,8 +54,7 @@ export class ModelFile implements FileOpener {
       const mesh = await readBeside(file, ending);
       const { triangles, worldPerDevice } = await engine.load({ name, ...mesh });
       this.opened_();
-      return `${name}: ${formatCount(triangles)} triangles; 1${kThinSpace}mm of the hand is ` +
-        `${formatSi(worldPerDevice * 1e-3, "m")} of the scene.`;
+      return openedLine(name, { triangles, world_per_device: worldPerDevice, warnings: [] });
     } catch (error) {
       this.expect_(false);
       throw new Error(lineOf(name, error), { cause: error });
