@@ -70,6 +70,20 @@ test("a black box does not ask for a client to bring objects", async () => {
   await screenshot(page, "timeline_black_box");
 });
 
+test("a black box shows the finger", async () => {
+  await show(page, [kBlackBox, recordedSteps(31)]);
+  await page.waitForFunction(() => window.__hl.sceneName === "black box");
+  const { x, y } = await page.evaluate(() => window.__hl.project({ x: 0, y: 0, z: 0 }));
+  const clip = { x: x - 4, y: y - 4, width: 8, height: 8 };
+  const picture = async () => (await page.screenshot({ clip })).toString("base64");
+  await page.keyboard.press("Home");
+  await page.waitForFunction(() => window.__hl.finger?.x === 0);
+  const there = await picture();
+  await page.keyboard.press("End");
+  await page.waitForFunction(() => window.__hl.finger!.x > 0.2);
+  await expect.poll(picture).not.toBe(there);
+});
+
 test("a second recording takes the place of the first, and the live scene comes back after it", async () => {
   await show(page, kWhole);
   await show(page, [kBlackBox, recordedSteps(31)]);

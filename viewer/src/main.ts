@@ -390,9 +390,13 @@ class App {
     const view = this.stage_.viewFrame();
     this.scaleBar_.show(metresPerPixel(view, depthOf(view, this.stage_.target)));
     this.pointing_.showFinder(this.connection_.state === "live" && this.held_ === undefined, this.hand_);
+    const at = proxy ?? knownVec(this.state_?.finger);
+    if (at === undefined) {
+      return;
+    }
+    const pixel_m = metresPerPixel(view, depthOf(view, at));
+    this.probe_.face(this.stage_.camera, pixel_m);
     if (proxy !== undefined) {
-      const pixel_m = metresPerPixel(view, depthOf(view, proxy));
-      this.probe_.face(this.stage_.camera, pixel_m);
       this.probe_.drop.update(proxy, this.pointing_.below(proxy), this.probe_.radius_m, pixel_m);
     }
   }
