@@ -81,13 +81,21 @@ void BodyStepper::bounce(BodyStepReport& report) {
   if (any) solve(report);
 }
 
+// What bears the hand and does not move is told as one, with key 0.
 void BodyStepper::tellHands(std::span<GivenImpulses> given) const {
-  for (const Row& row : problem_.rows) {
-    const auto a = static_cast<std::size_t>(row.a);
-    if (a < problem_.bodies() || row.b == Row::kFixed || !(row.pressed > 0)) continue;
-    const auto b = static_cast<std::size_t>(row.b);
-    given[a - problem_.bodies()].push(
-        {world().bodies[b].key, row.arm_b + problem_.nodes[b].centre, -(row.pressed * row.normal + row.dragged)});
+  for (std::size_t hand = 0; hand < given.size(); ++hand) {
+    BodyImpulse fixed;
+    for (const Row& row : problem_.rows) {
+      if (static_cast<std::size_t>(row.a) != problem_.bodies() + hand || !(row.pressed > 0)) continue;
+      const Vec3 impulse = -(row.pressed * row.normal + row.dragged);
+      if (row.b == Row::kFixed) {
+        fixed.impulse_N_s += impulse;
+      } else {
+        const auto b = static_cast<std::size_t>(row.b);
+        given[hand].push({world().bodies[b].key, row.arm_b + problem_.nodes[b].centre, impulse});
+      }
+    }
+    given[hand].push(fixed);
   }
 }
 

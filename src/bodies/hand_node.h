@@ -42,7 +42,7 @@ struct HandNode {
   FixedVector<BodyImpulse, kContactsOfHand> owed;
 };
 
-/// What a hand has given in a step: `owed`, and the impulses of its contacts in their order.
-using GivenImpulses = FixedVector<BodyImpulse, 2 * kContactsOfHand>;
+/// What a hand has given in a step: of `owed`, to each body that it touched, and to all that does not move (key 0).
+using GivenImpulses = FixedVector<BodyImpulse, 2 * kContactsOfHand + 1>;
 
 }  // namespace hl

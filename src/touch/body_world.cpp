@@ -10,6 +10,16 @@ std::vector<Pose> posesOf(const std::vector<std::shared_ptr<BodyPoses>>& drivers
   return poses;
 }
 
+void addTo(FixedVector<BodyImpulse, kContactsOfHand>& list, const BodyImpulse& impulse) {
+  for (BodyImpulse& one : list) {
+    if (one.key != impulse.key) continue;
+    one.impulse_N_s += impulse.impulse_N_s;
+    one.point = impulse.point;
+    return;
+  }
+  list.push(impulse);
+}
+
 }  // namespace
 
 BodyWorld::BodyWorld(std::shared_ptr<const World> world, std::vector<std::shared_ptr<BodyPoses>> poses)
@@ -38,19 +48,28 @@ void BodyWorld::step(std::int64_t now_ns, double period_s, const HandAtBodies& h
     poses_[i]->moveTo(poseOf(world().bodies[i], state_.bodies[i]), before_ns, now_ns);
 }
 
-// Of each object: what the hand felt, less what the step has given, beside what is owed from before.
+// Of each object: what the hand felt, less what the step has given, beside what is owed from before. What a wall has
+// given through the proxy to a body that is pinched against it is owed to nobody: it acts on both, one against the
+// other.
 void BodyWorld::settle(const ObjectForces& forces, double period_s) {
+  FixedVector<BodyImpulse, kContactsOfHand> changes;
+  Vec3 of_fixed = Vec3::Zero();
   const auto add = [&](std::uint64_t key, const Vec3& point, const Vec3& impulse) {
-    for (BodyImpulse& one : owed_) {
-      if (one.key != key) continue;
-      one.impulse_N_s += impulse;
-      one.point = point;
-      return;
-    }
-    if (world().find(key) != nullptr) owed_.push({key, point, impulse});
+    if (world().find(key) == nullptr)
+      of_fixed += impulse;
+    else
+      addTo(changes, {key, point, impulse});
   };
   for (const ObjectForce& force : forces) add(force.key, force.point, -period_s * force.force_N);
   for (std::size_t i = paid_; i < given_.size(); ++i) add(given_[i].key, given_[i].point, -given_[i].impulse_N_s);
+  for (BodyImpulse& change : changes) {
+    const Vec3 with_wall = change.impulse_N_s + of_fixed;
+    if (with_wall.squaredNorm() < change.impulse_N_s.squaredNorm()) {
+      change.impulse_N_s = with_wall;
+      of_fixed.setZero();
+    }
+    addTo(owed_, change);
+  }
 }
 
 Vec3 BodyWorld::owed_N_s() const {

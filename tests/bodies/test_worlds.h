@@ -87,7 +87,9 @@ struct Pusher {
     if (touching) proxy.x() = surface_x;
     force_N = spring_N_m * (proxy - finger);
     Vec3 got = Vec3::Zero();
-    for (const BodyImpulse& one : given) got += one.impulse_N_s;
+    for (const BodyImpulse& one : given) {
+      if (one.key != 0) got += one.impulse_N_s;
+    }
     Vec3 due = -period_s * force_N - got;
     for (const BodyImpulse& one : owed) due += one.impulse_N_s;
     owed.clear();

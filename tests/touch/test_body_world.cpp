@@ -221,6 +221,21 @@ TEST(BodyWorld, R21ABodyOfAMilligramRestsOnTheFinger) {
   }
 }
 
+// R20 with the proxy itself between: a plate lies on the finger, and the finger on the floor.
+TEST(BodyWorld, ABodyOnAFingerOnTheFloorRests) {
+  for (const double mass_kg : {0.001, 0.1, 1.0}) {
+    Bench bench({{mass_kg, Vec3(0.03, 0.002, 0.03), Vec3(0, 0.01, 0)}}, 0.5);
+    Vec3 finger(0, 0.002, 0);
+    const ServoSettings settings = undamped(1000);
+    sweep(bench, settings, finger, Vec3::Zero(), 0.5);
+    sweep(bench, settings, finger, Vec3(0, -0.005, 0), 0.4);
+    sweep(bench, settings, finger, Vec3::Zero(), 1);
+    EXPECT_LT(bench.body().velocity.norm(), 1e-4) << mass_kg;
+    EXPECT_GE(bench.proxy().y(), kRadius_m * (1 - 1e-6)) << mass_kg;
+    EXPECT_GE(bench.body().centre.y(), 0.002) << mass_kg;
+  }
+}
+
 // Plates of 1 mm that fly and spin against a finger: the proxy is on the side of the plate where it began, or beside
 // it.
 TEST(BodyWorld, R27PlatesDoNotPassTheFinger) {
