@@ -8,6 +8,7 @@ import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
 import { expectTidyLayout, kSizes, launch, listen, resize, screenshot, states, type Complaints } from "./browser";
 import { boxObj, drop } from "./files";
 import { kProgram, startTouch, type Touch } from "./programs";
+import { zipBomb } from "./zip_bomb";
 
 const kPhone = { width: 390, height: 844 };
 
@@ -98,6 +99,13 @@ describe.skipIf(!kProgram)("a file of the user's", () => {
     await expect.poll(told).toMatch(line);
     expect(await page.evaluate(() => [window.__hl.sceneName, window.__hl.boundsMax?.x])).toEqual(["plate.obj", 100]);
     complaints.errors.length = 0; // the browser logs the answer that refuses
+  });
+
+  test("that unpacks to gigabytes is refused in a line, and the scene stays", async () => {
+    const answer = await fetch(`${touch.url}upload?name=bomb.3mf`, { method: "POST", body: new Uint8Array(zipBomb(3)) });
+    expect(answer.status).toBe(422);
+    expect(await answer.text()).toMatch(/^bomb\.3mf: .*\n$/);
+    expect(await page.evaluate(() => [window.__hl.sceneName, window.__hl.boundsMax?.x])).toEqual(["plate.obj", 100]);
   });
 
   test("leaves a tidy page, in the dark, in the light, and on a phone", async () => {
