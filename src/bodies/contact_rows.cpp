@@ -133,12 +133,12 @@ void ContactRows::addOfMeeting(WorldState& state, Meeting& meeting) {
   for (std::size_t point = 0; point < meeting.manifold.points.size(); ++point) predicted |= goesThrough(meeting, point);
   const Pace pace = paceOf(problem_, meeting);
   Manifold end;
-  const auto overlapAtEnd = [&] { return problem_.meetsAtEnd(state, meeting, plan_, end) ? deepestOf(end) : 0; };
-  if (predicted && (pace.fast || overlapAtEnd() > kTouching_m)) {
+  const auto overlap_at_end = [&] { return problem_.meetsAtEnd(state, meeting, plan_, end) ? deepestOf(end) : 0; };
+  if (predicted && (pace.fast || overlap_at_end() > kTouching_m)) {
     for (std::size_t point = 0; point < meeting.manifold.points.size(); ++point) {
       if (goesThrough(meeting, point) && !hasTwin(meeting, point)) addRow(state.memory, meeting, point);
     }
-  } else if ((pace.fast || pace.turns) && overlapAtEnd() > kHeld_m) {
+  } else if ((pace.fast || pace.turns) && overlap_at_end() > kHeld_m) {
     addRowsOfEnd(meeting, end);
   }
 }
@@ -158,15 +158,15 @@ bool ContactRows::addPassed(WorldState& state) {
 void ContactRows::addRowsOfEnd(const Meeting& meeting, const Manifold& end) {
   Meeting at_end = meeting;
   at_end.manifold = end;
-  const auto wayOf = [&](int number) {
+  const auto way_of = [&](int number) {
     return number == Row::kFixed ? Vec3(Vec3::Zero())
                                  : Vec3(problem_.period_s * problem_.nodes[static_cast<std::size_t>(number)].velocity);
   };
   for (std::size_t point = 0; point < end.points.size(); ++point) {
     if (problem_.rows.size() == problem_.rows.capacity()) return;
     Row row = rowOf(at_end, point);
-    row.arm_a -= wayOf(row.a);
-    if (row.b != Row::kFixed) row.arm_b -= wayOf(row.b);
+    row.arm_a -= way_of(row.a);
+    if (row.b != Row::kFixed) row.arm_b -= way_of(row.b);
     row.approach = row.normal.dot(relativeVelocity(row, problem_.nodes));
     row.gap = end.points[point].gap - problem_.period_s * row.approach;
     problem_.rows.push_back(row);

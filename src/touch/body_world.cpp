@@ -6,6 +6,7 @@ namespace {
 
 std::vector<Pose> posesOf(const std::vector<std::shared_ptr<BodyPoses>>& drivers) {
   std::vector<Pose> poses;
+  poses.reserve(drivers.size());
   for (const std::shared_ptr<BodyPoses>& driver : drivers) poses.push_back(driver->to());
   return poses;
 }
@@ -22,7 +23,7 @@ void addTo(FixedVector<BodyImpulse, kContactsOfHand>& list, const BodyImpulse& i
 
 }  // namespace
 
-BodyWorld::BodyWorld(std::shared_ptr<const World> world, std::vector<std::shared_ptr<BodyPoses>> poses)
+BodyWorld::BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<BodyPoses>> poses)
     : stepper_(world), state_(startWorld(*world, posesOf(poses))), poses_(std::move(poses)) {}
 
 void BodyWorld::step(std::int64_t now_ns, double period_s, const HandAtBodies& hand) {

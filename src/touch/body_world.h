@@ -28,7 +28,7 @@ struct HandAtBodies {
 class BodyWorld {
  public:
   /// `poses`: the drivers of the instances of the bodies, as World::bodies.
-  BodyWorld(std::shared_ptr<const World> world, std::vector<std::shared_ptr<BodyPoses>> poses);
+  BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<BodyPoses>> poses);
 
   /// Moves the bodies from the last step's moment to `now_ns`, by `period_s` of their time. RT-safe.
   void step(std::int64_t now_ns, double period_s, const HandAtBodies& hand);

@@ -9,6 +9,7 @@ import { fileOf, kWhole } from "../test-support/recording_bytes";
 import { expectTidyLayout, kSizes, launch, listen, resize, screenshot, states, type Complaints } from "./browser";
 import { boxObj, drop } from "./files";
 import { kProgram, startTouch, type Touch } from "./programs";
+import { zipBomb } from "./zip_bomb";
 
 const kPhone = { width: 390, height: 844 };
 
@@ -101,6 +102,13 @@ describe.skipIf(!kProgram)("a file of the user's", () => {
     complaints.errors.length = 0; // the browser logs the answer that refuses
   });
 
+  test("that unpacks to gigabytes is refused in a line, and the scene stays", async () => {
+    const answer = await fetch(`${touch.url}upload?name=bomb.3mf`, { method: "POST", body: new Uint8Array(zipBomb(3)) });
+    expect(answer.status).toBe(422);
+    expect(await answer.text()).toMatch(/^bomb\.3mf: .*\n$/);
+    expect(await page.evaluate(() => [window.__hl.sceneName, window.__hl.boundsMax?.x])).toEqual(["plate.obj", 100]);
+  });
+
   test("is shown in the place of a recording", async () => {
     const buffer = Buffer.from(await fileOf(...kWhole).arrayBuffer());
     await page.setInputFiles("#file", { name: "a.hlr", mimeType: "", buffer });
@@ -131,13 +139,14 @@ describe.skipIf(!kProgram)("a file of the user's", () => {
 });
 
 describe.skipIf(!kProgram)("a server that takes no files", () => {
-  test("says no to a model that is dropped, and still shows recordings", async () => {
+  test("says no to a model; recordings can be opened all the same", async () => {
     const touch = await startTouch(0, "teapot", "--upload", "off");
     const browser = await launch();
     try {
       const page = await browser.newPage({ viewport: kSizes[0] });
       await page.goto(touch.url);
       await page.waitForFunction(() => window.__hl.samples > 0);
+      expect(await page.isVisible("#open-file")).toBe(true);
       await drop(page, "a.obj", boxObj(1, 1, 1));
       await expect.poll(() => page.textContent(".notice.told span")).toBe(
         "This server takes no files: start it with hl touch --upload on.");
