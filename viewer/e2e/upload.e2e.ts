@@ -5,6 +5,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
+import { fileOf, kWhole } from "../test-support/recording_bytes";
 import { expectTidyLayout, kSizes, launch, listen, resize, screenshot, states, type Complaints } from "./browser";
 import { boxObj, drop } from "./files";
 import { kProgram, startTouch, type Touch } from "./programs";
@@ -76,7 +77,7 @@ describe.skipIf(!kProgram)("a file of the user's", () => {
     await drop(page, "plate.obj", boxObj(1, 0.2, 1, "mtllib plate.mtl\n"));
     await page.waitForFunction(() => window.__hl.sceneName === "plate.obj");
     await expect.poll(() => page.isVisible("#drop-target")).toBe(false);
-    await expect.poll(told).toMatch(/^plate\.obj: 12 triangles; .* comes alone, without plate\.mtl\.$/);
+    await expect.poll(told).toMatch(/^plate\.obj: 12 triangles; .* Comes alone, without plate\.mtl\.$/);
   });
 
   test("of the same name is another scene, too, and the view fits it", async () => {
@@ -108,6 +109,19 @@ describe.skipIf(!kProgram)("a file of the user's", () => {
     expect(await page.evaluate(() => [window.__hl.sceneName, window.__hl.boundsMax?.x])).toEqual(["plate.obj", 100]);
   });
 
+  test("is shown in the place of a recording", async () => {
+    const buffer = Buffer.from(await fileOf(...kWhole).arrayBuffer());
+    await page.setInputFiles("#file", { name: "a.hlr", mimeType: "", buffer });
+    await page.waitForFunction(() => window.__hl.sceneName === "a scene");
+    await drop(page, "tall.obj", boxObj(1, 3, 1));
+    await page.waitForFunction(() => window.__hl.sceneName === "tall.obj" && window.__hl.recording === undefined);
+    const { low, high } = await page.evaluate(() => ({
+      low: window.__hl.project(window.__hl.boundsMin!), high: window.__hl.project(window.__hl.boundsMax!),
+    }));
+    expect(low.y - high.y, "the view fits it").toBeGreaterThan(200);
+    expect(low.y).toBeLessThan(kSizes[0].height);
+  });
+
   test("leaves a tidy page, in the dark, in the light, and on a phone", async () => {
     await choose("box.obj", boxObj(4, 2, 3));
     await page.waitForFunction(() => window.__hl.sceneName === "box.obj");
@@ -136,6 +150,9 @@ describe.skipIf(!kProgram)("a server that takes no files", () => {
       await drop(page, "a.obj", boxObj(1, 1, 1));
       await expect.poll(() => page.textContent(".notice.told span")).toBe(
         "This server takes no files: start it with hl touch --upload on.");
+      const buffer = Buffer.from(await fileOf(...kWhole).arrayBuffer());
+      await page.setInputFiles("#file", { name: "a.hlr", mimeType: "", buffer });
+      await page.waitForFunction(() => window.__hl.sceneName === "a scene");
     } finally {
       await browser.close();
       touch.process.kill("SIGKILL");

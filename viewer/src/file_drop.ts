@@ -24,13 +24,19 @@ export interface FileLines {
 }
 
 const kShownName_characters = 60;
+/** Of a long name the end stays: it tells the server how to read the file, and the user what it is. */
+const kShownEnd_characters = 16;
 const kCause = "file";
 
 /** A file's name as it may be shown: one line without control characters, of bounded length. */
 export function shownName(name: string): string {
-  const clean = name.replace(/[\p{Cc}\p{Cf}\p{Zl}\p{Zp}]/gu, "").trim() || "file";
+  const clean = name.replace(/[\p{Cc}\p{Cf}\p{Cs}\p{Zl}\p{Zp}]/gu, "").trim() || "file";
   const letters = [...clean];
-  return letters.length <= kShownName_characters ? clean : `${letters.slice(0, kShownName_characters - 1).join("")}…`;
+  if (letters.length <= kShownName_characters) {
+    return clean;
+  }
+  const begin = letters.slice(0, kShownName_characters - 1 - kShownEnd_characters);
+  return `${begin.join("")}…${letters.slice(-kShownEnd_characters).join("")}`;
 }
 
 /** The opener of the longest ending that fits, so that ".hl.json" goes before ".json". */
@@ -55,6 +61,15 @@ export function unopened(openers: readonly FileOpener[], name: string): string {
   const kinds = openers.filter((opener) => opener.refusal() === undefined)
     .map(({ what, endings }) => `${what} (${endings.join(", ")})`);
   return `${shownName(name)} cannot be opened here; ${kinds.join(" and ")} can.`;
+}
+
+/** A folder looks like a file until it is read, and a file may have gone since it was chosen. */
+async function isReadable(file: File): Promise<boolean> {
+  return file.slice(0, 1).arrayBuffer().then(() => true, () => false);
+}
+
+function unreadable(name: string): string {
+  return `${shownName(name)} cannot be read: it is a folder, or it has been moved, changed or deleted. Give the file again.`;
 }
 
 export class FileDrop {
@@ -96,7 +111,8 @@ export class FileDrop {
         this.lines_.tell(opened, false);
       }
     } catch (error) {
-      this.lines_.tell(error instanceof Error ? error.message : String(error), true);
+      const why = error instanceof Error ? error.message : String(error);
+      this.lines_.tell((await isReadable(file)) ? why : unreadable(file.name), true);
     } finally {
       this.busy_ = false;
       this.lines_.stand(kCause, undefined, "plain");

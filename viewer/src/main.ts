@@ -63,7 +63,9 @@ class App {
   private readonly probe_ = new ProbeView();
   private readonly notices_ = new Notices();
   private readonly recordingFile_ = new RecordingFile((recording, name) => this.timeline_.open(recording, name));
-  private readonly modelFile_ = new ModelFile((expected) => this.live_.expectOther(expected));
+  private readonly modelFile_ = new ModelFile(
+    (expected) => this.live_.expectOther(expected), () => this.showOpened(),
+  );
   /** What opens which file. */
   private readonly files_ = new FileInput(new FileDrop([this.recordingFile_, this.modelFile_], this.notices_));
   private readonly stage_ = new Stage(element<HTMLCanvasElement>("canvas"), (reason) => {
@@ -203,10 +205,12 @@ class App {
 
   /** What the server goes on telling of its scene is kept; nothing is sent to it that changes anything. */
   private leaveLive(): void {
+    // Before the session is out of reach: the server is told to let go.
+    this.hand_.cancel();
     this.held_ = new SceneHold(this.live_.store);
     this.eye_ = this.stage_.isTurned ? this.stage_.eye : undefined;
-    this.hand_.cancel();
     this.hand_.movable = this.buttons_.enabled = false;
+    this.notices_.stand("vibration", undefined);
     this.sound_.silence();
     this.stateFresh_ = false;
     this.state_ = undefined;
@@ -222,6 +226,15 @@ class App {
     messages.forEach((message) => this.receive(message));
     if (this.eye_ !== undefined && messages[0]?.kind !== "hello") {
       this.stage_.lookFrom(this.eye_.position, this.eye_.target);
+    }
+  }
+
+  /** A model that the user has opened is shown, in the place of a recording too. Its layout may come later. */
+  private showOpened(): void {
+    if (this.timeline_.isOpen) {
+      this.eye_ = undefined;
+      this.timeline_.close();
+      this.live_.expectOther(true);
     }
   }
 
@@ -296,7 +309,7 @@ class App {
   private showLayout(store: SceneStore, layout: Layout): void {
     this.probe_.setRadius(layout.proxyRadius_m);
     this.panel_.showLayout(layout, store.counts());
-    showEmptyHint(layout.placed.length === 0);
+    showEmptyHint(layout.placed.length === 0 && this.held_ === undefined);
     this.pointing_.layoutChanged();
     if (layout.bounds !== undefined) {
       this.stage_.lowerFloor(layout.bounds.min.y);
@@ -339,6 +352,7 @@ class App {
       this.stateFresh_ = false;
       this.hand_.cancel();
       this.sound_.silence();
+      this.recordPanel_.lose();
     }
   }
 
@@ -376,9 +390,13 @@ class App {
     const view = this.stage_.viewFrame();
     this.scaleBar_.show(metresPerPixel(view, depthOf(view, this.stage_.target)));
     this.pointing_.showFinder(this.connection_.state === "live" && this.held_ === undefined, this.hand_);
+    const at = proxy ?? knownVec(this.state_?.finger);
+    if (at === undefined) {
+      return;
+    }
+    const pixel_m = metresPerPixel(view, depthOf(view, at));
+    this.probe_.face(this.stage_.camera, pixel_m);
     if (proxy !== undefined) {
-      const pixel_m = metresPerPixel(view, depthOf(view, proxy));
-      this.probe_.face(this.stage_.camera, pixel_m);
       this.probe_.drop.update(proxy, this.pointing_.below(proxy), this.probe_.radius_m, pixel_m);
     }
   }

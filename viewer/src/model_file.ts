@@ -1,22 +1,8 @@
 // Opens a model file: sends it to the server, which reads it and puts it in the place of the scene.
 
 import { kAnyEnding, shownName, type FileOpener } from "./file_drop";
-import { formatCount, formatSi, kThinSpace } from "./units";
-
-/** What the server answers. */
-interface Opened {
-  readonly name: string;
-  readonly triangles: number;
-  readonly world_per_device: number;
-  readonly warnings: readonly string[];
-}
-
-/** What is open now, in one line. */
-export function openedLine(name: string, opened: Omit<Opened, "name">): string {
-  const warnings = opened.warnings.map((warning) => ` ${warning}.`).join("");
-  return `${name}: ${formatCount(opened.triangles)} triangles; 1${kThinSpace}mm of the hand is ` +
-    `${formatSi(opened.world_per_device * 1e-3, "m")} of the scene.${warnings}`;
-}
+import { openedLine, type Opened } from "./opened_line";
+import { formatSi } from "./units";
 
 export class ModelFile implements FileOpener {
   readonly what = "3-D models";
@@ -24,8 +10,8 @@ export class ModelFile implements FileOpener {
   /** The largest file that the server takes, bytes; 0: it takes none. */
   limit_bytes = 0;
 
-  /** `expect`: a file begins to take the place of the scene, or does not after all. */
-  constructor(private readonly expect_: (expected: boolean) => void) {}
+  /** `expect`: a file begins to take the place of the scene, or does not after all; `opened`: it has. */
+  constructor(private readonly expect_: (expected: boolean) => void, private readonly opened_: () => void) {}
 
   refusal(): string | undefined {
     return this.limit_bytes > 0 ? undefined : "This server takes no files: start it with hl touch --upload on.";
@@ -61,6 +47,7 @@ export class ModelFile implements FileOpener {
     request.onload = () => {
       if (request.status === 200) {
         const opened = JSON.parse(request.responseText) as Opened;
+        this.opened_();
         on.resolve(openedLine(opened.name, opened));
       } else {
         on.reject(new Error(request.responseText.trim() || `The server refused ${name} (${request.status}).`));

@@ -145,8 +145,10 @@ export class Panel {
     ];
     const present = parts.filter(([count]) => count > 0);
     setText("model-size", present.map(([count, what]) => `${formatCount(count)}${kNoBreak}${what}`).join(", ") || "empty");
-    setText("proxy-radius", formatSi(layout.proxyRadius_m, "m"));
-    setText("proxy-radius-hand", formatSi(layout.proxyRadius_m / layout.worldPerDevice, "m"));
+    // A black box has none.
+    const radius_m = layout.proxyRadius_m > 0 ? layout.proxyRadius_m : undefined;
+    setText("proxy-radius", formatSi(radius_m, "m"));
+    setText("proxy-radius-hand", formatSi(radius_m && radius_m / layout.worldPerDevice, "m"));
     setText("scale", formatScale(layout.worldPerDevice));
   }
 

@@ -39,6 +39,7 @@ export class ProbeView {
   private readonly planeRim_ = overlay(THREE.LineBasicMaterial, 0.9, true);
   private diagonal_m_ = 1;
   private radius_m_ = 0;
+  private hasProxy_ = false;
   private forceMax_N_ = 10;
   private showPlanes_ = false;
 
@@ -103,14 +104,19 @@ export class ProbeView {
     this.planeRim_.color.set(themeColour("plane"));
   }
 
-  /** Shows one state of the server. Without a proxy there is nothing to show. */
+  /** Shows one state of the server. Without a proxy, as in a black box, the force is shown at the finger. */
   update(state: State | undefined): void {
-    const proxy = knownVec(state?.proxy);
     const finger = knownVec(state?.finger);
-    this.group.visible = proxy !== undefined && finger !== undefined;
-    if (state === undefined || proxy === undefined || finger === undefined) {
+    this.group.visible = finger !== undefined;
+    if (state === undefined || finger === undefined) {
       return;
     }
+    const known = knownVec(state.proxy);
+    this.hasProxy_ = known !== undefined;
+    for (const mark of [this.proxy_, this.ghost_, this.line_, this.drop.group]) {
+      mark.visible = this.hasProxy_;
+    }
+    const proxy = known ?? finger;
     for (const mesh of [this.proxy_, this.ghost_, this.ring_]) {
       mesh.position.set(proxy.x, proxy.y, proxy.z);
     }
@@ -124,11 +130,11 @@ export class ProbeView {
     this.planes_.forEach((plane, i) => this.updatePlane(plane, state.contacts[i]));
   }
 
-  /** Keeps marks at their size in pixels; `metresPerPixel` at the proxy. Once per drawn frame. */
+  /** Keeps marks at their size in pixels; `metresPerPixel` at the proxy, or the finger. Once per drawn frame. */
   face(camera: THREE.Camera, metresPerPixel: number): void {
     this.ring_.quaternion.copy(camera.quaternion);
     this.ring_.scale.setScalar(kRing_px * metresPerPixel);
-    this.ring_.visible = this.radius_m_ < 0.7 * kRing_px * metresPerPixel;
+    this.ring_.visible = this.hasProxy_ && this.radius_m_ < 0.7 * kRing_px * metresPerPixel;
     this.finger_.scale.setScalar(kFinger_px * metresPerPixel);
   }
 

@@ -26,6 +26,12 @@ export class RecordPanel {
     this.show(recording, news);
   }
 
+  /** The server is not heard: what it told last may not be so now. */
+  lose(): void {
+    element<HTMLButtonElement>("record").disabled = true;
+    element("record-told").hidden = true;
+  }
+
   private show(recording: PageRecording | undefined, news: RecordingNews): void {
     const button = element<HTMLButtonElement>("record");
     button.disabled = news.ofAnother;

@@ -9,7 +9,7 @@ import { extname, join, normalize } from "node:path";
 import { fileURLToPath } from "node:url";
 import { WebSocketServer, type WebSocket } from "ws";
 import {
-  LedgerMode, SafetyState, ServerMessageSchema, SurfacesSchema, TicksEndedSchema, ViewerMessageSchema,
+  LedgerMode, type PageRecordingSchema, SafetyState, ServerMessageSchema, SurfacesSchema, TicksEndedSchema, ViewerMessageSchema,
   type ViewerMessage,
 } from "../src/gen/hl_pb";
 import { kProtocolVersion } from "../src/protocol";
@@ -49,6 +49,8 @@ export class FakeServer {
   shaking = false;
   name = "sphere";
   fault = "";
+  /** What it tells of a recording for a page; undefined: it makes none. */
+  recording: MessageInitShape<typeof PageRecordingSchema> | undefined;
   silent = false;
   buttons = 0;
   ticksEnded = create(TicksEndedSchema);
@@ -199,6 +201,7 @@ export class FakeServer {
         timeS: this.time_s_, finger: this.finger_, proxy, forceN: force, samples,
         contacts: inside ? [this.contact(normal)] : [],
         ...(this.swaying ? { moved: [0], movedPoses: bytesOf(this.swayed()) } : {}),
+        ...(this.recording === undefined ? {} : { recording: this.recording }),
         vibration: { limitNM: this.held_N_m },
         slipping: inside && this.slipping,
         ledger: this.ledgerNow(),

@@ -47,6 +47,12 @@ test("a shown name is one line of bounded length", () => {
   expect(shownName("a\n\u0000b\u202e.obj")).toBe("ab.obj");
   expect(shownName("")).toBe("file");
   expect([...shownName("é".repeat(10_000))]).toHaveLength(60);
+  expect(shownName("a\ud800.stl")).toBe("a.stl");
+});
+
+test("a long name keeps its ending, which says how the file is read", () => {
+  expect(shownName(`${"long ".repeat(40)}.hl.json`)).toMatch(/^long .*….*\.hl\.json$/);
+  expect([...shownName(`${"é".repeat(100)}.obj`)]).toHaveLength(60);
 });
 
 describe("a file that is given", () => {
@@ -66,6 +72,16 @@ describe("a file that is given", () => {
     await drop.take([fileOf("a.obj")]);
     await drop.take([fileOf("a.obj")]);
     expect(lines.told).toEqual(["bad: no good", "bad: no good"]);
+  });
+
+  test("that is a folder, or has gone meanwhile, is said to be so, whatever its opener says", async () => {
+    const lines = new Lines();
+    const gone = fileOf("a.obj");
+    gone.slice = () => ({ arrayBuffer: () => Promise.reject(new Error("not found")) }) as unknown as Blob;
+    await new FileDrop([opener("models", [".obj"], () => Promise.reject(new Error("broke")))], lines).take([gone]);
+    expect(lines.told).toEqual([
+      "bad: a.obj cannot be read: it is a folder, or it has been moved, changed or deleted. Give the file again.",
+    ]);
   });
 
   test("waits for nobody: a second one is told to come again", async () => {

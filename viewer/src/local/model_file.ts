@@ -1,7 +1,8 @@
 // In the place of ../model_file in the page without a server: the file is read by a worker and given to the engine.
 
 import { shownName, type FileOpener } from "../file_drop";
-import { formatCount, formatSi, kThinSpace } from "../units";
+import { openedLine } from "../opened_line";
+import { formatSi } from "../units";
 import { engine } from "./engine_worker";
 import { kMeshEndings, type Triangles } from "./mesh_file";
 
@@ -35,7 +36,7 @@ export class ModelFile implements FileOpener {
   /** Of a server; here there is none. */
   limit_bytes = 0;
 
-  constructor(private readonly expect_: (expected: boolean) => void) {}
+  constructor(private readonly expect_: (expected: boolean) => void, private readonly opened_: () => void) {}
 
   refusal(): undefined {
     return undefined;
@@ -52,8 +53,8 @@ export class ModelFile implements FileOpener {
       const ending = this.endings.find((one) => file.name.toLowerCase().endsWith(one))!;
       const mesh = await readBeside(file, ending);
       const { triangles, worldPerDevice } = await engine.load({ name, ...mesh });
-      return `${name}: ${formatCount(triangles)} triangles; 1${kThinSpace}mm of the hand is ` +
-        `${formatSi(worldPerDevice * 1e-3, "m")} of the scene.`;
+      this.opened_();
+      return openedLine(name, { triangles, world_per_device: worldPerDevice, warnings: [] });
     } catch (error) {
       this.expect_(false);
       throw new Error(lineOf(name, error), { cause: error });

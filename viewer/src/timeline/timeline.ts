@@ -169,7 +169,10 @@ export class Timeline {
         playback.seek(playback.length_s * plot.shareAt(event.clientX - host.getBoundingClientRect().left));
       }
     };
-    host.addEventListener("pointerdown", seek);
+    host.addEventListener("pointerdown", (event) => {
+      host.setPointerCapture(event.pointerId);
+      seek(event);
+    });
     host.addEventListener("pointermove", seek);
     return plot;
   }
