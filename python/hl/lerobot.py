@@ -121,9 +121,11 @@ class HLTeleoperator(Teleoperator):  # type: ignore[misc]
     def _show_wall(self, touch: Touch, normal: npt.NDArray[Any], size: float) -> None:
         """So that force = K depth normal: the proxy, a radius before the wall, is `depth` before the finger.
 
-        A new wall only touches the proxy, on the side where it shall stay; from there it moves, and pushes.
+        A new wall only touches the proxy, on the side where it shall stay; from there it moves, and pushes. Where a late
+        state has put it on the other side of the proxy, it pulls: then it begins anew.
         """
-        if self._normal is None or float(normal @ self._normal) <= 0:
+        pulls = float(touch.state().force @ normal) < -0.1 * size
+        if self._normal is None or float(normal @ self._normal) <= 0 or pulls:
             self._remove_wall(touch)
             depth = 0.0
         else:

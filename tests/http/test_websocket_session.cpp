@@ -316,11 +316,11 @@ TEST(WebSocketSession, AHalfOpenConnectionIsEnded) {
 
 TEST(WebSocketSession, AClientThatOnlyListensIsKept) {
   Limits limits;
-  limits.idle_s = 0.2;
+  limits.idle_s = 1;  // a busy machine may keep the client from reading for a part of it
   Served served(withLimits(limits));
   Welcomed listener(served, 100);
-  // Five times as long as silence is borne: pings are answered while it reads.
-  for (int i = 0; i < 100; ++i) ASSERT_TRUE(listener.next()->has_state());
+  // Three times as long as silence is borne: pings are answered while it reads.
+  for (int i = 0; i < 300; ++i) ASSERT_TRUE(listener.next()->has_state());
   EXPECT_EQ(served.host.alive(), 1);
 }
 
