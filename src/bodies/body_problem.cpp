@@ -35,15 +35,18 @@ PlacedConvex BodyProblem::atEnd(const WorldState& state, std::size_t body, const
   return hl::placed(world->bodies[body], moved, room);
 }
 
+PlacedConvex BodyProblem::otherAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan,
+                                     PlacedRoom& room) const {
+  if (meeting.b != Row::kFixed) return atEnd(state, static_cast<std::size_t>(meeting.b), plan, room);
+  const SceneAt& scene = *meetings.scene();
+  return hl::placed(scene.primitive(meeting.primitive), scene.instance(meeting.primitive).poses().to(), room);
+}
+
 bool BodyProblem::meetsAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan,
                              Manifold& end) const {
   PlacedRoom room_a, room_b;
-  const PlacedConvex a = atEnd(state, static_cast<std::size_t>(meeting.a), plan, room_a);
-  if (meeting.b != Row::kFixed)
-    return findManifold(a, atEnd(state, static_cast<std::size_t>(meeting.b), plan, room_b), 0, end);
-  const SceneAt& scene = *meetings.scene();
-  const Pose pose = scene.instance(meeting.primitive).poses().to();
-  return findManifold(a, hl::placed(scene.primitive(meeting.primitive), pose, room_b), 0, end);
+  return findManifold(atEnd(state, static_cast<std::size_t>(meeting.a), plan, room_a),
+                      otherAtEnd(state, meeting, plan, room_b), 0, end);
 }
 
 Pace paceOf(const BodyProblem& problem, const Meeting& meeting) {

@@ -28,6 +28,9 @@ struct BodyProblem {
   double reachOf(std::size_t body) const { return world->bodies[body].shape.reach; }
   /// The shape of a body after its part of the way. RT-safe.
   PlacedConvex atEnd(const WorldState& state, std::size_t body, const BodyWays& plan, PlacedRoom& room) const;
+  /// The other of a pair: a body after its part of the way, or a primitive of the scene. RT-safe.
+  PlacedConvex otherAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan,
+                          PlacedRoom& room) const;
   /// Where the pair would meet then; false: it would be apart. RT-safe.
   bool meetsAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan, Manifold& end) const;
 

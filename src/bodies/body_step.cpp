@@ -131,7 +131,7 @@ void BodyStepper::slowHeld(WorldState& state) {
     stopped_short = part < 1 ? stopped_short + 1 : 0;
     if (stopped_short < 2) continue;
     Node& node = problem_.nodes[i];
-    const Mat3 inertia = problem_.turned[i] * world().bodies[i].mass.inertia_kg_m2 * problem_.turned[i].transpose();
+    const Mat3 inertia = inertiaOf(world().bodies[i], state.bodies[i]);
     const double kinetic_J =
         (world().bodies[i].mass.mass_kg * node.velocity.squaredNorm() + node.spin.dot(inertia * node.spin)) / 2;
     state.energy.contact_J += (1 - part * part) * kinetic_J;

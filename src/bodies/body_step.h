@@ -48,7 +48,7 @@ class BodyStepper {
 
   BodyProblem problem_;
   ContactRows contacts_{problem_};
-  HandRows hand_rows_{problem_};
+  HandRows hand_rows_{problem_, contacts_};
   MotionPlan plan_{problem_};
 };
 

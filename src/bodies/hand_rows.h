@@ -11,7 +11,7 @@ namespace hl {
 /// By one thread at a time.
 class HandRows {
  public:
-  explicit HandRows(BodyProblem& problem) : problem_(problem), contacts_(problem) {}
+  HandRows(BodyProblem& problem, const ContactRows& contacts) : problem_(problem), contacts_(contacts) {}
 
   /// Rows of hand number `hand`, whose node is there; for what is nearer than `margin` (m). RT-safe.
   void add(const HandNode& hand, std::size_t number, double margin, ContactMemory& memory);
@@ -23,7 +23,7 @@ class HandRows {
   void addNear(Row row, ContactMemory& memory);
 
   BodyProblem& problem_;
-  ContactRows contacts_;
+  const ContactRows& contacts_;  // knows what acted where in the last step
 };
 
 }  // namespace hl

@@ -96,13 +96,7 @@ bool MotionPlan::passes(const WorldState& state, const Meeting& meeting) const {
   if (!paceOf(problem_, meeting).fast) return false;
   PlacedRoom room_a, room_b;
   const PlacedConvex a = problem_.atEnd(state, static_cast<std::size_t>(meeting.a), plan_, room_a);
-  PlacedConvex b;
-  if (meeting.b != Row::kFixed) {
-    b = problem_.atEnd(state, static_cast<std::size_t>(meeting.b), plan_, room_b);
-  } else {
-    const SceneAt& scene = *problem_.meetings.scene();
-    b = placed(scene.primitive(meeting.primitive), scene.instance(meeting.primitive).poses().to(), room_b);
-  }
+  const PlacedConvex b = problem_.otherAtEnd(state, meeting, plan_, room_b);
   return separationAlong(a, b, meeting.manifold.normal) < -allowed;
 }
 

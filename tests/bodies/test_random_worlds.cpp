@@ -14,20 +14,9 @@ using namespace test;
 
 constexpr double kRoom_m = 0.15;  // half of its sides
 
-Model roomModel() {
-  const Convex walls = boxShape(Vec3::Constant(kRoom_m));
-  Model model;
-  model.positions = walls.vertices;
-  for (const Convex::Face& face : walls.faces) {
-    model.triangles.push_back({face.corners[0], face.corners[1], face.corners[2]});
-    model.triangles.push_back({face.corners[0], face.corners[2], face.corners[3]});
-  }
-  return model;
-}
-
 struct RandomWorld {
   explicit RandomWorld(std::uint64_t seed) : random(seed) {
-    world.fixed = makeSnapshot(roomModel());
+    world.fixed = makeSnapshot(boxModel(Vec3::Constant(kRoom_m)));
     const int count = 2 + static_cast<int>(random() % 12);
     world.gravity_m_s2 = Vec3(0, random() % 2 == 0 ? -9.81 : 0, 0);
     for (int i = 0; i < count; ++i) addBody(i, count);

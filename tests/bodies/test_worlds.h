@@ -22,6 +22,18 @@ inline std::shared_ptr<const Snapshot> floorScene(double half_m = 1, double slop
   return makeSnapshot(std::move(model));
 }
 
+/// Twelve triangles.
+inline Model boxModel(const Vec3& half) {
+  const Convex shape = boxShape(half);
+  Model model;
+  model.positions = shape.vertices;
+  for (const Convex::Face& face : shape.faces) {
+    model.triangles.push_back({face.corners[0], face.corners[1], face.corners[2]});
+    model.triangles.push_back({face.corners[0], face.corners[2], face.corners[3]});
+  }
+  return model;
+}
+
 inline Body block(std::uint64_t key, double mass_kg, const Vec3& half_m, double friction) {
   return {key, massOfBox(mass_kg, half_m), boxShape(half_m), {friction, friction, 0}};
 }

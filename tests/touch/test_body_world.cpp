@@ -7,6 +7,7 @@
 #include <random>
 
 #include "base/realtime_guard.h"
+#include "bodies/test_worlds.h"
 #include "device/device_models.h"
 #include "proxy/effect_scenes.h"
 #include "touch/touch_step.h"
@@ -19,17 +20,6 @@ constexpr std::int64_t kMs = 1'000'000;
 
 double between(std::mt19937_64& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
-}
-
-Model boxModel(const Vec3& half) {
-  const Convex shape = boxShape(half);
-  Model model;
-  model.positions = shape.vertices;
-  for (const Convex::Face& face : shape.faces) {
-    model.triangles.push_back({face.corners[0], face.corners[1], face.corners[2]});
-    model.triangles.push_back({face.corners[0], face.corners[2], face.corners[3]});
-  }
-  return model;
 }
 
 Instance instanceOf(Model model, std::uint64_t key) {
@@ -71,7 +61,7 @@ class Bench {
     for (const Block& block : blocks) {
       world.bodies.push_back(
           {key, massOfBox(block.mass_kg, block.half), boxShape(block.half), {friction, friction, 0}});
-      Instance instance = instanceOf(boxModel(block.half), key++);
+      Instance instance = instanceOf(test::boxModel(block.half), key++);
       poses_.push_back(
           std::make_shared<BodyPoses>(Pose{Mat3::Identity(), block.at}, Box{Vec3::Constant(-1), Vec3::Constant(1)}));
       instance.driver = poses_.back();
