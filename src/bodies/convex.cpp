@@ -1,6 +1,48 @@
 #include "bodies/convex.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "base/plain_math.h"
+
 namespace hl {
+
+namespace {
+
+// Sine of the angle between edges below which they have one direction.
+constexpr double kOneDirection = 1e-9;
+
+// Each edge of a closed surface is met from both sides; the one from the lower vertex counts.
+void addEdges(Convex& shape, const Convex::Face& face) {
+  for (std::size_t i = 0; i < face.corners.size(); ++i) {
+    const Convex::Index begin = face.corners[i], end = face.corners[(i + 1) % face.corners.size()];
+    if (begin > end) continue;
+    const Vec3 way = (shape.vertices[end] - shape.vertices[begin]).normalized();
+    const auto known = std::find_if(shape.directions.begin(), shape.directions.end(), [&](const auto& ends) {
+      const Vec3 other = (shape.vertices[ends[1]] - shape.vertices[ends[0]]).normalized();
+      return way.cross(other).norm() < kOneDirection;
+    });
+    const auto direction = static_cast<Convex::Index>(known - shape.directions.begin());
+    if (known == shape.directions.end()) shape.directions.push_back({begin, end});
+    shape.edges.push_back({begin, end, direction});
+  }
+}
+
+void measureReach(Convex& shape) {
+  shape.reach = 0;
+  for (const Vec3& vertex : shape.vertices) shape.reach = std::max(shape.reach, vertex.norm() + shape.radius);
+}
+
+// Of a polygon, by Newell: the sum over its corners. Length: twice the area.
+Vec3 areaOf(const std::vector<Vec3>& vertices, const std::vector<Convex::Index>& corners) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    sum += (vertices[corners[i]] - vertices[corners[0]])
+               .cross(vertices[corners[(i + 1) % corners.size()]] - vertices[corners[0]]);
+  return sum;
+}
+
+}  // namespace
 
 Convex ballShape(double radius) {
   Convex shape;
@@ -32,6 +74,41 @@ Convex boxShape(const Vec3& half) {
   shape.faces = {{-Vec3::UnitX(), {0, 4, 6, 2}}, {Vec3::UnitX(), {1, 3, 7, 5}},  {-Vec3::UnitY(), {0, 1, 5, 4}},
                  {Vec3::UnitY(), {2, 6, 7, 3}},  {-Vec3::UnitZ(), {0, 2, 3, 1}}, {Vec3::UnitZ(), {4, 5, 7, 6}}};
   shape.reach = half.norm();
+  return shape;
+}
+
+Convex polyhedronShape(std::vector<Vec3> vertices, const std::vector<std::vector<Convex::Index>>& faces) {
+  Convex shape;
+  shape.vertices = std::move(vertices);
+  for (const auto& corners : faces) shape.faces.push_back({areaOf(shape.vertices, corners).normalized(), corners});
+  for (const Convex::Face& face : shape.faces) addEdges(shape, face);
+  measureReach(shape);
+  return shape;
+}
+
+// Vertex 2 i is at the lower end, 2 i + 1 above it.
+Convex cylinderShape(double half_length, double radius) {
+  std::vector<Vec3> vertices;
+  std::vector<std::vector<Convex::Index>> faces(2);
+  for (std::size_t i = 0; i < kCylinderSides; ++i) {
+    const double angle = 2 * EIGEN_PI * static_cast<double>(i) / kCylinderSides;
+    const double x = radius * plain::cos(angle), y = radius * plain::sin(angle);
+    vertices.emplace_back(x, y, -half_length);
+    vertices.emplace_back(x, y, half_length);
+    const auto low = static_cast<Convex::Index>(2 * i),
+               next = static_cast<Convex::Index>((low + 2) % (2 * kCylinderSides));
+    faces[0].insert(faces[0].begin(), low);
+    faces[1].push_back(static_cast<Convex::Index>(low + 1));
+    faces.push_back({low, next, static_cast<Convex::Index>(next + 1), static_cast<Convex::Index>(low + 1)});
+  }
+  Convex shape = polyhedronShape(std::move(vertices), faces);
+  shape.round_radius = radius;
+  return shape;
+}
+
+Convex moved(Convex shape, const Vec3& way) {
+  for (Vec3& vertex : shape.vertices) vertex += way;
+  measureReach(shape);
   return shape;
 }
 

@@ -1,5 +1,10 @@
 // Convex: the shape by which bodies collide: a convex polytope (a point, a segment, a polyhedron) grown by a radius. So
 // balls, capsules, boxes and hulls are one kind, and a triangle of the scene is one too.
+//
+// A cylinder is a prism of 32 sides that does not turn about its axis with the body: where it meets something, one of
+// its edges or sides is turned toward it (manifold.h). So a cylinder that lies, rolls, stands or tips on planes, and
+// one that is touched at its side, is exact. Only where its rim crosses an edge, the normal errs by up to 6 degrees,
+// and the place by up to 0.5 % of the radius.
 #pragma once
 
 #include <array>
@@ -27,16 +32,25 @@ struct Convex {
   std::vector<Face> faces;                       ///< none of a point or segment; a triangle has two
   double radius = 0;                             ///< m, >= 0
   double reach = 0;                              ///< m, greatest distance from the origin
+  double round_radius = 0;                       ///< m; > 0: a cylinder about z; faces 0 and 1 are its ends
 };
 
 /// No shape has more: the work of a step is bounded.
 inline constexpr std::size_t kMostVertices = 64, kMostFaces = 124;
+/// Of the prism of a cylinder.
+inline constexpr std::size_t kCylinderSides = 32;
 
 /// Each argument > 0.
 Convex ballShape(double radius);
 Convex boxShape(const Vec3& half);
 /// Along z, from -half_length to half_length, grown by the radius.
 Convex capsuleShape(double half_length, double radius);
+/// Along z, from -half_length to half_length.
+Convex cylinderShape(double half_length, double radius);
+/// Of faces that close it, each flat and counterclockwise from outside; the origin is inside.
+Convex polyhedronShape(std::vector<Vec3> vertices, const std::vector<std::vector<Convex::Index>>& faces);
+/// The shape with all of it moved by `way`: to the centre of mass, for a body.
+Convex moved(Convex shape, const Vec3& way);
 /// A two-sided triangle whose vertices are set later (PlacedConvex): faces 0 and 1 have opposite normals.
 Convex triangleTopology();
 

@@ -1,9 +1,11 @@
 #include "bodies/manifold.h"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <limits>
 
+#include "bodies/cylinder.h"
 #include "bodies/nearest_points.h"
 
 namespace hl {
@@ -48,11 +50,32 @@ Vec3 directionOf(const PlacedConvex& of, std::size_t number) {
   return of.vertices[ends[1]] - of.vertices[ends[0]];
 }
 
-Axis bestEdges(const PlacedConvex& a, const PlacedConvex& b) {
+// Directions of edges, one bit each.
+constexpr std::size_t kMostDirections = 3 * kMostVertices - 6;
+using Directions = std::bitset<kMostDirections>;
+
+// Those of edges that come below this height along the normal.
+Directions directionsBelow(const PlacedConvex& of, const Vec3& normal, double height) {
+  Directions some;
+  for (const Convex::Edge& edge : of.shape->edges) {
+    if (some[edge.direction]) continue;
+    some[edge.direction] = std::min(normal.dot(of.vertices[edge.begin]), normal.dot(of.vertices[edge.end])) <= height;
+  }
+  return some;
+}
+
+// Edges meet where no point of them is farther than `near` (m) from the other shape. All of b lies below its highest
+// vertex along the normal of a face, all of a above its lowest: edges of a that are higher, and edges of b that are
+// lower, do not meet.
+Axis bestEdges(const PlacedConvex& a, const PlacedConvex& b, const Vec3& face_normal, double near) {
   Axis best;
+  const Directions of_a = directionsBelow(a, face_normal, near - lowest(b.vertices, -face_normal));
+  const Directions of_b = directionsBelow(b, -face_normal, near - lowest(a.vertices, face_normal));
   for (std::size_t i = 0; i < a.shape->directions.size(); ++i) {
+    if (!of_a[i]) continue;
     const Vec3 da = directionOf(a, i);
     for (std::size_t j = 0; j < b.shape->directions.size(); ++j) {
+      if (!of_b[j]) continue;
       const Vec3 db = directionOf(b, j);
       Vec3 normal = da.cross(db);
       const double square = normal.squaredNorm();
@@ -81,12 +104,36 @@ const Convex::Edge& extremeEdge(const PlacedConvex& of, std::size_t direction, c
   return *best;
 }
 
+using ManifoldPoints = FixedVector<ManifoldPoint, kMostCorners>;
+
 // Adds the point halfway between `on_a` and `on_b`, which lie `distance` apart along the normal before the shapes are
 // grown.
-void addPoint(Manifold& out, const Vec3& on_a, double distance, double radius_a, double radius_b, double margin) {
+template <typename Points>
+void addPoint(Points& points, const Vec3& normal, const Vec3& on_a, double distance, double radius_a, double radius_b,
+              double margin) {
   const double gap = distance - radius_a - radius_b;
-  if (gap > margin) return;
-  out.points.push({on_a - (radius_a + gap / 2) * out.normal, gap});
+  if (gap <= margin) points.push({on_a - (radius_a + gap / 2) * normal, gap});
+}
+
+// All, if there is room; else the deepest, and one by one that which is farthest from those that are there.
+void keepSpread(ManifoldPoints& found, Manifold& out) {
+  if (found.size() <= Manifold::kMostPoints) {
+    for (const ManifoldPoint& point : found) out.points.push(point);
+    return;
+  }
+  std::array<double, kMostCorners> from_others;
+  from_others.fill(kUnparted);
+  std::size_t next = 0;
+  for (std::size_t i = 1; i < found.size(); ++i) {
+    if (found[i].gap < found[next].gap) next = i;
+  }
+  while (out.points.push(found[next])) {
+    const Vec3 last = found[next].point;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      from_others[i] = std::min(from_others[i], (found[i].point - last).squaredNorm());
+      if (from_others[i] > from_others[next]) next = i;
+    }
+  }
 }
 
 using Polygon = FixedVector<Vec3, kMostCorners>;
@@ -135,11 +182,13 @@ void clipAgainstFace(const PlacedConvex& reference, std::size_t face, const Plac
   }
   out.normal = sign * normal;
   const double radius_i = incident.shape->radius, radius_r = reference.shape->radius;
+  ManifoldPoints found;
   for (const Vec3& corner : polygon) {
     const double distance = normal.dot(corner - reference.vertices[corners[0]]);
     const Vec3 on_a = sign > 0 ? corner : Vec3(corner - distance * normal);
-    addPoint(out, on_a, distance, sign > 0 ? radius_i : radius_r, sign > 0 ? radius_r : radius_i, margin);
+    addPoint(found, out.normal, on_a, distance, sign > 0 ? radius_i : radius_r, sign > 0 ? radius_r : radius_i, margin);
   }
+  keepSpread(found, out);
 }
 
 // Where the two edges pass each other, if they do within their lengths.
@@ -154,7 +203,7 @@ void crossEdges(const PlacedConvex& a, const PlacedConvex& b, const Axis& axis, 
   const double t = (aa * db.dot(r) - ab * da.dot(r)) / determinant;
   if (s < 0 || s > 1 || t < 0 || t > 1) return;
   out.normal = axis.normal;
-  addPoint(out, a0 + s * da, axis.separation, a.shape->radius, b.shape->radius, margin);
+  addPoint(out.points, out.normal, a0 + s * da, axis.separation, a.shape->radius, b.shape->radius, margin);
 }
 
 bool pointAndPolytope(const PlacedConvex& point, const PlacedConvex& polytope, double sign, double margin,
@@ -162,21 +211,21 @@ bool pointAndPolytope(const PlacedConvex& point, const PlacedConvex& polytope, d
   const NearestPoints nearest = nearestToPoint(point.vertices[0], polytope);
   out.normal = sign * nearest.normal;
   const Vec3& on_a = sign > 0 ? nearest.on_a : nearest.on_b;
-  addPoint(out, on_a, nearest.distance, sign > 0 ? point.shape->radius : polytope.shape->radius,
+  addPoint(out.points, out.normal, on_a, nearest.distance, sign > 0 ? point.shape->radius : polytope.shape->radius,
            sign > 0 ? polytope.shape->radius : point.shape->radius, margin);
   return !out.points.empty();
 }
 
-}  // namespace
-
-bool findManifold(const PlacedConvex& a, const PlacedConvex& b, double margin, Manifold& out) {
+bool manifoldOfPolytopes(const PlacedConvex& a, const PlacedConvex& b, double margin, Manifold& out) {
   out.points.clear();
   if (a.vertices.size() == 1) return pointAndPolytope(a, b, 1, margin, out);
   if (b.vertices.size() == 1) return pointAndPolytope(b, a, -1, margin, out);
   const double radii = a.shape->radius + b.shape->radius;
   const Axis of_b = bestFace(b, a), of_a = bestFace(a, b);
-  if (std::max(of_a.separation, of_b.separation) - radii > margin) return false;
-  const Axis of_edges = bestEdges(a, b);
+  const double of_faces = std::max(of_a.separation, of_b.separation);
+  if (of_faces - radii > margin) return false;
+  const Vec3 face_normal = of_a.separation > of_b.separation ? Vec3(-of_a.normal) : of_b.normal;
+  const Axis of_edges = bestEdges(a, b, face_normal, std::max(margin + radii, -of_faces));
   if (of_edges.separation - radii > margin) return false;
   const double preference = kPreference * std::min(a.shape->reach, b.shape->reach > 0 ? b.shape->reach : kUnparted);
   const double best_face = std::max(of_b.separation, of_a.separation - preference);
@@ -191,8 +240,37 @@ bool findManifold(const PlacedConvex& a, const PlacedConvex& b, double margin, M
   NearestPoints nearest;
   if (!nearestPoints(a, b, nearest)) return false;
   out.normal = nearest.normal;
-  addPoint(out, nearest.on_a, nearest.distance, a.shape->radius, b.shape->radius, margin);
+  addPoint(out.points, out.normal, nearest.on_a, nearest.distance, a.shape->radius, b.shape->radius, margin);
   return !out.points.empty();
+}
+
+bool isRound(const PlacedConvex& of) { return of.shape->round_radius > 0; }
+
+// What the manifold of a prism tells of how the cylinder is to be turned: `sign` is 1 for a. Where a side of the prism
+// was met by something narrow, the tangent plane there is the true one.
+PlacedConvex turnedFor(const Manifold& rough, const PlacedConvex& cylinder, double sign, PlacedRoom& room) {
+  const auto sides = cylinder.normals.subspan(2);
+  const Vec3 outward = -sign * rough.normal;
+  if (std::find(sides.begin(), sides.end(), outward) == sides.end())
+    return turnedPrism(cylinder, outward, PrismTurn::kEdge, room);
+  const auto deepest = std::min_element(rough.points.begin(), rough.points.end(),
+                                        [](const auto& x, const auto& y) { return x.gap < y.gap; });
+  return turnedPrism(cylinder, radialOf(cylinder, deepest->point + deepest->gap / 2 * outward, outward),
+                     PrismTurn::kSide, room);
+}
+
+}  // namespace
+
+bool findManifold(const PlacedConvex& a, const PlacedConvex& b, double margin, Manifold& out) {
+  if (!isRound(a) && !isRound(b)) return manifoldOfPolytopes(a, b, margin, out);
+  if (a.vertices.size() == 1 || b.vertices.size() == 1) return manifoldOfPolytopes(a, b, margin, out);
+  constexpr double kSagitta = 0.005;  // of the radius: 1 - cos(pi / 32)
+  const double rough_margin = margin + kSagitta * (a.shape->round_radius + b.shape->round_radius);
+  if (!manifoldOfPolytopes(a, b, rough_margin, out)) return false;
+  PlacedRoom room_a, room_b;
+  const Manifold rough = out;
+  return manifoldOfPolytopes(isRound(a) ? turnedFor(rough, a, 1, room_a) : a,
+                             isRound(b) ? turnedFor(rough, b, -1, room_b) : b, margin, out);
 }
 
 }  // namespace hl

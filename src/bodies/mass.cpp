@@ -1,6 +1,48 @@
 #include "bodies/mass.h"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+
 namespace hl {
+
+namespace {
+
+using Triangles = std::span<const std::array<std::uint32_t, 3>>;
+
+// Of the cube of its size: a mesh with less volume is a sheet.
+constexpr double kNoVolume = 1e-9;
+
+void demandPositive(double value, const char* what) {
+  if (!(value > 0) || !std::isfinite(value)) throw Error(std::string("mass: ") + what + " must be above 0");
+}
+
+// Each edge must be passed once in each direction for each time it is there.
+void demandClosed(std::span<const Vec3> vertices, Triangles triangles) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> there, back;
+  for (const auto& corners : triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t from = corners[i], to = corners[(i + 1) % 3];
+      if (from >= vertices.size()) throw Error("mass: a triangle has a corner that is no vertex");
+      there.emplace_back(from, to);
+      back.emplace_back(to, from);
+    }
+  }
+  std::sort(there.begin(), there.end());
+  std::sort(back.begin(), back.end());
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> open;
+  std::set_difference(there.begin(), there.end(), back.begin(), back.end(), std::back_inserter(open));
+  if (!open.empty())
+    throw Error("mass: the mesh is open at " + std::to_string(open.size()) +
+                " edges: close it, join its equal vertices, or use its hull or a box");
+}
+
+}  // namespace
 
 Mass massOfBall(double mass_kg, double radius_m) {
   Mass mass;
@@ -29,6 +71,67 @@ Mass massOfCapsule(double mass_kg, double half_length_m, double radius_m) {
   mass.mass_kg = mass_kg;
   mass.inertia_kg_m2 = Vec3(across, across, along).asDiagonal();
   return mass;
+}
+
+Mass massOfCylinder(double mass_kg, double half_length_m, double radius_m) {
+  const double square = radius_m * radius_m;
+  const double across = mass_kg * (square / 4 + half_length_m * half_length_m / 3);
+  Mass mass;
+  mass.mass_kg = mass_kg;
+  mass.inertia_kg_m2 = Vec3(across, across, mass_kg * square / 2).asDiagonal();
+  return mass;
+}
+
+// Tetrahedra from the middle of the vertices to each triangle (p, q, r), with the sign of their volume
+// V = p . (q x r) / 6. Their first moment is V (p + q + r) / 4, the second V (p p' + q q' + r r' + s s') / 20, s = p +
+// q + r. Inertia is trace(second) 1 - second.
+Solid solidOf(std::span<const Vec3> vertices, Triangles triangles) {
+  demandClosed(vertices, triangles);
+  Vec3 origin = Vec3::Zero(), low = Vec3::Constant(1e300), high = -low;
+  for (const Vec3& vertex : vertices) {
+    origin += vertex / static_cast<double>(vertices.size());
+    low = low.cwiseMin(vertex);
+    high = high.cwiseMax(vertex);
+  }
+  double volume = 0;
+  Vec3 first = Vec3::Zero();
+  Mat3 second = Mat3::Zero();
+  for (const auto& corners : triangles) {
+    const Vec3 p = vertices[corners[0]] - origin, q = vertices[corners[1]] - origin, r = vertices[corners[2]] - origin;
+    const Vec3 sum = p + q + r;
+    const double part = p.dot(q.cross(r)) / 6;
+    volume += part;
+    first += part / 4 * sum;
+    second += part / 20 * (p * p.transpose() + q * q.transpose() + r * r.transpose() + sum * sum.transpose());
+  }
+  const double size = triangles.empty() ? 0 : (high - low).norm();
+  if (!(std::abs(volume) > kNoVolume * size * size * size))
+    throw Error("mass: the mesh holds no volume: give it a thickness, or use a box");
+  const Vec3 centre = first / volume;
+  if (volume < 0) second = -second;
+  volume = std::abs(volume);
+  second -= volume * centre * centre.transpose();
+  return {volume, origin + centre, second.trace() * Mat3::Identity() - second};
+}
+
+Mass massOfDensity(double density_kg_m3, const Solid& solid) {
+  demandPositive(density_kg_m3, "the density");
+  return {density_kg_m3 * solid.volume_m3, solid.centre_O, density_kg_m3 * solid.inertia_m5};
+}
+
+Mass massOfMesh(double mass_kg, std::span<const Vec3> vertices, Triangles triangles) {
+  demandPositive(mass_kg, "the mass");
+  const Solid solid = solidOf(vertices, triangles);
+  return massOfDensity(mass_kg / solid.volume_m3, solid);
+}
+
+Mass massOfShape(double mass_kg, const Convex& polyhedron) {
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (const Convex::Face& face : polyhedron.faces) {
+    for (std::size_t i = 2; i < face.corners.size(); ++i)
+      triangles.push_back({face.corners[0], face.corners[i - 1], face.corners[i]});
+  }
+  return massOfMesh(mass_kg, polyhedron.vertices, triangles);
 }
 
 }  // namespace hl

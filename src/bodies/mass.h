@@ -1,7 +1,12 @@
 // Mass: mass, centre of mass and inertia of a rigid body.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <span>
+
 #include "base/vec.h"
+#include "bodies/convex.h"
 
 namespace hl {
 
@@ -18,5 +23,24 @@ Mass massOfBall(double mass_kg, double radius_m);
 Mass massOfBox(double mass_kg, const Vec3& half_m);
 /// Along z: a cylinder of this half length, with half a ball at each end.
 Mass massOfCapsule(double mass_kg, double half_length_m, double radius_m);
+/// Along z.
+Mass massOfCylinder(double mass_kg, double half_length_m, double radius_m);
+
+/// A body of density 1 kg/m^3: its mass is its volume.
+struct Solid {
+  double volume_m3 = 0;
+  Vec3 centre_O = Vec3::Zero();        ///< m
+  Mat3 inertia_m5 = Mat3::Identity();  ///< about the centre
+};
+/// What a closed mesh holds, by exact integrals over tetrahedra. Its triangles may all face inward. Throws Error, with
+/// what to do, if the mesh is open or holds nothing.
+Solid solidOf(std::span<const Vec3> vertices, std::span<const std::array<std::uint32_t, 3>> triangles);
+/// Throws Error unless the density, kg/m^3, is > 0.
+Mass massOfDensity(double density_kg_m3, const Solid& solid);
+/// Of uniform density. `mass_kg` > 0, or Error.
+Mass massOfMesh(double mass_kg, std::span<const Vec3> vertices,
+                std::span<const std::array<std::uint32_t, 3>> triangles);
+/// Of a polyhedron with faces, without its radius, in the frame of its vertices.
+Mass massOfShape(double mass_kg, const Convex& polyhedron);
 
 }  // namespace hl

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "bodies/cylinder.h"
+
 namespace hl {
 
 namespace {
@@ -47,9 +49,25 @@ void nearestOfSegments(const Vec3& a0, const Vec3& a1, const Vec3& b0, const Vec
   on_a = nearestOnSegment(on_b, a0, a1);
 }
 
+NearestPoints nearestToCylinder(const Vec3& point, const PlacedConvex& cylinder) {
+  const CylinderFrame frame = frameOf(cylinder);
+  const double along = frame.axis.dot(point - frame.middle);
+  const Vec3 across = point - frame.middle - along * frame.axis;
+  const double from_axis = across.norm(), radius = cylinder.shape->round_radius;
+  const Vec3 radial = from_axis > 0 ? Vec3(across / from_axis) : cylinder.normals[2];
+  const Vec3 end = along > 0 ? frame.axis : Vec3(-frame.axis);
+  const double above = std::abs(along) - frame.half_length, beside = from_axis - radius;
+  if (beside <= 0 && above >= beside) return {point, point - above * end, end, above};
+  if (above <= 0) return {point, point - beside * radial, radial, beside};
+  const Vec3 way = above * end + beside * radial;
+  const double distance = way.norm();
+  return {point, point - way, way / distance, distance};
+}
+
 }  // namespace
 
 NearestPoints nearestToPoint(const Vec3& point, const PlacedConvex& polytope) {
+  if (polytope.shape->round_radius > 0) return nearestToCylinder(point, polytope);
   NearestPoints best;
   best.distance = kInfinite;
   std::size_t highest = 0;

@@ -8,12 +8,6 @@
 
 namespace hl {
 
-/// Room for one placed shape on the stack.
-struct PlacedRoom {
-  std::array<Vec3, kMostVertices> vertices;
-  std::array<Vec3, kMostFaces> normals;
-};
-
 /// The shape in the world; the result refers to `body`, `vertices` and `normals`, which have room for it. RT-safe.
 PlacedConvex placed(const Body& body, const BodyState& state, std::span<Vec3> vertices, std::span<Vec3> normals);
 PlacedConvex placed(const Body& body, const BodyState& state, PlacedRoom& room);

@@ -15,4 +15,10 @@ struct PlacedConvex {
   Vec3 centre = Vec3::Zero();        ///< m, world: inside the shape
 };
 
+/// Room for one placed shape on the stack.
+struct PlacedRoom {
+  std::array<Vec3, kMostVertices> vertices;
+  std::array<Vec3, kMostFaces> normals;
+};
+
 }  // namespace hl

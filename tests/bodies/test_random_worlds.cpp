@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "bodies/convex_hull.h"
 #include "test_worlds.h"
 
 namespace hl {
@@ -36,7 +37,7 @@ struct RandomWorld {
     const BodySurface surface{0.7, between(0, 0.7), between(0, 1)};
     const auto key = static_cast<std::uint64_t>(number + 1);
     const double size = between(0.2, 1) * most;
-    switch (random() % 4) {
+    switch (random() % 6) {
       case 0:
         world.bodies.push_back({key, massOfBall(mass, size), ballShape(size), surface});
         break;
@@ -50,6 +51,18 @@ struct RandomWorld {
         world.bodies.push_back({key, massOfBox(mass, half), boxShape(half), surface});
         break;
       }
+      case 3: {
+        std::vector<Vec3> points;
+        for (int i = 0; i < 12; ++i) points.emplace_back(size * between(0.5, 1) * direction());
+        const Convex hull = hullOf(points).shape;
+        const Mass inside = massOfShape(mass, hull);
+        world.bodies.push_back({key, inside, moved(hull, -inside.centre_O), surface});
+        break;
+      }
+      case 4:
+        world.bodies.push_back(
+            {key, massOfCylinder(mass, 0.6 * size, 0.6 * size), cylinderShape(0.6 * size, 0.6 * size), surface});
+        break;
       default:
         world.bodies.push_back(
             {key, massOfCapsule(mass, 0.6 * size, 0.3 * size), capsuleShape(0.6 * size, 0.3 * size), surface});

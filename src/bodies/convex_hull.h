@@ -1,0 +1,23 @@
+// Convex hull of points, by qhull (C. B. Barber, D. P. Dobkin, H. Huhdanpaa, The quickhull algorithm for convex hulls,
+// ACM Transactions on Mathematical Software 22, 1996).
+#pragma once
+
+#include <span>
+
+#include "bodies/convex.h"
+
+namespace hl {
+
+struct Hull {
+  Convex shape;        ///< in the frame of the points: moved() brings it to its centre of mass
+  double error_m = 0;  ///< how far a point is outside, at most; 0 unless the hull had too many vertices
+};
+
+/// Points in one plane with others are one face. Of a hull of more than kMostVertices those vertices are kept that
+/// reach farthest: one by one, that which lies farthest outside of what is kept. Throws Error if a point is not finite,
+/// or if they all lie in a plane (thinner than a millionth of their size).
+Hull hullOf(std::span<const Vec3> points);
+/// Along z, the base at -half_length, the tip at half_length; the base has 32 sides. Arguments > 0.
+Convex coneShape(double half_length, double radius);
+
+}  // namespace hl
