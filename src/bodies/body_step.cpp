@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "bodies/free_motion.h"
-#include "bodies/row_solver.h"
 
 namespace hl {
 
@@ -65,10 +64,9 @@ double BodyStepper::margin() const {
 }
 
 void BodyStepper::solve(BodyStepReport& report) {
-  const RowSolverLimits limits = limitsFor(problem_.rows.size());
-  const int sweeps = solveRows(problem_.rows, problem_.nodes, problem_.period_s, limits);
+  int sweeps = 0;
+  report.converged = solver_.solve(problem_.rows, problem_.nodes, problem_.period_s, sweeps);
   report.sweeps = std::max(report.sweeps, sweeps);
-  report.converged = sweeps < limits.sweeps;
 }
 
 void BodyStepper::bounce(BodyStepReport& report) {

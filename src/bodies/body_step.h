@@ -9,6 +9,7 @@
 
 #include "bodies/contact_rows.h"
 #include "bodies/hand_rows.h"
+#include "bodies/island_solver.h"
 #include "bodies/motion_plan.h"
 
 namespace hl {
@@ -50,6 +51,7 @@ class BodyStepper {
   ContactRows contacts_{problem_};
   HandRows hand_rows_{problem_, contacts_};
   MotionPlan plan_{problem_};
+  IslandSolver solver_{problem_.nodes.capacity(), problem_.rows.capacity()};
 };
 
 }  // namespace hl

@@ -50,6 +50,7 @@ struct Row {
   // Made by prepareRow().
   Vec3 change = Vec3::Zero(), search = Vec3::Zero();  ///< N s, in the last sweep, and the solver's direction
   double normal_step = 0, drag_step = 0;              ///< kg, impulse per velocity
+  Vec3 response = Vec3::Zero();                       ///< 1/kg, velocity for an impulse along the normal
   double approach = 0;                                ///< m/s along the normal before the step
 };
 

@@ -34,23 +34,37 @@ double largestAcross(const Mat3& mobility, const Vec3& normal) {
 
 Vec3 acrossOf(const Vec3& v, const Vec3& normal) { return v - normal.dot(v) * normal; }
 
+inline double demand(const Row& row, double period_s) {
+  return std::max(row.least_velocity, -std::max(row.gap, 0.0) / period_s);
+}
+
+inline Vec3 velocityOf(const Row& row, std::span<const Node> nodes) {
+  Vec3 velocity = nodes[static_cast<std::size_t>(row.a)].velocityAt(row.arm_a);
+  if (row.b != Row::kFixed) velocity -= nodes[static_cast<std::size_t>(row.b)].velocityAt(row.arm_b);
+  return velocity;
+}
+
+inline void push(const Row& row, std::span<Node> nodes, const Vec3& impulse) {
+  nodes[static_cast<std::size_t>(row.a)].push(impulse, row.arm_a);
+  if (row.b != Row::kFixed) nodes[static_cast<std::size_t>(row.b)].push(-impulse, row.arm_b);
+}
+
 // Returns the change of the row's impulse.
 Vec3 solveRow(Row& row, std::span<Node> nodes, double period_s) {
-  const double least = std::max(row.least_velocity, -std::max(row.gap, 0.0) / period_s);
-  const double velocity = row.normal.dot(relativeVelocity(row, nodes));
-  const double pressed = std::max(0.0, row.pressed + row.normal_step * (least - velocity));
+  Vec3 velocity = velocityOf(row, nodes);
+  const double pressed = std::max(0.0, row.pressed + row.normal_step * (demand(row, period_s) - row.normal.dot(velocity)));
   Vec3 change = (pressed - row.pressed) * row.normal;
-  applyImpulse(row, nodes, change);
+  velocity += (pressed - row.pressed) * row.response;
   row.pressed = pressed;
   if (row.friction > 0 || row.dragged != Vec3::Zero()) {
-    const Vec3 slip = acrossOf(relativeVelocity(row, nodes), row.normal);
-    const Vec3 wanted = row.dragged - row.drag_step * slip;
-    const Vec3 dragged = limited(wanted, row.friction * row.pressed);
-    row.slipping = wanted.squaredNorm() > dragged.squaredNorm();
-    applyImpulse(row, nodes, dragged - row.dragged);
+    const Vec3 wanted = row.dragged - row.drag_step * acrossOf(velocity, row.normal);
+    const double most = row.friction * row.pressed;
+    row.slipping = wanted.squaredNorm() > most * most;
+    const Vec3 dragged = row.slipping ? limited(wanted, most) : wanted;
     change += dragged - row.dragged;
     row.dragged = dragged;
   }
+  push(row, nodes, change);
   return change;
 }
 
@@ -64,7 +78,7 @@ void searchOn(std::span<Row> rows, std::span<Node> nodes, double part) {
     const Vec3 way = part * row.search;
     row.pressed += row.normal.dot(way);
     row.dragged += acrossOf(way, row.normal);
-    applyImpulse(row, nodes, way);
+    push(row, nodes, way);
     row.search = way + row.change;
   }
 }
@@ -79,20 +93,16 @@ RowSolverLimits limitsFor(std::size_t rows) {
   return limits;
 }
 
-Vec3 relativeVelocity(const Row& row, std::span<const Node> nodes) {
-  Vec3 velocity = nodes[static_cast<std::size_t>(row.a)].velocityAt(row.arm_a);
-  if (row.b != Row::kFixed) velocity -= nodes[static_cast<std::size_t>(row.b)].velocityAt(row.arm_b);
-  return velocity;
-}
+double demandOf(const Row& row, double period_s) { return demand(row, period_s); }
 
-void applyImpulse(const Row& row, std::span<Node> nodes, const Vec3& impulse) {
-  nodes[static_cast<std::size_t>(row.a)].push(impulse, row.arm_a);
-  if (row.b != Row::kFixed) nodes[static_cast<std::size_t>(row.b)].push(-impulse, row.arm_b);
-}
+Vec3 relativeVelocity(const Row& row, std::span<const Node> nodes) { return velocityOf(row, nodes); }
+
+void applyImpulse(const Row& row, std::span<Node> nodes, const Vec3& impulse) { push(row, nodes, impulse); }
 
 void prepareRow(Row& row, std::span<Node> nodes) {
   const Mat3 k = mobility(row, nodes);
-  row.normal_step = 1 / row.normal.dot(k * row.normal);
+  row.response = k * row.normal;
+  row.normal_step = 1 / row.normal.dot(row.response);
   row.drag_step = 1 / largestAcross(k, row.normal);
   row.dragged = limited(acrossOf(row.dragged, row.normal), row.friction * row.pressed);
   applyImpulse(row, nodes, row.pressed * row.normal + row.dragged);

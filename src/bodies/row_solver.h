@@ -25,6 +25,8 @@ RowSolverLimits limitsFor(std::size_t rows);
 void prepareRow(Row& row, std::span<Node> nodes);
 /// Returns the sweeps made. `period_s` > 0. RT-safe.
 int solveRows(std::span<Row> rows, std::span<Node> nodes, double period_s, const RowSolverLimits& limits);
+/// m/s: the least velocity along the normal that the row allows. RT-safe.
+double demandOf(const Row& row, double period_s);
 /// Velocity at the row's point, a's relative to b's. RT-safe.
 Vec3 relativeVelocity(const Row& row, std::span<const Node> nodes);
 /// Applies an impulse on a, and its opposite on b. RT-safe.

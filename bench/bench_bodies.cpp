@@ -1,0 +1,103 @@
+// Steps of bodies: stacks that stand, a pile that falls into a box, and many bodies of which few are awake. Each step is
+// timed, and the percentiles are told beside the mean.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <vector>
+
+#include "bodies/body_step.h"
+
+namespace hl {
+namespace {
+
+constexpr double kPeriod_s = 1e-3, kHalf_m = 0.02;
+
+// Five sides of a box of this half width, open at the top; its floor is y = 0.
+std::shared_ptr<const Snapshot> tray(double half_m, double height_m) {
+  Model model;
+  for (const double y : {0.0, height_m}) {
+    for (const auto& [x, z] : {std::pair{-1, -1}, std::pair{1, -1}, std::pair{1, 1}, std::pair{-1, 1}})
+      model.positions.emplace_back(half_m * x, y, half_m * z);
+  }
+  model.triangles = {{0, 2, 1}, {0, 3, 2}};
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const std::uint32_t next = (i + 1) % 4;
+    model.triangles.push_back({i, next, next + 4});
+    model.triangles.push_back({i, next + 4, i + 4});
+  }
+  return makeSnapshot(std::move(model));
+}
+
+struct Scene {
+  World world;
+  std::vector<Pose> poses;
+
+  void addCube(const Vec3& at, double turn_rad = 0) {
+    const Vec3 half = Vec3::Constant(kHalf_m);
+    world.bodies.push_back({world.bodies.size() + 1, massOfBox(0.1, half), boxShape(half), {0.5, 0.5, 0}});
+    poses.push_back({Eigen::AngleAxisd(turn_rad, Vec3(1, 2, 3).normalized()).toRotationMatrix(), at});
+  }
+  void addStack(const Vec3& at, int cubes) {
+    for (int i = 0; i < cubes; ++i) addCube(at + Vec3(0, (2 * i + 1) * kHalf_m, 0));
+  }
+};
+
+Scene sceneIn(double half_m) {
+  Scene scene;
+  scene.world.fixed = tray(half_m, 2);
+  return scene;
+}
+
+double percentile(std::vector<double>& sorted, double part) {
+  return sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))];
+}
+
+template <typename Before>
+void timeSteps(benchmark::State& bench, Scene scene, int settling, Before before) {
+  const auto world = std::make_shared<const World>(std::move(scene.world));
+  WorldState state = startWorld(*world, scene.poses);
+  BodyStepper stepper(world);
+  for (int i = 0; i < settling; ++i) stepper.step(state, kPeriod_s, {}, {});
+  std::vector<double> times_us;
+  double rows = 0, sweeps = 0;
+  for (auto _ : bench) {
+    before(state);
+    const auto begin = std::chrono::steady_clock::now();
+    const BodyStepReport report = stepper.step(state, kPeriod_s, {}, {});
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    times_us.push_back(1e6 * took.count());
+    bench.SetIterationTime(took.count());
+    rows += report.rows;
+    sweeps += report.sweeps;
+  }
+  std::sort(times_us.begin(), times_us.end());
+  bench.counters["p50_us"] = percentile(times_us, 0.5);
+  bench.counters["p99.9_us"] = percentile(times_us, 0.999);
+  bench.counters["rows"] = rows / static_cast<double>(times_us.size());
+  bench.counters["sweeps"] = sweeps / static_cast<double>(times_us.size());
+}
+
+void nothing(WorldState&) {}
+
+void tenStacksOfTen(benchmark::State& bench) {
+  Scene scene = sceneIn(1);
+  for (int i = 0; i < 10; ++i) scene.addStack(Vec3(0.15 * i - 0.7, 0, 0), 10);
+  // A push too small to move what friction holds keeps them awake.
+  timeSteps(bench, std::move(scene), 100, nothing);
+}
+
+// From the first touch on the floor until all lies.
+void pileOfAHundred(benchmark::State& bench) {
+  Scene scene = sceneIn(0.13);
+  for (int i = 0; i < 100; ++i)
+    scene.addCube(Vec3(0.075 * (i % 3 - 1), 0.04 + 0.075 * (i / 9), 0.075 * (i / 3 % 3 - 1)), 0.3 * i);
+  timeSteps(bench, std::move(scene), 0, nothing);
+}
+
+BENCHMARK(tenStacksOfTen)->UseManualTime()->Iterations(3000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(pileOfAHundred)->UseManualTime()->Iterations(3000)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace hl
