@@ -157,6 +157,7 @@ BodyStepReport BodyStepper::step(WorldState& state, double period_s, std::span<c
                                  std::span<GivenImpulses> given) {
   BodyStepReport report;
   begin(state, period_s);
+  solver_.begin();
   for (std::size_t hand = 0; hand < hands.size(); ++hand) addHand(hands[hand], given[hand]);
   const double margin_m = margin();
   for (std::size_t hand = 0; hand < hands.size(); ++hand) hand_rows_.add(hands[hand], hand, margin_m, state.memory);
