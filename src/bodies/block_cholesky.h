@@ -39,9 +39,9 @@ class BlockCholesky {
  private:
   using Rows = std::bitset<kMostRows>;
   std::size_t rows_ = 0, used_ = 0;
-  std::array<Rows, kMostRows> neighbours_;           // then: those eliminated later
-  std::array<std::uint8_t, kMostRows> turn_{};       // when a row is eliminated
-  std::array<std::uint8_t, kMostRows> row_at_{};     // which row then is
+  std::array<Rows, kMostRows> neighbours_;                             // then: those eliminated later
+  std::array<std::uint8_t, kMostRows> turn_{};                         // when a row is eliminated
+  std::array<std::uint8_t, kMostRows> row_at_{};                       // which row then is
   std::vector<std::array<std::int16_t, kMostRows>> place_{kMostRows};  // [earlier][later] of a block; -1: none
   std::vector<Block6> blocks_;
   std::vector<Vec6> right_;

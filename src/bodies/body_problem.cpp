@@ -16,6 +16,7 @@ constexpr double kStraight_rad = 1e-3;
 }  // namespace
 
 BodyProblem::BodyProblem(std::shared_ptr<const World> of) : world(std::move(of)), placed(*world), meetings(*world) {
+  awake.reserve(bodies());
   turned.resize(bodies());
   nodes.reserve(bodies() + kMostHands);
   before.reserve(bodies() + kMostHands);
@@ -29,6 +30,7 @@ int BodyProblem::numberOf(std::uint64_t key) const {
 
 PlacedConvex BodyProblem::atEnd(const WorldState& state, std::size_t body, const BodyWays& plan,
                                 PlacedRoom& room) const {
+  if (state.bodies[body].island != 0) return placed[body];
   BodyState moved = state.bodies[body];
   moved.spin = plan.turns[body];
   moveFreely(world->bodies[body], moved, plan.parts[body] * plan.ways[body], plan.parts[body] * period_s);

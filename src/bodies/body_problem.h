@@ -37,9 +37,10 @@ struct BodyProblem {
   std::shared_ptr<const World> world;
   PlacedBodies placed;
   Meetings meetings;
-  std::vector<Mat3> turned;  ///< of each body at the begin of the step
-  std::vector<Node> nodes;   ///< bodies, then hands
-  std::vector<Node> before;  ///< the same, before gravity
+  std::vector<std::size_t> awake;  ///< numbers of the bodies that are stepped, ascending
+  std::vector<Mat3> turned;        ///< of each body at the begin of the step
+  std::vector<Node> nodes;         ///< bodies, then hands
+  std::vector<Node> before;        ///< the same, before gravity
   std::vector<Row> rows;
   double period_s = 1e-3;
 };

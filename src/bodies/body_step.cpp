@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "bodies/free_motion.h"
+#include "bodies/row_solver.h"
+#include "bodies/sleep.h"
 
 namespace hl {
 
@@ -12,21 +14,32 @@ namespace {
 constexpr double kBounces_m_s = 0.02;
 // How often rows are added for what the motion found would pass. What is left stops short (motion_plan.h).
 constexpr int kRounds = 8;
+// How often a step may wake islands and begin anew; one that is hit after that is hard as a wall for this step.
+constexpr int kRestarts = 4;
 
 }  // namespace
 
+// What sleeps is a node that nothing moves.
 void BodyStepper::begin(const WorldState& state, double period_s) {
   problem_.period_s = period_s;
-  problem_.nodes.clear();
+  problem_.nodes.resize(problem_.bodies());
   problem_.rows.clear();
+  problem_.awake.clear();
   for (std::size_t i = 0; i < state.bodies.size(); ++i) {
     const BodyState& body = state.bodies[i];
-    problem_.turned[i] = body.turned.toRotationMatrix();
-    problem_.nodes.push_back({body.velocity, body.spin, 1 / world().bodies[i].mass.mass_kg,
-                              inverseInertia(world().bodies[i], body), body.centre});
+    Node& node = problem_.nodes[i];
+    if (body.island == 0) {
+      problem_.awake.push_back(i);
+      problem_.turned[i] = body.turned.toRotationMatrix();
+      node = {body.velocity, body.spin, 1 / world().bodies[i].mass.mass_kg, inverseInertia(world().bodies[i], body),
+              body.centre};
+    } else if (node.inverse_mass != 0 || node.centre != body.centre) {
+      node = Node{};
+      node.centre = body.centre;
+    }
   }
   problem_.before = problem_.nodes;
-  for (Node& node : problem_.nodes) node.velocity += period_s * world().gravity_m_s2;
+  for (const std::size_t i : problem_.awake) problem_.nodes[i].velocity += period_s * world().gravity_m_s2;
   problem_.placed.place(world(), state);
 }
 
@@ -56,10 +69,11 @@ void BodyStepper::addHand(const HandNode& hand, GivenImpulses& given) {
 // Nothing moves farther in this step: twice the speed of the fastest, for one that is hit, and two that meet.
 double BodyStepper::margin() const {
   double fastest = 0;
-  for (std::size_t i = 0; i < problem_.nodes.size(); ++i) {
-    const double reach = i < problem_.bodies() ? problem_.reachOf(i) : 0;
-    fastest = std::max(fastest, problem_.nodes[i].velocity.norm() + problem_.nodes[i].spin.norm() * reach);
-  }
+  for (const std::size_t i : problem_.awake)
+    fastest =
+        std::max(fastest, problem_.nodes[i].velocity.norm() + problem_.nodes[i].spin.norm() * problem_.reachOf(i));
+  for (std::size_t hand = problem_.bodies(); hand < problem_.nodes.size(); ++hand)
+    fastest = std::max(fastest, problem_.nodes[hand].velocity.norm());
   return 4 * problem_.period_s * fastest + kTouching_m;
 }
 
@@ -114,7 +128,7 @@ void BodyStepper::book(EnergyBook& energy, std::span<const GivenImpulses> given)
       energy.by_hand_J += one.impulse_N_s.dot(now.velocityAt(arm) + was.velocityAt(arm)) / 2;
     }
   }
-  for (std::size_t i = 0; i < problem_.bodies(); ++i) {
+  for (const std::size_t i : problem_.awake) {
     const Vec3 mean_way = problem_.period_s / 2 * (problem_.before[i].velocity + problem_.nodes[i].velocity);
     energy.solver_J += world().bodies[i].mass.mass_kg * world().gravity_m_s2.dot(mean_way - plan_.wayOf(i));
   }
@@ -123,7 +137,7 @@ void BodyStepper::book(EnergyBook& energy, std::span<const GivenImpulses> given)
 // A body that stops short again and again is held in a way that the rows do not see: it loses velocity as it does way,
 // or gravity would make it faster from step to step while it stays.
 void BodyStepper::slowHeld(WorldState& state) {
-  for (std::size_t i = 0; i < problem_.bodies(); ++i) {
+  for (const std::size_t i : problem_.awake) {
     const double part = plan_.ways().parts[i];
     int& stopped_short = state.bodies[i].stopped_short;
     stopped_short = part < 1 ? stopped_short + 1 : 0;
@@ -140,7 +154,7 @@ void BodyStepper::slowHeld(WorldState& state) {
 
 // The angular momentum after the impulses stays; the turn is that of the spin before bounces.
 void BodyStepper::move(WorldState& state) const {
-  for (std::size_t i = 0; i < state.bodies.size(); ++i) {
+  for (const std::size_t i : problem_.awake) {
     const Body& body = world().bodies[i];
     const Node& node = problem_.nodes[i];
     BodyState& one = state.bodies[i];
@@ -153,19 +167,43 @@ void BodyStepper::move(WorldState& state) const {
   }
 }
 
-BodyStepReport BodyStepper::step(WorldState& state, double period_s, std::span<const HandNode> hands,
-                                 std::span<GivenImpulses> given) {
+// What is owed to a sleeping body wakes it, and so does a change of gravity.
+void BodyStepper::wakeForHands(WorldState& state, std::span<const HandNode> hands) const {
+  if (state.gravity_m_s2 != world().gravity_m_s2) wakeAll(state);
+  state.gravity_m_s2 = world().gravity_m_s2;
+  for (const HandNode& hand : hands) {
+    for (const BodyImpulse& owed : hand.owed) {
+      if (owed.impulse_N_s != Vec3::Zero()) wake(world(), state, owed.key);
+    }
+  }
+}
+
+// The impulses of a step. `margin_m`: how far anything may go in it.
+BodyStepReport BodyStepper::findImpulses(WorldState& state, double period_s, double& margin_m,
+                                         std::span<const HandNode> hands, std::span<GivenImpulses> given) {
   BodyStepReport report;
   begin(state, period_s);
+  state.memory.release();
   solver_.begin();
   for (std::size_t hand = 0; hand < hands.size(); ++hand) addHand(hands[hand], given[hand]);
-  const double margin_m = margin();
+  margin_m = margin();
   for (std::size_t hand = 0; hand < hands.size(); ++hand) hand_rows_.add(hands[hand], hand, margin_m, state.memory);
   problem_.meetings.find(world(), state, problem_.placed, margin_m);
   contacts_.addBearing(state.memory);
   for (Row& row : problem_.rows) prepareRow(row, problem_.nodes);
   solve(report);
   for (int round = 0; round < kRounds && contacts_.addPassed(state); ++round) solve(report);
+  return report;
+}
+
+// A step that would push what sleeps wakes it, and begins anew.
+BodyStepReport BodyStepper::step(WorldState& state, double period_s, std::span<const HandNode> hands,
+                                 std::span<GivenImpulses> given) {
+  double margin_m = 0;
+  wakeForHands(state, hands);
+  BodyStepReport report = findImpulses(state, period_s, margin_m, hands, given);
+  for (int time = 0; time < kRestarts && wakePushed(problem_, state); ++time)
+    report = findImpulses(state, period_s, margin_m, hands, given);
   plan_.make(state, margin_m, report.converged);
   bounce(report);
   tellHands(given);
@@ -173,9 +211,11 @@ BodyStepReport BodyStepper::step(WorldState& state, double period_s, std::span<c
   slowHeld(state);
   move(state);
   contacts_.remember(state.memory);
+  fallAsleep(problem_, islands_, state);
   ++state.steps;
   report.rows = static_cast<int>(problem_.rows.size());
   report.dropped = problem_.meetings.dropped();
+  report.awake = static_cast<int>(problem_.awake.size());
   for (const Row& row : problem_.rows) report.deepest = std::max(report.deepest, -row.gap);
   return report;
 }

@@ -16,6 +16,7 @@ namespace hl {
 
 struct BodyStepReport {
   int rows = 0;
+  int awake = 0;            ///< bodies that were stepped
   int sweeps = 0;           ///< of the longest solve
   bool converged = true;    ///< false: a solve ended at its limit of work
   std::size_t dropped = 0;  ///< contacts without room
@@ -37,6 +38,9 @@ class BodyStepper {
   std::span<const Row> rows() const { return problem_.rows; }
 
  private:
+  void wakeForHands(WorldState& state, std::span<const HandNode> hands) const;
+  BodyStepReport findImpulses(WorldState& state, double period_s, double& margin_m, std::span<const HandNode> hands,
+                              std::span<GivenImpulses> given);
   void begin(const WorldState& state, double period_s);
   void addHand(const HandNode& hand, GivenImpulses& given);
   double margin() const;
@@ -51,6 +55,7 @@ class BodyStepper {
   ContactRows contacts_{problem_};
   HandRows hand_rows_{problem_, contacts_};
   MotionPlan plan_{problem_};
+  Islands islands_{problem_.nodes.capacity(), 0};
   IslandSolver solver_{problem_.nodes.capacity(), problem_.rows.capacity()};
 };
 

@@ -30,6 +30,14 @@ struct RememberedContact {
 /// Sorted by pair.
 class ContactMemory {
  public:
+  ContactMemory() = default;
+  // A copy has the same room.
+  ContactMemory(const ContactMemory& other) { *this = other; }
+  ContactMemory& operator=(const ContactMemory& other) {
+    contacts_.reserve(other.contacts_.capacity());
+    contacts_ = other.contacts_;
+    return *this;
+  }
   void reserve(std::size_t contacts) { contacts_.reserve(contacts); }
   /// The one nearest to `place` within `near` (m) that is not taken; null: none. RT-safe.
   RememberedContact* find(const ContactPair& pair, const Vec3& place, double near) {
@@ -49,6 +57,25 @@ class ContactMemory {
   /// RT-safe within the reserved room; beyond it the contact is forgotten.
   void add(const RememberedContact& contact) {
     if (contacts_.size() < contacts_.capacity()) contacts_.push_back(contact);
+  }
+  auto begin() const { return contacts_.begin(); }
+  auto end() const { return contacts_.end(); }
+  /// No row of a step has begun from any of them. RT-safe.
+  void release() {
+    for (RememberedContact& contact : contacts_) contact.taken = false;
+  }
+  /// Those for which `belongs` is true go to `other`. RT-safe.
+  template <typename Belongs>
+  void moveTo(ContactMemory& other, Belongs belongs) {
+    std::size_t kept = 0;
+    for (const RememberedContact& contact : contacts_) {
+      if (belongs(contact))
+        other.add(contact);
+      else
+        contacts_[kept++] = contact;
+    }
+    contacts_.resize(kept);
+    other.sort();
   }
   /// After the last add(). Contacts of one pair keep their order. RT-safe.
   void sort() {

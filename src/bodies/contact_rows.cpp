@@ -145,7 +145,7 @@ void ContactRows::addOfMeeting(WorldState& state, Meeting& meeting) {
 
 bool ContactRows::addPassed(WorldState& state) {
   const std::size_t before = problem_.rows.size();
-  for (std::size_t i = 0; i < problem_.bodies(); ++i) {
+  for (const std::size_t i : problem_.awake) {
     plan_.ways[i] = problem_.period_s * problem_.nodes[i].velocity;
     plan_.turns[i] = problem_.nodes[i].spin;
   }

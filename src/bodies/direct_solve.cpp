@@ -65,12 +65,12 @@ Vec3 held(const Row& row, const Vec3& v) { return sticks(row) ? v : Vec3(row.nor
 
 }  // namespace
 
-void DirectSolve::number(std::span<const Row> rows) {
+void DirectSolve::number(std::span<const Row> rows, std::span<const Node> nodes) {
   for (const int node : numbers_) local_[static_cast<std::size_t>(node)] = -1;
   numbers_.clear();
   for (const Row& row : rows) {
     for (const int node : {row.a, row.b}) {
-      if (node == Row::kFixed || local_[static_cast<std::size_t>(node)] >= 0) continue;
+      if (moves(node) || node == Row::kFixed || nodes[static_cast<std::size_t>(node)].inverse_mass == 0) continue;
       local_[static_cast<std::size_t>(node)] = static_cast<int>(numbers_.size());
       numbers_.push_back(node);
     }
@@ -94,7 +94,7 @@ void DirectSolve::addRow(const Row& row) {
   bool transposed = false;
   const std::size_t a = localOf(row.a);
   matrix_.at(a, a, transposed) += blockOf(row, row.arm_a, row.arm_a);
-  if (row.b == Row::kFixed) return;
+  if (!moves(row.b)) return;
   const std::size_t b = localOf(row.b);
   matrix_.at(b, b, transposed) += blockOf(row, row.arm_b, row.arm_b);
   Block6& between = matrix_.at(a, b, transposed);
@@ -102,11 +102,11 @@ void DirectSolve::addRow(const Row& row) {
 }
 
 bool DirectSolve::assemble(std::span<const Row> rows, std::span<const Node> nodes) {
-  number(rows);
+  number(rows, nodes);
   if (numbers_.size() > BlockCholesky::kMostRows) return false;
   matrix_.begin(numbers_.size());
   for (const Row& row : rows) {
-    if (row.pressed > 0 && row.b != Row::kFixed) matrix_.couple(localOf(row.a), localOf(row.b));
+    if (row.pressed > 0 && moves(row.b)) matrix_.couple(localOf(row.a), localOf(row.b));
   }
   if (!matrix_.order()) return false;
   addMasses(nodes);
@@ -119,7 +119,7 @@ void DirectSolve::push(const Row& row, const Vec3& impulse) {
   Vec6& a = matrix_.right(localOf(row.a));
   a.head<3>() += impulse;
   a.tail<3>() += row.arm_a.cross(impulse);
-  if (row.b == Row::kFixed) return;
+  if (!moves(row.b)) return;
   Vec6& b = matrix_.right(localOf(row.b));
   b.head<3>() -= impulse;
   b.tail<3>() -= row.arm_b.cross(impulse);
@@ -129,7 +129,7 @@ void DirectSolve::push(const Row& row, const Vec3& impulse) {
 Vec3 DirectSolve::moved(const Row& row) {
   const Vec6& a = matrix_.right(localOf(row.a));
   Vec3 velocity = a.head<3>() + a.tail<3>().cross(row.arm_a);
-  if (row.b == Row::kFixed) return velocity;
+  if (!moves(row.b)) return velocity;
   const Vec6& b = matrix_.right(localOf(row.b));
   return velocity - b.head<3>() - b.tail<3>().cross(row.arm_b);
 }

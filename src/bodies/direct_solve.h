@@ -27,12 +27,13 @@ class DirectSolve {
 
  private:
   bool assemble(std::span<const Row> rows, std::span<const Node> nodes);
-  void number(std::span<const Row> rows);
+  void number(std::span<const Row> rows, std::span<const Node> nodes);
   void addMasses(std::span<const Node> nodes);
   void addRow(const Row& row);
   void improve(std::span<Row> rows, std::span<Node> nodes, double period_s);
   void push(const Row& row, const Vec3& impulse);
   Vec3 moved(const Row& row);
+  bool moves(int node) const { return node != Row::kFixed && local_[static_cast<std::size_t>(node)] >= 0; }
   std::size_t localOf(int node) const { return static_cast<std::size_t>(local_[static_cast<std::size_t>(node)]); }
 
   std::vector<int> local_;    // of each node: its row in the matrix, or -1

@@ -11,6 +11,11 @@ Meetings::Meetings(const World& world) : along_x_(world.bodies.size()) {
   meetings_.reserve(kContactsPerBody * world.bodies.size());
   near_.reserve(4 * kContactsPerBody);
   std::iota(along_x_.begin(), along_x_.end(), 0u);
+  for (const Body& body : world.bodies) {
+    reach_.push_back(body.shape.reach);
+    widest_ = std::max(widest_, body.shape.reach);
+  }
+  low_x_.resize(world.bodies.size());
   if (world.fixed) scene_.emplace(*world.fixed, 0, recent_);
 }
 
@@ -18,7 +23,7 @@ void Meetings::find(const World& world, const WorldState& state, const PlacedBod
   meetings_.clear();
   dropped_ = 0;
   if (scene_) withScene(state, world, placed, margin);
-  withBodies(state, world, placed, margin);
+  withBodies(state, placed, margin);
 }
 
 void Meetings::add(const Meeting& meeting) {
@@ -31,8 +36,9 @@ void Meetings::add(const Meeting& meeting) {
 void Meetings::withScene(const WorldState& state, const World& world, const PlacedBodies& placed, double margin) {
   PlacedRoom room;
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+    if (state.bodies[i].island != 0) continue;
     near_.clear();
-    const double reach = world.bodies[i].shape.reach + margin;
+    const double reach = reach_[i] + margin;
     scene_->primitivesWithin(state.bodies[i].centre, reach, [&](PrimitiveId id, const ClosestPoint&) {
       if (near_.size() < near_.capacity())
         near_.push_back(id);
@@ -49,24 +55,34 @@ void Meetings::withScene(const WorldState& state, const World& world, const Plac
   }
 }
 
-// Sorted by their lowest x, each meets those that begin before it ends. The order of the step before is nearly right,
-// so that sorting by insertion costs one pass.
-void Meetings::withBodies(const WorldState& state, const World& world, const PlacedBodies& placed, double margin) {
-  const auto low = [&](std::uint32_t i) { return state.bodies[i].centre.x() - world.bodies[i].shape.reach; };
+// What sleeps is the second of a pair.
+void Meetings::meet(const WorldState& state, const PlacedBodies& placed, double margin, std::uint32_t one,
+                    std::uint32_t other) {
+  const double reach = reach_[one] + reach_[other] + margin;
+  if ((state.bodies[one].centre - state.bodies[other].centre).squaredNorm() > reach * reach) return;
+  const bool in_order = state.bodies[other].island != 0 || one < other;
+  const std::uint32_t a = in_order ? one : other, b = in_order ? other : one;
+  Meeting meeting{static_cast<int>(a), static_cast<int>(b), {}, {}, 0};
+  if (findManifold(placed[a], placed[b], margin, meeting.manifold)) add(meeting);
+}
+
+// Sorted by their lowest x, each that is awake meets those that begin before it ends, and of those before it the
+// sleeping ones. The order of the step before is nearly right, so that sorting by insertion costs one pass.
+void Meetings::withBodies(const WorldState& state, const PlacedBodies& placed, double margin) {
+  for (std::size_t i = 0; i < low_x_.size(); ++i) low_x_[i] = state.bodies[i].centre.x() - reach_[i];
   for (std::size_t i = 1; i < along_x_.size(); ++i) {
-    for (std::size_t j = i; j > 0 && low(along_x_[j]) < low(along_x_[j - 1]); --j)
+    for (std::size_t j = i; j > 0 && low_x_[along_x_[j]] < low_x_[along_x_[j - 1]]; --j)
       std::swap(along_x_[j], along_x_[j - 1]);
   }
   const std::size_t first = meetings_.size();
   for (std::size_t i = 0; i < along_x_.size(); ++i) {
     const std::uint32_t one = along_x_[i];
-    const double end = state.bodies[one].centre.x() + world.bodies[one].shape.reach + margin;
-    for (std::size_t j = i + 1; j < along_x_.size() && low(along_x_[j]) <= end; ++j) {
-      const std::uint32_t a = std::min(one, along_x_[j]), b = std::max(one, along_x_[j]);
-      const double reach = world.bodies[a].shape.reach + world.bodies[b].shape.reach + margin;
-      if ((state.bodies[a].centre - state.bodies[b].centre).squaredNorm() > reach * reach) continue;
-      Meeting meeting{static_cast<int>(a), static_cast<int>(b), {}, {}, 0};
-      if (findManifold(placed[a], placed[b], margin, meeting.manifold)) add(meeting);
+    if (state.bodies[one].island != 0) continue;
+    const double begin = low_x_[one] - 2 * widest_ - margin, end = low_x_[one] + 2 * reach_[one] + margin;
+    for (std::size_t j = i + 1; j < along_x_.size() && low_x_[along_x_[j]] <= end; ++j)
+      meet(state, placed, margin, one, along_x_[j]);
+    for (std::size_t j = i; j > 0 && low_x_[along_x_[j - 1]] >= begin; --j) {
+      if (state.bodies[along_x_[j - 1]].island != 0) meet(state, placed, margin, one, along_x_[j - 1]);
     }
   }
   std::sort(meetings_.begin() + static_cast<std::ptrdiff_t>(first), meetings_.end(),

@@ -31,12 +31,16 @@ class Meetings {
 
  private:
   void withScene(const WorldState& state, const World& world, const PlacedBodies& placed, double margin);
-  void withBodies(const WorldState& state, const World& world, const PlacedBodies& placed, double margin);
+  void withBodies(const WorldState& state, const PlacedBodies& placed, double margin);
   void add(const Meeting& meeting);
 
   std::vector<Meeting> meetings_;
   std::vector<PrimitiveId> near_;
+  void meet(const WorldState& state, const PlacedBodies& placed, double margin, std::uint32_t one, std::uint32_t other);
+
   std::vector<std::uint32_t> along_x_;
+  std::vector<double> reach_, low_x_;  // m
+  double widest_ = 0;                  // m, greatest reach
   ManyRecentPrimitives recent_;
   std::optional<SceneAt> scene_;
   std::size_t dropped_ = 0;

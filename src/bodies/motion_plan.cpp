@@ -46,7 +46,7 @@ void MotionPlan::make(const WorldState& state, double margin, bool converged) {
 // Without contact the path of a fall is a parabola: half of what gravity adds to the velocity has not acted on the way.
 void MotionPlan::goWithVelocities() {
   const double period_s = problem_.period_s;
-  for (std::size_t i = 0; i < problem_.bodies(); ++i) {
+  for (const std::size_t i : problem_.awake) {
     plan_.ways[i] = period_s * problem_.nodes[i].velocity - period_s * period_s / 2 * problem_.world->gravity_m_s2;
     plan_.turns[i] = problem_.nodes[i].spin;
     plan_.parts[i] = 1;
@@ -75,14 +75,14 @@ void MotionPlan::pushApart() {
   for (Node& node : apart_) node.velocity = node.spin = Vec3::Zero();
   for (Row& row : overlaps_) prepareRow(row, apart_);
   solveRows(overlaps_, apart_, problem_.period_s, limitsFor(overlaps_.size()));
-  for (std::size_t i = 0; i < problem_.bodies(); ++i) {
+  for (const std::size_t i : problem_.awake) {
     plan_.ways[i] += problem_.period_s * apart_[i].velocity;
     plan_.turns[i] += apart_[i].spin;
   }
 }
 
 void MotionPlan::limit(double margin) {
-  for (std::size_t i = 0; i < problem_.bodies(); ++i) {
+  for (const std::size_t i : problem_.awake) {
     const double way = plan_.ways[i].norm() + problem_.period_s * plan_.turns[i].norm() * problem_.reachOf(i);
     if (way > margin / 2) plan_.parts[i] = margin / 2 / way;
   }

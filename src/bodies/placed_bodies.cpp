@@ -1,5 +1,7 @@
 #include "bodies/placed_bodies.h"
 
+#include <cmath>
+
 namespace hl {
 
 namespace {
@@ -51,6 +53,9 @@ PlacedConvex placed(const Primitive& primitive, const Pose& pose, PlacedRoom& ro
 PlacedBodies::PlacedBodies(const World& world) : placed_(world.bodies.size()) {
   std::size_t vertices = 0, normals = 0;
   for (const Body& body : world.bodies) {
+    first_vertex_.push_back(vertices);
+    first_normal_.push_back(normals);
+    poses_.emplace_back(Vec3::Constant(NAN), Eigen::Quaterniond::Identity());
     vertices += body.shape.vertices.size();
     normals += body.shape.faces.size();
   }
@@ -58,14 +63,16 @@ PlacedBodies::PlacedBodies(const World& world) : placed_(world.bodies.size()) {
   normals_.resize(normals);
 }
 
+// What has not moved since the last step, as what sleeps, stays as it is.
 void PlacedBodies::place(const World& world, const WorldState& state) {
-  std::size_t vertex = 0, normal = 0;
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
-    const Convex& shape = world.bodies[i].shape;
-    placed_[i] = placed(world.bodies[i], state.bodies[i], std::span(vertices_).subspan(vertex),
-                        std::span(normals_).subspan(normal));
-    vertex += shape.vertices.size();
-    normal += shape.faces.size();
+    const BodyState& body = state.bodies[i];
+    auto& [centre, turned] = poses_[i];
+    if (centre == body.centre && turned.coeffs() == body.turned.coeffs()) continue;
+    centre = body.centre;
+    turned = body.turned;
+    placed_[i] = placed(world.bodies[i], body, std::span(vertices_).subspan(first_vertex_[i]),
+                        std::span(normals_).subspan(first_normal_[i]));
   }
 }
 

@@ -24,6 +24,8 @@ class PlacedBodies {
 
  private:
   std::vector<Vec3> vertices_, normals_;
+  std::vector<std::size_t> first_vertex_, first_normal_;
+  std::vector<std::pair<Vec3, Eigen::Quaterniond>> poses_;  // at which each is placed
   std::vector<PlacedConvex> placed_;
 };
 

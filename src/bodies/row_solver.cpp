@@ -52,7 +52,8 @@ inline void push(const Row& row, std::span<Node> nodes, const Vec3& impulse) {
 // Returns the change of the row's impulse.
 Vec3 solveRow(Row& row, std::span<Node> nodes, double period_s) {
   Vec3 velocity = velocityOf(row, nodes);
-  const double pressed = std::max(0.0, row.pressed + row.normal_step * (demand(row, period_s) - row.normal.dot(velocity)));
+  const double pressed =
+      std::max(0.0, row.pressed + row.normal_step * (demand(row, period_s) - row.normal.dot(velocity)));
   Vec3 change = (pressed - row.pressed) * row.normal;
   velocity += (pressed - row.pressed) * row.response;
   row.pressed = pressed;

@@ -59,12 +59,16 @@ struct BodyState {
   Vec3 velocity = Vec3::Zero();  ///< m/s, of the centre
   Vec3 spin = Vec3::Zero();      ///< rad/s
   int stopped_short = 0;         ///< consecutive steps that went a part of their way only (motion_plan.h)
+  double still_s = 0;            ///< how long it has been slow, and no hand has touched it (sleep.h)
+  std::uint64_t island = 0;      ///< asleep: lowest key of those that sleep with it; 0: awake
 };
 
 /// Plain values but for the lists, whose room is made by startWorld().
 struct WorldState {
   std::vector<BodyState> bodies;  ///< as World::bodies
   ContactMemory memory;
+  ContactMemory asleep;              ///< contacts of what sleeps
+  Vec3 gravity_m_s2 = Vec3::Zero();  ///< of the last step: what sleeps wakes if it changes
   EnergyBook energy{};
   std::uint64_t steps = 0;
 };
@@ -76,7 +80,10 @@ Pose poseOf(const Body& body, const BodyState& state);
 /// Inverse of the inertia about the centre of mass, world frame, 1/(kg m^2). RT-safe.
 Mat3 inverseInertia(const Body& body, const BodyState& state);
 Mat3 inertiaOf(const Body& body, const BodyState& state);
+/// Of all bits that decide what happens next: poses, velocities, counters, contacts.
+std::uint64_t hashOf(const WorldState& state);
 /// Joules. RT-safe.
+double kineticEnergy_J(const Body& body, const BodyState& state);
 double kineticEnergy_J(const World& world, const WorldState& state);
 double gravityEnergy_J(const World& world, const WorldState& state);
 

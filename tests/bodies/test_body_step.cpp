@@ -31,13 +31,14 @@ TEST(BodyStep, ABlockOnTheFloorStaysWhereItIs) {
   world.fixed = floorScene();
   world.bodies = {block(1, 0.1, Vec3::Constant(0.02), 0.5)};
   Playground play(std::move(world), {placeAt(Vec3(0.1, 0.02, 0.03))});
-  play.steps(2000);
-  const BodyState& body = play.state.bodies[0];
-  EXPECT_LT((body.centre - Vec3(0.1, 0.02, 0.03)).norm(), 1e-9);
-  EXPECT_LT(body.velocity.norm() + body.spin.norm(), 1e-9);
+  play.steps(400);
   double pressed = 0;
   for (const Row& row : play.stepper.rows()) pressed += row.pressed;
   EXPECT_NEAR(pressed / kStep_s, 0.1 * kGravity, 1e-9);
+  play.steps(1600);
+  const BodyState& body = play.state.bodies[0];
+  EXPECT_LT((body.centre - Vec3(0.1, 0.02, 0.03)).norm(), 1e-9);
+  EXPECT_LT(body.velocity.norm() + body.spin.norm(), 1e-9);
 }
 
 TEST(BodyStep, R5TwoBallsThatCollideWithRestitutionHalf) {

@@ -1,0 +1,117 @@
+#include "bodies/sleep.h"
+
+#include <algorithm>
+
+namespace hl {
+
+namespace {
+
+// Rounding of the sum of many periods.
+constexpr double kPeriods_s = 1e-9;
+
+void setIsland(const World& world, WorldState& state, std::uint64_t from, std::uint64_t to, ContactMemory& old_place,
+               ContactMemory& new_place) {
+  old_place.moveTo(new_place, [&](const RememberedContact& contact) {
+    const Body* const body = world.find(contact.pair.a);
+    return body != nullptr && state.bodies[static_cast<std::size_t>(body - world.bodies.data())].island == from;
+  });
+  for (BodyState& body : state.bodies) {
+    if (body.island == from) body.island = to;
+  }
+}
+
+void wakeIsland(const World& world, WorldState& state, std::uint64_t island) {
+  for (BodyState& body : state.bodies) {
+    if (body.island == island) body.still_s = 0;
+  }
+  setIsland(world, state, island, 0, state.asleep, state.memory);
+}
+
+double speedOf(const BodyState& body, double reach) { return body.velocity.norm() + body.spin.norm() * reach; }
+
+void stop(const Body& body, BodyState& state, EnergyBook& energy) {
+  energy.contact_J += kineticEnergy_J(body, state);
+  state.velocity.setZero();
+  state.spin.setZero();
+  state.stopped_short = 0;
+}
+
+// True: some island may fall asleep.
+bool countStill(const BodyProblem& problem, WorldState& state) {
+  for (const std::size_t i : problem.awake) {
+    BodyState& body = state.bodies[i];
+    body.still_s = speedOf(body, problem.reachOf(i)) < kStill_m_s ? body.still_s + problem.period_s : 0;
+  }
+  for (const Row& row : problem.rows) {
+    const bool of_hand = static_cast<std::size_t>(row.a) >= problem.bodies();
+    if (of_hand && row.b != Row::kFixed && row.pressed > 0) state.bodies[static_cast<std::size_t>(row.b)].still_s = 0;
+  }
+  return std::any_of(problem.awake.begin(), problem.awake.end(),
+                     [&](std::size_t i) { return state.bodies[i].still_s >= kFallsAsleep_s - kPeriods_s; });
+}
+
+}  // namespace
+
+void wake(const World& world, WorldState& state, std::uint64_t key) {
+  const Body* const body = world.find(key);
+  if (body == nullptr) return;
+  const std::uint64_t island = state.bodies[static_cast<std::size_t>(body - world.bodies.data())].island;
+  if (island != 0) wakeIsland(world, state, island);
+}
+
+void wakeAll(WorldState& state) {
+  for (BodyState& body : state.bodies) {
+    if (body.island != 0) body.still_s = 0;
+    body.island = 0;
+  }
+  state.asleep.moveTo(state.memory, [](const RememberedContact&) { return true; });
+}
+
+WorldState withoutBody(const World& world, const WorldState& state, std::uint64_t key) {
+  WorldState left = state;
+  const Body* const body = world.find(key);
+  if (body == nullptr) return left;
+  wake(world, left, key);
+  left.bodies.erase(left.bodies.begin() + (body - world.bodies.data()));
+  return left;
+}
+
+bool wakePushed(const BodyProblem& problem, WorldState& state) {
+  bool any = false;
+  for (const Row& row : problem.rows) {
+    if (row.b == Row::kFixed || !(row.pressed > 0)) continue;
+    const auto b = static_cast<std::size_t>(row.b);
+    if (b >= problem.bodies() || state.bodies[b].island == 0) continue;
+    wakeIsland(*problem.world, state, state.bodies[b].island);
+    any = true;
+  }
+  return any;
+}
+
+// An island sleeps when all of it has been still for long enough: the first of its bodies, whose key is the lowest,
+// gives it its name.
+void fallAsleep(const BodyProblem& problem, Islands& islands, WorldState& state) {
+  if (!countStill(problem, state)) return;
+  islands.begin(problem.nodes.size());
+  for (const Row& row : problem.rows) {
+    if (row.b != Row::kFixed && row.pressed > 0) islands.join(row.a, row.b);
+  }
+  const World& world = *problem.world;
+  for (const std::size_t first : problem.awake) {
+    if (islands.of(static_cast<int>(first)) != static_cast<int>(first)) continue;
+    const auto belongs = [&](std::size_t i) { return islands.of(static_cast<int>(i)) == static_cast<int>(first); };
+    const bool still = std::all_of(problem.awake.begin(), problem.awake.end(), [&](std::size_t i) {
+      return !belongs(i) || state.bodies[i].still_s >= kFallsAsleep_s - kPeriods_s;
+    });
+    if (!still) continue;
+    for (const std::size_t i : problem.awake) {
+      if (!belongs(i)) continue;
+      stop(world.bodies[i], state.bodies[i], state.energy);
+      state.bodies[i].island = world.bodies[first].key;
+    }
+    const std::uint64_t name = world.bodies[first].key;
+    setIsland(world, state, name, name, state.memory, state.asleep);
+  }
+}
+
+}  // namespace hl
