@@ -10,12 +10,12 @@ namespace hl {
 
 namespace {
 
-// m/s; slower impacts do not bounce, so that what rests comes to rest.
-constexpr double kBounces_m_s = 0.02;
 // How often rows are added for what the motion found would pass. What is left stops short (motion_plan.h).
 constexpr int kRounds = 8;
 // How often a step may wake islands and begin anew; one that is hit after that is hard as a wall for this step.
 constexpr int kRestarts = 4;
+// How often bounces are halved that would add energy; the last time there is none.
+constexpr int kWeakerTimes = 4;
 
 }  // namespace
 
@@ -84,13 +84,10 @@ void BodyStepper::solve(BodyStepReport& report) {
 }
 
 void BodyStepper::bounce(BodyStepReport& report) {
-  bool any = false;
-  for (Row& row : problem_.rows) {
-    if (!(row.pressed > 0) || row.restitution == 0 || row.approach > -kBounces_m_s) continue;
-    row.least_velocity = -row.restitution * row.approach;
-    any = true;
-  }
-  if (any) solve(report);
+  if (!impacts_.find(problem_.rows)) return;
+  solve(report);
+  for (int time = 1; time <= kWeakerTimes && impacts_.weaken(problem_.rows, time == kWeakerTimes); ++time)
+    solve(report);
 }
 
 // What bears the hand and does not move is told as one, with key 0.
@@ -186,6 +183,7 @@ BodyStepReport BodyStepper::findImpulses(WorldState& state, double period_s, dou
   state.memory.release();
   solver_.begin();
   for (std::size_t hand = 0; hand < hands.size(); ++hand) addHand(hands[hand], given[hand]);
+  impacts_.begin();
   margin_m = margin();
   for (std::size_t hand = 0; hand < hands.size(); ++hand) hand_rows_.add(hands[hand], hand, margin_m, state.memory);
   problem_.meetings.find(world(), state, problem_.placed, margin_m);

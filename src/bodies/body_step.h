@@ -9,6 +9,7 @@
 
 #include "bodies/contact_rows.h"
 #include "bodies/hand_rows.h"
+#include "bodies/impacts.h"
 #include "bodies/island_solver.h"
 #include "bodies/motion_plan.h"
 
@@ -55,6 +56,7 @@ class BodyStepper {
   ContactRows contacts_{problem_};
   HandRows hand_rows_{problem_, contacts_};
   MotionPlan plan_{problem_};
+  Impacts impacts_{problem_};
   Islands islands_{problem_.nodes.capacity(), 0};
   IslandSolver solver_{problem_.nodes.capacity(), problem_.rows.capacity()};
 };

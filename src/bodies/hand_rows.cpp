@@ -11,7 +11,7 @@ namespace {
 
 // rad: near contacts with nearly the normal of another row of the hand are not looked at.
 constexpr double kSameNormal = 0.1;
-// Of the scene, no more than these.
+// Of the scene, no more than these: the nearest.
 constexpr std::size_t kMostNear = 16;
 
 }  // namespace
@@ -65,13 +65,21 @@ void HandRows::addNearBodies(const HandNode& hand, int node, std::uint64_t name,
 
 void HandRows::addNearScene(const HandNode& hand, int node, std::uint64_t name, double margin, ContactMemory& memory) {
   const SceneAt& scene = *problem_.meetings.scene();
-  FixedVector<ClosestPoint, kMostNear> near;
-  scene.primitivesWithin(hand.proxy, hand.radius_m + margin,
-                         [&](PrimitiveId, const ClosestPoint& point) { near.push(point); });
-  std::sort(near.begin(), near.end(), [](const ClosestPoint& x, const ClosestPoint& y) {
+  const auto nearer = [](const ClosestPoint& x, const ClosestPoint& y) {
     return std::tuple(x.distance, x.normal.x(), x.normal.y(), x.normal.z()) <
            std::tuple(y.distance, y.normal.x(), y.normal.y(), y.normal.z());
+  };
+  FixedVector<ClosestPoint, kMostNear> near;  // a heap: the farthest first
+  scene.primitivesWithin(hand.proxy, hand.radius_m + margin, [&](PrimitiveId, const ClosestPoint& point) {
+    if (near.size() == kMostNear) {
+      if (!nearer(point, near[0])) return;
+      std::pop_heap(near.begin(), near.end(), nearer);
+      near.resize(kMostNear - 1);
+    }
+    near.push(point);
+    std::push_heap(near.begin(), near.end(), nearer);
   });
+  std::sort(near.begin(), near.end(), nearer);
   for (const ClosestPoint& point : near) {
     Row row;
     row.pair = {name, 0};

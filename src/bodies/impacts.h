@@ -1,0 +1,35 @@
+// Impacts: how fast what bounced goes apart. The impacts of a step follow one another, each with Newton's restitution,
+// until nothing approaches: so in a row of balls the last one leaves. No such impact adds kinetic energy. With friction
+// the solve that follows may: then the bounces of that island are made weaker.
+#pragma once
+
+#include <vector>
+
+#include "bodies/body_problem.h"
+#include "bodies/islands.h"
+
+namespace hl {
+
+/// By one thread at a time.
+class Impacts {
+ public:
+  explicit Impacts(const BodyProblem& problem);
+
+  /// Keeps the velocities before the impulses of the step. RT-safe.
+  void begin() { free_ = problem_.nodes; }
+  /// Sets what velocity apart the rows of bodies demand. False: nothing bounces. RT-safe.
+  bool find(std::vector<Row>& rows);
+  /// After a solve: halves what rows demand in islands that have more kinetic energy than before the step's impulses;
+  /// `last`: takes all of it. False: there are none. RT-safe.
+  bool weaken(std::vector<Row>& rows, bool last);
+
+ private:
+  double kineticOf(const Node& node, std::size_t number) const;
+
+  const BodyProblem& problem_;
+  std::vector<Node> free_, after_;
+  std::vector<double> gained_J_;  // by island
+  Islands islands_;
+};
+
+}  // namespace hl
