@@ -11,7 +11,7 @@ constexpr int kFewSweeps = 6, kLastSweeps = 20;
 constexpr int kDirectSolves = 3;
 // Of single rows in a step, all sweeps of all solves; an island whose turn comes later has kFewSweeps. Small islands
 // may take longer: one hand that presses a body against a wall is solved to the last digits.
-constexpr int kMostUpdates = 5'000;
+constexpr int kMostUpdates = 20'000;
 constexpr int kSmallUpdates = 4'000;
 
 }  // namespace
@@ -23,7 +23,7 @@ bool IslandSolver::solveOne(std::span<Row> rows, std::span<Node> nodes, double p
   RowSolverLimits limits;
   bool converged = false;
   for (int time = 0; !converged; ++time) {
-    const bool last = time == kDirectSolves || updates_left_ <= 0;
+    const bool last = time == kDirectSolves || (time > 0 && updates_left_ <= 0);
     limits.sweeps = updates_left_ <= 0 ? kFewSweeps : last ? std::max(kLastSweeps, kSmallUpdates / count) : kFewSweeps;
     const int made = solveRows(rows, nodes, period_s, limits);
     sweeps += made;
