@@ -35,7 +35,7 @@ Row ContactRows::rowOf(const Meeting& meeting, std::size_t number) const {
   const Body& body = problem_.world->bodies[static_cast<std::size_t>(meeting.a)];
   const bool fixed = meeting.b == Row::kFixed;
   const BodySurface surface =
-      between(body.surface, fixed ? problem_.world->fixed_surface
+      between(body.surface, fixed ? problem_.world->surfaceOfFixed(meeting.primitive.instance, body.surface)
                                   : problem_.world->bodies[static_cast<std::size_t>(meeting.b)].surface);
   const ManifoldPoint& point = meeting.manifold.points[number];
   Row row;

@@ -138,6 +138,37 @@ SurfaceChange SceneDecoder::surface(const proto::Material& in, const std::string
   return change;
 }
 
+BodySpec SceneDecoder::body(const proto::Body& in, const std::string& where) const {
+  constexpr double kMostMass_kg = 1e9, kLeastMass_kg = 1e-9, kMostDensity_kg_m3 = 1e6, kMostFriction = 1e3;
+  constexpr double kMostSpeed_m_s = 100, kMostSpin_rad_s = 1000;
+  BodySpec spec;
+  spec.fixed = in.fixed();
+  if (in.has_mass_kg()) spec.mass_kg = checked(in.mass_kg(), kLeastMass_kg, kMostMass_kg, where + ".massKg");
+  if (in.has_density_kg_m3())
+    spec.density_kg_m3 =
+        checked(in.density_kg_m3(), 1 / kMostDensity_kg_m3, kMostDensity_kg_m3, where + ".densityKgM3");
+  if (!proto::BodyShape_IsValid(in.shape())) fail(where + ".shape", where + ".shape is none that HL knows");
+  spec.shape = static_cast<BodyShape>(in.shape());
+  BodySurface& surface = spec.surface;
+  if (in.has_static_friction())
+    surface.static_friction = checked(in.static_friction(), 0, kMostFriction, where + ".staticFriction");
+  if (in.has_dynamic_friction())
+    surface.dynamic_friction = checked(in.dynamic_friction(), 0, kMostFriction, where + ".dynamicFriction");
+  if (!in.has_static_friction() && in.has_dynamic_friction()) surface.static_friction = surface.dynamic_friction;
+  if (!in.has_dynamic_friction() && in.has_static_friction()) surface.dynamic_friction = surface.static_friction;
+  if (surface.static_friction < surface.dynamic_friction)
+    fail(where + ".staticFriction", where + ".staticFriction must not be less than dynamicFriction");
+  if (in.has_restitution()) surface.restitution = checked(in.restitution(), 0, 1, where + ".restitution");
+  spec.velocity_m_s = checked(in.velocity_m_s(), kMostSpeed_m_s, where + ".velocityMS");
+  spec.spin_rad_s = checked(in.spin_rad_s(), kMostSpin_rad_s, where + ".spinRadS");
+  return spec;
+}
+
+Vec3 SceneDecoder::checked(const proto::Vec3& value, double most, const std::string& where) const {
+  return {checked(value.x(), -most, most, where + ".x"), checked(value.y(), -most, most, where + ".y"),
+          checked(value.z(), -most, most, where + ".z")};
+}
+
 void SceneDecoder::setReading(const proto::TextureImage& in, Texture& texture, const std::string& where) const {
   if (in.name().empty()) fail(where, where + ": a texture needs a name");
   if (!proto::Wrap_IsValid(in.wrap())) fail(where + ".wrap", where + ".wrap must be REPEAT or CLAMP");

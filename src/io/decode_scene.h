@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 
+#include "scene/body_spec.h"
 #include "scene/model.h"
 #include "scene/surface_change.h"
 
@@ -24,12 +25,15 @@ class SceneDecoder {
   SurfaceChange surface(const proto::Material& in, const std::string& where) const;
   /// Procedural textures and texels of at most `most_texels`; a file is refused.
   Texture texture(const proto::TextureImage& in, std::size_t most_texels, const std::string& where) const;
+  BodySpec body(const proto::Body& in, const std::string& where) const;
   /// Sets how a texture is read, as the message says.
   void setReading(const proto::TextureImage& in, Texture& texture, const std::string& where) const;
 
   [[noreturn]] void fail(const std::string& where, const std::string& message) const;
   /// `value`, when it is in least..most; NaN never is.
   double checked(double value, double least, double most, const std::string& where) const;
+  /// The same for each coordinate.
+  Vec3 checked(const proto::Vec3& value, double most, const std::string& where) const;
 
  private:
   NamedTextureUse textureUse(const proto::MaterialTexture& in, const std::string& where) const;

@@ -8,7 +8,7 @@
 
 namespace hl {
 
-Model loadScene(const std::string& spec, const LoadOptions& options) {
+SceneModel loadScene(const std::string& spec, const LoadOptions& options) {
   if (isSceneFile(spec)) return loadSceneFile(spec, options);
   if (isBuiltinScene(spec)) return makeBuiltinScene(spec);
   const bool looks_like_a_file = spec.find_first_of("./") != std::string::npos || std::filesystem::exists(spec);

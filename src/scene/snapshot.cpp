@@ -24,6 +24,10 @@ Box reachOf(const Instance& instance) {
   return instance.poses().reach(object);
 }
 
+Pose finalPose(const Instance& instance) {
+  return instance.movesAsBody() ? instance.body->poses->shown() : instance.poses().to();
+}
+
 double largestCoordinate(const Box& box) {
   return box.empty() ? 0 : box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff();
 }
@@ -69,13 +73,14 @@ std::size_t memoryOf(const Snapshot& snapshot) {
 }
 
 std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, std::string name, std::uint64_t number,
-                                             std::int64_t blend_ns) {
+                                             std::int64_t blend_ns, const Mechanics& mechanics) {
   static std::atomic<std::uint64_t> made{0};
   auto snapshot = std::make_shared<Snapshot>();
   snapshot->identity = ++made;
   snapshot->name = std::move(name);
   snapshot->number = number;
   snapshot->blend_ns = blend_ns;
+  snapshot->mechanics = mechanics;
   snapshot->instances = byKey(std::move(instances));
   for (Instance& instance : snapshot->instances) {
     instance.plain = allDefault(instance.surfaces->materials);
@@ -84,7 +89,7 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, st
       snapshot->deforms_until_ns = std::max(snapshot->deforms_until_ns, instance.mesh_motion->end_ns());
     }
     snapshot->reach.push_back(reachOf(instance));
-    const Box rest = boxAt(instance.shape->bounds, instance.poses().to());
+    const Box rest = boxAt(instance.shape->bounds, finalPose(instance));
     if (!rest.empty()) {
       snapshot->bounds.extend(rest.min);
       snapshot->bounds.extend(rest.max);

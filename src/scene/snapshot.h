@@ -9,8 +9,10 @@
 
 #include "geometry/box_tree.h"
 #include "scene/material.h"
+#include "scene/mechanics.h"
 #include "scene/mesh_motion.h"
 #include "scene/motion.h"
+#include "scene/rigid_body.h"
 #include "scene/shape.h"
 #include "scene/texture.h"
 
@@ -35,9 +37,15 @@ struct Instance {
 
   /// Moves the instance in place of its client; null: none.
   std::shared_ptr<const PoseSource> driver{};
+  std::shared_ptr<const RigidBody> body{};  ///< null: it has no mass. Its poses are the driver, unless it is fixed
 
-  /// Poses of the instance over time.
+  /// Poses of the instance over time. Of a body that moves: for the loop that ticks alone.
   const PoseSource& poses() const { return driver ? *driver : static_cast<const PoseSource&>(motion); }
+  bool movesAsBody() const { return body && body->poses; }
+  /// Whether it is a body that is not in `region` now, though it may be at another time. As poses().
+  bool elsewhere(const Box& region) const { return movesAsBody() && !body->poses->near().meets(region); }
+  /// Where to draw it. Any thread.
+  Pose shownAt(std::int64_t time_ns) const { return movesAsBody() ? body->poses->shown() : poses().at(time_ns); }
   /// Whether it is at rest with its object frame equal to the world frame.
   bool atWorld() const { return !driver && motion.identity(); }
   /// The transition of the mesh at this time, or null if the mesh is `shape`.
@@ -71,6 +79,7 @@ struct Snapshot {
   std::uint64_t identity = 0;  ///< unique among all snapshots of the process
   std::int64_t blend_ns = 0;   ///< of the force transition, if objects changed abruptly since the last one
   std::size_t primitives = 0;  ///< total over all instances
+  Mechanics mechanics;         ///< of the instances that are bodies
   std::string name;
   std::vector<std::string> warnings;
 
@@ -85,7 +94,8 @@ std::size_t memoryOf(const Snapshot& snapshot);
 
 /// Allocates; never called by a real-time thread.
 std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, std::string name = {},
-                                             std::uint64_t number = 1, std::int64_t blend_ns = kAbruptBlend_ns);
+                                             std::uint64_t number = 1, std::int64_t blend_ns = kAbruptBlend_ns,
+                                             const Mechanics& mechanics = {});
 /// A scene of one model at its own coordinates: world and object frame are the same.
 std::shared_ptr<const Snapshot> makeSnapshot(Model model, HierarchyKind hierarchy = HierarchyKind::kBvh);
 

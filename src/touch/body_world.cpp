@@ -1,13 +1,15 @@
 #include "touch/body_world.h"
 
+#include "bodies/scene_world.h"
+
 namespace hl {
 
 namespace {
 
-std::vector<Pose> posesOf(const std::vector<std::shared_ptr<BodyPoses>>& drivers) {
+std::vector<Pose> startsOf(const std::vector<std::shared_ptr<const RigidBody>>& bodies) {
   std::vector<Pose> poses;
-  poses.reserve(drivers.size());
-  for (const std::shared_ptr<BodyPoses>& driver : drivers) poses.push_back(driver->to());
+  poses.reserve(bodies.size());
+  for (const auto& body : bodies) poses.push_back(body->start);
   return poses;
 }
 
@@ -23,8 +25,50 @@ void addTo(FixedVector<BodyImpulse, kContactsOfHand>& list, const BodyImpulse& i
 
 }  // namespace
 
-BodyWorld::BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<BodyPoses>> poses)
-    : stepper_(world), state_(startWorld(*world, posesOf(poses))), poses_(std::move(poses)) {}
+BodyWorld::BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<const RigidBody>> bodies)
+    : bodies_(std::move(bodies)), stepper_(world), state_(startWorld(*world, startsOf(bodies_))) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) state_.bodies[i] = startOf(i);
+}
+
+std::unique_ptr<BodyWorld> BodyWorld::of(const Snapshot& snapshot) {
+  const std::shared_ptr<const World> world = worldOf(snapshot);
+  if (!world) return nullptr;
+  std::vector<std::shared_ptr<const RigidBody>> bodies;  // as World::bodies: both are sorted by key
+  for (const Instance& instance : snapshot.instances) {
+    if (instance.movesAsBody()) bodies.push_back(instance.body);
+  }
+  return std::unique_ptr<BodyWorld>(new BodyWorld(world, std::move(bodies)));
+}
+
+BodyState BodyWorld::startOf(std::size_t i) const {
+  const RigidBody& body = *bodies_[i];
+  BodyState state;
+  state.turned = Eigen::Quaterniond(body.start.rotation).normalized();
+  state.centre = body.start.toWorld(world().bodies[i].mass.centre_O);
+  state.velocity = body.spec.velocity_m_s;
+  state.spin = body.spec.spin_rad_s;
+  return state;
+}
+
+void BodyWorld::continueFrom(const BodyWorld& before) {
+  std::size_t j = 0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const std::uint64_t key = world().bodies[i].key;
+    while (j < before.bodies_.size() && before.world().bodies[j].key < key) ++j;
+    if (j == before.bodies_.size() || before.world().bodies[j].key != key) continue;
+    const bool goes_on = before.bodies_[j]->start == bodies_[i]->start;
+    if (goes_on) state_.bodies[i] = before.state_.bodies[j];
+    if (goes_on && before.bodies_[j]->poses == bodies_[i]->poses) continue;
+    bodies_[i]->poses->jumpTo(poseOf(world().bodies[i], state_.bodies[i]));
+  }
+  state_.memory.copyFrom(before.state_.memory);
+  state_.energy = before.state_.energy;
+  state_.steps = before.state_.steps;
+  owed_ = before.owed_;
+  returned_ = before.returned_;
+  time_ns_ = before.time_ns_;
+  begun_ = before.begun_;
+}
 
 void BodyWorld::step(std::int64_t now_ns, double period_s, const HandAtBodies& hand) {
   const std::int64_t before_ns = time_ns_;
@@ -45,8 +89,23 @@ void BodyWorld::step(std::int64_t now_ns, double period_s, const HandAtBodies& h
   if (!there) given_.clear();
   paid_ = there ? node.owed.size() : 0;
   for (std::size_t i = 0; i < paid_ && i < given_.size(); ++i) owed_[i].impulse_N_s -= given_[i].impulse_N_s;
-  for (std::size_t i = 0; i < poses_.size(); ++i)
-    poses_[i]->moveTo(poseOf(world().bodies[i], state_.bodies[i]), before_ns, now_ns);
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    bodies_[i]->poses->moveTo(poseOf(world().bodies[i], state_.bodies[i]), before_ns, now_ns);
+  returnLost();
+}
+
+// So that nothing is lost that falls from a table, and no body is ever so far away that its place is inexact.
+void BodyWorld::returnLost() {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Vec3& centre = state_.bodies[i].centre;
+    const Box& room = bodies_[i]->poses->room();
+    if ((centre.array() >= room.min.array()).all() && (centre.array() <= room.max.array()).all()) continue;
+    state_.bodies[i] = startOf(i);
+    state_.bodies[i].velocity.setZero();
+    state_.bodies[i].spin.setZero();
+    bodies_[i]->poses->jumpTo(bodies_[i]->start);
+    ++returned_;
+  }
 }
 
 // Of each object: what the hand felt, less what the step has given, beside what is owed from before. What a wall has
