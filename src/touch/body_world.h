@@ -12,6 +12,7 @@
 #include "bodies/body_step.h"
 #include "proxy/object_forces.h"
 #include "scene/rigid_body.h"
+#include "touch/body_view.h"
 
 namespace hl {
 
@@ -27,6 +28,8 @@ struct HandAtBodies {
 /// By the loop that ticks.
 class BodyWorld {
  public:
+  static constexpr std::uint64_t kViewEvery = 16;
+
   /// The bodies of a snapshot, where they start; null: it has none. Throws hl::Error where one cannot be made.
   static std::unique_ptr<BodyWorld> of(const Snapshot& snapshot);
 
@@ -51,13 +54,14 @@ class BodyWorld {
   const RigidBody& body(std::size_t i) const { return *bodies_[i]; }
   /// N s that bodies are still to get.
   Vec3 owed_N_s() const;
-  /// How often a body has left its room, and was put back to where it started.
-  std::uint64_t returned() const { return returned_; }
+  /// Renewed in one of kViewEvery steps.
+  const BodyView& view() const { return view_; }
 
  private:
   BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<const RigidBody>> bodies);
   BodyState startOf(std::size_t i) const;
   void returnLost();
+  void count(double late_s);
 
   std::vector<std::shared_ptr<const RigidBody>> bodies_;
   BodyStepper stepper_;
@@ -68,7 +72,7 @@ class BodyWorld {
   BodyStepReport report_;
   std::int64_t time_ns_ = 0;
   bool begun_ = false;
-  std::uint64_t returned_ = 0;
+  BodyView view_;
 };
 
 }  // namespace hl
