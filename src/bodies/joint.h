@@ -1,0 +1,63 @@
+// Joint: what holds two bodies together, or one to the world, and leaves a coordinate free: the angle of a hinge, the
+// way of a slider, the distance of two points. A spring, a damper, dry friction, a force table and limits act along the
+// coordinate. Kinds and meanings are those of X3D's RigidBodyPhysics (ISO 19775-1, clause 37); fixed and distance are
+// HL's.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include "base/vec.h"
+#include "bodies/force_table.h"
+#include "scene/pose.h"
+
+namespace hl {
+
+enum class JointKind : std::uint8_t {
+  kBall,      ///< the anchors are one point; no coordinate
+  kHinge,     ///< and the axes one line; the coordinate is the angle of a about the axis of b, rad
+  kSlider,    ///< a moves along the axis of b and does not turn; the coordinate is the way, m
+  kFixed,     ///< a does not move against b; no coordinate
+  kDistance,  ///< nothing is held but the limits of the distance of the anchors; the coordinate is the distance, m
+};
+/// Whether a joint of this kind has a coordinate.
+constexpr bool hasCoordinate(JointKind kind) { return kind != JointKind::kBall && kind != JointKind::kFixed; }
+
+/// Frames: that of body a for what ends in _a, that of body b for _b; the world's where body_b is 0.
+struct Joint {
+  std::uint64_t key = 0;  ///< unique among joints; > 0
+  JointKind kind = JointKind::kBall;
+  std::uint64_t body_a = 0, body_b = 0;                   ///< keys of bodies; body_b 0: the world, which does not move
+  Vec3 anchor_a = Vec3::Zero(), anchor_b = Vec3::Zero();  ///< m
+  Vec3 axis_a = Vec3::UnitX(), axis_b = Vec3::UnitX();    ///< unit
+  Vec3 side_a = Vec3::UnitY(), side_b = Vec3::UnitY();    ///< unit, across the axis: one direction at coordinate 0
+  double low = -std::numeric_limits<double>::infinity();  ///< of the coordinate, m or rad
+  double high = std::numeric_limits<double>::infinity();  ///< >= low; equal: it stays there
+  double rest = 0;                                        ///< where the spring makes no force, m or rad
+  double spring = 0;                                      ///< N/m or N m/rad, >= 0
+  double damping = 0;                                     ///< N s/m or N m s/rad, >= 0
+  double friction = 0;                                    ///< N or N m, >= 0, dry: below it the coordinate stands still
+  ForceTable table;                                       ///< along the coordinate, on a
+  bool collide = false;                                   ///< whether the two bodies also collide with each other
+};
+
+/// J, of the spring and the table. RT-safe.
+double springEnergy_J(const Joint& joint, double coordinate);
+
+/// Plain values that change with each step.
+struct JointState {
+  double coordinate = 0;  ///< m or rad; a hinge counts its whole turns
+  double velocity = 0;    ///< m/s or rad/s
+  /// From which the next step begins. N s: of what is held; along the coordinate N s or N m s.
+  std::array<double, 6> held{};
+  std::array<double, 3> along{};
+};
+
+/// A joint of two bodies where they are now, with coordinate 0 there. Poses: object to world; pose_b is the identity
+/// for the world.
+Joint jointAt(JointKind kind, const Vec3& anchor_W, const Vec3& axis_W, const Pose& pose_a, const Pose& pose_b = {});
+/// Keeps the distance of the two points as it is now.
+Joint distanceBetween(const Vec3& anchor_a_W, const Vec3& anchor_b_W, const Pose& pose_a, const Pose& pose_b = {});
+
+}  // namespace hl

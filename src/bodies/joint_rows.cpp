@@ -1,0 +1,210 @@
+#include "bodies/joint_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hl {
+
+namespace {
+
+// m, or rad of a coordinate: a joint as near as that to its place is there. What is more goes into the velocity from
+// kBent on, and is straightened from kStraight on; at most kMostStraight a step.
+constexpr double kBent = 1e-9, kStraight = 1e-10, kMostStraight_m = 1e-3;
+
+// What of a spring's force is that of the end of the step. With none of it a spring loses nothing: it stores k q q' / 2
+// of two successive steps; but it must be softer than 4 m / T^2. So the part grows with T^2 k / m, and at an eighth of
+// m / T^2 it is the half that keeps springs of any stiffness stable; bodies between many soft springs have room before.
+double implicitPart(double spring, double mobility, double period_s) {
+  return std::min(1.0, 4 * period_s * period_s * spring * mobility);
+}
+
+double sumOfInverses(const Node& node, double& inertia) {
+  inertia += node.inverse_inertia.trace();
+  return 3 * node.inverse_mass;
+}
+
+}  // namespace
+
+JointRows::JointRows(BodyProblem& problem) : problem_(problem) {
+  chord_.ways.resize(problem.bodies());
+  chord_.turns.resize(problem.bodies());
+  chord_.parts.assign(problem.bodies(), 1);
+  off_.resize(problem.joints.size());
+  bent_.resize(problem.joints.size());
+  for (std::size_t i = 0; i < problem.joints.size(); ++i) {
+    const Joint& joint = problem.world->joints[i];
+    problem.joints[i].joint = &joint;
+    problem.joints[i].a = problem.numberOf(joint.body_a);
+    problem.joints[i].b = problem.numberOf(joint.body_b);
+  }
+}
+
+Vec3 JointRows::centreOf(int node) const {
+  return node == Row::kFixed ? Vec3(Vec3::Zero()) : problem_.nodes[static_cast<std::size_t>(node)].centre;
+}
+
+void JointRows::begin(const WorldState& state) {
+  for (std::size_t i = 0; i < problem_.joints.size(); ++i) beginBlock(state, i);
+}
+
+void JointRows::beginBlock(const WorldState& state, std::size_t number) {
+  JointBlock& block = problem_.joints[number];
+  const JointPlace place = jointPlace(*block.joint, *problem_.world, state);
+  double inertias = 0, masses = 0;
+  for (const int node : {block.a, block.b}) {
+    if (node != Row::kFixed) masses += sumOfInverses(problem_.nodes[static_cast<std::size_t>(node)], inertias);
+  }
+  block.lever_m = std::sqrt(masses / inertias);
+  block.size = place.held();
+  for (std::size_t i = 0; i < block.size; ++i)
+    block.rows[i] = place.row(i, block.lever_m, centreOf(block.a), centreOf(block.b));
+  block.wanted.setZero();
+  block.search.setZero();
+  for (std::size_t i = 0; i < 6; ++i) block.held[static_cast<Eigen::Index>(i)] = state.joints[number].held[i];
+  off_[number] = place.off(block.lever_m);
+  bent_[number] = 0;
+  if (hasCoordinate(block.joint->kind)) beginCoordinate(state.joints[number], place, block);
+  prepareJoint(block, problem_.nodes);
+}
+
+void JointRows::beginCoordinate(const JointState& last, const JointPlace& place, JointBlock& block) const {
+  const Joint& joint = *block.joint;
+  const double period_s = problem_.period_s;
+  CoordinateRow& row = block.coordinate;
+  row.axis = place.alongCoordinate(centreOf(block.a), centreOf(block.b));
+  row.mobility = mobilityBetween(row.axis, row.axis, block, problem_.nodes);
+  row.lever_m = joint.kind == JointKind::kHinge ? block.lever_m : 1;
+  row.from = last.coordinate;
+  row.pull = -period_s * joint.spring * (row.from - joint.rest);
+  row.mass = period_s * (implicitPart(joint.spring, row.mobility, period_s) * period_s * joint.spring + joint.damping);
+  row.table = joint.table.empty() ? nullptr : &joint.table;
+  row.most_rubbed = period_s * joint.friction;
+  row.least = std::min(joint.low - row.from, 0.0) / period_s;
+  row.most = std::max(joint.high - row.from, 0.0) / period_s;
+  row.there = joint.spring > 0 || joint.damping > 0 || joint.friction > 0 || row.table != nullptr ||
+              std::isfinite(joint.low) || std::isfinite(joint.high);
+  row.impulses = Vec3(last.along[0], last.along[1], last.along[2]);
+  row.search.setZero();
+}
+
+double JointRows::speed() const {
+  double most = 0;
+  for (std::size_t i = 0; i < problem_.joints.size(); ++i) {
+    const JointBlock& block = problem_.joints[i];
+    const CoordinateRow& row = block.coordinate;
+    double impulse = std::abs(row.pull);
+    if (row.table != nullptr)
+      impulse += problem_.period_s * std::max(std::abs(row.table->lowest()), std::abs(row.table->highest()));
+    double speed = std::min(off_[i].norm(), kMostStraight_m) / problem_.period_s;
+    for (const int number : {block.a, block.b}) {
+      if (number == Row::kFixed || impulse == 0) continue;
+      const auto body = static_cast<std::size_t>(number);
+      const Node& node = problem_.nodes[body];
+      const Vec3& turn = number == block.a ? row.axis.turn_a : row.axis.turn_b;
+      speed += impulse * (node.inverse_mass * row.axis.line.norm() +
+                          (node.inverse_inertia * turn).norm() * problem_.reachOf(body));
+    }
+    most = std::max(most, speed);
+  }
+  return most;
+}
+
+JointPlace JointRows::placeAtEnd(const WorldState& state, const JointBlock& block, const BodyWays& plan) const {
+  const auto pose = [&](int number) {
+    return number == Row::kFixed ? Pose() : problem_.poseAtEnd(state, static_cast<std::size_t>(number), plan);
+  };
+  return {*block.joint, pose(block.a), pose(block.b)};
+}
+
+bool JointRows::bend(const WorldState& state) {
+  const double period_s = problem_.period_s;
+  for (std::size_t i = 0; i < problem_.bodies(); ++i) {
+    chord_.ways[i] = period_s * problem_.nodes[i].velocity;
+    chord_.turns[i] = problem_.nodes[i].spin;
+  }
+  bool again = false;
+  for (std::size_t i = 0; i < problem_.joints.size(); ++i) {
+    JointBlock& block = problem_.joints[i];
+    const Joint& joint = *block.joint;
+    const JointPlace end = placeAtEnd(state, block, chord_);
+    const Vec6 missed = end.off(block.lever_m) - off_[i];
+    if (missed.norm() > kBent) {
+      block.wanted -= missed / period_s;
+      again = true;
+    }
+    CoordinateRow& row = block.coordinate;
+    if (!row.there) continue;
+    const double at_end = end.coordinate(row.from);
+    const double bent = at_end - row.from - period_s * velocityAlong(row.axis, block, problem_.nodes);
+    const bool passed =
+        at_end > std::max(joint.high, row.from) + kBent || at_end < std::min(joint.low, row.from) - kBent;
+    if (!passed && row.impulses[CoordinateRow::kStopped] == 0) continue;
+    again |= std::abs(bent - bent_[i]) > kBent;
+    bent_[i] = bent;
+    row.least = (std::min(joint.low - row.from, 0.0) - bent) / period_s;
+    row.most = (std::max(joint.high - row.from, 0.0) - bent) / period_s;
+  }
+  return again;
+}
+
+bool JointRows::straighten(const WorldState& state, const BodyWays& plan, std::span<JointBlock> blocks) const {
+  bool any = false;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    JointBlock& block = blocks[i] = problem_.joints[i];
+    const Joint& joint = *block.joint;
+    const JointPlace end = placeAtEnd(state, block, plan);
+    Vec6 off = end.off(block.lever_m);
+    if (off.norm() > kMostStraight_m) off *= kMostStraight_m / off.norm();
+    block.wanted = -off / problem_.period_s;
+    block.held.setZero();
+    block.least_change = 0;
+    CoordinateRow limits;
+    limits.there = hasCoordinate(joint.kind) && (std::isfinite(joint.low) || std::isfinite(joint.high));
+    limits.axis = block.coordinate.axis;
+    limits.mobility = block.coordinate.mobility;
+    limits.lever_m = block.coordinate.lever_m;
+    const double at_end = end.coordinate(block.coordinate.from), most = kMostStraight_m / limits.lever_m;
+    limits.least = std::min(joint.low - at_end, most) / problem_.period_s;
+    limits.most = std::max(joint.high - at_end, -most) / problem_.period_s;
+    block.coordinate = limits;
+    any |= off.norm() > kStraight;
+    any |= limits.there && (at_end < joint.low - kStraight || at_end > joint.high + kStraight);
+  }
+  return any;
+}
+
+void JointRows::book(EnergyBook& energy) const {
+  for (const JointBlock& block : problem_.joints) {
+    const auto mean = [&](const JointAxis& axis) {
+      return (velocityAlong(axis, block, problem_.before) + velocityAlong(axis, block, problem_.nodes)) / 2;
+    };
+    for (std::size_t i = 0; i < block.size; ++i)
+      energy.solver_J += block.held[static_cast<Eigen::Index>(i)] * mean(block.rows[i]);
+    const CoordinateRow& row = block.coordinate;
+    if (!row.there) continue;
+    const double along = mean(row.axis);
+    const double damped = -problem_.period_s * block.joint->damping * velocityAlong(row.axis, block, problem_.nodes);
+    const double stopped_J = row.impulses[CoordinateRow::kStopped] * along;
+    const bool rigid = block.joint->low == block.joint->high;
+    energy.joint_damping_J -= damped * along;
+    energy.joint_friction_J -= row.impulses[CoordinateRow::kRubbed] * along;
+    energy.joint_limit_J -= rigid ? 0 : stopped_J;
+    energy.solver_J += (row.impulses[CoordinateRow::kDriven] - damped) * along + (rigid ? stopped_J : 0);
+  }
+}
+
+void JointRows::remember(WorldState& state) const {
+  for (std::size_t i = 0; i < problem_.joints.size(); ++i) {
+    const JointBlock& block = problem_.joints[i];
+    JointState& one = state.joints[i];
+    const double before_J = springEnergy_J(*block.joint, one.coordinate);
+    one.coordinate = jointPlace(*block.joint, *problem_.world, state).coordinate(one.coordinate);
+    state.energy.solver_J += springEnergy_J(*block.joint, one.coordinate) - before_J;
+    one.velocity = velocityAlong(block.coordinate.axis, block, problem_.nodes);
+    for (std::size_t row = 0; row < 6; ++row) one.held[row] = block.held[static_cast<Eigen::Index>(row)];
+    for (std::size_t cause = 0; cause < 3; ++cause)
+      one.along[cause] = block.coordinate.impulses[static_cast<Eigen::Index>(cause)];
+  }
+}
+
+}  // namespace hl
