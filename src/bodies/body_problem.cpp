@@ -23,9 +23,8 @@ std::shared_ptr<const World> checked(std::shared_ptr<const World> world) {
 }  // namespace
 
 BodyProblem::BodyProblem(std::shared_ptr<const World> of)
-    : world(checked(std::move(of))), placed(*world), meetings(*world) {
+    : world(checked(std::move(of))), placed(*world), meetings(*world), joints(*world) {
   groups = jointGroups(*world);
-  joints.resize(world->joints.size());
   turned.resize(bodies());
   nodes.reserve(bodies() + kMostHands);
   before.reserve(bodies() + kMostHands);

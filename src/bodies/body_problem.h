@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "bodies/joint_block.h"
+#include "bodies/joint_set.h"
 #include "bodies/meetings.h"
 #include "bodies/placed_bodies.h"
 #include "bodies/row.h"
@@ -45,7 +45,7 @@ struct BodyProblem {
   std::vector<Node> nodes;   ///< bodies, then hands
   std::vector<Node> before;  ///< the same, before gravity
   std::vector<Row> rows;
-  std::vector<JointBlock> joints;     ///< as World::joints
+  JointSet joints;
   std::vector<std::uint32_t> groups;  ///< of each body: joint_groups.h
   double period_s = 1e-3;
 };

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -23,6 +24,13 @@ enum class JointKind : std::uint8_t {
 };
 /// Whether a joint of this kind has a coordinate.
 constexpr bool hasCoordinate(JointKind kind) { return kind != JointKind::kBall && kind != JointKind::kFixed; }
+
+/// How many of the six relative velocities a joint of this kind holds.
+constexpr std::size_t heldRows(JointKind kind) {
+  if (kind == JointKind::kBall) return 3;
+  if (kind == JointKind::kFixed) return 6;
+  return kind == JointKind::kDistance ? 0 : 5;
+}
 
 /// Frames: that of body a for what ends in _a, that of body b for _b; the world's where body_b is 0.
 struct Joint {

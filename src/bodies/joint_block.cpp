@@ -8,14 +8,7 @@ namespace hl {
 
 namespace {
 
-Vec6 velocitiesOf(const JointBlock& block, std::span<const Node> nodes) {
-  Vec6 velocities = Vec6::Zero();
-  for (std::size_t i = 0; i < block.size; ++i)
-    velocities[static_cast<Eigen::Index>(i)] = velocityAlong(block.rows[i], block, nodes);
-  return velocities;
-}
-
-void pushHeld(const JointBlock& block, std::span<Node> nodes, const Vec6& impulses) {
+void push(const JointBlock& block, std::span<Node> nodes, const Vec6& impulses) {
   for (std::size_t i = 0; i < block.size; ++i)
     pushAlong(block.rows[i], block, nodes, impulses[static_cast<Eigen::Index>(i)]);
 }
@@ -62,7 +55,7 @@ double drivenVelocity(const CoordinateRow& row, double free, double now, double 
 
 // Spring, damper and table as if nothing else acted; then friction toward rest, then what limits leave; spring and
 // damper answer these at once.
-Vec3 solveCoordinate(CoordinateRow& row, const JointBlock& block, std::span<Node> nodes, double period_s) {
+Vec3 solveAlong(CoordinateRow& row, const JointBlock& block, std::span<Node> nodes, double period_s) {
   const Vec3 before = row.impulses;
   double velocity = velocityAlong(row.axis, block, nodes);
   const double free = velocity - row.mobility * row.impulses[CoordinateRow::kDriven];
@@ -117,36 +110,48 @@ double mobilityBetween(const JointAxis& of, const JointAxis& row, const JointBlo
   return sum + b.inverse_mass * of.line.dot(row.line) + of.turn_b.dot(b.inverse_inertia * row.turn_b);
 }
 
+Vec6 missingVelocities(const JointBlock& block, std::span<const Node> nodes) {
+  Vec6 missing = Vec6::Zero();
+  for (std::size_t i = 0; i < block.size; ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    missing[row] = block.wanted[row] - velocityAlong(block.rows[i], block, nodes);
+  }
+  return missing;
+}
+
+void pushHeld(JointBlock& block, std::span<Node> nodes) {
+  block.held += block.change;
+  push(block, nodes, block.change);
+}
+
 void prepareJoint(JointBlock& block, std::span<Node> nodes) {
   Mat6 mobility = Mat6::Identity();
-  for (std::size_t i = 0; i < block.size; ++i) {
+  for (std::size_t i = 0; i < block.size && !block.in_tree; ++i) {
     for (std::size_t j = 0; j < block.size; ++j) {
       mobility(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
           mobilityBetween(block.rows[i], block.rows[j], block, nodes);
     }
   }
-  block.effective_mass = Eigen::LDLT<Mat6>(mobility).solve(Mat6::Identity());
+  if (!block.in_tree) block.effective_mass = Eigen::LDLT<Mat6>(mobility).solve(Mat6::Identity());
   block.least_change = leastChange(block, nodes);
-  pushHeld(block, nodes, block.held);
+  push(block, nodes, block.held);
   CoordinateRow& coordinate = block.coordinate;
   if (coordinate.there) pushAlong(coordinate.axis, block, nodes, coordinate.impulses.sum());
 }
 
-BlockSweep solveJoint(JointBlock& block, std::span<Node> nodes, double period_s) {
-  block.change.setZero();
-  if (block.size > 0) {
-    const Vec6 missing = block.wanted - velocitiesOf(block, nodes);
-    for (std::size_t i = 0; i < block.size; ++i) {
-      const auto row = static_cast<Eigen::Index>(i);
-      block.change[row] = block.effective_mass.row(row).dot(missing);
-    }
-    block.held += block.change;
-    pushHeld(block, nodes, block.change);
-  }
+void solveHeld(JointBlock& block, std::span<Node> nodes) {
+  block.change = block.effective_mass * missingVelocities(block, nodes);
+  pushHeld(block, nodes);
+}
+
+void solveCoordinate(JointBlock& block, std::span<Node> nodes, double period_s) {
+  if (block.coordinate.there) block.coordinate.change = solveAlong(block.coordinate, block, nodes, period_s);
+}
+
+BlockSweep sweepOf(const JointBlock& block) {
   BlockSweep sweep{block.change.squaredNorm(), block.held.squaredNorm()};
-  CoordinateRow& coordinate = block.coordinate;
+  const CoordinateRow& coordinate = block.coordinate;
   if (!coordinate.there) return sweep;
-  coordinate.change = solveCoordinate(coordinate, block, nodes, period_s);
   const double per_m = 1 / (coordinate.lever_m * coordinate.lever_m);
   sweep.change += per_m * coordinate.change.squaredNorm();
   sweep.largest = std::max(sweep.largest, per_m * coordinate.impulses.squaredNorm());
@@ -162,7 +167,7 @@ void searchJointOn(JointBlock& block, std::span<Node> nodes, double part, bool a
   }
   const Vec6 way = part * block.search;
   block.held += way;
-  pushHeld(block, nodes, way);
+  push(block, nodes, way);
   block.search = way + block.change;
   if (!coordinate.there) return;
   const Vec3 along = part * coordinate.search;

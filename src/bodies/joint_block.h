@@ -33,6 +33,7 @@ struct JointBlock {
   const Joint* joint = nullptr;
   int a = 0, b = Row::kFixed;  ///< numbers of nodes
   double lever_m = 1;          ///< one rad counts as this way: the bodies' radius of gyration, so that rows compare
+  bool in_tree = false;        ///< joint_tree.h solves its rows that hold
   std::size_t size = 0;        ///< of the rows that hold
   std::array<JointAxis, 6> rows;
   Mat6 effective_mass = Mat6::Identity();  ///< kg, impulse per velocity
@@ -53,9 +54,17 @@ double velocityAlong(const JointAxis& axis, const JointBlock& block, std::span<c
 void pushAlong(const JointAxis& axis, const JointBlock& block, std::span<Node> nodes, double impulse_N_s);
 /// 1/kg: what an impulse along `row` does to the velocity along `of`.
 double mobilityBetween(const JointAxis& of, const JointAxis& row, const JointBlock& block, std::span<const Node> nodes);
+/// m/s: what each row that holds lacks of what it wants.
+Vec6 missingVelocities(const JointBlock& block, std::span<const Node> nodes);
+/// Adds the change to the impulses that hold, and applies it.
+void pushHeld(JointBlock& block, std::span<Node> nodes);
 /// Sets the masses of the block, and applies the impulses with which it begins.
 void prepareJoint(JointBlock& block, std::span<Node> nodes);
-BlockSweep solveJoint(JointBlock& block, std::span<Node> nodes, double period_s);
+/// The rows that hold, as if all else were known.
+void solveHeld(JointBlock& block, std::span<Node> nodes);
+void solveCoordinate(JointBlock& block, std::span<Node> nodes, double period_s);
+/// After both.
+BlockSweep sweepOf(const JointBlock& block);
 /// As searchOn() of the row solver: along the last direction by `part` of it, or anew.
 void searchJointOn(JointBlock& block, std::span<Node> nodes, double part, bool anew);
 

@@ -49,22 +49,6 @@ JointAxis JointPlace::alongCoordinate(const Vec3& centre_a, const Vec3& centre_b
   return {line, (point_a - centre_a).cross(line), ((slides ? point_a : point_b) - centre_b).cross(line)};
 }
 
-std::size_t JointPlace::held() const {
-  switch (joint.kind) {
-    case JointKind::kBall:
-      return 3;
-    case JointKind::kHinge:
-      return 5;
-    case JointKind::kSlider:
-      return 5;
-    case JointKind::kFixed:
-      return 6;
-    case JointKind::kDistance:
-      break;
-  }
-  return 0;
-}
-
 // A slider holds across its axis and all turns; the others hold the point, a hinge the turns across its axis.
 JointPlace::Held JointPlace::heldBy(std::size_t number) const {
   const auto unit = [](std::size_t i) { return Vec3(Vec3::Unit(static_cast<Eigen::Index>(i))); };
@@ -93,7 +77,7 @@ Vec3 JointPlace::offTurn() const {
 Vec6 JointPlace::off(double lever_m) const {
   Vec6 off = Vec6::Zero();
   const Vec3 apart = point_a - point_b, turn = lever_m * offTurn();
-  for (std::size_t i = 0; i < held(); ++i) {
+  for (std::size_t i = 0; i < heldRows(joint.kind); ++i) {
     const Held one = heldBy(i);
     off[static_cast<Eigen::Index>(i)] = one.direction.dot(one.turns ? turn : apart);
   }

@@ -28,8 +28,6 @@ struct JointPlace {
   double coordinate(double last) const;
   /// The coordinate's rate of change is the velocity along it. Centres of mass of the bodies, world frame.
   JointAxis alongCoordinate(const Vec3& centre_a, const Vec3& centre_b) const;
-  /// How many rows hold.
-  std::size_t held() const;
   /// The rows that hold, and how far off they are, m; angles count `lever_m` per rad.
   JointAxis row(std::size_t number, double lever_m, const Vec3& centre_a, const Vec3& centre_b) const;
   Vec6 off(double lever_m) const;

@@ -29,14 +29,8 @@ JointRows::JointRows(BodyProblem& problem) : problem_(problem) {
   chord_.ways.resize(problem.bodies());
   chord_.turns.resize(problem.bodies());
   chord_.parts.assign(problem.bodies(), 1);
-  off_.resize(problem.joints.size());
-  bent_.resize(problem.joints.size());
-  for (std::size_t i = 0; i < problem.joints.size(); ++i) {
-    const Joint& joint = problem.world->joints[i];
-    problem.joints[i].joint = &joint;
-    problem.joints[i].a = problem.numberOf(joint.body_a);
-    problem.joints[i].b = problem.numberOf(joint.body_b);
-  }
+  off_.resize(problem.joints.blocks.size());
+  bent_.resize(problem.joints.blocks.size());
 }
 
 Vec3 JointRows::centreOf(int node) const {
@@ -44,18 +38,19 @@ Vec3 JointRows::centreOf(int node) const {
 }
 
 void JointRows::begin(const WorldState& state) {
-  for (std::size_t i = 0; i < problem_.joints.size(); ++i) beginBlock(state, i);
+  for (std::size_t i = 0; i < problem_.joints.blocks.size(); ++i) beginBlock(state, i);
+  problem_.joints.prepare(problem_.nodes);
 }
 
 void JointRows::beginBlock(const WorldState& state, std::size_t number) {
-  JointBlock& block = problem_.joints[number];
+  JointBlock& block = problem_.joints.blocks[number];
   const JointPlace place = jointPlace(*block.joint, *problem_.world, state);
   double inertias = 0, masses = 0;
   for (const int node : {block.a, block.b}) {
     if (node != Row::kFixed) masses += sumOfInverses(problem_.nodes[static_cast<std::size_t>(node)], inertias);
   }
   block.lever_m = std::sqrt(masses / inertias);
-  block.size = place.held();
+  block.size = heldRows(block.joint->kind);
   for (std::size_t i = 0; i < block.size; ++i)
     block.rows[i] = place.row(i, block.lever_m, centreOf(block.a), centreOf(block.b));
   block.wanted.setZero();
@@ -64,7 +59,6 @@ void JointRows::beginBlock(const WorldState& state, std::size_t number) {
   off_[number] = place.off(block.lever_m);
   bent_[number] = 0;
   if (hasCoordinate(block.joint->kind)) beginCoordinate(state.joints[number], place, block);
-  prepareJoint(block, problem_.nodes);
 }
 
 void JointRows::beginCoordinate(const JointState& last, const JointPlace& place, JointBlock& block) const {
@@ -89,8 +83,8 @@ void JointRows::beginCoordinate(const JointState& last, const JointPlace& place,
 
 double JointRows::speed() const {
   double most = 0;
-  for (std::size_t i = 0; i < problem_.joints.size(); ++i) {
-    const JointBlock& block = problem_.joints[i];
+  for (std::size_t i = 0; i < problem_.joints.blocks.size(); ++i) {
+    const JointBlock& block = problem_.joints.blocks[i];
     const CoordinateRow& row = block.coordinate;
     double impulse = std::abs(row.pull);
     if (row.table != nullptr)
@@ -123,8 +117,8 @@ bool JointRows::bend(const WorldState& state) {
     chord_.turns[i] = problem_.nodes[i].spin;
   }
   bool again = false;
-  for (std::size_t i = 0; i < problem_.joints.size(); ++i) {
-    JointBlock& block = problem_.joints[i];
+  for (std::size_t i = 0; i < problem_.joints.blocks.size(); ++i) {
+    JointBlock& block = problem_.joints.blocks[i];
     const Joint& joint = *block.joint;
     const JointPlace end = placeAtEnd(state, block, chord_);
     const Vec6 missed = end.off(block.lever_m) - off_[i];
@@ -147,10 +141,11 @@ bool JointRows::bend(const WorldState& state) {
   return again;
 }
 
-bool JointRows::straighten(const WorldState& state, const BodyWays& plan, std::span<JointBlock> blocks) const {
+bool JointRows::straighten(const WorldState& state, const BodyWays& plan, JointSet& apart) const {
+  apart = problem_.joints;
   bool any = false;
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    JointBlock& block = blocks[i] = problem_.joints[i];
+  for (std::size_t i = 0; i < apart.blocks.size(); ++i) {
+    JointBlock& block = apart.blocks[i];
     const Joint& joint = *block.joint;
     const JointPlace end = placeAtEnd(state, block, plan);
     Vec6 off = end.off(block.lever_m);
@@ -174,7 +169,7 @@ bool JointRows::straighten(const WorldState& state, const BodyWays& plan, std::s
 }
 
 void JointRows::book(EnergyBook& energy) const {
-  for (const JointBlock& block : problem_.joints) {
+  for (const JointBlock& block : problem_.joints.blocks) {
     const auto mean = [&](const JointAxis& axis) {
       return (velocityAlong(axis, block, problem_.before) + velocityAlong(axis, block, problem_.nodes)) / 2;
     };
@@ -194,8 +189,8 @@ void JointRows::book(EnergyBook& energy) const {
 }
 
 void JointRows::remember(WorldState& state) const {
-  for (std::size_t i = 0; i < problem_.joints.size(); ++i) {
-    const JointBlock& block = problem_.joints[i];
+  for (std::size_t i = 0; i < problem_.joints.blocks.size(); ++i) {
+    const JointBlock& block = problem_.joints.blocks[i];
     JointState& one = state.joints[i];
     const double before_J = springEnergy_J(*block.joint, one.coordinate);
     one.coordinate = jointPlace(*block.joint, *problem_.world, state).coordinate(one.coordinate);

@@ -21,8 +21,8 @@ class JointRows {
   double speed() const;
   /// Where the velocities found do not take a joint along its curve, asks for others. False: they do.
   bool bend(const WorldState& state);
-  /// Velocities for `blocks`, a copy, that take what is off to its place at the end of the plan. False: nothing is off.
-  bool straighten(const WorldState& state, const BodyWays& plan, std::span<JointBlock> blocks) const;
+  /// Sets `apart` to velocities that take what is off to its place at the end of the plan. False: nothing is off.
+  bool straighten(const WorldState& state, const BodyWays& plan, JointSet& apart) const;
   /// After the solve, but for the energy of springs.
   void book(EnergyBook& energy) const;
   /// After the motion.

@@ -30,8 +30,8 @@ double separationAlong(const PlacedConvex& a, const PlacedConvex& b, const Vec3&
 
 }  // namespace
 
-MotionPlan::MotionPlan(const BodyProblem& problem, const JointRows& joints) : problem_(problem), joints_(joints) {
-  joints_apart_.resize(problem.joints.size());
+MotionPlan::MotionPlan(const BodyProblem& problem, const JointRows& joints)
+    : problem_(problem), joints_(joints), joints_apart_(problem.joints) {
   plan_.ways.resize(problem.bodies());
   plan_.turns.resize(problem.bodies());
   plan_.parts.resize(problem.bodies());
@@ -54,7 +54,7 @@ void MotionPlan::goWithVelocities() {
     plan_.turns[i] = problem_.nodes[i].spin;
     plan_.parts[i] = 1;
   }
-  for (const JointBlock& joint : problem_.joints) {
+  for (const JointBlock& joint : problem_.joints.blocks) {
     for (const int number : {joint.a, joint.b}) {
       if (number == Row::kFixed) continue;
       const auto i = static_cast<std::size_t>(number);
@@ -100,7 +100,8 @@ void MotionPlan::pushApart() {
   apart_ = problem_.nodes;
   for (Node& node : apart_) node.velocity = node.spin = Vec3::Zero();
   for (Row& row : overlaps_) prepareRow(row, apart_);
-  solveRows(overlaps_, joints_apart_, apart_, problem_.period_s, limitsFor(overlaps_.size() + joints_apart_.size()));
+  solveRows(overlaps_, joints_apart_, apart_, problem_.period_s,
+            limitsFor(overlaps_.size() + joints_apart_.blocks.size()));
   for (std::size_t i = 0; i < problem_.bodies(); ++i) {
     plan_.ways[i] += problem_.period_s * apart_[i].velocity;
     plan_.turns[i] += apart_[i].spin;

@@ -36,7 +36,7 @@ class MotionPlan {
   BodyWays plan_;
   std::vector<Node> apart_;  // velocities that only push overlapping bodies apart
   std::vector<Row> overlaps_;
-  std::vector<JointBlock> joints_apart_;
+  JointSet joints_apart_;
 };
 
 }  // namespace hl

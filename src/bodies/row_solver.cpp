@@ -98,14 +98,15 @@ void prepareRow(Row& row, std::span<Node> nodes) {
   applyImpulse(row, nodes, row.pressed * row.normal + row.dragged);
 }
 
-int solveRows(std::span<Row> rows, std::span<JointBlock> joints, std::span<Node> nodes, double period_s,
+int solveRows(std::span<Row> rows, JointSet& joints, std::span<Node> nodes, double period_s,
               const RowSolverLimits& limits) {
   double last_square = 0;
   for (Row& row : rows) row.search.setZero();
   for (int sweep = 1; sweep <= limits.sweeps; ++sweep) {
     double square = 0, changed = 0, largest = 0;
-    for (JointBlock& joint : joints) {
-      const BlockSweep swept = solveJoint(joint, nodes, period_s);
+    joints.sweep(nodes, period_s);
+    for (const JointBlock& joint : joints.blocks) {
+      const BlockSweep swept = sweepOf(joint);
       square += swept.change;
       if (swept.change > joint.least_change * joint.least_change) changed = std::max(changed, swept.change);
       largest = std::max(largest, swept.largest);
@@ -119,7 +120,7 @@ int solveRows(std::span<Row> rows, std::span<JointBlock> joints, std::span<Node>
     if (changed <= limits.done * limits.done * largest) return sweep;
     if (sweep == limits.sweeps) break;
     const double part = last_square > 0 ? square / last_square : 2;
-    for (JointBlock& joint : joints) searchJointOn(joint, nodes, part, part > 1);
+    joints.searchOn(nodes, part, part > 1);
     searchOn(rows, nodes, part);
     last_square = square;
   }

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <span>
 
-#include "bodies/joint_block.h"
+#include "bodies/joint_set.h"
 #include "bodies/row.h"
 
 namespace hl {
@@ -25,7 +25,7 @@ RowSolverLimits limitsFor(std::size_t rows);
 /// Sets the steps of the row and applies the impulses with which it begins. RT-safe.
 void prepareRow(Row& row, std::span<Node> nodes);
 /// Of contacts and joints at once. Returns the sweeps made. `period_s` > 0. RT-safe.
-int solveRows(std::span<Row> rows, std::span<JointBlock> joints, std::span<Node> nodes, double period_s,
+int solveRows(std::span<Row> rows, JointSet& joints, std::span<Node> nodes, double period_s,
               const RowSolverLimits& limits);
 /// Velocity at the row's point, a's relative to b's. RT-safe.
 Vec3 relativeVelocity(const Row& row, std::span<const Node> nodes);
