@@ -25,13 +25,6 @@ enum class JointKind : std::uint8_t {
 /// Whether a joint of this kind has a coordinate.
 constexpr bool hasCoordinate(JointKind kind) { return kind != JointKind::kBall && kind != JointKind::kFixed; }
 
-/// How many of the six relative velocities a joint of this kind holds.
-constexpr std::size_t heldRows(JointKind kind) {
-  if (kind == JointKind::kBall) return 3;
-  if (kind == JointKind::kFixed) return 6;
-  return kind == JointKind::kDistance ? 0 : 5;
-}
-
 /// Frames: that of body a for what ends in _a, that of body b for _b; the world's where body_b is 0.
 struct Joint {
   std::uint64_t key = 0;  ///< unique among joints; > 0
@@ -52,6 +45,15 @@ struct Joint {
 
 /// J, of the spring and the table. RT-safe.
 double springEnergy_J(const Joint& joint, double coordinate);
+
+/// Whether a distance joint holds its points apart as a rod does.
+inline bool isRod(const Joint& joint) { return joint.kind == JointKind::kDistance && joint.low == joint.high; }
+/// How many of the six relative velocities a joint holds.
+inline std::size_t heldRows(const Joint& joint) {
+  if (joint.kind == JointKind::kBall) return 3;
+  if (joint.kind == JointKind::kFixed) return 6;
+  return joint.kind == JointKind::kDistance ? (isRod(joint) ? 1 : 0) : 5;
+}
 
 /// Plain values that change with each step.
 struct JointState {

@@ -8,11 +8,6 @@ namespace hl {
 
 namespace {
 
-void push(const JointBlock& block, std::span<Node> nodes, const Vec6& impulses) {
-  for (std::size_t i = 0; i < block.size; ++i)
-    pushAlong(block.rows[i], block, nodes, impulses[static_cast<Eigen::Index>(i)]);
-}
-
 // N s that rounding of the velocities may make.
 double leastChange(const JointBlock& block, std::span<const Node> nodes) {
   double speed = 0, mobility = std::max(block.coordinate.mobility, 0.0);
@@ -110,18 +105,22 @@ double mobilityBetween(const JointAxis& of, const JointAxis& row, const JointBlo
   return sum + b.inverse_mass * of.line.dot(row.line) + of.turn_b.dot(b.inverse_inertia * row.turn_b);
 }
 
-Vec6 missingVelocities(const JointBlock& block, std::span<const Node> nodes) {
-  Vec6 missing = Vec6::Zero();
-  for (std::size_t i = 0; i < block.size; ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    missing[row] = block.wanted[row] - velocityAlong(block.rows[i], block, nodes);
-  }
-  return missing;
+Vec6 heldVelocities(const JointBlock& block, std::span<const Node> nodes) {
+  Vec6 velocities = Vec6::Zero();
+  for (std::size_t i = 0; i < block.size; ++i)
+    velocities[static_cast<Eigen::Index>(i)] = velocityAlong(block.rows[i], block, nodes);
+  return velocities;
 }
 
-void pushHeld(JointBlock& block, std::span<Node> nodes) {
-  block.held += block.change;
-  push(block, nodes, block.change);
+void pushHeld(const JointBlock& block, std::span<Node> nodes, const Vec6& impulses) {
+  for (std::size_t i = 0; i < block.size; ++i)
+    pushAlong(block.rows[i], block, nodes, impulses[static_cast<Eigen::Index>(i)]);
+}
+
+void addHeld(JointBlock& block, std::span<Node> nodes, const Vec6& impulses) {
+  block.held += impulses;
+  block.change += impulses;
+  pushHeld(block, nodes, impulses);
 }
 
 void prepareJoint(JointBlock& block, std::span<Node> nodes) {
@@ -134,18 +133,17 @@ void prepareJoint(JointBlock& block, std::span<Node> nodes) {
   }
   if (!block.in_tree) block.effective_mass = Eigen::LDLT<Mat6>(mobility).solve(Mat6::Identity());
   block.least_change = leastChange(block, nodes);
-  push(block, nodes, block.held);
+  pushHeld(block, nodes, block.held);
   CoordinateRow& coordinate = block.coordinate;
   if (coordinate.there) pushAlong(coordinate.axis, block, nodes, coordinate.impulses.sum());
 }
 
 void solveHeld(JointBlock& block, std::span<Node> nodes) {
-  block.change = block.effective_mass * missingVelocities(block, nodes);
-  pushHeld(block, nodes);
+  addHeld(block, nodes, block.effective_mass * (block.wanted - heldVelocities(block, nodes)));
 }
 
 void solveCoordinate(JointBlock& block, std::span<Node> nodes, double period_s) {
-  if (block.coordinate.there) block.coordinate.change = solveAlong(block.coordinate, block, nodes, period_s);
+  block.coordinate.change = solveAlong(block.coordinate, block, nodes, period_s);
 }
 
 BlockSweep sweepOf(const JointBlock& block) {
@@ -167,7 +165,7 @@ void searchJointOn(JointBlock& block, std::span<Node> nodes, double part, bool a
   }
   const Vec6 way = part * block.search;
   block.held += way;
-  push(block, nodes, way);
+  pushHeld(block, nodes, way);
   block.search = way + block.change;
   if (!coordinate.there) return;
   const Vec3 along = part * coordinate.search;

@@ -36,10 +36,10 @@ struct JointBlock {
   bool in_tree = false;        ///< joint_tree.h solves its rows that hold
   std::size_t size = 0;        ///< of the rows that hold
   std::array<JointAxis, 6> rows;
-  Mat6 effective_mass = Mat6::Identity();  ///< kg, impulse per velocity
-  Vec6 wanted = Vec6::Zero();              ///< m/s
-  Vec6 held = Vec6::Zero();                ///< N s, on a
-  Vec6 change = Vec6::Zero(), search = Vec6::Zero();
+  Mat6 effective_mass = Mat6::Identity();             ///< kg, impulse per velocity
+  Vec6 wanted = Vec6::Zero();                         ///< m/s
+  Vec6 held = Vec6::Zero();                           ///< N s, on a
+  Vec6 change = Vec6::Zero(), search = Vec6::Zero();  ///< N s, of the solver, in this sweep
   CoordinateRow coordinate;
   double least_change = 0;  ///< N s: below it is rounding
 };
@@ -54,10 +54,11 @@ double velocityAlong(const JointAxis& axis, const JointBlock& block, std::span<c
 void pushAlong(const JointAxis& axis, const JointBlock& block, std::span<Node> nodes, double impulse_N_s);
 /// 1/kg: what an impulse along `row` does to the velocity along `of`.
 double mobilityBetween(const JointAxis& of, const JointAxis& row, const JointBlock& block, std::span<const Node> nodes);
-/// m/s: what each row that holds lacks of what it wants.
-Vec6 missingVelocities(const JointBlock& block, std::span<const Node> nodes);
-/// Adds the change to the impulses that hold, and applies it.
-void pushHeld(JointBlock& block, std::span<Node> nodes);
+/// m/s: of the rows that hold.
+Vec6 heldVelocities(const JointBlock& block, std::span<const Node> nodes);
+void pushHeld(const JointBlock& block, std::span<Node> nodes, const Vec6& impulses);
+/// Pushes, and adds the impulses to those that hold and to the change of the sweep.
+void addHeld(JointBlock& block, std::span<Node> nodes, const Vec6& impulses);
 /// Sets the masses of the block, and applies the impulses with which it begins.
 void prepareJoint(JointBlock& block, std::span<Node> nodes);
 /// The rows that hold, as if all else were known.

@@ -56,6 +56,7 @@ JointPlace::Held JointPlace::heldBy(std::size_t number) const {
     if (number >= 2) return {unit(number - 2), true};
     return {number == 0 ? side_b : thirdSide_b(), false};
   }
+  if (joint.kind == JointKind::kDistance) return {direction(), false};
   if (number < 3) return {unit(number), false};
   if (joint.kind == JointKind::kFixed) return {unit(number - 3), true};
   return {number == 3 ? side_b : thirdSide_b(), true};
@@ -76,8 +77,10 @@ Vec3 JointPlace::offTurn() const {
 
 Vec6 JointPlace::off(double lever_m) const {
   Vec6 off = Vec6::Zero();
-  const Vec3 apart = point_a - point_b, turn = lever_m * offTurn();
-  for (std::size_t i = 0; i < heldRows(joint.kind); ++i) {
+  Vec3 apart = point_a - point_b;
+  if (isRod(joint)) apart -= joint.low * direction();
+  const Vec3 turn = lever_m * offTurn();
+  for (std::size_t i = 0; i < heldRows(joint); ++i) {
     const Held one = heldBy(i);
     off[static_cast<Eigen::Index>(i)] = one.direction.dot(one.turns ? turn : apart);
   }

@@ -11,6 +11,9 @@ namespace {
 // kBent on, and is straightened from kStraight on; at most kMostStraight a step.
 constexpr double kBent = 1e-9, kStraight = 1e-10, kMostStraight_m = 1e-3;
 
+// Of the mobility of its two bodies alone, a coordinate has at least this part, though other joints may hold it still.
+constexpr double kLeastMobility = 1e-3;
+
 // What of a spring's force is that of the end of the step. With none of it a spring loses nothing: it stores k q q' / 2
 // of two successive steps; but it must be softer than 4 m / T^2. So the part grows with T^2 k / m, and at an eighth of
 // m / T^2 it is the half that keeps springs of any stiffness stable; bodies between many soft springs have room before.
@@ -38,8 +41,13 @@ Vec3 JointRows::centreOf(int node) const {
 }
 
 void JointRows::begin(const WorldState& state) {
-  for (std::size_t i = 0; i < problem_.joints.blocks.size(); ++i) beginBlock(state, i);
-  problem_.joints.prepare(problem_.nodes);
+  JointSet& joints = problem_.joints;
+  for (std::size_t i = 0; i < joints.blocks.size(); ++i) beginBlock(state, i);
+  joints.trees.prepare(joints.blocks, problem_.nodes);
+  for (std::size_t i = 0; i < joints.blocks.size(); ++i) {
+    if (hasCoordinate(joints.blocks[i].joint->kind)) beginCoordinate(state.joints[i], joints.blocks[i]);
+    prepareJoint(joints.blocks[i], problem_.nodes);
+  }
 }
 
 void JointRows::beginBlock(const WorldState& state, std::size_t number) {
@@ -50,7 +58,7 @@ void JointRows::beginBlock(const WorldState& state, std::size_t number) {
     if (node != Row::kFixed) masses += sumOfInverses(problem_.nodes[static_cast<std::size_t>(node)], inertias);
   }
   block.lever_m = std::sqrt(masses / inertias);
-  block.size = heldRows(block.joint->kind);
+  block.size = heldRows(*block.joint);
   for (std::size_t i = 0; i < block.size; ++i)
     block.rows[i] = place.row(i, block.lever_m, centreOf(block.a), centreOf(block.b));
   block.wanted.setZero();
@@ -58,15 +66,17 @@ void JointRows::beginBlock(const WorldState& state, std::size_t number) {
   for (std::size_t i = 0; i < 6; ++i) block.held[static_cast<Eigen::Index>(i)] = state.joints[number].held[i];
   off_[number] = place.off(block.lever_m);
   bent_[number] = 0;
-  if (hasCoordinate(block.joint->kind)) beginCoordinate(state.joints[number], place, block);
+  block.coordinate.axis = place.alongCoordinate(centreOf(block.a), centreOf(block.b));
 }
 
-void JointRows::beginCoordinate(const JointState& last, const JointPlace& place, JointBlock& block) const {
+void JointRows::beginCoordinate(const JointState& last, JointBlock& block) const {
   const Joint& joint = *block.joint;
   const double period_s = problem_.period_s;
   CoordinateRow& row = block.coordinate;
-  row.axis = place.alongCoordinate(centreOf(block.a), centreOf(block.b));
-  row.mobility = mobilityBetween(row.axis, row.axis, block, problem_.nodes);
+  const JointSet& joints = problem_.joints;
+  const double alone = mobilityBetween(row.axis, row.axis, block, problem_.nodes);
+  row.mobility =
+      std::max(problem_.joints.trees.mobilityAlong(block, joints.blocks, problem_.nodes), kLeastMobility * alone);
   row.lever_m = joint.kind == JointKind::kHinge ? block.lever_m : 1;
   row.from = last.coordinate;
   row.pull = -period_s * joint.spring * (row.from - joint.rest);
@@ -75,8 +85,8 @@ void JointRows::beginCoordinate(const JointState& last, const JointPlace& place,
   row.most_rubbed = period_s * joint.friction;
   row.least = std::min(joint.low - row.from, 0.0) / period_s;
   row.most = std::max(joint.high - row.from, 0.0) / period_s;
-  row.there = joint.spring > 0 || joint.damping > 0 || joint.friction > 0 || row.table != nullptr ||
-              std::isfinite(joint.low) || std::isfinite(joint.high);
+  row.there = !isRod(joint) && (joint.spring > 0 || joint.damping > 0 || joint.friction > 0 || row.table != nullptr ||
+                                std::isfinite(joint.low) || std::isfinite(joint.high));
   row.impulses = Vec3(last.along[0], last.along[1], last.along[2]);
   row.search.setZero();
 }
@@ -154,7 +164,7 @@ bool JointRows::straighten(const WorldState& state, const BodyWays& plan, JointS
     block.held.setZero();
     block.least_change = 0;
     CoordinateRow limits;
-    limits.there = hasCoordinate(joint.kind) && (std::isfinite(joint.low) || std::isfinite(joint.high));
+    limits.there = block.coordinate.there && (std::isfinite(joint.low) || std::isfinite(joint.high));
     limits.axis = block.coordinate.axis;
     limits.mobility = block.coordinate.mobility;
     limits.lever_m = block.coordinate.lever_m;
@@ -179,12 +189,10 @@ void JointRows::book(EnergyBook& energy) const {
     if (!row.there) continue;
     const double along = mean(row.axis);
     const double damped = -problem_.period_s * block.joint->damping * velocityAlong(row.axis, block, problem_.nodes);
-    const double stopped_J = row.impulses[CoordinateRow::kStopped] * along;
-    const bool rigid = block.joint->low == block.joint->high;
     energy.joint_damping_J -= damped * along;
     energy.joint_friction_J -= row.impulses[CoordinateRow::kRubbed] * along;
-    energy.joint_limit_J -= rigid ? 0 : stopped_J;
-    energy.solver_J += (row.impulses[CoordinateRow::kDriven] - damped) * along + (rigid ? stopped_J : 0);
+    energy.joint_limit_J -= row.impulses[CoordinateRow::kStopped] * along;
+    energy.solver_J += (row.impulses[CoordinateRow::kDriven] - damped) * along;
   }
 }
 

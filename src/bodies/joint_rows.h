@@ -30,7 +30,7 @@ class JointRows {
 
  private:
   void beginBlock(const WorldState& state, std::size_t number);
-  void beginCoordinate(const JointState& last, const JointPlace& place, JointBlock& block) const;
+  void beginCoordinate(const JointState& last, JointBlock& block) const;
   JointPlace placeAtEnd(const WorldState& state, const JointBlock& block, const BodyWays& plan) const;
   Vec3 centreOf(int node) const;
 

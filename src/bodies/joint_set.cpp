@@ -20,19 +20,18 @@ std::vector<JointBlock> blocksOf(const World& world) {
 
 }  // namespace
 
-JointSet::JointSet(const World& world) : blocks(blocksOf(world)), tree(world, blocks) {}
+JointSet::JointSet(const World& world) : blocks(blocksOf(world)), trees(world, blocks) {}
 
-void JointSet::prepare(std::span<Node> nodes) {
-  tree.prepare(blocks, nodes);
-  for (JointBlock& block : blocks) prepareJoint(block, nodes);
-}
-
+// After each row outside a tree its trees answer, so that it is solved as if they were rigid.
 void JointSet::sweep(std::span<Node> nodes, double period_s) {
-  for (JointBlock& block : blocks) solveCoordinate(block, nodes, period_s);
+  for (JointBlock& block : blocks) block.change.setZero();
+  trees.solve(blocks, nodes);
   for (JointBlock& block : blocks) {
-    if (!block.in_tree && block.size > 0) solveHeld(block, nodes);
+    const bool closes_loop = !block.in_tree && block.size > 0;
+    if (closes_loop) solveHeld(block, nodes);
+    if (block.coordinate.there) solveCoordinate(block, nodes, period_s);
+    if (closes_loop || block.coordinate.there) trees.solveNear(block, blocks, nodes);
   }
-  tree.solve(blocks, nodes);
 }
 
 void JointSet::searchOn(std::span<Node> nodes, double part, bool anew) {

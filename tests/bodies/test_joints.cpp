@@ -117,8 +117,9 @@ TEST(Joints, TwoFixedBodiesMoveAsOne) {
   const double middle = (0.1 * 0.02 - 0.2 * 0.02) / 0.3;
   const double inertia = 0.3 * 0.04 * 0.04 / 6 + 0.1 * std::pow(0.02 - middle, 2) + 0.2 * std::pow(-0.02 - middle, 2);
   const double spin = 1e-3 * (0.04 - middle) / inertia, speed = 1e-3 / 0.3;
-  EXPECT_NEAR(play.state.bodies[0].spin.z(), spin, 1e-9 * spin);
-  EXPECT_NEAR(play.state.bodies[1].spin.z(), spin, 1e-9 * spin);
+  // The chord of the step: to the square of what it turns in it.
+  EXPECT_NEAR(play.state.bodies[0].spin.z(), spin, 1e-7 * spin);
+  EXPECT_NEAR(play.state.bodies[1].spin.z(), spin, 1e-7 * spin);
   EXPECT_NEAR(play.state.bodies[0].velocity.y(), speed + spin * (0.02 - middle), 1e-6);
   EXPECT_NEAR(play.state.bodies[1].velocity.y(), speed + spin * (-0.02 - middle), 1e-6);
   play.steps(2000);
@@ -139,10 +140,12 @@ TEST(Joints, ALimitStopsWithoutABounce) {
     joint.low = begin - 0.0301;
     joint.high = begin + 0.0503;
     Playground play(weightless({ball(1, 0.1, 0.01, 0)}, {named(1, 1, 0, joint)}), {placeAt(at)});
+    double kinetic_J = 0;
     for (const double way : {1.0, -1.0}) {
       play.state.bodies[0].velocity = kind == JointKind::kHinge ? Vec3(0, 0, -way * 0.1) : Vec3(way, 0, 0);
       if (kind == JointKind::kHinge) play.state.bodies[0].spin = Vec3(0, way, 0);
       const double begin_J = play.energy_J() - play.state.energy.change_J();
+      kinetic_J += play.energy_J();
       double furthest = 0;
       for (int i = 0; i < 200; ++i) {
         stepBooked(play, begin_J, 0.1);
@@ -152,7 +155,7 @@ TEST(Joints, ALimitStopsWithoutABounce) {
       EXPECT_NEAR(play.state.joints[0].coordinate, way > 0 ? joint.high : joint.low, 1e-9);
       EXPECT_LT(std::abs(play.state.joints[0].velocity), 1e-9);
     }
-    EXPECT_GT(play.state.energy.joint_limit_J, 0.01);
+    EXPECT_NEAR(play.state.energy.joint_limit_J, kinetic_J, 2e-3 * kinetic_J);  // w T, of the chord
   }
 }
 
@@ -199,7 +202,7 @@ TEST(Joints, R24ABlockOnASpringWithFriction) {
       stepBooked(play, begin_J, 0.1);
       const double now = std::abs(play.state.joints[0].coordinate - rest);
       if (outward && now < before) turns.push_back(before);
-      outward = now > before;
+      if (now != before) outward = now > before;  // where it turns it may stand for a step
       before = now;
     }
     ASSERT_GE(turns.size(), 5u) << floor;
