@@ -13,6 +13,8 @@ namespace {
 constexpr double kBounces_m_s = 0.02;
 // How often rows are added for what the motion found would pass. What is left stops short (motion_plan.h).
 constexpr int kRounds = 8;
+// How often the ways of joints are bent. What is left is straightened (motion_plan.h).
+constexpr int kBends = 3;
 
 }  // namespace
 
@@ -167,16 +169,14 @@ BodyStepReport BodyStepper::step(WorldState& state, double period_s, std::span<c
   contacts_.addBearing(state.memory);
   for (Row& row : problem_.rows) prepareRow(row, problem_.nodes);
   solve(report);
-  for (int round = 0; round < kRounds; ++round) {
-    const bool passed = contacts_.addPassed(state), bent = joints_.bend(state);
-    if (!passed && !bent) break;
-    solve(report);
-  }
+  for (int round = 0; round < kBends && joints_.bend(state); ++round) solve(report);
+  for (int round = 0; round < kBends && joints_.refuse(state); ++round) solve(report);
+  for (int round = 0; round < kRounds && contacts_.addPassed(state); ++round) solve(report);
   plan_.make(state, margin_m, report.converged);
   bounce(report);
   tellHands(given);
   book(state.energy, given);
-  joints_.book(state.energy);
+  joints_.book(state);
   slowHeld(state);
   move(state);
   joints_.remember(state);

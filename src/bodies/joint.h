@@ -59,9 +59,11 @@ inline std::size_t heldRows(const Joint& joint) {
 struct JointState {
   double coordinate = 0;  ///< m or rad; a hinge counts its whole turns
   double velocity = 0;    ///< m/s or rad/s
-  /// From which the next step begins. N s: of what is held; along the coordinate N s or N m s.
+  /// Impulses from which the next step begins. N s: of what is held; along the coordinate N s or N m s.
   std::array<double, 6> held{};
   std::array<double, 3> along{};
+  /// J that what holds the joint has taken so far and may give back (joint_rows.h).
+  double spare_J = 0;
 };
 
 /// A joint of two bodies where they are now, with coordinate 0 there. Poses: object to world; pose_b is the identity

@@ -11,6 +11,9 @@ namespace {
 // kBent on, and is straightened from kStraight on; at most kMostStraight a step.
 constexpr double kBent = 1e-9, kStraight = 1e-10, kMostStraight_m = 1e-3;
 
+// Of the kinetic energy of its two bodies, what holds a joint may give back this part later.
+constexpr double kSpare = 0.01;
+
 // Of the mobility of its two bodies alone, a coordinate has at least this part, though other joints may hold it still.
 constexpr double kLeastMobility = 1e-3;
 
@@ -34,6 +37,7 @@ JointRows::JointRows(BodyProblem& problem) : problem_(problem) {
   chord_.parts.assign(problem.bodies(), 1);
   off_.resize(problem.joints.blocks.size());
   bent_.resize(problem.joints.blocks.size());
+  fed_J_.resize(problem.bodies());
 }
 
 Vec3 JointRows::centreOf(int node) const {
@@ -83,12 +87,18 @@ void JointRows::beginCoordinate(const JointState& last, JointBlock& block) const
   row.mass = period_s * (implicitPart(joint.spring, row.mobility, period_s) * period_s * joint.spring + joint.damping);
   row.table = joint.table.empty() ? nullptr : &joint.table;
   row.most_rubbed = period_s * joint.friction;
-  row.least = std::min(joint.low - row.from, 0.0) / period_s;
-  row.most = std::max(joint.high - row.from, 0.0) / period_s;
+  setLimits(block, 0);
   row.there = !isRod(joint) && (joint.spring > 0 || joint.damping > 0 || joint.friction > 0 || row.table != nullptr ||
                                 std::isfinite(joint.low) || std::isfinite(joint.high));
   row.impulses = Vec3(last.along[0], last.along[1], last.along[2]);
   row.search.setZero();
+}
+
+// What the limits leave to the velocity, where the coordinate ends `bent` beyond it.
+void JointRows::setLimits(JointBlock& block, double bent) const {
+  CoordinateRow& row = block.coordinate;
+  row.least = (std::min(block.joint->low - row.from, 0.0) - bent) / problem_.period_s;
+  row.most = (std::max(block.joint->high - row.from, 0.0) - bent) / problem_.period_s;
 }
 
 double JointRows::speed() const {
@@ -145,10 +155,40 @@ bool JointRows::bend(const WorldState& state) {
     if (!passed && row.impulses[CoordinateRow::kStopped] == 0) continue;
     again |= std::abs(bent - bent_[i]) > kBent;
     bent_[i] = bent;
-    row.least = (std::min(joint.low - row.from, 0.0) - bent) / period_s;
-    row.most = (std::max(joint.high - row.from, 0.0) - bent) / period_s;
+    setLimits(block, bent);
   }
   return again;
+}
+
+double JointRows::heldWork_J(const JointBlock& block) const {
+  const Vec6 twice_mean = heldVelocities(block, problem_.before) + heldVelocities(block, problem_.nodes);
+  return block.held.dot(twice_mean) / 2;
+}
+
+double JointRows::kinetic_J(const JointBlock& block) const {
+  double sum = 0;
+  for (const int number : {block.a, block.b}) {
+    if (number == Row::kFixed) continue;
+    const Node& node = problem_.nodes[static_cast<std::size_t>(number)];
+    sum += node.velocity.squaredNorm() / node.inverse_mass + node.spin.dot(node.inverse_inertia.inverse() * node.spin);
+  }
+  return sum / 2;
+}
+
+bool JointRows::refuse(const WorldState& state) {
+  std::fill(fed_J_.begin(), fed_J_.end(), 0);
+  const std::vector<JointBlock>& blocks = problem_.joints.blocks;
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    fed_J_[groupOf(blocks[i])] += heldWork_J(blocks[i]) - state.joints[i].spare_J;
+  bool any = false;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    JointBlock& block = problem_.joints.blocks[i];
+    if (fed_J_[groupOf(block)] <= 0 || (block.wanted.isZero(0) && bent_[i] == 0)) continue;
+    block.wanted.setZero();
+    setLimits(block, bent_[i] = 0);
+    any = true;
+  }
+  return any;
 }
 
 bool JointRows::straighten(const WorldState& state, const BodyWays& plan, JointSet& apart) const {
@@ -178,13 +218,16 @@ bool JointRows::straighten(const WorldState& state, const BodyWays& plan, JointS
   return any;
 }
 
-void JointRows::book(EnergyBook& energy) const {
-  for (const JointBlock& block : problem_.joints.blocks) {
+void JointRows::book(WorldState& state) const {
+  EnergyBook& energy = state.energy;
+  for (std::size_t i = 0; i < problem_.joints.blocks.size(); ++i) {
+    const JointBlock& block = problem_.joints.blocks[i];
+    const double held_J = heldWork_J(block);
+    energy.solver_J += held_J;
+    state.joints[i].spare_J = std::min(state.joints[i].spare_J - held_J, kSpare * kinetic_J(block));
     const auto mean = [&](const JointAxis& axis) {
       return (velocityAlong(axis, block, problem_.before) + velocityAlong(axis, block, problem_.nodes)) / 2;
     };
-    for (std::size_t i = 0; i < block.size; ++i)
-      energy.solver_J += block.held[static_cast<Eigen::Index>(i)] * mean(block.rows[i]);
     const CoordinateRow& row = block.coordinate;
     if (!row.there) continue;
     const double along = mean(row.axis);

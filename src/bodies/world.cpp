@@ -15,8 +15,7 @@ WorldState startWorld(const World& world, const std::vector<Pose>& poses) {
     body.turned = Eigen::Quaterniond(poses[i].rotation).normalized();
     body.centre = poses[i].toWorld(world.bodies[i].mass.centre_O);
   }
-  for (const Joint& joint : world.joints)
-    state.joints.push_back({jointPlace(joint, world, state).coordinate(0), 0, {}, {}});
+  for (const Joint& joint : world.joints) state.joints.push_back({jointPlace(joint, world, state).coordinate(0)});
   return state;
 }
 
