@@ -56,15 +56,15 @@ class Workshop {
     scene_.bodies.push_back({std::move(name), std::move(model), {Mat3::Identity(), at}, spec});
     return scene_.bodies.size();
   }
-  JointSpec& joint(std::string name, JointKind kind, std::uint64_t body, const Vec3& anchor, const Vec3& axis) {
+  JointForces& joint(std::string name, JointKind kind, std::uint64_t body, const Vec3& anchor, const Vec3& axis) {
     JointSpec spec;
     spec.name = std::move(name);
     spec.kind = kind;
     spec.body_a = body;
     spec.anchor_W = anchor;
     spec.axis_W = axis;
-    scene_.joints.push_back(std::move(spec));
-    return scene_.joints.back();
+    scene_.mechanics.joints.push_back(std::move(spec));
+    return scene_.mechanics.joints.back().along;
   }
 
   void table() {
@@ -79,7 +79,7 @@ class Workshop {
     Model panel = boxSolid(Vec3(0.0235, 0.03, 0.002));
     append(panel, ballSolid(0.004, 16), Vec3(0.018, 0, 0.005));
     const std::uint64_t number = body("door", std::move(panel), at + Vec3(0, 0.032, 0), bodySpec(kWood_kg_m3, 0.3));
-    JointSpec& hinge = joint("door hinge", JointKind::kHinge, number, at + Vec3(-0.0235, 0.032, 0), Vec3::UnitY());
+    JointForces& hinge = joint("door hinge", JointKind::kHinge, number, at + Vec3(-0.0235, 0.032, 0), Vec3::UnitY());
     hinge.low = -1.9;
     hinge.high = 1.9;
     hinge.friction = 0.002;
@@ -101,7 +101,7 @@ class Workshop {
     BodySpec spec = bodySpec(kWood_kg_m3, 0.3);
     spec.mass_kg = 0.02;
     const std::uint64_t number = body("drawer", std::move(tray), at + Vec3(0, 0.004, 0.002), spec);
-    JointSpec& slide = joint("drawer slide", JointKind::kSlider, number, at, Vec3::UnitZ());
+    JointForces& slide = joint("drawer slide", JointKind::kSlider, number, at, Vec3::UnitZ());
     slide.low = 0;
     slide.high = 0.034;
     slide.friction = 0.15;
@@ -135,7 +135,7 @@ class Workshop {
     BodySpec spec = bodySpec(kPlastic_kg_m3, 0.2, BodyShape::kCylinder);
     spec.mass_kg = 0.003;
     const std::uint64_t number = body(name, cylinderSolid(0.007, 0.003, kSides), at + Vec3(0, 0.0075, 0), spec);
-    JointSpec& slide = joint(name + " slide", JointKind::kSlider, number, at, Vec3::UnitY());
+    JointForces& slide = joint(name + " slide", JointKind::kSlider, number, at, Vec3::UnitY());
     slide.low = -0.004;
     slide.high = 0;
     slide.damping = 0.05;
@@ -148,7 +148,7 @@ class Workshop {
     BodySpec spec = bodySpec(kPlastic_kg_m3, 0.3, BodyShape::kBox);
     spec.mass_kg = 0.004;
     const std::uint64_t number = body("rocker", boxSolid(Vec3(0.015, 0.002, 0.006)), at + Vec3(0, 0.009, 0), spec);
-    JointSpec& hinge = joint("rocker hinge", JointKind::kHinge, number, at + Vec3(0, 0.009, 0), Vec3::UnitZ());
+    JointForces& hinge = joint("rocker hinge", JointKind::kHinge, number, at + Vec3(0, 0.009, 0), Vec3::UnitZ());
     hinge.low = -0.3;
     hinge.high = 0.3;
     hinge.damping = 2e-5;
@@ -159,7 +159,7 @@ class Workshop {
     stand(boxSolid(Vec3(0.002, 0.005, 0.008)), at + Vec3(0, 0.005, 0));
     const std::uint64_t number =
         body("seesaw", boxSolid(Vec3(0.035, 0.0015, 0.009)), at + Vec3(0, 0.0125, 0), bodySpec(kWood_kg_m3, 0.5));
-    JointSpec& hinge = joint("seesaw hinge", JointKind::kHinge, number, at + Vec3(0, 0.0125, 0), Vec3::UnitZ());
+    JointForces& hinge = joint("seesaw hinge", JointKind::kHinge, number, at + Vec3(0, 0.0125, 0), Vec3::UnitZ());
     hinge.low = -0.28;
     hinge.high = 0.28;
     hinge.friction = 2e-4;

@@ -13,6 +13,8 @@ namespace {
 constexpr double kBounces_m_s = 0.02;
 // How often rows are added for what the motion found would pass. What is left stops short (motion_plan.h).
 constexpr int kRounds = 8;
+// How often the ways of joints are bent. What is left is straightened (motion_plan.h).
+constexpr int kBends = 3;
 
 }  // namespace
 
@@ -61,12 +63,12 @@ double BodyStepper::margin() const {
     const double reach = i < problem_.bodies() ? problem_.reachOf(i) : 0;
     fastest = std::max(fastest, problem_.nodes[i].velocity.norm() + problem_.nodes[i].spin.norm() * reach);
   }
-  return 4 * problem_.period_s * fastest + kTouching_m;
+  return 4 * problem_.period_s * (fastest + joints_.speed()) + kTouching_m;
 }
 
 void BodyStepper::solve(BodyStepReport& report) {
-  const RowSolverLimits limits = limitsFor(problem_.rows.size());
-  const int sweeps = solveRows(problem_.rows, problem_.nodes, problem_.period_s, limits);
+  const RowSolverLimits limits = limitsFor(problem_.rows.size() + 3 * problem_.joints.blocks.size());
+  const int sweeps = solveRows(problem_.rows, problem_.joints, problem_.nodes, problem_.period_s, limits);
   report.sweeps = std::max(report.sweeps, sweeps);
   report.converged = sweeps < limits.sweeps;
 }
@@ -160,19 +162,24 @@ BodyStepReport BodyStepper::step(WorldState& state, double period_s, std::span<c
   BodyStepReport report;
   begin(state, period_s);
   for (std::size_t hand = 0; hand < hands.size(); ++hand) addHand(hands[hand], given[hand]);
+  joints_.begin(state);
   const double margin_m = margin();
   for (std::size_t hand = 0; hand < hands.size(); ++hand) hand_rows_.add(hands[hand], hand, margin_m, state.memory);
   problem_.meetings.find(world(), state, problem_.placed, margin_m);
   contacts_.addBearing(state.memory);
   for (Row& row : problem_.rows) prepareRow(row, problem_.nodes);
   solve(report);
+  for (int round = 0; round < kBends && joints_.bend(state); ++round) solve(report);
+  for (int round = 0; round < kBends && joints_.refuse(state); ++round) solve(report);
   for (int round = 0; round < kRounds && contacts_.addPassed(state); ++round) solve(report);
   plan_.make(state, margin_m, report.converged);
   bounce(report);
   tellHands(given);
   book(state.energy, given);
+  joints_.book(state);
   slowHeld(state);
   move(state);
+  joints_.remember(state);
   contacts_.remember(state.memory);
   ++state.steps;
   report.rows = static_cast<int>(problem_.rows.size());

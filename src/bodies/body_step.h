@@ -9,6 +9,7 @@
 
 #include "bodies/contact_rows.h"
 #include "bodies/hand_rows.h"
+#include "bodies/joint_rows.h"
 #include "bodies/motion_plan.h"
 
 namespace hl {
@@ -49,7 +50,8 @@ class BodyStepper {
   BodyProblem problem_;
   ContactRows contacts_{problem_};
   HandRows hand_rows_{problem_, contacts_};
-  MotionPlan plan_{problem_};
+  JointRows joints_{problem_};
+  MotionPlan plan_{problem_, joints_};
 };
 
 }  // namespace hl

@@ -7,7 +7,7 @@
 
 namespace hl {
 
-Meetings::Meetings(const World& world) : along_x_(world.bodies.size()) {
+Meetings::Meetings(const World& world) : along_x_(world.bodies.size()), joined_(world) {
   meetings_.reserve(kContactsPerBody * world.bodies.size());
   near_.reserve(4 * kContactsPerBody);
   std::iota(along_x_.begin(), along_x_.end(), 0u);
@@ -65,6 +65,7 @@ void Meetings::withBodies(const WorldState& state, const World& world, const Pla
       const std::uint32_t a = std::min(one, along_x_[j]), b = std::max(one, along_x_[j]);
       const double reach = world.bodies[a].shape.reach + world.bodies[b].shape.reach + margin;
       if ((state.bodies[a].centre - state.bodies[b].centre).squaredNorm() > reach * reach) continue;
+      if (joined_.has(a, b)) continue;
       Meeting meeting{static_cast<int>(a), static_cast<int>(b), {}, {}, 0};
       if (findManifold(placed[a], placed[b], margin, meeting.manifold)) add(meeting);
     }

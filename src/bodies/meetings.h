@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "bodies/joint_groups.h"
 #include "bodies/placed_bodies.h"
 #include "scene/scene_at.h"
 
@@ -37,6 +38,7 @@ class Meetings {
   std::vector<Meeting> meetings_;
   std::vector<PrimitiveId> near_;
   std::vector<std::uint32_t> along_x_;
+  JoinedPairs joined_;
   ManyRecentPrimitives recent_;
   std::optional<SceneAt> scene_;
   std::size_t dropped_ = 0;

@@ -11,6 +11,8 @@ namespace {
 
 // Of an overlap this part is removed in a step.
 constexpr double kPushedApart = 0.2;
+// How often joints are put right.
+constexpr int kCorrections = 4;
 // m; a smaller overlap at the end of a step is left to pushApart().
 constexpr double kLeft_m = 1e-5;
 // How often all pairs are looked at; each time what would pass goes a quarter of its part. Then it stays where it is,
@@ -28,7 +30,8 @@ double separationAlong(const PlacedConvex& a, const PlacedConvex& b, const Vec3&
 
 }  // namespace
 
-MotionPlan::MotionPlan(const BodyProblem& problem) : problem_(problem) {
+MotionPlan::MotionPlan(const BodyProblem& problem, const JointRows& joints)
+    : problem_(problem), joints_(joints), joints_apart_(problem.joints) {
   plan_.ways.resize(problem.bodies());
   plan_.turns.resize(problem.bodies());
   plan_.parts.resize(problem.bodies());
@@ -38,7 +41,7 @@ MotionPlan::MotionPlan(const BodyProblem& problem) : problem_(problem) {
 
 void MotionPlan::make(const WorldState& state, double margin, bool converged) {
   goWithVelocities();
-  pushApart();
+  correct(state);
   limit(margin);
   stopShort(state, converged);
 }
@@ -51,6 +54,13 @@ void MotionPlan::goWithVelocities() {
     plan_.turns[i] = problem_.nodes[i].spin;
     plan_.parts[i] = 1;
   }
+  for (const JointBlock& joint : problem_.joints.blocks) {
+    for (const int number : {joint.a, joint.b}) {
+      if (number == Row::kFixed) continue;
+      const auto i = static_cast<std::size_t>(number);
+      plan_.ways[i] = period_s * problem_.nodes[i].velocity;
+    }
+  }
   for (const Row& row : problem_.rows) {
     if (!(row.pressed > 0)) continue;
     for (const int number : {row.a, row.b}) {
@@ -60,31 +70,64 @@ void MotionPlan::goWithVelocities() {
   }
 }
 
-// Overlaps are removed by velocities of their own, which act for this step alone and leave no kinetic energy.
-void MotionPlan::pushApart() {
+// Overlaps, and what joints are off, are removed by velocities of their own, which act for this step alone and leave
+// no kinetic energy.
+void MotionPlan::findOverlaps() {
   overlaps_.clear();
   for (const Row& row : problem_.rows) {
     if (row.gap >= -kTouching_m) continue;
     overlaps_.push_back(row);
-    overlaps_.back().pressed = overlaps_.back().friction = 0;
+    overlaps_.back().friction = 0;
     overlaps_.back().dragged.setZero();
     overlaps_.back().least_velocity = -kPushedApart * row.gap / problem_.period_s;
   }
-  if (overlaps_.empty()) return;
+}
+
+// What joints are off at the end of the plan is not linear in what moves them: it takes a few rounds, in which what
+// overlaps stays apart.
+void MotionPlan::correct(const WorldState& state) {
+  findOverlaps();
+  for (int round = 0; round < kCorrections; ++round) {
+    const bool off = joints_.straighten(state, plan_, joints_apart_);
+    if (!off && (round > 0 || overlaps_.empty())) return;
+    pushApart();
+    for (Row& row : overlaps_) row.least_velocity = 0;
+  }
+}
+
+void MotionPlan::pushApart() {
+  for (Row& row : overlaps_) row.pressed = 0;
   apart_ = problem_.nodes;
   for (Node& node : apart_) node.velocity = node.spin = Vec3::Zero();
   for (Row& row : overlaps_) prepareRow(row, apart_);
-  solveRows(overlaps_, apart_, problem_.period_s, limitsFor(overlaps_.size()));
+  solveRows(overlaps_, joints_apart_, apart_, problem_.period_s,
+            limitsFor(overlaps_.size() + joints_apart_.blocks.size()));
   for (std::size_t i = 0; i < problem_.bodies(); ++i) {
     plan_.ways[i] += problem_.period_s * apart_[i].velocity;
     plan_.turns[i] += apart_[i].spin;
   }
 }
 
+// So do all bodies that joints connect with it, or the joints would be torn apart.
+void MotionPlan::goPart(std::size_t body, double part) {
+  const std::uint32_t group = problem_.groups[body];
+  for (std::size_t i = 0; i < problem_.bodies(); ++i) {
+    if (problem_.groups[i] == group) plan_.parts[i] *= part;
+  }
+}
+
+void MotionPlan::goPart(const Meeting& meeting, double part) {
+  const auto a = static_cast<std::size_t>(meeting.a);
+  goPart(a, part);
+  if (meeting.b == Row::kFixed) return;
+  const auto b = static_cast<std::size_t>(meeting.b);
+  if (problem_.groups[a] != problem_.groups[b]) goPart(b, part);
+}
+
 void MotionPlan::limit(double margin) {
   for (std::size_t i = 0; i < problem_.bodies(); ++i) {
     const double way = plan_.ways[i].norm() + problem_.period_s * plan_.turns[i].norm() * problem_.reachOf(i);
-    if (way > margin / 2) plan_.parts[i] = margin / 2 / way;
+    if (plan_.parts[i] * way > margin / 2) goPart(i, margin / 2 / way / plan_.parts[i]);
   }
 }
 
@@ -103,14 +146,11 @@ bool MotionPlan::passes(const WorldState& state, const Meeting& meeting) const {
 // False: they do not go at all any more.
 bool MotionPlan::shorten(const WorldState& state, const Meeting& meeting) {
   constexpr int kTimes = 4;
-  double& of_a = plan_.parts[static_cast<std::size_t>(meeting.a)];
-  double& of_b = meeting.b == Row::kFixed ? of_a : plan_.parts[static_cast<std::size_t>(meeting.b)];
   for (int time = 0; time < kTimes; ++time) {
-    of_a *= kShorter;
-    if (&of_b != &of_a) of_b *= kShorter;
+    goPart(meeting, kShorter);
     if (!passes(state, meeting)) return true;
   }
-  of_a = of_b = 0;
+  goPart(meeting, 0);
   return false;
 }
 
@@ -125,8 +165,7 @@ void MotionPlan::stopShort(const WorldState& state, bool converged) {
       if (look + 1 < kLooks) {
         shorten(state, meeting);
       } else {
-        plan_.parts[static_cast<std::size_t>(meeting.a)] = 0;
-        if (meeting.b != Row::kFixed) plan_.parts[static_cast<std::size_t>(meeting.b)] = 0;
+        goPart(meeting, 0);
       }
     }
     if (!shortened) return;

@@ -98,11 +98,19 @@ void prepareRow(Row& row, std::span<Node> nodes) {
   applyImpulse(row, nodes, row.pressed * row.normal + row.dragged);
 }
 
-int solveRows(std::span<Row> rows, std::span<Node> nodes, double period_s, const RowSolverLimits& limits) {
+int solveRows(std::span<Row> rows, JointSet& joints, std::span<Node> nodes, double period_s,
+              const RowSolverLimits& limits) {
   double last_square = 0;
   for (Row& row : rows) row.search.setZero();
   for (int sweep = 1; sweep <= limits.sweeps; ++sweep) {
     double square = 0, changed = 0, largest = 0;
+    joints.sweep(nodes, period_s);
+    for (const JointBlock& joint : joints.blocks) {
+      const BlockSweep swept = sweepOf(joint);
+      square += swept.change;
+      if (swept.change > joint.least_change * joint.least_change) changed = std::max(changed, swept.change);
+      largest = std::max(largest, swept.largest);
+    }
     for (Row& row : rows) {
       row.change = solveRow(row, nodes, period_s);
       square += row.change.squaredNorm();
@@ -111,7 +119,9 @@ int solveRows(std::span<Row> rows, std::span<Node> nodes, double period_s, const
     }
     if (changed <= limits.done * limits.done * largest) return sweep;
     if (sweep == limits.sweeps) break;
-    searchOn(rows, nodes, last_square > 0 ? square / last_square : 2);
+    const double part = last_square > 0 ? square / last_square : 2;
+    joints.searchOn(nodes, part, part > 1);
+    searchOn(rows, nodes, part);
     last_square = square;
   }
   return limits.sweeps;

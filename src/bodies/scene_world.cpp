@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "bodies/joint_check.h"
 
 namespace hl {
 
@@ -97,6 +98,48 @@ Body bodyOf(const Model& model, const BodySpec& spec) {
   return body;
 }
 
+namespace {
+
+Pose startOf(const Snapshot& snapshot, std::uint64_t key) {
+  for (const Instance& instance : snapshot.instances) {
+    if (instance.key == key && instance.movesAsBody()) return instance.body->start;
+  }
+  return {};
+}
+
+Joint jointOf(const JointSpec& spec, const Snapshot& snapshot, std::uint64_t key) {
+  const Pose pose_a = startOf(snapshot, spec.body_a), pose_b = startOf(snapshot, spec.body_b);
+  Joint joint = spec.kind == JointKind::kDistance ? distanceBetween(spec.anchor_W, spec.anchor_b_W, pose_a, pose_b)
+                                                  : jointAt(spec.kind, spec.anchor_W, spec.axis_W, pose_a, pose_b);
+  const JointForces as_it_stands = joint;  // of a distance
+  static_cast<JointForces&>(joint) = spec.along;
+  if (spec.kind == JointKind::kDistance && spec.along == JointForces{}) static_cast<JointForces&>(joint) = as_it_stands;
+  joint.key = key;
+  joint.body_a = spec.body_a;
+  joint.body_b = spec.body_b;
+  joint.collide = spec.collide;
+  return joint;
+}
+
+// A joint to what does not move is one to the world; one of two such things is none.
+void addJoints(const Snapshot& snapshot, World& world) {
+  std::uint64_t key = 0;
+  for (JointSpec spec : snapshot.mechanics.joints) {
+    ++key;
+    if (world.find(spec.body_b) == nullptr) spec.body_b = 0;
+    if (world.find(spec.body_a) == nullptr) std::swap(spec.body_a, spec.body_b);
+    if (world.find(spec.body_a) == nullptr) continue;
+    world.joints.push_back(jointOf(spec, snapshot, key));
+    try {
+      checkJoint(world.joints.back(), world);
+    } catch (const Error& error) {
+      throw Error(spec.name + ": " + error.what());
+    }
+  }
+}
+
+}  // namespace
+
 std::shared_ptr<const World> worldOf(const Snapshot& snapshot) {
   auto world = std::make_shared<World>();
   std::vector<Instance> fixed;
@@ -116,6 +159,7 @@ std::shared_ptr<const World> worldOf(const Snapshot& snapshot) {
   if (world->bodies.empty()) return nullptr;
   if (!fixed.empty()) world->fixed = makeSnapshot(std::move(fixed));
   world->gravity_m_s2 = snapshot.mechanics.gravity_m_s2;
+  addJoints(snapshot, *world);
   return world;
 }
 

@@ -1,8 +1,12 @@
 #include "bodies/world.h"
 
+#include "bodies/joint_check.h"
+#include "bodies/joint_place.h"
+
 namespace hl {
 
 WorldState startWorld(const World& world, const std::vector<Pose>& poses) {
+  checkJoints(world);
   WorldState state;
   state.bodies.resize(world.bodies.size());
   state.memory.reserve(mostRows(world));
@@ -11,6 +15,7 @@ WorldState startWorld(const World& world, const std::vector<Pose>& poses) {
     body.turned = Eigen::Quaterniond(poses[i].rotation).normalized();
     body.centre = poses[i].toWorld(world.bodies[i].mass.centre_O);
   }
+  for (const Joint& joint : world.joints) state.joints.push_back({jointPlace(joint, world, state).coordinate(0)});
   return state;
 }
 
@@ -45,6 +50,13 @@ double gravityEnergy_J(const World& world, const WorldState& state) {
   double sum = 0;
   for (std::size_t i = 0; i < state.bodies.size(); ++i)
     sum -= world.bodies[i].mass.mass_kg * world.gravity_m_s2.dot(state.bodies[i].centre);
+  return sum;
+}
+
+double springEnergy_J(const World& world, const WorldState& state) {
+  double sum = 0;
+  for (std::size_t i = 0; i < state.joints.size(); ++i)
+    sum += springEnergy_J(world.joints[i], state.joints[i].coordinate);
   return sum;
 }
 

@@ -11,6 +11,7 @@
 #include "bodies/contact_memory.h"
 #include "bodies/convex.h"
 #include "bodies/energy_book.h"
+#include "bodies/joint.h"
 #include "bodies/mass.h"
 #include "scene/body_spec.h"
 #include "scene/pose.h"
@@ -28,6 +29,7 @@ struct Body {
 /// Immutable while it is stepped.
 struct World {
   std::vector<Body> bodies;                    ///< sorted by key
+  std::vector<Joint> joints;                   ///< sorted by key
   std::shared_ptr<const Snapshot> fixed;       ///< what bodies stand on: at rest; null: nothing
   std::optional<BodySurface> fixed_surface{};  ///< of all of `fixed`; absent: as that of the body that touches it
   /// Of single instances of `fixed`, in its place. May be shorter than the list of instances.
@@ -64,13 +66,15 @@ struct BodyState {
 
 /// Plain values but for the lists, whose room is made by startWorld().
 struct WorldState {
-  std::vector<BodyState> bodies;  ///< as World::bodies
+  std::vector<BodyState> bodies;   ///< as World::bodies
+  std::vector<JointState> joints;  ///< as World::joints
   ContactMemory memory;
   EnergyBook energy{};
   std::uint64_t steps = 0;
 };
 
-/// Each body at a pose of its object frame, at rest. `poses`: as World::bodies. Allocates.
+/// Each body at a pose of its object frame, at rest. `poses`: as World::bodies. Throws Error for joints that do not
+/// hold together (joint_check.h). Allocates.
 WorldState startWorld(const World& world, const std::vector<Pose>& poses);
 /// The pose of the object frame. RT-safe.
 Pose poseOf(const Body& body, const BodyState& state);
@@ -80,5 +84,7 @@ Mat3 inertiaOf(const Body& body, const BodyState& state);
 /// Joules. RT-safe.
 double kineticEnergy_J(const World& world, const WorldState& state);
 double gravityEnergy_J(const World& world, const WorldState& state);
+/// Of the springs and force tables of joints.
+double springEnergy_J(const World& world, const WorldState& state);
 
 }  // namespace hl

@@ -19,7 +19,7 @@
 #include "io/decode_scene.h"
 #include "io/json_lines.h"
 #include "io/load_image.h"
-#include "io/scene_builder.h"
+#include "scene/append_part.h"
 
 namespace hl {
 

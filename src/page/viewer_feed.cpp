@@ -88,9 +88,11 @@ void setBodies(proto::Bodies& out, const BodyView& bodies) {
   out.set_count(bodies.bodies);
   out.set_kinetic_j(bodies.kinetic_J);
   out.set_gravity_j(bodies.gravity_J);
+  out.set_spring_j(bodies.spring_J);
   out.set_by_hand_j(bodies.energy.by_hand_J);
   out.set_contact_j(bodies.energy.contact_J);
   out.set_friction_j(bodies.energy.friction_J);
+  out.set_joints_j(bodies.energy.joint_J());
   out.set_solver_j(bodies.energy.solver_J);
   out.set_lost_s(bodies.lost_s);
   out.set_returned(bodies.returned);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "scene/append_part.h"
+
 namespace hl {
 
 namespace {
@@ -21,12 +23,22 @@ void setBody(Instance& instance, std::shared_ptr<const RigidBody> body) {
   instance.body = std::move(body);
 }
 
+// Forces stay as they are said, so that a spring of N/m does too; angles are none of lengths.
+void scaleJoint(JointSpec& joint, double factor, const Vec3& offset) {
+  joint.anchor_W = factor * joint.anchor_W + offset;
+  joint.anchor_b_W = factor * joint.anchor_b_W + offset;
+  if (joint.kind != JointKind::kSlider && joint.kind != JointKind::kDistance) return;
+  for (double* length : {&joint.along.low, &joint.along.high, &joint.along.rest}) *length *= factor;
+  for (double& position : joint.along.table.position) position *= factor;
+}
+
 // Moves all of it by `factor` and then by `offset`.
 void moveBodies(SceneModel& scene, double factor, const Vec3& offset) {
   for (SceneBody& body : scene.bodies) {
     scaleModel(body.model, factor);
     body.pose.origin = factor * body.pose.origin + offset;
   }
+  for (JointSpec& joint : scene.mechanics.joints) scaleJoint(joint, factor, offset);
 }
 
 }  // namespace
@@ -38,6 +50,22 @@ Box boundsOf(const SceneModel& scene) {
     if (!box.empty()) bounds.extend(boxAt(box, body.pose));
   }
   return bounds;
+}
+
+Model asOneModel(const SceneModel& scene) {
+  Model whole = scene.model;
+  whole.triangle_materials.resize(whole.triangles.size());
+  whole.segment_materials.resize(whole.segments.size());
+  whole.point_materials.resize(whole.points.size());
+  for (const SceneBody& body : scene.bodies) {
+    Model part = body.model;
+    placeModel(part, {body.pose.rotation, body.pose.origin});
+    Material material = part.materials.front();
+    material.textures = {};
+    whole.materials.push_back(material);
+    appendPart(whole, part, static_cast<std::uint16_t>(whole.materials.size() - 1));
+  }
+  return whole;
 }
 
 std::size_t bytesToMake(const SceneModel& scene) {
@@ -80,13 +108,18 @@ std::shared_ptr<const Snapshot> makeSnapshot(SceneModel scene, HierarchyKind hie
   } else {
     warnings = scene.model.warnings;
   }
+  const std::uint64_t first_body = key + 1;
   for (SceneBody& body : scene.bodies) {
     add(body.model, body.name);
     Instance& instance = instances.back();
     setBody(instance, makeRigidBody(body.name, body.spec, body.pose, instance.shape->bounds, room));
   }
   auto snapshot = std::make_shared<Snapshot>(*makeSnapshot(std::move(instances), std::move(name)));
-  snapshot->mechanics = scene.mechanics;
+  snapshot->mechanics = std::move(scene.mechanics);
+  for (JointSpec& joint : snapshot->mechanics.joints) {
+    joint.body_a += first_body - 1;
+    if (joint.body_b > 0) joint.body_b += first_body - 1;
+  }
   snapshot->warnings = std::move(warnings);
   return snapshot;
 }

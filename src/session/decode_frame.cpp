@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "io/decode_scene.h"
-#include "io/scene_builder.h"
+#include "scene/append_part.h"
 
 namespace hl {
 

@@ -13,6 +13,7 @@ struct BodyView {
   double lost_s = 0;           ///< by how much their time is behind: steps that came late, or not at all
   double kinetic_J = 0;        ///< now
   double gravity_J = 0;        ///< now, with the origin as zero
+  double spring_J = 0;         ///< now, in the springs and tables of joints
   EnergyBook energy{};         ///< since they began
   std::uint64_t dropped = 0;   ///< contacts without room, since they began
   std::uint64_t unsolved = 0;  ///< steps whose solve ended at its limit of work

@@ -64,6 +64,7 @@ void BodyWorld::continueFrom(const BodyWorld& before) {
     if (goes_on && before.bodies_[j]->poses == bodies_[i]->poses) continue;
     bodies_[i]->poses->jumpTo(poseOf(world().bodies[i], state_.bodies[i]));
   }
+  continueJoints(before);
   state_.memory.copyFrom(before.state_.memory);
   state_.energy = before.state_.energy;
   state_.steps = before.state_.steps;
@@ -72,6 +73,19 @@ void BodyWorld::continueFrom(const BodyWorld& before) {
   view_.bodies = bodies_.size();
   time_ns_ = before.time_ns_;
   begun_ = before.begun_;
+}
+
+// A joint that is as it was: between the same bodies, with the same forces along it.
+void BodyWorld::continueJoints(const BodyWorld& before) {
+  const std::vector<Joint>&joints = world().joints, &last = before.world().joints;
+  std::size_t j = 0;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    while (j < last.size() && last[j].key < joints[i].key) ++j;
+    if (j == last.size()) return;
+    const bool same = last[j].key == joints[i].key && last[j].kind == joints[i].kind &&
+                      last[j].body_a == joints[i].body_a && last[j].body_b == joints[i].body_b;
+    if (same) state_.joints[i] = before.state_.joints[j];
+  }
 }
 
 void BodyWorld::step(std::int64_t now_ns, double period_s, const HandAtBodies& hand) {
@@ -108,6 +122,7 @@ void BodyWorld::count(double late_s) {
   if (state_.steps % kViewEvery != 0) return;
   view_.energy = state_.energy;
   view_.kinetic_J = kineticEnergy_J(world(), state_);
+  view_.spring_J = springEnergy_J(world(), state_);
   view_.gravity_J = gravityEnergy_J(world(), state_);
 }
 

@@ -60,6 +60,7 @@ class BodyWorld {
  private:
   BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<const RigidBody>> bodies);
   BodyState startOf(std::size_t i) const;
+  void continueJoints(const BodyWorld& before);
   void returnLost();
   void count(double late_s);
 

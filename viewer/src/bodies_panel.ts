@@ -80,6 +80,7 @@ export class BodiesPanel {
     setText("bodies-hand", formatSi(bodies.byHandJ, "J"));
     setText("bodies-friction", formatSi(bodies.frictionJ, "J"));
     setText("bodies-contact", formatSi(bodies.contactJ, "J"));
+    setText("bodies-joints", formatSi(bodies.jointsJ, "J"));
     setText("bodies-step", formatSi(bodies.solverJ, "J"));
     setText("bodies-returned", formatCount(bodies.returned));
     const part = this.slow_.judge(state.timeS, bodies.lostS);
