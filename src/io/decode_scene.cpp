@@ -13,6 +13,9 @@ namespace hl {
 
 namespace {
 
+// Of what acts along a joint's coordinate: m, rad, N, N m and what is made of them.
+constexpr double kMostAlong = 1e9;
+
 constexpr std::uint32_t kDefaultSize = 64;
 
 const google::protobuf::FieldDescriptor& fieldOf(const google::protobuf::Message& message, const char* name) {
@@ -161,6 +164,50 @@ BodySpec SceneDecoder::body(const proto::Body& in, const std::string& where) con
   if (in.has_restitution()) surface.restitution = checked(in.restitution(), 0, 1, where + ".restitution");
   spec.velocity_m_s = checked(in.velocity_m_s(), kMostSpeed_m_s, where + ".velocityMS");
   spec.spin_rad_s = checked(in.spin_rad_s(), kMostSpin_rad_s, where + ".spinRadS");
+  return spec;
+}
+
+ForceTable SceneDecoder::forceTable(const proto::ForceTable& in, const std::string& where) const {
+  constexpr int kMostRows = 256;
+  ForceTable table;
+  if (in.position_size() != in.force_size())
+    fail(where, where + ": a force table must have as many forces as positions");
+  if (in.position_size() > kMostRows) fail(where, where + ": a force table has at most 256 rows");
+  for (int i = 0; i < in.position_size(); ++i) {
+    table.position.push_back(checked(in.position(i), -kMostAlong, kMostAlong, pathOf(where + ".position", i)));
+    table.force.push_back(checked(in.force(i), -kMostAlong, kMostAlong, pathOf(where + ".force", i)));
+    if (i > 0 && !(in.position(i) > in.position(i - 1)))
+      fail(pathOf(where + ".position", i), where + ": the positions of a force table must increase");
+  }
+  return table;
+}
+
+JointForces SceneDecoder::jointForces(const proto::Joint& in, const std::string& where) const {
+  JointForces along;
+  if (in.has_low()) along.low = checked(in.low(), -kMostAlong, kMostAlong, where + ".low");
+  if (in.has_high()) along.high = checked(in.high(), -kMostAlong, kMostAlong, where + ".high");
+  if (along.low > along.high) fail(where + ".low", where + ".low must not be above high");
+  along.rest = checked(in.rest(), -kMostAlong, kMostAlong, where + ".rest");
+  along.spring = checked(in.spring(), 0, kMostAlong, where + ".spring");
+  along.damping = checked(in.damping(), 0, kMostAlong, where + ".damping");
+  along.friction = checked(in.friction(), 0, kMostAlong, where + ".friction");
+  along.table = forceTable(in.table(), where + ".table");
+  return along;
+}
+
+JointSpec SceneDecoder::joint(const proto::Joint& in, const std::string& where) const {
+  constexpr double kMostPlace_m = 1e6;
+  JointSpec spec;
+  spec.name = in.name().empty() ? where : in.name();
+  if (!proto::JointKind_IsValid(in.kind())) fail(where + ".kind", where + ".kind is none that HL knows");
+  spec.kind = static_cast<JointKind>(in.kind());
+  spec.anchor_W = checked(in.anchor(), kMostPlace_m, where + ".anchor");
+  spec.anchor_b_W = checked(in.anchor_b(), kMostPlace_m, where + ".anchorB");
+  const bool has_axis = spec.kind == JointKind::kHinge || spec.kind == JointKind::kSlider;
+  if (has_axis) spec.axis_W = checked(in.axis(), kMostPlace_m, where + ".axis");
+  if (has_axis && !(spec.axis_W.norm() > 0)) fail(where + ".axis", where + ": a hinge or slider needs an axis");
+  spec.along = jointForces(in, where);
+  spec.collide = in.collide();
   return spec;
 }
 

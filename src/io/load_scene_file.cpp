@@ -79,6 +79,8 @@ class SceneFile {
   void addAtRest(Model part, const proto::SceneObject& object, const std::string& where, Model& whole) const;
   SceneBody bodyOf(Model part, const proto::SceneObject& object, const std::string& where, const Model& whole) const;
   void checkBodies(const SceneModel& scene) const;
+  std::uint64_t bodyNamed(const std::string& name, const SceneModel& scene, const std::string& where) const;
+  void addJoints(SceneModel& scene) const;
 
   const std::string path_;
   const std::string place_;  // what stands before the line's number in errors
@@ -268,6 +270,28 @@ void SceneFile::checkBodies(const SceneModel& scene) const {
   }
 }
 
+// Numbers from 1, as a scene's joints have them.
+std::uint64_t SceneFile::bodyNamed(const std::string& name, const SceneModel& scene, const std::string& where) const {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (scene.bodies[i].name == name) return i + 1;
+  }
+  fail(where, where + ": there is no body '" + name + "' in this scene");
+}
+
+void SceneFile::addJoints(SceneModel& scene) const {
+  constexpr int kMostJoints = 1000;
+  if (scene_.joints_size() > kMostJoints) fail("joints", "there are more than 1000 joints in it");
+  for (int i = 0; i < scene_.joints_size(); ++i) {
+    const proto::Joint& in = scene_.joints(i);
+    const std::string where = pathOf("joints", i);
+    JointSpec joint = decoder_.joint(in, where);
+    joint.body_a = bodyNamed(in.body_a(), scene, where + ".bodyA");
+    if (!in.body_b().empty()) joint.body_b = bodyNamed(in.body_b(), scene, where + ".bodyB");
+    if (joint.body_a == joint.body_b) fail(where, where + " joins a body to itself");
+    scene.mechanics.joints.push_back(std::move(joint));
+  }
+}
+
 SceneModel SceneFile::build() {
   checkFinite(scene_, "");
   const double units = scene_.units() == 0 ? 1 : decoder_.checked(scene_.units(), 1e-9, 1e9, "units");
@@ -297,6 +321,7 @@ SceneModel SceneFile::build() {
       addAtRest(std::move(part), object, where, whole);
   }
   if (whole.materials.empty()) whole.materials.emplace_back();
+  addJoints(scene);
   scaleModel(scene, units);
   checkBodies(scene);
   return scene;
