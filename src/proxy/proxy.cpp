@@ -7,6 +7,7 @@
 #include "proxy/spring_energy.h"
 #include "proxy/tick.h"
 #include "proxy/tolerances.h"
+#include "proxy/yielding.h"
 
 namespace hl {
 
@@ -25,15 +26,17 @@ std::uint64_t carrierOf(const SceneAt& scene, const TickReport& report) {
 }
 
 double energyOf_J(const ProxyState& state, const ProxySettings& settings, const Vec3& finger) {
-  const Vec3 gap_D = (state.position - finger) / settings.world_per_device;
+  const Vec3 gap_D = (state.position + state.rest_offset_m - finger) / settings.world_per_device;
   return springEnergy_J(settings.spring_N_m, state.stiffness, gap_D.squaredNorm());
 }
 
-// Moves the proxy with the moving objects. Returns the energy change, J. This work is done by the objects, not by the
+// Moves the proxy with the moving objects, and the rest of its spring with their frames. Returns the energy change, J. This work is done by the objects, not by the
 // rules of the surfaces, so no tank pays for it.
 double carryAlong(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
   const double before_J = energyOf_J(state, settings, finger);
   carry(state, scene, settings);
+  followDeformation(state, scene, settings);
+  followFrames(state, scene);
   const double moved_J = energyOf_J(state, settings, finger) - before_J;
   if (moved_J > 0) state.ledger.add(EnergyCause::kMoving, moved_J);
   return moved_J;
@@ -63,6 +66,8 @@ TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& se
   TickReport report = state.adhering.empty() ? Tick(scene, settings, state, finger, most_looks).run()
                                              : tickHeld(state, scene, settings, finger, most_looks);
   report.moved_J = moved_J;
+  rememberDeformation(state, scene, settings, report, finger);
+  state.yielding = yieldingOf(scene, state.estimate, report);
   state.time_ns = scene.time_ns();
   state.snapshot = scene.snapshot().number;
   state.carrier = carrierOf(scene, report);

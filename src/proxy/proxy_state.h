@@ -7,6 +7,7 @@
 #include "base/fixed_vector.h"
 #include "base/ledger.h"
 #include "base/vec.h"
+#include "proxy/compliance_estimate.h"
 #include "proxy/proxy_cache.h"
 #include "proxy/start_search.h"
 #include "proxy/tolerances.h"
@@ -36,12 +37,22 @@ struct ProxySettings {
   MaterialOverride surfaces{};  ///< user settings that override the scene
 };
 
-/// A contact with a surface that holds the proxy until the pull along `normal` exceeds `adhesion_N`.
+/// A contact with a surface that holds the proxy until the pull along `normal` exceeds `adhesion_N`, or, where the
+/// surface would come after a finger that leaves it (yielding.h), until the finger is `lift_m` above.
 struct AdheringContact {
   Vec3 normal;  ///< unit, from the surface to the proxy
   double adhesion_N;
+  double lift_m = 0;  ///< m, world
 };
 using AdheringContacts = FixedVector<AdheringContact, 3>;
+
+/// A contact whose object has told how it yields (yielding.h).
+struct YieldingContact {
+  std::uint64_t key = 0;  ///< of the instance
+  double weight = 1, along = 1;
+  Vec3 free_m = Vec3::Zero();  ///< as in ContactYields
+};
+using YieldingContacts = FixedVector<YieldingContact, 3>;
 
 /// World frame. Owned by the proxy loop.
 struct ProxyState {
@@ -55,6 +66,9 @@ struct ProxyState {
   std::uint64_t snapshot = 0;          ///< number of the snapshot of the last tick; 0: none yet
   std::uint64_t carrier = 0;           ///< key of the object whose friction holds the proxy; 0: none
   AdheringContacts adhering{};         ///< adhesive contacts of the last tick (adhesion.h)
+  YieldingContacts yielding{};         ///< yielding contacts of the last tick
+  Vec3 rest_offset_m = Vec3::Zero();   ///< where the spring is fixed - proxy; 0 if nothing yields (yielding.h)
+  ComplianceEstimate estimate{};
   Ledger ledger{};
   int out_of_work = 0;  ///< consecutive ticks that ran out of work; more of them raise the limit (mostWork in tick.cpp)
   StartSearch start{};  ///< used while the proxy is not free

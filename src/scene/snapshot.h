@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/box_tree.h"
+#include "scene/compliance.h"
 #include "scene/material.h"
 #include "scene/mesh_motion.h"
 #include "scene/motion.h"
@@ -35,6 +36,9 @@ struct Instance {
 
   /// Moves the instance in place of its client; null: none.
   std::shared_ptr<const PoseSource> driver{};
+  /// How it yields between the frames of a client that deforms it; null: its client has not told.
+  std::shared_ptr<const ComplianceMotion> compliance{};
+  std::uint32_t item = 0;  ///< index of its item in the object, or in the world if `object` is 0
 
   /// Poses of the instance over time.
   const PoseSource& poses() const { return driver ? *driver : static_cast<const PoseSource&>(motion); }

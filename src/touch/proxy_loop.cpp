@@ -38,7 +38,7 @@ bool ProxyLoop::touches(const ProxyState& state, const TickReport& report) const
 // that is still on its way from a surface goes on pulling.
 Vec3 ProxyLoop::pullOf(const ProxyState& state, const TickReport& report, const Vec3& finger_D) const {
   if (!touches(state, report)) return Vec3::Zero();
-  return state.stiffness * (workspace_.toDevice(state.position) - finger_D);
+  return state.stiffness * (workspace_.toDevice(state.position + state.rest_offset_m) - finger_D);
 }
 
 // By how much less the new scene pulls the finger than what came before: the last tick is made once more in the new
@@ -102,7 +102,7 @@ void ProxyLoop::moveBodies(std::int64_t now_ns, const Vec3& finger, const Spring
   hand.contacts = held_by_;
   hand.proxy = state_.position;
   hand.radius_m = settings_.radius;
-  hand.stretch = state_.position - finger;
+  hand.stretch = state_.position + state_.rest_offset_m - finger;
   if (spring.pulls && state_.free)
     hand.spring_N_m = spring.stiffness_N_m * state_.stiffness / workspace_.world_per_device;
   bodies_->step(now_ns, spring.period_s, hand);
@@ -130,7 +130,7 @@ ServoTarget ProxyLoop::targetOf(std::int64_t now_ns, const Vec3& finger_D, const
   const Vec3 fading_D = blend_.step(settings_.period_s);
   ServoTarget target{finger_D, now_ns, touching, touching ? state_.stiffness : told_.stiffness,
                      report.injected_J + std::max(0.0, report.moved_J)};
-  if (touching) target.proxy_D = workspace_.toDevice(state_.position);
+  if (touching) target.proxy_D = workspace_.toDevice(state_.position + state_.rest_offset_m);
   const double stiffness = told_.valid ? std::max(target.stiffness, told_.stiffness) : target.stiffness;
   if (blend_.active() && report.valid() && stiffness > 0) {
     target.valid = true;

@@ -1,0 +1,149 @@
+#include "proxy/compliance_estimate.h"
+
+#include <algorithm>
+
+#include "proxy/proxy_state.h"
+#include "proxy/tick_report.h"
+#include "proxy/yielding.h"
+#include "scene/scene_at.h"
+
+namespace hl {
+
+namespace {
+
+constexpr double kRoundUp = 1.25;
+constexpr double kMaxEstimate_m_N = 0.05;  // 20 N/m: softer than any tissue that is pressed
+constexpr std::size_t kMaxLag = 5;         // frames from a force to the end of the motion that answers it
+constexpr double kLeastChange_N = 0.01;    // root of the summed squares; less tells nothing
+constexpr double kLeastExplained = 0.5;    // r^2 of the secant
+constexpr double kDecay = 0.25;            // of an estimate that is too high, in a frame
+constexpr double kSettling = 4;            // frames in which the lift goes to C F
+
+// Sums over pairs (change of force, motion of the mesh).
+struct Secant {
+  double force2 = 0, move2 = 0, both = 0;
+  int pairs = 0;
+  void add(double change_N, double moved_m) {
+    force2 += change_N * change_N;
+    move2 += moved_m * moved_m;
+    both += change_N * moved_m;
+    ++pairs;
+  }
+  double explained() const { return move2 > 0 && force2 > 0 ? both * both / (force2 * move2) : 0; }
+};
+
+const Instance* instanceOf(const SceneAt& scene, std::uint64_t key, std::uint32_t& number) {
+  const std::vector<Instance>& instances = scene.snapshot().instances;
+  const auto found = std::lower_bound(instances.begin(), instances.end(), key,
+                                      [](const Instance& one, std::uint64_t wanted) { return one.key < wanted; });
+  if (found == instances.end() || found->key != key) return nullptr;
+  number = static_cast<std::uint32_t>(found - instances.begin());
+  return &*found;
+}
+
+// The motion of the contact's point of the mesh from `from_ns` on, within one transition.
+Vec3 displacement(const SceneAt& scene, std::uint32_t number, const ComplianceEstimate& estimate,
+                  std::int64_t from_ns) {
+  const Instance& instance = scene.snapshot().instances[number];
+  const PrimitiveId id{number, estimate.element};
+  const MeshTransition* const way = instance.transitionAt(scene.time_ns());
+  if (way == nullptr || way != instance.transitionAt(from_ns) || id.element >= way->to()->count()) return Vec3::Zero();
+  const auto before = way->corners(id.element, way->part(from_ns));
+  const auto now = way->corners(id.element, way->part(scene.time_ns()));
+  const auto order = scene.primitive(id).order;
+  Vec3 moved_O = Vec3::Zero();
+  for (std::size_t i = 0; i < 3; ++i) moved_O += estimate.weights[i] * (now[order[i]] - before[order[i]]);
+  return scene.turnToWorld(id, moved_O);
+}
+
+// A frame has come: the one before is complete.
+void closeFrame(ComplianceEstimate& estimate, double period_s) {
+  const auto ticks = static_cast<double>(estimate.ticks);
+  std::rotate(estimate.moves_m.begin(), estimate.moves_m.begin() + 1, estimate.moves_m.end());
+  std::rotate(estimate.forces_N.begin(), estimate.forces_N.begin() + 1, estimate.forces_N.end());
+  estimate.moves_m.back() = estimate.moved_m;
+  estimate.forces_N.back() = estimate.sum_N / ticks;
+  estimate.frames = std::min<std::int64_t>(estimate.frames + 1, ComplianceEstimate::kFrames);
+  estimate.frame_s = ticks * period_s;
+  estimate.moved_m = estimate.sum_N = 0;
+  estimate.ticks = 0;
+  const double secant_m_N = estimate.secant_m_N();
+  if (secant_m_N < 0) return;
+  const double wanted = std::min(kRoundUp * secant_m_N, kMaxEstimate_m_N), before = estimate.compliance_m_N;
+  const double change = wanted > before ? wanted - before : kDecay * (wanted - before);
+  estimate.compliance_m_N = before + change;
+  estimate.lift_m += change * estimate.force_N;  // the force stays what it is
+}
+
+}  // namespace
+
+double ComplianceEstimate::secant_m_N() const {
+  const std::size_t oldest = kFrames - static_cast<std::size_t>(frames);
+  double best = 0, explained = kLeastExplained;
+  bool told = false;
+  for (std::size_t lag = 1; lag <= kMaxLag; ++lag) {
+    Secant secant;
+    for (std::size_t i = oldest + lag + 1; i < kFrames; ++i)
+      secant.add(forces_N[i - lag] - forces_N[i - lag - 1], moves_m[i]);
+    if (secant.pairs < 2 || secant.force2 < kLeastChange_N * kLeastChange_N) continue;
+    told = true;
+    if (secant.both >= 0 || secant.explained() <= explained) continue;
+    explained = secant.explained();
+    best = -secant.both / secant.force2;
+  }
+  return told ? best : -1;
+}
+
+void followDeformation(ProxyState& state, const SceneAt& scene, const ProxySettings& settings) {
+  ComplianceEstimate& estimate = state.estimate;
+  if (estimate.key == 0) return;
+  std::uint32_t number = 0;
+  const Instance* const instance = instanceOf(scene, estimate.key, number);
+  if (instance == nullptr || instance->compliance) {
+    estimate = {};
+    return;
+  }
+  if (estimate.geometry != instance->shape->geometry) {
+    if (estimate.ticks > 0) closeFrame(estimate, settings.period_s);
+    estimate.geometry = instance->shape->geometry;
+  }
+  if (estimate.touched && state.snapshot == scene.snapshot().number) {
+    const Vec3 moved = displacement(scene, number, estimate, state.time_ns);
+    estimate.moved_m += estimate.normal.dot(moved);
+    if (estimate.compliance_m_N > 0) estimate.lift_m -= moved;
+  }
+  estimate.sum_N += estimate.normal.dot(estimate.force_N);
+  ++estimate.ticks;
+  if (!(estimate.frame_s > 0)) return;
+  const double part = std::min(1.0, settings.period_s / (kSettling * estimate.frame_s));
+  estimate.lift_m += part * (estimate.compliance_m_N * estimate.force_N - estimate.lift_m);
+}
+
+void rememberDeformation(ProxyState& state, const SceneAt& scene, const ProxySettings& settings,
+                         const TickReport& report, const Vec3& finger) {
+  ComplianceEstimate& estimate = state.estimate;
+  estimate.touched = false;
+  estimate.force_N = Vec3::Zero();
+  const ContactParts parts = partsOf(report.contacts, state.position - finger);
+  double most_m = 0;
+  for (std::size_t i = 0; i < report.contacts.size(); ++i) {
+    const ProxyContact& contact = report.contacts[i];
+    const Instance& instance = scene.instance(contact.primitive);
+    const bool deforms = instance.mesh_motion || instance.key == estimate.key;
+    const Vec3 pull = pullOf(contact, parts[i], state.stiffness);
+    if (!deforms || instance.compliance || !(pull.norm() > most_m)) continue;
+    most_m = pull.norm();
+    if (estimate.key != instance.key) {
+      estimate = {};
+      estimate.key = instance.key;
+      estimate.geometry = instance.shape->geometry;
+    }
+    estimate.touched = true;
+    estimate.element = contact.primitive.element;
+    estimate.weights = contact.weights;
+    estimate.normal = contact.normal;
+    estimate.force_N = settings.spring_N_m / settings.world_per_device * pull;
+  }
+}
+
+}  // namespace hl

@@ -1,0 +1,60 @@
+// Compliance estimate: how a mesh that is deformed by frames yields, where its client does not tell.
+//
+// Such a client moves its mesh by the force that it reads: x_k = x_0 - C F_k along the normal. It closes a loop with
+// the servo's spring K, over a latency that is not known, and which is unstable for C > 1/K. The estimate of C is the
+// secant of the last frames: how far each has moved the mesh at the contact, against how much the mean force had
+// changed some frames before, for the number of frames that explains it best; rounded up, as too much is always stable.
+// A mesh that moves by itself does not follow the force: then the estimate falls to 0.
+//
+// The force F_k that a frame was computed for is not known either. What the mesh moves is taken for an answer to the
+// force: the lift C F_k loses what the mesh moves, so that a frame is not felt at once. From there it goes to C F with
+// the time constant of some frames. At rest it is C F, so that the force is that of the mesh alone.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "base/vec.h"
+#include "geometry/element_id.h"
+
+namespace hl {
+
+struct ProxyState;
+struct ProxySettings;
+struct TickReport;
+class SceneAt;
+
+/// World frame. One object at a time: the deforming one that was touched last.
+struct ComplianceEstimate {
+  static constexpr std::size_t kFrames = 12;
+
+  std::uint64_t key = 0;       ///< of the instance; 0: none
+  std::uint64_t geometry = 0;  ///< of its shape
+  double compliance_m_N = 0;   ///< C
+  Vec3 lift_m = Vec3::Zero();  ///< C F_k
+  // The contact at the end of the last tick:
+  bool touched = false;
+  ElementId element = 0;
+  std::array<double, 3> weights{};
+  Vec3 normal = Vec3::Zero();
+  Vec3 force_N = Vec3::Zero();
+  // Since the last frame:
+  double moved_m = 0, sum_N = 0;  ///< along the normal
+  std::int64_t ticks = 0;
+  // Of the last frames, the newest last:
+  double frame_s = 0;
+  std::array<double, kFrames> moves_m{}, forces_N{};
+  std::int64_t frames = 0;
+
+  /// C by the frames so far; below 0: the force has not changed enough to tell. RT-safe.
+  double secant_m_N() const;
+};
+
+/// Before a tick, after the proxy was carried: follows what the mesh has moved since the last tick. RT-safe.
+void followDeformation(ProxyState& state, const SceneAt& scene, const ProxySettings& settings);
+/// After a tick to `finger`: remembers the contact and its force. RT-safe.
+void rememberDeformation(ProxyState& state, const SceneAt& scene, const ProxySettings& settings,
+                         const TickReport& report, const Vec3& finger);
+
+}  // namespace hl
