@@ -29,18 +29,21 @@ class HeldTick {
         most_looks_(most_looks),
         world_per_N_(settings.world_per_device / (settings.spring_N_m * state.stiffness)) {
     for (const AdheringContact& contact : state.adhering) {
-      const bool acts = contact.adhesion_N > 0 || pull(contact) > 0;
-      if (acts && pull(contact) <= room(contact)) holding_.push(contact);
+      if (pull(contact) > room(contact)) continue;
+      if (contact.adhesion_N > 0 || pull(contact) > 0) holding_.push(contact);
+      if (contact.lift_m > 0) coming_.push(contact);
     }
   }
 
   TickReport run() {
     TickReport report;
-    if (holding_.empty()) return toFinger(0);
-    if (tryGoal(alongSurface(), report)) return report;
-    if (report.used_up_at > 0) return stay(report);
-    if (pulled() && tryGoal(where(), report)) return report;
-    return report.used_up_at > 0 ? stay(report) : toFinger(report.looks);
+    if (!holding_.empty()) {
+      if (tryGoal(alongSurface(), report)) return report;
+      if (report.used_up_at > 0) return stay(report);
+      if (pulled() && tryGoal(where(), report)) return report;
+      if (report.used_up_at > 0) return stay(report);
+    }
+    return coming_.empty() ? toFinger(report.looks) : withSurface(report.looks);
   }
 
  private:
@@ -62,6 +65,11 @@ class HeldTick {
       const double pressed = std::min(room(contact) - std::max(0.0, pull(contact)), deepest(contact));
       goal -= (above + pressed) * contact.normal;
     }
+    return goal;
+  }
+  Vec3 belowSurface() const {
+    Vec3 goal = finger_;
+    for (const AdheringContact& contact : coming_) goal -= contact.lift_m * contact.normal;
     return goal;
   }
   Vec3 where() const {
@@ -121,6 +129,18 @@ class HeldTick {
     return report;
   }
 
+  // To the finger; where that leaves the surface, down to where the surface has gone, if it would come back.
+  TickReport withSurface(int looks) {
+    ProxyState there = state_;
+    const TickReport plain = tickTo(finger_, there, looks);
+    TickReport report;
+    report.looks = plain.looks;
+    const bool leaves = plain.contacts.empty() && plain.used_up_at == 0;
+    if (leaves && tryGoal(belowSurface(), report)) return report;
+    state_ = there;
+    return plain;
+  }
+
   TickReport toFinger(int looks) { return tickTo(finger_, state_, looks); }
 
   /// A tick toward `goal`, after `looks` looks of earlier attempts.
@@ -137,7 +157,8 @@ class HeldTick {
   const Vec3 finger_;
   const int most_looks_;
   const double world_per_N_;
-  AdheringContacts holding_;  // contacts whose adhesion exceeds the pull
+  AdheringContacts holding_;  // contacts whose adhesion or lift exceeds the pull
+  AdheringContacts coming_;   // contacts whose surface comes after the finger
 };
 
 }  // namespace

@@ -22,24 +22,13 @@ constexpr double kSettling = 4;            // frames in which the lift goes to C
 // Sums over pairs (change of force, motion of the mesh).
 struct Secant {
   double force2 = 0, move2 = 0, both = 0;
-  int pairs = 0;
   void add(double change_N, double moved_m) {
     force2 += change_N * change_N;
     move2 += moved_m * moved_m;
     both += change_N * moved_m;
-    ++pairs;
   }
   double explained() const { return move2 > 0 && force2 > 0 ? both * both / (force2 * move2) : 0; }
 };
-
-const Instance* instanceOf(const SceneAt& scene, std::uint64_t key, std::uint32_t& number) {
-  const std::vector<Instance>& instances = scene.snapshot().instances;
-  const auto found = std::lower_bound(instances.begin(), instances.end(), key,
-                                      [](const Instance& one, std::uint64_t wanted) { return one.key < wanted; });
-  if (found == instances.end() || found->key != key) return nullptr;
-  number = static_cast<std::uint32_t>(found - instances.begin());
-  return &*found;
-}
 
 // The motion of the contact's point of the mesh from `from_ns` on, within one transition.
 Vec3 displacement(const SceneAt& scene, std::uint32_t number, const ComplianceEstimate& estimate,
@@ -63,7 +52,6 @@ void closeFrame(ComplianceEstimate& estimate, double period_s) {
   std::rotate(estimate.forces_N.begin(), estimate.forces_N.begin() + 1, estimate.forces_N.end());
   estimate.moves_m.back() = estimate.moved_m;
   estimate.forces_N.back() = estimate.sum_N / ticks;
-  estimate.frames = std::min<std::int64_t>(estimate.frames + 1, ComplianceEstimate::kFrames);
   estimate.frame_s = ticks * period_s;
   estimate.moved_m = estimate.sum_N = 0;
   estimate.ticks = 0;
@@ -78,14 +66,13 @@ void closeFrame(ComplianceEstimate& estimate, double period_s) {
 }  // namespace
 
 double ComplianceEstimate::secant_m_N() const {
-  const std::size_t oldest = kFrames - static_cast<std::size_t>(frames);
   double best = 0, explained = kLeastExplained;
   bool told = false;
   for (std::size_t lag = 1; lag <= kMaxLag; ++lag) {
     Secant secant;
-    for (std::size_t i = oldest + lag + 1; i < kFrames; ++i)
+    for (std::size_t i = lag + 1; i < kFrames; ++i)
       secant.add(forces_N[i - lag] - forces_N[i - lag - 1], moves_m[i]);
-    if (secant.pairs < 2 || secant.force2 < kLeastChange_N * kLeastChange_N) continue;
+    if (secant.force2 < kLeastChange_N * kLeastChange_N) continue;
     told = true;
     if (secant.both >= 0 || secant.explained() <= explained) continue;
     explained = secant.explained();
@@ -98,16 +85,14 @@ void followDeformation(ProxyState& state, const SceneAt& scene, const ProxySetti
   ComplianceEstimate& estimate = state.estimate;
   if (estimate.key == 0) return;
   std::uint32_t number = 0;
-  const Instance* const instance = instanceOf(scene, estimate.key, number);
-  if (instance == nullptr || instance->compliance) {
+  if (!scene.snapshot().find(estimate.key, number) || scene.snapshot().instances[number].compliance) {
     estimate = {};
     return;
   }
-  if (estimate.geometry != instance->shape->geometry) {
-    if (estimate.ticks > 0) closeFrame(estimate, settings.period_s);
-    estimate.geometry = instance->shape->geometry;
-  }
-  if (estimate.touched && state.snapshot == scene.snapshot().number) {
+  const std::uint64_t geometry = scene.snapshot().instances[number].shape->geometry;
+  if (estimate.geometry != geometry && estimate.ticks > 0) closeFrame(estimate, settings.period_s);
+  estimate.geometry = geometry;
+  if (state.snapshot == scene.snapshot().number) {
     const Vec3 moved = displacement(scene, number, estimate, state.time_ns);
     estimate.moved_m += estimate.normal.dot(moved);
     if (estimate.compliance_m_N > 0) estimate.lift_m -= moved;
@@ -117,12 +102,13 @@ void followDeformation(ProxyState& state, const SceneAt& scene, const ProxySetti
   if (!(estimate.frame_s > 0)) return;
   const double part = std::min(1.0, settings.period_s / (kSettling * estimate.frame_s));
   estimate.lift_m += part * (estimate.compliance_m_N * estimate.force_N - estimate.lift_m);
+  // F_k pushes.
+  estimate.lift_m += std::max(0.0, -estimate.normal.dot(estimate.lift_m)) * estimate.normal;
 }
 
 void rememberDeformation(ProxyState& state, const SceneAt& scene, const ProxySettings& settings,
                          const TickReport& report, const Vec3& finger) {
   ComplianceEstimate& estimate = state.estimate;
-  estimate.touched = false;
   estimate.force_N = Vec3::Zero();
   const ContactParts parts = partsOf(report.contacts, state.position - finger);
   double most_m = 0;
@@ -138,7 +124,6 @@ void rememberDeformation(ProxyState& state, const SceneAt& scene, const ProxySet
       estimate.key = instance.key;
       estimate.geometry = instance.shape->geometry;
     }
-    estimate.touched = true;
     estimate.element = contact.primitive.element;
     estimate.weights = contact.weights;
     estimate.normal = contact.normal;

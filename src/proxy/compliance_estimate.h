@@ -33,8 +33,7 @@ struct ComplianceEstimate {
   std::uint64_t geometry = 0;  ///< of its shape
   double compliance_m_N = 0;   ///< C
   Vec3 lift_m = Vec3::Zero();  ///< C F_k
-  // The contact at the end of the last tick:
-  bool touched = false;
+  // The point of the mesh that was touched last, and the force there at the end of the last tick:
   ElementId element = 0;
   std::array<double, 3> weights{};
   Vec3 normal = Vec3::Zero();
@@ -42,10 +41,9 @@ struct ComplianceEstimate {
   // Since the last frame:
   double moved_m = 0, sum_N = 0;  ///< along the normal
   std::int64_t ticks = 0;
-  // Of the last frames, the newest last:
+  // Of the last frames, the newest last; 0 before the touch:
   double frame_s = 0;
   std::array<double, kFrames> moves_m{}, forces_N{};
-  std::int64_t frames = 0;
 
   /// C by the frames so far; below 0: the force has not changed enough to tell. RT-safe.
   double secant_m_N() const;

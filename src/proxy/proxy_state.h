@@ -10,6 +10,7 @@
 #include "proxy/compliance_estimate.h"
 #include "proxy/proxy_cache.h"
 #include "proxy/start_search.h"
+#include "proxy/tick_report.h"
 #include "proxy/tolerances.h"
 #include "scene/material.h"
 
@@ -46,11 +47,12 @@ struct AdheringContact {
 };
 using AdheringContacts = FixedVector<AdheringContact, 3>;
 
-/// A contact whose object has told how it yields (yielding.h).
+/// A contact with an object whose yielding changes from frame to frame (yielding.h).
 struct YieldingContact {
   std::uint64_t key = 0;  ///< of the instance
-  double weight = 1, along = 1;
-  Vec3 free_m = Vec3::Zero();  ///< as in ContactYields
+  double share = 1;       ///< its share in the stiffness s
+  double object_m_N = 0;  ///< C of the object
+  ContactYields yields{};
 };
 using YieldingContacts = FixedVector<YieldingContact, 3>;
 

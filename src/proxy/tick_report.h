@@ -14,6 +14,8 @@ namespace hl {
 /// How the surface of a contact yields (yielding.h). Its part e_i of proxy - finger pulls by s weight (e_i + free_m).
 struct ContactYields {
   double weight = 1;           ///< 1 if no contact yields, or if there is one contact only
+  double spring_N_m = 0;       ///< K s0: of the surface and the servo, without yielding; per metre of the world
+  double compliance_m_N = 0;   ///< C of material and object together
   double along = 1;            ///< square of the cosine between e_i and the normal
   Vec3 free_m = Vec3::Zero();  ///< C F_k, m, world
 };

@@ -1,6 +1,7 @@
 #include "proxy/yielding.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "proxy/surface.h"
 
@@ -27,37 +28,52 @@ Shares frictionShares(const FixedVector<ProxyContact, 3>& contacts) {
   return shares;
 }
 
-// The compliance of one surface.
-struct Yielding {
-  double material_m_N = 0;  // of its material, for which F_k is 0
-  Compliance object;        // told by its client, or estimated
-  Vec3 lift_m = Vec3::Zero();  // C F_k, where it is estimated
-  bool estimated = false;
+// How an object yields, told by its client or estimated.
+struct ObjectYielding {
+  bool changes = false;  // from frame to frame
+  Compliance compliance;
+  std::optional<Vec3> lift_m{};  // C F_k, where it is estimated
 
-  bool rigid() const { return material_m_N == 0 && object.normal_m_N == 0 && object.tangential_m_N == 0; }
-  // C in the direction of a part of e of which the square of the cosine to the normal is `along`.
-  double object_m_N(double along) const {
-    return along * object.normal_m_N + (1 - along) * object.tangential_m_N;
+  // In the direction of a part of e of which the square of the cosine to the normal is `along`.
+  double compliance_m_N(double along) const {
+    return along * compliance.normal_m_N + (1 - along) * compliance.tangential_m_N;
+  }
+  Vec3 free_m(double along) const {
+    return lift_m ? *lift_m : Vec3(compliance_m_N(along) * compliance.computed_for_N);
   }
 };
 
-Yielding yieldingAt(const SceneAt& scene, const ProxySettings& settings, const ComplianceEstimate& estimate,
-                    PrimitiveId id) {
-  const Instance& instance = scene.instance(id);
-  Yielding yielding;
-  if (!instance.plain || settings.surfaces.compliance_m_N)
-    yielding.material_m_N = Surface(scene, settings.surfaces, id).plain(Quantity::kCompliance);
-  if (instance.compliance) {
-    yielding.object = instance.compliance->at(scene.time_ns());
-  } else if (estimate.key == instance.key) {
-    yielding.object.normal_m_N = yielding.object.tangential_m_N = estimate.compliance_m_N;
-    yielding.lift_m = estimate.lift_m;
-    yielding.estimated = true;
-  }
-  return yielding;
+ObjectYielding yieldingAt(const Instance& instance, std::int64_t time_ns, const ComplianceEstimate& estimate) {
+  if (instance.compliance) return {true, instance.compliance->at(time_ns)};
+  if (estimate.key != instance.key) return {};
+  return {true, {estimate.compliance_m_N, estimate.compliance_m_N}, estimate.lift_m};
 }
 
-double squareOf(double x) { return x * x; }
+double ofMaterial_m_N(const SceneAt& scene, const ProxySettings& settings, PrimitiveId id) {
+  if (scene.instance(id).plain && !settings.surfaces.compliance_m_N) return 0;
+  return Surface(scene, settings.surfaces, id).plain(Quantity::kCompliance);
+}
+
+// A surface does not pull, but where it holds the proxy that the finger leaves.
+Vec3 pushing(const Vec3& free_m, const ProxyContact& contact) {
+  const double out_m = contact.normal.dot(free_m);
+  return out_m < 0 && contact.multiplier_m >= 0 ? Vec3(free_m - out_m * contact.normal) : free_m;
+}
+
+ContactYields yieldsOf(const SceneAt& scene, const ProxySettings& settings, const ComplianceEstimate& estimate,
+                       const ProxyContact& contact, const Vec3& part) {
+  const ObjectYielding object = yieldingAt(scene.instance(contact.primitive), scene.time_ns(), estimate);
+  const double whole2 = part.squaredNorm();
+  ContactYields yields;
+  yields.along = whole2 > 0 ? std::min(1.0, contact.multiplier_m * contact.multiplier_m / whole2) : 1;
+  yields.spring_N_m = settings.spring_N_m / settings.world_per_device * contact.stiffness;
+  yields.compliance_m_N = ofMaterial_m_N(scene, settings, contact.primitive) + object.compliance_m_N(yields.along);
+  if (object.changes) yields.free_m = pushing(object.free_m(yields.along), contact);
+  return yields;
+}
+
+// The part of K s0 that yielding leaves: s / s0.
+double keptOf(const ContactYields& yields) { return 1 / (1 + yields.spring_N_m * yields.compliance_m_N); }
 
 }  // namespace
 
@@ -73,58 +89,55 @@ ContactParts partsOf(const FixedVector<ProxyContact, 3>& contacts, const Vec3& e
 
 Vec3 yieldTo(const SceneAt& scene, const ProxySettings& settings, const ComplianceEstimate& estimate, const Vec3& e,
              FixedVector<ProxyContact, 3>& contacts, MeanStiffness& surfaces) {
-  const double spring_N_m = settings.spring_N_m / settings.world_per_device;
   const ContactParts parts = partsOf(contacts, e);
   MeanStiffness rigid;  // s0
   bool any = false;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     ProxyContact& contact = contacts[i];
-    const Yielding yielding = yieldingAt(scene, settings, estimate, contact.primitive);
-    const double whole2 = parts[i].squaredNorm();
-    const double along = whole2 > 0 ? std::min(1.0, squareOf(contact.multiplier_m) / whole2) : 1;
-    const double object_m_N = yielding.object_m_N(along);
-    // Of its own stiffness s0 it keeps this.
-    const double kept = 1 / (1 + spring_N_m * contact.stiffness * (yielding.material_m_N + object_m_N));
-    contact.yields = {kept, along,
-                      yielding.estimated ? yielding.lift_m : Vec3(object_m_N * yielding.object.computed_for_N)};
-    any |= !yielding.rigid() || contact.yields.free_m != Vec3::Zero();
+    contact.yields = yieldsOf(scene, settings, estimate, contact, parts[i]);
+    any |= contact.yields.compliance_m_N > 0 || !contact.yields.free_m.isZero(0);
     rigid.add(contact.multiplier_m, contact.stiffness);
-    surfaces.add(contact.multiplier_m, contact.stiffness * kept);
+    surfaces.add(contact.multiplier_m, contact.stiffness * keptOf(contact.yields));
   }
   if (!any || !(surfaces.value() > 0)) return Vec3::Zero();
-  const double per_stiffness = rigid.value() / surfaces.value();
   Vec3 rest = Vec3::Zero();
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    contacts[i].yields.weight *= per_stiffness;
+    contacts[i].yields.weight = rigid.value() * keptOf(contacts[i].yields) / surfaces.value();
     rest += pullOf(contacts[i], parts[i], 1);
   }
   return rest - e;
 }
 
 void followFrames(ProxyState& state, const SceneAt& scene) {
-  const std::vector<Instance>& instances = scene.snapshot().instances;
+  double factor = 1;
   for (YieldingContact& contact : state.yielding) {
-    const auto found = std::lower_bound(instances.begin(), instances.end(), contact.key,
-                                        [](const Instance& one, std::uint64_t key) { return one.key < key; });
-    if (found == instances.end() || found->key != contact.key) continue;
-    Vec3 free_m = contact.free_m;
-    if (found->compliance) {
-      const Compliance now = found->compliance->at(scene.time_ns());
-      free_m = (contact.along * now.normal_m_N + (1 - contact.along) * now.tangential_m_N) * now.computed_for_N;
-    } else if (state.estimate.key == contact.key) {
-      free_m = state.estimate.lift_m;
-    }
-    state.rest_offset_m += contact.weight * (free_m - contact.free_m);
-    contact.free_m = free_m;
+    std::uint32_t number = 0;
+    if (!scene.snapshot().find(contact.key, number)) continue;
+    const ObjectYielding object = yieldingAt(scene.snapshot().instances[number], scene.time_ns(), state.estimate);
+    ContactYields& yields = contact.yields;
+    const ContactYields before = yields;
+    yields.compliance_m_N += object.compliance_m_N(yields.along) - contact.object_m_N;
+    contact.object_m_N = object.compliance_m_N(yields.along);
+    yields.free_m = object.free_m(yields.along);
+    state.rest_offset_m += yields.weight * (yields.free_m - before.free_m);
+    factor += contact.share * (keptOf(yields) / keptOf(before) - 1);
   }
+  if (factor > 0) state.stiffness = std::min(1.0, factor * state.stiffness);
 }
 
 YieldingContacts yieldingOf(const SceneAt& scene, const ComplianceEstimate& estimate, const TickReport& report) {
   YieldingContacts all;
+  double sum = 0;
+  const auto stiffnessOf = [](const ProxyContact& contact) {
+    return std::max(0.0, contact.multiplier_m) * contact.stiffness * keptOf(contact.yields);
+  };
+  for (const ProxyContact& contact : report.contacts) sum += stiffnessOf(contact);
   for (const ProxyContact& contact : report.contacts) {
-    const Instance& instance = scene.instance(contact.primitive);
-    if (!instance.compliance && estimate.key != instance.key) continue;
-    all.push({instance.key, contact.yields.weight, contact.yields.along, contact.yields.free_m});
+    const ObjectYielding object = yieldingAt(scene.instance(contact.primitive), scene.time_ns(), estimate);
+    if (!object.changes) continue;
+    const double share = sum > 0 ? stiffnessOf(contact) / sum : 1.0 / static_cast<double>(report.contacts.size());
+    all.push({scene.instance(contact.primitive).key, share, object.compliance_m_N(contact.yields.along),
+              contact.yields});
   }
   return all;
 }

@@ -35,7 +35,8 @@ inline Vec3 pullOf(const ProxyContact& contact, const Vec3& part, double stiffne
 Vec3 yieldTo(const SceneAt& scene, const ProxySettings& settings, const ComplianceEstimate& estimate, const Vec3& e,
              FixedVector<ProxyContact, 3>& contacts, MeanStiffness& surfaces);
 
-/// Moves the rest of the spring with what the frames of clients have changed since the last tick. RT-safe.
+/// Changes the stiffness and the rest of the spring by what the frames of clients have changed since the last tick.
+/// RT-safe.
 void followFrames(ProxyState& state, const SceneAt& scene);
 
 /// What the next tick must know of the contacts. RT-safe.

@@ -79,6 +79,8 @@ struct Snapshot {
   std::vector<std::string> warnings;
 
   const Shape& shape(std::size_t instance = 0) const { return *instances[instance].shape; }
+  /// The number of the instance with this key; false: there is none. RT-safe.
+  bool find(std::uint64_t key, std::uint32_t& number) const;
 };
 
 /// The surfaces described by the shape's own model.
