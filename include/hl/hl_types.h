@@ -263,6 +263,25 @@ typedef struct HLsample {
   HLuint buttons;       /**< bit i is set while button i is down */
 } HLsample;
 
+/** What the hand has felt since the last hlTakeContactReport. World axes. */
+typedef struct HLcontactreport {
+  HLdouble time;     /**< s, the server's clock, of its end */
+  HLdouble interval; /**< s: its length; 0: nothing has come */
+  HLdouble force[3]; /**< N: mean force on the hand */
+} HLcontactreport;
+
+/** A place that was pressed, from hlTakeContactReport. World frame. */
+typedef struct HLcontactforce {
+  HLuint object;       /**< the innermost object; 0: drawn outside of objects */
+  HLuint name;         /**< 0: none */
+  HLuint session;      /**< whose object it is: HL_SESSION for this context's */
+  HLuint vertex_count; /**< 1: a point; 2: a line; 3: a triangle; 0: a surface without vertices */
+  HLuint vertices[3];  /**< its vertices, by the numbers that hlUpdateVertices takes */
+  HLdouble weights[3]; /**< barycentric, of the vertices: where the force acted, in the mean */
+  HLdouble point[3];   /**< m: the same place */
+  HLdouble force[3];   /**< N: mean force on the hand over the whole interval; on the object acts the opposite one */
+} HLcontactforce;
+
 /** What happened. */
 typedef struct HLevent {
   HLenum kind;          /**< HL_EVENT_... */

@@ -93,6 +93,7 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
   }
   if (anew) blend_.add(last_.pull_D - pullOf(state_, step.report, finger_D), 1e-9 * kAbruptBlend_ns);
   step.held = heldBy(step.report, targetOf(now_ns, finger_D, step.report));
+  step.held.contacts = feltContacts(scene, settings_, state_, step.report, finger);
   events_.follow(now_ns, step.touched, state_.position);
   return step;
 }
