@@ -14,7 +14,7 @@
 
 namespace hl {
 
-/// A tick of a proxy that is held by the contacts `state.adhering`. RT-safe; at most four ticks, which share one work
+/// A tick of a proxy that is held by the contacts `state.adhering`. RT-safe; at most three ticks, which share one work
 /// limit.
 TickReport tickHeld(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger,
                     int most_looks);

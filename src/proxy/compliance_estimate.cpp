@@ -13,9 +13,10 @@ namespace {
 
 constexpr double kRoundUp = 1.25;
 constexpr double kMaxEstimate_m_N = 0.05;  // 20 N/m: softer than any tissue that is pressed
-constexpr std::size_t kMaxLag = 5;         // frames from a force to the end of the motion that answers it
+constexpr std::size_t kMaxLag = 4;         // frames from a force to the end of the motion that answers it
 constexpr double kLeastChange_N = 0.01;    // root of the summed squares; less tells nothing
-constexpr double kLeastExplained = 0.5;    // r^2 of the secant
+constexpr double kLeastExplained = 0.8;    // r^2 of the secant
+constexpr double kLeast_m_N = 1e-5;        // 100 kN/m: nothing
 constexpr double kDecay = 0.25;            // of an estimate that is too high, in a frame
 constexpr double kSettling = 4;            // frames in which the lift goes to C F
 
@@ -58,7 +59,8 @@ void closeFrame(ComplianceEstimate& estimate, double period_s) {
   const double secant_m_N = estimate.secant_m_N();
   if (secant_m_N < 0) return;
   const double wanted = std::min(kRoundUp * secant_m_N, kMaxEstimate_m_N), before = estimate.compliance_m_N;
-  const double change = wanted > before ? wanted - before : kDecay * (wanted - before);
+  double change = wanted > before ? wanted - before : kDecay * (wanted - before);
+  if (before + change < kLeast_m_N) change = -before;
   estimate.compliance_m_N = before + change;
   estimate.lift_m += change * estimate.force_N;  // the force stays what it is
 }
@@ -104,19 +106,20 @@ void followDeformation(ProxyState& state, const SceneAt& scene, const ProxySetti
   estimate.lift_m += part * (estimate.compliance_m_N * estimate.force_N - estimate.lift_m);
   // F_k pushes.
   estimate.lift_m += std::max(0.0, -estimate.normal.dot(estimate.lift_m)) * estimate.normal;
+  if (estimate.compliance_m_N == 0) estimate.lift_m = Vec3::Zero();
 }
 
 void rememberDeformation(ProxyState& state, const SceneAt& scene, const ProxySettings& settings,
                          const TickReport& report, const Vec3& finger) {
   ComplianceEstimate& estimate = state.estimate;
   estimate.force_N = Vec3::Zero();
-  const ContactParts parts = partsOf(report.contacts, state.position - finger);
+  const ContactParts parts = partsOf(report.contacts, state.position + state.rest_offset_m - finger);
   double most_m = 0;
   for (std::size_t i = 0; i < report.contacts.size(); ++i) {
     const ProxyContact& contact = report.contacts[i];
     const Instance& instance = scene.instance(contact.primitive);
     const bool deforms = instance.mesh_motion || instance.key == estimate.key;
-    const Vec3 pull = pullOf(contact, parts[i], state.stiffness);
+    const Vec3 pull = state.stiffness * parts[i];
     if (!deforms || instance.compliance || !(pull.norm() > most_m)) continue;
     most_m = pull.norm();
     if (estimate.key != instance.key) {

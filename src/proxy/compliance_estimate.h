@@ -27,7 +27,7 @@ class SceneAt;
 
 /// World frame. One object at a time: the deforming one that was touched last.
 struct ComplianceEstimate {
-  static constexpr std::size_t kFrames = 12;
+  static constexpr std::size_t kFrames = 24;
 
   std::uint64_t key = 0;       ///< of the instance; 0: none
   std::uint64_t geometry = 0;  ///< of its shape

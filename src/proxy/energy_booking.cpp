@@ -43,7 +43,6 @@ EnergyBooking::EnergyBooking(const ProxyState& state, const ProxySettings& setti
       was_touching_(state.touching),
       stiffness_before_(state.stiffness),
       proxy_before_(state.position),
-      rest_before_(state.position + state.rest_offset_m),
       budget_J_(state.ledger.budget_J(settings.ledger)) {}
 
 double EnergyBooking::energy_J(double stiffness, double distance_squared) const {
@@ -51,16 +50,11 @@ double EnergyBooking::energy_J(double stiffness, double distance_squared) const 
   return springEnergy_J(settings_.spring_N_m, stiffness, distance_squared / (scale * scale));
 }
 
-// Energy change, J, by a motion of the proxy: 1/2 K s (|e+|^2 - |e-|^2). It is computed from the difference of the two
-// positions, so that it is accurate however far the finger is.
-double EnergyBooking::moved_J(const Vec3& from, const Vec3& to, double stiffness) const {
-  const Vec3 apart = to - from;
-  return energy_J(stiffness, apart.dot((to - finger_) + (from - finger_)));
-}
-
-// Since the tick began.
+// Energy change, J, by the proxy's motion since the tick began: 1/2 K s (|e+|^2 - |e-|^2). It is computed from the
+// difference of the two positions, so that it is accurate however far the finger is.
 double EnergyBooking::moved_J(const Vec3& proxy, double stiffness) const {
-  return moved_J(proxy_before_, proxy, stiffness);
+  const Vec3 apart = proxy - proxy_before_;
+  return energy_J(stiffness, apart.dot((proxy - finger_) + (proxy_before_ - finger_)));
 }
 
 // Along the step |proxy - finger|^2 falls up to the nearest point and rises beyond it. The rise is paid for in full. If
@@ -94,19 +88,18 @@ double EnergyBooking::wantedStiffness(TickEnd end, const MeanStiffness& surfaces
 }
 
 void EnergyBooking::close(ProxyState& state, TickEnd end, const MeanStiffness& surfaces, const Causes& causes,
-                          TickReport& report, const Vec3& rest_offset_m) const {
-  const Vec3 rest = state.position + rest_offset_m;
-  const Vec3 whole = rest - finger_;
+                          TickReport& report) const {
+  const Vec3 whole = state.position - finger_;
   const double distance_squared = whole.squaredNorm();
   const bool touching = end != TickEnd::kOpen && (was_touching_ || !surfaces.empty());
   double stiffness = wantedStiffness(end, surfaces);
   const double before = was_touching_ ? stiffness_before_ : stiffness;
   const double per_stiffness_J = energy_J(1, distance_squared);
-  const double move_J = moved_J(rest_before_, rest, before);
+  const double move_J = moved_J(state.position, before);
   const double most_J = end == TickEnd::kOnItsWay ? 0 : budget_J_;
   if (move_J + (stiffness - before) * per_stiffness_J > most_J)
     stiffness = std::max(0.0, before + (most_J - move_J) / per_stiffness_J);
-  report.target = stiffness == 1 ? rest : Vec3(finger_ + stiffness * whole);
+  report.target = stiffness == 1 ? state.position : Vec3(finger_ + stiffness * whole);
   const double stiffened_J = (stiffness - before) * per_stiffness_J;
   report.injected_J = move_J + stiffened_J;
   bookCauses(state.ledger, causes, move_J, stiffened_J);
@@ -117,7 +110,6 @@ void EnergyBooking::close(ProxyState& state, TickEnd end, const MeanStiffness& s
     state.presliding_m = Vec3::Zero();
   }
   state.stiffness = touching ? stiffness : 1;
-  state.rest_offset_m = touching ? rest_offset_m : Vec3(Vec3::Zero());
 }
 
 }  // namespace hl

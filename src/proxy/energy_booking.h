@@ -1,7 +1,6 @@
 // EnergyBooking: books the energy of one tick in the ledger and limits it, and computes the target from this.
 //
 //   before   E0 = 1/2 K s- |proxy- - finger|^2         after   E = 1/2 K s+ |proxy+ - finger|^2
-// On surfaces that yield the spring is fixed at its rest, not at the proxy (yielding.h); so `proxy` is the rest here.
 // Both use the same finger position, so E - E0 is the change by the tick's rules, not by the hand. Without contact, and
 // in the tick that makes contact, s- is s+: making contact changes no energy. A tick that ends on its way, between the
 // surface that it left and the finger, keeps the stiffness of that surface and adds no energy. If it has met no
@@ -54,22 +53,21 @@ class EnergyBooking {
     bool stiffness_textured = false;
   };
   /// Moves the target by the stiffness of the active surfaces, or of those active last, as far as the energy budget
-  /// allows. Books the tick and fills the report. `rest_offset_m`: as in ProxyState, at the end of the tick.
-  void close(ProxyState& state, TickEnd end, const MeanStiffness& surfaces, const Causes& causes, TickReport& report,
-             const Vec3& rest_offset_m = Vec3::Zero()) const;
+  /// allows. Books the tick and fills the report.
+  void close(ProxyState& state, TickEnd end, const MeanStiffness& surfaces, const Causes& causes,
+             TickReport& report) const;
 
  private:
   double affordable(const Vec3& proxy, const Vec3& step) const;
   double energy_J(double stiffness, double distance_squared) const;
   double moved_J(const Vec3& proxy, double stiffness) const;
-  double moved_J(const Vec3& from, const Vec3& to, double stiffness) const;
   double wantedStiffness(TickEnd end, const MeanStiffness& surfaces) const;
 
   const ProxySettings& settings_;
   const Vec3 finger_;
   const bool was_touching_;
   const double stiffness_before_;
-  const Vec3 proxy_before_, rest_before_;
+  const Vec3 proxy_before_;
   const double budget_J_;
   bool spent_ = false;
 };

@@ -24,11 +24,11 @@ ObjectForces objectForces(const SceneAt& scene, const ProxySettings& settings, c
   ObjectForces forces;
   const double spring_N_m = settings.spring_N_m / settings.world_per_device;
   const Vec3 total_N = spring_N_m * (report.target - finger);
-  const ContactParts parts = partsOf(report.contacts, state.position - finger);
+  const ContactParts parts = partsOf(report.contacts, state.position + state.rest_offset_m - finger);
   for (std::size_t i = 0; i < report.contacts.size(); ++i) {
     const ProxyContact& contact = report.contacts[i];
     add(forces, scene.instance(contact.primitive).key, contact.point,
-        spring_N_m * pullOf(contact, parts[i], state.stiffness));
+        spring_N_m * state.stiffness * parts[i]);
   }
   if (forces.empty() && total_N != Vec3::Zero()) add(forces, 0, state.position, total_N);
   return forces;

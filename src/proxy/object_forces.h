@@ -3,7 +3,7 @@
 //
 // The spring's force K s (proxy - finger) is shared by the active contacts. Contact i presses with K s lambda_i along
 // its normal. The rest is friction, divided in proportion to the friction limit of each contact, mu_i lambda_i, or to
-// lambda_i if no contact has friction. A surface that yields takes its part as yielding.h says.
+// lambda_i if no contact has friction.
 #pragma once
 
 #include <cstdint>

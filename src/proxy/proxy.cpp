@@ -36,7 +36,7 @@ double carryAlong(ProxyState& state, const SceneAt& scene, const ProxySettings& 
   const double before_J = energyOf_J(state, settings, finger);
   carry(state, scene, settings);
   followDeformation(state, scene, settings);
-  followFrames(state, scene);
+  yieldToFrames(state, scene, settings);
   const double moved_J = energyOf_J(state, settings, finger) - before_J;
   if (moved_J > 0) state.ledger.add(EnergyCause::kMoving, moved_J);
   return moved_J;
@@ -46,6 +46,23 @@ TickReport notRun(Ending why, const Vec3& target) {
   TickReport report;
   report.ending = why;
   report.target = target;
+  return report;
+}
+
+// A tick in which a surface may adhere or yield. One that has left a surface that yields goes on to the finger itself.
+TickReport tickTo(const Vec3& finger, ProxyState& state, const SceneAt& scene, const ProxySettings& settings,
+                  int most_looks) {
+  const Vec3 from = finger - state.rest_offset_m;
+  TickReport report = state.adhering.empty() ? Tick(scene, settings, state, from, most_looks).run()
+                                             : tickHeld(state, scene, settings, from, most_looks);
+  report.target += state.rest_offset_m;
+  if (state.rest_offset_m.isZero(0) || !report.contacts.empty()) return report;
+  state.rest_offset_m = Vec3::Zero();
+  const int looks = report.looks;
+  if (report.used_up_at > 0) return report;
+  report = Tick(scene, settings, state, finger, most_looks - looks).run();
+  report.looks += looks;
+  if (report.used_up_at > 0) report.used_up_at += looks;
   return report;
 }
 
@@ -63,11 +80,11 @@ TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& se
   if (!state.free && !beginProxy(state, scene, settings, finger, convergence::kPlacesPerTick))
     return notRun(Ending::kUnplaced, finger);
   const double moved_J = carryAlong(state, scene, settings, finger);
-  TickReport report = state.adhering.empty() ? Tick(scene, settings, state, finger, most_looks).run()
-                                             : tickHeld(state, scene, settings, finger, most_looks);
+  if (!canBeFinger(finger - state.rest_offset_m)) state.rest_offset_m = Vec3::Zero();
+  TickReport report = tickTo(finger, state, scene, settings, most_looks);
   report.moved_J = moved_J;
   rememberDeformation(state, scene, settings, report, finger);
-  state.yielding = yieldingOf(scene, state.estimate, report);
+  rememberYielding(state, scene, settings, report, finger);
   state.time_ns = scene.time_ns();
   state.snapshot = scene.snapshot().number;
   state.carrier = carrierOf(scene, report);

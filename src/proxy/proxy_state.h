@@ -10,7 +10,6 @@
 #include "proxy/compliance_estimate.h"
 #include "proxy/proxy_cache.h"
 #include "proxy/start_search.h"
-#include "proxy/tick_report.h"
 #include "proxy/tolerances.h"
 #include "scene/material.h"
 
@@ -38,21 +37,22 @@ struct ProxySettings {
   MaterialOverride surfaces{};  ///< user settings that override the scene
 };
 
-/// A contact with a surface that holds the proxy until the pull along `normal` exceeds `adhesion_N`, or, where the
-/// surface would come after a finger that leaves it (yielding.h), until the finger is `lift_m` above.
+/// A contact with a surface that holds the proxy until the pull along `normal` exceeds `adhesion_N`.
 struct AdheringContact {
   Vec3 normal;  ///< unit, from the surface to the proxy
   double adhesion_N;
-  double lift_m = 0;  ///< m, world
 };
 using AdheringContacts = FixedVector<AdheringContact, 3>;
 
-/// A contact with an object whose yielding changes from frame to frame (yielding.h).
+/// A contact of the last tick, as one of the springs that yield (yielding.h).
 struct YieldingContact {
-  std::uint64_t key = 0;  ///< of the instance
-  double share = 1;       ///< its share in the stiffness s
-  double object_m_N = 0;  ///< C of the object
-  ContactYields yields{};
+  std::uint64_t key = 0;         ///< of the instance
+  double stiffness = 1;          ///< s0
+  double material_m_N = 0;       ///< C of the material
+  double multiplier_m = 0;       ///< its weight in the mean stiffness
+  double along = 1;              ///< square of the cosine between its part of the pull and its normal
+  Vec3 part_m = Vec3::Zero();    ///< its part e_i of proxy - finger
+  Vec3 normal = Vec3::UnitY();   ///< from the surface to the proxy
 };
 using YieldingContacts = FixedVector<YieldingContact, 3>;
 
@@ -68,7 +68,8 @@ struct ProxyState {
   std::uint64_t snapshot = 0;          ///< number of the snapshot of the last tick; 0: none yet
   std::uint64_t carrier = 0;           ///< key of the object whose friction holds the proxy; 0: none
   AdheringContacts adhering{};         ///< adhesive contacts of the last tick (adhesion.h)
-  YieldingContacts yielding{};         ///< yielding contacts of the last tick
+  YieldingContacts yielding{};         ///< contacts of the last tick; empty if none of them yields
+  double yielding_stiffness = 1;       ///< s of these contacts
   Vec3 rest_offset_m = Vec3::Zero();   ///< where the spring is fixed - proxy; 0 if nothing yields (yielding.h)
   ComplianceEstimate estimate{};
   Ledger ledger{};

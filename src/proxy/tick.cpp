@@ -192,12 +192,8 @@ void Tick::close(TickReport& report) {
     ProxyContact contact = rules_.describe(constraints_.set(), active);
     contact.multiplier_m /= input_.far.part(input_.finger - state_.position);
     report.contacts.push(contact);
+    surfaces.add(contact.multiplier_m, yieldingStiffness(input_.scene, input_.settings, state_.estimate, contact, gap));
     causes.stiffness_textured |= rules_.stiffnessTextured(active.place.primitive);
-  }
-  Vec3 rest_offset_m = end == TickEnd::kOpen ? Vec3(Vec3::Zero()) : state_.rest_offset_m;
-  if (!report.contacts.empty()) {
-    rest_offset_m = yieldTo(input_.scene, input_.settings, state_.estimate, state_.position - input_.finger,
-                            report.contacts, surfaces);
   }
   if (end == TickEnd::kOnItsWay) {
     for (const ActiveContact& active : last_active_)
@@ -206,7 +202,7 @@ void Tick::close(TickReport& report) {
   state_.out_of_work = outOfWork(state_, report.ending);
   state_.presliding_m = rules_.presliding_m();
   state_.rest_s = rules_.hasSlipped() ? 0 : std::min(state_.rest_s + input_.settings.period_s, accuracy::kStuck_s);
-  booking_.close(state_, end, surfaces, causes, report, rest_offset_m);
+  booking_.close(state_, end, surfaces, causes, report);
 }
 
 }  // namespace hl

@@ -11,28 +11,18 @@
 
 namespace hl {
 
-/// How the surface of a contact yields (yielding.h). Its part e_i of proxy - finger pulls by s weight (e_i + free_m).
-struct ContactYields {
-  double weight = 1;           ///< 1 if no contact yields, or if there is one contact only
-  double spring_N_m = 0;       ///< K s0: of the surface and the servo, without yielding; per metre of the world
-  double compliance_m_N = 0;   ///< C of material and object together
-  double along = 1;            ///< square of the cosine between e_i and the normal
-  Vec3 free_m = Vec3::Zero();  ///< C F_k, m, world
-};
-
 /// A plane that is active at the end of a tick.
 struct ProxyContact {
   Vec3 point;   ///< on the surface, nearest the proxy
   Vec3 normal;  ///< unit, from the surface to the proxy: the shading normal
-  /// Multiplier: proxy - finger = sum multiplier_m * normal. Times K s: the normal force, if no surface yields.
-  /// Negative: the surface pulls, or the finger has left a surface that is still coming after it.
+  /// Multiplier: rest of the spring - finger = sum multiplier_m * normal. The rest is the proxy, unless a surface yields
+  /// (yielding.h). Times K s: the normal force. Negative: the surface pulls.
   double multiplier_m;
   PrimitiveId primitive;
   double stiffness;        ///< s of the surface at this point, 0..1
   double static_friction;  ///< mu_s
   bool rough;              ///< friction or viscosity acts at this point
   std::array<double, 3> weights{1, 0, 0};  ///< barycentric weights of `point` for the primitive's sorted vertices
-  ContactYields yields{};
 };
 
 /// Why a tick ended.

@@ -1,8 +1,10 @@
 #include "proxy/yielding.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <optional>
 
+#include "proxy/energy_booking.h"
 #include "proxy/surface.h"
 
 namespace hl {
@@ -30,23 +32,24 @@ Shares frictionShares(const FixedVector<ProxyContact, 3>& contacts) {
 
 // How an object yields, told by its client or estimated.
 struct ObjectYielding {
-  bool changes = false;  // from frame to frame
   Compliance compliance;
   std::optional<Vec3> lift_m{};  // C F_k, where it is estimated
 
-  // In the direction of a part of e of which the square of the cosine to the normal is `along`.
+  // In the direction of a pull of which the square of the cosine to the normal is `along`.
   double compliance_m_N(double along) const {
     return along * compliance.normal_m_N + (1 - along) * compliance.tangential_m_N;
   }
-  Vec3 free_m(double along) const {
-    return lift_m ? *lift_m : Vec3(compliance_m_N(along) * compliance.computed_for_N);
+  // C F_k. Where it would pull, that is no answer of a surface.
+  Vec3 lift(double along, const Vec3& normal) const {
+    const Vec3 lift = lift_m ? *lift_m : Vec3(compliance_m_N(along) * compliance.computed_for_N);
+    return lift - std::min(0.0, normal.dot(lift)) * normal;
   }
 };
 
 ObjectYielding yieldingAt(const Instance& instance, std::int64_t time_ns, const ComplianceEstimate& estimate) {
-  if (instance.compliance) return {true, instance.compliance->at(time_ns)};
+  if (instance.compliance) return {instance.compliance->at(time_ns)};
   if (estimate.key != instance.key) return {};
-  return {true, {estimate.compliance_m_N, estimate.compliance_m_N}, estimate.lift_m};
+  return {{estimate.compliance_m_N, estimate.compliance_m_N}, estimate.lift_m};
 }
 
 double ofMaterial_m_N(const SceneAt& scene, const ProxySettings& settings, PrimitiveId id) {
@@ -54,26 +57,51 @@ double ofMaterial_m_N(const SceneAt& scene, const ProxySettings& settings, Primi
   return Surface(scene, settings.surfaces, id).plain(Quantity::kCompliance);
 }
 
-// A surface does not pull, but where it holds the proxy that the finger leaves.
-Vec3 pushing(const Vec3& free_m, const ProxyContact& contact) {
-  const double out_m = contact.normal.dot(free_m);
-  return out_m < 0 && contact.multiplier_m >= 0 ? Vec3(free_m - out_m * contact.normal) : free_m;
+double cosineSquared(const Vec3& pull, const Vec3& normal) {
+  const double whole2 = pull.squaredNorm(), along_m = normal.dot(pull);
+  return whole2 > 0 ? std::min(1.0, along_m * along_m / whole2) : 1;
 }
 
-ContactYields yieldsOf(const SceneAt& scene, const ProxySettings& settings, const ComplianceEstimate& estimate,
-                       const ProxyContact& contact, const Vec3& part) {
-  const ObjectYielding object = yieldingAt(scene.instance(contact.primitive), scene.time_ns(), estimate);
-  const double whole2 = part.squaredNorm();
-  ContactYields yields;
-  yields.along = whole2 > 0 ? std::min(1.0, contact.multiplier_m * contact.multiplier_m / whole2) : 1;
-  yields.spring_N_m = settings.spring_N_m / settings.world_per_device * contact.stiffness;
-  yields.compliance_m_N = ofMaterial_m_N(scene, settings, contact.primitive) + object.compliance_m_N(yields.along);
-  if (object.changes) yields.free_m = pushing(object.free_m(yields.along), contact);
-  return yields;
+// 1 / (1 + K s0 C): the part of K s0 that yielding leaves.
+double keptOf(double spring_N_m, double compliance_m_N) { return 1 / (1 + spring_N_m * compliance_m_N); }
+
+// Parts of `v`, along the normals and the rest.
+void addParts(const Vec3& v, YieldingContacts& contacts) {
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> normals(3, contacts.size());
+  for (std::size_t i = 0; i < contacts.size(); ++i) normals.col(static_cast<Eigen::Index>(i)) = contacts[i].normal;
+  const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> along = normals.colPivHouseholderQr().solve(v);
+  const Vec3 rest = (v - normals * along) / static_cast<double>(contacts.size());
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    contacts[i].part_m += along[static_cast<Eigen::Index>(i)] * contacts[i].normal + rest;
 }
 
-// The part of K s0 that yielding leaves: s / s0.
-double keptOf(const ContactYields& yields) { return 1 / (1 + yields.spring_N_m * yields.compliance_m_N); }
+struct YieldingSpring {
+  double stiffness = 1;  // s
+  Vec3 rest_offset_m = Vec3::Zero();
+};
+
+// The pull is the sum of those of the contacts, s_i (e_i + C_i F_ki), and s their mean; the rest of the spring is where
+// s gives this pull. Of one contact it is the proxy, displaced by C F_k.
+YieldingSpring springOf(const ProxyState& state, const SceneAt& scene, const ProxySettings& settings) {
+  const double spring_N_m = settings.spring_N_m / settings.world_per_device;
+  MeanStiffness mean;
+  Vec3 whole_m = Vec3::Zero(), pull_m = Vec3::Zero(), lift_m = Vec3::Zero();
+  for (const YieldingContact& contact : state.yielding) {
+    std::uint32_t number = 0;
+    ObjectYielding object;
+    if (scene.snapshot().find(contact.key, number))
+      object = yieldingAt(scene.snapshot().instances[number], scene.time_ns(), state.estimate);
+    const double compliance_m_N = contact.material_m_N + object.compliance_m_N(contact.along);
+    const double stiffness = contact.stiffness * keptOf(spring_N_m * contact.stiffness, compliance_m_N);
+    lift_m = object.lift(contact.along, contact.normal);
+    mean.add(contact.multiplier_m, stiffness);
+    whole_m += contact.part_m;
+    pull_m += stiffness * (contact.part_m + lift_m);
+  }
+  const double s = mean.value();
+  if (state.yielding.size() == 1 || !(s > 0)) return {s, lift_m};
+  return {s, pull_m / s - whole_m};
+}
 
 }  // namespace
 
@@ -87,59 +115,44 @@ ContactParts partsOf(const FixedVector<ProxyContact, 3>& contacts, const Vec3& e
   return parts;
 }
 
-Vec3 yieldTo(const SceneAt& scene, const ProxySettings& settings, const ComplianceEstimate& estimate, const Vec3& e,
-             FixedVector<ProxyContact, 3>& contacts, MeanStiffness& surfaces) {
-  const ContactParts parts = partsOf(contacts, e);
-  MeanStiffness rigid;  // s0
-  bool any = false;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    ProxyContact& contact = contacts[i];
-    contact.yields = yieldsOf(scene, settings, estimate, contact, parts[i]);
-    any |= contact.yields.compliance_m_N > 0 || !contact.yields.free_m.isZero(0);
-    rigid.add(contact.multiplier_m, contact.stiffness);
-    surfaces.add(contact.multiplier_m, contact.stiffness * keptOf(contact.yields));
-  }
-  if (!any || !(surfaces.value() > 0)) return Vec3::Zero();
-  Vec3 rest = Vec3::Zero();
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    contacts[i].yields.weight = rigid.value() * keptOf(contacts[i].yields) / surfaces.value();
-    rest += pullOf(contacts[i], parts[i], 1);
-  }
-  return rest - e;
+double yieldingStiffness(const SceneAt& scene, const ProxySettings& settings, const ComplianceEstimate& estimate,
+                         const ProxyContact& contact, const Vec3& e) {
+  const ObjectYielding object = yieldingAt(scene.instance(contact.primitive), scene.time_ns(), estimate);
+  const double compliance_m_N = ofMaterial_m_N(scene, settings, contact.primitive) +
+                                object.compliance_m_N(cosineSquared(e, contact.normal));
+  if (!(compliance_m_N > 0)) return contact.stiffness;
+  const double spring_N_m = settings.spring_N_m / settings.world_per_device * contact.stiffness;
+  return contact.stiffness * keptOf(spring_N_m, compliance_m_N);
 }
 
-void followFrames(ProxyState& state, const SceneAt& scene) {
-  double factor = 1;
-  for (YieldingContact& contact : state.yielding) {
-    std::uint32_t number = 0;
-    if (!scene.snapshot().find(contact.key, number)) continue;
-    const ObjectYielding object = yieldingAt(scene.snapshot().instances[number], scene.time_ns(), state.estimate);
-    ContactYields& yields = contact.yields;
-    const ContactYields before = yields;
-    yields.compliance_m_N += object.compliance_m_N(yields.along) - contact.object_m_N;
-    contact.object_m_N = object.compliance_m_N(yields.along);
-    yields.free_m = object.free_m(yields.along);
-    state.rest_offset_m += yields.weight * (yields.free_m - before.free_m);
-    factor += contact.share * (keptOf(yields) / keptOf(before) - 1);
-  }
-  if (factor > 0) state.stiffness = std::min(1.0, factor * state.stiffness);
+void yieldToFrames(ProxyState& state, const SceneAt& scene, const ProxySettings& settings) {
+  state.rest_offset_m = Vec3::Zero();
+  if (state.yielding.empty()) return;
+  const YieldingSpring spring = springOf(state, scene, settings);
+  if (!(spring.stiffness > 0)) return;
+  state.rest_offset_m = spring.rest_offset_m;
+  // What the tick has left of the stiffness, for want of energy, stays the same part of it.
+  state.stiffness = std::min(1.0, state.stiffness * (spring.stiffness / state.yielding_stiffness));
+  state.yielding_stiffness = spring.stiffness;
 }
 
-YieldingContacts yieldingOf(const SceneAt& scene, const ComplianceEstimate& estimate, const TickReport& report) {
+void rememberYielding(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const TickReport& report,
+                      const Vec3& finger) {
   YieldingContacts all;
-  double sum = 0;
-  const auto stiffnessOf = [](const ProxyContact& contact) {
-    return std::max(0.0, contact.multiplier_m) * contact.stiffness * keptOf(contact.yields);
-  };
-  for (const ProxyContact& contact : report.contacts) sum += stiffnessOf(contact);
-  for (const ProxyContact& contact : report.contacts) {
-    const ObjectYielding object = yieldingAt(scene.instance(contact.primitive), scene.time_ns(), estimate);
-    if (!object.changes) continue;
-    const double share = sum > 0 ? stiffnessOf(contact) / sum : 1.0 / static_cast<double>(report.contacts.size());
-    all.push({scene.instance(contact.primitive).key, share, object.compliance_m_N(contact.yields.along),
-              contact.yields});
+  bool any = false;
+  const ContactParts parts = partsOf(report.contacts, state.position + state.rest_offset_m - finger);
+  for (std::size_t i = 0; i < report.contacts.size(); ++i) {
+    const ProxyContact& contact = report.contacts[i];
+    const Instance& instance = scene.instance(contact.primitive);
+    const double material_m_N = ofMaterial_m_N(scene, settings, contact.primitive);
+    any |= material_m_N > 0 || instance.compliance || state.estimate.key == instance.key;
+    all.push({instance.key, contact.stiffness, material_m_N, contact.multiplier_m,
+              cosineSquared(parts[i], contact.normal), parts[i], contact.normal});
   }
-  return all;
+  if (!any) all.clear();
+  if (all.size() > 1) addParts(-state.rest_offset_m, all);
+  state.yielding = all;
+  if (any) state.yielding_stiffness = springOf(state, scene, settings).stiffness;
 }
 
 }  // namespace hl

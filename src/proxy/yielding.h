@@ -5,41 +5,36 @@
 //
 //   F = K s (e + C F_k),   1 / (K s) = 1 / (K s0) + C
 //
-// So the target is softened by s, and the spring is fixed not at the proxy but at its rest: the proxy displaced by
-// C F_k, where the surface would be without force. The energy 1/2 K s |rest - finger|^2 is that of both springs. Of
-// several contacts each softens its own part e_i of e; contacts that do not yield keep theirs.
+// So the spring is softened by s, and fixed not at the proxy but at its rest: the proxy displaced by o = C F_k, where
+// the surface would be without force. The tick is made with the finger at finger - o: then the planes press with the
+// true forces, friction is Coulomb's, and a surface is left where it would not push any more, be that above its mesh.
+// 1/2 K s |rest - finger|^2 is the energy of both springs. Of several contacts each yields to its own part of the pull.
 #pragma once
 
 #include <array>
 
-#include "proxy/energy_booking.h"
 #include "proxy/proxy_state.h"
 #include "proxy/tick_report.h"
 #include "scene/scene_at.h"
 
 namespace hl {
 
-/// World frame. `e`: proxy - finger. The parts of it that the contacts hold; their sum is e, unless there is none:
-/// along each normal by its multiplier; the rest, which friction holds, in proportion to mu_i lambda_i, or to lambda_i
-/// if no contact has friction. RT-safe.
+/// World frame. `e`: rest of the spring - finger. The parts of it that the contacts hold; their sum is e, unless there
+/// is no contact: along each normal by its multiplier; the rest, which friction holds, in proportion to mu_i lambda_i,
+/// or to lambda_i if no contact has friction. Times K s they are the forces of the contacts on the hand. RT-safe.
 using ContactParts = std::array<Vec3, 3>;
 ContactParts partsOf(const FixedVector<ProxyContact, 3>& contacts, const Vec3& e);
 
-/// The pull of a contact, m: its part of target - finger. Times K it is its force on the hand. RT-safe.
-inline Vec3 pullOf(const ProxyContact& contact, const Vec3& part, double stiffness) {
-  return stiffness * (contact.yields.weight * (part + contact.yields.free_m));
-}
+/// Stiffness s of a contact, of which the whole pull is along `e`. RT-safe.
+double yieldingStiffness(const SceneAt& scene, const ProxySettings& settings, const ComplianceEstimate& estimate,
+                         const ProxyContact& contact, const Vec3& e);
 
-/// Finds how the contacts yield, by their parts of `e`, their C and their F_k: fills `yields` of each.
-/// `surfaces`: gets the stiffness s of each contact. Returns the rest of the proxy's spring - proxy, m. RT-safe.
-Vec3 yieldTo(const SceneAt& scene, const ProxySettings& settings, const ComplianceEstimate& estimate, const Vec3& e,
-             FixedVector<ProxyContact, 3>& contacts, MeanStiffness& surfaces);
+/// Before a tick, by the contacts of the last one: changes stiffness and rest of the spring by what the frames of
+/// clients have changed since. RT-safe.
+void yieldToFrames(ProxyState& state, const SceneAt& scene, const ProxySettings& settings);
 
-/// Changes the stiffness and the rest of the spring by what the frames of clients have changed since the last tick.
-/// RT-safe.
-void followFrames(ProxyState& state, const SceneAt& scene);
-
-/// What the next tick must know of the contacts. RT-safe.
-YieldingContacts yieldingOf(const SceneAt& scene, const ComplianceEstimate& estimate, const TickReport& report);
+/// After a tick to `finger`: remembers the contacts, if one of them yields. RT-safe.
+void rememberYielding(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const TickReport& report,
+                      const Vec3& finger);
 
 }  // namespace hl

@@ -32,10 +32,10 @@ FeltContacts feltContacts(const SceneAt& scene, const ProxySettings& settings, c
                           const TickReport& report, const Vec3& finger) {
   FeltContacts felt;
   const double spring_N_m = settings.spring_N_m / settings.world_per_device;
-  const ContactParts parts = partsOf(report.contacts, state.position - finger);
+  const ContactParts parts = partsOf(report.contacts, state.position + state.rest_offset_m - finger);
   for (std::size_t i = 0; i < report.contacts.size(); ++i) {
     FeltContact contact = placeOf(scene, report.contacts[i]);
-    contact.force_N = spring_N_m * pullOf(report.contacts[i], parts[i], state.stiffness);
+    contact.force_N = spring_N_m * state.stiffness * parts[i];
     felt.push(contact);
   }
   return felt;

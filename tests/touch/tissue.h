@@ -69,6 +69,13 @@ class Tissue {
     for (int ms = 0; ms < period_ms_; ++ms) step(finger);
     return force_N_.y();
   }
+  /// The same with the finger where `finger()` says at each step.
+  double runFollowing(const std::function<Vec3()>& finger) {
+    frame(0);
+    for (int ms = 0; ms < period_ms_; ++ms) step(finger());
+    return force_N_.y();
+  }
+  void frameOnly() { frame(0); }
   Vec3 step(const Vec3& finger) {
     now_ns_ += kMilli_ns;
     DeviceSample sample;
