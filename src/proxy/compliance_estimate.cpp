@@ -1,6 +1,7 @@
 #include "proxy/compliance_estimate.h"
 
 #include <algorithm>
+#include <array>
 
 #include "proxy/proxy_state.h"
 #include "proxy/tick_report.h"
@@ -46,19 +47,24 @@ Vec3 displacement(const SceneAt& scene, std::uint32_t number, const ComplianceEs
   return scene.turnToWorld(id, moved_O);
 }
 
+void append(double value, std::array<double, ComplianceEstimate::kFrames>& list) {
+  std::rotate(list.begin(), list.begin() + 1, list.end());
+  list.back() = value;
+}
+
 // A frame has come: the one before is complete.
-void closeFrame(ComplianceEstimate& estimate, double period_s) {
+void closeFrame(ComplianceEstimate& estimate, const ProxySettings& settings) {
   const auto ticks = static_cast<double>(estimate.ticks);
-  std::rotate(estimate.moves_m.begin(), estimate.moves_m.begin() + 1, estimate.moves_m.end());
-  std::rotate(estimate.forces_N.begin(), estimate.forces_N.begin() + 1, estimate.forces_N.end());
-  estimate.moves_m.back() = estimate.moved_m;
-  estimate.forces_N.back() = estimate.sum_N / ticks;
-  estimate.frame_s = ticks * period_s;
+  append(estimate.moved_m, estimate.moves_m);
+  append(estimate.sum_N / ticks, estimate.means_N);
+  append(estimate.normal.dot(estimate.force_N), estimate.lasts_N);
+  estimate.frame_s = ticks * settings.period_s;
   estimate.moved_m = estimate.sum_N = 0;
   estimate.ticks = 0;
-  const double secant_m_N = estimate.secant_m_N();
+  const double secant_m_N = estimate.secant_m_N(), servo_m_N = settings.world_per_device / settings.spring_N_m;
   if (secant_m_N < 0) return;
-  const double wanted = std::min(kRoundUp * secant_m_N, kMaxEstimate_m_N), before = estimate.compliance_m_N;
+  const double told_m_N = secant_m_N > servo_m_N ? secant_m_N : 0;
+  const double wanted = std::min(kRoundUp * told_m_N, kMaxEstimate_m_N), before = estimate.compliance_m_N;
   double change = wanted > before ? wanted - before : kDecay * (wanted - before);
   if (before + change < kLeast_m_N) change = -before;
   estimate.compliance_m_N = before + change;
@@ -70,15 +76,17 @@ void closeFrame(ComplianceEstimate& estimate, double period_s) {
 double ComplianceEstimate::secant_m_N() const {
   double best = 0, explained = kLeastExplained;
   bool told = false;
-  for (std::size_t lag = 1; lag <= kMaxLag; ++lag) {
-    Secant secant;
-    for (std::size_t i = lag + 1; i < kFrames; ++i)
-      secant.add(forces_N[i - lag] - forces_N[i - lag - 1], moves_m[i]);
-    if (secant.force2 < kLeastChange_N * kLeastChange_N) continue;
-    told = true;
-    if (secant.both >= 0 || secant.explained() <= explained) continue;
-    explained = secant.explained();
-    best = -secant.both / secant.force2;
+  for (const auto* forces_N : {&means_N, &lasts_N}) {
+    for (std::size_t lag = 1; lag <= kMaxLag; ++lag) {
+      Secant secant;
+      for (std::size_t i = lag + 1; i < kFrames; ++i)
+        secant.add((*forces_N)[i - lag] - (*forces_N)[i - lag - 1], moves_m[i]);
+      if (secant.force2 < kLeastChange_N * kLeastChange_N) continue;
+      told = true;
+      if (secant.both >= 0 || secant.explained() <= explained) continue;
+      explained = secant.explained();
+      best = -secant.both / secant.force2;
+    }
   }
   return told ? best : -1;
 }
@@ -92,7 +100,7 @@ void followDeformation(ProxyState& state, const SceneAt& scene, const ProxySetti
     return;
   }
   const std::uint64_t geometry = scene.snapshot().instances[number].shape->geometry;
-  if (estimate.geometry != geometry && estimate.ticks > 0) closeFrame(estimate, settings.period_s);
+  if (estimate.geometry != geometry && estimate.ticks > 0) closeFrame(estimate, settings);
   estimate.geometry = geometry;
   if (state.snapshot == scene.snapshot().number) {
     const Vec3 moved = displacement(scene, number, estimate, state.time_ns);

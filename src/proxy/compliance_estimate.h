@@ -4,7 +4,8 @@
 // the servo's spring K, over a latency that is not known, and which is unstable for C > 1/K. The estimate of C is the
 // secant of the last frames: how far each has moved the mesh at the contact, against how much the mean force had
 // changed some frames before, for the number of frames that explains it best; rounded up, as too much is always stable.
-// A mesh that moves by itself does not follow the force: then the estimate falls to 0.
+// A mesh that moves by itself changes the force by K dx, so its secant is at most 1/K; and up to there the loop is
+// stable as it is. So nothing is estimated below 1/K. Where the mesh does not follow the force the estimate falls to 0.
 //
 // The force F_k that a frame was computed for is not known either. What the mesh moves is taken for an answer to the
 // force: the lift C F_k loses what the mesh moves, so that a frame is not felt at once. From there it goes to C F with
@@ -41,11 +42,12 @@ struct ComplianceEstimate {
   // Since the last frame:
   double moved_m = 0, sum_N = 0;  ///< along the normal
   std::int64_t ticks = 0;
-  // Of the last frames, the newest last; 0 before the touch:
+  // Of the last frames, the newest last; 0 before the touch. Forces: the mean and the last, as a client may read either.
   double frame_s = 0;
-  std::array<double, kFrames> moves_m{}, forces_N{};
+  std::array<double, kFrames> moves_m{}, means_N{}, lasts_N{};
 
-  /// C by the frames so far; below 0: the force has not changed enough to tell. RT-safe.
+  /// C by the frames so far; 0: the mesh does not follow the force; below 0: the force has not changed enough to tell.
+  /// RT-safe.
   double secant_m_N() const;
 };
 

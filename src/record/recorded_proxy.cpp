@@ -80,7 +80,8 @@ void checkEstimate(const ComplianceEstimate& in) {
   for (const double weight : in.weights) checkRanges("the estimate", {{"weights", weight, -kMaxMemory, kMaxMemory}});
   for (std::size_t i = 0; i < ComplianceEstimate::kFrames; ++i) {
     checkRanges("the estimate of the compliance", {{"moves_m", in.moves_m[i], -kMaxMemory, kMaxMemory},
-                                                   {"forces_N", in.forces_N[i], -kMaxMemory, kMaxMemory}});
+                                                   {"means_N", in.means_N[i], -kMaxMemory, kMaxMemory},
+                                                   {"lasts_N", in.lasts_N[i], -kMaxMemory, kMaxMemory}});
   }
 }
 
