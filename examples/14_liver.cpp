@@ -18,7 +18,7 @@
 namespace {
 
 enum Object : HLuint { kLiver = 1 };
-constexpr int kSide = 25;             // nodes
+constexpr int kSide = 25;  // nodes
 constexpr double kWidth_m = 0.12;
 constexpr double kNeighbour_N_m = 100;  // springs between neighbours ...
 constexpr double kGround_N_m = 3;       // ... and from each node to where it rests; together about 200 N/m at a point

@@ -29,8 +29,8 @@ bool isSameItem(const proto::PressedPoint& a, const proto::PressedPoint& b) {
   return a.session() == b.session() && a.object() == b.object() && a.item() == b.item() && a.name() == b.name();
 }
 bool isSamePlace(const proto::PressedPoint& a, const proto::PressedPoint& b) {
-  return isSameItem(a, b) && std::equal(a.vertices().begin(), a.vertices().end(), b.vertices().begin(),
-                                        b.vertices().end());
+  return isSameItem(a, b) &&
+         std::equal(a.vertices().begin(), a.vertices().end(), b.vertices().begin(), b.vertices().end());
 }
 
 // Adds the impulse of `from`. Of the same vertices the weights become the mean.
@@ -39,7 +39,8 @@ void join(proto::PressedPoint& to, const proto::PressedPoint& from) {
   if (isSamePlace(to, from) && a + b > 0) {
     for (int i = 0; i < std::min(to.weights_size(), from.weights_size()); ++i)
       to.set_weights(i, (a * to.weights(i) + b * from.weights(i)) / (a + b));
-    const auto point = sumOf(vectorOf(to.point()), sumOf(vectorOf(from.point()), vectorOf(to.point()), -1), b / (a + b));
+    const auto point =
+        sumOf(vectorOf(to.point()), sumOf(vectorOf(from.point()), vectorOf(to.point()), -1), b / (a + b));
     set(*to.mutable_point(), point);
   }
   set(*to.mutable_force_n(), sumOf(vectorOf(to.force_n()), vectorOf(from.force_n())));

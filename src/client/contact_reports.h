@@ -17,7 +17,8 @@ class ContactReports {
   void keep(bool wanted);
   void add(const proto::ContactReport& report);
 
-  /// What came since the last call, those of the largest force first, with the vertices of their items; it is forgotten.
+  /// What came since the last call, those of the largest force first, with the vertices of their items; it is
+  /// forgotten.
   struct Taken {
     HLcontactreport report{};
     std::vector<proto::PressedPoint> points;  ///< with mean forces over the whole interval

@@ -23,8 +23,8 @@ void mergeNumbered(std::map<HLuint, Definition>& defined, std::set<HLuint>& dele
 }  // namespace
 
 bool Draft::isEmpty() const {
-  return !world && objects.empty() && deleted_objects.empty() && moved.empty() && compliances.empty() && textures.empty() &&
-         deleted_textures.empty();
+  return !world && objects.empty() && deleted_objects.empty() && moved.empty() && compliances.empty() &&
+         textures.empty() && deleted_textures.empty();
 }
 
 void Draft::move(VertexUpdate update) {

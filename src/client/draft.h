@@ -30,13 +30,13 @@ struct ObjectCompliance {
 };
 
 struct Draft {
-  std::optional<ItemList> world;       ///< absent: the calls stay as they are
-  std::map<HLuint, ItemList> objects;  ///< new or overwritten
-  std::set<HLuint> deleted_objects;    ///< in none of `objects`
-  std::vector<VertexUpdate> moved;     ///< of objects that are defined, after all definitions
+  std::optional<ItemList> world;                   ///< absent: the calls stay as they are
+  std::map<HLuint, ItemList> objects;              ///< new or overwritten
+  std::set<HLuint> deleted_objects;                ///< in none of `objects`
+  std::vector<VertexUpdate> moved;                 ///< of objects that are defined, after all definitions
   std::map<HLuint, ObjectCompliance> compliances;  ///< of objects that are defined
-  std::map<HLuint, Texture> textures;  ///< new or overwritten; all with images
-  std::set<HLuint> deleted_textures;   ///< in none of `textures`
+  std::map<HLuint, Texture> textures;              ///< new or overwritten; all with images
+  std::set<HLuint> deleted_textures;               ///< in none of `textures`
 
   bool isEmpty() const;
   /// Forgets an earlier update that it covers, so that a draft that waits long does not grow.

@@ -4,9 +4,9 @@
 
 #include <recording.pb.h>
 
-#include <initializer_list>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <utility>
 #include <vector>

@@ -21,11 +21,6 @@
 
 namespace hl {
 
-struct ProxyState;
-struct ProxySettings;
-struct TickReport;
-class SceneAt;
-
 /// World frame. One object at a time: the deforming one that was touched last.
 struct ComplianceEstimate {
   static constexpr std::size_t kFrames = 24;
@@ -42,19 +37,16 @@ struct ComplianceEstimate {
   // Since the last frame:
   double moved_m = 0, sum_N = 0;  ///< along the normal
   std::int64_t ticks = 0;
-  // Of the last frames, the newest last; 0 before the touch. Forces: the mean and the last, as a client may read either.
+  // Of the last frames, the newest last; 0 before the touch. Forces: the mean and the last, as a client may read
+  // either.
   double frame_s = 0;
   std::array<double, kFrames> moves_m{}, means_N{}, lasts_N{};
 
+  /// A frame has come: the one before is complete. `servo_m_N`: 1/K, per metre of the world. RT-safe.
+  void closeFrame(double period_s, double servo_m_N);
   /// C by the frames so far; 0: the mesh does not follow the force; below 0: the force has not changed enough to tell.
   /// RT-safe.
   double secant_m_N() const;
 };
-
-/// Before a tick, after the proxy was carried: follows what the mesh has moved since the last tick. RT-safe.
-void followDeformation(ProxyState& state, const SceneAt& scene, const ProxySettings& settings);
-/// After a tick to `finger`: remembers the contact and its force. RT-safe.
-void rememberDeformation(ProxyState& state, const SceneAt& scene, const ProxySettings& settings,
-                         const TickReport& report, const Vec3& finger);
 
 }  // namespace hl

@@ -27,8 +27,7 @@ ObjectForces objectForces(const SceneAt& scene, const ProxySettings& settings, c
   const ContactParts parts = partsOf(report.contacts, state.position + state.rest_offset_m - finger);
   for (std::size_t i = 0; i < report.contacts.size(); ++i) {
     const ProxyContact& contact = report.contacts[i];
-    add(forces, scene.instance(contact.primitive).key, contact.point,
-        spring_N_m * state.stiffness * parts[i]);
+    add(forces, scene.instance(contact.primitive).key, contact.point, spring_N_m * state.stiffness * parts[i]);
   }
   if (forces.empty() && total_N != Vec3::Zero()) add(forces, 0, state.position, total_N);
   return forces;

@@ -4,6 +4,7 @@
 #include "proxy/adhesion.h"
 #include "proxy/begin.h"
 #include "proxy/carry.h"
+#include "proxy/follow_deformation.h"
 #include "proxy/spring_energy.h"
 #include "proxy/tick.h"
 #include "proxy/tolerances.h"
@@ -30,8 +31,8 @@ double energyOf_J(const ProxyState& state, const ProxySettings& settings, const 
   return springEnergy_J(settings.spring_N_m, state.stiffness, gap_D.squaredNorm());
 }
 
-// Moves the proxy with the moving objects, and the rest of its spring with their frames. Returns the energy change, J. This work is done by the objects, not by the
-// rules of the surfaces, so no tank pays for it.
+// Moves the proxy with the moving objects, and the rest of its spring with their frames. Returns the energy change, J.
+// This work is done by the objects, not by the rules of the surfaces, so no tank pays for it.
 double carryAlong(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
   const double before_J = energyOf_J(state, settings, finger);
   carry(state, scene, settings);

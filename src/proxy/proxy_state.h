@@ -46,13 +46,13 @@ using AdheringContacts = FixedVector<AdheringContact, 3>;
 
 /// A contact of the last tick, as one of the springs that yield (yielding.h).
 struct YieldingContact {
-  std::uint64_t key = 0;         ///< of the instance
-  double stiffness = 1;          ///< s0
-  double material_m_N = 0;       ///< C of the material
-  double multiplier_m = 0;       ///< its weight in the mean stiffness
-  double along = 1;              ///< square of the cosine between its part of the pull and its normal
-  Vec3 part_m = Vec3::Zero();    ///< its part e_i of proxy - finger
-  Vec3 normal = Vec3::UnitY();   ///< from the surface to the proxy
+  std::uint64_t key = 0;        ///< of the instance
+  double stiffness = 1;         ///< s0
+  double material_m_N = 0;      ///< C of the material
+  double multiplier_m = 0;      ///< its weight in the mean stiffness
+  double along = 1;             ///< square of the cosine between its part of the pull and its normal
+  Vec3 part_m = Vec3::Zero();   ///< its part e_i of proxy - finger
+  Vec3 normal = Vec3::UnitY();  ///< from the surface to the proxy
 };
 using YieldingContacts = FixedVector<YieldingContact, 3>;
 

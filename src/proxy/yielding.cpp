@@ -118,8 +118,8 @@ ContactParts partsOf(const FixedVector<ProxyContact, 3>& contacts, const Vec3& e
 double yieldingStiffness(const SceneAt& scene, const ProxySettings& settings, const ComplianceEstimate& estimate,
                          const ProxyContact& contact, const Vec3& e) {
   const ObjectYielding object = yieldingAt(scene.instance(contact.primitive), scene.time_ns(), estimate);
-  const double compliance_m_N = ofMaterial_m_N(scene, settings, contact.primitive) +
-                                object.compliance_m_N(cosineSquared(e, contact.normal));
+  const double compliance_m_N =
+      ofMaterial_m_N(scene, settings, contact.primitive) + object.compliance_m_N(cosineSquared(e, contact.normal));
   if (!(compliance_m_N > 0)) return contact.stiffness;
   const double spring_N_m = settings.spring_N_m / settings.world_per_device * contact.stiffness;
   return contact.stiffness * keptOf(spring_N_m, compliance_m_N);
@@ -138,21 +138,22 @@ void yieldToFrames(ProxyState& state, const SceneAt& scene, const ProxySettings&
 
 void rememberYielding(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const TickReport& report,
                       const Vec3& finger) {
-  YieldingContacts all;
-  bool any = false;
+  state.yielding.clear();
+  const auto yields = [&](const ProxyContact& contact) {
+    const Instance& instance = scene.instance(contact.primitive);
+    return instance.compliance || state.estimate.key == instance.key ||
+           ofMaterial_m_N(scene, settings, contact.primitive) > 0;
+  };
+  if (std::none_of(report.contacts.begin(), report.contacts.end(), yields)) return;
   const ContactParts parts = partsOf(report.contacts, state.position + state.rest_offset_m - finger);
   for (std::size_t i = 0; i < report.contacts.size(); ++i) {
     const ProxyContact& contact = report.contacts[i];
-    const Instance& instance = scene.instance(contact.primitive);
-    const double material_m_N = ofMaterial_m_N(scene, settings, contact.primitive);
-    any |= material_m_N > 0 || instance.compliance || state.estimate.key == instance.key;
-    all.push({instance.key, contact.stiffness, material_m_N, contact.multiplier_m,
-              cosineSquared(parts[i], contact.normal), parts[i], contact.normal});
+    state.yielding.push({scene.instance(contact.primitive).key, contact.stiffness,
+                         ofMaterial_m_N(scene, settings, contact.primitive), contact.multiplier_m,
+                         cosineSquared(parts[i], contact.normal), parts[i], contact.normal});
   }
-  if (!any) all.clear();
-  if (all.size() > 1) addParts(-state.rest_offset_m, all);
-  state.yielding = all;
-  if (any) state.yielding_stiffness = springOf(state, scene, settings).stiffness;
+  if (state.yielding.size() > 1) addParts(-state.rest_offset_m, state.yielding);
+  state.yielding_stiffness = springOf(state, scene, settings).stiffness;
 }
 
 }  // namespace hl

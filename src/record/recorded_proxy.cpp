@@ -132,7 +132,8 @@ void toProto(const ProxyMemory& memory, proto::RecordedProxy& out) {
     add(*out.mutable_adhering(), contact.normal);
     out.add_adhering(contact.adhesion_N);
   }
-  toProto(valuesOf(YieldingValues{state.rest_offset_m, state.yielding_stiffness, state.estimate}), *out.mutable_yielding());
+  toProto(valuesOf(YieldingValues{state.rest_offset_m, state.yielding_stiffness, state.estimate}),
+          *out.mutable_yielding());
   for (const YieldingContact& contact : state.yielding) toProto(valuesOf(contact), *out.add_yielding_contacts());
 }
 

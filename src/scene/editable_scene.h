@@ -82,8 +82,8 @@ struct PlacedShape {
   Pose pose;
   std::uint64_t key = 0;  ///< from the calls that lead to it: the same from frame to frame
   std::uint32_t session = 0, object = 0, name = 0;
-  std::uint32_t item = 0;                    ///< as in Instance
-  std::optional<Compliance> compliance{};    ///< of its object
+  std::uint32_t item = 0;                  ///< as in Instance
+  std::optional<Compliance> compliance{};  ///< of its object
 };
 
 /// The shapes in the world; shared by all readers.

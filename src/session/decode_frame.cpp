@@ -354,9 +354,8 @@ void FrameDecoder::addCompliances() {
     };
     const double normal_m_N = decoder_.checked(in.normal_m_n(), 0, kMaxCompliance_m_N, where + ".normalMN");
     const double tangential_m_N =
-        in.has_tangential_m_n()
-            ? decoder_.checked(in.tangential_m_n(), 0, kMaxCompliance_m_N, where + ".tangentialMN")
-            : normal_m_N;
+        in.has_tangential_m_n() ? decoder_.checked(in.tangential_m_n(), 0, kMaxCompliance_m_N, where + ".tangentialMN")
+                                : normal_m_N;
     const proto::Vec3& f = in.computed_for_n();
     const Compliance compliance{normal_m_N, tangential_m_N, {force(f.x(), "x"), force(f.y(), "y"), force(f.z(), "z")}};
     if (!result_.edit.compliances.emplace(in.object(), compliance).second)
@@ -366,8 +365,7 @@ void FrameDecoder::addCompliances() {
 
 DecodedFrame FrameDecoder::run() {
   countItems();
-  const int listed =
-      frame_.deleted_textures_size() + frame_.deleted_objects_size() + frame_.compliances_size();
+  const int listed = frame_.deleted_textures_size() + frame_.deleted_objects_size() + frame_.compliances_size();
   result_.memory.take(kListed_bytes * static_cast<std::uint64_t>(listed));
   if (frame_.has_interval_s() && !(frame_.interval_s() >= 0)) throw Error("interval_s must not be below 0");
   addTextures();

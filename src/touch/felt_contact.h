@@ -16,11 +16,11 @@ namespace hl {
 struct FeltContact {
   std::uint32_t session = 0, object = 0, name = 0, item = 0;  ///< as in Instance
   PrimitiveKind kind = PrimitiveKind::kPoint;
-  std::uint32_t primitive = 0;                ///< index of the triangle, segment or point in its item
-  std::array<std::uint32_t, 3> vertices{};    ///< of the item; as many as `kind` has
-  std::array<double, 3> weights{};            ///< barycentric, of the vertices
-  Vec3 point_W = Vec3::Zero();                ///< m
-  Vec3 force_N = Vec3::Zero();                ///< on the hand
+  std::uint32_t primitive = 0;              ///< index of the triangle, segment or point in its item
+  std::array<std::uint32_t, 3> vertices{};  ///< of the item; as many as `kind` has
+  std::array<double, 3> weights{};          ///< barycentric, of the vertices
+  Vec3 point_W = Vec3::Zero();              ///< m
+  Vec3 force_N = Vec3::Zero();              ///< on the hand
 };
 using FeltContacts = FixedVector<FeltContact, 3>;
 

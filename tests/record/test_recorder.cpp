@@ -53,9 +53,9 @@ std::shared_ptr<const Snapshot> bendingSceneOf(const std::string& name, bool tol
   instance.shape = makeShape(pressed(from->model, 0.9), *from);
   instance.mesh_motion = std::make_shared<MeshMotion>(MeshTransition(from, instance.shape, kBegin_ns, kEnd_ns));
   if (told) {
-    instance.compliance = std::make_shared<ComplianceMotion>(
-        ComplianceMotion(Compliance{0.002, 0.001, Vec3(0.1, 0.3, -0.2)})
-            .then({0.004, 0.004, Vec3(0, 1, 0)}, kBegin_ns, kEnd_ns));
+    instance.compliance =
+        std::make_shared<ComplianceMotion>(ComplianceMotion(Compliance{0.002, 0.001, Vec3(0.1, 0.3, -0.2)})
+                                               .then({0.004, 0.004, Vec3(0, 1, 0)}, kBegin_ns, kEnd_ns));
   }
   Surfaces surfaces = *surfacesOf(from);
   surfaces.materials[0].compliance_m_N = 0.0005;

@@ -62,7 +62,8 @@ TEST(DecodeFrame, CompliancesAreOfObjectsThatAreThere) {
   EXPECT_EQ(with([](auto&, auto& in) { in.set_object(0); }), "compliances[0]: there is no object 0");
   EXPECT_EQ(with([](auto& frame, auto& in) { frame.add_compliances()->CopyFrom(in); }),
             "compliances[1]: object 5 is there twice");
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1.0, 1e10}) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1.0, 1e10}) {
     EXPECT_EQ(with([&](auto&, auto& in) { in.set_normal_m_n(bad); }),
               "compliances[0].normalMN must be between 0 and 1e+09");
     EXPECT_EQ(with([&](auto&, auto& in) { in.set_tangential_m_n(bad); }),

@@ -181,7 +181,8 @@ TEST(Tissue, UnderAConstantForceTheMeshCreepsWithItsOwnRate) {
   tissue.step(fingerFor());
   for (int i = 1; i <= 30; ++i) {
     tissue.runFollowing(fingerFor);
-    const double expected_m = kForce_N / kTissue_N_m * (1 - std::exp(-i * tissue.frame_s() * kTissue_N_m / kDamper_Ns_m));
+    const double expected_m =
+        kForce_N / kTissue_N_m * (1 - std::exp(-i * tissue.frame_s() * kTissue_N_m / kDamper_Ns_m));
     EXPECT_NEAR(*x, expected_m, 1e-9) << i;
     EXPECT_NEAR(tissue.force_N().y(), kForce_N, 1e-9);
   }
@@ -234,7 +235,8 @@ TEST(Tissue, TheComplianceOfAMaterialIsASpringInSeries) {
   }
 }
 
-// A mesh that moves by itself, as a heart does, does not follow the force: nothing is estimated, and it is felt as it is.
+// A mesh that moves by itself, as a heart does, does not follow the force: nothing is estimated, and it is felt as it
+// is.
 TEST(Tissue, AMeshThatMovesByItselfIsFeltAsItIs) {
   TissueClient heart;
   auto phase = std::make_shared<double>(0);

@@ -18,7 +18,7 @@ namespace hl::test {
 inline constexpr std::int64_t kMilli_ns = 1'000'000;
 
 struct TissueClient {
-  double compliance_m_N = 0.01;      ///< C_t
+  double compliance_m_N = 0.01;  ///< C_t
   double frames_Hz = 30;
   int latency = 1;                   ///< frames from the force to the mesh that was computed for it
   std::optional<double> told_m_N{};  ///< C that it tells; none: it tells nothing
@@ -31,8 +31,11 @@ struct TissueClient {
 class Tissue {
  public:
   explicit Tissue(const TissueClient& client, double spring_N_m = 1000, double friction = 0)
-      : client_(client), period_ms_(std::llround(1000 / client.frames_Hz)), floor_(makeFloor(0, friction)),
-        scenes_(sceneOf(nullptr)), loop_(scenes_, {}) {
+      : client_(client),
+        period_ms_(std::llround(1000 / client.frames_Hz)),
+        floor_(makeFloor(0, friction)),
+        scenes_(sceneOf(nullptr)),
+        loop_(scenes_, {}) {
     settings_ = ServoSettings::of(premium10().info);
     settings_.stiffness_N_m = spring_N_m;
     settings_.damping_Ns_m = settings_.friction_N = 0;
