@@ -56,12 +56,14 @@ TickReport tickTo(const Vec3& finger, ProxyState& state, const SceneAt& scene, c
   const Vec3 from = finger - state.rest_offset_m;
   TickReport report = state.adhering.empty() ? Tick(scene, settings, state, from, most_looks).run()
                                              : tickHeld(state, scene, settings, from, most_looks);
+  if (state.rest_offset_m.isZero(0)) return report;
   report.target += state.rest_offset_m;
-  if (state.rest_offset_m.isZero(0) || !report.contacts.empty()) return report;
+  if (!report.contacts.empty() || report.used_up_at > 0) return report;
   state.rest_offset_m = Vec3::Zero();
   const int looks = report.looks;
-  if (report.used_up_at > 0) return report;
+  const double injected_J = report.injected_J;
   report = Tick(scene, settings, state, finger, most_looks - looks).run();
+  report.injected_J += injected_J;
   report.looks += looks;
   if (report.used_up_at > 0) report.used_up_at += looks;
   return report;

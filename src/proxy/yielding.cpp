@@ -129,7 +129,7 @@ void yieldToFrames(ProxyState& state, const SceneAt& scene, const ProxySettings&
   state.rest_offset_m = Vec3::Zero();
   if (state.yielding.empty()) return;
   const YieldingSpring spring = springOf(state, scene, settings);
-  if (!(spring.stiffness > 0)) return;
+  if (!(spring.stiffness > 0 && state.yielding_stiffness > 0)) return;
   state.rest_offset_m = spring.rest_offset_m;
   // What the tick has left of the stiffness, for want of energy, stays the same part of it.
   state.stiffness = std::min(1.0, state.stiffness * (spring.stiffness / state.yielding_stiffness));

@@ -91,7 +91,7 @@ void readYielding(const proto::RecordedProxy& in, ProxyState& state) {
   readValues(in.yielding(), "how the proxy's spring yields", values);
   checkVector("rest_offset_m", values.rest_offset_m);
   checkEstimate(values.estimate);
-  checkRanges("how the proxy's spring yields", {{"stiffness", values.stiffness, 1e-300, 1}});
+  checkRanges("how the proxy's spring yields", {{"stiffness", values.stiffness, 0, 1}});
   state.rest_offset_m = values.rest_offset_m;
   state.yielding_stiffness = values.stiffness;
   state.estimate = values.estimate;
