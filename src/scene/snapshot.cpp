@@ -72,6 +72,14 @@ std::size_t memoryOf(const Snapshot& snapshot) {
   return bytes;
 }
 
+bool Snapshot::find(std::uint64_t key, std::uint32_t& number) const {
+  const auto found = std::lower_bound(instances.begin(), instances.end(), key,
+                                      [](const Instance& one, std::uint64_t wanted) { return one.key < wanted; });
+  if (found == instances.end() || found->key != key) return false;
+  number = static_cast<std::uint32_t>(found - instances.begin());
+  return true;
+}
+
 std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, std::string name, std::uint64_t number,
                                              std::int64_t blend_ns, const Mechanics& mechanics) {
   static std::atomic<std::uint64_t> made{0};

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/box_tree.h"
+#include "scene/compliance.h"
 #include "scene/material.h"
 #include "scene/mechanics.h"
 #include "scene/mesh_motion.h"
@@ -38,6 +39,9 @@ struct Instance {
   /// Moves the instance in place of its client; null: none.
   std::shared_ptr<const PoseSource> driver{};
   std::shared_ptr<const RigidBody> body{};  ///< null: it has no mass. Its poses are the driver, unless it is fixed
+  /// How it yields between the frames of a client that deforms it; null: its client has not told.
+  std::shared_ptr<const ComplianceMotion> compliance{};
+  std::uint32_t item = 0;  ///< index of its item in the object, or in the world if `object` is 0
 
   /// Poses of the instance over time. Of a body that moves: for the loop that ticks alone.
   const PoseSource& poses() const { return driver ? *driver : static_cast<const PoseSource&>(motion); }
@@ -84,6 +88,8 @@ struct Snapshot {
   std::vector<std::string> warnings;
 
   const Shape& shape(std::size_t instance = 0) const { return *instances[instance].shape; }
+  /// The number of the instance with this key; false: there is none. RT-safe.
+  bool find(std::uint64_t key, std::uint32_t& number) const;
 };
 
 /// The surfaces described by the shape's own model.

@@ -8,7 +8,7 @@ void BodyHand::before(BodyWorld& bodies, std::int64_t now_ns, const ProxyState& 
   hand.contacts = held_by_;
   hand.proxy = state.position;
   hand.radius_m = settings.radius;
-  hand.stretch = state.position - finger;
+  hand.stretch = state.position + state.rest_offset_m - finger;
   if (pulls && state.free) hand.spring_N_m = settings.spring_N_m * state.stiffness / settings.world_per_device;
   bodies.step(now_ns, settings.period_s, hand);
 }

@@ -38,7 +38,7 @@ bool ProxyLoop::touches(const ProxyState& state, const TickReport& report) const
 // that is still on its way from a surface goes on pulling.
 Vec3 ProxyLoop::pullOf(const ProxyState& state, const TickReport& report, const Vec3& finger_D) const {
   if (!touches(state, report)) return Vec3::Zero();
-  return state.stiffness * (workspace_.toDevice(state.position) - finger_D);
+  return state.stiffness * (workspace_.toDevice(state.position + state.rest_offset_m) - finger_D);
 }
 
 // By how much less the new scene pulls the finger than what came before: the last tick is made once more in the new
@@ -96,6 +96,7 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
   }
   if (anew) blend_.add(last_.pull_D - pullOf(state_, step.report, finger_D), 1e-9 * kAbruptBlend_ns);
   step.held = heldBy(step.report, targetOf(now_ns, finger_D, step.report));
+  step.held.contacts = feltContacts(scene, settings_, state_, step.report, finger);
   events_.follow(now_ns, step.touched, state_.position);
   return step;
 }
@@ -107,7 +108,7 @@ ServoTarget ProxyLoop::targetOf(std::int64_t now_ns, const Vec3& finger_D, const
   const Vec3 fading_D = blend_.step(settings_.period_s);
   ServoTarget target{finger_D, now_ns, touching, touching ? state_.stiffness : told_.stiffness,
                      report.injected_J + std::max(0.0, report.moved_J)};
-  if (touching) target.proxy_D = workspace_.toDevice(state_.position);
+  if (touching) target.proxy_D = workspace_.toDevice(state_.position + state_.rest_offset_m);
   const double stiffness = told_.valid ? std::max(target.stiffness, told_.stiffness) : target.stiffness;
   if (blend_.active() && report.valid() && stiffness > 0) {
     target.valid = true;

@@ -14,6 +14,7 @@
 #include "scene/snapshot.h"
 #include "touch/body_view.h"
 #include "touch/ending_counts.h"
+#include "touch/felt_contact.h"
 #include "touch/loop_meter.h"
 
 namespace hl {
@@ -63,6 +64,7 @@ struct ServoMoment {
   Vec3 finger_D = Vec3::Zero();
   Vec3 force_N = Vec3::Zero();
   std::uint64_t buttons = 0;
+  FeltContacts contacts;  ///< their forces add up to force_N, if there are any
 };
 
 /// One newest value for two readers.
