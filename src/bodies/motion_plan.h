@@ -24,6 +24,7 @@ class MotionPlan {
   void findOverlaps();
   void correct(const WorldState& state);
   void pushApart();
+  void goApart(double most);
   void goPart(std::size_t body, double part);
   void goPart(const Meeting& meeting, double part);
   void limit(double margin);
