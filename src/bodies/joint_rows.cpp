@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bodies/joint_in_world.h"
+
 namespace hl {
 
 namespace {

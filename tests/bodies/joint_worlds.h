@@ -1,7 +1,7 @@
 // Worlds with joints, for tests.
 #pragma once
 
-#include "bodies/joint_place.h"
+#include "bodies/joint_in_world.h"
 #include "test_worlds.h"
 
 namespace hl::test {

@@ -53,10 +53,10 @@ TEST(JointCheck, SaysWhichJointAndWhatIsWrong) {
 
 TEST(JointCheck, KeysIncrease) {
   World world = heavy({ball(1, 0.1, 0.01, 0)}, {goodHinge(), goodHinge()});
-  EXPECT_THROW(checkJoints(world), Error);
+  EXPECT_THROW(checkWorld(world), Error);
   EXPECT_THROW(BodyStepper(std::make_shared<const World>(world)), Error);
   world.joints[1].key = 8;
-  EXPECT_NO_THROW(checkJoints(world));
+  EXPECT_NO_THROW(checkWorld(world));
 }
 
 TEST(ForceTable, MeansAndEnergiesAreThoseOfItsLines) {
