@@ -39,6 +39,7 @@ MotionPlan::MotionPlan(const BodyProblem& problem, const JointRows& joints)
   plan_.parts.resize(problem.bodies());
   apart_.reserve(problem.nodes.capacity());
   overlaps_.reserve(problem.rows.capacity());
+  last_plan_ = plan_;
 }
 
 void MotionPlan::make(const WorldState& state, double margin, bool converged) {
@@ -86,12 +87,19 @@ void MotionPlan::findOverlaps() {
 }
 
 // What joints are off at the end of the plan is not linear in what moves them: it takes a few rounds, in which what
-// overlaps stays apart.
+// overlaps stays apart. A round that makes it worse is taken back.
 void MotionPlan::correct(const WorldState& state) {
   findOverlaps();
+  double last_off = 0;
   for (int round = 0; round < kCorrections; ++round) {
     const double off = joints_.straighten(state, plan_, joints_apart_);
     if (off == 0 && (round > 0 || overlaps_.empty())) return;
+    if (round > 0 && off > last_off) {
+      plan_ = last_plan_;
+      return;
+    }
+    last_off = off;
+    last_plan_ = plan_;
     pushApart();
     goApart(off > 0 ? kMostMoved * off : 0);
     for (Row& row : overlaps_) row.least_velocity = 0;

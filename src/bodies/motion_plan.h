@@ -34,7 +34,7 @@ class MotionPlan {
 
   const BodyProblem& problem_;
   const JointRows& joints_;
-  BodyWays plan_;
+  BodyWays plan_, last_plan_;
   std::vector<Node> apart_;  // velocities that only push overlapping bodies apart
   std::vector<Row> overlaps_;
   JointSet joints_apart_;
