@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "bodies/free_motion.h"
-#include "bodies/joint_check.h"
 #include "bodies/joint_groups.h"
 
 namespace hl {
@@ -16,7 +15,7 @@ constexpr double kFast = 0.1;
 constexpr double kStraight_rad = 1e-3;
 
 std::shared_ptr<const World> checked(std::shared_ptr<const World> world) {
-  checkJoints(*world);
+  checkWorld(*world);
   return world;
 }
 

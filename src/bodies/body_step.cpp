@@ -67,7 +67,7 @@ double BodyStepper::margin() const {
 }
 
 void BodyStepper::solve(BodyStepReport& report) {
-  const RowSolverLimits limits = limitsFor(problem_.rows.size() + 3 * problem_.joints.blocks.size());
+  const RowSolverLimits limits = limitsFor(problem_.rows.size() + problem_.joints.work());
   const int sweeps = solveRows(problem_.rows, problem_.joints, problem_.nodes, problem_.period_s, limits);
   report.sweeps = std::max(report.sweeps, sweeps);
   report.converged = sweeps < limits.sweeps;

@@ -16,6 +16,7 @@ Joint jointAt(JointKind kind, const Vec3& anchor_W, const Vec3& axis_W, const Po
 }
 
 double springEnergy_J(const Joint& joint, double coordinate) {
+  if (isRod(joint)) return 0;
   const double stretch = coordinate - joint.rest;
   return joint.spring * stretch * stretch / 2 + joint.table.energy_J(coordinate);
 }

@@ -29,7 +29,7 @@ struct Joint : JointForces {
   bool collide = false;                                   ///< whether the two bodies also collide with each other
 };
 
-/// J, of the spring and the table. RT-safe.
+/// J, of the spring and the table; those of a rod never act. RT-safe.
 double springEnergy_J(const Joint& joint, double coordinate);
 
 /// Whether a distance joint holds its points apart as a rod does.

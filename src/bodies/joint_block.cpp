@@ -1,6 +1,5 @@
 #include "bodies/joint_block.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -124,14 +123,6 @@ void addHeld(JointBlock& block, std::span<Node> nodes, const Vec6& impulses) {
 }
 
 void prepareJoint(JointBlock& block, std::span<Node> nodes) {
-  Mat6 mobility = Mat6::Identity();
-  for (std::size_t i = 0; i < block.size && !block.in_tree; ++i) {
-    for (std::size_t j = 0; j < block.size; ++j) {
-      mobility(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          mobilityBetween(block.rows[i], block.rows[j], block, nodes);
-    }
-  }
-  if (!block.in_tree) block.effective_mass = Eigen::LDLT<Mat6>(mobility).solve(Mat6::Identity());
   block.least_change = leastChange(block, nodes);
   pushHeld(block, nodes, block.held);
   CoordinateRow& coordinate = block.coordinate;
@@ -139,7 +130,9 @@ void prepareJoint(JointBlock& block, std::span<Node> nodes) {
 }
 
 void solveHeld(JointBlock& block, std::span<Node> nodes) {
-  addHeld(block, nodes, block.effective_mass * (block.wanted - heldVelocities(block, nodes)));
+  addHeld(
+      block, nodes,
+      block.effective_mass * (block.wanted - heldVelocities(block, nodes) - block.softness.cwiseProduct(block.held)));
 }
 
 void solveCoordinate(JointBlock& block, std::span<Node> nodes, double period_s) {

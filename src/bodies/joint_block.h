@@ -33,15 +33,20 @@ struct JointBlock {
   const Joint* joint = nullptr;
   int a = 0, b = Row::kFixed;  ///< numbers of nodes
   double lever_m = 1;          ///< one rad counts as this way: the bodies' radius of gyration, so that rows compare
-  bool in_tree = false;        ///< joint_tree.h solves its rows that hold
+  bool in_tree = false;        ///< joint_tree.h solves its rows that hold; else they close a loop
   std::size_t size = 0;        ///< of the rows that hold
   std::array<JointAxis, 6> rows;
-  Mat6 effective_mass = Mat6::Identity();             ///< kg, impulse per velocity
+  // Of a block that closes a loop, 1/kg and kg. It gives way by `softness` per impulse: of what it holds, the tree may
+  // hold a part already.
+  Vec6 softness = Vec6::Zero();
+  Mat6 effective_mass = Mat6::Identity();
   Vec6 wanted = Vec6::Zero();                         ///< m/s
   Vec6 held = Vec6::Zero();                           ///< N s, on a
   Vec6 change = Vec6::Zero(), search = Vec6::Zero();  ///< N s, of the solver, in this sweep
   CoordinateRow coordinate;
   double least_change = 0;  ///< N s: below it is rounding
+
+  bool closesLoop() const { return !in_tree && size > 0; }
 };
 
 /// What a sweep did to a block, squares of N s.
@@ -59,7 +64,7 @@ Vec6 heldVelocities(const JointBlock& block, std::span<const Node> nodes);
 void pushHeld(const JointBlock& block, std::span<Node> nodes, const Vec6& impulses);
 /// Pushes, and adds the impulses to those that hold and to the change of the sweep.
 void addHeld(JointBlock& block, std::span<Node> nodes, const Vec6& impulses);
-/// Sets the masses of the block, and applies the impulses with which it begins.
+/// Applies the impulses with which the block begins.
 void prepareJoint(JointBlock& block, std::span<Node> nodes);
 /// The rows that hold, as if all else were known.
 void solveHeld(JointBlock& block, std::span<Node> nodes);

@@ -19,10 +19,10 @@ class JointChecker {
   void demand(bool holds, const char* what) const {
     if (!holds) throw Error("joint " + std::to_string(joint_.key) + ": " + what);
   }
-  void bodies(const World& world) const {
+  void bodies(const std::function<bool(std::uint64_t)>& is_body) const {
     demand(joint_.key != 0, "its key must be greater than 0");
-    demand(world.find(joint_.body_a) != nullptr, "body_a is no body of the world");
-    demand(joint_.body_b == 0 || world.find(joint_.body_b) != nullptr, "body_b is no body of the world, and not 0");
+    demand(is_body(joint_.body_a), "body_a is no body of the world");
+    demand(joint_.body_b == 0 || is_body(joint_.body_b), "body_b is no body of the world, and not 0");
     demand(joint_.body_a != joint_.body_b, "body_a and body_b must be two bodies");
   }
   void frames() const {
@@ -60,19 +60,19 @@ class JointChecker {
 
 }  // namespace
 
-void checkJoint(const Joint& joint, const World& world) {
+void checkJoint(const Joint& joint, const std::function<bool(std::uint64_t)>& is_body) {
   const JointChecker checker(joint);
-  checker.bodies(world);
+  checker.bodies(is_body);
   checker.frames();
   checker.forces();
   checker.table();
 }
 
-void checkJoints(const World& world) {
-  for (std::size_t i = 0; i < world.joints.size(); ++i) {
-    checkJoint(world.joints[i], world);
-    JointChecker(world.joints[i])
-        .demand(i == 0 || world.joints[i - 1].key < world.joints[i].key, "joints must be sorted by key, each key once");
+void checkJoints(std::span<const Joint> joints, const std::function<bool(std::uint64_t)>& is_body) {
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    checkJoint(joints[i], is_body);
+    JointChecker(joints[i]).demand(i == 0 || joints[i - 1].key < joints[i].key,
+                                   "joints must be sorted by key, each key once");
   }
 }
 

@@ -1,7 +1,7 @@
 // Joint place: where a joint is in the world, its coordinate, and by how much its bodies are off it.
 #pragma once
 
-#include "bodies/world.h"
+#include "bodies/joint.h"
 
 namespace hl {
 
@@ -41,8 +41,5 @@ struct JointPlace {
   Held heldBy(std::size_t number) const;
   Vec3 offTurn() const;
 };
-
-/// Of a joint of this world. RT-safe.
-JointPlace jointPlace(const Joint& joint, const World& world, const WorldState& state);
 
 }  // namespace hl

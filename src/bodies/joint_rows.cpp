@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bodies/joint_in_world.h"
+
 namespace hl {
 
 namespace {
@@ -13,9 +15,7 @@ constexpr double kBent = 1e-9, kStraight = 1e-10, kMostStraight_m = 1e-3;
 
 // Of the kinetic energy of its two bodies, what holds a joint may give back this part later.
 constexpr double kSpare = 0.01;
-
-// Of the mobility of its two bodies alone, a coordinate has at least this part, though other joints may hold it still.
-constexpr double kLeastMobility = 1e-3;
+constexpr double kSpared_s = 1;
 
 // What of a spring's force is that of the end of the step. With none of it a spring loses nothing: it stores k q q' / 2
 // of two successive steps; but it must be softer than 4 m / T^2. So the part grows with T^2 k / m, and at an eighth of
@@ -50,6 +50,7 @@ void JointRows::begin(const WorldState& state) {
   joints.trees.prepare(joints.blocks, problem_.nodes);
   for (std::size_t i = 0; i < joints.blocks.size(); ++i) {
     if (hasCoordinate(joints.blocks[i].joint->kind)) beginCoordinate(state.joints[i], joints.blocks[i]);
+    if (joints.blocks[i].closesLoop()) joints.prepareLoop(joints.blocks[i], problem_.nodes);
     prepareJoint(joints.blocks[i], problem_.nodes);
   }
 }
@@ -77,10 +78,7 @@ void JointRows::beginCoordinate(const JointState& last, JointBlock& block) const
   const Joint& joint = *block.joint;
   const double period_s = problem_.period_s;
   CoordinateRow& row = block.coordinate;
-  const JointSet& joints = problem_.joints;
-  const double alone = mobilityBetween(row.axis, row.axis, block, problem_.nodes);
-  row.mobility =
-      std::max(problem_.joints.trees.mobilityAlong(block, joints.blocks, problem_.nodes), kLeastMobility * alone);
+  row.mobility = problem_.joints.mobilityAlong(block, problem_.nodes);
   row.lever_m = joint.kind == JointKind::kHinge ? block.lever_m : 1;
   row.from = last.coordinate;
   row.pull = -period_s * joint.spring * (row.from - joint.rest);
@@ -175,6 +173,13 @@ double JointRows::kinetic_J(const JointBlock& block) const {
   return sum / 2;
 }
 
+// What is taken is spared up to `most_J`, and forgotten in time.
+void JointRows::spare(double& spare_J, double given_J, double most_J) const {
+  const double now_J = spare_J - given_J;
+  spare_J = given_J < 0 ? std::max(spare_J, std::min(now_J, most_J)) : now_J;
+  if (spare_J > 0) spare_J *= std::max(0.0, 1 - problem_.period_s / kSpared_s);
+}
+
 bool JointRows::refuse(const WorldState& state) {
   std::fill(fed_J_.begin(), fed_J_.end(), 0);
   const std::vector<JointBlock>& blocks = problem_.joints.blocks;
@@ -191,9 +196,9 @@ bool JointRows::refuse(const WorldState& state) {
   return any;
 }
 
-bool JointRows::straighten(const WorldState& state, const BodyWays& plan, JointSet& apart) const {
+double JointRows::straighten(const WorldState& state, const BodyWays& plan, JointSet& apart) const {
   apart = problem_.joints;
-  bool any = false;
+  double worst = 0;
   for (std::size_t i = 0; i < apart.blocks.size(); ++i) {
     JointBlock& block = apart.blocks[i];
     const Joint& joint = *block.joint;
@@ -204,7 +209,8 @@ bool JointRows::straighten(const WorldState& state, const BodyWays& plan, JointS
     block.held.setZero();
     block.least_change = 0;
     CoordinateRow limits;
-    limits.there = block.coordinate.there && (std::isfinite(joint.low) || std::isfinite(joint.high));
+    limits.there = block.coordinate.there;
+    limits.mass = problem_.period_s * problem_.period_s * joint.spring;  // it is not to be stretched
     limits.axis = block.coordinate.axis;
     limits.mobility = block.coordinate.mobility;
     limits.lever_m = block.coordinate.lever_m;
@@ -212,10 +218,11 @@ bool JointRows::straighten(const WorldState& state, const BodyWays& plan, JointS
     limits.least = std::min(joint.low - at_end, most) / problem_.period_s;
     limits.most = std::max(joint.high - at_end, -most) / problem_.period_s;
     block.coordinate = limits;
-    any |= off.norm() > kStraight;
-    any |= limits.there && (at_end < joint.low - kStraight || at_end > joint.high + kStraight);
+    worst = std::max(worst, off.norm());
+    if (limits.there)
+      worst = std::max({worst, limits.lever_m * (joint.low - at_end), limits.lever_m * (at_end - joint.high)});
   }
-  return any;
+  return worst > kStraight ? worst : 0;
 }
 
 void JointRows::book(WorldState& state) const {
@@ -224,7 +231,7 @@ void JointRows::book(WorldState& state) const {
     const JointBlock& block = problem_.joints.blocks[i];
     const double held_J = heldWork_J(block);
     energy.solver_J += held_J;
-    state.joints[i].spare_J = std::min(state.joints[i].spare_J - held_J, kSpare * kinetic_J(block));
+    spare(state.joints[i].spare_J, held_J, kSpare * kinetic_J(block));
     const auto mean = [&](const JointAxis& axis) {
       return (velocityAlong(axis, block, problem_.before) + velocityAlong(axis, block, problem_.nodes)) / 2;
     };

@@ -25,8 +25,8 @@ class JointRows {
   bool bend(const WorldState& state);
   /// Asks for velocities along the tangents where chords would feed energy. False: they do not.
   bool refuse(const WorldState& state);
-  /// Sets `apart` to velocities that take what is off to its place at the end of the plan. False: nothing is off.
-  bool straighten(const WorldState& state, const BodyWays& plan, JointSet& apart) const;
+  /// Sets `apart` to velocities that take what is off to its place at the end of the plan. m, the worst; 0: nothing is.
+  double straighten(const WorldState& state, const BodyWays& plan, JointSet& apart) const;
   /// After the solve, but for the energy of springs.
   void book(WorldState& state) const;
   /// After the motion.
@@ -37,6 +37,7 @@ class JointRows {
   void beginCoordinate(const JointState& last, JointBlock& block) const;
   void setLimits(JointBlock& block, double bent) const;
   double heldWork_J(const JointBlock& block) const;
+  void spare(double& spare_J, double given_J, double most_J) const;
   double kinetic_J(const JointBlock& block) const;
   std::size_t groupOf(const JointBlock& block) const { return problem_.groups[static_cast<std::size_t>(block.a)]; }
   JointPlace placeAtEnd(const WorldState& state, const JointBlock& block, const BodyWays& plan) const;

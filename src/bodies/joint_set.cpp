@@ -1,5 +1,8 @@
 #include "bodies/joint_set.h"
 
+#include <Eigen/Cholesky>
+#include <algorithm>
+
 namespace hl {
 
 namespace {
@@ -18,19 +21,50 @@ std::vector<JointBlock> blocksOf(const World& world) {
   return blocks;
 }
 
+// Of the mobility of its two bodies alone, a coordinate has at least this part, and a loop gives way by it, though
+// other joints may hold them still.
+constexpr double kLeastMobility = 1e-3, kSoft = 1e-4;
+
 }  // namespace
 
 JointSet::JointSet(const World& world) : blocks(blocksOf(world)), trees(world, blocks) {}
+
+double JointSet::mobilityAlong(const JointBlock& block, std::span<const Node> nodes) {
+  const JointAxis& axis = block.coordinate.axis;
+  const double alone = mobilityBetween(axis, axis, block, nodes);
+  return std::max(velocityAlong(axis, block, trees.afterImpulse(axis, block, blocks, nodes)), kLeastMobility * alone);
+}
+
+void JointSet::prepareLoop(JointBlock& block, std::span<const Node> nodes) {
+  Mat6 mobility = Mat6::Identity();
+  for (std::size_t i = 0; i < block.size; ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    mobility.col(row) = heldVelocities(block, trees.afterImpulse(block.rows[i], block, blocks, nodes));
+    block.softness[row] = kSoft * mobilityBetween(block.rows[i], block.rows[i], block, nodes);
+    mobility(row, row) += block.softness[row];
+  }
+  block.effective_mass = Eigen::LDLT<Mat6>(mobility).solve(Mat6::Identity());
+}
+
+std::size_t JointSet::work() const {
+  std::size_t passes = 1;
+  for (const JointBlock& block : blocks) passes += (block.closesLoop() ? 1 : 0) + (block.coordinate.there ? 1 : 0);
+  return 2 * passes * blocks.size();
+}
 
 // After each row outside a tree its trees answer, so that it is solved as if they were rigid.
 void JointSet::sweep(std::span<Node> nodes, double period_s) {
   for (JointBlock& block : blocks) block.change.setZero();
   trees.solve(blocks, nodes);
   for (JointBlock& block : blocks) {
-    const bool closes_loop = !block.in_tree && block.size > 0;
-    if (closes_loop) solveHeld(block, nodes);
-    if (block.coordinate.there) solveCoordinate(block, nodes, period_s);
-    if (closes_loop || block.coordinate.there) trees.solveNear(block, blocks, nodes);
+    if (block.closesLoop()) {
+      solveHeld(block, nodes);
+      trees.solveNear(block, blocks, nodes);
+    }
+    if (block.coordinate.there) {
+      solveCoordinate(block, nodes, period_s);
+      trees.solveNear(block, blocks, nodes);
+    }
   }
 }
 

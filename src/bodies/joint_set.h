@@ -10,7 +10,13 @@ namespace hl {
 /// By one thread at a time.
 struct JointSet {
   explicit JointSet(const World& world);
-  /// One sweep of the solver over all joints. RT-safe, as all below.
+  /// 1/kg: of a coordinate while the trees, which are prepared, hold. RT-safe, as all below.
+  double mobilityAlong(const JointBlock& block, std::span<const Node> nodes);
+  /// The masses of a block that closes a loop.
+  void prepareLoop(JointBlock& block, std::span<const Node> nodes);
+  /// Of a sweep, in updates of single rows.
+  std::size_t work() const;
+  /// One sweep of the solver over all joints.
   void sweep(std::span<Node> nodes, double period_s);
   void searchOn(std::span<Node> nodes, double part, bool anew);
 

@@ -150,8 +150,8 @@ void JointTrees::solveNear(const JointBlock& block, std::span<JointBlock> blocks
   forTreesOf(block, [&](const Tree& tree) { solve(tree, blocks, nodes); });
 }
 
-double JointTrees::mobilityAlong(const JointBlock& block, std::span<const JointBlock> blocks,
-                                 std::span<const Node> nodes) {
+std::span<const Node> JointTrees::afterImpulse(const JointAxis& axis, const JointBlock& block,
+                                               std::span<const JointBlock> blocks, std::span<const Node> nodes) {
   const auto put = [&](int number) {
     if (number == Row::kFixed) return;
     trial_[numberOf(number)] = nodes[numberOf(number)];
@@ -164,14 +164,14 @@ double JointTrees::mobilityAlong(const JointBlock& block, std::span<const JointB
   put(block.a);
   put(block.b);
   forTreesOf(block, put_tree);
-  pushAlong(block.coordinate.axis, block, trial_, 1);
+  pushAlong(axis, block, trial_, 1);
   forTreesOf(block, [&](const Tree& tree) {
     for (std::size_t i = tree.begin; i < tree.end; ++i)
       links_[i].missing = -heldVelocities(blocks[links_[i].block], trial_);
     answer(tree);
     for (std::size_t i = tree.begin; i < tree.end; ++i) pushHeld(blocks[links_[i].block], trial_, links_[i].impulse);
   });
-  return velocityAlong(block.coordinate.axis, block, trial_);
+  return trial_;
 }
 
 }  // namespace hl

@@ -22,8 +22,9 @@ class JointTrees {
   void solve(std::span<JointBlock> blocks, std::span<Node> nodes);
   /// Of the trees of the two bodies of a block.
   void solveNear(const JointBlock& block, std::span<JointBlock> blocks, std::span<Node> nodes);
-  /// 1/kg: of the block's coordinate while the trees hold.
-  double mobilityAlong(const JointBlock& block, std::span<const JointBlock> blocks, std::span<const Node> nodes);
+  /// The bodies of a block, at rest, after an impulse of 1 N s along the axis, while the trees hold.
+  std::span<const Node> afterImpulse(const JointAxis& axis, const JointBlock& block, std::span<const JointBlock> blocks,
+                                     std::span<const Node> nodes);
 
  private:
   /// A joint between a body and the one that is nearer to the root; Row::kFixed: the world is the root.

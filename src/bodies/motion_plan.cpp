@@ -13,6 +13,8 @@ namespace {
 constexpr double kPushedApart = 0.2;
 // How often joints are put right.
 constexpr int kCorrections = 4;
+// Of what is off, nothing moves farther than this: a mechanism that is stretched out would be flung aside.
+constexpr double kMostMoved = 10;
 // m; a smaller overlap at the end of a step is left to pushApart().
 constexpr double kLeft_m = 1e-5;
 // How often all pairs are looked at; each time what would pass goes a quarter of its part. Then it stays where it is,
@@ -37,6 +39,7 @@ MotionPlan::MotionPlan(const BodyProblem& problem, const JointRows& joints)
   plan_.parts.resize(problem.bodies());
   apart_.reserve(problem.nodes.capacity());
   overlaps_.reserve(problem.rows.capacity());
+  last_plan_ = plan_;
 }
 
 void MotionPlan::make(const WorldState& state, double margin, bool converged) {
@@ -84,13 +87,21 @@ void MotionPlan::findOverlaps() {
 }
 
 // What joints are off at the end of the plan is not linear in what moves them: it takes a few rounds, in which what
-// overlaps stays apart.
+// overlaps stays apart. A round that makes it worse is taken back.
 void MotionPlan::correct(const WorldState& state) {
   findOverlaps();
+  double last_off = 0;
   for (int round = 0; round < kCorrections; ++round) {
-    const bool off = joints_.straighten(state, plan_, joints_apart_);
-    if (!off && (round > 0 || overlaps_.empty())) return;
+    const double off = joints_.straighten(state, plan_, joints_apart_);
+    if (off == 0 && (round > 0 || overlaps_.empty())) return;
+    if (round > 0 && off > last_off) {
+      plan_ = last_plan_;
+      return;
+    }
+    last_off = off;
+    last_plan_ = plan_;
     pushApart();
+    goApart(off > 0 ? kMostMoved * off : 0);
     for (Row& row : overlaps_) row.least_velocity = 0;
   }
 }
@@ -100,11 +111,19 @@ void MotionPlan::pushApart() {
   apart_ = problem_.nodes;
   for (Node& node : apart_) node.velocity = node.spin = Vec3::Zero();
   for (Row& row : overlaps_) prepareRow(row, apart_);
-  solveRows(overlaps_, joints_apart_, apart_, problem_.period_s,
-            limitsFor(overlaps_.size() + joints_apart_.blocks.size()));
+  solveRows(overlaps_, joints_apart_, apart_, problem_.period_s, limitsFor(overlaps_.size() + joints_apart_.work()));
+}
+
+// All by one part, so that nothing of a body moves farther than `most` (m); 0: as far as it may.
+void MotionPlan::goApart(double most) {
+  double farthest = 0;
+  for (std::size_t i = 0; i < problem_.bodies(); ++i)
+    farthest = std::max(farthest, apart_[i].velocity.norm() + apart_[i].spin.norm() * problem_.reachOf(i));
+  farthest *= problem_.period_s;
+  const double part = most > 0 && farthest > most ? most / farthest : 1;
   for (std::size_t i = 0; i < problem_.bodies(); ++i) {
-    plan_.ways[i] += problem_.period_s * apart_[i].velocity;
-    plan_.turns[i] += apart_[i].spin;
+    plan_.ways[i] += part * problem_.period_s * apart_[i].velocity;
+    plan_.turns[i] += part * apart_[i].spin;
   }
 }
 

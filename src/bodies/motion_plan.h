@@ -24,6 +24,7 @@ class MotionPlan {
   void findOverlaps();
   void correct(const WorldState& state);
   void pushApart();
+  void goApart(double most);
   void goPart(std::size_t body, double part);
   void goPart(const Meeting& meeting, double part);
   void limit(double margin);
@@ -33,7 +34,7 @@ class MotionPlan {
 
   const BodyProblem& problem_;
   const JointRows& joints_;
-  BodyWays plan_;
+  BodyWays plan_, last_plan_;
   std::vector<Node> apart_;  // velocities that only push overlapping bodies apart
   std::vector<Row> overlaps_;
   JointSet joints_apart_;

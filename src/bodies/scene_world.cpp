@@ -131,7 +131,7 @@ void addJoints(const Snapshot& snapshot, World& world) {
     if (world.find(spec.body_a) == nullptr) continue;
     world.joints.push_back(jointOf(spec, snapshot, key));
     try {
-      checkJoint(world.joints.back(), world);
+      checkJoint(world.joints.back(), [&](std::uint64_t number) { return world.find(number) != nullptr; });
     } catch (const Error& error) {
       throw Error(spec.name + ": " + error.what());
     }

@@ -5,8 +5,12 @@
 
 namespace hl {
 
+void checkWorld(const World& world) {
+  checkJoints(world.joints, [&](std::uint64_t key) { return world.find(key) != nullptr; });
+}
+
 WorldState startWorld(const World& world, const std::vector<Pose>& poses) {
-  checkJoints(world);
+  checkWorld(world);
   WorldState state;
   state.bodies.resize(world.bodies.size());
   state.memory.reserve(mostRows(world));
@@ -15,7 +19,15 @@ WorldState startWorld(const World& world, const std::vector<Pose>& poses) {
     body.turned = Eigen::Quaterniond(poses[i].rotation).normalized();
     body.centre = poses[i].toWorld(world.bodies[i].mass.centre_O);
   }
-  for (const Joint& joint : world.joints) state.joints.push_back({jointPlace(joint, world, state).coordinate(0)});
+  const auto pose = [&](std::uint64_t key) {
+    const Body* const body = world.find(key);
+    return body == nullptr ? Pose() : poses[static_cast<std::size_t>(body - world.bodies.data())];
+  };
+  for (const Joint& joint : world.joints) {
+    JointState one;
+    one.coordinate = JointPlace(joint, pose(joint.body_a), pose(joint.body_b)).coordinate(0);
+    state.joints.push_back(one);
+  }
   return state;
 }
 

@@ -73,8 +73,9 @@ struct WorldState {
   std::uint64_t steps = 0;
 };
 
-/// Each body at a pose of its object frame, at rest. `poses`: as World::bodies. Throws Error for joints that do not
-/// hold together (joint_check.h). Allocates.
+/// Throws Error for joints that cannot be stepped (joint_check.h).
+void checkWorld(const World& world);
+/// Each body at a pose of its object frame, at rest. `poses`: as World::bodies. Checks the world. Allocates.
 WorldState startWorld(const World& world, const std::vector<Pose>& poses);
 /// The pose of the object frame. RT-safe.
 Pose poseOf(const Body& body, const BodyState& state);

@@ -1,7 +1,7 @@
 // Worlds with joints, for tests.
 #pragma once
 
-#include "bodies/joint_place.h"
+#include "bodies/joint_in_world.h"
 #include "test_worlds.h"
 
 namespace hl::test {
@@ -35,8 +35,8 @@ inline World heavy(std::vector<Body> bodies, std::vector<Joint> joints) {
   return world;
 }
 
-/// A thin rod of this length, its middle at `middle`, at `angle_rad` from hanging down, about +z; hinged to the world at
-/// its upper end.
+/// A thin rod of this length, its middle at `middle`, at `angle_rad` from hanging down, about +z; hinged to the world
+/// at its upper end.
 struct HingedRod {
   double mass_kg = 0.1, length_m = 0.3;
   Vec3 hinge = Vec3::Zero();

@@ -44,8 +44,8 @@ struct RandomJoints {
   void addJoint(int of, int other) {
     const auto a = static_cast<std::size_t>(of);
     const Pose pose_b = other < 0 ? Pose() : poses[static_cast<std::size_t>(other)];
-    const Vec3 middle = other < 0 ? Vec3(poses[a].origin + 0.02 * direction())
-                                  : Vec3((poses[a].origin + pose_b.origin) / 2);
+    const Vec3 middle =
+        other < 0 ? Vec3(poses[a].origin + 0.02 * direction()) : Vec3((poses[a].origin + pose_b.origin) / 2);
     const auto kind = static_cast<JointKind>(random() % 5);
     Joint joint = kind == JointKind::kDistance ? distanceBetween(poses[a].origin, middle, poses[a], pose_b)
                                                : jointAt(kind, middle, direction(), poses[a], pose_b);
@@ -76,10 +76,11 @@ int numberIn(const char* variable, int otherwise) {
 
 TEST(RandomJoints, EveryJouleIsToldAndJointsHold) {
   const int begin = numberIn("HL_FIRST_WORLD", 0);
+  std::vector<double> worst_m;
   for (int seed = begin; seed < begin + numberIn("HL_RANDOM_WORLDS", 20); ++seed) {
     RandomJoints made(static_cast<std::uint64_t>(seed));
     Playground play(made.world, made.poses);
-    const double speed = made.between(0, 3);
+    const double speed = made.between(0, 1);
     for (BodyState& body : play.state.bodies) body.velocity = speed * made.direction();
     const double begin_J = play.energy_J(), scale_J = 1e-3 + std::abs(begin_J);
     double off_m = 0, most_J = 0;
@@ -92,8 +93,14 @@ TEST(RandomJoints, EveryJouleIsToldAndJointsHold) {
       for (const BodyState& body : play.state.bodies)
         ASSERT_TRUE(body.centre.allFinite() && body.centre.cwiseAbs().maxCoeff() < kRoom_m) << seed << " step " << step;
     }
-    printf("%d bodies %zu off %.2e rise %.3e of %.3e final %.3e solver %.3e\n", seed, made.poses.size(), off_m, most_J, begin_J, play.energy_J(), play.state.energy.solver_J);
+    // Straightening moves what light bodies at stiff springs and tables have: it is booked, and bounded.
+    EXPECT_LT(most_J, 0.5 * scale_J) << seed;
+    EXPECT_LT(off_m, 0.003) << seed;
+    worst_m.push_back(off_m);
   }
+  // A body that turns by much of a turn in a step is off for a moment; others are not.
+  std::sort(worst_m.begin(), worst_m.end());
+  EXPECT_LT(worst_m[worst_m.size() / 2], 1e-6);
 }
 
 }  // namespace
