@@ -78,7 +78,7 @@ bench::BenchScene builtinScene(const std::string& name, const std::string& membe
 
 // Read at once, so that a bad file is known before anything is measured.
 bench::BenchScene fileScene(const std::string& file) {
-  const auto model = std::make_shared<Model>(loadScene(file));
+  const auto model = std::make_shared<Model>(loadScene(file).model);
   if (model->elements() == 0) throw Error(file + ": nothing in it can be touched");
   fitModel(*model, kSide_m);
   bench::BenchScene scene;

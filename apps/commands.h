@@ -6,7 +6,7 @@
 #include <string>
 
 #include "proxy/proxy.h"
-#include "scene/snapshot.h"
+#include "scene/scene_model.h"
 
 namespace hl {
 
@@ -41,7 +41,7 @@ CLI::Option* addDeviceOption(CLI::App& command, std::string& device);
 /// Loads, scales and builds; progress of long loads and warnings go to stderr. Throws hl::Error.
 std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options);
 /// Throws hl::Error, with `name` in front, for a model that takes more than `there_bytes` of memory to make.
-void requireMemory(const Model& model, const std::string& name, std::uint64_t there_bytes);
+void requireMemory(const SceneModel& scene, const std::string& name, std::uint64_t there_bytes);
 HierarchyKind hierarchyOf(const SceneOptions& options);
 
 /// CLI check: a number from `least` to `most`. NaN is none, which CLI::Range lets pass.

@@ -40,8 +40,8 @@ HierarchyKind hierarchyOf(const SceneOptions& options) {
   return HierarchyKind::kBvh;
 }
 
-void requireMemory(const Model& model, const std::string& name, std::uint64_t there_bytes) {
-  const std::uint64_t needed = bytesToMake(model);
+void requireMemory(const SceneModel& scene, const std::string& name, std::uint64_t there_bytes) {
+  const std::uint64_t needed = bytesToMake(scene);
   if (needed > there_bytes)
     throw Error(fmt::format("{}: this scene takes {:.1f} GB of memory, and there are {:.1f} GB", name,
                             1e-9 * static_cast<double>(needed), 1e-9 * static_cast<double>(there_bytes)));
@@ -114,11 +114,11 @@ CLI::Option* addDeviceOption(CLI::App& command, std::string& device) {
 std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options) {
   LoadOptions load;
   load.progress = showProgress;
-  Model model = loadScene(options.scene, load);
-  if (options.scale > 0) scaleModel(model, options.scale);
-  if (options.fit > 0) fitModel(model, options.fit);
-  requireMemory(model, options.scene, machineMemory_bytes());
-  auto snapshot = makeSnapshot(std::move(model), hierarchyOf(options));
+  SceneModel scene = loadScene(options.scene, load);
+  if (options.scale > 0) scaleModel(scene, options.scale);
+  if (options.fit > 0) fitModel(scene, options.fit);
+  requireMemory(scene, options.scene, machineMemory_bytes());
+  auto snapshot = makeSnapshot(std::move(scene), hierarchyOf(options));
   for (const std::string& warning : snapshot->warnings) fmt::print(stderr, "{}: {}\n", options.scene, warning);
   if (snapshot->primitives == 0) throw Error(options.scene + ": nothing in it can be touched");
   return snapshot;

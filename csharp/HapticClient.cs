@@ -38,6 +38,7 @@ namespace HL {
         public double? Stribeck_m_s;     // >= 0
         public double? Presliding_N_m;   // >= 0
         public double? Adhesion_N;       // >= 0
+        public double? Compliance_m_N;   // >= 0
         public bool? Flat;               // true: normals are ignored
     }
 
@@ -538,7 +539,8 @@ namespace HL {
         internal static Writer Material(TouchMaterial material) {
             var sent = new Writer().Double(1, material.Stiffness).Double(2, material.StaticFriction)
                 .Double(3, material.DynamicFriction).Double(4, material.Viscosity_Ns_m).Double(5, material.Stribeck_m_s)
-                .Double(10, material.Presliding_N_m).Double(11, material.Adhesion_N);
+                .Double(10, material.Presliding_N_m).Double(11, material.Adhesion_N)
+                .Double(12, material.Compliance_m_N);
             return material.Flat.HasValue ? sent.Flag(6, material.Flat.Value) : sent;
         }
 

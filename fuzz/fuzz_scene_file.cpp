@@ -34,7 +34,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   hl::LoadOptions options;
   options.most_primitives = 20'000;
   options.most_texels = 1U << 16;
-  hl::Model model;
+  hl::SceneModel model;
   try {
     model = hl::loadSceneFile(hl::test::fileWith("scene.hl.json", text), options);
   } catch (const hl::Error& error) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "require.h"
-#include "scene/snapshot.h"
+#include "scene/scene_model.h"
 
 namespace hl::fuzz {
 

@@ -10,12 +10,15 @@
 #include "surfaces.h"
 #include "teapot.h"
 #include "walker.h"
+#include "workshop.h"
 
 namespace hl {
 
 namespace {
 
 constexpr std::size_t kMaxMember = 1'000'000'000;
+
+constexpr std::string_view kWorkshop = "workshop";
 
 struct Builtin {
   std::string_view name;
@@ -31,7 +34,7 @@ Model alone(std::size_t n, std::size_t) {
   return kMake(n);
 }
 
-constexpr std::array<Builtin, 9> kBuiltins{{
+constexpr std::array<Builtin, 10> kBuiltins{{
     {"teapot", 1,
      [](std::size_t n, std::size_t) {
        return n == 1 ? makeTeapot() : makeTeapot(static_cast<int>(n), static_cast<int>(n));
@@ -45,6 +48,7 @@ constexpr std::array<Builtin, 9> kBuiltins{{
     {"pipe", 100'000, alone<makeHalfPipe>},
     {"pits", 20'000, alone<makePits>},
     {"soup", 20'000, alone<makeSoup>},
+    {kWorkshop, 0, [](std::size_t, std::size_t) { return asOneModel(makeWorkshop()); }},
 }};
 
 const Builtin* find(std::string_view name) {
@@ -84,6 +88,11 @@ Model makeBuiltinScene(const std::string& spec) {
   Model model = builtin->make(n, member);
   model.name = spec;
   return model;
+}
+
+SceneModel makeBuiltinWorld(const std::string& spec) {
+  if (spec == kWorkshop) return makeWorkshop();
+  return makeBuiltinScene(spec);
 }
 
 }  // namespace hl

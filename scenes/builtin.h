@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scene/model.h"
+#include "scene/scene_model.h"
 
 namespace hl {
 
@@ -12,9 +12,12 @@ bool isBuiltinScene(const std::string& spec);
 
 /// List of the names, for help texts.
 inline constexpr const char* kBuiltinScenes =
-    "teapot[:N], walker, terrain:N, rough:N[:MEMBER], sphere:N, plane:N, pipe:N, pits:N, soup:N";
+    "teapot[:N], walker, terrain:N, rough:N[:MEMBER], sphere:N, plane:N, pipe:N, pits:N, soup:N, workshop";
 
 /// Throws hl::Error with the list of names if the name is unknown.
+/// Of a scene with bodies, all of it as one model.
 Model makeBuiltinScene(const std::string& spec);
+/// With its bodies.
+SceneModel makeBuiltinWorld(const std::string& spec);
 
 }  // namespace hl

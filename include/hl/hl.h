@@ -197,6 +197,15 @@ HL_API void hlDeleteObjects(HLsizei n, const HLuint* objects);
  * is null. HL_INVALID_OPERATION: in a definition; `normals` for vertices that were drawn without. */
 HL_API void hlUpdateVertices(HLuint object, HLint first, HLsizei count, const HLdouble* vertices,
                              const HLdouble* normals);
+/** How `object` yields from the next hlFlush on, for programs that compute its deformation themselves: its mesh, as it
+ * is then, was computed for `force`, N on the hand, x y z; under another force F its surface is displaced by C (force -
+ * F). C: `normal` along the surface's normal and `tangential` along the surface, m of the world per newton, 0 .. 1e9.
+ * NULL: for the mean force of the object in the report that hlTakeContactReport took last. Held until it is set again,
+ * or the object is deleted; to be called with each frame that moves the mesh. C = 0: the mesh is what is felt. Without
+ * this call the server estimates C for meshes that move. Too large a C is stable and settles slowly; below half of the
+ * true one the loop of force and frames may flutter: docs/tissue.md. HL_INVALID_VALUE: the object is not defined, a
+ * number is out of its range. HL_INVALID_OPERATION: in a definition. */
+HL_API void hlCompliance(HLuint object, HLdouble normal, HLdouble tangential, const HLdouble* force);
 /** HL_TRUE: defined (hlEndObject has been called) and not deleted. */
 HL_API HLboolean hlIsObject(HLuint object);
 
@@ -239,8 +248,8 @@ HL_API void hlScaled(HLdouble x, HLdouble y, HLdouble z); /**< see hlScalef */
 
 /* ---- Surface -------------------------------------------------------------------------------------------------- */
 
-/** Sets a quantity of the surface (HL_STIFFNESS .. HL_PRESLIDING, HL_ADHESION; unit, range and default there) of what
- * is drawn next. HL_INVALID_VALUE: out of its range. */
+/** Sets a quantity of the surface (HL_STIFFNESS .. HL_PRESLIDING, HL_ADHESION, HL_COMPLIANCE; unit, range and default
+ * there) of what is drawn next. HL_INVALID_VALUE: out of its range. */
 HL_API void hlMaterialf(HLenum quantity, HLfloat value);
 HL_API void hlMateriald(HLenum quantity, HLdouble value); /**< see hlMaterialf */
 /** HL_SMOOTH or HL_FLAT, for what is drawn next. */
@@ -335,6 +344,16 @@ HL_API void hlKeepSamples(HLsizei most);
 /** Writes up to `most` of the samples that are kept, the oldest first, forgets those, and returns how many.
  * HL_INVALID_VALUE: most < 0. */
 HL_API HLsizei hlTakeSamples(HLsizei most, HLsample* samples);
+
+/** HL_TRUE: from now on the server tells with each state where and how strongly the hand has pressed since the state
+ * before; HL_FALSE: no more, as at first. Where states come seldom, some is left out: the server has the last 1024
+ * steps of the servo. Not only for the master. */
+HL_API void hlKeepContactReport(HLboolean wanted);
+/** Writes up to `most` of the places that were pressed since the last call, the strongest first, and returns how many;
+ * of the rest nothing is kept. Forces are means over the time since the last call; `report` (may be NULL) has their
+ * sum, with what acted without contact. A force F for the time `interval` is an impulse of F * interval. hlPoll,
+ * hlFlush and hlFinish take what the server has sent. HL_INVALID_VALUE: most < 0, `contacts` is null and most > 0. */
+HL_API HLsizei hlTakeContactReport(HLsizei most, HLcontactforce* contacts, HLcontactreport* report);
 
 /** From now on hlPoll calls `callback` for events of `kind` (HL_EVENT_...). NULL: such events are dropped, as at first.
  */

@@ -279,5 +279,17 @@ inline std::vector<HLsample> takeSamples() {
   return all;
 }
 
+/// hlTakeContactReport: all that was pressed since the last time, the strongest first.
+struct ContactReport {
+  HLcontactreport mean;
+  std::vector<HLcontactforce> contacts;
+};
+inline ContactReport takeContactReport() {
+  constexpr HLsizei kMost = 1024;  // more are not kept
+  ContactReport report{{}, std::vector<HLcontactforce>(kMost)};
+  report.contacts.resize(static_cast<std::size_t>(hlTakeContactReport(kMost, report.contacts.data(), &report.mean)));
+  return report;
+}
+
 }  // namespace calls
 }  // namespace hl

@@ -79,6 +79,7 @@ enum {
   HL_STRIBECK = 0x48014,   /**< v_s >= 0, m/s: mu falls from mu_s to mu_d as exp(-(v/v_s)^2). Default 0: at once. */
   HL_PRESLIDING = 0x48015, /**< >= 0, N/m: a stuck proxy creeps on a spring of this. Default 0: it does not move. */
   HL_ADHESION = 0x48017,   /**< >= 0, N: the surface keeps the proxy until it is pulled off by more. Default 0. */
+  HL_COMPLIANCE = 0x48018, /**< C >= 0, m/N: yields by C f, a spring of 1/C in series with the servo's. Default 0. */
   HL_HEIGHT = 0x48016      /**< textures only: a bump map, m; bends the normal and moves nothing */
 };
 
@@ -185,7 +186,7 @@ enum {
   HL_MAX_MODELVIEW_STACK_DEPTH = 0x0D36, /**< 1 */
   HL_MAX_NAME_STACK_DEPTH = 0x0D37,      /**< 1 */
   HL_MAX_TEXTURE_STACK_DEPTH = 0x0D39    /**< 1 */
-  /* HL_STIFFNESS .. HL_PRESLIDING, HL_ADHESION: 1; as set by hlMaterial, else the default */
+  /* HL_STIFFNESS .. HL_PRESLIDING, HL_ADHESION, HL_COMPLIANCE: 1; as set by hlMaterial, else the default */
 };
 
 /** hlGet*v: the conversation and what the server told when it began. */
@@ -261,6 +262,25 @@ typedef struct HLsample {
   HLdouble force[3];    /**< N at the hand */
   HLuint buttons;       /**< bit i is set while button i is down */
 } HLsample;
+
+/** What the hand has felt since the last hlTakeContactReport. World axes. */
+typedef struct HLcontactreport {
+  HLdouble time;     /**< s, the server's clock, of its end */
+  HLdouble interval; /**< s: its length; 0: nothing has come */
+  HLdouble force[3]; /**< N: mean force on the hand */
+} HLcontactreport;
+
+/** A place that was pressed, from hlTakeContactReport. World frame. */
+typedef struct HLcontactforce {
+  HLuint object;       /**< the innermost object; 0: drawn outside of objects */
+  HLuint name;         /**< 0: none */
+  HLuint session;      /**< whose object it is: HL_SESSION for this context's */
+  HLuint vertex_count; /**< 1: a point; 2: a line; 3: a triangle; 0: a surface without vertices */
+  HLuint vertices[3];  /**< its vertices, by the numbers that hlUpdateVertices takes */
+  HLdouble weights[3]; /**< barycentric, of the vertices: where the force acted, in the mean */
+  HLdouble point[3];   /**< m: the same place */
+  HLdouble force[3];   /**< N: mean force on the hand over the whole interval; on the object acts the opposite one */
+} HLcontactforce;
 
 /** What happened. */
 typedef struct HLevent {

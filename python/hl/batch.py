@@ -25,6 +25,7 @@ SURFACE = {
     "stribeck": _hl.calls.HL_STRIBECK,
     "presliding": _hl.calls.HL_PRESLIDING,
     "adhesion": _hl.calls.HL_ADHESION,
+    "compliance": _hl.calls.HL_COMPLIANCE,
 }
 
 
@@ -112,6 +113,7 @@ class Settings:
     stribeck: Optional[float] = None  #: m/s, >= 0
     presliding: Optional[float] = None  #: N/m, >= 0
     adhesion: Optional[float] = None  #: N, 0..100
+    compliance: Optional[float] = None  #: m/N, 0..1: a spring of 1 / compliance in series with the servo's
 
     def _native(self) -> _hl.BatchSettings:
         if self.smooth not in (None, False, True):

@@ -248,7 +248,7 @@ class Touch:
 
     def material(self, **quantities: float) -> None:
         """Sets what is drawn next: stiffness (0..1), static_friction, dynamic_friction, viscosity (N s/m), stribeck
-        (m/s), presliding (N/m), adhesion (N)."""
+        (m/s), presliding (N/m), adhesion (N), compliance (m/N)."""
         self.make_current()
         for key, value in quantities.items():
             calls.hlMateriald(_chosen(SURFACE, key, "quantity"), arguments.number(value, key))

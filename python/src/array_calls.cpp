@@ -1,8 +1,11 @@
 // The calls of hl.h that take or return arrays and texts: numpy arrays in place of pointers and sizes.
 #include <hl/hl.hpp>
 
+#include <array>
 #include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "arrays.h"
@@ -133,6 +136,8 @@ py::array_t<Row> structuredArray(const std::vector<Row>& rows) {
 void bindArrayCalls(py::module_& module) {
   PYBIND11_NUMPY_DTYPE(HLcontact, point, normal, share, static_friction, stiffness, object, name, session);
   PYBIND11_NUMPY_DTYPE(HLsample, time, position, force, buttons);
+  PYBIND11_NUMPY_DTYPE(HLcontactforce, object, name, session, vertex_count, vertices, weights, point, force);
+  PYBIND11_NUMPY_DTYPE(HLcontactreport, time, interval, force);
   const auto none = py::none();
   module.def("hlDrawArrays", &drawArrays, py::arg("mode"), py::arg("vertices"), py::arg("normals") = none,
              py::arg("texcoords") = none);
@@ -169,4 +174,17 @@ void bindArrayCalls(py::module_& module) {
     requireContext();
     return structuredArray(hl::takeSamples());
   });
+  module.def("hlTakeContactReport", [] {
+    requireContext();
+    const hl::ContactReport report = hl::takeContactReport();
+    return std::pair(structuredArray(report.contacts), structuredArray(std::vector<HLcontactreport>{report.mean}));
+  });
+  module.def(
+      "hlCompliance",
+      [](HLuint object, HLdouble normal, HLdouble tangential, std::optional<std::array<HLdouble, 3>> force) {
+        requireContext();
+        hlCompliance(object, normal, tangential, force ? force->data() : nullptr);
+        throwFailure();
+      },
+      py::arg("object"), py::arg("normal"), py::arg("tangential"), py::arg("force") = none);
 }

@@ -74,8 +74,8 @@ async def frames_of(browser):
     return [picture for _, picture in frames[:-1]], [round(1e3 * (b - a)) for a, b in zip(times_s, times_s[1:])]
 
 
-async def film_of(programs):
-    touch = [built(programs, "hl"), "touch", "teapot", "--no-open", "--port", "0"]
+async def film_of(programs, scene):
+    touch = [built(programs, "hl"), "touch", scene, "--no-open", "--port", "0"]
     with Program(touch, r"page: (http://\S+/)") as served:
         async with Browser(*FILM) as browser:
             await browser.open(served.found.group(1), SHOWN)
@@ -83,10 +83,14 @@ async def film_of(programs):
             return await frames_of(browser)
 
 
-def film(programs):
-    frames, durations_ms = asyncio.run(film_of(programs))
-    path = look.folder / "film.webp"
+def film(programs, scene="teapot", name="film"):
+    frames, durations_ms = asyncio.run(film_of(programs, scene))
+    path = look.folder / f"{name}.webp"
     frames[0].save(path, save_all=True, append_images=frames[1:], duration=durations_ms, loop=0,
                    quality=FILM_QUALITY, method=4)
     told(path)
     print(f"    {len(frames)} frames in {FILM_S} s, {path.stat().st_size // 1000} kB")
+
+
+def workshop(programs):
+    film(programs, "workshop", "workshop")

@@ -148,9 +148,10 @@ HLbatchScene* hlBatchLoadScene(const char* name, HLdouble size) {
   guardedCall(__func__, [&] {
     require(name != nullptr, "name is NULL");
     require(std::isfinite(size) && size >= 0, "size must be finite and not negative");
-    Model model = loadScene(name);
-    if (size > 0) fitModel(model, size);
-    scene = sceneOf(std::move(model));
+    SceneModel loaded = loadScene(name);
+    require(loaded.bodies.empty(), "bodies cannot be felt by many fingers at once");
+    if (size > 0) fitModel(loaded.model, size);
+    scene = sceneOf(std::move(loaded.model));
   });
   return scene;
 }

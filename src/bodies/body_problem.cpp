@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bodies/free_motion.h"
+#include "bodies/joint_groups.h"
 
 namespace hl {
 
@@ -13,10 +14,18 @@ constexpr double kFast = 0.1;
 // rad; a body that turns by less in a step goes straight: what the turn bends is 5e-7 of its size.
 constexpr double kStraight_rad = 1e-3;
 
+std::shared_ptr<const World> checked(std::shared_ptr<const World> world) {
+  checkWorld(*world);
+  return world;
+}
+
 }  // namespace
 
-BodyProblem::BodyProblem(std::shared_ptr<const World> of) : world(std::move(of)), placed(*world), meetings(*world) {
+BodyProblem::BodyProblem(std::shared_ptr<const World> of)
+    : world(checked(std::move(of))), placed(*world), meetings(*world), joints(*world) {
+  groups = jointGroups(*world);
   awake.reserve(bodies());
+  awake_joints.reserve(world->joints.size());
   turned.resize(bodies());
   nodes.reserve(bodies() + kMostHands);
   before.reserve(bodies() + kMostHands);
@@ -28,13 +37,22 @@ int BodyProblem::numberOf(std::uint64_t key) const {
   return body != nullptr ? static_cast<int>(body - world->bodies.data()) : Row::kFixed;
 }
 
-PlacedConvex BodyProblem::atEnd(const WorldState& state, std::size_t body, const BodyWays& plan,
-                                PlacedRoom& room) const {
-  if (state.bodies[body].island != 0) return placed[body];
+BodyState BodyProblem::stateAtEnd(const WorldState& state, std::size_t body, const BodyWays& plan) const {
+  if (state.bodies[body].island != 0) return state.bodies[body];
   BodyState moved = state.bodies[body];
   moved.spin = plan.turns[body];
   moveFreely(world->bodies[body], moved, plan.parts[body] * plan.ways[body], plan.parts[body] * period_s);
-  return hl::placed(world->bodies[body], moved, room);
+  return moved;
+}
+
+PlacedConvex BodyProblem::atEnd(const WorldState& state, std::size_t body, const BodyWays& plan,
+                                PlacedRoom& room) const {
+  if (state.bodies[body].island != 0) return placed[body];
+  return hl::placed(world->bodies[body], stateAtEnd(state, body, plan), room);
+}
+
+Pose BodyProblem::poseAtEnd(const WorldState& state, std::size_t body, const BodyWays& plan) const {
+  return poseOf(world->bodies[body], stateAtEnd(state, body, plan));
 }
 
 PlacedConvex BodyProblem::otherAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan,

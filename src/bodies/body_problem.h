@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "bodies/joint_set.h"
 #include "bodies/meetings.h"
 #include "bodies/placed_bodies.h"
 #include "bodies/row.h"
@@ -26,6 +27,9 @@ struct BodyProblem {
   /// Row::kFixed if there is no such body.
   int numberOf(std::uint64_t key) const;
   double reachOf(std::size_t body) const { return world->bodies[body].shape.reach; }
+  /// A body after its part of the way. RT-safe.
+  BodyState stateAtEnd(const WorldState& state, std::size_t body, const BodyWays& plan) const;
+  Pose poseAtEnd(const WorldState& state, std::size_t body, const BodyWays& plan) const;
   /// The shape of a body after its part of the way. RT-safe.
   PlacedConvex atEnd(const WorldState& state, std::size_t body, const BodyWays& plan, PlacedRoom& room) const;
   /// The other of a pair: a body after its part of the way, or a primitive of the scene. RT-safe.
@@ -42,6 +46,9 @@ struct BodyProblem {
   std::vector<Node> nodes;         ///< bodies, then hands
   std::vector<Node> before;        ///< the same, before gravity
   std::vector<Row> rows;
+  JointSet joints;
+  std::vector<std::uint32_t> awake_joints;  ///< numbers of those whose bodies are awake, ascending
+  std::vector<std::uint32_t> groups;        ///< of each body: joint_groups.h
   double period_s = 1e-3;
 };
 

@@ -16,6 +16,8 @@ constexpr int kRounds = 8;
 constexpr int kRestarts = 4;
 // How often bounces are halved that would add energy; the last time there is none.
 constexpr int kWeakerTimes = 4;
+// How often the ways of joints are bent. What is left is straightened (motion_plan.h).
+constexpr int kBends = 3;
 
 }  // namespace
 
@@ -25,6 +27,7 @@ void BodyStepper::begin(const WorldState& state, double period_s) {
   problem_.nodes.resize(problem_.bodies());
   problem_.rows.clear();
   problem_.awake.clear();
+  problem_.awake_joints.clear();
   for (std::size_t i = 0; i < state.bodies.size(); ++i) {
     const BodyState& body = state.bodies[i];
     Node& node = problem_.nodes[i];
@@ -37,6 +40,10 @@ void BodyStepper::begin(const WorldState& state, double period_s) {
       node = Node{};
       node.centre = body.centre;
     }
+  }
+  for (std::size_t i = 0; i < state.joints.size(); ++i) {
+    const auto a = static_cast<std::size_t>(problem_.joints.blocks[i].a);
+    if (state.bodies[a].island == 0) problem_.awake_joints.push_back(static_cast<std::uint32_t>(i));
   }
   problem_.before = problem_.nodes;
   for (const std::size_t i : problem_.awake) problem_.nodes[i].velocity += period_s * world().gravity_m_s2;
@@ -74,12 +81,12 @@ double BodyStepper::margin() const {
         std::max(fastest, problem_.nodes[i].velocity.norm() + problem_.nodes[i].spin.norm() * problem_.reachOf(i));
   for (std::size_t hand = problem_.bodies(); hand < problem_.nodes.size(); ++hand)
     fastest = std::max(fastest, problem_.nodes[hand].velocity.norm());
-  return 4 * problem_.period_s * fastest + kTouching_m;
+  return 4 * problem_.period_s * (fastest + joints_.speed()) + kTouching_m;
 }
 
 void BodyStepper::solve(BodyStepReport& report) {
   int sweeps = 0;
-  report.converged = solver_.solve(problem_.rows, problem_.nodes, problem_.period_s, sweeps);
+  report.converged = solver_.solve(problem_, sweeps);
   report.sweeps = std::max(report.sweeps, sweeps);
 }
 
@@ -184,12 +191,15 @@ BodyStepReport BodyStepper::findImpulses(WorldState& state, double period_s, dou
   solver_.begin();
   for (std::size_t hand = 0; hand < hands.size(); ++hand) addHand(hands[hand], given[hand]);
   impacts_.begin();
+  joints_.begin(state);
   margin_m = margin();
   for (std::size_t hand = 0; hand < hands.size(); ++hand) hand_rows_.add(hands[hand], hand, margin_m, state.memory);
   problem_.meetings.find(world(), state, problem_.placed, margin_m);
   contacts_.addBearing(state.memory);
   for (Row& row : problem_.rows) prepareRow(row, problem_.nodes);
   solve(report);
+  for (int round = 0; round < kBends && joints_.bend(state); ++round) solve(report);
+  for (int round = 0; round < kBends && joints_.refuse(state); ++round) solve(report);
   for (int round = 0; round < kRounds && contacts_.addPassed(state); ++round) solve(report);
   return report;
 }
@@ -206,8 +216,10 @@ BodyStepReport BodyStepper::step(WorldState& state, double period_s, std::span<c
   bounce(report);
   tellHands(given);
   book(state.energy, given);
+  joints_.book(state);
   slowHeld(state);
   move(state);
+  joints_.remember(state);
   contacts_.remember(state.memory);
   fallAsleep(problem_, islands_, state);
   ++state.steps;

@@ -11,6 +11,7 @@
 #include "bodies/hand_rows.h"
 #include "bodies/impacts.h"
 #include "bodies/island_solver.h"
+#include "bodies/joint_rows.h"
 #include "bodies/motion_plan.h"
 
 namespace hl {
@@ -55,10 +56,11 @@ class BodyStepper {
   BodyProblem problem_;
   ContactRows contacts_{problem_};
   HandRows hand_rows_{problem_, contacts_};
-  MotionPlan plan_{problem_};
+  JointRows joints_{problem_};
+  MotionPlan plan_{problem_, joints_};
   Impacts impacts_{problem_};
-  Islands islands_{problem_.nodes.capacity(), 0};
-  IslandSolver solver_{problem_.nodes.capacity(), problem_.rows.capacity()};
+  Islands islands_{problem_.nodes.capacity()};
+  IslandSolver solver_{problem_};
 };
 
 }  // namespace hl

@@ -53,6 +53,11 @@ class ContactMemory {
     }
     return best;
   }
+  /// RT-safe within the reserved room.
+  void copyFrom(const ContactMemory& other) {
+    contacts_.clear();
+    for (const RememberedContact& contact : other.contacts_) add(contact);
+  }
   void clear() { contacts_.clear(); }
   /// RT-safe within the reserved room; beyond it the contact is forgotten.
   void add(const RememberedContact& contact) {

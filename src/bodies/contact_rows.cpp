@@ -15,6 +15,9 @@ constexpr double kTwin = 1e-3;
 // Of the size of a body: a contact as near as that to one of the last step goes on from its impulse.
 constexpr double kSamePlace = 0.05;
 
+// m/s: what slides no faster sticks.
+constexpr double kSlips_m_s = 1e-6;
+
 double meanOf(double x, double y) { return std::sqrt(x * y); }
 
 BodySurface between(const BodySurface& x, const BodySurface& y) {
@@ -35,7 +38,7 @@ Row ContactRows::rowOf(const Meeting& meeting, std::size_t number) const {
   const Body& body = problem_.world->bodies[static_cast<std::size_t>(meeting.a)];
   const bool fixed = meeting.b == Row::kFixed;
   const BodySurface surface =
-      between(body.surface, fixed ? problem_.world->fixed_surface
+      between(body.surface, fixed ? problem_.world->surfaceOfFixed(meeting.primitive.instance, body.surface)
                                   : problem_.world->bodies[static_cast<std::size_t>(meeting.b)].surface);
   const ManifoldPoint& point = meeting.manifold.points[number];
   Row row;
@@ -173,10 +176,14 @@ void ContactRows::addRowsOfEnd(const Meeting& meeting, const Manifold& end) {
   }
 }
 
+// Of a body that sticks at several points some may be at their limit: they slip when the body slides.
 void ContactRows::remember(ContactMemory& memory) const {
   memory.clear();
-  for (const Row& row : problem_.rows)
-    memory.add({row.pair, placeOf(row), row.pressed, row.dragged, row.slipping, false});
+  for (const Row& row : problem_.rows) {
+    const Vec3 velocity = relativeVelocity(row, problem_.nodes);
+    const bool slides = (velocity - row.normal.dot(velocity) * row.normal).norm() > kSlips_m_s;
+    memory.add({row.pair, placeOf(row), row.pressed, row.dragged, row.slipping && slides, false});
+  }
   memory.sort();
 }
 

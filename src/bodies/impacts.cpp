@@ -15,34 +15,60 @@ constexpr int kMostImpacts = 50;
 // Of the kinetic energy: rounding.
 constexpr double kNoGain = 1e-9;
 
+bool bounces(const Row& row) { return row.pressed > 0 && row.restitution > 0; }
+
 }  // namespace
 
-Impacts::Impacts(const BodyProblem& problem) : problem_(problem), islands_(problem.nodes.capacity(), 0) {
+Impacts::Impacts(const BodyProblem& problem) : problem_(problem), islands_(problem.nodes.capacity()) {
   free_.reserve(problem.nodes.capacity());
   after_.reserve(problem.nodes.capacity());
   gained_J_.reserve(problem.nodes.capacity());
+  joined_.reserve(problem.nodes.capacity());
+}
+
+void Impacts::findIslands(const std::vector<Row>& rows) {
+  const std::vector<JointBlock>& blocks = problem_.joints.blocks;
+  islands_.begin(problem_.nodes.size());
+  for (const Row& row : rows) {
+    if (row.b != Row::kFixed) islands_.join(row.a, row.b);
+  }
+  for (const std::uint32_t joint : problem_.awake_joints) {
+    if (blocks[joint].b != Row::kFixed) islands_.join(blocks[joint].a, blocks[joint].b);
+  }
+  joined_.assign(problem_.nodes.size(), 0);
+  for (const std::uint32_t joint : problem_.awake_joints)
+    joined_[static_cast<std::size_t>(islands_.of(blocks[joint].a))] = 1;
 }
 
 bool Impacts::find(std::vector<Row>& rows) {
-  const auto bounces = [](const Row& row) { return row.pressed > 0 && row.restitution > 0; };
   const bool any = std::any_of(rows.begin(), rows.end(),
-                               [&](const Row& row) { return bounces(row) && row.approach < -kBounces_m_s; });
+                               [](const Row& row) { return bounces(row) && row.approach < -kBounces_m_s; });
   if (!any) return false;
+  findIslands(rows);
+  follow(rows);
+  for (Row& row : rows) {
+    if (!bounces(row)) continue;
+    if (!isJoined(row))
+      row.least_velocity = std::max(0.0, row.normal.dot(relativeVelocity(row, after_)));
+    else if (row.approach < -kBounces_m_s)
+      row.least_velocity = -row.restitution * row.approach;
+  }
+  return true;
+}
+
+// One impact after another, where no joints are.
+void Impacts::follow(std::vector<Row>& rows) {
   after_ = free_;
   bool approaching = true;
   for (int time = 0; approaching && time < kMostImpacts; ++time) {
     approaching = false;
     for (const Row& row : rows) {
       const double velocity = row.normal.dot(relativeVelocity(row, after_));
-      if (!bounces(row) || velocity > -kBounces_m_s) continue;
+      if (!bounces(row) || isJoined(row) || velocity > -kBounces_m_s) continue;
       applyImpulse(row, after_, -(1 + row.restitution) * row.normal_step * velocity * row.normal);
       approaching = true;
     }
   }
-  for (Row& row : rows) {
-    if (bounces(row)) row.least_velocity = std::max(0.0, row.normal.dot(relativeVelocity(row, after_)));
-  }
-  return true;
 }
 
 double Impacts::kineticOf(const Node& node, std::size_t number) const {
@@ -54,20 +80,29 @@ double Impacts::kineticOf(const Node& node, std::size_t number) const {
   return twice / 2;
 }
 
+// Of all impulses of a joint: springs may well add kinetic energy.
+double Impacts::workOf(const JointBlock& block) const {
+  double work = block.held.dot(heldVelocities(block, free_) + heldVelocities(block, problem_.nodes)) / 2;
+  if (!block.coordinate.there) return work;
+  const JointAxis& axis = block.coordinate.axis;
+  const double twice_mean = velocityAlong(axis, block, free_) + velocityAlong(axis, block, problem_.nodes);
+  return work + block.coordinate.impulses.sum() * twice_mean / 2;
+}
+
 bool Impacts::weaken(std::vector<Row>& rows, bool last) {
-  islands_.begin(problem_.nodes.size());
-  for (const Row& row : rows) {
-    if (row.b != Row::kFixed) islands_.join(row.a, row.b);
-  }
   gained_J_.assign(problem_.nodes.size(), 0);
+  const auto gained = [&](int node) -> double& { return gained_J_[static_cast<std::size_t>(islands_.of(node))]; };
   for (std::size_t i = 0; i < problem_.nodes.size(); ++i) {
     const double before = kineticOf(free_[i], i);
-    gained_J_[static_cast<std::size_t>(islands_.of(static_cast<int>(i)))] +=
-        kineticOf(problem_.nodes[i], i) - (1 + kNoGain) * before;
+    gained(static_cast<int>(i)) += kineticOf(problem_.nodes[i], i) - (1 + kNoGain) * before;
+  }
+  for (const std::uint32_t joint : problem_.awake_joints) {
+    const JointBlock& block = problem_.joints.blocks[joint];
+    gained(block.a) -= workOf(block);
   }
   bool any = false;
   for (Row& row : rows) {
-    if (!(row.least_velocity > 0) || !(gained_J_[static_cast<std::size_t>(islands_.of(row.a))] > 0)) continue;
+    if (!(row.least_velocity > 0) || !(gained(row.a) > 0)) continue;
     row.least_velocity = last ? 0 : row.least_velocity / 2;
     any = true;
   }

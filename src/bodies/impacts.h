@@ -1,6 +1,7 @@
 // Impacts: how fast what bounced goes apart. The impacts of a step follow one another, each with Newton's restitution,
 // until nothing approaches: so in a row of balls the last one leaves. No such impact adds kinetic energy. With friction
-// the solve that follows may: then the bounces of that island are made weaker.
+// the solve that follows may: then the bounces of that island are made weaker. Where joints hold bodies together, each
+// contact has Newton's restitution by itself: an impact there moves more than the two bodies that meet.
 #pragma once
 
 #include <vector>
@@ -24,11 +25,16 @@ class Impacts {
   bool weaken(std::vector<Row>& rows, bool last);
 
  private:
+  void findIslands(const std::vector<Row>& rows);
+  void follow(std::vector<Row>& rows);
+  bool isJoined(const Row& row) { return joined_[static_cast<std::size_t>(islands_.of(row.a))] != 0; }
   double kineticOf(const Node& node, std::size_t number) const;
+  double workOf(const JointBlock& block) const;
 
   const BodyProblem& problem_;
   std::vector<Node> free_, after_;
   std::vector<double> gained_J_;  // by island
+  std::vector<char> joined_;      // by island: whether it has joints
   Islands islands_;
 };
 

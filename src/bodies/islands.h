@@ -1,7 +1,7 @@
-// Islands: the bodies and hands that rows join, directly or by others. Each is solved on its own.
+// Islands: the bodies and hands that rows and joints connect, directly or by others. Each is solved on its own.
 #pragma once
 
-#include <span>
+#include <numeric>
 #include <vector>
 
 #include "bodies/row.h"
@@ -11,23 +11,33 @@ namespace hl {
 /// By one thread at a time.
 class Islands {
  public:
-  Islands(std::size_t most_nodes, std::size_t most_rows);
+  explicit Islands(std::size_t most_nodes);
 
-  /// Each node for itself. RT-safe.
+  /// Each node for itself. RT-safe, as all below.
   void begin(std::size_t nodes);
   void join(int a, int b);
   /// The lowest number of a node in the island.
   int of(int node);
-  /// Brings the rows of each island together, those of the lowest first, in the order in which they are; then rowsOf()
-  /// tells which they are. RT-safe.
-  void gather(std::vector<Row>& rows, std::size_t nodes);
-  /// The first after `begin` that belongs to another island.
-  std::size_t endOf(std::span<const Row> rows, std::size_t begin);
+  /// Brings the items of each island together, those of the lowest first, in the order in which they are. `nodeOf`: a
+  /// node of an item. `room`: as large as `items` may be.
+  template <typename Item, typename NodeOf>
+  void gather(std::vector<Item>& items, std::vector<Item>& room, NodeOf nodeOf);
 
  private:
   std::vector<int> parent_;
   std::vector<std::size_t> place_;
-  std::vector<Row> sorted_;
 };
+
+// By counting: how many items are in the islands before.
+template <typename Item, typename NodeOf>
+void Islands::gather(std::vector<Item>& items, std::vector<Item>& room, NodeOf nodeOf) {
+  if (items.empty()) return;
+  place_.assign(parent_.size() + 1, 0);
+  for (const Item& item : items) ++place_[static_cast<std::size_t>(of(nodeOf(item))) + 1];
+  std::partial_sum(place_.begin(), place_.end(), place_.begin());
+  room.resize(items.size());
+  for (const Item& item : items) room[place_[static_cast<std::size_t>(of(nodeOf(item)))]++] = item;
+  items.swap(room);
+}
 
 }  // namespace hl

@@ -7,7 +7,7 @@
 
 namespace hl {
 
-Meetings::Meetings(const World& world) : along_x_(world.bodies.size()) {
+Meetings::Meetings(const World& world) : along_x_(world.bodies.size()), joined_(world) {
   meetings_.reserve(kContactsPerBody * world.bodies.size());
   near_.reserve(4 * kContactsPerBody);
   std::iota(along_x_.begin(), along_x_.end(), 0u);
@@ -60,6 +60,7 @@ void Meetings::meet(const WorldState& state, const PlacedBodies& placed, double 
                     std::uint32_t other) {
   const double reach = reach_[one] + reach_[other] + margin;
   if ((state.bodies[one].centre - state.bodies[other].centre).squaredNorm() > reach * reach) return;
+  if (joined_.has(one, other)) return;
   const bool in_order = state.bodies[other].island != 0 || one < other;
   const std::uint32_t a = in_order ? one : other, b = in_order ? other : one;
   Meeting meeting{static_cast<int>(a), static_cast<int>(b), {}, {}, 0};

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "bodies/joint_groups.h"
 #include "bodies/placed_bodies.h"
 #include "scene/scene_at.h"
 
@@ -41,6 +42,7 @@ class Meetings {
   std::vector<std::uint32_t> along_x_;
   std::vector<double> reach_, low_x_;  // m
   double widest_ = 0;                  // m, greatest reach
+  JoinedPairs joined_;
   ManyRecentPrimitives recent_;
   std::optional<SceneAt> scene_;
   std::size_t dropped_ = 0;

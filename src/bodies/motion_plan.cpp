@@ -11,6 +11,10 @@ namespace {
 
 // Of an overlap this part is removed in a step.
 constexpr double kPushedApart = 0.2;
+// How often joints are put right.
+constexpr int kCorrections = 4;
+// Of what is off, nothing moves farther than this: a mechanism that is stretched out would be flung aside.
+constexpr double kMostMoved = 10;
 // m; a smaller overlap at the end of a step is left to pushApart().
 constexpr double kLeft_m = 1e-5;
 // How often all pairs are looked at; each time what would pass goes a quarter of its part. Then it stays where it is,
@@ -28,17 +32,19 @@ double separationAlong(const PlacedConvex& a, const PlacedConvex& b, const Vec3&
 
 }  // namespace
 
-MotionPlan::MotionPlan(const BodyProblem& problem) : problem_(problem) {
+MotionPlan::MotionPlan(const BodyProblem& problem, const JointRows& joints)
+    : problem_(problem), joints_(joints), joints_apart_(problem.joints) {
   plan_.ways.resize(problem.bodies());
   plan_.turns.resize(problem.bodies());
   plan_.parts.resize(problem.bodies());
   apart_.reserve(problem.nodes.capacity());
   overlaps_.reserve(problem.rows.capacity());
+  last_plan_ = plan_;
 }
 
 void MotionPlan::make(const WorldState& state, double margin, bool converged) {
   goWithVelocities();
-  pushApart();
+  correct(state);
   limit(margin);
   stopShort(state, converged);
 }
@@ -51,6 +57,13 @@ void MotionPlan::goWithVelocities() {
     plan_.turns[i] = problem_.nodes[i].spin;
     plan_.parts[i] = 1;
   }
+  for (const std::uint32_t joint : problem_.awake_joints) {
+    for (const int number : {problem_.joints.blocks[joint].a, problem_.joints.blocks[joint].b}) {
+      if (number == Row::kFixed) continue;
+      const auto i = static_cast<std::size_t>(number);
+      plan_.ways[i] = period_s * problem_.nodes[i].velocity;
+    }
+  }
   for (const Row& row : problem_.rows) {
     if (!(row.pressed > 0)) continue;
     for (const int number : {row.a, row.b}) {
@@ -60,31 +73,81 @@ void MotionPlan::goWithVelocities() {
   }
 }
 
-// Overlaps are removed by velocities of their own, which act for this step alone and leave no kinetic energy.
-void MotionPlan::pushApart() {
+// Overlaps, and what joints are off, are removed by velocities of their own, which act for this step alone and leave
+// no kinetic energy.
+void MotionPlan::findOverlaps() {
   overlaps_.clear();
   for (const Row& row : problem_.rows) {
     if (row.gap >= -kTouching_m) continue;
     overlaps_.push_back(row);
-    overlaps_.back().pressed = overlaps_.back().friction = 0;
+    overlaps_.back().friction = 0;
     overlaps_.back().dragged.setZero();
     overlaps_.back().least_velocity = -kPushedApart * row.gap / problem_.period_s;
   }
-  if (overlaps_.empty()) return;
+}
+
+// What joints are off at the end of the plan is not linear in what moves them: it takes a few rounds, in which what
+// overlaps stays apart. A round that makes it worse is taken back.
+void MotionPlan::correct(const WorldState& state) {
+  findOverlaps();
+  double last_off = 0;
+  for (int round = 0; round < kCorrections; ++round) {
+    const double off = joints_.straighten(state, plan_, joints_apart_);
+    if (off == 0 && (round > 0 || overlaps_.empty())) return;
+    if (round > 0 && off > last_off) {
+      plan_ = last_plan_;
+      return;
+    }
+    last_off = off;
+    last_plan_ = plan_;
+    pushApart();
+    goApart(off > 0 ? kMostMoved * off : 0);
+    for (Row& row : overlaps_) row.least_velocity = 0;
+  }
+}
+
+void MotionPlan::pushApart() {
+  for (Row& row : overlaps_) row.pressed = 0;
   apart_ = problem_.nodes;
   for (Node& node : apart_) node.velocity = node.spin = Vec3::Zero();
   for (Row& row : overlaps_) prepareRow(row, apart_);
-  solveRows(overlaps_, apart_, problem_.period_s, limitsFor(overlaps_.size()));
+  solveRows(overlaps_, {&joints_apart_, problem_.awake_joints}, apart_, problem_.period_s,
+            limitsFor(overlaps_.size() + joints_apart_.work(problem_.awake_joints)));
+}
+
+// All by one part, so that nothing of a body moves farther than `most` (m); 0: as far as it may.
+void MotionPlan::goApart(double most) {
+  double farthest = 0;
+  for (const std::size_t i : problem_.awake)
+    farthest = std::max(farthest, apart_[i].velocity.norm() + apart_[i].spin.norm() * problem_.reachOf(i));
+  farthest *= problem_.period_s;
+  const double part = most > 0 && farthest > most ? most / farthest : 1;
   for (const std::size_t i : problem_.awake) {
-    plan_.ways[i] += problem_.period_s * apart_[i].velocity;
-    plan_.turns[i] += apart_[i].spin;
+    plan_.ways[i] += part * problem_.period_s * apart_[i].velocity;
+    plan_.turns[i] += part * apart_[i].spin;
   }
+}
+
+// So do all bodies that joints connect with it, or the joints would be torn apart.
+void MotionPlan::goPart(std::size_t body, double part) {
+  const std::uint32_t group = problem_.groups[body];
+  for (const std::size_t i : problem_.awake) {
+    if (problem_.groups[i] == group) plan_.parts[i] *= part;
+  }
+}
+
+void MotionPlan::goPart(const Meeting& meeting, double part) {
+  const auto a = static_cast<std::size_t>(meeting.a);
+  goPart(a, part);
+  if (meeting.b == Row::kFixed) return;
+  const auto b = static_cast<std::size_t>(meeting.b);
+  if (problem_.groups[a] != problem_.groups[b]) goPart(b, part);
 }
 
 void MotionPlan::limit(double margin) {
   for (const std::size_t i : problem_.awake) {
     const double way = plan_.ways[i].norm() + problem_.period_s * plan_.turns[i].norm() * problem_.reachOf(i);
-    if (way > margin / 2) plan_.parts[i] = margin / 2 / way;
+    if (plan_.parts[i] * way > margin / 2) goPart(i, margin / 2 / way / plan_.parts[i]);
   }
 }
 
@@ -103,14 +166,11 @@ bool MotionPlan::passes(const WorldState& state, const Meeting& meeting) const {
 // False: they do not go at all any more.
 bool MotionPlan::shorten(const WorldState& state, const Meeting& meeting) {
   constexpr int kTimes = 4;
-  double& of_a = plan_.parts[static_cast<std::size_t>(meeting.a)];
-  double& of_b = meeting.b == Row::kFixed ? of_a : plan_.parts[static_cast<std::size_t>(meeting.b)];
   for (int time = 0; time < kTimes; ++time) {
-    of_a *= kShorter;
-    if (&of_b != &of_a) of_b *= kShorter;
+    goPart(meeting, kShorter);
     if (!passes(state, meeting)) return true;
   }
-  of_a = of_b = 0;
+  goPart(meeting, 0);
   return false;
 }
 
@@ -125,8 +185,7 @@ void MotionPlan::stopShort(const WorldState& state, bool converged) {
       if (look + 1 < kLooks) {
         shorten(state, meeting);
       } else {
-        plan_.parts[static_cast<std::size_t>(meeting.a)] = 0;
-        if (meeting.b != Row::kFixed) plan_.parts[static_cast<std::size_t>(meeting.b)] = 0;
+        goPart(meeting, 0);
       }
     }
     if (!shortened) return;

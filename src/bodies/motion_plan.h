@@ -3,14 +3,14 @@
 // velocity stays, so that the next step has the impact.
 #pragma once
 
-#include "bodies/body_problem.h"
+#include "bodies/joint_rows.h"
 
 namespace hl {
 
 /// By one thread at a time.
 class MotionPlan {
  public:
-  explicit MotionPlan(const BodyProblem& problem);
+  MotionPlan(const BodyProblem& problem, const JointRows& joints);
 
   /// From the solved velocities; no body's point goes farther than `margin` / 2 (m). `converged`: of the solver.
   /// RT-safe.
@@ -21,16 +21,23 @@ class MotionPlan {
 
  private:
   void goWithVelocities();
+  void findOverlaps();
+  void correct(const WorldState& state);
   void pushApart();
+  void goApart(double most);
+  void goPart(std::size_t body, double part);
+  void goPart(const Meeting& meeting, double part);
   void limit(double margin);
   void stopShort(const WorldState& state, bool converged);
   bool passes(const WorldState& state, const Meeting& meeting) const;
   bool shorten(const WorldState& state, const Meeting& meeting);
 
   const BodyProblem& problem_;
-  BodyWays plan_;
+  const JointRows& joints_;
+  BodyWays plan_, last_plan_;
   std::vector<Node> apart_;  // velocities that only push overlapping bodies apart
   std::vector<Row> overlaps_;
+  JointSet joints_apart_;
 };
 
 }  // namespace hl

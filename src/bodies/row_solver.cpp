@@ -109,11 +109,20 @@ void prepareRow(Row& row, std::span<Node> nodes) {
   applyImpulse(row, nodes, row.pressed * row.normal + row.dragged);
 }
 
-int solveRows(std::span<Row> rows, std::span<Node> nodes, double period_s, const RowSolverLimits& limits) {
+int solveRows(std::span<Row> rows, const JointPart& joints, std::span<Node> nodes, double period_s,
+              const RowSolverLimits& limits) {
   double last_square = 0;
   for (Row& row : rows) row.search.setZero();
   for (int sweep = 1; sweep <= limits.sweeps; ++sweep) {
     double square = 0, changed = 0, largest = 0;
+    if (!joints.numbers.empty()) joints.set->sweep(joints.numbers, nodes, period_s);
+    for (const std::uint32_t number : joints.numbers) {
+      const JointBlock& joint = joints.set->blocks[number];
+      const BlockSweep swept = sweepOf(joint);
+      square += swept.change;
+      if (swept.change > joint.least_change * joint.least_change) changed = std::max(changed, swept.change);
+      largest = std::max(largest, swept.largest);
+    }
     for (Row& row : rows) {
       row.change = solveRow(row, nodes, period_s);
       square += row.change.squaredNorm();
@@ -122,7 +131,9 @@ int solveRows(std::span<Row> rows, std::span<Node> nodes, double period_s, const
     }
     if (changed <= limits.done * limits.done * largest) return sweep;
     if (sweep == limits.sweeps) break;
-    searchOn(rows, nodes, last_square > 0 ? square / last_square : 2);
+    const double part = last_square > 0 ? square / last_square : 2;
+    if (!joints.numbers.empty()) joints.set->searchOn(joints.numbers, nodes, part, part > 1);
+    searchOn(rows, nodes, part);
     last_square = square;
   }
   return limits.sweeps;

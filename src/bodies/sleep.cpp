@@ -73,6 +73,11 @@ WorldState withoutBody(const World& world, const WorldState& state, std::uint64_
   if (body == nullptr) return left;
   wake(world, left, key);
   left.bodies.erase(left.bodies.begin() + (body - world.bodies.data()));
+  left.joints.clear();
+  for (std::size_t i = 0; i < world.joints.size(); ++i) {
+    const bool stays = world.joints[i].body_a != key && world.joints[i].body_b != key;
+    if (stays) left.joints.push_back(state.joints[i]);
+  }
   return left;
 }
 
@@ -96,6 +101,10 @@ void fallAsleep(const BodyProblem& problem, Islands& islands, WorldState& state)
   for (const Row& row : problem.rows) {
     if (row.b != Row::kFixed && row.pressed > 0) islands.join(row.a, row.b);
   }
+  const std::vector<JointBlock>& joints = problem.joints.blocks;
+  for (const std::uint32_t joint : problem.awake_joints) {
+    if (joints[joint].b != Row::kFixed) islands.join(joints[joint].a, joints[joint].b);
+  }
   const World& world = *problem.world;
   for (const std::size_t first : problem.awake) {
     if (islands.of(static_cast<int>(first)) != static_cast<int>(first)) continue;
@@ -108,6 +117,9 @@ void fallAsleep(const BodyProblem& problem, Islands& islands, WorldState& state)
       if (!belongs(i)) continue;
       stop(world.bodies[i], state.bodies[i], state.energy);
       state.bodies[i].island = world.bodies[first].key;
+    }
+    for (const std::uint32_t joint : problem.awake_joints) {
+      if (belongs(static_cast<std::size_t>(joints[joint].a))) state.joints[joint].velocity = 0;
     }
     const std::uint64_t name = world.bodies[first].key;
     setIsland(world, state, name, name, state.memory, state.asleep);

@@ -1,6 +1,7 @@
-// Sleep: an island of bodies that has been slower than 1 mm/s for half a second, and that no hand touches, is not
-// stepped any more. It wakes as one: when a contact would push one of its bodies, when a hand owes one an impulse, when
-// gravity changes, and by wake(). A body that is asleep holds up what touches it without load.
+// Sleep: an island of bodies and joints that has been slower than 1 mm/s for half a second, and that no hand touches,
+// is not stepped any more: its bodies and its joints stay as they are. It wakes as one: when a contact would push one
+// of its bodies, when a hand owes one an impulse, when gravity changes, and by wake(). A body that is asleep holds up
+// what touches it without load.
 #pragma once
 
 #include "bodies/body_problem.h"
@@ -13,7 +14,7 @@ inline constexpr double kStill_m_s = 1e-3, kFallsAsleep_s = 0.5;
 /// Wakes the body with this key, and all that sleep with it: to be called before what holds them is changed. RT-safe.
 void wake(const World& world, WorldState& state, std::uint64_t key);
 void wakeAll(WorldState& state);
-/// What is left where the body is taken out of the world; what slept with it is awake. Allocates.
+/// What is left where the body, and its joints, are taken out of the world; what slept with it is awake. Allocates.
 WorldState withoutBody(const World& world, const WorldState& state, std::uint64_t key);
 
 /// Wakes what the rows push. False: nothing. RT-safe.

@@ -2,6 +2,9 @@
 
 #include <bit>
 
+#include "bodies/joint_check.h"
+#include "bodies/joint_place.h"
+
 namespace hl {
 
 namespace {
@@ -13,6 +16,13 @@ struct Hash {
   void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
   void add(const Vec3& v) {
     for (int i = 0; i < 3; ++i) add(v[i]);
+  }
+  void add(const JointState& joint) {
+    add(joint.coordinate);
+    add(joint.velocity);
+    for (const double impulse : joint.held) add(impulse);
+    for (const double impulse : joint.along) add(impulse);
+    add(joint.spare_J);
   }
   void add(const ContactMemory& memory) {
     for (const RememberedContact& contact : memory) {
@@ -28,7 +38,12 @@ struct Hash {
 
 }  // namespace
 
+void checkWorld(const World& world) {
+  checkJoints(world.joints, [&](std::uint64_t key) { return world.find(key) != nullptr; });
+}
+
 WorldState startWorld(const World& world, const std::vector<Pose>& poses) {
+  checkWorld(world);
   WorldState state;
   state.bodies.resize(world.bodies.size());
   state.memory.reserve(mostRows(world));
@@ -38,6 +53,15 @@ WorldState startWorld(const World& world, const std::vector<Pose>& poses) {
     BodyState& body = state.bodies[i];
     body.turned = Eigen::Quaterniond(poses[i].rotation).normalized();
     body.centre = poses[i].toWorld(world.bodies[i].mass.centre_O);
+  }
+  const auto pose = [&](std::uint64_t key) {
+    const Body* const body = world.find(key);
+    return body == nullptr ? Pose() : poses[static_cast<std::size_t>(body - world.bodies.data())];
+  };
+  for (const Joint& joint : world.joints) {
+    JointState one;
+    one.coordinate = JointPlace(joint, pose(joint.body_a), pose(joint.body_b)).coordinate(0);
+    state.joints.push_back(one);
   }
   return state;
 }
@@ -71,6 +95,7 @@ std::uint64_t hashOf(const WorldState& state) {
     hash.add(body.still_s);
     hash.add(body.island);
   }
+  for (const JointState& joint : state.joints) hash.add(joint);
   hash.add(state.memory);
   hash.add(state.asleep);
   return hash.value;
@@ -90,6 +115,13 @@ double gravityEnergy_J(const World& world, const WorldState& state) {
   double sum = 0;
   for (std::size_t i = 0; i < state.bodies.size(); ++i)
     sum -= world.bodies[i].mass.mass_kg * world.gravity_m_s2.dot(state.bodies[i].centre);
+  return sum;
+}
+
+double springEnergy_J(const World& world, const WorldState& state) {
+  double sum = 0;
+  for (std::size_t i = 0; i < state.joints.size(); ++i)
+    sum += springEnergy_J(world.joints[i], state.joints[i].coordinate);
   return sum;
 }
 

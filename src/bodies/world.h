@@ -5,24 +5,19 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "bodies/contact_memory.h"
 #include "bodies/convex.h"
 #include "bodies/energy_book.h"
+#include "bodies/joint.h"
 #include "bodies/mass.h"
+#include "scene/body_spec.h"
 #include "scene/pose.h"
 #include "scene/snapshot.h"
 
 namespace hl {
-
-/// How a surface meets another body. Of two that touch, the geometric mean of each counts.
-struct BodySurface {
-  double static_friction = 0.5;   ///< >= dynamic_friction
-  double dynamic_friction = 0.5;  ///< >= 0
-  double restitution = 0;         ///< 0..1
-  bool operator==(const BodySurface&) const = default;
-};
 
 struct Body {
   std::uint64_t key = 0;  ///< as Instance::key; unique in a world; > 0
@@ -33,11 +28,19 @@ struct Body {
 
 /// Immutable while it is stepped.
 struct World {
-  std::vector<Body> bodies;               ///< sorted by key
-  std::shared_ptr<const Snapshot> fixed;  ///< what bodies stand on: at rest; null: nothing
-  BodySurface fixed_surface{};            ///< of all of `fixed`
+  std::vector<Body> bodies;                    ///< sorted by key
+  std::vector<Joint> joints;                   ///< sorted by key
+  std::shared_ptr<const Snapshot> fixed;       ///< what bodies stand on: at rest; null: nothing
+  std::optional<BodySurface> fixed_surface{};  ///< of all of `fixed`; absent: as that of the body that touches it
+  /// Of single instances of `fixed`, in its place. May be shorter than the list of instances.
+  std::vector<std::optional<BodySurface>> fixed_surfaces{};
   Vec3 gravity_m_s2 = Vec3(0, -9.81, 0);
 
+  /// Of an instance of `fixed`, where something of this surface touches it. RT-safe.
+  const BodySurface& surfaceOfFixed(std::size_t instance, const BodySurface& touched_by) const {
+    if (instance < fixed_surfaces.size() && fixed_surfaces[instance]) return *fixed_surfaces[instance];
+    return fixed_surface ? *fixed_surface : touched_by;
+  }
   /// Null: there is no such body. RT-safe.
   const Body* find(std::uint64_t key) const {
     const auto at = std::lower_bound(bodies.begin(), bodies.end(), key,
@@ -65,7 +68,8 @@ struct BodyState {
 
 /// Plain values but for the lists, whose room is made by startWorld().
 struct WorldState {
-  std::vector<BodyState> bodies;  ///< as World::bodies
+  std::vector<BodyState> bodies;   ///< as World::bodies
+  std::vector<JointState> joints;  ///< as World::joints
   ContactMemory memory;
   ContactMemory asleep;              ///< contacts of what sleeps
   Vec3 gravity_m_s2 = Vec3::Zero();  ///< of the last step: what sleeps wakes if it changes
@@ -73,18 +77,22 @@ struct WorldState {
   std::uint64_t steps = 0;
 };
 
-/// Each body at a pose of its object frame, at rest. `poses`: as World::bodies. Allocates.
+/// Throws Error for joints that cannot be stepped (joint_check.h).
+void checkWorld(const World& world);
+/// Each body at a pose of its object frame, at rest. `poses`: as World::bodies. Checks the world. Allocates.
 WorldState startWorld(const World& world, const std::vector<Pose>& poses);
 /// The pose of the object frame. RT-safe.
 Pose poseOf(const Body& body, const BodyState& state);
 /// Inverse of the inertia about the centre of mass, world frame, 1/(kg m^2). RT-safe.
 Mat3 inverseInertia(const Body& body, const BodyState& state);
 Mat3 inertiaOf(const Body& body, const BodyState& state);
-/// Of all bits that decide what happens next: poses, velocities, counters, contacts.
+/// Of all bits that decide what happens next: poses, velocities, counters, joints, contacts.
 std::uint64_t hashOf(const WorldState& state);
 /// Joules. RT-safe.
 double kineticEnergy_J(const Body& body, const BodyState& state);
 double kineticEnergy_J(const World& world, const WorldState& state);
 double gravityEnergy_J(const World& world, const WorldState& state);
+/// Of the springs and force tables of joints.
+double springEnergy_J(const World& world, const WorldState& state);
 
 }  // namespace hl

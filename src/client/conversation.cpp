@@ -84,6 +84,13 @@ void Conversation::keepSamples(std::size_t most) {
   if (!ended_) link_->send(std::move(message));
 }
 
+void Conversation::keepContactReports(bool wanted) {
+  contact_reports_.keep(wanted);
+  proto::ClientMessage message;
+  message.mutable_contact_report_request()->set_wanted(wanted);
+  if (!ended_) link_->send(std::move(message));
+}
+
 void Conversation::takeRefusal(const proto::Refusal& refusal, ErrorState& errors) {
   ++refusals_;
   outbox_.refused(refusal.frame());
@@ -107,6 +114,8 @@ void Conversation::take(proto::ServerReply& reply, ErrorState& errors, EventQueu
       return view_.take(std::move(*reply.mutable_state()));
     case proto::ServerReply::kEvent:
       return events.push(reply.event());
+    case proto::ServerReply::kContactReport:
+      return contact_reports_.add(reply.contact_report());
     case proto::ServerReply::kWelcome:  // answered once, by open()
     case proto::ServerReply::BODY_NOT_SET:
       return;

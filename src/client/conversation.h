@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "client/contact_reports.h"
 #include "client/draft.h"
 #include "client/error_state.h"
 #include "client/event_queue.h"
@@ -40,6 +41,8 @@ class Conversation {
   /// Asks for samples where there are to be some; 0: none.
   void keepSamples(std::size_t most);
   SampleList& samples() { return samples_; }
+  void keepContactReports(bool wanted);
+  ContactReports& contactReports() { return contact_reports_; }
   /// Seconds of Frame.interval_s for the frames to come; empty: left to the server.
   void setInterval(std::optional<double> interval_s) { interval_s_ = interval_s; }
 
@@ -58,6 +61,7 @@ class Conversation {
   ServerView view_;
   Outbox outbox_;
   SampleList samples_;
+  ContactReports contact_reports_;
   std::optional<double> interval_s_;
   std::optional<double> stiffness_N_m_;
   std::uint64_t refusals_ = 0;

@@ -23,8 +23,8 @@ void mergeNumbered(std::map<HLuint, Definition>& defined, std::set<HLuint>& dele
 }  // namespace
 
 bool Draft::isEmpty() const {
-  return !world && objects.empty() && deleted_objects.empty() && moved.empty() && textures.empty() &&
-         deleted_textures.empty();
+  return !world && objects.empty() && deleted_objects.empty() && moved.empty() && compliances.empty() &&
+         textures.empty() && deleted_textures.empty();
 }
 
 void Draft::move(VertexUpdate update) {
@@ -42,9 +42,13 @@ void Draft::forgetMoved(HLuint object) {
 }
 
 void Draft::merge(Draft&& later) {
-  for (const HLuint object : later.deleted_objects) forgetMoved(object);
+  for (const HLuint object : later.deleted_objects) {
+    forgetMoved(object);
+    forgetCompliance(object);
+  }
   for (const auto& [object, items] : later.objects) forgetMoved(object);
   for (VertexUpdate& update : later.moved) move(std::move(update));
+  for (const auto& [object, compliance] : later.compliances) compliances[object] = compliance;
   if (later.world) world = std::move(later.world);
   mergeNumbered(objects, deleted_objects, std::move(later.objects), later.deleted_objects);
   mergeNumbered(textures, deleted_textures, std::move(later.textures), later.deleted_textures);

@@ -3,6 +3,7 @@
 
 #include <hl/hl_types.h>
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -21,19 +22,29 @@ struct VertexUpdate {
   Vertices vertices;  ///< without texture coordinates; without normals: those stay
 };
 
+/// How an object yields, and for which force on the hand its mesh was computed. World axes.
+inline constexpr double kMaxToldCompliance = 1e9;  // m/N and N: what a server takes
+struct ObjectCompliance {
+  double normal_m_N = 0, tangential_m_N = 0;
+  std::array<double, 3> computed_for_N{};
+};
+
 struct Draft {
-  std::optional<ItemList> world;       ///< absent: the calls stay as they are
-  std::map<HLuint, ItemList> objects;  ///< new or overwritten
-  std::set<HLuint> deleted_objects;    ///< in none of `objects`
-  std::vector<VertexUpdate> moved;     ///< of objects that are defined, after all definitions
-  std::map<HLuint, Texture> textures;  ///< new or overwritten; all with images
-  std::set<HLuint> deleted_textures;   ///< in none of `textures`
+  std::optional<ItemList> world;                   ///< absent: the calls stay as they are
+  std::map<HLuint, ItemList> objects;              ///< new or overwritten
+  std::set<HLuint> deleted_objects;                ///< in none of `objects`
+  std::vector<VertexUpdate> moved;                 ///< of objects that are defined, after all definitions
+  std::map<HLuint, ObjectCompliance> compliances;  ///< of objects that are defined
+  std::map<HLuint, Texture> textures;              ///< new or overwritten; all with images
+  std::set<HLuint> deleted_textures;               ///< in none of `textures`
 
   bool isEmpty() const;
   /// Forgets an earlier update that it covers, so that a draft that waits long does not grow.
   void move(VertexUpdate update);
   /// The object is another one now, or none.
   void forgetMoved(HLuint object);
+  /// The object is none now.
+  void forgetCompliance(HLuint object) { compliances.erase(object); }
   /// As if both frames were shown at the same moment.
   void merge(Draft&& later);
 };

@@ -66,6 +66,16 @@ void fillTexture(HLuint number, Texture&& texture, proto::TextureImage& out) {
   texels.set_values(std::move(texture.texels));
 }
 
+void fillCompliance(HLuint object, const ObjectCompliance& compliance, proto::Compliance& out) {
+  out.set_object(object);
+  out.set_normal_m_n(compliance.normal_m_N);
+  out.set_tangential_m_n(compliance.tangential_m_N);
+  proto::Vec3& force_N = *out.mutable_computed_for_n();
+  force_N.set_x(compliance.computed_for_N[0]);
+  force_N.set_y(compliance.computed_for_N[1]);
+  force_N.set_z(compliance.computed_for_N[2]);
+}
+
 // Turns one draft into messages, counting what goes into the frame itself and what goes ahead.
 class Builder {
  public:
@@ -87,6 +97,8 @@ class Builder {
       for (Item& item : items.items()) fillItem(std::move(item), *definition.add_items());
     }
     for (VertexUpdate& update : draft.moved) fillUpdate(std::move(update), *frame.add_moved());
+    for (const auto& [object, compliance] : draft.compliances)
+      fillCompliance(object, compliance, *frame.add_compliances());
     for (const HLuint object : draft.deleted_objects) frame.add_deleted_objects(object);
     if (draft.world) {
       proto::World& world = *frame.mutable_world();

@@ -1,6 +1,9 @@
 // Proxy, workspace, spring, hand: settings of the device, sent at once; and the rate of states and the events.
 #include <hl/hl.h>
 
+#include <algorithm>
+#include <cstddef>
+
 #include "client/call.h"
 
 using hl::client::call;
@@ -42,6 +45,34 @@ void setProxy(const char* function, HLenum parameter, double value) {
     requirePositive(value);
     settings.set_proxy_radius(value);
   });
+}
+
+// The vertices of an item by the numbers that hlUpdateVertices takes, where the object is this context's.
+HLcontactforce contactForceOf(const HLcontext& context, const hl::proto::PressedPoint& in) {
+  HLcontactforce out{};
+  std::size_t before = 0;
+  const bool own = in.session() == context.conversation.view().welcome().session();
+  if (own && context.objects.isDefined(in.object())) {
+    for (const hl::client::ItemVertices& item : context.objects.vertices(in.object()))
+      if (item.item < in.item()) before += item.count;
+  }
+  const int count = std::min({in.vertices_size(), in.weights_size(), 3});
+  for (int i = 0; i < count; ++i) {
+    out.vertices[i] = in.vertices(i) + static_cast<HLuint>(before);
+    out.weights[i] = in.weights(i);
+  }
+  out.vertex_count = static_cast<HLuint>(count);
+  out.object = in.object();
+  out.name = in.name();
+  out.session = in.session();
+  const auto write = [](const hl::proto::Vec3& v, HLdouble* to) {
+    to[0] = v.x();
+    to[1] = v.y();
+    to[2] = v.z();
+  };
+  write(in.point(), out.point);
+  write(in.force_n(), out.force);
+  return out;
 }
 
 }  // namespace
@@ -101,6 +132,21 @@ HLsizei hlTakeSamples(HLsizei most, HLsample* samples) {
   return callOr<HLsizei>(0, __func__, When::kOutside, [&](HLcontext& context) {
     requireList(most, samples);
     return static_cast<HLsizei>(context.conversation.samples().take(static_cast<std::size_t>(most), samples));
+  });
+}
+
+void hlKeepContactReport(HLboolean wanted) {
+  call(__func__, [&](HLcontext& context) { context.conversation.keepContactReports(wanted != HL_FALSE); });
+}
+
+HLsizei hlTakeContactReport(HLsizei most, HLcontactforce* contacts, HLcontactreport* report) {
+  return callOr<HLsizei>(0, __func__, When::kOutside, [&](HLcontext& context) {
+    requireList(most, contacts);
+    const auto taken = context.conversation.contactReports().take(context.conversation.view().welcome().session());
+    if (report != nullptr) *report = taken.report;
+    const std::size_t count = std::min(taken.points.size(), static_cast<std::size_t>(most));
+    for (std::size_t i = 0; i < count; ++i) contacts[i] = contactForceOf(context, taken.points[i]);
+    return static_cast<HLsizei>(count);
   });
 }
 

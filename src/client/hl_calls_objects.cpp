@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -117,6 +118,7 @@ void hlDeleteObjects(HLsizei n, const HLuint* objects) {
       if (!context.objects.remove(objects[i])) continue;
       context.frame.objects.erase(objects[i]);
       context.frame.forgetMoved(objects[i]);
+      context.frame.forgetCompliance(objects[i]);
       context.frame.deleted_objects.insert(objects[i]);
     }
   });
@@ -130,6 +132,21 @@ void hlUpdateVertices(HLuint object, HLint first, HLsizei count, const HLdouble*
     auto updates =
         updatesOf(context, object, static_cast<std::size_t>(first), static_cast<std::size_t>(count), vertices, normals);
     for (VertexUpdate& update : updates) context.frame.move(std::move(update));
+  });
+}
+
+void hlCompliance(HLuint object, HLdouble normal, HLdouble tangential, const HLdouble* force) {
+  call(__func__, When::kNotInDefinition, [&](HLcontext& context) {
+    hl::client::ObjectCompliance compliance{normal, tangential, context.conversation.contactReports().forceOf(object)};
+    if (force != nullptr) std::copy_n(force, 3, compliance.computed_for_N.begin());
+    const auto [x, y, z] = compliance.computed_for_N;
+    hl::client::requireFinite(normal, tangential);
+    hl::client::requireFinite(x, y, z);
+    if (normal < 0 || tangential < 0) throw Fault(HL_INVALID_VALUE, "a compliance must not be negative");
+    if (std::max({normal, tangential, std::abs(x), std::abs(y), std::abs(z)}) > hl::client::kMaxToldCompliance)
+      throw Fault(HL_INVALID_VALUE, "the numbers must be at most 1e9");
+    if (!context.objects.isDefined(object)) throw Fault(HL_INVALID_VALUE, "the object is not defined");
+    context.frame.compliances[object] = compliance;
   });
 }
 

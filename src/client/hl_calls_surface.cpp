@@ -14,7 +14,9 @@ namespace {
 void material(const char* function, HLenum quantity, double value) {
   call(function, [&](HLcontext& context) {
     const auto number = hl::client::numberOf(quantity);
-    if (!number) throw Fault(HL_INVALID_ENUM, "the quantity must be one of HL_STIFFNESS .. HL_PRESLIDING, HL_ADHESION");
+    if (!number)
+      throw Fault(HL_INVALID_ENUM,
+                  "the quantity must be one of HL_STIFFNESS .. HL_PRESLIDING, HL_ADHESION, HL_COMPLIANCE");
     hl::client::requireInRange(quantity, value);
     context.draw.attributes.now.surface.quantities[*number] = value;
   });

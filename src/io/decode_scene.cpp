@@ -13,6 +13,9 @@ namespace hl {
 
 namespace {
 
+// Of what acts along a joint's coordinate: m, rad, N, N m and what is made of them.
+constexpr double kMostAlong = 1e9;
+
 constexpr std::uint32_t kDefaultSize = 64;
 
 const google::protobuf::FieldDescriptor& fieldOf(const google::protobuf::Message& message, const char* name) {
@@ -136,6 +139,81 @@ SurfaceChange SceneDecoder::surface(const proto::Material& in, const std::string
     slot = std::move(use);
   }
   return change;
+}
+
+BodySpec SceneDecoder::body(const proto::Body& in, const std::string& where) const {
+  constexpr double kMostMass_kg = 1e9, kLeastMass_kg = 1e-9, kMostDensity_kg_m3 = 1e6, kMostFriction = 1e3;
+  constexpr double kMostSpeed_m_s = 100, kMostSpin_rad_s = 1000;
+  BodySpec spec;
+  spec.fixed = in.fixed();
+  if (in.has_mass_kg()) spec.mass_kg = checked(in.mass_kg(), kLeastMass_kg, kMostMass_kg, where + ".massKg");
+  if (in.has_density_kg_m3())
+    spec.density_kg_m3 =
+        checked(in.density_kg_m3(), 1 / kMostDensity_kg_m3, kMostDensity_kg_m3, where + ".densityKgM3");
+  if (!proto::BodyShape_IsValid(in.shape())) fail(where + ".shape", where + ".shape is none that HL knows");
+  spec.shape = static_cast<BodyShape>(in.shape());
+  BodySurface& surface = spec.surface;
+  if (in.has_static_friction())
+    surface.static_friction = checked(in.static_friction(), 0, kMostFriction, where + ".staticFriction");
+  if (in.has_dynamic_friction())
+    surface.dynamic_friction = checked(in.dynamic_friction(), 0, kMostFriction, where + ".dynamicFriction");
+  if (!in.has_static_friction() && in.has_dynamic_friction()) surface.static_friction = surface.dynamic_friction;
+  if (!in.has_dynamic_friction() && in.has_static_friction()) surface.dynamic_friction = surface.static_friction;
+  if (surface.static_friction < surface.dynamic_friction)
+    fail(where + ".staticFriction", where + ".staticFriction must not be less than dynamicFriction");
+  if (in.has_restitution()) surface.restitution = checked(in.restitution(), 0, 1, where + ".restitution");
+  spec.velocity_m_s = checked(in.velocity_m_s(), kMostSpeed_m_s, where + ".velocityMS");
+  spec.spin_rad_s = checked(in.spin_rad_s(), kMostSpin_rad_s, where + ".spinRadS");
+  return spec;
+}
+
+ForceTable SceneDecoder::forceTable(const proto::ForceTable& in, const std::string& where) const {
+  constexpr int kMostRows = 256;
+  ForceTable table;
+  if (in.position_size() != in.force_size())
+    fail(where, where + ": a force table must have as many forces as positions");
+  if (in.position_size() > kMostRows) fail(where, where + ": a force table has at most 256 rows");
+  for (int i = 0; i < in.position_size(); ++i) {
+    table.position.push_back(checked(in.position(i), -kMostAlong, kMostAlong, pathOf(where + ".position", i)));
+    table.force.push_back(checked(in.force(i), -kMostAlong, kMostAlong, pathOf(where + ".force", i)));
+    if (i > 0 && !(in.position(i) > in.position(i - 1)))
+      fail(pathOf(where + ".position", i), where + ": the positions of a force table must increase");
+  }
+  return table;
+}
+
+JointForces SceneDecoder::jointForces(const proto::Joint& in, const std::string& where) const {
+  JointForces along;
+  if (in.has_low()) along.low = checked(in.low(), -kMostAlong, kMostAlong, where + ".low");
+  if (in.has_high()) along.high = checked(in.high(), -kMostAlong, kMostAlong, where + ".high");
+  if (along.low > along.high) fail(where + ".low", where + ".low must not be above high");
+  along.rest = checked(in.rest(), -kMostAlong, kMostAlong, where + ".rest");
+  along.spring = checked(in.spring(), 0, kMostAlong, where + ".spring");
+  along.damping = checked(in.damping(), 0, kMostAlong, where + ".damping");
+  along.friction = checked(in.friction(), 0, kMostAlong, where + ".friction");
+  along.table = forceTable(in.table(), where + ".table");
+  return along;
+}
+
+JointSpec SceneDecoder::joint(const proto::Joint& in, const std::string& where) const {
+  constexpr double kMostPlace_m = 1e6;
+  JointSpec spec;
+  spec.name = in.name().empty() ? where : in.name();
+  if (!proto::JointKind_IsValid(in.kind())) fail(where + ".kind", where + ".kind is none that HL knows");
+  spec.kind = static_cast<JointKind>(in.kind());
+  spec.anchor_W = checked(in.anchor(), kMostPlace_m, where + ".anchor");
+  spec.anchor_b_W = checked(in.anchor_b(), kMostPlace_m, where + ".anchorB");
+  const bool has_axis = spec.kind == JointKind::kHinge || spec.kind == JointKind::kSlider;
+  if (has_axis) spec.axis_W = checked(in.axis(), kMostPlace_m, where + ".axis");
+  if (has_axis && !(spec.axis_W.norm() > 0)) fail(where + ".axis", where + ": a hinge or slider needs an axis");
+  spec.along = jointForces(in, where);
+  spec.collide = in.collide();
+  return spec;
+}
+
+Vec3 SceneDecoder::checked(const proto::Vec3& value, double most, const std::string& where) const {
+  return {checked(value.x(), -most, most, where + ".x"), checked(value.y(), -most, most, where + ".y"),
+          checked(value.z(), -most, most, where + ".z")};
 }
 
 void SceneDecoder::setReading(const proto::TextureImage& in, Texture& texture, const std::string& where) const {

@@ -7,6 +7,8 @@
 #include <functional>
 #include <string>
 
+#include "scene/body_spec.h"
+#include "scene/joint_spec.h"
 #include "scene/model.h"
 #include "scene/surface_change.h"
 
@@ -24,14 +26,21 @@ class SceneDecoder {
   SurfaceChange surface(const proto::Material& in, const std::string& where) const;
   /// Procedural textures and texels of at most `most_texels`; a file is refused.
   Texture texture(const proto::TextureImage& in, std::size_t most_texels, const std::string& where) const;
+  BodySpec body(const proto::Body& in, const std::string& where) const;
+  /// Without its bodies, whose names are the caller's.
+  JointSpec joint(const proto::Joint& in, const std::string& where) const;
   /// Sets how a texture is read, as the message says.
   void setReading(const proto::TextureImage& in, Texture& texture, const std::string& where) const;
 
   [[noreturn]] void fail(const std::string& where, const std::string& message) const;
   /// `value`, when it is in least..most; NaN never is.
   double checked(double value, double least, double most, const std::string& where) const;
+  /// The same for each coordinate.
+  Vec3 checked(const proto::Vec3& value, double most, const std::string& where) const;
 
  private:
+  JointForces jointForces(const proto::Joint& in, const std::string& where) const;
+  ForceTable forceTable(const proto::ForceTable& in, const std::string& where) const;
   NamedTextureUse textureUse(const proto::MaterialTexture& in, const std::string& where) const;
   void addVertices(Model& model, const proto::Primitives& in, const std::string& where) const;
   void addElements(Model& model, const proto::Primitives& in, const std::string& where) const;

@@ -8,9 +8,9 @@
 
 namespace hl {
 
-Model loadScene(const std::string& spec, const LoadOptions& options) {
+SceneModel loadScene(const std::string& spec, const LoadOptions& options) {
   if (isSceneFile(spec)) return loadSceneFile(spec, options);
-  if (isBuiltinScene(spec)) return makeBuiltinScene(spec);
+  if (isBuiltinScene(spec)) return makeBuiltinWorld(spec);
   const bool looks_like_a_file = spec.find_first_of("./") != std::string::npos || std::filesystem::exists(spec);
   if (!looks_like_a_file) return makeBuiltinScene(spec);  // throws, with the list
   return loadModel(spec, options);

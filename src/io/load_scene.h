@@ -4,11 +4,11 @@
 #include <string>
 
 #include "io/load_model.h"
-#include "scene/model.h"
+#include "scene/scene_model.h"
 
 namespace hl {
 
 /// Throws hl::Error, one line.
-Model loadScene(const std::string& spec, const LoadOptions& options = {});
+SceneModel loadScene(const std::string& spec, const LoadOptions& options = {});
 
 }  // namespace hl

@@ -14,11 +14,12 @@
 #include <utility>
 
 #include "base/error.h"
+#include "bodies/scene_world.h"
 #include "builtin.h"
 #include "io/decode_scene.h"
 #include "io/json_lines.h"
 #include "io/load_image.h"
-#include "io/scene_builder.h"
+#include "scene/append_part.h"
 
 namespace hl {
 
@@ -29,6 +30,8 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{64} << 20;
 constexpr std::size_t kMaxFileTexels = std::size_t{8192} * 8192;
 constexpr int kMaxObjects = 60'000;  // materials are counted in 16 bits
+constexpr std::size_t kMostBodies = 1000;
+constexpr double kMostGravity_m_s2 = 1000;
 constexpr const char* kAlone = "names another file, and this one comes alone";
 
 std::string readText(const std::string& path) {
@@ -56,7 +59,7 @@ class SceneFile {
     parse();
   }
 
-  Model build();
+  SceneModel build();
 
  private:
   // Names from the file may hold anything; the message stays one line.
@@ -72,6 +75,12 @@ class SceneFile {
   Model shapeOf(const proto::SceneObject& object, const std::string& where);
   Model fileModel(const std::string& name, const std::string& where);
   Placement placementOf(const proto::Transform& in, const std::string& where) const;
+  Pose poseOf(const proto::Transform& in, const std::string& where) const;
+  void addAtRest(Model part, const proto::SceneObject& object, const std::string& where, Model& whole) const;
+  SceneBody bodyOf(Model part, const proto::SceneObject& object, const std::string& where, const Model& whole) const;
+  void checkBodies(const SceneModel& scene) const;
+  std::uint64_t bodyNamed(const std::string& name, const SceneModel& scene, const std::string& where) const;
+  void addJoints(SceneModel& scene) const;
 
   const std::string path_;
   const std::string place_;  // what stands before the line's number in errors
@@ -190,52 +199,140 @@ Model SceneFile::shapeOf(const proto::SceneObject& object, const std::string& wh
   fail(where, where + ": an object needs a file, a builtin or primitives");
 }
 
-Placement SceneFile::placementOf(const proto::Transform& in, const std::string& where) const {
-  Placement placement;
-  // A factor that is left out reads as 0, and 0 itself means nothing: both are 1.
+// A factor that is left out reads as 0, and 0 itself means nothing: both are 1.
+Placement scaleOf(const proto::Transform& in) {
   const Vec3 scale = vecOf(in.scale());
-  placement.linear = Vec3((scale.array() == 0).select(1.0, scale)).asDiagonal();
+  return {(scale.array() == 0).select(1.0, scale).matrix().asDiagonal(), Vec3::Zero()};
+}
+
+Pose SceneFile::poseOf(const proto::Transform& in, const std::string& where) const {
+  Pose pose;
   if (in.degrees() != 0) {
     const Vec3 axis = vecOf(in.axis());
     if (!(axis.norm() > 0)) fail(where + ".axis", where + ".axis must not be zero when degrees are given");
-    placement.linear = Eigen::AngleAxisd(in.degrees() * M_PI / 180, axis.normalized()) * placement.linear;
+    pose.rotation = Eigen::AngleAxisd(in.degrees() * M_PI / 180, axis.normalized()).toRotationMatrix();
   }
+  pose.origin = vecOf(in.translate());
+  return pose;
+}
+
+Placement SceneFile::placementOf(const proto::Transform& in, const std::string& where) const {
+  Placement placement = scaleOf(in);
+  const Pose pose = poseOf(in, where);
+  if (in.degrees() != 0) placement.linear = pose.rotation * placement.linear;
   if (!(std::abs(placement.linear.determinant()) > 0)) fail(where + ".scale", where + ".scale is too small");
-  placement.offset = vecOf(in.translate());
+  placement.offset = pose.origin;
   return placement;
 }
 
-Model SceneFile::build() {
+void SceneFile::addAtRest(Model part, const proto::SceneObject& object, const std::string& where, Model& whole) const {
+  placeModel(part, placementOf(object.transform(), where + ".transform"));
+  whole.materials.push_back(materialOf(object.material(), where + ".material"));
+  appendPart(whole, part, static_cast<std::uint16_t>(whole.materials.size() - 1));
+  for (const std::string& warning : part.warnings) whole.warnings.push_back(object.name() + ": " + warning);
+}
+
+SceneBody SceneFile::bodyOf(Model part, const proto::SceneObject& object, const std::string& where,
+                            const Model& whole) const {
+  SceneBody body;
+  body.name = object.name().empty() ? where : object.name();
+  placementOf(object.transform(), where + ".transform");  // refuses what flattens it
+  placeModel(part, scaleOf(object.transform()));
+  body.pose = poseOf(object.transform(), where + ".transform");
+  body.spec = decoder_.body(object.body(), where + ".body");
+  body.model = std::move(part);
+  body.model.materials.assign(1, materialOf(object.material(), where + ".material"));
+  for (auto* list : {&body.model.triangle_materials, &body.model.segment_materials, &body.model.point_materials})
+    list->clear();
+  body.model.textures.clear();
+  for (TextureUse& use : body.model.materials.front().textures) {
+    if (!use.used()) continue;
+    body.model.textures.push_back(whole.textures[use.texture]);
+    use.texture = static_cast<std::uint32_t>(body.model.textures.size() - 1);
+  }
+  return body;
+}
+
+// Bodies are the last thing that is checked, as shape and mass are those of the final size.
+void SceneFile::checkBodies(const SceneModel& scene) const {
+  if (scene.bodies.size() > kMostBodies)
+    fail("objects", fmt::format("there are {} bodies, and at most {} can move", scene.bodies.size(), kMostBodies));
+  std::size_t body = 0;
+  for (int i = 0; i < scene_.objects_size(); ++i) {
+    if (!scene_.objects(i).has_body()) continue;
+    const SceneBody& one = scene.bodies[body++];
+    const std::string where = pathOf("objects", i) + ".body";
+    try {
+      if (!one.spec.fixed) hl::bodyOf(one.model, one.spec);
+    } catch (const Error& error) {
+      fail(where, where + ": " + error.what());
+    }
+  }
+}
+
+// Numbers from 1, as a scene's joints have them.
+std::uint64_t SceneFile::bodyNamed(const std::string& name, const SceneModel& scene, const std::string& where) const {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (scene.bodies[i].name == name) return i + 1;
+  }
+  fail(where, where + ": there is no body '" + name + "' in this scene");
+}
+
+void SceneFile::addJoints(SceneModel& scene) const {
+  constexpr int kMostJoints = 1000;
+  if (scene_.joints_size() > kMostJoints) fail("joints", "there are more than 1000 joints in it");
+  for (int i = 0; i < scene_.joints_size(); ++i) {
+    const proto::Joint& in = scene_.joints(i);
+    const std::string where = pathOf("joints", i);
+    JointSpec joint = decoder_.joint(in, where);
+    joint.body_a = bodyNamed(in.body_a(), scene, where + ".bodyA");
+    if (!in.body_b().empty()) joint.body_b = bodyNamed(in.body_b(), scene, where + ".bodyB");
+    if (joint.body_a == joint.body_b) fail(where, where + " joins a body to itself");
+    scene.mechanics.joints.push_back(std::move(joint));
+  }
+}
+
+SceneModel SceneFile::build() {
   checkFinite(scene_, "");
   const double units = scene_.units() == 0 ? 1 : decoder_.checked(scene_.units(), 1e-9, 1e9, "units");
   if (scene_.objects_size() > kMaxObjects) throw Error(path_ + ": there are more than 60000 objects in it");
-  Model whole;
+  SceneModel scene;
+  Model& whole = scene.model;
   whole.name = fs::path(path_).filename().string();
   whole.materials.clear();
   for (int i = 0; i < scene_.textures_size(); ++i) addTexture(whole, scene_.textures(i), pathOf("textures", i));
   if (scene_.objects_size() == 0) fail("objects", "there are no objects in it");
+  if (scene_.has_gravity_m_s2())
+    scene.mechanics.gravity_m_s2 = decoder_.checked(scene_.gravity_m_s2(), kMostGravity_m_s2, "gravityMS2");
+  std::size_t primitives = 0;
   for (int i = 0; i < scene_.objects_size(); ++i) {
     const proto::SceneObject& object = scene_.objects(i);
     const std::string where = pathOf("objects", i);
     const proto::Material& material = object.material();
     Model part = shapeOf(object, where);
-    if (whole.elements() + part.elements() > options_.most_primitives)
+    primitives += part.elements();
+    if (primitives > options_.most_primitives)
       fail(where, fmt::format("with {} the scene has more than {} primitives", where, options_.most_primitives));
-    placeModel(part, placementOf(object.transform(), where + ".transform"));
     repeatTexcoords(part, material.has_repeat_u() ? material.repeat_u() : 1,
                     material.has_repeat_v() ? material.repeat_v() : 1);
-    whole.materials.push_back(materialOf(material, where + ".material"));
-    appendPart(whole, part, static_cast<std::uint16_t>(whole.materials.size() - 1));
-    for (const std::string& warning : part.warnings) whole.warnings.push_back(object.name() + ": " + warning);
+    if (object.has_body())
+      scene.bodies.push_back(bodyOf(std::move(part), object, where, whole));
+    else
+      addAtRest(std::move(part), object, where, whole);
   }
-  scaleModel(whole, units);
-  return whole;
+  if (whole.materials.empty()) whole.materials.emplace_back();
+  addJoints(scene);
+  scaleModel(scene, units);
+  checkBodies(scene);
+  return scene;
 }
 
 }  // namespace
 
 bool isSceneFile(const std::string& path) { return path.ends_with(".hl.json"); }
 
-Model loadSceneFile(const std::string& path, const LoadOptions& options) { return SceneFile(path, options).build(); }
+SceneModel loadSceneFile(const std::string& path, const LoadOptions& options) {
+  return SceneFile(path, options).build();
+}
 
 }  // namespace hl

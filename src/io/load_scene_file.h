@@ -5,14 +5,15 @@
 #include <string>
 
 #include "io/load_model.h"
+#include "scene/scene_model.h"
 
 namespace hl {
 
 /// True for a name that ends in .hl.json.
 bool isSceneFile(const std::string& path);
 
-/// Reads the scene and everything it refers to, relative to its folder, as one model. Throws hl::Error
+/// Reads the scene and everything it refers to, relative to its folder. Throws hl::Error
 /// "FILE:LINE: ...". Like loadModel, call it before the program starts threads.
-Model loadSceneFile(const std::string& path, const LoadOptions& options = {});
+SceneModel loadSceneFile(const std::string& path, const LoadOptions& options = {});
 
 }  // namespace hl

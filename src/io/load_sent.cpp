@@ -22,7 +22,9 @@ Model parseSent(const std::string& ending, const std::function<void(double)>& re
   if (ending != kSceneEnding) return parseModel({pathOfSent(), ending, true}, report);
   LoadOptions options;
   options.alone = true;
-  return loadSceneFile(pathOfSent(), options);
+  SceneModel scene = loadSceneFile(pathOfSent(), options);
+  if (!scene.bodies.empty()) throw Error("a scene with bodies cannot be sent: give its name to hl touch");
+  return std::move(scene.model);
 }
 
 }  // namespace

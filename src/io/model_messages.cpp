@@ -160,7 +160,7 @@ void toProto(const Material& material, proto::Values& out) { toProto(valuesOf(ma
 
 Material materialOf(const proto::Values& in, std::size_t textures) {
   Material material;
-  readValues(in, "a material", material);
+  readValues(in, "a material", material, laterOfMaterial());
   checkRecorded(material);
   for (const TextureUse& use : material.textures) {
     if (use.used() && use.texture >= textures) throw Error("a material makes no sense: it has no such texture");

@@ -81,6 +81,31 @@ void requireFit(Fit fit, const std::string& what) {
   if (fit == Fit::kImpossible) throw Error(what + " makes no sense: it has a number that stands for nothing");
 }
 
+LaterValues laterOfMaterial() {
+  constexpr std::size_t kLast = kNumbers - 1;
+  const TextureUse none;
+  const std::size_t texture = kNumbers + 2 * kLast;
+  return {{{kLast, kQuantityInfo[kLast].otherwise}, {texture, none.low}, {texture + 1, none.high}},
+          {{1 + kLast, static_cast<std::int64_t>(none.texture)}}};
+}
+
+LaterValues laterOfOverride(std::size_t numbers_before, std::size_t integers_before) {
+  constexpr std::size_t kLast = kNumbers - 1;
+  return {{{numbers_before + kLast, 0}}, {{integers_before + kLast, 0}}};
+}
+
+Values withLater(Values values, const Values& now, const LaterValues& later) {
+  const bool without = values.numbers.size() + later.numbers.size() == now.numbers.size() &&
+                       values.integers.size() + later.integers.size() == now.integers.size();
+  if (!without) return values;
+  const auto insert = [](auto& list, const auto& added) {
+    for (const auto& [at, value] : added) list.insert(list.begin() + static_cast<std::ptrdiff_t>(at), value);
+  };
+  insert(values.numbers, later.numbers);
+  insert(values.integers, later.integers);
+  return values;
+}
+
 void checkTime(std::int64_t time_ns, const char* what) {
   if (time_ns < -kMaxTime_ns || time_ns > kMaxTime_ns)
     throw Error(fmt::format("{} is at {} ns, which no clock tells", what, time_ns));

@@ -4,8 +4,12 @@
 
 #include <recording.pb.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <initializer_list>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "base/values.h"
 #include "device/device.h"
@@ -40,6 +44,25 @@ void requireFit(Fit fit, const std::string& what);
 template <typename T>
 void readValues(const proto::Values& in, const std::string& what, T& value) {
   requireFit(setFrom(fromProto(in), value), what);
+}
+
+/// Numbers and integers of a structure, and where they stand in its lists, that recordings do not have which were made
+/// before the last quantity was added to base/quantities.def. By rising places.
+struct LaterValues {
+  std::vector<std::pair<std::size_t, double>> numbers;
+  std::vector<std::pair<std::size_t, std::int64_t>> integers;
+};
+/// Of a Material; of a structure with a MaterialOverride after so many numbers and integers.
+LaterValues laterOfMaterial();
+LaterValues laterOfOverride(std::size_t numbers_before, std::size_t integers_before);
+/// The values of a form without these, as if they had been there; others stay as they are. `now`: those of the form of
+/// today.
+Values withLater(Values values, const Values& now, const LaterValues& later);
+
+/// As readValues(), of a recording that may have been made before the last quantity was added.
+template <typename T>
+void readValues(const proto::Values& in, const std::string& what, T& value, const LaterValues& later) {
+  requireFit(setFrom(withLater(fromProto(in), valuesOf(value), later), value), what);
 }
 
 /// Times of a recording: no further from zero than this, so that twice the difference of two is a number of 64 bits.

@@ -15,7 +15,7 @@ namespace {
 Box boundsAt(const Snapshot& snapshot, std::int64_t now_ns) {
   Box bounds;
   for (const Instance& instance : snapshot.instances) {
-    const Box box = boxAt(instance.shape->bounds, instance.poses().at(now_ns));
+    const Box box = boxAt(instance.shape->bounds, instance.shownAt(now_ns));
     if (box.empty()) continue;
     bounds.extend(box.min);
     bounds.extend(box.max);
@@ -91,7 +91,7 @@ void PageScene::layOut(const PageScale& scale, std::int64_t now_ns) {
   for (std::size_t i = 0; i < shown_places_.size(); ++i) {
     const MeshPlacement& place = shown_places_[i];
     layout_->meshes.insert(place.mesh);
-    layout_->poses.push_back(shown_->instances[i].poses().at(now_ns));
+    layout_->poses.push_back(shown_->instances[i].shownAt(now_ns));
     appendPose(*out.mutable_poses(), layout_->poses.back());
     proto::PlacedMesh& placed = *out.add_placed();
     placed.set_mesh(place.mesh);
@@ -134,7 +134,7 @@ void PageScene::describe(proto::State& state, std::span<const ObjectName> touche
   if (!layout_) return;
   state.set_layout(layout_->number);
   for (std::size_t i = 0; i < layout_->poses.size(); ++i) {
-    const Pose pose = shown_->instances[i].poses().at(now_ns);
+    const Pose pose = shown_->instances[i].shownAt(now_ns);
     if (pose == layout_->poses[i]) continue;
     state.add_moved(static_cast<std::uint32_t>(i));
     appendPose(*state.mutable_moved_poses(), pose);

@@ -84,6 +84,20 @@ void setRecording(proto::PageRecording& out, const PageRecordingStatus& status) 
   out.set_max_bytes(PageRecordings::kMaxBytes);
 }
 
+void setBodies(proto::Bodies& out, const BodyView& bodies) {
+  out.set_count(bodies.bodies);
+  out.set_kinetic_j(bodies.kinetic_J);
+  out.set_gravity_j(bodies.gravity_J);
+  out.set_spring_j(bodies.spring_J);
+  out.set_by_hand_j(bodies.energy.by_hand_J);
+  out.set_contact_j(bodies.energy.contact_J);
+  out.set_friction_j(bodies.energy.friction_J);
+  out.set_joints_j(bodies.energy.joint_J());
+  out.set_solver_j(bodies.energy.solver_J);
+  out.set_lost_s(bodies.lost_s);
+  out.set_returned(bodies.returned);
+}
+
 std::string state(TouchSession& session, PageScene& scene, const PageRecordings* recordings) {
   ServoView servo;
   ProxyView proxy;
@@ -109,6 +123,7 @@ std::string state(TouchSession& session, PageScene& scene, const PageRecordings*
   out.set_slipping(proxy.slipping);
   toProto(servo.vibration, *out.mutable_vibration());
   out.set_buttons(servo.buttons);
+  if (proxy.bodies.bodies > 0) setBodies(*out.mutable_bodies(), proxy.bodies);
   if (recordings != nullptr) setRecording(*out.mutable_recording(), recordings->status());
   const std::int64_t now_ns = monotonicNow_ns();
   scene.follow(session.snapshot(), {session.radius_W(), session.workspace().world_per_device}, now_ns);

@@ -1,30 +1,12 @@
 #include "proxy/object_forces.h"
 
 #include <algorithm>
-#include <array>
+
+#include "proxy/yielding.h"
 
 namespace hl {
 
 namespace {
-
-using Shares = std::array<double, 3>;
-
-// Shares of the contacts in the force that is not along their normals; their sum is 1.
-Shares frictionShares(const TickReport& report) {
-  Shares shares{};
-  double sum = 0;
-  for (const bool by_friction : {true, false}) {
-    for (std::size_t i = 0; i < report.contacts.size(); ++i) {
-      const ProxyContact& contact = report.contacts[i];
-      shares[i] = std::max(0.0, contact.multiplier_m) * (by_friction ? contact.static_friction : 1.0);
-      sum += shares[i];
-    }
-    if (sum > 0) break;
-  }
-  for (std::size_t i = 0; i < report.contacts.size(); ++i)
-    shares[i] = sum > 0 ? shares[i] / sum : 1.0 / static_cast<double>(report.contacts.size());
-  return shares;
-}
 
 void add(ObjectForces& forces, std::uint64_t key, const Vec3& point, const Vec3& force_N) {
   const auto known = std::find_if(forces.begin(), forces.end(), [&](const ObjectForce& one) { return one.key == key; });
@@ -42,15 +24,10 @@ ObjectForces objectForces(const SceneAt& scene, const ProxySettings& settings, c
   ObjectForces forces;
   const double spring_N_m = settings.spring_N_m / settings.world_per_device;
   const Vec3 total_N = spring_N_m * (report.target - finger);
-  Vec3 tangential_N = total_N;
-  const auto normal_N = [&](const ProxyContact& contact) -> Vec3 {
-    return spring_N_m * state.stiffness * contact.multiplier_m * contact.normal;
-  };
-  for (const ProxyContact& contact : report.contacts) tangential_N -= normal_N(contact);
-  const Shares shares = frictionShares(report);
+  const ContactParts parts = partsOf(report.contacts, state.position + state.rest_offset_m - finger);
   for (std::size_t i = 0; i < report.contacts.size(); ++i) {
     const ProxyContact& contact = report.contacts[i];
-    add(forces, scene.instance(contact.primitive).key, contact.point, normal_N(contact) + shares[i] * tangential_N);
+    add(forces, scene.instance(contact.primitive).key, contact.point, spring_N_m * state.stiffness * parts[i]);
   }
   if (forces.empty() && total_N != Vec3::Zero()) add(forces, 0, state.position, total_N);
   return forces;

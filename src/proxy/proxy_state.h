@@ -7,6 +7,7 @@
 #include "base/fixed_vector.h"
 #include "base/ledger.h"
 #include "base/vec.h"
+#include "proxy/compliance_estimate.h"
 #include "proxy/proxy_cache.h"
 #include "proxy/start_search.h"
 #include "proxy/tolerances.h"
@@ -43,6 +44,18 @@ struct AdheringContact {
 };
 using AdheringContacts = FixedVector<AdheringContact, 3>;
 
+/// A contact of the last tick, as one of the springs that yield (yielding.h).
+struct YieldingContact {
+  std::uint64_t key = 0;        ///< of the instance
+  double stiffness = 1;         ///< s0
+  double material_m_N = 0;      ///< C of the material
+  double multiplier_m = 0;      ///< its weight in the mean stiffness
+  double along = 1;             ///< square of the cosine between its part of the pull and its normal
+  Vec3 part_m = Vec3::Zero();   ///< its part e_i of proxy - finger
+  Vec3 normal = Vec3::UnitY();  ///< from the surface to the proxy
+};
+using YieldingContacts = FixedVector<YieldingContact, 3>;
+
 /// World frame. Owned by the proxy loop.
 struct ProxyState {
   Vec3 position = Vec3::Zero();        ///< centre of the sphere
@@ -55,6 +68,10 @@ struct ProxyState {
   std::uint64_t snapshot = 0;          ///< number of the snapshot of the last tick; 0: none yet
   std::uint64_t carrier = 0;           ///< key of the object whose friction holds the proxy; 0: none
   AdheringContacts adhering{};         ///< adhesive contacts of the last tick (adhesion.h)
+  YieldingContacts yielding{};         ///< contacts of the last tick; empty if none of them yields
+  double yielding_stiffness = 1;       ///< s of these contacts
+  Vec3 rest_offset_m = Vec3::Zero();   ///< where the spring is fixed - proxy; 0 if nothing yields (yielding.h)
+  ComplianceEstimate estimate{};
   Ledger ledger{};
   int out_of_work = 0;  ///< consecutive ticks that ran out of work; more of them raise the limit (mostWork in tick.cpp)
   StartSearch start{};  ///< used while the proxy is not free

@@ -22,7 +22,10 @@ struct PushedProxy {
   /// Calls visit(number, instance) for the objects whose region of motion (Snapshot::reach) meets regionOf(way_end).
   template <typename Visit>
   void forEachNear(const Vec3& way_end, const Visit& visit) const {
-    snapshot.near.visitMet(regionOf(way_end), [&](std::uint32_t i) { visit(i, snapshot.instances[i]); });
+    const Box region = regionOf(way_end);
+    snapshot.near.visitMet(region, [&](std::uint32_t i) {
+      if (!snapshot.instances[i].elsewhere(region)) visit(i, snapshot.instances[i]);
+    });
   }
 
   const Snapshot& snapshot;

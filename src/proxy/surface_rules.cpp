@@ -241,7 +241,7 @@ double SurfaceRules::stiffnessAt(const SurfacePoint& place) const {
 ProxyContact SurfaceRules::describe(const ContactSet& set, const ActiveContact& active) const {
   const Vec3& point = set.contacts[active.contact].point;
   if (plain(active.place.primitive))
-    return {point, active.normal, active.multiplier_m, active.place.primitive, 1, 0, false};
+    return {point, active.normal, active.multiplier_m, active.place.primitive, 1, 0, false, active.place.weights};
   const Surface surface = surfaceOf(active.place.primitive);
   const SurfaceValue stiffness = surface.read(Quantity::kStiffness);
   const SurfaceFriction friction = SurfaceFriction::of(surface);
@@ -253,7 +253,8 @@ ProxyContact SurfaceRules::describe(const ContactSet& set, const ActiveContact& 
           active.place.primitive,
           std::clamp(stiffness.at(texcoord), 0.0, 1.0),
           std::max(0.0, friction.fixed.at(texcoord)),
-          friction.acts()};
+          friction.acts(),
+          active.place.weights};
 }
 
 }  // namespace hl

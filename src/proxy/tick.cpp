@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "proxy/curvature_step.h"
+#include "proxy/yielding.h"
 
 namespace hl {
 
@@ -191,7 +192,7 @@ void Tick::close(TickReport& report) {
     ProxyContact contact = rules_.describe(constraints_.set(), active);
     contact.multiplier_m /= input_.far.part(input_.finger - state_.position);
     report.contacts.push(contact);
-    surfaces.add(contact.multiplier_m, contact.stiffness);
+    surfaces.add(contact.multiplier_m, yieldingStiffness(input_.scene, input_.settings, state_.estimate, contact, gap));
     causes.stiffness_textured |= rules_.stiffnessTextured(active.place.primitive);
   }
   if (end == TickEnd::kOnItsWay) {

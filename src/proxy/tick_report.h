@@ -15,12 +15,14 @@ namespace hl {
 struct ProxyContact {
   Vec3 point;   ///< on the surface, nearest the proxy
   Vec3 normal;  ///< unit, from the surface to the proxy: the shading normal
-  /// Multiplier: proxy - finger = sum multiplier_m * normal. Times K s: the normal force. Negative: the surface pulls.
+  /// Multiplier: rest of the spring - finger = sum multiplier_m * normal. The rest is the proxy, unless a surface
+  /// yields (yielding.h). Times K s: the normal force. Negative: the surface pulls.
   double multiplier_m;
   PrimitiveId primitive;
-  double stiffness;        ///< s of the surface at this point, 0..1
-  double static_friction;  ///< mu_s
-  bool rough;              ///< friction or viscosity acts at this point
+  double stiffness;                        ///< s of the surface at this point, 0..1
+  double static_friction;                  ///< mu_s
+  bool rough;                              ///< friction or viscosity acts at this point
+  std::array<double, 3> weights{1, 0, 0};  ///< barycentric weights of `point` for the primitive's sorted vertices
 };
 
 /// Why a tick ended.
@@ -47,9 +49,10 @@ constexpr const char* nameOf(Ending ending) { return kEndingNames[static_cast<st
 
 struct TickReport {
   FixedVector<ProxyContact, 3> contacts;
-  Vec3 target = Vec3::Zero();  ///< where the servo pulls the finger: the proxy, softened by the surface stiffness
-  double injected_J = 0;       ///< change of the spring's energy by the tick: positive: added, negative: dissipated
-  double moved_J = 0;          ///< change of the spring's energy by moving objects before the tick
+  Vec3 target =
+      Vec3::Zero();  ///< where the servo pulls the finger: the rest of its spring, softened by the surface stiffness
+  double injected_J = 0;  ///< change of the spring's energy by the tick: positive: added, negative: dissipated
+  double moved_J = 0;     ///< change of the spring's energy by moving objects before the tick
   int iterations = 0;
   std::size_t work = 0;  ///< cost of the tick, in bounding volumes (work.h)
   int looks = 0;         ///< number of times that contacts were gathered

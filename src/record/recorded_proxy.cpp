@@ -25,6 +25,13 @@ struct MemoryValues {
   std::uint64_t restarts = 0;
 };
 
+// How the spring yields; the contacts are beside it.
+struct YieldingValues {
+  Vec3 rest_offset_m = Vec3::Zero();
+  double stiffness = 1;
+  ComplianceEstimate estimate;
+};
+
 constexpr double kMaxMemory = 1e12;  // joules, seconds, metres: far beyond any session
 
 void checkVector(const char* name, const Vec3& v) {
@@ -52,6 +59,48 @@ void checkMemory(const MemoryValues& in) {
                {"dissipated_J", in.ledger.dissipated_J, -kMaxMemory, kMaxMemory}});
   for (const double joules : in.ledger.by_cause_J)
     checkRanges("the memory of the proxy", {{"by_cause_J", joules, -kMaxMemory, kMaxMemory}});
+}
+
+void checkYielding(const YieldingContact& in) {
+  checkVector("part_m", in.part_m);
+  checkVector("normal", in.normal);
+  checkRanges("a contact that yields", {{"stiffness", in.stiffness, 0, 1},
+                                        {"material_m_N", in.material_m_N, 0, kMaxMemory},
+                                        {"multiplier_m", in.multiplier_m, -kMaxMemory, kMaxMemory},
+                                        {"along", in.along, 0, 1}});
+}
+
+void checkEstimate(const ComplianceEstimate& in) {
+  for (const Vec3* v : {&in.lift_m, &in.normal, &in.force_N}) checkVector("estimate", *v);
+  checkRanges("the estimate of the compliance", {{"compliance_m_N", in.compliance_m_N, 0, kMaxMemory},
+                                                 {"moved_m", in.moved_m, -kMaxMemory, kMaxMemory},
+                                                 {"sum_N", in.sum_N, -kMaxMemory, kMaxMemory},
+                                                 {"ticks", static_cast<double>(in.ticks), 0, kMaxMemory},
+                                                 {"frame_s", in.frame_s, 0, kMaxMemory}});
+  for (const double weight : in.weights) checkRanges("the estimate", {{"weights", weight, -kMaxMemory, kMaxMemory}});
+  for (std::size_t i = 0; i < ComplianceEstimate::kFrames; ++i) {
+    checkRanges("the estimate of the compliance", {{"moves_m", in.moves_m[i], -kMaxMemory, kMaxMemory},
+                                                   {"means_N", in.means_N[i], -kMaxMemory, kMaxMemory},
+                                                   {"lasts_N", in.lasts_N[i], -kMaxMemory, kMaxMemory}});
+  }
+}
+
+void readYielding(const proto::RecordedProxy& in, ProxyState& state) {
+  if (!in.has_yielding()) return;
+  YieldingValues values;
+  readValues(in.yielding(), "how the proxy's spring yields", values);
+  checkVector("rest_offset_m", values.rest_offset_m);
+  checkEstimate(values.estimate);
+  checkRanges("how the proxy's spring yields", {{"stiffness", values.stiffness, 0, 1}});
+  state.rest_offset_m = values.rest_offset_m;
+  state.yielding_stiffness = values.stiffness;
+  state.estimate = values.estimate;
+  for (const proto::Values& one : in.yielding_contacts()) {
+    YieldingContact contact;
+    readValues(one, "a contact that yields", contact);
+    checkYielding(contact);
+    if (!state.yielding.push(contact)) throw Error("the contacts that yield make no sense: there are too many");
+  }
 }
 
 AdheringContacts adheringOf(const proto::RecordedProxy& in) {
@@ -83,6 +132,9 @@ void toProto(const ProxyMemory& memory, proto::RecordedProxy& out) {
     add(*out.mutable_adhering(), contact.normal);
     out.add_adhering(contact.adhesion_N);
   }
+  toProto(valuesOf(YieldingValues{state.rest_offset_m, state.yielding_stiffness, state.estimate}),
+          *out.mutable_yielding());
+  for (const YieldingContact& contact : state.yielding) toProto(valuesOf(contact), *out.add_yielding_contacts());
 }
 
 ProxyMemory fromProto(const proto::RecordedProxy& in) {
@@ -101,6 +153,7 @@ ProxyMemory fromProto(const proto::RecordedProxy& in) {
   state.snapshot = values.snapshot;
   state.carrier = values.carrier;
   state.adhering = adheringOf(in);
+  readYielding(in, state);
   state.ledger = values.ledger;
   state.out_of_work = values.out_of_work;
   state.start = StartSearch(values.start);

@@ -23,6 +23,33 @@ struct Ways {
   Way earlier, last;
 };
 
+struct ComplianceWays {
+  ComplianceMotion::Way earlier, last;
+};
+
+void checkCompliance(const Compliance& compliance) {
+  checkRanges("a compliance", {{"normal_m_N", compliance.normal_m_N, 0, kMaxCompliance_m_N},
+                               {"tangential_m_N", compliance.tangential_m_N, 0, kMaxCompliance_m_N}});
+  for (int i = 0; i < 3; ++i) {
+    checkRanges("a compliance",
+                {{"computed_for_N", compliance.computed_for_N[i], -kMaxComputedForce_N, kMaxComputedForce_N}});
+  }
+}
+
+std::shared_ptr<const ComplianceMotion> complianceOf(const proto::RecordedInstance& in) {
+  if (!in.has_compliance()) return nullptr;
+  ComplianceWays ways;
+  readValues(in.compliance(), "a compliance", ways);
+  for (const ComplianceMotion::Way& way : {ways.earlier, ways.last}) {
+    checkCompliance(way.from);
+    checkCompliance(way.to);
+    checkTime(way.begin_ns, "the beginning of a compliance");
+    checkTime(way.end_ns, "the end of a compliance");
+    if (way.begin_ns > way.end_ns) throw Error("a compliance makes no sense: it ends before it begins");
+  }
+  return std::make_shared<const ComplianceMotion>(ways.earlier, ways.last);
+}
+
 void checkPose(const Pose& pose) {
   // Rotations are computed: to 1e-12, or so.
   constexpr double kTurned = 1e-6;
@@ -56,6 +83,10 @@ void encode(const Instance& instance, proto::RecordedInstance& out) {
   out.set_session(instance.session);
   out.set_object(instance.object);
   out.set_name(instance.name);
+  out.set_item(instance.item);
+  if (!instance.compliance) return;
+  const ComplianceWays yields{instance.compliance->earlier(), instance.compliance->last()};
+  toProto(valuesOf(yields), *out.mutable_compliance());
 }
 
 }  // namespace
@@ -164,6 +195,8 @@ std::shared_ptr<const Snapshot> SceneReader::scene(const proto::RecordedScene& i
     instances.push_back({shape->second, surfaces->second, Motion(ways.earlier.screw(), ways.last.screw()), placed.key(),
                          placed.session(), placed.object(), placed.name()});
     instances.back().mesh_motion = meshMotionOf(placed, *surfaces->second);
+    instances.back().compliance = complianceOf(placed);
+    instances.back().item = placed.item();
   }
   return makeSnapshot(std::move(instances), in.name(), in.number(), in.blend_ns());
 }

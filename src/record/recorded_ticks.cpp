@@ -91,7 +91,7 @@ std::vector<TickRecord> fromProto(const proto::ProxyTicks& in) {
   std::int64_t before_ns = 0;
   for (int i = 0, change = 0; i < in.time_ns_size(); ++i) {
     if (change < in.commands_size() && in.commands(change).at() == static_cast<std::uint32_t>(i)) {
-      readValues(in.commands(change++).values(), "what ticks are told", context);
+      readValues(in.commands(change++).values(), "what ticks are told", context, laterOfOverride(0, 0));
       checkRecorded(context);
     }
     if (i == in.time_ns_size() - 1 && change != in.commands_size()) throw Error(kTicksMisfit);

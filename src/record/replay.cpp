@@ -158,7 +158,8 @@ class ProxyReplay {
 ProxySettings proxySettingsOf(const proto::RecordingStart& start) {
   constexpr double kMaxPasses = 1e6;  // what a tick of a wrong file may cost
   ProxySettings settings;
-  readValues(start.proxy(), "the proxy", settings);
+  // Before the surfaces: radius, spring, period, scale; two caps, shading, ledger.
+  readValues(start.proxy(), "the proxy", settings, laterOfOverride(4, 4));
   settings.work_cap = kNoWorkCap;  // each tick says after how many looks it had used up its work
   checkRanges("the proxy", {{"iteration_cap", static_cast<double>(settings.iteration_cap), 1, kMaxPasses}});
   return settings;

@@ -103,7 +103,7 @@ class EditableScene::Flattening {
 
   void visit(const SceneItems& items, const Call& caller);
   void enter(const SceneItem& item, const Call& call);
-  void add(const SceneItem& item, const Call& call);
+  void add(const SceneItem& item, const Call& call, std::uint32_t number);
   std::shared_ptr<const Shape> shapeOf(const std::shared_ptr<const Shape>& shape, const Mat3& stretch);
   std::shared_ptr<const Surfaces> surfacesOf(const SurfaceChange& change);
 
@@ -121,7 +121,8 @@ class EditableScene::Flattening {
 // The n-th call of an object is identified with its n-th call in the last frame, and so is the n-th shape.
 void EditableScene::Flattening::visit(const SceneItems& items, const Call& caller) {
   std::map<std::uint32_t, std::uint64_t> occurrences;
-  for (const SceneItem& item : items) {
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const SceneItem& item = items[i];
     if (++visits_ > kVisitsPerInstance * scene_.limits_.instances)
       throw Error("there are too many calls in the world; the limit on objects in it is " +
                   std::to_string(scene_.limits_.instances));
@@ -129,7 +130,7 @@ void EditableScene::Flattening::visit(const SceneItems& items, const Call& calle
     const Call call{item.placement ? caller.placement * *item.placement : caller.placement,
                     item.surface ? item.surface->over(caller.surface) : caller.surface, caller.object,
                     item.name.value_or(caller.name), key};
-    item.shape ? add(item, call) : enter(item, call);
+    item.shape ? add(item, call, static_cast<std::uint32_t>(i)) : enter(item, call);
   }
 }
 
@@ -147,7 +148,7 @@ void EditableScene::Flattening::enter(const SceneItem& item, const Call& call) {
   path_.pop_back();
 }
 
-void EditableScene::Flattening::add(const SceneItem& item, const Call& call) {
+void EditableScene::Flattening::add(const SceneItem& item, const Call& call, std::uint32_t number) {
   if (item.shape->count() == 0) return;
   if (placed_.size() >= scene_.limits_.instances)
     throw Error("there are more than " + std::to_string(scene_.limits_.instances) + " objects in the world");
@@ -159,7 +160,10 @@ void EditableScene::Flattening::add(const SceneItem& item, const Call& call) {
   if (!pose.origin.allFinite() || !withinReach(box.min) || !withinReach(box.max))
     throw Error("an object lies farther than 1e9 m from the origin: nothing so far can be touched");
   memory_.take(bytesInWorld());
-  placed_.push_back({shape, surfacesOf(call.surface), pose, call.key, scene_.session_, call.object, call.name});
+  PlacedShape placed{shape, surfacesOf(call.surface), pose, call.key, scene_.session_, call.object, call.name, number};
+  const auto found = state_.compliances.find(call.object);
+  if (found != state_.compliances.end()) placed.compliance = found->second;
+  placed_.push_back(std::move(placed));
 }
 
 // The hierarchy of a new copy is refitted from that of the copy that it replaces, or else from that of the shape.
@@ -205,9 +209,15 @@ std::shared_ptr<const Surfaces> EditableScene::Flattening::surfacesOf(const Surf
 EditableScene::State EditableScene::after(SceneEdit edit) const {
   State next = state_;
   for (const std::string& name : edit.deleted_textures) next.textures.erase(name);
-  for (const std::uint32_t id : edit.deleted_objects) next.objects.erase(id);
+  for (const std::uint32_t id : edit.deleted_objects) {
+    next.objects.erase(id);
+    next.compliances.erase(id);
+  }
   for (auto& [name, texture] : edit.textures) next.textures[name] = std::move(texture);
   for (auto& [id, items] : edit.objects) next.objects[id] = std::move(items);
+  for (const auto& [id, compliance] : edit.compliances) {
+    if (next.objects.contains(id)) next.compliances[id] = compliance;
+  }
   if (edit.world) next.world = std::move(edit.world);
   return next;
 }
@@ -244,6 +254,7 @@ EditableScene::Next EditableScene::prepare(SceneEdit edit) const {
 void EditableScene::show(Next& next) noexcept {
   std::swap(state_.textures, next.state_.textures);
   std::swap(state_.objects, next.state_.objects);
+  std::swap(state_.compliances, next.state_.compliances);
   std::swap(state_.world, next.state_.world);
   std::swap(placed_, next.placed_);
   std::swap(stretched_, next.stretched_);
@@ -332,9 +343,28 @@ std::shared_ptr<const MeshMotion> meshMotionOf(const Instance& before, const Pla
   return withShare(std::make_shared<const MeshMotion>(std::move(motion)), std::move(own));
 }
 
+// In the time in which the mesh deforms, if it does. An object that was rigid before yields more and more.
+std::shared_ptr<const ComplianceMotion> complianceOf(const Instance& before, const PlacedShape& now,
+                                                     const MeshMotion* mesh, std::int64_t begin_ns,
+                                                     std::int64_t end_ns) {
+  if (!before.compliance && !now.compliance) return nullptr;
+  const Compliance to = now.compliance.value_or(Compliance{});
+  const bool deforms = mesh != nullptr && mesh->last().end_ns() > begin_ns;
+  if (before.compliance && before.compliance->last().to == to) {
+    const bool is_rigid = !now.compliance && before.compliance->last().end_ns <= begin_ns;
+    return is_rigid ? nullptr : before.compliance;
+  }
+  if (end_ns <= begin_ns) end_ns = begin_ns + kAbruptBlend_ns;
+  const std::int64_t from_ns = deforms ? std::max(begin_ns, mesh->last().begin_ns()) : begin_ns;
+  const ComplianceMotion so_far = before.compliance ? *before.compliance : ComplianceMotion(Compliance{});
+  return std::make_shared<const ComplianceMotion>(so_far.then(to, from_ns, deforms ? mesh->last().end_ns() : end_ns));
+}
+
 Instance follow(const PlacedShape& now, const Instance* before, std::int64_t begin_ns, std::int64_t end_ns,
                 const MemoryBudget& memory, Followed& all) {
   Instance instance{now.shape, now.surfaces, Motion(now.pose), now.key, now.session, now.object, now.name};
+  instance.item = now.item;
+  if (now.compliance) instance.compliance = std::make_shared<const ComplianceMotion>(*now.compliance);
   if (before == nullptr) return instance;
   if (end_ns > begin_ns) {
     const bool stays = before->motion.to() == now.pose;
@@ -347,6 +377,7 @@ Instance follow(const PlacedShape& now, const Instance* before, std::int64_t beg
     ++all.jumps;
     all.blend_ns = kAbruptBlend_ns;
   }
+  instance.compliance = complianceOf(*before, now, instance.mesh_motion.get(), begin_ns, end_ns);
   return instance;
 }
 

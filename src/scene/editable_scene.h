@@ -42,7 +42,8 @@ struct SceneEdit {
   std::vector<std::uint32_t> deleted_objects;
   std::map<std::string, std::shared_ptr<const Texture>> textures;
   std::map<std::uint32_t, std::shared_ptr<SceneItems>> objects;
-  std::shared_ptr<SceneItems> world;  ///< null: unchanged
+  std::map<std::uint32_t, Compliance> compliances;  ///< by object; kept until the object is deleted
+  std::shared_ptr<SceneItems> world;                ///< null: unchanged
 };
 
 /// Limits for the scene of one client.
@@ -81,6 +82,8 @@ struct PlacedShape {
   Pose pose;
   std::uint64_t key = 0;  ///< from the calls that lead to it: the same from frame to frame
   std::uint32_t session = 0, object = 0, name = 0;
+  std::uint32_t item = 0;                  ///< as in Instance
+  std::optional<Compliance> compliance{};  ///< of its object
 };
 
 /// The shapes in the world; shared by all readers.
@@ -93,6 +96,7 @@ class EditableScene {
   struct State {
     std::map<std::string, std::shared_ptr<const Texture>> textures;
     std::map<std::uint32_t, std::shared_ptr<const SceneItems>> objects;
+    std::map<std::uint32_t, Compliance> compliances;  // of objects that are there
     std::shared_ptr<const SceneItems> world = std::make_shared<SceneItems>();
   };
   /// The geometry number of a shape, and the stretch applied to it: the upper half of a symmetric matrix.

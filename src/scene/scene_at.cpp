@@ -99,6 +99,7 @@ bool SceneAt::nearest(const Vec3& point, PrimitiveId& primitive, ClosestPoint& a
   };
   snapshot_.near.visitMet(region, [&](std::uint32_t i) {
     const Instance& instance = snapshot_.instances[i];
+    if (instance.elsewhere(region)) return;
     const IndexAt index(instance, time_ns_, cost_);
     const Vec3 centre = instance.atWorld() ? point : instance.poses().at(time_ns_).toObject(point);
     index.nearest(centre, limit, [&](ElementId element, double) {
@@ -150,6 +151,7 @@ void SceneAt::primitivesWithin(const Vec3& centre, double distance,
   const Box region = around(centre, centre, distance + kBoxSlack * snapshot_.extent);
   snapshot_.near.visitMet(region, [&](std::uint32_t i) {
     const Instance& instance = snapshot_.instances[i];
+    if (instance.elsewhere(region)) return;
     const IndexAt index(instance, time_ns_, cost_);
     const auto read_one = [&](ElementId element) -> const Primitive& { return primitive({i, element}); };
     if (instance.atWorld()) {
@@ -193,6 +195,7 @@ bool SceneAt::firstOf(const Vec3& from, const Vec3& motion, double distance, con
   bool found = false;
   snapshot_.near.visitMet(region, [&](std::uint32_t i) {
     const Instance& instance = snapshot_.instances[i];
+    if (instance.elsewhere(region)) return;
     const bool at_world = instance.atWorld();
     const Pose pose = at_world ? Pose{} : instance.poses().at(time_ns_);
     const Vec3 from_O = at_world ? from : pose.toObject(from);

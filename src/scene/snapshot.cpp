@@ -24,6 +24,10 @@ Box reachOf(const Instance& instance) {
   return instance.poses().reach(object);
 }
 
+Pose finalPose(const Instance& instance) {
+  return instance.movesAsBody() ? instance.body->poses->shown() : instance.poses().to();
+}
+
 double largestCoordinate(const Box& box) {
   return box.empty() ? 0 : box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff();
 }
@@ -68,14 +72,23 @@ std::size_t memoryOf(const Snapshot& snapshot) {
   return bytes;
 }
 
+bool Snapshot::find(std::uint64_t key, std::uint32_t& number) const {
+  const auto found = std::lower_bound(instances.begin(), instances.end(), key,
+                                      [](const Instance& one, std::uint64_t wanted) { return one.key < wanted; });
+  if (found == instances.end() || found->key != key) return false;
+  number = static_cast<std::uint32_t>(found - instances.begin());
+  return true;
+}
+
 std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, std::string name, std::uint64_t number,
-                                             std::int64_t blend_ns) {
+                                             std::int64_t blend_ns, const Mechanics& mechanics) {
   static std::atomic<std::uint64_t> made{0};
   auto snapshot = std::make_shared<Snapshot>();
   snapshot->identity = ++made;
   snapshot->name = std::move(name);
   snapshot->number = number;
   snapshot->blend_ns = blend_ns;
+  snapshot->mechanics = mechanics;
   snapshot->instances = byKey(std::move(instances));
   for (Instance& instance : snapshot->instances) {
     instance.plain = allDefault(instance.surfaces->materials);
@@ -84,7 +97,7 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, st
       snapshot->deforms_until_ns = std::max(snapshot->deforms_until_ns, instance.mesh_motion->end_ns());
     }
     snapshot->reach.push_back(reachOf(instance));
-    const Box rest = boxAt(instance.shape->bounds, instance.poses().to());
+    const Box rest = boxAt(instance.shape->bounds, finalPose(instance));
     if (!rest.empty()) {
       snapshot->bounds.extend(rest.min);
       snapshot->bounds.extend(rest.max);

@@ -8,9 +8,12 @@
 #include <vector>
 
 #include "geometry/box_tree.h"
+#include "scene/compliance.h"
 #include "scene/material.h"
+#include "scene/mechanics.h"
 #include "scene/mesh_motion.h"
 #include "scene/motion.h"
+#include "scene/rigid_body.h"
 #include "scene/shape.h"
 #include "scene/texture.h"
 
@@ -35,9 +38,18 @@ struct Instance {
 
   /// Moves the instance in place of its client; null: none.
   std::shared_ptr<const PoseSource> driver{};
+  std::shared_ptr<const RigidBody> body{};  ///< null: it has no mass. Its poses are the driver, unless it is fixed
+  /// How it yields between the frames of a client that deforms it; null: its client has not told.
+  std::shared_ptr<const ComplianceMotion> compliance{};
+  std::uint32_t item = 0;  ///< index of its item in the object, or in the world if `object` is 0
 
-  /// Poses of the instance over time.
+  /// Poses of the instance over time. Of a body that moves: for the loop that ticks alone.
   const PoseSource& poses() const { return driver ? *driver : static_cast<const PoseSource&>(motion); }
+  bool movesAsBody() const { return body && body->poses; }
+  /// Whether it is a body that is not in `region` now, though it may be at another time. As poses().
+  bool elsewhere(const Box& region) const { return movesAsBody() && !body->poses->near().meets(region); }
+  /// Where to draw it. Any thread.
+  Pose shownAt(std::int64_t time_ns) const { return movesAsBody() ? body->poses->shown() : poses().at(time_ns); }
   /// Whether it is at rest with its object frame equal to the world frame.
   bool atWorld() const { return !driver && motion.identity(); }
   /// The transition of the mesh at this time, or null if the mesh is `shape`.
@@ -71,10 +83,13 @@ struct Snapshot {
   std::uint64_t identity = 0;  ///< unique among all snapshots of the process
   std::int64_t blend_ns = 0;   ///< of the force transition, if objects changed abruptly since the last one
   std::size_t primitives = 0;  ///< total over all instances
+  Mechanics mechanics;         ///< of the instances that are bodies
   std::string name;
   std::vector<std::string> warnings;
 
   const Shape& shape(std::size_t instance = 0) const { return *instances[instance].shape; }
+  /// The number of the instance with this key; false: there is none. RT-safe.
+  bool find(std::uint64_t key, std::uint32_t& number) const;
 };
 
 /// The surfaces described by the shape's own model.
@@ -85,7 +100,8 @@ std::size_t memoryOf(const Snapshot& snapshot);
 
 /// Allocates; never called by a real-time thread.
 std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, std::string name = {},
-                                             std::uint64_t number = 1, std::int64_t blend_ns = kAbruptBlend_ns);
+                                             std::uint64_t number = 1, std::int64_t blend_ns = kAbruptBlend_ns,
+                                             const Mechanics& mechanics = {});
 /// A scene of one model at its own coordinates: world and object frame are the same.
 std::shared_ptr<const Snapshot> makeSnapshot(Model model, HierarchyKind hierarchy = HierarchyKind::kBvh);
 

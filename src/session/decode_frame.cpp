@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "io/decode_scene.h"
-#include "io/scene_builder.h"
+#include "scene/append_part.h"
 
 namespace hl {
 
@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kMaxName_bytes = 256;  // of a texture: surfaces are copied, and their names with them
 constexpr std::size_t kMaxWarnings = 20;     // a frame may skip something in each of a million items
-constexpr std::size_t kDeleted_bytes = 96;   // of a name or number in the edit's lists
+constexpr std::size_t kListed_bytes = 128;   // of a name, number or compliance in the edit's lists
 constexpr std::size_t kMoved_bytes = 512;    // of one item whose vertices move
 
 void checkName(const std::string& name, const std::string& where) {
@@ -102,6 +102,7 @@ class FrameDecoder {
   void warn(const std::string& where, const std::string& what);
   void warnOfCalls();
   void addMoved();
+  void addCompliances();
   SceneItem& itemToMove(const proto::VertexUpdate& in, const std::string& where);
   void move(const proto::VertexUpdate& in, Model& model, const std::string& where);
   std::shared_ptr<const Shape> noted(std::shared_ptr<const Shape> shape, const std::string& where);
@@ -341,15 +342,37 @@ void FrameDecoder::addMoved() {
   }
 }
 
+// Of objects that are there when the frame is shown.
+void FrameDecoder::addCompliances() {
+  for (int i = 0; i < frame_.compliances_size(); ++i) {
+    const proto::Compliance& in = frame_.compliances(i);
+    const std::string where = pathOf("compliances", i);
+    if (in.object() == 0 || !isThere(in.object()))
+      throw Error(where + ": there is no object " + std::to_string(in.object()));
+    const auto force = [&](double value, const char* axis) {
+      return decoder_.checked(value, -kMaxComputedForce_N, kMaxComputedForce_N, where + ".computedForN." + axis);
+    };
+    const double normal_m_N = decoder_.checked(in.normal_m_n(), 0, kMaxCompliance_m_N, where + ".normalMN");
+    const double tangential_m_N =
+        in.has_tangential_m_n() ? decoder_.checked(in.tangential_m_n(), 0, kMaxCompliance_m_N, where + ".tangentialMN")
+                                : normal_m_N;
+    const proto::Vec3& f = in.computed_for_n();
+    const Compliance compliance{normal_m_N, tangential_m_N, {force(f.x(), "x"), force(f.y(), "y"), force(f.z(), "z")}};
+    if (!result_.edit.compliances.emplace(in.object(), compliance).second)
+      throw Error(where + ": object " + std::to_string(in.object()) + " is there twice");
+  }
+}
+
 DecodedFrame FrameDecoder::run() {
   countItems();
-  const int deleted = frame_.deleted_textures_size() + frame_.deleted_objects_size();
-  result_.memory.take(kDeleted_bytes * static_cast<std::uint64_t>(deleted));
+  const int listed = frame_.deleted_textures_size() + frame_.deleted_objects_size() + frame_.compliances_size();
+  result_.memory.take(kListed_bytes * static_cast<std::uint64_t>(listed));
   if (frame_.has_interval_s() && !(frame_.interval_s() >= 0)) throw Error("interval_s must not be below 0");
   addTextures();
   addObjects();
   warnOfCalls();
   addMoved();
+  addCompliances();
   if (more_warnings_ > 0)
     result_.warnings.push_back("and " + std::to_string(more_warnings_) + " more lines about what was skipped");
   return std::move(result_);

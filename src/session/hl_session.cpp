@@ -6,6 +6,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "session/contact_report.h"
 #include "session/message_forms.h"
 #include "session/state_messages.h"
 
@@ -91,7 +92,9 @@ void HlSession::receive(proto::ClientMessage message) {
     case proto::ClientMessage::kDevice:
       return setDevice(message.device());
     case proto::ClientMessage::kSampleRequest:
-      return wantSamples(message.sample_request().wanted());
+      return want(message.sample_request().wanted(), next_sample_);
+    case proto::ClientMessage::kContactReportRequest:
+      return want(message.contact_report_request().wanted(), next_contact_);
     case proto::ClientMessage::BODY_NOT_SET:
       return refuse("a message with nothing in it that this server knows");
   }
@@ -194,11 +197,11 @@ void HlSession::setStateRate(double rate_Hz) {
 }
 
 // From now on.
-void HlSession::wantSamples(bool wanted) {
+void HlSession::want(bool wanted, std::optional<std::uint64_t>& next) const {
   if (!wanted) {
-    next_sample_.reset();
-  } else if (!next_sample_) {
-    next_sample_ = world_.device(device_).moments().pushed();
+    next.reset();
+  } else if (!next) {
+    next = world_.device(device_).moments().pushed();
   }
 }
 
@@ -248,10 +251,15 @@ FrameCallbacks HlSession::callbacks() {
 bool HlSession::take(proto::ServerReply& reply) {
   if (replies_.take(reply)) return true;
   if (!end().empty() || nextState_s() > 0) return false;
+  reply.Clear();
+  reported_ = next_contact_ && !reported_;
+  if (reported_) {
+    reportContacts(world_.device(device_), *next_contact_, *reply.mutable_contact_report());
+    return true;
+  }
   const double now_s = world_.time_s();
   // At the rate asked for, without catching up on what was missed.
   states_.next_s = std::max(states_.next_s + states_.period_s, now_s);
-  reply.Clear();
   world_.describe(device_, *reply.mutable_state());
   reply.mutable_state()->set_master(master_);
   if (next_sample_) addMoments(world_.device(device_), *next_sample_, *reply.mutable_state());

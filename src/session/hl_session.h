@@ -52,7 +52,7 @@ class HlSession final : public ClientSession {
   void refuseUpload(std::uint64_t id, const std::string& why);
   void setDevice(const proto::DeviceSettings& settings);
   void setStateRate(double rate_Hz);
-  void wantSamples(bool wanted);
+  void want(bool wanted, std::optional<std::uint64_t>& next) const;
   void refuse(const std::string& why, std::uint64_t frame = 0);
   FrameCallbacks callbacks();
 
@@ -70,7 +70,9 @@ class HlSession final : public ClientSession {
   UploadStore uploads_;
   std::uint64_t last_frame_ = 0;
   StateTimer states_;
-  std::optional<std::uint64_t> next_sample_;  // number of the device's moment; none: the client wants none
+  // Numbers of the device's moments; none: the client wants none.
+  std::optional<std::uint64_t> next_sample_, next_contact_;
+  bool reported_ = false;  // the contacts, before the state that comes next
   MessageRate frame_rate_;
 };
 

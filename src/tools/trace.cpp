@@ -1,28 +1,66 @@
 #include "tools/trace.h"
 
 #include "base/clock.h"
+#include "scene/scene_model.h"
+#include "touch/body_hand.h"
 
 namespace hl {
 
-TraceTotals runTrace(const Snapshot& snapshot, const TraceSettings& settings, const std::vector<PathSample>& path,
+namespace {
+
+// Of the bodies' clock: it only says which row is before another.
+constexpr std::int64_t kRow_ns = 1'000'000;
+
+/// One finger in a scene, and the bodies there.
+class Tracer {
+ public:
+  Tracer(const Snapshot& snapshot, const ProxySettings& settings, const Vec3& begin)
+      : snapshot_(snapshot),
+        bodies_(BodyWorld::of(snapshot)),
+        settings_(settings),
+        state_(startProxy(snapshot, settings, begin)) {}
+
+  TickReport tick(std::size_t row, const Vec3& finger, double period_s) {
+    settings_.period_s = period_s;
+    const std::int64_t now_ns = bodies_ ? static_cast<std::int64_t>(row) * kRow_ns : 0;
+    if (bodies_) hand_.before(*bodies_, now_ns, state_, settings_, finger, true);
+    const SceneAt scene(snapshot_, now_ns, recent_);
+    const TickReport report = hl::tick(state_, scene, settings_, finger);
+    const bool touching = report.valid() && state_.free && state_.touching;
+    if (bodies_) hand_.after(*bodies_, scene, state_, report, settings_, finger, touching);
+    return report;
+  }
+  const ProxyState& state() const { return state_; }
+
+ private:
+  const Snapshot& snapshot_;
+  const std::unique_ptr<BodyWorld> bodies_;
+  BodyHand hand_;
+  ProxySettings settings_;
+  ManyRecentPrimitives recent_;
+  ProxyState state_;
+};
+
+}  // namespace
+
+TraceTotals runTrace(const Snapshot& given, const TraceSettings& settings, const std::vector<PathSample>& path,
                      const std::function<void(const TraceRow&)>& row) {
   TraceTotals totals;
   if (path.empty()) return totals;
-  ProxySettings proxy = settings.proxy;
-  ManyRecentPrimitives recent;
-  ProxyState state = startProxy(snapshot, proxy, path.front().position);
+  const std::shared_ptr<const Snapshot> own = withOwnBodies(given);
+  Tracer tracer(own ? *own : given, settings.proxy, path.front().position);
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Vec3& finger = path[i].position;
-    if (i > 0) proxy.period_s = path[i].t - path[i - 1].t;
+    const double period_s = i > 0 ? path[i].t - path[i - 1].t : settings.proxy.period_s;
     const std::int64_t start_ns = monotonicNow_ns();
-    const TickReport report = tick(state, {snapshot, 0, recent}, proxy, finger);
+    const TickReport report = tracer.tick(i, finger, period_s);
     TraceRow out{};
     out.tick_ns = monotonicNow_ns() - start_ns;
     out.t = path[i].t;
     out.finger = finger;
-    out.proxy = state.position;
+    out.proxy = tracer.state().position;
     out.target = report.target;
-    out.force = proxy.spring_N_m * (report.target - finger);
+    out.force = settings.proxy.spring_N_m * (report.target - finger);
     out.contacts = static_cast<int>(report.contacts.size());
     out.iterations = report.iterations;
     out.injected_J = report.injected_J;
@@ -31,7 +69,7 @@ TraceTotals runTrace(const Snapshot& snapshot, const TraceSettings& settings, co
     totals.ended.add(report.ending);
     totals.contacts += report.contacts.empty() ? 0 : 1;
   }
-  totals.ledger = state.ledger;
+  totals.ledger = tracer.state().ledger;
   return totals;
 }
 

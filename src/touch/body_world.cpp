@@ -1,13 +1,17 @@
 #include "touch/body_world.h"
 
+#include <algorithm>
+
+#include "bodies/scene_world.h"
+
 namespace hl {
 
 namespace {
 
-std::vector<Pose> posesOf(const std::vector<std::shared_ptr<BodyPoses>>& drivers) {
+std::vector<Pose> startsOf(const std::vector<std::shared_ptr<const RigidBody>>& bodies) {
   std::vector<Pose> poses;
-  poses.reserve(drivers.size());
-  for (const std::shared_ptr<BodyPoses>& driver : drivers) poses.push_back(driver->to());
+  poses.reserve(bodies.size());
+  for (const auto& body : bodies) poses.push_back(body->start);
   return poses;
 }
 
@@ -23,8 +27,66 @@ void addTo(FixedVector<BodyImpulse, kContactsOfHand>& list, const BodyImpulse& i
 
 }  // namespace
 
-BodyWorld::BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<BodyPoses>> poses)
-    : stepper_(world), state_(startWorld(*world, posesOf(poses))), poses_(std::move(poses)) {}
+BodyWorld::BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<const RigidBody>> bodies)
+    : bodies_(std::move(bodies)), stepper_(world), state_(startWorld(*world, startsOf(bodies_))) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) state_.bodies[i] = startOf(i);
+  view_.bodies = bodies_.size();
+}
+
+std::unique_ptr<BodyWorld> BodyWorld::of(const Snapshot& snapshot) {
+  const std::shared_ptr<const World> world = worldOf(snapshot);
+  if (!world) return nullptr;
+  std::vector<std::shared_ptr<const RigidBody>> bodies;  // as World::bodies: both are sorted by key
+  for (const Instance& instance : snapshot.instances) {
+    if (instance.movesAsBody()) bodies.push_back(instance.body);
+  }
+  return std::unique_ptr<BodyWorld>(new BodyWorld(world, std::move(bodies)));
+}
+
+BodyState BodyWorld::startOf(std::size_t i) const {
+  const RigidBody& body = *bodies_[i];
+  BodyState state;
+  state.turned = Eigen::Quaterniond(body.start.rotation).normalized();
+  state.centre = body.start.toWorld(world().bodies[i].mass.centre_O);
+  state.velocity = body.spec.velocity_m_s;
+  state.spin = body.spec.spin_rad_s;
+  return state;
+}
+
+void BodyWorld::continueFrom(const BodyWorld& before) {
+  std::size_t j = 0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const std::uint64_t key = world().bodies[i].key;
+    while (j < before.bodies_.size() && before.world().bodies[j].key < key) ++j;
+    if (j == before.bodies_.size() || before.world().bodies[j].key != key) continue;
+    const bool goes_on = before.bodies_[j]->start == bodies_[i]->start;
+    if (goes_on) state_.bodies[i] = before.state_.bodies[j];
+    if (goes_on && before.bodies_[j]->poses == bodies_[i]->poses) continue;
+    bodies_[i]->poses->jumpTo(poseOf(world().bodies[i], state_.bodies[i]));
+  }
+  continueJoints(before);
+  state_.memory.copyFrom(before.state_.memory);
+  state_.energy = before.state_.energy;
+  state_.steps = before.state_.steps;
+  owed_ = before.owed_;
+  view_ = before.view_;
+  view_.bodies = bodies_.size();
+  time_ns_ = before.time_ns_;
+  begun_ = before.begun_;
+}
+
+// A joint that is as it was: between the same bodies, with the same forces along it.
+void BodyWorld::continueJoints(const BodyWorld& before) {
+  const std::vector<Joint>&joints = world().joints, &last = before.world().joints;
+  std::size_t j = 0;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    while (j < last.size() && last[j].key < joints[i].key) ++j;
+    if (j == last.size()) return;
+    const bool same = last[j].key == joints[i].key && last[j].kind == joints[i].kind &&
+                      last[j].body_a == joints[i].body_a && last[j].body_b == joints[i].body_b;
+    if (same) state_.joints[i] = before.state_.joints[j];
+  }
+}
 
 void BodyWorld::step(std::int64_t now_ns, double period_s, const HandAtBodies& hand) {
   const std::int64_t before_ns = time_ns_;
@@ -45,8 +107,37 @@ void BodyWorld::step(std::int64_t now_ns, double period_s, const HandAtBodies& h
   if (!there) given_.clear();
   paid_ = there ? node.owed.size() : 0;
   for (std::size_t i = 0; i < paid_ && i < given_.size(); ++i) owed_[i].impulse_N_s -= given_[i].impulse_N_s;
-  for (std::size_t i = 0; i < poses_.size(); ++i)
-    poses_[i]->moveTo(poseOf(world().bodies[i], state_.bodies[i]), before_ns, now_ns);
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    bodies_[i]->poses->moveTo(poseOf(world().bodies[i], state_.bodies[i]), before_ns, now_ns);
+  returnLost();
+  count(1e-9 * static_cast<double>(now_ns - before_ns) - period_s);
+}
+
+// The sums over all bodies are for people who look: not in every step.
+void BodyWorld::count(double late_s) {
+  view_.lost_s += std::max(0.0, late_s);
+  view_.dropped += report_.dropped;
+  view_.unsolved += report_.converged ? 0 : 1;
+  view_.steps = state_.steps;
+  if (state_.steps % kViewEvery != 0) return;
+  view_.energy = state_.energy;
+  view_.kinetic_J = kineticEnergy_J(world(), state_);
+  view_.spring_J = springEnergy_J(world(), state_);
+  view_.gravity_J = gravityEnergy_J(world(), state_);
+}
+
+// So that nothing is lost that falls from a table, and no body is ever so far away that its place is inexact.
+void BodyWorld::returnLost() {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Vec3& centre = state_.bodies[i].centre;
+    const Box& room = bodies_[i]->poses->room();
+    if ((centre.array() >= room.min.array()).all() && (centre.array() <= room.max.array()).all()) continue;
+    state_.bodies[i] = startOf(i);
+    state_.bodies[i].velocity.setZero();
+    state_.bodies[i].spin.setZero();
+    bodies_[i]->poses->jumpTo(bodies_[i]->start);
+    ++view_.returned;
+  }
 }
 
 // Of each object: what the hand felt, less what the step has given, beside what is owed from before. What a wall has

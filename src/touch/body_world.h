@@ -9,9 +9,10 @@
 #include <memory>
 #include <vector>
 
-#include "bodies/body_poses.h"
 #include "bodies/body_step.h"
 #include "proxy/object_forces.h"
+#include "scene/rigid_body.h"
+#include "touch/body_view.h"
 
 namespace hl {
 
@@ -27,9 +28,14 @@ struct HandAtBodies {
 /// By the loop that ticks.
 class BodyWorld {
  public:
-  /// `poses`: the drivers of the instances of the bodies, as World::bodies.
-  BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<BodyPoses>> poses);
+  static constexpr std::uint64_t kViewEvery = 16;
 
+  /// The bodies of a snapshot, where they start; null: it has none. Throws hl::Error where one cannot be made.
+  static std::unique_ptr<BodyWorld> of(const Snapshot& snapshot);
+
+  /// Before the first step: bodies that were in `before`, and start where they started there, go on from where they are
+  /// in it. RT-safe.
+  void continueFrom(const BodyWorld& before);
   /// Moves the bodies from the last step's moment to `now_ns`, by `period_s` of their time. RT-safe.
   void step(std::int64_t now_ns, double period_s, const HandAtBodies& hand);
   /// After the tick: what each object's contact gives the hand. RT-safe.
@@ -44,19 +50,30 @@ class BodyWorld {
   const World& world() const { return stepper_.world(); }
   const WorldState& state() const { return state_; }
   const BodyStepReport& report() const { return report_; }
+  /// As World::bodies.
+  const RigidBody& body(std::size_t i) const { return *bodies_[i]; }
   /// N s that bodies are still to get.
   Vec3 owed_N_s() const;
+  /// Renewed in one of kViewEvery steps.
+  const BodyView& view() const { return view_; }
 
  private:
+  BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<const RigidBody>> bodies);
+  BodyState startOf(std::size_t i) const;
+  void continueJoints(const BodyWorld& before);
+  void returnLost();
+  void count(double late_s);
+
+  std::vector<std::shared_ptr<const RigidBody>> bodies_;
   BodyStepper stepper_;
   WorldState state_;
-  std::vector<std::shared_ptr<BodyPoses>> poses_;
   FixedVector<BodyImpulse, kContactsOfHand> owed_;
   GivenImpulses given_;
   std::size_t paid_ = 0;  // the first of given_: what was owed
   BodyStepReport report_;
   std::int64_t time_ns_ = 0;
   bool begun_ = false;
+  BodyView view_;
 };
 
 }  // namespace hl

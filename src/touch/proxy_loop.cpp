@@ -38,7 +38,7 @@ bool ProxyLoop::touches(const ProxyState& state, const TickReport& report) const
 // that is still on its way from a surface goes on pulling.
 Vec3 ProxyLoop::pullOf(const ProxyState& state, const TickReport& report, const Vec3& finger_D) const {
   if (!touches(state, report)) return Vec3::Zero();
-  return state.stiffness * (workspace_.toDevice(state.position) - finger_D);
+  return state.stiffness * (workspace_.toDevice(state.position + state.rest_offset_m) - finger_D);
 }
 
 // By how much less the new scene pulls the finger than what came before: the last tick is made once more in the new
@@ -65,8 +65,9 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
                           const SpringOfServo& spring, int most_looks) {
   follow(commands, spring);
   const Snapshot& snapshot = scenes_.take();
+  bodies_ = scenes_.bodies();
   const Vec3 finger = workspace_.toWorld(finger_D);
-  if (bodies_ != nullptr) moveBodies(now_ns, finger, spring);
+  if (bodies_ != nullptr) hand_.before(*bodies_, now_ns, state_, settings_, finger, spring.pulls);
   const SceneAt scene(snapshot, now_ns, recent_);
   const bool skipped = snapshot.number > state_.snapshot + 1;  // others, with what they changed
   const std::int64_t blend_ns = skipped ? kAbruptBlend_ns : snapshot.blend_ns;
@@ -82,7 +83,9 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
   step.scene = snapshot.identity;
   const Ledger before = state_.ledger;
   step.report = tick(state_, scene, settings_, finger, most_looks);
-  if (bodies_ != nullptr) settleBodies(scene, step.report, finger, spring);
+  // While the servo makes no force, nobody pushes the bodies.
+  const bool pushes = spring.pulls && touches(state_, step.report);
+  if (bodies_ != nullptr) hand_.after(*bodies_, scene, state_, step.report, settings_, finger, pushes);
   if (!spring.pulls) {
     state_.ledger = before;
     step.report.injected_J = step.report.moved_J = 0;
@@ -93,34 +96,9 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
   }
   if (anew) blend_.add(last_.pull_D - pullOf(state_, step.report, finger_D), 1e-9 * kAbruptBlend_ns);
   step.held = heldBy(step.report, targetOf(now_ns, finger_D, step.report));
+  step.held.contacts = feltContacts(scene, settings_, state_, step.report, finger);
   events_.follow(now_ns, step.touched, state_.position);
   return step;
-}
-
-void ProxyLoop::moveBodies(std::int64_t now_ns, const Vec3& finger, const SpringOfServo& spring) {
-  HandAtBodies hand;
-  hand.contacts = held_by_;
-  hand.proxy = state_.position;
-  hand.radius_m = settings_.radius;
-  hand.stretch = state_.position - finger;
-  if (spring.pulls && state_.free)
-    hand.spring_N_m = spring.stiffness_N_m * state_.stiffness / workspace_.world_per_device;
-  bodies_->step(now_ns, spring.period_s, hand);
-}
-
-// While the servo makes no force, nobody pushes the bodies.
-void ProxyLoop::settleBodies(const SceneAt& scene, const TickReport& report, const Vec3& finger,
-                             const SpringOfServo& spring) {
-  held_by_.clear();
-  const bool touching = spring.pulls && touches(state_, report);
-  if (touching) {
-    for (const ProxyContact& contact : report.contacts) {
-      const bool sticks = state_.rest_s >= accuracy::kStuck_s;
-      held_by_.push({scene.instance(contact.primitive).key, contact.point, contact.normal, contact.static_friction,
-                     contact.static_friction, !sticks});
-    }
-  }
-  bodies_->settle(touching ? objectForces(scene, settings_, state_, report, finger) : ObjectForces{}, spring.period_s);
 }
 
 // While a pull fades out, it keeps at least the stiffness that it was made with.
@@ -130,7 +108,7 @@ ServoTarget ProxyLoop::targetOf(std::int64_t now_ns, const Vec3& finger_D, const
   const Vec3 fading_D = blend_.step(settings_.period_s);
   ServoTarget target{finger_D, now_ns, touching, touching ? state_.stiffness : told_.stiffness,
                      report.injected_J + std::max(0.0, report.moved_J)};
-  if (touching) target.proxy_D = workspace_.toDevice(state_.position);
+  if (touching) target.proxy_D = workspace_.toDevice(state_.position + state_.rest_offset_m);
   const double stiffness = told_.valid ? std::max(target.stiffness, told_.stiffness) : target.stiffness;
   if (blend_.active() && report.valid() && stiffness > 0) {
     target.valid = true;

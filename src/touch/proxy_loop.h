@@ -6,7 +6,7 @@
 
 #include "control/servo.h"
 #include "proxy/proxy.h"
-#include "touch/body_world.h"
+#include "touch/body_hand.h"
 #include "touch/held_contacts.h"
 #include "touch/snapshot_slot.h"
 #include "touch/target_blend.h"
@@ -59,17 +59,20 @@ struct ProxyMemory {
 class ProxyLoop {
  public:
   /// `settings`: passes and iterations; the rest comes with each step.
-  /// `bodies`: those of the scene, which must outlive the loop; null: none.
-  ProxyLoop(SnapshotSlot& scenes, const ProxySettings& settings, BodyWorld* bodies = nullptr)
-      : scenes_(scenes), settings_(settings), bodies_(bodies) {}
+  ProxyLoop(SnapshotSlot& scenes, const ProxySettings& settings) : scenes_(scenes), settings_(settings) {}
 
   /// One tick at `now_ns` with the finger at `finger_D`; `most_looks` as in tick().
   ProxyStep step(std::int64_t now_ns, const Vec3& finger_D, const ProxyCommands& commands, const SpringOfServo& spring,
                  int most_looks = kNoWorkCap);
   /// Instead of a tick, when nobody knows where the finger is: takes the newest scene all the same, so that clients who
   /// wait for theirs to be taken do not wait for the device.
-  void skip() { scenes_.take(); }
+  void skip() {
+    scenes_.take();
+    bodies_ = scenes_.bodies();
+  }
   const ProxyState& state() const { return state_; }
+  /// Of the scene of the last step; null: it has none.
+  const BodyWorld* bodies() const { return bodies_; }
   ProxyMemory memory() const { return {state_, blend_.fading(), told_, restarts_}; }
   /// Before the first step: goes on as the loop did that had this memory, if its scene is the one that step() takes.
   void resume(const ProxyMemory& memory);
@@ -86,8 +89,6 @@ class ProxyLoop {
   };
 
   void follow(const ProxyCommands& commands, const SpringOfServo& spring);
-  void moveBodies(std::int64_t now_ns, const Vec3& finger, const SpringOfServo& spring);
-  void settleBodies(const SceneAt& scene, const TickReport& report, const Vec3& finger, const SpringOfServo& spring);
   void restart();
   Vec3 changeOfPull(const Snapshot& snapshot);
   bool touches(const ProxyState& state, const TickReport& report) const;
@@ -98,8 +99,8 @@ class ProxyLoop {
 
   SnapshotSlot& scenes_;
   ProxySettings settings_;
-  BodyWorld* bodies_;
-  FixedVector<HandContact, kContactsOfHand> held_by_;  // at the end of the last tick
+  BodyWorld* bodies_ = nullptr;  // of the scene of the last step; null: it has none
+  BodyHand hand_;
   Workspace workspace_;
   ProxyState state_;
   ManyRecentPrimitives recent_;

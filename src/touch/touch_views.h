@@ -12,7 +12,9 @@
 #include "control/safety.h"
 #include "proxy/tick_report.h"
 #include "scene/snapshot.h"
+#include "touch/body_view.h"
 #include "touch/ending_counts.h"
+#include "touch/felt_contact.h"
 #include "touch/loop_meter.h"
 
 namespace hl {
@@ -25,6 +27,7 @@ struct ProxyView {
   bool slipping = false;
   Ledger ledger;
   EndingCounts ended;  ///< ticks so far, by why they ended
+  BodyView bodies;
   LoopSummary loop;
 };
 
@@ -61,6 +64,7 @@ struct ServoMoment {
   Vec3 finger_D = Vec3::Zero();
   Vec3 force_N = Vec3::Zero();
   std::uint64_t buttons = 0;
+  FeltContacts contacts;  ///< their forces add up to force_N, if there are any
 };
 
 /// One newest value for two readers.

@@ -110,7 +110,7 @@ TEST(Batch, ATraceOfManyPathsIsThatOfHlTrace) {
   const HLbatchResult at = all.pointers();
   ASSERT_EQ(hlBatchTrace(scene.get(), &settings, kPaths, ends.data(), samples.data(), 0, &at), HL_NO_ERROR);
 
-  Model model = loadScene("rough:2000");
+  Model model = loadScene("rough:2000").model;
   fitModel(model, 0.1);
   const auto snapshot = makeSnapshot(std::move(model));
   TraceSettings single;

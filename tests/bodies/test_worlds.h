@@ -57,7 +57,9 @@ struct Playground {
   void steps(int count) {
     for (int i = 0; i < count; ++i) step();
   }
-  double energy_J() const { return kineticEnergy_J(*world, state) + gravityEnergy_J(*world, state); }
+  double energy_J() const {
+    return kineticEnergy_J(*world, state) + gravityEnergy_J(*world, state) + springEnergy_J(*world, state);
+  }
   /// Sum of m v.
   Vec3 momentum() const {
     Vec3 sum = Vec3::Zero();

@@ -1,6 +1,7 @@
 // Device settings, queries of the state, contacts and events.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -95,6 +96,98 @@ TEST_F(CallsTest, SamplesAreKeptUntilTheyAreTakenTheNewestOnes) {
   addSample(server->tell(), 5);
   hlPoll();
   EXPECT_EQ(hlTakeSamples(4, taken), 0);
+}
+
+proto::ContactReport& tellReport(FakeServer& server, double time_s, double interval_s, double force_N) {
+  proto::ContactReport& report = *server.replies.emplace_back().mutable_contact_report();
+  report.set_time_s(time_s);
+  report.set_interval_s(interval_s);
+  report.mutable_force_n()->set_y(force_N);
+  return report;
+}
+
+void addPoint(proto::ContactReport& report, HLuint session, HLuint object, const std::array<double, 3>& weights,
+              double force_N) {
+  proto::PressedPoint& point = *report.add_contacts();
+  point.set_session(session);
+  point.set_object(object);
+  point.mutable_force_n()->set_y(force_N);
+  for (HLuint i = 0; i < 3; ++i) {
+    point.add_vertices(4 + i);
+    point.add_weights(weights[i]);
+  }
+}
+
+// Reports that come between two calls are one: their impulses add up.
+TEST_F(CallsTest, ContactReportsAreMeansSinceTheLastOneThatWasTaken) {
+  HLcontactforce contacts[4];
+  HLcontactreport report;
+  addPoint(tellReport(*server, 1, 0.02, 1), 7, 3, {1, 0, 0}, 1);
+  hlPoll();
+  EXPECT_EQ(hlTakeContactReport(4, contacts, &report), 0) << "nobody has asked";
+  EXPECT_EQ(report.interval, 0);
+  hlKeepContactReport(HL_TRUE);
+  EXPECT_TRUE(server->received.back().contact_report_request().wanted());
+  addPoint(tellReport(*server, 2, 0.01, 1), 7, 3, {1, 0, 0}, 1);
+  proto::ContactReport& second = tellReport(*server, 3, 0.03, 3);
+  addPoint(second, 7, 3, {0, 1, 0}, 2);
+  addPoint(second, 8, 3, {0, 1, 0}, 1);
+  hlPoll();
+  ASSERT_EQ(hlTakeContactReport(4, contacts, &report), 2);
+  EXPECT_EQ(report.time, 3);
+  EXPECT_NEAR(report.interval, 0.04, 1e-15);
+  EXPECT_NEAR(report.force[1], 2.5, 1e-12);
+  EXPECT_EQ(contacts[0].object, 3U);
+  EXPECT_EQ(contacts[0].session, 7U);
+  EXPECT_EQ(contacts[0].vertex_count, 3U);
+  EXPECT_EQ(contacts[0].vertices[2], 6U);
+  EXPECT_NEAR(contacts[0].force[1], 1.75, 1e-12);
+  EXPECT_NEAR(contacts[0].weights[0], 1. / 7, 1e-12);
+  EXPECT_NEAR(contacts[1].force[1], 0.75, 1e-12);
+  EXPECT_EQ(hlTakeContactReport(4, contacts, nullptr), 0) << "it is forgotten";
+  hlTakeContactReport(-1, contacts, nullptr), expectError(HL_INVALID_VALUE);
+  hlTakeContactReport(1, nullptr, nullptr), expectError(HL_INVALID_VALUE);
+  hlKeepContactReport(HL_FALSE);
+  EXPECT_FALSE(server->received.back().contact_report_request().wanted());
+}
+
+TEST_F(CallsTest, AComplianceGoesWithTheFrame) {
+  hlNewObject(3);
+  hlBegin(HL_POINTS);
+  hlVertex3d(0, 0, 0);
+  hlEnd();
+  hlEndObject();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double force[3] = {1, 2, 3}, bad[3] = {0, nan, 0};
+  hlCompliance(4, 1, 1, force), expectError(HL_INVALID_VALUE);
+  hlCompliance(3, -1, 1, force), expectError(HL_INVALID_VALUE);
+  hlCompliance(3, 1, nan, force), expectError(HL_INVALID_VALUE);
+  hlCompliance(3, 1e10, 1, force), expectError(HL_INVALID_VALUE);
+  hlCompliance(3, 1, 1, bad), expectError(HL_INVALID_VALUE);
+  hlCompliance(3, 0.01, 0.02, force);
+  hlFlush();
+  const proto::Frame& frame = server->received.back().frame();
+  ASSERT_EQ(frame.compliances_size(), 1);
+  EXPECT_EQ(frame.compliances(0).object(), 3U);
+  EXPECT_EQ(frame.compliances(0).normal_m_n(), 0.01);
+  EXPECT_EQ(frame.compliances(0).tangential_m_n(), 0.02);
+  EXPECT_EQ(frame.compliances(0).computed_for_n().z(), 3);
+}
+
+// NULL: the forces on this context's object in the report that was taken last.
+TEST_F(CallsTest, AComplianceWithoutAForceIsForTheLastReport) {
+  hlNewObject(3);
+  hlEndObject();
+  hlKeepContactReport(HL_TRUE);
+  proto::ContactReport& report = tellReport(*server, 1, 0.02, 6);
+  addPoint(report, 7, 3, {1, 0, 0}, 1);
+  addPoint(report, 7, 3, {0, 1, 0}, 2);
+  addPoint(report, 8, 3, {0, 0, 1}, 3);
+  hlPoll();
+  hlTakeContactReport(0, nullptr, nullptr);
+  hlCompliance(3, 0.01, 0.01, nullptr);
+  hlFlush();
+  EXPECT_NEAR(server->received.back().frame().compliances(0).computed_for_n().y(), 3, 1e-12);
 }
 
 TEST_F(CallsTest, CountsOfTicksAndTheGripAreQueries) {

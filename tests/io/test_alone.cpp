@@ -94,7 +94,7 @@ TEST(Alone, ASceneFileMayHoldWhatIsInIt) {
   LoadOptions options;
   options.alone = true;
   const auto load = [&](const std::string& object) {
-    return loadSceneFile(fileWith("alone.hl.json", "{\"objects\":[\n" + object + "]}"), options);
+    return loadSceneFile(fileWith("alone.hl.json", "{\"objects\":[\n" + object + "]}"), options).model;
   };
   EXPECT_GT(load("{\"builtin\":\"sphere:500\"}").elements(), 100u);
   EXPECT_EQ(refusalOf([&] { load("{\"file\":\"/etc/passwd.obj\"}"); }),

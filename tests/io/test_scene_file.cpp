@@ -21,7 +21,7 @@ namespace {
 using test::fileWith;
 using test::tempFile;
 
-Model sceneOf(const std::string& json) { return loadSceneFile(fileWith("scene.hl.json", json)); }
+Model sceneOf(const std::string& json) { return loadSceneFile(fileWith("scene.hl.json", json)).model; }
 
 std::string refusalOf(const std::string& json) {
   try {
@@ -95,7 +95,7 @@ TEST(SceneFile, EveryFieldArrives) {
 
 TEST(SceneFile, TheExamplesLoad) {
   for (const char* name : {"friction_lanes", "sticky_pads", "textured_tiles"}) {
-    const Model model = loadSceneFile(std::string(HL_EXAMPLES) + "/" + name + ".hl.json");
+    const Model model = loadSceneFile(std::string(HL_EXAMPLES) + "/" + name + ".hl.json").model;
     EXPECT_EQ(model.triangles.size(), 8u);
     EXPECT_EQ(model.materials.size(), 4u);
   }

@@ -11,7 +11,7 @@ namespace {
 
 // What a page is sent of the images of a model's own surfaces.
 proto::SceneMesh imagesOf(const std::string& file) {
-  const auto shape = makeShape(loadSceneFile(file), HierarchyKind::kNone);
+  const auto shape = makeShape(loadSceneFile(file).model, HierarchyKind::kNone);
   proto::SceneMesh mesh;
   addSurfaceImages(shape->model, lookOf(*shape, *surfacesOf(shape)), mesh);
   return mesh;

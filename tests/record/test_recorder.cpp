@@ -39,11 +39,35 @@ std::shared_ptr<const Snapshot> sceneOf(const std::string& name) {
   return makeSnapshot(std::move(model));
 }
 
+Model pressed(Model model, double by) {
+  for (Vec3& p : model.positions) p.y() *= by;
+  return model;
+}
+
+// A mesh that bends from the fifth second of the clock to the ninth; `told`: its client says how it yields.
+std::shared_ptr<const Snapshot> bendingSceneOf(const std::string& name, bool told) {
+  constexpr std::int64_t kBegin_ns = 5'000'000'000, kEnd_ns = 9'000'000'000;
+  Instance instance;
+  instance.key = 1;
+  const auto from = sceneOf(name)->instances[0].shape;
+  instance.shape = makeShape(pressed(from->model, 0.9), *from);
+  instance.mesh_motion = std::make_shared<MeshMotion>(MeshTransition(from, instance.shape, kBegin_ns, kEnd_ns));
+  if (told) {
+    instance.compliance =
+        std::make_shared<ComplianceMotion>(ComplianceMotion(Compliance{0.002, 0.001, Vec3(0.1, 0.3, -0.2)})
+                                               .then({0.004, 0.004, Vec3(0, 1, 0)}, kBegin_ns, kEnd_ns));
+  }
+  Surfaces surfaces = *surfacesOf(from);
+  surfaces.materials[0].compliance_m_N = 0.0005;
+  instance.surfaces = std::make_shared<const Surfaces>(std::move(surfaces));
+  return makeSnapshot({instance});
+}
+
 /// Both loops by hand, on a virtual clock, with a simulated device in a hand that is led over the scene.
 class Loops {
  public:
   explicit Loops(const RecorderSettings& settings, bool start = true)
-      : scenes_({sceneOf("sphere:500"), sceneOf("teapot"), sceneOf("terrain:2000")}),
+      : scenes_({sceneOf("sphere:500"), bendingSceneOf("teapot", true), bendingSceneOf("terrain:2000", false)}),
         slot_(scenes_[0]),
         proxy_(slot_, hurried()),
         settings_(ServoSettings::of(device_.info())),
@@ -176,6 +200,30 @@ void rewrite(const std::string& from, const std::string& to,
     change(block);
     if (block.body_case() != proto::RecordingBlock::BODY_NOT_SET) writer.write(block);
   }
+}
+
+// A file that was made before the last quantity of surfaces was added.
+TEST_F(Recording, OfBeforeTheLastQuantityIsRead) {
+  { Loops(settings()).run(600); }  // in the first scene, which has not got it
+  const auto drop = [](proto::Values& values, std::initializer_list<int> numbers, std::initializer_list<int> integers) {
+    for (const int i : numbers) values.mutable_numbers()->erase(values.numbers().begin() + i);
+    for (const int i : integers) values.mutable_integers()->erase(values.integers().begin() + i);
+  };
+  constexpr int kLast = static_cast<int>(kNumbers) - 1, kTexture = static_cast<int>(kNumbers) + 2 * kLast;
+  const std::string older = (folder.path() / "b.hlr").string();
+  rewrite(path, older, [&](proto::RecordingBlock& block) {
+    if (block.has_start()) drop(*block.mutable_start()->mutable_proxy(), {4 + kLast}, {4 + kLast});
+    if (block.has_surfaces()) {
+      for (auto& material : *block.mutable_surfaces()->mutable_materials())
+        drop(material, {kTexture + 1, kTexture, kLast}, {1 + kLast});
+    }
+    if (block.has_ticks()) {
+      for (auto& change : *block.mutable_ticks()->mutable_commands()) drop(*change.mutable_values(), {kLast}, {kLast});
+    }
+  });
+  const ReplayReport report = replay(older);
+  EXPECT_FALSE(report.difference);
+  EXPECT_EQ(report.ticks, 600u);
 }
 
 TEST_F(Recording, OneBitChangedIsFoundWhereItIs) {

@@ -47,6 +47,44 @@ TEST(DecodeFrame, TexturesShareTheRoomThereIs) {
   EXPECT_EQ(refusalOf(frame), "texture 'c'.procedural.size of 4 is too large: there is room for 12 texels");
 }
 
+TEST(DecodeFrame, CompliancesAreOfObjectsThatAreThere) {
+  const auto with = [](auto set) {
+    proto::Frame frame;
+    frame.add_objects()->set_id(5);
+    proto::Compliance& compliance = *frame.add_compliances();
+    compliance.set_object(5);
+    compliance.set_normal_m_n(0.01);
+    set(frame, compliance);
+    return refusalOf(frame);
+  };
+  EXPECT_EQ(with([](auto&, auto&) {}), "accepted");
+  EXPECT_EQ(with([](auto&, auto& in) { in.set_object(6); }), "compliances[0]: there is no object 6");
+  EXPECT_EQ(with([](auto&, auto& in) { in.set_object(0); }), "compliances[0]: there is no object 0");
+  EXPECT_EQ(with([](auto& frame, auto& in) { frame.add_compliances()->CopyFrom(in); }),
+            "compliances[1]: object 5 is there twice");
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1.0, 1e10}) {
+    EXPECT_EQ(with([&](auto&, auto& in) { in.set_normal_m_n(bad); }),
+              "compliances[0].normalMN must be between 0 and 1e+09");
+    EXPECT_EQ(with([&](auto&, auto& in) { in.set_tangential_m_n(bad); }),
+              "compliances[0].tangentialMN must be between 0 and 1e+09");
+    if (bad == -1.0) continue;
+    EXPECT_EQ(with([&](auto&, auto& in) { in.mutable_computed_for_n()->set_z(bad); }),
+              "compliances[0].computedForN.z must be between -1e+09 and 1e+09");
+  }
+}
+
+TEST(DecodeFrame, AnAbsentTangentialComplianceIsThatAlongTheNormal) {
+  proto::Frame frame;
+  frame.add_objects()->set_id(5);
+  frame.add_compliances()->set_object(5);
+  frame.mutable_compliances(0)->set_normal_m_n(0.25);
+  frame.mutable_compliances(0)->mutable_computed_for_n()->set_y(2);
+  Uploads uploads;
+  const DecodedFrame decoded = decodeFrame(frame, uploads, smallLimits(), {}, [](double) {});
+  EXPECT_EQ(decoded.edit.compliances.at(5), (Compliance{0.25, 0.25, Vec3(0, 2, 0)}));
+}
+
 // An upload with no element: each item that refers to it would keep all of its vertices.
 TEST(DecodeFrame, VerticesOfUploadsAreCountedForEachItem) {
   Uploads uploads;

@@ -652,6 +652,41 @@ TEST_F(TouchServerTest, SamplesTellOfAllThatTheDeviceDidBetweenTwoStates) {
   EXPECT_EQ(client.state_.samples_size(), 0);
 }
 
+// Each step of the servo is in one report, and the forces of the contacts add up to what the hand felt.
+TEST_F(TouchServerTest, ContactReportsTellOfAllThatWasPressed) {
+  Client client(server_);
+  client.open("test", true, false, 50);
+  ASSERT_TRUE(client.show(client.floorFrame(-0.02)));
+  proto::ClientMessage message;
+  message.mutable_contact_report_request()->set_wanted(true);
+  client.session_->receive(message);
+  server_.device().setHandGoal(server_.device().workspace().toWorld({0, -0.05, 0}));
+  double last_s = 0;
+  int states = 0, pressed = 0;
+  for (int reports = 0; reports < 400 && pressed < 5;) {
+    proto::ServerReply reply;
+    if (!client.session_->take(reply)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (reply.has_state()) ++states;
+    if (!reply.has_contact_report()) continue;
+    ++reports;
+    const proto::ContactReport& report = reply.contact_report();
+    EXPECT_GE(report.time_s(), last_s);
+    last_s = report.time_s();
+    EXPECT_LE(std::abs(states + 1 - reports), 1) << "one before each state";
+    proto::Vec3 sum;
+    for (const proto::PressedPoint& point : report.contacts()) {
+      sum.set_y(sum.y() + point.force_n().y());
+      ASSERT_EQ(point.vertices_size(), 3);
+      EXPECT_NEAR(point.weights(0) + point.weights(1) + point.weights(2), 1, 1e-9);
+      EXPECT_EQ(point.session(), client.welcome_.session());
+    }
+    if (report.contacts_size() == 0 || report.force_n().y() < 0.1) continue;
+    ++pressed;
+    EXPECT_NEAR(sum.y(), report.force_n().y(), 0.2 * report.force_n().y());
+  }
+  EXPECT_GE(pressed, 5);
+}
+
 TEST_F(TouchServerTest, ClientsOwnTheirObjectsAndTakeThemAlong) {
   auto first = std::make_unique<Client>(server_);
   first->open();

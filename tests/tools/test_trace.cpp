@@ -97,7 +97,7 @@ void expectFolderSound(const std::string& folder, std::size_t most_triangles) {
     if (!entry.is_regular_file()) continue;
     Model model;
     try {
-      model = loadScene(entry.path().string());
+      model = loadScene(entry.path().string()).model;
     } catch (const Error&) {
       ++refused;
       continue;
@@ -116,7 +116,7 @@ void expectFolderSound(const std::string& folder, std::size_t most_triangles) {
 
 TEST(Trace, TheTeapotAndTheWalkerHoldTheProxyAtItsLocalMinimum) {
   for (const char* spec : {"teapot", "walker", "sphere:20000"})
-    EXPECT_GT(expectSound(loadScene(spec), spec), 500u) << spec;
+    EXPECT_GT(expectSound(loadScene(spec).model, spec), 500u) << spec;
 }
 
 // Surfaces only change where the proxy goes: it stays outside, and no energy comes from nowhere.
@@ -127,7 +127,7 @@ TEST(Trace, ShadingAndFrictionKeepTheProxyOutside) {
   surfaces.dynamic_friction = 0.3;
   surfaces.viscosity_Ns_m = 1;
   for (const char* spec : {"teapot", "walker", "sphere:20000", "terrain:5000"}) {
-    Model model = loadScene(spec);
+    Model model = loadScene(spec).model;
     fitModel(model, kSide);
     const auto snapshot = makeSnapshot(std::move(model), HierarchyKind::kBvh);
     const Judgement j = judge(*snapshot, 1e-3, 1.0, surfaces);
@@ -156,7 +156,7 @@ TEST(Trace, DebiansTestModelsHoldTheProxyAtItsLocalMinimum) {
 }
 
 TEST(Trace, TheSameBitsEveryTimeAndWithoutTheHierarchy) {
-  Model model = loadScene("teapot");
+  Model model = loadScene("teapot").model;
   const auto tree = makeSnapshot(model, HierarchyKind::kBvh);
   const auto none = makeSnapshot(model, HierarchyKind::kNone);
   auto path = crossingPath(0.11, 0.3);

@@ -52,24 +52,25 @@ class Bench {
   };
 
   Bench(const std::vector<Block>& blocks, double friction, double gravity = 9.81) {
-    World world;
-    world.fixed = test::snapshotOf(test::floorModel());
-    world.fixed_surface = {friction, friction, 0};
-    world.gravity_m_s2 = Vec3(0, -gravity, 0);
+    const BodySurface surface{friction, friction, 0};
+    const Box room{Vec3::Constant(-1), Vec3::Constant(1)};
     std::vector<Instance> instances{instanceOf(test::floorModel(), 1)};
-    std::uint64_t key = 2;
+    BodySpec floor;
+    floor.fixed = true;
+    floor.surface = surface;
+    instances.back().body = makeRigidBody("floor", floor, {}, {}, room);
     for (const Block& block : blocks) {
-      world.bodies.push_back(
-          {key, massOfBox(block.mass_kg, block.half), boxShape(block.half), {friction, friction, 0}});
-      Instance instance = instanceOf(test::boxModel(block.half), key++);
-      poses_.push_back(
-          std::make_shared<BodyPoses>(Pose{Mat3::Identity(), block.at}, Box{Vec3::Constant(-1), Vec3::Constant(1)}));
-      instance.driver = poses_.back();
-      instances.push_back(std::move(instance));
+      instances.push_back(instanceOf(test::boxModel(block.half), instances.size() + 1));
+      Instance& instance = instances.back();
+      BodySpec spec;
+      spec.mass_kg = block.mass_kg;
+      spec.shape = BodyShape::kBox;
+      spec.surface = surface;
+      instance.body = makeRigidBody("block", spec, {Mat3::Identity(), block.at}, instance.shape->bounds, room);
+      instance.driver = instance.body->poses;
     }
-    scenes_.emplace(makeSnapshot(std::move(instances)));
-    world_ = std::make_unique<BodyWorld>(std::make_shared<const World>(std::move(world)), poses_);
-    loop_.emplace(*scenes_, ProxySettings{}, world_.get());
+    scenes_.emplace(makeSnapshot(std::move(instances), {}, 1, 0, {Vec3(0, -gravity, 0)}));
+    loop_.emplace(*scenes_, ProxySettings{});
     arm(step_.servo());
     commands_.radius_W = kRadius_m;
   }
@@ -84,23 +85,21 @@ class Bench {
     given_ += settings.period_s * force_;
     return force_;
   }
-  void give(const Vec3& velocity, const Vec3& spin) { world_->set(0, velocity, spin); }
-  const BodyState& body(std::size_t i = 0) const { return world_->state().bodies[i]; }
+  void give(const Vec3& velocity, const Vec3& spin) { scenes_->bodies()->set(0, velocity, spin); }
+  const BodyState& body(std::size_t i = 0) const { return world().state().bodies[i]; }
   Vec3 momentum() const {
     Vec3 sum = Vec3::Zero();
-    for (std::size_t i = 0; i < world_->world().bodies.size(); ++i)
-      sum += world_->world().bodies[i].mass.mass_kg * body(i).velocity;
+    for (std::size_t i = 0; i < world().world().bodies.size(); ++i)
+      sum += world().world().bodies[i].mass.mass_kg * body(i).velocity;
     return sum;
   }
   // N s: on the hand, on the bodies, and owed to them.
-  Vec3 imbalance() const { return given_ + momentum() + world_->owed_N_s(); }
+  Vec3 imbalance() const { return given_ + momentum() + world().owed_N_s(); }
   const Vec3& proxy() const { return loop_->state().position; }
-  const BodyWorld& world() const { return *world_; }
+  const BodyWorld& world() const { return *scenes_->bodies(); }
 
  private:
-  std::vector<std::shared_ptr<BodyPoses>> poses_;
   std::optional<SnapshotSlot> scenes_;
-  std::unique_ptr<BodyWorld> world_;
   std::optional<ProxyLoop> loop_;
   TouchStep step_;
   ProxyCommands commands_;

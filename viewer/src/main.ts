@@ -3,6 +3,7 @@
 
 import "./style.css";
 import { Announcer } from "./announcer";
+import { BodiesPanel } from "./bodies_panel";
 import { ButtonInput } from "./button_input";
 import { Connection, type LinkState } from "./connection";
 import { publishDebugState } from "./debug_state";
@@ -89,6 +90,7 @@ class App {
       smallestTop: 1e-3,
     }),
   };
+  private readonly bodies_ = new BodiesPanel();
   private readonly sound_ = new TouchSound();
   private readonly sharing_ = new Sharing(this.samples_, () => this.live_.layout?.name ?? "");
   private readonly memory_: ViewMemory;
@@ -211,6 +213,7 @@ class App {
     this.eye_ = this.stage_.isTurned ? this.stage_.eye : undefined;
     this.hand_.movable = this.buttons_.enabled = false;
     this.notices_.stand("vibration", undefined);
+    this.notices_.stand("slow-motion", undefined);
     this.sound_.silence();
     this.stateFresh_ = false;
     this.state_ = undefined;
@@ -304,6 +307,7 @@ class App {
     this.samples_.clear();
     this.rates_.clear();
     this.energy_.clear();
+    this.bodies_.forget();
   }
 
   private showLayout(store: SceneStore, layout: Layout): void {
@@ -336,6 +340,7 @@ class App {
       const { shadingJ, stiffnessJ, textureJ, movingJ, lateJ } = energy;
       this.energy_.push(state.timeS, shadingJ, stiffnessJ, textureJ, movingJ, lateJ);
     }
+    this.bodies_.take(state);
     this.sound_.hear(state, this.samples_, this.pointing_.worldPerHand);
     this.rates_.push(state.timeS, state.proxyLoop?.rateHz ?? NaN, state.servo?.rateHz ?? NaN);
   }
@@ -423,6 +428,7 @@ class App {
     this.tellVibration();
     this.surfacePanel_.showSurfaces(state.surfaces);
     this.ledgerPanel_.show(state.ledger);
+    this.notices_.stand("slow-motion", this.bodies_.show(state, kWindow_s), "warn");
     this.stateFresh_ = false;
   }
 
@@ -445,6 +451,7 @@ class App {
     this.live_.model.applyTheme();
     this.probe_.applyTheme();
     Object.values(this.plots_).forEach((plot) => plot.applyTheme());
+    this.bodies_.applyTheme();
     this.timeline_.applyTheme();
   }
 

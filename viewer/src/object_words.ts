@@ -39,5 +39,8 @@ function describeMaterial(surface: SurfaceSettings): string {
   if ((surface.adhesionN ?? 0) > 0) {
     parts.push(number(surface.adhesionN, "adhesion", `${kThinSpace}N`));
   }
+  if ((surface.complianceMN ?? 0) > 0) {
+    parts.push(number(surface.complianceMN, "compliance", `${kThinSpace}m/N`));
+  }
   return parts.join(", ");
 }

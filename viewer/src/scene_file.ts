@@ -18,6 +18,7 @@ const kNoTextures = "The file has no textures: the page does not know them. What
 /** Fields of a Material that are numbers. */
 const kNumbers = [
   "stiffness", "staticFriction", "dynamicFriction", "viscosityNsM", "stribeckMS", "preslidingNM", "adhesionN",
+  "complianceMN",
 ] as const;
 /** Those that an image can change from place to place. */
 const kTexturable = new Set<string>(["stiffness", "staticFriction", "dynamicFriction", "viscosityNsM"]);

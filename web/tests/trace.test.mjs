@@ -14,7 +14,7 @@ const kOut = 12;
 const kFirstColumn = 4;
 /** In the order of base/quantities.def. */
 const kOptions = ["--stiffness", "--static-friction", "--dynamic-friction", "--viscosity", "--stribeck", "--presliding",
-  "--adhesion"];
+  "--adhesion", "--compliance"];
 
 const kCases = [
   { scene: "teapot", surface: {}, size: 0.05 },

@@ -9,7 +9,13 @@ import { RecordingError } from "./recording_blocks";
 /** As in base/quantities.def. */
 const kQuantities = [
   "stiffness", "staticFriction", "dynamicFriction", "viscosityNsM", "stribeckMS", "preslidingNM", "adhesionN",
+  "complianceMN",
 ] as const;
+
+/** How many of them a list has: recordings made before the last was added have one less. */
+function quantitiesIn(count: number): number {
+  return count === kQuantities.length - 1 ? count : kQuantities.length;
+}
 
 function requireForm(values: Values | undefined, numbers: number, integers: number, what: string): Values {
   if (values === undefined || values.numbers.length !== numbers || values.integers.length !== integers) {
@@ -32,8 +38,9 @@ export interface TickContext {
 export function tickContext(values: Values | undefined): TickContext {
   // Numbers: the quantities, the workspace's origin and scale, the radius, the spring's stiffness and period. Integers:
   // a flag for each quantity, two for shading, one for textures, restarts, ledger, pulls, scene.
-  const { numbers, integers } = requireForm(values, kQuantities.length + 7, kQuantities.length + 7, "ticks");
-  const [x, y, z, worldPerDevice, radius_m] = numbers.slice(kQuantities.length) as [...Triple, number, number];
+  const quantities = quantitiesIn((values?.numbers.length ?? 0) - 7);
+  const { numbers, integers } = requireForm(values, quantities + 7, quantities + 7, "ticks");
+  const [x, y, z, worldPerDevice, radius_m] = numbers.slice(quantities) as [...Triple, number, number];
   if (![x, y, z].every(Number.isFinite) || !(worldPerDevice > 0) || !(radius_m > 0)) {
     throw new RecordingError("makes no sense: its workspace or radius is no number");
   }
@@ -70,11 +77,12 @@ export function waysOf(values: Values | undefined, seconds: (time_ns: bigint) =>
 /** A material, without what a texture modulates. */
 export function materialOf(values: Values): SurfaceSettings {
   // Numbers: the quantities, low and high of each texture and of the bump map. Integers: smooth, the number of each.
-  const textures = kQuantities.length + 1;
-  const count = kQuantities.length + 2 * textures;
+  const quantities = quantitiesIn((values.numbers.length - 2) / 3);
+  const textures = quantities + 1;
+  const count = quantities + 2 * textures;
   const { numbers, integers } = requireForm(values, count, 1 + textures, "a material");
   const kNoTexture = 0xffffffffn;
-  const known = kQuantities.map((field, i) =>
+  const known = kQuantities.slice(0, quantities).map((field, i) =>
     [field, integers[1 + i] === kNoTexture ? numbers[i] : undefined] as const);
   return { ...Object.fromEntries(known.filter(([, value]) => value !== undefined)), smooth: integers[0] !== 0n };
 }

@@ -1,4 +1,4 @@
-// SceneBuilder: one model out of many objects, each moved to its place and given its material.
+// Append part: one model out of many objects, each moved to its place and given its material.
 #pragma once
 
 #include "scene/model.h"

@@ -1,4 +1,4 @@
-#include "io/scene_builder.h"
+#include "scene/append_part.h"
 
 namespace hl {
 

@@ -1,0 +1,19 @@
+// Joint check: what joints must hold to be stepped.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "bodies/joint.h"
+
+namespace hl {
+
+/// A force table has no more rows: the work of a step is bounded.
+inline constexpr std::size_t kMostTableRows = 256;
+
+/// Throws Error with a line that says which joint, and what is wrong with it. `is_body`: whether a body has this key.
+void checkJoint(const Joint& joint, const std::function<bool(std::uint64_t key)>& is_body);
+/// All of a world; their keys increase.
+void checkJoints(std::span<const Joint> joints, const std::function<bool(std::uint64_t key)>& is_body);
+
+}  // namespace hl

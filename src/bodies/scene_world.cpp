@@ -1,0 +1,166 @@
+#include "bodies/scene_world.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "base/error.h"
+#include "bodies/joint_check.h"
+
+namespace hl {
+
+namespace {
+
+// kg; beyond them squares of numbers in a step are no longer exact enough.
+constexpr double kLeastMass_kg = 1e-9, kMostMass_kg = 1e15;
+
+// A shape along an axis of the object: 0, 1 or 2.
+struct Bar {
+  int axis = 2;
+  double half_length = 0, radius = 0;  // m; of a capsule without its caps
+};
+
+Bar barOf(const Vec3& half, bool caps) {
+  Bar bar;
+  half.maxCoeff(&bar.axis);
+  bar.radius = std::max(half[(bar.axis + 1) % 3], half[(bar.axis + 2) % 3]);
+  bar.half_length = half[bar.axis] - (caps ? bar.radius : 0);
+  return bar;
+}
+
+// Axes x, y, z of the shape to those of the object, so that its z lies along `axis`; a rotation.
+Mat3 turnTo(int axis) {
+  Mat3 turn = Mat3::Zero();
+  turn((axis + 1) % 3, 0) = turn((axis + 2) % 3, 1) = turn(axis, 2) = 1;
+  return turn;
+}
+
+void turn(Convex& shape, Mass& mass, const Mat3& by) {
+  for (Vec3& vertex : shape.vertices) vertex = by * vertex;
+  for (Convex::Face& face : shape.faces) face.normal = by * face.normal;
+  mass.inertia_kg_m2 = by * mass.inertia_kg_m2 * by.transpose();
+}
+
+double massOf(const BodySpec& spec, double volume_m3) {
+  const double mass_kg = spec.mass_kg ? *spec.mass_kg : spec.density_kg_m3 * volume_m3;
+  if (!(mass_kg >= kLeastMass_kg && mass_kg <= kMostMass_kg))
+    throw Error(fmt::format("a body must have a mass of {:g} to {:g} kg, and this one has {:g}: set its mass",
+                            kLeastMass_kg, kMostMass_kg, mass_kg));
+  return mass_kg;
+}
+
+void makeBox(const Vec3& half, const BodySpec& spec, Body& body) {
+  body.shape = boxShape(half);
+  body.mass = massOfBox(massOf(spec, 8 * half.prod()), half);
+}
+
+void makeBall(const Vec3& half, const BodySpec& spec, Body& body) {
+  const double radius = half.maxCoeff();
+  body.shape = ballShape(radius);
+  body.mass = massOfBall(massOf(spec, 4 * std::numbers::pi / 3 * radius * radius * radius), radius);
+}
+
+void makeCapsule(const Vec3& half, const BodySpec& spec, Body& body) {
+  const Bar bar = barOf(half, true);
+  if (!(bar.half_length > 0)) return makeBall(half, spec, body);
+  const double r = bar.radius;
+  const double volume = std::numbers::pi * r * r * (2 * bar.half_length + 4 * r / 3);
+  body.shape = capsuleShape(bar.half_length, r);
+  body.mass = massOfCapsule(massOf(spec, volume), bar.half_length, r);
+  turn(body.shape, body.mass, turnTo(bar.axis));
+}
+
+}  // namespace
+
+Body bodyOf(const Model& model, const BodySpec& spec) {
+  Body body;
+  body.surface = spec.surface;
+  const Box bounds = model.bounds();
+  if (bounds.empty()) throw Error("it has no vertices");
+  const Vec3 half = bounds.size() / 2;
+  if (!(half.minCoeff() > 0)) throw Error("a body must have a thickness in all directions");
+  switch (spec.shape) {
+    case BodyShape::kBall:
+      makeBall(half, spec, body);
+      break;
+    case BodyShape::kCapsule:
+      makeCapsule(half, spec, body);
+      break;
+    case BodyShape::kHull:
+    case BodyShape::kCylinder:
+    case BodyShape::kBox:
+      makeBox(half, spec, body);
+      break;
+  }
+  body.mass.centre_O = bounds.centre();
+  return body;
+}
+
+namespace {
+
+Pose startOf(const Snapshot& snapshot, std::uint64_t key) {
+  for (const Instance& instance : snapshot.instances) {
+    if (instance.key == key && instance.movesAsBody()) return instance.body->start;
+  }
+  return {};
+}
+
+Joint jointOf(const JointSpec& spec, const Snapshot& snapshot, std::uint64_t key) {
+  const Pose pose_a = startOf(snapshot, spec.body_a), pose_b = startOf(snapshot, spec.body_b);
+  Joint joint = spec.kind == JointKind::kDistance ? distanceBetween(spec.anchor_W, spec.anchor_b_W, pose_a, pose_b)
+                                                  : jointAt(spec.kind, spec.anchor_W, spec.axis_W, pose_a, pose_b);
+  const JointForces as_it_stands = joint;  // of a distance
+  static_cast<JointForces&>(joint) = spec.along;
+  if (spec.kind == JointKind::kDistance && spec.along == JointForces{}) static_cast<JointForces&>(joint) = as_it_stands;
+  joint.key = key;
+  joint.body_a = spec.body_a;
+  joint.body_b = spec.body_b;
+  joint.collide = spec.collide;
+  return joint;
+}
+
+// A joint to what does not move is one to the world; one of two such things is none.
+void addJoints(const Snapshot& snapshot, World& world) {
+  std::uint64_t key = 0;
+  for (JointSpec spec : snapshot.mechanics.joints) {
+    ++key;
+    if (world.find(spec.body_b) == nullptr) spec.body_b = 0;
+    if (world.find(spec.body_a) == nullptr) std::swap(spec.body_a, spec.body_b);
+    if (world.find(spec.body_a) == nullptr) continue;
+    world.joints.push_back(jointOf(spec, snapshot, key));
+    try {
+      checkJoint(world.joints.back(), [&](std::uint64_t number) { return world.find(number) != nullptr; });
+    } catch (const Error& error) {
+      throw Error(spec.name + ": " + error.what());
+    }
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const World> worldOf(const Snapshot& snapshot) {
+  auto world = std::make_shared<World>();
+  std::vector<Instance> fixed;
+  for (const Instance& instance : snapshot.instances) {
+    if (!instance.movesAsBody()) {
+      fixed.push_back(instance);
+      world->fixed_surfaces.push_back(instance.body ? std::optional(instance.body->spec.surface) : std::nullopt);
+      continue;
+    }
+    try {
+      world->bodies.push_back(bodyOf(instance.shape->model, instance.body->spec));
+    } catch (const Error& error) {
+      throw Error(instance.body->name + ": " + error.what());
+    }
+    world->bodies.back().key = instance.key;
+  }
+  if (world->bodies.empty()) return nullptr;
+  if (!fixed.empty()) world->fixed = makeSnapshot(std::move(fixed));
+  world->gravity_m_s2 = snapshot.mechanics.gravity_m_s2;
+  addJoints(snapshot, *world);
+  return world;
+}
+
+}  // namespace hl

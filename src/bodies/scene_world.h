@@ -1,0 +1,17 @@
+// Scene world: the world of the bodies of a snapshot.
+#pragma once
+
+#include <memory>
+
+#include "bodies/world.h"
+
+namespace hl {
+
+/// Null: none of its instances moves as a body. Throws hl::Error, with the name of the body, where a shape or a mass
+/// cannot be made. Allocates.
+std::shared_ptr<const World> worldOf(const Snapshot& snapshot);
+
+/// The shape and the mass of a body by its mesh, as the spec says. Throws hl::Error, one line.
+Body bodyOf(const Model& model, const BodySpec& spec);
+
+}  // namespace hl

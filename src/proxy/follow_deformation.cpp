@@ -1,0 +1,86 @@
+#include "proxy/follow_deformation.h"
+
+#include <algorithm>
+
+#include "proxy/yielding.h"
+
+namespace hl {
+
+namespace {
+
+constexpr double kSettling = 4;  // frames in which the lift goes to C F
+
+// The motion of the contact's point of the mesh from `from_ns` on, within one transition.
+Vec3 displacement(const SceneAt& scene, std::uint32_t number, const ComplianceEstimate& estimate,
+                  std::int64_t from_ns) {
+  const Instance& instance = scene.snapshot().instances[number];
+  const PrimitiveId id{number, estimate.element};
+  const MeshTransition* const way = instance.transitionAt(scene.time_ns());
+  if (way == nullptr || way != instance.transitionAt(from_ns) || id.element >= way->to()->count()) return Vec3::Zero();
+  const auto before = way->corners(id.element, way->part(from_ns));
+  const auto now = way->corners(id.element, way->part(scene.time_ns()));
+  const auto order = scene.primitive(id).order;
+  Vec3 moved_O = Vec3::Zero();
+  for (std::size_t i = 0; i < 3; ++i) moved_O += estimate.weights[i] * (now[order[i]] - before[order[i]]);
+  return scene.turnToWorld(id, moved_O);
+}
+
+}  // namespace
+
+void followDeformation(ProxyState& state, const SceneAt& scene, const ProxySettings& settings) {
+  ComplianceEstimate& estimate = state.estimate;
+  if (estimate.key == 0) return;
+  std::uint32_t number = 0;
+  if (!scene.snapshot().find(estimate.key, number) || scene.snapshot().instances[number].compliance) {
+    estimate = {};
+    return;
+  }
+  const std::uint64_t geometry = scene.snapshot().instances[number].shape->geometry;
+  if (estimate.geometry != geometry && estimate.ticks > 0)
+    estimate.closeFrame(settings.period_s, settings.world_per_device / settings.spring_N_m);
+  estimate.geometry = geometry;
+  if (state.snapshot == scene.snapshot().number) {
+    const Vec3 moved = displacement(scene, number, estimate, state.time_ns);
+    estimate.moved_m += estimate.normal.dot(moved);
+    if (estimate.compliance_m_N > 0) estimate.lift_m -= moved;
+  }
+  estimate.sum_N += estimate.normal.dot(estimate.force_N);
+  ++estimate.ticks;
+  if (!(estimate.frame_s > 0)) return;
+  const double part = std::min(1.0, settings.period_s / (kSettling * estimate.frame_s));
+  estimate.lift_m += part * (estimate.compliance_m_N * estimate.force_N - estimate.lift_m);
+  // F_k pushes.
+  estimate.lift_m += std::max(0.0, -estimate.normal.dot(estimate.lift_m)) * estimate.normal;
+  if (estimate.compliance_m_N == 0) estimate.lift_m = Vec3::Zero();
+}
+
+void rememberDeformation(ProxyState& state, const SceneAt& scene, const ProxySettings& settings,
+                         const TickReport& report, const Vec3& finger) {
+  ComplianceEstimate& estimate = state.estimate;
+  estimate.force_N = Vec3::Zero();
+  const auto deforms = [&](const ProxyContact& contact) {
+    const Instance& instance = scene.instance(contact.primitive);
+    return !instance.compliance && (instance.mesh_motion || instance.key == estimate.key);
+  };
+  if (std::none_of(report.contacts.begin(), report.contacts.end(), deforms)) return;
+  const ContactParts parts = partsOf(report.contacts, state.position + state.rest_offset_m - finger);
+  double most_m = 0;
+  for (std::size_t i = 0; i < report.contacts.size(); ++i) {
+    const ProxyContact& contact = report.contacts[i];
+    const Instance& instance = scene.instance(contact.primitive);
+    const Vec3 pull = state.stiffness * parts[i];
+    if (!deforms(contact) || !(pull.norm() > most_m)) continue;
+    most_m = pull.norm();
+    if (estimate.key != instance.key) {
+      estimate = {};
+      estimate.key = instance.key;
+      estimate.geometry = instance.shape->geometry;
+    }
+    estimate.element = contact.primitive.element;
+    estimate.weights = contact.weights;
+    estimate.normal = contact.normal;
+    estimate.force_N = settings.spring_N_m / settings.world_per_device * pull;
+  }
+}
+
+}  // namespace hl

@@ -1,0 +1,44 @@
+// Body spec: how an object of the scene moves as a rigid body, as its file or client says it. What the step of the
+// bodies makes of it is in src/bodies.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "base/vec.h"
+
+namespace hl {
+
+/// How a surface meets another body. Of two that touch, the geometric mean of each counts.
+struct BodySurface {
+  double static_friction = 0.5;   ///< >= dynamic_friction
+  double dynamic_friction = 0.5;  ///< >= 0
+  double restitution = 0;         ///< 0..1
+  bool operator==(const BodySurface&) const = default;
+};
+
+/// The shape by which a body meets other bodies and the scene; the hand always feels the mesh. Each is made from the
+/// mesh in its object frame.
+enum class BodyShape : std::uint8_t {
+  kHull,      ///< the convex hull of the vertices
+  kBox,       ///< the bounds
+  kBall,      ///< centred in the bounds; its diameter is their largest side
+  kCapsule,   ///< along the longest side of the bounds; its diameter is the larger of the other two
+  kCylinder,  ///< the same with flat ends
+};
+/// By number: "hull", "box", ...
+inline constexpr std::array<const char*, 5> kBodyShapeNames{"hull", "box", "ball", "capsule", "cylinder"};
+
+struct BodySpec {
+  bool fixed = false;             ///< it does not move, and only its surface counts
+  std::optional<double> mass_kg;  ///< > 0; absent: of the volume of its shape and the density
+  double density_kg_m3 = 1000;    ///< > 0
+  BodyShape shape = BodyShape::kHull;
+  BodySurface surface{};
+  Vec3 velocity_m_s = Vec3::Zero();  ///< at the begin, world frame
+  Vec3 spin_rad_s = Vec3::Zero();    ///< at the begin, world frame
+  bool operator==(const BodySpec&) const = default;
+};
+
+}  // namespace hl

@@ -1,0 +1,139 @@
+#include "scene/scene_model.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "scene/append_part.h"
+
+namespace hl {
+
+namespace {
+
+Instance instanceOf(Model model, std::uint64_t key, HierarchyKind hierarchy) {
+  Instance instance;
+  instance.shape = makeShape(std::move(model), hierarchy);
+  instance.surfaces = surfacesOf(instance.shape);
+  instance.key = key;
+  return instance;
+}
+
+void setBody(Instance& instance, std::shared_ptr<const RigidBody> body) {
+  instance.motion = Motion(body->start);
+  instance.driver = body->poses;
+  instance.body = std::move(body);
+}
+
+// Forces stay as they are said, so that a spring of N/m does too; angles are none of lengths.
+void scaleJoint(JointSpec& joint, double factor, const Vec3& offset) {
+  joint.anchor_W = factor * joint.anchor_W + offset;
+  joint.anchor_b_W = factor * joint.anchor_b_W + offset;
+  if (joint.kind != JointKind::kSlider && joint.kind != JointKind::kDistance) return;
+  for (double* length : {&joint.along.low, &joint.along.high, &joint.along.rest}) *length *= factor;
+  for (double& position : joint.along.table.position) position *= factor;
+}
+
+// Moves all of it by `factor` and then by `offset`.
+void moveBodies(SceneModel& scene, double factor, const Vec3& offset) {
+  for (SceneBody& body : scene.bodies) {
+    scaleModel(body.model, factor);
+    body.pose.origin = factor * body.pose.origin + offset;
+  }
+  for (JointSpec& joint : scene.mechanics.joints) scaleJoint(joint, factor, offset);
+}
+
+}  // namespace
+
+Box boundsOf(const SceneModel& scene) {
+  Box bounds = scene.model.bounds();
+  for (const SceneBody& body : scene.bodies) {
+    const Box box = body.model.bounds();
+    if (!box.empty()) bounds.extend(boxAt(box, body.pose));
+  }
+  return bounds;
+}
+
+Model asOneModel(const SceneModel& scene) {
+  Model whole = scene.model;
+  whole.triangle_materials.resize(whole.triangles.size());
+  whole.segment_materials.resize(whole.segments.size());
+  whole.point_materials.resize(whole.points.size());
+  for (const SceneBody& body : scene.bodies) {
+    Model part = body.model;
+    placeModel(part, {body.pose.rotation, body.pose.origin});
+    Material material = part.materials.front();
+    material.textures = {};
+    whole.materials.push_back(material);
+    appendPart(whole, part, static_cast<std::uint16_t>(whole.materials.size() - 1));
+  }
+  return whole;
+}
+
+std::size_t bytesToMake(const SceneModel& scene) {
+  std::size_t bytes = bytesToMake(scene.model);
+  for (const SceneBody& body : scene.bodies) bytes += bytesToMake(body.model);
+  return bytes;
+}
+
+void scaleModel(SceneModel& scene, double factor) {
+  scaleModel(scene.model, factor);
+  moveBodies(scene, factor, Vec3::Zero());
+}
+
+double fitModel(SceneModel& scene, double side) {
+  if (scene.bodies.empty()) return fitModel(scene.model, side);
+  const Box bounds = boundsOf(scene);
+  const double largest = bounds.empty() ? 0 : bounds.size().maxCoeff();
+  if (!(largest > 0)) return 1;
+  const double factor = side / largest;
+  const Vec3 offset = -factor * bounds.centre();
+  placeModel(scene.model, {factor * Mat3::Identity(), offset});
+  moveBodies(scene, factor, offset);
+  return factor;
+}
+
+std::shared_ptr<const Snapshot> makeSnapshot(SceneModel scene, HierarchyKind hierarchy) {
+  if (scene.bodies.empty()) return makeSnapshot(std::move(scene.model), hierarchy);
+  const Box room = roomAround(boundsOf(scene));
+  std::string name = scene.model.name;
+  std::vector<std::string> warnings;
+  std::vector<Instance> instances;
+  std::uint64_t key = 0;
+  const auto add = [&](Model& model, const std::string& part) {
+    instances.push_back(instanceOf(std::move(model), ++key, hierarchy));
+    for (const std::string& warning : instances.back().shape->warnings)
+      warnings.push_back(part.empty() ? warning : part + ": " + warning);
+  };
+  if (scene.model.elements() > 0) {
+    add(scene.model, {});
+  } else {
+    warnings = scene.model.warnings;
+  }
+  const std::uint64_t first_body = key + 1;
+  for (SceneBody& body : scene.bodies) {
+    add(body.model, body.name);
+    Instance& instance = instances.back();
+    setBody(instance, makeRigidBody(body.name, body.spec, body.pose, instance.shape->bounds, room));
+  }
+  auto snapshot = std::make_shared<Snapshot>(*makeSnapshot(std::move(instances), std::move(name)));
+  snapshot->mechanics = std::move(scene.mechanics);
+  for (JointSpec& joint : snapshot->mechanics.joints) {
+    joint.body_a += first_body - 1;
+    if (joint.body_b > 0) joint.body_b += first_body - 1;
+  }
+  snapshot->warnings = std::move(warnings);
+  return snapshot;
+}
+
+std::shared_ptr<const Snapshot> withOwnBodies(const Snapshot& snapshot) {
+  const auto has_body = [](const Instance& instance) { return instance.body && instance.body->poses; };
+  if (std::none_of(snapshot.instances.begin(), snapshot.instances.end(), has_body)) return nullptr;
+  auto own = std::make_shared<Snapshot>(snapshot);
+  for (Instance& instance : own->instances) {
+    if (!has_body(instance)) continue;
+    const RigidBody& body = *instance.body;
+    setBody(instance, makeRigidBody(body.name, body.spec, body.start, instance.shape->bounds, body.poses->room()));
+  }
+  return own;
+}
+
+}  // namespace hl

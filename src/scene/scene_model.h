@@ -1,0 +1,46 @@
+// Scene model: a scene as a file or a generator describes it: what stays where it is, as one model, and the rigid
+// bodies, each with a model of its own.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scene/mechanics.h"
+#include "scene/rigid_body.h"
+#include "scene/snapshot.h"
+
+namespace hl {
+
+struct SceneBody {
+  std::string name;
+  Model model;  ///< object frame
+  Pose pose;
+  BodySpec spec;
+};
+
+/// Metres, world frame.
+struct SceneModel {
+  SceneModel() = default;
+  SceneModel(Model at_rest) : model(std::move(at_rest)) {}  // NOLINT: implicit, as a model is a scene
+  Model model;                                              ///< what stays; its name and warnings are the scene's
+  std::vector<SceneBody> bodies;
+  Mechanics mechanics;  ///< its joints number the bodies from 1 in their order
+};
+
+Box boundsOf(const SceneModel& scene);
+std::size_t bytesToMake(const SceneModel& scene);
+/// All of it where it starts, with one material for each object. Textures are left out.
+Model asOneModel(const SceneModel& scene);
+/// As those of a model. Lengths change; masses, densities and accelerations stay as they are said.
+void scaleModel(SceneModel& scene, double factor);
+double fitModel(SceneModel& scene, double side);
+
+/// The model has key 1, if it has elements, and bodies follow in their order. Allocates; never called by a real-time
+/// thread.
+std::shared_ptr<const Snapshot> makeSnapshot(SceneModel scene, HierarchyKind hierarchy = HierarchyKind::kBvh);
+/// The same scene with its bodies where they started, apart from those of `snapshot`: what moves the ones does not move
+/// the others. Null: it has no bodies.
+std::shared_ptr<const Snapshot> withOwnBodies(const Snapshot& snapshot);
+
+}  // namespace hl

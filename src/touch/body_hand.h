@@ -1,0 +1,24 @@
+// BodyHand: a finger's proxy as a hand at the bodies: steps them before a tick, and settles with them after it.
+#pragma once
+
+#include "proxy/proxy.h"
+#include "touch/body_world.h"
+
+namespace hl {
+
+/// RT-safe.
+class BodyHand {
+ public:
+  /// Steps the bodies to `now_ns`, by `settings.period_s` of their time. `finger`: of now, world frame. `pulls`:
+  /// whether the spring makes a force.
+  void before(BodyWorld& bodies, std::int64_t now_ns, const ProxyState& state, const ProxySettings& settings,
+              const Vec3& finger, bool pulls);
+  /// After the tick in `scene` that came to `state` and `report`. `touching`: the spring pulls toward what it touched.
+  void after(BodyWorld& bodies, const SceneAt& scene, const ProxyState& state, const TickReport& report,
+             const ProxySettings& settings, const Vec3& finger, bool touching);
+
+ private:
+  FixedVector<HandContact, kContactsOfHand> held_by_;  // at the end of the last tick
+};
+
+}  // namespace hl
