@@ -279,11 +279,13 @@ inline std::vector<HLsample> takeSamples() {
   return all;
 }
 
-/// hlTakeContactReport: all that was pressed since the last time, the strongest first.
+/// What the hand has felt since the last takeContactReport().
 struct ContactReport {
   HLcontactreport mean;
   std::vector<HLcontactforce> contacts;
 };
+
+/// hlTakeContactReport: all that was pressed since the last time, the strongest first.
 inline ContactReport takeContactReport() {
   constexpr HLsizei kMost = 1024;  // more are not kept
   ContactReport report{{}, std::vector<HLcontactforce>(kMost)};

@@ -92,9 +92,9 @@ void HlSession::receive(proto::ClientMessage message) {
     case proto::ClientMessage::kDevice:
       return setDevice(message.device());
     case proto::ClientMessage::kSampleRequest:
-      return want(message.sample_request().wanted(), next_sample_);
+      return want(message.sample_request().wanted(), next_.sample);
     case proto::ClientMessage::kContactReportRequest:
-      return want(message.contact_report_request().wanted(), next_contact_);
+      return want(message.contact_report_request().wanted(), next_.contact);
     case proto::ClientMessage::BODY_NOT_SET:
       return refuse("a message with nothing in it that this server knows");
   }
@@ -252,9 +252,9 @@ bool HlSession::take(proto::ServerReply& reply) {
   if (replies_.take(reply)) return true;
   if (!end().empty() || nextState_s() > 0) return false;
   reply.Clear();
-  reported_ = next_contact_ && !reported_;
-  if (reported_) {
-    reportContacts(world_.device(device_), *next_contact_, *reply.mutable_contact_report());
+  next_.reported = next_.contact && !next_.reported;
+  if (next_.reported) {
+    reportContacts(world_.device(device_), *next_.contact, *reply.mutable_contact_report());
     return true;
   }
   const double now_s = world_.time_s();
@@ -262,7 +262,7 @@ bool HlSession::take(proto::ServerReply& reply) {
   states_.next_s = std::max(states_.next_s + states_.period_s, now_s);
   world_.describe(device_, *reply.mutable_state());
   reply.mutable_state()->set_master(master_);
-  if (next_sample_) addMoments(world_.device(device_), *next_sample_, *reply.mutable_state());
+  if (next_.sample) addMoments(world_.device(device_), *next_.sample, *reply.mutable_state());
   return true;
 }
 

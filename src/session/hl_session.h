@@ -45,6 +45,12 @@ class HlSession final : public ClientSession {
     double next_s = 0;    // server's clock
   };
 
+  /// Numbers of the device's moments that are to be told next; none: the client wants none.
+  struct MomentsToTell {
+    std::optional<std::uint64_t> sample, contact;
+    bool reported = false;  // the contacts, before the state that comes next
+  };
+
   void open(const proto::Open& open);
   void keepUploads(proto::Uploads uploads);
   void keepUpload(proto::Upload upload);
@@ -70,9 +76,7 @@ class HlSession final : public ClientSession {
   UploadStore uploads_;
   std::uint64_t last_frame_ = 0;
   StateTimer states_;
-  // Numbers of the device's moments; none: the client wants none.
-  std::optional<std::uint64_t> next_sample_, next_contact_;
-  bool reported_ = false;  // the contacts, before the state that comes next
+  MomentsToTell next_;
   MessageRate frame_rate_;
 };
 
