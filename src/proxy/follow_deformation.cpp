@@ -68,7 +68,8 @@ void rememberDeformation(ProxyState& state, const SceneAt& scene, const ProxySet
   estimate.force_N = Vec3::Zero();
   const auto deforms = [&](const ProxyContact& contact) {
     const Instance& instance = scene.instance(contact.primitive);
-    return !instance.compliance && (instance.mesh_motion || instance.key == estimate.key);
+    const bool may_answer = instance.answers_force && !instance.compliance;
+    return may_answer && (instance.mesh_motion || instance.key == estimate.key);
   };
   if (std::none_of(report.contacts.begin(), report.contacts.end(), deforms)) return;
   const ContactParts parts = partsOf(report.contacts, state.position + state.rest_offset_m - finger);

@@ -84,6 +84,7 @@ void encode(const Instance& instance, proto::RecordedInstance& out) {
   out.set_object(instance.object);
   out.set_name(instance.name);
   out.set_item(instance.item);
+  out.set_answers_force(instance.answers_force);
   if (!instance.compliance) return;
   const ComplianceWays yields{instance.compliance->earlier(), instance.compliance->last()};
   toProto(valuesOf(yields), *out.mutable_compliance());
@@ -197,6 +198,7 @@ std::shared_ptr<const Snapshot> SceneReader::scene(const proto::RecordedScene& i
     instances.back().mesh_motion = meshMotionOf(placed, *surfaces->second);
     instances.back().compliance = complianceOf(placed);
     instances.back().item = placed.item();
+    instances.back().answers_force = placed.answers_force();
   }
   return makeSnapshot(std::move(instances), in.name(), in.number(), in.blend_ns());
 }

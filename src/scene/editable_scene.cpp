@@ -163,6 +163,7 @@ void EditableScene::Flattening::add(const SceneItem& item, const Call& call, std
   PlacedShape placed{shape, surfacesOf(call.surface), pose, call.key, scene_.session_, call.object, call.name, number};
   const auto found = state_.compliances.find(call.object);
   if (found != state_.compliances.end()) placed.compliance = found->second;
+  placed.answers_force = state_.answers_force;
   placed_.push_back(std::move(placed));
 }
 
@@ -219,6 +220,7 @@ EditableScene::State EditableScene::after(SceneEdit edit) const {
     if (next.objects.contains(id)) next.compliances[id] = compliance;
   }
   if (edit.world) next.world = std::move(edit.world);
+  next.answers_force = edit.answers_force;
   return next;
 }
 
@@ -364,6 +366,7 @@ Instance follow(const PlacedShape& now, const Instance* before, std::int64_t beg
                 const MemoryBudget& memory, Followed& all) {
   Instance instance{now.shape, now.surfaces, Motion(now.pose), now.key, now.session, now.object, now.name};
   instance.item = now.item;
+  instance.answers_force = now.answers_force;
   if (now.compliance) instance.compliance = std::make_shared<const ComplianceMotion>(*now.compliance);
   if (before == nullptr) return instance;
   if (end_ns > begin_ns) {

@@ -44,6 +44,8 @@ struct SceneEdit {
   std::map<std::uint32_t, std::shared_ptr<SceneItems>> objects;
   std::map<std::uint32_t, Compliance> compliances;  ///< by object; kept until the object is deleted
   std::shared_ptr<SceneItems> world;                ///< null: unchanged
+  /// The client deforms its objects by the forces that it reads: how they yield is estimated where it does not tell.
+  bool answers_force = false;
 };
 
 /// Limits for the scene of one client.
@@ -84,6 +86,7 @@ struct PlacedShape {
   std::uint32_t session = 0, object = 0, name = 0;
   std::uint32_t item = 0;                  ///< as in Instance
   std::optional<Compliance> compliance{};  ///< of its object
+  bool answers_force = false;              ///< as in Instance
 };
 
 /// The shapes in the world; shared by all readers.
@@ -98,6 +101,7 @@ class EditableScene {
     std::map<std::uint32_t, std::shared_ptr<const SceneItems>> objects;
     std::map<std::uint32_t, Compliance> compliances;  // of objects that are there
     std::shared_ptr<const SceneItems> world = std::make_shared<SceneItems>();
+    bool answers_force = false;
   };
   /// The geometry number of a shape, and the stretch applied to it: the upper half of a symmetric matrix.
   using Stretched = std::tuple<std::uint64_t, std::array<double, 6>>;

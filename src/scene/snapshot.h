@@ -41,7 +41,8 @@ struct Instance {
   std::shared_ptr<const RigidBody> body{};  ///< null: it has no mass. Its poses are the driver, unless it is fixed
   /// How it yields between the frames of a client that deforms it; null: its client has not told.
   std::shared_ptr<const ComplianceMotion> compliance{};
-  std::uint32_t item = 0;  ///< index of its item in the object, or in the world if `object` is 0
+  bool answers_force = false;  ///< its client deforms it by the forces that it reads
+  std::uint32_t item = 0;      ///< index of its item in the object, or in the world if `object` is 0
 
   /// Poses of the instance over time. Of a body that moves: for the loop that ticks alone.
   const PoseSource& poses() const { return driver ? *driver : static_cast<const PoseSource&>(motion); }

@@ -171,7 +171,7 @@ void HlSession::submit(proto::Frame frame) {
   } catch (const Error& error) {
     return refuse(error.what(), number);
   }
-  world_.publisher().submit(place_, std::move(frame), std::move(uploads), std::move(memory));
+  world_.publisher().submit(place_, std::move(frame), std::move(uploads), std::move(memory), next_.contact.has_value());
 }
 
 // Nothing of them is set when one is wrong.

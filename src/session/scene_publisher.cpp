@@ -123,10 +123,11 @@ std::shared_ptr<ScenePublisher::ClientScene> ScenePublisher::join(std::uint32_t 
 }
 
 void ScenePublisher::submit(const std::shared_ptr<ClientScene>& client, proto::Frame frame, Uploads uploads,
-                            MemoryShare memory) {
+                            MemoryShare memory, bool answers_force) {
   {
     const std::lock_guard lock(mutex_);
-    client->waiting_.push_back({std::move(frame), std::move(uploads), std::move(memory), monotonicNow_ns()});
+    client->waiting_.push_back(
+        {std::move(frame), std::move(uploads), std::move(memory), answers_force, monotonicNow_ns()});
   }
   work_.notify_one();
 }
@@ -235,6 +236,7 @@ void ScenePublisher::build(ClientScene& client, Waiting waiting) {
   try {
     DecodedFrame decoded = decodeFrame(waiting.frame, waiting.uploads, client.limits_, client.memory_, progress,
                                        [&](std::uint32_t object) { return client.scene_.items(object); });
+    decoded.edit.answers_force = waiting.answers_force;
     EditableScene::Next next = client.scene_.prepare(std::move(decoded.edit));
     PlacedShapes before;
     const std::lock_guard lock(mutex_);  // what was there before is freed without it

@@ -61,7 +61,8 @@ class ScenePublisher {
                                     FrameCallbacks callbacks, std::shared_ptr<ClientScene> replaced = {});
   /// Any thread; returns at once. `uploads`: those that the frame refers to. `memory`: what both take, until it is
   /// built.
-  void submit(const std::shared_ptr<ClientScene>& client, proto::Frame frame, Uploads uploads, MemoryShare memory);
+  void submit(const std::shared_ptr<ClientScene>& client, proto::Frame frame, Uploads uploads, MemoryShare memory,
+              bool answers_force = false);
   /// Frames that are submitted and not yet shown or refused.
   std::size_t waiting(const std::shared_ptr<ClientScene>& client) const;
   /// No callback is under way or comes after this. The objects stay where they are until remove().
@@ -80,6 +81,7 @@ class ScenePublisher {
     proto::Frame frame;
     Uploads uploads;
     MemoryShare memory;
+    bool answers_force = false;  ///< see SceneEdit
     std::int64_t arrived_ns = 0;
   };
   /// Of the next scene: what one client has in it.
