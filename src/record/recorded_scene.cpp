@@ -1,8 +1,10 @@
 #include "record/recorded_scene.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/error.h"
+#include "io/body_messages.h"
 #include "io/value_messages.h"
 
 namespace hl {
@@ -23,20 +25,12 @@ struct Ways {
   Way earlier, last;
 };
 
-void checkPose(const Pose& pose) {
-  // Rotations are computed: to 1e-12, or so.
-  constexpr double kTurned = 1e-6;
-  const Mat3 off = pose.rotation * pose.rotation.transpose() - Mat3::Identity();
-  if (!(off.cwiseAbs().maxCoeff() < kTurned) || !withinReach(pose.origin))
-    throw Error("a motion makes no sense: a pose in it is not rigid, or out of reach");
-}
-
 Ways waysOf(const proto::Values& in) {
   Ways ways;
   readValues(in, "a motion", ways);
   for (const Way& way : {ways.earlier, ways.last}) {
-    checkPose(way.from);
-    checkPose(way.to);
+    checkRecorded(way.from, "a motion");
+    checkRecorded(way.to, "a motion");
     checkTime(way.begin_ns, "the beginning of a motion");
     checkTime(way.end_ns, "the end of a motion");
     if (way.begin_ns > way.end_ns) throw Error("a motion makes no sense: it ends before it begins");
@@ -56,6 +50,14 @@ void encode(const Instance& instance, proto::RecordedInstance& out) {
   out.set_session(instance.session);
   out.set_object(instance.object);
   out.set_name(instance.name);
+}
+
+Mechanics mechanicsOf(const proto::RecordedScene& in) {
+  Mechanics mechanics;
+  if (!in.has_mechanics()) return mechanics;
+  readValues(in.mechanics(), "what acts on bodies", mechanics);
+  checkRecorded(mechanics);
+  return mechanics;
 }
 
 }  // namespace
@@ -80,8 +82,11 @@ void SceneWriter::write(const Snapshot& scene, const Write& write) {
   out.set_number(scene.number);
   out.set_blend_ns(scene.blend_ns);
   out.set_name(scene.name);
+  const auto is_body = [](const Instance& instance) { return instance.body != nullptr; };
+  if (std::any_of(scene.instances.begin(), scene.instances.end(), is_body))
+    toProto(valuesOf(scene.mechanics), *out.mutable_mechanics());
   for (const Instance& instance : scene.instances) {
-    if (instance.driver) throw Error("an object that is driven cannot be recorded");
+    if (instance.driver && !instance.movesAsBody()) throw Error("an object that is driven cannot be recorded");
     proto::RecordedInstance& placed = *out.add_instances();
     encode(instance, placed);
     const auto shape_id = [&](const std::shared_ptr<const Shape>& shape) {
@@ -106,6 +111,14 @@ void SceneWriter::write(const Snapshot& scene, const Write& write) {
     };
     if (instance.mesh_motion && instance.mesh_motion->earlier()) add_way(*instance.mesh_motion->earlier());
     if (instance.mesh_motion) add_way(instance.mesh_motion->last());
+    if (instance.body) {
+      placed.set_body(idOf(bodies_, instance.body, [&](std::uint64_t id) {
+        proto::RecordingBlock part;
+        part.mutable_rigid_body()->set_id(id);
+        toProto(*instance.body, *part.mutable_rigid_body());
+        write(part);
+      }));
+    }
     placed.set_surfaces(idOf(surfaces_, instance.surfaces, [&](std::uint64_t id) {
       proto::RecordingBlock part;
       part.mutable_surfaces()->set_id(id);
@@ -135,6 +148,16 @@ void SceneReader::add(const proto::RecordedSurfaces& in) {
   surfaces_[in.id()] = std::move(surfaces);
 }
 
+void SceneReader::add(const proto::RecordedBody& in) { bodies_[in.id()] = rigidBodyOf(in); }
+
+void SceneReader::setBody(std::uint64_t id, Instance& instance) const {
+  if (id == 0) return;
+  const auto body = bodies_.find(id);
+  if (body == bodies_.end()) throw Error(kBrokenScene);
+  instance.body = body->second;
+  instance.driver = instance.body->poses;
+}
+
 MeshTransition SceneReader::wayOf(const proto::RecordedMeshTransition& in, const Surfaces& surfaces) const {
   const auto from = shapes_.find(in.from()), to = shapes_.find(in.to());
   if (from == shapes_.end() || to == shapes_.end() || !isSameMesh(*from->second, *to->second))
@@ -155,6 +178,7 @@ std::shared_ptr<const Snapshot> SceneReader::scene(const proto::RecordedScene& i
   constexpr double kLongestBlend_ns = 1e12;
   checkRanges("a scene", {{"blend_ns", static_cast<double>(in.blend_ns()), 0, kLongestBlend_ns}});
   std::vector<Instance> instances;
+  std::size_t bodies = 0;
   for (const proto::RecordedInstance& placed : in.instances()) {
     const auto shape = shapes_.find(placed.shape());
     const auto surfaces = surfaces_.find(placed.surfaces());
@@ -164,8 +188,11 @@ std::shared_ptr<const Snapshot> SceneReader::scene(const proto::RecordedScene& i
     instances.push_back({shape->second, surfaces->second, Motion(ways.earlier.screw(), ways.last.screw()), placed.key(),
                          placed.session(), placed.object(), placed.name()});
     instances.back().mesh_motion = meshMotionOf(placed, *surfaces->second);
+    setBody(placed.body(), instances.back());
+    bodies += instances.back().movesAsBody() ? 1 : 0;
   }
-  return makeSnapshot(std::move(instances), in.name(), in.number(), in.blend_ns());
+  if (bodies > kMostBodies) throw Error(kBrokenScene);
+  return makeSnapshot(std::move(instances), in.name(), in.number(), in.blend_ns(), mechanicsOf(in));
 }
 
 }  // namespace hl

@@ -1,5 +1,5 @@
-// Scenes between snapshots and the messages of a recording. Shapes and surfaces that several scenes share are written
-// once. What comes back is touched bit for bit as it was.
+// Scenes between snapshots and the messages of a recording. Shapes, surfaces and bodies that several scenes share are
+// written once. What comes back is touched bit for bit as it was.
 #pragma once
 
 #include <recording.pb.h>
@@ -35,6 +35,7 @@ class SceneWriter {
 
   std::map<const Shape*, Written<Shape>> shapes_;
   std::map<const Surfaces*, Written<Surfaces>> surfaces_;
+  std::map<const RigidBody*, Written<RigidBody>> bodies_;
   std::uint64_t last_id_ = 0;
 };
 
@@ -43,16 +44,20 @@ class SceneReader {
  public:
   void add(const proto::RecordedShape& in);
   void add(const proto::RecordedSurfaces& in);
+  void add(const proto::RecordedBody& in);
   std::shared_ptr<const Snapshot> scene(const proto::RecordedScene& in) const;
 
  private:
   MeshTransition wayOf(const proto::RecordedMeshTransition& in, const Surfaces& surfaces) const;
   std::shared_ptr<const MeshMotion> meshMotionOf(const proto::RecordedInstance& in, const Surfaces& surfaces) const;
 
+  void setBody(std::uint64_t id, Instance& instance) const;
+
   MeshReader mesh_;
   std::optional<std::uint64_t> begun_;  // the shape of which more parts follow
   std::map<std::uint64_t, std::shared_ptr<const Shape>> shapes_;
   std::map<std::uint64_t, std::shared_ptr<const Surfaces>> surfaces_;
+  std::map<std::uint64_t, std::shared_ptr<const RigidBody>> bodies_;
 };
 
 }  // namespace hl

@@ -70,6 +70,8 @@ class Recorder final : public StepSink {
     enum Phase { kNone, kWanted, kTaken };
     std::atomic<Phase> phase{kNone};
     ProxyMemory memory;
+    BodiesMemory bodies;  // with room for those of the scenes that are waited for
+    bool has_bodies = false, has_room = false;
     std::uint64_t scene = 0, next_tick = 0;
     std::int64_t wanted_ns = 0;
   };
@@ -83,6 +85,7 @@ class Recorder final : public StepSink {
   void endRecording(const std::string& reason);
   void followPages();
   void beginForPage(std::uint32_t page);
+  void wantCapture();
   bool captured(std::int64_t now_ns);
   void openForPage(std::uint32_t page);
   void endForPage();
@@ -100,6 +103,7 @@ class Recorder final : public StepSink {
   LogRing<TickRecord> ticks_;
   std::atomic<std::uint64_t> fault_{0};  // 1 + number of the step that went into fault last; 0: none
   std::atomic<bool> stalled_{false};
+  std::atomic<bool> hashing_{false};  // ticks are for a file: they get hashes of the bodies
   SceneQueue scenes_;
 
   // Of the recorder's thread.

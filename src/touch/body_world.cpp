@@ -1,5 +1,6 @@
 #include "touch/body_world.h"
 
+#include "base/error.h"
 #include "bodies/scene_world.h"
 
 namespace hl {
@@ -70,11 +71,42 @@ void BodyWorld::continueFrom(const BodyWorld& before) {
   begun_ = before.begun_;
 }
 
+bool BodyWorld::remember(BodiesMemory& out) const {
+  if (!out.hasRoomFor(world())) return false;
+  out.world.bodies = state_.bodies;
+  out.world.memory.copyFrom(state_.memory);
+  out.world.energy = state_.energy;
+  out.world.steps = state_.steps;
+  out.poses.clear();
+  for (const auto& body : bodies_) out.poses.push_back(body->poses->to());
+  out.owed = owed_;
+  out.time_ns = time_ns_;
+  out.begun = begun_;
+  out.returned = returned_;
+  return true;
+}
+
+void BodyWorld::resume(const BodiesMemory& memory) {
+  if (memory.world.bodies.size() != bodies_.size() || memory.poses.size() != bodies_.size())
+    throw Error("what the bodies remember is of another scene");
+  state_.bodies = memory.world.bodies;
+  state_.memory.copyFrom(memory.world.memory);
+  state_.energy = memory.world.energy;
+  state_.steps = memory.world.steps;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i]->poses->jumpTo(memory.poses[i]);
+  owed_ = memory.owed;
+  time_ns_ = memory.time_ns;
+  begun_ = memory.begun;
+  returned_ = memory.returned;
+}
+
 void BodyWorld::step(std::int64_t now_ns, double period_s, const HandAtBodies& hand) {
   const std::int64_t before_ns = time_ns_;
   time_ns_ = now_ns;
   const bool first = !begun_;
   begun_ = true;
+  given_.clear();
+  paid_ = 0;
   if (first || now_ns <= before_ns) return;
   HandNode node;
   node.proxy = hand.proxy;

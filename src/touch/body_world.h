@@ -12,6 +12,7 @@
 #include "bodies/body_step.h"
 #include "proxy/object_forces.h"
 #include "scene/rigid_body.h"
+#include "touch/bodies_memory.h"
 
 namespace hl {
 
@@ -37,6 +38,11 @@ class BodyWorld {
   void step(std::int64_t now_ns, double period_s, const HandAtBodies& hand);
   /// After the tick: what each object's contact gives the hand. RT-safe.
   void settle(const ObjectForces& forces, double period_s);
+
+  /// Between two ticks, all but BodiesMemory::held_by. False: there is no room for it. RT-safe.
+  bool remember(BodiesMemory& out) const;
+  /// Before the first step: goes on as the world did that had this memory. Throws hl::Error if it is of other bodies.
+  void resume(const BodiesMemory& memory);
 
   /// Of body number `i`, m/s and rad/s; between two steps. RT-safe.
   void set(std::size_t i, const Vec3& velocity, const Vec3& spin) {

@@ -1,0 +1,20 @@
+// Rigid bodies in messages, for recordings and for the process that reads foreign files. What comes back is the same to
+// the bit, or is refused.
+#pragma once
+
+#include <recording.pb.h>
+
+#include <memory>
+
+#include "scene/mechanics.h"
+#include "scene/rigid_body.h"
+
+namespace hl {
+
+/// All but the identity.
+void toProto(const RigidBody& body, proto::RecordedBody& out);
+/// At its start. Throws hl::Error, as what follows.
+std::shared_ptr<const RigidBody> rigidBodyOf(const proto::RecordedBody& in);
+void checkRecorded(const Mechanics& mechanics);
+
+}  // namespace hl
