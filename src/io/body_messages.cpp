@@ -38,6 +38,14 @@ void checkBox(const Box& box) {
     throw Error("a body makes no sense: its bounds are empty, or out of reach");
 }
 
+BodyParts partsOfBody(const proto::RecordedBody& in) {
+  BodyParts parts;
+  readValues(in.body(), kBody, parts);
+  checkSpec(parts.spec);
+  checkRecorded(parts.start, kBody);
+  return parts;
+}
+
 }  // namespace
 
 void toProto(const RigidBody& body, proto::RecordedBody& out) {
@@ -50,11 +58,13 @@ void toProto(const RigidBody& body, proto::RecordedBody& out) {
   toProto(valuesOf(parts), *out.mutable_body());
 }
 
+void toProto(const SceneBody& body, proto::RecordedBody& out) {
+  out.set_name(body.name);
+  toProto(valuesOf(BodyParts{body.spec, body.pose, {}, {}}), *out.mutable_body());
+}
+
 std::shared_ptr<const RigidBody> rigidBodyOf(const proto::RecordedBody& in) {
-  BodyParts parts;
-  readValues(in.body(), kBody, parts);
-  checkSpec(parts.spec);
-  checkRecorded(parts.start, kBody);
+  const BodyParts parts = partsOfBody(in);
   if (!parts.spec.fixed) {
     checkBox(parts.object);
     checkBox(parts.room);
@@ -62,9 +72,18 @@ std::shared_ptr<const RigidBody> rigidBodyOf(const proto::RecordedBody& in) {
   return makeRigidBody(in.name(), parts.spec, parts.start, parts.object, parts.room);
 }
 
-void checkRecorded(const Mechanics& mechanics) {
+SceneBody sceneBodyOf(const proto::RecordedBody& in) {
+  const BodyParts parts = partsOfBody(in);
+  return {in.name(), {}, parts.start, parts.spec};
+}
+
+Mechanics mechanicsOf(const proto::Values& in) {
   constexpr double kMost_m_s2 = 1e6;
-  checkVec("what acts on bodies", "gravity_m_s2", mechanics.gravity_m_s2, kMost_m_s2);
+  constexpr const char* kWhat = "what acts on bodies";
+  Mechanics mechanics;
+  readValues(in, kWhat, mechanics);
+  checkVec(kWhat, "gravity_m_s2", mechanics.gravity_m_s2, kMost_m_s2);
+  return mechanics;
 }
 
 }  // namespace hl

@@ -6,15 +6,17 @@
 
 #include <memory>
 
-#include "scene/mechanics.h"
-#include "scene/rigid_body.h"
+#include "scene/scene_model.h"
 
 namespace hl {
 
 /// All but the identity.
 void toProto(const RigidBody& body, proto::RecordedBody& out);
+/// All but the model.
+void toProto(const SceneBody& body, proto::RecordedBody& out);
 /// At its start. Throws hl::Error, as what follows.
 std::shared_ptr<const RigidBody> rigidBodyOf(const proto::RecordedBody& in);
-void checkRecorded(const Mechanics& mechanics);
+SceneBody sceneBodyOf(const proto::RecordedBody& in);
+Mechanics mechanicsOf(const proto::Values& in);
 
 }  // namespace hl

@@ -52,14 +52,6 @@ void encode(const Instance& instance, proto::RecordedInstance& out) {
   out.set_name(instance.name);
 }
 
-Mechanics mechanicsOf(const proto::RecordedScene& in) {
-  Mechanics mechanics;
-  if (!in.has_mechanics()) return mechanics;
-  readValues(in.mechanics(), "what acts on bodies", mechanics);
-  checkRecorded(mechanics);
-  return mechanics;
-}
-
 }  // namespace
 
 template <typename Part, typename Encode>
@@ -192,7 +184,8 @@ std::shared_ptr<const Snapshot> SceneReader::scene(const proto::RecordedScene& i
     bodies += instances.back().movesAsBody() ? 1 : 0;
   }
   if (bodies > kMostBodies) throw Error(kBrokenScene);
-  return makeSnapshot(std::move(instances), in.name(), in.number(), in.blend_ns(), mechanicsOf(in));
+  return makeSnapshot(std::move(instances), in.name(), in.number(), in.blend_ns(),
+                      in.has_mechanics() ? mechanicsOf(in.mechanics()) : Mechanics{});
 }
 
 }  // namespace hl

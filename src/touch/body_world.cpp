@@ -73,10 +73,7 @@ void BodyWorld::continueFrom(const BodyWorld& before) {
 
 bool BodyWorld::remember(BodiesMemory& out) const {
   if (!out.hasRoomFor(world())) return false;
-  out.world.bodies = state_.bodies;
-  out.world.memory.copyFrom(state_.memory);
-  out.world.energy = state_.energy;
-  out.world.steps = state_.steps;
+  out.world = state_;
   out.poses.clear();
   for (const auto& body : bodies_) out.poses.push_back(body->poses->to());
   out.owed = owed_;
@@ -89,10 +86,7 @@ bool BodyWorld::remember(BodiesMemory& out) const {
 void BodyWorld::resume(const BodiesMemory& memory) {
   if (memory.world.bodies.size() != bodies_.size() || memory.poses.size() != bodies_.size())
     throw Error("what the bodies remember is of another scene");
-  state_.bodies = memory.world.bodies;
-  state_.memory.copyFrom(memory.world.memory);
-  state_.energy = memory.world.energy;
-  state_.steps = memory.world.steps;
+  state_ = memory.world;
   for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i]->poses->jumpTo(memory.poses[i]);
   owed_ = memory.owed;
   time_ns_ = memory.time_ns;

@@ -12,6 +12,7 @@
 #include "control/safety.h"
 #include "proxy/tick_report.h"
 #include "scene/snapshot.h"
+#include "touch/bodies_view.h"
 #include "touch/ending_counts.h"
 #include "touch/loop_meter.h"
 
@@ -25,6 +26,7 @@ struct ProxyView {
   bool slipping = false;
   Ledger ledger;
   EndingCounts ended;  ///< ticks so far, by why they ended
+  BodiesView bodies;
   LoopSummary loop;
 };
 

@@ -16,6 +16,7 @@
 #include "record/recorded_bodies.h"
 #include "record/recorder.h"
 #include "record/replay.h"
+#include "scene/scene_model.h"
 #include "temp_folder.h"
 #include "touch/touch_step.h"
 #include "wait_for.h"
