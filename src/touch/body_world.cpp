@@ -120,15 +120,26 @@ void BodyWorld::step(std::int64_t now_ns, double period_s, const HandAtBodies& h
   returnLost();
 }
 
+// Kinetic, and that of gravity.
+double BodyWorld::energyOf_J(std::size_t i) const {
+  const Body& body = world().bodies[i];
+  const BodyState& state = state_.bodies[i];
+  const double turning_J = state.spin.dot(inertiaOf(body, state) * state.spin) / 2;
+  const Vec3& gravity = world().gravity_m_s2;
+  return turning_J + body.mass.mass_kg * (state.velocity.squaredNorm() / 2 - gravity.dot(state.centre));
+}
+
 // So that nothing is lost that falls from a table, and no body is ever so far away that its place is inexact.
 void BodyWorld::returnLost() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Vec3& centre = state_.bodies[i].centre;
     const Box& room = bodies_[i]->poses->room();
     if ((centre.array() >= room.min.array()).all() && (centre.array() <= room.max.array()).all()) continue;
+    const double before_J = energyOf_J(i);
     state_.bodies[i] = startOf(i);
     state_.bodies[i].velocity.setZero();
     state_.bodies[i].spin.setZero();
+    state_.energy.solver_J += energyOf_J(i) - before_J;
     bodies_[i]->poses->jumpTo(bodies_[i]->start);
     ++returned_;
   }

@@ -63,6 +63,7 @@ class BodyWorld {
  private:
   BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<const RigidBody>> bodies);
   BodyState startOf(std::size_t i) const;
+  double energyOf_J(std::size_t i) const;
   void returnLost();
 
   std::vector<std::shared_ptr<const RigidBody>> bodies_;

@@ -18,6 +18,14 @@ Model cube(double half_m) {
   return model;
 }
 
+// Far away, so that bodies have room.
+Model twoPoints() {
+  Model model;
+  model.positions = {Vec3::Constant(-5), Vec3::Constant(5)};
+  model.points = {0, 1};
+  return model;
+}
+
 SceneBody bodyOfMass(double mass_kg, const Vec3& at, BodyShape shape) {
   SceneBody body;
   body.name = "it";
@@ -40,7 +48,7 @@ std::vector<TraceRow> rowsOf(const Snapshot& scene, const std::vector<PathSample
 
 // R8.
 TEST(TracedBodies, AThrownBallFliesOnAParabola) {
-  SceneModel model;
+  SceneModel model(twoPoints());
   model.bodies.push_back(bodyOfMass(0.1, Vec3(0, 0.1, 0), BodyShape::kBall));
   const Vec3 velocity(0.5, 2, -0.3), spin(1, 2, 3);
   model.bodies[0].spec.velocity_m_s = velocity;
@@ -66,7 +74,7 @@ TEST(TracedBodies, AThrownBallFliesOnAParabola) {
 
 // The finger hits the block and goes back: what it felt is the momentum that the block has then.
 TEST(TracedBodies, GetTheMomentumThatTheFingerFeels) {
-  SceneModel model;
+  SceneModel model(twoPoints());
   constexpr double kMass_kg = 0.1;
   model.bodies.push_back(bodyOfMass(kMass_kg, Vec3::Zero(), BodyShape::kBox));
   model.mechanics.gravity_m_s2.setZero();
@@ -83,6 +91,19 @@ TEST(TracedBodies, GetTheMomentumThatTheFingerFeels) {
   EXPECT_LT(felt_N_s.x(), -1e-3) << "nothing was hit";
   EXPECT_LT((felt_N_s + kMass_kg * block.back().velocity).norm(), 1e-12);
   EXPECT_NEAR(rows.back().world.kinetic_J, rows.back().world.book.by_hand_J + rows.back().world.book.solver_J, 1e-12);
+}
+
+// It falls out of its room again and again, and is put back.
+TEST(TracedBodies, TheEnergyBookClosesAlsoWhereABodyIsPutBack) {
+  SceneModel model;
+  model.bodies.push_back(bodyOfMass(0.1, Vec3(0, 0.1, 0), BodyShape::kBox));
+  const auto scene = makeSnapshot(std::move(model));
+  std::vector<PathSample> path;
+  for (int i = 0; i < 1000; ++i) path.push_back({kStep_s * i, Vec3(0.5, 0, 0)});
+  const TraceTotals totals = runTrace(*scene, {}, path, [](const TraceRow& row) {
+    EXPECT_NEAR(row.world.kinetic_J + row.world.gravity_J, 0.1 * 9.81 * 0.1 + row.world.book.solver_J, 1e-12);
+  });
+  EXPECT_GT(totals.returned, 3U);
 }
 
 TEST(TracedBodies, AreTheSameInEachRunAndNoneWithoutBodies) {
