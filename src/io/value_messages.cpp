@@ -80,7 +80,8 @@ void checkRecorded(const Pose& pose, const std::string& what) {
   // Rotations are computed: to 1e-12, or so.
   constexpr double kTurned = 1e-6;
   const Mat3 off = pose.rotation * pose.rotation.transpose() - Mat3::Identity();
-  if (!(off.cwiseAbs().maxCoeff() < kTurned) || !withinReach(pose.origin))
+  const bool rigid = (off.array().abs() < kTurned).all();  // unlike maxCoeff(), false for NaN
+  if (!rigid || !withinReach(pose.origin))
     throw Error(what + " makes no sense: a pose in it is not rigid, or out of reach");
 }
 

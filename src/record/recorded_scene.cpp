@@ -67,6 +67,28 @@ std::uint64_t SceneWriter::idOf(std::map<const Part*, Written<Part>>& written, c
   return entry.id;
 }
 
+std::uint64_t SceneWriter::shapeId(const std::shared_ptr<const Shape>& shape, const Write& write) {
+  if (shape->source) throw Error("a surface that is no mesh cannot be recorded");
+  return idOf(shapes_, shape, [&](std::uint64_t id) {
+    writeMesh(shape->model, [&](proto::RecordedShape& mesh) {
+      proto::RecordingBlock part;
+      part.mutable_shape()->Swap(&mesh);
+      part.mutable_shape()->set_id(id);
+      part.mutable_shape()->set_hierarchy(static_cast<std::uint32_t>(shape->hierarchy));
+      write(part);
+    });
+  });
+}
+
+std::uint64_t SceneWriter::bodyId(const std::shared_ptr<const RigidBody>& body, const Write& write) {
+  return idOf(bodies_, body, [&](std::uint64_t id) {
+    proto::RecordingBlock part;
+    part.mutable_rigid_body()->set_id(id);
+    toProto(*body, *part.mutable_rigid_body());
+    write(part);
+  });
+}
+
 void SceneWriter::write(const Snapshot& scene, const Write& write) {
   proto::RecordingBlock block;
   proto::RecordedScene& out = *block.mutable_scene();
@@ -81,36 +103,17 @@ void SceneWriter::write(const Snapshot& scene, const Write& write) {
     if (instance.driver && !instance.movesAsBody()) throw Error("an object that is driven cannot be recorded");
     proto::RecordedInstance& placed = *out.add_instances();
     encode(instance, placed);
-    const auto shape_id = [&](const std::shared_ptr<const Shape>& shape) {
-      if (shape->source) throw Error("a surface that is no mesh cannot be recorded");
-      return idOf(shapes_, shape, [&](std::uint64_t id) {
-        writeMesh(shape->model, [&](proto::RecordedShape& mesh) {
-          proto::RecordingBlock part;
-          part.mutable_shape()->Swap(&mesh);
-          part.mutable_shape()->set_id(id);
-          part.mutable_shape()->set_hierarchy(static_cast<std::uint32_t>(shape->hierarchy));
-          write(part);
-        });
-      });
-    };
-    placed.set_shape(shape_id(instance.shape));
+    placed.set_shape(shapeId(instance.shape, write));
     const auto add_way = [&](const MeshTransition& way) {
       proto::RecordedMeshTransition& recorded = *placed.add_mesh_motion();
-      recorded.set_from(shape_id(way.given_from()));
-      recorded.set_to(shape_id(way.given_to()));
+      recorded.set_from(shapeId(way.given_from(), write));
+      recorded.set_to(shapeId(way.given_to(), write));
       recorded.set_begin_ns(way.begin_ns());
       recorded.set_end_ns(way.end_ns());
     };
     if (instance.mesh_motion && instance.mesh_motion->earlier()) add_way(*instance.mesh_motion->earlier());
     if (instance.mesh_motion) add_way(instance.mesh_motion->last());
-    if (instance.body) {
-      placed.set_body(idOf(bodies_, instance.body, [&](std::uint64_t id) {
-        proto::RecordingBlock part;
-        part.mutable_rigid_body()->set_id(id);
-        toProto(*instance.body, *part.mutable_rigid_body());
-        write(part);
-      }));
-    }
+    if (instance.body) placed.set_body(bodyId(instance.body, write));
     placed.set_surfaces(idOf(surfaces_, instance.surfaces, [&](std::uint64_t id) {
       proto::RecordingBlock part;
       part.mutable_surfaces()->set_id(id);

@@ -32,6 +32,8 @@ class SceneWriter {
   template <typename Part, typename Encode>
   std::uint64_t idOf(std::map<const Part*, Written<Part>>& written, const std::shared_ptr<const Part>& part,
                      const Encode& encode);
+  std::uint64_t shapeId(const std::shared_ptr<const Shape>& shape, const Write& write);
+  std::uint64_t bodyId(const std::shared_ptr<const RigidBody>& body, const Write& write);
 
   std::map<const Shape*, Written<Shape>> shapes_;
   std::map<const Surfaces*, Written<Surfaces>> surfaces_;

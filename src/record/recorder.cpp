@@ -91,7 +91,7 @@ Recorder::Recorder(const RecorderSettings& settings, const SessionInfo& session)
       steps_(
           room(!settings.file.empty() || settings.pages || !settings.black_box_folder.empty(), session.servo_rate_Hz)),
       ticks_(room(!settings.file.empty() || settings.pages, std::max(session.servo_rate_Hz, session.proxy_rate_Hz))) {
-  hashing_ = !settings_.file.empty();
+  capture_.hashing = !settings_.file.empty();
   if (settings_.file.empty()) return;
   file_ = std::make_unique<RecordingWriter>(settings_.file);
   file_->write(startBlock(FaultReason::kNone));
@@ -125,7 +125,7 @@ void Recorder::tick(const TickRequest& request, const ProxyStep& step, const Pro
                     std::int64_t work_ns) noexcept {
   if (step.scene == 0) return;
   ticks_.push({request, step.scene, step.held.target, proxy.state().position, step.report.contacts.size(), work_ns,
-               step.report.used_up_at, hashing_.load(std::memory_order_relaxed) ? worldHash(proxy) : 0});
+               step.report.used_up_at, capture_.hashing.load(std::memory_order_relaxed) ? worldHash(proxy) : 0});
   if (capture_.phase.load(std::memory_order_acquire) != Capture::kWanted) return;
   capture_.memory = proxy.memory();
   capture_.has_bodies = proxy.bodies() != nullptr;
@@ -166,7 +166,7 @@ void Recorder::drain(bool all) {
     for_pages ? settings_.pages->refuse(error.what()) : tell(fmt::format("the recording ends: {}", error.what()));
   }
   if (!file_) forgetOldScenes();
-  hashing_.store(file_ || capture_.wanted_ns != 0, std::memory_order_relaxed);
+  capture_.hashing.store(file_ || capture_.wanted_ns != 0, std::memory_order_relaxed);
 }
 
 void Recorder::writeFile(bool all) {
@@ -244,7 +244,7 @@ void Recorder::beginForPage(std::uint32_t page) {
 
 // While the loops may write to it nothing here does.
 void Recorder::wantCapture() {
-  hashing_.store(true, std::memory_order_relaxed);
+  capture_.hashing.store(true, std::memory_order_relaxed);
   if (capture_.phase.load(std::memory_order_acquire) != Capture::kWanted) capture_.bodies.reserve(scenes_.mostBodies());
   capture_.phase.store(Capture::kWanted, std::memory_order_release);
 }

@@ -65,10 +65,12 @@ class Recorder final : public StepSink {
     std::uint64_t fault = 0;                       // the last
     std::uint32_t page = 0;                        // whose recording the file is; 0: no page's
   };
-  /// What the proxy remembered after a tick, taken by the loop that made it, when the recorder's thread wants it.
+  /// What the proxy and the bodies remembered after a tick, taken by the loop that made it, when the recorder's thread
+  /// wants it.
   struct Capture {
     enum Phase { kNone, kWanted, kTaken };
     std::atomic<Phase> phase{kNone};
+    std::atomic<bool> hashing{false};  // ticks are for a file: they get hashes of the bodies
     ProxyMemory memory;
     BodiesMemory bodies;  // with room for those of the scenes that are waited for
     bool has_bodies = false, has_room = false;
@@ -103,7 +105,6 @@ class Recorder final : public StepSink {
   LogRing<TickRecord> ticks_;
   std::atomic<std::uint64_t> fault_{0};  // 1 + number of the step that went into fault last; 0: none
   std::atomic<bool> stalled_{false};
-  std::atomic<bool> hashing_{false};  // ticks are for a file: they get hashes of the bodies
   SceneQueue scenes_;
 
   // Of the recorder's thread.

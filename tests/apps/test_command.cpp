@@ -322,10 +322,13 @@ TEST(Command, BodiesAreTracedRecordedAndReproduced) {
   EXPECT_EQ(traced.code, 0) << traced.output;
   EXPECT_NE(traced.output.find("2 bodies: kinetic energy +"), std::string::npos) << traced.output;
   EXPECT_NE(contentOf(out).find(",tick_ns,red_ball_x,"), std::string::npos);
-  EXPECT_EQ(call("record " + sceneWithBodies() + " --duration 1 --no-open --port 0 --black-box off --out " + recording).code, 0);
+  EXPECT_EQ(
+      call("record " + sceneWithBodies() + " --duration 1 --no-open --port 0 --black-box off --out " + recording).code,
+      0);
   const Result replayed = call("replay " + recording);
   EXPECT_EQ(replayed.code, 0);
   EXPECT_NE(replayed.output.find("reproduced: bit for bit"), std::string::npos) << replayed.output;
+  EXPECT_NE(replayed.output.find("bodies:     compared after "), std::string::npos) << replayed.output;
 }
 
 TEST(Command, AKilledRecordingIsReproducedAsFarAsItGoes) {

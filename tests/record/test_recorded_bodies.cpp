@@ -166,7 +166,7 @@ TEST_F(RecordedBodies, AreReproducedBitForBitWhileScenesChange) {
   {
     Stirred session(toFile());
     session.run(4000);
-    EXPECT_GT(session.onBodies(), 300);
+    EXPECT_GT(session.onBodies(), 200);
     for (std::size_t i = 0; i < session.world().world().bodies.size(); ++i)
       moved_m =
           std::max(moved_m, (session.world().state().bodies[i].centre - session.world().body(i).start.origin).norm());
