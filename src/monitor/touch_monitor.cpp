@@ -157,22 +157,22 @@ class TouchMonitor {
   }
 
   // Work may have either sign, so it is no counter.
-  static void writeBodies(MetricsText& out, const BodiesView& bodies) {
+  static void writeBodies(MetricsText& out, const BodyView& bodies) {
     using enum MetricType;
     out.single("hl_bodies", kGauge, "Rigid bodies of the scene that can move", static_cast<double>(bodies.bodies));
-    out.single("hl_bodies_moving", kGauge, "Of them, faster than 1 mm/s", static_cast<double>(bodies.moving));
     out.family("hl_bodies_energy_joules", kGauge, "Energy of the bodies");
     out.sample(bodies.kinetic_J, {{"kind", "kinetic"}});
     out.sample(bodies.gravity_J, {{"kind", "gravity"}});
     out.family("hl_bodies_work_joules", kGauge, "What has changed it: hand + solver - contact - friction");
-    out.sample(bodies.book.by_hand_J, {{"by", "hand"}});
-    out.sample(bodies.book.contact_J, {{"by", "contact"}});
-    out.sample(bodies.book.friction_J, {{"by", "friction"}});
-    out.sample(bodies.book.solver_J, {{"by", "solver"}});
+    out.sample(bodies.energy.by_hand_J, {{"by", "hand"}});
+    out.sample(bodies.energy.contact_J, {{"by", "contact"}});
+    out.sample(bodies.energy.friction_J, {{"by", "friction"}});
+    out.sample(bodies.energy.solver_J, {{"by", "solver"}});
+    out.single("hl_bodies_lost_seconds_total", kCounter, "By how much the time of the bodies is behind", bodies.lost_s);
     out.single("hl_bodies_contacts_dropped_total", kCounter, "Contacts of bodies that a step had no room for",
                static_cast<double>(bodies.dropped));
-    out.single("hl_bodies_unconverged_steps_total", kCounter, "Steps of bodies that ended at their limit of work",
-               static_cast<double>(bodies.unconverged));
+    out.single("hl_bodies_unsolved_steps_total", kCounter, "Steps of bodies whose solve ended at its limit of work",
+               static_cast<double>(bodies.unsolved));
     out.single("hl_bodies_returned_total", kCounter, "Bodies that left their scene and were put back to their start",
                static_cast<double>(bodies.returned));
   }

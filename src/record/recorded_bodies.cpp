@@ -20,7 +20,6 @@ struct BodiesTotals {
   EnergyBook energy;
   std::int64_t time_ns = 0;
   bool begun = false;
-  std::uint64_t returned = 0;
 };
 
 struct BodyMemory {
@@ -69,7 +68,7 @@ void checkTurned(const BodyState& state) {
 
 void toProto(const BodiesMemory& memory, proto::RecordedBodies& out) {
   const WorldState& world = memory.world;
-  const BodiesTotals totals{world.steps, world.energy, memory.time_ns, memory.begun, memory.returned};
+  const BodiesTotals totals{world.steps, world.energy, memory.time_ns, memory.begun};
   toProto(valuesOf(totals), *out.mutable_totals());
   for (std::size_t i = 0; i < world.bodies.size(); ++i)
     toProto(valuesOf(BodyMemory{world.bodies[i], memory.poses[i]}), *out.mutable_bodies());
@@ -87,7 +86,6 @@ BodiesMemory fromProto(const proto::RecordedBodies& in) {
     world.energy = totals.energy;
     memory.time_ns = totals.time_ns;
     memory.begun = totals.begun;
-    memory.returned = totals.returned;
   });
   readList<BodyMemory>(in.bodies(), [&](const BodyMemory& body) {
     checkTurned(body.state);

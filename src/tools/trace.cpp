@@ -97,7 +97,7 @@ TraceTotals runTrace(const Snapshot& given, const TraceSettings& settings, const
     totals.contacts += report.contacts.empty() ? 0 : 1;
   }
   totals.ledger = tracer.state().ledger;
-  if (tracer.bodies() != nullptr) totals.returned = tracer.bodies()->returned();
+  if (tracer.bodies() != nullptr) totals.returned = tracer.bodies()->view().returned;
   return totals;
 }
 

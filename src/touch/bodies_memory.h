@@ -19,7 +19,6 @@ struct BodiesMemory {
   FixedVector<HandContact, kContactsOfHand> held_by;  ///< what held the proxy
   std::int64_t time_ns = 0;                           ///< of the last step
   bool begun = false;                                 ///< there was one
-  std::uint64_t returned = 0;                         ///< BodyWorld::returned()
 
   /// For this many bodies. Allocates.
   void reserve(std::size_t bodies) {

@@ -1,5 +1,7 @@
 #include "touch/body_world.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "bodies/scene_world.h"
 
@@ -29,6 +31,7 @@ void addTo(FixedVector<BodyImpulse, kContactsOfHand>& list, const BodyImpulse& i
 BodyWorld::BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<const RigidBody>> bodies)
     : bodies_(std::move(bodies)), stepper_(world), state_(startWorld(*world, startsOf(bodies_))) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) state_.bodies[i] = startOf(i);
+  view_.bodies = bodies_.size();
 }
 
 std::unique_ptr<BodyWorld> BodyWorld::of(const Snapshot& snapshot) {
@@ -66,7 +69,8 @@ void BodyWorld::continueFrom(const BodyWorld& before) {
   state_.energy = before.state_.energy;
   state_.steps = before.state_.steps;
   owed_ = before.owed_;
-  returned_ = before.returned_;
+  view_ = before.view_;
+  view_.bodies = bodies_.size();
   time_ns_ = before.time_ns_;
   begun_ = before.begun_;
 }
@@ -79,7 +83,6 @@ bool BodyWorld::remember(BodiesMemory& out) const {
   out.owed = owed_;
   out.time_ns = time_ns_;
   out.begun = begun_;
-  out.returned = returned_;
   return true;
 }
 
@@ -91,7 +94,6 @@ void BodyWorld::resume(const BodiesMemory& memory) {
   owed_ = memory.owed;
   time_ns_ = memory.time_ns;
   begun_ = memory.begun;
-  returned_ = memory.returned;
 }
 
 void BodyWorld::step(std::int64_t now_ns, double period_s, const HandAtBodies& hand) {
@@ -118,6 +120,19 @@ void BodyWorld::step(std::int64_t now_ns, double period_s, const HandAtBodies& h
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     bodies_[i]->poses->moveTo(poseOf(world().bodies[i], state_.bodies[i]), before_ns, now_ns);
   returnLost();
+  count(1e-9 * static_cast<double>(now_ns - before_ns) - period_s);
+}
+
+// The sums over all bodies are for people who look: not in every step.
+void BodyWorld::count(double late_s) {
+  view_.lost_s += std::max(0.0, late_s);
+  view_.dropped += report_.dropped;
+  view_.unsolved += report_.converged ? 0 : 1;
+  view_.steps = state_.steps;
+  if (state_.steps % kViewEvery != 0) return;
+  view_.energy = state_.energy;
+  view_.kinetic_J = kineticEnergy_J(world(), state_);
+  view_.gravity_J = gravityEnergy_J(world(), state_);
 }
 
 // Kinetic, and that of gravity.
@@ -141,7 +156,7 @@ void BodyWorld::returnLost() {
     state_.bodies[i].spin.setZero();
     state_.energy.solver_J += energyOf_J(i) - before_J;
     bodies_[i]->poses->jumpTo(bodies_[i]->start);
-    ++returned_;
+    ++view_.returned;
   }
 }
 

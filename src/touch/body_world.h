@@ -13,6 +13,7 @@
 #include "proxy/object_forces.h"
 #include "scene/rigid_body.h"
 #include "touch/bodies_memory.h"
+#include "touch/body_view.h"
 
 namespace hl {
 
@@ -28,6 +29,8 @@ struct HandAtBodies {
 /// By the loop that ticks.
 class BodyWorld {
  public:
+  static constexpr std::uint64_t kViewEvery = 16;
+
   /// The bodies of a snapshot, where they start; null: it has none. Throws hl::Error where one cannot be made.
   static std::unique_ptr<BodyWorld> of(const Snapshot& snapshot);
 
@@ -57,14 +60,15 @@ class BodyWorld {
   const RigidBody& body(std::size_t i) const { return *bodies_[i]; }
   /// N s that bodies are still to get.
   Vec3 owed_N_s() const;
-  /// How often a body has left its room, and was put back to where it started.
-  std::uint64_t returned() const { return returned_; }
+  /// Renewed in one of kViewEvery steps.
+  const BodyView& view() const { return view_; }
 
  private:
   BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<const RigidBody>> bodies);
   BodyState startOf(std::size_t i) const;
   double energyOf_J(std::size_t i) const;
   void returnLost();
+  void count(double late_s);
 
   std::vector<std::shared_ptr<const RigidBody>> bodies_;
   BodyStepper stepper_;
@@ -75,7 +79,7 @@ class BodyWorld {
   BodyStepReport report_;
   std::int64_t time_ns_ = 0;
   bool begun_ = false;
-  std::uint64_t returned_ = 0;
+  BodyView view_;
 };
 
 }  // namespace hl

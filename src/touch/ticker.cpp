@@ -36,7 +36,7 @@ void Ticker::show(const ProxyStep& step) {
   view_.slipping = state.touching && state.rest_s == 0;
   view_.ledger = state.ledger;
   view_.ended.add(step.report.ending);
-  view_.bodies.follow(loop_.bodies());
+  view_.bodies = loop_.bodies() != nullptr ? loop_.bodies()->view() : BodyView{};
   view_.loop = meter_.summary();
   views_.proxy.write(view_);
 }

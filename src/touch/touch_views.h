@@ -12,7 +12,7 @@
 #include "control/safety.h"
 #include "proxy/tick_report.h"
 #include "scene/snapshot.h"
-#include "touch/bodies_view.h"
+#include "touch/body_view.h"
 #include "touch/ending_counts.h"
 #include "touch/loop_meter.h"
 
@@ -26,7 +26,7 @@ struct ProxyView {
   bool slipping = false;
   Ledger ledger;
   EndingCounts ended;  ///< ticks so far, by why they ended
-  BodiesView bodies;
+  BodyView bodies;
   LoopSummary loop;
 };
 
