@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "base/vec.h"
@@ -51,6 +53,8 @@ class ContactMemory {
     for (const RememberedContact& contact : other.contacts_) add(contact);
   }
   void clear() { contacts_.clear(); }
+  std::span<const RememberedContact> all() const { return contacts_; }
+  std::size_t room() const { return contacts_.capacity(); }
   /// RT-safe within the reserved room; beyond it the contact is forgotten.
   void add(const RememberedContact& contact) {
     if (contacts_.size() < contacts_.capacity()) contacts_.push_back(contact);

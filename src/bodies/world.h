@@ -51,9 +51,8 @@ struct World {
 
 /// A step has no more contacts, each of the bodies with 64 points; the rest is dropped, and counted.
 inline constexpr std::size_t kMostHands = 8, kContactsOfHand = 8, kContactsPerBody = 64;
-inline std::size_t mostRows(const World& world) {
-  return kMostHands * kContactsOfHand + kContactsPerBody * world.bodies.size();
-}
+inline std::size_t mostRows(std::size_t bodies) { return kMostHands * kContactsOfHand + kContactsPerBody * bodies; }
+inline std::size_t mostRows(const World& world) { return mostRows(world.bodies.size()); }
 
 /// World frame.
 struct BodyState {

@@ -59,6 +59,7 @@ class BodyPoses final : public PoseSource {
   /// Where it is from the begin to the end of the last step.
   const Box& near() const { return near_; }
   const Box& room() const { return room_; }
+  const Box& object() const { return object_; }
   /// The end of the last step. Any thread.
   Pose shown() const { return shown_.read(); }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "bodies/scene_world.h"
 
 namespace hl {
@@ -88,11 +89,34 @@ void BodyWorld::continueJoints(const BodyWorld& before) {
   }
 }
 
+bool BodyWorld::remember(BodiesMemory& out) const {
+  if (!out.hasRoomFor(world())) return false;
+  out.world = state_;
+  out.poses.clear();
+  for (const auto& body : bodies_) out.poses.push_back(body->poses->to());
+  out.owed = owed_;
+  out.time_ns = time_ns_;
+  out.begun = begun_;
+  return true;
+}
+
+void BodyWorld::resume(const BodiesMemory& memory) {
+  if (memory.world.bodies.size() != bodies_.size() || memory.poses.size() != bodies_.size())
+    throw Error("what the bodies remember is of another scene");
+  state_ = memory.world;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i]->poses->jumpTo(memory.poses[i]);
+  owed_ = memory.owed;
+  time_ns_ = memory.time_ns;
+  begun_ = memory.begun;
+}
+
 void BodyWorld::step(std::int64_t now_ns, double period_s, const HandAtBodies& hand) {
   const std::int64_t before_ns = time_ns_;
   time_ns_ = now_ns;
   const bool first = !begun_;
   begun_ = true;
+  given_.clear();
+  paid_ = 0;
   if (first || now_ns <= before_ns) return;
   HandNode node;
   node.proxy = hand.proxy;
@@ -126,15 +150,26 @@ void BodyWorld::count(double late_s) {
   view_.gravity_J = gravityEnergy_J(world(), state_);
 }
 
+// Kinetic, and that of gravity.
+double BodyWorld::energyOf_J(std::size_t i) const {
+  const Body& body = world().bodies[i];
+  const BodyState& state = state_.bodies[i];
+  const double turning_J = state.spin.dot(inertiaOf(body, state) * state.spin) / 2;
+  const Vec3& gravity = world().gravity_m_s2;
+  return turning_J + body.mass.mass_kg * (state.velocity.squaredNorm() / 2 - gravity.dot(state.centre));
+}
+
 // So that nothing is lost that falls from a table, and no body is ever so far away that its place is inexact.
 void BodyWorld::returnLost() {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Vec3& centre = state_.bodies[i].centre;
     const Box& room = bodies_[i]->poses->room();
     if ((centre.array() >= room.min.array()).all() && (centre.array() <= room.max.array()).all()) continue;
+    const double before_J = energyOf_J(i);
     state_.bodies[i] = startOf(i);
     state_.bodies[i].velocity.setZero();
     state_.bodies[i].spin.setZero();
+    state_.energy.solver_J += energyOf_J(i) - before_J;
     bodies_[i]->poses->jumpTo(bodies_[i]->start);
     ++view_.returned;
   }

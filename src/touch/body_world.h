@@ -12,6 +12,7 @@
 #include "bodies/body_step.h"
 #include "proxy/object_forces.h"
 #include "scene/rigid_body.h"
+#include "touch/bodies_memory.h"
 #include "touch/body_view.h"
 
 namespace hl {
@@ -41,6 +42,11 @@ class BodyWorld {
   /// After the tick: what each object's contact gives the hand. RT-safe.
   void settle(const ObjectForces& forces, double period_s);
 
+  /// Between two ticks, all but BodiesMemory::held_by. False: there is no room for it. RT-safe.
+  bool remember(BodiesMemory& out) const;
+  /// Before the first step: goes on as the world did that had this memory. Throws hl::Error if it is of other bodies.
+  void resume(const BodiesMemory& memory);
+
   /// Of body number `i`, m/s and rad/s; between two steps. RT-safe.
   void set(std::size_t i, const Vec3& velocity, const Vec3& spin) {
     state_.bodies[i].velocity = velocity;
@@ -61,6 +67,7 @@ class BodyWorld {
   BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<const RigidBody>> bodies);
   BodyState startOf(std::size_t i) const;
   void continueJoints(const BodyWorld& before);
+  double energyOf_J(std::size_t i) const;
   void returnLost();
   void count(double late_s);
 

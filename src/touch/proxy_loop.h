@@ -74,8 +74,12 @@ class ProxyLoop {
   /// Of the scene of the last step; null: it has none.
   const BodyWorld* bodies() const { return bodies_; }
   ProxyMemory memory() const { return {state_, blend_.fading(), told_, restarts_}; }
+  /// Of the bodies of that scene; nothing where it has none. False: there is no room for it. RT-safe.
+  bool remember(BodiesMemory& out) const;
   /// Before the first step: goes on as the loop did that had this memory, if its scene is the one that step() takes.
   void resume(const ProxyMemory& memory);
+  /// The same for its bodies. Throws hl::Error unless it is of those.
+  void resume(const BodiesMemory& memory);
   bool popEvent(TouchEvent& event) { return events_.pop(event); }
 
  private:
