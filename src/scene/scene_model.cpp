@@ -15,12 +15,6 @@ Instance instanceOf(Model model, std::uint64_t key, HierarchyKind hierarchy) {
   return instance;
 }
 
-void setBody(Instance& instance, std::shared_ptr<const RigidBody> body) {
-  instance.motion = Motion(body->start);
-  instance.driver = body->poses;
-  instance.body = std::move(body);
-}
-
 // Moves all of it by `factor` and then by `offset`.
 void moveBodies(SceneModel& scene, double factor, const Vec3& offset) {
   for (SceneBody& body : scene.bodies) {

@@ -6,6 +6,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "session/body_commands.h"
 #include "session/message_forms.h"
 #include "session/state_messages.h"
 
@@ -58,6 +59,7 @@ HlSession::HlSession(TouchWorld& world, std::uint32_t number, WakeSession wake,
       memory_(world.memory().member()),
       replies_(memory_, std::move(wake)),
       uploads_(memory_, world.limits().upload_bytes),
+      bodies_(number),
       frame_rate_(world.limits().frames_Hz) {}
 
 HlSession::~HlSession() {
@@ -92,6 +94,11 @@ void HlSession::receive(proto::ClientMessage message) {
       return setDevice(message.device());
     case proto::ClientMessage::kSampleRequest:
       return wantSamples(message.sample_request().wanted());
+    case proto::ClientMessage::kBodyRequest:
+      wants_bodies_ = message.body_request().wanted();
+      return;
+    case proto::ClientMessage::kBodyCommand:
+      return act(message.body_command());
     case proto::ClientMessage::BODY_NOT_SET:
       return refuse("a message with nothing in it that this server knows");
   }
@@ -202,6 +209,26 @@ void HlSession::wantSamples(bool wanted) {
   }
 }
 
+void HlSession::act(const proto::BodyCommand& message) {
+  try {
+    BodyCommand command = toBodyCommand(message);
+    bodies_.follow(*world_.device(device_).snapshot());
+    const std::optional<std::uint32_t> name =
+        message.has_name() ? std::optional<std::uint32_t>(message.name()) : std::nullopt;
+    const std::vector<std::uint64_t> keys = bodies_.keysOf(message.object(), name);
+    if (keys.empty())
+      throw Error("body_command: no body of object " + std::to_string(message.object()) +
+                  (name ? " and name " + std::to_string(*name) : "") + " that moves is shown");
+    for (const std::uint64_t key : keys) {
+      command.key = key;
+      if (!world_.device(device_).actOnBody(command))
+        throw Error("body_command: they come faster than the loops take them");
+    }
+  } catch (const Error& error) {
+    refuse(error.what());
+  }
+}
+
 // Messages that there is no memory to decode: as when they had been, and had not fitted.
 void HlSession::refuse(const proto::ClientMessage& outline, const std::string& why) {
   if (!end().empty()) return;
@@ -255,6 +282,10 @@ bool HlSession::take(proto::ServerReply& reply) {
   world_.describe(device_, *reply.mutable_state());
   reply.mutable_state()->set_master(master_);
   if (next_sample_) addMoments(world_.device(device_), *next_sample_, *reply.mutable_state());
+  if (wants_bodies_) {
+    bodies_.follow(*world_.device(device_).snapshot());
+    bodies_.describe(*reply.mutable_state());
+  }
   return true;
 }
 

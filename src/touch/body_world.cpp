@@ -1,5 +1,7 @@
 #include "touch/body_world.h"
 
+#include <algorithm>
+
 #include "bodies/scene_world.h"
 
 namespace hl {
@@ -57,17 +59,98 @@ void BodyWorld::continueFrom(const BodyWorld& before) {
     while (j < before.bodies_.size() && before.world().bodies[j].key < key) ++j;
     if (j == before.bodies_.size() || before.world().bodies[j].key != key) continue;
     const bool goes_on = before.bodies_[j]->start == bodies_[i]->start;
-    if (goes_on) state_.bodies[i] = before.state_.bodies[j];
+    if (goes_on) {
+      state_.bodies[i] = before.state_.bodies[j];
+      // Of another shape the object frame stays where it is, and not the centre of mass.
+      const Body &now = world().bodies[i], &was = before.world().bodies[j];
+      if (now.mass.centre_O != was.mass.centre_O)
+        state_.bodies[i].centre = poseOf(was, before.state_.bodies[j]).toWorld(now.mass.centre_O);
+    }
     if (goes_on && before.bodies_[j]->poses == bodies_[i]->poses) continue;
-    bodies_[i]->poses->jumpTo(poseOf(world().bodies[i], state_.bodies[i]));
+    bodies_[i]->poses->jumpTo(shownOf(i));
   }
   state_.memory.copyFrom(before.state_.memory);
   state_.energy = before.state_.energy;
+  state_.energy.by_client_J += energy_J() - before.energy_J();  // of bodies that come and go, and of another gravity
+  pushes_ = before.pushes_;
   state_.steps = before.state_.steps;
   owed_ = before.owed_;
   returned_ = before.returned_;
   time_ns_ = before.time_ns_;
   begun_ = before.begun_;
+}
+
+ShownBody BodyWorld::shownOf(std::size_t i) const {
+  const BodyState& body = state_.bodies[i];
+  return {poseOf(world().bodies[i], body), body.velocity, body.spin};
+}
+
+double BodyWorld::energyOf_J(std::size_t i) const {
+  const Body& body = world().bodies[i];
+  const BodyState& state = state_.bodies[i];
+  const double kinetic_J = body.mass.mass_kg * state.velocity.squaredNorm() / 2 +
+                           state.spin.dot(inertiaOf(body, state) * state.spin) / 2;
+  return kinetic_J - body.mass.mass_kg * world().gravity_m_s2.dot(state.centre);
+}
+
+double BodyWorld::energy_J() const { return kineticEnergy_J(world(), state_) + gravityEnergy_J(world(), state_); }
+
+void BodyWorld::act(const BodyCommands& commands) {
+  for (const BodyCommand& command : commands) act(command);
+}
+
+void BodyWorld::act(const BodyCommand& command) {
+  const Body* const body = world().find(command.key);
+  if (body == nullptr) return;
+  const auto i = static_cast<std::size_t>(body - world().bodies.data());
+  BodyState& state = state_.bodies[i];
+  const double before_J = energyOf_J(i);
+  if (command.position_m || command.rotation) place(i, command);
+  if (command.velocity_m_s) state.velocity = *command.velocity_m_s;
+  if (command.spin_rad_s) state.spin = *command.spin_rad_s;
+  const Vec3 point = command.point_m.value_or(state.centre);
+  Push over_time{command.key, poseOf(*body, state).toObject(point), command.impulse_N_s, command.duration_s};
+  if (command.duration_s > 0) over_time.force_N /= command.duration_s;
+  // Of more than there is room for, the whole is given at once.
+  if (!(command.duration_s > 0) || !pushes_.push(over_time)) give(i, command.impulse_N_s, point);
+  state_.energy.by_client_J += energyOf_J(i) - before_J;
+}
+
+void BodyWorld::place(std::size_t i, const BodyCommand& command) {
+  BodyState& state = state_.bodies[i];
+  Pose pose = poseOf(world().bodies[i], state);
+  if (command.position_m) pose.origin = *command.position_m;
+  if (command.rotation) state.turned = Eigen::Quaterniond(*command.rotation).normalized();
+  pose.rotation = state.turned.toRotationMatrix();
+  state.centre = pose.toWorld(world().bodies[i].mass.centre_O);
+  bodies_[i]->poses->jumpTo(shownOf(i));
+}
+
+// No push makes a body faster than this, however light it is: what is in its way would not be met any more.
+void BodyWorld::give(std::size_t i, const Vec3& impulse_N_s, const Vec3& point) {
+  constexpr double kFastest_m_s = 1000, kFastest_rad_s = 10'000;
+  const Body& body = world().bodies[i];
+  BodyState& state = state_.bodies[i];
+  state.velocity = limited(state.velocity + impulse_N_s / body.mass.mass_kg, kFastest_m_s);
+  state.spin = limited(state.spin + inverseInertia(body, state) * (point - state.centre).cross(impulse_N_s),
+                       kFastest_rad_s);
+}
+
+// What is given over time, in a step of this length.
+void BodyWorld::push(double period_s) {
+  std::size_t kept = 0;
+  for (const Push& one : pushes_) {
+    const Body* const body = world().find(one.key);
+    if (body == nullptr) continue;
+    const auto i = static_cast<std::size_t>(body - world().bodies.data());
+    const double before_J = energyOf_J(i);
+    give(i, std::min(period_s, one.left_s) * one.force_N, poseOf(*body, state_.bodies[i]).toWorld(one.point_O));
+    state_.energy.by_client_J += energyOf_J(i) - before_J;
+    Push left = one;
+    left.left_s -= period_s;
+    if (left.left_s > 0) pushes_[kept++] = left;
+  }
+  pushes_.resize(kept);
 }
 
 void BodyWorld::step(std::int64_t now_ns, double period_s, const HandAtBodies& hand) {
@@ -76,6 +159,7 @@ void BodyWorld::step(std::int64_t now_ns, double period_s, const HandAtBodies& h
   const bool first = !begun_;
   begun_ = true;
   if (first || now_ns <= before_ns) return;
+  push(period_s);
   HandNode node;
   node.proxy = hand.proxy;
   node.radius_m = hand.spring_N_m > 0 ? hand.radius_m : 0;
@@ -90,7 +174,7 @@ void BodyWorld::step(std::int64_t now_ns, double period_s, const HandAtBodies& h
   paid_ = there ? node.owed.size() : 0;
   for (std::size_t i = 0; i < paid_ && i < given_.size(); ++i) owed_[i].impulse_N_s -= given_[i].impulse_N_s;
   for (std::size_t i = 0; i < bodies_.size(); ++i)
-    bodies_[i]->poses->moveTo(poseOf(world().bodies[i], state_.bodies[i]), before_ns, now_ns);
+    bodies_[i]->poses->moveTo(shownOf(i), before_ns, now_ns);
   returnLost();
 }
 
