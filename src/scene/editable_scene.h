@@ -54,8 +54,8 @@ struct SceneLimits {
   std::uint64_t scene_bytes = std::uint64_t{4} << 30;
   std::uint64_t instances = 100'000;  ///< objects in the world, counting each call
   std::uint64_t texture_bytes = std::uint64_t{256} << 20;
-  std::uint32_t nesting = 32;           ///< depth of nested calls, as for GL's matrix stack
-  std::uint64_t bodies = kMostBodies;   ///< in the world, that move
+  std::uint32_t nesting = 32;          ///< depth of nested calls, as for GL's matrix stack
+  std::uint64_t bodies = kMostBodies;  ///< in the world, that move
 };
 
 /// Memory of an object without its items, and of a texture without its texels: an entry in two maps while edited.
@@ -63,8 +63,8 @@ inline constexpr std::size_t kObject_bytes = 512;
 /// Memory of a shape in the world, without the shape itself: its placement, and an Instance with layout in each
 /// snapshot that exists at the same time (two that the loops may use, one that is being made, two that the page draws).
 std::size_t bytesInWorld();
-/// Memory of a body that moves, beside that: in the worlds of three scenes the lists of a step have room for 64 contacts
-/// of each.
+/// Memory of a body that moves, beside that: in the worlds of three scenes the lists of a step have room for 64
+/// contacts of each.
 inline constexpr std::size_t kBody_bytes = 3 * 100'000;
 
 /// Adds up the memory that shapes will need and checks it against the limit.

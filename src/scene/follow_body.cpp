@@ -22,8 +22,8 @@ std::shared_ptr<const RigidBody> followBody(const PlacedShape& now, const Instan
   if (had && isSame(now, *before, scene)) return before->body;
   Box all = scene;
   all.extend(boxAt(now.shape->bounds, now.pose));
-  auto body = makeRigidBody("object " + std::to_string(now.object), *now.body, now.pose, now.shape->bounds,
-                            roomAround(all));
+  auto body =
+      makeRigidBody("object " + std::to_string(now.object), *now.body, now.pose, now.shape->bounds, roomAround(all));
   // Until a loop takes it, it is shown where it is going on from.
   if (had && body->poses && before->body->poses && before->body->start == body->start)
     body->poses->jumpTo(before->body->poses->shown());

@@ -37,8 +37,7 @@ BodyCommand toBodyCommand(const proto::BodyCommand& in) {
     case proto::BodyCommand::kPush:
       out.impulse_N_s = vec(in.push().impulse_n_s(), kMostImpulse_N_s, "push.impulse_N_s");
       if (in.push().has_point()) out.point_m = vec(in.push().point(), kMostCoordinate_m, "push.point");
-      out.duration_s =
-          decoder().checked(in.push().duration_s(), 0, kMostDuration_s, "body_command.push.duration_s");
+      out.duration_s = decoder().checked(in.push().duration_s(), 0, kMostDuration_s, "body_command.push.duration_s");
       return out;
     case proto::BodyCommand::kVelocity:
       if (in.velocity().has_velocity_m_s())

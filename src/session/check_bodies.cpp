@@ -16,8 +16,7 @@ using Checked = std::set<std::pair<const Shape*, const BodySpec*>>;
 
 void check(const PlacedShape& placed) {
   const Box bounds = placed.shape->model.bounds();
-  if (!withinReach(bounds.min) || !withinReach(bounds.max))
-    throw Error("its vertices must lie within 1e9 m");
+  if (!withinReach(bounds.min) || !withinReach(bounds.max)) throw Error("its vertices must lie within 1e9 m");
   bodyOf(placed.shape->model, *placed.body);
 }
 

@@ -53,8 +53,8 @@ class ScenePublisher::ClientScene {
   std::deque<Waiting> waiting_;
   Work work_ = Work::kNone;  // of a builder
   bool removed_ = false;
-  bool to_rebuild_ = false;  // a hierarchy of what was placed last is
-  std::size_t bodies_ = 0;             // that move, of what was placed last
+  bool to_rebuild_ = false;           // a hierarchy of what was placed last is
+  std::size_t bodies_ = 0;            // that move, of what was placed last
   std::uint64_t gravity_number_ = 0;  // of the last frame that set it, among those of all clients; 0: none did
   Vec3 gravity_m_s2_ = Vec3::Zero();
   std::int64_t last_arrived_ns_ = 0;

@@ -113,11 +113,11 @@ class ScenePublisher {
   std::atomic<bool> running_{false};
   bool dirty_ = false;
   HierarchyCounts counts_;
-  std::size_t base_bodies_ = 0;     // that move
-  std::uint64_t gravities_ = 0;     // frames that have set it
+  std::size_t base_bodies_ = 0;  // that move
+  std::uint64_t gravities_ = 0;  // frames that have set it
   // Of the publisher's thread:
   std::optional<Vec3> gravity_m_s2_;  // of the clients, for the next scene; absent: as the base has it
-  BaseScene base_;  // guards itself what others use of it
+  BaseScene base_;                    // guards itself what others use of it
   std::shared_ptr<const Snapshot> shown_;
   std::int64_t shown_begin_ns_ = 0;
   std::int64_t making_ns_ = 0;  // what the last one took

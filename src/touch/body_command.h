@@ -13,14 +13,14 @@ namespace hl {
 
 /// World frame. What is absent stays as it is.
 struct BodyCommand {
-  std::uint64_t key = 0;                    ///< of the body; one that is not there is left alone
-  std::optional<Vec3> position_m;           ///< of the object frame
-  std::optional<Mat3> rotation;             ///< of the object frame
-  std::optional<Vec3> velocity_m_s;         ///< of the centre of mass
-  std::optional<Vec3> spin_rad_s;           ///< about it
-  Vec3 impulse_N_s = Vec3::Zero();          ///< after that
-  std::optional<Vec3> point_m;              ///< where it acts; absent: at the centre of mass
-  double duration_s = 0;                    ///< in which it is given evenly, >= 0; 0: at once
+  std::uint64_t key = 0;             ///< of the body; one that is not there is left alone
+  std::optional<Vec3> position_m;    ///< of the object frame
+  std::optional<Mat3> rotation;      ///< of the object frame
+  std::optional<Vec3> velocity_m_s;  ///< of the centre of mass
+  std::optional<Vec3> spin_rad_s;    ///< about it
+  Vec3 impulse_N_s = Vec3::Zero();   ///< after that
+  std::optional<Vec3> point_m;       ///< where it acts; absent: at the centre of mass
+  double duration_s = 0;             ///< in which it is given evenly, >= 0; 0: at once
 };
 
 /// Those of one tick; more wait for the next.

@@ -88,8 +88,8 @@ ShownBody BodyWorld::shownOf(std::size_t i) const {
 double BodyWorld::energyOf_J(std::size_t i) const {
   const Body& body = world().bodies[i];
   const BodyState& state = state_.bodies[i];
-  const double kinetic_J = body.mass.mass_kg * state.velocity.squaredNorm() / 2 +
-                           state.spin.dot(inertiaOf(body, state) * state.spin) / 2;
+  const double kinetic_J =
+      body.mass.mass_kg * state.velocity.squaredNorm() / 2 + state.spin.dot(inertiaOf(body, state) * state.spin) / 2;
   return kinetic_J - body.mass.mass_kg * world().gravity_m_s2.dot(state.centre);
 }
 
@@ -132,8 +132,8 @@ void BodyWorld::give(std::size_t i, const Vec3& impulse_N_s, const Vec3& point) 
   const Body& body = world().bodies[i];
   BodyState& state = state_.bodies[i];
   state.velocity = limited(state.velocity + impulse_N_s / body.mass.mass_kg, kFastest_m_s);
-  state.spin = limited(state.spin + inverseInertia(body, state) * (point - state.centre).cross(impulse_N_s),
-                       kFastest_rad_s);
+  state.spin =
+      limited(state.spin + inverseInertia(body, state) * (point - state.centre).cross(impulse_N_s), kFastest_rad_s);
 }
 
 // What is given over time, in a step of this length.
@@ -173,8 +173,7 @@ void BodyWorld::step(std::int64_t now_ns, double period_s, const HandAtBodies& h
   if (!there) given_.clear();
   paid_ = there ? node.owed.size() : 0;
   for (std::size_t i = 0; i < paid_ && i < given_.size(); ++i) owed_[i].impulse_N_s -= given_[i].impulse_N_s;
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    bodies_[i]->poses->moveTo(shownOf(i), before_ns, now_ns);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i]->poses->moveTo(shownOf(i), before_ns, now_ns);
   returnLost();
 }
 

@@ -62,7 +62,7 @@ class BodyWorld {
   /// An impulse that is given over time.
   struct Push {
     std::uint64_t key = 0;
-    Vec3 point_O = Vec3::Zero();     ///< m, in the object frame
+    Vec3 point_O = Vec3::Zero();  ///< m, in the object frame
     Vec3 force_N = Vec3::Zero();
     double left_s = 0;
   };

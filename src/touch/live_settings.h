@@ -14,8 +14,8 @@
 
 namespace hl {
 
-/// Setters and getters: any thread. The loops use proxyCommands() and takeBodyCommands(), by one of them at a time, stiffness_N_m(), ledger()
-/// and armRequests(); these are RT-safe.
+/// Setters and getters: any thread. The loops use proxyCommands() and takeBodyCommands(), by one of them at a time,
+/// stiffness_N_m(), ledger() and armRequests(); these are RT-safe.
 class LiveSettings {
  public:
   /// The workspace is fitted to `bounds`, or to the first scene that is not empty.
