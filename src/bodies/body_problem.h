@@ -7,6 +7,7 @@
 #include "bodies/meetings.h"
 #include "bodies/placed_bodies.h"
 #include "bodies/row.h"
+#include "bodies/scenery.h"
 #include "bodies/world.h"
 
 namespace hl {
@@ -26,6 +27,10 @@ struct BodyProblem {
   /// Row::kFixed if there is no such body.
   int numberOf(std::uint64_t key) const;
   double reachOf(std::size_t body) const { return world->bodies[body].shape.reach; }
+  /// m/s at `point` (m, world), of what a meeting with the scene meets. RT-safe.
+  Vec3 sceneryVelocityAt(PrimitiveId primitive, const Vec3& point) const {
+    return sceneryVelocity(meetings.scene()->instance(primitive), times, period_s, point);
+  }
   /// The shape of a body after its part of the way. RT-safe.
   PlacedConvex atEnd(const WorldState& state, std::size_t body, const BodyWays& plan, PlacedRoom& room) const;
   /// The other of a pair: a body after its part of the way, or a primitive of the scene. RT-safe.
@@ -42,6 +47,7 @@ struct BodyProblem {
   std::vector<Node> before;  ///< the same, before gravity
   std::vector<Row> rows;
   double period_s = 1e-3;
+  StepTimes times;
 };
 
 /// How a pair moves: whether rows made for its begin may miss its end.

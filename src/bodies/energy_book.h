@@ -10,11 +10,11 @@ namespace hl {
 
 /// Joules, sums over all steps.
 struct EnergyBook {
-  double by_hand_J = 0;   ///< work of the hands' contacts on bodies
+  double by_hand_J = 0;    ///< work of the hands' contacts on bodies
   double by_client_J = 0;  ///< what clients did to bodies, and work of the scenery that they move
-  double contact_J = 0;   ///< lost at contacts of bodies, along the normals
-  double friction_J = 0;  ///< lost by friction there
-  double solver_J = 0;    ///< added by the finite step: gravity while in contact, turns, correction of positions
+  double contact_J = 0;    ///< lost at contacts of bodies, along the normals
+  double friction_J = 0;   ///< lost by friction there
+  double solver_J = 0;     ///< added by the finite step: gravity while in contact, turns, correction of positions
 };
 
 }  // namespace hl

@@ -68,6 +68,7 @@ void MotionPlan::pushApart() {
     overlaps_.push_back(row);
     overlaps_.back().pressed = overlaps_.back().friction = 0;
     overlaps_.back().dragged.setZero();
+    overlaps_.back().carried.setZero();
     overlaps_.back().least_velocity = -kPushedApart * row.gap / problem_.period_s;
   }
   if (overlaps_.empty()) return;
@@ -103,6 +104,11 @@ bool MotionPlan::passes(const WorldState& state, const Meeting& meeting) const {
 // False: they do not go at all any more.
 bool MotionPlan::shorten(const WorldState& state, const Meeting& meeting) {
   constexpr int kTimes = 4;
+  // What comes toward a body is in it all the more if the body stays: it goes on, and is pushed apart afterwards.
+  if (meeting.b == Row::kFixed) {
+    const Vec3& centre = problem_.nodes[static_cast<std::size_t>(meeting.a)].centre;
+    if (problem_.sceneryVelocityAt(meeting.primitive, centre).dot(meeting.manifold.normal) > 0) return true;
+  }
   double& of_a = plan_.parts[static_cast<std::size_t>(meeting.a)];
   double& of_b = meeting.b == Row::kFixed ? of_a : plan_.parts[static_cast<std::size_t>(meeting.b)];
   for (int time = 0; time < kTimes; ++time) {

@@ -169,7 +169,8 @@ void BodyWorld::step(std::int64_t now_ns, double period_s, const HandAtBodies& h
   node.owed = owed_;
   const bool there = hand.spring_N_m > 0 || !owed_.empty();
   if (!(node.spring_N_m > 0)) node.spring_N_m = 1;
-  report_ = stepper_.step(state_, period_s, std::span(&node, there ? 1 : 0), std::span(&given_, there ? 1 : 0));
+  report_ = stepper_.step(state_, period_s, std::span(&node, there ? 1 : 0), std::span(&given_, there ? 1 : 0),
+                          {before_ns, now_ns});
   if (!there) given_.clear();
   paid_ = there ? node.owed.size() : 0;
   for (std::size_t i = 0; i < paid_ && i < given_.size(); ++i) owed_[i].impulse_N_s -= given_[i].impulse_N_s;
