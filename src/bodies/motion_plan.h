@@ -24,8 +24,10 @@ class MotionPlan {
   void pushApart();
   void limit(double margin);
   void stopShort(const WorldState& state, bool converged);
+  double depthAtEnd(const WorldState& state, const Meeting& meeting) const;
   bool passes(const WorldState& state, const Meeting& meeting) const;
-  bool shorten(const WorldState& state, const Meeting& meeting);
+  bool comesToward(const Meeting& meeting) const;
+  void shorten(const WorldState& state, const Meeting& meeting);
 
   const BodyProblem& problem_;
   BodyWays plan_;
