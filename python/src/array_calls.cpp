@@ -132,6 +132,7 @@ py::array_t<Row> structuredArray(const std::vector<Row>& rows) {
 
 void bindArrayCalls(py::module_& module) {
   PYBIND11_NUMPY_DTYPE(HLcontact, point, normal, share, static_friction, stiffness, object, name, session);
+  PYBIND11_NUMPY_DTYPE(HLbody, object, name, position, rotation, velocity, spin);
   PYBIND11_NUMPY_DTYPE(HLsample, time, position, force, buttons);
   const auto none = py::none();
   module.def("hlDrawArrays", &drawArrays, py::arg("mode"), py::arg("vertices"), py::arg("normals") = none,
@@ -164,6 +165,10 @@ void bindArrayCalls(py::module_& module) {
   module.def("hlGetContacts", [] {
     requireContext();
     return structuredArray(hl::contacts());
+  });
+  module.def("hlGetBodies", [] {
+    requireContext();
+    return structuredArray(hl::bodies());
   });
   module.def("hlTakeSamples", [] {
     requireContext();
