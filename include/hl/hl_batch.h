@@ -79,8 +79,8 @@ typedef struct HLbatchResult {
 /* ---- Paths ----------------------------------------------------------------------------------------------------- */
 
 /** Feels the scene along `paths` recorded paths, each by a finger of its own that begins at its first sample, as
- * hl trace does, with bodies of its own. `samples`: all samples x 4, t, x, y, z, path after path, t rising within each by 1e-15 s at least, and
- * within 1e15 s of 0; path i ends before sample ends[i]. */
+ * hl trace does, with bodies of its own. `samples`: all samples x 4, t, x, y, z, path after path, t rising within each
+ * by 1e-15 s at least, and within 1e15 s of 0; path i ends before sample ends[i]. */
 HL_API HLenum hlBatchTrace(const HLbatchScene* scene, const HLbatchSettings* settings, size_t paths, const size_t* ends,
                            const HLdouble* samples, HLint threads, const HLbatchResult* result);
 

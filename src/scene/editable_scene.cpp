@@ -344,7 +344,9 @@ std::shared_ptr<const MeshMotion> meshMotionOf(const Instance& before, const Pla
 Instance follow(const PlacedShape& now, const Instance* before, std::int64_t begin_ns, std::int64_t end_ns,
                 const MemoryBudget& memory, const Box& scene, Followed& all) {
   Instance instance{now.shape, now.surfaces, Motion(now.pose), now.key, now.session, now.object, now.name};
-  if (now.body) setBody(instance, followBody(now, before, scene));
+  if (now.body)
+    setBody(instance, followBody("object " + std::to_string(now.object), {*now.body, now.pose, now.shape->bounds},
+                                 before, scene));
   if (before == nullptr || before->movesAsBody() || instance.movesAsBody()) return instance;
   if (end_ns > begin_ns) {
     const bool stays = before->motion.to() == now.pose;

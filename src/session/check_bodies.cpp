@@ -1,5 +1,6 @@
 #include "session/check_bodies.h"
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <utility>
@@ -39,6 +40,21 @@ std::size_t checkBodies(const std::vector<PlacedShape>& placed, const std::vecto
     }
   }
   return count;
+}
+
+void checkBodiesOfAll(std::size_t all, std::size_t most, std::size_t devices) {
+  if (devices > 1)
+    throw Error("a server with several devices has no rigid bodies that move: give them fixed, or start one device");
+  if (all > most)
+    throw Error("there are more than " + std::to_string(most) +
+                " bodies in the world, those of other clients among them");
+}
+
+Box boundsForBodies(const Snapshot& base, const std::vector<PlacedShape>& placed) {
+  if (std::none_of(placed.begin(), placed.end(), [](const PlacedShape& one) { return one.movesAsBody(); })) return {};
+  Box bounds = base.bounds;
+  for (const PlacedShape& one : placed) bounds.extend(boxAt(one.shape->bounds, one.pose));
+  return bounds;
 }
 
 }  // namespace hl

@@ -95,8 +95,7 @@ void HlSession::receive(proto::ClientMessage message) {
     case proto::ClientMessage::kSampleRequest:
       return wantSamples(message.sample_request().wanted());
     case proto::ClientMessage::kBodyRequest:
-      wants_bodies_ = message.body_request().wanted();
-      return;
+      return bodies_.want(message.body_request().wanted());
     case proto::ClientMessage::kBodyCommand:
       return act(message.body_command());
     case proto::ClientMessage::BODY_NOT_SET:
@@ -282,7 +281,7 @@ bool HlSession::take(proto::ServerReply& reply) {
   world_.describe(device_, *reply.mutable_state());
   reply.mutable_state()->set_master(master_);
   if (next_sample_) addMoments(world_.device(device_), *next_sample_, *reply.mutable_state());
-  if (wants_bodies_) {
+  if (bodies_.wanted()) {
     bodies_.follow(*world_.device(device_).snapshot());
     bodies_.describe(*reply.mutable_state());
   }

@@ -73,7 +73,6 @@ class HlSession final : public ClientSession {
   std::uint64_t last_frame_ = 0;
   StateTimer states_;
   std::optional<std::uint64_t> next_sample_;  // number of the device's moment; none: the client wants none
-  bool wants_bodies_ = false;
   SessionBodies bodies_;
   MessageRate frame_rate_;
 };

@@ -5,13 +5,13 @@
 #include <exception>
 #include <iterator>
 #include <new>
+#include <tuple>
 #include <utility>
 
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/guarded_thread.h"
 #include "session/check_bodies.h"
-#include "session/client_scene.h"
 
 namespace hl {
 
@@ -30,17 +30,71 @@ std::string jumpWarning(std::size_t meshes) {
          " meshes are where they are to be at once: there is no room in the server's memory for what bends them";
 }
 
-// Of all that a client's bodies may meet, but for what other clients have.
-Box boundsWith(const Snapshot& base, const std::vector<PlacedShape>& placed) {
-  Box bounds;
-  if (std::none_of(placed.begin(), placed.end(), [](const PlacedShape& one) { return one.movesAsBody(); }))
-    return bounds;
-  bounds = base.bounds;
-  for (const PlacedShape& one : placed) bounds.extend(boxAt(one.shape->bounds, one.pose));
-  return bounds;
-}
-
 }  // namespace
+
+class ScenePublisher::ClientScene {
+ public:
+  ClientScene(std::uint32_t session, const SceneLimits& limits, MemoryBudget memory, FrameCallbacks callbacks,
+              std::shared_ptr<ClientScene> replaced)
+      : session_(session),
+        limits_(limits),
+        memory_(std::move(memory)),
+        scene_(session, limits, memory_),
+        callbacks_(std::move(callbacks)),
+        replaced_(std::move(replaced)) {}
+
+ private:
+  friend class ScenePublisher;
+  enum class Work : std::uint8_t { kNone, kFrame, kHierarchies };
+  struct Ready {
+    std::uint64_t number;
+    std::vector<std::string> warnings;
+  };
+
+  /// Calls back unless the client has gone.
+  template <typename Call>
+  void tell(Call call) {
+    const std::lock_guard lock(call_mutex_);
+    if (callbacks_.shown) call(callbacks_);
+  }
+
+  const std::uint32_t session_;
+  const SceneLimits limits_;
+  const MemoryBudget memory_;
+  EditableScene scene_;  // of the builder that has set work_
+  std::mutex call_mutex_;
+  FrameCallbacks callbacks_;
+  struct Shown {
+    std::vector<const Instance*> instances;  // by rising key
+    PlacedShapes placed;                     // what they were made from
+  } shown_;                                  // of the publisher's thread
+  // Under the publisher's mutex:
+  std::deque<Waiting> waiting_;
+  Work work_ = Work::kNone;  // of a builder
+  bool removed_ = false;
+  bool to_rebuild_ = false;  // a hierarchy of what was placed last is
+  struct Bodies {
+    std::size_t moving = 0;                                   // of what was placed last
+    std::pair<std::uint64_t, Vec3> gravity{0, Vec3::Zero()};  // which of all clients' frames that set it; 0: none did
+  } bodies_;
+  struct Pace {
+    std::int64_t last_arrived_ns = 0;  // of frames
+    std::int64_t move_ns = 0;          // that what is placed takes to get there
+  } pace_;
+  PlacedShapes placed_;                    // what is to be shown next; null when it is as it was
+  std::deque<Ready> ready_;                // frames that are built and not yet told to be shown
+  std::shared_ptr<ClientScene> replaced_;  // goes with the first frame
+};
+
+struct ScenePublisher::Part {
+  std::shared_ptr<ClientScene> client;
+  bool gone;
+  PlacedShapes placed;  // null: as it is
+  std::int64_t move_ns;
+  std::size_t frames;                  // of the client's ready ones
+  std::size_t jumps;                   // Followed::jumps
+  std::vector<const Instance*> shown;  // of the client, in the next scene
+};
 
 ScenePublisher::ScenePublisher(std::shared_ptr<const Snapshot> base, std::vector<TouchSession*> devices)
     : devices_(std::move(devices)), base_bodies_(movingBodies(*base)), base_(std::move(base)), shown_(base_.now()) {}
@@ -201,13 +255,10 @@ void ScenePublisher::build(ClientScene& client, Waiting waiting) {
     before = std::exchange(client.placed_, client.scene_.sharedPlaced());
     counts_.refits += decoded.refits;
     client.to_rebuild_ = client.scene_.toRebuild() != nullptr;
-    client.move_ns_ = moveTime_ns(waiting, client.last_arrived_ns_);
-    client.last_arrived_ns_ = waiting.arrived_ns;
-    client.bodies_ = bodies;
-    if (decoded.gravity_m_s2) {
-      client.gravity_number_ = ++gravities_;
-      client.gravity_m_s2_ = *decoded.gravity_m_s2;
-    }
+    client.pace_.move_ns = moveTime_ns(waiting, client.pace_.last_arrived_ns);
+    client.pace_.last_arrived_ns = waiting.arrived_ns;
+    client.bodies_.moving = bodies;
+    if (decoded.gravity_m_s2) client.bodies_.gravity = {++gravities_, *decoded.gravity_m_s2};
     if (client.replaced_) std::exchange(client.replaced_, nullptr)->removed_ = true;
     dirty_ = true;
   } catch (const std::bad_alloc&) {
@@ -217,18 +268,13 @@ void ScenePublisher::build(ClientScene& client, Waiting waiting) {
   }
 }
 
-// A body is moved by the loop of one device. Holding the mutex.
+// Holding the mutex.
 void ScenePublisher::admitBodies(ClientScene& client, std::size_t bodies) const {
-  if (bodies == 0) return;
-  if (devices_.size() > 1)
-    throw Error("a server with several devices has no rigid bodies that move: give them fixed, or start one device");
   std::size_t all = base_bodies_ + bodies;
   for (const auto& other : clients_) {
-    if (other.get() != &client && !other->removed_ && other != client.replaced_) all += other->bodies_;
+    if (other.get() != &client && !other->removed_ && other != client.replaced_) all += other->bodies_.moving;
   }
-  if (all > client.limits_.bodies)
-    throw Error("there are more than " + std::to_string(client.limits_.bodies) +
-                " bodies in the world, those of other clients among them");
+  if (bodies > 0) checkBodiesOfAll(all, client.limits_.bodies, devices_.size());
 }
 
 // A client gets the answer that it waits for in the end, however short memory is meanwhile.
@@ -301,7 +347,7 @@ std::vector<ScenePublisher::Part> ScenePublisher::takeParts() {
     parts.push_back({client,
                      client->removed_,
                      std::exchange(client->placed_, nullptr),
-                     client->move_ns_,
+                     client->pace_.move_ns,
                      client->ready_.size(),
                      0,
                      {}});
@@ -309,9 +355,8 @@ std::vector<ScenePublisher::Part> ScenePublisher::takeParts() {
   gravity_m_s2_.reset();
   std::uint64_t newest = 0;
   for (const auto& client : clients_) {
-    if (client->removed_ || client->gravity_number_ <= newest) continue;
-    newest = client->gravity_number_;
-    gravity_m_s2_ = client->gravity_m_s2_;
+    if (client->removed_ || client->bodies_.gravity.first <= newest) continue;
+    std::tie(newest, gravity_m_s2_) = client->bodies_.gravity;
   }
   return parts;
 }
@@ -339,7 +384,7 @@ std::int64_t ScenePublisher::assemble(std::vector<Part>& parts, std::int64_t beg
       if (!client->shown_.instances.empty()) blend_ns = std::max(blend_ns, kAbruptBlend_ns);
     } else if (placed) {
       Followed next = followOn(*placed, client->shown_.instances, begin_ns, begin_ns + move_ns, client->memory_,
-                               boundsWith(*base_.now(), *placed));
+                               boundsForBodies(*base_.now(), *placed));
       jumps = next.jumps;
       blend_ns = std::max(blend_ns, next.blend_ns);
       std::move(next.instances.begin(), next.instances.end(), std::back_inserter(instances));

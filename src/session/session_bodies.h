@@ -17,6 +17,9 @@ class SessionBodies {
  public:
   explicit SessionBodies(std::uint32_t session) : session_(session) {}
 
+  /// Whether states list them.
+  void want(bool wanted) { wanted_ = wanted; }
+  bool wanted() const { return wanted_; }
   /// From now on those of this scene.
   void follow(const Snapshot& scene);
   /// Where they are now.
@@ -32,6 +35,7 @@ class SessionBodies {
   };
 
   const std::uint32_t session_;
+  bool wanted_ = false;
   std::uint64_t scene_ = 0;  // identity; 0: none yet
   std::vector<One> bodies_;
 };

@@ -7,4 +7,5 @@ void useBodies(HLuint block);
 
 void useBodies(HLuint block) {
   /* block */
+  hlCallObject(block);
 }
