@@ -153,6 +153,7 @@ void bindContactReports(py::module_& module) {
 
 void bindArrayCalls(py::module_& module) {
   PYBIND11_NUMPY_DTYPE(HLcontact, point, normal, share, static_friction, stiffness, object, name, session);
+  PYBIND11_NUMPY_DTYPE(HLbody, object, name, position, rotation, velocity, spin);
   PYBIND11_NUMPY_DTYPE(HLsample, time, position, force, buttons);
   const auto none = py::none();
   module.def("hlDrawArrays", &drawArrays, py::arg("mode"), py::arg("vertices"), py::arg("normals") = none,
@@ -185,6 +186,10 @@ void bindArrayCalls(py::module_& module) {
   module.def("hlGetContacts", [] {
     requireContext();
     return structuredArray(hl::contacts());
+  });
+  module.def("hlGetBodies", [] {
+    requireContext();
+    return structuredArray(hl::bodies());
   });
   module.def("hlTakeSamples", [] {
     requireContext();

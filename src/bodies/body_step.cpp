@@ -63,6 +63,8 @@ double BodyStepper::margin() const {
     const double reach = i < problem_.bodies() ? problem_.reachOf(i) : 0;
     fastest = std::max(fastest, problem_.nodes[i].velocity.norm() + problem_.nodes[i].spin.norm() * reach);
   }
+  const bool moves = world().fixed && problem_.times.begin_ns < world().fixed->moves_until_ns;
+  if (moves) fastest = std::max(fastest, fastest_scenery_m_s_);
   return 4 * problem_.period_s * (fastest + joints_.speed()) + kTouching_m;
 }
 
@@ -107,6 +109,7 @@ void BodyStepper::book(EnergyBook& energy, std::span<const GivenImpulses> given)
     const Vec3 mean = (relativeVelocity(row, problem_.before) + relativeVelocity(row, problem_.nodes)) / 2;
     energy.contact_J -= row.pressed * row.normal.dot(mean);
     energy.friction_J -= row.dragged.dot(mean);
+    energy.by_client_J += (row.pressed * row.normal + row.dragged).dot(row.carried);
   }
   for (const GivenImpulses& hand : given) {
     for (const BodyImpulse& one : hand) {
@@ -158,8 +161,10 @@ void BodyStepper::move(WorldState& state) const {
 }
 
 BodyStepReport BodyStepper::step(WorldState& state, double period_s, std::span<const HandNode> hands,
-                                 std::span<GivenImpulses> given) {
+                                 std::span<GivenImpulses> given, const StepTimes& times) {
   BodyStepReport report;
+  problem_.times = times;
+  problem_.meetings.look(times.begin_ns);
   begin(state, period_s);
   for (std::size_t hand = 0; hand < hands.size(); ++hand) addHand(hands[hand], given[hand]);
   joints_.begin(state);

@@ -25,13 +25,16 @@ struct BodyStepReport {
 /// By one thread at a time.
 class BodyStepper {
  public:
-  explicit BodyStepper(std::shared_ptr<const World> world) : problem_(std::move(world)) {}
+  explicit BodyStepper(std::shared_ptr<const World> world)
+      : problem_(std::move(world)),
+        fastest_scenery_m_s_(problem_.world->fixed ? fastestScenery_m_s(*problem_.world->fixed) : 0) {}
   BodyStepper(const BodyStepper&) = delete;
   BodyStepper& operator=(const BodyStepper&) = delete;
 
-  /// Moves `state` by `period_s` (> 0). `given`: room for each hand's impulses, of kMostHands at most. RT-safe.
+  /// Moves `state` by `period_s` (> 0). `given`: room for each hand's impulses, of kMostHands at most. `times`: the
+  /// step among the motions of the scene. RT-safe.
   BodyStepReport step(WorldState& state, double period_s, std::span<const HandNode> hands,
-                      std::span<GivenImpulses> given);
+                      std::span<GivenImpulses> given, const StepTimes& times = {});
   const World& world() const { return *problem_.world; }
   /// Of the last step.
   std::span<const Row> rows() const { return problem_.rows; }
@@ -52,6 +55,7 @@ class BodyStepper {
   HandRows hand_rows_{problem_, contacts_};
   JointRows joints_{problem_};
   MotionPlan plan_{problem_, joints_};
+  const double fastest_scenery_m_s_;
 };
 
 }  // namespace hl

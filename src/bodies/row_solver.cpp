@@ -81,8 +81,7 @@ RowSolverLimits limitsFor(std::size_t rows) {
 
 Vec3 relativeVelocity(const Row& row, std::span<const Node> nodes) {
   Vec3 velocity = nodes[static_cast<std::size_t>(row.a)].velocityAt(row.arm_a);
-  if (row.b != Row::kFixed) velocity -= nodes[static_cast<std::size_t>(row.b)].velocityAt(row.arm_b);
-  return velocity;
+  return velocity - (row.b == Row::kFixed ? row.carried : nodes[static_cast<std::size_t>(row.b)].velocityAt(row.arm_b));
 }
 
 void applyImpulse(const Row& row, std::span<Node> nodes, const Vec3& impulse) {

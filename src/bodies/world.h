@@ -30,7 +30,7 @@ struct Body {
 struct World {
   std::vector<Body> bodies;                    ///< sorted by key
   std::vector<Joint> joints;                   ///< sorted by key
-  std::shared_ptr<const Snapshot> fixed;       ///< what bodies stand on: at rest; null: nothing
+  std::shared_ptr<const Snapshot> fixed;       ///< what bodies stand on; null: nothing
   std::optional<BodySurface> fixed_surface{};  ///< of all of `fixed`; absent: as that of the body that touches it
   /// Of single instances of `fixed`, in its place. May be shorter than the list of instances.
   std::vector<std::optional<BodySurface>> fixed_surfaces{};

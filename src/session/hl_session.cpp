@@ -6,6 +6,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "session/body_commands.h"
 #include "session/contact_report.h"
 #include "session/message_forms.h"
 #include "session/state_messages.h"
@@ -59,6 +60,7 @@ HlSession::HlSession(TouchWorld& world, std::uint32_t number, WakeSession wake,
       memory_(world.memory().member()),
       replies_(memory_, std::move(wake)),
       uploads_(memory_, world.limits().upload_bytes),
+      bodies_(number),
       frame_rate_(world.limits().frames_Hz) {}
 
 HlSession::~HlSession() {
@@ -95,6 +97,10 @@ void HlSession::receive(proto::ClientMessage message) {
       return want(message.sample_request().wanted(), next_.sample);
     case proto::ClientMessage::kContactReportRequest:
       return want(message.contact_report_request().wanted(), next_.contact);
+    case proto::ClientMessage::kBodyRequest:
+      return bodies_.want(message.body_request().wanted());
+    case proto::ClientMessage::kBodyCommand:
+      return act(message.body_command());
     case proto::ClientMessage::BODY_NOT_SET:
       return refuse("a message with nothing in it that this server knows");
   }
@@ -205,6 +211,26 @@ void HlSession::want(bool wanted, std::optional<std::uint64_t>& next) const {
   }
 }
 
+void HlSession::act(const proto::BodyCommand& message) {
+  try {
+    BodyCommand command = toBodyCommand(message);
+    bodies_.follow(*world_.device(device_).snapshot());
+    const std::optional<std::uint32_t> name =
+        message.has_name() ? std::optional<std::uint32_t>(message.name()) : std::nullopt;
+    const std::vector<std::uint64_t> keys = bodies_.keysOf(message.object(), name);
+    if (keys.empty())
+      throw Error("body_command: no body of object " + std::to_string(message.object()) +
+                  (name ? " and name " + std::to_string(*name) : "") + " that moves is shown");
+    for (const std::uint64_t key : keys) {
+      command.key = key;
+      if (!world_.device(device_).actOnBody(command))
+        throw Error("body_command: they come faster than the loops take them");
+    }
+  } catch (const Error& error) {
+    refuse(error.what());
+  }
+}
+
 // Messages that there is no memory to decode: as when they had been, and had not fitted.
 void HlSession::refuse(const proto::ClientMessage& outline, const std::string& why) {
   if (!end().empty()) return;
@@ -263,6 +289,10 @@ bool HlSession::take(proto::ServerReply& reply) {
   world_.describe(device_, *reply.mutable_state());
   reply.mutable_state()->set_master(master_);
   if (next_.sample) addMoments(world_.device(device_), *next_.sample, *reply.mutable_state());
+  if (bodies_.wanted()) {
+    bodies_.follow(*world_.device(device_).snapshot());
+    bodies_.describe(*reply.mutable_state());
+  }
   return true;
 }
 

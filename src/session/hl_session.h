@@ -13,6 +13,7 @@
 #include "session/message_rate.h"
 #include "session/reply_queue.h"
 #include "session/scene_publisher.h"
+#include "session/session_bodies.h"
 #include "session/touch_world.h"
 #include "session/upload_store.h"
 
@@ -59,6 +60,7 @@ class HlSession final : public ClientSession {
   void setDevice(const proto::DeviceSettings& settings);
   void setStateRate(double rate_Hz);
   void want(bool wanted, std::optional<std::uint64_t>& next) const;
+  void act(const proto::BodyCommand& command);
   void refuse(const std::string& why, std::uint64_t frame = 0);
   FrameCallbacks callbacks();
 
@@ -77,6 +79,7 @@ class HlSession final : public ClientSession {
   std::uint64_t last_frame_ = 0;
   StateTimer states_;
   MomentsToTell next_;
+  SessionBodies bodies_;
   MessageRate frame_rate_;
 };
 

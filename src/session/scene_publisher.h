@@ -16,6 +16,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -97,6 +98,7 @@ class ScenePublisher {
   bool waitForLoops();
   std::vector<Part> takeParts();
   void giveBack(std::vector<Part>& parts);
+  void admitBodies(ClientScene& client, std::size_t bodies) const;
   std::int64_t assemble(std::vector<Part>& parts, std::int64_t begin_ns, std::vector<Instance>& instances) const;
   std::shared_ptr<const Snapshot> makeNext(std::vector<Part>& parts);
   void publish();
@@ -113,8 +115,11 @@ class ScenePublisher {
   std::atomic<bool> running_{false};
   bool dirty_ = false;
   HierarchyCounts counts_;
+  std::size_t base_bodies_ = 0;  // that move
+  std::uint64_t gravities_ = 0;  // frames that have set it
   // Of the publisher's thread:
-  BaseScene base_;  // guards itself what others use of it
+  std::optional<Vec3> gravity_m_s2_;  // of the clients, for the next scene; absent: as the base has it
+  BaseScene base_;                    // guards itself what others use of it
   std::shared_ptr<const Snapshot> shown_;
   std::int64_t shown_begin_ns_ = 0;
   std::int64_t making_ns_ = 0;  // what the last one took

@@ -81,6 +81,9 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
   const Snapshot& snapshot = scenes_.take();
   bodies_ = scenes_.bodies();
   const Vec3 finger = workspace_.toWorld(finger_D);
+  done_ = to_do_;
+  to_do_.clear();
+  if (bodies_ != nullptr) bodies_->act(done_);
   if (bodies_ != nullptr)
     hand_.before(*bodies_, now_ns, state_, settings_, finger, spring.pulls);
   else
