@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "bodies/scene_world.h"
 #include "commands.h"
 #include "scene/bump_gain.h"
 
@@ -42,32 +43,88 @@ void printMaterial(const Snapshot& snapshot, std::size_t number) {
         curvature, passiveForce_N(curvature, 0.5, 1e-3));
 }
 
-void print(const Snapshot& snapshot) {
-  const Model& model = snapshot.shape().model;
+// Of all instances.
+struct Totals {
+  std::size_t triangles = 0, segments = 0, points = 0, vertices = 0, joined = 0;
+  std::size_t nodes = 0, leaves = 0, geometry_bytes = 0;
+  int depth = 0;
+  bool normals = false, texcoords = false, single_precision = false;
+
+  void add(const Shape& shape) {
+    const Model& model = shape.model;
+    const IndexStats stats = shape.index->stats();
+    triangles += model.triangles.size();
+    segments += model.segments.size();
+    points += model.points.size();
+    vertices += model.positions.size();
+    joined += model.reading.joined_vertices;
+    nodes += stats.nodes;
+    leaves += stats.leaves;
+    depth = std::max(depth, stats.depth);
+    geometry_bytes += shape.geometryBytes();
+    normals = normals || !model.normals.empty();
+    texcoords = texcoords || !model.texcoords.empty();
+    single_precision = single_precision || model.reading.single_precision;
+  }
+};
+
+void printTotals(const Totals& all, const Snapshot& snapshot) {
   const Vec3 size = snapshot.bounds.size();
-  const IndexStats stats = snapshot.shape().index->stats();
-  const std::size_t primitives = snapshot.primitives;
-  fmt::print("name:       {}\n", model.name);
-  fmt::print("primitives: {} ({} triangles, {} segments, {} points given; {} vertices)\n", primitives,
-             model.triangles.size(), model.segments.size(), model.points.size(), model.positions.size());
-  if (model.reading.joined_vertices > 0)
-    fmt::print("joined:     {} vertices that were the same as others to the bit\n", model.reading.joined_vertices);
-  if (model.reading.single_precision)
+  const Vec3 &from = snapshot.bounds.min, &to = snapshot.bounds.max;
+  fmt::print("primitives: {} ({} triangles, {} segments, {} points given; {} vertices)\n", snapshot.primitives,
+             all.triangles, all.segments, all.points, all.vertices);
+  if (all.joined > 0) fmt::print("joined:     {} vertices that were the same as others to the bit\n", all.joined);
+  if (all.single_precision)
     fmt::print("precision:  model files are read in single precision: coordinates to 6e-8 of their size\n");
-  fmt::print("normals:    {}\n", model.normals.empty() ? "none" : "per vertex");
-  fmt::print("texcoords:  {}\n", model.texcoords.empty() ? "none" : "per vertex");
+  fmt::print("normals:    {}\n", all.normals ? "per vertex" : "none");
+  fmt::print("texcoords:  {}\n", all.texcoords ? "per vertex" : "none");
   fmt::print("size:       {:.6g} x {:.6g} x {:.6g} m\n", size.x(), size.y(), size.z());
-  fmt::print("from:       {:.6g} {:.6g} {:.6g} m\n", snapshot.bounds.min.x(), snapshot.bounds.min.y(),
-             snapshot.bounds.min.z());
-  fmt::print("to:         {:.6g} {:.6g} {:.6g} m\n", snapshot.bounds.max.x(), snapshot.bounds.max.y(),
-             snapshot.bounds.max.z());
-  fmt::print("hierarchy:  {} nodes, {} leaves, depth {}\n", stats.nodes, stats.leaves, stats.depth);
+  fmt::print("from:       {:.6g} {:.6g} {:.6g} m\n", from.x(), from.y(), from.z());
+  fmt::print("to:         {:.6g} {:.6g} {:.6g} m\n", to.x(), to.y(), to.z());
+  fmt::print("hierarchy:  {} nodes, {} leaves, depth {}\n", all.nodes, all.leaves, all.depth);
   fmt::print("memory:     {:.1f} MB; vertices, indices and hierarchy: {} bytes a primitive\n",
-             1e-6 * static_cast<double>(memoryOf(snapshot)), snapshot.shape().geometryBytes() / primitives);
+             1e-6 * static_cast<double>(memoryOf(snapshot)), all.geometry_bytes / snapshot.primitives);
+}
+
+void printMaterials(const Snapshot& snapshot) {
   constexpr std::size_t kMaxPrinted = 20;
-  const std::size_t materials = model.materials.size();
+  const std::size_t materials = snapshot.shape().model.materials.size();
   for (std::size_t i = 0; i < std::min(materials, kMaxPrinted); ++i) printMaterial(snapshot, i);
   if (materials > kMaxPrinted) fmt::print("and {} materials more\n", materials - kMaxPrinted);
+}
+
+void printBody(const RigidBody& body, const Model& model) {
+  const BodySurface& surface = body.spec.surface;
+  fmt::print("body {}: ", body.name);
+  if (body.poses) {
+    const Mass mass = bodyOf(model, body.spec).mass;
+    fmt::print("{}, {:.4g} kg", kBodyShapeNames[static_cast<std::size_t>(body.spec.shape)], mass.mass_kg);
+  } else {
+    fmt::print("fixed");
+  }
+  fmt::print(", friction {:.4g} static and {:.4g} dynamic, restitution {:.4g}\n", surface.static_friction,
+             surface.dynamic_friction, surface.restitution);
+}
+
+void printBodies(const Snapshot& snapshot) {
+  constexpr std::size_t kMostPrinted = 50;
+  std::size_t bodies = 0;
+  for (const Instance& instance : snapshot.instances) {
+    if (instance.body && ++bodies <= kMostPrinted) printBody(*instance.body, instance.shape->model);
+  }
+  if (bodies > kMostPrinted) fmt::print("and {} bodies more\n", bodies - kMostPrinted);
+  if (bodies == 0) return;
+  const Vec3& gravity = snapshot.mechanics.gravity_m_s2;
+  fmt::print("gravity:    {:.6g} {:.6g} {:.6g} m/s^2\n", gravity.x(), gravity.y(), gravity.z());
+}
+
+void print(const Snapshot& snapshot) {
+  Totals all;
+  for (const Instance& instance : snapshot.instances) all.add(*instance.shape);
+  fmt::print("name:       {}\n", snapshot.name);
+  printTotals(all, snapshot);
+  printMaterials(snapshot);
+  printBodies(snapshot);
   fmt::print("warnings:   {}\n", snapshot.warnings.empty() ? "none" : "");
   for (const std::string& warning : snapshot.warnings) fmt::print("  {}\n", warning);
 }

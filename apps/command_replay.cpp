@@ -55,6 +55,7 @@ void print(const std::string& file, const ReplayReport& report) {
              report.last_s - report.first_s, report.device, report.version);
   if (!report.fault.empty()) fmt::print("fault:      {}\n", report.fault);
   fmt::print("it has:     {} servo steps, {} ticks, {} scenes\n", report.steps, report.ticks, report.scenes);
+  if (report.world_hashes > 0) fmt::print("bodies:     compared after {} ticks\n", report.world_hashes);
   if (report.lost_steps + report.lost_ticks > 0)
     fmt::print(
         "missing:    {} servo steps and {} ticks that the recorder could not keep; {} ticks after them are not "

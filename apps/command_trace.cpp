@@ -38,10 +38,23 @@ void printLedger(const Ledger& ledger) {
   fmt::print(stderr, "\n");
 }
 
+// How their energy has changed since the first row, and by what.
+void printBodies(std::size_t bodies, const TraceTotals& totals) {
+  const TracedWorld &before = totals.before, &after = totals.after;
+  const EnergyBook& book = after.book;
+  fmt::print(stderr,
+             "{} bodies: kinetic energy {:+.6g} mJ, gravity {:+.6g} mJ; by hand {:.6g} mJ; lost in contacts {:.6g} mJ, "
+             "by friction {:.6g} mJ; by the finite step {:+.6g} mJ\n",
+             bodies, 1e3 * (after.kinetic_J - before.kinetic_J), 1e3 * (after.gravity_J - before.gravity_J),
+             1e3 * book.by_hand_J, 1e3 * book.contact_J, 1e3 * book.friction_J, 1e3 * book.solver_J);
+  if (totals.returned > 0) fmt::print(stderr, "{} times a body left the scene and was put back\n", totals.returned);
+}
+
 void run(const TraceOptions& options) {
   const std::vector<PathSample> path = readPath(options.path);
   const auto snapshot = loadSnapshot(options.scene);
-  TraceWriter writer(options.out, {options.scene.scene, options.path});
+  const std::vector<std::string> bodies = tracedBodies(*snapshot);
+  TraceWriter writer(options.out, {options.scene.scene, options.path}, bodies);
   const TraceTotals totals =
       runTrace(*snapshot, options.settings, path, [&](const TraceRow& row) { writer.write(row); });
   writer.close();
@@ -49,6 +62,7 @@ void run(const TraceOptions& options) {
              totals.ticks, totals.contacts, totals.ended.capped(), totals.ended[Ending::kUnplaced]);
   printEndings(totals.ended);
   printLedger(totals.ledger);
+  if (!bodies.empty()) printBodies(bodies.size(), totals);
 }
 
 }  // namespace

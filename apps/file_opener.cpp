@@ -37,14 +37,14 @@ void shade(TouchSession& session, bool smooth) {
 }  // namespace
 
 // What it may give is what the server has room for.
-Model FileOpener::read(int descriptor, const std::string& name) const {
+SceneModel FileOpener::read(int descriptor, const std::string& name) const {
   const MemoryBudget& memory = touch_.memory();
   const std::uint64_t left = memory.most_bytes() - std::min(memory.used_bytes(), memory.most_bytes());
   IsolationLimits limits;
   limits.memory_bytes = std::min<std::uint64_t>(limits.memory_bytes, left);
-  Model model = loadSent(descriptor, name, {"/proc/self/exe", {"hl", kReadSent}}, limits, given_up_);
-  requireMemory(model, name, left);
-  return model;
+  SceneModel scene = loadSent(descriptor, name, {"/proc/self/exe", {"hl", kReadSent}}, limits, given_up_);
+  requireMemory(scene, name, left);
+  return scene;
 }
 
 std::string FileOpener::open(int descriptor, const std::string& name) {

@@ -30,7 +30,7 @@ class FileOpener {
   void giveUp() { given_up_ = true; }
 
  private:
-  Model read(int descriptor, const std::string& name) const;
+  SceneModel read(int descriptor, const std::string& name) const;
 
   TouchServer& touch_;
   const HierarchyKind hierarchy_;

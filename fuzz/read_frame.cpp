@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "scene/by_key.h"
+#include "session/check_bodies.h"
 #include "session/decode_frame.h"
 #include "session/message_size.h"
 #include "touch.h"
@@ -62,7 +63,9 @@ void readMessage(MessageForm form, std::string_view bytes) {
   const std::vector<Instance> shown = followOn(scene.placed(), {}, 0, 0).instances;
   try {
     DecodedFrame frame = decodeFrame(message.frame(), uploads, smallLimits(), budget, [](double) {});
-    scene.apply(std::move(frame.edit));
+    EditableScene::Next next = scene.prepare(std::move(frame.edit));
+    checkBodies(next.placed(), scene.placed());
+    scene.show(next);
   } catch (const Error& error) {
     require(posesOf(scene) == before && error.what()[0] != '\0');
     return;

@@ -209,6 +209,56 @@ HL_API void hlCompliance(HLuint object, HLdouble normal, HLdouble tangential, co
 /** HL_TRUE: defined (hlEndObject has been called) and not deleted. */
 HL_API HLboolean hlIsObject(HLuint object);
 
+/* ---- Bodies: each call of a body's object moves as a rigid body -------------------------------------------------- */
+
+/** Makes the object that is being defined a rigid body, and sets one of its parameters (HL_BODY_MASS ..
+ * HL_BODY_DYNAMIC_FRICTION, HL_BODY_RESTITUTION; unit, range and default there). Each call of the object is a body that
+ * starts where the call's matrix places it, and goes on from where it is while that matrix and the call's place among
+ * the calls of the object stay as they are: frames may draw it again and again. Drawn with another matrix it is there
+ * at once, and starts anew. A scale is part of its shape.
+ * The definition draws one piece of geometry, all with the same matrix, surface and name, and calls no object; the
+ * server refuses a frame with another one, or with a body that has no thickness (HL_REFUSED). Bodies need a server with
+ * one device. HL_INVALID_OPERATION: no definition is open. HL_INVALID_ENUM: not such a parameter. HL_INVALID_VALUE: out
+ * of its range. */
+HL_API void hlBodyf(HLenum parameter, HLfloat value);
+HL_API void hlBodyd(HLenum parameter, HLdouble value); /**< see hlBodyf */
+/** The same of HL_BODY_SHAPE (HL_BODY_HULL .. HL_BODY_CYLINDER) and HL_BODY_FIXED (HL_TRUE: what frames move, pushes
+ * bodies, and only its surface counts). */
+HL_API void hlBodyi(HLenum parameter, HLint value);
+/** The same of HL_BODY_VELOCITY and HL_BODY_SPIN, with which it starts; world frame. */
+HL_API void hlBody3d(HLenum parameter, HLdouble x, HLdouble y, HLdouble z);
+/** The acceleration of all bodies of the server, m/s^2, from the frame on, at most 1000 along each axis; 0 -9.81 0 at
+ * first. Of several clients the frame that was built last counts, until its client goes. HL_INVALID_OPERATION in a
+ * definition. */
+HL_API void hlGravity3d(HLdouble x, HLdouble y, HLdouble z);
+
+/** Gives bodies of `object` an impulse, N s (at most 1e6 along each axis), at the point px py pz of the world, m,
+ * evenly within `seconds` (0 .. 10; 0: at once), at a point fixed to the body. At once, not with the frame; of bodies
+ * that are shown: after hlFinish, for one. With a current name (hlLoadName) it is those of the object that were called
+ * with it; without, all. The server refuses it where there is none (HL_REFUSED). HL_INVALID_VALUE: the object is not
+ * defined, a number is out of its range. */
+HL_API void hlBodyImpulsed(HLuint object, HLdouble ix, HLdouble iy, HLdouble iz, HLdouble px, HLdouble py, HLdouble pz,
+                           HLdouble seconds);
+/** Sets their velocity, m/s of the centre of mass (at most 100 along each axis), and spin, rad/s (at most 1000 about
+ * each axis), world frame; else as hlBodyImpulsed. */
+HL_API void hlBodyVelocityd(HLuint object, HLdouble vx, HLdouble vy, HLdouble vz, HLdouble wx, HLdouble wy,
+                            HLdouble wz);
+/** Places the object frame, m, turned by the quaternion qx qy qz qw (any length but 0), with the velocity that it has;
+ * else as hlBodyImpulsed. What is in its way is pushed out afterwards. */
+HL_API void hlBodyPlaced(HLuint object, HLdouble x, HLdouble y, HLdouble z, HLdouble qx, HLdouble qy, HLdouble qz,
+                         HLdouble qw);
+
+/** Writes up to `most` bodies of this context as the last state tells them, sorted by object and name, and returns how
+ * many it wrote; HL_BODY_COUNT says how many there are. States tell them once a frame with a body has been flushed.
+ * HL_INVALID_VALUE: most < 0. */
+HL_API HLsizei hlGetBodies(HLsizei most, HLbody* bodies);
+/** Writes what `name` says (HL_BODY_POSITION .. HL_BODY_MATRIX, HL_BODY_VELOCITY, HL_BODY_SPIN) of the first body of
+ * `object` that was called with the current name; without a current name, with any. HL_TRUE: written. HL_FALSE, without
+ * an error: the last state has no such body. HL_INVALID_ENUM: not such a name. */
+HL_API HLboolean hlGetBodydv(HLuint object, HLenum name, HLdouble* values);
+
+/* ---- Names ---------------------------------------------------------------------------------------------------- */
+
 /** What is drawn next is called `name` by contacts and events; 0: not named here (in a definition: as its caller says).
  */
 HL_API void hlLoadName(HLuint name);

@@ -266,6 +266,13 @@ inline std::vector<HLcontact> contacts() {
   return all;
 }
 
+/// hlGetBodies: all of them, sorted by object and name.
+inline std::vector<HLbody> bodies() {
+  std::vector<HLbody> all(static_cast<std::size_t>(get(HL_BODY_COUNT)));
+  all.resize(static_cast<std::size_t>(hlGetBodies(static_cast<HLsizei>(all.size()), all.data())));
+  return all;
+}
+
 /// hlTakeSamples: all that came since the last time, the oldest first.
 inline std::vector<HLsample> takeSamples() {
   constexpr HLsizei kAtATime = 256;
@@ -279,11 +286,13 @@ inline std::vector<HLsample> takeSamples() {
   return all;
 }
 
-/// hlTakeContactReport: all that was pressed since the last time, the strongest first.
+/// What the hand has felt since the last takeContactReport().
 struct ContactReport {
   HLcontactreport mean;
   std::vector<HLcontactforce> contacts;
 };
+
+/// hlTakeContactReport: all that was pressed since the last time, the strongest first.
 inline ContactReport takeContactReport() {
   constexpr HLsizei kMost = 1024;  // more are not kept
   ContactReport report{{}, std::vector<HLcontactforce>(kMost)};

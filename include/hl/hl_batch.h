@@ -32,7 +32,7 @@ HL_API const char* hlBatchError(void);
 
 /* ---- Scenes ---------------------------------------------------------------------------------------------------- */
 
-/** What can be touched; immutable. */
+/** What can be touched; immutable. Where it has rigid bodies, each trace has them to itself, from where they start. */
 typedef struct HLbatchScene HLbatchScene;
 
 /** A model file, a scene file (*.hl.json) or a built-in scene by its name ("teapot", "terrain:100000"). `size`: metres
@@ -79,8 +79,8 @@ typedef struct HLbatchResult {
 /* ---- Paths ----------------------------------------------------------------------------------------------------- */
 
 /** Feels the scene along `paths` recorded paths, each by a finger of its own that begins at its first sample, as
- * hl trace does. `samples`: all samples x 4, t, x, y, z, path after path, t rising within each by 1e-15 s at least, and
- * within 1e15 s of 0; path i ends before sample ends[i]. */
+ * hl trace does, with bodies of its own. `samples`: all samples x 4, t, x, y, z, path after path, t rising within each
+ * by 1e-15 s at least, and within 1e15 s of 0; path i ends before sample ends[i]. */
 HL_API HLenum hlBatchTrace(const HLbatchScene* scene, const HLbatchSettings* settings, size_t paths, const size_t* ends,
                            const HLdouble* samples, HLint threads, const HLbatchResult* result);
 
@@ -89,7 +89,7 @@ HL_API HLenum hlBatchTrace(const HLbatchScene* scene, const HLbatchSettings* set
 /** Fingers that are stepped together, each with a proxy of its own. They do not feel each other. */
 typedef struct HLbatchFingers HLbatchFingers;
 
-/** NULL when that fails. */
+/** NULL when that fails, also of a scene with bodies that move: each would be moved by all fingers at once. */
 HL_API HLbatchFingers* hlBatchMakeFingers(const HLbatchScene* scene, const HLbatchSettings* settings, size_t fingers);
 /** NULL: nothing happens. */
 HL_API void hlBatchDeleteFingers(HLbatchFingers* fingers);
@@ -105,7 +105,7 @@ HL_API void hlBatchResetFingers(HLbatchFingers* fingers, const unsigned char* ma
 /** Of each of `count` points (x 3) the nearest point of the scene, at any distance. Each output may be NULL: `nearest`
  * x 3, m; `distance`, m; `normal` x 3, unit, from the surface to the point; `primitive`, its number in the model: the
  * row of hlBatchMakeScene's triangles; of a file first the triangles, then the segments, then the points. Degenerate
- * ones, which cannot be touched, count too. */
+ * ones, which cannot be touched, count too. Bodies are where they start, and count after what stays. */
 HL_API HLenum hlBatchClosest(const HLbatchScene* scene, size_t count, const HLdouble* points, HLint threads,
                              HLdouble* nearest, HLdouble* distance, HLdouble* normal, uint64_t* primitive);
 

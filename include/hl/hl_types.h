@@ -206,6 +206,7 @@ enum {
   HL_MAX_TEXTURE_BYTES = 0x48094,    /**< 1; of all textures */
   HL_MAX_FRAME_RATE = 0x48095,       /**< 1; Hz; frames flushed faster wait and are merged. 0: no limit */
   HL_MAX_STATE_RATE = 0x48096,       /**< 1; Hz. 0: no limit */
+  HL_MAX_BODIES = 0x4810D,           /**< 1; that move, of all clients together */
   HL_DEVICE_FORCE_MAX = 0x48097,     /**< 1; N, peak */
   HL_SPRING_STIFFNESS_MAX = 0x48098, /**< 1; N/m; 0: not known */
   HL_SPRING_STIFFNESS = 0x48099,     /**< 1; N/m: K of the servo, as told at the beginning or set here since */
@@ -240,8 +241,42 @@ enum {
   HL_HAND_GRIP = 0x480B6,              /**< 1; HL_GRIP_...; a person's hand is HL_GRIP_LIGHT */
   HL_ITERATION_CAPS = 0x480B7,         /**< 1; ticks so far that hit the cap on their passes */
   HL_UNPLACED_TICKS = 0x480B8,         /**< 1; ticks so far without a clear place for the proxy: nothing pulled */
-  HL_OUT_OF_WORK_TICKS = 0x480B9       /**< 1; ticks so far that did all they may; the next goes on from there */
+  HL_OUT_OF_WORK_TICKS = 0x480B9,      /**< 1; ticks so far that did all they may; the next goes on from there */
+  HL_BODY_COUNT = 0x4810C              /**< 1; bodies of this context that move; see hlGetBodies */
 };
+
+/** hlBody*: a rigid body. Its shape, by which it meets other bodies and the scene, is made from its mesh; the hand
+ * feels the mesh. */
+enum {
+  HL_BODY_MASS = 0x48100,             /**< 1e-9 .. 1e9, kg. Default: by volume of its shape and density. */
+  HL_BODY_DENSITY = 0x48101,          /**< 1e-6 .. 1e6, kg/m^3. Default 1000. */
+  HL_BODY_STATIC_FRICTION = 0x48102,  /**< 0 .. 1e3, with other bodies, not below the dynamic one. Default: as that. */
+  HL_BODY_DYNAMIC_FRICTION = 0x48103, /**< 0 .. 1e3. Default: as the static one, or 0.5. */
+  HL_BODY_RESTITUTION = 0x48104,      /**< 0 .. 1. Default 0. Of two that touch, the geometric mean counts. */
+  HL_BODY_SHAPE = 0x48105,            /**< HL_BODY_HULL .. HL_BODY_CYLINDER. Default HL_BODY_HULL. */
+  HL_BODY_FIXED = 0x48106,            /**< HL_TRUE: it does not move by itself. Default HL_FALSE. */
+  HL_BODY_VELOCITY = 0x48107,         /**< 3; m/s of the centre of mass. Default 0. */
+  HL_BODY_SPIN = 0x48108,             /**< 3; rad/s, world frame. Default 0. */
+  HL_BODY_POSITION = 0x48109,         /**< hlGetBodydv, 3; m: of the object frame */
+  HL_BODY_ROTATION = 0x4810A,         /**< hlGetBodydv, 4; quaternion x y z w */
+  HL_BODY_MATRIX = 0x4810B,           /**< hlGetBodydv, 16; both, column by column: in place of the call's matrix, but
+                                           for its scale */
+  HL_BODY_HULL = 0x48110,             /**< convex hull of the vertices */
+  HL_BODY_BOX = 0x48111,              /**< their bounds in the object frame */
+  HL_BODY_BALL = 0x48112,             /**< centred in the bounds, as wide as their largest side */
+  HL_BODY_CAPSULE = 0x48113,          /**< along the largest side, as wide as the larger of the others */
+  HL_BODY_CYLINDER = 0x48114          /**< the same with flat ends */
+};
+
+/** A rigid body after the last step, from hlGetBodies. World frame. */
+typedef struct HLbody {
+  HLuint object;        /**< that was called */
+  HLuint name;          /**< 0: none */
+  HLdouble position[3]; /**< m: of the object frame */
+  HLdouble rotation[4]; /**< unit quaternion x y z w */
+  HLdouble velocity[3]; /**< m/s: of the centre of mass */
+  HLdouble spin[3];     /**< rad/s */
+} HLbody;
 
 /** One contact of the proxy, from hlGetContacts. World frame. */
 typedef struct HLcontact {

@@ -42,6 +42,21 @@ _EVENTS = {
     "button": calls.HL_EVENT_BUTTON,
     "motion": calls.HL_EVENT_MOTION,
 }
+_BODY_NUMBERS = {
+    "mass": calls.HL_BODY_MASS,
+    "density": calls.HL_BODY_DENSITY,
+    "static_friction": calls.HL_BODY_STATIC_FRICTION,
+    "dynamic_friction": calls.HL_BODY_DYNAMIC_FRICTION,
+    "restitution": calls.HL_BODY_RESTITUTION,
+}
+_BODY_VECTORS = {"velocity": calls.HL_BODY_VELOCITY, "spin": calls.HL_BODY_SPIN}
+_BODY_SHAPES = {
+    "hull": calls.HL_BODY_HULL,
+    "box": calls.HL_BODY_BOX,
+    "ball": calls.HL_BODY_BALL,
+    "capsule": calls.HL_BODY_CAPSULE,
+    "cylinder": calls.HL_BODY_CYLINDER,
+}
 _QUANTITIES = {**SURFACE, "height": calls.HL_HEIGHT}
 
 
@@ -194,6 +209,31 @@ class Touch:
         finally:
             self.make_current()
             calls.hlEndObject()
+
+    def body(self, shape: str = "hull", fixed: bool = False, **parameters: Any) -> None:
+        """Makes the object that is being defined a rigid body: each `place` of it is one, and goes on from where it is
+        while it is placed as it was. The definition draws once, and places nothing.
+
+        shape, by which it meets other bodies: "hull", "box", "ball", "capsule" or "cylinder". fixed: it moves only with
+        frames, and pushes. parameters: mass (kg) or density (kg/m^3); static_friction, dynamic_friction, restitution
+        (0..1); velocity (m/s) and spin (rad/s) with which it starts, (3,).
+        """
+        self.make_current()
+        for key in parameters:
+            if key not in _BODY_NUMBERS and key not in _BODY_VECTORS:
+                raise InvalidValueError(f"a body has no '{key}': {', '.join([*_BODY_NUMBERS, *_BODY_VECTORS])}")
+        calls.hlBodyi(calls.HL_BODY_SHAPE, _chosen(_BODY_SHAPES, shape, "shape of a body"))
+        calls.hlBodyi(calls.HL_BODY_FIXED, bool(fixed))
+        for key, value in parameters.items():
+            if key in _BODY_NUMBERS:
+                calls.hlBodyd(_BODY_NUMBERS[key], arguments.number(value, key))
+            else:
+                calls.hlBody3d(_BODY_VECTORS[key], *_vector(value, key))
+
+    def gravity(self, acceleration: npt.ArrayLike) -> None:
+        """Of all bodies, (3,) in m/s^2, from this frame on; (0, -9.81, 0) at first."""
+        self.make_current()
+        calls.hlGravity3d(*_vector(acceleration, "acceleration"))
 
     def place(self, number: int, pose: Optional[npt.ArrayLike] = None) -> None:
         """Puts an object into the world: (4, 4), from its frame to the world; None: as it is defined."""
@@ -409,6 +449,20 @@ class Touch:
         static_friction, stiffness, object, name, session."""
         self.poll()
         return calls.hlGetContacts()
+
+    def bodies(self) -> npt.NDArray[np.void]:
+        """The rigid bodies of the newest state that move, sorted by object and name: a structured array with object,
+        name, position (m), rotation (x y z w), velocity (m/s) and spin (rad/s)."""
+        self.poll()
+        return calls.hlGetBodies()
+
+    def push(self, number: int, impulse: npt.ArrayLike, point: npt.ArrayLike, seconds: float = 0.0) -> None:
+        """Gives the shown bodies of an object, inside of `name` those of that name, an impulse, (3,) in N s, at a point
+        of the world, (3,) in m; evenly within `seconds` (0..10), or at once."""
+        self.make_current()
+        number = arguments.whole(number, "the object's number")
+        numbers = [*_vector(impulse, "impulse"), *_vector(point, "point")]
+        calls.hlBodyImpulsed(number, *numbers, arguments.number(seconds, "seconds"))
 
     def keep_samples(self, most: int) -> None:
         """From now on keep the newest `most` steps of the servo, for `samples`; 0: none."""

@@ -131,13 +131,30 @@ py::array_t<Row> structuredArray(const std::vector<Row>& rows) {
   return py::array_t<Row>(static_cast<py::ssize_t>(rows.size()), rows.data());
 }
 
+void bindContactReports(py::module_& module) {
+  PYBIND11_NUMPY_DTYPE(HLcontactforce, object, name, session, vertex_count, vertices, weights, point, force);
+  PYBIND11_NUMPY_DTYPE(HLcontactreport, time, interval, force);
+  module.def("hlTakeContactReport", [] {
+    requireContext();
+    const hl::ContactReport report = hl::takeContactReport();
+    return std::pair(structuredArray(report.contacts), structuredArray(std::vector<HLcontactreport>{report.mean}));
+  });
+  module.def(
+      "hlCompliance",
+      [](HLuint object, HLdouble normal, HLdouble tangential, std::optional<std::array<HLdouble, 3>> force) {
+        requireContext();
+        hlCompliance(object, normal, tangential, force ? force->data() : nullptr);
+        throwFailure();
+      },
+      py::arg("object"), py::arg("normal"), py::arg("tangential"), py::arg("force") = py::none());
+}
+
 }  // namespace
 
 void bindArrayCalls(py::module_& module) {
   PYBIND11_NUMPY_DTYPE(HLcontact, point, normal, share, static_friction, stiffness, object, name, session);
+  PYBIND11_NUMPY_DTYPE(HLbody, object, name, position, rotation, velocity, spin);
   PYBIND11_NUMPY_DTYPE(HLsample, time, position, force, buttons);
-  PYBIND11_NUMPY_DTYPE(HLcontactforce, object, name, session, vertex_count, vertices, weights, point, force);
-  PYBIND11_NUMPY_DTYPE(HLcontactreport, time, interval, force);
   const auto none = py::none();
   module.def("hlDrawArrays", &drawArrays, py::arg("mode"), py::arg("vertices"), py::arg("normals") = none,
              py::arg("texcoords") = none);
@@ -170,21 +187,13 @@ void bindArrayCalls(py::module_& module) {
     requireContext();
     return structuredArray(hl::contacts());
   });
+  module.def("hlGetBodies", [] {
+    requireContext();
+    return structuredArray(hl::bodies());
+  });
   module.def("hlTakeSamples", [] {
     requireContext();
     return structuredArray(hl::takeSamples());
   });
-  module.def("hlTakeContactReport", [] {
-    requireContext();
-    const hl::ContactReport report = hl::takeContactReport();
-    return std::pair(structuredArray(report.contacts), structuredArray(std::vector<HLcontactreport>{report.mean}));
-  });
-  module.def(
-      "hlCompliance",
-      [](HLuint object, HLdouble normal, HLdouble tangential, std::optional<std::array<HLdouble, 3>> force) {
-        requireContext();
-        hlCompliance(object, normal, tangential, force ? force->data() : nullptr);
-        throwFailure();
-      },
-      py::arg("object"), py::arg("normal"), py::arg("tangential"), py::arg("force") = none);
+  bindContactReports(module);
 }

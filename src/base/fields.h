@@ -19,6 +19,10 @@ inline constexpr bool kIsMatrix = false;
 template <int kRows, int kColumns>
 inline constexpr bool kIsMatrix<Eigen::Matrix<double, kRows, kColumns>> = true;
 template <typename T>
+inline constexpr bool kIsQuaternion = false;
+template <>
+inline constexpr bool kIsQuaternion<Eigen::Quaterniond> = true;
+template <typename T>
 inline constexpr bool kIsArray = false;
 template <typename T, std::size_t kSize>
 inline constexpr bool kIsArray<std::array<T, kSize>> = true;
@@ -31,7 +35,8 @@ template <typename T, typename Visit>
 void visitField(T& field, Visit& visit);
 
 /// Calls `visit` with every arithmetic, enumeration and matrix member of a structure and of those in it. An optional is
-/// a bool and a value. A structure with a base needs an overload of its own: see visitBases().
+/// a bool and a value, a quaternion its four numbers. A structure with a base needs an overload of its own: see
+/// visitBases().
 template <typename T, typename Visit>
 void visitFields(T& value, Visit& visit) {
   boost::pfr::for_each_field(value, [&](auto& field) { visitField(field, visit); });
@@ -67,6 +72,8 @@ template <typename T, typename Visit>
 void visitField(T& field, Visit& visit) {
   if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T> || kIsMatrix<T>) {
     visit(field);
+  } else if constexpr (kIsQuaternion<T>) {
+    visit(field.coeffs());
   } else if constexpr (kIsArray<T>) {
     for (auto& each : field) visitField(each, visit);
   } else if constexpr (kIsOptional<T>) {

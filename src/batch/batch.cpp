@@ -59,7 +59,9 @@ NearestPoint nearestPoint(const SceneAt& scene, const Vec3& point) {
 
 std::uint64_t numberInModel(const Snapshot& scene, const PrimitiveId& primitive) {
   const Shape& shape = scene.shape(primitive.instance);
-  return shape.source ? primitive.element : shape.primitives.elementNumber(primitive.element);
+  std::uint64_t before = 0;  // of what stays, and of the bodies before this one
+  for (std::uint32_t i = 0; i < primitive.instance; ++i) before += scene.shape(i).model.elements();
+  return before + (shape.source ? primitive.element : shape.primitives.elementNumber(primitive.element));
 }
 
 }  // namespace hl

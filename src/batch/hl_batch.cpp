@@ -18,7 +18,7 @@
 #include "batch/ends_early.h"
 #include "batch/on_threads.h"
 #include "io/load_scene.h"
-#include "scene/model.h"
+#include "scene/scene_model.h"
 
 struct HLbatchScene {
   std::shared_ptr<const hl::Snapshot> snapshot;
@@ -116,7 +116,7 @@ void put(const HLbatchResult& result, std::size_t i, const BatchRow& row) {
   if (result.injected != nullptr) result.injected[i] = row.injected_J;
 }
 
-HLbatchScene* sceneOf(Model model) {
+HLbatchScene* sceneOf(SceneModel model) {
   auto snapshot = makeSnapshot(std::move(model));
   if (snapshot->primitives == 0)
     throw Error("nothing in it can be touched" + (snapshot->warnings.empty() ? "" : ": " + snapshot->warnings.back()));
@@ -149,9 +149,8 @@ HLbatchScene* hlBatchLoadScene(const char* name, HLdouble size) {
     require(name != nullptr, "name is NULL");
     require(std::isfinite(size) && size >= 0, "size must be finite and not negative");
     SceneModel loaded = loadScene(name);
-    require(loaded.bodies.empty(), "bodies cannot be felt by many fingers at once");
-    if (size > 0) fitModel(loaded.model, size);
-    scene = sceneOf(std::move(loaded.model));
+    if (size > 0) fitModel(loaded, size);
+    scene = sceneOf(std::move(loaded));
   });
   return scene;
 }
@@ -224,6 +223,8 @@ HLbatchFingers* hlBatchMakeFingers(const HLbatchScene* scene, const HLbatchSetti
   HLbatchFingers* made = nullptr;
   guardedCall(__func__, [&] {
     require(scene != nullptr, "scene is NULL");
+    require(movingBodies(*scene->snapshot) == 0,
+            "bodies move by each finger alone: of a scene with bodies take traces, or give the bodies fixed");
     made = new HLbatchFingers{FingerBatch(scene->snapshot, settingsOf(settings), fingers)};
   });
   return made;

@@ -59,7 +59,8 @@ PlacedConvex BodyProblem::otherAtEnd(const WorldState& state, const Meeting& mee
                                      PlacedRoom& room) const {
   if (meeting.b != Row::kFixed) return atEnd(state, static_cast<std::size_t>(meeting.b), plan, room);
   const SceneAt& scene = *meetings.scene();
-  return hl::placed(scene.primitive(meeting.primitive), scene.instance(meeting.primitive).poses().to(), room);
+  return hl::placed(scene.primitive(meeting.primitive), scene.instance(meeting.primitive).poses().at(times.end_ns),
+                    room);
 }
 
 bool BodyProblem::meetsAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan,
@@ -79,6 +80,10 @@ Pace paceOf(const BodyProblem& problem, const Meeting& meeting) {
     size = size == 0 ? reach : std::min(size, reach);
     way += problem.period_s * problem.nodes[i].velocity.norm() + turn * reach;
     pace.turns |= turn > kStraight_rad && problem.world->bodies[i].shape.vertices.size() > 1;
+  }
+  if (meeting.b == Row::kFixed) {
+    const Vec3& centre = problem.nodes[static_cast<std::size_t>(meeting.a)].centre;
+    way += problem.period_s * problem.sceneryVelocityAt(meeting.primitive, centre).norm();
   }
   pace.fast = way > kFast * size;
   return pace;

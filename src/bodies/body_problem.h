@@ -8,6 +8,7 @@
 #include "bodies/meetings.h"
 #include "bodies/placed_bodies.h"
 #include "bodies/row.h"
+#include "bodies/scenery.h"
 #include "bodies/world.h"
 
 namespace hl {
@@ -30,6 +31,10 @@ struct BodyProblem {
   /// A body after its part of the way. RT-safe.
   BodyState stateAtEnd(const WorldState& state, std::size_t body, const BodyWays& plan) const;
   Pose poseAtEnd(const WorldState& state, std::size_t body, const BodyWays& plan) const;
+  /// m/s at `point` (m, world), of what a meeting with the scene meets. RT-safe.
+  Vec3 sceneryVelocityAt(PrimitiveId primitive, const Vec3& point) const {
+    return sceneryVelocity(meetings.scene()->instance(primitive), times, period_s, point);
+  }
   /// The shape of a body after its part of the way. RT-safe.
   PlacedConvex atEnd(const WorldState& state, std::size_t body, const BodyWays& plan, PlacedRoom& room) const;
   /// The other of a pair: a body after its part of the way, or a primitive of the scene. RT-safe.
@@ -50,6 +55,7 @@ struct BodyProblem {
   std::vector<std::uint32_t> awake_joints;  ///< numbers of those whose bodies are awake, ascending
   std::vector<std::uint32_t> groups;        ///< of each body: joint_groups.h
   double period_s = 1e-3;
+  StepTimes times;
 };
 
 /// How a pair moves: whether rows made for its begin may miss its end.

@@ -81,6 +81,7 @@ double BodyStepper::margin() const {
         std::max(fastest, problem_.nodes[i].velocity.norm() + problem_.nodes[i].spin.norm() * problem_.reachOf(i));
   for (std::size_t hand = problem_.bodies(); hand < problem_.nodes.size(); ++hand)
     fastest = std::max(fastest, problem_.nodes[hand].velocity.norm());
+  if (sceneryMoves()) fastest = std::max(fastest, fastest_scenery_m_s_);
   return 4 * problem_.period_s * (fastest + joints_.speed()) + kTouching_m;
 }
 
@@ -121,6 +122,7 @@ void BodyStepper::book(EnergyBook& energy, std::span<const GivenImpulses> given)
     const Vec3 mean = (relativeVelocity(row, problem_.before) + relativeVelocity(row, problem_.nodes)) / 2;
     energy.contact_J -= row.pressed * row.normal.dot(mean);
     energy.friction_J -= row.dragged.dot(mean);
+    energy.by_client_J += (row.pressed * row.normal + row.dragged).dot(row.carried);
   }
   for (const GivenImpulses& hand : given) {
     for (const BodyImpulse& one : hand) {
@@ -171,8 +173,12 @@ void BodyStepper::move(WorldState& state) const {
   }
 }
 
-// What is owed to a sleeping body wakes it, and so does a change of gravity.
-void BodyStepper::wakeForHands(WorldState& state, std::span<const HandNode> hands) const {
+bool BodyStepper::sceneryMoves() const {
+  return world().fixed && problem_.times.begin_ns < world().fixed->moves_until_ns;
+}
+
+// What is owed to a sleeping body wakes it, and so does a change of gravity, and scenery that comes by.
+void BodyStepper::wakeFromOutside(WorldState& state, std::span<const HandNode> hands) const {
   if (state.gravity_m_s2 != world().gravity_m_s2) wakeAll(state);
   state.gravity_m_s2 = world().gravity_m_s2;
   for (const HandNode& hand : hands) {
@@ -180,6 +186,7 @@ void BodyStepper::wakeForHands(WorldState& state, std::span<const HandNode> hand
       if (owed.impulse_N_s != Vec3::Zero()) wake(world(), state, owed.key);
     }
   }
+  if (sceneryMoves()) wakeNearMoving(world(), state, problem_.times);
 }
 
 // The impulses of a step. `margin_m`: how far anything may go in it.
@@ -206,9 +213,11 @@ BodyStepReport BodyStepper::findImpulses(WorldState& state, double period_s, dou
 
 // A step that would push what sleeps wakes it, and begins anew.
 BodyStepReport BodyStepper::step(WorldState& state, double period_s, std::span<const HandNode> hands,
-                                 std::span<GivenImpulses> given) {
+                                 std::span<GivenImpulses> given, const StepTimes& times) {
   double margin_m = 0;
-  wakeForHands(state, hands);
+  problem_.times = times;
+  problem_.meetings.look(times.begin_ns);
+  wakeFromOutside(state, hands);
   BodyStepReport report = findImpulses(state, period_s, margin_m, hands, given);
   for (int time = 0; time < kRestarts && wakePushed(problem_, state); ++time)
     report = findImpulses(state, period_s, margin_m, hands, given);

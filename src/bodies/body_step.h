@@ -28,19 +28,25 @@ struct BodyStepReport {
 /// By one thread at a time.
 class BodyStepper {
  public:
-  explicit BodyStepper(std::shared_ptr<const World> world) : problem_(std::move(world)) {}
+  explicit BodyStepper(std::shared_ptr<const World> world)
+      : problem_(std::move(world)),
+        fastest_scenery_m_s_(problem_.world->fixed ? fastestScenery_m_s(*problem_.world->fixed) : 0) {}
   BodyStepper(const BodyStepper&) = delete;
   BodyStepper& operator=(const BodyStepper&) = delete;
 
-  /// Moves `state` by `period_s` (> 0). `given`: room for each hand's impulses, of kMostHands at most. RT-safe.
+  /// Moves `state` by `period_s` (> 0). `given`: room for each hand's impulses, of kMostHands at most. `times`: the
+  /// step among the motions of the scene. RT-safe.
   BodyStepReport step(WorldState& state, double period_s, std::span<const HandNode> hands,
-                      std::span<GivenImpulses> given);
+                      std::span<GivenImpulses> given, const StepTimes& times = {});
   const World& world() const { return *problem_.world; }
+  /// Numbers of the bodies that the last step moved, ascending.
+  std::span<const std::size_t> awake() const { return problem_.awake; }
   /// Of the last step.
   std::span<const Row> rows() const { return problem_.rows; }
 
  private:
-  void wakeForHands(WorldState& state, std::span<const HandNode> hands) const;
+  bool sceneryMoves() const;
+  void wakeFromOutside(WorldState& state, std::span<const HandNode> hands) const;
   BodyStepReport findImpulses(WorldState& state, double period_s, double& margin_m, std::span<const HandNode> hands,
                               std::span<GivenImpulses> given);
   void begin(const WorldState& state, double period_s);
@@ -61,6 +67,7 @@ class BodyStepper {
   Impacts impacts_{problem_};
   Islands islands_{problem_.nodes.capacity()};
   IslandSolver solver_{problem_};
+  const double fastest_scenery_m_s_;
 };
 
 }  // namespace hl

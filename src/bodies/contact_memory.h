@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "base/vec.h"
@@ -59,12 +61,12 @@ class ContactMemory {
     for (const RememberedContact& contact : other.contacts_) add(contact);
   }
   void clear() { contacts_.clear(); }
+  std::span<const RememberedContact> all() const { return contacts_; }
+  std::size_t room() const { return contacts_.capacity(); }
   /// RT-safe within the reserved room; beyond it the contact is forgotten.
   void add(const RememberedContact& contact) {
     if (contacts_.size() < contacts_.capacity()) contacts_.push_back(contact);
   }
-  auto begin() const { return contacts_.begin(); }
-  auto end() const { return contacts_.end(); }
   /// No row of a step has begun from any of them. RT-safe.
   void release() {
     for (RememberedContact& contact : contacts_) contact.taken = false;

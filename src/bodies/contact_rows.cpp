@@ -48,6 +48,7 @@ Row ContactRows::rowOf(const Meeting& meeting, std::size_t number) const {
   row.normal = meeting.manifold.normal;
   row.arm_a = point.point - problem_.nodes[static_cast<std::size_t>(row.a)].centre;
   if (!fixed) row.arm_b = point.point - problem_.nodes[static_cast<std::size_t>(row.b)].centre;
+  if (fixed) row.carried = problem_.sceneryVelocityAt(meeting.primitive, point.point);
   row.gap = point.gap;
   row.restitution = surface.restitution;
   row.static_friction = surface.static_friction;
@@ -126,6 +127,8 @@ bool ContactRows::goesThrough(const Meeting& meeting, std::size_t number) const 
   if (meeting.b != Row::kFixed) {
     const Node& b = problem_.nodes[static_cast<std::size_t>(meeting.b)];
     velocity -= b.velocityAt(point.point - b.centre);
+  } else {
+    velocity -= problem_.sceneryVelocityAt(meeting.primitive, point.point);
   }
   return point.gap + problem_.period_s * meeting.manifold.normal.dot(velocity) < -kTouching_m;
 }

@@ -80,7 +80,7 @@ double Impacts::kineticOf(const Node& node, std::size_t number) const {
   return twice / 2;
 }
 
-// Of all impulses of a joint: springs may well add kinetic energy.
+// Of all impulses of a joint: springs may well add kinetic energy, as scenery may that moves.
 double Impacts::workOf(const JointBlock& block) const {
   double work = block.held.dot(heldVelocities(block, free_) + heldVelocities(block, problem_.nodes)) / 2;
   if (!block.coordinate.there) return work;
@@ -100,6 +100,7 @@ bool Impacts::weaken(std::vector<Row>& rows, bool last) {
     const JointBlock& block = problem_.joints.blocks[joint];
     gained(block.a) -= workOf(block);
   }
+  for (const Row& row : rows) gained(row.a) -= (row.pressed * row.normal + row.dragged).dot(row.carried);
   bool any = false;
   for (Row& row : rows) {
     if (!(row.least_velocity > 0) || !(gained(row.a) > 0)) continue;

@@ -27,6 +27,7 @@ struct Joint : JointForces {
   Vec3 axis_a = Vec3::UnitX(), axis_b = Vec3::UnitX();    ///< unit
   Vec3 side_a = Vec3::UnitY(), side_b = Vec3::UnitY();    ///< unit, across the axis: one direction at coordinate 0
   bool collide = false;                                   ///< whether the two bodies also collide with each other
+  bool operator==(const Joint&) const = default;
 };
 
 /// J, of the spring and the table; those of a rod never act. RT-safe.

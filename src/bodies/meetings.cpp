@@ -7,7 +7,7 @@
 
 namespace hl {
 
-Meetings::Meetings(const World& world) : along_x_(world.bodies.size()), joined_(world) {
+Meetings::Meetings(const World& world) : along_x_(world.bodies.size()), joined_(world), fixed_(world.fixed) {
   meetings_.reserve(kContactsPerBody * world.bodies.size());
   near_.reserve(4 * kContactsPerBody);
   std::iota(along_x_.begin(), along_x_.end(), 0u);
@@ -16,7 +16,10 @@ Meetings::Meetings(const World& world) : along_x_(world.bodies.size()), joined_(
     widest_ = std::max(widest_, body.shape.reach);
   }
   low_x_.resize(world.bodies.size());
-  if (world.fixed) scene_.emplace(*world.fixed, 0, recent_);
+}
+
+void Meetings::look(std::int64_t time_ns) {
+  if (fixed_) scene_.emplace(*fixed_, time_ns, recent_);
 }
 
 void Meetings::find(const World& world, const WorldState& state, const PlacedBodies& placed, double margin) {
@@ -49,7 +52,8 @@ void Meetings::withScene(const WorldState& state, const World& world, const Plac
     near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
     for (const PrimitiveId id : near_) {
       Meeting meeting{static_cast<int>(i), Row::kFixed, id, {}, 0};
-      const PlacedConvex other = hl::placed(scene_->primitive(id), scene_->instance(id).poses().to(), room);
+      const PlacedConvex other =
+          hl::placed(scene_->primitive(id), scene_->instance(id).poses().at(scene_->time_ns()), room);
       if (findManifold(placed[i], other, margin, meeting.manifold)) add(meeting);
     }
   }

@@ -22,12 +22,14 @@ struct Meeting {
 class Meetings {
  public:
   explicit Meetings(const World& world);
+  /// From now on the scene is as at this time. RT-safe.
+  void look(std::int64_t time_ns);
   /// All within `margin` (m). The order depends on keys and places alone. RT-safe: what finds no room is counted.
   void find(const World& world, const WorldState& state, const PlacedBodies& placed, double margin);
   std::vector<Meeting>& all() { return meetings_; }
   const std::vector<Meeting>& all() const { return meetings_; }
   std::size_t dropped() const { return dropped_; }
-  /// The scene without bodies, as find() saw it; null if there is none.
+  /// The scene without bodies, as look() has it; null if there is none.
   const SceneAt* scene() const { return scene_ ? &*scene_ : nullptr; }
 
  private:
@@ -43,6 +45,7 @@ class Meetings {
   std::vector<double> reach_, low_x_;  // m
   double widest_ = 0;                  // m, greatest reach
   JoinedPairs joined_;
+  std::shared_ptr<const Snapshot> fixed_;
   ManyRecentPrimitives recent_;
   std::optional<SceneAt> scene_;
   std::size_t dropped_ = 0;

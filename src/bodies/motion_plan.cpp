@@ -40,6 +40,7 @@ MotionPlan::MotionPlan(const BodyProblem& problem, const JointRows& joints)
   apart_.reserve(problem.nodes.capacity());
   overlaps_.reserve(problem.rows.capacity());
   last_plan_ = plan_;
+  kept_ = plan_.parts;
 }
 
 void MotionPlan::make(const WorldState& state, double margin, bool converged) {
@@ -82,6 +83,7 @@ void MotionPlan::findOverlaps() {
     overlaps_.push_back(row);
     overlaps_.back().friction = 0;
     overlaps_.back().dragged.setZero();
+    overlaps_.back().carried.setZero();
     overlaps_.back().least_velocity = -kPushedApart * row.gap / problem_.period_s;
   }
 }
@@ -151,27 +153,39 @@ void MotionPlan::limit(double margin) {
   }
 }
 
-// Whether the pair would end inside each other by more than it began, or, of what is fast, on another side.
-bool MotionPlan::passes(const WorldState& state, const Meeting& meeting) const {
-  const double allowed = std::max(kLeft_m, deepestOf(meeting.manifold) + kTouching_m);
+// m: how far the pair would end inside each other or, of what is fast, on another side.
+double MotionPlan::depthAtEnd(const WorldState& state, const Meeting& meeting) const {
   Manifold end;
-  if (problem_.meetsAtEnd(state, meeting, plan_, end) && deepestOf(end) > allowed) return true;
-  if (!paceOf(problem_, meeting).fast) return false;
+  const double overlap = problem_.meetsAtEnd(state, meeting, plan_, end) ? deepestOf(end) : 0;
+  if (!paceOf(problem_, meeting).fast) return overlap;
   PlacedRoom room_a, room_b;
   const PlacedConvex a = problem_.atEnd(state, static_cast<std::size_t>(meeting.a), plan_, room_a);
   const PlacedConvex b = problem_.otherAtEnd(state, meeting, plan_, room_b);
-  return separationAlong(a, b, meeting.manifold.normal) < -allowed;
+  return std::max(overlap, -separationAlong(a, b, meeting.manifold.normal));
 }
 
-// False: they do not go at all any more.
-bool MotionPlan::shorten(const WorldState& state, const Meeting& meeting) {
+// Farther than it began.
+bool MotionPlan::passes(const WorldState& state, const Meeting& meeting) const {
+  return depthAtEnd(state, meeting) > std::max(kLeft_m, deepestOf(meeting.manifold) + kTouching_m);
+}
+
+// Scenery that its client moves toward the body does not wait for it.
+bool MotionPlan::comesToward(const Meeting& meeting) const {
+  if (meeting.b != Row::kFixed) return false;
+  const Vec3& centre = problem_.nodes[static_cast<std::size_t>(meeting.a)].centre;
+  return problem_.sceneryVelocityAt(meeting.primitive, centre).dot(meeting.manifold.normal) > 0;
+}
+
+void MotionPlan::shorten(const WorldState& state, const Meeting& meeting) {
   constexpr int kTimes = 4;
+  const double depth = comesToward(meeting) ? depthAtEnd(state, meeting) : 0;
+  kept_ = plan_.parts;
   for (int time = 0; time < kTimes; ++time) {
     goPart(meeting, kShorter);
-    if (!passes(state, meeting)) return true;
+    if (!passes(state, meeting)) return;
   }
   goPart(meeting, 0);
-  return false;
+  if (depth > 0 && depthAtEnd(state, meeting) > depth) plan_.parts = kept_;  // it is in the body all the more
 }
 
 void MotionPlan::stopShort(const WorldState& state, bool converged) {
@@ -182,7 +196,7 @@ void MotionPlan::stopShort(const WorldState& state, bool converged) {
       if (converged && look == 0 && !pace.fast && !pace.turns) continue;
       if (!passes(state, meeting)) continue;
       shortened = true;
-      if (look + 1 < kLooks) {
+      if (look + 1 < kLooks || comesToward(meeting)) {
         shorten(state, meeting);
       } else {
         goPart(meeting, 0);

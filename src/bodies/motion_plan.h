@@ -29,13 +29,16 @@ class MotionPlan {
   void goPart(const Meeting& meeting, double part);
   void limit(double margin);
   void stopShort(const WorldState& state, bool converged);
+  double depthAtEnd(const WorldState& state, const Meeting& meeting) const;
   bool passes(const WorldState& state, const Meeting& meeting) const;
-  bool shorten(const WorldState& state, const Meeting& meeting);
+  bool comesToward(const Meeting& meeting) const;
+  void shorten(const WorldState& state, const Meeting& meeting);
 
   const BodyProblem& problem_;
   const JointRows& joints_;
   BodyWays plan_, last_plan_;
-  std::vector<Node> apart_;  // velocities that only push overlapping bodies apart
+  std::vector<double> kept_;  // parts before something was shortened
+  std::vector<Node> apart_;   // velocities that only push overlapping bodies apart
   std::vector<Row> overlaps_;
   JointSet joints_apart_;
 };

@@ -39,6 +39,7 @@ struct Row {
   int a = 0, b = kFixed;  ///< numbers of nodes; the normal points from b to a
   Vec3 normal = Vec3::UnitZ();
   Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();  ///< m, world, from the centres
+  Vec3 carried = Vec3::Zero();                      ///< m/s, of b, where that is scenery
   double gap = 0;                                   ///< m
   double static_friction = 0, dynamic_friction = 0;
   double friction = 0;  ///< of this step: static while it sticks

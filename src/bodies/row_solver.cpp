@@ -39,9 +39,8 @@ inline double demand(const Row& row, double period_s) {
 }
 
 inline Vec3 velocityOf(const Row& row, std::span<const Node> nodes) {
-  Vec3 velocity = nodes[static_cast<std::size_t>(row.a)].velocityAt(row.arm_a);
-  if (row.b != Row::kFixed) velocity -= nodes[static_cast<std::size_t>(row.b)].velocityAt(row.arm_b);
-  return velocity;
+  const Vec3 velocity = nodes[static_cast<std::size_t>(row.a)].velocityAt(row.arm_a);
+  return velocity - (row.b == Row::kFixed ? row.carried : nodes[static_cast<std::size_t>(row.b)].velocityAt(row.arm_b));
 }
 
 inline void push(const Row& row, std::span<Node> nodes, const Vec3& impulse) {

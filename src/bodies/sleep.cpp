@@ -8,6 +8,8 @@ namespace {
 
 // Rounding of the sum of many periods.
 constexpr double kPeriods_s = 1e-9;
+// What scenery may touch in a step, beyond where it goes.
+constexpr double kNear_m = 1e-3;
 
 void setIsland(const World& world, WorldState& state, std::uint64_t from, std::uint64_t to, ContactMemory& old_place,
                ContactMemory& new_place) {
@@ -65,6 +67,31 @@ void wakeAll(WorldState& state) {
     body.island = 0;
   }
   state.asleep.moveTo(state.memory, [](const RememberedContact&) { return true; });
+}
+
+void wakeNearMoving(const World& world, WorldState& state, const StepTimes& times) {
+  for (const Instance& instance : world.fixed->instances) {
+    const PoseSource& poses = instance.poses();
+    if (!poses.moves() || times.begin_ns >= poses.restsFrom_ns()) continue;
+    const Box reach = poses.reach(instance.shape->bounds);
+    for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+      const Vec3 size = Vec3::Constant(world.bodies[i].shape.reach + kNear_m);
+      const Vec3& centre = state.bodies[i].centre;
+      const bool near =
+          ((centre + size).array() >= reach.min.array()).all() && ((centre - size).array() <= reach.max.array()).all();
+      if (near && state.bodies[i].island != 0) wakeIsland(world, state, state.bodies[i].island);
+    }
+  }
+}
+
+bool sleepsWhole(const World& world, const WorldState& state) {
+  const auto island = [&](std::uint64_t key) {
+    const Body* const body = world.find(key);
+    return state.bodies[static_cast<std::size_t>(body - world.bodies.data())].island;
+  };
+  return std::all_of(world.joints.begin(), world.joints.end(), [&](const Joint& joint) {
+    return joint.body_b == 0 || island(joint.body_a) == island(joint.body_b);
+  });
 }
 
 WorldState withoutBody(const World& world, const WorldState& state, std::uint64_t key) {

@@ -1,42 +1,9 @@
 #include "bodies/world.h"
 
-#include <bit>
-
 #include "bodies/joint_check.h"
 #include "bodies/joint_place.h"
 
 namespace hl {
-
-namespace {
-
-// FNV-1a, by words.
-struct Hash {
-  std::uint64_t value = 14695981039346656037u;
-  void add(std::uint64_t word) { value = (value ^ word) * 1099511628211u; }
-  void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
-  void add(const Vec3& v) {
-    for (int i = 0; i < 3; ++i) add(v[i]);
-  }
-  void add(const JointState& joint) {
-    add(joint.coordinate);
-    add(joint.velocity);
-    for (const double impulse : joint.held) add(impulse);
-    for (const double impulse : joint.along) add(impulse);
-    add(joint.spare_J);
-  }
-  void add(const ContactMemory& memory) {
-    for (const RememberedContact& contact : memory) {
-      add(contact.pair.a);
-      add(contact.pair.b);
-      add(contact.place);
-      add(contact.pressed);
-      add(contact.dragged);
-      add(std::uint64_t{contact.slipped});
-    }
-  }
-};
-
-}  // namespace
 
 void checkWorld(const World& world) {
   checkJoints(world.joints, [&](std::uint64_t key) { return world.find(key) != nullptr; });
@@ -81,24 +48,6 @@ Mat3 inertiaOf(const Body& body, const BodyState& state) {
 Mat3 inverseInertia(const Body& body, const BodyState& state) {
   const Mat3 rotation = state.turned.toRotationMatrix();
   return rotation * body.mass.inertia_kg_m2.inverse() * rotation.transpose();
-}
-
-std::uint64_t hashOf(const WorldState& state) {
-  Hash hash;
-  hash.add(state.steps);
-  for (const BodyState& body : state.bodies) {
-    hash.add(body.centre);
-    for (int i = 0; i < 4; ++i) hash.add(body.turned.coeffs()[i]);
-    hash.add(body.velocity);
-    hash.add(body.spin);
-    hash.add(static_cast<std::uint64_t>(body.stopped_short));
-    hash.add(body.still_s);
-    hash.add(body.island);
-  }
-  for (const JointState& joint : state.joints) hash.add(joint);
-  hash.add(state.memory);
-  hash.add(state.asleep);
-  return hash.value;
 }
 
 double kineticEnergy_J(const Body& body, const BodyState& state) {

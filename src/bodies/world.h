@@ -30,7 +30,7 @@ struct Body {
 struct World {
   std::vector<Body> bodies;                    ///< sorted by key
   std::vector<Joint> joints;                   ///< sorted by key
-  std::shared_ptr<const Snapshot> fixed;       ///< what bodies stand on: at rest; null: nothing
+  std::shared_ptr<const Snapshot> fixed;       ///< what bodies stand on; null: nothing
   std::optional<BodySurface> fixed_surface{};  ///< of all of `fixed`; absent: as that of the body that touches it
   /// Of single instances of `fixed`, in its place. May be shorter than the list of instances.
   std::vector<std::optional<BodySurface>> fixed_surfaces{};
@@ -51,9 +51,8 @@ struct World {
 
 /// A step has no more contacts, each of the bodies with 64 points; the rest is dropped, and counted.
 inline constexpr std::size_t kMostHands = 8, kContactsOfHand = 8, kContactsPerBody = 64;
-inline std::size_t mostRows(const World& world) {
-  return kMostHands * kContactsOfHand + kContactsPerBody * world.bodies.size();
-}
+inline std::size_t mostRows(std::size_t bodies) { return kMostHands * kContactsOfHand + kContactsPerBody * bodies; }
+inline std::size_t mostRows(const World& world) { return mostRows(world.bodies.size()); }
 
 /// World frame.
 struct BodyState {
@@ -86,8 +85,6 @@ Pose poseOf(const Body& body, const BodyState& state);
 /// Inverse of the inertia about the centre of mass, world frame, 1/(kg m^2). RT-safe.
 Mat3 inverseInertia(const Body& body, const BodyState& state);
 Mat3 inertiaOf(const Body& body, const BodyState& state);
-/// Of all bits that decide what happens next: poses, velocities, counters, joints, contacts.
-std::uint64_t hashOf(const WorldState& state);
 /// Joules. RT-safe.
 double kineticEnergy_J(const Body& body, const BodyState& state);
 double kineticEnergy_J(const World& world, const WorldState& state);

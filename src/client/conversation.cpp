@@ -77,6 +77,22 @@ void Conversation::send(const proto::StateRate& rate) {
   if (!ended_) link_->send(std::move(message));
 }
 
+void Conversation::send(proto::BodyCommand command) {
+  proto::ClientMessage message;
+  *message.mutable_body_command() = std::move(command);
+  if (!ended_) link_->send(std::move(message));
+}
+
+// From the first body on the states tell of bodies.
+void Conversation::add(Draft&& draft) {
+  if (draft.hasBodies() && !std::exchange(told_of_bodies_, true) && !ended_) {
+    proto::ClientMessage message;
+    message.mutable_body_request()->set_wanted(true);
+    link_->send(std::move(message));
+  }
+  outbox_.add(std::move(draft));
+}
+
 void Conversation::keepSamples(std::size_t most) {
   samples_.keep(most);
   proto::ClientMessage message;

@@ -32,12 +32,13 @@ class Conversation {
   double springStiffness_N_m() const;
 
   /// The frame waits until sendFrame().
-  void add(Draft&& draft) { outbox_.add(std::move(draft)); }
+  void add(Draft&& draft);
   /// Sends the waiting frame if this is the moment; see Outbox.
   Outbox::Outcome sendFrame();
   /// Drops what waits once the conversation has ended.
   void send(proto::DeviceSettings settings);
   void send(const proto::StateRate& rate);
+  void send(proto::BodyCommand command);
   /// Asks for samples where there are to be some; 0: none.
   void keepSamples(std::size_t most);
   SampleList& samples() { return samples_; }
@@ -65,7 +66,7 @@ class Conversation {
   std::optional<double> interval_s_;
   std::optional<double> stiffness_N_m_;
   std::uint64_t refusals_ = 0;
-  bool ended_ = false;
+  bool ended_ = false, told_of_bodies_ = false;
 };
 
 }  // namespace hl::client

@@ -1,5 +1,6 @@
 #include "client/draft.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace hl::client {
@@ -24,7 +25,12 @@ void mergeNumbered(std::map<HLuint, Definition>& defined, std::set<HLuint>& dele
 
 bool Draft::isEmpty() const {
   return !world && objects.empty() && deleted_objects.empty() && moved.empty() && compliances.empty() &&
-         textures.empty() && deleted_textures.empty();
+         textures.empty() && deleted_textures.empty() && !gravity_m_s2;
+}
+
+bool Draft::hasBodies() const {
+  return std::any_of(objects.begin(), objects.end(),
+                     [](const auto& object) { return object.second.body().has_value(); });
 }
 
 void Draft::move(VertexUpdate update) {
@@ -49,6 +55,7 @@ void Draft::merge(Draft&& later) {
   for (const auto& [object, items] : later.objects) forgetMoved(object);
   for (VertexUpdate& update : later.moved) move(std::move(update));
   for (const auto& [object, compliance] : later.compliances) compliances[object] = compliance;
+  if (later.gravity_m_s2) gravity_m_s2 = later.gravity_m_s2;
   if (later.world) world = std::move(later.world);
   mergeNumbered(objects, deleted_objects, std::move(later.objects), later.deleted_objects);
   mergeNumbered(textures, deleted_textures, std::move(later.textures), later.deleted_textures);

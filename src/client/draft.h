@@ -38,7 +38,10 @@ struct Draft {
   std::map<HLuint, Texture> textures;              ///< new or overwritten; all with images
   std::set<HLuint> deleted_textures;               ///< in none of `textures`
 
+  std::optional<std::array<double, 3>> gravity_m_s2;  ///< absent: unchanged
+
   bool isEmpty() const;
+  bool hasBodies() const;
   /// Forgets an earlier update that it covers, so that a draft that waits long does not grow.
   void move(VertexUpdate update);
   /// The object is another one now, or none.

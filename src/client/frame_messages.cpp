@@ -88,12 +88,19 @@ class Builder {
   FrameMessages build(Draft&& draft) {
     proto::Frame& frame = *messages_.frame.mutable_frame();
     frame.set_number(terms_.number);
+    if (draft.gravity_m_s2) {
+      const auto& [x, y, z] = *draft.gravity_m_s2;
+      frame.mutable_gravity_m_s2()->set_x(x);
+      frame.mutable_gravity_m_s2()->set_y(y);
+      frame.mutable_gravity_m_s2()->set_z(z);
+    }
     if (terms_.interval_s) frame.set_interval_s(*terms_.interval_s);
     for (auto& [number, texture] : draft.textures) fillTexture(number, std::move(texture), *frame.add_textures());
     for (const HLuint texture : draft.deleted_textures) frame.add_deleted_textures(std::to_string(texture));
     for (auto& [object, items] : draft.objects) {
       proto::ObjectDefinition& definition = *frame.add_objects();
       definition.set_id(object);
+      if (items.body()) *definition.mutable_body() = *items.body();
       for (Item& item : items.items()) fillItem(std::move(item), *definition.add_items());
     }
     for (VertexUpdate& update : draft.moved) fillUpdate(std::move(update), *frame.add_moved());

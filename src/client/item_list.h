@@ -1,9 +1,11 @@
 // ItemList: what has been drawn into the world or into a definition, in order, before it becomes messages.
 #pragma once
 
+#include <hl.pb.h>
 #include <hl/hl_types.h>
 
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -44,11 +46,15 @@ class ItemList {
   const std::vector<Item>& items() const { return items_; }
   std::vector<Item>& items() { return items_; }
   Uses uses() const;
+  /// What hlBody* says of the object; absent: it is no body.
+  const std::optional<proto::Body>& body() const { return body_; }
+  void setBody(const proto::Body& body) { body_ = body; }
   /// Of all items that have some, in order.
   std::vector<ItemVertices> vertices() const;
 
  private:
   std::vector<Item> items_;
+  std::optional<proto::Body> body_;
 };
 
 }  // namespace hl::client

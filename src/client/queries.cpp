@@ -102,6 +102,7 @@ constexpr Query kQueriesOfServer[] = {
      [](const HLcontext& c, Values& v) { v.add(static_cast<double>(limits(c).texture_bytes())); }},
     {HL_MAX_FRAME_RATE, [](const HLcontext& c, Values& v) { v.add(limits(c).frames_hz()); }},
     {HL_MAX_STATE_RATE, [](const HLcontext& c, Values& v) { v.add(limits(c).state_rate_hz()); }},
+    {HL_MAX_BODIES, [](const HLcontext& c, Values& v) { v.add(static_cast<double>(limits(c).bodies())); }},
     {HL_DEVICE_FORCE_MAX, [](const HLcontext& c, Values& v) { v.add(view(c).device().force_max_n()); }},
     {HL_SPRING_STIFFNESS_MAX, [](const HLcontext& c, Values& v) { v.add(view(c).device().stiffness_max_n_m()); }},
     {HL_SPRING_STIFFNESS, [](const HLcontext& c, Values& v) { v.add(c.conversation.springStiffness_N_m()); }},
@@ -137,6 +138,7 @@ constexpr Query kQueriesOfState[] = {
     {HL_PROXY_RADIUS, [](const HLcontext& c, Values& v) { v.add(state(c).proxy_radius()); }},
     {HL_WORKSPACE_ORIGIN, [](const HLcontext& c, Values& v) { addVec(v, state(c).workspace().origin()); }},
     {HL_WORKSPACE_SCALE, [](const HLcontext& c, Values& v) { v.add(state(c).workspace().world_per_device()); }},
+    {HL_BODY_COUNT, [](const HLcontext& c, Values& v) { v.add(state(c).bodies_size()); }},
     {HL_STATE_TIME, [](const HLcontext& c, Values& v) { v.add(state(c).time_s()); }},
     {HL_STATE_AGE, [](const HLcontext& c, Values& v) { v.add(view(c).stateAge_s()); }},
 };
@@ -170,6 +172,20 @@ HLcontact contactOf(const proto::TouchedObject& in) {
   return contact;
 }
 
+HLbody bodyOf(const proto::BodyState& in) {
+  HLbody body{};
+  body.object = in.object();
+  body.name = in.name();
+  copy(in.position(), body.position);
+  body.rotation[0] = in.rotation().x();
+  body.rotation[1] = in.rotation().y();
+  body.rotation[2] = in.rotation().z();
+  body.rotation[3] = in.rotation().w();
+  copy(in.velocity_m_s(), body.velocity);
+  copy(in.spin_rad_s(), body.spin);
+  return body;
+}
+
 }  // namespace
 
 Values answer(const HLcontext& context, HLenum name) {
@@ -187,6 +203,15 @@ std::vector<HLcontact> contactsOf(const HLcontext& context) {
   std::stable_sort(contacts.begin(), contacts.end(),
                    [](const HLcontact& a, const HLcontact& b) { return a.share > b.share; });
   return contacts;
+}
+
+std::vector<HLbody> bodiesOf(const HLcontext& context) {
+  std::vector<HLbody> bodies;
+  for (const proto::BodyState& body : state(context).bodies()) bodies.push_back(bodyOf(body));
+  std::stable_sort(bodies.begin(), bodies.end(), [](const HLbody& a, const HLbody& b) {
+    return a.object != b.object ? a.object < b.object : a.name < b.name;
+  });
+  return bodies;
 }
 
 }  // namespace hl::client

@@ -25,4 +25,7 @@ Values answer(const HLcontext& context, HLenum name);
 /// The contacts of the newest state, the one that presses hardest first.
 std::vector<HLcontact> contactsOf(const HLcontext& context);
 
+/// The bodies of the newest state, sorted by object and name.
+std::vector<HLbody> bodiesOf(const HLcontext& context);
+
 }  // namespace hl::client

@@ -22,6 +22,9 @@ struct Box {
   bool meets(const Box& other) const {
     return (min.array() <= other.max.array()).all() && (other.min.array() <= max.array()).all();
   }
+  bool contains(const Box& other) const {
+    return (min.array() <= other.min.array()).all() && (max.array() >= other.max.array()).all();
+  }
   Vec3 centre() const { return 0.5 * (min + max); }
   Vec3 size() const { return max - min; }
 };

@@ -27,7 +27,7 @@ namespace hl {
 
 namespace {
 
-using Parse = std::function<Model(const std::function<void(double)>&)>;
+using Parse = std::function<SceneModel(const std::function<void(double)>&)>;
 
 constexpr const char* kTooLong = "reading it takes too long: the file is corrupt, or too large";
 constexpr const char* kWaits =
@@ -54,9 +54,9 @@ void setLimits(const IsolationLimits& limits) {
 void answer(PartSender& out, bool sandboxed, const Parse& parse) {
   std::string failure;
   try {
-    Model model = parse([&](double fraction) { out.progress(fraction); });
-    if (!sandboxed) model.warnings.emplace_back("was read without a sandbox: this kernel has none");
-    return out.model(model);
+    SceneModel scene = parse([&](double fraction) { out.progress(fraction); });
+    if (!sandboxed) scene.model.warnings.emplace_back("was read without a sandbox: this kernel has none");
+    return out.scene(scene);
   } catch (const std::bad_alloc&) {
     failure = "needs more memory than it may have";
   } catch (const std::exception& error) {
@@ -216,9 +216,9 @@ std::string causeOf(int status) {
   return "its reader stopped: the file is corrupt";
 }
 
-// Takes in messages until the model is whole.
-Model receive(Child& child, const IsolationLimits& limits, const std::atomic<bool>& given_up,
-              const std::function<void(double)>& progress) {
+// Takes in messages until the scene is whole.
+SceneModel receive(Child& child, const IsolationLimits& limits, const std::atomic<bool>& given_up,
+                   const std::function<void(double)>& progress) {
   PipeReader pipe(child, limits, given_up);
   PartCollector collector(limits.memory_bytes);
   std::string bytes;
@@ -235,8 +235,8 @@ Model receive(Child& child, const IsolationLimits& limits, const std::atomic<boo
   throw Error(causeOf(child.end()));
 }
 
-Model run(const std::string& name, const IsolationLimits& limits, const StartChild& start,
-          const std::atomic<bool>& given_up, const std::function<void(double)>& progress) {
+SceneModel run(const std::string& name, const IsolationLimits& limits, const StartChild& start,
+               const std::atomic<bool>& given_up, const std::function<void(double)>& progress) {
   try {
     Child child(start);
     return receive(child, limits, given_up, progress);
@@ -252,16 +252,16 @@ IsolationLimits bounded(IsolationLimits limits) {
 
 }  // namespace
 
-Model runIsolated(const std::string& name, const IsolationLimits& limits, const Parse& parse,
-                  const std::function<void(double)>& progress) {
+SceneModel runIsolated(const std::string& name, const IsolationLimits& limits, const Parse& parse,
+                       const std::function<void(double)>& progress) {
   const IsolationLimits within = bounded(limits);
   const std::atomic<bool> given_up{false};
   return run(
       name, within, [&](int pipe) { return forkChild(pipe, within, parse); }, given_up, progress);
 }
 
-Model runProgram(const std::string& name, const IsolationLimits& limits, const ReaderProgram& program, int descriptor,
-                 const std::atomic<bool>& given_up) {
+SceneModel runProgram(const std::string& name, const IsolationLimits& limits, const ReaderProgram& program,
+                      int descriptor, const std::atomic<bool>& given_up) {
   const auto start = [&](int pipe) { return startProgram(pipe, program, descriptor); };
   return run(name, bounded(limits), start, given_up, {});
 }

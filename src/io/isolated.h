@@ -8,26 +8,26 @@
 #include <string>
 #include <vector>
 
-#include "scene/model.h"
+#include "scene/scene_model.h"
 
 namespace hl {
 
 struct IsolationLimits {
   unsigned cpu_s = 120;  ///< processor time of the parser
-  /// Of the parser, and of the model that it gives. Or the machine's memory, where that is less.
+  /// Of the parser, and of the scene that it gives. Or the machine's memory, where that is less.
   std::size_t memory_bytes = std::size_t{12} << 30;
   double wall_s = 600;  ///< from beginning to end
   double idle_s = 10;   ///< without using the processor or giving anything: it waits for what will not come
 };
 
-/// Forks, runs `parse` in the child and returns its model. Throws hl::Error (with `name` in front) with what parse
+/// Forks, runs `parse` in the child and returns its scene. Throws hl::Error (with `name` in front) with what parse
 /// threw, or with what became of the child; then it is gone. The child has no descriptors but its pipe, and a sandbox
-/// where the kernel has one (io/sandbox.h); where it has none, the model has a warning. Call it before the program
+/// where the kernel has one (io/sandbox.h); where it has none, the scene has a warning. Call it before the program
 /// starts threads: only the calling one goes along.
 /// `progress` is called here, with fractions that the child's parse reports through its argument.
-Model runIsolated(const std::string& name, const IsolationLimits& limits,
-                  const std::function<Model(const std::function<void(double)>& report)>& parse,
-                  const std::function<void(double)>& progress);
+SceneModel runIsolated(const std::string& name, const IsolationLimits& limits,
+                       const std::function<SceneModel(const std::function<void(double)>& report)>& parse,
+                       const std::function<void(double)>& progress);
 
 /// What a reading program is started with: its file, and its words, the name first.
 struct ReaderProgram {
@@ -37,12 +37,12 @@ struct ReaderProgram {
 
 /// The same from a process with threads, which must not fork: starts `program`, with `descriptor` as its standard input
 /// and the pipe as its standard output; it calls answerAsProgram(). Ends, with an error, soon after `given_up` is set.
-Model runProgram(const std::string& name, const IsolationLimits& limits, const ReaderProgram& program, int descriptor,
-                 const std::atomic<bool>& given_up);
+SceneModel runProgram(const std::string& name, const IsolationLimits& limits, const ReaderProgram& program,
+                      int descriptor, const std::atomic<bool>& given_up);
 
 /// In that program, before it has done anything else: does what the child of runIsolated() does, and ends. The file is
 /// kKeptFile of io/sandbox.h.
 [[noreturn]] void answerAsProgram(const IsolationLimits& limits,
-                                  const std::function<Model(const std::function<void(double)>& report)>& parse);
+                                  const std::function<SceneModel(const std::function<void(double)>& report)>& parse);
 
 }  // namespace hl

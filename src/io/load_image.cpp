@@ -121,13 +121,14 @@ Texture readImage(const std::string& path) {
 Texture loadImage(const std::string& path) {
   checkIsImage(path);
   Model model = runIsolated(
-      path, {},
-      [&](const auto&) {
-        Model carrier;
-        carrier.textures.push_back(readImage(path));
-        return carrier;
-      },
-      nullptr);
+                    path, {},
+                    [&](const auto&) {
+                      Model carrier;
+                      carrier.textures.push_back(readImage(path));
+                      return carrier;
+                    },
+                    nullptr)
+                    .model;
   if (model.textures.size() != 1) throw Error(path + ": its reader gave no picture");
   return std::move(model.textures.front());
 }

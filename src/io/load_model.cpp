@@ -96,11 +96,12 @@ Model loadModel(const std::string& path, const LoadOptions& options) {
   const std::string ending = endingOf(path);
   if (!readsEnding(ending)) throw Error(path + ": " + cannotBeRead(ending));
   Model model = runIsolated(
-      path, options.limits,
-      [&](const auto& report) {
-        return parseModel({path, ending}, report);
-      },
-      options.progress);
+                    path, options.limits,
+                    [&](const auto& report) {
+                      return parseModel({path, ending}, report);
+                    },
+                    options.progress)
+                    .model;
   if (model.elements() == 0) throw Error(path + ": there is no geometry in it");
   model.name = std::filesystem::path(path).filename().string();
   if (options.progress) options.progress(1);

@@ -30,7 +30,6 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{64} << 20;
 constexpr std::size_t kMaxFileTexels = std::size_t{8192} * 8192;
 constexpr int kMaxObjects = 60'000;  // materials are counted in 16 bits
-constexpr std::size_t kMostBodies = 1000;
 constexpr double kMostGravity_m_s2 = 1000;
 constexpr const char* kAlone = "names another file, and this one comes alone";
 

@@ -18,13 +18,17 @@ constexpr const char* kSceneEnding = ".hl.json";
 
 std::string pathOfSent() { return "/proc/self/fd/" + std::to_string(kKeptFile); }
 
-Model parseSent(const std::string& ending, const std::function<void(double)>& report) {
+SceneModel parseSent(const std::string& ending, const std::function<void(double)>& report) {
   if (ending != kSceneEnding) return parseModel({pathOfSent(), ending, true}, report);
   LoadOptions options;
   options.alone = true;
-  SceneModel scene = loadSceneFile(pathOfSent(), options);
-  if (!scene.bodies.empty()) throw Error("a scene with bodies cannot be sent: give its name to hl touch");
-  return std::move(scene.model);
+  return loadSceneFile(pathOfSent(), options);
+}
+
+std::size_t elementsOf(const SceneModel& scene) {
+  std::size_t elements = scene.model.elements();
+  for (const SceneBody& body : scene.bodies) elements += body.model.elements();
+  return elements;
 }
 
 }  // namespace
@@ -38,17 +42,17 @@ std::string sentEndingOf(const std::string& name) {
 
 bool readsSent(const std::string& ending) { return ending == kSceneEnding || readsEnding(ending); }
 
-Model loadSent(int descriptor, const std::string& name, ReaderProgram program, const IsolationLimits& limits,
-               const std::atomic<bool>& given_up) {
+SceneModel loadSent(int descriptor, const std::string& name, ReaderProgram program, const IsolationLimits& limits,
+                    const std::atomic<bool>& given_up) {
   struct stat status {};
   if (fstat(descriptor, &status) != 0 || status.st_size == 0) throw Error(name + ": is empty");
   const std::string ending = sentEndingOf(name);
   if (!readsSent(ending)) throw Error(name + ": " + cannotBeRead(ending));
   program.words.push_back(ending);
-  Model model = runProgram(name, limits, program, descriptor, given_up);
-  if (model.elements() == 0) throw Error(name + ": there is no geometry in it");
-  model.name = name;
-  return model;
+  SceneModel scene = runProgram(name, limits, program, descriptor, given_up);
+  if (elementsOf(scene) == 0) throw Error(name + ": there is no geometry in it");
+  scene.model.name = name;
+  return scene;
 }
 
 void readSent(const std::string& ending) {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "io/isolated.h"
-#include "scene/model.h"
+#include "scene/scene_model.h"
 
 namespace hl {
 
@@ -16,9 +16,9 @@ std::string sentEndingOf(const std::string& name);
 bool readsSent(const std::string& ending);
 
 /// As loadScene() of a file, but from a process with threads, and without any other file that it names. `program` is
-/// one that calls readSent(); the ending is added to its words. `name` is that of the model, and for errors.
-Model loadSent(int descriptor, const std::string& name, ReaderProgram program, const IsolationLimits& limits,
-               const std::atomic<bool>& given_up);
+/// one that calls readSent(); the ending is added to its words. `name` is that of the scene, and for errors.
+SceneModel loadSent(int descriptor, const std::string& name, ReaderProgram program, const IsolationLimits& limits,
+                    const std::atomic<bool>& given_up);
 
 /// What the program does: reads its standard input, gives the model on its standard output, and ends.
 [[noreturn]] void readSent(const std::string& ending);

@@ -9,6 +9,9 @@
 #include <utility>
 
 #include "base/error.h"
+#include "bodies/scene_world.h"
+#include "io/body_messages.h"
+#include "io/value_messages.h"
 
 namespace hl {
 
@@ -56,6 +59,24 @@ void PartSender::failure(const std::string& why) {
   send(part);
 }
 
+void PartSender::scene(const SceneModel& scene) {
+  const Model& rest = scene.model;
+  proto::ReadingPart part;
+  toProto(valuesOf(scene.mechanics), *part.mutable_mechanics());
+  send(part);
+  for (const SceneBody& body : scene.bodies) {
+    part.Clear();
+    toProto(body, *part.mutable_rigid_body());
+    send(part);
+    model(body.model);
+  }
+  part.set_joined_vertices(rest.reading.joined_vertices);
+  send(part);
+  part.set_single_precision(rest.reading.single_precision);
+  send(part);
+  model(rest);
+}
+
 void PartSender::model(const Model& model) {
   proto::ReadingPart part;
   for (std::size_t i = 0; i < std::min(model.warnings.size(), kMaxWarnings); ++i) {
@@ -72,10 +93,6 @@ void PartSender::model(const Model& model) {
     send(part);
     part.Clear();
   }
-  part.set_joined_vertices(model.reading.joined_vertices);
-  send(part);
-  part.set_single_precision(model.reading.single_precision);
-  send(part);
   writeMesh(model, [&](proto::RecordedShape& mesh) {
     part.mutable_mesh()->Swap(&mesh);
     send(part);
@@ -100,7 +117,16 @@ void PartCollector::addWarning(const std::string& warning) {
 
 PartCollector::State PartCollector::addMesh(const proto::RecordedShape& part) {
   mesh_.add(part);
-  return part.continues() ? State::kMore : State::kWhole;
+  if (part.continues()) return State::kMore;
+  (in_body_ ? scene_.bodies.back().model : scene_.model) = takeModel();
+  return std::exchange(in_body_, false) ? State::kMore : State::kWhole;
+}
+
+void PartCollector::addBody(const proto::RecordedBody& body) {
+  if (in_body_) throw Error("it has a body without a mesh");
+  if (scene_.bodies.size() >= kMostBodies) throw Error("it has too many bodies");
+  scene_.bodies.push_back(sceneBodyOf(body));
+  in_body_ = true;
 }
 
 PartCollector::State PartCollector::add(const proto::ReadingPart& part, std::size_t bytes,
@@ -131,21 +157,34 @@ PartCollector::State PartCollector::add(const proto::ReadingPart& part, std::siz
       return State::kMore;
     case proto::ReadingPart::kMesh:
       return addMesh(part.mesh());
+    case proto::ReadingPart::kRigidBody:
+      addBody(part.rigid_body());
+      return State::kMore;
+    case proto::ReadingPart::kMechanics:
+      scene_.mechanics = mechanicsOf(part.mechanics());
+      return State::kMore;
     case proto::ReadingPart::BODY_NOT_SET:
       break;
   }
   throw Error("it says nothing");
 }
 
-Model PartCollector::take() {
+Model PartCollector::takeModel() {
   Model model = mesh_.take();
   const std::size_t materials = model.materials.size();
   model.materials = std::exchange(rest_.materials, {});
   if (model.materials.size() != materials) throw Error("its materials do not agree");
-  model.textures = std::move(rest_.textures);
-  model.warnings = std::move(rest_.warnings);
-  model.reading = rest_.reading;
+  model.textures = std::exchange(rest_.textures, {});
+  model.warnings = std::exchange(rest_.warnings, {});
   return model;
+}
+
+SceneModel PartCollector::take() {
+  scene_.model.reading = rest_.reading;
+  for (const SceneBody& body : scene_.bodies) {
+    if (!body.spec.fixed) bodyOf(body.model, body.spec);
+  }
+  return std::move(scene_);
 }
 
 }  // namespace hl

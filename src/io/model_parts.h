@@ -1,4 +1,4 @@
-// A model on its way through a pipe, in the messages of proto/reading.proto. The sender is not trusted: what comes is
+// A scene on its way through a pipe, in the messages of proto/reading.proto. The sender is not trusted: what comes is
 // bounded before memory is taken for it, and checked as a recording is.
 #pragma once
 
@@ -9,7 +9,7 @@
 #include <string>
 
 #include "io/model_messages.h"
-#include "scene/model.h"
+#include "scene/scene_model.h"
 
 namespace hl {
 
@@ -22,36 +22,41 @@ class PartSender {
   explicit PartSender(int descriptor) : descriptor_(descriptor) {}
   void progress(double fraction);
   void failure(const std::string& why);
-  /// The whole model, then nothing else.
-  void model(const Model& model);
+  /// The whole scene, then nothing else.
+  void scene(const SceneModel& scene);
 
  private:
+  void model(const Model& model);
   void send(const proto::ReadingPart& part);
 
   int descriptor_;
   std::string bytes_;
 };
 
-/// Puts a model together from messages.
+/// Puts a scene together from messages.
 class PartCollector {
  public:
   enum class State { kMore, kWhole, kFailed };
 
-  /// `most_bytes`: of the messages together, and of the mesh.
+  /// `most_bytes`: of the messages together, and of the meshes.
   explicit PartCollector(std::size_t most_bytes) : mesh_(most_bytes), left_(most_bytes) { rest_.materials.clear(); }
   /// Throws hl::Error for a message that makes no sense, or one too many. `bytes` is its length.
   State add(const proto::ReadingPart& part, std::size_t bytes, const std::function<void(double)>& progress);
   const std::string& failure() const { return failure_; }
-  /// When it is whole, once.
-  Model take();
+  /// When it is whole, once. Throws hl::Error for a body that cannot be made.
+  SceneModel take();
 
  private:
   State addMesh(const proto::RecordedShape& part);
+  Model takeModel();
+  void addBody(const proto::RecordedBody& body);
   void addTexture(const proto::RecordedTexture& texture);
   void addMaterial(const proto::Values& material);
   void addWarning(const std::string& warning);
 
   Model rest_;  // all but the mesh
+  SceneModel scene_;
+  bool in_body_ = false;  // what comes now is of the last body
   MeshReader mesh_;
   std::size_t left_;
   std::string failure_;

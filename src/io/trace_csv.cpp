@@ -3,14 +3,63 @@
 #include <fmt/core.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <iterator>
+#include <set>
+#include <span>
 
 namespace hl {
 
-TraceWriter::TraceWriter(const std::string& file, std::initializer_list<std::string> read) : file_(file, read) {
+namespace {
+
+void addNumbers(fmt::memory_buffer& line, std::span<const double> numbers) {
+  for (const double number : numbers) fmt::format_to(std::back_inserter(line), ",{:.17g}", number);
+}
+
+void addBodies(fmt::memory_buffer& line, const TraceRow& row) {
+  for (const TracedBody& body : row.bodies) {
+    addNumbers(line, {body.origin.data(), 3});
+    const Eigen::Quaterniond& q = body.turned;
+    addNumbers(line, std::array{q.w(), q.x(), q.y(), q.z()});
+    addNumbers(line, {body.velocity.data(), 3});
+    addNumbers(line, {body.spin.data(), 3});
+  }
+  const EnergyBook& book = row.world.book;
+  addNumbers(line, std::array{row.world.kinetic_J, row.world.gravity_J, book.by_hand_J, book.contact_J, book.friction_J,
+                              book.solver_J});
+  fmt::format_to(std::back_inserter(line), ",{:016x}", row.world.hash);
+}
+
+}  // namespace
+
+std::vector<std::string> columnsOf(const std::vector<std::string>& bodies) {
+  std::set<std::string> taken{"finger", "proxy", "target", "force"};
+  std::vector<std::string> columns;
+  for (std::string name : bodies) {
+    if (name.empty()) name = "body";
+    std::replace_if(
+        name.begin(), name.end(), [](unsigned char c) { return c > 127 || (std::isalnum(c) == 0); }, '_');
+    std::string column = name;
+    for (int number = 2; !taken.insert(column).second; ++number) column = fmt::format("{}_{}", name, number);
+    columns.push_back(column);
+  }
+  return columns;
+}
+
+TraceWriter::TraceWriter(const std::string& file, std::initializer_list<std::string> read,
+                         const std::vector<std::string>& bodies)
+    : file_(file, read) {
   file_.write(
       "t,finger_x,finger_y,finger_z,proxy_x,proxy_y,proxy_z,target_x,target_y,target_z,force_x,force_y,force_z,"
-      "contacts,iterations,injected_J,tick_ns\n");
+      "contacts,iterations,injected_J,tick_ns");
+  for (const std::string& column : columnsOf(bodies)) {
+    for (const char* part : {"x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy", "wz"})
+      file_.print(",{}_{}", column, part);
+  }
+  if (!bodies.empty()) file_.write(",kinetic_J,gravity_J,by_hand_J,contact_J,friction_J,solver_J,world_hash");
+  file_.write("\n");
 }
 
 void TraceWriter::write(const TraceRow& row) {
@@ -20,7 +69,9 @@ void TraceWriter::write(const TraceRow& row) {
   for (const Vec3* v : {&row.finger, &row.proxy, &row.target, &row.force}) {
     fmt::format_to(out, ",{:.17g},{:.17g},{:.17g}", v->x(), v->y(), v->z());
   }
-  fmt::format_to(out, ",{},{},{:.17g},{}\n", row.contacts, row.iterations, row.injected_J, row.tick_ns);
+  fmt::format_to(out, ",{},{},{:.17g},{}", row.contacts, row.iterations, row.injected_J, row.tick_ns);
+  if (!row.bodies.empty()) addBodies(line, row);
+  line.push_back('\n');
   file_.write({line.data(), line.size()});
 }
 

@@ -3,6 +3,7 @@
 
 #include <initializer_list>
 #include <string>
+#include <vector>
 
 #include "io/output_file.h"
 #include "io/trace_row.h"
@@ -12,13 +13,17 @@ namespace hl {
 /// Throws hl::Error when the file cannot be written.
 class TraceWriter {
  public:
-  /// `read`: files that it may not overwrite.
-  explicit TraceWriter(const std::string& file, std::initializer_list<std::string> read = {});
+  /// `read`: files that it may not overwrite. `bodies`: names of those that rows have.
+  explicit TraceWriter(const std::string& file, std::initializer_list<std::string> read = {},
+                       const std::vector<std::string>& bodies = {});
   void write(const TraceRow& row);
   void close() { file_.close(); }  ///< without it, a failure of the last write goes unnoticed
 
  private:
   OutputFile file_;
 };
+
+/// What the columns of these bodies begin with: letters, digits and _, each once, and none as the tick's own columns.
+std::vector<std::string> columnsOf(const std::vector<std::string>& bodies);
 
 }  // namespace hl

@@ -2,10 +2,27 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "base/vec.h"
+#include "bodies/energy_book.h"
 
 namespace hl {
+
+/// A rigid body after a tick; world frame.
+struct TracedBody {
+  Vec3 origin = Vec3::Zero();  ///< m, of its object frame
+  Eigen::Quaterniond turned = Eigen::Quaterniond::Identity();
+  Vec3 velocity = Vec3::Zero();  ///< m/s, of the centre of mass
+  Vec3 spin = Vec3::Zero();      ///< rad/s
+};
+
+/// All bodies together.
+struct TracedWorld {
+  double kinetic_J = 0, gravity_J = 0;
+  EnergyBook book{};       ///< since the first row
+  std::uint64_t hash = 0;  ///< hashOf()
+};
 
 /// World frame; seconds, metres, newtons, joules.
 struct TraceRow {
@@ -15,6 +32,9 @@ struct TraceRow {
   int iterations = 0;
   double injected_J = 0;     ///< energy that the tick added to the spring (positive) or took (negative)
   std::int64_t tick_ns = 0;  ///< the one column that differs from run to run
+
+  std::span<const TracedBody> bodies{};  ///< by key; empty: nothing in the scene moves as a body. Until the next row
+  TracedWorld world{};                   ///< if there are bodies
 };
 
 }  // namespace hl

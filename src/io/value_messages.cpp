@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "geometry/primitive.h"
 
 namespace hl {
 
@@ -38,10 +39,10 @@ void checkRanges(const std::string& what, std::initializer_list<FieldRange> fiel
 
 void checkRecorded(const DeviceInfo& info) {
   // Ten times what any device takes, and a workspace that a hand would not reach the ends of.
-  constexpr double kSlowest_Hz = 1, kFastest_Hz = 100e3, kFarthest_m = 1e3;
+  constexpr double kSlowest_Hz = 1, kFastest_Hz = 100e3, kWidest_m = 1e3;
   for (int i = 0; i < 3; ++i) {
-    checkRanges("the device", {{"workspace_min", info.workspace_min[i], -kFarthest_m, kFarthest_m},
-                               {"workspace_max", info.workspace_max[i], info.workspace_min[i], kFarthest_m}});
+    checkRanges("the device", {{"workspace_min", info.workspace_min[i], -kWidest_m, kWidest_m},
+                               {"workspace_max", info.workspace_max[i], info.workspace_min[i], kWidest_m}});
   }
   checkRanges("the device", {{"force_max_N", info.force_max_N, 0, kAny},
                              {"force_continuous_N", info.force_continuous_N, 0, kAny},
@@ -73,6 +74,15 @@ void checkRecorded(const MaterialOverride& surfaces) {
     const QuantityInfo& info = kQuantityInfo[i];
     checkRanges("what is set for all surfaces", {{info.field, surfaces.number(i).value_or(0), 0, info.most}});
   }
+}
+
+void checkRecorded(const Pose& pose, const std::string& what) {
+  // Rotations are computed: to 1e-12, or so.
+  constexpr double kTurned = 1e-6;
+  const Mat3 off = pose.rotation * pose.rotation.transpose() - Mat3::Identity();
+  const bool rigid = (off.array().abs() < kTurned).all();  // unlike maxCoeff(), false for NaN
+  if (!rigid || !withinReach(pose.origin))
+    throw Error(what + " makes no sense: a pose in it is not rigid, or out of reach");
 }
 
 void requireFit(Fit fit, const std::string& what) {

@@ -14,6 +14,7 @@
 #include "base/values.h"
 #include "device/device.h"
 #include "scene/material.h"
+#include "scene/pose.h"
 
 namespace hl {
 
@@ -36,6 +37,8 @@ void checkRanges(const std::string& what, std::initializer_list<FieldRange> fiel
 void checkRecorded(const DeviceInfo& info);
 void checkRecorded(const Material& material);
 void checkRecorded(const MaterialOverride& surfaces);
+/// That it is rigid, and not out of reach. `what` has it: "a motion".
+void checkRecorded(const Pose& pose, const std::string& what);
 
 /// Throws the hl::Error that says why the values of `what` do not fit.
 void requireFit(Fit fit, const std::string& what);

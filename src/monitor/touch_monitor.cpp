@@ -76,6 +76,7 @@ class TouchMonitor {
                static_cast<double>(proxy.ended[Ending::kUnplaced]));
     writeEndings(out, proxy.ended);
     writeLedger(out, proxy.ledger, servo.late);
+    writeBodies(out, proxy.bodies);
     writeFailures(out);
     writeVibration(out, servo.vibration);
     if (recordings_) writeRecordings(out, recordings_->status());
@@ -153,6 +154,27 @@ class TouchMonitor {
                ledger.injected_J + late.injected_J);
     out.single("hl_ledger_dissipated_joules_total", kCounter, "Energy that they have taken away",
                ledger.dissipated_J + late.dissipated_J);
+  }
+
+  // Work may have either sign, so it is no counter.
+  static void writeBodies(MetricsText& out, const BodyView& bodies) {
+    using enum MetricType;
+    out.single("hl_bodies", kGauge, "Rigid bodies of the scene that can move", static_cast<double>(bodies.bodies));
+    out.family("hl_bodies_energy_joules", kGauge, "Energy of the bodies");
+    out.sample(bodies.kinetic_J, {{"kind", "kinetic"}});
+    out.sample(bodies.gravity_J, {{"kind", "gravity"}});
+    out.family("hl_bodies_work_joules", kGauge, "What has changed it: hand + solver - contact - friction");
+    out.sample(bodies.energy.by_hand_J, {{"by", "hand"}});
+    out.sample(bodies.energy.contact_J, {{"by", "contact"}});
+    out.sample(bodies.energy.friction_J, {{"by", "friction"}});
+    out.sample(bodies.energy.solver_J, {{"by", "solver"}});
+    out.single("hl_bodies_lost_seconds_total", kCounter, "By how much the time of the bodies is behind", bodies.lost_s);
+    out.single("hl_bodies_contacts_dropped_total", kCounter, "Contacts of bodies that a step had no room for",
+               static_cast<double>(bodies.dropped));
+    out.single("hl_bodies_unsolved_steps_total", kCounter, "Steps of bodies whose solve ended at its limit of work",
+               static_cast<double>(bodies.unsolved));
+    out.single("hl_bodies_returned_total", kCounter, "Bodies that left their scene and were put back to their start",
+               static_cast<double>(bodies.returned));
   }
 
   static void writeFailures(MetricsText& out) {

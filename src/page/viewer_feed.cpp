@@ -86,6 +86,7 @@ void setRecording(proto::PageRecording& out, const PageRecordingStatus& status) 
 
 void setBodies(proto::Bodies& out, const BodyView& bodies) {
   out.set_count(bodies.bodies);
+  out.set_awake(bodies.awake);
   out.set_kinetic_j(bodies.kinetic_J);
   out.set_gravity_j(bodies.gravity_J);
   out.set_spring_j(bodies.spring_J);

@@ -11,7 +11,7 @@ constexpr double kRoundUp = 1.25;
 constexpr double kMaxEstimate_m_N = 0.05;  // 20 N/m: softer than any tissue that is pressed
 constexpr std::size_t kMaxLag = 4;         // frames from a force to the end of the motion that answers it
 constexpr double kLeastChange_N = 0.01;    // root of the summed squares; less tells nothing
-constexpr double kLeastExplained = 0.8;    // r^2 of the secant
+constexpr double kLeastExplained = 0.95;   // r^2 of the secant
 constexpr double kLeast_m_N = 1e-5;        // 100 kN/m: nothing
 constexpr double kDecay = 0.25;            // of an estimate that is too high, in a frame
 

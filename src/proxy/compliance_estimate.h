@@ -1,5 +1,6 @@
 // Compliance estimate: how a mesh that is deformed by frames yields, where its client does not tell.
 //
+// Only of clients that take contact reports: they read the force that their mesh is to answer (Instance::answers_force).
 // Such a client moves its mesh by the force that it reads: x_k = x_0 - C F_k along the normal. It closes a loop with
 // the servo's spring K, over a latency that is not known, and which is unstable for C > 1/K. The estimate of C is the
 // secant of the last frames: how far each has moved the mesh at the contact, against how much the mean force had

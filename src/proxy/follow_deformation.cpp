@@ -8,7 +8,13 @@ namespace hl {
 
 namespace {
 
-constexpr double kSettling = 4;  // frames in which the lift goes to C F
+constexpr double kMaxLift_m = 0.05;  // at the hand
+constexpr double kSettling = 4;      // frames in which the lift goes to C F
+
+double largest_N(const ComplianceEstimate& estimate) {
+  const auto most = [](const auto& list) { return *std::max_element(list.begin(), list.end()); };
+  return std::max({0.0, most(estimate.means_N), most(estimate.lasts_N), estimate.normal.dot(estimate.force_N)});
+}
 
 // The motion of the contact's point of the mesh from `from_ns` on, within one transition.
 Vec3 displacement(const SceneAt& scene, std::uint32_t number, const ComplianceEstimate& estimate,
@@ -40,17 +46,19 @@ void followDeformation(ProxyState& state, const SceneAt& scene, const ProxySetti
     estimate.closeFrame(settings.period_s, settings.world_per_device / settings.spring_N_m);
   estimate.geometry = geometry;
   if (state.snapshot == scene.snapshot().number) {
-    const Vec3 moved = displacement(scene, number, estimate, state.time_ns);
-    estimate.moved_m += estimate.normal.dot(moved);
-    if (estimate.compliance_m_N > 0) estimate.lift_m -= moved;
+    const double moved_m = estimate.normal.dot(displacement(scene, number, estimate, state.time_ns));
+    estimate.moved_m += moved_m;
+    if (estimate.compliance_m_N > 0) estimate.lift_m -= moved_m * estimate.normal;
   }
   estimate.sum_N += estimate.normal.dot(estimate.force_N);
   ++estimate.ticks;
   if (!(estimate.frame_s > 0)) return;
   const double part = std::min(1.0, settings.period_s / (kSettling * estimate.frame_s));
   estimate.lift_m += part * (estimate.compliance_m_N * estimate.force_N - estimate.lift_m);
-  // F_k pushes.
-  estimate.lift_m += std::max(0.0, -estimate.normal.dot(estimate.lift_m)) * estimate.normal;
+  // F_k pushes, and no more than any force that there was.
+  const double lift_m = estimate.normal.dot(estimate.lift_m);
+  const double most_m = std::min(kMaxLift_m * settings.world_per_device, estimate.compliance_m_N * largest_N(estimate));
+  estimate.lift_m += (std::clamp(lift_m, 0.0, most_m) - lift_m) * estimate.normal;
   if (estimate.compliance_m_N == 0) estimate.lift_m = Vec3::Zero();
 }
 
@@ -60,7 +68,8 @@ void rememberDeformation(ProxyState& state, const SceneAt& scene, const ProxySet
   estimate.force_N = Vec3::Zero();
   const auto deforms = [&](const ProxyContact& contact) {
     const Instance& instance = scene.instance(contact.primitive);
-    return !instance.compliance && (instance.mesh_motion || instance.key == estimate.key);
+    const bool may_answer = instance.answers_force && !instance.compliance;
+    return may_answer && (instance.mesh_motion || instance.key == estimate.key);
   };
   if (std::none_of(report.contacts.begin(), report.contacts.end(), deforms)) return;
   const ContactParts parts = partsOf(report.contacts, state.position + state.rest_offset_m - finger);

@@ -1,8 +1,10 @@
 #include "record/recorded_scene.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/error.h"
+#include "io/body_messages.h"
 #include "io/value_messages.h"
 
 namespace hl {
@@ -50,20 +52,12 @@ std::shared_ptr<const ComplianceMotion> complianceOf(const proto::RecordedInstan
   return std::make_shared<const ComplianceMotion>(ways.earlier, ways.last);
 }
 
-void checkPose(const Pose& pose) {
-  // Rotations are computed: to 1e-12, or so.
-  constexpr double kTurned = 1e-6;
-  const Mat3 off = pose.rotation * pose.rotation.transpose() - Mat3::Identity();
-  if (!(off.cwiseAbs().maxCoeff() < kTurned) || !withinReach(pose.origin))
-    throw Error("a motion makes no sense: a pose in it is not rigid, or out of reach");
-}
-
 Ways waysOf(const proto::Values& in) {
   Ways ways;
   readValues(in, "a motion", ways);
   for (const Way& way : {ways.earlier, ways.last}) {
-    checkPose(way.from);
-    checkPose(way.to);
+    checkRecorded(way.from, "a motion");
+    checkRecorded(way.to, "a motion");
     checkTime(way.begin_ns, "the beginning of a motion");
     checkTime(way.end_ns, "the end of a motion");
     if (way.begin_ns > way.end_ns) throw Error("a motion makes no sense: it ends before it begins");
@@ -84,6 +78,7 @@ void encode(const Instance& instance, proto::RecordedInstance& out) {
   out.set_object(instance.object);
   out.set_name(instance.name);
   out.set_item(instance.item);
+  out.set_answers_force(instance.answers_force);
   if (!instance.compliance) return;
   const ComplianceWays yields{instance.compliance->earlier(), instance.compliance->last()};
   toProto(valuesOf(yields), *out.mutable_compliance());
@@ -104,6 +99,28 @@ std::uint64_t SceneWriter::idOf(std::map<const Part*, Written<Part>>& written, c
   return entry.id;
 }
 
+std::uint64_t SceneWriter::shapeId(const std::shared_ptr<const Shape>& shape, const Write& write) {
+  if (shape->source) throw Error("a surface that is no mesh cannot be recorded");
+  return idOf(shapes_, shape, [&](std::uint64_t id) {
+    writeMesh(shape->model, [&](proto::RecordedShape& mesh) {
+      proto::RecordingBlock part;
+      part.mutable_shape()->Swap(&mesh);
+      part.mutable_shape()->set_id(id);
+      part.mutable_shape()->set_hierarchy(static_cast<std::uint32_t>(shape->hierarchy));
+      write(part);
+    });
+  });
+}
+
+std::uint64_t SceneWriter::bodyId(const std::shared_ptr<const RigidBody>& body, const Write& write) {
+  return idOf(bodies_, body, [&](std::uint64_t id) {
+    proto::RecordingBlock part;
+    part.mutable_rigid_body()->set_id(id);
+    toProto(*body, *part.mutable_rigid_body());
+    write(part);
+  });
+}
+
 void SceneWriter::write(const Snapshot& scene, const Write& write) {
   proto::RecordingBlock block;
   proto::RecordedScene& out = *block.mutable_scene();
@@ -111,32 +128,24 @@ void SceneWriter::write(const Snapshot& scene, const Write& write) {
   out.set_number(scene.number);
   out.set_blend_ns(scene.blend_ns);
   out.set_name(scene.name);
+  const auto is_body = [](const Instance& instance) { return instance.body != nullptr; };
+  if (std::any_of(scene.instances.begin(), scene.instances.end(), is_body))
+    toProto(valuesOf(scene.mechanics), *out.mutable_mechanics());
   for (const Instance& instance : scene.instances) {
-    if (instance.driver) throw Error("an object that is driven cannot be recorded");
+    if (instance.driver && !instance.movesAsBody()) throw Error("an object that is driven cannot be recorded");
     proto::RecordedInstance& placed = *out.add_instances();
     encode(instance, placed);
-    const auto shape_id = [&](const std::shared_ptr<const Shape>& shape) {
-      if (shape->source) throw Error("a surface that is no mesh cannot be recorded");
-      return idOf(shapes_, shape, [&](std::uint64_t id) {
-        writeMesh(shape->model, [&](proto::RecordedShape& mesh) {
-          proto::RecordingBlock part;
-          part.mutable_shape()->Swap(&mesh);
-          part.mutable_shape()->set_id(id);
-          part.mutable_shape()->set_hierarchy(static_cast<std::uint32_t>(shape->hierarchy));
-          write(part);
-        });
-      });
-    };
-    placed.set_shape(shape_id(instance.shape));
+    placed.set_shape(shapeId(instance.shape, write));
     const auto add_way = [&](const MeshTransition& way) {
       proto::RecordedMeshTransition& recorded = *placed.add_mesh_motion();
-      recorded.set_from(shape_id(way.given_from()));
-      recorded.set_to(shape_id(way.given_to()));
+      recorded.set_from(shapeId(way.given_from(), write));
+      recorded.set_to(shapeId(way.given_to(), write));
       recorded.set_begin_ns(way.begin_ns());
       recorded.set_end_ns(way.end_ns());
     };
     if (instance.mesh_motion && instance.mesh_motion->earlier()) add_way(*instance.mesh_motion->earlier());
     if (instance.mesh_motion) add_way(instance.mesh_motion->last());
+    if (instance.body) placed.set_body(bodyId(instance.body, write));
     placed.set_surfaces(idOf(surfaces_, instance.surfaces, [&](std::uint64_t id) {
       proto::RecordingBlock part;
       part.mutable_surfaces()->set_id(id);
@@ -166,6 +175,16 @@ void SceneReader::add(const proto::RecordedSurfaces& in) {
   surfaces_[in.id()] = std::move(surfaces);
 }
 
+void SceneReader::add(const proto::RecordedBody& in) { bodies_[in.id()] = rigidBodyOf(in); }
+
+void SceneReader::setBody(std::uint64_t id, Instance& instance) const {
+  if (id == 0) return;
+  const auto body = bodies_.find(id);
+  if (body == bodies_.end()) throw Error(kBrokenScene);
+  instance.body = body->second;
+  instance.driver = instance.body->poses;
+}
+
 MeshTransition SceneReader::wayOf(const proto::RecordedMeshTransition& in, const Surfaces& surfaces) const {
   const auto from = shapes_.find(in.from()), to = shapes_.find(in.to());
   if (from == shapes_.end() || to == shapes_.end() || !isSameMesh(*from->second, *to->second))
@@ -186,6 +205,7 @@ std::shared_ptr<const Snapshot> SceneReader::scene(const proto::RecordedScene& i
   constexpr double kLongestBlend_ns = 1e12;
   checkRanges("a scene", {{"blend_ns", static_cast<double>(in.blend_ns()), 0, kLongestBlend_ns}});
   std::vector<Instance> instances;
+  std::size_t bodies = 0;
   for (const proto::RecordedInstance& placed : in.instances()) {
     const auto shape = shapes_.find(placed.shape());
     const auto surfaces = surfaces_.find(placed.surfaces());
@@ -197,8 +217,13 @@ std::shared_ptr<const Snapshot> SceneReader::scene(const proto::RecordedScene& i
     instances.back().mesh_motion = meshMotionOf(placed, *surfaces->second);
     instances.back().compliance = complianceOf(placed);
     instances.back().item = placed.item();
+    instances.back().answers_force = placed.answers_force();
+    setBody(placed.body(), instances.back());
+    bodies += instances.back().movesAsBody() ? 1 : 0;
   }
-  return makeSnapshot(std::move(instances), in.name(), in.number(), in.blend_ns());
+  if (bodies > kMostBodies) throw Error(kBrokenScene);
+  return makeSnapshot(std::move(instances), in.name(), in.number(), in.blend_ns(),
+                      in.has_mechanics() ? mechanicsOf(in.mechanics()) : Mechanics{});
 }
 
 }  // namespace hl

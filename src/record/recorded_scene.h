@@ -1,5 +1,5 @@
-// Scenes between snapshots and the messages of a recording. Shapes and surfaces that several scenes share are written
-// once. What comes back is touched bit for bit as it was.
+// Scenes between snapshots and the messages of a recording. Shapes, surfaces and bodies that several scenes share are
+// written once. What comes back is touched bit for bit as it was.
 #pragma once
 
 #include <recording.pb.h>
@@ -32,9 +32,12 @@ class SceneWriter {
   template <typename Part, typename Encode>
   std::uint64_t idOf(std::map<const Part*, Written<Part>>& written, const std::shared_ptr<const Part>& part,
                      const Encode& encode);
+  std::uint64_t shapeId(const std::shared_ptr<const Shape>& shape, const Write& write);
+  std::uint64_t bodyId(const std::shared_ptr<const RigidBody>& body, const Write& write);
 
   std::map<const Shape*, Written<Shape>> shapes_;
   std::map<const Surfaces*, Written<Surfaces>> surfaces_;
+  std::map<const RigidBody*, Written<RigidBody>> bodies_;
   std::uint64_t last_id_ = 0;
 };
 
@@ -43,16 +46,20 @@ class SceneReader {
  public:
   void add(const proto::RecordedShape& in);
   void add(const proto::RecordedSurfaces& in);
+  void add(const proto::RecordedBody& in);
   std::shared_ptr<const Snapshot> scene(const proto::RecordedScene& in) const;
 
  private:
   MeshTransition wayOf(const proto::RecordedMeshTransition& in, const Surfaces& surfaces) const;
   std::shared_ptr<const MeshMotion> meshMotionOf(const proto::RecordedInstance& in, const Surfaces& surfaces) const;
 
+  void setBody(std::uint64_t id, Instance& instance) const;
+
   MeshReader mesh_;
   std::optional<std::uint64_t> begun_;  // the shape of which more parts follow
   std::map<std::uint64_t, std::shared_ptr<const Shape>> shapes_;
   std::map<std::uint64_t, std::shared_ptr<const Surfaces>> surfaces_;
+  std::map<std::uint64_t, std::shared_ptr<const RigidBody>> bodies_;
 };
 
 }  // namespace hl

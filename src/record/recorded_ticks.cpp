@@ -6,6 +6,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "bodies/world_hash.h"
 #include "io/value_messages.h"
 
 namespace hl {
@@ -26,6 +27,7 @@ void addTick(const TickRecord& record, std::int64_t before_ns, proto::ProxyTicks
   out.add_contacts(static_cast<std::uint32_t>(record.contacts));
   out.add_work_ns(record.work_ns);
   out.add_used_up_at(static_cast<std::uint32_t>(record.used_up_at));
+  out.add_world_hash(record.world_hash);
 }
 
 TickRecord tickOf(const proto::ProxyTicks& in, int i, std::int64_t before_ns) {
@@ -38,6 +40,7 @@ TickRecord tickOf(const proto::ProxyTicks& in, int i, std::int64_t before_ns) {
   record.proxy = at(in.proxy(), i);
   record.contacts = in.contacts(i);
   record.work_ns = in.work_ns(i);
+  if (in.world_hash_size() > 0) record.world_hash = in.world_hash(i);
   if (in.used_up_at_size() > 0) record.used_up_at = static_cast<int>(std::min(in.used_up_at(i), kMaxLooks));
   return record;
 }
@@ -63,10 +66,21 @@ bool consistent(const proto::ProxyTicks& in) {
               in.work_ns_size()},
              1) &&
          (in.used_up_at_size() == 0 || in.used_up_at_size() == n) &&
+         (in.world_hash_size() == 0 || in.world_hash_size() == n) &&
          all({in.finger_size(), in.target_proxy_size(), in.proxy_size()}, 3);
 }
 
 }  // namespace
+
+std::uint64_t worldHash(const ProxyLoop& proxy) {
+  constexpr std::size_t kMany = 100;
+  constexpr std::uint64_t kSeldom = 100;
+  const BodyWorld* const bodies = proxy.bodies();
+  if (bodies == nullptr) return 0;
+  const WorldState& state = bodies->state();
+  if (state.bodies.size() > kMany && state.steps % kSeldom != 0) return 0;
+  return hashOf(bodies->world(), state);
+}
 
 void toProto(std::span<const TickRecord> records, std::uint64_t first, proto::ProxyTicks& out) {
   out.set_first(first);
@@ -82,6 +96,8 @@ void toProto(std::span<const TickRecord> records, std::uint64_t first, proto::Pr
     toProto(now, *change.mutable_values());
     context = std::move(now);
   }
+  const auto& hashes = out.world_hash();
+  if (std::all_of(hashes.begin(), hashes.end(), [](std::uint64_t hash) { return hash == 0; })) out.clear_world_hash();
 }
 
 std::vector<TickRecord> fromProto(const proto::ProxyTicks& in) {

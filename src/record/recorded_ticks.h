@@ -18,7 +18,8 @@ struct TickRecord {
   Vec3 proxy = Vec3::Zero();  ///< world
   std::uint64_t contacts = 0;
   std::int64_t work_ns = 0;
-  int used_up_at = 0;  ///< as in TickReport
+  int used_up_at = 0;            ///< as in TickReport
+  std::uint64_t world_hash = 0;  ///< worldHash() after the tick
 };
 
 /// What seldom changes from tick to tick.
@@ -27,6 +28,10 @@ struct TickContext {
   SpringOfServo spring;
   std::uint64_t scene = 0;
 };
+
+/// hashOf() of the bodies after a tick; 0 where there are none, and of more than 100 bodies in most ticks: it is taken
+/// in each hundredth of their steps. RT-safe.
+std::uint64_t worldHash(const ProxyLoop& proxy);
 
 /// Consecutive ticks, at least one; `first` is the number of the first.
 void toProto(std::span<const TickRecord> records, std::uint64_t first, proto::ProxyTicks& out);

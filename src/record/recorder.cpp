@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/guarded_thread.h"
 #include "io/value_messages.h"
+#include "record/recorded_bodies.h"
 #include "record/recorded_proxy.h"
 #include "record/recorded_servo.h"
 
@@ -90,6 +91,7 @@ Recorder::Recorder(const RecorderSettings& settings, const SessionInfo& session)
       steps_(
           room(!settings.file.empty() || settings.pages || !settings.black_box_folder.empty(), session.servo_rate_Hz)),
       ticks_(room(!settings.file.empty() || settings.pages, std::max(session.servo_rate_Hz, session.proxy_rate_Hz))) {
+  capture_.hashing = !settings_.file.empty();
   if (settings_.file.empty()) return;
   file_ = std::make_unique<RecordingWriter>(settings_.file);
   file_->write(startBlock(FaultReason::kNone));
@@ -123,9 +125,11 @@ void Recorder::tick(const TickRequest& request, const ProxyStep& step, const Pro
                     std::int64_t work_ns) noexcept {
   if (step.scene == 0) return;
   ticks_.push({request, step.scene, step.held.target, proxy.state().position, step.report.contacts.size(), work_ns,
-               step.report.used_up_at});
+               step.report.used_up_at, capture_.hashing.load(std::memory_order_relaxed) ? worldHash(proxy) : 0});
   if (capture_.phase.load(std::memory_order_acquire) != Capture::kWanted) return;
   capture_.memory = proxy.memory();
+  capture_.has_bodies = proxy.bodies() != nullptr;
+  capture_.has_room = proxy.remember(capture_.bodies);
   capture_.scene = step.scene;
   capture_.next_tick = ticks_.pushed();
   capture_.phase.store(Capture::kTaken, std::memory_order_release);
@@ -162,6 +166,7 @@ void Recorder::drain(bool all) {
     for_pages ? settings_.pages->refuse(error.what()) : tell(fmt::format("the recording ends: {}", error.what()));
   }
   if (!file_) forgetOldScenes();
+  capture_.hashing.store(file_ || capture_.wanted_ns != 0, std::memory_order_relaxed);
 }
 
 void Recorder::writeFile(bool all) {
@@ -231,10 +236,18 @@ void Recorder::beginForPage(std::uint32_t page) {
   const std::int64_t now_ns = monotonicNow_ns();
   if (capture_.wanted_ns == 0) {
     capture_.wanted_ns = now_ns;
-    capture_.phase.store(Capture::kWanted, std::memory_order_release);
+    wantCapture();
   } else if (captured(now_ns)) {
     openForPage(page);
   }
+}
+
+// While the loops may write to it nothing here does.
+void Recorder::wantCapture() {
+  capture_.hashing.store(true, std::memory_order_relaxed);
+  if (capture_.phase.load(std::memory_order_acquire) != Capture::kWanted)
+    capture_.bodies.reserve(scenes_.mostBodies(), scenes_.mostJoints());
+  capture_.phase.store(Capture::kWanted, std::memory_order_release);
 }
 
 // The next tick must be in the scene of the last one: what the proxy keeps for a change of scenes is not recorded.
@@ -245,9 +258,9 @@ bool Recorder::captured(std::int64_t now_ns) {
   TickRecord next;
   if (capture_.phase.load(std::memory_order_acquire) != Capture::kTaken || ticks_.pushed() == capture_.next_tick)
     return false;
-  if (ticks_.read(capture_.next_tick, next) && next.scene == capture_.scene && scenes_.beginAt(capture_.scene))
-    return true;
-  capture_.phase.store(Capture::kWanted, std::memory_order_release);
+  const bool goes_on = ticks_.read(capture_.next_tick, next) && next.scene == capture_.scene;
+  if (capture_.has_room && goes_on && scenes_.beginAt(capture_.scene)) return true;
+  wantCapture();
   return false;
 }
 
@@ -265,6 +278,7 @@ void Recorder::openForPage(std::uint32_t page) {
   file->write(startBlock(FaultReason::kNone));
   proto::RecordingBlock memory;
   toProto(capture_.memory, *memory.mutable_proxy());
+  if (capture_.has_bodies) toProto(capture_.bodies, *memory.mutable_proxy()->mutable_bodies());
   file->write(memory);
   file_ = std::move(file);
   written_.page = page;

@@ -65,11 +65,15 @@ class Recorder final : public StepSink {
     std::uint64_t fault = 0;                       // the last
     std::uint32_t page = 0;                        // whose recording the file is; 0: no page's
   };
-  /// What the proxy remembered after a tick, taken by the loop that made it, when the recorder's thread wants it.
+  /// What the proxy and the bodies remembered after a tick, taken by the loop that made it, when the recorder's thread
+  /// wants it.
   struct Capture {
     enum Phase { kNone, kWanted, kTaken };
     std::atomic<Phase> phase{kNone};
+    std::atomic<bool> hashing{false};  // ticks are for a file: they get hashes of the bodies
     ProxyMemory memory;
+    BodiesMemory bodies;  // with room for those of the scenes that are waited for
+    bool has_bodies = false, has_room = false;
     std::uint64_t scene = 0, next_tick = 0;
     std::int64_t wanted_ns = 0;
   };
@@ -83,6 +87,7 @@ class Recorder final : public StepSink {
   void endRecording(const std::string& reason);
   void followPages();
   void beginForPage(std::uint32_t page);
+  void wantCapture();
   bool captured(std::int64_t now_ns);
   void openForPage(std::uint32_t page);
   void endForPage();

@@ -2,12 +2,14 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <deque>
 #include <memory>
 #include <utility>
 
 #include "base/error.h"
 #include "io/value_messages.h"
+#include "record/recorded_bodies.h"
 #include "record/recorded_proxy.h"
 #include "record/recorded_scene.h"
 #include "record/recorded_servo.h"
@@ -91,7 +93,11 @@ class ProxyReplay {
 
   void add(const proto::RecordedShape& shape) { reader_.add(shape); }
   void add(const proto::RecordedSurfaces& surfaces) { reader_.add(surfaces); }
-  void add(const proto::RecordedProxy& proxy) { memory_ = fromProto(proxy); }
+  void add(const proto::RecordedBody& body) { reader_.add(body); }
+  void add(const proto::RecordedProxy& proxy) {
+    memory_ = fromProto(proxy);
+    if (proxy.has_bodies()) bodies_ = fromProto(proxy.bodies());
+  }
   void add(const proto::RecordedScene& scene) {
     scenes_.push_back({scene.identity(), reader_.scene(scene)});
     ++report_.scenes;
@@ -112,43 +118,64 @@ class ProxyReplay {
   }
 
  private:
+  // The loop takes each scene in turn, those without a tick in them too: bodies go on from one to the next.
   void show(std::uint64_t identity) {
     if (shown_ == identity) return;
-    while (!scenes_.empty() && scenes_.front().identity != identity) scenes_.pop_front();
-    if (scenes_.empty()) throw Error("the recording lacks a scene that it touches");
-    if (slot_) {
+    const auto is_it = [&](const Shown& scene) { return scene.identity == identity; };
+    const auto it = std::find_if(scenes_.begin(), scenes_.end(), is_it);
+    if (it == scenes_.end()) throw Error("the recording lacks a scene that it touches");
+    if (slot_)
       slot_->publish(scenes_.front().snapshot);
-    } else {
-      slot_ = std::make_unique<SnapshotSlot>(scenes_.front().snapshot);
-      loop_ = std::make_unique<ProxyLoop>(*slot_, settings_);
-      if (memory_) loop_->resume(*memory_);
+    else
+      begin();
+    for (; scenes_.front().identity != identity; slot_->publish(scenes_.front().snapshot)) {
+      loop_->skip();
+      slot_->dropBefore();
+      scenes_.pop_front();
     }
+    scenes_.pop_front();
     shown_ = identity;
+  }
+  void begin() {
+    slot_ = std::make_unique<SnapshotSlot>(scenes_.front().snapshot);
+    loop_ = std::make_unique<ProxyLoop>(*slot_, settings_);
+    if (memory_) loop_->resume(*memory_);
+    if (bodies_) loop_->resume(*bodies_);
   }
   void tick(const TickRecord& record, double time_s) {
     show(record.scene);
     const int most_looks = record.used_up_at > 0 ? record.used_up_at : kNoWorkCap;
     const ProxyStep step =
         loop_->step(record.in.time_ns, record.in.finger_D, record.in.commands, record.in.spring, most_looks);
-    const Vec3& proxy = loop_->state().position;
-    if (report_.difference || partsOf(step.held.target) == partsOf(record.target)) {
-      if (report_.difference || partsOf(proxy) == partsOf(record.proxy)) return;
-    }
-    report_.difference = {
-        "tick", next_, time_s,
-        fmt::format("proxy {} m, target {} m are recorded, and {} m, {} m come out", textOf(record.proxy),
-                    textOf(record.target.proxy_D), textOf(proxy), textOf(step.held.target.proxy_D))};
+    slot_->dropBefore();
+    if (!report_.difference) compare(record, step, time_s);
   }
+  void compare(const TickRecord& record, const ProxyStep& step, double time_s) {
+    const Vec3& proxy = loop_->state().position;
+    if (!(partsOf(step.held.target) == partsOf(record.target)) || !(partsOf(proxy) == partsOf(record.proxy))) {
+      differ(time_s, fmt::format("proxy {} m, target {} m are recorded, and {} m, {} m come out", textOf(record.proxy),
+                                 textOf(record.target.proxy_D), textOf(proxy), textOf(step.held.target.proxy_D)));
+      return;
+    }
+    if (record.world_hash == 0) return;
+    ++report_.world_hashes;
+    const std::uint64_t hash = worldHash(*loop_);
+    if (hash != record.world_hash)
+      differ(time_s,
+             fmt::format("bodies whose hash is {:016x} are recorded, and {:016x} comes out", record.world_hash, hash));
+  }
+  void differ(double time_s, std::string text) { report_.difference = {"tick", next_, time_s, std::move(text)}; }
 
   ReplayReport& report_;
   ProxySettings settings_;
   std::optional<ProxyMemory> memory_;  // before the first tick, where the recording begins within a session
+  std::optional<BodiesMemory> bodies_;
   SceneReader reader_;
   struct Shown {
     std::uint64_t identity;
     std::shared_ptr<const Snapshot> snapshot;
   };
-  std::deque<Shown> scenes_;  // as they were shown; the loop took them in this order, and may have passed some over
+  std::deque<Shown> scenes_;  // not taken yet, as they were shown
   std::unique_ptr<SnapshotSlot> slot_;
   std::unique_ptr<ProxyLoop> loop_;
   std::uint64_t shown_ = 0, next_ = 0;
@@ -182,6 +209,7 @@ ReplayReport replayed(RecordingReader& reader, const StepVisitor& visit) {
     if (block.has_shape()) proxy.add(block.shape());
     if (block.has_surfaces()) proxy.add(block.surfaces());
     if (block.has_scene()) proxy.add(block.scene());
+    if (block.has_rigid_body()) proxy.add(block.rigid_body());
     if (block.has_proxy()) proxy.add(block.proxy());
     if (block.has_ticks()) proxy.play(block.ticks(), start.begin_ns());
     if (block.has_steps()) servo.play(block.steps(), start.begin_ns(), visit);

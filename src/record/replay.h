@@ -27,6 +27,7 @@ struct ReplayReport {
   bool black_box = false;
   std::uint64_t steps = 0, ticks = 0, scenes = 0;
   std::uint64_t lost_steps = 0, lost_ticks = 0;  ///< that the recorder could not keep
+  std::uint64_t world_hashes = 0;                ///< of bodies, that were compared
   std::uint64_t unchecked_ticks = 0;             ///< after lost ones: what the proxy did meanwhile is not known
   double first_s = 0, last_s = 0;                ///< times of the first and last step
   std::optional<ReplayDifference> difference;

@@ -22,6 +22,22 @@ bool SceneQueue::hasLost() const {
   return lost_;
 }
 
+std::size_t SceneQueue::mostBodies() const {
+  const auto moves = [](const Instance& instance) { return instance.movesAsBody(); };
+  const std::lock_guard lock(mutex_);
+  std::ptrdiff_t most = 0;
+  for (const auto& scene : scenes_)
+    most = std::max(most, std::count_if(scene->instances.begin(), scene->instances.end(), moves));
+  return static_cast<std::size_t>(most);
+}
+
+std::size_t SceneQueue::mostJoints() const {
+  const std::lock_guard lock(mutex_);
+  std::size_t most = 0;
+  for (const auto& scene : scenes_) most = std::max(most, scene->mechanics.joints.size());
+  return most;
+}
+
 std::shared_ptr<const Snapshot> SceneQueue::next() const {
   const std::lock_guard lock(mutex_);
   return written_ == scenes_.size() ? nullptr : scenes_[written_];

@@ -19,6 +19,9 @@ class SceneQueue {
   /// Without memory for it the queue has lost one.
   void push(std::shared_ptr<const Snapshot> scene) noexcept;
   bool hasLost() const;
+  /// The most bodies that move in one of them.
+  std::size_t mostBodies() const;
+  std::size_t mostJoints() const;
   /// The first that is not written; null: there is none.
   std::shared_ptr<const Snapshot> next() const;
   /// It is. `keep_last`: it stays, if no other one follows.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -29,6 +30,9 @@ enum class BodyShape : std::uint8_t {
 };
 /// By number: "hull", "box", ...
 inline constexpr std::array<const char*, 5> kBodyShapeNames{"hull", "box", "ball", "capsule", "cylinder"};
+
+/// No scene has more that move: what a step costs is bounded.
+inline constexpr std::size_t kMostBodies = 1000;
 
 struct BodySpec {
   bool fixed = false;             ///< it does not move, and only its surface counts

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/splitmix64.h"
 #include "scene/by_key.h"
+#include "scene/follow_body.h"
 
 namespace hl {
 
@@ -51,6 +52,7 @@ std::size_t bytesOfItems(std::size_t count) { return kObject_bytes + count * siz
 
 std::size_t bytesApart(const SceneItem& item) {
   std::size_t bytes = item.placement ? kPointer_bytes + sizeof(Placement) : 0;
+  if (item.body) bytes += kPointer_bytes + sizeof(BodySpec);
   if (!item.surface) return bytes;
   bytes += kPointer_bytes + sizeof(SurfaceChange);
   for (const auto& use : item.surface->textures) {
@@ -112,7 +114,7 @@ class EditableScene::Flattening {
   MemoryShare memory_;  // memory of the placed shapes and their surfaces
   std::vector<PlacedShape> placed_;
   std::vector<std::uint32_t> path_;
-  std::size_t visits_ = 0;
+  std::size_t visits_ = 0, bodies_ = 0;
   ModelSizes copies_;  // sizes of the stretched copies; a small matrix makes a copy of a large shape
   SurfaceChange last_change_;
   std::shared_ptr<const Surfaces> last_surfaces_;  // of last_change_; most objects repeat it
@@ -163,7 +165,13 @@ void EditableScene::Flattening::add(const SceneItem& item, const Call& call, std
   PlacedShape placed{shape, surfacesOf(call.surface), pose, call.key, scene_.session_, call.object, call.name, number};
   const auto found = state_.compliances.find(call.object);
   if (found != state_.compliances.end()) placed.compliance = found->second;
+  placed.answers_force = state_.answers_force;
+  placed.body = item.body;
   placed_.push_back(std::move(placed));
+  if (!placed_.back().movesAsBody()) return;
+  memory_.take(kBody_bytes);
+  if (++bodies_ > scene_.limits_.bodies)
+    throw Error("there are more than " + std::to_string(scene_.limits_.bodies) + " bodies in the world");
 }
 
 // The hierarchy of a new copy is refitted from that of the copy that it replaces, or else from that of the shape.
@@ -219,6 +227,7 @@ EditableScene::State EditableScene::after(SceneEdit edit) const {
     if (next.objects.contains(id)) next.compliances[id] = compliance;
   }
   if (edit.world) next.world = std::move(edit.world);
+  next.answers_force = edit.answers_force;
   return next;
 }
 
@@ -323,6 +332,8 @@ bool isDeformed(const Instance& before, const PlacedShape& now) {
 // Contribution of one object to Snapshot::blend_ns. `before`: the object in the last snapshot; null: none.
 std::int64_t blendOf(const Instance* before, const Instance& now, const PlacedShape& placed) {
   if (before == nullptr || !(*before->surfaces == *now.surfaces)) return kAbruptBlend_ns;
+  if (before->movesAsBody() != now.movesAsBody()) return kAbruptBlend_ns;
+  if (now.movesAsBody() && before->shape->model.positions != now.shape->model.positions) return kAbruptBlend_ns;
   if (!now.motion.moves() && !(before->motion.to() == now.motion.to())) return kAbruptBlend_ns;
   return before->shape->geometry == now.shape->geometry || isDeformed(*before, placed) ? 0 : kAbruptBlend_ns;
 }
@@ -361,11 +372,15 @@ std::shared_ptr<const ComplianceMotion> complianceOf(const Instance& before, con
 }
 
 Instance follow(const PlacedShape& now, const Instance* before, std::int64_t begin_ns, std::int64_t end_ns,
-                const MemoryBudget& memory, Followed& all) {
+                const MemoryBudget& memory, const Box& scene, Followed& all) {
   Instance instance{now.shape, now.surfaces, Motion(now.pose), now.key, now.session, now.object, now.name};
   instance.item = now.item;
+  instance.answers_force = now.answers_force;
   if (now.compliance) instance.compliance = std::make_shared<const ComplianceMotion>(*now.compliance);
-  if (before == nullptr) return instance;
+  if (now.body)
+    setBody(instance, followBody("object " + std::to_string(now.object), {*now.body, now.pose, now.shape->bounds},
+                                 before, scene));
+  if (before == nullptr || before->movesAsBody() || instance.movesAsBody()) return instance;
   if (end_ns > begin_ns) {
     const bool stays = before->motion.to() == now.pose;
     const bool rests = !before->motion.moves() || before->motion.last().end_ns() < begin_ns;
@@ -384,7 +399,7 @@ Instance follow(const PlacedShape& now, const Instance* before, std::int64_t beg
 }  // namespace
 
 Followed followOn(const std::vector<PlacedShape>& placed, std::span<const Instance* const> last, std::int64_t begin_ns,
-                  std::int64_t end_ns, const MemoryBudget& memory) {
+                  std::int64_t end_ns, const MemoryBudget& memory, const Box& scene) {
   Followed result;
   if (placed.size() != last.size()) result.blend_ns = kAbruptBlend_ns;
   result.instances.reserve(placed.size());
@@ -392,7 +407,7 @@ Followed followOn(const std::vector<PlacedShape>& placed, std::span<const Instan
   for (const PlacedShape* now : pointersByKey(placed)) {
     at = std::find_if(at, last.end(), [&](const Instance* one) { return one->key >= now->key; });
     const Instance* const before = at != last.end() && (*at)->key == now->key ? *at : nullptr;
-    result.instances.push_back(follow(*now, before, begin_ns, end_ns, memory, result));
+    result.instances.push_back(follow(*now, before, begin_ns, end_ns, memory, scene, result));
     result.blend_ns = std::max(result.blend_ns, blendOf(before, result.instances.back(), *now));
   }
   return result;

@@ -27,6 +27,7 @@ struct SceneItem {
   std::optional<std::uint32_t> name;               ///< absent: the name of the caller
   std::shared_ptr<const Placement> placement;      ///< invertible, may scale and shear; null: identity
   std::shared_ptr<const SurfaceChange> surface{};  ///< null: the surface of the caller
+  std::shared_ptr<const BodySpec> body{};          ///< the shape is a rigid body; null: it is none
 };
 using SceneItems = std::vector<SceneItem>;
 /// Memory of a list of `count` items.
@@ -44,6 +45,8 @@ struct SceneEdit {
   std::map<std::uint32_t, std::shared_ptr<SceneItems>> objects;
   std::map<std::uint32_t, Compliance> compliances;  ///< by object; kept until the object is deleted
   std::shared_ptr<SceneItems> world;                ///< null: unchanged
+  /// The client deforms its objects by the forces that it reads: how they yield is estimated where it does not tell.
+  bool answers_force = false;
 };
 
 /// Limits for the scene of one client.
@@ -54,7 +57,8 @@ struct SceneLimits {
   std::uint64_t scene_bytes = std::uint64_t{4} << 30;
   std::uint64_t instances = 100'000;  ///< objects in the world, counting each call
   std::uint64_t texture_bytes = std::uint64_t{256} << 20;
-  std::uint32_t nesting = 32;  ///< depth of nested calls, as for GL's matrix stack
+  std::uint32_t nesting = 32;          ///< depth of nested calls, as for GL's matrix stack
+  std::uint64_t bodies = kMostBodies;  ///< in the world, that move
 };
 
 /// Memory of an object without its items, and of a texture without its texels: an entry in two maps while edited.
@@ -62,6 +66,9 @@ inline constexpr std::size_t kObject_bytes = 512;
 /// Memory of a shape in the world, without the shape itself: its placement, and an Instance with layout in each
 /// snapshot that exists at the same time (two that the loops may use, one that is being made, two that the page draws).
 std::size_t bytesInWorld();
+/// Memory of a body that moves, beside that: in the worlds of three scenes the lists of a step have room for 64
+/// contacts of each.
+inline constexpr std::size_t kBody_bytes = 3 * 100'000;
 
 /// Adds up the memory that shapes will need and checks it against the limit.
 class ModelSizes {
@@ -84,6 +91,10 @@ struct PlacedShape {
   std::uint32_t session = 0, object = 0, name = 0;
   std::uint32_t item = 0;                  ///< as in Instance
   std::optional<Compliance> compliance{};  ///< of its object
+  bool answers_force = false;              ///< as in Instance
+  std::shared_ptr<const BodySpec> body{};  ///< it is a rigid body that starts at `pose`; null: it is none
+
+  bool movesAsBody() const { return body && !body->fixed; }
 };
 
 /// The shapes in the world; shared by all readers.
@@ -98,6 +109,7 @@ class EditableScene {
     std::map<std::uint32_t, std::shared_ptr<const SceneItems>> objects;
     std::map<std::uint32_t, Compliance> compliances;  // of objects that are there
     std::shared_ptr<const SceneItems> world = std::make_shared<SceneItems>();
+    bool answers_force = false;
   };
   /// The geometry number of a shape, and the stretch applied to it: the upper half of a symmetric matrix.
   using Stretched = std::tuple<std::uint64_t, std::array<double, 6>>;
@@ -105,6 +117,10 @@ class EditableScene {
  public:
   /// The scene after an edit, prepared but not yet shown.
   class Next {
+   public:
+    const std::vector<PlacedShape>& placed() const { return *placed_; }
+
+   private:
     friend class EditableScene;
     State state_;
     PlacedShapes placed_;
@@ -157,8 +173,9 @@ struct Followed {
 /// The instances of the next snapshot, from those of this client in the last one; both sorted by key. An object that
 /// existed moves from its pose at `begin_ns` to its new pose at `end_ns`. A new object is at its pose at once, as are
 /// all if end_ns <= begin_ns. A mesh deforms in the same time, or in kAbruptBlend_ns; a transition that has begun is
-/// completed first. The memory for this is counted in `memory`; a mesh for which there is no room changes at once.
+/// completed first. The memory for this is counted in `memory`; a mesh for which there is no room changes at once. A
+/// rigid body goes on from where it is while its start is the same; `scene`: bounds of all that it may meet.
 Followed followOn(const std::vector<PlacedShape>& placed, std::span<const Instance* const> last, std::int64_t begin_ns,
-                  std::int64_t end_ns, const MemoryBudget& memory = {});
+                  std::int64_t end_ns, const MemoryBudget& memory = {}, const Box& scene = {});
 
 }  // namespace hl

@@ -17,12 +17,6 @@ Instance instanceOf(Model model, std::uint64_t key, HierarchyKind hierarchy) {
   return instance;
 }
 
-void setBody(Instance& instance, std::shared_ptr<const RigidBody> body) {
-  instance.motion = Motion(body->start);
-  instance.driver = body->poses;
-  instance.body = std::move(body);
-}
-
 // Forces stay as they are said, so that a spring of N/m does too; angles are none of lengths.
 void scaleJoint(JointSpec& joint, double factor, const Vec3& offset) {
   joint.anchor_W = factor * joint.anchor_W + offset;

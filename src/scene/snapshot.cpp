@@ -25,7 +25,7 @@ Box reachOf(const Instance& instance) {
 }
 
 Pose finalPose(const Instance& instance) {
-  return instance.movesAsBody() ? instance.body->poses->shown() : instance.poses().to();
+  return instance.movesAsBody() ? instance.body->poses->shown().pose : instance.poses().to();
 }
 
 double largestCoordinate(const Box& box) {
@@ -53,6 +53,17 @@ std::shared_ptr<const Surfaces> surfacesOf(const std::shared_ptr<const Shape>& s
   surfaces->materials = shape->model.materials;
   for (const Texture& texture : shape->model.textures) surfaces->textures.emplace_back(shape, &texture);
   return surfaces;
+}
+
+void setBody(Instance& instance, std::shared_ptr<const RigidBody> body) {
+  instance.motion = Motion(body->start);
+  instance.driver = body->poses;
+  instance.body = std::move(body);
+}
+
+std::size_t movingBodies(const Snapshot& snapshot) {
+  const auto moves = [](const Instance& instance) { return instance.movesAsBody(); };
+  return static_cast<std::size_t>(std::count_if(snapshot.instances.begin(), snapshot.instances.end(), moves));
 }
 
 std::size_t memoryOf(const Snapshot& snapshot) {

@@ -41,7 +41,8 @@ struct Instance {
   std::shared_ptr<const RigidBody> body{};  ///< null: it has no mass. Its poses are the driver, unless it is fixed
   /// How it yields between the frames of a client that deforms it; null: its client has not told.
   std::shared_ptr<const ComplianceMotion> compliance{};
-  std::uint32_t item = 0;  ///< index of its item in the object, or in the world if `object` is 0
+  bool answers_force = false;  ///< its client deforms it by the forces that it reads
+  std::uint32_t item = 0;      ///< index of its item in the object, or in the world if `object` is 0
 
   /// Poses of the instance over time. Of a body that moves: for the loop that ticks alone.
   const PoseSource& poses() const { return driver ? *driver : static_cast<const PoseSource&>(motion); }
@@ -49,7 +50,7 @@ struct Instance {
   /// Whether it is a body that is not in `region` now, though it may be at another time. As poses().
   bool elsewhere(const Box& region) const { return movesAsBody() && !body->poses->near().meets(region); }
   /// Where to draw it. Any thread.
-  Pose shownAt(std::int64_t time_ns) const { return movesAsBody() ? body->poses->shown() : poses().at(time_ns); }
+  Pose shownAt(std::int64_t time_ns) const { return movesAsBody() ? body->poses->shown().pose : poses().at(time_ns); }
   /// Whether it is at rest with its object frame equal to the world frame.
   bool atWorld() const { return !driver && motion.identity(); }
   /// The transition of the mesh at this time, or null if the mesh is `shape`.
@@ -94,6 +95,12 @@ struct Snapshot {
 
 /// The surfaces described by the shape's own model.
 std::shared_ptr<const Surfaces> surfacesOf(const std::shared_ptr<const Shape>& shape);
+
+/// The instance is this body from now on, at its start.
+void setBody(Instance& instance, std::shared_ptr<const RigidBody> body);
+
+/// Instances that move as bodies.
+std::size_t movingBodies(const Snapshot& snapshot);
 
 /// Memory of the scene, bytes: each shape and texture counts once, however many instances use it. Allocates.
 std::size_t memoryOf(const Snapshot& snapshot);

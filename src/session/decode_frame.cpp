@@ -97,6 +97,7 @@ class FrameDecoder {
  private:
   void addTextures();
   void addObjects();
+  void makeBody(const proto::ObjectDefinition& object, SceneItems& items);
   const SceneItems* itemsBefore(std::uint32_t object) const { return before_ ? before_(object) : nullptr; }
   bool isThere(std::uint32_t object) const;
   void warn(const std::string& where, const std::string& what);
@@ -157,12 +158,32 @@ void FrameDecoder::addObjects() {
   for (int i = 0; i < frame_.objects_size(); ++i) {
     const proto::ObjectDefinition& object = frame_.objects(i);
     if (object.id() == 0) throw Error(pathOf("objects", i) + ".id must not be 0");
-    if (!result_.edit.objects.emplace(object.id(), itemsOf(object.items(), object.id())).second)
+    std::shared_ptr<SceneItems> items = itemsOf(object.items(), object.id());
+    if (object.has_body()) makeBody(object, *items);
+    if (!result_.edit.objects.emplace(object.id(), std::move(items)).second)
       throw Error("object " + std::to_string(object.id()) + " is there twice");
   }
   result_.edit.deleted_objects.assign(frame_.deleted_objects().begin(), frame_.deleted_objects().end());
   deleted_.insert(frame_.deleted_objects().begin(), frame_.deleted_objects().end());
   if (frame_.has_world()) result_.edit.world = itemsOf(frame_.world().items(), 0);
+}
+
+// The frame of a body is that of the call, so that its item's matrix becomes part of its shape.
+void FrameDecoder::makeBody(const proto::ObjectDefinition& object, SceneItems& items) {
+  const std::string where = "object " + std::to_string(object.id());
+  if (items.size() != 1 || !items[0].shape)
+    throw Error(where + ".body: a body has one item, with primitives or an upload, and no calls; this one has " +
+                std::to_string(items.size()) + (items.size() == 1 ? " item, a call" : " items"));
+  SceneItem& item = items[0];
+  item.body = std::make_shared<const BodySpec>(decoder_.body(object.body(), where + ".body"));
+  if (!item.placement) return;
+  const std::shared_ptr<const Shape> shape = item.shape;
+  item.shape = makeCounted(memory_, bytesToMake(shape->model), [&] {
+    Model model = shape->model;
+    placeModel(model, *item.placement);
+    return makeShape(std::move(model), *shape);
+  });
+  item.placement = nullptr;
 }
 
 std::shared_ptr<SceneItems> FrameDecoder::itemsOf(const google::protobuf::RepeatedPtrField<proto::Item>& items,
@@ -290,6 +311,8 @@ SceneItem& FrameDecoder::itemToMove(const proto::VertexUpdate& in, const std::st
   if (in.item() >= items.size() || !items[in.item()].shape)
     throw Error(where + ": item " + std::to_string(in.item()) + " of object " + std::to_string(in.object()) +
                 " has no vertices");
+  if (items[in.item()].body && !items[in.item()].body->fixed)
+    throw Error(where + ": object " + std::to_string(in.object()) + " is a rigid body: define it anew, or as fixed");
   return items[in.item()];
 }
 
@@ -368,6 +391,9 @@ DecodedFrame FrameDecoder::run() {
   const int listed = frame_.deleted_textures_size() + frame_.deleted_objects_size() + frame_.compliances_size();
   result_.memory.take(kListed_bytes * static_cast<std::uint64_t>(listed));
   if (frame_.has_interval_s() && !(frame_.interval_s() >= 0)) throw Error("interval_s must not be below 0");
+  constexpr double kMostGravity_m_s2 = 1000;
+  if (frame_.has_gravity_m_s2())
+    result_.gravity_m_s2 = decoder_.checked(frame_.gravity_m_s2(), kMostGravity_m_s2, "gravity_m_s2");
   addTextures();
   addObjects();
   warnOfCalls();

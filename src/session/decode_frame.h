@@ -6,6 +6,7 @@
 #include <functional>
 #include <list>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ using ItemsBefore = std::function<const SceneItems*(std::uint32_t object)>;
 
 struct DecodedFrame {
   SceneEdit edit;
+  std::optional<Vec3> gravity_m_s2;   ///< absent: unchanged
   std::size_t refits = 0;             ///< hierarchies that were refitted, not built
   std::vector<std::string> warnings;  ///< elements that were skipped, with counts; the first few items
   MemoryShare memory;                 ///< of the edit's lists, beside what its objects take

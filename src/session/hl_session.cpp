@@ -6,6 +6,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "session/body_commands.h"
 #include "session/contact_report.h"
 #include "session/message_forms.h"
 #include "session/state_messages.h"
@@ -59,6 +60,7 @@ HlSession::HlSession(TouchWorld& world, std::uint32_t number, WakeSession wake,
       memory_(world.memory().member()),
       replies_(memory_, std::move(wake)),
       uploads_(memory_, world.limits().upload_bytes),
+      bodies_(number),
       frame_rate_(world.limits().frames_Hz) {}
 
 HlSession::~HlSession() {
@@ -92,9 +94,13 @@ void HlSession::receive(proto::ClientMessage message) {
     case proto::ClientMessage::kDevice:
       return setDevice(message.device());
     case proto::ClientMessage::kSampleRequest:
-      return want(message.sample_request().wanted(), next_sample_);
+      return want(message.sample_request().wanted(), next_.sample);
     case proto::ClientMessage::kContactReportRequest:
-      return want(message.contact_report_request().wanted(), next_contact_);
+      return want(message.contact_report_request().wanted(), next_.contact);
+    case proto::ClientMessage::kBodyRequest:
+      return bodies_.want(message.body_request().wanted());
+    case proto::ClientMessage::kBodyCommand:
+      return act(message.body_command());
     case proto::ClientMessage::BODY_NOT_SET:
       return refuse("a message with nothing in it that this server knows");
   }
@@ -171,7 +177,7 @@ void HlSession::submit(proto::Frame frame) {
   } catch (const Error& error) {
     return refuse(error.what(), number);
   }
-  world_.publisher().submit(place_, std::move(frame), std::move(uploads), std::move(memory));
+  world_.publisher().submit(place_, std::move(frame), std::move(uploads), std::move(memory), next_.contact.has_value());
 }
 
 // Nothing of them is set when one is wrong.
@@ -202,6 +208,26 @@ void HlSession::want(bool wanted, std::optional<std::uint64_t>& next) const {
     next.reset();
   } else if (!next) {
     next = world_.device(device_).moments().pushed();
+  }
+}
+
+void HlSession::act(const proto::BodyCommand& message) {
+  try {
+    BodyCommand command = toBodyCommand(message);
+    bodies_.follow(*world_.device(device_).snapshot());
+    const std::optional<std::uint32_t> name =
+        message.has_name() ? std::optional<std::uint32_t>(message.name()) : std::nullopt;
+    const std::vector<std::uint64_t> keys = bodies_.keysOf(message.object(), name);
+    if (keys.empty())
+      throw Error("body_command: no body of object " + std::to_string(message.object()) +
+                  (name ? " and name " + std::to_string(*name) : "") + " that moves is shown");
+    for (const std::uint64_t key : keys) {
+      command.key = key;
+      if (!world_.device(device_).actOnBody(command))
+        throw Error("body_command: they come faster than the loops take them");
+    }
+  } catch (const Error& error) {
+    refuse(error.what());
   }
 }
 
@@ -252,9 +278,9 @@ bool HlSession::take(proto::ServerReply& reply) {
   if (replies_.take(reply)) return true;
   if (!end().empty() || nextState_s() > 0) return false;
   reply.Clear();
-  reported_ = next_contact_ && !reported_;
-  if (reported_) {
-    reportContacts(world_.device(device_), *next_contact_, *reply.mutable_contact_report());
+  next_.reported = next_.contact && !next_.reported;
+  if (next_.reported) {
+    reportContacts(world_.device(device_), *next_.contact, *reply.mutable_contact_report());
     return true;
   }
   const double now_s = world_.time_s();
@@ -262,7 +288,11 @@ bool HlSession::take(proto::ServerReply& reply) {
   states_.next_s = std::max(states_.next_s + states_.period_s, now_s);
   world_.describe(device_, *reply.mutable_state());
   reply.mutable_state()->set_master(master_);
-  if (next_sample_) addMoments(world_.device(device_), *next_sample_, *reply.mutable_state());
+  if (next_.sample) addMoments(world_.device(device_), *next_.sample, *reply.mutable_state());
+  if (bodies_.wanted()) {
+    bodies_.follow(*world_.device(device_).snapshot());
+    bodies_.describe(*reply.mutable_state());
+  }
   return true;
 }
 

@@ -13,6 +13,7 @@
 #include "session/message_rate.h"
 #include "session/reply_queue.h"
 #include "session/scene_publisher.h"
+#include "session/session_bodies.h"
 #include "session/touch_world.h"
 #include "session/upload_store.h"
 
@@ -45,6 +46,12 @@ class HlSession final : public ClientSession {
     double next_s = 0;    // server's clock
   };
 
+  /// Numbers of the device's moments that are to be told next; none: the client wants none.
+  struct MomentsToTell {
+    std::optional<std::uint64_t> sample, contact;
+    bool reported = false;  // the contacts, before the state that comes next
+  };
+
   void open(const proto::Open& open);
   void keepUploads(proto::Uploads uploads);
   void keepUpload(proto::Upload upload);
@@ -53,6 +60,7 @@ class HlSession final : public ClientSession {
   void setDevice(const proto::DeviceSettings& settings);
   void setStateRate(double rate_Hz);
   void want(bool wanted, std::optional<std::uint64_t>& next) const;
+  void act(const proto::BodyCommand& command);
   void refuse(const std::string& why, std::uint64_t frame = 0);
   FrameCallbacks callbacks();
 
@@ -70,9 +78,8 @@ class HlSession final : public ClientSession {
   UploadStore uploads_;
   std::uint64_t last_frame_ = 0;
   StateTimer states_;
-  // Numbers of the device's moments; none: the client wants none.
-  std::optional<std::uint64_t> next_sample_, next_contact_;
-  bool reported_ = false;  // the contacts, before the state that comes next
+  MomentsToTell next_;
+  SessionBodies bodies_;
   MessageRate frame_rate_;
 };
 

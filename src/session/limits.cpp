@@ -13,6 +13,7 @@ proto::Limits toProto(const Limits& limits) {
   out.set_upload_bytes(limits.upload_bytes);
   out.set_frames_hz(limits.frames_Hz);
   out.set_state_rate_hz(limits.state_rate_Hz);
+  out.set_bodies(limits.bodies);
   out.set_memory_bytes(limits.memory_bytes);
   return out;
 }

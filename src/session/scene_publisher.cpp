@@ -5,11 +5,13 @@
 #include <exception>
 #include <iterator>
 #include <new>
+#include <tuple>
 #include <utility>
 
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/guarded_thread.h"
+#include "session/check_bodies.h"
 
 namespace hl {
 
@@ -71,8 +73,14 @@ class ScenePublisher::ClientScene {
   Work work_ = Work::kNone;  // of a builder
   bool removed_ = false;
   bool to_rebuild_ = false;  // a hierarchy of what was placed last is
-  std::int64_t last_arrived_ns_ = 0;
-  std::int64_t move_ns_ = 0;               // that what is placed takes to get there
+  struct Bodies {
+    std::size_t moving = 0;                                   // of what was placed last
+    std::pair<std::uint64_t, Vec3> gravity{0, Vec3::Zero()};  // which of all clients' frames that set it; 0: none did
+  } bodies_;
+  struct Pace {
+    std::int64_t last_arrived_ns = 0;  // of frames
+    std::int64_t move_ns = 0;          // that what is placed takes to get there
+  } pace_;
   PlacedShapes placed_;                    // what is to be shown next; null when it is as it was
   std::deque<Ready> ready_;                // frames that are built and not yet told to be shown
   std::shared_ptr<ClientScene> replaced_;  // goes with the first frame
@@ -89,7 +97,7 @@ struct ScenePublisher::Part {
 };
 
 ScenePublisher::ScenePublisher(std::shared_ptr<const Snapshot> base, std::vector<TouchSession*> devices)
-    : devices_(std::move(devices)), base_(std::move(base)), shown_(base_.now()) {}
+    : devices_(std::move(devices)), base_bodies_(movingBodies(*base)), base_(std::move(base)), shown_(base_.now()) {}
 
 ScenePublisher::~ScenePublisher() { stop(); }
 
@@ -123,10 +131,11 @@ std::shared_ptr<ScenePublisher::ClientScene> ScenePublisher::join(std::uint32_t 
 }
 
 void ScenePublisher::submit(const std::shared_ptr<ClientScene>& client, proto::Frame frame, Uploads uploads,
-                            MemoryShare memory) {
+                            MemoryShare memory, bool answers_force) {
   {
     const std::lock_guard lock(mutex_);
-    client->waiting_.push_back({std::move(frame), std::move(uploads), std::move(memory), monotonicNow_ns()});
+    client->waiting_.push_back(
+        {std::move(frame), std::move(uploads), std::move(memory), answers_force, monotonicNow_ns()});
   }
   work_.notify_one();
 }
@@ -168,6 +177,7 @@ bool ScenePublisher::replaceBase(const std::shared_ptr<const Snapshot>& base) {
   const std::uint64_t number = base_.replace(base);
   {
     const std::lock_guard lock(mutex_);
+    base_bodies_ = movingBodies(*base);
     dirty_ = true;
   }
   changed_.notify_all();
@@ -235,17 +245,22 @@ void ScenePublisher::build(ClientScene& client, Waiting waiting) {
   try {
     DecodedFrame decoded = decodeFrame(waiting.frame, waiting.uploads, client.limits_, client.memory_, progress,
                                        [&](std::uint32_t object) { return client.scene_.items(object); });
+    decoded.edit.answers_force = waiting.answers_force;
     EditableScene::Next next = client.scene_.prepare(std::move(decoded.edit));
+    const std::size_t bodies = checkBodies(next.placed(), client.scene_.placed());
     PlacedShapes before;
     const std::lock_guard lock(mutex_);  // what was there before is freed without it
+    admitBodies(client, bodies);
     client.ready_.push_back({number, std::move(decoded.warnings)});
     // From here on nothing throws.
     client.scene_.show(next);
     before = std::exchange(client.placed_, client.scene_.sharedPlaced());
     counts_.refits += decoded.refits;
     client.to_rebuild_ = client.scene_.toRebuild() != nullptr;
-    client.move_ns_ = moveTime_ns(waiting, client.last_arrived_ns_);
-    client.last_arrived_ns_ = waiting.arrived_ns;
+    client.pace_.move_ns = moveTime_ns(waiting, client.pace_.last_arrived_ns);
+    client.pace_.last_arrived_ns = waiting.arrived_ns;
+    client.bodies_.moving = bodies;
+    if (decoded.gravity_m_s2) client.bodies_.gravity = {++gravities_, *decoded.gravity_m_s2};
     if (client.replaced_) std::exchange(client.replaced_, nullptr)->removed_ = true;
     dirty_ = true;
   } catch (const std::bad_alloc&) {
@@ -253,6 +268,15 @@ void ScenePublisher::build(ClientScene& client, Waiting waiting) {
   } catch (const std::exception& error) {
     return refuse(client, number, error.what());
   }
+}
+
+// Holding the mutex.
+void ScenePublisher::admitBodies(ClientScene& client, std::size_t bodies) const {
+  std::size_t all = base_bodies_ + bodies;
+  for (const auto& other : clients_) {
+    if (other.get() != &client && !other->removed_ && other != client.replaced_) all += other->bodies_.moving;
+  }
+  if (bodies > 0) checkBodiesOfAll(all, client.limits_.bodies, devices_.size());
 }
 
 // A client gets the answer that it waits for in the end, however short memory is meanwhile.
@@ -325,11 +349,17 @@ std::vector<ScenePublisher::Part> ScenePublisher::takeParts() {
     parts.push_back({client,
                      client->removed_,
                      std::exchange(client->placed_, nullptr),
-                     client->move_ns_,
+                     client->pace_.move_ns,
                      client->ready_.size(),
                      0,
                      {}});
   dirty_ = false;
+  gravity_m_s2_.reset();
+  std::uint64_t newest = 0;
+  for (const auto& client : clients_) {
+    if (client->removed_ || client->bodies_.gravity.first <= newest) continue;
+    std::tie(newest, gravity_m_s2_) = client->bodies_.gravity;
+  }
   return parts;
 }
 
@@ -355,7 +385,8 @@ std::int64_t ScenePublisher::assemble(std::vector<Part>& parts, std::int64_t beg
     if (gone) {
       if (!client->shown_.instances.empty()) blend_ns = std::max(blend_ns, kAbruptBlend_ns);
     } else if (placed) {
-      Followed next = followOn(*placed, client->shown_.instances, begin_ns, begin_ns + move_ns, client->memory_);
+      Followed next = followOn(*placed, client->shown_.instances, begin_ns, begin_ns + move_ns, client->memory_,
+                               boundsForBodies(*base_.now(), *placed));
       jumps = next.jumps;
       blend_ns = std::max(blend_ns, next.blend_ns);
       std::move(next.instances.begin(), next.instances.end(), std::back_inserter(instances));
@@ -386,6 +417,8 @@ std::shared_ptr<const Snapshot> keeping(std::vector<PlacedShapes> lists, std::sh
 // Made before its motions begin: if it takes too long for that, once more.
 std::shared_ptr<const Snapshot> ScenePublisher::makeNext(std::vector<Part>& parts) {
   std::shared_ptr<const Snapshot> next;
+  Mechanics mechanics = base_.now()->mechanics;
+  if (gravity_m_s2_) mechanics.gravity_m_s2 = *gravity_m_s2_;
   double margin = kMakingMargin;
   for (int i = 0; i < kLeadTries; ++i, margin *= 2) {
     next.reset();
@@ -393,7 +426,7 @@ std::shared_ptr<const Snapshot> ScenePublisher::makeNext(std::vector<Part>& part
     shown_begin_ns_ = now_ns + kLead_ns + static_cast<std::int64_t>(margin * static_cast<double>(making_ns_));
     std::vector<Instance> instances;
     const std::int64_t blend_ns = assemble(parts, shown_begin_ns_, instances);
-    next = makeSnapshot(std::move(instances), base_.now()->name, shown_->number + 1, blend_ns);
+    next = makeSnapshot(std::move(instances), base_.now()->name, shown_->number + 1, blend_ns, mechanics);
     making_ns_ = monotonicNow_ns() - now_ns;
     if (now_ns + making_ns_ < shown_begin_ns_) break;
   }

@@ -16,6 +16,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -61,7 +62,8 @@ class ScenePublisher {
                                     FrameCallbacks callbacks, std::shared_ptr<ClientScene> replaced = {});
   /// Any thread; returns at once. `uploads`: those that the frame refers to. `memory`: what both take, until it is
   /// built.
-  void submit(const std::shared_ptr<ClientScene>& client, proto::Frame frame, Uploads uploads, MemoryShare memory);
+  void submit(const std::shared_ptr<ClientScene>& client, proto::Frame frame, Uploads uploads, MemoryShare memory,
+              bool answers_force = false);
   /// Frames that are submitted and not yet shown or refused.
   std::size_t waiting(const std::shared_ptr<ClientScene>& client) const;
   /// No callback is under way or comes after this. The objects stay where they are until remove().
@@ -80,6 +82,7 @@ class ScenePublisher {
     proto::Frame frame;
     Uploads uploads;
     MemoryShare memory;
+    bool answers_force = false;  ///< see SceneEdit
     std::int64_t arrived_ns = 0;
   };
   /// Of the next scene: what one client has in it.
@@ -95,6 +98,7 @@ class ScenePublisher {
   bool waitForLoops();
   std::vector<Part> takeParts();
   void giveBack(std::vector<Part>& parts);
+  void admitBodies(ClientScene& client, std::size_t bodies) const;
   std::int64_t assemble(std::vector<Part>& parts, std::int64_t begin_ns, std::vector<Instance>& instances) const;
   std::shared_ptr<const Snapshot> makeNext(std::vector<Part>& parts);
   void publish();
@@ -111,8 +115,11 @@ class ScenePublisher {
   std::atomic<bool> running_{false};
   bool dirty_ = false;
   HierarchyCounts counts_;
+  std::size_t base_bodies_ = 0;  // that move
+  std::uint64_t gravities_ = 0;  // frames that have set it
   // Of the publisher's thread:
-  BaseScene base_;  // guards itself what others use of it
+  std::optional<Vec3> gravity_m_s2_;  // of the clients, for the next scene; absent: as the base has it
+  BaseScene base_;                    // guards itself what others use of it
   std::shared_ptr<const Snapshot> shown_;
   std::int64_t shown_begin_ns_ = 0;
   std::int64_t making_ns_ = 0;  // what the last one took

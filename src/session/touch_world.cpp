@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "bodies/scene_world.h"
 #include "record/replay_device.h"
 #include "session/state_messages.h"
 
@@ -12,8 +13,14 @@ namespace {
 
 constexpr std::uint32_t kPages = 1;  // they are one member of the budget
 
+// Their world is moved by the loop of one device.
+void requireNoBodies(const Snapshot& scene) {
+  if (movingBodies(scene) > 0) throw Error("a server with several devices cannot have a scene with bodies that move");
+}
+
 std::vector<std::unique_ptr<TouchSession>> makeDevices(const std::shared_ptr<const Snapshot>& base,
                                                        const TouchServerSettings& settings) {
+  if (settings.devices > 1) requireNoBodies(*base);
   std::vector<std::unique_ptr<TouchSession>> devices;
   for (std::uint32_t i = 0; i < std::max(1U, settings.devices); ++i) {
     std::unique_ptr<Device> device = openAnyDevice(settings.device);
@@ -39,7 +46,7 @@ TouchWorld::TouchWorld(std::shared_ptr<const Snapshot> base, const TouchServerSe
       devices_(makeDevices(base, settings)),
       publisher_(base, pointersOf(devices_)),
       masters_(devices_.size(), 0) {
-  base_memory_.set(memoryOf(*base));
+  base_memory_.set(memoryOf(*base) + movingBodies(*base) * kBody_bytes);
 }
 
 void TouchWorld::start() {
@@ -53,8 +60,10 @@ void TouchWorld::stop() {
 }
 
 void TouchWorld::replaceBase(const std::shared_ptr<const Snapshot>& base) {
+  if (devices_.size() > 1) requireNoBodies(*base);
+  worldOf(*base);  // one that cannot be made is refused here
   MemoryShare share(memory_);
-  share.take(memoryOf(*base));
+  share.take(memoryOf(*base) + movingBodies(*base) * kBody_bytes);
   const bool shown = showBase(base);
   for (const auto& device : devices_) device->freeHand();
   if (!shown) throw Error("the server is closing");

@@ -1,6 +1,7 @@
 #include "tools/trace.h"
 
 #include "base/clock.h"
+#include "bodies/world_hash.h"
 #include "scene/scene_model.h"
 #include "touch/body_hand.h"
 
@@ -31,6 +32,20 @@ class Tracer {
     return report;
   }
   const ProxyState& state() const { return state_; }
+  const BodyWorld* bodies() const { return bodies_.get(); }
+  /// How the bodies are now.
+  void tell(TraceRow& row) {
+    if (!bodies_) return;
+    const World& world = bodies_->world();
+    const WorldState& state = bodies_->state();
+    told_.clear();
+    for (std::size_t i = 0; i < state.bodies.size(); ++i) {
+      const BodyState& body = state.bodies[i];
+      told_.push_back({poseOf(world.bodies[i], body).origin, body.turned, body.velocity, body.spin});
+    }
+    row.bodies = told_;
+    row.world = {kineticEnergy_J(world, state), gravityEnergy_J(world, state), state.energy, hashOf(world, state)};
+  }
 
  private:
   const Snapshot& snapshot_;
@@ -39,9 +54,18 @@ class Tracer {
   ProxySettings settings_;
   ManyRecentPrimitives recent_;
   ProxyState state_;
+  std::vector<TracedBody> told_;
 };
 
 }  // namespace
+
+std::vector<std::string> tracedBodies(const Snapshot& snapshot) {
+  std::vector<std::string> names;
+  for (const Instance& instance : snapshot.instances) {
+    if (instance.movesAsBody()) names.push_back(instance.body->name);
+  }
+  return names;
+}
 
 TraceTotals runTrace(const Snapshot& given, const TraceSettings& settings, const std::vector<PathSample>& path,
                      const std::function<void(const TraceRow&)>& row) {
@@ -64,12 +88,16 @@ TraceTotals runTrace(const Snapshot& given, const TraceSettings& settings, const
     out.contacts = static_cast<int>(report.contacts.size());
     out.iterations = report.iterations;
     out.injected_J = report.injected_J;
+    tracer.tell(out);
     row(out);
+    if (i == 0) totals.before = out.world;
+    totals.after = out.world;
     ++totals.ticks;
     totals.ended.add(report.ending);
     totals.contacts += report.contacts.empty() ? 0 : 1;
   }
   totals.ledger = tracer.state().ledger;
+  if (tracer.bodies() != nullptr) totals.returned = tracer.bodies()->view().returned;
   return totals;
 }
 

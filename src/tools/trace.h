@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "io/csv_path.h"
@@ -25,7 +26,12 @@ struct TraceTotals {
   std::uint64_t contacts = 0;  ///< ticks that ended in contact
   EndingCounts ended;          ///< ticks by why they ended
   Ledger ledger;               ///< of the whole trace
+  TracedWorld before, after;   ///< of the bodies, at the first and the last row
+  std::uint64_t returned = 0;  ///< how often a body has left its room, and was put back to where it started
 };
+
+/// The names of the bodies that rows have, as TraceRow::bodies.
+std::vector<std::string> tracedBodies(const Snapshot& snapshot);
 
 /// One tick per sample; the proxy starts at the first one. Calls `row` with each result in order.
 TraceTotals runTrace(const Snapshot& snapshot, const TraceSettings& settings, const std::vector<PathSample>& path,

@@ -16,6 +16,9 @@ class BodyHand {
   /// After the tick in `scene` that came to `state` and `report`. `touching`: the spring pulls toward what it touched.
   void after(BodyWorld& bodies, const SceneAt& scene, const ProxyState& state, const TickReport& report,
              const ProxySettings& settings, const Vec3& finger, bool touching);
+  /// What held the proxy at the end of the last tick: for BodiesMemory.
+  const FixedVector<HandContact, kContactsOfHand>& heldBy() const { return held_by_; }
+  void resume(const FixedVector<HandContact, kContactsOfHand>& held_by) { held_by_ = held_by; }
 
  private:
   FixedVector<HandContact, kContactsOfHand> held_by_;  // at the end of the last tick

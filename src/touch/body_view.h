@@ -9,6 +9,7 @@ namespace hl {
 
 struct BodyView {
   std::uint64_t bodies = 0;    ///< that can move; 0: the scene has none, and the rest is nothing
+  std::uint64_t awake = 0;     ///< of them, in the last step
   std::uint64_t steps = 0;     ///< since they began
   double lost_s = 0;           ///< by how much their time is behind: steps that came late, or not at all
   double kinetic_J = 0;        ///< now

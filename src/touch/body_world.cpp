@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "bodies/scene_world.h"
+#include "bodies/sleep.h"
 
 namespace hl {
 
@@ -31,6 +33,8 @@ BodyWorld::BodyWorld(const std::shared_ptr<const World>& world, std::vector<std:
     : bodies_(std::move(bodies)), stepper_(world), state_(startWorld(*world, startsOf(bodies_))) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) state_.bodies[i] = startOf(i);
   view_.bodies = bodies_.size();
+  joint_starts_ = state_.joints;
+  lost_.resize(bodies_.size());
 }
 
 std::unique_ptr<BodyWorld> BodyWorld::of(const Snapshot& snapshot) {
@@ -60,19 +64,42 @@ void BodyWorld::continueFrom(const BodyWorld& before) {
     while (j < before.bodies_.size() && before.world().bodies[j].key < key) ++j;
     if (j == before.bodies_.size() || before.world().bodies[j].key != key) continue;
     const bool goes_on = before.bodies_[j]->start == bodies_[i]->start;
-    if (goes_on) state_.bodies[i] = before.state_.bodies[j];
+    if (goes_on) {
+      state_.bodies[i] = before.state_.bodies[j];
+      // Of another shape the object frame stays where it is, and not the centre of mass.
+      const Body &now = world().bodies[i], &was = before.world().bodies[j];
+      if (now.mass.centre_O != was.mass.centre_O)
+        state_.bodies[i].centre = poseOf(was, before.state_.bodies[j]).toWorld(now.mass.centre_O);
+    }
     if (goes_on && before.bodies_[j]->poses == bodies_[i]->poses) continue;
-    bodies_[i]->poses->jumpTo(poseOf(world().bodies[i], state_.bodies[i]));
+    bodies_[i]->poses->jumpTo(shownOf(i));
   }
   continueJoints(before);
   state_.memory.copyFrom(before.state_.memory);
+  state_.asleep.copyFrom(before.state_.asleep);
+  state_.gravity_m_s2 = before.state_.gravity_m_s2;
+  if (!standsAs(before)) wakeAll(state_);
   state_.energy = before.state_.energy;
+  state_.energy.by_client_J += energy_J() - before.energy_J();  // of bodies that come and go, and of another gravity
+  pushes_ = before.pushes_;
   state_.steps = before.state_.steps;
   owed_ = before.owed_;
   view_ = before.view_;
   view_.bodies = bodies_.size();
   time_ns_ = before.time_ns_;
   begun_ = before.begun_;
+}
+
+// Whether the bodies are those of before, and so is what holds them, but for what moves: that wakes what is near it.
+bool BodyWorld::standsAs(const BodyWorld& before) const {
+  const World &now = world(), &was = before.world();
+  if (bodies_ != before.bodies_ || now.joints != was.joints || now.fixed_surfaces != was.fixed_surfaces) return false;
+  const auto same = [](const Instance& a, const Instance& b) {
+    return a.key == b.key && a.shape == b.shape && (a.poses().moves() || a.poses().to() == b.poses().to());
+  };
+  if (!now.fixed || !was.fixed) return now.fixed == was.fixed;
+  return std::equal(now.fixed->instances.begin(), now.fixed->instances.end(), was.fixed->instances.begin(),
+                    was.fixed->instances.end(), same);
 }
 
 // A joint that is as it was: between the same bodies, with the same forces along it.
@@ -88,12 +115,122 @@ void BodyWorld::continueJoints(const BodyWorld& before) {
   }
 }
 
+bool BodyWorld::remember(BodiesMemory& out) const {
+  if (!out.hasRoomFor(world())) return false;
+  out.world = state_;
+  out.poses.clear();
+  for (const auto& body : bodies_) out.poses.push_back(body->poses->to());
+  out.owed = owed_;
+  out.time_ns = time_ns_;
+  out.begun = begun_;
+  return true;
+}
+
+void BodyWorld::resume(const BodiesMemory& memory) {
+  if (memory.world.bodies.size() != bodies_.size() || memory.poses.size() != bodies_.size() ||
+      memory.world.joints.size() != world().joints.size())
+    throw Error("what the bodies remember is of another scene");
+  state_ = memory.world;
+  if (!sleepsWhole(world(), state_)) wakeAll(state_);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const BodyState& body = state_.bodies[i];
+    bodies_[i]->poses->jumpTo({memory.poses[i], body.velocity, body.spin});
+  }
+  owed_ = memory.owed;
+  time_ns_ = memory.time_ns;
+  begun_ = memory.begun;
+}
+
+void BodyWorld::set(std::size_t i, const Vec3& velocity, const Vec3& spin) {
+  wake(world(), state_, world().bodies[i].key);
+  state_.bodies[i].velocity = velocity;
+  state_.bodies[i].spin = spin;
+}
+
+ShownBody BodyWorld::shownOf(std::size_t i) const {
+  const BodyState& body = state_.bodies[i];
+  return {poseOf(world().bodies[i], body), body.velocity, body.spin};
+}
+
+double BodyWorld::energyOf_J(std::size_t i) const {
+  const Body& body = world().bodies[i];
+  const BodyState& state = state_.bodies[i];
+  return kineticEnergy_J(body, state) - body.mass.mass_kg * world().gravity_m_s2.dot(state.centre);
+}
+
+double BodyWorld::energy_J() const {
+  return kineticEnergy_J(world(), state_) + gravityEnergy_J(world(), state_) + springEnergy_J(world(), state_);
+}
+
+void BodyWorld::act(const BodyCommands& commands) {
+  for (const BodyCommand& command : commands) act(command);
+}
+
+void BodyWorld::act(const BodyCommand& command) {
+  const Body* const body = world().find(command.key);
+  if (body == nullptr) return;
+  const auto i = static_cast<std::size_t>(body - world().bodies.data());
+  BodyState& state = state_.bodies[i];
+  const double before_J = energyOf_J(i);
+  wake(world(), state_, command.key);
+  if (command.position_m || command.rotation) place(i, command);
+  if (command.velocity_m_s) state.velocity = *command.velocity_m_s;
+  if (command.spin_rad_s) state.spin = *command.spin_rad_s;
+  const Vec3 point = command.point_m.value_or(state.centre);
+  Push over_time{command.key, poseOf(*body, state).toObject(point), command.impulse_N_s, command.duration_s};
+  if (command.duration_s > 0) over_time.force_N /= command.duration_s;
+  // Of more than there is room for, the whole is given at once.
+  if (!(command.duration_s > 0) || !pushes_.push(over_time)) give(i, command.impulse_N_s, point);
+  state_.energy.by_client_J += energyOf_J(i) - before_J;
+}
+
+void BodyWorld::place(std::size_t i, const BodyCommand& command) {
+  BodyState& state = state_.bodies[i];
+  Pose pose = poseOf(world().bodies[i], state);
+  if (command.position_m) pose.origin = *command.position_m;
+  if (command.rotation) state.turned = Eigen::Quaterniond(*command.rotation).normalized();
+  pose.rotation = state.turned.toRotationMatrix();
+  state.centre = pose.toWorld(world().bodies[i].mass.centre_O);
+  bodies_[i]->poses->jumpTo(shownOf(i));
+}
+
+// No push makes a body faster than this, however light it is: what is in its way would not be met any more.
+void BodyWorld::give(std::size_t i, const Vec3& impulse_N_s, const Vec3& point) {
+  constexpr double kFastest_m_s = 1000, kFastest_rad_s = 10'000;
+  const Body& body = world().bodies[i];
+  BodyState& state = state_.bodies[i];
+  state.velocity = limited(state.velocity + impulse_N_s / body.mass.mass_kg, kFastest_m_s);
+  state.spin =
+      limited(state.spin + inverseInertia(body, state) * (point - state.centre).cross(impulse_N_s), kFastest_rad_s);
+}
+
+// What is given over time, in a step of this length.
+void BodyWorld::push(double period_s) {
+  std::size_t kept = 0;
+  for (const Push& one : pushes_) {
+    const Body* const body = world().find(one.key);
+    if (body == nullptr) continue;
+    const auto i = static_cast<std::size_t>(body - world().bodies.data());
+    const double before_J = energyOf_J(i);
+    wake(world(), state_, one.key);
+    give(i, std::min(period_s, one.left_s) * one.force_N, poseOf(*body, state_.bodies[i]).toWorld(one.point_O));
+    state_.energy.by_client_J += energyOf_J(i) - before_J;
+    Push left = one;
+    left.left_s -= period_s;
+    if (left.left_s > 0) pushes_[kept++] = left;
+  }
+  pushes_.resize(kept);
+}
+
 void BodyWorld::step(std::int64_t now_ns, double period_s, const HandAtBodies& hand) {
   const std::int64_t before_ns = time_ns_;
   time_ns_ = now_ns;
   const bool first = !begun_;
   begun_ = true;
+  given_.clear();
+  paid_ = 0;
   if (first || now_ns <= before_ns) return;
+  push(period_s);
   HandNode node;
   node.proxy = hand.proxy;
   node.radius_m = hand.spring_N_m > 0 ? hand.radius_m : 0;
@@ -103,12 +240,12 @@ void BodyWorld::step(std::int64_t now_ns, double period_s, const HandAtBodies& h
   node.owed = owed_;
   const bool there = hand.spring_N_m > 0 || !owed_.empty();
   if (!(node.spring_N_m > 0)) node.spring_N_m = 1;
-  report_ = stepper_.step(state_, period_s, std::span(&node, there ? 1 : 0), std::span(&given_, there ? 1 : 0));
+  report_ = stepper_.step(state_, period_s, std::span(&node, there ? 1 : 0), std::span(&given_, there ? 1 : 0),
+                          {before_ns, now_ns});
   if (!there) given_.clear();
   paid_ = there ? node.owed.size() : 0;
   for (std::size_t i = 0; i < paid_ && i < given_.size(); ++i) owed_[i].impulse_N_s -= given_[i].impulse_N_s;
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    bodies_[i]->poses->moveTo(poseOf(world().bodies[i], state_.bodies[i]), before_ns, now_ns);
+  for (const std::size_t i : stepper_.awake()) bodies_[i]->poses->moveTo(shownOf(i), before_ns, now_ns);
   returnLost();
   count(1e-9 * static_cast<double>(now_ns - before_ns) - period_s);
 }
@@ -119,6 +256,7 @@ void BodyWorld::count(double late_s) {
   view_.dropped += report_.dropped;
   view_.unsolved += report_.converged ? 0 : 1;
   view_.steps = state_.steps;
+  view_.awake = static_cast<std::uint64_t>(report_.awake);
   if (state_.steps % kViewEvery != 0) return;
   view_.energy = state_.energy;
   view_.kinetic_J = kineticEnergy_J(world(), state_);
@@ -128,16 +266,44 @@ void BodyWorld::count(double late_s) {
 
 // So that nothing is lost that falls from a table, and no body is ever so far away that its place is inexact.
 void BodyWorld::returnLost() {
+  bool any = false;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Vec3& centre = state_.bodies[i].centre;
     const Box& room = bodies_[i]->poses->room();
-    if ((centre.array() >= room.min.array()).all() && (centre.array() <= room.max.array()).all()) continue;
-    state_.bodies[i] = startOf(i);
-    state_.bodies[i].velocity.setZero();
-    state_.bodies[i].spin.setZero();
-    bodies_[i]->poses->jumpTo(bodies_[i]->start);
-    ++view_.returned;
+    lost_[i] = (centre.array() < room.min.array()).any() || (centre.array() > room.max.array()).any();
+    any |= lost_[i] != 0;
   }
+  if (!any) return;
+  const double before_J = energy_J();
+  loseJoined();
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (lost_[i] != 0) putBack(i);
+  }
+  state_.energy.solver_J += energy_J() - before_J;
+}
+
+// What joints connect goes together, or it would be torn apart. Each look over the joints finds at least one more body.
+void BodyWorld::loseJoined() {
+  for (bool more = true; more;) {
+    more = false;
+    for (std::size_t i = 0; i < world().joints.size(); ++i) {
+      const Joint& joint = world().joints[i];
+      const Body *const a = world().find(joint.body_a), *const b = world().find(joint.body_b);
+      std::uint8_t& lost_a = lost_[static_cast<std::size_t>(a - world().bodies.data())];
+      std::uint8_t& lost_b = b == nullptr ? lost_a : lost_[static_cast<std::size_t>(b - world().bodies.data())];
+      if (lost_a != lost_b) more = lost_a = lost_b = 1;
+      if (lost_a != 0) state_.joints[i] = joint_starts_[i];
+    }
+  }
+}
+
+void BodyWorld::putBack(std::size_t i) {
+  wake(world(), state_, world().bodies[i].key);
+  state_.bodies[i] = startOf(i);
+  state_.bodies[i].velocity.setZero();
+  state_.bodies[i].spin.setZero();
+  bodies_[i]->poses->jumpTo(bodies_[i]->start);
+  ++view_.returned;
 }
 
 // Of each object: what the hand felt, less what the step has given, beside what is owed from before. What a wall has

@@ -12,6 +12,8 @@
 #include "bodies/body_step.h"
 #include "proxy/object_forces.h"
 #include "scene/rigid_body.h"
+#include "touch/bodies_memory.h"
+#include "touch/body_command.h"
 #include "touch/body_view.h"
 
 namespace hl {
@@ -36,16 +38,20 @@ class BodyWorld {
   /// Before the first step: bodies that were in `before`, and start where they started there, go on from where they are
   /// in it. RT-safe.
   void continueFrom(const BodyWorld& before);
+  /// What clients do to bodies, before the next step. Energy that it brings is booked as theirs. RT-safe.
+  void act(const BodyCommands& commands);
   /// Moves the bodies from the last step's moment to `now_ns`, by `period_s` of their time. RT-safe.
   void step(std::int64_t now_ns, double period_s, const HandAtBodies& hand);
   /// After the tick: what each object's contact gives the hand. RT-safe.
   void settle(const ObjectForces& forces, double period_s);
 
+  /// Between two ticks, all but BodiesMemory::held_by. False: there is no room for it. RT-safe.
+  bool remember(BodiesMemory& out) const;
+  /// Before the first step: goes on as the world did that had this memory. Throws hl::Error if it is of other bodies.
+  void resume(const BodiesMemory& memory);
+
   /// Of body number `i`, m/s and rad/s; between two steps. RT-safe.
-  void set(std::size_t i, const Vec3& velocity, const Vec3& spin) {
-    state_.bodies[i].velocity = velocity;
-    state_.bodies[i].spin = spin;
-  }
+  void set(std::size_t i, const Vec3& velocity, const Vec3& spin);
 
   const World& world() const { return stepper_.world(); }
   const WorldState& state() const { return state_; }
@@ -59,9 +65,27 @@ class BodyWorld {
 
  private:
   BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<const RigidBody>> bodies);
+  /// An impulse that is given over time.
+  struct Push {
+    std::uint64_t key = 0;
+    Vec3 point_O = Vec3::Zero();  ///< m, in the object frame
+    Vec3 force_N = Vec3::Zero();
+    double left_s = 0;
+  };
+
   BodyState startOf(std::size_t i) const;
   void continueJoints(const BodyWorld& before);
+  bool standsAs(const BodyWorld& before) const;
+  ShownBody shownOf(std::size_t i) const;
+  double energyOf_J(std::size_t i) const;
+  double energy_J() const;
+  void act(const BodyCommand& command);
+  void place(std::size_t i, const BodyCommand& command);
+  void give(std::size_t i, const Vec3& impulse_N_s, const Vec3& point);
+  void push(double period_s);
   void returnLost();
+  void loseJoined();
+  void putBack(std::size_t i);
   void count(double late_s);
 
   std::vector<std::shared_ptr<const RigidBody>> bodies_;
@@ -70,10 +94,13 @@ class BodyWorld {
   FixedVector<BodyImpulse, kContactsOfHand> owed_;
   GivenImpulses given_;
   std::size_t paid_ = 0;  // the first of given_: what was owed
+  FixedVector<Push, 64> pushes_;
   BodyStepReport report_;
   std::int64_t time_ns_ = 0;
   bool begun_ = false;
   BodyView view_;
+  std::vector<JointState> joint_starts_;  // as World::joints
+  std::vector<std::uint8_t> lost_;        // of each body: whether it has left its room
 };
 
 }  // namespace hl

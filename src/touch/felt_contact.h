@@ -8,6 +8,7 @@
 #include "base/fixed_vector.h"
 #include "base/vec.h"
 #include "proxy/proxy_state.h"
+#include "proxy/tick_report.h"
 #include "scene/scene_at.h"
 #include "touch/touch_events.h"
 

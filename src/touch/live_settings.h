@@ -14,8 +14,8 @@
 
 namespace hl {
 
-/// Setters and getters: any thread. The loops use proxyCommands(), by one of them at a time, stiffness_N_m(), ledger()
-/// and armRequests(); these are RT-safe.
+/// Setters and getters: any thread. The loops use proxyCommands() and takeBodyCommands(), by one of them at a time,
+/// stiffness_N_m(), ledger() and armRequests(); these are RT-safe.
 class LiveSettings {
  public:
   /// The workspace is fitted to `bounds`, or to the first scene that is not empty.
@@ -31,6 +31,8 @@ class LiveSettings {
   /// Another scene is about to be shown in the place of the one before: fitted as the first one was, whatever has been
   /// set since.
   void refit(const Box& bounds);
+  /// False: too many wait for the loops.
+  bool actOnBody(const BodyCommand& command) { return body_commands_.push(command); }
   void rearm() { arm_requests_.fetch_add(1); }
 
   MaterialOverride surfaces() const;
@@ -45,6 +47,7 @@ class LiveSettings {
   /// Counts them.
   std::uint64_t armRequests() const { return arm_requests_.load(std::memory_order_relaxed); }
   void proxyCommands(ProxyCommands& commands) { commands_for_proxy_.read(commands); }
+  void takeBodyCommands(BodyCommands& out) { body_commands_.takeNext(out); }
 
  private:
   void restartWith(const Workspace& workspace, double radius_W);  // holding mutex_
@@ -60,6 +63,7 @@ class LiveSettings {
   ProxyCommands commands_;
   bool fitted_ = false;  // the workspace has been set, or fitted to a scene
   Latest<ProxyCommands> commands_for_proxy_{ProxyCommands{}};
+  BodyCommandQueue body_commands_;
 };
 
 }  // namespace hl

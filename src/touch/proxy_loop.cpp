@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "proxy/spring_energy.h"
 
 namespace hl {
@@ -21,6 +22,19 @@ void ProxyLoop::resume(const ProxyMemory& memory) {
   blend_ = TargetBlend(memory.fading);
   told_ = memory.told;
   restarts_ = memory.restarts;
+}
+
+bool ProxyLoop::remember(BodiesMemory& out) const {
+  if (bodies_ == nullptr) return true;
+  out.held_by = hand_.heldBy();
+  return bodies_->remember(out);
+}
+
+void ProxyLoop::resume(const BodiesMemory& memory) {
+  BodyWorld* const bodies = scenes_.bodies();
+  if (bodies == nullptr) throw Error("there is a memory of bodies, and the scene has none");
+  bodies->resume(memory);
+  hand_.resume(memory.held_by);
 }
 
 // The next tick finds where it begins.
@@ -67,7 +81,13 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
   const Snapshot& snapshot = scenes_.take();
   bodies_ = scenes_.bodies();
   const Vec3 finger = workspace_.toWorld(finger_D);
-  if (bodies_ != nullptr) hand_.before(*bodies_, now_ns, state_, settings_, finger, spring.pulls);
+  done_ = to_do_;
+  to_do_.clear();
+  if (bodies_ != nullptr) bodies_->act(done_);
+  if (bodies_ != nullptr)
+    hand_.before(*bodies_, now_ns, state_, settings_, finger, spring.pulls);
+  else
+    hand_ = {};
   const SceneAt scene(snapshot, now_ns, recent_);
   const bool skipped = snapshot.number > state_.snapshot + 1;  // others, with what they changed
   const std::int64_t blend_ns = skipped ? kAbruptBlend_ns : snapshot.blend_ns;

@@ -6,6 +6,7 @@
 
 #include "control/servo.h"
 #include "proxy/proxy.h"
+#include "touch/body_command.h"
 #include "touch/body_hand.h"
 #include "touch/held_contacts.h"
 #include "touch/snapshot_slot.h"
@@ -38,6 +39,7 @@ struct TickRequest {
   Vec3 finger_D = Vec3::Zero();
   ProxyCommands commands;
   SpringOfServo spring;
+  BodyCommands on_bodies{};  ///< what clients did to bodies just before
 };
 
 struct ProxyStep {
@@ -64,18 +66,29 @@ class ProxyLoop {
   /// One tick at `now_ns` with the finger at `finger_D`; `most_looks` as in tick().
   ProxyStep step(std::int64_t now_ns, const Vec3& finger_D, const ProxyCommands& commands, const SpringOfServo& spring,
                  int most_looks = kNoWorkCap);
+  /// Is done to the bodies in the next step(). What there is no room for is dropped. RT-safe.
+  void act(const BodyCommands& commands) {
+    for (const BodyCommand& command : commands) to_do_.push(command);
+  }
+  /// What was done to them in the last step.
+  const BodyCommands& done() const { return done_; }
   /// Instead of a tick, when nobody knows where the finger is: takes the newest scene all the same, so that clients who
   /// wait for theirs to be taken do not wait for the device.
   void skip() {
     scenes_.take();
     bodies_ = scenes_.bodies();
+    done_.clear();
   }
   const ProxyState& state() const { return state_; }
   /// Of the scene of the last step; null: it has none.
   const BodyWorld* bodies() const { return bodies_; }
   ProxyMemory memory() const { return {state_, blend_.fading(), told_, restarts_}; }
+  /// Of the bodies of that scene; nothing where it has none. False: there is no room for it. RT-safe.
+  bool remember(BodiesMemory& out) const;
   /// Before the first step: goes on as the loop did that had this memory, if its scene is the one that step() takes.
   void resume(const ProxyMemory& memory);
+  /// The same for its bodies. Throws hl::Error unless it is of those.
+  void resume(const BodiesMemory& memory);
   bool popEvent(TouchEvent& event) { return events_.pop(event); }
 
  private:
@@ -101,6 +114,7 @@ class ProxyLoop {
   ProxySettings settings_;
   BodyWorld* bodies_ = nullptr;  // of the scene of the last step; null: it has none
   BodyHand hand_;
+  BodyCommands to_do_, done_;
   Workspace workspace_;
   ProxyState state_;
   ManyRecentPrimitives recent_;

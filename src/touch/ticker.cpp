@@ -14,12 +14,16 @@ Ticker::Ticker(SnapshotSlot& scenes, LiveSettings& live, LoopExchange& exchange,
 const ProxyCommands& Ticker::follow() {
   const std::uint64_t arrivals = exchange_.arrivals.load(std::memory_order_acquire);
   live_.proxyCommands(commands_);
+  live_.takeBodyCommands(on_bodies_);
+  loop_.act(on_bodies_);
   commands_.restarts += arrivals;
   return commands_;
 }
 
 void Ticker::done(const TickRequest& request, const ProxyStep& step, std::int64_t begin_ns, std::int64_t work_ns) {
-  sink_.tick(request, step, loop_, work_ns);
+  TickRequest whole = request;
+  whole.on_bodies = loop_.done();
+  sink_.tick(whole, step, loop_, work_ns);
   meter_.add(begin_ns, work_ns);
   show(step);
   ticks_.fetch_add(1, std::memory_order_relaxed);

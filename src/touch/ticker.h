@@ -46,6 +46,7 @@ class Ticker {
   LoopChooser chooser_;
   // Of the loop that ticks; they go from one to the other with its turn.
   ProxyCommands commands_;
+  BodyCommands on_bodies_;
   ProxyView view_;
   LoopMeter meter_;
 

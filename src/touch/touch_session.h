@@ -58,6 +58,7 @@ class TouchSession {
   void setWorkspace(const Workspace& workspace) { live_.setWorkspace(workspace); }
   void setRadius(double radius_W) { live_.setRadius(radius_W); }
   void rearm() { live_.rearm(); }
+  bool actOnBody(const BodyCommand& command) { return live_.actOnBody(command); }
   double stiffness_N_m() const { return live_.stiffness_N_m(); }
   MaterialOverride surfaces() const { return live_.surfaces(); }
   LedgerMode ledger() const { return live_.ledger(); }

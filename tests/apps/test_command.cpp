@@ -295,6 +295,42 @@ TEST(Command, ARecordedSessionIsReproducedAndTabled) {
   EXPECT_NE(again.output.find("replay of simulated"), std::string::npos) << again.output;
 }
 
+// A floor, and a ball and a block that fall on it.
+std::string sceneWithBodies() {
+  return hl::test::fileWith("hl_cmd_bodies.hl.json", R"({"gravityMS2": {"y": -5}, "objects": [
+    {"name": "floor", "primitives": {"vertices": [-0.2,0,-0.2, 0.2,0,-0.2, 0.2,0,0.2, -0.2,0,0.2],
+     "polygons": [{"vertices": [3, 2, 1, 0]}]}, "body": {"fixed": true}},
+    {"name": "red ball", "builtin": "sphere:100", "transform": {"scale": {"x": 0.02, "y": 0.02, "z": 0.02},
+     "translate": {"y": 0.03}}, "body": {"shape": "BALL", "massKg": 0.25, "restitution": 0.5}},
+    {"name": "block", "builtin": "sphere:100", "transform": {"scale": {"x": 0.02, "y": 0.02, "z": 0.02},
+     "translate": {"x": 0.1, "y": 0.03}}, "body": {"shape": "BOX"}}]})");
+}
+
+TEST(Command, InfoAddsUpAllObjectsAndListsBodies) {
+  const Result result = call("info " + sceneWithBodies());
+  EXPECT_EQ(result.code, 0);
+  for (const char* told : {"body floor: fixed", "body red ball: ball, 0.25 kg", "body block: box, ", "restitution 0.5",
+                           "gravity:    0 -5 0 m/s^2"})
+    EXPECT_NE(result.output.find(told), std::string::npos) << told << '\n' << result.output;
+  EXPECT_EQ(call("info sphere:100").output.find("gravity"), std::string::npos);
+}
+
+TEST(Command, BodiesAreTracedRecordedAndReproduced) {
+  const std::string path = hl::test::fileWith("hl_cmd_path.csv", "t,x,y,z\n0,0,0.1,0\n0.001,0,0.1,0\n");
+  const std::string out = hl::test::tempFile("hl_cmd_out.csv"), recording = hl::test::tempFile("hl_cmd_bodies.hlr");
+  const Result traced = call("trace " + sceneWithBodies() + " --path " + path + " --out " + out);
+  EXPECT_EQ(traced.code, 0) << traced.output;
+  EXPECT_NE(traced.output.find("2 bodies: kinetic energy +"), std::string::npos) << traced.output;
+  EXPECT_NE(contentOf(out).find(",tick_ns,red_ball_x,"), std::string::npos);
+  EXPECT_EQ(
+      call("record " + sceneWithBodies() + " --duration 1 --no-open --port 0 --black-box off --out " + recording).code,
+      0);
+  const Result replayed = call("replay " + recording);
+  EXPECT_EQ(replayed.code, 0);
+  EXPECT_NE(replayed.output.find("reproduced: bit for bit"), std::string::npos) << replayed.output;
+  EXPECT_NE(replayed.output.find("bodies:     compared after "), std::string::npos) << replayed.output;
+}
+
 TEST(Command, AKilledRecordingIsReproducedAsFarAsItGoes) {
   const std::string file = hl::test::tempFile("hl_cmd_killed.hlr");
   call("record sphere:2000 --no-open --port 0 --black-box off --out " + file + " & child=$!; sleep 2; kill -9 $child");

@@ -12,6 +12,7 @@
 #include "batch/ends_early.h"
 #include "geometry/scenes.h"
 #include "io/load_scene.h"
+#include "temp_folder.h"
 #include "tools/trace.h"
 
 namespace hl {
@@ -186,6 +187,43 @@ TEST(Batch, APrimitiveIsTheRowOfItsTriangleWhateverWasLeftOut) {
   ASSERT_EQ(hlBatchClosest(scene.get(), 2, points, 0, nullptr, nullptr, nullptr, primitive), HL_NO_ERROR);
   EXPECT_EQ(primitive[0], 1U);
   EXPECT_EQ(primitive[1], 3U);
+}
+
+// Each trace has the bodies to itself: those side by side are those one after the other.
+TEST(Batch, TracesOfASceneWithBodiesMoveBodiesOfTheirOwn) {
+  const std::string file = test::fileWith("block.hl.json", R"({"gravityMS2": {"y": 0}, "objects": [{
+    "primitives": {"vertices": [-0.02,-0.02,-0.02, 0.02,-0.02,-0.02, -0.02,0.02,-0.02, 0.02,0.02,-0.02,
+                                -0.02,-0.02,0.02, 0.02,-0.02,0.02, -0.02,0.02,0.02, 0.02,0.02,0.02],
+                   "triangles": [0,2,3, 0,3,1, 4,5,7, 4,7,6, 0,1,5, 0,5,4, 2,6,7, 2,7,3, 0,4,6, 0,6,2, 1,3,7, 1,7,5]},
+    "body": {"massKg": 0.1, "shape": "BOX"}}]})");
+  const Scene scene(hlBatchLoadScene(file.c_str(), 0), &hlBatchDeleteScene);
+  ASSERT_TRUE(scene) << hlBatchError();
+  HLbatchSettings settings;
+  hlBatchSettings(&settings);
+  std::vector<double> samples;
+  constexpr std::size_t kPaths = 6, kSamples = 200;
+  std::vector<std::size_t> ends;
+  for (std::size_t path = 0; path < kPaths; ++path) {
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      const double t = 1e-3 * static_cast<double>(i);
+      samples.insert(samples.end(), {t, -0.05 + t * (0.2 + 0.1 * static_cast<double>(path)), 0, 0});
+    }
+    ends.push_back(samples.size() / 4);
+  }
+  const auto traced = [&](HLint threads) {
+    Results results(ends.back());
+    const HLbatchResult pointers = results.pointers();
+    EXPECT_EQ(hlBatchTrace(scene.get(), &settings, kPaths, ends.data(), samples.data(), threads, &pointers),
+              HL_NO_ERROR);
+    return results;
+  };
+  const Results one = traced(1);
+  EXPECT_EQ(one, traced(4));
+  double hardest = 0;
+  for (const double force : one.force) hardest = std::max(hardest, std::abs(force));
+  EXPECT_GT(hardest, 0.01) << "nothing was pushed";
+  EXPECT_EQ(hlBatchMakeFingers(scene.get(), &settings, 2), nullptr);
+  EXPECT_NE(std::string(hlBatchError()).find("bodies"), std::string::npos);
 }
 
 TEST(Batch, ACallThatIsToldToEndsEarlyWithAnError) {

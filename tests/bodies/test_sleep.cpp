@@ -5,6 +5,7 @@
 #include <random>
 
 #include "bodies/sleep.h"
+#include "bodies/world_hash.h"
 #include "test_worlds.h"
 
 namespace hl {
@@ -187,12 +188,12 @@ TEST(Sleep, R28TheSameBitsWhateverTheOrderAndWhereverItIsTakenUp) {
       taken_up = Crowd(300, 9).play();
       taken_up->state = saved;
     }
-    ASSERT_EQ(hashOf(one->state), hashOf(other->state)) << step;
-    ASSERT_EQ(hashOf(one->state), hashOf(taken_up->state)) << step;
+    ASSERT_EQ(hashOf(*one->world, one->state), hashOf(*other->world, other->state)) << step;
+    ASSERT_EQ(hashOf(*one->world, one->state), hashOf(*taken_up->world, taken_up->state)) << step;
   }
   WorldState changed = one->state;
   changed.bodies[299].spin.z() += 1e-12;
-  EXPECT_NE(hashOf(one->state), hashOf(changed));
+  EXPECT_NE(hashOf(*one->world, one->state), hashOf(*one->world, changed));
 }
 
 }  // namespace

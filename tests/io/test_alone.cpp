@@ -30,7 +30,8 @@ Model alone(const std::string& path) {
                      [&](const auto& report) {
                        return parseModel({path, endingOf(path), true}, report);
                      },
-                     {});
+                     {})
+      .model;
 }
 
 std::string refusalOf(const std::function<void()>& act) {

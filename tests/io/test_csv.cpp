@@ -72,6 +72,40 @@ TEST(TraceCsv, HasTheColumnsOfTheContractAndEveryDigit) {
   EXPECT_EQ(Vec3(x, y, z), row.finger);
 }
 
+TEST(TraceCsv, ColumnsOfBodiesHaveNamesThatAHeaderCanHave) {
+  const std::vector<std::string> columns =
+      columnsOf({"ball", "ball", "ball_2", "", "red ball,\"1\"", "force", "kugel \u00e4", "objects[3]"});
+  EXPECT_EQ(columns, (std::vector<std::string>{"ball", "ball_2", "ball_2_2", "body", "red_ball__1_", "force_2",
+                                               "kugel___", "objects_3_"}));
+}
+
+TEST(TraceCsv, BodiesFollowTheColumnsOfTheTick) {
+  const std::string name = test::tempFile("out.csv");
+  TraceWriter writer(name, {}, {"ball"});
+  const TracedBody ball{Vec3(1, 2, 3), Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), Vec3(4, 5, 6), Vec3(7, 8, 1.0 / 3)};
+  TraceRow row;
+  row.bodies = {&ball, 1};
+  row.world.kinetic_J = 1;
+  row.world.gravity_J = 2;
+  row.world.book.by_hand_J = 3;
+  row.world.book.contact_J = 4;
+  row.world.book.friction_J = 5;
+  row.world.book.solver_J = 6;
+  row.world.hash = 0xabc;
+  writer.write(row);
+  writer.close();
+  std::ifstream in(name);
+  std::string header, line;
+  std::getline(in, header);
+  std::getline(in, line);
+  EXPECT_TRUE(
+      header.ends_with("tick_ns,ball_x,ball_y,ball_z,ball_qw,ball_qx,ball_qy,ball_qz,ball_vx,ball_vy,ball_vz,"
+                       "ball_wx,ball_wy,ball_wz,kinetic_J,gravity_J,by_hand_J,contact_J,friction_J,solver_J,"
+                       "world_hash"));
+  EXPECT_TRUE(line.ends_with(",1,2,3,0.5,0.5,-0.5,0.5,4,5,6,7,8,0.33333333333333331,1,2,3,4,5,6,0000000000000abc"));
+  EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(line.begin(), line.end(), ','));
+}
+
 TEST(TraceCsv, SaysWhenItCannotWrite) {
   EXPECT_THROW(TraceWriter("/nonexistent/out.csv"), Error);
   TraceWriter full("/dev/full");

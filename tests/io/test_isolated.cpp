@@ -178,18 +178,76 @@ TEST(Isolated, AModelComesBackWhole) {
   model.reading = {7, true};
   double last = 0;
   const Model back = runIsolated(
-      "it", small(),
-      [&](const Report& report) {
-        report(0.25);
-        return model;
-      },
-      [&](double fraction) { last = fraction; });
+                         "it", small(),
+                         [&](const Report& report) {
+                           report(0.25);
+                           return model;
+                         },
+                         [&](double fraction) { last = fraction; })
+                         .model;
   EXPECT_EQ(last, 0.25);
   EXPECT_TRUE(back.positions == model.positions && back.normals == model.normals && back.points == model.points &&
               back.point_materials == model.point_materials && back.materials == model.materials);
   EXPECT_EQ(back.textures[0].texels, model.textures[0].texels);
   EXPECT_EQ(back.warnings, model.warnings);
   EXPECT_EQ(back.reading.joined_vertices, 7u);
+}
+
+SceneModel withBodies() {
+  SceneModel scene(points(10));
+  scene.mechanics.gravity_m_s2 = Vec3(1, 2, 3);
+  for (int i = 1; i < 4; ++i) {
+    SceneBody body;
+    body.name = "body " + std::to_string(i);
+    body.model = points(1000 * static_cast<std::size_t>(i));
+    for (std::size_t k = 0; k < body.model.positions.size(); ++k)
+      body.model.positions[k] = Vec3(k % 2 == 0 ? 1 : -1, k % 3 == 0 ? 1 : -1, k % 5 == 0 ? 1 : -1);
+    body.model.textures = {makeTexture("noise", 8)};
+    body.model.materials[0].textureOf(Quantity::kStiffness) = {0, 0.25, 1};
+    body.model.warnings = {"of " + body.name};
+    body.pose.origin = Vec3(i, 0, 0);
+    body.spec.mass_kg = i;
+    body.spec.shape = BodyShape::kBall;
+    body.spec.fixed = i == 3;
+    scene.bodies.push_back(body);
+  }
+  return scene;
+}
+
+TEST(Isolated, ASceneWithBodiesComesBackWhole) {
+  const SceneModel scene = withBodies();
+  const SceneModel back = runIsolated("it", small(), [&](const Report&) { return scene; }, {});
+  EXPECT_EQ(back.model.positions, scene.model.positions);
+  EXPECT_TRUE(back.model.warnings.empty());
+  EXPECT_EQ(back.mechanics.gravity_m_s2, scene.mechanics.gravity_m_s2);
+  ASSERT_EQ(back.bodies.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const SceneBody &a = scene.bodies[i], &b = back.bodies[i];
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_TRUE(a.spec == b.spec && a.pose == b.pose);
+    EXPECT_TRUE(a.model.positions == b.model.positions && a.model.points == b.model.points);
+    EXPECT_TRUE(a.model.materials == b.model.materials && a.model.warnings == b.model.warnings);
+    EXPECT_EQ(a.model.textures[0].texels, b.model.textures[0].texels);
+  }
+}
+
+TEST(Isolated, BodiesThatCannotBeAreRefused) {
+  const auto changed = [](const std::function<void(SceneBody&)>& change) {
+    return [change](const Report&) {
+      SceneModel scene = withBodies();
+      change(scene.bodies[0]);
+      return scene;
+    };
+  };
+  const auto refused = [&](const std::function<void(SceneBody&)>& change) {
+    return refusalOf([&] { runIsolated("it", small(), changed(change), {}); });
+  };
+  EXPECT_EQ(refused([](SceneBody&) {}), "");
+  EXPECT_NE(refused([](SceneBody& body) { body.spec.mass_kg = -1; }), "");
+  EXPECT_NE(refused([](SceneBody& body) { body.spec.velocity_m_s.x() = NAN; }), "");
+  EXPECT_NE(refused([](SceneBody& body) { body.pose.rotation(0, 0) = 2; }), "");
+  EXPECT_NE(refused([](SceneBody& body) { body.model.positions.assign(body.model.positions.size(), Vec3::Zero()); }),
+            "");
 }
 
 TEST(Isolated, TimeOfTheProcessorIsBounded) {

@@ -101,6 +101,67 @@ TEST(SceneFile, TheExamplesLoad) {
   }
 }
 
+SceneModel worldOfJson(const std::string& json) { return loadSceneFile(fileWith("scene.hl.json", json)); }
+
+// Two cubes of 2 units a side with the given body and joint.
+std::string twoBodies(const std::string& body, const std::string& joints) {
+  const std::string cube =
+      R"("primitives": {"vertices": [-1,-1,-1, 1,-1,-1, 1,1,-1, -1,1,-1, -1,-1,1, 1,-1,1, 1,1,1, -1,1,1],
+         "polygons": [{"vertices": [0,3,2,1]}, {"vertices": [4,5,6,7]}, {"vertices": [0,1,5,4]},
+                      {"vertices": [3,7,6,2]}, {"vertices": [0,4,7,3]}, {"vertices": [1,2,6,5]}]})";
+  return "{\"units\": 0.01, \"objects\": [\n{\"name\": \"a\", " + cube +
+         ", \"transform\": {\"scale\": {\"y\": 2}, \"translate\": {\"x\": 5}},\n\"body\": {" + body +
+         "}},\n{\"name\": \"b\", " + cube + ", \"body\": {}}],\n\"joints\": [" + joints + "]}";
+}
+
+TEST(SceneFile, BodiesArriveInMetres) {
+  const SceneModel scene = worldOfJson(twoBodies(
+      R"("massKg": 0.2, "shape": "BOX", "staticFriction": 0.6, "dynamicFriction": 0.4, "restitution": 0.5,
+         "velocityMS": {"x": 1}, "spinRadS": {"z": 2})",
+      R"({"name": "j", "kind": "SLIDER", "bodyA": "a", "bodyB": "b", "anchor": {"x": 2.5}, "axis": {"y": 3},
+          "low": -1, "high": 2, "rest": 0.5, "spring": 7, "damping": 8, "friction": 9,
+          "table": {"position": [0, 1], "force": [2, 3]}})"));
+  ASSERT_EQ(scene.bodies.size(), 2u);
+  const SceneBody& a = scene.bodies[0];
+  EXPECT_EQ(a.name, "a");
+  EXPECT_EQ(a.pose.origin, Vec3(0.05, 0, 0));
+  EXPECT_EQ(a.model.bounds().size(), Vec3(0.02, 0.04, 0.02));
+  EXPECT_EQ(a.spec.mass_kg, 0.2);
+  EXPECT_EQ(a.spec.shape, BodyShape::kBox);
+  EXPECT_EQ(a.spec.surface, (BodySurface{0.6, 0.4, 0.5}));
+  EXPECT_EQ(a.spec.velocity_m_s, Vec3(1, 0, 0));
+  EXPECT_EQ(a.spec.spin_rad_s, Vec3(0, 0, 2));
+  EXPECT_EQ(scene.bodies[1].spec, BodySpec{});
+  ASSERT_EQ(scene.mechanics.joints.size(), 1u);
+  const JointSpec& joint = scene.mechanics.joints[0];
+  EXPECT_EQ(joint.kind, JointKind::kSlider);
+  EXPECT_EQ(joint.body_a, 1u);
+  EXPECT_EQ(joint.body_b, 2u);
+  EXPECT_EQ(joint.anchor_W, Vec3(0.025, 0, 0));
+  EXPECT_EQ(joint.along, (JointForces{-0.01, 0.02, 0.005, 7, 8, 9, {{0, 0.01}, {2, 3}}}));
+  const auto snapshot = makeSnapshot(scene);
+  ASSERT_EQ(snapshot->instances.size(), 2u);
+  EXPECT_TRUE(snapshot->instances[0].movesAsBody());
+  EXPECT_EQ(snapshot->mechanics.joints[0].body_b, snapshot->instances[1].key);
+}
+
+TEST(SceneFile, BodiesThatCannotBeAreRefusedByLine) {
+  const auto expect = [](const std::string& body, const std::string& joints, const std::string& about) {
+    const std::string message = afterFile(refusalOf(twoBodies(body, joints)));
+    EXPECT_NE(message.find(about), std::string::npos) << message;
+    EXPECT_EQ(message[0], ':') << message;
+  };
+  expect(R"("massKg": -1)", "", "objects[0].body.massKg");
+  expect(R"("massKg": "NaN")", "", "must be a finite number");
+  expect(R"("restitution": 1.5)", "", "objects[0].body.restitution");
+  expect(R"("staticFriction": 0.1, "dynamicFriction": 0.2)", "", "staticFriction must not be less");
+  expect("", R"({"bodyA": "c"})", "there is no body 'c'");
+  expect("", R"({"bodyA": "a", "bodyB": "a"})", "joins a body to itself");
+  expect("", R"({"bodyA": "a", "kind": "HINGE"})", "needs an axis");
+  expect("", R"({"bodyA": "a", "low": 2, "high": 1})", "low must not be above high");
+  expect("", R"({"bodyA": "a", "table": {"position": [0, 0], "force": [1, 1]}})", "must increase");
+}
+
 TEST(SceneFile, ModelFilesAreRelativeToTheScene) {
   fileWith("part.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_EQ(sceneOf(R"({"objects": [{"file": "part.obj"}, {"file": "part.obj"}]})").triangles.size(), 2u);

@@ -55,6 +55,32 @@ class Touching(unittest.TestCase):
         np.testing.assert_allclose(contact["normal"], [0, 1, 0], atol=1e-9)
         self.assertEqual(contact["name"], 7)
 
+    def test_a_body_falls_onto_the_floor_and_can_be_pushed(self):
+        corners = np.array([[x, y, z] for x in (-0.01, 0.01) for y in (-0.01, 0.01) for z in (-0.01, 0.01)])
+        sides = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+        pose = np.eye(4)
+        pose[:3, 3] = 0.05, 0.03, 0.05
+        with self.touch.frame():
+            with self.touch.define() as block:
+                self.touch.body("box", mass=0.1, restitution=0)
+                self.touch.draw(corners, sides, mode=hl.calls.HL_QUADS)
+            self.touch.draw(*FLOOR)
+            with self.touch.name(3):
+                self.touch.place(block, pose)
+
+        def body():
+            bodies = self.touch.bodies()
+            return bodies[0] if len(bodies) == 1 else None
+
+        wait_for("rest", lambda: body() is not None and abs(body()["position"][1] - 0.01) < 1e-6)
+        self.assertEqual((body()["object"], body()["name"]), (block, 3))
+        with self.touch.name(3):
+            self.touch.push(block, [0, 0.2, 0], body()["position"])
+        wait_for("a jump", lambda: body()["position"][1] > 0.02)
+        with self.assertRaises(hl.InvalidValueError):
+            with self.touch.frame(), self.touch.define():
+                self.touch.body(weight=1)
+
     def test_events_come_to_functions_on_this_thread(self):
         events = []
         self.touch.on("touch", lambda event: events.append((event.name, event.position[1], threading.get_ident())))

@@ -117,6 +117,7 @@ class Tissue {
     instance.surfaces = surfacesOf(floor_);
     instance.key = 1;
     instance.mesh_motion = std::move(motion);
+    instance.answers_force = true;
     if (compliance_) instance.compliance = std::make_shared<const ComplianceMotion>(*compliance_);
     return makeSnapshot({instance}, "tissue", ++number_, 0);
   }

@@ -1,0 +1,211 @@
+// Rigid bodies: what an object that is defined is as one, what is done to bodies, and where they are.
+#include <hl/hl.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "client/call.h"
+#include "client/queries.h"
+
+using hl::client::call;
+using hl::client::callOr;
+using hl::client::Fault;
+using hl::client::requireFinite;
+using hl::client::requireList;
+using hl::client::requirePointer;
+using hl::client::When;
+
+namespace {
+
+// As servers take them.
+constexpr double kMostSpeed_m_s = 100, kMostSpin_rad_s = 1000, kMostGravity_m_s2 = 1000, kMostImpulse_N_s = 1e6,
+                 kFarthest_m = 1e9, kLongest_s = 10;
+
+void requireWithin(double value, double least, double most) {
+  if (!(value >= least && value <= most)) throw Fault(HL_INVALID_VALUE, "the value is out of its range");
+}
+
+void setWithin(hl::proto::Vec3& out, double x, double y, double z, double most) {
+  for (const double value : {x, y, z}) requireWithin(value, -most, most);
+  out.set_x(x);
+  out.set_y(y);
+  out.set_z(z);
+}
+
+// Lets `fill` set the body of the open definition.
+template <typename Fill>
+void setBody(const char* function, Fill fill) {
+  call(function, [&](HLcontext& context) {
+    if (!context.definition) throw Fault(HL_INVALID_OPERATION, "only between hlNewObject and hlEndObject");
+    hl::proto::Body body = context.definition->items.body().value_or(hl::proto::Body{});
+    fill(body);
+    context.definition->items.setBody(body);
+  });
+}
+
+void setNumber(hl::proto::Body& body, HLenum parameter, double value) {
+  constexpr double kLightest_kg = 1e-9, kHeaviest_kg = 1e9, kDensest_kg_m3 = 1e6, kRoughest = 1e3;
+  switch (parameter) {
+    case HL_BODY_MASS:
+      requireWithin(value, kLightest_kg, kHeaviest_kg);
+      return body.set_mass_kg(value);
+    case HL_BODY_DENSITY:
+      requireWithin(value, 1 / kDensest_kg_m3, kDensest_kg_m3);
+      return body.set_density_kg_m3(value);
+    case HL_BODY_STATIC_FRICTION:
+      requireWithin(value, 0, kRoughest);
+      return body.set_static_friction(value);
+    case HL_BODY_DYNAMIC_FRICTION:
+      requireWithin(value, 0, kRoughest);
+      return body.set_dynamic_friction(value);
+    case HL_BODY_RESTITUTION:
+      requireWithin(value, 0, 1);
+      return body.set_restitution(value);
+    default:
+      throw Fault(HL_INVALID_ENUM,
+                  "the parameter must be HL_BODY_MASS .. HL_BODY_DYNAMIC_FRICTION or HL_BODY_RESTITUTION");
+  }
+}
+
+void setWhole(hl::proto::Body& body, HLenum parameter, HLint value) {
+  const auto named = static_cast<HLenum>(value);
+  if (parameter == HL_BODY_FIXED) return body.set_fixed(value != HL_FALSE);
+  if (parameter != HL_BODY_SHAPE) throw Fault(HL_INVALID_ENUM, "the parameter must be HL_BODY_SHAPE or HL_BODY_FIXED");
+  if (named < HL_BODY_HULL || named > HL_BODY_CYLINDER)
+    throw Fault(HL_INVALID_ENUM, "the shape must be HL_BODY_HULL .. HL_BODY_CYLINDER");
+  body.set_shape(static_cast<hl::proto::BodyShape>(named - HL_BODY_HULL));
+}
+
+// Lets `fill` write what is done to the bodies of an object, and sends it.
+template <typename Fill>
+void act(const char* function, HLuint object, Fill fill) {
+  call(function, [&](HLcontext& context) {
+    if (!context.objects.isDefined(object)) throw Fault(HL_INVALID_VALUE, "the object is not defined");
+    hl::proto::BodyCommand command;
+    command.set_object(object);
+    if (context.draw.attributes.now.name != 0) command.set_name(context.draw.attributes.now.name);
+    fill(command);
+    context.conversation.send(std::move(command));
+  });
+}
+
+std::array<double, 16> matrixOf(const HLbody& body) {
+  const auto& [x, y, z, w] = body.rotation;
+  return {1 - 2 * (y * y + z * z), 2 * (x * y + z * w),     2 * (x * z - y * w),     0,  //
+          2 * (x * y - z * w),     1 - 2 * (x * x + z * z), 2 * (y * z + x * w),     0,  //
+          2 * (x * z + y * w),     2 * (y * z - x * w),     1 - 2 * (x * x + y * y), 0,  //
+          body.position[0],        body.position[1],        body.position[2],        1};
+}
+
+void write(const HLbody& body, HLenum name, HLdouble* values) {
+  switch (name) {
+    case HL_BODY_POSITION:
+      std::copy_n(body.position, 3, values);
+      return;
+    case HL_BODY_ROTATION:
+      std::copy_n(body.rotation, 4, values);
+      return;
+    case HL_BODY_VELOCITY:
+      std::copy_n(body.velocity, 3, values);
+      return;
+    case HL_BODY_SPIN:
+      std::copy_n(body.spin, 3, values);
+      return;
+    default:
+      std::copy_n(matrixOf(body).begin(), 16, values);
+  }
+}
+
+void requireBodyQuery(HLenum name) {
+  for (const HLenum known : {HL_BODY_POSITION, HL_BODY_ROTATION, HL_BODY_MATRIX, HL_BODY_VELOCITY, HL_BODY_SPIN}) {
+    if (name == known) return;
+  }
+  throw Fault(HL_INVALID_ENUM, "the name must be HL_BODY_POSITION .. HL_BODY_MATRIX, HL_BODY_VELOCITY or HL_BODY_SPIN");
+}
+
+}  // namespace
+
+void hlBodyf(HLenum parameter, HLfloat value) {
+  setBody(__func__, [&](hl::proto::Body& body) { setNumber(body, parameter, double{value}); });
+}
+void hlBodyd(HLenum parameter, HLdouble value) {
+  setBody(__func__, [&](hl::proto::Body& body) { setNumber(body, parameter, value); });
+}
+void hlBodyi(HLenum parameter, HLint value) {
+  setBody(__func__, [&](hl::proto::Body& body) { setWhole(body, parameter, value); });
+}
+
+void hlBody3d(HLenum parameter, HLdouble x, HLdouble y, HLdouble z) {
+  setBody(__func__, [&](hl::proto::Body& body) {
+    if (parameter == HL_BODY_VELOCITY) return setWithin(*body.mutable_velocity_m_s(), x, y, z, kMostSpeed_m_s);
+    if (parameter == HL_BODY_SPIN) return setWithin(*body.mutable_spin_rad_s(), x, y, z, kMostSpin_rad_s);
+    throw Fault(HL_INVALID_ENUM, "the parameter must be HL_BODY_VELOCITY or HL_BODY_SPIN");
+  });
+}
+
+void hlGravity3d(HLdouble x, HLdouble y, HLdouble z) {
+  call(__func__, When::kNotInDefinition, [&](HLcontext& context) {
+    for (const double value : {x, y, z}) requireWithin(value, -kMostGravity_m_s2, kMostGravity_m_s2);
+    context.frame.gravity_m_s2 = {x, y, z};
+  });
+}
+
+void hlBodyImpulsed(HLuint object, HLdouble ix, HLdouble iy, HLdouble iz, HLdouble px, HLdouble py, HLdouble pz,
+                    HLdouble seconds) {
+  act(__func__, object, [&](hl::proto::BodyCommand& command) {
+    hl::proto::BodyPush& push = *command.mutable_push();
+    setWithin(*push.mutable_impulse_n_s(), ix, iy, iz, kMostImpulse_N_s);
+    setWithin(*push.mutable_point(), px, py, pz, kFarthest_m);
+    requireWithin(seconds, 0, kLongest_s);
+    push.set_duration_s(seconds);
+  });
+}
+
+void hlBodyVelocityd(HLuint object, HLdouble vx, HLdouble vy, HLdouble vz, HLdouble wx, HLdouble wy, HLdouble wz) {
+  act(__func__, object, [&](hl::proto::BodyCommand& command) {
+    setWithin(*command.mutable_velocity()->mutable_velocity_m_s(), vx, vy, vz, kMostSpeed_m_s);
+    setWithin(*command.mutable_velocity()->mutable_spin_rad_s(), wx, wy, wz, kMostSpin_rad_s);
+  });
+}
+
+void hlBodyPlaced(HLuint object, HLdouble x, HLdouble y, HLdouble z, HLdouble qx, HLdouble qy, HLdouble qz,
+                  HLdouble qw) {
+  act(__func__, object, [&](hl::proto::BodyCommand& command) {
+    setWithin(*command.mutable_place()->mutable_position(), x, y, z, kFarthest_m);
+    requireFinite(qx, qy, qz, qw);
+    const double length = std::hypot(std::hypot(qx, qy), std::hypot(qz, qw));
+    if (!(length > 0) || !std::isfinite(length)) throw Fault(HL_INVALID_VALUE, "the quaternion must not be 0");
+    hl::proto::Rotation& rotation = *command.mutable_place()->mutable_rotation();
+    rotation.set_x(qx / length);
+    rotation.set_y(qy / length);
+    rotation.set_z(qz / length);
+    rotation.set_w(qw / length);
+  });
+}
+
+HLsizei hlGetBodies(HLsizei most, HLbody* bodies) {
+  return callOr<HLsizei>(0, __func__, When::kOutside, [&](HLcontext& context) {
+    requireList(most, bodies);
+    const std::vector<HLbody> all = hl::client::bodiesOf(context);
+    const auto count = std::min(static_cast<std::size_t>(most), all.size());
+    std::copy_n(all.begin(), count, bodies);
+    return static_cast<HLsizei>(count);
+  });
+}
+
+HLboolean hlGetBodydv(HLuint object, HLenum name, HLdouble* values) {
+  return callOr<HLboolean>(HL_FALSE, __func__, When::kOutside, [&](HLcontext& context) -> HLboolean {
+    requireBodyQuery(name);
+    requirePointer(values);
+    const HLuint called = context.draw.attributes.now.name;
+    for (const HLbody& body : hl::client::bodiesOf(context)) {
+      if (body.object != object || (called != 0 && body.name != called)) continue;
+      write(body, name, values);
+      return HL_TRUE;
+    }
+    return HL_FALSE;
+  });
+}

@@ -1,0 +1,47 @@
+#include "session/session_bodies.h"
+
+#include <algorithm>
+
+#include "session/state_messages.h"
+
+namespace hl {
+
+void SessionBodies::follow(const Snapshot& scene) {
+  if (scene.identity == scene_) return;
+  scene_ = scene.identity;
+  bodies_.clear();
+  for (const Instance& instance : scene.instances) {
+    if (instance.session == session_ && instance.movesAsBody())
+      bodies_.push_back({instance.key, instance.object, instance.name, instance.body});
+  }
+  std::stable_sort(bodies_.begin(), bodies_.end(), [](const One& x, const One& y) {
+    return x.object != y.object ? x.object < y.object : x.name < y.name;
+  });
+}
+
+void SessionBodies::describe(proto::ClientState& out) const {
+  for (const One& one : bodies_) {
+    const ShownBody shown = one.body->poses->shown();
+    const Eigen::Quaterniond turned(shown.pose.rotation);
+    proto::BodyState& state = *out.add_bodies();
+    state.set_object(one.object);
+    state.set_name(one.name);
+    toProto(shown.pose.origin, *state.mutable_position());
+    state.mutable_rotation()->set_x(turned.x());
+    state.mutable_rotation()->set_y(turned.y());
+    state.mutable_rotation()->set_z(turned.z());
+    state.mutable_rotation()->set_w(turned.w());
+    toProto(shown.velocity_m_s, *state.mutable_velocity_m_s());
+    toProto(shown.spin_rad_s, *state.mutable_spin_rad_s());
+  }
+}
+
+std::vector<std::uint64_t> SessionBodies::keysOf(std::uint32_t object, std::optional<std::uint32_t> name) const {
+  std::vector<std::uint64_t> keys;
+  for (const One& one : bodies_) {
+    if (one.object == object && (!name || one.name == *name)) keys.push_back(one.key);
+  }
+  return keys;
+}
+
+}  // namespace hl

@@ -1,0 +1,43 @@
+// SessionBodies: the moving bodies of one client in the scene that is shown.
+#pragma once
+
+#include <hl.pb.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "scene/snapshot.h"
+
+namespace hl {
+
+/// One thread.
+class SessionBodies {
+ public:
+  explicit SessionBodies(std::uint32_t session) : session_(session) {}
+
+  /// Whether states list them.
+  void want(bool wanted) { wanted_ = wanted; }
+  bool wanted() const { return wanted_; }
+  /// From now on those of this scene.
+  void follow(const Snapshot& scene);
+  /// Where they are now.
+  void describe(proto::ClientState& out) const;
+  /// Of those of an object, or of the ones of this name among them. In the order of their calls' keys.
+  std::vector<std::uint64_t> keysOf(std::uint32_t object, std::optional<std::uint32_t> name) const;
+
+ private:
+  struct One {
+    std::uint64_t key = 0;
+    std::uint32_t object = 0, name = 0;
+    std::shared_ptr<const RigidBody> body;
+  };
+
+  const std::uint32_t session_;
+  bool wanted_ = false;
+  std::uint64_t scene_ = 0;  // identity; 0: none yet
+  std::vector<One> bodies_;
+};
+
+}  // namespace hl

@@ -1,0 +1,38 @@
+// BodiesMemory: what the steps of the bodies so far have left for the next one, so that they go on elsewhere to the
+// bit: in a replay.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/fixed_vector.h"
+#include "bodies/hand_node.h"
+#include "bodies/world.h"
+
+namespace hl {
+
+/// Of one scene, between two ticks. Its lists have the room that reserve() made.
+struct BodiesMemory {
+  WorldState world;
+  std::vector<Pose> poses;                            ///< of World::bodies, as the last tick saw them
+  FixedVector<BodyImpulse, kContactsOfHand> owed;     ///< to bodies
+  FixedVector<HandContact, kContactsOfHand> held_by;  ///< what held the proxy
+  std::int64_t time_ns = 0;                           ///< of the last step
+  bool begun = false;                                 ///< there was one
+
+  /// For so many. Allocates.
+  void reserve(std::size_t bodies, std::size_t joints) {
+    world.bodies.reserve(bodies);
+    world.joints.reserve(joints);
+    world.asleep.reserve(mostRows(bodies));
+    world.memory.reserve(mostRows(bodies));
+    poses.reserve(bodies);
+  }
+  bool hasRoomFor(const World& of) const {
+    return world.bodies.capacity() >= of.bodies.size() && poses.capacity() >= of.bodies.size() &&
+           world.joints.capacity() >= of.joints.size() && world.memory.room() >= mostRows(of.bodies.size()) &&
+           world.asleep.room() >= mostRows(of.bodies.size());
+  }
+};
+
+}  // namespace hl

@@ -1,0 +1,87 @@
+// Bodies, end to end: what the mouse pushes moves, on the page too, and its energy is told to the joule.
+
+import type { Browser, Page } from "playwright-core";
+import { fileURLToPath } from "node:url";
+import { afterAll, beforeAll, describe, expect, test } from "vitest";
+import { decodeServerMessage } from "../src/protocol";
+import type { Bodies } from "../src/gen/hl_pb";
+import { expectTidyLayout, kSizes, launch, listen, screenshot, states, type Complaints } from "./browser";
+import { kProgram, startTouch, type Touch } from "./programs";
+
+const kBlocks = fileURLToPath(new URL("../../scenes/examples/blocks.hl.json", import.meta.url));
+/** Number of the block among the scene's objects. */
+const kBlock = 1;
+
+/** What motion, height and springs hold, J. */
+const heldBy = (bodies: Bodies): number => bodies.kineticJ + bodies.gravityJ + bodies.springJ;
+/** What has come in since the bodies began, J. */
+const broughtTo = (bodies: Bodies): number =>
+  bodies.byHandJ - bodies.contactJ - bodies.frictionJ - bodies.jointsJ + bodies.solverJ;
+
+describe.skipIf(!kProgram)("hl touch with bodies", () => {
+  let touch: Touch;
+  let browser: Browser;
+  let page: Page;
+  let complaints: Complaints;
+  const told: Bodies[] = [];
+
+  beforeAll(async () => {
+    touch = await startTouch(0, kBlocks);
+    browser = await launch();
+    page = await browser.newPage({ viewport: kSizes[0] });
+    complaints = listen(page, touch.url);
+    page.on("websocket", (socket) => {
+      socket.on("framereceived", ({ payload }) => {
+        const message = decodeServerMessage(new Uint8Array(Buffer.from(payload)));
+        if (message.kind === "state" && message.state.bodies !== undefined) told.push(message.state.bodies);
+      });
+    });
+    await page.goto(touch.url);
+    await page.waitForFunction(() => window.__hl.objects === 3 && window.__hl.samples > 100);
+  });
+
+  afterAll(async () => {
+    await browser?.close();
+    touch?.process.kill("SIGKILL");
+  });
+
+  test("are counted, in cards that fit", async () => {
+    await expect.poll(() => page.textContent("#bodies-count")).toMatch(/of\s2\sawake/);
+    for (const size of kSizes) await expectTidyLayout(page, size);
+  });
+
+  test("a block that the hand pushes moves", async () => {
+    const begin = await page.evaluate((block) => window.__hl.originOf(block), kBlock);
+    await page.uncheck("#explore");
+    const { from, to } = await page.evaluate((block) => {
+      const at = window.__hl.originOf(block);
+      return { from: window.__hl.project(at), to: window.__hl.project({ ...at, x: at.x + 0.06 }) };
+    }, kBlock);
+    await page.mouse.move(from.x, from.y);
+    await page.mouse.down();
+    await page.waitForFunction(() => window.__hl.contacts > 0);
+    const steps = 40;
+    for (let i = 1; i <= steps; ++i) {
+      await page.mouse.move(from.x + (i / steps) * (to.x - from.x), from.y + (i / steps) * (to.y - from.y));
+      await states(page);
+    }
+    await screenshot(page, "bodies_pushed");
+    await page.mouse.up();
+    const end = await page.evaluate((block) => window.__hl.originOf(block), kBlock);
+    expect(Math.hypot(end.x - begin.x, end.z - begin.z)).toBeGreaterThan(0.003);
+    expect(end.y).toBeGreaterThan(0.0199);
+  });
+
+  test("their energy is what hands gave less what was lost", async () => {
+    await states(page, 5);
+    const [first, last] = [told[0]!, told.at(-1)!];
+    expect(last.byHandJ).toBeGreaterThan(1e-5);
+    expect(last.frictionJ).toBeGreaterThan(1e-5);
+    expect(heldBy(last) - heldBy(first)).toBeCloseTo(broughtTo(last) - broughtTo(first), 9);
+  });
+
+  test("without an error, and without asking anybody else", () => {
+    expect(complaints.errors).toEqual([]);
+    expect(complaints.foreign).toEqual([]);
+  });
+});
