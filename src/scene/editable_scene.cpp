@@ -52,7 +52,6 @@ std::size_t bytesOfItems(std::size_t count) { return kObject_bytes + count * siz
 
 std::size_t bytesApart(const SceneItem& item) {
   std::size_t bytes = item.placement ? kPointer_bytes + sizeof(Placement) : 0;
-  if (item.body) bytes += kPointer_bytes + sizeof(BodySpec);
   if (!item.surface) return bytes;
   bytes += kPointer_bytes + sizeof(SurfaceChange);
   for (const auto& use : item.surface->textures) {
@@ -90,7 +89,7 @@ class EditableScene::Flattening {
       : scene_(scene), state_(state), memory_(scene.memory_), copies_(scene.limits_) {}
 
   PlacedShapes run() {
-    visit(*state_.world, {{}, {}, 0, 0, mixed(0, scene_.session_)});
+    visit(*state_.world, {{}, {}, 0, 0, mixed(0, scene_.session_), {}});
     return withShare(std::make_shared<const std::vector<PlacedShape>>(std::move(placed_)), std::move(memory_));
   }
   std::map<Stretched, std::shared_ptr<const Shape>> stretched;
@@ -101,6 +100,7 @@ class EditableScene::Flattening {
     SurfaceChange surface;
     std::uint32_t object, name;
     std::uint64_t key;
+    std::shared_ptr<const BodySpec> body;  // of the object
   };
 
   void visit(const SceneItems& items, const Call& caller);
@@ -129,8 +129,11 @@ void EditableScene::Flattening::visit(const SceneItems& items, const Call& calle
                   std::to_string(scene_.limits_.instances));
     const std::uint64_t key = mixed(mixed(caller.key, item.call), occurrences[item.call]++);
     const Call call{item.placement ? caller.placement * *item.placement : caller.placement,
-                    item.surface ? item.surface->over(caller.surface) : caller.surface, caller.object,
-                    item.name.value_or(caller.name), key};
+                    item.surface ? item.surface->over(caller.surface) : caller.surface,
+                    caller.object,
+                    item.name.value_or(caller.name),
+                    key,
+                    caller.body};
     item.shape ? add(item, call) : enter(item, call);
   }
 }
@@ -145,6 +148,7 @@ void EditableScene::Flattening::enter(const SceneItem& item, const Call& call) {
   path_.push_back(item.call);
   Call inner = call;
   inner.object = item.call;
+  inner.body = found->second->body;
   visit(*found->second, inner);
   path_.pop_back();
 }
@@ -162,7 +166,7 @@ void EditableScene::Flattening::add(const SceneItem& item, const Call& call) {
     throw Error("an object lies farther than 1e9 m from the origin: nothing so far can be touched");
   memory_.take(bytesInWorld());
   placed_.push_back(
-      {shape, surfacesOf(call.surface), pose, call.key, scene_.session_, call.object, call.name, item.body});
+      {shape, surfacesOf(call.surface), pose, call.key, scene_.session_, call.object, call.name, call.body});
   if (!placed_.back().movesAsBody()) return;
   memory_.take(kBody_bytes);
   if (++bodies_ > scene_.limits_.bodies)
