@@ -46,6 +46,8 @@ std::uint64_t hashOf(const World& world, const WorldState& state) {
   BitHasher hasher(hashOfFields(state.energy, state.steps));
   hasher(state.bodies.size());
   for (std::size_t i = 0; i < state.bodies.size(); ++i) hasher(hashOfFields(state.bodies[i], world.bodies[i].key));
+  hasher(state.joints.size());
+  for (const JointState& joint : state.joints) hasher(hashOfFields(joint, 0));
   hasher(state.memory.all().size());
   for (const RememberedContact& contact : state.memory.all()) hasher(hashOfFields(contact, 0));
   return hasher.value();

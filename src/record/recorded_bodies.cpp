@@ -75,6 +75,8 @@ void toProto(const BodiesMemory& memory, proto::RecordedBodies& out) {
   toProtoList(world.memory.all(), *out.mutable_contacts());
   toProtoList(memory.owed, *out.mutable_owed());
   toProtoList(memory.held_by, *out.mutable_held_by());
+  toProtoList(world.joints, *out.mutable_joints());
+  toProtoList(memory.pushes, *out.mutable_pushes());
 }
 
 BodiesMemory fromProto(const proto::RecordedBodies& in) {
@@ -100,6 +102,8 @@ BodiesMemory fromProto(const proto::RecordedBodies& in) {
     throw Error(std::string(kWhat) + " makes no sense: its contacts are not in their order");
   readFixed(in.owed(), memory.owed);
   readFixed(in.held_by(), memory.held_by);
+  readList<JointState>(in.joints(), [&](const JointState& joint) { world.joints.push_back(joint); });
+  readFixed(in.pushes(), memory.pushes);
   return memory;
 }
 

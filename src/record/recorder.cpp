@@ -245,7 +245,8 @@ void Recorder::beginForPage(std::uint32_t page) {
 // While the loops may write to it nothing here does.
 void Recorder::wantCapture() {
   capture_.hashing.store(true, std::memory_order_relaxed);
-  if (capture_.phase.load(std::memory_order_acquire) != Capture::kWanted) capture_.bodies.reserve(scenes_.mostBodies());
+  if (capture_.phase.load(std::memory_order_acquire) != Capture::kWanted)
+    capture_.bodies.reserve(scenes_.mostBodies(), scenes_.mostJoints());
   capture_.phase.store(Capture::kWanted, std::memory_order_release);
 }
 

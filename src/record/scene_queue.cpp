@@ -31,6 +31,13 @@ std::size_t SceneQueue::mostBodies() const {
   return static_cast<std::size_t>(most);
 }
 
+std::size_t SceneQueue::mostJoints() const {
+  const std::lock_guard lock(mutex_);
+  std::size_t most = 0;
+  for (const auto& scene : scenes_) most = std::max(most, scene->mechanics.joints.size());
+  return most;
+}
+
 std::shared_ptr<const Snapshot> SceneQueue::next() const {
   const std::lock_guard lock(mutex_);
   return written_ == scenes_.size() ? nullptr : scenes_[written_];
