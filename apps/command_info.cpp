@@ -97,8 +97,9 @@ void printBody(const RigidBody& body, const Model& model) {
   const BodySurface& surface = body.spec.surface;
   fmt::print("body {}: ", body.name);
   if (body.poses) {
-    const Mass mass = bodyOf(model, body.spec).mass;
-    fmt::print("{}, {:.4g} kg", kBodyShapeNames[static_cast<std::size_t>(body.spec.shape)], mass.mass_kg);
+    const Body made = bodyOf(model, body.spec);
+    fmt::print("{}, {:.4g} kg", kBodyShapeNames[static_cast<std::size_t>(body.spec.shape)], made.mass.mass_kg);
+    if (made.hull_error_m > 0) fmt::print(", the mesh is up to {:.3g} mm outside", 1e3 * made.hull_error_m);
   } else {
     fmt::print("fixed");
   }

@@ -461,8 +461,9 @@ class Touch:
         of the world, (3,) in m; evenly within `seconds` (0..10), or at once."""
         self.make_current()
         number = arguments.whole(number, "the object's number")
-        numbers = [*_vector(impulse, "impulse"), *_vector(point, "point")]
-        calls.hlBodyImpulsed(number, *numbers, arguments.number(seconds, "seconds"))
+        ix, iy, iz = _vector(impulse, "impulse")
+        px, py, pz = _vector(point, "point")
+        calls.hlBodyImpulsed(number, ix, iy, iz, px, py, pz, arguments.number(seconds, "seconds"))
 
     def keep_samples(self, most: int) -> None:
         """From now on keep the newest `most` steps of the servo, for `samples`; 0: none."""

@@ -125,13 +125,19 @@ Mass massOfMesh(double mass_kg, std::span<const Vec3> vertices, Triangles triang
   return massOfDensity(mass_kg / solid.volume_m3, solid);
 }
 
-Mass massOfShape(double mass_kg, const Convex& polyhedron) {
+Solid solidOf(const Convex& polyhedron) {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   for (const Convex::Face& face : polyhedron.faces) {
     for (std::size_t i = 2; i < face.corners.size(); ++i)
       triangles.push_back({face.corners[0], face.corners[i - 1], face.corners[i]});
   }
-  return massOfMesh(mass_kg, polyhedron.vertices, triangles);
+  return solidOf(polyhedron.vertices, triangles);
+}
+
+Mass massOfShape(double mass_kg, const Convex& polyhedron) {
+  demandPositive(mass_kg, "the mass");
+  const Solid solid = solidOf(polyhedron);
+  return massOfDensity(mass_kg / solid.volume_m3, solid);
 }
 
 }  // namespace hl

@@ -35,6 +35,8 @@ struct Solid {
 /// What a closed mesh holds, by exact integrals over tetrahedra. Its triangles may all face inward. Throws Error, with
 /// what to do, if the mesh is open or holds nothing.
 Solid solidOf(std::span<const Vec3> vertices, std::span<const std::array<std::uint32_t, 3>> triangles);
+/// Of a polyhedron with faces, without its radius, in the frame of its vertices.
+Solid solidOf(const Convex& polyhedron);
 /// Throws Error unless the density, kg/m^3, is > 0.
 Mass massOfDensity(double density_kg_m3, const Solid& solid);
 /// Of uniform density. `mass_kg` > 0, or Error.

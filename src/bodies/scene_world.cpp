@@ -2,11 +2,13 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "base/error.h"
+#include "bodies/convex_hull.h"
 #include "bodies/joint_check.h"
 
 namespace hl {
@@ -51,6 +53,20 @@ double massOf(const BodySpec& spec, double volume_m3) {
   return mass_kg;
 }
 
+// Of a round bar, also of a disc, two sides of the bounds are equal. Of a cube, they do not tell.
+int cylinderAxisOf(const Vec3& half) {
+  constexpr double kEqual = 0.01;
+  int longest = 2, axis = 2, candidates = 0;
+  half.maxCoeff(&longest);
+  for (int i = 0; i < 3; ++i) {
+    const double one = half[(i + 1) % 3], other = half[(i + 2) % 3];
+    if (std::abs(one - other) > kEqual * std::max(one, other)) continue;
+    axis = i;
+    ++candidates;
+  }
+  return candidates == 1 ? axis : longest;
+}
+
 void makeBox(const Vec3& half, const BodySpec& spec, Body& body) {
   body.shape = boxShape(half);
   body.mass = massOfBox(massOf(spec, 8 * half.prod()), half);
@@ -72,6 +88,22 @@ void makeCapsule(const Vec3& half, const BodySpec& spec, Body& body) {
   turn(body.shape, body.mass, turnTo(bar.axis));
 }
 
+void makeCylinder(const Vec3& half, const BodySpec& spec, Body& body) {
+  const int axis = cylinderAxisOf(half);
+  const double r = std::max(half[(axis + 1) % 3], half[(axis + 2) % 3]), half_length = half[axis];
+  body.shape = cylinderShape(half_length, r);
+  body.mass = massOfCylinder(massOf(spec, 2 * std::numbers::pi * r * r * half_length), half_length, r);
+  turn(body.shape, body.mass, turnTo(axis));
+}
+
+void makeHull(const Model& model, const BodySpec& spec, Body& body) {
+  const Hull hull = hullOf(model.positions);
+  const Solid solid = solidOf(hull.shape);
+  body.mass = massOfDensity(massOf(spec, solid.volume_m3) / solid.volume_m3, solid);
+  body.shape = moved(hull.shape, -body.mass.centre_O);
+  body.hull_error_m = hull.error_m;
+}
+
 }  // namespace
 
 Body bodyOf(const Model& model, const BodySpec& spec) {
@@ -89,7 +121,11 @@ Body bodyOf(const Model& model, const BodySpec& spec) {
       makeCapsule(half, spec, body);
       break;
     case BodyShape::kHull:
+      makeHull(model, spec, body);
+      return body;
     case BodyShape::kCylinder:
+      makeCylinder(half, spec, body);
+      break;
     case BodyShape::kBox:
       makeBox(half, spec, body);
       break;

@@ -24,6 +24,7 @@ struct Body {
   Mass mass{};
   Convex shape;
   BodySurface surface{};
+  double hull_error_m = 0;  ///< how far the mesh is outside a hull that had too many vertices (convex_hull.h)
 };
 
 /// Immutable while it is stepped.

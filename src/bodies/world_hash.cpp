@@ -46,6 +46,7 @@ std::uint64_t hashOf(const World& world, const WorldState& state) {
   BitHasher hasher(hashOfFields(state.energy, state.steps));
   hasher(state.bodies.size());
   for (std::size_t i = 0; i < state.bodies.size(); ++i) hasher(hashOfFields(state.bodies[i], world.bodies[i].key));
+  hasher(state.joints.size());
   for (std::size_t i = 0; i < state.joints.size(); ++i) hasher(hashOfFields(state.joints[i], world.joints[i].key));
   hasher(state.gravity_m_s2);
   for (const ContactMemory* const memory : {&state.memory, &state.asleep}) {

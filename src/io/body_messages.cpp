@@ -1,5 +1,7 @@
 #include "io/body_messages.h"
 
+#include <string>
+
 #include "base/error.h"
 #include "geometry/primitive.h"
 #include "io/value_messages.h"
@@ -46,6 +48,37 @@ BodyParts partsOfBody(const proto::RecordedBody& in) {
   return parts;
 }
 
+// What a JointSpec is made of, without its name and table.
+struct JointParts {
+  JointKind kind{};
+  std::uint64_t body_a = 0, body_b = 0;
+  Vec3 anchor_W, anchor_b_W, axis_W;
+  double low = 0, high = 0, rest = 0, spring = 0, damping = 0, friction = 0;
+  bool collide = false;
+
+  static JointParts of(const JointSpec& joint) {
+    const JointForces& along = joint.along;
+    return {joint.kind, joint.body_a, joint.body_b, joint.anchor_W, joint.anchor_b_W, joint.axis_W, along.low,
+            along.high, along.rest,   along.spring, along.damping,  along.friction,   joint.collide};
+  }
+};
+
+// What would not be a joint is refused with the world that it is in (joint_check.h).
+JointSpec jointOf(const proto::RecordedJoint& in) {
+  constexpr double kMostPlace_m = 1e9;
+  constexpr const char* kJoint = "a joint";
+  JointParts parts;
+  readValues(in.joint(), kJoint, parts);
+  for (const Vec3& place : {parts.anchor_W, parts.anchor_b_W, parts.axis_W})
+    checkVec(kJoint, "a place", place, kMostPlace_m);
+  JointSpec joint{in.name(), parts.kind, parts.body_a, parts.body_b, parts.anchor_W, parts.anchor_b_W, parts.axis_W};
+  joint.along = {parts.low, parts.high, parts.rest, parts.spring, parts.damping, parts.friction, {}};
+  joint.along.table.position.assign(in.table_position().begin(), in.table_position().end());
+  joint.along.table.force.assign(in.table_force().begin(), in.table_force().end());
+  joint.collide = parts.collide;
+  return joint;
+}
+
 }  // namespace
 
 void toProto(const RigidBody& body, proto::RecordedBody& out) {
@@ -77,12 +110,26 @@ SceneBody sceneBodyOf(const proto::RecordedBody& in) {
   return {in.name(), {}, parts.start, parts.spec};
 }
 
-Mechanics mechanicsOf(const proto::Values& in) {
+void toProto(const Mechanics& mechanics, proto::RecordedMechanics& out) {
+  for (const double component : mechanics.gravity_m_s2) out.add_gravity_m_s2(component);
+  for (const JointSpec& joint : mechanics.joints) {
+    proto::RecordedJoint& recorded = *out.add_joints();
+    recorded.set_name(joint.name);
+    toProto(valuesOf(JointParts::of(joint)), *recorded.mutable_joint());
+    const ForceTable& table = joint.along.table;
+    recorded.mutable_table_position()->Add(table.position.begin(), table.position.end());
+    recorded.mutable_table_force()->Add(table.force.begin(), table.force.end());
+  }
+}
+
+Mechanics mechanicsOf(const proto::RecordedMechanics& in) {
   constexpr double kMost_m_s2 = 1e6;
   constexpr const char* kWhat = "what acts on bodies";
   Mechanics mechanics;
-  readValues(in, kWhat, mechanics);
+  if (in.gravity_m_s2_size() != 3) throw Error(std::string(kWhat) + " makes no sense: gravity has three components");
+  mechanics.gravity_m_s2 = {in.gravity_m_s2(0), in.gravity_m_s2(1), in.gravity_m_s2(2)};
   checkVec(kWhat, "gravity_m_s2", mechanics.gravity_m_s2, kMost_m_s2);
+  for (const proto::RecordedJoint& joint : in.joints()) mechanics.joints.push_back(jointOf(joint));
   return mechanics;
 }
 

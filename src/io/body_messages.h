@@ -17,6 +17,7 @@ void toProto(const SceneBody& body, proto::RecordedBody& out);
 /// At its start. Throws hl::Error, as what follows.
 std::shared_ptr<const RigidBody> rigidBodyOf(const proto::RecordedBody& in);
 SceneBody sceneBodyOf(const proto::RecordedBody& in);
-Mechanics mechanicsOf(const proto::Values& in);
+void toProto(const Mechanics& mechanics, proto::RecordedMechanics& out);
+Mechanics mechanicsOf(const proto::RecordedMechanics& in);
 
 }  // namespace hl

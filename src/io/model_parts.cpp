@@ -62,7 +62,7 @@ void PartSender::failure(const std::string& why) {
 void PartSender::scene(const SceneModel& scene) {
   const Model& rest = scene.model;
   proto::ReadingPart part;
-  toProto(valuesOf(scene.mechanics), *part.mutable_mechanics());
+  toProto(scene.mechanics, *part.mutable_mechanics());
   send(part);
   for (const SceneBody& body : scene.bodies) {
     part.Clear();

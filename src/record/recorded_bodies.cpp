@@ -1,6 +1,7 @@
 #include "record/recorded_bodies.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <string>
@@ -18,7 +19,7 @@ constexpr double kMostOfBodies = 1e15;  // of any number in it
 struct BodiesTotals {
   std::uint64_t steps = 0;
   EnergyBook energy;
-  Vec3 gravity_m_s2 = Vec3::Zero();
+  std::array<double, 3> gravity_m_s2{};
   std::int64_t time_ns = 0;
   bool begun = false;
 };
@@ -77,7 +78,11 @@ void checkTurned(const BodyState& state) {
 
 void toProto(const BodiesMemory& memory, proto::RecordedBodies& out) {
   const WorldState& world = memory.world;
-  const BodiesTotals totals{world.steps, world.energy, world.gravity_m_s2, memory.time_ns, memory.begun};
+  const BodiesTotals totals{world.steps,
+                            world.energy,
+                            {world.gravity_m_s2.x(), world.gravity_m_s2.y(), world.gravity_m_s2.z()},
+                            memory.time_ns,
+                            memory.begun};
   toProto(valuesOf(totals), *out.mutable_totals());
   for (std::size_t i = 0; i < world.bodies.size(); ++i)
     toProto(valuesOf(BodyMemory{world.bodies[i], memory.poses[i]}), *out.mutable_bodies());
@@ -86,6 +91,7 @@ void toProto(const BodiesMemory& memory, proto::RecordedBodies& out) {
   toProtoList(world.asleep.all(), *out.mutable_asleep());
   toProtoList(memory.owed, *out.mutable_owed());
   toProtoList(memory.held_by, *out.mutable_held_by());
+  toProtoList(memory.pushes, *out.mutable_pushes());
 }
 
 BodiesMemory fromProto(const proto::RecordedBodies& in) {
@@ -95,7 +101,7 @@ BodiesMemory fromProto(const proto::RecordedBodies& in) {
     checkTime(totals.time_ns, "the last step of the bodies before the recording");
     world.steps = totals.steps;
     world.energy = totals.energy;
-    world.gravity_m_s2 = totals.gravity_m_s2;
+    world.gravity_m_s2 = Vec3(totals.gravity_m_s2[0], totals.gravity_m_s2[1], totals.gravity_m_s2[2]);
     memory.time_ns = totals.time_ns;
     memory.begun = totals.begun;
   });
@@ -110,6 +116,7 @@ BodiesMemory fromProto(const proto::RecordedBodies& in) {
   readContacts(in.asleep(), world.bodies.size(), world.asleep);
   readFixed(in.owed(), memory.owed);
   readFixed(in.held_by(), memory.held_by);
+  readFixed(in.pushes(), memory.pushes);
   return memory;
 }
 

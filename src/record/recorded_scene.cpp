@@ -130,7 +130,7 @@ void SceneWriter::write(const Snapshot& scene, const Write& write) {
   out.set_name(scene.name);
   const auto is_body = [](const Instance& instance) { return instance.body != nullptr; };
   if (std::any_of(scene.instances.begin(), scene.instances.end(), is_body))
-    toProto(valuesOf(scene.mechanics), *out.mutable_mechanics());
+    toProto(scene.mechanics, *out.mutable_mechanics());
   for (const Instance& instance : scene.instances) {
     if (instance.driver && !instance.movesAsBody()) throw Error("an object that is driven cannot be recorded");
     proto::RecordedInstance& placed = *out.add_instances();

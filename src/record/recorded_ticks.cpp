@@ -30,6 +30,35 @@ void addTick(const TickRecord& record, std::int64_t before_ns, proto::ProxyTicks
   out.add_world_hash(record.world_hash);
 }
 
+void addBodyCommands(std::span<const TickRecord> records, proto::ProxyTicks& out) {
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    for (const BodyCommand& command : records[i].in.on_bodies) {
+      proto::ValuesChange& change = *out.add_on_bodies();
+      change.set_at(static_cast<std::uint32_t>(i));
+      toProto(valuesOf(command), *change.mutable_values());
+    }
+  }
+}
+
+// Throws hl::Error for what no client can say.
+BodyCommand bodyCommandOf(const proto::ValuesChange& in) {
+  constexpr const char* kWhat = "what is done to a body";
+  constexpr double kMost = 1e15;
+  BodyCommand command;
+  readValues(in.values(), kWhat, command);
+  for (const double number : fromProto(in.values()).numbers) checkRanges(kWhat, {{"a number", number, -kMost, kMost}});
+  checkRanges(kWhat, {{"duration_s", command.duration_s, 0, kMost}});
+  if (command.rotation) checkRecorded(Pose{*command.rotation, Vec3::Zero()}, kWhat);
+  return command;
+}
+
+void readBodyCommands(const proto::ProxyTicks& in, std::vector<TickRecord>& records) {
+  for (const proto::ValuesChange& change : in.on_bodies()) {
+    if (change.at() >= records.size() || !records[change.at()].in.on_bodies.push(bodyCommandOf(change)))
+      throw Error(kTicksMisfit);
+  }
+}
+
 TickRecord tickOf(const proto::ProxyTicks& in, int i, std::int64_t before_ns) {
   TickRecord record;
   record.in.time_ns = wrappedSum_ns(before_ns, in.time_ns(i));
@@ -96,6 +125,7 @@ void toProto(std::span<const TickRecord> records, std::uint64_t first, proto::Pr
     toProto(now, *change.mutable_values());
     context = std::move(now);
   }
+  addBodyCommands(records, out);
   const auto& hashes = out.world_hash();
   if (std::all_of(hashes.begin(), hashes.end(), [](std::uint64_t hash) { return hash == 0; })) out.clear_world_hash();
 }
@@ -117,6 +147,7 @@ std::vector<TickRecord> fromProto(const proto::ProxyTicks& in) {
     records.back().scene = context.scene;
     before_ns = records.back().in.time_ns;
   }
+  readBodyCommands(in, records);
   return records;
 }
 

@@ -145,6 +145,7 @@ class ProxyReplay {
   void tick(const TickRecord& record, double time_s) {
     show(record.scene);
     const int most_looks = record.used_up_at > 0 ? record.used_up_at : kNoWorkCap;
+    loop_->act(record.in.on_bodies);
     const ProxyStep step =
         loop_->step(record.in.time_ns, record.in.finger_D, record.in.commands, record.in.spring, most_looks);
     slot_->dropBefore();

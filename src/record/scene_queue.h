@@ -21,7 +21,7 @@ class SceneQueue {
   bool hasLost() const;
   /// The most bodies that move in one of them.
   std::size_t mostBodies() const;
-  std::size_t mostJoints() const;
+  std::size_t mostJoints() const;  ///< the same of their joints
   /// The first that is not written; null: there is none.
   std::shared_ptr<const Snapshot> next() const;
   /// It is. `keep_last`: it stays, if no other one follows.

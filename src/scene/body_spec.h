@@ -26,7 +26,8 @@ enum class BodyShape : std::uint8_t {
   kBox,       ///< the bounds
   kBall,      ///< centred in the bounds; its diameter is their largest side
   kCapsule,   ///< along the longest side of the bounds; its diameter is the larger of the other two
-  kCylinder,  ///< the same with flat ends
+  kCylinder,  ///< flat ends; along the side of the bounds whose two others are equal to 1 %, as of a disc; else the
+              ///< longest
 };
 /// By number: "hull", "box", ...
 inline constexpr std::array<const char*, 5> kBodyShapeNames{"hull", "box", "ball", "capsule", "cylinder"};

@@ -52,7 +52,6 @@ std::size_t bytesOfItems(std::size_t count) { return kObject_bytes + count * siz
 
 std::size_t bytesApart(const SceneItem& item) {
   std::size_t bytes = item.placement ? kPointer_bytes + sizeof(Placement) : 0;
-  if (item.body) bytes += kPointer_bytes + sizeof(BodySpec);
   if (!item.surface) return bytes;
   bytes += kPointer_bytes + sizeof(SurfaceChange);
   for (const auto& use : item.surface->textures) {
@@ -90,7 +89,7 @@ class EditableScene::Flattening {
       : scene_(scene), state_(state), memory_(scene.memory_), copies_(scene.limits_) {}
 
   PlacedShapes run() {
-    visit(*state_.world, {{}, {}, 0, 0, mixed(0, scene_.session_)});
+    visit(*state_.world, {{}, {}, 0, 0, mixed(0, scene_.session_), {}});
     return withShare(std::make_shared<const std::vector<PlacedShape>>(std::move(placed_)), std::move(memory_));
   }
   std::map<Stretched, std::shared_ptr<const Shape>> stretched;
@@ -101,6 +100,7 @@ class EditableScene::Flattening {
     SurfaceChange surface;
     std::uint32_t object, name;
     std::uint64_t key;
+    std::shared_ptr<const BodySpec> body;  // of the object
   };
 
   void visit(const SceneItems& items, const Call& caller);
@@ -130,8 +130,11 @@ void EditableScene::Flattening::visit(const SceneItems& items, const Call& calle
                   std::to_string(scene_.limits_.instances));
     const std::uint64_t key = mixed(mixed(caller.key, item.call), occurrences[item.call]++);
     const Call call{item.placement ? caller.placement * *item.placement : caller.placement,
-                    item.surface ? item.surface->over(caller.surface) : caller.surface, caller.object,
-                    item.name.value_or(caller.name), key};
+                    item.surface ? item.surface->over(caller.surface) : caller.surface,
+                    caller.object,
+                    item.name.value_or(caller.name),
+                    key,
+                    caller.body};
     item.shape ? add(item, call, static_cast<std::uint32_t>(i)) : enter(item, call);
   }
 }
@@ -146,6 +149,7 @@ void EditableScene::Flattening::enter(const SceneItem& item, const Call& call) {
   path_.push_back(item.call);
   Call inner = call;
   inner.object = item.call;
+  inner.body = found->second->body;
   visit(*found->second, inner);
   path_.pop_back();
 }
@@ -166,7 +170,7 @@ void EditableScene::Flattening::add(const SceneItem& item, const Call& call, std
   const auto found = state_.compliances.find(call.object);
   if (found != state_.compliances.end()) placed.compliance = found->second;
   placed.answers_force = state_.answers_force;
-  placed.body = item.body;
+  placed.body = call.body;
   placed_.push_back(std::move(placed));
   if (!placed_.back().movesAsBody()) return;
   memory_.take(kBody_bytes);

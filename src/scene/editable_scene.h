@@ -27,9 +27,11 @@ struct SceneItem {
   std::optional<std::uint32_t> name;               ///< absent: the name of the caller
   std::shared_ptr<const Placement> placement;      ///< invertible, may scale and shear; null: identity
   std::shared_ptr<const SurfaceChange> surface{};  ///< null: the surface of the caller
-  std::shared_ptr<const BodySpec> body{};          ///< the shape is a rigid body; null: it is none
 };
-using SceneItems = std::vector<SceneItem>;
+struct SceneItems : std::vector<SceneItem> {
+  using std::vector<SceneItem>::vector;
+  std::shared_ptr<const BodySpec> body{};  ///< each shape that it places directly is a rigid body; null: none is
+};
 /// Memory of a list of `count` items.
 std::size_t bytesOfItems(std::size_t count);
 /// Memory of the separately stored members of an item, without its shape.

@@ -175,7 +175,7 @@ void FrameDecoder::makeBody(const proto::ObjectDefinition& object, SceneItems& i
     throw Error(where + ".body: a body has one item, with primitives or an upload, and no calls; this one has " +
                 std::to_string(items.size()) + (items.size() == 1 ? " item, a call" : " items"));
   SceneItem& item = items[0];
-  item.body = std::make_shared<const BodySpec>(decoder_.body(object.body(), where + ".body"));
+  items.body = std::make_shared<const BodySpec>(decoder_.body(object.body(), where + ".body"));
   if (!item.placement) return;
   const std::shared_ptr<const Shape> shape = item.shape;
   item.shape = makeCounted(memory_, bytesToMake(shape->model), [&] {
@@ -311,7 +311,7 @@ SceneItem& FrameDecoder::itemToMove(const proto::VertexUpdate& in, const std::st
   if (in.item() >= items.size() || !items[in.item()].shape)
     throw Error(where + ": item " + std::to_string(in.item()) + " of object " + std::to_string(in.object()) +
                 " has no vertices");
-  if (items[in.item()].body && !items[in.item()].body->fixed)
+  if (items.body && !items.body->fixed)
     throw Error(where + ": object " + std::to_string(in.object()) + " is a rigid body: define it anew, or as fixed");
   return items[in.item()];
 }

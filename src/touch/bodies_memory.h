@@ -8,6 +8,7 @@
 #include "base/fixed_vector.h"
 #include "bodies/hand_node.h"
 #include "bodies/world.h"
+#include "touch/body_command.h"
 
 namespace hl {
 
@@ -17,10 +18,11 @@ struct BodiesMemory {
   std::vector<Pose> poses;                            ///< of World::bodies, as the last tick saw them
   FixedVector<BodyImpulse, kContactsOfHand> owed;     ///< to bodies
   FixedVector<HandContact, kContactsOfHand> held_by;  ///< what held the proxy
+  BodyPushes pushes;                                  ///< of clients, that are given over time
   std::int64_t time_ns = 0;                           ///< of the last step
   bool begun = false;                                 ///< there was one
 
-  /// For so many. Allocates.
+  /// For this many bodies and joints. Allocates.
   void reserve(std::size_t bodies, std::size_t joints) {
     world.bodies.reserve(bodies);
     world.joints.reserve(joints);
@@ -29,8 +31,8 @@ struct BodiesMemory {
     poses.reserve(bodies);
   }
   bool hasRoomFor(const World& of) const {
-    return world.bodies.capacity() >= of.bodies.size() && poses.capacity() >= of.bodies.size() &&
-           world.joints.capacity() >= of.joints.size() && world.memory.room() >= mostRows(of.bodies.size()) &&
+    return world.bodies.capacity() >= of.bodies.size() && world.joints.capacity() >= of.joints.size() &&
+           poses.capacity() >= of.bodies.size() && world.memory.room() >= mostRows(of.bodies.size()) &&
            world.asleep.room() >= mostRows(of.bodies.size());
   }
 };

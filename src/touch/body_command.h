@@ -26,6 +26,15 @@ struct BodyCommand {
 /// Those of one tick; more wait for the next.
 using BodyCommands = FixedVector<BodyCommand, 4>;
 
+/// An impulse that is given over time.
+struct BodyPush {
+  std::uint64_t key = 0;
+  Vec3 point_O = Vec3::Zero();  ///< m, in the object frame
+  Vec3 force_N = Vec3::Zero();
+  double left_s = 0;
+};
+using BodyPushes = FixedVector<BodyPush, 64>;
+
 class BodyCommandQueue {
  public:
   /// False: too many wait. Any thread but the loops.

@@ -121,6 +121,7 @@ bool BodyWorld::remember(BodiesMemory& out) const {
   out.poses.clear();
   for (const auto& body : bodies_) out.poses.push_back(body->poses->to());
   out.owed = owed_;
+  out.pushes = pushes_;
   out.time_ns = time_ns_;
   out.begun = begun_;
   return true;
@@ -128,7 +129,7 @@ bool BodyWorld::remember(BodiesMemory& out) const {
 
 void BodyWorld::resume(const BodiesMemory& memory) {
   if (memory.world.bodies.size() != bodies_.size() || memory.poses.size() != bodies_.size() ||
-      memory.world.joints.size() != world().joints.size())
+      memory.world.joints.size() != state_.joints.size())
     throw Error("what the bodies remember is of another scene");
   state_ = memory.world;
   if (!sleepsWhole(world(), state_)) wakeAll(state_);
@@ -137,6 +138,7 @@ void BodyWorld::resume(const BodiesMemory& memory) {
     bodies_[i]->poses->jumpTo({memory.poses[i], body.velocity, body.spin});
   }
   owed_ = memory.owed;
+  pushes_ = memory.pushes;
   time_ns_ = memory.time_ns;
   begun_ = memory.begun;
 }
@@ -177,7 +179,7 @@ void BodyWorld::act(const BodyCommand& command) {
   if (command.velocity_m_s) state.velocity = *command.velocity_m_s;
   if (command.spin_rad_s) state.spin = *command.spin_rad_s;
   const Vec3 point = command.point_m.value_or(state.centre);
-  Push over_time{command.key, poseOf(*body, state).toObject(point), command.impulse_N_s, command.duration_s};
+  BodyPush over_time{command.key, poseOf(*body, state).toObject(point), command.impulse_N_s, command.duration_s};
   if (command.duration_s > 0) over_time.force_N /= command.duration_s;
   // Of more than there is room for, the whole is given at once.
   if (!(command.duration_s > 0) || !pushes_.push(over_time)) give(i, command.impulse_N_s, point);
@@ -207,7 +209,7 @@ void BodyWorld::give(std::size_t i, const Vec3& impulse_N_s, const Vec3& point) 
 // What is given over time, in a step of this length.
 void BodyWorld::push(double period_s) {
   std::size_t kept = 0;
-  for (const Push& one : pushes_) {
+  for (const BodyPush& one : pushes_) {
     const Body* const body = world().find(one.key);
     if (body == nullptr) continue;
     const auto i = static_cast<std::size_t>(body - world().bodies.data());
@@ -215,7 +217,7 @@ void BodyWorld::push(double period_s) {
     wake(world(), state_, one.key);
     give(i, std::min(period_s, one.left_s) * one.force_N, poseOf(*body, state_.bodies[i]).toWorld(one.point_O));
     state_.energy.by_client_J += energyOf_J(i) - before_J;
-    Push left = one;
+    BodyPush left = one;
     left.left_s -= period_s;
     if (left.left_s > 0) pushes_[kept++] = left;
   }

@@ -65,14 +65,6 @@ class BodyWorld {
 
  private:
   BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<const RigidBody>> bodies);
-  /// An impulse that is given over time.
-  struct Push {
-    std::uint64_t key = 0;
-    Vec3 point_O = Vec3::Zero();  ///< m, in the object frame
-    Vec3 force_N = Vec3::Zero();
-    double left_s = 0;
-  };
-
   BodyState startOf(std::size_t i) const;
   void continueJoints(const BodyWorld& before);
   bool standsAs(const BodyWorld& before) const;
@@ -94,7 +86,7 @@ class BodyWorld {
   FixedVector<BodyImpulse, kContactsOfHand> owed_;
   GivenImpulses given_;
   std::size_t paid_ = 0;  // the first of given_: what was owed
-  FixedVector<Push, 64> pushes_;
+  BodyPushes pushes_;
   BodyStepReport report_;
   std::int64_t time_ns_ = 0;
   bool begun_ = false;

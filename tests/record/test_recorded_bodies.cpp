@@ -217,7 +217,7 @@ TEST_F(RecordedBodies, NumbersThatNoBodyHasAreRefused) {
     if (block.has_scene()) block.mutable_scene()->mutable_instances(2)->set_body(77);
   });
   refused([](proto::RecordingBlock& block) {
-    if (block.has_scene()) block.mutable_scene()->mutable_mechanics()->set_numbers(0, HUGE_VAL);
+    if (block.has_scene()) block.mutable_scene()->mutable_mechanics()->set_gravity_m_s2(0, HUGE_VAL);
   });
   refused([](proto::RecordingBlock& block) {
     if (block.has_ticks()) block.mutable_ticks()->add_world_hash(1);
