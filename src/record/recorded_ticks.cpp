@@ -30,26 +30,67 @@ void addTick(const TickRecord& record, std::int64_t before_ns, proto::ProxyTicks
   out.add_world_hash(record.world_hash);
 }
 
+// A BodyCommand as plain values: what is absent has a false before it.
+struct CommandParts {
+  std::uint64_t key = 0;
+  bool has_position = false, has_rotation = false, has_velocity = false, has_spin = false, has_point = false;
+  Vec3 position_m = Vec3::Zero();
+  Mat3 rotation = Mat3::Identity();
+  Vec3 velocity_m_s = Vec3::Zero(), spin_rad_s = Vec3::Zero(), impulse_N_s = Vec3::Zero(), point_m = Vec3::Zero();
+  double duration_s = 0;
+
+  static CommandParts of(const BodyCommand& command) {
+    CommandParts parts;
+    parts.key = command.key;
+    parts.has_position = command.position_m.has_value();
+    parts.has_rotation = command.rotation.has_value();
+    parts.has_velocity = command.velocity_m_s.has_value();
+    parts.has_spin = command.spin_rad_s.has_value();
+    parts.has_point = command.point_m.has_value();
+    if (command.position_m) parts.position_m = *command.position_m;
+    if (command.rotation) parts.rotation = *command.rotation;
+    if (command.velocity_m_s) parts.velocity_m_s = *command.velocity_m_s;
+    if (command.spin_rad_s) parts.spin_rad_s = *command.spin_rad_s;
+    if (command.point_m) parts.point_m = *command.point_m;
+    parts.impulse_N_s = command.impulse_N_s;
+    parts.duration_s = command.duration_s;
+    return parts;
+  }
+  BodyCommand command() const {
+    BodyCommand whole;
+    whole.key = key;
+    if (has_position) whole.position_m = position_m;
+    if (has_rotation) whole.rotation = rotation;
+    if (has_velocity) whole.velocity_m_s = velocity_m_s;
+    if (has_spin) whole.spin_rad_s = spin_rad_s;
+    if (has_point) whole.point_m = point_m;
+    whole.impulse_N_s = impulse_N_s;
+    whole.duration_s = duration_s;
+    return whole;
+  }
+};
+
 void addBodyCommands(std::span<const TickRecord> records, proto::ProxyTicks& out) {
   for (std::size_t i = 0; i < records.size(); ++i) {
     for (const BodyCommand& command : records[i].in.on_bodies) {
       proto::ValuesChange& change = *out.add_on_bodies();
       change.set_at(static_cast<std::uint32_t>(i));
-      toProto(valuesOf(command), *change.mutable_values());
+      toProto(valuesOf(CommandParts::of(command)), *change.mutable_values());
     }
   }
 }
 
 // Throws hl::Error for what no client can say.
 BodyCommand bodyCommandOf(const proto::ValuesChange& in) {
-  constexpr const char* kWhat = "what is done to a body";
+  constexpr const char* kCommand = "what is done to a body";
   constexpr double kMost = 1e15;
-  BodyCommand command;
-  readValues(in.values(), kWhat, command);
-  for (const double number : fromProto(in.values()).numbers) checkRanges(kWhat, {{"a number", number, -kMost, kMost}});
-  checkRanges(kWhat, {{"duration_s", command.duration_s, 0, kMost}});
-  if (command.rotation) checkRecorded(Pose{*command.rotation, Vec3::Zero()}, kWhat);
-  return command;
+  CommandParts parts;
+  readValues(in.values(), kCommand, parts);
+  for (const double number : fromProto(in.values()).numbers)
+    checkRanges(kCommand, {{"a number", number, -kMost, kMost}});
+  checkRanges(kCommand, {{"duration_s", parts.duration_s, 0, kMost}});
+  checkRecorded(Pose{parts.rotation, Vec3::Zero()}, kCommand);
+  return parts.command();
 }
 
 void readBodyCommands(const proto::ProxyTicks& in, std::vector<TickRecord>& records) {
