@@ -38,9 +38,8 @@ double leastOfTwoMasses(double body_kg, const Coupling& coupling, double about) 
 }
 
 double leastOfSession(double body_kg, double about) {
-  return leastDamping(0.8 * about, 1.2 * about, [&](double damping_Ns_m) {
-    return swingGrows(bodyOf(body_kg, damping_Ns_m), kStiffness_N_m);
-  });
+  return leastDamping(0.8 * about, 1.2 * about,
+                      [&](double damping_Ns_m) { return swingGrows(bodyOf(body_kg, damping_Ns_m), kStiffness_N_m); });
 }
 
 // 75 g, 1 kHz: what the wall asks for is 0.500 N s/m.
