@@ -1,0 +1,7 @@
+#include "bodies/body_engine.h"
+
+namespace hl::bench {
+
+std::span<const BodyEngineKind> bodyPeers() { return {}; }
+
+}  // namespace hl::bench
