@@ -185,7 +185,8 @@ class Workshop {
                        {0, 0.002}},
                       kSides, true),
           at);
-    body("ball", ballSolid(0.006, kSides), at + Vec3(0.012, 0.012, 0), bodySpec(kSteel_kg_m3, 0.3, BodyShape::kBall));
+    // At the bottom: nothing stops a ball that rolls to and fro.
+    body("ball", ballSolid(0.006, kSides), at + Vec3(0, 0.00801, 0), bodySpec(kSteel_kg_m3, 0.3, BodyShape::kBall));
   }
 
   // It stays where it is, and gives way under the finger.

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "bodies/convex_hull.h"
+#include "bodies/scene_world.h"
 #include "test_worlds.h"
 
 namespace hl {
@@ -294,6 +295,44 @@ TEST(Hull, FallsAndComesToRestOnAFace) {
     }
     EXPECT_GE(low, 3) << seed;
     EXPECT_LT(body.velocity.norm(), 1e-4) << seed;
+  }
+}
+
+BodySpec specOf(BodyShape shape) {
+  BodySpec spec;
+  spec.shape = shape;
+  spec.density_kg_m3 = 1000;
+  return spec;
+}
+
+// Of a box that is off its object's origin: the hull is the box itself.
+TEST(BodyOf, AHullHasTheMassAndThePlaceOfItsMesh) {
+  const Vec3 half(0.01, 0.02, 0.03), at(0.1, -0.2, 0.3);
+  Model model = boxModel(half);
+  for (Vec3& vertex : model.positions) vertex += at;
+  const Body hull = bodyOf(model, specOf(BodyShape::kHull));
+  const Mass box = massOfBox(8000 * half.prod(), half);
+  EXPECT_NEAR(hull.mass.mass_kg, box.mass_kg, 1e-12);
+  EXPECT_LT((hull.mass.centre_O - at).norm(), 1e-12);
+  EXPECT_LT((hull.mass.inertia_kg_m2 - box.inertia_kg_m2).norm(), 1e-12 * box.inertia_kg_m2.norm());
+  EXPECT_NEAR(hull.shape.reach, half.norm(), 1e-12);
+  EXPECT_LT(hull.hull_error_m, 1e-12);
+}
+
+// The round sides say along which axis it is, whether it is a rod or a disc; else the longest.
+TEST(BodyOf, ACylinderLiesAlongTheAxisOfItsBounds) {
+  struct Case {
+    Vec3 half;
+    int axis;
+  };
+  for (const auto& [half, axis] : {Case{Vec3(0.02, 0.003, 0.02), 1}, Case{Vec3(0.05, 0.01, 0.01005), 0},
+                                   Case{Vec3(0.01, 0.02, 0.03), 2}, Case{Vec3(0.02, 0.02, 0.003), 2}}) {
+    const Body body = bodyOf(boxModel(half), specOf(BodyShape::kCylinder));
+    const double r = std::max(half[(axis + 1) % 3], half[(axis + 2) % 3]), length = 2 * half[axis];
+    EXPECT_NEAR(body.mass.mass_kg, 1000 * EIGEN_PI * r * r * length, 1e-9);
+    EXPECT_NEAR(body.mass.inertia_kg_m2(axis, axis), body.mass.mass_kg * r * r / 2, 1e-12);
+    EXPECT_LT((body.shape.faces[1].normal - Vec3::Unit(axis)).norm(), 1e-12);
+    EXPECT_EQ(body.shape.round_radius, r);
   }
 }
 
