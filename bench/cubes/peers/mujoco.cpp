@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "base/error.h"
-#include "bodies/body_engine.h"
+#include "cubes/body_engine.h"
 
 namespace hl::bench {
 

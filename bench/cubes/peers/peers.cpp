@@ -1,6 +1,6 @@
 #include <array>
 
-#include "bodies/body_engine.h"
+#include "cubes/body_engine.h"
 
 namespace hl::bench {
 
