@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "bodies/body_suite.h"
+#include "cubes/body_suite.h"
 #include "io/output_file.h"
 
 namespace hl {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "scene/snapshot.h"
-#include "tools/stability.h"
+#include "tools/stability_case.h"
 #include "touch/touch_step.h"
 
 namespace hl {

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "bodies/body_engine.h"
+#include "cubes/body_engine.h"
 
 namespace hl::bench {
 

@@ -6,18 +6,21 @@
 #include <cstring>
 
 #include "base/error.h"
-#include "bodies/body_engine.h"
+#include "cubes/body_engine.h"
 
 namespace hl::bench {
 
 namespace {
 
+constexpr std::size_t kMostContacts = 24;  // of a cube
+
 std::string mujocoModelOf(const CubeScene& scene) {
   std::string xml = fmt::format(
-      "<mujoco><option timestep='{}' gravity='0 -{} 0' cone='elliptic'/><size njmax='20000' nconmax='4000'/>"
+      "<mujoco><option timestep='{}' gravity='0 -{} 0' cone='elliptic'/><size njmax='{}' nconmax='{}'/>"
       "<default><geom friction='{} 0 0' condim='3'/></default><worldbody>"
       "<geom type='plane' size='1 1 1' zaxis='0 1 0'/>",
-      kBodyStep_s, kEarth_m_s2, scene.friction);
+      kBodyStep_s, kEarth_m_s2, kMostContacts * 3 * scene.cubes.size(), kMostContacts * scene.cubes.size(),
+      scene.friction);
   for (const int side : {-1, 1}) {
     if (!(scene.walls_m > 0)) continue;
     xml += fmt::format("<geom type='plane' size='1 1 1' pos='{} 0 0' zaxis='{} 0 0'/>", -side * scene.walls_m, side);

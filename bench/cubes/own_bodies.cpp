@@ -1,5 +1,5 @@
-#include "bodies/body_engine.h"
 #include "bodies/body_step.h"
+#include "cubes/body_engine.h"
 
 namespace hl::bench {
 

@@ -1,4 +1,4 @@
-#include "bodies/cube_scene.h"
+#include "cubes/cube_scene.h"
 
 #include <algorithm>
 #include <array>

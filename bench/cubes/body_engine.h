@@ -5,7 +5,7 @@
 #include <memory>
 #include <span>
 
-#include "bodies/cube_scene.h"
+#include "cubes/cube_scene.h"
 
 namespace hl::bench {
 

@@ -1,4 +1,4 @@
-#include "bodies/body_engine.h"
+#include "cubes/body_engine.h"
 
 namespace hl::bench {
 

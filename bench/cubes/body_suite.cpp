@@ -1,10 +1,10 @@
-#include "bodies/body_suite.h"
+#include "cubes/body_suite.h"
 
 #include <algorithm>
 #include <ctime>
 #include <limits>
 
-#include "bodies/body_engine.h"
+#include "cubes/body_engine.h"
 
 namespace hl::bench {
 
