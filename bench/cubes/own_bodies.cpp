@@ -40,7 +40,9 @@ class OwnBodies final : public BodyEngine {
         stepper_(world_),
         pushed_(scene.finger_m_s > 0) {}
 
+  // Kept awake, as the others are.
   double step(double finger_m) override {
+    for (BodyState& body : state_.bodies) body.still_s = 0;
     if (!pushed_) {
       stepper_.step(state_, kBodyStep_s, {}, {});
       return 0;
