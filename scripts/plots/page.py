@@ -1,6 +1,8 @@
 """Pictures of the page: one of each example while it is touched, and a film."""
 import asyncio
 import io
+import tempfile
+from pathlib import Path
 
 from PIL import Image
 
@@ -74,17 +76,17 @@ async def frames_of(browser):
     return [picture for _, picture in frames[:-1]], [round(1e3 * (b - a)) for a, b in zip(times_s, times_s[1:])]
 
 
-async def film_of(programs, scene):
-    touch = [built(programs, "hl"), "touch", scene, "--no-open", "--port", "0"]
+async def film_of(programs, scene, begin, options):
+    touch = [built(programs, "hl"), "touch", scene, "--no-open", "--port", "0", *options]
     with Program(touch, r"page: (http://\S+/)") as served:
         async with Browser(*FILM) as browser:
             await browser.open(served.found.group(1), SHOWN)
-            await browser.wait_for(TOUCHED)
+            await browser.wait_for(begin)
             return await frames_of(browser)
 
 
-def film(programs, scene="teapot", name="film"):
-    frames, durations_ms = asyncio.run(film_of(programs, scene))
+def film(programs, scene="teapot", name="film", begin=TOUCHED, options=()):
+    frames, durations_ms = asyncio.run(film_of(programs, scene, begin, options))
     path = look.folder / f"{name}.webp"
     frames[0].save(path, save_all=True, append_images=frames[1:], duration=durations_ms, loop=0,
                    quality=FILM_QUALITY, method=4)
@@ -92,5 +94,17 @@ def film(programs, scene="teapot", name="film"):
     print(f"    {len(frames)} frames in {FILM_S} s, {path.stat().st_size // 1000} kB")
 
 
+# Where the hand goes in the workshop: s, m. It tips the dominoes, opens the door, presses a button, hits the blocks.
+BEGIN_S = 8  # the page is open by then
+TOUR = [(0, -0.15, 0.05, 0.075), (1, -0.15, 0.02, 0.075), (1.8, -0.115, 0.022, 0.075), (2.2, -0.13, 0.06, 0.06),
+        (3.2, -0.08, 0.06, -0.02), (3.7, -0.082, 0.035, -0.03), (5.2, -0.085, 0.033, -0.08), (5.7, -0.06, 0.08, -0.03),
+        (6.4, 0.02, 0.05, 0.03), (7.1, 0.02, 0.0, 0.03), (7.6, 0.02, 0.06, 0.02), (8.2, -0.02, 0.03, -0.02),
+        (9.5, -0.02, 0.03, -0.075), (10, -0.02, 0.1, 0)]
+
+
 def workshop(programs):
-    film(programs, "workshop", "workshop")
+    with tempfile.TemporaryDirectory() as directory:
+        path = Path(directory) / "tour.csv"
+        rows = [(0, *TOUR[0][1:]), *((BEGIN_S + time_s, *place) for time_s, *place in TOUR)]
+        path.write_text("t,x,y,z\n" + "".join(",".join(map(str, row)) + "\n" for row in rows))
+        film(programs, "workshop", "workshop", SHOWN, ("--hand-path", path))
