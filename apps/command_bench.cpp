@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "bench_output.h"
+#include "body_bench.h"
 #include "builtin.h"
 #include "commands.h"
 #include "io/load_scene.h"
@@ -50,7 +51,7 @@ struct BenchOptions {
   double radius = 1e-3;
   double radius_edges = 1;
   std::size_t ticks = 20'000, most = 1'000'000, members = 1;
-  bool all = false, peers = false, effects = true;
+  bool all = false, peers = false, effects = true, bodies = false;
   std::string csv;
 };
 
@@ -120,6 +121,7 @@ std::string interruptionsNote() {
 void run(const BenchOptions& options) {
   const bool built_in = !bench::peers().empty();
   if (options.peers && !built_in) throw Error(kNoPeers);
+  if (options.bodies) return runBodyBench(options.peers, options.csv);
   bench::SuitePlan plan;
   plan.scenes = scenesOf(options);
   plan.motions = chosen(bench::kFingerMotions, options.motions, options.all);
@@ -168,7 +170,8 @@ void addWhatOptions(CLI::App& command, BenchOptions& options) {
                    "leave out the surface effects, which are measured for sliding on terrain with the fixed radius");
   command.add_flag(
       "--peers", options.peers,
-      "Embree, CGAL, FCL and Bullet, on the same mesh and the same places; built in by scripts/build --peers");
+      "Embree, CGAL, FCL and Bullet, on the same mesh and the same places; with --bodies Bullet, ODE and MuJoCo; built "
+      "in by scripts/build --peers");
 }
 
 }  // namespace
@@ -190,6 +193,13 @@ void addBenchCommand(CLI::App& app) {
       ->check(CLI::Range(1000, 10'000'000))
       ->capture_default_str();
   command->add_option("--csv", options->csv, "also write the table to this file")->option_text("FILE");
+  auto* bodies = command->add_flag("--bodies", options->bodies,
+                                   "steps of bodies instead: a stack, a pile and a cube that a finger pushes");
+  for (const CLI::Option* other : command->get_options()) {
+    const std::string name = other->get_name();
+    if (name != "--help" && name != "--csv" && name != "--peers" && name != "--bodies")
+      bodies->excludes(command->get_option(name));
+  }
   command->footer(kFooter);
   command->callback([options] { run(*options); });
 }

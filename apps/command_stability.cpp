@@ -11,6 +11,7 @@
 
 #include "commands.h"
 #include "io/output_file.h"
+#include "stability_on_bodies.h"
 #include "tools/stability.h"
 
 namespace hl {
@@ -23,7 +24,7 @@ struct StabilityOptions {
   std::vector<std::string> devices{"premium1.0"}, grips{"light", "firm"};
   std::vector<double> rates_Hz;
   std::vector<int> delays;
-  std::vector<double> dampings_Ns_m{0};
+  std::vector<double> dampings_Ns_m{0}, bodies_kg;
   double jitter_us = 0;
   bool bends = false, quick = false, theory = false;
   std::string csv;
@@ -39,15 +40,21 @@ struct RateAndDelay {
   int delay;
 };
 
+// --rates and --delays, or the usual ones.
+std::vector<double> ratesOf(const StabilityOptions& options) {
+  return options.rates_Hz.empty() ? std::vector{kUsualRate_Hz} : options.rates_Hz;
+}
+std::vector<int> delaysOf(const StabilityOptions& options) {
+  return options.delays.empty() ? std::vector{0} : options.delays;
+}
+
 // Without --rates and --delays every usual rate without delay, and every usual delay at the usual rate.
 std::vector<RateAndDelay> ratesAndDelays(const StabilityOptions& options) {
   if (options.rates_Hz.empty() && options.delays.empty())
     return {{500, 0}, {1000, 0}, {2000, 0}, {4000, 0}, {1000, 1}, {1000, 2}, {1000, 4}};
-  const auto rates = options.rates_Hz.empty() ? std::vector{kUsualRate_Hz} : options.rates_Hz;
-  const auto delays = options.delays.empty() ? std::vector{0} : options.delays;
   std::vector<RateAndDelay> all;
-  for (const double rate_Hz : rates) {
-    for (const int delay : delays) all.push_back({rate_Hz, delay});
+  for (const double rate_Hz : ratesOf(options)) {
+    for (const int delay : delaysOf(options)) all.push_back({rate_Hz, delay});
   }
   return all;
 }
@@ -143,6 +150,8 @@ void printTheory() {
 
 void run(const StabilityOptions& options) {
   if (options.theory) return printTheory();
+  if (!options.bodies_kg.empty())
+    return runStabilityOnBodies({options.bodies_kg, ratesOf(options), delaysOf(options), options.csv});
   std::optional<OutputFile> csv;  // opened first: what is measured for minutes can be written then
   if (!options.csv.empty()) csv.emplace(options.csv);
   std::vector<StabilityRow> rows = rowsOf(options);
@@ -182,7 +191,13 @@ void addStabilityCommand(CLI::App& app) {
       ->capture_default_str();
   command->add_flag("--bends", options->bends, "a stylus that bends, 3.5 N/mm, and motor currents that lag 0.25 ms");
   command->add_flag("--quick", options->quick, "leave out the column 'together'");
-  command->add_flag("--theory", options->theory, "the linear device against theory instead");
+  auto* theory = command->add_flag("--theory", options->theory, "the linear device against theory instead");
+  auto* body = command->add_option("--body", options->bodies_kg,
+                                   "the linear device on free bodies of so many kg instead, with commas, beside other "
+                                   "couplings and theory; of --rates (default: 1000) and --delays (default: 0)");
+  body->delimiter(',')->check(within(1e-6, 1e6))->excludes(theory);
+  for (const char* other : {"--device", "--grips", "--damping", "--jitter", "--bends", "--quick"})
+    body->excludes(command->get_option(other));
   command->add_option("--csv", options->csv, "write the rows to this file too");
   command->callback([options] { run(*options); });
 }

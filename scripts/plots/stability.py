@@ -1,4 +1,4 @@
-"""How stiff the simulated PHANToM 1.0 lets a floor be: by rate, by delay, and with damping (the Z-width)."""
+"""How stiff a simulated device lets a floor be (by rate, delay and damping: the Z-width), and a body that is free."""
 import csv
 import subprocess
 
@@ -9,6 +9,9 @@ ZWIDTH_COLOURS = {1000: BLUE, 4000: GREEN}
 PAPER_N_M = 1800
 CEILING_N_M = 40000   # hl stability looks no further
 DAMPINGS = "0,1,2,4,8,16,32,64"
+BODIES_KG = "0.001,0.002,0.005,0.01,0.02,0.05,0.1,0.2,0.3,0.5,1,2,5,10"
+COUPLINGS = {"session": (BLUE, "HL: one solve with the proxy"), "force_before": (ORANGE, "force of the step's begin"),
+             "force_late": (RED, "force of the step before")}
 
 
 def measure(bench, *options):
@@ -63,3 +66,25 @@ def z_width(bench):
     style(width, "damping B of the servo (N s/m)", "", "Z-width")
     save(figure, "stability.png", *(f"{row['grip']:5} {row['rate_Hz']:5.0f} Hz, {row['delay_steps']:.0f} steps of delay: "
                                     f"{row['together_N_m']:.0f} to {row['one_by_one_N_m']:.0f} N/m" for row in rows))
+
+
+def on_bodies(bench):
+    """Points are found, lines are theory."""
+    rows = measure(bench, "--body", BODIES_KG, "--rates", "1000,4000")
+    figure, both = canvas(1, 2, 4.4, sharey=True)
+    for axes, rate in zip(both, (1000, 4000)):
+        of_rate = [row for row in rows if row["rate_Hz"] == rate]
+        grams = [1000 * row["body_kg"] for row in of_rate]
+        for name, (colour, label) in COUPLINGS.items():
+            found = [row[f"{name}_N_m"] for row in of_rate]
+            axes.plot(grams, found, marker="o", ms=4, ls="", color=colour, label=label)
+            axes.plot(grams, [min(row[f"{name}_theory_N_m"], CEILING_N_M) for row in of_rate], color=colour, lw=1.2)
+        axes.axhline(2 * 0.5 * rate, color=GREY, lw=1, ls="--", label="a wall")
+        axes.axhline(CEILING_N_M, color=GREY, lw=1, ls=":", label="not searched beyond")
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        style(axes, "mass of the body (g)", "highest stable K (N/m)" if rate == 1000 else "", f"{rate / 1000:g} kHz")
+    both[0].legend(loc="lower right")
+    save(figure, "stability_bodies.png", *(
+        f"{row['rate_Hz']:5.0f} Hz, {1000 * row['body_kg']:6g} g: " +
+        ", ".join(f"{name} {row[name + '_N_m']:.5g} ({row[name + '_theory_N_m']:.5g})" for name in COUPLINGS) for row in rows))

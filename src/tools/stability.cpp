@@ -4,22 +4,18 @@
 #include <cmath>
 #include <limits>
 
-#include "scene/snapshot.h"
-#include "touch/touch_step.h"
+#include "tools/bench_session.h"
 
 namespace hl {
 
 namespace {
 
-constexpr double kRadius_m = 0.002;
 constexpr double kAbove_m = 0.001;  // the tip begins so far above the floor
-constexpr double kReady_s = 0.1;    // ramp and fade-in are over
 constexpr double kWatch_s = 3, kLast_s = 0.3;
-constexpr double kStep_s = 2e-6;  // of the integration, at most: half of it is time won
 
 // A floor that a proxy at the device's origin is kAbove_m away from.
 std::shared_ptr<const Snapshot> floorBelow() {
-  constexpr double kHalf_m = 1, kHeight_m = -(kRadius_m + kAbove_m);
+  constexpr double kHalf_m = 1, kHeight_m = -(BenchSession::kRadius_m + kAbove_m);
   Model model;
   for (const double z : {kHalf_m, -kHalf_m}) {
     for (const double x : {-kHalf_m, kHalf_m}) model.positions.emplace_back(x, kHeight_m, z);
@@ -28,52 +24,14 @@ std::shared_ptr<const Snapshot> floorBelow() {
   return makeSnapshot(std::move(model), HierarchyKind::kBvh);
 }
 
-// One session, step by step.
-class Session {
+// A session over that floor, ready to make force.
+class FloorSession : public BenchSession {
  public:
-  Session(const StabilityCase& loop, double stiffness_N_m)
-      : period_ns_(std::llround(1e9 / loop.rate_Hz)),
-        device_(withFineSteps(loop.device)),
-        scenes_(floorBelow()),
-        proxy_(scenes_, {}) {
-    settings_ = ServoSettings::of(device_.info());
-    settings_.stiffness_N_m = stiffness_N_m;
-    settings_.damping_Ns_m = loop.damping_Ns_m;
-    settings_.period_s = 1e-9 * static_cast<double>(period_ns_);
-    settings_.ramp_s = settings_.period_s;
-    settings_.vibration.on = false;  // what the loop does by itself
-    commands_.radius_W = kRadius_m;
-    arm(step_.servo());
-    for (double left_s = kReady_s; left_s > 0; left_s -= settings_.period_s) step();
-  }
-
-  void step() {
-    const ServoOutput out = step_.onTime(proxy_, commands_, settings_, device_.read(time_ns_));
-    device_.write(out.force_N);
-    on_ = out.safety == SafetyState::kOn || out.safety == SafetyState::kArming;
-    time_ns_ += period_ns_;
+  FloorSession(const StabilityCase& loop, double stiffness_N_m) : BenchSession(loop, stiffness_N_m, floorBelow()) {
+    steps(kReady_s);
   }
   /// Of the tip beneath the place where it first touches the floor.
-  double depth_m() const { return -kAbove_m - device_.trueTip_D().y(); }
-  double period_s() const { return settings_.period_s; }
-  bool on() const { return on_; }
-  SimulatedDevice& device() { return device_; }
-
- private:
-  static SimulatedDeviceSettings withFineSteps(SimulatedDeviceSettings settings) {
-    settings.step_s = std::min(settings.step_s, kStep_s);
-    return settings;
-  }
-
-  std::int64_t period_ns_;
-  SimulatedDevice device_;
-  SnapshotSlot scenes_;
-  ProxyLoop proxy_;
-  ProxyCommands commands_;
-  ServoSettings settings_;
-  TouchStep step_;
-  std::int64_t time_ns_ = 0;
-  bool on_ = true;
+  double depth_m() const { return -kAbove_m - device().trueTip_D().y(); }
 };
 
 // How deep the hand must want to be to press with so many newtons: its springs and the floor's in series.
@@ -86,7 +44,7 @@ bool swingGrows(StabilityCase loop, double stiffness_N_m) {
   constexpr double kLoad_N = 1, kTime_s = 5;
   loop.device.held = false;
   loop.device.load_N = Vec3::Zero();
-  Session session(loop, stiffness_N_m);
+  FloorSession session(loop, stiffness_N_m);
   const double rest_m = kLoad_N / stiffness_N_m;
   constexpr int kLowering = 100;  // steps: a jump would be a blow, which the servo cuts
   for (int i = 1; i <= kLowering; ++i) {
@@ -109,7 +67,7 @@ bool swingGrows(StabilityCase loop, double stiffness_N_m) {
 }  // namespace
 
 double restlessness_m(const StabilityCase& loop, double stiffness_N_m, const Landing& landing) {
-  Session session(loop, stiffness_N_m);
+  FloorSession session(loop, stiffness_N_m);
   SimulatedDevice& device = session.device();
   const GripParameters& grip = loop.device.firm ? kFirmGrip : kLightGrip;
   device.place(device.trueTip_D(), {0, -landing.speed_m_s, 0});

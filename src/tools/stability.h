@@ -8,16 +8,9 @@
 #include <array>
 #include <cstdint>
 
-#include "device/simulated_device.h"
+#include "tools/stability_case.h"
 
 namespace hl {
-
-/// One loop.
-struct StabilityCase {
-  SimulatedDeviceSettings device;  ///< with grip, delay and whatever else is wrong with it
-  double rate_Hz = 1000;
-  double damping_Ns_m = 0;  ///< B of the servo
-};
 
 /// How the finger comes to the floor, and how hard the hand then wants to press.
 struct Landing {

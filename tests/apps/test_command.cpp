@@ -139,7 +139,7 @@ TEST(Command, NoOptionTakesNaNInfinityOrANumberOutOfRange) {
                 surfaces + "--radius --size --kp --damping --scale --servo-rate --force-limit --speed-limit "
                            "--tool-mass --free-damping --constant-force --spring"},
         Options{"touch plane:200 --no-open --port 0", "--duration --port"},
-        Options{"stability", "--rates --delays --damping --jitter"},
+        Options{"stability", "--rates --delays --damping --jitter --body"},
         Options{"bench", "--radius --radius-edges --ticks --most"}, Options{"info teapot", "--scale --fit"}}) {
     std::istringstream names(options.names);
     for (std::string name; names >> name;) {
