@@ -18,6 +18,7 @@
 #include "io/load_model.h"
 #include "io/only_file.h"
 #include "io/sandbox.h"
+#include "io/x3d_bodies.h"
 
 namespace hl {
 
@@ -126,6 +127,11 @@ std::string listOf(const std::set<std::string>& names) {
   return list;
 }
 
+std::string textOf(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
 // The file by its descriptor; from then on nothing else can be opened.
 const aiScene* readAlone(Assimp::Importer& importer, const ModelFile& file, Model& model) {
   const int descriptor = open(file.path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -150,10 +156,29 @@ const aiScene* readScene(Assimp::Importer& importer, const ModelFile& file, Mode
   if (file.ending == ".ply") checkPly(path);
   if (file.ending != ".obj" || std::filesystem::file_size(path, error) >= kMinObj || error)
     return file.alone ? readAlone(importer, file, model) : importer.ReadFile(path, aiProcess_Triangulate);
-  std::ifstream in(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  std::string text = textOf(path);
   text.append(kMinObj, '\n');
   return importer.ReadFileFromMemory(text.data(), text.size(), aiProcess_Triangulate, "obj");
+}
+
+void addScene(const Assimp::Importer& importer, const aiScene* scene, GltfHaptics&& haptics, Model& model) {
+  if (scene == nullptr) throw Error(std::string("cannot be understood: ") + importer.GetErrorString());
+  Import import{*scene, haptics, model};
+  if (scene->mRootNode != nullptr) appendNode(import, *scene->mRootNode, Eigen::Matrix4d::Identity(), 0, 0);
+  addHaptics(model, std::move(haptics));
+  if (!anyMesh(*scene, [](const aiMesh& m) { return m.HasNormals(); })) model.normals.clear();
+  if (!anyMesh(*scene, [](const aiMesh& m) { return m.HasTextureCoords(0); })) model.texcoords.clear();
+}
+
+// An X3D file in parts, each a document of its own.
+SceneModel readWithBodies(Assimp::Importer& importer, const ModelFile& file, const std::string& text) {
+  if (file.alone && !forbidOpening()) throw Error(kNoFilters);
+  return readX3dBodies(text, [&](const std::string& document) {
+    Model model;
+    addScene(importer, importer.ReadFileFromMemory(document.data(), document.size(), aiProcess_Triangulate, "x3d"), {},
+             model);
+    return model;
+  });
 }
 
 }  // namespace
@@ -163,18 +188,17 @@ bool assimpReads(const std::string& ending) {
   return !ending.empty() && Assimp::Importer().IsExtensionSupported(ending);
 }
 
-Model parseWithAssimp(const ModelFile& file, const std::function<void(double)>& report) {
+SceneModel parseWithAssimp(const ModelFile& file, const std::function<void(double)>& report) {
   Assimp::Importer importer;
   importer.SetProgressHandler(new Progress(report));  // owned by the importer
+  if (file.ending == ".x3d") {
+    const std::string text = textOf(file.path);
+    if (speaksOfBodies(text)) return readWithBodies(importer, file, text);
+  }
   Model model;
   GltfHaptics haptics = hapticsOf(file);
   const aiScene* scene = readScene(importer, file, model);
-  if (scene == nullptr) throw Error(std::string("cannot be understood: ") + importer.GetErrorString());
-  Import import{*scene, haptics, model};
-  if (scene->mRootNode != nullptr) appendNode(import, *scene->mRootNode, Eigen::Matrix4d::Identity(), 0, 0);
-  addHaptics(model, std::move(haptics));
-  if (!anyMesh(*scene, [](const aiMesh& m) { return m.HasNormals(); })) model.normals.clear();
-  if (!anyMesh(*scene, [](const aiMesh& m) { return m.HasTextureCoords(0); })) model.texcoords.clear();
+  addScene(importer, scene, std::move(haptics), model);
   return model;
 }
 

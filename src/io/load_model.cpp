@@ -72,6 +72,15 @@ void makePointsOfBareVertices(Model& model) {
   for (std::uint32_t i = 0; i < model.positions.size(); ++i) model.points.push_back(i);
 }
 
+void makeSound(Model& model) {
+  makePointsOfBareVertices(model);
+  dropBadIndices(model);
+  keepFinite(model.normals, model.positions.size());
+  keepFinite(model.texcoords, model.positions.size());
+  // Both readers keep coordinates as float, whatever the file has.
+  model.reading = {weldVertices(model), true};
+}
+
 }  // namespace
 
 bool readsEnding(const std::string& ending) { return coinReads(ending) || assimpReads(ending); }
@@ -80,32 +89,34 @@ std::string cannotBeRead(const std::string& ending) {
   return "files ending in '" + ending + "' cannot be read; obj, ply, stl, gltf, glb, x3d, wrl and others can";
 }
 
-Model parseModel(const ModelFile& file, const std::function<void(double)>& report) {
-  Model model = coinReads(file.ending) ? parseWithCoin(file, report) : parseWithAssimp(file, report);
-  makePointsOfBareVertices(model);
-  dropBadIndices(model);
-  keepFinite(model.normals, model.positions.size());
-  keepFinite(model.texcoords, model.positions.size());
-  // Both readers keep coordinates as float, whatever the file has.
-  model.reading = {weldVertices(model), true};
-  return model;
+SceneModel parseModel(const ModelFile& file, const std::function<void(double)>& report) {
+  SceneModel scene = coinReads(file.ending) ? SceneModel(parseWithCoin(file, report)) : parseWithAssimp(file, report);
+  makeSound(scene.model);
+  for (SceneBody& body : scene.bodies) makeSound(body.model);
+  return scene;
 }
 
-Model loadModel(const std::string& path, const LoadOptions& options) {
+SceneModel loadModelScene(const std::string& path, const LoadOptions& options) {
   checkReadable(path);
   const std::string ending = endingOf(path);
   if (!readsEnding(ending)) throw Error(path + ": " + cannotBeRead(ending));
-  Model model = runIsolated(
-                    path, options.limits,
-                    [&](const auto& report) {
-                      return parseModel({path, ending}, report);
-                    },
-                    options.progress)
-                    .model;
-  if (model.elements() == 0) throw Error(path + ": there is no geometry in it");
-  model.name = std::filesystem::path(path).filename().string();
+  SceneModel scene = runIsolated(
+      path, options.limits,
+      [&](const auto& report) {
+        return parseModel({path, ending}, report);
+      },
+      options.progress);
+  if (elementsIn(scene) == 0) throw Error(path + ": there is no geometry in it");
+  scene.model.name = std::filesystem::path(path).filename().string();
   if (options.progress) options.progress(1);
-  return model;
+  return scene;
+}
+
+Model loadModel(const std::string& path, const LoadOptions& options) {
+  SceneModel scene = loadModelScene(path, options);
+  if (scene.bodies.empty()) return std::move(scene.model);
+  scene.model.warnings.emplace_back("its bodies stay where they are: it is read as one object");
+  return asOneModel(scene);
 }
 
 }  // namespace hl

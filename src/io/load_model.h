@@ -6,7 +6,7 @@
 #include <string>
 
 #include "io/isolated.h"
-#include "scene/model.h"
+#include "scene/scene_model.h"
 
 namespace hl {
 
@@ -23,7 +23,10 @@ struct LoadOptions {
 /// and points too; vertices that are the same to the bit are joined. What was skipped is in the model's warnings.
 /// Throws hl::Error, one line, for a file that cannot be used. Parses in a child process: call it before the program
 /// starts threads.
+/// Bodies that an X3D file describes are part of it, where they start.
 Model loadModel(const std::string& path, const LoadOptions& options = {});
+/// The same with its bodies.
+SceneModel loadModelScene(const std::string& path, const LoadOptions& options = {});
 
 /// Whether a reader takes files of this ending (".obj"), and the words for one that none takes.
 bool readsEnding(const std::string& ending);
@@ -37,10 +40,10 @@ struct ModelFile {
 };
 
 /// What the reader gives, made sound and small. In a process of its own; throws on failure.
-Model parseModel(const ModelFile& file, const std::function<void(double)>& report);
+SceneModel parseModel(const ModelFile& file, const std::function<void(double)>& report);
 
 /// For parseModel.
-Model parseWithAssimp(const ModelFile& file, const std::function<void(double)>& report);
+SceneModel parseWithAssimp(const ModelFile& file, const std::function<void(double)>& report);
 Model parseWithCoin(const ModelFile& file, const std::function<void(double)>& report);
 /// True when assimp has a reader for this ending (".obj").
 bool assimpReads(const std::string& ending);

@@ -13,7 +13,7 @@ SceneModel loadScene(const std::string& spec, const LoadOptions& options) {
   if (isBuiltinScene(spec)) return makeBuiltinWorld(spec);
   const bool looks_like_a_file = spec.find_first_of("./") != std::string::npos || std::filesystem::exists(spec);
   if (!looks_like_a_file) return makeBuiltinScene(spec);  // throws, with the list
-  return loadModel(spec, options);
+  return loadModelScene(spec, options);
 }
 
 }  // namespace hl

@@ -25,12 +25,6 @@ SceneModel parseSent(const std::string& ending, const std::function<void(double)
   return loadSceneFile(pathOfSent(), options);
 }
 
-std::size_t elementsOf(const SceneModel& scene) {
-  std::size_t elements = scene.model.elements();
-  for (const SceneBody& body : scene.bodies) elements += body.model.elements();
-  return elements;
-}
-
 }  // namespace
 
 std::string sentEndingOf(const std::string& name) {
@@ -50,7 +44,7 @@ SceneModel loadSent(int descriptor, const std::string& name, ReaderProgram progr
   if (!readsSent(ending)) throw Error(name + ": " + cannotBeRead(ending));
   program.words.push_back(ending);
   SceneModel scene = runProgram(name, limits, program, descriptor, given_up);
-  if (elementsOf(scene) == 0) throw Error(name + ": there is no geometry in it");
+  if (elementsIn(scene) == 0) throw Error(name + ": there is no geometry in it");
   scene.model.name = name;
   return scene;
 }

@@ -62,6 +62,12 @@ Model asOneModel(const SceneModel& scene) {
   return whole;
 }
 
+std::size_t elementsIn(const SceneModel& scene) {
+  std::size_t elements = scene.model.elements();
+  for (const SceneBody& body : scene.bodies) elements += body.model.elements();
+  return elements;
+}
+
 std::size_t bytesToMake(const SceneModel& scene) {
   std::size_t bytes = bytesToMake(scene.model);
   for (const SceneBody& body : scene.bodies) bytes += bytesToMake(body.model);

@@ -29,6 +29,7 @@ struct SceneModel {
 };
 
 Box boundsOf(const SceneModel& scene);
+std::size_t elementsIn(const SceneModel& scene);
 std::size_t bytesToMake(const SceneModel& scene);
 /// All of it where it starts, with one material for each object. Textures are left out.
 Model asOneModel(const SceneModel& scene);
