@@ -1,12 +1,13 @@
 // Compliance estimate: how a mesh that is deformed by frames yields, where its client does not tell.
 //
-// Only of clients that take contact reports: they read the force that their mesh is to answer (Instance::answers_force).
-// Such a client moves its mesh by the force that it reads: x_k = x_0 - C F_k along the normal. It closes a loop with
-// the servo's spring K, over a latency that is not known, and which is unstable for C > 1/K. The estimate of C is the
-// secant of the last frames: how far each has moved the mesh at the contact, against how much the mean force had
-// changed some frames before, for the number of frames that explains it best; rounded up, as too much is always stable.
-// A mesh that moves by itself changes the force by K dx, so its secant is at most 1/K; and up to there the loop is
-// stable as it is. So nothing is estimated below 1/K. Where the mesh does not follow the force the estimate falls to 0.
+// Only of clients that take contact reports: they read the force that their mesh is to answer
+// (Instance::answers_force). Such a client moves its mesh by the force that it reads: x_k = x_0 - C F_k along the
+// normal. It closes a loop with the servo's spring K, over a latency that is not known, and which is unstable for C >
+// 1/K. The estimate of C is the secant of the last frames: how far each has moved the mesh at the contact, against how
+// much the mean force had changed some frames before, for the number of frames that explains it best; rounded up, as
+// too much is always stable. A mesh that moves by itself changes the force by K dx, so its secant is at most 1/K; and
+// up to there the loop is stable as it is. So nothing is estimated below 1/K. Where the mesh does not follow the force
+// the estimate falls to 0.
 //
 // The force F_k that a frame was computed for is not known either. What the mesh moves is taken for an answer to the
 // force: the lift C F_k loses what the mesh moves, so that a frame is not felt at once. From there it goes to C F with
