@@ -65,6 +65,7 @@ void checkDepth(const std::string& text) {
 
 X3dTree treeOf(const std::string& text) {
   namespace xml = boost::property_tree::xml_parser;
+  if (text.size() > kMostX3dBytes) throw Error("is larger than 256 MB, which is too much for X3D with bodies");
   checkDepth(text);
   X3dTree tree;
   std::istringstream in(text);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <boost/property_tree/ptree.hpp>
+#include <cstddef>
 #include <initializer_list>
 #include <map>
 #include <optional>
@@ -20,7 +21,8 @@ using X3dTree = boost::property_tree::ptree;
 using X3dNode = X3dTree::value_type;
 using X3dNodes = std::set<const X3dNode*>;
 
-inline constexpr double kFarthestX3d_m = 1e6;  ///< of places that are read, along each axis
+inline constexpr std::size_t kMostX3dBytes = std::size_t{256} << 20;  ///< of a file; its tree takes several times that
+inline constexpr double kFarthestX3d_m = 1e6;                         ///< of places that are read, along each axis
 
 /// A field as it is written, or nothing.
 std::optional<std::string> x3dField(const X3dNode& node, const std::string& name);
@@ -32,7 +34,8 @@ bool isX3d(const X3dNode& node, std::initializer_list<std::string_view> types);
 
 class X3dDocument {
  public:
-  /// Throws hl::Error, one line, for what is no XML or is nested too deep. There are no entities but those of XML.
+  /// Throws hl::Error, one line, for what is no XML, too large or nested too deep. There are no entities but those of
+  /// XML.
   explicit X3dDocument(const std::string& text);
   X3dDocument(const X3dDocument&) = delete;
   X3dDocument& operator=(const X3dDocument&) = delete;

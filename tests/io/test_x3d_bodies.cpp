@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "bodies/scene_world.h"
 #include "io/load_model.h"
+#include "io/x3d_document.h"
 #include "solids.h"
 #include "temp_folder.h"
 
@@ -317,6 +318,7 @@ TEST(X3dBodies, HostileFilesAreOneLine) {
   }
   EXPECT_NE(errorOf(collection(deep + shut)).find("nested too deep"), std::string::npos);
   EXPECT_NE(errorOf("<X3D><RigidBodyCollection>").find("is no XML"), std::string::npos);
+  EXPECT_THROW(withCubes(std::string(kMostX3dBytes + 1, ' ')), Error);
   const std::string twice = "<CollidableOffset USE='o'/>";
   const std::string within =
       "<RigidBody><CollidableOffset DEF='o'>" + twice + twice + "</CollidableOffset></RigidBody>";
