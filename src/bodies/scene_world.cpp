@@ -157,13 +157,21 @@ Joint jointOf(const JointSpec& spec, const Snapshot& snapshot, std::uint64_t key
   return joint;
 }
 
+// The same joint, told from its other side: with its axis turned round the coordinate stays what it is.
+JointSpec turnedRound(JointSpec spec) {
+  std::swap(spec.body_a, spec.body_b);
+  if (spec.kind == JointKind::kDistance) std::swap(spec.anchor_W, spec.anchor_b_W);
+  spec.axis_W = -spec.axis_W;
+  return spec;
+}
+
 // A joint to what does not move is one to the world; one of two such things is none.
 void addJoints(const Snapshot& snapshot, World& world) {
   std::uint64_t key = 0;
   for (JointSpec spec : snapshot.mechanics.joints) {
     ++key;
     if (world.find(spec.body_b) == nullptr) spec.body_b = 0;
-    if (world.find(spec.body_a) == nullptr) std::swap(spec.body_a, spec.body_b);
+    if (world.find(spec.body_a) == nullptr) spec = turnedRound(std::move(spec));
     if (world.find(spec.body_a) == nullptr) continue;
     world.joints.push_back(jointOf(spec, snapshot, key));
     try {

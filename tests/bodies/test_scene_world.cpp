@@ -1,0 +1,81 @@
+// Scene world: what a snapshot says of bodies and joints is what is stepped.
+#include "bodies/scene_world.h"
+
+#include <gtest/gtest.h>
+
+#include "bodies/body_step.h"
+#include "bodies/test_worlds.h"
+
+namespace hl {
+namespace {
+
+constexpr double kStep_s = 1e-3, kFall_m = 0.01;
+
+Instance boxInstance(std::uint64_t key, bool fixed, const Vec3& at) {
+  BodySpec spec;
+  spec.fixed = fixed;
+  spec.shape = BodyShape::kBox;
+  Instance instance;
+  instance.shape = makeShape(test::boxModel(Vec3::Constant(0.01)), HierarchyKind::kNone);
+  instance.surfaces = surfacesOf(instance.shape);
+  instance.key = key;
+  instance.body = makeRigidBody("box", spec, {Mat3::Identity(), at}, instance.shape->bounds,
+                                {Vec3::Constant(-1), Vec3::Constant(1)});
+  instance.driver = instance.body->poses;
+  instance.motion = Motion(instance.body->start);
+  return instance;
+}
+
+// How far a box goes down that hangs on this joint beside a fixed one, m.
+double fallOn(const JointSpec& joint) {
+  const Vec3 at(0.1, 0, 0);
+  const auto snapshot = makeSnapshot({boxInstance(1, false, at), boxInstance(2, true, Vec3::Zero())}, {}, 1, 0,
+                                     {Vec3(0, -9.81, 0), {joint}});
+  const auto world = worldOf(*snapshot);
+  WorldState state = startWorld(*world, {{Mat3::Identity(), at}});
+  BodyStepper stepper(world);
+  for (int i = 0; i < 500; ++i) stepper.step(state, kStep_s, {}, {});
+  return at.y() - state.bodies[0].centre.y();
+}
+
+JointSpec slider(std::uint64_t a, std::uint64_t b, double low, double high) {
+  JointSpec joint;
+  joint.kind = JointKind::kSlider;
+  joint.body_a = a;
+  joint.body_b = b;
+  joint.axis_W = Vec3::UnitY();
+  joint.along.low = low;
+  joint.along.high = high;
+  return joint;
+}
+
+TEST(SceneWorld, ASliderHasItsLimitsWhicheverBodyIsFixed) {
+  EXPECT_NEAR(fallOn(slider(1, 2, -kFall_m, 0)), kFall_m, 1e-6);
+  EXPECT_NEAR(fallOn(slider(2, 1, 0, kFall_m)), kFall_m, 1e-6);
+}
+
+TEST(SceneWorld, ARodHoldsWhicheverBodyIsFixed) {
+  JointSpec rod;
+  rod.kind = JointKind::kDistance;
+  rod.body_a = 1;
+  rod.body_b = 2;
+  rod.anchor_W = Vec3(0.1, 0, 0);
+  rod.anchor_b_W = Vec3(0.1, 0.2, 0);
+  EXPECT_NEAR(fallOn(rod), 0, 1e-6);
+  std::swap(rod.body_a, rod.body_b);
+  std::swap(rod.anchor_W, rod.anchor_b_W);
+  EXPECT_NEAR(fallOn(rod), 0, 1e-6);
+}
+
+TEST(SceneWorld, AJointOfTwoFixedBodiesIsNone) {
+  const auto snapshot = makeSnapshot({boxInstance(1, false, Vec3(0.1, 0, 0)), boxInstance(2, true, Vec3::Zero())}, {},
+                                     1, 0, {Vec3::Zero(), {slider(2, 0, 0, 1)}});
+  EXPECT_TRUE(worldOf(*snapshot)->joints.empty());
+}
+
+TEST(SceneWorld, ASceneWithoutBodiesHasNoWorld) {
+  EXPECT_EQ(worldOf(*makeSnapshot({boxInstance(2, true, Vec3::Zero())})), nullptr);
+}
+
+}  // namespace
+}  // namespace hl
