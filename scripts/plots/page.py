@@ -95,7 +95,7 @@ def film(programs, scene="teapot", name="film", begin=TOUCHED, options=()):
 
 
 # Where the hand goes in the workshop: s, m. It tips the dominoes, opens the door, presses a button, hits the blocks.
-BEGIN_S = 8  # the page is open by then
+BEGIN_S = 4.5  # the page is open by then
 TOUR = [(0, -0.15, 0.05, 0.075), (1, -0.15, 0.02, 0.075), (1.8, -0.115, 0.022, 0.075), (2.2, -0.13, 0.06, 0.06),
         (3.2, -0.08, 0.06, -0.02), (3.7, -0.082, 0.035, -0.03), (5.2, -0.085, 0.033, -0.08), (5.7, -0.06, 0.08, -0.03),
         (6.4, 0.02, 0.05, 0.03), (7.1, 0.02, 0.0, 0.03), (7.6, 0.02, 0.06, 0.02), (8.2, -0.02, 0.03, -0.02),
