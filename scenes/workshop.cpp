@@ -1,7 +1,6 @@
 #include "workshop.h"
 
-#include <fmt/core.h>
-
+#include <string>
 #include <utility>
 
 #include "solids.h"
@@ -110,7 +109,7 @@ class Workshop {
   void dominoes(const Vec3& at) {
     const Vec3 half(0.002, 0.014, 0.007);
     for (int i = 0; i < 9; ++i)
-      body(fmt::format("domino {}", i + 1), boxSolid(half), at + Vec3(0.013 * i, half.y(), 0),
+      body("domino " + std::to_string(i + 1), boxSolid(half), at + Vec3(0.013 * i, half.y(), 0),
            bodySpec(kPlastic_kg_m3, 0.4, BodyShape::kBox));
   }
 
@@ -120,7 +119,7 @@ class Workshop {
     int number = 0;
     for (int row = 0; row < 3; ++row) {
       for (int i = 0; i < 3 - row; ++i)
-        body(fmt::format("block {}", ++number), boxSolid(Vec3::Constant(kHalf_m)),
+        body("block " + std::to_string(++number), boxSolid(Vec3::Constant(kHalf_m)),
              at + Vec3(kApart_m * (i - 0.5 * (2 - row)), kHalf_m * (2 * row + 1), 0),
              bodySpec(kWood_kg_m3, 0.5, BodyShape::kBox));
     }

@@ -12,7 +12,7 @@ web_sources() {
   # Includes itself, once for each instruction set.
   echo "#include \"$root/src/geometry/wide_bvh_query.cpp\"" >"$out/query.cpp"
   for file in src/base/{ledger,plain_math,quantities}.cpp src/device/{device_models,hand,mass_arm,phantom}.cpp \
-    src/device/{phantom_arm,simulated_device}.cpp src/touch/{body_hand,body_world,exploration,held_contacts}.cpp \
+    src/device/{phantom_arm,simulated_device}.cpp src/touch/{body_hand,body_world,exploration,felt_contact,held_contacts}.cpp \
     src/touch/{proxy_loop,touch_events,touch_step}.cpp src/tools/trace.cpp; do
     echo "#include \"$root/$file\""
   done >"$out/rest.cpp"
@@ -39,6 +39,7 @@ build_web_module() {
   web_cache "$out/cache"
   ln -sfn /usr/include/eigen3/Eigen "$out/include/Eigen"
   ln -sfn /usr/include/hwy "$out/include/hwy"
+  ln -sfn /usr/include/boost "$out/include/boost"
   export EM_CACHE="$out/cache" NODE_PATH=/usr/share/nodejs
   flags+=(-I "$root/web/serial_tbb" -I "$root/src" -I "$root" -I "$root/scenes" -I "$root/web")
   flags+=(-isystem "$out/include" -include "$root/web/missing_std.h")

@@ -95,7 +95,7 @@ int hlWebLoadBuiltin(const char* name) {
   return tried([&] { start(hl::makeBuiltinScene(name)); });
 }
 
-const char* hlWebScenes() { return hl::kBuiltinScenes; }
+const char* hlWebScenes() { return hl::kBuiltinModels; }
 const char* hlWebQuantities() {
   static const std::string lines = quantityLines();
   return lines.c_str();

@@ -293,7 +293,10 @@ void BodyWorld::loseJoined() {
       const Body *const a = world().find(joint.body_a), *const b = world().find(joint.body_b);
       std::uint8_t& lost_a = lost_[static_cast<std::size_t>(a - world().bodies.data())];
       std::uint8_t& lost_b = b == nullptr ? lost_a : lost_[static_cast<std::size_t>(b - world().bodies.data())];
-      if (lost_a != lost_b) more = lost_a = lost_b = 1;
+      if (lost_a != lost_b) {
+        lost_a = lost_b = 1;
+        more = true;
+      }
       if (lost_a != 0) state_.joints[i] = joint_starts_[i];
     }
   }
