@@ -69,7 +69,7 @@ class Bench {
       instance.body = makeRigidBody("block", spec, {Mat3::Identity(), block.at}, instance.shape->bounds, room);
       instance.driver = instance.body->poses;
     }
-    scenes_.emplace(makeSnapshot(std::move(instances), {}, 1, 0, {Vec3(0, -gravity, 0)}));
+    scenes_.emplace(makeSnapshot(std::move(instances), {}, 1, 0, {Vec3(0, -gravity, 0), {}}));
     loop_.emplace(*scenes_, ProxySettings{});
     arm(step_.servo());
     commands_.radius_W = kRadius_m;
