@@ -83,11 +83,11 @@ std::size_t memoryOf(const Snapshot& snapshot) {
   return bytes;
 }
 
-bool Snapshot::find(std::uint64_t key, std::uint32_t& number) const {
+bool Snapshot::find(std::uint64_t key, std::uint32_t& index) const {
   const auto found = std::lower_bound(instances.begin(), instances.end(), key,
                                       [](const Instance& one, std::uint64_t wanted) { return one.key < wanted; });
   if (found == instances.end() || found->key != key) return false;
-  number = static_cast<std::uint32_t>(found - instances.begin());
+  index = static_cast<std::uint32_t>(found - instances.begin());
   return true;
 }
 

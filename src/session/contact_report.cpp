@@ -27,11 +27,11 @@ struct Pressed {
            first.name == contact.name;
   }
   void add(const FeltContact& contact) {
-    const double weight_N = contact.force_N.norm();
+    const double force_N = contact.force_N.norm();
     impulse_N += contact.force_N;
     if (first.kind != contact.kind || first.primitive != contact.primitive) return;
-    this->weight_N += weight_N;
-    point_N_m += weight_N * contact.point_W;
+    weight_N += force_N;
+    point_N_m += force_N * contact.point_W;
     for (std::size_t i = 0; i < 3; ++i) weights_N[i] += weight_N * contact.weights[i];
   }
 };
