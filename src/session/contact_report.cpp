@@ -32,7 +32,7 @@ struct Pressed {
     if (first.kind != contact.kind || first.primitive != contact.primitive) return;
     weight_N += force_N;
     point_N_m += force_N * contact.point_W;
-    for (std::size_t i = 0; i < 3; ++i) weights_N[i] += weight_N * contact.weights[i];
+    for (std::size_t i = 0; i < 3; ++i) weights_N[i] += force_N * contact.weights[i];
   }
 };
 
