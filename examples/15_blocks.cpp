@@ -82,7 +82,7 @@ int main(int argc, char** argv) try {
     hlPoll();
     if (i == 120) {  // whoever touches nothing sees a tower fall all the same
       const hl::NameScope top(5);
-      hlBodyImpulsed(kBlock, -0.02, 0, 0, -0.03, 9 * kHalf_m, 0, 0);
+      hlBodyImpulsed(kBlock, -0.008, 0, 0, -0.03, 9 * kHalf_m, 0, 0);
     }
     if (i % 60 == 0) print(t);
     std::this_thread::sleep_for(std::chrono::milliseconds(16));

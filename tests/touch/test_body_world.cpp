@@ -85,6 +85,7 @@ class Bench {
     given_ += settings.period_s * force_;
     return force_;
   }
+  void act(const BodyCommands& commands) { loop_->act(commands); }
   void give(const Vec3& velocity, const Vec3& spin) { scenes_->bodies()->set(0, velocity, spin); }
   const BodyState& body(std::size_t i = 0) const { return world().state().bodies[i]; }
   Vec3 momentum() const {
@@ -252,6 +253,31 @@ TEST(BodyWorld, R27PlatesDoNotPassTheFinger) {
     }
   }
   EXPECT_GT(touched, 100);
+}
+
+// What a client gives to a block that sleeps on others moves it as if it were awake.
+TEST(BodyWorld, AnImpulseWakesWhatSleeps) {
+  constexpr double kHalf_m = 0.01;
+  for (const std::size_t high : {2, 5}) {
+    std::vector<Bench::Block> tower;
+    for (std::size_t i = 0; i < high; ++i)
+      tower.push_back({0.02, Vec3::Constant(kHalf_m), Vec3(0, kHalf_m * (1 + 2.02 * static_cast<double>(i)), 0)});
+    Bench bench(tower, 0.5);
+    const ServoSettings settings = undamped(1000);
+    Vec3 finger(0.3, 0.3, 0);
+    sweep(bench, settings, finger, Vec3::Zero(), 2);
+    ASSERT_NE(bench.body(high - 1).island, 0u);
+    BodyCommand command;
+    command.key = bench.world().world().bodies[high - 1].key;
+    command.impulse_N_s = Vec3(-0.02, 0, 0);
+    command.point_m = Vec3(0, kHalf_m * (2 * static_cast<double>(high) - 1), 0);
+    BodyCommands commands;
+    commands.push(command);
+    bench.act(commands);
+    sweep(bench, settings, finger, Vec3::Zero(), 0.05);
+    EXPECT_LT(bench.body(high - 1).velocity.x(), -0.9) << high;
+    EXPECT_LT(bench.body(high - 1).centre.x(), -0.03) << high;
+  }
 }
 
 }  // namespace
