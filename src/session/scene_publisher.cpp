@@ -441,14 +441,16 @@ void ScenePublisher::publish() {
   base_.takeNext();
   std::vector<Part> parts = takeParts();
   std::shared_ptr<const Snapshot> next;
+  std::vector<SnapshotSlot::Ready> scenes;  // for each device
   try {
     next = makeNext(parts);
     listShown(*next, parts);
+    for (std::size_t i = 0; i < devices_.size(); ++i) scenes.push_back(SnapshotSlot::prepare(next));
   } catch (...) {
     giveBack(parts);
     throw;
   }
-  show(next, parts);
+  show(next, std::move(scenes), parts);
   for (const Part& part : parts) tellShown(part);
   work_.notify_one();  // what is outdated may be rebuilt now
 }
@@ -464,8 +466,10 @@ void ScenePublisher::listShown(const Snapshot& next, std::vector<Part>& parts) {
 }
 
 // To all devices or, had anything failed before, to none.
-void ScenePublisher::show(const std::shared_ptr<const Snapshot>& next, std::vector<Part>& parts) noexcept {
-  for (TouchSession* device : devices_) base_.other() ? device->publishAnew(next) : device->publish(next);
+void ScenePublisher::show(const std::shared_ptr<const Snapshot>& next, std::vector<SnapshotSlot::Ready> scenes,
+                          std::vector<Part>& parts) noexcept {
+  for (std::size_t i = 0; i < devices_.size(); ++i)
+    base_.other() ? devices_[i]->publishAnew(std::move(scenes[i])) : devices_[i]->publish(std::move(scenes[i]));
   for (Part& part : parts) {
     part.client->shown_.instances.swap(part.shown);
     if (part.placed) part.client->shown_.placed = part.placed;

@@ -103,7 +103,8 @@ class ScenePublisher {
   std::shared_ptr<const Snapshot> makeNext(std::vector<Part>& parts);
   void publish();
   static void listShown(const Snapshot& next, std::vector<Part>& parts);
-  void show(const std::shared_ptr<const Snapshot>& next, std::vector<Part>& parts) noexcept;
+  void show(const std::shared_ptr<const Snapshot>& next, std::vector<SnapshotSlot::Ready> scenes,
+            std::vector<Part>& parts) noexcept;
   void tell(FunctionRef<void()> call);
   void tellShown(const Part& part);
   static std::int64_t moveTime_ns(const Waiting& waiting, std::int64_t last_arrived_ns);

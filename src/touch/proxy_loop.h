@@ -76,6 +76,7 @@ class ProxyLoop {
   /// wait for theirs to be taken do not wait for the device.
   void skip() {
     scenes_.take();
+    scenes_.take();  // nothing of the scene before is needed any more
     bodies_ = scenes_.bodies();
     done_.clear();
   }

@@ -2,11 +2,10 @@
 // never frees anything; the publisher frees a scene when the loop has moved on to the next, or has never taken it.
 #pragma once
 
-#include <algorithm>
 #include <atomic>
+#include <list>
 #include <memory>
 #include <utility>
-#include <vector>
 
 #include "scene/snapshot.h"
 #include "touch/body_world.h"
@@ -15,30 +14,46 @@ namespace hl {
 
 /// One publisher (any one thread at a time, not real-time) and one reader.
 class SnapshotSlot {
+ private:
+  struct Scene {
+    std::shared_ptr<const Snapshot> snapshot;
+    std::unique_ptr<BodyWorld> bodies;
+  };
+
  public:
+  /// A scene with all that publishing it needs.
+  using Ready = std::list<Scene>;
+
   /// As publish().
-  explicit SnapshotSlot(std::shared_ptr<const Snapshot> first) : current_(add(std::move(first))), oldest_(current_) {}
+  explicit SnapshotSlot(std::shared_ptr<const Snapshot> first)
+      : scenes_(prepare(std::move(first))), current_(&scenes_.back()), oldest_(current_) {}
 
   /// Whether the reader has taken the newest one, and needs none before it.
   bool taken() const {
     return waiting_.load(std::memory_order_acquire) == nullptr &&
-           oldest_.load(std::memory_order_acquire) == scenes_.back().get();
+           oldest_.load(std::memory_order_acquire) == &scenes_.back();
   }
-  /// One that the reader has not taken by then it never will. Throws hl::Error where bodies cannot be made.
-  void publish(std::shared_ptr<const Snapshot> next) {
-    Scene* const scene = add(std::move(next));
-    const Scene* const untaken = waiting_.exchange(scene, std::memory_order_acq_rel);
-    if (untaken != nullptr) std::erase_if(scenes_, [&](const auto& one) { return one.get() == untaken; });
+  /// Makes the world of its bodies. Throws hl::Error where they cannot be made, and std::bad_alloc. Any thread.
+  static Ready prepare(std::shared_ptr<const Snapshot> snapshot) {
+    auto bodies = BodyWorld::of(*snapshot);
+    Ready ready;
+    ready.push_back({std::move(snapshot), std::move(bodies)});
+    return ready;
   }
+  /// One that the reader has not taken by then it never will.
+  void publish(Ready next) noexcept {
+    scenes_.splice(scenes_.end(), next);
+    const Scene* const untaken = waiting_.exchange(&scenes_.back(), std::memory_order_acq_rel);
+    if (untaken != nullptr) scenes_.remove_if([&](const Scene& one) { return &one == untaken; });
+  }
+  void publish(std::shared_ptr<const Snapshot> next) { publish(prepare(std::move(next))); }
   /// Frees those that the reader needs no more. Publisher.
   void dropBefore() {
     const Scene* const oldest = oldest_.load(std::memory_order_acquire);
-    const auto first =
-        std::find_if(scenes_.begin(), scenes_.end(), [&](const auto& one) { return one.get() == oldest; });
-    scenes_.erase(scenes_.begin(), first);
+    while (&scenes_.front() != oldest) scenes_.pop_front();
   }
   /// The newest that was published. Publisher.
-  const std::shared_ptr<const Snapshot>& newest() const { return scenes_.back()->snapshot; }
+  const std::shared_ptr<const Snapshot>& newest() const { return scenes_.back().snapshot; }
 
   /// The newest one; valid until the call after the next. Its bodies go on from where those of the scene before are.
   /// Reader; RT-safe.
@@ -55,20 +70,10 @@ class SnapshotSlot {
   BodyWorld* bodies() const { return current_->bodies.get(); }
 
  private:
-  struct Scene {
-    std::shared_ptr<const Snapshot> snapshot;
-    std::unique_ptr<BodyWorld> bodies;
-  };
-  Scene* add(std::shared_ptr<const Snapshot> snapshot) {
-    auto bodies = BodyWorld::of(*snapshot);
-    scenes_.push_back(std::make_unique<Scene>(Scene{std::move(snapshot), std::move(bodies)}));
-    return scenes_.back().get();
-  }
-
-  std::vector<std::unique_ptr<Scene>> scenes_;  // of the publisher: all that the reader may be in, the newest last
-  std::atomic<Scene*> waiting_{nullptr};        // published and not taken
-  Scene* current_;                              // of the reader
-  std::atomic<const Scene*> oldest_;            // the reader needs none before it
+  std::list<Scene> scenes_;               // of the publisher: all that the reader may be in, the newest last
+  std::atomic<Scene*> waiting_{nullptr};  // published and not taken
+  Scene* current_;                        // of the reader
+  std::atomic<const Scene*> oldest_;      // the reader needs none before it
 };
 
 }  // namespace hl

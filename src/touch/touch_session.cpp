@@ -66,14 +66,14 @@ void TouchSession::stop() {
   sink_->stop();
 }
 
-void TouchSession::publish(std::shared_ptr<const Snapshot> snapshot) {
-  live_.fit(snapshot->bounds);
-  show(std::move(snapshot));
+void TouchSession::publish(SnapshotSlot::Ready scene) noexcept {
+  live_.fit(scene.front().snapshot->bounds);
+  show(std::move(scene));
 }
 
-void TouchSession::publishAnew(std::shared_ptr<const Snapshot> snapshot) {
-  live_.refit(snapshot->bounds);
-  show(std::move(snapshot));
+void TouchSession::publishAnew(SnapshotSlot::Ready scene) noexcept {
+  live_.refit(scene.front().snapshot->bounds);
+  show(std::move(scene));
 }
 
 bool TouchSession::moveHandAside(const Box& bounds, double most_s) {
@@ -82,10 +82,10 @@ bool TouchSession::moveHandAside(const Box& bounds, double most_s) {
   return hand_.moveAside(std::max(top_D, live_.topOfFitted_D(bounds)), most_s);
 }
 
-void TouchSession::show(std::shared_ptr<const Snapshot> snapshot) {
-  sink_->scene(snapshot);
+void TouchSession::show(SnapshotSlot::Ready scene) noexcept {
+  sink_->scene(scene.front().snapshot);
   const std::lock_guard lock(scenes_mutex_);
-  scenes_.publish(std::move(snapshot));
+  scenes_.publish(std::move(scene));
 }
 
 void TouchSession::dropSceneBefore() {

@@ -75,9 +75,10 @@ class TouchSession {
   double time_s(std::int64_t monotonic_ns) const { return 1e-9 * static_cast<double>(monotonic_ns - begin_ns_); }
 
   /// Shows another scene. Not real-time; one thread at a time, and only when ready().
-  void publish(std::shared_ptr<const Snapshot> snapshot);
+  void publish(std::shared_ptr<const Snapshot> snapshot) { publish(SnapshotSlot::prepare(std::move(snapshot))); }
+  void publish(SnapshotSlot::Ready scene) noexcept;
   /// The same of one that is no change of the scene before: it is fitted to the hand.
-  void publishAnew(std::shared_ptr<const Snapshot> snapshot);
+  void publishAnew(SnapshotSlot::Ready scene) noexcept;
   /// A simulated hand goes above this scene, which is to come, and above the one that is there, and stays there until
   /// freeHand(). Waits for it; false: it is not there after `most_s`, as something holds it. Not real-time.
   bool moveHandAside(const Box& bounds, double most_s);
@@ -101,7 +102,7 @@ class TouchSession {
   const RealtimeGrant& grant() const { return servo_.grant(); }
 
  private:
-  void show(std::shared_ptr<const Snapshot> snapshot);
+  void show(SnapshotSlot::Ready scene) noexcept;
   LoopParts parts() { return {*device_, live_, exchange_, ticker_, views_, *sink_}; }
 
   const TouchSettings settings_;

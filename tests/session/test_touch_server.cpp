@@ -173,7 +173,7 @@ TEST(ReplaceScene, FreesAHandThatTheSceneBeforeHolds) {
   server.start();
   TouchSession& session = server.device();
   ASSERT_TRUE(session.moveHandAside({}, 10));  // 2 cm above the origin, and then a box closes around it
-  session.publishAnew(boxScene("around", 1));
+  session.publishAnew(SnapshotSlot::prepare(boxScene("around", 1)));
   server.replaceScene(boxScene("next", 1));
   EXPECT_EQ(session.snapshot()->name, "next");
   EXPECT_GT(fingerOf(session).y(), 1);
