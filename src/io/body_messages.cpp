@@ -71,7 +71,8 @@ JointSpec jointOf(const proto::RecordedJoint& in) {
   readValues(in.joint(), kJoint, parts);
   for (const Vec3& place : {parts.anchor_W, parts.anchor_b_W, parts.axis_W})
     checkVec(kJoint, "a place", place, kMostPlace_m);
-  JointSpec joint{in.name(), parts.kind, parts.body_a, parts.body_b, parts.anchor_W, parts.anchor_b_W, parts.axis_W, {}};
+  JointSpec joint{in.name(),      parts.kind,       parts.body_a, parts.body_b,
+                  parts.anchor_W, parts.anchor_b_W, parts.axis_W, {}};
   joint.along = {parts.low, parts.high, parts.rest, parts.spring, parts.damping, parts.friction, {}};
   joint.along.table.position.assign(in.table_position().begin(), in.table_position().end());
   joint.along.table.force.assign(in.table_force().begin(), in.table_force().end());

@@ -404,12 +404,9 @@ namespace {
 
 // The scene, which keeps the lists that it was made from: its instances are counted with them.
 std::shared_ptr<const Snapshot> keeping(std::vector<PlacedShapes> lists, std::shared_ptr<const Snapshot> scene) {
-  struct Both {
-    std::vector<PlacedShapes> lists;
-    std::shared_ptr<const Snapshot> scene;
-  };
-  const auto both = std::make_shared<const Both>(Both{std::move(lists), std::move(scene)});
-  return {both, both->scene.get()};
+  const auto both = std::make_shared<const std::pair<std::vector<PlacedShapes>, std::shared_ptr<const Snapshot>>>(
+      std::move(lists), std::move(scene));
+  return {both, both->second.get()};
 }
 
 }  // namespace
