@@ -40,7 +40,8 @@ typedef struct {
 const char* hlWebError(void);
 /** Starts a session on a built-in scene, as `hl touch` names it. 0: failed, and the session before goes on. */
 int hlWebLoadBuiltin(const char* name);
-/** The names of the built-in scenes that are one model, as help texts list them: "teapot[:N], walker, terrain:N, ...". */
+/** The names of the built-in scenes that are one model, as help texts list them: "teapot[:N], walker, terrain:N, ...".
+ */
 const char* hlWebScenes(void);
 /** A line for each row of base/quantities.def, in their order: field, name, unit, usual, otherwise and words, with tabs
  * between. */

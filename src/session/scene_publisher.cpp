@@ -401,11 +401,10 @@ std::int64_t ScenePublisher::assemble(std::vector<Part>& parts, std::int64_t beg
 }
 
 namespace {
-
 // The scene, which keeps the lists that it was made from: its instances are counted with them.
 std::shared_ptr<const Snapshot> keeping(std::vector<PlacedShapes> lists, std::shared_ptr<const Snapshot> scene) {
-  const auto both = std::make_shared<const std::pair<std::vector<PlacedShapes>, std::shared_ptr<const Snapshot>>>(
-      std::move(lists), std::move(scene));
+  using Both = std::pair<std::vector<PlacedShapes>, std::shared_ptr<const Snapshot>>;
+  const auto both = std::make_shared<const Both>(std::move(lists), std::move(scene));
   return {both, both->second.get()};
 }
 
@@ -442,7 +441,7 @@ void ScenePublisher::publish() {
   try {
     next = makeNext(parts);
     listShown(*next, parts);
-    for (std::size_t i = 0; i < devices_.size(); ++i) scenes.push_back(SnapshotSlot::prepare(next));
+    while (scenes.size() < devices_.size()) scenes.push_back(SnapshotSlot::prepare(next));
   } catch (...) {
     giveBack(parts);
     throw;
