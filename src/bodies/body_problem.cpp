@@ -32,10 +32,7 @@ BodyProblem::BodyProblem(std::shared_ptr<const World> of)
   rows.reserve(mostRows(*world));
 }
 
-int BodyProblem::numberOf(std::uint64_t key) const {
-  const Body* const body = world->find(key);
-  return body != nullptr ? static_cast<int>(body - world->bodies.data()) : Row::kFixed;
-}
+int BodyProblem::numberOf(std::uint64_t key) const { return nodeOf(*world, key); }
 
 BodyState BodyProblem::stateAtEnd(const WorldState& state, std::size_t body, const BodyWays& plan) const {
   if (state.bodies[body].island != 0) return state.bodies[body];

@@ -7,9 +7,7 @@ namespace hl {
 namespace {
 
 std::pair<std::uint32_t, std::uint32_t> numbersOf(const Joint& joint, const World& world) {
-  const auto number = [&](std::uint64_t key) {
-    return static_cast<std::uint32_t>(world.find(key) - world.bodies.data());
-  };
+  const auto number = [&](std::uint64_t key) { return static_cast<std::uint32_t>(world.numberOf(key)); };
   return std::minmax({number(joint.body_a), number(joint.body_b)});
 }
 

@@ -4,8 +4,8 @@ namespace hl {
 
 JointPlace jointPlace(const Joint& joint, const World& world, const WorldState& state) {
   const auto pose = [&](std::uint64_t key) {
-    const Body* const body = world.find(key);
-    return body == nullptr ? Pose() : poseOf(*body, state.bodies[static_cast<std::size_t>(body - world.bodies.data())]);
+    const std::size_t body = world.numberOf(key);
+    return body == World::kNoBody ? Pose() : poseOf(world.bodies[body], state.bodies[body]);
   };
   return {joint, pose(joint.body_a), pose(joint.body_b)};
 }

@@ -8,15 +8,11 @@ namespace hl {
 namespace {
 
 std::vector<JointBlock> blocksOf(const World& world) {
-  const auto number = [&](std::uint64_t key) {
-    const Body* const body = world.find(key);
-    return body == nullptr ? Row::kFixed : static_cast<int>(body - world.bodies.data());
-  };
   std::vector<JointBlock> blocks(world.joints.size());
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     blocks[i].joint = &world.joints[i];
-    blocks[i].a = number(world.joints[i].body_a);
-    blocks[i].b = number(world.joints[i].body_b);
+    blocks[i].a = nodeOf(world, world.joints[i].body_a);
+    blocks[i].b = nodeOf(world, world.joints[i].body_b);
   }
   return blocks;
 }

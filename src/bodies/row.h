@@ -5,6 +5,7 @@
 
 #include "base/vec.h"
 #include "bodies/contact_memory.h"
+#include "bodies/world.h"
 
 namespace hl {
 
@@ -54,5 +55,11 @@ struct Row {
   Vec3 response = Vec3::Zero();                       ///< 1/kg, velocity for an impulse along the normal
   double approach = 0;                                ///< m/s along the normal before the step
 };
+
+/// Number of the node of a body; Row::kFixed: there is no such body. RT-safe.
+inline int nodeOf(const World& world, std::uint64_t key) {
+  const std::size_t body = world.numberOf(key);
+  return body == World::kNoBody ? Row::kFixed : static_cast<int>(body);
+}
 
 }  // namespace hl

@@ -167,12 +167,12 @@ void addJoints(const Snapshot& snapshot, World& world) {
   std::uint64_t key = 0;
   for (JointSpec spec : snapshot.mechanics.joints) {
     ++key;
-    if (world.find(spec.body_a) == nullptr) spec = turnedRound(std::move(spec));
-    if (world.find(spec.body_a) == nullptr) continue;
-    if (world.find(spec.body_b) == nullptr) spec.body_b = 0;
+    if (!world.has(spec.body_a)) spec = turnedRound(std::move(spec));
+    if (!world.has(spec.body_a)) continue;
+    if (!world.has(spec.body_b)) spec.body_b = 0;
     world.joints.push_back(jointOf(spec, snapshot, key));
     try {
-      checkJoint(world.joints.back(), [&](std::uint64_t number) { return world.find(number) != nullptr; });
+      checkJoint(world.joints.back(), [&](std::uint64_t number) { return world.has(number); });
     } catch (const Error& error) {
       throw Error(spec.name + ": " + error.what());
     }

@@ -14,8 +14,8 @@ constexpr double kNear_m = 1e-3;
 void setIsland(const World& world, WorldState& state, std::uint64_t from, std::uint64_t to, ContactMemory& old_place,
                ContactMemory& new_place) {
   old_place.moveTo(new_place, [&](const RememberedContact& contact) {
-    const Body* const body = world.find(contact.pair.a);
-    return body != nullptr && state.bodies[static_cast<std::size_t>(body - world.bodies.data())].island == from;
+    const std::size_t body = world.numberOf(contact.pair.a);
+    return body != World::kNoBody && state.bodies[body].island == from;
   });
   for (BodyState& body : state.bodies) {
     if (body.island == from) body.island = to;
@@ -55,9 +55,9 @@ bool countStill(const BodyProblem& problem, WorldState& state) {
 }  // namespace
 
 void wake(const World& world, WorldState& state, std::uint64_t key) {
-  const Body* const body = world.find(key);
-  if (body == nullptr) return;
-  const std::uint64_t island = state.bodies[static_cast<std::size_t>(body - world.bodies.data())].island;
+  const std::size_t body = world.numberOf(key);
+  if (body == World::kNoBody) return;
+  const std::uint64_t island = state.bodies[body].island;
   if (island != 0) wakeIsland(world, state, island);
 }
 
@@ -85,10 +85,7 @@ void wakeNearMoving(const World& world, WorldState& state, const StepTimes& time
 }
 
 bool sleepsWhole(const World& world, const WorldState& state) {
-  const auto island = [&](std::uint64_t key) {
-    const Body* const body = world.find(key);
-    return state.bodies[static_cast<std::size_t>(body - world.bodies.data())].island;
-  };
+  const auto island = [&](std::uint64_t key) { return state.bodies[world.numberOf(key)].island; };
   return std::all_of(world.joints.begin(), world.joints.end(), [&](const Joint& joint) {
     return joint.body_b == 0 || island(joint.body_a) == island(joint.body_b);
   });
@@ -96,10 +93,10 @@ bool sleepsWhole(const World& world, const WorldState& state) {
 
 WorldState withoutBody(const World& world, const WorldState& state, std::uint64_t key) {
   WorldState left = state;
-  const Body* const body = world.find(key);
-  if (body == nullptr) return left;
+  const std::size_t body = world.numberOf(key);
+  if (body == World::kNoBody) return left;
   wake(world, left, key);
-  left.bodies.erase(left.bodies.begin() + (body - world.bodies.data()));
+  left.bodies.erase(left.bodies.begin() + static_cast<std::ptrdiff_t>(body));
   left.joints.clear();
   for (std::size_t i = 0; i < world.joints.size(); ++i) {
     const bool stays = world.joints[i].body_a != key && world.joints[i].body_b != key;

@@ -6,7 +6,7 @@
 namespace hl {
 
 void checkWorld(const World& world) {
-  checkJoints(world.joints, [&](std::uint64_t key) { return world.find(key) != nullptr; });
+  checkJoints(world.joints, [&](std::uint64_t key) { return world.has(key); });
 }
 
 WorldState startWorld(const World& world, const std::vector<Pose>& poses) {
@@ -22,8 +22,8 @@ WorldState startWorld(const World& world, const std::vector<Pose>& poses) {
     body.centre = poses[i].toWorld(world.bodies[i].mass.centre_O);
   }
   const auto pose = [&](std::uint64_t key) {
-    const Body* const body = world.find(key);
-    return body == nullptr ? Pose() : poses[static_cast<std::size_t>(body - world.bodies.data())];
+    const std::size_t body = world.numberOf(key);
+    return body == World::kNoBody ? Pose() : poses[body];
   };
   for (const Joint& joint : world.joints) {
     JointState one;

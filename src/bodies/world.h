@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -29,6 +30,8 @@ struct Body {
 
 /// Immutable while it is stepped.
 struct World {
+  static constexpr std::size_t kNoBody = std::numeric_limits<std::size_t>::max();
+
   std::vector<Body> bodies;                    ///< sorted by key
   std::vector<Joint> joints;                   ///< sorted by key
   std::shared_ptr<const Snapshot> fixed;       ///< what bodies stand on; null: nothing
@@ -42,12 +45,13 @@ struct World {
     if (instance < fixed_surfaces.size() && fixed_surfaces[instance]) return *fixed_surfaces[instance];
     return fixed_surface ? *fixed_surface : touched_by;
   }
-  /// Null: there is no such body. RT-safe.
-  const Body* find(std::uint64_t key) const {
+  /// Of the body in `bodies`; kNoBody: there is no such body. RT-safe.
+  std::size_t numberOf(std::uint64_t key) const {
     const auto at = std::lower_bound(bodies.begin(), bodies.end(), key,
                                      [](const Body& body, std::uint64_t k) { return body.key < k; });
-    return at != bodies.end() && at->key == key ? &*at : nullptr;
+    return at != bodies.end() && at->key == key ? static_cast<std::size_t>(at - bodies.begin()) : kNoBody;
   }
+  bool has(std::uint64_t key) const { return numberOf(key) != kNoBody; }
 };
 
 /// A step has no more contacts, each of the bodies with 64 points; the rest is dropped, and counted.

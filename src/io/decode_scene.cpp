@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "base/error.h"
+#include "bodies/joint_check.h"
 
 namespace hl {
 
@@ -168,11 +169,11 @@ BodySpec SceneDecoder::body(const proto::Body& in, const std::string& where) con
 }
 
 ForceTable SceneDecoder::forceTable(const proto::ForceTable& in, const std::string& where) const {
-  constexpr int kMostRows = 256;
   ForceTable table;
   if (in.position_size() != in.force_size())
     fail(where, where + ": a force table must have as many forces as positions");
-  if (in.position_size() > kMostRows) fail(where, where + ": a force table has at most 256 rows");
+  if (static_cast<std::size_t>(in.position_size()) > kMostTableRows)
+    fail(where, where + ": a force table has at most 256 rows");
   for (int i = 0; i < in.position_size(); ++i) {
     table.position.push_back(checked(in.position(i), -kMostAlong, kMostAlong, pathOf(where + ".position", i)));
     table.force.push_back(checked(in.force(i), -kMostAlong, kMostAlong, pathOf(where + ".force", i)));

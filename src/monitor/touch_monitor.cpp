@@ -163,7 +163,8 @@ class TouchMonitor {
     out.family("hl_bodies_energy_joules", kGauge, "Energy of the bodies");
     out.sample(bodies.kinetic_J, {{"kind", "kinetic"}});
     out.sample(bodies.gravity_J, {{"kind", "gravity"}});
-    out.family("hl_bodies_work_joules", kGauge, "What has changed it: hand + solver - contact - friction");
+    out.family("hl_bodies_work_joules", kGauge,
+               "What has changed it: hand + solver - contact - friction, besides joints and clients");
     out.sample(bodies.energy.by_hand_J, {{"by", "hand"}});
     out.sample(bodies.energy.contact_J, {{"by", "contact"}});
     out.sample(bodies.energy.friction_J, {{"by", "friction"}});

@@ -26,4 +26,9 @@ ProxyState startProxy(const SceneAt& scene, const ProxySettings& settings, const
 TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger,
                 int most_looks = kNoWorkCap);
 
+/// Whether the tick that came to `state` and `report` ended on a surface: then the spring pulls toward it. RT-safe.
+inline bool touches(const ProxyState& state, const TickReport& report) {
+  return report.valid() && state.free && state.touching;
+}
+
 }  // namespace hl

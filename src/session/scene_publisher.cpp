@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/guarded_thread.h"
 #include "session/check_bodies.h"
+#include "session/kept_lists.h"
 
 namespace hl {
 
@@ -399,16 +400,6 @@ std::int64_t ScenePublisher::assemble(std::vector<Part>& parts, std::int64_t beg
   }
   return blend_ns;
 }
-
-namespace {
-// The scene, which keeps the lists that it was made from: its instances are counted with them.
-std::shared_ptr<const Snapshot> keeping(std::vector<PlacedShapes> lists, std::shared_ptr<const Snapshot> scene) {
-  using Both = std::pair<std::vector<PlacedShapes>, std::shared_ptr<const Snapshot>>;
-  const auto both = std::make_shared<const Both>(std::move(lists), std::move(scene));
-  return {both, both->second.get()};
-}
-
-}  // namespace
 
 // Made before its motions begin: if it takes too long for that, once more.
 std::shared_ptr<const Snapshot> ScenePublisher::makeNext(std::vector<Part>& parts) {

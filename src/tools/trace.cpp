@@ -27,8 +27,7 @@ class Tracer {
     if (bodies_) hand_.before(*bodies_, now_ns, state_, settings_, finger, true);
     const SceneAt scene(snapshot_, now_ns, recent_);
     const TickReport report = hl::tick(state_, scene, settings_, finger);
-    const bool touching = report.valid() && state_.free && state_.touching;
-    if (bodies_) hand_.after(*bodies_, scene, state_, report, settings_, finger, touching);
+    if (bodies_) hand_.after(*bodies_, scene, state_, report, settings_, finger, true);
     return report;
   }
   const ProxyState& state() const { return state_; }

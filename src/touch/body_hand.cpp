@@ -14,7 +14,8 @@ void BodyHand::before(BodyWorld& bodies, std::int64_t now_ns, const ProxyState& 
 }
 
 void BodyHand::after(BodyWorld& bodies, const SceneAt& scene, const ProxyState& state, const TickReport& report,
-                     const ProxySettings& settings, const Vec3& finger, bool touching) {
+                     const ProxySettings& settings, const Vec3& finger, bool pulls) {
+  const bool touching = pulls && touches(state, report);
   held_by_.clear();
   if (touching) {
     for (const ProxyContact& contact : report.contacts) {

@@ -13,9 +13,10 @@ class BodyHand {
   /// whether the spring makes a force.
   void before(BodyWorld& bodies, std::int64_t now_ns, const ProxyState& state, const ProxySettings& settings,
               const Vec3& finger, bool pulls);
-  /// After the tick in `scene` that came to `state` and `report`. `touching`: the spring pulls toward what it touched.
+  /// After the tick in `scene` that came to `state` and `report`. Nobody pushes the bodies while the spring makes no
+  /// force.
   void after(BodyWorld& bodies, const SceneAt& scene, const ProxyState& state, const TickReport& report,
-             const ProxySettings& settings, const Vec3& finger, bool touching);
+             const ProxySettings& settings, const Vec3& finger, bool pulls);
   /// What held the proxy at the end of the last tick: for BodiesMemory.
   const FixedVector<HandContact, kContactsOfHand>& heldBy() const { return held_by_; }
   void resume(const FixedVector<HandContact, kContactsOfHand>& held_by) { held_by_ = held_by; }

@@ -31,8 +31,12 @@ void addTo(FixedVector<BodyImpulse, kContactsOfHand>& list, const BodyImpulse& i
 
 BodyWorld::BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<const RigidBody>> bodies)
     : bodies_(std::move(bodies)), stepper_(world), state_(startWorld(*world, startsOf(bodies_))) {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) state_.bodies[i] = startOf(i);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    state_.bodies[i].velocity = bodies_[i]->spec.velocity_m_s;
+    state_.bodies[i].spin = bodies_[i]->spec.spin_rad_s;
+  }
   view_.bodies = bodies_.size();
+  starts_ = state_.bodies;
   joint_starts_ = state_.joints;
   lost_.resize(bodies_.size());
 }
@@ -45,16 +49,6 @@ std::unique_ptr<BodyWorld> BodyWorld::of(const Snapshot& snapshot) {
     if (instance.movesAsBody()) bodies.push_back(instance.body);
   }
   return std::unique_ptr<BodyWorld>(new BodyWorld(world, std::move(bodies)));
-}
-
-BodyState BodyWorld::startOf(std::size_t i) const {
-  const RigidBody& body = *bodies_[i];
-  BodyState state;
-  state.turned = Eigen::Quaterniond(body.start.rotation).normalized();
-  state.centre = body.start.toWorld(world().bodies[i].mass.centre_O);
-  state.velocity = body.spec.velocity_m_s;
-  state.spin = body.spec.spin_rad_s;
-  return state;
 }
 
 void BodyWorld::continueFrom(const BodyWorld& before) {
@@ -169,9 +163,8 @@ void BodyWorld::act(const BodyCommands& commands) {
 }
 
 void BodyWorld::act(const BodyCommand& command) {
-  const Body* const body = world().find(command.key);
-  if (body == nullptr) return;
-  const auto i = static_cast<std::size_t>(body - world().bodies.data());
+  const std::size_t i = world().numberOf(command.key);
+  if (i == World::kNoBody) return;
   BodyState& state = state_.bodies[i];
   const double before_J = energyOf_J(i);
   wake(world(), state_, command.key);
@@ -179,7 +172,8 @@ void BodyWorld::act(const BodyCommand& command) {
   if (command.velocity_m_s) state.velocity = *command.velocity_m_s;
   if (command.spin_rad_s) state.spin = *command.spin_rad_s;
   const Vec3 point = command.point_m.value_or(state.centre);
-  BodyPush over_time{command.key, poseOf(*body, state).toObject(point), command.impulse_N_s, command.duration_s};
+  BodyPush over_time{command.key, poseOf(world().bodies[i], state).toObject(point), command.impulse_N_s,
+                     command.duration_s};
   if (command.duration_s > 0) over_time.force_N /= command.duration_s;
   // Of more than there is room for, the whole is given at once.
   if (!(command.duration_s > 0) || !pushes_.push(over_time)) give(i, command.impulse_N_s, point);
@@ -210,12 +204,12 @@ void BodyWorld::give(std::size_t i, const Vec3& impulse_N_s, const Vec3& point) 
 void BodyWorld::push(double period_s) {
   std::size_t kept = 0;
   for (const BodyPush& one : pushes_) {
-    const Body* const body = world().find(one.key);
-    if (body == nullptr) continue;
-    const auto i = static_cast<std::size_t>(body - world().bodies.data());
+    const std::size_t i = world().numberOf(one.key);
+    if (i == World::kNoBody) continue;
     const double before_J = energyOf_J(i);
     wake(world(), state_, one.key);
-    give(i, std::min(period_s, one.left_s) * one.force_N, poseOf(*body, state_.bodies[i]).toWorld(one.point_O));
+    const Vec3 point = poseOf(world().bodies[i], state_.bodies[i]).toWorld(one.point_O);
+    give(i, std::min(period_s, one.left_s) * one.force_N, point);
     state_.energy.by_client_J += energyOf_J(i) - before_J;
     BodyPush left = one;
     left.left_s -= period_s;
@@ -290,9 +284,8 @@ void BodyWorld::loseJoined() {
     more = false;
     for (std::size_t i = 0; i < world().joints.size(); ++i) {
       const Joint& joint = world().joints[i];
-      const Body *const a = world().find(joint.body_a), *const b = world().find(joint.body_b);
-      std::uint8_t& lost_a = lost_[static_cast<std::size_t>(a - world().bodies.data())];
-      std::uint8_t& lost_b = b == nullptr ? lost_a : lost_[static_cast<std::size_t>(b - world().bodies.data())];
+      std::uint8_t& lost_a = lost_[world().numberOf(joint.body_a)];
+      std::uint8_t& lost_b = joint.body_b == 0 ? lost_a : lost_[world().numberOf(joint.body_b)];
       if (lost_a != lost_b) {
         lost_a = lost_b = 1;
         more = true;
@@ -304,7 +297,7 @@ void BodyWorld::loseJoined() {
 
 void BodyWorld::putBack(std::size_t i) {
   wake(world(), state_, world().bodies[i].key);
-  state_.bodies[i] = startOf(i);
+  state_.bodies[i] = starts_[i];
   state_.bodies[i].velocity.setZero();
   state_.bodies[i].spin.setZero();
   bodies_[i]->poses->jumpTo(bodies_[i]->start);
@@ -318,7 +311,7 @@ void BodyWorld::settle(const ObjectForces& forces, double period_s) {
   FixedVector<BodyImpulse, kContactsOfHand> changes;
   Vec3 of_fixed = Vec3::Zero();
   const auto add = [&](std::uint64_t key, const Vec3& point, const Vec3& impulse) {
-    if (world().find(key) == nullptr)
+    if (!world().has(key))
       of_fixed += impulse;
     else
       addTo(changes, {key, point, impulse});

@@ -65,7 +65,6 @@ class BodyWorld {
 
  private:
   BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<const RigidBody>> bodies);
-  BodyState startOf(std::size_t i) const;
   void continueJoints(const BodyWorld& before);
   bool standsAs(const BodyWorld& before) const;
   ShownBody shownOf(std::size_t i) const;
@@ -91,6 +90,7 @@ class BodyWorld {
   std::int64_t time_ns_ = 0;
   bool begun_ = false;
   BodyView view_;
+  std::vector<BodyState> starts_;         // of the bodies
   std::vector<JointState> joint_starts_;  // as World::joints
   std::vector<std::uint8_t> lost_;        // of each body: whether it has left its room
 };

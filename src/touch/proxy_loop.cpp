@@ -44,10 +44,6 @@ void ProxyLoop::restart() {
   state_.ledger = kept;
 }
 
-bool ProxyLoop::touches(const ProxyState& state, const TickReport& report) const {
-  return report.valid() && state.free && state.touching;
-}
-
 // In the open the proxy is the finger of a moment ago: pulling to it would be a drag, so there is no pull then. A proxy
 // that is still on its way from a surface goes on pulling.
 Vec3 ProxyLoop::pullOf(const ProxyState& state, const TickReport& report, const Vec3& finger_D) const {
@@ -103,9 +99,7 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
   step.scene = snapshot.identity;
   const Ledger before = state_.ledger;
   step.report = tick(state_, scene, settings_, finger, most_looks);
-  // While the servo makes no force, nobody pushes the bodies.
-  const bool pushes = spring.pulls && touches(state_, step.report);
-  if (bodies_ != nullptr) hand_.after(*bodies_, scene, state_, step.report, settings_, finger, pushes);
+  if (bodies_ != nullptr) hand_.after(*bodies_, scene, state_, step.report, settings_, finger, spring.pulls);
   if (!spring.pulls) {
     state_.ledger = before;
     step.report.injected_J = step.report.moved_J = 0;

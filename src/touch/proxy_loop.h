@@ -105,7 +105,6 @@ class ProxyLoop {
   void follow(const ProxyCommands& commands, const SpringOfServo& spring);
   void restart();
   Vec3 changeOfPull(const Snapshot& snapshot);
-  bool touches(const ProxyState& state, const TickReport& report) const;
   Vec3 pullOf(const ProxyState& state, const TickReport& report, const Vec3& finger_D) const;
   double energyOf_J(const ServoTarget& target, const Vec3& finger_D) const;
   HeldContacts heldBy(const TickReport& report, const ServoTarget& target) const;

@@ -1,0 +1,19 @@
+// Kept lists: a scene that keeps alive what it was made from, so that its instances are counted as long as it is there.
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "scene/editable_scene.h"
+
+namespace hl {
+
+/// The same scene; its lists go with its last owner.
+inline std::shared_ptr<const Snapshot> keeping(std::vector<PlacedShapes> lists, std::shared_ptr<const Snapshot> scene) {
+  using Both = std::pair<std::vector<PlacedShapes>, std::shared_ptr<const Snapshot>>;
+  const auto both = std::make_shared<const Both>(std::move(lists), std::move(scene));
+  return {both, both->second.get()};
+}
+
+}  // namespace hl
