@@ -3,8 +3,8 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <random>
 
+#include "draws.h"
 #include "joint_worlds.h"
 
 namespace hl {
@@ -15,8 +15,8 @@ using namespace test;
 constexpr double kRoom_m = 0.15;  // half of its sides
 
 // A row of bodies, each joined to one before it, or to the world; some joints close loops.
-struct RandomJoints {
-  explicit RandomJoints(std::uint64_t seed) : random(seed) {
+struct RandomJoints : Draws {
+  explicit RandomJoints(std::uint64_t seed) : Draws(seed) {
     world.fixed = makeSnapshot(boxModel(Vec3::Constant(kRoom_m)));
     world.gravity_m_s2 = Vec3(0, random() % 2 == 0 ? -9.81 : 0, 0);
     const int count = 2 + static_cast<int>(random() % 9);
@@ -24,11 +24,6 @@ struct RandomJoints {
     for (int i = 0; i < count; ++i) addBody(i);
     for (int i = 0; i < count; ++i) addJoint(i, i == 0 ? -1 : static_cast<int>(random() % static_cast<unsigned>(i)));
     if (count > 3 && random() % 2 == 0) addJoint(count - 1, 0);
-  }
-  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
-  Vec3 direction() {
-    std::normal_distribution<double> normal;
-    return Vec3(normal(random), normal(random), normal(random)).normalized();
   }
   void addBody(int number) {
     const auto key = static_cast<std::uint64_t>(number + 1);
@@ -63,7 +58,6 @@ struct RandomJoints {
     for (double& force : joint.table.force) force *= scale * 100 * (joint.kind == JointKind::kHinge ? 1 : 0.01);
   }
 
-  std::mt19937_64 random;
   double heaviest_kg = 1;
   World world;
   std::vector<Pose> poses;

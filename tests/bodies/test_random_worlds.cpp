@@ -3,9 +3,9 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <random>
 
 #include "bodies/convex_hull.h"
+#include "draws.h"
 #include "test_worlds.h"
 
 namespace hl {
@@ -15,17 +15,12 @@ using namespace test;
 
 constexpr double kRoom_m = 0.15;  // half of its sides
 
-struct RandomWorld {
-  explicit RandomWorld(std::uint64_t seed) : random(seed) {
+struct RandomWorld : Draws {
+  explicit RandomWorld(std::uint64_t seed) : Draws(seed) {
     world.fixed = makeSnapshot(boxModel(Vec3::Constant(kRoom_m)));
     const int count = 2 + static_cast<int>(random() % 12);
     world.gravity_m_s2 = Vec3(0, random() % 2 == 0 ? -9.81 : 0, 0);
     for (int i = 0; i < count; ++i) addBody(i, count);
-  }
-  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
-  Vec3 direction() {
-    std::normal_distribution<double> normal;
-    return Vec3(normal(random), normal(random), normal(random)).normalized();
   }
   // Bodies begin in the cells of a grid, so that none touches another.
   void addBody(int number, int count) {
@@ -73,7 +68,6 @@ struct RandomWorld {
     spins.emplace_back(hot * between(0, 100) * direction());
   }
 
-  std::mt19937_64 random;
   World world;
   std::vector<Pose> poses;
   std::vector<Vec3> velocities, spins;

@@ -8,7 +8,7 @@
 
 #include "base/realtime_guard.h"
 #include "bodies/test_worlds.h"
-#include "device/device_models.h"
+#include "plain_servo.h"
 #include "proxy/effect_scenes.h"
 #include "touch/touch_step.h"
 
@@ -28,18 +28,6 @@ Instance instanceOf(Model model, std::uint64_t key) {
   instance.surfaces = surfacesOf(instance.shape);
   instance.key = key;
   return instance;
-}
-
-ServoSettings undamped(double stiffness_N_m) {
-  ServoSettings settings = ServoSettings::of(premium10().info);
-  settings.stiffness_N_m = stiffness_N_m;
-  settings.damping_Ns_m = 0;
-  settings.ramp_s = settings.period_s;
-  settings.friction_N = 0;
-  settings.velocity_limit_m_s = 100;
-  settings.force_rate_limit_N_s = 1e9;
-  settings.ledger = LedgerMode::kReport;
-  return settings;
 }
 
 // Blocks, and a floor that they stand on; a device's finger among them.
@@ -120,7 +108,7 @@ Vec3 sweep(Bench& bench, const ServoSettings& settings, Vec3& finger, const Vec3
 
 TEST(BodyWorld, R1TheHandFeelsTheFrictionOfTheBlockThatItPushes) {
   Bench bench({{}}, 0.4);
-  const ServoSettings settings = undamped(1000);
+  const ServoSettings settings = test::plainServo(1000);
   Vec3 finger(-0.03, 0.02, 0);
   sweep(bench, settings, finger, Vec3::Zero(), 0.1);
   const Vec3 force = sweep(bench, settings, finger, Vec3(0.01, 0, 0), 5);
@@ -132,7 +120,7 @@ TEST(BodyWorld, R1TheHandFeelsTheFrictionOfTheBlockThatItPushes) {
 TEST(BodyWorld, ActionIsReactionToRounding) {
   Bench bench({{0.1, Vec3(0.02, 0.02, 0.02), Vec3(0, 0.05, 0)}, {0.03, Vec3(0.01, 0.02, 0.01), Vec3(0.05, 0.05, 0)}}, 0,
               0);
-  const ServoSettings settings = undamped(1000);
+  const ServoSettings settings = test::plainServo(1000);
   std::mt19937_64 random(7);
   Vec3 finger(-0.04, 0.05, 0), velocity = Vec3::Zero();
   for (int i = 0; i < 5000; ++i) {
@@ -148,7 +136,7 @@ TEST(BodyWorld, ActionIsReactionToRounding) {
 TEST(BodyWorld, R25AHeavyBodyFeelsLikeAWall) {
   Bench heavy({{1e10, Vec3::Constant(0.02), Vec3(0, 0.02, 0)}}, 0.5, 0);
   Bench wall({{1e15, Vec3::Constant(0.02), Vec3(0, 0.02, 0)}}, 0.5, 0);
-  const ServoSettings settings = undamped(1000);
+  const ServoSettings settings = test::plainServo(1000);
   std::mt19937_64 random(11);
   Vec3 finger(-0.03, 0.02, 0);
   for (int i = 0; i < 20000; ++i) {
@@ -160,7 +148,7 @@ TEST(BodyWorld, R25AHeavyBodyFeelsLikeAWall) {
 
 TEST(BodyWorld, ABodyThatFallsOnTheFingerStaysOnIt) {
   Bench bench({{0.05, Vec3(0.03, 0.005, 0.03), Vec3(0, 0.06, 0)}}, 0.5);
-  ServoSettings settings = undamped(500);
+  ServoSettings settings = test::plainServo(500);
   Vec3 finger(0, 0.03, 0);
   const Vec3 force = sweep(bench, settings, finger, Vec3::Zero(), 4);
   EXPECT_NEAR(force.y(), -0.05 * 9.81, 0.02);
@@ -169,7 +157,7 @@ TEST(BodyWorld, ABodyThatFallsOnTheFingerStaysOnIt) {
 
 TEST(BodyWorld, AStepTakesNoMemory) {
   Bench bench({{}, {0.1, Vec3::Constant(0.02), Vec3(0.05, 0.02, 0)}}, 0.4);
-  const ServoSettings settings = undamped(1000);
+  const ServoSettings settings = test::plainServo(1000);
   Vec3 finger(-0.03, 0.02, 0);
   sweep(bench, settings, finger, Vec3(0.05, 0, 0), 0.1);
   const RealtimeGuard guard;
@@ -182,7 +170,7 @@ TEST(BodyWorld, AStepTakesNoMemory) {
 // A finger of 75 g with its own damping, free, against a free body: what remains of their relative oscillation.
 double ringsOn(double mass_kg, double damping_Ns_m) {
   Bench bench({{mass_kg, Vec3::Constant(0.02), Vec3(0.021, 0.06, 0)}}, 0, 0);
-  const ServoSettings settings = undamped(1000);
+  const ServoSettings settings = test::plainServo(1000);
   constexpr double kFinger_kg = 0.075;
   Vec3 finger(-0.001, 0.06, 0), velocity(0.02, 0, 0);
   const double decay = std::exp(-damping_Ns_m / kFinger_kg * 1e-3);
@@ -204,7 +192,7 @@ TEST(BodyWorld, R21ABodyOfAMilligramRestsOnTheFinger) {
   for (const double mass_kg : {1e-6, 1e-5, 1e-4, 2e-4, 1e-3}) {
     Bench bench({{mass_kg, Vec3(0.02, 0.001, 0.02), Vec3(0, 0.035, 0)}}, 0.5);
     Vec3 finger(0, 0.03, 0);
-    const ServoSettings settings = undamped(1000);
+    const ServoSettings settings = test::plainServo(1000);
     const Vec3 force = sweep(bench, settings, finger, Vec3::Zero(), 2);
     EXPECT_NEAR(force.y(), -mass_kg * 9.81, 0.02 * mass_kg * 9.81 + 1e-9) << mass_kg;
     EXPECT_LT(bench.body().velocity.norm(), 1e-4) << mass_kg;
@@ -216,7 +204,7 @@ TEST(BodyWorld, ABodyOnAFingerOnTheFloorRests) {
   for (const double mass_kg : {0.001, 0.1, 1.0}) {
     Bench bench({{mass_kg, Vec3(0.03, 0.002, 0.03), Vec3(0, 0.01, 0)}}, 0.5);
     Vec3 finger(0, 0.002, 0);
-    const ServoSettings settings = undamped(1000);
+    const ServoSettings settings = test::plainServo(1000);
     sweep(bench, settings, finger, Vec3::Zero(), 0.5);
     sweep(bench, settings, finger, Vec3(0, -0.005, 0), 0.4);
     sweep(bench, settings, finger, Vec3::Zero(), 1);
@@ -230,7 +218,7 @@ TEST(BodyWorld, ABodyOnAFingerOnTheFloorRests) {
 // it.
 TEST(BodyWorld, R27PlatesDoNotPassTheFinger) {
   std::mt19937_64 random(27);
-  const ServoSettings settings = undamped(1000);
+  const ServoSettings settings = test::plainServo(1000);
   int touched = 0;
   for (int run = 0; run < 60; ++run) {
     const double mass_kg = std::pow(10, between(random, -3, 1)), speed = std::pow(10, between(random, -2, 1));
@@ -263,7 +251,7 @@ TEST(BodyWorld, AnImpulseWakesWhatSleeps) {
     for (std::size_t i = 0; i < high; ++i)
       tower.push_back({0.02, Vec3::Constant(kHalf_m), Vec3(0, kHalf_m * (1 + 2.02 * static_cast<double>(i)), 0)});
     Bench bench(tower, 0.5);
-    const ServoSettings settings = undamped(1000);
+    const ServoSettings settings = test::plainServo(1000);
     Vec3 finger(0.3, 0.3, 0);
     sweep(bench, settings, finger, Vec3::Zero(), 2);
     ASSERT_NE(bench.body(high - 1).island, 0u);

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "bodies/test_worlds.h"
-#include "device/device_models.h"
+#include "plain_servo.h"
 #include "touch/touch_step.h"
 
 namespace hl {
@@ -31,14 +31,7 @@ std::shared_ptr<const Snapshot> cubeBefore(double mass_kg) {
 }
 
 ServoSettings servoOf(double period_s) {
-  ServoSettings settings = ServoSettings::of(premium10().info);
-  settings.stiffness_N_m = kStiffness_N_m;
-  settings.damping_Ns_m = 0;
-  settings.ramp_s = settings.period_s = period_s;
-  settings.friction_N = 0;
-  settings.velocity_limit_m_s = 100;
-  settings.force_rate_limit_N_s = 1e9;
-  settings.ledger = LedgerMode::kReport;
+  ServoSettings settings = test::plainServo(kStiffness_N_m, period_s);
   settings.vibration.on = false;
   return settings;
 }

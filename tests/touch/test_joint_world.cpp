@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "bodies/test_worlds.h"
-#include "device/device_models.h"
+#include "plain_servo.h"
 #include "touch/body_world.h"
 #include "touch/touch_step.h"
 
@@ -13,18 +13,6 @@ namespace hl {
 namespace {
 
 constexpr double kRadius_m = 0.001, kStep_s = 1e-3, kSpring_N_m = 1000;
-
-ServoSettings plainSpring() {
-  ServoSettings settings = ServoSettings::of(premium10().info);
-  settings.stiffness_N_m = kSpring_N_m;
-  settings.damping_Ns_m = 0;
-  settings.ramp_s = settings.period_s = kStep_s;
-  settings.friction_N = 0;
-  settings.velocity_limit_m_s = 100;
-  settings.force_rate_limit_N_s = 1e9;
-  settings.ledger = LedgerMode::kReport;
-  return settings;
-}
 
 // One box on one joint to the world, without gravity, and a device's finger.
 class JointBench {
@@ -70,7 +58,7 @@ class JointBench {
   std::optional<SnapshotSlot> scenes_;
   std::optional<ProxyLoop> loop_;
   TouchStep step_;
-  ServoSettings settings_ = plainSpring();
+  ServoSettings settings_ = test::plainServo(kSpring_N_m, kStep_s);
   ProxyCommands commands_;
   std::int64_t time_ns_ = 0;
 };
