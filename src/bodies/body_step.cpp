@@ -19,6 +19,19 @@ constexpr int kWeakerTimes = 4;
 // How often the ways of joints are bent. What is left is straightened (motion_plan.h).
 constexpr int kBends = 3;
 
+void limitSpeeds(const World& world, WorldState& state) {
+  for (std::size_t i = 0; i < state.bodies.size(); ++i) {
+    BodyState& body = state.bodies[i];
+    const bool within = body.velocity.squaredNorm() <= kFastest_m_s * kFastest_m_s &&
+                        body.spin.squaredNorm() <= kFastest_rad_s * kFastest_rad_s;
+    if (within) continue;
+    const double before_J = kineticEnergy_J(world.bodies[i], body);
+    body.velocity = limited(body.velocity, kFastest_m_s);
+    body.spin = limited(body.spin, kFastest_rad_s);
+    state.energy.solver_J += kineticEnergy_J(world.bodies[i], body) - before_J;
+  }
+}
+
 }  // namespace
 
 // What sleeps is a node that nothing moves.
@@ -218,6 +231,7 @@ BodyStepReport BodyStepper::step(WorldState& state, double period_s, std::span<c
   problem_.times = times;
   problem_.meetings.look(times.begin_ns);
   wakeFromOutside(state, hands);
+  limitSpeeds(world(), state);
   BodyStepReport report = findImpulses(state, period_s, margin_m, hands, given);
   for (int time = 0; time < kRestarts && wakePushed(problem_, state); ++time)
     report = findImpulses(state, period_s, margin_m, hands, given);

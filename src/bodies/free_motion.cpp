@@ -6,8 +6,12 @@ namespace hl {
 
 namespace {
 
+// In a step; beyond it a direction is no longer exact.
+constexpr double kMostTurn_rad = 1e6;
+
 // The rotation by |turn| rad about its direction.
-Eigen::Quaterniond exponential(const Vec3& turn) {
+Eigen::Quaterniond exponential(const Vec3& whole_turn) {
+  const Vec3 turn = limited(whole_turn, kMostTurn_rad);
   const double angle = turn.norm();
   if (!(angle > 0)) return Eigen::Quaterniond::Identity();
   const Vec3 axis = plain::sin(angle / 2) / angle * turn;

@@ -59,6 +59,9 @@ inline constexpr std::size_t kMostHands = 8, kContactsOfHand = 8, kContactsPerBo
 inline std::size_t mostRows(std::size_t bodies) { return kMostHands * kContactsOfHand + kContactsPerBody * bodies; }
 inline std::size_t mostRows(const World& world) { return mostRows(world.bodies.size()); }
 
+/// No body is faster at the begin of a step: what is in its way would not be met any more.
+inline constexpr double kFastest_m_s = 1000, kFastest_rad_s = 100'000;
+
 /// World frame.
 struct BodyState {
   Vec3 centre = Vec3::Zero();  ///< m, of mass

@@ -190,9 +190,8 @@ void BodyWorld::place(std::size_t i, const BodyCommand& command) {
   bodies_[i]->poses->jumpTo(shownOf(i));
 }
 
-// No push makes a body faster than this, however light it is: what is in its way would not be met any more.
+// However light the body is, it is not made faster than bodies may be.
 void BodyWorld::give(std::size_t i, const Vec3& impulse_N_s, const Vec3& point) {
-  constexpr double kFastest_m_s = 1000, kFastest_rad_s = 10'000;
   const Body& body = world().bodies[i];
   BodyState& state = state_.bodies[i];
   state.velocity = limited(state.velocity + impulse_N_s / body.mass.mass_kg, kFastest_m_s);

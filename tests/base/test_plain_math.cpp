@@ -38,6 +38,14 @@ TEST(PlainMath, SineAndCosineOfWholeQuartersAreThoseOfTheRoundedAngle) {
   EXPECT_EQ(plain::cos(0), 1);
 }
 
+TEST(PlainMath, SineAndCosineOfWhatHasNoQuarterAreNotANumber) {
+  for (const double x : {HUGE_VAL, -HUGE_VAL, 1e16, -1e300, std::nan("")}) {
+    EXPECT_TRUE(std::isnan(plain::sin(x))) << x;
+    EXPECT_TRUE(std::isnan(plain::cos(x))) << x;
+  }
+  EXPECT_LE(std::abs(plain::sin(1e15)), 1);
+}
+
 TEST(PlainMath, TheAngleIsWithinFiveUnits) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> exponent(-30, 30);

@@ -280,6 +280,23 @@ TEST(BodyStep, R23ATopKeepsItsMomentumAndEnergy) {
 }
 
 // Identity of energy_book.h with balls and blocks that fall onto each other and bounce.
+TEST(BodyStep, WhatIsTooFastIsSlowedAndTold) {
+  World world;
+  world.fixed = floorScene();
+  world.bodies = {block(1, 1e-6, Vec3::Constant(1e-3), 0.5), ball(2, 1, 0.01, 0.5)};
+  Playground room(world, {placeAt(Vec3(0, 0.5, 0)), placeAt(Vec3(0.003, 0.51, 0))});
+  for (const double speed : {1e4, 1e30, 1e150}) {
+    room.state.bodies[0].velocity = Vec3(-speed, speed, 0);
+    room.state.bodies[0].spin = Vec3(0, speed, -speed);
+    const double before_J = room.energy_J() - room.state.energy.change_J();
+    room.step();
+    EXPECT_LE(room.state.bodies[0].velocity.norm(), 1.001 * kFastest_m_s) << speed;
+    EXPECT_LE(room.state.bodies[0].spin.norm(), 1.001 * kFastest_rad_s) << speed;
+    const double after_J = room.energy_J() - room.state.energy.change_J();
+    EXPECT_NEAR(after_J, before_J, 1e-9 * std::max(1.0, std::abs(before_J))) << speed;
+  }
+}
+
 TEST(BodyStep, TheEnergyBookTellsEveryJoule) {
   std::vector<Body> bodies;
   std::vector<Pose> poses;
