@@ -61,6 +61,10 @@ double percentile(std::vector<double>& sorted, double part) {
   return sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))];
 }
 
+double energy_J(const World& world, const WorldState& state) {
+  return kineticEnergy_J(world, state) + gravityEnergy_J(world, state);
+}
+
 template <typename Before>
 void timeSteps(benchmark::State& bench, Scene scene, int settling, Before before) {
   const auto world = std::make_shared<const World>(std::move(scene.world));
@@ -71,9 +75,10 @@ void timeSteps(benchmark::State& bench, Scene scene, int settling, Before before
     stepper.step(state, kPeriod_s, {}, {});
   }
   std::vector<double> times_us;
-  double rows = 0, sweeps = 0;
+  double rows = 0, sweeps = 0, converged = 0, deepest_m = 0, gained_J = 0;
   for (auto _ : bench) {
     before(state);
+    const double before_J = energy_J(*world, state);
     const double begin_s = processorTime_s();
     const BodyStepReport report = stepper.step(state, kPeriod_s, {}, {});
     const double took_s = processorTime_s() - begin_s;
@@ -81,11 +86,18 @@ void timeSteps(benchmark::State& bench, Scene scene, int settling, Before before
     bench.SetIterationTime(took_s);
     rows += report.rows;
     sweeps += report.sweeps;
+    converged += report.converged ? 1 : 0;
+    deepest_m = std::max(deepest_m, report.deepest);
+    const double now_J = energy_J(*world, state);
+    gained_J += std::max(0.0, now_J - before_J);
   }
   std::sort(times_us.begin(), times_us.end());
   bench.counters["p50_us"] = percentile(times_us, 0.5);
   bench.counters["p99.9_us"] = percentile(times_us, 0.999);
   bench.counters["rows"] = rows / static_cast<double>(times_us.size());
+  bench.counters["overlap_um"] = 1e6 * deepest_m;
+  bench.counters["gained_mJ"] = 1e3 * gained_J;  // sum over the steps in which the energy rose
+  bench.counters["converged"] = converged / static_cast<double>(times_us.size());
   bench.counters["sweeps"] = sweeps / static_cast<double>(times_us.size());
 }
 

@@ -8,7 +8,7 @@
 namespace hl::plain {
 
 /// Within three units in the last place for |x| up to 1e6 rad; beyond it the reduction loses digits. NaN of what
-/// is not finite, or above 1e15. RT-safe.
+/// is not finite, or above 1e9. RT-safe.
 double sin(double x);
 double cos(double x);
 /// The angle of (x, y), both >= 0 and not both 0: 0..pi / 2, within five units in the last place. RT-safe.

@@ -25,6 +25,8 @@ BodySurface between(const BodySurface& x, const BodySurface& y) {
           meanOf(x.restitution, y.restitution)};
 }
 
+bool isOf(const Row& row, const Meeting& meeting) { return row.a == meeting.a && row.b == meeting.b; }
+
 }  // namespace
 
 ContactRows::ContactRows(BodyProblem& problem) : problem_(problem) {
@@ -99,8 +101,11 @@ void ContactRows::addBearing(ContactMemory& memory) {
     const Meeting &of_x = meetings[x.meeting], &of_y = meetings[y.meeting];
     return std::tie(of_x.a, of_x.b, x.gap, x.meeting, x.point) < std::tie(of_y.a, of_y.b, y.gap, y.meeting, y.point);
   });
+  std::size_t first = problem_.rows.size();  // of the rows of the pair
   for (const Touching& one : touching_) {
-    if (hasTwin(meetings[one.meeting], one.point)) continue;
+    const Meeting& meeting = meetings[one.meeting];
+    if (first < problem_.rows.size() && !isOf(problem_.rows[first], meeting)) first = problem_.rows.size();
+    if (hasTwin(meeting, one.point, first)) continue;
     addRow(memory, meetings[one.meeting], one.point);
     if (problem_.rows.back().pressed > 0) continue;
     problem_.rows.pop_back();
@@ -109,12 +114,13 @@ void ContactRows::addBearing(ContactMemory& memory) {
 }
 
 // A row that bears at the same place in the same direction: the triangle on the other side of an edge.
-bool ContactRows::hasTwin(const Meeting& meeting, std::size_t number) const {
+bool ContactRows::hasTwin(const Meeting& meeting, std::size_t number, std::size_t first) const {
   const ManifoldPoint& point = meeting.manifold.points[number];
   const Vec3 arm = point.point - problem_.nodes[static_cast<std::size_t>(meeting.a)].centre;
   const double near = kTwin * problem_.world->bodies[static_cast<std::size_t>(meeting.a)].shape.reach;
-  return std::any_of(problem_.rows.begin(), problem_.rows.end(), [&](const Row& row) {
-    return row.a == meeting.a && row.b == meeting.b && (row.arm_a - arm).squaredNorm() < near * near &&
+  const auto begin = problem_.rows.begin() + static_cast<std::ptrdiff_t>(first);
+  return std::any_of(begin, problem_.rows.end(), [&](const Row& row) {
+    return isOf(row, meeting) && (row.arm_a - arm).squaredNorm() < near * near &&
            (row.normal - meeting.manifold.normal).squaredNorm() < kTwin * kTwin;
   });
 }
@@ -142,7 +148,7 @@ void ContactRows::addOfMeeting(WorldState& state, Meeting& meeting) {
   const auto overlap_at_end = [&] { return problem_.meetsAtEnd(state, meeting, plan_, end) ? deepestOf(end) : 0; };
   if (predicted && (pace.fast || overlap_at_end() > kTouching_m)) {
     for (std::size_t point = 0; point < meeting.manifold.points.size(); ++point) {
-      if (goesThrough(meeting, point) && !hasTwin(meeting, point)) addRow(state.memory, meeting, point);
+      if (goesThrough(meeting, point) && !hasTwin(meeting, point, 0)) addRow(state.memory, meeting, point);
     }
   } else if ((pace.fast || pace.turns) && overlap_at_end() > kHeld_m) {
     addRowsOfEnd(meeting, end);

@@ -31,7 +31,8 @@ class ContactRows {
   Row rowOf(const Meeting& meeting, std::size_t point) const;
   void addRow(ContactMemory& memory, Meeting& meeting, std::size_t point);
   void addRowsOfEnd(const Meeting& meeting, const Manifold& end);
-  bool hasTwin(const Meeting& meeting, std::size_t point) const;
+  /// Among the rows from number `first` on.
+  bool hasTwin(const Meeting& meeting, std::size_t point, std::size_t first) const;
   bool goesThrough(const Meeting& meeting, std::size_t point) const;
   void addOfMeeting(WorldState& state, Meeting& meeting);
   Vec3 placeOf(const Row& row) const;

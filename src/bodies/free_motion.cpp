@@ -35,7 +35,9 @@ void moveFreely(const Body& body, BodyState& state, const Vec3& way, double peri
   Eigen::Quaterniond turned = state.turned;
   for (int round = 0; round < kRounds; ++round) {
     turned = (state.turned * exponential(period_s / 2 * (before + after))).normalized();
+    const Vec3 last = after;
     after = inverse * (turned.toRotationMatrix().transpose() * momentum);
+    if (after == last) break;
   }
   state.turned = turned;
   state.spin = turned.toRotationMatrix() * after;

@@ -48,6 +48,7 @@ bool Impacts::find(std::vector<Row>& rows) {
   follow(rows);
   for (Row& row : rows) {
     if (!bounces(row)) continue;
+    row.solved = Row::Solved::kNo;
     if (!isJoined(row))
       row.least_velocity = std::max(0.0, row.normal.dot(relativeVelocity(row, after_)));
     else if (row.approach < -kBounces_m_s)
@@ -105,6 +106,7 @@ bool Impacts::weaken(std::vector<Row>& rows, bool last) {
   for (Row& row : rows) {
     if (!(row.least_velocity > 0) || !(gained(row.a) > 0)) continue;
     row.least_velocity = last ? 0 : row.least_velocity / 2;
+    row.solved = Row::Solved::kNo;
     any = true;
   }
   return any;

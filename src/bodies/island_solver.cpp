@@ -1,23 +1,49 @@
 #include "bodies/island_solver.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace hl {
 
 namespace {
 
 // Sweeps before and after each direct solve; and after the last, where they still do not end.
-constexpr int kFewSweeps = 6, kLastSweeps = 20;
-constexpr int kDirectSolves = 3;
-// Of single rows in a step, all sweeps of all solves; an island whose turn comes later has kFewSweeps. Small islands
-// may take longer: one hand that presses a body against a wall is solved to the last digits.
-constexpr int kMostUpdates = 20'000;
+constexpr int kFewSweeps = 3, kLastSweeps = 20;
+constexpr int kDirectSolves = 5;
+// Of single rows in a step, all sweeps of all solves; an island whose turn comes later has one direct solve, with
+// kFewSweeps before and after it. Of these kSmallUpdates in the last sweeps of an island: one hand that presses a body
+// against a wall is solved to the last digits.
+constexpr int kMostUpdates = 10'000;
 constexpr int kSmallUpdates = 4'000;
+
+Vec3 impulseOf(const Row& row) { return row.pressed * row.normal + row.dragged; }
+
+// Impulses that were not found to the end may push what is apart already, and add energy. Their work is s a + s^2 b / 2
+// if each is multiplied by s, from 0 to 1; no more of them is kept than takes most, beside what impacts give back.
+void keepPassive(std::span<Row> rows, std::span<Node> nodes) {
+  double after_J = 0, before_J = 0, given_back_J = 0;
+  for (const Row& row : rows) {
+    after_J += impulseOf(row).dot(relativeVelocity(row, nodes));
+    given_back_J += row.pressed * std::max(0.0, row.least_velocity);
+  }
+  for (const Row& row : rows) applyImpulse(row, nodes, -impulseOf(row));
+  for (const Row& row : rows) before_J += impulseOf(row).dot(relativeVelocity(row, nodes));
+  const bool takes = (before_J + after_J) / 2 <= given_back_J;
+  const double part = takes ? 1 : std::clamp((given_back_J - before_J) / (after_J - before_J), 0.0, 1.0);
+  for (Row& row : rows) {
+    row.pressed *= part;
+    row.dragged *= part;
+    applyImpulse(row, nodes, impulseOf(row));
+  }
+}
+
+bool isNew(const Row& row) { return row.solved == Row::Solved::kNo; }
+bool isSolved(const Row& row) { return row.solved == Row::Solved::kWhole; }
 
 }  // namespace
 
 IslandSolver::IslandSolver(const BodyProblem& problem)
-    : islands_(problem.nodes.capacity()), direct_(problem.nodes.capacity()) {
+    : islands_(problem.nodes.capacity()), sweeps_(problem.nodes.capacity()), direct_(problem.nodes.capacity()) {
   row_room_.reserve(problem.rows.capacity());
   joints_.reserve(problem.joints.blocks.size());
   joint_room_.reserve(problem.joints.blocks.size());
@@ -26,27 +52,43 @@ IslandSolver::IslandSolver(const BodyProblem& problem)
 void IslandSolver::begin() { updates_left_ = kMostUpdates; }
 
 bool IslandSolver::solveContacts(std::span<Row> rows, std::span<Node> nodes, double period_s, int& sweeps) {
-  const int count = static_cast<int>(rows.size());
-  RowSolverLimits limits;
-  bool converged = false;
-  for (int time = 0; !converged; ++time) {
-    const bool last = time == kDirectSolves || (time > 0 && updates_left_ <= 0);
-    limits.sweeps = updates_left_ <= 0 ? kFewSweeps : last ? std::max(kLastSweeps, kSmallUpdates / count) : kFewSweeps;
-    const int made = solveRows(rows, {}, nodes, period_s, limits);
-    sweeps += made;
-    updates_left_ -= made * count;
-    converged = made < limits.sweeps;
-    if (last) break;
-    if (!converged) direct_.solve(rows, nodes, period_s);
-  }
+  const bool converged = findContacts(rows, nodes, period_s, sweeps);
+  if (!converged) keepPassive(rows, nodes);
   return converged;
+}
+
+bool IslandSolver::findContacts(std::span<Row> rows, std::span<Node> nodes, double period_s, int& sweeps) {
+  const int count = static_cast<int>(rows.size());
+  double last_change = std::numeric_limits<double>::infinity();
+  for (int time = 0;; ++time) {
+    const RowSolver::Report report = sweep(rows, nodes, period_s, kFewSweeps, sweeps);
+    if (report.converged) return true;
+    if (updates_left_ <= 0 && time > 0) return false;
+    // A direct solve that did not help began with other contacts than those of the solution, and so would the next.
+    if (time == kDirectSolves || report.change > last_change) break;
+    last_change = report.change;
+    direct_.solve(rows, nodes, period_s);
+  }
+  const int most = std::max(kLastSweeps, kSmallUpdates / count);
+  return sweep(rows, nodes, period_s, std::clamp(updates_left_ / count, kFewSweeps, most), sweeps).converged;
+}
+
+RowSolver::Report IslandSolver::sweep(std::span<Row> rows, std::span<Node> nodes, double period_s, int most,
+                                      int& sweeps) {
+  RowSolverLimits limits;
+  limits.sweeps = most;
+  const RowSolver::Report report = sweeps_.solve(rows, {}, nodes, period_s, limits);
+  sweeps += report.sweeps;
+  updates_left_ -= report.sweeps * static_cast<int>(rows.size());
+  return report;
 }
 
 bool IslandSolver::solveJoined(std::span<Row> rows, const JointPart& joints, std::span<Node> nodes, double period_s,
                                int& sweeps) {
-  const RowSolverLimits limits = limitsFor(rows.size() + joints.set->work(joints.numbers));
-  sweeps = solveRows(rows, joints, nodes, period_s, limits);
-  return sweeps < limits.sweeps;
+  const RowSolver::Report report =
+      sweeps_.solve(rows, joints, nodes, period_s, limitsFor(rows.size() + joints.set->work(joints.numbers)));
+  sweeps = report.sweeps;
+  return report.converged;
 }
 
 void IslandSolver::gather(BodyProblem& problem) {
@@ -87,9 +129,15 @@ bool IslandSolver::solve(BodyProblem& problem, int& sweeps) {
       island = std::min(island, islands_.of(problem.joints.blocks[joints_[next_joint_]].a));
     const std::span<Row> rows = takeRows(problem, island);
     const JointPart joints{&problem.joints, takeJoints(problem, island)};
+    if (joints.numbers.empty() && std::none_of(rows.begin(), rows.end(), isNew)) {
+      converged &= std::all_of(rows.begin(), rows.end(), isSolved);
+      continue;
+    }
     int made = 0;
-    converged &= joints.numbers.empty() ? solveContacts(rows, problem.nodes, problem.period_s, made)
-                                        : solveJoined(rows, joints, problem.nodes, problem.period_s, made);
+    const bool whole = joints.numbers.empty() ? solveContacts(rows, problem.nodes, problem.period_s, made)
+                                              : solveJoined(rows, joints, problem.nodes, problem.period_s, made);
+    for (Row& row : rows) row.solved = whole ? Row::Solved::kWhole : Row::Solved::kInPart;
+    converged &= whole;
     sweeps = std::max(sweeps, made);
   }
   return converged;

@@ -25,10 +25,13 @@ class IslandSolver {
   void gather(BodyProblem& problem);
   std::span<Row> takeRows(BodyProblem& problem, int island);
   std::span<const std::uint32_t> takeJoints(const BodyProblem& problem, int island);
+  bool findContacts(std::span<Row> rows, std::span<Node> nodes, double period_s, int& sweeps);
   bool solveContacts(std::span<Row> rows, std::span<Node> nodes, double period_s, int& sweeps);
+  RowSolver::Report sweep(std::span<Row> rows, std::span<Node> nodes, double period_s, int most, int& sweeps);
   bool solveJoined(std::span<Row> rows, const JointPart& joints, std::span<Node> nodes, double period_s, int& sweeps);
 
   Islands islands_;
+  RowSolver sweeps_;
   DirectSolve direct_;
   std::vector<Row> row_room_;
   std::vector<std::uint32_t> joints_, joint_room_;  // numbers of those that are stepped, by island

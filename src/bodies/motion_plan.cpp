@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <limits>
 
-#include "bodies/row_solver.h"
-
 namespace hl {
 
 namespace {
 
 // Of an overlap this part is removed in a step.
 constexpr double kPushedApart = 0.2;
+// What is left of an overlap, as it is but a part, is the next step's; joints are held to the last digits.
+constexpr int kSweepsApart = 10;
 // How often joints are put right.
 constexpr int kCorrections = 4;
 // Of what is off, nothing moves farther than this: a mechanism that is stretched out would be flung aside.
@@ -30,10 +30,13 @@ double separationAlong(const PlacedConvex& a, const PlacedConvex& b, const Vec3&
   return low - high - a.shape->radius - b.shape->radius;
 }
 
+// Its vertices are on the cylinder, of which its sides lie inside.
+bool isPrism(const PlacedConvex& of) { return of.shape->round_radius > 0; }
+
 }  // namespace
 
 MotionPlan::MotionPlan(const BodyProblem& problem, const JointRows& joints)
-    : problem_(problem), joints_(joints), joints_apart_(problem.joints) {
+    : problem_(problem), joints_(joints), joints_apart_(problem.joints), sweeps_(problem.nodes.capacity()) {
   plan_.ways.resize(problem.bodies());
   plan_.turns.resize(problem.bodies());
   plan_.parts.resize(problem.bodies());
@@ -113,8 +116,9 @@ void MotionPlan::pushApart() {
   apart_ = problem_.nodes;
   for (Node& node : apart_) node.velocity = node.spin = Vec3::Zero();
   for (Row& row : overlaps_) prepareRow(row, apart_);
-  solveRows(overlaps_, {&joints_apart_, problem_.awake_joints}, apart_, problem_.period_s,
-            limitsFor(overlaps_.size() + joints_apart_.work(problem_.awake_joints)));
+  RowSolverLimits limits = limitsFor(overlaps_.size() + joints_apart_.work(problem_.awake_joints));
+  if (problem_.awake_joints.empty()) limits.sweeps = std::min(limits.sweeps, kSweepsApart);
+  sweeps_.solve(overlaps_, {&joints_apart_, problem_.awake_joints}, apart_, problem_.period_s, limits);
 }
 
 // All by one part, so that nothing of a body moves farther than `most` (m); 0: as far as it may.
@@ -153,20 +157,23 @@ void MotionPlan::limit(double margin) {
   }
 }
 
-// m: how far the pair would end inside each other or, of what is fast, on another side.
-double MotionPlan::depthAtEnd(const WorldState& state, const Meeting& meeting) const {
-  Manifold end;
-  const double overlap = problem_.meetsAtEnd(state, meeting, plan_, end) ? deepestOf(end) : 0;
-  if (!paceOf(problem_, meeting).fast) return overlap;
+// m: how far the pair would end inside each other or, of what is fast, on another side. No more than they then overlap
+// along the normal of the begin: where that is at most `enough`, it stands for both.
+double MotionPlan::depthAtEnd(const WorldState& state, const Meeting& meeting, double enough) const {
   PlacedRoom room_a, room_b;
   const PlacedConvex a = problem_.atEnd(state, static_cast<std::size_t>(meeting.a), plan_, room_a);
   const PlacedConvex b = problem_.otherAtEnd(state, meeting, plan_, room_b);
-  return std::max(overlap, -separationAlong(a, b, meeting.manifold.normal));
+  const double along = -separationAlong(a, b, meeting.manifold.normal);
+  if (along <= enough && !isPrism(a) && !isPrism(b)) return std::max(along, 0.0);
+  Manifold end;
+  const double overlap = findManifold(a, b, 0, end) ? deepestOf(end) : 0;
+  return paceOf(problem_, meeting).fast ? std::max(overlap, along) : overlap;
 }
 
 // Farther than it began.
 bool MotionPlan::passes(const WorldState& state, const Meeting& meeting) const {
-  return depthAtEnd(state, meeting) > std::max(kLeft_m, deepestOf(meeting.manifold) + kTouching_m);
+  const double most = std::max(kLeft_m, deepestOf(meeting.manifold) + kTouching_m);
+  return depthAtEnd(state, meeting, most) > most;
 }
 
 // Scenery that its client moves toward the body does not wait for it.
@@ -178,14 +185,14 @@ bool MotionPlan::comesToward(const Meeting& meeting) const {
 
 void MotionPlan::shorten(const WorldState& state, const Meeting& meeting) {
   constexpr int kTimes = 4;
-  const double depth = comesToward(meeting) ? depthAtEnd(state, meeting) : 0;
+  const double depth = comesToward(meeting) ? depthAtEnd(state, meeting, 0) : 0;
   kept_ = plan_.parts;
   for (int time = 0; time < kTimes; ++time) {
     goPart(meeting, kShorter);
     if (!passes(state, meeting)) return;
   }
   goPart(meeting, 0);
-  if (depth > 0 && depthAtEnd(state, meeting) > depth) plan_.parts = kept_;  // it is in the body all the more
+  if (depth > 0 && depthAtEnd(state, meeting, depth) > depth) plan_.parts = kept_;  // it is in the body all the more
 }
 
 void MotionPlan::stopShort(const WorldState& state, bool converged) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "bodies/joint_rows.h"
+#include "bodies/row_solver.h"
 
 namespace hl {
 
@@ -29,7 +30,7 @@ class MotionPlan {
   void goPart(const Meeting& meeting, double part);
   void limit(double margin);
   void stopShort(const WorldState& state, bool converged);
-  double depthAtEnd(const WorldState& state, const Meeting& meeting) const;
+  double depthAtEnd(const WorldState& state, const Meeting& meeting, double enough) const;
   bool passes(const WorldState& state, const Meeting& meeting) const;
   bool comesToward(const Meeting& meeting) const;
   void shorten(const WorldState& state, const Meeting& meeting);
@@ -41,6 +42,7 @@ class MotionPlan {
   std::vector<Node> apart_;   // velocities that only push overlapping bodies apart
   std::vector<Row> overlaps_;
   JointSet joints_apart_;
+  RowSolver sweeps_;
 };
 
 }  // namespace hl

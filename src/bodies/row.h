@@ -32,28 +32,34 @@ struct Node {
   }
 };
 
-/// A point of contact. Along the normal gap + T v >= 0; across it Coulomb's cone.
-struct Row {
+/// A point of contact. Along the normal gap + T v >= 0; across it Coulomb's cone. What a sweep of the solver reads and
+/// writes comes first, and fills whole lines of the cache.
+struct alignas(64) Row {
   static constexpr int kFixed = -1;
   static constexpr double kNone = -1e300;
-  ContactPair pair{};
   int a = 0, b = kFixed;  ///< numbers of nodes; the normal points from b to a
+  /// Of the solver: what changed since its last solve is solved anew.
+  enum class Solved : std::uint8_t { kNo, kInPart, kWhole } solved = Solved::kNo;
+  bool slipping = false;
   Vec3 normal = Vec3::UnitZ();
   Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();  ///< m, world, from the centres
   Vec3 carried = Vec3::Zero();                      ///< m/s, of b, where that is scenery
-  double gap = 0;                                   ///< m
+  double friction = 0;                              ///< of this step: static while it sticks
+  double pressed = 0;                               ///< N s, >= 0, on a along the normal
+  Vec3 dragged = Vec3::Zero();                      ///< N s, on a across the normal
+  // Made by prepareRow().
+  double normal_step = 0, drag_step = 0;  ///< kg, impulse per velocity
+  Vec3 response = Vec3::Zero();           ///< 1/kg, velocity for an impulse along the normal
+  // Of the solver.
+  double demand = 0;                                  ///< m/s, the least velocity along the normal
+  Vec3 change = Vec3::Zero(), search = Vec3::Zero();  ///< N s: of the last sweep, and the direction of the search
+
+  ContactPair pair{};
+  double gap = 0;  ///< m
   double static_friction = 0, dynamic_friction = 0;
-  double friction = 0;  ///< of this step: static while it sticks
   double restitution = 0;
   double least_velocity = kNone;  ///< m/s along the normal, that the row demands besides; kNone: nothing
-  double pressed = 0;             ///< N s, >= 0, on a along the normal
-  Vec3 dragged = Vec3::Zero();    ///< N s, on a across the normal
-  bool slipping = false;
-  // Made by prepareRow().
-  Vec3 change = Vec3::Zero(), search = Vec3::Zero();  ///< N s, in the last sweep, and the solver's direction
-  double normal_step = 0, drag_step = 0;              ///< kg, impulse per velocity
-  Vec3 response = Vec3::Zero();                       ///< 1/kg, velocity for an impulse along the normal
-  double approach = 0;                                ///< m/s along the normal before the step
+  double approach = 0;            ///< m/s along the normal before the step
 };
 
 /// Number of the node of a body; Row::kFixed: there is no such body. RT-safe.

@@ -39,11 +39,11 @@ TEST(PlainMath, SineAndCosineOfWholeQuartersAreThoseOfTheRoundedAngle) {
 }
 
 TEST(PlainMath, SineAndCosineOfWhatHasNoQuarterAreNotANumber) {
-  for (const double x : {HUGE_VAL, -HUGE_VAL, 1e16, -1e300, std::nan("")}) {
+  for (const double x : {HUGE_VAL, -HUGE_VAL, 1e10, -1e300, std::nan("")}) {
     EXPECT_TRUE(std::isnan(plain::sin(x))) << x;
     EXPECT_TRUE(std::isnan(plain::cos(x))) << x;
   }
-  EXPECT_LE(std::abs(plain::sin(1e15)), 1);
+  EXPECT_LE(std::abs(plain::sin(1e9)), 1);
 }
 
 TEST(PlainMath, TheAngleIsWithinFiveUnits) {
