@@ -273,6 +273,19 @@ inline std::vector<HLbody> bodies() {
   return all;
 }
 
+/// hlJointTable. Throws std::invalid_argument when there are not as many forces as positions.
+inline void jointTable(std::span<const HLdouble> positions, std::span<const HLdouble> forces) {
+  if (positions.size() != forces.size()) throw std::invalid_argument("a table needs a force for each position");
+  hlJointTable(static_cast<HLsizei>(positions.size()), positions.data(), forces.data());
+}
+
+/// hlGetJoints: all of them, sorted by number.
+inline std::vector<HLjoint> joints() {
+  std::vector<HLjoint> all(static_cast<std::size_t>(get(HL_JOINT_COUNT)));
+  all.resize(static_cast<std::size_t>(hlGetJoints(static_cast<HLsizei>(all.size()), all.data())));
+  return all;
+}
+
 /// hlTakeSamples: all that came since the last time, the oldest first.
 inline std::vector<HLsample> takeSamples() {
   constexpr HLsizei kAtATime = 256;

@@ -49,12 +49,16 @@ class ItemList {
   /// What hlBody* says of the object; absent: it is no body.
   const std::optional<proto::Body>& body() const { return body_; }
   void setBody(const proto::Body& body) { body_ = body; }
+  /// Of the world; definitions have none.
+  const std::vector<proto::WorldJoint>& joints() const { return joints_; }
+  std::vector<proto::WorldJoint>& joints() { return joints_; }
   /// Of all items that have some, in order.
   std::vector<ItemVertices> vertices() const;
 
  private:
   std::vector<Item> items_;
   std::optional<proto::Body> body_;
+  std::vector<proto::WorldJoint> joints_;
 };
 
 }  // namespace hl::client

@@ -15,6 +15,7 @@
 #include "touch/bodies_memory.h"
 #include "touch/body_command.h"
 #include "touch/body_view.h"
+#include "touch/joint_views.h"
 
 namespace hl {
 
@@ -64,8 +65,10 @@ class BodyWorld {
   const BodyView& view() const { return view_; }
 
  private:
-  BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<const RigidBody>> bodies);
+  BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<const RigidBody>> bodies,
+            JointViews joint_views);
   void continueJoints(const BodyWorld& before);
+  bool goesOn(std::uint64_t key, const BodyWorld& before) const;
   bool standsAs(const BodyWorld& before) const;
   ShownBody shownOf(std::size_t i) const;
   double energyOf_J(std::size_t i) const;
@@ -82,6 +85,7 @@ class BodyWorld {
   std::vector<std::shared_ptr<const RigidBody>> bodies_;
   BodyStepper stepper_;
   WorldState state_;
+  JointViews joint_views_;
   FixedVector<BodyImpulse, kContactsOfHand> owed_;
   GivenImpulses given_;
   std::size_t paid_ = 0;  // the first of given_: what was owed
