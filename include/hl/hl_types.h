@@ -283,19 +283,18 @@ typedef struct HLbody {
 /** hlJoint*: what the next hlJoin makes. Along the coordinate of the joint, which is 0 where the calls of its bodies
  * place them, act forces: in N and m, or N m and rad for a hinge; a ball and a fixed joint have none. */
 enum {
-  HL_JOINT_KIND =
-      0x48120, /**< HL_JOINT_BALL .. HL_JOINT_DISTANCE. Default HL_JOINT_BALL. Setting it resets the rest. */
-  HL_JOINT_COLLIDE = 0x48121,  /**< HL_TRUE: its two bodies also collide with each other. Default HL_FALSE. */
-  HL_JOINT_LOW = 0x48122,      /**< -1e9 .. 1e9: the coordinate is not below. Default: no limit. */
-  HL_JOINT_HIGH = 0x48123,     /**< -1e9 .. 1e9, not below the low one: nor above. Default: no limit. */
-  HL_JOINT_REST = 0x48124,     /**< -1e9 .. 1e9: where the spring makes no force. Default 0. */
-  HL_JOINT_SPRING = 0x48125,   /**< 0 .. 1e9, N/m or N m/rad. Default 0. */
-  HL_JOINT_DAMPING = 0x48126,  /**< 0 .. 1e9, N s/m or N m s/rad. Default 0. */
-  HL_JOINT_FRICTION = 0x48127, /**< 0 .. 1e9, N or N m, dry. Default 0. */
-  HL_JOINT_ANCHOR = 0x48128,   /**< 3; m, within 1e6: the point that it holds; of a distance the one at body a. Default
-                                    the world's origin. */
-  HL_JOINT_ANCHOR_B = 0x48129, /**< 3; m, within 1e6: of a distance the point at body b. Default the world's origin. */
-  HL_JOINT_AXIS = 0x4812A,     /**< 3; of any length but 0: of a hinge or slider, which need one */
+  HL_JOINT_KIND = 0x48120,       /**< HL_JOINT_BALL (the default) .. HL_JOINT_DISTANCE. Setting it resets the others. */
+  HL_JOINT_COLLIDE = 0x48121,    /**< HL_TRUE: its two bodies also collide with each other. Default HL_FALSE. */
+  HL_JOINT_LOW = 0x48122,        /**< -1e9 .. 1e9: the coordinate is not below. Default: no limit. */
+  HL_JOINT_HIGH = 0x48123,       /**< -1e9 .. 1e9, not below the low one: nor above. Default: no limit. */
+  HL_JOINT_REST = 0x48124,       /**< -1e9 .. 1e9: where the spring makes no force. Default 0. */
+  HL_JOINT_SPRING = 0x48125,     /**< 0 .. 1e9, N/m or N m/rad. Default 0. */
+  HL_JOINT_DAMPING = 0x48126,    /**< 0 .. 1e9, N s/m or N m s/rad. Default 0. */
+  HL_JOINT_FRICTION = 0x48127,   /**< 0 .. 1e9, N or N m, dry. Default 0. */
+  HL_JOINT_ANCHOR = 0x48128,     /**< 3; m, within 1e6: the point that it holds; of a distance that at body a. Default:
+                                      the world's origin. */
+  HL_JOINT_ANCHOR_B = 0x48129,   /**< 3; m, within 1e6: of a distance the point at body b. Default: the same. */
+  HL_JOINT_AXIS = 0x4812A,       /**< 3; of any length but 0: of a hinge or slider, which need one */
   HL_JOINT_COORDINATE = 0x4812B, /**< hlGetJointdv, 1; m or rad; of a hinge with its whole turns */
   HL_JOINT_VELOCITY = 0x4812C,   /**< hlGetJointdv, 1; m/s or rad/s */
   HL_JOINT_FORCE = 0x4812D,      /**< hlGetJointdv, 1; N or N m along the coordinate: spring, damper, table, friction

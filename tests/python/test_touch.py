@@ -361,7 +361,8 @@ class EveryCall(unittest.TestCase):
     # What stands in their place is in docs/python.md.
     ELSEWHERE = {"hlCreateContext", "hlGetConnectError", "hlMakeCurrent", "hlGetCurrentContext", "hlDestroyContext",
                  "hlGetError", "hlErrorFunc", "hlEventFunc", "hlPoll", "hlVertexPointer", "hlNormalPointer",
-                 "hlTexCoordPointer", "hlEnableClientState", "hlDisableClientState", "hlGetBodydv"}
+                 "hlTexCoordPointer", "hlEnableClientState", "hlDisableClientState", "hlGetBodydv",
+                 "hlGetJointdv"}
 
     def test_of_hl_h_is_there_with_its_constants(self):
         header = (SOURCE / "include/hl/hl.h").read_text(encoding="utf-8")

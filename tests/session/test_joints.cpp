@@ -6,7 +6,13 @@
 #include <limits>
 
 #include "bodies/joint_set.h"
+#include "bodies/test_worlds.h"
+#include "record/recorder.h"
+#include "record/replay.h"
+#include "scene/scene_model.h"
 #include "session/bodies_client.h"
+#include "temp_folder.h"
+#include "touch/body_world.h"
 
 namespace hl {
 namespace {
@@ -210,6 +216,63 @@ TEST(SessionJoints, ThereAreNoMoreThanTheLimitAllClientsTogether) {
   EXPECT_EQ(other.show(frame(1, 2)), "there are more than 3 joints in the world, those of other clients among them");
   EXPECT_EQ(other.show(frame(2, 1)), "");
   EXPECT_EQ(server.device().snapshot()->mechanics.joints.size(), 3U);
+}
+
+// A block on a spring, of the server's own scene: of another one the joint holds that one's block.
+TEST(SessionJoints, OfTheServersOwnSceneFollowItsBodiesWhereItIsReplaced) {
+  const auto scene = [] {
+    SceneModel model;
+    SceneBody body;
+    body.name = "block";
+    body.model = test::boxModel(Vec3::Constant(test::kHalf_m));
+    body.pose.origin = Vec3(0.5, 0.3, 0);
+    body.spec.mass_kg = kMass_kg;
+    model.bodies.push_back(body);
+    JointSpec joint;
+    joint.kind = JointKind::kFixed;
+    joint.body_a = 1;
+    model.mechanics.joints.push_back(joint);
+    return makeSnapshot(std::move(model));
+  };
+  TouchServer server(scene(), settingsOf());
+  server.start();
+  for (int i = 0; i < 3; ++i) {
+    const auto shown = server.device().snapshot();
+    EXPECT_EQ(shown->mechanics.joints.at(0).body_a, shown->instances.at(0).key);
+    EXPECT_EQ(BodyWorld::of(*withOwnBodies(*shown))->world().joints.size(), 1U);
+    server.replaceScene(scene());
+  }
+}
+
+// Frames that bring joints, change and take them while a body swings: each tick and the world after it are the same.
+TEST(SessionJoints, ARecordedSessionIsReplayedBitForBit) {
+  const test::TempFolder folder;
+  RecorderSettings recorder;
+  recorder.file = (folder.path() / "joints.hlr").string();
+  TouchServerSettings settings = settingsOf();
+  settings.touch.sink = recorderWith(recorder);
+  {
+    TouchServer server(makeSnapshot(std::vector<Instance>{}), settings);
+    server.start();
+    Client client(server);
+    ASSERT_EQ(client.show(hangingFrame(1)), "");
+    ASSERT_TRUE(client.until([&] { return hangs(client); }));
+    proto::Frame frame = hangingFrame(2);
+    frame.mutable_world()->mutable_joints(0)->mutable_joint()->set_spring(100);
+    addJoint(frame, 8, proto::DISTANCE, 11).mutable_joint()->set_high(0.6);
+    ASSERT_EQ(client.show(frame), "");
+    ASSERT_TRUE(client.until([&] { return client.state_.joints_size() == 2; }));
+    ASSERT_TRUE(client.until([&] { return client.state_.joints(0).coordinate() < -1.9 * kSag_m; }));
+    frame = hangingFrame(3);
+    frame.mutable_world()->clear_joints();
+    ASSERT_EQ(client.show(frame), "");
+    ASSERT_TRUE(client.untilBody([](const proto::BodyState& body) { return body.position().y() < 0.2; }));
+  }
+  const ReplayReport report = replay(recorder.file);
+  EXPECT_FALSE(report.difference) << report.difference->what << " " << report.difference->number << " "
+                                  << report.difference->text;
+  EXPECT_GE(report.scenes, 4U);
+  EXPECT_GT(report.world_hashes, 0U);
 }
 
 // What kJoint_bytes stands for: the blocks and links of both solves of a step.

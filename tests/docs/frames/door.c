@@ -5,6 +5,6 @@ void showAngle(double radians);
 void useJoints(HLuint door, HLuint latch);
 
 void useJoints(HLuint door, HLuint latch) {
-  /* door */
+  /* block */
   hlCallObject(latch);
 }
