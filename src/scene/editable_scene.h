@@ -73,7 +73,7 @@ inline constexpr std::size_t kObject_bytes = 512;
 std::size_t bytesInWorld();
 /// Memory of a body that moves, beside that: in the worlds of three scenes the lists of a step have room for 64
 /// contacts of each.
-inline constexpr std::size_t kBody_bytes = 3 * std::size_t{100'000};
+inline constexpr std::size_t kBody_bytes = 300'000;
 
 /// Adds up the memory that shapes will need and checks it against the limit.
 class ModelSizes {

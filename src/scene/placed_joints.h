@@ -27,7 +27,7 @@ struct CalledJoint {
 std::size_t bytesOf(const CalledJoint& joint);
 /// Memory of a joint in the world beside its force table: in the worlds of three scenes, what the solve of a step keeps
 /// of it.
-inline constexpr std::size_t kJoint_bytes = 3 * std::size_t{10'000};
+inline constexpr std::size_t kJoint_bytes = 30'000;
 std::size_t bytesOfJoint(const JointSpec& joint);
 
 /// Of `session`. One that was in `before` between the same bodies is told of at the same place (JointSpec::shown).
