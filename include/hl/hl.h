@@ -257,6 +257,23 @@ HL_API HLsizei hlGetBodies(HLsizei most, HLbody* bodies);
  * an error: the last state has no such body. HL_INVALID_ENUM: not such a name. */
 HL_API HLboolean hlGetBodydv(HLuint object, HLenum name, HLdouble* values);
 
+/* ---- Snaps: places that hold the proxy until it is pulled off: docs/snaps.md ------------------------------------ */
+
+/** Gives the object that is being defined a point, x y z in metres of the definition, to which the proxy goes when it
+ * comes as near as `capture`, m of the world (1e-9 .. 1e9, scaled by no matrix), and which lets go of it when it is
+ * pulled by more than `release`, N at the hand (1e-9 .. 1e9). What would take it from farther away than it lets go,
+ * takes it from there: so no capture and release gives energy. It moves with each call of the object, which needs no
+ * geometry; of a body it also gets the hand's force. While it holds the proxy the scene is felt as ever.
+ * HL_INVALID_OPERATION: no definition is open. HL_INVALID_VALUE: out of its range, farther than 1e6 m from the origin,
+ * or more than 64 in the object; the server refuses a frame with more than 64 in the world (HL_REFUSED). */
+HL_API void hlSnapPoint3d(HLdouble x, HLdouble y, HLdouble z, HLdouble capture, HLdouble release);
+/** Leads the last snap of the definition on to x y z: a point becomes a line, a line a curve, of 256 points at most.
+ * HL_INVALID_OPERATION: there is none, or it is a plane. HL_INVALID_VALUE: as hlSnapPoint3d, or one point too many. */
+HL_API void hlSnapLineTo3d(HLdouble x, HLdouble y, HLdouble z);
+/** As hlSnapPoint3d: the plane through x y z whose normal is nx ny nz, of any length but 0; it holds on both sides. */
+HL_API void hlSnapPlane3d(HLdouble x, HLdouble y, HLdouble z, HLdouble nx, HLdouble ny, HLdouble nz, HLdouble capture,
+                          HLdouble release);
+
 /* ---- Names ---------------------------------------------------------------------------------------------------- */
 
 /** What is drawn next is called `name` by contacts and events; 0: not named here (in a definition: as its caller says).

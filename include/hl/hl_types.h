@@ -242,7 +242,10 @@ enum {
   HL_ITERATION_CAPS = 0x480B7,         /**< 1; ticks so far that hit the cap on their passes */
   HL_UNPLACED_TICKS = 0x480B8,         /**< 1; ticks so far without a clear place for the proxy: nothing pulled */
   HL_OUT_OF_WORK_TICKS = 0x480B9,      /**< 1; ticks so far that did all they may; the next goes on from there */
-  HL_BODY_COUNT = 0x4810C              /**< 1; bodies of this context that move; see hlGetBodies */
+  HL_BODY_COUNT = 0x4810C,             /**< 1; bodies of this context that move; see hlGetBodies */
+  HL_SNAPPED_OBJECT = 0x48120,         /**< 1; of this context, whose snap holds the proxy; 0: none */
+  HL_SNAPPED_NAME = 0x48121,           /**< 1; the name of its call; 0: none */
+  HL_SNAP_NUMBER = 0x48122             /**< 1; which of its snaps, from 0 in the order of the definition */
 };
 
 /** hlBody*: a rigid body. Its shape, by which it meets other bodies and the scene, is made from its mesh; the hand

@@ -49,12 +49,16 @@ class ItemList {
   /// What hlBody* says of the object; absent: it is no body.
   const std::optional<proto::Body>& body() const { return body_; }
   void setBody(const proto::Body& body) { body_ = body; }
+  /// What hlSnap* says of the object.
+  const std::vector<proto::Snap>& snaps() const { return snaps_; }
+  std::vector<proto::Snap>& snaps() { return snaps_; }
   /// Of all items that have some, in order.
   std::vector<ItemVertices> vertices() const;
 
  private:
   std::vector<Item> items_;
   std::optional<proto::Body> body_;
+  std::vector<proto::Snap> snaps_;
 };
 
 }  // namespace hl::client

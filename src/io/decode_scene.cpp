@@ -19,6 +19,8 @@ constexpr double kMostAlong = 1e9;
 
 constexpr std::uint32_t kDefaultSize = 64;
 
+constexpr double kMostPlace_m = 1e6;  // of joints and snaps, each coordinate
+
 const google::protobuf::FieldDescriptor& fieldOf(const google::protobuf::Message& message, const char* name) {
   return *message.GetDescriptor()->FindFieldByName(name);
 }
@@ -197,7 +199,6 @@ JointForces SceneDecoder::jointForces(const proto::Joint& in, const std::string&
 }
 
 JointSpec SceneDecoder::joint(const proto::Joint& in, const std::string& where) const {
-  constexpr double kMostPlace_m = 1e6;
   JointSpec spec;
   spec.name = in.name().empty() ? where : in.name();
   if (!proto::JointKind_IsValid(in.kind())) fail(where + ".kind", where + ".kind is none that HL knows");
@@ -210,6 +211,37 @@ JointSpec SceneDecoder::joint(const proto::Joint& in, const std::string& where) 
   spec.along = jointForces(in, where);
   spec.collide = in.collide();
   return spec;
+}
+
+SnapSpec SceneDecoder::snap(const proto::Snap& in, const std::string& where) const {
+  constexpr double kLeast = 1e-9, kMost = 1e9;
+  const auto count = static_cast<std::size_t>(in.points_size()) / 3;
+  const std::string points = where + ".points";
+  if (in.points_size() % 3 != 0 || count == 0) fail(points, points + " must hold 3 numbers each, of one point or more");
+  if (count > kMostCorners) fail(points, fmt::format("{} must not be more than {}", points, kMostCorners));
+  SnapSpec snap;
+  snap.name = in.name();
+  snap.capture_m = checked(in.capture(), kLeast, kMost, where + ".capture");
+  snap.release_N = checked(in.release_n(), kLeast, kMost, where + ".releaseN");
+  for (int i = 0; i < in.points_size(); i += 3) {
+    const auto number = [&](int k) { return checked(in.points(i + k), -kMostPlace_m, kMostPlace_m, points); };
+    snap.points.emplace_back(number(0), number(1), number(2));
+  }
+  if (!in.has_normal()) return snap;
+  snap.normal = checked(in.normal(), kMostPlace_m, where + ".normal");
+  if (!(snap.normal->stableNorm() > 0)) fail(where + ".normal", where + ".normal must not be zero");
+  if (count != 1) fail(points, points + " of a plane, which has a normal, must be one point");
+  snap.normal->stableNormalize();
+  return snap;
+}
+
+SnapList SceneDecoder::snaps(const google::protobuf::RepeatedPtrField<proto::Snap>& in,
+                             const std::string& where) const {
+  if (static_cast<std::size_t>(in.size()) > kMostSnaps)
+    fail(where, fmt::format("{}: there are more than {}", where, kMostSnaps));
+  SnapList snaps;
+  for (int i = 0; i < in.size(); ++i) snaps.push_back(snap(in[i], pathOf(where, i)));
+  return snaps;
 }
 
 Vec3 SceneDecoder::checked(const proto::Vec3& value, double most, const std::string& where) const {

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "bodies/scene_world.h"
 #include "io/body_messages.h"
+#include "io/snap_messages.h"
 #include "io/value_messages.h"
 
 namespace hl {
@@ -68,13 +69,24 @@ void PartSender::scene(const SceneModel& scene) {
     part.Clear();
     toProto(body, *part.mutable_rigid_body());
     send(part);
+    snaps(body.snaps);
     model(body.model);
   }
+  snaps(scene.snaps);
   part.set_joined_vertices(rest.reading.joined_vertices);
   send(part);
   part.set_single_precision(rest.reading.single_precision);
   send(part);
   model(rest);
+}
+
+void PartSender::snaps(const SnapList& snaps) {
+  proto::ReadingPart part;
+  for (const SnapSpec& snap : snaps) {
+    part.Clear();
+    toProto(snap, *part.mutable_snap());
+    send(part);
+  }
 }
 
 void PartSender::model(const Model& model) {
@@ -129,6 +141,11 @@ void PartCollector::addBody(const proto::RecordedBody& body) {
   in_body_ = true;
 }
 
+void PartCollector::addSnap(const proto::RecordedSnap& snap) {
+  if (snapsIn(scene_) >= kMostSnaps) throw Error("it has too many snaps");
+  (in_body_ ? scene_.bodies.back().snaps : scene_.snaps).push_back(snapOf(snap));
+}
+
 PartCollector::State PartCollector::add(const proto::ReadingPart& part, std::size_t bytes,
                                         const std::function<void(double)>& progress) {
   if (bytes > left_) throw Error("it is too large");
@@ -159,6 +176,9 @@ PartCollector::State PartCollector::add(const proto::ReadingPart& part, std::siz
       return addMesh(part.mesh());
     case proto::ReadingPart::kRigidBody:
       addBody(part.rigid_body());
+      return State::kMore;
+    case proto::ReadingPart::kSnap:
+      addSnap(part.snap());
       return State::kMore;
     case proto::ReadingPart::kMechanics:
       scene_.mechanics = mechanicsOf(part.mechanics());

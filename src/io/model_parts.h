@@ -27,6 +27,7 @@ class PartSender {
 
  private:
   void model(const Model& model);
+  void snaps(const SnapList& snaps);
   void send(const proto::ReadingPart& part);
 
   int descriptor_;
@@ -50,6 +51,7 @@ class PartCollector {
   State addMesh(const proto::RecordedShape& part);
   Model takeModel();
   void addBody(const proto::RecordedBody& body);
+  void addSnap(const proto::RecordedSnap& snap);
   void addTexture(const proto::RecordedTexture& texture);
   void addMaterial(const proto::Values& material);
   void addWarning(const std::string& warning);

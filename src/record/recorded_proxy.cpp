@@ -18,6 +18,7 @@ struct MemoryValues {
   double stiffness = 1;
   std::int64_t time_ns = 0;
   std::uint64_t snapshot = 0, carrier = 0;
+  HeldSnap snap;
   Ledger ledger;
   int out_of_work = 0, start = 0;
   FadingPull fading;
@@ -124,9 +125,10 @@ AdheringContacts adheringOf(const proto::RecordedProxy& in) {
 
 void toProto(const ProxyMemory& memory, proto::RecordedProxy& out) {
   const ProxyState& state = memory.state;
-  const MemoryValues values{state.position,    state.free,         state.touching, state.rest_s,  state.presliding_m,
-                            state.stiffness,   state.time_ns,      state.snapshot, state.carrier, state.ledger,
-                            state.out_of_work, state.start.next(), memory.fading,  memory.told,   memory.restarts};
+  const MemoryValues values{state.position,     state.free,      state.touching, state.rest_s,
+                            state.presliding_m, state.stiffness, state.time_ns,  state.snapshot,
+                            state.carrier,      state.snap,      state.ledger,   state.out_of_work,
+                            state.start.next(), memory.fading,   memory.told,    memory.restarts};
   toProto(valuesOf(values), *out.mutable_memory());
   for (const AdheringContact& contact : state.adhering) {
     add(*out.mutable_adhering(), contact.normal);
@@ -152,6 +154,7 @@ ProxyMemory fromProto(const proto::RecordedProxy& in) {
   state.time_ns = values.time_ns;
   state.snapshot = values.snapshot;
   state.carrier = values.carrier;
+  state.snap = values.snap;
   state.adhering = adheringOf(in);
   readYielding(in, state);
   state.ledger = values.ledger;

@@ -106,6 +106,9 @@ class EditableScene::Flattening {
   void visit(const SceneItems& items, const Call& caller);
   void enter(const SceneItem& item, const Call& call);
   void add(const SceneItem& item, const Call& call, std::uint32_t number);
+  void countBody();
+  void addSnaps(const SnapList& snaps, const Call& call, bool to_body);
+  PlacedShape& place(const std::shared_ptr<const Shape>& shape, const Pose& pose, const Call& call);
   std::shared_ptr<const Shape> shapeOf(const std::shared_ptr<const Shape>& shape, const Mat3& stretch);
   std::shared_ptr<const Surfaces> surfacesOf(const SurfaceChange& change);
 
@@ -114,7 +117,7 @@ class EditableScene::Flattening {
   MemoryShare memory_;  // memory of the placed shapes and their surfaces
   std::vector<PlacedShape> placed_;
   std::vector<std::uint32_t> path_;
-  std::size_t visits_ = 0, bodies_ = 0;
+  std::size_t visits_ = 0, bodies_ = 0, snaps_ = 0, snap_points_ = 0;
   ModelSizes copies_;  // sizes of the stretched copies; a small matrix makes a copy of a large shape
   SurfaceChange last_change_;
   std::shared_ptr<const Surfaces> last_surfaces_;  // of last_change_; most objects repeat it
@@ -150,14 +153,24 @@ void EditableScene::Flattening::enter(const SceneItem& item, const Call& call) {
   Call inner = call;
   inner.object = item.call;
   inner.body = found->second->body;
-  visit(*found->second, inner);
+  const SceneItems& items = *found->second;
+  const std::size_t before = placed_.size();
+  visit(items, inner);
+  if (items.snaps) addSnaps(*items.snaps, inner, items.body && placed_.size() > before);
   path_.pop_back();
+}
+
+PlacedShape& EditableScene::Flattening::place(const std::shared_ptr<const Shape>& shape, const Pose& pose,
+                                              const Call& call) {
+  if (placed_.size() >= scene_.limits_.instances)
+    throw Error("there are more than " + std::to_string(scene_.limits_.instances) + " objects in the world");
+  memory_.take(bytesInWorld());
+  placed_.push_back({shape, surfacesOf(call.surface), pose, call.key, scene_.session_, call.object, call.name});
+  return placed_.back();
 }
 
 void EditableScene::Flattening::add(const SceneItem& item, const Call& call, std::uint32_t number) {
   if (item.shape->count() == 0) return;
-  if (placed_.size() >= scene_.limits_.instances)
-    throw Error("there are more than " + std::to_string(scene_.limits_.instances) + " objects in the world");
   const Polar polar = polarOf(call.placement.linear);
   const Pose pose{polar.rotation, call.placement.offset};
   const std::shared_ptr<const Shape> shape = shapeOf(item.shape, polar.stretch);
@@ -165,17 +178,42 @@ void EditableScene::Flattening::add(const SceneItem& item, const Call& call, std
   if (shape->count() == 0) return;
   if (!pose.origin.allFinite() || !withinReach(box.min) || !withinReach(box.max))
     throw Error("an object lies farther than 1e9 m from the origin: nothing so far can be touched");
-  memory_.take(bytesInWorld());
-  PlacedShape placed{shape, surfacesOf(call.surface), pose, call.key, scene_.session_, call.object, call.name, number};
+  PlacedShape& placed = place(shape, pose, call);
+  placed.item = number;
   const auto found = state_.compliances.find(call.object);
   if (found != state_.compliances.end()) placed.compliance = found->second;
   placed.answers_force = state_.answers_force;
   placed.body = call.body;
-  placed_.push_back(std::move(placed));
-  if (!placed_.back().movesAsBody()) return;
+  if (placed.movesAsBody()) countBody();
+}
+
+void EditableScene::Flattening::countBody() {
   memory_.take(kBody_bytes);
   if (++bodies_ > scene_.limits_.bodies)
     throw Error("there are more than " + std::to_string(scene_.limits_.bodies) + " bodies in the world");
+}
+
+// Those of a body move with it. Others get an instance of their own, so that an object needs nothing to touch.
+void EditableScene::Flattening::addSnaps(const SnapList& snaps, const Call& call, bool to_body) {
+  static const std::shared_ptr<const Shape> kNothing = makeShape(Model{});
+  constexpr std::uint64_t kOwnKey = 0x736e6170;
+  const Polar polar = polarOf(call.placement.linear);
+  if (!withinReach(call.placement.offset))
+    throw Error("a snap lies farther than 1e9 m from the origin: nothing so far can be touched");
+  snaps_ += snaps.size();
+  snap_points_ += pointsIn(snaps);
+  if (snaps_ > kMostSnaps) throw Error("there are more than " + std::to_string(kMostSnaps) + " snaps in the world");
+  if (snap_points_ > kMostSnapPoints)
+    throw Error("the snaps in the world have more than " + std::to_string(kMostSnapPoints) + " points");
+  memory_.take(kPointer_bytes + bytesOf(snaps));
+  auto own = std::make_shared<const SnapList>(hl::placed(snaps, {polar.stretch, Vec3::Zero()}));
+  if (to_body) {
+    placed_.back().snaps = std::move(own);
+    return;
+  }
+  Call there = call;
+  there.key = mixed(call.key, kOwnKey);
+  place(kNothing, {polar.rotation, call.placement.offset}, there).snaps = std::move(own);
 }
 
 // The hierarchy of a new copy is refitted from that of the copy that it replaces, or else from that of the shape.
@@ -333,9 +371,12 @@ bool isDeformed(const Instance& before, const PlacedShape& now) {
          before.shape->model.materials.size() <= now.surfaces->materials.size();
 }
 
+bool sameSnaps(const SnapList* a, const SnapList* b) { return a == b || (a != nullptr && b != nullptr && *a == *b); }
+
 // Contribution of one object to Snapshot::blend_ns. `before`: the object in the last snapshot; null: none.
 std::int64_t blendOf(const Instance* before, const Instance& now, const PlacedShape& placed) {
   if (before == nullptr || !(*before->surfaces == *now.surfaces)) return kAbruptBlend_ns;
+  if (!sameSnaps(before->snaps.get(), now.snaps.get())) return kAbruptBlend_ns;
   if (before->movesAsBody() != now.movesAsBody()) return kAbruptBlend_ns;
   if (now.movesAsBody() && before->shape->model.positions != now.shape->model.positions) return kAbruptBlend_ns;
   if (!now.motion.moves() && !(before->motion.to() == now.motion.to())) return kAbruptBlend_ns;
@@ -380,6 +421,7 @@ Instance follow(const PlacedShape& now, const Instance* before, std::int64_t beg
   Instance instance{now.shape, now.surfaces, Motion(now.pose), now.key, now.session, now.object, now.name};
   instance.item = now.item;
   instance.answers_force = now.answers_force;
+  instance.snaps = now.snaps;
   if (now.compliance) instance.compliance = std::make_shared<const ComplianceMotion>(*now.compliance);
   if (now.body)
     setBody(instance, followBody("object " + std::to_string(now.object), {*now.body, now.pose, now.shape->bounds},

@@ -46,6 +46,21 @@ bool allDefault(const std::vector<Material>& materials) {
   return std::all_of(materials.begin(), materials.end(), [](const Material& one) { return one == Material{}; });
 }
 
+// What is too much is left out.
+std::vector<PlacedSnap> snapsOf(const std::vector<Instance>& instances) {
+  std::vector<PlacedSnap> snaps;
+  std::size_t points = 0;
+  for (std::uint32_t i = 0; i < instances.size(); ++i) {
+    const std::size_t count = instances[i].snaps ? instances[i].snaps->size() : 0;
+    for (std::uint32_t number = 0; number < count; ++number) {
+      points += (*instances[i].snaps)[number].points.size();
+      if (snaps.size() == kMostSnaps || points > kMostSnapPoints) return snaps;
+      snaps.push_back({i, number});
+    }
+  }
+  return snaps;
+}
+
 }  // namespace
 
 std::shared_ptr<const Surfaces> surfacesOf(const std::shared_ptr<const Shape>& shape) {
@@ -121,6 +136,7 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, st
   }
   snapshot->moves_until_ns = std::max(snapshot->moves_until_ns, snapshot->deforms_until_ns);
   snapshot->near = BoxTree(snapshot->reach);
+  snapshot->snaps = snapsOf(snapshot->instances);
   return snapshot;
 }
 

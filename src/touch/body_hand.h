@@ -22,6 +22,8 @@ class BodyHand {
   void resume(const FixedVector<HandContact, kContactsOfHand>& held_by) { held_by_ = held_by; }
 
  private:
+  void holdBy(const SceneAt& scene, const ProxyState& state, const TickReport& report);
+
   FixedVector<HandContact, kContactsOfHand> held_by_;  // at the end of the last tick
 };
 

@@ -108,11 +108,20 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
     const Instance& instance = scene.instance(contact.primitive);
     step.touched.push({instance.key, instance.session, instance.object, instance.name});
   }
+  step.snap = snapOf(snapshot);
   if (anew) blend_.add(last_.pull_D - pullOf(state_, step.report, finger_D), 1e-9 * kAbruptBlend_ns);
   step.held = heldBy(step.report, targetOf(now_ns, finger_D, step.report));
   step.held.contacts = feltContacts(scene, settings_, state_, step.report, finger);
+  step.held.snap_N = spring.stiffness_N_m / workspace_.world_per_device * state_.stiffness * step.report.snap_pull_m;
   events_.follow(now_ns, step.touched, state_.position);
   return step;
+}
+
+HoldingSnap ProxyLoop::snapOf(const Snapshot& snapshot) const {
+  std::uint32_t number = 0;
+  if (!state_.snap.holds() || !snapshot.find(state_.snap.key, number)) return {};
+  const Instance& instance = snapshot.instances[number];
+  return {{instance.key, instance.session, instance.object, instance.name}, state_.snap.number};
 }
 
 // While a pull fades out, it keeps at least the stiffness that it was made with.
@@ -137,12 +146,12 @@ ServoTarget ProxyLoop::targetOf(std::int64_t now_ns, const Vec3& finger_D, const
   return told_ = target;
 }
 
-// Smooth surfaces let the proxy slide until the next tick; friction would hold it, so there it stays. While a blend
-// goes on, the target is not where the contacts hold the proxy.
+// Smooth surfaces let the proxy slide until the next tick; friction or a snap would hold it, so there it stays. While a
+// blend goes on, the target is not where the contacts hold the proxy.
 HeldContacts ProxyLoop::heldBy(const TickReport& report, const ServoTarget& target) const {
   HeldContacts held;
   held.target = target;
-  if (blend_.active()) return held;
+  if (blend_.active() || state_.snap.holds()) return held;
   for (const ProxyContact& contact : report.contacts) {
     if (contact.rough) {
       held.planes_D.clear();

@@ -1,0 +1,55 @@
+#include "scene/snap_spec.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace hl {
+
+namespace {
+
+Vec3 nearestOnSegment(const Vec3& a, const Vec3& b, const Vec3& p) {
+  const Vec3 along = b - a;
+  const double square = along.squaredNorm();
+  const double part = square > 0 ? std::clamp(along.dot(p - a) / square, 0.0, 1.0) : 0;
+  return a + part * along;
+}
+
+}  // namespace
+
+Vec3 nearestOn(const SnapSpec& snap, const Vec3& p) {
+  const Vec3& first = snap.points.front();
+  if (snap.normal) return p - snap.normal->dot(p - first) * *snap.normal;
+  Vec3 nearest = first;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < snap.points.size(); ++i) {
+    const Vec3 point = nearestOnSegment(snap.points[i - 1], snap.points[i], p);
+    const double square = (point - p).squaredNorm();
+    if (!(square < least)) continue;
+    least = square;
+    nearest = point;
+  }
+  return nearest;
+}
+
+SnapList placed(const SnapList& snaps, const Placement& placement) {
+  SnapList moved = snaps;
+  for (SnapSpec& snap : moved) {
+    for (Vec3& point : snap.points) point = placement.linear * point + placement.offset;
+    if (snap.normal) snap.normal = (placement.linear.inverse().transpose() * *snap.normal).stableNormalized();
+  }
+  return moved;
+}
+
+std::size_t pointsIn(const SnapList& snaps) {
+  std::size_t points = 0;
+  for (const SnapSpec& snap : snaps) points += snap.points.size();
+  return points;
+}
+
+std::size_t bytesOf(const SnapList& snaps) {
+  std::size_t bytes = sizeof(SnapList) + snaps.capacity() * sizeof(SnapSpec);
+  for (const SnapSpec& snap : snaps) bytes += snap.points.capacity() * sizeof(Vec3) + snap.name.capacity();
+  return bytes;
+}
+
+}  // namespace hl
