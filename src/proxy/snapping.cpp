@@ -14,16 +14,21 @@ namespace {
 // spring of 1000 N/m has at 1 nm.
 constexpr double kEnergyRounding = 1e-12, kEnergyRounding_J = 1e-15;
 
-struct SnapPoint {
-  Vec3 point;  // m, world
-  double distance_m;
-};
-
 SnapPoint nearestTo(const Vec3& finger, const SceneAt& scene, const Instance& instance, const SnapSpec& snap) {
   const Pose pose = instance.poses().at(scene.time_ns());
   const Vec3 finger_O = pose.toObject(finger);
-  const Vec3 way_O = nearestOn(snap, finger_O) - finger_O;
-  return {finger + pose.turnToWorld(way_O), way_O.norm()};
+  SnapPoint nearest = nearestOn(snap, finger_O);
+  // By the way to it, whose rounding is that of a small number.
+  nearest.point = finger + pose.turnToWorld(nearest.point - finger_O);
+  nearest.axis = pose.turnToWorld(nearest.axis);
+  return nearest;
+}
+
+// Null: there is no such snap in the scene.
+const SnapSpec* find(const HeldSnap& held, const SceneAt& scene, std::uint32_t& instance) {
+  if (!held.holds() || !scene.snapshot().find(held.key, instance)) return nullptr;
+  const auto& snaps = scene.snapshot().instances[instance].snaps;
+  return snaps && held.number < snaps->size() ? &(*snaps)[held.number] : nullptr;
 }
 
 // R, m of the world, from which the spring pulls by more than the snap holds.
@@ -34,14 +39,12 @@ double releaseDistance_m(const SnapSpec& snap, const ProxySettings& settings) {
 
 std::optional<Vec3> goOn(const HeldSnap& held, const SceneAt& scene, const ProxySettings& settings,
                          const Vec3& finger) {
-  std::uint32_t number = 0;
-  if (!scene.snapshot().find(held.key, number)) return {};
-  const Instance& instance = scene.snapshot().instances[number];
-  if (!instance.snaps || held.number >= instance.snaps->size()) return {};
-  const SnapSpec& snap = (*instance.snaps)[held.number];
-  const SnapPoint nearest = nearestTo(finger, scene, instance, snap);
-  if (nearest.distance_m > releaseDistance_m(snap, settings)) return {};
-  return nearest.point;
+  std::uint32_t instance = 0;
+  const SnapSpec* const snap = find(held, scene, instance);
+  if (snap == nullptr) return {};
+  const Vec3 point = nearestTo(finger, scene, scene.snapshot().instances[instance], *snap).point;
+  if ((point - finger).norm() > releaseDistance_m(*snap, settings)) return {};
+  return point;
 }
 
 std::optional<Vec3> capture(HeldSnap& held, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
@@ -50,12 +53,13 @@ std::optional<Vec3> capture(HeldSnap& held, const SceneAt& scene, const ProxySet
   for (const PlacedSnap& placed : scene.snapshot().snaps) {
     const Instance& instance = scene.snapshot().instances[placed.instance];
     const SnapSpec& snap = (*instance.snaps)[placed.number];
-    const SnapPoint nearest = nearestTo(finger, scene, instance, snap);
-    const bool reached = nearest.distance_m <= std::min(snap.capture_m, releaseDistance_m(snap, settings));
-    if (!reached || nearest.distance_m >= least_m) continue;
-    least_m = nearest.distance_m;
+    const Vec3 point = nearestTo(finger, scene, instance, snap).point;
+    const double distance_m = (point - finger).norm();
+    const bool reached = distance_m <= std::min(snap.capture_m, releaseDistance_m(snap, settings));
+    if (!reached || distance_m >= least_m) continue;
+    least_m = distance_m;
     held = {instance.key, placed.number};
-    goal = nearest.point;
+    goal = point;
   }
   return goal;
 }
@@ -86,6 +90,13 @@ TickReport stayed(const TickReport& tried) {
 }
 
 }  // namespace
+
+std::optional<SnapPoint> heldPoint(const HeldSnap& held, const SceneAt& scene, const Vec3& finger) {
+  std::uint32_t instance = 0;
+  const SnapSpec* const snap = find(held, scene, instance);
+  if (snap == nullptr) return {};
+  return nearestTo(finger, scene, scene.snapshot().instances[instance], *snap);
+}
 
 std::optional<Vec3> followSnap(ProxyState& state, const SceneAt& scene, const ProxySettings& settings,
                                const Vec3& finger) {

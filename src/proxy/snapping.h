@@ -21,6 +21,10 @@
 
 namespace hl {
 
+/// The point of the snap that holds the proxy, nearest to the finger; world frame. Absent: there is no such snap, or
+/// none holds it. RT-safe.
+std::optional<SnapPoint> heldPoint(const HeldSnap& held, const SceneAt& scene, const Vec3& finger);
+
 /// Lets go of the snap that holds the proxy, or takes the proxy for the nearest one in reach, and returns its point
 /// nearest to the finger; absent: none holds it. Of two that are as near, the first in the scene. RT-safe.
 std::optional<Vec3> followSnap(ProxyState& state, const SceneAt& scene, const ProxySettings& settings,

@@ -1,29 +1,32 @@
 #include "scene/snap_spec.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace hl {
 
 namespace {
 
-Vec3 nearestOnSegment(const Vec3& a, const Vec3& b, const Vec3& p) {
+SnapPoint nearestOnSegment(const Vec3& a, const Vec3& b, const Vec3& p) {
   const Vec3 along = b - a;
   const double square = along.squaredNorm();
   const double part = square > 0 ? std::clamp(along.dot(p - a) / square, 0.0, 1.0) : 0;
-  return a + part * along;
+  if (part == 0) return {a};
+  if (part == 1) return {b};
+  return {a + part * along, SnapPoint::Free::kAlongAxis, along / std::sqrt(square)};
 }
 
 }  // namespace
 
-Vec3 nearestOn(const SnapSpec& snap, const Vec3& p) {
+SnapPoint nearestOn(const SnapSpec& snap, const Vec3& p) {
   const Vec3& first = snap.points.front();
-  if (snap.normal) return p - snap.normal->dot(p - first) * *snap.normal;
-  Vec3 nearest = first;
+  if (snap.normal) return {p - snap.normal->dot(p - first) * *snap.normal, SnapPoint::Free::kAcrossAxis, *snap.normal};
+  SnapPoint nearest{first};
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < snap.points.size(); ++i) {
-    const Vec3 point = nearestOnSegment(snap.points[i - 1], snap.points[i], p);
-    const double square = (point - p).squaredNorm();
+    const SnapPoint point = nearestOnSegment(snap.points[i - 1], snap.points[i], p);
+    const double square = (point.point - p).squaredNorm();
     if (!(square < least)) continue;
     least = square;
     nearest = point;

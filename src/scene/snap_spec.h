@@ -28,8 +28,20 @@ struct SnapSpec {
 };
 using SnapList = std::vector<SnapSpec>;
 
-/// The point of the snap nearest to `p`, m, frame of the object. RT-safe.
-Vec3 nearestOn(const SnapSpec& snap, const Vec3& p);
+/// A point of a snap, and where it may be moved from there without leaving the snap. Frame of the object.
+struct SnapPoint {
+  enum class Free : std::uint8_t {
+    kNowhere,    ///< of a point, or at an end or corner of a curve
+    kAlongAxis,  ///< of a line or curve
+    kAcrossAxis  ///< of a plane
+  };
+  Vec3 point;  ///< m
+  Free free = Free::kNowhere;
+  Vec3 axis = Vec3::Zero();  ///< unit, unless it is free nowhere
+};
+
+/// The point of the snap nearest to `p`, m. RT-safe.
+SnapPoint nearestOn(const SnapSpec& snap, const Vec3& p);
 
 /// The snaps in another frame, of which `placement` makes it. Distances of capture stay as they are. Allocates.
 SnapList placed(const SnapList& snaps, const Placement& placement);

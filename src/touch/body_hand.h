@@ -2,6 +2,7 @@
 #pragma once
 
 #include "proxy/proxy.h"
+#include "proxy/snapping.h"
 #include "touch/body_world.h"
 
 namespace hl {
@@ -22,7 +23,7 @@ class BodyHand {
   void resume(const FixedVector<HandContact, kContactsOfHand>& held_by) { held_by_ = held_by; }
 
  private:
-  void holdBy(const SceneAt& scene, const ProxyState& state, const TickReport& report);
+  void hold(const SceneAt& scene, const ProxyState& state, const TickReport& report, const Vec3& finger);
 
   FixedVector<HandContact, kContactsOfHand> held_by_;  // at the end of the last tick
 };

@@ -73,7 +73,8 @@ TEST(BodySnaps, ActionIsReactionToRounding) {
        {snapOf({{0.015, 0, 0}}, 2e-3, 50), snapOf({{0.015, -0.02, 0}, {0.015, 0.02, 0}}, 2e-3, 50)}) {
     Held held(0.1, snap, 0);
     const ServoSettings settings = test::plainServo(1000);
-    Vec3 finger(0.0155, 0, 0), velocity = Vec3::Zero();
+    Vec3 finger(0.018, 0, 0), velocity = Vec3::Zero();
+    for (; !held.proxy().snap.holds(); finger.x() -= 5e-5) held.step(finger, settings);
     int holds = 0;
     for (int i = 0; i < 5000; ++i) {
       velocity = 0.99 * velocity + 0.01 * random.inCube(0.5);
