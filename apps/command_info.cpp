@@ -120,6 +120,17 @@ void printBodies(const Snapshot& snapshot) {
   fmt::print("gravity:    {:.6g} {:.6g} {:.6g} m/s^2\n", gravity.x(), gravity.y(), gravity.z());
 }
 
+void printSnaps(const Snapshot& snapshot) {
+  for (const PlacedSnap& placed : snapshot.snaps) {
+    const Instance& instance = snapshot.instances[placed.instance];
+    const SnapSpec& snap = (*instance.snaps)[placed.number];
+    const std::string curve = fmt::format("curve of {} points", snap.points.size());
+    const std::string kind = snap.normal ? "plane" : snap.points.size() == 1 ? "point" : curve;
+    fmt::print("snap {}: {}, from {:.4g} mm to {:.4g} N{}{}\n", snap.name, kind, 1e3 * snap.capture_m, snap.release_N,
+               instance.body ? ", of body " : "", instance.body ? instance.body->name : "");
+  }
+}
+
 void print(const Snapshot& snapshot) {
   Totals all;
   for (const Instance& instance : snapshot.instances) all.add(*instance.shape);
@@ -127,6 +138,7 @@ void print(const Snapshot& snapshot) {
   printTotals(all, snapshot);
   printMaterials(snapshot);
   printBodies(snapshot);
+  printSnaps(snapshot);
   fmt::print("warnings:   {}\n", snapshot.warnings.empty() ? "none" : "");
   for (const std::string& warning : snapshot.warnings) fmt::print("  {}\n", warning);
 }

@@ -73,6 +73,9 @@ class State:
     touched_object: int  #: that presses hardest; 0: none
     touched_name: int  #: its name; 0: none
     buttons: int  #: bit i is set while button i is down
+    snapped_object: int  #: whose snap holds the proxy; 0: none
+    snapped_name: int  #: its name; 0: none
+    snap_number: int  #: which of its snaps
     safety: str  #: "off", "arming", "on", "fault" or "waiting"
     servo_rate: float  #: Hz
     proxy_rate: float  #: Hz
@@ -229,6 +232,28 @@ class Touch:
                 calls.hlBodyd(_BODY_NUMBERS[key], arguments.number(value, key))
             else:
                 calls.hlBody3d(_BODY_VECTORS[key], *_vector(value, key))
+
+    def snap(
+        self, points: npt.ArrayLike, capture: float, release: float, normal: Optional[npt.ArrayLike] = None
+    ) -> None:
+        """Gives the object that is being defined a place to which the proxy goes when it comes as near as `capture`, m,
+        and which lets go of it when it is pulled by more than `release`, N.
+
+        points: (3,) a point, or (n, 3) the corners of a curve, m. normal: (3,), of the plane through the one point.
+        """
+        self.make_current()
+        corners = np.atleast_2d(arguments.floats(points, "points"))
+        if corners.ndim != 2 or corners.shape[1] != 3 or len(corners) == 0:
+            raise InvalidValueError("points must be (3,) or (n, 3)")
+        distances = (arguments.number(capture, "capture"), arguments.number(release, "release"))
+        if normal is not None:
+            if len(corners) != 1:
+                raise InvalidValueError("a plane has one point")
+            calls.hlSnapPlane3d(*corners[0], *_vector(normal, "normal"), *distances)
+            return
+        calls.hlSnapPoint3d(*corners[0], *distances)
+        for corner in corners[1:]:
+            calls.hlSnapLineTo3d(*corner)
 
     def gravity(self, acceleration: npt.ArrayLike) -> None:
         """Of all bodies, (3,) in m/s^2, from this frame on; (0, -9.81, 0) at first."""
@@ -421,6 +446,9 @@ class Touch:
             touched_object=int(get(calls.HL_TOUCHED_OBJECT)),
             touched_name=int(get(calls.HL_TOUCHED_NAME)),
             buttons=int(get(calls.HL_BUTTONS)),
+            snapped_object=int(get(calls.HL_SNAPPED_OBJECT)),
+            snapped_name=int(get(calls.HL_SNAPPED_NAME)),
+            snap_number=int(get(calls.HL_SNAP_NUMBER)),
             safety=_SAFETY[calls.hlGetIntegerv(calls.HL_SAFETY_STATE)],
             servo_rate=get(calls.HL_SERVO_RATE),
             proxy_rate=get(calls.HL_PROXY_RATE),

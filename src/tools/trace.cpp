@@ -1,5 +1,7 @@
 #include "tools/trace.h"
 
+#include <algorithm>
+
 #include "base/clock.h"
 #include "bodies/world_hash.h"
 #include "scene/scene_model.h"
@@ -31,6 +33,16 @@ class Tracer {
     return report;
   }
   const ProxyState& state() const { return state_; }
+  /// As TraceRow::snap.
+  std::optional<std::size_t> snap() const {
+    const std::vector<PlacedSnap>& snaps = snapshot_.snaps;
+    if (snaps.empty()) return {};
+    const auto holds = [&](const PlacedSnap& snap) {
+      return snapshot_.instances[snap.instance].key == state_.snap.key && snap.number == state_.snap.number;
+    };
+    const auto found = std::find_if(snaps.begin(), snaps.end(), holds);
+    return found == snaps.end() ? 0 : static_cast<std::size_t>(found - snaps.begin()) + 1;
+  }
   const BodyWorld* bodies() const { return bodies_.get(); }
   /// How the bodies are now.
   void tell(TraceRow& row) {
@@ -87,6 +99,7 @@ TraceTotals runTrace(const Snapshot& given, const TraceSettings& settings, const
     out.contacts = static_cast<int>(report.contacts.size());
     out.iterations = report.iterations;
     out.injected_J = report.injected_J;
+    out.snap = tracer.snap();
     tracer.tell(out);
     row(out);
     if (i == 0) totals.before = out.world;

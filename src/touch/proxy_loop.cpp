@@ -7,6 +7,12 @@
 
 namespace hl {
 
+namespace {
+
+ObjectName nameOf(const Instance& instance) { return {instance.key, instance.session, instance.object, instance.name}; }
+
+}  // namespace
+
 void ProxyLoop::follow(const ProxyCommands& commands, const SpringOfServo& spring) {
   workspace_ = commands.workspace;
   settings_.radius = commands.radius_W;
@@ -104,10 +110,7 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
     state_.ledger = before;
     step.report.injected_J = step.report.moved_J = 0;
   }
-  for (const ProxyContact& contact : step.report.contacts) {
-    const Instance& instance = scene.instance(contact.primitive);
-    step.touched.push({instance.key, instance.session, instance.object, instance.name});
-  }
+  for (const ProxyContact& contact : step.report.contacts) step.touched.push(nameOf(scene.instance(contact.primitive)));
   step.snap = snapOf(snapshot);
   if (anew) blend_.add(last_.pull_D - pullOf(state_, step.report, finger_D), 1e-9 * kAbruptBlend_ns);
   step.held = heldBy(step.report, targetOf(now_ns, finger_D, step.report));
@@ -120,8 +123,7 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
 HoldingSnap ProxyLoop::snapOf(const Snapshot& snapshot) const {
   std::uint32_t number = 0;
   if (!state_.snap.holds() || !snapshot.find(state_.snap.key, number)) return {};
-  const Instance& instance = snapshot.instances[number];
-  return {{instance.key, instance.session, instance.object, instance.name}, state_.snap.number};
+  return {nameOf(snapshot.instances[number]), state_.snap.number};
 }
 
 // While a pull fades out, it keeps at least the stiffness that it was made with.

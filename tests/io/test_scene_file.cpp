@@ -162,6 +162,71 @@ TEST(SceneFile, BodiesThatCannotBeAreRefusedByLine) {
   expect("", R"({"bodyA": "a", "table": {"position": [0, 0], "force": [1, 1]}})", "must increase");
 }
 
+std::string withSnaps(const std::string& snaps, const std::string& body = "") {
+  return R"({"units": 0.01, "objects": [{"name": "a", "primitives": {"vertices": [-1,-1,-1, 1,-1,-1, 1,1,-1, 0,0,1],
+    "triangles": [0,1,2, 0,1,3, 1,2,3, 2,0,3]}, )" +
+         body + R"("transform": {"scale": {"y": 2}, "axis": {"z": 1}, "degrees": 90, "translate": {"x": 5}},
+"snaps": [)" +
+         snaps + "]}]}";
+}
+
+TEST(SceneFile, SnapsArriveInMetres) {
+  const std::string snaps = R"({"name": "p", "points": [1, 1, 0], "capture": 0.5, "releaseN": 2},
+    {"points": [0, 0, 0, 1, 0, 0, 1, 1, 1], "capture": 1, "releaseN": 1},
+    {"points": [0, 0, 0], "normal": {"x": 3, "y": 3}, "capture": 1, "releaseN": 1})";
+  // Scaled to twice along y, turned from x to y, moved by 5: in the world.
+  const SceneModel still = worldOfJson(withSnaps(snaps));
+  ASSERT_EQ(still.snaps.size(), 3U);
+  EXPECT_EQ(still.snaps[0].name, "p");
+  EXPECT_LT((still.snaps[0].points[0] - Vec3(0.03, 0.01, 0)).norm(), 1e-15);
+  EXPECT_EQ(still.snaps[0].capture_m, 0.005);
+  EXPECT_EQ(still.snaps[0].release_N, 2);
+  EXPECT_FALSE(still.snaps[0].normal);
+  EXPECT_LT((still.snaps[1].points[2] - Vec3(0.03, 0.01, 0.01)).norm(), 1e-15);
+  EXPECT_LT((*still.snaps[2].normal - Vec3(-0.5, 1, 0).normalized()).norm(), 1e-15);
+  const auto snapshot = makeSnapshot(still);
+  EXPECT_EQ(snapshot->snaps.size(), 3U);
+  EXPECT_EQ(snapshot->instances[0].snaps->size(), 3U);
+  // Of a body: scaled alone.
+  const SceneModel moves = worldOfJson(withSnaps(snaps, R"("body": {"massKg": 1},)"));
+  EXPECT_TRUE(moves.snaps.empty());
+  ASSERT_EQ(moves.bodies[0].snaps.size(), 3U);
+  EXPECT_LT((moves.bodies[0].snaps[0].points[0] - Vec3(0.01, 0.02, 0)).norm(), 1e-15);
+  EXPECT_EQ(makeSnapshot(moves)->instances[0].snaps->size(), 3U);
+}
+
+TEST(SceneFile, SnapsMoveWithTheSizeOfTheScene) {
+  SceneModel scene = worldOfJson(withSnaps(R"({"points": [0, 0, 0], "capture": 0.5, "releaseN": 2})"));
+  scaleModel(scene, 10);
+  EXPECT_LT((scene.snaps[0].points[0] - Vec3(0.5, 0, 0)).norm(), 1e-15);
+  EXPECT_EQ(scene.snaps[0].capture_m, 0.05);
+  fitModel(scene, 0.1);
+  EXPECT_LT(scene.snaps[0].points[0].norm(), 1e-15) << "it is in the middle";
+  EXPECT_NEAR(scene.snaps[0].capture_m, 0.05 * 0.1 / 0.4, 1e-15);
+}
+
+TEST(SceneFile, SnapsThatCannotBeAreRefusedByLine) {
+  const auto expect = [](const std::string& snaps, const std::string& about) {
+    const std::string message = afterFile(refusalOf(withSnaps(snaps)));
+    EXPECT_NE(message.find(about), std::string::npos) << message;
+    EXPECT_EQ(message.substr(0, 2), ":3") << message;
+  };
+  expect(R"({"points": [1, 2], "capture": 1, "releaseN": 1})", "snaps[0].points must hold 3 numbers each");
+  expect(R"({"capture": 1, "releaseN": 1})", "snaps[0].points must hold 3 numbers each, of one point or more");
+  expect(R"({"points": [1, 2, 1e7], "capture": 1, "releaseN": 1})", "points must be between");
+  expect(R"({"points": [1, 2, 3], "releaseN": 1})", "snaps[0].capture must be between 1e-09 and 1e+09");
+  expect(R"({"points": [1, 2, 3], "capture": 1, "releaseN": -1})", "snaps[0].releaseN must be between");
+  expect(R"({"points": [1, 2, 3], "normal": {}, "capture": 1, "releaseN": 1})", "normal must not be zero");
+  expect(R"({"points": [1, 2, 3, 4, 5, 6], "normal": {"x": 1}, "capture": 1, "releaseN": 1})", "must be one point");
+  std::string many;
+  for (int i = 0; i < 65; ++i) many += R"({"points": [1, 2, 3], "capture": 1, "releaseN": 1},)";
+  many.pop_back();
+  expect(many, "snaps: there are more than 64");
+  std::string corners = "0";
+  for (int i = 1; i < 3 * 257; ++i) corners += ", 0";
+  expect(R"({"points": [)" + corners + R"(], "capture": 1, "releaseN": 1})", "points must not be more than 256");
+}
+
 TEST(SceneFile, ModelFilesAreRelativeToTheScene) {
   fileWith("part.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_EQ(sceneOf(R"({"objects": [{"file": "part.obj"}, {"file": "part.obj"}]})").triangles.size(), 2u);

@@ -1,0 +1,89 @@
+// Snaps by the calls: what is sent of them, what the state tells, and which calls are errors.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "client/fake_server.h"
+
+namespace hl::client {
+namespace {
+
+HLenum errorOf(void (*call)()) {
+  call();
+  return hlGetError();
+}
+
+TEST_F(CallsTest, SnapsAreSentWithTheirObjectPlacedByTheMatrix) {
+  hlNewObject(3);
+  hlTranslated(0, 0, 1);
+  hlScaled(1, 2, 1);
+  hlSnapPoint3d(1, 1, 0, 0.002, 3);
+  hlSnapPoint3d(0, 0, 0, 0.001, 2);
+  hlSnapLineTo3d(0, 1, 0);
+  hlSnapLineTo3d(0, 1, 1);
+  hlSnapPlane3d(0, 1, 0, 3, 3, 0, 0.001, 2);
+  hlEndObject();
+  hlLoadIdentity();
+  hlCallObject(3);
+  hlFlush();
+  EXPECT_EQ(hlGetError(), HLenum{HL_NO_ERROR});
+  const auto frames = server->frames();
+  ASSERT_EQ(frames.size(), 1U);
+  const proto::ObjectDefinition& object = frames[0].objects(0);
+  ASSERT_EQ(object.snaps_size(), 3);
+  EXPECT_EQ(object.items_size(), 0);
+  const auto points = [&](int i) {
+    return std::vector<double>(object.snaps(i).points().begin(), object.snaps(i).points().end());
+  };
+  EXPECT_EQ(points(0), (std::vector<double>{1, 2, 1}));
+  EXPECT_EQ(object.snaps(0).capture(), 0.002);
+  EXPECT_EQ(object.snaps(0).release_n(), 3);
+  EXPECT_EQ(points(1), (std::vector<double>{0, 0, 1, 0, 2, 1, 0, 2, 2}));
+  EXPECT_FALSE(object.snaps(1).has_normal());
+  EXPECT_NEAR(object.snaps(2).normal().x(), 2 / std::sqrt(5), 1e-15);  // by the inverse transpose
+  EXPECT_NEAR(object.snaps(2).normal().y(), 1 / std::sqrt(5), 1e-15);
+}
+
+TEST_F(CallsTest, SnapsOutOfRangeAreErrorsAndNotSent) {
+  const HLenum operation = HL_INVALID_OPERATION, value = HL_INVALID_VALUE;
+  EXPECT_EQ(errorOf([] { hlSnapPoint3d(0, 0, 0, 1, 1); }), operation);
+  EXPECT_EQ(errorOf([] { hlSnapPlane3d(0, 0, 0, 1, 0, 0, 1, 1); }), operation);
+  hlNewObject(1);
+  EXPECT_EQ(errorOf([] { hlSnapLineTo3d(0, 0, 0); }), operation);
+  EXPECT_EQ(errorOf([] { hlSnapPoint3d(0, 0, 0, 0, 1); }), value);
+  EXPECT_EQ(errorOf([] { hlSnapPoint3d(0, 0, 0, 1, -1); }), value);
+  EXPECT_EQ(errorOf([] { hlSnapPoint3d(0, 0, 0, 1, std::nan("")); }), value);
+  EXPECT_EQ(errorOf([] { hlSnapPoint3d(0, HUGE_VAL, 0, 1, 1); }), value);
+  EXPECT_EQ(errorOf([] { hlSnapPoint3d(0, 0, 1.1e6, 1, 1); }), value);
+  EXPECT_EQ(errorOf([] { hlSnapPlane3d(0, 0, 0, 0, 0, 0, 1, 1); }), value);
+  EXPECT_EQ(errorOf([] { hlSnapPlane3d(0, 0, 0, std::nan(""), 0, 0, 1, 1); }), value);
+  hlSnapPlane3d(0, 0, 0, 1, 0, 0, 1, 1);
+  EXPECT_EQ(errorOf([] { hlSnapLineTo3d(0, 0, 0); }), operation) << "a plane";
+  hlSnapPoint3d(0, 0, 0, 1, 1);
+  for (int i = 1; i < 256; ++i) hlSnapLineTo3d(i, 0, 0);
+  EXPECT_EQ(errorOf([] { hlSnapLineTo3d(0, 0, 0); }), value);
+  for (int i = 2; i < 64; ++i) hlSnapPoint3d(0, 0, 0, 1, 1);
+  EXPECT_EQ(errorOf([] { hlSnapPoint3d(0, 0, 0, 1, 1); }), value);
+  hlEndObject();
+  hlFlush();
+  EXPECT_EQ(server->frames()[0].objects(0).snaps_size(), 64);
+}
+
+TEST_F(CallsTest, TheStateTellsWhichSnapHolds) {
+  proto::ClientState& state = server->tell();
+  hlPoll();
+  EXPECT_EQ(number(HL_SNAPPED_OBJECT), 0);
+  proto::HoldingSnap& snap = *state.mutable_snap();
+  snap.set_object(3);
+  snap.set_name(7);
+  snap.set_number(2);
+  snap.set_session(static_cast<std::uint32_t>(number(HL_SESSION)));
+  server->tell() = state;
+  hlPoll();
+  EXPECT_EQ(number(HL_SNAPPED_OBJECT), 3);
+  EXPECT_EQ(number(HL_SNAPPED_NAME), 7);
+  EXPECT_EQ(number(HL_SNAP_NUMBER), 2);
+}
+
+}  // namespace
+}  // namespace hl::client
