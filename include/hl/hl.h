@@ -274,6 +274,30 @@ HL_API void hlSnapLineTo3d(HLdouble x, HLdouble y, HLdouble z);
 HL_API void hlSnapPlane3d(HLdouble x, HLdouble y, HLdouble z, HLdouble nx, HLdouble ny, HLdouble nz, HLdouble capture,
                           HLdouble release);
 
+/* ---- Fields: forces on the hand from places, whatever the proxy touches: docs/fields.md ------------------------- */
+
+/** Gives the object that is being defined a field of the point x y z, metres of the definition. `reach`, m of the world
+ * (1e-9 .. 1e9, scaled by no matrix): farther from the point there is no force. `kind` and `strength`:
+ * HL_FIELD_MAGNET pulls to the point, at most with so many newtons (1e-9 .. 1000) at a third of the reach, with none at
+ * the point and at the reach; HL_FIELD_SPRING pulls with so many newtons for each metre (.. 1e6); HL_FIELD_DRAG brakes
+ * with so many newtons for each metre a second of the hand (.. 100). Four pulls act at once, the first of the scene.
+ * The device's limits of force and its rate hold for all together. It moves with each call of the object, which needs
+ * no geometry; what pulls the hand, pulls a body back. HL_INVALID_OPERATION: no definition is open. HL_INVALID_ENUM: no
+ * such kind. HL_INVALID_VALUE: out of its range, farther than 1e6 m from the origin, or more than 64 in the object; the
+ * server refuses a frame with more than 64 in the world (HL_REFUSED). */
+HL_API void hlFieldPoint3d(HLenum kind, HLdouble x, HLdouble y, HLdouble z, HLdouble reach, HLdouble strength);
+/** Leads the last field of the definition on to x y z: a point becomes a line, a line a curve, of 256 points at most.
+ * HL_INVALID_OPERATION: there is none, or it is of a plane. HL_INVALID_VALUE: as hlFieldPoint3d, or one point too many.
+ */
+HL_API void hlFieldLineTo3d(HLdouble x, HLdouble y, HLdouble z);
+/** As hlFieldPoint3d: of the plane through x y z whose normal is nx ny nz, of any length but 0; on both sides. */
+HL_API void hlFieldPlane3d(HLenum kind, HLdouble x, HLdouble y, HLdouble z, HLdouble nx, HLdouble ny, HLdouble nz,
+                           HLdouble reach, HLdouble strength);
+/** As hlFieldPoint3d: a force fx fy fz (1e-9 .. 1000 N), in the axes of the definition, that falls to 0 at the reach of
+ * the point. It may feed the hand energy: what goes through along it gains by it, and a way back beside it costs
+ * nothing. hlFieldLineTo3d leads it on. */
+HL_API void hlFieldForce3d(HLdouble x, HLdouble y, HLdouble z, HLdouble reach, HLdouble fx, HLdouble fy, HLdouble fz);
+
 /* ---- Names ---------------------------------------------------------------------------------------------------- */
 
 /** What is drawn next is called `name` by contacts and events; 0: not named here (in a definition: as its caller says).

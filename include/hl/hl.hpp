@@ -281,6 +281,13 @@ inline void snapCurve(std::span<const HLdouble> points, HLdouble capture, HLdoub
   for (std::size_t i = 3; i < points.size(); i += 3) hlSnapLineTo3d(points[i], points[i + 1], points[i + 2]);
 }
 
+/// hlFieldPoint3d and hlFieldLineTo3d, as snapCurve().
+inline void fieldCurve(HLenum kind, std::span<const HLdouble> points, HLdouble reach, HLdouble strength) {
+  if (points.empty() || points.size() % 3 != 0) throw std::invalid_argument("a curve has points of three numbers each");
+  hlFieldPoint3d(kind, points[0], points[1], points[2], reach, strength);
+  for (std::size_t i = 3; i < points.size(); i += 3) hlFieldLineTo3d(points[i], points[i + 1], points[i + 2]);
+}
+
 /// hlTakeSamples: all that came since the last time, the oldest first.
 inline std::vector<HLsample> takeSamples() {
   constexpr HLsizei kAtATime = 256;

@@ -271,6 +271,14 @@ enum {
   HL_BODY_CYLINDER = 0x48114          /**< the same with flat ends */
 };
 
+/** Kinds of fields, of hlFieldPoint3d and hlFieldPlane3d; HL_FIELD_CONSTANT is that of hlFieldForce3d. */
+enum {
+  HL_FIELD_MAGNET = 0x48130,   /**< pulls to its place within its reach */
+  HL_FIELD_SPRING = 0x48131,   /**< pulls to its place, the more the farther */
+  HL_FIELD_CONSTANT = 0x48132, /**< pushes in one direction */
+  HL_FIELD_DRAG = 0x48133      /**< brakes the hand */
+};
+
 /** A rigid body after the last step, from hlGetBodies. World frame. */
 typedef struct HLbody {
   HLuint object;        /**< that was called */

@@ -57,6 +57,7 @@ _BODY_SHAPES = {
     "capsule": calls.HL_BODY_CAPSULE,
     "cylinder": calls.HL_BODY_CYLINDER,
 }
+_FIELDS = {"magnet": calls.HL_FIELD_MAGNET, "spring": calls.HL_FIELD_SPRING, "drag": calls.HL_FIELD_DRAG}
 _QUANTITIES = {**SURFACE, "height": calls.HL_HEIGHT}
 
 
@@ -242,18 +243,39 @@ class Touch:
         points: (3,) a point, or (n, 3) the corners of a curve, m. normal: (3,), of the plane through the one point.
         """
         self.make_current()
-        corners = np.atleast_2d(arguments.floats(points, "points"))
-        if corners.ndim != 2 or corners.shape[1] != 3 or len(corners) == 0:
-            raise InvalidValueError("points must be (3,) or (n, 3)")
+        corners = _corners(points, normal)
         distances = (arguments.number(capture, "capture"), arguments.number(release, "release"))
         if normal is not None:
-            if len(corners) != 1:
-                raise InvalidValueError("a plane has one point")
             calls.hlSnapPlane3d(*corners[0], *_vector(normal, "normal"), *distances)
             return
         calls.hlSnapPoint3d(*corners[0], *distances)
         for corner in corners[1:]:
             calls.hlSnapLineTo3d(*corner)
+
+    def field(
+        self, kind: str, points: npt.ArrayLike, reach: float, strength: float, normal: Optional[npt.ArrayLike] = None
+    ) -> None:
+        """Gives the object that is being defined a field: "magnet" (strength in N), "spring" (N/m) or "drag" (N s/m)
+        within `reach`, m, of its place.
+
+        points: (3,) a point, or (n, 3) the corners of a curve, m. normal: (3,), of the plane through the one point.
+        """
+        self.make_current()
+        corners = _corners(points, normal)
+        number = _chosen(_FIELDS, kind, "kind of a field")
+        values = (arguments.number(reach, "reach"), arguments.number(strength, "strength"))
+        if normal is not None:
+            calls.hlFieldPlane3d(number, *corners[0], *_vector(normal, "normal"), *values)
+            return
+        calls.hlFieldPoint3d(number, *corners[0], *values)
+        for corner in corners[1:]:
+            calls.hlFieldLineTo3d(*corner)
+
+    def push_field(self, point: npt.ArrayLike, reach: float, force: npt.ArrayLike) -> None:
+        """Gives the object that is being defined a constant force, (3,) in N, that falls to 0 at `reach`, m, of a point,
+        (3,) in m."""
+        self.make_current()
+        calls.hlFieldForce3d(*_vector(point, "point"), arguments.number(reach, "reach"), *_vector(force, "force"))
 
     def gravity(self, acceleration: npt.ArrayLike) -> None:
         """Of all bodies, (3,) in m/s^2, from this frame on; (0, -9.81, 0) at first."""
@@ -559,6 +581,16 @@ def _chosen(table: Dict[str, int], key: str, what: str) -> int:
     if not isinstance(key, str) or key not in table:
         raise InvalidValueError(f"there is no {what} '{key}': {', '.join(table)}")
     return table[key]
+
+
+def _corners(points: npt.ArrayLike, normal: Optional[npt.ArrayLike]) -> Any:
+    """Of a point, curve or plane: (n, 3)."""
+    corners = np.atleast_2d(arguments.floats(points, "points"))
+    if corners.ndim != 2 or corners.shape[1] != 3 or len(corners) == 0:
+        raise InvalidValueError("points must be (3,) or (n, 3)")
+    if normal is not None and len(corners) != 1:
+        raise InvalidValueError("a plane has one point")
+    return corners.tolist()
 
 
 def _vector(numbers: npt.ArrayLike, name: str) -> Any:

@@ -52,6 +52,9 @@ class ItemList {
   /// What hlSnap* says of the object.
   const std::vector<proto::Snap>& snaps() const { return snaps_; }
   std::vector<proto::Snap>& snaps() { return snaps_; }
+  /// What hlField* says of it.
+  const std::vector<proto::Field>& fields() const { return fields_; }
+  std::vector<proto::Field>& fields() { return fields_; }
   /// Of all items that have some, in order.
   std::vector<ItemVertices> vertices() const;
 
@@ -59,6 +62,7 @@ class ItemList {
   std::vector<Item> items_;
   std::optional<proto::Body> body_;
   std::vector<proto::Snap> snaps_;
+  std::vector<proto::Field> fields_;
 };
 
 }  // namespace hl::client

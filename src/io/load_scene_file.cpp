@@ -77,9 +77,10 @@ class SceneFile {
   Pose poseOf(const proto::Transform& in, const std::string& where) const;
   void addAtRest(Model part, const proto::SceneObject& object, const std::string& where, SceneModel& scene) const;
   SnapList snapsOf(const proto::SceneObject& object, const Placement& placement, const std::string& where) const;
+  FieldList fieldsOf(const proto::SceneObject& object, const Placement& placement, const std::string& where) const;
   SceneBody bodyOf(Model part, const proto::SceneObject& object, const std::string& where, const Model& whole) const;
   void checkBodies(const SceneModel& scene) const;
-  void checkSnaps(const SceneModel& scene) const;
+  void checkPlaces(const SceneModel& scene) const;
   std::uint64_t bodyNamed(const std::string& name, const SceneModel& scene, const std::string& where) const;
   void addJoints(SceneModel& scene) const;
 
@@ -232,6 +233,11 @@ SnapList SceneFile::snapsOf(const proto::SceneObject& object, const Placement& p
   return placed(decoder_.snaps(object.snaps(), where + ".snaps"), placement);
 }
 
+FieldList SceneFile::fieldsOf(const proto::SceneObject& object, const Placement& placement,
+                              const std::string& where) const {
+  return placed(decoder_.fields(object.fields(), where + ".fields"), placement);
+}
+
 void SceneFile::addAtRest(Model part, const proto::SceneObject& object, const std::string& where,
                           SceneModel& scene) const {
   Model& whole = scene.model;
@@ -241,6 +247,7 @@ void SceneFile::addAtRest(Model part, const proto::SceneObject& object, const st
   appendPart(whole, part, static_cast<std::uint16_t>(whole.materials.size() - 1));
   for (const std::string& warning : part.warnings) whole.warnings.push_back(object.name() + ": " + warning);
   for (SnapSpec& snap : snapsOf(object, placement, where)) scene.snaps.push_back(std::move(snap));
+  for (FieldSpec& field : fieldsOf(object, placement, where)) scene.fields.push_back(std::move(field));
 }
 
 SceneBody SceneFile::bodyOf(Model part, const proto::SceneObject& object, const std::string& where,
@@ -252,6 +259,7 @@ SceneBody SceneFile::bodyOf(Model part, const proto::SceneObject& object, const 
   body.pose = poseOf(object.transform(), where + ".transform");
   body.spec = decoder_.body(object.body(), where + ".body");
   body.snaps = snapsOf(object, scaleOf(object.transform()), where);
+  body.fields = fieldsOf(object, scaleOf(object.transform()), where);
   body.model = std::move(part);
   body.model.materials.assign(1, materialOf(object.material(), where + ".material"));
   for (auto* list : {&body.model.triangle_materials, &body.model.segment_materials, &body.model.point_materials})
@@ -282,13 +290,19 @@ void SceneFile::checkBodies(const SceneModel& scene) const {
   }
 }
 
-void SceneFile::checkSnaps(const SceneModel& scene) const {
-  std::size_t points = pointsIn(scene.snaps);
-  for (const SceneBody& body : scene.bodies) points += pointsIn(body.snaps);
-  if (snapsIn(scene) > kMostSnaps)
-    fail("objects", fmt::format("there are {} snaps in it, and at most {} can hold", snapsIn(scene), kMostSnaps));
-  if (points > kMostSnapPoints)
-    fail("objects", fmt::format("its snaps have {} points, and no more than {} can be", points, kMostSnapPoints));
+void SceneFile::checkPlaces(const SceneModel& scene) const {
+  const auto check = [&](std::size_t count, std::size_t most, const char* what) {
+    if (count > most) fail("objects", fmt::format("there are {} {} in it, and at most {} can be", count, what, most));
+  };
+  std::size_t snap_points = pointsIn(scene.snaps), field_points = pointsIn(scene.fields);
+  for (const SceneBody& body : scene.bodies) {
+    snap_points += pointsIn(body.snaps);
+    field_points += pointsIn(body.fields);
+  }
+  check(snapsIn(scene), kMostSnaps, "snaps");
+  check(snap_points, kMostSnapPoints, "points of snaps");
+  check(fieldsIn(scene), kMostFields, "fields");
+  check(field_points, kMostSnapPoints, "points of fields");
 }
 
 // Numbers from 1, as a scene's joints have them.
@@ -342,7 +356,7 @@ SceneModel SceneFile::build() {
       addAtRest(std::move(part), object, where, scene);
   }
   if (whole.materials.empty()) whole.materials.emplace_back();
-  checkSnaps(scene);
+  checkPlaces(scene);
   addJoints(scene);
   scaleModel(scene, units);
   checkBodies(scene);

@@ -17,7 +17,7 @@ constexpr double kEnergyRounding = 1e-12, kEnergyRounding_J = 1e-15;
 SnapPoint nearestTo(const Vec3& finger, const SceneAt& scene, const Instance& instance, const SnapSpec& snap) {
   const Pose pose = instance.poses().at(scene.time_ns());
   const Vec3 finger_O = pose.toObject(finger);
-  SnapPoint nearest = nearestOn(snap, finger_O);
+  SnapPoint nearest = nearestOn(snap.points, snap.normal, finger_O);
   // By the way to it, whose rounding is that of a small number.
   nearest.point = finger + pose.turnToWorld(nearest.point - finger_O);
   nearest.axis = pose.turnToWorld(nearest.axis);

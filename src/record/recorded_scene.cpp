@@ -60,6 +60,13 @@ std::shared_ptr<const SnapList> snapsOf(const proto::RecordedInstance& in) {
   return std::make_shared<const SnapList>(std::move(snaps));
 }
 
+std::shared_ptr<const FieldList> fieldsOf(const proto::RecordedInstance& in) {
+  if (in.fields_size() == 0) return nullptr;
+  FieldList fields;
+  for (const proto::RecordedField& field : in.fields()) fields.push_back(fieldOf(field));
+  return std::make_shared<const FieldList>(std::move(fields));
+}
+
 Ways waysOf(const proto::Values& in) {
   Ways ways;
   readValues(in, "a motion", ways);
@@ -89,6 +96,9 @@ void encode(const Instance& instance, proto::RecordedInstance& out) {
   out.set_answers_force(instance.answers_force);
   if (instance.snaps) {
     for (const SnapSpec& snap : *instance.snaps) toProto(snap, *out.add_snaps());
+  }
+  if (instance.fields) {
+    for (const FieldSpec& field : *instance.fields) toProto(field, *out.add_fields());
   }
   if (!instance.compliance) return;
   const ComplianceWays yields{instance.compliance->earlier(), instance.compliance->last()};
@@ -230,6 +240,7 @@ std::shared_ptr<const Snapshot> SceneReader::scene(const proto::RecordedScene& i
     instances.back().item = placed.item();
     instances.back().answers_force = placed.answers_force();
     instances.back().snaps = snapsOf(placed);
+    instances.back().fields = fieldsOf(placed);
     setBody(placed.body(), instances.back());
     bodies += instances.back().movesAsBody() ? 1 : 0;
   }

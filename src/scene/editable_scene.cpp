@@ -107,7 +107,8 @@ class EditableScene::Flattening {
   void enter(const SceneItem& item, const Call& call);
   void add(const SceneItem& item, const Call& call, std::uint32_t number);
   void countBody();
-  void addSnaps(const SnapList& snaps, const Call& call, bool to_body);
+  void addPlaces(const SceneItems& items, const Call& call, bool to_body);
+  void count(const SceneItems& items);
   PlacedShape& place(const std::shared_ptr<const Shape>& shape, const Pose& pose, const Call& call);
   std::shared_ptr<const Shape> shapeOf(const std::shared_ptr<const Shape>& shape, const Mat3& stretch);
   std::shared_ptr<const Surfaces> surfacesOf(const SurfaceChange& change);
@@ -117,7 +118,7 @@ class EditableScene::Flattening {
   MemoryShare memory_;  // memory of the placed shapes and their surfaces
   std::vector<PlacedShape> placed_;
   std::vector<std::uint32_t> path_;
-  std::size_t visits_ = 0, bodies_ = 0, snaps_ = 0, snap_points_ = 0;
+  std::size_t visits_ = 0, bodies_ = 0, snaps_ = 0, snap_points_ = 0, fields_ = 0, field_points_ = 0;
   ModelSizes copies_;  // sizes of the stretched copies; a small matrix makes a copy of a large shape
   SurfaceChange last_change_;
   std::shared_ptr<const Surfaces> last_surfaces_;  // of last_change_; most objects repeat it
@@ -156,7 +157,7 @@ void EditableScene::Flattening::enter(const SceneItem& item, const Call& call) {
   const SceneItems& items = *found->second;
   const std::size_t before = placed_.size();
   visit(items, inner);
-  if (items.snaps) addSnaps(*items.snaps, inner, items.body && placed_.size() > before);
+  if (items.snaps || items.fields) addPlaces(items, inner, items.body && placed_.size() > before);
   path_.pop_back();
 }
 
@@ -193,27 +194,37 @@ void EditableScene::Flattening::countBody() {
     throw Error("there are more than " + std::to_string(scene_.limits_.bodies) + " bodies in the world");
 }
 
-// Those of a body move with it. Others get an instance of their own, so that an object needs nothing to touch.
-void EditableScene::Flattening::addSnaps(const SnapList& snaps, const Call& call, bool to_body) {
+void EditableScene::Flattening::count(const SceneItems& items) {
+  const auto check = [](std::size_t count, std::size_t most, const char* what) {
+    if (count > most) throw Error("there are more than " + std::to_string(most) + " " + what + " in the world");
+  };
+  snaps_ += items.snaps ? items.snaps->size() : 0;
+  snap_points_ += items.snaps ? pointsIn(*items.snaps) : 0;
+  fields_ += items.fields ? items.fields->size() : 0;
+  field_points_ += items.fields ? pointsIn(*items.fields) : 0;
+  check(snaps_, kMostSnaps, "snaps");
+  check(snap_points_, kMostSnapPoints, "points of snaps");
+  check(fields_, kMostFields, "fields");
+  check(field_points_, kMostSnapPoints, "points of fields");
+  memory_.take(2 * kPointer_bytes + (items.snaps ? bytesOf(*items.snaps) : 0) +
+               (items.fields ? bytesOf(*items.fields) : 0));
+}
+
+// Snaps and fields of a body move with it. Others get an instance of their own, so that an object needs nothing to
+// touch.
+void EditableScene::Flattening::addPlaces(const SceneItems& items, const Call& call, bool to_body) {
   static const std::shared_ptr<const Shape> kNothing = makeShape(Model{});
   constexpr std::uint64_t kOwnKey = 0x736e6170;
   const Polar polar = polarOf(call.placement.linear);
   if (!withinReach(call.placement.offset))
-    throw Error("a snap lies farther than 1e9 m from the origin: nothing so far can be touched");
-  snaps_ += snaps.size();
-  snap_points_ += pointsIn(snaps);
-  if (snaps_ > kMostSnaps) throw Error("there are more than " + std::to_string(kMostSnaps) + " snaps in the world");
-  if (snap_points_ > kMostSnapPoints)
-    throw Error("the snaps in the world have more than " + std::to_string(kMostSnapPoints) + " points");
-  memory_.take(kPointer_bytes + bytesOf(snaps));
-  auto own = std::make_shared<const SnapList>(hl::placed(snaps, {polar.stretch, Vec3::Zero()}));
-  if (to_body) {
-    placed_.back().snaps = std::move(own);
-    return;
-  }
+    throw Error("a snap or field lies farther than 1e9 m from the origin: nothing so far can be felt");
+  count(items);
   Call there = call;
   there.key = mixed(call.key, kOwnKey);
-  place(kNothing, {polar.rotation, call.placement.offset}, there).snaps = std::move(own);
+  PlacedShape& own = to_body ? placed_.back() : place(kNothing, {polar.rotation, call.placement.offset}, there);
+  const Placement stretch{polar.stretch, Vec3::Zero()};
+  if (items.snaps) own.snaps = std::make_shared<const SnapList>(hl::placed(*items.snaps, stretch));
+  if (items.fields) own.fields = std::make_shared<const FieldList>(hl::placed(*items.fields, stretch));
 }
 
 // The hierarchy of a new copy is refitted from that of the copy that it replaces, or else from that of the shape.
@@ -371,12 +382,15 @@ bool isDeformed(const Instance& before, const PlacedShape& now) {
          before.shape->model.materials.size() <= now.surfaces->materials.size();
 }
 
-bool sameSnaps(const SnapList* a, const SnapList* b) { return a == b || (a != nullptr && b != nullptr && *a == *b); }
+template <typename List>
+bool same(const std::shared_ptr<const List>& a, const std::shared_ptr<const List>& b) {
+  return a == b || (a && b && *a == *b);
+}
 
 // Contribution of one object to Snapshot::blend_ns. `before`: the object in the last snapshot; null: none.
 std::int64_t blendOf(const Instance* before, const Instance& now, const PlacedShape& placed) {
   if (before == nullptr || !(*before->surfaces == *now.surfaces)) return kAbruptBlend_ns;
-  if (!sameSnaps(before->snaps.get(), now.snaps.get())) return kAbruptBlend_ns;
+  if (!same(before->snaps, now.snaps)) return kAbruptBlend_ns;
   if (before->movesAsBody() != now.movesAsBody()) return kAbruptBlend_ns;
   if (now.movesAsBody() && before->shape->model.positions != now.shape->model.positions) return kAbruptBlend_ns;
   if (!now.motion.moves() && !(before->motion.to() == now.motion.to())) return kAbruptBlend_ns;
@@ -422,6 +436,7 @@ Instance follow(const PlacedShape& now, const Instance* before, std::int64_t beg
   instance.item = now.item;
   instance.answers_force = now.answers_force;
   instance.snaps = now.snaps;
+  instance.fields = now.fields;
   if (now.compliance) instance.compliance = std::make_shared<const ComplianceMotion>(*now.compliance);
   if (now.body)
     setBody(instance, followBody("object " + std::to_string(now.object), {*now.body, now.pose, now.shape->bounds},

@@ -30,8 +30,9 @@ struct SceneItem {
 };
 struct SceneItems : std::vector<SceneItem> {
   using std::vector<SceneItem>::vector;
-  std::shared_ptr<const BodySpec> body{};   ///< each shape that it places directly is a rigid body; null: none is
-  std::shared_ptr<const SnapList> snaps{};  ///< of each call of the object; null: none
+  std::shared_ptr<const BodySpec> body{};     ///< each shape that it places directly is a rigid body; null: none is
+  std::shared_ptr<const SnapList> snaps{};    ///< of each call of the object; null: none
+  std::shared_ptr<const FieldList> fields{};  ///< the same
 };
 /// Memory of a list of `count` items.
 std::size_t bytesOfItems(std::size_t count);
@@ -92,11 +93,12 @@ struct PlacedShape {
   Pose pose;
   std::uint64_t key = 0;  ///< from the calls that lead to it: the same from frame to frame
   std::uint32_t session = 0, object = 0, name = 0;
-  std::uint32_t item = 0;                   ///< as in Instance
-  std::optional<Compliance> compliance{};   ///< of its object
-  bool answers_force = false;               ///< as in Instance
-  std::shared_ptr<const BodySpec> body{};   ///< it is a rigid body that starts at `pose`; null: it is none
-  std::shared_ptr<const SnapList> snaps{};  ///< in the frame of `pose`; null: none
+  std::uint32_t item = 0;                     ///< as in Instance
+  std::optional<Compliance> compliance{};     ///< of its object
+  bool answers_force = false;                 ///< as in Instance
+  std::shared_ptr<const BodySpec> body{};     ///< it is a rigid body that starts at `pose`; null: it is none
+  std::shared_ptr<const SnapList> snaps{};    ///< in the frame of `pose`; null: none
+  std::shared_ptr<const FieldList> fields{};  ///< the same
 
   bool movesAsBody() const { return body && !body->fixed; }
 };

@@ -19,13 +19,13 @@ SnapPoint nearestOnSegment(const Vec3& a, const Vec3& b, const Vec3& p) {
 
 }  // namespace
 
-SnapPoint nearestOn(const SnapSpec& snap, const Vec3& p) {
-  const Vec3& first = snap.points.front();
-  if (snap.normal) return {p - snap.normal->dot(p - first) * *snap.normal, SnapPoint::Free::kAcrossAxis, *snap.normal};
+SnapPoint nearestOn(const std::vector<Vec3>& points, const std::optional<Vec3>& normal, const Vec3& p) {
+  const Vec3& first = points.front();
+  if (normal) return {p - normal->dot(p - first) * *normal, SnapPoint::Free::kAcrossAxis, *normal};
   SnapPoint nearest{first};
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < snap.points.size(); ++i) {
-    const SnapPoint point = nearestOnSegment(snap.points[i - 1], snap.points[i], p);
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const SnapPoint point = nearestOnSegment(points[i - 1], points[i], p);
     const double square = (point.point - p).squaredNorm();
     if (!(square < least)) continue;
     least = square;

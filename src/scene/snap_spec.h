@@ -28,7 +28,7 @@ struct SnapSpec {
 };
 using SnapList = std::vector<SnapSpec>;
 
-/// A point of a snap, and where it may be moved from there without leaving the snap. Frame of the object.
+/// A point of a snap or field, and where it may be moved from there without leaving it. Frame of the object.
 struct SnapPoint {
   enum class Free : std::uint8_t {
     kNowhere,    ///< of a point, or at an end or corner of a curve
@@ -40,8 +40,8 @@ struct SnapPoint {
   Vec3 axis = Vec3::Zero();  ///< unit, unless it is free nowhere
 };
 
-/// The point of the snap nearest to `p`, m. RT-safe.
-SnapPoint nearestOn(const SnapSpec& snap, const Vec3& p);
+/// The point nearest to `p`, m, of the place of a snap or field: its points and its normal. RT-safe.
+SnapPoint nearestOn(const std::vector<Vec3>& points, const std::optional<Vec3>& normal, const Vec3& p);
 
 /// The snaps in another frame, of which `placement` makes it. Distances of capture stay as they are. Allocates.
 SnapList placed(const SnapList& snaps, const Placement& placement);

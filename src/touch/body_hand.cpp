@@ -53,11 +53,15 @@ void BodyHand::hold(const SceneAt& scene, const ProxyState& state, const TickRep
 }
 
 void BodyHand::after(BodyWorld& bodies, const SceneAt& scene, const ProxyState& state, const TickReport& report,
-                     const ProxySettings& settings, const Vec3& finger, bool pulls) {
+                     const FieldForces& fields, const ProxySettings& settings, const Vec3& finger, bool pulls) {
   const bool touching = pulls && touches(state, report);
   held_by_.clear();
   if (touching) hold(scene, state, report, finger);
-  bodies.settle(touching ? objectForces(scene, settings, state, report, finger) : ObjectForces{}, settings.period_s);
+  ObjectForces forces = touching ? objectForces(scene, settings, state, report, finger) : ObjectForces{};
+  if (pulls) {
+    for (const ObjectForce& force : fields.forces) forces.push(force);
+  }
+  bodies.settle(forces, settings.period_s);
 }
 
 }  // namespace hl

@@ -69,6 +69,50 @@ TEST_F(CallsTest, SnapsOutOfRangeAreErrorsAndNotSent) {
   EXPECT_EQ(server->frames()[0].objects(0).snaps_size(), 64);
 }
 
+TEST_F(CallsTest, FieldsAreSentWithTheirObjectPlacedByTheMatrix) {
+  hlNewObject(3);
+  hlRotated(90, 0, 0, 1);
+  hlFieldPoint3d(HL_FIELD_MAGNET, 1, 0, 0, 0.03, 2);
+  hlFieldLineTo3d(2, 0, 0);
+  hlFieldPlane3d(HL_FIELD_DRAG, 0, 0, 0, 5, 0, 0, 0.1, 4);
+  hlFieldPoint3d(HL_FIELD_SPRING, 0, 0, 0, 0.1, 50);
+  hlFieldForce3d(0, 0, 0, 0.1, 3, 0, 4);
+  hlEndObject();
+  hlFlush();
+  EXPECT_EQ(hlGetError(), HLenum{HL_NO_ERROR});
+  const proto::ObjectDefinition object = server->frames()[0].objects(0);
+  ASSERT_EQ(object.fields_size(), 4);
+  EXPECT_EQ(object.fields(0).kind(), proto::MAGNET);
+  EXPECT_EQ(object.fields(0).points_size(), 6);
+  EXPECT_NEAR(object.fields(0).points(4), 2, 1e-15);
+  EXPECT_EQ(object.fields(0).reach(), 0.03);
+  EXPECT_EQ(object.fields(0).force_n(), 2);
+  EXPECT_EQ(object.fields(1).kind(), proto::DRAG);
+  EXPECT_NEAR(object.fields(1).normal().y(), 1, 1e-15);
+  EXPECT_EQ(object.fields(1).damping_ns_m(), 4);
+  EXPECT_EQ(object.fields(2).stiffness_n_m(), 50);
+  EXPECT_EQ(object.fields(3).kind(), proto::CONSTANT);
+  EXPECT_EQ(object.fields(3).force_n(), 5);
+  EXPECT_NEAR(object.fields(3).direction().y(), 0.6, 1e-15);
+  EXPECT_NEAR(object.fields(3).direction().z(), 0.8, 1e-15);
+}
+
+TEST_F(CallsTest, FieldsOutOfRangeAreErrorsAndNotSent) {
+  EXPECT_EQ(errorOf([] { hlFieldPoint3d(HL_FIELD_MAGNET, 0, 0, 0, 1, 1); }), HLenum{HL_INVALID_OPERATION});
+  hlNewObject(1);
+  EXPECT_EQ(errorOf([] { hlFieldPoint3d(HL_FIELD_CONSTANT, 0, 0, 0, 1, 1); }), HLenum{HL_INVALID_ENUM});
+  EXPECT_EQ(errorOf([] { hlFieldPoint3d(HL_POINTS, 0, 0, 0, 1, 1); }), HLenum{HL_INVALID_ENUM});
+  EXPECT_EQ(errorOf([] { hlFieldPoint3d(HL_FIELD_MAGNET, 0, 0, 0, 1, 1001); }), HLenum{HL_INVALID_VALUE});
+  EXPECT_EQ(errorOf([] { hlFieldPoint3d(HL_FIELD_DRAG, 0, 0, 0, 1, 101); }), HLenum{HL_INVALID_VALUE});
+  EXPECT_EQ(errorOf([] { hlFieldPoint3d(HL_FIELD_SPRING, 0, 0, 0, 0, 1); }), HLenum{HL_INVALID_VALUE});
+  EXPECT_EQ(errorOf([] { hlFieldForce3d(0, 0, 0, 1, 0, 0, 0); }), HLenum{HL_INVALID_VALUE});
+  EXPECT_EQ(errorOf([] { hlFieldForce3d(0, 0, 0, 1, std::nan(""), 0, 0); }), HLenum{HL_INVALID_VALUE});
+  EXPECT_EQ(errorOf([] { hlFieldLineTo3d(0, 0, 0); }), HLenum{HL_INVALID_OPERATION});
+  hlEndObject();
+  hlFlush();
+  EXPECT_EQ(server->frames()[0].objects(0).fields_size(), 0);
+}
+
 TEST_F(CallsTest, TheStateTellsWhichSnapHolds) {
   proto::ClientState& state = server->tell();
   hlPoll();

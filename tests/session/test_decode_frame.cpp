@@ -100,6 +100,22 @@ TEST(DecodeFrame, SnapsAreOfTheirObject) {
   EXPECT_EQ(refusal([](auto& snap) { snap.mutable_normal(); }), "object 5.snaps[0].normal must not be zero");
 }
 
+TEST(DecodeFrame, FieldsAreOfTheirObject) {
+  proto::Frame frame;
+  proto::ObjectDefinition& object = *frame.add_objects();
+  object.set_id(5);
+  proto::Field& field = *object.add_fields();
+  for (const double x : {1, 2, 3}) field.add_points(x);
+  field.set_reach(0.1);
+  field.set_force_n(2);
+  Uploads uploads;
+  const DecodedFrame decoded = decodeFrame(frame, uploads, smallLimits(), {}, [](double) {});
+  ASSERT_TRUE(decoded.edit.objects.at(5)->fields);
+  EXPECT_EQ(decoded.edit.objects.at(5)->fields->at(0).force_N, 2);
+  field.set_force_n(2000);
+  EXPECT_EQ(refusalOf(frame), "object 5.fields[0].forceN must be between 1e-09 and 1000");
+}
+
 TEST(DecodeFrame, AnAbsentTangentialComplianceIsThatAlongTheNormal) {
   proto::Frame frame;
   frame.add_objects()->set_id(5);

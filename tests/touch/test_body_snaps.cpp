@@ -1,4 +1,4 @@
-// Snaps of bodies: the hand takes hold of a body by its snap, and what it gives, it gets.
+// Snaps and fields of bodies: the hand holds a body by its snap, or is drawn by its field, and what it gets, it gives.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,12 +23,13 @@ SnapSpec snapOf(std::vector<Vec3> points, double capture_m, double release_N) {
 // A block about the origin, with snaps, that nothing else holds; a device's finger.
 class Held {
  public:
-  Held(double mass_kg, const SnapSpec& snap, double gravity_m_s2) {
+  Held(double mass_kg, const SnapSpec& snap, double gravity_m_s2, const FieldList& fields = {}) {
     Instance instance;
     instance.shape = makeShape(test::boxModel(Vec3::Constant(kHalf_m)), HierarchyKind::kNone);
     instance.surfaces = surfacesOf(instance.shape);
     instance.key = 1;
     instance.snaps = std::make_shared<const SnapList>(SnapList{snap});
+    instance.fields = std::make_shared<const FieldList>(fields);
     BodySpec spec;
     spec.mass_kg = mass_kg;
     spec.shape = BodyShape::kBox;
@@ -124,6 +125,52 @@ TEST(BodySnaps, ABodyOfAnyMassIsHeldStill) {
       }
       EXPECT_LE(most_m_s, 0.05 * (1 + 1e-3)) << mass_kg;
     }
+  }
+}
+
+FieldSpec fieldOf(FieldKind kind, const Vec3& point, double reach_m, double force_N) {
+  FieldSpec field;
+  field.kind = kind;
+  field.points = {point};
+  field.reach_m = reach_m;
+  field.force_N = force_N;
+  return field;
+}
+
+// A magnet in front of a block, and one that pushes aside: what the hand gets, the block gives.
+TEST(BodyFields, ActionIsReactionToRounding) {
+  test::Random random(3);
+  FieldList fields{fieldOf(FieldKind::kMagnet, {0.02, 0, 0}, 0.03, 2),
+                   fieldOf(FieldKind::kConstant, {0.02, 0, 0}, 0.02, 0.5)};
+  fields[1].direction = Vec3::UnitY();
+  Held held(0.1, snapOf({{5, 0, 0}}, 1e-3, 1), 0, fields);
+  const ServoSettings settings = test::plainServo(1000);
+  Vec3 finger(0.06, 0, 0), velocity = Vec3::Zero();
+  double most_N = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const Vec3 to_block = held.body().centre + Vec3(0.03, 0, 0) - finger;
+    velocity = 0.99 * velocity + 0.02 * to_block + 0.01 * random.inCube(0.3);
+    finger += 1e-3 * velocity;
+    most_N = std::max(most_N, held.step(finger, settings).norm());
+    ASSERT_LT(held.imbalance().norm(), 1e-12) << i;
+  }
+  EXPECT_GT(most_N, 1);
+  EXPECT_GT(held.body().velocity.norm(), 1e-3);
+}
+
+// A block at a hand that does not move, by a magnet of 27 N/m in its middle: no oscillation grows.
+TEST(BodyFields, ABlockSwingsAboutAStillHandAndDoesNotGrow) {
+  for (const double mass_kg : {1e-3, 0.01, 0.1}) {
+    Held held(mass_kg, snapOf({{5, 0, 0}}, 1e-3, 1), 0, {fieldOf(FieldKind::kMagnet, {0.03, 0, 0}, 0.05, 0.2)});
+    const ServoSettings settings = test::plainServo(1000);
+    double early_m = 0, late_m = 0;
+    for (int i = 0; i < 20'000; ++i) {
+      held.step({0.035, 0, 0}, settings);
+      const double way_m = std::abs(held.body().centre.x() - 0.005);
+      (i < 10'000 ? early_m : late_m) = std::max(i < 10'000 ? early_m : late_m, way_m);
+    }
+    EXPECT_GT(early_m, 0.0045) << mass_kg;
+    EXPECT_LE(late_m, early_m * 1.01) << mass_kg;
   }
 }
 
