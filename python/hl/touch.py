@@ -243,13 +243,15 @@ class Touch:
         points: (3,) a point, or (n, 3) the corners of a curve, m. normal: (3,), of the plane through the one point.
         """
         self.make_current()
-        corners = _corners(points, normal)
-        distances = (arguments.number(capture, "capture"), arguments.number(release, "release"))
+        first, *others = _corners(points, normal)
+        x, y, z = first
+        near, most = arguments.number(capture, "capture"), arguments.number(release, "release")
         if normal is not None:
-            calls.hlSnapPlane3d(*corners[0], *_vector(normal, "normal"), *distances)
+            nx, ny, nz = _vector(normal, "normal")
+            calls.hlSnapPlane3d(x, y, z, nx, ny, nz, near, most)
             return
-        calls.hlSnapPoint3d(*corners[0], *distances)
-        for corner in corners[1:]:
+        calls.hlSnapPoint3d(x, y, z, near, most)
+        for corner in others:
             calls.hlSnapLineTo3d(*corner)
 
     def field(
@@ -261,21 +263,25 @@ class Touch:
         points: (3,) a point, or (n, 3) the corners of a curve, m. normal: (3,), of the plane through the one point.
         """
         self.make_current()
-        corners = _corners(points, normal)
+        first, *others = _corners(points, normal)
+        x, y, z = first
         number = _chosen(_FIELDS, kind, "kind of a field")
-        values = (arguments.number(reach, "reach"), arguments.number(strength, "strength"))
+        far, most = arguments.number(reach, "reach"), arguments.number(strength, "strength")
         if normal is not None:
-            calls.hlFieldPlane3d(number, *corners[0], *_vector(normal, "normal"), *values)
+            nx, ny, nz = _vector(normal, "normal")
+            calls.hlFieldPlane3d(number, x, y, z, nx, ny, nz, far, most)
             return
-        calls.hlFieldPoint3d(number, *corners[0], *values)
-        for corner in corners[1:]:
+        calls.hlFieldPoint3d(number, x, y, z, far, most)
+        for corner in others:
             calls.hlFieldLineTo3d(*corner)
 
     def push_field(self, point: npt.ArrayLike, reach: float, force: npt.ArrayLike) -> None:
         """Gives the object that is being defined a constant force, (3,) in N, that falls to 0 at `reach`, m, of a point,
         (3,) in m."""
         self.make_current()
-        calls.hlFieldForce3d(*_vector(point, "point"), arguments.number(reach, "reach"), *_vector(force, "force"))
+        x, y, z = _vector(point, "point")
+        fx, fy, fz = _vector(force, "force")
+        calls.hlFieldForce3d(x, y, z, arguments.number(reach, "reach"), fx, fy, fz)
 
     def gravity(self, acceleration: npt.ArrayLike) -> None:
         """Of all bodies, (3,) in m/s^2, from this frame on; (0, -9.81, 0) at first."""

@@ -8,7 +8,9 @@
 
 namespace hl {
 
-/// Of kMostFieldsAtOnce fields at most, drags beside them: of more, the first of the scene.
+/// So many act at once, drags beside them; of more, the first of the scene.
+inline constexpr std::size_t kMostFieldsAtOnce = 4;
+
 struct FieldForces {
   Vec3 force_N = Vec3::Zero();                         ///< on the hand, world axes; the sum of `forces`
   double damping_Ns_m = 0;                             ///< at the hand, of all regions together

@@ -21,9 +21,8 @@ struct ObjectForce {
   Vec3 point = Vec3::Zero();  ///< m, world: point of action on the object; the proxy's position if key is 0
   Vec3 force_N = Vec3::Zero();
 };
-/// At most one per active contact, and one per object, but for that of a snap; and those of fields (field_forces.h).
-inline constexpr std::size_t kMostFieldsAtOnce = 4;
-using ObjectForces = FixedVector<ObjectForce, 4 + kMostFieldsAtOnce>;
+/// At most one per active contact, and one per object, but for that of a snap.
+using ObjectForces = FixedVector<ObjectForce, 4>;
 
 /// Forces after the tick that returned `state` and `report` for `finger`. Their sum is K (target - finger) /
 /// world_per_device, to rounding. RT-safe.

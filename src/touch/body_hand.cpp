@@ -57,11 +57,8 @@ void BodyHand::after(BodyWorld& bodies, const SceneAt& scene, const ProxyState& 
   const bool touching = pulls && touches(state, report);
   held_by_.clear();
   if (touching) hold(scene, state, report, finger);
-  ObjectForces forces = touching ? objectForces(scene, settings, state, report, finger) : ObjectForces{};
-  if (pulls) {
-    for (const ObjectForce& force : fields.forces) forces.push(force);
-  }
-  bodies.settle(forces, settings.period_s);
+  bodies.settle(touching ? objectForces(scene, settings, state, report, finger) : ObjectForces{}, settings.period_s);
+  bodies.draw(pulls ? fields : FieldForces{}, settings.period_s);
 }
 
 }  // namespace hl

@@ -58,8 +58,8 @@ Instance bodyAt(std::uint64_t key, const Vec3& at) {
   if (key == 2) {
     const SnapSpec sheet{"sheet", {Vec3(0, -0.009, 0)}, Vec3::UnitY(), 0.003, 3};
     instance.snaps = std::make_shared<const SnapList>(SnapList{sheet});
-    FieldSpec magnet{"magnet", FieldKind::kMagnet, {Vec3::Zero()}, {}, 0.04, 0.3, 0, 0, Vec3::Zero()};
-    FieldSpec drag{"drag", FieldKind::kDrag, {Vec3::Zero()}, {}, 0.03, 0, 0, 1, Vec3::Zero()};
+    FieldSpec magnet{"magnet", FieldKind::kMagnet, {Vec3::Zero()}, {}, 0.04, 0.05, 0, 0, Vec3::Zero()};
+    FieldSpec drag{"drag", FieldKind::kDrag, {Vec3::Zero()}, {}, 0.03, 0, 0, 0.05, Vec3::Zero()};
     instance.fields = std::make_shared<const FieldList>(FieldList{magnet, drag});
   }
   return instance;
@@ -110,7 +110,7 @@ class Stirred {
     slot_.dropBefore();
     for (const ObjectName& touched : step_.tick().touched) on_bodies_ += touched.key > 1 ? 1 : 0;
     snapped_ += loop_.state().snap.holds() ? 1 : 0;
-    drawn_ += step_.target().field_N.norm() > 0.1 ? 1 : 0;
+    drawn_ += step_.target().field_N.norm() > 0.01 ? 1 : 0;
   }
   const BodyWorld& world() const { return *loop_.bodies(); }
   int onBodies() const { return on_bodies_; }  ///< contacts with bodies so far
