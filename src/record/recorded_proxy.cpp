@@ -44,6 +44,7 @@ void checkMemory(const MemoryValues& in) {
   checkVector("presliding_m", in.presliding_m);
   checkVector("offset", in.fading.offset);
   checkVector("proxy_D", in.told.proxy_D);
+  checkVector("field_N", in.told.field_N);
   checkTime(in.time_ns, "the last tick before the recording");
   checkTime(in.told.time_ns, "the last target before the recording");
   checkRanges("the memory of the proxy",
@@ -55,6 +56,7 @@ void checkMemory(const MemoryValues& in) {
                {"left_s", in.fading.left_s, 0, kMaxMemory},
                {"told.stiffness", in.told.stiffness, 0, 1},
                {"told.paid_J", in.told.paid_J, -kMaxMemory, kMaxMemory},
+               {"told.field_drag_Ns_m", in.told.field_drag_Ns_m, 0, kMaxMemory},
                {"tank_J", in.ledger.tank_J, 0, kMaxMemory},
                {"injected_J", in.ledger.injected_J, -kMaxMemory, kMaxMemory},
                {"dissipated_J", in.ledger.dissipated_J, -kMaxMemory, kMaxMemory}});

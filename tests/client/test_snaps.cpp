@@ -114,15 +114,15 @@ TEST_F(CallsTest, FieldsOutOfRangeAreErrorsAndNotSent) {
 }
 
 TEST_F(CallsTest, TheStateTellsWhichSnapHolds) {
-  proto::ClientState& state = server->tell();
+  server->tell();
   hlPoll();
   EXPECT_EQ(number(HL_SNAPPED_OBJECT), 0);
-  proto::HoldingSnap& snap = *state.mutable_snap();
+  const auto session = static_cast<std::uint32_t>(number(HL_SESSION));
+  proto::HoldingSnap& snap = *server->tell().mutable_snap();
   snap.set_object(3);
   snap.set_name(7);
   snap.set_number(2);
-  snap.set_session(static_cast<std::uint32_t>(number(HL_SESSION)));
-  server->tell() = state;
+  snap.set_session(session);
   hlPoll();
   EXPECT_EQ(number(HL_SNAPPED_OBJECT), 3);
   EXPECT_EQ(number(HL_SNAPPED_NAME), 7);
