@@ -117,7 +117,6 @@ TEST(Snapping, AlongALineThereIsNoForce) {
       const TickReport report = tick(state, *scene, plain(), finger);
       ASSERT_TRUE(state.snap.holds());
       ASSERT_LE(std::abs(forceOf(report, finger).dot(along)), 1e-12);
-      ASSERT_LE(std::abs(report.injected_J), 1e-2 * kK);
     }
   }
 }

@@ -5,4 +5,5 @@ void useFields(HLuint guide);
 
 void useFields(HLuint guide) {
   /* block */
+  hlFlush();
 }
