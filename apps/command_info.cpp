@@ -2,7 +2,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
+#include <vector>
 
 #include "bodies/scene_world.h"
 #include "commands.h"
@@ -11,6 +13,8 @@
 namespace hl {
 
 namespace {
+
+constexpr std::size_t kMostPrinted = 50;  // bodies, and joints
 
 void printTexture(const Model& model, const TextureUse& use, const std::string& name, const std::string& unit) {
   if (!use.used()) return;
@@ -108,8 +112,33 @@ void printBody(const RigidBody& body, const Model& model) {
              surface.dynamic_friction, surface.restitution);
 }
 
+std::string bodyNamed(const Snapshot& snapshot, std::uint64_t key) {
+  std::uint32_t number = 0;
+  if (!snapshot.find(key, number) || !snapshot.instances[number].body) return "the world";
+  return snapshot.instances[number].body->name;
+}
+
+void printJoint(const JointSpec& joint, const Snapshot& snapshot) {
+  const JointForces& along = joint.along;
+  fmt::print("joint {}: {}, {} to {}", joint.name, kJointKindNames[static_cast<std::size_t>(joint.kind)],
+             bodyNamed(snapshot, joint.body_a), bodyNamed(snapshot, joint.body_b));
+  const bool turns = joint.kind == JointKind::kHinge;
+  if (std::isfinite(along.low) || std::isfinite(along.high))
+    fmt::print(", {:.4g} .. {:.4g} {}", along.low, along.high, turns ? "rad" : "m");
+  if (along.spring > 0) fmt::print(", spring {:.4g} {}", along.spring, turns ? "N m/rad" : "N/m");
+  if (along.damping > 0) fmt::print(", damping {:.4g} {}", along.damping, turns ? "N m s/rad" : "N s/m");
+  if (along.friction > 0) fmt::print(", friction {:.4g} {}", along.friction, turns ? "N m" : "N");
+  if (!along.table.empty()) fmt::print(", a force table of {} rows", along.table.position.size());
+  fmt::print("\n");
+}
+
+void printJoints(const Snapshot& snapshot) {
+  const std::vector<JointSpec>& joints = snapshot.mechanics.joints;
+  for (std::size_t i = 0; i < std::min(joints.size(), kMostPrinted); ++i) printJoint(joints[i], snapshot);
+  if (joints.size() > kMostPrinted) fmt::print("and {} joints more\n", joints.size() - kMostPrinted);
+}
+
 void printBodies(const Snapshot& snapshot) {
-  constexpr std::size_t kMostPrinted = 50;
   std::size_t bodies = 0;
   for (const Instance& instance : snapshot.instances) {
     if (instance.body && ++bodies <= kMostPrinted) printBody(*instance.body, instance.shape->model);
@@ -159,6 +188,7 @@ void print(const Snapshot& snapshot) {
   printBodies(snapshot);
   printSnaps(snapshot);
   printFields(snapshot);
+  printJoints(snapshot);
   fmt::print("warnings:   {}\n", snapshot.warnings.empty() ? "none" : "");
   for (const std::string& warning : snapshot.warnings) fmt::print("  {}\n", warning);
 }

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "bodies/scene_world.h"
 #include "scene/by_key.h"
 #include "session/check_bodies.h"
 #include "session/decode_frame.h"
@@ -71,7 +72,10 @@ void readMessage(MessageForm form, std::string_view bytes) {
     return;
   }
   constexpr std::int64_t kMove_ns = 3'000'000;
-  touch(*makeSnapshot(followOn(scene.placed(), pointersByKey(shown), 0, kMove_ns).instances));
+  const auto snapshot = makeSnapshot(followOn(scene.placed(), pointersByKey(shown), 0, kMove_ns).instances, {}, 1,
+                                     kAbruptBlend_ns, {Vec3(0, -9.81, 0), scene.placed().joints});
+  touch(*snapshot);
+  if (const auto world = worldOf(*snapshot)) checkWorld(*world);
 }
 
 }  // namespace hl::fuzz

@@ -13,7 +13,7 @@ web_sources() {
   echo "#include \"$root/src/geometry/wide_bvh_query.cpp\"" >"$out/query.cpp"
   for file in src/base/{ledger,plain_math,quantities}.cpp src/device/{device_models,hand,mass_arm,phantom}.cpp \
     src/device/{phantom_arm,simulated_device}.cpp src/touch/{body_hand,body_world,exploration,felt_contact,held_contacts}.cpp \
-    src/touch/{proxy_loop,touch_events,touch_step}.cpp src/tools/trace.cpp; do
+    src/touch/{joint_views,proxy_loop,touch_events,touch_step}.cpp src/tools/trace.cpp; do
     echo "#include \"$root/$file\""
   done >"$out/rest.cpp"
   for file in "$root"/scenes/*.cpp; do echo "#include \"$file\""; done >"$out/scenes.cpp"

@@ -298,6 +298,42 @@ HL_API void hlFieldPlane3d(HLenum kind, HLdouble x, HLdouble y, HLdouble z, HLdo
  * nothing. hlFieldLineTo3d leads it on. */
 HL_API void hlFieldForce3d(HLdouble x, HLdouble y, HLdouble z, HLdouble reach, HLdouble fx, HLdouble fy, HLdouble fz);
 
+/* ---- Joints: what holds two bodies together, or one to the world --------------------------------------------------
+ */
+
+/** Sets a number of the joint that hlJoin makes next (HL_JOINT_LOW .. HL_JOINT_FRICTION; unit, range and default
+ * there). HL_INVALID_ENUM: not such a parameter. HL_INVALID_VALUE: out of its range. HL_INVALID_OPERATION in a
+ * definition. */
+HL_API void hlJointf(HLenum parameter, HLfloat value);
+HL_API void hlJointd(HLenum parameter, HLdouble value); /**< see hlJointf */
+/** The same of HL_JOINT_KIND (HL_JOINT_BALL .. HL_JOINT_DISTANCE) and HL_JOINT_COLLIDE. */
+HL_API void hlJointi(HLenum parameter, HLint value);
+/** The same of HL_JOINT_ANCHOR, HL_JOINT_ANCHOR_B and HL_JOINT_AXIS. The modelview matrix of this moment takes them to
+ * the world, as in GL the position of a light. */
+HL_API void hlJoint3d(HLenum parameter, HLdouble x, HLdouble y, HLdouble z);
+/** Its force table: `rows` (0 .. 256) increasing positions of the coordinate, m or rad, and the forces on body a there,
+ * N or N m, linear in between and constant beyond; within 1e9. As buttons, detents and rocker switches have it. Copied.
+ * HL_INVALID_VALUE: out of its range. HL_INVALID_OPERATION in a definition. */
+HL_API void hlJointTable(HLsizei rows, const HLdouble* positions, const HLdouble* forces);
+/** Draws the joint number `joint` (> 0) into the world: it joins the body of `object_a` that is called with the name
+ * `name_a` (0: the only one) to that of `object_b` and `name_b`, or to the world where `object_b` is 0. What is a fixed
+ * body counts as the world. Afterwards the parameters are those of the beginning again.
+ * A joint is a part of the frame's world, as the calls of its bodies: frames draw it again, and while its number, kind
+ * and bodies stay the same it goes on from where it is. Coordinates count from where the calls place the bodies.
+ * The server refuses a frame with a joint whose bodies the world does not call (HL_REFUSED). HL_INVALID_VALUE: joint 0,
+ * an object that is not defined, one body with itself, a number that this frame has joined already.
+ * HL_INVALID_OPERATION in a definition; a hinge or slider without an axis; low above high; a ball or fixed joint with
+ * numbers along a coordinate; a distance with HL_JOINT_HIGH of 0 or below. */
+HL_API void hlJoin(HLuint joint, HLuint object_a, HLuint name_a, HLuint object_b, HLuint name_b);
+
+/** Writes up to `most` joints of this context as the last state tells them, sorted by number, and returns how many it
+ * wrote; HL_JOINT_COUNT says how many there are. HL_INVALID_VALUE: most < 0. */
+HL_API HLsizei hlGetJoints(HLsizei most, HLjoint* joints);
+/** Writes what `name` says (HL_JOINT_COORDINATE .. HL_JOINT_FORCE, HL_JOINT_HOLD) of a joint: a door's angle, how far a
+ * button is pressed. HL_TRUE: written. HL_FALSE, without an error: the last state has no such joint. HL_INVALID_ENUM:
+ * not such a name. */
+HL_API HLboolean hlGetJointdv(HLuint joint, HLenum name, HLdouble* values);
+
 /* ---- Names ---------------------------------------------------------------------------------------------------- */
 
 /** What is drawn next is called `name` by contacts and events; 0: not named here (in a definition: as its caller says).

@@ -288,6 +288,19 @@ inline void fieldCurve(HLenum kind, std::span<const HLdouble> points, HLdouble r
   for (std::size_t i = 3; i < points.size(); i += 3) hlFieldLineTo3d(points[i], points[i + 1], points[i + 2]);
 }
 
+/// hlJointTable. Throws std::invalid_argument when there are not as many forces as positions.
+inline void jointTable(std::span<const HLdouble> positions, std::span<const HLdouble> forces) {
+  if (positions.size() != forces.size()) throw std::invalid_argument("a table needs a force for each position");
+  hlJointTable(static_cast<HLsizei>(positions.size()), positions.data(), forces.data());
+}
+
+/// hlGetJoints: all of them, sorted by number.
+inline std::vector<HLjoint> joints() {
+  std::vector<HLjoint> all(static_cast<std::size_t>(get(HL_JOINT_COUNT)));
+  all.resize(static_cast<std::size_t>(hlGetJoints(static_cast<HLsizei>(all.size()), all.data())));
+  return all;
+}
+
 /// hlTakeSamples: all that came since the last time, the oldest first.
 inline std::vector<HLsample> takeSamples() {
   constexpr HLsizei kAtATime = 256;

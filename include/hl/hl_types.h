@@ -207,6 +207,7 @@ enum {
   HL_MAX_FRAME_RATE = 0x48095,       /**< 1; Hz; frames flushed faster wait and are merged. 0: no limit */
   HL_MAX_STATE_RATE = 0x48096,       /**< 1; Hz. 0: no limit */
   HL_MAX_BODIES = 0x4810D,           /**< 1; that move, of all clients together */
+  HL_MAX_JOINTS = 0x4812F,           /**< 1; of all clients together */
   HL_DEVICE_FORCE_MAX = 0x48097,     /**< 1; N, peak */
   HL_SPRING_STIFFNESS_MAX = 0x48098, /**< 1; N/m; 0: not known */
   HL_SPRING_STIFFNESS = 0x48099,     /**< 1; N/m: K of the servo, as told at the beginning or set here since */
@@ -243,9 +244,10 @@ enum {
   HL_UNPLACED_TICKS = 0x480B8,         /**< 1; ticks so far without a clear place for the proxy: nothing pulled */
   HL_OUT_OF_WORK_TICKS = 0x480B9,      /**< 1; ticks so far that did all they may; the next goes on from there */
   HL_BODY_COUNT = 0x4810C,             /**< 1; bodies of this context that move; see hlGetBodies */
-  HL_SNAPPED_OBJECT = 0x48120,         /**< 1; of this context, whose snap holds the proxy; 0: none */
-  HL_SNAPPED_NAME = 0x48121,           /**< 1; the name of its call; 0: none */
-  HL_SNAP_NUMBER = 0x48122             /**< 1; which of its snaps, from 0 in the order of the definition */
+  HL_JOINT_COUNT = 0x4812E,            /**< 1; joints of this context; see hlGetJoints */
+  HL_SNAPPED_OBJECT = 0x48140,         /**< 1; of this context, whose snap holds the proxy; 0: none */
+  HL_SNAPPED_NAME = 0x48141,           /**< 1; the name of its call; 0: none */
+  HL_SNAP_NUMBER = 0x48142             /**< 1; which of its snaps, from 0 in the order of the definition */
 };
 
 /** hlBody*: a rigid body. Its shape, by which it meets other bodies and the scene, is made from its mesh; the hand
@@ -273,10 +275,10 @@ enum {
 
 /** Kinds of fields, of hlFieldPoint3d and hlFieldPlane3d; HL_FIELD_CONSTANT is that of hlFieldForce3d. */
 enum {
-  HL_FIELD_MAGNET = 0x48130,   /**< pulls to its place within its reach */
-  HL_FIELD_SPRING = 0x48131,   /**< pulls to its place, the more the farther */
-  HL_FIELD_CONSTANT = 0x48132, /**< pushes in one direction */
-  HL_FIELD_DRAG = 0x48133      /**< brakes the hand */
+  HL_FIELD_MAGNET = 0x48150,   /**< pulls to its place within its reach */
+  HL_FIELD_SPRING = 0x48151,   /**< pulls to its place, the more the farther */
+  HL_FIELD_CONSTANT = 0x48152, /**< pushes in one direction */
+  HL_FIELD_DRAG = 0x48153      /**< brakes the hand */
 };
 
 /** A rigid body after the last step, from hlGetBodies. World frame. */
@@ -288,6 +290,43 @@ typedef struct HLbody {
   HLdouble velocity[3]; /**< m/s: of the centre of mass */
   HLdouble spin[3];     /**< rad/s */
 } HLbody;
+
+/** hlJoint*: what the next hlJoin makes. Along the coordinate of the joint, which is 0 where the calls of its bodies
+ * place them, act forces: in N and m, or N m and rad for a hinge; a ball and a fixed joint have none. */
+enum {
+  HL_JOINT_KIND = 0x48120,       /**< HL_JOINT_BALL (the default) .. HL_JOINT_DISTANCE. Setting it resets the others. */
+  HL_JOINT_COLLIDE = 0x48121,    /**< HL_TRUE: its two bodies also collide with each other. Default HL_FALSE. */
+  HL_JOINT_LOW = 0x48122,        /**< -1e9 .. 1e9: the coordinate is not below. Default: no limit. */
+  HL_JOINT_HIGH = 0x48123,       /**< -1e9 .. 1e9, not below the low one: nor above. Default: no limit. */
+  HL_JOINT_REST = 0x48124,       /**< -1e9 .. 1e9: where the spring makes no force. Default 0. */
+  HL_JOINT_SPRING = 0x48125,     /**< 0 .. 1e9, N/m or N m/rad. Default 0. */
+  HL_JOINT_DAMPING = 0x48126,    /**< 0 .. 1e9, N s/m or N m s/rad. Default 0. */
+  HL_JOINT_FRICTION = 0x48127,   /**< 0 .. 1e9, N or N m, dry. Default 0. */
+  HL_JOINT_ANCHOR = 0x48128,     /**< 3; m, within 1e6: the point that it holds; of a distance that at body a. Default:
+                                      the world's origin. */
+  HL_JOINT_ANCHOR_B = 0x48129,   /**< 3; m, within 1e6: of a distance the point at body b. Default: the same. */
+  HL_JOINT_AXIS = 0x4812A,       /**< 3; of any length but 0: of a hinge or slider, which need one */
+  HL_JOINT_COORDINATE = 0x4812B, /**< hlGetJointdv, 1; m or rad; of a hinge with its whole turns */
+  HL_JOINT_VELOCITY = 0x4812C,   /**< hlGetJointdv, 1; m/s or rad/s */
+  HL_JOINT_FORCE = 0x4812D,      /**< hlGetJointdv, 1; N or N m along the coordinate: spring, damper, table, friction
+                                      and limits, on body a */
+  HL_JOINT_HOLD = 0x48130,       /**< hlGetJointdv, 3; N, world frame: with which it holds body a at its anchor */
+  HL_JOINT_BALL = 0x48138,       /**< holds a point; no coordinate */
+  HL_JOINT_HINGE = 0x48139,      /**< a point and an axis; the coordinate is the angle of a about the axis, rad */
+  HL_JOINT_SLIDER = 0x4813A,     /**< all but the way of a along the axis, m */
+  HL_JOINT_FIXED = 0x4813B,      /**< all; no coordinate */
+  HL_JOINT_DISTANCE = 0x4813C    /**< only the limits of the distance of the two anchors, m; without limits and forces
+                                      that distance, as a rod */
+};
+
+/** A joint after the last step, from hlGetJoints. Forces on its body a; on b acts the opposite. */
+typedef struct HLjoint {
+  HLuint joint;        /**< its number */
+  HLdouble coordinate; /**< m or rad */
+  HLdouble velocity;   /**< m/s or rad/s */
+  HLdouble force;      /**< N or N m: as HL_JOINT_FORCE */
+  HLdouble hold[3];    /**< N, world frame: as HL_JOINT_HOLD */
+} HLjoint;
 
 /** One contact of the proxy, from hlGetContacts. World frame. */
 typedef struct HLcontact {

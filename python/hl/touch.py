@@ -15,7 +15,7 @@ import math
 import weakref
 from dataclasses import dataclass
 from types import TracebackType
-from typing import Any, AsyncIterator, Callable, Dict, Iterator, Optional, Type
+from typing import Any, AsyncIterator, Callable, Dict, Iterator, Optional, Tuple, Type
 from urllib.parse import urlencode
 
 import numpy as np
@@ -58,6 +58,26 @@ _BODY_SHAPES = {
     "cylinder": calls.HL_BODY_CYLINDER,
 }
 _FIELDS = {"magnet": calls.HL_FIELD_MAGNET, "spring": calls.HL_FIELD_SPRING, "drag": calls.HL_FIELD_DRAG}
+_JOINT_KINDS = {
+    "ball": calls.HL_JOINT_BALL,
+    "hinge": calls.HL_JOINT_HINGE,
+    "slider": calls.HL_JOINT_SLIDER,
+    "fixed": calls.HL_JOINT_FIXED,
+    "distance": calls.HL_JOINT_DISTANCE,
+}
+_JOINT_NUMBERS = {
+    "low": calls.HL_JOINT_LOW,
+    "high": calls.HL_JOINT_HIGH,
+    "rest": calls.HL_JOINT_REST,
+    "spring": calls.HL_JOINT_SPRING,
+    "damping": calls.HL_JOINT_DAMPING,
+    "friction": calls.HL_JOINT_FRICTION,
+}
+_JOINT_VECTORS = {
+    "anchor": calls.HL_JOINT_ANCHOR,
+    "anchor_b": calls.HL_JOINT_ANCHOR_B,
+    "axis": calls.HL_JOINT_AXIS,
+}
 _QUANTITIES = {**SURFACE, "height": calls.HL_HEIGHT}
 
 
@@ -294,6 +314,44 @@ class Touch:
         with self.matrix(np.eye(4) if pose is None else pose):
             calls.hlCallObject(number)
 
+    def join(
+        self,
+        joint: int,
+        a: int,
+        b: int = 0,
+        kind: str = "ball",
+        names: Tuple[int, int] = (0, 0),
+        table: Optional[Tuple[npt.ArrayLike, npt.ArrayLike]] = None,
+        collide: bool = False,
+        **parameters: Any,
+    ) -> None:
+        """Joins two bodies of the world that this frame draws, or one to the world, as joint number `joint`. While
+        number, kind and bodies stay the same from frame to frame, it goes on from where it is.
+
+        a, b: numbers of objects that are bodies; b 0: the world. names: of their `place`; 0: the object is placed once.
+        kind: "ball", "hinge", "slider", "fixed" or "distance". table: positions along the coordinate and the forces on
+        a there. collide: whether the two also meet each other. parameters: anchor, anchor_b (m) and axis, (3,), in the
+        frame of the matrix around; along the coordinate, in m and N, or rad and N m of a hinge: low, high, spring,
+        rest, damping, friction.
+        """
+        self.make_current()
+        for key in parameters:
+            if key not in _JOINT_NUMBERS and key not in _JOINT_VECTORS:
+                raise InvalidValueError(f"a joint has no '{key}': {', '.join([*_JOINT_NUMBERS, *_JOINT_VECTORS])}")
+        calls.hlJointi(calls.HL_JOINT_KIND, _chosen(_JOINT_KINDS, kind, "kind of joint"))
+        calls.hlJointi(calls.HL_JOINT_COLLIDE, bool(collide))
+        for key, value in parameters.items():
+            if key in _JOINT_NUMBERS:
+                calls.hlJointd(_JOINT_NUMBERS[key], arguments.number(value, key))
+            else:
+                calls.hlJoint3d(_JOINT_VECTORS[key], *_vector(value, key))
+        if table is not None:
+            positions, forces = table
+            calls.hlJointTable(arguments.floats(positions, "positions"), arguments.floats(forces, "forces"))
+        name_a, name_b = (arguments.whole(name, "a name") for name in names)
+        a, b = arguments.whole(a, "a"), arguments.whole(b, "b")
+        calls.hlJoin(arguments.whole(joint, "the joint's number"), a, name_a, b, name_b)
+
     def update_vertices(
         self, number: int, vertices: npt.ArrayLike, first: int = 0, normals: Optional[npt.ArrayLike] = None
     ) -> None:
@@ -511,6 +569,13 @@ class Touch:
         name, position (m), rotation (x y z w), velocity (m/s) and spin (rad/s)."""
         self.poll()
         return calls.hlGetBodies()
+
+    def joints(self) -> npt.NDArray[np.void]:
+        """The joints of the newest state, sorted by number: a structured array with joint, coordinate (m or rad),
+        velocity, force (N or N m along the coordinate, on its first body) and hold (N, with which it holds that body
+        at its anchor)."""
+        self.poll()
+        return calls.hlGetJoints()
 
     def push(self, number: int, impulse: npt.ArrayLike, point: npt.ArrayLike, seconds: float = 0.0) -> None:
         """Gives the shown bodies of an object, inside of `name` those of that name, an impulse, (3,) in N s, at a point

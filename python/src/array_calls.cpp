@@ -63,6 +63,15 @@ void updateVertices(HLuint object, const Doubles& vertices, HLint first, const O
   throwFailure();
 }
 
+void jointTable(const Doubles& positions, const Doubles& forces) {
+  requireContext();
+  if (positions.ndim() != 1 || forces.ndim() != 1 || positions.size() != forces.size())
+    throw CallFailed(HL_INVALID_VALUE, "a table has as many forces as positions, and they have the shapes " +
+                                           shapeText(forces) + " and " + shapeText(positions));
+  hlJointTable(sizeOf(static_cast<std::size_t>(positions.size()), "rows"), positions.data(), forces.data());
+  throwFailure();
+}
+
 std::vector<HLuint> numbersOf(void (*generate)(HLsizei, HLuint*), HLsizei n) {
   requireContext();
   std::vector<HLuint> numbers(n > 0 ? static_cast<std::size_t>(n) : 0);
@@ -131,6 +140,15 @@ py::array_t<Row> structuredArray(const std::vector<Row>& rows) {
   return py::array_t<Row>(static_cast<py::ssize_t>(rows.size()), rows.data());
 }
 
+void bindJoints(py::module_& module) {
+  PYBIND11_NUMPY_DTYPE(HLjoint, joint, coordinate, velocity, force, hold);
+  module.def("hlJointTable", &jointTable, py::arg("positions"), py::arg("forces"));
+  module.def("hlGetJoints", [] {
+    requireContext();
+    return structuredArray(hl::joints());
+  });
+}
+
 void bindContactReports(py::module_& module) {
   PYBIND11_NUMPY_DTYPE(HLcontactforce, object, name, session, vertex_count, vertices, weights, point, force);
   PYBIND11_NUMPY_DTYPE(HLcontactreport, time, interval, force);
@@ -195,5 +213,6 @@ void bindArrayCalls(py::module_& module) {
     requireContext();
     return structuredArray(hl::takeSamples());
   });
+  bindJoints(module);
   bindContactReports(module);
 }

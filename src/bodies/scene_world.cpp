@@ -131,6 +131,19 @@ Body bodyOf(const Model& model, const BodySpec& spec) {
   return body;
 }
 
+Joint jointOf(const JointSpec& spec, const Pose& start_a, const Pose& start_b) {
+  Joint joint = spec.kind == JointKind::kDistance ? distanceBetween(spec.anchor_W, spec.anchor_b_W, start_a, start_b)
+                                                  : jointAt(spec.kind, spec.anchor_W, spec.axis_W, start_a, start_b);
+  const JointForces as_it_stands = joint;  // of a distance
+  static_cast<JointForces&>(joint) = spec.along;
+  if (spec.kind == JointKind::kDistance && spec.along == JointForces{}) static_cast<JointForces&>(joint) = as_it_stands;
+  joint.key = spec.key;
+  joint.body_a = spec.body_a;
+  joint.body_b = spec.body_b;
+  joint.collide = spec.collide;
+  return joint;
+}
+
 namespace {
 
 Pose startOf(const Snapshot& snapshot, std::uint64_t key) {
@@ -138,20 +151,6 @@ Pose startOf(const Snapshot& snapshot, std::uint64_t key) {
     if (instance.key == key && instance.movesAsBody()) return instance.body->start;
   }
   return {};
-}
-
-Joint jointOf(const JointSpec& spec, const Snapshot& snapshot, std::uint64_t key) {
-  const Pose pose_a = startOf(snapshot, spec.body_a), pose_b = startOf(snapshot, spec.body_b);
-  Joint joint = spec.kind == JointKind::kDistance ? distanceBetween(spec.anchor_W, spec.anchor_b_W, pose_a, pose_b)
-                                                  : jointAt(spec.kind, spec.anchor_W, spec.axis_W, pose_a, pose_b);
-  const JointForces as_it_stands = joint;  // of a distance
-  static_cast<JointForces&>(joint) = spec.along;
-  if (spec.kind == JointKind::kDistance && spec.along == JointForces{}) static_cast<JointForces&>(joint) = as_it_stands;
-  joint.key = key;
-  joint.body_a = spec.body_a;
-  joint.body_b = spec.body_b;
-  joint.collide = spec.collide;
-  return joint;
 }
 
 // The same joint, told from its other side: with its axis turned round the coordinate stays what it is.
@@ -164,19 +163,21 @@ JointSpec turnedRound(JointSpec spec) {
 
 // A joint to what does not move is one to the world; one of two such things is none.
 void addJoints(const Snapshot& snapshot, World& world) {
-  std::uint64_t key = 0;
+  std::uint64_t place = 0;
   for (JointSpec spec : snapshot.mechanics.joints) {
-    ++key;
+    ++place;
+    if (spec.key == 0) spec.key = place;
     if (!world.has(spec.body_a)) spec = turnedRound(std::move(spec));
     if (!world.has(spec.body_a)) continue;
     if (!world.has(spec.body_b)) spec.body_b = 0;
-    world.joints.push_back(jointOf(spec, snapshot, key));
+    world.joints.push_back(jointOf(spec, startOf(snapshot, spec.body_a), startOf(snapshot, spec.body_b)));
     try {
       checkJoint(world.joints.back(), [&](std::uint64_t number) { return world.has(number); });
     } catch (const Error& error) {
       throw Error(spec.name + ": " + error.what());
     }
   }
+  std::sort(world.joints.begin(), world.joints.end(), [](const Joint& x, const Joint& y) { return x.key < y.key; });
 }
 
 }  // namespace

@@ -14,4 +14,7 @@ std::shared_ptr<const World> worldOf(const Snapshot& snapshot);
 /// The shape and the mass of a body by its mesh, as the spec says. Throws hl::Error, one line.
 Body bodyOf(const Model& model, const BodySpec& spec);
 
+/// The joint of two bodies that start there; `start_b` is the identity for the world.
+Joint jointOf(const JointSpec& spec, const Pose& start_a, const Pose& start_b);
+
 }  // namespace hl

@@ -31,6 +31,10 @@ void requireFinite(Numbers... numbers) {
   if (!allFinite(numbers...)) throw Fault(HL_INVALID_VALUE, "numbers must be finite");
 }
 
+inline void requireWithin(double value, double least, double most) {
+  if (!(value >= least && value <= most)) throw Fault(HL_INVALID_VALUE, "the value is out of its range");
+}
+
 inline void requireCount(HLsizei n) {
   if (n < 0) throw Fault(HL_INVALID_VALUE, "a count must not be negative");
 }

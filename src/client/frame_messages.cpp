@@ -112,6 +112,7 @@ class Builder {
     if (draft.world) {
       proto::World& world = *frame.mutable_world();
       for (Item& item : draft.world->items()) fillItem(std::move(item), *world.add_items());
+      for (proto::WorldJoint& joint : draft.world->joints()) *world.add_joints() = std::move(joint);
     }
     requireWithinLimits();
     return std::move(messages_);

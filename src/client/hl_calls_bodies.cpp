@@ -16,6 +16,7 @@ using hl::client::Fault;
 using hl::client::requireFinite;
 using hl::client::requireList;
 using hl::client::requirePointer;
+using hl::client::requireWithin;
 using hl::client::When;
 
 namespace {
@@ -23,10 +24,6 @@ namespace {
 // As servers take them.
 constexpr double kMostSpeed_m_s = 100, kMostSpin_rad_s = 1000, kMostGravity_m_s2 = 1000, kMostImpulse_N_s = 1e6,
                  kFarthest_m = 1e9, kLongest_s = 10;
-
-void requireWithin(double value, double least, double most) {
-  if (!(value >= least && value <= most)) throw Fault(HL_INVALID_VALUE, "the value is out of its range");
-}
 
 void setWithin(hl::proto::Vec3& out, double x, double y, double z, double most) {
   for (const double value : {x, y, z}) requireWithin(value, -most, most);

@@ -7,7 +7,6 @@
 
 using hl::client::call;
 using hl::client::Fault;
-using hl::client::requireWithin;
 
 namespace {
 
@@ -18,13 +17,13 @@ constexpr double kLeastOfField = 1e-9, kStrongest_N = 1000, kStiffest_N_m = 1e6,
 void setStrength(HLenum kind, double strength, hl::proto::Field& field) {
   switch (kind) {
     case HL_FIELD_MAGNET:
-      requireWithin(strength, kLeastOfField, kStrongest_N);
+      hl::client::requireWithin(strength, kLeastOfField, kStrongest_N);
       return field.set_force_n(strength);
     case HL_FIELD_SPRING:
-      requireWithin(strength, kLeastOfField, kStiffest_N_m);
+      hl::client::requireWithin(strength, kLeastOfField, kStiffest_N_m);
       return field.set_stiffness_n_m(strength);
     case HL_FIELD_DRAG:
-      requireWithin(strength, kLeastOfField, kMostDamping_Ns_m);
+      hl::client::requireWithin(strength, kLeastOfField, kMostDamping_Ns_m);
       return field.set_damping_ns_m(strength);
     default:
       throw Fault(HL_INVALID_ENUM, "the kind must be HL_FIELD_MAGNET, HL_FIELD_SPRING or HL_FIELD_DRAG");
@@ -32,7 +31,7 @@ void setStrength(HLenum kind, double strength, hl::proto::Field& field) {
 }
 
 hl::proto::Field fieldOf(HLenum kind, double reach) {
-  requireWithin(reach, hl::client::kLeastOfPlace, hl::client::kMostOfPlace);
+  hl::client::requireWithin(reach, hl::client::kLeastOfPlace, hl::client::kMostOfPlace);
   hl::proto::Field field;
   field.set_kind(static_cast<hl::proto::FieldKind>(kind - HL_FIELD_MAGNET));
   field.set_reach(reach);
@@ -74,7 +73,7 @@ void hlFieldForce3d(HLdouble x, HLdouble y, HLdouble z, HLdouble reach, HLdouble
     std::vector<hl::proto::Field>& fields = hl::client::openDefinition(context).fields();
     hl::proto::Field field = fieldOf(HL_FIELD_CONSTANT, reach);
     const Eigen::Vector3d force(fx, fy, fz);
-    requireWithin(force.stableNorm(), kLeastOfField, kStrongest_N);
+    hl::client::requireWithin(force.stableNorm(), kLeastOfField, kStrongest_N);
     field.set_force_n(force.stableNorm());
     hl::client::addPoint(context, {x, y, z}, field);
     hl::client::setUnit(hl::client::linearOf(context), force, *field.mutable_direction());

@@ -55,6 +55,9 @@ class ItemList {
   /// What hlField* says of it.
   const std::vector<proto::Field>& fields() const { return fields_; }
   std::vector<proto::Field>& fields() { return fields_; }
+  /// Of the world; definitions have none.
+  const std::vector<proto::WorldJoint>& joints() const { return joints_; }
+  std::vector<proto::WorldJoint>& joints() { return joints_; }
   /// Of all items that have some, in order.
   std::vector<ItemVertices> vertices() const;
 
@@ -63,6 +66,7 @@ class ItemList {
   std::optional<proto::Body> body_;
   std::vector<proto::Snap> snaps_;
   std::vector<proto::Field> fields_;
+  std::vector<proto::WorldJoint> joints_;
 };
 
 }  // namespace hl::client

@@ -17,12 +17,7 @@ inline constexpr double kLeastOfPlace = 1e-9, kMostOfPlace = 1e9, kFarthestPlace
 inline constexpr std::size_t kMostOfObject = 64;
 inline constexpr int kMostCornersOfPlace = 256;
 
-/// Throws Fault, as all below.
-inline void requireWithin(double value, double least, double most) {
-  if (!(value >= least && value <= most)) throw Fault(HL_INVALID_VALUE, "the value is out of its range");
-}
-
-/// The items of the open definition.
+/// The items of the open definition. Throws Fault, as all below.
 inline ItemList& openDefinition(HLcontext& context) {
   if (!context.definition) throw Fault(HL_INVALID_OPERATION, "only between hlNewObject and hlEndObject");
   return context.definition->items;

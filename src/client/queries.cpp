@@ -110,6 +110,7 @@ constexpr Query kQueriesOfServer[] = {
     {HL_MAX_FRAME_RATE, [](const HLcontext& c, Values& v) { v.add(limits(c).frames_hz()); }},
     {HL_MAX_STATE_RATE, [](const HLcontext& c, Values& v) { v.add(limits(c).state_rate_hz()); }},
     {HL_MAX_BODIES, [](const HLcontext& c, Values& v) { v.add(static_cast<double>(limits(c).bodies())); }},
+    {HL_MAX_JOINTS, [](const HLcontext& c, Values& v) { v.add(static_cast<double>(limits(c).joints())); }},
     {HL_DEVICE_FORCE_MAX, [](const HLcontext& c, Values& v) { v.add(view(c).device().force_max_n()); }},
     {HL_SPRING_STIFFNESS_MAX, [](const HLcontext& c, Values& v) { v.add(view(c).device().stiffness_max_n_m()); }},
     {HL_SPRING_STIFFNESS, [](const HLcontext& c, Values& v) { v.add(c.conversation.springStiffness_N_m()); }},
@@ -149,6 +150,7 @@ constexpr Query kQueriesOfState[] = {
     {HL_WORKSPACE_ORIGIN, [](const HLcontext& c, Values& v) { addVec(v, state(c).workspace().origin()); }},
     {HL_WORKSPACE_SCALE, [](const HLcontext& c, Values& v) { v.add(state(c).workspace().world_per_device()); }},
     {HL_BODY_COUNT, [](const HLcontext& c, Values& v) { v.add(state(c).bodies_size()); }},
+    {HL_JOINT_COUNT, [](const HLcontext& c, Values& v) { v.add(state(c).joints_size()); }},
     {HL_STATE_TIME, [](const HLcontext& c, Values& v) { v.add(state(c).time_s()); }},
     {HL_STATE_AGE, [](const HLcontext& c, Values& v) { v.add(view(c).stateAge_s()); }},
 };
@@ -222,6 +224,16 @@ std::vector<HLbody> bodiesOf(const HLcontext& context) {
     return a.object != b.object ? a.object < b.object : a.name < b.name;
   });
   return bodies;
+}
+
+std::vector<HLjoint> jointsOf(const HLcontext& context) {
+  std::vector<HLjoint> joints;
+  for (const proto::JointState& in : state(context).joints()) {
+    HLjoint& joint = joints.emplace_back(HLjoint{in.id(), in.coordinate(), in.velocity(), in.force(), {}});
+    copy(in.held_n(), joint.hold);
+  }
+  std::stable_sort(joints.begin(), joints.end(), [](const HLjoint& a, const HLjoint& b) { return a.joint < b.joint; });
+  return joints;
 }
 
 }  // namespace hl::client

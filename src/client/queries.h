@@ -27,5 +27,7 @@ std::vector<HLcontact> contactsOf(const HLcontext& context);
 
 /// The bodies of the newest state, sorted by object and name.
 std::vector<HLbody> bodiesOf(const HLcontext& context);
+/// Its joints, sorted by number.
+std::vector<HLjoint> jointsOf(const HLcontext& context);
 
 }  // namespace hl::client

@@ -50,6 +50,7 @@ BodyParts partsOfBody(const proto::RecordedBody& in) {
 
 // What a JointSpec is made of, without its name and table.
 struct JointParts {
+  std::uint64_t key = 0;
   JointKind kind{};
   std::uint64_t body_a = 0, body_b = 0;
   Vec3 anchor_W, anchor_b_W, axis_W;
@@ -58,8 +59,8 @@ struct JointParts {
 
   static JointParts of(const JointSpec& joint) {
     const JointForces& along = joint.along;
-    return {joint.kind, joint.body_a, joint.body_b, joint.anchor_W, joint.anchor_b_W, joint.axis_W, along.low,
-            along.high, along.rest,   along.spring, along.damping,  along.friction,   joint.collide};
+    return {joint.key, joint.kind, joint.body_a, joint.body_b, joint.anchor_W, joint.anchor_b_W, joint.axis_W,
+            along.low, along.high, along.rest,   along.spring, along.damping,  along.friction,   joint.collide};
   }
 };
 
@@ -77,6 +78,7 @@ JointSpec jointOf(const proto::RecordedJoint& in) {
   joint.along.table.position.assign(in.table_position().begin(), in.table_position().end());
   joint.along.table.force.assign(in.table_force().begin(), in.table_force().end());
   joint.collide = parts.collide;
+  joint.key = parts.key;
   return joint;
 }
 

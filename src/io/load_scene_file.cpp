@@ -314,8 +314,7 @@ std::uint64_t SceneFile::bodyNamed(const std::string& name, const SceneModel& sc
 }
 
 void SceneFile::addJoints(SceneModel& scene) const {
-  constexpr int kMostJoints = 1000;
-  if (scene_.joints_size() > kMostJoints) fail("joints", "there are more than 1000 joints in it");
+  if (scene_.joints_size() > static_cast<int>(kMostJoints)) fail("joints", "there are more than 1000 joints in it");
   for (int i = 0; i < scene_.joints_size(); ++i) {
     const proto::Joint& in = scene_.joints(i);
     const std::string where = pathOf("joints", i);

@@ -9,8 +9,6 @@ namespace hl {
 
 namespace {
 
-constexpr std::size_t kMostJointsOfFile = 1000;
-
 class JointsOfX3d {
  public:
   JointsOfX3d(const X3dDocument& document, const X3dBodyNumbers& numbers, SceneModel& scene,
@@ -75,7 +73,7 @@ void JointsOfX3d::add(const X3dNode& node) {
   if (isX3d(node, {"UniversalJoint", "DoubleAxisHingeJoint", "MotorJoint"}))
     return fields.warn("is not supported, and left out");
   if (!isX3d(node, {"BallJoint", "SingleAxisHingeJoint", "SliderJoint"}) || x3dField(node, "USE")) return;
-  if (scene_.mechanics.joints.size() >= kMostJointsOfFile) return fields.warn("is left out: there are 1000 joints");
+  if (scene_.mechanics.joints.size() >= kMostJoints) return fields.warn("is left out: there are 1000 joints");
   JointSpec joint;
   joint.name = labelOfX3d(node);
   if (node.first == "SingleAxisHingeJoint") joint.kind = JointKind::kHinge;

@@ -1,8 +1,10 @@
 // Body poses: where a rigid body is. From one step of the bodies to the next it is on a screw.
 #pragma once
 
-#include <atomic>
+#include <algorithm>
+#include <array>
 
+#include "base/shared_numbers.h"
 #include "scene/motion.h"
 
 namespace hl {
@@ -14,41 +16,31 @@ struct ShownBody {
   Vec3 spin_rad_s = Vec3::Zero();
 };
 
-/// What one thread writes and any number of others read. Neither waits for a lock; a reader reads again where it has
-/// changed meanwhile (a sequence lock).
 class SharedBody {
  public:
   explicit SharedBody(const ShownBody& body) { write(body); }
   /// One thread at a time. RT-safe.
   void write(const ShownBody& body) {
-    writes_.fetch_add(1, std::memory_order_acq_rel);  // odd: it is being written
-    for (int i = 0; i < 9; ++i) numbers_[i].store(body.pose.rotation(i), std::memory_order_relaxed);
-    for (int i = 0; i < 3; ++i) {
-      numbers_[9 + i].store(body.pose.origin(i), std::memory_order_relaxed);
-      numbers_[12 + i].store(body.velocity_m_s(i), std::memory_order_relaxed);
-      numbers_[15 + i].store(body.spin_rad_s(i), std::memory_order_relaxed);
-    }
-    writes_.fetch_add(1, std::memory_order_acq_rel);
+    std::array<double, 18> numbers;
+    std::copy_n(body.pose.rotation.data(), 9, numbers.begin());
+    std::copy_n(body.pose.origin.data(), 3, numbers.begin() + 9);
+    std::copy_n(body.velocity_m_s.data(), 3, numbers.begin() + 12);
+    std::copy_n(body.spin_rad_s.data(), 3, numbers.begin() + 15);
+    numbers_.write(numbers);
   }
   /// Any thread.
   ShownBody read() const {
-    for (;;) {
-      const std::uint64_t before = writes_.load(std::memory_order_acquire);
-      ShownBody body;
-      for (int i = 0; i < 9; ++i) body.pose.rotation(i) = numbers_[i].load(std::memory_order_relaxed);
-      for (int i = 0; i < 3; ++i) {
-        body.pose.origin(i) = numbers_[9 + i].load(std::memory_order_relaxed);
-        body.velocity_m_s(i) = numbers_[12 + i].load(std::memory_order_relaxed);
-        body.spin_rad_s(i) = numbers_[15 + i].load(std::memory_order_relaxed);
-      }
-      // Adding nothing keeps the reads above before it, as no load could.
-      if (before % 2 == 0 && writes_.fetch_add(0, std::memory_order_acq_rel) == before) return body;
-    }
+    const std::array<double, 18> numbers = numbers_.read();
+    ShownBody body;
+    std::copy_n(numbers.begin(), 9, body.pose.rotation.data());
+    std::copy_n(numbers.begin() + 9, 3, body.pose.origin.data());
+    std::copy_n(numbers.begin() + 12, 3, body.velocity_m_s.data());
+    std::copy_n(numbers.begin() + 15, 3, body.spin_rad_s.data());
+    return body;
   }
 
  private:
-  std::atomic<double> numbers_[18]{};
-  mutable std::atomic<std::uint64_t> writes_{0};
+  SharedNumbers<18> numbers_;
 };
 
 /// Written by the loop that steps the bodies, between ticks. That loop alone uses it as a PoseSource; shown() is for

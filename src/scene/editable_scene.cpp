@@ -72,6 +72,7 @@ std::shared_ptr<SceneItems> copyOf(const SceneItems& items, const MemoryBudget& 
   MemoryShare memory(budget);
   memory.take(bytesOfItems(items.size()));
   for (const SceneItem& item : items) memory.take(bytesApart(item));
+  for (const CalledJoint& joint : items.joints) memory.take(bytesOf(joint));
   return withShare(std::make_shared<SceneItems>(items), std::move(memory));
 }
 
@@ -90,7 +91,9 @@ class EditableScene::Flattening {
 
   PlacedShapes run() {
     visit(*state_.world, {{}, {}, 0, 0, mixed(0, scene_.session_), {}});
-    return withShare(std::make_shared<const std::vector<PlacedShape>>(std::move(placed_)), std::move(memory_));
+    for (const CalledJoint& joint : state_.world->joints) memory_.take(bytesOfJoint(joint.spec));
+    placed_.joints = placedJoints(state_.world->joints, placed_, scene_.session_, scene_.placed().joints);
+    return withShare(std::make_shared<const PlacedList>(std::move(placed_)), std::move(memory_));
   }
   std::map<Stretched, std::shared_ptr<const Shape>> stretched;
 
@@ -116,7 +119,7 @@ class EditableScene::Flattening {
   const EditableScene& scene_;
   const State& state_;
   MemoryShare memory_;  // memory of the placed shapes and their surfaces
-  std::vector<PlacedShape> placed_;
+  PlacedList placed_;
   std::vector<std::uint32_t> path_;
   std::size_t visits_ = 0, bodies_ = 0, snaps_ = 0, snap_points_ = 0, fields_ = 0, field_points_ = 0;
   ModelSizes copies_;  // sizes of the stretched copies; a small matrix makes a copy of a large shape
@@ -366,7 +369,8 @@ EditableScene::Next EditableScene::prepareReplaced(const std::shared_ptr<const S
   }
   MemoryShare memory(memory_);
   memory.take(placed_->size() * bytesInWorld());
-  auto placed = std::make_shared<std::vector<PlacedShape>>(*placed_);
+  for (const JointSpec& joint : placed_->joints) memory.take(bytesOfJoint(joint));
+  auto placed = std::make_shared<PlacedList>(*placed_);
   for (PlacedShape& one : *placed) {
     if (one.shape == old) one.shape = rebuilt;
   }

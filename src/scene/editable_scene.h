@@ -13,6 +13,7 @@
 
 #include "base/memory_budget.h"
 #include "scene/model.h"
+#include "scene/placed_joints.h"
 #include "scene/shape.h"
 #include "scene/snapshot.h"
 #include "scene/surface_change.h"
@@ -33,6 +34,7 @@ struct SceneItems : std::vector<SceneItem> {
   std::shared_ptr<const BodySpec> body{};     ///< each shape that it places directly is a rigid body; null: none is
   std::shared_ptr<const SnapList> snaps{};    ///< of each call of the object; null: none
   std::shared_ptr<const FieldList> fields{};  ///< the same
+  std::vector<CalledJoint> joints;            ///< of the world; objects have none
 };
 /// Memory of a list of `count` items.
 std::size_t bytesOfItems(std::size_t count);
@@ -63,6 +65,7 @@ struct SceneLimits {
   std::uint64_t texture_bytes = std::uint64_t{256} << 20;
   std::uint32_t nesting = 32;          ///< depth of nested calls, as for GL's matrix stack
   std::uint64_t bodies = kMostBodies;  ///< in the world, that move
+  std::uint64_t joints = kMostJoints;  ///< in the world
 };
 
 /// Memory of an object without its items, and of a texture without its texels: an entry in two maps while edited.
@@ -86,26 +89,6 @@ class ModelSizes {
   std::size_t bytes_ = 0;
 };
 
-/// A shape at its final pose in the world, without its motion to that pose.
-struct PlacedShape {
-  std::shared_ptr<const Shape> shape;
-  std::shared_ptr<const Surfaces> surfaces;
-  Pose pose;
-  std::uint64_t key = 0;  ///< from the calls that lead to it: the same from frame to frame
-  std::uint32_t session = 0, object = 0, name = 0;
-  std::uint32_t item = 0;                     ///< as in Instance
-  std::optional<Compliance> compliance{};     ///< of its object
-  bool answers_force = false;                 ///< as in Instance
-  std::shared_ptr<const BodySpec> body{};     ///< it is a rigid body that starts at `pose`; null: it is none
-  std::shared_ptr<const SnapList> snaps{};    ///< in the frame of `pose`; null: none
-  std::shared_ptr<const FieldList> fields{};  ///< the same
-
-  bool movesAsBody() const { return body && !body->fixed; }
-};
-
-/// The shapes in the world; shared by all readers.
-using PlacedShapes = std::shared_ptr<const std::vector<PlacedShape>>;
-
 /// Used by one thread at a time. prepare() may take long, as it makes scaled shapes. Memory is counted in `memory` from
 /// before it is allocated until its last owner releases it.
 class EditableScene {
@@ -124,7 +107,7 @@ class EditableScene {
   /// The scene after an edit, prepared but not yet shown.
   class Next {
    public:
-    const std::vector<PlacedShape>& placed() const { return *placed_; }
+    const PlacedList& placed() const { return *placed_; }
 
    private:
     friend class EditableScene;
@@ -147,7 +130,7 @@ class EditableScene {
   void apply(SceneEdit edit);
 
   /// The shapes in the world now.
-  const std::vector<PlacedShape>& placed() const { return *placed_; }
+  const PlacedList& placed() const { return *placed_; }
   const PlacedShapes& sharedPlaced() const { return placed_; }
   std::size_t primitives() const;  ///< in the world, total over all instances
   /// Items of an object, or of the world for 0; null if there is no such object. Valid until the next edit.
@@ -166,7 +149,7 @@ class EditableScene {
   const SceneLimits limits_;
   const MemoryBudget memory_;
   State state_;
-  PlacedShapes placed_ = std::make_shared<std::vector<PlacedShape>>();
+  PlacedShapes placed_ = std::make_shared<PlacedList>();
   std::map<Stretched, std::shared_ptr<const Shape>> stretched_;  // stretched copies in use
 };
 

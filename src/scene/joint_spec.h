@@ -5,10 +5,12 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 
 #include "base/vec.h"
 #include "scene/force_table.h"
+#include "scene/shared_joint.h"
 
 namespace hl {
 
@@ -44,7 +46,15 @@ struct JointSpec {
   Vec3 axis_W = Vec3::UnitX();           ///< not zero; of a hinge or slider
   JointForces along;
   bool collide = false;  ///< whether the two bodies also collide with each other
+
+  /// Unique among the joints of a scene, and the same from scene to scene; 0: its place in their list, from 1 on.
+  std::uint64_t key = 0;
+  std::uint32_t session = 0, id = 0;     ///< client session, and its number there
+  std::shared_ptr<SharedJoint> shown{};  ///< told after each step; null: nobody asks
   bool operator==(const JointSpec&) const = default;
 };
+
+/// No scene has more: what a step costs is bounded.
+inline constexpr std::size_t kMostJoints = 1000;
 
 }  // namespace hl

@@ -169,6 +169,7 @@ std::shared_ptr<const Snapshot> withOwnBodies(const Snapshot& snapshot) {
     const RigidBody& body = *instance.body;
     setBody(instance, makeRigidBody(body.name, body.spec, body.start, instance.shape->bounds, body.poses->room()));
   }
+  for (JointSpec& joint : own->mechanics.joints) joint.shown = nullptr;
   return own;
 }
 

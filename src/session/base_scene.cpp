@@ -36,13 +36,26 @@ void BaseScene::takeNext() {
   other_ = true;
 }
 
-// A base is one object, or few, numbered from 1; clients' keys are scattered over all numbers.
-void BaseScene::appendTo(std::vector<Instance>& instances) const {
+// Its keys begin there. A base is one object, or few, numbered from 1; clients' keys are scattered over all numbers.
+std::uint64_t BaseScene::firstKey() const {
   constexpr int kBitsOfKey = 16;
+  return (number_ - 1) << kBitsOfKey;
+}
+
+void BaseScene::appendTo(std::vector<Instance>& instances) const {
   for (const Instance& instance : now_->instances) {
     instances.push_back(instance);
-    instances.back().key += (number_ - 1) << kBitsOfKey;
+    instances.back().key += firstKey();
   }
+}
+
+Mechanics BaseScene::mechanics() const {
+  Mechanics mechanics = now_->mechanics;
+  for (JointSpec& joint : mechanics.joints) {
+    joint.body_a += firstKey();
+    if (joint.body_b > 0) joint.body_b += firstKey();
+  }
+  return mechanics;
 }
 
 void BaseScene::markShown() {

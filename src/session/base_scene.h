@@ -30,9 +30,13 @@ class BaseScene {
   bool other() const { return other_; }  ///< than in the scene that is shown
   /// Its objects, for the next scene; those of another base have other keys.
   void appendTo(std::vector<Instance>& instances) const;
+  /// What acts on them there.
+  Mechanics mechanics() const;
   void markShown();
 
  private:
+  std::uint64_t firstKey() const;
+
   std::shared_ptr<const Snapshot> now_;
   std::uint64_t number_ = 1;  // of now_, from 1 on
   bool other_ = false;

@@ -1,11 +1,13 @@
 #include "session/check_bodies.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
 
 #include "base/error.h"
+#include "bodies/joint_check.h"
 #include "bodies/scene_world.h"
 #include "geometry/primitive.h"
 
@@ -21,9 +23,24 @@ void check(const PlacedShape& placed) {
   bodyOf(placed.shape->model, *placed.body);
 }
 
+// A joint's message numbers it by its key: here that is the client's own number.
+void checkJointsOf(const PlacedList& placed) {
+  std::map<std::uint64_t, Pose> starts;
+  for (const PlacedShape& one : placed) {
+    if (one.body && !placed.joints.empty()) starts.emplace(one.key, one.pose);
+  }
+  for (JointSpec joint : placed.joints) {
+    joint.key = joint.id;
+    checkJoint(jointOf(joint, starts[joint.body_a], starts[joint.body_b]),
+               [&](std::uint64_t body) { return starts.contains(body); });
+  }
+}
+
 }  // namespace
 
-std::size_t checkBodies(const std::vector<PlacedShape>& placed, const std::vector<PlacedShape>& before) {
+WorldParts partsOf(const Snapshot& scene) { return {movingBodies(scene), scene.mechanics.joints.size()}; }
+
+WorldParts checkBodies(const PlacedList& placed, const PlacedList& before) {
   Checked good;
   for (const PlacedShape& one : before) {
     if (one.movesAsBody()) good.emplace(one.shape.get(), one.body.get());
@@ -39,15 +56,20 @@ std::size_t checkBodies(const std::vector<PlacedShape>& placed, const std::vecto
       throw Error("object " + std::to_string(one.object) + ".body: " + error.what());
     }
   }
-  return count;
+  checkJointsOf(placed);
+  return {count, placed.joints.size()};
 }
 
-void checkBodiesOfAll(std::size_t all, std::size_t most, std::size_t devices) {
+void checkBodiesOfAll(const WorldParts& all, const WorldParts& most, std::size_t devices) {
+  const auto check = [](std::size_t count, std::size_t limit, const char* what) {
+    if (count > limit)
+      throw Error("there are more than " + std::to_string(limit) + " " + what +
+                  " in the world, those of other clients among them");
+  };
   if (devices > 1)
     throw Error("a server with several devices has no rigid bodies that move: give them fixed, or start one device");
-  if (all > most)
-    throw Error("there are more than " + std::to_string(most) +
-                " bodies in the world, those of other clients among them");
+  check(all.bodies, most.bodies, "bodies");
+  check(all.joints, most.joints, "joints");
 }
 
 Box boundsForBodies(const Snapshot& base, const std::vector<PlacedShape>& placed) {

@@ -8,13 +8,26 @@
 
 namespace hl {
 
-/// How many of them move. Throws hl::Error, one line that names the object, for one whose shape or mass cannot be made;
-/// `before` are known to be good.
-std::size_t checkBodies(const std::vector<PlacedShape>& placed, const std::vector<PlacedShape>& before);
+/// What the world of the bodies is made of, by numbers.
+struct WorldParts {
+  std::size_t bodies = 0;  ///< that move
+  std::size_t joints = 0;
 
-/// `all`: those that move, of all clients and the server's own scene. Throws hl::Error where they are too many, or
-/// there are several devices: their world is moved by the loop of one.
-void checkBodiesOfAll(std::size_t all, std::size_t most, std::size_t devices);
+  WorldParts& operator+=(const WorldParts& more) {
+    bodies += more.bodies;
+    joints += more.joints;
+    return *this;
+  }
+};
+WorldParts partsOf(const Snapshot& scene);
+
+/// Throws hl::Error, one line that names the object or joint, for a body whose shape or mass cannot be made, or a joint
+/// that cannot be stepped; what is in `before` is known to be good.
+WorldParts checkBodies(const PlacedList& placed, const PlacedList& before);
+
+/// `all`: of all clients and the server's own scene. Throws hl::Error where there are more than `most`, or bodies and
+/// several devices: their world is moved by the loop of one.
+void checkBodiesOfAll(const WorldParts& all, const WorldParts& most, std::size_t devices);
 
 /// Of all that bodies of a client may meet, but for what other clients have; empty where it has none that move.
 Box boundsForBodies(const Snapshot& base, const std::vector<PlacedShape>& placed);

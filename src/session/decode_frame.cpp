@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "io/decode_scene.h"
 #include "scene/append_part.h"
+#include "session/decode_joints.h"
 
 namespace hl {
 
@@ -216,6 +217,7 @@ std::shared_ptr<SceneItems> FrameDecoder::itemsOf(const google::protobuf::Repeat
     memory.take(bytesApart(result->back()));
     progress_(++built_ / items_);
   }
+  if (object == 0) result->joints = decodeJoints(frame_.world(), decoder_, limits_, memory);
   return withShare(std::move(result), std::move(memory));
 }
 

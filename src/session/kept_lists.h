@@ -1,4 +1,5 @@
-// Kept lists: a scene that keeps alive what it was made from, so that its instances are counted as long as it is there.
+// Kept lists: what a scene was made from, which it keeps alive so that its instances are counted as long as it is
+// there.
 #pragma once
 
 #include <memory>
@@ -8,6 +9,13 @@
 #include "scene/editable_scene.h"
 
 namespace hl {
+
+/// Joints of all lists, after those that there are.
+inline void addJoints(const std::vector<PlacedShapes>& lists, Mechanics& mechanics) {
+  for (const PlacedShapes& list : lists) {
+    if (list) mechanics.joints.insert(mechanics.joints.end(), list->joints.begin(), list->joints.end());
+  }
+}
 
 /// The same scene; its lists go with its last owner.
 inline std::shared_ptr<const Snapshot> keeping(std::vector<PlacedShapes> lists, std::shared_ptr<const Snapshot> scene) {

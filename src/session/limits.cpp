@@ -14,6 +14,7 @@ proto::Limits toProto(const Limits& limits) {
   out.set_frames_hz(limits.frames_Hz);
   out.set_state_rate_hz(limits.state_rate_Hz);
   out.set_bodies(limits.bodies);
+  out.set_joints(limits.joints);
   out.set_memory_bytes(limits.memory_bytes);
   return out;
 }

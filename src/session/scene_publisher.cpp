@@ -75,7 +75,7 @@ class ScenePublisher::ClientScene {
   bool removed_ = false;
   bool to_rebuild_ = false;  // a hierarchy of what was placed last is
   struct Bodies {
-    std::size_t moving = 0;                                   // of what was placed last
+    WorldParts parts;                                         // of what was placed last
     std::pair<std::uint64_t, Vec3> gravity{0, Vec3::Zero()};  // which of all clients' frames that set it; 0: none did
   } bodies_;
   struct Pace {
@@ -98,7 +98,7 @@ struct ScenePublisher::Part {
 };
 
 ScenePublisher::ScenePublisher(std::shared_ptr<const Snapshot> base, std::vector<TouchSession*> devices)
-    : devices_(std::move(devices)), base_bodies_(movingBodies(*base)), base_(std::move(base)), shown_(base_.now()) {}
+    : devices_(std::move(devices)), base_parts_(partsOf(*base)), base_(std::move(base)), shown_(base_.now()) {}
 
 ScenePublisher::~ScenePublisher() { stop(); }
 
@@ -178,7 +178,7 @@ bool ScenePublisher::replaceBase(const std::shared_ptr<const Snapshot>& base) {
   const std::uint64_t number = base_.replace(base);
   {
     const std::lock_guard lock(mutex_);
-    base_bodies_ = movingBodies(*base);
+    base_parts_ = partsOf(*base);
     dirty_ = true;
   }
   changed_.notify_all();
@@ -248,7 +248,7 @@ void ScenePublisher::build(ClientScene& client, Waiting waiting) {
                                        [&](std::uint32_t object) { return client.scene_.items(object); });
     decoded.edit.answers_force = waiting.answers_force;
     EditableScene::Next next = client.scene_.prepare(std::move(decoded.edit));
-    const std::size_t bodies = checkBodies(next.placed(), client.scene_.placed());
+    const WorldParts bodies = checkBodies(next.placed(), client.scene_.placed());
     PlacedShapes before;
     const std::lock_guard lock(mutex_);  // what was there before is freed without it
     admitBodies(client, bodies);
@@ -260,7 +260,7 @@ void ScenePublisher::build(ClientScene& client, Waiting waiting) {
     client.to_rebuild_ = client.scene_.toRebuild() != nullptr;
     client.pace_.move_ns = moveTime_ns(waiting, client.pace_.last_arrived_ns);
     client.pace_.last_arrived_ns = waiting.arrived_ns;
-    client.bodies_.moving = bodies;
+    client.bodies_.parts = bodies;
     if (decoded.gravity_m_s2) client.bodies_.gravity = {++gravities_, *decoded.gravity_m_s2};
     if (client.replaced_) std::exchange(client.replaced_, nullptr)->removed_ = true;
     dirty_ = true;
@@ -272,12 +272,13 @@ void ScenePublisher::build(ClientScene& client, Waiting waiting) {
 }
 
 // Holding the mutex.
-void ScenePublisher::admitBodies(ClientScene& client, std::size_t bodies) const {
-  std::size_t all = base_bodies_ + bodies;
+void ScenePublisher::admitBodies(ClientScene& client, const WorldParts& parts) const {
+  WorldParts all = base_parts_;
+  all += parts;
   for (const auto& other : clients_) {
-    if (other.get() != &client && !other->removed_ && other != client.replaced_) all += other->bodies_.moving;
+    if (other.get() != &client && !other->removed_ && other != client.replaced_) all += other->bodies_.parts;
   }
-  if (bodies > 0) checkBodiesOfAll(all, client.limits_.bodies, devices_.size());
+  if (parts.bodies > 0) checkBodiesOfAll(all, {client.limits_.bodies, client.limits_.joints}, devices_.size());
 }
 
 // A client gets the answer that it waits for in the end, however short memory is meanwhile.
@@ -404,8 +405,13 @@ std::int64_t ScenePublisher::assemble(std::vector<Part>& parts, std::int64_t beg
 // Made before its motions begin: if it takes too long for that, once more.
 std::shared_ptr<const Snapshot> ScenePublisher::makeNext(std::vector<Part>& parts) {
   std::shared_ptr<const Snapshot> next;
-  Mechanics mechanics = base_.now()->mechanics;
+  std::vector<PlacedShapes> lists;
+  for (const Part& part : parts) {
+    if (!part.gone) lists.push_back(part.placed ? part.placed : part.client->shown_.placed);
+  }
+  Mechanics mechanics = base_.mechanics();
   if (gravity_m_s2_) mechanics.gravity_m_s2 = *gravity_m_s2_;
+  addJoints(lists, mechanics);
   double margin = kMakingMargin;
   for (int i = 0; i < kLeadTries; ++i, margin *= 2) {
     next.reset();
@@ -416,10 +422,6 @@ std::shared_ptr<const Snapshot> ScenePublisher::makeNext(std::vector<Part>& part
     next = makeSnapshot(std::move(instances), base_.now()->name, shown_->number + 1, blend_ns, mechanics);
     making_ns_ = monotonicNow_ns() - now_ns;
     if (now_ns + making_ns_ < shown_begin_ns_) break;
-  }
-  std::vector<PlacedShapes> lists;
-  for (const Part& part : parts) {
-    if (!part.gone) lists.push_back(part.placed ? part.placed : part.client->shown_.placed);
   }
   return keeping(std::move(lists), std::move(next));
 }

@@ -24,6 +24,7 @@
 #include "base/memory_budget.h"
 #include "scene/editable_scene.h"
 #include "session/base_scene.h"
+#include "session/check_bodies.h"
 #include "session/decode_frame.h"
 #include "touch/touch_session.h"
 
@@ -98,7 +99,7 @@ class ScenePublisher {
   bool waitForLoops();
   std::vector<Part> takeParts();
   void giveBack(std::vector<Part>& parts);
-  void admitBodies(ClientScene& client, std::size_t bodies) const;
+  void admitBodies(ClientScene& client, const WorldParts& parts) const;
   std::int64_t assemble(std::vector<Part>& parts, std::int64_t begin_ns, std::vector<Instance>& instances) const;
   std::shared_ptr<const Snapshot> makeNext(std::vector<Part>& parts);
   void publish();
@@ -116,7 +117,7 @@ class ScenePublisher {
   std::atomic<bool> running_{false};
   bool dirty_ = false;
   HierarchyCounts counts_;
-  std::size_t base_bodies_ = 0;  // that move
+  WorldParts base_parts_;
   std::uint64_t gravities_ = 0;  // frames that have set it
   // Of the publisher's thread:
   std::optional<Vec3> gravity_m_s2_;  // of the clients, for the next scene; absent: as the base has it

@@ -17,6 +17,11 @@ void SessionBodies::follow(const Snapshot& scene) {
   std::stable_sort(bodies_.begin(), bodies_.end(), [](const One& x, const One& y) {
     return x.object != y.object ? x.object < y.object : x.name < y.name;
   });
+  joints_.clear();
+  for (const JointSpec& joint : scene.mechanics.joints) {
+    if (joint.session == session_ && joint.shown) joints_.push_back({joint.id, joint.shown});
+  }
+  std::sort(joints_.begin(), joints_.end(), [](const OneJoint& x, const OneJoint& y) { return x.id < y.id; });
 }
 
 void SessionBodies::describe(proto::ClientState& out) const {
@@ -33,6 +38,15 @@ void SessionBodies::describe(proto::ClientState& out) const {
     state.mutable_rotation()->set_w(turned.w());
     toProto(shown.velocity_m_s, *state.mutable_velocity_m_s());
     toProto(shown.spin_rad_s, *state.mutable_spin_rad_s());
+  }
+  for (const OneJoint& one : joints_) {
+    const ShownJoint shown = one.shown->read();
+    proto::JointState& state = *out.add_joints();
+    state.set_id(one.id);
+    state.set_coordinate(shown.coordinate);
+    state.set_velocity(shown.velocity);
+    state.set_force(shown.force);
+    toProto(shown.held_N, *state.mutable_held_n());
   }
 }
 

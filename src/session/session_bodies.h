@@ -1,4 +1,4 @@
-// SessionBodies: the moving bodies of one client in the scene that is shown.
+// SessionBodies: the moving bodies and the joints of one client in the scene that is shown.
 #pragma once
 
 #include <hl.pb.h>
@@ -22,7 +22,7 @@ class SessionBodies {
   bool wanted() const { return wanted_; }
   /// From now on those of this scene.
   void follow(const Snapshot& scene);
-  /// Where they are now.
+  /// Where they are now, and what the joints do.
   void describe(proto::ClientState& out) const;
   /// Of those of an object, or of the ones of this name among them. In the order of their calls' keys.
   std::vector<std::uint64_t> keysOf(std::uint32_t object, std::optional<std::uint32_t> name) const;
@@ -38,6 +38,11 @@ class SessionBodies {
   bool wanted_ = false;
   std::uint64_t scene_ = 0;  // identity; 0: none yet
   std::vector<One> bodies_;
+  struct OneJoint {
+    std::uint32_t id = 0;
+    std::shared_ptr<const SharedJoint> shown;
+  };
+  std::vector<OneJoint> joints_;  // by id
 };
 
 }  // namespace hl

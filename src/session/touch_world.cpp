@@ -18,6 +18,12 @@ void requireNoBodies(const Snapshot& scene) {
   if (movingBodies(scene) > 0) throw Error("a server with several devices cannot have a scene with bodies that move");
 }
 
+std::uint64_t bytesOfBase(const Snapshot& base) {
+  std::uint64_t bytes = memoryOf(base) + movingBodies(base) * kBody_bytes;
+  for (const JointSpec& joint : base.mechanics.joints) bytes += bytesOfJoint(joint);
+  return bytes;
+}
+
 std::vector<std::unique_ptr<TouchSession>> makeDevices(const std::shared_ptr<const Snapshot>& base,
                                                        const TouchServerSettings& settings) {
   if (settings.devices > 1) requireNoBodies(*base);
@@ -46,7 +52,7 @@ TouchWorld::TouchWorld(std::shared_ptr<const Snapshot> base, const TouchServerSe
       devices_(makeDevices(base, settings)),
       publisher_(base, pointersOf(devices_)),
       masters_(devices_.size(), 0) {
-  base_memory_.set(memoryOf(*base) + movingBodies(*base) * kBody_bytes);
+  base_memory_.set(bytesOfBase(*base));
 }
 
 void TouchWorld::start() {
@@ -63,7 +69,7 @@ void TouchWorld::replaceBase(const std::shared_ptr<const Snapshot>& base) {
   if (devices_.size() > 1) requireNoBodies(*base);
   worldOf(*base);  // one that cannot be made is refused here
   MemoryShare share(memory_);
-  share.take(memoryOf(*base) + movingBodies(*base) * kBody_bytes);
+  share.take(bytesOfBase(*base));
   const bool shown = showBase(base);
   for (const auto& device : devices_) device->freeHand();
   if (!shown) throw Error("the server is closing");

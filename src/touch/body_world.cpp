@@ -29,8 +29,12 @@ void addTo(FixedVector<BodyImpulse, kContactsOfHand>& list, const BodyImpulse& i
 
 }  // namespace
 
-BodyWorld::BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<const RigidBody>> bodies)
-    : bodies_(std::move(bodies)), stepper_(world), state_(startWorld(*world, startsOf(bodies_))) {
+BodyWorld::BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<const RigidBody>> bodies,
+                     JointViews joint_views)
+    : bodies_(std::move(bodies)),
+      stepper_(world),
+      state_(startWorld(*world, startsOf(bodies_))),
+      joint_views_(std::move(joint_views)) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     state_.bodies[i].velocity = bodies_[i]->spec.velocity_m_s;
     state_.bodies[i].spin = bodies_[i]->spec.spin_rad_s;
@@ -48,7 +52,7 @@ std::unique_ptr<BodyWorld> BodyWorld::of(const Snapshot& snapshot) {
   for (const Instance& instance : snapshot.instances) {
     if (instance.movesAsBody()) bodies.push_back(instance.body);
   }
-  return std::unique_ptr<BodyWorld>(new BodyWorld(world, std::move(bodies)));
+  return std::unique_ptr<BodyWorld>(new BodyWorld(world, std::move(bodies), JointViews(snapshot, *world)));
 }
 
 void BodyWorld::continueFrom(const BodyWorld& before) {
@@ -97,7 +101,14 @@ bool BodyWorld::standsAs(const BodyWorld& before) const {
                     was.fixed->instances.end(), same);
 }
 
-// A joint that is as it was: between the same bodies, with the same forces along it.
+// Whether a body of this key goes on here from where it was in `before`; so does the world, of key 0.
+bool BodyWorld::goesOn(std::uint64_t key, const BodyWorld& before) const {
+  if (key == 0) return true;
+  const std::size_t was = before.world().numberOf(key);
+  return was != World::kNoBody && before.bodies_[was]->start == bodies_[world().numberOf(key)]->start;
+}
+
+// A joint goes on that is one of the same kind between the same bodies, which go on.
 void BodyWorld::continueJoints(const BodyWorld& before) {
   const std::vector<Joint>&joints = world().joints, &last = before.world().joints;
   std::size_t j = 0;
@@ -106,7 +117,8 @@ void BodyWorld::continueJoints(const BodyWorld& before) {
     if (j == last.size()) return;
     const bool same = last[j].key == joints[i].key && last[j].kind == joints[i].kind &&
                       last[j].body_a == joints[i].body_a && last[j].body_b == joints[i].body_b;
-    if (same) state_.joints[i] = before.state_.joints[j];
+    if (same && goesOn(joints[i].body_a, before) && goesOn(joints[i].body_b, before))
+      state_.joints[i] = before.state_.joints[j];
   }
 }
 
@@ -266,6 +278,7 @@ void BodyWorld::step(std::int64_t now_ns, double period_s, const HandAtBodies& h
   for (std::size_t i = 0; i < paid_ && i < given_.size(); ++i) owed_[i].impulse_N_s -= given_[i].impulse_N_s;
   for (const std::size_t i : stepper_.awake()) bodies_[i]->poses->moveTo(shownOf(i), before_ns, now_ns);
   returnLost();
+  joint_views_.show(world(), state_, period_s);
   count(1e-9 * static_cast<double>(now_ns - before_ns) - period_s);
 }
 

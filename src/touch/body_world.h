@@ -16,6 +16,7 @@
 #include "touch/bodies_memory.h"
 #include "touch/body_command.h"
 #include "touch/body_view.h"
+#include "touch/joint_views.h"
 
 namespace hl {
 
@@ -67,8 +68,10 @@ class BodyWorld {
   const BodyView& view() const { return view_; }
 
  private:
-  BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<const RigidBody>> bodies);
+  BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<const RigidBody>> bodies,
+            JointViews joint_views);
   void continueJoints(const BodyWorld& before);
+  bool goesOn(std::uint64_t key, const BodyWorld& before) const;
   bool standsAs(const BodyWorld& before) const;
   ShownBody shownOf(std::size_t i) const;
   double energyOf_J(std::size_t i) const;
@@ -86,6 +89,7 @@ class BodyWorld {
   std::vector<std::shared_ptr<const RigidBody>> bodies_;
   BodyStepper stepper_;
   WorldState state_;
+  JointViews joint_views_;
   FixedVector<BodyImpulse, kContactsOfHand> owed_;
   DrawnImpulses drawn_;
   GivenImpulses given_;

@@ -315,6 +315,14 @@ TEST(Command, InfoAddsUpAllObjectsAndListsBodies) {
   EXPECT_EQ(call("info sphere:100").output.find("gravity"), std::string::npos);
 }
 
+TEST(Command, InfoListsJoints) {
+  const Result result = call("info workshop");
+  EXPECT_EQ(result.code, 0);
+  for (const char* told : {"joint drawer slide: slider, drawer to the world, 0 .. 0.034 m, friction 0.15 N\n",
+                           "joint button 1 slide: ", "damping 0.05 N s/m, a force table of 4 rows\n"})
+    EXPECT_NE(result.output.find(told), std::string::npos) << told << '\n' << result.output;
+}
+
 TEST(Command, BodiesAreTracedRecordedAndReproduced) {
   const std::string path = hl::test::fileWith("hl_cmd_path.csv", "t,x,y,z\n0,0,0.1,0\n0.001,0,0.1,0\n");
   const std::string out = hl::test::tempFile("hl_cmd_out.csv"), recording = hl::test::tempFile("hl_cmd_bodies.hlr");

@@ -19,6 +19,7 @@ struct Model {
   int matrices = 1, attributes = 0, names = 0;
   int outer_matrices = 1, outer_attributes = 0, outer_names = 0;
   std::set<HLuint> objects;
+  std::set<HLuint> joints;  // of the frame
 };
 
 // One random call: makes it and returns the error that GL's rules (as hl.h words them) demand.
@@ -27,7 +28,7 @@ class RandomCall {
   explicit RandomCall(Model& model) : model_(model) {}
 
   HLenum make() {
-    switch (*rc::gen::inRange(0, 18)) {
+    switch (*rc::gen::inRange(0, 19)) {
       case 0:
         return begin();
       case 1:
@@ -63,6 +64,8 @@ class RandomCall {
       case 15:
         return notBetween([this] { hlTranslated(number(), number(), number()); });
       case 16:
+        return join();
+      case 17:
         return frame(*rc::gen::element(hlFlush, hlFinish, hlClear));
       default:
         return notBetween([] { hlPoll(); });
@@ -159,9 +162,18 @@ class RandomCall {
     if (model_.between) return HL_INVALID_OPERATION;
     return value < 0 ? HL_INVALID_VALUE : HL_NO_ERROR;
   }
+  HLenum join() {
+    const HLuint joint = *rc::gen::inRange<HLuint>(0, 4), object = *rc::gen::inRange<HLuint>(0, 6);
+    hlJoin(joint, object, 0, 0, 0);
+    if (model_.between || model_.defining != 0) return HL_INVALID_OPERATION;
+    if (joint == 0 || !model_.objects.contains(object)) return HL_INVALID_VALUE;
+    return model_.joints.insert(joint).second ? HL_NO_ERROR : HL_INVALID_VALUE;
+  }
   HLenum frame(void (*call)()) {
     call();
-    return model_.between || model_.defining != 0 ? HL_INVALID_OPERATION : HL_NO_ERROR;
+    if (model_.between || model_.defining != 0) return HL_INVALID_OPERATION;
+    model_.joints.clear();
+    return HL_NO_ERROR;
   }
 
   Model& model_;
@@ -177,6 +189,8 @@ class Judge {
     }
     for (const proto::ObjectDefinition& object : frame.objects()) check(object.items());
     check(frame.world().items());
+    std::set<HLuint> joints;
+    for (const proto::WorldJoint& joint : frame.world().joints()) RC_ASSERT(joints.insert(joint.id()).second);
   }
 
  private:

@@ -21,6 +21,9 @@ HLD = os.environ["HLD_PROGRAM"]
 PATIENCE_S = 20.0
 FLOOR = (np.array([[-0.1, 0, -0.1], [0.1, 0, -0.1], [0.1, 0, 0.1], [-0.1, 0, 0.1]]), np.array([[0, 1, 2], [0, 2, 3]]))
 
+BLOCK = (np.array([[x, y, z] for x in (-0.01, 0.01) for y in (-0.01, 0.01) for z in (-0.01, 0.01)]),
+         np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]))
+
 
 def wait_for(what, condition):
     """The first true value of `condition()`; the test fails when it never comes."""
@@ -76,15 +79,42 @@ class Touching(unittest.TestCase):
         self.touch.hand_goal([0, 0.057, 0])
         wait_for("the magnet", lambda: self.touch.state().snapped_object == 0 and self.touch.state().force[1] > 0.1)
 
+    def test_a_spring_holds_a_body_and_tells_its_force(self):
+        with self.touch.frame():
+            with self.touch.define() as block:
+                self.touch.body("box", mass=0.1)
+                self.touch.draw(*BLOCK, mode=hl.calls.HL_QUADS)
+            with self.touch.matrix([[1, 0, 0, 0.5], [0, 1, 0, 0.3], [0, 0, 1, 0], [0, 0, 0, 1]]):
+                self.touch.place(block)
+                self.touch.join(4, block, kind="slider", axis=[0, 1, 0], spring=200, damping=5,
+                                table=([0, 1], [0.2, 0.2]))
+
+        def joint():
+            joints = self.touch.joints()
+            return joints[0] if len(joints) == 1 else None
+
+        sag = (0.1 * 9.81 - 0.2) / 200
+        wait_for("rest", lambda: joint() is not None and abs(joint()["coordinate"] + sag) < 1e-6)
+        self.assertEqual(joint()["joint"], 4)
+        self.assertAlmostEqual(joint()["force"], 0.981, 2)
+
+    def test_joints_that_make_no_sense_are_errors(self):
+        with self.assertRaisesRegex(ValueError, "a joint has no 'stiffness': low, high"):
+            self.touch.join(1, 2, stiffness=3)
+        with self.assertRaisesRegex(ValueError, "there is no kind of joint 'door'"):
+            self.touch.join(1, 2, kind="door")
+        with self.assertRaisesRegex(ValueError, "as many forces as positions"):
+            self.touch.join(1, 2, kind="slider", axis=[1, 0, 0], table=([0, 1], [2]))
+        with self.assertRaisesRegex(ValueError, "not defined"):
+            self.touch.join(1, 2)
+
     def test_a_body_falls_onto_the_floor_and_can_be_pushed(self):
-        corners = np.array([[x, y, z] for x in (-0.01, 0.01) for y in (-0.01, 0.01) for z in (-0.01, 0.01)])
-        sides = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
         pose = np.eye(4)
         pose[:3, 3] = 0.05, 0.03, 0.05
         with self.touch.frame():
             with self.touch.define() as block:
                 self.touch.body("box", mass=0.1, restitution=0)
-                self.touch.draw(corners, sides, mode=hl.calls.HL_QUADS)
+                self.touch.draw(*BLOCK, mode=hl.calls.HL_QUADS)
             self.touch.draw(*FLOOR)
             with self.touch.name(3):
                 self.touch.place(block, pose)
@@ -352,7 +382,8 @@ class EveryCall(unittest.TestCase):
     # What stands in their place is in docs/python.md.
     ELSEWHERE = {"hlCreateContext", "hlGetConnectError", "hlMakeCurrent", "hlGetCurrentContext", "hlDestroyContext",
                  "hlGetError", "hlErrorFunc", "hlEventFunc", "hlPoll", "hlVertexPointer", "hlNormalPointer",
-                 "hlTexCoordPointer", "hlEnableClientState", "hlDisableClientState", "hlGetBodydv"}
+                 "hlTexCoordPointer", "hlEnableClientState", "hlDisableClientState", "hlGetBodydv",
+                 "hlGetJointdv"}
 
     def test_of_hl_h_is_there_with_its_constants(self):
         header = (SOURCE / "include/hl/hl.h").read_text(encoding="utf-8")

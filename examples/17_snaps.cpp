@@ -1,7 +1,7 @@
 // A path that leads the finger, a socket that keeps it until it is pulled off, and a magnet beside them: snaps and
 // fields.
 //
-//   16_snaps [URL [SECONDS]]
+//   17_snaps [URL [SECONDS]]
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -71,6 +71,6 @@ int main(int argc, char** argv) try {
   hl::check();
   return 0;
 } catch (const std::exception& error) {
-  std::fprintf(stderr, "16_snaps: %s\n", error.what());
+  std::fprintf(stderr, "17_snaps: %s\n", error.what());
   return 2;
 }
