@@ -149,6 +149,36 @@ void printBodies(const Snapshot& snapshot) {
   fmt::print("gravity:    {:.6g} {:.6g} {:.6g} m/s^2\n", gravity.x(), gravity.y(), gravity.z());
 }
 
+// What is of a place: "point", "plane", "curve of 3 points".
+std::string placeOf(const std::vector<Vec3>& points, bool plane) {
+  if (plane) return "plane";
+  return points.size() == 1 ? "point" : fmt::format("curve of {} points", points.size());
+}
+
+void printSnaps(const Snapshot& snapshot) {
+  for (const PlacedSnap& placed : snapshot.snaps) {
+    const Instance& instance = snapshot.instances[placed.instance];
+    const SnapSpec& snap = (*instance.snaps)[placed.number];
+    fmt::print("snap {}: {}, from {:.4g} mm to {:.4g} N{}{}\n", snap.name,
+               placeOf(snap.points, snap.normal.has_value()), 1e3 * snap.capture_m, snap.release_N,
+               instance.body ? ", of body " : "", instance.body ? instance.body->name : "");
+  }
+}
+
+void printFields(const Snapshot& snapshot) {
+  for (const PlacedField& placed : snapshot.fields) {
+    const Instance& instance = snapshot.instances[placed.instance];
+    const FieldSpec& field = (*instance.fields)[placed.number];
+    fmt::print("field {}: {} of a {}, within {:.4g} mm", field.name,
+               kFieldKindNames[static_cast<std::size_t>(field.kind)], placeOf(field.points, field.normal.has_value()),
+               1e3 * field.reach_m);
+    if (field.force_N > 0) fmt::print(", {:.4g} N", field.force_N);
+    if (field.stiffness_N_m > 0) fmt::print(", {:.4g} N/m", field.stiffness_N_m);
+    if (field.damping_Ns_m > 0) fmt::print(", {:.4g} N s/m", field.damping_Ns_m);
+    fmt::print("{}{}\n", instance.body ? ", of body " : "", instance.body ? instance.body->name : "");
+  }
+}
+
 void print(const Snapshot& snapshot) {
   Totals all;
   for (const Instance& instance : snapshot.instances) all.add(*instance.shape);
@@ -156,6 +186,8 @@ void print(const Snapshot& snapshot) {
   printTotals(all, snapshot);
   printMaterials(snapshot);
   printBodies(snapshot);
+  printSnaps(snapshot);
+  printFields(snapshot);
   printJoints(snapshot);
   fmt::print("warnings:   {}\n", snapshot.warnings.empty() ? "none" : "");
   for (const std::string& warning : snapshot.warnings) fmt::print("  {}\n", warning);

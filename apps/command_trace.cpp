@@ -54,7 +54,7 @@ void run(const TraceOptions& options) {
   const std::vector<PathSample> path = readPath(options.path);
   const auto snapshot = loadSnapshot(options.scene);
   const std::vector<std::string> bodies = tracedBodies(*snapshot);
-  TraceWriter writer(options.out, {options.scene.scene, options.path}, bodies);
+  TraceWriter writer(options.out, {options.scene.scene, options.path}, bodies, !snapshot->snaps.empty());
   const TraceTotals totals =
       runTrace(*snapshot, options.settings, path, [&](const TraceRow& row) { writer.write(row); });
   writer.close();

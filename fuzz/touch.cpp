@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "proxy/field_forces.h"
 #include "proxy/proxy.h"
 
 namespace hl::fuzz {
@@ -37,6 +38,7 @@ void touch(const Snapshot& snapshot) {
     const Vec3 finger = place.centre + (1 - 2.0 * i / (kTicks - 1)) * begin;
     const TickReport report = tick(state, {snapshot, i * 1'000'000}, settings, finger);
     require(report.valid() && state.position.allFinite() && report.target.allFinite());
+    require(fieldForces({snapshot, i * 1'000'000}, finger).force_N.allFinite());
   }
 }
 

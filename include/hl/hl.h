@@ -257,6 +257,47 @@ HL_API HLsizei hlGetBodies(HLsizei most, HLbody* bodies);
  * an error: the last state has no such body. HL_INVALID_ENUM: not such a name. */
 HL_API HLboolean hlGetBodydv(HLuint object, HLenum name, HLdouble* values);
 
+/* ---- Snaps: places that hold the proxy until it is pulled off: docs/snaps.md ------------------------------------ */
+
+/** Gives the object that is being defined a point, x y z in metres of the definition, to which the proxy goes when it
+ * comes as near as `capture`, m of the world (1e-9 .. 1e9, scaled by no matrix), and which lets go of it when it is
+ * pulled by more than `release`, N at the hand (1e-9 .. 1e9). What would take it from farther away than it lets go,
+ * takes it from there: so no capture and release gives energy. It moves with each call of the object, which needs no
+ * geometry; of a body it also gets the hand's force. While it holds the proxy the scene is felt as ever.
+ * HL_INVALID_OPERATION: no definition is open. HL_INVALID_VALUE: out of its range, farther than 1e6 m from the origin,
+ * or more than 64 in the object; the server refuses a frame with more than 64 in the world (HL_REFUSED). */
+HL_API void hlSnapPoint3d(HLdouble x, HLdouble y, HLdouble z, HLdouble capture, HLdouble release);
+/** Leads the last snap of the definition on to x y z: a point becomes a line, a line a curve, of 256 points at most.
+ * HL_INVALID_OPERATION: there is none, or it is a plane. HL_INVALID_VALUE: as hlSnapPoint3d, or one point too many. */
+HL_API void hlSnapLineTo3d(HLdouble x, HLdouble y, HLdouble z);
+/** As hlSnapPoint3d: the plane through x y z whose normal is nx ny nz, of any length but 0; it holds on both sides. */
+HL_API void hlSnapPlane3d(HLdouble x, HLdouble y, HLdouble z, HLdouble nx, HLdouble ny, HLdouble nz, HLdouble capture,
+                          HLdouble release);
+
+/* ---- Fields: forces on the hand from places, whatever the proxy touches: docs/fields.md ------------------------- */
+
+/** Gives the object that is being defined a field of the point x y z, metres of the definition. `reach`, m of the world
+ * (1e-9 .. 1e9, scaled by no matrix): farther from the point there is no force. `kind` and `strength`:
+ * HL_FIELD_MAGNET pulls to the point, at most with so many newtons (1e-9 .. 1000) at a third of the reach, with none at
+ * the point and at the reach; HL_FIELD_SPRING pulls with so many newtons for each metre (.. 1e6); HL_FIELD_DRAG brakes
+ * with so many newtons for each metre a second of the hand (.. 100). Four pulls act at once, the first of the scene.
+ * The device's limits of force and its rate hold for all together. It moves with each call of the object, which needs
+ * no geometry; what pulls the hand, pulls a body back. HL_INVALID_OPERATION: no definition is open. HL_INVALID_ENUM: no
+ * such kind. HL_INVALID_VALUE: out of its range, farther than 1e6 m from the origin, or more than 64 in the object; the
+ * server refuses a frame with more than 64 in the world (HL_REFUSED). */
+HL_API void hlFieldPoint3d(HLenum kind, HLdouble x, HLdouble y, HLdouble z, HLdouble reach, HLdouble strength);
+/** Leads the last field of the definition on to x y z: a point becomes a line, a line a curve, of 256 points at most.
+ * HL_INVALID_OPERATION: there is none, or it is of a plane. HL_INVALID_VALUE: as hlFieldPoint3d, or one point too many.
+ */
+HL_API void hlFieldLineTo3d(HLdouble x, HLdouble y, HLdouble z);
+/** As hlFieldPoint3d: of the plane through x y z whose normal is nx ny nz, of any length but 0; on both sides. */
+HL_API void hlFieldPlane3d(HLenum kind, HLdouble x, HLdouble y, HLdouble z, HLdouble nx, HLdouble ny, HLdouble nz,
+                           HLdouble reach, HLdouble strength);
+/** As hlFieldPoint3d: a force fx fy fz (1e-9 .. 1000 N), in the axes of the definition, that falls to 0 at the reach of
+ * the point. It may feed the hand energy: what goes through along it gains by it, and a way back beside it costs
+ * nothing. hlFieldLineTo3d leads it on. */
+HL_API void hlFieldForce3d(HLdouble x, HLdouble y, HLdouble z, HLdouble reach, HLdouble fx, HLdouble fy, HLdouble fz);
+
 /* ---- Joints: what holds two bodies together, or one to the world --------------------------------------------------
  */
 

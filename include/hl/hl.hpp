@@ -273,6 +273,21 @@ inline std::vector<HLbody> bodies() {
   return all;
 }
 
+/// hlSnapPoint3d and hlSnapLineTo3d: a curve through these points, x y z each, 1 to 256 of them, for the object that is
+/// being defined. Throws std::invalid_argument for a number of numbers that is none of points.
+inline void snapCurve(std::span<const HLdouble> points, HLdouble capture, HLdouble release) {
+  if (points.empty() || points.size() % 3 != 0) throw std::invalid_argument("a curve has points of three numbers each");
+  hlSnapPoint3d(points[0], points[1], points[2], capture, release);
+  for (std::size_t i = 3; i < points.size(); i += 3) hlSnapLineTo3d(points[i], points[i + 1], points[i + 2]);
+}
+
+/// hlFieldPoint3d and hlFieldLineTo3d, as snapCurve().
+inline void fieldCurve(HLenum kind, std::span<const HLdouble> points, HLdouble reach, HLdouble strength) {
+  if (points.empty() || points.size() % 3 != 0) throw std::invalid_argument("a curve has points of three numbers each");
+  hlFieldPoint3d(kind, points[0], points[1], points[2], reach, strength);
+  for (std::size_t i = 3; i < points.size(); i += 3) hlFieldLineTo3d(points[i], points[i + 1], points[i + 2]);
+}
+
 /// hlJointTable. Throws std::invalid_argument when there are not as many forces as positions.
 inline void jointTable(std::span<const HLdouble> positions, std::span<const HLdouble> forces) {
   if (positions.size() != forces.size()) throw std::invalid_argument("a table needs a force for each position");

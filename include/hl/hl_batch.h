@@ -71,7 +71,7 @@ HL_API HLenum hlBatchSurface(HLbatchSettings* settings, HLenum quantity, HLdoubl
 /** Where each row of a result goes: a finger, or a sample of a path. NULL: it is not wanted. */
 typedef struct HLbatchResult {
   HLdouble* proxy;    /**< x 3, m: centre of the proxy */
-  HLdouble* force;    /**< x 3, N: on the hand, of the spring */
+  HLdouble* force;    /**< x 3, N: on the hand, of the spring and of fields */
   HLint* contacts;    /**< 0..3: planes that hold the proxy */
   HLdouble* injected; /**< J: what the tick added to the spring's energy; below 0: took away */
 } HLbatchResult;

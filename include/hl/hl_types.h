@@ -244,7 +244,10 @@ enum {
   HL_UNPLACED_TICKS = 0x480B8,         /**< 1; ticks so far without a clear place for the proxy: nothing pulled */
   HL_OUT_OF_WORK_TICKS = 0x480B9,      /**< 1; ticks so far that did all they may; the next goes on from there */
   HL_BODY_COUNT = 0x4810C,             /**< 1; bodies of this context that move; see hlGetBodies */
-  HL_JOINT_COUNT = 0x4812E             /**< 1; joints of this context; see hlGetJoints */
+  HL_JOINT_COUNT = 0x4812E,            /**< 1; joints of this context; see hlGetJoints */
+  HL_SNAPPED_OBJECT = 0x48140,         /**< 1; of this context, whose snap holds the proxy; 0: none */
+  HL_SNAPPED_NAME = 0x48141,           /**< 1; the name of its call; 0: none */
+  HL_SNAP_NUMBER = 0x48142             /**< 1; which of its snaps, from 0 in the order of the definition */
 };
 
 /** hlBody*: a rigid body. Its shape, by which it meets other bodies and the scene, is made from its mesh; the hand
@@ -268,6 +271,14 @@ enum {
   HL_BODY_BALL = 0x48112,             /**< centred in the bounds, as wide as their largest side */
   HL_BODY_CAPSULE = 0x48113,          /**< along the largest side, as wide as the larger of the others */
   HL_BODY_CYLINDER = 0x48114          /**< the same with flat ends */
+};
+
+/** Kinds of fields, of hlFieldPoint3d and hlFieldPlane3d; HL_FIELD_CONSTANT is that of hlFieldForce3d. */
+enum {
+  HL_FIELD_MAGNET = 0x48150,   /**< pulls to its place within its reach */
+  HL_FIELD_SPRING = 0x48151,   /**< pulls to its place, the more the farther */
+  HL_FIELD_CONSTANT = 0x48152, /**< pushes in one direction */
+  HL_FIELD_DRAG = 0x48153      /**< brakes the hand */
 };
 
 /** A rigid body after the last step, from hlGetBodies. World frame. */

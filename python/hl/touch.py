@@ -57,6 +57,7 @@ _BODY_SHAPES = {
     "capsule": calls.HL_BODY_CAPSULE,
     "cylinder": calls.HL_BODY_CYLINDER,
 }
+_FIELDS = {"magnet": calls.HL_FIELD_MAGNET, "spring": calls.HL_FIELD_SPRING, "drag": calls.HL_FIELD_DRAG}
 _JOINT_KINDS = {
     "ball": calls.HL_JOINT_BALL,
     "hinge": calls.HL_JOINT_HINGE,
@@ -93,6 +94,9 @@ class State:
     touched_object: int  #: that presses hardest; 0: none
     touched_name: int  #: its name; 0: none
     buttons: int  #: bit i is set while button i is down
+    snapped_object: int  #: whose snap holds the proxy; 0: none
+    snapped_name: int  #: its name; 0: none
+    snap_number: int  #: which of its snaps
     safety: str  #: "off", "arming", "on", "fault" or "waiting"
     servo_rate: float  #: Hz
     proxy_rate: float  #: Hz
@@ -249,6 +253,55 @@ class Touch:
                 calls.hlBodyd(_BODY_NUMBERS[key], arguments.number(value, key))
             else:
                 calls.hlBody3d(_BODY_VECTORS[key], *_vector(value, key))
+
+    def snap(
+        self, points: npt.ArrayLike, capture: float, release: float, normal: Optional[npt.ArrayLike] = None
+    ) -> None:
+        """Gives the object that is being defined a place to which the proxy goes when it comes as near as `capture`, m,
+        and which lets go of it when it is pulled by more than `release`, N.
+
+        points: (3,) a point, or (n, 3) the corners of a curve, m. normal: (3,), of the plane through the one point.
+        """
+        self.make_current()
+        first, *others = _corners(points, normal)
+        x, y, z = first
+        near, most = arguments.number(capture, "capture"), arguments.number(release, "release")
+        if normal is not None:
+            nx, ny, nz = _vector(normal, "normal")
+            calls.hlSnapPlane3d(x, y, z, nx, ny, nz, near, most)
+            return
+        calls.hlSnapPoint3d(x, y, z, near, most)
+        for corner in others:
+            calls.hlSnapLineTo3d(*corner)
+
+    def field(
+        self, kind: str, points: npt.ArrayLike, reach: float, strength: float, normal: Optional[npt.ArrayLike] = None
+    ) -> None:
+        """Gives the object that is being defined a field: "magnet" (strength in N), "spring" (N/m) or "drag" (N s/m)
+        within `reach`, m, of its place.
+
+        points: (3,) a point, or (n, 3) the corners of a curve, m. normal: (3,), of the plane through the one point.
+        """
+        self.make_current()
+        first, *others = _corners(points, normal)
+        x, y, z = first
+        number = _chosen(_FIELDS, kind, "kind of a field")
+        far, most = arguments.number(reach, "reach"), arguments.number(strength, "strength")
+        if normal is not None:
+            nx, ny, nz = _vector(normal, "normal")
+            calls.hlFieldPlane3d(number, x, y, z, nx, ny, nz, far, most)
+            return
+        calls.hlFieldPoint3d(number, x, y, z, far, most)
+        for corner in others:
+            calls.hlFieldLineTo3d(*corner)
+
+    def push_field(self, point: npt.ArrayLike, reach: float, force: npt.ArrayLike) -> None:
+        """Gives the object that is being defined a constant force, (3,) in N, that falls to 0 at `reach`, m, of a point,
+        (3,) in m."""
+        self.make_current()
+        x, y, z = _vector(point, "point")
+        fx, fy, fz = _vector(force, "force")
+        calls.hlFieldForce3d(x, y, z, arguments.number(reach, "reach"), fx, fy, fz)
 
     def gravity(self, acceleration: npt.ArrayLike) -> None:
         """Of all bodies, (3,) in m/s^2, from this frame on; (0, -9.81, 0) at first."""
@@ -479,6 +532,9 @@ class Touch:
             touched_object=int(get(calls.HL_TOUCHED_OBJECT)),
             touched_name=int(get(calls.HL_TOUCHED_NAME)),
             buttons=int(get(calls.HL_BUTTONS)),
+            snapped_object=int(get(calls.HL_SNAPPED_OBJECT)),
+            snapped_name=int(get(calls.HL_SNAPPED_NAME)),
+            snap_number=int(get(calls.HL_SNAP_NUMBER)),
             safety=_SAFETY[calls.hlGetIntegerv(calls.HL_SAFETY_STATE)],
             servo_rate=get(calls.HL_SERVO_RATE),
             proxy_rate=get(calls.HL_PROXY_RATE),
@@ -596,6 +652,16 @@ def _chosen(table: Dict[str, int], key: str, what: str) -> int:
     if not isinstance(key, str) or key not in table:
         raise InvalidValueError(f"there is no {what} '{key}': {', '.join(table)}")
     return table[key]
+
+
+def _corners(points: npt.ArrayLike, normal: Optional[npt.ArrayLike]) -> Any:
+    """Of a point, curve or plane: (n, 3)."""
+    corners = np.atleast_2d(arguments.floats(points, "points"))
+    if corners.ndim != 2 or corners.shape[1] != 3 or len(corners) == 0:
+        raise InvalidValueError("points must be (3,) or (n, 3)")
+    if normal is not None and len(corners) != 1:
+        raise InvalidValueError("a plane has one point")
+    return corners.tolist()
 
 
 def _vector(numbers: npt.ArrayLike, name: str) -> Any:

@@ -183,6 +183,24 @@ def texture(bench):
     save(figure, "paper_texture.png", *facts)
 
 
+def snap(bench):
+    """Force against the finger's place beside a point that takes it from 1 mm and lets go at 2 N: in, through, and out."""
+    release = 2.0
+    scene = bench.scene([{"primitives": {"vertices": [0, 0.05, 0], "points": [0]},
+                          "snaps": [{"points": [0, 0, 0], "capture": 0.001, "releaseN": release}]}])
+    rows = bench.trace(scene, straight((-3e-3, 0.0), (3e-3, 0.0), speed=0.01), "--radius", str(RADIUS))
+    place = [MM * row["finger_x"] for row in rows]
+    force = [row["force_x"] for row in rows]
+    figure, plot = canvas(1, 1, 4.0)
+    for most in (-release, release):
+        plot.axhline(most, color=GREY, lw=1, ls=":")
+    plot.plot(place, force, color=BLUE, lw=1.8)
+    style(plot, "finger's place, from left to right (mm)", "force on the finger (N)",
+          "A point that takes the finger from 1 mm and lets go at 2 N, K = 1000 N/m")
+    pulled = min(force)
+    save(figure, "snap.png", f"taken with {max(force):.4f} N; let go after {-pulled:.4f} N at {place[force.index(pulled)]:.4f} mm")
+
+
 def adhesion(bench):
     """Force against the finger's height over a floor of adhesion 1 N: down, 0.5 mm in, and up until it lets go."""
     scene, most = floor_file(bench), 1.0

@@ -24,9 +24,11 @@ void Ledger::book(double net_J, bool refill) {
     tank_J = std::max(0.0, tank_J - net_J);
   } else {
     dissipated_J -= net_J;
-    if (refill) tank_J = std::min(kTankFull_J, tank_J - net_J);
+    if (refill) this->refill(-net_J);
   }
 }
+
+void Ledger::refill(double joules) { tank_J = std::min(kTankFull_J, tank_J + joules); }
 
 double partWithin(const Vec3& e, const Vec3& way, double allowance) {
   const double a = way.squaredNorm();

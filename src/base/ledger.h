@@ -38,6 +38,8 @@ struct Ledger {
   double budget_J(LedgerMode mode) const;
   /// Books one tick: `net_J` > 0 is paid by the tank, < 0 refills it when `refill`. RT-safe.
   void book(double net_J, bool refill);
+  /// Puts energy >= 0, that something else has taken out, into the tank. RT-safe.
+  void refill(double joules);
   void add(EnergyCause cause, double joules) { by_cause_J[static_cast<std::size_t>(cause)] += joules; }
 };
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "batch/on_threads.h"
+#include "proxy/field_forces.h"
 #include "tools/trace.h"
 
 namespace hl {
@@ -43,8 +44,9 @@ void FingerBatch::step(std::span<const Vec3> fingers, int threads, BatchSink sin
         if (begun_[i] == 0) states_[i] = startProxy(scene, settings_, fingers[i]);
         begun_[i] = 1;
         const TickReport report = tick(states_[i], scene, settings_, fingers[i]);
-        sink(i, {states_[i].position, settings_.spring_N_m * (report.target - fingers[i]),
-                 static_cast<int>(report.contacts.size()), report.injected_J});
+        const Vec3 force_N =
+            settings_.spring_N_m * (report.target - fingers[i]) + fieldForces(scene, fingers[i]).force_N;
+        sink(i, {states_[i].position, force_N, static_cast<int>(report.contacts.size()), report.injected_J});
       }
     });
   });

@@ -101,6 +101,8 @@ class Builder {
       proto::ObjectDefinition& definition = *frame.add_objects();
       definition.set_id(object);
       if (items.body()) *definition.mutable_body() = *items.body();
+      definition.mutable_snaps()->Add(items.snaps().begin(), items.snaps().end());
+      definition.mutable_fields()->Add(items.fields().begin(), items.fields().end());
       for (Item& item : items.items()) fillItem(std::move(item), *definition.add_items());
     }
     for (VertexUpdate& update : draft.moved) fillUpdate(std::move(update), *frame.add_moved());

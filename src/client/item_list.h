@@ -49,6 +49,12 @@ class ItemList {
   /// What hlBody* says of the object; absent: it is no body.
   const std::optional<proto::Body>& body() const { return body_; }
   void setBody(const proto::Body& body) { body_ = body; }
+  /// What hlSnap* says of the object.
+  const std::vector<proto::Snap>& snaps() const { return snaps_; }
+  std::vector<proto::Snap>& snaps() { return snaps_; }
+  /// What hlField* says of it.
+  const std::vector<proto::Field>& fields() const { return fields_; }
+  std::vector<proto::Field>& fields() { return fields_; }
   /// Of the world; definitions have none.
   const std::vector<proto::WorldJoint>& joints() const { return joints_; }
   std::vector<proto::WorldJoint>& joints() { return joints_; }
@@ -58,6 +64,8 @@ class ItemList {
  private:
   std::vector<Item> items_;
   std::optional<proto::Body> body_;
+  std::vector<proto::Snap> snaps_;
+  std::vector<proto::Field> fields_;
   std::vector<proto::WorldJoint> joints_;
 };
 

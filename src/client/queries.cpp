@@ -55,6 +55,13 @@ const proto::TouchedObject* touched(const HLcontext& c) {
   return hardest;
 }
 
+// The snap of this context's objects that holds the proxy; all 0: none.
+const proto::HoldingSnap& snapped(const HLcontext& c) {
+  const proto::HoldingSnap& snap = state(c).snap();
+  const bool own = snap.session() == view(c).welcome().session();
+  return own ? snap : proto::HoldingSnap::default_instance();
+}
+
 constexpr Query kQueriesOfCalls[] = {
     {HL_CURRENT_NORMAL, [](const HLcontext& c, Values& v) { addAll(v, attributes(c).vertex.normal); }},
     {HL_CURRENT_TEXTURE_COORDS, [](const HLcontext& c, Values& v) { addAll(v, attributes(c).vertex.texcoord); }},
@@ -117,6 +124,9 @@ constexpr Query kQueriesOfState[] = {
     {HL_CONTACT_COUNT, [](const HLcontext& c, Values& v) { v.add(state(c).touched_size()); }},
     {HL_TOUCHED_OBJECT, [](const HLcontext& c, Values& v) { v.add(touched(c) ? touched(c)->object() : 0); }},
     {HL_TOUCHED_NAME, [](const HLcontext& c, Values& v) { v.add(touched(c) ? touched(c)->name() : 0); }},
+    {HL_SNAPPED_OBJECT, [](const HLcontext& c, Values& v) { v.add(snapped(c).object()); }},
+    {HL_SNAPPED_NAME, [](const HLcontext& c, Values& v) { v.add(snapped(c).name()); }},
+    {HL_SNAP_NUMBER, [](const HLcontext& c, Values& v) { v.add(snapped(c).number()); }},
     {HL_BUTTONS, [](const HLcontext& c, Values& v) { v.add(state(c).buttons()); }},
     {HL_SAFETY_STATE, [](const HLcontext& c, Values& v) { v.add(HL_SAFETY_OFF + int{state(c).safety()}); }},
     {HL_SERVO_RATE, [](const HLcontext& c, Values& v) { v.add(state(c).servo().rate_hz()); }},

@@ -34,9 +34,19 @@ void rest(ServoState& state) {
   restVibration(state.vibration);
 }
 
+bool isFresh(const ServoSettings& settings, const ServoTarget& target, const DeviceSample& sample) {
+  return std::abs(age_s(sample.time_ns, target.time_ns)) <= 1e-9 * static_cast<double>(settings.target_stale_ns);
+}
+
 bool usable(const ServoSettings& settings, const ServoTarget& target, const DeviceSample& sample) {
-  return target.valid && target.stiffness >= 0 && target.stiffness <= 1 &&
-         std::abs(age_s(sample.time_ns, target.time_ns)) <= 1e-9 * static_cast<double>(settings.target_stale_ns);
+  return target.valid && target.stiffness >= 0 && target.stiffness <= 1 && isFresh(settings, target, sample);
+}
+
+// Of the scene's fields; none of a target that cannot be trusted.
+Vec3 fieldForce(const ServoState& state, const ServoSettings& settings, const ServoTarget& target,
+                const DeviceSample& sample) {
+  if (!isFresh(settings, target, sample)) return Vec3::Zero();
+  return target.field_N - target.field_drag_Ns_m * state.velocity_m_s;
 }
 
 // The spring and damper, or zero when the target cannot be trusted.
@@ -97,7 +107,8 @@ ServoOutput stepServo(ServoState& state, const ServoSettings& settings, const Se
   Vec3 spring_N = wantedForce(state, settings, target, sample);
   const bool touching = state.spring.pulling;
   lookForVibration(state, settings, spring_N, sample.position);
-  Vec3 effects_N = part * effectForce(settings.effects, sample, state.velocity_m_s, touching);
+  Vec3 effects_N = part * (effectForce(settings.effects, sample, state.velocity_m_s, touching) +
+                           fieldForce(state, settings, target, sample));
   effects_N = effects_N.allFinite() ? limited(effects_N, settings.force_limit_N) : Vec3(Vec3::Zero());
   if (settings.guard.on)
     spring_N = guarded(state.guard, settings.guard, spring_N, sample.position - state.before_D[0], touching,

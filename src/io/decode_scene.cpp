@@ -19,6 +19,11 @@ constexpr double kMostAlong = 1e9;
 
 constexpr std::uint32_t kDefaultSize = 64;
 
+constexpr double kMostPlace_m = 1e6;                        // of joints, snaps and fields, each coordinate
+constexpr double kLeastOfPlace = 1e-9, kMostOfPlace = 1e9;  // of snaps and fields: m and N
+// Far above any device: its limit of force cuts it. Stiffer springs and stronger drags would shake a hand.
+constexpr double kMostFieldForce_N = 1000, kMostFieldStiffness_N_m = 1e6, kMostFieldDamping_Ns_m = 100;
+
 const google::protobuf::FieldDescriptor& fieldOf(const google::protobuf::Message& message, const char* name) {
   return *message.GetDescriptor()->FindFieldByName(name);
 }
@@ -197,7 +202,6 @@ JointForces SceneDecoder::jointForces(const proto::Joint& in, const std::string&
 }
 
 JointSpec SceneDecoder::joint(const proto::Joint& in, const std::string& where) const {
-  constexpr double kMostPlace_m = 1e6;
   JointSpec spec;
   spec.name = in.name().empty() ? where : in.name();
   if (!proto::JointKind_IsValid(in.kind())) fail(where + ".kind", where + ".kind is none that HL knows");
@@ -210,6 +214,81 @@ JointSpec SceneDecoder::joint(const proto::Joint& in, const std::string& where) 
   spec.along = jointForces(in, where);
   spec.collide = in.collide();
   return spec;
+}
+
+Vec3 SceneDecoder::unit(const proto::Vec3& in, const std::string& where) const {
+  const Vec3 vector = checked(in, kMostPlace_m, where);
+  if (!(vector.stableNorm() > 0)) fail(where, where + " must not be zero");
+  return vector.stableNormalized();
+}
+
+std::vector<Vec3> SceneDecoder::corners(const google::protobuf::RepeatedField<double>& in,
+                                        const std::string& where) const {
+  const auto count = static_cast<std::size_t>(in.size()) / 3;
+  if (in.size() % 3 != 0 || count == 0) fail(where, where + " must hold 3 numbers each, of one point or more");
+  if (count > kMostCorners) fail(where, fmt::format("{} must not be more than {}", where, kMostCorners));
+  std::vector<Vec3> points;
+  for (int i = 0; i < in.size(); i += 3) {
+    const auto number = [&](int k) { return checked(in[i + k], -kMostPlace_m, kMostPlace_m, where); };
+    points.emplace_back(number(0), number(1), number(2));
+  }
+  return points;
+}
+
+std::optional<Vec3> SceneDecoder::planeNormal(bool given, const proto::Vec3& in, std::size_t points,
+                                              const std::string& where) const {
+  if (!given) return {};
+  if (points != 1) fail(where + ".points", where + ".points of a plane, which has a normal, must be one point");
+  return unit(in, where + ".normal");
+}
+
+SnapSpec SceneDecoder::snap(const proto::Snap& in, const std::string& where) const {
+  SnapSpec snap;
+  snap.name = in.name();
+  snap.points = corners(in.points(), where + ".points");
+  snap.normal = planeNormal(in.has_normal(), in.normal(), snap.points.size(), where);
+  snap.capture_m = checked(in.capture(), kLeastOfPlace, kMostOfPlace, where + ".capture");
+  snap.release_N = checked(in.release_n(), kLeastOfPlace, kMostOfPlace, where + ".releaseN");
+  return snap;
+}
+
+// What a kind has nothing of must be left out.
+FieldSpec SceneDecoder::field(const proto::Field& in, const std::string& where) const {
+  if (!proto::FieldKind_IsValid(in.kind())) fail(where + ".kind", where + ".kind is none that HL knows");
+  FieldSpec field;
+  field.name = in.name();
+  field.kind = static_cast<FieldKind>(in.kind());
+  field.points = corners(in.points(), where + ".points");
+  field.normal = planeNormal(in.has_normal(), in.normal(), field.points.size(), where);
+  field.reach_m = checked(in.reach(), kLeastOfPlace, kMostOfPlace, where + ".reach");
+  const auto number = [&](bool wanted, double value, double most, const char* name) {
+    return wanted ? checked(value, kLeastOfPlace, most, where + name) : checked(value, 0, 0, where + name);
+  };
+  const bool drag = field.kind == FieldKind::kDrag, spring = field.kind == FieldKind::kSpring;
+  const bool unlimited = spring && in.force_n() == 0;
+  field.force_N = unlimited ? kMostFieldForce_N : number(!drag, in.force_n(), kMostFieldForce_N, ".forceN");
+  field.stiffness_N_m = number(spring, in.stiffness_n_m(), kMostFieldStiffness_N_m, ".stiffnessNM");
+  field.damping_Ns_m = number(drag, in.damping_ns_m(), kMostFieldDamping_Ns_m, ".dampingNsM");
+  if (field.kind == FieldKind::kConstant) field.direction = unit(in.direction(), where + ".direction");
+  return field;
+}
+
+FieldList SceneDecoder::fields(const google::protobuf::RepeatedPtrField<proto::Field>& in,
+                               const std::string& where) const {
+  if (static_cast<std::size_t>(in.size()) > kMostFields)
+    fail(where, fmt::format("{}: there are more than {}", where, kMostFields));
+  FieldList fields;
+  for (int i = 0; i < in.size(); ++i) fields.push_back(field(in[i], pathOf(where, i)));
+  return fields;
+}
+
+SnapList SceneDecoder::snaps(const google::protobuf::RepeatedPtrField<proto::Snap>& in,
+                             const std::string& where) const {
+  if (static_cast<std::size_t>(in.size()) > kMostSnaps)
+    fail(where, fmt::format("{}: there are more than {}", where, kMostSnaps));
+  SnapList snaps;
+  for (int i = 0; i < in.size(); ++i) snaps.push_back(snap(in[i], pathOf(where, i)));
+  return snaps;
 }
 
 Vec3 SceneDecoder::checked(const proto::Vec3& value, double most, const std::string& where) const {

@@ -8,8 +8,10 @@
 #include <string>
 
 #include "scene/body_spec.h"
+#include "scene/field_spec.h"
 #include "scene/joint_spec.h"
 #include "scene/model.h"
+#include "scene/snap_spec.h"
 #include "scene/surface_change.h"
 
 namespace hl {
@@ -27,6 +29,8 @@ class SceneDecoder {
   /// Procedural textures and texels of at most `most_texels`; a file is refused.
   Texture texture(const proto::TextureImage& in, std::size_t most_texels, const std::string& where) const;
   BodySpec body(const proto::Body& in, const std::string& where) const;
+  SnapList snaps(const google::protobuf::RepeatedPtrField<proto::Snap>& in, const std::string& where) const;
+  FieldList fields(const google::protobuf::RepeatedPtrField<proto::Field>& in, const std::string& where) const;
   /// Without its bodies, whose names are the caller's.
   JointSpec joint(const proto::Joint& in, const std::string& where) const;
   /// Sets how a texture is read, as the message says.
@@ -41,6 +45,12 @@ class SceneDecoder {
  private:
   JointForces jointForces(const proto::Joint& in, const std::string& where) const;
   ForceTable forceTable(const proto::ForceTable& in, const std::string& where) const;
+  SnapSpec snap(const proto::Snap& in, const std::string& where) const;
+  FieldSpec field(const proto::Field& in, const std::string& where) const;
+  Vec3 unit(const proto::Vec3& in, const std::string& where) const;
+  std::optional<Vec3> planeNormal(bool given, const proto::Vec3& in, std::size_t points,
+                                  const std::string& where) const;
+  std::vector<Vec3> corners(const google::protobuf::RepeatedField<double>& in, const std::string& where) const;
   NamedTextureUse textureUse(const proto::MaterialTexture& in, const std::string& where) const;
   void addVertices(Model& model, const proto::Primitives& in, const std::string& where) const;
   void addElements(Model& model, const proto::Primitives& in, const std::string& where) const;

@@ -75,9 +75,12 @@ class SceneFile {
   Model fileModel(const std::string& name, const std::string& where);
   Placement placementOf(const proto::Transform& in, const std::string& where) const;
   Pose poseOf(const proto::Transform& in, const std::string& where) const;
-  void addAtRest(Model part, const proto::SceneObject& object, const std::string& where, Model& whole) const;
+  void addAtRest(Model part, const proto::SceneObject& object, const std::string& where, SceneModel& scene) const;
+  SnapList snapsOf(const proto::SceneObject& object, const Placement& placement, const std::string& where) const;
+  FieldList fieldsOf(const proto::SceneObject& object, const Placement& placement, const std::string& where) const;
   SceneBody bodyOf(Model part, const proto::SceneObject& object, const std::string& where, const Model& whole) const;
   void checkBodies(const SceneModel& scene) const;
+  void checkPlaces(const SceneModel& scene) const;
   std::uint64_t bodyNamed(const std::string& name, const SceneModel& scene, const std::string& where) const;
   void addJoints(SceneModel& scene) const;
 
@@ -224,11 +227,27 @@ Placement SceneFile::placementOf(const proto::Transform& in, const std::string& 
   return placement;
 }
 
-void SceneFile::addAtRest(Model part, const proto::SceneObject& object, const std::string& where, Model& whole) const {
-  placeModel(part, placementOf(object.transform(), where + ".transform"));
+// In a frame in which `placement` puts them.
+SnapList SceneFile::snapsOf(const proto::SceneObject& object, const Placement& placement,
+                            const std::string& where) const {
+  return placed(decoder_.snaps(object.snaps(), where + ".snaps"), placement);
+}
+
+FieldList SceneFile::fieldsOf(const proto::SceneObject& object, const Placement& placement,
+                              const std::string& where) const {
+  return placed(decoder_.fields(object.fields(), where + ".fields"), placement);
+}
+
+void SceneFile::addAtRest(Model part, const proto::SceneObject& object, const std::string& where,
+                          SceneModel& scene) const {
+  Model& whole = scene.model;
+  const Placement placement = placementOf(object.transform(), where + ".transform");
+  placeModel(part, placement);
   whole.materials.push_back(materialOf(object.material(), where + ".material"));
   appendPart(whole, part, static_cast<std::uint16_t>(whole.materials.size() - 1));
   for (const std::string& warning : part.warnings) whole.warnings.push_back(object.name() + ": " + warning);
+  for (SnapSpec& snap : snapsOf(object, placement, where)) scene.snaps.push_back(std::move(snap));
+  for (FieldSpec& field : fieldsOf(object, placement, where)) scene.fields.push_back(std::move(field));
 }
 
 SceneBody SceneFile::bodyOf(Model part, const proto::SceneObject& object, const std::string& where,
@@ -239,6 +258,8 @@ SceneBody SceneFile::bodyOf(Model part, const proto::SceneObject& object, const 
   placeModel(part, scaleOf(object.transform()));
   body.pose = poseOf(object.transform(), where + ".transform");
   body.spec = decoder_.body(object.body(), where + ".body");
+  body.snaps = snapsOf(object, scaleOf(object.transform()), where);
+  body.fields = fieldsOf(object, scaleOf(object.transform()), where);
   body.model = std::move(part);
   body.model.materials.assign(1, materialOf(object.material(), where + ".material"));
   for (auto* list : {&body.model.triangle_materials, &body.model.segment_materials, &body.model.point_materials})
@@ -267,6 +288,21 @@ void SceneFile::checkBodies(const SceneModel& scene) const {
       fail(where, where + ": " + error.what());
     }
   }
+}
+
+void SceneFile::checkPlaces(const SceneModel& scene) const {
+  const auto check = [&](std::size_t count, std::size_t most, const char* what) {
+    if (count > most) fail("objects", fmt::format("there are {} {} in it, and at most {} can be", count, what, most));
+  };
+  std::size_t snap_points = pointsIn(scene.snaps), field_points = pointsIn(scene.fields);
+  for (const SceneBody& body : scene.bodies) {
+    snap_points += pointsIn(body.snaps);
+    field_points += pointsIn(body.fields);
+  }
+  check(snapsIn(scene), kMostSnaps, "snaps");
+  check(snap_points, kMostSnapPoints, "points of snaps");
+  check(fieldsIn(scene), kMostFields, "fields");
+  check(field_points, kMostSnapPoints, "points of fields");
 }
 
 // Numbers from 1, as a scene's joints have them.
@@ -316,9 +352,10 @@ SceneModel SceneFile::build() {
     if (object.has_body())
       scene.bodies.push_back(bodyOf(std::move(part), object, where, whole));
     else
-      addAtRest(std::move(part), object, where, whole);
+      addAtRest(std::move(part), object, where, scene);
   }
   if (whole.materials.empty()) whole.materials.emplace_back();
+  checkPlaces(scene);
   addJoints(scene);
   scaleModel(scene, units);
   checkBodies(scene);

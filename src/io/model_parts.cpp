@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "bodies/scene_world.h"
 #include "io/body_messages.h"
+#include "io/snap_messages.h"
 #include "io/value_messages.h"
 
 namespace hl {
@@ -68,13 +69,29 @@ void PartSender::scene(const SceneModel& scene) {
     part.Clear();
     toProto(body, *part.mutable_rigid_body());
     send(part);
+    places(body.snaps, body.fields);
     model(body.model);
   }
+  places(scene.snaps, scene.fields);
   part.set_joined_vertices(rest.reading.joined_vertices);
   send(part);
   part.set_single_precision(rest.reading.single_precision);
   send(part);
   model(rest);
+}
+
+void PartSender::places(const SnapList& snaps, const FieldList& fields) {
+  proto::ReadingPart part;
+  for (const SnapSpec& snap : snaps) {
+    part.Clear();
+    toProto(snap, *part.mutable_snap());
+    send(part);
+  }
+  for (const FieldSpec& field : fields) {
+    part.Clear();
+    toProto(field, *part.mutable_field());
+    send(part);
+  }
 }
 
 void PartSender::model(const Model& model) {
@@ -129,6 +146,32 @@ void PartCollector::addBody(const proto::RecordedBody& body) {
   in_body_ = true;
 }
 
+void PartCollector::addSnap(const proto::RecordedSnap& snap) {
+  if (snapsIn(scene_) >= kMostSnaps) throw Error("it has too many snaps");
+  (in_body_ ? scene_.bodies.back().snaps : scene_.snaps).push_back(snapOf(snap));
+}
+
+void PartCollector::addField(const proto::RecordedField& field) {
+  if (fieldsIn(scene_) >= kMostFields) throw Error("it has too many fields");
+  (in_body_ ? scene_.bodies.back().fields : scene_.fields).push_back(fieldOf(field));
+}
+
+void PartCollector::addToScene(const proto::ReadingPart& part) {
+  switch (part.body_case()) {
+    case proto::ReadingPart::kRigidBody:
+      return addBody(part.rigid_body());
+    case proto::ReadingPart::kSnap:
+      return addSnap(part.snap());
+    case proto::ReadingPart::kField:
+      return addField(part.field());
+    case proto::ReadingPart::kMechanics:
+      scene_.mechanics = mechanicsOf(part.mechanics());
+      return;
+    default:
+      throw Error("it says nothing");
+  }
+}
+
 PartCollector::State PartCollector::add(const proto::ReadingPart& part, std::size_t bytes,
                                         const std::function<void(double)>& progress) {
   if (bytes > left_) throw Error("it is too large");
@@ -157,16 +200,10 @@ PartCollector::State PartCollector::add(const proto::ReadingPart& part, std::siz
       return State::kMore;
     case proto::ReadingPart::kMesh:
       return addMesh(part.mesh());
-    case proto::ReadingPart::kRigidBody:
-      addBody(part.rigid_body());
+    default:
+      addToScene(part);
       return State::kMore;
-    case proto::ReadingPart::kMechanics:
-      scene_.mechanics = mechanicsOf(part.mechanics());
-      return State::kMore;
-    case proto::ReadingPart::BODY_NOT_SET:
-      break;
   }
-  throw Error("it says nothing");
 }
 
 Model PartCollector::takeModel() {

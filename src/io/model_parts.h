@@ -27,6 +27,7 @@ class PartSender {
 
  private:
   void model(const Model& model);
+  void places(const SnapList& snaps, const FieldList& fields);
   void send(const proto::ReadingPart& part);
 
   int descriptor_;
@@ -49,7 +50,10 @@ class PartCollector {
  private:
   State addMesh(const proto::RecordedShape& part);
   Model takeModel();
+  void addToScene(const proto::ReadingPart& part);
   void addBody(const proto::RecordedBody& body);
+  void addSnap(const proto::RecordedSnap& snap);
+  void addField(const proto::RecordedField& field);
   void addTexture(const proto::RecordedTexture& texture);
   void addMaterial(const proto::Values& material);
   void addWarning(const std::string& warning);

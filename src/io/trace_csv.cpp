@@ -49,7 +49,7 @@ std::vector<std::string> columnsOf(const std::vector<std::string>& bodies) {
 }
 
 TraceWriter::TraceWriter(const std::string& file, std::initializer_list<std::string> read,
-                         const std::vector<std::string>& bodies)
+                         const std::vector<std::string>& bodies, bool snaps)
     : file_(file, read) {
   file_.write(
       "t,finger_x,finger_y,finger_z,proxy_x,proxy_y,proxy_z,target_x,target_y,target_z,force_x,force_y,force_z,"
@@ -59,7 +59,7 @@ TraceWriter::TraceWriter(const std::string& file, std::initializer_list<std::str
       file_.print(",{}_{}", column, part);
   }
   if (!bodies.empty()) file_.write(",kinetic_J,gravity_J,by_hand_J,contact_J,friction_J,solver_J,world_hash");
-  file_.write("\n");
+  file_.write(snaps ? ",snap\n" : "\n");
 }
 
 void TraceWriter::write(const TraceRow& row) {
@@ -71,6 +71,7 @@ void TraceWriter::write(const TraceRow& row) {
   }
   fmt::format_to(out, ",{},{},{:.17g},{}", row.contacts, row.iterations, row.injected_J, row.tick_ns);
   if (!row.bodies.empty()) addBodies(line, row);
+  if (row.snap) fmt::format_to(std::back_inserter(line), ",{}", *row.snap);
   line.push_back('\n');
   file_.write({line.data(), line.size()});
 }

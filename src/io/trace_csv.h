@@ -13,9 +13,9 @@ namespace hl {
 /// Throws hl::Error when the file cannot be written.
 class TraceWriter {
  public:
-  /// `read`: files that it may not overwrite. `bodies`: names of those that rows have.
+  /// `read`: files that it may not overwrite. `bodies`: names of those that rows have. `snaps`: rows have a snap.
   explicit TraceWriter(const std::string& file, std::initializer_list<std::string> read = {},
-                       const std::vector<std::string>& bodies = {});
+                       const std::vector<std::string>& bodies = {}, bool snaps = false);
   void write(const TraceRow& row);
   void close() { file_.close(); }  ///< without it, a failure of the last write goes unnoticed
 

@@ -1,7 +1,9 @@
 // TraceRow: what one tick of a trace came to.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "base/vec.h"
@@ -35,6 +37,8 @@ struct TraceRow {
 
   std::span<const TracedBody> bodies{};  ///< by key; empty: nothing in the scene moves as a body. Until the next row
   TracedWorld world{};                   ///< if there are bodies
+  /// The snap that holds the proxy, from 1 in the order of the scene; 0: none. Absent: the scene has none.
+  std::optional<std::size_t> snap{};
 };
 
 }  // namespace hl

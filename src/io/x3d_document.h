@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "scene/texture.h"
 
 namespace hl {
 

@@ -9,7 +9,7 @@ namespace hl {
 
 /// Before a tick, after the proxy was carried: follows what the mesh has moved since the last tick. RT-safe.
 void followDeformation(ProxyState& state, const SceneAt& scene, const ProxySettings& settings);
-/// After a tick to `finger`: remembers the contact and its force. RT-safe.
+/// After a tick to `finger`, or to where a snap drew it: remembers the contact and its force. RT-safe.
 void rememberDeformation(ProxyState& state, const SceneAt& scene, const ProxySettings& settings,
                          const TickReport& report, const Vec3& finger);
 

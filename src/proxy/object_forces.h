@@ -3,7 +3,7 @@
 //
 // The spring's force K s (proxy - finger) is shared by the active contacts. Contact i presses with K s lambda_i along
 // its normal. The rest is friction, divided in proportion to the friction limit of each contact, mu_i lambda_i, or to
-// lambda_i if no contact has friction.
+// lambda_i if no contact has friction. What a snap holds (snapping.h) is the force of its object at its point.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@ struct ObjectForce {
   Vec3 point = Vec3::Zero();  ///< m, world: point of action on the object; the proxy's position if key is 0
   Vec3 force_N = Vec3::Zero();
 };
-/// At most one per active contact, and one per object.
-using ObjectForces = FixedVector<ObjectForce, 3>;
+/// At most one per active contact, and one per object, but for that of a snap.
+using ObjectForces = FixedVector<ObjectForce, 4>;
 
 /// Forces after the tick that returned `state` and `report` for `finger`. Their sum is K (target - finger) /
 /// world_per_device, to rounding. RT-safe.

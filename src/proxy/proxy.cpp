@@ -5,6 +5,7 @@
 #include "proxy/begin.h"
 #include "proxy/carry.h"
 #include "proxy/follow_deformation.h"
+#include "proxy/snapping.h"
 #include "proxy/spring_energy.h"
 #include "proxy/tick.h"
 #include "proxy/tolerances.h"
@@ -14,10 +15,11 @@ namespace hl {
 
 namespace {
 
-// Key of the object whose friction holds the proxy most strongly; it carries the proxy in the next tick. 0: none.
-std::uint64_t carrierOf(const SceneAt& scene, const TickReport& report) {
+// Key of the object whose friction holds the proxy most strongly, or else of its snap; it carries the proxy in the next
+// tick. 0: none.
+std::uint64_t carrierOf(const SceneAt& scene, const TickReport& report, const HeldSnap& snap) {
   double most = 0;
-  std::uint64_t key = 0;
+  std::uint64_t key = snap.key;
   for (const ProxyContact& contact : report.contacts) {
     if (!contact.rough || contact.multiplier_m <= most) continue;
     most = contact.multiplier_m;
@@ -26,19 +28,14 @@ std::uint64_t carrierOf(const SceneAt& scene, const TickReport& report) {
   return key;
 }
 
-double energyOf_J(const ProxyState& state, const ProxySettings& settings, const Vec3& finger) {
-  const Vec3 gap_D = (state.position + state.rest_offset_m - finger) / settings.world_per_device;
-  return springEnergy_J(settings.spring_N_m, state.stiffness, gap_D.squaredNorm());
-}
-
 // Moves the proxy with the moving objects, and the rest of its spring with their frames. Returns the energy change, J.
 // This work is done by the objects, not by the rules of the surfaces, so no tank pays for it.
 double carryAlong(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
-  const double before_J = energyOf_J(state, settings, finger);
+  const double before_J = springEnergy_J(settings, state, finger);
   carry(state, scene, settings);
   followDeformation(state, scene, settings);
   yieldToFrames(state, scene, settings);
-  const double moved_J = energyOf_J(state, settings, finger) - before_J;
+  const double moved_J = springEnergy_J(settings, state, finger) - before_J;
   if (moved_J > 0) state.ledger.add(EnergyCause::kMoving, moved_J);
   return moved_J;
 }
@@ -69,6 +66,22 @@ TickReport tickTo(const Vec3& finger, ProxyState& state, const SceneAt& scene, c
   return report;
 }
 
+// A tick in which a snap may take the proxy, hold it or let go of it.
+TickReport tickWithSnaps(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger,
+                         int most_looks) {
+  const auto tick_to = [&](const Vec3& goal, ProxyState& at, int looks) {
+    TickReport report = tickTo(goal, at, scene, settings, most_looks - looks);
+    report.looks += looks;
+    if (report.used_up_at > 0) report.used_up_at += looks;
+    return report;
+  };
+  const bool was_held = state.snap.holds();
+  if (!was_held && scene.snapshot().snaps.empty()) return tick_to(finger, state, 0);
+  const std::optional<Vec3> goal = followSnap(state, scene, settings, finger);
+  if (goal) return tickSnapped(state, settings, finger, *goal, tick_to);
+  return was_held ? tickReleased(state, finger, tick_to) : tick_to(finger, state, 0);
+}
+
 }  // namespace
 
 ProxyState startProxy(const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
@@ -84,13 +97,14 @@ TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& se
     return notRun(Ending::kUnplaced, finger);
   const double moved_J = carryAlong(state, scene, settings, finger);
   if (!canBeFinger(finger - state.rest_offset_m)) state.rest_offset_m = Vec3::Zero();
-  TickReport report = tickTo(finger, state, scene, settings, most_looks);
+  TickReport report = tickWithSnaps(state, scene, settings, finger, most_looks);
   report.moved_J = moved_J;
-  rememberDeformation(state, scene, settings, report, finger);
-  rememberYielding(state, scene, settings, report, finger);
+  const Vec3 aim = finger + report.snap_pull_m;  // what the contacts hold the proxy from
+  rememberDeformation(state, scene, settings, report, aim);
+  rememberYielding(state, scene, settings, report, aim);
   state.time_ns = scene.time_ns();
   state.snapshot = scene.snapshot().number;
-  state.carrier = carrierOf(scene, report);
+  state.carrier = carrierOf(scene, report, state.snap);
   state.adhering = adheringOf(scene, settings, report);
   return report;
 }

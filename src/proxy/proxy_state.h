@@ -56,21 +56,29 @@ struct YieldingContact {
 };
 using YieldingContacts = FixedVector<YieldingContact, 3>;
 
+/// The snap that holds the proxy (snapping.h).
+struct HeldSnap {
+  std::uint64_t key = 0;     ///< of its instance; 0: none holds it
+  std::uint32_t number = 0;  ///< in Instance::snaps
+  bool holds() const { return key != 0; }
+};
+
 /// World frame. Owned by the proxy loop.
 struct ProxyState {
   Vec3 position = Vec3::Zero();        ///< centre of the sphere
   bool free = false;                   ///< false until a position clear of the scene has been found near the finger
-  bool touching = false;               ///< the last tick ended in contact, or between two contacts
+  bool touching = false;               ///< the last tick ended in contact, between two contacts, or held by a snap
   double rest_s = accuracy::kStuck_s;  ///< time since the last slip; from kStuck_s on it is stuck
   Vec3 presliding_m = Vec3::Zero();    ///< m, pre-sliding offset from where the proxy stuck
   double stiffness = 1;                ///< stiffness s of the last tick's target; 1 without contact
   std::int64_t time_ns = 0;            ///< scene time of the last tick
   std::uint64_t snapshot = 0;          ///< number of the snapshot of the last tick; 0: none yet
-  std::uint64_t carrier = 0;           ///< key of the object whose friction holds the proxy; 0: none
-  AdheringContacts adhering{};         ///< adhesive contacts of the last tick (adhesion.h)
-  YieldingContacts yielding{};         ///< contacts of the last tick; empty if none of them yields
-  double yielding_stiffness = 1;       ///< s of these contacts
-  Vec3 rest_offset_m = Vec3::Zero();   ///< where the spring is fixed - proxy; 0 if nothing yields (yielding.h)
+  std::uint64_t carrier = 0;           ///< key of the object whose friction or snap holds the proxy; 0: none
+  HeldSnap snap{};
+  AdheringContacts adhering{};        ///< adhesive contacts of the last tick (adhesion.h)
+  YieldingContacts yielding{};        ///< contacts of the last tick; empty if none of them yields
+  double yielding_stiffness = 1;      ///< s of these contacts
+  Vec3 rest_offset_m = Vec3::Zero();  ///< where the spring is fixed - proxy; 0 if nothing yields (yielding.h)
   ComplianceEstimate estimate{};
   Ledger ledger{};
   int out_of_work = 0;  ///< consecutive ticks that ran out of work; more of them raise the limit (mostWork in tick.cpp)

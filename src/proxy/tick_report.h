@@ -15,8 +15,8 @@ namespace hl {
 struct ProxyContact {
   Vec3 point;   ///< on the surface, nearest the proxy
   Vec3 normal;  ///< unit, from the surface to the proxy: the shading normal
-  /// Multiplier: rest of the spring - finger = sum multiplier_m * normal. The rest is the proxy, unless a surface
-  /// yields (yielding.h). Times K s: the normal force. Negative: the surface pulls.
+  /// Multiplier: rest of the spring - finger = sum multiplier_m * normal + snap_pull_m. The rest is the proxy, unless a
+  /// surface yields (yielding.h). Times K s: the normal force. Negative: the surface pulls.
   double multiplier_m;
   PrimitiveId primitive;
   double stiffness;                        ///< s of the surface at this point, 0..1
@@ -51,6 +51,9 @@ struct TickReport {
   FixedVector<ProxyContact, 3> contacts;
   Vec3 target =
       Vec3::Zero();  ///< where the servo pulls the finger: the rest of its spring, softened by the surface stiffness
+  /// Of a proxy that a snap holds (snapping.h): the point of the snap, and its part of rest of the spring - finger,
+  /// which no contact holds. Times K s it is its force. World.
+  Vec3 snap_point = Vec3::Zero(), snap_pull_m = Vec3::Zero();
   double injected_J = 0;  ///< change of the spring's energy by the tick: positive: added, negative: dissipated
   double moved_J = 0;     ///< change of the spring's energy by moving objects before the tick
   int iterations = 0;

@@ -33,7 +33,7 @@ double yieldingStiffness(const SceneAt& scene, const ProxySettings& settings, co
 /// clients have changed since. RT-safe.
 void yieldToFrames(ProxyState& state, const SceneAt& scene, const ProxySettings& settings);
 
-/// After a tick to `finger`: remembers the contacts, if one of them yields. RT-safe.
+/// After a tick to `finger`, or to where a snap drew it: remembers the contacts, if one of them yields. RT-safe.
 void rememberYielding(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const TickReport& report,
                       const Vec3& finger);
 

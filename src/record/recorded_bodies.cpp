@@ -90,6 +90,7 @@ void toProto(const BodiesMemory& memory, proto::RecordedBodies& out) {
   toProtoList(world.memory.all(), *out.mutable_contacts());
   toProtoList(world.asleep.all(), *out.mutable_asleep());
   toProtoList(memory.owed, *out.mutable_owed());
+  toProtoList(memory.drawn, *out.mutable_drawn());
   toProtoList(memory.held_by, *out.mutable_held_by());
   toProtoList(memory.pushes, *out.mutable_pushes());
 }
@@ -115,6 +116,7 @@ BodiesMemory fromProto(const proto::RecordedBodies& in) {
   readContacts(in.contacts(), world.bodies.size(), world.memory);
   readContacts(in.asleep(), world.bodies.size(), world.asleep);
   readFixed(in.owed(), memory.owed);
+  readFixed(in.drawn(), memory.drawn);
   readFixed(in.held_by(), memory.held_by);
   readFixed(in.pushes(), memory.pushes);
   return memory;

@@ -18,6 +18,7 @@ struct MemoryValues {
   double stiffness = 1;
   std::int64_t time_ns = 0;
   std::uint64_t snapshot = 0, carrier = 0;
+  HeldSnap snap;
   Ledger ledger;
   int out_of_work = 0, start = 0;
   FadingPull fading;
@@ -43,6 +44,7 @@ void checkMemory(const MemoryValues& in) {
   checkVector("presliding_m", in.presliding_m);
   checkVector("offset", in.fading.offset);
   checkVector("proxy_D", in.told.proxy_D);
+  checkVector("field_N", in.told.field_N);
   checkTime(in.time_ns, "the last tick before the recording");
   checkTime(in.told.time_ns, "the last target before the recording");
   checkRanges("the memory of the proxy",
@@ -54,6 +56,7 @@ void checkMemory(const MemoryValues& in) {
                {"left_s", in.fading.left_s, 0, kMaxMemory},
                {"told.stiffness", in.told.stiffness, 0, 1},
                {"told.paid_J", in.told.paid_J, -kMaxMemory, kMaxMemory},
+               {"told.field_drag_Ns_m", in.told.field_drag_Ns_m, 0, kMaxMemory},
                {"tank_J", in.ledger.tank_J, 0, kMaxMemory},
                {"injected_J", in.ledger.injected_J, -kMaxMemory, kMaxMemory},
                {"dissipated_J", in.ledger.dissipated_J, -kMaxMemory, kMaxMemory}});
@@ -124,9 +127,10 @@ AdheringContacts adheringOf(const proto::RecordedProxy& in) {
 
 void toProto(const ProxyMemory& memory, proto::RecordedProxy& out) {
   const ProxyState& state = memory.state;
-  const MemoryValues values{state.position,    state.free,         state.touching, state.rest_s,  state.presliding_m,
-                            state.stiffness,   state.time_ns,      state.snapshot, state.carrier, state.ledger,
-                            state.out_of_work, state.start.next(), memory.fading,  memory.told,   memory.restarts};
+  const MemoryValues values{state.position,     state.free,      state.touching, state.rest_s,
+                            state.presliding_m, state.stiffness, state.time_ns,  state.snapshot,
+                            state.carrier,      state.snap,      state.ledger,   state.out_of_work,
+                            state.start.next(), memory.fading,   memory.told,    memory.restarts};
   toProto(valuesOf(values), *out.mutable_memory());
   for (const AdheringContact& contact : state.adhering) {
     add(*out.mutable_adhering(), contact.normal);
@@ -152,6 +156,7 @@ ProxyMemory fromProto(const proto::RecordedProxy& in) {
   state.time_ns = values.time_ns;
   state.snapshot = values.snapshot;
   state.carrier = values.carrier;
+  state.snap = values.snap;
   state.adhering = adheringOf(in);
   readYielding(in, state);
   state.ledger = values.ledger;

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "io/body_messages.h"
+#include "io/snap_messages.h"
 #include "io/value_messages.h"
 
 namespace hl {
@@ -52,6 +53,20 @@ std::shared_ptr<const ComplianceMotion> complianceOf(const proto::RecordedInstan
   return std::make_shared<const ComplianceMotion>(ways.earlier, ways.last);
 }
 
+std::shared_ptr<const SnapList> snapsOf(const proto::RecordedInstance& in) {
+  if (in.snaps_size() == 0) return nullptr;
+  SnapList snaps;
+  for (const proto::RecordedSnap& snap : in.snaps()) snaps.push_back(snapOf(snap));
+  return std::make_shared<const SnapList>(std::move(snaps));
+}
+
+std::shared_ptr<const FieldList> fieldsOf(const proto::RecordedInstance& in) {
+  if (in.fields_size() == 0) return nullptr;
+  FieldList fields;
+  for (const proto::RecordedField& field : in.fields()) fields.push_back(fieldOf(field));
+  return std::make_shared<const FieldList>(std::move(fields));
+}
+
 Ways waysOf(const proto::Values& in) {
   Ways ways;
   readValues(in, "a motion", ways);
@@ -79,6 +94,12 @@ void encode(const Instance& instance, proto::RecordedInstance& out) {
   out.set_name(instance.name);
   out.set_item(instance.item);
   out.set_answers_force(instance.answers_force);
+  if (instance.snaps) {
+    for (const SnapSpec& snap : *instance.snaps) toProto(snap, *out.add_snaps());
+  }
+  if (instance.fields) {
+    for (const FieldSpec& field : *instance.fields) toProto(field, *out.add_fields());
+  }
   if (!instance.compliance) return;
   const ComplianceWays yields{instance.compliance->earlier(), instance.compliance->last()};
   toProto(valuesOf(yields), *out.mutable_compliance());
@@ -218,6 +239,8 @@ std::shared_ptr<const Snapshot> SceneReader::scene(const proto::RecordedScene& i
     instances.back().compliance = complianceOf(placed);
     instances.back().item = placed.item();
     instances.back().answers_force = placed.answers_force();
+    instances.back().snaps = snapsOf(placed);
+    instances.back().fields = fieldsOf(placed);
     setBody(placed.body(), instances.back());
     bodies += instances.back().movesAsBody() ? 1 : 0;
   }

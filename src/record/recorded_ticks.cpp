@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "bodies/world_hash.h"
 #include "io/value_messages.h"
+#include "record/recorded_fields.h"
 
 namespace hl {
 
@@ -107,6 +108,8 @@ TickRecord tickOf(const proto::ProxyTicks& in, int i, std::int64_t before_ns) {
   record.in.finger_D = at(in.finger(), i);
   record.target = {at(in.target_proxy(), i), record.in.time_ns, in.target_valid(i), in.target_stiffness(i),
                    in.target_paid_j(i)};
+  if (in.field_n_size() > 0) record.target.field_N = at(in.field_n(), i);
+  if (in.field_drag_ns_m_size() > 0) record.target.field_drag_Ns_m = in.field_drag_ns_m(i);
   record.proxy = at(in.proxy(), i);
   record.contacts = in.contacts(i);
   record.work_ns = in.work_ns(i);
@@ -136,6 +139,7 @@ bool consistent(const proto::ProxyTicks& in) {
               in.work_ns_size()},
              1) &&
          (in.used_up_at_size() == 0 || in.used_up_at_size() == n) &&
+         (in.field_n_size() == 0 || in.field_n_size() == 3 * n) && 3 * in.field_drag_ns_m_size() == in.field_n_size() &&
          (in.world_hash_size() == 0 || in.world_hash_size() == n) &&
          all({in.finger_size(), in.target_proxy_size(), in.proxy_size()}, 3);
 }
@@ -167,6 +171,7 @@ void toProto(std::span<const TickRecord> records, std::uint64_t first, proto::Pr
     context = std::move(now);
   }
   addBodyCommands(records, out);
+  addFields(records, out);
   const auto& hashes = out.world_hash();
   if (std::all_of(hashes.begin(), hashes.end(), [](std::uint64_t hash) { return hash == 0; })) out.clear_world_hash();
 }

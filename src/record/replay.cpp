@@ -31,7 +31,9 @@ Values partsOf(const Parts&... parts) {
 }
 
 Values partsOf(const ServoOutput& out) { return partsOf(out.force_N, out.safety, out.fault); }
-Values partsOf(const ServoTarget& t) { return partsOf(t.proxy_D, t.time_ns, t.valid, t.stiffness, t.paid_J); }
+Values partsOf(const ServoTarget& t) {
+  return partsOf(t.proxy_D, t.time_ns, t.valid, t.stiffness, t.paid_J, t.field_N, t.field_drag_Ns_m);
+}
 
 /// How many are missing before number `first`. Blocks rise, and no session comes near the last number there is.
 std::uint64_t gapOf(std::uint64_t first, std::uint64_t next) {

@@ -109,6 +109,10 @@ class EditableScene::Flattening {
   void visit(const SceneItems& items, const Call& caller);
   void enter(const SceneItem& item, const Call& call);
   void add(const SceneItem& item, const Call& call, std::uint32_t number);
+  void countBody();
+  void addPlaces(const SceneItems& items, const Call& call, bool to_body);
+  void count(const SceneItems& items);
+  PlacedShape& place(const std::shared_ptr<const Shape>& shape, const Pose& pose, const Call& call);
   std::shared_ptr<const Shape> shapeOf(const std::shared_ptr<const Shape>& shape, const Mat3& stretch);
   std::shared_ptr<const Surfaces> surfacesOf(const SurfaceChange& change);
 
@@ -117,7 +121,7 @@ class EditableScene::Flattening {
   MemoryShare memory_;  // memory of the placed shapes and their surfaces
   PlacedList placed_;
   std::vector<std::uint32_t> path_;
-  std::size_t visits_ = 0, bodies_ = 0;
+  std::size_t visits_ = 0, bodies_ = 0, snaps_ = 0, snap_points_ = 0, fields_ = 0, field_points_ = 0;
   ModelSizes copies_;  // sizes of the stretched copies; a small matrix makes a copy of a large shape
   SurfaceChange last_change_;
   std::shared_ptr<const Surfaces> last_surfaces_;  // of last_change_; most objects repeat it
@@ -153,14 +157,24 @@ void EditableScene::Flattening::enter(const SceneItem& item, const Call& call) {
   Call inner = call;
   inner.object = item.call;
   inner.body = found->second->body;
-  visit(*found->second, inner);
+  const SceneItems& items = *found->second;
+  const std::size_t before = placed_.size();
+  visit(items, inner);
+  if (items.snaps || items.fields) addPlaces(items, inner, items.body && placed_.size() > before);
   path_.pop_back();
+}
+
+PlacedShape& EditableScene::Flattening::place(const std::shared_ptr<const Shape>& shape, const Pose& pose,
+                                              const Call& call) {
+  if (placed_.size() >= scene_.limits_.instances)
+    throw Error("there are more than " + std::to_string(scene_.limits_.instances) + " objects in the world");
+  memory_.take(bytesInWorld());
+  placed_.push_back({shape, surfacesOf(call.surface), pose, call.key, scene_.session_, call.object, call.name});
+  return placed_.back();
 }
 
 void EditableScene::Flattening::add(const SceneItem& item, const Call& call, std::uint32_t number) {
   if (item.shape->count() == 0) return;
-  if (placed_.size() >= scene_.limits_.instances)
-    throw Error("there are more than " + std::to_string(scene_.limits_.instances) + " objects in the world");
   const Polar polar = polarOf(call.placement.linear);
   const Pose pose{polar.rotation, call.placement.offset};
   const std::shared_ptr<const Shape> shape = shapeOf(item.shape, polar.stretch);
@@ -168,17 +182,52 @@ void EditableScene::Flattening::add(const SceneItem& item, const Call& call, std
   if (shape->count() == 0) return;
   if (!pose.origin.allFinite() || !withinReach(box.min) || !withinReach(box.max))
     throw Error("an object lies farther than 1e9 m from the origin: nothing so far can be touched");
-  memory_.take(bytesInWorld());
-  PlacedShape placed{shape, surfacesOf(call.surface), pose, call.key, scene_.session_, call.object, call.name, number};
+  PlacedShape& placed = place(shape, pose, call);
+  placed.item = number;
   const auto found = state_.compliances.find(call.object);
   if (found != state_.compliances.end()) placed.compliance = found->second;
   placed.answers_force = state_.answers_force;
   placed.body = call.body;
-  placed_.push_back(std::move(placed));
-  if (!placed_.back().movesAsBody()) return;
+  if (placed.movesAsBody()) countBody();
+}
+
+void EditableScene::Flattening::countBody() {
   memory_.take(kBody_bytes);
   if (++bodies_ > scene_.limits_.bodies)
     throw Error("there are more than " + std::to_string(scene_.limits_.bodies) + " bodies in the world");
+}
+
+void EditableScene::Flattening::count(const SceneItems& items) {
+  const auto check = [](std::size_t count, std::size_t most, const char* what) {
+    if (count > most) throw Error("there are more than " + std::to_string(most) + " " + what + " in the world");
+  };
+  snaps_ += items.snaps ? items.snaps->size() : 0;
+  snap_points_ += items.snaps ? pointsIn(*items.snaps) : 0;
+  fields_ += items.fields ? items.fields->size() : 0;
+  field_points_ += items.fields ? pointsIn(*items.fields) : 0;
+  check(snaps_, kMostSnaps, "snaps");
+  check(snap_points_, kMostSnapPoints, "points of snaps");
+  check(fields_, kMostFields, "fields");
+  check(field_points_, kMostSnapPoints, "points of fields");
+  memory_.take(2 * kPointer_bytes + (items.snaps ? bytesOf(*items.snaps) : 0) +
+               (items.fields ? bytesOf(*items.fields) : 0));
+}
+
+// Snaps and fields of a body move with it. Others get an instance of their own, so that an object needs nothing to
+// touch.
+void EditableScene::Flattening::addPlaces(const SceneItems& items, const Call& call, bool to_body) {
+  static const std::shared_ptr<const Shape> kNothing = makeShape(Model{});
+  constexpr std::uint64_t kOwnKey = 0x736e6170;
+  const Polar polar = polarOf(call.placement.linear);
+  if (!withinReach(call.placement.offset))
+    throw Error("a snap or field lies farther than 1e9 m from the origin: nothing so far can be felt");
+  count(items);
+  Call there = call;
+  there.key = mixed(call.key, kOwnKey);
+  PlacedShape& own = to_body ? placed_.back() : place(kNothing, {polar.rotation, call.placement.offset}, there);
+  const Placement stretch{polar.stretch, Vec3::Zero()};
+  if (items.snaps) own.snaps = std::make_shared<const SnapList>(hl::placed(*items.snaps, stretch));
+  if (items.fields) own.fields = std::make_shared<const FieldList>(hl::placed(*items.fields, stretch));
 }
 
 // The hierarchy of a new copy is refitted from that of the copy that it replaces, or else from that of the shape.
@@ -337,9 +386,15 @@ bool isDeformed(const Instance& before, const PlacedShape& now) {
          before.shape->model.materials.size() <= now.surfaces->materials.size();
 }
 
+template <typename List>
+bool same(const std::shared_ptr<const List>& a, const std::shared_ptr<const List>& b) {
+  return a == b || (a && b && *a == *b);
+}
+
 // Contribution of one object to Snapshot::blend_ns. `before`: the object in the last snapshot; null: none.
 std::int64_t blendOf(const Instance* before, const Instance& now, const PlacedShape& placed) {
   if (before == nullptr || !(*before->surfaces == *now.surfaces)) return kAbruptBlend_ns;
+  if (!same(before->snaps, now.snaps)) return kAbruptBlend_ns;
   if (before->movesAsBody() != now.movesAsBody()) return kAbruptBlend_ns;
   if (now.movesAsBody() && before->shape->model.positions != now.shape->model.positions) return kAbruptBlend_ns;
   if (!now.motion.moves() && !(before->motion.to() == now.motion.to())) return kAbruptBlend_ns;
@@ -384,6 +439,8 @@ Instance follow(const PlacedShape& now, const Instance* before, std::int64_t beg
   Instance instance{now.shape, now.surfaces, Motion(now.pose), now.key, now.session, now.object, now.name};
   instance.item = now.item;
   instance.answers_force = now.answers_force;
+  instance.snaps = now.snaps;
+  instance.fields = now.fields;
   if (now.compliance) instance.compliance = std::make_shared<const ComplianceMotion>(*now.compliance);
   if (now.body)
     setBody(instance, followBody("object " + std::to_string(now.object), {*now.body, now.pose, now.shape->bounds},

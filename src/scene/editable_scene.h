@@ -31,8 +31,10 @@ struct SceneItem {
 };
 struct SceneItems : std::vector<SceneItem> {
   using std::vector<SceneItem>::vector;
-  std::shared_ptr<const BodySpec> body{};  ///< each shape that it places directly is a rigid body; null: none is
-  std::vector<CalledJoint> joints;         ///< of the world; objects have none
+  std::shared_ptr<const BodySpec> body{};     ///< each shape that it places directly is a rigid body; null: none is
+  std::shared_ptr<const SnapList> snaps{};    ///< of each call of the object; null: none
+  std::shared_ptr<const FieldList> fields{};  ///< the same
+  std::vector<CalledJoint> joints;            ///< of the world; objects have none
 };
 /// Memory of a list of `count` items.
 std::size_t bytesOfItems(std::size_t count);

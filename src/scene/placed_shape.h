@@ -17,10 +17,12 @@ struct PlacedShape {
   Pose pose;
   std::uint64_t key = 0;  ///< from the calls that lead to it: the same from frame to frame
   std::uint32_t session = 0, object = 0, name = 0;
-  std::uint32_t item = 0;                  ///< as in Instance
-  std::optional<Compliance> compliance{};  ///< of its object
-  bool answers_force = false;              ///< as in Instance
-  std::shared_ptr<const BodySpec> body{};  ///< it is a rigid body that starts at `pose`; null: it is none
+  std::uint32_t item = 0;                     ///< as in Instance
+  std::optional<Compliance> compliance{};     ///< of its object
+  bool answers_force = false;                 ///< as in Instance
+  std::shared_ptr<const BodySpec> body{};     ///< it is a rigid body that starts at `pose`; null: it is none
+  std::shared_ptr<const SnapList> snaps{};    ///< in the frame of `pose`; null: none
+  std::shared_ptr<const FieldList> fields{};  ///< the same
 
   bool movesAsBody() const { return body && !body->fixed; }
 };

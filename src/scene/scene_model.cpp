@@ -26,10 +26,32 @@ void scaleJoint(JointSpec& joint, double factor, const Vec3& offset) {
   for (double& position : joint.along.table.position) position *= factor;
 }
 
-// Moves all of it by `factor` and then by `offset`.
-void moveBodies(SceneModel& scene, double factor, const Vec3& offset) {
+bool isOneModel(const SceneModel& scene) { return scene.bodies.empty() && scene.snaps.empty() && scene.fields.empty(); }
+
+void setPlaces(Instance& instance, SnapList snaps, FieldList fields) {
+  if (!snaps.empty()) instance.snaps = std::make_shared<const SnapList>(std::move(snaps));
+  if (!fields.empty()) instance.fields = std::make_shared<const FieldList>(std::move(fields));
+}
+
+void moveSnaps(SnapList& snaps, double factor, const Vec3& offset) {
+  snaps = placed(snaps, {factor * Mat3::Identity(), offset});
+  for (SnapSpec& snap : snaps) snap.capture_m *= factor;
+}
+
+// Springs stay as they are said, in newtons for a metre.
+void moveFields(FieldList& fields, double factor, const Vec3& offset) {
+  fields = placed(fields, {factor * Mat3::Identity(), offset});
+  for (FieldSpec& field : fields) field.reach_m *= factor;
+}
+
+// Moves all but the model by `factor` and then by `offset`.
+void moveRest(SceneModel& scene, double factor, const Vec3& offset) {
+  moveSnaps(scene.snaps, factor, offset);
+  moveFields(scene.fields, factor, offset);
   for (SceneBody& body : scene.bodies) {
     scaleModel(body.model, factor);
+    moveSnaps(body.snaps, factor, Vec3::Zero());
+    moveFields(body.fields, factor, Vec3::Zero());
     body.pose.origin = factor * body.pose.origin + offset;
   }
   for (JointSpec& joint : scene.mechanics.joints) scaleJoint(joint, factor, offset);
@@ -76,23 +98,35 @@ std::size_t bytesToMake(const SceneModel& scene) {
 
 void scaleModel(SceneModel& scene, double factor) {
   scaleModel(scene.model, factor);
-  moveBodies(scene, factor, Vec3::Zero());
+  moveRest(scene, factor, Vec3::Zero());
+}
+
+std::size_t snapsIn(const SceneModel& scene) {
+  std::size_t count = scene.snaps.size();
+  for (const SceneBody& body : scene.bodies) count += body.snaps.size();
+  return count;
+}
+
+std::size_t fieldsIn(const SceneModel& scene) {
+  std::size_t count = scene.fields.size();
+  for (const SceneBody& body : scene.bodies) count += body.fields.size();
+  return count;
 }
 
 double fitModel(SceneModel& scene, double side) {
-  if (scene.bodies.empty()) return fitModel(scene.model, side);
+  if (isOneModel(scene)) return fitModel(scene.model, side);
   const Box bounds = boundsOf(scene);
   const double largest = bounds.empty() ? 0 : bounds.size().maxCoeff();
   if (!(largest > 0)) return 1;
   const double factor = side / largest;
   const Vec3 offset = -factor * bounds.centre();
   placeModel(scene.model, {factor * Mat3::Identity(), offset});
-  moveBodies(scene, factor, offset);
+  moveRest(scene, factor, offset);
   return factor;
 }
 
 std::shared_ptr<const Snapshot> makeSnapshot(SceneModel scene, HierarchyKind hierarchy) {
-  if (scene.bodies.empty()) return makeSnapshot(std::move(scene.model), hierarchy);
+  if (isOneModel(scene)) return makeSnapshot(std::move(scene.model), hierarchy);
   const Box room = roomAround(boundsOf(scene));
   std::string name = scene.model.name;
   std::vector<std::string> warnings;
@@ -103,8 +137,9 @@ std::shared_ptr<const Snapshot> makeSnapshot(SceneModel scene, HierarchyKind hie
     for (const std::string& warning : instances.back().shape->warnings)
       warnings.push_back(part.empty() ? warning : part + ": " + warning);
   };
-  if (scene.model.elements() > 0) {
+  if (scene.model.elements() > 0 || !scene.snaps.empty() || !scene.fields.empty()) {
     add(scene.model, {});
+    setPlaces(instances.back(), std::move(scene.snaps), std::move(scene.fields));
   } else {
     warnings = scene.model.warnings;
   }
@@ -112,6 +147,7 @@ std::shared_ptr<const Snapshot> makeSnapshot(SceneModel scene, HierarchyKind hie
   for (SceneBody& body : scene.bodies) {
     add(body.model, body.name);
     Instance& instance = instances.back();
+    setPlaces(instance, std::move(body.snaps), std::move(body.fields));
     setBody(instance, makeRigidBody(body.name, body.spec, body.pose, instance.shape->bounds, room));
   }
   auto snapshot = std::make_shared<Snapshot>(*makeSnapshot(std::move(instances), std::move(name)));

@@ -17,6 +17,8 @@ struct SceneBody {
   Model model;  ///< object frame
   Pose pose;
   BodySpec spec;
+  SnapList snaps{};    ///< object frame
+  FieldList fields{};  ///< object frame
 };
 
 /// Metres, world frame.
@@ -24,6 +26,8 @@ struct SceneModel {
   SceneModel() = default;
   SceneModel(Model at_rest) : model(std::move(at_rest)) {}  // NOLINT: implicit, as a model is a scene
   Model model;                                              ///< what stays; its name and warnings are the scene's
+  SnapList snaps;                                           ///< of what stays
+  FieldList fields;                                         ///< of what stays
   std::vector<SceneBody> bodies;
   Mechanics mechanics;  ///< its joints number the bodies from 1 in their order
 };
@@ -33,12 +37,16 @@ std::size_t elementsIn(const SceneModel& scene);
 std::size_t bytesToMake(const SceneModel& scene);
 /// All of it where it starts, with one material for each object. Textures are left out.
 Model asOneModel(const SceneModel& scene);
-/// As those of a model. Lengths change; masses, densities and accelerations stay as they are said.
+/// As those of a model. Lengths change, also those from which snaps capture, and the reach of fields; masses, densities
+/// and accelerations stay as they are said.
 void scaleModel(SceneModel& scene, double factor);
 double fitModel(SceneModel& scene, double side);
 
-/// The model has key 1, if it has elements, and bodies follow in their order. Allocates; never called by a real-time
-/// thread.
+std::size_t snapsIn(const SceneModel& scene);
+std::size_t fieldsIn(const SceneModel& scene);
+
+/// The model has key 1, if it has elements, snaps or fields, and bodies follow in their order. Allocates; never called
+/// by a real-time thread.
 std::shared_ptr<const Snapshot> makeSnapshot(SceneModel scene, HierarchyKind hierarchy = HierarchyKind::kBvh);
 /// The same scene with its bodies where they started, apart from those of `snapshot`: what moves the ones does not move
 /// the others. Null: it has no bodies.

@@ -46,6 +46,23 @@ bool allDefault(const std::vector<Material>& materials) {
   return std::all_of(materials.begin(), materials.end(), [](const Material& one) { return one == Material{}; });
 }
 
+// Of the snaps or fields of all instances, as many as may count, with so many points.
+template <typename Placed, typename List>
+std::vector<Placed> firstOf(const std::vector<Instance>& instances, std::shared_ptr<const List> Instance::*lists,
+                            std::size_t most) {
+  std::vector<Placed> all;
+  std::size_t points = 0;
+  for (std::uint32_t i = 0; i < instances.size(); ++i) {
+    const List* const list = (instances[i].*lists).get();
+    for (std::uint32_t number = 0; list != nullptr && number < list->size(); ++number) {
+      points += (*list)[number].points.size();
+      if (all.size() == most || points > kMostSnapPoints) return all;
+      all.push_back({i, number});
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 std::shared_ptr<const Surfaces> surfacesOf(const std::shared_ptr<const Shape>& shape) {
@@ -121,6 +138,8 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, st
   }
   snapshot->moves_until_ns = std::max(snapshot->moves_until_ns, snapshot->deforms_until_ns);
   snapshot->near = BoxTree(snapshot->reach);
+  snapshot->snaps = firstOf<PlacedSnap>(snapshot->instances, &Instance::snaps, kMostSnaps);
+  snapshot->fields = firstOf<PlacedField>(snapshot->instances, &Instance::fields, kMostFields);
   return snapshot;
 }
 

@@ -9,12 +9,14 @@
 
 #include "geometry/box_tree.h"
 #include "scene/compliance.h"
+#include "scene/field_spec.h"
 #include "scene/material.h"
 #include "scene/mechanics.h"
 #include "scene/mesh_motion.h"
 #include "scene/motion.h"
 #include "scene/rigid_body.h"
 #include "scene/shape.h"
+#include "scene/snap_spec.h"
 #include "scene/texture.h"
 
 namespace hl {
@@ -41,8 +43,10 @@ struct Instance {
   std::shared_ptr<const RigidBody> body{};  ///< null: it has no mass. Its poses are the driver, unless it is fixed
   /// How it yields between the frames of a client that deforms it; null: its client has not told.
   std::shared_ptr<const ComplianceMotion> compliance{};
-  bool answers_force = false;  ///< its client deforms it by the forces that it reads
-  std::uint32_t item = 0;      ///< index of its item in the object, or in the world if `object` is 0
+  bool answers_force = false;                 ///< its client deforms it by the forces that it reads
+  std::uint32_t item = 0;                     ///< index of its item in the object, or in the world if `object` is 0
+  std::shared_ptr<const SnapList> snaps{};    ///< places that hold the proxy; null: none
+  std::shared_ptr<const FieldList> fields{};  ///< forces on the hand from its places; null: none
 
   /// Poses of the instance over time. Of a body that moves: for the loop that ticks alone.
   const PoseSource& poses() const { return driver ? *driver : static_cast<const PoseSource&>(motion); }
@@ -64,6 +68,16 @@ struct Instance {
   }
 };
 
+/// A snap of an instance.
+struct PlacedSnap {
+  std::uint32_t instance = 0, number = 0;  ///< indices in Snapshot::instances and its snaps
+};
+
+/// A field of an instance.
+struct PlacedField {
+  std::uint32_t instance = 0, number = 0;  ///< indices in Snapshot::instances and its fields
+};
+
 /// Snapshot::blend_ns when objects appear, disappear or change abruptly. At 1800 N/m and the device's 8.5 N it gives
 /// 140 N/s, about the rate at which a person presses.
 inline constexpr std::int64_t kAbruptBlend_ns = 60'000'000;
@@ -74,6 +88,8 @@ struct Snapshot {
   std::vector<Box> reach;                ///< of each instance: bounds during its whole motion, world frame
   BoxTree near;                          ///< finds instances by `reach`
   std::vector<std::uint32_t> deforming;  ///< numbers of instances whose mesh deforms
+  std::vector<PlacedSnap> snaps;         ///< of all instances, as many as may count, in their order
+  std::vector<PlacedField> fields;       ///< as `snaps`
   Box bounds;                            ///< of all instances at their final poses
   /// m: largest absolute coordinate, in the world or in an object; distances have an error of a few units in its last
   /// place.

@@ -99,6 +99,7 @@ class FrameDecoder {
   void addTextures();
   void addObjects();
   void makeBody(const proto::ObjectDefinition& object, SceneItems& items);
+  void addPlaces(const proto::ObjectDefinition& object, SceneItems& items) const;
   const SceneItems* itemsBefore(std::uint32_t object) const { return before_ ? before_(object) : nullptr; }
   bool isThere(std::uint32_t object) const;
   void warn(const std::string& where, const std::string& what);
@@ -161,6 +162,7 @@ void FrameDecoder::addObjects() {
     if (object.id() == 0) throw Error(pathOf("objects", i) + ".id must not be 0");
     std::shared_ptr<SceneItems> items = itemsOf(object.items(), object.id());
     if (object.has_body()) makeBody(object, *items);
+    addPlaces(object, *items);
     if (!result_.edit.objects.emplace(object.id(), std::move(items)).second)
       throw Error("object " + std::to_string(object.id()) + " is there twice");
   }
@@ -185,6 +187,18 @@ void FrameDecoder::makeBody(const proto::ObjectDefinition& object, SceneItems& i
     return makeShape(std::move(model), *shape);
   });
   item.placement = nullptr;
+}
+
+// Snaps and fields.
+void FrameDecoder::addPlaces(const proto::ObjectDefinition& object, SceneItems& items) const {
+  const std::string where = "object " + std::to_string(object.id());
+  const auto counted = [&](auto list) {
+    MemoryShare memory(memory_);
+    memory.take(bytesOf(list));
+    return withShare(std::make_shared<const decltype(list)>(std::move(list)), std::move(memory));
+  };
+  if (object.snaps_size() > 0) items.snaps = counted(decoder_.snaps(object.snaps(), where + ".snaps"));
+  if (object.fields_size() > 0) items.fields = counted(decoder_.fields(object.fields(), where + ".fields"));
 }
 
 std::shared_ptr<SceneItems> FrameDecoder::itemsOf(const google::protobuf::RepeatedPtrField<proto::Item>& items,

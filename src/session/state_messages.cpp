@@ -70,6 +70,13 @@ void toProto(const Ledger& ledger, const Ledger& late, LedgerMode mode, proto::L
   out.set_late_j(late.by_cause_J[static_cast<std::size_t>(EnergyCause::kLate)]);
 }
 
+void toProto(const HoldingSnap& snap, proto::HoldingSnap& out) {
+  out.set_object(snap.object.object);
+  out.set_name(snap.object.name);
+  out.set_session(snap.object.session);
+  out.set_number(snap.number);
+}
+
 void toProto(const TouchSession& session, const ServoView& servo, const ProxyView& proxy, proto::ClientState& out) {
   const Workspace workspace = session.workspace();
   out.set_time_s(session.time_s());
@@ -83,6 +90,7 @@ void toProto(const TouchSession& session, const ServoView& servo, const ProxyVie
     touched.set_session(proxy.touched[i].session);
     toProto(proxy.contacts[i], *touched.mutable_plane());
   }
+  if (proxy.snap.object.key != 0) toProto(proxy.snap, *out.mutable_snap());
   out.set_safety(static_cast<proto::SafetyState>(servo.safety));
   if (servo.safety == SafetyState::kFault) out.set_fault(faultText(servo.fault));
   toProto(servo.loop, session.servoTotals(), *out.mutable_servo());

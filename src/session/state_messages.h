@@ -13,6 +13,7 @@ void toProto(const LoopSummary& loop, const LoopTotals& totals, proto::LoopStats
 void toProto(const VibrationView& vibration, proto::Vibration& out);
 void toProto(const EndingCounts& ended, proto::TicksEnded& out);
 void toProto(const ProxyContact& contact, proto::ContactPlane& out);
+void toProto(const HoldingSnap& snap, proto::HoldingSnap& out);
 /// The proxy's ledger and the servo's, which books late hand-over, as one.
 void toProto(const Ledger& ledger, const Ledger& late, LedgerMode mode, proto::Ledger& out);
 /// Of a proto::State or a proto::ClientState.

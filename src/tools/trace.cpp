@@ -1,5 +1,7 @@
 #include "tools/trace.h"
 
+#include <algorithm>
+
 #include "base/clock.h"
 #include "bodies/world_hash.h"
 #include "scene/scene_model.h"
@@ -21,16 +23,27 @@ class Tracer {
         settings_(settings),
         state_(startProxy(snapshot, settings, begin)) {}
 
-  TickReport tick(std::size_t row, const Vec3& finger, double period_s) {
+  TickReport tick(std::size_t row, const Vec3& finger, double period_s, FieldForces& fields) {
     settings_.period_s = period_s;
     const std::int64_t now_ns = bodies_ ? static_cast<std::int64_t>(row) * kRow_ns : 0;
     if (bodies_) hand_.before(*bodies_, now_ns, state_, settings_, finger, true);
     const SceneAt scene(snapshot_, now_ns, recent_);
     const TickReport report = hl::tick(state_, scene, settings_, finger);
-    if (bodies_) hand_.after(*bodies_, scene, state_, report, settings_, finger, true);
+    fields = fieldForces(scene, finger);
+    if (bodies_) hand_.after(*bodies_, scene, state_, report, fields, settings_, finger, true);
     return report;
   }
   const ProxyState& state() const { return state_; }
+  /// As TraceRow::snap.
+  std::optional<std::size_t> snap() const {
+    const std::vector<PlacedSnap>& snaps = snapshot_.snaps;
+    if (snaps.empty()) return {};
+    const auto holds = [&](const PlacedSnap& snap) {
+      return snapshot_.instances[snap.instance].key == state_.snap.key && snap.number == state_.snap.number;
+    };
+    const auto found = std::find_if(snaps.begin(), snaps.end(), holds);
+    return found == snaps.end() ? 0 : static_cast<std::size_t>(found - snaps.begin()) + 1;
+  }
   const BodyWorld* bodies() const { return bodies_.get(); }
   /// How the bodies are now.
   void tell(TraceRow& row) {
@@ -76,17 +89,19 @@ TraceTotals runTrace(const Snapshot& given, const TraceSettings& settings, const
     const Vec3& finger = path[i].position;
     const double period_s = i > 0 ? path[i].t - path[i - 1].t : settings.proxy.period_s;
     const std::int64_t start_ns = monotonicNow_ns();
-    const TickReport report = tracer.tick(i, finger, period_s);
+    FieldForces fields;
+    const TickReport report = tracer.tick(i, finger, period_s, fields);
     TraceRow out{};
     out.tick_ns = monotonicNow_ns() - start_ns;
     out.t = path[i].t;
     out.finger = finger;
     out.proxy = tracer.state().position;
     out.target = report.target;
-    out.force = settings.proxy.spring_N_m * (report.target - finger);
+    out.force = settings.proxy.spring_N_m * (report.target - finger) + fields.force_N;
     out.contacts = static_cast<int>(report.contacts.size());
     out.iterations = report.iterations;
     out.injected_J = report.injected_J;
+    out.snap = tracer.snap();
     tracer.tell(out);
     row(out);
     if (i == 0) totals.before = out.world;

@@ -8,15 +8,20 @@
 #include "base/fixed_vector.h"
 #include "bodies/hand_node.h"
 #include "bodies/world.h"
+#include "proxy/field_forces.h"
 #include "touch/body_command.h"
 
 namespace hl {
+
+/// What the fields of bodies take from them.
+using DrawnImpulses = FixedVector<BodyImpulse, kMostFieldsAtOnce>;
 
 /// Of one scene, between two ticks. Its lists have the room that reserve() made.
 struct BodiesMemory {
   WorldState world;
   std::vector<Pose> poses;                            ///< of World::bodies, as the last tick saw them
   FixedVector<BodyImpulse, kContactsOfHand> owed;     ///< to bodies
+  DrawnImpulses drawn;                                ///< the same, by fields
   FixedVector<HandContact, kContactsOfHand> held_by;  ///< what held the proxy
   BodyPushes pushes;                                  ///< of clients, that are given over time
   std::int64_t time_ns = 0;                           ///< of the last step

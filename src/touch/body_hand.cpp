@@ -1,6 +1,34 @@
 #include "touch/body_hand.h"
 
+#include <cmath>
+
 namespace hl {
+
+namespace {
+
+using Walls = FixedVector<Vec3, 4>;
+
+// Normals of smooth contacts that together hold the proxy against the snap, and leave it free where the snap does:
+// their sum is 0, so that what goes along none of them backwards goes along none of them.
+Walls wallsOf(const SnapPoint& snap) {
+  Walls walls;
+  const Vec3& axis = snap.axis;
+  if (snap.free == SnapPoint::Free::kAcrossAxis) {
+    walls.push(axis);
+    walls.push(-axis);
+  } else if (snap.free == SnapPoint::Free::kAlongAxis) {
+    const Vec3 u = axis.unitOrthogonal(), v = axis.cross(u);
+    walls.push(u);
+    walls.push(-0.5 * u + std::sqrt(0.75) * v);
+    walls.push(-0.5 * u - std::sqrt(0.75) * v);
+  } else {
+    for (const Vec3& corner : {Vec3(1, 1, 1), Vec3(1, -1, -1), Vec3(-1, 1, -1), Vec3(-1, -1, 1)})
+      walls.push(corner / std::sqrt(3.0));
+  }
+  return walls;
+}
+
+}  // namespace
 
 void BodyHand::before(BodyWorld& bodies, std::int64_t now_ns, const ProxyState& state, const ProxySettings& settings,
                       const Vec3& finger, bool pulls) {
@@ -13,18 +41,24 @@ void BodyHand::before(BodyWorld& bodies, std::int64_t now_ns, const ProxyState& 
   bodies.step(now_ns, settings.period_s, hand);
 }
 
+void BodyHand::hold(const SceneAt& scene, const ProxyState& state, const TickReport& report, const Vec3& finger) {
+  for (const ProxyContact& contact : report.contacts) {
+    const bool sticks = state.rest_s >= accuracy::kStuck_s;
+    held_by_.push({scene.instance(contact.primitive).key, contact.point, contact.normal, contact.static_friction,
+                   contact.static_friction, !sticks});
+  }
+  const std::optional<SnapPoint> snap = heldPoint(state.snap, scene, finger);
+  if (!snap) return;
+  for (const Vec3& normal : wallsOf(*snap)) held_by_.push({state.snap.key, snap->point, normal, 0, 0, false});
+}
+
 void BodyHand::after(BodyWorld& bodies, const SceneAt& scene, const ProxyState& state, const TickReport& report,
-                     const ProxySettings& settings, const Vec3& finger, bool pulls) {
+                     const FieldForces& fields, const ProxySettings& settings, const Vec3& finger, bool pulls) {
   const bool touching = pulls && touches(state, report);
   held_by_.clear();
-  if (touching) {
-    for (const ProxyContact& contact : report.contacts) {
-      const bool sticks = state.rest_s >= accuracy::kStuck_s;
-      held_by_.push({scene.instance(contact.primitive).key, contact.point, contact.normal, contact.static_friction,
-                     contact.static_friction, !sticks});
-    }
-  }
+  if (touching) hold(scene, state, report, finger);
   bodies.settle(touching ? objectForces(scene, settings, state, report, finger) : ObjectForces{}, settings.period_s);
+  bodies.draw(pulls ? fields : FieldForces{}, settings.period_s);
 }
 
 }  // namespace hl

@@ -1,7 +1,9 @@
 // BodyHand: a finger's proxy as a hand at the bodies: steps them before a tick, and settles with them after it.
 #pragma once
 
+#include "proxy/field_forces.h"
 #include "proxy/proxy.h"
+#include "proxy/snapping.h"
 #include "touch/body_world.h"
 
 namespace hl {
@@ -13,15 +15,17 @@ class BodyHand {
   /// whether the spring makes a force.
   void before(BodyWorld& bodies, std::int64_t now_ns, const ProxyState& state, const ProxySettings& settings,
               const Vec3& finger, bool pulls);
-  /// After the tick in `scene` that came to `state` and `report`. Nobody pushes the bodies while the spring makes no
-  /// force.
+  /// After the tick in `scene` that came to `state` and `report`, with the forces of `fields` on the hand. Nobody
+  /// pushes the bodies while the spring makes no force.
   void after(BodyWorld& bodies, const SceneAt& scene, const ProxyState& state, const TickReport& report,
-             const ProxySettings& settings, const Vec3& finger, bool pulls);
+             const FieldForces& fields, const ProxySettings& settings, const Vec3& finger, bool pulls);
   /// What held the proxy at the end of the last tick: for BodiesMemory.
   const FixedVector<HandContact, kContactsOfHand>& heldBy() const { return held_by_; }
   void resume(const FixedVector<HandContact, kContactsOfHand>& held_by) { held_by_ = held_by; }
 
  private:
+  void hold(const SceneAt& scene, const ProxyState& state, const TickReport& report, const Vec3& finger);
+
   FixedVector<HandContact, kContactsOfHand> held_by_;  // at the end of the last tick
 };
 

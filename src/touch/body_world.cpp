@@ -82,6 +82,7 @@ void BodyWorld::continueFrom(const BodyWorld& before) {
   pushes_ = before.pushes_;
   state_.steps = before.state_.steps;
   owed_ = before.owed_;
+  drawn_ = before.drawn_;
   view_ = before.view_;
   view_.bodies = bodies_.size();
   time_ns_ = before.time_ns_;
@@ -127,6 +128,7 @@ bool BodyWorld::remember(BodiesMemory& out) const {
   out.poses.clear();
   for (const auto& body : bodies_) out.poses.push_back(body->poses->to());
   out.owed = owed_;
+  out.drawn = drawn_;
   out.pushes = pushes_;
   out.time_ns = time_ns_;
   out.begun = begun_;
@@ -144,6 +146,7 @@ void BodyWorld::resume(const BodiesMemory& memory) {
     bodies_[i]->poses->jumpTo({memory.poses[i], body.velocity, body.spin});
   }
   owed_ = memory.owed;
+  drawn_ = memory.drawn;
   pushes_ = memory.pushes;
   time_ns_ = memory.time_ns;
   begun_ = memory.begun;
@@ -229,6 +232,26 @@ void BodyWorld::push(double period_s) {
   pushes_.resize(kept);
 }
 
+// In whole, before the step: so a body swings about a field as by symplectic Euler.
+void BodyWorld::payDrawn() {
+  for (const BodyImpulse& one : drawn_) {
+    const std::size_t i = world().numberOf(one.key);
+    if (i == World::kNoBody) continue;
+    const double before_J = energyOf_J(i);
+    wake(world(), state_, one.key);
+    give(i, one.impulse_N_s, one.point);
+    state_.energy.by_hand_J += energyOf_J(i) - before_J;
+  }
+  drawn_.clear();
+}
+
+void BodyWorld::draw(const FieldForces& fields, double period_s) {
+  drawn_.clear();
+  for (const ObjectForce& force : fields.forces) {
+    if (world().has(force.key)) drawn_.push({force.key, force.point, -period_s * force.force_N});
+  }
+}
+
 void BodyWorld::step(std::int64_t now_ns, double period_s, const HandAtBodies& hand) {
   const std::int64_t before_ns = time_ns_;
   time_ns_ = now_ns;
@@ -238,6 +261,7 @@ void BodyWorld::step(std::int64_t now_ns, double period_s, const HandAtBodies& h
   paid_ = 0;
   if (first || now_ns <= before_ns) return;
   push(period_s);
+  payDrawn();
   HandNode node;
   node.proxy = hand.proxy;
   node.radius_m = hand.spring_N_m > 0 ? hand.radius_m : 0;
@@ -343,6 +367,7 @@ void BodyWorld::settle(const ObjectForces& forces, double period_s) {
 Vec3 BodyWorld::owed_N_s() const {
   Vec3 sum = Vec3::Zero();
   for (const BodyImpulse& one : owed_) sum += one.impulse_N_s;
+  for (const BodyImpulse& one : drawn_) sum += one.impulse_N_s;
   return sum;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bodies/body_step.h"
+#include "proxy/field_forces.h"
 #include "proxy/object_forces.h"
 #include "scene/rigid_body.h"
 #include "touch/bodies_memory.h"
@@ -45,6 +46,8 @@ class BodyWorld {
   void step(std::int64_t now_ns, double period_s, const HandAtBodies& hand);
   /// After the tick: what each object's contact gives the hand. RT-safe.
   void settle(const ObjectForces& forces, double period_s);
+  /// After the tick: what the fields of bodies give the hand, and so take from them in the next step. RT-safe.
+  void draw(const FieldForces& fields, double period_s);
 
   /// Between two ticks, all but BodiesMemory::held_by. False: there is no room for it. RT-safe.
   bool remember(BodiesMemory& out) const;
@@ -77,6 +80,7 @@ class BodyWorld {
   void place(std::size_t i, const BodyCommand& command);
   void give(std::size_t i, const Vec3& impulse_N_s, const Vec3& point);
   void push(double period_s);
+  void payDrawn();
   void returnLost();
   void loseJoined();
   void putBack(std::size_t i);
@@ -87,6 +91,7 @@ class BodyWorld {
   WorldState state_;
   JointViews joint_views_;
   FixedVector<BodyImpulse, kContactsOfHand> owed_;
+  DrawnImpulses drawn_;
   GivenImpulses given_;
   std::size_t paid_ = 0;  // the first of given_: what was owed
   BodyPushes pushes_;

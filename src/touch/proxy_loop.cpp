@@ -7,6 +7,12 @@
 
 namespace hl {
 
+namespace {
+
+ObjectName nameOf(const Instance& instance) { return {instance.key, instance.session, instance.object, instance.name}; }
+
+}  // namespace
+
 void ProxyLoop::follow(const ProxyCommands& commands, const SpringOfServo& spring) {
   workspace_ = commands.workspace;
   settings_.radius = commands.radius_W;
@@ -99,20 +105,35 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
   step.scene = snapshot.identity;
   const Ledger before = state_.ledger;
   step.report = tick(state_, scene, settings_, finger, most_looks);
-  if (bodies_ != nullptr) hand_.after(*bodies_, scene, state_, step.report, settings_, finger, spring.pulls);
+  if (step.report.valid()) step.fields = fieldForces(scene, finger);
+  if (bodies_ != nullptr)
+    hand_.after(*bodies_, scene, state_, step.report, step.fields, settings_, finger, spring.pulls);
   if (!spring.pulls) {
     state_.ledger = before;
     step.report.injected_J = step.report.moved_J = 0;
   }
-  for (const ProxyContact& contact : step.report.contacts) {
-    const Instance& instance = scene.instance(contact.primitive);
-    step.touched.push({instance.key, instance.session, instance.object, instance.name});
-  }
   if (anew) blend_.add(last_.pull_D - pullOf(state_, step.report, finger_D), 1e-9 * kAbruptBlend_ns);
-  step.held = heldBy(step.report, targetOf(now_ns, finger_D, step.report));
-  step.held.contacts = feltContacts(scene, settings_, state_, step.report, finger);
-  events_.follow(now_ns, step.touched, state_.position);
+  tell(now_ns, finger_D, scene, step);
   return step;
+}
+
+// What the tick means to the servo and to those who watch.
+void ProxyLoop::tell(std::int64_t now_ns, const Vec3& finger_D, const SceneAt& scene, ProxyStep& step) {
+  const TickReport& report = step.report;
+  for (const ProxyContact& contact : report.contacts) step.touched.push(nameOf(scene.instance(contact.primitive)));
+  step.snap = snapOf(scene.snapshot());
+  step.held = heldBy(report, targetOf(now_ns, finger_D, report));
+  step.held.target.field_N = step.fields.force_N;
+  step.held.target.field_drag_Ns_m = step.fields.damping_Ns_m;
+  step.held.contacts = feltContacts(scene, settings_, state_, report, workspace_.toWorld(finger_D));
+  step.held.snap_N = settings_.spring_N_m / settings_.world_per_device * state_.stiffness * report.snap_pull_m;
+  events_.follow(now_ns, step.touched, state_.position);
+}
+
+HoldingSnap ProxyLoop::snapOf(const Snapshot& snapshot) const {
+  std::uint32_t number = 0;
+  if (!state_.snap.holds() || !snapshot.find(state_.snap.key, number)) return {};
+  return {nameOf(snapshot.instances[number]), state_.snap.number};
 }
 
 // While a pull fades out, it keeps at least the stiffness that it was made with.
@@ -137,12 +158,12 @@ ServoTarget ProxyLoop::targetOf(std::int64_t now_ns, const Vec3& finger_D, const
   return told_ = target;
 }
 
-// Smooth surfaces let the proxy slide until the next tick; friction would hold it, so there it stays. While a blend
-// goes on, the target is not where the contacts hold the proxy.
+// Smooth surfaces let the proxy slide until the next tick; friction or a snap would hold it, so there it stays. While a
+// blend goes on, the target is not where the contacts hold the proxy.
 HeldContacts ProxyLoop::heldBy(const TickReport& report, const ServoTarget& target) const {
   HeldContacts held;
   held.target = target;
-  if (blend_.active()) return held;
+  if (blend_.active() || state_.snap.holds()) return held;
   for (const ProxyContact& contact : report.contacts) {
     if (contact.rough) {
       held.planes_D.clear();

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "control/servo.h"
+#include "proxy/field_forces.h"
 #include "proxy/proxy.h"
 #include "touch/body_command.h"
 #include "touch/body_hand.h"
@@ -47,6 +48,8 @@ struct ProxyStep {
   HeldContacts held;        ///< the target, and how it goes on until the next tick
   TickReport report;
   FixedVector<ObjectName, 3> touched;  ///< of report.contacts, one by one
+  HoldingSnap snap;
+  FieldForces fields;
 };
 
 /// What the ticks so far have left for the next one, in the scene of the last one.
@@ -107,6 +110,8 @@ class ProxyLoop {
   Vec3 changeOfPull(const Snapshot& snapshot);
   Vec3 pullOf(const ProxyState& state, const TickReport& report, const Vec3& finger_D) const;
   double energyOf_J(const ServoTarget& target, const Vec3& finger_D) const;
+  void tell(std::int64_t now_ns, const Vec3& finger_D, const SceneAt& scene, ProxyStep& step);
+  HoldingSnap snapOf(const Snapshot& snapshot) const;
   HeldContacts heldBy(const TickReport& report, const ServoTarget& target) const;
   ServoTarget targetOf(std::int64_t now_ns, const Vec3& finger_D, const TickReport& report);
 

@@ -117,8 +117,8 @@ void ServoLoop::tell(const ServoRecord& record, std::int64_t begin_ns) {
   const double penetration_m = target.valid ? (target.proxy_D - sample.position).norm() : 0;
   parts_.views.samples.push({1e-9 * static_cast<double>(begin_ns - begin_ns_), static_cast<float>(out.force_N.norm()),
                              static_cast<float>(penetration_m), last_tick_.work_us});
-  parts_.views.moments.push(
-      {begin_ns, sample.position, out.force_N, sample.buttons, sharing(last_tick_.held.contacts, out.force_N)});
+  parts_.views.moments.push({begin_ns, sample.position, out.force_N, sample.buttons,
+                             sharing(last_tick_.held.contacts, last_tick_.held.snap_N, out.force_N)});
   ServoRecord timed = record;
   timed.work_ns = monotonicNow_ns() - begin_ns;
   parts_.sink.step(timed);

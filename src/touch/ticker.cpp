@@ -37,6 +37,7 @@ void Ticker::show(const ProxyStep& step) {
   view_.proxy = state.position;
   view_.contacts = step.report.contacts;
   view_.touched = step.touched;
+  view_.snap = step.snap;
   view_.slipping = state.touching && state.rest_s == 0;
   view_.ledger = state.ledger;
   view_.ended.add(step.report.ending);

@@ -17,6 +17,12 @@ struct ObjectName {
   std::uint32_t session = 0, object = 0, name = 0;
 };
 
+/// The snap that holds the proxy.
+struct HoldingSnap {
+  ObjectName object;         ///< key 0: none does
+  std::uint32_t number = 0;  ///< among its snaps
+};
+
 /// The proxy came to an object or left it.
 struct TouchEvent {
   std::int64_t time_ns = 0;

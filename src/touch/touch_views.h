@@ -24,6 +24,7 @@ struct ProxyView {
   Vec3 proxy = Vec3::Zero();
   FixedVector<ProxyContact, 3> contacts;
   FixedVector<ObjectName, 3> touched;  ///< of the contacts, one by one
+  HoldingSnap snap;
   bool slipping = false;
   Ledger ledger;
   EndingCounts ended;  ///< ticks so far, by why they ended

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <hl/hl_batch.h>
 
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -224,6 +225,25 @@ TEST(Batch, TracesOfASceneWithBodiesMoveBodiesOfTheirOwn) {
   EXPECT_GT(hardest, 0.01) << "nothing was pushed";
   EXPECT_EQ(hlBatchMakeFingers(scene.get(), &settings, 2), nullptr);
   EXPECT_NE(std::string(hlBatchError()).find("bodies"), std::string::npos);
+}
+
+TEST(Batch, FieldsAndSnapsAreFelt) {
+  const std::string file = test::fileWith("fields.hl.json", R"({"objects": [{
+    "primitives": {"vertices": [0, 1, 0], "points": [0]},
+    "fields": [{"points": [0, 0, 0], "reach": 0.03, "forceN": 2}],
+    "snaps": [{"points": [0.5, 0, 0], "capture": 0.002, "releaseN": 3}]}]})");
+  const Scene scene(hlBatchLoadScene(file.c_str(), 0), &hlBatchDeleteScene);
+  ASSERT_TRUE(scene) << hlBatchError();
+  HLbatchSettings settings;
+  hlBatchSettings(&settings);
+  const Fingers fingers(hlBatchMakeFingers(scene.get(), &settings, 2), &hlBatchDeleteFingers);
+  ASSERT_TRUE(fingers) << hlBatchError();
+  const std::array<double, 6> positions{0.01, 0, 0, 0.501, 0, 0};
+  Results results(2);
+  const HLbatchResult at = results.pointers();
+  ASSERT_EQ(hlBatchStep(fingers.get(), positions.data(), 1, &at), HL_NO_ERROR) << hlBatchError();
+  EXPECT_NEAR(results.force[0], -2, 1e-9);
+  EXPECT_NEAR(results.force[3], -0.001 * settings.spring, 1e-9);
 }
 
 TEST(Batch, ACallThatIsToldToEndsEarlyWithAnError) {

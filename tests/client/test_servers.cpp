@@ -274,6 +274,35 @@ TEST(Servers, AProgramTouchesItsSceneInItsOwnProcess) {
   hlDestroyContext(context);
 }
 
+// A point beside nothing: the hand goes near it, is drawn to it, and pulls itself off.
+TEST(Servers, ASnapHoldsTheHandUntilItIsPulledOff) {
+  HLcontext* context = hlCreateContext("inproc:?state_rate=500");
+  ASSERT_NE(context, nullptr) << hlGetConnectError();
+  hlMakeCurrent(context);
+  hlWorkspaced(0, 0, 0, 1);
+  hlNewObject(5);
+  hlSnapPoint3d(9, 9, 9, 0.001, 1);
+  hlSnapPoint3d(0, 0, 0, 0.004, 1);
+  hlEndObject();
+  hlLoadName(42);
+  hlCallObject(5);
+  ASSERT_EQ(hlFinishTimeout(60), HL_TRUE);
+  const auto get = [](HLenum name) {
+    HLint value = 0;
+    hlGetIntegerv(name, &value);
+    return value;
+  };
+  hlHandGoal3d(0, 0.0005, 0);
+  EXPECT_TRUE(waitFor([&] { return get(HL_SNAPPED_OBJECT) == 5; }));
+  EXPECT_EQ(get(HL_SNAPPED_NAME), 42);
+  EXPECT_EQ(get(HL_SNAP_NUMBER), 1);
+  EXPECT_EQ(get(HL_CONTACT_COUNT), 0);
+  hlHandGoal3d(0, 0.05, 0);
+  EXPECT_TRUE(waitFor([&] { return get(HL_SNAPPED_OBJECT) == 0; }));
+  EXPECT_EQ(hlGetError(), static_cast<HLenum>(HL_NO_ERROR));
+  hlDestroyContext(context);
+}
+
 // Each time by several radii at once.
 TEST(Servers, AFloorWhoseVerticesRiseLiftsTheProxy) {
   HLcontext* context = hlCreateContext("inproc:?state_rate=500");

@@ -87,6 +87,29 @@ TEST(Servo, FreeAirHasNoDrag) {
   }
 }
 
+// Where nothing is touched too; limited as any force, and none when the tick that found it is old.
+TEST(Servo, TheFieldsOfTheSceneAddToTheForce) {
+  Bench bench = Bench::on();
+  const auto step = [&](const Vec3& field_N, double drag_Ns_m, std::int64_t age_ns, const Vec3& finger) {
+    bench.now_ns += kPeriod_ns;
+    ServoTarget target;
+    target.time_ns = bench.now_ns - age_ns;
+    target.field_N = field_N;
+    target.field_drag_Ns_m = drag_Ns_m;
+    return stepServo(bench.state, bench.settings, target, {bench.now_ns, finger, 0, DeviceStatus::kOk}).force_N;
+  };
+  EXPECT_EQ(step({1, 0, 0}, 0, 0, Vec3::Zero()), Vec3(1, 0, 0));
+  EXPECT_EQ(step({2, 0, 0}, 0, 0, Vec3::Zero()), Vec3(2, 0, 0));
+  EXPECT_EQ(step({0, 0, 0}, 0, 0, Vec3::Zero()), Vec3(Vec3::Zero()));
+  for (int i = 0; i < 100; ++i) EXPECT_LE(step({1000, 0, 0}, 0, 0, Vec3::Zero()).norm(), 8 + 1e-12);
+  for (int i = 0; i < 100; ++i) step({1, 0, 0}, 0, bench.settings.target_stale_ns + 1, Vec3::Zero());
+  EXPECT_EQ(bench.state.force_N, Vec3(Vec3::Zero()));
+  EXPECT_EQ(step({kNaN, 0, 0}, 0, 0, Vec3::Zero()), Vec3(Vec3::Zero()));
+  Vec3 force = Vec3::Zero();
+  for (int i = 0; i < 200; ++i) force = step(Vec3::Zero(), 5, 0, {1e-4 * i, 0, 0});
+  EXPECT_NEAR(force.x(), -5 * 0.1, 1e-3);
+}
+
 TEST(Servo, DisarmGivesNoForceFromTheNextStepOn) {
   Bench bench = Bench::on();
   EXPECT_GT(bench.step({0.002, 0, 0}, Vec3::Zero()).force_N.norm(), 1);

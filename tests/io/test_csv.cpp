@@ -106,6 +106,21 @@ TEST(TraceCsv, BodiesFollowTheColumnsOfTheTick) {
   EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(line.begin(), line.end(), ','));
 }
 
+TEST(TraceCsv, TheSnapIsTheLastColumn) {
+  const std::string name = test::tempFile("out.csv");
+  TraceWriter writer(name, {}, {}, true);
+  TraceRow row;
+  row.snap = 3;
+  writer.write(row);
+  writer.close();
+  std::ifstream in(name);
+  std::string header, line;
+  std::getline(in, header);
+  std::getline(in, line);
+  EXPECT_TRUE(header.ends_with("tick_ns,snap"));
+  EXPECT_TRUE(line.ends_with(",0,3"));
+}
+
 TEST(TraceCsv, SaysWhenItCannotWrite) {
   EXPECT_THROW(TraceWriter("/nonexistent/out.csv"), Error);
   TraceWriter full("/dev/full");

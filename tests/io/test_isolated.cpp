@@ -196,6 +196,8 @@ TEST(Isolated, AModelComesBackWhole) {
 SceneModel withBodies() {
   SceneModel scene(points(10));
   scene.mechanics.gravity_m_s2 = Vec3(1, 2, 3);
+  scene.snaps = {{"a", {Vec3(1, 2, 3)}, {}, 0.5, 2}, {"b", {Vec3(1, 2, 3)}, Vec3::UnitY(), 0.5, 2}};
+  scene.fields = {{"c", FieldKind::kConstant, {Vec3(1, 2, 3)}, Vec3::UnitY(), 0.5, 2, 0, 0, Vec3::UnitZ()}};
   for (int i = 1; i < 4; ++i) {
     SceneBody body;
     body.name = "body " + std::to_string(i);
@@ -209,6 +211,9 @@ SceneModel withBodies() {
     body.spec.mass_kg = i;
     body.spec.shape = BodyShape::kBall;
     body.spec.fixed = i == 3;
+    FieldSpec field{"f", FieldKind::kDrag, {Vec3(i, 2, 3)}, {}, 0.1 * i, 0, 0, 2, Vec3::Zero()};
+    body.fields = {field};
+    body.snaps = {{"of " + body.name, {Vec3(i, 2, 3), Vec3(4, 5, 6)}, {}, 0.1 * i, 2}};
     scene.bodies.push_back(body);
   }
   return scene;
@@ -220,15 +225,60 @@ TEST(Isolated, ASceneWithBodiesComesBackWhole) {
   EXPECT_EQ(back.model.positions, scene.model.positions);
   EXPECT_TRUE(back.model.warnings.empty());
   EXPECT_EQ(back.mechanics.gravity_m_s2, scene.mechanics.gravity_m_s2);
+  EXPECT_EQ(back.snaps, scene.snaps);
+  EXPECT_EQ(back.fields, scene.fields);
   ASSERT_EQ(back.bodies.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) {
     const SceneBody &a = scene.bodies[i], &b = back.bodies[i];
     EXPECT_EQ(a.name, b.name);
-    EXPECT_TRUE(a.spec == b.spec && a.pose == b.pose);
+    EXPECT_TRUE(a.spec == b.spec && a.pose == b.pose && a.snaps == b.snaps && a.fields == b.fields);
     EXPECT_TRUE(a.model.positions == b.model.positions && a.model.points == b.model.points);
     EXPECT_TRUE(a.model.materials == b.model.materials && a.model.warnings == b.model.warnings);
     EXPECT_EQ(a.model.textures[0].texels, b.model.textures[0].texels);
   }
+}
+
+TEST(Isolated, SnapsThatCannotBeAreRefused) {
+  const auto changed = [](const std::function<void(SnapList&)>& change) {
+    return refusalOf([&] {
+      runIsolated("it", hasty(),
+                  [&](const Report&) {
+                    SceneModel scene = withBodies();
+                    change(scene.snaps);
+                    return scene;
+                  },
+                  {});
+    });
+  };
+  EXPECT_EQ(changed([](SnapList&) {}), "");
+  EXPECT_NE(changed([](SnapList& snaps) { snaps[0].points.clear(); }), "");
+  EXPECT_NE(changed([](SnapList& snaps) { snaps[0].points[0].x() = HUGE_VAL; }), "");
+  EXPECT_NE(changed([](SnapList& snaps) { snaps[0].capture_m = std::nan(""); }), "");
+  EXPECT_NE(changed([](SnapList& snaps) { snaps[0].release_N = 0; }), "");
+  EXPECT_NE(changed([](SnapList& snaps) { snaps[1].normal = Vec3(2, 0, 0); }), "");
+  EXPECT_NE(changed([](SnapList& snaps) { snaps[1].points.emplace_back(0, 0, 0); }), "");
+  EXPECT_NE(changed([](SnapList& snaps) { snaps.resize(kMostSnaps, snaps[0]); }), "");
+}
+
+TEST(Isolated, FieldsThatCannotBeAreRefused) {
+  const auto changed = [](const std::function<void(FieldList&)>& change) {
+    return refusalOf([&] {
+      runIsolated("it", hasty(),
+                  [&](const Report&) {
+                    SceneModel scene = withBodies();
+                    change(scene.fields);
+                    return scene;
+                  },
+                  {});
+    });
+  };
+  EXPECT_EQ(changed([](FieldList&) {}), "");
+  EXPECT_NE(changed([](FieldList& fields) { fields[0].kind = static_cast<FieldKind>(9); }), "");
+  EXPECT_NE(changed([](FieldList& fields) { fields[0].points.clear(); }), "");
+  EXPECT_NE(changed([](FieldList& fields) { fields[0].reach_m = std::nan(""); }), "");
+  EXPECT_NE(changed([](FieldList& fields) { fields[0].force_N = -1; }), "");
+  EXPECT_NE(changed([](FieldList& fields) { fields[0].direction.setZero(); }), "");
+  EXPECT_NE(changed([](FieldList& fields) { fields.resize(kMostFields, fields[0]); }), "");
 }
 
 TEST(Isolated, BodiesThatCannotBeAreRefused) {

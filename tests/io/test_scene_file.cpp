@@ -101,6 +101,12 @@ TEST(SceneFile, TheExamplesLoad) {
   }
 }
 
+TEST(SceneFile, TheExamplesOfSnapsAndFieldsLoad) {
+  const std::string folder = std::string(HL_EXAMPLES) + "/";
+  EXPECT_EQ(makeSnapshot(loadSceneFile(folder + "snaps.hl.json"))->snaps.size(), 5U);
+  EXPECT_EQ(makeSnapshot(loadSceneFile(folder + "fields.hl.json"))->fields.size(), 4U);
+}
+
 SceneModel worldOfJson(const std::string& json) { return loadSceneFile(fileWith("scene.hl.json", json)); }
 
 // Two cubes of 2 units a side with the given body and joint.
@@ -160,6 +166,114 @@ TEST(SceneFile, BodiesThatCannotBeAreRefusedByLine) {
   expect("", R"({"bodyA": "a", "kind": "HINGE"})", "needs an axis");
   expect("", R"({"bodyA": "a", "low": 2, "high": 1})", "low must not be above high");
   expect("", R"({"bodyA": "a", "table": {"position": [0, 0], "force": [1, 1]}})", "must increase");
+}
+
+std::string withSnaps(const std::string& snaps, const std::string& body = "") {
+  return R"({"units": 0.01, "objects": [{"name": "a", "primitives": {"vertices": [-1,-1,-1, 1,-1,-1, 1,1,-1, 0,0,1],
+    "triangles": [0,1,2, 0,1,3, 1,2,3, 2,0,3]}, )" +
+         body + R"("transform": {"scale": {"y": 2}, "axis": {"z": 1}, "degrees": 90, "translate": {"x": 5}},
+"snaps": [)" +
+         snaps + "]}]}";
+}
+
+TEST(SceneFile, SnapsArriveInMetres) {
+  const std::string snaps = R"({"name": "p", "points": [1, 1, 0], "capture": 0.5, "releaseN": 2},
+    {"points": [0, 0, 0, 1, 0, 0, 1, 1, 1], "capture": 1, "releaseN": 1},
+    {"points": [0, 0, 0], "normal": {"x": 3, "y": 3}, "capture": 1, "releaseN": 1})";
+  // Scaled to twice along y, turned from x to y, moved by 5: in the world.
+  const SceneModel still = worldOfJson(withSnaps(snaps));
+  ASSERT_EQ(still.snaps.size(), 3U);
+  EXPECT_EQ(still.snaps[0].name, "p");
+  EXPECT_LT((still.snaps[0].points[0] - Vec3(0.03, 0.01, 0)).norm(), 1e-15);
+  EXPECT_EQ(still.snaps[0].capture_m, 0.005);
+  EXPECT_EQ(still.snaps[0].release_N, 2);
+  EXPECT_FALSE(still.snaps[0].normal);
+  EXPECT_LT((still.snaps[1].points[2] - Vec3(0.03, 0.01, 0.01)).norm(), 1e-15);
+  EXPECT_LT((*still.snaps[2].normal - Vec3(-0.5, 1, 0).normalized()).norm(), 1e-15);
+  const auto snapshot = makeSnapshot(still);
+  EXPECT_EQ(snapshot->snaps.size(), 3U);
+  EXPECT_EQ(snapshot->instances[0].snaps->size(), 3U);
+  // Of a body: scaled alone.
+  const SceneModel moves = worldOfJson(withSnaps(snaps, R"("body": {"massKg": 1},)"));
+  EXPECT_TRUE(moves.snaps.empty());
+  ASSERT_EQ(moves.bodies[0].snaps.size(), 3U);
+  EXPECT_LT((moves.bodies[0].snaps[0].points[0] - Vec3(0.01, 0.02, 0)).norm(), 1e-15);
+  EXPECT_EQ(makeSnapshot(moves)->instances[0].snaps->size(), 3U);
+}
+
+TEST(SceneFile, SnapsMoveWithTheSizeOfTheScene) {
+  SceneModel scene = worldOfJson(withSnaps(R"({"points": [0, 0, 0], "capture": 0.5, "releaseN": 2})"));
+  scaleModel(scene, 10);
+  EXPECT_LT((scene.snaps[0].points[0] - Vec3(0.5, 0, 0)).norm(), 1e-15);
+  EXPECT_EQ(scene.snaps[0].capture_m, 0.05);
+  fitModel(scene, 0.1);
+  EXPECT_LT(scene.snaps[0].points[0].norm(), 1e-15) << "it is in the middle";
+  EXPECT_NEAR(scene.snaps[0].capture_m, 0.05 * 0.1 / 0.4, 1e-15);
+}
+
+TEST(SceneFile, SnapsThatCannotBeAreRefusedByLine) {
+  const auto expect = [](const std::string& snaps, const std::string& about) {
+    const std::string message = afterFile(refusalOf(withSnaps(snaps)));
+    EXPECT_NE(message.find(about), std::string::npos) << message;
+    EXPECT_EQ(message.substr(0, 2), ":3") << message;
+  };
+  expect(R"({"points": [1, 2], "capture": 1, "releaseN": 1})", "snaps[0].points must hold 3 numbers each");
+  expect(R"({"capture": 1, "releaseN": 1})", "snaps[0].points must hold 3 numbers each, of one point or more");
+  expect(R"({"points": [1, 2, 1e7], "capture": 1, "releaseN": 1})", "points must be between");
+  expect(R"({"points": [1, 2, 3], "releaseN": 1})", "snaps[0].capture must be between 1e-09 and 1e+09");
+  expect(R"({"points": [1, 2, 3], "capture": 1, "releaseN": -1})", "snaps[0].releaseN must be between");
+  expect(R"({"points": [1, 2, 3], "normal": {}, "capture": 1, "releaseN": 1})", "normal must not be zero");
+  expect(R"({"points": [1, 2, 3, 4, 5, 6], "normal": {"x": 1}, "capture": 1, "releaseN": 1})", "must be one point");
+  std::string many;
+  for (int i = 0; i < 65; ++i) many += R"({"points": [1, 2, 3], "capture": 1, "releaseN": 1},)";
+  many.pop_back();
+  expect(many, "snaps: there are more than 64");
+  std::string corners = "0";
+  for (int i = 1; i < 3 * 257; ++i) corners += ", 0";
+  expect(R"({"points": [)" + corners + R"(], "capture": 1, "releaseN": 1})", "points must not be more than 256");
+}
+
+std::string withFields(const std::string& fields) {
+  return R"({"units": 0.01, "objects": [{"name": "a", "primitives": {"vertices": [0, 0, 0], "points": [0]},
+    "transform": {"axis": {"z": 1}, "degrees": 90, "translate": {"x": 5}},
+"fields": [)" +
+         fields + "]}]}";
+}
+
+TEST(SceneFile, FieldsArriveInMetres) {
+  const SceneModel scene = worldOfJson(withFields(
+      R"({"name": "m", "points": [1, 0, 0], "reach": 3, "forceN": 2},
+         {"kind": "SPRING", "points": [0, 0, 0, 1, 0, 0], "reach": 3, "stiffnessNM": 50},
+         {"kind": "CONSTANT", "points": [0, 0, 0], "reach": 3, "forceN": 1, "direction": {"x": 7}},
+         {"kind": "DRAG", "points": [0, 0, 0], "normal": {"x": 2}, "reach": 3, "dampingNsM": 4})"));
+  ASSERT_EQ(scene.fields.size(), 4U);
+  const FieldSpec& magnet = scene.fields[0];
+  EXPECT_EQ(magnet.name, "m");
+  EXPECT_EQ(magnet.kind, FieldKind::kMagnet);
+  EXPECT_LT((magnet.points[0] - Vec3(0.05, 0.01, 0)).norm(), 1e-15);
+  EXPECT_EQ(magnet.reach_m, 0.03);
+  EXPECT_EQ(magnet.force_N, 2);
+  EXPECT_EQ(scene.fields[1].stiffness_N_m, 50);
+  EXPECT_EQ(scene.fields[1].force_N, 1000) << "no limit but the device's";
+  EXPECT_LT((scene.fields[2].direction - Vec3(0, 1, 0)).norm(), 1e-15);
+  EXPECT_EQ(scene.fields[3].damping_Ns_m, 4);
+  EXPECT_LT((*scene.fields[3].normal - Vec3(0, 1, 0)).norm(), 1e-15);
+  EXPECT_EQ(makeSnapshot(scene)->fields.size(), 4U);
+}
+
+TEST(SceneFile, FieldsThatCannotBeAreRefusedByLine) {
+  const auto expect = [](const std::string& fields, const std::string& about) {
+    const std::string message = afterFile(refusalOf(withFields(fields)));
+    EXPECT_NE(message.find(about), std::string::npos) << message;
+    EXPECT_EQ(message.substr(0, 2), ":3") << message;
+  };
+  expect(R"({"points": [1, 2, 3], "forceN": 1})", "fields[0].reach must be between 1e-09 and 1e+09");
+  expect(R"({"points": [1, 2, 3], "reach": 1})", "fields[0].forceN must be between 1e-09 and 1000");
+  expect(R"({"points": [1], "reach": 1, "forceN": 1})", "fields[0].points must hold 3 numbers each");
+  expect(R"({"points": [1, 2, 3], "reach": 1, "forceN": 1, "dampingNsM": 1})", "dampingNsM must be between 0 and 0");
+  expect(R"({"kind": "SPRING", "points": [1, 2, 3], "reach": 1})", "stiffnessNM must be between");
+  expect(R"({"kind": "DRAG", "points": [1, 2, 3], "reach": 1, "dampingNsM": 101})", "dampingNsM must be between");
+  expect(R"({"kind": "CONSTANT", "points": [1, 2, 3], "reach": 1, "forceN": 1})", "direction must not be zero");
 }
 
 TEST(SceneFile, ModelFilesAreRelativeToTheScene) {

@@ -58,6 +58,27 @@ class Touching(unittest.TestCase):
         np.testing.assert_allclose(contact["normal"], [0, 1, 0], atol=1e-9)
         self.assertEqual(contact["name"], 7)
 
+    def test_a_snap_holds_the_hand_and_a_field_draws_it(self):
+        with self.touch.frame():
+            with self.touch.define() as guide:
+                self.touch.snap([9, 9, 9], 0.001, 1)
+                self.touch.snap([[0, 0.02, 0], [0.05, 0.02, 0]], 0.004, 2)
+                self.touch.snap([0, 5, 0], 0.001, 1, normal=[0, 1, 0])
+                self.touch.field("magnet", [0, 0.06, 0], 0.01, 0.2)
+                self.touch.field("drag", [0, 5, 0], 0.01, 2, normal=[0, 1, 0])
+                self.touch.push_field([5, 5, 5], 0.01, [1, 0, 0])
+                for call in (lambda: self.touch.snap([1, 2], 0.1, 1), lambda: self.touch.field("glue", [0, 0, 0], 1, 1),
+                             lambda: self.touch.snap([[0, 0, 0], [1, 0, 0]], 0.1, 1, normal=[1, 0, 0]),
+                             lambda: self.touch.field("spring", [0, 0, 0], 1, -1)):
+                    self.assertRaises(hl.InvalidValueError, call)
+            with self.touch.name(4):
+                self.touch.place(guide)
+        self.touch.hand_goal([0.01, 0.0205, 0])
+        wait_for("the line", lambda: self.touch.state().snapped_object == guide)
+        self.assertEqual((self.touch.state().snapped_name, self.touch.state().snap_number), (4, 1))
+        self.touch.hand_goal([0, 0.057, 0])
+        wait_for("the magnet", lambda: self.touch.state().snapped_object == 0 and self.touch.state().force[1] > 0.1)
+
     def test_a_spring_holds_a_body_and_tells_its_force(self):
         with self.touch.frame():
             with self.touch.define() as block:

@@ -55,6 +55,13 @@ Instance bodyAt(std::uint64_t key, const Vec3& at) {
   instance.body = makeRigidBody("body", spec, start, instance.shape->bounds, {Vec3::Constant(-1), Vec3::Constant(1)});
   instance.motion = Motion(start);
   instance.driver = instance.body->poses;
+  if (key == 2) {
+    const SnapSpec sheet{"sheet", {Vec3(0, -0.009, 0)}, Vec3::UnitY(), 0.003, 3};
+    instance.snaps = std::make_shared<const SnapList>(SnapList{sheet});
+    FieldSpec magnet{"magnet", FieldKind::kMagnet, {Vec3::Zero()}, {}, 0.04, 0.05, 0, 0, Vec3::Zero()};
+    FieldSpec drag{"drag", FieldKind::kDrag, {Vec3::Zero()}, {}, 0.03, 0, 0, 0.05, Vec3::Zero()};
+    instance.fields = std::make_shared<const FieldList>(FieldList{magnet, drag});
+  }
   return instance;
 }
 
@@ -102,9 +109,13 @@ class Stirred {
     device_.write(out.force_N);
     slot_.dropBefore();
     for (const ObjectName& touched : step_.tick().touched) on_bodies_ += touched.key > 1 ? 1 : 0;
+    snapped_ += loop_.state().snap.holds() ? 1 : 0;
+    drawn_ += step_.target().field_N.norm() > 0.01 ? 1 : 0;
   }
   const BodyWorld& world() const { return *loop_.bodies(); }
   int onBodies() const { return on_bodies_; }  ///< contacts with bodies so far
+  int snapped() const { return snapped_; }     ///< steps so far in which a snap held the proxy
+  int drawn() const { return drawn_; }         ///< steps so far in which a field drew the hand
 
  private:
   // In turn: one body starts elsewhere, one goes, it comes again, and all stays as it is.
@@ -133,7 +144,7 @@ class Stirred {
   ProxyCommands commands_;
   std::int64_t now_ns_ = 5'000'000'000, count_ = 0;
   std::uint64_t number_ = 1;
-  int on_bodies_ = 0;
+  int on_bodies_ = 0, snapped_ = 0, drawn_ = 0;
 };
 
 class RecordedBodies : public testing::Test {
@@ -167,6 +178,8 @@ TEST_F(RecordedBodies, AreReproducedBitForBitWhileScenesChange) {
     Stirred session(toFile());
     session.run(4000);
     EXPECT_GT(session.onBodies(), 200);
+    EXPECT_GT(session.snapped(), 200);
+    EXPECT_GT(session.drawn(), 200);
     for (std::size_t i = 0; i < session.world().world().bodies.size(); ++i)
       moved_m =
           std::max(moved_m, (session.world().state().bodies[i].centre - session.world().body(i).start.origin).norm());

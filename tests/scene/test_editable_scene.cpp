@@ -355,6 +355,81 @@ TEST(FollowOn, KnownObjectsMoveAndNewOnesAreThere) {
   EXPECT_EQ(followOn(scene.placed(), pointersByKey(later.instances), 2000, 2100).blend_ns, kAbruptBlend_ns) << "gone";
 }
 
+std::shared_ptr<SceneItems> withSnaps(SceneItems items, SnapList snaps) {
+  auto list = listOf(std::move(items));
+  list->snaps = std::make_shared<const SnapList>(std::move(snaps));
+  return list;
+}
+
+// An object of nothing but snaps, and one with a mesh; called twice, once larger.
+TEST(EditableScene, SnapsAreWhereTheirObjectIsCalled) {
+  const SnapSpec point{"p", {Vec3(1, 0, 0)}, {}, 0.1, 2};
+  const SnapSpec plane{"q", {Vec3(0, 1, 0)}, Vec3(1, 1, 0).normalized(), 0.1, 2};
+  EditableScene scene(1, {});
+  Placement large = turn(M_PI / 2, {0, 0, 5});
+  large.linear *= Vec3(2, 1, 1).asDiagonal();
+  SceneEdit edit = worldOf({callItem(1), callItem(1, large), callItem(2)});
+  edit.objects[1] = withSnaps({}, {point, plane});
+  edit.objects[2] = withSnaps({shapeItem(triangle())}, {point});
+  scene.apply(edit);
+  const Followed all = followOn(scene.placed(), {}, 0, 0);
+  ASSERT_EQ(all.instances.size(), 4U);
+  std::vector<Vec3> points, normals;
+  for (const Instance& instance : all.instances) {
+    if (!instance.snaps) continue;
+    for (const SnapSpec& snap : *instance.snaps) {
+      if (snap.normal)
+        normals.push_back(instance.motion.to().turnToWorld(*snap.normal));
+      else
+        points.push_back(instance.motion.to().toWorld(snap.points[0]));
+      EXPECT_EQ(snap.capture_m, 0.1);
+    }
+  }
+  const auto has = [](const std::vector<Vec3>& list, const Vec3& v) {
+    return std::any_of(list.begin(), list.end(), [&](const Vec3& one) { return (one - v).norm() < 1e-9; });
+  };
+  EXPECT_EQ(points.size(), 3U);
+  EXPECT_TRUE(has(points, {1, 0, 0}) && has(points, {0, 2, 5}));
+  EXPECT_TRUE(has(normals, Vec3(1, 1, 0).normalized()) && has(normals, Vec3(-1, 0.5, 0).normalized()));
+  EXPECT_EQ(makeSnapshot(all.instances)->snaps.size(), 5U);
+  const Followed same = followOn(scene.placed(), pointersByKey(all.instances), 10, 20);
+  EXPECT_EQ(same.blend_ns, 0);
+  SceneEdit other;
+  other.objects[2] = withSnaps({shapeItem(triangle())}, {plane});
+  scene.apply(other);
+  EXPECT_EQ(followOn(scene.placed(), pointersByKey(all.instances), 30, 40).blend_ns, kAbruptBlend_ns);
+}
+
+TEST(EditableScene, TheSnapsOfABodyMoveWithIt) {
+  EditableScene scene(1, {});
+  SceneEdit edit = worldOf({callItem(1)});
+  edit.objects[1] = withSnaps({shapeItem(triangle())}, {{"p", {Vec3(1, 0, 0)}, {}, 0.1, 2}});
+  BodySpec fixed;
+  fixed.fixed = true;
+  auto body = std::make_shared<SceneItems>(*edit.objects[1]);
+  body->body = std::make_shared<const BodySpec>(fixed);
+  edit.objects[1] = body;
+  scene.apply(edit);
+  ASSERT_EQ(scene.placed().size(), 1U);
+  EXPECT_TRUE(scene.placed()[0].body && scene.placed()[0].snaps);
+}
+
+TEST(EditableScene, SnapsAreLimited) {
+  EditableScene scene(1, {});
+  const auto apply = [&](std::size_t calls, std::size_t snaps, std::size_t points) {
+    SceneItems items(calls, callItem(1));
+    SceneEdit edit = worldOf(items);
+    edit.objects[1] = withSnaps({}, SnapList(snaps, SnapSpec{"", std::vector<Vec3>(points, Vec3::Zero()), {}, 0.1, 1}));
+    scene.apply(edit);
+  };
+  apply(2, 32, 1);
+  EXPECT_THROW(apply(2, 33, 1), Error);
+  apply(4, 4, 256);
+  EXPECT_THROW(apply(4, 5, 256), Error);
+  EXPECT_EQ(scene.placed().size(), 4U) << "as before";
+  EXPECT_THROW(scene.apply(worldOf({callItem(1, turn(0, {0, 2e9, 0}))})), Error);
+}
+
 TEST(EditableScene, AMeshIsTheSameWhateverOfItHasShrunkToNothing) {
   const auto first = makeShape(Model(triangle()->model));
   Model flat = first->model;

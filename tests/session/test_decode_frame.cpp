@@ -74,6 +74,48 @@ TEST(DecodeFrame, CompliancesAreOfObjectsThatAreThere) {
   }
 }
 
+TEST(DecodeFrame, SnapsAreOfTheirObject) {
+  const auto with = [](auto set) {
+    proto::Frame frame;
+    proto::ObjectDefinition& object = *frame.add_objects();
+    object.set_id(5);
+    proto::Snap& snap = *object.add_snaps();
+    for (const double x : {1, 2, 3}) snap.add_points(x);
+    snap.set_capture(0.01);
+    snap.set_release_n(2);
+    set(snap);
+    return frame;
+  };
+  Uploads uploads;
+  const DecodedFrame decoded = decodeFrame(with([](auto&) {}), uploads, smallLimits(), {}, [](double) {});
+  ASSERT_TRUE(decoded.edit.objects.at(5)->snaps);
+  EXPECT_EQ(*decoded.edit.objects.at(5)->snaps, (SnapList{{"", {Vec3(1, 2, 3)}, {}, 0.01, 2}}));
+  const auto refusal = [&](auto set) { return refusalOf(with(set)); };
+  EXPECT_EQ(refusal([](auto& snap) { snap.set_capture(0); }),
+            "object 5.snaps[0].capture must be between 1e-09 and 1e+09");
+  EXPECT_EQ(refusal([](auto& snap) { snap.set_release_n(HUGE_VAL); }),
+            "object 5.snaps[0].releaseN must be between 1e-09 and 1e+09");
+  EXPECT_EQ(refusal([](auto& snap) { snap.set_points(1, std::nan("")); }),
+            "object 5.snaps[0].points must be between -1e+06 and 1e+06");
+  EXPECT_EQ(refusal([](auto& snap) { snap.mutable_normal(); }), "object 5.snaps[0].normal must not be zero");
+}
+
+TEST(DecodeFrame, FieldsAreOfTheirObject) {
+  proto::Frame frame;
+  proto::ObjectDefinition& object = *frame.add_objects();
+  object.set_id(5);
+  proto::Field& field = *object.add_fields();
+  for (const double x : {1, 2, 3}) field.add_points(x);
+  field.set_reach(0.1);
+  field.set_force_n(2);
+  Uploads uploads;
+  const DecodedFrame decoded = decodeFrame(frame, uploads, smallLimits(), {}, [](double) {});
+  ASSERT_TRUE(decoded.edit.objects.at(5)->fields);
+  EXPECT_EQ(decoded.edit.objects.at(5)->fields->at(0).force_N, 2);
+  field.set_force_n(2000);
+  EXPECT_EQ(refusalOf(frame), "object 5.fields[0].forceN must be between 1e-09 and 1000");
+}
+
 TEST(DecodeFrame, AnAbsentTangentialComplianceIsThatAlongTheNormal) {
   proto::Frame frame;
   frame.add_objects()->set_id(5);

@@ -169,5 +169,20 @@ TEST(Trace, TheSameBitsEveryTimeAndWithoutTheHierarchy) {
   EXPECT_EQ(first, third);
 }
 
+// Along x through two points, each taken at 1 mm and left at 2 mm.
+TEST(Trace, TellsWhichSnapHolds) {
+  SceneModel model;
+  model.snaps = {{"a", {Vec3(0.01, 0, 0)}, {}, 1e-3, 2}, {"b", {Vec3(0.02, 0, 0)}, {}, 1e-3, 2}};
+  const auto scene = makeSnapshot(std::move(model));
+  std::vector<PathSample> path;
+  for (int i = 0; i < 300; ++i) path.push_back({1e-3 * i, Vec3(1e-4 * i + 1e-6, 0, 0)});
+  std::vector<std::size_t> held;
+  runTrace(*scene, {}, path, [&](const TraceRow& row) { held.push_back(row.snap.value_or(9)); });
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    const std::size_t expected = i >= 90 && i < 120 ? 1 : i >= 190 && i < 220 ? 2 : 0;
+    ASSERT_EQ(held[i], expected) << i;
+  }
+}
+
 }  // namespace
 }  // namespace hl

@@ -1,0 +1,145 @@
+#include "proxy/snapping.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/finger_reach.h"
+#include "proxy/spring_energy.h"
+
+namespace hl {
+
+namespace {
+
+// Far above the rounding of energies that are compared, far below what can be felt: a part of them, and J, what a
+// spring of 1000 N/m has at 1 nm.
+constexpr double kEnergyRounding = 1e-12, kEnergyRounding_J = 1e-15;
+
+SnapPoint nearestTo(const Vec3& finger, const SceneAt& scene, const Instance& instance, const SnapSpec& snap) {
+  const Pose pose = instance.poses().at(scene.time_ns());
+  const Vec3 finger_O = pose.toObject(finger);
+  SnapPoint nearest = nearestOn(snap.points, snap.normal, finger_O);
+  // By the way to it, whose rounding is that of a small number.
+  nearest.point = finger + pose.turnToWorld(nearest.point - finger_O);
+  nearest.axis = pose.turnToWorld(nearest.axis);
+  return nearest;
+}
+
+// Null: there is no such snap in the scene.
+const SnapSpec* find(const HeldSnap& held, const SceneAt& scene, std::uint32_t& instance) {
+  if (!held.holds() || !scene.snapshot().find(held.key, instance)) return nullptr;
+  const auto& snaps = scene.snapshot().instances[instance].snaps;
+  return snaps && held.number < snaps->size() ? &(*snaps)[held.number] : nullptr;
+}
+
+// R, m of the world, from which the spring pulls by more than the snap holds.
+double releaseDistance_m(const SnapSpec& snap, const ProxySettings& settings) {
+  const double spring_N_m = settings.spring_N_m / settings.world_per_device;
+  return spring_N_m > 0 ? snap.release_N / spring_N_m : std::numeric_limits<double>::infinity();
+}
+
+std::optional<Vec3> goOn(const HeldSnap& held, const SceneAt& scene, const ProxySettings& settings,
+                         const Vec3& finger) {
+  std::uint32_t instance = 0;
+  const SnapSpec* const snap = find(held, scene, instance);
+  if (snap == nullptr) return {};
+  const Vec3 point = nearestTo(finger, scene, scene.snapshot().instances[instance], *snap).point;
+  if ((point - finger).norm() > releaseDistance_m(*snap, settings)) return {};
+  return point;
+}
+
+std::optional<Vec3> capture(HeldSnap& held, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
+  std::optional<Vec3> goal;
+  double least_m = std::numeric_limits<double>::infinity();
+  for (const PlacedSnap& placed : scene.snapshot().snaps) {
+    const Instance& instance = scene.snapshot().instances[placed.instance];
+    const SnapSpec& snap = (*instance.snaps)[placed.number];
+    const Vec3 point = nearestTo(finger, scene, instance, snap).point;
+    const double distance_m = (point - finger).norm();
+    const bool reached = distance_m <= std::min(snap.capture_m, releaseDistance_m(snap, settings));
+    if (!reached || distance_m >= least_m) continue;
+    least_m = distance_m;
+    held = {instance.key, placed.number};
+    goal = point;
+  }
+  return goal;
+}
+
+// Where the spring is fixed before the tick.
+Vec3 restOf(const ProxyState& state, const Vec3& finger) {
+  return state.touching ? Vec3(state.position + state.rest_offset_m) : finger;
+}
+
+// The part of the way to `goal` for which the tank pays.
+Vec3 affordable(const ProxyState& state, const ProxySettings& settings, const Vec3& finger, const Vec3& goal) {
+  const Vec3 from = restOf(state, finger);
+  const double scale = settings.world_per_device;
+  const double per_square_J = springEnergy_J(settings.spring_N_m, state.stiffness, 1 / (scale * scale));
+  if (!(per_square_J > 0)) return goal;
+  const double part = partWithin(from - finger, goal - from, state.ledger.budget_J(settings.ledger) / per_square_J);
+  return part < 1 ? Vec3(from + part * (goal - from)) : goal;
+}
+
+// Of a tick that does not count: the proxy has not moved.
+TickReport stayed(const TickReport& tried) {
+  TickReport report;
+  report.ending = Ending::kNoEnergy;
+  report.work = tried.work;
+  report.looks = tried.looks;
+  report.used_up_at = tried.used_up_at;
+  return report;
+}
+
+}  // namespace
+
+std::optional<SnapPoint> heldPoint(const HeldSnap& held, const SceneAt& scene, const Vec3& finger) {
+  std::uint32_t instance = 0;
+  const SnapSpec* const snap = find(held, scene, instance);
+  if (snap == nullptr) return {};
+  return nearestTo(finger, scene, scene.snapshot().instances[instance], *snap);
+}
+
+std::optional<Vec3> followSnap(ProxyState& state, const SceneAt& scene, const ProxySettings& settings,
+                               const Vec3& finger) {
+  const bool held = state.snap.holds();
+  const std::optional<Vec3> goal =
+      held ? goOn(state.snap, scene, settings, finger) : capture(state.snap, scene, settings, finger);
+  if (goal && canBeFinger(*goal)) return goal;
+  state.snap = {};
+  return {};
+}
+
+TickReport tickSnapped(ProxyState& state, const ProxySettings& settings, const Vec3& finger, const Vec3& goal,
+                       TickTo tick_to) {
+  const double before_J = state.touching ? springEnergy_J(settings, state, finger) : 0;
+  const double budget_J = state.ledger.budget_J(settings.ledger);
+  const Vec3 aim = affordable(state, settings, finger, goal);
+  ProxyState there = state;
+  TickReport report = tick_to(aim, there, 0);
+  double added_J = springEnergy_J(settings, there, finger) - before_J;
+  if (added_J <= budget_J + kEnergyRounding * before_J + kEnergyRounding_J) {
+    there.ledger = state.ledger;
+    there.ledger.book(added_J, true);
+    state = there;
+  } else if (state.touching) {
+    report = stayed(report);
+    added_J = 0;
+  } else {
+    state.snap = {};
+    return tick_to(finger, state, report.looks);
+  }
+  state.touching = true;
+  const Vec3 rest = state.position + state.rest_offset_m;
+  report.injected_J = added_J;
+  report.target = finger + state.stiffness * (rest - finger);
+  report.snap_point = goal;
+  report.snap_pull_m = (report.contacts.empty() ? rest : aim) - finger;
+  return report;
+}
+
+TickReport tickReleased(ProxyState& state, const Vec3& finger, TickTo tick_to) {
+  TickReport report = tick_to(finger, state, 0);
+  if (!state.touching) state.ledger.refill(std::max(0.0, -report.injected_J));
+  return report;
+}
+
+}  // namespace hl
