@@ -1,11 +1,15 @@
 // Bodies, end to end: what the mouse pushes moves, on the page too, and its energy is told to the joule.
 
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { dirname, join } from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { fileURLToPath } from "node:url";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
 import { decodeServerMessage } from "../src/protocol";
 import type { Bodies } from "../src/gen/hl_pb";
-import { expectTidyLayout, kSizes, launch, listen, screenshot, states, type Complaints } from "./browser";
+import { expectTidyLayout, kSizes, launch, listen, openSection, screenshot, states, type Complaints } from "./browser";
 import { kProgram, startTouch, type Touch } from "./programs";
 
 const kBlocks = fileURLToPath(new URL("../../scenes/examples/blocks.hl.json", import.meta.url));
@@ -78,6 +82,21 @@ describe.skipIf(!kProgram)("hl touch with bodies", () => {
     expect(last.byHandJ).toBeGreaterThan(1e-5);
     expect(last.frictionJ).toBeGreaterThan(1e-5);
     expect(heldBy(last) - heldBy(first)).toBeCloseTo(broughtTo(last) - broughtTo(first), 9);
+  });
+
+  test("are in the saved scene, which hl opens with the same bodies and joints", async () => {
+    await openSection(page, "more");
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click("#save-scene")]);
+    const file = join(mkdtempSync(join(tmpdir(), "hl-e2e-")), "saved.hl.json");
+    await download.saveAs(file);
+    const told = (scene: string) => execFileSync(kProgram!, ["info", scene], { encoding: "utf8" })
+      .split("\n").filter((line) => /^(body|joint|gravity)/.test(line));
+    // The page's names are those of the numbers of its objects.
+    const begin = told(kBlocks).map((line) => line.replace("body block", "body object 2")
+      .replace("body door", "body object 3").replace("hinge, door", "hinge, object 3"));
+    expect(begin).toHaveLength(4);
+    expect(told(file)).toEqual(begin);
+    rmSync(dirname(file), { recursive: true });
   });
 
   test("without an error, and without asking anybody else", () => {
