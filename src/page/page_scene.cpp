@@ -61,10 +61,10 @@ void PageScene::takeNewest(const std::shared_ptr<const Snapshot>& newest) {
   shown_places_ = std::move(waiting_places_);
 }
 
-bool PageScene::outdated(const PageScale& scale, std::int64_t now_ns) const {
+bool PageScene::outdated(const PageScale& scale, std::int64_t now_ns) {
   if (!layout_ || layout_->scale != scale || layout_->name != shown_->name || layout_->places != shown_places_)
     return true;
-  return now_ns - layout_->made_ns >= kSettle_ns && settledElsewhere(now_ns);
+  return now_ns - layout_->made_ns >= kSettle_ns && (settledElsewhere(now_ns) || otherBodies());
 }
 
 bool PageScene::settledElsewhere(std::int64_t now_ns) const {
@@ -76,10 +76,16 @@ bool PageScene::settledElsewhere(std::int64_t now_ns) const {
   return false;
 }
 
+bool PageScene::otherBodies() {
+  if (layout_->bodies_of == shown_->identity) return false;
+  layout_->bodies_of = shown_->identity;
+  return !(layout_->bodies == ToldBodies::of(*shown_));
+}
+
 void PageScene::layOut(const PageScale& scale, std::int64_t now_ns) {
   proto::ServerMessage message;
   proto::SceneLayout& out = *message.mutable_layout();
-  layout_ = Layout{++last_layout_, shown_->name, scale, shown_places_, {}, {}, now_ns, nullptr};
+  layout_ = Layout{++last_layout_, shown_->name, scale, shown_places_, {}, {}, now_ns};
   out.set_number(layout_->number);
   out.set_name(layout_->name);
   out.set_proxy_radius(scale.radius_W);
@@ -100,6 +106,9 @@ void PageScene::layOut(const PageScale& scale, std::int64_t now_ns) {
     placed.set_name(place.name);
     addMaterials(*place.surfaces, placed);
   }
+  layout_->bodies = ToldBodies::of(*shown_);
+  layout_->bodies_of = shown_->identity;
+  addBodies(layout_->bodies, *shown_, out);
   layout_->message = std::make_shared<const std::string>(message.SerializeAsString());
   if (!waiting_) meshes_.keep(layout_->meshes);
 }

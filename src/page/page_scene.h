@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "page/page_meshes.h"
+#include "page/told_bodies.h"
 #include "scene/snapshot.h"
 #include "touch/proxy_loop.h"
 
@@ -38,7 +39,7 @@ struct PageScale {
 class PageScene {
  public:
   /// Objects that rest away from where the layout has them get a new layout after this time, and so do objects that
-  /// jump: no more often.
+  /// jump, and bodies, joints and gravity that change: no more often.
   static constexpr std::int64_t kSettle_ns = 1'000'000'000;
 
   /// What pages are shown is counted against `memory`.
@@ -69,12 +70,15 @@ class PageScene {
     std::vector<Pose> poses;
     std::set<std::uint32_t> meshes;
     std::int64_t made_ns = 0;
-    PageMessage message;
+    ToldBodies bodies{};
+    std::uint64_t bodies_of = 0;  // identity of the last snapshot whose bodies are these
+    PageMessage message{};
   };
 
   void takeNewest(const std::shared_ptr<const Snapshot>& newest);
-  bool outdated(const PageScale& scale, std::int64_t now_ns) const;
+  bool outdated(const PageScale& scale, std::int64_t now_ns);
   bool settledElsewhere(std::int64_t now_ns) const;
+  bool otherBodies();
   void layOut(const PageScale& scale, std::int64_t now_ns);
 
   std::shared_ptr<const void> presence_ = std::make_shared<char>();

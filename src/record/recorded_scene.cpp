@@ -1,6 +1,7 @@
 #include "record/recorded_scene.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "base/error.h"
@@ -105,6 +106,11 @@ void encode(const Instance& instance, proto::RecordedInstance& out) {
   toProto(valuesOf(yields), *out.mutable_compliance());
 }
 
+void addPose(std::uint64_t body, std::span<const float> pose, proto::RecordedPoses& out) {
+  out.add_bodies(body);
+  out.mutable_poses()->Add(pose.begin(), pose.end());
+}
+
 }  // namespace
 
 template <typename Part, typename Encode>
@@ -175,6 +181,37 @@ void SceneWriter::write(const Snapshot& scene, const Write& write) {
     }));
   }
   write(block);
+}
+
+// What begins to move is written as it was at the look before too: until then it was at rest.
+void SceneWriter::writePoses(std::int64_t now_ns, const Write& write) {
+  std::map<std::uint64_t, SeenBody> seen;
+  proto::RecordingBlock rested, moved;
+  for (const auto& [_, written] : bodies_) {
+    const auto body = written.part.lock();
+    if (!body || !body->poses) continue;
+    const Pose pose = body->poses->shown().pose;
+    SeenBody now{now_ns, {}};
+    std::copy_n(pose.rotation.data(), 9, now.pose.begin());
+    std::copy_n(pose.origin.data(), 3, now.pose.begin() + 9);
+    const auto before = seen_.find(written.id);
+    const bool known = before != seen_.end();
+    if (known && before->second.pose == now.pose) {
+      seen[written.id] = before->second;
+      continue;
+    }
+    if (known && before->second.time_ns < last_look_ns_)
+      addPose(written.id, before->second.pose, *rested.mutable_poses());
+    addPose(written.id, now.pose, *moved.mutable_poses());
+    seen[written.id] = now;
+  }
+  if (rested.has_poses()) rested.mutable_poses()->set_time_ns(last_look_ns_);
+  if (moved.has_poses()) moved.mutable_poses()->set_time_ns(now_ns);
+  for (const auto* block : {&rested, &moved}) {
+    if (block->has_poses()) write(*block);
+  }
+  seen_ = std::move(seen);
+  last_look_ns_ = now_ns;
 }
 
 void SceneReader::add(const proto::RecordedShape& in) {

@@ -4,6 +4,7 @@
 
 #include <recording.pb.h>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -22,8 +23,16 @@ class SceneWriter {
 
   /// The blocks of `scene`: what of it has not been written before, then the scene itself.
   void write(const Snapshot& scene, const Write& write);
+  /// Where the bodies of the scenes so far are, `now_ns`, of those that have moved since the last call: for showing
+  /// them.
+  void writePoses(std::int64_t now_ns, const Write& write);
 
  private:
+  using PoseNumbers = std::array<float, 12>;
+  struct SeenBody {
+    std::int64_t time_ns = 0;  // when it was written
+    PoseNumbers pose{};
+  };
   template <typename Part>
   struct Written {
     std::weak_ptr<const Part> part;
@@ -39,6 +48,8 @@ class SceneWriter {
   std::map<const Surfaces*, Written<Surfaces>> surfaces_;
   std::map<const RigidBody*, Written<RigidBody>> bodies_;
   std::uint64_t last_id_ = 0;
+  std::map<std::uint64_t, SeenBody> seen_;  // by id
+  std::int64_t last_look_ns_ = 0;
 };
 
 /// One thread. Everything throws hl::Error when the message makes no sense.

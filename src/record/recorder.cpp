@@ -173,6 +173,7 @@ void Recorder::writeFile(bool all) {
   if (scenes_.hasLost()) return endRecording("there was no memory to keep a scene for it");
   writeTicks(all);
   writeSteps(all);
+  scene_writer_.writePoses(monotonicNow_ns(), [this](const proto::RecordingBlock& block) { file_->write(block); });
   if (written_.page != 0)
     tellPages();
   else if (all)

@@ -167,6 +167,49 @@ TEST_F(PageSceneTest, APageThatReadsSlowlyGetsOnlyTheNewest) {
   EXPECT_EQ(messages[1].layout().placed_size(), 5);
 }
 
+/// A block of 100 g that started at x = 0.1 m, on a slider to the world.
+std::shared_ptr<const Snapshot> withBody(const Instance& instance, double gravity_m_s2, double low) {
+  BodySpec spec;
+  spec.mass_kg = 0.1;
+  spec.shape = BodyShape::kBox;
+  Instance block = instance;
+  setBody(block, makeRigidBody("block", spec, at(0.1), Box{{0, 0, 0}, {1, 1, 1}}, Box{{-9, -9, -9}, {9, 9, 9}}));
+  Mechanics mechanics;
+  mechanics.gravity_m_s2 = {0, 0, gravity_m_s2};
+  mechanics.joints.push_back({"rail", JointKind::kSlider, block.key, 0, {0.1, 0, 0}, {}, {1, 0, 0}, {}});
+  mechanics.joints.front().along.low = low;
+  return makeSnapshot({block}, {}, 1, 0, mechanics);
+}
+
+TEST_F(PageSceneTest, BodiesAndJointsAreInTheLayoutAsTheSceneHasThem) {
+  const auto messages = show(withBody(instanceOf(4, small_), -3, -0.5));
+  const proto::SceneLayout& layout = messages.back().layout();
+  EXPECT_EQ(layout.gravity_m_s2().z(), -3);
+  EXPECT_EQ(layout.placed(0).body().mass_kg(), 0.1);
+  EXPECT_EQ(layout.placed(0).body().shape(), proto::BOX);
+  EXPECT_EQ(poseNumber(layout.placed(0).start(), 0, 3), 0.1f);
+  ASSERT_EQ(layout.joints_size(), 1);
+  EXPECT_EQ(layout.joints(0).joint().kind(), proto::SLIDER);
+  EXPECT_EQ(layout.joints(0).joint().low(), -0.5);
+  EXPECT_FALSE(layout.joints(0).joint().has_high());
+  EXPECT_EQ(layout.joints(0).body_a(), 0u);
+  EXPECT_FALSE(layout.joints(0).has_body_b());
+}
+
+TEST_F(PageSceneTest, OtherGravityAndJointsGetALayoutOnceASecond) {
+  show(withBody(instanceOf(4, small_), -3, -0.5));
+  const Instance same = instanceOf(4, small_);
+  const auto lighter = withBody(same, -1, -0.5);
+  scene_.follow(lighter, kScale, 500 * kMs);
+  EXPECT_TRUE(drain(page_).empty());
+  scene_.follow(lighter, kScale, 1000 * kMs);
+  EXPECT_EQ(drain(page_).at(0).layout().gravity_m_s2().z(), -1);
+  scene_.follow(withBody(same, -1, -0.5), kScale, 3000 * kMs);
+  EXPECT_TRUE(drain(page_).empty()) << "the same in another snapshot";
+  scene_.follow(withBody(same, -1, -0.2), kScale, 3100 * kMs);
+  EXPECT_EQ(drain(page_).at(0).layout().joints(0).joint().low(), -0.2);
+}
+
 TEST_F(PageSceneTest, AnEmptySceneIsALayoutWithNothingInIt) {
   const auto messages = show(makeSnapshot(std::vector<Instance>{}));
   ASSERT_EQ(messages.size(), 1u);

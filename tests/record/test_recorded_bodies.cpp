@@ -191,6 +191,39 @@ TEST_F(RecordedBodies, AreReproducedBitForBitWhileScenesChange) {
   expectReproduced(report);
 }
 
+// What shows a recording goes from pose to pose, so what has rested needs the place where it did.
+TEST(RecordedPoses, AreThoseOfBodiesThatMoveAndOfTheEndOfTheirRest) {
+  const Instance body = bodyAt(2, Vec3(0.1, 0.2, 0.3));
+  SceneWriter writer;
+  std::vector<proto::RecordedPoses> written;
+  const auto write = [&written](const proto::RecordingBlock& block) {
+    if (block.has_poses()) written.push_back(block.poses());
+  };
+  writer.write(*makeSnapshot({floorInstance(), body}), write);
+  const auto move_to = [&](double x) { body.body->poses->jumpTo(Pose{Mat3::Identity(), Vec3(x, 0, 0)}); };
+  struct Look {
+    std::int64_t time_ns;
+    double x;  // of the body then; 0: it rests
+    std::vector<std::int64_t> times;
+  };
+  for (const Look& look : {Look{100, 0, {100}}, Look{200, 0, {}}, Look{300, 0, {}}, Look{400, 1, {300, 400}},
+                           Look{500, 2, {500}}, Look{600, 0, {}}, Look{700, 3, {600, 700}}}) {
+    if (look.x > 0) move_to(look.x);
+    written.clear();
+    writer.writePoses(look.time_ns, write);
+    ASSERT_EQ(written.size(), look.times.size()) << look.time_ns;
+    for (std::size_t i = 0; i < written.size(); ++i) {
+      EXPECT_EQ(written[i].time_ns(), look.times[i]);
+      EXPECT_EQ(written[i].bodies_size(), 1) << "what is fixed has none";
+      EXPECT_EQ(written[i].poses_size(), 12);
+    }
+    if (look.x > 0) {
+      EXPECT_EQ(written.back().poses(9), static_cast<float>(look.x));
+    }
+  }
+  EXPECT_EQ(written.front().poses(9), 2.0f) << "where it rested";
+}
+
 TEST_F(RecordedBodies, OneBitOfABodyIsFoundInTheFirstTick) {
   { Stirred(toFile()).run(300); }
   rewrite(path, [](proto::RecordingBlock& block) {

@@ -1,11 +1,16 @@
 // Bodies, end to end: what the mouse pushes moves, on the page too, and its energy is told to the joule.
 
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { fileURLToPath } from "node:url";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
 import { decodeServerMessage } from "../src/protocol";
 import type { Bodies } from "../src/gen/hl_pb";
-import { expectTidyLayout, kSizes, launch, listen, screenshot, states, type Complaints } from "./browser";
+import type { Vec } from "../src/vec";
+import { expectTidyLayout, kSizes, launch, listen, openSection, screenshot, states, type Complaints } from "./browser";
 import { kProgram, startTouch, type Touch } from "./programs";
 
 const kBlocks = fileURLToPath(new URL("../../scenes/examples/blocks.hl.json", import.meta.url));
@@ -24,6 +29,10 @@ describe.skipIf(!kProgram)("hl touch with bodies", () => {
   let page: Page;
   let complaints: Complaints;
   const told: Bodies[] = [];
+  const record = () => page.evaluate(() => document.getElementById("record")!.click());
+  const block = () => page.evaluate((number) => window.__hl.originOf(number), kBlock);
+  const folder = mkdtempSync(join(tmpdir(), "hl-e2e-"));
+  let pushed: { begin: Vec; end: Vec };
 
   beforeAll(async () => {
     touch = await startTouch(0, kBlocks);
@@ -43,6 +52,7 @@ describe.skipIf(!kProgram)("hl touch with bodies", () => {
   afterAll(async () => {
     await browser?.close();
     touch?.process.kill("SIGKILL");
+    rmSync(folder, { recursive: true });
   });
 
   test("are counted, in cards that fit", async () => {
@@ -51,7 +61,9 @@ describe.skipIf(!kProgram)("hl touch with bodies", () => {
   });
 
   test("a block that the hand pushes moves", async () => {
-    const begin = await page.evaluate((block) => window.__hl.originOf(block), kBlock);
+    await record();
+    await expect.poll(() => page.textContent("#record-told")).toMatch(/^Recording: /);
+    const begin = await block();
     await page.uncheck("#explore");
     const { from, to } = await page.evaluate((block) => {
       const at = window.__hl.originOf(block);
@@ -67,7 +79,9 @@ describe.skipIf(!kProgram)("hl touch with bodies", () => {
     }
     await screenshot(page, "bodies_pushed");
     await page.mouse.up();
-    const end = await page.evaluate((block) => window.__hl.originOf(block), kBlock);
+    await states(page, 5);
+    const end = await block();
+    pushed = { begin, end };
     expect(Math.hypot(end.x - begin.x, end.z - begin.z)).toBeGreaterThan(0.003);
     expect(end.y).toBeGreaterThan(0.0199);
   });
@@ -78,6 +92,36 @@ describe.skipIf(!kProgram)("hl touch with bodies", () => {
     expect(last.byHandJ).toBeGreaterThan(1e-5);
     expect(last.frictionJ).toBeGreaterThan(1e-5);
     expect(heldBy(last) - heldBy(first)).toBeCloseTo(broughtTo(last) - broughtTo(first), 9);
+  });
+
+  test("are in the saved scene, which hl opens with the same bodies and joints", async () => {
+    await openSection(page, "more");
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click("#save-scene")]);
+    const file = join(folder, "saved.hl.json");
+    await download.saveAs(file);
+    const told = (scene: string) => execFileSync(kProgram!, ["info", scene], { encoding: "utf8" })
+      .split("\n").filter((line) => /^(body|joint|gravity)/.test(line));
+    // The page's names are those of the numbers of its objects.
+    const begin = told(kBlocks).map((line) => line.replace("body block", "body object 2")
+      .replace("body door", "body object 3").replace("hinge, door", "hinge, object 3"));
+    expect(begin).toHaveLength(4);
+    expect(told(file)).toEqual(begin);
+  });
+
+  test("are drawn on the timeline of a recording where they were", async () => {
+    const [download] = await Promise.all([page.waitForEvent("download"), record()]);
+    const file = join(folder, "session.hlr");
+    await download.saveAs(file);
+    expect(execFileSync(kProgram!, ["replay", file], { encoding: "utf8" })).toContain("reproduced: bit for bit");
+    await page.setInputFiles("#file", file);
+    await page.waitForSelector("#timeline:visible");
+    const off_m = (from: Vec, to: Vec) => Math.hypot(from.x - to.x, from.y - to.y, from.z - to.z);
+    await page.keyboard.press("End");
+    await expect.poll(async () => off_m(await block(), pushed.end)).toBeLessThan(1e-4);
+    await page.keyboard.press("Home");
+    await expect.poll(async () => off_m(await block(), pushed.begin)).toBeLessThan(1e-4);
+    await page.keyboard.press("Escape");
+    await expect.poll(async () => off_m(await block(), pushed.end)).toBeLessThan(1e-4);
   });
 
   test("without an error, and without asking anybody else", () => {

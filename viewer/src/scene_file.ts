@@ -1,7 +1,8 @@
 // The scene as a scene file (docs/scene-files.md): everything where it is now, with the materials that are felt now.
 // The geometry is in the file, so that it opens by itself.
 
-import { kPoseNumbers, type Mesh } from "./scene_messages";
+import { bodyJson, mechanicsJson, transformJson } from "./saved_bodies";
+import { kPoseNumbers, type Layout, type Mesh } from "./scene_messages";
 import type { SceneStore } from "./scene_store";
 import type { SurfaceSettings } from "./surfaces";
 
@@ -14,6 +15,8 @@ const kPiece = 20_000;
 const kDigits = 9;
 
 const kNoTextures = "The file has no textures: the page does not know them. What they change is as without them.";
+const kOneMaterial = "Bodies of several materials have only their first one in the file.";
+const kUnmoved: ArrayLike<number> = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
 
 /** Fields of a Material that are numbers. */
 const kNumbers = [
@@ -33,9 +36,9 @@ export interface SceneFile {
 export async function sceneFile(store: SceneStore, over: SurfaceSettings): Promise<SceneFile> {
   const parts: string[] = [];
   let bytes = 0;
-  let textured = false;
+  const lacking = new Set<string>();
   let began_ms = performance.now();
-  for (const piece of pieces(store, over, () => (textured = true))) {
+  for (const piece of pieces(store, over, lacking)) {
     parts.push(piece);
     bytes += piece.length;
     if (bytes > kMaxBytes) {
@@ -48,42 +51,77 @@ export async function sceneFile(store: SceneStore, over: SurfaceSettings): Promi
   }
   return {
     content: new Blob(parts, { type: "application/json" }),
-    lacking: textured ? kNoTextures : undefined,
+    lacking: lacking.size > 0 ? [...lacking].join(" ") : undefined,
   };
 }
 
 /** The page draws after so long. */
 const kSlice_ms = 12;
 
-function* pieces(store: SceneStore, over: SurfaceSettings, textured: () => void): Generator<string> {
-  const placed = store.layout?.placed ?? [];
-  if (placed.length === 0) {
+function* pieces(store: SceneStore, over: SurfaceSettings, lacking: Set<string>): Generator<string> {
+  const { layout } = store;
+  if (layout === undefined || layout.placed.length === 0) {
     throw new Error("There is nothing to save yet: the scene has no objects.");
   }
   let objects = 0;
   yield '{\n  "objects": [';
-  for (const [index, { mesh: number, materials }] of placed.entries()) {
-    const mesh = store.meshes.get(number);
+  for (const { name, mesh, pose, part, surface, fields } of objectsOf(layout, store, lacking)) {
+    objects += 1;
+    if (objects > kMaxObjects) {
+      throw new Error(`The scene cannot be saved: a scene file has ${kMaxObjects} objects at most.`);
+    }
+    yield `${objects > 1 ? "," : ""}\n    {\n      "name": ${JSON.stringify(name)},\n      "primitives": {`;
+    yield* primitives(mesh, pose, part);
+    yield "\n      }";
+    const material = materialOf(surface, over, () => lacking.add(kNoTextures));
+    yield* fieldsOf({ ...fields, material }, "      ");
+    yield "\n    }";
+  }
+  yield "\n  ]";
+  yield* fieldsOf(mechanicsJson(layout, store.poses, nameOf), "  ");
+  yield "\n}\n";
+}
+
+const nameOf = (index: number): string => `object ${index + 1}`;
+
+function* fieldsOf(fields: Record<string, unknown>, indent: string): Generator<string> {
+  for (const [field, value] of Object.entries(fields)) {
+    yield `,\n${indent}"${field}": ${JSON.stringify(value)}`;
+  }
+}
+
+interface SavedObject {
+  readonly name: string;
+  readonly mesh: Mesh;
+  /** Of the vertices as they are written. */
+  readonly pose: ArrayLike<number>;
+  readonly part: Part;
+  readonly surface: SurfaceSettings;
+  readonly fields: Record<string, unknown>;
+}
+
+/** A body is one object in its own frame; of anything else each material is one, in the world. */
+function* objectsOf(layout: Layout, store: SceneStore, lacking: Set<string>): Generator<SavedObject> {
+  for (const [index, placed] of layout.placed.entries()) {
+    const mesh = store.meshes.get(placed.mesh);
+    const { body, materials } = placed;
     if (mesh === undefined || materials.length === 0) {
       throw new Error("The scene cannot be saved: the page was not told all its meshes and materials.");
     }
+    const name = nameOf(index);
     const pose = store.poses.subarray(kPoseNumbers * index, kPoseNumbers * (index + 1));
+    if (body !== undefined) {
+      if (materials.length > 1) lacking.add(kOneMaterial);
+      const fields = { transform: transformJson(pose), body: bodyJson(placed) };
+      yield { name, mesh, pose: kUnmoved, part: wholeOf(mesh), surface: materials[0]!, fields };
+      continue;
+    }
     for (const [material, surface] of materials.entries()) {
       const part = partOf(mesh, material);
-      if (part === undefined) {
-        continue;
-      }
-      objects += 1;
-      if (objects > kMaxObjects) {
-        throw new Error(`The scene cannot be saved: a scene file has ${kMaxObjects} objects at most.`);
-      }
-      const name = `object ${index + 1}${materials.length > 1 ? `, material ${material + 1}` : ""}`;
-      yield `${objects > 1 ? "," : ""}\n    {\n      "name": ${JSON.stringify(name)},\n      "primitives": {`;
-      yield* primitives(mesh, pose, part);
-      yield `\n      },\n      "material": ${JSON.stringify(materialOf(surface, over, textured))}\n    }`;
+      const full = materials.length > 1 ? `${name}, material ${material + 1}` : name;
+      if (part !== undefined) yield { name: full, mesh, pose, part, surface, fields: {} };
     }
   }
-  yield "\n  ]\n}\n";
 }
 
 /** The elements of a mesh that have one material, and the vertices that they use. */
@@ -109,6 +147,10 @@ function partOf(mesh: Mesh, material: number): Part | undefined {
   return renumbered(mesh.positions.length / 3, own, segments, points);
 }
 
+function wholeOf({ positions, triangles, segments, points }: Mesh): Part {
+  return renumbered(positions.length / 3, triangles, segments, points);
+}
+
 function renumbered(count: number, ...lists: [Uint32Array, Uint32Array, Uint32Array]): Part {
   const numbers = new Int32Array(count).fill(-1);
   lists.forEach((list) => list.forEach((vertex) => (numbers[vertex] = 0)));
@@ -124,7 +166,7 @@ function renumbered(count: number, ...lists: [Uint32Array, Uint32Array, Uint32Ar
   return { triangles, segments, points, vertices: vertices.subarray(0, used) };
 }
 
-function* primitives(mesh: Mesh, pose: Float32Array, part: Part): Generator<string> {
+function* primitives(mesh: Mesh, pose: ArrayLike<number>, part: Part): Generator<string> {
   const { vertices } = part;
   yield* list("vertices", 3 * vertices.length, (i) => moved(mesh.positions, vertices, pose, i, 1));
   if (mesh.normals !== undefined) {
@@ -142,7 +184,7 @@ function* primitives(mesh: Mesh, pose: Float32Array, part: Part): Generator<stri
 }
 
 /** Coordinate `i` of the used vertices at the pose; `weight` of its origin: 1 for places, 0 for directions. */
-function moved(values: Float32Array, used: Uint32Array, pose: Float32Array, i: number, weight: number): number {
+function moved(values: Float32Array, used: Uint32Array, pose: ArrayLike<number>, i: number, weight: number): number {
   const at = 3 * used[Math.floor(i / 3)]!;
   const row = 4 * (i % 3);
   const [x, y, z] = [values[at]!, values[at + 1]!, values[at + 2]!];

@@ -1,7 +1,7 @@
 // What the server tells of the scene, as values the page can trust: meshes with every index proven to be in range, layouts
 // and moves with a whole pose for each object.
 
-import type { PlacedMesh, SceneLayout, SceneMesh, State, SurfaceImage } from "./gen/hl_pb";
+import type { PlacedJoint, PlacedMesh, SceneLayout, SceneMesh, State, SurfaceImage } from "./gen/hl_pb";
 import type { Vec } from "./vec";
 import { floats, indices, knownVec, ProtocolError, shorts } from "./wire_values";
 
@@ -43,6 +43,14 @@ export interface Layout {
   readonly worldPerDevice: number;
   readonly placed: readonly PlacedMesh[];
   readonly poses: Float32Array;
+  /** Absent: none of them is a body, or that is not known. */
+  readonly mechanics?: Mechanics | undefined;
+}
+
+/** What acts on the bodies of a layout. */
+export interface Mechanics {
+  readonly gravity_m_s2: Vec;
+  readonly joints: readonly PlacedJoint[];
 }
 
 /** Those of a layout's objects that are elsewhere now. */
@@ -82,7 +90,18 @@ export function checkLayout(layout: SceneLayout): Layout {
     bounds: boundsOf(layout),
     proxyRadius_m: proxyRadius > 0 && Number.isFinite(proxyRadius) ? proxyRadius : 0,
     poses: checkPoses(layout.poses, placed.length),
+    mechanics: checkMechanics(layout),
   };
+}
+
+function checkMechanics({ placed, joints, gravityMS2 }: SceneLayout): Mechanics | undefined {
+  const gravity_m_s2 = knownVec(gravityMS2);
+  placed.filter(({ body }) => body !== undefined).forEach(({ start }) => checkPoses(start, 1));
+  const isBody = (index: number) => placed[index]?.body !== undefined;
+  if (joints.some(({ joint, bodyA, bodyB }) => !joint || !isBody(bodyA) || (bodyB !== undefined && !isBody(bodyB)))) {
+    throw new ProtocolError("a joint of the scene has no body");
+  }
+  return gravity_m_s2 === undefined ? undefined : { gravity_m_s2, joints };
 }
 
 export function checkMoves(state: State): Moves {

@@ -19,7 +19,7 @@ export function blockBytes(body: BlockBody): Buffer {
 
 export const kIdentity = [1, 0, 0, 0, 1, 0, 0, 0, 1];
 export const kSceneIdentity = 77n;
-const kBegin_ns = 5_000_000_000n;
+export const kBegin_ns = 5_000_000_000n;
 
 /** Two screws: at rest, then from x = 0 to x = 1 between 1 s and 2 s of the recording. */
 export const kMotion = {

@@ -1,7 +1,7 @@
 // A recording file as the page shows it, and what is refused.
 import { describe, expect, test } from "vitest";
 import {
-  blockBytes, fileOf, kContext, kEnd, kMagic, kScene, kShape, kStart, kSurfaces, kWhole, steps, ticks, type BlockBody,
+  blockBytes, fileOf, kContext, kEnd, kMagic, kBegin_ns, kIdentity, kScene, kShape, kStart, kSurfaces, kWhole, steps, ticks, type BlockBody,
 } from "../test-support/recording_bytes";
 import { layoutOf, momentOf } from "../src/timeline/recorded_moment";
 import { readRecording } from "../src/timeline/recording_reader";
@@ -66,6 +66,28 @@ describe("a recording", () => {
     expect(cut.length_s).toBeCloseTo(3, 9);
   });
 
+  test("has its bodies where they were, on a screw from pose to pose", async () => {
+    const turned = [0, 1, 0, -1, 0, 0, 0, 0, 1];
+    const poses = (time_s: number, ...pose: number[]): BlockBody =>
+      ({ case: "poses", value: { timeNs: kBegin_ns + BigInt(1e9 * time_s), bodies: [5n], poses: pose } });
+    const { value } = kScene as { value: { instances: object[] } };
+    const scene: BlockBody = { case: "scene", value: { ...value, instances: [{ ...value.instances[0], body: 5n }] } };
+    const recording = await read(fileOf(
+      kStart, kShape, kSurfaces, scene, poses(0.5, ...kIdentity, 1, 0, 0), ticks(30), steps(30),
+      poses(1.5, ...turned, 0, 1, 0),
+    ));
+    const placeAt = (time_s: number) => {
+      const { moves, scene: number, scale } = momentOf(recording, time_s);
+      expect([...layoutOf(recording, number, scale, time_s).poses]).toEqual([...moves.poses]);
+      return [3, 7, 11].map((i) => moves.poses[i]!);
+    };
+    // A quarter of a turn about the z axis of the world.
+    const half = Math.SQRT1_2;
+    expect(placeAt(0)).toEqual([1, 0, 0]);
+    placeAt(1).forEach((each, i) => expect(each).toBeCloseTo([half, half, 0][i]!, 6));
+    placeAt(2.5).forEach((each, i) => expect(each).toBeCloseTo([0, 1, 0][i]!, 6));
+  });
+
   test("with a mesh in parts is put together", async () => {
     const { value } = kShape as { value: object };
     const first: BlockBody = { case: "shape", value: { ...value, triangles: [], continues: true } };
@@ -96,6 +118,9 @@ describe("refused in one line is", () => {
     await refused(fileOf(kStart, ticks(3), steps(3))).toThrow("lacks a scene");
     const { value: step } = steps(3) as { value: object };
     await refused(fileOf(kStart, { case: "steps", value: { ...step, flags: [0] } })).toThrow("do not agree");
+    const poses = (list: number[]): BlockBody => ({ case: "poses", value: { bodies: [1n], poses: list } });
+    await refused(fileOf(kStart, poses([1, 2]))).toThrow("the poses of its bodies");
+    await refused(fileOf(kStart, poses(Array(12).fill(NaN)))).toThrow("the poses of its bodies");
   });
 
   test("what another version wrote", async () => {

@@ -1,7 +1,7 @@
 // The scene as a scene file: geometry where it is now, materials as they are felt now.
 import { create } from "@bufbuild/protobuf";
 import { describe, expect, test } from "vitest";
-import { PlacedMeshSchema } from "../src/gen/hl_pb";
+import { BodySchema, PlacedMeshSchema } from "../src/gen/hl_pb";
 import type { Mesh } from "../src/scene_messages";
 import { sceneFile } from "../src/scene_file";
 import { SceneStore } from "../src/scene_store";
@@ -59,6 +59,22 @@ describe("a scene file", () => {
       { primitives: { triangles: [2, 1, 0] }, material: { stiffness: 0.5 } },
     ]);
     expect(objects[1].primitives.vertices).toHaveLength(9);
+  });
+
+  test("has a body in its own frame, whole, with its first material", async () => {
+    const store = storeOf(meshOf({ triangleMaterials: Uint16Array.of(0, 1) }), [kMaterial, kMaterial]);
+    Object.assign(store.layout!.placed[0]!, {
+      body: create(BodySchema, { massKg: 0.2 }), start: new Uint8Array(kTurned.buffer),
+    });
+    Object.assign(store.layout!, { mechanics: { gravity_m_s2: { x: 0, y: 0, z: -1 }, joints: [] } });
+    const { content, lacking } = await sceneFile(store, {});
+    const { objects, gravityMS2 } = JSON.parse(await content.text());
+    expect(gravityMS2).toEqual({ x: 0, y: 0, z: -1 });
+    expect(objects).toMatchObject([{
+      name: "object 1", body: { massKg: 0.2 }, transform: { degrees: 90, translate: { x: 10, y: 20, z: 30 } },
+      primitives: { vertices: [0, 0, 0, 1, 0, 0, 0, 1, 0, 0.100000001, 1, 0], triangles: [0, 1, 2, 3, 2, 1] },
+    }]);
+    expect(lacking).toMatch(/only their first one/);
   });
 
   test("says that textures are not in it, unless the user has set a number in their place", async () => {

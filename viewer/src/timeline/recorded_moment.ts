@@ -4,7 +4,8 @@ import { create } from "@bufbuild/protobuf";
 import { PlacedMeshSchema, SafetyState, StateSchema, type State } from "../gen/hl_pb";
 import { kPoseNumbers, type Bounds, type Layout, type Mesh, type Moves } from "../scene_messages";
 import type { Vec } from "../vec";
-import { StepColumn, TickColumn, type RecordedScene, type Recording, type Scale } from "./recording";
+import { trackedPose } from "./body_tracks";
+import { StepColumn, TickColumn, type RecordedInstance, type Recording, type Scale } from "./recording";
 import { moves, poseAt } from "./screw";
 import { indexAt, type Track } from "./track";
 
@@ -39,7 +40,7 @@ export function momentOf(recording: Recording, time_s: number): RecordedMoment {
       timeS: time_s, ...places, layout: scene + 2, forceN: vec(steps, StepColumn.kForceX, step),
       safety: at(steps, StepColumn.kSafety, step) as SafetyState,
     }),
-    moves: movesAt(recording.scenes[scene], scene, time_s),
+    moves: movesAt(recording, scene, time_s),
     contacts: tick < 0 ? 0 : at(ticks, TickColumn.kContacts, tick),
     force_N: at(steps, StepColumn.kForce_N, step),
     penetration_m: at(steps, StepColumn.kPenetration_m, step),
@@ -50,19 +51,25 @@ function scaleAt(scales: readonly Scale[], time_s: number): Scale {
   return [...scales].reverse().find(({ from_s }) => from_s <= time_s) ?? scales[0] ?? kAtHand;
 }
 
-function movesAt(scene: RecordedScene | undefined, number: number, time_s: number): Moves {
-  const moving = (scene?.instances ?? []).flatMap(({ ways }, i) => (ways.some(moves) ? [{ ways, i }] : []));
+function movesAt(recording: Recording, scene: number, time_s: number): Moves {
+  const moving = (recording.scenes[scene]?.instances ?? []).flatMap((instance, i) =>
+    (instance.body >= 0 || instance.ways.some(moves) ? [{ instance, i }] : []));
   return {
-    layout: number + 2,
+    layout: scene + 2,
     indices: moving.map(({ i }) => i),
-    poses: Float32Array.from(moving.flatMap(({ ways }) => poseAt(ways, time_s))),
+    poses: Float32Array.from(moving.flatMap(({ instance }) => placeOf(recording, instance, time_s))),
   };
+}
+
+function placeOf({ bodies }: Recording, { body, ways }: RecordedInstance, time_s: number): number[] {
+  const track = bodies[body];
+  return track === undefined ? poseAt(ways, time_s) : trackedPose(track, time_s);
 }
 
 /** Number `number` of the scenes, where everything is at `time_s`; -1: nothing is there. */
 export function layoutOf(recording: Recording, number: number, scale: Scale, time_s: number): Layout {
   const instances = recording.scenes[number]?.instances ?? [];
-  const poses = Float32Array.from(instances.flatMap(({ ways }) => poseAt(ways, time_s)));
+  const poses = Float32Array.from(instances.flatMap((instance) => placeOf(recording, instance, time_s)));
   const meshes = new Map(recording.meshes.map((mesh) => [mesh.number, mesh]));
   return {
     number: number + 2,

@@ -2,6 +2,7 @@
 
 import type { Mesh } from "../scene_messages";
 import type { SurfaceSettings } from "../surfaces";
+import type { BodyTrack } from "./body_tracks";
 import type { Way } from "./recorded_values";
 import type { Track } from "./track";
 
@@ -9,6 +10,8 @@ export interface RecordedInstance {
   /** Number of a mesh. */
   readonly mesh: number;
   readonly ways: readonly [Way, Way];
+  /** Number of its track in Recording.bodies; -1: it is no body, or was not seen moving. */
+  readonly body: number;
   readonly session: number;
   readonly object: number;
   readonly name: number;
@@ -52,4 +55,5 @@ export interface Recording {
   readonly scales: readonly Scale[];
   readonly meshes: readonly Mesh[];
   readonly scenes: readonly RecordedScene[];
+  readonly bodies: readonly BodyTrack[];
 }

@@ -2,11 +2,12 @@
 // refused in one line.
 
 import type {
-  ProxyTicks, RecordedScene as SceneMessage, RecordedShape, RecordedSurfaces, RecordingBlock, RecordingStart,
+  ProxyTicks, RecordedPoses, RecordedScene as SceneMessage, RecordedShape, RecordedSurfaces, RecordingBlock, RecordingStart,
   ServoSteps,
 } from "../gen/recording_pb";
 import type { Mesh } from "../scene_messages";
 import type { SurfaceSettings } from "../surfaces";
+import { BodyTrackBuilder } from "./body_tracks";
 import { MeshParts } from "./recorded_mesh";
 import { materialOf, tickContext, waysOf, type TickContext } from "./recorded_values";
 import { kStepColumns, kTickColumns, type RecordedScene, type Recording, type Scale } from "./recording";
@@ -18,6 +19,9 @@ const kMaxSamples = 2_000_000;
 const kMaxMesh_bytes = 2 ** 30;
 /** Of all scenes together. */
 const kMaxInstances = 1_000_000;
+
+/** Numbers of a body's pose. */
+const kPose = 12;
 
 const kBroken = "makes no sense: the lists of a block do not agree";
 
@@ -49,6 +53,7 @@ class RecordingReader {
   private readonly messages_: SceneMessage[] = [];
   private readonly sceneNumbers_ = new Map<bigint, number>();
   private instances_ = 0;
+  private readonly bodies_ = new BodyTrackBuilder();
 
   take({ body }: RecordingBlock): void {
     if (this.start_ === undefined) {
@@ -63,6 +68,7 @@ class RecordingReader {
       case "surfaces": return this.addSurfaces(body.value);
       case "scene": return this.addScene(body.value);
       case "ticks": return this.addTicks(body.value);
+      case "poses": return this.addPoses(body.value);
       case "steps": return this.addSteps(body.value);
       case "end":
         this.end_ = body.value.reason;
@@ -80,12 +86,14 @@ class RecordingReader {
     if (steps.times.length === 0) {
       throw new RecordingError("holds no steps: there is nothing to show");
     }
+    const bodies = this.bodies_.tracks((time_ns) => 1e-9 * (time_ns - Number(this.origin_ns_)));
+    const bodyNumbers = new Map([...bodies.keys()].map((id, number) => [id, number]));
     return {
       version: start.version, device: start.deviceName, begin_unix_ms: Number(start.beginUnixMs),
       servoRate_Hz: start.servoRateHz, blackBox: start.blackBox, fault: start.fault,
       end: damage ?? (this.end_ || "the program was killed"),
       length_s: this.last_s_, steps, ticks, scales: this.scales_, meshes: [...this.meshes_.values()],
-      scenes: this.messages_.map((message) => this.sceneOf(message)),
+      scenes: this.messages_.map((message) => this.sceneOf(message, bodyNumbers)), bodies: [...bodies.values()],
     };
   }
 
@@ -121,14 +129,21 @@ class RecordingReader {
     this.messages_.push(scene);
   }
 
-  private sceneOf(scene: SceneMessage): RecordedScene {
+  private sceneOf(scene: SceneMessage, bodies: ReadonlyMap<bigint, number>): RecordedScene {
     return {
       name: scene.name,
-      instances: scene.instances.map(({ shape, surfaces, motion, session, object, name }) => ({
+      instances: scene.instances.map(({ shape, surfaces, motion, session, object, name, body }) => ({
         mesh: this.meshes_.get(shape)!.number, ways: waysOf(motion, (time_ns) => this.seconds(time_ns)),
-        session, object, name, materials: this.surfaces_.get(surfaces) ?? [],
+        session, object, name, body: bodies.get(body) ?? -1, materials: this.surfaces_.get(surfaces) ?? [],
       })),
     };
+  }
+
+  private addPoses({ timeNs, bodies, poses }: RecordedPoses): void {
+    if (poses.length !== kPose * bodies.length || !poses.every(Number.isFinite)) {
+      throw new RecordingError("makes no sense: the poses of its bodies do not agree with their list");
+    }
+    bodies.forEach((body, i) => this.bodies_.add(body, Number(timeNs), poses.slice(kPose * i, kPose * (i + 1))));
   }
 
   private addTicks(ticks: ProxyTicks): void {

@@ -11,11 +11,12 @@ export type WorkerMessage =
 
 const kTell_ms = 100;
 
-function buffersOf({ steps, ticks, meshes }: Recording): ArrayBuffer[] {
+function buffersOf({ steps, ticks, meshes, bodies }: Recording): ArrayBuffer[] {
   const tracks = [steps, ticks].flatMap(({ times, columns }) => [times, ...columns]);
   const lists = meshes.flatMap((mesh) =>
     [mesh.positions, mesh.normals, mesh.triangles, mesh.segments, mesh.points, mesh.triangleMaterials]);
-  return [...tracks, ...lists].flatMap((list) => (list === undefined ? [] : [list.buffer as ArrayBuffer]));
+  const poses = bodies.flatMap((track) => [track.times, track.poses]);
+  return [...tracks, ...lists, ...poses].flatMap((list) => (list === undefined ? [] : [list.buffer as ArrayBuffer]));
 }
 
 async function answer(file: Blob): Promise<void> {
