@@ -12,7 +12,7 @@ web_sources() {
   # Includes itself, once for each instruction set.
   echo "#include \"$root/src/geometry/wide_bvh_query.cpp\"" >"$out/query.cpp"
   for file in src/base/{ledger,plain_math,quantities}.cpp src/device/{device_models,hand,mass_arm,phantom}.cpp \
-    src/device/{phantom_arm,simulated_device}.cpp src/touch/{body_hand,body_world,exploration,felt_contact,held_contacts}.cpp \
+    src/device/{phantom_arm,simulated_device}.cpp src/touch/{body_events,body_hand,body_world,exploration,felt_contact,held_contacts}.cpp \
     src/touch/{joint_views,proxy_loop,touch_events,touch_step}.cpp src/tools/trace.cpp; do
     echo "#include \"$root/$file\""
   done >"$out/rest.cpp"

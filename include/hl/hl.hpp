@@ -67,7 +67,7 @@ class Context {
   /// From now on poll() calls `function` for events of `kind`; an empty one: such events are dropped. The context must
   /// be current.
   void onEvent(HLenum kind, EventFunction function) {
-    if (kind < HL_EVENT_TOUCH || kind > HL_EVENT_MOTION) {
+    if (kind < HL_EVENT_TOUCH || kind > HL_EVENT_IMPACT) {
       hlEventFunc(kind, nullptr, nullptr);  // leaves HL_INVALID_ENUM
       return;
     }
@@ -85,7 +85,7 @@ class Context {
  private:
   // Stays where it is when the Context moves: the calls know its address.
   struct Events {
-    std::array<EventFunction, 4> functions;
+    std::array<EventFunction, 7> functions;
     std::exception_ptr thrown;
 
     // No exception may pass through C; the first one waits for poll().

@@ -150,7 +150,10 @@ enum {
   HL_EVENT_TOUCH = 0x48050,   /**< the proxy began to touch an object of this context */
   HL_EVENT_UNTOUCH = 0x48051, /**< the proxy left it, and did not come back within 20 ms */
   HL_EVENT_BUTTON = 0x48052,  /**< a button of the device went down or up */
-  HL_EVENT_MOTION = 0x48053   /**< in a state the finger has moved on, by 1 mm at the hand */
+  HL_EVENT_MOTION = 0x48053,  /**< in a state the finger has moved on, by 1 mm at the hand */
+  HL_EVENT_SLEEP = 0x48054,   /**< a body of this context has come to rest, and is not stepped any more */
+  HL_EVENT_WAKE = 0x48055,    /**< something moves it again */
+  HL_EVENT_IMPACT = 0x48056   /**< something hit it: 0.05 m/s or more in a step; of a body one in 20 ms is told */
 };
 
 /** hlGetString. */
@@ -371,11 +374,12 @@ typedef struct HLcontactforce {
 typedef struct HLevent {
   HLenum kind;          /**< HL_EVENT_... */
   HLdouble time;        /**< s, the server's clock */
-  HLuint object;        /**< HL_EVENT_TOUCH and HL_EVENT_UNTOUCH: the innermost object; 0: drawn outside of objects */
+  HLuint object;        /**< all but button and motion: the innermost object; 0: drawn outside of objects */
   HLuint name;          /**< the same: its name; 0: none */
-  HLdouble position[3]; /**< m, world: of the proxy */
+  HLdouble position[3]; /**< m, world: of the proxy; of a body its centre of mass */
   HLuint button;        /**< HL_EVENT_BUTTON: which, from 0 */
   HLboolean down;       /**< HL_EVENT_BUTTON: HL_TRUE when it went down */
+  HLdouble impulse;     /**< HL_EVENT_IMPACT: N s, that contacts, hand and joints gave the body */
 } HLevent;
 
 /** Called by hlPoll. May use every call but hlPoll and hlDestroyContext; must not throw. */

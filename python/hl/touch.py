@@ -41,6 +41,9 @@ _EVENTS = {
     "untouch": calls.HL_EVENT_UNTOUCH,
     "button": calls.HL_EVENT_BUTTON,
     "motion": calls.HL_EVENT_MOTION,
+    "sleep": calls.HL_EVENT_SLEEP,
+    "wake": calls.HL_EVENT_WAKE,
+    "impact": calls.HL_EVENT_IMPACT,
 }
 _BODY_NUMBERS = {
     "mass": calls.HL_BODY_MASS,

@@ -137,7 +137,8 @@ void bindEvent(py::module_& module) {
       .def_readonly("name", &HLevent::name)
       .def_property_readonly("position", [](const HLevent& event) { return py::array_t<double>(3, event.position); })
       .def_readonly("button", &HLevent::button)
-      .def_property_readonly("down", [](const HLevent& event) { return event.down != HL_FALSE; });
+      .def_property_readonly("down", [](const HLevent& event) { return event.down != HL_FALSE; })
+      .def_readonly("impulse", &HLevent::impulse);
 }
 
 }  // namespace

@@ -85,12 +85,19 @@ void Conversation::send(proto::BodyCommand command) {
 
 // From the first body on the states tell of bodies.
 void Conversation::add(Draft&& draft) {
-  if (draft.hasBodies() && !std::exchange(told_of_bodies_, true) && !ended_) {
-    proto::ClientMessage message;
-    message.mutable_body_request()->set_wanted(true);
-    link_->send(std::move(message));
-  }
+  if (draft.hasBodies() && !std::exchange(told_of_bodies_, true)) askForBodies();
   outbox_.add(std::move(draft));
+}
+
+void Conversation::hearBodies() {
+  if (!std::exchange(hears_bodies_, true)) askForBodies();
+}
+
+void Conversation::askForBodies() {
+  proto::ClientMessage message;
+  message.mutable_body_request()->set_wanted(told_of_bodies_);
+  message.mutable_body_request()->set_events(hears_bodies_);
+  if (!ended_) link_->send(std::move(message));
 }
 
 void Conversation::keepSamples(std::size_t most) {

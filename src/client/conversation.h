@@ -43,6 +43,8 @@ class Conversation {
   void keepSamples(std::size_t most);
   SampleList& samples() { return samples_; }
   void keepContactReports(bool wanted);
+  /// Asks to be told the events of bodies from now on.
+  void hearBodies();
   ContactReports& contactReports() { return contact_reports_; }
   /// Seconds of Frame.interval_s for the frames to come; empty: left to the server.
   void setInterval(std::optional<double> interval_s) { interval_s_ = interval_s; }
@@ -55,6 +57,7 @@ class Conversation {
 
  private:
   Conversation(std::unique_ptr<Link> link, ServerView view) : link_(std::move(link)), view_(std::move(view)) {}
+  void askForBodies();
   void take(proto::ServerReply& reply, ErrorState& errors, EventQueue& events);
   void takeRefusal(const proto::Refusal& refusal, ErrorState& errors);
 
@@ -66,7 +69,7 @@ class Conversation {
   std::optional<double> interval_s_;
   std::optional<double> stiffness_N_m_;
   std::uint64_t refusals_ = 0;
-  bool ended_ = false, told_of_bodies_ = false;
+  bool ended_ = false, told_of_bodies_ = false, hears_bodies_ = false;
 };
 
 }  // namespace hl::client

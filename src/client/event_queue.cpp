@@ -10,7 +10,7 @@ namespace {
 
 HLevent eventOf(const proto::Event& in) {
   HLevent event{};
-  event.kind = HL_EVENT_TOUCH + static_cast<HLenum>(in.kind());  // both count TOUCH, UNTOUCH, BUTTON, MOTION
+  event.kind = HL_EVENT_TOUCH + static_cast<HLenum>(in.kind());  // both count from TOUCH
   event.time = in.time_s();
   event.object = in.object();
   event.name = in.name();
@@ -19,6 +19,7 @@ HLevent eventOf(const proto::Event& in) {
   event.position[2] = in.position().z();
   event.button = in.button();
   event.down = in.down() ? HL_TRUE : HL_FALSE;
+  event.impulse = in.impulse_n_s();
   return event;
 }
 
@@ -41,7 +42,7 @@ class Delivering {
 }  // namespace
 
 void EventQueue::setCallback(HLenum kind, HLeventfunc callback, void* user) {
-  if (kind < HL_EVENT_TOUCH || kind > HL_EVENT_MOTION) throw Fault(HL_INVALID_ENUM, "the kind must be HL_EVENT_...");
+  if (kind < HL_EVENT_TOUCH || kind > HL_EVENT_IMPACT) throw Fault(HL_INVALID_ENUM, "the kind must be HL_EVENT_...");
   callbacks_[kind - HL_EVENT_TOUCH] = {callback, user};
   if (kind == HL_EVENT_MOTION) told_.reset();
 }

@@ -35,7 +35,7 @@ class EventQueue {
     HLeventfunc function = nullptr;
     void* user = nullptr;
   };
-  std::array<Callback, 4> callbacks_;  // by HL_EVENT_... - HL_EVENT_TOUCH
+  std::array<Callback, 7> callbacks_;  // by HL_EVENT_... - HL_EVENT_TOUCH
   std::deque<HLevent> events_;
   std::optional<proto::Vec3> told_;  // the finger, world, at the last motion; none: not since the callback was set
   bool delivering_ = false;

@@ -162,5 +162,8 @@ void hlStateRate(HLdouble rate) {
 }
 
 void hlEventFunc(HLenum kind, HLeventfunc callback, void* user) {
-  call(__func__, [&](HLcontext& context) { context.events.setCallback(kind, callback, user); });
+  call(__func__, [&](HLcontext& context) {
+    context.events.setCallback(kind, callback, user);
+    if (kind >= HL_EVENT_SLEEP && callback != nullptr) context.conversation.hearBodies();
+  });
 }

@@ -98,7 +98,7 @@ void HlSession::receive(proto::ClientMessage message) {
     case proto::ClientMessage::kContactReportRequest:
       return want(message.contact_report_request().wanted(), next_.contact);
     case proto::ClientMessage::kBodyRequest:
-      return bodies_.want(message.body_request().wanted());
+      return wantBodies(message.body_request());
     case proto::ClientMessage::kBodyCommand:
       return act(message.body_command());
     case proto::ClientMessage::BODY_NOT_SET:
@@ -209,6 +209,13 @@ void HlSession::want(bool wanted, std::optional<std::uint64_t>& next) const {
   } else if (!next) {
     next = world_.device(device_).moments().pushed();
   }
+}
+
+void HlSession::wantBodies(const proto::BodyRequest& request) {
+  const double above_N_s = request.impacts_above_n_s();
+  if (!(above_N_s >= 0)) return refuse("body_request: impacts_above_N_s must be a number, and not below 0");
+  bodies_.want(request.wanted());
+  bodies_.wantEvents(request.events() ? std::optional(above_N_s) : std::nullopt);
 }
 
 void HlSession::act(const proto::BodyCommand& message) {

@@ -33,6 +33,7 @@ class HlSession final : public ClientSession {
   std::string end() const override { return replies_.end(); }
 
   std::uint32_t number() const { return number_; }
+  const SessionBodies& bodies() const { return bodies_; }
   std::uint32_t device() const { return device_; }
   /// An object of this session was touched or left, or a button of its device moved. Any thread.
   void tell(const proto::Event& event);
@@ -60,6 +61,7 @@ class HlSession final : public ClientSession {
   void setDevice(const proto::DeviceSettings& settings);
   void setStateRate(double rate_Hz);
   void want(bool wanted, std::optional<std::uint64_t>& next) const;
+  void wantBodies(const proto::BodyRequest& request);
   void act(const proto::BodyCommand& command);
   void refuse(const std::string& why, std::uint64_t frame = 0);
   FrameCallbacks callbacks();

@@ -3,22 +3,32 @@
 
 #include <hl.pb.h>
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "scene/snapshot.h"
+#include "touch/body_events.h"
 
 namespace hl {
 
-/// One thread.
+/// One thread, but for hears().
 class SessionBodies {
  public:
   explicit SessionBodies(std::uint32_t session) : session_(session) {}
 
   /// Whether states list them.
   void want(bool wanted) { wanted_ = wanted; }
+  /// From now on the client is told their events, of impacts those of more than `impacts_above_N_s`; absent: none.
+  void wantEvents(std::optional<double> impacts_above_N_s) { told_above_N_s_ = impacts_above_N_s.value_or(kNothing); }
+  /// Whether the client is told of this one. Any thread.
+  bool hears(const BodyEvent& event) const {
+    const double above_N_s = told_above_N_s_;
+    if (event.object.session != session_ || above_N_s < 0) return false;
+    return event.kind != BodyEventKind::kImpact || event.impulse_N_s > above_N_s;
+  }
   bool wanted() const { return wanted_; }
   /// From now on those of this scene.
   void follow(const Snapshot& scene);
@@ -36,6 +46,8 @@ class SessionBodies {
 
   const std::uint32_t session_;
   bool wanted_ = false;
+  static constexpr double kNothing = -1;
+  std::atomic<double> told_above_N_s_{kNothing};
   std::uint64_t scene_ = 0;  // identity; 0: none yet
   std::vector<One> bodies_;
   struct OneJoint {

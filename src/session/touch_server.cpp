@@ -65,6 +65,7 @@ void TouchServer::runEvents() {
     std::this_thread::sleep_for(kEventPeriod);
     for (std::uint32_t device = 0; device < world_.devices(); ++device) {
       guarded([&] { tellTouched(device); });
+      guarded([&] { tellBodies(device); });
       guarded([&] { tellButtons(device); });
     }
   }
@@ -88,6 +89,21 @@ void TouchServer::tellTouched(std::uint32_t device) {
     out.set_name(event.object.name);
     toProto(event.position_W, *out.mutable_position());
     tellEach(out, [&](const HlSession& session) { return session.number() == event.object.session; });
+  }
+}
+
+// To the client whose body it is, if it listens.
+void TouchServer::tellBodies(std::uint32_t device) {
+  BodyEvent event;
+  while (world_.device(device).popEvent(event)) {
+    proto::Event out;
+    out.set_kind(static_cast<proto::EventKind>(proto::SLEEP + static_cast<int>(event.kind)));
+    out.set_time_s(world_.device(device).time_s(event.time_ns));
+    out.set_object(event.object.object);
+    out.set_name(event.object.name);
+    out.set_impulse_n_s(event.impulse_N_s);
+    toProto(event.position_W, *out.mutable_position());
+    tellEach(out, [&](const HlSession& session) { return session.bodies().hears(event); });
   }
 }
 

@@ -47,6 +47,7 @@ class TouchServer final : public SessionHost {
   void runEvents();
   void tellEach(const proto::Event& event, FunctionRef<bool(const HlSession&)> whom);
   void tellTouched(std::uint32_t device);
+  void tellBodies(std::uint32_t device);
   void tellButtons(std::uint32_t device);
 
   TouchWorld world_;

@@ -77,6 +77,18 @@ double ProxyLoop::energyOf_J(const ServoTarget& target, const Vec3& finger_D) co
   return springEnergy_J(settings_.spring_N_m, target.stiffness, (target.proxy_D - finger_D).squaredNorm());
 }
 
+void ProxyLoop::stepBodies(const Snapshot& snapshot, std::int64_t now_ns, const Vec3& finger, bool pulls) {
+  if (bodies_ == nullptr) {
+    hand_ = {};
+    body_events_.forget();
+    return;
+  }
+  bodies_->act(done_);
+  body_events_.begin(snapshot, *bodies_);
+  hand_.before(*bodies_, now_ns, state_, settings_, finger, pulls);
+  body_events_.end(now_ns, settings_.period_s, *bodies_);
+}
+
 ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const ProxyCommands& commands,
                           const SpringOfServo& spring, int most_looks) {
   follow(commands, spring);
@@ -85,11 +97,7 @@ ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const Proxy
   const Vec3 finger = workspace_.toWorld(finger_D);
   done_ = to_do_;
   to_do_.clear();
-  if (bodies_ != nullptr) bodies_->act(done_);
-  if (bodies_ != nullptr)
-    hand_.before(*bodies_, now_ns, state_, settings_, finger, spring.pulls);
-  else
-    hand_ = {};
+  stepBodies(snapshot, now_ns, finger, spring.pulls);
   const SceneAt scene(snapshot, now_ns, recent_);
   const bool skipped = snapshot.number > state_.snapshot + 1;  // others, with what they changed
   const std::int64_t blend_ns = skipped ? kAbruptBlend_ns : snapshot.blend_ns;

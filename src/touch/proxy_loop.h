@@ -8,6 +8,7 @@
 #include "proxy/field_forces.h"
 #include "proxy/proxy.h"
 #include "touch/body_command.h"
+#include "touch/body_events.h"
 #include "touch/body_hand.h"
 #include "touch/held_contacts.h"
 #include "touch/snapshot_slot.h"
@@ -94,6 +95,7 @@ class ProxyLoop {
   /// The same for its bodies. Throws hl::Error unless it is of those.
   void resume(const BodiesMemory& memory);
   bool popEvent(TouchEvent& event) { return events_.pop(event); }
+  bool popEvent(BodyEvent& event) { return body_events_.pop(event); }
 
  private:
   /// What the last tick began with and came to.
@@ -107,6 +109,7 @@ class ProxyLoop {
 
   void follow(const ProxyCommands& commands, const SpringOfServo& spring);
   void restart();
+  void stepBodies(const Snapshot& snapshot, std::int64_t now_ns, const Vec3& finger, bool pulls);
   Vec3 changeOfPull(const Snapshot& snapshot);
   Vec3 pullOf(const ProxyState& state, const TickReport& report, const Vec3& finger_D) const;
   double energyOf_J(const ServoTarget& target, const Vec3& finger_D) const;
@@ -128,6 +131,7 @@ class ProxyLoop {
   ServoTarget told_;  // in the last tick
   std::uint64_t restarts_ = 0;
   TouchEvents events_;
+  BodyEvents body_events_;
 };
 
 }  // namespace hl

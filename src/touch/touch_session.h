@@ -69,6 +69,7 @@ class TouchSession {
   void viewsForClients(ServoView& servo, ProxyView& proxy);                   ///< for HL clients; one thread at a time
   bool popSample(TouchSample& sample) { return views_.samples.pop(sample); }  ///< one thread only, as the next
   bool popEvent(TouchEvent& event) { return ticker_.popEvent(event); }
+  bool popEvent(BodyEvent& event) { return ticker_.popEvent(event); }
   /// The last steps, newer ones in the place of older ones. Any thread.
   const LogRing<ServoMoment>& moments() const { return views_.moments; }
   double time_s() const { return time_s(monotonicNow_ns()); }  ///< since the start

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "client/fake_server.h"
 
@@ -51,6 +52,36 @@ TEST_F(CallsTest, ABodyIsSentWithItsObject) {
   hlFlush();
   EXPECT_FALSE(server->frames()[1].has_gravity_m_s2());
   EXPECT_TRUE(server->received.back().has_frame()) << "asked for once";
+}
+
+TEST_F(CallsTest, EventsOfBodiesAreAskedForOnceWhereSomebodyListens) {
+  std::vector<HLevent> heard;
+  const auto note = [](const HLevent* event, void* user) {
+    static_cast<std::vector<HLevent>*>(user)->push_back(*event);
+  };
+  hlEventFunc(HL_EVENT_SLEEP, nullptr, nullptr);
+  EXPECT_TRUE(server->received.empty());
+  hlEventFunc(HL_EVENT_IMPACT, note, &heard);
+  hlEventFunc(HL_EVENT_WAKE, note, &heard);
+  ASSERT_EQ(server->received.size(), 1U);
+  EXPECT_TRUE(server->received[0].body_request().events());
+  EXPECT_FALSE(server->received[0].body_request().wanted());
+  defineTriangle(3);
+  hlFlush();
+  EXPECT_TRUE(server->received[1].body_request().events()) << "still";
+  EXPECT_TRUE(server->received[1].body_request().wanted());
+  for (const proto::EventKind kind : {proto::IMPACT, proto::SLEEP, proto::WAKE}) {
+    proto::Event& event = *server->replies.emplace_back().mutable_event();
+    event.set_kind(kind);
+    event.set_object(3);
+    event.set_impulse_n_s(kind == proto::IMPACT ? 0.25 : 0);
+  }
+  EXPECT_EQ(hlPoll(), 2);
+  ASSERT_EQ(heard.size(), 2U);
+  EXPECT_EQ(heard[0].kind, HL_EVENT_IMPACT);
+  EXPECT_EQ(heard[0].impulse, 0.25);
+  EXPECT_EQ(heard[1].kind, HL_EVENT_WAKE);
+  EXPECT_EQ(heard[1].object, 3U);
 }
 
 TEST_F(CallsTest, AnObjectThatIsDefinedWithoutABodyIsNone) {

@@ -109,6 +109,8 @@ class Touching(unittest.TestCase):
             self.touch.join(1, 2)
 
     def test_a_body_falls_onto_the_floor_and_can_be_pushed(self):
+        impacts = []
+        self.touch.on("impact", impacts.append)
         pose = np.eye(4)
         pose[:3, 3] = 0.05, 0.03, 0.05
         with self.touch.frame():
@@ -125,6 +127,9 @@ class Touching(unittest.TestCase):
 
         wait_for("rest", lambda: body() is not None and abs(body()["position"][1] - 0.01) < 1e-6)
         self.assertEqual((body()["object"], body()["name"]), (block, 3))
+        wait_for("an impact", lambda: self.touch.poll() >= 0 and impacts)
+        self.assertEqual((impacts[0].object, impacts[0].name), (block, 3))
+        self.assertAlmostEqual(impacts[0].impulse, 0.1 * (2 * 9.81 * 0.02) ** 0.5, 2)
         with self.touch.name(3):
             self.touch.push(block, [0, 0.2, 0], body()["position"])
         wait_for("a jump", lambda: body()["position"][1] > 0.02)

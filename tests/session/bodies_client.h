@@ -103,6 +103,17 @@ class BodiesClient {
     while (session_->take(reply)) remember(reply);
     return refusal_;
   }
+  std::string hear(double impacts_above_N_s) {
+    proto::ClientMessage message;
+    message.mutable_body_request()->set_wanted(true);
+    message.mutable_body_request()->set_events(true);
+    message.mutable_body_request()->set_impacts_above_n_s(impacts_above_N_s);
+    refusal_.clear();
+    session_->receive(message);
+    proto::ServerReply reply;
+    while (session_->take(reply)) remember(reply);
+    return refusal_;
+  }
   bool until(const std::function<bool()>& reached) {
     const auto end = std::chrono::steady_clock::now() + kPatience;
     while (!reached()) {
@@ -121,11 +132,13 @@ class BodiesClient {
     if (reply.has_state()) state_ = reply.state();
     if (reply.has_frame_shown()) shown_ = reply.frame_shown().number();
     if (reply.has_refusal()) refusal_ = reply.refusal().text();
+    if (reply.has_event()) events_.push_back(reply.event());
   }
 
   std::unique_ptr<ClientSession> session_;
   proto::ClientState state_;
   std::string refusal_;
+  std::vector<proto::Event> events_;
   std::uint64_t shown_ = 0;
 };
 

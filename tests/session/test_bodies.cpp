@@ -44,6 +44,41 @@ TEST_F(SessionBodiesTest, BlocksFallOntoTheFloorAndAreToldOf) {
   EXPECT_NEAR(std::abs(rotation.w()), 1, 1e-9);
 }
 
+TEST_F(SessionBodiesTest, TheirImpactsAndSleepAreToldToTheClientThatAsks) {
+  Client client(server_), silent(server_);
+  EXPECT_NE(client.hear(-1), "");
+  EXPECT_NE(client.hear(std::numeric_limits<double>::quiet_NaN()), "");
+  EXPECT_EQ(client.hear(0), "");
+  ASSERT_EQ(client.show(blocksFrame(1, {Vec3(0.5, kHalf_m + 0.05, 0)})), "");
+  const auto heard = [&](proto::EventKind kind) -> const proto::Event* {
+    for (const proto::Event& event : client.events_) {
+      if (event.kind() == kind) return &event;
+    }
+    return nullptr;
+  };
+  ASSERT_TRUE(client.until([&] { return heard(proto::SLEEP) != nullptr; }));
+  ASSERT_NE(heard(proto::IMPACT), nullptr);
+  EXPECT_EQ(heard(proto::IMPACT)->object(), 2U);
+  EXPECT_EQ(heard(proto::IMPACT)->name(), 11U);
+  EXPECT_NEAR(heard(proto::IMPACT)->impulse_n_s(), 0.1 * std::sqrt(2 * 9.81 * 0.05), 0.01);
+  EXPECT_LT(heard(proto::IMPACT)->time_s(), heard(proto::SLEEP)->time_s());
+  proto::BodyCommand push;
+  push.set_object(2);
+  push.mutable_push()->mutable_impulse_n_s()->set_x(0.001);
+  ASSERT_EQ(client.act(push), "");
+  ASSERT_TRUE(client.until([&] { return heard(proto::WAKE) != nullptr; }));
+  ASSERT_TRUE(silent.until([&] { return silent.state_.time_s() > heard(proto::WAKE)->time_s(); }));
+  EXPECT_TRUE(silent.events_.empty());
+}
+
+TEST_F(SessionBodiesTest, ImpactsBelowWhatAClientHasSetAreNotTold) {
+  Client client(server_);
+  EXPECT_EQ(client.hear(1), "");
+  ASSERT_EQ(client.show(blocksFrame(1, {Vec3(0.5, kHalf_m + 0.05, 0)})), "");
+  ASSERT_TRUE(client.until([&] { return !client.events_.empty(); }));
+  EXPECT_EQ(client.events_[0].kind(), proto::SLEEP);
+}
+
 TEST_F(SessionBodiesTest, GoOnFromFrameToFrameAndJumpWhereTheyAreCalledElsewhere) {
   Client client(server_);
   proto::Frame frame = blocksFrame(1, {Vec3(0.5, 0.05, 0)});
