@@ -2,11 +2,18 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdlib>
 #include <random>
 
 #include "base/vec.h"
 
 namespace hl::test {
+
+/// What an environment variable says.
+inline int numberIn(const char* variable, int otherwise) {
+  const char* const said = std::getenv(variable);
+  return said == nullptr ? otherwise : std::atoi(said);
+}
 
 struct Draws {
   explicit Draws(std::uint64_t seed) : random(seed) {}

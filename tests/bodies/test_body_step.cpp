@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "draws.h"
 #include "test_worlds.h"
 
 namespace hl {
@@ -196,6 +197,28 @@ TEST(BodyStep, R15AStackOfFivePressedWithTwoNewtons) {
         (play.state.bodies[static_cast<std::size_t>(i)].centre - poses[static_cast<std::size_t>(i)].origin).norm(),
         1e-6);
   for (const BodyState& body : play.state.bodies) EXPECT_LT(body.velocity.norm(), 1e-6);
+}
+
+// Awake all the time. HL_STACK_STEPS sets how long: 3600000 are an hour.
+TEST(BodyStep, AStackOfTenStandsWithoutMoving) {
+  constexpr double kHalf_m = 0.02;
+  World world;
+  world.fixed = floorScene();
+  std::vector<Pose> poses;
+  for (int i = 0; i < 10; ++i) {
+    world.bodies.push_back(block(static_cast<std::uint64_t>(i) + 1, 0.1, Vec3::Constant(kHalf_m), 0.5));
+    poses.push_back(placeAt(Vec3(0, (2 * i + 1) * kHalf_m, 0)));
+  }
+  Playground play(world, poses);
+  const int steps = numberIn("HL_STACK_STEPS", 20'000);
+  double farthest_m = 0;
+  for (int step = 0; step < steps; ++step) {
+    for (BodyState& body : play.state.bodies) body.still_s = 0;
+    play.step();
+    for (std::size_t i = 0; i < poses.size(); ++i)
+      farthest_m = std::max(farthest_m, (play.state.bodies[i].centre - poses[i].origin).norm());
+  }
+  EXPECT_LT(farthest_m, 1e-6);
 }
 
 TEST(BodyStep, R16ACubePushedAboveItsMiddleSlidesOrTips) {

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 
 #include "draws.h"
 #include "joint_worlds.h"
@@ -62,11 +61,6 @@ struct RandomJoints : Draws {
   World world;
   std::vector<Pose> poses;
 };
-
-int numberIn(const char* variable, int otherwise) {
-  const char* const said = std::getenv(variable);
-  return said == nullptr ? otherwise : std::atoi(said);
-}
 
 TEST(RandomJoints, EveryJouleIsToldAndJointsHold) {
   const int begin = numberIn("HL_FIRST_WORLD", 0);

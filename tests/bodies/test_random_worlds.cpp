@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 
 #include "bodies/convex_hull.h"
 #include "draws.h"
@@ -72,11 +71,6 @@ struct RandomWorld : Draws {
   std::vector<Pose> poses;
   std::vector<Vec3> velocities, spins;
 };
-
-int numberIn(const char* variable, int otherwise) {
-  const char* const said = std::getenv(variable);
-  return said == nullptr ? otherwise : std::atoi(said);
-}
 
 TEST(RandomWorlds, NothingLeavesAClosedRoom) {
   const int begin = numberIn("HL_FIRST_WORLD", 0);
