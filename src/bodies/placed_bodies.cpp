@@ -50,7 +50,9 @@ PlacedConvex placed(const Primitive& primitive, const Pose& pose, PlacedRoom& ro
   return out;
 }
 
+// The topologies are made here, and not in the step in which a body first meets a primitive.
 PlacedBodies::PlacedBodies(const World& world) : placed_(world.bodies.size()) {
+  topologyOf(PrimitiveKind::kTriangle);
   std::size_t vertices = 0, normals = 0;
   for (const Body& body : world.bodies) {
     first_vertex_.push_back(vertices);
