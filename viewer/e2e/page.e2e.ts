@@ -154,7 +154,7 @@ test("the ledger: its mode, its tank, and a line for every cause", async () => {
   await expect.poll(() => page.isChecked("#ledger-tank")).toBe(true);
   expect(await page.textContent("#tank")).toMatch(/^\d+\.\d of 50.mJ$/);
   expect(await page.locator("#plot-energy canvas").count()).toBe(1);
-  expect(await page.locator("#readouts .legend .key").count()).toBe(5);
+  expect(await page.locator("#plot-energy + .legend .key").count()).toBe(5);
 });
 
 test("the key C draws friction cones, in another colour while slipping", async () => {
