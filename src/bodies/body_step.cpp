@@ -117,7 +117,7 @@ void BodyStepper::tellHands(std::span<GivenImpulses> given) const {
     BodyImpulse fixed;
     for (const Row& row : problem_.rows) {
       if (static_cast<std::size_t>(row.a) != problem_.bodies() + hand || !(row.pressed > 0)) continue;
-      const Vec3 impulse = -(row.pressed * row.normal + row.dragged);
+      const Vec3 impulse = -impulseOf(row);
       if (row.b == Row::kFixed) {
         fixed.impulse_N_s += impulse;
       } else {
@@ -135,7 +135,7 @@ void BodyStepper::book(EnergyBook& energy, std::span<const GivenImpulses> given)
     const Vec3 mean = (relativeVelocity(row, problem_.before) + relativeVelocity(row, problem_.nodes)) / 2;
     energy.contact_J -= row.pressed * row.normal.dot(mean);
     energy.friction_J -= row.dragged.dot(mean);
-    energy.by_client_J += (row.pressed * row.normal + row.dragged).dot(row.carried);
+    energy.by_client_J += impulseOf(row).dot(row.carried);
   }
   for (const GivenImpulses& hand : given) {
     for (const BodyImpulse& one : hand) {

@@ -101,7 +101,7 @@ bool Impacts::weaken(std::vector<Row>& rows, bool last) {
     const JointBlock& block = problem_.joints.blocks[joint];
     gained(block.a) -= workOf(block);
   }
-  for (const Row& row : rows) gained(row.a) -= (row.pressed * row.normal + row.dragged).dot(row.carried);
+  for (const Row& row : rows) gained(row.a) -= impulseOf(row).dot(row.carried);
   bool any = false;
   for (Row& row : rows) {
     if (!(row.least_velocity > 0) || !(gained(row.a) > 0)) continue;

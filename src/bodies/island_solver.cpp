@@ -16,8 +16,6 @@ constexpr int kDirectSolves = 5;
 constexpr int kMostUpdates = 10'000;
 constexpr int kSmallUpdates = 4'000;
 
-Vec3 impulseOf(const Row& row) { return row.pressed * row.normal + row.dragged; }
-
 // Impulses that were not found to the end may push what is apart already, and add energy. Their work is s a + s^2 b / 2
 // if each is multiplied by s, from 0 to 1; no more of them is kept than takes most, beside what impacts give back.
 void keepPassive(std::span<Row> rows, std::span<Node> nodes) {

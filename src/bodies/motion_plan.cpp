@@ -30,9 +30,6 @@ double separationAlong(const PlacedConvex& a, const PlacedConvex& b, const Vec3&
   return low - high - a.shape->radius - b.shape->radius;
 }
 
-// Its vertices are on the cylinder, of which its sides lie inside.
-bool isPrism(const PlacedConvex& of) { return of.shape->round_radius > 0; }
-
 }  // namespace
 
 MotionPlan::MotionPlan(const BodyProblem& problem, const JointRows& joints)
@@ -164,7 +161,7 @@ double MotionPlan::depthAtEnd(const WorldState& state, const Meeting& meeting, d
   const PlacedConvex a = problem_.atEnd(state, static_cast<std::size_t>(meeting.a), plan_, room_a);
   const PlacedConvex b = problem_.otherAtEnd(state, meeting, plan_, room_b);
   const double along = -separationAlong(a, b, meeting.manifold.normal);
-  if (along <= enough && !isPrism(a) && !isPrism(b)) return std::max(along, 0.0);
+  if (along <= enough && !isRound(a) && !isRound(b)) return std::max(along, 0.0);
   Manifold end;
   const double overlap = findManifold(a, b, 0, end) ? deepestOf(end) : 0;
   return paceOf(problem_, meeting).fast ? std::max(overlap, along) : overlap;

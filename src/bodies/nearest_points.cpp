@@ -67,7 +67,7 @@ NearestPoints nearestToCylinder(const Vec3& point, const PlacedConvex& cylinder)
 }  // namespace
 
 NearestPoints nearestToPoint(const Vec3& point, const PlacedConvex& polytope) {
-  if (polytope.shape->round_radius > 0) return nearestToCylinder(point, polytope);
+  if (isRound(polytope)) return nearestToCylinder(point, polytope);
   NearestPoints best;
   best.distance = kInfinite;
   std::size_t highest = 0;

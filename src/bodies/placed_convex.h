@@ -15,6 +15,9 @@ struct PlacedConvex {
   Vec3 centre = Vec3::Zero();        ///< m, world: inside the shape
 };
 
+/// A cylinder: its vertices are those of a prism, whose sides lie inside it.
+inline bool isRound(const PlacedConvex& of) { return of.shape->round_radius > 0; }
+
 /// Room for one placed shape on the stack.
 struct PlacedRoom {
   std::array<Vec3, kMostVertices> vertices;

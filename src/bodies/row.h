@@ -62,6 +62,9 @@ struct alignas(64) Row {
   double approach = 0;            ///< m/s along the normal before the step
 };
 
+/// N s, on a.
+inline Vec3 impulseOf(const Row& row) { return row.pressed * row.normal + row.dragged; }
+
 /// Number of the node of a body; Row::kFixed: there is no such body. RT-safe.
 inline int nodeOf(const World& world, std::uint64_t key) {
   const std::size_t body = world.numberOf(key);

@@ -69,7 +69,7 @@ inline void solveRow(Row& row, std::span<Node> nodes) {
   row.change = more * row.normal;
   if (row.friction > 0 || row.dragged != Vec3::Zero()) {
     velocity += more * row.response;
-    const Vec3 wanted = row.dragged - row.drag_step * (velocity - row.normal.dot(velocity) * row.normal);
+    const Vec3 wanted = row.dragged - row.drag_step * acrossOf(velocity, row.normal);
     const double most = row.friction * row.pressed;
     row.slipping = wanted.squaredNorm() > most * most;
     const Vec3 dragged = row.slipping ? limited(wanted, most) : wanted;
@@ -101,7 +101,7 @@ void prepareRow(Row& row, std::span<Node> nodes) {
   row.normal_step = 1 / row.normal.dot(row.response);
   row.drag_step = 1 / largestAcross(k, row.normal);
   row.dragged = limited(acrossOf(row.dragged, row.normal), row.friction * row.pressed);
-  applyImpulse(row, nodes, row.pressed * row.normal + row.dragged);
+  applyImpulse(row, nodes, impulseOf(row));
 }
 
 RowSolver::RowSolver(std::size_t most_nodes) : is_met_(most_nodes) { motions_.reserve(most_nodes); }
