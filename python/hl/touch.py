@@ -246,16 +246,10 @@ class Touch:
         (0..1); velocity (m/s) and spin (rad/s) with which it starts, (3,).
         """
         self.make_current()
-        for key in parameters:
-            if key not in _BODY_NUMBERS and key not in _BODY_VECTORS:
-                raise InvalidValueError(f"a body has no '{key}': {', '.join([*_BODY_NUMBERS, *_BODY_VECTORS])}")
+        _check_names(parameters, _BODY_NUMBERS, _BODY_VECTORS, "a body")
         calls.hlBodyi(calls.HL_BODY_SHAPE, _chosen(_BODY_SHAPES, shape, "shape of a body"))
         calls.hlBodyi(calls.HL_BODY_FIXED, bool(fixed))
-        for key, value in parameters.items():
-            if key in _BODY_NUMBERS:
-                calls.hlBodyd(_BODY_NUMBERS[key], arguments.number(value, key))
-            else:
-                calls.hlBody3d(_BODY_VECTORS[key], *_vector(value, key))
+        _set_parameters(parameters, _BODY_NUMBERS, calls.hlBodyd, _BODY_VECTORS, calls.hlBody3d)
 
     def snap(
         self, points: npt.ArrayLike, capture: float, release: float, normal: Optional[npt.ArrayLike] = None
@@ -338,16 +332,10 @@ class Touch:
         rest, damping, friction.
         """
         self.make_current()
-        for key in parameters:
-            if key not in _JOINT_NUMBERS and key not in _JOINT_VECTORS:
-                raise InvalidValueError(f"a joint has no '{key}': {', '.join([*_JOINT_NUMBERS, *_JOINT_VECTORS])}")
+        _check_names(parameters, _JOINT_NUMBERS, _JOINT_VECTORS, "a joint")
         calls.hlJointi(calls.HL_JOINT_KIND, _chosen(_JOINT_KINDS, kind, "kind of joint"))
         calls.hlJointi(calls.HL_JOINT_COLLIDE, bool(collide))
-        for key, value in parameters.items():
-            if key in _JOINT_NUMBERS:
-                calls.hlJointd(_JOINT_NUMBERS[key], arguments.number(value, key))
-            else:
-                calls.hlJoint3d(_JOINT_VECTORS[key], *_vector(value, key))
+        _set_parameters(parameters, _JOINT_NUMBERS, calls.hlJointd, _JOINT_VECTORS, calls.hlJoint3d)
         if table is not None:
             positions, forces = table
             calls.hlJointTable(arguments.floats(positions, "positions"), arguments.floats(forces, "forces"))
@@ -655,6 +643,26 @@ def _chosen(table: Dict[str, int], key: str, what: str) -> int:
     if not isinstance(key, str) or key not in table:
         raise InvalidValueError(f"there is no {what} '{key}': {', '.join(table)}")
     return table[key]
+
+
+def _check_names(parameters: Dict[str, Any], numbers: Dict[str, int], vectors: Dict[str, int], what: str) -> None:
+    for key in parameters:
+        if key not in numbers and key not in vectors:
+            raise InvalidValueError(f"{what} has no '{key}': {', '.join([*numbers, *vectors])}")
+
+
+def _set_parameters(
+    parameters: Dict[str, Any],
+    numbers: Dict[str, int],
+    set_number: Callable[..., None],
+    vectors: Dict[str, int],
+    set_vector: Callable[..., None],
+) -> None:
+    for key, value in parameters.items():
+        if key in numbers:
+            set_number(numbers[key], arguments.number(value, key))
+        else:
+            set_vector(vectors[key], *_vector(value, key))
 
 
 def _corners(points: npt.ArrayLike, normal: Optional[npt.ArrayLike]) -> Any:

@@ -183,7 +183,7 @@ class Pile {
     touch.arm_b = row.arm_b.cast<Real>();
     touch.friction = row.friction;
     touch.least = -std::max(row.gap, 0.0) / test::kStep_s;
-    touch.impulse = (row.pressed * row.normal + row.dragged).cast<Real>();
+    touch.impulse = impulseOf(row).cast<Real>();
     contacts.apply(touch, touch.impulse);
     contacts.touches.push_back(touch);
   }

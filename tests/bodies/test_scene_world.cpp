@@ -15,10 +15,7 @@ Instance boxInstance(std::uint64_t key, bool fixed, const Vec3& at) {
   BodySpec spec;
   spec.fixed = fixed;
   spec.shape = BodyShape::kBox;
-  Instance instance;
-  instance.shape = makeShape(test::boxModel(Vec3::Constant(0.01)), HierarchyKind::kNone);
-  instance.surfaces = surfacesOf(instance.shape);
-  instance.key = key;
+  Instance instance = test::instanceOf(test::boxModel(Vec3::Constant(0.01)), key);
   instance.body = makeRigidBody("box", spec, {Mat3::Identity(), at}, instance.shape->bounds,
                                 {Vec3::Constant(-1), Vec3::Constant(1)});
   instance.driver = instance.body->poses;

@@ -13,15 +13,6 @@ namespace {
 
 constexpr std::int64_t kStep_ns = 1'000'000;
 
-Instance instanceOf(Model model, std::uint64_t key, const Motion& motion = Motion()) {
-  Instance instance;
-  instance.shape = makeShape(std::move(model), HierarchyKind::kNone);
-  instance.surfaces = surfacesOf(instance.shape);
-  instance.motion = motion;
-  instance.key = key;
-  return instance;
-}
-
 // From `from` on, evenly to `to` in `seconds`.
 Motion motionOf(const Pose& from, const Pose& to, double seconds) {
   return Motion(from).then(to, 0, std::llround(1e9 * seconds));
@@ -75,8 +66,8 @@ class Stage {
 
 TEST(Scenery, AFloorThatRisesLiftsWhatStandsOnItAndPaysForIt) {
   constexpr double kMass_kg = 0.1, kSpeed_m_s = 0.2, kTime_s = 0.5;
-  Stage stage({instanceOf(test::boxModel(Vec3(0.1, 0.01, 0.1)), 1,
-                          slideBy(Vec3(0, -0.01, 0), Vec3(0, kSpeed_m_s, 0), kTime_s))},
+  Stage stage({test::instanceOf(test::boxModel(Vec3(0.1, 0.01, 0.1)), 1,
+                                slideBy(Vec3(0, -0.01, 0), Vec3(0, kSpeed_m_s, 0), kTime_s))},
               {test::block(1, kMass_kg, Vec3::Constant(0.02), 0.5)}, {Vec3(0, 0.02, 0)});
   stage.steps(kTime_s / 2);
   EXPECT_NEAR(stage.body().velocity.y(), kSpeed_m_s, 1e-9);
@@ -88,10 +79,11 @@ TEST(Scenery, AFloorThatRisesLiftsWhatStandsOnItAndPaysForIt) {
 
 TEST(Scenery, AWallPushesABlockOverAFloorAgainstItsFriction) {
   constexpr double kMass_kg = 0.1, kFriction = 0.4, kSpeed_m_s = 0.05;
-  Stage stage(
-      {instanceOf(test::floorScene()->shape().model, 1),
-       instanceOf(test::boxModel(Vec3(0.01, 0.1, 0.1)), 2, slideBy(Vec3(-0.031, 0, 0), Vec3(kSpeed_m_s, 0, 0), 1))},
-      {test::block(1, kMass_kg, Vec3::Constant(0.02), kFriction)}, {Vec3(0, 0.02, 0)}, test::kGravity, {0, 0, 0});
+  Stage stage({test::instanceOf(test::floorScene()->shape().model, 1),
+               test::instanceOf(test::boxModel(Vec3(0.01, 0.1, 0.1)), 2,
+                                slideBy(Vec3(-0.031, 0, 0), Vec3(kSpeed_m_s, 0, 0), 1))},
+              {test::block(1, kMass_kg, Vec3::Constant(0.02), kFriction)}, {Vec3(0, 0.02, 0)}, test::kGravity,
+              {0, 0, 0});
   stage.steps(0.4);
   EXPECT_NEAR(stage.body().velocity.x(), kSpeed_m_s, 1e-7);
   const double before_J = stage.book().by_client_J, friction_J = stage.book().friction_J;
@@ -105,7 +97,7 @@ TEST(Scenery, AWallPushesABlockOverAFloorAgainstItsFriction) {
 TEST(Scenery, ABeltTakesABlockAlongByItsFriction) {
   constexpr double kFriction = 0.3, kSpeed_m_s = 0.3;
   Stage stage(
-      {instanceOf(test::boxModel(Vec3(1, 0.01, 0.1)), 1, slideBy(Vec3(0, -0.01, 0), Vec3(kSpeed_m_s, 0, 0), 1))},
+      {test::instanceOf(test::boxModel(Vec3(1, 0.01, 0.1)), 1, slideBy(Vec3(0, -0.01, 0), Vec3(kSpeed_m_s, 0, 0), 1))},
       {test::block(1, 0.1, Vec3(0.02, 0.005, 0.02), kFriction)}, {Vec3(0, 0.005, 0)}, test::kGravity,
       {kFriction, kFriction, 0});
   const double slips_s = kSpeed_m_s / (kFriction * test::kGravity);  // 0.102 s
@@ -122,7 +114,7 @@ TEST(Scenery, APaddleThatTurnsPassesNoBall) {
     const double turn_rad = std::uniform_real_distribution<double>(0.2, 2)(random);
     const Mat3 turned = Eigen::AngleAxisd(turn_rad, Vec3::UnitZ()).toRotationMatrix();
     const double radius_m = 0.01;
-    Stage stage({instanceOf(test::boxModel(Vec3(0.1, 0.001, 0.1)), 1, motionOf({}, {turned, Vec3::Zero()}, 0.1))},
+    Stage stage({test::instanceOf(test::boxModel(Vec3(0.1, 0.001, 0.1)), 1, motionOf({}, {turned, Vec3::Zero()}, 0.1))},
                 {test::ball(1, 0.01, radius_m, 0.3)},
                 {Vec3(std::uniform_real_distribution<double>(0.03, 0.08)(random), 0.0111, 0)}, 0);
     const Motion motion = motionOf({}, {turned, Vec3::Zero()}, 0.1);
@@ -149,7 +141,7 @@ TEST(Scenery, NoPointIsFasterThanTheFastest) {
       return Pose{Eigen::AngleAxisd(3 * any(random), axis).toRotationMatrix(),
                   Vec3(any(random), any(random), any(random))};
     };
-    const Instance box = instanceOf(test::boxModel(Vec3(0.1, 0.2, 0.3)), 1, motionOf(pose(), pose(), 0.1));
+    const Instance box = test::instanceOf(test::boxModel(Vec3(0.1, 0.2, 0.3)), 1, motionOf(pose(), pose(), 0.1));
     const double most = fastestScenery_m_s(*makeSnapshot({box}));
     const StepTimes times{40 * kStep_ns, 41 * kStep_ns};
     for (const Vec3& corner : box.shape->model.positions) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "bodies/body_step.h"
@@ -32,6 +33,16 @@ inline Model boxModel(const Vec3& half) {
     model.triangles.push_back({face.corners[0], face.corners[2], face.corners[3]});
   }
   return model;
+}
+
+/// Without a hierarchy.
+inline Instance instanceOf(Model model, std::uint64_t key, const Motion& motion = Motion()) {
+  Instance instance;
+  instance.shape = makeShape(std::move(model), HierarchyKind::kNone);
+  instance.surfaces = surfacesOf(instance.shape);
+  instance.motion = motion;
+  instance.key = key;
+  return instance;
 }
 
 inline Body block(std::uint64_t key, double mass_kg, const Vec3& half_m, double friction) {

@@ -13,10 +13,8 @@
 #include <vector>
 
 #include "base/clock.h"
-#include "client/inproc_link.h"
-#include "client/open_link.h"
 #include "device/device_models.h"
-#include "session/touch_server.h"
+#include "felt_server.h"
 #include "touch/touch_step.h"
 
 namespace hl::client {
@@ -26,15 +24,6 @@ constexpr std::int64_t kStep_ns = 1'000'000;
 constexpr double kSpeed_m_s = 0.06;
 constexpr double kRadius_m = 0.002;
 constexpr double kDeep_m = 0.00107;  // of the finger below where the proxy rests: 1.07 N at 1000 N/m
-
-std::shared_ptr<TouchServer> startServer() {
-  TouchServerSettings settings;
-  settings.touch.explore = false;
-  settings.touch.world_per_device = 1;
-  auto server = std::make_shared<TouchServer>(makeSnapshot(std::vector<Instance>{}), settings);
-  server->start();
-  return server;
-}
 
 // A finger that slides along x, and what the servo makes of it.
 class Slider {
@@ -183,28 +172,7 @@ std::vector<Sent> allThatIsSent() {
 
 // ---- The judgement --------------------------------------------------------------------------------------------------
 
-class FeltFrames : public testing::Test {
- protected:
-  FeltFrames() {
-    setLinkOpener("test", [this](const ServerUrl&) { return linkTo(server_); });
-    context_ = hlCreateContext("test:");
-    EXPECT_NE(context_, nullptr) << hlGetConnectError();
-    hlMakeCurrent(context_);
-  }
-  ~FeltFrames() override {
-    EXPECT_EQ(hlGetError(), static_cast<HLenum>(HL_NO_ERROR)) << hlGetString(HL_ERROR_STRING);
-    hlDestroyContext(context_);
-    setLinkOpener("test", {});
-  }
-
-  std::shared_ptr<const Snapshot> shown() {
-    EXPECT_EQ(hlFinishTimeout(60), HL_TRUE);
-    return server_->device().snapshot();
-  }
-
-  std::shared_ptr<TouchServer> server_ = startServer();
-  HLcontext* context_ = nullptr;
-};
+using FeltFrames = test::FeltServer;
 
 TEST_F(FeltFrames, TheDragOfAPlaneIsTheServosWhateverIsSentBeside) {
   constexpr int kFrames = 30;

@@ -10,10 +10,8 @@
 #include <memory>
 #include <utility>
 
-#include "client/inproc_link.h"
-#include "client/open_link.h"
+#include "felt_server.h"
 #include "scene/scene_model.h"
-#include "session/touch_server.h"
 #include "touch/body_world.h"
 #include "touch/plain_servo.h"
 #include "touch/touch_step.h"
@@ -24,15 +22,6 @@ namespace {
 
 constexpr double kStep_s = 1e-3, kRadius_m = 0.001, kSpring_N_m = 1000;
 constexpr HLuint kDoor = 1, kButton = 2, kJoint = 5;
-
-std::shared_ptr<TouchServer> startJointServer() {
-  TouchServerSettings settings;
-  settings.touch.explore = false;
-  settings.touch.world_per_device = 1;
-  auto server = std::make_shared<TouchServer>(makeSnapshot(std::vector<Instance>{}), settings);
-  server->start();
-  return server;
-}
 
 void drawBox(double x, double y, double z) {
   constexpr std::array<std::array<int, 4>, 6> kFaces{
@@ -117,25 +106,10 @@ class Finger {
   std::int64_t time_ns_ = 0;
 };
 
-class FeltJoints : public testing::Test {
+class FeltJoints : public test::FeltServer {
  protected:
-  FeltJoints() {
-    setLinkOpener("test", [this](const ServerUrl&) { return linkTo(server_); });
-    context_ = hlCreateContext("test:");
-    EXPECT_NE(context_, nullptr) << hlGetConnectError();
-    hlMakeCurrent(context_);
-  }
-  ~FeltJoints() override {
-    EXPECT_EQ(hlGetError(), static_cast<HLenum>(HL_NO_ERROR)) << hlGetString(HL_ERROR_STRING);
-    hlDestroyContext(context_);
-    setLinkOpener("test", {});
-  }
-
-  /// What the server shows, with bodies that its loop does not move.
-  std::shared_ptr<const Snapshot> shown() {
-    EXPECT_EQ(hlFinishTimeout(60), HL_TRUE);
-    return withOwnBodies(*server_->device().snapshot());
-  }
+  /// With bodies that the server's loop does not move.
+  std::shared_ptr<const Snapshot> shown() { return withOwnBodies(*FeltServer::shown()); }
   static double valueOf(HLenum name) {
     HLdouble value = HUGE_VAL;
     hlPoll();
@@ -146,9 +120,6 @@ class FeltJoints : public testing::Test {
   static void awaitValue(HLenum name, const std::function<bool(double)>& holds) {
     test::waitFor([&] { return holds(valueOf(name)); });
   }
-
-  std::shared_ptr<TouchServer> server_ = startJointServer();
-  HLcontext* context_ = nullptr;
 };
 
 TEST_F(FeltJoints, R11TheFrictionOfADoor) {

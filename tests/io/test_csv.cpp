@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include "base/error.h"
 #include "io/csv_path.h"
@@ -21,6 +22,14 @@ std::string refusalOf(const std::string& content) {
     return error.what();
   }
   return "accepted";
+}
+
+std::pair<std::string, std::string> twoLinesOf(const std::string& name) {
+  std::ifstream in(name);
+  std::pair<std::string, std::string> lines;
+  std::getline(in, lines.first);
+  std::getline(in, lines.second);
+  return lines;
 }
 
 TEST(CsvPath, ReadsRowsWithAnyLineEndAndSpaces) {
@@ -57,10 +66,7 @@ TEST(TraceCsv, HasTheColumnsOfTheContractAndEveryDigit) {
   row.contacts = 2;
   writer.write(row);
   writer.close();
-  std::ifstream in(name);
-  std::string header, line;
-  std::getline(in, header);
-  std::getline(in, line);
+  auto [header, line] = twoLinesOf(name);
   EXPECT_EQ(header,
             "t,finger_x,finger_y,finger_z,proxy_x,proxy_y,proxy_z,target_x,target_y,target_z,force_x,force_y,force_z,"
             "contacts,iterations,injected_J,tick_ns");
@@ -94,10 +100,7 @@ TEST(TraceCsv, BodiesFollowTheColumnsOfTheTick) {
   row.world.hash = 0xabc;
   writer.write(row);
   writer.close();
-  std::ifstream in(name);
-  std::string header, line;
-  std::getline(in, header);
-  std::getline(in, line);
+  auto [header, line] = twoLinesOf(name);
   EXPECT_TRUE(
       header.ends_with("tick_ns,ball_x,ball_y,ball_z,ball_qw,ball_qx,ball_qy,ball_qz,ball_vx,ball_vy,ball_vz,"
                        "ball_wx,ball_wy,ball_wz,kinetic_J,gravity_J,by_hand_J,contact_J,friction_J,solver_J,"
@@ -113,10 +116,7 @@ TEST(TraceCsv, TheSnapIsTheLastColumn) {
   row.snap = 3;
   writer.write(row);
   writer.close();
-  std::ifstream in(name);
-  std::string header, line;
-  std::getline(in, header);
-  std::getline(in, line);
+  auto [header, line] = twoLinesOf(name);
   EXPECT_TRUE(header.ends_with("tick_ns,snap"));
   EXPECT_TRUE(line.ends_with(",0,3"));
 }

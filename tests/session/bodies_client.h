@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "session/touch_server.h"
+#include "take_replies.h"
 
 namespace hl::test {
 
-inline constexpr auto kPatience = std::chrono::seconds(60);  // no test waits so long unless it fails
 inline constexpr double kHalf_m = 0.02;
 
 inline TouchServerSettings settingsOf() {
@@ -97,17 +97,17 @@ class BodiesClient {
   std::string act(const proto::BodyCommand& command) {
     proto::ClientMessage message;
     *message.mutable_body_command() = command;
-    refusal_.clear();
-    session_->receive(message);
-    proto::ServerReply reply;
-    while (session_->take(reply)) remember(reply);
-    return refusal_;
+    return answerTo(message);
   }
   std::string hear(double impacts_above_N_s) {
     proto::ClientMessage message;
     message.mutable_body_request()->set_wanted(true);
     message.mutable_body_request()->set_events(true);
     message.mutable_body_request()->set_impacts_above_n_s(impacts_above_N_s);
+    return answerTo(message);
+  }
+  /// What a message was refused for at once; "": it was not.
+  std::string answerTo(const proto::ClientMessage& message) {
     refusal_.clear();
     session_->receive(message);
     proto::ServerReply reply;
@@ -115,14 +115,8 @@ class BodiesClient {
     return refusal_;
   }
   bool until(const std::function<bool()>& reached) {
-    const auto end = std::chrono::steady_clock::now() + kPatience;
-    while (!reached()) {
-      proto::ServerReply reply;
-      while (session_->take(reply)) remember(reply);
-      if (std::chrono::steady_clock::now() > end) return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return true;
+    return takeUntil(
+        *session_, [this](const proto::ServerReply& reply) { remember(reply); }, reached);
   }
   /// Until so many bodies are told of that this holds for the first.
   bool untilBody(const std::function<bool(const proto::BodyState&)>& holds) {

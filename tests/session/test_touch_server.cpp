@@ -13,11 +13,10 @@
 #include <thread>
 
 #include "base/error.h"
+#include "take_replies.h"
 
 namespace hl {
 namespace {
-
-constexpr auto kPatience = std::chrono::seconds(60);  // no test waits so long unless it fails
 
 TouchServerSettings settingsOf() {
   TouchServerSettings settings;
@@ -85,14 +84,8 @@ class Client {
   }
 
   bool until(const std::function<bool()>& reached) {
-    const auto end = std::chrono::steady_clock::now() + kPatience;
-    while (!reached()) {
-      proto::ServerReply reply;
-      while (session_->take(reply)) remember(reply);
-      if (std::chrono::steady_clock::now() > end) return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return true;
+    return test::takeUntil(
+        *session_, [this](const proto::ServerReply& reply) { remember(reply); }, reached);
   }
 
   void remember(const proto::ServerReply& reply) {

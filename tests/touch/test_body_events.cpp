@@ -18,14 +18,6 @@ namespace {
 constexpr std::int64_t kStep_ns = 1'000'000;
 constexpr double kMass_kg = 0.1, kHalf_m = 0.02, kGravity_m_s2 = 9.81;
 
-Instance placed(Model model, std::uint64_t key) {
-  Instance instance;
-  instance.shape = makeShape(std::move(model), HierarchyKind::kNone);
-  instance.surfaces = surfacesOf(instance.shape);
-  instance.key = key;
-  return instance;
-}
-
 // A block above a floor, and a finger far away.
 class Falling {
  public:
@@ -34,9 +26,9 @@ class Falling {
     BodySpec floor;
     floor.fixed = true;
     floor.surface.restitution = restitution;
-    Instance ground = placed(test::floorModel(), 1);
+    Instance ground = test::instanceOf(test::floorModel(), 1);
     ground.body = makeRigidBody("floor", floor, {}, {}, room);
-    Instance block = placed(test::boxModel(Vec3::Constant(kHalf_m)), 2);
+    Instance block = test::instanceOf(test::boxModel(Vec3::Constant(kHalf_m)), 2);
     BodySpec spec;
     spec.mass_kg = kMass_kg;
     spec.shape = BodyShape::kBox;

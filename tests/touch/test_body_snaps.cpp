@@ -24,10 +24,7 @@ SnapSpec snapOf(std::vector<Vec3> points, double capture_m, double release_N) {
 class Held {
  public:
   Held(double mass_kg, const SnapSpec& snap, double gravity_m_s2, const FieldList& fields = {}) {
-    Instance instance;
-    instance.shape = makeShape(test::boxModel(Vec3::Constant(kHalf_m)), HierarchyKind::kNone);
-    instance.surfaces = surfacesOf(instance.shape);
-    instance.key = 1;
+    Instance instance = test::instanceOf(test::boxModel(Vec3::Constant(kHalf_m)), 1);
     instance.snaps = std::make_shared<const SnapList>(SnapList{snap});
     instance.fields = std::make_shared<const FieldList>(fields);
     BodySpec spec;

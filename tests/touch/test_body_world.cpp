@@ -22,14 +22,6 @@ double between(std::mt19937_64& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-Instance instanceOf(Model model, std::uint64_t key) {
-  Instance instance;
-  instance.shape = makeShape(std::move(model), HierarchyKind::kNone);
-  instance.surfaces = surfacesOf(instance.shape);
-  instance.key = key;
-  return instance;
-}
-
 // Blocks, and a floor that they stand on; a device's finger among them.
 class Bench {
  public:
@@ -42,13 +34,13 @@ class Bench {
   Bench(const std::vector<Block>& blocks, double friction, double gravity = 9.81) {
     const BodySurface surface{friction, friction, 0};
     const Box room{Vec3::Constant(-1), Vec3::Constant(1)};
-    std::vector<Instance> instances{instanceOf(test::floorModel(), 1)};
+    std::vector<Instance> instances{test::instanceOf(test::floorModel(), 1)};
     BodySpec floor;
     floor.fixed = true;
     floor.surface = surface;
     instances.back().body = makeRigidBody("floor", floor, {}, {}, room);
     for (const Block& block : blocks) {
-      instances.push_back(instanceOf(test::boxModel(block.half), instances.size() + 1));
+      instances.push_back(test::instanceOf(test::boxModel(block.half), instances.size() + 1));
       Instance& instance = instances.back();
       BodySpec spec;
       spec.mass_kg = block.mass_kg;

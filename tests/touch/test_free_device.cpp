@@ -17,10 +17,7 @@ constexpr double kStiffness_N_m = 1000, kBody_kg = 0.1;
 
 // A cube at rest without gravity, whose face toward -x is at x = kRadius_m: a finger touches it from x = 0 on.
 std::shared_ptr<const Snapshot> cubeBefore(double mass_kg) {
-  Instance instance;
-  instance.shape = makeShape(test::boxModel(Vec3::Constant(kHalf_m)), HierarchyKind::kNone);
-  instance.surfaces = surfacesOf(instance.shape);
-  instance.key = 1;
+  Instance instance = test::instanceOf(test::boxModel(Vec3::Constant(kHalf_m)), 1);
   BodySpec spec;
   spec.mass_kg = mass_kg;
   spec.shape = BodyShape::kBox;

@@ -16,10 +16,7 @@ namespace {
 constexpr double kMass_kg = 0.1, kWeight_N = 0.981, kSpring_N_m = 200;
 
 Instance bodyInstance(std::uint64_t key, const Vec3& at, bool fixed) {
-  Instance instance;
-  instance.shape = makeShape(test::boxModel(Vec3::Constant(0.02)), HierarchyKind::kNone);
-  instance.surfaces = surfacesOf(instance.shape);
-  instance.key = key;
+  Instance instance = test::instanceOf(test::boxModel(Vec3::Constant(0.02)), key);
   BodySpec spec;
   spec.mass_kg = kMass_kg;
   spec.shape = BodyShape::kBox;

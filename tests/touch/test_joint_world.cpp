@@ -22,10 +22,8 @@ class JointBench {
     spec.mass_kg = mass_kg;
     spec.shape = BodyShape::kBox;
     spec.surface = {0, 0, 0};
-    Instance instance;
-    instance.shape = makeShape(test::boxModel(half), HierarchyKind::kNone);
-    instance.surfaces = surfacesOf(instance.shape);
-    instance.key = joint.body_a = 1;
+    Instance instance = test::instanceOf(test::boxModel(half), 1);
+    joint.body_a = instance.key;
     instance.body = makeRigidBody("box", spec, {Mat3::Identity(), at}, instance.shape->bounds,
                                   {Vec3::Constant(-1), Vec3::Constant(1)});
     instance.driver = instance.body->poses;
