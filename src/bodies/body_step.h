@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "bodies/contact_rows.h"
 #include "bodies/hand_rows.h"
@@ -30,6 +31,7 @@ class BodyStepper {
  public:
   explicit BodyStepper(std::shared_ptr<const World> world)
       : problem_(std::move(world)),
+        kept_(problem_.bodies()),
         fastest_scenery_m_s_(problem_.world->fixed ? fastestScenery_m_s(*problem_.world->fixed) : 0) {}
   BodyStepper(const BodyStepper&) = delete;
   BodyStepper& operator=(const BodyStepper&) = delete;
@@ -56,6 +58,7 @@ class BodyStepper {
   void bounce(BodyStepReport& report);
   void tellHands(std::span<GivenImpulses> given) const;
   void book(EnergyBook& energy, std::span<const GivenImpulses> given) const;
+  double keptBy(std::uint32_t group, double part, int stopped_short) const;
   void slowHeld(WorldState& state);
   void move(WorldState& state) const;
 
@@ -67,6 +70,7 @@ class BodyStepper {
   Impacts impacts_{problem_};
   Islands islands_{problem_.nodes.capacity()};
   IslandSolver solver_{problem_};
+  std::vector<double> kept_;  // of the velocity of a group that stopped short, by its first body
   const double fastest_scenery_m_s_;
 };
 
