@@ -14,7 +14,7 @@ from pathlib import Path
 LEVELS = {
     "base": 0,
     "geometry": 1, "wire": 1, "device": 1,
-    "scene": 2, "control": 2,
+    "surfaces": 2, "scene": 2, "control": 2,
     "proxy": 3, "bodies": 3, "scenes": 3,
     "io": 4,
     "touch": 5,

@@ -1,4 +1,4 @@
-// The linear algebra of HL is Eigen's; these are the two names used everywhere. All geometry is in double.
+// The linear algebra of HL is Eigen's; these are the names used everywhere. All geometry is in double.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,6 +6,7 @@
 
 namespace hl {
 
+using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;  ///< metres unless the name says otherwise; world frame unless the name says otherwise
 using Mat3 = Eigen::Matrix3d;
 

@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "base/vec.h"
 #include "geometry/box.h"
@@ -14,23 +16,34 @@
 
 namespace hl {
 
+/// Triangles to draw, with one normal a vertex. Metres, object frame.
+struct DrawnMesh {
+  std::vector<Vec3> positions, normals;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
 /// Immutable; metres, object frame. Functions marked RT-safe may be called by any thread and return the same bits for
 /// the same arguments.
 class PrimitiveSource {
  public:
   virtual ~PrimitiveSource() = default;
-  /// Number of triangles. RT-safe.
+  /// Triangles are numbered below it; its index proposes only those that exist. RT-safe.
   virtual ElementId count() const = 0;
   /// The three vertices, which form a valid triangle (isTriangle), counterclockwise seen from outside. RT-safe.
   virtual std::array<Vec3, 3> corners(ElementId id) const = 0;
   /// Outward unit normal of the exact surface that the triangle approximates, near `point` on the triangle. RT-safe.
   virtual Vec3 trueNormal(ElementId id, const Vec3& point) const = 0;
-  /// Bounds of all vertices.
+  /// Bounds of all vertices; may be larger.
   virtual Box bounds() const = 0;
   /// Makes the index of its triangles; the source must outlive it. Setup only.
   virtual std::unique_ptr<const SpatialIndex> makeIndex() const = 0;
-  /// Memory of the source, bytes.
+  /// Memory of the source, bytes; without the index.
   virtual std::size_t bytes() const = 0;
+  /// The same surface moved by x -> linear x + offset; `linear` is invertible. Throws hl::Error if it cannot be.
+  virtual std::shared_ptr<const PrimitiveSource> placed(const Mat3& linear, const Vec3& offset) const;
+  /// What is drawn of it: about `most_triangles` or fewer. By default all of them, whatever their number, each with
+  /// vertices of its own.
+  virtual DrawnMesh drawn(std::size_t most_triangles) const;
 };
 
 /// RT-safe.

@@ -29,24 +29,22 @@ std::uint64_t messageBytes(const Model& model, const Look& look) {
   return bytes;
 }
 
-// What is drawn of a surface that is no mesh: all its triangles, each with corners of its own.
+// Of a surface that is no mesh a page draws so many triangles, or a few more: it is felt exactly, and drawn as finely
+// as a screen shows.
+constexpr std::size_t kMostDrawn = 1'000'000;
+
 Model drawnOf(const PrimitiveSource& source) {
+  DrawnMesh drawn = source.drawn(kMostDrawn);
   Model model;
-  for (ElementId id = 0; id < source.count(); ++id) {
-    const auto first = static_cast<std::uint32_t>(model.positions.size());
-    for (const Vec3& corner : source.corners(id)) {
-      model.positions.push_back(corner);
-      model.normals.push_back(source.trueNormal(id, corner));
-    }
-    model.triangles.push_back({first, first + 1, first + 2});
-  }
+  model.positions = std::move(drawn.positions);
+  model.normals = std::move(drawn.normals);
+  model.triangles = std::move(drawn.triangles);
   return model;
 }
 
 std::uint64_t messageBytes(const Shape& shape, const Look& look) {
   if (!shape.source) return messageBytes(shape.model, look);
-  constexpr ElementId kMost = 1'000'000'000;  // far beyond any message
-  return kSmallest + kDrawnTriangle_bytes * std::min(shape.count(), kMost);
+  return kSmallest + kDrawnTriangle_bytes * std::min<ElementId>(shape.count(), kMostDrawn);
 }
 
 std::string meshMessage(std::uint32_t number, const Shape& shape, const Model& model, const Look& look) {

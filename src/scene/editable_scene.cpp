@@ -234,14 +234,14 @@ void EditableScene::Flattening::addPlaces(const SceneItems& items, const Call& c
 std::shared_ptr<const Shape> EditableScene::Flattening::shapeOf(const std::shared_ptr<const Shape>& shape,
                                                                 const Mat3& stretch) {
   if (stretch == Mat3::Identity()) return shape;
-  if (shape->source) throw Error("a surface that is no mesh cannot be scaled");
   const std::array<double, 6> upper{stretch(0, 0), stretch(0, 1), stretch(0, 2),
                                     stretch(1, 1), stretch(1, 2), stretch(2, 2)};
   auto& slot = stretched[{shape->geometry, upper}];
   if (slot) return slot;
-  copies_.add(shape->model, "in the scaled copies of objects, ");
   const auto& made = scene_.stretched_;
   const auto known = made.find({shape->geometry, upper});
+  if (shape->source) return slot = known != made.end() ? known->second : placedShape(*shape, stretch, Vec3::Zero());
+  copies_.add(shape->model, "in the scaled copies of objects, ");
   if (known != made.end()) return slot = known->second;
   const auto before = made.find({shape->before, upper});
   return slot = makeCounted(scene_.memory_, bytesToMake(shape->model), [&] {

@@ -169,6 +169,10 @@ std::shared_ptr<const Shape> makeShape(std::shared_ptr<const PrimitiveSource> so
   return shape;
 }
 
+std::shared_ptr<const Shape> placedShape(const Shape& shape, const Mat3& linear, const Vec3& offset) {
+  return makeShape(shape.source->placed(linear, offset), shape.model.materials.front());
+}
+
 // The vertices of a triangle may be rotated differently, as the rotation depends on their positions.
 bool isSameMesh(const Shape& a, const Shape& b) {
   const Model &p = a.model, &q = b.model;

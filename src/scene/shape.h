@@ -72,6 +72,9 @@ std::shared_ptr<const Shape> makeShape(Model given, HierarchyKind hierarchy = Hi
 /// A surface that is not a mesh, with one material. Allocates; never called by a real-time thread.
 std::shared_ptr<const Shape> makeShape(std::shared_ptr<const PrimitiveSource> source, const Material& material = {});
 
+/// A surface that is not a mesh, moved by x -> linear x + offset. Throws hl::Error if it cannot be.
+std::shared_ptr<const Shape> placedShape(const Shape& shape, const Mat3& linear, const Vec3& offset);
+
 /// Whether one is the other with moved vertices: they have the same index lists; skipped elements do not matter.
 bool isSameMesh(const Shape& a, const Shape& b);
 

@@ -10,8 +10,6 @@
 
 namespace hl {
 
-using Vec2 = Eigen::Vector2d;
-
 enum class Wrap : std::uint8_t { kRepeat, kClamp };
 enum class Filter : std::uint8_t { kNearest, kBilinear };
 

@@ -1,0 +1,152 @@
+#include "surfaces/height_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "surfaces/height_index.h"
+
+namespace hl {
+
+namespace {
+
+// The change for each step from `before` to `after` around `here`, of which one may be missing.
+double slopeAt(double before, double here, double after) {
+  if (std::isnan(before)) return std::isnan(after) ? 0 : after - here;
+  return std::isnan(after) ? here - before : 0.5 * (after - before);
+}
+
+}  // namespace
+
+HeightField::HeightField(std::shared_ptr<const HeightGrid> grid, const GridFrame& frame)
+    : grid_(std::move(grid)), pyramid_(std::make_shared<const HeightPyramid>(*grid_)), frame_(frame) {
+  checkFrame();
+}
+
+HeightField::HeightField(const HeightField& other, const GridFrame& frame)
+    : grid_(other.grid_), pyramid_(other.pyramid_), frame_(frame) {
+  checkFrame();
+}
+
+// A triangle has at least the area |det| / (2 |M_w|): its shadow along the third axis.
+void HeightField::checkFrame() {
+  const Mat3& axes = frame_.axes;
+  const double determinant = axes.determinant(), range = pyramid_->highest() - pyramid_->lowest();
+  if (!axes.allFinite() || !frame_.origin.allFinite() || !(std::abs(determinant) > 0))
+    throw Error("a height field needs spacings and a vertical scale that are not 0");
+  for (const double column : {0.0, grid_->columns() - 1.0}) {
+    for (const double row : {0.0, grid_->rows() - 1.0}) {
+      for (const double value : {pyramid_->lowest(), pyramid_->highest()})
+        bounds_.extend(frame_.point(column, row, value));
+    }
+  }
+  if (!withinReach(bounds_.min) || !withinReach(bounds_.max))
+    throw Error("a height field reaches beyond 1e9 m: give it another scale, or name the value of missing samples");
+  const double longest = axes.col(0).norm() + axes.col(1).norm() + range * axes.col(2).norm();
+  if (!(std::abs(determinant) > 10 * kSliver * longest * longest * axes.col(2).norm()))
+    throw Error(
+        "a height field rises by 1e5 times its spacing or more: give it another vertical scale, or name the "
+        "value of missing samples");
+  mirrored_ = determinant > 0;
+}
+
+ElementId HeightField::count() const { return 2 * ElementId{grid_->columns() - 1} * (grid_->rows() - 1); }
+
+HeightCell HeightField::cellOf(ElementId id) const {
+  const ElementId cell = id / 2, columns = grid_->columns() - 1;
+  return {static_cast<std::uint32_t>(cell % columns), static_cast<std::uint32_t>(cell / columns),
+          static_cast<unsigned>(id % 2)};
+}
+
+HeightField::Corners HeightField::cornersOf(const HeightCell& cell) const {
+  const std::uint32_t i = cell.column, j = cell.row;
+  Corners corners{{{i, j}, {i + 1, j + 1}, {i + 1, j}}};
+  if (cell.half == 1) corners = {{{i, j}, {i, j + 1}, {i + 1, j + 1}}};
+  if (mirrored_) std::swap(corners[1], corners[2]);
+  return corners;
+}
+
+std::array<Vec3, 3> HeightField::corners(ElementId id) const {
+  const Corners at = cornersOf(cellOf(id));
+  return {pointAt(at[0][0], at[0][1]), pointAt(at[1][0], at[1][1]), pointAt(at[2][0], at[2][1])};
+}
+
+Vec3 HeightField::normalAt(std::uint32_t column, std::uint32_t row) const {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const double here = grid_->at(column, row);
+  const double west = column > 0 ? grid_->at(column - 1, row) : kNone;
+  const double east = column + 1 < grid_->columns() ? grid_->at(column + 1, row) : kNone;
+  const double north = row > 0 ? grid_->at(column, row - 1) : kNone;
+  const double south = row + 1 < grid_->rows() ? grid_->at(column, row + 1) : kNone;
+  const Vec3 across = frame_.axes.col(0) + slopeAt(west, here, east) * frame_.axes.col(2);
+  const Vec3 down = frame_.axes.col(1) + slopeAt(north, here, south) * frame_.axes.col(2);
+  return (mirrored_ ? across.cross(down) : down.cross(across)).normalized();
+}
+
+Vec3 HeightField::trueNormal(ElementId id, const Vec3& point) const {
+  const Corners at = cornersOf(cellOf(id));
+  const std::array<Vec3, 3> corner = corners(id);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (corner[i] == point) return normalAt(at[i][0], at[i][1]);
+  }
+  const Vec3 edge1 = corner[1] - corner[0], edge2 = corner[2] - corner[0], area = edge1.cross(edge2);
+  const Vec3 from = point - corner[0];
+  const double weight1 = from.cross(edge2).dot(area) / area.squaredNorm();
+  const double weight2 = edge1.cross(from).dot(area) / area.squaredNorm();
+  const Vec3 sum = (1 - weight1 - weight2) * normalAt(at[0][0], at[0][1]) + weight1 * normalAt(at[1][0], at[1][1]) +
+                   weight2 * normalAt(at[2][0], at[2][1]);
+  return sum.normalized();
+}
+
+std::unique_ptr<const SpatialIndex> HeightField::makeIndex() const { return std::make_unique<HeightIndex>(*this); }
+
+std::shared_ptr<const PrimitiveSource> HeightField::placed(const Mat3& linear, const Vec3& offset) const {
+  return std::shared_ptr<const PrimitiveSource>(new HeightField(*this, frame_.placed(linear, offset)));
+}
+
+DrawnMesh HeightField::drawn(std::size_t most_triangles) const {
+  std::uint32_t step = 1;
+  const auto cells = [&](std::uint32_t side) { return std::size_t{(side - 2) / step + 1}; };
+  while (2 * cells(grid_->columns()) * cells(grid_->rows()) > most_triangles &&
+         step < std::max(grid_->columns(), grid_->rows()))
+    ++step;
+  return every(step);
+}
+
+// The last column and row are there whatever the step, so that the rim is where it is.
+DrawnMesh HeightField::every(std::uint32_t step) const {
+  const auto places = [&](std::uint32_t side) { return (side - 2) / step + 2; };
+  const auto at = [&](std::uint32_t place, std::uint32_t side) {
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(std::uint64_t{place} * step, side - 1));
+  };
+  const std::uint32_t columns = places(grid_->columns()), rows = places(grid_->rows());
+  DrawnMesh mesh;
+  constexpr std::uint32_t kNone = ~0U;
+  std::vector<std::uint32_t> number(std::size_t{columns} * rows, kNone);
+  for (std::uint32_t j = 0; j < rows; ++j) {
+    for (std::uint32_t i = 0; i < columns; ++i) {
+      const std::uint32_t column = at(i, grid_->columns()), row = at(j, grid_->rows());
+      if (std::isnan(grid_->at(column, row))) continue;
+      number[std::size_t{j} * columns + i] = static_cast<std::uint32_t>(mesh.positions.size());
+      mesh.positions.push_back(pointAt(column, row));
+      mesh.normals.push_back(normalAt(column, row));
+    }
+  }
+  for (std::uint32_t j = 0; j + 1 < rows; ++j) {
+    for (std::uint32_t i = 0; i + 1 < columns; ++i) {
+      const auto of = [&](const std::array<std::uint32_t, 2>& corner) {
+        return number[std::size_t{corner[1]} * columns + corner[0]];
+      };
+      if (std::max({of({i, j}), of({i + 1, j}), of({i, j + 1}), of({i + 1, j + 1})}) == kNone) continue;
+      for (const unsigned half : {0U, 1U}) {
+        const Corners corner = cornersOf({i, j, half});
+        mesh.triangles.push_back({of(corner[0]), of(corner[1]), of(corner[2])});
+      }
+    }
+  }
+  return mesh;
+}
+
+}  // namespace hl

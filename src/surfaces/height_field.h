@@ -1,0 +1,67 @@
+// HeightField: a grid of heights as a surface of triangles, two a cell, which are made when they are asked for.
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "geometry/primitive_source.h"
+#include "surfaces/grid_frame.h"
+#include "surfaces/height_grid.h"
+#include "surfaces/height_pyramid.h"
+
+namespace hl {
+
+/// The cell with its first sample at (column, row), and which of its triangles: 0 has its last corner in the next
+/// column, 1 in the next row. Both have the corner of the cell and the one opposite, so the diagonal is always the
+/// same.
+struct HeightCell {
+  std::uint32_t column, row;
+  unsigned half;
+};
+
+/// Numbers of triangles: 2 (row (columns - 1) + column) + half. Cells with a missing sample have none, and their
+/// numbers are never proposed. Immutable; shares grid and pyramid with its copies in other places.
+class HeightField final : public PrimitiveSource {
+ public:
+  /// Throws hl::Error where heights lie beyond 1e9 m, or cells are too thin or too steep to be triangles.
+  HeightField(std::shared_ptr<const HeightGrid> grid, const GridFrame& frame);
+
+  ElementId count() const override;
+  std::array<Vec3, 3> corners(ElementId id) const override;
+  /// At a sample by central differences, across a gap or at the rim by one-sided ones; in between interpolated.
+  Vec3 trueNormal(ElementId id, const Vec3& point) const override;
+  Box bounds() const override { return bounds_; }
+  std::unique_ptr<const SpatialIndex> makeIndex() const override;
+  std::size_t bytes() const override { return sizeof(*this) + grid_->bytes(); }
+  std::shared_ptr<const PrimitiveSource> placed(const Mat3& linear, const Vec3& offset) const override;
+  DrawnMesh drawn(std::size_t most_triangles) const override;
+
+  const HeightGrid& grid() const { return *grid_; }
+  const HeightPyramid& pyramid() const { return *pyramid_; }
+  const GridFrame& frame() const { return frame_; }
+  std::uint64_t triangles() const { return 2 * pyramid_->cells(); }
+  HeightCell cellOf(ElementId id) const;
+  ElementId idOf(std::uint32_t column, std::uint32_t row, unsigned half) const {
+    return 2 * (ElementId{row} * (grid_->columns() - 1) + column) + half;
+  }
+
+ private:
+  using Corners = std::array<std::array<std::uint32_t, 2>, 3>;  // column and row of each
+
+  HeightField(const HeightField& other, const GridFrame& frame);
+  void checkFrame();
+  Corners cornersOf(const HeightCell& cell) const;
+  Vec3 pointAt(std::uint32_t column, std::uint32_t row) const {
+    return frame_.point(column, row, grid_->at(column, row));
+  }
+  Vec3 normalAt(std::uint32_t column, std::uint32_t row) const;
+  DrawnMesh every(std::uint32_t step) const;
+
+  std::shared_ptr<const HeightGrid> grid_;
+  std::shared_ptr<const HeightPyramid> pyramid_;
+  GridFrame frame_;
+  bool mirrored_ = false;  // the axes are right-handed: seen from above, rows go to the left of columns
+  Box bounds_;
+};
+
+}  // namespace hl

@@ -1,0 +1,38 @@
+// HeightIndex: finds the triangles of a height field near a moving ball, by the pyramid of its slabs.
+//
+// The test of a slab, in grid coordinates (grid_ball.h). The lower side of a ball lies above a paraboloid: for every
+// k > 0, as 2 sqrt(s) <= k + s / k,
+//   w >= c_w - b.d - (k + rho^2 / k) / 2 + curve.d^2 / (2 k),
+// and touches it where the slope is that of the slab, if k = rho / sqrt(1 + sum (slope + b)^2 / curve). A slab that
+// lies below the paraboloid over the whole block cannot be touched. For curve diagonal the two directions are apart,
+// and the least distance is a closed form. A ball above a smooth surface thus leaves but a few blocks of each level.
+#pragma once
+
+#include <cstddef>
+
+#include "geometry/spatial_index.h"
+#include "surfaces/grid_ball.h"
+#include "surfaces/height_field.h"
+
+namespace hl {
+
+class HeightIndex final : public SpatialIndex {
+ public:
+  /// The field must outlive it. Takes no memory: the pyramid is the field's.
+  explicit HeightIndex(const HeightField& field) : field_(field), metric_(field.frame()) {}
+
+  std::size_t overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId primitive)> visit) const override;
+  std::size_t sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
+                    FunctionRef<double(ElementId primitive, double limit)> visit) const override;
+  std::size_t nearest(const Vec3& centre, double farthest,
+                      FunctionRef<double(ElementId primitive, double limit)> visit) const override;
+  IndexStats stats() const override;
+
+ private:
+  double extent() const;
+
+  const HeightField& field_;
+  const GridMetric metric_;
+};
+
+}  // namespace hl
