@@ -47,7 +47,7 @@ void MotionPlan::make(const WorldState& state, double margin, bool converged) {
   goWithVelocities();
   correct(state);
   limit(margin);
-  stopShort(state, converged);
+  stopShort(state, converged && !pressesDeeper());
 }
 
 // Without contact the path of a fall is a parabola: half of what gravity adds to the velocity has not acted on the way.
@@ -78,6 +78,7 @@ void MotionPlan::goWithVelocities() {
 // no kinetic energy.
 void MotionPlan::findOverlaps() {
   overlaps_.clear();
+  apart_.clear();
   for (const Row& row : problem_.rows) {
     if (row.gap >= -kTouching_m) continue;
     overlaps_.push_back(row);
@@ -86,6 +87,15 @@ void MotionPlan::findOverlaps() {
     overlaps_.back().carried.setZero();
     overlaps_.back().least_velocity = -kPushedApart * row.gap / problem_.period_s;
   }
+}
+
+// Whether what was pushed apart is pressed into something else.
+bool MotionPlan::pressesDeeper() const {
+  if (apart_.empty()) return false;
+  return std::any_of(problem_.rows.begin(), problem_.rows.end(), [&](const Row& row) {
+    const double nearer = -problem_.period_s * row.normal.dot(relativeVelocity(row, apart_));
+    return nearer > std::max(row.gap, 0.0) + kLeft_m;
+  });
 }
 
 // What joints are off at the end of the plan is not linear in what moves them: it takes a few rounds, in which what
@@ -108,10 +118,18 @@ void MotionPlan::correct(const WorldState& state) {
   }
 }
 
+// Without joints each body counts as one of 1 kg: no momentum has to stay, and a heavy one that lies on a light one
+// does not press it into what is beneath.
 void MotionPlan::pushApart() {
   for (Row& row : overlaps_) row.pressed = 0;
   apart_ = problem_.nodes;
   for (Node& node : apart_) node.velocity = node.spin = Vec3::Zero();
+  if (problem_.awake_joints.empty()) {
+    for (const std::size_t i : problem_.awake) {
+      apart_[i].inverse_inertia *= problem_.world->bodies[i].mass.mass_kg;
+      apart_[i].inverse_mass = 1;
+    }
+  }
   for (Row& row : overlaps_) prepareRow(row, apart_);
   RowSolverLimits limits = limitsFor(overlaps_.size() + joints_apart_.work(problem_.awake_joints));
   if (problem_.awake_joints.empty()) limits.sweeps = std::min(limits.sweeps, kSweepsApart);

@@ -25,6 +25,7 @@ class MotionPlan {
   void findOverlaps();
   void correct(const WorldState& state);
   void pushApart();
+  bool pressesDeeper() const;
   void goApart(double most);
   void goPart(std::size_t body, double part);
   void goPart(const Meeting& meeting, double part);
