@@ -27,8 +27,6 @@ namespace hl {
 
 namespace {
 
-using Parse = std::function<SceneModel(const std::function<void(double)>&)>;
-
 constexpr const char* kTooLong = "reading it takes too long: the file is corrupt, or too large";
 constexpr const char* kWaits =
     "its reader waits for what does not come: it names a file that is none, or a disk does not answer";
@@ -54,7 +52,7 @@ void setLimits(const IsolationLimits& limits) {
 void answer(PartSender& out, bool sandboxed, const Parse& parse) {
   std::string failure;
   try {
-    SceneModel scene = parse([&](double fraction) { out.progress(fraction); });
+    SceneModel scene = parse(ReadingReport([&](double fraction) { out.progress(fraction); }, out));
     if (!sandboxed) scene.model.warnings.emplace_back("was read without a sandbox: this kernel has none");
     return out.scene(scene);
   } catch (const std::bad_alloc&) {
@@ -220,7 +218,7 @@ std::string causeOf(int status) {
 SceneModel receive(Child& child, const IsolationLimits& limits, const std::atomic<bool>& given_up,
                    const std::function<void(double)>& progress) {
   PipeReader pipe(child, limits, given_up);
-  PartCollector collector(limits.memory_bytes);
+  PartCollector collector(limits.memory_bytes, limits.heights_bytes);
   std::string bytes;
   proto::ReadingPart part;
   for (std::uint32_t length = 0; pipe.read(&length, sizeof length);) {
@@ -247,6 +245,7 @@ SceneModel run(const std::string& name, const IsolationLimits& limits, const Sta
 
 IsolationLimits bounded(IsolationLimits limits) {
   limits.memory_bytes = std::min<std::uint64_t>(limits.memory_bytes, machineMemory_bytes());
+  limits.heights_bytes = std::min<std::uint64_t>(limits.heights_bytes, machineMemory_bytes());
   return limits;
 }
 

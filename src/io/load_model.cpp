@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "io/file_ending.h"
 #include "io/isolated.h"
+#include "io/read_heights.h"
 #include "scene/weld.h"
 
 namespace hl {
@@ -83,13 +84,18 @@ void makeSound(Model& model) {
 
 }  // namespace
 
-bool readsEnding(const std::string& ending) { return coinReads(ending) || assimpReads(ending); }
+bool readsEnding(const std::string& ending) { return readsHeights(ending) || coinReads(ending) || assimpReads(ending); }
 
 std::string cannotBeRead(const std::string& ending) {
-  return "files ending in '" + ending + "' cannot be read; obj, ply, stl, gltf, glb, x3d, wrl and others can";
+  return "files ending in '" + ending +
+         "' cannot be read; obj, ply, stl, gltf, glb, x3d, wrl, tif, hgt, asc, png, npy and others can";
 }
 
-SceneModel parseModel(const ModelFile& file, const std::function<void(double)>& report) {
+SceneModel parseModel(const ModelFile& file, const ReadingReport& report) {
+  if (readsHeights(file.ending)) {
+    readHeights(file, report.heights());
+    return {};
+  }
   SceneModel scene = coinReads(file.ending) ? SceneModel(parseWithCoin(file, report)) : parseWithAssimp(file, report);
   makeSound(scene.model);
   for (SceneBody& body : scene.bodies) makeSound(body.model);
@@ -108,12 +114,14 @@ SceneModel loadModelScene(const std::string& path, const LoadOptions& options) {
       options.progress);
   if (elementsIn(scene) == 0) throw Error(path + ": there is no geometry in it");
   scene.model.name = std::filesystem::path(path).filename().string();
+  for (SceneSurface& surface : scene.surfaces) surface.name = scene.model.name;
   if (options.progress) options.progress(1);
   return scene;
 }
 
 Model loadModel(const std::string& path, const LoadOptions& options) {
   SceneModel scene = loadModelScene(path, options);
+  if (!scene.surfaces.empty()) throw Error(path + ": is a height field, and no mesh");
   if (scene.bodies.empty()) return std::move(scene.model);
   scene.model.warnings.emplace_back("its bodies stay where they are: it is read as one object");
   return asOneModel(scene);

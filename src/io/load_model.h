@@ -1,4 +1,5 @@
-// Model files: OBJ, PLY, STL, glTF and what else assimp reads; VRML 1.0 and 97 and Inventor through Coin.
+// Model files: OBJ, PLY, STL, glTF and what else assimp reads; VRML 1.0 and 97 and Inventor through Coin; heights by
+// read_heights.h.
 #pragma once
 
 #include <cstddef>
@@ -6,6 +7,7 @@
 #include <string>
 
 #include "io/isolated.h"
+#include "io/model_file.h"
 #include "scene/scene_model.h"
 
 namespace hl {
@@ -32,15 +34,8 @@ SceneModel loadModelScene(const std::string& path, const LoadOptions& options = 
 bool readsEnding(const std::string& ending);
 std::string cannotBeRead(const std::string& ending);
 
-/// A file in the process that reads it.
-struct ModelFile {
-  std::string path;
-  std::string ending;  ///< as endingOf()
-  bool alone = false;  ///< nothing else may be opened; what it names beside it becomes a warning
-};
-
 /// What the reader gives, made sound and small. In a process of its own; throws on failure.
-SceneModel parseModel(const ModelFile& file, const std::function<void(double)>& report);
+SceneModel parseModel(const ModelFile& file, const ReadingReport& report);
 
 /// For parseModel.
 SceneModel parseWithAssimp(const ModelFile& file, const std::function<void(double)>& report);

@@ -18,7 +18,7 @@ constexpr const char* kSceneEnding = ".hl.json";
 
 std::string pathOfSent() { return "/proc/self/fd/" + std::to_string(kKeptFile); }
 
-SceneModel parseSent(const std::string& ending, const std::function<void(double)>& report) {
+SceneModel parseSent(const std::string& ending, const ReadingReport& report) {
   if (ending != kSceneEnding) return parseModel({pathOfSent(), ending, true}, report);
   LoadOptions options;
   options.alone = true;

@@ -60,7 +60,30 @@ void PartSender::failure(const std::string& why) {
   send(part);
 }
 
+void PartSender::header(const HeightHeader& header) { toProto(header, *samples_.mutable_heights()); }
+
+void PartSender::samples(const void* samples, std::size_t bytes) {
+  constexpr std::size_t kEnough = 1 << 20;
+  samples_.mutable_heights()->mutable_samples()->append(static_cast<const char*>(samples), bytes);
+  if (samples_.heights().samples().size() >= kEnough) sendSamples();
+}
+
+void PartSender::sendSamples() {
+  send(samples_);
+  std::string kept = std::move(*samples_.mutable_heights()->mutable_samples());  // its memory is used again
+  kept.clear();
+  samples_.mutable_heights()->Clear();
+  *samples_.mutable_heights()->mutable_samples() = std::move(kept);
+}
+
+void PartSender::warn(const std::string& line) {
+  proto::ReadingPart part;
+  part.set_warning(oneLine(line));
+  send(part);
+}
+
 void PartSender::scene(const SceneModel& scene) {
+  if (samples_.has_heights()) sendSamples();
   const Model& rest = scene.model;
   proto::ReadingPart part;
   toProto(scene.mechanics, *part.mutable_mechanics());
@@ -132,6 +155,12 @@ void PartCollector::addWarning(const std::string& warning) {
   rest_.warnings.push_back(oneLine(warning));
 }
 
+// The first part has the header; samples count apart, as they are kept where they come to lie.
+void PartCollector::addHeights(const proto::RecordedHeights& part) {
+  if (!heights_) heights_.emplace(headerOf(part), heights_bytes_);
+  heights_->add(part.samples().data(), part.samples().size());
+}
+
 PartCollector::State PartCollector::addMesh(const proto::RecordedShape& part) {
   mesh_.add(part);
   if (part.continues()) return State::kMore;
@@ -174,6 +203,7 @@ void PartCollector::addToScene(const proto::ReadingPart& part) {
 
 PartCollector::State PartCollector::add(const proto::ReadingPart& part, std::size_t bytes,
                                         const std::function<void(double)>& progress) {
+  if (part.has_heights()) return addHeights(part.heights()), State::kMore;
   if (bytes > left_) throw Error("it is too large");
   left_ -= bytes;
   switch (part.body_case()) {
@@ -218,6 +248,7 @@ Model PartCollector::takeModel() {
 
 SceneModel PartCollector::take() {
   scene_.model.reading = rest_.reading;
+  if (heights_) scene_.surfaces.push_back({"", heights_->take()});
   for (const SceneBody& body : scene_.bodies) {
     if (!body.spec.fixed) bodyOf(body.model, body.spec);
   }

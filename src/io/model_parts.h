@@ -6,8 +6,10 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 
+#include "io/height_messages.h"
 #include "io/model_messages.h"
 #include "scene/scene_model.h"
 
@@ -17,21 +19,26 @@ namespace hl {
 inline constexpr std::uint32_t kMaxPartBytes = (std::uint32_t{64} << 22) + 65'536;
 
 /// Writes messages to a descriptor. What can not be written is lost: then nobody reads.
-class PartSender {
+class PartSender final : public HeightSink {
  public:
   explicit PartSender(int descriptor) : descriptor_(descriptor) {}
   void progress(double fraction);
   void failure(const std::string& why);
   /// The whole scene, then nothing else.
   void scene(const SceneModel& scene);
+  void header(const HeightHeader& header) override;
+  void samples(const void* samples, std::size_t bytes) override;
+  void warn(const std::string& line) override;
 
  private:
+  void sendSamples();
   void model(const Model& model);
   void places(const SnapList& snaps, const FieldList& fields);
   void send(const proto::ReadingPart& part);
 
   int descriptor_;
   std::string bytes_;
+  proto::ReadingPart samples_;  // that wait to be sent
 };
 
 /// Puts a scene together from messages.
@@ -39,8 +46,11 @@ class PartCollector {
  public:
   enum class State { kMore, kWhole, kFailed };
 
-  /// `most_bytes`: of the messages together, and of the meshes.
-  explicit PartCollector(std::size_t most_bytes) : mesh_(most_bytes), left_(most_bytes) { rest_.materials.clear(); }
+  /// `most_bytes`: of the messages together, and of the meshes. `heights_bytes`: of the samples of heights.
+  explicit PartCollector(std::size_t most_bytes, std::size_t heights_bytes = 0)
+      : mesh_(most_bytes), left_(most_bytes), heights_bytes_(heights_bytes) {
+    rest_.materials.clear();
+  }
   /// Throws hl::Error for a message that makes no sense, or one too many. `bytes` is its length.
   State add(const proto::ReadingPart& part, std::size_t bytes, const std::function<void(double)>& progress);
   const std::string& failure() const { return failure_; }
@@ -48,6 +58,7 @@ class PartCollector {
   SceneModel take();
 
  private:
+  void addHeights(const proto::RecordedHeights& part);
   State addMesh(const proto::RecordedShape& part);
   Model takeModel();
   void addToScene(const proto::ReadingPart& part);
@@ -62,7 +73,8 @@ class PartCollector {
   SceneModel scene_;
   bool in_body_ = false;  // what comes now is of the last body
   MeshReader mesh_;
-  std::size_t left_;
+  std::size_t left_, heights_bytes_;
+  std::optional<HeightCollector> heights_;
   std::string failure_;
 };
 

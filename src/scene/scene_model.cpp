@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/error.h"
 #include "scene/append_part.h"
 
 namespace hl {
@@ -26,7 +27,17 @@ void scaleJoint(JointSpec& joint, double factor, const Vec3& offset) {
   for (double& position : joint.along.table.position) position *= factor;
 }
 
-bool isOneModel(const SceneModel& scene) { return scene.bodies.empty() && scene.snaps.empty() && scene.fields.empty(); }
+bool isOneModel(const SceneModel& scene) {
+  return scene.bodies.empty() && scene.surfaces.empty() && scene.snaps.empty() && scene.fields.empty();
+}
+
+Instance instanceOf(SceneSurface surface, std::uint64_t key) {
+  Instance instance;
+  instance.shape = makeShape(std::move(surface.source), surface.material, std::move(surface.textures));
+  instance.surfaces = surfacesOf(instance.shape);
+  instance.key = key;
+  return instance;
+}
 
 void setPlaces(Instance& instance, SnapList snaps, FieldList fields) {
   if (!snaps.empty()) instance.snaps = std::make_shared<const SnapList>(std::move(snaps));
@@ -54,6 +65,8 @@ void moveRest(SceneModel& scene, double factor, const Vec3& offset) {
     moveFields(body.fields, factor, Vec3::Zero());
     body.pose.origin = factor * body.pose.origin + offset;
   }
+  for (SceneSurface& surface : scene.surfaces)
+    surface.source = surface.source->placed(factor * Mat3::Identity(), offset);
   for (JointSpec& joint : scene.mechanics.joints) scaleJoint(joint, factor, offset);
 }
 
@@ -61,6 +74,7 @@ void moveRest(SceneModel& scene, double factor, const Vec3& offset) {
 
 Box boundsOf(const SceneModel& scene) {
   Box bounds = scene.model.bounds();
+  for (const SceneSurface& surface : scene.surfaces) bounds.extend(surface.source->bounds());
   for (const SceneBody& body : scene.bodies) {
     const Box box = body.model.bounds();
     if (!box.empty()) bounds.extend(boxAt(box, body.pose));
@@ -69,6 +83,8 @@ Box boundsOf(const SceneModel& scene) {
 }
 
 Model asOneModel(const SceneModel& scene) {
+  if (!scene.surfaces.empty())
+    throw Error("'" + scene.surfaces.front().name + "' is no mesh, and cannot be a part of one");
   Model whole = scene.model;
   whole.triangle_materials.resize(whole.triangles.size());
   whole.segment_materials.resize(whole.segments.size());
@@ -86,12 +102,14 @@ Model asOneModel(const SceneModel& scene) {
 
 std::size_t elementsIn(const SceneModel& scene) {
   std::size_t elements = scene.model.elements();
+  for (const SceneSurface& surface : scene.surfaces) elements += surface.source->count();
   for (const SceneBody& body : scene.bodies) elements += body.model.elements();
   return elements;
 }
 
 std::size_t bytesToMake(const SceneModel& scene) {
   std::size_t bytes = bytesToMake(scene.model);
+  for (const SceneSurface& surface : scene.surfaces) bytes += surface.source->bytes();
   for (const SceneBody& body : scene.bodies) bytes += bytesToMake(body.model);
   return bytes;
 }
@@ -99,6 +117,12 @@ std::size_t bytesToMake(const SceneModel& scene) {
 void scaleModel(SceneModel& scene, double factor) {
   scaleModel(scene.model, factor);
   moveRest(scene, factor, Vec3::Zero());
+}
+
+void scaleHeights(SceneModel& scene, double factor) {
+  if (scene.surfaces.empty()) throw Error("there is no height field in it, whose heights could be scaled");
+  for (SceneSurface& surface : scene.surfaces)
+    surface.source = surface.source->placed(Vec3(1, factor, 1).asDiagonal(), Vec3::Zero());
 }
 
 std::size_t snapsIn(const SceneModel& scene) {
@@ -143,6 +167,7 @@ std::shared_ptr<const Snapshot> makeSnapshot(SceneModel scene, HierarchyKind hie
   } else {
     warnings = scene.model.warnings;
   }
+  for (SceneSurface& surface : scene.surfaces) instances.push_back(instanceOf(std::move(surface), ++key));
   const std::uint64_t first_body = key + 1;
   for (SceneBody& body : scene.bodies) {
     add(body.model, body.name);

@@ -21,6 +21,14 @@ struct SceneBody {
   FieldList fields{};  ///< object frame
 };
 
+/// A surface that is not a mesh. Metres, world frame.
+struct SceneSurface {
+  std::string name;
+  std::shared_ptr<const PrimitiveSource> source;
+  Material material{};
+  std::vector<Texture> textures{};  ///< that the material uses
+};
+
 /// Metres, world frame.
 struct SceneModel {
   SceneModel() = default;
@@ -28,6 +36,7 @@ struct SceneModel {
   Model model;                                              ///< what stays; its name and warnings are the scene's
   SnapList snaps;                                           ///< of what stays
   FieldList fields;                                         ///< of what stays
+  std::vector<SceneSurface> surfaces;                       ///< that stay
   std::vector<SceneBody> bodies;
   Mechanics mechanics;  ///< its joints number the bodies from 1 in their order
 };
@@ -35,18 +44,21 @@ struct SceneModel {
 Box boundsOf(const SceneModel& scene);
 std::size_t elementsIn(const SceneModel& scene);
 std::size_t bytesToMake(const SceneModel& scene);
-/// All of it where it starts, with one material for each object. Textures are left out.
+/// All of it where it starts, with one material for each object. Textures are left out. Throws hl::Error if it has a
+/// surface that is not a mesh.
 Model asOneModel(const SceneModel& scene);
 /// As those of a model. Lengths change, also those from which snaps capture, and the reach of fields; masses, densities
 /// and accelerations stay as they are said.
 void scaleModel(SceneModel& scene, double factor);
 double fitModel(SceneModel& scene, double side);
+/// Scales the heights, y, of its surfaces that are not meshes. Throws hl::Error if it has none.
+void scaleHeights(SceneModel& scene, double factor);
 
 std::size_t snapsIn(const SceneModel& scene);
 std::size_t fieldsIn(const SceneModel& scene);
 
-/// The model has key 1, if it has elements, snaps or fields, and bodies follow in their order. Allocates; never called
-/// by a real-time thread.
+/// The model has key 1, if it has elements, snaps or fields; surfaces and then bodies follow in their order. Allocates;
+/// never called by a real-time thread.
 std::shared_ptr<const Snapshot> makeSnapshot(SceneModel scene, HierarchyKind hierarchy = HierarchyKind::kBvh);
 /// The same scene with its bodies where they started, apart from those of `snapshot`: what moves the ones does not move
 /// the others. Null: it has no bodies.

@@ -159,10 +159,12 @@ std::shared_ptr<const Shape> makeShape(Model given, HierarchyKind hierarchy) {
   return shape;
 }
 
-std::shared_ptr<const Shape> makeShape(std::shared_ptr<const PrimitiveSource> source, const Material& material) {
+std::shared_ptr<const Shape> makeShape(std::shared_ptr<const PrimitiveSource> source, const Material& material,
+                                       std::vector<Texture> textures) {
   auto shape = std::make_shared<Shape>();
   shape->geometry = shape->mesh = nextGeometry();
   shape->model.materials = {material};
+  shape->model.textures = std::move(textures);
   shape->source = std::move(source);
   shape->index = shape->source->makeIndex();
   setBounds(*shape);
@@ -170,7 +172,7 @@ std::shared_ptr<const Shape> makeShape(std::shared_ptr<const PrimitiveSource> so
 }
 
 std::shared_ptr<const Shape> placedShape(const Shape& shape, const Mat3& linear, const Vec3& offset) {
-  return makeShape(shape.source->placed(linear, offset), shape.model.materials.front());
+  return makeShape(shape.source->placed(linear, offset), shape.model.materials.front(), shape.model.textures);
 }
 
 // The vertices of a triangle may be rotated differently, as the rotation depends on their positions.

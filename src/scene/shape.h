@@ -69,8 +69,10 @@ struct Shape {
 /// counted in `warnings`. Allocates; never called by a real-time thread.
 std::shared_ptr<const Shape> makeShape(Model given, HierarchyKind hierarchy = HierarchyKind::kBvh);
 
-/// A surface that is not a mesh, with one material. Allocates; never called by a real-time thread.
-std::shared_ptr<const Shape> makeShape(std::shared_ptr<const PrimitiveSource> source, const Material& material = {});
+/// A surface that is not a mesh, with one material and the textures that it uses. Allocates; never called by a
+/// real-time thread.
+std::shared_ptr<const Shape> makeShape(std::shared_ptr<const PrimitiveSource> source, const Material& material = {},
+                                       std::vector<Texture> textures = {});
 
 /// A surface that is not a mesh, moved by x -> linear x + offset. Throws hl::Error if it cannot be.
 std::shared_ptr<const Shape> placedShape(const Shape& shape, const Mat3& linear, const Vec3& offset);

@@ -54,12 +54,6 @@ void HeightField::checkFrame() {
 
 ElementId HeightField::count() const { return 2 * ElementId{grid_->columns() - 1} * (grid_->rows() - 1); }
 
-HeightCell HeightField::cellOf(ElementId id) const {
-  const ElementId cell = id / 2, columns = grid_->columns() - 1;
-  return {static_cast<std::uint32_t>(cell % columns), static_cast<std::uint32_t>(cell / columns),
-          static_cast<unsigned>(id % 2)};
-}
-
 HeightField::Corners HeightField::cornersOf(const HeightCell& cell) const {
   const std::uint32_t i = cell.column, j = cell.row;
   Corners corners{{{i, j}, {i + 1, j + 1}, {i + 1, j}}};
@@ -69,7 +63,7 @@ HeightField::Corners HeightField::cornersOf(const HeightCell& cell) const {
 }
 
 std::array<Vec3, 3> HeightField::corners(ElementId id) const {
-  const Corners at = cornersOf(cellOf(id));
+  const Corners at = cornersOf(cellOf(id, grid_->columns()));
   return {pointAt(at[0][0], at[0][1]), pointAt(at[1][0], at[1][1]), pointAt(at[2][0], at[2][1])};
 }
 
@@ -86,7 +80,7 @@ Vec3 HeightField::normalAt(std::uint32_t column, std::uint32_t row) const {
 }
 
 Vec3 HeightField::trueNormal(ElementId id, const Vec3& point) const {
-  const Corners at = cornersOf(cellOf(id));
+  const Corners at = cornersOf(cellOf(id, grid_->columns()));
   const std::array<Vec3, 3> corner = corners(id);
   for (std::size_t i = 0; i < 3; ++i) {
     if (corner[i] == point) return normalAt(at[i][0], at[i][1]);
@@ -100,7 +94,9 @@ Vec3 HeightField::trueNormal(ElementId id, const Vec3& point) const {
   return sum.normalized();
 }
 
-std::unique_ptr<const SpatialIndex> HeightField::makeIndex() const { return std::make_unique<HeightIndex>(*this); }
+std::unique_ptr<const SpatialIndex> HeightField::makeIndex() const {
+  return std::make_unique<HeightIndex>(*grid_, *pyramid_, frame_, bounds_);
+}
 
 std::shared_ptr<const PrimitiveSource> HeightField::placed(const Mat3& linear, const Vec3& offset) const {
   return std::shared_ptr<const PrimitiveSource>(new HeightField(*this, frame_.placed(linear, offset)));

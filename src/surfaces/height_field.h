@@ -6,18 +6,11 @@
 
 #include "geometry/primitive_source.h"
 #include "surfaces/grid_frame.h"
+#include "surfaces/height_cell.h"
 #include "surfaces/height_grid.h"
 #include "surfaces/height_pyramid.h"
 
 namespace hl {
-
-/// The cell with its first sample at (column, row), and which of its triangles: 0 has its last corner in the next
-/// column, 1 in the next row. Both have the corner of the cell and the one opposite, so the diagonal is always the
-/// same.
-struct HeightCell {
-  std::uint32_t column, row;
-  unsigned half;
-};
 
 /// Numbers of triangles: 2 (row (columns - 1) + column) + half. Cells with a missing sample have none, and their
 /// numbers are never proposed. Immutable; shares grid and pyramid with its copies in other places.
@@ -40,10 +33,6 @@ class HeightField final : public PrimitiveSource {
   const HeightPyramid& pyramid() const { return *pyramid_; }
   const GridFrame& frame() const { return frame_; }
   std::uint64_t triangles() const { return 2 * pyramid_->cells(); }
-  HeightCell cellOf(ElementId id) const;
-  ElementId idOf(std::uint32_t column, std::uint32_t row, unsigned half) const {
-    return 2 * (ElementId{row} * (grid_->columns() - 1) + column) + half;
-  }
 
  private:
   using Corners = std::array<std::array<std::uint32_t, 2>, 3>;  // column and row of each

@@ -29,6 +29,9 @@ struct GridSize {
 /// A pyramid over so many samples has at most kMaxPyramidLevels levels.
 inline constexpr std::uint32_t kMaxGridSide = 1U << 30;
 
+/// Throws hl::Error for a size that no grid has.
+void checkGridSize(const GridSize& size);
+
 /// Immutable; read by any thread. Heights are in the units of the samples: a GridFrame makes metres of them.
 class HeightGrid {
  public:

@@ -10,16 +10,18 @@
 
 #include <cstddef>
 
+#include "geometry/box.h"
 #include "geometry/spatial_index.h"
 #include "surfaces/grid_ball.h"
-#include "surfaces/height_field.h"
+#include "surfaces/height_grid.h"
+#include "surfaces/height_pyramid.h"
 
 namespace hl {
 
 class HeightIndex final : public SpatialIndex {
  public:
-  /// The field must outlive it. Takes no memory: the pyramid is the field's.
-  explicit HeightIndex(const HeightField& field) : field_(field), metric_(field.frame()) {}
+  /// Grid and pyramid must outlive it. `bounds`: m, of the field.
+  HeightIndex(const HeightGrid& grid, const HeightPyramid& pyramid, const GridFrame& frame, const Box& bounds);
 
   std::size_t overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId primitive)> visit) const override;
   std::size_t sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
@@ -29,10 +31,11 @@ class HeightIndex final : public SpatialIndex {
   IndexStats stats() const override;
 
  private:
-  double extent() const;
-
-  const HeightField& field_;
+  const HeightGrid& grid_;
+  const HeightPyramid& pyramid_;
   const GridMetric metric_;
+  const Box bounds_;
+  const double extent_, cell_;  // m: largest absolute coordinate, and size of a cell
 };
 
 }  // namespace hl

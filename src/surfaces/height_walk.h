@@ -7,7 +7,8 @@
 #include <cstddef>
 
 #include "surfaces/grid_ball.h"
-#include "surfaces/height_field.h"
+#include "surfaces/height_cell.h"
+#include "surfaces/height_grid.h"
 #include "surfaces/height_pyramid.h"
 
 namespace hl {
@@ -63,8 +64,8 @@ struct BallOverPlane {
 
 class HeightWalk {
  public:
-  HeightWalk(const HeightField& field, const GridBall& ball)
-      : field_(field), pyramid_(field.pyramid()), tilt_(ball.metric().tilt), ball_(ball) {}
+  HeightWalk(const HeightGrid& grid, const HeightPyramid& pyramid, const GridBall& ball)
+      : grid_(grid), pyramid_(pyramid), tilt_(ball.metric().tilt), ball_(ball) {}
 
   /// Calls visit(id) for each triangle that the ball may touch. Returns the number of slabs and cells visited.
   template <typename Visit>
@@ -136,10 +137,9 @@ class HeightWalk {
   template <typename Visit>
   void enterCells(const Block& block, const Visit& visit) {
     constexpr std::uint32_t kCells = HeightPyramid::kCells;
-    const HeightGrid& grid = field_.grid();
     const std::uint32_t column = block.column * kCells, row = block.row * kCells;
-    const Range i = reached(0, 1, column, std::min(column + kCells, grid.columns() - 1) - 1);
-    const Range j = reached(1, 1, row, std::min(row + kCells, grid.rows() - 1) - 1);
+    const Range i = reached(0, 1, column, std::min(column + kCells, grid_.columns() - 1) - 1);
+    const Range j = reached(1, 1, row, std::min(row + kCells, grid_.rows() - 1) - 1);
     if (i.empty || j.empty) return;
     const HeightSlab& slab = pyramid_.slab(0, block.column, block.row);
     const double across = slab.slope_column, down = slab.slope_row;
@@ -156,7 +156,7 @@ class HeightWalk {
       const double row_below = bowls.least(1, down + tilt_.y(), n, n + 1.0);
       const double row_above = -bowls.least(1, -down - tilt_.y(), n, n + 1.0);
       const auto rest = [&](std::uint32_t m, std::uint32_t at_row) {
-        return grid.at(m, at_row) - across * (m - column) - down * (at_row - row);
+        return grid_.at(m, at_row) - across * (m - column) - down * (at_row - row);
       };
       double a = rest(i.first, n), c = rest(i.first, n + 1);
       for (std::uint32_t m = i.first; m <= i.last; ++m) {
@@ -167,8 +167,8 @@ class HeightWalk {
           const auto touched = [&](double third) {
             return !(std::max({a, d, third}) < high || std::min({a, d, third}) > low);
           };
-          if (touched(b)) visit(field_.idOf(m, n, 0));
-          if (touched(c)) visit(field_.idOf(m, n, 1));
+          if (touched(b)) visit(idOf({m, n, 0}, grid_.columns()));
+          if (touched(c)) visit(idOf({m, n, 1}, grid_.columns()));
         }
         a = b;
         c = d;
@@ -179,7 +179,7 @@ class HeightWalk {
   static constexpr double kMargin = 1e-12;
   static constexpr std::size_t kBlocksOfBlock = std::size_t{HeightPyramid::kBlocks} * HeightPyramid::kBlocks;
 
-  const HeightField& field_;
+  const HeightGrid& grid_;
   const HeightPyramid& pyramid_;
   const Vec2 tilt_;
   const GridBall& ball_;

@@ -20,8 +20,8 @@ TEST(HeightField, EveryInnerEdgeBelongsToTwoTrianglesBitByBit) {
     const auto field = test::randomField(random);
     std::map<std::array<double, 6>, int> edges;
     for (ElementId id = 0; id < field->count(); ++id) {
-      const HeightCell cell = field->cellOf(id);
-      ASSERT_EQ(field->idOf(cell.column, cell.row, cell.half), id);
+      const HeightCell cell = cellOf(id, field->grid().columns());
+      ASSERT_EQ(idOf(cell, field->grid().columns()), id);
       if (!field->grid().hasCell(cell.column, cell.row)) continue;
       ++triangles;
       const Primitive triangle = primitiveOf(*field, id);
@@ -56,7 +56,7 @@ TEST(HeightField, TrianglesAreValidAndFaceUp) {
   for (int i = 0; i < 200; ++i) {
     const auto field = test::randomField(random);
     for (ElementId id = 0; id < field->count(); ++id) {
-      const HeightCell cell = field->cellOf(id);
+      const HeightCell cell = cellOf(id, field->grid().columns());
       if (!field->grid().hasCell(cell.column, cell.row)) continue;
       const auto corner = field->corners(id);
       ASSERT_TRUE(isTriangle(corner[0], corner[1], corner[2]));
@@ -81,7 +81,7 @@ TEST(HeightField, NormalsAreThoseOfTheSurfaceThatWasSampled) {
   for (std::uint32_t j = 1; j + 2 < 40; ++j) {
     for (std::uint32_t i = 1; i + 2 < 40; ++i) {
       for (const unsigned half : {0U, 1U}) {
-        const ElementId id = field->idOf(i, j, half);
+        const ElementId id = idOf({i, j, half}, 40);
         for (const Vec3& at : field->corners(id)) {
           const Vec3 normal = Vec3(-c * at.x(), 1, -0.5 * c * at.z()).normalized();
           ASSERT_LT((field->trueNormal(id, at) - normal).norm(), 1e-5);

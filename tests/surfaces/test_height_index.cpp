@@ -19,7 +19,8 @@ using test::Random;
 struct Pair {
   explicit Pair(std::shared_ptr<const HeightField> given)
       : field(std::move(given)),
-        index(*field),
+        own(field->makeIndex()),
+        index(*own),
         mesh(test::meshOf(*field)),
         primitives(mesh.view()),
         bvh(WideBvh::build(primitives)) {}
@@ -35,7 +36,8 @@ struct Pair {
   }
 
   std::shared_ptr<const HeightField> field;
-  HeightIndex index;
+  std::unique_ptr<const SpatialIndex> own;
+  const SpatialIndex& index;
   test::Mesh mesh;
   Primitives primitives;
   WideBvh bvh;
@@ -153,7 +155,8 @@ TEST(HeightIndex, AQueryLooksAtFewSlabs) {
   const auto field = test::fieldOf(708, 708, 1e-5, [](double i, double j) {
     return 3e-6 * i + 1e-6 * j + 1e-4 * std::sin(0.02 * i) * std::cos(0.015 * j);
   });
-  const HeightIndex index(*field);
+  const auto own = field->makeIndex();
+  const SpatialIndex& index = *own;
   Random random(4);
   std::size_t looked = 0, visited = 0, fewest = 1'000'000;
   for (int i = 0; i < 200; ++i) {

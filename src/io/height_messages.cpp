@@ -1,0 +1,72 @@
+#include "io/height_messages.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace hl {
+
+namespace {
+
+constexpr std::size_t kPartBytes = std::size_t{4} << 20;
+
+HeightSamples samplesOf(const GridSize& size, std::size_t most_bytes) {
+  checkGridSize(size);
+  if (size.bytes() > most_bytes)
+    throw Error(fmt::format("a height field of {} x {} samples takes {:.1f} GB of memory, and there are {:.1f} GB",
+                            size.columns, size.rows, 1e-9 * static_cast<double>(size.bytes()),
+                            1e-9 * static_cast<double>(most_bytes)));
+  return HeightSamples(size);
+}
+
+}  // namespace
+
+void toProto(const HeightHeader& header, proto::RecordedHeights& out) {
+  out.set_columns(header.size.columns);
+  out.set_rows(header.size.rows);
+  out.set_kind(static_cast<std::uint32_t>(header.size.kind));
+  if (header.missing) out.set_missing(*header.missing);
+  for (const double value : header.frame.axes.reshaped()) out.add_axes(value);
+  for (const double value : header.frame.origin) out.add_origin(value);
+}
+
+HeightHeader headerOf(const proto::RecordedHeights& in) {
+  if (in.kind() > static_cast<std::uint32_t>(SampleKind::kFloat32) || in.axes_size() != 9 || in.origin_size() != 3)
+    throw Error("a height field in it makes no sense");
+  HeightHeader header;
+  header.size = {in.columns(), in.rows(), static_cast<SampleKind>(in.kind())};
+  if (in.has_missing()) header.missing = in.missing();
+  std::copy(in.axes().begin(), in.axes().end(), header.frame.axes.data());
+  std::copy(in.origin().begin(), in.origin().end(), header.frame.origin.data());
+  return header;
+}
+
+void writeHeights(const HeightField& field, const std::function<void(proto::RecordedHeights& part)>& take) {
+  const HeightGrid& grid = field.grid();
+  proto::RecordedHeights part;
+  toProto(HeightHeader{grid.size(), grid.missing(), field.frame()}, part);
+  const char* at = static_cast<const char*>(grid.samples());
+  for (std::size_t left = grid.size().bytes(); left > 0;) {
+    const std::size_t bytes = std::min(left, kPartBytes);
+    part.set_samples(at, bytes);
+    at += bytes;
+    left -= bytes;
+    part.set_continues(left > 0);
+    take(part);
+    part.Clear();
+  }
+}
+
+HeightCollector::HeightCollector(const HeightHeader& header, std::size_t most_bytes)
+    : header_(header), samples_(samplesOf(header.size, most_bytes)) {}
+
+std::shared_ptr<const HeightField> HeightCollector::take() {
+  const auto grid = std::make_shared<const HeightGrid>(header_.size, samples_.take(), header_.missing);
+  auto field = std::make_shared<const HeightField>(grid, header_.frame);
+  if (field->triangles() == 0) throw Error("all its samples are missing");
+  return field;
+}
+
+}  // namespace hl

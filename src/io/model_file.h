@@ -1,0 +1,14 @@
+// ModelFile: a file as its reader gets it, in the process that reads it.
+#pragma once
+
+#include <string>
+
+namespace hl {
+
+struct ModelFile {
+  std::string path;
+  std::string ending;  ///< as endingOf()
+  bool alone = false;  ///< nothing else may be opened; what it names beside it becomes a warning
+};
+
+}  // namespace hl

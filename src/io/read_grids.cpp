@@ -1,0 +1,240 @@
+// SRTM tiles, Esri ASCII grids and NumPy arrays: forms so simple that they need no library.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+#include <vector>
+
+#include "base/error.h"
+#include "io/read_heights.h"
+
+namespace hl {
+
+namespace {
+
+constexpr const char* kShort = "ends before its last sample";
+
+void readBytes(std::ifstream& in, void* data, std::size_t bytes) {
+  in.read(static_cast<char*>(data), static_cast<std::streamsize>(bytes));
+  if (static_cast<std::size_t>(in.gcount()) != bytes) throw Error(kShort);
+}
+
+template <typename Value>
+Value swapped(Value value) {
+  std::array<std::byte, sizeof(Value)> bytes;
+  std::memcpy(bytes.data(), &value, sizeof value);
+  std::reverse(bytes.begin(), bytes.end());
+  std::memcpy(&value, bytes.data(), sizeof value);
+  return value;
+}
+
+/// "N37W123" gives the south-west corner of a tile, in degrees.
+std::optional<double> southOf(const std::string& path) {
+  const std::string name = std::filesystem::path(path).filename().string();
+  int degrees = 0;
+  if (name.size() < 7 || (name[0] != 'N' && name[0] != 'S' && name[0] != 'n' && name[0] != 's')) return {};
+  const auto [end, error] = std::from_chars(name.data() + 1, name.data() + 3, degrees);
+  if (error != std::errc() || end != name.data() + 3) return {};
+  return name[0] == 'N' || name[0] == 'n' ? degrees : -degrees;
+}
+
+/// Words of a text file, one after the other.
+class Words {
+ public:
+  explicit Words(const std::string& path) : in_(path, std::ios::binary) {}
+
+  /// False at the end. The word is valid until the next call.
+  bool next(std::string_view& word) {
+    word_.clear();
+    for (int c = in_.sbumpc(); c != std::char_traits<char>::eof(); c = in_.sbumpc()) {
+      const bool space = c == ' ' || c == '\n' || c == '\r' || c == '\t';
+      if (space && word_.empty()) continue;
+      if (space) break;
+      word_ += static_cast<char>(c);
+      if (word_.size() > kLongest) throw Error("is not an Esri grid: it has a word of more than 100 letters");
+    }
+    word = word_;
+    return !word_.empty();
+  }
+  double number(const char* what) {
+    std::string_view word;
+    if (!next(word)) throw Error(kShort);
+    return numberOf(word, what);
+  }
+  static double numberOf(std::string_view word, const char* what) {
+    double value = 0;
+    const char* const last = word.data() + word.size();
+    if (word.starts_with('+')) word.remove_prefix(1);
+    const auto [end, error] = std::from_chars(word.data(), last, value);
+    if (end != last || error == std::errc::invalid_argument)
+      throw Error(fmt::format("is not an Esri grid: '{}' is no number for {}", std::string(word), what));
+    return value;
+  }
+
+ private:
+  struct Buffer : std::filebuf {
+    Buffer(const std::string& path, std::ios::openmode mode) {
+      pubsetbuf(memory_.data(), static_cast<std::streamsize>(memory_.size()));
+      open(path, mode | std::ios::in);
+    }
+    std::vector<char> memory_ = std::vector<char>(1 << 18);
+  };
+  static constexpr std::size_t kLongest = 100;
+  Buffer in_;
+  std::string word_;
+};
+
+struct EsriHeader {
+  double columns = 0, rows = 0, east = 0, south = 0, missing = -9999;
+};
+
+// Reads up to the first word that is a number where a key should be, which is the first sample.
+double readEsriHeader(Words& words, EsriHeader& header) {
+  std::string_view word;
+  while (words.next(word)) {
+    std::string key(word);
+    std::transform(key.begin(), key.end(), key.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (key.empty() || std::isalpha(static_cast<unsigned char>(key[0])) == 0 || key == "nan")
+      return Words::numberOf(key, "a height");
+    const double value = words.number(key.c_str());
+    if (key == "ncols") header.columns = value;
+    if (key == "nrows") header.rows = value;
+    if (key == "cellsize") header.east = header.south = value;
+    if (key == "dx") header.east = value;
+    if (key == "dy") header.south = value;
+    if (key == "nodata_value") header.missing = value;
+  }
+  throw Error(kShort);
+}
+
+std::uint32_t sideOf(double count, const char* what) {
+  if (!(count >= 2 && count <= kMaxGridSide && count == std::floor(count)))
+    throw Error(fmt::format("has {:g} {}: a height field has 2 to {}", count, what, kMaxGridSide));
+  return static_cast<std::uint32_t>(count);
+}
+
+struct NumpyHeader {
+  std::string type;  // "<f4"
+  bool fortran = false;
+  std::uint32_t rows = 0, columns = 0;
+};
+
+// The value of a key in "{'descr': '<f4', 'fortran_order': False, 'shape': (3, 4), }".
+std::string_view valueOf(std::string_view text, std::string_view key) {
+  const std::size_t at = text.find(key);
+  if (at == std::string_view::npos) throw Error("is not a sound NumPy file: its header has no " + std::string(key));
+  std::string_view rest = text.substr(at + key.size());
+  const std::size_t begin = rest.find_first_not_of("': ");
+  if (begin == std::string_view::npos) throw Error("is not a sound NumPy file: its header ends early");
+  rest.remove_prefix(begin);
+  return rest.substr(0, rest.find_first_of(rest.starts_with('(') ? ")" : "',"));
+}
+
+NumpyHeader numpyHeaderOf(std::string_view text) {
+  NumpyHeader header;
+  header.type = valueOf(text, "descr");
+  header.fortran = valueOf(text, "fortran_order").starts_with("True");
+  std::string shape(valueOf(text, "shape").substr(1));
+  std::erase_if(shape, [](char c) { return c == ' ' || c == 'L'; });
+  double side[2] = {0, 0};
+  const char *at = shape.data(), *const last = at + shape.size();
+  for (double& one : side) {
+    const auto [end, error] = std::from_chars(at, last, one);
+    if (error != std::errc()) throw Error("has shape (" + shape + "): a height field has two sides");
+    at = end != last && *end == ',' ? end + 1 : end;
+  }
+  if (at != last) throw Error("has shape (" + shape + "): a height field has two sides");
+  header.rows = sideOf(side[0], "rows");
+  header.columns = sideOf(side[1], "columns");
+  return header;
+}
+
+// Rows of `Given` in the file, as `Kept`, in the order of memory.
+template <typename Given, typename Kept = Given>
+void copyRows(std::ifstream& in, const GridSize& size, bool swap, HeightSink& sink) {
+  std::vector<Given> given(size.columns);
+  std::vector<Kept> kept(size.columns);
+  for (std::uint32_t row = 0; row < size.rows; ++row) {
+    readBytes(in, given.data(), size.columns * sizeof(Given));
+    for (std::size_t i = 0; i < given.size(); ++i) kept[i] = static_cast<Kept>(swap ? swapped(given[i]) : given[i]);
+    sink.samples(kept.data(), size.columns * sizeof(Kept));
+  }
+}
+
+}  // namespace
+
+void readSrtm(const ModelFile& file, HeightSink& sink) {
+  const std::uintmax_t bytes = std::filesystem::file_size(file.path);
+  const auto side = static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(bytes / 2))));
+  if (side < 2 || std::uintmax_t{2} * side * side != bytes)
+    throw Error(fmt::format("has {} bytes: an SRTM tile is a square of 16-bit samples, such as 1201 x 1201", bytes));
+  const GridSize size{side, side, SampleKind::kInt16};
+  const double step_deg = 1.0 / (side - 1);
+  const std::optional<double> south = southOf(file.path);
+  if (!south) sink.warn("its name does not say where it lies, as N37W123.hgt does: it is taken to lie at the equator");
+  const DegreeLength spacing = spacingOfDegrees(step_deg, step_deg, south.value_or(-0.5) + 0.5, sink);
+  constexpr double kVoid = -32768;
+  sink.header({size, kVoid, uprightFrame(size, spacing.east_m, spacing.north_m, 1)});
+  std::ifstream in(file.path, std::ios::binary);
+  copyRows<std::int16_t>(in, size, std::endian::native == std::endian::little, sink);
+}
+
+void readEsriGrid(const ModelFile& file, HeightSink& sink) {
+  Words words(file.path);
+  EsriHeader header;
+  double first = readEsriHeader(words, header);
+  const GridSize size{sideOf(header.columns, "ncols"), sideOf(header.rows, "nrows"), SampleKind::kFloat32};
+  const auto sound = [](double step) { return std::isfinite(step) && step > 0; };
+  if (!sound(header.east) || !sound(header.south)) throw Error("says no cellsize that could be");
+  sink.header({size, header.missing, uprightFrame(size, header.east, header.south, 1)});
+  std::vector<float> row(size.columns);
+  for (std::uint32_t j = 0; j < size.rows; ++j) {
+    for (std::uint32_t i = 0; i < size.columns; ++i)
+      row[i] = static_cast<float>(i + j == 0 ? first : words.number("a height"));
+    sink.samples(row.data(), row.size() * sizeof(float));
+  }
+}
+
+// An array in Fortran's order is a grid whose rows and columns have changed places.
+void readNumpy(const ModelFile& file, HeightSink& sink) {
+  std::ifstream in(file.path, std::ios::binary);
+  std::array<unsigned char, 12> start{};
+  readBytes(in, start.data(), 8);
+  if (std::memcmp(start.data(), "\x93NUMPY", 6) != 0) throw Error("is not a NumPy file");
+  const std::size_t length_bytes = start[6] == 1 ? 2 : 4;
+  readBytes(in, &start[8], length_bytes);
+  std::size_t length = 0;
+  for (std::size_t i = 0; i < length_bytes; ++i) length |= std::size_t{start[8 + i]} << (8 * i);
+  constexpr std::size_t kLongest = 1 << 16;
+  if (length > kLongest) throw Error("is not a sound NumPy file: its header is too long");
+  std::string text(length, ' ');
+  readBytes(in, text.data(), length);
+  const NumpyHeader header = numpyHeaderOf(text);
+  const std::string type = header.type.size() < 2 ? "" : header.type.substr(1);
+  GridSize size{header.columns, header.rows, SampleKind::kFloat32};
+  if (type == "i2") size.kind = SampleKind::kInt16;
+  if (type == "u2") size.kind = SampleKind::kUint16;
+  GridFrame frame = uprightFrame(size, 1, 1, 1);
+  if (header.fortran) {
+    std::swap(size.columns, size.rows);
+    frame.axes.col(0).swap(frame.axes.col(1));
+  }
+  const bool swap = header.type.starts_with('>') == (std::endian::native == std::endian::little);
+  const auto begin = [&] {
+    if (type == "f8") sink.warn("its numbers are kept in single precision");
+    sink.header({size, {}, frame});
+  };
+  if (type == "i2") return begin(), copyRows<std::int16_t>(in, size, swap, sink);
+  if (type == "u2") return begin(), copyRows<std::uint16_t>(in, size, swap, sink);
+  if (type == "f4") return begin(), copyRows<float>(in, size, swap, sink);
+  if (type == "f8") return begin(), copyRows<double, float>(in, size, swap, sink);
+  throw Error("has numbers of type '" + header.type + "': heights are int16, uint16, float32 or float64");
+}
+
+}  // namespace hl
