@@ -9,6 +9,7 @@
 #include "bodies/scene_world.h"
 #include "commands.h"
 #include "scene/bump_gain.h"
+#include "surfaces/height_field.h"
 
 namespace hl {
 
@@ -57,7 +58,7 @@ struct Totals {
   void add(const Shape& shape) {
     const Model& model = shape.model;
     const IndexStats stats = shape.index->stats();
-    triangles += model.triangles.size();
+    triangles += shape.source ? shape.count() : model.triangles.size();
     segments += model.segments.size();
     points += model.points.size();
     vertices += model.positions.size();
@@ -66,7 +67,7 @@ struct Totals {
     leaves += stats.leaves;
     depth = std::max(depth, stats.depth);
     geometry_bytes += shape.geometryBytes();
-    normals = normals || !model.normals.empty();
+    normals = normals || shape.hasNormals();
     texcoords = texcoords || !model.texcoords.empty();
     single_precision = single_precision || model.reading.single_precision;
   }
@@ -149,6 +150,24 @@ void printBodies(const Snapshot& snapshot) {
   fmt::print("gravity:    {:.6g} {:.6g} {:.6g} m/s^2\n", gravity.x(), gravity.y(), gravity.z());
 }
 
+void printHeights(const HeightField& field) {
+  const HeightGrid& grid = field.grid();
+  const Mat3& axes = field.frame().axes;
+  const double bytes = static_cast<double>(field.bytes() + field.pyramid().bytes());
+  fmt::print("heights:    {} x {} samples of {}, {:.6g} x {:.6g} m apart, {:.6g} m a unit, from {:.6g} to {:.6g}\n",
+             grid.columns(), grid.rows(), nameOf(grid.size().kind), axes.col(0).norm(), axes.col(1).norm(),
+             axes.col(2).norm(), field.pyramid().lowest(), field.pyramid().highest());
+  fmt::print("            {} triangles, {} lack; {:.2f} bytes a triangle; within {:.3g} m of the bilinear surface\n",
+             field.triangles(), field.count() - field.triangles(), bytes / static_cast<double>(field.triangles()),
+             field.error_m());
+}
+
+void printSurfaces(const Snapshot& snapshot) {
+  for (const Instance& instance : snapshot.instances) {
+    if (const auto* field = dynamic_cast<const HeightField*>(instance.shape->source.get())) printHeights(*field);
+  }
+}
+
 // What is of a place: "point", "plane", "curve of 3 points".
 std::string placeOf(const std::vector<Vec3>& points, bool plane) {
   if (plane) return "plane";
@@ -184,6 +203,7 @@ void print(const Snapshot& snapshot) {
   for (const Instance& instance : snapshot.instances) all.add(*instance.shape);
   fmt::print("name:       {}\n", snapshot.name);
   printTotals(all, snapshot);
+  printSurfaces(snapshot);
   printMaterials(snapshot);
   printBodies(snapshot);
   printSnaps(snapshot);

@@ -23,8 +23,9 @@ void addStabilityCommand(CLI::App& app);
 struct SceneOptions {
   std::string scene = "teapot";
   std::string hierarchy = "bvh";
-  double scale = 0;  ///< metres per file unit; 0: as it is
-  double fit = 0;    ///< m, largest side; 0: as it is
+  double scale = 0;           ///< metres per file unit; 0: as it is
+  double fit = 0;             ///< m, largest side; 0: as it is
+  double vertical_scale = 0;  ///< of the heights of height fields; 0: as they are
 };
 
 void addSceneArgument(CLI::App& command, SceneOptions& options, bool required);

@@ -50,7 +50,10 @@ void requireMemory(const SceneModel& scene, const std::string& name, std::uint64
 void addSceneArgument(CLI::App& command, SceneOptions& options, bool required) {
   auto* argument = command.add_option(
       "scene", options.scene,
-      std::string("a model file (obj, ply, stl, gltf, glb, x3d, wrl, ...) or a built-in scene: ") + kBuiltinScenes);
+      std::string(
+          "a model file (obj, ply, stl, gltf, glb, x3d, wrl, ...), a file of heights (tif, hgt, asc, png, npy) or a "
+          "built-in scene: ") +
+          kBuiltinScenes);
   if (required) {
     argument->required();
   } else {
@@ -70,6 +73,10 @@ void addSizeOptions(CLI::App& command, SceneOptions& options) {
   command.add_option("--fit", options.fit, "scale and centre the model so that its largest side has this many metres")
       ->check(positive())
       ->excludes(scale);
+  command
+      .add_option("--vertical-scale", options.vertical_scale,
+                  "factor on the heights of a height field, before --scale or --fit (default 1)")
+      ->check(positive());
 }
 
 void addSurfaceOptions(CLI::App& command, MaterialOverride& surfaces, LedgerMode& ledger) {
@@ -115,6 +122,7 @@ std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options) {
   LoadOptions load;
   load.progress = showProgress;
   SceneModel scene = loadScene(options.scene, load);
+  if (options.vertical_scale > 0) scaleHeights(scene, options.vertical_scale);
   if (options.scale > 0) scaleModel(scene, options.scale);
   if (options.fit > 0) fitModel(scene, options.fit);
   requireMemory(scene, options.scene, machineMemory_bytes());

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "fields.h"
 #include "rough.h"
 #include "soup.h"
 #include "surfaces.h"
@@ -19,6 +20,8 @@ namespace {
 constexpr std::size_t kMaxMember = 1'000'000'000;
 
 constexpr std::string_view kWorkshop = "workshop";
+constexpr std::string_view kField = "field";
+constexpr std::size_t kUsualField = 1'000'000, kMostField = 100'000'000'000;
 
 struct Builtin {
   std::string_view name;
@@ -64,13 +67,36 @@ bool read(std::string_view digits, std::size_t most, std::size_t& number) {
   return error == std::errc() && end == digits.data() + digits.size() && number >= 1 && number <= most;
 }
 
+[[noreturn]] void refuseNumber(const std::string& spec, std::size_t most, const char* example) {
+  throw Error("'" + spec + "': N must be a whole number from 1 to " + std::to_string(most) + ", as in " + example);
+}
+
+SceneModel makeField(const std::string& spec) {
+  const std::string_view rest = std::string_view(spec).substr(kField.size());
+  std::size_t n = kUsualField;
+  if (!rest.empty()) {
+    constexpr std::string_view kTerrain = ":terrain";
+    const std::string_view number = rest.substr(std::min(rest.size(), kTerrain.size()));
+    if (!rest.starts_with(kTerrain)) throw Error("'" + spec + "': the one generated field is field:terrain:N");
+    if (!number.empty() && (number[0] != ':' || !read(number.substr(1), kMostField, n)))
+      refuseNumber(spec, kMostField, "field:terrain:1000000");
+  }
+  SceneModel scene;
+  scene.model.name = spec;
+  scene.surfaces.push_back({spec, makeTerrainField(n)});
+  return scene;
+}
+
 }  // namespace
 
+bool isBuiltinField(const std::string& spec) { return spec.substr(0, spec.find(':')) == kField; }
+
 bool isBuiltinScene(const std::string& spec) {
-  return find(std::string_view(spec).substr(0, spec.find(':'))) != nullptr;
+  return isBuiltinField(spec) || find(std::string_view(spec).substr(0, spec.find(':'))) != nullptr;
 }
 
 Model makeBuiltinScene(const std::string& spec) {
+  if (isBuiltinField(spec)) throw Error("'" + spec + "' is a height field, and no mesh");
   const std::size_t colon = spec.find(':');
   const Builtin* builtin = find(std::string_view(spec).substr(0, colon));
   if (builtin == nullptr) throw Error("no built-in scene '" + spec + "'; there are " + kBuiltinScenes);
@@ -80,8 +106,7 @@ Model makeBuiltinScene(const std::string& spec) {
     throw Error("'" + spec + "': there is one " + std::string(builtin->name) + ", which takes no number");
   std::size_t n = builtin->usual, member = 1;
   if (colon != std::string::npos && !read(numbers.substr(0, second), builtin->most, n))
-    throw Error("'" + spec + "': N must be a whole number from 1 to " + std::to_string(builtin->most) +
-                ", as in terrain:100000");
+    refuseNumber(spec, builtin->most, "terrain:100000");
   if (second != std::string_view::npos && !read(numbers.substr(second + 1), kMaxMember, member))
     throw Error("'" + spec + "': MEMBER must be a whole number from 1 to " + std::to_string(kMaxMember) +
                 ", as in rough:100000:7");
@@ -92,6 +117,7 @@ Model makeBuiltinScene(const std::string& spec) {
 
 SceneModel makeBuiltinWorld(const std::string& spec) {
   if (spec == kWorkshop) return makeWorkshop();
+  if (isBuiltinField(spec)) return makeField(spec);
   return makeBuiltinScene(spec);
 }
 

@@ -165,6 +165,13 @@ HL_API void hlDrawArrays(HLenum mode, HLint first, HLsizei count);
  * HL_UNSIGNED_INT), as hlDrawArrays otherwise. A vertex that is listed several times, as in most meshes, is kept once.
  * Indices must be within the arrays: their size is not known here. */
 HL_API void hlDrawElements(HLenum mode, HLsizei count, HLenum type, const void* indices);
+/** Draws a height field: `columns` x `rows` samples of `type` (HL_SHORT, HL_UNSIGNED_SHORT or HL_FLOAT), row by row, as
+ * two triangles between each four, which the server makes when they are touched: it keeps the samples alone. Columns
+ * lead to +x, rows to +z, both 1 apart, with the middle of the field at x = z = 0; heights are y: hlScaled makes metres
+ * of them. Around a sample that equals `*missing`, or is not a number, there is a hole; `missing` may be NULL. The
+ * samples are copied. HL_INVALID_VALUE: fewer than two columns or rows, or no samples. HL_INVALID_ENUM: another type.
+ * HL_OUT_OF_MEMORY: 1 GiB of samples or more. */
+HL_API void hlHeightField(HLsizei columns, HLsizei rows, HLenum type, const void* samples, const HLdouble* missing);
 
 /* ---- Objects -------------------------------------------------------------------------------------------------- */
 

@@ -246,6 +246,25 @@ void drawElements(HLenum mode, const VertexArrays<Number>& arrays, const Indices
   hlDrawElements(mode, static_cast<HLsizei>(std::ranges::size(indices)), type, std::ranges::data(indices));
 }
 
+template <typename Number>
+concept HeightNumber = std::same_as<Number, HLshort> || std::same_as<Number, HLushort> || std::same_as<Number, HLfloat>;
+
+/// hlHeightField of rows of `columns` samples each (a vector, an array, a span).
+template <std::ranges::contiguous_range Samples>
+requires HeightNumber<std::ranges::range_value_t<Samples>>
+void heightField(std::size_t columns, const Samples& samples, std::optional<HLdouble> missing = {}) {
+  using Number = std::ranges::range_value_t<Samples>;
+  const std::size_t count = std::ranges::size(samples);
+  constexpr auto kMost = static_cast<std::size_t>(std::numeric_limits<HLsizei>::max());
+  if (columns == 0 || columns > kMost || count % columns != 0 || count / columns > kMost)
+    throw std::invalid_argument("the samples must fill rows of so many columns");
+  constexpr HLenum type = std::same_as<Number, HLshort>    ? HL_SHORT
+                          : std::same_as<Number, HLushort> ? HL_UNSIGNED_SHORT
+                                                           : HL_FLOAT;
+  hlHeightField(static_cast<HLsizei>(columns), static_cast<HLsizei>(count / columns), type, std::ranges::data(samples),
+                missing ? &*missing : nullptr);
+}
+
 /// hlGetDoublev of a query with `Count` values (hl_types.h says how many); zeros at an error.
 template <std::size_t Count>
 std::array<HLdouble, Count> get(HLenum name) {

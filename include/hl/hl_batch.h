@@ -42,6 +42,12 @@ HL_API HLbatchScene* hlBatchLoadScene(const char* name, HLdouble size);
  * NULL: none. Degenerate triangles are left out. NULL when that fails. */
 HL_API HLbatchScene* hlBatchMakeScene(const HLdouble* positions, const HLdouble* normals, size_t vertices,
                                       const HLuint* indices, size_t triangles);
+/** A height field of `columns` x `rows` samples, row by row, of `type` HL_SHORT, HL_UNSIGNED_SHORT or HL_FLOAT. Columns
+ * lead to +x, `spacing` x 0 m apart, rows to +z, `spacing` x 1, with the middle at x = z = 0; heights are y, `scale` m
+ * for a unit. Around samples that equal `*missing` (NULL: none), or are not a number, there are holes. The samples are
+ * copied. NULL when that fails. */
+HL_API HLbatchScene* hlBatchMakeHeights(size_t columns, size_t rows, HLenum type, const void* samples,
+                                        const HLdouble* missing, const HLdouble* spacing, HLdouble scale);
 /** Fingers that were made with the scene keep it. NULL: nothing happens. */
 HL_API void hlBatchDeleteScene(HLbatchScene* scene);
 /** How many triangles, segments and points it has. */

@@ -14,6 +14,7 @@ typedef int HLint;               /**< 32 bits */
 typedef unsigned int HLuint;     /**< 32 bits */
 typedef int HLsizei;             /**< a count or a size; negative ones are HL_INVALID_VALUE */
 typedef unsigned char HLubyte;   /**< 8 bits */
+typedef short HLshort;           /**< 16 bits */
 typedef unsigned short HLushort; /**< 16 bits */
 typedef float HLfloat;           /**< 32 bits; widened to double exactly */
 typedef double HLdouble;         /**< 64 bits; NaN and infinities are HL_INVALID_VALUE everywhere */
@@ -57,6 +58,7 @@ enum {
 /** Numbers and pixels in memory. */
 enum {
   HL_UNSIGNED_BYTE = 0x1401,  /**< HLubyte; as a texel 255 is 1 */
+  HL_SHORT = 0x1402,          /**< HLshort */
   HL_UNSIGNED_SHORT = 0x1403, /**< HLushort */
   HL_UNSIGNED_INT = 0x1405,   /**< HLuint */
   HL_FLOAT = 0x1406,          /**< HLfloat; as a texel clamped to 0..1 and rounded to a 255th */

@@ -51,6 +51,20 @@ def floats(numbers: Any, name: str) -> Floats:
     raise InvalidValueError(f"{name} must be numbers, and are {array.dtype}")
 
 
+def heights(samples: Any) -> npt.NDArray[Any]:
+    """Of two dimensions, in C order and the machine's order of bytes: int16, uint16, or else float32."""
+    try:
+        array = np.asarray(samples)
+    except ValueError as error:
+        raise InvalidValueError(f"heights must be numbers: {error}") from None
+    if array.dtype.kind not in "fiu":
+        raise InvalidValueError(f"heights must be numbers, and are {array.dtype}")
+    if array.ndim != 2 or min(array.shape) < 2:
+        raise InvalidValueError(f"heights must have two rows and columns or more, and have the shape {array.shape}")
+    kind = array.dtype.newbyteorder("=")
+    return np.ascontiguousarray(array, dtype=kind if kind in (np.int16, np.uint16) else np.float32)
+
+
 def dimensions(numbers: Any) -> int:
     """Of nested lists whose lengths differ: 2, so that they are refused as an array."""
     try:

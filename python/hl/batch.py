@@ -38,6 +38,12 @@ class Scene:
     Scene(vertices, triangles, normals=None): arrays (n, 3) in m, (m, 3) of integers, (n, 3). `normals` are for smooth
         shading. Degenerate triangles, and those beyond 1e9 m, are left out: `primitives` counts the others.
 
+    Scene(heights=samples, spacing=1.0, vertical_scale=1.0, missing=None): a height field: an array (rows, columns) of
+        int16, uint16 or float32; others become float32. Columns lead to +x, rows to +z, `spacing` m apart (one number,
+        or that of columns and that of rows), with the middle at x = z = 0; heights are y, `vertical_scale` m for a
+        unit. Around samples that equal `missing`, or are not a number, there are holes. A sample takes 2 or 4 bytes,
+        however many triangles there are.
+
     Raises InvalidValueError: there is no such file, or nothing in it can be touched. Ctrl-C is heard when it is made.
     """
 
@@ -51,15 +57,40 @@ class Scene:
     def __init__(
         self, *, vertices: npt.ArrayLike, triangles: npt.ArrayLike, normals: Optional[npt.ArrayLike] = None
     ) -> None: ...
+    @overload
     def __init__(
-        self, source: Any = None, triangles: Any = None, normals: Any = None, *, size: Any = 0.0, vertices: Any = None
+        self,
+        *,
+        heights: npt.ArrayLike,
+        spacing: Union[float, Tuple[float, float]] = 1.0,
+        vertical_scale: float = 1.0,
+        missing: Optional[float] = None,
+    ) -> None: ...
+    def __init__(
+        self,
+        source: Any = None,
+        triangles: Any = None,
+        normals: Any = None,
+        *,
+        size: Any = 0.0,
+        vertices: Any = None,
+        heights: Any = None,
+        spacing: Any = 1.0,
+        vertical_scale: Any = 1.0,
+        missing: Any = None,
     ) -> None:
+        if heights is not None:
+            if not (source is None and triangles is None and normals is None and vertices is None):
+                raise InvalidValueError("a scene is made of heights, of a file or of vertices, of one of them")
+            self._source: Any = None
+            self._scene = _heights_of(heights, spacing, vertical_scale, missing)
+            return
         if isinstance(source, (str, bytes, os.PathLike)):
             if isinstance(triangles, (int, float)):
                 raise InvalidValueError(f"the size is given by its name: hl.Scene({source!r}, size={triangles})")
             if not (triangles is None and normals is None and vertices is None):
                 raise InvalidValueError("a scene is made of a file or of arrays, not of both")
-            self._source: Any = (os.fspath(source), arguments.number(size, "size"))
+            self._source = (os.fspath(source), arguments.number(size, "size"))
             self._scene = _hl.BatchScene(arguments.path(source), self._source[1])
         else:
             if (source is None) == (vertices is None):
@@ -238,6 +269,16 @@ def _native_settings(settings: Optional[Settings]) -> _hl.BatchSettings:
     if settings is not None and not isinstance(settings, Settings):
         raise InvalidValueError(f"settings must be an hl.Settings, and is {type(settings).__name__}")
     return (settings or Settings())._native()
+
+
+def _heights_of(heights: Any, spacing: Any, vertical_scale: Any, missing: Any) -> _hl.BatchScene:
+    array = arguments.heights(heights)
+    pair = (spacing, spacing) if isinstance(spacing, (int, float)) else tuple(spacing)
+    if len(pair) != 2:
+        raise InvalidValueError("spacing must be one number or two")
+    steps = [arguments.number(step, "spacing") for step in pair]
+    none = None if missing is None else arguments.number(missing, "missing")
+    return _hl.BatchScene(array, steps, arguments.number(vertical_scale, "vertical_scale"), none)
 
 
 def _made_of(vertices: Any, triangles: Any, normals: Any, size: Any) -> _hl.BatchScene:

@@ -15,7 +15,7 @@ import math
 import weakref
 from dataclasses import dataclass
 from types import TracebackType
-from typing import Any, AsyncIterator, Callable, Dict, Iterator, Optional, Tuple, Type
+from typing import Any, AsyncIterator, Callable, Dict, Iterator, Optional, Tuple, Type, Union
 from urllib.parse import urlencode
 
 import numpy as np
@@ -224,6 +224,24 @@ class Touch:
         if array.size > 0 and points.ndim == 2 and (array.min() < 0 or array.max() >= len(points)):
             raise InvalidValueError("an index must be below the number of vertices")
         calls.hlDrawElements(mode, points, array.astype(np.uint32), *others)
+
+    def heights(
+        self,
+        samples: npt.ArrayLike,
+        spacing: Union[float, Tuple[float, float]] = 1.0,
+        vertical_scale: float = 1.0,
+        missing: Optional[float] = None,
+    ) -> None:
+        """Draws a height field, as hl.Scene(heights=...) has it: samples (rows, columns), metres between them."""
+        self.make_current()
+        array = arguments.heights(samples)
+        across, down = (spacing, spacing) if isinstance(spacing, (int, float)) else spacing
+        calls.hlPushMatrix()
+        try:
+            calls.hlScaled(float(across), float(vertical_scale), float(down))
+            calls.hlHeightField(array, missing)
+        finally:
+            calls.hlPopMatrix()
 
     @contextlib.contextmanager
     def define(self, number: Optional[int] = None) -> Iterator[int]:

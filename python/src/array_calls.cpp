@@ -56,6 +56,18 @@ void drawElements(HLenum mode, const Doubles& vertices, const Indices& indices, 
   throwFailure();
 }
 
+// int16, uint16 or float32, in C order, as Python's side makes it.
+void heightField(const py::array& samples, std::optional<double> missing) {
+  requireContext();
+  const HLenum type = samples.dtype().kind() == 'f'   ? HL_FLOAT
+                      : samples.dtype().kind() == 'i' ? HL_SHORT
+                                                      : HL_UNSIGNED_SHORT;
+  hlHeightField(sizeOf(static_cast<std::size_t>(samples.shape(1)), "columns"),
+                sizeOf(static_cast<std::size_t>(samples.shape(0)), "rows"), type, samples.data(),
+                missing ? &*missing : nullptr);
+  throwFailure();
+}
+
 void updateVertices(HLuint object, const Doubles& vertices, HLint first, const Optional& normals) {
   requireContext();
   const std::size_t count = rowsOf(vertices, 3, "vertices");
@@ -178,6 +190,7 @@ void bindArrayCalls(py::module_& module) {
              py::arg("texcoords") = none);
   module.def("hlDrawElements", &drawElements, py::arg("mode"), py::arg("vertices"), py::arg("indices"),
              py::arg("normals") = none, py::arg("texcoords") = none);
+  module.def("hlHeightField", &heightField, py::arg("samples"), py::arg("missing") = none);
   module.def("hlUpdateVertices", &updateVertices, py::arg("object"), py::arg("vertices"), py::arg("first") = 0,
              py::arg("normals") = none);
   module.def(

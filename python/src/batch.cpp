@@ -75,6 +75,20 @@ std::unique_ptr<Scene> makeScene(const Doubles& vertices, const Indices& triangl
   return std::make_unique<Scene>(made(hlBatchMakeScene(vertices.data(), smooth, count, triangles.data(), faces)));
 }
 
+// An array of int16, uint16 or float32 in C order, as Python's side makes it.
+std::unique_ptr<Scene> makeHeights(const py::array& samples, const std::array<double, 2>& spacing, double scale,
+                                   std::optional<double> missing) {
+  const std::size_t columns = static_cast<std::size_t>(samples.shape(1)),
+                    rows = static_cast<std::size_t>(samples.shape(0));
+  const HLenum type = samples.dtype().kind() == 'f'   ? HL_FLOAT
+                      : samples.dtype().kind() == 'i' ? HL_SHORT
+                                                      : HL_UNSIGNED_SHORT;
+  const void* const data = samples.data();
+  const OtherThreadsRun other_threads_run;
+  return std::make_unique<Scene>(
+      made(hlBatchMakeHeights(columns, rows, type, data, missing ? &*missing : nullptr, spacing.data(), scale)));
+}
+
 Doubles boundsOf(const Scene& scene) {
   Doubles bounds = emptyRows(2, 3);
   hlBatchSceneBounds(scene.handle.get(), bounds.mutable_data(0), bounds.mutable_data(1));
@@ -168,6 +182,7 @@ void bindBatch(py::module_& module) {
   py::class_<Scene>(module, "BatchScene")
       .def(py::init(&loadScene), py::arg("name"), py::arg("size"))
       .def(py::init(&makeScene), py::arg("vertices"), py::arg("triangles"), py::arg("normals"))
+      .def(py::init(&makeHeights), py::arg("samples"), py::arg("spacing"), py::arg("scale"), py::arg("missing"))
       .def_property_readonly("primitives",
                              [](const Scene& scene) { return hlBatchScenePrimitives(scene.handle.get()); })
       .def_property_readonly("bounds", &boundsOf);

@@ -6,7 +6,9 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <new>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -18,7 +20,10 @@
 #include "batch/ends_early.h"
 #include "batch/on_threads.h"
 #include "io/load_scene.h"
+#include "io/read_heights.h"
 #include "scene/scene_model.h"
+#include "surfaces/height_field.h"
+#include "surfaces/height_samples.h"
 
 struct HLbatchScene {
   std::shared_ptr<const hl::Snapshot> snapshot;
@@ -171,6 +176,30 @@ HLbatchScene* hlBatchMakeScene(const HLdouble* positions, const HLdouble* normal
       model.triangles.push_back({indices[3 * i], indices[3 * i + 1], indices[3 * i + 2]});
     model.materials[0].smooth = normals != nullptr;
     scene = sceneOf(std::move(model));
+  });
+  return scene;
+}
+
+HLbatchScene* hlBatchMakeHeights(size_t columns, size_t rows, HLenum type, const void* samples, const HLdouble* missing,
+                                 const HLdouble* spacing, HLdouble scale) {
+  HLbatchScene* scene = nullptr;
+  guardedCall(__func__, [&] {
+    require(samples != nullptr && spacing != nullptr, "samples or spacing is NULL");
+    require(type == HL_SHORT || type == HL_UNSIGNED_SHORT || type == HL_FLOAT,
+            "samples are HL_SHORT, HL_UNSIGNED_SHORT or HL_FLOAT");
+    require(columns <= kMaxGridSide && rows <= kMaxGridSide, "there are too many columns or rows");
+    require(missing == nullptr || std::isfinite(*missing), "missing must be finite");
+    GridSize size{static_cast<std::uint32_t>(columns), static_cast<std::uint32_t>(rows), SampleKind::kFloat32};
+    if (type == HL_SHORT) size.kind = SampleKind::kInt16;
+    if (type == HL_UNSIGNED_SHORT) size.kind = SampleKind::kUint16;
+    HeightSamples kept(size);
+    kept.add(samples, size.bytes());
+    const auto grid = std::make_shared<const HeightGrid>(
+        size, kept.take(), missing != nullptr ? std::optional<double>(*missing) : std::nullopt);
+    SceneModel made;
+    made.surfaces.push_back(
+        {"heights", std::make_shared<const HeightField>(grid, uprightFrame(size, spacing[0], spacing[1], scale))});
+    scene = sceneOf(std::move(made));
   });
   return scene;
 }

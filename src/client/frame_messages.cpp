@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "client/fault.h"
@@ -15,7 +16,8 @@ namespace {
 constexpr std::size_t kInlineBytes = std::size_t{256} << 10;
 // One part, or so many of small meshes in one message, decode in about a millisecond.
 constexpr std::size_t kPartBytes = std::size_t{1} << 20;
-constexpr std::size_t kPartHeadBytes = 32;  // of a part, at most, beside its numbers
+constexpr std::size_t kHeightsHeadBytes = 64;  // of a height field, at most, beside its samples
+constexpr std::size_t kPartHeadBytes = 32;     // of a part, at most, beside its numbers
 
 constexpr std::uint64_t unlessZero(std::uint64_t limit) {
   return limit == 0 ? std::numeric_limits<std::uint64_t>::max() : limit;
@@ -27,6 +29,7 @@ void assign(google::protobuf::RepeatedField<Number>* out, const List& in) {
 }
 
 void fillPrimitives(const Geometry& geometry, proto::Primitives& out) {
+  if (geometry.heights) *out.mutable_heights() = *geometry.heights;
   assign(out.mutable_vertices(), geometry.vertices.positions);
   assign(out.mutable_normals(), geometry.vertices.normals);
   assign(out.mutable_texcoords(), geometry.vertices.texcoords);
@@ -156,6 +159,7 @@ class Builder {
 
   std::uint64_t upload(const Geometry& geometry) {
     upload_ = terms_.next_upload++;
+    if (geometry.heights) addHeights(*geometry.heights);
     addParts(geometry.vertices.positions, &proto::Primitives::mutable_vertices);
     addParts(geometry.vertices.normals, &proto::Primitives::mutable_normals);
     addParts(geometry.vertices.texcoords, &proto::Primitives::mutable_texcoords);
@@ -175,6 +179,22 @@ class Builder {
       proto::Upload& part = addPart((end - begin) * sizeof(*begin));
       part.set_id(upload_);
       (part.mutable_part()->*mutable_list)()->Add(begin, end);
+      upload_bytes_ += part.ByteSizeLong();
+    }
+  }
+
+  // The first part has all but the samples; their pieces are put together by the server.
+  void addHeights(const proto::Heights& heights) {
+    proto::Heights head = heights;
+    head.clear_samples();
+    const std::string_view samples = heights.samples(0);
+    for (std::size_t first = 0; first < samples.size(); first += part_bytes_) {
+      const std::string_view piece = samples.substr(first, part_bytes_);
+      proto::Upload& part = addPart(piece.size() + kHeightsHeadBytes);
+      part.set_id(upload_);
+      proto::Heights& out = *part.mutable_part()->mutable_heights();
+      if (first == 0) out = head;
+      out.add_samples(piece.data(), piece.size());
       upload_bytes_ += part.ByteSizeLong();
     }
   }

@@ -117,13 +117,16 @@ void Vertices::shorten(std::size_t count) {
 }
 
 bool Geometry::takes(const Vertices& added) const {
-  return vertices.normals.empty() == added.normals.empty() && vertices.texcoords.empty() == added.texcoords.empty() &&
+  return !heights && vertices.normals.empty() == added.normals.empty() &&
+         vertices.texcoords.empty() == added.texcoords.empty() &&
          vertices.size() + added.size() <= std::numeric_limits<Index>::max();
 }
 
 std::size_t Geometry::bytes() const {
   constexpr std::size_t kIndexBytes = 5, kListBytes = 12;  // the longest varint of 32 bits; tag and length of a list
   const std::size_t numbers = vertices.positions.size() + vertices.normals.size() + vertices.texcoords.size();
+  constexpr std::size_t kHeightsHead = 64;
+  if (heights) return heights->samples(0).size() + kHeightsHead;
   return numbers * sizeof(double) + (triangles.size() + segments.size() + points.size()) * kIndexBytes + 6 * kListBytes;
 }
 

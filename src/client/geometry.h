@@ -1,10 +1,12 @@
 // Geometry: vertices and lists of indices into them, as the message Primitives holds them, but cheap to append to.
 #pragma once
 
+#include <hl.pb.h>
 #include <hl/hl_types.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,9 +26,10 @@ struct Vertices {
 
 struct Geometry {
   Vertices vertices;
-  std::vector<std::uint32_t> triangles;  ///< three indices each
-  std::vector<std::uint32_t> segments;   ///< two each
-  std::vector<std::uint32_t> points;     ///< one each
+  std::vector<std::uint32_t> triangles;     ///< three indices each
+  std::vector<std::uint32_t> segments;      ///< two each
+  std::vector<std::uint32_t> points;        ///< one each
+  std::optional<proto::Heights> heights{};  ///< in place of all others; samples in one piece
   /// Whether `added` could be appended: all vertices have normals or none has, the same for texture coordinates, and
   /// the indices fit.
   bool takes(const Vertices& added) const;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
 
 #include "client/call.h"
 #include "client/elements.h"
@@ -96,6 +97,12 @@ void drawArrays(HLcontext& context, HLenum mode, std::size_t count, IndexOf inde
   draw(context, order);
 }
 
+std::size_t sampleBytesOf(HLenum type) {
+  if (type == HL_FLOAT) return sizeof(HLfloat);
+  if (type == HL_SHORT || type == HL_UNSIGNED_SHORT) return sizeof(HLshort);
+  throw Fault(HL_INVALID_ENUM, "samples are HL_SHORT, HL_UNSIGNED_SHORT or HL_FLOAT");
+}
+
 }  // namespace
 
 void hlBegin(HLenum mode) {
@@ -157,6 +164,25 @@ void hlDrawArrays(HLenum mode, HLint first, HLsizei count) {
     if (!context.arrays.vertices.enabled) return;
     const auto index = [&](std::size_t i) { return static_cast<std::size_t>(first) + i; };
     drawArrays(context, mode, static_cast<std::size_t>(count), index, {});
+  });
+}
+
+void hlHeightField(HLsizei columns, HLsizei rows, HLenum type, const void* samples, const HLdouble* missing) {
+  call(__func__, [&](HLcontext& context) {
+    const std::size_t bytes = sampleBytesOf(type);
+    if (columns < 2 || rows < 2) throw Fault(HL_INVALID_VALUE, "a height field has two columns and rows at least");
+    requirePointer(samples);
+    if (missing != nullptr) requireFinite(*missing);
+    constexpr std::size_t kMost = std::size_t{1} << 30;  // a message has less than 2 GiB
+    const std::size_t count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+    if (count >= kMost / bytes) throw Fault(HL_OUT_OF_MEMORY, "the samples must be less than 1 GiB");
+    hl::proto::Heights heights;
+    heights.set_columns(static_cast<std::uint32_t>(columns));
+    heights.set_rows(static_cast<std::uint32_t>(rows));
+    heights.set_kind(type == HL_SHORT ? "int16" : type == HL_UNSIGNED_SHORT ? "uint16" : "float32");
+    heights.add_samples(samples, count * bytes);
+    if (missing != nullptr) heights.set_missing(*missing);
+    context.target().drawHeights(context.draw.modelview.top(), lookOf(context.draw.attributes.now), std::move(heights));
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "client/fault.h"
 
@@ -21,6 +22,11 @@ bool ItemList::draw(const Matrix4& matrix, const Look& look, HLenum mode, Vertic
   if (items_.empty() || !joins(items_.back())) items_.push_back({matrix, look, 0, {}});
   appendPrimitives(items_.back().geometry, mode, vertices, order);
   return true;
+}
+
+void ItemList::drawHeights(const Matrix4& matrix, const Look& look, proto::Heights heights) {
+  items_.push_back({matrix, look, 0, {}});
+  items_.back().geometry.heights = std::move(heights);
 }
 
 void ItemList::call(const Matrix4& matrix, const Look& look, HLuint object) {

@@ -41,6 +41,7 @@ class ItemList {
   /// presence of normals and texture coordinates become one item. Vertices that do not fill the last primitive are
   /// dropped; an `order` has none of them. Returns whether there was anything to add.
   bool draw(const Matrix4& matrix, const Look& look, HLenum mode, Vertices& vertices, DrawOrder order = {});
+  void drawHeights(const Matrix4& matrix, const Look& look, proto::Heights heights);
   void call(const Matrix4& matrix, const Look& look, HLuint object);
 
   const std::vector<Item>& items() const { return items_; }

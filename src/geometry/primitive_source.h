@@ -39,6 +39,8 @@ class PrimitiveSource {
   virtual std::unique_ptr<const SpatialIndex> makeIndex() const = 0;
   /// Memory of the source, bytes; without the index.
   virtual std::size_t bytes() const = 0;
+  /// Bound of the distance between the triangles and the surface that they stand for, m. May look at all of them.
+  virtual double error_m() const = 0;
   /// The same surface moved by x -> linear x + offset; `linear` is invertible. Throws hl::Error if it cannot be.
   virtual std::shared_ptr<const PrimitiveSource> placed(const Mat3& linear, const Vec3& offset) const;
   /// What is drawn of it: about `most_triangles` or fewer. By default all of them, whatever their number, each with

@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "bodies/scene_world.h"
 #include "builtin.h"
+#include "io/decode_heights.h"
 #include "io/decode_scene.h"
 #include "io/json_lines.h"
 #include "io/load_image.h"
@@ -73,6 +74,8 @@ class SceneFile {
   Material materialOf(const proto::Material& in, const std::string& where) const;
   Model shapeOf(const proto::SceneObject& object, const std::string& where);
   Model fileModel(const std::string& name, const std::string& where);
+  std::shared_ptr<const PrimitiveSource> fieldOf(const proto::Heights& in, const std::string& where) const;
+  void addSurface(const proto::SceneObject& object, const std::string& where, SceneModel& scene) const;
   Placement placementOf(const proto::Transform& in, const std::string& where) const;
   Pose poseOf(const proto::Transform& in, const std::string& where) const;
   void addAtRest(Model part, const proto::SceneObject& object, const std::string& where, SceneModel& scene) const;
@@ -195,10 +198,42 @@ Model SceneFile::shapeOf(const proto::SceneObject& object, const std::string& wh
       }
     case proto::SceneObject::kPrimitives:
       return decoder_.model(object.primitives(), where + ".primitives");
+    case proto::SceneObject::kHeights:
     case proto::SceneObject::SHAPE_NOT_SET:
       break;
   }
-  fail(where, where + ": an object needs a file, a builtin or primitives");
+  fail(where, where + ": an object needs a file, a builtin, primitives or heights");
+}
+
+std::shared_ptr<const PrimitiveSource> SceneFile::fieldOf(const proto::Heights& in, const std::string& where) const {
+  if (in.file().empty()) return decodeHeights(in);
+  if (options_.alone) fail(where + ".file", where + ".file: " + kAlone);
+  const SceneModel scene = loadModelScene((folder_ / in.file()).string(), options_);
+  if (scene.surfaces.empty()) throw Error(in.file() + ": is a model, and no file of heights");
+  return withSpacing(scene.surfaces.front().source, in);
+}
+
+// A surface stays what it is: it is no part of the one model.
+void SceneFile::addSurface(const proto::SceneObject& object, const std::string& where, SceneModel& scene) const {
+  if (object.has_body()) fail(where + ".body", where + ".body: a height field cannot be a body");
+  SceneSurface surface;
+  surface.name = object.name().empty() ? where : object.name();
+  const Placement placement = placementOf(object.transform(), where + ".transform");
+  try {
+    const bool built_in = object.shape_case() == proto::SceneObject::kBuiltin;
+    surface.source = built_in ? makeBuiltinWorld(object.builtin()).surfaces.front().source
+                              : fieldOf(object.heights(), where + ".heights");
+    surface.source = surface.source->placed(placement.linear, placement.offset);
+  } catch (const Error& error) {
+    fail(where + (object.has_heights() ? ".heights" : ".builtin"), error.what());
+  }
+  surface.material = materialOf(object.material(), where + ".material");
+  for (TextureUse& use : surface.material.textures) {
+    if (use.used()) fail(where + ".material.textures", where + ".material: a height field has no texture coordinates");
+  }
+  scene.surfaces.push_back(std::move(surface));
+  for (SnapSpec& snap : snapsOf(object, placement, where)) scene.snaps.push_back(std::move(snap));
+  for (FieldSpec& field : fieldsOf(object, placement, where)) scene.fields.push_back(std::move(field));
 }
 
 // A factor that is left out reads as 0, and 0 itself means nothing: both are 1.
@@ -343,6 +378,10 @@ SceneModel SceneFile::build() {
     const proto::SceneObject& object = scene_.objects(i);
     const std::string where = pathOf("objects", i);
     const proto::Material& material = object.material();
+    if (object.has_heights() || (object.has_builtin() && isBuiltinField(object.builtin()))) {
+      addSurface(object, where, scene);
+      continue;
+    }
     Model part = shapeOf(object, where);
     primitives += part.elements();
     if (primitives > options_.most_primitives)

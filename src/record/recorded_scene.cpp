@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/machine_memory.h"
 #include "io/body_messages.h"
 #include "io/snap_messages.h"
 #include "io/value_messages.h"
@@ -126,9 +127,20 @@ std::uint64_t SceneWriter::idOf(std::map<const Part*, Written<Part>>& written, c
   return entry.id;
 }
 
+void SceneWriter::writeSource(const PrimitiveSource& source, std::uint64_t id, const Write& write) {
+  const auto* const field = dynamic_cast<const HeightField*>(&source);
+  if (field == nullptr) throw Error("a surface that is no mesh and no height field cannot be recorded");
+  writeHeights(*field, [&](proto::RecordedHeights& heights) {
+    proto::RecordingBlock part;
+    heights.set_id(id);
+    part.mutable_heights()->Swap(&heights);
+    write(part);
+  });
+}
+
 std::uint64_t SceneWriter::shapeId(const std::shared_ptr<const Shape>& shape, const Write& write) {
-  if (shape->source) throw Error("a surface that is no mesh cannot be recorded");
   return idOf(shapes_, shape, [&](std::uint64_t id) {
+    if (shape->source) return writeSource(*shape->source, id, write);
     writeMesh(shape->model, [&](proto::RecordedShape& mesh) {
       proto::RecordingBlock part;
       part.mutable_shape()->Swap(&mesh);
@@ -216,12 +228,30 @@ void SceneWriter::writePoses(std::int64_t now_ns, const Write& write) {
 
 void SceneReader::add(const proto::RecordedShape& in) {
   if (in.hierarchy() > static_cast<std::uint32_t>(HierarchyKind::kNone)) throw Error(kBrokenScene);
-  if (begun_ && *begun_ != in.id()) throw Error(kBrokenScene);
-  begun_ = in.id();
+  addPart(in.id());
+  if (heights_) throw Error(kBrokenScene);
   mesh_.add(in);
   if (in.continues()) return;
   begun_.reset();
   shapes_[in.id()] = makeShape(mesh_.take(), static_cast<HierarchyKind>(in.hierarchy()));
+}
+
+void SceneReader::add(const proto::RecordedHeights& in) {
+  const bool first = !begun_;
+  addPart(in.id());
+  if (first) heights_.emplace(headerOf(in), machineMemory_bytes());
+  if (!heights_) throw Error(kBrokenScene);
+  heights_->add(in.samples().data(), in.samples().size());
+  if (in.continues()) return;
+  begun_.reset();
+  shapes_[in.id()] = makeShape(heights_->take());
+  heights_.reset();
+}
+
+// Parts of one shape follow each other.
+void SceneReader::addPart(std::uint64_t id) {
+  if (begun_ && *begun_ != id) throw Error(kBrokenScene);
+  begun_ = id;
 }
 
 void SceneReader::add(const proto::RecordedSurfaces& in) {

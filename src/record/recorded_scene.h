@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 
+#include "io/height_messages.h"
 #include "io/model_messages.h"
 #include "scene/snapshot.h"
 
@@ -42,6 +43,7 @@ class SceneWriter {
   std::uint64_t idOf(std::map<const Part*, Written<Part>>& written, const std::shared_ptr<const Part>& part,
                      const Encode& encode);
   std::uint64_t shapeId(const std::shared_ptr<const Shape>& shape, const Write& write);
+  static void writeSource(const PrimitiveSource& source, std::uint64_t id, const Write& write);
   std::uint64_t bodyId(const std::shared_ptr<const RigidBody>& body, const Write& write);
 
   std::map<const Shape*, Written<Shape>> shapes_;
@@ -56,6 +58,7 @@ class SceneWriter {
 class SceneReader {
  public:
   void add(const proto::RecordedShape& in);
+  void add(const proto::RecordedHeights& in);
   void add(const proto::RecordedSurfaces& in);
   void add(const proto::RecordedBody& in);
   std::shared_ptr<const Snapshot> scene(const proto::RecordedScene& in) const;
@@ -66,7 +69,10 @@ class SceneReader {
 
   void setBody(std::uint64_t id, Instance& instance) const;
 
+  void addPart(std::uint64_t id);
+
   MeshReader mesh_;
+  std::optional<HeightCollector> heights_;
   std::optional<std::uint64_t> begun_;  // the shape of which more parts follow
   std::map<std::uint64_t, std::shared_ptr<const Shape>> shapes_;
   std::map<std::uint64_t, std::shared_ptr<const Surfaces>> surfaces_;

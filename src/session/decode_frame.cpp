@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "io/decode_heights.h"
 #include "io/decode_scene.h"
 #include "scene/append_part.h"
 #include "session/decode_joints.h"
@@ -36,6 +37,7 @@ std::string pathOfItems(std::uint32_t object) {
 
 // What decoding it and building its shape takes.
 std::uint64_t bytesToBuild(const proto::Primitives& in) {
+  if (in.has_heights()) return bytesToMakeHeights(in.heights());
   const auto of = [](int count) { return static_cast<std::uint64_t>(count); };
   std::uint64_t triangles = of(in.triangles_size()) / 3;
   for (const proto::Polygon& polygon : in.polygons()) triangles += of(polygon.vertices_size());
@@ -116,6 +118,7 @@ class FrameDecoder {
   std::shared_ptr<const SurfaceChange> surfaceOf(const proto::Item& in, const std::string& where) const;
   std::shared_ptr<const Shape> shapeOf(const proto::Primitives& in, const proto::Material& material,
                                        const Shape* before, const std::string& where);
+  std::shared_ptr<const Shape> heightsOf(const proto::Primitives& in, const std::string& where);
   const proto::Primitives& upload(std::uint64_t id, const std::string& where);
   void countItems();
 
@@ -178,6 +181,7 @@ void FrameDecoder::makeBody(const proto::ObjectDefinition& object, SceneItems& i
     throw Error(where + ".body: a body has one item, with primitives or an upload, and no calls; this one has " +
                 std::to_string(items.size()) + (items.size() == 1 ? " item, a call" : " items"));
   SceneItem& item = items[0];
+  if (item.shape->source) throw Error(where + ".body: a height field cannot be a body");
   items.body = std::make_shared<const BodySpec>(decoder_.body(object.body(), where + ".body"));
   if (!item.placement) return;
   const std::shared_ptr<const Shape> shape = item.shape;
@@ -277,6 +281,7 @@ std::shared_ptr<const Placement> FrameDecoder::placementOf(const proto::Item& in
 
 std::shared_ptr<const Shape> FrameDecoder::shapeOf(const proto::Primitives& in, const proto::Material& material,
                                                    const Shape* before, const std::string& where) {
+  if (in.has_heights()) return heightsOf(in, where);
   const auto repeat = [](bool has, double value) { return has && std::isfinite(value) ? value : 1; };
   return makeCounted(memory_, bytesToBuild(in), [&] {
     Model model = decoder_.model(in, where);
@@ -284,6 +289,19 @@ std::shared_ptr<const Shape> FrameDecoder::shapeOf(const proto::Primitives& in, 
     repeatTexcoords(model, repeat(material.has_repeat_u(), material.repeat_u()),
                     repeat(material.has_repeat_v(), material.repeat_v()));
     return before != nullptr ? makeShape(std::move(model), *before) : makeShape(std::move(model));
+  });
+}
+
+// Counted by its samples, as a mesh is by its elements.
+std::shared_ptr<const Shape> FrameDecoder::heightsOf(const proto::Primitives& in, const std::string& where) {
+  if (in.vertices_size() + in.triangles_size() + in.polygons_size() + in.segments_size() + in.points_size() > 0)
+    throw Error(where + ": heights come without vertices and elements");
+  return makeCounted(memory_, bytesToMakeHeights(in.heights()), [&] {
+    try {
+      return makeShape(decodeHeights(in.heights()));
+    } catch (const Error& error) {
+      throw Error(where + ".heights: " + error.what());
+    }
   });
 }
 
@@ -324,7 +342,7 @@ SceneItem& FrameDecoder::itemToMove(const proto::VertexUpdate& in, const std::st
   if (found == result_.edit.objects.end())
     found = result_.edit.objects.emplace(in.object(), copyOf(*itemsBefore(in.object()), memory_)).first;
   SceneItems& items = *found->second;
-  if (in.item() >= items.size() || !items[in.item()].shape)
+  if (in.item() >= items.size() || !items[in.item()].shape || items[in.item()].shape->source)
     throw Error(where + ": item " + std::to_string(in.item()) + " of object " + std::to_string(in.object()) +
                 " has no vertices");
   if (items.body && !items.body->fixed)

@@ -1,5 +1,8 @@
 #include "surfaces/height_field.h"
 
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_reduce.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -92,6 +95,24 @@ Vec3 HeightField::trueNormal(ElementId id, const Vec3& point) const {
   const Vec3 sum = (1 - weight1 - weight2) * normalAt(at[0][0], at[0][1]) + weight1 * normalAt(at[1][0], at[1][1]) +
                    weight2 * normalAt(at[2][0], at[2][1]);
   return sum.normalized();
+}
+
+// Two triangles and the bilinear surface differ most in the middle of the diagonal, by a quarter of the twist.
+double HeightField::error_m() const {
+  using Range = oneapi::tbb::blocked_range<std::uint32_t>;
+  const auto largest = [](double a, double b) { return b > a ? b : a; };  // not a number is never larger
+  const double twist = oneapi::tbb::parallel_reduce(
+      Range(0, grid_->rows() - 1), 0.0,
+      [&](const Range& rows, double most) {
+        for (std::uint32_t j = rows.begin(); j < rows.end(); ++j) {
+          for (std::uint32_t i = 0; i + 1 < grid_->columns(); ++i)
+            most = largest(
+                most, std::abs(grid_->at(i, j) + grid_->at(i + 1, j + 1) - grid_->at(i + 1, j) - grid_->at(i, j + 1)));
+        }
+        return most;
+      },
+      largest);
+  return 0.25 * twist * frame_.axes.col(2).norm();
 }
 
 std::unique_ptr<const SpatialIndex> HeightField::makeIndex() const {

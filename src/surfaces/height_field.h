@@ -26,6 +26,8 @@ class HeightField final : public PrimitiveSource {
   Box bounds() const override { return bounds_; }
   std::unique_ptr<const SpatialIndex> makeIndex() const override;
   std::size_t bytes() const override { return sizeof(*this) + grid_->bytes(); }
+  /// Against the bilinear surface through the samples.
+  double error_m() const override;
   std::shared_ptr<const PrimitiveSource> placed(const Mat3& linear, const Vec3& offset) const override;
   DrawnMesh drawn(std::size_t most_triangles) const override;
 

@@ -31,6 +31,7 @@ class SphereSource final : public PrimitiveSource {
   }
   std::unique_ptr<const SpatialIndex> makeIndex() const override { return std::make_unique<Index>(*this); }
   std::size_t bytes() const override { return sizeof(*this); }
+  double error_m() const override { return radius_ * (1 - std::cos(M_PI / std::min(rows_, columns_))); }
 
   /// Its triangles in the same order, with its normals.
   Model model() const {

@@ -99,6 +99,7 @@ class HugePlane final : public PrimitiveSource {
   }
   std::unique_ptr<const SpatialIndex> makeIndex() const override { return std::make_unique<Index>(); }
   std::size_t bytes() const override { return sizeof(*this); }
+  double error_m() const override { return 0; }
 
  private:
   class Index final : public SpatialIndex {

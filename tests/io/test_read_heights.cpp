@@ -1,0 +1,294 @@
+// Files of heights: what each form says comes out, and what is broken gives one line.
+#include "io/read_heights.h"
+
+#include <gtest/gtest.h>
+#include <spng.h>
+#include <tiffio.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "base/error.h"
+#include "io/load_model.h"
+#include "surfaces/height_field.h"
+#include "temp_folder.h"
+
+namespace hl {
+namespace {
+
+using test::fileWith;
+
+std::shared_ptr<const HeightField> fieldIn(const std::string& path) {
+  const SceneModel scene = loadModelScene(path);
+  EXPECT_EQ(scene.surfaces.size(), 1U);
+  return std::dynamic_pointer_cast<const HeightField>(scene.surfaces.at(0).source);
+}
+
+std::string refusalOf(const std::string& path) {
+  try {
+    loadModelScene(path);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// Height in a test's files.
+int valueAt(std::uint32_t column, std::uint32_t row) {
+  return static_cast<int>(7 * column) - static_cast<int>(3 * row * row);
+}
+
+void expectValues(const HeightField& field, std::uint32_t columns, std::uint32_t rows) {
+  ASSERT_EQ(field.grid().columns(), columns);
+  ASSERT_EQ(field.grid().rows(), rows);
+  for (std::uint32_t j = 0; j < rows; ++j) {
+    for (std::uint32_t i = 0; i < columns; ++i) ASSERT_EQ(field.grid().at(i, j), valueAt(i, j)) << i << " " << j;
+  }
+}
+
+struct TiffForm {
+  std::uint16_t bits = 16, format = SAMPLEFORMAT_INT, compression = COMPRESSION_NONE;
+  bool tiles = false, degrees = false;
+};
+
+template <typename Sample>
+std::string tiffWith(const std::string& name, const TiffForm& form, std::uint32_t columns, std::uint32_t rows) {
+  const std::string path = fileWith(name, "");
+  static const TIFFFieldInfo kTags[] = {{33550, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1, const_cast<char*>("scale")},
+                                        {33922, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1, const_cast<char*>("tie")},
+                                        {34735, -1, -1, TIFF_SHORT, FIELD_CUSTOM, 1, 1, const_cast<char*>("keys")},
+                                        {42113, -1, -1, TIFF_ASCII, FIELD_CUSTOM, 1, 0, const_cast<char*>("missing")}};
+  TIFF* const tiff = TIFFOpen(path.c_str(), "w");
+  TIFFMergeFieldInfo(tiff, kTags, 4);
+  TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, columns);
+  TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, rows);
+  TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, form.bits);
+  TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, form.format);
+  TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 1);
+  TIFFSetField(tiff, TIFFTAG_COMPRESSION, form.compression);
+  TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+  const double scale[3] = {form.degrees ? 0.001 : 30, form.degrees ? 0.002 : 20, 0};
+  const double tie[6] = {0, 0, 0, 10, 50, 0};
+  const std::uint16_t keys[8] = {1, 1, 0, 1, 1024, 0, 1, static_cast<std::uint16_t>(form.degrees ? 2 : 1)};
+  TIFFSetField(tiff, 33550, 3, scale);
+  TIFFSetField(tiff, 33922, 6, tie);
+  TIFFSetField(tiff, 34735, 8, keys);
+  TIFFSetField(tiff, 42113, "-9999");
+  if (form.tiles) {
+    TIFFSetField(tiff, TIFFTAG_TILEWIDTH, 16);
+    TIFFSetField(tiff, TIFFTAG_TILELENGTH, 16);
+    std::vector<Sample> tile(256);
+    for (std::uint32_t j = 0; j < rows; j += 16) {
+      for (std::uint32_t i = 0; i < columns; i += 16) {
+        for (std::uint32_t n = 0; n < 256; ++n) tile[n] = static_cast<Sample>(valueAt(i + n % 16, j + n / 16));
+        TIFFWriteTile(tiff, tile.data(), i, j, 0, 0);
+      }
+    }
+  } else {
+    TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 5);
+    std::vector<Sample> row(columns);
+    for (std::uint32_t j = 0; j < rows; ++j) {
+      for (std::uint32_t i = 0; i < columns; ++i) row[i] = static_cast<Sample>(valueAt(i, j));
+      TIFFWriteScanline(tiff, row.data(), j, 0);
+    }
+  }
+  TIFFClose(tiff);
+  return path;
+}
+
+TEST(ReadHeights, GeoTiffInStripsAndTiles) {
+  for (const bool tiles : {false, true}) {
+    for (const std::uint16_t compression : {COMPRESSION_NONE, COMPRESSION_LZW, COMPRESSION_ADOBE_DEFLATE}) {
+      TiffForm form;
+      form.tiles = tiles;
+      form.compression = compression;
+      const auto field = fieldIn(tiffWith<std::int16_t>("a.tif", form, 45, 21));
+      expectValues(*field, 45, 21);
+      EXPECT_EQ(field->grid().size().kind, SampleKind::kInt16);
+      EXPECT_EQ(field->grid().missing(), -9999);
+      EXPECT_EQ(field->frame().axes.col(0), Vec3(30, 0, 0));
+      EXPECT_EQ(field->frame().axes.col(1), Vec3(0, 0, 20));
+      EXPECT_EQ(field->frame().axes.col(2), Vec3(0, 1, 0));
+      EXPECT_NEAR(field->bounds().centre().x(), 0, 1e-9);
+      EXPECT_NEAR(field->bounds().centre().z(), 0, 1e-9);
+      form.bits = 32;
+      form.format = SAMPLEFORMAT_IEEEFP;
+      expectValues(*fieldIn(tiffWith<float>("b.tiff", form, 45, 21)), 45, 21);
+    }
+  }
+}
+
+// On WGS 84 a degree of latitude has 111.229 km and one of longitude 71.70 km at 50 degrees north.
+TEST(ReadHeights, DegreesBecomeMetres) {
+  TiffForm form;
+  form.degrees = true;
+  const SceneModel scene = loadModelScene(tiffWith<std::int16_t>("d.tif", form, 30, 2));
+  const auto& field = dynamic_cast<const HeightField&>(*scene.surfaces.at(0).source);
+  EXPECT_NEAR(field.frame().axes(0, 0), 71.70, 0.01);
+  EXPECT_NEAR(field.frame().axes(2, 1), 2 * 111.229, 0.01);
+  ASSERT_EQ(scene.model.warnings.size(), 1U);
+  EXPECT_NE(scene.model.warnings[0].find("degrees"), std::string::npos);
+  EXPECT_NEAR(degreeAt(0).east_m, 111'319.5, 1);
+  EXPECT_NEAR(degreeAt(0).north_m, 110'574, 1);
+  EXPECT_NEAR(degreeAt(90).north_m, 111'694, 1);
+}
+
+TEST(ReadHeights, OtherTiffsAreRefused) {
+  TiffForm form;
+  form.bits = 8;
+  form.format = SAMPLEFORMAT_UINT;
+  EXPECT_NE(refusalOf(tiffWith<std::uint8_t>("c.tif", form, 20, 20)).find("heights are int16, uint16 or float32"),
+            std::string::npos);
+}
+
+std::string bigEndian(std::uint32_t side) {
+  std::string bytes;
+  for (std::uint32_t j = 0; j < side; ++j) {
+    for (std::uint32_t i = 0; i < side; ++i) {
+      const auto value = static_cast<std::uint16_t>(i == 3 && j == 4 ? -32768 : valueAt(i, j));
+      bytes += static_cast<char>(value >> 8);
+      bytes += static_cast<char>(value & 255);
+    }
+  }
+  return bytes;
+}
+
+TEST(ReadHeights, SrtmTiles) {
+  const auto field = fieldIn(fileWith("N47E008.hgt", bigEndian(11)));
+  ASSERT_EQ(field->grid().columns(), 11U);
+  EXPECT_EQ(field->grid().at(2, 9), valueAt(2, 9));
+  EXPECT_TRUE(std::isnan(field->grid().at(3, 4)));
+  EXPECT_EQ(field->triangles(), 2U * (100 - 4));
+  EXPECT_NEAR(field->frame().axes(0, 0), degreeAt(47.5).east_m / 10, 1e-6);
+  EXPECT_NE(refusalOf(fileWith("N47E008.hgt", bigEndian(11) + "ab")).find("SRTM tile is a square"), std::string::npos);
+}
+
+TEST(ReadHeights, EsriGrids) {
+  std::string text = "NCOLS 6\nnrows 4\r\nxllcorner 700\nyllcorner 100.5\ncellsize 2.5\nNODATA_value -1e4\n";
+  for (std::uint32_t j = 0; j < 4; ++j) {
+    for (std::uint32_t i = 0; i < 6; ++i) text += std::to_string(valueAt(i, j)) + (i == 5 ? "\n" : " ");
+  }
+  const auto field = fieldIn(fileWith("a.asc", text));
+  expectValues(*field, 6, 4);
+  EXPECT_EQ(field->frame().axes(0, 0), 2.5);
+  EXPECT_EQ(field->grid().missing(), -1e4);
+  EXPECT_NE(refusalOf(fileWith("b.asc", text.substr(0, text.size() - 3))).find("ends before its last sample"),
+            std::string::npos);
+  EXPECT_NE(refusalOf(fileWith("c.asc", "ncols 6\nnrows 4\ncellsize 1\n1 2 x 4")).find("'x' is no number"),
+            std::string::npos);
+  EXPECT_NE(refusalOf(fileWith("d.asc", "ncols 6\nnrows 4\n1 2 3 4")).find("cellsize"), std::string::npos);
+  EXPECT_NE(refusalOf(fileWith("e.asc", "ncols 6e9\nnrows 4\ncellsize 1\n1 2 3 4")).find("ncols"), std::string::npos);
+}
+
+std::string pngWith(std::uint8_t depth, std::uint32_t columns, std::uint32_t rows) {
+  spng_ctx* const png = spng_ctx_new(SPNG_CTX_ENCODER);
+  spng_set_option(png, SPNG_ENCODE_TO_BUFFER, 1);
+  spng_ihdr header{};
+  header.width = columns;
+  header.height = rows;
+  header.bit_depth = depth;
+  header.color_type = SPNG_COLOR_TYPE_GRAYSCALE;
+  spng_set_ihdr(png, &header);
+  std::vector<std::uint16_t> samples;
+  for (std::uint32_t n = 0; n < columns * rows; ++n)
+    samples.push_back(static_cast<std::uint16_t>(1000 + valueAt(n % columns, n / columns)));
+  EXPECT_EQ(spng_encode_image(png, samples.data(), samples.size() * depth / 8, SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE), 0);
+  std::size_t size = 0;
+  int error = 0;
+  void* const bytes = spng_get_png_buffer(png, &size, &error);
+  std::string result(static_cast<char*>(bytes), size);
+  std::free(bytes);
+  spng_ctx_free(png);
+  return result;
+}
+
+TEST(ReadHeights, PngsOf16Bits) {
+  const std::string png = pngWith(16, 9, 5);
+  const auto field = fieldIn(fileWith("a.png", png));
+  ASSERT_EQ(field->grid().columns(), 9U);
+  for (std::uint32_t j = 0; j < 5; ++j) {
+    for (std::uint32_t i = 0; i < 9; ++i) ASSERT_EQ(field->grid().at(i, j), 1000 + valueAt(i, j));
+  }
+  EXPECT_NEAR(65535 * field->frame().axes(1, 2), 1, 1e-12);  // an eighth of 8 m
+  EXPECT_NE(refusalOf(fileWith("b.png", png.substr(0, png.size() - 20))).find("not a sound PNG"), std::string::npos);
+  EXPECT_NE(refusalOf(fileWith("c.png", pngWith(8, 9, 5))).find("16 bits"), std::string::npos);
+}
+
+template <typename Sample>
+std::string numpyWith(const std::string& type, bool fortran, std::uint32_t columns, std::uint32_t rows) {
+  std::string header = "{'descr': '" + type + "', 'fortran_order': " + (fortran ? "True" : "False") + ", 'shape': (" +
+                       std::to_string(rows) + ", " + std::to_string(columns) + "), }\n";
+  std::string bytes = "\x93NUMPY";
+  bytes += {1, 0, static_cast<char>(header.size()), 0};
+  bytes += header;
+  const auto add = [&](std::uint32_t i, std::uint32_t j) {
+    const auto value = static_cast<Sample>(valueAt(i, j));
+    std::string one(reinterpret_cast<const char*>(&value), sizeof value);
+    if (type[0] == '>') std::reverse(one.begin(), one.end());
+    bytes += one;
+  };
+  for (std::uint32_t n = 0; n < columns * rows; ++n) fortran ? add(n / rows, n % rows) : add(n % columns, n / columns);
+  return bytes;
+}
+
+TEST(ReadHeights, NumpyArrays) {
+  expectValues(*fieldIn(fileWith("a.npy", numpyWith<std::int16_t>("<i2", false, 7, 5))), 7, 5);
+  expectValues(*fieldIn(fileWith("a.npy", numpyWith<float>("<f4", false, 7, 5))), 7, 5);
+  expectValues(*fieldIn(fileWith("a.npy", numpyWith<float>(">f4", false, 7, 5))), 7, 5);
+  expectValues(*fieldIn(fileWith("a.npy", numpyWith<double>("<f8", false, 7, 5))), 7, 5);
+  // In Fortran's order the grid is transposed, and lies as it should all the same.
+  const auto turned = fieldIn(fileWith("a.npy", numpyWith<float>("<f4", true, 7, 5)));
+  EXPECT_EQ(turned->grid().columns(), 5U);
+  EXPECT_EQ(turned->grid().at(4, 6), valueAt(6, 4));
+  EXPECT_EQ(turned->frame().axes.col(0), Vec3(0, 0, 1));
+  EXPECT_EQ(turned->bounds().size().x(), 6);
+  EXPECT_NE(refusalOf(fileWith("b.npy", numpyWith<float>("<c8", false, 7, 5))).find("'<c8'"), std::string::npos);
+  EXPECT_NE(refusalOf(fileWith("c.npy", "\x93NUMPY")).find("ends before"), std::string::npos);
+  const std::string good = numpyWith<float>("<f4", false, 7, 5);
+  EXPECT_NE(refusalOf(fileWith("d.npy", good.substr(0, good.size() - 1))).find("ends before"), std::string::npos);
+}
+
+// Whatever bytes are changed or lost, the file is taken or refused in one line.
+TEST(ReadHeights, CorruptFilesGiveOneLine) {
+  std::mt19937 random(1);
+  TiffForm form;
+  form.compression = COMPRESSION_LZW;
+  const std::string tiff_path = tiffWith<std::int16_t>("x.tif", form, 20, 20);
+  std::ifstream in(tiff_path, std::ios::binary);
+  const std::string tiff{std::istreambuf_iterator<char>(in), {}};
+  const std::pair<const char*, std::string> files[] = {{"y.tif", tiff},
+                                                       {"N01E001.hgt", bigEndian(5)},
+                                                       {"y.asc", "ncols 3\nnrows 2\ncellsize 1\n1 2 3 4 5 6\n"},
+                                                       {"y.png", pngWith(16, 9, 5)},
+                                                       {"y.npy", numpyWith<float>("<f4", false, 7, 5)}};
+  for (const auto& [name, good] : files) {
+    for (int i = 0; i < 60; ++i) {
+      std::string bad = good;
+      for (int k = 0; k < 1 + i % 3; ++k) bad[random() % bad.size()] = static_cast<char>(random());
+      if (i % 4 == 0) bad.resize(random() % bad.size());
+      const std::string refusal = refusalOf(fileWith(name, bad));
+      EXPECT_EQ(refusal.find('\n'), std::string::npos) << refusal;
+    }
+  }
+}
+
+TEST(ReadHeights, AFieldWithoutSamplesIsRefused) {
+  EXPECT_NE(refusalOf(fileWith("a.asc", "ncols 2\nnrows 2\ncellsize 1\n-9999 1 1 1")).find("missing"),
+            std::string::npos);
+}
+
+TEST(ReadHeights, AFieldBeyondMemoryIsRefused) {
+  LoadOptions options;
+  options.limits.heights_bytes = 100;
+  try {
+    loadModelScene(fileWith("a.npy", numpyWith<float>("<f4", false, 7, 5)), options);
+    ADD_FAILURE() << "it was taken";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("takes 0.0 GB of memory"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace hl
