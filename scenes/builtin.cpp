@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "fields.h"
 #include "rough.h"
+#include "snap_board.h"
 #include "soup.h"
 #include "surfaces.h"
 #include "teapot.h"
@@ -19,8 +20,7 @@ namespace {
 
 constexpr std::size_t kMaxMember = 1'000'000'000;
 
-constexpr std::string_view kWorkshop = "workshop";
-constexpr std::string_view kField = "field";
+constexpr std::string_view kSnaps = "snaps", kWorkshop = "workshop", kField = "field";
 constexpr std::size_t kUsualField = 1'000'000, kMostField = 100'000'000'000;
 
 struct Builtin {
@@ -37,7 +37,7 @@ Model alone(std::size_t n, std::size_t) {
   return kMake(n);
 }
 
-constexpr std::array<Builtin, 10> kBuiltins{{
+constexpr std::array<Builtin, 11> kBuiltins{{
     {"teapot", 1,
      [](std::size_t n, std::size_t) {
        return n == 1 ? makeTeapot() : makeTeapot(static_cast<int>(n), static_cast<int>(n));
@@ -51,6 +51,7 @@ constexpr std::array<Builtin, 10> kBuiltins{{
     {"pipe", 100'000, alone<makeHalfPipe>},
     {"pits", 20'000, alone<makePits>},
     {"soup", 20'000, alone<makeSoup>},
+    {kSnaps, 0, [](std::size_t, std::size_t) { return asOneModel(makeSnapBoard()); }},
     {kWorkshop, 0, [](std::size_t, std::size_t) { return asOneModel(makeWorkshop()); }},
 }};
 
@@ -116,6 +117,7 @@ Model makeBuiltinScene(const std::string& spec) {
 }
 
 SceneModel makeBuiltinWorld(const std::string& spec) {
+  if (spec == kSnaps) return makeSnapBoard();
   if (spec == kWorkshop) return makeWorkshop();
   if (isBuiltinField(spec)) return makeField(spec);
   return makeBuiltinScene(spec);

@@ -13,16 +13,16 @@ bool isBuiltinScene(const std::string& spec);
 /// Whether that scene is a height field: then it has no model.
 bool isBuiltinField(const std::string& spec);
 
-/// Lists of the names, for help texts: of what is one model, and with those that have bodies.
+/// Lists of the names, for help texts: of what is one model, and with those of several objects.
 #define HL_BUILTIN_MODELS "teapot[:N], walker, terrain:N, rough:N[:MEMBER], sphere:N, plane:N, pipe:N, pits:N, soup:N"
 inline constexpr const char* kBuiltinModels = HL_BUILTIN_MODELS;
-inline constexpr const char* kBuiltinScenes = HL_BUILTIN_MODELS ", field:terrain:N, workshop";
+inline constexpr const char* kBuiltinScenes = HL_BUILTIN_MODELS ", field:terrain:N, snaps, workshop";
 #undef HL_BUILTIN_MODELS
 
 /// Throws hl::Error with the list of names if the name is unknown.
-/// Of a scene with bodies, all of it as one model.
+/// Of a scene of several objects, all of it as one model.
 Model makeBuiltinScene(const std::string& spec);
-/// With its bodies, or as the surface that it is.
+/// With its bodies, snaps and fields, or as the surface that it is.
 SceneModel makeBuiltinWorld(const std::string& spec);
 
 }  // namespace hl

@@ -103,4 +103,12 @@ Model cylinderSolid(double radius, double half_height, std::size_t sides) {
                      false);
 }
 
+void appendSolid(Model& whole, Model part, const Vec3& at) {
+  placeModel(part, {Mat3::Identity(), at});
+  const auto first = static_cast<std::uint32_t>(whole.positions.size());
+  whole.positions.insert(whole.positions.end(), part.positions.begin(), part.positions.end());
+  whole.normals.insert(whole.normals.end(), part.normals.begin(), part.normals.end());
+  for (const auto& t : part.triangles) whole.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+}
+
 }  // namespace hl

@@ -25,4 +25,7 @@ Model ballSolid(double radius, std::size_t sides);
 /// Along y, centred.
 Model cylinderSolid(double radius, double half_height, std::size_t sides);
 
+/// Puts the vertices and triangles of `part` into `whole`, moved by `at`. Both have normals, and one material.
+void appendSolid(Model& whole, Model part, const Vec3& at);
+
 }  // namespace hl

@@ -12,14 +12,6 @@ namespace {
 constexpr double kWood_kg_m3 = 700, kPlastic_kg_m3 = 1500, kSteel_kg_m3 = 7800;
 constexpr std::size_t kSides = 32;
 
-void append(Model& whole, Model part, const Vec3& at) {
-  placeModel(part, {Mat3::Identity(), at});
-  const auto first = static_cast<std::uint32_t>(whole.positions.size());
-  whole.positions.insert(whole.positions.end(), part.positions.begin(), part.positions.end());
-  whole.normals.insert(whole.normals.end(), part.normals.begin(), part.normals.end());
-  for (const auto& t : part.triangles) whole.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-}
-
 BodySpec bodySpec(double density_kg_m3, double friction, BodyShape shape = BodyShape::kHull) {
   BodySpec spec;
   spec.density_kg_m3 = density_kg_m3;
@@ -48,7 +40,7 @@ class Workshop {
   }
 
  private:
-  void stand(Model model, const Vec3& at) { append(scene_.model, std::move(model), at); }
+  void stand(Model model, const Vec3& at) { appendSolid(scene_.model, std::move(model), at); }
   // Its number among the bodies, from 1.
   std::uint64_t body(std::string name, Model model, const Vec3& at, const BodySpec& spec) {
     model.materials.front().smooth = true;
@@ -76,7 +68,7 @@ class Workshop {
   void door(const Vec3& at) {
     for (const double side : {-1.0, 1.0}) stand(boxSolid(Vec3(0.003, 0.033, 0.003)), at + Vec3(side * 0.028, 0.033, 0));
     Model panel = boxSolid(Vec3(0.0235, 0.03, 0.002));
-    append(panel, ballSolid(0.004, 16), Vec3(0.018, 0, 0.005));
+    appendSolid(panel, ballSolid(0.004, 16), Vec3(0.018, 0, 0.005));
     const std::uint64_t number = body("door", std::move(panel), at + Vec3(0, 0.032, 0), bodySpec(kWood_kg_m3, 0.3));
     JointForces& hinge = joint("door hinge", JointKind::kHinge, number, at + Vec3(-0.0235, 0.032, 0), Vec3::UnitY());
     hinge.low = -1.9;
@@ -93,10 +85,10 @@ class Workshop {
     stand(boxSolid(Vec3(0.024, 0.014, 0.001)), at + Vec3(0, 0.014, -0.021));
     Model tray = boxSolid(Vec3(0.022, 0.001, 0.019));
     for (const double side : {-1.0, 1.0})
-      append(tray, boxSolid(Vec3(0.001, 0.009, 0.019)), Vec3(side * 0.021, 0.01, 0));
-    append(tray, boxSolid(Vec3(0.02, 0.009, 0.001)), Vec3(0, 0.01, -0.018));
-    append(tray, boxSolid(Vec3(0.022, 0.01, 0.001)), Vec3(0, 0.009, 0.02));
-    append(tray, ballSolid(0.004, 16), Vec3(0, 0.009, 0.024));
+      appendSolid(tray, boxSolid(Vec3(0.001, 0.009, 0.019)), Vec3(side * 0.021, 0.01, 0));
+    appendSolid(tray, boxSolid(Vec3(0.02, 0.009, 0.001)), Vec3(0, 0.01, -0.018));
+    appendSolid(tray, boxSolid(Vec3(0.022, 0.01, 0.001)), Vec3(0, 0.009, 0.02));
+    appendSolid(tray, ballSolid(0.004, 16), Vec3(0, 0.009, 0.024));
     BodySpec spec = bodySpec(kWood_kg_m3, 0.3);
     spec.mass_kg = 0.02;
     const std::uint64_t number = body("drawer", std::move(tray), at + Vec3(0, 0.004, 0.002), spec);
