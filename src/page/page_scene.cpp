@@ -64,7 +64,7 @@ void PageScene::takeNewest(const std::shared_ptr<const Snapshot>& newest) {
 bool PageScene::outdated(const PageScale& scale, std::int64_t now_ns) {
   if (!layout_ || layout_->scale != scale || layout_->name != shown_->name || layout_->places != shown_places_)
     return true;
-  return now_ns - layout_->made_ns >= kSettle_ns && (settledElsewhere(now_ns) || otherBodies());
+  return now_ns - layout_->made_ns >= kSettle_ns && (settledElsewhere(now_ns) || toldOtherwise());
 }
 
 bool PageScene::settledElsewhere(std::int64_t now_ns) const {
@@ -76,10 +76,10 @@ bool PageScene::settledElsewhere(std::int64_t now_ns) const {
   return false;
 }
 
-bool PageScene::otherBodies() {
-  if (layout_->bodies_of == shown_->identity) return false;
-  layout_->bodies_of = shown_->identity;
-  return !(layout_->bodies == ToldBodies::of(*shown_));
+bool PageScene::toldOtherwise() {
+  if (layout_->told_of == shown_->identity) return false;
+  layout_->told_of = shown_->identity;
+  return !(layout_->bodies == ToldBodies::of(*shown_)) || !(layout_->felt == ToldPlaces::of(*shown_));
 }
 
 void PageScene::layOut(const PageScale& scale, std::int64_t now_ns) {
@@ -107,8 +107,10 @@ void PageScene::layOut(const PageScale& scale, std::int64_t now_ns) {
     addMaterials(*place.surfaces, placed);
   }
   layout_->bodies = ToldBodies::of(*shown_);
-  layout_->bodies_of = shown_->identity;
+  layout_->felt = ToldPlaces::of(*shown_);
+  layout_->told_of = shown_->identity;
   addBodies(layout_->bodies, *shown_, out);
+  addPlaces(layout_->felt, out);
   layout_->message = std::make_shared<const std::string>(message.SerializeAsString());
   if (!waiting_) meshes_.keep(layout_->meshes);
 }
@@ -139,7 +141,16 @@ PageMessage PageScene::next(PageMemory& page) const {
   return std::make_shared<const std::string>(message.SerializeAsString());
 }
 
-void PageScene::describe(proto::State& state, std::span<const ObjectName> touched, std::int64_t now_ns) const {
+// The index in the layout of the object with this key; absent: it is not in the layout.
+std::optional<std::uint32_t> PageScene::placeOf(std::uint64_t key) const {
+  const auto at = std::lower_bound(layout_->places.begin(), layout_->places.end(), key,
+                                   [](const MeshPlacement& place, std::uint64_t k) { return place.key < k; });
+  if (at == layout_->places.end() || at->key != key) return std::nullopt;
+  return static_cast<std::uint32_t>(at - layout_->places.begin());
+}
+
+void PageScene::describe(proto::State& state, std::span<const ObjectName> touched, const HoldingSnap& snap,
+                         std::int64_t now_ns) const {
   if (!layout_) return;
   state.set_layout(layout_->number);
   for (std::size_t i = 0; i < layout_->poses.size(); ++i) {
@@ -149,12 +160,12 @@ void PageScene::describe(proto::State& state, std::span<const ObjectName> touche
     appendPose(*state.mutable_moved_poses(), pose);
   }
   for (const ObjectName& object : touched) {
-    const auto at = std::lower_bound(layout_->places.begin(), layout_->places.end(), object.key,
-                                     [](const MeshPlacement& place, std::uint64_t key) { return place.key < key; });
-    if (at == layout_->places.end() || at->key != object.key) continue;
-    const auto index = static_cast<std::uint32_t>(at - layout_->places.begin());
-    if (std::find(state.touched().begin(), state.touched().end(), index) == state.touched().end())
-      state.add_touched(index);
+    const auto index = placeOf(object.key);
+    if (index && std::find(state.touched().begin(), state.touched().end(), *index) == state.touched().end())
+      state.add_touched(*index);
+  }
+  if (const auto holder = placeOf(snap.object.key)) {
+    if (const auto held = layout_->felt.indexOf({*holder, snap.number})) state.set_snap(*held);
   }
 }
 

@@ -15,6 +15,7 @@
 
 #include "page/page_meshes.h"
 #include "page/told_bodies.h"
+#include "page/told_places.h"
 #include "scene/snapshot.h"
 #include "touch/proxy_loop.h"
 
@@ -39,7 +40,7 @@ struct PageScale {
 class PageScene {
  public:
   /// Objects that rest away from where the layout has them get a new layout after this time, and so do objects that
-  /// jump, and bodies, joints and gravity that change: no more often.
+  /// jump, and bodies, joints, gravity, snaps and fields that change: no more often.
   static constexpr std::int64_t kSettle_ns = 1'000'000'000;
 
   /// What pages are shown is counted against `memory`.
@@ -52,8 +53,9 @@ class PageScene {
   void follow(const std::shared_ptr<const Snapshot>& newest, const PageScale& scale, std::int64_t now_ns);
   /// The next message that the page lacks, which it then counts as having; empty when it has everything.
   PageMessage next(PageMemory& page) const;
-  /// What has moved since the layout, and what of it is touched.
-  void describe(proto::State& state, std::span<const ObjectName> touched, std::int64_t now_ns) const;
+  /// What has moved since the layout, what of it is touched, and the snap that holds the proxy.
+  void describe(proto::State& state, std::span<const ObjectName> touched, const HoldingSnap& snap,
+                std::int64_t now_ns) const;
 
  private:
   struct MeshPlacement {
@@ -71,14 +73,16 @@ class PageScene {
     std::set<std::uint32_t> meshes;
     std::int64_t made_ns = 0;
     ToldBodies bodies{};
-    std::uint64_t bodies_of = 0;  // identity of the last snapshot whose bodies are these
+    ToldPlaces felt{};
+    std::uint64_t told_of = 0;  // identity of the last snapshot whose bodies, snaps and fields are these
     PageMessage message{};
   };
 
   void takeNewest(const std::shared_ptr<const Snapshot>& newest);
   bool outdated(const PageScale& scale, std::int64_t now_ns);
   bool settledElsewhere(std::int64_t now_ns) const;
-  bool otherBodies();
+  bool toldOtherwise();
+  std::optional<std::uint32_t> placeOf(std::uint64_t key) const;
   void layOut(const PageScale& scale, std::int64_t now_ns);
 
   std::shared_ptr<const void> presence_ = std::make_shared<char>();

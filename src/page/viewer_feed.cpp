@@ -128,7 +128,7 @@ std::string state(TouchSession& session, PageScene& scene, const PageRecordings*
   if (recordings != nullptr) setRecording(*out.mutable_recording(), recordings->status());
   const std::int64_t now_ns = monotonicNow_ns();
   scene.follow(session.snapshot(), {session.radius_W(), session.workspace().world_per_device}, now_ns);
-  scene.describe(out, std::span(proxy.touched.begin(), proxy.touched.end()), now_ns);
+  scene.describe(out, std::span(proxy.touched.begin(), proxy.touched.end()), proxy.snap, now_ns);
   return message.SerializeAsString();
 }
 

@@ -40,9 +40,9 @@ class PageSceneTest : public testing::Test {
       std::this_thread::yield();
     }
   }
-  proto::State stateAt(std::int64_t now_ns, std::vector<ObjectName> touched = {}) const {
+  proto::State stateAt(std::int64_t now_ns, std::vector<ObjectName> touched = {}, const HoldingSnap& snap = {}) const {
     proto::State state;
-    scene_.describe(state, touched, now_ns);
+    scene_.describe(state, touched, snap, now_ns);
     return state;
   }
   static float poseNumber(const std::string& poses, std::size_t instance, std::size_t i) {
@@ -208,6 +208,58 @@ TEST_F(PageSceneTest, OtherGravityAndJointsGetALayoutOnceASecond) {
   EXPECT_TRUE(drain(page_).empty()) << "the same in another snapshot";
   scene_.follow(withBody(same, -1, -0.2), kScale, 3100 * kMs);
   EXPECT_EQ(drain(page_).at(0).layout().joints(0).joint().low(), -0.2);
+}
+
+/// With two snaps, a point and a plane, and a push.
+Instance withPlaces(Instance instance, double release_N) {
+  const SnapSpec socket{"socket", {{0, 0, 1}}, std::nullopt, 0.002, release_N};
+  const SnapSpec sheet{"sheet", {{1, 0, 0}}, Vec3::UnitX(), 0.001, 1};
+  FieldSpec wind{"wind", FieldKind::kConstant, {{0, 1, 0}, {0, 2, 0}}, std::nullopt, 0.03, 1.5};
+  wind.direction = Vec3::UnitZ();
+  instance.snaps = std::make_shared<const SnapList>(SnapList{socket, sheet});
+  instance.fields = std::make_shared<const FieldList>(FieldList{wind});
+  return instance;
+}
+
+TEST_F(PageSceneTest, SnapsAndFieldsAreInTheLayoutAsTheSceneHasThem) {
+  const auto messages = show(makeSnapshot({instanceOf(4, small_), withPlaces(instanceOf(5, small_), 3)}));
+  const proto::SceneLayout& layout = messages.back().layout();
+  ASSERT_EQ(layout.snaps_size(), 2);
+  const proto::Snap& socket = layout.snaps(0).snap();
+  EXPECT_EQ(socket.name(), "socket");
+  EXPECT_EQ(std::vector<double>(socket.points().begin(), socket.points().end()), (std::vector<double>{0, 0, 1}));
+  EXPECT_FALSE(socket.has_normal());
+  EXPECT_EQ(socket.capture(), 0.002);
+  EXPECT_EQ(socket.release_n(), 3);
+  EXPECT_EQ(layout.snaps(1).snap().normal().x(), 1);
+  EXPECT_EQ(layout.snaps(1).placed(), 1u);
+  ASSERT_EQ(layout.fields_size(), 1);
+  const proto::Field& wind = layout.fields(0).field();
+  EXPECT_EQ(wind.kind(), proto::CONSTANT);
+  EXPECT_EQ(wind.points_size(), 6);
+  EXPECT_EQ(wind.reach(), 0.03);
+  EXPECT_EQ(wind.force_n(), 1.5);
+  EXPECT_EQ(wind.direction().z(), 1);
+  EXPECT_EQ(layout.fields(0).placed(), 1u);
+}
+
+TEST_F(PageSceneTest, TheSnapThatHoldsIsInTheState) {
+  show(makeSnapshot({withPlaces(instanceOf(4, small_), 3), withPlaces(instanceOf(5, small_), 3)}));
+  EXPECT_EQ(stateAt(0, {}, {{5, 1, 50, 0}, 1}).snap(), 3u);
+  EXPECT_FALSE(stateAt(0).has_snap());
+  EXPECT_FALSE(stateAt(0, {}, {{5, 1, 50, 0}, 2}).has_snap()) << "a snap that the layout does not have";
+  EXPECT_FALSE(stateAt(0, {}, {{6, 1, 60, 0}, 0}).has_snap()) << "an object that the layout does not have";
+}
+
+TEST_F(PageSceneTest, OtherSnapsGetALayoutOnceASecond) {
+  const Instance bare = instanceOf(4, small_);
+  show(makeSnapshot({withPlaces(bare, 3)}));
+  scene_.follow(makeSnapshot({withPlaces(bare, 2)}), kScale, 500 * kMs);
+  EXPECT_TRUE(drain(page_).empty());
+  scene_.follow(makeSnapshot({withPlaces(bare, 2)}), kScale, 1000 * kMs);
+  EXPECT_EQ(drain(page_).at(0).layout().snaps(0).snap().release_n(), 2);
+  scene_.follow(makeSnapshot({withPlaces(bare, 2)}), kScale, 3000 * kMs);
+  EXPECT_TRUE(drain(page_).empty()) << "the same in another snapshot";
 }
 
 TEST_F(PageSceneTest, AnEmptySceneIsALayoutWithNothingInIt) {

@@ -47,6 +47,8 @@ export interface DebugState {
   /** World distance between proxy and finger. */
   readonly separation_m: number | undefined;
   readonly contacts: number;
+  /** Index of the layout's snap that holds the proxy. */
+  readonly snap: number | undefined;
   readonly safety: string;
   readonly exploring: boolean;
   /** What the user has set over the scene's surfaces. */
@@ -97,6 +99,7 @@ function makeDebugState(sources: DebugSources): DebugState {
       return proxy === undefined || finger === undefined ? undefined : length(sub(proxy, finger));
     },
     get contacts() { return sources.state()?.contacts.length ?? 0; },
+    get snap() { return sources.scene().marks.held; },
     get safety() { return SafetyState[sources.state()?.safety ?? SafetyState.OFF] ?? "OFF"; },
     get surfaces() { return settingsOf(sources.state()?.surfaces); },
     get ledger() { return LedgerMode[sources.state()?.ledger?.mode ?? LedgerMode.TANK]; },

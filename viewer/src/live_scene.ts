@@ -1,6 +1,7 @@
 // The scene as it comes from the server: kept in the store, shown by the model view. Decides when the camera is fitted.
 
 import type { State } from "./gen/hl_pb";
+import { FeltMarks } from "./felt_marks";
 import { needsFit } from "./fit";
 import { ModelView } from "./model_view";
 import type { Bounds, Layout, Mesh, Moves } from "./scene_messages";
@@ -20,6 +21,7 @@ export interface SceneHooks {
 
 export class LiveScene {
   readonly model = new ModelView();
+  readonly marks = new FeltMarks();
   private readonly store_ = new SceneStore();
   private readonly hooks_: SceneHooks;
   /** What the camera was fitted to last; it outlives the connection. */
@@ -64,6 +66,7 @@ export class LiveScene {
     this.leaving_ = undefined;
     this.store_.clear();
     this.model.clear();
+    this.marks.clear();
     this.begun_ = false;
     this.moves_ = undefined;
     this.touched_ = [];
@@ -93,6 +96,7 @@ export class LiveScene {
     }
     this.store_.setLayout(layout);
     this.model.setLayout(layout, this.store_.poses);
+    this.marks.setLayout(layout, this.store_.poses);
     this.touched_ = [];
     if (layout.bounds !== undefined && !this.begun_ && needsFit(this.fitted_, layout.bounds)) {
       this.fit(layout.bounds);
@@ -113,13 +117,19 @@ export class LiveScene {
   take(state: State, moves: Moves): void {
     this.moves_ = moves;
     this.moving_ = moves.indices.length > 0;
-    this.touched_ = state.layout === this.layout?.number ? state.touched : [];
+    const current = state.layout === this.layout?.number;
+    this.touched_ = current ? state.touched : [];
+    this.marks.setHeld(current ? state.snap : undefined);
   }
 
   /** Once per drawn frame. */
   frame(): void {
     if (this.moves_ !== undefined) {
-      this.model.move(this.store_.move(this.moves_), this.store_.poses);
+      const moved = this.store_.move(this.moves_);
+      this.model.move(moved, this.store_.poses);
+      if (moved.length > 0) {
+        this.marks.move(this.store_.poses);
+      }
       this.moves_ = undefined;
     }
     this.model.setTouched(this.touched_);

@@ -121,7 +121,7 @@ class App {
   private lastNumbers_ms_ = 0;
 
   constructor() {
-    this.stage_.scene.add(this.live_.model.group, this.probe_.group);
+    this.stage_.scene.add(this.live_.model.group, this.live_.marks.group, this.probe_.group);
     this.hand_ = this.makeHand();
     this.panel_ = this.makePanel();
     this.memory_ = new ViewMemory();
@@ -172,6 +172,7 @@ class App {
       theme: (choice) => this.theme_.choose(choice),
       planes: (shown) => this.probe_.setPlanesShown(shown),
       cones: (shown) => this.probe_.cones.setShown(shown),
+      marks: (shown) => this.live_.marks.setShown(shown),
       edges: (shown) => this.live_.model.setEdges(shown),
       flat: (flat) => this.live_.model.setFlat(flat),
       orbitFromEmpty: (on) => (this.hand_.orbitFromEmpty = on),
@@ -449,6 +450,7 @@ class App {
   private applyTheme(): void {
     this.stage_.applyTheme();
     this.live_.model.applyTheme();
+    this.live_.marks.applyTheme();
     this.probe_.applyTheme();
     Object.values(this.plots_).forEach((plot) => plot.applyTheme());
     this.bodies_.applyTheme();

@@ -20,6 +20,7 @@ export interface PanelActions {
   theme(choice: ThemeChoice): void;
   planes(shown: boolean): void;
   cones(shown: boolean): void;
+  marks(shown: boolean): void;
   edges(shown: boolean): void;
   flat(flat: boolean): void;
   orbitFromEmpty(on: boolean): void;
@@ -65,6 +66,7 @@ export class Panel {
     this.onCheck("explore", (on) => this.tell("explore", on, { explore: on }));
     this.onCheck("planes", (on) => actions.planes(on));
     this.onCheck("cones", (on) => actions.cones(on));
+    this.onCheck("marks", (on) => actions.marks(on));
     this.onCheck("edges", (on) => actions.edges(on));
     this.onCheck("flat", (on) => actions.flat(on));
     this.onCheck("drop", (on) => actions.dropLine(on));
@@ -288,7 +290,8 @@ export class Panel {
       return;
     }
     const ids: Readonly<Record<string, string>> = {
-      e: "explore", p: "planes", c: "cones", m: "edges", f: "flat", d: "drop", b: "bring-back", t: "pause", r: "reset-view", "?": "help-open",
+      e: "explore", p: "planes", c: "cones", j: "marks", m: "edges", f: "flat", d: "drop", b: "bring-back", t: "pause",
+      r: "reset-view", "?": "help-open",
     };
     const id = ids[event.key.toLowerCase()];
     const away = document.documentElement.dataset.mode === "recorded";

@@ -5,16 +5,12 @@ import { clone, create, toJson } from "@bufbuild/protobuf";
 import {
   BodySchema, JointKind, JointSchema, Vec3Schema, type Joint, type PlacedJoint, type PlacedMesh,
 } from "./gen/hl_pb";
+import { dot, inverse, kIdentity, moved, product, tripleOf, turned, vecOf, type Rigid, type Triple } from "./rigid";
 import { kPoseNumbers, type Layout } from "./scene_messages";
 import type { Vec } from "./vec";
 import { floats } from "./wire_values";
 
 type Json = Record<string, unknown>;
-type Triple = readonly [number, number, number];
-/** 3 x 4, row by row. */
-type Rigid = ArrayLike<number>;
-
-const kIdentity: Rigid = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
 /** By so much a limit is passed, as a part of a turn: what rounding and the step leave. */
 const kSlack_rad = 0.01;
 
@@ -118,30 +114,5 @@ function axisOfHalfTurn(pose: Rigid, twice: Triple): Triple {
 const trace = (pose: Rigid) => pose[0]! + pose[5]! + pose[10]!;
 /** 2 sin(angle) axis. */
 const twiceSine = (pose: Rigid): Triple => [pose[9]! - pose[6]!, pose[2]! - pose[8]!, pose[4]! - pose[1]!];
-const dot = (a: Triple, b: Triple) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const row = (pose: Rigid, i: number): Triple => [pose[4 * i]!, pose[4 * i + 1]!, pose[4 * i + 2]!];
-const column = (pose: Rigid, i: number): Triple => [pose[i]!, pose[4 + i]!, pose[8 + i]!];
 const placeOf = (v: Vec | undefined): Vec => v ?? { x: 0, y: 0, z: 0 };
-const tripleOf = ({ x, y, z }: Vec): Triple => [x, y, z];
-const vecOf = ([x, y, z]: Triple): Vec => ({ x, y, z });
 const vecJson = ([x, y, z]: Triple): Json => ({ x, y, z });
-
-function turned(pose: Rigid, v: Triple): Triple {
-  return [dot(row(pose, 0), v), dot(row(pose, 1), v), dot(row(pose, 2), v)];
-}
-
-function moved(pose: Rigid, place: Vec): Triple {
-  const [u, v, w] = turned(pose, tripleOf(place));
-  return [u + pose[3]!, v + pose[7]!, w + pose[11]!];
-}
-
-function product(a: Rigid, b: Rigid): number[] {
-  const columns = [0, 1, 2].map((i) => turned(a, column(b, i)));
-  const origin = moved(a, vecOf(column(b, 3)));
-  return [0, 1, 2].flatMap((i) => [columns[0]![i]!, columns[1]![i]!, columns[2]![i]!, origin[i]!]);
-}
-
-function inverse(pose: Rigid): number[] {
-  const origin = column(pose, 3);
-  return [0, 1, 2].flatMap((i) => [...column(pose, i), -dot(column(pose, i), origin)]);
-}

@@ -2,6 +2,7 @@
 // The geometry is in the file, so that it opens by itself.
 
 import { bodyJson, mechanicsJson, transformJson } from "./saved_bodies";
+import { placesJson } from "./saved_places";
 import { kPoseNumbers, type Layout, type Mesh } from "./scene_messages";
 import type { SceneStore } from "./scene_store";
 import type { SurfaceSettings } from "./surfaces";
@@ -100,7 +101,7 @@ interface SavedObject {
   readonly fields: Record<string, unknown>;
 }
 
-/** A body is one object in its own frame; of anything else each material is one, in the world. */
+/** A body is one object in its own frame; of anything else each material is one, in the world, and so are its snaps and fields. */
 function* objectsOf(layout: Layout, store: SceneStore, lacking: Set<string>): Generator<SavedObject> {
   for (const [index, placed] of layout.placed.entries()) {
     const mesh = store.meshes.get(placed.mesh);
@@ -112,9 +113,13 @@ function* objectsOf(layout: Layout, store: SceneStore, lacking: Set<string>): Ge
     const pose = store.poses.subarray(kPoseNumbers * index, kPoseNumbers * (index + 1));
     if (body !== undefined) {
       if (materials.length > 1) lacking.add(kOneMaterial);
-      const fields = { transform: transformJson(pose), body: bodyJson(placed) };
+      const fields = { transform: transformJson(pose), body: bodyJson(placed), ...placesJson(layout, index, kUnmoved) };
       yield { name, mesh, pose: kUnmoved, part: wholeOf(mesh), surface: materials[0]!, fields };
       continue;
+    }
+    const places = placesJson(layout, index, pose);
+    if (Object.keys(places).length > 0) {
+      yield { name: `${name}, places`, mesh, pose, part: kNothing, surface: materials[0]!, fields: places };
     }
     for (const [material, surface] of materials.entries()) {
       const part = partOf(mesh, material);
@@ -132,15 +137,18 @@ interface Part {
   readonly vertices: Uint32Array;
 }
 
+const kNone = new Uint32Array();
+/** Of an object that has places alone. */
+const kNothing: Part = { triangles: kNone, segments: kNone, points: kNone, vertices: kNone };
+
 /** Undefined: nothing has this material. Lines and points have the first: the page is not told theirs. */
 function partOf(mesh: Mesh, material: number): Part | undefined {
   const { triangleMaterials: materials } = mesh;
-  const none = new Uint32Array();
-  const [segments, points] = material === 0 ? [mesh.segments, mesh.points] : [none, none];
+  const [segments, points] = material === 0 ? [mesh.segments, mesh.points] : [kNone, kNone];
   const mixed = materials.some((each) => each !== material);
   const all = materials.length === 0 ? material === 0 : !mixed;
   const triangles = all ? mesh.triangles : mesh.triangles.filter((_, i) => materials[Math.floor(i / 3)] === material);
-  const own = materials.length === 0 && material !== 0 ? none : triangles;
+  const own = materials.length === 0 && material !== 0 ? kNone : triangles;
   if (own.length + segments.length + points.length === 0) {
     return undefined;
   }

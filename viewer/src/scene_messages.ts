@@ -1,6 +1,7 @@
 // What the server tells of the scene, as values the page can trust: meshes with every index proven to be in range, layouts
 // and moves with a whole pose for each object.
 
+import { checkPlaces, type FeltPlaces } from "./felt_places";
 import type { PlacedJoint, PlacedMesh, SceneLayout, SceneMesh, State, SurfaceImage } from "./gen/hl_pb";
 import type { Vec } from "./vec";
 import { floats, indices, knownVec, ProtocolError, shorts } from "./wire_values";
@@ -45,6 +46,8 @@ export interface Layout {
   readonly poses: Float32Array;
   /** Absent: none of them is a body, or that is not known. */
   readonly mechanics?: Mechanics | undefined;
+  /** Absent: not known. */
+  readonly felt?: FeltPlaces | undefined;
 }
 
 /** What acts on the bodies of a layout. */
@@ -91,6 +94,7 @@ export function checkLayout(layout: SceneLayout): Layout {
     proxyRadius_m: proxyRadius > 0 && Number.isFinite(proxyRadius) ? proxyRadius : 0,
     poses: checkPoses(layout.poses, placed.length),
     mechanics: checkMechanics(layout),
+    felt: checkPlaces(layout),
   };
 }
 
