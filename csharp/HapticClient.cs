@@ -51,6 +51,71 @@ namespace HL {
         public uint? Name;         // told when it is touched
     }
 
+    public struct Rotation {       // a quaternion
+        public double X, Y, Z, W;
+        public Rotation(double x, double y, double z, double w) { X = x; Y = y; Z = z; W = w; }
+    }
+
+    public enum BodyShape { Hull, Box, Ball, Capsule, Cylinder }
+
+    /// <summary>How the calls of an object move as rigid bodies: docs/bodies.md. Null: the server's default.</summary>
+    public sealed class TouchBody {
+        public bool Fixed;               // only frames move it
+        public double? Mass_kg;          // null: of its volume and density
+        public double? Density_kg_m3;    // null: 1000
+        public BodyShape Shape;          // by which it meets bodies and scene; the hand feels the mesh
+        public double? StaticFriction, DynamicFriction;  // with other bodies
+        public double? Restitution;      // 0..1
+        public Vec3? Velocity_m_s, Spin_rad_s;           // at the start, world
+    }
+
+    /// <summary>A place of an object that holds the proxy until it is pulled off: docs/snaps.md.</summary>
+    public sealed class TouchSnap {
+        public double[] Points;    // x y z each, m, frame of the object: a point, or the corners of a curve
+        public Vec3? Normal;       // of the plane through the one point; null: no plane
+        public double Capture;     // m of the world, from which the proxy goes there
+        public double Release_N;
+    }
+
+    public enum FieldKind { Magnet, Spring, Constant, Drag }
+
+    /// <summary>A force on the hand from a place of an object: docs/fields.md.</summary>
+    public sealed class TouchField {
+        public FieldKind Kind;
+        public double[] Points;    // as TouchSnap
+        public Vec3? Normal;
+        public double Reach;       // m of the world; farther away there is no force
+        public double? Force_N;    // the greatest; of a spring null: no limit
+        public double? Stiffness_N_m;  // of a spring
+        public double? Damping_Ns_m;   // of a drag
+        public Vec3? Direction;    // of a constant force
+    }
+
+    /// <summary>All that an object can be. A body has one item, with a mesh.</summary>
+    public sealed class TouchObject {
+        public TouchItem[] Items = new TouchItem[0];
+        public TouchBody Body;     // null: it moves as frames say
+        public TouchSnap[] Snaps = new TouchSnap[0];
+        public TouchField[] Fields = new TouchField[0];
+    }
+
+    public enum JointKind { Ball, Hinge, Slider, Fixed, Distance }
+
+    /// <summary>Joins two bodies that the world calls, or one to the world: docs/bodies.md. Metres and newtons; of a
+    /// hinge radians and N m. Coordinates count from where the calls place the bodies.</summary>
+    public sealed class TouchJoint {
+        public uint Id;            // > 0
+        public JointKind Kind;
+        public uint ObjectA, ObjectB;    // ObjectB 0: the world
+        public uint? NameA, NameB;       // of the calls; null: the object is called once
+        public Vec3 Anchor, AnchorB;     // world; AnchorB: of a distance
+        public Vec3? Axis;         // of a hinge or slider
+        public double? Low, High;  // null: no limit
+        public double Rest, Spring, Damping, Friction;
+        public double[] TablePositions, TableForces;     // a force over the coordinate, or null
+        public bool Collide;       // whether the two also collide with each other
+    }
+
     /// <summary>Settings of the device, for its master. Null: unchanged.</summary>
     public sealed class DeviceSettings {
         public double? ProxyRadius;      // m, world
@@ -78,6 +143,27 @@ namespace HL {
         public Vec3 Point, Normal;
     }
 
+    /// <summary>A rigid body of this client after the last step. World frame.</summary>
+    public struct BodyState {
+        public uint Object, Name;
+        public Vec3 Position;      // of the object frame
+        public Rotation Rotation;  // unit
+        public Vec3 Velocity_m_s, Spin_rad_s;
+    }
+
+    /// <summary>A joint of this client after the last step; forces are those on its body a.</summary>
+    public struct JointState {
+        public uint Id;
+        public double Coordinate, Velocity, Force;
+        public Vec3 Held_N;
+    }
+
+    /// <summary>The snap that holds the proxy.</summary>
+    public struct HoldingSnap {
+        public uint Object, Name, Session;
+        public uint Number;        // among the snaps of the object, from 0
+    }
+
     public enum Safety { Off, Arming, On, Fault, Waiting }
 
     /// <summary>The device and the proxy at one moment. Never changes once made.</summary>
@@ -90,15 +176,19 @@ namespace HL {
         public uint Buttons;       // bit i: button i is down
         public double ProxyRadius;
         public bool Master;
+        public BodyState[] Bodies;     // once a frame with a body has been sent
+        public JointState[] Joints;
+        public HoldingSnap? Snap;
     }
 
-    public enum TouchEventKind { Touch, Untouch, Button, FrameShown, Warning, Refused }
+    public enum TouchEventKind { Touch, Untouch, Button, FrameShown, Warning, Refused, Sleep, Wake, Impact }
 
     public sealed class TouchEvent {
         public TouchEventKind Kind;
         public double Time_s;
-        public uint Object, Name;  // Touch, Untouch
-        public Vec3 Position;      // of the proxy
+        public uint Object, Name;  // Touch, Untouch, Sleep, Wake, Impact
+        public Vec3 Position;      // of the proxy; Sleep, Wake, Impact: of the body's centre of mass
+        public double Impulse_N_s; // Impact
         public uint Button;
         public bool Down;
         public ulong Frame;        // FrameShown, Warning, Refused
@@ -113,6 +203,8 @@ namespace HL {
         public bool KeepObjects;         // objects stay touchable when this client has gone
         public double StateRate_Hz = 60;
         public double Timeout_s = 10;    // for the welcome
+        public bool BodyEvents;          // Sleep, Wake and Impact are told
+        public double ImpactsAbove_N_s;  // smaller ones are not
     }
 
     public enum ClientStatus { Connecting, Open, Closed }
@@ -120,6 +212,7 @@ namespace HL {
     public sealed class HapticClient : IDisposable {
         const int MaxUnanswered = 16;    // frames; with more the server is still building, and the next one waits
         const int MaxEvents = 4096;      // events that nobody takes; then the oldest go
+        const int MaxCommands = 1024;    // to bodies, not sent; then a call throws
         const int MaxReplyBytes = 1 << 24;
         const int CloseWait_ms = 2000;
 
@@ -133,6 +226,8 @@ namespace HL {
         Draft drawing = new Draft();     // since the last Flush
         Draft waiting = new Draft();     // flushed, not sent
         DeviceSettings setting;          // not sent; null: none
+        readonly Queue<byte[]> commands = new Queue<byte[]>();  // to bodies, not sent
+        bool bodiesAsked;                // the server has been asked to tell of bodies
         ulong sent, answered, nextUpload = 1;
         ulong messageLimit = 1 << 22;
         double frameLimit_Hz = 250;
@@ -161,17 +256,68 @@ namespace HL {
         public Task Ended { get; private set; }
 
         /// <summary>Defines or overwrites object `id` > 0 in the next frame.</summary>
-        public void Define(uint id, params TouchItem[] items) {
+        public void Define(uint id, params TouchItem[] items) { Define(id, new TouchObject { Items = items }); }
+
+        /// <summary>The same with a body, snaps and fields.</summary>
+        public void Define(uint id, TouchObject defined) {
             if (id == 0) throw new ArgumentException("the number of an object is above 0");
-            lock (gate) drawing.Objects[id] = Content.Of(items, 2, ref nextUpload);
+            lock (gate) {
+                Content content = Content.Of(defined.Items, 2, ref nextUpload);
+                content.Items.Append(Messages.Extras(defined));
+                content.HasBody = defined.Body != null;
+                drawing.Objects[id] = content;
+            }
         }
 
         /// <summary>Deletes object `id` in the next frame.</summary>
         public void Delete(uint id) { lock (gate) drawing.Objects[id] = null; }
 
         /// <summary>What the world consists of from the next frame on.</summary>
-        public void SetWorld(params TouchItem[] items) {
-            lock (gate) drawing.World = Content.Of(items, 1, ref nextUpload);
+        public void SetWorld(params TouchItem[] items) { SetWorld(new TouchJoint[0], items); }
+
+        /// <summary>The same with joints between the bodies that it calls. While a joint's number, kind and bodies stay
+        /// the same, it goes on from where it is.</summary>
+        public void SetWorld(TouchJoint[] joints, params TouchItem[] items) {
+            lock (gate) {
+                Content content = Content.Of(items, 1, ref nextUpload);
+                foreach (TouchJoint joint in joints) content.Items.Nested(2, Messages.Joint(joint));
+                drawing.World = content;
+            }
+        }
+
+        /// <summary>The acceleration of all bodies of the server, m/s^2, from the next frame on.</summary>
+        public void SetGravity(Vec3 acceleration) { lock (gate) drawing.Gravity = acceleration; }
+
+        /// <summary>Gives bodies of `body`, an object that is shown, an impulse, N s, evenly within so many seconds, at
+        /// a point of the world, m (null: at the centre of mass). At once, not with the frame. `name`: only those that
+        /// are called with it. InvalidOperationException: 1024 commands wait to be sent.</summary>
+        public void Push(uint body, Vec3 impulse, Vec3? at = null, double seconds = 0, uint? name = null) {
+            Writer push = new Writer().Nested(1, Messages.Vector(impulse)).Vector(2, at).Double(3, seconds);
+            Command(body, name, 3, push);
+        }
+
+        /// <summary>Sets their velocity, m/s, and spin, rad/s, in the world; null: unchanged. Else as Push.</summary>
+        public void SetVelocity(uint body, Vec3? velocity, Vec3? spin = null, uint? name = null) {
+            Command(body, name, 4, new Writer().Vector(1, velocity).Vector(2, spin));
+        }
+
+        /// <summary>Places the object frame, m; null: unchanged. Else as Push.</summary>
+        public void Place(uint body, Vec3? position, Rotation? rotation = null, uint? name = null) {
+            var place = new Writer().Vector(1, position);
+            if (rotation.HasValue) place.Nested(2, Messages.Turn(rotation.Value));
+            Command(body, name, 5, place);
+        }
+
+        void Command(uint body, uint? name, int what, Writer how) {
+            Writer command = new Writer().Number(1, body);
+            if (name.HasValue) command.Number(2, name.Value);
+            command.Nested(what, how);
+            lock (gate) {
+                if (commands.Count == MaxCommands)
+                    throw new InvalidOperationException("too many commands to bodies wait to be sent");
+                commands.Enqueue(new Writer().Nested(10, command).ToArray());
+            }
+            Wake();
         }
 
         /// <summary>Ends the frame: all that was given since the last is felt at once. While the server cannot take it,
@@ -370,13 +516,30 @@ namespace HL {
                 ulong number;
                 Draft draft = TakeDraft(out number);
                 if (draft != null) await SendFrame(number, draft).ConfigureAwait(false);
-                if (draft == null && changes == null) lock (gate) return !disposed || !waiting.IsEmpty;
+                bool commanded = await SendCommands().ConfigureAwait(false);
+                if (draft == null && changes == null && !commanded) lock (gate) return !disposed || !waiting.IsEmpty;
                 await Task.Delay(TimeSpan.FromSeconds(1 / frameLimit_Hz), stop.Token).ConfigureAwait(false);
             }
         }
 
+        // At most a few at once: the server limits the rate of messages. False: there was none.
+        async Task<bool> SendCommands() {
+            const int Most = 4;
+            for (int sentNow = 0; sentNow < Most; ++sentNow) {
+                byte[] command;
+                lock (gate) command = commands.Count > 0 ? commands.Dequeue() : null;
+                if (command == null) return sentNow > 0;
+                await Send(command).ConfigureAwait(false);
+            }
+            return true;
+        }
+
         async Task SendFrame(ulong number, Draft draft) {
             byte[] frame = draft.Frame(number);
+            if (draft.HasBodies && !bodiesAsked) {
+                bodiesAsked = true;
+                await Send(Messages.Bodies(options)).ConfigureAwait(false);
+            }
             if ((ulong)frame.Length <= messageLimit) {
                 foreach (byte[] message in draft.Uploads()) await Send(message).ConfigureAwait(false);
                 await Send(frame).ConfigureAwait(false);
@@ -435,12 +598,20 @@ namespace HL {
     sealed class Draft {
         internal readonly Dictionary<uint, Content> Objects = new Dictionary<uint, Content>();
         internal Content World;
+        internal Vec3? Gravity;
 
-        internal bool IsEmpty { get { return World == null && Objects.Count == 0; } }
+        internal bool IsEmpty { get { return World == null && Objects.Count == 0 && !Gravity.HasValue; } }
+        internal bool HasBodies {
+            get {
+                foreach (Content content in Objects.Values) if (content != null && content.HasBody) return true;
+                return false;
+            }
+        }
 
         internal void Merge(Draft later) {
             foreach (var entry in later.Objects) Objects[entry.Key] = entry.Value;
             World = later.World ?? World;
+            Gravity = later.Gravity ?? Gravity;
         }
 
         internal IEnumerable<byte[]> Uploads() {
@@ -456,6 +627,7 @@ namespace HL {
                 else frame.Nested(4, new Writer().Number(1, entry.Key).Append(entry.Value.Items));
             }
             if (World != null) frame.Nested(6, World.Items);
+            frame.Vector(10, Gravity);
             return new Writer().Nested(3, frame).ToArray();
         }
     }
@@ -467,6 +639,7 @@ namespace HL {
 
         internal readonly Writer Items = new Writer();
         internal readonly List<byte[]> Uploads = new List<byte[]>();
+        internal bool HasBody;
 
         internal static Content Of(TouchItem[] items, int field, ref ulong nextUpload) {
             var content = new Content();
@@ -555,7 +728,69 @@ namespace HL {
             return new Writer().Nested(5, sent).ToArray();
         }
 
-        static Writer Vector(Vec3 v) { return new Writer().Double(1, v.X).Double(2, v.Y).Double(3, v.Z); }
+        internal static byte[] Bodies(ClientOptions options) {
+            var asked = new Writer().Flag(1, true).Flag(2, options.BodyEvents).Double(3, options.ImpactsAbove_N_s);
+            return new Writer().Nested(9, asked).ToArray();
+        }
+
+        // What an ObjectDefinition has beside its items.
+        internal static Writer Extras(TouchObject defined) {
+            var sent = new Writer();
+            if (defined.Body != null) sent.Nested(3, Body(defined.Body));
+            foreach (TouchSnap snap in defined.Snaps) sent.Nested(4, Snap(snap));
+            foreach (TouchField field in defined.Fields) sent.Nested(5, Field(field));
+            return sent;
+        }
+
+        static Writer Body(TouchBody body) {
+            return new Writer().Flag(1, body.Fixed).Double(2, body.Mass_kg).Double(3, body.Density_kg_m3)
+                .Number(4, (ulong)body.Shape).Double(5, body.StaticFriction).Double(6, body.DynamicFriction)
+                .Double(7, body.Restitution).Vector(8, body.Velocity_m_s).Vector(9, body.Spin_rad_s);
+        }
+
+        static Writer Snap(TouchSnap snap) {
+            return new Writer().Doubles(2, Places(snap.Points)).Vector(3, snap.Normal).Double(4, snap.Capture)
+                .Double(5, snap.Release_N);
+        }
+
+        static Writer Field(TouchField field) {
+            return new Writer().Number(2, (ulong)field.Kind).Doubles(3, Places(field.Points)).Vector(4, field.Normal)
+                .Double(5, field.Reach).Double(6, field.Force_N).Double(7, field.Stiffness_N_m)
+                .Double(8, field.Damping_Ns_m).Vector(9, field.Direction);
+        }
+
+        static double[] Places(double[] points) {
+            if (points == null || points.Length == 0 || points.Length % 3 != 0)
+                throw new ArgumentException("a snap or field has points of three numbers each");
+            return points;
+        }
+
+        // A WorldJoint.
+        internal static Writer Joint(TouchJoint joint) {
+            var sent = new Writer().Number(2, (ulong)joint.Kind).Vector(5, joint.Anchor)
+                .Vector(6, joint.Kind == JointKind.Distance ? (Vec3?)joint.AnchorB : null).Vector(7, joint.Axis).Double(8, joint.Low).Double(9, joint.High).Double(10, joint.Rest)
+                .Double(11, joint.Spring).Double(12, joint.Damping).Double(13, joint.Friction).Flag(15, joint.Collide);
+            if (joint.TablePositions != null || joint.TableForces != null) sent.Nested(14, Table(joint));
+            var all = new Writer().Number(1, joint.Id).Nested(2, sent).Nested(3, Called(joint.ObjectA, joint.NameA));
+            return joint.ObjectB == 0 ? all : all.Nested(4, Called(joint.ObjectB, joint.NameB));
+        }
+
+        static Writer Table(TouchJoint joint) {
+            if (joint.TablePositions?.Length != joint.TableForces?.Length)
+                throw new ArgumentException("a joint's table has a force for each position");
+            return new Writer().Doubles(1, joint.TablePositions).Doubles(2, joint.TableForces);
+        }
+
+        static Writer Called(uint body, uint? name) {
+            var called = new Writer().Number(1, body);
+            return name.HasValue ? called.Number(2, name.Value) : called;
+        }
+
+        internal static Writer Turn(Rotation r) {
+            return new Writer().Double(1, r.X).Double(2, r.Y).Double(3, r.Z).Double(4, r.W);
+        }
+
+        internal static Writer Vector(Vec3 v) { return new Writer().Double(1, v.X).Double(2, v.Y).Double(3, v.Z); }
     }
 
     // What the server sends, read.
@@ -563,6 +798,8 @@ namespace HL {
         internal static TouchState State(Reader from) {
             var state = new TouchState();
             var touched = new List<Touched>();
+            var bodies = new List<BodyState>();
+            var joints = new List<JointState>();
             while (from.Next()) {
                 switch (from.Field) {
                     case 1: state.Time_s = from.Double(); break;
@@ -575,9 +812,14 @@ namespace HL {
                     case 11: state.Buttons = (uint)from.Number; break;
                     case 12: state.ProxyRadius = from.Double(); break;
                     case 14: state.Master = from.Number != 0; break;
+                    case 21: bodies.Add(Body(from.Nested())); break;
+                    case 22: joints.Add(Joint(from.Nested())); break;
+                    case 23: state.Snap = Snap(from.Nested()); break;
                 }
             }
             state.Touched = touched.ToArray();
+            state.Bodies = bodies.ToArray();
+            state.Joints = joints.ToArray();
             return state;
         }
 
@@ -597,6 +839,61 @@ namespace HL {
             return touched;
         }
 
+        static BodyState Body(Reader from) {
+            var body = new BodyState { Rotation = new Rotation() };
+            while (from.Next()) {
+                switch (from.Field) {
+                    case 1: body.Object = (uint)from.Number; break;
+                    case 2: body.Name = (uint)from.Number; break;
+                    case 3: body.Position = Vector(from.Nested()); break;
+                    case 4: body.Rotation = Turn(from.Nested()); break;
+                    case 5: body.Velocity_m_s = Vector(from.Nested()); break;
+                    case 6: body.Spin_rad_s = Vector(from.Nested()); break;
+                }
+            }
+            return body;
+        }
+
+        static JointState Joint(Reader from) {
+            var joint = new JointState();
+            while (from.Next()) {
+                switch (from.Field) {
+                    case 1: joint.Id = (uint)from.Number; break;
+                    case 2: joint.Coordinate = from.Double(); break;
+                    case 3: joint.Velocity = from.Double(); break;
+                    case 4: joint.Force = from.Double(); break;
+                    case 5: joint.Held_N = Vector(from.Nested()); break;
+                }
+            }
+            return joint;
+        }
+
+        static HoldingSnap Snap(Reader from) {
+            var snap = new HoldingSnap();
+            while (from.Next()) {
+                if (from.Field == 1) snap.Object = (uint)from.Number;
+                if (from.Field == 2) snap.Name = (uint)from.Number;
+                if (from.Field == 3) snap.Session = (uint)from.Number;
+                if (from.Field == 4) snap.Number = (uint)from.Number;
+            }
+            return snap;
+        }
+
+        static Rotation Turn(Reader from) {
+            var turn = new Rotation();
+            while (from.Next()) {
+                if (from.Field == 1) turn.X = from.Double();
+                if (from.Field == 2) turn.Y = from.Double();
+                if (from.Field == 3) turn.Z = from.Double();
+                if (from.Field == 4) turn.W = from.Double();
+            }
+            return turn;
+        }
+
+        // By the number on the wire; null: a motion.
+        static readonly TouchEventKind?[] Kinds = { TouchEventKind.Touch, TouchEventKind.Untouch,
+            TouchEventKind.Button, null, TouchEventKind.Sleep, TouchEventKind.Wake, TouchEventKind.Impact };
+
         // Null: a motion, or a kind of event that this client does not know.
         internal static TouchEvent Event(Reader from) {
             var happened = new TouchEvent();
@@ -610,10 +907,12 @@ namespace HL {
                     case 5: happened.Position = Vector(from.Nested()); break;
                     case 6: happened.Button = (uint)from.Number; break;
                     case 7: happened.Down = from.Number != 0; break;
+                    case 8: happened.Impulse_N_s = from.Double(); break;
                 }
             }
-            happened.Kind = (TouchEventKind)kind;
-            return kind <= (ulong)TouchEventKind.Button ? happened : null;
+            if (kind >= (ulong)Kinds.Length || !Kinds[kind].HasValue) return null;
+            happened.Kind = Kinds[kind].Value;
+            return happened;
         }
 
         static Vec3 Vector(Reader from) {
@@ -688,6 +987,9 @@ namespace HL {
             Varint((ulong)message.size);
             return Append(message);
         }
+
+        internal Writer Vector(int field, Vec3? v) { return v.HasValue ? Nested(field, Messages.Vector(v.Value)) : this; }
+        internal Writer Doubles(int field, double[] values) { return Doubles(field, values, 0, values.Length); }
 
         // At most `most` numbers from number `first` on.
         internal Writer Doubles(int field, double[] values, int first, int most) {

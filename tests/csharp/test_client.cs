@@ -203,10 +203,122 @@ static class TestClient {
         Expect(reason.Length > 0 && reason != "closed by this program", reason);
     }
 
+    // A box of 20 mm, centred.
+    static TouchMesh Box() {
+        var vertices = new double[24];
+        for (int corner = 0; corner < 8; ++corner)
+            for (int axis = 0; axis < 3; ++axis) vertices[3 * corner + axis] = 0.02 * ((corner >> axis & 1) - 0.5);
+        return new TouchMesh { Vertices = vertices, Triangles = new[] {
+            0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5 } };
+    }
+
+    static TouchItem At(uint id, double x, double y, uint? name = null) {
+        return new TouchItem { Object = id, Name = name, Matrix = new[] { 1.0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, 0, 1 } };
+    }
+
+    static BodyState BodyOf(HapticClient client, uint name) {
+        WaitFor(() => client.Newest != null && client.Newest.Bodies.Any(body => body.Name == name));
+        return client.Newest.Bodies.First(body => body.Name == name);
+    }
+
+    // A block falls on a floor and sleeps; another one, without gravity's help, goes where it is told.
+    static void BodiesAnswer(string url) {
+        var client = new HapticClient(url, new ClientOptions { StateRate_Hz = 200, BodyEvents = true });
+        client.Define(1, new TouchItem { Mesh = Floor(1, 0.4) });
+        client.Define(2, new TouchObject {
+            Items = new[] { new TouchItem { Mesh = Box() } },
+            Body = new TouchBody { Mass_kg = 0.1, Shape = BodyShape.Box, Velocity_m_s = new Vec3(0, -0.5, 0) }
+        });
+        client.SetGravity(new Vec3(0, -5, 0));
+        client.SetWorld(At(1, 0, 0), At(2, 0, 0.03, 8), At(2, 0.1, 0.011, 9));
+        client.Flush();
+        Next(client, TouchEventKind.FrameShown);
+        Expect(Next(client, TouchEventKind.Impact).Impulse_N_s > 0.02, "the impulse");
+        TouchEvent asleep = Next(client, TouchEventKind.Sleep);
+        Expect(asleep.Object == 2 && asleep.Name >= 8, "who sleeps");
+        WaitFor(() => Math.Abs(BodyOf(client, 8).Position.Y - 0.01) < 1e-3);
+        client.SetGravity(new Vec3(0, 0, 0));
+        client.Flush();
+        Next(client, TouchEventKind.FrameShown);
+        client.Place(2, new Vec3(0.1, 0.2, 0), new Rotation(0, 0, 1, 1), 9);
+        client.SetVelocity(2, new Vec3(0, 0, 0), new Vec3(0, 0, 0), 9);
+        client.Push(2, new Vec3(0, 0.02, 0), null, 0, 9);
+        WaitFor(() => BodyOf(client, 9).Velocity_m_s.Y > 0.1);
+        BodyState thrown = BodyOf(client, 9);
+        Expect(Math.Abs(thrown.Velocity_m_s.Y - 0.2) < 1e-9, "an impulse over a mass: " + thrown.Velocity_m_s.Y);
+        Expect(Math.Abs(thrown.Rotation.Z - Math.Sqrt(0.5)) < 1e-9, "it was turned");
+        Expect(thrown.Position.Y > 0.2 && Math.Abs(thrown.Spin_rad_s.Z) < 1e-9, "where it flies");
+        Expect(Math.Abs(BodyOf(client, 8).Position.Y - 0.01) < 1e-3, "the other one stays");
+        client.Push(3, new Vec3(0, 1, 0));
+        Expect(Next(client, TouchEventKind.Refused).Text.Length > 10, "no such body");
+        client.Dispose();
+        ReasonOf(client);
+    }
+
+    // A slider that a spring holds against gravity: m g / k below.
+    static void JointsHold(string url) {
+        var client = new HapticClient(url, new ClientOptions { StateRate_Hz = 200 });
+        client.Define(1, new TouchObject {
+            Items = new[] { new TouchItem { Mesh = Box() } }, Body = new TouchBody { Mass_kg = 0.1, Shape = BodyShape.Box }
+        });
+        var slider = new TouchJoint { Id = 5, Kind = JointKind.Slider, ObjectA = 1, NameA = 8, Axis = new Vec3(0, 1, 0),
+            Spring = 100, Damping = 4, Low = -0.05, High = 0.05 };
+        var button = new TouchJoint { Id = 6, Kind = JointKind.Slider, ObjectA = 1, NameA = 9, Axis = new Vec3(0, 1, 0),
+            Damping = 4, TablePositions = new[] { -0.02, 0.02 }, TableForces = new[] { 2.0, -2.0 } };
+        client.SetGravity(new Vec3(0, -10, 0));
+        client.SetWorld(new[] { slider, button }, At(1, 0, 0.1, 8), At(1, 0.1, 0.1, 9));
+        client.Flush();
+        Next(client, TouchEventKind.FrameShown);
+        WaitFor(() => client.Newest != null && client.Newest.Joints.Length == 2 &&
+            client.Newest.Joints.All(joint => Math.Abs(joint.Coordinate + 0.01) < 1e-6));
+        JointState held = client.Newest.Joints.Single(joint => joint.Id == 5);
+        Expect(Math.Abs(held.Force - 1) < 1e-2 && Math.Abs(held.Velocity) < 1e-3, "the spring bears it: " + held.Force + " N");
+        Expect(Math.Abs(BodyOf(client, 8).Position.Y - 0.09) < 1e-6, "where it hangs");
+        client.SetWorld(new[] { new TouchJoint { Id = 7, Kind = JointKind.Ball, ObjectA = 3 } }, At(1, 0, 0.1, 8));
+        client.Flush();
+        Expect(Next(client, TouchEventKind.Refused).Text.Length > 10, "a joint without a body");
+        client.Dispose();
+        ReasonOf(client);
+    }
+
+    // The second snap of an object takes the finger; when it is gone, a field pushes.
+    static void SnapsHoldAndFieldsPush(string url) {
+        var client = new HapticClient(url, new ClientOptions { StateRate_Hz = 200 });
+        var far = new TouchSnap { Points = new[] { 9.0, 0, 0 }, Normal = new Vec3(1, 0, 0), Capture = 0.001, Release_N = 1 };
+        var near = new TouchSnap { Points = new[] { 0.0, 0, 0, 0.01, 0, 0 }, Capture = 0.004, Release_N = 5 };
+        var wind = new TouchField { Kind = FieldKind.Constant, Points = new[] { 0.0, 0, 0 }, Reach = 0.05, Force_N = 0.3,
+            Direction = new Vec3(0, 0, 1) };
+        client.Define(1, new TouchObject { Snaps = new[] { far, near } });
+        client.Define(2, new TouchObject { Fields = new[] { wind } });
+        client.SetWorld(At(1, 0, 0, Name));
+        client.Set(new DeviceSettings { WorkspaceOrigin = new Vec3(0, 0, 0), HandGoal = new Vec3(0, 0.002, 0) });
+        client.Flush();
+        Next(client, TouchEventKind.FrameShown);
+        WaitFor(() => client.Newest?.Snap != null);
+        HoldingSnap snap = client.Newest.Snap.Value;
+        Expect(snap.Object == 1 && snap.Name == Name && snap.Number == 1, "which one holds");
+        WaitFor(() => client.Newest.Snap.HasValue && Math.Abs(client.Newest.Proxy.Y) < 1e-6);
+        client.SetWorld(At(2, 0, 0));
+        client.Flush();
+        WaitFor(() => {  // what the snap pulled fades out
+            TouchState blown = client.Newest;
+            return !blown.Snap.HasValue && blown.Force_N.Z > 0.2 && blown.Force_N.Z <= 0.3 + 1e-9;
+        });
+        bool refused = false;
+        try {
+            client.Define(3, new TouchObject { Snaps = new[] { new TouchSnap { Points = new[] { 1.0, 2 } } } });
+        } catch (ArgumentException) {
+            refused = true;
+        }
+        Expect(refused, "a point has three numbers");
+        client.Dispose();
+        ReasonOf(client);
+    }
+
     static int Main(string[] arguments) {
         var cases = new Action<string>[] { BadAddresses, NobodyThere, NoAnswer, LargeMeshIsFelt, RefusedFrameChangesNothing,
             TooLargeFrameIsRefusedHere, FastFramesAreMerged, FastSettingsAreMerged, SecondClientIsNotMaster, WrongToken,
-            RightToken, ServerGoesAway };
+            RightToken, ServerGoesAway, BodiesAnswer, JointsHold, SnapsHoldAndFieldsPush };
         cases.Single(one => one.Method.Name == arguments[0])(arguments[1]);
         Console.WriteLine("passed");
         return 0;
