@@ -29,6 +29,7 @@ BodyProblem::BodyProblem(std::shared_ptr<const World> of)
   turned.resize(bodies());
   nodes.reserve(bodies() + kMostHands);
   before.reserve(bodies() + kMostHands);
+  unpushed.reserve(bodies() + kMostHands);
   rows.reserve(mostRows(*world));
 }
 

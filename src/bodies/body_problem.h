@@ -50,6 +50,7 @@ struct BodyProblem {
   std::vector<Mat3> turned;        ///< of each body at the begin of the step
   std::vector<Node> nodes;         ///< bodies, then hands
   std::vector<Node> before;        ///< the same, before gravity
+  std::vector<Node> unpushed;      ///< the same, after gravity, before the impulses of the rows
   std::vector<Row> rows;
   JointSet joints;
   std::vector<std::uint32_t> awake_joints;  ///< numbers of those whose bodies are awake, ascending

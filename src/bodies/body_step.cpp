@@ -94,14 +94,28 @@ void BodyStepper::addHand(const HandNode& hand, GivenImpulses& given) {
   problem_.before.push_back(node);
 }
 
-// Nothing moves farther in this step: twice the speed of the fastest, for one that is hit, and two that meet.
-double BodyStepper::margin() const {
+// m/s: no body is faster after a hand that may meet it in this step has stopped at it.
+double BodyStepper::fastestPushed_m_s(const HandNode& hand) const {
+  double fastest = 0;
+  const double reach = hand.stretch.norm(), impulse_N_s = hand.spring_N_m * problem_.period_s * reach;
+  for (const std::size_t i : problem_.awake) {
+    const Node& node = problem_.nodes[i];
+    const double near = problem_.reachOf(i) + hand.radius_m + 2 * reach;
+    if ((node.centre - hand.proxy).squaredNorm() > near * near) continue;
+    const double square = problem_.reachOf(i) * problem_.reachOf(i);
+    fastest = std::max(fastest, impulse_N_s * (node.inverse_mass + square * node.inverse_inertia.trace()));
+  }
+  return std::min(fastest, reach / problem_.period_s);
+}
+
+// Nothing moves farther in this step: twice the speed of the fastest, for one that is hit, and two that meet. A hand
+// that is far beyond a surface counts by what it does to bodies.
+double BodyStepper::margin(std::span<const HandNode> hands) const {
   double fastest = 0;
   for (const std::size_t i : problem_.awake)
     fastest =
         std::max(fastest, problem_.nodes[i].velocity.norm() + problem_.nodes[i].spin.norm() * problem_.reachOf(i));
-  for (std::size_t hand = problem_.bodies(); hand < problem_.nodes.size(); ++hand)
-    fastest = std::max(fastest, problem_.nodes[hand].velocity.norm());
+  for (const HandNode& hand : hands) fastest = std::max(fastest, fastestPushed_m_s(hand));
   if (sceneryMoves()) fastest = std::max(fastest, fastest_scenery_m_s_);
   return 4 * problem_.period_s * (fastest + joints_.speed()) + kTouching_m;
 }
@@ -231,10 +245,12 @@ BodyStepReport BodyStepper::findImpulses(WorldState& state, double period_s, dou
   state.memory.release();
   solver_.begin();
   for (std::size_t hand = 0; hand < hands.size(); ++hand) addHand(hands[hand], given[hand]);
+  problem_.unpushed = problem_.nodes;
   impacts_.begin();
   joints_.begin(state);
-  margin_m = margin();
-  for (std::size_t hand = 0; hand < hands.size(); ++hand) hand_rows_.add(hands[hand], hand, margin_m, state.memory);
+  margin_m = margin(hands);
+  for (std::size_t hand = 0; hand < hands.size(); ++hand)
+    hand_rows_.add(hands[hand], hand, margin_m + hands[hand].stretch.norm(), state.memory);
   problem_.meetings.find(world(), state, problem_.placed, margin_m);
   contacts_.addBearing(state.memory);
   for (Row& row : problem_.rows) prepareRow(row, problem_.nodes);

@@ -53,7 +53,8 @@ class BodyStepper {
                               std::span<GivenImpulses> given);
   void begin(const WorldState& state, double period_s);
   void addHand(const HandNode& hand, GivenImpulses& given);
-  double margin() const;
+  double fastestPushed_m_s(const HandNode& hand) const;
+  double margin(std::span<const HandNode> hands) const;
   void solve(BodyStepReport& report);
   void bounce(BodyStepReport& report);
   void tellHands(std::span<GivenImpulses> given) const;

@@ -16,15 +16,27 @@ constexpr int kDirectSolves = 5;
 constexpr int kMostUpdates = 10'000;
 constexpr int kSmallUpdates = 4'000;
 
+void restore(int number, std::span<Node> nodes, std::span<const Node> unpushed) {
+  if (number == Row::kFixed) return;
+  const auto i = static_cast<std::size_t>(number);
+  nodes[i].velocity = unpushed[i].velocity;
+  nodes[i].spin = unpushed[i].spin;
+}
+
 // Impulses that were not found to the end may push what is apart already, and add energy. Their work is s a + s^2 b / 2
 // if each is multiplied by s, from 0 to 1; no more of them is kept than takes most, beside what impacts give back.
-void keepPassive(std::span<Row> rows, std::span<Node> nodes) {
+// `unpushed`: the nodes without any impulse. The search may have gone through impulses so large that taking them off
+// again would leave what they were rounded by.
+void keepPassive(std::span<Row> rows, std::span<Node> nodes, std::span<const Node> unpushed) {
   double after_J = 0, before_J = 0, given_back_J = 0;
   for (const Row& row : rows) {
     after_J += impulseOf(row).dot(relativeVelocity(row, nodes));
     given_back_J += row.pressed * std::max(0.0, row.least_velocity);
   }
-  for (const Row& row : rows) applyImpulse(row, nodes, -impulseOf(row));
+  for (const Row& row : rows) {
+    restore(row.a, nodes, unpushed);
+    restore(row.b, nodes, unpushed);
+  }
   for (const Row& row : rows) before_J += impulseOf(row).dot(relativeVelocity(row, nodes));
   const bool takes = (before_J + after_J) / 2 <= given_back_J;
   const double part = takes ? 1 : std::clamp((given_back_J - before_J) / (after_J - before_J), 0.0, 1.0);
@@ -49,9 +61,9 @@ IslandSolver::IslandSolver(const BodyProblem& problem)
 
 void IslandSolver::begin() { updates_left_ = kMostUpdates; }
 
-bool IslandSolver::solveContacts(std::span<Row> rows, std::span<Node> nodes, double period_s, int& sweeps) {
-  const bool converged = findContacts(rows, nodes, period_s, sweeps);
-  if (!converged) keepPassive(rows, nodes);
+bool IslandSolver::solveContacts(std::span<Row> rows, BodyProblem& problem, int& sweeps) {
+  const bool converged = findContacts(rows, problem.nodes, problem.period_s, sweeps);
+  if (!converged) keepPassive(rows, problem.nodes, problem.unpushed);
   return converged;
 }
 
@@ -132,7 +144,7 @@ bool IslandSolver::solve(BodyProblem& problem, int& sweeps) {
       continue;
     }
     int made = 0;
-    const bool whole = joints.numbers.empty() ? solveContacts(rows, problem.nodes, problem.period_s, made)
+    const bool whole = joints.numbers.empty() ? solveContacts(rows, problem, made)
                                               : solveJoined(rows, joints, problem.nodes, problem.period_s, made);
     for (Row& row : rows) row.solved = whole ? Row::Solved::kWhole : Row::Solved::kInPart;
     converged &= whole;

@@ -26,7 +26,7 @@ class IslandSolver {
   std::span<Row> takeRows(BodyProblem& problem, int island);
   std::span<const std::uint32_t> takeJoints(const BodyProblem& problem, int island);
   bool findContacts(std::span<Row> rows, std::span<Node> nodes, double period_s, int& sweeps);
-  bool solveContacts(std::span<Row> rows, std::span<Node> nodes, double period_s, int& sweeps);
+  bool solveContacts(std::span<Row> rows, BodyProblem& problem, int& sweeps);
   RowSolver::Report sweep(std::span<Row> rows, std::span<Node> nodes, double period_s, int most, int& sweeps);
   bool solveJoined(std::span<Row> rows, const JointPart& joints, std::span<Node> nodes, double period_s, int& sweeps);
 
