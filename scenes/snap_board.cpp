@@ -1,11 +1,11 @@
 #include "snap_board.h"
 
-#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/plain_math.h"
 #include "solids.h"
 
 namespace hl {
@@ -63,7 +63,7 @@ class SnapBoard {
     SnapSpec path{"curve", {}, std::nullopt, kCapture_m, kRelease_N};
     for (int i = 0; i < kCorners; ++i) {
       const double part = static_cast<double>(i) / (kCorners - 1);
-      path.points.emplace_back(at + Vec3(kLength_m * part, 0, -kWave_m * std::sin(kTurn * part)));
+      path.points.emplace_back(at + Vec3(kLength_m * part, 0, -kWave_m * plain::sin(kTurn * part)));
     }
     draw(path.points);
     snap(std::move(path));

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/plain_math.h"
+
 namespace hl {
 
 namespace {
@@ -27,7 +29,7 @@ Ring addRing(Model& model, const ProfilePoint& point, const Vec2& slope, std::si
   Ring ring{static_cast<std::uint32_t>(model.positions.size()), !(point.radius > 0)};
   for (std::size_t i = 0; i < sides; ++i) {
     const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(sides);
-    const Vec3 out(std::cos(angle), 0, std::sin(angle));
+    const Vec3 out(plain::cos(angle), 0, plain::sin(angle));
     model.positions.push_back(point.radius * out + Vec3(0, point.height, 0));
     model.normals.push_back((slope.x() * out + Vec3(0, slope.y(), 0)).normalized());
   }
@@ -93,7 +95,7 @@ Model ballSolid(double radius, std::size_t sides) {
   for (std::size_t i = 0; i <= parts; ++i) {
     const double angle = std::numbers::pi * (static_cast<double>(i) / static_cast<double>(parts) - 0.5);
     const bool pole = i == 0 || i == parts;
-    profile.push_back({pole ? 0 : radius * std::cos(angle), radius * std::sin(angle)});
+    profile.push_back({pole ? 0 : radius * plain::cos(angle), radius * plain::sin(angle)});
   }
   return turnedSolid(profile, sides, true);
 }

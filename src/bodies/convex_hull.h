@@ -1,8 +1,8 @@
-// Convex hull of points, by qhull (C. B. Barber, D. P. Dobkin, H. Huhdanpaa, The quickhull algorithm for convex hulls,
-// ACM Transactions on Mathematical Software 22, 1996).
+// Convex hull of points, as the shape of a body.
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "bodies/convex.h"
 
@@ -12,6 +12,15 @@ struct Hull {
   Convex shape;        ///< in the frame of the points: moved() brings it to its centre of mass
   double error_m = 0;  ///< how far a point is outside, at most; 0 unless the hull had too many vertices
 };
+
+/// Points as hullFaces() takes them: middle + size * point is where they were.
+struct UnitPoints {
+  std::vector<Vec3> points;
+  Vec3 middle = Vec3::Zero();
+  double size = 0;
+};
+/// Throws as hullOf().
+UnitPoints unitPoints(std::span<const Vec3> points);
 
 /// Points in one plane with others are one face. Of a hull of more than kMostVertices those vertices are kept that
 /// reach farthest: one by one, that which lies farthest outside of what is kept. Throws Error if a point is not finite,
