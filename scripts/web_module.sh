@@ -1,12 +1,12 @@
 # Makes build/web-module/hl_web.{mjs,wasm}: the engine and the simulated device for a browser, with Debian's emscripten.
 # Sourced by scripts/build.
 
-# One source for each folder: headers are most of the compiling. Without hulls: emscripten has no qhull.
+# One source for each folder: headers are most of the compiling. Without the faces of hulls: emscripten has no qhull.
 web_sources() {
   local out="$1" folder file
   for folder in geometry scene bodies proxy control; do
     for file in "$root/src/$folder"/*.cpp; do
-      if [[ "$file" != */wide_bvh_query.cpp && "$file" != */convex_hull.cpp ]]; then echo "#include \"$file\""; fi
+      if [[ "$file" != */wide_bvh_query.cpp && "$file" != */hull_faces.cpp ]]; then echo "#include \"$file\""; fi
     done >"$out/$folder.cpp"
   done
   # Includes itself, once for each instruction set.

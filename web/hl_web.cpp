@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "builtin.h"
+#include "put.h"
 #include "scene/weld.h"
 #include "session.h"
 #include "tools/trace.h"
@@ -30,8 +31,8 @@ int tried(const Do& act) {
   }
 }
 
-void start(hl::Model model) {
-  auto snapshot = hl::makeSnapshot(std::move(model));
+void start(hl::SceneModel scene) {
+  auto snapshot = hl::makeSnapshot(std::move(scene));
   if (snapshot->primitives == 0) throw hl::Error("nothing in this model can be touched: it has no valid triangle");
   session = std::make_unique<hl::WebSession>(std::move(snapshot));
 }
@@ -65,8 +66,6 @@ hl::TraceSettings traceSettings(double radius, const double* surface, int smooth
   return trace;
 }
 
-double* put(double* out, const hl::Vec3& v) { return std::copy(v.data(), v.data() + 3, out); }
-
 std::vector<hl::PathSample> pathOf(const double* path, int rows) {
   std::vector<hl::PathSample> samples;
   for (int i = 0; i < rows; ++i) samples.push_back({path[4 * i], hl::Vec3::Map(path + 4 * i + 1)});
@@ -92,10 +91,10 @@ static_assert(hl::kNumbers == kHlWebQuantities && hl::kEnergyCauses == kHlWebCau
 const char* hlWebError() { return last_error.c_str(); }
 
 int hlWebLoadBuiltin(const char* name) {
-  return tried([&] { start(hl::makeBuiltinScene(name)); });
+  return tried([&] { start(hl::makeBuiltinWorld(name)); });
 }
 
-const char* hlWebScenes() { return hl::kBuiltinModels; }
+const char* hlWebScenes() { return hl::kBuiltinScenes; }
 const char* hlWebQuantities() {
   static const std::string lines = quantityLines();
   return lines.c_str();
@@ -107,9 +106,16 @@ int hlWebLoadMesh(const char* name, const double* positions, std::uint32_t verti
 }
 
 const HlWebScene* hlWebScene() { return &session->scene(); }
-const double* hlWebPositions() { return session->model().positions.data()->data(); }
-const double* hlWebNormals() { return session->model().normals.data()->data(); }
-const std::uint32_t* hlWebTriangles() { return session->model().triangles.data()->data(); }
+const HlWebObject* hlWebObject(int object) { return &session->told().object(object); }
+const double* hlWebPositions(int object) { return session->told().model(object).positions.data()->data(); }
+const double* hlWebNormals(int object) { return session->told().model(object).normals.data()->data(); }
+const std::uint32_t* hlWebTriangles(int object) { return session->told().model(object).triangles.data()->data(); }
+const std::uint32_t* hlWebSegments(int object) { return session->told().model(object).segments.data()->data(); }
+const double* hlWebStarts() { return session->told().starts(); }
+const double* hlWebPoses() { return session->told().posesAt(session->now_ns()); }
+const HlWebJoint* hlWebJoint(int joint) { return &session->told().joint(joint); }
+const HlWebPlace* hlWebPlace(int place) { return &session->told().place(place); }
+const double* hlWebPoints(int place) { return session->told().points(place); }
 void hlWebStep(int steps) { session->step(steps); }
 const HlWebState* hlWebState() { return &session->state(); }
 const char* hlWebFault() { return session->fault(); }
@@ -141,12 +147,14 @@ void hlWebLook(int smooth, int textures) {
 int hlWebTrace(const char* builtin, double radius, const double* surface, int smooth, const double* path, int rows,
                double* out) {
   return tried([&] {
-    const auto snapshot = hl::makeSnapshot(hl::makeBuiltinScene(builtin));
+    const auto snapshot = hl::makeSnapshot(hl::makeBuiltinWorld(builtin));
     hl::runTrace(*snapshot, traceSettings(radius, surface, smooth), pathOf(path, rows), [&](const hl::TraceRow& row) {
-      out = put(put(put(out, row.proxy), row.target), row.force);
+      out = hl::put(hl::put(hl::put(out, row.proxy), row.target), row.force);
       *out++ = row.contacts;
       *out++ = row.iterations;
       *out++ = row.injected_J;
+      *out++ = static_cast<double>(row.world.hash >> 32);
+      *out++ = static_cast<double>(row.world.hash & 0xffffffffU);
     });
   });
 }

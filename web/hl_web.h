@@ -17,6 +17,12 @@ typedef struct {
   double point[3], normal[3], multiplier_m, static_friction, stiffness;
 } HlWebContact;
 
+/** As Bodies of proto/hl.proto. count 0: there are none, and the rest is nothing. */
+typedef struct {
+  double count, awake, kinetic_J, gravity_J, spring_J, by_hand_J, contact_J, friction_J, joints_J, solver_J;
+  double lost_s, returned;
+} HlWebBodies;
+
 typedef struct {
   double time_s, finger[3], proxy[3], force_N[3];
   double safety, fault; /**< numbers of SafetyState and FaultReason */
@@ -27,21 +33,41 @@ typedef struct {
   double endings[kHlWebEndings];                                     /**< from Ending::kReached on */
   double steps, contacts;
   HlWebContact contact[kHlWebContacts];
+  double touched[kHlWebContacts]; /**< index of the object of each contact */
+  double snap;                    /**< index of the place that holds the proxy; -1: none */
+  HlWebBodies bodies;
 } HlWebState;
 
 /** What does not change while a scene is shown. */
 typedef struct {
   double force_max_N, stiffness_N_m, stiffness_max_N_m, damping_Ns_m, rate_Hz;
-  double bounds_min[3], bounds_max[3], radius, world_per_device;
-  double vertices, normals, triangles; /**< numbers of them; normals: 0, or as vertices */
+  double bounds_min[3], bounds_max[3], radius, world_per_device, gravity[3];
+  double objects, joints, snaps, fields; /**< numbers of them; places: snaps, then fields */
 } HlWebScene;
+
+typedef struct {
+  double vertices, normals, triangles, segments; /**< numbers of them; normals: 0, or as vertices */
+  double body;                                   /**< 0: it has no mass, 1: it is fixed, 2: it moves */
+} HlWebObject;
+
+/** As Joint of proto/hl.proto, in the world with the bodies at their start. */
+typedef struct {
+  double kind, object_a, object_b;                   /**< object_b -1: the world */
+  double anchor[3], anchor_b[3], axis[3], low, high; /**< low, high: NaN: no limit */
+} HlWebJoint;
+
+/** A snap or a field, in the frame of its object. */
+typedef struct {
+  double object, points, kind;    /**< kind of a field; -1: a snap */
+  double reach, strength;         /**< m, at which it captures or ends; of a snap its release, N */
+  double normal[3], direction[3]; /**< 0: it is no plane; no constant force */
+} HlWebPlace;
 
 /** Why the last call that returned 0 failed, in one line. */
 const char* hlWebError(void);
 /** Starts a session on a built-in scene, as `hl touch` names it. 0: failed, and the session before goes on. */
 int hlWebLoadBuiltin(const char* name);
-/** The names of the built-in scenes that are one model, as help texts list them: "teapot[:N], walker, terrain:N, ...".
- */
+/** The names of the built-in scenes, as help texts list them: "teapot[:N], walker, terrain:N, ...". */
 const char* hlWebScenes(void);
 /** A line for each row of base/quantities.def, in their order: field, name, unit, usual, otherwise and words, with tabs
  * between. */
@@ -53,9 +79,17 @@ int hlWebLoadMesh(const char* name, const double* positions, uint32_t vertices, 
 
 /** The next calls: only in a session. */
 const HlWebScene* hlWebScene(void);
-const double* hlWebPositions(void);
-const double* hlWebNormals(void);
-const uint32_t* hlWebTriangles(void);
+const HlWebObject* hlWebObject(int object);
+const double* hlWebPositions(int object);
+const double* hlWebNormals(int object);
+const uint32_t* hlWebTriangles(int object);
+const uint32_t* hlWebSegments(int object);
+/** 12 numbers for each object, 3 x 4 row by row: where it starts, and where it is now. */
+const double* hlWebStarts(void);
+const double* hlWebPoses(void);
+const HlWebJoint* hlWebJoint(int joint);
+const HlWebPlace* hlWebPlace(int place);
+const double* hlWebPoints(int place);
 /** `steps` servo steps. */
 void hlWebStep(int steps);
 const HlWebState* hlWebState(void);
@@ -75,8 +109,9 @@ void hlWebSurface(int quantity, double value);
 /** smooth: -1 as in the scene, 0 flat, 1 smooth. */
 void hlWebLook(int smooth, int textures);
 
-/** As `hl trace`: `rows` of t x y z in, and for each 12 numbers out: proxy, target, force, contacts, iterations,
- * injected J. `surface`: kHlWebQuantities numbers, NaN: as in the scene. 0: failed. */
+/** As `hl trace`: `rows` of t x y z in, and for each 14 numbers out: proxy, target, force, contacts, iterations,
+ * injected J, and the two halves of the hash of the bodies, the higher first; 0: there are none. `surface`:
+ * kHlWebQuantities numbers, NaN: as in the scene. 0: failed. */
 int hlWebTrace(const char* builtin, double radius, const double* surface, int smooth, const double* path, int rows,
                double* out);
 

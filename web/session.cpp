@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "put.h"
 #include "touch/exploration.h"
 
 namespace hl {
@@ -14,14 +15,13 @@ constexpr double kApproach_s = 3, kStartAbove_D = 0.020;
 constexpr double kPress_D = 0.012, kLift_D = 0.010;  // m, of the exploring hand
 constexpr int kStepsOfHand = 16;                     // the hand's goal is moved about 60 times a second
 
-void put(double* out, const Vec3& v) { std::copy(v.data(), v.data() + 3, out); }
-
 double smallestReach_D(const DeviceInfo& info) { return (info.workspace_max - info.workspace_min).minCoeff(); }
 
 }  // namespace
 
 WebSession::WebSession(std::shared_ptr<const Snapshot> snapshot)
     : snapshot_(std::move(snapshot)),
+      told_(snapshot_),
       scenes_(snapshot_),
       loop_(scenes_, ProxySettings{}),
       settings_(ServoSettings::of(device_.info())),
@@ -98,13 +98,14 @@ void WebSession::describeScene() {
   put(scene_.bounds_max, snapshot_->bounds.max);
   scene_.radius = commands_.radius_W;
   scene_.world_per_device = commands_.workspace.world_per_device;
-  scene_.vertices = static_cast<double>(model().positions.size());
-  scene_.normals = static_cast<double>(model().normals.size());
-  scene_.triangles = static_cast<double>(model().triangles.size());
+  put(scene_.gravity, snapshot_->mechanics.gravity_m_s2);
+  scene_.objects = static_cast<double>(told_.objects());
+  scene_.joints = static_cast<double>(told_.joints());
+  scene_.snaps = static_cast<double>(snapshot_->snaps.size());
+  scene_.fields = static_cast<double>(snapshot_->fields.size());
 }
 
 const HlWebState& WebSession::state() {
-  const ProxyStep& tick = step_.tick();
   state_.time_s = 1e-9 * static_cast<double>(now_ns_ - begin_ns_);
   put(state_.finger, commands_.workspace.toWorld(sample_.position));
   put(state_.proxy, loop_.state().position);
@@ -119,6 +120,15 @@ const HlWebState& WebSession::state() {
   state_.buttons = sample_.buttons;
   state_.stiffness_N_m = settings_.stiffness_N_m;
   state_.steps = static_cast<double>(steps_);
+  describeTouch();
+  describeEnergy();
+  describeBodies();
+  return state_;
+}
+
+void WebSession::describeTouch() {
+  const ProxyStep& tick = step_.tick();
+  std::uint32_t object = 0;
   state_.contacts = static_cast<double>(tick.report.contacts.size());
   for (std::size_t i = 0; i < tick.report.contacts.size(); ++i) {
     const ProxyContact& contact = tick.report.contacts[i];
@@ -128,9 +138,32 @@ const HlWebState& WebSession::state() {
     out.multiplier_m = contact.multiplier_m;
     out.static_friction = contact.static_friction;
     out.stiffness = contact.stiffness;
+    state_.touched[i] = snapshot_->find(tick.touched[i].key, object) ? object : -1.0;
   }
-  describeEnergy();
-  return state_;
+  state_.snap = -1;
+  if (!snapshot_->find(tick.snap.object.key, object)) return;
+  for (std::size_t i = 0; i < snapshot_->snaps.size(); ++i) {
+    const PlacedSnap& snap = snapshot_->snaps[i];
+    if (snap.instance == object && snap.number == tick.snap.number) state_.snap = static_cast<double>(i);
+  }
+}
+
+void WebSession::describeBodies() {
+  if (loop_.bodies() == nullptr) return;
+  const BodyView& view = loop_.bodies()->view();
+  const EnergyBook& book = view.energy;
+  state_.bodies = {static_cast<double>(view.bodies),
+                   static_cast<double>(view.awake),
+                   view.kinetic_J,
+                   view.gravity_J,
+                   view.spring_J,
+                   book.by_hand_J,
+                   book.contact_J,
+                   book.friction_J,
+                   book.joint_J(),
+                   book.solver_J,
+                   view.lost_s,
+                   static_cast<double>(view.returned)};
 }
 
 void WebSession::describeEnergy() {

@@ -6,6 +6,7 @@
 #include "device/simulated_device.h"
 #include "hl_web.h"
 #include "scene/snapshot.h"
+#include "told_scene.h"
 #include "touch/ending_counts.h"
 #include "touch/snapshot_slot.h"
 #include "touch/touch_step.h"
@@ -30,17 +31,21 @@ class WebSession {
   const HlWebScene& scene() const { return scene_; }
   const HlWebState& state();
   const char* fault() const { return faultText(out_.fault); }
-  const Model& model() const { return snapshot_->shape().model; }
+  ToldScene& told() { return told_; }
+  std::int64_t now_ns() const { return now_ns_; }
 
  private:
   void bringToStart();
   void oneStep();
   void moveHand();
   void describeScene();
+  void describeTouch();
   void describeEnergy();
+  void describeBodies();
   Vec3 clamped(const Vec3& goal_D) const;
 
   std::shared_ptr<const Snapshot> snapshot_;
+  ToldScene told_;
   SimulatedDevice device_;
   SnapshotSlot scenes_;
   ProxyLoop loop_;

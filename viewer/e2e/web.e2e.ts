@@ -165,6 +165,42 @@ describe.skipIf(process.env.HL_WEB === undefined && !existsSync(folder))("the pa
     expect(await page.evaluate(() => window.__hl.time_s! - 0.4), "what it missed is left out").toBeLessThan(stopped);
   });
 
+  test("moves the bodies of the workshop, by themselves and where they are pushed", async () => {
+    const shop = await browser.newPage({ viewport: kSizes[0], colorScheme: "dark" });
+    const heard = listen(shop, origin);
+    await shop.goto(`${origin}?scene=workshop`);
+    await shop.waitForFunction(() => window.__hl.objects > 20 && window.__hl.samples > 100);
+    await expect.poll(() => shop.textContent("#bodies-count")).toMatch(/of\s24\sawake/);
+    const domino = () => shop.evaluate(() => window.__hl.originOf(3));
+    const begin = await domino();
+    const [from, to] = await shop.evaluate((at) =>
+      [0, 0.04].map((way) => window.__hl.project({ x: at.x + way, y: at.y, z: at.z })), begin);
+    await shop.mouse.move(from!.x, from!.y);
+    await shop.mouse.down();
+    await shop.waitForFunction(() => window.__hl.contacts > 0);
+    await shop.mouse.move(to!.x, to!.y, { steps: 40 });
+    await expect.poll(async () => Math.abs((await domino()).x - begin.x)).toBeGreaterThan(0.003);
+    await screenshot(shop, "web_workshop");
+    await shop.mouse.up();
+    expect(heard).toEqual({ errors: [], foreign: [] });
+    await shop.close();
+  });
+
+  test("draws snaps and fields, and takes them away with the key J", async () => {
+    const board = await browser.newPage({ viewport: kSizes[0], colorScheme: "dark" });
+    await board.goto(`${origin}?scene=snaps`);
+    await board.waitForFunction(() => window.__hl.objects === 3 && window.__hl.samples > 100);
+    await screenshot(board, "web_snaps");
+    const socket = await board.evaluate(() => window.__hl.project({ x: -0.06, y: 0.028, z: -0.05 }));
+    const picture = () => board.screenshot({ clip: { x: socket.x - 10, y: socket.y - 10, width: 20, height: 20 } });
+    const drawn = await picture();
+    await board.keyboard.press("j");
+    await expect.poll(async () => (await picture()).equals(drawn)).toBe(false);
+    await board.keyboard.press("j");
+    await expect.poll(async () => (await picture()).equals(drawn)).toBe(true);
+    await board.close();
+  });
+
   test("shows the teapot where the address names no scene, and says so", async () => {
     const other = await browser.newPage({ viewport: kSizes[0], colorScheme: "light" });
     await other.goto(`${origin}?scene=nosuch`);

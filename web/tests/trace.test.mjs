@@ -9,7 +9,9 @@ import { pathToFileURL } from "node:url";
 const [moduleFolder, program] = process.argv.slice(2);
 const kRows = 2000;
 const kIn = 4;
-const kOut = 12;
+/** Numbers of a row of the module: those, and the halves of the hash of the bodies. */
+const kOut = 14;
+const kTraced = 12;
 /** The first column of hl trace's CSV that the module gives too: t and finger stand before it. */
 const kFirstColumn = 4;
 /** In the order of base/quantities.def. */
@@ -23,6 +25,7 @@ const kCases = [
   { scene: "sphere:2000", surface: { "--viscosity": 2, "--stiffness": 0.7 }, shade: "smooth", size: 0.1 },
   { scene: "terrain:10000", surface: { "--static-friction": 0.3 }, size: 0.05 },
   { scene: "pits:1000", surface: {}, size: 0.05 },
+  { scene: "snaps", surface: {}, size: 0.06 },
 ];
 
 // What the module looks for in a worker of a browser; the bytes it is given.
@@ -62,9 +65,12 @@ function nativeTrace({ scene, surface, shade }, path) {
   const options = Object.entries(surface).flat().map(String);
   if (shade !== undefined) options.push("--shade", shade);
   execFileSync(program, ["trace", scene, "--path", from, "--out", to, "--radius", "0.001", ...options], { stdio: "pipe" });
-  const rows = readFileSync(to, "utf8").trim().split("\n").slice(1);
+  const [head, ...rows] = readFileSync(to, "utf8").trim().split("\n").map((line) => line.split(","));
   rmSync(folder, { recursive: true });
-  return Float64Array.from(rows.flatMap((row) => row.split(",").slice(kFirstColumn, kFirstColumn + kOut).map(Number)));
+  const hashAt = head.indexOf("world_hash");
+  const halves = (hash) => [hash.slice(0, 8), hash.slice(8)].map((half) => parseInt(half, 16));
+  return Float64Array.from(rows.flatMap((row) =>
+    [...row.slice(kFirstColumn, kFirstColumn + kTraced).map(Number), ...(hashAt < 0 ? [0, 0] : halves(row[hashAt]))]));
 }
 
 let failed = false;

@@ -13,9 +13,16 @@ export interface Module {
   _hlWebScenes(): number;
   _hlWebQuantities(): number;
   _hlWebScene(): number;
-  _hlWebPositions(): number;
-  _hlWebNormals(): number;
-  _hlWebTriangles(): number;
+  _hlWebObject(object: number): number;
+  _hlWebPositions(object: number): number;
+  _hlWebNormals(object: number): number;
+  _hlWebTriangles(object: number): number;
+  _hlWebSegments(object: number): number;
+  _hlWebStarts(): number;
+  _hlWebPoses(): number;
+  _hlWebJoint(joint: number): number;
+  _hlWebPlace(place: number): number;
+  _hlWebPoints(place: number): number;
   _hlWebStep(steps: number): void;
   _hlWebState(): number;
   _hlWebFault(): number;
@@ -43,6 +50,12 @@ export class Numbers {
 
   next(): number {
     return this.module_.HEAPF64[this.at_++]!;
+  }
+
+  /** Absent: it is no number. */
+  known(): number | undefined {
+    const value = this.next();
+    return Number.isNaN(value) ? undefined : value;
   }
 
   vec(): { x: number; y: number; z: number } {

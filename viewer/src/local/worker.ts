@@ -6,8 +6,9 @@ import binaryUrl from "hl-web-binary?url";
 import { ViewerMessageSchema, type Settings, type Surfaces } from "../gen/hl_pb";
 import { loadBuiltin, loadMesh, Numbers, type Module } from "./engine";
 import type { Loaded, Order, Word } from "./engine_worker";
-import { helloMessage, sceneMessages, stateMessage, type Sample } from "./messages";
+import { helloMessage, stateMessage, type Sample } from "./messages";
 import { parseQuantities, type EngineQuantity } from "./quantities";
+import { ToldScene } from "./told_scene";
 
 const kTimer_ms = 4;
 const kState_ms = 16;
@@ -16,16 +17,13 @@ const kMostSteps = 20;
 /** Steps between two samples of the plots. */
 const kSampleSteps = 4;
 const kRateWindow_ms = 1000;
-/** Numbers of HlWebScene, and where world_per_device stands, before those of vertices, normals and triangles. */
-const kSceneNumbers = 16;
-const kScaleAt = 12;
+
 class Server {
   private readonly quantities_: readonly EngineQuantity[];
   private surfaces_: Partial<Surfaces> = { textures: true };
   /** What the user has set, for the next scene: the engine begins each with its own. */
   private kept_: Partial<Settings> = {};
-  /** Of the scenes that have been shown; the last one's mesh and layout have it. */
-  private scenes_ = 0;
+  private readonly scene_ = new ToldScene();
   private timer_: ReturnType<typeof setInterval> | undefined;
   private running_ = true;
   private samples_: Sample[] = [];
@@ -42,13 +40,11 @@ class Server {
   /** `make` loads it, or throws and changes nothing. */
   show(name: string, make: (module: Module) => void): Loaded {
     make(this.module_);
-    this.scenes_ += 1;
     this.apply(this.kept_);
-    if (this.scenes_ === 1) this.post(helloMessage(this.module_, name, this.quantities_));
-    sceneMessages(this.module_, name, this.scenes_).forEach((bytes) => this.post(bytes));
+    if (this.scene_.layout === 0) this.post(helloMessage(this.module_, name, this.quantities_));
+    this.scene_.messages(this.module_, name).forEach((bytes) => this.post(bytes));
     this.schedule();
-    const n = new Numbers(this.module_, this.module_._hlWebScene());
-    const [worldPerDevice, , , triangles] = n.list(kSceneNumbers).slice(kScaleAt) as [number, number, number, number];
+    const { triangles, worldPerDevice } = this.scene_;
     return { triangles, worldPerDevice };
   }
 
@@ -61,7 +57,7 @@ class Server {
   private schedule(): void {
     clearInterval(this.timer_);
     this.timer_ = undefined;
-    if (!this.running_ || this.scenes_ === 0) return;
+    if (!this.running_ || this.scene_.layout === 0) return;
     this.last_ms_ = this.window_ms_ = performance.now();
     this.counted_ = 0;
     this.timer_ = setInterval(() => this.run(), kTimer_ms);
@@ -116,7 +112,7 @@ class Server {
     this.count(steps, now_ms);
     if (now_ms - this.told_ms_ < kState_ms) return;
     this.told_ms_ = now_ms;
-    this.post(stateMessage(this.module_, this.samples_.splice(0), this.rate_Hz_, this.surfaces_, this.scenes_));
+    this.post(stateMessage(this.module_, this.samples_.splice(0), this.rate_Hz_, this.surfaces_, this.scene_));
   }
 
   private step(steps: number): void {

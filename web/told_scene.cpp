@@ -1,0 +1,84 @@
+#include "told_scene.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "put.h"
+
+namespace hl {
+
+namespace {
+
+double limit(double value) { return std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN(); }
+
+void appendPose(std::vector<double>& out, const Pose& pose) {
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) out.push_back(pose.rotation(row, column));
+    out.push_back(pose.origin[row]);
+  }
+}
+
+template <typename Spec>
+HlWebPlace placeOf(const Spec& spec, std::uint32_t object, double kind, double reach, double strength) {
+  HlWebPlace place{static_cast<double>(object), static_cast<double>(spec.points.size()), kind, reach, strength, {}, {}};
+  if (spec.normal) put(place.normal, *spec.normal);
+  return place;
+}
+
+}  // namespace
+
+ToldScene::ToldScene(std::shared_ptr<const Snapshot> snapshot) : snapshot_(std::move(snapshot)) {
+  for (const Instance& instance : snapshot_->instances) addObject(instance);
+  for (const JointSpec& joint : snapshot_->mechanics.joints) addJoint(joint);
+  addPlaces();
+}
+
+void ToldScene::addObject(const Instance& instance) {
+  const Model& model = instance.shape->model;
+  objects_.push_back({static_cast<double>(model.positions.size()), static_cast<double>(model.normals.size()),
+                      static_cast<double>(model.triangles.size()), static_cast<double>(model.segments.size()),
+                      instance.body ? (instance.movesAsBody() ? 2.0 : 1.0) : 0.0});
+  appendPose(starts_, instance.body ? instance.body->start : instance.shownAt(0));
+}
+
+void ToldScene::addJoint(const JointSpec& joint) {
+  std::uint32_t a = 0, b = 0;
+  if (!snapshot_->find(joint.body_a, a) || (joint.body_b != 0 && !snapshot_->find(joint.body_b, b))) return;
+  HlWebJoint out{};
+  out.kind = static_cast<double>(joint.kind);
+  out.object_a = a;
+  out.object_b = joint.body_b == 0 ? -1.0 : b;
+  put(out.anchor, joint.anchor_W);
+  put(out.anchor_b, joint.anchor_b_W);
+  put(out.axis, joint.axis_W);
+  out.low = limit(joint.along.low);
+  out.high = limit(joint.along.high);
+  joints_.push_back(out);
+}
+
+void ToldScene::addPlaces() {
+  for (const PlacedSnap& snap : snapshot_->snaps) {
+    const SnapSpec& spec = (*snapshot_->instances[snap.instance].snaps)[snap.number];
+    places_.push_back(placeOf(spec, snap.instance, -1, spec.capture_m, spec.release_N));
+    points_.push_back(&spec.points);
+  }
+  for (const PlacedField& field : snapshot_->fields) {
+    const FieldSpec& spec = (*snapshot_->instances[field.instance].fields)[field.number];
+    places_.push_back(placeOf(spec, field.instance, static_cast<double>(spec.kind), spec.reach_m, spec.force_N));
+    put(places_.back().direction, spec.direction);
+    points_.push_back(&spec.points);
+  }
+}
+
+const Model& ToldScene::model(int object) const {
+  return snapshot_->instances.at(static_cast<std::size_t>(object)).shape->model;
+}
+
+const double* ToldScene::posesAt(std::int64_t now_ns) {
+  poses_.clear();
+  for (const Instance& instance : snapshot_->instances) appendPose(poses_, instance.shownAt(now_ns));
+  return poses_.data();
+}
+
+}  // namespace hl
