@@ -1,6 +1,7 @@
 // Frames: what a flush sends, when it waits, how large meshes go ahead, and what the server's answers do.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -30,6 +31,51 @@ TEST_F(CallsTest, WhatIsDrawnReplacesTheWorldAndNumbersRise) {
   const proto::Frame second = flushed();
   EXPECT_EQ(second.number(), 2U);
   EXPECT_EQ(second.world().items(0).primitives().triangles_size(), 6);
+}
+
+TEST_F(CallsTest, HeightFieldsAreSentWithTheirSamples) {
+  const std::array<HLshort, 6> small{1, 2, 3, 4, 5, -9};
+  const HLdouble missing = -9;
+  hlScaled(0.5, 1, 0.5);
+  hlHeightField(3, 2, HL_SHORT, small.data(), &missing);
+  const proto::Frame frame = flushed();
+  const proto::Heights& heights = frame.world().items(0).primitives().heights();
+  EXPECT_EQ(frame.world().items(0).matrix(0), 0.5);
+  EXPECT_EQ(heights.columns(), 3U);
+  EXPECT_EQ(heights.rows(), 2U);
+  EXPECT_EQ(heights.kind(), "int16");
+  EXPECT_EQ(heights.missing(), -9);
+  EXPECT_EQ(heights.samples(0), std::string(reinterpret_cast<const char*>(small.data()), sizeof small));
+}
+
+TEST_F(CallsTest, LargeHeightFieldsGoAheadInParts) {
+  std::vector<HLfloat> large(1000 * 1000);
+  for (std::size_t i = 0; i < large.size(); ++i) large[i] = static_cast<HLfloat>(i);
+  hlHeightField(1000, 1000, HL_FLOAT, large.data(), nullptr);
+  triangle();
+  const proto::Frame frame = flushed();
+  ASSERT_EQ(frame.world().items_size(), 2);
+  const proto::Heights heights = server->uploads().at(frame.world().items(0).upload()).heights();
+  EXPECT_EQ(heights.columns(), 1000U);
+  EXPECT_GT(heights.samples_size(), 1);
+  std::string joined;
+  for (const std::string& piece : heights.samples()) joined += piece;
+  EXPECT_EQ(joined, std::string(reinterpret_cast<const char*>(large.data()), sizeof(HLfloat) * large.size()));
+}
+
+TEST_F(CallsTest, HeightFieldsThatMakeNoSenseAreRefused) {
+  const std::array<HLfloat, 4> samples{};
+  hlHeightField(1, 4, HL_FLOAT, samples.data(), nullptr);
+  expectError(HL_INVALID_VALUE);
+  hlHeightField(2, 2, HL_FLOAT, nullptr, nullptr);
+  expectError(HL_INVALID_VALUE);
+  hlHeightField(2, 2, HL_DOUBLE, samples.data(), nullptr);
+  expectError(HL_INVALID_ENUM);
+  hlHeightField(2, 2, HL_FLOAT, samples.data(), &kNaN);
+  expectError(HL_INVALID_VALUE);
+  hlHeightField(1 << 20, 1 << 20, HL_FLOAT, samples.data(), nullptr);
+  expectError(HL_OUT_OF_MEMORY);
+  EXPECT_EQ(flushed().number(), 0U);
 }
 
 TEST_F(CallsTest, FrameThatDrawsNothingLeavesTheWorld) {

@@ -9,11 +9,13 @@
 #include <random>
 
 #include "base/error.h"
+#include "fields.h"
 #include "io/value_messages.h"
 #include "proxy/proxy.h"
 #include "record/recorded_scene.h"
 #include "record/recorded_servo.h"
 #include "record/recording_file.h"
+#include "scene/scene_model.h"
 #include "temp_folder.h"
 
 namespace hl {
@@ -198,11 +200,29 @@ std::shared_ptr<const Snapshot> writtenAndRead(const Snapshot& scene, SceneWrite
     proto::RecordingBlock block;
     ASSERT_TRUE(block.ParseFromString(written.SerializeAsString()));
     if (block.has_shape()) reader.add(block.shape());
+    if (block.has_heights()) reader.add(block.heights());
     if (block.has_surfaces()) reader.add(block.surfaces());
     if (block.has_scene()) back = reader.scene(block.scene());
     parts += block.has_scene() ? 0 : 1;
   });
   return back;
+}
+
+// In two parts, as its samples are more than one takes.
+TEST(RecordedScene, HasItsHeightField) {
+  SceneModel scene;
+  scene.surfaces.push_back({"hills", makeTerrainField(5'000'000)->placed(2 * Mat3::Identity(), Vec3(1, 2, 3))});
+  const auto made = makeSnapshot(std::move(scene));
+  SceneWriter writer;
+  SceneReader reader;
+  int parts = 0;
+  const auto back = writtenAndRead(*made, writer, reader, parts);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(parts, 3);
+  const Shape &was = made->shape(), &is = back->shape();
+  ASSERT_EQ(is.count(), was.count());
+  EXPECT_EQ(is.bounds.min, was.bounds.min);
+  for (ElementId id = 0; id < is.count(); id += 9973) ASSERT_EQ(is.source->corners(id), was.source->corners(id)) << id;
 }
 
 TEST(RecordedScene, IsTouchedBitForBitAsItWas) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 #include <string>
 #include <vector>
@@ -45,6 +46,71 @@ TEST(DecodeFrame, TexturesShareTheRoomThereIs) {
   EXPECT_EQ(refusalOf(frame), "accepted");
   addTexture(frame, "c", 4);
   EXPECT_EQ(refusalOf(frame), "texture 'c'.procedural.size of 4 is too large: there is room for 12 texels");
+}
+
+TEST(DecodeFrame, HeightFieldsComeAtOnceOrInParts) {
+  const auto decoded = [](const proto::Frame& frame, Uploads uploads) {
+    return decodeFrame(frame, uploads, SceneLimits{}, {}, [](double) {}).edit.world->at(0).shape;
+  };
+  proto::Frame frame;
+  proto::Heights& heights = *frame.mutable_world()->add_items()->mutable_primitives()->mutable_heights();
+  heights.set_columns(3);
+  heights.set_rows(2);
+  for (int i = 0; i < 6; ++i) heights.add_values(static_cast<float>(i * i));
+  const auto whole = decoded(frame, {});
+  ASSERT_TRUE(whole->source);
+  EXPECT_EQ(whole->count(), 4U);
+  EXPECT_EQ(whole->bounds.max, Vec3(1, 25, 0.5));
+
+  Uploads uploads;
+  for (int part = 0; part < 2; ++part) {
+    proto::Heights& piece = *uploads[4].emplace_back().mutable_heights();
+    if (part == 0) piece = heights;
+    piece.clear_values();
+    const std::array<std::int16_t, 3> samples{static_cast<std::int16_t>(9 * part * part),
+                                              static_cast<std::int16_t>(part == 0 ? 1 : 16),
+                                              static_cast<std::int16_t>(part == 0 ? 4 : 25)};
+    if (part == 0) piece.set_kind("int16");
+    piece.add_samples(samples.data(), sizeof samples);
+  }
+  proto::Frame later;
+  later.mutable_world()->add_items()->set_upload(4);
+  const auto joined = decoded(later, uploads);
+  for (ElementId id = 0; id < 4; ++id) EXPECT_EQ(joined->source->corners(id), whole->source->corners(id));
+}
+
+TEST(DecodeFrame, HeightFieldsThatMakeNoSenseAreRefused) {
+  const auto with = [](auto set) {
+    proto::Frame frame;
+    proto::Primitives& primitives = *frame.mutable_world()->add_items()->mutable_primitives();
+    proto::Heights& heights = *primitives.mutable_heights();
+    heights.set_columns(2);
+    heights.set_rows(2);
+    for (const float value : {0.F, 1.F, 2.F, 3.F}) heights.add_values(value);
+    set(heights, primitives);
+    return refusalOf(frame);
+  };
+  const std::string where = "world.items[0].primitives.heights: ";
+  EXPECT_EQ(with([](auto&, auto&) {}), "accepted");
+  EXPECT_EQ(with([](auto& in, auto&) { in.set_rows(3); }), where + "it has fewer samples than it says");
+  EXPECT_EQ(with([](auto& in, auto&) {
+              in.set_columns(1 << 29);
+              in.set_rows(1 << 29);
+            }),
+            where + "it has fewer samples than it says");
+  EXPECT_EQ(with([](auto& in, auto&) { in.add_values(1); }), where + "it has more samples than it says");
+  EXPECT_EQ(with([](auto& in, auto&) { in.set_columns(1); }),
+            where + "a height field of 1 x 2 samples: each side must have 2 to 1073741824");
+  EXPECT_EQ(with([](auto& in, auto&) { in.set_kind("int8"); }), where + "kind must be int16, uint16 or float32");
+  EXPECT_EQ(with([](auto& in, auto&) { in.set_file("a.tif"); }),
+            where + "a file of heights is named in scene files only");
+  EXPECT_EQ(with([](auto& in, auto&) { in.set_spacing(-1); }), where + "spacing must be from 1e-12 to 1e9");
+  EXPECT_EQ(with([](auto& in, auto&) { in.set_vertical_scale(std::numeric_limits<double>::quiet_NaN()); }),
+            where + "verticalScale must be from 1e-12 to 1e9");
+  EXPECT_EQ(with([](auto& in, auto&) { in.set_values(2, std::numeric_limits<float>::quiet_NaN()); }),
+            where + "all its samples are missing");
+  EXPECT_EQ(with([](auto&, auto& in) { in.add_vertices(1); }),
+            "world.items[0].primitives: heights come without vertices and elements");
 }
 
 TEST(DecodeFrame, CompliancesAreOfObjectsThatAreThere) {

@@ -63,7 +63,7 @@ function check(mesh: Mesh): void {
   }
 }
 
-function boundsOf(positions: Float32Array): Bounds | undefined {
+export function boundsOf(positions: Float32Array): Bounds | undefined {
   const min = [Infinity, Infinity, Infinity];
   const max = [-Infinity, -Infinity, -Infinity];
   positions.forEach((value, i) => {

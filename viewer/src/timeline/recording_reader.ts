@@ -2,12 +2,13 @@
 // refused in one line.
 
 import type {
-  ProxyTicks, RecordedPoses, RecordedScene as SceneMessage, RecordedShape, RecordedSurfaces, RecordingBlock, RecordingStart,
-  ServoSteps,
+  ProxyTicks, RecordedHeights, RecordedPoses, RecordedScene as SceneMessage, RecordedShape, RecordedSurfaces, RecordingBlock,
+  RecordingStart, ServoSteps,
 } from "../gen/recording_pb";
 import type { Mesh } from "../scene_messages";
 import type { SurfaceSettings } from "../surfaces";
 import { BodyTrackBuilder } from "./body_tracks";
+import { HeightParts } from "./recorded_heights";
 import { MeshParts } from "./recorded_mesh";
 import { materialOf, tickContext, waysOf, type TickContext } from "./recorded_values";
 import { kStepColumns, kTickColumns, type RecordedScene, type Recording, type Scale } from "./recording";
@@ -45,6 +46,7 @@ class RecordingReader {
   private readonly ticks_ = new TrackBuilder(kTickColumns, kMaxSamples);
   private readonly scales_: Scale[] = [];
   private readonly parts_ = new MeshParts();
+  private readonly heights_ = new HeightParts();
   private readonly meshes_ = new Map<bigint, Mesh>();
   private mesh_bytes_ = 0;
   private lastMesh_ = 0;
@@ -65,6 +67,7 @@ class RecordingReader {
     }
     switch (body.case) {
       case "shape": return this.addShape(body.value);
+      case "heights": return this.addHeights(body.value);
       case "surfaces": return this.addSurfaces(body.value);
       case "scene": return this.addScene(body.value);
       case "ticks": return this.addTicks(body.value);
@@ -102,14 +105,26 @@ class RecordingReader {
   }
 
   private addShape(shape: RecordedShape): void {
-    this.mesh_bytes_ += 4 * (shape.positions.length + shape.normals.length + shape.triangles.length);
+    this.countMesh(4 * (shape.positions.length + shape.normals.length + shape.triangles.length));
+    this.keepMesh(shape.id, this.parts_.add(this.lastMesh_ + 1, shape));
+  }
+
+  private addHeights(heights: RecordedHeights): void {
+    this.countMesh(heights.samples.length);
+    this.keepMesh(heights.id, this.heights_.add(this.lastMesh_ + 1, heights));
+  }
+
+  private countMesh(bytes: number): void {
+    this.mesh_bytes_ += bytes;
     if (this.mesh_bytes_ > kMaxMesh_bytes) {
       throw new RecordingError("has meshes of more than 1 GB, too many for the page: use hl replay");
     }
-    const mesh = this.parts_.add(this.lastMesh_ + 1, shape);
+  }
+
+  private keepMesh(id: bigint, mesh: Mesh | undefined): void {
     if (mesh !== undefined) {
       this.lastMesh_ += 1;
-      this.meshes_.set(shape.id, mesh);
+      this.meshes_.set(id, mesh);
     }
   }
 
