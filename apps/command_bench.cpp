@@ -12,6 +12,7 @@
 #include "body_bench.h"
 #include "builtin.h"
 #include "commands.h"
+#include "field_bench.h"
 #include "io/load_scene.h"
 #include "tick/interruptions.h"
 #include "tick/peers/peers.h"
@@ -52,6 +53,7 @@ struct BenchOptions {
   double radius_edges = 1;
   std::size_t ticks = 20'000, most = 1'000'000, members = 1;
   bool all = false, peers = false, effects = true, bodies = false;
+  std::size_t fields = 0;  ///< triangles of the largest height field; 0: no fields
   std::string csv;
 };
 
@@ -122,6 +124,7 @@ void run(const BenchOptions& options) {
   const bool built_in = !bench::peers().empty();
   if (options.peers && !built_in) throw Error(kNoPeers);
   if (options.bodies) return runBodyBench(options.peers, options.csv);
+  if (options.fields > 0) return runFieldBench({options.fields, options.ticks, options.radius, options.csv});
   bench::SuitePlan plan;
   plan.scenes = scenesOf(options);
   plan.motions = chosen(bench::kFingerMotions, options.motions, options.all);
@@ -193,6 +196,11 @@ void addBenchCommand(CLI::App& app) {
       ->check(CLI::Range(1000, 10'000'000))
       ->capture_default_str();
   command->add_option("--csv", options->csv, "also write the table to this file")->option_text("FILE");
+  command
+      ->add_option("--fields", options.fields,
+                   "height fields instead, of 10 000 triangles, ten times as many, and so on up to this number; takes "
+                   "--radius, --ticks and --csv")
+      ->check(CLI::Range(std::size_t{1000}, std::size_t{100'000'000'000}));
   auto* bodies = command->add_flag("--bodies", options->bodies,
                                    "steps of bodies instead: a stack, a pile and a cube that a finger pushes");
   for (const CLI::Option* other : command->get_options()) {

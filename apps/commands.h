@@ -30,6 +30,8 @@ struct SceneOptions {
 
 void addSceneArgument(CLI::App& command, SceneOptions& options, bool required);
 void addHierarchyOption(CLI::App& command, SceneOptions& options);
+/// --vertical-scale, which addSizeOptions() adds too.
+void addHeightsOption(CLI::App& command, SceneOptions& options);
 void addSizeOptions(CLI::App& command, SceneOptions& options);
 
 /// Options of the surfaces, over what the scene says: --shade, --stiffness, frictions, --viscosity, --textures; and

@@ -67,16 +67,20 @@ void addHierarchyOption(CLI::App& command, SceneOptions& options) {
       ->capture_default_str();
 }
 
+void addHeightsOption(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option("--vertical-scale", options.vertical_scale,
+                  "factor on the heights of a height field, before --scale or --fit (default 1)")
+      ->check(positive());
+}
+
 void addSizeOptions(CLI::App& command, SceneOptions& options) {
+  addHeightsOption(command, options);
   auto* scale =
       command.add_option("--scale", options.scale, "metres for one unit of the file (default 1)")->check(positive());
   command.add_option("--fit", options.fit, "scale and centre the model so that its largest side has this many metres")
       ->check(positive())
       ->excludes(scale);
-  command
-      .add_option("--vertical-scale", options.vertical_scale,
-                  "factor on the heights of a height field, before --scale or --fit (default 1)")
-      ->check(positive());
 }
 
 void addSurfaceOptions(CLI::App& command, MaterialOverride& surfaces, LedgerMode& ledger) {

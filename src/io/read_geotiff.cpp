@@ -39,7 +39,7 @@ class TiffFile {
   }
 
   [[noreturn]] static void fail() {
-    throw Error("is not a sound TIFF file" + (tiff_failure.empty() ? "" : ": " + tiff_failure));
+    throw Error("is not a sound TIFF file" + (tiff_failure.empty() ? "" : ": " + shown(tiff_failure)));
   }
   TIFF* get() const { return file_.get(); }
   template <typename Value>

@@ -73,7 +73,7 @@ class Words {
     if (word.starts_with('+')) word.remove_prefix(1);
     const auto [end, error] = std::from_chars(word.data(), last, value);
     if (end != last || error == std::errc::invalid_argument)
-      throw Error(fmt::format("is not an Esri grid: '{}' is no number for {}", std::string(word), what));
+      throw Error(fmt::format("is not an Esri grid: '{}' is no number for {}", shown(std::string(word)), what));
     return value;
   }
 
@@ -102,7 +102,7 @@ double readEsriHeader(Words& words, EsriHeader& header) {
     std::transform(key.begin(), key.end(), key.begin(), [](unsigned char c) { return std::tolower(c); });
     if (key.empty() || std::isalpha(static_cast<unsigned char>(key[0])) == 0 || key == "nan")
       return Words::numberOf(key, "a height");
-    const double value = words.number(key.c_str());
+    const double value = words.number(shown(key).c_str());
     if (key == "ncols") header.columns = value;
     if (key == "nrows") header.rows = value;
     if (key == "cellsize") header.east = header.south = value;
@@ -146,10 +146,10 @@ NumpyHeader numpyHeaderOf(std::string_view text) {
   const char *at = shape.data(), *const last = at + shape.size();
   for (double& one : side) {
     const auto [end, error] = std::from_chars(at, last, one);
-    if (error != std::errc()) throw Error("has shape (" + shape + "): a height field has two sides");
+    if (error != std::errc()) throw Error("has shape (" + shown(shape) + "): a height field has two sides");
     at = end != last && *end == ',' ? end + 1 : end;
   }
-  if (at != last) throw Error("has shape (" + shape + "): a height field has two sides");
+  if (at != last) throw Error("has shape (" + shown(shape) + "): a height field has two sides");
   header.rows = sideOf(side[0], "rows");
   header.columns = sideOf(side[1], "columns");
   return header;
@@ -234,7 +234,7 @@ void readNumpy(const ModelFile& file, HeightSink& sink) {
   if (type == "u2") return begin(), copyRows<std::uint16_t>(in, size, swap, sink);
   if (type == "f4") return begin(), copyRows<float>(in, size, swap, sink);
   if (type == "f8") return begin(), copyRows<double, float>(in, size, swap, sink);
-  throw Error("has numbers of type '" + header.type + "': heights are int16, uint16, float32 or float64");
+  throw Error("has numbers of type '" + shown(header.type) + "': heights are int16, uint16, float32 or float64");
 }
 
 }  // namespace hl

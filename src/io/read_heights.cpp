@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
@@ -33,6 +34,12 @@ Read readerOf(const std::string& ending) {
 bool readsHeights(const std::string& ending) { return readerOf(ending) != nullptr; }
 
 void readHeights(const ModelFile& file, HeightSink& sink) { readerOf(file.ending)(file, sink); }
+
+std::string shown(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
+  return text;
+}
 
 GridFrame uprightFrame(const GridSize& size, double east_m, double south_m, double up_m) {
   GridFrame frame;

@@ -76,8 +76,10 @@ std::shared_ptr<SceneItems> copyOf(const SceneItems& items, const MemoryBudget& 
   return withShare(std::make_shared<SceneItems>(items), std::move(memory));
 }
 
-void ModelSizes::add(const Model& model, const std::string& where) {
-  bytes_ += bytesToMake(model);
+void ModelSizes::add(const Model& model, const std::string& where) { add(bytesToMake(model), where); }
+
+void ModelSizes::add(std::size_t bytes, const std::string& where) {
+  bytes_ += bytes;
   if (bytes_ <= most_bytes_) return;
   throw Error(where + "the shapes need more than the " + std::to_string(most_bytes_) +
               " bytes that one client may have");
@@ -299,7 +301,8 @@ void EditableScene::checkLimits(const State& state) const {
   std::set<const Shape*> shapes;
   const auto add = [&](const SceneItems& items) {
     for (const SceneItem& item : items) {
-      if (item.shape && shapes.insert(item.shape.get()).second) sizes.add(item.shape->model);
+      if (item.shape && shapes.insert(item.shape.get()).second)
+        sizes.add(item.shape->source ? item.shape->bytes() : bytesToMake(item.shape->model));
     }
   };
   for (const auto& [id, items] : state.objects) add(*items);

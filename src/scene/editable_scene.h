@@ -83,6 +83,7 @@ class ModelSizes {
   explicit ModelSizes(const SceneLimits& limits) : most_bytes_(limits.scene_bytes) {}
   /// Throws hl::Error, with the prefix `where`, if the sum exceeds the limit.
   void add(const Model& model, const std::string& where = {});
+  void add(std::size_t bytes, const std::string& where = {});
 
  private:
   const std::size_t most_bytes_;

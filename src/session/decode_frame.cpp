@@ -296,6 +296,7 @@ std::shared_ptr<const Shape> FrameDecoder::shapeOf(const proto::Primitives& in, 
 std::shared_ptr<const Shape> FrameDecoder::heightsOf(const proto::Primitives& in, const std::string& where) {
   if (in.vertices_size() + in.triangles_size() + in.polygons_size() + in.segments_size() + in.points_size() > 0)
     throw Error(where + ": heights come without vertices and elements");
+  size_.add(bytesToMakeHeights(in.heights()), where + ": ");
   return makeCounted(memory_, bytesToMakeHeights(in.heights()), [&] {
     try {
       return makeShape(decodeHeights(in.heights()));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "surfaces/ball_over_plane.h"
 #include "surfaces/grid_ball.h"
 #include "surfaces/height_cell.h"
 #include "surfaces/height_grid.h"
@@ -13,66 +14,15 @@
 
 namespace hl {
 
-/// The two paraboloids around a ball, one below and one above, for surfaces of a slope. Grid coordinates.
-class BallBowls {
- public:
-  BallBowls(const GridBall& ball, double slope_column, double slope_row) : ball_(ball) {
-    const GridMetric& metric = ball.metric();
-    const double sum[2] = {slope_column + metric.tilt.x(), slope_row + metric.tilt.y()};
-    const double k =
-        ball.lift() / std::sqrt(1 + sum[0] * sum[0] / metric.curve.x() + sum[1] * sum[1] / metric.curve.y());
-    depth_ = 0.5 * (k + ball.lift() * ball.lift() / k);
-    for (Eigen::Index axis = 0; axis < 2; ++axis) {
-      vertex_[axis] = k / metric.curve[axis];
-      square_[axis] = 0.5 / vertex_[axis];
-    }
-  }
-
-  double depth() const { return depth_; }
-  /// Least value of square d^2 - slope d over the steps d from the moving centre to the places first..last.
-  double least(Eigen::Index axis, double slope, double first, double last) const {
-    const double low = first - std::max(ball_.first()[axis], ball_.last()[axis]);
-    const double high = last - std::min(ball_.first()[axis], ball_.last()[axis]);
-    const double d = std::clamp(slope * vertex_[axis], low, high);
-    return (square_[axis] * d - slope) * d;
-  }
-
- private:
-  const GridBall& ball_;
-  double depth_;
-  Vec2 vertex_, square_;
-};
-
-/// A moving ball seen from a plane through a place of the grid.
-struct BallOverPlane {
-  BallOverPlane(const GridBall& ball, const HeightSlab& slab, double column, double row) {
-    const auto over = [&](const Vec3& centre) {
-      const double across = slab.slope_column * (centre.x() - column), down = slab.slope_row * (centre.y() - row);
-      size = std::max(size, std::abs(centre.z()) + std::abs(across) + std::abs(down));
-      return centre.z() - across - down;
-    };
-    const double first = over(ball.first()), last = over(ball.last());
-    low = std::min(first, last);
-    high = std::max(first, last);
-    size = kRounding * (size + std::abs(slab.low) + std::abs(slab.high));
-  }
-
-  static constexpr double kRounding = 1e-12;
-  double low, high;  ///< of the centre
-  double size = 0;   ///< bound of what rounding does
-};
-
 class HeightWalk {
  public:
   HeightWalk(const HeightGrid& grid, const HeightPyramid& pyramid, const GridBall& ball)
-      : grid_(grid), pyramid_(pyramid), tilt_(ball.metric().tilt), ball_(ball) {}
+      : grid_(grid), pyramid_(pyramid), ball_(ball) {}
 
   /// Calls visit(id) for each triangle that the ball may touch. Returns the number of slabs and cells visited.
   template <typename Visit>
   std::size_t run(const Visit& visit) {
-    const int top = pyramid_.levels() - 1;
-    if (pyramid_.slab(top, 0, 0).empty()) return 1;
-    waiting_[count_++] = {0, 0, top};
+    enterTop();
     while (count_ > 0) {
       const Block block = waiting_[--count_];
       block.level == 0 ? enterCells(block, visit) : enterBlocks(block);
@@ -93,9 +43,21 @@ class HeightWalk {
   // Those of the parts first..last, each `side` cells long, that the ball is above or below.
   Range reached(Eigen::Index axis, double side, std::uint32_t first, std::uint32_t last) const {
     const double low = std::floor(ball_.low()[axis] / side - kMargin), high = ball_.high()[axis] / side + kMargin;
-    if (low > last || high < first) return {0, 0, true};
+    if (!(low <= last && high >= first)) return {0, 0, true};
     return {static_cast<std::uint32_t>(std::max<double>(low, first)),
             static_cast<std::uint32_t>(std::min<double>(high, last)), false};
+  }
+
+  // The highest levels, of which a small ball meets one block or two, tell nothing.
+  void enterTop() {
+    const double span = (ball_.high() - ball_.low()).head<2>().maxCoeff();
+    int level = 0;
+    while (level + 1 < pyramid_.levels() && !(static_cast<double>(HeightPyramid::side(level)) >= span)) ++level;
+    const auto side = static_cast<double>(HeightPyramid::side(level));
+    const Range i = reached(0, side, 0, pyramid_.columns(level) - 1), j = reached(1, side, 0, pyramid_.rows(level) - 1);
+    if (i.empty || j.empty) return;
+    const HeightSlab& slab = pyramid_.slab(level, i.first, j.first);
+    add(i, j, level, BallBowls(ball_, slab.slope_column, slab.slope_row));
   }
 
   void enterBlocks(const Block& block) {
@@ -107,31 +69,31 @@ class HeightWalk {
     const Range j = reached(1, side, row, std::min(row + kBlocks, pyramid_.rows(level)) - 1);
     if (i.empty || j.empty) return;
     const HeightSlab& slab = pyramid_.slab(block.level, block.column, block.row);
-    const BallBowls bowls(ball_, slab.slope_column, slab.slope_row);
-    // The last to be added is the first to be entered: the one where the way begins.
-    const bool ascends = ball_.first().x() > ball_.last().x(), rows_ascend = ball_.first().y() > ball_.last().y();
+    add(i, j, level, BallBowls(ball_, slab.slope_column, slab.slope_row));
+  }
+
+  // Those of the blocks that the ball may touch; the last to be added, where the way begins, is the first to be
+  // entered.
+  void add(const Range& i, const Range& j, int level, const BallBowls& bowls) {
+    const bool to_west = ball_.first().x() > ball_.last().x(), to_north = ball_.first().y() > ball_.last().y();
     for (std::uint32_t n = j.first; n <= j.last; ++n) {
-      const std::uint32_t at_row = rows_ascend ? n : j.last - (n - j.first);
+      const std::uint32_t row = to_north ? n : j.last - (n - j.first);
       for (std::uint32_t m = i.first; m <= i.last; ++m) {
-        const std::uint32_t at_column = ascends ? m : i.last - (m - i.first);
+        const std::uint32_t column = to_west ? m : i.last - (m - i.first);
         ++looked_;
-        const HeightSlab& child = pyramid_.slab(level, at_column, at_row);
-        if (!child.empty() && meets(bowls, child, at_column * side, at_row * side, side))
-          waiting_[count_++] = {at_column, at_row, level};
+        if (meets(bowls, {column, row, level})) waiting_[count_++] = {column, row, level};
       }
     }
   }
 
-  // A block at the rim may be narrower than `side`: then more is proposed than need be.
-  bool meets(const BallBowls& bowls, const HeightSlab& slab, double column, double row, double side) const {
-    const BallOverPlane ball(ball_, slab, column, row);
-    const double across = slab.slope_column + tilt_.x(), down = slab.slope_row + tilt_.y();
-    if (ball.low + ball.high > double{slab.low} + slab.high) {
-      const double bowl = bowls.least(0, across, column, column + side) + bowls.least(1, down, row, row + side);
-      return !(slab.high + ball.size < ball.low - (1 + kMargin) * bowls.depth() + bowl);
-    }
-    const double bowl = bowls.least(0, -across, column, column + side) + bowls.least(1, -down, row, row + side);
-    return !(slab.low - ball.size > ball.high + (1 + kMargin) * bowls.depth() - bowl);
+  // A block at the rim may be narrower than its side: then more is proposed than need be.
+  bool meets(const BallBowls& bowls, const Block& block) const {
+    const HeightSlab& slab = pyramid_.slab(block.level, block.column, block.row);
+    if (slab.empty()) return false;
+    const auto side = static_cast<double>(HeightPyramid::side(block.level));
+    const double column = side * block.column, row = side * block.row;
+    const BallOverPlane over(ball_, bowls, {column, row, slab.slope_column, slab.slope_row});
+    return !over.clears(slab.low, slab.high, {column, column + side}, {row, row + side});
   }
 
   template <typename Visit>
@@ -142,38 +104,40 @@ class HeightWalk {
     const Range j = reached(1, 1, row, std::min(row + kCells, grid_.rows() - 1) - 1);
     if (i.empty || j.empty) return;
     const HeightSlab& slab = pyramid_.slab(0, block.column, block.row);
-    const double across = slab.slope_column, down = slab.slope_row;
-    const BallBowls bowls(ball_, across, down);
-    const BallOverPlane ball(ball_, slab, column, row);
-    const double depth = (1 + kMargin) * bowls.depth() + ball.size;
-    // Bounds on the height over the plane, by column, of what lies wholly below the ball and wholly above it.
-    double below[kCells], above[kCells];
-    for (std::uint32_t m = i.first; m <= i.last; ++m) {
-      below[m - column] = ball.low - depth + bowls.least(0, across + tilt_.x(), m, m + 1.0);
-      above[m - column] = ball.high + depth - bowls.least(0, -across - tilt_.x(), m, m + 1.0);
-    }
+    const GridPlane plane{static_cast<double>(column), static_cast<double>(row), slab.slope_column, slab.slope_row};
+    const BallOverPlane over(ball_, BallBowls(ball_, slab.slope_column, slab.slope_row), plane);
+    const double up = over.isAbove(0.5 * slab.low + 0.5 * slab.high) ? 1 : -1;
+    std::array<double, kCells> clear;  // what is lower than that over the plane, in a row of no slope, is not touched
+    for (std::uint32_t m = i.first; m <= i.last; ++m)
+      clear[m - i.first] = over.clear(up) + over.least(up, 0, m, m + 1.0);
     for (std::uint32_t n = j.first; n <= j.last; ++n) {
-      const double row_below = bowls.least(1, down + tilt_.y(), n, n + 1.0);
-      const double row_above = -bowls.least(1, -down - tilt_.y(), n, n + 1.0);
-      const auto rest = [&](std::uint32_t m, std::uint32_t at_row) {
-        return grid_.at(m, at_row) - across * (m - column) - down * (at_row - row);
-      };
+      const double clear_row = over.least(up, 1, n, n + 1.0);
+      const auto rest = [&](std::uint32_t m, std::uint32_t at) { return over.rest(m, at, grid_.at(m, at)); };
       double a = rest(i.first, n), c = rest(i.first, n + 1);
       for (std::uint32_t m = i.first; m <= i.last; ++m) {
         ++looked_;
         const double b = rest(m + 1, n), d = rest(m + 1, n + 1);
-        if (!std::isnan(a + b + c + d)) {
-          const double low = above[m - column] + row_above, high = below[m - column] + row_below;
-          const auto touched = [&](double third) {
-            return !(std::max({a, d, third}) < high || std::min({a, d, third}) > low);
-          };
-          if (touched(b)) visit(idOf({m, n, 0}, grid_.columns()));
-          if (touched(c)) visit(idOf({m, n, 1}, grid_.columns()));
-        }
+        if (!(up * a < clear[m - i.first] + clear_row && up * b < clear[m - i.first] + clear_row &&
+              up * c < clear[m - i.first] + clear_row && up * d < clear[m - i.first] + clear_row))
+          visitCell(m, n, visit);
         a = b;
         c = d;
       }
     }
+  }
+
+  // By the planes of both triangles.
+  template <typename Visit>
+  void visitCell(std::uint32_t m, std::uint32_t n, const Visit& visit) const {
+    const double a = grid_.at(m, n), b = grid_.at(m + 1, n), c = grid_.at(m, n + 1), d = grid_.at(m + 1, n + 1);
+    if (std::isnan(a + b + c + d)) return;
+    const double column = m, row = n;
+    const auto touched = [&](double across, double down) {
+      const BallOverPlane over(ball_, BallBowls(ball_, across, down), {column, row, across, down});
+      return !over.clears(a, a, {column, column + 1}, {row, row + 1});
+    };
+    if (touched(b - a, d - b)) visit(idOf({m, n, 0}, grid_.columns()));
+    if (touched(d - c, c - a)) visit(idOf({m, n, 1}, grid_.columns()));
   }
 
   static constexpr double kMargin = 1e-12;
@@ -181,10 +145,9 @@ class HeightWalk {
 
   const HeightGrid& grid_;
   const HeightPyramid& pyramid_;
-  const Vec2 tilt_;
   const GridBall& ball_;
   std::size_t looked_ = 0, count_ = 0;
-  std::array<Block, HeightPyramid::kMaxLevels * kBlocksOfBlock> waiting_;
+  std::array<Block, (HeightPyramid::kMaxLevels + 1) * kBlocksOfBlock> waiting_;
 };
 
 }  // namespace hl

@@ -107,6 +107,45 @@ TEST(SceneFile, TheExamplesOfSnapsAndFieldsLoad) {
   EXPECT_EQ(makeSnapshot(loadSceneFile(folder + "fields.hl.json"))->fields.size(), 4U);
 }
 
+TEST(SceneFile, TheExampleOfHeightsLoads) {
+  const SceneModel scene = loadSceneFile(std::string(HL_EXAMPLES) + "/heights.hl.json");
+  ASSERT_EQ(scene.surfaces.size(), 2U);
+  EXPECT_EQ(scene.surfaces[0].source->count(), 800U);
+  EXPECT_EQ(scene.surfaces[0].material.dynamic_friction, 0.2);
+  EXPECT_NEAR(boundsOf(scene).size().x(), 0.21, 1e-9);
+  EXPECT_EQ(makeSnapshot(scene)->instances.size(), 2U);
+}
+
+std::string heightsRefusal(const std::string& heights, const std::string& rest = "") {
+  try {
+    loadSceneFile(fileWith("scene.hl.json", "{\"objects\":[{\n\"heights\": {" + heights + "}" + rest + "}]}"));
+  } catch (const Error& error) {
+    return std::string(error.what()).substr(std::string(error.what()).find("scene.hl.json:") + 14);
+  }
+  return "";
+}
+
+TEST(SceneFile, HeightsThatMakeNoSenseAreRefused) {
+  const std::string good = R"("columns": 2, "rows": 2, "values": [0, 1, 2, 3])";
+  EXPECT_EQ(heightsRefusal(good), "");
+  EXPECT_EQ(heightsRefusal(good + R"(, "spacing": -1)"), "2: spacing must be from 1e-12 to 1e9");
+  EXPECT_EQ(heightsRefusal(R"("columns": 2, "rows": 3, "values": [0, 1, 2, 3])"),
+            "2: it has fewer samples than it says");
+  EXPECT_EQ(heightsRefusal(good, R"(, "body": {})"), "2: objects[0].body: a height field cannot be a body");
+  EXPECT_NE(heightsRefusal(R"("file": "none.tif")").find("there is no such file"), std::string::npos);
+  fileWith("field.asc", "ncols 2\nnrows 2\ncellsize 5\n1 2 3 4");
+  EXPECT_EQ(heightsRefusal(R"("file": "field.asc", "spacing": 2, "verticalScale": 3)"), "");
+  EXPECT_EQ(heightsRefusal(R"("file": "field.asc", "columns": 2)"),
+            "2: columns, rows, values, samples, kind and missing are those of its file");
+}
+
+TEST(SceneFile, HeightsOfAFileTakeAnotherSpacing) {
+  fileWith("field.asc", "ncols 3\nnrows 2\ncellsize 5\n1 2 3 4 5 6");
+  const SceneModel scene = loadSceneFile(fileWith(
+      "scene.hl.json", R"({"objects":[{"heights": {"file": "field.asc", "spacing": 2, "verticalScale": 3}}]})"));
+  EXPECT_LT((scene.surfaces.at(0).source->bounds().size() - Vec3(4, 15, 2)).norm(), 1e-12);
+}
+
 SceneModel worldOfJson(const std::string& json) { return loadSceneFile(fileWith("scene.hl.json", json)); }
 
 // Two cubes of 2 units a side with the given body and joint.

@@ -6,8 +6,8 @@ import type { Mesh } from "../scene_messages";
 import { RecordingError } from "./recording_blocks";
 import { boundsOf } from "./recorded_mesh";
 
-type Part = Pick<RecordedHeights,
-  "columns" | "rows" | "kind" | "missing" | "axes" | "origin" | "samples" | "continues">;
+type Part = Pick<RecordedHeights, "columns" | "rows" | "kind" | "axes" | "origin" | "samples" | "continues"> &
+  { readonly missing?: number | undefined };
 const kMostTriangles = 1_000_000;
 const kReaders = [
   { bytes: 2, read: (view: DataView, at: number) => view.getInt16(at, true) },
