@@ -1,6 +1,7 @@
 #include "bodies/body_problem.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "bodies/free_motion.h"
 #include "bodies/joint_groups.h"
@@ -43,10 +44,16 @@ BodyState BodyProblem::stateAtEnd(const WorldState& state, std::size_t body, con
   return moved;
 }
 
-PlacedConvex BodyProblem::atEnd(const WorldState& state, std::size_t body, const BodyWays& plan,
+PlacedConvex BodyProblem::atEnd(const WorldState& state, int body, int part, const BodyWays& plan,
                                 PlacedRoom& room) const {
-  if (state.bodies[body].island != 0) return placed[body];
-  return hl::placed(world->bodies[body], stateAtEnd(state, body, plan), room);
+  const auto i = static_cast<std::size_t>(body), number = static_cast<std::size_t>(part);
+  if (state.bodies[i].island != 0) return placed[i][number];
+  return hl::placed(world->bodies[i].shape.parts[number], stateAtEnd(state, i, plan), room);
+}
+
+PlacedConvex BodyProblem::firstAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan,
+                                     PlacedRoom& room) const {
+  return atEnd(state, meeting.a, meeting.part_a, plan, room);
 }
 
 Pose BodyProblem::poseAtEnd(const WorldState& state, std::size_t body, const BodyWays& plan) const {
@@ -55,7 +62,7 @@ Pose BodyProblem::poseAtEnd(const WorldState& state, std::size_t body, const Bod
 
 PlacedConvex BodyProblem::otherAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan,
                                      PlacedRoom& room) const {
-  if (meeting.b != Row::kFixed) return atEnd(state, static_cast<std::size_t>(meeting.b), plan, room);
+  if (meeting.b != Row::kFixed) return atEnd(state, meeting.b, meeting.part_b, plan, room);
   const SceneAt& scene = *meetings.scene();
   return hl::placed(scene.primitive(meeting.primitive), scene.instance(meeting.primitive).poses().at(times.end_ns),
                     room);
@@ -64,20 +71,21 @@ PlacedConvex BodyProblem::otherAtEnd(const WorldState& state, const Meeting& mee
 bool BodyProblem::meetsAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan,
                              Manifold& end) const {
   PlacedRoom room_a, room_b;
-  return findManifold(atEnd(state, static_cast<std::size_t>(meeting.a), plan, room_a),
-                      otherAtEnd(state, meeting, plan, room_b), 0, end);
+  return findManifold(firstAtEnd(state, meeting, plan, room_a), otherAtEnd(state, meeting, plan, room_b), 0, end);
 }
 
 Pace paceOf(const BodyProblem& problem, const Meeting& meeting) {
   Pace pace;
   double size = 0, way = 0;
-  for (const int number : {meeting.a, meeting.b}) {
+  for (const auto& [number, part] : {std::pair(meeting.a, meeting.part_a), std::pair(meeting.b, meeting.part_b)}) {
     if (number == Row::kFixed) continue;
     const auto i = static_cast<std::size_t>(number);
-    const double reach = problem.reachOf(i), turn = problem.period_s * problem.nodes[i].spin.norm();
+    const Compound& shape = problem.world->bodies[i].shape;
+    const double reach = shape.parts[static_cast<std::size_t>(part)].reach;
+    const double turn = problem.period_s * problem.nodes[i].spin.norm();
     size = size == 0 ? reach : std::min(size, reach);
-    way += problem.period_s * problem.nodes[i].velocity.norm() + turn * reach;
-    pace.turns |= turn > kStraight_rad && problem.world->bodies[i].shape.vertices.size() > 1;
+    way += problem.period_s * problem.nodes[i].velocity.norm() + turn * shape.reach;
+    pace.turns |= turn > kStraight_rad && !shape.isBall();
   }
   if (meeting.b == Row::kFixed) {
     const Vec3& centre = problem.nodes[static_cast<std::size_t>(meeting.a)].centre;

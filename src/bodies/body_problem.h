@@ -35,13 +35,16 @@ struct BodyProblem {
   Vec3 sceneryVelocityAt(PrimitiveId primitive, const Vec3& point) const {
     return sceneryVelocity(meetings.scene()->instance(primitive), times, period_s, point);
   }
-  /// The shape of a body after its part of the way. RT-safe.
-  PlacedConvex atEnd(const WorldState& state, std::size_t body, const BodyWays& plan, PlacedRoom& room) const;
-  /// The other of a pair: a body after its part of the way, or a primitive of the scene. RT-safe.
+  /// The first of a pair after its part of the way. RT-safe.
+  PlacedConvex firstAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan,
+                          PlacedRoom& room) const;
+  /// The other of a pair, of a body or a primitive of the scene. RT-safe.
   PlacedConvex otherAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan,
                           PlacedRoom& room) const;
   /// Where the pair would meet then; false: it would be apart. RT-safe.
   bool meetsAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan, Manifold& end) const;
+  /// A part of a body after its part of the way. RT-safe.
+  PlacedConvex atEnd(const WorldState& state, int body, int part, const BodyWays& plan, PlacedRoom& room) const;
 
   std::shared_ptr<const World> world;
   PlacedBodies placed;

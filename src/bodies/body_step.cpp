@@ -251,7 +251,7 @@ BodyStepReport BodyStepper::findImpulses(WorldState& state, double period_s, dou
   margin_m = margin(hands);
   for (std::size_t hand = 0; hand < hands.size(); ++hand)
     hand_rows_.add(hands[hand], hand, margin_m + hands[hand].stretch.norm(), state.memory);
-  problem_.meetings.find(world(), state, problem_.placed, margin_m);
+  problem_.meetings.find(state, problem_.placed, margin_m);
   contacts_.addBearing(state.memory);
   for (Row& row : problem_.rows) prepareRow(row, problem_.nodes);
   solve(report);

@@ -33,7 +33,7 @@ ContactRows::ContactRows(BodyProblem& problem) : problem_(problem) {
   plan_.ways.resize(problem.bodies());
   plan_.turns.resize(problem.bodies());
   plan_.parts.assign(problem.bodies(), 1);
-  touching_.reserve(problem.rows.capacity());
+  touching_.reserve(std::max(problem.rows.capacity(), problem.meetings.room()));
 }
 
 Row ContactRows::rowOf(const Meeting& meeting, std::size_t number) const {
@@ -103,6 +103,7 @@ void ContactRows::addBearing(ContactMemory& memory) {
   });
   std::size_t first = problem_.rows.size();  // of the rows of the pair
   for (const Touching& one : touching_) {
+    if (problem_.rows.size() == problem_.rows.capacity()) return;
     const Meeting& meeting = meetings[one.meeting];
     if (first < problem_.rows.size() && !isOf(problem_.rows[first], meeting)) first = problem_.rows.size();
     if (hasTwin(meeting, one.point, first)) continue;

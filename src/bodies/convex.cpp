@@ -1,6 +1,7 @@
 #include "bodies/convex.h"
 
 #include <algorithm>
+#include <limits>
 #include <cmath>
 
 #include "base/plain_math.h"
@@ -30,7 +31,8 @@ void addEdges(Convex& shape, const Convex::Face& face) {
 
 void measureReach(Convex& shape) {
   shape.reach = 0;
-  for (const Vec3& vertex : shape.vertices) shape.reach = std::max(shape.reach, vertex.norm() + shape.radius);
+  for (const Vec3& vertex : shape.vertices)
+    shape.reach = std::max(shape.reach, (vertex - shape.middle).norm() + shape.radius);
 }
 
 // Of a polygon, by Newell: the sum over its corners. Length: twice the area.
@@ -106,8 +108,21 @@ Convex cylinderShape(double half_length, double radius) {
   return shape;
 }
 
+double heightAbove(const Convex& shape, const Vec3& point) {
+  double highest = std::numeric_limits<double>::lowest();
+  for (const Convex::Face& face : shape.faces)
+    highest = std::max(highest, face.normal.dot(point - shape.vertices[face.corners[0]]));
+  return highest;
+}
+
 Convex moved(Convex shape, const Vec3& way) {
   for (Vec3& vertex : shape.vertices) vertex += way;
+  measureReach(shape);
+  return shape;
+}
+
+Convex withMiddle(Convex shape, const Vec3& middle) {
+  shape.middle = middle;
   measureReach(shape);
   return shape;
 }

@@ -31,8 +31,9 @@ struct Convex {
   std::vector<std::array<Index, 2>> directions;  ///< of all edges, each once: from one vertex to the other
   std::vector<Face> faces;                       ///< none of a point or segment; a triangle has two
   double radius = 0;                             ///< m, >= 0
-  double reach = 0;                              ///< m, greatest distance from the origin
+  double reach = 0;                              ///< m, greatest distance from `middle`
   double round_radius = 0;                       ///< m; > 0: a cylinder about z; faces 0 and 1 are its ends
+  Vec3 middle = Vec3::Zero();                    ///< inside; the origin but for a part of a compound
 };
 
 /// No shape has more: the work of a step is bounded.
@@ -49,8 +50,12 @@ Convex capsuleShape(double half_length, double radius);
 Convex cylinderShape(double half_length, double radius);
 /// Of faces that close it, each flat and counterclockwise from outside; the origin is inside.
 Convex polyhedronShape(std::vector<Vec3> vertices, const std::vector<std::vector<Convex::Index>>& faces);
+/// m: how far a point is above the face that it is farthest above; < 0 within. Of what has faces.
+double heightAbove(const Convex& shape, const Vec3& point);
 /// The shape with all of it moved by `way`: to the centre of mass, for a body.
 Convex moved(Convex shape, const Vec3& way);
+/// The shape as a part of a body whose origin may be outside of it. `middle`: inside.
+Convex withMiddle(Convex shape, const Vec3& middle);
 /// A two-sided triangle whose vertices are set later (PlacedConvex): faces 0 and 1 have opposite normals.
 Convex triangleTopology();
 

@@ -44,23 +44,28 @@ void HandRows::addHeld(const HandContact& contact, int node, std::uint64_t name,
   problem_.rows.push_back(row);
 }
 
-// One row a body: along the line between the nearest points.
 void HandRows::addNearBodies(const HandNode& hand, int node, std::uint64_t name, double margin, ContactMemory& memory) {
   for (std::size_t i = 0; i < problem_.bodies(); ++i) {
     const double near = problem_.reachOf(i) + hand.radius_m + margin;
     if ((problem_.nodes[i].centre - hand.proxy).squaredNorm() > near * near) continue;
-    const PlacedConvex& shape = problem_.placed[i];
-    const NearestPoints nearest = nearestToPoint(hand.proxy, shape);
     Row row;
-    row.gap = nearest.distance - shape.shape->radius - hand.radius_m;
-    if (row.gap > margin) continue;
     row.pair = {name, problem_.world->bodies[i].key};
     row.a = node;
     row.b = static_cast<int>(i);
-    row.normal = nearest.normal;
-    row.arm_b = nearest.on_b + shape.shape->radius * nearest.normal - problem_.nodes[i].centre;
-    addNear(row, memory);
+    for (const PlacedConvex& part : problem_.placed[i]) addNearPart(hand, row, part, margin, memory);
   }
+}
+
+// One row a part: along the line between the nearest points.
+void HandRows::addNearPart(const HandNode& hand, Row row, const PlacedConvex& part, double margin,
+                           ContactMemory& memory) {
+  const NearestPoints nearest = nearestToPoint(hand.proxy, part);
+  row.gap = nearest.distance - part.shape->radius - hand.radius_m;
+  if (row.gap > margin) return;
+  row.normal = nearest.normal;
+  const Vec3& centre = problem_.nodes[static_cast<std::size_t>(row.b)].centre;
+  row.arm_b = nearest.on_b + part.shape->radius * nearest.normal - centre;
+  addNear(row, memory);
 }
 
 void HandRows::addNearScene(const HandNode& hand, int node, std::uint64_t name, double margin, ContactMemory& memory) {

@@ -20,6 +20,7 @@ class HandRows {
   void addHeld(const HandContact& contact, int node, std::uint64_t name, ContactMemory& memory);
   void addNearBodies(const HandNode& hand, int node, std::uint64_t name, double margin, ContactMemory& memory);
   void addNearScene(const HandNode& hand, int node, std::uint64_t name, double margin, ContactMemory& memory);
+  void addNearPart(const HandNode& hand, Row row, const PlacedConvex& part, double margin, ContactMemory& memory);
   void addNear(Row row, ContactMemory& memory);
 
   BodyProblem& problem_;

@@ -78,20 +78,12 @@ HullFaces quickhull(const std::vector<Vec3>& points) {
   return hull;
 }
 
-// How far a point is outside, by the face that it is farthest above.
-double outside(const Convex& hull, const Vec3& point) {
-  double highest = 0;
-  for (const Convex::Face& face : hull.faces)
-    highest = std::max(highest, face.normal.dot(point - hull.vertices[face.corners[0]]));
-  return highest;
-}
-
 // The first point that lies farthest outside; `distance`: how far.
 std::size_t farthestOutside(const Convex& hull, const std::vector<Vec3>& points, double& distance) {
   std::size_t farthest = 0;
   distance = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double here = outside(hull, points[i]);
+    const double here = heightAbove(hull, points[i]);
     if (here > distance) {
       distance = here;
       farthest = i;

@@ -114,6 +114,22 @@ Solid solidOf(std::span<const Vec3> vertices, Triangles triangles) {
   return {volume, origin + centre, second.trace() * Mat3::Identity() - second};
 }
 
+Solid sumOf(std::span<const Solid> solids) {
+  Solid sum{0, Vec3::Zero(), Mat3::Zero()};
+  Vec3 first = Vec3::Zero();
+  for (const Solid& solid : solids) {
+    sum.volume_m3 += solid.volume_m3;
+    first += solid.volume_m3 * solid.centre_O;
+  }
+  sum.centre_O = first / sum.volume_m3;
+  for (const Solid& solid : solids) {
+    const Vec3 way = solid.centre_O - sum.centre_O;
+    sum.inertia_m5 += solid.inertia_m5;
+    sum.inertia_m5 += solid.volume_m3 * (way.squaredNorm() * Mat3::Identity() - way * way.transpose());
+  }
+  return sum;
+}
+
 Mass massOfDensity(double density_kg_m3, const Solid& solid) {
   demandPositive(density_kg_m3, "the density");
   return {density_kg_m3 * solid.volume_m3, solid.centre_O, density_kg_m3 * solid.inertia_m5};

@@ -37,6 +37,8 @@ struct Solid {
 Solid solidOf(std::span<const Vec3> vertices, std::span<const std::array<std::uint32_t, 3>> triangles);
 /// Of a polyhedron with faces, without its radius, in the frame of its vertices.
 Solid solidOf(const Convex& polyhedron);
+/// Of several, at least one, as one body. Where they overlap, it is as dense as both.
+Solid sumOf(std::span<const Solid> solids);
 /// Throws Error unless the density, kg/m^3, is > 0.
 Mass massOfDensity(double density_kg_m3, const Solid& solid);
 /// Of uniform density. `mass_kg` > 0, or Error.

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
 #include "bodies/row.h"
 
 namespace hl {
 
 Meetings::Meetings(const World& world) : along_x_(world.bodies.size()), joined_(world), fixed_(world.fixed) {
-  meetings_.reserve(kContactsPerBody * world.bodies.size());
+  std::size_t room = 0;
+  for (const Body& body : world.bodies) room += kMeetingsPerBody + kMeetingsPerPart * (body.shape.parts.size() - 1);
+  meetings_.reserve(room);
   near_.reserve(4 * kContactsPerBody);
   std::iota(along_x_.begin(), along_x_.end(), 0u);
   for (const Body& body : world.bodies) {
@@ -22,10 +25,10 @@ void Meetings::look(std::int64_t time_ns) {
   if (fixed_) scene_.emplace(*fixed_, time_ns, recent_);
 }
 
-void Meetings::find(const World& world, const WorldState& state, const PlacedBodies& placed, double margin) {
+void Meetings::find(const WorldState& state, const PlacedBodies& placed, double margin) {
   meetings_.clear();
   dropped_ = 0;
-  if (scene_) withScene(state, world, placed, margin);
+  if (scene_) withScene(state, placed, margin);
   withBodies(state, placed, margin);
 }
 
@@ -36,26 +39,35 @@ void Meetings::add(const Meeting& meeting) {
     ++dropped_;
 }
 
-void Meetings::withScene(const WorldState& state, const World& world, const PlacedBodies& placed, double margin) {
-  PlacedRoom room;
-  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+void Meetings::withScene(const WorldState& state, const PlacedBodies& placed, double margin) {
+  for (std::size_t i = 0; i < state.bodies.size(); ++i) {
     if (state.bodies[i].island != 0) continue;
-    near_.clear();
-    const double reach = reach_[i] + margin;
-    scene_->primitivesWithin(state.bodies[i].centre, reach, [&](PrimitiveId id, const ClosestPoint&) {
-      if (near_.size() < near_.capacity())
-        near_.push_back(id);
-      else
-        ++dropped_;
-    });
-    std::sort(near_.begin(), near_.end(), [&](PrimitiveId x, PrimitiveId y) { return scene_->precedes(x, y); });
-    near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
-    for (const PrimitiveId id : near_) {
-      Meeting meeting{static_cast<int>(i), Row::kFixed, id, {}, 0};
-      const PlacedConvex other =
-          hl::placed(scene_->primitive(id), scene_->instance(id).poses().at(scene_->time_ns()), room);
-      if (findManifold(placed[i], other, margin, meeting.manifold)) add(meeting);
+    Meeting meeting;
+    meeting.a = static_cast<int>(i);
+    meeting.b = Row::kFixed;
+    for (const PlacedConvex& part : placed[i]) {
+      partWithScene(meeting, part, margin);
+      ++meeting.part_a;
     }
+  }
+}
+
+void Meetings::partWithScene(Meeting& meeting, const PlacedConvex& part, double margin) {
+  PlacedRoom room;
+  near_.clear();
+  scene_->primitivesWithin(part.centre, part.shape->reach + margin, [&](PrimitiveId id, const ClosestPoint&) {
+    if (near_.size() < near_.capacity())
+      near_.push_back(id);
+    else
+      ++dropped_;
+  });
+  std::sort(near_.begin(), near_.end(), [&](PrimitiveId x, PrimitiveId y) { return scene_->precedes(x, y); });
+  near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
+  for (const PrimitiveId id : near_) {
+    meeting.primitive = id;
+    const PlacedConvex other =
+        hl::placed(scene_->primitive(id), scene_->instance(id).poses().at(scene_->time_ns()), room);
+    if (findManifold(part, other, margin, meeting.manifold)) add(meeting);
   }
 }
 
@@ -67,8 +79,19 @@ void Meetings::meet(const WorldState& state, const PlacedBodies& placed, double 
   if (joined_.has(one, other)) return;
   const bool in_order = state.bodies[other].island != 0 || one < other;
   const std::uint32_t a = in_order ? one : other, b = in_order ? other : one;
-  Meeting meeting{static_cast<int>(a), static_cast<int>(b), {}, {}, 0};
-  if (findManifold(placed[a], placed[b], margin, meeting.manifold)) add(meeting);
+  Meeting meeting;
+  meeting.a = static_cast<int>(a);
+  meeting.b = static_cast<int>(b);
+  for (const PlacedConvex& part_a : placed[a]) {
+    meeting.part_b = 0;
+    for (const PlacedConvex& part_b : placed[b]) {
+      const double near = part_a.shape->reach + part_b.shape->reach + margin;
+      const bool within = (part_a.centre - part_b.centre).squaredNorm() <= near * near;
+      if (within && findManifold(part_a, part_b, margin, meeting.manifold)) add(meeting);
+      ++meeting.part_b;
+    }
+    ++meeting.part_a;
+  }
 }
 
 // Sorted by their lowest x, each that is awake meets those that begin before it ends, and of those before it the
@@ -91,7 +114,9 @@ void Meetings::withBodies(const WorldState& state, const PlacedBodies& placed, d
     }
   }
   std::sort(meetings_.begin() + static_cast<std::ptrdiff_t>(first), meetings_.end(),
-            [](const Meeting& x, const Meeting& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
+            [](const Meeting& x, const Meeting& y) {
+              return std::tie(x.a, x.b, x.part_a, x.part_b) < std::tie(y.a, y.b, y.part_a, y.part_b);
+            });
 }
 
 }  // namespace hl

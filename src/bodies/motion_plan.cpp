@@ -176,7 +176,7 @@ void MotionPlan::limit(double margin) {
 // along the normal of the begin: where that is at most `enough`, it stands for both.
 double MotionPlan::depthAtEnd(const WorldState& state, const Meeting& meeting, double enough) const {
   PlacedRoom room_a, room_b;
-  const PlacedConvex a = problem_.atEnd(state, static_cast<std::size_t>(meeting.a), plan_, room_a);
+  const PlacedConvex a = problem_.firstAtEnd(state, meeting, plan_, room_a);
   const PlacedConvex b = problem_.otherAtEnd(state, meeting, plan_, room_b);
   const double along = -separationAlong(a, b, meeting.manifold.normal);
   if (along <= enough && !isRound(a) && !isRound(b)) return std::max(along, 0.0);

@@ -24,16 +24,16 @@ const Convex& topologyOf(PrimitiveKind kind) {
 
 }  // namespace
 
-PlacedConvex placed(const Body& body, const BodyState& state, std::span<Vec3> vertices, std::span<Vec3> normals) {
+PlacedConvex placed(const Convex& shape, const BodyState& state, std::span<Vec3> vertices, std::span<Vec3> normals) {
   const Mat3 rotation = state.turned.toRotationMatrix();
-  const Convex& shape = body.shape;
   for (std::size_t i = 0; i < shape.vertices.size(); ++i) vertices[i] = state.centre + rotation * shape.vertices[i];
   for (std::size_t i = 0; i < shape.faces.size(); ++i) normals[i] = rotation * shape.faces[i].normal;
-  return {&shape, vertices.first(shape.vertices.size()), normals.first(shape.faces.size()), state.centre};
+  return {&shape, vertices.first(shape.vertices.size()), normals.first(shape.faces.size()),
+          state.centre + rotation * shape.middle};
 }
 
-PlacedConvex placed(const Body& body, const BodyState& state, PlacedRoom& room) {
-  return placed(body, state, room.vertices, room.normals);
+PlacedConvex placed(const Convex& part, const BodyState& state, PlacedRoom& room) {
+  return placed(part, state, room.vertices, room.normals);
 }
 
 PlacedConvex placed(const Primitive& primitive, const Pose& pose, PlacedRoom& room) {
@@ -51,16 +51,21 @@ PlacedConvex placed(const Primitive& primitive, const Pose& pose, PlacedRoom& ro
 }
 
 // The topologies are made here, and not in the step in which a body first meets a primitive.
-PlacedBodies::PlacedBodies(const World& world) : placed_(world.bodies.size()) {
+PlacedBodies::PlacedBodies(const World& world) {
   topologyOf(PrimitiveKind::kTriangle);
   std::size_t vertices = 0, normals = 0;
   for (const Body& body : world.bodies) {
-    first_vertex_.push_back(vertices);
-    first_normal_.push_back(normals);
+    first_part_.push_back(first_vertex_.size());
     poses_.emplace_back(Vec3::Constant(NAN), Eigen::Quaterniond::Identity());
-    vertices += body.shape.vertices.size();
-    normals += body.shape.faces.size();
+    for (const Convex& part : body.shape.parts) {
+      first_vertex_.push_back(vertices);
+      first_normal_.push_back(normals);
+      vertices += part.vertices.size();
+      normals += part.faces.size();
+    }
   }
+  first_part_.push_back(first_vertex_.size());
+  placed_.resize(first_vertex_.size());
   vertices_.resize(vertices);
   normals_.resize(normals);
 }
@@ -73,8 +78,12 @@ void PlacedBodies::place(const World& world, const WorldState& state) {
     if (centre == body.centre && turned.coeffs() == body.turned.coeffs()) continue;
     centre = body.centre;
     turned = body.turned;
-    placed_[i] = placed(world.bodies[i], body, std::span(vertices_).subspan(first_vertex_[i]),
-                        std::span(normals_).subspan(first_normal_[i]));
+    std::size_t number = first_part_[i];
+    for (const Convex& part : world.bodies[i].shape.parts) {
+      placed_[number] = placed(part, body, std::span(vertices_).subspan(first_vertex_[number]),
+                               std::span(normals_).subspan(first_normal_[number]));
+      ++number;
+    }
   }
 }
 

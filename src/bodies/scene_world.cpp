@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "bodies/convex_hull.h"
 #include "bodies/joint_check.h"
+#include "bodies/mesh_parts.h"
 
 namespace hl {
 
@@ -37,10 +38,11 @@ Mat3 turnTo(int axis) {
   return turn;
 }
 
-void turn(Convex& shape, Mass& mass, const Mat3& by) {
+void setTurned(Convex shape, const Mat3& by, Body& body) {
   for (Vec3& vertex : shape.vertices) vertex = by * vertex;
   for (Convex::Face& face : shape.faces) face.normal = by * face.normal;
-  mass.inertia_kg_m2 = by * mass.inertia_kg_m2 * by.transpose();
+  body.mass.inertia_kg_m2 = by * body.mass.inertia_kg_m2 * by.transpose();
+  body.shape = std::move(shape);
 }
 
 double massOf(const BodySpec& spec, double volume_m3) {
@@ -80,17 +82,15 @@ void makeCapsule(const Vec3& half, const BodySpec& spec, Body& body) {
   if (!(bar.half_length > 0)) return makeBall(half, spec, body);
   const double r = bar.radius;
   const double volume = std::numbers::pi * r * r * (2 * bar.half_length + 4 * r / 3);
-  body.shape = capsuleShape(bar.half_length, r);
   body.mass = massOfCapsule(massOf(spec, volume), bar.half_length, r);
-  turn(body.shape, body.mass, turnTo(bar.axis));
+  setTurned(capsuleShape(bar.half_length, r), turnTo(bar.axis), body);
 }
 
 void makeCylinder(const Vec3& half, const BodySpec& spec, Body& body) {
   const int axis = cylinderAxisOf(half);
   const double r = std::max(half[(axis + 1) % 3], half[(axis + 2) % 3]), half_length = half[axis];
-  body.shape = cylinderShape(half_length, r);
   body.mass = massOfCylinder(massOf(spec, 2 * std::numbers::pi * r * r * half_length), half_length, r);
-  turn(body.shape, body.mass, turnTo(axis));
+  setTurned(cylinderShape(half_length, r), turnTo(axis), body);
 }
 
 void makeHull(const Model& model, const BodySpec& spec, Body& body) {
@@ -99,6 +99,13 @@ void makeHull(const Model& model, const BodySpec& spec, Body& body) {
   body.mass = massOfDensity(massOf(spec, solid.volume_m3) / solid.volume_m3, solid);
   body.shape = moved(hull.shape, -body.mass.centre_O);
   body.hull_error_m = hull.error_m;
+}
+
+void makeParts(const Model& model, const BodySpec& spec, Body& body) {
+  MeshParts made = partsOfMesh(model);
+  body.mass = massOfDensity(massOf(spec, made.solid.volume_m3) / made.solid.volume_m3, made.solid);
+  body.shape = std::move(made.shape);
+  body.hull_error_m = made.error_m;
 }
 
 }  // namespace
@@ -119,6 +126,9 @@ Body bodyOf(const Model& model, const BodySpec& spec) {
       break;
     case BodyShape::kHull:
       makeHull(model, spec, body);
+      return body;
+    case BodyShape::kParts:
+      makeParts(model, spec, body);
       return body;
     case BodyShape::kCylinder:
       makeCylinder(half, spec, body);

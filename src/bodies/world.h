@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
+#include "bodies/compound.h"
 #include "bodies/contact_memory.h"
-#include "bodies/convex.h"
 #include "bodies/energy_book.h"
 #include "bodies/joint.h"
 #include "bodies/mass.h"
@@ -23,7 +23,7 @@ namespace hl {
 struct Body {
   std::uint64_t key = 0;  ///< as Instance::key; unique in a world; > 0
   Mass mass{};
-  Convex shape;
+  Compound shape;
   BodySurface surface{};
   double hull_error_m = 0;  ///< how far the mesh is outside a hull that had too many vertices (convex_hull.h)
 };
@@ -54,7 +54,7 @@ struct World {
   bool has(std::uint64_t key) const { return numberOf(key) != kNoBody; }
 };
 
-/// A step has no more contacts, each of the bodies with 64 points; the rest is dropped, and counted.
+/// A step has no more contacts, 64 for each of the bodies, whatever its parts; the rest is dropped, and counted.
 inline constexpr std::size_t kMostHands = 8, kContactsOfHand = 8, kContactsPerBody = 64;
 inline std::size_t mostRows(std::size_t bodies) { return kMostHands * kContactsOfHand + kContactsPerBody * bodies; }
 inline std::size_t mostRows(const World& world) { return mostRows(world.bodies.size()); }

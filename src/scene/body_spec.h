@@ -28,11 +28,12 @@ enum class BodyShape : std::uint8_t {
   kCapsule,   ///< along the longest side of the bounds; its diameter is the larger of the other two
   kCylinder,  ///< flat ends; along the side of the bounds whose two others are equal to 1 %, as of a disc; else the
               ///< longest
+  kParts,     ///< the convex hull of each piece of the mesh (bodies/mesh_pieces.h), all of them as one
 };
 /// By number: "hull", "box", ...
-inline constexpr std::array<const char*, 5> kBodyShapeNames{"hull", "box", "ball", "capsule", "cylinder"};
+inline constexpr std::array<const char*, 6> kBodyShapeNames{"hull", "box", "ball", "capsule", "cylinder", "parts"};
 
-/// No scene has more that move: what a step costs is bounded.
+/// No scene has more that move, each counted by its parts: what a step costs is bounded.
 inline constexpr std::size_t kMostBodies = 1000;
 
 struct BodySpec {

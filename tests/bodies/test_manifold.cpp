@@ -13,7 +13,7 @@ struct PlacedShape {
     BodyState state;
     state.centre = centre;
     state.turned = turned;
-    at = placed(body, state, room);
+    at = placed(body.shape.parts[0], state, room);
   }
   Body body;
   PlacedRoom room;

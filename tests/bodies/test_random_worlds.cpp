@@ -5,8 +5,9 @@
 #include <utility>
 
 #include "bodies/convex_hull.h"
+#include "bodies/scene_world.h"
 #include "draws.h"
-#include "test_worlds.h"
+#include "mesh_drawings.h"
 
 namespace hl {
 namespace {
@@ -16,7 +17,8 @@ using namespace test;
 constexpr double kRoom_m = 0.15;  // half of its sides
 
 struct RandomWorld : Draws {
-  explicit RandomWorld(std::uint64_t seed) : Draws(seed) {
+  // With this many kinds of shapes: six that are convex, then what is made of parts.
+  RandomWorld(std::uint64_t seed, unsigned kinds) : Draws(seed), kinds_(kinds) {
     world.fixed = makeSnapshot(boxModel(Vec3::Constant(kRoom_m)));
     const int count = 2 + static_cast<int>(random() % 12);
     world.gravity_m_s2 = Vec3(0, random() % 2 == 0 ? -9.81 : 0, 0);
@@ -32,7 +34,7 @@ struct RandomWorld : Draws {
     const BodySurface surface{0.7, between(0, 0.7), between(0, 1)};
     const auto key = static_cast<std::uint64_t>(number + 1);
     const double size = between(0.2, 1) * most;
-    switch (random() % 6) {
+    switch (random() % kinds_) {
       case 0:
         world.bodies.push_back({key, massOfBall(mass, size), ballShape(size), surface});
         break;
@@ -58,9 +60,12 @@ struct RandomWorld : Draws {
         world.bodies.push_back(
             {key, massOfCylinder(mass, 0.6 * size, 0.6 * size), cylinderShape(0.6 * size, 0.6 * size), surface});
         break;
-      default:
+      case 5:
         world.bodies.push_back(
             {key, massOfCapsule(mass, 0.6 * size, 0.3 * size), capsuleShape(0.6 * size, 0.3 * size), surface});
+        break;
+      default:
+        world.bodies.push_back(bodyOfParts(key, mass, size, surface));
     }
     poses.push_back(placeAt(at, Eigen::AngleAxisd(between(0, 3), direction()).toRotationMatrix()));
     const double hot = random() % 3 == 0 ? 1 : 0.1;
@@ -68,15 +73,35 @@ struct RandomWorld : Draws {
     spins.emplace_back(hot * between(0, 100) * direction());
   }
 
+  // A ring, a cup with walls of 1 mm, or an L.
+  Body bodyOfParts(std::uint64_t key, double mass_kg, double size, const BodySurface& surface) {
+    BodySpec spec;
+    spec.shape = BodyShape::kParts;
+    spec.mass_kg = mass_kg;
+    spec.surface = surface;
+    const double s = size / 2;
+    const unsigned kind = random() % 3;
+    const Model model = kind == 0   ? ringModel(0.6 * s, s, 0.3 * s, 8)
+                        : kind == 1 ? cupModel(s, s, 0.001)
+                                    : boxesModel({{Vec3(0.2, 1, 0.3) * s, Vec3(0.2, 0, 0) * s},
+                                                  {Vec3(0.4, 0.2, 0.3) * s, Vec3(0.8, -0.8, 0) * s}});
+    Body body = bodyOf(model, spec);
+    body.key = key;
+    return body;
+  }
+
   World world;
   std::vector<Pose> poses;
   std::vector<Vec3> velocities, spins;
+
+ private:
+  unsigned kinds_;
 };
 
-TEST(RandomWorlds, NothingLeavesAClosedRoom) {
+void expectThatNothingLeaves(unsigned kinds) {
   const int begin = numberIn("HL_FIRST_WORLD", 0);
   for (int seed = begin; seed < begin + numberIn("HL_RANDOM_WORLDS", 20); ++seed) {
-    RandomWorld made(static_cast<std::uint64_t>(seed));
+    RandomWorld made(static_cast<std::uint64_t>(seed), kinds);
     Playground play(made.world, made.poses);
     for (std::size_t i = 0; i < made.velocities.size(); ++i) {
       play.state.bodies[i].velocity = made.velocities[i];
@@ -97,6 +122,9 @@ TEST(RandomWorlds, NothingLeavesAClosedRoom) {
     }
   }
 }
+
+TEST(RandomWorlds, NothingLeavesAClosedRoom) { expectThatNothingLeaves(6); }
+TEST(RandomWorlds, NothingOfPartsLeavesAClosedRoom) { expectThatNothingLeaves(9); }
 
 }  // namespace
 }  // namespace hl

@@ -242,7 +242,8 @@ TEST(Cylinder, MeetsAPlaneExactlyInAnyPose) {
     on.centre = Vec3(0, 0.1 + lowest + 1e-4, 0);
     PlacedRoom room_a, room_b;
     Manifold found;
-    ASSERT_TRUE(findManifold(placed(round, on, room_a), placed(plate, below, room_b), 0.01, found));
+    ASSERT_TRUE(findManifold(placed(round.shape.parts[0], on, room_a), placed(plate.shape.parts[0], below, room_b),
+                             0.01, found));
     double least = 1;
     for (const ManifoldPoint& point : found.points) least = std::min(least, point.gap);
     EXPECT_NEAR(least, 1e-4, 1e-9) << axis.transpose();
@@ -264,11 +265,13 @@ TEST(Cylinder, IsTouchedAtItsSideByCornersAndBallsExactly) {
     other.centre = (0.02 + 0.01 * std::sqrt(3.0) + 1e-5) * outward + height * Vec3::UnitZ();
     PlacedRoom room_a, room_b;
     Manifold found;
-    ASSERT_TRUE(findManifold(placed(round, still, room_a), placed(cube, other, room_b), 0.001, found));
+    ASSERT_TRUE(findManifold(placed(round.shape.parts[0], still, room_a), placed(cube.shape.parts[0], other, room_b),
+                             0.001, found));
     EXPECT_LT((found.normal + outward).norm(), 1e-6) << angle;
     EXPECT_NEAR(found.points[0].gap, 1e-5, 1e-9) << angle;
     other.centre = (0.025 + 1e-5) * outward + height * Vec3::UnitZ();
-    ASSERT_TRUE(findManifold(placed(round, still, room_a), placed(small, other, room_b), 0.001, found));
+    ASSERT_TRUE(findManifold(placed(round.shape.parts[0], still, room_a), placed(small.shape.parts[0], other, room_b),
+                             0.001, found));
     EXPECT_LT((found.normal + outward).norm(), 1e-12);
     EXPECT_NEAR(found.points[0].gap, 1e-5, 1e-12);
   }
@@ -331,8 +334,8 @@ TEST(BodyOf, ACylinderLiesAlongTheAxisOfItsBounds) {
     const double r = std::max(half[(axis + 1) % 3], half[(axis + 2) % 3]), length = 2 * half[axis];
     EXPECT_NEAR(body.mass.mass_kg, 1000 * EIGEN_PI * r * r * length, 1e-9);
     EXPECT_NEAR(body.mass.inertia_kg_m2(axis, axis), body.mass.mass_kg * r * r / 2, 1e-12);
-    EXPECT_LT((body.shape.faces[1].normal - Vec3::Unit(axis)).norm(), 1e-12);
-    EXPECT_EQ(body.shape.round_radius, r);
+    EXPECT_LT((body.shape.parts[0].faces[1].normal - Vec3::Unit(axis)).norm(), 1e-12);
+    EXPECT_EQ(body.shape.parts[0].round_radius, r);
   }
 }
 

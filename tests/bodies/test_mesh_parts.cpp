@@ -1,0 +1,196 @@
+// Which solids a mesh consists of, and the body that they make.
+#include "bodies/mesh_parts.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "bodies/convex_hull.h"
+#include "bodies/mesh_pieces.h"
+#include "bodies/scene_world.h"
+#include "draws.h"
+#include "mesh_drawings.h"
+
+namespace hl {
+namespace {
+
+using namespace test;
+
+std::size_t countOf(const Model& model) { return piecesOf(model.positions, model.triangles).size(); }
+
+// Each triangle with vertices of its own, as in an STL file.
+Model unwelded(const Model& model) {
+  Model out;
+  for (const auto& corners : model.triangles) {
+    const auto first = static_cast<std::uint32_t>(out.positions.size());
+    for (const std::uint32_t corner : corners) out.positions.push_back(model.positions[corner]);
+    out.triangles.push_back({first, first + 1, first + 2});
+  }
+  return out;
+}
+
+Model turnedRound(Model model) {
+  for (auto& corners : model.triangles) std::swap(corners[0], corners[1]);
+  return model;
+}
+
+Model movedBy(Model model, const Vec3& way) {
+  for (Vec3& vertex : model.positions) vertex += way;
+  return model;
+}
+
+const Vec3 kOne = Vec3::Constant(1);
+
+TEST(MeshPieces, AreSolidsThatAreApart) {
+  EXPECT_EQ(countOf(boxModel(kOne)), 1u);
+  EXPECT_EQ(countOf(boxesModel({{kOne, Vec3::Zero()}, {kOne, Vec3(3, 0, 0)}})), 2u);
+  EXPECT_EQ(countOf(boxesModel({{kOne, Vec3::Zero()}, {kOne, Vec3(1, 0.5, 0.5)}})), 2u) << "they overlap";
+  EXPECT_EQ(piecesOf({}, {}).size(), 0u);
+}
+
+TEST(MeshPieces, OfNeighboursThatShareCornersAreTold) {
+  for (const Vec3& at : {Vec3(2, 0, 0), Vec3(2, 2, 0), Vec3(2, 2, 2), Vec3(0, -2, 0), Vec3(0, 2, -2)}) {
+    const Model two = boxesModel({{kOne, Vec3::Zero()}, {kOne, at}});
+    for (const Model& model : {two, unwelded(two), turnedRound(two), movedBy(two, Vec3(1e3, -1e3, 500))}) {
+      const auto pieces = piecesOf(model.positions, model.triangles);
+      ASSERT_EQ(pieces.size(), 2u) << at.transpose();
+      for (std::uint32_t i = 0; i < 12; ++i) EXPECT_EQ(pieces[0][i], i);
+    }
+  }
+  for (const int wedges : {3, 8, 32}) {
+    const Model ring = ringModel(0.5, 1, 0.2, wedges);
+    EXPECT_EQ(countOf(ring), static_cast<std::size_t>(wedges));
+    EXPECT_EQ(countOf(turnedRound(unwelded(ring))), static_cast<std::size_t>(wedges));
+  }
+}
+
+// A box of 27 boxes: each inner edge has four of them.
+TEST(MeshPieces, OfABlockOfBlocksAreTheBlocks) {
+  std::vector<std::pair<Vec3, Vec3>> blocks;
+  for (int i = 0; i < 27; ++i) blocks.emplace_back(kOne, 2 * Vec3(i % 3, i / 3 % 3, i / 9));
+  EXPECT_EQ(countOf(boxesModel(blocks)), 27u);
+}
+
+TEST(MeshPieces, AreTheSameAtAnyScaleAndInAnyOrder) {
+  Draws draws(7);
+  for (const double scale : {1e-6, 1.0, 1e6}) {
+    Model ring = ringModel(0.5 * scale, scale, 0.2 * scale, 12);
+    std::shuffle(ring.triangles.begin(), ring.triangles.end(), draws.random);
+    EXPECT_EQ(countOf(ring), 12u);
+  }
+}
+
+// Walls whose corners are one in another, with edges in common: told by the order of their triangles.
+TEST(MeshPieces, OfACupAreItsWallsAndBottom) {
+  EXPECT_EQ(countOf(cupModel(1, 2, 0.1)), 5u);
+  EXPECT_EQ(countOf(unwelded(cupModel(1, 2, 0.1))), 5u);
+}
+
+TEST(MeshPieces, LeaveOutWhatHasNoArea) {
+  Model model = boxModel(kOne);
+  model.triangles.push_back({0, 0, 1});
+  model.triangles.push_back({2, 2, 2});
+  const auto pieces = piecesOf(model.positions, model.triangles);
+  ASSERT_EQ(pieces.size(), 1u);
+  EXPECT_EQ(pieces[0].size(), 12u);
+}
+
+// An open sheet, two sheets, and triangles that wind as they like: no more can be said than that they meet.
+TEST(MeshPieces, OfSheetsAreTheSheets) {
+  Model sheet;
+  sheet.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  sheet.triangles = {{0, 1, 2}, {2, 0, 3}};
+  EXPECT_EQ(countOf(sheet), 1u);
+  Model two = sheet;
+  addMesh(two, sheet, Vec3(0, 0, 1));
+  EXPECT_EQ(countOf(two), 2u);
+}
+
+BodySpec partsSpec() {
+  BodySpec spec;
+  spec.shape = BodyShape::kParts;
+  return spec;
+}
+
+std::string errorOf(const Model& model) {
+  try {
+    bodyOf(model, partsSpec());
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+// Two posts of a x h x a, joined by a bar of b x a x a between them: by the parallel axis theorem.
+TEST(MeshParts, AnHHasTheInertiaOfItsThreeBoxes) {
+  constexpr double kPost = 0.01, kHigh = 0.06, kBar = 0.04;
+  const Vec3 post(kPost / 2, kHigh / 2, kPost / 2), bar(kBar / 2, kPost / 2, kPost / 2), off(0.3, -0.1, 0.2);
+  const double arm = (kBar + kPost) / 2;
+  const Model model = boxesModel({{post, off - arm * Vec3::UnitX()}, {bar, off}, {post, off + arm * Vec3::UnitX()}});
+  const Body body = bodyOf(model, partsSpec());
+  const double m_post = 1000 * 8 * post.prod(), m_bar = 1000 * 8 * bar.prod();
+  EXPECT_EQ(body.shape.parts.size(), 3u);
+  EXPECT_NEAR(body.mass.mass_kg, 2 * m_post + m_bar, 1e-12);
+  EXPECT_LT((body.mass.centre_O - off).norm(), 1e-12);
+  const Mat3 boxes = 2 * massOfBox(m_post, post).inertia_kg_m2 + massOfBox(m_bar, bar).inertia_kg_m2;
+  const double steiner = 2 * m_post * arm * arm;
+  const Mat3 expected = boxes + Vec3(0, steiner, steiner).asDiagonal().toDenseMatrix();
+  EXPECT_LT((body.mass.inertia_kg_m2 - expected).norm(), 1e-12 * expected.norm());
+  EXPECT_NEAR(body.shape.reach, Vec3(arm + kPost / 2, kHigh / 2, kPost / 2).norm(), 1e-12);
+}
+
+TEST(MeshParts, AreInTheFrameOfTheBodyEachWithItsMiddle) {
+  const Body body = bodyOf(movedBy(ringModel(0.02, 0.03, 0.005, 16), Vec3(1, 2, 3)), partsSpec());
+  ASSERT_EQ(body.shape.parts.size(), 16u);
+  EXPECT_LT(body.hull_error_m, 1e-15);
+  for (const Convex& part : body.shape.parts) {
+    EXPECT_NEAR(part.middle.norm(), 0.025, 3e-4);
+    EXPECT_LT(heightAbove(part, part.middle), -0.002);
+    EXPECT_GT(heightAbove(part, Vec3::Zero()), 0.019) << "the hole is open";
+    for (const Vec3& vertex : part.vertices) EXPECT_LE((vertex - part.middle).norm(), part.reach);
+  }
+}
+
+// Of one piece it is its hull.
+TEST(MeshParts, OfOnePieceAreItsHull) {
+  BodySpec as_hull;
+  const Model model = movedBy(boxModel(Vec3(0.01, 0.02, 0.03)), Vec3(0.1, 0, 0));
+  const Body hull = bodyOf(model, as_hull), parts = bodyOf(model, partsSpec());
+  ASSERT_EQ(parts.shape.parts.size(), 1u);
+  EXPECT_NEAR(parts.shape.reach, hull.shape.reach, 1e-15);
+  EXPECT_NEAR(parts.mass.mass_kg, hull.mass.mass_kg, 1e-15);
+  EXPECT_LT((parts.mass.inertia_kg_m2 - hull.mass.inertia_kg_m2).norm(), 1e-12 * hull.mass.inertia_kg_m2.norm());
+}
+
+// A mesh that is there twice, and the inner side of a hollow ball.
+TEST(MeshParts, WithinOthersDoNotCount) {
+  const Body body =
+      bodyOf(boxesModel({{kOne / 2, Vec3::Zero()}, {kOne, Vec3::Zero()}, {kOne, Vec3::Zero()}}), partsSpec());
+  EXPECT_EQ(body.shape.parts.size(), 1u);
+  EXPECT_NEAR(body.mass.mass_kg, 8000, 1e-9);
+}
+
+TEST(MeshParts, WhatHasNoneSaysWhatToDo) {
+  Model lines;
+  lines.positions = boxModel(kOne).positions;
+  lines.segments = {{0, 1}, {0, 2}, {0, 4}, {1, 7}};
+  EXPECT_EQ(errorOf(lines), "its mesh has no triangles, and so no parts: use its hull or a box");
+  Model flat = boxModel(kOne);
+  Model sheet;
+  sheet.positions = {{5, 0, 0}, {6, 0, 0}, {6, 1, 0}};
+  sheet.triangles = {{0, 1, 2}};
+  addMesh(flat, sheet);
+  EXPECT_EQ(errorOf(flat),
+            "piece 2 of its mesh, of 1 triangles: hull: the points lie in a plane: give the shape a "
+            "thickness, or use a box");
+  std::vector<std::pair<Vec3, Vec3>> many;
+  for (std::size_t i = 0; i <= kMostParts; ++i) many.emplace_back(kOne, Vec3(3.0 * static_cast<double>(i), 0, 0));
+  EXPECT_EQ(errorOf(boxesModel(many)),
+            "its mesh has 65 pieces, and a body at most 64 parts: join them, or use its hull");
+  many.pop_back();
+  EXPECT_EQ(errorOf(boxesModel(many)), "");
+}
+
+}  // namespace
+}  // namespace hl
