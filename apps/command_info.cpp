@@ -104,6 +104,7 @@ void printBody(const RigidBody& body, const Model& model) {
   if (body.poses) {
     const Body made = bodyOf(model, body.spec);
     fmt::print("{}, {:.4g} kg", kBodyShapeNames[static_cast<std::size_t>(body.spec.shape)], made.mass.mass_kg);
+    if (made.shape.parts.size() > 1) fmt::print(", {} parts", made.shape.parts.size());
     constexpr double kRounding_m = 1e-9;
     if (made.hull_error_m > kRounding_m) fmt::print(", the mesh is up to {:.3g} mm outside", 1e3 * made.hull_error_m);
   } else {

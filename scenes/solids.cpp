@@ -73,6 +73,29 @@ Model boxSolid(const Vec3& half) {
   return model;
 }
 
+// Each wedge is a box, bent: x goes outward, z around.
+Model ringSolid(double inner, double outer, double half_height, std::size_t wedges) {
+  const Model box = boxSolid(Vec3::Ones());
+  Model model;
+  for (std::size_t wedge = 0; wedge < wedges; ++wedge) {
+    const auto first = static_cast<std::uint32_t>(model.positions.size());
+    for (const Vec3& corner : box.positions) {
+      const std::size_t end = (wedge + (corner.z() > 0 ? 1 : 0)) % wedges;
+      const double angle = 2 * std::numbers::pi * static_cast<double>(end) / static_cast<double>(wedges);
+      const double radius = corner.x() > 0 ? outer : inner;
+      model.positions.emplace_back(radius * std::cos(angle), half_height * corner.y(), radius * std::sin(angle));
+    }
+    for (const auto& t : box.triangles) {
+      model.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+      const auto at = [&](std::size_t i) -> const Vec3& { return model.positions[first + t[i]]; };
+      const Vec3 normal = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
+      model.normals.resize(model.positions.size());
+      for (const std::uint32_t corner : t) model.normals[first + corner] = normal;
+    }
+  }
+  return model;
+}
+
 Model turnedSolid(const std::vector<ProfilePoint>& profile, std::size_t sides, bool smooth) {
   Model model;
   const std::size_t parts = profile.size() - 1;

@@ -22,6 +22,8 @@ Model turnedSolid(const std::vector<ProfilePoint>& profile, std::size_t sides, b
 
 /// Centred at the origin; `radius` in m; smooth.
 Model ballSolid(double radius, std::size_t sides);
+/// Along y, centred, of wedges (>= 3) that are solids of their own; flat faces.
+Model ringSolid(double inner, double outer, double half_height, std::size_t wedges);
 /// Along y, centred.
 Model cylinderSolid(double radius, double half_height, std::size_t sides);
 

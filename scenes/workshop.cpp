@@ -36,6 +36,7 @@ class Workshop {
     top(Vec3(-0.02, 0, 0));
     bowl(Vec3(0.03, 0, 0.075));
     soft(Vec3(0.11, 0, 0.075));
+    ring(Vec3(0.035, 0, -0.03));
     return std::move(scene_);
   }
 
@@ -89,7 +90,7 @@ class Workshop {
     appendSolid(tray, boxSolid(Vec3(0.02, 0.009, 0.001)), Vec3(0, 0.01, -0.018));
     appendSolid(tray, boxSolid(Vec3(0.022, 0.01, 0.001)), Vec3(0, 0.009, 0.02));
     appendSolid(tray, ballSolid(0.004, 16), Vec3(0, 0.009, 0.024));
-    BodySpec spec = bodySpec(kWood_kg_m3, 0.3);
+    BodySpec spec = bodySpec(kWood_kg_m3, 0.3, BodyShape::kParts);
     spec.mass_kg = 0.02;
     const std::uint64_t number = body("drawer", std::move(tray), at + Vec3(0, 0.004, 0.002), spec);
     JointForces& slide = joint("drawer slide", JointKind::kSlider, number, at, Vec3::UnitZ());
@@ -186,6 +187,14 @@ class Workshop {
     spec.fixed = true;
     body("soft block", boxSolid(Vec3(0.02, 0.012, 0.015)), at + Vec3(0, 0.012, 0), spec);
     scene_.bodies.back().model.materials.front().stiffness = 0.15;
+  }
+
+  // It lies around a peg, which keeps it there, and can be lifted off.
+  void ring(const Vec3& at) {
+    constexpr double kHalfHeight = 0.004;
+    stand(cylinderSolid(0.004, 0.012, kSides), at + Vec3(0, 0.012, 0));
+    body("ring", ringSolid(0.009, 0.015, kHalfHeight, 16), at + Vec3(0.002, kHalfHeight, 0),
+         bodySpec(kWood_kg_m3, 0.3, BodyShape::kParts));
   }
 
   SceneModel scene_;

@@ -229,7 +229,7 @@ HL_API HLboolean hlIsObject(HLuint object);
  * of its range. */
 HL_API void hlBodyf(HLenum parameter, HLfloat value);
 HL_API void hlBodyd(HLenum parameter, HLdouble value); /**< see hlBodyf */
-/** The same of HL_BODY_SHAPE (HL_BODY_HULL .. HL_BODY_CYLINDER) and HL_BODY_FIXED (HL_TRUE: what frames move, pushes
+/** The same of HL_BODY_SHAPE (HL_BODY_HULL .. HL_BODY_PARTS) and HL_BODY_FIXED (HL_TRUE: what frames move, pushes
  * bodies, and only its surface counts). */
 HL_API void hlBodyi(HLenum parameter, HLint value);
 /** The same of HL_BODY_VELOCITY and HL_BODY_SPIN, with which it starts; world frame. */

@@ -263,7 +263,7 @@ enum {
   HL_BODY_STATIC_FRICTION = 0x48102,  /**< 0 .. 1e3, with other bodies, not below the dynamic one. Default: as that. */
   HL_BODY_DYNAMIC_FRICTION = 0x48103, /**< 0 .. 1e3. Default: as the static one, or 0.5. */
   HL_BODY_RESTITUTION = 0x48104,      /**< 0 .. 1. Default 0. Of two that touch, the geometric mean counts. */
-  HL_BODY_SHAPE = 0x48105,            /**< HL_BODY_HULL .. HL_BODY_CYLINDER. Default HL_BODY_HULL. */
+  HL_BODY_SHAPE = 0x48105,            /**< HL_BODY_HULL .. HL_BODY_PARTS. Default HL_BODY_HULL. */
   HL_BODY_FIXED = 0x48106,            /**< HL_TRUE: it does not move by itself. Default HL_FALSE. */
   HL_BODY_VELOCITY = 0x48107,         /**< 3; m/s of the centre of mass. Default 0. */
   HL_BODY_SPIN = 0x48108,             /**< 3; rad/s, world frame. Default 0. */
@@ -275,7 +275,9 @@ enum {
   HL_BODY_BOX = 0x48111,              /**< their bounds in the object frame */
   HL_BODY_BALL = 0x48112,             /**< centred in the bounds, as wide as their largest side */
   HL_BODY_CAPSULE = 0x48113,          /**< along the largest side, as wide as the larger of the others */
-  HL_BODY_CYLINDER = 0x48114          /**< the same with flat ends */
+  HL_BODY_CYLINDER = 0x48114,         /**< the same with flat ends */
+  HL_BODY_PARTS = 0x48115             /**< convex hulls of the pieces of the mesh, all of them as one; at most 64, and
+                                           each counts as a body */
 };
 
 /** Kinds of fields, of hlFieldPoint3d and hlFieldPlane3d; HL_FIELD_CONSTANT is that of hlFieldForce3d. */

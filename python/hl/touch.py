@@ -59,6 +59,7 @@ _BODY_SHAPES = {
     "ball": calls.HL_BODY_BALL,
     "capsule": calls.HL_BODY_CAPSULE,
     "cylinder": calls.HL_BODY_CYLINDER,
+    "parts": calls.HL_BODY_PARTS,
 }
 _FIELDS = {"magnet": calls.HL_FIELD_MAGNET, "spring": calls.HL_FIELD_SPRING, "drag": calls.HL_FIELD_DRAG}
 _JOINT_KINDS = {
@@ -259,8 +260,8 @@ class Touch:
         """Makes the object that is being defined a rigid body: each `place` of it is one, and goes on from where it is
         while it is placed as it was. The definition draws once, and places nothing.
 
-        shape, by which it meets other bodies: "hull", "box", "ball", "capsule" or "cylinder". fixed: it moves only with
-        frames, and pushes. parameters: mass (kg) or density (kg/m^3); static_friction, dynamic_friction, restitution
+        shape, by which it meets other bodies: "hull", "box", "ball", "capsule", "cylinder" or "parts", the hulls of the
+        pieces of its mesh. fixed: it moves only with frames, and pushes. parameters: mass (kg) or density (kg/m^3); static_friction, dynamic_friction, restitution
         (0..1); velocity (m/s) and spin (rad/s) with which it starts, (3,).
         """
         self.make_current()

@@ -1,4 +1,4 @@
-"""Pictures of the page: one of each example while it is touched, and a film."""
+"""Pictures of the page: one of each example while it is touched, of a scene, and films."""
 import asyncio
 import io
 import tempfile
@@ -38,9 +38,12 @@ def command_of(name, programs, address):
     return [built(programs, f"examples/{name}"), url, LONG_S]
 
 
-def write(png, name):
+def path_of(name):
+    return look.folder / "examples" / f"{name}.png"
+
+
+def write(png, path):
     picture = Image.open(io.BytesIO(png)).convert("RGB")
-    path = look.folder / "examples" / f"{name}.png"
     path.parent.mkdir(parents=True, exist_ok=True)
     picture.quantize(look.COLOURS, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE).save(path, optimize=True)
     told(path)
@@ -52,7 +55,7 @@ async def picture_of(name, programs):
             async with Browser(*CLIENT) as browser:
                 page = f"http://{served.found.group(1)}/11_web_client.html"
                 await browser.open(page, "document.getElementById('touched').textContent.startsWith('touching')")
-                write(await browser.picture(), name)
+                write(await browser.picture(), path_of(name))
         return
     with server(built(programs, "hld")) as served:
         address = served.found.group(1)
@@ -61,7 +64,21 @@ async def picture_of(name, programs):
                 await browser.open(f"http://{address}/", SHOWN)
                 await asyncio.sleep(PLOTS_S)
                 await browser.wait_for(TOUCHED)
-                write(await browser.picture(), name)
+                write(await browser.picture(), path_of(name))
+
+
+async def picture_of_scene(scene, programs):
+    touch = [built(programs, "hl"), "touch", scene, "--no-open", "--port", "0", "--explore", "off"]
+    with Program(touch, r"page: (http://\S+/)") as served:
+        async with Browser(*PICTURE) as browser:
+            await browser.open(served.found.group(1), SHOWN)
+            await asyncio.sleep(PLOTS_S)
+            return await browser.picture()
+
+
+def parts(programs):
+    scene = look.ROOT / "scenes/examples/parts.hl.json"
+    write(asyncio.run(picture_of_scene(scene, programs)), look.folder / "bodies_of_parts.png")
 
 
 def gallery(programs, names=None):

@@ -1,8 +1,8 @@
 #include "bodies/convex.h"
 
 #include <algorithm>
-#include <limits>
 #include <cmath>
+#include <limits>
 
 #include "base/plain_math.h"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include "base/error.h"
@@ -108,6 +109,16 @@ void makeParts(const Model& model, const BodySpec& spec, Body& body) {
   body.hull_error_m = made.error_m;
 }
 
+// Of a body of the scene: what is wrong with it is told with its name.
+template <typename Make>
+auto named(const Instance& instance, Make make) {
+  try {
+    return make();
+  } catch (const Error& error) {
+    throw Error(instance.body->name + ": " + error.what());
+  }
+}
+
 }  // namespace
 
 Body bodyOf(const Model& model, const BodySpec& spec) {
@@ -139,6 +150,19 @@ Body bodyOf(const Model& model, const BodySpec& spec) {
   }
   body.mass.centre_O = bounds.centre();
   return body;
+}
+
+std::size_t partsIn(const Model& model, const BodySpec& spec) {
+  return spec.shape == BodyShape::kParts ? bodyOf(model, spec).shape.parts.size() : 1;
+}
+
+std::size_t partsIn(const Snapshot& snapshot) {
+  std::size_t parts = 0;
+  for (const Instance& instance : snapshot.instances) {
+    if (instance.movesAsBody())
+      parts += named(instance, [&] { return partsIn(instance.shape->model, instance.body->spec); });
+  }
+  return parts;
 }
 
 Joint jointOf(const JointSpec& spec, const Pose& start_a, const Pose& start_b) {
@@ -195,20 +219,21 @@ void addJoints(const Snapshot& snapshot, World& world) {
 std::shared_ptr<const World> worldOf(const Snapshot& snapshot) {
   auto world = std::make_shared<World>();
   std::vector<Instance> fixed;
+  std::size_t parts = 0;
   for (const Instance& instance : snapshot.instances) {
     if (!instance.movesAsBody()) {
       fixed.push_back(instance);
       world->fixed_surfaces.push_back(instance.body ? std::optional(instance.body->spec.surface) : std::nullopt);
       continue;
     }
-    try {
-      world->bodies.push_back(bodyOf(instance.shape->model, instance.body->spec));
-    } catch (const Error& error) {
-      throw Error(instance.body->name + ": " + error.what());
-    }
+    world->bodies.push_back(named(instance, [&] { return bodyOf(instance.shape->model, instance.body->spec); }));
     world->bodies.back().key = instance.key;
+    parts += world->bodies.back().shape.parts.size();
   }
   if (world->bodies.empty()) return nullptr;
+  if (parts > kMostBodies)
+    throw Error("its bodies have " + std::to_string(parts) + " parts, and at most " + std::to_string(kMostBodies) +
+                " can move");
   if (!fixed.empty()) world->fixed = makeSnapshot(std::move(fixed));
   world->gravity_m_s2 = snapshot.mechanics.gravity_m_s2;
   addJoints(snapshot, *world);

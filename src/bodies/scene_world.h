@@ -8,11 +8,15 @@
 namespace hl {
 
 /// Null: none of its instances moves as a body. Throws hl::Error, with the name of the body, where a shape or a mass
-/// cannot be made. Allocates.
+/// cannot be made, and where all bodies have more than kMostBodies parts. Allocates.
 std::shared_ptr<const World> worldOf(const Snapshot& snapshot);
 
 /// The shape and the mass of a body by its mesh, as the spec says. Throws hl::Error, one line.
 Body bodyOf(const Model& model, const BodySpec& spec);
+/// The number of its parts, without making it where there is one. Throws as bodyOf().
+std::size_t partsIn(const Model& model, const BodySpec& spec);
+/// The same of all that move. Throws Error, with the name of the body.
+std::size_t partsIn(const Snapshot& snapshot);
 
 /// The joint of two bodies that start there; `start_b` is the identity for the world.
 Joint jointOf(const JointSpec& spec, const Pose& start_a, const Pose& start_b);

@@ -71,8 +71,8 @@ void setWhole(hl::proto::Body& body, HLenum parameter, HLint value) {
   const auto named = static_cast<HLenum>(value);
   if (parameter == HL_BODY_FIXED) return body.set_fixed(value != HL_FALSE);
   if (parameter != HL_BODY_SHAPE) throw Fault(HL_INVALID_ENUM, "the parameter must be HL_BODY_SHAPE or HL_BODY_FIXED");
-  if (named < HL_BODY_HULL || named > HL_BODY_CYLINDER)
-    throw Fault(HL_INVALID_ENUM, "the shape must be HL_BODY_HULL .. HL_BODY_CYLINDER");
+  if (named < HL_BODY_HULL || named > HL_BODY_PARTS)
+    throw Fault(HL_INVALID_ENUM, "the shape must be HL_BODY_HULL .. HL_BODY_PARTS");
   body.set_shape(static_cast<hl::proto::BodyShape>(named - HL_BODY_HULL));
 }
 

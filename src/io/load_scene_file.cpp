@@ -312,16 +312,18 @@ SceneBody SceneFile::bodyOf(Model part, const proto::SceneObject& object, const 
 void SceneFile::checkBodies(const SceneModel& scene) const {
   if (scene.bodies.size() > kMostBodies)
     fail("objects", fmt::format("there are {} bodies, and at most {} can move", scene.bodies.size(), kMostBodies));
-  std::size_t body = 0;
+  std::size_t body = 0, parts = 0;
   for (int i = 0; i < scene_.objects_size(); ++i) {
     if (!scene_.objects(i).has_body()) continue;
     const SceneBody& one = scene.bodies[body++];
     const std::string where = pathOf("objects", i) + ".body";
     try {
-      if (!one.spec.fixed) hl::bodyOf(one.model, one.spec);
+      if (!one.spec.fixed) parts += hl::bodyOf(one.model, one.spec).shape.parts.size();
     } catch (const Error& error) {
       fail(where, where + ": " + error.what());
     }
+    if (parts > kMostBodies)
+      fail(where, fmt::format("with {} the bodies have {} parts, and at most {} can move", where, parts, kMostBodies));
   }
 }
 

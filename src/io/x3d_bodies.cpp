@@ -56,6 +56,8 @@ class BodiesOfX3d {
   void addBody(const X3dNode& node, bool enabled);
   BodySpec specOf(const X3dNode& node, bool enabled);
   void setShape(const X3dNode& node, std::vector<ShapePiece>& pieces, SceneBody& body);
+  void setParts(const X3dNode& node, std::size_t shapes, SceneBody& body);
+  bool full() const { return scene_.bodies.size() + more_parts_ >= kMostBodies; }
   void checkBody(const X3dNode& node, SceneBody& body);
   void warnOfWhatIsLeftOut(const X3dNode& node);
 
@@ -73,6 +75,7 @@ class BodiesOfX3d {
   X3dNodes taken_;                          // what is no longer a part of the rest
   std::vector<const X3dNode*> transforms_;  // above what is looked at, from outside
   std::size_t visited_ = 0, too_many_ = 0;
+  std::size_t more_parts_ = 0;  // of bodies, beyond their first
   bool has_gravity_ = false;
 };
 
@@ -221,14 +224,27 @@ void BodiesOfX3d::setShape(const X3dNode& node, std::vector<ShapePiece>& pieces,
   if (pieces.size() == 1) {
     body.spec.shape = kindOf(*pieces.front().shape);
     body.pose = after(body.pose, std::exchange(pieces.front().pose, {}));
-  } else {
-    warn(node, "meets other bodies as one hull of its " + std::to_string(pieces.size()) + " shapes");
   }
   body.model = geometryOf(pieces);
+  if (pieces.size() > 1) setParts(node, pieces.size(), body);
   const Box bounds = body.model.bounds();
   const Vec3 said = centre_of_body.toWorld(fieldsOf(node).vec("centerOfMass", Vec3::Zero(), kFarthestX3d_m));
   if ((body.pose.toWorld(bounds.centre()) - said).norm() > kOff * bounds.size().norm())
     warn(node, "its centre of mass is that of its shape");
+}
+
+// Several shapes are a body of parts, or its hull.
+void BodiesOfX3d::setParts(const X3dNode& node, std::size_t shapes, SceneBody& body) {
+  body.spec.shape = BodyShape::kParts;
+  if (body.spec.fixed) return;
+  try {
+    const std::size_t more = partsIn(body.model, body.spec) - 1;
+    if (scene_.bodies.size() + more_parts_ + more >= kMostBodies) throw Error("all bodies have too many parts");
+    more_parts_ += more;
+  } catch (const Error& error) {
+    body.spec.shape = BodyShape::kHull;
+    warn(node, "meets other bodies as one hull of its " + std::to_string(shapes) + " shapes: " + error.what());
+  }
 }
 
 // What cannot move stays, so that it can be touched.
@@ -246,7 +262,7 @@ void BodiesOfX3d::addBody(const X3dNode& node, bool enabled) {
   if (body_number_.contains(&node)) return warn(node, "is in the scene already");
   std::vector<ShapePiece> pieces = piecesIn(node);
   if (pieces.empty()) return warn(node, "is left out: it has no shape");
-  if (scene_.bodies.size() >= kMostBodies) {
+  if (full()) {
     ++too_many_;
     return;
   }
@@ -305,7 +321,7 @@ void BodiesOfX3d::addStandingOne(const X3dNode& collidable) {
   std::vector<ShapePiece> pieces;
   addPieces(collidable, {}, pieces);
   if (pieces.empty()) return;
-  if (scene_.bodies.size() >= kMostBodies) {
+  if (full()) {
     ++too_many_;
     return;
   }

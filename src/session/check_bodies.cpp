@@ -38,7 +38,7 @@ void checkJointsOf(const PlacedList& placed) {
 
 }  // namespace
 
-WorldParts partsOf(const Snapshot& scene) { return {movingBodies(scene), scene.mechanics.joints.size()}; }
+WorldParts partsOf(const Snapshot& scene) { return {partsIn(scene), scene.mechanics.joints.size()}; }
 
 WorldParts checkBodies(const PlacedList& placed, const PlacedList& before) {
   Checked good;
@@ -48,10 +48,10 @@ WorldParts checkBodies(const PlacedList& placed, const PlacedList& before) {
   std::size_t count = 0;
   for (const PlacedShape& one : placed) {
     if (!one.movesAsBody()) continue;
-    ++count;
-    if (!good.emplace(one.shape.get(), one.body.get()).second) continue;
+    const bool is_new = good.emplace(one.shape.get(), one.body.get()).second;
     try {
-      check(one);
+      if (is_new) check(one);
+      count += partsIn(one.shape->model, *one.body);
     } catch (const Error& error) {
       throw Error("object " + std::to_string(one.object) + ".body: " + error.what());
     }

@@ -10,7 +10,7 @@ namespace hl {
 
 /// What the world of the bodies is made of, by numbers.
 struct WorldParts {
-  std::size_t bodies = 0;  ///< that move
+  std::size_t bodies = 0;  ///< that move; of those with several parts, each part
   std::size_t joints = 0;
 
   WorldParts& operator+=(const WorldParts& more) {

@@ -19,7 +19,7 @@ void requireNoBodies(const Snapshot& scene) {
 }
 
 std::uint64_t bytesOfBase(const Snapshot& base) {
-  std::uint64_t bytes = memoryOf(base) + movingBodies(base) * kBody_bytes;
+  std::uint64_t bytes = memoryOf(base) + partsIn(base) * kBody_bytes;
   for (const JointSpec& joint : base.mechanics.joints) bytes += bytesOfJoint(joint);
   return bytes;
 }

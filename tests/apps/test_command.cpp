@@ -319,7 +319,8 @@ TEST(Command, InfoListsJoints) {
   const Result result = call("info workshop");
   EXPECT_EQ(result.code, 0);
   for (const char* told : {"joint drawer slide: slider, drawer to the world, 0 .. 0.034 m, friction 0.15 N\n",
-                           "joint button 1 slide: ", "damping 0.05 N s/m, a force table of 4 rows\n"})
+                           "joint button 1 slide: ", "damping 0.05 N s/m, a force table of 4 rows\n",
+                           "body ring: parts, ", " kg, 16 parts, "})
     EXPECT_NE(result.output.find(told), std::string::npos) << told << '\n' << result.output;
 }
 

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <random>
 
+#include "bodies/scene_world.h"
 #include "bodies/sleep.h"
 #include "bodies/world_hash.h"
-#include "test_worlds.h"
+#include "mesh_drawings.h"
 
 namespace hl {
 namespace {
@@ -154,12 +155,20 @@ struct Crowd {
       const double x = 0.1 * static_cast<double>(key % 10), z = 0.1 * static_cast<double>(key / 10 % 10);
       const Vec3 at(x - 0.45, 0.1 + 0.1 * static_cast<double>(key / 100), z - 0.45);
       const double size = 0.02 + 0.01 * uniform(random);
-      made.emplace_back(key % 2 == 0 ? ball(key, 0.1, size, 0.4, 0.3) : block(key, 0.1, Vec3::Constant(size), 0.4),
-                        placeAt(at + 0.01 * Vec3(uniform(random), 0, uniform(random))));
+      made.emplace_back(bodyOfSize(key, size), placeAt(at + 0.01 * Vec3(uniform(random), 0, uniform(random))));
     }
     std::mt19937_64 shuffle(order);
     if (order > 0) std::shuffle(made.begin(), made.end(), shuffle);
     std::sort(made.begin(), made.end(), [](const auto& x, const auto& y) { return x.first.key < y.first.key; });
+  }
+  static Body bodyOfSize(std::uint64_t key, double size) {
+    if (key % 2 == 0) return ball(key, 0.1, size, 0.4, 0.3);
+    if (key % 5 > 0) return block(key, 0.1, Vec3::Constant(size), 0.4);
+    BodySpec spec;
+    spec.shape = BodyShape::kParts;
+    Body cup = bodyOf(cupModel(size, 2 * size, size / 4), spec);
+    cup.key = key;
+    return cup;
   }
   std::unique_ptr<Playground> play() const {
     World world;

@@ -18,7 +18,7 @@ void defineTriangle(HLuint object) {
   hlBodyd(HL_BODY_MASS, 0.25);
   hlBodyf(HL_BODY_DYNAMIC_FRICTION, 0.5F);
   hlBodyd(HL_BODY_RESTITUTION, 1);
-  hlBodyi(HL_BODY_SHAPE, HL_BODY_CAPSULE);
+  hlBodyi(HL_BODY_SHAPE, HL_BODY_PARTS);
   hlBody3d(HL_BODY_SPIN, 1, 2, 3);
   hlBegin(HL_TRIANGLES);
   hlVertex3d(0, 0, 0);
@@ -42,7 +42,7 @@ TEST_F(CallsTest, ABodyIsSentWithItsObject) {
   EXPECT_EQ(body.dynamic_friction(), 0.5);
   EXPECT_FALSE(body.has_static_friction());
   EXPECT_EQ(body.restitution(), 1);
-  EXPECT_EQ(body.shape(), proto::CAPSULE);
+  EXPECT_EQ(body.shape(), proto::PARTS);
   EXPECT_EQ(body.spin_rad_s().z(), 3);
   EXPECT_FALSE(body.fixed());
   EXPECT_EQ(frames[0].gravity_m_s2().y(), -1.62);

@@ -11,6 +11,7 @@
 #include <random>
 
 #include "base/error.h"
+#include "bodies/scene_world.h"
 #include "io/load_image.h"
 #include "scene/snapshot.h"
 #include "temp_folder.h"
@@ -144,6 +145,13 @@ TEST(SceneFile, HeightsOfAFileTakeAnotherSpacing) {
   const SceneModel scene = loadSceneFile(fileWith(
       "scene.hl.json", R"({"objects":[{"heights": {"file": "field.asc", "spacing": 2, "verticalScale": 3}}]})"));
   EXPECT_LT((scene.surfaces.at(0).source->bounds().size() - Vec3(4, 15, 2)).norm(), 1e-12);
+}
+
+TEST(SceneFile, TheExampleOfPartsLoads) {
+  const SceneModel scene = loadSceneFile(std::string(HL_EXAMPLES) + "/parts.hl.json");
+  std::vector<std::size_t> parts;
+  for (const SceneBody& body : scene.bodies) parts.push_back(partsIn(body.model, body.spec));
+  EXPECT_EQ(parts, (std::vector<std::size_t>{5, 1, 12, 2}));
 }
 
 SceneModel worldOfJson(const std::string& json) { return loadSceneFile(fileWith("scene.hl.json", json)); }

@@ -69,5 +69,18 @@ TEST(Workshop, OneDominoTipsAllOfThem) {
   EXPECT_EQ(shop.bodies().view().returned, 0U);
 }
 
+// A push along the table: the peg stops the ring, which has 5 mm of way.
+TEST(Workshop, TheRingDoesNotLeaveItsPeg) {
+  Shop shop;
+  shop.run(1);
+  for (const Vec3& way : {Vec3(0.3, 0, 0), Vec3(-0.3, 0, 0.3), Vec3(0, 0, -0.5)}) {
+    shop.bodies().set(shop.number("ring"), way, Vec3::Zero());
+    shop.run(1);
+    const Vec3 from_peg = shop.body("ring").centre - Vec3(0.035, 0, -0.03);
+    EXPECT_LT(std::hypot(from_peg.x(), from_peg.z()), 0.00501) << way.transpose();
+  }
+  EXPECT_EQ(shop.bodies().world().bodies[shop.number("ring")].shape.parts.size(), 16U);
+}
+
 }  // namespace
 }  // namespace hl
