@@ -146,13 +146,14 @@ bool consistent(const proto::ProxyTicks& in) {
 
 }  // namespace
 
-std::uint64_t worldHash(const ProxyLoop& proxy) {
+std::uint64_t worldHash(const ProxyLoop& proxy, HashedSteps hashed) {
   constexpr std::size_t kMany = 100;
   constexpr std::uint64_t kSeldom = 100;
   const BodyWorld* const bodies = proxy.bodies();
   if (bodies == nullptr) return 0;
   const WorldState& state = bodies->state();
-  if (state.bodies.size() > kMany && state.steps % kSeldom != 0) return 0;
+  const bool seldom = hashed == HashedSteps::kSome || state.bodies.size() > kMany;
+  if (seldom && state.steps % kSeldom != 0) return 0;
   return hashOf(bodies->world(), state);
 }
 

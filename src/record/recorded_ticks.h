@@ -29,9 +29,11 @@ struct TickContext {
   std::uint64_t scene = 0;
 };
 
-/// hashOf() of the bodies after a tick; 0 where there are none, and of more than 100 bodies in most ticks: it is taken
-/// in each hundredth of their steps. RT-safe.
-std::uint64_t worldHash(const ProxyLoop& proxy);
+/// Of how many of the bodies' steps there is a hash: of all (of more than 100 bodies of each hundredth), or of each
+/// hundredth.
+enum class HashedSteps { kAll, kSome };
+/// hashOf() of the bodies after a tick; 0 where there are none, or this step has no hash. RT-safe.
+std::uint64_t worldHash(const ProxyLoop& proxy, HashedSteps hashed);
 
 /// Consecutive ticks, at least one; `first` is the number of the first.
 void toProto(std::span<const TickRecord> records, std::uint64_t first, proto::ProxyTicks& out);

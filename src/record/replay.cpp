@@ -163,7 +163,7 @@ class ProxyReplay {
     }
     if (record.world_hash == 0) return;
     ++report_.world_hashes;
-    const std::uint64_t hash = worldHash(*loop_);
+    const std::uint64_t hash = worldHash(*loop_, HashedSteps::kAll);
     if (hash != record.world_hash)
       differ(time_s,
              fmt::format("bodies whose hash is {:016x} are recorded, and {:016x} comes out", record.world_hash, hash));

@@ -95,9 +95,10 @@ class Stirred {
   void step() {
     now_ns_ += kPeriod_ns + (count_ * 7919) % 1000;
     const double t = 1e-3 * static_cast<double>(++count_);
-    if (count_ % 400 == 0) changeScene();
+    if (scene_changes_ && count_ % 400 == 0) changeScene();
     device_.setHandGoal(Vec3(0.03 * std::sin(4 * t), 0.012 + 0.01 * std::sin(2.3 * t), 0.03 * std::cos(3.1 * t)));
-    const DeviceSample sample = device_.read(now_ns_);
+    DeviceSample sample = device_.read(now_ns_);
+    if (lost_) sample.status = DeviceStatus::kLost;
     const ServoState before = step_.servo();
     const SpringOfServo spring = springOf(settings_, step_.servo());
     const ServoOutput out = step_.onTime(loop_, commands_, settings_, sample);
@@ -112,6 +113,8 @@ class Stirred {
     snapped_ += loop_.state().snap.holds() ? 1 : 0;
     drawn_ += step_.target().field_N.norm() > 0.01 ? 1 : 0;
   }
+  void keepScene() { scene_changes_ = false; }
+  void lose() { lost_ = true; }
   const BodyWorld& world() const { return *loop_.bodies(); }
   int onBodies() const { return on_bodies_; }  ///< contacts with bodies so far
   int snapped() const { return snapped_; }     ///< steps so far in which a snap held the proxy
@@ -144,6 +147,7 @@ class Stirred {
   ProxyCommands commands_;
   std::int64_t now_ns_ = 5'000'000'000, count_ = 0;
   std::uint64_t number_ = 1;
+  bool scene_changes_ = true, lost_ = false;
   int on_bodies_ = 0, snapped_ = 0, drawn_ = 0;
 };
 
@@ -268,6 +272,40 @@ TEST_F(RecordedBodies, NumbersThatNoBodyHasAreRefused) {
   refused([](proto::RecordingBlock& block) {
     if (block.has_ticks()) block.mutable_ticks()->add_world_hash(1);
   });
+}
+
+/// What a black box of a session has that is lost after this many steps in one scene.
+ReplayReport boxAfter(int steps, const std::filesystem::path& boxes) {
+  RecorderSettings settings;
+  settings.black_box_folder = boxes.string();
+  settings.black_boxes = 1;
+  {
+    Stirred session(settings);
+    session.run(900);
+    session.keepScene();
+    for (int i = 0; i < steps; ++i) {
+      session.step();
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+    session.lose();
+    session.run(10);
+  }
+  return replay(std::filesystem::directory_iterator(boxes)->path().string());
+}
+
+// The recorder asks for what the bodies remember when it comes to it: then the ticks begin.
+TEST_F(RecordedBodies, AreInABlackBox) {
+  int steps = 1000;
+  ReplayReport report = boxAfter(steps, folder.path() / "boxes");
+  while (report.ticks < 200 && steps < 1'000'000) report = boxAfter(steps *= 2, folder.path() / "boxes");
+  EXPECT_TRUE(report.black_box);
+  EXPECT_FALSE(report.difference) << report.difference->what << ' ' << report.difference->number << ": "
+                                  << report.difference->text;
+  EXPECT_GE(report.ticks, 200U);
+  EXPECT_EQ(report.scenes, 1U);
+  EXPECT_GT(report.world_hashes, 0U);
+  EXPECT_EQ(report.unchecked_ticks + report.lost_ticks, 0U);
+  EXPECT_EQ(report.fault, faultText(FaultReason::kDeviceLost));
 }
 
 /// A recording that a page asks for while bodies move.

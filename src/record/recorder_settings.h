@@ -1,0 +1,24 @@
+// Recorder settings: what is recorded of a session, and where to.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "record/page_recordings.h"
+
+namespace hl {
+
+struct RecorderSettings {
+  std::string file;                              ///< of the session; empty: it is not recorded
+  std::uint64_t most_bytes = 4'000'000'000;      ///< of that file; then the recording ends, not the session
+  std::shared_ptr<PageRecordings> pages;         ///< what pages ask for; null, or with a file: they cannot
+  std::string black_box_folder;                  ///< made when needed; empty: no black boxes
+  std::size_t black_boxes = 20;                  ///< kept there, >= 1; the oldest go
+  std::string version;                           ///< of HL, for the files
+  std::function<void(const std::string&)> tell;  ///< gets a line when a file is written or can not be; or empty
+};
+
+}  // namespace hl
