@@ -56,7 +56,7 @@ namespace HL {
         public Rotation(double x, double y, double z, double w) { X = x; Y = y; Z = z; W = w; }
     }
 
-    public enum BodyShape { Hull, Box, Ball, Capsule, Cylinder }
+    public enum BodyShape { Hull, Box, Ball, Capsule, Cylinder, Parts }
 
     /// <summary>How the calls of an object move as rigid bodies: docs/bodies.md. Null: the server's default.</summary>
     public sealed class TouchBody {

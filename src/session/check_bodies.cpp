@@ -15,7 +15,9 @@ namespace hl {
 
 namespace {
 
-using Checked = std::set<std::pair<const Shape*, const BodySpec*>>;
+using ShapeOfBody = std::pair<const Shape*, const BodySpec*>;
+
+ShapeOfBody shapeOf(const PlacedShape& placed) { return {placed.shape.get(), placed.body.get()}; }
 
 void check(const PlacedShape& placed) {
   const Box bounds = placed.shape->model.bounds();
@@ -41,20 +43,22 @@ void checkJointsOf(const PlacedList& placed) {
 WorldParts partsOf(const Snapshot& scene) { return {partsIn(scene), scene.mechanics.joints.size()}; }
 
 WorldParts checkBodies(const PlacedList& placed, const PlacedList& before) {
-  Checked good;
+  std::set<ShapeOfBody> good;
+  std::map<ShapeOfBody, std::size_t> parts;
   for (const PlacedShape& one : before) {
-    if (one.movesAsBody()) good.emplace(one.shape.get(), one.body.get());
+    if (one.movesAsBody()) good.insert(shapeOf(one));
   }
   std::size_t count = 0;
   for (const PlacedShape& one : placed) {
     if (!one.movesAsBody()) continue;
-    const bool is_new = good.emplace(one.shape.get(), one.body.get()).second;
+    const auto [its_parts, is_first] = parts.try_emplace(shapeOf(one), 0);
     try {
-      if (is_new) check(one);
-      count += partsIn(one.shape->model, *one.body);
+      if (is_first && !good.contains(shapeOf(one))) check(one);
+      if (is_first) its_parts->second = partsIn(one.shape->model, *one.body);
     } catch (const Error& error) {
       throw Error("object " + std::to_string(one.object) + ".body: " + error.what());
     }
+    count += its_parts->second;
   }
   checkJointsOf(placed);
   return {count, placed.joints.size()};

@@ -247,6 +247,27 @@ TEST_F(SessionBodiesTest, ThereAreNoMoreThanTheLimitAllClientsTogether) {
   EXPECT_EQ(client.show(blocksFrame(2, many)), "there are more than 1000 bodies in the world");
 }
 
+// Two boxes side by side are two parts.
+TEST_F(SessionBodiesTest, EachOfTheirPartsCounts) {
+  Client client(server_);
+  const auto shown = [&](std::uint64_t number, std::size_t bodies) {
+    std::vector<Vec3> places;
+    for (std::size_t i = 0; i < bodies; ++i)
+      places.emplace_back(0.1 * static_cast<double>(i % 25), 0.5, 0.05 * static_cast<double>(i / 25));
+    proto::Frame frame = blocksFrame(number, places);
+    proto::ObjectDefinition& block = *frame.mutable_objects(1);
+    block.mutable_body()->set_shape(proto::PARTS);
+    proto::Primitives& mesh = *block.mutable_items(0)->mutable_primitives();
+    const int numbers = mesh.vertices_size(), corners = mesh.triangles_size();
+    for (int i = 0; i < numbers; ++i) mesh.add_vertices(mesh.vertices(i) + (i % 3 == 0 ? 2 * kHalf_m : 0));
+    for (int i = 0; i < corners; ++i) mesh.add_triangles(mesh.triangles(i) + static_cast<std::uint32_t>(numbers / 3));
+    return client.show(frame);
+  };
+  EXPECT_EQ(shown(1, kMostBodies / 2 + 1),
+            "there are more than 1000 bodies in the world, those of other clients among them");
+  EXPECT_EQ(shown(2, 2), "");
+}
+
 TEST(Bodies, NeedAServerWithOneDevice) {
   TouchServerSettings settings = settingsOf();
   settings.devices = 2;
