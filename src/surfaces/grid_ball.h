@@ -32,6 +32,7 @@ class GridBall {
   void setPart(double begin, double end);
   void setRadius(double radius);
   double end() const { return end_; }
+  double radius() const { return radius_; }  ///< m
 
   // In grid coordinates: the centre at both ends of the part, and bounds of the moving ball.
   const Vec3& first() const { return first_; }

@@ -1,0 +1,31 @@
+// BrickIndex: finds the triangles of an iso surface near a moving ball, by the pyramid of its bricks.
+#pragma once
+
+#include <cstddef>
+
+#include "geometry/spatial_index.h"
+#include "surfaces/grid_ball.h"
+#include "surfaces/iso_surface.h"
+
+namespace hl {
+
+class BrickIndex final : public SpatialIndex {
+ public:
+  /// The surface must outlive it. Takes no memory: the pyramid is the volume's.
+  explicit BrickIndex(const IsoSurface& surface) : surface_(surface), metric_(surface.frame()) {}
+
+  std::size_t overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId primitive)> visit) const override;
+  std::size_t sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
+                    FunctionRef<double(ElementId primitive, double limit)> visit) const override;
+  std::size_t nearest(const Vec3& centre, double farthest,
+                      FunctionRef<double(ElementId primitive, double limit)> visit) const override;
+  IndexStats stats() const override;
+
+ private:
+  double extent() const;
+
+  const IsoSurface& surface_;
+  const GridMetric metric_;
+};
+
+}  // namespace hl

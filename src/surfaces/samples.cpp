@@ -1,0 +1,15 @@
+#include "surfaces/samples.h"
+
+#include <utility>
+
+namespace hl {
+
+Samples::Samples(SampleKind kind, std::shared_ptr<const void> data, std::optional<double> missing)
+    : kind_(kind),
+      data_(std::move(data)),
+      missing_(missing),
+      missing_value_(missing.value_or(std::numeric_limits<double>::quiet_NaN())) {
+  if (kind == SampleKind::kFloat32) missing_value_ = static_cast<float>(missing_value_);
+}
+
+}  // namespace hl

@@ -1,0 +1,51 @@
+// Samples: a list of numbers of one kind, as a file or a sensor gives them.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "surfaces/height_grid.h"
+
+namespace hl {
+
+/// Immutable; read by any thread.
+class Samples {
+ public:
+  /// `data` has sizeOf(kind) bytes a sample, aligned as its kind; it is shared, not copied. `missing`: the value that
+  /// stands for "no sample"; what is not finite always does.
+  Samples(SampleKind kind, std::shared_ptr<const void> data, std::optional<double> missing = {});
+
+  SampleKind kind() const { return kind_; }
+  std::optional<double> missing() const { return missing_; }
+  const void* data() const { return data_.get(); }
+  /// Not a number where it is missing. RT-safe.
+  double operator[](std::size_t place) const {
+    const double value = read(place);
+    return value == missing_value_ ? std::numeric_limits<double>::quiet_NaN() : value;
+  }
+
+ private:
+  double read(std::size_t place) const {
+    switch (kind_) {
+      case SampleKind::kInt16:
+        return static_cast<const std::int16_t*>(data_.get())[place];
+      case SampleKind::kUint16:
+        return static_cast<const std::uint16_t*>(data_.get())[place];
+      case SampleKind::kFloat32:
+        break;
+    }
+    const double value = static_cast<const float*>(data_.get())[place];
+    return std::isinf(value) ? std::numeric_limits<double>::quiet_NaN() : value;
+  }
+
+  SampleKind kind_;
+  std::shared_ptr<const void> data_;
+  std::optional<double> missing_;
+  double missing_value_;  // equal to no sample if none stands for "missing"
+};
+
+}  // namespace hl

@@ -1,0 +1,194 @@
+// Iso surfaces: closed where they should be, exact where interpolation is, and near to what was sampled.
+#include "surfaces/iso_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/error.h"
+#include "volumes.h"
+
+namespace hl {
+namespace {
+
+using test::Random;
+
+// How often each side of a triangle occurs, by the bits of its ends, less how often it occurs the other way round.
+struct SideUse {
+  int count = 0, balance = 0;
+};
+using SideUses = std::map<std::array<double, 6>, SideUse>;
+
+SideUses sidesOf(const IsoSurface& surface, const IsoCell& cell) {
+  SideUses sides;
+  if (cell.triangles == nullptr) return sides;
+  for (unsigned n = 0; n < cell.triangles->count; ++n) {
+    if (!surface.exists(cell, n)) continue;
+    const std::array<Vec3, 3> corner = surface.corners(surface.idOf(cell, n));
+    EXPECT_TRUE(isTriangle(corner[0], corner[1], corner[2]));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 &a = corner[i], &b = corner[(i + 1) % 3];
+      const bool forward = std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+      const Vec3 &low = forward ? a : b, &high = forward ? b : a;
+      SideUse& use = sides[{low.x(), low.y(), low.z(), high.x(), high.y(), high.z()}];
+      ++use.count;
+      use.balance += forward ? 1 : -1;
+    }
+  }
+  return sides;
+}
+
+void add(SideUses& to, const SideUses& from) {
+  for (const auto& [side, use] : from) {
+    to[side].count += use.count;
+    to[side].balance += use.balance;
+  }
+}
+
+// Random values in blocks of 3^3 cells: each side of a triangle in the middle cell has one other, with the opposite
+// direction, and all bits are the same.
+TEST(IsoSurface, EachInnerSideBelongsToTwoTriangles) {
+  Random random(1);
+  const int blocks = 100'000;
+  std::size_t checked = 0;
+  for (int i = 0; i < blocks; ++i) {
+    const auto volume = test::volumeOf({4, 4, 4}, [&](const Vec3&) { return random.uniform(-1, 1); });
+    const IsoSurface surface(volume, test::cubicFrame(1e-3, random.inCube(1)), {0.1, SolidSide::kAbove});
+    SideUses all;
+    for (std::uint32_t c = 0; c < 27; ++c) add(all, sidesOf(surface, surface.cell(c % 3, c / 3 % 3, c / 9)));
+    for (const auto& [side, use] : sidesOf(surface, surface.cell(1, 1, 1))) {
+      ASSERT_EQ(all[side].count, 2) << "block " << i;
+      ASSERT_EQ(all[side].balance, 0) << "block " << i;
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 500'000U);
+}
+
+// Samples on the surface: triangles without area are left out, and the rest still has no border.
+TEST(IsoSurface, ThereIsNoBorderWhereSamplesLieOnTheSurface) {
+  Random random(2);
+  for (int i = 0; i < 20'000; ++i) {
+    const auto volume = test::volumeOf({4, 4, 4}, [&](const Vec3&) { return random.below(3) - 1.0; });
+    const IsoSurface surface(volume, test::cubicFrame(1e-3),
+                             {0, random.below(2) == 0 ? SolidSide::kAbove : SolidSide::kBelow});
+    SideUses all;
+    for (std::uint32_t c = 0; c < 27; ++c) add(all, sidesOf(surface, surface.cell(c % 3, c / 3 % 3, c / 9)));
+    for (const auto& [side, use] : sidesOf(surface, surface.cell(1, 1, 1)))
+      ASSERT_EQ(all[side].balance, 0) << "block " << i;
+  }
+}
+
+// Linear interpolation has a plane of any tilt exactly.
+TEST(IsoSurface, APlaneOfAnyTiltIsFlat) {
+  Random random(3);
+  for (int i = 0; i < 30; ++i) {
+    const Vec3 normal = random.direction(), axis = random.direction();
+    const double through = normal.dot(Vec3(20, 20, 20) + random.inCube(3));
+    // Samples that floats hold exactly.
+    const Vec3 slope = (normal * 1024).array().round() / 1024;
+    const auto volume =
+        test::volumeOf({41, 41, 41}, [&](const Vec3& at) { return slope.dot(at) - std::round(through * 1024) / 1024; });
+    const GridFrame frame =
+        test::cubicFrame(2.5e-3).placed(Eigen::AngleAxisd(i, axis).toRotationMatrix(), Vec3::Zero());
+    const IsoSurface surface(volume, frame, {0, SolidSide::kAbove});
+    const test::Mesh mesh = test::meshOf(surface);
+    ASSERT_GT(mesh.triangles.size(), 1000U);
+    const Vec3 across = (frame.axes.inverse().transpose() * slope).normalized();
+    double low = INFINITY, high = -INFINITY;
+    for (const Vec3& vertex : mesh.positions) {
+      low = std::min(low, across.dot(vertex));
+      high = std::max(high, across.dot(vertex));
+    }
+    // Where the surface is put through a sample it is off by 2^-30 of a cell at most.
+    EXPECT_LT(high - low, 2 * 2.5e-3 * 0x1p-30) << i;
+  }
+}
+
+// R = 20 mm, sampled as a distance: within h^2 / (2 R), the surface too small and never too large.
+TEST(IsoSurface, ASphereIsWithinTheSquareOfItsSpacing) {
+  Random random(4);
+  for (const double h : {1e-3, 0.5e-3, 0.25e-3}) {
+    const double radius = 0.02;
+    const auto side = static_cast<std::uint32_t>(std::lround(0.044 / h)) + 1;
+    const Vec3 centre = Vec3::Constant(0.022) + random.inCube(h);
+    const auto volume =
+        test::volumeOf({side, side, side}, [&](const Vec3& at) { return 1e3 * ((h * at - centre).norm() - radius); });
+    const IsoSurface surface(volume, test::cubicFrame(h), {0, SolidSide::kBelow});
+    const test::Mesh mesh = test::meshOf(surface);
+    double least = INFINITY, most = 0, worst_rad = 0;
+    for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
+      const auto& [a, b, c] = mesh.triangles[n];
+      for (const Vec3& at : {mesh.positions[a], Vec3((mesh.positions[a] + mesh.positions[b]) / 2),
+                             Vec3((mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3)}) {
+        least = std::min(least, (at - centre).norm());
+        most = std::max(most, (at - centre).norm());
+      }
+    }
+    const DrawnMesh drawn = surface.drawn(~std::size_t{0});
+    for (std::size_t i = 0; i < drawn.positions.size(); ++i)
+      worst_rad = std::max(worst_rad,
+                           std::acos(std::min(1.0, drawn.normals[i].dot((drawn.positions[i] - centre).normalized()))));
+    RecordProperty("off_um_at_h_" + std::to_string(h * 1e3), std::to_string(1e6 * (radius - least)));
+    EXPECT_GT(least, radius - h * h / (2 * radius) - 1e-9) << h;
+    EXPECT_LT(most, radius + 1e-8) << h;
+    EXPECT_LT(worst_rad, h / radius) << h;
+  }
+}
+
+TEST(IsoSurface, ItsTrianglesFaceOutward) {
+  for (const bool mirrored : {false, true}) {
+    for (const SolidSide solid : {SolidSide::kAbove, SolidSide::kBelow}) {
+      const auto volume =
+          test::volumeOf({12, 12, 12}, [&](const Vec3& at) { return (at - Vec3::Constant(5.4)).norm(); });
+      GridFrame frame = test::cubicFrame(1e-3);
+      if (mirrored) frame.axes.col(2) *= -1;
+      const IsoSurface surface(volume, frame, {4, solid});
+      const Vec3 centre = frame.axes * Vec3::Constant(5.4);
+      const double out = solid == SolidSide::kBelow ? 1 : -1;
+      const test::Mesh mesh = test::meshOf(surface);
+      const DrawnMesh drawn = surface.drawn(~std::size_t{0});
+      for (const auto& [a, b, c] : mesh.triangles) {
+        const Vec3 normal = (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]);
+        ASSERT_GT(out * normal.dot(mesh.positions[a] - centre), 0);
+      }
+      for (std::size_t i = 0; i < drawn.positions.size(); ++i)
+        ASSERT_GT(out * drawn.normals[i].dot((drawn.positions[i] - centre).normalized()), 0.9);
+    }
+  }
+}
+
+TEST(IsoSurface, ItsBoundsHoldItAndAreNearIt) {
+  Random random(5);
+  for (int i = 0; i < 300; ++i) {
+    const auto surface = test::randomSurface(random);
+    const Box bounds = surface->bounds();
+    for (const Vec3& vertex : test::meshOf(*surface).positions) ASSERT_TRUE(bounds.contains({vertex, vertex})) << i;
+  }
+}
+
+TEST(IsoSurface, ACoarserDrawingHasFewerTrianglesNearTheSurface) {
+  const auto volume = test::volumeOf({81, 81, 81}, [&](const Vec3& at) { return (at - Vec3::Constant(40)).norm(); });
+  const IsoSurface surface(volume, test::cubicFrame(1e-3), {30, SolidSide::kBelow});
+  EXPECT_GT(surface.drawn(1'000'000).triangles.size(), 20'000U);
+  const DrawnMesh coarse = surface.drawn(5000);
+  EXPECT_LE(coarse.triangles.size(), 5000U);
+  EXPECT_GT(coarse.triangles.size(), 500U);
+  for (const Vec3& vertex : coarse.positions) EXPECT_NEAR((vertex - Vec3::Constant(0.04)).norm(), 0.03, 1e-3);
+}
+
+TEST(IsoSurface, WhatCannotBeIsRefused) {
+  const auto volume = test::volumeOf({4, 4, 4}, [](const Vec3& at) { return at.x(); });
+  EXPECT_THROW(IsoSurface(volume, test::cubicFrame(1), {NAN, SolidSide::kAbove}), Error);
+  EXPECT_THROW(IsoSurface(volume, test::cubicFrame(0), {1, SolidSide::kAbove}), Error);
+  EXPECT_THROW(IsoSurface(volume, test::cubicFrame(1e9), {1, SolidSide::kAbove}), Error);
+  GridFrame flat = test::cubicFrame(1);
+  flat.axes.col(2) = flat.axes.col(0) + 1e-6 * flat.axes.col(2);
+  EXPECT_THROW(IsoSurface(volume, flat, {1, SolidSide::kAbove}), Error);
+  EXPECT_TRUE(IsoSurface(volume, test::cubicFrame(1), {100, SolidSide::kAbove}).bounds().empty());
+}
+
+}  // namespace
+}  // namespace hl
