@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "scene/bump_gain.h"
 #include "surfaces/height_field.h"
+#include "surfaces/iso_surface.h"
 
 namespace hl {
 
@@ -58,7 +59,7 @@ struct Totals {
   void add(const Shape& shape) {
     const Model& model = shape.model;
     const IndexStats stats = shape.index->stats();
-    triangles += shape.source ? shape.count() : model.triangles.size();
+    triangles += shape.source ? shape.elements() : model.triangles.size();
     segments += model.segments.size();
     points += model.points.size();
     vertices += model.positions.size();
@@ -163,9 +164,27 @@ void printHeights(const HeightField& field) {
              field.error_m());
 }
 
+// An edge of a cell has the surface where linear interpolation has it; a face of a triangle is off by about as much
+// again.
+void printVolume(const IsoSurface& surface) {
+  const VoxelGrid& grid = surface.volume()->grid;
+  const Mat3& axes = surface.frame().axes;
+  const ValueRange& range = surface.volume()->pyramid.range();
+  fmt::print("volume:     {} x {} x {} samples of {}, {:.6g} x {:.6g} x {:.6g} m apart, values from {:.6g} to {:.6g}\n",
+             grid.side(0), grid.side(1), grid.side(2), nameOf(grid.samples().kind()), axes.col(0).norm(),
+             axes.col(1).norm(), axes.col(2).norm(), range.low, range.high);
+  fmt::print("            surface at {:.6g}, matter {}; about {} triangles, within {:.3g} m of the trilinear surface\n",
+             surface.iso().value, surface.iso().solid == SolidSide::kAbove ? "above" : "below", surface.triangles(),
+             surface.error_m());
+  fmt::print("            {:.1f} MB, {:.2f} bytes a sample\n", 1e-6 * static_cast<double>(surface.bytes()),
+             static_cast<double>(surface.bytes()) / static_cast<double>(grid.count()));
+}
+
 void printSurfaces(const Snapshot& snapshot) {
   for (const Instance& instance : snapshot.instances) {
-    if (const auto* field = dynamic_cast<const HeightField*>(instance.shape->source.get())) printHeights(*field);
+    const PrimitiveSource* source = instance.shape->source.get();
+    if (const auto* field = dynamic_cast<const HeightField*>(source)) printHeights(*field);
+    if (const auto* surface = dynamic_cast<const IsoSurface*>(source)) printVolume(*surface);
   }
 }
 

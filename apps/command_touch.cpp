@@ -175,7 +175,7 @@ void addTouchOptions(CLI::App& command, TouchOptions& options) {
   addSurfaceOptions(command, options.settings.surfaces, options.settings.ledger);
   command.get_option("--shade")->option_text("flat|smooth (default: the scene's; smooth for model files)");
   addHierarchyOption(command, options.scene);
-  addHeightsOption(command, options.scene);
+  addSampleOptions(command, options.scene);
   command
       .add_option(
           "--upload", options.upload,

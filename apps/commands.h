@@ -25,13 +25,14 @@ struct SceneOptions {
   std::string hierarchy = "bvh";
   double scale = 0;           ///< metres per file unit; 0: as it is
   double fit = 0;             ///< m, largest side; 0: as it is
+  std::vector<double> iso;    ///< of volumes; empty: one that is chosen
   double vertical_scale = 0;  ///< of the heights of height fields; 0: as they are
 };
 
 void addSceneArgument(CLI::App& command, SceneOptions& options, bool required);
 void addHierarchyOption(CLI::App& command, SceneOptions& options);
-/// --vertical-scale, which addSizeOptions() adds too.
-void addHeightsOption(CLI::App& command, SceneOptions& options);
+/// --vertical-scale and --iso, which addSizeOptions() adds too.
+void addSampleOptions(CLI::App& command, SceneOptions& options);
 void addSizeOptions(CLI::App& command, SceneOptions& options);
 
 /// Options of the surfaces, over what the scene says: --shade, --stiffness, frictions, --viscosity, --textures; and

@@ -48,12 +48,11 @@ void requireMemory(const SceneModel& scene, const std::string& name, std::uint64
 }
 
 void addSceneArgument(CLI::App& command, SceneOptions& options, bool required) {
-  auto* argument = command.add_option(
-      "scene", options.scene,
-      std::string(
-          "a model file (obj, ply, stl, gltf, glb, x3d, wrl, ...), a file of heights (tif, hgt, asc, png, npy) or a "
-          "built-in scene: ") +
-          kBuiltinScenes);
+  auto* argument = command.add_option("scene", options.scene,
+                                      std::string("a model file (obj, ply, stl, gltf, glb, x3d, wrl, ...), of heights "
+                                                  "(tif, hgt, asc, png, npy), of a volume (nii, nrrd, dcm) or a "
+                                                  "built-in scene: ") +
+                                          kBuiltinScenes);
   if (required) {
     argument->required();
   } else {
@@ -67,7 +66,12 @@ void addHierarchyOption(CLI::App& command, SceneOptions& options) {
       ->capture_default_str();
 }
 
-void addHeightsOption(CLI::App& command, SceneOptions& options) {
+void addSampleOptions(CLI::App& command, SceneOptions& options) {
+  command
+      .add_option("--iso", options.iso,
+                  "value at the surface of a volume, or several as in --iso=-300,400: in CT the skin and the bones "
+                  "(default: between what is empty and what is not)")
+      ->delimiter(',');
   command
       .add_option("--vertical-scale", options.vertical_scale,
                   "factor on the heights of a height field, before --scale or --fit (default 1)")
@@ -75,7 +79,7 @@ void addHeightsOption(CLI::App& command, SceneOptions& options) {
 }
 
 void addSizeOptions(CLI::App& command, SceneOptions& options) {
-  addHeightsOption(command, options);
+  addSampleOptions(command, options);
   auto* scale =
       command.add_option("--scale", options.scale, "metres for one unit of the file (default 1)")->check(positive());
   command.add_option("--fit", options.fit, "scale and centre the model so that its largest side has this many metres")
@@ -126,6 +130,7 @@ std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options) {
   LoadOptions load;
   load.progress = showProgress;
   SceneModel scene = loadScene(options.scene, load);
+  if (!options.iso.empty()) setIsoValues(scene, options.iso);
   if (options.vertical_scale > 0) scaleHeights(scene, options.vertical_scale);
   if (options.scale > 0) scaleModel(scene, options.scale);
   if (options.fit > 0) fitModel(scene, options.fit);

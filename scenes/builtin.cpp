@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "fields.h"
+#include "phantom.h"
 #include "rough.h"
 #include "snap_board.h"
 #include "soup.h"
@@ -20,8 +21,8 @@ namespace {
 
 constexpr std::size_t kMaxMember = 1'000'000'000;
 
-constexpr std::string_view kSnaps = "snaps", kWorkshop = "workshop", kField = "field";
-constexpr std::size_t kUsualField = 1'000'000, kMostField = 100'000'000'000;
+constexpr std::string_view kSnaps = "snaps", kWorkshop = "workshop", kField = "field", kScan = "ct";
+constexpr std::size_t kUsualField = 1'000'000, kMostField = 100'000'000'000, kUsualScan = 161, kMostScan = 1025;
 
 struct Builtin {
   std::string_view name;
@@ -88,16 +89,34 @@ SceneModel makeField(const std::string& spec) {
   return scene;
 }
 
+SceneModel makeScan(const std::string& spec) {
+  constexpr std::string_view kPhantom = ":phantom";
+  const std::string_view rest = std::string_view(spec).substr(kScan.size());
+  const std::string_view number = rest.substr(std::min(rest.size(), kPhantom.size()));
+  if (!rest.empty() && !rest.starts_with(kPhantom))
+    throw Error("'" + spec + "': the one generated scan is ct:phantom:N");
+  std::size_t n = kUsualScan;
+  if (!number.empty() && (number[0] != ':' || !read(number.substr(1), kMostScan, n) || n < 8))
+    throw Error("'" + spec + "': N must be a whole number from 8 to " + std::to_string(kMostScan) +
+                ", as in ct:phantom:161");
+  SceneModel scene = makePhantom(static_cast<std::uint32_t>(n));
+  scene.model.name = spec;
+  return scene;
+}
+
 }  // namespace
 
-bool isBuiltinField(const std::string& spec) { return spec.substr(0, spec.find(':')) == kField; }
+bool isBuiltinSurface(const std::string& spec) {
+  const std::string_view name = std::string_view(spec).substr(0, spec.find(':'));
+  return name == kField || name == kScan;
+}
 
 bool isBuiltinScene(const std::string& spec) {
-  return isBuiltinField(spec) || find(std::string_view(spec).substr(0, spec.find(':'))) != nullptr;
+  return isBuiltinSurface(spec) || find(std::string_view(spec).substr(0, spec.find(':'))) != nullptr;
 }
 
 Model makeBuiltinScene(const std::string& spec) {
-  if (isBuiltinField(spec)) throw Error("'" + spec + "' is a height field, and no mesh");
+  if (isBuiltinSurface(spec)) throw Error("'" + spec + "' is no mesh");
   const std::size_t colon = spec.find(':');
   const Builtin* builtin = find(std::string_view(spec).substr(0, colon));
   if (builtin == nullptr) throw Error("no built-in scene '" + spec + "'; there are " + kBuiltinScenes);
@@ -119,7 +138,7 @@ Model makeBuiltinScene(const std::string& spec) {
 SceneModel makeBuiltinWorld(const std::string& spec) {
   if (spec == kSnaps) return makeSnapBoard();
   if (spec == kWorkshop) return makeWorkshop();
-  if (isBuiltinField(spec)) return makeField(spec);
+  if (isBuiltinSurface(spec)) return spec.starts_with(kField) ? makeField(spec) : makeScan(spec);
   return makeBuiltinScene(spec);
 }
 

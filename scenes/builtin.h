@@ -10,19 +10,19 @@ namespace hl {
 /// True for the name of a built-in scene, with or without :N. A file with the same name must be given with its folder.
 bool isBuiltinScene(const std::string& spec);
 
-/// Whether that scene is a height field: then it has no model.
-bool isBuiltinField(const std::string& spec);
+/// Whether that scene has surfaces that are no meshes, and no model.
+bool isBuiltinSurface(const std::string& spec);
 
 /// Lists of the names, for help texts: of what is one model, and with those of several objects.
 #define HL_BUILTIN_MODELS "teapot[:N], walker, terrain:N, rough:N[:MEMBER], sphere:N, plane:N, pipe:N, pits:N, soup:N"
 inline constexpr const char* kBuiltinModels = HL_BUILTIN_MODELS;
-inline constexpr const char* kBuiltinScenes = HL_BUILTIN_MODELS ", field:terrain:N, snaps, workshop";
+inline constexpr const char* kBuiltinScenes = HL_BUILTIN_MODELS ", field:terrain:N, ct:phantom:N, snaps, workshop";
 #undef HL_BUILTIN_MODELS
 
 /// Throws hl::Error with the list of names if the name is unknown.
 /// Of a scene of several objects, all of it as one model.
 Model makeBuiltinScene(const std::string& spec);
-/// With its bodies, snaps and fields, or as the surface that it is.
+/// With its bodies, snaps and fields, or as the surfaces that it is.
 SceneModel makeBuiltinWorld(const std::string& spec);
 
 }  // namespace hl

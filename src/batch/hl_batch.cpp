@@ -23,7 +23,7 @@
 #include "io/read_heights.h"
 #include "scene/scene_model.h"
 #include "surfaces/height_field.h"
-#include "surfaces/height_samples.h"
+#include "surfaces/sample_room.h"
 
 struct HLbatchScene {
   std::shared_ptr<const hl::Snapshot> snapshot;
@@ -192,7 +192,7 @@ HLbatchScene* hlBatchMakeHeights(size_t columns, size_t rows, HLenum type, const
     GridSize size{static_cast<std::uint32_t>(columns), static_cast<std::uint32_t>(rows), SampleKind::kFloat32};
     if (type == HL_SHORT) size.kind = SampleKind::kInt16;
     if (type == HL_UNSIGNED_SHORT) size.kind = SampleKind::kUint16;
-    HeightSamples kept(size);
+    SampleRoom kept(size.bytes());
     kept.add(samples, size.bytes());
     const auto grid = std::make_shared<const HeightGrid>(
         size, kept.take(), missing != nullptr ? std::optional<double>(*missing) : std::nullopt);

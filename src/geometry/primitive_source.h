@@ -29,6 +29,8 @@ class PrimitiveSource {
   virtual ~PrimitiveSource() = default;
   /// Triangles are numbered below it; its index proposes only those that exist. RT-safe.
   virtual ElementId count() const = 0;
+  /// About how many triangles there are.
+  virtual std::uint64_t triangles() const { return count(); }
   /// The three vertices, which form a valid triangle (isTriangle), counterclockwise seen from outside. RT-safe.
   virtual std::array<Vec3, 3> corners(ElementId id) const = 0;
   /// Outward unit normal of the exact surface that the triangle approximates, near `point` on the triangle. RT-safe.

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "io/read_heights.h"
-#include "surfaces/height_samples.h"
+#include "surfaces/sample_room.h"
 
 namespace hl {
 
@@ -38,8 +38,8 @@ Spacing spacingOf(const proto::Heights& in) {
           lengthOf(in.vertical_scale(), 1, "verticalScale")};
 }
 
-HeightSamples samplesOf(const proto::Heights& in) {
-  HeightSamples samples({in.columns(), in.rows(), kindOf(in)});
+SampleRoom samplesOf(const proto::Heights& in) {
+  SampleRoom samples(GridSize{in.columns(), in.rows(), kindOf(in)}.bytes());
   if (in.values_size() > 0 && (in.samples_size() > 0 || !in.kind().empty()))
     throw Error("it has values or samples of a kind, not both");
   if (in.values_size() > 0) samples.add(in.values().data(), sizeof(float) * static_cast<std::size_t>(in.values_size()));
@@ -66,7 +66,7 @@ std::shared_ptr<const HeightField> decodeHeights(const proto::Heights& in) {
   if (in.has_missing() && std::isinf(in.missing())) throw Error("missing must be a finite number");
   std::optional<double> missing;
   if (in.has_missing()) missing = in.missing();
-  HeightSamples samples = samplesOf(in);
+  SampleRoom samples = samplesOf(in);
   const auto grid = std::make_shared<const HeightGrid>(size, samples.take(), missing);
   auto field = std::make_shared<const HeightField>(grid, uprightFrame(size, spacing.columns, spacing.rows, spacing.up));
   if (field->triangles() == 0) throw Error("all its samples are missing");

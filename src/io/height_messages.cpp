@@ -12,13 +12,13 @@ namespace {
 
 constexpr std::size_t kPartBytes = std::size_t{4} << 20;
 
-HeightSamples samplesOf(const GridSize& size, std::size_t most_bytes) {
+SampleRoom samplesOf(const GridSize& size, std::size_t most_bytes) {
   checkGridSize(size);
   if (size.bytes() > most_bytes)
     throw Error(fmt::format("a height field of {} x {} samples takes {:.1f} GB of memory, and there are {:.1f} GB",
                             size.columns, size.rows, 1e-9 * static_cast<double>(size.bytes()),
                             1e-9 * static_cast<double>(most_bytes)));
-  return HeightSamples(size);
+  return SampleRoom(size.bytes());
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 #include "io/height_sink.h"
 #include "surfaces/height_field.h"
-#include "surfaces/height_samples.h"
+#include "surfaces/sample_room.h"
 
 namespace hl {
 
@@ -33,7 +33,7 @@ class HeightCollector {
 
  private:
   HeightHeader header_;
-  HeightSamples samples_;
+  SampleRoom samples_;
 };
 
 }  // namespace hl

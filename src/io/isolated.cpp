@@ -52,7 +52,7 @@ void setLimits(const IsolationLimits& limits) {
 void answer(PartSender& out, bool sandboxed, const Parse& parse) {
   std::string failure;
   try {
-    SceneModel scene = parse(ReadingReport([&](double fraction) { out.progress(fraction); }, out));
+    SceneModel scene = parse(ReadingReport([&](double fraction) { out.progress(fraction); }, out, out));
     if (!sandboxed) scene.model.warnings.emplace_back("was read without a sandbox: this kernel has none");
     return out.scene(scene);
   } catch (const std::bad_alloc&) {
@@ -218,7 +218,7 @@ std::string causeOf(int status) {
 SceneModel receive(Child& child, const IsolationLimits& limits, const std::atomic<bool>& given_up,
                    const std::function<void(double)>& progress) {
   PipeReader pipe(child, limits, given_up);
-  PartCollector collector(limits.memory_bytes, limits.heights_bytes);
+  PartCollector collector(limits.memory_bytes, limits.samples_bytes);
   std::string bytes;
   proto::ReadingPart part;
   for (std::uint32_t length = 0; pipe.read(&length, sizeof length);) {
@@ -245,7 +245,7 @@ SceneModel run(const std::string& name, const IsolationLimits& limits, const Sta
 
 IsolationLimits bounded(IsolationLimits limits) {
   limits.memory_bytes = std::min<std::uint64_t>(limits.memory_bytes, machineMemory_bytes());
-  limits.heights_bytes = std::min<std::uint64_t>(limits.heights_bytes, machineMemory_bytes());
+  limits.samples_bytes = std::min<std::uint64_t>(limits.samples_bytes, machineMemory_bytes());
   return limits;
 }
 

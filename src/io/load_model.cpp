@@ -9,6 +9,7 @@
 #include "io/file_ending.h"
 #include "io/isolated.h"
 #include "io/read_heights.h"
+#include "io/read_volumes.h"
 #include "scene/weld.h"
 
 namespace hl {
@@ -84,14 +85,20 @@ void makeSound(Model& model) {
 
 }  // namespace
 
-bool readsEnding(const std::string& ending) { return readsHeights(ending) || coinReads(ending) || assimpReads(ending); }
+bool readsEnding(const std::string& ending) {
+  return readsVolumes(ending) || readsHeights(ending) || coinReads(ending) || assimpReads(ending);
+}
 
 std::string cannotBeRead(const std::string& ending) {
   return "files ending in '" + ending +
-         "' cannot be read; obj, ply, stl, gltf, glb, x3d, wrl, tif, hgt, asc, png, npy and others can";
+         "' cannot be read; obj, ply, stl, gltf, glb, x3d, wrl, tif, hgt, asc, png, npy, nii, nrrd, dcm and others can";
 }
 
 SceneModel parseModel(const ModelFile& file, const ReadingReport& report) {
+  if (readsVolumes(file.ending)) {
+    readVolume(file, report.volume());
+    return {};
+  }
   if (readsHeights(file.ending)) {
     readHeights(file, report.heights());
     return {};
@@ -121,7 +128,7 @@ SceneModel loadModelScene(const std::string& path, const LoadOptions& options) {
 
 Model loadModel(const std::string& path, const LoadOptions& options) {
   SceneModel scene = loadModelScene(path, options);
-  if (!scene.surfaces.empty()) throw Error(path + ": is a height field, and no mesh");
+  if (!scene.surfaces.empty()) throw Error(path + ": is a height field or a volume, and no mesh");
   if (scene.bodies.empty()) return std::move(scene.model);
   scene.model.warnings.emplace_back("its bodies stay where they are: it is read as one object");
   return asOneModel(scene);

@@ -380,7 +380,7 @@ SceneModel SceneFile::build() {
     const proto::SceneObject& object = scene_.objects(i);
     const std::string where = pathOf("objects", i);
     const proto::Material& material = object.material();
-    if (object.has_heights() || (object.has_builtin() && isBuiltinField(object.builtin()))) {
+    if (object.has_heights() || (object.has_builtin() && isBuiltinSurface(object.builtin()))) {
       addSurface(object, where, scene);
       continue;
     }

@@ -13,6 +13,7 @@
 #include "io/body_messages.h"
 #include "io/snap_messages.h"
 #include "io/value_messages.h"
+#include "surfaces/threshold.h"
 
 namespace hl {
 
@@ -62,18 +63,25 @@ void PartSender::failure(const std::string& why) {
 
 void PartSender::header(const HeightHeader& header) { toProto(header, *samples_.mutable_heights()); }
 
+void PartSender::header(const VolumeHeader& header) { toProto(header, *samples_.mutable_volume()); }
+
+std::string& PartSender::waiting() {
+  return samples_.has_volume() ? *samples_.mutable_volume()->mutable_samples()
+                               : *samples_.mutable_heights()->mutable_samples();
+}
+
 void PartSender::samples(const void* samples, std::size_t bytes) {
   constexpr std::size_t kEnough = 1 << 20;
-  samples_.mutable_heights()->mutable_samples()->append(static_cast<const char*>(samples), bytes);
-  if (samples_.heights().samples().size() >= kEnough) sendSamples();
+  waiting().append(static_cast<const char*>(samples), bytes);
+  if (waiting().size() >= kEnough) sendSamples();
 }
 
 void PartSender::sendSamples() {
   send(samples_);
-  std::string kept = std::move(*samples_.mutable_heights()->mutable_samples());  // its memory is used again
+  std::string kept = std::move(waiting());  // its memory is used again
   kept.clear();
-  samples_.mutable_heights()->Clear();
-  *samples_.mutable_heights()->mutable_samples() = std::move(kept);
+  samples_.has_volume() ? samples_.mutable_volume()->Clear() : samples_.mutable_heights()->Clear();
+  waiting() = std::move(kept);
 }
 
 void PartSender::warn(const std::string& line) {
@@ -83,7 +91,7 @@ void PartSender::warn(const std::string& line) {
 }
 
 void PartSender::scene(const SceneModel& scene) {
-  if (samples_.has_heights()) sendSamples();
+  if (samples_.has_heights() || samples_.has_volume()) sendSamples();
   const Model& rest = scene.model;
   proto::ReadingPart part;
   toProto(scene.mechanics, *part.mutable_mechanics());
@@ -157,8 +165,21 @@ void PartCollector::addWarning(const std::string& warning) {
 
 // The first part has the header; samples count apart, as they are kept where they come to lie.
 void PartCollector::addHeights(const proto::RecordedHeights& part) {
-  if (!heights_) heights_.emplace(headerOf(part), heights_bytes_);
+  if (!heights_) heights_.emplace(headerOf(part), samples_bytes_);
   heights_->add(part.samples().data(), part.samples().size());
+}
+
+void PartCollector::addVolume(const proto::RecordedVolume& part) {
+  if (!volume_) volume_.emplace(headerOf(part), samples_bytes_);
+  volume_->add(part.samples().data(), part.samples().size());
+}
+
+// A file says nothing of a surface: the threshold between what is empty and what is not is a first one.
+void PartCollector::takeVolume() {
+  const GridFrame frame = volume_->header().frame;
+  const std::shared_ptr<const Volume> volume = volume_->take();
+  const IsoValue iso{thresholdOf(*volume), SolidSide::kAbove};
+  scene_.surfaces.push_back({"", std::make_shared<const IsoSurface>(volume, frame, iso)});
 }
 
 PartCollector::State PartCollector::addMesh(const proto::RecordedShape& part) {
@@ -204,6 +225,7 @@ void PartCollector::addToScene(const proto::ReadingPart& part) {
 PartCollector::State PartCollector::add(const proto::ReadingPart& part, std::size_t bytes,
                                         const std::function<void(double)>& progress) {
   if (part.has_heights()) return addHeights(part.heights()), State::kMore;
+  if (part.has_volume()) return addVolume(part.volume()), State::kMore;
   if (bytes > left_) throw Error("it is too large");
   left_ -= bytes;
   switch (part.body_case()) {
@@ -249,6 +271,7 @@ Model PartCollector::takeModel() {
 SceneModel PartCollector::take() {
   scene_.model.reading = rest_.reading;
   if (heights_) scene_.surfaces.push_back({"", heights_->take()});
+  if (volume_) takeVolume();
   for (const SceneBody& body : scene_.bodies) {
     if (!body.spec.fixed) bodyOf(body.model, body.spec);
   }

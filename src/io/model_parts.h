@@ -11,6 +11,7 @@
 
 #include "io/height_messages.h"
 #include "io/model_messages.h"
+#include "io/volume_messages.h"
 #include "scene/scene_model.h"
 
 namespace hl {
@@ -19,7 +20,7 @@ namespace hl {
 inline constexpr std::uint32_t kMaxPartBytes = (std::uint32_t{64} << 22) + 65'536;
 
 /// Writes messages to a descriptor. What can not be written is lost: then nobody reads.
-class PartSender final : public HeightSink {
+class PartSender final : public HeightSink, public VolumeSink {
  public:
   explicit PartSender(int descriptor) : descriptor_(descriptor) {}
   void progress(double fraction);
@@ -27,10 +28,12 @@ class PartSender final : public HeightSink {
   /// The whole scene, then nothing else.
   void scene(const SceneModel& scene);
   void header(const HeightHeader& header) override;
+  void header(const VolumeHeader& header) override;
   void samples(const void* samples, std::size_t bytes) override;
   void warn(const std::string& line) override;
 
  private:
+  std::string& waiting();
   void sendSamples();
   void model(const Model& model);
   void places(const SnapList& snaps, const FieldList& fields);
@@ -46,9 +49,9 @@ class PartCollector {
  public:
   enum class State { kMore, kWhole, kFailed };
 
-  /// `most_bytes`: of the messages together, and of the meshes. `heights_bytes`: of the samples of heights.
-  explicit PartCollector(std::size_t most_bytes, std::size_t heights_bytes = 0)
-      : mesh_(most_bytes), left_(most_bytes), heights_bytes_(heights_bytes) {
+  /// `most_bytes`: of the messages together, and of the meshes. `samples_bytes`: of the samples of heights or a volume.
+  explicit PartCollector(std::size_t most_bytes, std::size_t samples_bytes = 0)
+      : mesh_(most_bytes), left_(most_bytes), samples_bytes_(samples_bytes) {
     rest_.materials.clear();
   }
   /// Throws hl::Error for a message that makes no sense, or one too many. `bytes` is its length.
@@ -59,6 +62,8 @@ class PartCollector {
 
  private:
   void addHeights(const proto::RecordedHeights& part);
+  void addVolume(const proto::RecordedVolume& part);
+  void takeVolume();
   State addMesh(const proto::RecordedShape& part);
   Model takeModel();
   void addToScene(const proto::ReadingPart& part);
@@ -73,8 +78,9 @@ class PartCollector {
   SceneModel scene_;
   bool in_body_ = false;  // what comes now is of the last body
   MeshReader mesh_;
-  std::size_t left_, heights_bytes_;
+  std::size_t left_, samples_bytes_;
   std::optional<HeightCollector> heights_;
+  std::optional<VolumeCollector> volume_;
   std::string failure_;
 };
 

@@ -44,7 +44,7 @@ Model drawnOf(const PrimitiveSource& source) {
 
 std::uint64_t messageBytes(const Shape& shape, const Look& look) {
   if (!shape.source) return messageBytes(shape.model, look);
-  return kSmallest + kDrawnTriangle_bytes * std::min<ElementId>(shape.count(), kMostDrawn);
+  return kSmallest + kDrawnTriangle_bytes * std::min<std::uint64_t>(shape.elements(), kMostDrawn);
 }
 
 std::string meshMessage(std::uint32_t number, const Shape& shape, const Model& model, const Look& look) {

@@ -128,12 +128,21 @@ std::uint64_t SceneWriter::idOf(std::map<const Part*, Written<Part>>& written, c
 }
 
 void SceneWriter::writeSource(const PrimitiveSource& source, std::uint64_t id, const Write& write) {
-  const auto* const field = dynamic_cast<const HeightField*>(&source);
-  if (field == nullptr) throw Error("a surface that is no mesh and no height field cannot be recorded");
-  writeHeights(*field, [&](proto::RecordedHeights& heights) {
+  if (const auto* const field = dynamic_cast<const HeightField*>(&source)) {
+    return writeHeights(*field, [&](proto::RecordedHeights& heights) {
+      proto::RecordingBlock part;
+      heights.set_id(id);
+      part.mutable_heights()->Swap(&heights);
+      write(part);
+    });
+  }
+  const auto* const surface = dynamic_cast<const IsoSurface*>(&source);
+  if (surface == nullptr) throw Error("a surface that is no mesh, no height field and no volume cannot be recorded");
+  const auto [first, is_new] = volumes_.try_emplace(surface->volume().get(), VolumeId{surface->volume(), id});
+  writeVolume(*surface, is_new ? 0 : first->second.id, [&](proto::RecordedVolume& volume) {
     proto::RecordingBlock part;
-    heights.set_id(id);
-    part.mutable_heights()->Swap(&heights);
+    volume.set_id(id);
+    part.mutable_volume()->Swap(&volume);
     write(part);
   });
 }
@@ -246,6 +255,33 @@ void SceneReader::add(const proto::RecordedHeights& in) {
   begun_.reset();
   shapes_[in.id()] = makeShape(heights_->take());
   heights_.reset();
+}
+
+void SceneReader::add(const proto::RecordedVolume& in) {
+  const bool first = !begun_;
+  addPart(in.id());
+  if (first) {
+    volume_surface_ = {frameOf(in), isoOf(in)};
+    if (in.like() == 0) volume_.emplace(headerOf(in), machineMemory_bytes());
+  }
+  if (in.like() == 0) {
+    if (!volume_) throw Error(kBrokenScene);
+    volume_->add(in.samples().data(), in.samples().size());
+    if (in.continues()) return;
+  }
+  begun_.reset();
+  const std::shared_ptr<const Volume> volume = in.like() == 0 ? volume_->take() : volumeOf(in.like());
+  const auto& [frame, iso] = volume_surface_;
+  shapes_[in.id()] = makeShape(std::make_shared<const IsoSurface>(volume, frame, iso));
+  volume_.reset();
+}
+
+std::shared_ptr<const Volume> SceneReader::volumeOf(std::uint64_t id) const {
+  const auto shape = shapes_.find(id);
+  const auto* const surface =
+      shape == shapes_.end() ? nullptr : dynamic_cast<const IsoSurface*>(shape->second->source.get());
+  if (surface == nullptr) throw Error(kBrokenScene);
+  return surface->volume();
 }
 
 // Parts of one shape follow each other.

@@ -13,6 +13,7 @@
 
 #include "io/height_messages.h"
 #include "io/model_messages.h"
+#include "io/volume_messages.h"
 #include "scene/snapshot.h"
 
 namespace hl {
@@ -43,10 +44,15 @@ class SceneWriter {
   std::uint64_t idOf(std::map<const Part*, Written<Part>>& written, const std::shared_ptr<const Part>& part,
                      const Encode& encode);
   std::uint64_t shapeId(const std::shared_ptr<const Shape>& shape, const Write& write);
-  static void writeSource(const PrimitiveSource& source, std::uint64_t id, const Write& write);
+  void writeSource(const PrimitiveSource& source, std::uint64_t id, const Write& write);
   std::uint64_t bodyId(const std::shared_ptr<const RigidBody>& body, const Write& write);
 
+  struct VolumeId {
+    std::shared_ptr<const Volume> kept;  // its address stays its own
+    std::uint64_t id;                    // of its first surface
+  };
   std::map<const Shape*, Written<Shape>> shapes_;
+  std::map<const Volume*, VolumeId> volumes_;
   std::map<const Surfaces*, Written<Surfaces>> surfaces_;
   std::map<const RigidBody*, Written<RigidBody>> bodies_;
   std::uint64_t last_id_ = 0;
@@ -59,6 +65,7 @@ class SceneReader {
  public:
   void add(const proto::RecordedShape& in);
   void add(const proto::RecordedHeights& in);
+  void add(const proto::RecordedVolume& in);
   void add(const proto::RecordedSurfaces& in);
   void add(const proto::RecordedBody& in);
   std::shared_ptr<const Snapshot> scene(const proto::RecordedScene& in) const;
@@ -70,10 +77,13 @@ class SceneReader {
   void setBody(std::uint64_t id, Instance& instance) const;
 
   void addPart(std::uint64_t id);
+  std::shared_ptr<const Volume> volumeOf(std::uint64_t id) const;
 
   MeshReader mesh_;
   std::optional<HeightCollector> heights_;
-  std::optional<std::uint64_t> begun_;  // the shape of which more parts follow
+  std::optional<VolumeCollector> volume_;
+  std::pair<GridFrame, IsoValue> volume_surface_;  // of the volume of which more parts follow
+  std::optional<std::uint64_t> begun_;             // the shape of which more parts follow
   std::map<std::uint64_t, std::shared_ptr<const Shape>> shapes_;
   std::map<std::uint64_t, std::shared_ptr<const Surfaces>> surfaces_;
   std::map<std::uint64_t, std::shared_ptr<const RigidBody>> bodies_;

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "scene/append_part.h"
+#include "surfaces/iso_surface.h"
 
 namespace hl {
 
@@ -102,7 +103,7 @@ Model asOneModel(const SceneModel& scene) {
 
 std::size_t elementsIn(const SceneModel& scene) {
   std::size_t elements = scene.model.elements();
-  for (const SceneSurface& surface : scene.surfaces) elements += surface.source->count();
+  for (const SceneSurface& surface : scene.surfaces) elements += surface.source->triangles();
   for (const SceneBody& body : scene.bodies) elements += body.model.elements();
   return elements;
 }
@@ -123,6 +124,26 @@ void scaleHeights(SceneModel& scene, double factor) {
   if (scene.surfaces.empty()) throw Error("there is no height field in it, whose heights could be scaled");
   for (SceneSurface& surface : scene.surfaces)
     surface.source = surface.source->placed(Vec3(1, factor, 1).asDiagonal(), Vec3::Zero());
+}
+
+// Surfaces of one volume follow each other: the first stands for all.
+void setIsoValues(SceneModel& scene, const std::vector<double>& values) {
+  std::vector<SceneSurface> surfaces;
+  std::shared_ptr<const Volume> last;
+  for (SceneSurface& surface : scene.surfaces) {
+    const auto* const iso = dynamic_cast<const IsoSurface*>(surface.source.get());
+    if (iso == nullptr) {
+      surfaces.push_back(std::move(surface));
+    } else if (std::exchange(last, iso->volume()) != iso->volume()) {
+      for (const double value : values) {
+        surfaces.push_back(surface);
+        surfaces.back().source =
+            std::make_shared<const IsoSurface>(iso->volume(), iso->frame(), IsoValue{value, iso->iso().solid});
+      }
+    }
+  }
+  if (!last) throw Error("there is no volume in it, whose surface has an iso value");
+  scene.surfaces = std::move(surfaces);
 }
 
 std::size_t snapsIn(const SceneModel& scene) {

@@ -54,6 +54,9 @@ double fitModel(SceneModel& scene, double side);
 /// Scales the heights, y, of its surfaces that are not meshes. Throws hl::Error if it has none.
 void scaleHeights(SceneModel& scene, double factor);
 
+/// In the place of each volume's surfaces, one at each of these values. Throws hl::Error if it has no volume.
+void setIsoValues(SceneModel& scene, const std::vector<double>& values);
+
 std::size_t snapsIn(const SceneModel& scene);
 std::size_t fieldsIn(const SceneModel& scene);
 

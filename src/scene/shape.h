@@ -51,6 +51,7 @@ struct Shape {
   /// As geometryBytes(), plus normals, texture coordinates, material numbers and the shape itself; without textures.
   std::size_t bytes() const;
   // The primitives, of a mesh or of a source; RT-safe. `id` < count().
+  std::uint64_t elements() const { return source ? source->triangles() : primitives.size(); }  ///< of a source: about
   ElementId count() const { return source ? source->count() : primitives.size(); }
   Primitive primitive(ElementId id) const { return source ? primitiveOf(*source, id) : primitives[id]; }
   PrimitiveKind kind(ElementId id) const { return source ? PrimitiveKind::kTriangle : primitives.kind(id); }

@@ -134,7 +134,7 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, st
         std::max({snapshot->extent, largestCoordinate(objectBox(instance)), largestCoordinate(snapshot->reach.back())});
     if (instance.poses().moves())
       snapshot->moves_until_ns = std::max(snapshot->moves_until_ns, instance.poses().restsFrom_ns());
-    snapshot->primitives += instance.shape->count();
+    snapshot->primitives += instance.shape->elements();
   }
   snapshot->moves_until_ns = std::max(snapshot->moves_until_ns, snapshot->deforms_until_ns);
   snapshot->near = BoxTree(snapshot->reach);

@@ -471,7 +471,7 @@ void ScenePublisher::show(const std::shared_ptr<const Snapshot>& next, std::vect
 void ScenePublisher::tellShown(const Part& part) {
   ClientScene& client = *part.client;
   std::size_t primitives = 0;
-  for (const Instance* instance : client.shown_.instances) primitives += instance->shape->count();
+  for (const Instance* instance : client.shown_.instances) primitives += instance->shape->elements();
   {
     const std::lock_guard lock(mutex_);
     if (part.gone && client.work_ == ClientScene::Work::kNone) std::erase(clients_, part.client);

@@ -10,18 +10,9 @@
 
 #include "base/error.h"
 #include "surfaces/height_index.h"
+#include "surfaces/slope.h"
 
 namespace hl {
-
-namespace {
-
-// The change for each step from `before` to `after` around `here`, of which one may be missing.
-double slopeAt(double before, double here, double after) {
-  if (std::isnan(before)) return std::isnan(after) ? 0 : after - here;
-  return std::isnan(after) ? here - before : 0.5 * (after - before);
-}
-
-}  // namespace
 
 HeightField::HeightField(std::shared_ptr<const HeightGrid> grid, const GridFrame& frame)
     : grid_(std::move(grid)), pyramid_(std::make_shared<const HeightPyramid>(*grid_)), frame_(frame) {
@@ -77,8 +68,8 @@ Vec3 HeightField::normalAt(std::uint32_t column, std::uint32_t row) const {
   const double east = column + 1 < grid_->columns() ? grid_->at(column + 1, row) : kNone;
   const double north = row > 0 ? grid_->at(column, row - 1) : kNone;
   const double south = row + 1 < grid_->rows() ? grid_->at(column, row + 1) : kNone;
-  const Vec3 across = frame_.axes.col(0) + slopeAt(west, here, east) * frame_.axes.col(2);
-  const Vec3 down = frame_.axes.col(1) + slopeAt(north, here, south) * frame_.axes.col(2);
+  const Vec3 across = frame_.axes.col(0) + slopeOf(west, here, east) * frame_.axes.col(2);
+  const Vec3 down = frame_.axes.col(1) + slopeOf(north, here, south) * frame_.axes.col(2);
   return (mirrored_ ? across.cross(down) : down.cross(across)).normalized();
 }
 

@@ -34,7 +34,7 @@ class HeightField final : public PrimitiveSource {
   const HeightGrid& grid() const { return *grid_; }
   const HeightPyramid& pyramid() const { return *pyramid_; }
   const GridFrame& frame() const { return frame_; }
-  std::uint64_t triangles() const { return 2 * pyramid_->cells(); }
+  std::uint64_t triangles() const override { return 2 * pyramid_->cells(); }
 
  private:
   using Corners = std::array<std::array<std::uint32_t, 2>, 3>;  // column and row of each

@@ -4,18 +4,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 
+#include "surfaces/samples.h"
+
 namespace hl {
-
-enum class SampleKind : std::uint8_t { kInt16, kUint16, kFloat32 };
-
-/// "int16", "uint16" or "float32".
-const char* nameOf(SampleKind kind);
-/// Bytes of a sample.
-std::size_t sizeOf(SampleKind kind);
 
 /// The form of a grid. The samples of a row follow each other, and so do the rows.
 struct GridSize {
@@ -42,14 +36,12 @@ class HeightGrid {
   const GridSize& size() const { return size_; }
   std::uint32_t columns() const { return size_.columns; }
   std::uint32_t rows() const { return size_.rows; }
-  std::optional<double> missing() const { return missing_; }
-  const void* samples() const { return samples_.get(); }
+  std::optional<double> missing() const { return samples_.missing(); }
+  const void* samples() const { return samples_.data(); }
 
   /// The sample, or not a number where it is missing. RT-safe.
   double at(std::uint32_t column, std::uint32_t row) const {
-    const std::size_t place = std::size_t{row} * size_.columns + column;
-    const double value = read(place);
-    return value == missing_value_ ? std::numeric_limits<double>::quiet_NaN() : value;
+    return samples_[std::size_t{row} * size_.columns + column];
   }
   /// Whether all four samples around a cell exist: only then it has triangles. RT-safe.
   bool hasCell(std::uint32_t column, std::uint32_t row) const {
@@ -58,23 +50,8 @@ class HeightGrid {
   std::size_t bytes() const { return sizeof(*this) + size_.bytes(); }
 
  private:
-  double read(std::size_t place) const {
-    switch (size_.kind) {
-      case SampleKind::kInt16:
-        return static_cast<const std::int16_t*>(samples_.get())[place];
-      case SampleKind::kUint16:
-        return static_cast<const std::uint16_t*>(samples_.get())[place];
-      case SampleKind::kFloat32:
-        break;
-    }
-    const double value = static_cast<const float*>(samples_.get())[place];
-    return std::isinf(value) ? std::numeric_limits<double>::quiet_NaN() : value;
-  }
-
   GridSize size_;
-  std::shared_ptr<const void> samples_;
-  std::optional<double> missing_;
-  double missing_value_;  // equal to no sample if none stands for "missing"
+  Samples samples_;
 };
 
 }  // namespace hl

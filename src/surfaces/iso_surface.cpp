@@ -1,5 +1,6 @@
 #include "surfaces/iso_surface.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -51,7 +52,7 @@ IsoSurface::IsoSurface(std::shared_ptr<const Volume> volume, const GridFrame& fr
       mirrored_(frame.axes.determinant() < 0) {
   if (!std::isfinite(iso.value)) throw Error("the iso value of a volume must be a number");
   checkFrame();
-  bounds_ = boundsOfBricks();
+  measure();
 }
 
 void IsoSurface::checkFrame() const {
@@ -69,15 +70,15 @@ void IsoSurface::checkFrame() const {
 }
 
 // By the bricks in which it is.
-Box IsoSurface::boundsOfBricks() const {
-  Box box;
+void IsoSurface::measure() {
+  constexpr std::uint64_t kPerBrick = 2 * BrickPyramid::kCells * BrickPyramid::kCells;
   volume_->pyramid.forEachHolding(iso_.value, [&](const Place& first, const Place& end) {
+    triangles_ += kPerBrick;
     for (unsigned c = 0; c < kCellCorners; ++c) {
       const auto at = [&](std::size_t axis) { return (c >> axis & 1U) != 0 ? end[axis] : first[axis]; };
-      box.extend(frame_.point(at(0), at(1), at(2)));
+      bounds_.extend(frame_.point(at(0), at(1), at(2)));
     }
   });
-  return box;
 }
 
 ElementId IsoSurface::count() const {
@@ -196,6 +197,52 @@ std::shared_ptr<const PrimitiveSource> IsoSurface::placed(const Mat3& linear, co
   return std::make_shared<const IsoSurface>(volume_, frame_.placed(linear, offset), iso_);
 }
 
+template <typename Visit>
+void IsoSurface::forEachCell(const Visit& visit) const {
+  volume_->pyramid.forEachHolding(iso_.value, [&](const Place& first, const Place& end) {
+    for (std::uint32_t z = first[2]; z < end[2]; ++z) {
+      for (std::uint32_t y = first[1]; y < end[1]; ++y) {
+        for (std::uint32_t x = first[0]; x < end[0]; ++x) {
+          if (const IsoCell one = cell(x, y, z); one.triangles != nullptr) visit(one);
+        }
+      }
+    }
+  });
+}
+
+double IsoSurface::error_m() const {
+  // No gradient in metres is less than that in samples over the longest that a step becomes.
+  const double longest =
+      Eigen::SelfAdjointEigenSolver<Mat3>(frame_.axes.transpose() * frame_.axes, Eigen::EigenvaluesOnly)
+          .eigenvalues()
+          .maxCoeff();
+  double most = 0;
+  forEachCell([&](const IsoCell& cell) { most = std::max(most, errorOf_m(cell, std::sqrt(longest))); });
+  return most;
+}
+
+// Where linear interpolation on edges and triangles leaves out the mixed differences D of the values:
+// ((|Dxy| + |Dyz| + |Dzx|) / 3 + |Dxyz| / 2) / least gradient.
+double IsoSurface::errorOf_m(const IsoCell& cell, double longest_step_m) const {
+  const auto& v = cell.value;
+  double mixed = 0, square = 0;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const unsigned step = 1U << axis, u = 1U << (axis + 1) % 3, w = 1U << (axis + 2) % 3;
+    const std::array<double, 4> slope{v[step] - v[0], v[step | u] - v[u], v[step | w] - v[w],
+                                      v[step | u | w] - v[u | w]};
+    const auto [low, high] = std::minmax_element(slope.begin(), slope.end());
+    const double least = std::max({*low, -*high, 0.0});
+    square += least * least;
+    mixed += std::max(std::abs(slope[1] - slope[0]), std::abs(slope[3] - slope[2])) / 3;
+    if (axis == 0) mixed += std::abs(slope[3] - slope[2] - slope[1] + slope[0]) / 2;
+  }
+  double diagonal = 0;
+  for (const double y : {-1.0, 1.0}) {
+    for (const double z : {-1.0, 1.0}) diagonal = std::max(diagonal, (frame_.axes * Vec3(1, y, z)).norm());
+  }
+  return square > 0 ? std::min(diagonal, longest_step_m * mixed / std::sqrt(square)) : diagonal;
+}
+
 // Thinned until it has few enough triangles: a quarter of them for each doubling.
 DrawnMesh IsoSurface::drawn(std::size_t most_triangles) const {
   DrawnMesh mesh;
@@ -249,15 +296,7 @@ class IsoSurface::Drawing {
 
 DrawnMesh IsoSurface::drawnInFull() const {
   Drawing drawing(*this);
-  volume_->pyramid.forEachHolding(iso_.value, [&](const Place& first, const Place& end) {
-    for (std::uint32_t z = first[2]; z < end[2]; ++z) {
-      for (std::uint32_t y = first[1]; y < end[1]; ++y) {
-        for (std::uint32_t x = first[0]; x < end[0]; ++x) {
-          if (const IsoCell one = cell(x, y, z); one.triangles != nullptr) drawing.add(one);
-        }
-      }
-    }
-  });
+  forEachCell([&](const IsoCell& cell) { drawing.add(cell); });
   return drawing.take();
 }
 

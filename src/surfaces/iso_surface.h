@@ -48,12 +48,16 @@ class IsoSurface final : public PrimitiveSource {
   IsoSurface(std::shared_ptr<const Volume> volume, const GridFrame& frame, const IsoValue& iso);
 
   ElementId count() const override;
+  /// About two for each cell that a plane through a brick of cells crosses.
+  std::uint64_t triangles() const override { return triangles_; }
   std::array<Vec3, 3> corners(ElementId id) const override;
   /// Down the gradient of the values, by central differences at the samples, linear in between.
   Vec3 trueNormal(ElementId id, const Vec3& point) const override;
   Box bounds() const override { return bounds_; }
   std::unique_ptr<const SpatialIndex> makeIndex() const override;
   std::size_t bytes() const override { return sizeof(*this) + volume_->grid.bytes() + volume_->pyramid.bytes(); }
+  /// Between the triangles and the surface of the trilinear values, at most the diagonal of a cell.
+  double error_m() const override;
   std::shared_ptr<const PrimitiveSource> placed(const Mat3& linear, const Vec3& offset) const override;
   DrawnMesh drawn(std::size_t most_triangles) const override;
 
@@ -76,7 +80,11 @@ class IsoSurface final : public PrimitiveSource {
   Vec3 gradientAt(const std::array<std::uint32_t, 3>& at) const;
   std::array<std::uint32_t, 3> cellOf(ElementId id) const;
   void checkFrame() const;
-  Box boundsOfBricks() const;
+  void measure();
+  double errorOf_m(const IsoCell& cell, double longest_step_m) const;
+  /// Calls visit(cell) for each cell that the surface crosses.
+  template <typename Visit>
+  void forEachCell(const Visit& visit) const;
   DrawnMesh drawnInFull() const;
 
   std::shared_ptr<const Volume> volume_;
@@ -86,6 +94,7 @@ class IsoSurface final : public PrimitiveSource {
   Mat3 across_;          // inverse of the frame's axes
   bool mirrored_ = false;
   Box bounds_;
+  std::uint64_t triangles_ = 0;
 };
 
 }  // namespace hl

@@ -8,9 +8,14 @@
 #include <memory>
 #include <optional>
 
-#include "surfaces/height_grid.h"
-
 namespace hl {
+
+enum class SampleKind : std::uint8_t { kInt16, kUint16, kFloat32 };
+
+/// "int16", "uint16" or "float32".
+const char* nameOf(SampleKind kind);
+/// Bytes of a sample.
+std::size_t sizeOf(SampleKind kind);
 
 /// Immutable; read by any thread.
 class Samples {

@@ -12,6 +12,9 @@ namespace hl {
 /// No side has more samples: numbers of cells stay below 2^60.
 inline constexpr std::uint32_t kMostVoxelSide = 1U << 20;
 
+/// Samples along x, y and z, each 2 to kMostVoxelSide; else throws hl::Error.
+void checkVoxelSides(const std::array<std::uint32_t, 3>& side);
+
 /// How values follow from samples: value = offset + scale * sample, as CT numbers (HU) do.
 struct ValueScale {
   double scale = 1, offset = 0;
@@ -20,8 +23,7 @@ struct ValueScale {
 /// Immutable; read by any thread. Samples follow each other along x, then y, then z.
 class VoxelGrid {
  public:
-  /// `side`: samples along x, y and z, each 2 to kMostVoxelSide; `samples` has as many as their product. Throws
-  /// hl::Error for a size or scale that cannot be.
+  /// `samples` has as many as the product of the sides. Throws hl::Error for a size or scale that cannot be.
   VoxelGrid(const std::array<std::uint32_t, 3>& side, Samples samples, const ValueScale& values = {});
 
   std::uint32_t side(std::size_t axis) const { return side_[axis]; }

@@ -1,4 +1,4 @@
-#include "surfaces/height_samples.h"
+#include "surfaces/sample_room.h"
 
 #include <cstring>
 #include <utility>
@@ -8,21 +8,19 @@
 
 namespace hl {
 
-HeightSamples::HeightSamples(const GridSize& size) : size_(size) {
-  checkGridSize(size);
-  const std::size_t bytes = size.bytes();
+SampleRoom::SampleRoom(std::size_t bytes) : bytes_(bytes) {
   HugePageAllocator<std::byte> allocator;
   memory_ = {allocator.allocate(bytes),
              [bytes](std::byte* memory) { HugePageAllocator<std::byte>().deallocate(memory, bytes); }};
 }
 
-void HeightSamples::add(const void* samples, std::size_t bytes) {
-  if (bytes > size_.bytes() - filled_) throw Error("it has more samples than it says");
+void SampleRoom::add(const void* samples, std::size_t bytes) {
+  if (bytes > bytes_ - filled_) throw Error("it has more samples than it says");
   std::memcpy(memory_.get() + filled_, samples, bytes);
   filled_ += bytes;
 }
 
-std::shared_ptr<const void> HeightSamples::take() {
+std::shared_ptr<const void> SampleRoom::take() {
   if (!whole()) throw Error("it has fewer samples than it says");
   return std::move(memory_);
 }
