@@ -8,16 +8,11 @@
 
 #include "base/error.h"
 #include "base/finger_reach.h"
+#include "io/text_words.h"
 
 namespace hl {
 
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.back() == '\r' || text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  return text;
-}
 
 // Exactly four finite numbers between commas.
 bool parseRow(std::string_view line, std::array<double, 4>& values) {

@@ -2,37 +2,23 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <string_view>
 #include <vector>
 
 #include "base/error.h"
+#include "io/copy_samples.h"
 #include "io/read_heights.h"
+#include "io/text_words.h"
 
 namespace hl {
 
 namespace {
-
-constexpr const char* kShort = "ends before its last sample";
-
-void readBytes(std::ifstream& in, void* data, std::size_t bytes) {
-  in.read(static_cast<char*>(data), static_cast<std::streamsize>(bytes));
-  if (static_cast<std::size_t>(in.gcount()) != bytes) throw Error(kShort);
-}
-
-template <typename Value>
-Value swapped(Value value) {
-  std::array<std::byte, sizeof(Value)> bytes;
-  std::memcpy(bytes.data(), &value, sizeof value);
-  std::reverse(bytes.begin(), bytes.end());
-  std::memcpy(&value, bytes.data(), sizeof value);
-  return value;
-}
 
 /// "N37W123" gives the south-west corner of a tile, in degrees.
 std::optional<double> southOf(const std::string& path) {
@@ -44,65 +30,19 @@ std::optional<double> southOf(const std::string& path) {
   return name[0] == 'N' || name[0] == 'n' ? degrees : -degrees;
 }
 
-/// Words of a text file, one after the other.
-class Words {
- public:
-  explicit Words(const std::string& path) : in_(path, std::ios::binary) {}
-
-  /// False at the end. The word is valid until the next call.
-  bool next(std::string_view& word) {
-    word_.clear();
-    for (int c = in_.sbumpc(); c != std::char_traits<char>::eof(); c = in_.sbumpc()) {
-      const bool space = c == ' ' || c == '\n' || c == '\r' || c == '\t';
-      if (space && word_.empty()) continue;
-      if (space) break;
-      word_ += static_cast<char>(c);
-      if (word_.size() > kLongest) throw Error("is not an Esri grid: it has a word of more than 100 letters");
-    }
-    word = word_;
-    return !word_.empty();
-  }
-  double number(const char* what) {
-    std::string_view word;
-    if (!next(word)) throw Error(kShort);
-    return numberOf(word, what);
-  }
-  static double numberOf(std::string_view word, const char* what) {
-    double value = 0;
-    const char* const last = word.data() + word.size();
-    if (word.starts_with('+')) word.remove_prefix(1);
-    const auto [end, error] = std::from_chars(word.data(), last, value);
-    if (end != last || error == std::errc::invalid_argument)
-      throw Error(fmt::format("is not an Esri grid: '{}' is no number for {}", shown(std::string(word)), what));
-    return value;
-  }
-
- private:
-  struct Buffer : std::filebuf {
-    Buffer(const std::string& path, std::ios::openmode mode) {
-      pubsetbuf(memory_.data(), static_cast<std::streamsize>(memory_.size()));
-      open(path, mode | std::ios::in);
-    }
-    std::vector<char> memory_ = std::vector<char>(1 << 18);
-  };
-  static constexpr std::size_t kLongest = 100;
-  Buffer in_;
-  std::string word_;
-};
-
 struct EsriHeader {
   double columns = 0, rows = 0, east = 0, south = 0, missing = -9999;
 };
 
 // Reads up to the first word that is a number where a key should be, which is the first sample.
-double readEsriHeader(Words& words, EsriHeader& header) {
+double readEsriHeader(TextWords& words, EsriHeader& header) {
   std::string_view word;
   while (words.next(word)) {
     std::string key(word);
     std::transform(key.begin(), key.end(), key.begin(), [](unsigned char c) { return std::tolower(c); });
     if (key.empty() || std::isalpha(static_cast<unsigned char>(key[0])) == 0 || key == "nan")
-      return Words::numberOf(key, "a height");
-    const double value = words.number(shown(key).c_str());
+      return words.numberOf(key, "a height");
+    const double value = words.number(key.c_str());
     if (key == "ncols") header.columns = value;
     if (key == "nrows") header.rows = value;
     if (key == "cellsize") header.east = header.south = value;
@@ -110,7 +50,7 @@ double readEsriHeader(Words& words, EsriHeader& header) {
     if (key == "dy") header.south = value;
     if (key == "nodata_value") header.missing = value;
   }
-  throw Error(kShort);
+  throw Error(kEndsEarly);
 }
 
 std::uint32_t sideOf(double count, const char* what) {
@@ -155,18 +95,6 @@ NumpyHeader numpyHeaderOf(std::string_view text) {
   return header;
 }
 
-// Rows of `Given` in the file, as `Kept`, in the order of memory.
-template <typename Given, typename Kept = Given>
-void copyRows(std::ifstream& in, const GridSize& size, bool swap, HeightSink& sink) {
-  std::vector<Given> given(size.columns);
-  std::vector<Kept> kept(size.columns);
-  for (std::uint32_t row = 0; row < size.rows; ++row) {
-    readBytes(in, given.data(), size.columns * sizeof(Given));
-    for (std::size_t i = 0; i < given.size(); ++i) kept[i] = static_cast<Kept>(swap ? swapped(given[i]) : given[i]);
-    sink.samples(kept.data(), size.columns * sizeof(Kept));
-  }
-}
-
 }  // namespace
 
 void readSrtm(const ModelFile& file, HeightSink& sink) {
@@ -181,12 +109,12 @@ void readSrtm(const ModelFile& file, HeightSink& sink) {
   const DegreeLength spacing = spacingOfDegrees(step_deg, step_deg, south.value_or(-0.5) + 0.5, sink);
   constexpr double kVoid = -32768;
   sink.header({size, kVoid, uprightFrame(size, spacing.east_m, spacing.north_m, 1)});
-  std::ifstream in(file.path, std::ios::binary);
-  copyRows<std::int16_t>(in, size, std::endian::native == std::endian::little, sink);
+  ByteFile in(file.path);
+  copySamples<std::int16_t>(in, size.samples(), std::endian::native == std::endian::little, sink);
 }
 
 void readEsriGrid(const ModelFile& file, HeightSink& sink) {
-  Words words(file.path);
+  TextWords words(ByteFile(file.path), "an Esri grid");
   EsriHeader header;
   double first = readEsriHeader(words, header);
   const GridSize size{sideOf(header.columns, "ncols"), sideOf(header.rows, "nrows"), SampleKind::kFloat32};
@@ -203,18 +131,18 @@ void readEsriGrid(const ModelFile& file, HeightSink& sink) {
 
 // An array in Fortran's order is a grid whose rows and columns have changed places.
 void readNumpy(const ModelFile& file, HeightSink& sink) {
-  std::ifstream in(file.path, std::ios::binary);
+  ByteFile in(file.path);
   std::array<unsigned char, 12> start{};
-  readBytes(in, start.data(), 8);
+  in.read(start.data(), 8);
   if (std::memcmp(start.data(), "\x93NUMPY", 6) != 0) throw Error("is not a NumPy file");
   const std::size_t length_bytes = start[6] == 1 ? 2 : 4;
-  readBytes(in, &start[8], length_bytes);
+  in.read(&start[8], length_bytes);
   std::size_t length = 0;
   for (std::size_t i = 0; i < length_bytes; ++i) length |= std::size_t{start[8 + i]} << (8 * i);
   constexpr std::size_t kLongest = 1 << 16;
   if (length > kLongest) throw Error("is not a sound NumPy file: its header is too long");
   std::string text(length, ' ');
-  readBytes(in, text.data(), length);
+  in.read(text.data(), length);
   const NumpyHeader header = numpyHeaderOf(text);
   const std::string type = header.type.size() < 2 ? "" : header.type.substr(1);
   GridSize size{header.columns, header.rows, SampleKind::kFloat32};
@@ -226,15 +154,15 @@ void readNumpy(const ModelFile& file, HeightSink& sink) {
     frame.axes.col(0).swap(frame.axes.col(1));
   }
   const bool swap = header.type.starts_with('>') == (std::endian::native == std::endian::little);
-  const auto begin = [&] {
-    if (type == "f8") sink.warn("its numbers are kept in single precision");
-    sink.header({size, {}, frame});
-  };
-  if (type == "i2") return begin(), copyRows<std::int16_t>(in, size, swap, sink);
-  if (type == "u2") return begin(), copyRows<std::uint16_t>(in, size, swap, sink);
-  if (type == "f4") return begin(), copyRows<float>(in, size, swap, sink);
-  if (type == "f8") return begin(), copyRows<double, float>(in, size, swap, sink);
-  throw Error("has numbers of type '" + shown(header.type) + "': heights are int16, uint16, float32 or float64");
+  constexpr std::array<std::string_view, 4> kTypes{"i2", "u2", "f4", "f8"};
+  if (std::find(kTypes.begin(), kTypes.end(), type) == kTypes.end())
+    throw Error("has numbers of type '" + shown(header.type) + "': heights are int16, uint16, float32 or float64");
+  sink.header({size, {}, frame});
+  if (type == "i2") copySamples<std::int16_t>(in, size.samples(), swap, sink);
+  if (type == "u2") copySamples<std::uint16_t>(in, size.samples(), swap, sink);
+  if (type == "f4") copySamples<float>(in, size.samples(), swap, sink);
+  if (type == "f8" && copySamples<double, float>(in, size.samples(), swap, sink) > 0)
+    sink.warn("its numbers are kept in single precision");
 }
 
 }  // namespace hl

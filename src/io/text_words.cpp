@@ -1,0 +1,73 @@
+#include "io/text_words.h"
+
+#include <fmt/core.h>
+
+#include <charconv>
+#include <system_error>
+
+#include "base/error.h"
+
+namespace hl {
+
+namespace {
+
+constexpr int kNoLetter = -1;
+
+}  // namespace
+
+int TextWords::letter() {
+  if (at_ == filled_) {
+    filled_ = in_.some(room_.data(), room_.size());
+    at_ = 0;
+    if (filled_ == 0) return kNoLetter;
+  }
+  return static_cast<unsigned char>(room_[at_++]);
+}
+
+bool TextWords::next(std::string_view& word) {
+  constexpr std::size_t kLongest = 100;
+  word_.clear();
+  for (int c = letter(); c != kNoLetter; c = letter()) {
+    const bool space = c == ' ' || c == '\n' || c == '\r' || c == '\t';
+    if (space && word_.empty()) continue;
+    if (space) break;
+    word_ += static_cast<char>(c);
+    if (word_.size() > kLongest) throw Error(fmt::format("is not {}: it has a word of more than 100 letters", kind_));
+  }
+  word = word_;
+  return !word_.empty();
+}
+
+double TextWords::number(const char* what) {
+  std::string_view word;
+  if (!next(word)) throw Error(kEndsEarly);
+  return numberOf(word, what);
+}
+
+double TextWords::numberOf(std::string_view word, const char* what) const {
+  double value = 0;
+  const char* const last = word.data() + word.size();
+  const std::string_view digits = word.substr(word.starts_with('+') ? 1 : 0);
+  const auto [end, error] = std::from_chars(digits.data(), last, value);
+  if (end != last || error == std::errc::invalid_argument)
+    throw Error(fmt::format("is not {}: '{}' is no number for {}", kind_, shown(word), what));
+  return value;
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr const char* kBlank = " \t\r";
+  const std::size_t first = text.find_first_not_of(kBlank);
+  return first == std::string_view::npos ? std::string_view()
+                                         : text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+std::string shown(std::string_view text) {
+  constexpr std::size_t kMost = 60;
+  std::string piece(text.substr(0, kMost));
+  for (char& c : piece) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  return piece;
+}
+
+}  // namespace hl

@@ -1,0 +1,39 @@
+// TextWords: the words of a text file, one after the other.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/byte_file.h"
+
+namespace hl {
+
+/// Every call throws hl::Error, without the file's name, when the file is not what it should be.
+class TextWords {
+ public:
+  /// `kind`: what the file should be, for errors: "an Esri grid".
+  TextWords(ByteFile in, std::string kind) : in_(std::move(in)), kind_(std::move(kind)) {}
+
+  /// False at the end. The word is valid until the next call.
+  bool next(std::string_view& word);
+  /// The next word as a number, `what` it is for.
+  double number(const char* what);
+  double numberOf(std::string_view word, const char* what) const;
+
+ private:
+  int letter();
+
+  ByteFile in_;
+  std::string kind_, word_;
+  std::vector<char> room_ = std::vector<char>(1 << 16);
+  std::size_t at_ = 0, filled_ = 0;
+};
+
+/// Without the blanks, tabs and carriage returns around it.
+std::string_view trimmed(std::string_view text);
+/// `text` from a file as an error may show it: a short piece, without what cannot be printed.
+std::string shown(std::string_view text);
+
+}  // namespace hl
