@@ -8,11 +8,15 @@
 
 namespace hl {
 
-/// ".obj" of "A/b.OBJ": in lower case, empty without a dot.
+/// ".obj" of "A/b.OBJ", ".nii.gz" of "c.nii.gz": in lower case, empty without a dot.
 inline std::string endingOf(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending;
+  const auto lastOf = [](const std::filesystem::path& name) {
+    std::string ending = name.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    return ending;
+  };
+  const std::string ending = lastOf(path);
+  return ending == ".gz" ? lastOf(std::filesystem::path(path).stem()) + ending : ending;
 }
 
 }  // namespace hl

@@ -1,5 +1,28 @@
 #include "io/read_volumes.h"
+
+#include <array>
+#include <string_view>
+#include <utility>
+
 namespace hl {
-bool readsVolumes(const std::string&) { return false; }
-void readVolume(const ModelFile&, VolumeSink&) {}
+
+namespace {
+
+using ReadVolume = void (*)(const ModelFile&, VolumeSink&);
+constexpr std::array<std::pair<std::string_view, ReadVolume>, 4> kVolumeReaders{
+    {{".nii", readNifti}, {".nii.gz", readNifti}, {".nrrd", readNrrd}, {".nhdr", readNrrd}}};
+
+ReadVolume volumeReaderOf(const std::string& ending) {
+  for (const auto& [of, read] : kVolumeReaders) {
+    if (of == ending) return read;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+bool readsVolumes(const std::string& ending) { return volumeReaderOf(ending) != nullptr; }
+
+void readVolume(const ModelFile& file, VolumeSink& sink) { volumeReaderOf(file.ending)(file, sink); }
+
 }  // namespace hl

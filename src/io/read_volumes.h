@@ -1,5 +1,5 @@
-// Files of volumes: NIfTI .nii and .nii.gz, NRRD .nrrd and .nhdr, DICOM series. They are read in one pass, however large
-// they are.
+// Files of volumes: NIfTI .nii and .nii.gz, NRRD .nrrd and .nhdr, DICOM series. They are read in one pass, however
+// large they are.
 #pragma once
 
 #include <string>
