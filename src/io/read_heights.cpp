@@ -35,12 +35,6 @@ bool readsHeights(const std::string& ending) { return readerOf(ending) != nullpt
 
 void readHeights(const ModelFile& file, HeightSink& sink) { readerOf(file.ending)(file, sink); }
 
-std::string shown(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
-  return text;
-}
-
 GridFrame uprightFrame(const GridSize& size, double east_m, double south_m, double up_m) {
   GridFrame frame;
   frame.axes = Mat3::Zero();

@@ -23,9 +23,6 @@ void readEsriGrid(const ModelFile& file, HeightSink& sink);
 void readHeightPng(const ModelFile& file, HeightSink& sink);
 void readNumpy(const ModelFile& file, HeightSink& sink);
 
-/// A text of a file as an error may show it: what is not printable ASCII becomes a question mark.
-std::string shown(std::string text);
-
 /// The frame of an upright grid: metres between samples, and metres for a unit of them.
 GridFrame uprightFrame(const GridSize& size, double east_m, double south_m, double up_m);
 
