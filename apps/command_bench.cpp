@@ -197,7 +197,7 @@ void addBenchCommand(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--csv", options->csv, "also write the table to this file")->option_text("FILE");
   command
-      ->add_option("--fields", options.fields,
+      ->add_option("--fields", options->fields,
                    "height fields instead, of 10 000 triangles, ten times as many, and so on up to this number; takes "
                    "--radius, --ticks and --csv")
       ->check(CLI::Range(std::size_t{1000}, std::size_t{100'000'000'000}));

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "io/read_heights.h"
+#include "io/text_words.h"
 
 namespace hl {
 
