@@ -11,10 +11,13 @@
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <exception>
 #include <functional>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <ranges>
 #include <span>
 #include <stdexcept>
@@ -246,6 +249,7 @@ void drawElements(HLenum mode, const VertexArrays<Number>& arrays, const Indices
   hlDrawElements(mode, static_cast<HLsizei>(std::ranges::size(indices)), type, std::ranges::data(indices));
 }
 
+/// What samples of a height field may be.
 template <typename Number>
 concept HeightNumber = std::same_as<Number, HLshort> || std::same_as<Number, HLushort> || std::same_as<Number, HLfloat>;
 

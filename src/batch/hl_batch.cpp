@@ -196,9 +196,10 @@ HLbatchScene* hlBatchMakeHeights(size_t columns, size_t rows, HLenum type, const
     kept.add(samples, size.bytes());
     const auto grid = std::make_shared<const HeightGrid>(
         size, kept.take(), missing != nullptr ? std::optional<double>(*missing) : std::nullopt);
+    const auto field = std::make_shared<const HeightField>(grid, uprightFrame(size, spacing[0], spacing[1], scale));
+    requireTriangles(*field);
     SceneModel made;
-    made.surfaces.push_back(
-        {"heights", std::make_shared<const HeightField>(grid, uprightFrame(size, spacing[0], spacing[1], scale))});
+    made.surfaces.push_back({"heights", field});
     scene = sceneOf(std::move(made));
   });
   return scene;

@@ -69,7 +69,7 @@ std::shared_ptr<const HeightField> decodeHeights(const proto::Heights& in) {
   SampleRoom samples = samplesOf(in);
   const auto grid = std::make_shared<const HeightGrid>(size, samples.take(), missing);
   auto field = std::make_shared<const HeightField>(grid, uprightFrame(size, spacing.columns, spacing.rows, spacing.up));
-  if (field->triangles() == 0) throw Error("all its samples are missing");
+  requireTriangles(*field);
   return field;
 }
 

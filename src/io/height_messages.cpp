@@ -65,7 +65,7 @@ HeightCollector::HeightCollector(const HeightHeader& header, std::size_t most_by
 std::shared_ptr<const HeightField> HeightCollector::take() {
   const auto grid = std::make_shared<const HeightGrid>(header_.size, samples_.take(), header_.missing);
   auto field = std::make_shared<const HeightField>(grid, header_.frame);
-  if (field->triangles() == 0) throw Error("all its samples are missing");
+  requireTriangles(*field);
   return field;
 }
 

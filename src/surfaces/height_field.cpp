@@ -24,6 +24,10 @@ HeightField::HeightField(const HeightField& other, const GridFrame& frame)
   checkFrame();
 }
 
+void requireTriangles(const HeightField& field) {
+  if (field.triangles() == 0) throw Error("all its samples are missing");
+}
+
 // A triangle has at least the area |det| / (2 |M_w|): its shadow along the third axis.
 void HeightField::checkFrame() {
   const Mat3& axes = frame_.axes;

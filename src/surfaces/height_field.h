@@ -55,4 +55,7 @@ class HeightField final : public PrimitiveSource {
   Box bounds_;
 };
 
+/// Throws hl::Error if all samples are missing, or lack a neighbour.
+void requireTriangles(const HeightField& field);
+
 }  // namespace hl

@@ -21,8 +21,14 @@ std::uint32_t blocksFor(std::uint64_t parts, std::uint64_t per_block) {
   return static_cast<std::uint32_t>((parts + per_block - 1) / per_block);
 }
 
-float roundedDown(double value) { return std::nextafter(static_cast<float>(value), -kInfinity); }
-float roundedUp(double value) { return std::nextafter(static_cast<float>(value), kInfinity); }
+// Beyond what rounding may do to a sum of terms up to `size`.
+constexpr double kSumRounding = 1e-14;
+float roundedDown(double value, double size) {
+  return std::nextafter(static_cast<float>(value - kSumRounding * size), -kInfinity);
+}
+float roundedUp(double value, double size) {
+  return std::nextafter(static_cast<float>(value + kSumRounding * size), kInfinity);
+}
 
 /// What a part of the grid has.
 struct HeightTally {
@@ -71,7 +77,8 @@ class BlockSamples {
         tally.highest = value > tally.highest ? value : tally.highest;
       }
     }
-    return {roundedDown(low), roundedUp(high), across, down};
+    const double size = std::abs(low) + std::abs(high) + kSide * (std::abs(across) + std::abs(down));
+    return {roundedDown(low, size), roundedUp(high, size), across, down};
   }
 
  private:
@@ -158,49 +165,52 @@ void HeightPyramid::measure(const HeightGrid& grid) {
 }
 
 // The slope of a block is the mean of those of the blocks in it.
-HeightPyramid::Level HeightPyramid::above(int beneath, const HeightGrid& grid) const {
-  const Level& in = levels_[static_cast<std::size_t>(beneath)];
+HeightSlab HeightPyramid::joined(int level, std::uint32_t column, std::uint32_t row, const GridSize& size) const {
+  const Level& in = levels_[static_cast<std::size_t>(level)];
+  const std::uint32_t i1 = std::min((column + 1) * kBlocks, in.columns), j1 = std::min((row + 1) * kBlocks, in.rows);
+  const auto forEach = [&](const auto& visit) {
+    for (std::uint32_t j = row * kBlocks; j < j1; ++j) {
+      for (std::uint32_t i = column * kBlocks; i < i1; ++i) {
+        if (const HeightSlab& slab = in.slabs[std::size_t{j} * in.columns + i]; !slab.empty()) visit(slab, i, j);
+      }
+    }
+  };
+  double across = 0, down = 0;
+  int used = 0;
+  forEach([&](const HeightSlab& slab, std::uint32_t, std::uint32_t) {
+    across += slab.slope_column;
+    down += slab.slope_row;
+    ++used;
+  });
+  if (used == 0) return kEmptySlab;
+  HeightSlab all{0, 0, static_cast<float>(across / used), static_cast<float>(down / used)};
+  const auto cells = static_cast<double>(side(level));
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  forEach([&](const HeightSlab& slab, std::uint32_t i, std::uint32_t j) {
+    const WideSlab rest{slab.low, slab.high, double{slab.slope_column} - all.slope_column,
+                        double{slab.slope_row} - all.slope_row};
+    const double columns = std::min(cells, size.columns - 1 - cells * i);
+    const double rows = std::min(cells, size.rows - 1 - cells * j);
+    const double shift =
+        all.slope_column * cells * (i - column * kBlocks) + all.slope_row * cells * (j - row * kBlocks);
+    low = std::min(low, rest.lowest(columns, rows) - shift);
+    high = std::max(high, rest.highest(columns, rows) - shift);
+  });
+  const double terms =
+      std::abs(low) + std::abs(high) + kBlocks * cells * (std::abs(all.slope_column) + std::abs(all.slope_row));
+  all.low = roundedDown(low, terms);
+  all.high = roundedUp(high, terms);
+  return all;
+}
+
+HeightPyramid::Level HeightPyramid::above(int level, const HeightGrid& grid) const {
+  const Level& in = levels_[static_cast<std::size_t>(level)];
   Level out{blocksFor(in.columns, kBlocks), blocksFor(in.rows, kBlocks), {}};
   out.slabs.resize(std::size_t{out.columns} * out.rows);
-  const auto cells = static_cast<double>(side(beneath));
-  const auto join = [&](std::uint32_t column, std::uint32_t row) {
-    const std::uint32_t i1 = std::min((column + 1) * kBlocks, in.columns), j1 = std::min((row + 1) * kBlocks, in.rows);
-    double across = 0, down = 0;
-    int used = 0;
-    const auto forEach = [&](const auto& visit) {
-      for (std::uint32_t j = row * kBlocks; j < j1; ++j) {
-        for (std::uint32_t i = column * kBlocks; i < i1; ++i) {
-          if (const HeightSlab& slab = in.slabs[std::size_t{j} * in.columns + i]; !slab.empty()) visit(slab, i, j);
-        }
-      }
-    };
-    forEach([&](const HeightSlab& slab, std::uint32_t, std::uint32_t) {
-      across += slab.slope_column;
-      down += slab.slope_row;
-      ++used;
-    });
-    if (used == 0) return kEmptySlab;
-    HeightSlab joined{0, 0, static_cast<float>(across / used), static_cast<float>(down / used)};
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    forEach([&](const HeightSlab& slab, std::uint32_t i, std::uint32_t j) {
-      const double first_column = cells * i, first_row = cells * j;
-      const WideSlab rest{slab.low, slab.high, double{slab.slope_column} - joined.slope_column,
-                          double{slab.slope_row} - joined.slope_row};
-      const double columns = std::min(cells, grid.columns() - 1 - first_column);
-      const double rows = std::min(cells, grid.rows() - 1 - first_row);
-      const double shift = joined.slope_column * (first_column - cells * column * kBlocks) +
-                           joined.slope_row * (first_row - cells * row * kBlocks);
-      low = std::min(low, rest.lowest(columns, rows) - shift);
-      high = std::max(high, rest.highest(columns, rows) - shift);
-    });
-    joined.low = roundedDown(low);
-    joined.high = roundedUp(high);
-    return joined;
-  };
   oneapi::tbb::parallel_for(Range(0, out.rows), [&](const Range& range) {
     for (std::uint32_t row = range.begin(); row < range.end(); ++row) {
       for (std::uint32_t column = 0; column < out.columns; ++column)
-        out.slabs[std::size_t{row} * out.columns + column] = join(column, row);
+        out.slabs[std::size_t{row} * out.columns + column] = joined(level, column, row, grid.size());
     }
   });
   return out;

@@ -54,6 +54,7 @@ class HeightPyramid {
     HugeVector<HeightSlab> slabs;
   };
   void measure(const HeightGrid& grid);
+  HeightSlab joined(int level, std::uint32_t column, std::uint32_t row, const GridSize& size) const;
   Level above(int level, const HeightGrid& grid) const;
 
   std::vector<Level> levels_;

@@ -82,6 +82,39 @@ class ClosedForms(unittest.TestCase):
         self.assertIn("primitives", repr(scene))
 
 
+class Heights(unittest.TestCase):
+    def test_a_field_is_felt_as_the_triangles_of_its_samples(self):
+        random = np.random.default_rng(4)
+        heights = random.normal(0, 0.002, (20, 30)).astype(np.float32)
+        field = hl.Scene(heights=heights, spacing=(0.01, 0.02))
+        self.assertEqual(field.primitives, 2 * 19 * 29)
+        np.testing.assert_allclose(field.bounds, [[-0.145, heights.min(), -0.19], [0.145, heights.max(), 0.19]], atol=1e-12)
+        x, z = np.meshgrid(0.01 * np.arange(30) - 0.145, 0.02 * np.arange(20) - 0.19)
+        vertices = np.column_stack([x.ravel(), heights.astype(float).ravel(), z.ravel()])
+        a = (30 * np.arange(19)[:, None] + np.arange(29)).ravel()
+        triangles = np.vstack([np.column_stack([a, a + 31, a + 1]), np.column_stack([a, a + 30, a + 31])])
+        mesh = hl.Scene(vertices, triangles)
+        points = random.uniform(-0.1, 0.1, (200, 3))
+        np.testing.assert_allclose(
+            hl.closest(field, points).distance, hl.closest(mesh, points).distance, rtol=0, atol=1e-12)
+
+    def test_samples_of_16_bits_have_a_scale_and_holes(self):
+        heights = np.full((5, 5), 300, np.int16)
+        heights[0, 0] = -1
+        field = hl.Scene(heights=heights, spacing=0.1, vertical_scale=1e-3, missing=-1)
+        np.testing.assert_allclose(field.bounds[:, 1], 0.3)
+        self.assertAlmostEqual(hl.closest(field, [[0, 1, 0]]).distance[0], 0.7)
+        self.assertGreater(hl.closest(field, [[-0.19, 0.3, -0.19]]).distance[0], 0.05)
+
+    def test_what_is_no_field_is_refused(self):
+        for wrong in ([1, 2, 3], [[1.0]], [["a", "b"], ["c", "d"]], [[1 + 2j] * 2] * 2):
+            self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(heights=wrong))
+        good = np.zeros((3, 3), np.float32)
+        self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(heights=good, spacing=0))
+        self.assertRaises(hl.InvalidValueError, lambda: hl.Scene("teapot", heights=good))
+        self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(heights=np.full((3, 3), np.nan)))
+
+
 class SameBits(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
