@@ -1,4 +1,7 @@
 // Files of heights. The first byte chooses the form.
+#include <array>
+#include <optional>
+
 #include "io/height_messages.h"
 #include "io/read_heights.h"
 #include "refusal.h"

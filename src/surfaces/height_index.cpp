@@ -24,12 +24,11 @@ std::size_t HeightIndex::overlap(const Vec3& centre, double radius, FunctionRef<
 
 std::size_t HeightIndex::sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
                                FunctionRef<double(ElementId, double)> visit) const {
-  constexpr double kFirstPartCells = 0.5;
   const GridBall ball(metric_, from, motion, reachOf(radius, from, motion, extent_));
   const auto walk = [this](const GridBall& part, const auto& found) {
     return HeightWalk(grid_, pyramid_, part).run(found);
   };
-  return sweepCells(ball, motion.norm(), std::min(soon, kFirstPartCells * cell_), walk, visit);
+  return sweepCells(ball, motion.norm(), soon, walk, visit);
 }
 
 std::size_t HeightIndex::nearest(const Vec3& centre, double farthest,

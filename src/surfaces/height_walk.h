@@ -105,7 +105,8 @@ class HeightWalk {
     if (i.empty || j.empty) return;
     const HeightSlab& slab = pyramid_.slab(0, block.column, block.row);
     const GridPlane plane{static_cast<double>(column), static_cast<double>(row), slab.slope_column, slab.slope_row};
-    const BallOverPlane over(ball_, BallBowls(ball_, slab.slope_column, slab.slope_row), plane);
+    const BallBowls bowls(ball_, slab.slope_column, slab.slope_row);
+    const BallOverPlane over(ball_, bowls, plane);
     const double up = over.isAbove(0.5 * slab.low + 0.5 * slab.high) ? 1 : -1;
     std::array<double, kCells> clear;  // what is lower than that over the plane, in a row of no slope, is not touched
     for (std::uint32_t m = i.first; m <= i.last; ++m)
@@ -119,21 +120,21 @@ class HeightWalk {
         const double b = rest(m + 1, n), d = rest(m + 1, n + 1);
         if (!(up * a < clear[m - i.first] + clear_row && up * b < clear[m - i.first] + clear_row &&
               up * c < clear[m - i.first] + clear_row && up * d < clear[m - i.first] + clear_row))
-          visitCell(m, n, visit);
+          visitCell(m, n, bowls, visit);
         a = b;
         c = d;
       }
     }
   }
 
-  // By the planes of both triangles.
+  // By the planes of both triangles; their slopes are about those of the block.
   template <typename Visit>
-  void visitCell(std::uint32_t m, std::uint32_t n, const Visit& visit) const {
+  void visitCell(std::uint32_t m, std::uint32_t n, const BallBowls& bowls, const Visit& visit) const {
     const double a = grid_.at(m, n), b = grid_.at(m + 1, n), c = grid_.at(m, n + 1), d = grid_.at(m + 1, n + 1);
     if (std::isnan(a + b + c + d)) return;
     const double column = m, row = n;
     const auto touched = [&](double across, double down) {
-      const BallOverPlane over(ball_, BallBowls(ball_, across, down), {column, row, across, down});
+      const BallOverPlane over(ball_, bowls, {column, row, across, down});
       return !over.clears(a, a, {column, column + 1}, {row, row + 1});
     };
     if (touched(b - a, d - b)) visit(idOf({m, n, 0}, grid_.columns()));
