@@ -9,8 +9,13 @@ namespace hl {
 namespace {
 
 using ReadVolume = void (*)(const ModelFile&, VolumeSink&);
-constexpr std::array<std::pair<std::string_view, ReadVolume>, 4> kVolumeReaders{
-    {{".nii", readNifti}, {".nii.gz", readNifti}, {".nrrd", readNrrd}, {".nhdr", readNrrd}}};
+constexpr std::array<std::pair<std::string_view, ReadVolume>, 7> kVolumeReaders{{{".nii", readNifti},
+                                                                                 {".nii.gz", readNifti},
+                                                                                 {".nrrd", readNrrd},
+                                                                                 {".nhdr", readNrrd},
+                                                                                 {".dcm", readDicom},
+                                                                                 {".dicom", readDicom},
+                                                                                 {".ima", readDicom}}};
 
 ReadVolume volumeReaderOf(const std::string& ending) {
   for (const auto& [of, read] : kVolumeReaders) {
@@ -23,6 +28,9 @@ ReadVolume volumeReaderOf(const std::string& ending) {
 
 bool readsVolumes(const std::string& ending) { return volumeReaderOf(ending) != nullptr; }
 
-void readVolume(const ModelFile& file, VolumeSink& sink) { volumeReaderOf(file.ending)(file, sink); }
+void readVolume(const ModelFile& file, VolumeSink& sink) {
+  const ReadVolume read = volumeReaderOf(file.ending);
+  (read == nullptr ? readDicom : read)(file, sink);
+}
 
 }  // namespace hl
