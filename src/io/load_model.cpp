@@ -95,7 +95,7 @@ std::string cannotBeRead(const std::string& ending) {
 }
 
 SceneModel parseModel(const ModelFile& file, const ReadingReport& report) {
-  if (readsVolumes(file.ending)) {
+  if (readsVolumes(file.ending) || isDicomFolder(file.path)) {
     readVolume(file, report.volume());
     return {};
   }
@@ -110,9 +110,12 @@ SceneModel parseModel(const ModelFile& file, const ReadingReport& report) {
 }
 
 SceneModel loadModelScene(const std::string& path, const LoadOptions& options) {
-  checkReadable(path);
-  const std::string ending = endingOf(path);
-  if (!readsEnding(ending)) throw Error(path + ": " + cannotBeRead(ending));
+  std::error_code failed;
+  const bool folder = std::filesystem::is_directory(path, failed);
+  if (folder && !isDicomFolder(path)) throw Error(path + ": is a folder, and no DICOM file is in it");
+  if (!folder) checkReadable(path);
+  const std::string ending = folder ? "" : endingOf(path);
+  if (!folder && !readsEnding(ending)) throw Error(path + ": " + cannotBeRead(ending));
   SceneModel scene = runIsolated(
       path, options.limits,
       [&](const auto& report) {
