@@ -281,7 +281,7 @@ TEST(ReadHeights, AFieldWithoutSamplesIsRefused) {
 
 TEST(ReadHeights, AFieldBeyondMemoryIsRefused) {
   LoadOptions options;
-  options.limits.heights_bytes = 100;
+  options.limits.samples_bytes = 100;
   try {
     loadModelScene(fileWith("a.npy", numpyWith<float>("<f4", false, 7, 5)), options);
     ADD_FAILURE() << "it was taken";
