@@ -12,7 +12,7 @@ Meetings::Meetings(const World& world) : along_x_(world.bodies.size()), joined_(
   std::size_t room = 0;
   for (const Body& body : world.bodies) room += kMeetingsPerBody + kMeetingsPerPart * (body.shape.parts.size() - 1);
   meetings_.reserve(room);
-  near_.reserve(4 * kContactsPerBody);
+  near_.reserve(NearPrimitives::kOctants * NearPrimitives::kPerOctant);
   std::iota(along_x_.begin(), along_x_.end(), 0u);
   for (const Body& body : world.bodies) {
     reach_.push_back(body.shape.reach);
@@ -52,22 +52,24 @@ void Meetings::withScene(const WorldState& state, const PlacedBodies& placed, do
   }
 }
 
+PlacedConvex Meetings::placedOf(PrimitiveId id, PlacedRoom& room) const {
+  return hl::placed(scene_->primitive(id), scene_->instance(id).poses().at(scene_->time_ns()), room);
+}
+
 void Meetings::partWithScene(Meeting& meeting, const PlacedConvex& part, double margin) {
   PlacedRoom room;
-  near_.clear();
-  scene_->primitivesWithin(part.centre, part.shape->reach + margin, [&](PrimitiveId id, const ClosestPoint&) {
-    if (near_.size() < near_.capacity())
-      near_.push_back(id);
-    else
-      ++dropped_;
+  nearest_.clear();
+  scene_->primitivesWithin(part.centre, part.shape->reach + margin, [&](PrimitiveId id, const ClosestPoint& nearest) {
+    if (separationBound(part, nearest) > margin) return;
+    const double separation = separationBound(part, placedOf(id, room), nearest);
+    if (separation <= margin && !nearest_.has(id, nearest)) nearest_.add(id, separation, nearest, *scene_);
   });
+  near_.clear();
+  nearest_.forEach([&](PrimitiveId id) { near_.push_back(id); });
   std::sort(near_.begin(), near_.end(), [&](PrimitiveId x, PrimitiveId y) { return scene_->precedes(x, y); });
-  near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
   for (const PrimitiveId id : near_) {
     meeting.primitive = id;
-    const PlacedConvex other =
-        hl::placed(scene_->primitive(id), scene_->instance(id).poses().at(scene_->time_ns()), room);
-    if (findManifold(part, other, margin, meeting.manifold)) add(meeting);
+    if (findManifold(part, placedOf(id, room), margin, meeting.manifold)) add(meeting);
   }
 }
 

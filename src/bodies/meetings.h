@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bodies/joint_groups.h"
+#include "bodies/near_primitives.h"
 #include "bodies/placed_bodies.h"
 #include "scene/scene_at.h"
 
@@ -20,7 +21,7 @@ struct Meeting {
   bool uses(std::size_t point) const { return (used >> point & 1) != 0; }
 };
 
-/// Room for the meetings of a body, and for those of each part beyond its first.
+/// Room for the meetings of a body, and for those of each part beyond its first: with the scene and with others.
 inline constexpr std::size_t kMeetingsPerBody = kContactsPerBody, kMeetingsPerPart = 16;
 
 /// By one thread at a time.
@@ -40,13 +41,15 @@ class Meetings {
 
  private:
   void withScene(const WorldState& state, const PlacedBodies& placed, double margin);
+  PlacedConvex placedOf(PrimitiveId id, PlacedRoom& room) const;
   void partWithScene(Meeting& meeting, const PlacedConvex& part, double margin);
   void withBodies(const WorldState& state, const PlacedBodies& placed, double margin);
   void meet(const WorldState& state, const PlacedBodies& placed, double margin, std::uint32_t one, std::uint32_t other);
   void add(const Meeting& meeting);
 
   std::vector<Meeting> meetings_;
-  std::vector<PrimitiveId> near_;
+  NearPrimitives nearest_;
+  std::vector<PrimitiveId> near_;  // the same, in order
 
   std::vector<std::uint32_t> along_x_;
   std::vector<double> reach_, low_x_;  // m

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "bodies/draws.h"
 #include "bodies/test_worlds.h"
 
 namespace hl {
@@ -148,6 +149,41 @@ TEST(Scenery, NoPointIsFasterThanTheFastest) {
       const Vec3 point = box.poses().at(times.begin_ns).toWorld(corner);
       ASSERT_LE(sceneryVelocity(box, times, test::kStep_s, point).norm(), most) << i;
     }
+  }
+}
+
+// A ground of 80 000 triangles, 1000 and more of them under each body: it lands, lies still, and no contact is lost.
+TEST(Scenery, BodiesLieOnGroundsOfManyTriangles) {
+  using namespace test;
+  constexpr std::uint32_t kCells = 200;
+  for (const double rough_m : {0.0, 5e-5}) {
+    Draws draws(7);
+    Model ground;
+    for (std::uint32_t j = 0; j <= kCells; ++j) {
+      for (std::uint32_t i = 0; i <= kCells; ++i)
+        ground.positions.emplace_back(5e-4 * i - 0.05, draws.between(-1, 0) * rough_m, 5e-4 * j - 0.05);
+    }
+    for (std::uint32_t j = 0; j < kCells; ++j) {
+      for (std::uint32_t i = 0; i < kCells; ++i) {
+        const std::uint32_t a = j * (kCells + 1) + i, b = a + kCells + 1;
+        ground.triangles.push_back({a, b, a + 1});
+        ground.triangles.push_back({a + 1, b, b + 1});
+      }
+    }
+    World world;
+    world.fixed = makeSnapshot(ground);
+    const Vec3 half(0.01, 0.008, 0.012);
+    world.bodies.push_back({1, massOfBox(0.1, half), boxShape(half), {0.5, 0.5, 0}});
+    world.bodies.push_back({2, massOfCylinder(0.1, 0.01, 0.009), cylinderShape(0.01, 0.009), {0.5, 0.5, 0}});
+    world.bodies.push_back({3, massOfBall(0.1, 0.01), ballShape(0.01), {0.5, 0.5, 0}});
+    Playground play(world, {placeAt({-0.03, 0.03, 0}, Mat3::Identity()),
+                            placeAt({0, 0.03, 0.001}, Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX()).toRotationMatrix()),
+                            placeAt({0.03, 0.03, 0}, Mat3::Identity())});
+    for (int step = 0; step < 600; ++step) ASSERT_EQ(play.step().dropped, 0U);
+    const double heights[] = {half.y(), 0.01, 0.01};
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(play.state.bodies[i].centre.y(), heights[i], rough_m + 2e-5) << i << " roughness " << rough_m;
+    EXPECT_LT(play.state.bodies[0].velocity.norm(), 1e-3) << rough_m;
   }
 }
 

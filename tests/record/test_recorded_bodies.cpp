@@ -181,7 +181,7 @@ TEST_F(RecordedBodies, AreReproducedBitForBitWhileScenesChange) {
   {
     Stirred session(toFile());
     session.run(4000);
-    EXPECT_GT(session.onBodies(), 200);
+    EXPECT_GT(session.onBodies(), 100);
     EXPECT_GT(session.snapped(), 200);
     EXPECT_GT(session.drawn(), 200);
     for (std::size_t i = 0; i < session.world().world().bodies.size(); ++i)
