@@ -22,6 +22,14 @@ struct DrawnMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
+/// What is at a point.
+enum class Site : std::uint8_t {
+  kUnknown,  ///< the surface has no matter on one side
+  kOpen,     ///< no matter
+  kMatter,
+  kBoundary,  ///< so near to the surface that only its triangles could tell
+};
+
 /// Immutable; metres, object frame. Functions marked RT-safe may be called by any thread and return the same bits for
 /// the same arguments.
 class PrimitiveSource {
@@ -41,6 +49,8 @@ class PrimitiveSource {
   virtual std::unique_ptr<const SpatialIndex> makeIndex() const = 0;
   /// Memory of the source, bytes; without the index.
   virtual std::size_t bytes() const = 0;
+  /// RT-safe.
+  virtual Site siteOf(const Vec3& /*point*/) const { return Site::kUnknown; }
   /// Bound of the distance between the triangles and the surface that they stand for, m. May look at all of them.
   virtual double error_m() const = 0;
   /// The same surface moved by x -> linear x + offset; `linear` is invertible. Throws hl::Error if it cannot be.

@@ -5,6 +5,7 @@
 #include "proxy/begin.h"
 #include "proxy/carry.h"
 #include "proxy/follow_deformation.h"
+#include "proxy/leave_matter.h"
 #include "proxy/snapping.h"
 #include "proxy/spring_energy.h"
 #include "proxy/tick.h"
@@ -33,6 +34,7 @@ std::uint64_t carrierOf(const SceneAt& scene, const TickReport& report, const He
 double carryAlong(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
   const double before_J = springEnergy_J(settings, state, finger);
   carry(state, scene, settings);
+  leaveMatter(state, scene, settings, finger);
   followDeformation(state, scene, settings);
   yieldToFrames(state, scene, settings);
   const double moved_J = springEnergy_J(settings, state, finger) - before_J;

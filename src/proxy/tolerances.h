@@ -204,6 +204,8 @@ inline constexpr double kNearPerReach = 2;
 inline constexpr int kPushTries = 32;
 /// The same for each reduced clearance in a pinch.
 inline constexpr int kPinchedTries = 8;
+/// Places on the way out of matter, and how many of them may be looked at for what is near.
+inline constexpr int kMostSites = 512, kMostClearances = 128;
 
 }  // namespace convergence
 

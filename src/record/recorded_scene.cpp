@@ -96,6 +96,7 @@ void encode(const Instance& instance, proto::RecordedInstance& out) {
   out.set_name(instance.name);
   out.set_item(instance.item);
   out.set_answers_force(instance.answers_force);
+  out.set_replaced_in(instance.replaced_in);
   if (instance.snaps) {
     for (const SnapSpec& snap : *instance.snaps) toProto(snap, *out.add_snaps());
   }
@@ -342,6 +343,7 @@ std::shared_ptr<const Snapshot> SceneReader::scene(const proto::RecordedScene& i
     instances.back().compliance = complianceOf(placed);
     instances.back().item = placed.item();
     instances.back().answers_force = placed.answers_force();
+    instances.back().replaced_in = placed.replaced_in();
     instances.back().snaps = snapsOf(placed);
     instances.back().fields = fieldsOf(placed);
     setBody(placed.body(), instances.back());

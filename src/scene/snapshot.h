@@ -47,6 +47,8 @@ struct Instance {
   std::uint32_t item = 0;                     ///< index of its item in the object, or in the world if `object` is 0
   std::shared_ptr<const SnapList> snaps{};    ///< places that hold the proxy; null: none
   std::shared_ptr<const FieldList> fields{};  ///< forces on the hand from its places; null: none
+  /// Number of the snapshot in which its shape took the place of another one at once, wherever the proxy was; 0: never.
+  std::uint64_t replaced_in = 0;
 
   /// Poses of the instance over time. Of a body that moves: for the loop that ticks alone.
   const PoseSource& poses() const { return driver ? *driver : static_cast<const PoseSource&>(motion); }

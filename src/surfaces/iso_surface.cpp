@@ -191,6 +191,25 @@ Vec3 IsoSurface::trueNormal(ElementId id, const Vec3& point) const {
   return length > 0 && std::isfinite(length) ? Vec3(outward / length) : primitiveOf(*this, id).normal;
 }
 
+Site IsoSurface::siteOf(const Vec3& point) const {
+  const Vec3 place = across_ * (point - frame_.origin);
+  Place at{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double along = place[static_cast<Eigen::Index>(axis)];
+    const std::uint32_t cells = volume_->grid.cells(axis);
+    if (!(along >= 0 && along <= cells)) return Site::kOpen;
+    at[axis] = std::min(static_cast<std::uint32_t>(along), cells - 1);
+  }
+  const std::array<double, kCellCorners> values = volume_->grid.cornersOf(at[0], at[1], at[2]);
+  int inside = 0;
+  for (const double value : values) {
+    if (std::isnan(value)) return Site::kOpen;
+    inside += -outward_ * (value - iso_.value) >= 0 ? 1 : 0;
+  }
+  if (inside == 0) return Site::kOpen;
+  return inside == static_cast<int>(kCellCorners) ? Site::kMatter : Site::kBoundary;
+}
+
 std::unique_ptr<const SpatialIndex> IsoSurface::makeIndex() const { return std::make_unique<BrickIndex>(*this); }
 
 std::shared_ptr<const PrimitiveSource> IsoSurface::placed(const Mat3& linear, const Vec3& offset) const {

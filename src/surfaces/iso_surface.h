@@ -58,6 +58,8 @@ class IsoSurface final : public PrimitiveSource {
   std::size_t bytes() const override { return sizeof(*this) + volume_->grid.bytes() + volume_->pyramid.bytes(); }
   /// Between the triangles and the surface of the trilinear values, at most the diagonal of a cell.
   double error_m() const override;
+  /// By the samples of the cell around it. Where one is missing, and outside of the volume, there is no matter.
+  Site siteOf(const Vec3& point) const override;
   std::shared_ptr<const PrimitiveSource> placed(const Mat3& linear, const Vec3& offset) const override;
   DrawnMesh drawn(std::size_t most_triangles) const override;
 

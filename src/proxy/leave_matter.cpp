@@ -1,0 +1,91 @@
+#include "proxy/leave_matter.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "proxy/clear_place.h"
+
+namespace hl {
+
+namespace {
+
+/// The nearest places are tried first, on all the ways at once.
+class WayOut {
+ public:
+  WayOut(const SceneAt& scene, double reach)
+      : scene_(scene),
+        reach_(reach),
+        step_(std::max(kStepPerReach * reach, 2 * scene.extent() / convergence::kMostSites)) {}
+
+  bool clear(const Vec3& place) {
+    if (!open(place) || queries_ >= convergence::kMostClearances) return false;
+    ++queries_;
+    return clearanceAt(scene_, place, reach_) >= reach_;
+  }
+
+  /// Unit vectors; `position` changes only if there is a way.
+  bool find(std::span<const Vec3> ways, Vec3& position) {
+    queries_ = 0;
+    for (int i = 1; i <= convergence::kMostSites; ++i) {
+      for (const Vec3& way : ways) {
+        const Vec3 place = position + i * step_ * way;
+        if (!clear(place)) continue;
+        position = place;
+        return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  static constexpr double kStepPerReach = 0.5;
+
+  bool open(const Vec3& place) const {
+    const auto& instances = scene_.snapshot().instances;
+    return std::none_of(instances.begin(), instances.end(), [&](const Instance& instance) {
+      if (!instance.shape->source) return false;
+      const Site site = instance.shape->source->siteOf(instance.poses().at(scene_.time_ns()).toObject(place));
+      return site == Site::kMatter || site == Site::kBoundary;
+    });
+  }
+
+  const SceneAt& scene_;
+  const double reach_, step_;
+  int queries_ = 0;
+};
+
+// To the neighbours of a cube among its 27.
+std::array<Vec3, 26> allAround() {
+  std::array<Vec3, 26> ways;
+  std::size_t count = 0;
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int z = -1; z <= 1; ++z) {
+        if (x != 0 || y != 0 || z != 0) ways[count++] = Vec3(x, y, z).normalized();
+      }
+    }
+  }
+  return ways;
+}
+
+}  // namespace
+
+void leaveMatter(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger) {
+  const Snapshot& snapshot = scene.snapshot();
+  if (state.snapshot == snapshot.number) return;
+  const auto replaced = [&](const Instance& instance) { return instance.replaced_in > state.snapshot; };
+  if (std::none_of(snapshot.instances.begin(), snapshot.instances.end(), replaced)) return;
+  const Tolerances tolerance = Tolerances::of(settings.radius, scene.extent());
+  WayOut out(scene, tolerance.reach);
+  if (out.clear(state.position)) return;
+  const Vec3 spring = state.position - finger;
+  const double length = spring.norm();
+  if (length > tolerance.rest) {
+    const std::array<Vec3, 1> along{Vec3(spring / length)};
+    if (out.find(along, state.position)) return;
+  }
+  out.find(allAround(), state.position);
+}
+
+}  // namespace hl

@@ -1,0 +1,15 @@
+// Leave matter: when a surface takes the place of another at once (another iso value of a volume), the proxy may find
+// itself in matter. It leaves it on the side of its spring, as if the surface had grown there and had pushed it.
+#pragma once
+
+#include "proxy/proxy_state.h"
+#include "scene/scene_at.h"
+
+namespace hl {
+
+/// In the first tick of a scene with such surfaces: brings a proxy that is in their matter, or too near to them, to a
+/// place that is clear of the scene and out of all matter. It is sought along the spring from `finger` to the proxy,
+/// and then all around. If there is none, the proxy stays. RT-safe; at most convergence::kMostSites places per way.
+void leaveMatter(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger);
+
+}  // namespace hl

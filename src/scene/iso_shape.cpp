@@ -1,0 +1,55 @@
+#include "scene/iso_shape.h"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+
+namespace hl {
+
+namespace {
+
+const IsoSurface& isoSurfaceOfShape(const Shape& shape) { return dynamic_cast<const IsoSurface&>(*shape.source); }
+
+// "1 (-480), 2 (370)"
+std::string listed(const std::vector<const Instance*>& surfaces) {
+  constexpr std::size_t kMostListed = 8;
+  std::string text;
+  for (std::size_t i = 0; i < surfaces.size() && i < kMostListed; ++i) {
+    std::string value = std::to_string(isoSurfaceOf(*surfaces[i])->iso().value);
+    value.erase(value.find_last_not_of('0') + 1);
+    if (value.back() == '.') value.pop_back();
+    text += (i == 0 ? "" : ", ") + std::to_string(surfaces[i]->key) + " (" + value + ")";
+  }
+  return text + (surfaces.size() > kMostListed ? ", ..." : "");
+}
+
+}  // namespace
+
+const IsoSurface* isoSurfaceOf(const Instance& instance) {
+  return instance.session == 0 ? dynamic_cast<const IsoSurface*>(instance.shape->source.get()) : nullptr;
+}
+
+std::shared_ptr<const Shape> withIso(const Shape& of, double value) {
+  const IsoSurface& before = isoSurfaceOfShape(of);
+  auto source =
+      std::make_shared<const IsoSurface>(before.volume(), before.frame(), IsoValue{value, before.iso().solid});
+  return makeShape(std::move(source), of.model.materials.front(), of.model.textures);
+}
+
+std::uint64_t checkIsoChange(const Snapshot& scene, std::uint64_t surface, double value) {
+  if (!std::isfinite(value)) throw Error("iso: the value must be a finite number");
+  std::vector<const Instance*> surfaces;
+  for (const Instance& instance : scene.instances) {
+    if (isoSurfaceOf(instance) == nullptr) continue;
+    if (instance.key == surface) return surface;
+    surfaces.push_back(&instance);
+  }
+  if (surfaces.empty()) throw Error("iso: the scene of this server has no volume");
+  if (surface == 0 && surfaces.size() == 1) return surfaces.front()->key;
+  throw Error((surface == 0 ? "iso: say which surface" : "iso: there is no surface " + std::to_string(surface)) +
+              "; those of volumes, with their values, are " + listed(surfaces));
+}
+
+}  // namespace hl

@@ -1,0 +1,23 @@
+// Iso shape: the surface of a volume as an object of a scene, and the same object at another iso value.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "scene/snapshot.h"
+#include "surfaces/iso_surface.h"
+
+namespace hl {
+
+/// Null: the shape is no surface of a volume, or a client has brought it.
+const IsoSurface* isoSurfaceOf(const Instance& instance);
+
+/// The same surface with its material at another value, which costs about a millisecond, whatever the volume.
+/// `of` is the surface of a volume. Throws hl::Error for a value that is not finite. Setup only.
+std::shared_ptr<const Shape> withIso(const Shape& of, double value);
+
+/// The key of the surface whose value is to be changed; `surface` is that key, or 0 for the only one. Throws hl::Error,
+/// which says what there is, if there is no such surface or if the value is not finite.
+std::uint64_t checkIsoChange(const Snapshot& scene, std::uint64_t surface, double value);
+
+}  // namespace hl
