@@ -2,12 +2,19 @@
 
 #include <utility>
 
+#include "scene/iso_shape.h"
+
 namespace hl {
 
 std::uint64_t BaseScene::replace(std::shared_ptr<const Snapshot> next) {
   const std::lock_guard lock(mutex_);
   next_.swap(next);  // one that has never been shown is freed without the mutex
   return ++last_;
+}
+
+void BaseScene::setIso(std::uint64_t key, double value) {
+  const std::lock_guard lock(mutex_);
+  isos_[key] = value;
 }
 
 bool BaseScene::awaitShown(std::uint64_t number) {
@@ -27,13 +34,40 @@ void BaseScene::stop() {
   changed_.notify_all();
 }
 
-void BaseScene::takeNext() {
+void BaseScene::takeNext(std::uint64_t scene) {
   std::shared_ptr<const Snapshot> before;  // freed without the mutex
-  const std::lock_guard lock(mutex_);
-  if (!next_) return;
-  before = std::exchange(now_, std::exchange(next_, nullptr));
-  number_ = last_;
-  other_ = true;
+  std::map<std::uint64_t, double> isos;
+  {
+    const std::lock_guard lock(mutex_);
+    isos = isos_;
+    if (next_) {
+      before = std::exchange(now_, std::exchange(next_, nullptr));
+      number_ = last_;
+      other_ = true;
+    }
+  }
+  if (isos.empty()) return;
+  replaceSurfaces(isos, scene);
+  const std::lock_guard lock(mutex_);  // what failed is tried again, what came meanwhile is for the next scene
+  std::erase_if(isos_, [&](const auto& one) {
+    const auto done = isos.find(one.first);
+    return done != isos.end() && done->second == one.second;
+  });
+}
+
+void BaseScene::replaceSurfaces(const std::map<std::uint64_t, double>& isos, std::uint64_t scene) {
+  std::vector<Instance> instances = now_->instances;
+  bool any = false;
+  for (Instance& instance : instances) {
+    const auto iso = isos.find(instance.key + firstKey());
+    if (iso == isos.end() || isoSurfaceOf(instance) == nullptr) continue;
+    instance.shape = withIso(*instance.shape, iso->second);
+    instance.replaced_in = scene;
+    any = true;
+  }
+  if (!any) return;
+  now_ = makeSnapshot(std::move(instances), now_->name, now_->number, 0, now_->mechanics);
+  last_replaced_ = scene;
 }
 
 // Its keys begin there. A base is one object, or few, numbered from 1; clients' keys are scattered over all numbers.

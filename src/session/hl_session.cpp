@@ -101,6 +101,8 @@ void HlSession::receive(proto::ClientMessage message) {
       return wantBodies(message.body_request());
     case proto::ClientMessage::kBodyCommand:
       return act(message.body_command());
+    case proto::ClientMessage::kIso:
+      return setIso(message.iso());
     case proto::ClientMessage::BODY_NOT_SET:
       return refuse("a message with nothing in it that this server knows");
   }
@@ -233,6 +235,14 @@ void HlSession::act(const proto::BodyCommand& message) {
       if (!world_.device(device_).actOnBody(command))
         throw Error("body_command: they come faster than the loops take them");
     }
+  } catch (const Error& error) {
+    refuse(error.what());
+  }
+}
+
+void HlSession::setIso(const proto::IsoChange& change) {
+  try {
+    world_.publisher().setIso(change.surface(), change.value());
   } catch (const Error& error) {
     refuse(error.what());
   }

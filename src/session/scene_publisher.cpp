@@ -11,6 +11,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/guarded_thread.h"
+#include "scene/iso_shape.h"
 #include "session/check_bodies.h"
 #include "session/kept_lists.h"
 
@@ -183,6 +184,15 @@ bool ScenePublisher::replaceBase(const std::shared_ptr<const Snapshot>& base) {
   }
   changed_.notify_all();
   return base_.awaitShown(number);
+}
+
+void ScenePublisher::setIso(std::uint64_t surface, double value) {
+  base_.setIso(checkIsoChange(*devices_.front()->snapshot(), surface, value), value);
+  {
+    const std::lock_guard lock(mutex_);
+    dirty_ = true;
+  }
+  changed_.notify_all();
 }
 
 // The client that has waited longest. Holding the mutex.
@@ -382,7 +392,7 @@ std::int64_t ScenePublisher::assemble(std::vector<Part>& parts, std::int64_t beg
   for (const Part& part : parts) count += part.placed ? part.placed->size() : part.client->shown_.instances.size();
   instances.reserve(count);
   base_.appendTo(instances);
-  if (base_.other()) blend_ns = kAbruptBlend_ns;
+  if (base_.other() || base_.lastReplaced() > shown_->number) blend_ns = kAbruptBlend_ns;
   for (auto& [client, gone, placed, move_ns, frames, jumps, shown] : parts) {
     if (gone) {
       if (!client->shown_.instances.empty()) blend_ns = std::max(blend_ns, kAbruptBlend_ns);
@@ -427,7 +437,7 @@ std::shared_ptr<const Snapshot> ScenePublisher::makeNext(std::vector<Part>& part
 }
 
 void ScenePublisher::publish() {
-  base_.takeNext();
+  base_.takeNext(shown_->number + 1);
   std::vector<Part> parts = takeParts();
   std::shared_ptr<const Snapshot> next;
   std::vector<SnapshotSlot::Ready> scenes;  // for each device

@@ -34,6 +34,9 @@ class TouchServer final : public SessionHost {
   /// their hands, when there is no memory for it, or when the server stops. Any thread; one at a time.
   void replaceScene(const std::shared_ptr<const Snapshot>& scene);
 
+  /// As ScenePublisher::setIso(): another iso value for a surface of the server's own scene. Any thread.
+  void setIso(std::uint64_t surface, double value) { world_.publisher().setIso(surface, value); }
+
   TouchSession& device(std::size_t number = 0) { return world_.device(number); }
   std::size_t devices() const { return world_.devices(); }
   std::size_t sessions() const;
