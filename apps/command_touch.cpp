@@ -112,9 +112,10 @@ void runTouch(TouchOptions options) {
     http.upload.open = [&](int descriptor, const std::string& name) { return opener.open(descriptor, name); };
   }
   const auto& recordings = options.recorder.pages;
-  HttpServer server(http,
-                    makeViewerFeed(session, HL_VERSION, touch.memory().member(), recordings, http.upload.limit_bytes),
-                    &touch, makeTouchMonitor(session, &touch, recordings));
+  const auto set_iso = [&touch](std::uint64_t surface, double value) { touch.setIso(surface, value); };
+  HttpServer server(
+      http, makeViewerFeed(session, HL_VERSION, touch.memory().member(), recordings, http.upload.limit_bytes, set_iso),
+      &touch, makeTouchMonitor(session, &touch, recordings));
   touch.start();
   server.start();
   fmt::print(stderr, "{}: {} primitives; device: {}, {:g} Hz; 1 mm of the hand is {:.4g} mm of the scene\n",

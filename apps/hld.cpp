@@ -71,7 +71,8 @@ void serve(HldOptions& options) {
   const HttpServerSettings http = serverSettings(options);
   TouchServer touch(sceneOf(options.scene), {options.touch, options.devices, http.limits, HL_VERSION, options.device});
   TouchSession& session = touch.device();
-  HttpServer server(http, makeViewerFeed(session, HL_VERSION, touch.memory().member()), &touch,
+  const auto set_iso = [&touch](std::uint64_t surface, double value) { touch.setIso(surface, value); };
+  HttpServer server(http, makeViewerFeed(session, HL_VERSION, touch.memory().member(), nullptr, 0, set_iso), &touch,
                     makeTouchMonitor(session, &touch));
   touch.start();
   server.start();

@@ -6,6 +6,7 @@
 
 #include "page/told_materials.h"
 #include "page/wire_bytes.h"
+#include "scene/iso_shape.h"
 #include "session/state_messages.h"
 
 namespace hl {
@@ -21,6 +22,21 @@ Box boundsAt(const Snapshot& snapshot, std::int64_t now_ns) {
     bounds.extend(box.max);
   }
   return bounds;
+}
+
+void addVolumes(const Snapshot& snapshot, proto::SceneLayout& layout) {
+  for (std::size_t i = 0; i < snapshot.instances.size(); ++i) {
+    const IsoSurface* const surface = isoSurfaceOf(snapshot.instances[i]);
+    if (surface == nullptr) continue;
+    const ValueRange& range = surface->volume()->pyramid.range();
+    if (!(range.low <= range.high)) continue;  // all of its samples are missing
+    proto::PlacedVolume& volume = *layout.add_volumes();
+    volume.set_placed(static_cast<std::uint32_t>(i));
+    volume.set_surface(snapshot.instances[i].key);
+    volume.set_iso(surface->iso().value);
+    volume.set_low(range.low);
+    volume.set_high(range.high);
+  }
 }
 
 }  // namespace
@@ -111,6 +127,7 @@ void PageScene::layOut(const PageScale& scale, std::int64_t now_ns) {
   layout_->told_of = shown_->identity;
   addBodies(layout_->bodies, *shown_, out);
   addPlaces(layout_->felt, out);
+  addVolumes(*shown_, out);
   layout_->message = std::make_shared<const std::string>(message.SerializeAsString());
   if (!waiting_) meshes_.keep(layout_->meshes);
 }

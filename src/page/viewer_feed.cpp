@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/clock.h"
+#include "base/error.h"
 #include "page/page_scene.h"
 #include "session/state_messages.h"
 
@@ -141,8 +142,16 @@ void apply(TouchSession& session, const proto::Settings& settings) {
     session.setLedger(static_cast<LedgerMode>(settings.ledger()));
 }
 
+void apply(const SetIso& set_iso, const proto::IsoChange& change) {
+  if (!set_iso) return;
+  try {
+    set_iso(change.surface(), change.value());
+  } catch (const Error&) {  // the surface has gone meanwhile
+  }
+}
+
 // A message that does not parse or asks for what does not exist changes nothing.
-void receive(TouchSession& session, PageRecordings* recordings, const std::string& bytes) {
+void receive(TouchSession& session, PageRecordings* recordings, const SetIso& set_iso, const std::string& bytes) {
   proto::ViewerMessage message;
   if (!message.ParseFromString(bytes)) return;
   switch (message.body_case()) {
@@ -169,6 +178,9 @@ void receive(TouchSession& session, PageRecordings* recordings, const std::strin
     case proto::ViewerMessage::kRecord:
       if (recordings != nullptr) recordings->ask(message.record().owner(), message.record().on(), monotonicNow_ns());
       break;
+    case proto::ViewerMessage::kIso:
+      apply(set_iso, message.iso());
+      break;
     case proto::ViewerMessage::BODY_NOT_SET:
       break;
   }
@@ -177,14 +189,16 @@ void receive(TouchSession& session, PageRecordings* recordings, const std::strin
 }  // namespace
 
 FeedCallbacks makeViewerFeed(TouchSession& session, const std::string& version, MemoryBudget memory,
-                             std::shared_ptr<PageRecordings> recordings, std::uint64_t upload_bytes) {
+                             std::shared_ptr<PageRecordings> recordings, std::uint64_t upload_bytes, SetIso set_iso) {
   const auto scene = std::make_shared<PageScene>(std::move(memory));
   const auto open_page = [scene] {
     return [scene, memory = std::make_shared<PageMemory>(scene->open())] { return scene->next(*memory); };
   };
   return {[&session, version, upload_bytes] { return hello(session, version, upload_bytes); }, open_page,
           [&session, scene, recordings] { return state(session, *scene, recordings.get()); },
-          [&session, recordings](const std::string& bytes) { receive(session, recordings.get(), bytes); },
+          [&session, recordings, set_iso = std::move(set_iso)](const std::string& bytes) {
+            receive(session, recordings.get(), set_iso, bytes);
+          },
           [recordings](std::uint32_t owner) { return recordings ? recordings->open(owner) : nullptr; }};
 }
 

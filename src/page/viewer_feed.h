@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -12,10 +13,14 @@
 
 namespace hl {
 
+/// Takes another iso value for a surface of a volume, by its key; throws hl::Error if that cannot be.
+using SetIso = std::function<void(std::uint64_t surface, double value)>;
+
 /// The callbacks of an HttpServer for this session, which must outlive the server. What pages are shown is counted
 /// against `memory`. `recordings`: those of the session's recorder; null: pages cannot record. `upload_bytes`: the
-/// largest file that they may send, 0: none.
+/// largest file that they may send, 0: none. `set_iso`: for the iso values that pages choose; empty: they cannot.
 FeedCallbacks makeViewerFeed(TouchSession& session, const std::string& version, MemoryBudget memory = {},
-                             std::shared_ptr<PageRecordings> recordings = nullptr, std::uint64_t upload_bytes = 0);
+                             std::shared_ptr<PageRecordings> recordings = nullptr, std::uint64_t upload_bytes = 0,
+                             SetIso set_iso = {});
 
 }  // namespace hl

@@ -26,7 +26,7 @@ import { kWindow_s, LivePlot } from "./plots";
 import { Pointing } from "./pointing";
 import { ProbeView } from "./probe_view";
 import {
-  encodeHandGoal, encodePress, encodeRearm, encodeRecord, encodeRelease, encodeSettings, kProtocolVersion,
+  encodeHandGoal, encodeIso, encodePress, encodeRearm, encodeRecord, encodeRelease, encodeSettings, kProtocolVersion,
   type Incoming, type SettingsChange,
 } from "./protocol";
 import { SampleRing } from "./samples";
@@ -46,6 +46,7 @@ import { formatFixed } from "./units";
 import { length } from "./vec";
 import { kVibrationWindow_s, VibrationAlarm } from "./vibration";
 import { ViewMemory } from "./view_memory";
+import { VolumePanel } from "./volume_panel";
 import { knownVec } from "./wire_values";
 
 const kPlotPeriod_ms = 50;
@@ -105,6 +106,7 @@ class App {
   private readonly panel_: Panel;
   private readonly surfacePanel_: SurfacePanel;
   private readonly ledgerPanel_: LedgerPanel;
+  private readonly volumePanel_: VolumePanel;
   private readonly theme_: ThemeSwitch;
   private readonly timeline_: Timeline;
   /** The live scene, while a recording is shown. */
@@ -127,6 +129,7 @@ class App {
     this.memory_ = new ViewMemory();
     this.surfacePanel_ = new SurfacePanel((change) => this.tell(change));
     this.ledgerPanel_ = new LedgerPanel((change) => this.tell(change));
+    this.volumePanel_ = new VolumePanel((surface, value) => this.send(encodeIso(surface, value)));
     this.timeline_ = this.makeTimeline();
     this.theme_ = new ThemeSwitch(() => this.applyTheme());
     this.panel_.showTheme(this.theme_.choice);
@@ -302,6 +305,7 @@ class App {
     this.surfacePanel_.showQuantities(hello.quantities);
     this.surfacePanel_.forget();
     this.ledgerPanel_.forget();
+    this.volumePanel_.forget();
     this.probe_.setForceMax(hello.device?.forceMaxN ?? 0);
     this.plots_.force.setLimit(hello.device?.forceMaxN ?? 0);
     this.sound_.setLimit(hello.device?.forceMaxN ?? 0);
@@ -316,6 +320,7 @@ class App {
     this.panel_.showLayout(layout, store.counts());
     showEmptyHint(layout.placed.length === 0 && this.held_ === undefined);
     this.pointing_.layoutChanged();
+    this.volumePanel_.showVolumes(layout.volumes ?? []);
     if (layout.bounds !== undefined) {
       this.stage_.lowerFloor(layout.bounds.min.y);
     }

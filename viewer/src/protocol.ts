@@ -83,6 +83,11 @@ export function encodeRecord(on: boolean, owner: number): Uint8Array<ArrayBuffer
   return encode({ case: "record", value: { on, owner } });
 }
 
+/** Another iso value for a surface of a volume, as a layout names it. */
+export function encodeIso(surface: bigint, value: number): Uint8Array<ArrayBuffer> {
+  return encode({ case: "iso", value: { surface, value } });
+}
+
 export function encodeSettings(change: SettingsChange): Uint8Array<ArrayBuffer> {
   return encode({ case: "settings", value: change });
 }

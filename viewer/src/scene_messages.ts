@@ -4,6 +4,7 @@
 import { checkPlaces, type FeltPlaces } from "./felt_places";
 import type { PlacedJoint, PlacedMesh, SceneLayout, SceneMesh, State, SurfaceImage } from "./gen/hl_pb";
 import type { Vec } from "./vec";
+import { checkVolumes, type Volume } from "./volumes";
 import { floats, indices, knownVec, ProtocolError, shorts } from "./wire_values";
 
 /** Numbers of a pose: 3 x 4, row by row, object to world. */
@@ -48,6 +49,8 @@ export interface Layout {
   readonly mechanics?: Mechanics | undefined;
   /** Absent: not known. */
   readonly felt?: FeltPlaces | undefined;
+  /** Those whose iso value can be changed; absent: none can. */
+  readonly volumes?: readonly Volume[];
 }
 
 /** What acts on the bodies of a layout. */
@@ -95,6 +98,7 @@ export function checkLayout(layout: SceneLayout): Layout {
     poses: checkPoses(layout.poses, placed.length),
     mechanics: checkMechanics(layout),
     felt: checkPlaces(layout),
+    volumes: checkVolumes(layout),
   };
 }
 

@@ -1,0 +1,52 @@
+// The surfaces of volumes in a scene: each is where the values of a volume pass one value, its iso value, which a slider
+// sets.
+
+import type { SceneLayout } from "./gen/hl_pb";
+import { formatFixed } from "./units";
+import { ProtocolError } from "./wire_values";
+
+export interface Volume {
+  /** As the server takes it back. */
+  readonly surface: bigint;
+  readonly iso: number;
+  /** Range of the values. */
+  readonly low: number;
+  readonly high: number;
+}
+
+export interface IsoSlider {
+  readonly label: string;
+  readonly min: number;
+  readonly max: number;
+  readonly step: number;
+  text(value: number): string;
+}
+
+export function checkVolumes({ volumes, placed }: SceneLayout): readonly Volume[] {
+  return volumes.map(({ placed: index, surface, iso, low, high }) => {
+    if (placed[index] === undefined || ![iso, low, high].every(Number.isFinite) || low > high) {
+      throw new ProtocolError("a volume of the scene has no surface, or no range of values");
+    }
+    return { surface, iso, low, high };
+  });
+}
+
+/** Air is -1000 HU, and what is not air reaches above water, 0 HU. Other scans have no such values. */
+function isHounsfield({ low, high }: Volume): boolean {
+  return low <= -900 && low >= -3100 && high >= 100 && high <= 33000;
+}
+
+/** Values without a range have a slider of one place. `index`: among `count` volumes. */
+export function isoSliderOf(volume: Volume, index: number, count: number): IsoSlider {
+  const { low, high } = volume;
+  const step = high > low ? 10 ** Math.floor(Math.log10((high - low) / 100)) : 1;
+  const decimals = Math.max(0, Math.round(-Math.log10(step)));
+  const unit = isHounsfield(volume) ? "HU" : undefined;
+  return {
+    label: count > 1 ? `Iso value ${index + 1}` : "Iso value",
+    min: Number((Math.floor(low / step) * step).toFixed(decimals)),
+    max: Number((Math.ceil(high / step) * step).toFixed(decimals)),
+    step: Number(step.toFixed(decimals)),
+    text: (value) => (unit === undefined ? value.toFixed(decimals) : formatFixed(value, unit, decimals)),
+  };
+}

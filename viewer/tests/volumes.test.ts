@@ -1,0 +1,44 @@
+// What a layout tells of volumes, and the sliders that it makes.
+import { create } from "@bufbuild/protobuf";
+import { expect, test } from "vitest";
+import { PlacedMeshSchema, PlacedVolumeSchema, SceneLayoutSchema, type PlacedVolume } from "../src/gen/hl_pb";
+import { checkVolumes, isoSliderOf } from "../src/volumes";
+
+const kCt = { surface: 1n, iso: -480, low: -1000, high: 700 };
+
+function layoutOf(volume: Partial<PlacedVolume>) {
+  return create(SceneLayoutSchema, {
+    placed: [create(PlacedMeshSchema, { mesh: 1 })],
+    volumes: [create(PlacedVolumeSchema, { placed: 0, ...kCt, ...volume })],
+  });
+}
+
+test("a volume has its surface, its value and its range", () => {
+  expect(checkVolumes(layoutOf({}))).toEqual([kCt]);
+});
+
+test.each([{ placed: 1 }, { iso: NaN }, { low: -Infinity }, { high: -1001 }])("%o is refused", (broken) => {
+  expect(() => checkVolumes(layoutOf(broken))).toThrow("a volume of the scene");
+});
+
+test("a slider reaches from the lowest to the highest value", () => {
+  const slider = isoSliderOf(kCt, 0, 1);
+  expect([slider.min, slider.max, slider.step]).toEqual([-1000, 700, 10]);
+  expect(slider.label).toBe("Iso value");
+  expect(slider.text(-480)).toBe("-480\u202fHU");
+});
+
+test("of several volumes each has its number", () => {
+  expect(isoSliderOf(kCt, 1, 2).label).toBe("Iso value 2");
+});
+
+test("values that are no CT numbers have no unit", () => {
+  const distance = isoSliderOf({ surface: 1n, iso: 0, low: -0.031, high: 0.0942 }, 0, 1);
+  expect([distance.min, distance.max, distance.step]).toEqual([-0.031, 0.095, 0.001]);
+  expect(distance.text(0.01)).toBe("0.010");
+});
+
+test("a volume of one value has a slider of one place", () => {
+  const slider = isoSliderOf({ surface: 1n, iso: 5, low: 5, high: 5 }, 0, 1);
+  expect([slider.min, slider.max, slider.step]).toEqual([5, 5, 1]);
+});
