@@ -162,11 +162,9 @@ void ScenePublisher::detach(const std::shared_ptr<ClientScene>& client) {
 }
 
 void ScenePublisher::remove(const std::shared_ptr<ClientScene>& client) {
-  {
-    const std::lock_guard lock(mutex_);
-    client->removed_ = true;
-    dirty_ = true;
-  }
+  const std::lock_guard lock(mutex_);
+  client->removed_ = true;
+  dirty_ = true;
   changed_.notify_all();
 }
 
@@ -188,10 +186,8 @@ bool ScenePublisher::replaceBase(const std::shared_ptr<const Snapshot>& base) {
 
 void ScenePublisher::setIso(std::uint64_t surface, double value) {
   base_.setIso(checkIsoChange(*devices_.front()->snapshot(), surface, value), value);
-  {
-    const std::lock_guard lock(mutex_);
-    dirty_ = true;
-  }
+  const std::lock_guard lock(mutex_);
+  dirty_ = true;
   changed_.notify_all();
 }
 
