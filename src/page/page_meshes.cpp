@@ -32,9 +32,11 @@ std::uint64_t messageBytes(const Model& model, const Look& look) {
 // Of a surface that is no mesh a page draws so many triangles, or a few more: it is felt exactly, and drawn as finely
 // as a screen shows.
 constexpr std::size_t kMostDrawn = 1'000'000;
+// One that changes at once, again and again, must be drawn soon.
+constexpr std::size_t kMostDrawnOften = 100'000;
 
-Model drawnOf(const PrimitiveSource& source) {
-  DrawnMesh drawn = source.drawn(kMostDrawn);
+Model drawnOf(const PrimitiveSource& source, std::size_t most) {
+  DrawnMesh drawn = source.drawn(most);
   Model model;
   model.positions = std::move(drawn.positions);
   model.normals = std::move(drawn.normals);
@@ -42,9 +44,9 @@ Model drawnOf(const PrimitiveSource& source) {
   return model;
 }
 
-std::uint64_t messageBytes(const Shape& shape, const Look& look) {
+std::uint64_t messageBytes(const Shape& shape, const Look& look, std::size_t most_drawn) {
   if (!shape.source) return messageBytes(shape.model, look);
-  return kSmallest + kDrawnTriangle_bytes * std::min<std::uint64_t>(shape.elements(), kMostDrawn);
+  return kSmallest + kDrawnTriangle_bytes * std::min<std::uint64_t>(shape.elements(), most_drawn);
 }
 
 std::string meshMessage(std::uint32_t number, const Shape& shape, const Model& model, const Look& look) {
@@ -73,15 +75,18 @@ std::string emptyMessage(std::uint32_t number) {
 
 }  // namespace
 
-PageMeshes::Made PageMeshes::make(std::uint32_t number, const Shape& shape, const Look& look) const {
+PageMeshes::Made PageMeshes::make(std::uint32_t number, const Mesh& mesh) const {
   try {
-    const std::uint64_t bytes = messageBytes(shape, look);
+    const Shape& shape = *mesh.shape;
+    const Look& look = mesh.look;
+    const std::size_t most_drawn = mesh.often_replaced ? kMostDrawnOften : kMostDrawn;
+    const std::uint64_t bytes = messageBytes(shape, look, most_drawn);
     if (bytes > most_bytes_)
       throw Error("it would take " + std::to_string(bytes / 1'000'000) + " MB, and a page is sent " +
                   std::to_string(most_bytes_ / 1'000'000) + " MB at most: show it in several objects");
     MemoryShare memory(memory_);
     memory.take(2 * bytes);  // the message is put together and then written
-    const Model drawn = shape.source ? drawnOf(*shape.source) : Model{};
+    const Model drawn = shape.source ? drawnOf(*shape.source, most_drawn) : Model{};
     auto message =
         std::make_shared<const std::string>(meshMessage(number, shape, shape.source ? drawn : shape.model, look));
     memory.set(kSmallest + message->capacity());
@@ -104,7 +109,7 @@ std::uint32_t PageMeshes::numberOf(const Instance& instance) {
   Identity identity{instance.shape->geometry, {}};
   for (const auto& texture : look) identity.second.push_back(texture.get());
   if (const auto known = numbers_.find(identity); known != numbers_.end()) return known->second;
-  meshes_[last_number_ + 1] = {instance.shape, std::move(look), nullptr};
+  meshes_[last_number_ + 1] = {instance.shape, std::move(look), instance.replaced_in > 0, nullptr};
   numbers_.emplace(std::move(identity), last_number_ + 1);  // last: a number has its mesh, whatever fails
   return ++last_number_;
 }
@@ -142,7 +147,7 @@ bool PageMeshes::ready() {
     making_ = std::async(std::launch::async, [this, lacking = std::move(lacking)] {
       nameThread("page meshes");
       std::vector<Made> made;
-      for (const auto& [number, mesh] : lacking) made.push_back(make(number, *mesh.shape, mesh.look));
+      for (const auto& [number, mesh] : lacking) made.push_back(make(number, mesh));
       return made;
     });
   } catch (const std::exception&) {  // no thread now: there may be one at the next state

@@ -48,6 +48,7 @@ class PageMeshes {
   struct Mesh {
     std::shared_ptr<const Shape> shape;  // until there is a message
     Look look;
+    bool often_replaced = false;
     PageMessage message;
     std::string lacking{};
   };
@@ -58,7 +59,7 @@ class PageMeshes {
   };
 
   std::uint32_t numberOf(const Instance& instance);
-  Made make(std::uint32_t number, const Shape& shape, const Look& look) const;
+  Made make(std::uint32_t number, const Mesh& mesh) const;
   void takeMade();
 
   const MemoryBudget memory_;
