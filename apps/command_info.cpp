@@ -155,7 +155,7 @@ void printBodies(const Snapshot& snapshot) {
 void printHeights(const HeightField& field) {
   const HeightGrid& grid = field.grid();
   const Mat3& axes = field.frame().axes;
-  const double bytes = static_cast<double>(field.bytes() + field.pyramid().bytes());
+  const auto bytes = static_cast<double>(field.shared().bytes);
   fmt::print("heights:    {} x {} samples of {}, {:.6g} x {:.6g} m apart, {:.6g} m a unit, from {:.6g} to {:.6g}\n",
              grid.columns(), grid.rows(), nameOf(grid.size().kind), axes.col(0).norm(), axes.col(1).norm(),
              axes.col(2).norm(), field.pyramid().lowest(), field.pyramid().highest());
@@ -176,8 +176,8 @@ void printVolume(const IsoSurface& surface) {
   fmt::print("            surface at {:.6g}, matter {}; about {} triangles, within {:.3g} m of the trilinear surface\n",
              surface.iso().value, surface.iso().solid == SolidSide::kAbove ? "above" : "below", surface.triangles(),
              surface.error_m());
-  fmt::print("            {:.1f} MB, {:.2f} bytes a sample\n", 1e-6 * static_cast<double>(surface.bytes()),
-             static_cast<double>(surface.bytes()) / static_cast<double>(grid.count()));
+  fmt::print("            {:.1f} MB, {:.2f} bytes a sample\n", 1e-6 * static_cast<double>(surface.volume()->bytes()),
+             static_cast<double>(surface.volume()->bytes()) / static_cast<double>(grid.count()));
 }
 
 void printSurfaces(const Snapshot& snapshot) {

@@ -30,6 +30,12 @@ enum class Site : std::uint8_t {
   kBoundary,  ///< so near to the surface that only its triangles could tell
 };
 
+/// Memory that several sources use, such as the samples of a volume.
+struct SharedMemory {
+  const void* of = nullptr;  ///< the same for all that share it; null: nothing is shared
+  std::size_t bytes = 0;
+};
+
 /// Immutable; metres, object frame. Functions marked RT-safe may be called by any thread and return the same bits for
 /// the same arguments.
 class PrimitiveSource {
@@ -47,8 +53,10 @@ class PrimitiveSource {
   virtual Box bounds() const = 0;
   /// Makes the index of its triangles; the source must outlive it. Setup only.
   virtual std::unique_ptr<const SpatialIndex> makeIndex() const = 0;
-  /// Memory of the source, bytes; without the index.
+  /// Memory of the source, bytes; without the index and what it shares.
   virtual std::size_t bytes() const = 0;
+  /// What it shares with others.
+  virtual SharedMemory shared() const { return {}; }
   /// RT-safe.
   virtual Site siteOf(const Vec3& /*point*/) const { return Site::kUnknown; }
   /// Bound of the distance between the triangles and the surface that they stand for, m. May look at all of them.

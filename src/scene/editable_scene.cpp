@@ -298,11 +298,12 @@ void EditableScene::checkLimits(const State& state) const {
   for (const auto& [name, texture] : state.textures) bytes += texture->texels.size() * sizeof(float);
   check(bytes, limits_.texture_bytes, "bytes of textures");
   ModelSizes sizes(limits_);
-  std::set<const Shape*> shapes;
+  std::set<const void*> counted;
   const auto add = [&](const SceneItems& items) {
     for (const SceneItem& item : items) {
-      if (item.shape && shapes.insert(item.shape.get()).second)
-        sizes.add(item.shape->source ? item.shape->bytes() : bytesToMake(item.shape->model));
+      if (!item.shape || !counted.insert(item.shape.get()).second) continue;
+      sizes.add(item.shape->source ? item.shape->bytes() : bytesToMake(item.shape->model));
+      if (const SharedMemory shared = item.shape->shared(); counted.insert(shared.of).second) sizes.add(shared.bytes);
     }
   };
   for (const auto& [id, items] : state.objects) add(*items);

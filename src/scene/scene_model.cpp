@@ -1,6 +1,7 @@
 #include "scene/scene_model.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "base/error.h"
@@ -110,7 +111,11 @@ std::size_t elementsIn(const SceneModel& scene) {
 
 std::size_t bytesToMake(const SceneModel& scene) {
   std::size_t bytes = bytesToMake(scene.model);
-  for (const SceneSurface& surface : scene.surfaces) bytes += surface.source->bytes();
+  std::set<const void*> counted;
+  for (const SceneSurface& surface : scene.surfaces) {
+    const SharedMemory shared = surface.source->shared();
+    bytes += surface.source->bytes() + (counted.insert(shared.of).second ? shared.bytes : 0);
+  }
   for (const SceneBody& body : scene.bodies) bytes += bytesToMake(body.model);
   return bytes;
 }

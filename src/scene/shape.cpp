@@ -258,7 +258,7 @@ std::size_t bytesToMake(const Model& model) {
 }
 
 std::size_t Shape::geometryBytes() const {
-  return meshBytes(model) + primitives.bytes() + (source ? source->bytes() : 0) + index->stats().bytes;
+  return meshBytes(model) + primitives.bytes() + (source ? source->bytes() : 0) + shared().bytes + index->stats().bytes;
 }
 
 std::size_t Shape::bytes() const {

@@ -46,10 +46,12 @@ struct Shape {
   double extent = 0;                  ///< m: largest absolute coordinate
   std::vector<std::string> warnings;  ///< warnings of the model, and skipped elements
 
-  /// Memory of the geometry: vertices, index lists and hierarchy.
+  /// Memory of the geometry: vertices, index lists and hierarchy, or what a source has; also what it shares.
   std::size_t geometryBytes() const;
-  /// As geometryBytes(), plus normals, texture coordinates, material numbers and the shape itself; without textures.
+  /// As geometryBytes(), plus normals, texture coordinates, material numbers and the shape itself; without textures and
+  /// what it shares.
   std::size_t bytes() const;
+  SharedMemory shared() const { return source ? source->shared() : SharedMemory{}; }
   // The primitives, of a mesh or of a source; RT-safe. `id` < count().
   std::uint64_t elements() const { return source ? source->triangles() : primitives.size(); }  ///< of a source: about
   ElementId count() const { return source ? source->count() : primitives.size(); }

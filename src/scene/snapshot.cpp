@@ -90,6 +90,7 @@ std::size_t memoryOf(const Snapshot& snapshot) {
   for (const Instance& instance : snapshot.instances) {
     const auto add = [&](const std::shared_ptr<const Shape>& shape) {
       if (counted.insert(shape.get()).second) bytes += shape->bytes();
+      if (const SharedMemory shared = shape->shared(); counted.insert(shared.of).second) bytes += shared.bytes;
     };
     add(instance.shape);
     if (instance.mesh_motion) instance.mesh_motion->forEachShape(add);

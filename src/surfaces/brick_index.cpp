@@ -46,7 +46,7 @@ std::size_t BrickIndex::nearest(const Vec3& centre, double farthest,
 IndexStats BrickIndex::stats() const {
   const BrickPyramid& pyramid = surface_.volume()->pyramid;
   IndexStats stats;
-  stats.bytes = pyramid.bytes();
+  stats.bytes = sizeof(*this);
   stats.depth = pyramid.levels();
   stats.leaves = std::size_t{pyramid.side(0, 0)} * pyramid.side(0, 1) * pyramid.side(0, 2);
   stats.nodes = pyramid.bricks() - stats.leaves;

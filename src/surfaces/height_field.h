@@ -25,7 +25,9 @@ class HeightField final : public PrimitiveSource {
   Vec3 trueNormal(ElementId id, const Vec3& point) const override;
   Box bounds() const override { return bounds_; }
   std::unique_ptr<const SpatialIndex> makeIndex() const override;
-  std::size_t bytes() const override { return sizeof(*this) + grid_->bytes(); }
+  std::size_t bytes() const override { return sizeof(*this); }
+  /// Samples and pyramid.
+  SharedMemory shared() const override { return {grid_.get(), grid_->bytes() + pyramid_->bytes()}; }
   /// Against the bilinear surface through the samples.
   double error_m() const override;
   std::shared_ptr<const PrimitiveSource> placed(const Mat3& linear, const Vec3& offset) const override;

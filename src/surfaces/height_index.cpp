@@ -43,7 +43,7 @@ std::size_t HeightIndex::nearest(const Vec3& centre, double farthest,
 
 IndexStats HeightIndex::stats() const {
   IndexStats stats;
-  stats.bytes = pyramid_.bytes();
+  stats.bytes = sizeof(*this);
   stats.depth = pyramid_.levels();
   stats.leaves = std::size_t{pyramid_.columns(0)} * pyramid_.rows(0);
   for (int level = 1; level < pyramid_.levels(); ++level)

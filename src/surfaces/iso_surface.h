@@ -26,6 +26,8 @@ struct IsoValue {
 struct Volume {
   explicit Volume(VoxelGrid of) : grid(std::move(of)), pyramid(grid) {}
 
+  std::size_t bytes() const { return grid.bytes() + pyramid.bytes(); }
+
   VoxelGrid grid;
   BrickPyramid pyramid;
 };
@@ -55,7 +57,9 @@ class IsoSurface final : public PrimitiveSource {
   Vec3 trueNormal(ElementId id, const Vec3& point) const override;
   Box bounds() const override { return bounds_; }
   std::unique_ptr<const SpatialIndex> makeIndex() const override;
-  std::size_t bytes() const override { return sizeof(*this) + volume_->grid.bytes() + volume_->pyramid.bytes(); }
+  std::size_t bytes() const override { return sizeof(*this); }
+  /// The volume.
+  SharedMemory shared() const override { return {volume_.get(), volume_->bytes()}; }
   /// Between the triangles and the surface of the trilinear values, at most the diagonal of a cell.
   double error_m() const override;
   /// By the samples of the cell around it. Where one is missing, and outside of the volume, there is no matter.
