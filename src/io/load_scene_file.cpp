@@ -16,10 +16,10 @@
 #include "base/error.h"
 #include "bodies/scene_world.h"
 #include "builtin.h"
-#include "io/decode_heights.h"
 #include "io/decode_scene.h"
 #include "io/json_lines.h"
 #include "io/load_image.h"
+#include "io/scene_surfaces.h"
 #include "scene/append_part.h"
 
 namespace hl {
@@ -55,7 +55,8 @@ class SceneFile {
         options_(options),
         text_(readText(path)),
         lines_(path, text_),
-        decoder_([this](const std::string& where, const std::string& message) { fail(where, message); }) {
+        decoder_([this](const std::string& where, const std::string& message) { fail(where, message); }),
+        surfaces_(folder_, options_) {
     parse();
   }
 
@@ -74,8 +75,7 @@ class SceneFile {
   Material materialOf(const proto::Material& in, const std::string& where) const;
   Model shapeOf(const proto::SceneObject& object, const std::string& where);
   Model fileModel(const std::string& name, const std::string& where);
-  std::shared_ptr<const PrimitiveSource> fieldOf(const proto::Heights& in, const std::string& where) const;
-  void addSurface(const proto::SceneObject& object, const std::string& where, SceneModel& scene) const;
+  void addSurfaces(const proto::SceneObject& object, const std::string& where, SceneModel& scene);
   Placement placementOf(const proto::Transform& in, const std::string& where) const;
   Pose poseOf(const proto::Transform& in, const std::string& where) const;
   void addAtRest(Model part, const proto::SceneObject& object, const std::string& where, SceneModel& scene) const;
@@ -96,7 +96,8 @@ class SceneFile {
   const SceneDecoder decoder_;
   proto::Scene scene_;
   std::map<std::string, std::uint32_t> textures_;
-  std::size_t texels_ = 0;              // of all textures
+  std::size_t texels_ = 0;  // of all textures
+  SceneSurfaces surfaces_;
   std::map<std::string, Model> files_;  // read once, however many objects show them
 };
 
@@ -199,39 +200,37 @@ Model SceneFile::shapeOf(const proto::SceneObject& object, const std::string& wh
     case proto::SceneObject::kPrimitives:
       return decoder_.model(object.primitives(), where + ".primitives");
     case proto::SceneObject::kHeights:
+    case proto::SceneObject::kVolume:
     case proto::SceneObject::SHAPE_NOT_SET:
       break;
   }
-  fail(where, where + ": an object needs a file, a builtin, primitives or heights");
-}
-
-std::shared_ptr<const PrimitiveSource> SceneFile::fieldOf(const proto::Heights& in, const std::string& where) const {
-  if (in.file().empty()) return decodeHeights(in);
-  if (options_.alone) fail(where + ".file", where + ".file: " + kAlone);
-  const SceneModel scene = loadModelScene((folder_ / in.file()).string(), options_);
-  if (scene.surfaces.empty()) throw Error(in.file() + ": is a model, and no file of heights");
-  return withSpacing(scene.surfaces.front().source, in);
+  fail(where, where + ": an object needs a file, a builtin, primitives, heights or a volume");
 }
 
 // A surface stays what it is: it is no part of the one model.
-void SceneFile::addSurface(const proto::SceneObject& object, const std::string& where, SceneModel& scene) const {
-  if (object.has_body()) fail(where + ".body", where + ".body: a height field cannot be a body");
-  SceneSurface surface;
-  surface.name = object.name().empty() ? where : object.name();
+void SceneFile::addSurfaces(const proto::SceneObject& object, const std::string& where, SceneModel& scene) {
+  const std::string at = where + "." + SceneSurfaces::fieldOf(object);
+  if (object.has_body()) fail(where + ".body", where + ".body: a height field or volume cannot be a body");
+  if (options_.alone && !SceneSurfaces::fileOf(object).empty()) fail(at + ".file", at + ".file: " + kAlone);
   const Placement placement = placementOf(object.transform(), where + ".transform");
+  std::vector<SceneSurface> surfaces;
   try {
-    const bool built_in = object.shape_case() == proto::SceneObject::kBuiltin;
-    surface.source = built_in ? makeBuiltinWorld(object.builtin()).surfaces.front().source
-                              : fieldOf(object.heights(), where + ".heights");
-    surface.source = surface.source->placed(placement.linear, placement.offset);
+    surfaces = surfaces_.read(object);
+    for (SceneSurface& surface : surfaces) surface.source = surface.source->placed(placement.linear, placement.offset);
   } catch (const Error& error) {
-    fail(where + (object.has_heights() ? ".heights" : ".builtin"), error.what());
+    fail(at, error.what());
   }
-  surface.material = materialOf(object.material(), where + ".material");
-  for (TextureUse& use : surface.material.textures) {
-    if (use.used()) fail(where + ".material.textures", where + ".material: a height field has no texture coordinates");
+  for (SceneSurface& surface : surfaces) {
+    const std::string name = object.name().empty() ? where : object.name();
+    surface.name = surfaces.size() == 1 ? name : name + " " + surface.name;
+    if (object.has_material() || !object.has_builtin())
+      surface.material = materialOf(object.material(), where + ".material");
+    for (const TextureUse& use : surface.material.textures) {
+      if (use.used())
+        fail(where + ".material.textures", where + ".material: a height field or volume has no texture coordinates");
+    }
+    scene.surfaces.push_back(std::move(surface));
   }
-  scene.surfaces.push_back(std::move(surface));
   for (SnapSpec& snap : snapsOf(object, placement, where)) scene.snaps.push_back(std::move(snap));
   for (FieldSpec& field : fieldsOf(object, placement, where)) scene.fields.push_back(std::move(field));
 }
@@ -380,8 +379,8 @@ SceneModel SceneFile::build() {
     const proto::SceneObject& object = scene_.objects(i);
     const std::string where = pathOf("objects", i);
     const proto::Material& material = object.material();
-    if (object.has_heights() || (object.has_builtin() && isBuiltinSurface(object.builtin()))) {
-      addSurface(object, where, scene);
+    if (SceneSurfaces::has(object)) {
+      addSurfaces(object, where, scene);
       continue;
     }
     Model part = shapeOf(object, where);

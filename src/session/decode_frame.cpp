@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "io/decode_heights.h"
 #include "io/decode_scene.h"
+#include "io/decode_volumes.h"
 #include "scene/append_part.h"
 #include "session/decode_joints.h"
 
@@ -20,10 +21,11 @@ namespace {
 
 [[noreturn]] void refuse(const std::string&, const std::string& message) { throw Error(message); }
 
-constexpr std::size_t kMaxName_bytes = 256;  // of a texture: surfaces are copied, and their names with them
-constexpr std::size_t kMaxWarnings = 20;     // a frame may skip something in each of a million items
-constexpr std::size_t kListed_bytes = 128;   // of a name, number or compliance in the edit's lists
-constexpr std::size_t kMoved_bytes = 512;    // of one item whose vertices move
+constexpr std::size_t kMaxName_bytes = 256;   // of a texture: surfaces are copied, and their names with them
+constexpr std::size_t kMaxWarnings = 20;      // a frame may skip something in each of a million items
+constexpr std::size_t kListed_bytes = 128;    // of a name, number or compliance in the edit's lists
+constexpr std::size_t kSurface_bytes = 4096;  // of a volume, without it
+constexpr std::size_t kMoved_bytes = 512;     // of one item whose vertices move
 
 void checkName(const std::string& name, const std::string& where) {
   if (name.size() > kMaxName_bytes)
@@ -38,6 +40,7 @@ std::string pathOfItems(std::uint32_t object) {
 // What decoding it and building its shape takes.
 std::uint64_t bytesToBuild(const proto::Primitives& in) {
   if (in.has_heights()) return bytesToMakeHeights(in.heights());
+  if (in.has_volume()) return bytesToMakeVolume(in.volume());
   const auto of = [](int count) { return static_cast<std::uint64_t>(count); };
   std::uint64_t triangles = of(in.triangles_size()) / 3;
   for (const proto::Polygon& polygon : in.polygons()) triangles += of(polygon.vertices_size());
@@ -79,6 +82,13 @@ void joinParts(std::list<proto::Primitives>& parts, MemoryShare& memory) {
   parts.push_back(std::move(whole));
 }
 
+void requireAlone(const proto::Primitives& in, const std::string& where) {
+  if (in.vertices_size() + in.triangles_size() + in.polygons_size() + in.segments_size() + in.points_size() > 0)
+    throw Error(where + ": " + (in.has_heights() ? "heights come" : "a volume comes") +
+                " without vertices and elements");
+  if (in.has_heights() && in.has_volume()) throw Error(where + ": it has heights or a volume, not both");
+}
+
 class FrameDecoder {
  public:
   FrameDecoder(const proto::Frame& frame, Uploads& uploads, const SceneLimits& limits, const MemoryBudget& memory,
@@ -116,9 +126,12 @@ class FrameDecoder {
   SceneItem itemOf(const proto::Item& in, const Shape* before, const std::string& where);
   static std::shared_ptr<const Placement> placementOf(const proto::Item& in, const std::string& where);
   std::shared_ptr<const SurfaceChange> surfaceOf(const proto::Item& in, const std::string& where) const;
-  std::shared_ptr<const Shape> shapeOf(const proto::Primitives& in, const proto::Material& material,
-                                       const Shape* before, const std::string& where);
+  std::shared_ptr<const Shape> shapeOf(const proto::Primitives& in, const proto::Item& item, const Shape* before,
+                                       const std::string& where);
   std::shared_ptr<const Shape> heightsOf(const proto::Primitives& in, const std::string& where);
+  std::shared_ptr<const Shape> surfaceOfVolume(const proto::Primitives& in, const proto::Item& item,
+                                               const std::string& where);
+  const PlacedVolume& volumeOf(const proto::Volume& in, const std::string& where);
   const proto::Primitives& upload(std::uint64_t id, const std::string& where);
   void countItems();
 
@@ -131,6 +144,7 @@ class FrameDecoder {
   const ItemsBefore& before_;
   const SceneDecoder decoder_;
   DecodedFrame result_;
+  std::map<const proto::Volume*, PlacedVolume> volumes_;  // one for all its surfaces
   ModelSizes size_;                  // each item makes a shape of its own, even if all refer to one upload
   std::set<std::uint32_t> deleted_;  // numbers of objects
   std::size_t more_warnings_ = 0;
@@ -181,7 +195,7 @@ void FrameDecoder::makeBody(const proto::ObjectDefinition& object, SceneItems& i
     throw Error(where + ".body: a body has one item, with primitives or an upload, and no calls; this one has " +
                 std::to_string(items.size()) + (items.size() == 1 ? " item, a call" : " items"));
   SceneItem& item = items[0];
-  if (item.shape->source) throw Error(where + ".body: a height field cannot be a body");
+  if (item.shape->source) throw Error(where + ".body: a height field or volume cannot be a body");
   items.body = std::make_shared<const BodySpec>(decoder_.body(object.body(), where + ".body"));
   if (!item.placement) return;
   const std::shared_ptr<const Shape> shape = item.shape;
@@ -233,10 +247,10 @@ SceneItem FrameDecoder::itemOf(const proto::Item& in, const Shape* before, const
   const std::string named = in.name() == 0 ? where : where + ", named " + std::to_string(in.name());
   switch (in.what_case()) {
     case proto::Item::kPrimitives:
-      item.shape = noted(shapeOf(in.primitives(), in.material(), before, where + ".primitives"), named);
+      item.shape = noted(shapeOf(in.primitives(), in, before, where + ".primitives"), named);
       return item;
     case proto::Item::kUpload:
-      item.shape = noted(shapeOf(upload(in.upload(), where), in.material(), before, where + ".upload"), named);
+      item.shape = noted(shapeOf(upload(in.upload(), where), in, before, where + ".upload"), named);
       return item;
     case proto::Item::kCall:
       if (in.call() == 0) throw Error(where + ".call must not be 0");
@@ -279,9 +293,13 @@ std::shared_ptr<const Placement> FrameDecoder::placementOf(const proto::Item& in
   return std::make_shared<const Placement>(placement);
 }
 
-std::shared_ptr<const Shape> FrameDecoder::shapeOf(const proto::Primitives& in, const proto::Material& material,
+std::shared_ptr<const Shape> FrameDecoder::shapeOf(const proto::Primitives& in, const proto::Item& item,
                                                    const Shape* before, const std::string& where) {
+  if (in.has_heights() || in.has_volume()) requireAlone(in, where);
+  if (in.has_volume()) return surfaceOfVolume(in, item, where);
+  if (item.has_iso()) throw Error(where + ": iso is of volumes, and this is none");
   if (in.has_heights()) return heightsOf(in, where);
+  const proto::Material& material = item.material();
   const auto repeat = [](bool has, double value) { return has && std::isfinite(value) ? value : 1; };
   return makeCounted(memory_, bytesToBuild(in), [&] {
     Model model = decoder_.model(in, where);
@@ -294,16 +312,45 @@ std::shared_ptr<const Shape> FrameDecoder::shapeOf(const proto::Primitives& in, 
 
 // Counted by its samples, as a mesh is by its elements.
 std::shared_ptr<const Shape> FrameDecoder::heightsOf(const proto::Primitives& in, const std::string& where) {
-  if (in.vertices_size() + in.triangles_size() + in.polygons_size() + in.segments_size() + in.points_size() > 0)
-    throw Error(where + ": heights come without vertices and elements");
   size_.add(bytesToMakeHeights(in.heights()), where + ": ");
-  return makeCounted(memory_, bytesToMakeHeights(in.heights()), [&] {
+  MemoryShare memory(memory_);
+  memory.take(bytesToMakeHeights(in.heights()));
+  try {
+    auto shape = makeShape(decodeHeights(in.heights()));
+    memory.set(shape->bytes() + shape->shared().bytes);
+    return withShare(std::move(shape), std::move(memory));
+  } catch (const Error& error) {
+    throw Error(where + ".heights: " + error.what());
+  }
+}
+
+std::shared_ptr<const Shape> FrameDecoder::surfaceOfVolume(const proto::Primitives& in, const proto::Item& item,
+                                                           const std::string& where) {
+  const PlacedVolume& volume = volumeOf(in.volume(), where);
+  return makeCounted(memory_, kSurface_bytes, [&] {
     try {
-      return makeShape(decodeHeights(in.heights()));
+      return makeShape(isoSurfaceOf(volume, in.volume(), item.has_iso() ? std::optional(item.iso()) : std::nullopt));
     } catch (const Error& error) {
-      throw Error(where + ".heights: " + error.what());
+      throw Error(where + ".volume: " + error.what());
     }
   });
+}
+
+// Counted once, until the last of its surfaces goes.
+const PlacedVolume& FrameDecoder::volumeOf(const proto::Volume& in, const std::string& where) {
+  PlacedVolume& placed = volumes_[&in];
+  if (placed.volume) return placed;
+  size_.add(bytesToMakeVolume(in), where + ": ");
+  MemoryShare memory(memory_);
+  memory.take(bytesToMakeVolume(in));
+  try {
+    placed = decodeVolume(in);
+  } catch (const Error& error) {
+    throw Error(where + ".volume: " + error.what());
+  }
+  memory.set(placed.volume->bytes());
+  placed.volume = withShare(std::move(placed.volume), std::move(memory));
+  return placed;
 }
 
 std::shared_ptr<const Shape> FrameDecoder::noted(std::shared_ptr<const Shape> shape, const std::string& where) {

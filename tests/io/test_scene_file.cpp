@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <boost/gil.hpp>
 #include <boost/gil/extension/io/jpeg.hpp>
 #include <boost/gil/extension/io/png.hpp>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -14,6 +16,7 @@
 #include "bodies/scene_world.h"
 #include "io/load_image.h"
 #include "scene/snapshot.h"
+#include "surfaces/iso_surface.h"
 #include "temp_folder.h"
 
 namespace hl {
@@ -132,7 +135,7 @@ TEST(SceneFile, HeightsThatMakeNoSenseAreRefused) {
   EXPECT_EQ(heightsRefusal(good + R"(, "spacing": -1)"), "2: spacing must be from 1e-12 to 1e9");
   EXPECT_EQ(heightsRefusal(R"("columns": 2, "rows": 3, "values": [0, 1, 2, 3])"),
             "2: it has fewer samples than it says");
-  EXPECT_EQ(heightsRefusal(good, R"(, "body": {})"), "2: objects[0].body: a height field cannot be a body");
+  EXPECT_EQ(heightsRefusal(good, R"(, "body": {})"), "2: objects[0].body: a height field or volume cannot be a body");
   EXPECT_NE(heightsRefusal(R"("file": "none.tif")").find("there is no such file"), std::string::npos);
   fileWith("field.asc", "ncols 2\nnrows 2\ncellsize 5\n1 2 3 4");
   EXPECT_EQ(heightsRefusal(R"("file": "field.asc", "spacing": 2, "verticalScale": 3)"), "");
@@ -145,6 +148,82 @@ TEST(SceneFile, HeightsOfAFileTakeAnotherSpacing) {
   const SceneModel scene = loadSceneFile(fileWith(
       "scene.hl.json", R"({"objects":[{"heights": {"file": "field.asc", "spacing": 2, "verticalScale": 3}}]})"));
   EXPECT_LT((scene.surfaces.at(0).source->bounds().size() - Vec3(4, 15, 2)).norm(), 1e-12);
+}
+
+TEST(SceneFile, TheExampleOfAVolumeLoads) {
+  const SceneModel scene = loadSceneFile(std::string(HL_EXAMPLES) + "/volume.hl.json");
+  ASSERT_EQ(scene.surfaces.size(), 3U);
+  EXPECT_EQ(scene.surfaces[0].source->shared().of, scene.surfaces[1].source->shared().of) << "skin and bone";
+  EXPECT_EQ(scene.surfaces[0].name, "skin");
+  EXPECT_EQ(scene.surfaces[0].material.stiffness, 0.4);
+  EXPECT_EQ(scene.surfaces[1].material.stiffness, 1);
+  EXPECT_EQ(makeSnapshot(scene)->instances.size(), 3U);
+}
+
+// A NIfTI file of 3 x 2 x 2 int16, whose samples are x, 2 mm apart.
+std::string smallNifti(const std::string& name) {
+  std::string bytes(352, '\0');
+  const auto put = [&](std::size_t at, const auto& value) { std::memcpy(bytes.data() + at, &value, sizeof value); };
+  put(0, std::int32_t{348});
+  put(40, std::array<std::int16_t, 4>{3, 3, 2, 2});
+  put(70, std::array<std::int16_t, 2>{4, 16});
+  put(76, std::array<float, 4>{1, 2, 2, 2});
+  put(108, 352.0F);
+  put(112, 1.0F);
+  bytes[123] = 2;  // millimetres
+  std::memcpy(bytes.data() + 344, "n+1", 4);
+  for (int i = 0; i < 12; ++i) {
+    const auto sample = static_cast<std::int16_t>(i % 3);
+    bytes.append(reinterpret_cast<const char*>(&sample), sizeof sample);
+  }
+  return fileWith(name, bytes);
+}
+
+TEST(SceneFile, ObjectsOfOneVolumeShareItsSamples) {
+  smallNifti("small.nii");
+  const SceneModel scene = loadSceneFile(fileWith("scene.hl.json", R"({"objects":[
+      {"name": "a", "volume": {"file": "small.nii", "iso": 0.5}},
+      {"name": "b", "volume": {"file": "small.nii", "iso": 1.5, "spacing": [0.004, 0.002, 0.002]},
+       "transform": {"translate": {"y": 1}}}]})"));
+  ASSERT_EQ(scene.surfaces.size(), 2U);
+  const auto& a = dynamic_cast<const IsoSurface&>(*scene.surfaces[0].source);
+  const auto& b = dynamic_cast<const IsoSurface&>(*scene.surfaces[1].source);
+  EXPECT_EQ(a.volume(), b.volume());
+  EXPECT_EQ(a.iso().value, 0.5);
+  EXPECT_NEAR(a.frame().axes.col(0).norm(), 0.002, 1e-9);
+  EXPECT_NEAR(b.frame().axes.col(0).norm(), 0.004, 1e-12);
+  EXPECT_NEAR(b.frame().point(1, 0.5, 0.5).y(), 1, 1e-12);
+}
+
+TEST(SceneFile, BuiltinVolumesHaveTheirOwnMaterials) {
+  const SceneModel scene = loadSceneFile(fileWith("scene.hl.json", R"({"objects":[{"builtin": "ct:phantom:16"}]})"));
+  ASSERT_EQ(scene.surfaces.size(), 2U);
+  EXPECT_EQ(scene.surfaces[0].material.stiffness, 0.5);
+  EXPECT_EQ(scene.surfaces[1].name, "objects[0] bone");
+}
+
+TEST(SceneFile, VolumesThatMakeNoSenseAreRefused) {
+  const auto refusal = [](const std::string& volume, const std::string& rest = "") {
+    try {
+      loadSceneFile(fileWith("scene.hl.json", "{\"objects\":[{\n\"volume\": {" + volume + "}" + rest + "}]}"));
+    } catch (const Error& error) {
+      return std::string(error.what()).substr(std::string(error.what()).find("scene.hl.json:") + 14);
+    }
+    return std::string();
+  };
+  const std::string good = R"("size": [2, 2, 2], "values": [0, 0, 0, 0, 1, 1, 1, 1])";
+  smallNifti("small.nii");
+  fileWith("field.asc", "ncols 2\nnrows 2\ncellsize 5\n1 2 3 4");
+  EXPECT_EQ(refusal(good), "");
+  EXPECT_EQ(refusal(good + R"(, "iso": 2)"), "2: there is no surface at iso 2: its values are from 0 to 1");
+  EXPECT_EQ(refusal(R"("size": [2, 2, 3], "values": [0, 1])"), "2: it has fewer samples than it says");
+  EXPECT_EQ(refusal(good, R"(, "body": {})"), "2: objects[0].body: a height field or volume cannot be a body");
+  EXPECT_NE(refusal(R"("file": "none.nii")").find("there is no such file"), std::string::npos);
+  EXPECT_EQ(refusal(R"("file": "field.asc")"), "2: field.asc: is no volume");
+  EXPECT_EQ(refusal(R"("file": "small.nii", "builtin": "ct:phantom")"), "2: it has a file or a builtin, not both");
+  EXPECT_EQ(refusal(R"("builtin": "teapot")"), "2: teapot: is no volume");
+  EXPECT_EQ(refusal(R"("file": "small.nii", "size": [3, 2, 2])"),
+            "2: size, values, samples, kind, missing, scale and offset are those of its file");
 }
 
 TEST(SceneFile, TheExampleOfPartsLoads) {

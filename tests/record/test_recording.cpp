@@ -9,6 +9,7 @@
 #include <random>
 
 #include "base/error.h"
+#include "builtin.h"
 #include "fields.h"
 #include "io/value_messages.h"
 #include "proxy/proxy.h"
@@ -16,6 +17,7 @@
 #include "record/recorded_servo.h"
 #include "record/recording_file.h"
 #include "scene/scene_model.h"
+#include "surfaces/iso_surface.h"
 #include "temp_folder.h"
 
 namespace hl {
@@ -201,6 +203,7 @@ std::shared_ptr<const Snapshot> writtenAndRead(const Snapshot& scene, SceneWrite
     ASSERT_TRUE(block.ParseFromString(written.SerializeAsString()));
     if (block.has_shape()) reader.add(block.shape());
     if (block.has_heights()) reader.add(block.heights());
+    if (block.has_volume()) reader.add(block.volume());
     if (block.has_surfaces()) reader.add(block.surfaces());
     if (block.has_scene()) back = reader.scene(block.scene());
     parts += block.has_scene() ? 0 : 1;
@@ -223,6 +226,46 @@ TEST(RecordedScene, HasItsHeightField) {
   ASSERT_EQ(is.count(), was.count());
   EXPECT_EQ(is.bounds.min, was.bounds.min);
   for (ElementId id = 0; id < is.count(); id += 9973) ASSERT_EQ(is.source->corners(id), was.source->corners(id)) << id;
+}
+
+// The samples are written once, for the first of both surfaces; both are touched as they were.
+TEST(RecordedScene, HasItsVolumeOnce) {
+  const auto made = makeSnapshot(makeBuiltinWorld("ct:phantom:41"));
+  ASSERT_EQ(made->instances.size(), 2U);
+  SceneWriter writer;
+  SceneReader reader;
+  std::size_t samples = 0, volumes = 0;
+  std::shared_ptr<const Snapshot> back;
+  writer.write(*made, [&](const proto::RecordingBlock& written) {
+    proto::RecordingBlock block;
+    ASSERT_TRUE(block.ParseFromString(written.SerializeAsString()));
+    if (block.has_volume()) {
+      ++volumes;
+      samples += block.volume().samples().size();
+      reader.add(block.volume());
+    }
+    if (block.has_surfaces()) reader.add(block.surfaces());
+    if (block.has_scene()) back = reader.scene(block.scene());
+  });
+  EXPECT_EQ(volumes, 2U);
+  EXPECT_EQ(samples, std::size_t{2} * 41 * 41 * 41);
+  ASSERT_TRUE(back);
+  const auto& skin = dynamic_cast<const IsoSurface&>(*back->instances[0].shape->source);
+  const auto& bone = dynamic_cast<const IsoSurface&>(*back->instances[1].shape->source);
+  EXPECT_EQ(skin.volume(), bone.volume());
+  EXPECT_LT(memoryOf(*back), 2 * samples);
+  const ProxySettings settings;
+  Random random(3);
+  Vec3 finger(0, 0.09, 0);
+  ProxyState was = startProxy(*made, settings, finger), is = startProxy(*back, settings, finger);
+  int touched = 0;
+  for (int i = 0; i < 2000; ++i) {
+    finger += 1e-3 * random.vec() - 0.003 * (finger - 0.03 * finger.normalized());
+    touched += tick(was, *made, settings, finger).contacts.empty() ? 0 : 1;
+    tick(is, *back, settings, finger);
+    ASSERT_EQ(was.position, is.position) << i;
+  }
+  EXPECT_GT(touched, 200);
 }
 
 TEST(RecordedScene, IsTouchedBitForBitAsItWas) {

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "session/message_forms.h"
 #include "session/message_size.h"
+#include "surfaces/iso_surface.h"
 
 namespace hl {
 namespace {
@@ -111,6 +112,82 @@ TEST(DecodeFrame, HeightFieldsThatMakeNoSenseAreRefused) {
             where + "all its samples are missing");
   EXPECT_EQ(with([](auto&, auto& in) { in.add_vertices(1); }),
             "world.items[0].primitives: heights come without vertices and elements");
+}
+
+// 3 x 2 x 2 samples, whose values are x.
+proto::Volume smallVolume() {
+  proto::Volume volume;
+  for (const std::uint32_t side : {3U, 2U, 2U}) volume.add_size(side);
+  for (int i = 0; i < 12; ++i) volume.add_values(static_cast<float>(i % 3));
+  return volume;
+}
+
+TEST(DecodeFrame, VolumesBecomeTheirSurfaces) {
+  Uploads uploads;
+  *uploads[4].emplace_back().mutable_volume() = smallVolume();
+  proto::Frame frame;
+  for (const double iso : {0.5, 1.75}) {
+    proto::Item& item = *frame.mutable_world()->add_items();
+    item.set_upload(4);
+    item.set_iso(iso);
+  }
+  MemoryBudget memory(std::uint64_t{1} << 30);
+  {
+    const DecodedFrame made = decodeFrame(frame, uploads, SceneLimits(), memory, [](double) {}, {});
+    const SceneItems& items = *made.edit.world;
+    ASSERT_EQ(items.size(), 2U);
+    const auto& first = dynamic_cast<const IsoSurface&>(*items[0].shape->source);
+    const auto& second = dynamic_cast<const IsoSurface&>(*items[1].shape->source);
+    EXPECT_EQ(first.volume(), second.volume());
+    EXPECT_EQ(first.iso().value, 0.5);
+    EXPECT_EQ(second.iso().value, 1.75);
+    EXPECT_EQ(first.frame().origin, Vec3(-1, -0.5, -0.5));
+    EXPECT_GT(memory.used_bytes(), first.volume()->bytes());
+  }
+  EXPECT_EQ(memory.used_bytes(), 0U);
+}
+
+TEST(DecodeFrame, VolumesThatMakeNoSenseAreRefused) {
+  const auto with = [](auto set) {
+    proto::Frame frame;
+    proto::Item& item = *frame.mutable_world()->add_items();
+    *item.mutable_primitives()->mutable_volume() = smallVolume();
+    set(*item.mutable_primitives()->mutable_volume(), item);
+    return refusalOf(frame);
+  };
+  const std::string where = "world.items[0].primitives.volume: ";
+  const std::string size = "size must be three numbers of samples: along x, y and z";
+  EXPECT_EQ(with([](auto&, auto&) {}), "accepted") << "a value between the samples is found";
+  EXPECT_EQ(with([](auto& in, auto&) { in.set_size(0, 4); }), where + "it has fewer samples than it says");
+  EXPECT_EQ(with([](auto& in, auto&) {
+              for (int axis = 0; axis < 3; ++axis) in.set_size(axis, 1U << 20);
+            }),
+            where + "it has fewer samples than it says");
+  EXPECT_EQ(with([](auto& in, auto&) { in.add_values(1); }), where + "it has more samples than it says");
+  EXPECT_EQ(with([](auto& in, auto&) { in.set_size(1, 1); }),
+            where + "a volume needs 2 to 2^20 samples along each axis");
+  EXPECT_EQ(with([](auto& in, auto&) { in.mutable_size()->RemoveLast(); }), where + size);
+  EXPECT_EQ(with([](auto& in, auto&) { in.set_kind("int8"); }), where + "kind must be int16, uint16 or float32");
+  EXPECT_EQ(with([](auto& in, auto&) { in.set_file("a.nii"); }),
+            where + "a file of a volume is named in scene files only");
+  EXPECT_EQ(with([](auto& in, auto&) { in.add_spacing(-1); }), where + "spacing must be from 1e-12 to 1e9");
+  EXPECT_EQ(with([](auto& in, auto&) { in.mutable_spacing()->Resize(2, 1); }),
+            where + "spacing must be one length or three: along x, y and z");
+  EXPECT_EQ(with([](auto& in, auto&) { in.set_scale(std::numeric_limits<double>::quiet_NaN()); }),
+            where + "the scale of a volume's values must be a number that is not 0, and their offset a number");
+  EXPECT_EQ(with([](auto& in, auto&) { in.set_iso(3); }),
+            where + "there is no surface at iso 3: its values are from 0 to 2");
+  EXPECT_EQ(with([](auto&, auto& item) { item.set_iso(std::numeric_limits<double>::quiet_NaN()); }),
+            where + "the iso value of a volume must be a number");
+  EXPECT_EQ(with([](auto&, auto& item) { item.mutable_primitives()->add_vertices(1); }),
+            "world.items[0].primitives: a volume comes without vertices and elements");
+  EXPECT_EQ(with([](auto&, auto& item) { item.mutable_primitives()->mutable_heights(); }),
+            "world.items[0].primitives: it has heights or a volume, not both");
+  EXPECT_EQ(with([](auto&, auto& item) {
+              item.mutable_primitives()->clear_volume();
+              item.set_iso(1);
+            }),
+            "world.items[0].primitives: iso is of volumes, and this is none");
 }
 
 TEST(DecodeFrame, CompliancesAreOfObjectsThatAreThere) {

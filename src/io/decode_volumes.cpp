@@ -1,0 +1,89 @@
+#include "io/decode_volumes.h"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <utility>
+
+#include "base/error.h"
+#include "io/decode_samples.h"
+#include "surfaces/threshold.h"
+
+namespace hl {
+
+namespace {
+
+using Sides = std::array<std::uint32_t, 3>;
+
+Sides sidesOf(const proto::Volume& in) {
+  if (in.size_size() != 3) throw Error("size must be three numbers of samples: along x, y and z");
+  const Sides side{in.size(0), in.size(1), in.size(2)};
+  checkVoxelSides(side);
+  return side;
+}
+
+// Along each axis; `otherwise` where nothing is said.
+Vec3 stepsOf(const proto::Volume& in, const Vec3& otherwise) {
+  const int count = in.spacing_size();
+  if (count == 0) return otherwise;
+  if (count != 1 && count != 3) throw Error("spacing must be one length or three: along x, y and z");
+  Vec3 spacing;
+  for (int axis = 0; axis < 3; ++axis)
+    spacing[axis] = lengthOf(in.spacing(count == 1 ? 0 : axis), otherwise[axis], "spacing");
+  return spacing;
+}
+
+// With the middle of the grid at the origin.
+GridFrame centred(const Sides& side, const Mat3& axes) {
+  return {axes, -0.5 * (axes * Vec3(side[0] - 1.0, side[1] - 1.0, side[2] - 1.0))};
+}
+
+}  // namespace
+
+GridFrame uprightFrame(const Sides& side, const Vec3& spacing) { return centred(side, spacing.asDiagonal()); }
+
+std::uint64_t bytesToMakeVolume(const proto::Volume& in) {
+  constexpr std::uint64_t kSmallest = 8192;
+  const std::uint64_t bytes = bytesOfSamples(in);
+  return kSmallest + bytes + bytes / 2;  // the pyramid takes a 16th of 16-bit samples, and more of the thinnest grids
+}
+
+PlacedVolume decodeVolume(const proto::Volume& in) {
+  if (!in.file().empty() || !in.builtin().empty()) throw Error("a file of a volume is named in scene files only");
+  const Sides side = sidesOf(in);
+  const SampleKind kind = kindOf(in);
+  std::uint64_t bytes = sizeOf(kind);
+  for (const std::uint32_t samples : side) bytes *= samples;  // below 2^63
+  const GridFrame frame = uprightFrame(side, stepsOf(in, Vec3::Ones()));
+  const std::optional<double> missing = missingOf(in);
+  const ValueScale values{in.scale() == 0 ? 1 : in.scale(), in.offset()};
+  return {std::make_shared<const Volume>(VoxelGrid(side, Samples(kind, samplesOf(in, bytes), missing), values)), frame};
+}
+
+PlacedVolume withSpacing(PlacedVolume volume, const proto::Volume& in) {
+  if (in.size_size() != 0 || in.values_size() != 0 || in.samples_size() != 0 || !in.kind().empty() ||
+      in.has_missing() || in.scale() != 0 || in.offset() != 0)
+    throw Error("size, values, samples, kind, missing, scale and offset are those of its file");
+  if (in.spacing_size() == 0) return volume;
+  const VoxelGrid& grid = volume.volume->grid;
+  const Vec3 before = volume.frame.axes.colwise().norm();
+  const Mat3 axes = volume.frame.axes * stepsOf(in, before).cwiseQuotient(before).asDiagonal();
+  volume.frame = centred({grid.side(0), grid.side(1), grid.side(2)}, axes);
+  return volume;
+}
+
+std::shared_ptr<const IsoSurface> isoSurfaceOf(const PlacedVolume& volume, const proto::Volume& in,
+                                               std::optional<double> iso) {
+  const ValueRange& range = volume.volume->pyramid.range();
+  if (!(range.low <= range.high)) throw Error("all its samples are missing");
+  if (!iso && in.has_iso()) iso = in.iso();
+  const IsoValue value{iso.value_or(0), in.below() ? SolidSide::kBelow : SolidSide::kAbove};
+  const IsoValue found = iso ? value : IsoValue{thresholdOf(*volume.volume), value.solid};
+  auto surface = std::make_shared<const IsoSurface>(volume.volume, volume.frame, found);
+  if (surface->triangles() == 0)
+    throw Error(fmt::format("there is no surface at iso {:.6g}: its values are from {:.6g} to {:.6g}", found.value,
+                            range.low, range.high));
+  return surface;
+}
+
+}  // namespace hl

@@ -1,0 +1,41 @@
+// SceneSurfaces: the objects of a scene file that are no meshes: height fields and volumes.
+#pragma once
+
+#include <hl.pb.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "io/decode_volumes.h"
+#include "io/load_model.h"
+#include "scene/scene_model.h"
+
+namespace hl {
+
+class SceneSurfaces {
+ public:
+  /// Files are relative to `folder`. Both must outlive it.
+  SceneSurfaces(const std::filesystem::path& folder, const LoadOptions& options) : folder_(folder), options_(options) {}
+
+  /// Whether the object is such surfaces.
+  static bool has(const proto::SceneObject& object);
+  /// Name of the field of the object that says what it is: "volume".
+  static const char* fieldOf(const proto::SceneObject& object);
+  /// Its file; empty: it has none.
+  static const std::string& fileOf(const proto::SceneObject& object);
+  /// One, or all of a builtin, as they are before the object's transform. Throws hl::Error.
+  std::vector<SceneSurface> read(const proto::SceneObject& object);
+
+ private:
+  std::shared_ptr<const PrimitiveSource> heights(const proto::Heights& in) const;
+  std::shared_ptr<const PrimitiveSource> volume(const proto::Volume& in);
+  SceneModel load(const std::string& file) const;
+
+  const std::filesystem::path& folder_;
+  const LoadOptions& options_;
+  std::map<std::string, PlacedVolume> volumes_;  // read once, however many objects show them
+};
+
+}  // namespace hl
