@@ -172,6 +172,19 @@ HL_API void hlDrawElements(HLenum mode, HLsizei count, HLenum type, const void* 
  * samples are copied. HL_INVALID_VALUE: fewer than two columns or rows, or no samples. HL_INVALID_ENUM: another type.
  * HL_OUT_OF_MEMORY: 1 GiB of samples or more. */
 HL_API void hlHeightField(HLsizei columns, HLsizei rows, HLenum type, const void* samples, const HLdouble* missing);
+/** Draws the surface where the samples of a volume pass the value `iso`, as in CT, MRI and distances from a surface.
+ * The server makes its triangles when they are touched. `width` x `height` x `depth` samples of `type` (HL_SHORT,
+ * HL_UNSIGNED_SHORT or HL_FLOAT) along +x, +y and +z, those along x next to each other, all 1 apart, with the middle of
+ * the volume at the origin: hlScaled makes metres of them. There is no surface around a sample that equals `*missing`,
+ * or is not a number; `missing` may be NULL. Normals lead to where samples are below `iso`. The samples are copied.
+ * HL_INVALID_VALUE: fewer than two samples along an axis, no samples, or an `iso` that is not a number.
+ * HL_INVALID_ENUM: another type. HL_OUT_OF_MEMORY: 1 GiB of samples or more. */
+HL_API void hlVolume(HLsizei width, HLsizei height, HLsizei depth, HLenum type, const void* samples,
+                     const HLdouble* missing, HLdouble iso);
+/** Draws another surface of the volume that was drawn last in this object or world, with the matrix and material of
+ * now: skin and bone. Nothing is copied or sent again. HL_INVALID_OPERATION: no volume was drawn. HL_INVALID_VALUE: an
+ * `iso` that is not a number. */
+HL_API void hlVolumeSurface(HLdouble iso);
 
 /* ---- Objects -------------------------------------------------------------------------------------------------- */
 

@@ -249,25 +249,45 @@ void drawElements(HLenum mode, const VertexArrays<Number>& arrays, const Indices
   hlDrawElements(mode, static_cast<HLsizei>(std::ranges::size(indices)), type, std::ranges::data(indices));
 }
 
-/// What samples of a height field may be.
+/// Numbers that heights and volumes are made of.
 template <typename Number>
-concept HeightNumber = std::same_as<Number, HLshort> || std::same_as<Number, HLushort> || std::same_as<Number, HLfloat>;
+concept SampleNumber = std::same_as<Number, HLshort> || std::same_as<Number, HLushort> || std::same_as<Number, HLfloat>;
+
+/// Their type in the calls.
+template <SampleNumber Number>
+inline constexpr HLenum kSampleType = std::same_as<Number, HLshort>    ? HL_SHORT
+                                      : std::same_as<Number, HLushort> ? HL_UNSIGNED_SHORT
+                                                                       : HL_FLOAT;
 
 /// hlHeightField of rows of `columns` samples each (a vector, an array, a span).
 template <std::ranges::contiguous_range Samples>
-requires HeightNumber<std::ranges::range_value_t<Samples>>
+requires SampleNumber<std::ranges::range_value_t<Samples>>
 void heightField(std::size_t columns, const Samples& samples, std::optional<HLdouble> missing = {}) {
   using Number = std::ranges::range_value_t<Samples>;
   const std::size_t count = std::ranges::size(samples);
   constexpr auto kMost = static_cast<std::size_t>(std::numeric_limits<HLsizei>::max());
   if (columns == 0 || columns > kMost || count % columns != 0 || count / columns > kMost)
     throw std::invalid_argument("the samples must fill rows of so many columns");
-  constexpr HLenum type = std::same_as<Number, HLshort>    ? HL_SHORT
-                          : std::same_as<Number, HLushort> ? HL_UNSIGNED_SHORT
-                                                           : HL_FLOAT;
-  hlHeightField(static_cast<HLsizei>(columns), static_cast<HLsizei>(count / columns), type, std::ranges::data(samples),
-                missing ? &*missing : nullptr);
+  hlHeightField(static_cast<HLsizei>(columns), static_cast<HLsizei>(count / columns), kSampleType<Number>,
+                std::ranges::data(samples), missing ? &*missing : nullptr);
 }
+
+/// hlVolume of as many slices of `width` x `height` samples as there are.
+template <std::ranges::contiguous_range Samples>
+requires SampleNumber<std::ranges::range_value_t<Samples>>
+void volume(std::size_t width, std::size_t height, const Samples& samples, HLdouble iso,
+            std::optional<HLdouble> missing = {}) {
+  const std::size_t count = std::ranges::size(samples);
+  constexpr auto kMost = static_cast<std::size_t>(std::numeric_limits<HLsizei>::max());
+  if (width == 0 || height == 0 || width > kMost || height > kMost || count % (width * height) != 0 ||
+      count / (width * height) > kMost)
+    throw std::invalid_argument("the samples must fill slices of so many samples along x and y");
+  hlVolume(static_cast<HLsizei>(width), static_cast<HLsizei>(height), static_cast<HLsizei>(count / (width * height)),
+           kSampleType<std::ranges::range_value_t<Samples>>, std::ranges::data(samples), missing ? &*missing : nullptr,
+           iso);
+}
+/// hlVolumeSurface.
+inline void volumeSurface(HLdouble iso) { hlVolumeSurface(iso); }
 
 /// hlGetDoublev of a query with `Count` values (hl_types.h says how many); zeros at an error.
 template <std::size_t Count>

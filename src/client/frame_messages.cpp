@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -16,7 +18,7 @@ namespace {
 constexpr std::size_t kInlineBytes = std::size_t{256} << 10;
 // One part, or so many of small meshes in one message, decode in about a millisecond.
 constexpr std::size_t kPartBytes = std::size_t{1} << 20;
-constexpr std::size_t kHeightsHeadBytes = 64;  // of a height field, at most, beside its samples
+constexpr std::size_t kSamplesHeadBytes = 64;  // of a height field or volume, at most, beside its samples
 constexpr std::size_t kPartHeadBytes = 32;     // of a part, at most, beside its numbers
 
 constexpr std::uint64_t unlessZero(std::uint64_t limit) {
@@ -133,6 +135,11 @@ class Builder {
       out.set_call(item.call);
       return;
     }
+    if (item.geometry.volume) {
+      out.set_upload(uploadOf(item.geometry.volume));
+      out.set_iso(item.geometry.iso);
+      return;
+    }
     fillGeometry(item.geometry, out);
   }
 
@@ -159,7 +166,7 @@ class Builder {
 
   std::uint64_t upload(const Geometry& geometry) {
     upload_ = terms_.next_upload++;
-    if (geometry.heights) addHeights(*geometry.heights);
+    if (geometry.heights) addSamples(*geometry.heights, &proto::Primitives::mutable_heights);
     addParts(geometry.vertices.positions, &proto::Primitives::mutable_vertices);
     addParts(geometry.vertices.normals, &proto::Primitives::mutable_normals);
     addParts(geometry.vertices.texcoords, &proto::Primitives::mutable_texcoords);
@@ -183,16 +190,28 @@ class Builder {
     }
   }
 
+  // Once for all surfaces of a volume.
+  std::uint64_t uploadOf(const std::shared_ptr<const proto::Volume>& volume) {
+    const auto [place, fresh] = volumes_.try_emplace(volume);
+    if (fresh) {
+      place->second = upload_ = terms_.next_upload++;
+      addSamples(*volume, &proto::Primitives::mutable_volume);
+    }
+    return place->second;
+  }
+
   // The first part has all but the samples; their pieces are put together by the server.
-  void addHeights(const proto::Heights& heights) {
-    proto::Heights head = heights;
+  template <typename Grid>
+  void addSamples(const Grid& grid, Grid* (proto::Primitives::*mutable_grid)()) {
+    Grid head;
+    head.CopyFrom(grid);
     head.clear_samples();
-    const std::string_view samples = heights.samples(0);
+    const std::string_view samples = grid.samples(0);
     for (std::size_t first = 0; first < samples.size(); first += part_bytes_) {
       const std::string_view piece = samples.substr(first, part_bytes_);
-      proto::Upload& part = addPart(piece.size() + kHeightsHeadBytes);
+      proto::Upload& part = addPart(piece.size() + kSamplesHeadBytes);
       part.set_id(upload_);
-      proto::Heights& out = *part.mutable_part()->mutable_heights();
+      Grid& out = *(part.mutable_part()->*mutable_grid)();
       if (first == 0) out = head;
       out.add_samples(piece.data(), piece.size());
       upload_bytes_ += part.ByteSizeLong();
@@ -223,6 +242,7 @@ class Builder {
 
   const FrameTerms& terms_;
   FrameMessages messages_;
+  std::map<std::shared_ptr<const proto::Volume>, std::uint64_t> volumes_;  // and the numbers of their uploads
   std::uint64_t most_inline_, part_bytes_;
   std::uint64_t inline_bytes_ = 0, upload_bytes_ = 0, upload_ = 0;
   std::uint64_t message_bytes_ = 0;  // of the last of the uploads, at most

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -26,10 +27,12 @@ struct Vertices {
 
 struct Geometry {
   Vertices vertices;
-  std::vector<std::uint32_t> triangles;     ///< three indices each
-  std::vector<std::uint32_t> segments;      ///< two each
-  std::vector<std::uint32_t> points;        ///< one each
-  std::optional<proto::Heights> heights{};  ///< in place of all others; samples in one piece
+  std::vector<std::uint32_t> triangles;           ///< three indices each
+  std::vector<std::uint32_t> segments;            ///< two each
+  std::vector<std::uint32_t> points;              ///< one each
+  std::optional<proto::Heights> heights{};        ///< in place of all others; samples in one piece
+  std::shared_ptr<const proto::Volume> volume{};  ///< in place of all others; one for all its surfaces
+  double iso = 0;                                 ///< of the volume
   /// Whether `added` could be appended: all vertices have normals or none has, the same for texture coordinates, and
   /// the indices fit.
   bool takes(const Vertices& added) const;

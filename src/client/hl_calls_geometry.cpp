@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstddef>
+#include <initializer_list>
+#include <memory>
 #include <utility>
 
 #include "client/call.h"
@@ -103,6 +105,27 @@ std::size_t sampleBytesOf(HLenum type) {
   throw Fault(HL_INVALID_ENUM, "samples are HL_SHORT, HL_UNSIGNED_SHORT or HL_FLOAT");
 }
 
+/// The samples of a grid with these sides, which are copied.
+template <typename Grid>
+void setSamples(Grid& grid, std::initializer_list<HLsizei> sides, HLenum type, const void* samples,
+                const HLdouble* missing) {
+  std::size_t bytes = sampleBytesOf(type);
+  for (const HLsizei side : sides) {
+    if (side < 2) throw Fault(HL_INVALID_VALUE, "there must be two samples or more along each axis");
+  }
+  requirePointer(samples);
+  if (missing != nullptr) requireFinite(*missing);
+  constexpr std::size_t kMost = std::size_t{1} << 30;  // a message has less than 2 GiB
+  for (const HLsizei side : sides) {
+    if (static_cast<std::size_t>(side) >= kMost / bytes)
+      throw Fault(HL_OUT_OF_MEMORY, "the samples must be less than 1 GiB");
+    bytes *= static_cast<std::size_t>(side);
+  }
+  grid.set_kind(type == HL_SHORT ? "int16" : type == HL_UNSIGNED_SHORT ? "uint16" : "float32");
+  grid.add_samples(samples, bytes);
+  if (missing != nullptr) grid.set_missing(*missing);
+}
+
 }  // namespace
 
 void hlBegin(HLenum mode) {
@@ -169,20 +192,32 @@ void hlDrawArrays(HLenum mode, HLint first, HLsizei count) {
 
 void hlHeightField(HLsizei columns, HLsizei rows, HLenum type, const void* samples, const HLdouble* missing) {
   call(__func__, [&](HLcontext& context) {
-    const std::size_t bytes = sampleBytesOf(type);
-    if (columns < 2 || rows < 2) throw Fault(HL_INVALID_VALUE, "a height field has two columns and rows at least");
-    requirePointer(samples);
-    if (missing != nullptr) requireFinite(*missing);
-    constexpr std::size_t kMost = std::size_t{1} << 30;  // a message has less than 2 GiB
-    const std::size_t count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-    if (count >= kMost / bytes) throw Fault(HL_OUT_OF_MEMORY, "the samples must be less than 1 GiB");
     hl::proto::Heights heights;
+    setSamples(heights, {columns, rows}, type, samples, missing);
     heights.set_columns(static_cast<std::uint32_t>(columns));
     heights.set_rows(static_cast<std::uint32_t>(rows));
-    heights.set_kind(type == HL_SHORT ? "int16" : type == HL_UNSIGNED_SHORT ? "uint16" : "float32");
-    heights.add_samples(samples, count * bytes);
-    if (missing != nullptr) heights.set_missing(*missing);
     context.target().drawHeights(context.draw.modelview.top(), lookOf(context.draw.attributes.now), std::move(heights));
+  });
+}
+
+void hlVolume(HLsizei width, HLsizei height, HLsizei depth, HLenum type, const void* samples, const HLdouble* missing,
+              HLdouble iso) {
+  call(__func__, [&](HLcontext& context) {
+    requireFinite(iso);
+    const auto volume = std::make_shared<hl::proto::Volume>();
+    setSamples(*volume, {width, height, depth}, type, samples, missing);
+    for (const HLsizei side : {width, height, depth}) volume->add_size(static_cast<std::uint32_t>(side));
+    context.target().drawVolume(context.draw.modelview.top(), lookOf(context.draw.attributes.now), volume, iso);
+  });
+}
+
+void hlVolumeSurface(HLdouble iso) {
+  call(__func__, [&](HLcontext& context) {
+    requireFinite(iso);
+    auto volume = context.target().lastVolume();
+    if (!volume) throw Fault(HL_INVALID_OPERATION, "no volume was drawn before, whose surface it could be");
+    context.target().drawVolume(context.draw.modelview.top(), lookOf(context.draw.attributes.now), std::move(volume),
+                                iso);
   });
 }
 

@@ -1,5 +1,6 @@
 #include "client/item_list.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -27,6 +28,18 @@ bool ItemList::draw(const Matrix4& matrix, const Look& look, HLenum mode, Vertic
 void ItemList::drawHeights(const Matrix4& matrix, const Look& look, proto::Heights heights) {
   items_.push_back({matrix, look, 0, {}});
   items_.back().geometry.heights = std::move(heights);
+}
+
+void ItemList::drawVolume(const Matrix4& matrix, const Look& look, std::shared_ptr<const proto::Volume> volume,
+                          double iso) {
+  items_.push_back({matrix, look, 0, {}});
+  items_.back().geometry.volume = std::move(volume);
+  items_.back().geometry.iso = iso;
+}
+
+std::shared_ptr<const proto::Volume> ItemList::lastVolume() const {
+  const auto last = std::find_if(items_.rbegin(), items_.rend(), [](const Item& item) { return item.geometry.volume; });
+  return last == items_.rend() ? nullptr : last->geometry.volume;
 }
 
 void ItemList::call(const Matrix4& matrix, const Look& look, HLuint object) {

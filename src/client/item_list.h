@@ -5,6 +5,7 @@
 #include <hl/hl_types.h>
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <set>
 #include <vector>
@@ -42,6 +43,9 @@ class ItemList {
   /// dropped; an `order` has none of them. Returns whether there was anything to add.
   bool draw(const Matrix4& matrix, const Look& look, HLenum mode, Vertices& vertices, DrawOrder order = {});
   void drawHeights(const Matrix4& matrix, const Look& look, proto::Heights heights);
+  void drawVolume(const Matrix4& matrix, const Look& look, std::shared_ptr<const proto::Volume> volume, double iso);
+  /// The volume that was drawn last; null: none was.
+  std::shared_ptr<const proto::Volume> lastVolume() const;
   void call(const Matrix4& matrix, const Look& look, HLuint object);
 
   const std::vector<Item>& items() const { return items_; }

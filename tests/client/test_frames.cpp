@@ -78,6 +78,53 @@ TEST_F(CallsTest, HeightFieldsThatMakeNoSenseAreRefused) {
   EXPECT_EQ(flushed().number(), 0U);
 }
 
+TEST_F(CallsTest, SurfacesOfAVolumeShareItsSamples) {
+  const std::array<HLushort, 12> samples{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
+  const HLdouble missing = 9;
+  hlScaled(0.5, 1, 0.5);
+  hlVolume(3, 2, 2, HL_UNSIGNED_SHORT, samples.data(), &missing, 2.5);
+  triangle();
+  hlMateriald(HL_STIFFNESS, 0.5);
+  hlVolumeSurface(6.5);
+  const proto::Frame frame = flushed();
+  ASSERT_EQ(frame.world().items_size(), 3);
+  const proto::Item &first = frame.world().items(0), &second = frame.world().items(2);
+  EXPECT_EQ(first.upload(), second.upload());
+  EXPECT_EQ(first.iso(), 2.5);
+  EXPECT_EQ(second.iso(), 6.5);
+  EXPECT_EQ(second.matrix(0), 0.5);
+  EXPECT_EQ(second.material().stiffness(), 0.5);
+  ASSERT_EQ(server->uploads().size(), 1U);
+  const proto::Volume volume = server->uploads().at(first.upload()).volume();
+  EXPECT_EQ((std::vector<std::uint32_t>{volume.size().begin(), volume.size().end()}),
+            (std::vector<std::uint32_t>{3, 2, 2}));
+  EXPECT_EQ(volume.kind(), "uint16");
+  EXPECT_EQ(volume.missing(), 9);
+  EXPECT_EQ(volume.samples(0), std::string(reinterpret_cast<const char*>(samples.data()), sizeof samples));
+}
+
+TEST_F(CallsTest, VolumesThatMakeNoSenseAreRefused) {
+  const std::array<HLfloat, 8> samples{};
+  hlVolume(1, 2, 2, HL_FLOAT, samples.data(), nullptr, 0);
+  expectError(HL_INVALID_VALUE);
+  hlVolume(2, 2, 2, HL_FLOAT, nullptr, nullptr, 0);
+  expectError(HL_INVALID_VALUE);
+  hlVolume(2, 2, 2, HL_DOUBLE, samples.data(), nullptr, 0);
+  expectError(HL_INVALID_ENUM);
+  hlVolume(2, 2, 2, HL_FLOAT, samples.data(), nullptr, kNaN);
+  expectError(HL_INVALID_VALUE);
+  hlVolume(2, 2, 2, HL_FLOAT, samples.data(), &kNaN, 0);
+  expectError(HL_INVALID_VALUE);
+  hlVolume(1 << 20, 1 << 20, 1 << 20, HL_FLOAT, samples.data(), nullptr, 0);
+  expectError(HL_OUT_OF_MEMORY);
+  hlVolumeSurface(0);
+  expectError(HL_INVALID_OPERATION);
+  hlVolume(2, 2, 2, HL_FLOAT, samples.data(), nullptr, 0);
+  hlVolumeSurface(kNaN);
+  expectError(HL_INVALID_VALUE);
+  EXPECT_EQ(flushed().world().items_size(), 1);
+}
+
 TEST_F(CallsTest, FrameThatDrawsNothingLeavesTheWorld) {
   hlNewObject(1);
   triangle();
