@@ -48,6 +48,12 @@ HL_API HLbatchScene* hlBatchMakeScene(const HLdouble* positions, const HLdouble*
  * copied. NULL when that fails. */
 HL_API HLbatchScene* hlBatchMakeHeights(size_t columns, size_t rows, HLenum type, const void* samples,
                                         const HLdouble* missing, const HLdouble* spacing, HLdouble scale);
+/** The surfaces of a volume where its samples pass the values `iso` x 0 .. `surfaces` - 1. `size` x 0..2 samples along
+ * x, y and z, those along x next to each other, of `type` HL_SHORT, HL_UNSIGNED_SHORT or HL_FLOAT, `spacing` x 0..2 m
+ * apart, with the middle of the volume at the origin. There is no surface around samples that equal `*missing` (NULL:
+ * none), or are not a number. The samples are copied. NULL when that fails, also where a value has no surface. */
+HL_API HLbatchScene* hlBatchMakeVolume(const size_t* size, HLenum type, const void* samples, const HLdouble* missing,
+                                       const HLdouble* spacing, size_t surfaces, const HLdouble* iso);
 /** Fingers that were made with the scene keep it. NULL: nothing happens. */
 HL_API void hlBatchDeleteScene(HLbatchScene* scene);
 /** How many triangles, segments and points it has. */

@@ -2,7 +2,7 @@
 
 import operator
 import os
-from typing import Any, Union
+from typing import Any, List, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -52,17 +52,35 @@ def floats(numbers: Any, name: str) -> Floats:
 
 
 def heights(samples: Any) -> npt.NDArray[Any]:
-    """Of two dimensions, in C order and the machine's order of bytes: int16, uint16, or else float32."""
+    """Of two dimensions, as grid()."""
+    return grid(samples, 2, "heights", "two rows and columns")
+
+
+def volume(samples: Any) -> npt.NDArray[Any]:
+    """Of three dimensions, as grid()."""
+    return grid(samples, 3, "volume", "two samples along each of three axes")
+
+
+def grid(samples: Any, axes: int, name: str, least: str) -> npt.NDArray[Any]:
+    """In C order and the machine's order of bytes: int16, uint16, or else float32."""
     try:
         array = np.asarray(samples)
     except ValueError as error:
-        raise InvalidValueError(f"heights must be numbers: {error}") from None
+        raise InvalidValueError(f"{name} must be numbers: {error}") from None
     if array.dtype.kind not in "fiu":
-        raise InvalidValueError(f"heights must be numbers, and are {array.dtype}")
-    if array.ndim != 2 or min(array.shape) < 2:
-        raise InvalidValueError(f"heights must have two rows and columns or more, and have the shape {array.shape}")
+        raise InvalidValueError(f"{name} must be numbers, and are {array.dtype}")
+    if array.ndim != axes or min(array.shape) < 2:
+        raise InvalidValueError(f"{name} must have {least} or more, and have the shape {array.shape}")
     kind = array.dtype.newbyteorder("=")
     return np.ascontiguousarray(array, dtype=kind if kind in (np.int16, np.uint16) else np.float32)
+
+
+def steps(spacing: Any, axes: int) -> List[float]:
+    """One number for all axes, or one for each."""
+    several = [spacing] * axes if np.ndim(spacing) == 0 else list(spacing)
+    if len(several) != axes:
+        raise InvalidValueError(f"spacing must be one number or {axes}, and has {len(several)}")
+    return [number(step, "spacing") for step in several]
 
 
 def dimensions(numbers: Any) -> int:

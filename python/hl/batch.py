@@ -44,6 +44,11 @@ class Scene:
         unit. Around samples that equal `missing`, or are not a number, there are holes. A sample takes 2 or 4 bytes,
         however many triangles there are.
 
+    Scene(volume=samples, iso=value, spacing=1.0, missing=None): the surface of a volume where its samples are `iso`, or
+        several surfaces of it, of a list of values: an array (z, y, x) of int16, uint16 or float32; others become
+        float32. Samples are `spacing` m apart (one number, or those along x, y and z), with the middle at the origin.
+        There is no surface around samples that equal `missing`, or are not a number.
+
     Raises InvalidValueError: there is no such file, or nothing in it can be touched. Ctrl-C is heard when it is made.
     """
 
@@ -66,6 +71,15 @@ class Scene:
         vertical_scale: float = 1.0,
         missing: Optional[float] = None,
     ) -> None: ...
+    @overload
+    def __init__(
+        self,
+        *,
+        volume: npt.ArrayLike,
+        iso: Union[float, Sequence[float]],
+        spacing: Union[float, Tuple[float, float, float]] = 1.0,
+        missing: Optional[float] = None,
+    ) -> None: ...
     def __init__(
         self,
         source: Any = None,
@@ -75,15 +89,21 @@ class Scene:
         size: Any = 0.0,
         vertices: Any = None,
         heights: Any = None,
+        volume: Any = None,
+        iso: Any = None,
         spacing: Any = 1.0,
         vertical_scale: Any = 1.0,
         missing: Any = None,
     ) -> None:
-        if heights is not None:
-            if not (source is None and triangles is None and normals is None and vertices is None):
-                raise InvalidValueError("a scene is made of heights, of a file or of vertices, of one of them")
+        if heights is not None or volume is not None:
+            others = (source, triangles, normals, vertices, heights if volume is not None else iso)
+            if any(other is not None for other in others):
+                raise InvalidValueError("a scene is made of heights, a volume, a file or vertices, of one of them")
             self._source: Any = None
-            self._scene = _heights_of(heights, spacing, vertical_scale, missing)
+            if volume is not None:
+                self._scene = _volume_of(volume, iso, spacing, missing)
+            else:
+                self._scene = _heights_of(heights, spacing, vertical_scale, missing)
             return
         if isinstance(source, (str, bytes, os.PathLike)):
             if isinstance(triangles, (int, float)):
@@ -272,13 +292,18 @@ def _native_settings(settings: Optional[Settings]) -> _hl.BatchSettings:
 
 
 def _heights_of(heights: Any, spacing: Any, vertical_scale: Any, missing: Any) -> _hl.BatchScene:
-    array = arguments.heights(heights)
-    pair = (spacing, spacing) if isinstance(spacing, (int, float)) else tuple(spacing)
-    if len(pair) != 2:
-        raise InvalidValueError("spacing must be one number or two")
-    steps = [arguments.number(step, "spacing") for step in pair]
+    steps = arguments.steps(spacing, 2)
     none = None if missing is None else arguments.number(missing, "missing")
-    return _hl.BatchScene(array, steps, arguments.number(vertical_scale, "vertical_scale"), none)
+    scale = arguments.number(vertical_scale, "vertical_scale")
+    return _hl.BatchScene(arguments.heights(heights), steps, scale, none)
+
+
+def _volume_of(volume: Any, iso: Any, spacing: Any, missing: Any) -> _hl.BatchScene:
+    if iso is None:
+        raise InvalidValueError("a volume needs an iso value, or several: iso=300.0")
+    values = [arguments.number(value, "iso") for value in (iso if np.ndim(iso) > 0 else [iso])]
+    none = None if missing is None else arguments.number(missing, "missing")
+    return _hl.BatchScene(arguments.volume(volume), arguments.steps(spacing, 3), values, none)
 
 
 def _made_of(vertices: Any, triangles: Any, normals: Any, size: Any) -> _hl.BatchScene:

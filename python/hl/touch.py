@@ -236,11 +236,39 @@ class Touch:
         """Draws a height field, as hl.Scene(heights=...) has it: samples (rows, columns), metres between them."""
         self.make_current()
         array = arguments.heights(samples)
-        across, down = (spacing, spacing) if isinstance(spacing, (int, float)) else spacing
+        across, down = arguments.steps(spacing, 2)
         calls.hlPushMatrix()
         try:
-            calls.hlScaled(float(across), float(vertical_scale), float(down))
+            calls.hlScaled(across, arguments.number(vertical_scale, "vertical_scale"), down)
             calls.hlHeightField(array, missing)
+        finally:
+            calls.hlPopMatrix()
+
+    def volume(
+        self,
+        samples: npt.ArrayLike,
+        iso: float,
+        spacing: Union[float, Tuple[float, float, float]] = 1.0,
+        missing: Optional[float] = None,
+    ) -> None:
+        """Draws a surface of a volume, as hl.Scene(volume=...) has it: samples (z, y, x), metres between them along x,
+        y and z."""
+        self.make_current()
+        array, value = arguments.volume(samples), arguments.number(iso, "iso")
+        calls.hlPushMatrix()
+        try:
+            calls.hlScaled(*arguments.steps(spacing, 3))
+            calls.hlVolume(array, value, missing)
+        finally:
+            calls.hlPopMatrix()
+
+    def volume_surface(self, iso: float, spacing: Union[float, Tuple[float, float, float]] = 1.0) -> None:
+        """Draws another surface of the volume that was drawn last in this object or world; nothing is sent again."""
+        self.make_current()
+        calls.hlPushMatrix()
+        try:
+            calls.hlScaled(*arguments.steps(spacing, 3))
+            calls.hlVolumeSurface(arguments.number(iso, "iso"))
         finally:
             calls.hlPopMatrix()
 

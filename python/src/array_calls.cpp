@@ -56,15 +56,29 @@ void drawElements(HLenum mode, const Doubles& vertices, const Indices& indices, 
   throwFailure();
 }
 
-// int16, uint16 or float32, in C order, as Python's side makes it.
+// Of arrays of int16, uint16 or float32, as Python's side makes them.
+HLenum sampleTypeOf(const py::array& samples) {
+  const char kind = samples.dtype().kind();
+  return kind == 'f' ? HL_FLOAT : kind == 'i' ? HL_SHORT : HL_UNSIGNED_SHORT;
+}
+
+// Of numbers along an axis of an array.
+HLsizei sideOf(const py::array& samples, py::ssize_t axis) {
+  return sizeOf(static_cast<std::size_t>(samples.shape(axis)), "samples");
+}
+
+// In C order, as Python's side makes it.
 void heightField(const py::array& samples, std::optional<double> missing) {
   requireContext();
-  const HLenum type = samples.dtype().kind() == 'f'   ? HL_FLOAT
-                      : samples.dtype().kind() == 'i' ? HL_SHORT
-                                                      : HL_UNSIGNED_SHORT;
-  hlHeightField(sizeOf(static_cast<std::size_t>(samples.shape(1)), "columns"),
-                sizeOf(static_cast<std::size_t>(samples.shape(0)), "rows"), type, samples.data(),
+  hlHeightField(sideOf(samples, 1), sideOf(samples, 0), sampleTypeOf(samples), samples.data(),
                 missing ? &*missing : nullptr);
+  throwFailure();
+}
+
+void volume(const py::array& samples, double iso, std::optional<double> missing) {
+  requireContext();
+  hlVolume(sideOf(samples, 2), sideOf(samples, 1), sideOf(samples, 0), sampleTypeOf(samples), samples.data(),
+           missing ? &*missing : nullptr, iso);
   throwFailure();
 }
 
@@ -191,6 +205,7 @@ void bindArrayCalls(py::module_& module) {
   module.def("hlDrawElements", &drawElements, py::arg("mode"), py::arg("vertices"), py::arg("indices"),
              py::arg("normals") = none, py::arg("texcoords") = none);
   module.def("hlHeightField", &heightField, py::arg("samples"), py::arg("missing") = none);
+  module.def("hlVolume", &volume, py::arg("samples"), py::arg("iso"), py::arg("missing") = none);
   module.def("hlUpdateVertices", &updateVertices, py::arg("object"), py::arg("vertices"), py::arg("first") = 0,
              py::arg("normals") = none);
   module.def(

@@ -75,14 +75,29 @@ std::unique_ptr<Scene> makeScene(const Doubles& vertices, const Indices& triangl
   return std::make_unique<Scene>(made(hlBatchMakeScene(vertices.data(), smooth, count, triangles.data(), faces)));
 }
 
-// An array of int16, uint16 or float32 in C order, as Python's side makes it.
+// Of arrays of int16, uint16 or float32 in C order, as Python's side makes them.
+HLenum sampleTypeOf(const py::array& samples) {
+  const char kind = samples.dtype().kind();
+  return kind == 'f' ? HL_FLOAT : kind == 'i' ? HL_SHORT : HL_UNSIGNED_SHORT;
+}
+
+std::unique_ptr<Scene> makeVolume(const py::array& samples, const std::array<double, 3>& spacing,
+                                  const std::vector<double>& iso, std::optional<double> missing) {
+  std::array<std::size_t, 3> size{};
+  for (py::ssize_t axis = 0; axis < 3; ++axis)
+    size[static_cast<std::size_t>(2 - axis)] = static_cast<std::size_t>(samples.shape(axis));
+  const HLenum type = sampleTypeOf(samples);
+  const void* const data = samples.data();
+  const OtherThreadsRun other_threads_run;
+  return std::make_unique<Scene>(made(hlBatchMakeVolume(size.data(), type, data, missing ? &*missing : nullptr,
+                                                        spacing.data(), iso.size(), iso.data())));
+}
+
 std::unique_ptr<Scene> makeHeights(const py::array& samples, const std::array<double, 2>& spacing, double scale,
                                    std::optional<double> missing) {
   const std::size_t columns = static_cast<std::size_t>(samples.shape(1)),
                     rows = static_cast<std::size_t>(samples.shape(0));
-  const HLenum type = samples.dtype().kind() == 'f'   ? HL_FLOAT
-                      : samples.dtype().kind() == 'i' ? HL_SHORT
-                                                      : HL_UNSIGNED_SHORT;
+  const HLenum type = sampleTypeOf(samples);
   const void* const data = samples.data();
   const OtherThreadsRun other_threads_run;
   return std::make_unique<Scene>(
@@ -182,6 +197,7 @@ void bindBatch(py::module_& module) {
   py::class_<Scene>(module, "BatchScene")
       .def(py::init(&loadScene), py::arg("name"), py::arg("size"))
       .def(py::init(&makeScene), py::arg("vertices"), py::arg("triangles"), py::arg("normals"))
+      .def(py::init(&makeVolume), py::arg("volume"), py::arg("spacing"), py::arg("iso"), py::arg("missing"))
       .def(py::init(&makeHeights), py::arg("samples"), py::arg("spacing"), py::arg("scale"), py::arg("missing"))
       .def_property_readonly("primitives",
                              [](const Scene& scene) { return hlBatchScenePrimitives(scene.handle.get()); })

@@ -19,6 +19,7 @@
 #include "batch/batch.h"
 #include "batch/ends_early.h"
 #include "batch/on_threads.h"
+#include "io/decode_volumes.h"
 #include "io/load_scene.h"
 #include "io/read_heights.h"
 #include "scene/scene_model.h"
@@ -66,6 +67,25 @@ HLenum guardedCall(const char* call, const Work& work) {
 
 void require(bool holds, const char* what) {
   if (!holds) throw Error(what);
+}
+
+SampleKind kindOf(HLenum type) {
+  require(type == HL_SHORT || type == HL_UNSIGNED_SHORT || type == HL_FLOAT,
+          "samples are HL_SHORT, HL_UNSIGNED_SHORT or HL_FLOAT");
+  if (type == HL_FLOAT) return SampleKind::kFloat32;
+  return type == HL_SHORT ? SampleKind::kInt16 : SampleKind::kUint16;
+}
+
+std::shared_ptr<const void> copyOf(const void* samples, std::size_t bytes) {
+  SampleRoom kept(bytes);
+  kept.add(samples, bytes);
+  return kept.take();
+}
+
+// The sample that stands for none.
+std::optional<double> missingOf(const HLdouble* missing) {
+  require(missing == nullptr || std::isfinite(*missing), "missing must be finite");
+  return missing != nullptr ? std::optional<double>(*missing) : std::nullopt;
 }
 
 std::string outOfRange(const QuantityInfo& quantity) {
@@ -185,21 +205,34 @@ HLbatchScene* hlBatchMakeHeights(size_t columns, size_t rows, HLenum type, const
   HLbatchScene* scene = nullptr;
   guardedCall(__func__, [&] {
     require(samples != nullptr && spacing != nullptr, "samples or spacing is NULL");
-    require(type == HL_SHORT || type == HL_UNSIGNED_SHORT || type == HL_FLOAT,
-            "samples are HL_SHORT, HL_UNSIGNED_SHORT or HL_FLOAT");
     require(columns <= kMaxGridSide && rows <= kMaxGridSide, "there are too many columns or rows");
-    require(missing == nullptr || std::isfinite(*missing), "missing must be finite");
-    GridSize size{static_cast<std::uint32_t>(columns), static_cast<std::uint32_t>(rows), SampleKind::kFloat32};
-    if (type == HL_SHORT) size.kind = SampleKind::kInt16;
-    if (type == HL_UNSIGNED_SHORT) size.kind = SampleKind::kUint16;
-    SampleRoom kept(size.bytes());
-    kept.add(samples, size.bytes());
-    const auto grid = std::make_shared<const HeightGrid>(
-        size, kept.take(), missing != nullptr ? std::optional<double>(*missing) : std::nullopt);
+    const GridSize size{static_cast<std::uint32_t>(columns), static_cast<std::uint32_t>(rows), kindOf(type)};
+    const auto grid = std::make_shared<const HeightGrid>(size, copyOf(samples, size.bytes()), missingOf(missing));
     const auto field = std::make_shared<const HeightField>(grid, uprightFrame(size, spacing[0], spacing[1], scale));
     requireTriangles(*field);
     SceneModel made;
     made.surfaces.push_back({"heights", field});
+    scene = sceneOf(std::move(made));
+  });
+  return scene;
+}
+
+HLbatchScene* hlBatchMakeVolume(const size_t* size, HLenum type, const void* samples, const HLdouble* missing,
+                                const HLdouble* spacing, size_t surfaces, const HLdouble* iso) {
+  HLbatchScene* scene = nullptr;
+  guardedCall(__func__, [&] {
+    require(size != nullptr && samples != nullptr && spacing != nullptr, "size, samples or spacing is NULL");
+    require(surfaces > 0 && iso != nullptr, "a volume needs an iso value");
+    require(*std::max_element(size, size + 3) <= kMostVoxelSide, "there are too many samples along an axis");
+    std::array<std::uint32_t, 3> side{};
+    std::transform(size, size + 3, side.begin(), [](size_t n) { return static_cast<std::uint32_t>(n); });
+    checkVoxelSides(side);
+    const SampleKind kind = kindOf(type);
+    const Samples kept(kind, copyOf(samples, size[0] * size[1] * size[2] * sizeOf(kind)), missingOf(missing));
+    const PlacedVolume volume{std::make_shared<const Volume>(VoxelGrid(side, kept)),
+                              uprightFrame(side, vecAt(spacing, 0))};
+    SceneModel made;
+    for (size_t i = 0; i < surfaces; ++i) made.surfaces.push_back({"volume", isoSurfaceOf(volume, {}, iso[i])});
     scene = sceneOf(std::move(made));
   });
   return scene;

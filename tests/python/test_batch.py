@@ -115,6 +115,27 @@ class Heights(unittest.TestCase):
         self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(heights=np.full((3, 3), np.nan)))
 
 
+class Volumes(unittest.TestCase):
+    def test_planes_are_where_their_values_are(self):
+        z, y, x = np.meshgrid(np.arange(6), np.arange(5), np.arange(4), indexing="ij")
+        for axis, (values, middle) in enumerate([(x, 1.5), (y, 2.0), (z, 2.5)]):
+            scene = hl.Scene(volume=values.astype(np.int16), iso=[1.25, 1.75], spacing=(0.01, 0.02, 0.04))
+            step = (0.01, 0.02, 0.04)[axis]
+            np.testing.assert_allclose(
+                hl.closest(scene, [[0, 0, 0]]).distance, [(middle - 1.75) * step], rtol=0, atol=1e-12)
+
+    def test_what_is_no_volume_is_refused(self):
+        good = np.arange(8, dtype=np.float32).reshape(2, 2, 2)
+        hl.Scene(volume=good, iso=3.5)
+        for wrong in ([[1.0, 2.0]], np.zeros((2, 2, 1)), np.full((2, 2, 2), "a")):
+            self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(volume=wrong, iso=0.5))
+        for iso in (None, 8.0, float("nan"), [], "a"):
+            self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(volume=good, iso=iso))
+        self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(volume=good, iso=3.5, spacing=(1, 2)))
+        self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(volume=good, iso=3.5, missing=float("inf")))
+        self.assertRaises(hl.InvalidValueError, lambda: hl.Scene("teapot", volume=good, iso=3.5))
+
+
 class SameBits(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
