@@ -17,6 +17,7 @@
 #include "tick/interruptions.h"
 #include "tick/peers/peers.h"
 #include "tick/suite.h"
+#include "volume_bench.h"
 
 namespace hl {
 
@@ -53,7 +54,8 @@ struct BenchOptions {
   double radius_edges = 1;
   std::size_t ticks = 20'000, most = 1'000'000, members = 1;
   bool all = false, peers = false, effects = true, bodies = false;
-  std::size_t fields = 0;  ///< triangles of the largest height field; 0: no fields
+  std::size_t fields = 0;     ///< triangles of the largest height field; 0: no fields
+  std::uint32_t volumes = 0;  ///< samples along a side of the largest volume; 0: no volumes
   std::string csv;
 };
 
@@ -125,6 +127,7 @@ void run(const BenchOptions& options) {
   if (options.peers && !built_in) throw Error(kNoPeers);
   if (options.bodies) return runBodyBench(options.peers, options.csv);
   if (options.fields > 0) return runFieldBench({options.fields, options.ticks, options.radius, options.csv});
+  if (options.volumes > 0) return runVolumeBench({options.volumes, options.ticks, options.radius, options.csv});
   bench::SuitePlan plan;
   plan.scenes = scenesOf(options);
   plan.motions = chosen(bench::kFingerMotions, options.motions, options.all);
@@ -201,6 +204,11 @@ void addBenchCommand(CLI::App& app) {
                    "height fields instead, of 10 000 triangles, ten times as many, and so on up to this number; takes "
                    "--radius, --ticks and --csv")
       ->check(CLI::Range(std::size_t{1000}, std::size_t{100'000'000'000}));
+  command
+      ->add_option("--volumes", options->volumes,
+                   "surfaces of volumes instead, of 128 samples a side, twice as many, and so on up to this number; "
+                   "takes --radius, --ticks and --csv")
+      ->check(CLI::Range(8, 1025));
   auto* bodies = command->add_flag("--bodies", options->bodies,
                                    "steps of bodies instead: a stack, a pile and a cube that a finger pushes");
   for (const CLI::Option* other : command->get_options()) {
