@@ -11,6 +11,7 @@
 #include "base/machine_memory.h"
 #include "io/output_file.h"
 #include "phantom.h"
+#include "surfaces/iso_surface.h"
 #include "tick/timing.h"
 
 namespace hl {
