@@ -14,16 +14,17 @@ from pathlib import Path
 LEVELS = {
     "base": 0,
     "geometry": 1, "wire": 1, "device": 1,
-    "surfaces": 2, "scene": 2, "control": 2,
-    "proxy": 3, "bodies": 3, "scenes": 3,
-    "io": 4,
-    "touch": 5,
-    "record": 6, "tools": 6,
-    "session": 7, "batch": 7,
-    "page": 8, "monitor": 8,
-    "http": 9, "client": 9,
-    "bench": 10,
-    "apps": 11, "python": 11,
+    "surfaces": 2,
+    "scene": 3, "control": 3,
+    "proxy": 4, "bodies": 4, "scenes": 4,
+    "io": 5,
+    "touch": 6,
+    "record": 7, "tools": 7,
+    "session": 8, "batch": 8,
+    "page": 9, "monitor": 9,
+    "http": 10, "client": 10,
+    "bench": 11,
+    "apps": 12, "python": 12,
 }
 # The proxy knows no threads, devices or messages, and the servo knows no scene, although their levels would allow it.
 NEVER = {"proxy": {"device", "control", "wire"}, "control": {"geometry", "wire"}, "scene": {"wire", "device"}}

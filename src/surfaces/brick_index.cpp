@@ -10,41 +10,39 @@ namespace hl {
 
 namespace {
 
-auto walkOver(const IsoSurface& surface) {
-  return [&surface](const GridBall& ball, const auto& visit) { return BrickWalk(surface, ball).run(visit); };
+auto walkOver(const IsoCells& cells) {
+  return [&cells](const GridBall& ball, const auto& visit) { return BrickWalk(cells, ball).run(visit); };
 }
 
 }  // namespace
 
 // m, greatest coordinate.
 double BrickIndex::extent() const {
-  const Box box = surface_.bounds();
-  return box.empty() ? 0 : std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
+  return bounds_.empty() ? 0 : std::max(bounds_.min.cwiseAbs().maxCoeff(), bounds_.max.cwiseAbs().maxCoeff());
 }
 
 std::size_t BrickIndex::overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId)> visit) const {
   const GridBall ball(metric_, centre, Vec3::Zero(), reachOf(radius, centre, Vec3::Zero(), extent()));
-  return BrickWalk(surface_, ball).run(visit);
+  return BrickWalk(cells_, ball).run(visit);
 }
 
 std::size_t BrickIndex::sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
                               FunctionRef<double(ElementId, double)> visit) const {
   const GridBall ball(metric_, from, motion, reachOf(radius, from, motion, extent()));
-  return sweepCells(ball, motion.norm(), soon, walkOver(surface_), visit);
+  return sweepCells(ball, motion.norm(), soon, walkOver(cells_), visit);
 }
 
 std::size_t BrickIndex::nearest(const Vec3& centre, double farthest,
                                 FunctionRef<double(ElementId, double)> visit) const {
-  const Box bounds = surface_.bounds();
-  if (bounds.empty()) return 0;
+  if (bounds_.empty()) return 0;
   const GridBall ball(metric_, centre, Vec3::Zero(), 0);
-  const double cell = surface_.frame().axes.colwise().norm().maxCoeff();
-  const double size = bounds.size().norm() + (centre - bounds.centre()).norm();
-  return nearestCell(ball, farthest, cell, std::max(size, extent()), walkOver(surface_), visit);
+  const double cell = cells_.frame().axes.colwise().norm().maxCoeff();
+  const double size = bounds_.size().norm() + (centre - bounds_.centre()).norm();
+  return nearestCell(ball, farthest, cell, std::max(size, extent()), walkOver(cells_), visit);
 }
 
 IndexStats BrickIndex::stats() const {
-  const BrickPyramid& pyramid = surface_.volume()->pyramid;
+  const BrickPyramid& pyramid = cells_.volume()->pyramid;
   IndexStats stats;
   stats.bytes = sizeof(*this);
   stats.depth = pyramid.levels();

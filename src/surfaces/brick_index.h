@@ -3,16 +3,17 @@
 
 #include <cstddef>
 
+#include "geometry/box.h"
 #include "geometry/spatial_index.h"
 #include "surfaces/grid_ball.h"
-#include "surfaces/iso_surface.h"
+#include "surfaces/iso_cells.h"
 
 namespace hl {
 
 class BrickIndex final : public SpatialIndex {
  public:
-  /// The surface must outlive it. Takes no memory: the pyramid is the volume's.
-  explicit BrickIndex(const IsoSurface& surface) : surface_(surface), metric_(surface.frame()) {}
+  /// The cells must outlive it. `bounds`: of the surface, m. Takes no memory: the pyramid is the volume's.
+  BrickIndex(const IsoCells& cells, const Box& bounds) : cells_(cells), bounds_(bounds), metric_(cells.frame()) {}
 
   std::size_t overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId primitive)> visit) const override;
   std::size_t sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
@@ -24,7 +25,8 @@ class BrickIndex final : public SpatialIndex {
  private:
   double extent() const;
 
-  const IsoSurface& surface_;
+  const IsoCells& cells_;
+  const Box bounds_;
   const GridMetric metric_;
 };
 

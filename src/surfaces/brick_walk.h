@@ -11,14 +11,14 @@
 #include <cstddef>
 
 #include "surfaces/grid_ball.h"
-#include "surfaces/iso_surface.h"
+#include "surfaces/iso_cells.h"
 
 namespace hl {
 
 class BrickWalk {
  public:
-  BrickWalk(const IsoSurface& surface, const GridBall& ball)
-      : surface_(surface), pyramid_(surface.volume()->pyramid), scale_(scaleOf(surface.frame())), ball_(ball) {}
+  BrickWalk(const IsoCells& cells, const GridBall& ball)
+      : cells_(cells), pyramid_(cells.volume()->pyramid), scale_(scaleOf(cells.frame())), ball_(ball) {}
 
   /// Calls visit(id) for each triangle that the ball may touch, those near its begin first. Returns the number of
   /// bricks and cells visited.
@@ -87,7 +87,7 @@ class BrickWalk {
     const double size = level == 0 ? 1 : static_cast<double>(BrickPyramid::cells(level - 1));
     std::array<Span, 3> span{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::uint32_t parts = level == 0 ? surface_.volume()->grid.cells(axis) : pyramid_.side(level - 1, axis);
+      const std::uint32_t parts = level == 0 ? cells_.volume()->grid.cells(axis) : pyramid_.side(level - 1, axis);
       span[axis] = spanOf(axis, at[axis], level == 0 ? BrickPyramid::kCells : BrickPyramid::kBricks, parts, size);
     }
     const Vec3 way = ball_.last() - ball_.first();
@@ -107,20 +107,20 @@ class BrickWalk {
 
   template <typename Visit>
   void enter(int level, const Place& at, const Visit& visit) {
-    if (!pyramid_.range(level, at[0], at[1], at[2]).holds(surface_.iso().value)) return;
+    if (!pyramid_.range(level, at[0], at[1], at[2]).holds(cells_.iso().value)) return;
     if (level > 0) return forEachPart(level, at, [&](const Place& part) { enter(level - 1, part, visit); });
     forEachPart(0, at, [&](const Place& part) {
-      const IsoCell cell = surface_.cell(part[0], part[1], part[2]);
+      const IsoCell cell = cells_.at(part);
       if (cell.triangles == nullptr) return;
       for (unsigned n = 0; n < cell.triangles->count; ++n) {
-        if (surface_.exists(cell, n)) visit(surface_.idOf(cell, n));
+        if (cells_.exists(cell, n)) visit(cells_.idOf(cell, n));
       }
     });
   }
 
   static constexpr double kRounding = 1e-9;  // of sizes, and of a way
 
-  const IsoSurface& surface_;
+  const IsoCells& cells_;
   const BrickPyramid& pyramid_;
   const Vec3 scale_;
   const GridBall& ball_;

@@ -16,13 +16,10 @@ namespace hl {
 
 namespace {
 
-// Of an edge of a cell: a surface that crosses it as near to its end goes through that end, so that no triangle is a
-// sliver. Of a cell of 1 mm, a picometre.
-constexpr double kAtEnd = 0x1p-30;
 // Of the longest to the shortest height of a cell: then the flattest of its triangles is still one (kSliver).
 constexpr double kMostStretched = 50;
 
-using Place = std::array<std::uint32_t, 3>;
+using Place = IsoCells::Place;
 
 // Each second, third... sample, so that the surface has about 1 / step^2 of the triangles.
 std::shared_ptr<const Volume> thinned(const VoxelGrid& grid, std::uint32_t step) {
@@ -44,118 +41,50 @@ std::shared_ptr<const Volume> thinned(const VoxelGrid& grid, std::uint32_t step)
 }  // namespace
 
 IsoSurface::IsoSurface(std::shared_ptr<const Volume> volume, const GridFrame& frame, const IsoValue& iso)
-    : volume_(std::move(volume)),
-      frame_(frame),
-      iso_(iso),
-      outward_(iso.solid == SolidSide::kAbove ? -1 : 1),
-      across_(frame.axes.inverse()),
-      mirrored_(frame.axes.determinant() < 0) {
+    : cells_(std::move(volume), frame, iso), across_(frame.axes.inverse()), mirrored_(frame.axes.determinant() < 0) {
   if (!std::isfinite(iso.value)) throw Error("the iso value of a volume must be a number");
   checkFrame();
   measure();
 }
 
 void IsoSurface::checkFrame() const {
-  if (!frame_.axes.allFinite() || !frame_.origin.allFinite() || !across_.allFinite())
+  if (!frame().axes.allFinite() || !frame().origin.allFinite() || !across_.allFinite())
     throw Error("the axes of a volume's grid must be numbers, none of them 0, and not lie in one plane");
   double longest = 0, thinnest = std::numeric_limits<double>::infinity();
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    longest = std::max(longest, frame_.axes.col(axis).norm());
+    longest = std::max(longest, frame().axes.col(axis).norm());
     thinnest = std::min(thinnest, 1 / across_.row(axis).norm());
   }
   if (!(longest <= kMostStretched * thinnest))
     throw Error("the cells of a volume are more than 50 times as long as thin: resample it");
-  const Vec3 last = frame_.point(volume_->grid.cells(0), volume_->grid.cells(1), volume_->grid.cells(2));
-  if (!withinReach(frame_.origin) || !withinReach(last)) throw Error("a volume reaches beyond 1e9 m");
+  const Vec3 last = frame().point(volume()->grid.cells(0), volume()->grid.cells(1), volume()->grid.cells(2));
+  if (!withinReach(frame().origin) || !withinReach(last)) throw Error("a volume reaches beyond 1e9 m");
 }
 
 // By the bricks in which it is.
 void IsoSurface::measure() {
   constexpr std::uint64_t kPerBrick = 2 * BrickPyramid::kCells * BrickPyramid::kCells;
-  volume_->pyramid.forEachHolding(iso_.value, [&](const Place& first, const Place& end) {
+  volume()->pyramid.forEachHolding(iso().value, [&](const Place& first, const Place& end) {
     triangles_ += kPerBrick;
     for (unsigned c = 0; c < kCellCorners; ++c) {
       const auto at = [&](std::size_t axis) { return (c >> axis & 1U) != 0 ? end[axis] : first[axis]; };
-      bounds_.extend(frame_.point(at(0), at(1), at(2)));
+      bounds_.extend(frame().point(at(0), at(1), at(2)));
     }
   });
 }
 
-ElementId IsoSurface::count() const {
-  const VoxelGrid& grid = volume_->grid;
-  return kPerCell * grid.cells(0) * grid.cells(1) * grid.cells(2);
-}
-
-Place IsoSurface::cellOf(ElementId id) const {
-  const VoxelGrid& grid = volume_->grid;
-  const ElementId cell = id / kPerCell, row = cell / grid.cells(0);
-  return {static_cast<std::uint32_t>(cell % grid.cells(0)), static_cast<std::uint32_t>(row % grid.cells(1)),
-          static_cast<std::uint32_t>(row / grid.cells(1))};
-}
-
-ElementId IsoSurface::idOf(const IsoCell& cell, unsigned triangle) const {
-  const VoxelGrid& grid = volume_->grid;
-  return kPerCell * ((ElementId{cell.at[2]} * grid.cells(1) + cell.at[1]) * grid.cells(0) + cell.at[0]) + triangle;
-}
-
-IsoCell IsoSurface::cell(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
-  IsoCell cell{{x, y, z}, volume_->grid.cornersOf(x, y, z), nullptr};
-  double sum = 0, low = std::numeric_limits<double>::infinity(), high = -low;
-  for (double& value : cell.value) {
-    value = -outward_ * (value - iso_.value);
-    sum += value;
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-  if (low < 0 && high >= 0 && !std::isnan(sum)) cell.triangles = &trianglesOfCell(cell.value);
-  return cell;
-}
-
-// In samples. The same bits in all cells that share the edge: its two values, from its begin to its end.
-Vec3 IsoSurface::placeOn(const IsoCell& cell, unsigned edge) const {
-  if (edge == kMiddle) return middleOf(cell);
-  const unsigned begin = beginOfEdge(edge);
-  const double first = cell.value[begin], last = cell.value[endOfEdge(edge)];
-  double part = first / (first - last);
-  if (part < kAtEnd) part = 0;
-  if (part > 1 - kAtEnd) part = 1;
-  Vec3 place(cell.at[0] + (begin & 1U), cell.at[1] + (begin >> 1U & 1U), cell.at[2] + (begin >> 2U & 1U));
-  place[static_cast<Eigen::Index>(edge / 4)] += part;
-  return place;
-}
-
-Vec3 IsoSurface::middleOf(const IsoCell& cell) const {
-  Vec3 sum = Vec3::Zero();
-  int corners = 0;
-  for (unsigned n = 0; n < cell.triangles->count; ++n) {
-    const auto& edges = cell.triangles->edges[n];
-    if (edges[2] != kMiddle) continue;
-    sum += placeOn(cell, edges[0]);
-    ++corners;
-  }
-  return sum / corners;
-}
-
-bool IsoSurface::exists(const IsoCell& cell, unsigned triangle) const {
-  const auto& edges = cell.triangles->edges[triangle];
-  const Vec3 a = placeOn(cell, edges[0]), b = placeOn(cell, edges[1]), c = placeOn(cell, edges[2]);
-  return a != b && b != c && c != a;
-}
-
 std::array<Vec3, 3> IsoSurface::corners(ElementId id) const {
-  const Place at = cellOf(id);
-  const IsoCell of = cell(at[0], at[1], at[2]);
+  const IsoCell cell = cells_.at(cells_.placeOf(id));
   std::array<Vec3, 3> corner;
-  for (std::size_t i = 0; i < 3; ++i) {
-    corner[i] = point(placeOn(of, of.triangles->edges[id % kPerCell][i]));
-  }
+  for (std::size_t i = 0; i < 3; ++i)
+    corner[i] = cells_.point(cells_.crossing(cell, cell.triangles->edges[id % IsoCells::kPerCell][i]));
   if (mirrored_) std::swap(corner[1], corner[2]);
   return corner;
 }
 
 // Change of the value for each step along x, y and z.
 Vec3 IsoSurface::gradientAt(const Place& at) const {
-  const VoxelGrid& grid = volume_->grid;
+  const VoxelGrid& grid = volume()->grid;
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const double here = grid.at(at[0], at[1], at[2]);
   Vec3 gradient;
@@ -172,8 +101,8 @@ Vec3 IsoSurface::gradientAt(const Place& at) const {
 
 Vec3 IsoSurface::trueNormal(ElementId id, const Vec3& point) const {
   constexpr double kNothing = 1e-9;  // a weight that rounding makes
-  const Vec3 place = across_ * (point - frame_.origin);
-  const Place at = cellOf(id);
+  const Vec3 place = across_ * (point - frame().origin);
+  const Place at = cells_.placeOf(id);
   Vec3 gradient = Vec3::Zero();
   for (unsigned c = 0; c < kCellCorners; ++c) {
     double weight = 1;
@@ -186,57 +115,46 @@ Vec3 IsoSurface::trueNormal(ElementId id, const Vec3& point) const {
     }
     if (weight > kNothing) gradient += weight * gradientAt(corner);
   }
-  const Vec3 outward = outward_ * (across_.transpose() * gradient);
+  const Vec3 outward = -cells_.inward() * (across_.transpose() * gradient);
   const double length = outward.norm();
   return length > 0 && std::isfinite(length) ? Vec3(outward / length) : primitiveOf(*this, id).normal;
 }
 
 Site IsoSurface::siteOf(const Vec3& point) const {
-  const Vec3 place = across_ * (point - frame_.origin);
+  const Vec3 place = across_ * (point - frame().origin);
   Place at{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double along = place[static_cast<Eigen::Index>(axis)];
-    const std::uint32_t cells = volume_->grid.cells(axis);
+    const std::uint32_t cells = volume()->grid.cells(axis);
     if (!(along >= 0 && along <= cells)) return Site::kOpen;
     at[axis] = std::min(static_cast<std::uint32_t>(along), cells - 1);
   }
-  const std::array<double, kCellCorners> values = volume_->grid.cornersOf(at[0], at[1], at[2]);
+  const std::array<double, kCellCorners> values = volume()->grid.cornersOf(at[0], at[1], at[2]);
   int inside = 0;
   for (const double value : values) {
     if (std::isnan(value)) return Site::kOpen;
-    inside += -outward_ * (value - iso_.value) >= 0 ? 1 : 0;
+    inside += cells_.inward() * (value - iso().value) >= 0 ? 1 : 0;
   }
   if (inside == 0) return Site::kOpen;
   return inside == static_cast<int>(kCellCorners) ? Site::kMatter : Site::kBoundary;
 }
 
-std::unique_ptr<const SpatialIndex> IsoSurface::makeIndex() const { return std::make_unique<BrickIndex>(*this); }
-
-std::shared_ptr<const PrimitiveSource> IsoSurface::placed(const Mat3& linear, const Vec3& offset) const {
-  return std::make_shared<const IsoSurface>(volume_, frame_.placed(linear, offset), iso_);
+std::unique_ptr<const SpatialIndex> IsoSurface::makeIndex() const {
+  return std::make_unique<BrickIndex>(cells_, bounds_);
 }
 
-template <typename Visit>
-void IsoSurface::forEachCell(const Visit& visit) const {
-  volume_->pyramid.forEachHolding(iso_.value, [&](const Place& first, const Place& end) {
-    for (std::uint32_t z = first[2]; z < end[2]; ++z) {
-      for (std::uint32_t y = first[1]; y < end[1]; ++y) {
-        for (std::uint32_t x = first[0]; x < end[0]; ++x) {
-          if (const IsoCell one = cell(x, y, z); one.triangles != nullptr) visit(one);
-        }
-      }
-    }
-  });
+std::shared_ptr<const PrimitiveSource> IsoSurface::placed(const Mat3& linear, const Vec3& offset) const {
+  return std::make_shared<const IsoSurface>(volume(), frame().placed(linear, offset), iso());
 }
 
 double IsoSurface::error_m() const {
   // No gradient in metres is less than that in samples over the longest that a step becomes.
   const double longest =
-      Eigen::SelfAdjointEigenSolver<Mat3>(frame_.axes.transpose() * frame_.axes, Eigen::EigenvaluesOnly)
+      Eigen::SelfAdjointEigenSolver<Mat3>(frame().axes.transpose() * frame().axes, Eigen::EigenvaluesOnly)
           .eigenvalues()
           .maxCoeff();
   double most = 0;
-  forEachCell([&](const IsoCell& cell) { most = std::max(most, errorOf_m(cell, std::sqrt(longest))); });
+  cells_.forEach([&](const IsoCell& cell) { most = std::max(most, errorOf_m(cell, std::sqrt(longest))); });
   return most;
 }
 
@@ -257,7 +175,7 @@ double IsoSurface::errorOf_m(const IsoCell& cell, double longest_step_m) const {
   }
   double diagonal = 0;
   for (const double y : {-1.0, 1.0}) {
-    for (const double z : {-1.0, 1.0}) diagonal = std::max(diagonal, (frame_.axes * Vec3(1, y, z)).norm());
+    for (const double z : {-1.0, 1.0}) diagonal = std::max(diagonal, (frame().axes * Vec3(1, y, z)).norm());
   }
   return square > 0 ? std::min(diagonal, longest_step_m * mixed / std::sqrt(square)) : diagonal;
 }
@@ -266,12 +184,12 @@ double IsoSurface::errorOf_m(const IsoCell& cell, double longest_step_m) const {
 DrawnMesh IsoSurface::drawn(std::size_t most_triangles) const {
   DrawnMesh mesh;
   for (std::uint32_t step = 1;; ++step) {
-    const bool coarsest = step >= std::max({volume_->grid.cells(0), volume_->grid.cells(1), volume_->grid.cells(2)});
-    const std::size_t cells = volume_->grid.count() / (std::size_t{step} * step * step);
+    const bool coarsest = step >= std::max({volume()->grid.cells(0), volume()->grid.cells(1), volume()->grid.cells(2)});
+    const std::size_t cells = volume()->grid.count() / (std::size_t{step} * step * step);
     if (!coarsest && cells / 64 > most_triangles) continue;
-    GridFrame frame = frame_;
-    frame.axes *= step;
-    mesh = step == 1 ? drawnInFull() : IsoSurface(thinned(volume_->grid, step), frame, iso_).drawnInFull();
+    GridFrame coarse = frame();
+    coarse.axes *= step;
+    mesh = step == 1 ? drawnInFull() : IsoSurface(thinned(volume()->grid, step), coarse, iso()).drawnInFull();
     if (coarsest || mesh.triangles.size() <= most_triangles) return mesh;
   }
 }
@@ -283,10 +201,10 @@ class IsoSurface::Drawing {
 
   void add(const IsoCell& cell) {
     for (unsigned n = 0; n < cell.triangles->count; ++n) {
-      if (!surface_.exists(cell, n)) continue;
+      if (!surface_.cells_.exists(cell, n)) continue;
       std::array<std::uint32_t, 3> triangle{};
       for (std::size_t i = 0; i < 3; ++i)
-        triangle[i] = vertexOn(cell, cell.triangles->edges[n][i], surface_.idOf(cell, n));
+        triangle[i] = vertexOn(cell, cell.triangles->edges[n][i], surface_.cells_.idOf(cell, n));
       if (surface_.mirrored_) std::swap(triangle[1], triangle[2]);
       mesh_.triangles.push_back(triangle);
     }
@@ -295,14 +213,14 @@ class IsoSurface::Drawing {
 
  private:
   std::uint32_t vertexOn(const IsoCell& cell, unsigned edge, ElementId id) {
-    const VoxelGrid& grid = surface_.volume_->grid;
+    const VoxelGrid& grid = surface_.volume()->grid;
     std::uint64_t place = 0;
     for (std::size_t axis = 3; axis-- > 0;)
       place = place * grid.side(axis) + cell.at[axis] + (edge == kMiddle ? 0 : beginOfEdge(edge) >> axis & 1U);
     const auto next = static_cast<std::uint32_t>(mesh_.positions.size());
     const auto [entry, added] = numbers_.try_emplace(4 * place + edge / 4, next);
     if (added) {
-      mesh_.positions.push_back(surface_.point(surface_.placeOn(cell, edge)));
+      mesh_.positions.push_back(surface_.cells_.point(surface_.cells_.crossing(cell, edge)));
       mesh_.normals.push_back(surface_.trueNormal(id, mesh_.positions.back()));
     }
     return entry->second;
@@ -315,7 +233,7 @@ class IsoSurface::Drawing {
 
 DrawnMesh IsoSurface::drawnInFull() const {
   Drawing drawing(*this);
-  forEachCell([&](const IsoCell& cell) { drawing.add(cell); });
+  cells_.forEach([&](const IsoCell& cell) { drawing.add(cell); });
   return drawing.take();
 }
 

@@ -19,7 +19,7 @@ using test::Random;
 struct Pair {
   explicit Pair(std::shared_ptr<const IsoSurface> given)
       : field(std::move(given)),
-        index(*field),
+        index(field->cells(), field->bounds()),
         mesh(test::meshOf(*field)),
         primitives(mesh.view()),
         bvh(WideBvh::build(primitives)) {}
@@ -145,7 +145,7 @@ TEST(BrickIndex, TheNearestTriangleIsThatOfTheMesh) {
 TEST(BrickIndex, AQueryLooksAtFewCells) {
   const auto volume = test::volumeOf({256, 256, 256}, [](const Vec3& at) { return (at - Vec3::Constant(127)).norm(); });
   const IsoSurface surface(volume, test::cubicFrame(0.5e-3), {120, SolidSide::kBelow});
-  const BrickIndex index(surface);
+  const BrickIndex index(surface.cells(), surface.bounds());
   Random random(4);
   std::size_t looked = 0, visited = 0, fewest = 1'000'000;
   for (int i = 0; i < 200; ++i) {

@@ -25,8 +25,8 @@ SideUses sidesOf(const IsoSurface& surface, const IsoCell& cell) {
   SideUses sides;
   if (cell.triangles == nullptr) return sides;
   for (unsigned n = 0; n < cell.triangles->count; ++n) {
-    if (!surface.exists(cell, n)) continue;
-    const std::array<Vec3, 3> corner = surface.corners(surface.idOf(cell, n));
+    if (!surface.cells().exists(cell, n)) continue;
+    const std::array<Vec3, 3> corner = surface.corners(surface.cells().idOf(cell, n));
     EXPECT_TRUE(isTriangle(corner[0], corner[1], corner[2]));
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3 &a = corner[i], &b = corner[(i + 1) % 3];
@@ -57,8 +57,8 @@ TEST(IsoSurface, EachInnerSideBelongsToTwoTriangles) {
     const auto volume = test::volumeOf({4, 4, 4}, [&](const Vec3&) { return random.uniform(-1, 1); });
     const IsoSurface surface(volume, test::cubicFrame(1e-3, random.inCube(1)), {0.1, SolidSide::kAbove});
     SideUses all;
-    for (std::uint32_t c = 0; c < 27; ++c) add(all, sidesOf(surface, surface.cell(c % 3, c / 3 % 3, c / 9)));
-    for (const auto& [side, use] : sidesOf(surface, surface.cell(1, 1, 1))) {
+    for (std::uint32_t c = 0; c < 27; ++c) add(all, sidesOf(surface, surface.cells().at({c % 3, c / 3 % 3, c / 9})));
+    for (const auto& [side, use] : sidesOf(surface, surface.cells().at({1, 1, 1}))) {
       ASSERT_EQ(all[side].count, 2) << "block " << i;
       ASSERT_EQ(all[side].balance, 0) << "block " << i;
       ++checked;
@@ -75,8 +75,8 @@ TEST(IsoSurface, ThereIsNoBorderWhereSamplesLieOnTheSurface) {
     const IsoSurface surface(volume, test::cubicFrame(1e-3),
                              {0, random.below(2) == 0 ? SolidSide::kAbove : SolidSide::kBelow});
     SideUses all;
-    for (std::uint32_t c = 0; c < 27; ++c) add(all, sidesOf(surface, surface.cell(c % 3, c / 3 % 3, c / 9)));
-    for (const auto& [side, use] : sidesOf(surface, surface.cell(1, 1, 1)))
+    for (std::uint32_t c = 0; c < 27; ++c) add(all, sidesOf(surface, surface.cells().at({c % 3, c / 3 % 3, c / 9})));
+    for (const auto& [side, use] : sidesOf(surface, surface.cells().at({1, 1, 1})))
       ASSERT_EQ(all[side].balance, 0) << "block " << i;
   }
 }
