@@ -68,7 +68,6 @@ TEST_F(IsoChangeTest, IsTheSameObjectAndNothingElseChanges) {
   EXPECT_EQ(after->name, before->name);
   EXPECT_EQ(after->blend_ns, kAbruptBlend_ns);
   EXPECT_EQ(server_.device().workspace().world_per_device, workspace.world_per_device);
-  EXPECT_EQ(server_.device().workspace().origin, workspace.origin);
 }
 
 TEST_F(IsoChangeTest, WhatCannotBeIsRefusedWithWhatThereIs) {
