@@ -253,7 +253,7 @@ void drawElements(HLenum mode, const VertexArrays<Number>& arrays, const Indices
 template <typename Number>
 concept SampleNumber = std::same_as<Number, HLshort> || std::same_as<Number, HLushort> || std::same_as<Number, HLfloat>;
 
-/// Their type in the calls.
+// Their type in the calls.
 template <SampleNumber Number>
 inline constexpr HLenum kSampleType = std::same_as<Number, HLshort>    ? HL_SHORT
                                       : std::same_as<Number, HLushort> ? HL_UNSIGNED_SHORT
@@ -286,6 +286,7 @@ void volume(std::size_t width, std::size_t height, const Samples& samples, HLdou
            kSampleType<std::ranges::range_value_t<Samples>>, std::ranges::data(samples), missing ? &*missing : nullptr,
            iso);
 }
+
 /// hlVolumeSurface.
 inline void volumeSurface(HLdouble iso) { hlVolumeSurface(iso); }
 
