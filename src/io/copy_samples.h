@@ -26,7 +26,7 @@ std::uint64_t copySamples(ByteFile& in, std::uint64_t count, bool swap, Sink& si
       sink.samples(given.data(), some * sizeof(Kept));
     } else {
       for (std::size_t i = 0; i < some; ++i) {
-        kept[i] = static_cast<Kept>(given[i]);
+        kept[i] = static_cast<Kept>(+given[i]);
         rounded += static_cast<double>(kept[i]) != static_cast<double>(given[i]) && given[i] == given[i];
       }
       sink.samples(kept.data(), some * sizeof(Kept));

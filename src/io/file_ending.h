@@ -10,13 +10,13 @@ namespace hl {
 
 /// ".obj" of "A/b.OBJ", ".nii.gz" of "c.nii.gz": in lower case, empty without a dot.
 inline std::string endingOf(const std::string& path) {
-  const auto lastOf = [](const std::filesystem::path& name) {
+  const auto last_of = [](const std::filesystem::path& name) {
     std::string ending = name.extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
     return ending;
   };
-  const std::string ending = lastOf(path);
-  return ending == ".gz" ? lastOf(std::filesystem::path(path).stem()) + ending : ending;
+  const std::string ending = last_of(path);
+  return ending == ".gz" ? last_of(std::filesystem::path(path).stem()) + ending : ending;
 }
 
 }  // namespace hl

@@ -99,7 +99,8 @@ NumpyHeader numpyHeaderOf(std::string_view text) {
 
 void readSrtm(const ModelFile& file, HeightSink& sink) {
   const std::uintmax_t bytes = std::filesystem::file_size(file.path);
-  const auto side = static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(bytes / 2))));
+  const std::uintmax_t samples = bytes / 2;
+  const auto side = static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(samples))));
   if (side < 2 || std::uintmax_t{2} * side * side != bytes)
     throw Error(fmt::format("has {} bytes: an SRTM tile is a square of 16-bit samples, such as 1201 x 1201", bytes));
   const GridSize size{side, side, SampleKind::kInt16};

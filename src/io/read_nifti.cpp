@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <string_view>
 #include <utility>
 
 #include "base/error.h"
@@ -43,7 +44,8 @@ class NiftiHeader {
     in.read(&bytes_[sizeof length], layout_->bytes - sizeof length);
     const char* const magic = reinterpret_cast<const char*>(&bytes_[layout_->magic]);
     if (std::strncmp(magic, "ni", 2) == 0) throw Error("has its samples in another file: save both as one .nii file");
-    if (std::strncmp(magic, layout_->wide ? "n+2" : "n+1", 4) != 0) throw Error("is not a NIfTI file");
+    if (std::string_view(magic, 4) != std::string_view(layout_->wide ? "n+2" : "n+1", 4))
+      throw Error("is not a NIfTI file");
   }
 
   const NiftiLayout& at() const { return *layout_; }

@@ -122,7 +122,7 @@ class Volumes(unittest.TestCase):
             scene = hl.Scene(volume=values.astype(np.int16), iso=[1.25, 1.75], spacing=(0.01, 0.02, 0.04))
             step = (0.01, 0.02, 0.04)[axis]
             np.testing.assert_allclose(
-                hl.closest(scene, [[0, 0, 0]]).distance, [(middle - 1.75) * step], rtol=0, atol=1e-12)
+                hl.closest(scene, [[0, 0, 0]]).distance, [abs(middle - 1.75) * step], rtol=0, atol=1e-12)
 
     def test_what_is_no_volume_is_refused(self):
         good = np.arange(8, dtype=np.float32).reshape(2, 2, 2)
