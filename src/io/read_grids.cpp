@@ -80,7 +80,9 @@ NumpyHeader numpyHeaderOf(std::string_view text) {
   NumpyHeader header;
   header.type = valueOf(text, "descr");
   header.fortran = valueOf(text, "fortran_order").starts_with("True");
-  std::string shape(valueOf(text, "shape").substr(1));
+  std::string shape(valueOf(text, "shape"));
+  if (!shape.starts_with('(')) throw Error("has no shape: a height field has two sides");
+  shape.erase(0, 1);
   std::erase_if(shape, [](char c) { return c == ' ' || c == 'L'; });
   double side[2] = {0, 0};
   const char *at = shape.data(), *const last = at + shape.size();
