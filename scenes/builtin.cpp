@@ -1,7 +1,9 @@
 #include "builtin.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdint>
 #include <string_view>
 
 #include "base/error.h"
@@ -22,7 +24,8 @@ namespace {
 constexpr std::size_t kMaxMember = 1'000'000'000;
 
 constexpr std::string_view kSnaps = "snaps", kWorkshop = "workshop", kField = "field", kScan = "ct";
-constexpr std::size_t kUsualField = 1'000'000, kMostField = 100'000'000'000, kUsualScan = 161, kMostScan = 1025;
+constexpr std::size_t kUsualField = 1'000'000, kMostField = std::min(100'000'000'000ULL, 0ULL + SIZE_MAX),
+                      kUsualScan = 161, kMostScan = 1025;
 
 struct Builtin {
   std::string_view name;

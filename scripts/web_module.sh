@@ -4,7 +4,7 @@
 # One source for each folder: headers are most of the compiling. Without the faces of hulls: emscripten has no qhull.
 web_sources() {
   local out="$1" folder file
-  for folder in geometry scene bodies proxy control; do
+  for folder in geometry surfaces scene bodies proxy control; do
     for file in "$root/src/$folder"/*.cpp; do
       if [[ "$file" != */wide_bvh_query.cpp && "$file" != */hull_faces.cpp ]]; then echo "#include \"$file\""; fi
     done >"$out/$folder.cpp"
@@ -46,7 +46,7 @@ build_web_module() {
   # Eigen asks for MMX's header, and uses nothing of it.
   : >"$out/include/mmintrin.h"
   em++ "${flags[@]}" -c "$out/query.cpp" -o "$out/query.o" || die "the web module does not compile"
-  for source in geometry scene bodies proxy control rest scenes web; do echo "$source"; done |
+  for source in geometry surfaces scene bodies proxy control rest scenes web; do echo "$source"; done |
     xargs -P 2 -I {} em++ "${flags[@]}" $sse2 -c "$out/{}.cpp" -o "$out/{}.o" || die "the web module does not compile"
   em++ -O2 -fexceptions "$out"/*.o -o "$out/hl_web.mjs" \
     -s MODULARIZE=1 -s EXPORT_ES6=1 -s ENVIRONMENT=worker -s ALLOW_MEMORY_GROWTH=1 -s FILESYSTEM=0 \

@@ -146,7 +146,8 @@ class PieceFinder {
 void joinRun(std::span<const MeshSide> run, bool inward, PieceFinder& finder) {
   for (auto begin = run.begin(); begin != run.end();) {
     const auto end = std::find_if(begin, run.end(), [&](const MeshSide& side) { return !ofOneEdge(side, *begin); });
-    finder.joinAt({begin, end}, inward);
+    finder.joinAt(run.subspan(static_cast<std::size_t>(begin - run.begin()), static_cast<std::size_t>(end - begin)),
+                  inward);
     begin = end;
   }
 }
@@ -160,9 +161,10 @@ std::vector<std::vector<std::uint32_t>> piecesOf(std::span<const Vec3> vertices,
   std::vector<bool> has_area(triangles.size());
   for (auto begin = sides.begin(); begin != sides.end();) {
     const auto end = std::find_if(begin, sides.end(), [&](const MeshSide& side) { return side.run != begin->run; });
-    const bool inward = volumeOf(vertices, triangles, {begin, end}) < 0;
+    const std::span<MeshSide> run(&*begin, static_cast<std::size_t>(end - begin));
+    const bool inward = volumeOf(vertices, triangles, run) < 0;
     std::sort(begin, end, precedes);
-    joinRun({begin, end}, inward, finder);
+    joinRun(run, inward, finder);
     for (; begin != end; ++begin) has_area[begin->triangle] = true;
   }
   std::vector<std::vector<std::uint32_t>> pieces;

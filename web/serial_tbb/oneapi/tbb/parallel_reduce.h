@@ -5,6 +5,12 @@
 
 namespace oneapi::tbb {
 
+/// For results that do not depend on how a range is split.
+template <typename Value, typename Result, typename Body, typename Join>
+Result parallel_reduce(const blocked_range<Value>& range, const Result& identity, const Body& body, const Join&) {
+  return body(range, identity);
+}
+
 /// Splits and joins as oneTBB does, so that sums have the same bits.
 template <typename Value, typename Result, typename Body, typename Join>
 Result parallel_deterministic_reduce(const blocked_range<Value>& range, const Result& identity, const Body& body,
