@@ -3,14 +3,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "base/error.h"
+#include "io/sample_parts.h"
 
 namespace hl {
 
 namespace {
-
-constexpr std::size_t kPartBytes = std::size_t{4} << 20;
 
 SampleRoom samplesOf(const GridSize& size, std::size_t most_bytes) {
   checkGridSize(size);
@@ -47,16 +47,7 @@ void writeHeights(const HeightField& field, const std::function<void(proto::Reco
   const HeightGrid& grid = field.grid();
   proto::RecordedHeights part;
   toProto(HeightHeader{grid.size(), grid.missing(), field.frame()}, part);
-  const char* at = static_cast<const char*>(grid.samples());
-  for (std::size_t left = grid.size().bytes(); left > 0;) {
-    const std::size_t bytes = std::min(left, kPartBytes);
-    part.set_samples(at, bytes);
-    at += bytes;
-    left -= bytes;
-    part.set_continues(left > 0);
-    take(part);
-    part.Clear();
-  }
+  takeInParts(std::move(part), grid.samples(), grid.size().bytes(), take);
 }
 
 HeightCollector::HeightCollector(const HeightHeader& header, std::size_t most_bytes)

@@ -4,14 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
+#include "io/sample_parts.h"
 
 namespace hl {
 
 namespace {
-
-constexpr std::size_t kPartBytes = std::size_t{4} << 20;
 
 // At most 2^60 samples, as no side has more than 2^20.
 std::size_t bytesOf(const VolumeHeader& header) {
@@ -80,16 +80,7 @@ void writeVolume(const IsoSurface& surface, std::uint64_t like,
   part.set_below(surface.iso().solid == SolidSide::kBelow);
   part.set_like(like);
   if (like != 0) return take(part);
-  const char* at = static_cast<const char*>(grid.samples().data());
-  for (std::size_t left = grid.count() * sizeOf(grid.samples().kind()); left > 0;) {
-    const std::size_t bytes = std::min(left, kPartBytes);
-    part.set_samples(at, bytes);
-    at += bytes;
-    left -= bytes;
-    part.set_continues(left > 0);
-    take(part);
-    part.Clear();
-  }
+  takeInParts(std::move(part), grid.samples().data(), grid.count() * sizeOf(grid.samples().kind()), take);
 }
 
 VolumeCollector::VolumeCollector(const VolumeHeader& header, std::size_t most_bytes)

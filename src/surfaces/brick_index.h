@@ -13,7 +13,7 @@ namespace hl {
 class BrickIndex final : public SpatialIndex {
  public:
   /// The cells must outlive it. `bounds`: of the surface, m. Takes no memory: the pyramid is the volume's.
-  BrickIndex(const IsoCells& cells, const Box& bounds) : cells_(cells), bounds_(bounds), metric_(cells.frame()) {}
+  BrickIndex(const IsoCells& cells, const Box& bounds);
 
   std::size_t overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId primitive)> visit) const override;
   std::size_t sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
@@ -23,11 +23,11 @@ class BrickIndex final : public SpatialIndex {
   IndexStats stats() const override;
 
  private:
-  double extent() const;
-
   const IsoCells& cells_;
   const Box bounds_;
   const GridMetric metric_;
+  const Vec3 scale_;            // m per step along each axis: shortestStep()
+  const double extent_, cell_;  // m: largest absolute coordinate, and size of a cell
 };
 
 }  // namespace hl

@@ -15,10 +15,25 @@
 
 namespace hl {
 
+// m per step along each axis, so that no step is longer than it is. Q = axes^T axes is not below its diagonal times
+// 1 - s, s the largest sum of a row of the others, once the diagonal is 1 (Gershgorin).
+inline Vec3 shortestStep(const GridFrame& frame) {
+  const Mat3 q = frame.axes.transpose() * frame.axes;
+  const Vec3 length = q.diagonal().cwiseSqrt();
+  double skew = 0;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    double row = 0;
+    for (Eigen::Index j = 0; j < 3; ++j) row += i == j ? 0 : std::abs(q(i, j)) / (length[i] * length[j]);
+    skew = std::max(skew, row);
+  }
+  return std::sqrt(std::max(0.0, 1 - skew)) * length;
+}
+
 class BrickWalk {
  public:
-  BrickWalk(const IsoCells& cells, const GridBall& ball)
-      : cells_(cells), pyramid_(cells.volume()->pyramid), scale_(scaleOf(cells.frame())), ball_(ball) {}
+  /// `scale`: shortestStep() of the cells' frame.
+  BrickWalk(const IsoCells& cells, const Vec3& scale, const GridBall& ball)
+      : cells_(cells), pyramid_(cells.volume()->pyramid), scale_(scale), ball_(ball) {}
 
   /// Calls visit(id) for each triangle that the ball may touch, those near its begin first. Returns the number of
   /// bricks and cells visited.
@@ -30,20 +45,6 @@ class BrickWalk {
 
  private:
   using Place = std::array<std::uint32_t, 3>;
-
-  // m per step along each axis, so that no step is longer than it is. Q = axes^T axes is not below its diagonal times
-  // 1 - s, s the largest sum of a row of the others, once the diagonal is 1 (Gershgorin).
-  static Vec3 scaleOf(const GridFrame& frame) {
-    const Mat3 q = frame.axes.transpose() * frame.axes;
-    const Vec3 length = q.diagonal().cwiseSqrt();
-    double skew = 0;
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      double row = 0;
-      for (Eigen::Index j = 0; j < 3; ++j) row += i == j ? 0 : std::abs(q(i, j)) / (length[i] * length[j]);
-      skew = std::max(skew, row);
-    }
-    return std::sqrt(std::max(0.0, 1 - skew)) * length;
-  }
 
   // Whether the ball may meet the box of `size` steps a side that begins at `first`.
   bool meets(const Vec3& first, double size) const {
@@ -122,7 +123,7 @@ class BrickWalk {
 
   const IsoCells& cells_;
   const BrickPyramid& pyramid_;
-  const Vec3 scale_;
+  const Vec3& scale_;
   const GridBall& ball_;
   std::size_t looked_ = 0;
 };
