@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/scenes.h"
+#include "index_judge.h"
 #include "surfaces/height_field.h"
 
 namespace hl::test {
@@ -81,12 +82,6 @@ inline std::shared_ptr<const HeightField> randomField(Random& random) {
                           ? 65535
                           : static_cast<std::uint16_t>(20000 + 100 * value(n % columns, n / columns)));
   return std::make_shared<const HeightField>(gridOf(columns, rows, samples, 65535), frame);
-}
-
-/// All triangles of a field as a mesh.
-inline Mesh meshOf(const HeightField& field) {
-  const DrawnMesh drawn = field.drawn(~std::size_t{0});
-  return {drawn.positions, drawn.triangles, {}, {}};
 }
 
 }  // namespace hl::test

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/scenes.h"
+#include "index_judge.h"
 #include "surfaces/iso_surface.h"
 
 namespace hl::test {
@@ -57,12 +58,6 @@ inline std::shared_ptr<const IsoSurface> randomSurface(Random& random) {
     return whole ? std::round(value(at)) : value(at);
   });
   return std::make_shared<const IsoSurface>(volume, frame, iso);
-}
-
-/// All triangles of a surface as a mesh.
-inline Mesh meshOf(const IsoSurface& surface) {
-  const DrawnMesh drawn = surface.drawn(~std::size_t{0});
-  return {drawn.positions, drawn.triangles, {}, {}};
 }
 
 }  // namespace hl::test
