@@ -1,5 +1,6 @@
 #include "base/url.h"
 
+#include <boost/url/params_encoded_view.hpp>
 #include <boost/url/parse.hpp>
 #include <boost/url/url_view.hpp>
 #include <charconv>
@@ -28,6 +29,11 @@ std::string hostOf(const urls::url_view& url) {
   return host;
 }
 
+// The iterators of Boost 1.81 do not end where '?' has nothing behind it but a fragment.
+urls::params_encoded_view optionsOf(const urls::url_view& url) {
+  return url.encoded_query().empty() ? urls::params_encoded_view() : url.encoded_params();
+}
+
 }  // namespace
 
 Url parseUrl(std::string_view text) {
@@ -39,7 +45,7 @@ Url parseUrl(std::string_view text) {
   if (parsed->has_authority()) url.host = hostOf(*parsed);
   if (parsed->has_port()) url.port = portOf(*parsed);
   if (parsed->has_fragment()) throw Error("a '#' does not belong in it; write %23");
-  for (const auto& option : parsed->encoded_params()) {
+  for (const auto& option : optionsOf(*parsed)) {
     UrlOption& out = url.options.emplace_back();
     out.name = option.key.decode();
     if (option.has_value) out.value = option.value.decode();
@@ -55,7 +61,7 @@ std::string hostAndPort(const std::string& host, std::uint16_t port) {
 std::string queryValue(std::string_view target, std::string_view name) {
   const auto parsed = urls::parse_uri_reference({target.data(), target.size()});
   if (!parsed) return {};
-  for (const auto& option : parsed->encoded_params()) {
+  for (const auto& option : optionsOf(*parsed)) {
     if (option.key == urls::string_view(name.data(), name.size())) return std::string(option.value);
   }
   return {};

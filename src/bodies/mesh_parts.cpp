@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <tuple>
 
 #include "base/error.h"
 #include "bodies/convex_hull.h"
@@ -14,16 +15,12 @@ namespace {
 // Of the size of a hull: rounding.
 constexpr double kWithin = 1e-9;
 
-Hull hullOfPiece(const Model& model, const std::vector<std::uint32_t>& piece, std::size_t number) {
-  std::vector<Vec3> corners;
-  for (const std::uint32_t triangle : piece) {
-    for (const std::uint32_t corner : model.triangles[triangle]) corners.push_back(model.positions[corner]);
-  }
+Hull hullOfPiece(const std::vector<Vec3>& corners, std::size_t number) {
   try {
     return hullOf(corners);
   } catch (const Error& error) {
-    throw Error("piece " + std::to_string(number + 1) + " of its mesh, of " + std::to_string(piece.size()) +
-                " triangles: " + error.what());
+    throw Error("piece " + std::to_string(number + 1) + " of its mesh, of " + std::to_string(corners.size()) +
+                " corners: " + error.what());
   }
 }
 
@@ -47,14 +44,30 @@ std::vector<Hull> withoutNested(std::vector<Hull> hulls) {
 
 }  // namespace
 
+std::vector<std::vector<Vec3>> cornersOfPieces(const Model& model) {
+  const auto before = [](const Vec3& a, const Vec3& b) {
+    return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z());
+  };
+  std::vector<std::vector<Vec3>> pieces;
+  for (const auto& piece : piecesOf(model.positions, model.triangles)) {
+    std::vector<Vec3>& corners = pieces.emplace_back();
+    for (const std::uint32_t triangle : piece) {
+      for (const std::uint32_t corner : model.triangles[triangle]) corners.push_back(model.positions[corner]);
+    }
+    std::sort(corners.begin(), corners.end(), before);
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  }
+  return pieces;
+}
+
 MeshParts partsOfMesh(const Model& model) {
-  const auto pieces = piecesOf(model.positions, model.triangles);
+  const auto pieces = cornersOfPieces(model);
   if (pieces.empty()) throw Error("its mesh has no triangles, and so no parts: use its hull or a box");
   if (pieces.size() > kMostParts)
     throw Error("its mesh has " + std::to_string(pieces.size()) + " pieces, and a body at most " +
                 std::to_string(kMostParts) + " parts: join them, or use its hull");
   std::vector<Hull> hulls;
-  for (std::size_t i = 0; i < pieces.size(); ++i) hulls.push_back(hullOfPiece(model, pieces[i], i));
+  for (std::size_t i = 0; i < pieces.size(); ++i) hulls.push_back(hullOfPiece(pieces[i], i));
   hulls = withoutNested(std::move(hulls));
   MeshParts made;
   std::vector<Solid> solids;

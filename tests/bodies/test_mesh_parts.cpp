@@ -182,7 +182,7 @@ TEST(MeshParts, WhatHasNoneSaysWhatToDo) {
   sheet.triangles = {{0, 1, 2}};
   addMesh(flat, sheet);
   EXPECT_EQ(errorOf(flat),
-            "piece 2 of its mesh, of 1 triangles: hull: the points lie in a plane: give the shape a "
+            "piece 2 of its mesh, of 3 corners: hull: the points lie in a plane: give the shape a "
             "thickness, or use a box");
   std::vector<std::pair<Vec3, Vec3>> many;
   for (std::size_t i = 0; i <= kMostParts; ++i) many.emplace_back(kOne, Vec3(3.0 * static_cast<double>(i), 0, 0));

@@ -6,24 +6,34 @@
 #include <string>
 
 #include "bodies/convex_hull.h"
+#include "bodies/mesh_parts.h"
 #include "builtin.h"
 #include "web/kept_hulls.h"
 
 namespace hl {
 namespace {
 
+// Each set of points of which a body's shape is a hull.
+std::vector<std::vector<Vec3>> hulledPoints(const SceneBody& body) {
+  if (body.spec.fixed) return {};
+  if (body.spec.shape == BodyShape::kHull) return {body.model.positions};
+  if (body.spec.shape == BodyShape::kParts) return cornersOfPieces(body.model);
+  return {};
+}
+
 // With HL_KEPT_HULLS=FILE they are written there: web/kept_hulls.inc.
 TEST(KeptHulls, AreThoseOfTheBuiltInScenes) {
   std::string lines;
   for (const char* name : {"snaps", "workshop"}) {
     for (const SceneBody& body : makeBuiltinWorld(name).bodies) {
-      if (body.spec.fixed || body.spec.shape != BodyShape::kHull) continue;
-      const std::vector<Vec3> points = unitPoints(body.model.positions).points;
-      const HullFaces hull = hullFaces(points);
-      lines += lineOf(points, hull) + '\n';
-      const auto kept = keptHull(keptHulls(), points);
-      EXPECT_TRUE(kept && kept->points == hull.points && kept->faces == hull.faces && kept->error == hull.error)
-          << name << ", " << body.name << ": write them anew";
+      for (const std::vector<Vec3>& hulled : hulledPoints(body)) {
+        const std::vector<Vec3> points = unitPoints(hulled).points;
+        const HullFaces hull = hullFaces(points);
+        lines += lineOf(points, hull) + '\n';
+        const auto kept = keptHull(keptHulls(), points);
+        EXPECT_TRUE(kept && kept->points == hull.points && kept->faces == hull.faces && kept->error == hull.error)
+            << name << ", " << body.name << ": write them anew";
+      }
     }
   }
   if (const char* file = std::getenv("HL_KEPT_HULLS")) std::ofstream(file) << "R\"HULLS(\n" << lines << ")HULLS\"\n";
