@@ -39,6 +39,7 @@ namespace HL {
         public double? Presliding_N_m;   // >= 0
         public double? Adhesion_N;       // >= 0
         public double? Compliance_m_N;   // >= 0
+        public double? Strength_N;       // >= 0; 0: never pierced
         public bool? Flat;               // true: normals are ignored
     }
 
@@ -713,7 +714,7 @@ namespace HL {
             var sent = new Writer().Double(1, material.Stiffness).Double(2, material.StaticFriction)
                 .Double(3, material.DynamicFriction).Double(4, material.Viscosity_Ns_m).Double(5, material.Stribeck_m_s)
                 .Double(10, material.Presliding_N_m).Double(11, material.Adhesion_N)
-                .Double(12, material.Compliance_m_N);
+                .Double(12, material.Compliance_m_N).Double(13, material.Strength_N);
             return material.Flat.HasValue ? sent.Flag(6, material.Flat.Value) : sent;
         }
 

@@ -181,6 +181,12 @@ HL_API void hlHeightField(HLsizei columns, HLsizei rows, HLenum type, const void
  * HL_INVALID_ENUM: another type. HL_OUT_OF_MEMORY: 1 GiB of samples or more. */
 HL_API void hlVolume(HLsizei width, HLsizei height, HLsizei depth, HLenum type, const void* samples,
                      const HLdouble* missing, HLdouble iso);
+/** What values of volumes that are drawn next feel like: `rows` (0 .. 256) rows of three numbers, by rising values: the
+ * value; the resistance, N, below which nothing moves in matter of this value; and its drag, N s/m, which a motion
+ * needs for each m/s. Linear between two rows, constant beyond the first and the last; at most 1e9. It acts wherever
+ * the proxy is in the volume, also when it has pierced its surface (HL_STRENGTH). 0 rows: nothing, which is the
+ * default. Copied. HL_INVALID_VALUE: out of its range. */
+HL_API void hlVolumeMatter(HLsizei rows, const HLdouble* numbers);
 /** Draws another surface of the volume that was drawn last in this object or world, with the matrix and material of
  * now: skin and bone. Nothing is copied or sent again. HL_INVALID_OPERATION: no volume was drawn. HL_INVALID_VALUE: an
  * `iso` that is not a number. */
@@ -395,8 +401,8 @@ HL_API void hlScaled(HLdouble x, HLdouble y, HLdouble z); /**< see hlScalef */
 
 /* ---- Surface -------------------------------------------------------------------------------------------------- */
 
-/** Sets a quantity of the surface (HL_STIFFNESS .. HL_PRESLIDING, HL_ADHESION, HL_COMPLIANCE; unit, range and default
- * there) of what is drawn next. HL_INVALID_VALUE: out of its range. */
+/** Sets a quantity of the surface (HL_STIFFNESS .. HL_PRESLIDING, HL_ADHESION, HL_COMPLIANCE, HL_STRENGTH; unit, range
+ * and default there) of what is drawn next. HL_INVALID_VALUE: out of its range. */
 HL_API void hlMaterialf(HLenum quantity, HLfloat value);
 HL_API void hlMateriald(HLenum quantity, HLdouble value); /**< see hlMaterialf */
 /** HL_SMOOTH or HL_FLAT, for what is drawn next. */

@@ -287,6 +287,12 @@ void volume(std::size_t width, std::size_t height, const Samples& samples, HLdou
            iso);
 }
 
+/// hlVolumeMatter, three numbers a row. Throws std::invalid_argument when they fill no rows.
+inline void volumeMatter(std::span<const HLdouble> numbers) {
+  if (numbers.size() % 3 != 0) throw std::invalid_argument("matter has three numbers a row");
+  hlVolumeMatter(static_cast<HLsizei>(numbers.size() / 3), numbers.data());
+}
+
 /// hlVolumeSurface.
 inline void volumeSurface(HLdouble iso) { hlVolumeSurface(iso); }
 

@@ -75,7 +75,7 @@ typedef struct HLbatchSettings {
 /** Writes what a scene is felt with where nothing else is wanted. NULL: nothing happens. */
 HL_API void hlBatchSettings(HLbatchSettings* settings);
 /** Sets one quantity of all surfaces: HL_STIFFNESS, HL_STATIC_FRICTION, HL_DYNAMIC_FRICTION, HL_VISCOSITY, HL_STRIBECK,
- * HL_PRESLIDING, HL_ADHESION or HL_COMPLIANCE, in the units of hlMaterial. */
+ * HL_PRESLIDING, HL_ADHESION, HL_COMPLIANCE or HL_STRENGTH, in the units of hlMaterial. */
 HL_API HLenum hlBatchSurface(HLbatchSettings* settings, HLenum quantity, HLdouble value);
 
 /* ---- Results --------------------------------------------------------------------------------------------------- */

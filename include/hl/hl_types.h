@@ -82,6 +82,7 @@ enum {
   HL_PRESLIDING = 0x48015, /**< >= 0, N/m: a stuck proxy creeps on a spring of this. Default 0: it does not move. */
   HL_ADHESION = 0x48017,   /**< >= 0, N: the surface keeps the proxy until it is pulled off by more. Default 0. */
   HL_COMPLIANCE = 0x48018, /**< C >= 0, m/N: yields by C f, a spring of 1/C in series with the servo's. Default 0. */
+  HL_STRENGTH = 0x48019,   /**< >= 0, N: pressed harder, it lets the proxy through. Default 0: it never does. */
   HL_HEIGHT = 0x48016      /**< textures only: a bump map, m; bends the normal and moves nothing */
 };
 
@@ -191,7 +192,8 @@ enum {
   HL_MAX_MODELVIEW_STACK_DEPTH = 0x0D36, /**< 1 */
   HL_MAX_NAME_STACK_DEPTH = 0x0D37,      /**< 1 */
   HL_MAX_TEXTURE_STACK_DEPTH = 0x0D39    /**< 1 */
-  /* HL_STIFFNESS .. HL_PRESLIDING, HL_ADHESION, HL_COMPLIANCE: 1; as set by hlMaterial, else the default */
+  /* HL_STIFFNESS .. HL_PRESLIDING, HL_ADHESION, HL_COMPLIANCE, HL_STRENGTH: 1; as set by hlMaterial, else the default
+   */
 };
 
 /** hlGet*v: the conversation and what the server told when it began. */

@@ -26,6 +26,7 @@ SURFACE = {
     "presliding": _hl.calls.HL_PRESLIDING,
     "adhesion": _hl.calls.HL_ADHESION,
     "compliance": _hl.calls.HL_COMPLIANCE,
+    "strength": _hl.calls.HL_STRENGTH,
 }
 
 
@@ -165,6 +166,7 @@ class Settings:
     presliding: Optional[float] = None  #: N/m, >= 0
     adhesion: Optional[float] = None  #: N, 0..100
     compliance: Optional[float] = None  #: m/N, 0..1: a spring of 1 / compliance in series with the servo's
+    strength: Optional[float] = None  #: N, 0..100: pressed harder, a surface is pierced; 0: never
 
     def _native(self) -> _hl.BatchSettings:
         if self.smooth not in (None, False, True):

@@ -250,11 +250,15 @@ class Touch:
         iso: float,
         spacing: Union[float, Tuple[float, float, float]] = 1.0,
         missing: Optional[float] = None,
+        matter: Optional[npt.ArrayLike] = None,
     ) -> None:
         """Draws a surface of a volume, as hl.Scene(volume=...) has it: samples (z, y, x), metres between them along x,
-        y and z."""
+        y and z. `matter`, of shape (n, 3), n at most 256: value, resistance (N) and drag (N s/m) by rising values, of
+        what hinders the proxy within the volume."""
         self.make_current()
         array, value = arguments.volume(samples), arguments.number(iso, "iso")
+        rows = np.empty((0, 3)) if matter is None else arguments.floats(matter, "matter")
+        calls.hlVolumeMatter(rows)
         calls.hlPushMatrix()
         try:
             calls.hlScaled(*arguments.steps(spacing, 3))
@@ -437,7 +441,7 @@ class Touch:
 
     def material(self, **quantities: float) -> None:
         """Sets what is drawn next: stiffness (0..1), static_friction, dynamic_friction, viscosity (N s/m), stribeck
-        (m/s), presliding (N/m), adhesion (N), compliance (m/N)."""
+        (m/s), presliding (N/m), adhesion (N), compliance (m/N), strength (N)."""
         self.make_current()
         for key, value in quantities.items():
             calls.hlMateriald(_chosen(SURFACE, key, "quantity"), arguments.number(value, key))

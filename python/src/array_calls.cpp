@@ -82,6 +82,13 @@ void volume(const py::array& samples, double iso, std::optional<double> missing)
   throwFailure();
 }
 
+void volumeMatter(const Doubles& rows) {
+  requireContext();
+  const std::size_t count = rowsOf(rows, 3, "rows");
+  hlVolumeMatter(sizeOf(count, "rows"), rows.data());
+  throwFailure();
+}
+
 void updateVertices(HLuint object, const Doubles& vertices, HLint first, const Optional& normals) {
   requireContext();
   const std::size_t count = rowsOf(vertices, 3, "vertices");
@@ -205,6 +212,7 @@ void bindArrayCalls(py::module_& module) {
   module.def("hlDrawElements", &drawElements, py::arg("mode"), py::arg("vertices"), py::arg("indices"),
              py::arg("normals") = none, py::arg("texcoords") = none);
   module.def("hlHeightField", &heightField, py::arg("samples"), py::arg("missing") = none);
+  module.def("hlVolumeMatter", &volumeMatter, py::arg("rows"));
   module.def("hlVolume", &volume, py::arg("samples"), py::arg("iso"), py::arg("missing") = none);
   module.def("hlUpdateVertices", &updateVertices, py::arg("object"), py::arg("vertices"), py::arg("first") = 0,
              py::arg("normals") = none);

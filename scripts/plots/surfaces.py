@@ -201,6 +201,22 @@ def snap(bench):
     save(figure, "snap.png", f"taken with {max(force):.4f} N; let go after {-pulled:.4f} N at {place[force.index(pulled)]:.4f} mm")
 
 
+def piercing(bench):
+    """Force against the needle's depth: through skin of 1.5 N into tissue that holds back, and out again."""
+    values = [5.5 - i for _ in range(2) for i in range(12) for _ in range(2)]  # matter below y = 0
+    matter = [{"value": -0.001}, {"value": 0, "resistanceN": 0.2, "dragNsM": 20}]
+    volume = {"size": [2, 12, 2], "spacing": [0.05, 0.002, 0.05], "iso": 0, "values": values, "matter": matter}
+    scene = bench.scene([{"name": "tissue", "volume": volume, "material": {"strengthN": 1.5}}])
+    top, bottom = (0.0, 0.005), (0.0, -0.010)
+    rows = bench.trace(scene, straight(top, bottom, speed=0.02) + straight(bottom, top, speed=0.02))
+    depth = [-MM * row["finger_y"] for row in rows]
+    force = [row["force_y"] for row in rows]
+    figure, plot = canvas(1, 1, 4.0)
+    plot.plot(depth, force, color=BLUE, lw=1.8)
+    style(plot, "depth of the needle (mm)", "force on it (N)", "Through a surface of 1.5 N, then 0.2 N + 20 N s/m at 20 mm/s; K = 1000 N/m")
+    save(figure, "piercing.png", f"pierced at {max(force):.4f} N; out again at {min(force):.4f} N")
+
+
 def adhesion(bench):
     """Force against the finger's height over a floor of adhesion 1 N: down, 0.5 mm in, and up until it lets go."""
     scene, most = floor_file(bench), 1.0

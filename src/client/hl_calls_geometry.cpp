@@ -2,6 +2,7 @@
 #include <hl/hl.h>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <initializer_list>
 #include <memory>
@@ -207,7 +208,30 @@ void hlVolume(HLsizei width, HLsizei height, HLsizei depth, HLenum type, const v
     const auto volume = std::make_shared<hl::proto::Volume>();
     setSamples(*volume, {width, height, depth}, type, samples, missing);
     for (const HLsizei side : {width, height, depth}) volume->add_size(static_cast<std::uint32_t>(side));
+    *volume->mutable_matter() = context.matter.matter();
     context.target().drawVolume(context.draw.modelview.top(), lookOf(context.draw.attributes.now), volume, iso);
+  });
+}
+
+void hlVolumeMatter(HLsizei rows, const HLdouble* numbers) {
+  constexpr HLsizei kMostRows = 256;
+  constexpr double kMost = 1e9;
+  call(__func__, [&](HLcontext& context) {
+    if (rows < 0 || rows > kMostRows) throw Fault(HL_INVALID_VALUE, "matter has 0 to 256 rows");
+    if (rows > 0 && numbers == nullptr) throw Fault(HL_INVALID_VALUE, "there are no numbers");
+    hl::proto::Volume made;
+    for (HLsizei i = 0; i < rows; ++i) {
+      const HLdouble* const row = numbers + std::ptrdiff_t{3} * i;
+      const bool rises = i == 0 || row[0] > row[-3];
+      const auto fits = [](double number) { return number >= 0 && number <= kMost; };
+      if (!std::isfinite(row[0]) || !rises || !fits(row[1]) || !fits(row[2]))
+        throw Fault(HL_INVALID_VALUE, "the values must rise, and the resistances and drags be from 0 to 1e9");
+      hl::proto::Matter& out = *made.add_matter();
+      out.set_value(row[0]);
+      out.set_resistance_n(row[1]);
+      out.set_drag_ns_m(row[2]);
+    }
+    context.matter = std::move(made);
   });
 }
 

@@ -11,6 +11,7 @@
 #include "base/vec.h"
 #include "geometry/box.h"
 #include "geometry/element_id.h"
+#include "geometry/matter_force.h"
 #include "geometry/primitive.h"
 #include "geometry/spatial_index.h"
 
@@ -59,6 +60,10 @@ class PrimitiveSource {
   virtual SharedMemory shared() const { return {}; }
   /// RT-safe.
   virtual Site siteOf(const Vec3& /*point*/) const { return Site::kUnknown; }
+  /// Whether there may be a point whose matter hinders a motion.
+  virtual bool resists() const { return false; }
+  /// RT-safe.
+  virtual MatterForce matterAt(const Vec3& /*point*/) const { return {}; }
   /// Bound of the distance between the triangles and the surface that they stand for, m. May look at all of them.
   virtual double error_m() const = 0;
   /// The same surface moved by x -> linear x + offset; `linear` is invertible. Throws hl::Error if it cannot be.

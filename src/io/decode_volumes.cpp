@@ -4,6 +4,7 @@
 
 #include <array>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "io/decode_samples.h"
@@ -72,6 +73,19 @@ PlacedVolume withSpacing(PlacedVolume volume, const proto::Volume& in) {
   return volume;
 }
 
+std::shared_ptr<const MatterTable> matterOf(const proto::Volume& in) {
+  if (in.matter().empty()) return nullptr;
+  std::vector<MatterRow> rows;
+  for (const proto::Matter& row : in.matter()) {
+    MatterRow& out = rows.emplace_back();
+    out.value = row.value();
+    if (row.has_stiffness()) out.stiffness = row.stiffness();
+    if (row.has_strength_n()) out.strength_N = row.strength_n();
+    out.force = {row.resistance_n(), row.drag_ns_m()};
+  }
+  return std::make_shared<const MatterTable>(std::move(rows));
+}
+
 std::shared_ptr<const IsoSurface> isoSurfaceOf(const PlacedVolume& volume, const proto::Volume& in,
                                                std::optional<double> iso) {
   const ValueRange& range = volume.volume->pyramid.range();
@@ -79,7 +93,7 @@ std::shared_ptr<const IsoSurface> isoSurfaceOf(const PlacedVolume& volume, const
   if (!iso && in.has_iso()) iso = in.iso();
   const IsoValue value{iso.value_or(0), in.below() ? SolidSide::kBelow : SolidSide::kAbove};
   const IsoValue found = iso ? value : IsoValue{thresholdOf(*volume.volume), value.solid};
-  auto surface = std::make_shared<const IsoSurface>(volume.volume, volume.frame, found);
+  auto surface = std::make_shared<const IsoSurface>(volume.volume, volume.frame, found, matterOf(in));
   if (surface->triangles() == 0)
     throw Error(fmt::format("there is no surface at iso {:.6g}: its values are from {:.6g} to {:.6g}", found.value,
                             range.low, range.high));

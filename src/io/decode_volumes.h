@@ -30,6 +30,9 @@ PlacedVolume decodeVolume(const proto::Volume& in);
 /// What a file or a builtin holds, with the spacing that the message has over what it says. Throws hl::Error.
 PlacedVolume withSpacing(PlacedVolume volume, const proto::Volume& in);
 
+/// What the message says that the values feel like; null: nothing. Throws hl::Error for what makes no sense.
+std::shared_ptr<const MatterTable> matterOf(const proto::Volume& in);
+
 /// The surface that the message asks for; `iso` replaces its iso value. Throws hl::Error where there is none.
 std::shared_ptr<const IsoSurface> isoSurfaceOf(const PlacedVolume& volume, const proto::Volume& in,
                                                std::optional<double> iso = {});

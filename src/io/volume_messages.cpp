@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "io/sample_parts.h"
+#include "io/value_messages.h"
 
 namespace hl {
 
@@ -66,6 +68,14 @@ IsoValue isoOf(const proto::RecordedVolume& in) {
   return {in.iso(), in.below() ? SolidSide::kBelow : SolidSide::kAbove};
 }
 
+std::shared_ptr<const MatterTable> matterOf(const proto::RecordedVolume& in) {
+  if (in.matter().empty()) return nullptr;
+  std::vector<MatterRow> rows(static_cast<std::size_t>(in.matter_size()));
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    readValues(in.matter(static_cast<int>(i)), "the matter of a volume", rows[i]);
+  return std::make_shared<const MatterTable>(std::move(rows));
+}
+
 void writeVolume(const IsoSurface& surface, std::uint64_t like,
                  const std::function<void(proto::RecordedVolume& part)>& take) {
   const VoxelGrid& grid = surface.volume()->grid;
@@ -78,6 +88,9 @@ void writeVolume(const IsoSurface& surface, std::uint64_t like,
           part);
   part.set_iso(surface.iso().value);
   part.set_below(surface.iso().solid == SolidSide::kBelow);
+  if (surface.matter()) {
+    for (const MatterRow& row : surface.matter()->rows()) toProto(valuesOf(row), *part.add_matter());
+  }
   part.set_like(like);
   if (like != 0) return take(part);
   takeInParts(std::move(part), grid.samples().data(), grid.count() * sizeOf(grid.samples().kind()), take);

@@ -19,6 +19,8 @@ void toProto(const VolumeHeader& header, proto::RecordedVolume& out);
 VolumeHeader headerOf(const proto::RecordedVolume& in);
 GridFrame frameOf(const proto::RecordedVolume& in);
 IsoValue isoOf(const proto::RecordedVolume& in);
+/// Null: there is none.
+std::shared_ptr<const MatterTable> matterOf(const proto::RecordedVolume& in);
 
 /// Calls `take` with each part; the first has all but most of the samples. `like`: the number of a surface of the same
 /// volume that was written before; 0: there is none.

@@ -24,14 +24,16 @@ ObjectForces objectForces(const SceneAt& scene, const ProxySettings& settings, c
   ObjectForces forces;
   const double spring_N_m = settings.spring_N_m / settings.world_per_device;
   const Vec3 total_N = spring_N_m * (report.target - finger);
-  const Vec3 by_contacts_m = state.position + state.rest_offset_m - finger - report.snap_pull_m;
+  const Vec3 by_contacts_m = state.position + state.rest_offset_m - finger - report.held_pull_m;
   const ContactParts parts = partsOf(report.contacts, by_contacts_m);
   for (std::size_t i = 0; i < report.contacts.size(); ++i) {
     const ProxyContact& contact = report.contacts[i];
     add(forces, scene.instance(contact.primitive).key, contact.point, spring_N_m * state.stiffness * parts[i]);
   }
   if (state.snap.holds())
-    forces.push({state.snap.key, report.snap_point, spring_N_m * state.stiffness * report.snap_pull_m});
+    forces.push({state.snap.key, report.snap_point, spring_N_m * state.stiffness * report.held_pull_m});
+  if (!state.snap.holds() && !forces.empty() && report.held_pull_m != Vec3::Zero())
+    add(forces, 0, state.position, spring_N_m * state.stiffness * report.held_pull_m);
   if (forces.empty() && total_N != Vec3::Zero()) add(forces, 0, state.position, total_N);
   return forces;
 }

@@ -6,6 +6,8 @@
 #include "proxy/carry.h"
 #include "proxy/follow_deformation.h"
 #include "proxy/leave_matter.h"
+#include "proxy/matter_drag.h"
+#include "proxy/piercing.h"
 #include "proxy/snapping.h"
 #include "proxy/spring_energy.h"
 #include "proxy/tick.h"
@@ -68,9 +70,9 @@ TickReport tickTo(const Vec3& finger, ProxyState& state, const SceneAt& scene, c
   return report;
 }
 
-// A tick in which a snap may take the proxy, hold it or let go of it.
-TickReport tickWithSnaps(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger,
-                         int most_looks) {
+// A tick in which a snap may take the proxy, hold it or let go of it, or matter may hold it back.
+TickReport tickHeldOrFree(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger,
+                          int most_looks) {
   const auto tick_to = [&](const Vec3& goal, ProxyState& at, int looks) {
     TickReport report = tickTo(goal, at, scene, settings, most_looks - looks);
     report.looks += looks;
@@ -78,10 +80,31 @@ TickReport tickWithSnaps(ProxyState& state, const SceneAt& scene, const ProxySet
     return report;
   };
   const bool was_held = state.snap.holds();
-  if (!was_held && scene.snapshot().snaps.empty()) return tick_to(finger, state, 0);
-  const std::optional<Vec3> goal = followSnap(state, scene, settings, finger);
+  const bool snaps = was_held || !scene.snapshot().snaps.empty();
+  const std::optional<Vec3> goal = snaps ? followSnap(state, scene, settings, finger) : std::nullopt;
   if (goal) return tickSnapped(state, settings, finger, *goal, tick_to);
-  return was_held ? tickReleased(state, finger, tick_to) : tick_to(finger, state, 0);
+  if (was_held) return tickReleased(state, finger, tick_to);
+  const MatterForce matter = matterAround(scene, state.position);
+  return matter.acts() ? tickInMatter(state, settings, matter, finger, tick_to) : tick_to(finger, state, 0);
+}
+
+// A tick in the scene that the proxy has not pierced.
+TickReport tickWithin(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger,
+                      int most_looks) {
+  if (!state.free && !beginProxy(state, scene, settings, finger, convergence::kPlacesPerTick))
+    return notRun(Ending::kUnplaced, finger);
+  const double moved_J = carryAlong(state, scene, settings, finger);
+  if (!canBeFinger(finger - state.rest_offset_m)) state.rest_offset_m = Vec3::Zero();
+  TickReport report = tickHeldOrFree(state, scene, settings, finger, most_looks);
+  report.moved_J = moved_J;
+  const Vec3 aim = finger + report.held_pull_m;  // what the contacts hold the proxy from
+  rememberDeformation(state, scene, settings, report, aim);
+  rememberYielding(state, scene, settings, report, aim);
+  state.time_ns = scene.time_ns();
+  state.snapshot = scene.snapshot().number;
+  state.carrier = carrierOf(scene, report, state.snap);
+  state.adhering = adheringOf(scene, settings, report);
+  return report;
 }
 
 }  // namespace
@@ -95,19 +118,11 @@ ProxyState startProxy(const SceneAt& scene, const ProxySettings& settings, const
 TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger,
                 int most_looks) {
   if (!canBeFinger(finger)) return notRun(Ending::kInvalid, state.position);
-  if (!state.free && !beginProxy(state, scene, settings, finger, convergence::kPlacesPerTick))
-    return notRun(Ending::kUnplaced, finger);
-  const double moved_J = carryAlong(state, scene, settings, finger);
-  if (!canBeFinger(finger - state.rest_offset_m)) state.rest_offset_m = Vec3::Zero();
-  TickReport report = tickWithSnaps(state, scene, settings, finger, most_looks);
-  report.moved_J = moved_J;
-  const Vec3 aim = finger + report.snap_pull_m;  // what the contacts hold the proxy from
-  rememberDeformation(state, scene, settings, report, aim);
-  rememberYielding(state, scene, settings, report, aim);
-  state.time_ns = scene.time_ns();
-  state.snapshot = scene.snapshot().number;
-  state.carrier = carrierOf(scene, report, state.snap);
-  state.adhering = adheringOf(scene, settings, report);
+  const TickReport report = state.pierced.empty()
+                                ? tickWithin(state, scene, settings, finger, most_looks)
+                                : tickWithin(state, SceneAt(scene, {state.pierced.begin(), state.pierced.size()}),
+                                             settings, finger, most_looks);
+  rememberPiercing(state, scene, settings, report);
   return report;
 }
 

@@ -56,6 +56,9 @@ struct YieldingContact {
 };
 using YieldingContacts = FixedVector<YieldingContact, 3>;
 
+/// Keys of the objects that have let the proxy through and still overlap it (piercing.h).
+using PiercedObjects = FixedVector<std::uint64_t, 4>;
+
 /// The snap that holds the proxy (snapping.h).
 struct HeldSnap {
   std::uint64_t key = 0;     ///< of its instance; 0: none holds it
@@ -75,6 +78,7 @@ struct ProxyState {
   std::uint64_t snapshot = 0;          ///< number of the snapshot of the last tick; 0: none yet
   std::uint64_t carrier = 0;           ///< key of the object whose friction or snap holds the proxy; 0: none
   HeldSnap snap{};
+  PiercedObjects pierced{};
   AdheringContacts adhering{};        ///< adhesive contacts of the last tick (adhesion.h)
   YieldingContacts yielding{};        ///< contacts of the last tick; empty if none of them yields
   double yielding_stiffness = 1;      ///< s of these contacts

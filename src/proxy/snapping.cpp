@@ -4,15 +4,12 @@
 #include <limits>
 
 #include "base/finger_reach.h"
+#include "proxy/goal_tick.h"
 #include "proxy/spring_energy.h"
 
 namespace hl {
 
 namespace {
-
-// Far above the rounding of energies that are compared, far below what can be felt: a part of them, and J, what a
-// spring of 1000 N/m has at 1 nm.
-constexpr double kEnergyRounding = 1e-12, kEnergyRounding_J = 1e-15;
 
 SnapPoint nearestTo(const Vec3& finger, const SceneAt& scene, const Instance& instance, const SnapSpec& snap) {
   const Pose pose = instance.poses().at(scene.time_ns());
@@ -79,16 +76,6 @@ Vec3 affordable(const ProxyState& state, const ProxySettings& settings, const Ve
   return part < 1 ? Vec3(from + part * (goal - from)) : goal;
 }
 
-// Of a tick that does not count: the proxy has not moved.
-TickReport stayed(const TickReport& tried) {
-  TickReport report;
-  report.ending = Ending::kNoEnergy;
-  report.work = tried.work;
-  report.looks = tried.looks;
-  report.used_up_at = tried.used_up_at;
-  return report;
-}
-
 }  // namespace
 
 std::optional<SnapPoint> heldPoint(const HeldSnap& held, const SceneAt& scene, const Vec3& finger) {
@@ -110,29 +97,16 @@ std::optional<Vec3> followSnap(ProxyState& state, const SceneAt& scene, const Pr
 
 TickReport tickSnapped(ProxyState& state, const ProxySettings& settings, const Vec3& finger, const Vec3& goal,
                        TickTo tick_to) {
-  const double before_J = state.touching ? springEnergy_J(settings, state, finger) : 0;
-  const double budget_J = state.ledger.budget_J(settings.ledger);
   const Vec3 aim = affordable(state, settings, finger, goal);
-  ProxyState there = state;
-  TickReport report = tick_to(aim, there, 0);
-  double added_J = springEnergy_J(settings, there, finger) - before_J;
-  if (added_J <= budget_J + kEnergyRounding * before_J + kEnergyRounding_J) {
-    there.ledger = state.ledger;
-    there.ledger.book(added_J, true);
-    state = there;
-  } else if (state.touching) {
-    report = stayed(report);
-    added_J = 0;
-  } else {
+  const double before_J = state.touching ? springEnergy_J(settings, state, finger) : 0;
+  TickReport report = tickToGoal(state, settings, finger, {aim, before_J}, tick_to);
+  if (report.ending == Ending::kNoEnergy && !state.touching) {
     state.snap = {};
     return tick_to(finger, state, report.looks);
   }
-  state.touching = true;
-  const Vec3 rest = state.position + state.rest_offset_m;
-  report.injected_J = added_J;
-  report.target = finger + state.stiffness * (rest - finger);
+  const Vec3 held = report.contacts.empty() ? Vec3(state.position + state.rest_offset_m) : aim;
+  tellPull(state, finger, held - finger, report);
   report.snap_point = goal;
-  report.snap_pull_m = (report.contacts.empty() ? rest : aim) - finger;
   return report;
 }
 

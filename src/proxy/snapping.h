@@ -14,7 +14,7 @@
 
 #include <optional>
 
-#include "base/function_ref.h"
+#include "proxy/goal_tick.h"
 #include "proxy/proxy_state.h"
 #include "proxy/tick_report.h"
 #include "scene/scene_at.h"
@@ -29,9 +29,6 @@ std::optional<SnapPoint> heldPoint(const HeldSnap& held, const SceneAt& scene, c
 /// nearest to the finger; absent: none holds it. Of two that are as near, the first in the scene. RT-safe.
 std::optional<Vec3> followSnap(ProxyState& state, const SceneAt& scene, const ProxySettings& settings,
                                const Vec3& finger);
-
-/// A tick to a goal, m, world, after `looks` looks of an earlier attempt.
-using TickTo = FunctionRef<TickReport(const Vec3& goal, ProxyState& state, int looks)>;
 
 /// A tick of a proxy that the snap holds, or now takes, to its point `goal`. RT-safe; at most two ticks.
 TickReport tickSnapped(ProxyState& state, const ProxySettings& settings, const Vec3& finger, const Vec3& goal,

@@ -15,7 +15,7 @@ namespace hl {
 struct ProxyContact {
   Vec3 point;   ///< on the surface, nearest the proxy
   Vec3 normal;  ///< unit, from the surface to the proxy: the shading normal
-  /// Multiplier: rest of the spring - finger = sum multiplier_m * normal + snap_pull_m. The rest is the proxy, unless a
+  /// Multiplier: rest of the spring - finger = sum multiplier_m * normal + held_pull_m. The rest is the proxy, unless a
   /// surface yields (yielding.h). Times K s: the normal force. Negative: the surface pulls.
   double multiplier_m;
   PrimitiveId primitive;
@@ -51,11 +51,12 @@ struct TickReport {
   FixedVector<ProxyContact, 3> contacts;
   Vec3 target =
       Vec3::Zero();  ///< where the servo pulls the finger: the rest of its spring, softened by the surface stiffness
-  /// Of a proxy that a snap holds (snapping.h): the point of the snap, and its part of rest of the spring - finger,
+  /// Of a proxy that a snap (snapping.h) or matter (matter_drag.h) holds: its part of rest of the spring - finger,
   /// which no contact holds. Times K s it is its force. World.
-  Vec3 snap_point = Vec3::Zero(), snap_pull_m = Vec3::Zero();
-  double injected_J = 0;  ///< change of the spring's energy by the tick: positive: added, negative: dissipated
-  double moved_J = 0;     ///< change of the spring's energy by moving objects before the tick
+  Vec3 held_pull_m = Vec3::Zero();
+  Vec3 snap_point = Vec3::Zero();  ///< of the snap, world
+  double injected_J = 0;           ///< change of the spring's energy by the tick: positive: added, negative: dissipated
+  double moved_J = 0;              ///< change of the spring's energy by moving objects before the tick
   int iterations = 0;
   std::size_t work = 0;  ///< cost of the tick, in bounding volumes (work.h)
   int looks = 0;         ///< number of times that contacts were gathered

@@ -136,6 +136,7 @@ void toProto(const ProxyMemory& memory, proto::RecordedProxy& out) {
     add(*out.mutable_adhering(), contact.normal);
     out.add_adhering(contact.adhesion_N);
   }
+  for (const std::uint64_t key : state.pierced) out.add_pierced(key);
   toProto(valuesOf(YieldingValues{state.rest_offset_m, state.yielding_stiffness, state.estimate}),
           *out.mutable_yielding());
   for (const YieldingContact& contact : state.yielding) toProto(valuesOf(contact), *out.add_yielding_contacts());
@@ -158,6 +159,9 @@ ProxyMemory fromProto(const proto::RecordedProxy& in) {
   state.carrier = values.carrier;
   state.snap = values.snap;
   state.adhering = adheringOf(in);
+  for (const std::uint64_t key : in.pierced()) {
+    if (!state.pierced.push(key)) throw Error("the objects that let the proxy through make no sense: too many");
+  }
   readYielding(in, state);
   state.ledger = values.ledger;
   state.out_of_work = values.out_of_work;

@@ -262,7 +262,7 @@ void SceneReader::add(const proto::RecordedVolume& in) {
   const bool first = !begun_;
   addPart(in.id());
   if (first) {
-    volume_surface_ = {frameOf(in), isoOf(in)};
+    volume_surface_ = {frameOf(in), isoOf(in), matterOf(in)};
     if (in.like() == 0) volume_.emplace(headerOf(in), machineMemory_bytes());
   }
   if (in.like() == 0) {
@@ -272,8 +272,8 @@ void SceneReader::add(const proto::RecordedVolume& in) {
   }
   begun_.reset();
   const std::shared_ptr<const Volume> volume = in.like() == 0 ? volume_->take() : volumeOf(in.like());
-  const auto& [frame, iso] = volume_surface_;
-  shapes_[in.id()] = makeShape(std::make_shared<const IsoSurface>(volume, frame, iso));
+  const auto& [frame, iso, matter] = volume_surface_;
+  shapes_[in.id()] = makeShape(std::make_shared<const IsoSurface>(volume, frame, iso, matter));
   volume_.reset();
 }
 

@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <tuple>
 
 #include "io/height_messages.h"
 #include "io/model_messages.h"
@@ -82,8 +83,9 @@ class SceneReader {
   MeshReader mesh_;
   std::optional<HeightCollector> heights_;
   std::optional<VolumeCollector> volume_;
-  std::pair<GridFrame, IsoValue> volume_surface_;  // of the volume of which more parts follow
-  std::optional<std::uint64_t> begun_;             // the shape of which more parts follow
+  std::tuple<GridFrame, IsoValue, std::shared_ptr<const MatterTable>>
+      volume_surface_;                  // of the volume of which more parts follow
+  std::optional<std::uint64_t> begun_;  // the shape of which more parts follow
   std::map<std::uint64_t, std::shared_ptr<const Shape>> shapes_;
   std::map<std::uint64_t, std::shared_ptr<const Surfaces>> surfaces_;
   std::map<std::uint64_t, std::shared_ptr<const RigidBody>> bodies_;

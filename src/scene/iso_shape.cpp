@@ -33,9 +33,25 @@ const IsoSurface* isoSurfaceOf(const Instance& instance) {
 
 std::shared_ptr<const Shape> withIso(const Shape& of, double value) {
   const IsoSurface& before = isoSurfaceOfShape(of);
-  auto source =
-      std::make_shared<const IsoSurface>(before.volume(), before.frame(), IsoValue{value, before.iso().solid});
-  return makeShape(std::move(source), of.model.materials.front(), of.model.textures);
+  auto source = std::make_shared<const IsoSurface>(before.volume(), before.frame(), IsoValue{value, before.iso().solid},
+                                                   before.matter());
+  const Material material = materialAt(*source, of.model.materials.front());
+  return makeShape(std::move(source), material, of.model.textures);
+}
+
+Material materialAt(const IsoSurface& surface, Material material) {
+  if (!surface.matter()) return material;
+  const MatterRow there = surface.matter()->at(surface.iso().value);
+  material.stiffness = there.stiffness.value_or(material.stiffness);
+  material.strength_N = there.strength_N.value_or(material.strength_N);
+  return material;
+}
+
+void setIso(Instance& instance, double value) {
+  instance.shape = withIso(*instance.shape, value);
+  Surfaces surfaces = *instance.surfaces;
+  surfaces.materials.front() = materialAt(isoSurfaceOfShape(*instance.shape), surfaces.materials.front());
+  if (surfaces != *instance.surfaces) instance.surfaces = std::make_shared<const Surfaces>(std::move(surfaces));
 }
 
 std::uint64_t checkIsoChange(const Snapshot& scene, std::uint64_t surface, double value) {

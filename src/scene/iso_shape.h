@@ -16,6 +16,11 @@ const IsoSurface* isoSurfaceOf(const Instance& instance);
 /// `of` is the surface of a volume. Throws hl::Error for a value that is not finite. Setup only.
 std::shared_ptr<const Shape> withIso(const Shape& of, double value);
 
+/// A material with what the matter of a volume has to say at this value (surfaces/matter.h).
+Material materialAt(const IsoSurface& surface, Material material);
+/// As withIso(), for the shape and the material of an instance.
+void setIso(Instance& instance, double value);
+
 /// The key of the surface whose value is to be changed; `surface` is that key, or 0 for the only one. Throws hl::Error,
 /// which says what there is, if there is no such surface or if the value is not finite.
 std::uint64_t checkIsoChange(const Snapshot& scene, std::uint64_t surface, double value);

@@ -62,6 +62,14 @@ void toWorld(const Pose& pose, ClosestPoint& nearest) {
 
 }  // namespace
 
+SceneAt::SceneAt(const SceneAt& of, std::span<const std::uint64_t> left_out)
+    : snapshot_(of.snapshot_), time_ns_(of.time_ns_), recent_(of.recent_), cost_(of.cost_) {
+  for (const std::uint64_t key : left_out) {
+    std::uint32_t number = 0;
+    if (snapshot_.find(key, number)) left_out_.push(number);
+  }
+}
+
 Primitive SceneAt::read(PrimitiveId id) const {
   const Instance& of = instance(id);
   if (const MeshTransition* const way = of.transitionAt(time_ns_))
@@ -99,7 +107,7 @@ bool SceneAt::nearest(const Vec3& point, PrimitiveId& primitive, ClosestPoint& a
   };
   snapshot_.near.visitMet(region, [&](std::uint32_t i) {
     const Instance& instance = snapshot_.instances[i];
-    if (instance.elsewhere(region)) return;
+    if (instance.elsewhere(region) || leavesOut(i)) return;
     const IndexAt index(instance, time_ns_, cost_);
     const Vec3 centre = instance.atWorld() ? point : instance.poses().at(time_ns_).toObject(point);
     index.nearest(centre, limit, [&](ElementId element, double) {
@@ -151,7 +159,7 @@ void SceneAt::primitivesWithin(const Vec3& centre, double distance,
   const Box region = around(centre, centre, distance + kBoxSlack * snapshot_.extent);
   snapshot_.near.visitMet(region, [&](std::uint32_t i) {
     const Instance& instance = snapshot_.instances[i];
-    if (instance.elsewhere(region)) return;
+    if (instance.elsewhere(region) || leavesOut(i)) return;
     const IndexAt index(instance, time_ns_, cost_);
     const auto read_one = [&](ElementId element) -> const Primitive& { return primitive({i, element}); };
     if (instance.atWorld()) {
@@ -195,7 +203,7 @@ bool SceneAt::firstOf(const Vec3& from, const Vec3& motion, double distance, con
   bool found = false;
   snapshot_.near.visitMet(region, [&](std::uint32_t i) {
     const Instance& instance = snapshot_.instances[i];
-    if (instance.elsewhere(region)) return;
+    if (instance.elsewhere(region) || leavesOut(i)) return;
     const bool at_world = instance.atWorld();
     const Pose pose = at_world ? Pose{} : instance.poses().at(time_ns_);
     const Vec3 from_O = at_world ? from : pose.toObject(from);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 
+#include "base/fixed_vector.h"
 #include "base/function_ref.h"
 #include "geometry/closest_point.h"
 #include "geometry/sweep.h"
@@ -38,8 +39,13 @@ class SceneAt {
       : snapshot_(snapshot), time_ns_(time_ns), recent_(recent) {
     recent_.readFrom(snapshot.identity, std::min(time_ns, snapshot.deforms_until_ns));
   }
+  /// The same scene and time without the objects of these keys, at most kMostLeftOut that are in it. It adds to the
+  /// cost of `of`, which must outlive it.
+  SceneAt(const SceneAt& of, std::span<const std::uint64_t> left_out);
   SceneAt(const SceneAt&) = delete;
   SceneAt& operator=(const SceneAt&) = delete;
+
+  static constexpr std::size_t kMostLeftOut = 4;
 
   const Snapshot& snapshot() const { return snapshot_; }
   std::int64_t time_ns() const { return time_ns_; }
@@ -88,6 +94,9 @@ class SceneAt {
                         SceneImpact& out) const;
 
  private:
+  bool leavesOut(std::uint32_t instance) const {
+    return std::find(left_out_.begin(), left_out_.end(), instance) != left_out_.end();
+  }
   Primitive read(PrimitiveId id) const;
   template <typename Ask>
   bool firstOf(const Vec3& from, const Vec3& motion, double distance, const Ask& ask, SceneImpact& out) const;
@@ -96,7 +105,9 @@ class SceneAt {
   std::int64_t time_ns_;
   std::optional<FewRecentPrimitives> own_;
   RecentPrimitives& recent_;
-  mutable QueryCost cost_;
+  FixedVector<std::uint32_t, kMostLeftOut> left_out_;  // numbers of instances
+  mutable QueryCost own_cost_;
+  QueryCost& cost_ = own_cost_;
 };
 
 }  // namespace hl

@@ -35,6 +35,8 @@ bool isOneModel(const SceneModel& scene) {
 
 Instance instanceOf(SceneSurface surface, std::uint64_t key) {
   Instance instance;
+  if (const auto* const iso = dynamic_cast<const IsoSurface*>(surface.source.get()))
+    surface.material = materialAt(*iso, surface.material);
   instance.shape = makeShape(std::move(surface.source), surface.material, std::move(surface.textures));
   instance.surfaces = surfacesOf(instance.shape);
   instance.key = key;
@@ -142,8 +144,8 @@ void setIsoValues(SceneModel& scene, const std::vector<double>& values) {
     } else if (std::exchange(last, iso->volume()) != iso->volume()) {
       for (const double value : values) {
         surfaces.push_back(surface);
-        surfaces.back().source =
-            std::make_shared<const IsoSurface>(iso->volume(), iso->frame(), IsoValue{value, iso->iso().solid});
+        surfaces.back().source = std::make_shared<const IsoSurface>(iso->volume(), iso->frame(),
+                                                                    IsoValue{value, iso->iso().solid}, iso->matter());
       }
     }
   }

@@ -61,7 +61,7 @@ void BaseScene::replaceSurfaces(const std::map<std::uint64_t, double>& isos, std
   for (Instance& instance : instances) {
     const auto iso = isos.find(instance.key + firstKey());
     if (iso == isos.end() || isoSurfaceOf(instance) == nullptr) continue;
-    instance.shape = withIso(*instance.shape, iso->second);
+    hl::setIso(instance, iso->second);
     instance.replaced_in = scene;
     any = true;
   }

@@ -38,10 +38,24 @@ std::shared_ptr<const Volume> thinned(const VoxelGrid& grid, std::uint32_t step)
   return std::make_shared<const Volume>(VoxelGrid(side, Samples(SampleKind::kFloat32, data)));
 }
 
+// Of corner c of the cell at `at`, for a place within it.
+double trilinearWeight(const Vec3& place, const Place& at, unsigned c) {
+  double weight = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double part = std::clamp(place[static_cast<Eigen::Index>(axis)] - at[axis], 0.0, 1.0);
+    weight *= (c >> axis & 1U) != 0 ? part : 1 - part;
+  }
+  return weight;
+}
+
 }  // namespace
 
-IsoSurface::IsoSurface(std::shared_ptr<const Volume> volume, const GridFrame& frame, const IsoValue& iso)
-    : cells_(std::move(volume), frame, iso), across_(frame.axes.inverse()), mirrored_(frame.axes.determinant() < 0) {
+IsoSurface::IsoSurface(std::shared_ptr<const Volume> volume, const GridFrame& frame, const IsoValue& iso,
+                       std::shared_ptr<const MatterTable> matter)
+    : cells_(std::move(volume), frame, iso),
+      across_(frame.axes.inverse()),
+      mirrored_(frame.axes.determinant() < 0),
+      matter_(std::move(matter)) {
   if (!std::isfinite(iso.value)) throw Error("the iso value of a volume must be a number");
   checkFrame();
   measure();
@@ -105,14 +119,9 @@ Vec3 IsoSurface::trueNormal(ElementId id, const Vec3& point) const {
   const Place at = cells_.placeOf(id);
   Vec3 gradient = Vec3::Zero();
   for (unsigned c = 0; c < kCellCorners; ++c) {
-    double weight = 1;
     Place corner = at;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double part = std::clamp(place[static_cast<Eigen::Index>(axis)] - at[axis], 0.0, 1.0);
-      const bool second = (c >> axis & 1U) != 0;
-      weight *= second ? part : 1 - part;
-      corner[axis] += second ? 1 : 0;
-    }
+    for (std::size_t axis = 0; axis < 3; ++axis) corner[axis] += c >> axis & 1U;
+    const double weight = trilinearWeight(place, at, c);
     if (weight > kNothing) gradient += weight * gradientAt(corner);
   }
   const Vec3 outward = -cells_.inward() * (across_.transpose() * gradient);
@@ -120,18 +129,23 @@ Vec3 IsoSurface::trueNormal(ElementId id, const Vec3& point) const {
   return length > 0 && std::isfinite(length) ? Vec3(outward / length) : primitiveOf(*this, id).normal;
 }
 
-Site IsoSurface::siteOf(const Vec3& point) const {
-  const Vec3 place = across_ * (point - frame().origin);
-  Place at{};
+// Of the cell at a place in samples; absent: it is outside of the volume.
+std::optional<std::array<double, kCellCorners>> IsoSurface::valuesAround(const Vec3& place, Place& at) const {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double along = place[static_cast<Eigen::Index>(axis)];
     const std::uint32_t cells = volume()->grid.cells(axis);
-    if (!(along >= 0 && along <= cells)) return Site::kOpen;
+    if (!(along >= 0 && along <= cells)) return {};
     at[axis] = std::min(static_cast<std::uint32_t>(along), cells - 1);
   }
-  const std::array<double, kCellCorners> values = volume()->grid.cornersOf(at[0], at[1], at[2]);
+  return volume()->grid.cornersOf(at[0], at[1], at[2]);
+}
+
+Site IsoSurface::siteOf(const Vec3& point) const {
+  Place at{};
+  const auto values = valuesAround(across_ * (point - frame().origin), at);
+  if (!values) return Site::kOpen;
   int inside = 0;
-  for (const double value : values) {
+  for (const double value : *values) {
     if (std::isnan(value)) return Site::kOpen;
     inside += cells_.inward() * (value - iso().value) >= 0 ? 1 : 0;
   }
@@ -139,12 +153,23 @@ Site IsoSurface::siteOf(const Vec3& point) const {
   return inside == static_cast<int>(kCellCorners) ? Site::kMatter : Site::kBoundary;
 }
 
+MatterForce IsoSurface::matterAt(const Vec3& point) const {
+  if (!matter_) return {};
+  const Vec3 place = across_ * (point - frame().origin);
+  Place at{};
+  const auto values = valuesAround(place, at);
+  if (!values) return {};
+  double value = 0;
+  for (unsigned c = 0; c < kCellCorners; ++c) value += trilinearWeight(place, at, c) * (*values)[c];
+  return std::isnan(value) ? MatterForce{} : matter_->at(value).force;
+}
+
 std::unique_ptr<const SpatialIndex> IsoSurface::makeIndex() const {
   return std::make_unique<BrickIndex>(cells_, bounds_);
 }
 
 std::shared_ptr<const PrimitiveSource> IsoSurface::placed(const Mat3& linear, const Vec3& offset) const {
-  return std::make_shared<const IsoSurface>(volume(), frame().placed(linear, offset), iso());
+  return std::make_shared<const IsoSurface>(volume(), frame().placed(linear, offset), iso(), matter_);
 }
 
 double IsoSurface::error_m() const {

@@ -4,9 +4,11 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 
 #include "geometry/primitive_source.h"
 #include "surfaces/iso_cells.h"
+#include "surfaces/matter.h"
 
 namespace hl {
 
@@ -15,7 +17,8 @@ class IsoSurface final : public PrimitiveSource {
  public:
   /// `frame`: from sample numbers along x, y, z to metres. Throws hl::Error for a value that is not finite, and where
   /// the volume lies beyond 1e9 m or its cells are too thin to have triangles.
-  IsoSurface(std::shared_ptr<const Volume> volume, const GridFrame& frame, const IsoValue& iso);
+  IsoSurface(std::shared_ptr<const Volume> volume, const GridFrame& frame, const IsoValue& iso,
+             std::shared_ptr<const MatterTable> matter = nullptr);
 
   ElementId count() const override { return cells_.count(); }
   /// About two for each cell that a plane through a brick of cells crosses.
@@ -32,6 +35,9 @@ class IsoSurface final : public PrimitiveSource {
   double error_m() const override;
   /// By the samples of the cell around it. Where one is missing, and outside of the volume, there is no matter.
   Site siteOf(const Vec3& point) const override;
+  bool resists() const override { return matter_ && matter_->resists(); }
+  /// By the values at the corners of its cell, trilinear; nothing where one is missing, and outside of the volume.
+  MatterForce matterAt(const Vec3& point) const override;
   std::shared_ptr<const PrimitiveSource> placed(const Mat3& linear, const Vec3& offset) const override;
   DrawnMesh drawn(std::size_t most_triangles) const override;
 
@@ -39,10 +45,13 @@ class IsoSurface final : public PrimitiveSource {
   const std::shared_ptr<const Volume>& volume() const { return cells_.volume(); }
   const GridFrame& frame() const { return cells_.frame(); }
   const IsoValue& iso() const { return cells_.iso(); }
+  /// What its values feel like; null: nobody has said.
+  const std::shared_ptr<const MatterTable>& matter() const { return matter_; }
 
  private:
   class Drawing;
 
+  std::optional<std::array<double, kCellCorners>> valuesAround(const Vec3& place, IsoCells::Place& at) const;
   Vec3 gradientAt(const IsoCells::Place& at) const;
   void checkFrame() const;
   void measure();
@@ -52,6 +61,7 @@ class IsoSurface final : public PrimitiveSource {
   IsoCells cells_;
   Mat3 across_;  // inverse of the frame's axes
   bool mirrored_ = false;
+  std::shared_ptr<const MatterTable> matter_;
   Box bounds_;
   std::uint64_t triangles_ = 0;
 };

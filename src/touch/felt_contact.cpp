@@ -32,7 +32,7 @@ FeltContacts feltContacts(const SceneAt& scene, const ProxySettings& settings, c
                           const TickReport& report, const Vec3& finger) {
   FeltContacts felt;
   const double spring_N_m = settings.spring_N_m / settings.world_per_device;
-  const Vec3 by_contacts_m = state.position + state.rest_offset_m - finger - report.snap_pull_m;
+  const Vec3 by_contacts_m = state.position + state.rest_offset_m - finger - report.held_pull_m;
   const ContactParts parts = partsOf(report.contacts, by_contacts_m);
   for (std::size_t i = 0; i < report.contacts.size(); ++i) {
     FeltContact contact = placeOf(scene, report.contacts[i]);
@@ -42,10 +42,10 @@ FeltContacts feltContacts(const SceneAt& scene, const ProxySettings& settings, c
   return felt;
 }
 
-FeltContacts sharing(const FeltContacts& contacts, const Vec3& snap_N, const Vec3& force_N) {
+FeltContacts sharing(const FeltContacts& contacts, const Vec3& held_N, const Vec3& force_N) {
   FeltContacts felt = contacts;
-  double sum_N = snap_N.norm();
-  Vec3 rest_N = force_N - snap_N;
+  double sum_N = held_N.norm();
+  Vec3 rest_N = force_N - held_N;
   for (const FeltContact& contact : felt) {
     sum_N += contact.force_N.norm();
     rest_N -= contact.force_N;

@@ -29,8 +29,8 @@ using FeltContacts = FixedVector<FeltContact, 3>;
 FeltContacts feltContacts(const SceneAt& scene, const ProxySettings& settings, const ProxyState& state,
                           const TickReport& report, const Vec3& finger);
 
-/// The same contacts with forces that add up to `force_N`, which the hand felt, together with that of a snap, `snap_N`
+/// The same contacts with forces that add up to `force_N`, which the hand felt, together with that of a snap, `held_N`
 /// before: what damping, limits and blends make of the spring's force is shared in proportion. RT-safe.
-FeltContacts sharing(const FeltContacts& contacts, const Vec3& snap_N, const Vec3& force_N);
+FeltContacts sharing(const FeltContacts& contacts, const Vec3& held_N, const Vec3& force_N);
 
 }  // namespace hl

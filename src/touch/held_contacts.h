@@ -14,7 +14,7 @@ struct HeldContacts {
   ServoTarget target;              ///< of the tick
   FixedVector<Plane, 3> planes_D;  ///< above which the proxy's centre stays; none: it stays where the tick put it
   FeltContacts contacts;           ///< of the tick
-  Vec3 snap_N = Vec3::Zero();      ///< force of a snap on the hand in the tick
+  Vec3 held_N = Vec3::Zero();      ///< force of a snap or of matter on the hand in the tick
 
   /// The target with the finger where it is now: the proxy is the point above all planes nearest to it. As the proxy
   /// before is above the same planes, the spring never gains by it. RT-safe.

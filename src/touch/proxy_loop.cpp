@@ -134,7 +134,7 @@ void ProxyLoop::tell(std::int64_t now_ns, const Vec3& finger_D, const SceneAt& s
   step.held.target.field_N = step.fields.force_N;
   step.held.target.field_drag_Ns_m = step.fields.damping_Ns_m;
   step.held.contacts = feltContacts(scene, settings_, state_, report, workspace_.toWorld(finger_D));
-  step.held.snap_N = settings_.spring_N_m / settings_.world_per_device * state_.stiffness * report.snap_pull_m;
+  step.held.held_N = settings_.spring_N_m / settings_.world_per_device * state_.stiffness * report.held_pull_m;
   events_.follow(now_ns, step.touched, state_.position);
 }
 
@@ -166,12 +166,12 @@ ServoTarget ProxyLoop::targetOf(std::int64_t now_ns, const Vec3& finger_D, const
   return told_ = target;
 }
 
-// Smooth surfaces let the proxy slide until the next tick; friction or a snap would hold it, so there it stays. While a
-// blend goes on, the target is not where the contacts hold the proxy.
+// Smooth surfaces let the proxy slide until the next tick; friction, a snap or matter would hold it, so there it stays.
+// While a blend goes on, the target is not where the contacts hold the proxy.
 HeldContacts ProxyLoop::heldBy(const TickReport& report, const ServoTarget& target) const {
   HeldContacts held;
   held.target = target;
-  if (blend_.active() || state_.snap.holds()) return held;
+  if (blend_.active() || report.held_pull_m != Vec3::Zero()) return held;
   for (const ProxyContact& contact : report.contacts) {
     if (contact.rough) {
       held.planes_D.clear();

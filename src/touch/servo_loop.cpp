@@ -118,7 +118,7 @@ void ServoLoop::tell(const ServoRecord& record, std::int64_t begin_ns) {
   parts_.views.samples.push({1e-9 * static_cast<double>(begin_ns - begin_ns_), static_cast<float>(out.force_N.norm()),
                              static_cast<float>(penetration_m), last_tick_.work_us});
   parts_.views.moments.push({begin_ns, sample.position, out.force_N, sample.buttons,
-                             sharing(last_tick_.held.contacts, last_tick_.held.snap_N, out.force_N)});
+                             sharing(last_tick_.held.contacts, last_tick_.held.held_N, out.force_N)});
   ServoRecord timed = record;
   timed.work_ns = monotonicNow_ns() - begin_ns;
   parts_.sink.step(timed);

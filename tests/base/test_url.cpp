@@ -48,7 +48,8 @@ TEST(Url, HostsAndPortsAreWrittenAsTheyAreRead) {
 TEST(Url, QueriesAreTakenApart) {
   EXPECT_EQ(queryValue("/?token=abc", "token"), "abc");
   EXPECT_EQ(queryValue("/?a=1&token=abc&b=2#token=x", "token"), "abc");
-  for (const char* target : {"/", "/?", "/?tokens=abc", "/?atoken=abc", "/token=abc", "/?&&=", "/?token", "/?#token=abc", "?#", "?"}) {
+  for (const char* target :
+       {"/", "/?", "/?tokens=abc", "/?atoken=abc", "/token=abc", "/?&&=", "/?token", "/?#token=abc", "?#", "?"}) {
     EXPECT_EQ(queryValue(target, "token"), "") << target;
   }
 }

@@ -103,6 +103,39 @@ TEST_F(CallsTest, SurfacesOfAVolumeShareItsSamples) {
   EXPECT_EQ(volume.samples(0), std::string(reinterpret_cast<const char*>(samples.data()), sizeof samples));
 }
 
+TEST_F(CallsTest, MatterIsOfTheVolumesThatAreDrawnNext) {
+  const std::array<HLushort, 8> samples{1, 2, 3, 4, 5, 6, 7, 8};
+  const std::array<HLdouble, 6> matter{-5, 0, 0, 40, 0.2, 5};
+  hlVolume(2, 2, 2, HL_UNSIGNED_SHORT, samples.data(), nullptr, 2.5);
+  hlVolumeMatter(2, matter.data());
+  hlVolume(2, 2, 2, HL_UNSIGNED_SHORT, samples.data(), nullptr, 2.5);
+  hlVolumeMatter(0, nullptr);
+  hlVolume(2, 2, 2, HL_UNSIGNED_SHORT, samples.data(), nullptr, 2.5);
+  const proto::Frame frame = flushed();
+  ASSERT_EQ(frame.world().items_size(), 3);
+  const auto volume = [&](int item) { return server->uploads().at(frame.world().items(item).upload()).volume(); };
+  EXPECT_EQ(volume(0).matter_size() + volume(2).matter_size(), 0);
+  ASSERT_EQ(volume(1).matter_size(), 2);
+  EXPECT_EQ(volume(1).matter(1).value(), 40);
+  EXPECT_EQ(volume(1).matter(1).resistance_n(), 0.2);
+  EXPECT_EQ(volume(1).matter(1).drag_ns_m(), 5);
+}
+
+TEST_F(CallsTest, MatterThatMakesNoSenseIsRefused) {
+  const std::array<std::array<HLdouble, 6>, 5> wrong{
+      {{1, 0, 0, 1, 0, 0}, {kNaN, 0, 0, 1, 0, 0}, {1, -1, 0, 2, 0, 0}, {1, 0, 2e9, 2, 0, 0}, {1, 0, 0, 2, 0, kNaN}}};
+  for (const auto& numbers : wrong) {
+    hlVolumeMatter(2, numbers.data());
+    expectError(HL_INVALID_VALUE);
+  }
+  hlVolumeMatter(257, wrong[0].data());
+  expectError(HL_INVALID_VALUE);
+  hlVolumeMatter(-1, wrong[0].data());
+  expectError(HL_INVALID_VALUE);
+  hlVolumeMatter(1, nullptr);
+  expectError(HL_INVALID_VALUE);
+}
+
 TEST_F(CallsTest, VolumesThatMakeNoSenseAreRefused) {
   const std::array<HLfloat, 8> samples{};
   hlVolume(1, 2, 2, HL_FLOAT, samples.data(), nullptr, 0);

@@ -195,6 +195,22 @@ TEST(SceneFile, ObjectsOfOneVolumeShareItsSamples) {
   EXPECT_NEAR(b.frame().point(1, 0.5, 0.5).y(), 1, 1e-12);
 }
 
+TEST(SceneFile, TheMatterOfAVolumeIsThatOfItsSurfaceToo) {
+  const SceneModel scene = loadSceneFile(fileWith("scene.hl.json", R"({"objects":[
+      {"volume": {"builtin": "ct:phantom:16", "iso": 0, "matter": [
+        {"value": -100, "stiffness": 0.2, "strengthN": 1},
+        {"value": 100, "stiffness": 0.6, "strengthN": 3, "resistanceN": 0.5, "dragNsM": 7}]},
+       "material": {"stiffness": 1, "staticFriction": 0.3}}]})"));
+  ASSERT_EQ(scene.surfaces.size(), 1U);
+  const auto& surface = dynamic_cast<const IsoSurface&>(*scene.surfaces[0].source);
+  ASSERT_TRUE(surface.matter());
+  EXPECT_EQ(surface.matter()->rows()[1].force, (MatterForce{0.5, 7}));
+  const Material material = makeSnapshot(scene)->instances[0].surfaces->materials[0];
+  EXPECT_DOUBLE_EQ(material.stiffness, 0.4);
+  EXPECT_DOUBLE_EQ(material.strength_N, 2);
+  EXPECT_EQ(material.static_friction, 0.3);
+}
+
 TEST(SceneFile, BuiltinVolumesHaveTheirOwnMaterials) {
   const SceneModel scene = loadSceneFile(fileWith("scene.hl.json", R"({"objects":[{"builtin": "ct:phantom:16"}]})"));
   ASSERT_EQ(scene.surfaces.size(), 2U);
@@ -222,6 +238,9 @@ TEST(SceneFile, VolumesThatMakeNoSenseAreRefused) {
   EXPECT_EQ(refusal(R"("file": "field.asc")"), "2: field.asc: is no volume");
   EXPECT_EQ(refusal(R"("file": "small.nii", "builtin": "ct:phantom")"), "2: it has a file or a builtin, not both");
   EXPECT_EQ(refusal(R"("builtin": "teapot")"), "2: teapot: is no volume");
+  EXPECT_EQ(refusal(good + R"(, "matter": [{"value": 1}, {"value": 1}])"),
+            "2: matter: the values of its rows must rise from row to row");
+  EXPECT_EQ(refusal(good + R"(, "matter": [{"value": 1, "dragNsM": -1}])"), "2: matter: drag must be from 0 to 1e9");
   EXPECT_EQ(refusal(R"("file": "small.nii", "size": [3, 2, 2])"),
             "2: size, values, samples, kind, missing, scale and offset are those of its file");
 }

@@ -472,6 +472,10 @@ TEST_F(PageRecording, AMemoryOfTheProxyThatNoSessionHasIsRefused) {
                  for (const double number : {0.5, 0.0, 0.0, 1.0}) proxy.add_adhering(number);
                }),
                Error);
+  EXPECT_THROW(taken([](auto& proxy) {
+                 for (std::uint64_t key = 1; key <= 1 + PiercedObjects::capacity(); ++key) proxy.add_pierced(key);
+               }),
+               Error);
 }
 
 TEST_F(PageRecording, IsOneAtATimeAndForItsPageAlone) {

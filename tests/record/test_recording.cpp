@@ -268,6 +268,42 @@ TEST(RecordedScene, HasItsVolumeOnce) {
   EXPECT_GT(touched, 200);
 }
 
+// A needle that pierces the skin goes on through the same matter.
+TEST(RecordedScene, HasTheMatterOfItsVolume) {
+  SceneModel phantom = makeBuiltinWorld("ct:phantom:41");
+  const auto& iso = dynamic_cast<const IsoSurface&>(*phantom.surfaces[0].source);
+  const auto matter = std::make_shared<const MatterTable>(
+      std::vector<MatterRow>{{.value = -500, .stiffness = 0.5, .strength_N = 1},
+                             {.value = 0, .stiffness = 1, .strength_N = 2, .force = {0.1, 5}}});
+  phantom.surfaces[0].source = std::make_shared<const IsoSurface>(iso.volume(), iso.frame(), iso.iso(), matter);
+  const auto made = makeSnapshot(phantom);
+  EXPECT_NEAR(made->instances[0].surfaces->materials[0].strength_N, 1.04, 1e-12) << "at -480";
+  SceneWriter writer;
+  SceneReader reader;
+  std::shared_ptr<const Snapshot> back;
+  writer.write(*made, [&](const proto::RecordingBlock& block) {
+    if (block.has_volume()) reader.add(block.volume());
+    if (block.has_surfaces()) reader.add(block.surfaces());
+    if (block.has_scene()) back = reader.scene(block.scene());
+  });
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->resisting.size(), 1U);
+  const ProxySettings settings;
+  Vec3 finger(0.001, 0.1, 0.002);
+  ProxyState was = startProxy(*made, settings, finger), is = startProxy(*back, settings, finger);
+  int pierced = 0, held = 0;
+  for (int i = 0; i < 2000; ++i) {
+    finger.y() -= 1e-4;
+    tick(was, *made, settings, finger);
+    const TickReport report = tick(is, *back, settings, finger);
+    ASSERT_EQ(was.position, is.position) << i;
+    pierced += is.pierced.empty() ? 0 : 1;
+    held += report.held_pull_m == Vec3::Zero() ? 0 : 1;
+  }
+  EXPECT_GT(pierced, 0);
+  EXPECT_GT(held, 200);
+}
+
 TEST(RecordedScene, IsTouchedBitForBitAsItWas) {
   for (unsigned seed = 1; seed <= 10; ++seed) {
     Random random(seed);

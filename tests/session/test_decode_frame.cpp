@@ -179,6 +179,10 @@ TEST(DecodeFrame, VolumesThatMakeNoSenseAreRefused) {
             where + "there is no surface at iso 3: its values are from 0 to 2");
   EXPECT_EQ(with([](auto&, auto& item) { item.set_iso(std::numeric_limits<double>::quiet_NaN()); }),
             where + "the iso value of a volume must be a number");
+  EXPECT_EQ(with([](auto& in, auto&) { in.add_matter()->set_drag_ns_m(std::numeric_limits<double>::infinity()); }),
+            where + "matter: drag must be from 0 to 1e9");
+  EXPECT_EQ(with([](auto& in, auto&) { in.add_matter()->set_stiffness(1.5); }),
+            where + "matter: stiffness must be from 0 to 1");
   EXPECT_EQ(with([](auto&, auto& item) { item.mutable_primitives()->add_vertices(1); }),
             "world.items[0].primitives: a volume comes without vertices and elements");
   EXPECT_EQ(with([](auto&, auto& item) { item.mutable_primitives()->mutable_heights(); }),

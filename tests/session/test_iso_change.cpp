@@ -3,7 +3,9 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "phantom.h"
@@ -68,6 +70,24 @@ TEST_F(IsoChangeTest, IsTheSameObjectAndNothingElseChanges) {
   EXPECT_EQ(after->name, before->name);
   EXPECT_EQ(after->blend_ns, kAbruptBlend_ns);
   EXPECT_EQ(server_.device().workspace().world_per_device, workspace.world_per_device);
+}
+
+// What its matter says at the new value is in its material; what else the material says stays.
+TEST(IsoChange, FollowsTheMatterOfItsVolume) {
+  SceneModel phantom = makePhantom(41);
+  const auto& iso = dynamic_cast<const IsoSurface&>(*phantom.surfaces[0].source);
+  const auto matter = std::make_shared<const MatterTable>(
+      std::vector<MatterRow>{{.value = -1000, .stiffness = 0}, {.value = 1000, .stiffness = 1}});
+  phantom.surfaces[0].source = std::make_shared<const IsoSurface>(iso.volume(), iso.frame(), iso.iso(), matter);
+  phantom.surfaces[0].material.static_friction = 0.25;
+  Instance instance = makeSnapshot(phantom)->instances[0];
+  EXPECT_DOUBLE_EQ(instance.surfaces->materials[0].stiffness, 0.26);
+  for (const double value : {-900.0, 370.0, 2000.0}) {
+    setIso(instance, value);
+    EXPECT_DOUBLE_EQ(instance.surfaces->materials[0].stiffness, std::min(1.0, (value + 1000) / 2000));
+    EXPECT_EQ(instance.surfaces->materials[0].static_friction, 0.25);
+    EXPECT_EQ(isoSurfaceOf(instance)->matter(), matter);
+  }
 }
 
 TEST_F(IsoChangeTest, WhatCannotBeIsRefusedWithWhatThereIs) {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "volumes.h"
@@ -188,6 +190,40 @@ TEST(IsoSurface, WhatCannotBeIsRefused) {
   flat.axes.col(2) = flat.axes.col(0) + 1e-6 * flat.axes.col(2);
   EXPECT_THROW(IsoSurface(volume, flat, {1, SolidSide::kAbove}), Error);
   EXPECT_TRUE(IsoSurface(volume, test::cubicFrame(1), {100, SolidSide::kAbove}).bounds().empty());
+}
+
+// What values feel like.
+
+TEST(MatterTable, IsLinearBetweenItsRowsAndConstantBeyondThem) {
+  const MatterTable table({{.value = -10, .stiffness = 0.2, .strength_N = 1, .force = {0.5, 2}},
+                           {.value = 10, .stiffness = 0.6, .strength_N = 3, .force = {0.1, 6}},
+                           {.value = 20, .stiffness = 1, .strength_N = 0, .force = {0, 0}}});
+  EXPECT_DOUBLE_EQ(*table.at(0).stiffness, 0.4);
+  EXPECT_DOUBLE_EQ(*table.at(5).strength_N, 2.5);
+  EXPECT_DOUBLE_EQ(table.at(5).force.resistance_N, 0.2);
+  EXPECT_DOUBLE_EQ(table.at(-5).force.drag_Ns_m, 3);
+  EXPECT_EQ(*table.at(-1e300).strength_N, 1);
+  EXPECT_EQ(*table.at(1e300).stiffness, 1);
+  EXPECT_EQ(*table.at(14.9).strength_N, 3) << "0 is never: it is not between";
+  EXPECT_EQ(*table.at(15.1).strength_N, 0);
+  EXPECT_FALSE(table.at(NAN).stiffness);
+  EXPECT_TRUE(table.resists());
+  EXPECT_FALSE(MatterTable().resists());
+  EXPECT_FALSE(MatterTable().at(3).force.acts());
+}
+
+TEST(MatterTable, RefusesWhatMakesNoSense) {
+  const auto refused = [](std::vector<MatterRow> rows) { EXPECT_THROW(MatterTable{std::move(rows)}, Error); };
+  refused({{.value = 1}, {.value = 1}});
+  refused({{.value = 2}, {.value = 1}});
+  refused({{.value = NAN}});
+  refused({{.value = 1, .stiffness = 1.1}});
+  refused({{.value = 1, .stiffness = NAN}});
+  refused({{.value = 1, .strength_N = -1}});
+  refused({{.value = 1, .force = {-1, 0}}});
+  refused({{.value = 1, .force = {0, INFINITY}}});
+  refused({{.value = 1, .stiffness = 1}, {.value = 2}});
+  refused(std::vector<MatterRow>(MatterTable::kMostRows + 1));
 }
 
 }  // namespace

@@ -189,7 +189,7 @@ TEST(BodySnaps, TheStepTellsWhichSnapHolds) {
   EXPECT_EQ(held.tick().snap.object.key, 1U);
   EXPECT_EQ(held.tick().snap.number, 0U);
   EXPECT_TRUE(held.tick().held.planes_D.empty());
-  EXPECT_NEAR(held.tick().held.snap_N.x(), -1, 1e-6);
+  EXPECT_NEAR(held.tick().held.held_N.x(), -1, 1e-6);
 }
 
 TEST(BodySnaps, AStepTakesNoMemory) {

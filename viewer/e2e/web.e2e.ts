@@ -82,7 +82,8 @@ describe.skipIf(process.env.HL_WEB === undefined && !existsSync(folder))("the pa
 
   test("has the sliders of the engine's own quantities", async () => {
     const labels = await page.locator("#surface-knobs label > span").allTextContents();
-    expect(labels).toEqual(["Stiffness", "Static friction", "Dynamic friction", "Viscosity", "Adhesion", "Compliance"]);
+    expect(labels).toEqual(["Stiffness", "Static friction", "Dynamic friction", "Viscosity", "Adhesion", "Compliance",
+      "Strength"]);
   });
 
   test("is pressed and dragged", async () => {

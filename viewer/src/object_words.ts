@@ -42,5 +42,8 @@ function describeMaterial(surface: SurfaceSettings): string {
   if ((surface.complianceMN ?? 0) > 0) {
     parts.push(number(surface.complianceMN, "compliance", `${kThinSpace}m/N`));
   }
+  if ((surface.strengthN ?? 0) > 0) {
+    parts.push(number(surface.strengthN, "strength", `${kThinSpace}N`));
+  }
   return parts.join(", ");
 }

@@ -22,7 +22,7 @@ const kUnmoved: ArrayLike<number> = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
 /** Fields of a Material that are numbers. */
 const kNumbers = [
   "stiffness", "staticFriction", "dynamicFriction", "viscosityNsM", "stribeckMS", "preslidingNM", "adhesionN",
-  "complianceMN",
+  "complianceMN", "strengthN",
 ] as const;
 /** Those that an image can change from place to place. */
 const kTexturable = new Set<string>(["stiffness", "staticFriction", "dynamicFriction", "viscosityNsM"]);

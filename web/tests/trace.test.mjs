@@ -16,7 +16,7 @@ const kTraced = 12;
 const kFirstColumn = 4;
 /** In the order of base/quantities.def. */
 const kOptions = ["--stiffness", "--static-friction", "--dynamic-friction", "--viscosity", "--stribeck", "--presliding",
-  "--adhesion", "--compliance"];
+  "--adhesion", "--compliance", "--strength"];
 
 const kCases = [
   { scene: "teapot", surface: {}, size: 0.05 },

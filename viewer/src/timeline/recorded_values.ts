@@ -9,7 +9,7 @@ import { RecordingError } from "./recording_blocks";
 /** As in base/quantities.def. */
 const kQuantities = [
   "stiffness", "staticFriction", "dynamicFriction", "viscosityNsM", "stribeckMS", "preslidingNM", "adhesionN",
-  "complianceMN",
+  "complianceMN", "strengthN",
 ] as const;
 
 /** How many of them a list has: recordings made before the last was added have one less. */

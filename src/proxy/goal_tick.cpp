@@ -1,0 +1,45 @@
+#include "proxy/goal_tick.h"
+
+#include "proxy/spring_energy.h"
+
+namespace hl {
+
+namespace {
+
+// Far above the rounding of energies that are compared, far below what can be felt: a part of them, and J, what a
+// spring of 1000 N/m has at 1 nm.
+constexpr double kEnergyRounding = 1e-12, kEnergyRounding_J = 1e-15;
+
+// Of a tick that does not count: the proxy has not moved.
+TickReport stayed(const TickReport& tried) {
+  TickReport report;
+  report.ending = Ending::kNoEnergy;
+  report.work = tried.work;
+  report.looks = tried.looks;
+  report.used_up_at = tried.used_up_at;
+  return report;
+}
+
+}  // namespace
+
+TickReport tickToGoal(ProxyState& state, const ProxySettings& settings, const Vec3& finger, const GoalOfTick& goal,
+                      TickTo tick_to) {
+  ProxyState there = state;
+  TickReport report = tick_to(goal.place, there, 0);
+  const double added_J = springEnergy_J(settings, there, finger) - goal.before_J;
+  const double budget_J = state.ledger.budget_J(settings.ledger);
+  if (!(added_J <= budget_J + kEnergyRounding * goal.before_J + kEnergyRounding_J)) return stayed(report);
+  there.ledger = state.ledger;
+  there.ledger.book(added_J, true);
+  state = there;
+  report.injected_J = added_J;
+  return report;
+}
+
+void tellPull(ProxyState& state, const Vec3& finger, const Vec3& pull_m, TickReport& report) {
+  state.touching = true;
+  report.target = finger + state.stiffness * (state.position + state.rest_offset_m - finger);
+  report.held_pull_m = pull_m;
+}
+
+}  // namespace hl

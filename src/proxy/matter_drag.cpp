@@ -1,0 +1,38 @@
+#include "proxy/matter_drag.h"
+
+#include <algorithm>
+
+#include "proxy/spring_energy.h"
+
+namespace hl {
+
+MatterForce matterAround(const SceneAt& scene, const Vec3& position) {
+  MatterForce most;
+  for (const std::uint32_t number : scene.snapshot().resisting) {
+    const Instance& instance = scene.snapshot().instances[number];
+    const Vec3 place_O = instance.poses().at(scene.time_ns()).toObject(position);
+    const MatterForce there = instance.shape->source->matterAt(place_O);
+    most.resistance_N = std::max(most.resistance_N, there.resistance_N);
+    most.drag_Ns_m = std::max(most.drag_Ns_m, there.drag_Ns_m);
+  }
+  return most;
+}
+
+TickReport tickInMatter(ProxyState& state, const ProxySettings& settings, const MatterForce& matter, const Vec3& finger,
+                        TickTo tick_to) {
+  const double spring_N_m = settings.spring_N_m * state.stiffness;
+  const Vec3 gap = finger - state.position - state.rest_offset_m;
+  const double pull_N = spring_N_m * gap.norm() / settings.world_per_device;
+  if (!(pull_N > 0)) return tick_to(finger, state, 0);
+  const double harder = 1 + matter.drag_Ns_m / (settings.period_s * spring_N_m);
+  const double part = std::max(0.0, 1 - matter.resistance_N / pull_N) / harder;
+  const Vec3 place = finger - (1 - part) * gap;
+  const double before_J = springEnergy_J(settings, state, finger);
+  TickReport report = tickToGoal(state, settings, finger, {place, before_J}, tick_to);
+  for (ProxyContact& contact : report.contacts) contact.multiplier_m *= harder;
+  const Vec3 rest = state.position + state.rest_offset_m;
+  tellPull(state, finger, rest - finger - (report.contacts.empty() ? 0 : harder) * (rest - place), report);
+  return report;
+}
+
+}  // namespace hl
