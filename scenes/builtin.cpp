@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "depth_table.h"
 #include "fields.h"
 #include "phantom.h"
 #include "rough.h"
@@ -23,7 +24,7 @@ namespace {
 
 constexpr std::size_t kMaxMember = 1'000'000'000;
 
-constexpr std::string_view kSnaps = "snaps", kWorkshop = "workshop", kField = "field", kScan = "ct";
+constexpr std::string_view kSnaps = "snaps", kWorkshop = "workshop", kField = "field", kScan = "ct", kDepth = "depth";
 constexpr std::size_t kUsualField = 1'000'000, kMostField = std::min(100'000'000'000ULL, 0ULL + SIZE_MAX),
                       kUsualScan = 161, kMostScan = 1025;
 
@@ -107,11 +108,20 @@ SceneModel makeScan(const std::string& spec) {
   return scene;
 }
 
+SceneModel makeDepth(const std::string& spec) {
+  if (spec != "depth" && spec != "depth:table")
+    throw Error("'" + spec + "': the one generated depth image is depth:table");
+  SceneModel scene;
+  scene.model.name = "depth:table";
+  scene.surfaces.push_back({scene.model.name, makeDepthTable()});
+  return scene;
+}
+
 }  // namespace
 
 bool isBuiltinSurface(const std::string& spec) {
   const std::string_view name = std::string_view(spec).substr(0, spec.find(':'));
-  return name == kField || name == kScan;
+  return name == kField || name == kScan || name == kDepth;
 }
 
 bool isBuiltinScene(const std::string& spec) {
@@ -141,7 +151,10 @@ Model makeBuiltinScene(const std::string& spec) {
 SceneModel makeBuiltinWorld(const std::string& spec) {
   if (spec == kSnaps) return makeSnapBoard();
   if (spec == kWorkshop) return makeWorkshop();
-  if (isBuiltinSurface(spec)) return spec.starts_with(kField) ? makeField(spec) : makeScan(spec);
+  if (isBuiltinSurface(spec)) {
+    if (spec.starts_with(kDepth)) return makeDepth(spec);
+    return spec.starts_with(kField) ? makeField(spec) : makeScan(spec);
+  }
   return makeBuiltinScene(spec);
 }
 

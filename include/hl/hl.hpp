@@ -272,6 +272,23 @@ void heightField(std::size_t columns, const Samples& samples, std::optional<HLdo
                 std::ranges::data(samples), missing ? &*missing : nullptr);
 }
 
+/// A pinhole camera, in pixels, and how its depths become a surface: hlDepthFrame.
+struct DepthCamera {
+  HLdouble fx, fy, cx, cy;
+  HLdouble scale = 0.001;  ///< m for a unit of depth
+  HLdouble join = 0.02, smoothing = 0;
+};
+
+/// hlDepthFrame of rows of `width` depths.
+inline void depthFrame(const DepthCamera& camera, std::size_t width, std::span<const HLushort> depths) {
+  constexpr auto kMost = static_cast<std::size_t>(std::numeric_limits<HLsizei>::max());
+  if (width == 0 || width > kMost || depths.size() % width != 0 || depths.size() / width > kMost)
+    throw std::invalid_argument("the depths must fill rows of so many columns");
+  const std::array<HLdouble, 4> numbers{camera.fx, camera.fy, camera.cx, camera.cy};
+  hlDepthFrame(static_cast<HLsizei>(width), static_cast<HLsizei>(depths.size() / width), depths.data(), numbers.data(),
+               camera.scale, camera.join, camera.smoothing);
+}
+
 /// hlVolume of as many slices of `width` x `height` samples as there are.
 template <std::ranges::contiguous_range Samples>
 requires SampleNumber<std::ranges::range_value_t<Samples>>

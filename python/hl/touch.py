@@ -15,7 +15,7 @@ import math
 import weakref
 from dataclasses import dataclass
 from types import TracebackType
-from typing import Any, AsyncIterator, Callable, Dict, Iterator, Optional, Tuple, Type, Union
+from typing import Any, AsyncIterator, Callable, Dict, Iterator, Optional, Sequence, Tuple, Type, Union
 from urllib.parse import urlencode
 
 import numpy as np
@@ -265,6 +265,25 @@ class Touch:
             calls.hlVolume(array, value, missing)
         finally:
             calls.hlPopMatrix()
+
+    def depth_frame(
+        self,
+        depths: npt.ArrayLike,
+        camera: Sequence[float],
+        scale: float = 0.001,
+        join: float = 0.02,
+        smoothing: float = 0.0,
+    ) -> None:
+        """Draws what a depth camera sees: depths of 16 bits (rows, columns) in units of `scale` metres, 0 for none;
+        `camera` is fx, fy, cx, cy in pixels. It is at the origin and looks along -z with y up. Define its object anew
+        for each frame, as hlDepthFrame tells."""
+        self.make_current()
+        image = np.asarray(depths)
+        if image.dtype != np.uint16:
+            raise InvalidValueError("depths must be an array of uint16")
+        numbers = [arguments.number(value, name) for value, name in
+                   ((scale, "scale"), (join, "join"), (smoothing, "smoothing"))]
+        calls.hlDepthFrame(np.ascontiguousarray(image), arguments.floats(camera, "camera"), *numbers)
 
     def volume_surface(self, iso: float, spacing: Union[float, Tuple[float, float, float]] = 1.0) -> None:
         """Draws another surface of the volume that was drawn last in this object or world; nothing is sent again."""

@@ -82,6 +82,16 @@ void volume(const py::array& samples, double iso, std::optional<double> missing)
   throwFailure();
 }
 
+using Depths = py::array_t<HLushort, py::array::c_style | py::array::forcecast>;
+
+void depthFrame(const Depths& depths, const Doubles& camera, double scale, double join, double smoothing) {
+  requireContext();
+  if (depths.ndim() != 2) throw CallFailed(HL_INVALID_VALUE, "depths must have the shape (rows, columns)");
+  if (camera.size() != 4) throw CallFailed(HL_INVALID_VALUE, "camera must be four numbers: fx, fy, cx, cy");
+  hlDepthFrame(sideOf(depths, 1), sideOf(depths, 0), depths.data(), camera.data(), scale, join, smoothing);
+  throwFailure();
+}
+
 void volumeMatter(const Doubles& rows) {
   requireContext();
   const std::size_t count = rowsOf(rows, 3, "rows");
@@ -212,6 +222,8 @@ void bindArrayCalls(py::module_& module) {
   module.def("hlDrawElements", &drawElements, py::arg("mode"), py::arg("vertices"), py::arg("indices"),
              py::arg("normals") = none, py::arg("texcoords") = none);
   module.def("hlHeightField", &heightField, py::arg("samples"), py::arg("missing") = none);
+  module.def("hlDepthFrame", &depthFrame, py::arg("depths"), py::arg("camera"), py::arg("scale"), py::arg("join"),
+             py::arg("smoothing"));
   module.def("hlVolumeMatter", &volumeMatter, py::arg("rows"));
   module.def("hlVolume", &volume, py::arg("samples"), py::arg("iso"), py::arg("missing") = none);
   module.def("hlUpdateVertices", &updateVertices, py::arg("object"), py::arg("vertices"), py::arg("first") = 0,

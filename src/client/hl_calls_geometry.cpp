@@ -201,6 +201,30 @@ void hlHeightField(HLsizei columns, HLsizei rows, HLenum type, const void* sampl
   });
 }
 
+void hlDepthFrame(HLsizei width, HLsizei height, const HLushort* depths, const HLdouble* camera, HLdouble scale,
+                  HLdouble join, HLdouble smoothing) {
+  constexpr double kLeast = 1e-12, kMost = 1e9;
+  call(__func__, [&](HLcontext& context) {
+    if (camera == nullptr) throw Fault(HL_INVALID_VALUE, "there is no camera");
+    if (!(camera[0] > 0 && camera[1] > 0)) throw Fault(HL_INVALID_VALUE, "the focal lengths must be above 0");
+    if (!(scale >= kLeast && scale <= kMost)) throw Fault(HL_INVALID_VALUE, "the scale must be from 1e-12 to 1e9 m");
+    if (!(join >= 0 && join <= 1)) throw Fault(HL_INVALID_VALUE, "join must be from 0 to 1");
+    if (!(smoothing >= 0 && smoothing < 1)) throw Fault(HL_INVALID_VALUE, "smoothing must be from 0 to less than 1");
+    hl::proto::Heights heights;
+    setSamples(heights, {width, height}, HL_UNSIGNED_SHORT, depths, nullptr);
+    heights.set_columns(static_cast<std::uint32_t>(width));
+    heights.set_rows(static_cast<std::uint32_t>(height));
+    heights.set_vertical_scale(scale);
+    for (int i = 0; i < 4; ++i) {
+      requireFinite(camera[i]);
+      heights.add_camera(camera[i]);
+    }
+    heights.set_join(join);
+    heights.set_smoothing(smoothing);
+    context.target().drawHeights(context.draw.modelview.top(), lookOf(context.draw.attributes.now), std::move(heights));
+  });
+}
+
 void hlVolume(HLsizei width, HLsizei height, HLsizei depth, HLenum type, const void* samples, const HLdouble* missing,
               HLdouble iso) {
   call(__func__, [&](HLcontext& context) {

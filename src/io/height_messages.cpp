@@ -30,6 +30,9 @@ void toProto(const HeightHeader& header, proto::RecordedHeights& out) {
   if (header.missing) out.set_missing(*header.missing);
   for (const double value : header.frame.axes.reshaped()) out.add_axes(value);
   for (const double value : header.frame.origin) out.add_origin(value);
+  if (!header.camera) return;
+  const DepthCamera& camera = *header.camera;
+  for (const double value : {camera.fx, camera.fy, camera.cx, camera.cy, camera.join}) out.add_camera(value);
 }
 
 HeightHeader headerOf(const proto::RecordedHeights& in) {
@@ -40,21 +43,34 @@ HeightHeader headerOf(const proto::RecordedHeights& in) {
   if (in.has_missing()) header.missing = in.missing();
   std::copy(in.axes().begin(), in.axes().end(), header.frame.axes.data());
   std::copy(in.origin().begin(), in.origin().end(), header.frame.origin.data());
+  if (in.camera_size() == 0) return header;
+  if (in.camera_size() != 5) throw Error("a depth image in it makes no sense");
+  header.camera = {in.camera(0), in.camera(1), in.camera(2), in.camera(3), in.camera(4)};
+  checkCamera(*header.camera);
   return header;
 }
 
 void writeHeights(const HeightField& field, const std::function<void(proto::RecordedHeights& part)>& take) {
   const HeightGrid& grid = field.grid();
   proto::RecordedHeights part;
-  toProto(HeightHeader{grid.size(), grid.missing(), field.frame()}, part);
+  toProto(HeightHeader{grid.size(), grid.missing(), field.frame(), {}}, part);
+  takeInParts(std::move(part), grid.samples(), grid.size().bytes(), take);
+}
+
+void writeDepths(const DepthFrame& frame, const std::function<void(proto::RecordedHeights& part)>& take) {
+  const HeightGrid& grid = *frame.image()->grid;
+  proto::RecordedHeights part;
+  toProto(HeightHeader{grid.size(), grid.missing(), frame.frame(), frame.image()->camera}, part);
   takeInParts(std::move(part), grid.samples(), grid.size().bytes(), take);
 }
 
 HeightCollector::HeightCollector(const HeightHeader& header, std::size_t most_bytes)
     : header_(header), samples_(samplesOf(header.size, most_bytes)) {}
 
-std::shared_ptr<const HeightField> HeightCollector::take() {
+std::shared_ptr<const PrimitiveSource> HeightCollector::take() {
   const auto grid = std::make_shared<const HeightGrid>(header_.size, samples_.take(), header_.missing);
+  if (header_.camera)
+    return std::make_shared<const DepthFrame>(std::make_shared<const DepthImage>(grid, *header_.camera), header_.frame);
   auto field = std::make_shared<const HeightField>(grid, header_.frame);
   requireTriangles(*field);
   return field;

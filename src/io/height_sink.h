@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "surfaces/depth_camera.h"
 #include "surfaces/grid_frame.h"
 #include "surfaces/height_grid.h"
 
@@ -15,6 +16,7 @@ struct HeightHeader {
   GridSize size;
   std::optional<double> missing{};
   GridFrame frame{};
+  std::optional<DepthCamera> camera{};  ///< of a depth image
 };
 
 /// Called in this order: a header, and all samples, row by row. Each may throw.

@@ -10,11 +10,16 @@ namespace hl {
 
 namespace {
 
+Site siteOf(const SceneAt& scene, const Instance& instance, const Vec3& place) {
+  return instance.shape->source->siteOf(instance.poses().at(scene.time_ns()).toObject(place));
+}
+
 /// The nearest places are tried first, on all the ways at once.
 class WayOut {
  public:
-  WayOut(const SceneAt& scene, double reach)
+  WayOut(const SceneAt& scene, const PiercedObjects& within, double reach)
       : scene_(scene),
+        within_(within),
         reach_(reach),
         step_(std::max(kStepPerReach * reach, 2 * scene.extent() / convergence::kMostSites)) {}
 
@@ -42,15 +47,17 @@ class WayOut {
   static constexpr double kStepPerReach = 0.5;
 
   bool open(const Vec3& place) const {
-    const auto& instances = scene_.snapshot().instances;
-    return std::none_of(instances.begin(), instances.end(), [&](const Instance& instance) {
-      if (!instance.shape->source) return false;
-      const Site site = instance.shape->source->siteOf(instance.poses().at(scene_.time_ns()).toObject(place));
+    const Snapshot& snapshot = scene_.snapshot();
+    return std::none_of(snapshot.sources.begin(), snapshot.sources.end(), [&](std::uint32_t number) {
+      const Instance& instance = snapshot.instances[number];
+      if (std::find(within_.begin(), within_.end(), instance.key) != within_.end()) return false;
+      const Site site = siteOf(scene_, instance, place);
       return site == Site::kMatter || site == Site::kBoundary;
     });
   }
 
   const SceneAt& scene_;
+  const PiercedObjects& within_;
   const double reach_, step_;
   int queries_ = 0;
 };
@@ -77,7 +84,7 @@ void leaveMatter(ProxyState& state, const SceneAt& scene, const ProxySettings& s
   const auto replaced = [&](const Instance& instance) { return instance.replaced_in > state.snapshot; };
   if (std::none_of(snapshot.instances.begin(), snapshot.instances.end(), replaced)) return;
   const Tolerances tolerance = Tolerances::of(settings.radius, scene.extent());
-  WayOut out(scene, tolerance.reach);
+  WayOut out(scene, state.within, tolerance.reach);
   if (out.clear(state.position)) return;
   const Vec3 spring = state.position - finger;
   const double length = spring.norm();
@@ -86,6 +93,14 @@ void leaveMatter(ProxyState& state, const SceneAt& scene, const ProxySettings& s
     if (out.find(along, state.position)) return;
   }
   out.find(allAround(), state.position);
+}
+
+void rememberMatter(ProxyState& state, const SceneAt& scene) {
+  state.within.clear();
+  for (const std::uint32_t number : scene.snapshot().sources) {
+    const Instance& instance = scene.snapshot().instances[number];
+    if (siteOf(scene, instance, state.position) == Site::kMatter) state.within.push(instance.key);
+  }
 }
 
 }  // namespace hl

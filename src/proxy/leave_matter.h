@@ -1,5 +1,6 @@
-// Leave matter: when a surface takes the place of another at once (another iso value of a volume), the proxy may find
-// itself in matter. It leaves it on the side of its spring, as if the surface had grown there and had pushed it.
+// Leave matter: when a surface takes the place of another at once (another iso value of a volume, another image of a
+// camera), the proxy may find itself in matter. It leaves it on the side of its spring, as if the surface had grown
+// there and had pushed it. What the proxy had been within before, through a gap or a pierced surface, it stays within.
 #pragma once
 
 #include "proxy/proxy_state.h"
@@ -11,5 +12,8 @@ namespace hl {
 /// place that is clear of the scene and out of all matter. It is sought along the spring from `finger` to the proxy,
 /// and then all around. If there is none, the proxy stays. RT-safe; at most convergence::kMostSites places per way.
 void leaveMatter(ProxyState& state, const SceneAt& scene, const ProxySettings& settings, const Vec3& finger);
+
+/// After a tick: notes the objects in whose matter the proxy is. RT-safe.
+void rememberMatter(ProxyState& state, const SceneAt& scene);
 
 }  // namespace hl

@@ -8,8 +8,9 @@ namespace hl {
 
 MatterForce matterAround(const SceneAt& scene, const Vec3& position) {
   MatterForce most;
-  for (const std::uint32_t number : scene.snapshot().resisting) {
+  for (const std::uint32_t number : scene.snapshot().sources) {
     const Instance& instance = scene.snapshot().instances[number];
+    if (!instance.shape->source->resists()) continue;
     const Vec3 place_O = instance.poses().at(scene.time_ns()).toObject(position);
     const MatterForce there = instance.shape->source->matterAt(place_O);
     most.resistance_N = std::max(most.resistance_N, there.resistance_N);

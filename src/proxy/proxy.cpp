@@ -123,6 +123,7 @@ TickReport tick(ProxyState& state, const SceneAt& scene, const ProxySettings& se
                                 : tickWithin(state, SceneAt(scene, {state.pierced.begin(), state.pierced.size()}),
                                              settings, finger, most_looks);
   rememberPiercing(state, scene, settings, report);
+  rememberMatter(state, scene);
   return report;
 }
 

@@ -56,7 +56,7 @@ struct YieldingContact {
 };
 using YieldingContacts = FixedVector<YieldingContact, 3>;
 
-/// Keys of the objects that have let the proxy through and still overlap it (piercing.h).
+/// Keys of objects that have let the proxy through: those that still overlap it (piercing.h), and those within it is.
 using PiercedObjects = FixedVector<std::uint64_t, 4>;
 
 /// The snap that holds the proxy (snapping.h).
@@ -79,6 +79,7 @@ struct ProxyState {
   std::uint64_t carrier = 0;           ///< key of the object whose friction or snap holds the proxy; 0: none
   HeldSnap snap{};
   PiercedObjects pierced{};
+  PiercedObjects within{};            ///< keys of objects in whose matter the proxy is (leave_matter.h)
   AdheringContacts adhering{};        ///< adhesive contacts of the last tick (adhesion.h)
   YieldingContacts yielding{};        ///< contacts of the last tick; empty if none of them yields
   double yielding_stiffness = 1;      ///< s of these contacts

@@ -123,6 +123,14 @@ AdheringContacts adheringOf(const proto::RecordedProxy& in) {
   return adhering;
 }
 
+PiercedObjects keysOf(const google::protobuf::RepeatedField<std::uint64_t>& in) {
+  PiercedObjects keys;
+  for (const std::uint64_t key : in) {
+    if (!keys.push(key)) throw Error("the objects that let the proxy through make no sense: there are too many");
+  }
+  return keys;
+}
+
 }  // namespace
 
 void toProto(const ProxyMemory& memory, proto::RecordedProxy& out) {
@@ -137,6 +145,7 @@ void toProto(const ProxyMemory& memory, proto::RecordedProxy& out) {
     out.add_adhering(contact.adhesion_N);
   }
   for (const std::uint64_t key : state.pierced) out.add_pierced(key);
+  for (const std::uint64_t key : state.within) out.add_within(key);
   toProto(valuesOf(YieldingValues{state.rest_offset_m, state.yielding_stiffness, state.estimate}),
           *out.mutable_yielding());
   for (const YieldingContact& contact : state.yielding) toProto(valuesOf(contact), *out.add_yielding_contacts());
@@ -159,9 +168,8 @@ ProxyMemory fromProto(const proto::RecordedProxy& in) {
   state.carrier = values.carrier;
   state.snap = values.snap;
   state.adhering = adheringOf(in);
-  for (const std::uint64_t key : in.pierced()) {
-    if (!state.pierced.push(key)) throw Error("the objects that let the proxy through make no sense: too many");
-  }
+  state.pierced = keysOf(in.pierced());
+  state.within = keysOf(in.within());
   readYielding(in, state);
   state.ledger = values.ledger;
   state.out_of_work = values.out_of_work;

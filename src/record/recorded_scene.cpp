@@ -129,14 +129,14 @@ std::uint64_t SceneWriter::idOf(std::map<const Part*, Written<Part>>& written, c
 }
 
 void SceneWriter::writeSource(const PrimitiveSource& source, std::uint64_t id, const Write& write) {
-  if (const auto* const field = dynamic_cast<const HeightField*>(&source)) {
-    return writeHeights(*field, [&](proto::RecordedHeights& heights) {
-      proto::RecordingBlock part;
-      heights.set_id(id);
-      part.mutable_heights()->Swap(&heights);
-      write(part);
-    });
-  }
+  const auto take_heights = [&](proto::RecordedHeights& heights) {
+    proto::RecordingBlock part;
+    heights.set_id(id);
+    part.mutable_heights()->Swap(&heights);
+    write(part);
+  };
+  if (const auto* const field = dynamic_cast<const HeightField*>(&source)) return writeHeights(*field, take_heights);
+  if (const auto* const frame = dynamic_cast<const DepthFrame*>(&source)) return writeDepths(*frame, take_heights);
   const auto* const surface = dynamic_cast<const IsoSurface*>(&source);
   if (surface == nullptr) throw Error("a surface that is no mesh, no height field and no volume cannot be recorded");
   const auto [first, is_new] = volumes_.try_emplace(surface->volume().get(), VolumeId{surface->volume(), id});

@@ -438,6 +438,12 @@ std::shared_ptr<const ComplianceMotion> complianceOf(const Instance& before, con
   return std::make_shared<const ComplianceMotion>(so_far.then(to, from_ns, deforms ? mesh->last().end_ns() : end_ns));
 }
 
+// Of a surface that is no mesh, and has no transitions: the snapshot in which it last took the place of another one.
+std::uint64_t replacedIn(const Instance& before, const Shape& now, std::uint64_t snapshot) {
+  if (!now.source) return 0;
+  return before.shape.get() == &now ? before.replaced_in : snapshot;
+}
+
 Instance follow(const PlacedShape& now, const Instance* before, std::int64_t begin_ns, std::int64_t end_ns,
                 const MemoryBudget& memory, const Box& scene, Followed& all) {
   Instance instance{now.shape, now.surfaces, Motion(now.pose), now.key, now.session, now.object, now.name};
@@ -468,7 +474,7 @@ Instance follow(const PlacedShape& now, const Instance* before, std::int64_t beg
 }  // namespace
 
 Followed followOn(const std::vector<PlacedShape>& placed, std::span<const Instance* const> last, std::int64_t begin_ns,
-                  std::int64_t end_ns, const MemoryBudget& memory, const Box& scene) {
+                  std::int64_t end_ns, const MemoryBudget& memory, const Box& scene, std::uint64_t snapshot) {
   Followed result;
   if (placed.size() != last.size()) result.blend_ns = kAbruptBlend_ns;
   result.instances.reserve(placed.size());
@@ -477,6 +483,7 @@ Followed followOn(const std::vector<PlacedShape>& placed, std::span<const Instan
     at = std::find_if(at, last.end(), [&](const Instance* one) { return one->key >= now->key; });
     const Instance* const before = at != last.end() && (*at)->key == now->key ? *at : nullptr;
     result.instances.push_back(follow(*now, before, begin_ns, end_ns, memory, scene, result));
+    if (before != nullptr) result.instances.back().replaced_in = replacedIn(*before, *now->shape, snapshot);
     result.blend_ns = std::max(result.blend_ns, blendOf(before, result.instances.back(), *now));
   }
   return result;

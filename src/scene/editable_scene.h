@@ -163,9 +163,11 @@ struct Followed {
 /// The instances of the next snapshot, from those of this client in the last one; both sorted by key. An object that
 /// existed moves from its pose at `begin_ns` to its new pose at `end_ns`. A new object is at its pose at once, as are
 /// all if end_ns <= begin_ns. A mesh deforms in the same time, or in kAbruptBlend_ns; a transition that has begun is
-/// completed first. The memory for this is counted in `memory`; a mesh for which there is no room changes at once. A
-/// rigid body goes on from where it is while its start is the same; `scene`: bounds of all that it may meet.
+/// completed first. The memory for this is counted in `memory`; a mesh for which there is no room changes at once. What
+/// is no mesh always does, in the snapshot of the given number. A rigid body goes on from where it is while its start
+/// is the same; `scene`: bounds of all that it may meet.
 Followed followOn(const std::vector<PlacedShape>& placed, std::span<const Instance* const> last, std::int64_t begin_ns,
-                  std::int64_t end_ns, const MemoryBudget& memory = {}, const Box& scene = {});
+                  std::int64_t end_ns, const MemoryBudget& memory = {}, const Box& scene = {},
+                  std::uint64_t snapshot = 1);
 
 }  // namespace hl

@@ -128,7 +128,7 @@ class FrameDecoder {
   std::shared_ptr<const SurfaceChange> surfaceOf(const proto::Item& in, const std::string& where) const;
   std::shared_ptr<const Shape> shapeOf(const proto::Primitives& in, const proto::Item& item, const Shape* before,
                                        const std::string& where);
-  std::shared_ptr<const Shape> heightsOf(const proto::Primitives& in, const std::string& where);
+  std::shared_ptr<const Shape> heightsOf(const proto::Primitives& in, const Shape* before, const std::string& where);
   std::shared_ptr<const Shape> surfaceOfVolume(const proto::Primitives& in, const proto::Item& item,
                                                const std::string& where);
   const PlacedVolume& volumeOf(const proto::Volume& in, const std::string& where);
@@ -298,7 +298,7 @@ std::shared_ptr<const Shape> FrameDecoder::shapeOf(const proto::Primitives& in, 
   if (in.has_heights() || in.has_volume()) requireAlone(in, where);
   if (in.has_volume()) return surfaceOfVolume(in, item, where);
   if (item.has_iso()) throw Error(where + ": iso is of volumes, and this is none");
-  if (in.has_heights()) return heightsOf(in, where);
+  if (in.has_heights()) return heightsOf(in, before, where);
   const proto::Material& material = item.material();
   const auto repeat = [](bool has, double value) { return has && std::isfinite(value) ? value : 1; };
   return makeCounted(memory_, bytesToBuild(in), [&] {
@@ -311,12 +311,13 @@ std::shared_ptr<const Shape> FrameDecoder::shapeOf(const proto::Primitives& in, 
 }
 
 // Counted by its samples, as a mesh is by its elements.
-std::shared_ptr<const Shape> FrameDecoder::heightsOf(const proto::Primitives& in, const std::string& where) {
+std::shared_ptr<const Shape> FrameDecoder::heightsOf(const proto::Primitives& in, const Shape* before,
+                                                     const std::string& where) {
   size_.add(bytesToMakeHeights(in.heights()), where + ": ");
   MemoryShare memory(memory_);
   memory.take(bytesToMakeHeights(in.heights()));
   try {
-    auto shape = makeShape(decodeHeights(in.heights()));
+    auto shape = makeShape(decodeHeights(in.heights(), before != nullptr ? before->source.get() : nullptr));
     memory.set(shape->bytes() + shape->shared().bytes);
     return withShare(std::move(shape), std::move(memory));
   } catch (const Error& error) {

@@ -394,7 +394,7 @@ std::int64_t ScenePublisher::assemble(std::vector<Part>& parts, std::int64_t beg
       if (!client->shown_.instances.empty()) blend_ns = std::max(blend_ns, kAbruptBlend_ns);
     } else if (placed) {
       Followed next = followOn(*placed, client->shown_.instances, begin_ns, begin_ns + move_ns, client->memory_,
-                               boundsForBodies(*base_.now(), *placed));
+                               boundsForBodies(*base_.now(), *placed), shown_->number + 1);
       jumps = next.jumps;
       blend_ns = std::max(blend_ns, next.blend_ns);
       std::move(next.instances.begin(), next.instances.end(), std::back_inserter(instances));

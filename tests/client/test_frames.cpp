@@ -103,6 +103,47 @@ TEST_F(CallsTest, SurfacesOfAVolumeShareItsSamples) {
   EXPECT_EQ(volume.samples(0), std::string(reinterpret_cast<const char*>(samples.data()), sizeof samples));
 }
 
+TEST_F(CallsTest, ADepthFrameIsAHeightFieldWithACamera) {
+  const std::array<HLushort, 6> depths{500, 501, 502, 503, 504, 505};
+  const std::array<HLdouble, 4> camera{525, 526, 319.5, 239.5};
+  hlDepthFrame(3, 2, depths.data(), camera.data(), 0.001, 0.05, 0.25);
+  const proto::Frame frame = flushed();
+  ASSERT_EQ(frame.world().items_size(), 1);
+  const proto::Heights& sent = frame.world().items(0).primitives().heights();
+  EXPECT_EQ(sent.columns(), 3U);
+  EXPECT_EQ(sent.rows(), 2U);
+  EXPECT_EQ(sent.kind(), "uint16");
+  EXPECT_EQ(sent.vertical_scale(), 0.001);
+  EXPECT_EQ((std::vector<double>{sent.camera().begin(), sent.camera().end()}),
+            (std::vector<double>{525, 526, 319.5, 239.5}));
+  EXPECT_EQ(sent.join(), 0.05);
+  EXPECT_EQ(sent.smoothing(), 0.25);
+}
+
+TEST_F(CallsTest, DepthFramesThatMakeNoSenseAreRefused) {
+  const std::array<HLushort, 4> depths{};
+  const std::array<HLdouble, 4> camera{525, 525, 0, 0}, none{0, 1, 0, 0}, nan{1, 1, kNaN, 0};
+  hlDepthFrame(1, 4, depths.data(), camera.data(), 1, 0, 0);
+  expectError(HL_INVALID_VALUE);
+  hlDepthFrame(2, 2, nullptr, camera.data(), 1, 0, 0);
+  expectError(HL_INVALID_VALUE);
+  hlDepthFrame(2, 2, depths.data(), nullptr, 1, 0, 0);
+  expectError(HL_INVALID_VALUE);
+  hlDepthFrame(2, 2, depths.data(), none.data(), 1, 0, 0);
+  expectError(HL_INVALID_VALUE);
+  hlDepthFrame(2, 2, depths.data(), nan.data(), 1, 0, 0);
+  expectError(HL_INVALID_VALUE);
+  for (const double wrong : {-1.0, 2.0, kNaN}) {
+    hlDepthFrame(2, 2, depths.data(), camera.data(), 1, wrong, 0);
+    expectError(HL_INVALID_VALUE);
+    hlDepthFrame(2, 2, depths.data(), camera.data(), 1, 0, wrong);
+    expectError(HL_INVALID_VALUE);
+  }
+  hlDepthFrame(2, 2, depths.data(), camera.data(), 0, 0, 0);
+  expectError(HL_INVALID_VALUE);
+  EXPECT_EQ(flushed().world().items_size(), 0);
+}
+
 TEST_F(CallsTest, MatterIsOfTheVolumesThatAreDrawnNext) {
   const std::array<HLushort, 8> samples{1, 2, 3, 4, 5, 6, 7, 8};
   const std::array<HLdouble, 6> matter{-5, 0, 0, 40, 0.2, 5};

@@ -195,6 +195,17 @@ TEST(SceneFile, ObjectsOfOneVolumeShareItsSamples) {
   EXPECT_NEAR(b.frame().point(1, 0.5, 0.5).y(), 1, 1e-12);
 }
 
+TEST(SceneFile, HeightsWithACameraAreADepthImage) {
+  fileWith("depth.asc", "ncols 3\nnrows 2\ncellsize 1\n500 500 500\n500 500 700");
+  const SceneModel scene = loadSceneFile(fileWith("scene.hl.json", R"({"objects":[
+      {"heights": {"file": "depth.asc", "camera": [525, 525, 1, 0.5], "verticalScale": 0.001}}]})"));
+  ASSERT_EQ(scene.surfaces.size(), 1U);
+  const auto& frame = dynamic_cast<const DepthFrame&>(*scene.surfaces[0].source);
+  EXPECT_EQ(frame.triangles(), 2U) << "the last pixel is another thing";
+  EXPECT_NEAR(frame.pointAt(2, 0).x(), 0.5 / 525, 1e-9);
+  EXPECT_NEAR(frame.pointAt(2, 0).z(), -0.5, 1e-7);
+}
+
 TEST(SceneFile, TheMatterOfAVolumeIsThatOfItsSurfaceToo) {
   const SceneModel scene = loadSceneFile(fileWith("scene.hl.json", R"({"objects":[
       {"volume": {"builtin": "ct:phantom:16", "iso": 0, "matter": [

@@ -17,6 +17,7 @@ EXPECTED = {
     "05_live.py": r"[1-9]\d+ states, largest force (0\.[1-9]|[1-9])",
     "06_a_recording.py": r"[1-9]\d{3} steps",
     "07_a_button.py": r"pressed by [1-4]\.\d+ mm, largest force [1-9]",
+    "08_a_depth_camera.py": r"[1-9]\d+ states, largest force [1-9]",
 }
 
 

@@ -5,11 +5,14 @@
 
 #include <functional>
 #include <limits>
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "geometry/scenes.h"
 #include "scene/by_key.h"
+#include "surfaces/depth_frame.h"
 
 namespace hl {
 namespace {
@@ -329,6 +332,32 @@ TEST(EditableScene, KeysStayFromFrameToFrameAndDifferBetweenSessions) {
     EXPECT_NE(b.placed()[i].key, before[i].key);
     for (std::size_t k = 0; k < i; ++k) EXPECT_NE(before[i].key, before[k].key);
   }
+}
+
+SceneItem depthItem(float depth) {
+  const auto depths = std::make_shared<const std::vector<float>>(4, depth);
+  const auto grid = std::make_shared<const HeightGrid>(GridSize{2, 2, SampleKind::kFloat32},
+                                                       std::shared_ptr<const void>(depths, depths->data()));
+  const auto image = std::make_shared<const DepthImage>(grid, DepthCamera{10, 10, 0.5, 0.5});
+  return shapeItem(makeShape(std::make_shared<const DepthFrame>(image, cameraFrame(1))));
+}
+
+// What is no mesh has no transition: it is noted in which snapshot it came in the place of another.
+TEST(FollowOn, AnotherImageOfACameraIsThereAtOnce) {
+  EditableScene scene(1, {});
+  const auto show = [&](float depth) {
+    SceneEdit edit = worldOf({callItem(1)});
+    edit.objects[1] = listOf({depthItem(depth)});
+    scene.apply(edit);
+  };
+  show(1);
+  const Followed first = followOn(scene.placed(), {}, 100, 200, {}, {}, 7);
+  EXPECT_EQ(first.instances[0].replaced_in, 0U) << "nothing was there";
+  show(1.01F);
+  const Followed second = followOn(scene.placed(), pointersByKey(first.instances), 300, 400, {}, {}, 8);
+  EXPECT_EQ(second.instances[0].replaced_in, 8U);
+  const Followed third = followOn(scene.placed(), pointersByKey(second.instances), 500, 600, {}, {}, 9);
+  EXPECT_EQ(third.instances[0].replaced_in, 8U) << "the same one";
 }
 
 TEST(FollowOn, KnownObjectsMoveAndNewOnesAreThere) {

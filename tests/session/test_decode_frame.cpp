@@ -114,6 +114,69 @@ TEST(DecodeFrame, HeightFieldsThatMakeNoSenseAreRefused) {
             "world.items[0].primitives: heights come without vertices and elements");
 }
 
+proto::Frame depthFrame(const std::vector<float>& depths, double smoothing) {
+  proto::Frame frame;
+  proto::Item& item = *frame.add_objects()->add_items();
+  frame.mutable_objects(0)->set_id(5);
+  proto::Heights& heights = *item.mutable_primitives()->mutable_heights();
+  heights.set_columns(2);
+  heights.set_rows(2);
+  heights.mutable_values()->Add(depths.begin(), depths.end());
+  for (const double number : {100.0, 100.0, 0.5, 0.5}) heights.add_camera(number);
+  heights.set_vertical_scale(0.001);
+  heights.set_smoothing(smoothing);
+  return frame;
+}
+
+// Smoothed with what the object showed before.
+TEST(DecodeFrame, ADepthImageFollowsTheOneBefore) {
+  const auto image = [](const SceneItems& items) -> const DepthImage& {
+    return *dynamic_cast<const DepthFrame&>(*items[0].shape->source).image();
+  };
+  const DecodedFrame first = decodeFrame(depthFrame({1000, 1000, 1000, 1000}, 0.5));
+  const std::shared_ptr<const SceneItems> before = first.edit.objects.at(5);
+  EXPECT_NEAR(image(*before).grid->at(0, 0), 1, 1e-6);
+  EXPECT_EQ((*before)[0].shape->source->triangles(), 2U);
+  Uploads uploads;
+  const MemoryBudget memory(std::uint64_t{1} << 30);
+  const DecodedFrame second = decodeFrame(
+      depthFrame({1010, 1000, 0, 2000}, 0.5), uploads, SceneLimits(), memory, [](double) {},
+      [&](std::uint32_t) { return before.get(); });
+  const DepthImage& now = image(*second.edit.objects.at(5));
+  EXPECT_NEAR(now.grid->at(0, 0), 1.005, 1e-6);
+  EXPECT_NEAR(now.grid->at(0, 1), 1, 1e-6) << "held";
+  EXPECT_NEAR(now.grid->at(1, 1), 2, 1e-6);
+}
+
+TEST(DecodeFrame, DepthImagesThatMakeNoSenseAreRefused) {
+  const auto with = [](const std::function<void(proto::Heights&)>& change) {
+    proto::Frame frame = depthFrame({1, 1, 1, 1}, 0);
+    change(*frame.mutable_objects(0)->mutable_items(0)->mutable_primitives()->mutable_heights());
+    return refusalOf(frame);
+  };
+  EXPECT_EQ(with([](auto&) {}), "accepted");
+  EXPECT_EQ(with([](auto& in) { in.mutable_values()->Set(0, 0); }), "accepted") << "with one triangle";
+  EXPECT_EQ(with([](auto& in) {
+              for (int i = 0; i < 4; ++i) in.mutable_values()->Set(i, 0);
+            }),
+            "accepted")
+      << "a covered lens";
+  const std::string where = "object 5, items[0].primitives.heights: ";
+  EXPECT_EQ(
+      with([](auto& in) { in.set_camera(0, 0); }),
+      where + "a depth camera needs four numbers: focal lengths fx and fy above 0, and its centre cx, cy, in pixels");
+  EXPECT_EQ(with([](auto& in) { in.add_camera(1); }),
+            where + "a camera has four numbers: focal lengths fx and fy above 0, and its centre cx, cy, in pixels");
+  EXPECT_EQ(with([](auto& in) { in.set_spacing(2); }), where + "a depth image has a camera, and no spacing");
+  EXPECT_EQ(with([](auto& in) { in.set_join(1.5); }), where + "join must be above 0, and at most 1");
+  EXPECT_EQ(with([](auto& in) { in.set_smoothing(1); }), where + "smoothing must be from 0 to less than 1");
+  EXPECT_EQ(with([](auto& in) {
+              in.clear_camera();
+              in.set_join(0.5);
+            }),
+            where + "join and smoothing are of depth images, which have a camera");
+}
+
 // 3 x 2 x 2 samples, whose values are x.
 proto::Volume smallVolume() {
   proto::Volume volume;
