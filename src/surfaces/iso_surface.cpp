@@ -143,7 +143,7 @@ std::optional<std::array<double, kCellCorners>> IsoSurface::valuesAround(const V
 Site IsoSurface::siteOf(const Vec3& point) const {
   Place at{};
   const auto values = valuesAround(across_ * (point - frame().origin), at);
-  if (!values) return Site::kOpen;
+  if (!values || triangles_ == 0) return Site::kOpen;
   int inside = 0;
   for (const double value : *values) {
     if (std::isnan(value)) return Site::kOpen;

@@ -33,7 +33,8 @@ class IsoSurface final : public PrimitiveSource {
   SharedMemory shared() const override { return {volume().get(), volume()->bytes()}; }
   /// Between the triangles and the surface of the trilinear values, at most the diagonal of a cell.
   double error_m() const override;
-  /// By the samples of the cell around it. Where one is missing, and outside of the volume, there is no matter.
+  /// By the samples of the cell around it. Where one is missing, outside of the volume, and without a surface anywhere,
+  /// there is no matter.
   Site siteOf(const Vec3& point) const override;
   bool resists() const override { return matter_ && matter_->resists(); }
   /// By the values at the corners of its cell, trilinear; nothing where one is missing, and outside of the volume.

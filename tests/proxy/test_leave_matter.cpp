@@ -139,6 +139,20 @@ TEST_F(OnPhantom, AValueWithoutASurfaceLeavesItFree) {
   EXPECT_TRUE(outside());
 }
 
+// A proxy that is within, as when it has pierced the skin, is not brought out by another value.
+TEST_F(OnPhantom, WhatItIsWithinItStaysWithin) {
+  const Vec3 inside(finger_.x(), 0.03, finger_.z());
+  state_.position = inside;
+  step(inside);
+  EXPECT_EQ(state_.position, inside);
+  ASSERT_EQ(state_.within.size(), 1U);
+  for (const double value : {-600.0, -300.0, -800.0}) {
+    scene_.setIso(0, value);
+    step(inside);
+    EXPECT_EQ(state_.position, inside) << value;
+  }
+}
+
 TEST_F(OnPhantom, OtherScenesMoveItNot) {
   const Vec3 before = state_.position;
   scene_.setIso(1, 600);  // far beneath
