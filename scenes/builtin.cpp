@@ -114,6 +114,7 @@ SceneModel makeDepth(const std::string& spec) {
   SceneModel scene;
   scene.model.name = "depth:table";
   scene.surfaces.push_back({scene.model.name, makeDepthTable()});
+  scene.surfaces.back().material.smooth = true;
   return scene;
 }
 

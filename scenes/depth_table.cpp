@@ -22,7 +22,11 @@ struct Ray {
   Vec3 from, way;
 };
 
-double alongTable(const Ray& ray) { return ray.way.y() < 0 ? -ray.from.y() / ray.way.y() : kFar; }
+double alongTable(const Ray& ray) {
+  constexpr double kRadius = 0.22;
+  const double t = -ray.from.y() / ray.way.y();
+  return t > 0 && (ray.from + t * ray.way).norm() <= kRadius ? t : kFar;
+}
 
 // Of A t^2 + 2 B t + C = 0 the first t at which `counts` holds.
 template <typename Counts>

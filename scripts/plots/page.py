@@ -81,6 +81,10 @@ def parts(programs):
     write(asyncio.run(picture_of_scene(scene, programs)), look.folder / "bodies_of_parts.png")
 
 
+def depth(programs):
+    write(asyncio.run(picture_of_scene("depth:table", programs)), look.folder / "depth_page.png")
+
+
 def gallery(programs, names=None):
     for name in names or EXAMPLES:
         asyncio.run(picture_of(name, programs))

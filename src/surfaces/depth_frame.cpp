@@ -27,15 +27,28 @@ DepthFrame::DepthFrame(std::shared_ptr<const DepthImage> image, const GridFrame&
   if (!frame.axes.allFinite() || !frame.origin.allFinite() || !inverse_.allFinite())
     throw Error("the axes of a depth camera must be numbers, and not lie in one plane");
   mirrored_ = frame.axes.determinant() < 0;
-  const DepthRange& range = image_->tiles.all();
-  if (range.empty()) return;
-  for (const double column : {0.0, grid().columns() - 1.0}) {
-    for (const double row : {0.0, grid().rows() - 1.0}) {
-      for (const double depth : {double{range.low}, double{range.high}})
-        bounds_.extend(frame_.point(image_->camera.across(column) * depth, image_->camera.down(row) * depth, depth));
+  if (triangles() == 0) return;
+  bounds_ = boundsOfTiles();
+  if (!withinReach(bounds_.min) || !withinReach(bounds_.max)) throw Error("a depth image reaches beyond 1e9 m");
+}
+
+// Each tile lies within its piece of the frustum.
+Box DepthFrame::boundsOfTiles() const {
+  const DepthTiles& tiles = image_->tiles;
+  Box box;
+  for (std::uint32_t row = 0; row < tiles.rows(0); ++row) {
+    for (std::uint32_t column = 0; column < tiles.columns(0); ++column) {
+      const DepthRange& range = tiles.range(0, column, row);
+      if (range.empty()) continue;
+      for (unsigned c = 0; c < 8; ++c) {
+        const double i = std::min((column + (c & 1U)) * DepthTiles::kCells, grid().columns() - 1);
+        const double j = std::min((row + (c >> 1U & 1U)) * DepthTiles::kCells, grid().rows() - 1);
+        const double depth = (c >> 2U & 1U) != 0 ? range.high : range.low;
+        box.extend(frame_.point(image_->camera.across(i) * depth, image_->camera.down(j) * depth, depth));
+      }
     }
   }
-  if (!withinReach(bounds_.min) || !withinReach(bounds_.max)) throw Error("a depth image reaches beyond 1e9 m");
+  return box;
 }
 
 ElementId DepthFrame::count() const {

@@ -66,6 +66,7 @@ class DepthFrame final : public PrimitiveSource {
   Corners cornersOf(const HeightCell& cell) const;
   Vec3 normalAt(std::uint32_t column, std::uint32_t row, const Vec3& otherwise) const;
   DrawnMesh every(std::uint32_t step) const;
+  Box boundsOfTiles() const;
 
   std::shared_ptr<const DepthImage> image_;
   GridFrame frame_;
