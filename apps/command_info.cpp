@@ -51,10 +51,11 @@ void printMaterial(const Snapshot& snapshot, std::size_t number) {
 
 // Of all instances.
 struct Totals {
-  std::size_t triangles = 0, segments = 0, points = 0, vertices = 0, joined = 0;
+  std::size_t triangles = 0, segments = 0, points = 0, vertices = 0;
+  Reading reading;
   std::size_t nodes = 0, leaves = 0, geometry_bytes = 0;
   int depth = 0;
-  bool normals = false, texcoords = false, single_precision = false;
+  bool normals = false, texcoords = false;
 
   void add(const Shape& shape) {
     const Model& model = shape.model;
@@ -63,24 +64,35 @@ struct Totals {
     segments += model.segments.size();
     points += model.points.size();
     vertices += model.positions.size();
-    joined += model.reading.joined_vertices;
+    reading.add(model.reading);
     nodes += stats.nodes;
     leaves += stats.leaves;
     depth = std::max(depth, stats.depth);
     geometry_bytes += shape.geometryBytes();
     normals = normals || shape.hasNormals();
     texcoords = texcoords || !model.texcoords.empty();
-    single_precision = single_precision || model.reading.single_precision;
   }
 };
+
+void printReading(const Reading& reading) {
+  if (reading.patch_error_m > 0)
+    fmt::print("patches:    within {:.3g} m of the surfaces that they stand for\n", reading.patch_error_m);
+  if (!reading.cad) return;
+  const CadReading& cad = *reading.cad;
+  fmt::print("cad:        {} faces, {} solids; deflection {:.3g} m, angle {:.3g} rad\n", cad.faces, cad.solids,
+             cad.deflection_m, cad.angle_rad);
+  fmt::print("            within {:.3g} m of its surfaces; the file's own largest tolerance is {:.3g} m\n", cad.error_m,
+             cad.tolerance_m);
+}
 
 void printTotals(const Totals& all, const Snapshot& snapshot) {
   const Vec3 size = snapshot.bounds.size();
   const Vec3 &from = snapshot.bounds.min, &to = snapshot.bounds.max;
   fmt::print("primitives: {} ({} triangles, {} segments, {} points given; {} vertices)\n", snapshot.primitives,
              all.triangles, all.segments, all.points, all.vertices);
-  if (all.joined > 0) fmt::print("joined:     {} vertices that were the same as others to the bit\n", all.joined);
-  if (all.single_precision)
+  if (all.reading.joined_vertices > 0)
+    fmt::print("joined:     {} vertices that were the same as others to the bit\n", all.reading.joined_vertices);
+  if (all.reading.single_precision)
     fmt::print("precision:  model files are read in single precision: coordinates to 6e-8 of their size\n");
   fmt::print("normals:    {}\n", all.normals ? "per vertex" : "none");
   fmt::print("texcoords:  {}\n", all.texcoords ? "per vertex" : "none");
@@ -223,6 +235,7 @@ void print(const Snapshot& snapshot) {
   for (const Instance& instance : snapshot.instances) all.add(*instance.shape);
   fmt::print("name:       {}\n", snapshot.name);
   printTotals(all, snapshot);
+  printReading(all.reading);
   printSurfaces(snapshot);
   printMaterials(snapshot);
   printBodies(snapshot);

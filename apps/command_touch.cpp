@@ -106,7 +106,7 @@ void runTouch(TouchOptions options) {
   TouchSession& session = touch.device();
   if (options.settings.script && !session.hasHand())
     throw Error("--hand-path moves a simulated hand, and a person holds this device");
-  FileOpener opener(touch, hierarchyOf(options.scene), shade_untold);
+  FileOpener opener(touch, hierarchyOf(options.scene), options.scene.cad, shade_untold);
   if (options.upload == "on") {
     http.upload.limit_bytes = kUpload_bytes;
     http.upload.open = [&](int descriptor, const std::string& name) { return opener.open(descriptor, name); };
@@ -176,7 +176,7 @@ void addTouchOptions(CLI::App& command, TouchOptions& options) {
   addSurfaceOptions(command, options.settings.surfaces, options.settings.ledger);
   command.get_option("--shade")->option_text("flat|smooth (default: the scene's; smooth for model files)");
   addHierarchyOption(command, options.scene);
-  addSampleOptions(command, options.scene);
+  addReadingOptions(command, options.scene);
   command
       .add_option(
           "--upload", options.upload,

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "io/cad_file.h"
 #include "proxy/proxy.h"
 #include "scene/scene_model.h"
 
@@ -27,12 +28,13 @@ struct SceneOptions {
   double fit = 0;             ///< m, largest side; 0: as it is
   std::vector<double> iso;    ///< of volumes; empty: one that is chosen
   double vertical_scale = 0;  ///< of the heights of height fields; 0: as they are
+  CadMeshing cad;             ///< of CAD files
 };
 
 void addSceneArgument(CLI::App& command, SceneOptions& options, bool required);
 void addHierarchyOption(CLI::App& command, SceneOptions& options);
-/// --vertical-scale and --iso, which addSizeOptions() adds too.
-void addSampleOptions(CLI::App& command, SceneOptions& options);
+/// --vertical-scale, --iso and --deflection: how files become surfaces. addSizeOptions() adds them too.
+void addReadingOptions(CLI::App& command, SceneOptions& options);
 void addSizeOptions(CLI::App& command, SceneOptions& options);
 
 /// Options of the surfaces, over what the scene says: --shade, --stiffness, frictions, --viscosity, --textures; and

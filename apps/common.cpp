@@ -49,7 +49,8 @@ void requireMemory(const SceneModel& scene, const std::string& name, std::uint64
 
 void addSceneArgument(CLI::App& command, SceneOptions& options, bool required) {
   auto* argument = command.add_option("scene", options.scene,
-                                      std::string("a model file (obj, ply, stl, gltf, glb, x3d, wrl, ...), of heights "
+                                      std::string("a model file (obj, ply, stl, gltf, glb, x3d, wrl, ...), of CAD (step, "
+                                                  "iges, brep), of heights "
                                                   "(tif, hgt, asc, png, npy), of a volume (nii, nrrd, dcm) or a "
                                                   "built-in scene: ") +
                                           kBuiltinScenes);
@@ -66,7 +67,24 @@ void addHierarchyOption(CLI::App& command, SceneOptions& options) {
       ->capture_default_str();
 }
 
-void addSampleOptions(CLI::App& command, SceneOptions& options) {
+namespace {
+
+void addCadOptions(CLI::App& command, CadMeshing& cad) {
+  command
+      .add_option("--deflection", cad.deflection_m,
+                  "of a CAD file: distance in metres between its curved surfaces and the triangles made of them")
+      ->check(within(kLeastDeflection_m, kMostDeflection_m))
+      ->capture_default_str();
+  command
+      .add_option("--deflection-angle", cad.angle_rad,
+                  "of a CAD file: largest angle in radians between neighbouring pieces of a curve")
+      ->check(within(kLeastAngle_rad, kMostAngle_rad))
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void addReadingOptions(CLI::App& command, SceneOptions& options) {
   command
       .add_option("--iso", options.iso,
                   "value at the surface of a volume, or several as in --iso=-300,400: in CT the skin and the bones "
@@ -76,10 +94,11 @@ void addSampleOptions(CLI::App& command, SceneOptions& options) {
       .add_option("--vertical-scale", options.vertical_scale,
                   "factor on the heights of a height field, before --scale or --fit (default 1)")
       ->check(positive());
+  addCadOptions(command, options.cad);
 }
 
 void addSizeOptions(CLI::App& command, SceneOptions& options) {
-  addSampleOptions(command, options);
+  addReadingOptions(command, options);
   auto* scale =
       command.add_option("--scale", options.scale, "metres for one unit of the file (default 1)")->check(positive());
   command.add_option("--fit", options.fit, "scale and centre the model so that its largest side has this many metres")
@@ -129,6 +148,7 @@ CLI::Option* addDeviceOption(CLI::App& command, std::string& device) {
 std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options) {
   LoadOptions load;
   load.progress = showProgress;
+  load.cad = options.cad;
   SceneModel scene = loadScene(options.scene, load);
   if (!options.iso.empty()) setIsoValues(scene, options.iso);
   if (options.vertical_scale > 0) scaleHeights(scene, options.vertical_scale);

@@ -42,7 +42,7 @@ SceneModel FileOpener::read(int descriptor, const std::string& name) const {
   const std::uint64_t left = memory.most_bytes() - std::min(memory.used_bytes(), memory.most_bytes());
   IsolationLimits limits;
   limits.memory_bytes = std::min<std::uint64_t>(limits.memory_bytes, left);
-  SceneModel scene = loadSent(descriptor, name, {"/proc/self/exe", {"hl", kReadSent}}, limits, given_up_);
+  SceneModel scene = loadSent(descriptor, name, {"/proc/self/exe", {"hl", kReadSent}}, limits, given_up_, cad_);
   requireMemory(scene, name, left);
   return scene;
 }

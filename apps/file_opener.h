@@ -20,8 +20,8 @@ class FileOpener {
  public:
   /// `smooth`: a bare model feels as smooth as it looks; false: the user has said how surfaces are shaded. `touch`
   /// outlives this.
-  FileOpener(TouchServer& touch, HierarchyKind hierarchy, bool smooth)
-      : touch_(touch), hierarchy_(hierarchy), smooth_(smooth) {}
+  FileOpener(TouchServer& touch, HierarchyKind hierarchy, const CadMeshing& cad, bool smooth)
+      : touch_(touch), hierarchy_(hierarchy), cad_(cad), smooth_(smooth) {}
 
   /// Returns what it is now, as JSON: name, triangles, primitives, world_per_device, warnings. Throws hl::Error, one
   /// line, and changes nothing. One call at a time.
@@ -34,6 +34,7 @@ class FileOpener {
 
   TouchServer& touch_;
   const HierarchyKind hierarchy_;
+  const CadMeshing cad_;
   const bool smooth_;
   std::atomic<bool> given_up_{false};
 };

@@ -115,7 +115,7 @@ void addHldOptions(CLI::App& app, HldOptions& options) {
   app.allow_config_extras(CLI::config_extras_mode::error);  // a misspelt name is no silent default
   app.add_option("--scene", options.scene.scene, "a model or scene file, or a built-in scene, to begin with");
   addHierarchyOption(app, options.scene);
-  addSampleOptions(app, options.scene);
+  addReadingOptions(app, options.scene);
   addNetworkOptions(app, options);
   addDeviceOptions(app, options);
   addForceOptions(app, options.touch.servo, options.touch.servo_rate);

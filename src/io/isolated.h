@@ -61,7 +61,8 @@ struct ReaderProgram {
 /// The same from a process with threads, which must not fork: starts `program`, with `descriptor` as its standard input
 /// and the pipe as its standard output; it calls answerAsProgram(). Ends, with an error, soon after `given_up` is set.
 SceneModel runProgram(const std::string& name, const IsolationLimits& limits, const ReaderProgram& program,
-                      int descriptor, const std::atomic<bool>& given_up);
+                      int descriptor, const std::atomic<bool>& given_up,
+                      const std::function<void(double)>& progress = {});
 
 /// In that program, before it has done anything else: does what the child of runIsolated() does, and ends. The file is
 /// kKeptFile of io/sandbox.h.

@@ -1,5 +1,8 @@
 #include "io/load_model.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -74,6 +77,14 @@ void makePointsOfBareVertices(Model& model) {
   for (std::uint32_t i = 0; i < model.positions.size(); ++i) model.points.push_back(i);
 }
 
+SceneModel readCadFile(const std::string& path, const std::string& ending, const LoadOptions& options) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) throw Error(path + ": may not be read");
+  const std::unique_ptr<const int, void (*)(const int*)> closed(&file, [](const int* it) { close(*it); });
+  const std::atomic<bool> given_up{false};
+  return readCad(file, path, {ending, options.cad}, options.limits, given_up, options.progress);
+}
+
 void makeSound(Model& model) {
   makePointsOfBareVertices(model);
   dropBadIndices(model);
@@ -86,12 +97,12 @@ void makeSound(Model& model) {
 }  // namespace
 
 bool readsEnding(const std::string& ending) {
-  return readsVolumes(ending) || readsHeights(ending) || coinReads(ending) || assimpReads(ending);
+  return readsCad(ending) || readsVolumes(ending) || readsHeights(ending) || coinReads(ending) || assimpReads(ending);
 }
 
 std::string cannotBeRead(const std::string& ending) {
   return "files ending in '" + ending +
-         "' cannot be read; obj, ply, stl, gltf, glb, x3d, wrl, tif, hgt, asc, png, npy, nii, nrrd, dcm and others can";
+         "' cannot be read; obj, ply, stl, gltf, glb, x3d, wrl, step, iges, brep, tif, hgt, asc, png, npy, nii, nrrd, dcm and others can";
 }
 
 SceneModel parseModel(const ModelFile& file, const ReadingReport& report) {
@@ -116,12 +127,13 @@ SceneModel loadModelScene(const std::string& path, const LoadOptions& options) {
   if (!folder) checkReadable(path);
   const std::string ending = folder ? "" : endingOf(path);
   if (!folder && !readsEnding(ending)) throw Error(path + ": " + cannotBeRead(ending));
-  SceneModel scene = runIsolated(
-      path, options.limits,
-      [&](const auto& report) {
-        return parseModel({path, ending}, report);
-      },
-      options.progress);
+  SceneModel scene = readsCad(ending) ? readCadFile(path, ending, options)
+                                      : runIsolated(
+                                            path, options.limits,
+                                            [&](const auto& report) {
+                                              return parseModel({path, ending}, report);
+                                            },
+                                            options.progress);
   if (elementsIn(scene) == 0) throw Error(path + ": there is no geometry in it");
   scene.model.name = std::filesystem::path(path).filename().string();
   for (SceneSurface& surface : scene.surfaces) surface.name = scene.model.name;

@@ -1,11 +1,12 @@
 // Model files: OBJ, PLY, STL, glTF and what else assimp reads; VRML 1.0 and 97 and Inventor through Coin; heights by
-// read_heights.h.
+// read_heights.h; STEP, IGES and BREP by cad_file.h.
 #pragma once
 
 #include <cstddef>
 #include <functional>
 #include <string>
 
+#include "io/cad_file.h"
 #include "io/isolated.h"
 #include "io/model_file.h"
 #include "scene/scene_model.h"
@@ -18,6 +19,7 @@ struct LoadOptions {
   /// Of a scene file, all objects together: some 5 GB. A few lines can ask for any number of copies.
   std::size_t most_primitives = 40'000'000;
   std::size_t most_texels = std::size_t{256} << 20;  ///< of a scene file, all textures together: 1 GiB
+  CadMeshing cad{};    ///< of CAD files
   bool alone = false;  ///< no file beside it is read: a scene file that names one is refused
 };
 

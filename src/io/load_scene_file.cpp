@@ -17,6 +17,7 @@
 #include "bodies/scene_world.h"
 #include "builtin.h"
 #include "io/decode_scene.h"
+#include "io/file_ending.h"
 #include "io/json_lines.h"
 #include "io/load_image.h"
 #include "io/scene_surfaces.h"
@@ -74,7 +75,8 @@ class SceneFile {
   void addTexture(Model& model, const proto::TextureImage& in, const std::string& where);
   Material materialOf(const proto::Material& in, const std::string& where) const;
   Model shapeOf(const proto::SceneObject& object, const std::string& where);
-  Model fileModel(const std::string& name, const std::string& where);
+  Model fileModel(const proto::SceneObject& object, const std::string& where);
+  CadMeshing meshingOf(const proto::SceneObject& object, const std::string& where) const;
   void addSurfaces(const proto::SceneObject& object, const std::string& where, SceneModel& scene);
   Placement placementOf(const proto::Transform& in, const std::string& where) const;
   Pose poseOf(const proto::Transform& in, const std::string& where) const;
@@ -98,7 +100,12 @@ class SceneFile {
   std::map<std::string, std::uint32_t> textures_;
   std::size_t texels_ = 0;  // of all textures
   SceneSurfaces surfaces_;
-  std::map<std::string, Model> files_;  // read once, however many objects show them
+  struct ReadFile {
+    std::string name;
+    CadMeshing meshing;
+    Model model;
+  };
+  std::vector<ReadFile> files_;  // read once, however many objects show them
 };
 
 // Protobuf's errors read "(objects[0].material) stifness: Cannot find field." or "(objects[0].file): invalid value 3".
@@ -175,22 +182,43 @@ Material SceneFile::materialOf(const proto::Material& in, const std::string& whe
   return material;
 }
 
-Model SceneFile::fileModel(const std::string& name, const std::string& where) {
-  if (isSceneFile(name)) fail(where, where + ": a scene file cannot hold another");
-  if (options_.alone) fail(where, where + ": " + kAlone);
-  const auto found = files_.find(name);
-  if (found != files_.end()) return found->second;
+CadMeshing SceneFile::meshingOf(const proto::SceneObject& object, const std::string& where) const {
+  CadMeshing meshing = options_.cad;
+  if (!object.has_meshing()) return meshing;
+  const std::string at = where + ".meshing";
+  if (!readsCad(endingOf(object.file()))) fail(at, at + " is of CAD files: step, iges and brep");
+  const proto::Meshing& in = object.meshing();
+  if (in.deflection_m() != 0)
+    meshing.deflection_m =
+        decoder_.checked(in.deflection_m(), kLeastDeflection_m, kMostDeflection_m, at + ".deflectionM");
+  if (in.angle_rad() != 0)
+    meshing.angle_rad = decoder_.checked(in.angle_rad(), kLeastAngle_rad, kMostAngle_rad, at + ".angleRad");
+  return meshing;
+}
+
+Model SceneFile::fileModel(const proto::SceneObject& object, const std::string& where) {
+  const std::string& name = object.file();
+  const std::string at = where + ".file";
+  if (isSceneFile(name)) fail(at, at + ": a scene file cannot hold another");
+  if (options_.alone) fail(at, at + ": " + kAlone);
+  LoadOptions options = options_;
+  options.cad = meshingOf(object, where);
+  const auto found = std::find_if(files_.begin(), files_.end(), [&](const ReadFile& file) {
+    return file.name == name && file.meshing == options.cad;
+  });
+  if (found != files_.end()) return found->model;
   try {
-    return files_[name] = loadModel((folder_ / name).string(), options_);
+    files_.push_back({name, options.cad, loadModel((folder_ / name).string(), options)});
   } catch (const Error& error) {
-    fail(where, error.what());
+    fail(at, error.what());
   }
+  return files_.back().model;
 }
 
 Model SceneFile::shapeOf(const proto::SceneObject& object, const std::string& where) {
   switch (object.shape_case()) {
     case proto::SceneObject::kFile:
-      return fileModel(object.file(), where + ".file");
+      return fileModel(object, where);
     case proto::SceneObject::kBuiltin:
       try {
         return makeBuiltinScene(object.builtin());
@@ -379,6 +407,7 @@ SceneModel SceneFile::build() {
     const proto::SceneObject& object = scene_.objects(i);
     const std::string where = pathOf("objects", i);
     const proto::Material& material = object.material();
+    meshingOf(object, where);  // refuses what is for none
     if (SceneSurfaces::has(object)) {
       addSurfaces(object, where, scene);
       continue;

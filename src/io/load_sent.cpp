@@ -37,13 +37,14 @@ std::string sentEndingOf(const std::string& name) {
 bool readsSent(const std::string& ending) { return ending == kSceneEnding || readsEnding(ending); }
 
 SceneModel loadSent(int descriptor, const std::string& name, ReaderProgram program, const IsolationLimits& limits,
-                    const std::atomic<bool>& given_up) {
+                    const std::atomic<bool>& given_up, const CadMeshing& cad) {
   struct stat status {};
   if (fstat(descriptor, &status) != 0 || status.st_size == 0) throw Error(name + ": is empty");
   const std::string ending = sentEndingOf(name);
   if (!readsSent(ending)) throw Error(name + ": " + cannotBeRead(ending));
   program.words.push_back(ending);
-  SceneModel scene = runProgram(name, limits, program, descriptor, given_up);
+  SceneModel scene = readsCad(ending) ? readCad(descriptor, name, {ending, cad}, limits, given_up, {})
+                                      : runProgram(name, limits, program, descriptor, given_up);
   if (elementsIn(scene) == 0) throw Error(name + ": there is no geometry in it");
   scene.model.name = name;
   return scene;

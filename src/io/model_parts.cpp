@@ -37,6 +37,22 @@ bool writeAll(int descriptor, const char* data, std::size_t size) {
   return true;
 }
 
+void toProto(const CadReading& reading, proto::CadReading& out) {
+  out.set_deflection_m(reading.deflection_m);
+  out.set_angle_rad(reading.angle_rad);
+  out.set_error_m(reading.error_m);
+  out.set_tolerance_m(reading.tolerance_m);
+  out.set_solids(reading.solids);
+  out.set_faces(reading.faces);
+}
+
+CadReading readingOf(const proto::CadReading& in) {
+  for (const double length : {in.deflection_m(), in.angle_rad(), in.error_m(), in.tolerance_m()}) {
+    if (!(length >= 0) || !std::isfinite(length)) throw Error("its reader gave lengths that make no sense");
+  }
+  return {in.deflection_m(), in.angle_rad(), in.error_m(), in.tolerance_m(), in.solids(), in.faces()};
+}
+
 }  // namespace
 
 void PartSender::send(const proto::ReadingPart& part) {
@@ -108,6 +124,10 @@ void PartSender::scene(const SceneModel& scene) {
   send(part);
   part.set_single_precision(rest.reading.single_precision);
   send(part);
+  if (rest.reading.cad) {
+    toProto(*rest.reading.cad, *part.mutable_cad());
+    send(part);
+  }
   model(rest);
 }
 
@@ -216,6 +236,9 @@ void PartCollector::addToScene(const proto::ReadingPart& part) {
       return addField(part.field());
     case proto::ReadingPart::kMechanics:
       scene_.mechanics = mechanicsOf(part.mechanics());
+      return;
+    case proto::ReadingPart::kCad:
+      rest_.reading.cad = readingOf(part.cad());
       return;
     default:
       throw Error("it says nothing");

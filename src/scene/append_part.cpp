@@ -21,8 +21,7 @@ void repeatTexcoords(Model& model, double repeat_u, double repeat_v) {
 void appendPart(Model& whole, const Model& part, std::uint16_t material) {
   const std::size_t before = whole.positions.size();
   const auto base = static_cast<std::uint32_t>(before);
-  whole.reading.joined_vertices += part.reading.joined_vertices;
-  whole.reading.single_precision |= part.reading.single_precision;
+  whole.reading.add(part.reading);
   whole.positions.insert(whole.positions.end(), part.positions.begin(), part.positions.end());
   appendPerVertex(whole.normals, part.normals, before, part.positions.size());
   appendPerVertex(whole.texcoords, part.texcoords, before, part.positions.size());

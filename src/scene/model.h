@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,26 @@
 
 namespace hl {
 
+/// How the surfaces of a CAD file became triangles.
+struct CadReading {
+  double deflection_m = 0;   ///< asked for: distance between an edge and its curve
+  double angle_rad = 0;      ///< asked for: between neighbouring pieces of a curve
+  double error_m = 0;        ///< largest distance found between a triangle and its surface
+  double tolerance_m = 0;    ///< largest in the file: how far its edges may be from their faces
+  std::uint64_t solids = 0;  ///< closed bodies
+  std::uint64_t faces = 0;
+};
+
 /// Changes made while reading a file, for `hl info`.
 struct Reading {
   std::size_t joined_vertices = 0;  ///< vertices joined with identical ones: see weldVertices()
   bool single_precision = false;    ///< some coordinates were read by a reader with 24 bits of precision
+  std::optional<CadReading> cad{};  ///< of several files: the largest lengths, and all faces
+  double patch_error_m = 0;         ///< bound of the distance between its triangles and the patches that they stand for
+  /// Of a model that `other` becomes part of.
+  void add(const Reading& other);
+  /// Of a model whose lengths grow by `factor` at most.
+  void scale(double factor);
 };
 
 /// Metres, world frame. Index lists refer to `positions`; polygons have been triangulated.

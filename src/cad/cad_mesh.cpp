@@ -1,0 +1,146 @@
+#include "cad/cad_mesh.h"
+
+#include <fmt/core.h>
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <IMeshTools_Parameters.hxx>
+#include <Poly_Triangulation.hxx>
+#include <ShapeAnalysis_ShapeTolerance.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <vector>
+
+#include "base/error.h"
+#include "cad/cad_face.h"
+#include "cad/cad_progress.h"
+#include "cad/read_cad_shape.h"
+
+namespace hl {
+
+namespace {
+
+constexpr double kEstimatePart = 0.1, kMeshPart = 0.9;  // of the whole, at their ends
+
+// Of a first, coarse mesh: a chord of it is this many times as far from its curve. The angle goes with the root of it.
+constexpr double kCoarse = 64;
+constexpr double kMost_s = 90;  // of the processor, for a mesh: the reading process has 120
+
+void makeMesh(const TopoDS_Shape& shape, const CadMeshing& meshing, const Message_ProgressRange& progress) {
+  IMeshTools_Parameters parameters;
+  parameters.Deflection = meshing.deflection_m / kCadUnit_m;
+  parameters.Angle = meshing.angle_rad;
+  parameters.AngleInterior = meshing.angle_rad;
+  BRepMesh_IncrementalMesh(shape, parameters, progress);
+}
+
+// How the number of its triangles grows as the deflection becomes finer: with this power of their ratio.
+double growthOf(const TopoDS_Face& face) {
+  const GeomAbs_SurfaceType kind = BRepAdaptor_Surface(face, false).GetType();
+  const bool straight = kind == GeomAbs_Plane || kind == GeomAbs_Cylinder || kind == GeomAbs_Cone;
+  return straight ? 0.5 : 1;
+}
+
+struct FaceEstimate {
+  double triangles = 0;  // of the coarse mesh
+  double growth = 1;
+};
+
+// What a coarse mesh tells of finer ones.
+struct MeshEstimate {
+  std::vector<FaceEstimate> faces;
+  double coarse_s = 0;  // of the processor
+
+  /// Of a mesh with a deflection of 1 / `ratio` of the coarse one's.
+  double triangles(double ratio) const {
+    double sum = 0;
+    for (const FaceEstimate& face : faces) sum += face.triangles * std::pow(ratio, face.growth);
+    return sum;
+  }
+  double time_s(double ratio) const { return coarse_s * triangles(ratio) / std::max(1.0, triangles(1)); }
+  bool fits(double ratio, std::size_t most_triangles) const {
+    return triangles(ratio) <= static_cast<double>(most_triangles) && time_s(ratio) <= kMost_s;
+  }
+};
+
+double processorTime_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+MeshEstimate estimateMesh(const TopoDS_Shape& shape, const CadMeshing& meshing, CadProgress& progress) {
+  constexpr double kWidest_rad = 1;
+  const double begin_s = processorTime_s();
+  makeMesh(shape, {kCoarse * meshing.deflection_m, std::min(kWidest_rad, std::sqrt(kCoarse) * meshing.angle_rad)},
+           progress.begin());
+  MeshEstimate estimate;
+  estimate.coarse_s = processorTime_s() - begin_s;
+  for (TopExp_Explorer at(shape, TopAbs_FACE); at.More(); at.Next()) {
+    const TopoDS_Face face = TopoDS::Face(at.Current());
+    TopLoc_Location place;
+    const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, place);
+    if (!mesh.IsNull()) estimate.faces.push_back({static_cast<double>(mesh->NbTriangles()), growthOf(face)});
+  }
+  BRepTools::Clean(shape);
+  return estimate;
+}
+
+// Throws if a mesh as it is asked for would have too many triangles or take too long.
+void requireFits(const MeshEstimate& estimate, const CadMeshing& meshing, std::size_t most) {
+  if (estimate.fits(kCoarse, most)) return;
+  double deflection_m = meshing.deflection_m;
+  while (!estimate.fits(kCoarse * meshing.deflection_m / deflection_m, most) && deflection_m < kMostDeflection_m)
+    deflection_m *= 2;
+  throw Error(
+      fmt::format("makes about {:.2g} million triangles at a deflection of {:.2g} m, in {:.0f} s; at most {:.2g} "
+                  "million in {:.0f} s "
+                  "can be: --deflection {:.2g} fits",
+                  1e-6 * estimate.triangles(kCoarse), meshing.deflection_m, estimate.time_s(kCoarse),
+                  1e-6 * static_cast<double>(most), kMost_s, deflection_m));
+}
+
+std::size_t countOf(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
+  std::size_t count = 0;
+  for (TopExp_Explorer at(shape, kind); at.More(); at.Next()) ++count;
+  return count;
+}
+
+Model collectMesh(const TopoDS_Shape& shape, const CadMeshing& meshing, const std::function<void(double)>& report) {
+  Model model;
+  CadReading reading{meshing.deflection_m, meshing.angle_rad};
+  ShapeAnalysis_ShapeTolerance tolerance;
+  reading.tolerance_m = kCadUnit_m * tolerance.Tolerance(shape, 1);
+  reading.solids = countOf(shape, TopAbs_SOLID);
+  reading.faces = countOf(shape, TopAbs_FACE);
+  std::size_t lacking = 0, done = 0;
+  for (TopExp_Explorer at(shape, TopAbs_FACE); at.More(); at.Next()) {
+    const std::optional<double> error_m = appendFace(TopoDS::Face(at.Current()), model);
+    if (!error_m) ++lacking;
+    reading.error_m = std::max(reading.error_m, error_m.value_or(0));
+    report(kMeshPart + (1 - kMeshPart) * static_cast<double>(++done) / static_cast<double>(reading.faces));
+  }
+  for (TopExp_Explorer at(shape, TopAbs_EDGE, TopAbs_FACE); at.More(); at.Next())
+    appendEdge(TopoDS::Edge(at.Current()), meshing, model);
+  if (lacking > 0)
+    model.warnings.push_back(fmt::format("{} of {} faces cannot be meshed: nothing is there", lacking, reading.faces));
+  model.reading.cad = reading;
+  return model;
+}
+
+}  // namespace
+
+Model meshCad(const TopoDS_Shape& shape, const CadMeshing& meshing, const std::function<void(double)>& report,
+              std::size_t most_triangles) {
+  try {
+    BRepTools::Clean(shape);
+    CadProgress estimate(report, 0, kEstimatePart), mesh(report, kEstimatePart, kMeshPart);
+    requireFits(estimateMesh(shape, meshing, estimate), meshing, most_triangles);
+    makeMesh(shape, meshing, mesh.begin());
+    return collectMesh(shape, meshing, report);
+  } catch (const Standard_Failure& failure) {
+    throw Error(fmt::format("cannot be meshed: {}", failure.DynamicType()->Name()));
+  }
+}
+
+}  // namespace hl

@@ -1,0 +1,89 @@
+#include "io/cad_file.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdlib>
+#include <filesystem>
+
+#include "base/error.h"
+#include "io/reading_cache.h"
+
+namespace hl {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kCadProgram = "hl-cad";
+constexpr std::array kCadEndings{".step", ".stp", ".iges", ".igs", ".brep"};
+
+// The first of its name that may be run: beside this program, or where the shell would look.
+std::string cadProgram() {
+  std::error_code failed;
+  const fs::path self = fs::read_symlink("/proc/self/exe", failed);
+  std::string folders = self.parent_path().string();
+  if (const char* const path = std::getenv("PATH")) folders += std::string(":") + path;
+  for (std::size_t begin = 0; begin <= folders.size();) {
+    const std::size_t end = std::min(folders.find(':', begin), folders.size());
+    const fs::path program = fs::path(folders.substr(begin, end - begin)) / kCadProgram;
+    if (program.is_absolute() && access(program.c_str(), X_OK) == 0) return program.string();
+    begin = end + 1;
+  }
+  throw Error(
+      "CAD files are read by hl-cad, which is not here: install the package hl-cad, or run scripts/deps --cad and "
+      "scripts/build");
+}
+
+double numberOf(const std::string& word, double least, double most) {
+  double value = 0;
+  const char* const end = word.data() + word.size();
+  const auto [at, error] = std::from_chars(word.data(), end, value);
+  if (error != std::errc() || at != end || !(value >= least && value <= most))
+    throw Error("'" + word + "' is no number");
+  return value;
+}
+
+}  // namespace
+
+bool readsCad(const std::string& ending) {
+  return std::find(kCadEndings.begin(), kCadEndings.end(), ending) != kCadEndings.end();
+}
+
+std::vector<std::string> wordsOf(const std::string& ending, const CadMeshing& meshing) {
+  return {"--read", ending, fmt::format("{}", meshing.deflection_m), fmt::format("{}", meshing.angle_rad)};
+}
+
+CadTask cadTaskOf(const std::vector<std::string>& words) {
+  if (words.size() != 4 || words[0] != "--read" || !readsCad(words[1]))
+    throw Error("hl-cad reads CAD files for hl, which starts it by itself: try hl touch part.step");
+  return {
+      words[1],
+      {numberOf(words[2], kLeastDeflection_m, kMostDeflection_m), numberOf(words[3], kLeastAngle_rad, kMostAngle_rad)}};
+}
+
+SceneModel readCad(int descriptor, const std::string& name, const CadTask& task, const IsolationLimits& limits,
+                   const std::atomic<bool>& given_up, const std::function<void(double)>& progress) {
+  ReaderProgram program{"", {kCadProgram}};
+  std::string options;
+  for (const std::string& word : wordsOf(task.ending, task.meshing)) {
+    program.words.push_back(word);
+    options += word + " ";
+  }
+  const ReadingCache cache(cacheFolder());
+  const std::string key = cache.keyOf(descriptor, options);
+  if (std::optional<SceneModel> kept = cache.find(key, limits)) return std::move(*kept);
+  try {
+    program.file = cadProgram();
+  } catch (const Error& error) {
+    throw Error(name + ": " + error.what());
+  }
+  SceneModel scene = runProgram(name, limits, program, descriptor, given_up, progress);
+  cache.keep(key, scene);
+  return scene;
+}
+
+}  // namespace hl
