@@ -1,5 +1,6 @@
 # What `cmake --install` puts where, in components that are also Debian packages (cmake/packages.cmake): libhl and
-# libhlbatch (the libraries), libhl-dev (what a program is built with), hl-tools (hl, hld and the page); python3-hl is in
+# libhlbatch (the libraries), libhl-dev (what a program is built with), hl-tools (hl, hld and the page), hl-cad (what reads CAD files);
+# python3-hl is in
 # python/CMakeLists.txt.
 include(CMakePackageConfigHelpers)
 set(cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/hl)
@@ -36,6 +37,10 @@ install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT libhl-d
 install(FILES scenes/teapot_patches.h DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT libhl-dev)
 
 install(TARGETS hl hld RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT hl-tools)
+if(TARGET hl_cad_program)
+  install(TARGETS hl_cad_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT hl-cad)
+  install(FILES LICENSE DESTINATION share/doc/hl-cad RENAME copyright COMPONENT hl-cad)
+endif()
 # Built by scripts/build, not by CMake: without it the programs serve a notice instead.
 install(DIRECTORY viewer/dist/ DESTINATION share/hl/viewer COMPONENT hl-tools OPTIONAL)
 install(DIRECTORY scenes/examples DESTINATION share/hl/scenes COMPONENT hl-tools)

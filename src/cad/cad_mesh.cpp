@@ -128,16 +128,35 @@ Model collectMesh(const TopoDS_Shape& shape, const CadMeshing& meshing, const st
   return model;
 }
 
+// Triangles may be farther from their surface than edges from their curves: then finer edges are tried, as long as that
+// fits.
+Model meshWithin(const TopoDS_Shape& shape, const CadMeshing& meshing, const MeshEstimate& estimate, std::size_t most,
+                 const std::function<void(double)>& report) {
+  constexpr int kTries = 3;
+  constexpr double kMargin = 0.9, kFinest = 0.25;
+  double finer = 1;
+  for (int i = 1;; ++i) {
+    CadProgress progress(report, kEstimatePart, kMeshPart);
+    BRepTools::Clean(shape);
+    makeMesh(shape, {finer * meshing.deflection_m, meshing.angle_rad}, progress.begin());
+    Model model = collectMesh(shape, meshing, report);
+    const CadReading& reading = *model.reading.cad;
+    if (i == kTries || reading.error_m <= meshing.deflection_m + reading.tolerance_m) return model;
+    finer *= std::max(kFinest, kMargin * meshing.deflection_m / reading.error_m);
+    if (!estimate.fits(kCoarse / finer, most)) return model;
+  }
+}
+
 }  // namespace
 
 Model meshCad(const TopoDS_Shape& shape, const CadMeshing& meshing, const std::function<void(double)>& report,
               std::size_t most_triangles) {
   try {
     BRepTools::Clean(shape);
-    CadProgress estimate(report, 0, kEstimatePart), mesh(report, kEstimatePart, kMeshPart);
-    requireFits(estimateMesh(shape, meshing, estimate), meshing, most_triangles);
-    makeMesh(shape, meshing, mesh.begin());
-    return collectMesh(shape, meshing, report);
+    CadProgress progress(report, 0, kEstimatePart);
+    const MeshEstimate estimate = estimateMesh(shape, meshing, progress);
+    requireFits(estimate, meshing, most_triangles);
+    return meshWithin(shape, meshing, estimate, most_triangles, report);
   } catch (const Standard_Failure& failure) {
     throw Error(fmt::format("cannot be meshed: {}", failure.DynamicType()->Name()));
   }
