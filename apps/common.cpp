@@ -48,12 +48,13 @@ void requireMemory(const SceneModel& scene, const std::string& name, std::uint64
 }
 
 void addSceneArgument(CLI::App& command, SceneOptions& options, bool required) {
-  auto* argument = command.add_option("scene", options.scene,
-                                      std::string("a model file (obj, ply, stl, gltf, glb, x3d, wrl, ...), of CAD (step, "
-                                                  "iges, brep), of heights "
-                                                  "(tif, hgt, asc, png, npy), of a volume (nii, nrrd, dcm) or a "
-                                                  "built-in scene: ") +
-                                          kBuiltinScenes);
+  auto* argument =
+      command.add_option("scene", options.scene,
+                         std::string("a model file (obj, ply, stl, gltf, glb, x3d, wrl, ...), of CAD (step, "
+                                     "iges, brep), of heights "
+                                     "(tif, hgt, asc, png, npy), of a volume (nii, nrrd, dcm) or a "
+                                     "built-in scene: ") +
+                             kBuiltinScenes);
   if (required) {
     argument->required();
   } else {

@@ -1,7 +1,6 @@
 # What `cmake --install` puts where, in components that are also Debian packages (cmake/packages.cmake): libhl and
-# libhlbatch (the libraries), libhl-dev (what a program is built with), hl-tools (hl, hld and the page), hl-cad (what reads CAD files);
-# python3-hl is in
-# python/CMakeLists.txt.
+# libhlbatch (the libraries), libhl-dev (what a program is built with), hl-tools (hl, hld and the page), hl-cad (what
+# reads CAD files); python3-hl is in python/CMakeLists.txt.
 include(CMakePackageConfigHelpers)
 set(cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/hl)
 

@@ -53,6 +53,8 @@ class FaceMesh {
         vertex[k] = static_cast<std::uint32_t>(base_ + static_cast<std::size_t>(node[k] - 1));
         corner[k] = model.positions[vertex[k]];
       }
+      // A side of no length, as in the pole of a sphere.
+      if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) continue;
       const Vec3 area = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
       for (const int one : node) facing_[static_cast<std::size_t>(one - 1)] += area;
       model.triangles.push_back(vertex);

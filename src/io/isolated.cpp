@@ -260,8 +260,7 @@ SceneModel runIsolated(const std::string& name, const IsolationLimits& limits, c
 }
 
 SceneModel runProgram(const std::string& name, const IsolationLimits& limits, const ReaderProgram& program,
-                      int descriptor, const std::atomic<bool>& given_up,
-                      const std::function<void(double)>& progress) {
+                      int descriptor, const std::atomic<bool>& given_up, const std::function<void(double)>& progress) {
   const auto start = [&](int pipe) { return startProgram(pipe, program, descriptor); };
   return run(name, bounded(limits), start, given_up, progress);
 }

@@ -102,7 +102,8 @@ bool readsEnding(const std::string& ending) {
 
 std::string cannotBeRead(const std::string& ending) {
   return "files ending in '" + ending +
-         "' cannot be read; obj, ply, stl, gltf, glb, x3d, wrl, step, iges, brep, tif, hgt, asc, png, npy, nii, nrrd, dcm and others can";
+         "' cannot be read; obj, ply, stl, gltf, glb, x3d, wrl, step, iges, brep, tif, hgt, asc, png, npy, nii, nrrd, "
+         "dcm and others can";
 }
 
 SceneModel parseModel(const ModelFile& file, const ReadingReport& report) {

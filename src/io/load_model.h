@@ -19,7 +19,7 @@ struct LoadOptions {
   /// Of a scene file, all objects together: some 5 GB. A few lines can ask for any number of copies.
   std::size_t most_primitives = 40'000'000;
   std::size_t most_texels = std::size_t{256} << 20;  ///< of a scene file, all textures together: 1 GiB
-  CadMeshing cad{};    ///< of CAD files
+  CadMeshing cad{};                                  ///< of CAD files
   bool alone = false;  ///< no file beside it is read: a scene file that names one is refused
 };
 

@@ -33,6 +33,7 @@ def cache(name):
     return re.search(rf"^{name}(?::\w+)?=(.*)$", (BUILD / "CMakeCache.txt").read_text(encoding="utf-8"), re.MULTILINE).group(1)
 
 
+HAS_CAD = (BUILD / "bin" / "hl-cad").exists()
 HAS_PYTHON = "HL_BUILD_PYTHON:BOOL=ON" in (BUILD / "CMakeCache.txt").read_text(encoding="utf-8")
 
 
@@ -143,7 +144,8 @@ class DebianPackages(unittest.TestCase):
         return run("dpkg-deb", "--contents", self.packages[package])
 
     def test_there_is_one_for_each_purpose(self):
-        self.assertEqual(sorted(self.packages), ["hl-tools", "libhl", "libhl-dev", "libhlbatch"] + ["python3-hl"] * HAS_PYTHON)
+        self.assertEqual(sorted(self.packages), 
+                         ["hl-cad"] * HAS_CAD + ["hl-tools", "libhl", "libhl-dev", "libhlbatch"] + ["python3-hl"] * HAS_PYTHON)
 
     @unittest.skipUnless(HAS_PYTHON, "the Python package is not built")
     def test_python_finds_its_package_where_it_is_unpacked(self):
