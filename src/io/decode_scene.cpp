@@ -9,6 +9,8 @@
 
 #include "base/error.h"
 #include "bodies/joint_check.h"
+#include "io/decode_patches.h"
+#include "scene/append_part.h"
 
 namespace hl {
 
@@ -113,7 +115,35 @@ Model SceneDecoder::model(const proto::Primitives& in, const std::string& where)
   addVertices(model, in, where);
   addElements(model, in, where);
   addPolygons(model, in, where);
+  addPatches(model, in, where);
   return model;
+}
+
+void SceneDecoder::addPatches(Model& model, const proto::Primitives& in, const std::string& where) const {
+  if (in.patches_size() == 0) return;
+  try {
+    appendPart(model, modelOf(planOf(in)), 0);
+  } catch (const Error& error) {
+    fail(where + ".patches", where + ": " + error.what());
+  }
+  for (auto* list : {&model.triangle_materials, &model.segment_materials, &model.point_materials}) list->clear();
+}
+
+ModelCounts countsOf(const proto::Primitives& in) {
+  const auto of = [](int count) { return static_cast<std::size_t>(count); };
+  ModelCounts counts{.vertices = of(in.vertices_size()) / 3,
+                     .normals = of(in.normals_size()) / 3,
+                     .texcoords = of(in.texcoords_size()) / 2,
+                     .triangles = of(in.triangles_size()) / 3,
+                     .segments = of(in.segments_size()) / 2,
+                     .points = of(in.points_size())};
+  for (const proto::Polygon& polygon : in.polygons()) counts.triangles += of(polygon.vertices_size());
+  if (in.patches_size() == 0) return counts;
+  const PatchPlan plan = planOf(in);
+  counts.vertices += plan.vertices;
+  counts.normals = counts.texcoords = counts.vertices;
+  counts.triangles += plan.triangles;
+  return counts;
 }
 
 NamedTextureUse SceneDecoder::textureUse(const proto::MaterialTexture& in, const std::string& where) const {

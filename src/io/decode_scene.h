@@ -11,6 +11,7 @@
 #include "scene/field_spec.h"
 #include "scene/joint_spec.h"
 #include "scene/model.h"
+#include "scene/shape.h"
 #include "scene/snap_spec.h"
 #include "scene/surface_change.h"
 
@@ -22,7 +23,8 @@ class SceneDecoder {
   using Fail = std::function<void(const std::string& where, const std::string& message)>;
   explicit SceneDecoder(Fail fail) : fail_(std::move(fail)) {}
 
-  /// Vertices, lists and polygons; polygons become fans. Names, materials and textures are left at their defaults.
+  /// Vertices, lists, polygons and patches; polygons become fans. Names, materials and textures are left at their
+  /// defaults.
   Model model(const proto::Primitives& in, const std::string& where) const;
   /// What is absent stays unset. Textures are not looked up.
   SurfaceChange surface(const proto::Material& in, const std::string& where) const;
@@ -54,11 +56,16 @@ class SceneDecoder {
   NamedTextureUse textureUse(const proto::MaterialTexture& in, const std::string& where) const;
   void addVertices(Model& model, const proto::Primitives& in, const std::string& where) const;
   void addElements(Model& model, const proto::Primitives& in, const std::string& where) const;
+  void addPatches(Model& model, const proto::Primitives& in, const std::string& where) const;
   void addPolygons(Model& model, const proto::Primitives& in, const std::string& where) const;
   std::uint32_t vertex(const Model& model, std::uint32_t index, const std::string& where) const;
 
   Fail fail_;
 };
+
+/// Upper bounds of the sizes of what SceneDecoder::model() makes of these. Throws hl::Error for patches that it
+/// refuses.
+ModelCounts countsOf(const proto::Primitives& in);
 
 /// "list[3]".
 /// What a texture modulates; the message has names of its own for it.

@@ -41,15 +41,7 @@ std::string pathOfItems(std::uint32_t object) {
 std::uint64_t bytesToBuild(const proto::Primitives& in) {
   if (in.has_heights()) return bytesToMakeHeights(in.heights());
   if (in.has_volume()) return bytesToMakeVolume(in.volume());
-  const auto of = [](int count) { return static_cast<std::uint64_t>(count); };
-  std::uint64_t triangles = of(in.triangles_size()) / 3;
-  for (const proto::Polygon& polygon : in.polygons()) triangles += of(polygon.vertices_size());
-  return bytesToMake({.vertices = of(in.vertices_size()) / 3,
-                      .normals = of(in.normals_size()) / 3,
-                      .texcoords = of(in.texcoords_size()) / 2,
-                      .triangles = triangles,
-                      .segments = of(in.segments_size()) / 2,
-                      .points = of(in.points_size())});
+  return bytesToMake(countsOf(in));
 }
 
 std::uint64_t texelsOf(const proto::TextureImage& in) {
@@ -83,7 +75,9 @@ void joinParts(std::list<proto::Primitives>& parts, MemoryShare& memory) {
 }
 
 void requireAlone(const proto::Primitives& in, const std::string& where) {
-  if (in.vertices_size() + in.triangles_size() + in.polygons_size() + in.segments_size() + in.points_size() > 0)
+  if (in.vertices_size() + in.triangles_size() + in.polygons_size() + in.segments_size() + in.points_size() +
+          in.patches_size() >
+      0)
     throw Error(where + ": " + (in.has_heights() ? "heights come" : "a volume comes") +
                 " without vertices and elements");
   if (in.has_heights() && in.has_volume()) throw Error(where + ": it has heights or a volume, not both");
