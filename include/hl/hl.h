@@ -201,6 +201,19 @@ HL_API void hlVolumeMatter(HLsizei rows, const HLdouble* numbers);
  * `iso` that is not a number. */
 HL_API void hlVolumeSurface(HLdouble iso);
 
+/** Draws a NURBS surface without trims as gluNurbsSurface does, or a Bezier patch, with no knots, as glMap2d and
+ * glEvalMesh2 do. The server makes triangles within `error` of it, in units of the vertices (0: 2e-5 of the largest
+ * side), with the normals of the surface, which is felt with HL_SMOOTH; at most 5 million in an object's run of
+ * surfaces. Along u there are `u_knot_count` - `u_order` control points, or `u_order` without knots, `u_stride` numbers
+ * apart; along v the same. `type`: HL_MAP2_VERTEX_3, x y z each, or HL_MAP2_VERTEX_4, x w, y w, z w and w, its weight >
+ * 0. Surfaces drawn one after the other with the same error, matrix and look have no cracks where they have the same
+ * control points along a side. The normal is that of u to the right and v up. Numbers are copied. HL_INVALID_VALUE: an
+ * order that is not 2 .. 8, knots that fall or tear the surface, other numbers that make no surface, or an `error` that
+ * is not 0 or 1e-9 .. 1e9. HL_INVALID_ENUM: another type. */
+HL_API void hlNurbsSurface(HLsizei u_knot_count, const HLdouble* u_knots, HLsizei v_knot_count, const HLdouble* v_knots,
+                           HLint u_stride, HLint v_stride, const HLdouble* points, HLint u_order, HLint v_order,
+                           HLenum type, HLdouble error);
+
 /* ---- Objects -------------------------------------------------------------------------------------------------- */
 
 /** Writes `n` object numbers (> 0) that are not in use. HL_INVALID_VALUE: n < 0. */

@@ -313,6 +313,31 @@ inline void volumeMatter(std::span<const HLdouble> numbers) {
 /// hlVolumeSurface.
 inline void volumeSurface(HLdouble iso) { hlVolumeSurface(iso); }
 
+/// How the control points of a surface are to be read.
+struct NurbsForm {
+  HLint order_u = 4, order_v = 4;                  ///< degree + 1
+  std::span<const HLdouble> knots_u{}, knots_v{};  ///< none: a Bezier patch
+  bool weighted = false;                           ///< x w, y w, z w, w each, and not x y z
+  HLdouble error = 0;                              ///< of its triangles, units; 0: 2e-5 of the largest side
+};
+
+/// hlNurbsSurface of control points row by row without gaps, u the faster.
+inline void nurbsSurface(const NurbsForm& form, std::span<const HLdouble> points) {
+  const std::size_t each = form.weighted ? 4 : 3;
+  const auto along = [](HLint order, std::span<const HLdouble> knots) {
+    return knots.empty() ? static_cast<std::size_t>(std::max(order, 0))
+                         : knots.size() - std::min(knots.size(), static_cast<std::size_t>(std::max(order, 0)));
+  };
+  const std::size_t columns = along(form.order_u, form.knots_u), rows = along(form.order_v, form.knots_v);
+  constexpr std::size_t kMost = 1 << 20;
+  if (columns > kMost || rows > kMost || points.size() != each * columns * rows)
+    throw std::invalid_argument("there must be as many control points as orders and knots say");
+  hlNurbsSurface(static_cast<HLsizei>(form.knots_u.size()), form.knots_u.data(),
+                 static_cast<HLsizei>(form.knots_v.size()), form.knots_v.data(), static_cast<HLint>(each),
+                 static_cast<HLint>(each * columns), points.data(), form.order_u, form.order_v,
+                 form.weighted ? HL_MAP2_VERTEX_4 : HL_MAP2_VERTEX_3, form.error);
+}
+
 /// hlGetDoublev of a query with `Count` values (hl_types.h says how many); zeros at an error.
 template <std::size_t Count>
 std::array<HLdouble, Count> get(HLenum name) {

@@ -108,6 +108,12 @@ enum {
   HL_TEXTURE_HIGH = 0x48024      /**< env: the quantity where a texel is 1. Default 1; of HL_HEIGHT 0. */
 };
 
+/** Control points of hlNurbsSurface. */
+enum {
+  HL_MAP2_VERTEX_3 = 0x0DB7, /**< x y z */
+  HL_MAP2_VERTEX_4 = 0x0DB8  /**< x w, y w, z w, w; w > 0 */
+};
+
 /** hlEnableClientState and hlDisableClientState; hlIsEnabled takes them too. */
 enum { HL_VERTEX_ARRAY = 0x8074, HL_NORMAL_ARRAY = 0x8075, HL_TEXTURE_COORD_ARRAY = 0x8078 };
 

@@ -99,6 +99,28 @@ void volumeMatter(const Doubles& rows) {
   throwFailure();
 }
 
+void nurbsSurface(const Doubles& points, HLint order_u, HLint order_v, const Optional& knots_u, const Optional& knots_v,
+                  double error) {
+  requireContext();
+  if (points.ndim() != 3 || (points.shape(2) != 3 && points.shape(2) != 4))
+    throw CallFailed(HL_INVALID_VALUE,
+                     "control points have the shape (along v, along u, 3 or 4), and these " + shapeText(points));
+  const auto each = static_cast<HLint>(points.shape(2));
+  const auto side = [](const Optional& knots, HLint order, py::ssize_t there) -> HLsizei {
+    if (knots && knots->ndim() != 1) throw CallFailed(HL_INVALID_VALUE, "knots are a list of numbers");
+    const py::ssize_t wanted = knots ? knots->size() - order : order;
+    if (wanted != there)
+      throw CallFailed(HL_INVALID_VALUE, "there must be " + std::to_string(wanted) +
+                                             " control points along a side, not " + std::to_string(there));
+    return knots ? static_cast<HLsizei>(knots->size()) : 0;
+  };
+  const HLsizei count_u = side(knots_u, order_u, points.shape(1)), count_v = side(knots_v, order_v, points.shape(0));
+  hlNurbsSurface(count_u, knots_u ? knots_u->data() : nullptr, count_v, knots_v ? knots_v->data() : nullptr, each,
+                 static_cast<HLint>(each * points.shape(1)), points.data(), order_u, order_v,
+                 each == 4 ? HL_MAP2_VERTEX_4 : HL_MAP2_VERTEX_3, error);
+  throwFailure();
+}
+
 void updateVertices(HLuint object, const Doubles& vertices, HLint first, const Optional& normals) {
   requireContext();
   const std::size_t count = rowsOf(vertices, 3, "vertices");
@@ -226,6 +248,8 @@ void bindArrayCalls(py::module_& module) {
              py::arg("smoothing"));
   module.def("hlVolumeMatter", &volumeMatter, py::arg("rows"));
   module.def("hlVolume", &volume, py::arg("samples"), py::arg("iso"), py::arg("missing") = none);
+  module.def("hlNurbsSurface", &nurbsSurface, py::arg("points"), py::arg("order_u") = 4, py::arg("order_v") = 4,
+             py::arg("knots_u") = none, py::arg("knots_v") = none, py::arg("error") = 0.0);
   module.def("hlUpdateVertices", &updateVertices, py::arg("object"), py::arg("vertices"), py::arg("first") = 0,
              py::arg("normals") = none);
   module.def(

@@ -38,6 +38,8 @@ void fillPrimitives(const Geometry& geometry, proto::Primitives& out) {
   assign(out.mutable_triangles(), geometry.triangles);
   assign(out.mutable_segments(), geometry.segments);
   assign(out.mutable_points(), geometry.points);
+  out.mutable_patches()->Add(geometry.patches.begin(), geometry.patches.end());
+  out.set_patch_error(geometry.patch_error);
 }
 
 proto::Quantity quantityOf(HLenum quantity) {
@@ -173,6 +175,7 @@ class Builder {
     addParts(geometry.triangles, &proto::Primitives::mutable_triangles);
     addParts(geometry.segments, &proto::Primitives::mutable_segments);
     addParts(geometry.points, &proto::Primitives::mutable_points);
+    for (const proto::Patch& patch : geometry.patches) addPatch(patch, geometry.patch_error);
     return upload_;
   }
 
@@ -188,6 +191,18 @@ class Builder {
       (part.mutable_part()->*mutable_list)()->Add(begin, end);
       upload_bytes_ += part.ByteSizeLong();
     }
+  }
+
+  // A patch is never cut.
+  void addPatch(const proto::Patch& patch, double error_m) {
+    const std::size_t bytes = patch.ByteSizeLong();
+    if (bytes + kPartHeadBytes > unlessZero(terms_.limits.message_bytes()))
+      throw Fault(HL_OUT_OF_MEMORY, "a patch has more control points than the server takes in a message");
+    proto::Upload& part = addPart(bytes);
+    part.set_id(upload_);
+    part.mutable_part()->set_patch_error(error_m);
+    *part.mutable_part()->add_patches() = patch;
+    upload_bytes_ += part.ByteSizeLong();
   }
 
   // Once for all surfaces of a volume.

@@ -127,6 +127,9 @@ std::size_t Geometry::bytes() const {
   const std::size_t numbers = vertices.positions.size() + vertices.normals.size() + vertices.texcoords.size();
   constexpr std::size_t kHeightsHead = 64;
   if (heights) return heights->samples(0).size() + kHeightsHead;
+  std::size_t of_patches = 0;
+  for (const proto::Patch& patch : patches) of_patches += patch.ByteSizeLong() + kListBytes;
+  if (of_patches > 0) return of_patches;
   return numbers * sizeof(double) + (triangles.size() + segments.size() + points.size()) * kIndexBytes + 6 * kListBytes;
 }
 

@@ -33,6 +33,8 @@ struct Geometry {
   std::optional<proto::Heights> heights{};        ///< in place of all others; samples in one piece
   std::shared_ptr<const proto::Volume> volume{};  ///< in place of all others; one for all its surfaces
   double iso = 0;                                 ///< of the volume
+  std::vector<proto::Patch> patches{};            ///< in place of all others
+  double patch_error = 0;                         ///< of the patches; 0: the server's choice
   /// Whether `added` could be appended: all vertices have normals or none has, the same for texture coordinates, and
   /// the indices fit.
   bool takes(const Vertices& added) const;

@@ -10,6 +10,7 @@
 
 #include "client/call.h"
 #include "client/elements.h"
+#include "client/patch_arguments.h"
 
 using hl::client::call;
 using hl::client::Fault;
@@ -266,6 +267,20 @@ void hlVolumeSurface(HLdouble iso) {
     if (!volume) throw Fault(HL_INVALID_OPERATION, "no volume was drawn before, whose surface it could be");
     context.target().drawVolume(context.draw.modelview.top(), lookOf(context.draw.attributes.now), std::move(volume),
                                 iso);
+  });
+}
+
+void hlNurbsSurface(HLsizei u_knot_count, const HLdouble* u_knots, HLsizei v_knot_count, const HLdouble* v_knots,
+                    HLint u_stride, HLint v_stride, const HLdouble* points, HLint u_order, HLint v_order, HLenum type,
+                    HLdouble error) {
+  call(__func__, [&](HLcontext& context) {
+    if (!(error == 0 || (error >= 1e-9 && error <= 1e9)))
+      throw Fault(HL_INVALID_VALUE, "the error must be 1e-9 .. 1e9");
+    const hl::client::SurfaceSide u{u_knot_count, u_knots, u_stride, u_order};
+    const hl::client::SurfaceSide v{v_knot_count, v_knots, v_stride, v_order};
+    hl::proto::Patch patch = hl::client::patchOf(u, v, points, type);
+    context.target().drawPatch(context.draw.modelview.top(), lookOf(context.draw.attributes.now), std::move(patch),
+                               error);
   });
 }
 

@@ -18,7 +18,8 @@ bool ItemList::draw(const Matrix4& matrix, const Look& look, HLenum mode, Vertic
   if (vertices.size() > std::numeric_limits<std::uint32_t>::max())
     throw Fault(HL_OUT_OF_MEMORY, "more vertices than indices can count; split them");
   const auto joins = [&](const Item& last) {
-    return last.call == 0 && last.geometry.takes(vertices) && last.matrix == matrix && last.look == look;
+    return last.call == 0 && last.geometry.patches.empty() && last.geometry.takes(vertices) && last.matrix == matrix &&
+           last.look == look;
   };
   if (items_.empty() || !joins(items_.back())) items_.push_back({matrix, look, 0, {}});
   appendPrimitives(items_.back().geometry, mode, vertices, order);
@@ -35,6 +36,16 @@ void ItemList::drawVolume(const Matrix4& matrix, const Look& look, std::shared_p
   items_.push_back({matrix, look, 0, {}});
   items_.back().geometry.volume = std::move(volume);
   items_.back().geometry.iso = iso;
+}
+
+void ItemList::drawPatch(const Matrix4& matrix, const Look& look, proto::Patch patch, double error_m) {
+  const auto joins = [&](const Item& last) {
+    return !last.geometry.patches.empty() && last.geometry.patch_error == error_m && last.matrix == matrix &&
+           last.look == look;
+  };
+  if (items_.empty() || !joins(items_.back())) items_.push_back({matrix, look, 0, {}});
+  items_.back().geometry.patch_error = error_m;
+  items_.back().geometry.patches.push_back(std::move(patch));
 }
 
 std::shared_ptr<const proto::Volume> ItemList::lastVolume() const {

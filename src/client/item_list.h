@@ -44,6 +44,8 @@ class ItemList {
   bool draw(const Matrix4& matrix, const Look& look, HLenum mode, Vertices& vertices, DrawOrder order = {});
   void drawHeights(const Matrix4& matrix, const Look& look, proto::Heights heights);
   void drawVolume(const Matrix4& matrix, const Look& look, std::shared_ptr<const proto::Volume> volume, double iso);
+  /// Those after each other with the same matrix, look and error become one item, so that their sides meet.
+  void drawPatch(const Matrix4& matrix, const Look& look, proto::Patch patch, double error_m);
   /// The volume that was drawn last; null: none was.
   std::shared_ptr<const proto::Volume> lastVolume() const;
   void call(const Matrix4& matrix, const Look& look, HLuint object);

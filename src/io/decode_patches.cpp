@@ -34,9 +34,9 @@ NurbsPatch patchOf(const proto::Patch& in) {
 }  // namespace
 
 PatchPlan planOf(const proto::Primitives& in) {
-  const double error_m = in.patch_error_m();
+  const double error_m = in.patch_error();
   if (error_m != 0 && !(error_m >= kLeastPatchError_m && error_m <= kMostPatchError_m))
-    throw Error("patchErrorM must be from 1e-9 to 1e9");
+    throw Error("patchError must be from 1e-9 to 1e9");
   std::vector<NurbsPatch> patches;
   patches.reserve(static_cast<std::size_t>(in.patches_size()));
   for (int i = 0; i < in.patches_size(); ++i) {

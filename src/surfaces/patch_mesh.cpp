@@ -217,7 +217,7 @@ PatchPlan planPatches(const std::vector<NurbsPatch>& patches, double error_m, st
   }
   if (plan.triangles > most_triangles)
     throw Error("the patches would make " + std::to_string(plan.triangles) + " triangles, and " +
-                std::to_string(most_triangles) + " at most can be: say a larger patchErrorM");
+                std::to_string(most_triangles) + " at most can be: say a larger patchError");
   return plan;
 }
 

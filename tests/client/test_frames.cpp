@@ -177,6 +177,60 @@ TEST_F(CallsTest, MatterThatMakesNoSenseIsRefused) {
   expectError(HL_INVALID_VALUE);
 }
 
+TEST_F(CallsTest, SurfacesOneAfterTheOtherAreOneItem) {
+  const std::array<HLdouble, 12> square{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 1};
+  std::array<HLdouble, 32> weighted{};  // with room between the rows
+  for (std::size_t i = 0; i < 6; ++i) {
+    HLdouble* const p = &weighted[i / 3 * 16 + i % 3 * 4];
+    const HLdouble w = i % 3 == 1 ? 0.5 : 1;
+    p[0] = w * static_cast<HLdouble>(i % 3), p[1] = w * static_cast<HLdouble>(i / 3), p[3] = w;
+  }
+  const std::array<HLdouble, 6> knots{0, 0, 0, 2, 2, 2};
+  hlNurbsSurface(0, nullptr, 0, nullptr, 3, 6, square.data(), 2, 2, HL_MAP2_VERTEX_3, 1e-5);
+  hlNurbsSurface(6, knots.data(), 0, nullptr, 4, 16, weighted.data(), 3, 2, HL_MAP2_VERTEX_4, 1e-5);
+  triangle();
+  hlNurbsSurface(0, nullptr, 0, nullptr, 3, 6, square.data(), 2, 2, HL_MAP2_VERTEX_3, 0);
+  const proto::Frame frame = flushed();
+  ASSERT_EQ(frame.world().items_size(), 3);
+  const proto::Primitives& both = frame.world().items(0).primitives();
+  ASSERT_EQ(both.patches_size(), 2);
+  EXPECT_EQ(both.patch_error(), 1e-5);
+  const proto::Patch& second = both.patches(1);
+  EXPECT_EQ(second.order_u(), 3U);
+  EXPECT_EQ((std::vector<double>{second.points().begin() + 3, second.points().begin() + 6}),
+            (std::vector<double>{1, 0, 0}));
+  EXPECT_EQ((std::vector<double>{second.weights().begin(), second.weights().end()}),
+            (std::vector<double>{1, 0.5, 1, 1, 0.5, 1}));
+  EXPECT_EQ(second.knots_u_size(), 6);
+  EXPECT_EQ(frame.world().items(2).primitives().patches_size(), 1);
+  for (int i = 0; i < 10'000; ++i)
+    hlNurbsSurface(0, nullptr, 0, nullptr, 3, 6, square.data(), 2, 2, HL_MAP2_VERTEX_3, 0);
+  EXPECT_TRUE(flushed().world().items(0).has_upload());
+}
+
+TEST_F(CallsTest, SurfacesThatMakeNoSenseAreRefused) {
+  std::array<HLdouble, 16> points{0, 0, 0, 1, 1, 0, 0, 1, 0, 1, 0, 1, 1, 1, 0, 1};
+  const auto surface = [&](HLint order, HLint stride, HLenum type, HLdouble error) {
+    hlNurbsSurface(0, nullptr, 0, nullptr, stride, 8, points.data(), order, 2, type, error);
+  };
+  surface(1, 4, HL_MAP2_VERTEX_4, 0);
+  expectError(HL_INVALID_VALUE);
+  surface(2, 3, HL_MAP2_VERTEX_4, 0);
+  expectError(HL_INVALID_VALUE);
+  surface(2, 4, HL_FLOAT, 0);
+  expectError(HL_INVALID_ENUM);
+  surface(2, 4, HL_MAP2_VERTEX_4, kNaN);
+  expectError(HL_INVALID_VALUE);
+  points[7] = 0;
+  surface(2, 4, HL_MAP2_VERTEX_4, 0);
+  expectError(HL_INVALID_VALUE);
+  hlNurbsSurface(0, nullptr, 0, nullptr, 3, 6, nullptr, 2, 2, HL_MAP2_VERTEX_3, 0);
+  expectError(HL_INVALID_VALUE);
+  hlNurbsSurface(5, nullptr, 0, nullptr, 3, 6, points.data(), 2, 2, HL_MAP2_VERTEX_3, 0);
+  expectError(HL_INVALID_VALUE);
+  EXPECT_EQ(flushed().number(), 0U);
+}
+
 TEST_F(CallsTest, VolumesThatMakeNoSenseAreRefused) {
   const std::array<HLfloat, 8> samples{};
   hlVolume(1, 2, 2, HL_FLOAT, samples.data(), nullptr, 0);

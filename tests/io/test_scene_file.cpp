@@ -437,6 +437,32 @@ TEST(SceneFile, ModelFilesAreRelativeToTheScene) {
   EXPECT_EQ(sceneOf(R"({"objects": [{"file": "part.obj"}, {"file": "part.obj"}]})").triangles.size(), 2u);
 }
 
+TEST(SceneFile, PatchesBecomeTrianglesOfTheirSurface) {
+  const Model model = sceneOf(R"({"objects": [{"primitives": {"patchError": 1e-6, "patches": [
+      {"orderU": 3, "orderV": 2, "points": [0.01,0,0, 0.01,0,-0.01, 0,0,-0.01, 0.01,0.02,0, 0.01,0.02,-0.01, 0,0.02,-0.01],
+       "weights": [1, 0.7071067811865476, 1, 1, 0.7071067811865476, 1]}]},
+      "transform": {"scale": {"x": 2, "y": 2, "z": 2}}}]})");
+  EXPECT_GT(model.triangles.size(), 50u);
+  EXPECT_LE(model.reading.patch_error_m, 2e-6);
+  EXPECT_GT(model.reading.patch_error_m, 2e-7);
+  ASSERT_EQ(model.normals.size(), model.positions.size());
+  for (std::size_t i = 0; i < model.positions.size(); ++i) {
+    const Vec3 out(model.positions[i].x(), 0, model.positions[i].z());
+    EXPECT_NEAR(out.norm(), 0.02, 1e-15);
+    EXPECT_LT(model.normals[i].cross(out).norm(), 1e-15);
+  }
+  const auto refused = [](const std::string& patch, const std::string& about) {
+    const std::string line = refusalOf("{\"objects\": [\n{\"primitives\": {" + patch + "}}]}");
+    EXPECT_NE(afterFile(line).find(about), std::string::npos) << line;
+    EXPECT_TRUE(afterFile(line).starts_with(":2: ")) << line;
+  };
+  refused(R"("patches": [{"orderU": 9, "orderV": 2, "points": [0,0,0]}])", "patches[0]: orders");
+  refused(R"("patches": [{"orderU": 2, "orderV": 2, "points": [0,0,0, 1,0]}])", "patches[0]: points");
+  refused(R"("patches": [{"orderU": 2, "orderV": 2, "points": [0,0,0, 1,0,0, 0,1,0]}])", "2 x 2 control points, not 3");
+  refused(R"("patchError": -1, "patches": [{"orderU": 2, "orderV": 2, "points": [0,0,0, 1,0,0, 0,1,0, 1,1,0]}])",
+          "patchError");
+}
+
 TEST(SceneFile, ErrorsNameTheLine) {
   const auto expect = [](const std::string& json, const std::string& line, const std::string& about) {
     const std::string message = afterFile(refusalOf(json));

@@ -49,6 +49,28 @@ TEST(DecodeFrame, TexturesShareTheRoomThereIs) {
   EXPECT_EQ(refusalOf(frame), "texture 'c'.procedural.size of 4 is too large: there is room for 12 texels");
 }
 
+// A patch of a few bytes that makes millions of triangles.
+TEST(DecodeFrame, PatchesAreCountedBeforeTheyAreMade) {
+  proto::Frame frame;
+  proto::Primitives& primitives = *frame.mutable_world()->add_items()->mutable_primitives();
+  proto::Patch& patch = *primitives.add_patches();
+  patch.set_order_u(3);
+  patch.set_order_v(3);
+  for (int i = 0; i < 9; ++i) {
+    for (const int number : {i % 3, i == 4 ? 1 : 0, i / 3}) patch.add_points(number);
+  }
+  primitives.set_patch_error(0.1);
+  EXPECT_EQ(refusalOf(frame), "accepted");
+  const MemoryBudget memory(1'000'000);
+  primitives.set_patch_error(1e-6);
+  EXPECT_NE(refusalOf(frame, {}, memory), "accepted");
+  primitives.set_patch_error(1e-9);
+  EXPECT_NE(refusalOf(frame).find("say a larger patchError"), std::string::npos) << refusalOf(frame);
+  primitives.set_patch_error(0.1);
+  patch.set_points(4, std::numeric_limits<double>::quiet_NaN());
+  EXPECT_NE(refusalOf(frame).find("patches[0]: points"), std::string::npos) << refusalOf(frame);
+}
+
 TEST(DecodeFrame, HeightFieldsComeAtOnceOrInParts) {
   const auto decoded = [](const proto::Frame& frame, Uploads uploads) {
     return decodeFrame(frame, uploads, SceneLimits{}, {}, [](double) {}).edit.world->at(0).shape;

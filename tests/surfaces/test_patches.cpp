@@ -261,7 +261,7 @@ TEST(Patches, WhatMakesNoSurfaceIsRefusedWithOneLine) {
     EXPECT_TRUE(refusal(bad).starts_with("patches[0]: ")) << refusal(bad);
   EXPECT_NE(refusal(changed([](auto& p) {
               for (ControlPoint& point : p.points) point.at *= 1e6;
-            })).find("patchErrorM"),
+            })).find("patchError"),
             std::string::npos);
 }
 
