@@ -232,12 +232,7 @@ void bindContactReports(py::module_& module) {
       py::arg("object"), py::arg("normal"), py::arg("tangential"), py::arg("force") = py::none());
 }
 
-}  // namespace
-
-void bindArrayCalls(py::module_& module) {
-  PYBIND11_NUMPY_DTYPE(HLcontact, point, normal, share, static_friction, stiffness, object, name, session);
-  PYBIND11_NUMPY_DTYPE(HLbody, object, name, position, rotation, velocity, spin);
-  PYBIND11_NUMPY_DTYPE(HLsample, time, position, force, buttons);
+void bindDrawing(py::module_& module) {
   const auto none = py::none();
   module.def("hlDrawArrays", &drawArrays, py::arg("mode"), py::arg("vertices"), py::arg("normals") = none,
              py::arg("texcoords") = none);
@@ -250,6 +245,16 @@ void bindArrayCalls(py::module_& module) {
   module.def("hlVolume", &volume, py::arg("samples"), py::arg("iso"), py::arg("missing") = none);
   module.def("hlNurbsSurface", &nurbsSurface, py::arg("points"), py::arg("order_u") = 4, py::arg("order_v") = 4,
              py::arg("knots_u") = none, py::arg("knots_v") = none, py::arg("error") = 0.0);
+}
+
+}  // namespace
+
+void bindArrayCalls(py::module_& module) {
+  PYBIND11_NUMPY_DTYPE(HLcontact, point, normal, share, static_friction, stiffness, object, name, session);
+  PYBIND11_NUMPY_DTYPE(HLbody, object, name, position, rotation, velocity, spin);
+  PYBIND11_NUMPY_DTYPE(HLsample, time, position, force, buttons);
+  bindDrawing(module);
+  const auto none = py::none();
   module.def("hlUpdateVertices", &updateVertices, py::arg("object"), py::arg("vertices"), py::arg("first") = 0,
              py::arg("normals") = none);
   module.def(

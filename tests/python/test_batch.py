@@ -115,6 +115,16 @@ class Heights(unittest.TestCase):
         self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(heights=np.full((3, 3), np.nan)))
 
 
+class CadFiles(unittest.TestCase):
+    @unittest.skipUnless((Path(HL).parent / "hl-cad").exists(), "hl-cad is not built")
+    def test_a_step_file_is_a_scene_in_metres(self):
+        with tempfile.TemporaryDirectory() as cache:
+            os.environ["PATH"] += f":{Path(HL).parent}"
+            os.environ["XDG_CACHE_HOME"] = cache
+            part = hl.Scene(Path(os.environ["HL_SOURCE"]) / "scenes/examples/flange.step")
+        np.testing.assert_allclose(part.bounds, [[-0.03, -0.02, 0], [0.03, 0.02, 0.02]], atol=1e-9)
+
+
 class Volumes(unittest.TestCase):
     def test_planes_are_where_their_values_are(self):
         z, y, x = np.meshgrid(np.arange(6), np.arange(5), np.arange(4), indexing="ij")

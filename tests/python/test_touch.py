@@ -46,6 +46,17 @@ class Touching(unittest.TestCase):
                 self.touch.draw(*FLOOR)
         self.touch.hand_goal([0, -0.01, 0])
 
+    def test_a_bezier_patch_is_felt(self):
+        x, z = np.meshgrid(np.linspace(-0.1, 0.1, 4), np.linspace(-0.1, 0.1, 4))
+        points = np.stack([x, np.zeros_like(x), z], axis=2)
+        with self.touch.frame():
+            hl.calls.hlNurbsSurface(points)
+            self.assertRaises(hl.InvalidValueError, lambda: hl.calls.hlNurbsSurface(points, order_u=3))
+            self.assertRaises(hl.InvalidValueError, lambda: hl.calls.hlNurbsSurface(points, knots_u=[0, 0, 0, 0, 1, 1, 1]))
+        self.touch.hand_goal([0, -0.01, 0])
+        (state,) = wait_for("a touch", lambda: [s for s in [self.touch.state()] if s.force[1] > 0.3 and s.safety == "on"])
+        self.assertGreater(state.proxy[1], 0)
+
     def test_what_is_drawn_is_felt(self):
         self.show_floor()
         (state,) = wait_for("a touch", lambda: [s for s in [self.touch.state()] if s.force[1] > 0.3 and s.safety == "on"])
