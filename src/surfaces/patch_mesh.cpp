@@ -14,7 +14,8 @@ namespace hl {
 
 namespace {
 
-constexpr std::uint32_t kMostCells = 100'000;  // along a side
+constexpr auto kMostCells =
+    static_cast<std::uint32_t>(kMostPatchTriangles);  // along a side: what needs more is refused
 constexpr double kLeastPatchError_m = 1e-12;
 
 using SideKey = std::vector<double>;

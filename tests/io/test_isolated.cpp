@@ -20,6 +20,7 @@
 #include "io/load_image.h"
 #include "io/load_model.h"
 #include "io/model_parts.h"
+#include "io/reading_cache.h"
 #include "io/sandbox.h"
 #include "temp_folder.h"
 
@@ -435,6 +436,47 @@ TEST(LoadModel, AnEndlessFileIsNoHarm) {
     EXPECT_NE(refusalOf([&] { image ? void(loadImage(tempFile(name))) : void(loadModel(tempFile(name), options)); }),
               "");
   }
+}
+
+// What is kept of a file is found by its content and options, and only as long as it is whole.
+TEST(ReadingCache, GivesWhatWasKeptOrNothing) {
+  const std::string folder = tempFile("cache");
+  const ReadingCache cache(folder);
+  const auto keyOf = [&](const std::string& content, const std::string& options) {
+    const int file = open(fileWith("source", content).c_str(), O_RDONLY | O_CLOEXEC);
+    const std::string key = cache.keyOf(file, options);
+    close(file);
+    return key;
+  };
+  SceneModel scene;
+  scene.model.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0.1)};
+  scene.model.triangles = {{0, 1, 2}};
+  scene.model.reading.cad = CadReading{1e-6, 0.1, 2e-6, 3e-7, 4, 5};
+  const std::string key = keyOf("a", "fine");
+  EXPECT_FALSE(cache.find(key, {}));
+  cache.keep(key, scene);
+  const std::optional<SceneModel> found = cache.find(key, {});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->model.positions, scene.model.positions);
+  EXPECT_EQ(found->model.reading.cad->tolerance_m, 3e-7);
+  EXPECT_FALSE(cache.find(keyOf("b", "fine"), {}));
+  EXPECT_FALSE(cache.find(keyOf("a", "coarse"), {}));
+  const std::string other = keyOf("b", "fine");
+  fs::copy(folder + "/" + key + ".reading", folder + "/" + other + ".reading");
+  EXPECT_FALSE(cache.find(other, {}));  // an entry under another's name
+}
+
+TEST(ReadingCache, KeepsNoMoreThanItMayAndNothingWithoutAFolder) {
+  SceneModel scene;
+  scene.model.positions.assign(1000, Vec3::Zero());
+  scene.model.points = {0};
+  const ReadingCache cache(tempFile("small-cache"), 60'000);
+  for (const char* key : {"a", "b", "c", "d"}) cache.keep(key, scene);
+  EXPECT_TRUE(cache.find("d", {}));
+  EXPECT_EQ(std::distance(fs::directory_iterator(tempFile("small-cache")), {}), 2);
+  ReadingCache("").keep("a", scene);
+  EXPECT_FALSE(ReadingCache("").find("a", {}));
+  ReadingCache(fileWith("no-folder", "x")).keep("a", scene);
 }
 
 }  // namespace
