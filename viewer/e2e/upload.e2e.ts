@@ -1,8 +1,8 @@
 // A file of the user's in the place of the scene, against a real server: chosen and dropped, good and bad, and felt.
 
-import { mkdtempSync, writeFileSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { dirname, join } from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
 import { fileOf, kWhole } from "../test-support/recording_bytes";
@@ -78,6 +78,16 @@ describe.skipIf(!kProgram)("a file of the user's", () => {
     await page.waitForFunction(() => window.__hl.sceneName === "plate.obj");
     await expect.poll(() => page.isVisible("#drop-target")).toBe(false);
     await expect.poll(told).toMatch(/^plate\.obj: 12 triangles; .* Comes alone, without plate\.mtl\.$/);
+  });
+
+  test.skipIf(!existsSync(join(dirname(kProgram ?? ""), "hl-cad")))("of CAD becomes the scene, in metres", async () => {
+    await drop(page, "flange.step", readFileSync("../scenes/examples/flange.step", "utf8"));
+    await page.waitForFunction(() => window.__hl.sceneName === "flange.step" && window.__hl.triangles > 10_000);
+    const high = await page.evaluate(() => window.__hl.boundsMax!);
+    expect(high.x).toBeCloseTo(0.03, 6);
+    await screenshot(page, "upload_cad");
+    await drop(page, "cut.step", "ISO-10303-21;\nHEADER;\n");
+    await expect.poll(told).toMatch(/^cut\.step: cannot be understood: it is no sound STEP file/);
   });
 
   test("of the same name is another scene, too, and the view fits it", async () => {
