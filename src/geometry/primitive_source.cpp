@@ -6,6 +6,7 @@ namespace hl {
 
 Primitive primitiveOf(const PrimitiveSource& source, ElementId id) {
   const std::array<Vec3, 3> corner = source.corners(id);
+  if (source.kind() == PrimitiveKind::kPoint) return pointOf(corner[0], id);
   return triangleOf(corner[0], corner[1], corner[2], id);
 }
 

@@ -1,5 +1,5 @@
 // PrimitiveSource: a surface that is not a mesh. Its triangles are computed on request, so there may be more of them
-// than fit into memory: a height field, a volume, a formula.
+// than fit into memory: a height field, a volume, a formula. Or its points are: a cloud.
 #pragma once
 
 #include <array>
@@ -17,10 +17,11 @@
 
 namespace hl {
 
-/// Triangles to draw, with one normal a vertex. Metres, object frame.
+/// What is drawn: triangles or points, with one normal a vertex. Metres, object frame.
 struct DrawnMesh {
   std::vector<Vec3> positions, normals;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::uint32_t> points;
 };
 
 /// What is at a point.
@@ -42,14 +43,19 @@ struct SharedMemory {
 class PrimitiveSource {
  public:
   virtual ~PrimitiveSource() = default;
-  /// Triangles are numbered below it; its index proposes only those that exist. RT-safe.
+  /// Of all its primitives: triangles, or points. RT-safe.
+  virtual PrimitiveKind kind() const { return PrimitiveKind::kTriangle; }
+  /// Primitives are numbered below it; its index proposes only those that exist. RT-safe.
   virtual ElementId count() const = 0;
-  /// About how many triangles there are.
+  /// About how many triangles there are; of points: how many.
   virtual std::uint64_t triangles() const { return count(); }
-  /// The three vertices, which form a valid triangle (isTriangle), counterclockwise seen from outside. RT-safe.
+  /// The three vertices, which form a valid triangle (isTriangle), counterclockwise seen from outside; or three times a
+  /// point. RT-safe.
   virtual std::array<Vec3, 3> corners(ElementId id) const = 0;
-  /// Outward unit normal of the exact surface that the triangle approximates, near `point` on the triangle. RT-safe.
+  /// Outward unit normal of the exact surface that the primitive approximates, near `point` on it. RT-safe.
   virtual Vec3 trueNormal(ElementId id, const Vec3& point) const = 0;
+  /// False if nothing tells the outside: then the opposite of each normal is as good. RT-safe.
+  virtual bool hasOutside() const { return true; }
   /// Bounds of all vertices; may be larger.
   virtual Box bounds() const = 0;
   /// Makes the index of its triangles; the source must outlive it. Setup only.
@@ -64,12 +70,12 @@ class PrimitiveSource {
   virtual bool resists() const { return false; }
   /// RT-safe.
   virtual MatterForce matterAt(const Vec3& /*point*/) const { return {}; }
-  /// Bound of the distance between the triangles and the surface that they stand for, m. May look at all of them.
+  /// Bound of the distance between the primitives and the surface that they stand for, m. May look at all of them.
   virtual double error_m() const = 0;
   /// The same surface moved by x -> linear x + offset; `linear` is invertible. Throws hl::Error if it cannot be.
   virtual std::shared_ptr<const PrimitiveSource> placed(const Mat3& linear, const Vec3& offset) const;
-  /// What is drawn of it: about `most_triangles` or fewer. By default all of them, whatever their number, each with
-  /// vertices of its own.
+  /// What is drawn of it: about `most_triangles`, or points, or fewer. By default all of them, whatever their number,
+  /// each with vertices of its own.
   virtual DrawnMesh drawn(std::size_t most_triangles) const;
 };
 

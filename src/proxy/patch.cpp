@@ -16,6 +16,7 @@ double angleMeasure(const Vec3& a, const Vec3& b) { return 0.5 * (a - b).squared
 Patch::Patch(const SceneAt& scene, const Surface& surface, const SurfacePoint& place)
     : place_(place), triangle_(surface.isTriangle()), smooth_(surface.smooth()), textured_(surface.textured()) {
   if (triangle_) readPlane(scene, surface);
+  if (!triangle_ && smooth_) readPointNormal(scene, surface);
   if (textured_) readTexcoords(surface);
 }
 
@@ -34,10 +35,20 @@ void Patch::readPlane(const SceneAt& scene, const Surface& surface) {
   const Vec3 c = e1.cross(e2);
   const double scale = 1 / c.squaredNorm();
   slope_ = {scale * e2.cross(c), scale * c.cross(e1)};
-  if (smooth_) readNormals(normal);
+  if (smooth_) readNormals(normal, surface.hasOutside());
 }
 
-void Patch::readNormals(const std::array<Vec3, 3>& normal) {
+void Patch::readPointNormal(const SceneAt& scene, const Surface& surface) {
+  Vec3 normal = surface.normal(scene.primitive(place_.primitive), 0);
+  const Instance& instance = scene.instance(place_.primitive);
+  if (!instance.atWorld()) normal = instance.poses().at(scene.time_ns()).rotation * normal;
+  readNormals({normal, normal, normal}, surface.hasOutside());
+}
+
+void Patch::readNormals(std::array<Vec3, 3> normal, bool has_outside) {
+  if (!has_outside && (normal[0] + normal[1] + normal[2]).dot(place_.normal) < 0) {
+    for (Vec3& n : normal) n = -n;
+  }
   const auto usable = [&](const Vec3& n) { return n.dot(place_.normal) > 0; };
   smooth_ = usable(normal[0]) && usable(normal[1]) && usable(normal[2]);
   normal_sum_ = place_.weights[0] * normal[0] + place_.weights[1] * normal[1] + place_.weights[2] * normal[2];

@@ -31,8 +31,9 @@ class Patch {
 
   /// Whether the patch was made on the face of a triangle, and the moved point is still on this face.
   bool covers(const Vec2& moved) const;
-  /// Whether the patch is valid at the moved point: on the same face, or anywhere if the surface is uniform.
-  bool holds(const Vec2& moved) const { return (!smooth_ && !textured_) || covers(moved); }
+  /// Whether the patch is valid at the moved point: on the same face, or anywhere if the surface is uniform, as that of
+  /// a point.
+  bool holds(const Vec2& moved) const { return !triangle_ || (!smooth_ && !textured_) || covers(moved); }
   /// The moved point. The plane of the triangle counts as unbounded.
   SurfacePoint place(const Vec2& moved) const;
   /// Texture coordinates, for a textured triangle only. The plane of the triangle counts as unbounded.
@@ -42,12 +43,14 @@ class Patch {
   /// Whether the surface has shading or a bump map; if not, shadingNormal() is the true normal everywhere.
   bool shaded() const { return smooth_ || height_.texture; }
   /// The interpolated vertex normals, at most accuracy::kShadingLimit_rad from the true normal, and then the slope of
-  /// the bump map. A triangle with a vertex normal that is missing, zero or on the other side is not shaded.
+  /// the bump map. A triangle with a vertex normal that is missing, zero or on the other side is not shaded; where
+  /// nothing tells the outside, normals are turned to the side of the proxy.
   ShadingNormal shadingNormal(const Vec2& moved = Vec2::Zero()) const;
 
  private:
   void readPlane(const SceneAt& scene, const Surface& surface);
-  void readNormals(const std::array<Vec3, 3>& normal);
+  void readPointNormal(const SceneAt& scene, const Surface& surface);
+  void readNormals(std::array<Vec3, 3> normal, bool has_outside);
   void readTexcoords(const Surface& surface);
   void shade(const Vec2& moved, ShadingNormal& felt) const;
   void bump(const Vec2& moved, ShadingNormal& felt) const;

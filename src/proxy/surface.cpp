@@ -9,7 +9,8 @@ Surface::Surface(const SceneAt& scene, const MaterialOverride& set, PrimitiveId 
       surfaces_(*scene.instance(id).surfaces),
       material_(surfaces_.materials[shape_.materialOf(id.element)]),
       triangle_(scene.kind(id) == PrimitiveKind::kTriangle) {
-  smooth_ = isTriangle() && set.smooth.value_or(material_.smooth) && shape_.hasNormals();
+  const bool has_normals = isTriangle() ? shape_.hasNormals() : shape_.source != nullptr;
+  smooth_ = has_normals && set.smooth.value_or(material_.smooth);
   mapped_ = isTriangle() && set.textures && !shape_.model.texcoords.empty();
   if (!mapped_) return;
   const Primitive& primitive = scene.primitive(id);

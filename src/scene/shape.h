@@ -56,10 +56,13 @@ struct Shape {
   std::uint64_t elements() const { return source ? source->triangles() : primitives.size(); }  ///< of a source: about
   ElementId count() const { return source ? source->count() : primitives.size(); }
   Primitive primitive(ElementId id) const { return source ? primitiveOf(*source, id) : primitives[id]; }
-  PrimitiveKind kind(ElementId id) const { return source ? PrimitiveKind::kTriangle : primitives.kind(id); }
-  /// Whether its triangles have vertex normals.
+  PrimitiveKind kind(ElementId id) const { return source ? source->kind() : primitives.kind(id); }
+  /// Whether its triangles have vertex normals, or the points of its source normals.
   bool hasNormals() const { return source || !model.normals.empty(); }
-  /// The vertex normal of a triangle; requires hasNormals(). `sorted`: number among the sorted vertices.
+  /// Whether normals tell the outside; else the opposite of each is as good.
+  bool hasOutside() const { return !source || source->hasOutside(); }
+  /// The vertex normal of a triangle, or of a point of a source; requires hasNormals(). `sorted`: number among the
+  /// sorted vertices.
   Vec3 cornerNormal(ElementId id, const Primitive& triangle, std::size_t sorted) const {
     if (source) return source->trueNormal(id, triangle.vertex[sorted]);
     return model.normals[model.triangles[triangle.source][triangle.order[sorted]]];

@@ -1,8 +1,6 @@
 // BrickWalk: from the pyramid's top to the cells that a moving ball may touch.
 //
-// A brick is left out if the surface's value is not in its range; if it does not meet the bounds of the ball, whose
-// centre moves along a segment (a slab test); or if its middle is farther from the segment than the radius and half of
-// its diagonal. That distance is measured along the axes of the grid, each with a scale that makes nothing longer.
+// A brick is left out if the surface's value is not in its range, or if the ball does not meet it (ball_boxes.h).
 #pragma once
 
 #include <algorithm>
@@ -10,30 +8,17 @@
 #include <cmath>
 #include <cstddef>
 
+#include "surfaces/ball_boxes.h"
 #include "surfaces/grid_ball.h"
 #include "surfaces/iso_cells.h"
 
 namespace hl {
 
-// m per step along each axis, so that no step is longer than it is. Q = axes^T axes is not below its diagonal times
-// 1 - s, s the largest sum of a row of the others, once the diagonal is 1 (Gershgorin).
-inline Vec3 shortestStep(const GridFrame& frame) {
-  const Mat3 q = frame.axes.transpose() * frame.axes;
-  const Vec3 length = q.diagonal().cwiseSqrt();
-  double skew = 0;
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    double row = 0;
-    for (Eigen::Index j = 0; j < 3; ++j) row += i == j ? 0 : std::abs(q(i, j)) / (length[i] * length[j]);
-    skew = std::max(skew, row);
-  }
-  return std::sqrt(std::max(0.0, 1 - skew)) * length;
-}
-
 class BrickWalk {
  public:
   /// `scale`: shortestStep() of the cells' frame.
   BrickWalk(const IsoCells& cells, const Vec3& scale, const GridBall& ball)
-      : cells_(cells), pyramid_(cells.volume()->pyramid), scale_(scale), ball_(ball) {}
+      : cells_(cells), pyramid_(cells.volume()->pyramid), ball_(ball), boxes_(ball, scale) {}
 
   /// Calls visit(id) for each triangle that the ball may touch, those near its begin first. Returns the number of
   /// bricks and cells visited.
@@ -48,25 +33,7 @@ class BrickWalk {
 
   // Whether the ball may meet the box of `size` steps a side that begins at `first`.
   bool meets(const Vec3& first, double size) const {
-    const Vec3 middle = first.array() + size / 2, way = ball_.last() - ball_.first();
-    const Vec3 half = ((ball_.high() - ball_.low() - way.cwiseAbs()).array() + size) / 2;
-    double begin = 0, end = 1;  // of the way, while the middle is within `half` of the centre
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const double from = middle[axis] - ball_.first()[axis];
-      if (way[axis] == 0) {
-        if (std::abs(from) > half[axis]) return false;
-        continue;
-      }
-      const double one = (from - half[axis]) / way[axis], other = (from + half[axis]) / way[axis];
-      begin = std::max(begin, std::min(one, other) - kRounding);
-      end = std::min(end, std::max(one, other) + kRounding);
-    }
-    if (begin > end) return false;
-    const Vec3 from = scale_.cwiseProduct(middle - ball_.first()), along = scale_.cwiseProduct(way);
-    const double square = along.squaredNorm();
-    const double part = square > 0 ? std::clamp(from.dot(along) / square, 0.0, 1.0) : 0;
-    const double reach = (1 + kRounding) * (ball_.radius() + size / 2 * scale_.norm());
-    return (from - part * along).squaredNorm() <= reach * reach;
+    return boxes_.meets(first.array() + size / 2, Vec3::Constant(size / 2));
   }
 
   // The parts of the brick at `at` that the bounds of the ball meet, along one axis.
@@ -119,12 +86,10 @@ class BrickWalk {
     });
   }
 
-  static constexpr double kRounding = 1e-9;  // of sizes, and of a way
-
   const IsoCells& cells_;
   const BrickPyramid& pyramid_;
-  const Vec3& scale_;
   const GridBall& ball_;
+  const BallBoxes boxes_;
   std::size_t looked_ = 0;
 };
 

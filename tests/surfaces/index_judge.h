@@ -18,10 +18,10 @@
 
 namespace hl::test {
 
-/// All triangles of a surface as a mesh.
+/// All primitives of a surface as a mesh.
 inline Mesh meshOf(const PrimitiveSource& source) {
   const DrawnMesh drawn = source.drawn(~std::size_t{0});
-  return {drawn.positions, drawn.triangles, {}, {}};
+  return {drawn.positions, drawn.triangles, {}, drawn.points};
 }
 
 /// A surface that makes its triangles, and the judge: the hierarchy over the same triangles as a mesh.
