@@ -11,6 +11,7 @@
 #include "bench_output.h"
 #include "body_bench.h"
 #include "builtin.h"
+#include "cloud_bench.h"
 #include "commands.h"
 #include "field_bench.h"
 #include "io/load_scene.h"
@@ -55,6 +56,7 @@ struct BenchOptions {
   std::size_t ticks = 20'000, most = 1'000'000, members = 1;
   bool all = false, peers = false, effects = true, bodies = false;
   std::size_t fields = 0;     ///< triangles of the largest height field; 0: no fields
+  std::size_t clouds = 0;     ///< points of the largest cloud; 0: no clouds
   std::uint32_t volumes = 0;  ///< samples along a side of the largest volume; 0: no volumes
   std::string csv;
 };
@@ -127,6 +129,7 @@ void run(const BenchOptions& options) {
   if (options.peers && !built_in) throw Error(kNoPeers);
   if (options.bodies) return runBodyBench(options.peers, options.csv);
   if (options.fields > 0) return runFieldBench({options.fields, options.ticks, options.radius, options.csv});
+  if (options.clouds > 0) return runCloudBench({options.clouds, options.ticks, options.radius, options.csv});
   if (options.volumes > 0) return runVolumeBench({options.volumes, options.ticks, options.radius, options.csv});
   bench::SuitePlan plan;
   plan.scenes = scenesOf(options);
@@ -204,6 +207,11 @@ void addBenchCommand(CLI::App& app) {
                    "height fields instead, of 10 000 triangles, ten times as many, and so on up to this number; takes "
                    "--radius, --ticks and --csv")
       ->check(CLI::Range(std::size_t{1000}, std::size_t{100'000'000'000}));
+  command
+      ->add_option("--clouds", options->clouds,
+                   "clouds of points instead, of 10 000 points, ten times as many, and so on up to this number; takes "
+                   "--radius, --ticks and --csv")
+      ->check(CLI::Range(std::size_t{1000}, std::size_t{1'000'000'000}));
   command
       ->add_option("--volumes", options->volumes,
                    "surfaces of volumes instead, of 128 samples a side, twice as many, and so on up to this number; "

@@ -11,6 +11,7 @@
 #include "scene/bump_gain.h"
 #include "surfaces/height_field.h"
 #include "surfaces/iso_surface.h"
+#include "surfaces/point_cloud.h"
 
 namespace hl {
 
@@ -60,9 +61,10 @@ struct Totals {
   void add(const Shape& shape) {
     const Model& model = shape.model;
     const IndexStats stats = shape.index->stats();
-    triangles += shape.source ? shape.elements() : model.triangles.size();
+    triangles +=
+        shape.source && shape.source->kind() == PrimitiveKind::kTriangle ? shape.elements() : model.triangles.size();
     segments += model.segments.size();
-    points += model.points.size();
+    points += shape.source && shape.source->kind() == PrimitiveKind::kPoint ? shape.elements() : model.points.size();
     vertices += model.positions.size();
     reading.add(model.reading);
     nodes += stats.nodes;
@@ -192,11 +194,28 @@ void printVolume(const IsoSurface& surface) {
              static_cast<double>(surface.volume()->bytes()) / static_cast<double>(grid.count()));
 }
 
+void printCloud(const PointCloud& cloud) {
+  const CloudPoints& points = *cloud.points();
+  const double spacing_m = cloud.largestStretch() * points.usualSpacing();
+  const auto bytes = static_cast<double>(points.bytes());
+  fmt::print(
+      "cloud:      {} points, about {:.4g} m apart, within {:.3g} m of those of the source; {:.1f} bytes a point\n",
+      points.size(), spacing_m, cloud.error_m(), bytes / static_cast<double>(points.size()));
+  if (cloud.surfels()) {
+    fmt::print("            surfels that reach {:.4g} m\n", cloud.look().reach * spacing_m);
+  } else {
+    fmt::print(
+        "            a ball of radius r sinks by about {:.3g} m^2 / r between them, and needs {:.4g} m at least\n",
+        spacing_m * spacing_m / 4, spacing_m / std::sqrt(2));
+  }
+}
+
 void printSurfaces(const Snapshot& snapshot) {
   for (const Instance& instance : snapshot.instances) {
     const PrimitiveSource* source = instance.shape->source.get();
     if (const auto* field = dynamic_cast<const HeightField*>(source)) printHeights(*field);
     if (const auto* surface = dynamic_cast<const IsoSurface*>(source)) printVolume(*surface);
+    if (const auto* cloud = dynamic_cast<const PointCloud*>(source)) printCloud(*cloud);
   }
 }
 

@@ -24,16 +24,18 @@ void addStabilityCommand(CLI::App& app);
 struct SceneOptions {
   std::string scene = "teapot";
   std::string hierarchy = "bvh";
-  double scale = 0;           ///< metres per file unit; 0: as it is
-  double fit = 0;             ///< m, largest side; 0: as it is
-  std::vector<double> iso;    ///< of volumes; empty: one that is chosen
-  double vertical_scale = 0;  ///< of the heights of height fields; 0: as they are
-  CadMeshing cad;             ///< of CAD files
+  double scale = 0;            ///< metres per file unit; 0: as it is
+  double fit = 0;              ///< m, largest side; 0: as it is
+  std::vector<double> iso;     ///< of volumes; empty: one that is chosen
+  double vertical_scale = 0;   ///< of the heights of height fields; 0: as they are
+  bool surfels = false;        ///< of clouds, in place of points
+  double surfel_reach = 0.75;  ///< in spacings
+  CadMeshing cad;              ///< of CAD files
 };
 
 void addSceneArgument(CLI::App& command, SceneOptions& options, bool required);
 void addHierarchyOption(CLI::App& command, SceneOptions& options);
-/// --vertical-scale, --iso and --deflection: how files become surfaces. addSizeOptions() adds them too.
+/// --vertical-scale, --iso, --surfels and --deflection: how files become surfaces. addSizeOptions() adds them too.
 void addReadingOptions(CLI::App& command, SceneOptions& options);
 void addSizeOptions(CLI::App& command, SceneOptions& options);
 

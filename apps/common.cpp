@@ -50,10 +50,9 @@ void requireMemory(const SceneModel& scene, const std::string& name, std::uint64
 void addSceneArgument(CLI::App& command, SceneOptions& options, bool required) {
   auto* argument =
       command.add_option("scene", options.scene,
-                         std::string("a model file (obj, ply, stl, gltf, glb, x3d, wrl, ...), of CAD (step, "
-                                     "iges, brep), of heights "
-                                     "(tif, hgt, asc, png, npy), of a volume (nii, nrrd, dcm) or a "
-                                     "built-in scene: ") +
+                         std::string("a model file (obj, ply, stl, gltf, glb, x3d, wrl, ...), of CAD (step, iges, "
+                                     "brep), of heights (tif, hgt, asc, png, npy), of a volume (nii, nrrd, dcm), of "
+                                     "points (las, pcd, xyz, ply without faces) or a built-in scene: ") +
                              kBuiltinScenes);
   if (required) {
     argument->required();
@@ -95,6 +94,12 @@ void addReadingOptions(CLI::App& command, SceneOptions& options) {
       .add_option("--vertical-scale", options.vertical_scale,
                   "factor on the heights of a height field, before --scale or --fit (default 1)")
       ->check(positive());
+  auto* surfels =
+      command.add_flag("--surfels", options.surfels, "make each point of a cloud a small disc across its normal");
+  command.add_option("--surfel-reach", options.surfel_reach, "radius of the discs in distances between neighbours")
+      ->check(within(0.01, 10))
+      ->needs(surfels)
+      ->capture_default_str();
   addCadOptions(command, options.cad);
 }
 
@@ -152,6 +157,7 @@ std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options) {
   load.cad = options.cad;
   SceneModel scene = loadScene(options.scene, load);
   if (!options.iso.empty()) setIsoValues(scene, options.iso);
+  if (options.surfels) setSurfels(scene, options.surfel_reach);
   if (options.vertical_scale > 0) scaleHeights(scene, options.vertical_scale);
   if (options.scale > 0) scaleModel(scene, options.scale);
   if (options.fit > 0) fitModel(scene, options.fit);

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "clouds.h"
 #include "depth_table.h"
 #include "fields.h"
 #include "phantom.h"
@@ -24,9 +25,10 @@ namespace {
 
 constexpr std::size_t kMaxMember = 1'000'000'000;
 
-constexpr std::string_view kSnaps = "snaps", kWorkshop = "workshop", kField = "field", kScan = "ct", kDepth = "depth";
+constexpr std::string_view kSnaps = "snaps", kWorkshop = "workshop", kField = "field", kScan = "ct", kCloud = "points",
+                           kDepth = "depth";
 constexpr std::size_t kUsualField = 1'000'000, kMostField = std::min(100'000'000'000ULL, 0ULL + SIZE_MAX),
-                      kUsualScan = 161, kMostScan = 1025;
+                      kUsualScan = 161, kMostScan = 1025, kUsualCloud = 100'000, kMostCloud = 1'000'000'000;
 
 struct Builtin {
   std::string_view name;
@@ -93,6 +95,22 @@ SceneModel makeField(const std::string& spec) {
   return scene;
 }
 
+SceneModel makePoints(const std::string& spec) {
+  constexpr std::string_view kSphere = "sphere", kTerrain = "terrain";
+  const std::size_t first = spec.find(':'), second = first == std::string::npos ? first : spec.find(':', first + 1);
+  const std::string_view name =
+      first == std::string::npos ? kSphere : std::string_view(spec).substr(first + 1, second - first - 1);
+  if (name != kSphere && name != kTerrain)
+    throw Error("'" + spec + "': the generated clouds are points:sphere:N and points:terrain:N");
+  std::size_t n = kUsualCloud;
+  if (second != std::string::npos && !read(std::string_view(spec).substr(second + 1), kMostCloud, n))
+    refuseNumber(spec, kMostCloud, "points:sphere:100000");
+  SceneModel scene;
+  scene.model.name = spec;
+  scene.surfaces.push_back({spec, name == kSphere ? makeSphereCloud(n) : makeTerrainCloud(n)});
+  return scene;
+}
+
 SceneModel makeScan(const std::string& spec) {
   constexpr std::string_view kPhantom = ":phantom";
   const std::string_view rest = std::string_view(spec).substr(kScan.size());
@@ -122,7 +140,7 @@ SceneModel makeDepth(const std::string& spec) {
 
 bool isBuiltinSurface(const std::string& spec) {
   const std::string_view name = std::string_view(spec).substr(0, spec.find(':'));
-  return name == kField || name == kScan || name == kDepth;
+  return name == kField || name == kScan || name == kCloud || name == kDepth;
 }
 
 bool isBuiltinScene(const std::string& spec) {
@@ -154,6 +172,7 @@ SceneModel makeBuiltinWorld(const std::string& spec) {
   if (spec == kWorkshop) return makeWorkshop();
   if (isBuiltinSurface(spec)) {
     if (spec.starts_with(kDepth)) return makeDepth(spec);
+    if (spec.starts_with(kCloud)) return makePoints(spec);
     return spec.starts_with(kField) ? makeField(spec) : makeScan(spec);
   }
   return makeBuiltinScene(spec);

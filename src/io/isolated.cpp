@@ -52,7 +52,7 @@ void setLimits(const IsolationLimits& limits) {
 void answer(PartSender& out, bool sandboxed, const Parse& parse) {
   std::string failure;
   try {
-    SceneModel scene = parse(ReadingReport([&](double fraction) { out.progress(fraction); }, out, out));
+    SceneModel scene = parse(ReadingReport([&](double fraction) { out.progress(fraction); }, out, out, out));
     if (!sandboxed) scene.model.warnings.emplace_back("was read without a sandbox: this kernel has none");
     return out.scene(scene);
   } catch (const std::bad_alloc&) {

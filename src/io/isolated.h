@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "io/cloud_sink.h"
 #include "io/height_sink.h"
 #include "io/volume_sink.h"
 #include "scene/scene_model.h"
@@ -19,8 +20,8 @@ struct IsolationLimits {
   unsigned cpu_s = 120;  ///< processor time of the parser
   /// Of the parser, and of the scene that it gives. Or the machine's memory, where that is less.
   std::size_t memory_bytes = std::size_t{12} << 30;
-  /// Of the samples of height fields and volumes, which the parser need not hold. Or the machine's memory, where that
-  /// is less.
+  /// Of the samples of height fields and volumes and the points of clouds, which the parser need not hold. Or the
+  /// machine's memory, where that is less.
   std::size_t samples_bytes = std::numeric_limits<std::size_t>::max();
   double wall_s = 600;  ///< from beginning to end
   double idle_s = 10;   ///< without using the processor or giving anything: it waits for what will not come
@@ -29,17 +30,20 @@ struct IsolationLimits {
 /// To whom a parser tells how far it is, and gives samples.
 class ReadingReport {
  public:
-  ReadingReport(std::function<void(double fraction)> progress, HeightSink& heights, VolumeSink& volume)
-      : progress_(std::move(progress)), heights_(heights), volume_(volume) {}
+  ReadingReport(std::function<void(double fraction)> progress, HeightSink& heights, VolumeSink& volume,
+                CloudSink& cloud)
+      : progress_(std::move(progress)), heights_(heights), volume_(volume), cloud_(cloud) {}
   void operator()(double fraction) const { progress_(fraction); }
-  /// One field or volume at most; it goes with the scene that the parser returns.
+  /// One field, volume or cloud at most; it goes with the scene that the parser returns.
   HeightSink& heights() const { return heights_; }
   VolumeSink& volume() const { return volume_; }
+  CloudSink& cloud() const { return cloud_; }
 
  private:
   std::function<void(double fraction)> progress_;
   HeightSink& heights_;
   VolumeSink& volume_;
+  CloudSink& cloud_;
 };
 
 using Parse = std::function<SceneModel(const ReadingReport& report)>;

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "io/file_ending.h"
 #include "io/isolated.h"
+#include "io/read_clouds.h"
 #include "io/read_heights.h"
 #include "io/read_volumes.h"
 #include "scene/weld.h"
@@ -97,13 +98,15 @@ void makeSound(Model& model) {
 }  // namespace
 
 bool readsEnding(const std::string& ending) {
-  return readsCad(ending) || readsVolumes(ending) || readsHeights(ending) || coinReads(ending) || assimpReads(ending);
+  return readsCad(ending) || readsVolumes(ending) || readsHeights(ending) || readsClouds(ending) || coinReads(ending) ||
+         assimpReads(ending);
 }
 
 std::string cannotBeRead(const std::string& ending) {
+  if (const std::string advice = cloudAdvice(ending); !advice.empty()) return advice;
   return "files ending in '" + ending +
          "' cannot be read; obj, ply, stl, gltf, glb, x3d, wrl, step, iges, brep, tif, hgt, asc, png, npy, nii, nrrd, "
-         "dcm and others can";
+         "dcm, las, pcd, xyz and others can";
 }
 
 SceneModel parseModel(const ModelFile& file, const ReadingReport& report) {
@@ -113,6 +116,10 @@ SceneModel parseModel(const ModelFile& file, const ReadingReport& report) {
   }
   if (readsHeights(file.ending)) {
     readHeights(file, report.heights());
+    return {};
+  }
+  if (readsClouds(file.ending) || (file.ending == ".ply" && !file.mesh && isPlyOfPoints(file.path))) {
+    readCloud(file, report.cloud());
     return {};
   }
   SceneModel scene = coinReads(file.ending) ? SceneModel(parseWithCoin(file, report)) : parseWithAssimp(file, report);
@@ -128,13 +135,11 @@ SceneModel loadModelScene(const std::string& path, const LoadOptions& options) {
   if (!folder) checkReadable(path);
   const std::string ending = folder ? "" : endingOf(path);
   if (!folder && !readsEnding(ending)) throw Error(path + ": " + cannotBeRead(ending));
-  SceneModel scene = readsCad(ending) ? readCadFile(path, ending, options)
-                                      : runIsolated(
-                                            path, options.limits,
-                                            [&](const auto& report) {
-                                              return parseModel({path, ending}, report);
-                                            },
-                                            options.progress);
+  const auto read_isolated = [&] {
+    const auto parse = [&](const auto& report) { return parseModel({path, ending, false, options.mesh}, report); };
+    return runIsolated(path, options.limits, parse, options.progress);
+  };
+  SceneModel scene = readsCad(ending) ? readCadFile(path, ending, options) : read_isolated();
   if (elementsIn(scene) == 0) throw Error(path + ": there is no geometry in it");
   scene.model.name = std::filesystem::path(path).filename().string();
   for (SceneSurface& surface : scene.surfaces) surface.name = scene.model.name;
@@ -143,8 +148,10 @@ SceneModel loadModelScene(const std::string& path, const LoadOptions& options) {
 }
 
 Model loadModel(const std::string& path, const LoadOptions& options) {
-  SceneModel scene = loadModelScene(path, options);
-  if (!scene.surfaces.empty()) throw Error(path + ": is a height field or a volume, and no mesh");
+  LoadOptions as_mesh = options;
+  as_mesh.mesh = true;
+  SceneModel scene = loadModelScene(path, as_mesh);
+  if (!scene.surfaces.empty()) throw Error(path + ": is a height field, a volume or a cloud, and no mesh");
   if (scene.bodies.empty()) return std::move(scene.model);
   scene.model.warnings.emplace_back("its bodies stay where they are: it is read as one object");
   return asOneModel(scene);

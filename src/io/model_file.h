@@ -9,6 +9,7 @@ struct ModelFile {
   std::string path;
   std::string ending;  ///< as endingOf()
   bool alone = false;  ///< nothing else may be opened; what it names beside it becomes a warning
+  bool mesh = false;   ///< points without faces are the points of a mesh, and no cloud
 };
 
 }  // namespace hl

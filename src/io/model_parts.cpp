@@ -81,6 +81,18 @@ void PartSender::header(const HeightHeader& header) { toProto(header, *samples_.
 
 void PartSender::header(const VolumeHeader& header) { toProto(header, *samples_.mutable_volume()); }
 
+void PartSender::header(const CloudHeader& header) {
+  proto::ReadingPart part;
+  toProto(header, *part.mutable_cloud());
+  send(part);
+}
+
+void PartSender::points(const CloudPiece& piece) {
+  proto::ReadingPart part;
+  toProto(piece, *part.mutable_cloud());
+  send(part);
+}
+
 std::string& PartSender::waiting() {
   return samples_.has_volume() ? *samples_.mutable_volume()->mutable_samples()
                                : *samples_.mutable_heights()->mutable_samples();
@@ -194,6 +206,20 @@ void PartCollector::addVolume(const proto::RecordedVolume& part) {
   volume_->add(part.samples().data(), part.samples().size());
 }
 
+void PartCollector::addCloud(const proto::RecordedCloud& part) {
+  if (!cloud_) {
+    cloud_.emplace(part, samples_bytes_, false);
+    cloud_turn_ = turnOf(part);
+  }
+  cloud_->add(part);
+}
+
+void PartCollector::takeCloud() {
+  std::string note;
+  scene_.surfaces.push_back({"", cloudOfFile(cloud_->take(), cloud_turn_, note)});
+  if (!note.empty()) scene_.model.warnings.push_back(note);
+}
+
 // A file says nothing of a surface: the threshold between what is empty and what is not is a first one.
 void PartCollector::takeVolume() {
   const GridFrame frame = volume_->header().frame;
@@ -249,6 +275,7 @@ PartCollector::State PartCollector::add(const proto::ReadingPart& part, std::siz
                                         const std::function<void(double)>& progress) {
   if (part.has_heights()) return addHeights(part.heights()), State::kMore;
   if (part.has_volume()) return addVolume(part.volume()), State::kMore;
+  if (part.has_cloud()) return addCloud(part.cloud()), State::kMore;
   if (bytes > left_) throw Error("it is too large");
   left_ -= bytes;
   switch (part.body_case()) {
@@ -295,6 +322,7 @@ SceneModel PartCollector::take() {
   scene_.model.reading = rest_.reading;
   if (heights_) scene_.surfaces.push_back({"", heights_->take()});
   if (volume_) takeVolume();
+  if (cloud_) takeCloud();
   for (const SceneBody& body : scene_.bodies) {
     if (!body.spec.fixed) bodyOf(body.model, body.spec);
   }

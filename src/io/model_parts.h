@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "io/cloud_messages.h"
 #include "io/height_messages.h"
 #include "io/model_messages.h"
 #include "io/volume_messages.h"
@@ -20,7 +21,7 @@ namespace hl {
 inline constexpr std::uint32_t kMaxPartBytes = (std::uint32_t{64} << 22) + 65'536;
 
 /// Writes messages to a descriptor. What can not be written is lost: then nobody reads.
-class PartSender final : public HeightSink, public VolumeSink {
+class PartSender final : public HeightSink, public VolumeSink, public CloudSink {
  public:
   explicit PartSender(int descriptor) : descriptor_(descriptor) {}
   void progress(double fraction);
@@ -29,6 +30,8 @@ class PartSender final : public HeightSink, public VolumeSink {
   void scene(const SceneModel& scene);
   void header(const HeightHeader& header) override;
   void header(const VolumeHeader& header) override;
+  void header(const CloudHeader& header) override;
+  void points(const CloudPiece& piece) override;
   void samples(const void* samples, std::size_t bytes) override;
   void warn(const std::string& line) override;
 
@@ -49,7 +52,8 @@ class PartCollector {
  public:
   enum class State { kMore, kWhole, kFailed };
 
-  /// `most_bytes`: of the messages together, and of the meshes. `samples_bytes`: of the samples of heights or a volume.
+  /// `most_bytes`: of the messages together, and of the meshes. `samples_bytes`: of the samples of heights or a
+  /// volume, or the points of a cloud.
   explicit PartCollector(std::size_t most_bytes, std::size_t samples_bytes = 0)
       : mesh_(most_bytes), left_(most_bytes), samples_bytes_(samples_bytes) {
     rest_.materials.clear();
@@ -64,6 +68,8 @@ class PartCollector {
   void addHeights(const proto::RecordedHeights& part);
   void addVolume(const proto::RecordedVolume& part);
   void takeVolume();
+  void addCloud(const proto::RecordedCloud& part);
+  void takeCloud();
   State addMesh(const proto::RecordedShape& part);
   Model takeModel();
   void addToScene(const proto::ReadingPart& part);
@@ -81,6 +87,8 @@ class PartCollector {
   std::size_t left_, samples_bytes_;
   std::optional<HeightCollector> heights_;
   std::optional<VolumeCollector> volume_;
+  std::optional<CloudCollector> cloud_;
+  Mat3 cloud_turn_ = Mat3::Identity();
   std::string failure_;
 };
 

@@ -9,22 +9,29 @@
 namespace hl {
 
 bool SceneSurfaces::has(const proto::SceneObject& object) {
-  return object.has_heights() || object.has_volume() || (object.has_builtin() && isBuiltinSurface(object.builtin()));
+  return object.has_heights() || object.has_volume() || object.has_cloud() ||
+         (object.has_builtin() && isBuiltinSurface(object.builtin()));
 }
 
 const char* SceneSurfaces::fieldOf(const proto::SceneObject& object) {
   if (object.has_builtin()) return "builtin";
+  if (object.has_cloud()) return "cloud";
   return object.has_volume() ? "volume" : "heights";
 }
 
 const std::string& SceneSurfaces::fileOf(const proto::SceneObject& object) {
+  if (object.has_cloud()) return object.cloud().file();
   return object.has_volume() ? object.volume().file() : object.heights().file();
 }
 
 std::vector<SceneSurface> SceneSurfaces::read(const proto::SceneObject& object) {
   if (object.has_builtin()) return makeBuiltinWorld(object.builtin()).surfaces;
   SceneSurface surface;
-  surface.source = object.has_volume() ? volume(object.volume()) : heights(object.heights());
+  if (object.has_cloud()) {
+    surface.source = cloud(object.cloud());
+  } else {
+    surface.source = object.has_volume() ? volume(object.volume()) : heights(object.heights());
+  }
   return {surface};
 }
 
@@ -40,20 +47,35 @@ std::shared_ptr<const PrimitiveSource> SceneSurfaces::heights(const proto::Heigh
   return withSpacing(scene.surfaces.front().source, in);
 }
 
+// What one of them names.
+SceneModel SceneSurfaces::named(const std::string& builtin, const std::string& file) const {
+  if (!builtin.empty() && !file.empty()) throw Error("it has a file or a builtin, not both");
+  return builtin.empty() ? load(file) : makeBuiltinWorld(builtin);
+}
+
 std::shared_ptr<const PrimitiveSource> SceneSurfaces::volume(const proto::Volume& in) {
-  const bool built_in = !in.builtin().empty();
-  if (!built_in && in.file().empty()) return isoSurfaceOf(decodeVolume(in), in);
-  if (built_in && !in.file().empty()) throw Error("it has a file or a builtin, not both");
-  const std::string& name = built_in ? in.builtin() : in.file();
-  const auto [place, fresh] = volumes_.try_emplace((built_in ? "builtin " : "file ") + name);
+  if (in.builtin().empty() && in.file().empty()) return isoSurfaceOf(decodeVolume(in), in);
+  const std::string& name = in.builtin().empty() ? in.file() : in.builtin();
+  const auto [place, fresh] = volumes_.try_emplace(in.builtin() + '\n' + in.file());
   if (fresh) {
-    const SceneModel scene = built_in ? makeBuiltinWorld(name) : load(name);
+    const SceneModel scene = named(in.builtin(), in.file());
     const auto* const first =
         scene.surfaces.empty() ? nullptr : dynamic_cast<const IsoSurface*>(scene.surfaces.front().source.get());
     if (first == nullptr) throw Error(name + ": is no volume");
     place->second = {first->volume(), first->frame()};
   }
   return isoSurfaceOf(withSpacing(place->second, in), in);
+}
+
+std::shared_ptr<const PrimitiveSource> SceneSurfaces::cloud(const proto::Cloud& in) {
+  if (in.builtin().empty() && in.file().empty()) return decodeCloud(in);
+  std::shared_ptr<const PointCloud>& cloud = clouds_[in.builtin() + '\n' + in.file()];
+  if (!cloud) {
+    const SceneModel scene = named(in.builtin(), in.file());
+    if (!scene.surfaces.empty()) cloud = std::dynamic_pointer_cast<const PointCloud>(scene.surfaces.front().source);
+    if (!cloud) throw Error((in.builtin().empty() ? in.file() : in.builtin()) + ": is no cloud of points");
+  }
+  return withLook(*cloud, in);
 }
 
 }  // namespace hl

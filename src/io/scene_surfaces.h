@@ -1,4 +1,4 @@
-// SceneSurfaces: the objects of a scene file that are no meshes: height fields and volumes.
+// SceneSurfaces: the objects of a scene file that are no meshes: height fields, volumes and clouds.
 #pragma once
 
 #include <hl.pb.h>
@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "io/decode_clouds.h"
 #include "io/decode_volumes.h"
 #include "io/load_model.h"
 #include "scene/scene_model.h"
@@ -31,11 +32,15 @@ class SceneSurfaces {
  private:
   std::shared_ptr<const PrimitiveSource> heights(const proto::Heights& in) const;
   std::shared_ptr<const PrimitiveSource> volume(const proto::Volume& in);
+  std::shared_ptr<const PrimitiveSource> cloud(const proto::Cloud& in);
+  SceneModel named(const std::string& builtin, const std::string& file) const;
   SceneModel load(const std::string& file) const;
 
   const std::filesystem::path& folder_;
   const LoadOptions& options_;
-  std::map<std::string, PlacedVolume> volumes_;  // read once, however many objects show them
+  // Read once, however many objects show them.
+  std::map<std::string, PlacedVolume> volumes_;
+  std::map<std::string, std::shared_ptr<const PointCloud>> clouds_;
 };
 
 }  // namespace hl

@@ -41,6 +41,7 @@ Model drawnOf(const PrimitiveSource& source, std::size_t most) {
   model.positions = std::move(drawn.positions);
   model.normals = std::move(drawn.normals);
   model.triangles = std::move(drawn.triangles);
+  model.points = std::move(drawn.points);
   return model;
 }
 

@@ -137,8 +137,17 @@ void SceneWriter::writeSource(const PrimitiveSource& source, std::uint64_t id, c
   };
   if (const auto* const field = dynamic_cast<const HeightField*>(&source)) return writeHeights(*field, take_heights);
   if (const auto* const frame = dynamic_cast<const DepthFrame*>(&source)) return writeDepths(*frame, take_heights);
+  if (const auto* const cloud = dynamic_cast<const PointCloud*>(&source)) {
+    const auto [first, is_new] = clouds_.try_emplace(cloud->points().get(), CloudId{cloud->points(), id});
+    return writeCloud(*cloud, is_new ? 0 : first->second.id, [&](proto::RecordedCloud& points) {
+      proto::RecordingBlock part;
+      points.set_id(id);
+      *part.mutable_cloud() = points;
+      write(part);
+    });
+  }
   const auto* const surface = dynamic_cast<const IsoSurface*>(&source);
-  if (surface == nullptr) throw Error("a surface that is no mesh, no height field and no volume cannot be recorded");
+  if (surface == nullptr) throw Error("a surface of a kind that is not known cannot be recorded");
   const auto [first, is_new] = volumes_.try_emplace(surface->volume().get(), VolumeId{surface->volume(), id});
   writeVolume(*surface, is_new ? 0 : first->second.id, [&](proto::RecordedVolume& volume) {
     proto::RecordingBlock part;
@@ -275,6 +284,32 @@ void SceneReader::add(const proto::RecordedVolume& in) {
   const auto& [frame, iso, matter] = volume_surface_;
   shapes_[in.id()] = makeShape(std::make_shared<const IsoSurface>(volume, frame, iso, matter));
   volume_.reset();
+}
+
+void SceneReader::add(const proto::RecordedCloud& in) {
+  const bool first = !begun_;
+  addPart(in.id());
+  if (first) {
+    cloud_look_ = {frameOf(in), lookOf(in)};
+    if (in.like() == 0) cloud_.emplace(in, machineMemory_bytes(), true);
+  }
+  if (in.like() == 0) {
+    if (!cloud_) throw Error(kBrokenScene);
+    cloud_->add(in);
+    if (in.continues()) return;
+  }
+  begun_.reset();
+  const std::shared_ptr<const CloudPoints> points = in.like() == 0 ? cloud_->take() : cloudOf(in.like());
+  shapes_[in.id()] = makeShape(std::make_shared<const PointCloud>(points, cloud_look_.first, cloud_look_.second));
+  cloud_.reset();
+}
+
+std::shared_ptr<const CloudPoints> SceneReader::cloudOf(std::uint64_t id) const {
+  const auto shape = shapes_.find(id);
+  const auto* const cloud =
+      shape == shapes_.end() ? nullptr : dynamic_cast<const PointCloud*>(shape->second->source.get());
+  if (cloud == nullptr) throw Error(kBrokenScene);
+  return cloud->points();
 }
 
 std::shared_ptr<const Volume> SceneReader::volumeOf(std::uint64_t id) const {

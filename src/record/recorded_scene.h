@@ -12,6 +12,7 @@
 #include <optional>
 #include <tuple>
 
+#include "io/cloud_messages.h"
 #include "io/height_messages.h"
 #include "io/model_messages.h"
 #include "io/volume_messages.h"
@@ -53,7 +54,12 @@ class SceneWriter {
     std::uint64_t id;                    // of its first surface
   };
   std::map<const Shape*, Written<Shape>> shapes_;
+  struct CloudId {
+    std::shared_ptr<const CloudPoints> kept;
+    std::uint64_t id;
+  };
   std::map<const Volume*, VolumeId> volumes_;
+  std::map<const CloudPoints*, CloudId> clouds_;
   std::map<const Surfaces*, Written<Surfaces>> surfaces_;
   std::map<const RigidBody*, Written<RigidBody>> bodies_;
   std::uint64_t last_id_ = 0;
@@ -67,6 +73,7 @@ class SceneReader {
   void add(const proto::RecordedShape& in);
   void add(const proto::RecordedHeights& in);
   void add(const proto::RecordedVolume& in);
+  void add(const proto::RecordedCloud& in);
   void add(const proto::RecordedSurfaces& in);
   void add(const proto::RecordedBody& in);
   std::shared_ptr<const Snapshot> scene(const proto::RecordedScene& in) const;
@@ -79,10 +86,13 @@ class SceneReader {
 
   void addPart(std::uint64_t id);
   std::shared_ptr<const Volume> volumeOf(std::uint64_t id) const;
+  std::shared_ptr<const CloudPoints> cloudOf(std::uint64_t id) const;
 
   MeshReader mesh_;
   std::optional<HeightCollector> heights_;
   std::optional<VolumeCollector> volume_;
+  std::optional<CloudCollector> cloud_;
+  std::pair<GridFrame, CloudLook> cloud_look_;  // of the cloud of which more parts follow
   std::tuple<GridFrame, IsoValue, std::shared_ptr<const MatterTable>>
       volume_surface_;                  // of the volume of which more parts follow
   std::optional<std::uint64_t> begun_;  // the shape of which more parts follow

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "scene/append_part.h"
 #include "surfaces/iso_surface.h"
+#include "surfaces/point_cloud.h"
 
 namespace hl {
 
@@ -151,6 +152,18 @@ void setIsoValues(SceneModel& scene, const std::vector<double>& values) {
   }
   if (!last) throw Error("there is no volume in it, whose surface has an iso value");
   scene.surfaces = std::move(surfaces);
+}
+
+void setSurfels(SceneModel& scene, double reach) {
+  bool any = false;
+  for (SceneSurface& surface : scene.surfaces) {
+    const auto* const cloud = dynamic_cast<const PointCloud*>(surface.source.get());
+    if (cloud == nullptr) continue;
+    any = true;
+    surface.source =
+        std::make_shared<const PointCloud>(cloud->points(), cloud->frame(), CloudLook{CloudForm::kSurfels, reach});
+  }
+  if (!any) throw Error("there is no cloud of points in it, which could be surfels");
 }
 
 std::size_t snapsIn(const SceneModel& scene) {

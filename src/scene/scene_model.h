@@ -56,6 +56,9 @@ void scaleHeights(SceneModel& scene, double factor);
 
 /// In the place of each volume's surfaces, one at each of these values. Throws hl::Error if it has no volume.
 void setIsoValues(SceneModel& scene, const std::vector<double>& values);
+/// Clouds of points become surfels, each reaching so many spacings around its point. Throws hl::Error if there are no
+/// clouds.
+void setSurfels(SceneModel& scene, double reach);
 
 std::size_t snapsIn(const SceneModel& scene);
 std::size_t fieldsIn(const SceneModel& scene);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "io/decode_clouds.h"
 #include "io/decode_heights.h"
 #include "io/decode_scene.h"
 #include "io/decode_volumes.h"
@@ -41,6 +42,7 @@ std::string pathOfItems(std::uint32_t object) {
 std::uint64_t bytesToBuild(const proto::Primitives& in) {
   if (in.has_heights()) return bytesToMakeHeights(in.heights());
   if (in.has_volume()) return bytesToMakeVolume(in.volume());
+  if (in.has_cloud()) return bytesToMakeCloud(in.cloud());
   return bytesToMake(countsOf(in));
 }
 
@@ -78,9 +80,13 @@ void requireAlone(const proto::Primitives& in, const std::string& where) {
   if (in.vertices_size() + in.triangles_size() + in.polygons_size() + in.segments_size() + in.points_size() +
           in.patches_size() >
       0)
-    throw Error(where + ": " + (in.has_heights() ? "heights come" : "a volume comes") +
+    throw Error(where + ": " +
+                (in.has_heights()  ? "heights come"
+                 : in.has_volume() ? "a volume comes"
+                                   : "a cloud comes") +
                 " without vertices and elements");
-  if (in.has_heights() && in.has_volume()) throw Error(where + ": it has heights or a volume, not both");
+  if (in.has_heights() + in.has_volume() + in.has_cloud() > 1)
+    throw Error(where + ": it has heights, a volume or a cloud, not several of them");
 }
 
 class FrameDecoder {
@@ -123,6 +129,9 @@ class FrameDecoder {
   std::shared_ptr<const Shape> shapeOf(const proto::Primitives& in, const proto::Item& item, const Shape* before,
                                        const std::string& where);
   std::shared_ptr<const Shape> heightsOf(const proto::Primitives& in, const Shape* before, const std::string& where);
+  std::shared_ptr<const Shape> cloudOf(const proto::Primitives& in, const std::string& where);
+  template <typename Decode>
+  std::shared_ptr<const Shape> ownSurface(std::uint64_t bytes, const std::string& where, const Decode& decode);
   std::shared_ptr<const Shape> surfaceOfVolume(const proto::Primitives& in, const proto::Item& item,
                                                const std::string& where);
   const PlacedVolume& volumeOf(const proto::Volume& in, const std::string& where);
@@ -189,7 +198,7 @@ void FrameDecoder::makeBody(const proto::ObjectDefinition& object, SceneItems& i
     throw Error(where + ".body: a body has one item, with primitives or an upload, and no calls; this one has " +
                 std::to_string(items.size()) + (items.size() == 1 ? " item, a call" : " items"));
   SceneItem& item = items[0];
-  if (item.shape->source) throw Error(where + ".body: a height field or volume cannot be a body");
+  if (item.shape->source) throw Error(where + ".body: a height field, volume or cloud cannot be a body");
   items.body = std::make_shared<const BodySpec>(decoder_.body(object.body(), where + ".body"));
   if (!item.placement) return;
   const std::shared_ptr<const Shape> shape = item.shape;
@@ -289,10 +298,11 @@ std::shared_ptr<const Placement> FrameDecoder::placementOf(const proto::Item& in
 
 std::shared_ptr<const Shape> FrameDecoder::shapeOf(const proto::Primitives& in, const proto::Item& item,
                                                    const Shape* before, const std::string& where) {
-  if (in.has_heights() || in.has_volume()) requireAlone(in, where);
+  if (in.has_heights() || in.has_volume() || in.has_cloud()) requireAlone(in, where);
   if (in.has_volume()) return surfaceOfVolume(in, item, where);
   if (item.has_iso()) throw Error(where + ": iso is of volumes, and this is none");
   if (in.has_heights()) return heightsOf(in, before, where);
+  if (in.has_cloud()) return cloudOf(in, where);
   const proto::Material& material = item.material();
   const auto repeat = [](bool has, double value) { return has && std::isfinite(value) ? value : 1; };
   return makeCounted(memory_, bytesToBuild(in), [&] {
@@ -304,19 +314,31 @@ std::shared_ptr<const Shape> FrameDecoder::shapeOf(const proto::Primitives& in, 
   });
 }
 
-// Counted by its samples, as a mesh is by its elements.
-std::shared_ptr<const Shape> FrameDecoder::heightsOf(const proto::Primitives& in, const Shape* before,
-                                                     const std::string& where) {
-  size_.add(bytesToMakeHeights(in.heights()), where + ": ");
+// Counted by its samples or points, as a mesh is by its elements. `bytes`: to make it.
+template <typename Decode>
+std::shared_ptr<const Shape> FrameDecoder::ownSurface(std::uint64_t bytes, const std::string& where,
+                                                      const Decode& decode) {
+  size_.add(bytes, where + ": ");
   MemoryShare memory(memory_);
-  memory.take(bytesToMakeHeights(in.heights()));
+  memory.take(bytes);
   try {
-    auto shape = makeShape(decodeHeights(in.heights(), before != nullptr ? before->source.get() : nullptr));
+    auto shape = makeShape(decode());
     memory.set(shape->bytes() + shape->shared().bytes);
     return withShare(std::move(shape), std::move(memory));
   } catch (const Error& error) {
-    throw Error(where + ".heights: " + error.what());
+    throw Error(where + ": " + error.what());
   }
+}
+
+std::shared_ptr<const Shape> FrameDecoder::heightsOf(const proto::Primitives& in, const Shape* before,
+                                                     const std::string& where) {
+  return ownSurface(bytesToMakeHeights(in.heights()), where + ".heights", [&] {
+    return decodeHeights(in.heights(), before != nullptr ? before->source.get() : nullptr);
+  });
+}
+
+std::shared_ptr<const Shape> FrameDecoder::cloudOf(const proto::Primitives& in, const std::string& where) {
+  return ownSurface(bytesToMakeCloud(in.cloud()), where + ".cloud", [&] { return decodeCloud(in.cloud()); });
 }
 
 std::shared_ptr<const Shape> FrameDecoder::surfaceOfVolume(const proto::Primitives& in, const proto::Item& item,

@@ -1,8 +1,14 @@
 // CloudWalk: from the top of a cloud's nodes to the points that a moving ball may touch, those near its begin first.
+//
+// A surfel lies in a disc of radius R in the plane of its normal. The ball, of radius r, meets the plane while its
+// centre is at a height of at most r over it, and the disc only if then, in the plane, the centre comes within
+//   R + sqrt(r^2 - h^2)
+// of the middle, h the least height on that part of the way.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -76,9 +82,39 @@ class CloudWalk {
     for (std::size_t slot = first; slot < first + points_.countIn(block); ++slot) {
       ++looked_;
       if (!boxes_.isNear(points_.at(slot), reach)) continue;
+      if (cloud_.surfels() && !meetsDisc(slot, reach)) continue;
       for (std::size_t i = 0; i < cloud_.perPoint(); ++i) visit(static_cast<ElementId>(slot * cloud_.perPoint() + i));
     }
   }
+
+  // Metres, from the middle of the surfel.
+  bool meetsDisc(std::size_t slot, double reach) const {
+    const Mat3& axes = cloud_.frame().axes;
+    const Vec3 normal = cloud_.normalAt(slot), from = axes * (ball_.first() - points_.at(slot));
+    const Vec3 way = axes * (ball_.last() - ball_.first());
+    const double rounding = kRounding * (from.norm() + way.norm() + reach) + 2 * cloud_.rounding();
+    const double radius = (1 + kRounding) * ball_.radius() + rounding;
+    const double height = normal.dot(from), rise = normal.dot(way);
+    double begin = 0, end = 1;
+    if (std::abs(rise) > rounding) {
+      const double one = (-radius - height) / rise, other = (radius - height) / rise;
+      begin = std::max(0.0, std::min(one, other) - kRounding);
+      end = std::min(1.0, std::max(one, other) + kRounding);
+    } else if (std::abs(height) > radius + rounding) {
+      return false;
+    }
+    if (begin > end) return false;
+    const double first = height + begin * rise, last = height + end * rise;
+    const bool through = (first < 0) != (last < 0);
+    const double low = through ? 0 : std::max(0.0, std::min(std::abs(first), std::abs(last)) - rounding);
+    const double across = reach + rounding + std::sqrt(std::max(0.0, radius * radius - low * low));
+    const Vec3 flat = from - height * normal, along = way - rise * normal;
+    const double square = along.squaredNorm();
+    const double part = square > 0 ? std::clamp(-flat.dot(along) / square, begin, end) : begin;
+    return (flat + part * along).squaredNorm() <= across * across;
+  }
+
+  static constexpr double kRounding = 1e-9;  // of sizes, and of a way
 
   const PointCloud& cloud_;
   const CloudPoints& points_;

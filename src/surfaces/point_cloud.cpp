@@ -51,8 +51,10 @@ PointCloud::PointCloud(std::shared_ptr<const CloudPoints> points, const GridFram
   }
   if (!withinReach(bounds_.min) || !withinReach(bounds_.max)) throw Error("a cloud reaches beyond 1e9 m");
   // A surfel is never so small that rounding flattens it.
-  constexpr double kOfCoordinates = 1e-10;
-  least_radius_ = kOfCoordinates * bounds_.min.cwiseAbs().cwiseMax(bounds_.max.cwiseAbs()).maxCoeff() / sizes[2];
+  constexpr double kOfCoordinates = 1e-10, kRoundingOfThem = 1e-15;
+  const double extent = bounds_.min.cwiseAbs().cwiseMax(bounds_.max.cwiseAbs()).maxCoeff();
+  least_radius_ = kOfCoordinates * extent / sizes[2];
+  rounding_ = kRoundingOfThem * extent;
   if (!surfels()) return;
   for (std::size_t block = 0; block < points_->blocks(); ++block)
     largest_reach_ = std::max(largest_reach_, reachOf(block));
@@ -85,10 +87,6 @@ std::array<Vec3, 3> PointCloud::corners(ElementId id) const {
   std::array<std::size_t, 3> number{0, second, second + 1};
   if (mirrored_) std::swap(number[1], number[2]);
   return {corner(slot, number[0], 1), corner(slot, number[1], 1), corner(slot, number[2], 1)};
-}
-
-Vec3 PointCloud::trueNormal(ElementId id, const Vec3& /*point*/) const {
-  return (for_normals_ * unpackNormal(points_->normal(id / perPoint()))).normalized();
 }
 
 std::unique_ptr<const SpatialIndex> PointCloud::makeIndex() const { return std::make_unique<CloudIndex>(*this); }

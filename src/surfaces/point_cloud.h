@@ -38,7 +38,7 @@ class PointCloud final : public PrimitiveSource {
   std::uint64_t triangles() const override { return points_->size() * perPoint(); }
   std::array<Vec3, 3> corners(ElementId id) const override;
   /// Of the point.
-  Vec3 trueNormal(ElementId id, const Vec3& point) const override;
+  Vec3 trueNormal(ElementId id, const Vec3& /*point*/) const override { return normalAt(id / perPoint()); }
   bool hasOutside() const override { return false; }
   Box bounds() const override { return bounds_; }
   std::unique_ptr<const SpatialIndex> makeIndex() const override;
@@ -59,6 +59,10 @@ class PointCloud final : public PrimitiveSource {
   /// Of all blocks.
   double largestReach() const { return largest_reach_; }
   double largestStretch() const { return stretch_; }
+  /// Of the coordinates of corners, m, at most.
+  double rounding() const { return rounding_; }
+  /// Unit, in the frame of the object. RT-safe.
+  Vec3 normalAt(std::size_t slot) const { return (for_normals_ * unpackNormal(points_->normal(slot))).normalized(); }
 
  private:
   double circumradius(std::size_t block) const;
@@ -71,7 +75,7 @@ class PointCloud final : public PrimitiveSource {
   CloudLook look_;
   Mat3 linear_, for_normals_;  // from metres along the axes of the lattice; its inverse transpose
   bool mirrored_ = false;
-  double stretch_ = 1, least_radius_ = 0, largest_reach_ = 0;
+  double stretch_ = 1, least_radius_ = 0, largest_reach_ = 0, rounding_ = 0;
   Box bounds_;
 };
 

@@ -1,0 +1,87 @@
+#include "io/read_clouds.h"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "base/error.h"
+#include "io/point_records.h"
+#include "io/text_words.h"
+
+namespace hl {
+
+namespace {
+
+using ReadCloud = void (*)(const ModelFile&, CloudSink&);
+constexpr std::array<std::pair<std::string_view, ReadCloud>, 4> kCloudReaders{
+    {{".las", readLas}, {".pcd", readPcd}, {".xyz", readXyz}, {".ply", readPlyPoints}}};
+
+ReadCloud cloudReaderOf(const std::string& ending) {
+  for (const auto& [of, read] : kCloudReaders) {
+    if (of == ending) return read;
+  }
+  return nullptr;
+}
+
+// The numbers of a line, as many as there are up to six.
+std::size_t numbersOf(std::string_view line, std::array<double, kPointNumbers>& numbers) {
+  constexpr const char* kBetween = " \t,;";
+  std::size_t count = 0;
+  while (count < kPointNumbers) {
+    const std::size_t begin = line.find_first_not_of(kBetween);
+    if (begin == std::string_view::npos) break;
+    line.remove_prefix(begin);
+    const std::string_view word = line.substr(0, line.find_first_of(kBetween));
+    const std::string_view digits = word.substr(word.starts_with('+') ? 1 : 0);
+    const auto [end, error] = std::from_chars(digits.data(), word.data() + word.size(), numbers[count]);
+    if (end != word.data() + word.size() || error == std::errc::invalid_argument) break;
+    ++count;
+    line.remove_prefix(word.size());
+  }
+  return count;
+}
+
+bool isUnitNormal(const std::array<double, kPointNumbers>& numbers) {
+  constexpr double kRounded = 0.01;
+  const Vec3 normal(numbers[kNormalX], numbers[kNormalY], numbers[kNormalZ]);
+  return std::abs(normal.norm() - 1) < kRounded;
+}
+
+}  // namespace
+
+bool readsClouds(const std::string& ending) { return ending != ".ply" && cloudReaderOf(ending) != nullptr; }
+
+std::string cloudAdvice(const std::string& ending) {
+  if (ending == ".laz") return "is packed LAS, which cannot be read: unpack it, as in laszip -i a.laz -o a.las";
+  if (ending == ".e57") return "is E57, which cannot be read: convert it to PLY or LAS, as CloudCompare does";
+  return {};
+}
+
+void readCloud(const ModelFile& file, CloudSink& sink) { cloudReaderOf(file.ending)(file, sink); }
+
+// A first line may be the number of points. Normals are those of columns four to six, if the first has length 1.
+void readXyz(const ModelFile& file, CloudSink& sink) {
+  ByteFile in(file.path);
+  sink.header({});
+  std::array<double, kPointNumbers> numbers{};
+  std::optional<PointPieces> pieces;
+  std::string line;
+  for (std::uint64_t number = 1; in.line(line); ++number) {
+    const std::string_view text = trimmed(line);
+    if (text.empty() || text.starts_with('#') || text.starts_with("//")) continue;
+    const std::size_t count = numbersOf(text, numbers);
+    if (count == 1 && !pieces && number == 1) continue;
+    if (count < 3)
+      throw Error(fmt::format("is no list of points: line {} is '{}', and a point is x y z", number, shown(text)));
+    if (!pieces) pieces.emplace(sink, count == kPointNumbers && isUnitNormal(numbers));
+    if (count < kPointNumbers) numbers[kNormalX] = numbers[kNormalY] = numbers[kNormalZ] = 0;
+    pieces->add(numbers);
+  }
+  if (pieces) pieces->flush();
+}
+
+}  // namespace hl
