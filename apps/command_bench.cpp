@@ -211,7 +211,7 @@ void addBenchCommand(CLI::App& app) {
       ->add_option("--clouds", options->clouds,
                    "clouds of points instead, of 10 000 points, ten times as many, and so on up to this number; takes "
                    "--radius, --ticks and --csv")
-      ->check(CLI::Range(std::size_t{1000}, std::size_t{1'000'000'000}));
+      ->check(CLI::Range(std::size_t{1000}, std::size_t{100'000'000}));
   command
       ->add_option("--volumes", options->volumes,
                    "surfaces of volumes instead, of 128 samples a side, twice as many, and so on up to this number; "

@@ -28,7 +28,7 @@ constexpr std::size_t kMaxMember = 1'000'000'000;
 constexpr std::string_view kSnaps = "snaps", kWorkshop = "workshop", kField = "field", kScan = "ct", kCloud = "points",
                            kDepth = "depth";
 constexpr std::size_t kUsualField = 1'000'000, kMostField = std::min(100'000'000'000ULL, 0ULL + SIZE_MAX),
-                      kUsualScan = 161, kMostScan = 1025, kUsualCloud = 100'000, kMostCloud = 1'000'000'000;
+                      kUsualScan = 161, kMostScan = 1025, kUsualCloud = 100'000, kMostCloud = 100'000'000;
 
 struct Builtin {
   std::string_view name;

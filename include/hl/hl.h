@@ -200,6 +200,13 @@ HL_API void hlVolumeMatter(HLsizei rows, const HLdouble* numbers);
  * now: skin and bone. Nothing is copied or sent again. HL_INVALID_OPERATION: no volume was drawn. HL_INVALID_VALUE: an
  * `iso` that is not a number. */
 HL_API void hlVolumeSurface(HLdouble iso);
+/** Draws a cloud of `count` points, x y z each, in metres, as scanners give them. `normals`, three numbers each and of
+ * either sign, turn the force where shading is smooth; NULL: those of the plane through the 12 nearest points. With
+ * `reach` 0 the points alone are touched, and the proxy sinks between them; from 0.01 to 10 each is a small hexagon
+ * across its normal around a disc of so many distances between neighbours: with 0.75 there are no holes in most scans.
+ * The points are copied. HL_INVALID_VALUE: no points, another `reach`, or numbers that are not finite.
+ * HL_OUT_OF_MEMORY: 29 million points or more: draw several clouds. */
+HL_API void hlPointCloud(HLsizei count, const HLdouble* points, const HLdouble* normals, HLdouble reach);
 
 /** Draws a NURBS surface without trims as gluNurbsSurface does, or a Bezier patch, with no knots, as glMap2d and
  * glEvalMesh2 do. The server makes triangles within `error` of it, in units of the vertices (0: 2e-5 of the largest

@@ -83,6 +83,13 @@ def steps(spacing: Any, axes: int) -> List[float]:
     return [number(step, "spacing") for step in several]
 
 
+def reach(surfels: Any) -> float:
+    """Of True the usual one, of False none: points."""
+    if isinstance(surfels, (bool, np.bool_)):
+        return 0.75 if surfels else 0.0
+    return number(surfels, "surfels")
+
+
 def dimensions(numbers: Any) -> int:
     """Of nested lists whose lengths differ: 2, so that they are refused as an array."""
     try:

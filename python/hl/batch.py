@@ -50,6 +50,11 @@ class Scene:
         float32. Samples are `spacing` m apart (one number, or those along x, y and z), with the middle at the origin.
         There is no surface around samples that equal `missing`, or are not a number.
 
+    Scene(points=points, normals=None, surfels=False): a cloud of points (n, 3), m, as scanners give it. `normals` (n, 3),
+        of either sign, are for smooth shading; None: those of the plane through the 12 nearest points. A ball sinks
+        between points; with `surfels` each is a small hexagon across its normal: True, or how many distances between
+        neighbours it reaches (True: 0.75).
+
     Raises InvalidValueError: there is no such file, or nothing in it can be touched. Ctrl-C is heard when it is made.
     """
 
@@ -81,6 +86,14 @@ class Scene:
         spacing: Union[float, Tuple[float, float, float]] = 1.0,
         missing: Optional[float] = None,
     ) -> None: ...
+    @overload
+    def __init__(
+        self,
+        *,
+        points: npt.ArrayLike,
+        normals: Optional[npt.ArrayLike] = None,
+        surfels: Union[bool, float] = False,
+    ) -> None: ...
     def __init__(
         self,
         source: Any = None,
@@ -95,12 +108,20 @@ class Scene:
         spacing: Any = 1.0,
         vertical_scale: Any = 1.0,
         missing: Any = None,
+        points: Any = None,
+        surfels: Any = False,
     ) -> None:
+        if points is not None:
+            if any(other is not None for other in (source, triangles, vertices, heights, volume, iso)):
+                raise InvalidValueError("a scene is made of points, heights, a volume, a file or vertices, of one of them")
+            self._source: Any = None
+            self._scene = _cloud_of(points, normals, surfels)
+            return
         if heights is not None or volume is not None:
             others = (source, triangles, normals, vertices, heights if volume is not None else iso)
             if any(other is not None for other in others):
                 raise InvalidValueError("a scene is made of heights, a volume, a file or vertices, of one of them")
-            self._source: Any = None
+            self._source = None
             if volume is not None:
                 self._scene = _volume_of(volume, iso, spacing, missing)
             else:
@@ -306,6 +327,14 @@ def _volume_of(volume: Any, iso: Any, spacing: Any, missing: Any) -> _hl.BatchSc
     values = [arguments.number(value, "iso") for value in (iso if np.ndim(iso) > 0 else [iso])]
     none = None if missing is None else arguments.number(missing, "missing")
     return _hl.BatchScene(arguments.volume(volume), arguments.steps(spacing, 3), values, none)
+
+
+def _cloud_of(points: Any, normals: Any, surfels: Any) -> _hl.BatchScene:
+    return _hl.BatchScene(
+        arguments.floats(points, "points"),
+        None if normals is None else arguments.floats(normals, "normals"),
+        arguments.reach(surfels),
+    )
 
 
 def _made_of(vertices: Any, triangles: Any, normals: Any, size: Any) -> _hl.BatchScene:

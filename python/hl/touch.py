@@ -285,6 +285,15 @@ class Touch:
                    ((scale, "scale"), (join, "join"), (smoothing, "smoothing"))]
         calls.hlDepthFrame(np.ascontiguousarray(image), arguments.floats(camera, "camera"), *numbers)
 
+    def points(
+        self, points: npt.ArrayLike, normals: Optional[npt.ArrayLike] = None, surfels: Union[bool, float] = False
+    ) -> None:
+        """Draws a cloud of points (n, 3), m, as hl.Scene(points=...) has it."""
+        self.make_current()
+        array = arguments.floats(points, "points")
+        given = None if normals is None else arguments.floats(normals, "normals")
+        calls.hlPointCloud(array, given, arguments.reach(surfels))
+
     def volume_surface(self, iso: float, spacing: Union[float, Tuple[float, float, float]] = 1.0) -> None:
         """Draws another surface of the volume that was drawn last in this object or world; nothing is sent again."""
         self.make_current()

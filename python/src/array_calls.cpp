@@ -121,6 +121,13 @@ void nurbsSurface(const Doubles& points, HLint order_u, HLint order_v, const Opt
   throwFailure();
 }
 
+void pointCloud(const Doubles& points, const Optional& normals, double reach) {
+  requireContext();
+  const std::size_t count = rowsOf(points, 3, "points");
+  hlPointCloud(sizeOf(count, "points"), points.data(), rowsOrNone(normals, count, 3, "normals"), reach);
+  throwFailure();
+}
+
 void updateVertices(HLuint object, const Doubles& vertices, HLint first, const Optional& normals) {
   requireContext();
   const std::size_t count = rowsOf(vertices, 3, "vertices");
@@ -242,6 +249,7 @@ void bindDrawing(py::module_& module) {
   module.def("hlDepthFrame", &depthFrame, py::arg("depths"), py::arg("camera"), py::arg("scale"), py::arg("join"),
              py::arg("smoothing"));
   module.def("hlVolumeMatter", &volumeMatter, py::arg("rows"));
+  module.def("hlPointCloud", &pointCloud, py::arg("points"), py::arg("normals") = none, py::arg("reach") = 0.0);
   module.def("hlVolume", &volume, py::arg("samples"), py::arg("iso"), py::arg("missing") = none);
   module.def("hlNurbsSurface", &nurbsSurface, py::arg("points"), py::arg("order_u") = 4, py::arg("order_v") = 4,
              py::arg("knots_u") = none, py::arg("knots_v") = none, py::arg("error") = 0.0);

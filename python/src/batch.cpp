@@ -104,6 +104,13 @@ std::unique_ptr<Scene> makeHeights(const py::array& samples, const std::array<do
       made(hlBatchMakeHeights(columns, rows, type, data, missing ? &*missing : nullptr, spacing.data(), scale)));
 }
 
+std::unique_ptr<Scene> makePoints(const Doubles& points, const std::optional<Doubles>& normals, double reach) {
+  const std::size_t count = rowsOf(points, 3, "points");
+  const double* const smooth = rowsOrNone(normals, count, 3, "normals");
+  const OtherThreadsRun other_threads_run;
+  return std::make_unique<Scene>(made(hlBatchMakePoints(points.data(), smooth, count, reach)));
+}
+
 Doubles boundsOf(const Scene& scene) {
   Doubles bounds = emptyRows(2, 3);
   hlBatchSceneBounds(scene.handle.get(), bounds.mutable_data(0), bounds.mutable_data(1));
@@ -199,6 +206,7 @@ void bindBatch(py::module_& module) {
       .def(py::init(&makeScene), py::arg("vertices"), py::arg("triangles"), py::arg("normals"))
       .def(py::init(&makeVolume), py::arg("volume"), py::arg("spacing"), py::arg("iso"), py::arg("missing"))
       .def(py::init(&makeHeights), py::arg("samples"), py::arg("spacing"), py::arg("scale"), py::arg("missing"))
+      .def(py::init(&makePoints), py::arg("points"), py::arg("normals"), py::arg("reach"))
       .def_property_readonly("primitives",
                              [](const Scene& scene) { return hlBatchScenePrimitives(scene.handle.get()); })
       .def_property_readonly("bounds", &boundsOf);

@@ -12,6 +12,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "base/finger_reach.h"
@@ -24,6 +25,7 @@
 #include "io/read_heights.h"
 #include "scene/scene_model.h"
 #include "surfaces/height_field.h"
+#include "surfaces/point_cloud.h"
 #include "surfaces/sample_room.h"
 
 struct HLbatchScene {
@@ -233,6 +235,28 @@ HLbatchScene* hlBatchMakeVolume(const size_t* size, HLenum type, const void* sam
                               uprightFrame(side, vecAt(spacing, 0))};
     SceneModel made;
     for (size_t i = 0; i < surfaces; ++i) made.surfaces.push_back({"volume", isoSurfaceOf(volume, {}, iso[i])});
+    scene = sceneOf(std::move(made));
+  });
+  return scene;
+}
+
+HLbatchScene* hlBatchMakePoints(const HLdouble* points, const HLdouble* normals, size_t count, HLdouble reach) {
+  HLbatchScene* scene = nullptr;
+  guardedCall(__func__, [&] {
+    require(points != nullptr, "points is NULL");
+    requireFinite(points, 3 * count, "points must be finite");
+    if (normals != nullptr) requireFinite(normals, 3 * count, "normals must be finite");
+    std::vector<Vec3> positions;
+    std::vector<std::uint32_t> packed;
+    for (std::size_t i = 0; i < count; ++i) positions.push_back(vecAt(points, i));
+    for (std::size_t i = 0; normals != nullptr && i < count; ++i) packed.push_back(packNormal(vecAt(normals, i)));
+    std::size_t skipped = 0;
+    CloudLook look;
+    if (reach != 0) look = {CloudForm::kSurfels, reach};
+    SceneModel made;
+    made.surfaces.push_back(
+        {"points", std::make_shared<const PointCloud>(makeCloud(onFineLattice(positions, packed, skipped)), look)});
+    made.surfaces.back().material.smooth = normals != nullptr;
     scene = sceneOf(std::move(made));
   });
   return scene;

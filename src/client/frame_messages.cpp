@@ -32,6 +32,7 @@ void assign(google::protobuf::RepeatedField<Number>* out, const List& in) {
 
 void fillPrimitives(const Geometry& geometry, proto::Primitives& out) {
   if (geometry.heights) *out.mutable_heights() = *geometry.heights;
+  if (geometry.cloud) *out.mutable_cloud() = *geometry.cloud;
   assign(out.mutable_vertices(), geometry.vertices.positions);
   assign(out.mutable_normals(), geometry.vertices.normals);
   assign(out.mutable_texcoords(), geometry.vertices.texcoords);
@@ -169,6 +170,7 @@ class Builder {
   std::uint64_t upload(const Geometry& geometry) {
     upload_ = terms_.next_upload++;
     if (geometry.heights) addSamples(*geometry.heights, &proto::Primitives::mutable_heights);
+    if (geometry.cloud) addPoints(*geometry.cloud);
     addParts(geometry.vertices.positions, &proto::Primitives::mutable_vertices);
     addParts(geometry.vertices.normals, &proto::Primitives::mutable_normals);
     addParts(geometry.vertices.texcoords, &proto::Primitives::mutable_texcoords);
@@ -229,6 +231,26 @@ class Builder {
       Grid& out = *(part.mutable_part()->*mutable_grid)();
       if (first == 0) out = head;
       out.add_samples(piece.data(), piece.size());
+      upload_bytes_ += part.ByteSizeLong();
+    }
+  }
+
+  // As addSamples().
+  void addPoints(const proto::Cloud& cloud) {
+    constexpr int kNumbersOfPoint = 3;
+    const std::size_t point_bytes = kNumbersOfPoint * (sizeof(double) + sizeof(float));
+    const int step = kNumbersOfPoint * static_cast<int>(std::max<std::size_t>(part_bytes_ / point_bytes, 1));
+    for (int first = 0; first < cloud.positions_size(); first += step) {
+      const int end = std::min(first + step, cloud.positions_size());
+      proto::Upload& part =
+          addPart(static_cast<std::size_t>(end - first) * point_bytes / kNumbersOfPoint + kSamplesHeadBytes);
+      part.set_id(upload_);
+      proto::Cloud& out = *part.mutable_part()->mutable_cloud();
+      out.set_surfels(cloud.surfels());
+      out.set_reach(cloud.reach());
+      out.mutable_positions()->Add(cloud.positions().begin() + first, cloud.positions().begin() + end);
+      if (cloud.normals_size() > 0)
+        out.mutable_normals()->Add(cloud.normals().begin() + first, cloud.normals().begin() + end);
       upload_bytes_ += part.ByteSizeLong();
     }
   }

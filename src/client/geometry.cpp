@@ -117,7 +117,7 @@ void Vertices::shorten(std::size_t count) {
 }
 
 bool Geometry::takes(const Vertices& added) const {
-  return !heights && !volume && vertices.normals.empty() == added.normals.empty() &&
+  return !heights && !volume && !cloud && vertices.normals.empty() == added.normals.empty() &&
          vertices.texcoords.empty() == added.texcoords.empty() &&
          vertices.size() + added.size() <= std::numeric_limits<Index>::max();
 }
@@ -130,6 +130,9 @@ std::size_t Geometry::bytes() const {
   std::size_t of_patches = 0;
   for (const proto::Patch& patch : patches) of_patches += patch.ByteSizeLong() + kListBytes;
   if (of_patches > 0) return of_patches;
+  if (cloud)
+    return static_cast<std::size_t>(cloud->positions_size()) * sizeof(double) +
+           static_cast<std::size_t>(cloud->normals_size()) * sizeof(float) + kHeightsHead;
   return numbers * sizeof(double) + (triangles.size() + segments.size() + points.size()) * kIndexBytes + 6 * kListBytes;
 }
 

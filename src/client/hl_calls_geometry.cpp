@@ -284,6 +284,26 @@ void hlNurbsSurface(HLsizei u_knot_count, const HLdouble* u_knots, HLsizei v_kno
   });
 }
 
+void hlPointCloud(HLsizei count, const HLdouble* points, const HLdouble* normals, HLdouble reach) {
+  call(__func__, [&](HLcontext& context) {
+    constexpr std::size_t kMostPoints = (std::size_t{1} << 30) / 36;  // 1 GiB of positions and normals
+    constexpr double kLeastReach = 0.01, kMostReach = 10;
+    if (count < 1) throw Fault(HL_INVALID_VALUE, "a cloud needs a point or more");
+    requirePointer(points);
+    if (reach != 0 && !(reach >= kLeastReach && reach <= kMostReach))
+      throw Fault(HL_INVALID_VALUE, "the reach of surfels is 0.01 to 10 times the spacing of the points, or 0: points");
+    const std::size_t numbers = 3 * static_cast<std::size_t>(count);
+    if (numbers >= 3 * kMostPoints) throw Fault(HL_OUT_OF_MEMORY, "the points must be less than 1 GiB");
+    for (std::size_t i = 0; i < numbers; ++i) requireFinite(points[i], normals != nullptr ? normals[i] : 0);
+    const auto cloud = std::make_shared<hl::proto::Cloud>();
+    cloud->mutable_positions()->Add(points, points + numbers);
+    if (normals != nullptr) cloud->mutable_normals()->Add(normals, normals + numbers);
+    cloud->set_surfels(reach != 0);
+    cloud->set_reach(reach);
+    context.target().drawCloud(context.draw.modelview.top(), lookOf(context.draw.attributes.now), cloud);
+  });
+}
+
 void hlDrawElements(HLenum mode, HLsizei count, HLenum type, const void* indices) {
   call(__func__, [&](HLcontext& context) {
     hl::client::requirePrimitiveMode(mode);

@@ -31,6 +31,11 @@ void ItemList::drawHeights(const Matrix4& matrix, const Look& look, proto::Heigh
   items_.back().geometry.heights = std::move(heights);
 }
 
+void ItemList::drawCloud(const Matrix4& matrix, const Look& look, std::shared_ptr<const proto::Cloud> cloud) {
+  items_.push_back({matrix, look, 0, {}});
+  items_.back().geometry.cloud = std::move(cloud);
+}
+
 void ItemList::drawVolume(const Matrix4& matrix, const Look& look, std::shared_ptr<const proto::Volume> volume,
                           double iso) {
   items_.push_back({matrix, look, 0, {}});

@@ -231,6 +231,40 @@ TEST_F(CallsTest, SurfacesThatMakeNoSenseAreRefused) {
   EXPECT_EQ(flushed().number(), 0U);
 }
 
+TEST_F(CallsTest, ACloudIsSentInPiecesOrInTheFrame) {
+  const std::vector<HLdouble> points(3 * 50'000, 0.5), normals(3 * 50'000, 1);
+  hlPointCloud(2, points.data(), nullptr, 0);
+  hlPointCloud(50'000, points.data(), normals.data(), 0.75);
+  const proto::Frame frame = flushed();
+  ASSERT_EQ(frame.world().items_size(), 2);
+  const proto::Cloud& small = frame.world().items(0).primitives().cloud();
+  EXPECT_EQ(small.positions_size(), 6);
+  EXPECT_EQ(small.normals_size(), 0);
+  EXPECT_FALSE(small.surfels());
+  const proto::Cloud& large = server->uploads().at(frame.world().items(1).upload()).cloud();
+  EXPECT_EQ(large.positions_size(), 150'000);
+  EXPECT_EQ(large.normals_size(), 150'000);
+  EXPECT_EQ(large.reach(), 0.75);
+}
+
+TEST_F(CallsTest, CloudsThatMakeNoSenseAreRefused) {
+  std::array<HLdouble, 3> point{1, 2, 3};
+  hlPointCloud(0, point.data(), nullptr, 0);
+  expectError(HL_INVALID_VALUE);
+  hlPointCloud(1, nullptr, nullptr, 0);
+  expectError(HL_INVALID_VALUE);
+  hlPointCloud(1, point.data(), nullptr, 11);
+  expectError(HL_INVALID_VALUE);
+  hlPointCloud(1, point.data(), nullptr, kNaN);
+  expectError(HL_INVALID_VALUE);
+  hlPointCloud(100'000'000, point.data(), nullptr, 0);
+  expectError(HL_OUT_OF_MEMORY);
+  point[1] = kNaN;
+  hlPointCloud(1, point.data(), nullptr, 0);
+  expectError(HL_INVALID_VALUE);
+  EXPECT_FALSE(flushed().has_world());
+}
+
 TEST_F(CallsTest, VolumesThatMakeNoSenseAreRefused) {
   const std::array<HLfloat, 8> samples{};
   hlVolume(1, 2, 2, HL_FLOAT, samples.data(), nullptr, 0);

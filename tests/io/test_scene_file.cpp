@@ -135,7 +135,8 @@ TEST(SceneFile, HeightsThatMakeNoSenseAreRefused) {
   EXPECT_EQ(heightsRefusal(good + R"(, "spacing": -1)"), "2: spacing must be from 1e-12 to 1e9");
   EXPECT_EQ(heightsRefusal(R"("columns": 2, "rows": 3, "values": [0, 1, 2, 3])"),
             "2: it has fewer samples than it says");
-  EXPECT_EQ(heightsRefusal(good, R"(, "body": {})"), "2: objects[0].body: a height field or volume cannot be a body");
+  EXPECT_EQ(heightsRefusal(good, R"(, "body": {})"),
+            "2: objects[0].body: a height field, volume or cloud cannot be a body");
   EXPECT_NE(heightsRefusal(R"("file": "none.tif")").find("there is no such file"), std::string::npos);
   fileWith("field.asc", "ncols 2\nnrows 2\ncellsize 5\n1 2 3 4");
   EXPECT_EQ(heightsRefusal(R"("file": "field.asc", "spacing": 2, "verticalScale": 3)"), "");
@@ -148,6 +149,37 @@ TEST(SceneFile, HeightsOfAFileTakeAnotherSpacing) {
   const SceneModel scene = loadSceneFile(fileWith(
       "scene.hl.json", R"({"objects":[{"heights": {"file": "field.asc", "spacing": 2, "verticalScale": 3}}]})"));
   EXPECT_LT((scene.surfaces.at(0).source->bounds().size() - Vec3(4, 15, 2)).norm(), 1e-12);
+}
+
+TEST(SceneFile, TheExampleOfCloudsLoads) {
+  const SceneModel scene = loadSceneFile(std::string(HL_EXAMPLES) + "/clouds.hl.json");
+  ASSERT_EQ(scene.surfaces.size(), 3U);
+  EXPECT_EQ(scene.surfaces[0].source->shared().of, scene.surfaces[1].source->shared().of) << "points and surfels";
+  EXPECT_EQ(scene.surfaces[0].source->kind(), PrimitiveKind::kPoint);
+  EXPECT_EQ(scene.surfaces[1].source->kind(), PrimitiveKind::kTriangle);
+  EXPECT_EQ(makeSnapshot(scene)->instances.size(), 3U);
+}
+
+TEST(SceneFile, ACloudThatMakesNoSenseIsRefused) {
+  fileWith("three.xyz", "0 0 0\n1 0 0\n0 1 0\n");
+  const auto refused = [](const std::string& cloud) {
+    try {
+      loadSceneFile(fileWith("scene.hl.json", "{\"objects\":[\n{\"cloud\": {" + cloud + "}}]}"));
+    } catch (const Error& error) {
+      return std::string(error.what()).substr(std::string(error.what()).find(": ") + 2);
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refused(R"("file": "three.xyz", "surfels": true, "reach": 1)"), "");
+  EXPECT_EQ(refused(R"("file": "three.xyz", "reach": 1)"), "reach is of surfels, and this cloud is of points");
+  EXPECT_EQ(refused(R"("file": "three.xyz", "surfels": true, "reach": 11)"),
+            "a surfel reaches from 0.01 to 10 times the spacing");
+  EXPECT_EQ(refused(R"("file": "three.xyz", "builtin": "points:sphere:9")"), "it has a file or a builtin, not both");
+  EXPECT_EQ(refused(R"("builtin": "teapot")"), "teapot: is no cloud of points");
+  EXPECT_EQ(refused(R"("positions": [1, 2])"), "positions must be three numbers for each point");
+  EXPECT_EQ(refused(R"("positions": [1, 2, 3], "normals": [1])"),
+            "normals must be three numbers for each point, or absent");
+  EXPECT_EQ(refused(R"("file": "three.xyz", "positions": [1, 2, 3])"), "positions and normals are those of its file");
 }
 
 TEST(SceneFile, TheExampleOfAVolumeLoads) {
@@ -244,7 +276,7 @@ TEST(SceneFile, VolumesThatMakeNoSenseAreRefused) {
   EXPECT_EQ(refusal(good), "");
   EXPECT_EQ(refusal(good + R"(, "iso": 2)"), "2: there is no surface at iso 2: its values are from 0 to 1");
   EXPECT_EQ(refusal(R"("size": [2, 2, 3], "values": [0, 1])"), "2: it has fewer samples than it says");
-  EXPECT_EQ(refusal(good, R"(, "body": {})"), "2: objects[0].body: a height field or volume cannot be a body");
+  EXPECT_EQ(refusal(good, R"(, "body": {})"), "2: objects[0].body: a height field, volume or cloud cannot be a body");
   EXPECT_NE(refusal(R"("file": "none.nii")").find("there is no such file"), std::string::npos);
   EXPECT_EQ(refusal(R"("file": "field.asc")"), "2: field.asc: is no volume");
   EXPECT_EQ(refusal(R"("file": "small.nii", "builtin": "ct:phantom")"), "2: it has a file or a builtin, not both");

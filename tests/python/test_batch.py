@@ -134,6 +134,26 @@ class Volumes(unittest.TestCase):
             np.testing.assert_allclose(
                 hl.closest(scene, [[0, 0, 0]]).distance, [abs(middle - 1.75) * step], rtol=0, atol=1e-12)
 
+    def test_points_are_felt_as_points_or_as_surfels(self):
+        steps = np.arange(-10, 11) * 0.0005
+        x, z = np.meshgrid(steps, steps)
+        points = np.column_stack([x.ravel(), np.zeros(x.size), z.ravel()])
+        path = np.array([[0.001 * i, 0.00025, 0.003 - 1e-5 * i, 0.00025] for i in range(400)])
+        settings = hl.Settings(radius=0.001)
+        bare, surfels = hl.Scene(points=points), hl.Scene(points=points, surfels=True)
+        self.assertEqual((bare.primitives, surfels.primitives), (441, 4 * 441))
+        sunk = 0.001 - hl.trace(bare, path, settings).proxy[-1][1]
+        self.assertAlmostEqual(sunk, 64.6e-6, delta=2e-7)
+        self.assertAlmostEqual(hl.trace(surfels, path, settings).proxy[-1][1], 0.001, delta=1e-7)
+
+    def test_what_is_no_cloud_is_refused(self):
+        good = np.zeros((1, 3))
+        for wrong in ([1.0, 2.0], np.zeros((2, 2)), np.full((2, 3), np.nan), np.zeros((0, 3))):
+            self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(points=wrong))
+        self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(points=good, normals=np.zeros((2, 3))))
+        self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(points=good, surfels=11.0))
+        self.assertRaises(hl.InvalidValueError, lambda: hl.Scene("teapot", points=good))
+
     def test_what_is_no_volume_is_refused(self):
         good = np.arange(8, dtype=np.float32).reshape(2, 2, 2)
         hl.Scene(volume=good, iso=3.5)

@@ -204,6 +204,7 @@ std::shared_ptr<const Snapshot> writtenAndRead(const Snapshot& scene, SceneWrite
     if (block.has_shape()) reader.add(block.shape());
     if (block.has_heights()) reader.add(block.heights());
     if (block.has_volume()) reader.add(block.volume());
+    if (block.has_cloud()) reader.add(block.cloud());
     if (block.has_surfaces()) reader.add(block.surfaces());
     if (block.has_scene()) back = reader.scene(block.scene());
     parts += block.has_scene() ? 0 : 1;
@@ -242,6 +243,28 @@ TEST(RecordedScene, HasItsDepthImage) {
   const auto& frame = dynamic_cast<const DepthFrame&>(*is.source);
   for (ElementId id = 0; id < is.count(); id += 997) {
     if (frame.exists(cellOf(id, 640))) ASSERT_EQ(is.source->corners(id), was.source->corners(id)) << id;
+  }
+}
+
+// The points are written once, for the first of both; the same slots have the same points.
+TEST(RecordedScene, HasItsCloudOnce) {
+  SceneModel scene = makeBuiltinWorld("points:terrain:40000");
+  scene.surfaces.push_back(scene.surfaces[0]);
+  scene.surfaces[1].source = scene.surfaces[1].source->placed(2 * Mat3::Identity(), Vec3(1, 2, 3));
+  setSurfels(scene, 0.9);
+  const auto made = makeSnapshot(std::move(scene));
+  SceneWriter writer;
+  SceneReader reader;
+  int parts = 0;
+  const auto back = writtenAndRead(*made, writer, reader, parts);
+  ASSERT_TRUE(back);
+  ASSERT_EQ(back->instances.size(), 2U);
+  EXPECT_EQ(back->instances[0].shape->shared().of, back->instances[1].shape->shared().of);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Shape &was = *made->instances[i].shape, &is = *back->instances[i].shape;
+    ASSERT_EQ(is.count(), was.count());
+    EXPECT_EQ(is.bounds.min, was.bounds.min);
+    for (ElementId id = 0; id < is.count(); id += 7) ASSERT_EQ(is.source->corners(id), was.source->corners(id)) << id;
   }
 }
 

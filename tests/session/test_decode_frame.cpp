@@ -13,6 +13,7 @@
 #include "session/message_forms.h"
 #include "session/message_size.h"
 #include "surfaces/iso_surface.h"
+#include "surfaces/point_cloud.h"
 
 namespace hl {
 namespace {
@@ -200,6 +201,50 @@ TEST(DecodeFrame, DepthImagesThatMakeNoSenseAreRefused) {
 }
 
 // 3 x 2 x 2 samples, whose values are x.
+// In parts, as they come.
+TEST(DecodeFrame, CloudsBecomeTheirPoints) {
+  Uploads uploads;
+  for (int part = 0; part < 2; ++part) {
+    proto::Cloud& cloud = *uploads[4].emplace_back().mutable_cloud();
+    cloud.set_surfels(true);
+    for (const double x : {0.0, 1.0 + part, 0.5}) cloud.add_positions(x);
+    for (const float n : {0.0F, 1.0F, 0.0F}) cloud.add_normals(n);
+  }
+  proto::Frame frame;
+  frame.mutable_world()->add_items()->set_upload(4);
+  MemoryBudget memory(std::uint64_t{1} << 30);
+  {
+    const DecodedFrame made = decodeFrame(frame, uploads, SceneLimits(), memory, [](double) {}, {});
+    const auto& cloud = dynamic_cast<const PointCloud&>(*made.edit.world->at(0).shape->source);
+    EXPECT_EQ(cloud.points()->size(), 2U);
+    EXPECT_TRUE(cloud.surfels());
+    EXPECT_LT((cloud.trueNormal(0, {}) - Vec3::UnitY()).norm(), 1e-4);
+    EXPECT_GE(memory.used_bytes(), cloud.points()->bytes());
+  }
+  EXPECT_EQ(memory.used_bytes(), 0U);
+}
+
+TEST(DecodeFrame, CloudsThatMakeNoSenseAreRefused) {
+  const auto with = [](auto set) {
+    proto::Frame frame;
+    proto::Primitives& primitives = *frame.mutable_world()->add_items()->mutable_primitives();
+    for (const double x : {1.0, 2.0, 3.0}) primitives.mutable_cloud()->add_positions(x);
+    set(primitives);
+    return refusalOf(frame);
+  };
+  const std::string where = "world.items[0].primitives.cloud: ";
+  EXPECT_EQ(with([](auto&) {}), "accepted");
+  EXPECT_EQ(with([](auto& in) { in.mutable_cloud()->add_positions(1); }),
+            where + "positions must be three numbers for each point");
+  EXPECT_EQ(with([](auto& in) { in.mutable_cloud()->set_positions(1, NAN); }), where + "there are no points in it");
+  EXPECT_EQ(with([](auto& in) { in.mutable_cloud()->set_file("a.las"); }),
+            where + "a file of a cloud is named in scene files only");
+  EXPECT_EQ(with([](auto& in) { in.add_points(0); }),
+            "world.items[0].primitives: a cloud comes without vertices and elements");
+  EXPECT_EQ(with([](auto& in) { in.mutable_heights(); }),
+            "world.items[0].primitives: it has heights, a volume or a cloud, not several of them");
+}
+
 proto::Volume smallVolume() {
   proto::Volume volume;
   for (const std::uint32_t side : {3U, 2U, 2U}) volume.add_size(side);
@@ -271,7 +316,7 @@ TEST(DecodeFrame, VolumesThatMakeNoSenseAreRefused) {
   EXPECT_EQ(with([](auto&, auto& item) { item.mutable_primitives()->add_vertices(1); }),
             "world.items[0].primitives: a volume comes without vertices and elements");
   EXPECT_EQ(with([](auto&, auto& item) { item.mutable_primitives()->mutable_heights(); }),
-            "world.items[0].primitives: it has heights or a volume, not both");
+            "world.items[0].primitives: it has heights, a volume or a cloud, not several of them");
   EXPECT_EQ(with([](auto&, auto& item) {
               item.mutable_primitives()->clear_volume();
               item.set_iso(1);

@@ -1,0 +1,307 @@
+// Files of points: what is in them comes out as the formats say, and what is broken gives one line.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "io/file_ending.h"
+#include "io/load_model.h"
+#include "io/lzf.h"
+#include "io/read_clouds.h"
+#include "surfaces/point_cloud.h"
+#include "temp_folder.h"
+
+namespace hl {
+namespace {
+
+using test::fileWith;
+
+class CloudTaker final : public CloudSink {
+ public:
+  void header(const CloudHeader& given) override {
+    EXPECT_EQ(headers++, 0);
+    head = given;
+  }
+  void points(const CloudPiece& piece) override {
+    ASSERT_EQ(headers, 1);
+    for (const auto& at : piece.steps)
+      positions.push_back(head.lattice->origin + head.lattice->step.cwiseProduct(Vec3(at[0], at[1], at[2])));
+    positions.insert(positions.end(), piece.positions.begin(), piece.positions.end());
+    normals.insert(normals.end(), piece.normals.begin(), piece.normals.end());
+  }
+  void warn(const std::string& line) override { warnings.push_back(line); }
+
+  CloudHeader head;
+  int headers = 0;
+  std::vector<Vec3> positions;
+  std::vector<std::uint32_t> normals;
+  std::vector<std::string> warnings;
+};
+
+CloudTaker taken(const std::string& name, const std::string& bytes) {
+  const std::string path = fileWith(name, bytes);
+  CloudTaker taker;
+  readCloud({path, endingOf(path), false}, taker);
+  return taker;
+}
+
+std::string refusal(const std::string& name, const std::string& bytes) {
+  try {
+    taken(name, bytes);
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    return error.what();
+  }
+  return "";
+}
+
+template <typename Number>
+std::string bytesOf(Number number, bool swap = false) {
+  std::string bytes(reinterpret_cast<const char*>(&number), sizeof number);
+  if (swap) bytes.assign(bytes.rbegin(), bytes.rend());
+  return bytes;
+}
+
+const std::vector<Vec3> kPoints{{1, 2, 3}, {-4, 5.5, 6}, {0.25, -8, 9}};
+
+void expectPoints(const CloudTaker& cloud, bool normals) {
+  ASSERT_EQ(cloud.positions, kPoints);
+  ASSERT_EQ(cloud.normals.size(), normals ? 3U : 0U);
+  for (const std::uint32_t normal : cloud.normals) EXPECT_LT((unpackNormal(normal) - Vec3::UnitY()).norm(), 1e-4);
+}
+
+// A number before and after the coordinates, and normals.
+std::string records(bool swap, bool normals) {
+  std::string bytes;
+  for (const Vec3& p : kPoints) {
+    bytes += bytesOf(std::uint8_t{7});
+    for (const double x : p) bytes += bytesOf(static_cast<float>(x), swap);
+    for (const double n : {0.0, 2.0, 0.0}) bytes += normals ? bytesOf(n, swap) : "";
+    bytes += bytesOf(std::uint16_t{9}, swap);
+  }
+  return bytes;
+}
+
+std::string plyHeader(const std::string& format, bool normals) {
+  std::string text = "ply\nformat " + format + " 1.0\ncomment by a test\nelement vertex 3\nproperty uchar red\n";
+  for (const char* name : {"x", "y", "z"}) text += std::string("property float ") + name + "\n";
+  for (const char* name : {"nx", "ny", "nz"}) text += normals ? std::string("property double ") + name + "\n" : "";
+  return text + "property ushort quality\nelement face 0\nproperty list uchar int vertex_indices\nend_header\n";
+}
+
+TEST(ReadClouds, PlyOfPoints) {
+  for (const bool normals : {false, true}) {
+    expectPoints(taken("a.ply", plyHeader("binary_little_endian", normals) + records(false, normals)), normals);
+    expectPoints(taken("a.ply", plyHeader("binary_big_endian", normals) + records(true, normals)), normals);
+  }
+  expectPoints(taken("a.ply", plyHeader("ascii", false) + "7 1 2 3 9\n7 -4 5.5 6 9\r\n7 .25 -8 9 9\n"), false);
+  EXPECT_TRUE(isPlyOfPoints(fileWith("a.ply", plyHeader("ascii", false))));
+  EXPECT_FALSE(isPlyOfPoints(fileWith("a.ply",
+                                      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                                      "element face 1\nproperty list uchar int v\nend_header\n")));
+}
+
+TEST(ReadClouds, BrokenPlyIsRefused) {
+  const std::string whole = plyHeader("binary_little_endian", true) + records(false, true);
+  EXPECT_EQ(refusal("a.ply", whole.substr(0, whole.size() - 1)), "ends before its last sample");
+  EXPECT_EQ(refusal("a.ply", plyHeader("ascii", false) + "7 1 2 3 9\n"), "ends before its last sample");
+  EXPECT_EQ(refusal("a.ply", plyHeader("ascii", false) + "7 1 x 3 9\n"),
+            "is not a PLY file: 'x' is no number for a point");
+  EXPECT_EQ(refusal("a.ply", plyHeader("morse", false)), "is no sound PLY file: its format is 'morse'");
+  EXPECT_EQ(refusal("a.ply", "ply\nformat ascii 1.0\nelement vertex 9\nproperty float x\nend_header\n1\n"),
+            "has points without x, y and z");
+  EXPECT_EQ(refusal("a.ply", "ply\nelement vertex 3\n"), "is no sound PLY file: its header has no line end_header");
+}
+
+std::string pcdHeader(const std::string& data, bool normals) {
+  std::string text = "# .PCD v0.7\nVERSION 0.7\nFIELDS rgb x y z" +
+                     std::string(normals ? " normal_x normal_y normal_z" : "") + " label\nSIZE 1 4 4 4" +
+                     (normals ? " 8 8 8" : "") + " 2\nTYPE U F F F" + (normals ? " F F F" : "") + " U\nCOUNT 1 1 1 1" +
+                     (normals ? " 1 1 1" : "") + " 1\nWIDTH 3\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 3\nDATA " +
+                     data + "\n";
+  return text;
+}
+
+// Runs as they are, and one copy: five of the same letter.
+std::string lzf(const std::string& bytes) {
+  std::string packed;
+  for (std::size_t at = 0; at < bytes.size(); at += 32) {
+    const std::string run = bytes.substr(at, 32);
+    packed += static_cast<char>(run.size() - 1);
+    packed += run;
+  }
+  return packed;
+}
+
+TEST(ReadClouds, Pcd) {
+  for (const bool normals : {false, true})
+    expectPoints(taken("a.pcd", pcdHeader("binary", normals) + records(false, normals)), normals);
+  expectPoints(taken("a.pcd", pcdHeader("ascii", false) + "7 1 2 3 9\n7 -4 5.5 6 9\n7 .25 -8 9 9\n"), false);
+  EXPECT_EQ(taken("a.pcd", pcdHeader("ascii", false) + "7 nan nan nan 9\n7 1 2 3 9\n7 inf 1 1 9\n").positions.size(),
+            1U);
+}
+
+// Unpacked, all numbers of a field follow each other.
+TEST(ReadClouds, PackedPcd) {
+  std::string fields(3, '\7');
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const Vec3& p : kPoints) fields += bytesOf(static_cast<float>(p[axis]));
+  }
+  fields += std::string(6, '\0');
+  const std::string packed = lzf(fields);
+  const auto sizes = [&](std::size_t all) {
+    return bytesOf(static_cast<std::uint32_t>(packed.size())) + bytesOf(static_cast<std::uint32_t>(all));
+  };
+  const std::string header = pcdHeader("binary_compressed", false);
+  expectPoints(taken("a.pcd", header + sizes(fields.size()) + packed), false);
+  EXPECT_EQ(refusal("a.pcd", header + sizes(1000) + packed), "is no sound PCD file: it has 1000 bytes for 3 points");
+  EXPECT_EQ(refusal("a.pcd", header + sizes(fields.size()) + packed.substr(0, 20)), "ends before its last sample");
+}
+
+TEST(ReadClouds, LzfCopiesWhatCameBefore) {
+  const std::string packed{'\2', 'a',    'b',  'c', '\x60',
+                           '\2', '\xe0', '\1', '\0'};  // 3 + 2 back by 3; 7 + 1 + 2 back by 1
+  std::string out(3 + 5 + 10, ' ');
+  unpackLzf(packed, out);
+  EXPECT_EQ(out, "abcabcabbbbbbbbbbb");
+  for (std::size_t i = 0; i < packed.size(); ++i)
+    EXPECT_THROW(unpackLzf(std::string_view(packed).substr(0, i), out), Error);
+  std::string small(17, ' ');
+  EXPECT_THROW(unpackLzf(packed, small), Error);
+  EXPECT_THROW(unpackLzf(std::string{'\x20', '\0'}, out), Error) << "nothing came before";
+}
+
+TEST(ReadClouds, BrokenPcdIsRefused) {
+  EXPECT_EQ(refusal("a.pcd", pcdHeader("binary", false) + records(false, false).substr(1)),
+            "ends before its last sample");
+  EXPECT_EQ(refusal("a.pcd", "FIELDS x y z\nSIZE 4 4\n"), "is no sound PCD file: SIZE needs a word for each of FIELDS");
+  EXPECT_EQ(refusal("a.pcd", "FIELDS x y z\n"), "is no sound PCD file: its header has no line DATA");
+  EXPECT_EQ(refusal("a.pcd", "FIELDS a b\nPOINTS 3\nDATA ascii\n"), "has points without x, y and z");
+  EXPECT_EQ(refusal("a.pcd", "FIELDS x y z\nPOINTS many\n"), "is no sound PCD file: 'many' is no number");
+  EXPECT_EQ(refusal("a.pcd", "FIELDS x y z\nPOINTS 1\nDATA zip\n"),
+            "is no sound PCD file: its DATA is 'zip', not ascii, binary or binary_compressed");
+}
+
+struct Las {
+  int minor = 2, format = 0;
+  std::size_t record_bytes = 20;
+  bool packed = false;
+  std::vector<std::array<std::int32_t, 3>> points{{100, 200, 300}, {-1, 0, 1}, {2147483647, -2147483647 - 1, 5}};
+
+  std::string bytes() const {
+    const std::size_t size = minor >= 4 ? 375 : 227, first = size + 54;  // a record between
+    std::string all(first, '\0');
+    const auto put = [&](std::size_t at, const auto& value) { std::memcpy(all.data() + at, &value, sizeof value); };
+    std::memcpy(all.data(), "LASF", 4);
+    put(24, std::uint8_t{1});
+    put(25, static_cast<std::uint8_t>(minor));
+    put(94, static_cast<std::uint16_t>(size));
+    put(96, static_cast<std::uint32_t>(first));
+    put(104, static_cast<std::uint8_t>(format + (packed ? 128 : 0)));
+    put(105, static_cast<std::uint16_t>(record_bytes));
+    put(107, static_cast<std::uint32_t>(minor >= 4 ? 0 : points.size()));
+    put(131, std::array<double, 6>{0.01, 0.01, 0.001, 500'000, 4'100'000, 0});
+    if (minor >= 4) put(247, static_cast<std::uint64_t>(points.size()));
+    for (const auto& point : points) {
+      const std::size_t at = all.size();
+      all.append(record_bytes, '\0');
+      put(at, point);
+    }
+    return all;
+  }
+};
+
+TEST(ReadClouds, LasOfAllFormats) {
+  constexpr std::array<std::size_t, 11> kRecordBytes{20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
+  for (int format = 0; format < 11; ++format) {
+    Las las;
+    las.minor = format < 4 ? format : 4;
+    las.format = format;
+    las.record_bytes = kRecordBytes[static_cast<std::size_t>(format)] + (format % 2 == 0 ? 0 : 5);
+    const CloudTaker cloud = taken("a.las", las.bytes());
+    ASSERT_EQ(cloud.positions.size(), 3U) << format;
+    EXPECT_LT((cloud.positions[0] - Vec3(500'001, 4'100'002, 0.3)).norm(), 1e-9);
+    EXPECT_EQ(cloud.head.turn * Vec3(1, 2, 3), Vec3(1, 3, -2)) << "east, up, south";
+  }
+}
+
+TEST(ReadClouds, BrokenLasIsRefused) {
+  const std::string whole = Las().bytes();
+  EXPECT_EQ(refusal("a.las", whole.substr(0, whole.size() - 1)), "ends before its last sample");
+  EXPECT_EQ(refusal("a.las", whole.substr(0, 100)), "ends before its last sample");
+  EXPECT_EQ(refusal("a.las", "LAZY" + whole.substr(4)), "is not a LAS file");
+  Las packed, odd;
+  packed.packed = true;
+  EXPECT_EQ(refusal("a.las", packed.bytes()),
+            "is packed LAS, which cannot be read: unpack it, as in laszip -i a.laz -o a.las");
+  odd.format = 11;
+  EXPECT_EQ(refusal("a.las", odd.bytes()), "has points of format 11 in 20 bytes: formats 0 to 10 can be read");
+  std::string flat = whole;
+  std::memset(flat.data() + 131, 0, 8);
+  EXPECT_EQ(refusal("a.las", flat), "is no sound LAS file: its scale is not above 0, or its offset is no number");
+}
+
+TEST(ReadClouds, DeletedPointsOfLasAreLeftOut) {
+  std::string bytes = Las().bytes();
+  bytes[227 + 54 + 20 + 15] = '\x80';
+  const CloudTaker cloud = taken("a.las", bytes);
+  EXPECT_EQ(cloud.positions.size(), 2U);
+  EXPECT_EQ(cloud.warnings, std::vector<std::string>{"left out 1 points that are marked as withheld"});
+}
+
+TEST(ReadClouds, Xyz) {
+  expectPoints(taken("a.xyz", "3\n# x y z\n1 2 3\n-4,5.5,6\n\n.25;-8;9;255\n"), false);
+  expectPoints(taken("a.xyz", "1 2 3 0 1 0\n-4 5.5 6 0 1 0\n.25 -8 9 0 1 0\n"), true);
+  expectPoints(taken("a.xyz", "1 2 3 255 0 12\n-4 5.5 6 0 1 0\n.25 -8 9 0 1 0"), false);
+  EXPECT_EQ(refusal("a.xyz", "3\nwater\nO 0 0 0\n"), "is no list of points: line 2 is 'water', and a point is x y z");
+}
+
+std::string loadRefusal(const std::string& path) {
+  try {
+    loadModelScene(path);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// Through the child process, as users have it.
+TEST(ReadClouds, AFileBecomesACloud) {
+  const SceneModel scene =
+      loadModelScene(fileWith("far.las", Las{2, 0, 20, false, {{0, 0, 0}, {100, 0, 0}, {0, 100, 50}}}.bytes()));
+  ASSERT_EQ(scene.surfaces.size(), 1U);
+  const auto& cloud = dynamic_cast<const PointCloud&>(*scene.surfaces[0].source);
+  EXPECT_EQ(cloud.points()->size(), 3U);
+  EXPECT_EQ(cloud.error_m(), 0);
+  EXPECT_LT(cloud.bounds().centre().norm(), 1e-9);
+  EXPECT_LT((cloud.bounds().size() - Vec3(1, 0.05, 1)).norm(), 1e-9);
+  ASSERT_EQ(scene.model.warnings.size(), 1U);
+  EXPECT_EQ(scene.model.warnings[0],
+            "lies far from the origin of its file: its middle, 500000.5 4100000.5 0.025 there, is put at the origin");
+}
+
+TEST(ReadClouds, WhatCannotBeReadSaysWhatToDo) {
+  const std::string laz = fileWith("a.laz", "LASF"), e57 = fileWith("a.e57", "ASTM-E57");
+  EXPECT_EQ(loadRefusal(laz), laz + ": is packed LAS, which cannot be read: unpack it, as in laszip -i a.laz -o a.las");
+  EXPECT_EQ(loadRefusal(e57), e57 + ": is E57, which cannot be read: convert it to PLY or LAS, as CloudCompare does");
+  const std::string none = fileWith("none.xyz", "# nothing\n");
+  EXPECT_EQ(loadRefusal(none), none + ": there are no points in it");
+}
+
+// A file that was not made here, from the package assimp-testmodels.
+TEST(ReadClouds, ARealPlyOfPoints) {
+  const std::string path = "/usr/share/assimp/models/PLY/points.ply";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+  const SceneModel scene = loadModelScene(path);
+  ASSERT_EQ(scene.surfaces.size(), 1U);
+  EXPECT_EQ(dynamic_cast<const PointCloud&>(*scene.surfaces[0].source).points()->size(), 4U);
+  EXPECT_EQ(loadModel(path).points.size(), 4U) << "as a mesh its points are primitives of it";
+}
+
+}  // namespace
+}  // namespace hl
