@@ -183,6 +183,25 @@ void addWhatOptions(CLI::App& command, BenchOptions& options) {
       "in by scripts/build --peers");
 }
 
+// Surfaces that are no meshes, in the place of scenes.
+void addSourceOptions(CLI::App& command, BenchOptions& options) {
+  command
+      .add_option("--fields", options.fields,
+                  "height fields instead, of 10 000 triangles, ten times as many, and so on up to this number; takes "
+                  "--radius, --ticks and --csv")
+      ->check(CLI::Range(std::size_t{1000}, std::size_t{100'000'000'000}));
+  command
+      .add_option("--clouds", options.clouds,
+                  "clouds of points instead, of 10 000 points, ten times as many, and so on up to this number; takes "
+                  "--radius, --ticks and --csv")
+      ->check(CLI::Range(std::size_t{1000}, std::size_t{100'000'000}));
+  command
+      .add_option("--volumes", options.volumes,
+                  "surfaces of volumes instead, of 128 samples a side, twice as many, and so on up to this number; "
+                  "takes --radius, --ticks and --csv")
+      ->check(CLI::Range(8, 1025));
+}
+
 }  // namespace
 
 void addBenchCommand(CLI::App& app) {
@@ -202,21 +221,7 @@ void addBenchCommand(CLI::App& app) {
       ->check(CLI::Range(1000, 10'000'000))
       ->capture_default_str();
   command->add_option("--csv", options->csv, "also write the table to this file")->option_text("FILE");
-  command
-      ->add_option("--fields", options->fields,
-                   "height fields instead, of 10 000 triangles, ten times as many, and so on up to this number; takes "
-                   "--radius, --ticks and --csv")
-      ->check(CLI::Range(std::size_t{1000}, std::size_t{100'000'000'000}));
-  command
-      ->add_option("--clouds", options->clouds,
-                   "clouds of points instead, of 10 000 points, ten times as many, and so on up to this number; takes "
-                   "--radius, --ticks and --csv")
-      ->check(CLI::Range(std::size_t{1000}, std::size_t{100'000'000}));
-  command
-      ->add_option("--volumes", options->volumes,
-                   "surfaces of volumes instead, of 128 samples a side, twice as many, and so on up to this number; "
-                   "takes --radius, --ticks and --csv")
-      ->check(CLI::Range(8, 1025));
+  addSourceOptions(*command, *options);
   auto* bodies = command->add_flag("--bodies", options->bodies,
                                    "steps of bodies instead: a stack, a pile and a cube that a finger pushes");
   for (const CLI::Option* other : command->get_options()) {

@@ -196,7 +196,7 @@ void printVolume(const IsoSurface& surface) {
 
 void printCloud(const PointCloud& cloud) {
   const CloudPoints& points = *cloud.points();
-  const double spacing_m = cloud.largestStretch() * points.usualSpacing();
+  const double spacing_m = cloud.spacing();
   const auto bytes = static_cast<double>(points.bytes());
   fmt::print(
       "cloud:      {} points, about {:.4g} m apart, within {:.3g} m of those of the source; {:.1f} bytes a point\n",

@@ -10,6 +10,7 @@
 
 #include "base/plain_math.h"
 #include "base/splitmix64.h"
+#include "surfaces/cloud_maker.h"
 
 namespace hl {
 

@@ -55,8 +55,8 @@ HL_API HLbatchScene* hlBatchMakeHeights(size_t columns, size_t rows, HLenum type
 HL_API HLbatchScene* hlBatchMakeVolume(const size_t* size, HLenum type, const void* samples, const HLdouble* missing,
                                        const HLdouble* spacing, size_t surfaces, const HLdouble* iso);
 /** A cloud of `count` points, x y z each, m. `normals`, one a point and of either sign, are for smooth shading; NULL:
- * those of the plane through the 12 nearest points. `reach` 0: the points alone are touched; 0.01 to 10: each is a small
- * hexagon across its normal around a disc of so many distances between neighbours. NULL when that fails. */
+ * those of the plane through the 12 nearest points. `reach` 0: the points alone are touched; 0.01 to 10: each is a
+ * small hexagon across its normal around a disc of so many distances between neighbours. NULL when that fails. */
 HL_API HLbatchScene* hlBatchMakePoints(const HLdouble* points, const HLdouble* normals, size_t count, HLdouble reach);
 /** Fingers that were made with the scene keep it. NULL: nothing happens. */
 HL_API void hlBatchDeleteScene(HLbatchScene* scene);

@@ -24,6 +24,7 @@
 #include "io/load_scene.h"
 #include "io/read_heights.h"
 #include "scene/scene_model.h"
+#include "surfaces/cloud_maker.h"
 #include "surfaces/height_field.h"
 #include "surfaces/point_cloud.h"
 #include "surfaces/sample_room.h"

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "io/cloud_sink.h"
+#include "surfaces/cloud_maker.h"
 #include "surfaces/point_cloud.h"
 
 namespace hl {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "surfaces/cloud_maker.h"
 
 namespace hl {
 

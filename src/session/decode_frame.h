@@ -11,14 +11,12 @@
 #include <vector>
 
 #include "scene/editable_scene.h"
+#include "session/message_size.h"
 
 namespace hl {
 
 /// What a client has sent ahead of a frame, by the ids it chose, in the parts that it came in.
 using Uploads = std::map<std::uint64_t, std::list<proto::Primitives>>;
-
-/// Memory that a message takes, with malloc()'s own; `counted` is its SpaceUsedLong().
-inline std::uint64_t bytesOfMessage(std::uint64_t counted) { return counted + counted / 4; }
 
 /// The items that an object has so far, null where there is none; object 0 is the world. A shape that comes in the
 /// place of another follows on it: see makeShape.

@@ -9,18 +9,18 @@ namespace hl {
 
 namespace {
 
-auto walkIn(const PointCloud& cloud, const Vec3& scale) {
+auto walkIn(const PlacedCloud& cloud, const Vec3& scale) {
   return [&cloud, &scale](const GridBall& ball, const auto& visit) { return CloudWalk(cloud, scale, ball).run(visit); };
 }
 
 }  // namespace
 
-CloudIndex::CloudIndex(const PointCloud& cloud)
+CloudIndex::CloudIndex(const PlacedCloud& cloud)
     : cloud_(cloud),
       metric_(cloud.frame()),
       scale_(shortestStep(cloud.frame())),
       extent_(cloud.bounds().min.cwiseAbs().cwiseMax(cloud.bounds().max.cwiseAbs()).maxCoeff()),
-      cell_(cloud.largestStretch() * cloud.points()->usualSpacing()) {}
+      cell_(cloud.stretch() * cloud.points()->usualSpacing()) {}
 
 std::size_t CloudIndex::overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId)> visit) const {
   const GridBall ball(metric_, centre, Vec3::Zero(), reachOf(radius, centre, Vec3::Zero(), extent_));

@@ -5,14 +5,14 @@
 
 #include "geometry/spatial_index.h"
 #include "surfaces/grid_ball.h"
-#include "surfaces/point_cloud.h"
+#include "surfaces/placed_cloud.h"
 
 namespace hl {
 
 class CloudIndex final : public SpatialIndex {
  public:
   /// The cloud must outlive it. Takes no memory: the bounds are those of its points.
-  explicit CloudIndex(const PointCloud& cloud);
+  explicit CloudIndex(const PlacedCloud& cloud);
 
   std::size_t overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId primitive)> visit) const override;
   std::size_t sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
@@ -22,7 +22,7 @@ class CloudIndex final : public SpatialIndex {
   IndexStats stats() const override;
 
  private:
-  const PointCloud& cloud_;
+  const PlacedCloud& cloud_;
   const GridMetric metric_;
   const Vec3 scale_;            // shortestStep()
   const double extent_, cell_;  // m: largest absolute coordinate, and spacing of the points

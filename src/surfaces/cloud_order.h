@@ -2,12 +2,19 @@
 // block, and kPerNode blocks, nodes and so on a small node.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "surfaces/cloud_points.h"
 
 namespace hl {
+
+/// A point by its steps along the axes of the lattice, and its normal (packed_normal.h).
+struct LatticePoint {
+  std::array<std::int32_t, 3> at;
+  std::uint32_t normal;
+};
 
 /// By coordinates, each place once. The order in which the points came does not matter.
 void sortPoints(std::vector<LatticePoint>& points);

@@ -5,8 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <optional>
 #include <vector>
 
 #include "base/huge_pages.h"
@@ -14,12 +12,6 @@
 #include "surfaces/packed_normal.h"
 
 namespace hl {
-
-/// A point by its steps along the axes of the lattice, and its normal (packed_normal.h).
-struct LatticePoint {
-  std::array<std::int32_t, 3> at;
-  std::uint32_t normal;
-};
 
 /// p = origin + step * at, for each axis. Metres.
 struct CloudLattice {
@@ -31,7 +23,8 @@ struct LatticeBox {
   std::array<std::int32_t, 3> low, high;
 };
 
-/// Immutable; made by makeCloud(). Slots are numbered kPerBlock to a block, whose last ones may be empty. RT-safe.
+/// Immutable; made by makeCloud() of cloud_maker.h. Slots are numbered kPerBlock to a block, whose last ones may be
+/// empty. RT-safe.
 class CloudPoints {
  public:
   static constexpr std::size_t kPerBlock = 16, kPerNode = 8;
@@ -80,27 +73,6 @@ class CloudPoints {
   std::vector<HugeVector<LatticeBox>> nodes_;         // from the blocks up
   std::array<double, 256> spacings_{};                // m
 };
-
-/// What a cloud is made of.
-struct CloudInput {
-  std::vector<LatticePoint> points;
-  CloudLattice lattice;
-  /// Whether it is the lattice of the source: points lie on it exactly. Else it is finer than needed.
-  bool exact = false;
-  /// As exact, and came from a cloud that was made before: nothing is rounded.
-  bool made_before = false;
-};
-
-/// Positions in metres on a lattice that is as fine as 32 bits allow; `normals`: one each, or none. Throws hl::Error
-/// where they lie too far out; what is not finite is left out and counted in `skipped`.
-CloudInput onFineLattice(const std::vector<Vec3>& positions, const std::vector<std::uint32_t>& normals,
-                         std::size_t& skipped);
-
-/// Points that are the same are one. Normals that lack are those of the plane through the nearest kNeighbours points.
-/// The order of the points does not matter. Throws hl::Error if there are none. On all threads of oneTBB.
-std::shared_ptr<const CloudPoints> makeCloud(CloudInput input);
-
-inline constexpr std::size_t kNeighbours = 12;
 
 // Inline, as each query reads many of them.
 

@@ -11,7 +11,7 @@ namespace hl {
 /// The nearest points so far, nearest first. Metres along the axes of the lattice, from its first point.
 class NearestPoints {
  public:
-  static constexpr std::size_t kMost = kNeighbours + 1;  // with the point itself
+  static constexpr std::size_t kNeighbours = 12, kMost = kNeighbours + 1;  // with the point itself
 
   std::size_t size() const { return size_; }
   const Vec3& operator[](std::size_t i) const { return at_[i]; }

@@ -13,14 +13,14 @@
 #include <utility>
 
 #include "surfaces/ball_boxes.h"
-#include "surfaces/point_cloud.h"
+#include "surfaces/placed_cloud.h"
 
 namespace hl {
 
 class CloudWalk {
  public:
   /// `scale`: shortestStep() of the cloud's frame.
-  CloudWalk(const PointCloud& cloud, const Vec3& scale, const GridBall& ball)
+  CloudWalk(const PlacedCloud& cloud, const Vec3& scale, const GridBall& ball)
       : cloud_(cloud),
         points_(*cloud.points()),
         ball_(ball),
@@ -116,7 +116,7 @@ class CloudWalk {
 
   static constexpr double kRounding = 1e-9;  // of sizes, and of a way
 
-  const PointCloud& cloud_;
+  const PlacedCloud& cloud_;
   const CloudPoints& points_;
   const GridBall& ball_;
   const BallBoxes boxes_;

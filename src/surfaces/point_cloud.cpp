@@ -1,100 +1,31 @@
 #include "surfaces/point_cloud.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "base/error.h"
-#include "geometry/primitive.h"
 #include "surfaces/cloud_index.h"
 
 namespace hl {
 
 namespace {
 
-// Cosine and sine of the corners of a hexagon.
-constexpr double kHigh = 0.8660254037844386;
-constexpr std::array<std::array<double, 2>, PointCloud::kSides> kHexagon{
-    {{1, 0}, {0.5, kHigh}, {-0.5, kHigh}, {-1, 0}, {-0.5, -kHigh}, {0.5, -kHigh}}};
-
 GridFrame frameOf(const CloudLattice& lattice) { return {lattice.step.asDiagonal(), lattice.origin}; }
 
-// T. Duff et al., Building an Orthonormal Basis, Revisited (2017).
-std::array<Vec3, 2> acrossOf(const Vec3& n) {
-  const double sign = n.z() < 0 ? -1 : 1, a = -1 / (sign + n.z()), b = n.x() * n.y() * a;
-  return {Vec3(1 + sign * n.x() * n.x() * a, sign * b, -sign * n.x()), Vec3(b, sign + n.y() * n.y() * a, -n.y())};
-}
-
 }  // namespace
+
+PointCloud::PointCloud(std::shared_ptr<const CloudPoints> points, const GridFrame& frame, const CloudLook& look)
+    : cloud_(std::move(points), frame, look) {}
 
 PointCloud::PointCloud(const std::shared_ptr<const CloudPoints>& points, const CloudLook& look)
     : PointCloud(points, frameOf(points->lattice()), look) {}
 
-PointCloud::PointCloud(std::shared_ptr<const CloudPoints> points, const GridFrame& frame, const CloudLook& look)
-    : points_(std::move(points)), frame_(frame), look_(look) {
-  constexpr double kLeastReach = 0.01, kMostReach = 10;
-  if (!(look.reach >= kLeastReach && look.reach <= kMostReach))
-    throw Error("a surfel reaches from 0.01 to 10 times the spacing");
-  linear_ = frame.axes * points_->lattice().step.cwiseInverse().asDiagonal();
-  const Vec3 sizes = linear_.jacobiSvd().singularValues();
-  constexpr double kFlattest = 1e-6;
-  if (!linear_.allFinite() || !frame.origin.allFinite() || !(sizes[2] > kFlattest * sizes[0]))
-    throw Error("the axes of a cloud must be numbers, and must not flatten it");
-  stretch_ = sizes[0];
-  for_normals_ = linear_.inverse().transpose();
-  mirrored_ = linear_.determinant() < 0;
-  const LatticeBox box = points_->box(points_->levels() - 1, 0);
-  for (unsigned c = 0; c < 8; ++c) {
-    const auto at = [&](std::size_t axis) { return (c >> axis & 1U) != 0 ? box.high[axis] : box.low[axis]; };
-    bounds_.extend(frame_.point(at(0), at(1), at(2)));
-  }
-  if (!withinReach(bounds_.min) || !withinReach(bounds_.max)) throw Error("a cloud reaches beyond 1e9 m");
-  // A surfel is never so small that rounding flattens it.
-  constexpr double kOfCoordinates = 1e-10, kRoundingOfThem = 1e-15;
-  const double extent = bounds_.min.cwiseAbs().cwiseMax(bounds_.max.cwiseAbs()).maxCoeff();
-  least_radius_ = kOfCoordinates * extent / sizes[2];
-  rounding_ = kRoundingOfThem * extent;
-  if (!surfels()) return;
-  for (std::size_t block = 0; block < points_->blocks(); ++block)
-    largest_reach_ = std::max(largest_reach_, reachOf(block));
-  bounds_.min.array() -= largest_reach_;
-  bounds_.max.array() += largest_reach_;
-}
+std::unique_ptr<const SpatialIndex> PointCloud::makeIndex() const { return std::make_unique<CloudIndex>(cloud_); }
 
-double PointCloud::circumradius(std::size_t block) const {
-  return std::max(least_radius_, look_.reach / kHigh * points_->spacing(block));
-}
-
-Vec3 PointCloud::pointAt(std::size_t slot) const {
-  const Vec3 at = points_->at(slot);
-  return frame_.point(at.x(), at.y(), at.z());
-}
-
-Vec3 PointCloud::corner(std::size_t slot, std::size_t number, double larger) const {
-  const std::array<Vec3, 2> across = acrossOf(unpackNormal(points_->normal(slot)));
-  const double radius = larger * circumradius(slot / CloudPoints::kPerBlock);
-  const Vec3 way = kHexagon[number][0] * across[0] + kHexagon[number][1] * across[1];
-  return pointAt(slot) + radius * (linear_ * way);
-}
-
-std::array<Vec3, 3> PointCloud::corners(ElementId id) const {
-  if (!surfels()) {
-    const Vec3 point = pointAt(id);
-    return {point, point, point};
-  }
-  const std::size_t slot = id / kPerSurfel, second = 1 + id % kPerSurfel;
-  std::array<std::size_t, 3> number{0, second, second + 1};
-  if (mirrored_) std::swap(number[1], number[2]);
-  return {corner(slot, number[0], 1), corner(slot, number[1], 1), corner(slot, number[2], 1)};
-}
-
-std::unique_ptr<const SpatialIndex> PointCloud::makeIndex() const { return std::make_unique<CloudIndex>(*this); }
-
-double PointCloud::error_m() const { return stretch_ * points_->error_m(); }
+double PointCloud::error_m() const { return cloud_.stretch() * points()->error_m(); }
 
 std::shared_ptr<const PrimitiveSource> PointCloud::placed(const Mat3& linear, const Vec3& offset) const {
-  return std::make_shared<const PointCloud>(points_, frame_.placed(linear, offset), look_);
+  return std::make_shared<const PointCloud>(points(), frame().placed(linear, offset), look());
 }
 
 // Each second, third ... point; surfels are then drawn larger, so that they cover as much.
@@ -103,20 +34,21 @@ DrawnMesh PointCloud::drawn(std::size_t most) const {
   const double larger = std::sqrt(static_cast<double>(step));
   DrawnMesh mesh;
   std::size_t number = 0;
-  for (std::size_t slot = 0; slot < points_->blocks() * CloudPoints::kPerBlock; ++slot) {
-    if (slot % CloudPoints::kPerBlock >= points_->countIn(slot / CloudPoints::kPerBlock) || number++ % step != 0)
+  for (std::size_t slot = 0; slot < points()->blocks() * CloudPoints::kPerBlock; ++slot) {
+    if (slot % CloudPoints::kPerBlock >= points()->countIn(slot / CloudPoints::kPerBlock) || number++ % step != 0)
       continue;
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    const std::size_t vertices = surfels() ? kSides : 1;
-    mesh.normals.insert(mesh.normals.end(), vertices, trueNormal(slot * perPoint(), Vec3::Zero()));
+    const std::size_t vertices = surfels() ? PlacedCloud::kSides : 1;
+    mesh.normals.insert(mesh.normals.end(), vertices, cloud_.normalAt(slot));
     if (!surfels()) {
-      mesh.positions.push_back(pointAt(slot));
+      mesh.positions.push_back(cloud_.pointAt(slot));
       mesh.points.push_back(first);
       continue;
     }
-    for (std::size_t i = 0; i < kSides; ++i) mesh.positions.push_back(corner(slot, i, larger));
-    for (std::uint32_t i = 1; i <= kPerSurfel; ++i)
-      mesh.triangles.push_back({first, first + i + (mirrored_ ? 1 : 0), first + i + (mirrored_ ? 0 : 1)});
+    for (std::size_t i = 0; i < PlacedCloud::kSides; ++i) mesh.positions.push_back(cloud_.corner(slot, i, larger));
+    for (std::uint32_t i = 1; i <= PlacedCloud::kPerSurfel; ++i)
+      mesh.triangles.push_back(
+          {first, first + i + (cloud_.mirrored() ? 1 : 0), first + i + (cloud_.mirrored() ? 0 : 1)});
   }
   return mesh;
 }

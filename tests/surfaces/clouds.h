@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/scenes.h"
+#include "surfaces/cloud_maker.h"
 #include "surfaces/point_cloud.h"
 
 namespace hl::test {

@@ -14,7 +14,7 @@ namespace {
 using test::Random;
 
 test::TestBall randomBall(Random& random, const PointCloud& cloud) {
-  const double spacing = cloud.largestStretch() * cloud.points()->usualSpacing();
+  const double spacing = cloud.spacing();
   const std::size_t slot =
       static_cast<std::size_t>(random.below(static_cast<int>(cloud.points()->blocks()))) * CloudPoints::kPerBlock;
   const Vec3 near = cloud.corners(slot * cloud.perPoint())[0];
@@ -30,7 +30,7 @@ TEST(CloudIndex, TheNearestPrimitiveIsThatOfTheMesh) { test::expectNearestOfMesh
 // A sheet of 250 000 points: few boxes and points are looked at, and nothing is allocated.
 TEST(CloudIndex, AQueryLooksAtFewPoints) {
   const PointCloud cloud(test::cloudOf(test::squareGrid(500, 0.5e-3)), CloudLook{});
-  const CloudIndex index(cloud);
+  const CloudIndex index(cloud.cloud());
   Random random(4);
   std::size_t looked = 0, visited = 0;
   for (int i = 0; i < 200; ++i) {

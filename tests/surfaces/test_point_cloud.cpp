@@ -1,4 +1,5 @@
 // What a cloud keeps of its points, and the planes and surfels that it makes of them.
+#include "surfaces/cloud_maker.h"
 #include "surfaces/point_cloud.h"
 
 #include <gtest/gtest.h>
@@ -112,7 +113,7 @@ TEST(CloudPoints, TheNearestPointsAreThoseOfAllPoints) {
         square.push_back(step.cwiseProduct(points->at(other) - points->at(slots[i])).squaredNorm());
       std::sort(square.begin(), square.end());
       const NearestPoints nearest = search.around(slots[i]);
-      ASSERT_EQ(nearest.size(), std::min<std::size_t>(slots.size(), kNeighbours + 1));
+      ASSERT_EQ(nearest.size(), std::min<std::size_t>(slots.size(), NearestPoints::kNeighbours + 1));
       ASSERT_NEAR(nearest.farthest(), square[nearest.size() - 1], 1e-12);
     }
   }
@@ -169,7 +170,7 @@ TEST(PointCloud, SurfelsHaveTrianglesAtAllScales) {
         ASSERT_TRUE(isTriangle(a, b, c));
         const Vec3 side = (b - a).cross(c - a).normalized();
         ASSERT_GT(side.dot(cloud->trueNormal(4 * slot + i, a)), 0.99);
-        ASSERT_LE((a - b).norm(), 2 * cloud->reachOf(slot / CloudPoints::kPerBlock) * (1 + 1e-5));
+        ASSERT_LE((a - b).norm(), 2 * cloud->cloud().reachOf(slot / CloudPoints::kPerBlock) * (1 + 1e-5));
       }
     }
   }

@@ -1,0 +1,215 @@
+#include "surfaces/cloud_maker.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "base/error.h"
+#include "geometry/box.h"
+#include "geometry/primitive.h"
+#include "surfaces/cloud_order.h"
+#include "surfaces/cloud_search.h"
+
+namespace hl {
+
+namespace {
+
+constexpr const char* kNoPoints = "there are no points in it";
+constexpr std::size_t kGrain = 256;  // blocks for one thread at a time
+using Range = oneapi::tbb::blocked_range<std::size_t>;
+
+// So many codes of spacings are an octave; those from kUsual on are larger than is usual.
+constexpr double kCodeRatio = 1.0442737824274138;  // 2^(1/16)
+constexpr int kUsual = 223;                        // kept spacings reach from 2^-14 to 2^2 times the usual one
+
+}  // namespace
+
+/// Fills the lists of a cloud.
+class CloudMaker {
+ public:
+  explicit CloudMaker(CloudInput input) : input_(std::move(input)), cloud_(std::make_shared<CloudPoints>()) {}
+
+  std::shared_ptr<const CloudPoints> make() {
+    order();
+    pack();
+    addNodes();
+    measure();
+    return std::move(cloud_);
+  }
+
+ private:
+  static constexpr std::size_t kPerBlock = CloudPoints::kPerBlock, kPerNode = CloudPoints::kPerNode;
+
+  void order();
+  void pack();
+  void addBlock(std::span<const LatticePoint> points);
+  void addNodes();
+  void measure();
+  double lookAround(const CloudSearch& search, std::size_t block);
+
+  CloudInput input_;
+  std::shared_ptr<CloudPoints> cloud_;
+};
+
+void CloudMaker::order() {
+  sortPoints(input_.points);
+  arrangePoints(input_.points, input_.lattice.step);
+  const int powers = input_.made_before ? 0 : coarserBy(input_.points);
+  if (powers > 0) {
+    coarsen(input_.points, input_.lattice, powers);
+    sortPoints(input_.points);
+    arrangePoints(input_.points, input_.lattice.step);
+  }
+  cloud_->lattice_ = input_.lattice;
+  cloud_->size_ = input_.points.size();
+  if (!input_.exact || powers > 0) cloud_->error_m_ = 0.5 * input_.lattice.step.norm();
+}
+
+// A block ends early where its points are too far apart for 16 bits.
+void CloudMaker::pack() {
+  constexpr std::int64_t kWidest = 0xffff;
+  std::vector<LatticePoint>& points = input_.points;
+  const std::size_t runs = (points.size() + kPerBlock - 1) / kPerBlock;
+  cloud_->blocks_.reserve(runs);
+  cloud_->offsets_.reserve(runs * kPerBlock);
+  cloud_->normals_.reserve(runs * kPerBlock);
+  for (std::size_t first = 0; first < points.size(); first += kPerBlock) {
+    const std::span<LatticePoint> run = std::span(points).subspan(first, std::min(kPerBlock, points.size() - first));
+    std::sort(run.begin(), run.end(), [](const LatticePoint& a, const LatticePoint& b) { return a.at < b.at; });
+    std::size_t begin = 0;
+    LatticeBox box{run[0].at, run[0].at};
+    for (std::size_t i = 1; i < run.size(); ++i) {
+      bool wide = false;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.low[axis] = std::min(box.low[axis], run[i].at[axis]);
+        box.high[axis] = std::max(box.high[axis], run[i].at[axis]);
+        wide = wide || std::int64_t{box.high[axis]} - box.low[axis] > kWidest;
+      }
+      if (!wide) continue;
+      addBlock(run.subspan(begin, i - begin));
+      box = {run[i].at, run[i].at};
+      begin = i;
+    }
+    addBlock(run.subspan(begin));
+  }
+  points = {};
+  cloud_->blocks_.shrink_to_fit();
+  cloud_->offsets_.shrink_to_fit();
+  cloud_->normals_.shrink_to_fit();
+}
+
+void CloudMaker::addBlock(std::span<const LatticePoint> points) {
+  CloudPoints::Block block{points[0].at, {}, static_cast<std::uint8_t>(points.size()), kUsual};
+  for (const LatticePoint& point : points) {
+    for (std::size_t axis = 0; axis < 3; ++axis) block.low[axis] = std::min(block.low[axis], point.at[axis]);
+  }
+  const std::size_t first = kPerBlock * cloud_->blocks_.size();
+  cloud_->offsets_.resize(first + kPerBlock, std::array<std::uint16_t, 3>{});
+  cloud_->normals_.resize(first + kPerBlock, kNoNormal);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto offset = static_cast<std::uint16_t>(points[i].at[axis] - block.low[axis]);
+      cloud_->offsets_[first + i][axis] = offset;
+      block.size[axis] = std::max(block.size[axis], offset);
+    }
+    cloud_->normals_[first + i] = points[i].normal;
+  }
+  cloud_->blocks_.push_back(block);
+}
+
+void CloudMaker::addNodes() {
+  for (int level = 0; cloud_->countOn(level) > 1; ++level) {
+    const std::size_t parts = cloud_->countOn(level);
+    HugeVector<LatticeBox> nodes;
+    nodes.reserve((parts + kPerNode - 1) / kPerNode);
+    for (std::size_t first = 0; first < parts; first += kPerNode) {
+      LatticeBox box = cloud_->box(level, first);
+      for (std::size_t i = first + 1; i < std::min(first + kPerNode, parts); ++i) {
+        const LatticeBox part = cloud_->box(level, i);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          box.low[axis] = std::min(box.low[axis], part.low[axis]);
+          box.high[axis] = std::max(box.high[axis], part.high[axis]);
+        }
+      }
+      nodes.push_back(box);
+    }
+    cloud_->nodes_.push_back(std::move(nodes));
+  }
+}
+
+// The spacing around the points of a block: the middle one. Normals that lack are added.
+double CloudMaker::lookAround(const CloudSearch& search, std::size_t block) {
+  std::array<double, kPerBlock> spacing{};
+  const std::size_t count = cloud_->countIn(block);
+  for (std::size_t i = 0; i < count; ++i) {
+    const NearestPoints nearest = search.around(block * kPerBlock + i);
+    spacing[i] = nearest.spacing();
+    std::uint32_t& normal = cloud_->normals_[block * kPerBlock + i];
+    if (normal == kNoNormal) normal = packNormal(nearest.normal());
+  }
+  const auto middle = spacing.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(spacing.begin(), middle, spacing.begin() + static_cast<std::ptrdiff_t>(count));
+  return *middle;
+}
+
+void CloudMaker::measure() {
+  const CloudSearch search(*cloud_);
+  std::vector<double> spacing(cloud_->blocks());
+  oneapi::tbb::parallel_for(Range(0, spacing.size(), kGrain), [&](const Range& range) {
+    for (std::size_t block = range.begin(); block < range.end(); ++block) spacing[block] = lookAround(search, block);
+  });
+  std::vector<double> ordered = spacing;
+  const auto middle = ordered.begin() + static_cast<std::ptrdiff_t>(ordered.size() / 2);
+  std::nth_element(ordered.begin(), middle, ordered.end());
+  constexpr double kOfOnePoint_m = 1e-3;
+  const double usual = *middle > 0 ? *middle : kOfOnePoint_m;
+  cloud_->usual_spacing_ = usual;
+  std::array<double, 256>& kept = cloud_->spacings_;
+  kept[kUsual] = usual;
+  for (int i = kUsual + 1; i < 256; ++i) kept[i] = kept[i - 1] * kCodeRatio;
+  for (int i = kUsual - 1; i >= 0; --i) kept[i] = kept[i + 1] / kCodeRatio;
+  for (std::size_t block = 0; block < spacing.size(); ++block) {
+    const auto least = std::lower_bound(kept.begin(), kept.end() - 1, spacing[block]);  // rounded up
+    cloud_->blocks_[block].spacing = static_cast<std::uint8_t>(least - kept.begin());
+    cloud_->largest_spacing_ = std::max(cloud_->largest_spacing_, *least);
+  }
+}
+
+std::shared_ptr<const CloudPoints> makeCloud(CloudInput input) {
+  if (input.points.empty()) throw Error(kNoPoints);
+  return CloudMaker(std::move(input)).make();
+}
+
+CloudInput onFineLattice(const std::vector<Vec3>& positions, const std::vector<std::uint32_t>& normals,
+                         std::size_t& skipped) {
+  constexpr double kSteps = 2147483648.0;  // 2^31: from -2^30 to 2^30
+  Box bounds;
+  for (const Vec3& p : positions) {
+    if (p.allFinite()) bounds.extend(p);
+  }
+  if (bounds.empty()) throw Error(kNoPoints);
+  if (!withinReach(bounds.min) || !withinReach(bounds.max)) throw Error("its points lie beyond 1e9 m");
+  // Points at one place need some lattice too.
+  const double extent = std::max({bounds.size().maxCoeff(), 1e-6, 1e-6 * bounds.max.cwiseAbs().maxCoeff()});
+  const double step = std::exp2(std::ceil(std::log2(extent / kSteps)));
+  CloudInput input;
+  input.lattice = {Vec3::Constant(step), (bounds.centre() / step).array().round() * step};
+  input.points.reserve(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (!positions[i].allFinite()) {
+      ++skipped;
+      continue;
+    }
+    const Vec3 at = ((positions[i] - input.lattice.origin) / step).array().round();
+    const auto along = [&](Eigen::Index axis) { return static_cast<std::int32_t>(at[axis]); };
+    input.points.push_back({{along(0), along(1), along(2)}, i < normals.size() ? normals[i] : kNoNormal});
+  }
+  return input;
+}
+
+}  // namespace hl
