@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* kNoPoints = "there are no points in it";
 constexpr std::size_t kGrain = 256;  // blocks for one thread at a time
-using Range = oneapi::tbb::blocked_range<std::size_t>;
+using BlockRange = oneapi::tbb::blocked_range<std::size_t>;
 
 // So many codes of spacings are an octave; those from kUsual on are larger than is usual.
 constexpr double kCodeRatio = 1.0442737824274138;  // 2^(1/16)
@@ -146,11 +146,11 @@ void CloudMaker::addNodes() {
 double CloudMaker::lookAround(const CloudSearch& search, std::size_t block) {
   std::array<double, kPerBlock> spacing{};
   const std::size_t count = cloud_->countIn(block);
+  const std::array<NearestPoints, kPerBlock> nearest = search.aroundAll(block);
   for (std::size_t i = 0; i < count; ++i) {
-    const NearestPoints nearest = search.around(block * kPerBlock + i);
-    spacing[i] = nearest.spacing();
+    spacing[i] = nearest[i].spacing();
     std::uint32_t& normal = cloud_->normals_[block * kPerBlock + i];
-    if (normal == kNoNormal) normal = packNormal(nearest.normal());
+    if (normal == kNoNormal) normal = packNormal(nearest[i].normal());
   }
   const auto middle = spacing.begin() + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(spacing.begin(), middle, spacing.begin() + static_cast<std::ptrdiff_t>(count));
@@ -160,7 +160,7 @@ double CloudMaker::lookAround(const CloudSearch& search, std::size_t block) {
 void CloudMaker::measure() {
   const CloudSearch search(*cloud_);
   std::vector<double> spacing(cloud_->blocks());
-  oneapi::tbb::parallel_for(Range(0, spacing.size(), kGrain), [&](const Range& range) {
+  oneapi::tbb::parallel_for(BlockRange(0, spacing.size(), kGrain), [&](const BlockRange& range) {
     for (std::size_t block = range.begin(); block < range.end(); ++block) spacing[block] = lookAround(search, block);
   });
   std::vector<double> ordered = spacing;

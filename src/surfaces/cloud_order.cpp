@@ -1,6 +1,5 @@
 #include "surfaces/cloud_order.h"
 
-#include <oneapi/tbb/parallel_for_each.h>
 #include <oneapi/tbb/parallel_invoke.h>
 #include <oneapi/tbb/parallel_sort.h>
 

@@ -42,14 +42,26 @@ double CloudSearch::squareTo(const LatticeBox& box, const Vec3& place) const {
   return square;
 }
 
-void CloudSearch::look(int level, std::size_t number, const Vec3& place, NearestPoints& nearest) const {
-  if (level == 0) {
-    for (std::size_t i = 0; i < points_.countIn(number); ++i) {
-      const Vec3 at = placeOf(number * CloudPoints::kPerBlock + i);
-      nearest.add(at, (at - place).squaredNorm());
-    }
-    return;
+double CloudSearch::squareBetween(const LatticeBox& a, const LatticeBox& b) const {
+  double square = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double below = static_cast<double>(b.low[axis]) - a.high[axis];
+    const double above = static_cast<double>(a.low[axis]) - b.high[axis];
+    const double out = step_[static_cast<Eigen::Index>(axis)] * std::max({below, above, 0.0});
+    square += out * out;
   }
+  return square;
+}
+
+void CloudSearch::lookIn(std::size_t block, const Vec3& place, NearestPoints& nearest) const {
+  for (std::size_t i = 0; i < points_.countIn(block); ++i) {
+    const Vec3 at = placeOf(block * CloudPoints::kPerBlock + i);
+    nearest.add(at, (at - place).squaredNorm());
+  }
+}
+
+void CloudSearch::look(int level, std::size_t number, const Vec3& place, NearestPoints& nearest) const {
+  if (level == 0) return lookIn(number, place, nearest);
   std::array<std::pair<double, std::size_t>, CloudPoints::kPerNode> parts;
   const std::size_t first = number * CloudPoints::kPerNode;
   const std::size_t count = std::min(CloudPoints::kPerNode, points_.countOn(level - 1) - first);
@@ -57,6 +69,42 @@ void CloudSearch::look(int level, std::size_t number, const Vec3& place, Nearest
   std::sort(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(count));
   for (std::size_t i = 0; i < count && nearest.takes(parts[i].first); ++i)
     look(level - 1, parts[i].second, place, nearest);
+}
+
+// Other blocks within a distance of this one.
+void CloudSearch::gather(int level, std::size_t number, std::size_t around, double square, Neighbourhood& near) const {
+  if (!near.whole || (level == 0 && number == around)) return;
+  if (squareBetween(points_.box(level, number), points_.box(0, around)) > square) return;
+  if (level == 0) {
+    near.whole = near.size < Neighbourhood::kMost;
+    if (near.whole) near.blocks[near.size++] = number;
+    return;
+  }
+  const std::size_t first = number * CloudPoints::kPerNode;
+  const std::size_t end = std::min(first + CloudPoints::kPerNode, points_.countOn(level - 1));
+  for (std::size_t i = first; i < end; ++i) gather(level - 1, i, around, square, near);
+}
+
+// No point has its neighbours farther than those of its own block are.
+std::array<NearestPoints, CloudPoints::kPerBlock> CloudSearch::aroundAll(std::size_t block) const {
+  std::array<NearestPoints, CloudPoints::kPerBlock> nearest;
+  const std::size_t count = points_.countIn(block), first = block * CloudPoints::kPerBlock;
+  double farthest = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    lookIn(block, placeOf(first + i), nearest[i]);
+    farthest = std::max(farthest, nearest[i].farthest());
+  }
+  Neighbourhood near;
+  near.whole = count >= NearestPoints::kMost;
+  gather(points_.levels() - 1, 0, block, farthest, near);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 place = placeOf(first + i);
+    if (!near.whole) nearest[i] = around(first + i);
+    for (std::size_t k = 0; near.whole && k < near.size; ++k) {
+      if (nearest[i].takes(squareTo(points_.box(0, near.blocks[k]), place))) lookIn(near.blocks[k], place, nearest[i]);
+    }
+  }
+  return nearest;
 }
 
 NearestPoints CloudSearch::around(std::size_t slot) const {

@@ -35,11 +35,23 @@ class CloudSearch {
  public:
   explicit CloudSearch(const CloudPoints& points) : points_(points), step_(points.lattice().step) {}
   NearestPoints around(std::size_t slot) const;
+  /// The same of each point of a block, several times as fast.
+  std::array<NearestPoints, CloudPoints::kPerBlock> aroundAll(std::size_t block) const;
 
  private:
+  /// Blocks, not too many.
+  struct Neighbourhood {
+    static constexpr std::size_t kMost = 64;
+    std::array<std::size_t, kMost> blocks;
+    std::size_t size = 0;
+    bool whole = true;
+  };
   Vec3 placeOf(std::size_t slot) const { return step_.cwiseProduct(points_.at(slot)); }
   double squareTo(const LatticeBox& box, const Vec3& place) const;
+  double squareBetween(const LatticeBox& a, const LatticeBox& b) const;
   void look(int level, std::size_t number, const Vec3& place, NearestPoints& nearest) const;
+  void lookIn(std::size_t block, const Vec3& place, NearestPoints& nearest) const;
+  void gather(int level, std::size_t number, std::size_t around, double square, Neighbourhood& near) const;
 
   const CloudPoints& points_;
   const Vec3 step_;
