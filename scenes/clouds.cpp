@@ -29,11 +29,11 @@ std::shared_ptr<const PointCloud> cloudFrom(std::size_t count, const PointOf& po
   using Range = oneapi::tbb::blocked_range<std::size_t>;
   oneapi::tbb::parallel_for(Range(0, count), [&](const Range& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      const auto [place, normal] = point(i);
+      const std::pair<Vec3, Vec3> made = point(i);
       const auto step = [&](Eigen::Index axis) {
-        return static_cast<std::int32_t>(std::floor(place[axis] / kStep_m + 0.5));
+        return static_cast<std::int32_t>(std::floor(made.first[axis] / kStep_m + 0.5));
       };
-      input.points[i] = {{step(0), step(1), step(2)}, packNormal(normal)};
+      input.points[i] = {{step(0), step(1), step(2)}, packNormal(made.second)};
     }
   });
   return std::make_shared<const PointCloud>(makeCloud(std::move(input)), CloudLook{});

@@ -17,11 +17,10 @@
 
 namespace hl {
 
-/// What is drawn: triangles or points, with one normal a vertex. Metres, object frame.
+/// Triangles to draw, with one normal a vertex. Metres, object frame.
 struct DrawnMesh {
   std::vector<Vec3> positions, normals;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::uint32_t> points;
 };
 
 /// What is at a point.
@@ -74,7 +73,7 @@ class PrimitiveSource {
   virtual double error_m() const = 0;
   /// The same surface moved by x -> linear x + offset; `linear` is invertible. Throws hl::Error if it cannot be.
   virtual std::shared_ptr<const PrimitiveSource> placed(const Mat3& linear, const Vec3& offset) const;
-  /// What is drawn of it: about `most_triangles`, or points, or fewer. By default all of them, whatever their number,
+  /// What is drawn of it: about `most_triangles` or fewer. By default all of them, whatever their number,
   /// each with vertices of its own.
   virtual DrawnMesh drawn(std::size_t most_triangles) const;
 };

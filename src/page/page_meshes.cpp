@@ -41,13 +41,14 @@ Model drawnOf(const PrimitiveSource& source, std::size_t most) {
   model.positions = std::move(drawn.positions);
   model.normals = std::move(drawn.normals);
   model.triangles = std::move(drawn.triangles);
-  model.points = std::move(drawn.points);
   return model;
 }
 
 std::uint64_t messageBytes(const Shape& shape, const Look& look, std::size_t most_drawn) {
   if (!shape.source) return messageBytes(shape.model, look);
-  return kSmallest + kDrawnTriangle_bytes * std::min<std::uint64_t>(shape.elements(), most_drawn);
+  constexpr std::uint64_t kOfPoint = 4;  // triangles
+  const std::uint64_t drawn = shape.elements() * (shape.source->kind() == PrimitiveKind::kPoint ? kOfPoint : 1);
+  return kSmallest + kDrawnTriangle_bytes * std::min<std::uint64_t>(drawn, most_drawn);
 }
 
 std::string meshMessage(std::uint32_t number, const Shape& shape, const Model& model, const Look& look) {

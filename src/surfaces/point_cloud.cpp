@@ -28,27 +28,25 @@ std::shared_ptr<const PrimitiveSource> PointCloud::placed(const Mat3& linear, co
   return std::make_shared<const PointCloud>(points(), frame().placed(linear, offset), look());
 }
 
-// Each second, third ... point; surfels are then drawn larger, so that they cover as much.
+// Each second, third ... point; surfels are then drawn larger, so that they cover as much. Points are drawn as surfels
+// that leave gaps, so that their normals are seen.
 DrawnMesh PointCloud::drawn(std::size_t most) const {
-  const std::size_t step = std::max<std::size_t>(1, (triangles() + most - 1) / std::max<std::size_t>(1, most));
-  const double larger = std::sqrt(static_cast<double>(step));
+  constexpr double kReachOfPoints = 0.4;
+  const std::size_t all = points()->size() * PlacedCloud::kPerSurfel;
+  const std::size_t step = std::max<std::size_t>(
+      1, all / std::max<std::size_t>(1, most) + (all % std::max<std::size_t>(1, most) > 0 ? 1 : 0));
+  const double larger = std::sqrt(static_cast<double>(step)) * (surfels() ? 1 : kReachOfPoints / look().reach);
+  const std::uint32_t turned = cloud_.mirrored() ? 1 : 0;
   DrawnMesh mesh;
   std::size_t number = 0;
   for (std::size_t slot = 0; slot < points()->blocks() * CloudPoints::kPerBlock; ++slot) {
     if (slot % CloudPoints::kPerBlock >= points()->countIn(slot / CloudPoints::kPerBlock) || number++ % step != 0)
       continue;
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    const std::size_t vertices = surfels() ? PlacedCloud::kSides : 1;
-    mesh.normals.insert(mesh.normals.end(), vertices, cloud_.normalAt(slot));
-    if (!surfels()) {
-      mesh.positions.push_back(cloud_.pointAt(slot));
-      mesh.points.push_back(first);
-      continue;
-    }
+    mesh.normals.insert(mesh.normals.end(), PlacedCloud::kSides, cloud_.normalAt(slot));
     for (std::size_t i = 0; i < PlacedCloud::kSides; ++i) mesh.positions.push_back(cloud_.corner(slot, i, larger));
     for (std::uint32_t i = 1; i <= PlacedCloud::kPerSurfel; ++i)
-      mesh.triangles.push_back(
-          {first, first + i + (cloud_.mirrored() ? 1 : 0), first + i + (cloud_.mirrored() ? 0 : 1)});
+      mesh.triangles.push_back({first, first + i + turned, first + i + 1 - turned});
   }
   return mesh;
 }

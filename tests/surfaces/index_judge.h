@@ -20,8 +20,14 @@ namespace hl::test {
 
 /// All primitives of a surface as a mesh.
 inline Mesh meshOf(const PrimitiveSource& source) {
+  Mesh mesh;
+  if (source.kind() == PrimitiveKind::kPoint) {
+    source.makeIndex()->overlap(Vec3::Zero(), INFINITY,
+                                [&](ElementId id) { mesh.points.push_back(mesh.add(source.corners(id)[0])); });
+    return mesh;
+  }
   const DrawnMesh drawn = source.drawn(~std::size_t{0});
-  return {drawn.positions, drawn.triangles, {}, drawn.points};
+  return {drawn.positions, drawn.triangles, {}, {}};
 }
 
 /// A surface that makes its triangles, and the judge: the hierarchy over the same triangles as a mesh.
