@@ -9,23 +9,8 @@
 #include <cmath>
 
 #include "surfaces/grid_ball.h"
-#include "surfaces/grid_frame.h"
 
 namespace hl {
-
-// m per step along each axis, so that no step is longer than it is. Q = axes^T axes is not below its diagonal times
-// 1 - s, s the largest sum of a row of the others, once the diagonal is 1 (Gershgorin).
-inline Vec3 shortestStep(const GridFrame& frame) {
-  const Mat3 q = frame.axes.transpose() * frame.axes;
-  const Vec3 length = q.diagonal().cwiseSqrt();
-  double skew = 0;
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    double row = 0;
-    for (Eigen::Index j = 0; j < 3; ++j) row += i == j ? 0 : std::abs(q(i, j)) / (length[i] * length[j]);
-    skew = std::max(skew, row);
-  }
-  return std::sqrt(std::max(0.0, 1 - skew)) * length;
-}
 
 class BallBoxes {
  public:

@@ -1,46 +1,48 @@
 #include "surfaces/brick_index.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "surfaces/brick_walk.h"
-#include "surfaces/cell_search.h"
 
 namespace hl {
 
 namespace {
 
-auto walkOver(const IsoCells& cells, const Vec3& scale) {
-  return [&cells, &scale](const GridBall& ball, const auto& visit) { return BrickWalk(cells, scale, ball).run(visit); };
-}
+/// The bricks of a volume's pyramid, in the coordinates of its samples.
+class IsoBricks {
+ public:
+  using Place = IsoCells::Place;
+
+  explicit IsoBricks(const IsoCells& cells) : cells_(cells), pyramid_(cells.volume()->pyramid) {}
+
+  static Vec3 origin() { return Vec3::Zero(); }
+  static double step() { return 1; }
+  int levels() const { return pyramid_.levels(); }
+  std::uint32_t side(int level, std::size_t axis) const { return pyramid_.side(level, axis); }
+  std::uint32_t cells(std::size_t axis) const { return cells_.volume()->grid.cells(axis); }
+  bool holds(int level, const Place& at) const {
+    return pyramid_.range(level, at[0], at[1], at[2]).holds(cells_.iso().value);
+  }
+  template <typename Visit>
+  void visitCell(const Place& at, const Visit& visit) const {
+    const IsoCell cell = cells_.at(at);
+    if (cell.triangles == nullptr) return;
+    for (unsigned n = 0; n < cell.triangles->count; ++n) {
+      if (exists(cell, n)) visit(cells_.idOf(cell, n));
+    }
+  }
+
+ private:
+  const IsoCells& cells_;
+  const BrickPyramid& pyramid_;
+};
 
 }  // namespace
 
 BrickIndex::BrickIndex(const IsoCells& cells, const Box& bounds)
-    : cells_(cells),
-      bounds_(bounds),
-      metric_(cells.frame()),
-      scale_(shortestStep(cells.frame())),
-      extent_(bounds.empty() ? 0 : bounds.min.cwiseAbs().cwiseMax(bounds.max.cwiseAbs()).maxCoeff()),
-      cell_(cells.frame().axes.colwise().norm().maxCoeff()) {}
+    : WalkedIndex(cells.frame(), bounds, cells.frame().axes.colwise().norm().maxCoeff()), cells_(cells) {}
 
-std::size_t BrickIndex::overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId)> visit) const {
-  const GridBall ball(metric_, centre, Vec3::Zero(), reachOf(radius, centre, Vec3::Zero(), extent_));
-  return BrickWalk(cells_, scale_, ball).run(visit);
-}
-
-std::size_t BrickIndex::sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
-                              FunctionRef<double(ElementId, double)> visit) const {
-  const GridBall ball(metric_, from, motion, reachOf(radius, from, motion, extent_));
-  return sweepCells(ball, motion.norm(), soon, walkOver(cells_, scale_), visit);
-}
-
-std::size_t BrickIndex::nearest(const Vec3& centre, double farthest,
-                                FunctionRef<double(ElementId, double)> visit) const {
-  if (bounds_.empty()) return 0;
-  const GridBall ball(metric_, centre, Vec3::Zero(), 0);
-  const double size = bounds_.size().norm() + (centre - bounds_.centre()).norm();
-  return nearestCell(ball, farthest, cell_, std::max(size, extent_), walkOver(cells_, scale_), visit);
+std::size_t BrickIndex::walk(const GridBall& ball, Visit visit) const {
+  IsoBricks bricks(cells_);
+  return BrickWalk(bricks, scale(), ball).run(visit);
 }
 
 IndexStats BrickIndex::stats() const {

@@ -1,6 +1,13 @@
-// BrickWalk: from the pyramid's top to the cells that a moving ball may touch.
+// BrickWalk: through bricks of bricks of cells, down to the cells that a moving ball may touch.
 //
-// A brick is left out if the surface's value is not in its range, or if the ball does not meet it (ball_boxes.h).
+// A brick is left out if the surface is not in it, or if the ball does not meet it (ball_boxes.h).
+//
+// Whose bricks they are is a parameter; `Bricks` has
+//   origin(), step()        of the grid, in the coordinates of the ball: its first corner, and the side of a cell
+//   levels(), side(l, a)    bricks of level l along an axis; the last level is one brick
+//   cells(a)                cells along an axis
+//   holds(l, place)         whether the surface may be in a brick
+//   visitCell(place, v)     calls v(id) for each triangle of a cell of the brick for which holds() was asked last
 #pragma once
 
 #include <algorithm>
@@ -9,29 +16,30 @@
 #include <cstddef>
 
 #include "surfaces/ball_boxes.h"
+#include "surfaces/brick_pyramid.h"
 #include "surfaces/grid_ball.h"
-#include "surfaces/iso_cells.h"
 
 namespace hl {
 
+template <typename Bricks>
 class BrickWalk {
  public:
-  /// `scale`: shortestStep() of the cells' frame.
-  BrickWalk(const IsoCells& cells, const Vec3& scale, const GridBall& ball)
-      : cells_(cells), pyramid_(cells.volume()->pyramid), ball_(ball), boxes_(ball, scale) {}
+  /// `scale`: shortestStep() of the ball's frame.
+  BrickWalk(Bricks& bricks, const Vec3& scale, const GridBall& ball)
+      : bricks_(bricks), ball_(ball), boxes_(ball, scale) {}
 
   /// Calls visit(id) for each triangle that the ball may touch, those near its begin first. Returns the number of
   /// bricks and cells visited.
   template <typename Visit>
   std::size_t run(const Visit& visit) {
-    enter(pyramid_.levels() - 1, {0, 0, 0}, visit);
+    enter(bricks_.levels() - 1, {0, 0, 0}, visit);
     return looked_;
   }
 
  private:
   using Place = std::array<std::uint32_t, 3>;
 
-  // Whether the ball may meet the box of `size` steps a side that begins at `first`.
+  // Whether the ball may meet the box of `size` a side that begins at `first`.
   bool meets(const Vec3& first, double size) const {
     return boxes_.meets(first.array() + size / 2, Vec3::Constant(size / 2));
   }
@@ -42,20 +50,21 @@ class BrickWalk {
   };
   Span spanOf(std::size_t axis, std::uint32_t brick, std::uint32_t per_brick, std::uint32_t parts, double size) const {
     const auto a = static_cast<Eigen::Index>(axis);
+    const double origin = bricks_.origin()[a];
     const std::uint32_t begin = brick * per_brick, end = std::min(begin + per_brick, parts);
     const auto within = [&](double value) {
       return static_cast<std::uint32_t>(std::clamp<double>(std::floor(value), begin, end));
     };
-    return {within(ball_.low()[a] / size), within(ball_.high()[a] / size + 1)};
+    return {within((ball_.low()[a] - origin) / size), within((ball_.high()[a] - origin) / size + 1)};
   }
 
   // Visits the parts, in the order in which the ball comes to them along each axis.
   template <typename Enter>
   void forEachPart(int level, const Place& at, const Enter& enter) {
-    const double size = level == 0 ? 1 : static_cast<double>(BrickPyramid::cells(level - 1));
+    const double size = bricks_.step() * (level == 0 ? 1 : static_cast<double>(BrickPyramid::cells(level - 1)));
     std::array<Span, 3> span{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::uint32_t parts = level == 0 ? cells_.volume()->grid.cells(axis) : pyramid_.side(level - 1, axis);
+      const std::uint32_t parts = level == 0 ? bricks_.cells(axis) : bricks_.side(level - 1, axis);
       span[axis] = spanOf(axis, at[axis], level == 0 ? BrickPyramid::kCells : BrickPyramid::kBricks, parts, size);
     }
     const Vec3 way = ball_.last() - ball_.first();
@@ -67,7 +76,7 @@ class BrickWalk {
         for (std::uint32_t i = span[0].first; i < span[0].end; ++i) {
           const Place part{ordered(0, i), ordered(1, j), ordered(2, k)};
           ++looked_;
-          if (meets(size * Vec3(part[0], part[1], part[2]), size)) enter(part);
+          if (meets(bricks_.origin() + size * Vec3(part[0], part[1], part[2]), size)) enter(part);
         }
       }
     }
@@ -75,19 +84,12 @@ class BrickWalk {
 
   template <typename Visit>
   void enter(int level, const Place& at, const Visit& visit) {
-    if (!pyramid_.range(level, at[0], at[1], at[2]).holds(cells_.iso().value)) return;
-    if (level > 0) return forEachPart(level, at, [&](const Place& part) { enter(level - 1, part, visit); });
-    forEachPart(0, at, [&](const Place& part) {
-      const IsoCell cell = cells_.at(part);
-      if (cell.triangles == nullptr) return;
-      for (unsigned n = 0; n < cell.triangles->count; ++n) {
-        if (cells_.exists(cell, n)) visit(cells_.idOf(cell, n));
-      }
-    });
+    if (!bricks_.holds(level, at)) return;
+    forEachPart(level, at,
+                [&](const Place& part) { level > 0 ? enter(level - 1, part, visit) : bricks_.visitCell(part, visit); });
   }
 
-  const IsoCells& cells_;
-  const BrickPyramid& pyramid_;
+  Bricks& bricks_;
   const GridBall& ball_;
   const BallBoxes boxes_;
   std::size_t looked_ = 0;

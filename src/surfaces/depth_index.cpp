@@ -1,8 +1,5 @@
 #include "surfaces/depth_index.h"
 
-#include <algorithm>
-
-#include "surfaces/cell_search.h"
 #include "surfaces/depth_walk.h"
 
 namespace hl {
@@ -19,31 +16,9 @@ double cellOf_m(const DepthFrame& frame) {
 }  // namespace
 
 DepthIndex::DepthIndex(const DepthFrame& frame)
-    : frame_(frame),
-      metric_(frame.frame()),
-      extent_(frame.bounds().min.cwiseAbs().cwiseMax(frame.bounds().max.cwiseAbs()).maxCoeff()),
-      cell_(cellOf_m(frame)) {}
+    : WalkedIndex(frame.frame(), frame.bounds(), cellOf_m(frame)), frame_(frame) {}
 
-std::size_t DepthIndex::overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId)> visit) const {
-  const GridBall ball(metric_, centre, Vec3::Zero(), reachOf(radius, centre, Vec3::Zero(), extent_));
-  return DepthWalk(frame_, ball).run(visit);
-}
-
-std::size_t DepthIndex::sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
-                              FunctionRef<double(ElementId, double)> visit) const {
-  const GridBall ball(metric_, from, motion, reachOf(radius, from, motion, extent_));
-  const auto walk = [this](const GridBall& part, const auto& found) { return DepthWalk(frame_, part).run(found); };
-  return sweepCells(ball, motion.norm(), soon, walk, visit);
-}
-
-std::size_t DepthIndex::nearest(const Vec3& centre, double farthest,
-                                FunctionRef<double(ElementId, double)> visit) const {
-  const GridBall ball(metric_, centre, Vec3::Zero(), 0);
-  const auto walk = [this](const GridBall& part, const auto& found) { return DepthWalk(frame_, part).run(found); };
-  const Box& bounds = frame_.bounds();
-  const double size = bounds.size().norm() + (centre - bounds.centre()).norm();
-  return nearestCell(ball, farthest, cell_, std::max(size, extent_), walk, visit);
-}
+std::size_t DepthIndex::walk(const GridBall& ball, Visit visit) const { return DepthWalk(frame_, ball).run(visit); }
 
 IndexStats DepthIndex::stats() const {
   const DepthTiles& tiles = frame_.image()->tiles;

@@ -1,8 +1,23 @@
 #include "surfaces/grid_ball.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hl {
+
+// Q = axes^T axes is not below its diagonal times 1 - s, s the largest sum of a row of the others, once the diagonal is
+// 1 (Gershgorin).
+Vec3 shortestStep(const GridFrame& frame) {
+  const Mat3 q = frame.axes.transpose() * frame.axes;
+  const Vec3 length = q.diagonal().cwiseSqrt();
+  double skew = 0;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    double row = 0;
+    for (Eigen::Index j = 0; j < 3; ++j) row += i == j ? 0 : std::abs(q(i, j)) / (length[i] * length[j]);
+    skew = std::max(skew, row);
+  }
+  return std::sqrt(std::max(0.0, 1 - skew)) * length;
+}
 
 GridMetric::GridMetric(const GridFrame& frame) : inverse(frame.axes.inverse()), origin(frame.origin) {
   const Mat3 q = frame.axes.transpose() * frame.axes;

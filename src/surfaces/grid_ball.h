@@ -11,6 +11,9 @@
 
 namespace hl {
 
+/// m per step along each axis, so that no step is longer than it is.
+Vec3 shortestStep(const GridFrame& frame);
+
 /// From a frame, once: what all its balls have in common.
 struct GridMetric {
   explicit GridMetric(const GridFrame& frame);

@@ -9,7 +9,7 @@
 #include "geometry/element_id.h"
 #include "surfaces/brick_pyramid.h"
 #include "surfaces/grid_frame.h"
-#include "surfaces/marching_cell.h"
+#include "surfaces/iso_cell.h"
 #include "surfaces/voxel_grid.h"
 
 namespace hl {
@@ -33,13 +33,6 @@ struct Volume {
   BrickPyramid pyramid;
 };
 
-/// A cell that the surface crosses.
-struct IsoCell {
-  std::array<std::uint32_t, 3> at{};         ///< its first sample
-  std::array<double, kCellCorners> value{};  ///< at its corners, relative to the iso value: inside is >= 0
-  const CellTriangles* triangles = nullptr;  ///< null: no sample may be missing, and not all are on one side
-};
-
 /// Triangle `n` of the cell at (x, y, z) has the number 16 ((z ny + y) nx + x) + n, nx and ny the numbers of cells.
 /// Cells with a missing sample have no triangles. Immutable; RT-safe.
 class IsoCells {
@@ -61,10 +54,6 @@ class IsoCells {
   ElementId idOf(const IsoCell& cell, unsigned triangle) const;
   /// Above the numbers of all triangles.
   ElementId count() const;
-  /// Whether triangle number `triangle` of the cell has an area: where a sample lies on the surface, some do not.
-  bool exists(const IsoCell& cell, unsigned triangle) const;
-  /// In samples: where the surface crosses an edge of the cell, or kMiddle.
-  Vec3 crossing(const IsoCell& cell, unsigned edge) const;
   /// m.
   Vec3 point(const Vec3& place) const { return frame_.point(place.x(), place.y(), place.z()); }
   /// Calls visit(cell) for each cell that the surface crosses.
@@ -82,8 +71,6 @@ class IsoCells {
   }
 
  private:
-  Vec3 middleOf(const IsoCell& cell) const;
-
   std::shared_ptr<const Volume> volume_;
   GridFrame frame_;
   IsoValue iso_;

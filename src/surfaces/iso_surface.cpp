@@ -91,7 +91,7 @@ std::array<Vec3, 3> IsoSurface::corners(ElementId id) const {
   const IsoCell cell = cells_.at(cells_.placeOf(id));
   std::array<Vec3, 3> corner;
   for (std::size_t i = 0; i < 3; ++i)
-    corner[i] = cells_.point(cells_.crossing(cell, cell.triangles->edges[id % IsoCells::kPerCell][i]));
+    corner[i] = cells_.point(crossing(cell, cell.triangles->edges[id % IsoCells::kPerCell][i]));
   if (mirrored_) std::swap(corner[1], corner[2]);
   return corner;
 }
@@ -226,7 +226,7 @@ class IsoSurface::Drawing {
 
   void add(const IsoCell& cell) {
     for (unsigned n = 0; n < cell.triangles->count; ++n) {
-      if (!surface_.cells_.exists(cell, n)) continue;
+      if (!exists(cell, n)) continue;
       std::array<std::uint32_t, 3> triangle{};
       for (std::size_t i = 0; i < 3; ++i)
         triangle[i] = vertexOn(cell, cell.triangles->edges[n][i], surface_.cells_.idOf(cell, n));
@@ -245,7 +245,7 @@ class IsoSurface::Drawing {
     const auto next = static_cast<std::uint32_t>(mesh_.positions.size());
     const auto [entry, added] = numbers_.try_emplace(4 * place + edge / 4, next);
     if (added) {
-      mesh_.positions.push_back(surface_.cells_.point(surface_.cells_.crossing(cell, edge)));
+      mesh_.positions.push_back(surface_.cells_.point(crossing(cell, edge)));
       mesh_.normals.push_back(surface_.trueNormal(id, mesh_.positions.back()));
     }
     return entry->second;

@@ -27,7 +27,7 @@ SideUses sidesOf(const IsoSurface& surface, const IsoCell& cell) {
   SideUses sides;
   if (cell.triangles == nullptr) return sides;
   for (unsigned n = 0; n < cell.triangles->count; ++n) {
-    if (!surface.cells().exists(cell, n)) continue;
+    if (!exists(cell, n)) continue;
     const std::array<Vec3, 3> corner = surface.corners(surface.cells().idOf(cell, n));
     EXPECT_TRUE(isTriangle(corner[0], corner[1], corner[2]));
     for (std::size_t i = 0; i < 3; ++i) {
