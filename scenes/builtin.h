@@ -16,8 +16,8 @@ bool isBuiltinSurface(const std::string& spec);
 /// Lists of the names, for help texts: of what is one model, and with those of several objects.
 #define HL_BUILTIN_MODELS "teapot[:N], walker, terrain:N, rough:N[:MEMBER], sphere:N, plane:N, pipe:N, pits:N, soup:N"
 inline constexpr const char* kBuiltinModels = HL_BUILTIN_MODELS;
-inline constexpr const char* kBuiltinScenes =
-    HL_BUILTIN_MODELS ", field:terrain:N, ct:phantom:N, depth:table, points:sphere:N, points:terrain:N, snaps, workshop";
+inline constexpr const char* kBuiltinScenes = HL_BUILTIN_MODELS
+    ", field:terrain:N, ct:phantom:N, depth:table, points:sphere:N, points:terrain:N, snaps, workshop";
 #undef HL_BUILTIN_MODELS
 
 /// Throws hl::Error with the list of names if the name is unknown.

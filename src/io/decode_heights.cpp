@@ -37,7 +37,7 @@ std::shared_ptr<const PrimitiveSource> depthImageOf(const HeightGrid& grid, cons
   if (!(in.smoothing() >= 0 && in.smoothing() < 1)) throw Error("smoothing must be from 0 to less than 1");
   const auto* const last = dynamic_cast<const DepthFrame*>(before);
   const double scale_m = lengthOf(in.vertical_scale(), 1, "verticalScale");
-  auto image = smoothed(grid, scale_m, camera, last != nullptr ? last->image().get() : nullptr, in.smoothing());
+  auto image = smoothed(grid, scale_m, camera, last != nullptr ? &last->image() : nullptr, in.smoothing());
   return std::make_shared<const DepthFrame>(std::move(image), cameraFrame(1));
 }
 

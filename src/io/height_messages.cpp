@@ -58,9 +58,9 @@ void writeHeights(const HeightField& field, const std::function<void(proto::Reco
 }
 
 void writeDepths(const DepthFrame& frame, const std::function<void(proto::RecordedHeights& part)>& take) {
-  const HeightGrid& grid = *frame.image()->grid;
+  const HeightGrid& grid = *frame.image().grid;
   proto::RecordedHeights part;
-  toProto(HeightHeader{grid.size(), grid.missing(), frame.frame(), frame.image()->camera}, part);
+  toProto(HeightHeader{grid.size(), grid.missing(), frame.frame(), frame.image().camera}, part);
   takeInParts(std::move(part), grid.samples(), grid.size().bytes(), take);
 }
 

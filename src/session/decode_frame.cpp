@@ -309,9 +309,8 @@ std::shared_ptr<const Shape> FrameDecoder::ownSurface(std::uint64_t bytes, const
 
 std::shared_ptr<const Shape> FrameDecoder::heightsOf(const proto::Primitives& in, const Shape* before,
                                                      const std::string& where) {
-  return ownSurface(bytesToMakeHeights(in.heights()), where + ".heights", [&] {
-    return decodeHeights(in.heights(), before != nullptr ? before->source.get() : nullptr);
-  });
+  return ownSurface(bytesToMakeHeights(in.heights()), where + ".heights",
+                    [&] { return decodeHeights(in.heights(), before != nullptr ? before->source.get() : nullptr); });
 }
 
 std::shared_ptr<const Shape> FrameDecoder::cloudOf(const proto::Primitives& in, const std::string& where) {

@@ -1,8 +1,5 @@
 #include "surfaces/depth_frame.h"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,19 +11,13 @@
 
 namespace hl {
 
-void checkCamera(const DepthCamera& camera) {
-  const auto fits = [](double focal) { return focal >= 1e-3 && focal <= 1e9; };
-  if (!fits(camera.fx) || !fits(camera.fy) || !(std::abs(camera.cx) <= 1e9) || !(std::abs(camera.cy) <= 1e9))
-    throw Error("a depth camera needs four numbers: focal lengths fx and fy above 0, and its centre cx, cy, in pixels");
-  if (!(camera.join > 0 && camera.join <= 1)) throw Error("join must be above 0, and at most 1");
-}
+using Pixel = DepthCells::Pixel;
 
-DepthFrame::DepthFrame(std::shared_ptr<const DepthImage> image, const GridFrame& frame)
-    : image_(std::move(image)), frame_(frame), inverse_(frame.axes.inverse()) {
-  checkCamera(image_->camera);
+DepthFrame::DepthFrame(std::shared_ptr<const DepthImage> seen, const GridFrame& frame)
+    : cells_(std::move(seen), frame), inverse_(frame.axes.inverse()) {
+  checkCamera(image().camera);
   if (!frame.axes.allFinite() || !frame.origin.allFinite() || !inverse_.allFinite())
     throw Error("the axes of a depth camera must be numbers, and not lie in one plane");
-  mirrored_ = frame.axes.determinant() < 0;
   if (triangles() == 0) return;
   bounds_ = boundsOfTiles();
   if (!withinReach(bounds_.min) || !withinReach(bounds_.max)) throw Error("a depth image reaches beyond 1e9 m");
@@ -34,7 +25,7 @@ DepthFrame::DepthFrame(std::shared_ptr<const DepthImage> image, const GridFrame&
 
 // Each tile lies within its piece of the frustum.
 Box DepthFrame::boundsOfTiles() const {
-  const DepthTiles& tiles = image_->tiles;
+  const DepthTiles& tiles = image().tiles;
   Box box;
   for (std::uint32_t row = 0; row < tiles.rows(0); ++row) {
     for (std::uint32_t column = 0; column < tiles.columns(0); ++column) {
@@ -44,7 +35,7 @@ Box DepthFrame::boundsOfTiles() const {
         const double i = std::min((column + (c & 1U)) * DepthTiles::kCells, grid().columns() - 1);
         const double j = std::min((row + (c >> 1U & 1U)) * DepthTiles::kCells, grid().rows() - 1);
         const double depth = (c >> 2U & 1U) != 0 ? range.high : range.low;
-        box.extend(frame_.point(image_->camera.across(i) * depth, image_->camera.down(j) * depth, depth));
+        box.extend(cells_.pointAt(i, j, depth));
       }
     }
   }
@@ -55,52 +46,26 @@ ElementId DepthFrame::count() const {
   return triangles() == 0 ? 0 : 2 * ElementId{grid().columns() - 1} * (grid().rows() - 1);
 }
 
-Vec3 DepthFrame::pointAt(std::uint32_t column, std::uint32_t row) const {
-  const double depth = grid().at(column, row);
-  return frame_.point(image_->camera.across(column) * depth, image_->camera.down(row) * depth, depth);
-}
-
-DepthFrame::Corners DepthFrame::cornersOf(const HeightCell& cell) const {
-  const std::uint32_t i = cell.column, j = cell.row;
-  Corners corners{{{i, j}, {i + 1, j + 1}, {i + 1, j}}};
-  if (cell.half == 1) corners = {{{i, j}, {i, j + 1}, {i + 1, j + 1}}};
-  if (mirrored_) std::swap(corners[1], corners[2]);
-  return corners;
-}
-
-std::array<Vec3, 3> DepthFrame::corners(ElementId id) const {
-  const Corners at = cornersOf(cellOf(id, grid().columns()));
-  return {pointAt(at[0][0], at[0][1]), pointAt(at[1][0], at[1][1]), pointAt(at[2][0], at[2][1])};
-}
-
-bool DepthFrame::exists(const HeightCell& cell) const {
-  const Corners at = cornersOf(cell);
-  if (!image_->camera.joins(depthAt(at[0]), depthAt(at[1]), depthAt(at[2]))) return false;
-  const std::array<Vec3, 3> corner = corners(idOf(cell, grid().columns()));
-  return isTriangle(corner[0], corner[1], corner[2]);
-}
-
 // From before to after `here`, along an axis of the image; nothing where neither is one surface with it.
 Vec3 DepthFrame::normalAt(std::uint32_t column, std::uint32_t row, const Vec3& otherwise) const {
-  const double here = grid().at(column, row);
+  const double here = cells_.depthAt({column, row});
   const auto slope = [&](std::uint32_t end, std::uint32_t at, const auto& pixel) {
     const auto joined = [&](std::uint32_t other) {
-      const std::array<std::uint32_t, 2> there = pixel(other);
-      return image_->camera.joins(here, here, depthAt(there));
+      return image().camera.joins(here, here, cells_.depthAt(pixel(other)));
     };
-    const std::array<std::uint32_t, 2> first = pixel(at > 0 && joined(at - 1) ? at - 1 : at);
-    const std::array<std::uint32_t, 2> last = pixel(at + 1 < end && joined(at + 1) ? at + 1 : at);
-    return Vec3(pointAt(last[0], last[1]) - pointAt(first[0], first[1]));
+    const Pixel first = pixel(at > 0 && joined(at - 1) ? at - 1 : at);
+    const Pixel last = pixel(at + 1 < end && joined(at + 1) ? at + 1 : at);
+    return Vec3(cells_.pointAt(last) - cells_.pointAt(first));
   };
-  const Vec3 across = slope(grid().columns(), column, [&](std::uint32_t i) { return std::array{i, row}; });
-  const Vec3 down = slope(grid().rows(), row, [&](std::uint32_t j) { return std::array{column, j}; });
-  const Vec3 normal = mirrored_ ? across.cross(down) : down.cross(across);
+  const Vec3 across = slope(grid().columns(), column, [&](std::uint32_t i) { return Pixel{i, row}; });
+  const Vec3 down = slope(grid().rows(), row, [&](std::uint32_t j) { return Pixel{column, j}; });
+  const Vec3 normal = cells_.mirrored() ? across.cross(down) : down.cross(across);
   const double length = normal.norm();
   return length > 0 ? Vec3(normal / length) : otherwise;
 }
 
 Vec3 DepthFrame::trueNormal(ElementId id, const Vec3& point) const {
-  const Corners at = cornersOf(cellOf(id, grid().columns()));
+  const std::array<Pixel, 3> at = cells_.pixelsOf(cellOf(id, grid().columns()));
   const std::array<Vec3, 3> corner = corners(id);
   const Vec3 edge1 = corner[1] - corner[0], edge2 = corner[2] - corner[0], area = edge1.cross(edge2);
   const Vec3 flat = area.normalized();
@@ -116,12 +81,14 @@ Vec3 DepthFrame::trueNormal(ElementId id, const Vec3& point) const {
   return length > 0 ? Vec3(sum / length) : flat;
 }
 
-std::unique_ptr<const SpatialIndex> DepthFrame::makeIndex() const { return std::make_unique<DepthIndex>(*this); }
+std::unique_ptr<const SpatialIndex> DepthFrame::makeIndex() const {
+  return std::make_unique<DepthIndex>(cells_, bounds_);
+}
 
 Site DepthFrame::siteOf(const Vec3& point) const {
-  const Vec3 q = inverse_ * (point - frame_.origin);
+  const Vec3 q = inverse_ * (point - frame().origin);
   if (!(q.z() > 0)) return Site::kOpen;
-  const DepthCamera& camera = image_->camera;
+  const DepthCamera& camera = image().camera;
   const double u = camera.cx + camera.fx * q.x() / q.z(), v = camera.cy + camera.fy * q.y() / q.z();
   if (!(u >= 0 && v >= 0 && u < grid().columns() - 1.0 && v < grid().rows() - 1.0)) return Site::kOpen;
   const auto i = static_cast<std::uint32_t>(u), j = static_cast<std::uint32_t>(v);
@@ -137,7 +104,7 @@ Site DepthFrame::siteOf(const Vec3& point) const {
 }
 
 std::shared_ptr<const PrimitiveSource> DepthFrame::placed(const Mat3& linear, const Vec3& offset) const {
-  return std::make_shared<const DepthFrame>(image_, frame_.placed(linear, offset));
+  return std::make_shared<const DepthFrame>(cells_.image(), frame().placed(linear, offset));
 }
 
 DrawnMesh DepthFrame::drawn(std::size_t most_triangles) const {
@@ -152,22 +119,22 @@ DrawnMesh DepthFrame::every(std::uint32_t step) const {
   DrawnMesh mesh;
   constexpr std::uint32_t kNone = ~0U;
   std::vector<std::uint32_t> number(std::size_t{columns} * rows, kNone);
-  const auto vertex = [&](const std::array<std::uint32_t, 2>& pixel) {
+  const auto vertex = [&](const Pixel& pixel) {
     std::uint32_t& place = number[std::size_t{pixel[1] / step} * columns + pixel[0] / step];
     if (place == kNone) {
       place = static_cast<std::uint32_t>(mesh.positions.size());
-      mesh.positions.push_back(pointAt(pixel[0], pixel[1]));
+      mesh.positions.push_back(cells_.pointAt(pixel));
       mesh.normals.push_back(normalAt(pixel[0], pixel[1], Vec3::UnitZ()));
     }
     return place;
   };
-  const DepthCamera wide{1, 1, 0, 0, std::min(1.0, step * image_->camera.join)};
+  const DepthCamera wide{1, 1, 0, 0, std::min(1.0, step * image().camera.join)};
   for (std::uint32_t j = 0; j + 1 < rows; ++j) {
     for (std::uint32_t i = 0; i + 1 < columns; ++i) {
       for (const unsigned half : {0U, 1U}) {
-        Corners at = cornersOf({i, j, half});
-        for (auto& pixel : at) pixel = {pixel[0] * step, pixel[1] * step};
-        if (!wide.joins(depthAt(at[0]), depthAt(at[1]), depthAt(at[2]))) continue;
+        std::array<Pixel, 3> at = cells_.pixelsOf({i, j, half});
+        for (Pixel& pixel : at) pixel = {pixel[0] * step, pixel[1] * step};
+        if (!wide.joins(cells_.depthAt(at[0]), cells_.depthAt(at[1]), cells_.depthAt(at[2]))) continue;
         mesh.triangles.push_back({vertex(at[0]), vertex(at[1]), vertex(at[2])});
       }
     }
@@ -176,52 +143,5 @@ DrawnMesh DepthFrame::every(std::uint32_t step) const {
 }
 
 GridFrame cameraFrame(double scale_m) { return {scale_m * Vec3(1, -1, -1).asDiagonal().toDenseMatrix(), Vec3::Zero()}; }
-
-namespace {
-
-/// A pixel of one image after another.
-class SmoothPixel {
- public:
-  SmoothPixel(const DepthCamera& camera, const DepthImage* before, double smoothing)
-      : camera_(camera), before_(before), smoothing_(smoothing) {}
-
-  double depth(std::uint32_t column, std::uint32_t row, std::size_t at, double now, std::uint8_t& held) const {
-    if (before_ == nullptr) return now;
-    const double then = before_->grid->at(column, row);
-    if (camera_.joins(now, now, then)) return then + (1 - smoothing_) * (now - then);
-    if (now > 0 || !(then > 0)) return now;
-    held = static_cast<std::uint8_t>(1 + (before_->held.empty() ? 0 : before_->held[at]));
-    return held <= kMostHeld ? then : now;
-  }
-
- private:
-  const DepthCamera& camera_;
-  const DepthImage* before_;
-  const double smoothing_;
-};
-
-}  // namespace
-
-std::shared_ptr<const DepthImage> smoothed(const HeightGrid& now, double scale_m, const DepthCamera& camera,
-                                           const DepthImage* before, double smoothing) {
-  const bool counts = before != nullptr && smoothing > 0 && before->camera == camera &&
-                      before->grid->columns() == now.columns() && before->grid->rows() == now.rows();
-  const SmoothPixel pixel(camera, counts ? before : nullptr, smoothing);
-  const auto depths = std::make_shared<std::vector<float>>(now.size().samples());
-  std::vector<std::uint8_t> held(counts ? depths->size() : 0);
-  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, now.rows()), [&](const auto& rows) {
-    for (std::uint32_t row = rows.begin(); row < rows.end(); ++row) {
-      for (std::uint32_t column = 0; column < now.columns(); ++column) {
-        const std::size_t at = std::size_t{row} * now.columns() + column;
-        std::uint8_t since = 0;
-        (*depths)[at] = static_cast<float>(pixel.depth(column, row, at, scale_m * now.at(column, row), since));
-        if (counts) held[at] = since;
-      }
-    }
-  });
-  const std::shared_ptr<const void> data(depths, depths->data());
-  auto grid = std::make_shared<const HeightGrid>(GridSize{now.columns(), now.rows(), SampleKind::kFloat32}, data);
-  return std::make_shared<const DepthImage>(std::move(grid), camera, std::move(held));
-}
 
 }  // namespace hl

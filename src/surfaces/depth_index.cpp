@@ -7,21 +7,21 @@ namespace hl {
 namespace {
 
 // Of the nearest triangles.
-double cellOf_m(const DepthFrame& frame) {
-  const DepthCamera& camera = frame.image()->camera;
-  return frame.image()->tiles.all().low *
-         (frame.frame().axes.col(0).norm() / camera.fx + frame.frame().axes.col(1).norm() / camera.fy);
+double cellOf_m(const DepthCells& cells) {
+  const DepthCamera& camera = cells.image()->camera;
+  return cells.image()->tiles.all().low *
+         (cells.frame().axes.col(0).norm() / camera.fx + cells.frame().axes.col(1).norm() / camera.fy);
 }
 
 }  // namespace
 
-DepthIndex::DepthIndex(const DepthFrame& frame)
-    : WalkedIndex(frame.frame(), frame.bounds(), cellOf_m(frame)), frame_(frame) {}
+DepthIndex::DepthIndex(const DepthCells& cells, const Box& bounds)
+    : WalkedIndex(cells.frame(), bounds, cellOf_m(cells)), cells_(cells) {}
 
-std::size_t DepthIndex::walk(const GridBall& ball, Visit visit) const { return DepthWalk(frame_, ball).run(visit); }
+std::size_t DepthIndex::walk(const GridBall& ball, Visit visit) const { return DepthWalk(cells_, ball).run(visit); }
 
 IndexStats DepthIndex::stats() const {
-  const DepthTiles& tiles = frame_.image()->tiles;
+  const DepthTiles& tiles = cells_.image()->tiles;
   IndexStats stats;
   stats.bytes = sizeof(*this);
   stats.depth = tiles.levels();

@@ -3,22 +3,22 @@
 
 #include <cstddef>
 
-#include "surfaces/depth_frame.h"
+#include "surfaces/depth_cells.h"
 #include "surfaces/walked_index.h"
 
 namespace hl {
 
 class DepthIndex final : public WalkedIndex {
  public:
-  /// The frame must outlive it.
-  explicit DepthIndex(const DepthFrame& frame);
+  /// The cells must outlive it. `bounds`: of the triangles.
+  DepthIndex(const DepthCells& cells, const Box& bounds);
 
   IndexStats stats() const override;
 
  private:
   std::size_t walk(const GridBall& ball, Visit visit) const override;
 
-  const DepthFrame& frame_;
+  const DepthCells& cells_;
 };
 
 }  // namespace hl

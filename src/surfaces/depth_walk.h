@@ -11,20 +11,20 @@
 #include <cmath>
 #include <cstddef>
 
-#include "surfaces/depth_frame.h"
+#include "surfaces/depth_cells.h"
 #include "surfaces/grid_ball.h"
 
 namespace hl {
 
 class DepthWalk {
  public:
-  DepthWalk(const DepthFrame& frame, const GridBall& ball)
-      : frame_(frame), ball_(ball), size_(ball.metric().inverse * ball.metric().inverse.transpose()) {}
+  DepthWalk(const DepthCells& cells, const GridBall& ball)
+      : cells_(cells), ball_(ball), size_(ball.metric().inverse * ball.metric().inverse.transpose()) {}
 
   /// Calls visit(id) for each triangle that the ball may touch. Returns the number of tiles and cells visited.
   template <typename Visit>
   std::size_t run(const Visit& visit) {
-    const DepthTiles& tiles = frame_.image()->tiles;
+    const DepthTiles& tiles = cells_.image()->tiles;
     waiting_[count_++] = {0, 0, tiles.levels() - 1};
     while (count_ > 0) {
       const Tile tile = waiting_[--count_];
@@ -53,7 +53,7 @@ class DepthWalk {
     return nearest < 0 && nearest * nearest > ball_.radius() * ball_.radius() * a.dot(size_ * a);
   }
   bool misses(const Piece& piece) const {
-    const DepthCamera& camera = frame_.image()->camera;
+    const DepthCamera& camera = cells_.image()->camera;
     const auto across = [&](double column) { return Vec3(1, 0, -camera.across(column)); };
     const auto down = [&](double row) { return Vec3(0, 1, -camera.down(row)); };
     return outside(Vec3::UnitZ(), piece.low, 1) || outside(Vec3::UnitZ(), piece.high, -1) ||
@@ -63,7 +63,7 @@ class DepthWalk {
 
   void enterTile(const Tile& tile) {
     constexpr std::uint32_t kTiles = DepthTiles::kTiles;
-    const DepthTiles& tiles = frame_.image()->tiles;
+    const DepthTiles& tiles = cells_.image()->tiles;
     const int level = tile.level - 1;
     const std::uint32_t end = std::min((tile.column + 1) * kTiles, tiles.columns(level));
     const std::uint32_t bottom = std::min((tile.row + 1) * kTiles, tiles.rows(level));
@@ -76,7 +76,7 @@ class DepthWalk {
   template <typename Visit>
   void enterCells(const Tile& tile, const Visit& visit) {
     constexpr std::uint32_t kCells = DepthTiles::kCells;
-    const HeightGrid& grid = *frame_.image()->grid;
+    const HeightGrid& grid = *cells_.image()->grid;
     const std::uint32_t end = std::min((tile.column + 1) * kCells, grid.columns() - 1);
     const std::uint32_t bottom = std::min((tile.row + 1) * kCells, grid.rows() - 1);
     for (std::uint32_t j = tile.row * kCells; j < bottom; ++j) {
@@ -94,13 +94,13 @@ class DepthWalk {
     for (const unsigned n : {0U, 1U}) {
       const auto [low, high] = std::minmax({half[n][0], half[n][1], half[n][2]});
       if (!(low > 0) || misses({static_cast<double>(i), static_cast<double>(j), 1, low, high})) continue;
-      if (frame_.exists({i, j, n})) visit(idOf({i, j, n}, grid.columns()));
+      if (cells_.exists({i, j, n})) visit(idOf({i, j, n}, grid.columns()));
     }
   }
 
   static constexpr std::size_t kTilesOfTile = std::size_t{DepthTiles::kTiles} * DepthTiles::kTiles;
 
-  const DepthFrame& frame_;
+  const DepthCells& cells_;
   const GridBall& ball_;
   const Mat3 size_;  // |M^-T a|^2 = a . size_ a
   std::size_t looked_ = 0, count_ = 0;

@@ -234,8 +234,8 @@ TEST(SceneFile, HeightsWithACameraAreADepthImage) {
   ASSERT_EQ(scene.surfaces.size(), 1U);
   const auto& frame = dynamic_cast<const DepthFrame&>(*scene.surfaces[0].source);
   EXPECT_EQ(frame.triangles(), 2U) << "the last pixel is another thing";
-  EXPECT_NEAR(frame.pointAt(2, 0).x(), 0.5 / 525, 1e-9);
-  EXPECT_NEAR(frame.pointAt(2, 0).z(), -0.5, 1e-7);
+  EXPECT_NEAR(frame.cells().pointAt({2, 0}).x(), 0.5 / 525, 1e-9);
+  EXPECT_NEAR(frame.cells().pointAt({2, 0}).z(), -0.5, 1e-7);
 }
 
 TEST(SceneFile, TheMatterOfAVolumeIsThatOfItsSurfaceToo) {

@@ -242,7 +242,7 @@ TEST(RecordedScene, HasItsDepthImage) {
   EXPECT_EQ(is.bounds.min, was.bounds.min);
   const auto& frame = dynamic_cast<const DepthFrame&>(*is.source);
   for (ElementId id = 0; id < is.count(); id += 997) {
-    if (frame.exists(cellOf(id, 640))) ASSERT_EQ(is.source->corners(id), was.source->corners(id)) << id;
+    if (frame.cells().exists(cellOf(id, 640))) ASSERT_EQ(is.source->corners(id), was.source->corners(id)) << id;
   }
 }
 

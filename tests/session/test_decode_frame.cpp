@@ -154,7 +154,7 @@ proto::Frame depthFrame(const std::vector<float>& depths, double smoothing) {
 // Smoothed with what the object showed before.
 TEST(DecodeFrame, ADepthImageFollowsTheOneBefore) {
   const auto image = [](const SceneItems& items) -> const DepthImage& {
-    return *dynamic_cast<const DepthFrame&>(*items[0].shape->source).image();
+    return dynamic_cast<const DepthFrame&>(*items[0].shape->source).image();
   };
   const DecodedFrame first = decodeFrame(depthFrame({1000, 1000, 1000, 1000}, 0.5));
   const std::shared_ptr<const SceneItems> before = first.edit.objects.at(5);

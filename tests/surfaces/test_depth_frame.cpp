@@ -56,12 +56,12 @@ std::shared_ptr<const DepthFrame> randomFrame(Random& random) {
 }
 
 test::TestBall randomBall(Random& random, const DepthFrame& frame) {
-  const HeightGrid& grid = *frame.image()->grid;
+  const HeightGrid& grid = *frame.image().grid;
   const auto pixel = [&](std::uint32_t side) {
     return static_cast<std::uint32_t>(random.below(static_cast<int>(side)));
   };
-  const Vec3 at = frame.pointAt(pixel(grid.columns()), pixel(grid.rows()));
-  const double cell = frame.frame().axes.col(0).norm() / frame.image()->camera.fx;
+  const Vec3 at = frame.cells().pointAt({pixel(grid.columns()), pixel(grid.rows())});
+  const double cell = frame.frame().axes.col(0).norm() / frame.image().camera.fx;
   const double radius = cell * std::pow(10.0, random.uniform(-2, 1.3));
   return {at + random.uniform(-1.5, 1.5) * radius * random.direction(), radius, cell};
 }
