@@ -124,8 +124,8 @@ TEST(Alone, TheEndingDecides) {
   EXPECT_EQ(sentEndingOf("a.hl.json"), ".hl.json");
   EXPECT_EQ(sentEndingOf("a.json"), ".json");
   EXPECT_EQ(sentEndingOf("a"), "");
-  EXPECT_TRUE(readsSent(".hl.json") && readsSent(".obj") && readsSent(".wrl"));
-  EXPECT_FALSE(readsSent(".xyz") || readsSent("") || readsSent(".json"));
+  EXPECT_TRUE(readsSent(".hl.json") && readsSent(".obj") && readsSent(".wrl") && readsSent(".las"));
+  EXPECT_FALSE(readsSent(".bin") || readsSent("") || readsSent(".json"));
 }
 
 // A program that is none, one that gives nothing, and one that is given up.

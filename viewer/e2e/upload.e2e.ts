@@ -100,7 +100,7 @@ describe.skipIf(!kProgram)("a file of the user's", () => {
   test.each([
     ["bad.obj", "no model\n", "bad.obj: there is no geometry in it"],
     ["empty.obj", "", "empty.obj is empty."],
-    ["picture.xyz", "x", /^picture\.xyz: files ending in '\.xyz' cannot be read/],
+    ["picture.bin", "x", /^picture\.bin: files ending in '\.bin' cannot be read/],
     ["beside.gltf", '{"asset":{"version":"2.0"},"buffers":[{"uri":"beside.bin","byteLength":36}],' +
       '"bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,' +
       '"type":"VEC3"}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}],' +
