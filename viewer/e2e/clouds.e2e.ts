@@ -26,12 +26,11 @@ describe.skipIf(!kProgram)("a cloud of surfels", () => {
   });
 
   test("is felt where it is pressed", async () => {
-    await states(page, 60);
     const at = await page.evaluate(() => window.__hl.project({ x: 0.12, y: 0.01, z: 0.05 }));
     await page.mouse.move(at.x, at.y);
     await page.mouse.down();
     await page.waitForFunction(() => window.__hl.contacts > 0);
-    await states(page, 60);
+    await states(page, 10);
     await screenshot(page, "clouds");
     await page.mouse.up();
     expect(complaints.errors).toEqual([]);
