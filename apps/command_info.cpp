@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "scene/bump_gain.h"
 #include "surfaces/height_field.h"
+#include "surfaces/implicit/implicit_surface.h"
 #include "surfaces/iso_surface.h"
 #include "surfaces/point_cloud.h"
 
@@ -210,12 +211,20 @@ void printCloud(const PointCloud& cloud) {
   }
 }
 
+void printImplicit(const ImplicitSurface& surface) {
+  const auto [least, most] = surface.steps();
+  fmt::print("implicit:   {} smooth {} on grids of {:.3g} to {:.3g} m; about {} triangles, within {:.3g} m of it\n",
+             surface.sheets(), surface.sheets() == 1 ? "surface" : "surfaces", least, most, surface.triangles(),
+             surface.error_m());
+}
+
 void printSurfaces(const Snapshot& snapshot) {
   for (const Instance& instance : snapshot.instances) {
     const PrimitiveSource* source = instance.shape->source.get();
     if (const auto* field = dynamic_cast<const HeightField*>(source)) printHeights(*field);
     if (const auto* surface = dynamic_cast<const IsoSurface*>(source)) printVolume(*surface);
     if (const auto* cloud = dynamic_cast<const PointCloud*>(source)) printCloud(*cloud);
+    if (const auto* implicit = dynamic_cast<const ImplicitSurface*>(source)) printImplicit(*implicit);
   }
 }
 

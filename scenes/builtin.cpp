@@ -12,6 +12,7 @@
 #include "fields.h"
 #include "phantom.h"
 #include "rough.h"
+#include "sdf.h"
 #include "snap_board.h"
 #include "soup.h"
 #include "surfaces.h"
@@ -26,7 +27,7 @@ namespace {
 constexpr std::size_t kMaxMember = 1'000'000'000;
 
 constexpr std::string_view kSnaps = "snaps", kWorkshop = "workshop", kField = "field", kScan = "ct", kCloud = "points",
-                           kDepth = "depth";
+                           kDepth = "depth", kSdf = "sdf";
 constexpr std::size_t kUsualField = 1'000'000, kMostField = std::min(100'000'000'000ULL, 0ULL + SIZE_MAX),
                       kUsualScan = 161, kMostScan = 1025, kUsualCloud = 100'000, kMostCloud = 100'000'000;
 
@@ -140,7 +141,7 @@ SceneModel makeDepth(const std::string& spec) {
 
 bool isBuiltinSurface(const std::string& spec) {
   const std::string_view name = std::string_view(spec).substr(0, spec.find(':'));
-  return name == kField || name == kScan || name == kCloud || name == kDepth;
+  return name == kField || name == kScan || name == kCloud || name == kDepth || name == kSdf;
 }
 
 bool isBuiltinScene(const std::string& spec) {
@@ -173,6 +174,7 @@ SceneModel makeBuiltinWorld(const std::string& spec) {
   if (isBuiltinSurface(spec)) {
     if (spec.starts_with(kDepth)) return makeDepth(spec);
     if (spec.starts_with(kCloud)) return makePoints(spec);
+    if (spec.starts_with(kSdf)) return makeSdf(spec);
     return spec.starts_with(kField) ? makeField(spec) : makeScan(spec);
   }
   return makeBuiltinScene(spec);

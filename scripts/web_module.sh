@@ -5,7 +5,7 @@
 web_sources() {
   local out="$1" folder file
   for folder in geometry surfaces scene bodies proxy control; do
-    for file in "$root/src/$folder"/*.cpp; do
+    for file in $(find "$root/src/$folder" -name "*.cpp" | LC_ALL=C sort); do
       if [[ "$file" != */wide_bvh_query.cpp && "$file" != */hull_faces.cpp ]]; then echo "#include \"$file\""; fi
     done >"$out/$folder.cpp"
   done

@@ -221,6 +221,12 @@ HL_API void hlNurbsSurface(HLsizei u_knot_count, const HLdouble* u_knots, HLsize
                            HLint u_stride, HLint v_stride, const HLdouble* points, HLint u_order, HLint v_order,
                            HLenum type, HLdouble error);
 
+/** Draws the surface of a solid that `json` writes down, as scene files do: {"expression": {"torus": {"radius": 0.03,
+ * "tube": 0.01}}, "error": 1e-6}, with "bounds" where it has no end. Lengths are those of the current matrix; docs/
+ * implicit.md lists the expressions. The server makes its triangles when they are touched. HL_INVALID_VALUE: NULL, or
+ * text that is not such JSON. An expression that cannot be is refused by the server with its frame. */
+HL_API void hlImplicit(const char* json);
+
 /* ---- Objects -------------------------------------------------------------------------------------------------- */
 
 /** Writes `n` object numbers (> 0) that are not in use. HL_INVALID_VALUE: n < 0. */

@@ -58,6 +58,8 @@ HL_API HLbatchScene* hlBatchMakeVolume(const size_t* size, HLenum type, const vo
  * those of the plane through the 12 nearest points. `reach` 0: the points alone are touched; 0.01 to 10: each is a
  * small hexagon across its normal around a disc of so many distances between neighbours. NULL when that fails. */
 HL_API HLbatchScene* hlBatchMakePoints(const HLdouble* points, const HLdouble* normals, size_t count, HLdouble reach);
+/** The surface of a solid that `json` writes down, as hlImplicit has it. NULL when that fails. */
+HL_API HLbatchScene* hlBatchMakeImplicit(const char* json);
 /** Fingers that were made with the scene keep it. NULL: nothing happens. */
 HL_API void hlBatchDeleteScene(HLbatchScene* scene);
 /** How many triangles, segments and points it has. */

@@ -1,5 +1,6 @@
 """What users give: taken as C++ wants it, or refused by an InvalidValueError, whose line says what to give."""
 
+import json
 import operator
 import os
 from typing import Any, List, Union
@@ -54,6 +55,16 @@ def floats(numbers: Any, name: str) -> Floats:
 def heights(samples: Any) -> npt.NDArray[Any]:
     """Of two dimensions, as grid()."""
     return grid(samples, 2, "heights", "two rows and columns")
+
+
+def implicit(solid: Any) -> str:
+    """An implicit surface as JSON; a str is taken as it is."""
+    if isinstance(solid, str):
+        return solid
+    try:
+        return json.dumps(solid)
+    except (TypeError, ValueError) as error:
+        raise InvalidValueError(f"an implicit surface is a dict, as in a scene file: {error}") from None
 
 
 def volume(samples: Any) -> npt.NDArray[Any]:

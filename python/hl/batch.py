@@ -7,7 +7,7 @@ closest.
 
 import os
 from dataclasses import dataclass, fields
-from typing import Any, List, NamedTuple, Optional, Sequence, Tuple, Union, overload
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -55,6 +55,9 @@ class Scene:
         between points; with `surfels` each is a small hexagon across its normal: True, or how many distances between
         neighbours it reaches (True: 0.75).
 
+    Scene(implicit=solid): the surface of a solid that is written down as in a scene file, a dict or JSON:
+        {"expression": {"torus": {"radius": 0.03, "tube": 0.01}}, "error": 1e-6}, lengths in m.
+
     Raises InvalidValueError: there is no such file, or nothing in it can be touched. Ctrl-C is heard when it is made.
     """
 
@@ -94,6 +97,9 @@ class Scene:
         normals: Optional[npt.ArrayLike] = None,
         surfels: Union[bool, float] = False,
     ) -> None: ...
+
+    @overload
+    def __init__(self, *, implicit: Union[str, Dict[str, Any]]) -> None: ...
     def __init__(
         self,
         source: Any = None,
@@ -104,6 +110,7 @@ class Scene:
         vertices: Any = None,
         heights: Any = None,
         volume: Any = None,
+        implicit: Any = None,
         iso: Any = None,
         spacing: Any = 1.0,
         vertical_scale: Any = 1.0,
@@ -112,10 +119,16 @@ class Scene:
         surfels: Any = False,
     ) -> None:
         if points is not None:
-            if any(other is not None for other in (source, triangles, vertices, heights, volume, iso)):
+            if any(other is not None for other in (source, triangles, vertices, heights, volume, iso, implicit)):
                 raise InvalidValueError("a scene is made of points, heights, a volume, a file or vertices, of one of them")
             self._source: Any = None
             self._scene = _cloud_of(points, normals, surfels)
+            return
+        if implicit is not None:
+            if any(other is not None for other in (source, triangles, normals, vertices, heights, volume, iso)):
+                raise InvalidValueError("a scene is made of an implicit surface or of something else, not of both")
+            self._source = None
+            self._scene = _hl.BatchScene(arguments.implicit(implicit))
             return
         if heights is not None or volume is not None:
             others = (source, triangles, normals, vertices, heights if volume is not None else iso)

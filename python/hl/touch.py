@@ -294,6 +294,11 @@ class Touch:
         given = None if normals is None else arguments.floats(normals, "normals")
         calls.hlPointCloud(array, given, arguments.reach(surfels))
 
+    def implicit(self, solid: Union[str, Dict[str, Any]]) -> None:
+        """Draws the surface of a solid that is written down, as hl.Scene(implicit=...) has it."""
+        self.make_current()
+        calls.hlImplicit(arguments.implicit(solid))
+
     def volume_surface(self, iso: float, spacing: Union[float, Tuple[float, float, float]] = 1.0) -> None:
         """Draws another surface of the volume that was drawn last in this object or world; nothing is sent again."""
         self.make_current()

@@ -66,6 +66,11 @@ std::unique_ptr<Scene> loadScene(const std::string& name, double size) {
   return std::make_unique<Scene>(made(hlBatchLoadScene(name.c_str(), size)));
 }
 
+std::unique_ptr<Scene> makeImplicit(const std::string& json) {
+  const OtherThreadsRun other_threads_run;
+  return std::make_unique<Scene>(made(hlBatchMakeImplicit(json.c_str())));
+}
+
 std::unique_ptr<Scene> makeScene(const Doubles& vertices, const Indices& triangles,
                                  const std::optional<Doubles>& normals) {
   const std::size_t count = rowsOf(vertices, 3, "vertices");
@@ -205,6 +210,7 @@ void bindBatch(py::module_& module) {
       .def(py::init(&loadScene), py::arg("name"), py::arg("size"))
       .def(py::init(&makeScene), py::arg("vertices"), py::arg("triangles"), py::arg("normals"))
       .def(py::init(&makeVolume), py::arg("volume"), py::arg("spacing"), py::arg("iso"), py::arg("missing"))
+      .def(py::init(&makeImplicit), py::arg("implicit"))
       .def(py::init(&makeHeights), py::arg("samples"), py::arg("spacing"), py::arg("scale"), py::arg("missing"))
       .def(py::init(&makePoints), py::arg("points"), py::arg("normals"), py::arg("reach"))
       .def_property_readonly("primitives",

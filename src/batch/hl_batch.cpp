@@ -20,6 +20,7 @@
 #include "batch/batch.h"
 #include "batch/ends_early.h"
 #include "batch/on_threads.h"
+#include "io/decode_implicit.h"
 #include "io/decode_volumes.h"
 #include "io/load_scene.h"
 #include "io/read_heights.h"
@@ -28,6 +29,7 @@
 #include "surfaces/height_field.h"
 #include "surfaces/point_cloud.h"
 #include "surfaces/sample_room.h"
+#include "wire/implicit_json.h"
 
 struct HLbatchScene {
   std::shared_ptr<const hl::Snapshot> snapshot;
@@ -258,6 +260,17 @@ HLbatchScene* hlBatchMakePoints(const HLdouble* points, const HLdouble* normals,
     made.surfaces.push_back(
         {"points", std::make_shared<const PointCloud>(makeCloud(onFineLattice(positions, packed, skipped)), look)});
     made.surfaces.back().material.smooth = normals != nullptr;
+    scene = sceneOf(std::move(made));
+  });
+  return scene;
+}
+
+HLbatchScene* hlBatchMakeImplicit(const char* json) {
+  HLbatchScene* scene = nullptr;
+  guardedCall(__func__, [&] {
+    require(json != nullptr, "json is NULL");
+    SceneModel made;
+    made.surfaces.push_back({"implicit", decodeImplicit(implicitOfJson(json))});
     scene = sceneOf(std::move(made));
   });
   return scene;

@@ -143,6 +143,11 @@ class Builder {
       out.set_iso(item.geometry.iso);
       return;
     }
+    if (item.geometry.implicit) {
+      inline_bytes_ += item.geometry.implicit->ByteSizeLong();
+      *out.mutable_primitives()->mutable_implicit() = *item.geometry.implicit;
+      return;
+    }
     fillGeometry(item.geometry, out);
   }
 

@@ -117,7 +117,7 @@ void Vertices::shorten(std::size_t count) {
 }
 
 bool Geometry::takes(const Vertices& added) const {
-  return !heights && !volume && !cloud && vertices.normals.empty() == added.normals.empty() &&
+  return !heights && !volume && !cloud && !implicit && vertices.normals.empty() == added.normals.empty() &&
          vertices.texcoords.empty() == added.texcoords.empty() &&
          vertices.size() + added.size() <= std::numeric_limits<Index>::max();
 }

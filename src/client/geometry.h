@@ -27,15 +27,16 @@ struct Vertices {
 
 struct Geometry {
   Vertices vertices;
-  std::vector<std::uint32_t> triangles;           ///< three indices each
-  std::vector<std::uint32_t> segments;            ///< two each
-  std::vector<std::uint32_t> points;              ///< one each
-  std::optional<proto::Heights> heights{};        ///< in place of all others; samples in one piece
-  std::shared_ptr<const proto::Volume> volume{};  ///< in place of all others; one for all its surfaces
-  double iso = 0;                                 ///< of the volume
-  std::vector<proto::Patch> patches{};            ///< in place of all others
-  double patch_error = 0;                         ///< of the patches; 0: the server's choice
-  std::shared_ptr<const proto::Cloud> cloud{};    ///< in place of all others
+  std::vector<std::uint32_t> triangles;               ///< three indices each
+  std::vector<std::uint32_t> segments;                ///< two each
+  std::vector<std::uint32_t> points;                  ///< one each
+  std::optional<proto::Heights> heights{};            ///< in place of all others; samples in one piece
+  std::shared_ptr<const proto::Volume> volume{};      ///< in place of all others; one for all its surfaces
+  double iso = 0;                                     ///< of the volume
+  std::vector<proto::Patch> patches{};                ///< in place of all others
+  double patch_error = 0;                             ///< of the patches; 0: the server's choice
+  std::shared_ptr<const proto::Cloud> cloud{};        ///< in place of all others
+  std::shared_ptr<const proto::Implicit> implicit{};  ///< in place of all others
   /// Whether `added` could be appended: all vertices have normals or none has, the same for texture coordinates, and
   /// the indices fit.
   bool takes(const Vertices& added) const;

@@ -8,9 +8,11 @@
 #include <memory>
 #include <utility>
 
+#include "base/error.h"
 #include "client/call.h"
 #include "client/elements.h"
 #include "client/patch_arguments.h"
+#include "wire/implicit_json.h"
 
 using hl::client::call;
 using hl::client::Fault;
@@ -301,6 +303,19 @@ void hlPointCloud(HLsizei count, const HLdouble* points, const HLdouble* normals
     cloud->set_surfels(reach != 0);
     cloud->set_reach(reach);
     context.target().drawCloud(context.draw.modelview.top(), lookOf(context.draw.attributes.now), cloud);
+  });
+}
+
+void hlImplicit(const char* json) {
+  call(__func__, [&](HLcontext& context) {
+    requirePointer(json);
+    auto implicit = std::make_shared<hl::proto::Implicit>();
+    try {
+      *implicit = hl::implicitOfJson(json);
+    } catch (const hl::Error& error) {
+      throw Fault(HL_INVALID_VALUE, error.what());
+    }
+    context.target().drawImplicit(context.draw.modelview.top(), lookOf(context.draw.attributes.now), implicit);
   });
 }
 

@@ -53,6 +53,11 @@ void ItemList::drawPatch(const Matrix4& matrix, const Look& look, proto::Patch p
   items_.back().geometry.patches.push_back(std::move(patch));
 }
 
+void ItemList::drawImplicit(const Matrix4& matrix, const Look& look, std::shared_ptr<const proto::Implicit> implicit) {
+  items_.push_back({matrix, look, 0, {}});
+  items_.back().geometry.implicit = std::move(implicit);
+}
+
 std::shared_ptr<const proto::Volume> ItemList::lastVolume() const {
   const auto last = std::find_if(items_.rbegin(), items_.rend(), [](const Item& item) { return item.geometry.volume; });
   return last == items_.rend() ? nullptr : last->geometry.volume;

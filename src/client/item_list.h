@@ -47,6 +47,7 @@ class ItemList {
   void drawVolume(const Matrix4& matrix, const Look& look, std::shared_ptr<const proto::Volume> volume, double iso);
   /// Those after each other with the same matrix, look and error become one item, so that their sides meet.
   void drawPatch(const Matrix4& matrix, const Look& look, proto::Patch patch, double error_m);
+  void drawImplicit(const Matrix4& matrix, const Look& look, std::shared_ptr<const proto::Implicit> implicit);
   /// The volume that was drawn last; null: none was.
   std::shared_ptr<const proto::Volume> lastVolume() const;
   void call(const Matrix4& matrix, const Look& look, HLuint object);

@@ -230,16 +230,17 @@ Model SceneFile::shapeOf(const proto::SceneObject& object, const std::string& wh
     case proto::SceneObject::kHeights:
     case proto::SceneObject::kVolume:
     case proto::SceneObject::kCloud:
+    case proto::SceneObject::kImplicit:
     case proto::SceneObject::SHAPE_NOT_SET:
       break;
   }
-  fail(where, where + ": an object needs a file, a builtin, primitives, heights, a volume or a cloud");
+  fail(where, where + ": an object needs a file, a builtin, primitives, heights, a volume, a cloud or an implicit surface");
 }
 
 // A surface stays what it is: it is no part of the one model.
 void SceneFile::addSurfaces(const proto::SceneObject& object, const std::string& where, SceneModel& scene) {
   const std::string at = where + "." + SceneSurfaces::fieldOf(object);
-  if (object.has_body()) fail(where + ".body", where + ".body: a height field, volume or cloud cannot be a body");
+  if (object.has_body()) fail(where + ".body", where + ".body: only what is made of triangles can be a body");
   if (options_.alone && !SceneSurfaces::fileOf(object).empty()) fail(at + ".file", at + ".file: " + kAlone);
   const Placement placement = placementOf(object.transform(), where + ".transform");
   std::vector<SceneSurface> surfaces;
@@ -257,7 +258,7 @@ void SceneFile::addSurfaces(const proto::SceneObject& object, const std::string&
     for (const TextureUse& use : surface.material.textures) {
       if (use.used())
         fail(where + ".material.textures",
-             where + ".material: a height field, volume or cloud has no texture coordinates");
+             where + ".material: only what is made of triangles has texture coordinates");
     }
     scene.surfaces.push_back(std::move(surface));
   }

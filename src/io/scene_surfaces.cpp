@@ -5,17 +5,19 @@
 #include "base/error.h"
 #include "builtin.h"
 #include "io/decode_heights.h"
+#include "io/decode_implicit.h"
 
 namespace hl {
 
 bool SceneSurfaces::has(const proto::SceneObject& object) {
-  return object.has_heights() || object.has_volume() || object.has_cloud() ||
+  return object.has_heights() || object.has_volume() || object.has_cloud() || object.has_implicit() ||
          (object.has_builtin() && isBuiltinSurface(object.builtin()));
 }
 
 const char* SceneSurfaces::fieldOf(const proto::SceneObject& object) {
   if (object.has_builtin()) return "builtin";
   if (object.has_cloud()) return "cloud";
+  if (object.has_implicit()) return "implicit";
   return object.has_volume() ? "volume" : "heights";
 }
 
@@ -27,7 +29,9 @@ const std::string& SceneSurfaces::fileOf(const proto::SceneObject& object) {
 std::vector<SceneSurface> SceneSurfaces::read(const proto::SceneObject& object) {
   if (object.has_builtin()) return makeBuiltinWorld(object.builtin()).surfaces;
   SceneSurface surface;
-  if (object.has_cloud()) {
+  if (object.has_implicit()) {
+    surface.source = decodeImplicit(object.implicit());
+  } else if (object.has_cloud()) {
     surface.source = cloud(object.cloud());
   } else {
     surface.source = object.has_volume() ? volume(object.volume()) : heights(object.heights());

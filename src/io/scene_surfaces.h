@@ -1,4 +1,4 @@
-// SceneSurfaces: the objects of a scene file that are no meshes: height fields, volumes and clouds.
+// SceneSurfaces: the objects of a scene file that are no meshes: height fields, volumes, clouds, implicit surfaces.
 #pragma once
 
 #include <hl.pb.h>

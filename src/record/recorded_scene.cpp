@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/machine_memory.h"
 #include "io/body_messages.h"
+#include "io/decode_implicit.h"
 #include "io/snap_messages.h"
 #include "io/value_messages.h"
 
@@ -145,6 +146,12 @@ void SceneWriter::writeSource(const PrimitiveSource& source, std::uint64_t id, c
       *part.mutable_cloud() = points;
       write(part);
     });
+  }
+  if (const auto* const implicit = dynamic_cast<const ImplicitSurface*>(&source)) {
+    proto::RecordingBlock part;
+    part.mutable_implicit()->set_id(id);
+    toProto(*implicit, *part.mutable_implicit());
+    return write(part);
   }
   const auto* const surface = dynamic_cast<const IsoSurface*>(&source);
   if (surface == nullptr) throw Error("a surface of a kind that is not known cannot be recorded");
@@ -310,6 +317,11 @@ std::shared_ptr<const CloudPoints> SceneReader::cloudOf(std::uint64_t id) const 
       shape == shapes_.end() ? nullptr : dynamic_cast<const PointCloud*>(shape->second->source.get());
   if (cloud == nullptr) throw Error(kBrokenScene);
   return cloud->points();
+}
+
+void SceneReader::add(const proto::RecordedImplicit& in) {
+  if (begun_) throw Error(kBrokenScene);
+  shapes_[in.id()] = makeShape(implicitOf(in));
 }
 
 std::shared_ptr<const Volume> SceneReader::volumeOf(std::uint64_t id) const {

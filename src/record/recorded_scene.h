@@ -74,6 +74,7 @@ class SceneReader {
   void add(const proto::RecordedHeights& in);
   void add(const proto::RecordedVolume& in);
   void add(const proto::RecordedCloud& in);
+  void add(const proto::RecordedImplicit& in);
   void add(const proto::RecordedSurfaces& in);
   void add(const proto::RecordedBody& in);
   std::shared_ptr<const Snapshot> scene(const proto::RecordedScene& in) const;

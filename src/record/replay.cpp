@@ -97,6 +97,7 @@ class ProxyReplay {
   void add(const proto::RecordedHeights& heights) { reader_.add(heights); }
   void add(const proto::RecordedVolume& volume) { reader_.add(volume); }
   void add(const proto::RecordedCloud& cloud) { reader_.add(cloud); }
+  void add(const proto::RecordedImplicit& surface) { reader_.add(surface); }
   void add(const proto::RecordedSurfaces& surfaces) { reader_.add(surfaces); }
   void add(const proto::RecordedBody& body) { reader_.add(body); }
   void add(const proto::RecordedProxy& proxy) {
@@ -216,6 +217,7 @@ ReplayReport replayed(RecordingReader& reader, const StepVisitor& visit) {
     if (block.has_heights()) proxy.add(block.heights());
     if (block.has_volume()) proxy.add(block.volume());
     if (block.has_cloud()) proxy.add(block.cloud());
+    if (block.has_implicit()) proxy.add(block.implicit());
     if (block.has_surfaces()) proxy.add(block.surfaces());
     if (block.has_scene()) proxy.add(block.scene());
     if (block.has_rigid_body()) proxy.add(block.rigid_body());

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "io/decode_clouds.h"
 #include "io/decode_heights.h"
+#include "io/decode_implicit.h"
 #include "io/decode_scene.h"
 #include "io/decode_volumes.h"
 #include "scene/append_part.h"
@@ -44,6 +45,7 @@ std::uint64_t bytesToBuild(const proto::Primitives& in) {
   if (in.has_heights()) return bytesToMakeHeights(in.heights());
   if (in.has_volume()) return bytesToMakeVolume(in.volume());
   if (in.has_cloud()) return bytesToMakeCloud(in.cloud());
+  if (in.has_implicit()) return bytesToMakeImplicit(in.implicit());
   return bytesToMake(countsOf(in));
 }
 
@@ -57,13 +59,9 @@ void requireAlone(const proto::Primitives& in, const std::string& where) {
   if (in.vertices_size() + in.triangles_size() + in.polygons_size() + in.segments_size() + in.points_size() +
           in.patches_size() >
       0)
-    throw Error(where + ": " +
-                (in.has_heights()  ? "heights come"
-                 : in.has_volume() ? "a volume comes"
-                                   : "a cloud comes") +
-                " without vertices and elements");
-  if (in.has_heights() + in.has_volume() + in.has_cloud() > 1)
-    throw Error(where + ": it has heights, a volume or a cloud, not several of them");
+    throw Error(where + ": heights, volumes, clouds and implicit surfaces come without vertices and elements");
+  if (in.has_heights() + in.has_volume() + in.has_cloud() + in.has_implicit() > 1)
+    throw Error(where + ": it has heights, a volume, a cloud or an implicit surface, not several of them");
 }
 
 class FrameDecoder {
@@ -107,6 +105,7 @@ class FrameDecoder {
                                        const std::string& where);
   std::shared_ptr<const Shape> heightsOf(const proto::Primitives& in, const Shape* before, const std::string& where);
   std::shared_ptr<const Shape> cloudOf(const proto::Primitives& in, const std::string& where);
+  std::shared_ptr<const Shape> implicitSurfaceOf(const proto::Primitives& in, const std::string& where);
   template <typename Decode>
   std::shared_ptr<const Shape> ownSurface(std::uint64_t bytes, const std::string& where, const Decode& decode);
   std::shared_ptr<const Shape> surfaceOfVolume(const proto::Primitives& in, const proto::Item& item,
@@ -175,7 +174,7 @@ void FrameDecoder::makeBody(const proto::ObjectDefinition& object, SceneItems& i
     throw Error(where + ".body: a body has one item, with primitives or an upload, and no calls; this one has " +
                 std::to_string(items.size()) + (items.size() == 1 ? " item, a call" : " items"));
   SceneItem& item = items[0];
-  if (item.shape->source) throw Error(where + ".body: a height field, volume or cloud cannot be a body");
+  if (item.shape->source) throw Error(where + ".body: only what is made of triangles can be a body");
   items.body = std::make_shared<const BodySpec>(decoder_.body(object.body(), where + ".body"));
   if (!item.placement) return;
   const std::shared_ptr<const Shape> shape = item.shape;
@@ -275,11 +274,12 @@ std::shared_ptr<const Placement> FrameDecoder::placementOf(const proto::Item& in
 
 std::shared_ptr<const Shape> FrameDecoder::shapeOf(const proto::Primitives& in, const proto::Item& item,
                                                    const Shape* before, const std::string& where) {
-  if (in.has_heights() || in.has_volume() || in.has_cloud()) requireAlone(in, where);
+  if (in.has_heights() || in.has_volume() || in.has_cloud() || in.has_implicit()) requireAlone(in, where);
   if (in.has_volume()) return surfaceOfVolume(in, item, where);
   if (item.has_iso()) throw Error(where + ": iso is of volumes, and this is none");
   if (in.has_heights()) return heightsOf(in, before, where);
   if (in.has_cloud()) return cloudOf(in, where);
+  if (in.has_implicit()) return implicitSurfaceOf(in, where);
   const proto::Material& material = item.material();
   const auto repeat = [](bool has, double value) { return has && std::isfinite(value) ? value : 1; };
   return makeCounted(memory_, bytesToBuild(in), [&] {
@@ -315,6 +315,11 @@ std::shared_ptr<const Shape> FrameDecoder::heightsOf(const proto::Primitives& in
 
 std::shared_ptr<const Shape> FrameDecoder::cloudOf(const proto::Primitives& in, const std::string& where) {
   return ownSurface(bytesToMakeCloud(in.cloud()), where + ".cloud", [&] { return decodeCloud(in.cloud()); });
+}
+
+std::shared_ptr<const Shape> FrameDecoder::implicitSurfaceOf(const proto::Primitives& in, const std::string& where) {
+  return ownSurface(bytesToMakeImplicit(in.implicit()), where + ".implicit",
+                    [&] { return decodeImplicit(in.implicit()); });
 }
 
 std::shared_ptr<const Shape> FrameDecoder::surfaceOfVolume(const proto::Primitives& in, const proto::Item& item,

@@ -265,6 +265,22 @@ TEST_F(CallsTest, CloudsThatMakeNoSenseAreRefused) {
   EXPECT_FALSE(flushed().has_world());
 }
 
+TEST_F(CallsTest, ImplicitSurfacesGoAsTheyAreWritten) {
+  hlTranslated(1, 2, 3);
+  hlImplicit(R"({"expression": {"union": {"of": [{"sphere": {"radius": 0.5}}], "smooth": 0.25}}, "error": 1e-5})");
+  triangle();
+  const proto::Frame frame = flushed();
+  ASSERT_EQ(frame.world().items_size(), 2);
+  const proto::Implicit& implicit = frame.world().items(0).primitives().implicit();
+  EXPECT_EQ(implicit.expression().union_().of(0).sphere().radius(), 0.5);
+  EXPECT_EQ(implicit.expression().union_().smooth(), 0.25);
+  EXPECT_EQ(implicit.error(), 1e-5);
+  hlImplicit(nullptr);
+  expectError(HL_INVALID_VALUE);
+  hlImplicit("{\"expression\": {\"ball\": {}}}");
+  expectError(HL_INVALID_VALUE);
+}
+
 TEST_F(CallsTest, VolumesThatMakeNoSenseAreRefused) {
   const std::array<HLfloat, 8> samples{};
   hlVolume(1, 2, 2, HL_FLOAT, samples.data(), nullptr, 0);

@@ -135,8 +135,7 @@ TEST(SceneFile, HeightsThatMakeNoSenseAreRefused) {
   EXPECT_EQ(heightsRefusal(good + R"(, "spacing": -1)"), "2: spacing must be from 1e-12 to 1e9");
   EXPECT_EQ(heightsRefusal(R"("columns": 2, "rows": 3, "values": [0, 1, 2, 3])"),
             "2: it has fewer samples than it says");
-  EXPECT_EQ(heightsRefusal(good, R"(, "body": {})"),
-            "2: objects[0].body: a height field, volume or cloud cannot be a body");
+  EXPECT_EQ(heightsRefusal(good, R"(, "body": {})"), "2: objects[0].body: only what is made of triangles can be a body");
   EXPECT_NE(heightsRefusal(R"("file": "none.tif")").find("there is no such file"), std::string::npos);
   fileWith("field.asc", "ncols 2\nnrows 2\ncellsize 5\n1 2 3 4");
   EXPECT_EQ(heightsRefusal(R"("file": "field.asc", "spacing": 2, "verticalScale": 3)"), "");
@@ -190,6 +189,38 @@ TEST(SceneFile, TheExampleOfAVolumeLoads) {
   EXPECT_EQ(scene.surfaces[0].material.stiffness, 0.4);
   EXPECT_EQ(scene.surfaces[1].material.stiffness, 1);
   EXPECT_EQ(makeSnapshot(scene)->instances.size(), 3U);
+}
+
+TEST(SceneFile, TheExampleOfImplicitSurfacesLoads) {
+  const SceneModel scene = loadSceneFile(std::string(HL_EXAMPLES) + "/implicit.hl.json");
+  ASSERT_EQ(scene.surfaces.size(), 3U);
+  EXPECT_EQ(scene.surfaces[1].name, "a block with a bore");
+  EXPECT_EQ(scene.surfaces[1].source->siteOf(Vec3(0.015, 0, 0.015)), Site::kMatter);
+  EXPECT_EQ(scene.surfaces[1].source->siteOf(Vec3(0, 0.019, 0)), Site::kOpen) << "in the bore";
+  for (const SceneSurface& surface : scene.surfaces) EXPECT_LE(surface.source->error_m(), 2.1e-6);
+}
+
+TEST(SceneFile, ImplicitSurfacesThatMakeNoSenseAreRefused) {
+  const auto refusal = [](const std::string& implicit, const std::string& rest = "") -> std::string {
+    try {
+      loadSceneFile(fileWith("scene.hl.json", "{\"objects\":[{\n\"implicit\": {" + implicit + "}" + rest + "}]}"));
+    } catch (const Error& error) {
+      return std::string(error.what()).substr(std::string(error.what()).find("scene.hl.json:") + 14);
+    }
+    return "";
+  };
+  const std::string good = R"("expression": {"sphere": {"radius": 0.1}}, "error": 1e-4)";
+  EXPECT_EQ(refusal(good), "");
+  EXPECT_EQ(refusal(good + R"(, "bounds": {"min": {"x": -1, "y": -1, "z": 0}, "max": {"x": 1, "y": 1, "z": 1}})"), "");
+  EXPECT_EQ(refusal(""), "2: it needs an expression");
+  EXPECT_NE(refusal(R"("expression": {})").find("an expression needs a sphere, box"), std::string::npos);
+  EXPECT_EQ(refusal(R"("expression": {"union": {"of": [{"sphere": {"radius": 0}}]}})"),
+            "2: union.of.sphere.radius must be from 1e-9 to 1e6 m");
+  EXPECT_EQ(refusal(R"("expression": {"halfSpace": {"normal": {"y": 1}}})"),
+            "2: it has no end, as a half-space or a gyroid has none: give bounds");
+  EXPECT_NE(refusal(R"("expression": {"ball": {}})").find("ball"), std::string::npos);
+  EXPECT_EQ(refusal(good, R"(, "body": {})"),
+            "2: objects[0].body: only what is made of triangles can be a body");
 }
 
 // A NIfTI file of 3 x 2 x 2 int16, whose samples are x, 2 mm apart.
@@ -276,7 +307,7 @@ TEST(SceneFile, VolumesThatMakeNoSenseAreRefused) {
   EXPECT_EQ(refusal(good), "");
   EXPECT_EQ(refusal(good + R"(, "iso": 2)"), "2: there is no surface at iso 2: its values are from 0 to 1");
   EXPECT_EQ(refusal(R"("size": [2, 2, 3], "values": [0, 1])"), "2: it has fewer samples than it says");
-  EXPECT_EQ(refusal(good, R"(, "body": {})"), "2: objects[0].body: a height field, volume or cloud cannot be a body");
+  EXPECT_EQ(refusal(good, R"(, "body": {})"), "2: objects[0].body: only what is made of triangles can be a body");
   EXPECT_NE(refusal(R"("file": "none.nii")").find("there is no such file"), std::string::npos);
   EXPECT_EQ(refusal(R"("file": "field.asc")"), "2: field.asc: is no volume");
   EXPECT_EQ(refusal(R"("file": "small.nii", "builtin": "ct:phantom")"), "2: it has a file or a builtin, not both");

@@ -154,6 +154,19 @@ class Volumes(unittest.TestCase):
         self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(points=good, surfels=11.0))
         self.assertRaises(hl.InvalidValueError, lambda: hl.Scene("teapot", points=good))
 
+    def test_an_implicit_surface_pushes_as_far_as_it_reaches(self):
+        ball = {"expression": {"sphere": {"radius": 0.02}}}
+        for scene in (hl.Scene(implicit=ball), hl.Scene(implicit='{"expression": {"sphere": {"radius": 0.02}}}')):
+            fingers = hl.Fingers(scene, 1, hl.Settings(radius=0.001, spring=1000))
+            fingers.step([[0, 0.03, 0]])
+            felt = fingers.step([[0, 0.019, 0]])
+            np.testing.assert_allclose(felt.force, [[0, 2, 0]], atol=0.002)
+
+    def test_what_is_no_implicit_surface_is_refused(self):
+        for wrong in ({}, {"expression": {"ball": {}}}, {"expression": {"sphere": {"radius": -1}}}, "sphere", 3, {1}):
+            self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(implicit=wrong))
+        self.assertRaises(hl.InvalidValueError, lambda: hl.Scene("teapot", implicit={}))
+
     def test_what_is_no_volume_is_refused(self):
         good = np.arange(8, dtype=np.float32).reshape(2, 2, 2)
         hl.Scene(volume=good, iso=3.5)

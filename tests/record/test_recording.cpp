@@ -205,6 +205,7 @@ std::shared_ptr<const Snapshot> writtenAndRead(const Snapshot& scene, SceneWrite
     if (block.has_heights()) reader.add(block.heights());
     if (block.has_volume()) reader.add(block.volume());
     if (block.has_cloud()) reader.add(block.cloud());
+    if (block.has_implicit()) reader.add(block.implicit());
     if (block.has_surfaces()) reader.add(block.surfaces());
     if (block.has_scene()) back = reader.scene(block.scene());
     parts += block.has_scene() ? 0 : 1;
@@ -266,6 +267,25 @@ TEST(RecordedScene, HasItsCloudOnce) {
     EXPECT_EQ(is.bounds.min, was.bounds.min);
     for (ElementId id = 0; id < is.count(); id += 7) ASSERT_EQ(is.source->corners(id), was.source->corners(id)) << id;
   }
+}
+
+TEST(RecordedScene, HasItsImplicitSurface) {
+  SceneModel scene = makeBuiltinWorld("sdf:bracket");
+  scene.surfaces[0].source = scene.surfaces[0].source->placed(2 * Mat3::Identity(), Vec3(1, 2, 3));
+  const auto made = makeSnapshot(std::move(scene));
+  SceneWriter writer;
+  SceneReader reader;
+  int parts = 0;
+  const auto back = writtenAndRead(*made, writer, reader, parts);
+  ASSERT_TRUE(back);
+  const PrimitiveSource &was = *made->shape().source, &is = *back->shape().source;
+  EXPECT_EQ(is.bounds().min, was.bounds().min);
+  int met = 0;
+  made->shape().index->overlap(Vec3(1, 2, 3), 0.03, [&](ElementId id) {
+    EXPECT_EQ(is.corners(id), was.corners(id));
+    ++met;
+  });
+  EXPECT_GT(met, 10);
 }
 
 // The samples are written once, for the first of both surfaces; both are touched as they were.

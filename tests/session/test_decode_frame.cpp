@@ -134,7 +134,7 @@ TEST(DecodeFrame, HeightFieldsThatMakeNoSenseAreRefused) {
   EXPECT_EQ(with([](auto& in, auto&) { in.set_values(2, std::numeric_limits<float>::quiet_NaN()); }),
             where + "all its samples are missing");
   EXPECT_EQ(with([](auto&, auto& in) { in.add_vertices(1); }),
-            "world.items[0].primitives: heights come without vertices and elements");
+            "world.items[0].primitives: heights, volumes, clouds and implicit surfaces come without vertices and elements");
 }
 
 proto::Frame depthFrame(const std::vector<float>& depths, double smoothing) {
@@ -240,7 +240,7 @@ TEST(DecodeFrame, CloudsThatMakeNoSenseAreRefused) {
   EXPECT_EQ(with([](auto& in) { in.mutable_cloud()->set_file("a.las"); }),
             where + "a file of a cloud is named in scene files only");
   EXPECT_EQ(with([](auto& in) { in.add_points(0); }),
-            "world.items[0].primitives: a cloud comes without vertices and elements");
+            "world.items[0].primitives: heights, volumes, clouds and implicit surfaces come without vertices and elements");
   EXPECT_EQ(with([](auto& in) { in.mutable_heights(); }),
             "world.items[0].primitives: it has heights, a volume or a cloud, not several of them");
 }
@@ -275,6 +275,20 @@ TEST(DecodeFrame, VolumesBecomeTheirSurfaces) {
     EXPECT_GT(memory.used_bytes(), first.volume()->bytes());
   }
   EXPECT_EQ(memory.used_bytes(), 0U);
+}
+
+TEST(DecodeFrame, ImplicitSurfacesAreWhatTheySay) {
+  proto::Frame frame;
+  proto::Implicit& implicit = *frame.mutable_world()->add_items()->mutable_primitives()->mutable_implicit();
+  implicit.mutable_expression()->mutable_sphere()->set_radius(0.02);
+  implicit.mutable_expression()->mutable_translate()->set_y(1);
+  Uploads none;
+  const DecodedFrame decoded = decodeFrame(frame, none, {}, {}, [](double) {}, {});
+  const Shape& shape = *decoded.edit.world->at(0).shape;
+  EXPECT_EQ(shape.source->siteOf(Vec3(0, 1, 0)), Site::kMatter);
+  EXPECT_LE(shape.source->error_m(), 1.1e-6);
+  implicit.mutable_expression()->mutable_sphere()->set_radius(-1);
+  EXPECT_EQ(refusalOf(frame), "world.items[0].primitives.implicit: sphere.radius must be from 1e-9 to 1e6 m");
 }
 
 TEST(DecodeFrame, VolumesThatMakeNoSenseAreRefused) {
@@ -314,9 +328,9 @@ TEST(DecodeFrame, VolumesThatMakeNoSenseAreRefused) {
   EXPECT_EQ(with([](auto& in, auto&) { in.add_matter()->set_stiffness(1.5); }),
             where + "matter: stiffness must be from 0 to 1");
   EXPECT_EQ(with([](auto&, auto& item) { item.mutable_primitives()->add_vertices(1); }),
-            "world.items[0].primitives: a volume comes without vertices and elements");
+            "world.items[0].primitives: heights, volumes, clouds and implicit surfaces come without vertices and elements");
   EXPECT_EQ(with([](auto&, auto& item) { item.mutable_primitives()->mutable_heights(); }),
-            "world.items[0].primitives: it has heights, a volume or a cloud, not several of them");
+            "world.items[0].primitives: it has heights, a volume, a cloud or an implicit surface, not several of them");
   EXPECT_EQ(with([](auto&, auto& item) {
               item.mutable_primitives()->clear_volume();
               item.set_iso(1);

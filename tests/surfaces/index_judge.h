@@ -80,13 +80,14 @@ struct TestBall {
 
 /// A hit in so many queries, at least.
 template <typename Draw, typename DrawBall>
-void expectImpactsOfMesh(const Draw& draw, const DrawBall& drawBall, int queries_per_hit) {
+void expectImpactsOfMesh(const Draw& draw, const DrawBall& drawBall, int queries_per_hit, int scenes = 400,
+                         int balls = 300) {
   Random random(1);
   int hits = 0, queries = 0;
-  for (int scene = 0; scene < 400; ++scene) {
+  for (int scene = 0; scene < scenes; ++scene) {
     const auto source = draw(random);
     const SourceAndMesh pair(source);
-    for (int i = 0; i < 300; ++i, ++queries) {
+    for (int i = 0; i < balls; ++i, ++queries) {
       const TestBall ball = drawBall(random, *source);
       const Vec3 motion = ball.cell * std::pow(10.0, random.uniform(-3, 2)) * random.direction();
       const double touching = random.below(2) * ball.radius * random.uniform(1, 1.2);
@@ -105,13 +106,13 @@ void expectImpactsOfMesh(const Draw& draw, const DrawBall& drawBall, int queries
 }
 
 template <typename Draw, typename DrawBall>
-void expectDistancesOfMesh(const Draw& draw, const DrawBall& drawBall) {
+void expectDistancesOfMesh(const Draw& draw, const DrawBall& drawBall, int scenes = 400, int balls = 150) {
   Random random(2);
   std::size_t found = 0;
-  for (int scene = 0; scene < 400; ++scene) {
+  for (int scene = 0; scene < scenes; ++scene) {
     const auto source = draw(random);
     const SourceAndMesh pair(source);
-    for (int i = 0; i < 150; ++i) {
+    for (int i = 0; i < balls; ++i) {
       const TestBall ball = drawBall(random, *source);
       Distances a, b;
       Primitive last;
@@ -128,16 +129,16 @@ void expectDistancesOfMesh(const Draw& draw, const DrawBall& drawBall) {
       found += a.size();
     }
   }
-  EXPECT_GT(found, 100'000U);
+  EXPECT_GT(found, static_cast<std::size_t>(scenes * balls));
 }
 
 template <typename Draw, typename DrawBall>
-void expectNearestOfMesh(const Draw& draw, const DrawBall& drawBall) {
+void expectNearestOfMesh(const Draw& draw, const DrawBall& drawBall, int scenes = 300, int balls = 100) {
   Random random(3);
-  for (int scene = 0; scene < 300; ++scene) {
+  for (int scene = 0; scene < scenes; ++scene) {
     const auto source = draw(random);
     const SourceAndMesh pair(source);
-    for (int i = 0; i < 100; ++i) {
+    for (int i = 0; i < balls; ++i) {
       TestBall ball = drawBall(random, *source);
       ball.centre += std::pow(10.0, random.uniform(-3, 2)) * ball.cell * random.direction();
       const double farthest = random.below(2) == 0 ? INFINITY : 3 * ball.radius;

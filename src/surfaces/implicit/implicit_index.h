@@ -1,0 +1,26 @@
+// ImplicitIndex: finds the triangles of an implicit surface near a moving ball: of each sheet, by its bricks.
+#pragma once
+
+#include <vector>
+
+#include "surfaces/implicit/sheet.h"
+#include "surfaces/walked_index.h"
+
+namespace hl {
+
+class ImplicitIndex final : public WalkedIndex {
+ public:
+  /// `frame`: from the function's coordinates to m. The sheets must outlive it. `cell`: m, size of the least cell.
+  ImplicitIndex(const std::vector<Sheet>& sheets, const GridFrame& frame, const Box& bounds, double cell)
+      : WalkedIndex(frame, bounds, cell), sheets_(sheets), frame_(frame) {}
+
+  IndexStats stats() const override;
+
+ private:
+  std::size_t walk(const GridBall& ball, Visit visit) const override;
+
+  const std::vector<Sheet>& sheets_;
+  const GridFrame frame_;
+};
+
+}  // namespace hl

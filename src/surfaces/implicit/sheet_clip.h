@@ -1,0 +1,28 @@
+// Sheet clip: the part of a triangle of a sheet that is the surface of the whole.
+//
+// The functions of the conditions are interpolated linearly over the triangle, so what is left is cut by straight
+// lines. A cut on an edge is a function of the edge's two ends alone: triangles that share it agree to the bit.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "base/vec.h"
+#include "surfaces/implicit/implicit_function.h"
+
+namespace hl {
+
+inline constexpr std::size_t kMostPieces = 32;
+
+/// Triangles with the orientation of the one that was cut.
+struct SheetPieces {
+  std::size_t count = 0;
+  std::array<std::array<Vec3, 3>, kMostPieces> triangles;
+};
+
+/// `slack`: how much below 0 a condition's value may be; then what two sheets keep overlaps at the edge between them,
+/// where otherwise a gap would be. A triangle that falls into more than kMostPieces stays whole. RT-safe.
+void clipToSheet(const ImplicitFunction& function, std::size_t sheet, double slack, const std::array<Vec3, 3>& triangle,
+                 SheetPieces& out);
+
+}  // namespace hl

@@ -1,0 +1,120 @@
+#include "surfaces/implicit/sheet_list.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "base/error.h"
+#include "surfaces/implicit/sheet_measure.h"
+
+namespace hl {
+
+namespace {
+
+constexpr double kLeastError_m = 1e-9, kMostError_m = 1;
+/// Of all sheets together, and of one at least.
+constexpr std::size_t kMostLooks = 80'000, kLeastLooks = 4'000;
+/// Sides of cells: of a radius of curvature, so that no smooth part can hide between samples; of the whole.
+constexpr double kOfRadius = 0.1, kOfSize = 0.125;
+/// Of a cell: what is looked at beside the sheet, and what must be, as a diagonal is that long.
+constexpr double kMargin = 2, kLeastMargin = 1.8;
+constexpr int kMostAttempts = 4;          // to find a margin
+constexpr double kSlackRounding = 1e-12;  // of coordinates
+
+// Bounds that are found are a little larger, so that no flat side lies in their own.
+Box boundsFor(const ImplicitSpec& spec) {
+  if (spec.bounds) {
+    const Box& box = *spec.bounds;
+    const bool sound = box.min.allFinite() && box.max.allFinite() && box.size().minCoeff() > 1e-9 &&
+                       box.min.cwiseAbs().maxCoeff() <= 1e6 && box.max.cwiseAbs().maxCoeff() <= 1e6;
+    if (!sound) throw Error("bounds must be a box within 1e6 m, with min below max by more than 1e-9 m");
+    return box;
+  }
+  const std::optional<Box> own = boundsOf(spec.expression);
+  if (!own) throw Error("it has no end, as a half-space or a gyroid has none: give bounds");
+  if (own->empty()) throw Error("it is empty");
+  const double more = 0.0137 * own->size().maxCoeff();
+  return {own->min - Vec3::Constant(more), own->max + Vec3::Constant(more)};
+}
+
+std::string tooSharp(const Vec3& at, double error_m) {
+  std::array<char, 256> line{};
+  std::snprintf(
+      line.data(), line.size(),
+      "near (%.4g, %.4g, %.4g) m its surface is too sharp, too thin or too large for an error of %.3g m: allow "
+      "more, or round it off",
+      at.x(), at.y(), at.z(), error_m);
+  return line.data();
+}
+
+}  // namespace
+
+SheetList::SheetList(const ImplicitSpec& of) : spec(of), function(of.expression), within(boundsFor(of)) {
+  if (!(spec.error_m >= kLeastError_m && spec.error_m <= kMostError_m)) throw Error("error must be from 1e-9 to 1 m");
+  const std::size_t count = function.sheets().size();
+  sheets.reserve(count);
+  for (std::size_t number = 0; number < count; ++number) add(number, std::max(kLeastLooks, kMostLooks / count));
+  if (sheets.empty()) throw Error("there is no surface within its bounds");
+}
+
+// What the error of a triangle may be, if cutting at edges may triple it.
+double SheetList::errorOf(std::size_t number) const {
+  return function.conditions(number).empty() ? spec.error_m : spec.error_m / 3;
+}
+
+// The bound must hold a cell beside the sheet, so it is found once to know how large cells are, and once more.
+void SheetList::add(std::size_t number, std::size_t most_looks) {
+  const double most_error = errorOf(number);
+  const auto stepFor = [&](const SheetMeasure& measure) {
+    const double largest = kOfSize * measure.bounds.size().maxCoeff();
+    if (!(measure.bend_per_m > 0)) return largest;
+    return std::min({largest, kOfRadius / measure.bend_per_m, std::sqrt(2 * most_error / measure.bend_per_m)});
+  };
+  SheetSearch search(function, number, within);
+  search.refine(most_looks);
+  SheetMeasure measure = search.result();
+  if (measure.bounds.empty()) return;
+  double step = 0;
+  double margin = std::isfinite(measure.bend_per_m) ? kMargin * stepFor(measure) : 0;
+  for (int attempt = 0; attempt < kMostAttempts && step < margin / kLeastMargin; ++attempt, margin *= 0.5) {
+    search.widen(margin);
+    search.refine(most_looks / 3);
+    const SheetMeasure wide = search.result();
+    const double possible = std::min(stepFor(wide), margin / kLeastMargin);
+    if (!(std::isfinite(wide.bend_per_m) && possible > step)) continue;
+    step = possible;
+    measure = wide;
+  }
+  const double cells = measure.bounds.size().maxCoeff() / step + 1;
+  if (!(cells < SheetGrid::kMostCells)) throw Error(tooSharp(measure.sharpest, spec.error_m));
+  SheetGrid grid{measure.bounds.min - Vec3::Constant(0.3 * step), step, {}};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    grid.cells[axis] =
+        static_cast<std::uint32_t>(std::ceil(measure.bounds.size()[static_cast<Eigen::Index>(axis)] / step + 0.6));
+  const double error = 0.5 * step * step * measure.bend_per_m, slope = std::max(1.0, measure.slope);
+  const double rounding = kSlackRounding * (within.min.cwiseAbs() + within.max.cwiseAbs()).maxCoeff();
+  sheets.emplace_back(function, number, grid, 2 * error * slope + rounding);
+  bounds.extend(Box{grid.origin, grid.at(Vec3(grid.cells[0], grid.cells[1], grid.cells[2]))});
+  error_m = std::max(error_m, (function.conditions(number).empty() ? 1 : 3) * error + rounding);
+  off = std::max(off, 3 * error * slope + rounding);
+  triangles += 1.5 * measure.area_m2 / (step * step);
+}
+
+std::vector<Sheet> SheetList::coarser(double factor) const {
+  std::vector<Sheet> result;
+  for (const Sheet& sheet : sheets) {
+    SheetGrid grid = sheet.grid();
+    const double largest = grid.step * *std::max_element(grid.cells.begin(), grid.cells.end()) * kOfSize;
+    const double by = std::max(1.0, std::min(factor, largest / grid.step));
+    grid.step *= by;
+    for (std::uint32_t& cells : grid.cells) cells = static_cast<std::uint32_t>(std::ceil(cells / by));
+    result.emplace_back(function, sheet.number(), grid, by * by * sheet.slack());
+  }
+  return result;
+}
+
+std::size_t SheetList::bytes() const { return sizeof(*this) + function.bytes() + sheets.size() * sizeof(Sheet); }
+
+}  // namespace hl

@@ -1,0 +1,67 @@
+// Sheet measure: where a sheet is, and how strongly it is curved: with certainty, from intervals of its first and
+// second derivatives over boxes that are halved where most is to be gained.
+#pragma once
+
+#include <cstddef>
+#include <queue>
+#include <vector>
+
+#include "geometry/box.h"
+#include "surfaces/implicit/implicit_function.h"
+
+namespace hl {
+
+/// Of a sheet, where it is the surface of the whole, in a box; with what cuts it off.
+struct SheetMeasure {
+  Box bounds;  ///< empty: it is nowhere
+  /// Bound of |second derivatives| / |gradient|, of the sheet and of what it is cut off by; infinite where no gradient
+  /// could be proved not to vanish.
+  double bend_per_m = 0;
+  double slope = 0;              ///< bound of |gradient|, of both
+  double area_m2 = 0;            ///< about
+  Vec3 sharpest = Vec3::Zero();  ///< where the bend may be largest
+};
+
+/// Boxes that hold the sheet; those are halved where most is to be gained. Setup only.
+class SheetSearch {
+ public:
+  /// The function must outlive it.
+  SheetSearch(const ImplicitFunction& function, std::size_t sheet, const Box& within);
+
+  /// Evaluates functions over boxes `most_looks` times, or a few more; less where that is enough.
+  void refine(std::size_t most_looks);
+  /// From now on the bounds hold everywhere up to `margin` m from the sheet.
+  void widen(double margin);
+  SheetMeasure result() const;
+
+ private:
+  struct Piece {
+    bool coarse;  // these are halved first
+    double bend_per_m, slope;
+    Box box;
+    std::size_t order;
+    bool operator<(const Piece& other) const;
+  };
+
+  void addSheets(std::size_t node);
+  void add(const Box& box);
+  void look(const SmoothFunction& smooth, const SmoothFunction::Space& space, Piece& piece);
+
+  const ImplicitFunction& function_;
+  const std::size_t sheet_;
+  const double size_;  // m
+  double margin_ = 0;
+  std::vector<std::size_t> others_;  // sheets that it is cut off by
+  std::priority_queue<Piece> boxes_;
+  std::size_t order_ = 0, looked_ = 0;
+  double about_ = 0;  // the bend is about so large somewhere
+};
+
+/// Whether a condition may hold somewhere in a box, give or take `slack`. RT-safe.
+bool mayHold(const ImplicitFunction& function, const ImplicitFunction::Condition& condition, double slack,
+             const SmoothFunction::Space& box);
+
+/// A box as intervals, larger by `margin` on each side and by what rounding may need.
+SmoothFunction::Space spaceOf(const Box& box, double margin);
+
+}  // namespace hl

@@ -1,0 +1,292 @@
+// Surfaces of expressions: their triangles, what finds them, and how they are felt.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/realtime_guard.h"
+#include "expressions.h"
+#include "index_judge.h"
+#include "proxy/proxy.h"
+#include "scene/scene_model.h"
+#include "surfaces/implicit/implicit_index.h"
+#include "surfaces/implicit/sheet_list.h"
+
+namespace hl {
+namespace {
+
+using K = ExpressionKind;
+
+std::shared_ptr<const Snapshot> sceneOf(std::shared_ptr<const PrimitiveSource> source) {
+  Instance instance;
+  instance.shape = makeShape(std::move(source));
+  instance.surfaces = surfacesOf(instance.shape);
+  instance.key = 1;
+  return makeSnapshot({std::move(instance)});
+}
+
+/// Coarse surfaces, so that all their triangles can be looked at; placed anyhow.
+std::vector<std::shared_ptr<const PrimitiveSource>> randomSurfaces() {
+  test::Random random(11);
+  std::vector<std::shared_ptr<const PrimitiveSource>> surfaces;
+  while (surfaces.size() < 8) {
+    try {
+      const auto surface = test::surfaceOf(test::randomSolid(random), random.uniform(2e-4, 8e-4));
+      if (surface->triangles() > 100'000) continue;
+      Mat3 linear = Mat3::Identity();
+      if (random.below(2) == 0) linear = Eigen::AngleAxisd(random.uniform(0, 6), random.direction()).toRotationMatrix();
+      if (random.below(3) == 0) linear.col(1) *= -random.uniform(0.5, 2);
+      surfaces.push_back(surface->placed(linear, random.inCube(0.01)));
+    } catch (const Error&) {  // nothing is left of it, or its surface has a point
+    }
+  }
+  return surfaces;
+}
+
+std::shared_ptr<const PrimitiveSource> randomSurface(test::Random& random) {
+  static const auto kSurfaces = randomSurfaces();
+  return kSurfaces[static_cast<std::size_t>(random.below(static_cast<int>(kSurfaces.size())))];
+}
+
+test::TestBall randomBall(test::Random& random, const PrimitiveSource& source) {
+  const Box bounds = source.bounds();
+  const Vec3 size = bounds.size();
+  const Vec3 centre = bounds.centre() + 0.6 * random.inCube(1).cwiseProduct(size);
+  return {centre, 0.003 * std::pow(10.0, random.uniform(-2, 0.5)), 1e-3};
+}
+
+TEST(ImplicitIndex, FirstImpactsAreThoseOfTheMesh) { test::expectImpactsOfMesh(randomSurface, randomBall, 10, 8, 400); }
+
+TEST(ImplicitIndex, WhatIsWithinADistanceIsWhatIsOfTheMesh) {
+  test::expectDistancesOfMesh(randomSurface, randomBall, 8, 300);
+}
+
+TEST(ImplicitIndex, TheNearestTriangleIsThatOfTheMesh) { test::expectNearestOfMesh(randomSurface, randomBall, 8, 100); }
+
+/// The numbers of all triangles of a sheet, of all its cells, without bricks and intervals.
+std::vector<ElementId> allOf(const Sheet& sheet) {
+  std::vector<ElementId> found;
+  SheetPieces pieces;
+  const auto& cells = sheet.grid().cells;
+  for (std::uint64_t i = 0; i < std::uint64_t{cells[0]} * cells[1] * cells[2]; ++i) {
+    const Sheet::Place at{static_cast<std::uint32_t>(i % cells[0]), static_cast<std::uint32_t>(i / cells[0] % cells[1]),
+                          static_cast<std::uint32_t>(i / cells[0] / cells[1])};
+    const IsoCell cell = sheet.cellAt(at);
+    for (unsigned n = 0; cell.triangles != nullptr && n < cell.triangles->count; ++n) {
+      sheet.pieces(sheet.corners(cell, n), pieces);
+      for (unsigned piece = 0; piece < pieces.count; ++piece) {
+        const auto& [a, b, c] = pieces.triangles[piece];
+        if (isTriangle(a, b, c)) found.push_back(SheetTriangle{sheet.number(), at, n, piece}.id());
+      }
+    }
+  }
+  return found;
+}
+
+TEST(ImplicitIndex, BricksLeaveNoCellOut) {
+  test::Random random(7);
+  std::size_t found = 0;
+  for (const Expression& solid :
+       {test::torus(0.007, 0.003), turned(test::box(Vec3(0.01, 0.012, 0.008)), random),
+        test::of(K::kDifference, {test::sphere(0.01), turned(test::rod(K::kCylinder, 0.005, 0.04), random)}),
+        test::of(K::kIntersection, {test::sphere(0.01), test::gyroid(0.02, 0.002)}),
+        test::of(K::kUnion, {test::sphere(0.007), test::sphere(0.006, Vec3(0.005, 0.002, 0))}, 0.004)}) {
+    const SheetList list({solid, test::cube(0.012), 1e-3});
+    const std::vector<Sheet> sheets = list.coarser(5);
+    std::vector<ElementId> one, other;
+    for (const Sheet& sheet : sheets) {
+      for (const ElementId id : allOf(sheet)) one.push_back(id);
+    }
+    const ImplicitIndex index(sheets, GridFrame(), list.bounds, 1e-3);
+    index.overlap(Vec3::Zero(), 1, [&](ElementId id) { other.push_back(id); });
+    std::sort(one.begin(), one.end());
+    std::sort(other.begin(), other.end());
+    ASSERT_EQ(one, other);
+    found += one.size();
+  }
+  EXPECT_GT(found, 10'000U);
+}
+
+TEST(ImplicitSurface, TrianglesAreWithinTheStatedError) {
+  test::Random random(8);
+  int surfaces = 0;
+  for (int i = 0; i < 25; ++i) {
+    try {
+      const auto surface = test::surfaceOf(test::randomSolid(random), 2e-4);
+      if (surface->triangles() > 300'000) continue;
+      const ImplicitFunction function(surface->spec().expression);
+      const DrawnMesh mesh = surface->drawn(~std::size_t{0});
+      double worst = 0;
+      for (const auto& t : mesh.triangles) {
+        const Vec3 p = (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3;
+        worst = std::max(worst, std::abs(function.at(p)));
+      }
+      // Values are distances, but for a gyroid's, which are up to sqrt(2) as large, and in blends, where less.
+      EXPECT_LT(worst, 1.5 * surface->error_m()) << i;
+      EXPECT_LE(surface->error_m(), 2e-4 + 1e-12);
+      ++surfaces;
+    } catch (const Error&) {
+    }
+  }
+  EXPECT_GT(surfaces, 5);
+}
+
+TEST(ImplicitSurface, RefusesWhatItCannotKeep) {
+  const auto refusal = [](const Expression& expression, double error_m, std::optional<Box> bounds = {}) -> std::string {
+    try {
+      test::surfaceOf(expression, error_m, bounds);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(refusal(test::sphere(1e4), 1e-9).find("too sharp, too thin or too large"), std::string::npos);
+  EXPECT_NE(refusal(test::gyroid(1, 0), 1e-3).find("it has no end"), std::string::npos);
+  EXPECT_EQ(refusal(test::sphere(1), 0), "error must be from 1e-9 to 1 m");
+  EXPECT_EQ(refusal(test::sphere(1), NAN), "error must be from 1e-9 to 1 m");
+  EXPECT_EQ(refusal(test::sphere(1, Vec3(5, 0, 0)), 1e-3, test::cube(1)), "there is no surface within its bounds");
+  EXPECT_NE(refusal(test::sphere(1), 1e-3, Box{Vec3::Ones(), Vec3::Zero()}).find("bounds must be a box"),
+            std::string::npos);
+  // Two spheres blended until they just touch: their surface has a point there.
+  EXPECT_NE(
+      refusal(test::of(K::kUnion, {test::sphere(1, Vec3(-1.25, 0, 0)), test::sphere(1, Vec3(1.25, 0, 0))}, 1), 1e-3)
+          .find("near ("),
+      std::string::npos);
+}
+
+TEST(ImplicitSurface, KnowsWhereMatterIs) {
+  const auto surface = test::surfaceOf(test::of(K::kDifference, {test::sphere(0.02), test::sphere(0.01)}));
+  EXPECT_EQ(surface->siteOf(Vec3(0.015, 0, 0)), Site::kMatter);
+  EXPECT_EQ(surface->siteOf(Vec3(0.005, 0, 0)), Site::kOpen);
+  EXPECT_EQ(surface->siteOf(Vec3(0.0201, 0, 0)), Site::kOpen);
+  EXPECT_EQ(surface->siteOf(Vec3(0.02, 0, 0)), Site::kBoundary);
+  EXPECT_EQ(surface->siteOf(Vec3(1, 0, 0)), Site::kOpen);
+}
+
+/// The finger pulled from `outside` to `inside`; where the proxy comes to rest.
+Vec3 restOf(const Snapshot& scene, double radius, const Vec3& outside, const Vec3& inside) {
+  ProxySettings settings;
+  settings.radius = radius;
+  ProxyState state = startProxy(scene, settings, outside);
+  for (int i = 0; i < 60; ++i) tick(state, scene, settings, inside);
+  return state.position;
+}
+
+TEST(ImplicitTouch, ATorusIsRoundAllAround) {
+  const auto torus = test::surfaceOf(test::torus(0.03, 0.01));
+  const auto scene = sceneOf(torus);
+  for (int i = 0; i < 72; ++i) {
+    const double around = 0.3 + i * M_PI / 9, tube = 0.1 + i * M_PI / 36;
+    const Vec3 out(std::cos(around), std::sin(around), 0), ring = 0.03 * out;
+    const Vec3 away = std::cos(tube) * out + std::sin(tube) * Vec3::UnitZ();
+    const Vec3 rest = restOf(*scene, 1e-3, ring + 0.013 * away, ring + 0.009 * away);
+    const double from_tube = (rest - 0.03 * Vec3(rest.x(), rest.y(), 0).normalized()).norm();
+    EXPECT_NEAR(from_tube, 0.011, torus->error_m()) << i;
+  }
+  const Vec3 inner = restOf(*scene, 1e-3, Vec3(0.01, 0, 0), Vec3(0.03, 0, 0));
+  EXPECT_NEAR(inner.norm(), 0.019, torus->error_m()) << "on the inner equator";
+}
+
+TEST(ImplicitTouch, TwoSpheresAreNeverMerged) {
+  const auto pair = test::surfaceOf(
+      test::of(K::kUnion, {test::sphere(0.01, Vec3(-0.01005, 0, 0)), test::sphere(0.01, Vec3(0.01005, 0, 0))}), 1e-6);
+  EXPECT_GT(pair->steps()[0], 5e-5) << "cells are about as wide as the gap";
+  const auto scene = sceneOf(pair);
+  const Vec3 above(0, 0.012, 0), below(0, -0.012, 0);
+  EXPECT_LT((restOf(*scene, 0.04e-3, above, below) - below).norm(), 1e-9) << "0.08 mm through 0.1 mm";
+  const auto index = pair->makeIndex();
+  const auto impact = [&](double radius, FirstImpact& out) {
+    Primitive last;
+    const auto read = [&](ElementId id) -> const Primitive& { return last = primitiveOf(*pair, id); };
+    return firstImpact(*index, read, above, below - above, radius, 0, out);
+  };
+  FirstImpact out;
+  EXPECT_FALSE(impact(0.0495e-3, out));
+  ASSERT_TRUE(impact(0.06e-3, out)) << "0.12 mm through 0.1 mm";
+  const double y = std::sqrt(0.01006 * 0.01006 - 0.01005 * 0.01005);  // where 0.12 mm are between them
+  EXPECT_NEAR((above + out.impact.t * (below - above)).y(), y, 2e-6 * 0.01006 / y);
+}
+
+// A block that a cylinder cuts: the ball on the sharp edge between them.
+TEST(ImplicitTouch, AnEdgeIsWithinTheError) {
+  const auto cut = test::surfaceOf(
+      test::of(K::kIntersection, {test::halfSpace(Vec3::UnitZ()), test::rod(K::kCylinder, 0.01, 0.04)}));
+  const auto scene = sceneOf(cut);
+  for (int i = 0; i < 20; ++i) {
+    const Vec3 out(std::cos(0.3 * i + 0.05), std::sin(0.3 * i + 0.05), 0);
+    const Vec3 edge = 0.01 * out, away = (out + Vec3::UnitZ()).normalized();
+    const Vec3 rest = restOf(*scene, 1e-3, edge + 0.002 * away, edge + 0.0002 * away);
+    EXPECT_NEAR((rest - 0.01 * Vec3(rest.x(), rest.y(), 0).normalized()).norm(), 1e-3, 2 * cut->error_m()) << i;
+  }
+}
+
+/// The way of a ball toward a surface, against its way on the function itself.
+struct WayError {
+  double early = 0, late = 0;  // largest, m along the normal
+  int hits = 0;
+};
+
+// Where the distance of a point from a solid of exact distances is the radius, by bisection.
+WayError sweepsAgainst(const Expression& expression, double error_m, int sweeps) {
+  const auto surface = test::surfaceOf(expression, error_m);
+  const ImplicitFunction function(expression);
+  const auto index = surface->makeIndex();
+  const auto read = [&](ElementId id) { return primitiveOf(*surface, id); };
+  test::Random random(9);
+  WayError worst;
+  for (int i = 0; i < sweeps; ++i) {
+    const double radius = std::pow(10.0, random.uniform(-4, -2.5));
+    const Vec3 from = random.inCube(0.05), motion = random.inCube(0.05);
+    if (function.at(from) < radius + 1e-4) continue;
+    double begin = 0, end = 1;
+    for (double t = 0; t < 1 && end == 1;) {  // by steps that cannot pass the surface
+      const double gap = function.at(from + t * motion) - radius;
+      if (gap < 1e-9) end = t;
+      t += std::max(gap, 1e-7) / motion.norm();
+      if (end == 1) begin = std::min(t, 1.0);
+    }
+    Primitive last;
+    FirstImpact out;
+    const auto keep = [&](ElementId id) -> const Primitive& { return last = read(id); };
+    const bool hit = firstImpact(*index, keep, from, motion, radius, 0, out);
+    const double at = hit ? out.impact.t : 1;
+    const double gap = function.at(from + at * motion) - radius;  // of the ball that has stopped
+    worst.hits += hit ? 1 : 0;
+    worst.late = std::max(worst.late, -gap);
+    if (hit) worst.early = std::max(worst.early, gap);
+    if (!hit && end < 1) worst.late = std::max(worst.late, begin >= 1 ? 0 : -gap);
+  }
+  return worst;
+}
+
+// The distance function of a torus is exact outside, so a ball may go until its value is the radius.
+TEST(ImplicitTouch, SweepsEndWhereTheFunctionSays) {
+  const double error_m = 1e-6;
+  const WayError torus = sweepsAgainst(test::torus(0.03, 0.01), error_m, 3000);
+  EXPECT_GT(torus.hits, 300);
+  EXPECT_LE(torus.late, error_m);
+  EXPECT_LE(torus.early, error_m);
+}
+
+TEST(ImplicitTouch, TicksAllocateNothing) {
+  const auto scene = sceneOf(test::surfaceOf(test::of(
+      K::kUnion,
+      {test::of(K::kDifference, {test::box(Vec3(0.03, 0.03, 0.03)), test::sphere(0.018)}), test::torus(0.02, 0.004)})));
+  ProxySettings settings;
+  settings.radius = 1e-3;
+  settings.surfaces.smooth = true;
+  test::Random random(3);
+  Vec3 finger(0, 0.05, 0);
+  ProxyState state = startProxy(*scene, settings, finger);
+  const RealtimeGuard guard;
+  int touched = 0;
+  for (int i = 0; i < 1000; ++i) {
+    finger += 4e-4 * random.inCube(1) - 0.01 * (finger - Vec3(0, 0.015, 0));
+    touched += tick(state, *scene, settings, finger).contacts.empty() ? 0 : 1;
+  }
+  EXPECT_GT(touched, 100);
+}
+
+}  // namespace
+}  // namespace hl
