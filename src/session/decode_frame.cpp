@@ -1,7 +1,6 @@
 #include "session/decode_frame.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>

@@ -11,10 +11,13 @@ class IsoBricks {
  public:
   using Place = IsoCells::Place;
 
-  explicit IsoBricks(const IsoCells& cells) : cells_(cells), pyramid_(cells.volume()->pyramid) {}
+  IsoBricks(const IsoCells& cells, const GridBall& ball)
+      : cells_(cells), pyramid_(cells.volume()->pyramid), ball_(ball) {}
 
   static Vec3 origin() { return Vec3::Zero(); }
   static double step() { return 1; }
+  const Vec3& low() const { return ball_.low(); }
+  const Vec3& high() const { return ball_.high(); }
   int levels() const { return pyramid_.levels(); }
   std::uint32_t side(int level, std::size_t axis) const { return pyramid_.side(level, axis); }
   std::uint32_t cells(std::size_t axis) const { return cells_.volume()->grid.cells(axis); }
@@ -33,6 +36,7 @@ class IsoBricks {
  private:
   const IsoCells& cells_;
   const BrickPyramid& pyramid_;
+  const GridBall& ball_;
 };
 
 }  // namespace
@@ -41,7 +45,7 @@ BrickIndex::BrickIndex(const IsoCells& cells, const Box& bounds)
     : WalkedIndex(cells.frame(), bounds, cells.frame().axes.colwise().norm().maxCoeff()), cells_(cells) {}
 
 std::size_t BrickIndex::walk(const GridBall& ball, Visit visit) const {
-  IsoBricks bricks(cells_);
+  IsoBricks bricks(cells_, ball);
   return BrickWalk(bricks, scale(), ball).run(visit);
 }
 

@@ -6,7 +6,8 @@
 //   origin(), step()        of the grid, in the coordinates of the ball: its first corner, and the side of a cell
 //   levels(), side(l, a)    bricks of level l along an axis; the last level is one brick
 //   cells(a)                cells along an axis
-//   holds(l, place)         whether the surface may be in a brick
+//   holds(l, place)         whether the surface may be in a brick near the ball
+//   low(), high()           where in the brick for which holds() was asked last, in the coordinates of the ball
 //   visitCell(place, v)     calls v(id) for each triangle of a cell of the brick for which holds() was asked last
 #pragma once
 
@@ -44,7 +45,7 @@ class BrickWalk {
     return boxes_.meets(first.array() + size / 2, Vec3::Constant(size / 2));
   }
 
-  // The parts of the brick at `at` that the bounds of the ball meet, along one axis.
+  // The parts of a brick where the surface may be near the ball, along one axis.
   struct Span {
     std::uint32_t first, end;
   };
@@ -55,7 +56,7 @@ class BrickWalk {
     const auto within = [&](double value) {
       return static_cast<std::uint32_t>(std::clamp<double>(std::floor(value), begin, end));
     };
-    return {within((ball_.low()[a] - origin) / size), within((ball_.high()[a] - origin) / size + 1)};
+    return {within((bricks_.low()[a] - origin) / size), within((bricks_.high()[a] - origin) / size + 1)};
   }
 
   // Visits the parts, in the order in which the ball comes to them along each axis.

@@ -286,7 +286,7 @@ TEST(DecodeFrame, ImplicitSurfacesAreWhatTheySay) {
   const DecodedFrame decoded = decodeFrame(frame, none, {}, {}, [](double) {}, {});
   const Shape& shape = *decoded.edit.world->at(0).shape;
   EXPECT_EQ(shape.source->siteOf(Vec3(0, 1, 0)), Site::kMatter);
-  EXPECT_LE(shape.source->error_m(), 1.1e-6);
+  EXPECT_LE(shape.source->error_m(), 1.1e-5);
   implicit.mutable_expression()->mutable_sphere()->set_radius(-1);
   EXPECT_EQ(refusalOf(frame), "world.items[0].primitives.implicit: sphere.radius must be from 1e-9 to 1e6 m");
 }

@@ -11,20 +11,12 @@
 
 #include <array>
 #include <memory>
-#include <optional>
 
 #include "geometry/primitive_source.h"
 #include "surfaces/grid_frame.h"
-#include "surfaces/implicit/expression.h"
+#include "surfaces/implicit/implicit_spec.h"
 
 namespace hl {
-
-/// What is written down.
-struct ImplicitSpec {
-  Expression expression;
-  std::optional<Box> bounds;  ///< the surface ends there; none: around the expression
-  double error_m = 1e-6;      ///< distance that triangles may have from the surface
-};
 
 /// A function with its sheets.
 struct SheetList;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "surfaces/implicit/plane_reach.h"
 #include "surfaces/implicit/sheet_measure.h"
 
 namespace hl {
@@ -11,6 +12,10 @@ namespace {
 
 // Of sizes: more than what rounding does to a few sums.
 constexpr double kPlaneRounding = 1e-13, kTriangleRounding = 1e-12;
+/// From this level on bricks are so large that planes tell nothing.
+constexpr int kNoPlane = 2;
+/// The normals of triangles that are flatter have fewer digits than kNormalRounding says.
+constexpr double kFlattest = 1e-6, kNormalRounding = 1e-9;
 
 }  // namespace
 
@@ -26,6 +31,11 @@ std::array<Vec3, 3> SheetBricks::placed(const std::array<Vec3, 3>& corners) cons
 bool SheetBricks::holds(int level, const Place& at) {
   const Box box = sheet_.boxOf(level, at);
   const SmoothFunction::Space space = spaceOf(box, 0);
+  if (level >= kNoPlane) {
+    low_ = ball_ != nullptr ? ball_->low() : box.min;
+    high_ = ball_ != nullptr ? ball_->high() : box.max;
+    return sheet_.smooth().over(space).holds(0);
+  }
   const Jet<Interval, 1> jet = sheet_.smooth().slopeOver(space);
   if (!jet.value.holds(0)) return false;
   middle_ = box.centre();
@@ -38,21 +48,15 @@ bool SheetBricks::holds(int level, const Place& at) {
     normal_[static_cast<Eigen::Index>(axis)] = jet.slope[axis].middle();
     across += std::abs(jet.slope[axis].middle()) * half;
   }
-  if (std::isfinite(rest_)) {
-    if (std::abs(value_) > rest_ + across) return false;
-    if (!planeIsNear()) return false;
+  if (std::isfinite(rest_) && std::abs(value_) > rest_ + across) return false;
+  if (ball_ != nullptr) {
+    const PlaneReach reach(*ball_, middle_, value_, normal_, rest_);
+    if (reach.misses()) return false;
+    low_ = reach.low();
+    high_ = reach.high();
+    if ((low_.array() > box.max.array()).any() || (high_.array() < box.min.array()).any()) return false;
   }
   return level > 0 || mayBeSurface(space);
-}
-
-// The value of the plane changes by |normal per metre| each metre.
-bool SheetBricks::planeIsNear() const {
-  if (ball_ == nullptr) return true;
-  const double slope = (ball_->metric().inverse.transpose() * normal_).norm();
-  const double from = value_ + normal_.dot(ball_->first() - middle_),
-               to = value_ + normal_.dot(ball_->last() - middle_);
-  const double reach = (1 + kTriangleRounding) * (ball_->radius() * slope + rest_);
-  return std::min(from, to) <= reach && std::max(from, to) >= -reach;
 }
 
 bool SheetBricks::mayBeSurface(const SmoothFunction::Space& box) const {
@@ -68,25 +72,28 @@ bool SheetBricks::mayCross(const Place& cell) const {
   return std::abs(value) <= (rest_ + 0.5 * step() * normal_.cwiseAbs().sum()) * (1 + kTriangleRounding);
 }
 
-// By the plane of the triangle, and by a ball around it.
+// What is near in the plane of the triangle is in a disc around the feet of the centre there.
 bool SheetBricks::isNear(const std::array<Vec3, 3>& triangle) const {
   if (ball_ == nullptr) return true;
   const auto& [a, b, c] = triangle;
   const Vec3 first = frame_.point(ball_->first().x(), ball_->first().y(), ball_->first().z());
   const Vec3 last = frame_.point(ball_->last().x(), ball_->last().y(), ball_->last().z());
   const double size = first.cwiseAbs().maxCoeff() + last.cwiseAbs().maxCoeff() + a.cwiseAbs().maxCoeff();
-  const double reach = ball_->radius() + kTriangleRounding * size;
-  const Vec3 middle = (a + b + c) / 3, way = last - first;
+  const double radius = ball_->radius() + kTriangleRounding * size;
+  const Vec3 middle = (a + b + c) / 3;
   const double around =
       std::sqrt(std::max({(a - middle).squaredNorm(), (b - middle).squaredNorm(), (c - middle).squaredNorm()}));
-  const double square = way.squaredNorm();
-  const double part = square > 0 ? std::clamp((middle - first).dot(way) / square, 0.0, 1.0) : 0;
-  if ((first + part * way - middle).norm() > reach + around) return false;
-  const Vec3 normal = (b - a).cross(c - a);
+  const Vec3 across = (b - a).cross(c - a);
+  const double length = across.norm();
+  const Vec3 normal = length > kFlattest * around * around ? Vec3(across / length) : Vec3::Zero();
   const double from = normal.dot(first - middle), to = normal.dot(last - middle);
-  // The normal of a sliver has few digits: those are kept.
-  const double far = reach * normal.norm() + kTriangleRounding * around * around * (size + around);
-  return std::min(from, to) <= far && std::max(from, to) >= -far;
+  const double depth = (from > 0) != (to > 0) ? 0 : std::min(std::abs(from), std::abs(to)) * (1 - kNormalRounding);
+  if (depth > radius) return false;
+  const Vec3 foot = first - from * normal, way = (last - to * normal) - foot;
+  const double square = way.squaredNorm();
+  const double part = square > 0 ? std::clamp((middle - foot).dot(way) / square, 0.0, 1.0) : 0;
+  const double reach = std::sqrt(radius * radius - depth * depth) + around;
+  return (foot + part * way - middle).norm() <= reach * (1 + kNormalRounding) + kNormalRounding * radius;
 }
 
 }  // namespace hl

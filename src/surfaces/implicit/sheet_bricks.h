@@ -4,7 +4,7 @@
 // of the gradient's interval and s half of its length along each axis,
 //   |f(x) - f(c) - n . (x - c)| <= e = sum of s half.
 // Every corner of the sheet's triangles there lies where linear interpolation of f is 0, so the plane's value is within
-// e of 0 on all of each triangle. A brick that has no such place, or none near the ball, is left out.
+// e of 0 on all of each triangle. A brick that has no such place, or none near the ball (plane_reach.h), is left out.
 #pragma once
 
 #include "geometry/primitive.h"
@@ -28,6 +28,8 @@ class SheetBricks {
   std::uint32_t side(int level, std::size_t axis) const { return sheet_.side(level, axis); }
   std::uint32_t cells(std::size_t axis) const { return sheet_.grid().cells[axis]; }
   bool holds(int level, const Place& at);
+  const Vec3& low() const { return low_; }
+  const Vec3& high() const { return high_; }
   /// visit(id, triangle) with its corners in m.
   template <typename Visit>
   void visitTriangles(const Place& at, const Visit& visit) const {
@@ -55,7 +57,6 @@ class SheetBricks {
   std::array<Vec3, 3> placed(const std::array<Vec3, 3>& corners) const;
   bool mayCross(const Place& cell) const;
   bool isNear(const std::array<Vec3, 3>& triangle) const;
-  bool planeIsNear() const;
   bool mayBeSurface(const SmoothFunction::Space& box) const;
 
   const Sheet& sheet_;
@@ -64,6 +65,7 @@ class SheetBricks {
   // The plane of the last brick: value + normal . (x - middle), within `rest`.
   Vec3 middle_ = Vec3::Zero(), normal_ = Vec3::Zero();
   double value_ = 0, rest_ = 0;
+  Vec3 low_ = Vec3::Zero(), high_ = Vec3::Zero();
 };
 
 }  // namespace hl

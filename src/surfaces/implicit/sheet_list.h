@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "surfaces/implicit/implicit_surface.h"
+#include "surfaces/implicit/implicit_spec.h"
 #include "surfaces/implicit/sheet.h"
 
 namespace hl {
