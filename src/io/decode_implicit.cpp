@@ -161,7 +161,7 @@ void write(const Expression& in, proto::Expression& out) {
 }  // namespace
 
 std::uint64_t bytesToMakeImplicit(const proto::Implicit& in) {
-  constexpr std::uint64_t kFixed = 262'144, kEachByte = 64;  // an expression of a few bytes may be copied 64 times
+  constexpr std::uint64_t kFixed = 4096, kEachByte = 512;  // a body of a few bytes may be in 64 sheets
   return kFixed + kEachByte * in.ByteSizeLong();
 }
 

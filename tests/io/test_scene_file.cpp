@@ -197,7 +197,7 @@ TEST(SceneFile, TheExampleOfImplicitSurfacesLoads) {
   EXPECT_EQ(scene.surfaces[1].name, "a block with a bore");
   EXPECT_EQ(scene.surfaces[1].source->siteOf(Vec3(0.015, 0, 0.015)), Site::kMatter);
   EXPECT_EQ(scene.surfaces[1].source->siteOf(Vec3(0, 0.019, 0)), Site::kOpen) << "in the bore";
-  for (const SceneSurface& surface : scene.surfaces) EXPECT_LE(surface.source->error_m(), 1.1e-5);
+  for (const SceneSurface& surface : scene.surfaces) EXPECT_LE(surface.source->error_m(), 2.1e-5);
 }
 
 TEST(SceneFile, ImplicitSurfacesThatMakeNoSenseAreRefused) {

@@ -56,13 +56,13 @@ test::TestBall randomBall(test::Random& random, const PrimitiveSource& source) {
   return {centre, 0.003 * std::pow(10.0, random.uniform(-2, 0.5)), 1e-3};
 }
 
-TEST(ImplicitIndex, FirstImpactsAreThoseOfTheMesh) { test::expectImpactsOfMesh(randomSurface, randomBall, 10, 5, 600); }
+TEST(ImplicitIndex, FirstImpactsAreThoseOfTheMesh) { test::expectImpactsOfMesh(randomSurface, randomBall, 10, 5, 150); }
 
 TEST(ImplicitIndex, WhatIsWithinADistanceIsWhatIsOfTheMesh) {
-  test::expectDistancesOfMesh(randomSurface, randomBall, 5, 300);
+  test::expectDistancesOfMesh(randomSurface, randomBall, 5, 100);
 }
 
-TEST(ImplicitIndex, TheNearestTriangleIsThatOfTheMesh) { test::expectNearestOfMesh(randomSurface, randomBall, 5, 150); }
+TEST(ImplicitIndex, TheNearestTriangleIsThatOfTheMesh) { test::expectNearestOfMesh(randomSurface, randomBall, 5, 100); }
 
 /// The numbers of all triangles of a sheet, of all its cells, without bricks and intervals.
 std::vector<ElementId> allOf(const Sheet& sheet) {
