@@ -87,12 +87,12 @@ TEST(CadMesh, VerticesLieOnTheSurfaceWithItsNormals) {
 TEST(CadMesh, NormalsAgreeWhereFacesAreTangentAndDifferAtEdges) {
   const auto widest = [](const Model& model) {
     std::map<Bits, Vec3> first;
-    double widest = 0;
+    double most = 0;
     for (std::size_t i = 0; i < model.positions.size(); ++i) {
       const Vec3& there = first.try_emplace(bitsOf(model.positions[i]), model.normals[i]).first->second;
-      widest = std::max(widest, (there - model.normals[i]).norm());
+      most = std::max(most, (there - model.normals[i]).norm());
     }
-    return widest;
+    return most;
   };
   EXPECT_LT(widest(meshOf(test::rounded(3))), 1e-6);
   EXPECT_NEAR(widest(meshOf(test::boxOf({0, 0, 0}, {1, 2, 3}))), std::sqrt(2.0), 1e-12);
