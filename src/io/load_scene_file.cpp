@@ -234,7 +234,8 @@ Model SceneFile::shapeOf(const proto::SceneObject& object, const std::string& wh
     case proto::SceneObject::SHAPE_NOT_SET:
       break;
   }
-  fail(where, where + ": an object needs a file, a builtin, primitives, heights, a volume, a cloud or an implicit surface");
+  fail(where,
+       where + ": an object needs a file, a builtin, primitives, heights, a volume, a cloud or an implicit surface");
 }
 
 // A surface stays what it is: it is no part of the one model.
@@ -257,8 +258,7 @@ void SceneFile::addSurfaces(const proto::SceneObject& object, const std::string&
       surface.material = materialOf(object.material(), where + ".material");
     for (const TextureUse& use : surface.material.textures) {
       if (use.used())
-        fail(where + ".material.textures",
-             where + ".material: only what is made of triangles has texture coordinates");
+        fail(where + ".material.textures", where + ".material: only what is made of triangles has texture coordinates");
     }
     scene.surfaces.push_back(std::move(surface));
   }

@@ -135,7 +135,8 @@ TEST(SceneFile, HeightsThatMakeNoSenseAreRefused) {
   EXPECT_EQ(heightsRefusal(good + R"(, "spacing": -1)"), "2: spacing must be from 1e-12 to 1e9");
   EXPECT_EQ(heightsRefusal(R"("columns": 2, "rows": 3, "values": [0, 1, 2, 3])"),
             "2: it has fewer samples than it says");
-  EXPECT_EQ(heightsRefusal(good, R"(, "body": {})"), "2: objects[0].body: only what is made of triangles can be a body");
+  EXPECT_EQ(heightsRefusal(good, R"(, "body": {})"),
+            "2: objects[0].body: only what is made of triangles can be a body");
   EXPECT_NE(heightsRefusal(R"("file": "none.tif")").find("there is no such file"), std::string::npos);
   fileWith("field.asc", "ncols 2\nnrows 2\ncellsize 5\n1 2 3 4");
   EXPECT_EQ(heightsRefusal(R"("file": "field.asc", "spacing": 2, "verticalScale": 3)"), "");
@@ -219,8 +220,7 @@ TEST(SceneFile, ImplicitSurfacesThatMakeNoSenseAreRefused) {
   EXPECT_EQ(refusal(R"("expression": {"halfSpace": {"normal": {"y": 1}}})"),
             "2: it has no end, as a half-space or a gyroid has none: give bounds");
   EXPECT_NE(refusal(R"("expression": {"ball": {}})").find("ball"), std::string::npos);
-  EXPECT_EQ(refusal(good, R"(, "body": {})"),
-            "2: objects[0].body: only what is made of triangles can be a body");
+  EXPECT_EQ(refusal(good, R"(, "body": {})"), "2: objects[0].body: only what is made of triangles can be a body");
 }
 
 // A NIfTI file of 3 x 2 x 2 int16, whose samples are x, 2 mm apart.

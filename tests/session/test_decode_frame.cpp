@@ -133,8 +133,9 @@ TEST(DecodeFrame, HeightFieldsThatMakeNoSenseAreRefused) {
             where + "verticalScale must be from 1e-12 to 1e9");
   EXPECT_EQ(with([](auto& in, auto&) { in.set_values(2, std::numeric_limits<float>::quiet_NaN()); }),
             where + "all its samples are missing");
-  EXPECT_EQ(with([](auto&, auto& in) { in.add_vertices(1); }),
-            "world.items[0].primitives: heights, volumes, clouds and implicit surfaces come without vertices and elements");
+  EXPECT_EQ(
+      with([](auto&, auto& in) { in.add_vertices(1); }),
+      "world.items[0].primitives: heights, volumes, clouds and implicit surfaces come without vertices and elements");
 }
 
 proto::Frame depthFrame(const std::vector<float>& depths, double smoothing) {
@@ -239,8 +240,9 @@ TEST(DecodeFrame, CloudsThatMakeNoSenseAreRefused) {
   EXPECT_EQ(with([](auto& in) { in.mutable_cloud()->set_positions(1, NAN); }), where + "there are no points in it");
   EXPECT_EQ(with([](auto& in) { in.mutable_cloud()->set_file("a.las"); }),
             where + "a file of a cloud is named in scene files only");
-  EXPECT_EQ(with([](auto& in) { in.add_points(0); }),
-            "world.items[0].primitives: heights, volumes, clouds and implicit surfaces come without vertices and elements");
+  EXPECT_EQ(
+      with([](auto& in) { in.add_points(0); }),
+      "world.items[0].primitives: heights, volumes, clouds and implicit surfaces come without vertices and elements");
   EXPECT_EQ(with([](auto& in) { in.mutable_heights(); }),
             "world.items[0].primitives: it has heights, a volume or a cloud, not several of them");
 }
@@ -327,8 +329,9 @@ TEST(DecodeFrame, VolumesThatMakeNoSenseAreRefused) {
             where + "matter: drag must be from 0 to 1e9");
   EXPECT_EQ(with([](auto& in, auto&) { in.add_matter()->set_stiffness(1.5); }),
             where + "matter: stiffness must be from 0 to 1");
-  EXPECT_EQ(with([](auto&, auto& item) { item.mutable_primitives()->add_vertices(1); }),
-            "world.items[0].primitives: heights, volumes, clouds and implicit surfaces come without vertices and elements");
+  EXPECT_EQ(
+      with([](auto&, auto& item) { item.mutable_primitives()->add_vertices(1); }),
+      "world.items[0].primitives: heights, volumes, clouds and implicit surfaces come without vertices and elements");
   EXPECT_EQ(with([](auto&, auto& item) { item.mutable_primitives()->mutable_heights(); }),
             "world.items[0].primitives: it has heights, a volume, a cloud or an implicit surface, not several of them");
   EXPECT_EQ(with([](auto&, auto& item) {
