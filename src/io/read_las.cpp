@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include "base/error.h"
+#include "io/byte_file.h"
 #include "io/read_clouds.h"
 
 namespace hl {

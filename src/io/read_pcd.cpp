@@ -6,6 +6,8 @@
 #include <charconv>
 #include <sstream>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
