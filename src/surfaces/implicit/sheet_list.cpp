@@ -20,6 +20,7 @@ constexpr std::size_t kMostLooks = 80'000, kLeastLooks = 4'000;
 constexpr double kOfRadius = 0.1, kOfSize = 0.125;
 /// Of a cell: what is looked at beside the sheet, and what must be, as a diagonal is that long.
 constexpr double kMargin = 2, kLeastMargin = 1.8;
+constexpr std::size_t kPatience = 8;      // times as many where these tell nothing
 constexpr int kMostAttempts = 4;          // to find a margin
 constexpr double kSlackRounding = 1e-12;  // of coordinates
 
@@ -75,6 +76,10 @@ void SheetList::add(std::size_t number, std::size_t most_looks) {
   SheetSearch search(function, number, within);
   search.refine(most_looks);
   SheetMeasure measure = search.result();
+  if (!std::isfinite(measure.bend_per_m)) {  // it is large, or bodies are thin
+    search.refine(kPatience * most_looks);
+    measure = search.result();
+  }
   if (measure.bounds.empty()) return;
   double step = 0;
   double margin = std::isfinite(measure.bend_per_m) ? kMargin * stepFor(measure) : 0;
