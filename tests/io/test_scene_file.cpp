@@ -16,6 +16,7 @@
 #include "bodies/scene_world.h"
 #include "io/load_image.h"
 #include "scene/snapshot.h"
+#include "surfaces/depth_frame.h"
 #include "surfaces/iso_surface.h"
 #include "temp_folder.h"
 

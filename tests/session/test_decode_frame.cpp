@@ -5,13 +5,16 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
 #include "session/message_forms.h"
 #include "session/message_size.h"
+#include "surfaces/depth_frame.h"
 #include "surfaces/iso_surface.h"
 #include "surfaces/point_cloud.h"
 
@@ -157,15 +160,17 @@ TEST(DecodeFrame, ADepthImageFollowsTheOneBefore) {
   const auto image = [](const SceneItems& items) -> const DepthImage& {
     return dynamic_cast<const DepthFrame&>(*items[0].shape->source).image();
   };
-  const DecodedFrame first = decodeFrame(depthFrame({1000, 1000, 1000, 1000}, 0.5));
+  const MemoryBudget memory(std::uint64_t{1} << 30);
+  const auto decoded = [&](const std::vector<float>& depths, const ItemsBefore& before) {
+    Uploads uploads;
+    return decodeFrame(
+        depthFrame(depths, 0.5), uploads, SceneLimits(), memory, [](double) {}, before);
+  };
+  const DecodedFrame first = decoded({1000, 1000, 1000, 1000}, {});
   const std::shared_ptr<const SceneItems> before = first.edit.objects.at(5);
   EXPECT_NEAR(image(*before).grid->at(0, 0), 1, 1e-6);
   EXPECT_EQ((*before)[0].shape->source->triangles(), 2U);
-  Uploads uploads;
-  const MemoryBudget memory(std::uint64_t{1} << 30);
-  const DecodedFrame second = decodeFrame(
-      depthFrame({1010, 1000, 0, 2000}, 0.5), uploads, SceneLimits(), memory, [](double) {},
-      [&](std::uint32_t) { return before.get(); });
+  const DecodedFrame second = decoded({1010, 1000, 0, 2000}, [&](std::uint32_t) { return before.get(); });
   const DepthImage& now = image(*second.edit.objects.at(5));
   EXPECT_NEAR(now.grid->at(0, 0), 1.005, 1e-6);
   EXPECT_NEAR(now.grid->at(0, 1), 1, 1e-6) << "held";
