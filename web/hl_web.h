@@ -10,7 +10,7 @@ extern "C" {
 #endif
 
 enum { kHlWebMostTriangles = 1000000 };
-enum { kHlWebContacts = 3, kHlWebQuantities = 8, kHlWebCauses = 5, kHlWebEndings = 11 };
+enum { kHlWebContacts = 3, kHlWebQuantities = 9, kHlWebCauses = 5, kHlWebEndings = 11 };
 
 /** Numbers only, so that a caller reads it as an array. */
 typedef struct {
