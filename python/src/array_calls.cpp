@@ -128,6 +128,12 @@ void pointCloud(const Doubles& points, const Optional& normals, double reach) {
   throwFailure();
 }
 
+void implicit(const std::string& json) {
+  requireContext();
+  hlImplicit(json.c_str());
+  throwFailure();
+}
+
 void updateVertices(HLuint object, const Doubles& vertices, HLint first, const Optional& normals) {
   requireContext();
   const std::size_t count = rowsOf(vertices, 3, "vertices");
@@ -248,6 +254,7 @@ void bindDrawing(py::module_& module) {
   module.def("hlHeightField", &heightField, py::arg("samples"), py::arg("missing") = none);
   module.def("hlDepthFrame", &depthFrame, py::arg("depths"), py::arg("camera"), py::arg("scale"), py::arg("join"),
              py::arg("smoothing"));
+  module.def("hlImplicit", &implicit, py::arg("json"));
   module.def("hlVolumeMatter", &volumeMatter, py::arg("rows"));
   module.def("hlPointCloud", &pointCloud, py::arg("points"), py::arg("normals") = none, py::arg("reach") = 0.0);
   module.def("hlVolume", &volume, py::arg("samples"), py::arg("iso"), py::arg("missing") = none);

@@ -57,6 +57,29 @@ class Touching(unittest.TestCase):
         (state,) = wait_for("a touch", lambda: [s for s in [self.touch.state()] if s.force[1] > 0.3 and s.safety == "on"])
         self.assertGreater(state.proxy[1], 0)
 
+    def test_surfaces_that_are_no_meshes_are_felt(self):
+        _, y, _ = np.meshgrid(*3 * [np.linspace(-1, 1, 9)], indexing="ij")
+        steps = np.arange(-20, 21) * 0.001
+        down = np.array([[1, 0, 0, 0], [0, 0, 1, 0.5], [0, -1, 0, 0], [0, 0, 0, 1]])  # a camera that looks along -y
+        draws = [
+            (lambda touch: touch.implicit({"expression": {"sphere": {"radius": 0.01}}}), None),
+            (lambda touch: touch.points([[a, 0, b] for a in steps for b in steps], surfels=True), None),
+            (lambda touch: touch.volume((-y).astype(np.float32), 0.0, 0.005, matter=[(-1, 0, 0), (1, 0.1, 2)]), None),
+            (lambda touch: touch.depth_frame(np.full((32, 32), 500, np.uint16), (32, 32, 15.5, 15.5)), down),
+        ]
+        self.touch.workspace([0, 0, 0], 1.0)  # it is not fitted to what is drawn
+        self.touch.proxy_radius(0.002)
+        for number, (draw, pose) in enumerate(draws):
+            with self.subTest(number):
+                self.touch.hand_goal([0, 0.03, 0])
+                wait_for("the hand above", lambda: self.touch.state().finger[1] > 0.025)
+                with self.touch.frame():
+                    with self.touch.define(1):
+                        draw(self.touch)
+                    self.touch.place(1, pose)
+                self.touch.hand_goal([0, -0.002, 0])
+                wait_for("a touch", lambda: self.touch.state().force[1] > 0.3)
+
     def test_what_is_drawn_is_felt(self):
         self.show_floor()
         (state,) = wait_for("a touch", lambda: [s for s in [self.touch.state()] if s.force[1] > 0.3 and s.safety == "on"])
