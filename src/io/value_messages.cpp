@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "base/error.h"
@@ -91,28 +92,44 @@ void requireFit(Fit fit, const std::string& what) {
   if (fit == Fit::kImpossible) throw Error(what + " makes no sense: it has a number that stands for nothing");
 }
 
-LaterValues laterOfMaterial() {
-  constexpr std::size_t kLast = kNumbers - 1;
+LaterForms laterOfMaterial() {
   const TextureUse none;
-  const std::size_t texture = kNumbers + 2 * kLast;
-  return {{{kLast, kQuantityInfo[kLast].otherwise}, {texture, none.low}, {texture + 1, none.high}},
-          {{1 + kLast, static_cast<std::int64_t>(none.texture)}}};
+  LaterForms forms;
+  for (std::size_t first = kNumbers - 1; first >= kNumbers - kLaterQuantities; --first) {
+    LaterValues& later = forms.emplace_back();
+    for (std::size_t i = first; i < kNumbers; ++i) later.numbers.emplace_back(i, kQuantityInfo[i].otherwise);
+    for (std::size_t i = first; i < kNumbers; ++i) {
+      later.numbers.emplace_back(kNumbers + 2 * i, none.low);
+      later.numbers.emplace_back(kNumbers + 2 * i + 1, none.high);
+      later.integers.emplace_back(1 + i, static_cast<std::int64_t>(none.texture));
+    }
+  }
+  return forms;
 }
 
-LaterValues laterOfOverride(std::size_t numbers_before, std::size_t integers_before) {
-  constexpr std::size_t kLast = kNumbers - 1;
-  return {{{numbers_before + kLast, 0}}, {{integers_before + kLast, 0}}};
+LaterForms laterOfOverride(std::size_t numbers_before, std::size_t integers_before) {
+  LaterForms forms;
+  for (std::size_t first = kNumbers - 1; first >= kNumbers - kLaterQuantities; --first) {
+    LaterValues& later = forms.emplace_back();
+    for (std::size_t i = first; i < kNumbers; ++i) {
+      later.numbers.emplace_back(numbers_before + i, 0);
+      later.integers.emplace_back(integers_before + i, 0);
+    }
+  }
+  return forms;
 }
 
-Values withLater(Values values, const Values& now, const LaterValues& later) {
-  const bool without = values.numbers.size() + later.numbers.size() == now.numbers.size() &&
-                       values.integers.size() + later.integers.size() == now.integers.size();
-  if (!without) return values;
+Values withLater(Values values, const Values& now, const LaterForms& forms) {
+  const auto later = std::find_if(forms.begin(), forms.end(), [&](const LaterValues& form) {
+    return values.numbers.size() + form.numbers.size() == now.numbers.size() &&
+           values.integers.size() + form.integers.size() == now.integers.size();
+  });
+  if (later == forms.end()) return values;
   const auto insert = [](auto& list, const auto& added) {
     for (const auto& [at, value] : added) list.insert(list.begin() + static_cast<std::ptrdiff_t>(at), value);
   };
-  insert(values.numbers, later.numbers);
-  insert(values.integers, later.integers);
+  insert(values.numbers, later->numbers);
+  insert(values.integers, later->integers);
   return values;
 }
 

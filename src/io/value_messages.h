@@ -49,22 +49,27 @@ void readValues(const proto::Values& in, const std::string& what, T& value) {
   requireFit(setFrom(fromProto(in), value), what);
 }
 
-/// Numbers and integers of a structure, and where they stand in its lists, that recordings do not have which were made
-/// before the last quantity was added to base/quantities.def. By rising places.
+/// Quantities that were added to base/quantities.def since recordings are read that lack some of the last of them.
+inline constexpr std::size_t kLaterQuantities = 2;
+
+/// Numbers and integers of a structure, and where they stand in its lists, that recordings of an earlier form do not
+/// have. By rising places.
 struct LaterValues {
   std::vector<std::pair<std::size_t, double>> numbers;
   std::vector<std::pair<std::size_t, std::int64_t>> integers;
 };
+/// Of the form before the last quantity, of that before the last two, and so on.
+using LaterForms = std::vector<LaterValues>;
 /// Of a Material; of a structure with a MaterialOverride after so many numbers and integers.
-LaterValues laterOfMaterial();
-LaterValues laterOfOverride(std::size_t numbers_before, std::size_t integers_before);
-/// The values of a form without these, as if they had been there; others stay as they are. `now`: those of the form of
+LaterForms laterOfMaterial();
+LaterForms laterOfOverride(std::size_t numbers_before, std::size_t integers_before);
+/// The values of an earlier form, as if those had been there; others stay as they are. `now`: those of the form of
 /// today.
-Values withLater(Values values, const Values& now, const LaterValues& later);
+Values withLater(Values values, const Values& now, const LaterForms& forms);
 
-/// As readValues(), of a recording that may have been made before the last quantity was added.
+/// As readValues(), of a recording that may have been made before the last quantities were added.
 template <typename T>
-void readValues(const proto::Values& in, const std::string& what, T& value, const LaterValues& later) {
+void readValues(const proto::Values& in, const std::string& what, T& value, const LaterForms& later) {
   requireFit(setFrom(withLater(fromProto(in), valuesOf(value), later), value), what);
 }
 

@@ -249,7 +249,7 @@ TEST(DecodeFrame, CloudsThatMakeNoSenseAreRefused) {
       with([](auto& in) { in.add_points(0); }),
       "world.items[0].primitives: heights, volumes, clouds and implicit surfaces come without vertices and elements");
   EXPECT_EQ(with([](auto& in) { in.mutable_heights(); }),
-            "world.items[0].primitives: it has heights, a volume or a cloud, not several of them");
+            "world.items[0].primitives: it has heights, a volume, a cloud or an implicit surface, not several of them");
 }
 
 proto::Volume smallVolume() {

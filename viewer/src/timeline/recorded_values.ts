@@ -12,9 +12,13 @@ const kQuantities = [
   "complianceMN", "strengthN",
 ] as const;
 
-/** How many of them a list has: recordings made before the last was added have one less. */
+/** Of them, those that were added since recordings are read that lack some of the last. */
+const kLaterQuantities = 2;
+
+/** How many of them a list has, which may have been made before the last were added. */
 function quantitiesIn(count: number): number {
-  return count === kQuantities.length - 1 ? count : kQuantities.length;
+  const earlier = count < kQuantities.length && count >= kQuantities.length - kLaterQuantities;
+  return earlier ? count : kQuantities.length;
 }
 
 function requireForm(values: Values | undefined, numbers: number, integers: number, what: string): Values {
