@@ -241,7 +241,7 @@ TEST_F(CallsTest, ACloudIsSentInPiecesOrInTheFrame) {
   EXPECT_EQ(small.positions_size(), 6);
   EXPECT_EQ(small.normals_size(), 0);
   EXPECT_FALSE(small.surfels());
-  const proto::Cloud& large = server->uploads().at(frame.world().items(1).upload()).cloud();
+  const proto::Cloud large = server->uploads().at(frame.world().items(1).upload()).cloud();
   EXPECT_EQ(large.positions_size(), 150'000);
   EXPECT_EQ(large.normals_size(), 150'000);
   EXPECT_EQ(large.reach(), 0.75);
