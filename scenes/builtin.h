@@ -17,7 +17,8 @@ bool isBuiltinSurface(const std::string& spec);
 #define HL_BUILTIN_MODELS "teapot[:N], walker, terrain:N, rough:N[:MEMBER], sphere:N, plane:N, pipe:N, pits:N, soup:N"
 inline constexpr const char* kBuiltinModels = HL_BUILTIN_MODELS;
 inline constexpr const char* kBuiltinScenes = HL_BUILTIN_MODELS
-    ", field:terrain:N, ct:phantom:N, depth:table, points:sphere:N, points:terrain:N, sdf:NAME, snaps, workshop";
+    ", field:terrain:N, ct:phantom:N, depth:table, points:sphere:N, points:terrain:N, sdf:torus, "
+    "sdf:gyroid, sdf:blend, sdf:spheres, sdf:bracket, snaps, workshop";
 #undef HL_BUILTIN_MODELS
 
 /// Throws hl::Error with the list of names if the name is unknown.

@@ -171,7 +171,7 @@ describe.skipIf(process.env.HL_WEB === undefined && !existsSync(folder))("the pa
     const heard = listen(shop, origin);
     await shop.goto(`${origin}?scene=workshop`);
     await shop.waitForFunction(() => window.__hl.objects > 20 && window.__hl.samples > 100);
-    await expect.poll(() => shop.textContent("#bodies-count")).toMatch(/of\s24\sawake/);
+    await expect.poll(() => shop.textContent("#bodies-count")).toMatch(/of\s25\sawake/);
     const domino = () => shop.evaluate(() => window.__hl.originOf(3));
     const begin = await domino();
     const [from, to] = await shop.evaluate((at) =>

@@ -1,10 +1,11 @@
 // The built-in scenes by names that can be loaded. Pure.
 
-/** Of the scenes that need a number of triangles. */
-const kUsual = 10_000;
+/** Of the scenes that need a number: of triangles or points, or of samples along a side. */
+const kUsual = 10_000, kUsualSide = 81;
 
 /** From "teapot[:N], terrain:N, ..." the scenes, with a usual number where they need one. */
 export function pickableScenes(list: string): string[] {
-  return list.split(",").map((entry) => entry.trim().replace(/\[[^\]]*\]/g, "").replace(/:N$/, `:${kUsual}`))
-    .filter((name) => name !== "");
+  const usual = (name: string) => `:${name.startsWith("ct:") ? kUsualSide : kUsual}`;
+  return list.split(",").map((entry) => entry.trim().replace(/\[[^\]]*\]/g, ""))
+    .filter((name) => name !== "").map((name) => name.replace(/:N$/, usual(name)));
 }
