@@ -146,7 +146,7 @@ void CloudMaker::addNodes() {
 double CloudMaker::lookAround(const CloudSearch& search, std::size_t block) {
   std::array<double, kPerBlock> spacing{};
   const std::size_t count = cloud_->countIn(block);
-  const std::array<NearestPoints, kPerBlock> nearest = search.aroundAll(block);
+  const std::array<CloudNeighbours, kPerBlock> nearest = search.aroundAll(block);
   for (std::size_t i = 0; i < count; ++i) {
     spacing[i] = nearest[i].spacing();
     std::uint32_t& normal = cloud_->normals_[block * kPerBlock + i];

@@ -27,7 +27,7 @@ CloudInput onFineLattice(const std::vector<Vec3>& positions, const std::vector<s
                          std::size_t& skipped);
 
 /// Points that are the same are one. Normals that lack are those of the plane through the nearest
-/// NearestPoints::kNeighbours points. The order of the points does not matter. Throws hl::Error if there are none. On
+/// CloudNeighbours::kNeighbours points. The order of the points does not matter. Throws hl::Error if there are none. On
 /// all threads of oneTBB.
 std::shared_ptr<const CloudPoints> makeCloud(CloudInput input);
 

@@ -7,7 +7,7 @@
 
 namespace hl {
 
-void NearestPoints::add(const Vec3& at, double square) {
+void CloudNeighbours::add(const Vec3& at, double square) {
   if (!takes(square)) return;
   std::size_t place = size_ < kMost ? size_++ : kMost - 1;
   for (; place > 0 && square_[place - 1] > square; --place) {
@@ -19,9 +19,9 @@ void NearestPoints::add(const Vec3& at, double square) {
 }
 
 // n points are in a disc of their farthest: pi d^2 = n s^2.
-double NearestPoints::spacing() const { return std::sqrt(farthest() * M_PI / static_cast<double>(size_)); }
+double CloudNeighbours::spacing() const { return std::sqrt(farthest() * M_PI / static_cast<double>(size_)); }
 
-Vec3 NearestPoints::normal() const {
+Vec3 CloudNeighbours::normal() const {
   Vec3 middle = Vec3::Zero();
   for (std::size_t i = 0; i < size_; ++i) middle += at_[i];
   middle /= static_cast<double>(size_);
@@ -53,14 +53,14 @@ double CloudSearch::squareBetween(const LatticeBox& a, const LatticeBox& b) cons
   return square;
 }
 
-void CloudSearch::lookIn(std::size_t block, const Vec3& place, NearestPoints& nearest) const {
+void CloudSearch::lookIn(std::size_t block, const Vec3& place, CloudNeighbours& nearest) const {
   for (std::size_t i = 0; i < points_.countIn(block); ++i) {
     const Vec3 at = placeOf(block * CloudPoints::kPerBlock + i);
     nearest.add(at, (at - place).squaredNorm());
   }
 }
 
-void CloudSearch::look(int level, std::size_t number, const Vec3& place, NearestPoints& nearest) const {
+void CloudSearch::look(int level, std::size_t number, const Vec3& place, CloudNeighbours& nearest) const {
   if (level == 0) return lookIn(number, place, nearest);
   std::array<std::pair<double, std::size_t>, CloudPoints::kPerNode> parts;
   const std::size_t first = number * CloudPoints::kPerNode;
@@ -86,8 +86,8 @@ void CloudSearch::gather(int level, std::size_t number, std::size_t around, doub
 }
 
 // No point has its neighbours farther than those of its own block are.
-std::array<NearestPoints, CloudPoints::kPerBlock> CloudSearch::aroundAll(std::size_t block) const {
-  std::array<NearestPoints, CloudPoints::kPerBlock> nearest;
+std::array<CloudNeighbours, CloudPoints::kPerBlock> CloudSearch::aroundAll(std::size_t block) const {
+  std::array<CloudNeighbours, CloudPoints::kPerBlock> nearest;
   const std::size_t count = points_.countIn(block), first = block * CloudPoints::kPerBlock;
   double farthest = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -95,7 +95,7 @@ std::array<NearestPoints, CloudPoints::kPerBlock> CloudSearch::aroundAll(std::si
     farthest = std::max(farthest, nearest[i].farthest());
   }
   Neighbourhood near;
-  near.whole = count >= NearestPoints::kMost;
+  near.whole = count >= CloudNeighbours::kMost;
   gather(points_.levels() - 1, 0, block, farthest, near);
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3 place = placeOf(first + i);
@@ -107,8 +107,8 @@ std::array<NearestPoints, CloudPoints::kPerBlock> CloudSearch::aroundAll(std::si
   return nearest;
 }
 
-NearestPoints CloudSearch::around(std::size_t slot) const {
-  NearestPoints nearest;
+CloudNeighbours CloudSearch::around(std::size_t slot) const {
+  CloudNeighbours nearest;
   look(points_.levels() - 1, 0, placeOf(slot), nearest);
   return nearest;
 }

@@ -9,7 +9,7 @@
 namespace hl {
 
 /// The nearest points so far, nearest first. Metres along the axes of the lattice, from its first point.
-class NearestPoints {
+class CloudNeighbours {
  public:
   static constexpr std::size_t kNeighbours = 12, kMost = kNeighbours + 1;  // with the point itself
 
@@ -34,9 +34,9 @@ class NearestPoints {
 class CloudSearch {
  public:
   explicit CloudSearch(const CloudPoints& points) : points_(points), step_(points.lattice().step) {}
-  NearestPoints around(std::size_t slot) const;
+  CloudNeighbours around(std::size_t slot) const;
   /// The same of each point of a block, several times as fast.
-  std::array<NearestPoints, CloudPoints::kPerBlock> aroundAll(std::size_t block) const;
+  std::array<CloudNeighbours, CloudPoints::kPerBlock> aroundAll(std::size_t block) const;
 
  private:
   /// Blocks, not too many.
@@ -49,8 +49,8 @@ class CloudSearch {
   Vec3 placeOf(std::size_t slot) const { return step_.cwiseProduct(points_.at(slot)); }
   double squareTo(const LatticeBox& box, const Vec3& place) const;
   double squareBetween(const LatticeBox& a, const LatticeBox& b) const;
-  void look(int level, std::size_t number, const Vec3& place, NearestPoints& nearest) const;
-  void lookIn(std::size_t block, const Vec3& place, NearestPoints& nearest) const;
+  void look(int level, std::size_t number, const Vec3& place, CloudNeighbours& nearest) const;
+  void lookIn(std::size_t block, const Vec3& place, CloudNeighbours& nearest) const;
   void gather(int level, std::size_t number, std::size_t around, double square, Neighbourhood& near) const;
 
   const CloudPoints& points_;

@@ -112,8 +112,8 @@ TEST(CloudPoints, TheNearestPointsAreThoseOfAllPoints) {
       for (const std::size_t other : slots)
         square.push_back(step.cwiseProduct(points->at(other) - points->at(slots[i])).squaredNorm());
       std::sort(square.begin(), square.end());
-      const NearestPoints nearest = search.around(slots[i]);
-      ASSERT_EQ(nearest.size(), std::min<std::size_t>(slots.size(), NearestPoints::kNeighbours + 1));
+      const CloudNeighbours nearest = search.around(slots[i]);
+      ASSERT_EQ(nearest.size(), std::min<std::size_t>(slots.size(), CloudNeighbours::kNeighbours + 1));
       ASSERT_NEAR(nearest.farthest(), square[nearest.size() - 1], 1e-12);
       const std::size_t block = slots[i] / CloudPoints::kPerBlock;
       ASSERT_EQ(search.aroundAll(block)[slots[i] % CloudPoints::kPerBlock].farthest(), nearest.farthest());

@@ -24,7 +24,7 @@ struct Form {
   }
 };
 
-Form formOf(const Body& body) { return {NodeKind::kSmooth, SmoothFunction(body), {}}; }
+Form formOf(const SmoothBody& body) { return {NodeKind::kSmooth, SmoothFunction(body), {}}; }
 
 Form joined(NodeKind kind, Form a, Form b) {
   Form form{kind, {}, {}};
@@ -74,8 +74,8 @@ struct Frame {
   }
 };
 
-Body bodyIn(const Frame& frame, BodyKind kind, double radius, const Vec3& half = Vec3::Zero()) {
-  Body body;
+SmoothBody bodyIn(const Frame& frame, BodyKind kind, double radius, const Vec3& half = Vec3::Zero()) {
+  SmoothBody body;
   body.kind = kind;
   body.axes = frame.turn.transpose() / frame.scale;
   body.offset = -(body.axes * frame.place);
@@ -89,7 +89,7 @@ Body bodyIn(const Frame& frame, BodyKind kind, double radius, const Vec3& half =
 Form halfSpaceIn(const Frame& frame, const Vec3& normal, double distance) {
   Frame turned = frame;
   turned.turn = frame.turn * Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), normal).toRotationMatrix();
-  Body body = bodyIn(turned, BodyKind::kHalfSpace, 0);
+  SmoothBody body = bodyIn(turned, BodyKind::kHalfSpace, 0);
   body.axes.row(2) = (frame.turn * normal.normalized()).transpose() / frame.scale;
   body.offset.z() = -body.axes.row(2).dot(frame.place);
   body.shift = -frame.scale * distance;
@@ -122,7 +122,7 @@ Form shellOf(const Form& of, double half) {
 // Its gradient is of length 1 where its surface is flat.
 Form gyroidIn(const Frame& frame, const Expression& in) {
   const double wave = 2 * M_PI / in.period;
-  Body body = bodyIn(frame, BodyKind::kGyroid, 0);
+  SmoothBody body = bodyIn(frame, BodyKind::kGyroid, 0);
   body.axes *= wave;
   body.offset *= wave;
   body.gain /= wave * std::sqrt(3.0);
@@ -162,7 +162,7 @@ Form formOf(const Expression& in, const Frame& before) {
     case ExpressionKind::kCapsule:
       return formOf(bodyIn(frame, BodyKind::kCapsule, in.radius, Vec3(0, 0, 0.5 * in.length)));
     case ExpressionKind::kTorus: {
-      Body body = bodyIn(frame, BodyKind::kTorus, in.radius);
+      SmoothBody body = bodyIn(frame, BodyKind::kTorus, in.radius);
       body.ring = in.ring;
       return formOf(body);
     }
@@ -229,7 +229,7 @@ double ImplicitFunction::at(std::size_t number, const Vec3& p) const {
 
 std::size_t ImplicitFunction::bytes() const {
   std::size_t bytes = sizeof(*this) + nodes_.size() * sizeof(Node);
-  for (const SmoothFunction& sheet : sheets_) bytes += sizeof(sheet) + 2 * sheet.bodies() * sizeof(Body);
+  for (const SmoothFunction& sheet : sheets_) bytes += sizeof(sheet) + 2 * sheet.bodies() * sizeof(SmoothBody);
   for (const auto& list : conditions_) bytes += sizeof(list) + list.size() * sizeof(Condition);
   return bytes;
 }

@@ -27,7 +27,7 @@ struct Coordinate<Jet<Number, kOrder>, Number> {
 
 // The distance from the surface where it is outside and simple, below 0 inside.
 template <typename T>
-T ownValue(const Body& body, const std::array<T, 3>& p) {
+T ownValue(const SmoothBody& body, const std::array<T, 3>& p) {
   using Flat = std::array<T, 2>;
   constexpr std::array<double, 2> kNone{};
   switch (body.kind) {
@@ -48,7 +48,7 @@ T ownValue(const Body& body, const std::array<T, 3>& p) {
 }
 
 template <typename Result, typename Number>
-Result valueOfBody(const Body& body, const std::array<Number, 3>& p) {
+Result valueOfBody(const SmoothBody& body, const std::array<Number, 3>& p) {
   using Local = Coordinate<Result, Number>;
   const std::array<Result, 3> local{Local::of(p, body.axes.row(0), body.offset.x()),
                                     Local::of(p, body.axes.row(1), body.offset.y()),
@@ -61,7 +61,7 @@ Result valueOfBody(const Body& body, const std::array<Number, 3>& p) {
 SmoothFunction::SmoothFunction(const SmoothFunction& a, const SmoothFunction& b, double reach)
     : steps_(a.steps_), waiting_(std::max(a.waiting_, b.waiting_ + 1)) {
   steps_.insert(steps_.end(), b.steps_.begin(), b.steps_.end());
-  steps_.push_back({Body(), reach});
+  steps_.push_back({SmoothBody(), reach});
 }
 
 void SmoothFunction::negate() {

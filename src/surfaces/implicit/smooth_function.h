@@ -15,7 +15,7 @@ enum class BodyKind : std::uint8_t { kHalfSpace, kSphere, kRoundBox, kCapsule, k
 
 /// A body in coordinates of its own, local = axes p + offset, in which it is at the origin and has the axis z. The
 /// value is gain times its own, plus shift.
-struct Body {
+struct SmoothBody {
   BodyKind kind = BodyKind::kSphere;
   Mat3 axes = Mat3::Identity();
   Vec3 offset = Vec3::Zero();
@@ -33,7 +33,7 @@ class SmoothFunction {
   using Space = std::array<Interval, 3>;
 
   SmoothFunction() = default;
-  explicit SmoothFunction(const Body& body) : steps_{{body, 0}} {}
+  explicit SmoothFunction(const SmoothBody& body) : steps_{{body, 0}} {}
   /// Where both are far from each other's surface the lesser value; see blendOf().
   SmoothFunction(const SmoothFunction& a, const SmoothFunction& b, double reach);
   void negate();
@@ -53,7 +53,7 @@ class SmoothFunction {
  private:
   /// In the order of evaluation: a body, or a blend of the last two results.
   struct Step {
-    Body body;
+    SmoothBody body;
     double blend = 0;  ///< != 0: reach of a blend, negative for one that keeps the larger value
   };
   template <typename Result, typename Number>
