@@ -131,7 +131,7 @@ std::shared_ptr<const CloudPoints> CloudCollector::take() {
   return makeCloud(std::move(input));
 }
 
-std::shared_ptr<const PointCloud> cloudOfFile(std::shared_ptr<const CloudPoints> points, const Mat3& turn,
+std::shared_ptr<const PointCloud> cloudOfFile(const std::shared_ptr<const CloudPoints>& points, const Mat3& turn,
                                               std::string& note) {
   constexpr double kFar = 10;  // times its size
   const GridFrame lattice{points->lattice().step.asDiagonal(), points->lattice().origin};

@@ -50,7 +50,7 @@ class CloudCollector {
 
 /// A cloud as it comes from a file: with the middle at the origin if it lies far from there. Then `note` says where it
 /// was.
-std::shared_ptr<const PointCloud> cloudOfFile(std::shared_ptr<const CloudPoints> points, const Mat3& turn,
+std::shared_ptr<const PointCloud> cloudOfFile(const std::shared_ptr<const CloudPoints>& points, const Mat3& turn,
                                               std::string& note);
 
 }  // namespace hl
