@@ -25,7 +25,7 @@ struct DrawnMesh {
 
 /// What is at a point.
 enum class Site : std::uint8_t {
-  kUnknown,  ///< the surface has no matter on one side
+  kUnknown,  ///< the surface has no matter on one side: of no point it is known
   kOpen,     ///< no matter
   kMatter,
   kBoundary,  ///< so near to the surface that only its triangles could tell

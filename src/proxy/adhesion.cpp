@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 
+#include "proxy/goal_tick.h"
 #include "proxy/spring_energy.h"
 #include "proxy/surface.h"
 #include "proxy/tick.h"
@@ -97,13 +98,8 @@ class HeldTick {
     }
   }
 
-  // Report of a tick that does not count: the proxy has not moved.
   TickReport stay(const TickReport& tried) {
-    TickReport report;
-    report.ending = Ending::kOutOfWork;
-    report.work = tried.work;
-    report.looks = tried.looks;
-    report.used_up_at = tried.used_up_at;
+    TickReport report = notCounted(tried, Ending::kOutOfWork);
     report.target = finger_ + state_.stiffness * (state_.position - finger_);
     return report;
   }

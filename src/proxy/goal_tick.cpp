@@ -10,17 +10,16 @@ namespace {
 // spring of 1000 N/m has at 1 nm.
 constexpr double kEnergyRounding = 1e-12, kEnergyRounding_J = 1e-15;
 
-// Of a tick that does not count: the proxy has not moved.
-TickReport stayed(const TickReport& tried) {
+}  // namespace
+
+TickReport notCounted(const TickReport& tried, Ending why) {
   TickReport report;
-  report.ending = Ending::kNoEnergy;
+  report.ending = why;
   report.work = tried.work;
   report.looks = tried.looks;
   report.used_up_at = tried.used_up_at;
   return report;
 }
-
-}  // namespace
 
 TickReport tickToGoal(ProxyState& state, const ProxySettings& settings, const Vec3& finger, const GoalOfTick& goal,
                       TickTo tick_to) {
@@ -28,7 +27,8 @@ TickReport tickToGoal(ProxyState& state, const ProxySettings& settings, const Ve
   TickReport report = tick_to(goal.place, there, 0);
   const double added_J = springEnergy_J(settings, there, finger) - goal.before_J;
   const double budget_J = state.ledger.budget_J(settings.ledger);
-  if (!(added_J <= budget_J + kEnergyRounding * goal.before_J + kEnergyRounding_J)) return stayed(report);
+  if (!(added_J <= budget_J + kEnergyRounding * goal.before_J + kEnergyRounding_J))
+    return notCounted(report, Ending::kNoEnergy);
   there.ledger = state.ledger;
   there.ledger.book(added_J, true);
   state = there;

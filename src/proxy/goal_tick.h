@@ -11,6 +11,9 @@ namespace hl {
 /// A tick to a goal, m, world, after `looks` looks of an earlier attempt.
 using TickTo = FunctionRef<TickReport(const Vec3& goal, ProxyState& state, int looks)>;
 
+/// Of a tick that was tried and does not count: the proxy has not moved, but the work is done.
+TickReport notCounted(const TickReport& tried, Ending why);
+
 /// What a tick aims at, world, and the energy of the spring to the finger before it, J.
 struct GoalOfTick {
   Vec3 place;

@@ -47,9 +47,9 @@ class WayOut {
   static constexpr double kStepPerReach = 0.5;
 
   bool open(const Vec3& place) const {
-    const Snapshot& snapshot = scene_.snapshot();
-    return std::none_of(snapshot.sources.begin(), snapshot.sources.end(), [&](std::uint32_t number) {
-      const Instance& instance = snapshot.instances[number];
+    const auto& instances = scene_.snapshot().instances;
+    return std::none_of(instances.begin(), instances.end(), [&](const Instance& instance) {
+      if (!instance.shape->source) return false;
       if (std::find(within_.begin(), within_.end(), instance.key) != within_.end()) return false;
       const Site site = siteOf(scene_, instance, place);
       return site == Site::kMatter || site == Site::kBoundary;
@@ -97,7 +97,7 @@ void leaveMatter(ProxyState& state, const SceneAt& scene, const ProxySettings& s
 
 void rememberMatter(ProxyState& state, const SceneAt& scene) {
   state.within.clear();
-  for (const std::uint32_t number : scene.snapshot().sources) {
+  for (const std::uint32_t number : scene.snapshot().matter) {
     const Instance& instance = scene.snapshot().instances[number];
     if (siteOf(scene, instance, state.position) == Site::kMatter) state.within.push(instance.key);
   }

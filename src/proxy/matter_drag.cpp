@@ -8,7 +8,7 @@ namespace hl {
 
 MatterForce matterAround(const SceneAt& scene, const Vec3& position) {
   MatterForce most;
-  for (const std::uint32_t number : scene.snapshot().sources) {
+  for (const std::uint32_t number : scene.snapshot().matter) {
     const Instance& instance = scene.snapshot().instances[number];
     if (!instance.shape->source->resists()) continue;
     const Vec3 place_O = instance.poses().at(scene.time_ns()).toObject(position);

@@ -63,6 +63,8 @@ std::vector<Placed> firstOf(const std::vector<Instance>& instances, std::shared_
   return all;
 }
 
+bool knowsMatter(const Shape& shape) { return shape.source && shape.source->siteOf(Vec3::Zero()) != Site::kUnknown; }
+
 }  // namespace
 
 std::shared_ptr<const Surfaces> surfacesOf(const std::shared_ptr<const Shape>& shape) {
@@ -86,7 +88,7 @@ std::size_t movingBodies(const Snapshot& snapshot) {
 std::size_t memoryOf(const Snapshot& snapshot) {
   std::set<const void*> counted;
   std::size_t bytes = snapshot.instances.capacity() * sizeof(Instance) + snapshot.reach.capacity() * sizeof(Box) +
-                      (snapshot.deforming.capacity() + snapshot.sources.capacity()) * sizeof(std::uint32_t) +
+                      (snapshot.deforming.capacity() + snapshot.matter.capacity()) * sizeof(std::uint32_t) +
                       snapshot.near.bytes();
   for (const Instance& instance : snapshot.instances) {
     const auto add = [&](const std::shared_ptr<const Shape>& shape) {
@@ -126,8 +128,8 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, st
       snapshot->deforming.push_back(static_cast<std::uint32_t>(snapshot->reach.size()));
       snapshot->deforms_until_ns = std::max(snapshot->deforms_until_ns, instance.mesh_motion->end_ns());
     }
-    if (instance.shape->source && snapshot->sources.size() < kMostSources)
-      snapshot->sources.push_back(static_cast<std::uint32_t>(snapshot->reach.size()));
+    if (knowsMatter(*instance.shape) && snapshot->matter.size() < kMostMatter)
+      snapshot->matter.push_back(static_cast<std::uint32_t>(snapshot->reach.size()));
     snapshot->reach.push_back(reachOf(instance));
     const Box rest = boxAt(instance.shape->bounds, finalPose(instance));
     if (!rest.empty()) {

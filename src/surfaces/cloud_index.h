@@ -3,29 +3,22 @@
 
 #include <cstddef>
 
-#include "geometry/spatial_index.h"
-#include "surfaces/grid_ball.h"
 #include "surfaces/placed_cloud.h"
+#include "surfaces/walked_index.h"
 
 namespace hl {
 
-class CloudIndex final : public SpatialIndex {
+class CloudIndex final : public WalkedIndex {
  public:
   /// The cloud must outlive it. Takes no memory: the bounds are those of its points.
   explicit CloudIndex(const PlacedCloud& cloud);
 
-  std::size_t overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId primitive)> visit) const override;
-  std::size_t sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
-                    FunctionRef<double(ElementId primitive, double limit)> visit) const override;
-  std::size_t nearest(const Vec3& centre, double farthest,
-                      FunctionRef<double(ElementId primitive, double limit)> visit) const override;
   IndexStats stats() const override;
 
  private:
+  std::size_t walk(const GridBall& ball, Visit visit) const override;
+
   const PlacedCloud& cloud_;
-  const GridMetric metric_;
-  const Vec3 scale_;            // shortestStep()
-  const double extent_, cell_;  // m: largest absolute coordinate, and spacing of the points
 };
 
 }  // namespace hl

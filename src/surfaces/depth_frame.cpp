@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "surfaces/depth_index.h"
+#include "surfaces/normal_between.h"
 
 namespace hl {
 
@@ -67,18 +68,9 @@ Vec3 DepthFrame::normalAt(std::uint32_t column, std::uint32_t row, const Vec3& o
 Vec3 DepthFrame::trueNormal(ElementId id, const Vec3& point) const {
   const std::array<Pixel, 3> at = cells_.pixelsOf(cellOf(id, grid().columns()));
   const std::array<Vec3, 3> corner = corners(id);
-  const Vec3 edge1 = corner[1] - corner[0], edge2 = corner[2] - corner[0], area = edge1.cross(edge2);
-  const Vec3 flat = area.normalized();
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (corner[i] == point) return normalAt(at[i][0], at[i][1], flat);
-  }
-  const Vec3 from = point - corner[0];
-  const double weight1 = from.cross(edge2).dot(area) / area.squaredNorm();
-  const double weight2 = edge1.cross(from).dot(area) / area.squaredNorm();
-  const Vec3 sum = (1 - weight1 - weight2) * normalAt(at[0][0], at[0][1], flat) +
-                   weight1 * normalAt(at[1][0], at[1][1], flat) + weight2 * normalAt(at[2][0], at[2][1], flat);
-  const double length = sum.norm();
-  return length > 0 ? Vec3(sum / length) : flat;
+  const Vec3 flat = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
+  const Vec3 normal = normalBetween(corner, point, [&](std::size_t i) { return normalAt(at[i][0], at[i][1], flat); });
+  return normal.isZero(0) ? flat : normal;
 }
 
 std::unique_ptr<const SpatialIndex> DepthFrame::makeIndex() const {

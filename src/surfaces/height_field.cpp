@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "surfaces/height_index.h"
+#include "surfaces/normal_between.h"
 #include "surfaces/slope.h"
 
 namespace hl {
@@ -79,17 +80,7 @@ Vec3 HeightField::normalAt(std::uint32_t column, std::uint32_t row) const {
 
 Vec3 HeightField::trueNormal(ElementId id, const Vec3& point) const {
   const Corners at = cornersOf(cellOf(id, grid_->columns()));
-  const std::array<Vec3, 3> corner = corners(id);
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (corner[i] == point) return normalAt(at[i][0], at[i][1]);
-  }
-  const Vec3 edge1 = corner[1] - corner[0], edge2 = corner[2] - corner[0], area = edge1.cross(edge2);
-  const Vec3 from = point - corner[0];
-  const double weight1 = from.cross(edge2).dot(area) / area.squaredNorm();
-  const double weight2 = edge1.cross(from).dot(area) / area.squaredNorm();
-  const Vec3 sum = (1 - weight1 - weight2) * normalAt(at[0][0], at[0][1]) + weight1 * normalAt(at[1][0], at[1][1]) +
-                   weight2 * normalAt(at[2][0], at[2][1]);
-  return sum.normalized();
+  return normalBetween(corners(id), point, [&](std::size_t i) { return normalAt(at[i][0], at[i][1]); });
 }
 
 // Two triangles and the bilinear surface differ most in the middle of the diagonal, by a quarter of the twist.

@@ -10,32 +10,24 @@
 
 #include <cstddef>
 
-#include "geometry/box.h"
-#include "geometry/spatial_index.h"
-#include "surfaces/grid_ball.h"
 #include "surfaces/height_grid.h"
 #include "surfaces/height_pyramid.h"
+#include "surfaces/walked_index.h"
 
 namespace hl {
 
-class HeightIndex final : public SpatialIndex {
+class HeightIndex final : public WalkedIndex {
  public:
   /// Grid and pyramid must outlive it. `bounds`: m, of the field.
   HeightIndex(const HeightGrid& grid, const HeightPyramid& pyramid, const GridFrame& frame, const Box& bounds);
 
-  std::size_t overlap(const Vec3& centre, double radius, FunctionRef<void(ElementId primitive)> visit) const override;
-  std::size_t sweep(const Vec3& from, const Vec3& motion, double radius, double soon,
-                    FunctionRef<double(ElementId primitive, double limit)> visit) const override;
-  std::size_t nearest(const Vec3& centre, double farthest,
-                      FunctionRef<double(ElementId primitive, double limit)> visit) const override;
   IndexStats stats() const override;
 
  private:
+  std::size_t walk(const GridBall& ball, Visit visit) const override;
+
   const HeightGrid& grid_;
   const HeightPyramid& pyramid_;
-  const GridMetric metric_;
-  const Box bounds_;
-  const double extent_, cell_;  // m: largest absolute coordinate, and size of a cell
 };
 
 }  // namespace hl

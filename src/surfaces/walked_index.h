@@ -1,4 +1,4 @@
-// WalkedIndex: the queries of an index whose triangles are found by a walk through the bricks of a grid.
+// WalkedIndex: the queries of an index whose primitives are found by a walk of a ball through the parts of a surface.
 #pragma once
 
 #include <cstddef>

@@ -153,6 +153,25 @@ TEST_F(OnPhantom, WhatItIsWithinItStaysWithin) {
   }
 }
 
+// Only so many surfaces are asked in each tick for the matter around the proxy; where one is replaced all count.
+TEST_F(OnPhantom, IsNotSwallowedByTheLastOfManySurfaces) {
+  const SceneModel phantom = makePhantom(81);
+  SceneModel many;
+  for (std::size_t i = 0; i < kMostMatter; ++i)
+    many.surfaces.push_back({"far", phantom.surfaces[1].source->placed(Mat3::Identity(), Vec3(1 + 0.3 * i, 0, 0))});
+  many.surfaces.push_back(phantom.surfaces[0]);
+  Changing scene(many);
+  EXPECT_EQ(scene.shown().matter.size(), kMostMatter);
+  scene.setIso(kMostMatter, 5000);  // no surface: the finger comes to where there will be matter
+  const Vec3 finger(0.005, 0.03, 0);
+  ProxyState state = startProxy(scene.shown(), kSettings, finger);
+  ASSERT_EQ(state.position, finger);
+  tick(state, scene.shown(), kSettings, finger);
+  scene.setIso(kMostMatter, -480);
+  tick(state, scene.shown(), kSettings, finger);
+  EXPECT_LT(valueAt(scene.surface(kMostMatter), state.position), -480);
+}
+
 TEST_F(OnPhantom, OtherScenesMoveItNot) {
   const Vec3 before = state_.position;
   scene_.setIso(1, 600);  // far beneath
