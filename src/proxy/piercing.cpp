@@ -45,8 +45,9 @@ void addPierced(const SceneAt& scene, const ProxySettings& settings, const TickR
                 PiercedObjects& pierced) {
   for (const ProxyContact& contact : report.contacts) {
     const double strength_N = strengthOf_N(scene, settings, contact.primitive);
+    if (!(strength_N > 0)) continue;
     const double force_N = newton_per_m * pressed_m(report, contact.primitive.instance).norm();
-    if (!(strength_N > 0 && force_N > strength_N)) continue;
+    if (!(force_N > strength_N)) continue;
     const std::uint64_t key = scene.instance(contact.primitive).key;
     if (std::find(pierced.begin(), pierced.end(), key) == pierced.end()) pierced.push(key);
   }
@@ -56,6 +57,7 @@ void addPierced(const SceneAt& scene, const ProxySettings& settings, const TickR
 
 void rememberPiercing(ProxyState& state, const SceneAt& scene, const ProxySettings& settings,
                       const TickReport& report) {
+  if (state.pierced.empty() && report.contacts.empty()) return;
   PiercedObjects pierced = state.pierced.empty() ? PiercedObjects{} : stillPierced(state, scene, settings);
   const double newton_per_m = settings.spring_N_m * state.stiffness / settings.world_per_device;
   addPierced(scene, settings, report, newton_per_m, pierced);
