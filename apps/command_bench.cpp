@@ -11,21 +11,19 @@
 #include "bench_output.h"
 #include "body_bench.h"
 #include "builtin.h"
-#include "cloud_bench.h"
 #include "commands.h"
-#include "field_bench.h"
 #include "io/load_scene.h"
+#include "surface_bench.h"
 #include "tick/interruptions.h"
 #include "tick/peers/peers.h"
 #include "tick/suite.h"
-#include "volume_bench.h"
 
 namespace hl {
 
 namespace {
 
 constexpr double kSide_m = 0.2;  // of a scene from a file, as of the built-in ones
-constexpr std::size_t kMin = 1000;
+constexpr std::size_t kMin = 1000, kMostMesh = 10'000'000, kMostStored = 100'000'000'000;
 
 struct SceneName {
   const char* name;
@@ -55,9 +53,7 @@ struct BenchOptions {
   double radius_edges = 1;
   std::size_t ticks = 20'000, most = 1'000'000, members = 1;
   bool all = false, peers = false, effects = true, bodies = false;
-  std::size_t fields = 0;     ///< triangles of the largest height field; 0: no fields
-  std::size_t clouds = 0;     ///< points of the largest cloud; 0: no clouds
-  std::uint32_t volumes = 0;  ///< samples along a side of the largest volume; 0: no volumes
+  std::vector<std::string> surfaces;  ///< names of kSurfaceKinds; empty: meshes
   std::string csv;
 };
 
@@ -128,9 +124,9 @@ void run(const BenchOptions& options) {
   const bool built_in = !bench::peers().empty();
   if (options.peers && !built_in) throw Error(kNoPeers);
   if (options.bodies) return runBodyBench(options.peers, options.csv);
-  if (options.fields > 0) return runFieldBench({options.fields, options.ticks, options.radius, options.csv});
-  if (options.clouds > 0) return runCloudBench({options.clouds, options.ticks, options.radius, options.csv});
-  if (options.volumes > 0) return runVolumeBench({options.volumes, options.ticks, options.radius, options.csv});
+  if (!options.surfaces.empty())
+    return runSurfaceBench({options.surfaces, options.most, options.ticks, options.radius, options.csv});
+  if (options.most > kMostMesh) throw Error(fmt::format("--most: meshes are measured up to {} triangles", kMostMesh));
   bench::SuitePlan plan;
   plan.scenes = scenesOf(options);
   plan.motions = chosen(bench::kFingerMotions, options.motions, options.all);
@@ -175,31 +171,14 @@ void addWhatOptions(CLI::App& command, BenchOptions& options) {
       "motion with it (default: fixed)");
   addListOption(command, "--hierarchies", options.hierarchies, kHierarchies,
                 "beside the bvh for sliding with the fixed radius; none up to 10 000 triangles (default: all)");
+  addListOption(command, "--surfaces", options.surfaces, kSurfaceKinds,
+                "surfaces that are no meshes instead, up to --most; takes --radius, --ticks and --csv");
   command.add_flag("!--no-effects", options.effects,
                    "leave out the surface effects, which are measured for sliding on terrain with the fixed radius");
   command.add_flag(
       "--peers", options.peers,
       "Embree, CGAL, FCL and Bullet, on the same mesh and the same places; with --bodies Bullet, ODE and MuJoCo; built "
       "in by scripts/build --peers");
-}
-
-// Surfaces that are no meshes, in the place of scenes.
-void addSourceOptions(CLI::App& command, BenchOptions& options) {
-  command
-      .add_option("--fields", options.fields,
-                  "height fields instead, of 10 000 triangles, ten times as many, and so on up to this number; takes "
-                  "--radius, --ticks and --csv")
-      ->check(CLI::Range(std::size_t{1000}, std::size_t{100'000'000'000}));
-  command
-      .add_option("--clouds", options.clouds,
-                  "clouds of points instead, of 10 000 points, ten times as many, and so on up to this number; takes "
-                  "--radius, --ticks and --csv")
-      ->check(CLI::Range(std::size_t{1000}, std::size_t{100'000'000}));
-  command
-      .add_option("--volumes", options.volumes,
-                  "surfaces of volumes instead, of 128 samples a side, twice as many, and so on up to this number; "
-                  "takes --radius, --ticks and --csv")
-      ->check(CLI::Range(8, 1025));
 }
 
 }  // namespace
@@ -217,11 +196,10 @@ void addBenchCommand(CLI::App& app) {
   command->add_option("--ticks", options->ticks, "ticks for each row")
       ->check(CLI::Range(100, 10'000'000))
       ->capture_default_str();
-  command->add_option("--most", options->most, "largest number of triangles")
-      ->check(CLI::Range(1000, 10'000'000))
+  command->add_option("--most", options->most, "largest number of triangles, samples or points")
+      ->check(CLI::Range(kMin, kMostStored))
       ->capture_default_str();
   command->add_option("--csv", options->csv, "also write the table to this file")->option_text("FILE");
-  addSourceOptions(*command, *options);
   auto* bodies = command->add_flag("--bodies", options->bodies,
                                    "steps of bodies instead: a stack, a pile and a cube that a finger pushes");
   for (const CLI::Option* other : command->get_options()) {

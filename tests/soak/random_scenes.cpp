@@ -149,15 +149,9 @@ constexpr std::array<Kind, 9> kKinds{{{"boxes", drawBoxes, true},
                                       {"double sheet", drawDoubleSheet, false},
                                       {"boxes in soup", drawBoxes, true}}};
 
-void dress(test::Random& random, RandomScene& scene, Model& model) {
+void dressModel(test::Random& random, RandomScene& scene, Model& model) {
   Material& material = model.materials[0];
-  if (scene.effect == Effect::kNone) return;
-  scene.stiffness = material.stiffness = random.uniform(0, 1);
-  if (scene.effect == Effect::kFriction || scene.effect == Effect::kEverything) {
-    material.dynamic_friction = random.uniform(0, 1);
-    material.static_friction = material.dynamic_friction * random.uniform(1, 2);
-    scene.static_friction = material.static_friction;
-  }
+  dress(random, scene, material);
   if (scene.effect != Effect::kShading && scene.effect != Effect::kEverything) return;
   material.smooth = true;
   for (std::size_t i = 0; i < model.positions.size(); ++i) {
@@ -197,6 +191,20 @@ void keepPrimitives(const Model& model, std::size_t closed, RandomScene& scene) 
 
 }  // namespace
 
+void drawRules(test::Random& random, RandomScene& scene) {
+  scene.settings.ledger = static_cast<LedgerMode>(random.below(3));
+  if (random.below(2) == 0) scene.settings.work_cap = kNoWorkCap;
+}
+
+void dress(test::Random& random, RandomScene& scene, Material& material) {
+  if (scene.effect == Effect::kNone) return;
+  scene.stiffness = material.stiffness = random.uniform(0, 1);
+  if (scene.effect != Effect::kFriction && scene.effect != Effect::kEverything) return;
+  material.dynamic_friction = random.uniform(0, 1);
+  material.static_friction = material.dynamic_friction * random.uniform(1, 2);
+  scene.static_friction = material.static_friction;
+}
+
 RandomScene drawScene(test::Random& random) {
   RandomScene scene;
   const Kind& kind = kKinds[static_cast<std::size_t>(random.below(kKinds.size()))];
@@ -208,13 +216,12 @@ RandomScene drawScene(test::Random& random) {
   scene.effect = static_cast<Effect>(random.below(5));
   scene.settings.radius = random.below(2) == 0 ? 1e-3 : anySize(random, 1e-6, 1e3);
   scene.settings.world_per_device = scene.settings.radius / 1e-3;
-  scene.settings.ledger = static_cast<LedgerMode>(random.below(3));
-  if (random.below(2) == 0) scene.settings.work_cap = kNoWorkCap;
+  drawRules(random, scene);
   const double away = random.below(2) == 0 ? 0 : anySize(random, 1, 1e4);
   scene.centre_W = scene.settings.radius * away * random.direction();
   const double coarse = random.below(3) == 0 ? anySize(random, 1, 1e3) : 1;  // the scene, beside the proxy
   scene.half = 8 * coarse;
-  dress(random, scene, model);
+  dressModel(random, scene, model);
   const Mat3 linear = coarse * scene.settings.radius * (random.below(2) == 0 ? Mat3(Mat3::Identity()) : turned(random));
   placeModel(model, {linear, scene.centre_W});
   keepPrimitives(model, closed, scene);

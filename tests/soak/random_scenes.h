@@ -32,4 +32,9 @@ struct RandomScene {
 
 RandomScene drawScene(test::Random& random);
 
+/// The ledger and the limit of work.
+void drawRules(test::Random& random, RandomScene& scene);
+/// The material of an effect, but for shading and textures.
+void dress(test::Random& random, RandomScene& scene, Material& material);
+
 }  // namespace hl::soak

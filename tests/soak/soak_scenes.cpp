@@ -17,6 +17,7 @@
 #include "soak/finger.h"
 #include "soak/pieces.h"
 #include "soak/random_scenes.h"
+#include "soak/random_surfaces.h"
 
 namespace hl::soak {
 
@@ -80,9 +81,9 @@ struct Seen {
 
 class Run {
  public:
-  Run(std::uint64_t seed, std::uint64_t number)
+  Run(std::uint64_t seed, std::uint64_t number, bool surfaces)
       : random_(generatorOf(seed, number)),
-        scene_(drawScene(random_)),
+        scene_(surfaces ? drawSurface(random_) : drawScene(random_)),
         clearance_(scene_.primitives),
         path_(random_, Vec3::Constant(scene_.half)) {}
 
@@ -246,6 +247,7 @@ struct Options {
   std::uint64_t seed = 1, scenes = 1000;
   int threads = 1;
   std::int64_t scene = -1;
+  bool surfaces = false;
 };
 
 Options parse(int argc, char** argv) {
@@ -257,6 +259,7 @@ Options parse(int argc, char** argv) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   app.add_option("--scene", options.scene, "Only the scene of this number");
+  app.add_flag("--surfaces", options.surfaces, "Surfaces that make their triangles or points, each beside its mesh");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -275,12 +278,12 @@ int run(const Options& options) {
   std::map<std::uint64_t, std::string> faults;
   Progress progress(pieces.count());
   const auto one = [&](std::uint64_t number) {
-    Run run(options.seed, number);
+    Run run(options.seed, number, options.surfaces);
     Seen seen = run.run();
     if (!seen.fault.empty())
-      seen.fault =
-          fmt::format("FAULT in {} with effect {}, {}; again: soak_scenes --seed {} --scene {}", run.scene().what,
-                      static_cast<int>(run.scene().effect), seen.fault, options.seed, number);
+      seen.fault = fmt::format("FAULT in {} with effect {}, {}; again: soak_scenes --seed {} --scene {}{}",
+                               run.scene().what, static_cast<int>(run.scene().effect), seen.fault, options.seed, number,
+                               options.surfaces ? " --surfaces" : "");
     return seen;
   };
   runPieces(pieces, progress, one, [&](std::uint64_t number, const Seen& seen) {
