@@ -2,18 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdlib>
 #include <random>
 
 #include "base/vec.h"
+#include "environment.h"
 
 namespace hl::test {
-
-/// What an environment variable says.
-inline int numberIn(const char* variable, int otherwise) {
-  const char* const said = std::getenv(variable);
-  return said == nullptr ? otherwise : std::atoi(said);
-}
 
 struct Draws {
   explicit Draws(std::uint64_t seed) : random(seed) {}

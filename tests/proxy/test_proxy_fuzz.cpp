@@ -3,9 +3,9 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <random>
 
+#include "environment.h"
 #include "proxy/judge.h"
 #include "proxy/proxy.h"
 
@@ -20,11 +20,6 @@ constexpr std::uint32_t kCells = 200;
 constexpr int kUsualPokes = 100'000;
 constexpr std::uint32_t kCells = 707;
 #endif
-
-int pokes() {
-  const char* wanted = std::getenv("HL_POKES");
-  return wanted == nullptr ? kUsualPokes : std::atoi(wanted);
-}
 
 constexpr double kRadius = 1e-3;
 constexpr double kSide = 0.2;
@@ -57,7 +52,7 @@ TEST(C02Fuzz, PokesIntoATornSheetOfAMillionTrianglesNeverFallThrough) {
   int through = 0;
   int capped = 0;
   int inside = 0;
-  const int count = pokes();
+  const int count = test::numberIn("HL_POKES", kUsualPokes);
   for (int i = 0; i < count; ++i) {
     const double side = i % 2 == 0 ? 1 : -1;
     const Vec3 above(0.09 * uniform(random), 0.09 * uniform(random), 3 * kRadius * side);

@@ -111,7 +111,7 @@ void keepPrimitives(const Model& model, RandomScene& scene) {
 // Of about the distance between vertices, and much more or less.
 void drawRadius(test::Random& random, const Box& bounds, RandomScene& scene) {
   const double apart = bounds.size().norm() / std::sqrt(static_cast<double>(scene.primitives.size()));
-  scene.settings.radius = apart * std::pow(10.0, random.uniform(-1.5, 1));
+  scene.settings.radius = (apart > 0 ? apart : 1e-3) * std::pow(10.0, random.uniform(-1.5, 1));
   scene.settings.world_per_device = scene.settings.radius / 1e-3;
   scene.centre_W = bounds.centre();
   scene.half = 0.5 * bounds.size().maxCoeff() / scene.settings.radius + 2;

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "environment.h"
 #include "geometry/primitive_source.h"
 #include "geometry/queries.h"
 #include "geometry/scenes.h"
@@ -72,6 +73,9 @@ inline std::array<double, 10> entryOf(const Primitive& primitive, double distanc
   return entry;
 }
 
+/// HL_LONGER=10 in the environment: so many times as many surfaces.
+inline int longer() { return numberIn("HL_LONGER", 1); }
+
 /// A place on the surface or around it, and a radius: of a part of a cell, or of many.
 struct TestBall {
   Vec3 centre;
@@ -82,6 +86,7 @@ struct TestBall {
 template <typename Draw, typename DrawBall>
 void expectImpactsOfMesh(const Draw& draw, const DrawBall& drawBall, int queries_per_hit, int scenes = 400,
                          int balls = 300) {
+  scenes *= longer();
   Random random(1);
   int hits = 0, queries = 0;
   for (int scene = 0; scene < scenes; ++scene) {
@@ -107,6 +112,7 @@ void expectImpactsOfMesh(const Draw& draw, const DrawBall& drawBall, int queries
 
 template <typename Draw, typename DrawBall>
 void expectDistancesOfMesh(const Draw& draw, const DrawBall& drawBall, int scenes = 400, int balls = 150) {
+  scenes *= longer();
   Random random(2);
   std::size_t found = 0;
   for (int scene = 0; scene < scenes; ++scene) {
@@ -134,6 +140,7 @@ void expectDistancesOfMesh(const Draw& draw, const DrawBall& drawBall, int scene
 
 template <typename Draw, typename DrawBall>
 void expectNearestOfMesh(const Draw& draw, const DrawBall& drawBall, int scenes = 300, int balls = 100) {
+  scenes *= longer();
   Random random(3);
   for (int scene = 0; scene < scenes; ++scene) {
     const auto source = draw(random);

@@ -263,7 +263,7 @@ WayError sweepsAgainst(const Expression& expression, double error_m, int sweeps)
 // The distance function of a torus is exact outside, so a ball may go until its value is the radius.
 TEST(ImplicitTouch, SweepsEndWhereTheFunctionSays) {
   const double error_m = 1e-6;
-  const WayError torus = sweepsAgainst(test::torus(0.03, 0.01), error_m, 3000);
+  const WayError torus = sweepsAgainst(test::torus(0.03, 0.01), error_m, 3000 * test::longer());
   EXPECT_GT(torus.hits, 300);
   EXPECT_LE(torus.late, error_m);
   EXPECT_LE(torus.early, error_m);

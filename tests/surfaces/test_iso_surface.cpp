@@ -53,7 +53,7 @@ void add(SideUses& to, const SideUses& from) {
 // direction, and all bits are the same.
 TEST(IsoSurface, EachInnerSideBelongsToTwoTriangles) {
   Random random(1);
-  const int blocks = 100'000;
+  const int blocks = 100'000 * test::longer();
   std::size_t checked = 0;
   for (int i = 0; i < blocks; ++i) {
     const auto volume = test::volumeOf({4, 4, 4}, [&](const Vec3&) { return random.uniform(-1, 1); });
