@@ -85,6 +85,43 @@ def depth(programs):
     write(asyncio.run(picture_of_scene("depth:table", programs)), look.folder / "depth_page.png")
 
 
+# From where the hand comes to the scan, and where it is then held, m: 5 mm within a bone.
+BEGIN_M, HELD_M = (-0.075, 0.037, 0.041), (-0.0295, 0.0207, 0.0161)
+BONE_HU = 370
+
+
+async def skin_and_bone(programs, path):
+    touch = [built(programs, "hl"), "touch", "ct:phantom:161", "--no-open", "--port", "0", "--hand-path", path]
+    pictures = []
+    with Program(touch, r"page: (http://\S+/)") as served:
+        async with Browser(*PICTURE) as browser:
+            await browser.open(served.found.group(1), SHOWN)
+            for iso in (None, BONE_HU):
+                if iso is not None:
+                    await browser.value_of(f"document.getElementById('iso-1').value = {iso}")
+                    await browser.value_of("document.getElementById('iso-1').dispatchEvent(new Event('input'))")
+                await asyncio.sleep(PLOTS_S)
+                await browser.wait_for(TOUCHED)
+                picture = Image.open(io.BytesIO(await browser.picture())).convert("RGB")
+                pictures.append(picture.crop((0, 0, round(0.74 * picture.width), picture.height)))
+    return pictures
+
+
+def scan(programs):
+    """The hand stays where it is; what it touches changes with the iso value."""
+    with tempfile.TemporaryDirectory() as directory:
+        path = Path(directory) / "held.csv"
+        rows = [(0, *BEGIN_M), (2, *HELD_M), (LONG_S, *HELD_M)]
+        path.write_text("t,x,y,z\n" + "".join(",".join(map(str, row)) + "\n" for row in rows))
+        left, right = asyncio.run(skin_and_bone(programs, path))
+    both = Image.new("RGB", (left.width + right.width, left.height))
+    both.paste(left, (0, 0))
+    both.paste(right, (left.width, 0))
+    stored = io.BytesIO()
+    both.save(stored, "PNG")
+    write(stored.getvalue(), look.folder / "scan_page.png")
+
+
 def gallery(programs, names=None):
     for name in names or EXAMPLES:
         asyncio.run(picture_of(name, programs))
