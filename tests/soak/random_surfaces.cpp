@@ -17,40 +17,10 @@ namespace hl::soak {
 
 namespace {
 
-using Source = std::shared_ptr<const PrimitiveSource>;
-
 Source drawField(test::Random& random) { return test::randomField(random); }
 Source drawVolume(test::Random& random) { return test::randomSurface(random); }
 Source drawFrame(test::Random& random) { return test::randomFrame(random); }
 Source drawCloud(test::Random& random) { return test::randomCloud(random); }
-
-// What lies within a volume: closed, of one piece or many.
-Source drawLump(test::Random& random) {
-  const auto side = static_cast<std::uint32_t>(6 + random.below(14));
-  const double middle = 0.5 * (side - 1), noise = random.below(2) == 0 ? 0 : std::pow(10.0, random.uniform(-3, 0.5));
-  const Vec3 waves = random.inCube(1.5);
-  const auto volume = test::volumeOf({side, side, side}, [&](const Vec3& at) {
-    const Vec3 p = at - Vec3::Constant(middle);
-    if (p.cwiseAbs().maxCoeff() > middle - 1) return -10.0;
-    return 0.8 * middle - p.norm() + 2 * std::sin(waves.dot(p)) + noise * random.uniform(-1, 1);
-  });
-  const Mat3 turn = Eigen::AngleAxisd(random.uniform(0, 6), random.direction()).toRotationMatrix();
-  GridFrame frame = test::cubicFrame(1).placed(1e-3 * turn, 1e-3 * random.inCube(100));
-  if (random.below(2) == 0) frame.axes.col(0) *= -random.uniform(0.3, 2);
-  return std::make_shared<const IsoSurface>(volume, frame, IsoValue{0, SolidSide::kAbove});
-}
-
-// Of 1e-4 m at sizes of 10 mm: some thousand triangles. An expression that cannot be kept is drawn again.
-Source drawSolid(test::Random& random) {
-  while (true) {
-    try {
-      Expression solid = test::randomSolid(random);
-      const Mat3 turn = Eigen::AngleAxisd(random.uniform(0, 6), random.direction()).toRotationMatrix();
-      return test::surfaceOf(std::move(solid), 1e-4)->placed(turn, random.inCube(0.05));
-    } catch (const Error&) {
-    }
-  }
-}
 
 struct SurfaceKind {
   const char* name;
@@ -118,6 +88,33 @@ void drawRadius(test::Random& random, const Box& bounds, RandomScene& scene) {
 }
 
 }  // namespace
+
+Source drawLump(test::Random& random) {
+  const auto side = static_cast<std::uint32_t>(6 + random.below(14));
+  const double middle = 0.5 * (side - 1), noise = random.below(2) == 0 ? 0 : std::pow(10.0, random.uniform(-3, 0.5));
+  const Vec3 waves = random.inCube(1.5);
+  const auto volume = test::volumeOf({side, side, side}, [&](const Vec3& at) {
+    const Vec3 p = at - Vec3::Constant(middle);
+    if (p.cwiseAbs().maxCoeff() > middle - 1) return -10.0;
+    return 0.8 * middle - p.norm() + 2 * std::sin(waves.dot(p)) + noise * random.uniform(-1, 1);
+  });
+  const Mat3 turn = Eigen::AngleAxisd(random.uniform(0, 6), random.direction()).toRotationMatrix();
+  GridFrame frame = test::cubicFrame(1).placed(1e-3 * turn, 1e-3 * random.inCube(100));
+  if (random.below(2) == 0) frame.axes.col(0) *= -random.uniform(0.3, 2);
+  return std::make_shared<const IsoSurface>(volume, frame, IsoValue{0, SolidSide::kAbove});
+}
+
+// An expression that cannot be kept is drawn again.
+Source drawSolid(test::Random& random) {
+  while (true) {
+    try {
+      Expression solid = test::randomSolid(random);
+      const Mat3 turn = Eigen::AngleAxisd(random.uniform(0, 6), random.direction()).toRotationMatrix();
+      return test::surfaceOf(std::move(solid), 1e-4)->placed(turn, random.inCube(0.05));
+    } catch (const Error&) {
+    }
+  }
+}
 
 RandomScene drawSurface(test::Random& random) {
   constexpr std::size_t kMostPrimitives = 8000;
