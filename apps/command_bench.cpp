@@ -11,6 +11,7 @@
 #include "bench_output.h"
 #include "body_bench.h"
 #include "builtin.h"
+#include "camera_bench.h"
 #include "commands.h"
 #include "io/load_scene.h"
 #include "surface_bench.h"
@@ -53,6 +54,7 @@ struct BenchOptions {
   double radius_edges = 1;
   std::size_t ticks = 20'000, most = 1'000'000, members = 1;
   bool all = false, peers = false, effects = true, bodies = false;
+  std::size_t depth = 0;              ///< pictures of a depth camera for each row; 0: none
   std::vector<std::string> surfaces;  ///< names of kSurfaceKinds; empty: meshes
   std::string csv;
 };
@@ -124,6 +126,7 @@ void run(const BenchOptions& options) {
   const bool built_in = !bench::peers().empty();
   if (options.peers && !built_in) throw Error(kNoPeers);
   if (options.bodies) return runBodyBench(options.peers, options.csv);
+  if (options.depth > 0) return runCameraBench({options.depth, options.csv});
   if (!options.surfaces.empty())
     return runSurfaceBench({options.surfaces, options.most, options.ticks, options.radius, options.csv});
   if (options.most > kMostMesh) throw Error(fmt::format("--most: meshes are measured up to {} triangles", kMostMesh));
@@ -173,6 +176,11 @@ void addWhatOptions(CLI::App& command, BenchOptions& options) {
                 "beside the bvh for sliding with the fixed radius; none up to 10 000 triangles (default: all)");
   addListOption(command, "--surfaces", options.surfaces, kSurfaceKinds,
                 "surfaces that are no meshes instead, up to --most; takes --radius, --ticks and --csv");
+  command
+      .add_option(
+          "--depth", options.depth,
+          "pictures of a depth camera instead, so many for each size and radius, with 33 ticks each; takes --csv")
+      ->check(CLI::Range(std::size_t{10}, std::size_t{1'000'000}));
   command.add_flag("!--no-effects", options.effects,
                    "leave out the surface effects, which are measured for sliding on terrain with the fixed radius");
   command.add_flag(

@@ -14,8 +14,8 @@ namespace hl {
 namespace {
 
 constexpr std::uint32_t kColumns = 640, kRows = 480;
+constexpr double kFocal = 525.0 / kColumns;  // of the width
 constexpr double kUnit_m = 1e-4, kFar = std::numeric_limits<double>::infinity();
-const DepthCamera kCamera{525, 525, 319.5, 239.5};
 
 /// A ray from the camera, in the frame of the table.
 struct Ray {
@@ -81,23 +81,36 @@ Mat3 turnOfCamera() {
   return turn;
 }
 
+Vec3 eyeOfCamera() { return -0.6 * (turnOfCamera() * -Vec3::UnitZ()); }
+
 }  // namespace
 
-std::shared_ptr<const PrimitiveSource> makeDepthTable() {
+HeightGrid DepthPicture::grid() const {
+  return {{columns, rows, SampleKind::kUint16}, {std::shared_ptr<const void>(), depths.data()}};
+}
+
+DepthPicture pictureOfTable(std::uint32_t columns, std::uint32_t rows) {
+  const double focal = kFocal * columns;
+  DepthPicture picture{columns, rows, kUnit_m, {focal, focal, 0.5 * (columns - 1.0), 0.5 * (rows - 1.0)}, {}};
   const Mat3 turn = turnOfCamera();
-  const Vec3 eye = -0.6 * (turn * -Vec3::UnitZ());
-  auto depths = std::make_shared<std::vector<std::uint16_t>>();
-  for (std::uint32_t row = 0; row < kRows; ++row) {
-    for (std::uint32_t column = 0; column < kColumns; ++column) {
-      const Ray ray{eye, turn * Vec3(kCamera.across(column), -kCamera.down(row), -1)};
+  const Vec3 eye = eyeOfCamera();
+  picture.depths.reserve(std::size_t{columns} * rows);
+  for (std::uint32_t row = 0; row < rows; ++row) {
+    for (std::uint32_t column = 0; column < columns; ++column) {
+      const Ray ray{eye, turn * Vec3(picture.camera.across(column), -picture.camera.down(row), -1)};
       const double depth_m = std::min({alongTable(ray), alongBall(ray), alongCone(ray), alongBox(ray)});
-      depths->push_back(depth_m < 6 ? static_cast<std::uint16_t>(std::lround(depth_m / kUnit_m)) : 0);
+      picture.depths.push_back(depth_m < 6 ? static_cast<std::uint16_t>(std::lround(depth_m / kUnit_m)) : 0);
     }
   }
-  const std::shared_ptr<const void> data(depths, depths->data());
-  const HeightGrid seen({kColumns, kRows, SampleKind::kUint16}, data);
-  return std::make_shared<const DepthFrame>(smoothed(seen, kUnit_m, kCamera, nullptr, 0),
-                                            cameraFrame(1).placed(turn, eye));
+  return picture;
+}
+
+GridFrame frameOfTable() { return cameraFrame(1).placed(turnOfCamera(), eyeOfCamera()); }
+
+std::shared_ptr<const PrimitiveSource> makeDepthTable() {
+  const DepthPicture picture = pictureOfTable(kColumns, kRows);
+  return std::make_shared<const DepthFrame>(smoothed(picture.grid(), picture.unit_m, picture.camera, nullptr, 0),
+                                            frameOfTable());
 }
 
 }  // namespace hl
