@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "tick/course.h"
 
@@ -24,6 +25,7 @@ constexpr double kTraced_m = 0.002;         // of one that traces the surface be
 constexpr double kTracedChange_m = 0.0015;  // by which that changes
 constexpr double kTracedWave_m = 0.07;      // of the course, for one such change
 constexpr double kTracedLead_m = 0.0003;    // how far ahead such a finger aims
+constexpr double kWandered_m = 0.05;        // on the way to one place, before there is another
 constexpr double kLift_m = 0.006;           // of a tap over where it touched
 constexpr double kTapSlope = 0.3;           // a tap goes sideways this much of its way
 constexpr double kClearance_m = 0.001;      // of a free proxy from the surface, at least
@@ -61,6 +63,8 @@ class Planner {
       tap();
     } else if (motion_ == FingerMotion::kTracing) {
       trace();
+    } else if (motion_ == FingerMotion::kWandering) {
+      wander();
     } else {
       turnTo(ahead(course_.levelOf(proxy()) - scale_ * (motion_ == FingerMotion::kCorners ? kDeep_m : kDepth_m)));
     }
@@ -102,6 +106,18 @@ class Planner {
     return course_.levelOf(top + impact.impact.t * down);
   }
 
+  // A place that is drawn may be in matter or out of reach, so it is given up after a while.
+  void wander() {
+    s_m_ += scale_ * kStep_m;
+    if (s_m_ > scale_ * kWandered_m) {
+      s_m_ = 0;
+      const auto part = [this] { return static_cast<double>(random_()) / static_cast<double>(random_.max()); };
+      const Vec3 parts(part(), part(), part());
+      goal_ = snapshot_.bounds.min + snapshot_.bounds.size().cwiseProduct(parts);
+    }
+    turnTo(proxy() + scale_ * kDepth_m * (goal_ - proxy()).normalized());
+  }
+
   void turnTo(const Vec3& place) { direction_ = (direction_ + kTurn * (place - finger_).normalized()).normalized(); }
 
   // Down while nothing is near, away at once from what is too near, and between the two along the course. As the
@@ -138,7 +154,9 @@ class Planner {
   const Course course_;
   Vec3 finger_ = Vec3::Zero(), direction_ = Vec3::Zero();
   ProxyState state_;
-  double s_m_ = 0;  // along the course
+  double s_m_ = 0;                         // along the course, or to a place
+  Vec3 goal_ = snapshot_.bounds.centre();  // of one that wanders
+  std::mt19937 random_;
   bool arrived_ = false;
   bool falling_ = true, pressing_ = false;  // of a tap
   double touched_m_ = course_.bottom_m();   // level at which the tap came into contact
@@ -147,7 +165,8 @@ class Planner {
 }  // namespace
 
 const char* nameOf(FingerMotion motion) {
-  constexpr std::array<const char*, kFingerMotions.size()> kNames{"sliding", "free", "tapping", "corners", "tracing"};
+  constexpr std::array<const char*, kFingerMotions.size()> kNames{"sliding", "free",    "tapping",
+                                                                  "corners", "tracing", "wandering"};
   return kNames[static_cast<std::size_t>(motion)];
 }
 

@@ -16,15 +16,16 @@ inline constexpr double kSpeed_m_s = 0.15;
 inline constexpr double kPeriod_s = 1e-3;
 
 enum class FingerMotion : std::uint8_t {
-  kSliding,  ///< 4 mm beneath the proxy
-  kFree,     ///< near the surface, never touching it
-  kTapping,  ///< down until 4 mm beneath the proxy, up again, several times a second
-  kCorners,  ///< 15 mm beneath the proxy, which so runs into every crease on its way
-  kTracing,  ///< 0.5 to 3.5 mm beneath the surface, up and down with all its detail
+  kSliding,    ///< 4 mm beneath the proxy
+  kFree,       ///< near the surface, never touching it
+  kTapping,    ///< down until 4 mm beneath the proxy, up again, several times a second
+  kCorners,    ///< 15 mm beneath the proxy, which so runs into every crease on its way
+  kTracing,    ///< 0.5 to 3.5 mm beneath the surface, up and down with all its detail
+  kWandering,  ///< to places of the scene drawn at random, 4 mm ahead of the proxy
 };
-inline constexpr std::array kFingerMotions{FingerMotion::kSliding, FingerMotion::kFree, FingerMotion::kTapping,
-                                           FingerMotion::kCorners, FingerMotion::kTracing};
-/// "sliding", "free", "tapping", "corners" or "tracing".
+inline constexpr std::array kFingerMotions{FingerMotion::kSliding, FingerMotion::kFree,    FingerMotion::kTapping,
+                                           FingerMotion::kCorners, FingerMotion::kTracing, FingerMotion::kWandering};
+/// "sliding", "free", "tapping", "corners", "tracing" or "wandering".
 const char* nameOf(FingerMotion motion);
 
 /// The finger, one place a tick, and where the proxy was after each. World frame.
