@@ -58,10 +58,11 @@ void writeHeights(const HeightField& field, const std::function<void(proto::Reco
 }
 
 void writeDepths(const DepthFrame& frame, const std::function<void(proto::RecordedHeights& part)>& take) {
-  const HeightGrid& grid = *frame.image().grid;
+  const DepthPixels& pixels = frame.image().pixels;
+  const GridSize size{pixels.columns(), pixels.rows(), SampleKind::kFloat32};
   proto::RecordedHeights part;
-  toProto(HeightHeader{grid.size(), grid.missing(), frame.frame(), frame.image().camera}, part);
-  takeInParts(std::move(part), grid.samples(), grid.size().bytes(), take);
+  toProto(HeightHeader{size, {}, frame.frame(), frame.image().camera}, part);
+  takeInParts(std::move(part), pixels.all(), pixels.bytes(), take);
 }
 
 HeightCollector::HeightCollector(const HeightHeader& header, std::size_t most_bytes)
@@ -70,7 +71,7 @@ HeightCollector::HeightCollector(const HeightHeader& header, std::size_t most_by
 std::shared_ptr<const PrimitiveSource> HeightCollector::take() {
   const auto grid = std::make_shared<const HeightGrid>(header_.size, samples_.take(), header_.missing);
   if (header_.camera)
-    return std::make_shared<const DepthFrame>(std::make_shared<const DepthImage>(grid, *header_.camera), header_.frame);
+    return std::make_shared<const DepthFrame>(smoothed(*grid, 1, *header_.camera, nullptr, 0), header_.frame);
   auto field = std::make_shared<const HeightField>(grid, header_.frame);
   requireTriangles(*field);
   return field;

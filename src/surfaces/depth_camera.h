@@ -15,10 +15,10 @@ struct DepthCamera {
 
   double across(double column) const { return (column - cx) / fx; }
   double down(double row) const { return (row - cy) / fy; }
-  /// Whether three depths are one surface; not, if one is missing (not a number) or not above 0. RT-safe.
-  bool joins(double a, double b, double c) const {
-    const double least = std::min({a, b, c}), most = std::max({a, b, c});
-    return least > 0 && most - least <= join * least && a == a && b == b && c == c;
+  /// Whether three depths, none below 0, are one surface; not, if one is 0. RT-safe.
+  bool joins(float a, float b, float c) const {
+    const float least = std::min({a, b, c}), most = std::max({a, b, c});
+    return least > 0 && most - least <= static_cast<float>(join) * least;
   }
   bool operator==(const DepthCamera&) const = default;
 };

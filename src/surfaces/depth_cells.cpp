@@ -13,7 +13,7 @@ std::array<DepthCells::Pixel, 3> DepthCells::pixelsOf(const HeightCell& cell) co
 }
 
 std::array<Vec3, 3> DepthCells::corners(ElementId id) const {
-  const std::array<Pixel, 3> at = pixelsOf(cellOf(id, grid().columns()));
+  const std::array<Pixel, 3> at = pixelsOf(cellOf(id, pixels().columns()));
   return {pointAt(at[0]), pointAt(at[1]), pointAt(at[2])};
 }
 

@@ -22,12 +22,13 @@ class DepthCells {
       : image_(std::move(image)), frame_(frame), mirrored_(frame.axes.determinant() < 0) {}
 
   const std::shared_ptr<const DepthImage>& image() const { return image_; }
-  const HeightGrid& grid() const { return *image_->grid; }
+  const DepthPixels& pixels() const { return image_->pixels; }
   const GridFrame& frame() const { return frame_; }
   /// Whether the frame turns a right hand into a left one.
   bool mirrored() const { return mirrored_; }
 
-  double depthAt(const Pixel& pixel) const { return grid().at(pixel[0], pixel[1]); }
+  /// Metres along the axis; 0: none.
+  float depthAt(const Pixel& pixel) const { return pixels().at(pixel[0], pixel[1]); }
   /// Metres.
   Vec3 pointAt(const Pixel& pixel) const { return pointAt(pixel[0], pixel[1], depthAt(pixel)); }
   Vec3 pointAt(double column, double row, double depth) const {

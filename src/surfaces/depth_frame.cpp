@@ -24,32 +24,44 @@ DepthFrame::DepthFrame(std::shared_ptr<const DepthImage> seen, const GridFrame& 
   if (!withinReach(bounds_.min) || !withinReach(bounds_.max)) throw Error("a depth image reaches beyond 1e9 m");
 }
 
-// Each tile lies within its piece of the frustum.
+// Each tile lies within its piece of the frustum. Only those that reach beyond what is known are looked into.
 Box DepthFrame::boundsOfTiles() const {
-  const DepthTiles& tiles = image().tiles;
   Box box;
-  for (std::uint32_t row = 0; row < tiles.rows(0); ++row) {
-    for (std::uint32_t column = 0; column < tiles.columns(0); ++column) {
-      const DepthRange& range = tiles.range(0, column, row);
-      if (range.empty()) continue;
-      for (unsigned c = 0; c < 8; ++c) {
-        const double i = std::min((column + (c & 1U)) * DepthTiles::kCells, grid().columns() - 1);
-        const double j = std::min((row + (c >> 1U & 1U)) * DepthTiles::kCells, grid().rows() - 1);
-        const double depth = (c >> 2U & 1U) != 0 ? range.high : range.low;
-        box.extend(cells_.pointAt(i, j, depth));
-      }
-    }
-  }
+  extendBy(image().tiles.levels() - 1, 0, 0, box);
   return box;
 }
 
+void DepthFrame::extendBy(int level, std::uint32_t column, std::uint32_t row, Box& box) const {
+  const DepthTiles& tiles = image().tiles;
+  const DepthRange& range = tiles.range(level, column, row);
+  if (range.empty()) return;
+  const auto side = static_cast<double>(DepthTiles::side(level));
+  Box piece;
+  for (unsigned c = 0; c < 8; ++c) {
+    const double i = std::min((column + (c & 1U)) * side, pixels().columns() - 1.0);
+    const double j = std::min((row + (c >> 1U & 1U)) * side, pixels().rows() - 1.0);
+    piece.extend(cells_.pointAt(i, j, (c >> 2U & 1U) != 0 ? range.high : range.low));
+  }
+  if (!box.empty() && box.contains(piece)) return;
+  if (level == 0) {
+    box.extend(piece.min);
+    box.extend(piece.max);
+    return;
+  }
+  const std::uint32_t end = std::min((column + 1) * DepthTiles::kTiles, tiles.columns(level - 1));
+  const std::uint32_t bottom = std::min((row + 1) * DepthTiles::kTiles, tiles.rows(level - 1));
+  for (std::uint32_t j = row * DepthTiles::kTiles; j < bottom; ++j) {
+    for (std::uint32_t i = column * DepthTiles::kTiles; i < end; ++i) extendBy(level - 1, i, j, box);
+  }
+}
+
 ElementId DepthFrame::count() const {
-  return triangles() == 0 ? 0 : 2 * ElementId{grid().columns() - 1} * (grid().rows() - 1);
+  return triangles() == 0 ? 0 : 2 * ElementId{pixels().columns() - 1} * (pixels().rows() - 1);
 }
 
 // From before to after `here`, along an axis of the image; nothing where neither is one surface with it.
 Vec3 DepthFrame::normalAt(std::uint32_t column, std::uint32_t row, const Vec3& otherwise) const {
-  const double here = cells_.depthAt({column, row});
+  const float here = cells_.depthAt({column, row});
   const auto slope = [&](std::uint32_t end, std::uint32_t at, const auto& pixel) {
     const auto joined = [&](std::uint32_t other) {
       return image().camera.joins(here, here, cells_.depthAt(pixel(other)));
@@ -58,15 +70,15 @@ Vec3 DepthFrame::normalAt(std::uint32_t column, std::uint32_t row, const Vec3& o
     const Pixel last = pixel(at + 1 < end && joined(at + 1) ? at + 1 : at);
     return Vec3(cells_.pointAt(last) - cells_.pointAt(first));
   };
-  const Vec3 across = slope(grid().columns(), column, [&](std::uint32_t i) { return Pixel{i, row}; });
-  const Vec3 down = slope(grid().rows(), row, [&](std::uint32_t j) { return Pixel{column, j}; });
+  const Vec3 across = slope(pixels().columns(), column, [&](std::uint32_t i) { return Pixel{i, row}; });
+  const Vec3 down = slope(pixels().rows(), row, [&](std::uint32_t j) { return Pixel{column, j}; });
   const Vec3 normal = cells_.mirrored() ? across.cross(down) : down.cross(across);
   const double length = normal.norm();
   return length > 0 ? Vec3(normal / length) : otherwise;
 }
 
 Vec3 DepthFrame::trueNormal(ElementId id, const Vec3& point) const {
-  const std::array<Pixel, 3> at = cells_.pixelsOf(cellOf(id, grid().columns()));
+  const std::array<Pixel, 3> at = cells_.pixelsOf(cellOf(id, pixels().columns()));
   const std::array<Vec3, 3> corner = corners(id);
   const Vec3 flat = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
   const Vec3 normal = normalBetween(corner, point, [&](std::size_t i) { return normalAt(at[i][0], at[i][1], flat); });
@@ -82,10 +94,11 @@ Site DepthFrame::siteOf(const Vec3& point) const {
   if (!(q.z() > 0)) return Site::kOpen;
   const DepthCamera& camera = image().camera;
   const double u = camera.cx + camera.fx * q.x() / q.z(), v = camera.cy + camera.fy * q.y() / q.z();
-  if (!(u >= 0 && v >= 0 && u < grid().columns() - 1.0 && v < grid().rows() - 1.0)) return Site::kOpen;
+  if (!(u >= 0 && v >= 0 && u < pixels().columns() - 1.0 && v < pixels().rows() - 1.0)) return Site::kOpen;
   const auto i = static_cast<std::uint32_t>(u), j = static_cast<std::uint32_t>(v);
-  double low = std::numeric_limits<double>::infinity(), high = 0;
-  for (const double depth : {grid().at(i, j), grid().at(i + 1, j), grid().at(i, j + 1), grid().at(i + 1, j + 1)}) {
+  float low = std::numeric_limits<float>::infinity(), high = 0;
+  for (const float depth :
+       {pixels().at(i, j), pixels().at(i + 1, j), pixels().at(i, j + 1), pixels().at(i + 1, j + 1)}) {
     if (!(depth > 0)) continue;
     low = std::min(low, depth);
     high = std::max(high, depth);
@@ -102,12 +115,12 @@ std::shared_ptr<const PrimitiveSource> DepthFrame::placed(const Mat3& linear, co
 DrawnMesh DepthFrame::drawn(std::size_t most_triangles) const {
   std::uint32_t step = 1;
   const auto cells = [&](std::uint32_t side) { return std::size_t{(side - 1) / step}; };
-  while (2 * cells(grid().columns()) * cells(grid().rows()) > most_triangles) ++step;
+  while (2 * cells(pixels().columns()) * cells(pixels().rows()) > most_triangles) ++step;
   return every(step);
 }
 
 DrawnMesh DepthFrame::every(std::uint32_t step) const {
-  const std::uint32_t columns = (grid().columns() - 1) / step + 1, rows = (grid().rows() - 1) / step + 1;
+  const std::uint32_t columns = (pixels().columns() - 1) / step + 1, rows = (pixels().rows() - 1) / step + 1;
   DrawnMesh mesh;
   constexpr std::uint32_t kNone = ~0U;
   std::vector<std::uint32_t> number(std::size_t{columns} * rows, kNone);

@@ -39,10 +39,11 @@ class DepthFrame final : public PrimitiveSource {
   const GridFrame& frame() const { return cells_.frame(); }
 
  private:
-  const HeightGrid& grid() const { return cells_.grid(); }
+  const DepthPixels& pixels() const { return cells_.pixels(); }
   Vec3 normalAt(std::uint32_t column, std::uint32_t row, const Vec3& otherwise) const;
   DrawnMesh every(std::uint32_t step) const;
   Box boundsOfTiles() const;
+  void extendBy(int level, std::uint32_t column, std::uint32_t row, Box& box) const;
 
   DepthCells cells_;
   Mat3 inverse_;

@@ -3,7 +3,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_reduce.h>
 
-#include <cmath>
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <utility>
@@ -18,54 +18,25 @@ constexpr DepthRange kNoRange{kNoDepth, -kNoDepth};
 
 std::uint32_t tilesFor(std::uint32_t parts, std::uint32_t per_tile) { return (parts + per_tile - 1) / per_tile; }
 
-void extend(DepthRange& range, double low, double high) {
-  // Rounded outward.
-  range.low = std::min(range.low, std::nextafter(static_cast<float>(low), -kNoDepth));
-  range.high = std::max(range.high, std::nextafter(static_cast<float>(high), kNoDepth));
-}
-
-// Of the cells from (column, row), up to `side` along each axis.
-DepthRange rangeOf(const HeightGrid& grid, const DepthCamera& camera, std::uint32_t column, std::uint32_t row,
-                   std::uint64_t& triangles) {
-  DepthRange range = kNoRange;
-  const std::uint32_t end = std::min(column + DepthTiles::kCells, grid.columns() - 1);
-  const std::uint32_t bottom = std::min(row + DepthTiles::kCells, grid.rows() - 1);
-  for (std::uint32_t j = row; j < bottom; ++j) {
-    double a = grid.at(column, j), c = grid.at(column, j + 1);
-    for (std::uint32_t i = column; i < end; ++i) {
-      const double b = grid.at(i + 1, j), d = grid.at(i + 1, j + 1);
-      if (camera.joins(a, d, b)) {
-        extend(range, std::min({a, d, b}), std::max({a, d, b}));
-        ++triangles;
-      }
-      if (camera.joins(a, c, d)) {
-        extend(range, std::min({a, c, d}), std::max({a, c, d}));
-        ++triangles;
-      }
-      a = b;
-      c = d;
-    }
-  }
-  return range;
-}
-
 }  // namespace
 
-DepthTiles::DepthTiles(const HeightGrid& grid, const DepthCamera& camera) {
-  measure(grid, camera);
+DepthTiles::DepthTiles(const DepthPixels& pixels, const DepthCamera& camera) {
+  measure(pixels, camera);
   while (levels_.back().ranges.size() > 1) levels_.push_back(above(levels_.back()));
 }
 
-void DepthTiles::measure(const HeightGrid& grid, const DepthCamera& camera) {
-  Level level{tilesFor(grid.columns() - 1, kCells), tilesFor(grid.rows() - 1, kCells), {}};
+void DepthTiles::measure(const DepthPixels& pixels, const DepthCamera& camera) {
+  const std::uint32_t rows_of_cells = pixels.rows() - 1;
+  Level level{tilesFor(pixels.columns() - 1, kCells), tilesFor(rows_of_cells, kCells), {}};
   level.ranges.resize(std::size_t{level.columns} * level.rows);
   triangles_ = oneapi::tbb::parallel_reduce(
       Rows(0, level.rows), std::uint64_t{0},
       [&](const Rows& rows, std::uint64_t triangles) {
         for (std::uint32_t row = rows.begin(); row < rows.end(); ++row) {
-          for (std::uint32_t column = 0; column < level.columns; ++column)
-            level.ranges[std::size_t{row} * level.columns + column] =
-                rangeOf(grid, camera, column * kCells, row * kCells, triangles);
+          const std::uint32_t first = row * kCells;
+          const CellBand band{pixels.row(first), pixels.columns(), std::min(kCells, rows_of_cells - first)};
+          triangles += boundCells(band, static_cast<float>(camera.join), kCells,
+                                  level.ranges.data() + std::size_t{row} * level.columns);
         }
         return triangles;
       },

@@ -6,15 +6,10 @@
 #include <vector>
 
 #include "surfaces/depth_camera.h"
-#include "surfaces/height_grid.h"
+#include "surfaces/depth_pixels.h"
+#include "surfaces/depth_rows.h"
 
 namespace hl {
-
-/// Depths of all triangles of a tile. Empty if low > high: there are none.
-struct DepthRange {
-  float low, high;
-  bool empty() const { return low > high; }
-};
 
 /// Immutable; read by any thread. Level 0 has tiles of kCells x kCells cells; each tile of a higher level has kTiles x
 /// kTiles of the level beneath. The last level is one tile.
@@ -24,7 +19,7 @@ class DepthTiles {
   static constexpr int kMaxLevels = 15;  // kCells * kTiles^14 > kMaxGridSide
 
   /// In O(pixels), on all threads of oneTBB; the result does not depend on their number. Setup only.
-  DepthTiles(const HeightGrid& grid, const DepthCamera& camera);
+  DepthTiles(const DepthPixels& pixels, const DepthCamera& camera);
 
   int levels() const { return static_cast<int>(levels_.size()); }
   std::uint32_t columns(int level) const { return levels_[static_cast<std::size_t>(level)].columns; }
@@ -44,7 +39,7 @@ class DepthTiles {
     std::uint32_t columns, rows;
     std::vector<DepthRange> ranges;
   };
-  void measure(const HeightGrid& grid, const DepthCamera& camera);
+  void measure(const DepthPixels& pixels, const DepthCamera& camera);
   static Level above(const Level& in);
 
   std::vector<Level> levels_;

@@ -76,7 +76,7 @@ class DepthWalk {
   template <typename Visit>
   void enterCells(const Tile& tile, const Visit& visit) {
     constexpr std::uint32_t kCells = DepthTiles::kCells;
-    const HeightGrid& grid = *cells_.image()->grid;
+    const DepthPixels& grid = cells_.pixels();
     const std::uint32_t end = std::min((tile.column + 1) * kCells, grid.columns() - 1);
     const std::uint32_t bottom = std::min((tile.row + 1) * kCells, grid.rows() - 1);
     for (std::uint32_t j = tile.row * kCells; j < bottom; ++j) {
@@ -88,7 +88,7 @@ class DepthWalk {
   }
 
   template <typename Visit>
-  void visitCell(std::uint32_t i, std::uint32_t j, const HeightGrid& grid, const Visit& visit) const {
+  void visitCell(std::uint32_t i, std::uint32_t j, const DepthPixels& grid, const Visit& visit) const {
     const double a = grid.at(i, j), b = grid.at(i + 1, j), c = grid.at(i, j + 1), d = grid.at(i + 1, j + 1);
     const std::array<std::array<double, 3>, 2> half{{{a, d, b}, {a, c, d}}};
     for (const unsigned n : {0U, 1U}) {

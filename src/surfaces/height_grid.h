@@ -38,6 +38,7 @@ class HeightGrid {
   std::uint32_t rows() const { return size_.rows; }
   std::optional<double> missing() const { return samples_.missing(); }
   const void* samples() const { return samples_.data(); }
+  const Samples& list() const { return samples_; }
 
   /// The sample, or not a number where it is missing. RT-safe.
   double at(std::uint32_t column, std::uint32_t row) const {

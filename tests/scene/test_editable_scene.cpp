@@ -338,7 +338,7 @@ SceneItem depthItem(float depth) {
   const auto depths = std::make_shared<const std::vector<float>>(4, depth);
   const auto grid = std::make_shared<const HeightGrid>(GridSize{2, 2, SampleKind::kFloat32},
                                                        std::shared_ptr<const void>(depths, depths->data()));
-  const auto image = std::make_shared<const DepthImage>(grid, DepthCamera{10, 10, 0.5, 0.5});
+  const auto image = smoothed(*grid, 1, DepthCamera{10, 10, 0.5, 0.5}, nullptr, 0);
   return shapeItem(makeShape(std::make_shared<const DepthFrame>(image, cameraFrame(1))));
 }
 

@@ -168,13 +168,13 @@ TEST(DecodeFrame, ADepthImageFollowsTheOneBefore) {
   };
   const DecodedFrame first = decoded({1000, 1000, 1000, 1000}, {});
   const std::shared_ptr<const SceneItems> before = first.edit.objects.at(5);
-  EXPECT_NEAR(image(*before).grid->at(0, 0), 1, 1e-6);
+  EXPECT_NEAR(image(*before).pixels.at(0, 0), 1, 1e-6);
   EXPECT_EQ((*before)[0].shape->source->triangles(), 2U);
   const DecodedFrame second = decoded({1010, 1000, 0, 2000}, [&](std::uint32_t) { return before.get(); });
   const DepthImage& now = image(*second.edit.objects.at(5));
-  EXPECT_NEAR(now.grid->at(0, 0), 1.005, 1e-6);
-  EXPECT_NEAR(now.grid->at(0, 1), 1, 1e-6) << "held";
-  EXPECT_NEAR(now.grid->at(1, 1), 2, 1e-6);
+  EXPECT_NEAR(now.pixels.at(0, 0), 1.005, 1e-6);
+  EXPECT_NEAR(now.pixels.at(0, 1), 1, 1e-6) << "held";
+  EXPECT_NEAR(now.pixels.at(1, 1), 2, 1e-6);
 }
 
 TEST(DecodeFrame, DepthImagesThatMakeNoSenseAreRefused) {

@@ -22,7 +22,7 @@ using test::Random;
 using test::randomFrame;
 
 test::TestBall randomBall(Random& random, const DepthFrame& frame) {
-  const HeightGrid& grid = *frame.image().grid;
+  const DepthPixels& grid = frame.image().pixels;
   const auto pixel = [&](std::uint32_t side) {
     return static_cast<std::uint32_t>(random.below(static_cast<int>(side)));
   };
@@ -84,14 +84,14 @@ TEST(DepthFrame, SmoothingFollowsSlowlyAndJumpsAtSteps) {
   const DepthCamera camera = cameraFor(2, 2);
   const auto now = [](std::vector<std::uint16_t> depths) { return test::gridOf(2, 2, depths); };
   const auto before = smoothed(*now({1000, 1000, 0, 0}), 1e-3, camera, nullptr, 0.9);
-  EXPECT_FLOAT_EQ(static_cast<float>(before->grid->at(0, 0)), 1);
+  EXPECT_FLOAT_EQ(static_cast<float>(before->pixels.at(0, 0)), 1);
   const auto after = smoothed(*now({1010, 1200, 0, 1000}), 1e-3, camera, before.get(), 0.9);
-  EXPECT_NEAR(after->grid->at(0, 0), 1.001, 1e-6) << "a tenth of the way";
-  EXPECT_NEAR(after->grid->at(1, 0), 1.2, 1e-6) << "another thing";
-  EXPECT_FALSE(after->grid->at(0, 1) > 0) << "a hole";
-  EXPECT_NEAR(after->grid->at(1, 1), 1, 1e-6) << "was a hole";
+  EXPECT_NEAR(after->pixels.at(0, 0), 1.001, 1e-6) << "a tenth of the way";
+  EXPECT_NEAR(after->pixels.at(1, 0), 1.2, 1e-6) << "another thing";
+  EXPECT_FALSE(after->pixels.at(0, 1) > 0) << "a hole";
+  EXPECT_NEAR(after->pixels.at(1, 1), 1, 1e-6) << "was a hole";
   const auto other = smoothed(*now({1010, 1010, 1010, 1010}), 1e-3, cameraFor(3, 3), before.get(), 0.9);
-  EXPECT_NEAR(other->grid->at(0, 0), 1.01, 1e-6) << "another camera";
+  EXPECT_NEAR(other->pixels.at(0, 0), 1.01, 1e-6) << "another camera";
 }
 
 TEST(DepthFrame, AMissingPixelIsHeldForAQuarterOfASecond) {
@@ -101,14 +101,14 @@ TEST(DepthFrame, AMissingPixelIsHeldForAQuarterOfASecond) {
   auto image = smoothed(*full, 1e-3, camera, nullptr, 0.5);
   for (int i = 1; i <= 2 * kMostHeld; ++i) {
     image = smoothed(*hole, 1e-3, camera, image.get(), 0.5);
-    EXPECT_EQ(image->grid->at(1, 0) > 0, i <= kMostHeld) << i;
+    EXPECT_EQ(image->pixels.at(1, 0) > 0, i <= kMostHeld) << i;
     EXPECT_EQ(image->tiles.triangles(), i <= kMostHeld ? 2U : 1U);
   }
   image = smoothed(*full, 1e-3, camera, image.get(), 0.5);
   image = smoothed(*hole, 1e-3, camera, image.get(), 0.5);
-  EXPECT_GT(image->grid->at(1, 0), 0) << "anew";
+  EXPECT_GT(image->pixels.at(1, 0), 0) << "anew";
   image = smoothed(*hole, 1e-3, camera, image.get(), 0);
-  EXPECT_FALSE(image->grid->at(1, 0) > 0) << "without smoothing nothing is held";
+  EXPECT_FALSE(image->pixels.at(1, 0) > 0) << "without smoothing nothing is held";
 }
 
 TEST(DepthFrame, RefusesWhatIsNoCamera) {
