@@ -25,7 +25,7 @@ constexpr double kTraced_m = 0.002;         // of one that traces the surface be
 constexpr double kTracedChange_m = 0.0015;  // by which that changes
 constexpr double kTracedWave_m = 0.07;      // of the course, for one such change
 constexpr double kTracedLead_m = 0.0003;    // how far ahead such a finger aims
-constexpr double kWandered_m = 0.05;        // on the way to one place, before there is another
+constexpr double kWandered_m = 0.05;        // to one place at most, before there is another
 constexpr double kLift_m = 0.006;           // of a tap over where it touched
 constexpr double kTapSlope = 0.3;           // a tap goes sideways this much of its way
 constexpr double kClearance_m = 0.001;      // of a free proxy from the surface, at least
@@ -106,16 +106,26 @@ class Planner {
     return course_.levelOf(top + impact.impact.t * down);
   }
 
-  // A place that is drawn may be in matter or out of reach, so it is given up after a while.
+  // To a place of the surface and beneath it, as far as what lies between lets it.
   void wander() {
     s_m_ += scale_ * kStep_m;
-    if (s_m_ > scale_ * kWandered_m) {
+    const double depth_m = scale_ * kDepth_m;
+    if (s_m_ > scale_ * kWandered_m || (goal_ - proxy()).norm() < depth_m) {
       s_m_ = 0;
-      const auto part = [this] { return static_cast<double>(random_()) / static_cast<double>(random_.max()); };
-      const Vec3 parts(part(), part(), part());
-      goal_ = snapshot_.bounds.min + snapshot_.bounds.size().cwiseProduct(parts);
+      goal_ = drawn();
     }
-    turnTo(proxy() + scale_ * kDepth_m * (goal_ - proxy()).normalized());
+    turnTo(proxy() + depth_m * (goal_ - proxy()).normalized());
+  }
+
+  // As deep beneath the surface as a finger is that slides.
+  Vec3 drawn() {
+    const auto part = [this] { return static_cast<double>(random_()) / static_cast<double>(random_.max()); };
+    const Vec3 parts(part(), part(), part());
+    PrimitiveId primitive;
+    ClosestPoint found;
+    const Vec3 place = snapshot_.bounds.min + snapshot_.bounds.size().cwiseProduct(parts);
+    if (!SceneAt(snapshot_).nearest(place, primitive, found)) return place;
+    return found.point + scale_ * kDepth_m * (found.point - place).normalized();
   }
 
   void turnTo(const Vec3& place) { direction_ = (direction_ + kTurn * (place - finger_).normalized()).normalized(); }

@@ -21,7 +21,7 @@ enum class FingerMotion : std::uint8_t {
   kTapping,    ///< down until 4 mm beneath the proxy, up again, several times a second
   kCorners,    ///< 15 mm beneath the proxy, which so runs into every crease on its way
   kTracing,    ///< 0.5 to 3.5 mm beneath the surface, up and down with all its detail
-  kWandering,  ///< to places of the scene drawn at random, 4 mm ahead of the proxy
+  kWandering,  ///< to places of the surface drawn at random, 4 mm ahead of the proxy
 };
 inline constexpr std::array kFingerMotions{FingerMotion::kSliding, FingerMotion::kFree,    FingerMotion::kTapping,
                                            FingerMotion::kCorners, FingerMotion::kTracing, FingerMotion::kWandering};
