@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -31,7 +32,7 @@ class RecentPrimitives {
   /// Returns the primitive; calls read() if it is not in the cache. The reference is valid until the next call.
   template <typename Read>
   const Primitive& get(PrimitiveId id, const Read& read) {
-    const std::size_t slot = (id.element + kStride * id.instance) & last_;
+    const std::size_t slot = (id.element * kSpread + id.instance * kStride) >> shift_;
     if (of_[slot] != id) {
       std::construct_at(&slots_[slot].primitive, read());
       of_[slot] = id;
@@ -52,17 +53,22 @@ class RecentPrimitives {
   void use(PrimitiveId* of, Slot* slots, std::size_t count) {
     of_ = of;
     slots_ = slots;
-    last_ = count - 1;
+    count_ = count;
+    shift_ = 64 - std::countr_zero(count);
     forget();
   }
-  void forget() { std::fill(of_, of_ + last_ + 1, kNone); }
+  void forget() { std::fill(of_, of_ + count_, kNone); }
 
  private:
-  static constexpr ElementId kStride = 11;  // maps the same element of neighbouring instances to different slots
+  // 2^64 divided by the golden ratio: neighbours get slots far from each other (D. Knuth, The Art of Computer
+  // Programming, 6.4). Numbers of elements have gaps: cells of a grid have room for more triangles than there are.
+  static constexpr ElementId kSpread = 0x9e3779b97f4a7c15;
+  static constexpr ElementId kStride = 0xd1b54a32d192ed03;  // the same element of other instances gets another slot
 
   PrimitiveId* of_ = nullptr;
   Slot* slots_ = nullptr;
-  std::size_t last_ = 0;
+  std::size_t count_ = 0;
+  int shift_ = 0;
   std::uint64_t snapshot_ = 0;  // 0: no snapshot has this identity
   std::int64_t moment_ = 0;
 };
