@@ -1,5 +1,8 @@
 #include "surfaces/brick_index.h"
 
+#include <algorithm>
+
+#include "surfaces/ball_triangles.h"
 #include "surfaces/brick_walk.h"
 
 namespace hl {
@@ -24,12 +27,18 @@ class IsoBricks {
   bool holds(int level, const Place& at) const {
     return pyramid_.range(level, at[0], at[1], at[2]).holds(cells_.iso().value);
   }
+  static bool mayCross(const Vec3&) { return true; }
+  static void sift(int, BrickParts&) {}
+  static std::size_t cost() { return 0; }
   template <typename Visit>
   void visitCell(const Place& at, const Visit& visit) const {
     const IsoCell cell = cells_.at(at);
     if (cell.triangles == nullptr) return;
+    const CellVertices steps(cell), vertices(steps, [this](const Vec3&place) { return cells_.point(place); });
+    const BallTriangles near(ball_, cells_.frame());
     for (unsigned n = 0; n < cell.triangles->count; ++n) {
-      if (exists(cell, n)) visit(cells_.idOf(cell, n));
+      const auto& edges = cell.triangles->edges[n];
+      if (exists(steps[edges]) && near.meets(vertices[edges])) visit(cells_.idOf(cell, n));
     }
   }
 

@@ -1,14 +1,20 @@
 // BrickWalk: through bricks of bricks of cells, down to the cells that a moving ball may touch.
 //
-// A brick is left out if the surface is not in it, or if the ball does not meet it (ball_boxes.h).
+// A brick is left out if the surface is not in it, or if the ball does not meet it (equal_boxes.h). Of the parts of a
+// brick the ball comes to, the first is entered first. So what is hit first is found soon, and all that the ball would
+// only come to afterwards is left out: of a fine grid that is nearly everything.
 //
 // Whose bricks they are is a parameter; `Bricks` has
 //   origin(), step()        of the grid, in the coordinates of the ball: its first corner, and the side of a cell
 //   levels(), side(l, a)    bricks of level l along an axis; the last level is one brick
 //   cells(a)                cells along an axis
 //   holds(l, place)         whether the surface may be in a brick near the ball
-//   low(), high()           where in the brick for which holds() was asked last, in the coordinates of the ball
-//   visitCell(place, v)     calls v(id) for each triangle of a cell of the brick for which holds() was asked last
+// and for the brick for which holds() was asked last
+//   low(), high()           where it may be, in the coordinates of the ball
+//   mayCross(middle)        whether it may be in the part with this middle, at a glance
+//   sift(l, parts)          leaves out parts where it is not, or not near the ball
+//   visitCell(place, v)     calls v(id) for each triangle of a cell
+//   cost()                  of these questions since it was asked last, in looks at boxes
 #pragma once
 
 #include <algorithm>
@@ -16,83 +22,132 @@
 #include <cmath>
 #include <cstddef>
 
-#include "surfaces/ball_boxes.h"
+#include "base/fixed_vector.h"
 #include "surfaces/brick_pyramid.h"
+#include "surfaces/equal_boxes.h"
 #include "surfaces/grid_ball.h"
 
 namespace hl {
+
+/// A part of a brick, itself a brick or a cell; `order` as EqualBoxes has it.
+struct BrickPart {
+  double order;
+  std::array<std::uint32_t, 3> at;
+};
+using BrickParts =
+    FixedVector<BrickPart, std::max(BrickPyramid::kCells* BrickPyramid::kCells* BrickPyramid::kCells,
+                                    BrickPyramid::kBricks* BrickPyramid::kBricks* BrickPyramid::kBricks)>;
 
 template <typename Bricks>
 class BrickWalk {
  public:
   /// `scale`: shortestStep() of the ball's frame.
-  BrickWalk(Bricks& bricks, const Vec3& scale, const GridBall& ball)
-      : bricks_(bricks), ball_(ball), boxes_(ball, scale) {}
+  BrickWalk(Bricks& bricks, const Vec3& scale, const GridBall& ball) : bricks_(bricks), scale_(scale), ball_(ball) {}
 
-  /// Calls visit(id) for each triangle that the ball may touch, those near its begin first. Returns the number of
-  /// bricks and cells visited.
+  /// Calls visit(id) for each triangle that the ball may touch, those that it comes to first about first. Returns the
+  /// cost, in looks at boxes.
   template <typename Visit>
   std::size_t run(const Visit& visit) {
-    enter(bricks_.levels() - 1, {0, 0, 0}, visit);
-    return looked_;
+    BrickParts first;
+    const int level = findFirst(first);
+    enterAll(level, first, visit);
+    return looked_ + bricks_.cost();
   }
 
  private:
   using Place = std::array<std::uint32_t, 3>;
-
-  // Whether the ball may meet the box of `size` a side that begins at `first`.
-  bool meets(const Vec3& first, double size) const {
-    return boxes_.meets(first.array() + size / 2, Vec3::Constant(size / 2));
-  }
-
-  // The parts of a brick where the surface may be near the ball, along one axis.
+  /// From the first to before the end, along one axis.
   struct Span {
     std::uint32_t first, end;
   };
-  Span spanOf(std::size_t axis, std::uint32_t brick, std::uint32_t per_brick, std::uint32_t parts, double size) const {
-    const auto a = static_cast<Eigen::Index>(axis);
-    const double origin = bricks_.origin()[a];
-    const std::uint32_t begin = brick * per_brick, end = std::min(begin + per_brick, parts);
+  // Of the pieces from `begin` to before `end`, `size` wide, those between two places.
+  Span spanOf(std::size_t axis, double low, double high, std::uint32_t begin, std::uint32_t end, double size) const {
+    const double origin = bricks_.origin()[static_cast<Eigen::Index>(axis)];
     const auto within = [&](double value) {
-      return static_cast<std::uint32_t>(std::clamp<double>(std::floor(value), begin, end));
+      return static_cast<std::uint32_t>(std::clamp<double>(std::floor((value - origin) / size), begin, end));
     };
-    return {within((bricks_.low()[a] - origin) / size), within((bricks_.high()[a] - origin) / size + 1)};
+    return {within(low), within(high + size)};
   }
 
-  // Visits the parts, in the order in which the ball comes to them along each axis.
-  template <typename Enter>
-  void forEachPart(int level, const Place& at, const Enter& enter) {
-    const double size = bricks_.step() * (level == 0 ? 1 : static_cast<double>(BrickPyramid::cells(level - 1)));
-    std::array<Span, 3> span{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::uint32_t parts = level == 0 ? bricks_.cells(axis) : bricks_.side(level - 1, axis);
-      span[axis] = spanOf(axis, at[axis], level == 0 ? BrickPyramid::kCells : BrickPyramid::kBricks, parts, size);
-    }
-    const Vec3 way = ball_.last() - ball_.first();
-    const auto ordered = [&](std::size_t axis, std::uint32_t i) {
-      return way[static_cast<Eigen::Index>(axis)] < 0 ? span[axis].end - 1 - (i - span[axis].first) : i;
-    };
-    for (std::uint32_t k = span[2].first; k < span[2].end; ++k) {
-      for (std::uint32_t j = span[1].first; j < span[1].end; ++j) {
-        for (std::uint32_t i = span[0].first; i < span[0].end; ++i) {
-          const Place part{ordered(0, i), ordered(1, j), ordered(2, k)};
+  // m per cell is the unit: sides of bricks of a level; of cells at level -1.
+  double sideOf(int level) const {
+    return bricks_.step() * (level < 0 ? 1 : static_cast<double>(BrickPyramid::cells(level)));
+  }
+  std::uint32_t countOf(int level, std::size_t axis) const {
+    return level < 0 ? bricks_.cells(axis) : bricks_.side(level, axis);
+  }
+
+  // Adds the pieces of a level that the ball may meet and for which may(middle) is true.
+  template <typename May>
+  void add(int level, const std::array<Span, 3>& span, const May& may, BrickParts& parts) {
+    const double size = sideOf(level);
+    const EqualBoxes boxes(ball_, scale_, Vec3::Constant(size / 2));
+    BrickPart part{};
+    for (std::uint32_t z = span[2].first; z < span[2].end; ++z) {
+      for (std::uint32_t y = span[1].first; y < span[1].end; ++y) {
+        for (std::uint32_t x = span[0].first; x < span[0].end; ++x) {
+          part.at = {x, y, z};
+          const Vec3 middle = bricks_.origin() + size * Vec3(x + 0.5, y + 0.5, z + 0.5);
           ++looked_;
-          if (meets(bricks_.origin() + size * Vec3(part[0], part[1], part[2]), size)) enter(part);
+          if (may(middle) && boxes.meets(middle, part.order)) parts.push(part);
         }
       }
+    }
+  }
+
+  // The bricks of a level that are so large that the ball meets few of them.
+  int findFirst(BrickParts& parts) {
+    const Vec3 size = ball_.high() - ball_.low();
+    int level = 0;
+    while (level + 1 < bricks_.levels() && sideOf(level) < kPerBall * size.maxCoeff()) ++level;
+    std::array<Span, 3> span{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<Eigen::Index>(axis);
+      span[axis] = spanOf(axis, ball_.low()[a], ball_.high()[a], 0, countOf(level, axis), sideOf(level));
+    }
+    add(
+        level, span, [](const Vec3&) { return true; }, parts);
+    return level;
+  }
+
+  void findParts(int level, const Place& at, BrickParts& parts) {
+    std::array<Span, 3> span{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<Eigen::Index>(axis);
+      const std::uint32_t per_brick = level == 0 ? BrickPyramid::kCells : BrickPyramid::kBricks;
+      const std::uint32_t begin = at[axis] * per_brick, end = std::min(begin + per_brick, countOf(level - 1, axis));
+      span[axis] = spanOf(axis, bricks_.low()[a], bricks_.high()[a], begin, end, sideOf(level - 1));
+    }
+    add(
+        level - 1, span, [this](const Vec3& middle) { return bricks_.mayCross(middle); }, parts);
+    bricks_.sift(level, parts);
+  }
+
+  // Visits pieces of a level in the order in which the ball comes to them.
+  template <typename Visit>
+  void enterAll(int level, BrickParts& parts, const Visit& visit) {
+    std::sort(parts.begin(), parts.end(), [](const BrickPart& a, const BrickPart& b) { return a.order < b.order; });
+    const bool moves = ball_.last() != ball_.first();
+    for (const BrickPart& part : parts) {
+      if (part.order > (moves ? ball_.end() : (1 + kRounding) * ball_.radius())) return;
+      level < 0 ? bricks_.visitCell(part.at, visit) : enter(level, part.at, visit);
     }
   }
 
   template <typename Visit>
   void enter(int level, const Place& at, const Visit& visit) {
     if (!bricks_.holds(level, at)) return;
-    forEachPart(level, at,
-                [&](const Place& part) { level > 0 ? enter(level - 1, part, visit) : bricks_.visitCell(part, visit); });
+    BrickParts parts;
+    findParts(level, at, parts);
+    enterAll(level - 1, parts, visit);
   }
 
+  static constexpr double kPerBall = 1;      // a first brick is at least so many times as wide as the moving ball
+  static constexpr double kRounding = 1e-9;  // of a radius
+
   Bricks& bricks_;
+  const Vec3& scale_;
   const GridBall& ball_;
-  const BallBoxes boxes_;
   std::size_t looked_ = 0;
 };
 

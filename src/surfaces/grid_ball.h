@@ -34,6 +34,7 @@ class GridBall {
 
   void setPart(double begin, double end);
   void setRadius(double radius);
+  double begin() const { return begin_; }
   double end() const { return end_; }
   double radius() const { return radius_; }  ///< m
 

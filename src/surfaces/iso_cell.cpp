@@ -49,10 +49,18 @@ Vec3 crossing(const IsoCell& cell, unsigned edge) {
   return place;
 }
 
+CellVertices::CellVertices(const IsoCell& cell) {
+  for (unsigned n = 0; n < cell.triangles->count; ++n) {
+    for (const std::uint8_t edge : cell.triangles->edges[n]) {
+      if ((used_ >> edge & 1U) == 0) at_[edge] = crossing(cell, edge);
+      used_ |= 1U << edge;
+    }
+  }
+}
+
 bool exists(const IsoCell& cell, unsigned triangle) {
   const auto& edges = cell.triangles->edges[triangle];
-  const Vec3 a = crossing(cell, edges[0]), b = crossing(cell, edges[1]), c = crossing(cell, edges[2]);
-  return a != b && b != c && c != a;
+  return exists({crossing(cell, edges[0]), crossing(cell, edges[1]), crossing(cell, edges[2])});
 }
 
 }  // namespace hl

@@ -21,8 +21,36 @@ void findTriangles(IsoCell& cell);
 /// In grid steps: where the surface crosses an edge of the cell, or kMiddle. The same bits in all cells that share the
 /// edge. RT-safe.
 Vec3 crossing(const IsoCell& cell, unsigned edge);
-/// Whether triangle number `triangle` of the cell has an area: where a corner lies on the surface, some do not.
-/// RT-safe.
+
+/// The corners of a cell's triangles, each computed once. RT-safe.
+class CellVertices {
+ public:
+  /// In grid steps.
+  explicit CellVertices(const IsoCell& cell);
+  /// Elsewhere.
+  template <typename Map>
+  CellVertices(const CellVertices& of, const Map& map) : used_(of.used_) {
+    for (unsigned edge = 0; edge < at_.size(); ++edge) {
+      if ((used_ >> edge & 1U) != 0) at_[edge] = map(of.at_[edge]);
+    }
+  }
+
+  /// Of one of the cell's triangles.
+  std::array<Vec3, 3> operator[](const std::array<std::uint8_t, 3>& edges) const {
+    return {at_[edges[0]], at_[edges[1]], at_[edges[2]]};
+  }
+
+ private:
+  std::array<Vec3, kCellEdges + 1> at_;  // by edge, or kMiddle
+  unsigned used_ = 0;                    // a bit each
+};
+
+/// Whether the corners of a triangle are three: where a corner of a cell lies on the surface, some are not. RT-safe.
+inline bool exists(const std::array<Vec3, 3>& triangle) {
+  const auto& [a, b, c] = triangle;
+  return a != b && b != c && c != a;
+}
+/// Of the triangle of this number. RT-safe.
 bool exists(const IsoCell& cell, unsigned triangle);
 
 }  // namespace hl

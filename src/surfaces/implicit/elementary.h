@@ -111,6 +111,12 @@ inline Lanes cosineOf(const Lanes& a) {
 inline Lanes excessOf(const Lanes& a, double b) {
   return eachOf([&](std::size_t i) { return excessOf(a.of[i], b); });
 }
+inline Lanes inverseOf(const Lanes& a) {
+  return eachOf([&](std::size_t i) { return inverseOf(a.of[i]); });
+}
+inline Lanes tiltOf(const Lanes& d, double k) {
+  return eachOf([&](std::size_t i) { return tiltOf(d.of[i], k); });
+}
 inline Lanes blendOf(const Lanes& a, const Lanes& b, double k) {
   return eachOf([&](std::size_t i) { return blendOf(a.of[i], b.of[i], k); });
 }
@@ -153,15 +159,22 @@ inline Interval blendOf(const Interval& a, const Interval& b, double k) {
 
 // Of a unit vector's coordinate.
 inline double withinOne(double a) { return a; }
+inline Lanes withinOne(const Lanes& a) { return a; }
 inline Interval withinOne(const Interval& a) { return {std::clamp(a.low, -1.0, 1.0), std::clamp(a.high, -1.0, 1.0)}; }
 
 // The second derivatives of excess^2 / 2 and of the bend: they jump.
 
 inline double steepOf(double a, double b) { return b == 0 || std::abs(a) > b ? 1 : 0; }
+inline Lanes steepOf(const Lanes& a, double b) {
+  return eachOf([&](std::size_t i) { return steepOf(a.of[i], b); });
+}
 inline Interval steepOf(const Interval& a, double b) {
   return {b == 0 || a.least() > b ? 1.0 : 0.0, b == 0 || a.most() > b ? 1.0 : 0.0};
 }
 inline double roundOf(double d, double k) { return std::abs(d) < k ? 1 / (2 * k) : 0; }
+inline Lanes roundOf(const Lanes& d, double k) {
+  return eachOf([&](std::size_t i) { return roundOf(d.of[i], k); });
+}
 inline Interval roundOf(const Interval& d, double k) {
   return interval::outward(d.most() < k ? 1 / (2 * k) : 0, d.least() < k ? 1 / (2 * k) : 0);
 }

@@ -31,8 +31,13 @@ void visitBrick(SheetBricks& bricks, int level, const Sheet::Place& at, const Vi
   }
   for (std::uint32_t z = first[2]; z < end[2]; ++z) {
     for (std::uint32_t y = first[1]; y < end[1]; ++y) {
-      for (std::uint32_t x = first[0]; x < end[0]; ++x)
-        level == 0 ? bricks.visitTriangles({x, y, z}, visit) : visitBrick(bricks, level - 1, {x, y, z}, visit);
+      for (std::uint32_t x = first[0]; x < end[0]; ++x) {
+        if (level > 0) {
+          visitBrick(bricks, level - 1, {x, y, z}, visit);
+        } else if (bricks.mayCross(bricks.origin() + bricks.step() * Vec3(x + 0.5, y + 0.5, z + 0.5))) {
+          bricks.visitTriangles({x, y, z}, visit);
+        }
+      }
     }
   }
 }

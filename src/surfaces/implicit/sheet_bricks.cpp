@@ -5,6 +5,7 @@
 
 #include "surfaces/implicit/plane_reach.h"
 #include "surfaces/implicit/sheet_measure.h"
+#include "surfaces/implicit/slab_pieces.h"
 
 namespace hl {
 
@@ -12,43 +13,19 @@ namespace {
 
 // Of sizes: more than what rounding does to a few sums.
 constexpr double kPlaneRounding = 1e-13, kTriangleRounding = 1e-12;
-/// From this level on bricks are so large that planes tell nothing.
-constexpr int kNoPlane = 2;
-/// The normals of triangles that are flatter have fewer digits than kNormalRounding says.
-constexpr double kFlattest = 1e-6, kNormalRounding = 1e-9;
 
 }  // namespace
 
 SheetBricks::SheetBricks(const Sheet& sheet, const GridFrame& frame, const GridBall* ball)
     : sheet_(sheet), frame_(frame), ball_(ball) {}
 
-std::array<Vec3, 3> SheetBricks::placed(const std::array<Vec3, 3>& corners) const {
-  std::array<Vec3, 3> result;
-  for (std::size_t i = 0; i < 3; ++i) result[i] = frame_.point(corners[i].x(), corners[i].y(), corners[i].z());
-  return result;
-}
-
 bool SheetBricks::holds(int level, const Place& at) {
   const Box box = sheet_.boxOf(level, at);
   const SmoothFunction::Space space = spaceOf(box, 0);
-  if (level >= kNoPlane) {
-    low_ = ball_ != nullptr ? ball_->low() : box.min;
-    high_ = ball_ != nullptr ? ball_->high() : box.max;
-    return sheet_.smooth().over(space).holds(0);
-  }
-  const Jet<Interval, 1> jet = sheet_.smooth().slopeOver(space);
-  if (!jet.value.holds(0)) return false;
-  middle_ = box.centre();
-  value_ = sheet_.smooth().at(middle_);
-  double across = 0;
-  rest_ = kPlaneRounding * (std::abs(value_) + middle_.cwiseAbs().maxCoeff());
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double half = space[axis].half();
-    rest_ += jet.slope[axis].half() * half;
-    normal_[static_cast<Eigen::Index>(axis)] = jet.slope[axis].middle();
-    across += std::abs(jet.slope[axis].middle()) * half;
-  }
-  if (std::isfinite(rest_) && std::abs(value_) > rest_ + across) return false;
+  if (level > 0) curved_ = false;
+  if (!(curved_ ? planeByBend(box) : planeBySlopes(level, box, space))) return false;
+  crossing_ = (rest_ + 0.5 * partSide(level) * normal_.cwiseAbs().sum()) * (1 + kTriangleRounding);
+  if (std::abs(value_) > rest_ + space[0].half() * normal_.cwiseAbs().sum()) return false;
   if (ball_ != nullptr) {
     const PlaneReach reach(*ball_, middle_, value_, normal_, rest_);
     if (reach.misses()) return false;
@@ -59,41 +36,87 @@ bool SheetBricks::holds(int level, const Place& at) {
   return level > 0 || mayBeSurface(space);
 }
 
+// False: the function is not 0 in the box.
+bool SheetBricks::planeBySlopes(int level, const Box& box, const SmoothFunction::Space& space) {
+  cost_ += level == kBentLevel ? kCostOfBend : kCostOfBrick;
+  Jet<Interval, 1> slopes;
+  if (level == kBentLevel) {
+    const Jet<Interval, 2> jet = sheet_.smooth().bendOver(space);
+    slopes = {jet.value, jet.slope, {}};
+    setBend(jet.bend);
+  } else {
+    slopes = sheet_.smooth().slopeOver(space);
+  }
+  if (!slopes.value.holds(0)) return false;
+  middle_ = box.centre();
+  value_ = sheet_.smooth().at(middle_);
+  vary_ = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    normal_[static_cast<Eigen::Index>(axis)] = slopes.slope[axis].middle();
+    vary_ += slopes.slope[axis].half();
+  }
+  rounding_ = kPlaneRounding * (std::abs(value_) + middle_.cwiseAbs().maxCoeff());
+  rest_ = rounding_ + space[0].half() * vary_;
+  if (level == kBentLevel) curved_ = restByBend(0.5 * step()) <= 0.25 * (0.5 * step()) * vary_;
+  return true;
+}
+
+bool SheetBricks::planeByBend(const Box& box) {
+  cost_ += kCostOfParts;
+  middle_ = box.centre();
+  const Jet<double, 1> jet = sheet_.smooth().slopeAt(middle_);
+  value_ = jet.value;
+  normal_ = {jet.slope[0], jet.slope[1], jet.slope[2]};
+  rounding_ = kPlaneRounding * (std::abs(value_) + middle_.cwiseAbs().maxCoeff());
+  rest_ = rounding_ + restByBend(0.5 * box.size().maxCoeff());
+  return true;
+}
+
+void SheetBricks::setBend(const std::array<Interval, 6>& bend) {
+  bend_ = 0;
+  for (std::size_t i = 0; i < bend.size(); ++i)
+    bend_ += (jet::kPairs[i][0] == jet::kPairs[i][1] ? 1 : 2) * bend[i].most();
+}
+
+double SheetBricks::partSide(int level) const {
+  return step() * (level == 0 ? 1 : static_cast<double>(BrickPyramid::cells(level - 1)));
+}
+
+// Eight parts at once.
+void SheetBricks::sift(int level, BrickParts& parts) {
+  const double side = partSide(level), half = 0.5 * side;
+  const bool curved = curved_ && level <= kBentLevel;
+  const double rest = rounding_ + (curved ? restByBend(half) : half * vary_);
+  if (!std::isfinite(rest)) return;
+  const SlabPieces pieces(*ball_, frame_, side);
+  std::size_t kept = 0;
+  for (std::size_t first = 0; first < parts.size(); first += kCellCorners) {
+    const std::size_t count = std::min<std::size_t>(kCellCorners, parts.size() - first);
+    std::array<Lanes, 3> middles;
+    std::array<Vec3, kCellCorners> middle;
+    for (std::size_t i = 0; i < kCellCorners; ++i) {
+      const auto& at = parts[first + std::min(i, count - 1)].at;
+      middle[i] = origin() + side * Vec3(at[0] + 0.5, at[1] + 0.5, at[2] + 0.5);
+      for (std::size_t axis = 0; axis < 3; ++axis) middles[axis].of[i] = middle[i][static_cast<Eigen::Index>(axis)];
+    }
+    cost_ += kCostOfParts;
+    Jet<Lanes, 1> jet;
+    curved ? void(jet = sheet_.smooth().slopeAt(middles)) : void(jet.value = sheet_.smooth().at(middles));
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3 normal = curved ? Vec3(jet.slope[0].of[i], jet.slope[1].of[i], jet.slope[2].of[i]) : normal_;
+      const double most = (rest + half * normal.cwiseAbs().sum()) * (1 + kTriangleRounding);
+      if (std::abs(jet.value.of[i]) > most) continue;
+      if (pieces.touched(middle[i], jet.value.of[i], normal, rest)) parts[kept++] = parts[first + i];
+    }
+  }
+  parts.resize(kept);
+}
+
 bool SheetBricks::mayBeSurface(const SmoothFunction::Space& box) const {
   const auto conditions = sheet_.function().conditions(sheet_.number());
   return std::all_of(conditions.begin(), conditions.end(), [&](const ImplicitFunction::Condition& condition) {
     return mayHold(sheet_.function(), condition, sheet_.slack(), box);
   });
-}
-
-bool SheetBricks::mayCross(const Place& cell) const {
-  if (!std::isfinite(rest_)) return true;
-  const double value = value_ + normal_.dot(sheet_.boxOf(-1, cell).centre() - middle_);
-  return std::abs(value) <= (rest_ + 0.5 * step() * normal_.cwiseAbs().sum()) * (1 + kTriangleRounding);
-}
-
-// What is near in the plane of the triangle is in a disc around the feet of the centre there.
-bool SheetBricks::isNear(const std::array<Vec3, 3>& triangle) const {
-  if (ball_ == nullptr) return true;
-  const auto& [a, b, c] = triangle;
-  const Vec3 first = frame_.point(ball_->first().x(), ball_->first().y(), ball_->first().z());
-  const Vec3 last = frame_.point(ball_->last().x(), ball_->last().y(), ball_->last().z());
-  const double size = first.cwiseAbs().maxCoeff() + last.cwiseAbs().maxCoeff() + a.cwiseAbs().maxCoeff();
-  const double radius = ball_->radius() + kTriangleRounding * size;
-  const Vec3 middle = (a + b + c) / 3;
-  const double around =
-      std::sqrt(std::max({(a - middle).squaredNorm(), (b - middle).squaredNorm(), (c - middle).squaredNorm()}));
-  const Vec3 across = (b - a).cross(c - a);
-  const double length = across.norm();
-  const Vec3 normal = length > kFlattest * around * around ? Vec3(across / length) : Vec3::Zero();
-  const double from = normal.dot(first - middle), to = normal.dot(last - middle);
-  const double depth = (from > 0) != (to > 0) ? 0 : std::min(std::abs(from), std::abs(to)) * (1 - kNormalRounding);
-  if (depth > radius) return false;
-  const Vec3 foot = first - from * normal, way = (last - to * normal) - foot;
-  const double square = way.squaredNorm();
-  const double part = square > 0 ? std::clamp((middle - foot).dot(way) / square, 0.0, 1.0) : 0;
-  const double reach = std::sqrt(radius * radius - depth * depth) + around;
-  return (foot + part * way - middle).norm() <= reach * (1 + kNormalRounding) + kNormalRounding * radius;
 }
 
 }  // namespace hl

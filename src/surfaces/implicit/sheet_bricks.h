@@ -5,9 +5,18 @@
 //   |f(x) - f(c) - n . (x - c)| <= e = sum of s half.
 // Every corner of the sheet's triangles there lies where linear interpolation of f is 0, so the plane's value is within
 // e of 0 on all of each triangle. A brick that has no such place, or none near the ball (plane_reach.h), is left out.
+// So are parts of it, by a plane through the function's value in their own middle. With the same normal, e is smaller
+// in proportion to their size. From bricks of 16 x 16 x 16 cells down, bounds H of the second derivatives are known,
+// and a part that has the function's own gradient as normal has
+//   e = 1/2 sum of H half half,
+// which falls with the square of its size and needs no more intervals.
 #pragma once
 
+#include <optional>
+
 #include "geometry/primitive.h"
+#include "surfaces/ball_triangles.h"
+#include "surfaces/brick_walk.h"
 #include "surfaces/grid_ball.h"
 #include "surfaces/implicit/sheet.h"
 
@@ -30,41 +39,64 @@ class SheetBricks {
   bool holds(int level, const Place& at);
   const Vec3& low() const { return low_; }
   const Vec3& high() const { return high_; }
+  bool mayCross(const Vec3& middle) const { return !(std::abs(value_ + normal_.dot(middle - middle_)) > crossing_); }
+  void sift(int level, BrickParts& parts);
+  std::size_t cost() const { return cost_ * sheet_.smooth().bodies(); }
   /// visit(id, triangle) with its corners in m.
   template <typename Visit>
-  void visitTriangles(const Place& at, const Visit& visit) const {
-    if (!mayCross(at)) return;
+  void visitTriangles(const Place& at, const Visit& visit) {
+    cost_ += kCostOfCell;
     const IsoCell cell = sheet_.cellAt(at);
     if (cell.triangles == nullptr) return;
-    SheetPieces pieces;
+    const auto toObject = [this](const Vec3& p) { return frame_.point(p.x(), p.y(), p.z()); };
+    const CellVertices places(CellVertices(cell), [this](const Vec3& place) { return sheet_.grid().at(place); });
+    const CellVertices vertices(places, toObject);
+    const std::optional<BallTriangles> near = trianglesNear();
     for (unsigned n = 0; n < cell.triangles->count; ++n) {
-      const std::array<Vec3, 3> corners = sheet_.corners(cell, n);
-      if (!isNear(placed(corners))) continue;
-      sheet_.pieces(corners, pieces);
+      const auto& edges = cell.triangles->edges[n];
+      if (near && !near->meets(vertices[edges])) continue;
+      SheetPieces pieces;
+      sheet_.pieces(places[edges], pieces);
       for (std::size_t piece = 0; piece < pieces.count; ++piece) {
-        const std::array<Vec3, 3> triangle = placed(pieces.triangles[piece]);
-        if (!isTriangle(triangle[0], triangle[1], triangle[2]) || !isNear(triangle)) continue;
+        std::array<Vec3, 3> triangle;
+        for (std::size_t i = 0; i < 3; ++i) triangle[i] = toObject(pieces.triangles[piece][i]);
+        if (!isTriangle(triangle[0], triangle[1], triangle[2])) continue;
+        if (near && pieces.count > 1 && !near->meets(triangle)) continue;
         visit(SheetTriangle{sheet_.number(), at, n, static_cast<unsigned>(piece)}.id(), triangle);
       }
     }
   }
   template <typename Visit>
-  void visitCell(const Place& at, const Visit& visit) const {
+  void visitCell(const Place& at, const Visit& visit) {
     visitTriangles(at, [&](ElementId id, const std::array<Vec3, 3>&) { visit(id); });
   }
 
  private:
-  std::array<Vec3, 3> placed(const std::array<Vec3, 3>& corners) const;
-  bool mayCross(const Place& cell) const;
-  bool isNear(const std::array<Vec3, 3>& triangle) const;
+  bool planeBySlopes(int level, const Box& box, const SmoothFunction::Space& space);
+  bool planeByBend(const Box& box);
+  void setBend(const std::array<Interval, 6>& bend);
+  double restByBend(double half) const { return 0.5 * bend_ * half * half * (1 + kRounding); }
+  double partSide(int level) const;  // of a brick's parts
+  std::optional<BallTriangles> trianglesNear() const {
+    return ball_ != nullptr ? std::optional(BallTriangles(*ball_, frame_)) : std::nullopt;
+  }
   bool mayBeSurface(const SmoothFunction::Space& box) const;
+
+  // Looks at boxes, for each body of the function.
+  static constexpr std::size_t kCostOfBend = 30, kCostOfBrick = 15, kCostOfCell = 12, kCostOfParts = 6;
+  static constexpr int kBentLevel = 1;        // from here on second derivatives count
+  static constexpr double kRounding = 1e-12;  // of sums of bounds
 
   const Sheet& sheet_;
   const GridFrame& frame_;
   const GridBall* ball_;
   // The plane of the last brick: value + normal . (x - middle), within `rest`.
   Vec3 middle_ = Vec3::Zero(), normal_ = Vec3::Zero();
-  double value_ = 0, rest_ = 0;
+  double value_ = 0, rest_ = 0, crossing_ = 0, rounding_ = 0;
+  double vary_ = 0;      // sums over the axes: half of what the gradient varies in it
+  double bend_ = 0;      // and bounds of the second derivatives in the last brick of kBentLevel
+  bool curved_ = false;  // these tell more
+  std::size_t cost_ = 0;
   Vec3 low_ = Vec3::Zero(), high_ = Vec3::Zero();
 };
 

@@ -113,6 +113,11 @@ class Clip {
 
 void clipToSheet(const ImplicitFunction& function, std::size_t sheet, double slack, const std::array<Vec3, 3>& triangle,
                  SheetPieces& out) {
+  if (function.conditions(sheet).empty()) {
+    out.count = 1;
+    out.triangles[0] = triangle;
+    return;
+  }
   Clip(function, triangle, out).run(sheet, slack);
 }
 

@@ -99,8 +99,16 @@ double SmoothFunction::at(const Vec3& p) const { return evaluated<double, double
 
 Lanes SmoothFunction::at(const std::array<Lanes, 3>& p) const { return evaluated<Lanes, Lanes>(p); }
 
+Jet<double, 1> SmoothFunction::slopeAt(const Vec3& p) const {
+  return evaluated<Jet<double, 1>, double>({p.x(), p.y(), p.z()});
+}
+
+Jet<Lanes, 1> SmoothFunction::slopeAt(const std::array<Lanes, 3>& p) const {
+  return evaluated<Jet<Lanes, 1>, Lanes>(p);
+}
+
 Vec3 SmoothFunction::gradient(const Vec3& p) const {
-  const auto jet = evaluated<Jet<double, 1>, double>({p.x(), p.y(), p.z()});
+  const Jet<double, 1> jet = slopeAt(p);
   return {jet.slope[0], jet.slope[1], jet.slope[2]};
 }
 

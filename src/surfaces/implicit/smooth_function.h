@@ -45,6 +45,8 @@ class SmoothFunction {
   // RT-safe.
   double at(const Vec3& p) const;
   Lanes at(const std::array<Lanes, 3>& p) const;
+  Jet<double, 1> slopeAt(const Vec3& p) const;  ///< value and gradient
+  Jet<Lanes, 1> slopeAt(const std::array<Lanes, 3>& p) const;
   Vec3 gradient(const Vec3& p) const;
   Interval over(const Space& box) const;               ///< bounds of the values
   Jet<Interval, 1> slopeOver(const Space& box) const;  ///< and of the gradient
