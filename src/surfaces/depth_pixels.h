@@ -1,6 +1,7 @@
 // DepthPixels: the depths that a camera sees.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -12,11 +13,15 @@ class DepthPixels {
  public:
   /// Nothing is written yet. Throws bad_alloc.
   DepthPixels(std::uint32_t columns, std::uint32_t rows)
-      : columns_(columns), rows_(rows), depths_(std::make_unique_for_overwrite<float[]>(count())) {}
+      : columns_(columns), rows_(rows), depths_(std::make_unique_for_overwrite<float[]>(count() + kBeyond)) {
+    std::fill_n(depths_.get() + count(), kBeyond, 0.0F);
+  }
 
   std::uint32_t columns() const { return columns_; }
   std::uint32_t rows() const { return rows_; }
   std::size_t count() const { return std::size_t{columns_} * rows_; }
+  /// So many more may be read behind the last, which are none: vectors may end there.
+  static constexpr std::size_t kBeyond = 16;
   std::size_t bytes() const { return count() * sizeof(float); }
   /// RT-safe.
   float at(std::uint32_t column, std::uint32_t row) const { return this->row(row)[column]; }

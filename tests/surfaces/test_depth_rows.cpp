@@ -2,7 +2,6 @@
 #include "surfaces/depth_rows.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "geometry/scenes.h"
+#include "instruction_sets.h"
 #include "surfaces/depth_camera.h"
 
 namespace hl {
@@ -20,23 +20,11 @@ using test::Random;
 
 constexpr float kNone = std::numeric_limits<float>::infinity();
 
-template <typename Test>
-void withEachInstructionSet(const Test& run) {
-  for (std::int64_t rest = hwy::SupportedTargets() | HWY_SCALAR; rest != 0; rest &= rest - 1) {
-    const std::int64_t target = rest & -rest;
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(target);
-    run();
-    hwy::SetSupportedTargetsForTest(0);
-  }
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
-
 template <typename Sample>
 void expectRead(SampleKind kind, const std::vector<Sample>& in, std::optional<double> missing, double scale_m) {
   const Samples samples(kind, {std::shared_ptr<const void>(), in.data()}, missing);
   const std::size_t first = std::min<std::size_t>(3, in.size());
-  withEachInstructionSet([&] {
+  test::withEachInstructionSet([&] {
     std::vector<float> depths(in.size() - first, -1);
     readDepths(samples, first, depths.size(), scale_m, depths.data());
     for (std::size_t i = 0; i < depths.size(); ++i) {
@@ -81,7 +69,7 @@ TEST(DepthRows, EachPixelFollowsWhatItIs) {
     const std::vector<float> now = randomDepths(random, length), before = randomDepths(random, length);
     std::vector<std::uint8_t> held_before;
     for (std::size_t i = 0; i < length; ++i) held_before.push_back(static_cast<std::uint8_t>(random.below(10)));
-    withEachInstructionSet([&] {
+    test::withEachInstructionSet([&] {
       std::vector<float> depths(length);
       std::vector<std::uint8_t> held(length);
       followDepths({length, now.data(), before.data(), held_before.data(), depths.data(), held.data()}, rule);
@@ -126,7 +114,7 @@ TEST(DepthRows, TilesAreBoundedAsTheirTriangles) {
       const CellBand band{depths.data(), columns, rows};
       std::vector<DepthRange> slow((columns - 2) / side + 1, {kNone, -kNone});
       const std::size_t triangles = boundSlowly(band, camera, side, slow);
-      withEachInstructionSet([&] {
+      test::withEachInstructionSet([&] {
         std::vector<DepthRange> tiles(slow.size());
         ASSERT_EQ(boundCells(band, static_cast<float>(camera.join), side, tiles.data()), triangles);
         for (std::size_t i = 0; i < tiles.size(); ++i) {
