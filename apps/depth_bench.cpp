@@ -10,31 +10,28 @@ namespace hl {
 
 namespace {
 
-constexpr double kSmoothing = 0.5;
-constexpr double kRadii_m[] = {1e-3, 2e-3, 5e-3};
+constexpr std::uint32_t kColumns = 1280, kRows = 720;
+constexpr double kOfBefore = 0.5;
+constexpr double kDepthRadii_m[] = {1e-3, 2e-3, 5e-3};
 
-// The time from the camera's next image to a scene with it.
-double nextFrame_ms(const DepthFrame& before) {
-  const DepthImage& image = before.image();
-  const std::int64_t begin_ns = monotonicNow_ns();
-  auto next = smoothed(*image.grid, 1, image.camera, &image, kSmoothing);
-  const auto scene = makeSnapshot(alone("depth", std::make_shared<const DepthFrame>(std::move(next), before.frame())));
-  return 1e3 * secondsSince(begin_ns);
+std::shared_ptr<const DepthFrame> frameOf(const DepthPicture& picture, const DepthImage* before) {
+  auto image = smoothed(picture.grid(), picture.unit_m, picture.camera, before, before != nullptr ? kOfBefore : 0);
+  return std::make_shared<const DepthFrame>(std::move(image), frameOfTable());
 }
 
 }  // namespace
 
 void benchDepths(SurfaceBench& bench) {
-  BenchSurface surface{"depth:table"};
-  const std::int64_t begin_ns = monotonicNow_ns();
-  const std::shared_ptr<const PrimitiveSource> table = makeDepthTable();
+  const DepthPicture picture = pictureOfTable(kColumns, kRows);
+  std::int64_t begin_ns = monotonicNow_ns();
+  const std::shared_ptr<const DepthFrame> first = frameOf(picture, nullptr);
+  BenchSurface surface{"depth:table", static_cast<double>(picture.depths.size())};
   surface.open_s = secondsSince(begin_ns);
-  const auto& frame = dynamic_cast<const DepthFrame&>(*table);
-  surface.stored = static_cast<double>(frame.image().grid->size().samples());
-  surface.bytes = static_cast<double>(frame.image().bytes());
-  surface.change_ms = nextFrame_ms(frame);
-  const std::shared_ptr<const Snapshot> scene = makeSnapshot(alone("depth", table));
-  for (const double radius_m : kRadii_m) bench.measure(surface, *scene, radius_m);
+  surface.bytes = static_cast<double>(first->image().bytes());
+  begin_ns = monotonicNow_ns();
+  const std::shared_ptr<const Snapshot> scene = makeSnapshot(alone("depth", frameOf(picture, &first->image())));
+  surface.change_ms = 1e3 * secondsSince(begin_ns);
+  for (const double radius_m : kDepthRadii_m) bench.measure(surface, *scene, radius_m);
 }
 
 }  // namespace hl

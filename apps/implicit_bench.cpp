@@ -10,7 +10,7 @@ namespace hl {
 
 namespace {
 
-constexpr double kErrors_m[] = {1e-5, 1e-6};
+constexpr double kErrors_m[] = {1e-5, 1e-6}, kSolidRadii_m[] = {1e-3, 3e-3};
 
 }  // namespace
 
@@ -25,8 +25,9 @@ void benchImplicits(SurfaceBench& bench) {
       const std::shared_ptr<const Snapshot> scene =
           makeSnapshot(alone(name, std::make_shared<const ImplicitSurface>(spec)));
       BenchSurface surface{name + (error_m < 1e-5 ? " within 1 um" : " within 10 um"), 0, 0, secondsSince(begin_ns)};
-      surface.bytes = static_cast<double>(scene->shape().geometryBytes());
-      bench.measure(surface, *scene);
+      const PrimitiveSource& made = *scene->shape().source;
+      surface.bytes = static_cast<double>(made.bytes() + made.shared().bytes);
+      for (const double radius_m : kSolidRadii_m) bench.measure(surface, *scene, radius_m);
     }
   }
 }

@@ -24,7 +24,7 @@ std::string orNothing(const std::optional<double>& number, const char* otherwise
 }  // namespace
 
 SurfaceBench::SurfaceBench(const SurfaceBenchOptions& options) : options_(options) {
-  fmt::print("{:<26}{:>12}{:>11}{:>8}{:>10}{:>9}  {:<8}{:>9}{:>10}{:>10}{:>8}\n", "surface", "stored", "MB", "open s",
+  fmt::print("{:<26}{:>12}{:>11}{:>8}{:>10}{:>9}  {:<9}{:>9}{:>10}{:>10}{:>8}\n", "surface", "stored", "MB", "open s",
              "change ms", "r mm", "motion", "p50 us", "p99.9 us", "worst us", "short");
   if (options.csv.empty()) return;
   csv_.emplace(options.csv);
@@ -38,8 +38,8 @@ void SurfaceBench::measure(const BenchSurface& surface, const Snapshot& scene) {
 }
 
 void SurfaceBench::measure(const BenchSurface& surface, const Snapshot& scene, double radius_m) {
-  for (const auto motion : {bench::FingerMotion::kSliding, bench::FingerMotion::kTapping})
-    row(surface, scene, radius_m, motion);
+  using enum bench::FingerMotion;
+  for (const auto motion : {kSliding, kTapping, kWandering}) row(surface, scene, radius_m, motion);
 }
 
 void SurfaceBench::row(const BenchSurface& surface, const Snapshot& scene, double radius_m,
@@ -50,7 +50,7 @@ void SurfaceBench::row(const BenchSurface& surface, const Snapshot& scene, doubl
   const bench::TickTimes measured = bench::timeTicks(scene, settings, path, options_.ticks);
   const bench::Timing ticks = measured.times.middle();
   const double p50_us = ticks.median_us(), p999_us = ticks.percentile_us(0.999);
-  fmt::print("{:<26}{:>12.4g}{:>11.2f}{:>8.2f}{:>10}{:>9.3f}  {:<8}{:>9.2f}{:>10.2f}{:>10.1f}{:>8}\n", surface.name,
+  fmt::print("{:<26}{:>12.4g}{:>11.2f}{:>8.2f}{:>10}{:>9.3f}  {:<9}{:>9.2f}{:>10.2f}{:>10.1f}{:>8}\n", surface.name,
              surface.stored, 1e-6 * surface.bytes, surface.open_s, orNothing(surface.change_ms, "-"), 1e3 * radius_m,
              nameOf(motion), p50_us, p999_us, ticks.max_us(), measured.out_of_work);
   std::fflush(stdout);
@@ -84,9 +84,9 @@ void runSurfaceBench(const SurfaceBenchOptions& options) {
   }
   bench.close();
   fmt::print(
-      "\nGenerated surfaces, as hl touch takes them; a finger slides 4 mm beneath the proxy at 0.15 m/s, or taps, "
-      "with\n"
-      "the radius of the options, and with one of four cells and its motion in proportion. stored: samples or points;\n"
+      "\nGenerated surfaces, as hl touch takes them; a finger slides 4 mm beneath the proxy at 0.15 m/s, taps, or\n"
+      "wanders to places of the surface that are drawn at random, with the radius of the options, and with one of\n"
+      "four cells and its motion in proportion. stored: samples or points;\n"
       "MB: of these and of the index; open: to generate them and make the scene; change: to make a scene with another\n"
       "iso value, or with the next frame of the camera. Of each tick the middle one of three times counts. short:\n"
       "ticks that ended at a valid place as they had done all that one tick may.\n");

@@ -38,8 +38,8 @@ class SurfaceBench {
   explicit SurfaceBench(const SurfaceBenchOptions& options);
 
   const SurfaceBenchOptions& options() const { return options_; }
-  /// A finger slides over the scene and taps on it, with the radius of the options; and, where the surface has cells,
-  /// with a radius of four of them and its motion in proportion. A row each.
+  /// A finger slides and wanders over the scene and taps on it, with the radius of the options; and, where the surface
+  /// has cells, with a radius of four of them and its motion in proportion. A row each.
   void measure(const BenchSurface& surface, const Snapshot& scene);
   void measure(const BenchSurface& surface, const Snapshot& scene, double radius_m);
   void close();

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "fields.h"
@@ -12,10 +11,9 @@
 
 namespace hl::test {
 
-inline std::shared_ptr<const DepthFrame> frameOf(std::shared_ptr<const HeightGrid> grid, const DepthCamera& camera,
-                                                 double scale_m = 1) {
-  return std::make_shared<const DepthFrame>(std::make_shared<const DepthImage>(std::move(grid), camera),
-                                            cameraFrame(scale_m));
+inline std::shared_ptr<const DepthFrame> frameOf(const std::shared_ptr<const HeightGrid>& grid,
+                                                 const DepthCamera& camera, double scale_m = 1) {
+  return std::make_shared<const DepthFrame>(smoothed(*grid, 1, camera, nullptr, 0), cameraFrame(scale_m));
 }
 
 inline DepthCamera cameraFor(std::uint32_t columns, std::uint32_t rows) {
@@ -45,8 +43,7 @@ inline std::shared_ptr<const DepthFrame> randomFrame(Random& random) {
     frame =
         frame.placed(Eigen::AngleAxisd(random.uniform(0, 6), random.direction()).toRotationMatrix(), random.inCube(3));
   if (random.below(3) == 0) frame = frame.placed(Mat3::Identity() + 0.3 * Mat3::Random(), Vec3::Zero());
-  return std::make_shared<const DepthFrame>(std::make_shared<const DepthImage>(gridOf(columns, rows, depths), camera),
-                                            frame);
+  return std::make_shared<const DepthFrame>(smoothed(*gridOf(columns, rows, depths), 1, camera, nullptr, 0), frame);
 }
 
 }  // namespace hl::test
