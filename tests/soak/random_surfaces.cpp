@@ -116,7 +116,9 @@ Source drawSolid(test::Random& random) {
   }
 }
 
-RandomScene drawSurface(test::Random& random) {
+namespace {
+
+RandomScene drawAnySurface(test::Random& random) {
   constexpr std::size_t kMostPrimitives = 8000;
   RandomScene scene;
   Source source;
@@ -142,6 +144,20 @@ RandomScene drawSurface(test::Random& random) {
   as_mesh->extent = scene.snapshot->extent;
   as_mesh->bounds = scene.snapshot->bounds;
   scene.shuffled = std::move(as_mesh);
+  return scene;
+}
+
+// Far smaller a proxy knows too little of where it is; far larger, fingers would be where none may be.
+bool isFelt(const RandomScene& scene) {
+  constexpr double kLeastPart = 1e-7, kMost_m = 1e5;
+  return scene.settings.radius > kLeastPart * scene.snapshot->extent && scene.settings.radius < kMost_m;
+}
+
+}  // namespace
+
+RandomScene drawSurface(test::Random& random) {
+  RandomScene scene = drawAnySurface(random);
+  while (!isFelt(scene)) scene = drawAnySurface(random);
   return scene;
 }
 
