@@ -14,7 +14,7 @@
 //   mayCross(middle)        whether it may be in the part with this middle, at a glance
 //   sift(l, parts)          leaves out parts where it is not, or not near the ball
 //   visitCell(place, v)     calls v(id) for each triangle of a cell
-//   cost()                  of these questions since it was asked last, in looks at boxes
+//   cost()                  of all these questions, in looks at boxes
 #pragma once
 
 #include <algorithm>
@@ -34,9 +34,9 @@ struct BrickPart {
   double order;
   std::array<std::uint32_t, 3> at;
 };
-using BrickParts =
-    FixedVector<BrickPart, std::max(BrickPyramid::kCells* BrickPyramid::kCells* BrickPyramid::kCells,
-                                    BrickPyramid::kBricks* BrickPyramid::kBricks* BrickPyramid::kBricks)>;
+inline constexpr std::size_t kMostBrickParts = 64;
+static_assert(BrickPyramid::kCells == 4 && BrickPyramid::kBricks == 4);
+using BrickParts = FixedVector<BrickPart, kMostBrickParts>;
 
 template <typename Bricks>
 class BrickWalk {
@@ -69,7 +69,7 @@ class BrickWalk {
     return {within(low), within(high + size)};
   }
 
-  // m per cell is the unit: sides of bricks of a level; of cells at level -1.
+  // Of the bricks of a level, or of cells: level -1.
   double sideOf(int level) const {
     return bricks_.step() * (level < 0 ? 1 : static_cast<double>(BrickPyramid::cells(level)));
   }
@@ -105,8 +105,8 @@ class BrickWalk {
       const auto a = static_cast<Eigen::Index>(axis);
       span[axis] = spanOf(axis, ball_.low()[a], ball_.high()[a], 0, countOf(level, axis), sideOf(level));
     }
-    add(
-        level, span, [](const Vec3&) { return true; }, parts);
+    const auto any = [](const Vec3&) { return true; };
+    add(level, span, any, parts);
     return level;
   }
 
@@ -118,8 +118,8 @@ class BrickWalk {
       const std::uint32_t begin = at[axis] * per_brick, end = std::min(begin + per_brick, countOf(level - 1, axis));
       span[axis] = spanOf(axis, bricks_.low()[a], bricks_.high()[a], begin, end, sideOf(level - 1));
     }
-    add(
-        level - 1, span, [this](const Vec3& middle) { return bricks_.mayCross(middle); }, parts);
+    const auto crossed = [this](const Vec3& middle) { return bricks_.mayCross(middle); };
+    add(level - 1, span, crossed, parts);
     bricks_.sift(level, parts);
   }
 

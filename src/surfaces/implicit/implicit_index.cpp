@@ -7,21 +7,33 @@
 
 namespace hl {
 
+namespace {
+
+constexpr std::size_t kMostKnown = 1U << 15;  // bricks of all sheets together
+
+}  // namespace
+
+ImplicitIndex::ImplicitIndex(const std::vector<Sheet>& sheets, const GridFrame& frame, const Box& bounds, double cell)
+    : WalkedIndex(frame, bounds, cell), sheets_(sheets), frame_(frame) {
+  for (const Sheet& sheet : sheets) known_.emplace_back(sheet, kMostKnown / sheets.size());
+}
+
 // A look at a brick costs as much as its function has bodies.
 std::size_t ImplicitIndex::walk(const GridBall& ball, Visit visit) const {
   std::size_t looked = 0;
-  for (const Sheet& sheet : sheets_) {
-    SheetBricks bricks(sheet, frame_, &ball);
-    looked += sheet.smooth().bodies() * BrickWalk(bricks, scale(), ball).run(visit);
+  for (std::size_t i = 0; i < sheets_.size(); ++i) {
+    SheetBricks bricks(sheets_[i], frame_, &ball, &known_[i]);
+    looked += BrickWalk(bricks, scale(), ball).run(visit);
   }
   return looked;
 }
 
-// There are no nodes: bricks are computed.
+// There are no nodes: most bricks are computed.
 IndexStats ImplicitIndex::stats() const {
   IndexStats stats;
   stats.bytes = sizeof(*this);
   for (const Sheet& sheet : sheets_) stats.depth = std::max(stats.depth, sheet.levels());
+  for (const KnownBricks& known : known_) stats.bytes += known.bytes();
   return stats;
 }
 

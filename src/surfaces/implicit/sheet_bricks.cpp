@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "surfaces/implicit/plane_reach.h"
 #include "surfaces/implicit/sheet_measure.h"
-#include "surfaces/implicit/slab_pieces.h"
+#include "surfaces/slab_pieces.h"
 
 namespace hl {
 
@@ -13,19 +14,27 @@ namespace {
 
 // Of sizes: more than what rounding does to a few sums.
 constexpr double kPlaneRounding = 1e-13, kTriangleRounding = 1e-12;
+constexpr double kMoved = 0x1p-29;  // of a cell's side: more than crossing() may move a corner
 
 }  // namespace
 
-SheetBricks::SheetBricks(const Sheet& sheet, const GridFrame& frame, const GridBall* ball)
-    : sheet_(sheet), frame_(frame), ball_(ball) {}
+SheetBricks::SheetBricks(const Sheet& sheet, const GridFrame& frame, const GridBall* ball, const KnownBricks* known)
+    : sheet_(sheet), frame_(frame), ball_(ball), known_(known) {}
 
 bool SheetBricks::holds(int level, const Place& at) {
+  const bool known = known_ != nullptr && level >= known_->lowest();
+  if (known) {
+    const double* const bend = known_->find(level, at);
+    if (bend == nullptr) return false;
+    bend_ = *bend;
+  }
+  if (level > 0) curved_ = known && std::isfinite(bend_);
   const Box box = sheet_.boxOf(level, at);
   const SmoothFunction::Space space = spaceOf(box, 0);
-  if (level > 0) curved_ = false;
-  if (!(curved_ ? planeByBend(box) : planeBySlopes(level, box, space))) return false;
+  if (!(curved_ ? planeByBend(box) : planeBySlopes(level == 1 && !known ? By::kBoth : By::kSlopes, box, space)))
+    return false;
   crossing_ = (rest_ + 0.5 * partSide(level) * normal_.cwiseAbs().sum()) * (1 + kTriangleRounding);
-  if (std::abs(value_) > rest_ + space[0].half() * normal_.cwiseAbs().sum()) return false;
+  if (!mayBeIn(space)) return false;
   if (ball_ != nullptr) {
     const PlaneReach reach(*ball_, middle_, value_, normal_, rest_);
     if (reach.misses()) return false;
@@ -36,14 +45,28 @@ bool SheetBricks::holds(int level, const Place& at) {
   return level > 0 || mayBeSurface(space);
 }
 
+double SheetBricks::bendOf(int level, const Place& at) {
+  const Box box = sheet_.boxOf(level, at);
+  const SmoothFunction::Space space = spaceOf(box, 0);
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN(), kNoBound = Interval::kNoEnd;
+  if (!planeBySlopes(By::kBoth, box, space) || !mayBeIn(space) || !mayBeSurface(space)) return kNone;
+  return curved_ ? bend_ : kNoBound;
+}
+
+bool SheetBricks::mayBeIn(const SmoothFunction::Space& space) const {
+  return !(std::abs(value_) > rest_ + space[0].half() * normal_.cwiseAbs().sum());
+}
+
 // False: the function is not 0 in the box.
-bool SheetBricks::planeBySlopes(int level, const Box& box, const SmoothFunction::Space& space) {
-  cost_ += level == kBentLevel ? kCostOfBend : kCostOfBrick;
+bool SheetBricks::planeBySlopes(By by, const Box& box, const SmoothFunction::Space& space) {
+  cost_ += by == By::kBoth ? kCostOfBend : kCostOfBrick;
   Jet<Interval, 1> slopes;
-  if (level == kBentLevel) {
+  if (by == By::kBoth) {
     const Jet<Interval, 2> jet = sheet_.smooth().bendOver(space);
     slopes = {jet.value, jet.slope, {}};
-    setBend(jet.bend);
+    bend_ = 0;
+    for (std::size_t i = 0; i < jet.bend.size(); ++i)
+      bend_ += (jet::kPairs[i][0] == jet::kPairs[i][1] ? 1 : 2) * jet.bend[i].most();
   } else {
     slopes = sheet_.smooth().slopeOver(space);
   }
@@ -55,9 +78,10 @@ bool SheetBricks::planeBySlopes(int level, const Box& box, const SmoothFunction:
     normal_[static_cast<Eigen::Index>(axis)] = slopes.slope[axis].middle();
     vary_ += slopes.slope[axis].half();
   }
-  rounding_ = kPlaneRounding * (std::abs(value_) + middle_.cwiseAbs().maxCoeff());
+  rounding_ = roundingOf();
   rest_ = rounding_ + space[0].half() * vary_;
-  if (level == kBentLevel) curved_ = restByBend(0.5 * step()) <= 0.25 * (0.5 * step()) * vary_;
+  const double quarter = 0.25 * space[0].half();  // half of a part's side
+  if (by == By::kBoth) curved_ = restByBend(quarter) <= quarter * vary_;
   return true;
 }
 
@@ -67,15 +91,14 @@ bool SheetBricks::planeByBend(const Box& box) {
   const Jet<double, 1> jet = sheet_.smooth().slopeAt(middle_);
   value_ = jet.value;
   normal_ = {jet.slope[0], jet.slope[1], jet.slope[2]};
-  rounding_ = kPlaneRounding * (std::abs(value_) + middle_.cwiseAbs().maxCoeff());
+  rounding_ = roundingOf();
   rest_ = rounding_ + restByBend(0.5 * box.size().maxCoeff());
   return true;
 }
 
-void SheetBricks::setBend(const std::array<Interval, 6>& bend) {
-  bend_ = 0;
-  for (std::size_t i = 0; i < bend.size(); ++i)
-    bend_ += (jet::kPairs[i][0] == jet::kPairs[i][1] ? 1 : 2) * bend[i].most();
+double SheetBricks::roundingOf() const {
+  return kPlaneRounding * (std::abs(value_) + middle_.cwiseAbs().maxCoeff()) +
+         kMoved * step() * normal_.cwiseAbs().sum();
 }
 
 double SheetBricks::partSide(int level) const {
@@ -85,8 +108,7 @@ double SheetBricks::partSide(int level) const {
 // Eight parts at once.
 void SheetBricks::sift(int level, BrickParts& parts) {
   const double side = partSide(level), half = 0.5 * side;
-  const bool curved = curved_ && level <= kBentLevel;
-  const double rest = rounding_ + (curved ? restByBend(half) : half * vary_);
+  const double rest = rounding_ + (curved_ ? restByBend(half) : half * vary_);
   if (!std::isfinite(rest)) return;
   const SlabPieces pieces(*ball_, frame_, side);
   std::size_t kept = 0;
@@ -101,9 +123,9 @@ void SheetBricks::sift(int level, BrickParts& parts) {
     }
     cost_ += kCostOfParts;
     Jet<Lanes, 1> jet;
-    curved ? void(jet = sheet_.smooth().slopeAt(middles)) : void(jet.value = sheet_.smooth().at(middles));
+    curved_ ? void(jet = sheet_.smooth().slopeAt(middles)) : void(jet.value = sheet_.smooth().at(middles));
     for (std::size_t i = 0; i < count; ++i) {
-      const Vec3 normal = curved ? Vec3(jet.slope[0].of[i], jet.slope[1].of[i], jet.slope[2].of[i]) : normal_;
+      const Vec3 normal = curved_ ? Vec3(jet.slope[0].of[i], jet.slope[1].of[i], jet.slope[2].of[i]) : normal_;
       const double most = (rest + half * normal.cwiseAbs().sum()) * (1 + kTriangleRounding);
       if (std::abs(jet.value.of[i]) > most) continue;
       if (pieces.touched(middle[i], jet.value.of[i], normal, rest)) parts[kept++] = parts[first + i];

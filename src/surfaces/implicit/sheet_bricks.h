@@ -6,10 +6,10 @@
 // Every corner of the sheet's triangles there lies where linear interpolation of f is 0, so the plane's value is within
 // e of 0 on all of each triangle. A brick that has no such place, or none near the ball (plane_reach.h), is left out.
 // So are parts of it, by a plane through the function's value in their own middle. With the same normal, e is smaller
-// in proportion to their size. From bricks of 16 x 16 x 16 cells down, bounds H of the second derivatives are known,
-// and a part that has the function's own gradient as normal has
+// in proportion to their size. From bricks of 16 x 16 x 16 cells down, or of larger ones that are known
+// (known_bricks.h), there are bounds H of the second derivatives, and with the function's own gradient as normal
 //   e = 1/2 sum of H half half,
-// which falls with the square of its size and needs no more intervals.
+// which falls with the square of the size and needs no more intervals.
 #pragma once
 
 #include <optional>
@@ -18,6 +18,7 @@
 #include "surfaces/ball_triangles.h"
 #include "surfaces/brick_walk.h"
 #include "surfaces/grid_ball.h"
+#include "surfaces/implicit/known_bricks.h"
 #include "surfaces/implicit/sheet.h"
 
 namespace hl {
@@ -28,8 +29,8 @@ class SheetBricks {
   using Place = Sheet::Place;
 
   /// `frame`: from the function's coordinates, which are those of the ball, to m. They must outlive it. No ball: all
-  /// that there is counts.
-  SheetBricks(const Sheet& sheet, const GridFrame& frame, const GridBall* ball);
+  /// that there is counts. `known`: may be null.
+  SheetBricks(const Sheet& sheet, const GridFrame& frame, const GridBall* ball, const KnownBricks* known = nullptr);
 
   const Vec3& origin() const { return sheet_.grid().origin; }
   double step() const { return sheet_.grid().step; }
@@ -37,6 +38,8 @@ class SheetBricks {
   std::uint32_t side(int level, std::size_t axis) const { return sheet_.side(level, axis); }
   std::uint32_t cells(std::size_t axis) const { return sheet_.grid().cells[axis]; }
   bool holds(int level, const Place& at);
+  /// As KnownBricks::find(); not a number if the sheet is not in the brick.
+  double bendOf(int level, const Place& at);
   const Vec3& low() const { return low_; }
   const Vec3& high() const { return high_; }
   bool mayCross(const Vec3& middle) const { return !(std::abs(value_ + normal_.dot(middle - middle_)) > crossing_); }
@@ -72,10 +75,13 @@ class SheetBricks {
   }
 
  private:
-  bool planeBySlopes(int level, const Box& box, const SmoothFunction::Space& space);
+  /// How the function is bounded over a brick: by its gradient, or also by its second derivatives.
+  enum class By : std::uint8_t { kSlopes, kBoth };
+  bool planeBySlopes(By by, const Box& box, const SmoothFunction::Space& space);
   bool planeByBend(const Box& box);
-  void setBend(const std::array<Interval, 6>& bend);
+  bool mayBeIn(const SmoothFunction::Space& space) const;
   double restByBend(double half) const { return 0.5 * bend_ * half * half * (1 + kRounding); }
+  double roundingOf() const;
   double partSide(int level) const;  // of a brick's parts
   std::optional<BallTriangles> trianglesNear() const {
     return ball_ != nullptr ? std::optional(BallTriangles(*ball_, frame_)) : std::nullopt;
@@ -84,17 +90,17 @@ class SheetBricks {
 
   // Looks at boxes, for each body of the function.
   static constexpr std::size_t kCostOfBend = 30, kCostOfBrick = 15, kCostOfCell = 12, kCostOfParts = 6;
-  static constexpr int kBentLevel = 1;        // from here on second derivatives count
   static constexpr double kRounding = 1e-12;  // of sums of bounds
 
   const Sheet& sheet_;
   const GridFrame& frame_;
   const GridBall* ball_;
+  const KnownBricks* known_;
   // The plane of the last brick: value + normal . (x - middle), within `rest`.
   Vec3 middle_ = Vec3::Zero(), normal_ = Vec3::Zero();
   double value_ = 0, rest_ = 0, crossing_ = 0, rounding_ = 0;
   double vary_ = 0;      // sums over the axes: half of what the gradient varies in it
-  double bend_ = 0;      // and bounds of the second derivatives in the last brick of kBentLevel
+  double bend_ = 0;      // and bounds of the second derivatives in it, or in the brick of level 1 that it is a part of
   bool curved_ = false;  // these tell more
   std::size_t cost_ = 0;
   Vec3 low_ = Vec3::Zero(), high_ = Vec3::Zero();

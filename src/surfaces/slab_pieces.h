@@ -1,12 +1,12 @@
 // SlabPieces: which of many pieces of a surface a moving ball may touch, each in a box of one size and between two
 // planes of one direction.
 //
-// As plane_reach.h has it: what is touched of a piece is near the feet of the centre on its plane, in a disc that is
-// much smaller than the ball where the ball just touches. What all pieces have in common is computed once.
+// What is within a distance e of a plane, and within the radius r of a centre that is d from the plane, is within
+// sqrt(r^2 - (d - e)^2) of the foot of the centre on the plane: of a ball that just touches, in a disc that is much
+// smaller than the ball.
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "surfaces/grid_ball.h"
