@@ -25,8 +25,7 @@ void benchImplicits(SurfaceBench& bench) {
       const std::shared_ptr<const Snapshot> scene =
           makeSnapshot(alone(name, std::make_shared<const ImplicitSurface>(spec)));
       BenchSurface surface{name + (error_m < 1e-5 ? " within 1 um" : " within 10 um"), 0, 0, secondsSince(begin_ns)};
-      const PrimitiveSource& made = *scene->shape().source;
-      surface.bytes = static_cast<double>(made.bytes() + made.shared().bytes);
+      surface.bytes = static_cast<double>(scene->shape().geometryBytes());
       for (const double radius_m : kSolidRadii_m) bench.measure(surface, *scene, radius_m);
     }
   }

@@ -31,10 +31,14 @@ std::vector<std::shared_ptr<const PrimitiveSource>> coarseSurfaces() {
   test::Random random(11);
   const Expression box = turned(test::box(Vec3(0.012, 0.009, 0.01)), random),
                    other = turned(test::box(Vec3(0.02, 0.006, 0.005)), random);
-  const Expression solids[] = {test::of(K::kUnion, {box, other}), test::changed(K::kShell, box, 0.002),
-                               test::of(K::kDifference, {box, test::sphere(0.004, Vec3(0.004, 0.004, 0))}),
-                               test::of(K::kIntersection, {other, turned(test::rod(K::kCylinder, 0.004, 0.03), random),
-                                                           test::halfSpace(Vec3(1, 2, 3))})};
+  const Expression solids[] = {
+      test::of(K::kUnion, {box, other}),
+      test::changed(K::kShell, box, 0.002),
+      test::of(K::kDifference, {box, test::sphere(0.004, Vec3(0.004, 0.004, 0))}),
+      test::of(K::kIntersection,
+               {other, turned(test::rod(K::kCylinder, 0.004, 0.03), random), test::halfSpace(Vec3(1, 2, 3))}),
+      test::torus(0.01, 0.004),
+      test::of(K::kUnion, {test::sphere(0.008), turned(test::rod(K::kCapsule, 0.005, 0.02), random)}, 0.004)};
   std::vector<std::shared_ptr<const PrimitiveSource>> surfaces;
   for (const Expression& solid : solids) {
     Mat3 linear = Eigen::AngleAxisd(random.uniform(0, 6), random.direction()).toRotationMatrix();

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "surfaces/brick_walk.h"
+#include "surfaces/implicit/find_bricks.h"
 #include "surfaces/implicit/sheet_bricks.h"
 
 namespace hl {
@@ -15,7 +16,7 @@ constexpr std::size_t kMostKnown = 1U << 15;  // bricks of all sheets together
 
 ImplicitIndex::ImplicitIndex(const std::vector<Sheet>& sheets, const GridFrame& frame, const Box& bounds, double cell)
     : WalkedIndex(frame, bounds, cell), sheets_(sheets), frame_(frame) {
-  for (const Sheet& sheet : sheets) known_.emplace_back(sheet, kMostKnown / sheets.size());
+  for (const Sheet& sheet : sheets) known_.push_back(findBricks(sheet, kMostKnown / sheets.size()));
 }
 
 // A look at a brick costs as much as its function has bodies.

@@ -38,7 +38,7 @@ class SheetBricks {
   std::uint32_t side(int level, std::size_t axis) const { return sheet_.side(level, axis); }
   std::uint32_t cells(std::size_t axis) const { return sheet_.grid().cells[axis]; }
   bool holds(int level, const Place& at);
-  /// As KnownBricks::find(); not a number if the sheet is not in the brick.
+  /// As KnownBrick has it; not a number if the sheet is not in the brick.
   double bendOf(int level, const Place& at);
   const Vec3& low() const { return low_; }
   const Vec3& high() const { return high_; }
