@@ -1,5 +1,8 @@
 #include "surfaces/depth_cells.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "geometry/primitive.h"
 
 namespace hl {
@@ -20,7 +23,27 @@ std::array<Vec3, 3> DepthCells::corners(ElementId id) const {
 bool DepthCells::exists(const HeightCell& cell) const {
   const std::array<Pixel, 3> at = pixelsOf(cell);
   if (!image_->camera.joins(depthAt(at[0]), depthAt(at[1]), depthAt(at[2]))) return false;
-  return isTriangle(pointAt(at[0]), pointAt(at[1]), pointAt(at[2]));
+  return plain_ || isTriangle(pointAt(at[0]), pointAt(at[1]), pointAt(at[2]));
+}
+
+// Three pixels at depths d (1 + join) and less, along ways w = (x / z, y / z, 1), span a tetrahedron with the camera,
+// of six volumes d^3 / (fx fy) or more, whose height is at most d |w|: twice its base is d^2 / (fx fy |w|) or more. An
+// edge has at most the length d ((1 + join) (1 / fx + 1 / fy) + join |w|). Axes of the condition K make the base over
+// the square of the edge, the height over the longest edge, less by at most K^2.
+bool DepthCells::isPlain() const {
+  constexpr double kEnough = 1e-6, kDigits = 1e-9;  // by far more than kSliver, and than rounding
+  const DepthCamera& camera = image_->camera;
+  const DepthRange& range = image_->tiles.all();
+  if (range.empty()) return false;
+  const double across = std::max(std::abs(camera.across(0)), std::abs(camera.across(pixels().columns())));
+  const double down = std::max(std::abs(camera.down(0)), std::abs(camera.down(pixels().rows())));
+  const double farthest = Vec3(across, down, 1).norm(), step = 1 / camera.fx + 1 / camera.fy;
+  const double edge = (1 + camera.join) * step + camera.join * farthest;
+  const double inverse = frame_.axes.inverse().norm(), condition = frame_.axes.norm() * inverse;
+  const double least_edge = range.low / (std::max(camera.fx, camera.fy) * inverse);
+  const double extent = frame_.origin.norm() + range.high * frame_.axes.norm() * farthest;
+  return 1 / (camera.fx * camera.fy * farthest * edge * edge * condition * condition) > kEnough &&
+         least_edge > kDigits * extent;
 }
 
 }  // namespace hl

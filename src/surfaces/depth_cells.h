@@ -19,7 +19,7 @@ class DepthCells {
 
   /// `frame`: from (x / z depth, y / z depth, depth) of the camera to metres.
   DepthCells(std::shared_ptr<const DepthImage> image, const GridFrame& frame)
-      : image_(std::move(image)), frame_(frame), mirrored_(frame.axes.determinant() < 0) {}
+      : image_(std::move(image)), frame_(frame), mirrored_(frame.axes.determinant() < 0), plain_(isPlain()) {}
 
   const std::shared_ptr<const DepthImage>& image() const { return image_; }
   const DepthPixels& pixels() const { return image_->pixels; }
@@ -41,9 +41,11 @@ class DepthCells {
   bool exists(const HeightCell& cell) const;
 
  private:
+  bool isPlain() const;
+
   std::shared_ptr<const DepthImage> image_;
   GridFrame frame_;
-  bool mirrored_;
+  bool mirrored_, plain_;  // plain: three pixels that are joined always are a triangle
 };
 
 }  // namespace hl

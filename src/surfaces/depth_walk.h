@@ -1,10 +1,10 @@
 // DepthWalk: from the tiles of a depth image to the triangles that a moving ball may touch.
 //
-// A tile's triangles lie in a piece of a frustum, between four planes through the camera and two of equal depth. A ball
-// on a straight way is clear of it if it is on the outer side of one of the six all the time. In grid coordinates q =
-// (x / z depth, y / z depth, depth) of the camera the planes are a . q = c, and a ball of radius r reaches r |M^-T a|
-// beyond its centre, M the axes of the frame. Of the tiles that are left all triangles are looked at
-// (tile_triangles.h).
+// In grid coordinates q = (x / z depth, y / z depth, depth) of the camera the box around the ball on its way gives the
+// pixels before which it comes. A tile's triangles lie in a piece of a frustum, and this in a ball. With M the axes of
+// the frame, w = (x / z, y / z, 1) in the middle of the tile, to e from it, and depths d of the mean D,
+//   |M d w' - M D w| <= |d - D| |M w| + d (e_x |M_x| + e_y |M_y|).
+// Of the tiles that are left all triangles are looked at (tile_triangles.h).
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,8 @@ class DepthWalk {
       : cells_(cells),
         pixels_(cells.pixels()),
         ball_(ball),
-        size_(ball.metric().inverse * ball.metric().inverse.transpose()),
+        length_x_(cells.frame().axes.col(0).norm() / camera().fx),
+        length_y_(cells.frame().axes.col(1).norm() / camera().fy),
         columns_(reached(0, camera().fx, camera().cx, pixels_.columns() - 1)),
         rows_(reached(1, camera().fy, camera().cy, pixels_.rows() - 1)) {}
 
@@ -105,20 +106,18 @@ class DepthWalk {
     }
   }
 
-  // Whether all of the way is farther than the ball's reach on the negative side of sign (a . q - c).
-  bool outside(const Vec3& a, double c, double sign) const {
-    const double nearest = std::max(sign * (a.dot(ball_.first()) - c), sign * (a.dot(ball_.last()) - c));
-    return nearest < 0 && nearest * nearest > ball_.radius() * ball_.radius() * a.dot(size_ * a);
-  }
   bool misses(const Tile& tile) const {
     const DepthRange& range = tiles().range(tile.level, tile.column, tile.row);
     if (range.empty() || ball_.high().z() < range.low || ball_.low().z() > range.high) return true;
-    const auto side = static_cast<double>(DepthTiles::side(tile.level));
-    const double column = side * tile.column, row = side * tile.row;
-    const auto across = [&](double at) { return Vec3(1, 0, -camera().across(at)); };
-    const auto down = [&](double at) { return Vec3(0, 1, -camera().down(at)); };
-    return outside(across(column), 0, 1) || outside(across(column + side), 0, -1) || outside(down(row), 0, 1) ||
-           outside(down(row + side), 0, -1);
+    const Mat3& axes = cells_.frame().axes;
+    const double half = 0.5 * static_cast<double>(DepthTiles::side(tile.level)), mean = 0.5 * (range.low + range.high);
+    const double column = 2 * half * tile.column + half, row = 2 * half * tile.row + half;
+    const Vec3 way = axes * Vec3(camera().across(column), camera().down(row), 1);
+    const double reach =
+        0.5 * (range.high - range.low) * way.norm() + range.high * half * (length_x_ + length_y_) + ball_.radius();
+    const Vec3 from = mean * way - axes * ball_.first(), motion = axes * (ball_.last() - ball_.first());
+    const double square = motion.squaredNorm(), part = square > 0 ? std::clamp(from.dot(motion) / square, 0.0, 1.0) : 0;
+    return (from - part * motion).squaredNorm() > (1 + kRounding) * reach * reach;
   }
 
   template <typename Visit>
@@ -196,7 +195,7 @@ class DepthWalk {
   const DepthCells& cells_;
   const DepthPixels& pixels_;
   const GridBall& ball_;
-  const Mat3 size_;  // |M^-T a|^2 = a . size_ a
+  const double length_x_, length_y_;  // m: of a pixel, for a unit of depth
   const Range columns_, rows_;
   std::size_t looked_ = 0, count_ = 0;
   std::size_t found_count_ = 0;
