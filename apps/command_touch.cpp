@@ -112,7 +112,7 @@ void runTouch(TouchOptions options) {
     http.upload.open = [&](int descriptor, const std::string& name) { return opener.open(descriptor, name); };
   }
   const auto& recordings = options.recorder.pages;
-  const auto set_iso = [&touch](std::uint64_t surface, double value) { touch.setIso(surface, value); };
+  const auto set_iso = [&touch](std::uint64_t surface, const IsoChoice& iso) { touch.setIso(surface, iso); };
   HttpServer server(
       http, makeViewerFeed(session, HL_VERSION, touch.memory().member(), recordings, http.upload.limit_bytes, set_iso),
       &touch, makeTouchMonitor(session, &touch, recordings));

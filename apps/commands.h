@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "io/cad_file.h"
@@ -28,6 +29,7 @@ struct SceneOptions {
   double fit = 0;              ///< m, largest side; 0: as it is
   std::vector<double> iso;     ///< of volumes; empty: one that is chosen
   double vertical_scale = 0;   ///< of the heights of height fields; 0: as they are
+  std::optional<bool> below;   ///< whether the matter of volumes is below iso; nothing: as the scene says
   bool surfels = false;        ///< of clouds, in place of points
   double surfel_reach = 0.75;  ///< in spacings
   CadMeshing cad;              ///< of CAD files

@@ -91,6 +91,10 @@ void addReadingOptions(CLI::App& command, SceneOptions& options) {
                   "(default: between what is empty and what is not)")
       ->delimiter(',');
   command
+  command.add_flag_function(
+      "--below", [&options](std::int64_t said) { options.below = said > 0; },
+      "the matter of a volume is where its values are below --iso, as of signed distances (--below=false: above, as in "
+      "CT; default: what the file says, or above)");
       .add_option("--vertical-scale", options.vertical_scale,
                   "factor on the heights of a height field, before --scale or --fit (default 1)")
       ->check(positive());
@@ -159,6 +163,7 @@ std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options) {
   if (!options.iso.empty()) setIsoValues(scene, options.iso);
   if (options.surfels) setSurfels(scene, options.surfel_reach);
   if (options.vertical_scale > 0) scaleHeights(scene, options.vertical_scale);
+  if (options.below) setSolidSide(scene, *options.below ? SolidSide::kBelow : SolidSide::kAbove);
   if (options.scale > 0) scaleModel(scene, options.scale);
   if (options.fit > 0) fitModel(scene, options.fit);
   requireMemory(scene, options.scene, machineMemory_bytes());

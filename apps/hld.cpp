@@ -71,7 +71,7 @@ void serve(HldOptions& options) {
   const HttpServerSettings http = serverSettings(options);
   TouchServer touch(sceneOf(options.scene), {options.touch, options.devices, http.limits, HL_VERSION, options.device});
   TouchSession& session = touch.device();
-  const auto set_iso = [&touch](std::uint64_t surface, double value) { touch.setIso(surface, value); };
+  const auto set_iso = [&touch](std::uint64_t surface, const IsoChoice& iso) { touch.setIso(surface, iso); };
   HttpServer server(http, makeViewerFeed(session, HL_VERSION, touch.memory().member(), nullptr, 0, set_iso), &touch,
                     makeTouchMonitor(session, &touch));
   touch.start();

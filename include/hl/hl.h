@@ -185,7 +185,7 @@ HL_API void hlDepthFrame(HLsizei width, HLsizei height, const HLushort* depths, 
  * The server makes its triangles when they are touched. `width` x `height` x `depth` samples of `type` (HL_SHORT,
  * HL_UNSIGNED_SHORT or HL_FLOAT) along +x, +y and +z, those along x next to each other, all 1 apart, with the middle of
  * the volume at the origin: hlScaled makes metres of them. There is no surface around a sample that equals `*missing`,
- * or is not a number; `missing` may be NULL. Normals lead to where samples are below `iso`. The samples are copied.
+ * or is not a number; `missing` may be NULL. Normals lead out of the matter: see hlVolumeSolid. The samples are copied.
  * HL_INVALID_VALUE: fewer than two samples along an axis, no samples, or an `iso` that is not a number.
  * HL_INVALID_ENUM: another type. HL_OUT_OF_MEMORY: 1 GiB of samples or more. */
 HL_API void hlVolume(HLsizei width, HLsizei height, HLsizei depth, HLenum type, const void* samples,
@@ -196,6 +196,9 @@ HL_API void hlVolume(HLsizei width, HLsizei height, HLsizei depth, HLenum type, 
  * the proxy is in the volume, also when it has pierced its surface (HL_STRENGTH). 0 rows: nothing, which is the
  * default. Copied. HL_INVALID_VALUE: out of its range. */
 HL_API void hlVolumeMatter(HLsizei rows, const HLdouble* numbers);
+/** On which side of `iso` the matter is, of the surfaces that hlVolume and hlVolumeSurface draw next: HL_ABOVE, which
+ * is the default, as bone in CT, or HL_BELOW, as in a grid of signed distances. HL_INVALID_ENUM: another side. */
+HL_API void hlVolumeSolid(HLenum side);
 /** Draws another surface of the volume that was drawn last in this object or world, with the matrix and material of
  * now: skin and bone. Nothing is copied or sent again. HL_INVALID_OPERATION: no volume was drawn. HL_INVALID_VALUE: an
  * `iso` that is not a number. */

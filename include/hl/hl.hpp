@@ -310,6 +310,9 @@ inline void volumeMatter(std::span<const HLdouble> numbers) {
   hlVolumeMatter(static_cast<HLsizei>(numbers.size() / 3), numbers.data());
 }
 
+/// hlVolumeSolid.
+inline void volumeSolid(HLenum side) { hlVolumeSolid(side); }
+
 /// hlImplicit.
 inline void implicit(const std::string& json) { hlImplicit(json.c_str()); }
 

@@ -54,6 +54,9 @@ HL_API HLbatchScene* hlBatchMakeHeights(size_t columns, size_t rows, HLenum type
  * none), or are not a number. The samples are copied. NULL when that fails, also where a value has no surface. */
 HL_API HLbatchScene* hlBatchMakeVolume(const size_t* size, HLenum type, const void* samples, const HLdouble* missing,
                                        const HLdouble* spacing, size_t surfaces, const HLdouble* iso);
+/** As hlBatchMakeVolume, with the matter where samples are below `iso`, as of signed distances. */
+HL_API HLbatchScene* hlBatchMakeDistances(const size_t* size, HLenum type, const void* samples, const HLdouble* missing,
+                                          const HLdouble* spacing, size_t surfaces, const HLdouble* iso);
 /** A cloud of `count` points, x y z each, m. `normals`, one a point and of either sign, are for smooth shading; NULL:
  * those of the plane through the 12 nearest points. `reach` 0: the points alone are touched; 0.01 to 10: each is a
  * small hexagon across its normal around a disc of so many distances between neighbours. NULL when that fails. */

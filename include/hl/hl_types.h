@@ -108,6 +108,12 @@ enum {
   HL_TEXTURE_HIGH = 0x48024      /**< env: the quantity where a texel is 1. Default 1; of HL_HEIGHT 0. */
 };
 
+/** hlVolumeSolid: where the matter of a volume is. */
+enum {
+  HL_ABOVE = 0x48160, /**< where values are above iso. The default. */
+  HL_BELOW = 0x48161  /**< where values are below iso, as of signed distances */
+};
+
 /** Control points of hlNurbsSurface. */
 enum {
   HL_MAP2_VERTEX_3 = 0x0DB7, /**< x y z */

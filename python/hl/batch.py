@@ -45,10 +45,11 @@ class Scene:
         unit. Around samples that equal `missing`, or are not a number, there are holes. A sample takes 2 or 4 bytes,
         however many triangles there are.
 
-    Scene(volume=samples, iso=value, spacing=1.0, missing=None): the surface of a volume where its samples are `iso`, or
+    Scene(volume=samples, iso=value, spacing=1.0, missing=None, below=False): the surface of a volume where its samples are `iso`, or
         several surfaces of it, of a list of values: an array (z, y, x) of int16, uint16 or float32; others become
         float32. Samples are `spacing` m apart (one number, or those along x, y and z), with the middle at the origin.
-        There is no surface around samples that equal `missing`, or are not a number.
+        There is no surface around samples that equal `missing`, or are not a number. The matter is where samples are
+        above `iso`, or with `below` where they are below it, as of signed distances.
 
     Scene(points=points, normals=None, surfels=False): a cloud of points (n, 3), m, as scanners give it. `normals` (n, 3),
         of either sign, are for smooth shading; None: those of the plane through the 12 nearest points. A ball sinks
@@ -88,6 +89,7 @@ class Scene:
         iso: Union[float, Sequence[float]],
         spacing: Union[float, Tuple[float, float, float]] = 1.0,
         missing: Optional[float] = None,
+        below: bool = False,
     ) -> None: ...
     @overload
     def __init__(
@@ -117,7 +119,10 @@ class Scene:
         missing: Any = None,
         points: Any = None,
         surfels: Any = False,
+        below: bool = False,
     ) -> None:
+        if below and volume is None:
+            raise InvalidValueError("below is of volumes, and this is none")
         if points is not None:
             if any(other is not None for other in (source, triangles, vertices, heights, volume, iso, implicit)):
                 raise InvalidValueError("a scene is made of points, heights, a volume, a file or vertices, of one of them")
@@ -136,7 +141,7 @@ class Scene:
                 raise InvalidValueError("a scene is made of heights, a volume, a file or vertices, of one of them")
             self._source = None
             if volume is not None:
-                self._scene = _volume_of(volume, iso, spacing, missing)
+                self._scene = _volume_of(volume, iso, spacing, missing, below)
             else:
                 self._scene = _heights_of(heights, spacing, vertical_scale, missing)
             return
@@ -334,12 +339,12 @@ def _heights_of(heights: Any, spacing: Any, vertical_scale: Any, missing: Any) -
     return _hl.BatchScene(arguments.heights(heights), steps, scale, none)
 
 
-def _volume_of(volume: Any, iso: Any, spacing: Any, missing: Any) -> _hl.BatchScene:
+def _volume_of(volume: Any, iso: Any, spacing: Any, missing: Any, below: bool) -> _hl.BatchScene:
     if iso is None:
         raise InvalidValueError("a volume needs an iso value, or several: iso=300.0")
     values = [arguments.number(value, "iso") for value in (iso if np.ndim(iso) > 0 else [iso])]
     none = None if missing is None else arguments.number(missing, "missing")
-    return _hl.BatchScene(arguments.volume(volume), arguments.steps(spacing, 3), values, none)
+    return _hl.BatchScene(arguments.volume(volume), arguments.steps(spacing, 3), values, none, bool(below))
 
 
 def _cloud_of(points: Any, normals: Any, surfels: Any) -> _hl.BatchScene:

@@ -251,14 +251,16 @@ class Touch:
         spacing: Union[float, Tuple[float, float, float]] = 1.0,
         missing: Optional[float] = None,
         matter: Optional[npt.ArrayLike] = None,
+        below: bool = False,
     ) -> None:
         """Draws a surface of a volume, as hl.Scene(volume=...) has it: samples (z, y, x), metres between them along x,
         y and z. `matter`, of shape (n, 3), n at most 256: value, resistance (N) and drag (N s/m) by rising values, of
-        what hinders the proxy within the volume."""
+        what hinders the proxy within the volume. `below`: its matter is where samples are below `iso`."""
         self.make_current()
         array, value = arguments.volume(samples), arguments.number(iso, "iso")
         rows = np.empty((0, 3)) if matter is None else arguments.floats(matter, "matter")
         calls.hlVolumeMatter(rows)
+        calls.hlVolumeSolid(calls.HL_BELOW if below else calls.HL_ABOVE)
         calls.hlPushMatrix()
         try:
             calls.hlScaled(*arguments.steps(spacing, 3))
@@ -299,9 +301,12 @@ class Touch:
         self.make_current()
         calls.hlImplicit(arguments.implicit(solid))
 
-    def volume_surface(self, iso: float, spacing: Union[float, Tuple[float, float, float]] = 1.0) -> None:
+    def volume_surface(
+        self, iso: float, spacing: Union[float, Tuple[float, float, float]] = 1.0, below: bool = False
+    ) -> None:
         """Draws another surface of the volume that was drawn last in this object or world; nothing is sent again."""
         self.make_current()
+        calls.hlVolumeSolid(calls.HL_BELOW if below else calls.HL_ABOVE)
         calls.hlPushMatrix()
         try:
             calls.hlScaled(*arguments.steps(spacing, 3))

@@ -87,15 +87,16 @@ HLenum sampleTypeOf(const py::array& samples) {
 }
 
 std::unique_ptr<Scene> makeVolume(const py::array& samples, const std::array<double, 3>& spacing,
-                                  const std::vector<double>& iso, std::optional<double> missing) {
+                                  const std::vector<double>& iso, std::optional<double> missing, bool below) {
   std::array<std::size_t, 3> size{};
   for (py::ssize_t axis = 0; axis < 3; ++axis)
     size[static_cast<std::size_t>(2 - axis)] = static_cast<std::size_t>(samples.shape(axis));
   const HLenum type = sampleTypeOf(samples);
   const void* const data = samples.data();
   const OtherThreadsRun other_threads_run;
-  return std::make_unique<Scene>(made(hlBatchMakeVolume(size.data(), type, data, missing ? &*missing : nullptr,
-                                                        spacing.data(), iso.size(), iso.data())));
+  const auto make = below ? hlBatchMakeDistances : hlBatchMakeVolume;
+  return std::make_unique<Scene>(
+      made(make(size.data(), type, data, missing ? &*missing : nullptr, spacing.data(), iso.size(), iso.data())));
 }
 
 std::unique_ptr<Scene> makeHeights(const py::array& samples, const std::array<double, 2>& spacing, double scale,
@@ -209,7 +210,8 @@ void bindBatch(py::module_& module) {
   py::class_<Scene>(module, "BatchScene")
       .def(py::init(&loadScene), py::arg("name"), py::arg("size"))
       .def(py::init(&makeScene), py::arg("vertices"), py::arg("triangles"), py::arg("normals"))
-      .def(py::init(&makeVolume), py::arg("volume"), py::arg("spacing"), py::arg("iso"), py::arg("missing"))
+      .def(py::init(&makeVolume), py::arg("volume"), py::arg("spacing"), py::arg("iso"), py::arg("missing"),
+           py::arg("below"))
       .def(py::init(&makeImplicit), py::arg("implicit"))
       .def(py::init(&makeHeights), py::arg("samples"), py::arg("spacing"), py::arg("scale"), py::arg("missing"))
       .def(py::init(&makePoints), py::arg("points"), py::arg("normals"), py::arg("reach"))

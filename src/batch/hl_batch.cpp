@@ -153,6 +153,35 @@ HLbatchScene* sceneOf(SceneModel model) {
   return new HLbatchScene{std::move(snapshot)};
 }
 
+// What hlBatchMakeVolume and hlBatchMakeDistances are given.
+struct GivenVolume {
+  const std::size_t* size;
+  HLenum type;
+  const void* samples;
+  const HLdouble* missing;
+  const HLdouble* spacing;
+  std::size_t surfaces;
+  const HLdouble* iso;
+};
+
+SceneModel modelOf(const GivenVolume& in, SolidSide solid) {
+  require(in.size != nullptr && in.samples != nullptr && in.spacing != nullptr, "size, samples or spacing is NULL");
+  require(in.surfaces > 0 && in.iso != nullptr, "a volume needs an iso value");
+  require(*std::max_element(in.size, in.size + 3) <= kMostVoxelSide, "there are too many samples along an axis");
+  std::array<std::uint32_t, 3> side{};
+  std::transform(in.size, in.size + 3, side.begin(), [](std::size_t n) { return static_cast<std::uint32_t>(n); });
+  checkVoxelSides(side);
+  const SampleKind kind = kindOf(in.type);
+  const std::size_t bytes = in.size[0] * in.size[1] * in.size[2] * sizeOf(kind);
+  const Samples kept(kind, copyOf(in.samples, bytes), missingOf(in.missing));
+  const PlacedVolume volume{std::make_shared<const Volume>(VoxelGrid(side, kept)),
+                            uprightFrame(side, vecAt(in.spacing, 0))};
+  SceneModel made;
+  for (std::size_t i = 0; i < in.surfaces; ++i)
+    made.surfaces.push_back({"volume", isoSurfaceOf(volume, {in.iso[i], solid})});
+  return made;
+}
+
 std::vector<PathSample> samplesOf(const HLdouble* numbers, std::size_t paths, const std::size_t* ends) {
   std::vector<PathSample> samples;
   std::size_t begin = 0;
@@ -226,19 +255,16 @@ HLbatchScene* hlBatchMakeVolume(const size_t* size, HLenum type, const void* sam
                                 const HLdouble* spacing, size_t surfaces, const HLdouble* iso) {
   HLbatchScene* scene = nullptr;
   guardedCall(__func__, [&] {
-    require(size != nullptr && samples != nullptr && spacing != nullptr, "size, samples or spacing is NULL");
-    require(surfaces > 0 && iso != nullptr, "a volume needs an iso value");
-    require(*std::max_element(size, size + 3) <= kMostVoxelSide, "there are too many samples along an axis");
-    std::array<std::uint32_t, 3> side{};
-    std::transform(size, size + 3, side.begin(), [](size_t n) { return static_cast<std::uint32_t>(n); });
-    checkVoxelSides(side);
-    const SampleKind kind = kindOf(type);
-    const Samples kept(kind, copyOf(samples, size[0] * size[1] * size[2] * sizeOf(kind)), missingOf(missing));
-    const PlacedVolume volume{std::make_shared<const Volume>(VoxelGrid(side, kept)),
-                              uprightFrame(side, vecAt(spacing, 0))};
-    SceneModel made;
-    for (size_t i = 0; i < surfaces; ++i) made.surfaces.push_back({"volume", isoSurfaceOf(volume, {}, iso[i])});
-    scene = sceneOf(std::move(made));
+    scene = sceneOf(modelOf({size, type, samples, missing, spacing, surfaces, iso}, SolidSide::kAbove));
+  });
+  return scene;
+}
+
+HLbatchScene* hlBatchMakeDistances(const size_t* size, HLenum type, const void* samples, const HLdouble* missing,
+                                   const HLdouble* spacing, size_t surfaces, const HLdouble* iso) {
+  HLbatchScene* scene = nullptr;
+  guardedCall(__func__, [&] {
+    scene = sceneOf(modelOf({size, type, samples, missing, spacing, surfaces, iso}, SolidSide::kBelow));
   });
   return scene;
 }

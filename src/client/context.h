@@ -58,6 +58,7 @@ struct HLcontext {
   hl::client::TextureTable textures;
 
   hl::proto::Volume matter;           ///< of what hlVolume draws next: its `matter` alone
+  bool solid_below = false;           ///< of the surfaces of volumes that are drawn next
   hl::proto::Joint joint;             ///< that hlJoin makes next
   hl::client::Draft frame;            ///< since the last flush; its textures are added when it is closed
   std::set<HLuint> world_textures;    ///< that the world used when a frame was last closed

@@ -141,6 +141,7 @@ class Builder {
     if (item.geometry.volume) {
       out.set_upload(uploadOf(item.geometry.volume));
       out.set_iso(item.geometry.iso);
+      out.set_below(item.geometry.below);
       return;
     }
     if (item.geometry.implicit) {

@@ -33,6 +33,7 @@ struct Geometry {
   std::optional<proto::Heights> heights{};            ///< in place of all others; samples in one piece
   std::shared_ptr<const proto::Volume> volume{};      ///< in place of all others; one for all its surfaces
   double iso = 0;                                     ///< of the volume
+  bool below = false;                                 ///< of the volume: where its matter is
   std::vector<proto::Patch> patches{};                ///< in place of all others
   double patch_error = 0;                             ///< of the patches; 0: the server's choice
   std::shared_ptr<const proto::Cloud> cloud{};        ///< in place of all others

@@ -236,7 +236,8 @@ void hlVolume(HLsizei width, HLsizei height, HLsizei depth, HLenum type, const v
     setSamples(*volume, {width, height, depth}, type, samples, missing);
     for (const HLsizei side : {width, height, depth}) volume->add_size(static_cast<std::uint32_t>(side));
     *volume->mutable_matter() = context.matter.matter();
-    context.target().drawVolume(context.draw.modelview.top(), lookOf(context.draw.attributes.now), volume, iso);
+    context.target().drawVolume(context.draw.modelview.top(), lookOf(context.draw.attributes.now), volume, iso,
+                                context.solid_below);
   });
 }
 
@@ -262,13 +263,20 @@ void hlVolumeMatter(HLsizei rows, const HLdouble* numbers) {
   });
 }
 
+void hlVolumeSolid(HLenum side) {
+  call(__func__, [&](HLcontext& context) {
+    if (side != HL_ABOVE && side != HL_BELOW) throw Fault(HL_INVALID_ENUM, "the side must be HL_ABOVE or HL_BELOW");
+    context.solid_below = side == HL_BELOW;
+  });
+}
+
 void hlVolumeSurface(HLdouble iso) {
   call(__func__, [&](HLcontext& context) {
     requireFinite(iso);
     auto volume = context.target().lastVolume();
     if (!volume) throw Fault(HL_INVALID_OPERATION, "no volume was drawn before, whose surface it could be");
     context.target().drawVolume(context.draw.modelview.top(), lookOf(context.draw.attributes.now), std::move(volume),
-                                iso);
+                                iso, context.solid_below);
   });
 }
 

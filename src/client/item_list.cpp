@@ -37,10 +37,11 @@ void ItemList::drawCloud(const Matrix4& matrix, const Look& look, std::shared_pt
 }
 
 void ItemList::drawVolume(const Matrix4& matrix, const Look& look, std::shared_ptr<const proto::Volume> volume,
-                          double iso) {
+                          double iso, bool below) {
   items_.push_back({matrix, look, 0, {}});
   items_.back().geometry.volume = std::move(volume);
   items_.back().geometry.iso = iso;
+  items_.back().geometry.below = below;
 }
 
 void ItemList::drawPatch(const Matrix4& matrix, const Look& look, proto::Patch patch, double error_m) {

@@ -44,7 +44,9 @@ class ItemList {
   bool draw(const Matrix4& matrix, const Look& look, HLenum mode, Vertices& vertices, DrawOrder order = {});
   void drawHeights(const Matrix4& matrix, const Look& look, proto::Heights heights);
   void drawCloud(const Matrix4& matrix, const Look& look, std::shared_ptr<const proto::Cloud> cloud);
-  void drawVolume(const Matrix4& matrix, const Look& look, std::shared_ptr<const proto::Volume> volume, double iso);
+  /// `below`: the matter is where values are below iso.
+  void drawVolume(const Matrix4& matrix, const Look& look, std::shared_ptr<const proto::Volume> volume, double iso,
+                  bool below);
   /// Those after each other with the same matrix, look and error become one item, so that their sides meet.
   void drawPatch(const Matrix4& matrix, const Look& look, proto::Patch patch, double error_m);
   void drawImplicit(const Matrix4& matrix, const Look& look, std::shared_ptr<const proto::Implicit> implicit);

@@ -39,6 +39,14 @@ GridFrame centred(const Sides& side, const Mat3& axes) {
   return {axes, -0.5 * (axes * Vec3(side[0] - 1.0, side[1] - 1.0, side[2] - 1.0))};
 }
 
+template <typename Message>
+IsoChoice choiceOf(bool has_value, double value, const Message& in) {
+  IsoChoice choice;
+  if (has_value) choice.value = value;
+  if (in.has_below()) choice.solid = in.below() ? SolidSide::kBelow : SolidSide::kAbove;
+  return choice;
+}
+
 }  // namespace
 
 GridFrame uprightFrame(const Sides& side, const Vec3& spacing) { return centred(side, spacing.asDiagonal()); }
@@ -86,16 +94,19 @@ std::shared_ptr<const MatterTable> matterOf(const proto::Volume& in) {
   return std::make_shared<const MatterTable>(std::move(rows));
 }
 
-std::shared_ptr<const IsoSurface> isoSurfaceOf(const PlacedVolume& volume, const proto::Volume& in,
-                                               std::optional<double> iso) {
+IsoChoice isoChoiceOf(const proto::Volume& in) { return choiceOf(in.has_iso(), in.iso(), in); }
+IsoChoice isoChoiceOf(const proto::Item& in) { return choiceOf(in.has_iso(), in.iso(), in); }
+IsoChoice isoChoiceOf(const proto::IsoChange& in) { return choiceOf(true, in.value(), in); }
+
+std::shared_ptr<const IsoSurface> isoSurfaceOf(const PlacedVolume& volume, const IsoChoice& iso,
+                                               std::shared_ptr<const MatterTable> matter) {
   const ValueRange& range = volume.volume->pyramid.range();
   if (!(range.low <= range.high)) throw Error("all its samples are missing");
-  if (!iso && in.has_iso()) iso = in.iso();
-  const IsoValue value{iso.value_or(0), in.below() ? SolidSide::kBelow : SolidSide::kAbove};
-  const IsoValue found = iso ? value : IsoValue{thresholdOf(*volume.volume), value.solid};
-  auto surface = std::make_shared<const IsoSurface>(volume.volume, volume.frame, found, matterOf(in));
+  const auto found = [&] { return IsoValue{iso.value ? 0 : thresholdOf(*volume.volume)}; };
+  const IsoValue value = iso.over(volume.iso ? *volume.iso : found());
+  auto surface = std::make_shared<const IsoSurface>(volume.volume, volume.frame, value, std::move(matter));
   if (surface->triangles() == 0)
-    throw Error(fmt::format("there is no surface at iso {:.6g}: its values are from {:.6g} to {:.6g}", found.value,
+    throw Error(fmt::format("there is no surface at iso {:.6g}: its values are from {:.6g} to {:.6g}", value.value,
                             range.low, range.high));
   return surface;
 }

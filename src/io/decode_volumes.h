@@ -16,6 +16,7 @@ namespace hl {
 struct PlacedVolume {
   std::shared_ptr<const Volume> volume;
   GridFrame frame;
+  std::optional<IsoValue> iso{};  ///< of its surface, as its file says; nothing: it does not
 };
 
 /// Along the axes, `spacing` m apart, with the middle of the grid at the origin.
@@ -30,11 +31,16 @@ PlacedVolume decodeVolume(const proto::Volume& in);
 /// What a file or a builtin holds, with the spacing that the message has over what it says. Throws hl::Error.
 PlacedVolume withSpacing(PlacedVolume volume, const proto::Volume& in);
 
+/// What a message says of the surface of a volume.
+IsoChoice isoChoiceOf(const proto::Volume& in);
+IsoChoice isoChoiceOf(const proto::Item& in);
+IsoChoice isoChoiceOf(const proto::IsoChange& in);
+
 /// What the message says that the values feel like; null: nothing. Throws hl::Error for what makes no sense.
 std::shared_ptr<const MatterTable> matterOf(const proto::Volume& in);
 
-/// The surface that the message asks for; `iso` replaces its iso value. Throws hl::Error where there is none.
-std::shared_ptr<const IsoSurface> isoSurfaceOf(const PlacedVolume& volume, const proto::Volume& in,
-                                               std::optional<double> iso = {});
+/// The surface that is asked for, over what the volume's file says. Throws hl::Error where there is none.
+std::shared_ptr<const IsoSurface> isoSurfaceOf(const PlacedVolume& volume, const IsoChoice& iso,
+                                               std::shared_ptr<const MatterTable> matter = nullptr);
 
 }  // namespace hl

@@ -220,12 +220,12 @@ void PartCollector::takeCloud() {
   if (!note.empty()) scene_.model.warnings.push_back(note);
 }
 
-// A file says nothing of a surface: the threshold between what is empty and what is not is a first one.
+// Where a file says nothing of a surface, the threshold between what is empty and what is not is a first one.
 void PartCollector::takeVolume() {
-  const GridFrame frame = volume_->header().frame;
+  const VolumeHeader header = volume_->header();
   const std::shared_ptr<const Volume> volume = volume_->take();
-  const IsoValue iso{thresholdOf(*volume), SolidSide::kAbove};
-  scene_.surfaces.push_back({"", std::make_shared<const IsoSurface>(volume, frame, iso)});
+  const IsoValue iso = header.iso ? *header.iso : IsoValue{thresholdOf(*volume), SolidSide::kAbove};
+  scene_.surfaces.push_back({"", std::make_shared<const IsoSurface>(volume, header.frame, iso)});
 }
 
 PartCollector::State PartCollector::addMesh(const proto::RecordedShape& part) {

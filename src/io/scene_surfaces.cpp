@@ -58,7 +58,7 @@ SceneModel SceneSurfaces::named(const std::string& builtin, const std::string& f
 }
 
 std::shared_ptr<const PrimitiveSource> SceneSurfaces::volume(const proto::Volume& in) {
-  if (in.builtin().empty() && in.file().empty()) return isoSurfaceOf(decodeVolume(in), in);
+  if (in.builtin().empty() && in.file().empty()) return isoSurfaceOf(decodeVolume(in), isoChoiceOf(in), matterOf(in));
   const std::string& name = in.builtin().empty() ? in.file() : in.builtin();
   const auto [place, fresh] = volumes_.try_emplace(in.builtin() + '\n' + in.file());
   if (fresh) {
@@ -68,7 +68,8 @@ std::shared_ptr<const PrimitiveSource> SceneSurfaces::volume(const proto::Volume
     if (first == nullptr) throw Error(name + ": is no volume");
     place->second = {first->volume(), first->frame()};
   }
-  return isoSurfaceOf(withSpacing(place->second, in), in);
+  return isoSurfaceOf(withSpacing(place->second, in), isoChoiceOf(in), matterOf(in));
+    if (in.builtin().empty()) place->second.iso = first->iso();
 }
 
 std::shared_ptr<const PrimitiveSource> SceneSurfaces::cloud(const proto::Cloud& in) {

@@ -22,6 +22,11 @@ std::size_t bytesOf(const VolumeHeader& header) {
   return bytes;
 }
 
+void toProto(const IsoValue& iso, proto::RecordedVolume& out) {
+  out.set_iso(iso.value);
+  out.set_below(iso.solid == SolidSide::kBelow);
+}
+
 SampleRoom roomFor(const VolumeHeader& header, std::size_t most_bytes) {
   checkVoxelSides(header.side);
   const std::size_t bytes = bytesOf(header);
@@ -42,6 +47,7 @@ void toProto(const VolumeHeader& header, proto::RecordedVolume& out) {
   out.set_offset(header.values.offset);
   for (const double value : header.frame.axes.reshaped()) out.add_axes(value);
   for (const double value : header.frame.origin) out.add_origin(value);
+  if (header.iso) toProto(*header.iso, out);
 }
 
 GridFrame frameOf(const proto::RecordedVolume& in) {
@@ -61,6 +67,7 @@ VolumeHeader headerOf(const proto::RecordedVolume& in) {
   if (in.has_missing()) header.missing = in.missing();
   header.values = {in.scale(), in.offset()};
   header.frame = frameOf(in);
+  if (in.has_iso()) header.iso = isoOf(in);
   return header;
 }
 
@@ -84,10 +91,9 @@ void writeVolume(const IsoSurface& surface, std::uint64_t like,
            grid.samples().kind(),
            grid.samples().missing(),
            grid.values(),
-           surface.frame()},
+           surface.frame(),
+           surface.iso()},
           part);
-  part.set_iso(surface.iso().value);
-  part.set_below(surface.iso().solid == SolidSide::kBelow);
   if (surface.matter()) {
     for (const MatterRow& row : surface.matter()->rows()) toProto(valuesOf(row), *part.add_matter());
   }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "surfaces/grid_frame.h"
+#include "surfaces/iso_cells.h"
 #include "surfaces/voxel_grid.h"
 
 namespace hl {
@@ -21,6 +22,7 @@ struct VolumeHeader {
   /// Metres, from sample numbers. Of a patient: x to the right hand, y to the head, z to the back, so that who looks
   /// along -z sees the back.
   GridFrame frame{};
+  std::optional<IsoValue> iso{};  ///< of its surface; nothing: the file does not say
 };
 
 /// Called in this order: a header, and all samples, x first, then y, then z. Each may throw.

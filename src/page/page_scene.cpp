@@ -36,6 +36,7 @@ void addVolumes(const Snapshot& snapshot, proto::SceneLayout& layout) {
     volume.set_iso(surface->iso().value);
     volume.set_low(range.low);
     volume.set_high(range.high);
+    volume.set_below(surface->iso().solid == SolidSide::kBelow);
   }
 }
 

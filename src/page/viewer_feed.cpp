@@ -7,6 +7,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "io/decode_volumes.h"
 #include "page/page_scene.h"
 #include "session/state_messages.h"
 
@@ -145,7 +146,7 @@ void apply(TouchSession& session, const proto::Settings& settings) {
 void apply(const SetIso& set_iso, const proto::IsoChange& change) {
   if (!set_iso) return;
   try {
-    set_iso(change.surface(), change.value());
+    set_iso(change.surface(), isoChoiceOf(change));
   } catch (const Error&) {  // the surface has gone meanwhile
   }
 }

@@ -9,12 +9,13 @@
 #include "base/memory_budget.h"
 #include "page/feed_callbacks.h"
 #include "record/page_recordings.h"
+#include "surfaces/iso_cells.h"
 #include "touch/touch_session.h"
 
 namespace hl {
 
 /// Takes another iso value for a surface of a volume, by its key; throws hl::Error if that cannot be.
-using SetIso = std::function<void(std::uint64_t surface, double value)>;
+using SetIso = std::function<void(std::uint64_t surface, const IsoChoice& iso)>;
 
 /// The callbacks of an HttpServer for this session, which must outlive the server. What pages are shown is counted
 /// against `memory`. `recordings`: those of the session's recorder; null: pages cannot record. `upload_bytes`: the

@@ -31,10 +31,10 @@ const IsoSurface* isoSurfaceOf(const Instance& instance) {
   return instance.session == 0 ? dynamic_cast<const IsoSurface*>(instance.shape->source.get()) : nullptr;
 }
 
-std::shared_ptr<const Shape> withIso(const Shape& of, double value) {
+std::shared_ptr<const Shape> withIso(const Shape& of, const IsoChoice& choice) {
   const IsoSurface& before = isoSurfaceOfShape(of);
-  auto source = std::make_shared<const IsoSurface>(before.volume(), before.frame(), IsoValue{value, before.iso().solid},
-                                                   before.matter());
+  auto source =
+      std::make_shared<const IsoSurface>(before.volume(), before.frame(), choice.over(before.iso()), before.matter());
   const Material material = materialAt(*source, of.model.materials.front());
   return makeShape(std::move(source), material, of.model.textures);
 }
@@ -47,15 +47,15 @@ Material materialAt(const IsoSurface& surface, Material material) {
   return material;
 }
 
-void setIso(Instance& instance, double value) {
-  instance.shape = withIso(*instance.shape, value);
+void setIso(Instance& instance, const IsoChoice& choice) {
+  instance.shape = withIso(*instance.shape, choice);
   Surfaces surfaces = *instance.surfaces;
   surfaces.materials.front() = materialAt(isoSurfaceOfShape(*instance.shape), surfaces.materials.front());
   if (surfaces != *instance.surfaces) instance.surfaces = std::make_shared<const Surfaces>(std::move(surfaces));
 }
 
-std::uint64_t checkIsoChange(const Snapshot& scene, std::uint64_t surface, double value) {
-  if (!std::isfinite(value)) throw Error("iso: the value must be a finite number");
+std::uint64_t checkIsoChange(const Snapshot& scene, std::uint64_t surface, const IsoChoice& choice) {
+  if (choice.value && !std::isfinite(*choice.value)) throw Error("iso: the value must be a finite number");
   std::vector<const Instance*> surfaces;
   for (const Instance& instance : scene.instances) {
     if (isoSurfaceOf(instance) == nullptr) continue;

@@ -14,15 +14,15 @@ const IsoSurface* isoSurfaceOf(const Instance& instance);
 
 /// The same surface with its material at another value, which costs about a millisecond, whatever the volume.
 /// `of` is the surface of a volume. Throws hl::Error for a value that is not finite. Setup only.
-std::shared_ptr<const Shape> withIso(const Shape& of, double value);
+std::shared_ptr<const Shape> withIso(const Shape& of, const IsoChoice& choice);
 
 /// A material with what the matter of a volume has to say at this value (surfaces/matter.h).
 Material materialAt(const IsoSurface& surface, Material material);
 /// As withIso(), for the shape and the material of an instance.
-void setIso(Instance& instance, double value);
+void setIso(Instance& instance, const IsoChoice& choice);
 
 /// The key of the surface whose value is to be changed; `surface` is that key, or 0 for the only one. Throws hl::Error,
 /// which says what there is, if there is no such surface or if the value is not finite.
-std::uint64_t checkIsoChange(const Snapshot& scene, std::uint64_t surface, double value);
+std::uint64_t checkIsoChange(const Snapshot& scene, std::uint64_t surface, const IsoChoice& choice);
 
 }  // namespace hl

@@ -154,6 +154,18 @@ void setIsoValues(SceneModel& scene, const std::vector<double>& values) {
   scene.surfaces = std::move(surfaces);
 }
 
+void setSolidSide(SceneModel& scene, SolidSide solid) {
+  bool any = false;
+  for (SceneSurface& surface : scene.surfaces) {
+    const auto* const iso = dynamic_cast<const IsoSurface*>(surface.source.get());
+    if (iso == nullptr) continue;
+    any = true;
+    surface.source = std::make_shared<const IsoSurface>(iso->volume(), iso->frame(), IsoValue{iso->iso().value, solid},
+                                                        iso->matter());
+  }
+  if (!any) throw Error("there is no volume in it, whose matter could be below its iso value");
+}
+
 void setSurfels(SceneModel& scene, double reach) {
   bool any = false;
   for (SceneSurface& surface : scene.surfaces) {

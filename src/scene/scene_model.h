@@ -9,6 +9,7 @@
 #include "scene/mechanics.h"
 #include "scene/rigid_body.h"
 #include "scene/snapshot.h"
+#include "surfaces/iso_cells.h"
 
 namespace hl {
 
@@ -56,6 +57,8 @@ void scaleHeights(SceneModel& scene, double factor);
 
 /// In the place of each volume's surfaces, one at each of these values. Throws hl::Error if it has no volume.
 void setIsoValues(SceneModel& scene, const std::vector<double>& values);
+/// The matter of each volume's surfaces is on this side of their values. Throws hl::Error if it has no volume.
+void setSolidSide(SceneModel& scene, SolidSide solid);
 /// Clouds of points become surfels, each reaching so many spacings around its point. Throws hl::Error if there are no
 /// clouds.
 void setSurfels(SceneModel& scene, double reach);

@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "scene/iso_shape.h"
-
 namespace hl {
 
 std::uint64_t BaseScene::replace(std::shared_ptr<const Snapshot> next) {
@@ -12,9 +10,9 @@ std::uint64_t BaseScene::replace(std::shared_ptr<const Snapshot> next) {
   return ++last_;
 }
 
-void BaseScene::setIso(std::uint64_t key, double value) {
+void BaseScene::setIso(std::uint64_t key, const IsoChoice& choice) {
   const std::lock_guard lock(mutex_);
-  isos_[key] = value;
+  isos_[key] = choice.after(isos_[key]);
 }
 
 bool BaseScene::awaitShown(std::uint64_t number) {
@@ -36,7 +34,7 @@ void BaseScene::stop() {
 
 void BaseScene::takeNext(std::uint64_t scene) {
   std::shared_ptr<const Snapshot> before;  // freed without the mutex
-  std::map<std::uint64_t, double> isos;
+  std::map<std::uint64_t, IsoChoice> isos;
   {
     const std::lock_guard lock(mutex_);
     isos = isos_;
@@ -55,7 +53,7 @@ void BaseScene::takeNext(std::uint64_t scene) {
   });
 }
 
-void BaseScene::replaceSurfaces(const std::map<std::uint64_t, double>& isos, std::uint64_t scene) {
+void BaseScene::replaceSurfaces(const std::map<std::uint64_t, IsoChoice>& isos, std::uint64_t scene) {
   std::vector<Instance> instances = now_->instances;
   bool any = false;
   for (Instance& instance : instances) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/iso_shape.h"
 #include "scene/snapshot.h"
 
 namespace hl {
@@ -21,8 +22,9 @@ class BaseScene {
   /// The next one; returns its number.
   std::uint64_t replace(std::shared_ptr<const Snapshot> next);
   /// From the next scene on the surface of a volume with this key, as told in the scene that is shown, is at another
-  /// value; of several values the last one counts. Nothing happens if that surface has gone by then.
-  void setIso(std::uint64_t key, double value);
+  /// value, or its matter on the other side; of several choices the last one counts. Nothing happens if that surface
+  /// has gone by then.
+  void setIso(std::uint64_t key, const IsoChoice& choice);
   /// Waits until the one of this number, or a later one, is shown. False: the publisher has stopped before.
   bool awaitShown(std::uint64_t number);
   void open();  ///< the publisher starts
@@ -43,7 +45,7 @@ class BaseScene {
 
  private:
   std::uint64_t firstKey() const;
-  void replaceSurfaces(const std::map<std::uint64_t, double>& isos, std::uint64_t scene);
+  void replaceSurfaces(const std::map<std::uint64_t, IsoChoice>& isos, std::uint64_t scene);
 
   std::shared_ptr<const Snapshot> now_;
   std::uint64_t number_ = 1;  // of now_, from 1 on
@@ -52,9 +54,9 @@ class BaseScene {
 
   std::mutex mutex_;  // of what follows
   std::condition_variable changed_;
-  std::shared_ptr<const Snapshot> next_;  // waits for the publisher; null: none does
-  std::map<std::uint64_t, double> isos_;  // wait for the publisher, by key
-  std::uint64_t last_ = 1, shown_ = 1;    // numbers
+  std::shared_ptr<const Snapshot> next_;     // waits for the publisher; null: none does
+  std::map<std::uint64_t, IsoChoice> isos_;  // wait for the publisher, by key
+  std::uint64_t last_ = 1, shown_ = 1;       // numbers
   bool open_ = false;
 };
 

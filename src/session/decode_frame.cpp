@@ -275,7 +275,7 @@ std::shared_ptr<const Shape> FrameDecoder::shapeOf(const proto::Primitives& in, 
                                                    const Shape* before, const std::string& where) {
   if (in.has_heights() || in.has_volume() || in.has_cloud() || in.has_implicit()) requireAlone(in, where);
   if (in.has_volume()) return surfaceOfVolume(in, item, where);
-  if (item.has_iso()) throw Error(where + ": iso is of volumes, and this is none");
+  if (item.has_iso() || item.has_below()) throw Error(where + ": iso and below are of volumes, and this is none");
   if (in.has_heights()) return heightsOf(in, before, where);
   if (in.has_cloud()) return cloudOf(in, where);
   if (in.has_implicit()) return implicitSurfaceOf(in, where);
@@ -326,7 +326,8 @@ std::shared_ptr<const Shape> FrameDecoder::surfaceOfVolume(const proto::Primitiv
   const PlacedVolume& volume = volumeOf(in.volume(), where);
   return makeCounted(memory_, kSurface_bytes, [&] {
     try {
-      return makeShape(isoSurfaceOf(volume, in.volume(), item.has_iso() ? std::optional(item.iso()) : std::nullopt));
+      const IsoChoice iso = isoChoiceOf(item).after(isoChoiceOf(in.volume()));
+      return makeShape(isoSurfaceOf(volume, iso, matterOf(in.volume())));
     } catch (const Error& error) {
       throw Error(where + ".volume: " + error.what());
     }

@@ -6,6 +6,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "io/decode_volumes.h"
 #include "session/body_commands.h"
 #include "session/contact_report.h"
 #include "session/message_forms.h"
@@ -242,7 +243,7 @@ void HlSession::act(const proto::BodyCommand& message) {
 
 void HlSession::setIso(const proto::IsoChange& change) {
   try {
-    world_.publisher().setIso(change.surface(), change.value());
+    world_.publisher().setIso(change.surface(), isoChoiceOf(change));
   } catch (const Error& error) {
     refuse(error.what());
   }

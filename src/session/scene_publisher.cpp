@@ -184,8 +184,8 @@ bool ScenePublisher::replaceBase(const std::shared_ptr<const Snapshot>& base) {
   return base_.awaitShown(number);
 }
 
-void ScenePublisher::setIso(std::uint64_t surface, double value) {
-  base_.setIso(checkIsoChange(*devices_.front()->snapshot(), surface, value), value);
+void ScenePublisher::setIso(std::uint64_t surface, const IsoChoice& choice) {
+  base_.setIso(checkIsoChange(*devices_.front()->snapshot(), surface, choice), choice);
   const std::lock_guard lock(mutex_);
   dirty_ = true;
   changed_.notify_all();

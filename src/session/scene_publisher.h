@@ -80,9 +80,9 @@ class ScenePublisher {
 
   /// Another value for a surface of a volume of the base, by its key in the scene that is shown; 0: the only one. It is
   /// the same object, with the same surface; nothing else changes. Shown as soon as the loops have taken the scene
-  /// before; of several values the last one counts. Throws hl::Error, and changes nothing, if there is no such surface
+  /// before; of several choices the last one counts. Throws hl::Error, and changes nothing, if there is no such surface
   /// or if the value is not finite. Any thread; returns at once.
-  void setIso(std::uint64_t surface, double value);
+  void setIso(std::uint64_t surface, const IsoChoice& choice);
 
  private:
   struct Waiting {

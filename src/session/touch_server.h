@@ -35,7 +35,7 @@ class TouchServer final : public SessionHost {
   void replaceScene(const std::shared_ptr<const Snapshot>& scene);
 
   /// As ScenePublisher::setIso(): another iso value for a surface of the server's own scene. Any thread.
-  void setIso(std::uint64_t surface, double value) { world_.publisher().setIso(surface, value); }
+  void setIso(std::uint64_t surface, const IsoChoice& choice) { world_.publisher().setIso(surface, choice); }
 
   TouchSession& device(std::size_t number = 0) { return world_.device(number); }
   std::size_t devices() const { return world_.devices(); }

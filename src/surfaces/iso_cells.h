@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "geometry/element_id.h"
@@ -21,6 +22,19 @@ enum class SolidSide : std::uint8_t { kAbove, kBelow };
 struct IsoValue {
   double value = 0;
   SolidSide solid = SolidSide::kAbove;
+};
+
+/// What somebody says of an iso value; nothing: it stays as it is.
+struct IsoChoice {
+  std::optional<double> value{};
+  std::optional<SolidSide> solid{};
+  bool operator==(const IsoChoice&) const = default;
+
+  /// Both together; of what `before` says too this counts.
+  IsoChoice after(const IsoChoice& before) const {
+    return {value ? value : before.value, solid ? solid : before.solid};
+  }
+  IsoValue over(const IsoValue& before) const { return {value.value_or(before.value), solid.value_or(before.solid)}; }
 };
 
 /// Samples with their bounds, shared by all surfaces of a volume. Immutable.

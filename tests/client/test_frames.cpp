@@ -85,6 +85,7 @@ TEST_F(CallsTest, SurfacesOfAVolumeShareItsSamples) {
   hlVolume(3, 2, 2, HL_UNSIGNED_SHORT, samples.data(), &missing, 2.5);
   triangle();
   hlMateriald(HL_STIFFNESS, 0.5);
+  hlVolumeSolid(HL_BELOW);
   hlVolumeSurface(6.5);
   const proto::Frame frame = flushed();
   ASSERT_EQ(frame.world().items_size(), 3);
@@ -92,6 +93,8 @@ TEST_F(CallsTest, SurfacesOfAVolumeShareItsSamples) {
   EXPECT_EQ(first.upload(), second.upload());
   EXPECT_EQ(first.iso(), 2.5);
   EXPECT_EQ(second.iso(), 6.5);
+  EXPECT_FALSE(first.below());
+  EXPECT_TRUE(second.below());
   EXPECT_EQ(second.matrix(0), 0.5);
   EXPECT_EQ(second.material().stiffness(), 0.5);
   ASSERT_EQ(server->uploads().size(), 1U);
@@ -283,6 +286,8 @@ TEST_F(CallsTest, ImplicitSurfacesGoAsTheyAreWritten) {
 
 TEST_F(CallsTest, VolumesThatMakeNoSenseAreRefused) {
   const std::array<HLfloat, 8> samples{};
+  hlVolumeSolid(HL_FLAT);
+  expectError(HL_INVALID_ENUM);
   hlVolume(1, 2, 2, HL_FLOAT, samples.data(), nullptr, 0);
   expectError(HL_INVALID_VALUE);
   hlVolume(2, 2, 2, HL_FLOAT, nullptr, nullptr, 0);

@@ -48,7 +48,7 @@ class Changing {
 
   void setIso(std::size_t number, double value) {
     std::vector<Instance> instances = shown_->instances;
-    instances[number].shape = withIso(*instances[number].shape, value);
+    instances[number].shape = withIso(*instances[number].shape, {value});
     instances[number].replaced_in = shown_->number + 1;
     shown_ = makeSnapshot(std::move(instances), "", shown_->number + 1);
   }

@@ -134,6 +134,18 @@ class Volumes(unittest.TestCase):
             np.testing.assert_allclose(
                 hl.closest(scene, [[0, 0, 0]]).distance, [abs(middle - 1.75) * step], rtol=0, atol=1e-12)
 
+    def test_below_is_above_of_the_values_turned_around(self):
+        z, y, x = np.meshgrid(*3 * [np.linspace(-0.05, 0.05, 41)], indexing="ij")
+        ball = np.sqrt(x * x + y * y + z * z).astype(np.float32)
+        below = hl.Scene(volume=ball, iso=0.04, spacing=0.0025, below=True)
+        above = hl.Scene(volume=-ball, iso=-0.04, spacing=0.0025)
+        path = np.array([[0.001 * i, 0.003, 0.055 - 1e-4 * i, 0.001 * i / 30] for i in range(300)])
+        smooth = hl.Settings(radius=0.001, smooth=True)
+        felt = hl.trace(below, path, smooth).force
+        np.testing.assert_allclose(felt, hl.trace(above, path, smooth).force, rtol=0, atol=1e-9)
+        self.assertGreater(np.abs(felt).max(), 5)
+        self.assertRaises(hl.InvalidValueError, lambda: hl.Scene("teapot", below=True))
+
     def test_points_are_felt_as_points_or_as_surfels(self):
         steps = np.arange(-10, 11) * 0.0005
         x, z = np.meshgrid(steps, steps)

@@ -267,6 +267,7 @@ TEST(DecodeFrame, VolumesBecomeTheirSurfaces) {
     proto::Item& item = *frame.mutable_world()->add_items();
     item.set_upload(4);
     item.set_iso(iso);
+    item.set_below(iso > 1);
   }
   MemoryBudget memory(std::uint64_t{1} << 30);
   {
@@ -278,6 +279,8 @@ TEST(DecodeFrame, VolumesBecomeTheirSurfaces) {
     EXPECT_EQ(first.volume(), second.volume());
     EXPECT_EQ(first.iso().value, 0.5);
     EXPECT_EQ(second.iso().value, 1.75);
+    EXPECT_EQ(first.iso().solid, SolidSide::kAbove);
+    EXPECT_EQ(second.iso().solid, SolidSide::kBelow);
     EXPECT_EQ(first.frame().origin, Vec3(-1, -0.5, -0.5));
     EXPECT_GT(memory.used_bytes(), first.volume()->bytes());
   }
@@ -343,7 +346,7 @@ TEST(DecodeFrame, VolumesThatMakeNoSenseAreRefused) {
               item.mutable_primitives()->clear_volume();
               item.set_iso(1);
             }),
-            "world.items[0].primitives: iso is of volumes, and this is none");
+            "world.items[0].primitives: iso and below are of volumes, and this is none");
 }
 
 TEST(DecodeFrame, CompliancesAreOfObjectsThatAreThere) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,9 @@ class IsoChangeTest : public testing::Test {
     settings.version = "test";
     return settings;
   }
-  void send(std::uint64_t surface, double value) {
+  void send(std::uint64_t surface, double value, std::optional<bool> below = {}) {
     proto::ClientMessage message;
+    if (below) message.mutable_iso()->set_below(*below);
     message.mutable_iso()->set_surface(surface);
     message.mutable_iso()->set_value(value);
     session_->receive(message);
@@ -83,11 +85,25 @@ TEST(IsoChange, FollowsTheMatterOfItsVolume) {
   Instance instance = makeSnapshot(phantom)->instances[0];
   EXPECT_DOUBLE_EQ(instance.surfaces->materials[0].stiffness, 0.26);
   for (const double value : {-900.0, 370.0, 2000.0}) {
-    setIso(instance, value);
+    setIso(instance, {value});
     EXPECT_DOUBLE_EQ(instance.surfaces->materials[0].stiffness, std::min(1.0, (value + 1000) / 2000));
     EXPECT_EQ(instance.surfaces->materials[0].static_friction, 0.25);
     EXPECT_EQ(isoSurfaceOf(instance)->matter(), matter);
   }
+}
+
+TEST_F(IsoChangeTest, TheMatterStaysOnItsSideUntilAnotherIsSaid) {
+  const auto side = [&] { return isoSurfaceOf(shown()->instances[0])->iso().solid; };
+  send(1, -700, true);
+  ASSERT_TRUE(until([this] { return shows(-700); }));
+  EXPECT_EQ(side(), SolidSide::kBelow);
+  send(1, -600);
+  ASSERT_TRUE(until([this] { return shows(-600); }));
+  EXPECT_EQ(side(), SolidSide::kBelow);
+  send(1, -500, false);
+  send(1, -400);  // before or after the loops have taken the one before: both count
+  ASSERT_TRUE(until([this] { return shows(-400); }));
+  EXPECT_EQ(side(), SolidSide::kAbove);
 }
 
 TEST_F(IsoChangeTest, WhatCannotBeIsRefusedWithWhatThereIs) {
@@ -99,7 +115,7 @@ TEST_F(IsoChangeTest, WhatCannotBeIsRefusedWithWhatThereIs) {
   EXPECT_EQ(shown(), before);
 }
 
-TEST(IsoChange, ASceneWithoutVolumesRefusesIt) { EXPECT_THROW(checkIsoChange(*makeSnapshot(Model{}), 0, 0), Error); }
+TEST(IsoChange, ASceneWithoutVolumesRefusesIt) { EXPECT_THROW(checkIsoChange(*makeSnapshot(Model{}), 0, {}), Error); }
 
 TEST_F(IsoChangeTest, TheForceStaysBoundedWhileTheValueSweeps) {
   TouchSession& device = server_.device();

@@ -139,18 +139,21 @@ TEST(Volumes, CountTheirSamplesOnceForAllSurfaces) {
 
 TEST(Volumes, TakeOtherIsoValues) {
   SceneModel scene = twoSurfaces();
-  const auto valueOf = [&](std::size_t i) {
-    return dynamic_cast<const IsoSurface&>(*scene.surfaces[i].source).iso().value;
-  };
+  const auto isoOf = [&](std::size_t i) { return dynamic_cast<const IsoSurface&>(*scene.surfaces[i].source).iso(); };
   setIsoValues(scene, {1, 2, 3});
   ASSERT_EQ(scene.surfaces.size(), 3U) << "the surfaces of one volume are replaced together";
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(valueOf(i), 1.0 + static_cast<double>(i));
+    EXPECT_EQ(isoOf(i).value, 1.0 + static_cast<double>(i));
     EXPECT_EQ(scene.surfaces[i].source->shared().of, scene.surfaces[0].source->shared().of);
     EXPECT_EQ(scene.surfaces[i].material.stiffness, 0.5);
   }
+  setSolidSide(scene, SolidSide::kBelow);
+  setIsoValues(scene, {4});
+  EXPECT_EQ(isoOf(0).value, 4);
+  EXPECT_EQ(isoOf(0).solid, SolidSide::kBelow) << "another value has its matter on the same side";
   SceneModel mesh;
   EXPECT_THROW(setIsoValues(mesh, {1}), Error);
+  EXPECT_THROW(setSolidSide(mesh, SolidSide::kBelow), Error);
 }
 
 }  // namespace

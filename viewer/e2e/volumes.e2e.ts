@@ -57,6 +57,18 @@ describe.skipIf(!kProgram)("the slider of a volume", () => {
     expect(await page.evaluate(() => window.__hl.safety)).toBe("ON");
   });
 
+  test("has its matter on either side of the value", async () => {
+    expect(await page.isChecked("#below-1")).toBe(false);
+    const before = await layout();
+    await page.check("#below-1");
+    await page.waitForFunction((old) => window.__hl.layout! > old, before);
+    await page.reload();
+    await page.waitForFunction(() => window.__hl.objects === 2);
+    expect(await page.isChecked("#below-1")).toBe(true);
+    expect(await page.isChecked("#below-2")).toBe(false);
+    await page.uncheck("#below-1");
+  });
+
   test("keeps its value when the page is loaded again", async () => {
     await setIso(-600);
     await page.reload();

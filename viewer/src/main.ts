@@ -129,7 +129,7 @@ class App {
     this.memory_ = new ViewMemory();
     this.surfacePanel_ = new SurfacePanel((change) => this.tell(change));
     this.ledgerPanel_ = new LedgerPanel((change) => this.tell(change));
-    this.volumePanel_ = new VolumePanel((surface, value) => this.send(encodeIso(surface, value)));
+    this.volumePanel_ = new VolumePanel((surface, value, below) => this.send(encodeIso(surface, value, below)));
     this.timeline_ = this.makeTimeline();
     this.theme_ = new ThemeSwitch(() => this.applyTheme());
     this.panel_.showTheme(this.theme_.choice);

@@ -83,9 +83,9 @@ export function encodeRecord(on: boolean, owner: number): Uint8Array<ArrayBuffer
   return encode({ case: "record", value: { on, owner } });
 }
 
-/** Another iso value for a surface of a volume, as a layout names it. */
-export function encodeIso(surface: bigint, value: number): Uint8Array<ArrayBuffer> {
-  return encode({ case: "iso", value: { surface, value } });
+/** Another iso value for a surface of a volume, as a layout names it, and whether its matter is below it. */
+export function encodeIso(surface: bigint, value: number, below: boolean): Uint8Array<ArrayBuffer> {
+  return encode({ case: "iso", value: { surface, value, below } });
 }
 
 export function encodeSettings(change: SettingsChange): Uint8Array<ArrayBuffer> {

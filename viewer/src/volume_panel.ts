@@ -1,5 +1,5 @@
-// A slider for the iso value of each surface of a volume: it acts while it is dragged, on everybody who touches it. The
-// server tells the value with each layout; pending.ts says when it moves the slider.
+// A slider for the iso value of each surface of a volume, and a box that says on which side of it the matter is: they
+// act at once, on everybody who touches it. The server tells both with each layout; pending.ts says when they follow.
 
 import { element, onLetGo } from "./elements";
 import { paced } from "./pace";
@@ -13,20 +13,23 @@ interface Row {
   readonly kind: IsoSlider;
   readonly slider: HTMLInputElement;
   readonly output: HTMLOutputElement;
+  readonly below: HTMLInputElement;
 }
 
 export class VolumePanel {
   private readonly pending_ = new Pending<number>();
+  private readonly pendingBelow_ = new Pending<boolean>();
   private volumes_: readonly Volume[] = [];
   private rows_: readonly Row[] = [];
 
-  constructor(private readonly send_: (surface: bigint, value: number) => void) {
+  constructor(private readonly send_: (surface: bigint, value: number, below: boolean) => void) {
     onLetGo(() => this.pending_.letGo(performance.now()));
   }
 
   /** Another server: what was chosen for the one before is past. */
   forget(): void {
     this.pending_.clear();
+    this.pendingBelow_.clear();
   }
 
   /** What the server says. Sliders stay while their surfaces do, so that one can be dragged meanwhile. */
@@ -38,12 +41,17 @@ export class VolumePanel {
     this.volumes_ = volumes;
     if (!same) {
       this.rows_ = volumes.map((volume, i) => this.made(volume, isoSliderOf(volume, i, volumes.length), i));
-      element("volume-knobs").replaceChildren(...this.rows_.map(({ slider }) => slider.parentElement!));
+      element("volume-knobs").replaceChildren(...this.rows_.flatMap(({ slider, below }) => [slider.parentElement!, below.parentElement!]));
     }
     this.show();
   }
 
   private made({ surface }: Volume, kind: IsoSlider, index: number): Row {
+    const send = () => this.send_(surface, this.chosen(index), this.chosenBelow(index));
+    return { kind, ...this.madeSlider(surface, kind, index, send), below: this.madeBox(surface, index, send) };
+  }
+
+  private madeSlider(surface: bigint, kind: IsoSlider, index: number, send: () => void) {
     const label = document.createElement("label");
     label.className = "knob";
     const name = document.createElement("span");
@@ -57,16 +65,33 @@ export class VolumePanel {
     label.htmlFor = slider.id;
     [slider.min, slider.max, slider.step] = [kind.min, kind.max, kind.step].map(String) as [string, string, string];
     label.append(name, output, slider);
-    const send = paced(() => this.send_(surface, this.chosen(index)), kSendPeriod_ms);
+    const sendPaced = paced(send, kSendPeriod_ms);
     slider.addEventListener("input", () => {
       this.pending_.set(String(surface), slider.valueAsNumber, performance.now());
       this.show();
-      send();
+      sendPaced();
     });
     slider.addEventListener("pointerdown", () => {
       this.pending_.hold(String(surface), this.chosen(index), performance.now());
     });
-    return { kind, slider, output };
+    return { slider, output };
+  }
+
+  private madeBox(surface: bigint, index: number, send: () => void): HTMLInputElement {
+    const label = document.createElement("label");
+    label.className = "switch";
+    label.title = "As of signed distances; in a CT the matter is above";
+    const box = document.createElement("input");
+    box.type = "checkbox";
+    box.id = `below-${index + 1}`;
+    const name = document.createElement("span");
+    name.textContent = this.volumes_.length > 1 ? `Matter below value ${index + 1}` : "Matter below it";
+    label.append(box, name);
+    box.addEventListener("change", () => {
+      this.pendingBelow_.set(String(surface), box.checked, performance.now());
+      send();
+    });
+    return box;
   }
 
   private chosen(index: number): number {
@@ -74,12 +99,18 @@ export class VolumePanel {
     return volume === undefined ? 0 : this.pending_.resolve(String(volume.surface), volume.iso, performance.now());
   }
 
+  private chosenBelow(index: number): boolean {
+    const volume = this.volumes_[index];
+    return volume !== undefined && this.pendingBelow_.resolve(String(volume.surface), volume.below, performance.now());
+  }
+
   private show(): void {
-    this.rows_.forEach(({ kind, slider, output }, index) => {
+    this.rows_.forEach(({ kind, slider, output, below }, index) => {
       const value = this.chosen(index);
       slider.value = String(value);
       output.textContent = kind.text(value);
       slider.setAttribute("aria-valuetext", kind.text(value));
+      below.checked = this.chosenBelow(index);
     });
   }
 }

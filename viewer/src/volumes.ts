@@ -9,6 +9,8 @@ export interface Volume {
   /** As the server takes it back. */
   readonly surface: bigint;
   readonly iso: number;
+  /** Whether the matter is where values are below it. */
+  readonly below: boolean;
   /** Range of the values. */
   readonly low: number;
   readonly high: number;
@@ -23,11 +25,11 @@ export interface IsoSlider {
 }
 
 export function checkVolumes({ volumes, placed }: SceneLayout): readonly Volume[] {
-  return volumes.map(({ placed: index, surface, iso, low, high }) => {
+  return volumes.map(({ placed: index, surface, iso, below, low, high }) => {
     if (placed[index] === undefined || ![iso, low, high].every(Number.isFinite) || low > high) {
       throw new ProtocolError("a volume of the scene has no surface, or no range of values");
     }
-    return { surface, iso, low, high };
+    return { surface, iso, below, low, high };
   });
 }
 

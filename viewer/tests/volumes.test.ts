@@ -4,7 +4,7 @@ import { expect, test } from "vitest";
 import { PlacedMeshSchema, PlacedVolumeSchema, SceneLayoutSchema, type PlacedVolume } from "../src/gen/hl_pb";
 import { checkVolumes, isoSliderOf } from "../src/volumes";
 
-const kCt = { surface: 1n, iso: -480, low: -1000, high: 700 };
+const kCt = { surface: 1n, iso: -480, below: false, low: -1000, high: 700 };
 
 function layoutOf(volume: Partial<PlacedVolume>) {
   return create(SceneLayoutSchema, {
@@ -33,12 +33,12 @@ test("of several volumes each has its number", () => {
 });
 
 test("values that are no CT numbers have no unit", () => {
-  const distance = isoSliderOf({ surface: 1n, iso: 0, low: -0.031, high: 0.0942 }, 0, 1);
+  const distance = isoSliderOf({ surface: 1n, iso: 0, below: true, low: -0.031, high: 0.0942 }, 0, 1);
   expect([distance.min, distance.max, distance.step]).toEqual([-0.031, 0.095, 0.001]);
   expect(distance.text(0.01)).toBe("0.010");
 });
 
 test("a volume of one value has a slider of one place", () => {
-  const slider = isoSliderOf({ surface: 1n, iso: 5, low: 5, high: 5 }, 0, 1);
+  const slider = isoSliderOf({ surface: 1n, iso: 5, below: false, low: 5, high: 5 }, 0, 1);
   expect([slider.min, slider.max, slider.step]).toEqual([5, 5, 1]);
 });
