@@ -27,9 +27,10 @@ struct SceneOptions {
   std::string hierarchy = "bvh";
   double scale = 0;            ///< metres per file unit; 0: as it is
   double fit = 0;              ///< m, largest side; 0: as it is
+  std::string grid;            ///< of a file with several grids, by its name
   std::vector<double> iso;     ///< of volumes; empty: one that is chosen
-  double vertical_scale = 0;   ///< of the heights of height fields; 0: as they are
   std::optional<bool> below;   ///< whether the matter of volumes is below iso; nothing: as the scene says
+  double vertical_scale = 0;   ///< of the heights of height fields; 0: as they are
   bool surfels = false;        ///< of clouds, in place of points
   double surfel_reach = 0.75;  ///< in spacings
   CadMeshing cad;              ///< of CAD files
@@ -37,7 +38,8 @@ struct SceneOptions {
 
 void addSceneArgument(CLI::App& command, SceneOptions& options, bool required);
 void addHierarchyOption(CLI::App& command, SceneOptions& options);
-/// --vertical-scale, --iso, --surfels and --deflection: how files become surfaces. addSizeOptions() adds them too.
+/// --vertical-scale, --grid, --iso, --below, --surfels and --deflection: how files become surfaces. addSizeOptions()
+/// adds them too.
 void addReadingOptions(CLI::App& command, SceneOptions& options);
 void addSizeOptions(CLI::App& command, SceneOptions& options);
 

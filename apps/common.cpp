@@ -48,12 +48,12 @@ void requireMemory(const SceneModel& scene, const std::string& name, std::uint64
 }
 
 void addSceneArgument(CLI::App& command, SceneOptions& options, bool required) {
-  auto* argument =
-      command.add_option("scene", options.scene,
-                         std::string("a model file (obj, ply, stl, gltf, glb, x3d, wrl, ...), of CAD (step, iges, "
-                                     "brep), of heights (tif, hgt, asc, png, npy), of a volume (nii, nrrd, dcm), of "
-                                     "points (las, pcd, xyz, ply without faces) or a built-in scene: ") +
-                             kBuiltinScenes);
+  auto* argument = command.add_option(
+      "scene", options.scene,
+      std::string("a model file (obj, ply, stl, gltf, glb, x3d, wrl, ...), of CAD (step, iges, "
+                  "brep), of heights (tif, hgt, asc, png, npy), of a volume (nii, nrrd, dcm, vdb), of "
+                  "points (las, pcd, xyz, ply without faces) or a built-in scene: ") +
+          kBuiltinScenes);
   if (required) {
     argument->required();
   } else {
@@ -85,16 +85,17 @@ void addCadOptions(CLI::App& command, CadMeshing& cad) {
 }  // namespace
 
 void addReadingOptions(CLI::App& command, SceneOptions& options) {
+  command.add_option("--grid", options.grid, "name of a grid of an OpenVDB file, where it has several");
   command
       .add_option("--iso", options.iso,
                   "value at the surface of a volume, or several as in --iso=-300,400: in CT the skin and the bones "
                   "(default: between what is empty and what is not)")
       ->delimiter(',');
-  command
   command.add_flag_function(
       "--below", [&options](std::int64_t said) { options.below = said > 0; },
       "the matter of a volume is where its values are below --iso, as of signed distances (--below=false: above, as in "
       "CT; default: what the file says, or above)");
+  command
       .add_option("--vertical-scale", options.vertical_scale,
                   "factor on the heights of a height field, before --scale or --fit (default 1)")
       ->check(positive());
@@ -159,11 +160,12 @@ std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options) {
   LoadOptions load;
   load.progress = showProgress;
   load.cad = options.cad;
+  load.grid = options.grid;
   SceneModel scene = loadScene(options.scene, load);
   if (!options.iso.empty()) setIsoValues(scene, options.iso);
+  if (options.below) setSolidSide(scene, *options.below ? SolidSide::kBelow : SolidSide::kAbove);
   if (options.surfels) setSurfels(scene, options.surfel_reach);
   if (options.vertical_scale > 0) scaleHeights(scene, options.vertical_scale);
-  if (options.below) setSolidSide(scene, *options.below ? SolidSide::kBelow : SolidSide::kAbove);
   if (options.scale > 0) scaleModel(scene, options.scale);
   if (options.fit > 0) fitModel(scene, options.fit);
   requireMemory(scene, options.scene, machineMemory_bytes());

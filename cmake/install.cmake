@@ -1,6 +1,6 @@
 # What `cmake --install` puts where, in components that are also Debian packages (cmake/packages.cmake): libhl and
 # libhlbatch (the libraries), libhl-dev (what a program is built with), hl-tools (hl, hld and the page), hl-cad (what
-# reads CAD files); python3-hl is in python/CMakeLists.txt.
+# reads CAD files), hl-vdb (what reads OpenVDB files); python3-hl is in python/CMakeLists.txt.
 include(CMakePackageConfigHelpers)
 set(cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/hl)
 
@@ -39,6 +39,10 @@ install(TARGETS hl hld RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT hl-
 if(TARGET hl_cad_program)
   install(TARGETS hl_cad_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT hl-cad)
   install(FILES LICENSE DESTINATION share/doc/hl-cad RENAME copyright COMPONENT hl-cad)
+endif()
+if(TARGET hl_vdb_program)
+  install(TARGETS hl_vdb_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT hl-vdb)
+  install(FILES LICENSE DESTINATION share/doc/hl-vdb RENAME copyright COMPONENT hl-vdb)
 endif()
 # Built by scripts/build, not by CMake: without it the programs serve a notice instead.
 install(DIRECTORY viewer/dist/ DESTINATION share/hl/viewer COMPONENT hl-tools OPTIONAL)

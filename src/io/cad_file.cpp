@@ -1,42 +1,24 @@
 #include "io/cad_file.h"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cstdlib>
-#include <filesystem>
 
 #include "base/error.h"
 #include "io/reading_cache.h"
+#include "io/reading_program.h"
 
 namespace hl {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr const char* kCadProgram = "hl-cad";
+constexpr const char* kNoCadProgram =
+    "CAD files are read by hl-cad, which is not here: install the package hl-cad, or run scripts/deps --cad and "
+    "scripts/build";
 constexpr std::array kCadEndings{".step", ".stp", ".iges", ".igs", ".brep"};
-
-// The first of its name that may be run: beside this program, or where the shell would look.
-std::string cadProgram() {
-  std::error_code failed;
-  const fs::path self = fs::read_symlink("/proc/self/exe", failed);
-  std::string folders = self.parent_path().string();
-  if (const char* const path = std::getenv("PATH")) folders += std::string(":") + path;
-  for (std::size_t begin = 0; begin <= folders.size();) {
-    const std::size_t end = std::min(folders.find(':', begin), folders.size());
-    const fs::path program = fs::path(folders.substr(begin, end - begin)) / kCadProgram;
-    if (program.is_absolute() && access(program.c_str(), X_OK) == 0) return program.string();
-    begin = end + 1;
-  }
-  throw Error(
-      "CAD files are read by hl-cad, which is not here: install the package hl-cad, or run scripts/deps --cad and "
-      "scripts/build");
-}
 
 double numberOf(const std::string& word, double least, double most) {
   double value = 0;
@@ -77,7 +59,7 @@ SceneModel readCad(int descriptor, const std::string& name, const CadTask& task,
   const std::string key = cache.keyOf(descriptor, options);
   if (std::optional<SceneModel> kept = cache.find(key, limits)) return std::move(*kept);
   try {
-    program.file = cadProgram();
+    program.file = readingProgram(kCadProgram, kNoCadProgram);
   } catch (const Error& error) {
     throw Error(name + ": " + error.what());
   }

@@ -59,6 +59,7 @@ std::uint64_t bytesToMakeVolume(const proto::Volume& in) {
 
 PlacedVolume decodeVolume(const proto::Volume& in) {
   if (!in.file().empty() || !in.builtin().empty()) throw Error("a file of a volume is named in scene files only");
+  if (!in.grid().empty()) throw Error("grid is that of a file");
   const Sides side = sidesOf(in);
   const SampleKind kind = kindOf(in);
   std::uint64_t bytes = sizeOf(kind);

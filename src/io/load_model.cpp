@@ -14,6 +14,7 @@
 #include "io/read_clouds.h"
 #include "io/read_heights.h"
 #include "io/read_volumes.h"
+#include "io/vdb_file.h"
 #include "scene/weld.h"
 
 namespace hl {
@@ -78,11 +79,13 @@ void makePointsOfBareVertices(Model& model) {
   for (std::uint32_t i = 0; i < model.positions.size(); ++i) model.points.push_back(i);
 }
 
-SceneModel readCadFile(const std::string& path, const std::string& ending, const LoadOptions& options) {
+// By a program of its own.
+SceneModel readByProgram(const std::string& path, const std::string& ending, const LoadOptions& options) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) throw Error(path + ": may not be read");
   const std::unique_ptr<const int, void (*)(const int*)> closed(&file, [](const int* it) { close(*it); });
   const std::atomic<bool> given_up{false};
+  if (readsVdb(ending)) return readVdb(file, path, {ending, options.grid}, options.limits, given_up, options.progress);
   return readCad(file, path, {ending, options.cad}, options.limits, given_up, options.progress);
 }
 
@@ -98,15 +101,15 @@ void makeSound(Model& model) {
 }  // namespace
 
 bool readsEnding(const std::string& ending) {
-  return readsCad(ending) || readsVolumes(ending) || readsHeights(ending) || readsClouds(ending) || coinReads(ending) ||
-         assimpReads(ending);
+  return readsCad(ending) || readsVdb(ending) || readsVolumes(ending) || readsHeights(ending) || readsClouds(ending) ||
+         coinReads(ending) || assimpReads(ending);
 }
 
 std::string cannotBeRead(const std::string& ending) {
   if (const std::string advice = cloudAdvice(ending); !advice.empty()) return advice;
   return "files ending in '" + ending +
          "' cannot be read; obj, ply, stl, gltf, glb, x3d, wrl, step, iges, brep, tif, hgt, asc, png, npy, nii, nrrd, "
-         "dcm, las, pcd, xyz and others can";
+         "dcm, vdb, las, pcd, xyz and others can";
 }
 
 SceneModel parseModel(const ModelFile& file, const ReadingReport& report) {
@@ -135,11 +138,13 @@ SceneModel loadModelScene(const std::string& path, const LoadOptions& options) {
   if (!folder) checkReadable(path);
   const std::string ending = folder ? "" : endingOf(path);
   if (!folder && !readsEnding(ending)) throw Error(path + ": " + cannotBeRead(ending));
+  if (!options.grid.empty() && !readsVdb(ending)) throw Error(path + ": " + kNoGrids);
   const auto read_isolated = [&] {
     const auto parse = [&](const auto& report) { return parseModel({path, ending, false, options.mesh}, report); };
     return runIsolated(path, options.limits, parse, options.progress);
   };
-  SceneModel scene = readsCad(ending) ? readCadFile(path, ending, options) : read_isolated();
+  const bool by_program = readsCad(ending) || readsVdb(ending);
+  SceneModel scene = by_program ? readByProgram(path, ending, options) : read_isolated();
   if (elementsIn(scene) == 0) throw Error(path + ": there is no geometry in it");
   scene.model.name = std::filesystem::path(path).filename().string();
   for (SceneSurface& surface : scene.surfaces) surface.name = scene.model.name;

@@ -1,5 +1,5 @@
 // Model files: OBJ, PLY, STL, glTF and what else assimp reads; VRML 1.0 and 97 and Inventor through Coin; heights by
-// read_heights.h, volumes by read_volumes.h, clouds by read_clouds.h; STEP, IGES and BREP by cad_file.h.
+// read_heights.h, volumes by read_volumes.h and vdb_file.h, clouds by read_clouds.h; STEP, IGES and BREP by cad_file.h.
 #pragma once
 
 #include <cstddef>
@@ -20,6 +20,7 @@ struct LoadOptions {
   std::size_t most_primitives = 40'000'000;
   std::size_t most_texels = std::size_t{256} << 20;  ///< of a scene file, all textures together: 1 GiB
   CadMeshing cad{};                                  ///< of CAD files
+  std::string grid{};                                ///< of a file with several grids, by its name; others are refused
   bool alone = false;  ///< no file beside it is read: a scene file that names one is refused
   bool mesh = false;   ///< of a PLY file without faces: its points are those of a mesh, and no cloud
 };

@@ -4,11 +4,14 @@
 
 #include "base/error.h"
 #include "builtin.h"
+#include "io/file_ending.h"
 #include "io/load_scene_file.h"
+#include "io/vdb_file.h"
 
 namespace hl {
 
 SceneModel loadScene(const std::string& spec, const LoadOptions& options) {
+  if (!options.grid.empty() && !readsVdb(endingOf(spec))) throw Error(spec + ": " + kNoGrids);
   if (isSceneFile(spec)) return loadSceneFile(spec, options);
   if (isBuiltinScene(spec)) return makeBuiltinWorld(spec);
   const bool looks_like_a_file = spec.find_first_of("./") != std::string::npos || std::filesystem::exists(spec);

@@ -9,6 +9,7 @@
 #include "io/load_model.h"
 #include "io/load_scene_file.h"
 #include "io/sandbox.h"
+#include "io/vdb_file.h"
 
 namespace hl {
 
@@ -43,8 +44,12 @@ SceneModel loadSent(int descriptor, const std::string& name, ReaderProgram progr
   const std::string ending = sentEndingOf(name);
   if (!readsSent(ending)) throw Error(name + ": " + cannotBeRead(ending));
   program.words.push_back(ending);
-  SceneModel scene = readsCad(ending) ? readCad(descriptor, name, {ending, cad}, limits, given_up, {})
-                                      : runProgram(name, limits, program, descriptor, given_up);
+  const auto read = [&] {
+    if (readsCad(ending)) return readCad(descriptor, name, {ending, cad}, limits, given_up, {});
+    if (readsVdb(ending)) return readVdb(descriptor, name, {ending, ""}, limits, given_up, {});
+    return runProgram(name, limits, program, descriptor, given_up);
+  };
+  SceneModel scene = read();
   if (elementsIn(scene) == 0) throw Error(name + ": there is no geometry in it");
   scene.model.name = name;
   return scene;

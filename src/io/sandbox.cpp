@@ -107,7 +107,9 @@ int closeDescriptorsBut(int kept, int file) {
 bool allowReadingBySeccomp() {
   const std::unique_ptr<void, void (*)(void*)> filter(seccomp_init(SCMP_ACT_ERRNO(EPERM)), seccomp_release);
   if (!filter) return false;
-  int failed = addConditional(filter.get());
+  // All threads: a library may have started some of its own when the program began.
+  int failed = seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_TSYNC, 1);
+  failed |= addConditional(filter.get());
   for (const int call : kAllowed) failed |= seccomp_rule_add(filter.get(), SCMP_ACT_ALLOW, call, 0);
   return failed == 0 && seccomp_load(filter.get()) == 0;
 }
@@ -134,6 +136,7 @@ bool forbidOpening() {
   if (!filter) return false;
   // The first filter has set what this attribute asks for, and forbids the call that sets it.
   int failed = seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_NNP, 0);
+  failed |= seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_TSYNC, 1);
   for (const int call : {SCMP_SYS(open), SCMP_SYS(openat), SCMP_SYS(openat2)})
     failed |= seccomp_rule_add(filter.get(), SCMP_ACT_ERRNO(EACCES), call, 0);
   return failed == 0 && seccomp_load(filter.get()) == 0;

@@ -39,8 +39,10 @@ std::vector<SceneSurface> SceneSurfaces::read(const proto::SceneObject& object) 
   return {surface};
 }
 
-SceneModel SceneSurfaces::load(const std::string& file) const {
-  return loadModelScene((folder_ / file).string(), options_);
+SceneModel SceneSurfaces::load(const std::string& file, const std::string& grid) const {
+  LoadOptions options = options_;
+  options.grid = grid;
+  return loadModelScene((folder_ / file).string(), options);
 }
 
 std::shared_ptr<const PrimitiveSource> SceneSurfaces::heights(const proto::Heights& in) const {
@@ -52,24 +54,24 @@ std::shared_ptr<const PrimitiveSource> SceneSurfaces::heights(const proto::Heigh
 }
 
 // What one of them names.
-SceneModel SceneSurfaces::named(const std::string& builtin, const std::string& file) const {
+SceneModel SceneSurfaces::named(const std::string& builtin, const std::string& file, const std::string& grid) const {
   if (!builtin.empty() && !file.empty()) throw Error("it has a file or a builtin, not both");
-  return builtin.empty() ? load(file) : makeBuiltinWorld(builtin);
+  return builtin.empty() ? load(file, grid) : makeBuiltinWorld(builtin);
 }
 
 std::shared_ptr<const PrimitiveSource> SceneSurfaces::volume(const proto::Volume& in) {
   if (in.builtin().empty() && in.file().empty()) return isoSurfaceOf(decodeVolume(in), isoChoiceOf(in), matterOf(in));
   const std::string& name = in.builtin().empty() ? in.file() : in.builtin();
-  const auto [place, fresh] = volumes_.try_emplace(in.builtin() + '\n' + in.file());
+  const auto [place, fresh] = volumes_.try_emplace(in.builtin() + '\n' + in.file() + '\n' + in.grid());
   if (fresh) {
-    const SceneModel scene = named(in.builtin(), in.file());
+    const SceneModel scene = named(in.builtin(), in.file(), in.grid());
     const auto* const first =
         scene.surfaces.empty() ? nullptr : dynamic_cast<const IsoSurface*>(scene.surfaces.front().source.get());
     if (first == nullptr) throw Error(name + ": is no volume");
     place->second = {first->volume(), first->frame()};
+    if (in.builtin().empty()) place->second.iso = first->iso();
   }
   return isoSurfaceOf(withSpacing(place->second, in), isoChoiceOf(in), matterOf(in));
-    if (in.builtin().empty()) place->second.iso = first->iso();
 }
 
 std::shared_ptr<const PrimitiveSource> SceneSurfaces::cloud(const proto::Cloud& in) {

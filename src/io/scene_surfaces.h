@@ -33,8 +33,8 @@ class SceneSurfaces {
   std::shared_ptr<const PrimitiveSource> heights(const proto::Heights& in) const;
   std::shared_ptr<const PrimitiveSource> volume(const proto::Volume& in);
   std::shared_ptr<const PrimitiveSource> cloud(const proto::Cloud& in);
-  SceneModel named(const std::string& builtin, const std::string& file) const;
-  SceneModel load(const std::string& file) const;
+  SceneModel named(const std::string& builtin, const std::string& file, const std::string& grid = {}) const;
+  SceneModel load(const std::string& file, const std::string& grid = {}) const;
 
   const std::filesystem::path& folder_;
   const LoadOptions& options_;

@@ -1,0 +1,96 @@
+#include "vdb/vdb_grids.h"
+
+#include <fmt/core.h>
+#include <nanovdb/util/IO.h>
+#include <nanovdb/util/NanoToOpenVDB.h>
+#include <openvdb/io/Stream.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "base/error.h"
+#include "io/sandbox.h"
+#include "io/text_words.h"
+
+namespace hl {
+
+namespace {
+
+using openvdb::FloatGrid;
+
+std::string listed(const std::vector<GridInFile>& grids) {
+  constexpr std::size_t kMostListed = 8;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(grids.size(), kMostListed); ++i)
+    text += fmt::format("{}'{}' of {}", i == 0 ? "" : ", ", shown(grids[i].name), shown(grids[i].type));
+  return text + (grids.size() > kMostListed ? ", ..." : "");
+}
+
+FloatGrid::Ptr floatsOf(const openvdb::GridBase::Ptr& grid) {
+  FloatGrid::Ptr floats = openvdb::gridPtrCast<FloatGrid>(grid);
+  if (!floats) throw Error("is not a sound file: a grid in it has another type than it says");
+  return floats;
+}
+
+FloatGrid::Ptr readOpenVdb(std::istream& in, const std::string& name) {
+  openvdb::initialize();
+  openvdb::io::Stream file(in, false);  // all at once: nothing is read later, from a copy of the file
+  const openvdb::GridPtrVecPtr all = file.getGrids();
+  std::vector<GridInFile> grids;
+  for (const openvdb::GridBase::Ptr& grid : *all)
+    grids.push_back({grid->getName(), grid->valueType(), grid->isType<FloatGrid>(),
+                     grid->getGridClass() == openvdb::GRID_LEVEL_SET});
+  return floatsOf((*all)[chosenGrid(grids, name)]);
+}
+
+bool becomesFloats(nanovdb::GridType type) {
+  using Type = nanovdb::GridType;
+  return type == Type::Float || type == Type::Fp4 || type == Type::Fp8 || type == Type::Fp16 || type == Type::FpN;
+}
+
+FloatGrid::Ptr readNanoVdb(std::istream& in, const std::string& name) {
+  std::vector<GridInFile> grids;
+  for (const auto& grid : nanovdb::io::readGridMetaData(in))
+    grids.push_back({grid.gridName, nanovdb::toStr(grid.gridType), becomesFloats(grid.gridType),
+                     grid.gridClass == nanovdb::GridClass::LevelSet});
+  const std::size_t chosen = chosenGrid(grids, name);
+  in.clear();
+  in.seekg(0);
+  return floatsOf(nanovdb::nanoToOpenVDB(nanovdb::io::readGrid(in, chosen)));
+}
+
+}  // namespace
+
+std::size_t chosenGrid(const std::vector<GridInFile>& grids, const std::string& name) {
+  if (grids.empty()) throw Error("has no grid in it");
+  if (!name.empty()) {
+    const auto found = std::find_if(grids.begin(), grids.end(), [&](const auto& grid) { return grid.name == name; });
+    if (found == grids.end()) throw Error(fmt::format("has no grid '{}'; it has {}", shown(name), listed(grids)));
+    if (!found->floats)
+      throw Error(fmt::format("has {} in its grid '{}': one of float can be touched", found->type, shown(name)));
+    return static_cast<std::size_t>(found - grids.begin());
+  }
+  for (const bool level_set : {true, false}) {
+    const auto fits = [&](const GridInFile& grid) { return grid.floats && (grid.level_set || !level_set); };
+    const auto count = std::count_if(grids.begin(), grids.end(), fits);
+    if (count > 1) throw Error(fmt::format("has several grids: say --grid NAME; it has {}", listed(grids)));
+    if (count == 1) return static_cast<std::size_t>(std::find_if(grids.begin(), grids.end(), fits) - grids.begin());
+  }
+  throw Error(fmt::format("has no grid of float, which could be touched; it has {}", listed(grids)));
+}
+
+FloatGrid::Ptr readVdbGrid(const ModelFile& file, const std::string& name) {
+  std::ifstream in(file.path, std::ios::binary);
+  if (file.alone && !forbidOpening()) throw Error(kNoFilters);
+  try {
+    return file.ending == ".nvdb" ? readNanoVdb(in, name) : readOpenVdb(in, name);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw Error(fmt::format("is not a sound file: {}", shown(error.what())));
+  }
+}
+
+}  // namespace hl
