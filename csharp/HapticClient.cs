@@ -43,10 +43,42 @@ namespace HL {
         public bool? Flat;               // true: normals are ignored
     }
 
-    /// <summary>A mesh, or a call of an object by its number; placed by a matrix.</summary>
+    /// <summary>A field of heights, or what a depth camera sees: docs/heights.md, docs/depth.md.</summary>
+    public sealed class TouchHeights {
+        public Array Samples;      // short[], ushort[] or float[], row by row
+        public int Columns;
+        public double Spacing = 1;       // m between columns, and between rows
+        public double VerticalScale = 1; // m for a unit of the samples
+        public double? Missing;    // sample that stands for none
+        public double[] Camera;    // fx fy cx cy in pixels: the samples are depths, and have no spacing; null: heights
+        public double Join = 0.02; // depths that differ by more than this part are not joined
+        public double Smoothing;   // 0..1: part of what the object showed before that stays
+    }
+
+    /// <summary>A surface of a volume, where its values are Iso: docs/volumes.md.</summary>
+    public sealed class TouchVolume {
+        public Array Samples;      // short[], ushort[] or float[], along x first, then y, then z
+        public int Width, Height;  // samples along x and y
+        public double Spacing = 1; // m between samples
+        public double? Missing;    // sample that stands for none
+        public double Iso;
+        public bool Below;         // the matter is where values are below Iso, as of signed distances
+    }
+
+    /// <summary>A cloud of points: docs/clouds.md.</summary>
+    public sealed class TouchCloud {
+        public double[] Points;    // x y z each, m
+        public float[] Normals;    // x y z each, of either sign; null: from the nearest points
+        public double Reach;       // of a small disc around each, in distances between neighbours; 0: points alone
+    }
+
+    /// <summary>A mesh, heights, a volume, a cloud, or a call of an object by its number; placed by a matrix.</summary>
     public sealed class TouchItem {
         public TouchMesh Mesh;
-        public uint Object;        // > 0: a call, and no mesh
+        public TouchHeights Heights;
+        public TouchVolume Volume;
+        public TouchCloud Cloud;
+        public uint Object;        // > 0: a call, and nothing else
         public double[] Matrix;    // 16 numbers, column by column, last row 0 0 0 1; null: identity
         public TouchMaterial Material;
         public uint? Name;         // told when it is touched
@@ -264,6 +296,7 @@ namespace HL {
             if (id == 0) throw new ArgumentException("the number of an object is above 0");
             lock (gate) {
                 Content content = Content.Of(defined.Items, 2, ref nextUpload);
+                drawing.ForgetIsos(id);
                 content.Items.Append(Messages.Extras(defined));
                 content.HasBody = defined.Body != null;
                 drawing.Objects[id] = content;
@@ -271,7 +304,13 @@ namespace HL {
         }
 
         /// <summary>Deletes object `id` in the next frame.</summary>
-        public void Delete(uint id) { lock (gate) drawing.Objects[id] = null; }
+        public void Delete(uint id) { lock (gate) { drawing.ForgetIsos(id); drawing.Objects[id] = null; } }
+
+        /// <summary>Another iso value for item `item` of object `id`, a surface of a volume, in the next frame. Nothing
+        /// is sent again.</summary>
+        public void ChangeIso(uint id, int item, double iso) {
+            lock (gate) drawing.Isos[Tuple.Create(id, item)] = iso;
+        }
 
         /// <summary>What the world consists of from the next frame on.</summary>
         public void SetWorld(params TouchItem[] items) { SetWorld(new TouchJoint[0], items); }
@@ -598,10 +637,13 @@ namespace HL {
     // What the next frame changes. An object that is null is deleted.
     sealed class Draft {
         internal readonly Dictionary<uint, Content> Objects = new Dictionary<uint, Content>();
+        internal readonly Dictionary<Tuple<uint, int>, double> Isos = new Dictionary<Tuple<uint, int>, double>();
         internal Content World;
         internal Vec3? Gravity;
 
-        internal bool IsEmpty { get { return World == null && Objects.Count == 0 && !Gravity.HasValue; } }
+        internal bool IsEmpty {
+            get { return World == null && Objects.Count == 0 && Isos.Count == 0 && !Gravity.HasValue; }
+        }
         internal bool HasBodies {
             get {
                 foreach (Content content in Objects.Values) if (content != null && content.HasBody) return true;
@@ -609,8 +651,17 @@ namespace HL {
             }
         }
 
+        // The object is another one now, or none.
+        internal void ForgetIsos(uint id) {
+            foreach (var iso in new List<Tuple<uint, int>>(Isos.Keys)) if (iso.Item1 == id) Isos.Remove(iso);
+        }
+
         internal void Merge(Draft later) {
-            foreach (var entry in later.Objects) Objects[entry.Key] = entry.Value;
+            foreach (var entry in later.Objects) {
+                Objects[entry.Key] = entry.Value;
+                ForgetIsos(entry.Key);
+            }
+            foreach (var entry in later.Isos) Isos[entry.Key] = entry.Value;
             World = later.World ?? World;
             Gravity = later.Gravity ?? Gravity;
         }
@@ -628,6 +679,9 @@ namespace HL {
                 else frame.Nested(4, new Writer().Number(1, entry.Key).Append(entry.Value.Items));
             }
             if (World != null) frame.Nested(6, World.Items);
+            foreach (var entry in Isos)
+                frame.Nested(11, new Writer().Number(1, entry.Key.Item1).Number(2, (ulong)entry.Key.Item2)
+                    .Double(3, entry.Value));
             frame.Vector(10, Gravity);
             return new Writer().Nested(3, frame).ToArray();
         }
@@ -635,8 +689,9 @@ namespace HL {
 
     // Items as they are sent, and the uploads that they refer to.
     sealed class Content {
-        const int LargeMesh_bytes = 1 << 14;  // goes as an upload, so that frames stay within the limit of a message
+        const int LargeShape_bytes = 1 << 14;  // goes as an upload, so that frames stay within the limit of a message
         const int NumbersPerPart = 1 << 17;   // at most 1 MiB: what is sent behind a part waits for it
+        const int BytesPerPart = 1 << 20;
 
         internal readonly Writer Items = new Writer();
         internal readonly List<byte[]> Uploads = new List<byte[]>();
@@ -645,8 +700,9 @@ namespace HL {
         internal static Content Of(TouchItem[] items, int field, ref ulong nextUpload) {
             var content = new Content();
             foreach (TouchItem item in items) {
-                if ((item.Mesh == null) == (item.Object == 0))
-                    throw new ArgumentException("an item has either a mesh or the number of an object");
+                if (Count(item.Mesh, item.Heights, item.Volume, item.Cloud) + (item.Object == 0 ? 0 : 1) != 1)
+                    throw new ArgumentException(
+                        "an item has either a mesh, heights, a volume, a cloud or the number of an object");
                 content.Items.Nested(field, content.One(item, ref nextUpload));
             }
             return content;
@@ -654,11 +710,16 @@ namespace HL {
 
         Writer One(TouchItem item, ref ulong nextUpload) {
             var sent = new Writer();
-            if (item.Mesh == null) sent.Number(3, item.Object);
-            else if (SizeOf(item.Mesh) < LargeMesh_bytes) sent.Nested(1, Whole(item.Mesh));
+            if (item.Object != 0) sent.Number(3, item.Object);
             else {
-                sent.Number(2, nextUpload);
-                AddUploads(item.Mesh, nextUpload++);
+                var parts = new List<Writer>(PartsOf(item));
+                var whole = new Writer();
+                foreach (Writer part in parts) if (whole.Size < LargeShape_bytes) whole.Append(part);
+                if (whole.Size < LargeShape_bytes) sent.Nested(1, whole);
+                else {
+                    sent.Number(2, nextUpload);
+                    AddUploads(parts, nextUpload++);
+                }
             }
             if (item.Matrix != null) {
                 if (item.Matrix.Length != 16) throw new ArgumentException("a matrix has 16 numbers");
@@ -671,25 +732,44 @@ namespace HL {
 
         static int Length(Array list) { return list == null ? 0 : list.Length; }
 
-        static int SizeOf(TouchMesh mesh) {
-            if (Length(mesh.Vertices) % 3 != 0) throw new ArgumentException("a vertex has three numbers");
-            return 8 * (Length(mesh.Vertices) + Length(mesh.Normals) + Length(mesh.TexCoords)) +
-                4 * (Length(mesh.Triangles) + Length(mesh.Segments) + Length(mesh.Points));
+        static int Count(params object[] choices) {
+            int count = 0;
+            foreach (object choice in choices) if (choice != null) ++count;
+            return count;
         }
 
-        static Writer Whole(TouchMesh mesh) {
-            var all = new Writer();
-            foreach (Writer part in Parts(mesh)) all.Append(part);
-            return all;
-        }
-
-        void AddUploads(TouchMesh mesh, ulong id) {
-            foreach (Writer part in Parts(mesh))
+        void AddUploads(List<Writer> parts, ulong id) {
+            foreach (Writer part in parts)
                 Uploads.Add(new Writer().Nested(2, new Writer().Number(1, id).Nested(2, part)).ToArray());
+        }
+
+        static IEnumerable<Writer> PartsOf(TouchItem item) {
+            if (item.Heights != null) return WithSamples(8, Messages.Heights(item.Heights), 5, item.Heights.Samples);
+            if (item.Volume != null) return WithSamples(9, Messages.Volume(item.Volume), 7, item.Volume.Samples);
+            return item.Cloud != null ? Parts(item.Cloud) : Parts(item.Mesh);
+        }
+
+        // Field `field` of Primitives, whose field `list` has the samples.
+        static IEnumerable<Writer> WithSamples(int field, Writer head, int list, Array samples) {
+            yield return new Writer().Nested(field, head);
+            int bytes = Buffer.ByteLength(samples);
+            for (int first = 0; first < bytes; first += BytesPerPart)
+                yield return new Writer().Nested(field, new Writer().Bytes(list, samples, first, BytesPerPart));
+        }
+
+        static IEnumerable<Writer> Parts(TouchCloud cloud) {
+            if (Length(cloud.Points) == 0 || cloud.Points.Length % 3 != 0)
+                throw new ArgumentException("a point of a cloud has three numbers");
+            yield return new Writer().Nested(12, new Writer().Flag(5, cloud.Reach > 0).Double(6, cloud.Reach));
+            for (int first = 0; first < cloud.Points.Length; first += NumbersPerPart)
+                yield return new Writer().Nested(12, new Writer().Doubles(3, cloud.Points, first, NumbersPerPart));
+            for (int first = 0; first < 4 * Length(cloud.Normals); first += BytesPerPart)
+                yield return new Writer().Nested(12, new Writer().Bytes(4, cloud.Normals, first, BytesPerPart));
         }
 
         // Messages of Primitives, to be merged in this order: their lists are appended.
         static IEnumerable<Writer> Parts(TouchMesh mesh) {
+            if (Length(mesh.Vertices) % 3 != 0) throw new ArgumentException("a vertex has three numbers");
             double[][] numbers = { mesh.Vertices, mesh.Normals, mesh.TexCoords };
             for (int field = 1; field <= 3; ++field)
                 for (int first = 0; first < Length(numbers[field - 1]); first += NumbersPerPart)
@@ -732,6 +812,34 @@ namespace HL {
         internal static byte[] Bodies(ClientOptions options) {
             var asked = new Writer().Flag(1, true).Flag(2, options.BodyEvents).Double(3, options.ImpactsAbove_N_s);
             return new Writer().Nested(9, asked).ToArray();
+        }
+
+        internal static Writer Heights(TouchHeights heights) {
+            string kind = KindOf(heights.Samples);
+            if (heights.Columns < 2 || heights.Samples.Length % heights.Columns != 0)
+                throw new ArgumentException("the samples must fill rows of so many columns");
+            var sent = new Writer().Number(2, (ulong)heights.Columns)
+                .Number(3, (ulong)(heights.Samples.Length / heights.Columns)).Text(6, kind).Double(7, heights.Missing)
+                .Double(10, heights.VerticalScale);
+            if (heights.Camera == null) return sent.Double(8, heights.Spacing);
+            return sent.Doubles(11, heights.Camera).Double(12, heights.Join).Double(13, heights.Smoothing);
+        }
+
+        internal static Writer Volume(TouchVolume volume) {
+            string kind = KindOf(volume.Samples);
+            int slice = volume.Width * volume.Height;
+            if (volume.Width < 2 || volume.Height < 2 || volume.Samples.Length % slice != 0)
+                throw new ArgumentException("the samples must fill slices of Width x Height");
+            int[] size = { volume.Width, volume.Height, volume.Samples.Length / slice };
+            return new Writer().Double(3, volume.Iso).Flag(4, volume.Below).Indices(5, size, 0, 3).Text(8, kind)
+                .Double(9, volume.Missing).Doubles(12, new[] { volume.Spacing });
+        }
+
+        static string KindOf(Array samples) {
+            if (samples is short[]) return "int16";
+            if (samples is ushort[]) return "uint16";
+            if (samples is float[]) return "float32";
+            throw new ArgumentException("samples are short[], ushort[] or float[]");
         }
 
         // What an ObjectDefinition has beside its items.
@@ -981,6 +1089,18 @@ namespace HL {
             return this;
         }
 
+        // At most `most` bytes of an array of numbers, from byte `first` on; little-endian, as all machines of .NET.
+        internal Writer Bytes(int field, Array numbers, int first, int most) {
+            int count = Math.Min(most, Buffer.ByteLength(numbers) - first);
+            Key(field, 2);
+            Varint((ulong)count);
+            Reserve(count);
+            Buffer.BlockCopy(numbers, first, bytes, size, count);
+            size += count;
+            return this;
+        }
+
+        internal int Size { get { return size; } }
         internal Writer Append(Writer other) { Raw(other.bytes, other.size); return this; }
 
         internal Writer Nested(int field, Writer message) {

@@ -261,6 +261,11 @@ HL_API void hlDeleteObjects(HLsizei n, const HLuint* objects);
  * is null. HL_INVALID_OPERATION: in a definition; `normals` for vertices that were drawn without. */
 HL_API void hlUpdateVertices(HLuint object, HLint first, HLsizei count, const HLdouble* vertices,
                              const HLdouble* normals);
+/** Another iso value for a surface of a volume in `object`, with the next hlFlush: `surface` counts from 0 those that
+ * its definition drew by hlVolume and hlVolumeSurface. The samples stay where they are, and nothing is built: it may be
+ * called in each frame. The proxy is moved out of the matter that comes over it. HL_INVALID_VALUE: the object is not
+ * defined, it has no such surface, or `iso` is not finite. HL_INVALID_OPERATION: in a definition. */
+HL_API void hlVolumeIso(HLuint object, HLint surface, HLdouble iso);
 /** How `object` yields from the next hlFlush on, for programs that compute its deformation themselves: its mesh, as it
  * is then, was computed for `force`, N on the hand, x y z; under another force F its surface is displaced by C (force -
  * F). C: `normal` along the surface's normal and `tangential` along the surface, m of the world per newton, 0 .. 1e9.

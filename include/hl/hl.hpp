@@ -313,6 +313,9 @@ inline void volumeMatter(std::span<const HLdouble> numbers) {
 /// hlVolumeSolid.
 inline void volumeSolid(HLenum side) { hlVolumeSolid(side); }
 
+/// hlVolumeIso.
+inline void volumeIso(HLuint object, HLint surface, HLdouble iso) { hlVolumeIso(object, surface, iso); }
+
 /// hlImplicit.
 inline void implicit(const std::string& json) { hlImplicit(json.c_str()); }
 

@@ -314,6 +314,14 @@ class Touch:
         finally:
             calls.hlPopMatrix()
 
+    def volume_iso(self, number: int, iso: float, surface: int = 0) -> None:
+        """Another iso value for a surface of a volume in the object with this number, with the next frame; `surface`
+        counts those that its definition drew, from 0. Nothing is sent again or built."""
+        self.make_current()
+        calls.hlVolumeIso(
+            arguments.whole(number, "the object's number"), arguments.whole(surface, "surface"),
+            arguments.number(iso, "iso"))
+
     @contextlib.contextmanager
     def define(self, number: Optional[int] = None) -> Iterator[int]:
         """Defines an object, new or again, by what is drawn inside; gives its number, for `place`."""

@@ -24,7 +24,7 @@ void mergeNumbered(std::map<HLuint, Definition>& defined, std::set<HLuint>& dele
 }  // namespace
 
 bool Draft::isEmpty() const {
-  return !world && objects.empty() && deleted_objects.empty() && moved.empty() && compliances.empty() &&
+  return !world && objects.empty() && deleted_objects.empty() && moved.empty() && isos.empty() && compliances.empty() &&
          textures.empty() && deleted_textures.empty() && !gravity_m_s2;
 }
 
@@ -43,17 +43,19 @@ void Draft::move(VertexUpdate update) {
   moved.push_back(std::move(update));
 }
 
-void Draft::forgetMoved(HLuint object) {
+void Draft::forgetUpdates(HLuint object) {
+  std::erase_if(isos, [object](const auto& iso) { return iso.first.first == object; });
   std::erase_if(moved, [object](const VertexUpdate& update) { return update.object == object; });
 }
 
 void Draft::merge(Draft&& later) {
   for (const HLuint object : later.deleted_objects) {
-    forgetMoved(object);
+    forgetUpdates(object);
     forgetCompliance(object);
   }
-  for (const auto& [object, items] : later.objects) forgetMoved(object);
+  for (const auto& [object, items] : later.objects) forgetUpdates(object);
   for (VertexUpdate& update : later.moved) move(std::move(update));
+  for (const auto& [item, iso] : later.isos) isos[item] = iso;
   for (const auto& [object, compliance] : later.compliances) compliances[object] = compliance;
   if (later.gravity_m_s2) gravity_m_s2 = later.gravity_m_s2;
   if (later.world) world = std::move(later.world);

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "client/item_list.h"
@@ -22,6 +23,9 @@ struct VertexUpdate {
   Vertices vertices;  ///< without texture coordinates; without normals: those stay
 };
 
+/// An object, and the number of one of its items.
+using ObjectItem = std::pair<HLuint, std::uint32_t>;
+
 /// How an object yields, and for which force on the hand its mesh was computed. World axes.
 inline constexpr double kMaxToldCompliance = 1e9;  // m/N and N: what a server takes
 struct ObjectCompliance {
@@ -34,6 +38,7 @@ struct Draft {
   std::map<HLuint, ItemList> objects;              ///< new or overwritten
   std::set<HLuint> deleted_objects;                ///< in none of `objects`
   std::vector<VertexUpdate> moved;                 ///< of objects that are defined, after all definitions
+  std::map<ObjectItem, double> isos;               ///< values of surfaces of volumes, as moved
   std::map<HLuint, ObjectCompliance> compliances;  ///< of objects that are defined
   std::map<HLuint, Texture> textures;              ///< new or overwritten; all with images
   std::set<HLuint> deleted_textures;               ///< in none of `textures`
@@ -45,7 +50,7 @@ struct Draft {
   /// Forgets an earlier update that it covers, so that a draft that waits long does not grow.
   void move(VertexUpdate update);
   /// The object is another one now, or none.
-  void forgetMoved(HLuint object);
+  void forgetUpdates(HLuint object);
   /// The object is none now.
   void forgetCompliance(HLuint object) { compliances.erase(object); }
   /// As if both frames were shown at the same moment.

@@ -114,6 +114,12 @@ class Builder {
       for (Item& item : items.items()) fillItem(std::move(item), *definition.add_items());
     }
     for (VertexUpdate& update : draft.moved) fillUpdate(std::move(update), *frame.add_moved());
+    for (const auto& [item, value] : draft.isos) {
+      proto::IsoUpdate& iso = *frame.add_isos();
+      iso.set_object(item.first);
+      iso.set_item(item.second);
+      iso.set_value(value);
+    }
     for (const auto& [object, compliance] : draft.compliances)
       fillCompliance(object, compliance, *frame.add_compliances());
     for (const HLuint object : draft.deleted_objects) frame.add_deleted_objects(object);

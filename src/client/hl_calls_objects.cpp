@@ -40,7 +40,7 @@ void endDefinition(HLcontext& context) {
   const HLuint object = definition.object;
   context.objects.define(object, definition.items);
   context.frame.deleted_objects.erase(object);
-  context.frame.forgetMoved(object);
+  context.frame.forgetUpdates(object);
   context.frame.objects.insert_or_assign(object, std::move(definition.items));
   context.draw = std::move(definition.outside);
   context.definition.reset();
@@ -117,7 +117,7 @@ void hlDeleteObjects(HLsizei n, const HLuint* objects) {
     for (HLsizei i = 0; i < n; ++i) {
       if (!context.objects.remove(objects[i])) continue;
       context.frame.objects.erase(objects[i]);
-      context.frame.forgetMoved(objects[i]);
+      context.frame.forgetUpdates(objects[i]);
       context.frame.forgetCompliance(objects[i]);
       context.frame.deleted_objects.insert(objects[i]);
     }
@@ -132,6 +132,17 @@ void hlUpdateVertices(HLuint object, HLint first, HLsizei count, const HLdouble*
     auto updates =
         updatesOf(context, object, static_cast<std::size_t>(first), static_cast<std::size_t>(count), vertices, normals);
     for (VertexUpdate& update : updates) context.frame.move(std::move(update));
+  });
+}
+
+void hlVolumeIso(HLuint object, HLint surface, HLdouble iso) {
+  call(__func__, When::kNotInDefinition, [&](HLcontext& context) {
+    hl::client::requireFinite(iso);
+    if (!context.objects.isDefined(object)) throw Fault(HL_INVALID_VALUE, "the object is not defined");
+    const std::vector<std::uint32_t>& items = context.objects.volumes(object);
+    if (surface < 0 || static_cast<std::size_t>(surface) >= items.size())
+      throw Fault(HL_INVALID_VALUE, "the object has " + std::to_string(items.size()) + " surfaces of volumes, no more");
+    context.frame.isos[{object, items[static_cast<std::size_t>(surface)]}] = iso;
   });
 }
 

@@ -86,4 +86,12 @@ std::vector<ItemVertices> ItemList::vertices() const {
   return all;
 }
 
+std::vector<std::uint32_t> ItemList::volumes() const {
+  std::vector<std::uint32_t> all;
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    if (items_[i].geometry.volume) all.push_back(static_cast<std::uint32_t>(i));
+  }
+  return all;
+}
+
 }  // namespace hl::client

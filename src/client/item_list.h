@@ -69,6 +69,8 @@ class ItemList {
   /// Of the world; definitions have none.
   const std::vector<proto::WorldJoint>& joints() const { return joints_; }
   std::vector<proto::WorldJoint>& joints() { return joints_; }
+  /// Numbers of the items that are surfaces of volumes.
+  std::vector<std::uint32_t> volumes() const;
   /// Of all items that have some, in order.
   std::vector<ItemVertices> vertices() const;
 

@@ -15,7 +15,7 @@ HLuint ObjectTable::generate() {
 }
 
 void ObjectTable::define(HLuint object, const ItemList& items) {
-  objects_[object] = {items.uses(), items.vertices()};
+  objects_[object] = {items.uses(), items.vertices(), items.volumes()};
   highest_ = std::max(highest_, object);
 }
 

@@ -1,9 +1,11 @@
 // ObjectTable: which objects are defined and what they use, so that a circle of calls is seen before anything is sent,
-// and a texture is not taken away under an object; and how many vertices they have. What is in them is not kept.
+// and a texture is not taken away under an object; and how many vertices and surfaces of volumes they have.
+// What is in them is not kept.
 #pragma once
 
 #include <hl/hl_types.h>
 
+#include <cstdint>
 #include <map>
 #include <set>
 #include <vector>
@@ -21,6 +23,8 @@ class ObjectTable {
   void define(HLuint object, const ItemList& items);
   /// Of a defined one.
   const std::vector<ItemVertices>& vertices(HLuint object) const { return objects_.at(object).vertices; }
+  /// Numbers of its items that are surfaces of volumes, in order.
+  const std::vector<std::uint32_t>& volumes(HLuint object) const { return objects_.at(object).volumes; }
   /// Returns whether it was defined.
   bool remove(HLuint object) { return objects_.erase(object) != 0; }
   /// Whether `from` is `to` or calls it, directly or not.
@@ -32,6 +36,7 @@ class ObjectTable {
   struct Known {
     Uses uses;
     std::vector<ItemVertices> vertices;
+    std::vector<std::uint32_t> volumes;
   };
   std::map<HLuint, Known> objects_;
   HLuint highest_ = 0;

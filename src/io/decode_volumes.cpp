@@ -98,6 +98,7 @@ std::shared_ptr<const MatterTable> matterOf(const proto::Volume& in) {
 IsoChoice isoChoiceOf(const proto::Volume& in) { return choiceOf(in.has_iso(), in.iso(), in); }
 IsoChoice isoChoiceOf(const proto::Item& in) { return choiceOf(in.has_iso(), in.iso(), in); }
 IsoChoice isoChoiceOf(const proto::IsoChange& in) { return choiceOf(true, in.value(), in); }
+IsoChoice isoChoiceOf(const proto::IsoUpdate& in) { return choiceOf(true, in.value(), in); }
 
 std::shared_ptr<const IsoSurface> isoSurfaceOf(const PlacedVolume& volume, const IsoChoice& iso,
                                                std::shared_ptr<const MatterTable> matter) {

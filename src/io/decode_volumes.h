@@ -35,6 +35,7 @@ PlacedVolume withSpacing(PlacedVolume volume, const proto::Volume& in);
 IsoChoice isoChoiceOf(const proto::Volume& in);
 IsoChoice isoChoiceOf(const proto::Item& in);
 IsoChoice isoChoiceOf(const proto::IsoChange& in);
+IsoChoice isoChoiceOf(const proto::IsoUpdate& in);
 
 /// What the message says that the values feel like; null: nothing. Throws hl::Error for what makes no sense.
 std::shared_ptr<const MatterTable> matterOf(const proto::Volume& in);

@@ -15,6 +15,7 @@
 #include "io/decode_volumes.h"
 #include "scene/append_part.h"
 #include "session/decode_joints.h"
+#include "session/frame_volumes.h"
 #include "session/upload_parts.h"
 
 namespace hl {
@@ -23,11 +24,10 @@ namespace {
 
 [[noreturn]] void refuse(const std::string&, const std::string& message) { throw Error(message); }
 
-constexpr std::size_t kMaxName_bytes = 256;   // of a texture: surfaces are copied, and their names with them
-constexpr std::size_t kMaxWarnings = 20;      // a frame may skip something in each of a million items
-constexpr std::size_t kListed_bytes = 128;    // of a name, number or compliance in the edit's lists
-constexpr std::size_t kSurface_bytes = 4096;  // of a volume, without it
-constexpr std::size_t kMoved_bytes = 512;     // of one item whose vertices move
+constexpr std::size_t kMaxName_bytes = 256;  // of a texture: surfaces are copied, and their names with them
+constexpr std::size_t kMaxWarnings = 20;     // a frame may skip something in each of a million items
+constexpr std::size_t kListed_bytes = 128;   // of a name, number or compliance in the edit's lists
+constexpr std::size_t kMoved_bytes = 512;    // of one item whose vertices move
 
 void checkName(const std::string& name, const std::string& where) {
   if (name.size() > kMaxName_bytes)
@@ -75,7 +75,8 @@ class FrameDecoder {
         progress_(progress),
         before_(before),
         decoder_(refuse),
-        size_(limits) {
+        size_(limits),
+        volumes_(memory, size_) {
     result_.memory = MemoryShare(memory);
   }
 
@@ -91,7 +92,9 @@ class FrameDecoder {
   void warn(const std::string& where, const std::string& what);
   void warnOfCalls();
   void addMoved();
+  void addIsos();
   void addCompliances();
+  SceneItems& itemsToChange(std::uint32_t object, const std::string& where);
   SceneItem& itemToMove(const proto::VertexUpdate& in, const std::string& where);
   void move(const proto::VertexUpdate& in, Model& model, const std::string& where);
   std::shared_ptr<const Shape> noted(std::shared_ptr<const Shape> shape, const std::string& where);
@@ -107,9 +110,6 @@ class FrameDecoder {
   std::shared_ptr<const Shape> implicitSurfaceOf(const proto::Primitives& in, const std::string& where);
   template <typename Decode>
   std::shared_ptr<const Shape> ownSurface(std::uint64_t bytes, const std::string& where, const Decode& decode);
-  std::shared_ptr<const Shape> surfaceOfVolume(const proto::Primitives& in, const proto::Item& item,
-                                               const std::string& where);
-  const PlacedVolume& volumeOf(const proto::Volume& in, const std::string& where);
   const proto::Primitives& upload(std::uint64_t id, const std::string& where);
   void countItems();
 
@@ -122,8 +122,8 @@ class FrameDecoder {
   const ItemsBefore& before_;
   const SceneDecoder decoder_;
   DecodedFrame result_;
-  std::map<const proto::Volume*, PlacedVolume> volumes_;  // one for all its surfaces
-  ModelSizes size_;                  // each item makes a shape of its own, even if all refer to one upload
+  ModelSizes size_;  // each item makes a shape of its own, even if all refer to one upload
+  FrameVolumes volumes_;
   std::set<std::uint32_t> deleted_;  // numbers of objects
   std::size_t more_warnings_ = 0;
   double items_ = 1, built_ = 0;
@@ -274,7 +274,7 @@ std::shared_ptr<const Placement> FrameDecoder::placementOf(const proto::Item& in
 std::shared_ptr<const Shape> FrameDecoder::shapeOf(const proto::Primitives& in, const proto::Item& item,
                                                    const Shape* before, const std::string& where) {
   if (in.has_heights() || in.has_volume() || in.has_cloud() || in.has_implicit()) requireAlone(in, where);
-  if (in.has_volume()) return surfaceOfVolume(in, item, where);
+  if (in.has_volume()) return volumes_.surface(in.volume(), item, where + ".volume");
   if (item.has_iso() || item.has_below()) throw Error(where + ": iso and below are of volumes, and this is none");
   if (in.has_heights()) return heightsOf(in, before, where);
   if (in.has_cloud()) return cloudOf(in, where);
@@ -321,36 +321,6 @@ std::shared_ptr<const Shape> FrameDecoder::implicitSurfaceOf(const proto::Primit
                     [&] { return decodeImplicit(in.implicit()); });
 }
 
-std::shared_ptr<const Shape> FrameDecoder::surfaceOfVolume(const proto::Primitives& in, const proto::Item& item,
-                                                           const std::string& where) {
-  const PlacedVolume& volume = volumeOf(in.volume(), where);
-  return makeCounted(memory_, kSurface_bytes, [&] {
-    try {
-      const IsoChoice iso = isoChoiceOf(item).after(isoChoiceOf(in.volume()));
-      return makeShape(isoSurfaceOf(volume, iso, matterOf(in.volume())));
-    } catch (const Error& error) {
-      throw Error(where + ".volume: " + error.what());
-    }
-  });
-}
-
-// Counted once, until the last of its surfaces goes.
-const PlacedVolume& FrameDecoder::volumeOf(const proto::Volume& in, const std::string& where) {
-  PlacedVolume& placed = volumes_[&in];
-  if (placed.volume) return placed;
-  size_.add(bytesToMakeVolume(in), where + ": ");
-  MemoryShare memory(memory_);
-  memory.take(bytesToMakeVolume(in));
-  try {
-    placed = decodeVolume(in);
-  } catch (const Error& error) {
-    throw Error(where + ".volume: " + error.what());
-  }
-  memory.set(placed.volume->bytes());
-  placed.volume = withShare(std::move(placed.volume), std::move(memory));
-  return placed;
-}
-
 std::shared_ptr<const Shape> FrameDecoder::noted(std::shared_ptr<const Shape> shape, const std::string& where) {
   if (shape->before != 0) ++result_.refits;
   for (const std::string& warning : shape->warnings) warn(where, warning);
@@ -380,14 +350,17 @@ void FrameDecoder::warnOfCalls() {
   if (result_.edit.world) look(0, *result_.edit.world);
 }
 
-// In the edit; the other items of an object that is only moved stay as they were.
-SceneItem& FrameDecoder::itemToMove(const proto::VertexUpdate& in, const std::string& where) {
-  if (in.object() == 0 || !isThere(in.object()))
-    throw Error(where + ": there is no object " + std::to_string(in.object()));
-  auto found = result_.edit.objects.find(in.object());
+// In the edit; what is not changed of an object stays as it was.
+SceneItems& FrameDecoder::itemsToChange(std::uint32_t object, const std::string& where) {
+  if (object == 0 || !isThere(object)) throw Error(where + ": there is no object " + std::to_string(object));
+  auto found = result_.edit.objects.find(object);
   if (found == result_.edit.objects.end())
-    found = result_.edit.objects.emplace(in.object(), copyOf(*itemsBefore(in.object()), memory_)).first;
-  SceneItems& items = *found->second;
+    found = result_.edit.objects.emplace(object, copyOf(*itemsBefore(object), memory_)).first;
+  return *found->second;
+}
+
+SceneItem& FrameDecoder::itemToMove(const proto::VertexUpdate& in, const std::string& where) {
+  SceneItems& items = itemsToChange(in.object(), where);
   if (in.item() >= items.size() || !items[in.item()].shape || items[in.item()].shape->source)
     throw Error(where + ": item " + std::to_string(in.item()) + " of object " + std::to_string(in.object()) +
                 " has no vertices");
@@ -445,6 +418,18 @@ void FrameDecoder::addMoved() {
   }
 }
 
+void FrameDecoder::addIsos() {
+  for (int i = 0; i < frame_.isos_size(); ++i) {
+    const proto::IsoUpdate& in = frame_.isos(i);
+    const std::string where = pathOf("isos", i);
+    SceneItems& items = itemsToChange(in.object(), where);
+    const bool there = in.item() < items.size();
+    const Shape* const before = there ? items[in.item()].shape.get() : nullptr;
+    auto shape = volumes_.surfaceAt(before, in, where);
+    items[in.item()].shape = std::move(shape);
+  }
+}
+
 // Of objects that are there when the frame is shown.
 void FrameDecoder::addCompliances() {
   for (int i = 0; i < frame_.compliances_size(); ++i) {
@@ -478,6 +463,7 @@ DecodedFrame FrameDecoder::run() {
   addObjects();
   warnOfCalls();
   addMoved();
+  addIsos();
   addCompliances();
   if (more_warnings_ > 0)
     result_.warnings.push_back("and " + std::to_string(more_warnings_) + " more lines about what was skipped");

@@ -22,6 +22,7 @@ enum class SolidSide : std::uint8_t { kAbove, kBelow };
 struct IsoValue {
   double value = 0;
   SolidSide solid = SolidSide::kAbove;
+  bool operator==(const IsoValue&) const = default;
 };
 
 /// What somebody says of an iso value; nothing: it stays as it is.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "client/fake_server.h"
@@ -104,6 +105,44 @@ TEST_F(CallsTest, SurfacesOfAVolumeShareItsSamples) {
   EXPECT_EQ(volume.kind(), "uint16");
   EXPECT_EQ(volume.missing(), 9);
   EXPECT_EQ(volume.samples(0), std::string(reinterpret_cast<const char*>(samples.data()), sizeof samples));
+}
+
+TEST_F(CallsTest, AnotherIsoValueIsSentAlone) {
+  const std::array<HLushort, 8> samples{1, 2, 3, 4, 5, 6, 7, 8};
+  hlNewObject(3);
+  triangle();
+  hlVolume(2, 2, 2, HL_UNSIGNED_SHORT, samples.data(), nullptr, 2.5);
+  hlVolumeSurface(3.5);
+  hlEndObject();
+  flushed();
+  hlVolumeIso(3, 1, 4.5);
+  hlVolumeIso(3, 1, 5.5);
+  const proto::Frame frame = flushed();
+  EXPECT_EQ(frame.objects_size(), 0);
+  ASSERT_EQ(frame.isos_size(), 1) << "the last one counts";
+  EXPECT_EQ(frame.isos(0).object(), 3U);
+  EXPECT_EQ(frame.isos(0).item(), 2U) << "after the triangle and the first surface";
+  EXPECT_EQ(frame.isos(0).value(), 5.5);
+  EXPECT_FALSE(frame.isos(0).has_below());
+  hlVolumeIso(3, 0, 6.5);
+  const HLuint object = 3;
+  hlDeleteObjects(1, &object);
+  EXPECT_EQ(flushed().isos_size(), 0);
+}
+
+TEST_F(CallsTest, IsoValuesOfWhatIsNotThereAreRefused) {
+  hlNewObject(3);
+  triangle();
+  hlEndObject();
+  for (const auto& [object, surface, iso] :
+       {std::tuple<HLuint, HLint, HLdouble>{3, 0, 1}, {4, 0, 1}, {3, -1, 1}, {3, 0, kNaN}}) {
+    hlVolumeIso(object, surface, iso);
+    expectError(HL_INVALID_VALUE);
+  }
+  hlNewObject(4);
+  hlVolumeIso(3, 0, 1);
+  expectError(HL_INVALID_OPERATION);
+  hlEndObject();
 }
 
 TEST_F(CallsTest, ADepthFrameIsAHeightFieldWithACamera) {

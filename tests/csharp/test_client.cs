@@ -108,6 +108,48 @@ static class TestClient {
         ReasonOf(client);
     }
 
+    // A hand presses on heights, on a cloud and on a volume, whose surface then rises under it.
+    static void SurfacesThatAreNoMeshesAreFelt(string url) {
+        var client = new HapticClient(url, new ClientOptions { StateRate_Hz = 200 });
+        const int side = 41;
+        var heights = new short[side * side];
+        var points = new double[3 * side * side];
+        var volume = new float[side * side * side];
+        for (int i = 0; i < side * side; ++i) {
+            points[3 * i] = 0.001 * (i % side - side / 2);
+            points[3 * i + 2] = 0.001 * (i / side - side / 2);
+        }
+        for (int i = 0; i < volume.Length; ++i) volume[i] = 0.001f * (i / side % side - side / 2);  // y
+        TouchItem[] items = {
+            new TouchItem { Heights = new TouchHeights { Samples = heights, Columns = side, Spacing = 0.001 } },
+            new TouchItem { Cloud = new TouchCloud { Points = points, Reach = 0.75 } },
+            new TouchItem { Volume = new TouchVolume {
+                Samples = volume, Width = side, Height = side, Spacing = 0.001, Iso = 0.0001, Below = true } }
+        };
+        client.SetWorld(new TouchItem { Object = 1 });
+        client.Set(new DeviceSettings { WorkspaceOrigin = new Vec3(0, 0, 0), ProxyRadius = 0.002 });
+        foreach (TouchItem item in items) {
+            client.Set(new DeviceSettings { HandGoal = new Vec3(0, 0.02, 0) });
+            WaitFor(() => client.Newest?.Finger.Y > 0.015);
+            client.Define(1, item);
+            client.Flush();
+            Next(client, TouchEventKind.FrameShown);
+            client.Set(new DeviceSettings { HandGoal = new Vec3(0, -0.005, 0) });
+            WaitFor(() => client.Newest.Force_N.Y > 0.3 && client.Newest.Proxy.Y > 0.0015);
+        }
+        client.ChangeIso(1, 0, 0.0051);
+        client.Flush();
+        WaitFor(() => client.Newest.Proxy.Y > 0.0065);
+        bool refused = false;
+        try {
+            client.Define(1, new TouchItem { Volume = new TouchVolume { Samples = new double[8], Width = 2, Height = 2 } });
+        } catch (ArgumentException) {
+            refused = true;
+        }
+        Expect(refused, "samples of double are refused");
+        client.Dispose();
+    }
+
     static void RefusedFrameChangesNothing(string url) {
         var client = new HapticClient(url);
         client.SetWorld(new TouchItem { Mesh = Floor(1, 0.1), Matrix = new double[16] });
@@ -316,7 +358,8 @@ static class TestClient {
     }
 
     static int Main(string[] arguments) {
-        var cases = new Action<string>[] { BadAddresses, NobodyThere, NoAnswer, LargeMeshIsFelt, RefusedFrameChangesNothing,
+        var cases = new Action<string>[] { BadAddresses, NobodyThere, NoAnswer, LargeMeshIsFelt, SurfacesThatAreNoMeshesAreFelt,
+            RefusedFrameChangesNothing,
             TooLargeFrameIsRefusedHere, FastFramesAreMerged, FastSettingsAreMerged, SecondClientIsNotMaster, WrongToken,
             RightToken, ServerGoesAway, BodiesAnswer, JointsHold, SnapsHoldAndFieldsPush };
         cases.Single(one => one.Method.Name == arguments[0])(arguments[1]);

@@ -287,6 +287,52 @@ TEST(DecodeFrame, VolumesBecomeTheirSurfaces) {
   EXPECT_EQ(memory.used_bytes(), 0U);
 }
 
+TEST(DecodeFrame, AnotherIsoValueKeepsTheSamples) {
+  proto::Frame first;
+  proto::ObjectDefinition& object = *first.add_objects();
+  object.set_id(7);
+  for (const double iso : {0.5, 1.75}) {
+    proto::Item& item = *object.add_items();
+    *item.mutable_primitives()->mutable_volume() = smallVolume();
+    item.set_iso(iso);
+  }
+  Uploads none;
+  const DecodedFrame before = decodeFrame(first, none, {}, {}, [](double) {}, {});
+  const SceneItems& old = *before.edit.objects.at(7);
+  const auto there = [&](std::uint32_t id) { return id == 7 ? &old : nullptr; };
+  const auto surfaceOf = [](const SceneItem& item) {
+    return dynamic_cast<const IsoSurface*>(item.shape->source.get());
+  };
+  proto::Frame next;
+  proto::IsoUpdate& iso = *next.add_isos();
+  iso.set_object(7);
+  iso.set_item(1);
+  iso.set_value(1.25);
+  iso.set_below(true);
+  const DecodedFrame after = decodeFrame(
+      next, none, {}, {}, [](double) {}, there);
+  const SceneItems& items = *after.edit.objects.at(7);
+  EXPECT_EQ(items[0].shape, old[0].shape);
+  EXPECT_EQ(surfaceOf(items[1])->volume(), surfaceOf(old[1])->volume());
+  EXPECT_EQ(surfaceOf(items[1])->iso(), (IsoValue{1.25, SolidSide::kBelow}));
+  EXPECT_EQ(surfaceOf(old[1])->iso(), (IsoValue{1.75, SolidSide::kAbove}));
+  const auto refusal = [&] {
+    try {
+      decodeFrame(
+          next, none, {}, {}, [](double) {}, there);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  iso.set_value(std::numeric_limits<double>::infinity());
+  EXPECT_EQ(refusal(), "isos[0].value must be a finite number");
+  iso.set_item(2);
+  EXPECT_EQ(refusal(), "isos[0]: item 2 of object 7 is no surface of a volume");
+  iso.set_object(8);
+  EXPECT_EQ(refusal(), "isos[0]: there is no object 8");
+}
+
 TEST(DecodeFrame, ImplicitSurfacesAreWhatTheySay) {
   proto::Frame frame;
   proto::Implicit& implicit = *frame.mutable_world()->add_items()->mutable_primitives()->mutable_implicit();
