@@ -102,6 +102,7 @@ class WanderingFinger {
     finger_ = {place_.x(), std::max(proxy.y() - depth_m, -0.02), place_.y()};
     return finger_;
   }
+  const Vec3& place() const { return finger_; }
 
  private:
   static constexpr double kLead_m = 0.01;
@@ -110,7 +111,7 @@ class WanderingFinger {
   Vec2 place_{0, 0.1};
   double heading_ = 0;
   std::size_t ticks_ = 0;
-  Vec3 finger_ = Vec3::Zero();
+  Vec3 finger_{0, 0.02, 0.1};
 };
 
 // Of one step; it is what the step returns.
@@ -132,7 +133,10 @@ std::string messageOf(const DepthPicture& picture) {
 class DepthBench {
  public:
   DepthBench(const DepthPicture& still, double radius_m)
-      : camera_(still), still_(sceneOf(still.grid(), nullptr, still, nullptr)) {
+      : camera_(still),
+        seen_(std::make_unique<const DepthFrame>(smoothed(still.grid(), still.unit_m, still.camera, nullptr, 0),
+                                                 frameOfTable())),
+        still_(sceneOf(still.grid(), nullptr, still, nullptr)) {
     settings_.radius = radius_m;
     row_.columns = still.columns;
     row_.rows = still.rows;
@@ -143,7 +147,7 @@ class DepthBench {
     for (std::size_t i = 0; i < pictures + kFirstPictures; ++i) {
       counts_ = i >= kFirstPictures;
       show(camera_.next());
-      if (i == 0) states_.fill(startProxy(*scene_, settings_, {0, 0.02, 0.1}));
+      if (i == 0 || fell()) begin();
       for (std::size_t tick = 0; tick < kTicksPerPicture; ++tick) move(tick == 0);
     }
     row_.ticks = ticks_.middle();
@@ -195,6 +199,32 @@ class DepthBench {
     row_.whole.add(times.unpack + times.filter + times.tiles + times.surface);
   }
 
+  void begin() {
+    constexpr double kAbove_m = 0.15;
+    const Vec3 place = finger_.place();
+    states_.fill(startProxy(*scene_, settings_, {place.x(), kAbove_m, place.z()}));
+  }
+  // Through the shadow of a thing, in which there is no surface.
+  bool fell() const { return seen_->siteOf(states_[0].position) == Site::kMatter || states_[0].position.y() < 0; }
+
+  // Whether the surface without noise has no rim near a place on it.
+  bool isWhole(const Vec3& place) const {
+    const DepthCells& cells = seen_->cells();
+    const Vec3 q = frameOfTable().axes.inverse() * (place - frameOfTable().origin);
+    const DepthCamera& camera = seen_->image().camera;
+    const double u = camera.cx + camera.fx * q.x() / q.z(), v = camera.cy + camera.fy * q.y() / q.z();
+    const double around = camera.fx * (settings_.radius + kRim_m) / q.z();
+    const auto cell = [](double at, std::uint32_t pixels) {
+      return static_cast<std::uint32_t>(std::clamp(at, 0.0, pixels - 2.0));
+    };
+    for (std::uint32_t j = cell(v - around, row_.rows); j <= cell(v + around, row_.rows); ++j) {
+      for (std::uint32_t i = cell(u - around, row_.columns); i <= cell(u + around, row_.columns); ++i) {
+        if (!cells.exists({i, j, 0}) || !cells.exists({i, j, 1})) return false;
+      }
+    }
+    return true;
+  }
+
   void move(bool first) {
     const Vec3 before = states_[0].position, finger = finger_.next(before);
     for (std::size_t pass = 0; pass < states_.size(); ++pass) {
@@ -204,12 +234,16 @@ class DepthBench {
     }
     const Vec3 way = states_[0].position - before;
     SceneImpact impact;
-    if (counts_ && !way.isZero(0) && SceneAt(*still_).firstImpact(before, way, kThin_m, 0, impact)) ++row_.passed;
+    if (counts_ && !way.isZero(0) && SceneAt(*still_).firstImpact(before, way, kThin_m, 0, impact) &&
+        isWhole(before + impact.impact.t * way))
+      ++row_.passed;
   }
 
   static constexpr double kThin_m = 1e-7;
+  static constexpr double kRim_m = 0.005;  // noise moves the rims
 
   NoisyCamera camera_;
+  std::unique_ptr<const DepthFrame> seen_;  // without noise; and as a scene
   std::uint64_t number_ = 0;
   std::shared_ptr<const DepthImage> image_;
   std::shared_ptr<const Snapshot> still_, scene_;
@@ -230,7 +264,8 @@ constexpr const char* kDepthFooter =
     "touched; whole: of all four, and at most. MB: of what is kept. Ticks: the middle one of three times counts. "
     "keep:\n"
     "the first tick after a picture, in the median and at most. passed: ticks in which the proxy went through the\n"
-    "surface as it is without noise.\n";
+    "surface as it is without noise, a radius and 5 mm from its rims or more: beyond them are holes, and a proxy that\n"
+    "fell through one is lifted again.\n";
 
 }  // namespace
 
