@@ -13,7 +13,7 @@ namespace hl {
 /// One row of the table.
 struct MatterRow {
   double value = 0;                    ///< of the volume
-  std::optional<double> stiffness;     ///< 0..1, of a surface at this value; absent: as its material says
+  std::optional<double> stiffness{};   ///< 0..1, of a surface at this value; absent: as its material says
   std::optional<double> strength_N{};  ///< of a surface at this value (proxy/piercing.h); absent: as its material says
   MatterForce force{};
 };
