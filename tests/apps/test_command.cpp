@@ -315,6 +315,15 @@ TEST(Command, InfoAddsUpAllObjectsAndListsBodies) {
   EXPECT_EQ(call("info sphere:100").output.find("gravity"), std::string::npos);
 }
 
+TEST(Command, MatterIsAboveTheIsoValueUnlessItIsSaidToBeBelow) {
+  for (const auto& [options, told] :
+       {std::pair{"", "matter above"}, {" --below", "matter below"}, {" --below=false", "matter above"}}) {
+    const Result result = call(std::string("info ct:phantom:16") + options);
+    EXPECT_EQ(result.code, 0) << result.output;
+    EXPECT_NE(result.output.find(told), std::string::npos) << options << '\n' << result.output;
+  }
+}
+
 TEST(Command, InfoListsJoints) {
   const Result result = call("info workshop");
   EXPECT_EQ(result.code, 0);
