@@ -88,7 +88,7 @@ TEST(TileTriangles, NoneIsLeftOutAndFewAreThereForNothing) {
       }
     }
   }
-  EXPECT_GT(touched, 3000U);
+  EXPECT_GT(touched, 2000U);
   EXPECT_LT(proposed, 2 * touched);
   EXPECT_GT(late, touched / 2) << "the moments tell something";
 }
