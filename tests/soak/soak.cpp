@@ -3,16 +3,14 @@
 // the iteration cap has ended the tick), or that is not finite. Ends with code 1 when it has seen any of it.
 #include <fmt/core.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <string>
 
 #include "soak/clearance.h"
 #include "soak/finger.h"
-#include "soak/pieces.h"
+#include "soak/run_options.h"
 #include "soak/world.h"
 
 namespace hl::soak {
@@ -26,11 +24,8 @@ constexpr int kTicksPerLook = 4;      // at the clearance; ticks at the cap are 
 // about the root of that rounding, eps extent / radius; in so many radii of way the proxy comes nearer by as much.
 constexpr double kMaxWay = 20;
 
-struct Options {
-  std::uint64_t seed = 1;
+struct Options : RunOptions {
   double ticks = 1e7;
-  int threads = 1;
-  std::int64_t piece = -1;
 };
 
 // What pieces have seen. `fault` is empty as long as nothing was wrong.
@@ -136,31 +131,15 @@ Options parse(int argc, char** argv) {
       "The long run of the proxy's tick: random motion over soup, thin plates, slots, corners, rough terrain and "
       "apexes.",
       "soak");
-  app.add_option("--seed", options.seed, "Of all random numbers")->capture_default_str();
   app.add_option("--ticks", options.ticks, "How many, rounded up to pieces of 10000")->capture_default_str();
-  app.add_option("--threads", options.threads, "They do not change the outcome")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
-  app.add_option("--piece", options.piece, "Only the piece of this number");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    std::exit(app.exit(error) == 0 ? 0 : 2);
-  }
+  addRunOptions(app, options);
+  parseOrExit(app, argc, argv);
   return options;
 }
 
-Pieces piecesOf(const Options& options) {
-  const auto count = static_cast<std::uint64_t>(std::ceil(options.ticks / kTicksPerPiece));
-  if (options.piece < 0) return {0, count, 1, options.threads};
-  const auto piece = static_cast<std::uint64_t>(options.piece);
-  return {piece, piece + 1, 1, 1};
-}
-
 using OfKind = std::array<Seen, kKinds.size()>;
-using Faults = std::map<std::uint64_t, std::string>;  // by piece
 
-int report(const OfKind& of_kind, const Faults& faults) {
+void print(const OfKind& of_kind) {
   for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
     const Seen& seen = of_kind[kind];
     if (seen.pieces == 0) continue;
@@ -173,13 +152,10 @@ int report(const OfKind& of_kind, const Faults& faults) {
         100.0 * static_cast<double>(seen.touching) / static_cast<double>(seen.ticks), seen.capped, most,
         seen.out_of_work, seen.most_iterations, seen.least_above, seen.looks);
   }
-  for (const auto& [piece, fault] : faults) fmt::print("{}\n", fault);
-  fmt::print("{} faults\n", faults.size());
-  return faults.empty() ? 0 : 1;
 }
 
 int run(const Options& options) {
-  const Pieces pieces = piecesOf(options);
+  const Pieces pieces = piecesOf(options, options.ticks, kTicksPerPiece);
   OfKind of_kind;
   Faults faults;
   Progress progress(pieces.count());
@@ -187,13 +163,14 @@ int run(const Options& options) {
     const std::size_t kind = number % kKinds.size();
     of_kind[kind].add(seen);
     if (seen.fault.empty()) return;
-    faults[number] = fmt::format("FAULT in {}, {}; again: soak --seed {} --piece {}", kKinds[kind], seen.fault,
-                                 options.seed, number);
-    fmt::print(stderr, "{}\n", faults[number]);  // at once: a long run may be stopped
+    addFault(faults, number,
+             fmt::format("FAULT in {}, {}; again: soak --seed {} --piece {}", kKinds[kind], seen.fault, options.seed,
+                         number));
   };
   runPieces(
       pieces, progress, [&](std::uint64_t number) { return Piece(options.seed, number).run(); }, collect);
-  return report(of_kind, faults);
+  print(of_kind);
+  return report(faults);
 }
 
 }  // namespace

@@ -9,17 +9,15 @@
 // clear of the meshes by a tenth of its radius. Looks that found it squeezed by less are counted too.
 #include <fmt/core.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "geometry/judge.h"
 #include "proxy/proxy.h"
 #include "soak/finger.h"
-#include "soak/pieces.h"
+#include "soak/run_options.h"
 
 namespace hl::soak {
 
@@ -334,44 +332,30 @@ class Piece {
   Seen seen_;
 };
 
-struct Options {
-  std::uint64_t seed = 1;
+struct Options : RunOptions {
   double bendings = 1e6;
-  int threads = 1;
-  std::int64_t piece = -1;
 };
 
 Options parse(int argc, char** argv) {
   Options options;
   CLI::App app("The long run of meshes that bend against a proxy.", "soak_deforming");
-  app.add_option("--seed", options.seed, "Of all random numbers")->capture_default_str();
   app.add_option("--bendings", options.bendings, "How many at most, rounded up to pieces of 100")
       ->capture_default_str();
-  app.add_option("--threads", options.threads, "They do not change the outcome")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
-  app.add_option("--piece", options.piece, "Only the piece of this number");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    std::exit(app.exit(error) == 0 ? 0 : 2);
-  }
+  addRunOptions(app, options);
+  parseOrExit(app, argc, argv);
   return options;
 }
 
 int run(const Options& options) {
-  const auto count = static_cast<std::uint64_t>(std::ceil(options.bendings / (kBendingsPerLife * kLivesPerPiece)));
-  const auto piece = static_cast<std::uint64_t>(options.piece);
-  const Pieces pieces = options.piece < 0 ? Pieces{0, count, 1, options.threads} : Pieces{piece, piece + 1, 1, 1};
+  const Pieces pieces = piecesOf(options, options.bendings, kBendingsPerLife * kLivesPerPiece);
   Seen all;
-  std::map<std::uint64_t, std::string> faults;
+  Faults faults;
   Progress progress(pieces.count());
   const auto collect = [&](std::uint64_t number, const Seen& seen) {
     all.add(seen);
     if (seen.fault.empty()) return;
-    faults[number] =
-        fmt::format("FAULT in {}; again: soak_deforming --seed {} --piece {}", seen.fault, options.seed, number);
-    fmt::print(stderr, "{}\n", faults[number]);
+    addFault(faults, number,
+             fmt::format("FAULT in {}; again: soak_deforming --seed {} --piece {}", seen.fault, options.seed, number));
   };
   runPieces(
       pieces, progress, [&](std::uint64_t number) { return Piece(options.seed, number).run(); }, collect);
@@ -382,9 +366,7 @@ int run(const Options& options) {
       all.bendings, all.lives, all.ticks,
       100.0 * static_cast<double>(all.touching) / static_cast<double>(std::max<std::uint64_t>(1, all.ticks)),
       all.capped, all.pinched, all.squeezed, all.least_above);
-  for (const auto& [number, fault] : faults) fmt::print("{}\n", fault);
-  fmt::print("{} faults\n", faults.size());
-  return faults.empty() ? 0 : 1;
+  return report(faults);
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <hwy/highway.h>
 #include <hwy/targets.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,7 +20,7 @@
 #include "geometry/sphere_tree.h"
 #include "geometry/wide_bvh.h"
 #include "soak/grid_index.h"
-#include "soak/pieces.h"
+#include "soak/run_options.h"
 
 namespace hl::soak {
 
@@ -29,11 +28,8 @@ namespace {
 
 constexpr std::uint64_t kQueriesPerPiece = 4'000;  // on one small soup, or on a part of the large one
 
-struct Options {
-  std::uint64_t seed = 1;
+struct Options : RunOptions {
   double queries = 1e6, large_queries = 1e5, triangles = 1e6;
-  int threads = 1;
-  std::int64_t piece = -1;
 };
 
 struct Query {
@@ -168,18 +164,11 @@ Asked makeLarge(std::uint64_t seed, double triangles) {
 Options parse(int argc, char** argv) {
   Options options;
   CLI::App app("The long run of the queries: every answer of the hierarchies against plain judges.", "soak_queries");
-  app.option_defaults()->always_capture_default();
-  app.add_option("--seed", options.seed, "Of all random numbers");
-  app.add_option("--queries", options.queries, "How many on small soups");
-  app.add_option("--large-queries", options.large_queries, "How many on the large scene");
-  app.add_option("--triangles", options.triangles, "Of the large scene");
-  app.add_option("--threads", options.threads, "They do not change the outcome")->check(CLI::Range(1, 1024));
-  app.add_option("--piece", options.piece, "Only the piece of this number")->always_capture_default(false);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    std::exit(app.exit(error) == 0 ? 0 : 2);
-  }
+  app.add_option("--queries", options.queries, "How many on small soups")->capture_default_str();
+  app.add_option("--large-queries", options.large_queries, "How many on the large scene")->capture_default_str();
+  app.add_option("--triangles", options.triangles, "Of the large scene")->capture_default_str();
+  addRunOptions(app, options);
+  parseOrExit(app, argc, argv);
   return options;
 }
 

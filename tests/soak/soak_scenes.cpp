@@ -4,20 +4,18 @@
 // rest.
 #include <fmt/core.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "soak/clearance.h"
 #include "soak/finger.h"
-#include "soak/pieces.h"
 #include "soak/random_scenes.h"
 #include "soak/random_surfaces.h"
+#include "soak/run_options.h"
 
 namespace hl::soak {
 
@@ -245,39 +243,25 @@ class Run {
   const RandomScene& scene() const { return scene_; }
 };
 
-struct Options {
-  std::uint64_t seed = 1, scenes = 1000;
-  int threads = 1;
-  std::int64_t scene = -1;
+struct Options : RunOptions {
+  std::uint64_t scenes = 1000;
   bool surfaces = false;
 };
 
 Options parse(int argc, char** argv) {
   Options options;
   CLI::App app("Random scenes and paths, and every promise of a tick judged by plain means.", "soak_scenes");
-  app.add_option("--seed", options.seed, "Of all random numbers")->capture_default_str();
   app.add_option("--scenes", options.scenes, "How many")->capture_default_str();
-  app.add_option("--threads", options.threads, "They do not change the outcome")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
-  app.add_option("--scene", options.scene, "Only the scene of this number");
   app.add_flag("--surfaces", options.surfaces, "Surfaces that make their triangles or points, each beside its mesh");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    std::exit(app.exit(error) == 0 ? 0 : 2);
-  }
+  addRunOptions(app, options, "scene");
+  parseOrExit(app, argc, argv);
   return options;
 }
 
 int run(const Options& options) {
-  Pieces pieces{0, options.scenes, 1, options.threads};
-  if (options.scene >= 0) {
-    const auto scene = static_cast<std::uint64_t>(options.scene);
-    pieces = {scene, scene + 1, 1, 1};
-  }
+  const Pieces pieces = piecesOf(options, static_cast<double>(options.scenes), 1);
   Seen all;
-  std::map<std::uint64_t, std::string> faults;
+  Faults faults;
   Progress progress(pieces.count());
   const auto one = [&](std::uint64_t number) {
     Run run(options.seed, number, options.surfaces);

@@ -3,15 +3,13 @@
 // function. Looks for a proxy that falls through or is not finite. Ends with code 1 when it has seen one.
 #include <fmt/core.h>
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <map>
+#include <array>
 #include <string>
 
 #include "proxy/proxy.h"
 #include "soak/closed_surfaces.h"
 #include "soak/finger.h"
-#include "soak/pieces.h"
+#include "soak/run_options.h"
 
 namespace hl::soak {
 
@@ -81,57 +79,39 @@ class Piece {
   Seen seen_;
 };
 
-struct Options {
-  std::uint64_t seed = 1;
+struct Options : RunOptions {
   double ticks = 1e7;
-  int threads = 1;
-  std::int64_t piece = -1;
 };
 
 Options parse(int argc, char** argv) {
   Options options;
   CLI::App app("The long run of surfaces that make their triangles.", "soak_surfaces");
-  app.add_option("--seed", options.seed, "Of all random numbers")->capture_default_str();
   app.add_option("--ticks", options.ticks, "How many, rounded up to pieces of 10000")->capture_default_str();
-  app.add_option("--threads", options.threads, "They do not change the outcome")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
-  app.add_option("--piece", options.piece, "Only the piece of this number");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    std::exit(app.exit(error) == 0 ? 0 : 2);
-  }
+  addRunOptions(app, options);
+  parseOrExit(app, argc, argv);
   return options;
 }
 
 int run(const Options& options) {
-  const auto count = static_cast<std::uint64_t>(std::ceil(options.ticks / kTicksPerPiece));
-  Pieces pieces{0, count, 1, options.threads};
-  if (options.piece >= 0) {
-    const auto piece = static_cast<std::uint64_t>(options.piece);
-    pieces = {piece, piece + 1, 1, 1};
-  }
+  const Pieces pieces = piecesOf(options, options.ticks, kTicksPerPiece);
   std::array<Seen, kClosedKinds.size()> of_kind;
-  std::map<std::uint64_t, std::string> faults;
+  Faults faults;
   Progress progress(pieces.count());
   runPieces(
       pieces, progress, [&](std::uint64_t number) { return Piece(options.seed, number).run(); },
       [&](std::uint64_t number, const Seen& seen) {
         of_kind[number % kClosedKinds.size()].add(seen);
         if (seen.fault.empty()) return;
-        faults[number] = fmt::format("FAULT in {}, {}; again: soak_surfaces --seed {} --piece {}",
-                                     kClosedKinds[number % kClosedKinds.size()], seen.fault, options.seed, number);
-        fmt::print(stderr, "{}\n", faults[number]);  // at once: a long run may be stopped
+        addFault(faults, number,
+                 fmt::format("FAULT in {}, {}; again: soak_surfaces --seed {} --piece {}",
+                             kClosedKinds[number % kClosedKinds.size()], seen.fault, options.seed, number));
       });
   for (std::size_t kind = 0; kind < kClosedKinds.size(); ++kind) {
     const Seen& seen = of_kind[kind];
     fmt::print("{}: {} ticks, {} in contact, {} at the cap, {} out of work\n", kClosedKinds[kind], seen.ticks,
                seen.touching, seen.capped, seen.out_of_work);
   }
-  for (const auto& [piece, fault] : faults) fmt::print("{}\n", fault);
-  fmt::print("{} faults\n", faults.size());
-  return faults.empty() ? 0 : 1;
+  return report(faults);
 }
 
 }  // namespace
