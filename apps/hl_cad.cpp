@@ -1,15 +1,12 @@
 // hl-cad: reads a CAD file for hl, in a process of its own.
-#include <fmt/core.h>
 
 #include <string>
-#include <string_view>
-#include <vector>
 
-#include "base/error.h"
 #include "cad/cad_mesh.h"
 #include "cad/read_cad_shape.h"
 #include "io/cad_file.h"
 #include "io/isolated.h"
+#include "io/reading_program.h"
 #include "io/sandbox.h"
 
 namespace {
@@ -28,16 +25,8 @@ hl::SceneModel parse(const hl::CadTask& task, const hl::ReadingReport& report) {
 
 // NOLINTNEXTLINE(bugprone-exception-escape): only when not even stderr can be written
 int main(int argc, char** argv) {
-  const std::vector<std::string> words(argv + 1, argv + argc);
-  if (words.size() == 1 && words[0] == "--version") {
-    fmt::print("hl-cad {}\n", HL_VERSION);
-    return 0;
-  }
-  try {
+  return hl::readingMain("hl-cad", HL_VERSION, {argv, static_cast<std::size_t>(argc)}, [](const auto& words) {
     const hl::CadTask task = hl::cadTaskOf(words);
     hl::answerAsProgram({}, [&](const hl::ReadingReport& report) { return parse(task, report); });
-  } catch (const hl::Error& error) {
-    fmt::print(stderr, "hl-cad: {}\n", error.what());
-    return 2;
-  }
+  });
 }

@@ -58,11 +58,7 @@ SceneModel readCad(int descriptor, const std::string& name, const CadTask& task,
   const ReadingCache cache(cacheFolder());
   const std::string key = cache.keyOf(descriptor, options);
   if (std::optional<SceneModel> kept = cache.find(key, limits)) return std::move(*kept);
-  try {
-    program.file = readingProgram(kCadProgram, kNoCadProgram);
-  } catch (const Error& error) {
-    throw Error(name + ": " + error.what());
-  }
+  program.file = readingProgram(kCadProgram, name + ": " + kNoCadProgram);
   SceneModel scene = runProgram(name, limits, program, descriptor, given_up, progress);
   cache.keep(key, scene);
   return scene;

@@ -28,11 +28,7 @@ SceneModel readVdb(int descriptor, const std::string& name, const VdbTask& task,
                    const std::atomic<bool>& given_up, const std::function<void(double)>& progress) {
   ReaderProgram program{"", {kVdbProgram}};
   for (const std::string& word : wordsOf(task)) program.words.push_back(word);
-  try {
-    program.file = readingProgram(kVdbProgram, kNoVdbProgram);
-  } catch (const Error& error) {
-    throw Error(name + ": " + error.what());
-  }
+  program.file = readingProgram(kVdbProgram, name + ": " + kNoVdbProgram);
   return runProgram(name, limits, program, descriptor, given_up, progress);
 }
 
