@@ -1,16 +1,23 @@
 # Makes build/web-module/hl_web.{mjs,wasm}: the engine and the simulated device for a browser, with Debian's emscripten.
 # Sourced by scripts/build.
 
+# Sources that include themselves, once for each instruction set (Highway's foreach_target).
+vector_sources() {
+  (cd "$root/src" && grep -rl --include='*.cpp' 'hwy/foreach_target.h' . | sed 's|^\./||' | LC_ALL=C sort)
+}
+
 # One source for each folder: headers are most of the compiling. Without the faces of hulls: emscripten has no qhull.
 web_sources() {
-  local out="$1" folder file
+  local out="$1" folder file vectors
+  rm -f "$out"/*.cpp "$out"/*.o
+  vectors="$(vector_sources)"
   for folder in geometry surfaces scene bodies proxy control; do
     for file in $(find "$root/src/$folder" -name "*.cpp" | LC_ALL=C sort); do
-      if [[ "$file" != */wide_bvh_query.cpp && "$file" != */hull_faces.cpp ]]; then echo "#include \"$file\""; fi
+      if [[ "$file" == */hull_faces.cpp ]] || grep -qxF "${file#"$root/src/"}" <<<"$vectors"; then continue; fi
+      echo "#include \"$file\""
     done >"$out/$folder.cpp"
   done
-  # Includes itself, once for each instruction set.
-  echo "#include \"$root/src/geometry/wide_bvh_query.cpp\"" >"$out/query.cpp"
+  for file in $vectors; do echo "#include \"$root/src/$file\"" >"$out/vectors_$(basename "$file")"; done
   for file in src/base/{ledger,plain_math,quantities}.cpp src/device/{device_models,hand,mass_arm,phantom}.cpp \
     src/device/{phantom_arm,simulated_device}.cpp src/touch/{body_events,body_hand,body_world,exploration,felt_contact,held_contacts}.cpp \
     src/touch/{joint_views,proxy_loop,touch_events,touch_step}.cpp src/tools/trace.cpp; do
@@ -45,7 +52,8 @@ build_web_module() {
   flags+=(-isystem "$out/include" -include "$root/web/missing_std.h")
   # Eigen asks for MMX's header, and uses nothing of it.
   : >"$out/include/mmintrin.h"
-  em++ "${flags[@]}" -c "$out/query.cpp" -o "$out/query.o" || die "the web module does not compile"
+  (cd "$out" && ls vectors_*.cpp) | sed 's/\.cpp$//' |
+    xargs -P 2 -I {} em++ "${flags[@]}" -c "$out/{}.cpp" -o "$out/{}.o" || die "the web module does not compile"
   for source in geometry surfaces scene bodies proxy control rest scenes web; do echo "$source"; done |
     xargs -P 2 -I {} em++ "${flags[@]}" $sse2 -c "$out/{}.cpp" -o "$out/{}.o" || die "the web module does not compile"
   em++ -O2 -fexceptions "$out"/*.o -o "$out/hl_web.mjs" \

@@ -33,6 +33,7 @@ HWY_INLINE void inParts(std::size_t count, const Part& part) {
   for (; i < count; ++i) part(single, i);
 }
 
+#if HWY_HAVE_FLOAT64
 template <typename D>
 HWY_INLINE hn::Vec<D> loaded(D d, const float* from) {
   return hn::PromoteTo(d, hn::LoadU(hn::Rebind<float, D>(), from));
@@ -53,6 +54,16 @@ HWY_INLINE void readAll(const Sample* samples, std::size_t count, double scale_m
     hn::StoreU(hn::DemoteTo(small, hn::IfThenElseZero(there, depth)), small, depths + i);
   });
 }
+#else  // vectors of doubles are missing on WebAssembly
+template <typename Sample>
+void readAll(const Sample* samples, std::size_t count, double scale_m, double missing, float* depths) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double sample = samples[i], depth = sample * scale_m;
+    const bool there = depth > 0 && depth <= double{std::numeric_limits<float>::max()} && sample != missing;
+    depths[i] = there ? static_cast<float>(depth) : 0;
+  }
+}
+#endif
 
 // As DepthCamera::joins().
 template <typename D>
