@@ -123,6 +123,7 @@ void printBody(const RigidBody& body, const Model& model) {
     if (made.shape.parts.size() > 1) fmt::print(", {} parts", made.shape.parts.size());
     constexpr double kRounding_m = 1e-9;
     if (made.hull_error_m > kRounding_m) fmt::print(", the mesh is up to {:.3g} mm outside", 1e3 * made.hull_error_m);
+    if (made.excess_m > kRounding_m) fmt::print(", parts reach up to {:.3g} mm beyond it", 1e3 * made.excess_m);
   } else {
     fmt::print("fixed");
   }

@@ -77,8 +77,9 @@ async def picture_of_scene(scene, programs):
 
 
 def parts(programs):
-    scene = look.ROOT / "scenes/examples/parts.hl.json"
-    write(asyncio.run(picture_of_scene(scene, programs)), look.folder / "bodies_of_parts.png")
+    for name, picture in (("parts", "bodies_of_parts"), ("hollow", "hollow_bodies")):
+        scene = look.ROOT / f"scenes/examples/{name}.hl.json"
+        write(asyncio.run(picture_of_scene(scene, programs)), look.folder / f"{picture}.png")
 
 
 def depth(programs):

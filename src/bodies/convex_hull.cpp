@@ -16,14 +16,7 @@ constexpr double kFlat = 1e-6;  // thickness over size
 
 // Throws for points that lie in a plane.
 void demandThick(std::span<const Vec3> points, const Vec3& middle, double size) {
-  Mat3 second = Mat3::Zero();
-  if (size > 0) {
-    for (const Vec3& point : points) {
-      const Vec3 way = (point - points[0]) / size;
-      second += way * way.transpose() / static_cast<double>(points.size());
-    }
-  }
-  const Vec3 thin = Eigen::SelfAdjointEigenSolver<Mat3>(second).eigenvectors().col(0);
+  const Vec3 thin = size > 0 ? thinnestWay(points, size) : Vec3::UnitX();
   double least = 1e300, most = -1e300;
   for (const Vec3& point : points) {
     least = std::min(least, thin.dot(point - middle));
@@ -34,6 +27,15 @@ void demandThick(std::span<const Vec3> points, const Vec3& middle, double size) 
 }
 
 }  // namespace
+
+Vec3 thinnestWay(std::span<const Vec3> points, double size) {
+  Mat3 second = Mat3::Zero();
+  for (const Vec3& point : points) {
+    const Vec3 way = (point - points[0]) / size;
+    second += way * way.transpose() / static_cast<double>(points.size());
+  }
+  return Eigen::SelfAdjointEigenSolver<Mat3>(second).eigenvectors().col(0);
+}
 
 UnitPoints unitPoints(std::span<const Vec3> points) {
   Vec3 low = Vec3::Constant(1e300), high = -low;

@@ -22,6 +22,9 @@ struct UnitPoints {
 /// Throws as hullOf().
 UnitPoints unitPoints(std::span<const Vec3> points);
 
+/// The unit vector along which the points are the thinnest, by their second moments; `size` (> 0): of about that.
+Vec3 thinnestWay(std::span<const Vec3> points, double size);
+
 /// Points in one plane with others are one face. Of a hull of more than kMostVertices those vertices are kept that
 /// reach farthest: one by one, that which lies farthest outside of what is kept. Throws Error if a point is not finite,
 /// or if they all lie in a plane (thinner than a millionth of their size).

@@ -52,18 +52,28 @@ class Qhull {
     }
     return faces;
   }
+  std::vector<HullPlane> planes() const {
+    std::vector<HullPlane> planes;
+    for (const facetT* facet = qhull_.facet_list; facet != nullptr && facet->next != nullptr; facet = facet->next)
+      planes.push_back({Vec3(facet->normal[0], facet->normal[1], facet->normal[2]), -facet->offset});
+    return planes;
+  }
 
  private:
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> says_;
   qhT qhull_;
 };
 
-// Of points of a size of about 1 around the origin.
+// Of points of a size of about 1 around the origin; throws if there is no hull. `coordinates` are to stay.
+void make(Qhull& qhull, const std::vector<Vec3>& points, std::vector<double>& coordinates) {
+  for (const Vec3& point : points) coordinates.insert(coordinates.end(), point.data(), point.data() + 3);
+  if (!qhull.make(coordinates)) throw Error("hull: the points are too near to a plane or a line for a hull");
+}
+
 HullFaces quickhull(const std::vector<Vec3>& points) {
   std::vector<double> coordinates;
-  for (const Vec3& point : points) coordinates.insert(coordinates.end(), point.data(), point.data() + 3);
   Qhull qhull;
-  if (!qhull.make(coordinates)) throw Error("hull: the points are too near to a plane or a line for a hull");
+  make(qhull, points, coordinates);
   HullFaces hull;
   const auto faces = qhull.faces();
   for (const auto& face : faces) hull.points.insert(hull.points.end(), face.begin(), face.end());
@@ -137,6 +147,13 @@ HullFaces hullFaces(const std::vector<Vec3>& points) {
   farthestOutside(shapeOf(vertices, hull), vertices, hull.error);
   for (std::size_t& point : hull.points) point = corners[point];
   return hull;
+}
+
+std::vector<HullPlane> unitHullPlanes(const std::vector<Vec3>& points) {
+  std::vector<double> coordinates;
+  Qhull qhull;
+  make(qhull, points, coordinates);
+  return qhull.planes();
 }
 
 }  // namespace hl

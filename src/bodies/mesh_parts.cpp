@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <string>
-#include <tuple>
+#include <utility>
 
 #include "base/error.h"
-#include "bodies/convex_hull.h"
 #include "bodies/mesh_pieces.h"
+#include "bodies/nearly_convex.h"
+#include "bodies/piece_mesh.h"
 
 namespace hl {
 
@@ -15,11 +16,23 @@ namespace {
 // Of the size of a hull: rounding.
 constexpr double kWithin = 1e-9;
 
-Hull hullOfPiece(const std::vector<Vec3>& corners, std::size_t number) {
+struct Part {
+  Hull hull;
+  Solid solid;  // of the hull
+  std::size_t piece = 0;
+};
+
+std::vector<PieceMesh> meshesOfPieces(const Model& model) {
+  std::vector<PieceMesh> meshes;
+  for (const auto& piece : piecesOf(model.positions, model.triangles)) meshes.push_back(pieceMesh(model, piece));
+  return meshes;
+}
+
+NearlyConvex partsOfPiece(const PieceMesh& mesh, std::size_t number, double allowed_m, std::size_t most) {
   try {
-    return hullOf(corners);
+    return nearlyConvex(mesh, allowed_m, most);
   } catch (const Error& error) {
-    throw Error("piece " + std::to_string(number + 1) + " of its mesh, of " + std::to_string(corners.size()) +
+    throw Error("piece " + std::to_string(number + 1) + " of its mesh, of " + std::to_string(mesh.vertices.size()) +
                 " corners: " + error.what());
   }
 }
@@ -31,57 +44,76 @@ bool holds(const Hull& hull, const Hull& other) {
 }
 
 // Of two that hold each other the first stays.
-std::vector<Hull> withoutNested(std::vector<Hull> hulls) {
-  std::vector<Hull> kept;
-  for (std::size_t i = 0; i < hulls.size(); ++i) {
+std::vector<Part> withoutNested(std::vector<Part> parts) {
+  std::vector<Part> kept;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
     bool held = false;
-    for (std::size_t j = 0; j < hulls.size() && !held; ++j)
-      held = j != i && holds(hulls[j], hulls[i]) && (j < i || !holds(hulls[i], hulls[j]));
-    if (!held) kept.push_back(hulls[i]);
+    for (std::size_t j = 0; j < parts.size() && !held; ++j)
+      held = j != i && holds(parts[j].hull, parts[i].hull) && (j < i || !holds(parts[i].hull, parts[j].hull));
+    if (!held) kept.push_back(parts[i]);
   }
   return kept;
+}
+
+Solid solidOfPiece(const PieceMesh& mesh, const std::vector<Solid>& parts) {
+  if (parts.size() == 1) return parts.front();
+  try {
+    return solidOf(mesh.vertices, mesh.triangles);
+  } catch (const Error&) {  // it is open
+    return sumOf(parts);
+  }
+}
+
+// Pieces of which no part is left do not count.
+Solid solidOfAll(const std::vector<PieceMesh>& meshes, const std::vector<Part>& parts) {
+  std::vector<std::vector<Solid>> of_piece(meshes.size());
+  for (const Part& part : parts) of_piece[part.piece].push_back(part.solid);
+  std::vector<Solid> solids;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    if (!of_piece[i].empty()) solids.push_back(solidOfPiece(meshes[i], of_piece[i]));
+  }
+  return sumOf(solids);
+}
+
+// Each piece gets one part at least; what is left of kMostParts goes to those that come first.
+std::vector<Part> partsOf(const std::vector<PieceMesh>& meshes, double allowed_m, MeshParts& made) {
+  std::vector<Part> parts;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    const std::size_t most = kMostParts - parts.size() - (meshes.size() - 1 - i);
+    NearlyConvex some = partsOfPiece(meshes[i], i, allowed_m, most);
+    made.error_m = std::max(made.error_m, some.outside_m);
+    made.excess_m = std::max(made.excess_m, some.excess_m);
+    for (Hull& hull : some.hulls) {
+      const Solid solid = solidOf(hull.shape);
+      parts.push_back({std::move(hull), solid, i});
+    }
+  }
+  return withoutNested(std::move(parts));
 }
 
 }  // namespace
 
 std::vector<std::vector<Vec3>> cornersOfPieces(const Model& model) {
-  const auto before = [](const Vec3& a, const Vec3& b) {
-    return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z());
-  };
-  std::vector<std::vector<Vec3>> pieces;
-  for (const auto& piece : piecesOf(model.positions, model.triangles)) {
-    std::vector<Vec3>& corners = pieces.emplace_back();
-    for (const std::uint32_t triangle : piece) {
-      for (const std::uint32_t corner : model.triangles[triangle]) corners.push_back(model.positions[corner]);
-    }
-    std::sort(corners.begin(), corners.end(), before);
-    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-  }
-  return pieces;
+  std::vector<std::vector<Vec3>> corners;
+  for (PieceMesh& mesh : meshesOfPieces(model)) corners.push_back(std::move(mesh.vertices));
+  return corners;
 }
 
 MeshParts partsOfMesh(const Model& model) {
-  const auto pieces = cornersOfPieces(model);
-  if (pieces.empty()) throw Error("its mesh has no triangles, and so no parts: use its hull or a box");
-  if (pieces.size() > kMostParts)
-    throw Error("its mesh has " + std::to_string(pieces.size()) + " pieces, and a body at most " +
+  const std::vector<PieceMesh> meshes = meshesOfPieces(model);
+  if (meshes.empty()) throw Error("its mesh has no triangles, and so no parts: use its hull or a box");
+  if (meshes.size() > kMostParts)
+    throw Error("its mesh has " + std::to_string(meshes.size()) + " pieces, and a body at most " +
                 std::to_string(kMostParts) + " parts: join them, or use its hull");
-  std::vector<Hull> hulls;
-  for (std::size_t i = 0; i < pieces.size(); ++i) hulls.push_back(hullOfPiece(pieces[i], i));
-  hulls = withoutNested(std::move(hulls));
   MeshParts made;
-  std::vector<Solid> solids;
-  for (const Hull& hull : hulls) {
-    solids.push_back(solidOf(hull.shape));
-    made.error_m = std::max(made.error_m, hull.error_m);
+  std::vector<Part> parts = partsOf(meshes, kNearlyConvex * model.bounds().size().norm() / 2, made);
+  made.solid = solidOfAll(meshes, parts);
+  std::vector<Convex> shapes;
+  for (Part& part : parts) {
+    Convex shape = moved(std::move(part.hull.shape), -made.solid.centre_O);
+    shapes.push_back(withMiddle(std::move(shape), part.solid.centre_O - made.solid.centre_O));
   }
-  made.solid = sumOf(solids);
-  std::vector<Convex> parts;
-  for (std::size_t i = 0; i < hulls.size(); ++i) {
-    Convex part = moved(std::move(hulls[i].shape), -made.solid.centre_O);
-    parts.push_back(withMiddle(std::move(part), solids[i].centre_O - made.solid.centre_O));
-  }
-  made.shape = Compound(std::move(parts));
+  made.shape = Compound(std::move(shapes));
   return made;
 }
 

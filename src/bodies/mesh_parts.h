@@ -1,4 +1,5 @@
-// Mesh parts: the convex parts of a body that collides as the pieces of its mesh, each as its convex hull.
+// Mesh parts: the convex parts of a body that collides as the pieces of its mesh. A piece that is not convex becomes
+// several (nearly_convex.h).
 #pragma once
 
 #include <vector>
@@ -10,17 +11,23 @@
 namespace hl {
 
 struct MeshParts {
-  Compound shape;      ///< in the frame of the body: its origin is the centre
-  Solid solid;         ///< the sum of the parts: where two overlap, twice
-  double error_m = 0;  ///< of the worst hull (convex_hull.h)
+  Compound shape;       ///< in the frame of the body: its origin is the centre
+  Solid solid;          ///< the sum of the pieces: where two overlap, twice
+  double error_m = 0;   ///< how far a point of the mesh is outside of all parts, at most
+  double excess_m = 0;  ///< how far a part reaches beyond the mesh, at most
 };
 
-/// The corners of each piece (mesh_pieces.h), each place once, in an order that no order of triangles changes.
+/// The corners of each hull that hullOf() may be asked for at first, each place once, in an order that no order of
+/// triangles changes: one set for each piece (mesh_pieces.h).
 std::vector<std::vector<Vec3>> cornersOfPieces(const Model& model);
 
-/// Of the triangles; lines and points of the model are no part. A piece that lies in the hull of another is none
-/// either. Throws Error, one line that says what to do, for a piece without a thickness, and for none or more than
-/// kMostParts.
+/// Of half the diagonal of the mesh's bounds: a part may be so far from the mesh.
+inline constexpr double kNearlyConvex = 0.02;
+
+/// Of the triangles; lines and points of the model are no part. A part that lies in the hull of another is none. The
+/// error is at most kNearlyConvex of the mesh's size, unless that needs more than kMostParts. A piece of several parts
+/// has the mass of its mesh if that is closed, and otherwise that of its parts. Throws Error, one line that says what
+/// to do, for a piece without a thickness, and for none or more than kMostParts.
 MeshParts partsOfMesh(const Model& model);
 
 }  // namespace hl

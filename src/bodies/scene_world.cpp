@@ -107,6 +107,7 @@ void makeParts(const Model& model, const BodySpec& spec, Body& body) {
   body.mass = massOfDensity(massOf(spec, made.solid.volume_m3) / made.solid.volume_m3, made.solid);
   body.shape = std::move(made.shape);
   body.hull_error_m = made.error_m;
+  body.excess_m = made.excess_m;
 }
 
 // Of a body of the scene: what is wrong with it is told with its name.

@@ -25,7 +25,8 @@ struct Body {
   Mass mass{};
   Compound shape;
   BodySurface surface{};
-  double hull_error_m = 0;  ///< how far the mesh is outside a hull that had too many vertices (convex_hull.h)
+  double hull_error_m = 0;  ///< how far the mesh is outside of its shape (convex_hull.h, mesh_parts.h)
+  double excess_m = 0;      ///< how far a part of it reaches beyond the mesh (mesh_parts.h)
 };
 
 /// Immutable while it is stepped.

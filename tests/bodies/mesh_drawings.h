@@ -55,4 +55,46 @@ inline Model cupModel(double half_m, double height_m, double thick_m) {
                      {Vec3(half_m, wall, t), Vec3(0, wall, t - half_m)}});
 }
 
+/// A closed curve of the half plane x > 0 (x, y), turned about the y axis; counterclockwise, or it faces inward. Points
+/// with x = 0 lie on the axis.
+inline Model turnedModel(const std::vector<Eigen::Vector2d>& outline, int around) {
+  Model model;
+  const auto corners = static_cast<std::uint32_t>(outline.size());
+  for (int i = 0; i < around; ++i) {
+    const double angle = 2 * EIGEN_PI * i / around;
+    for (const Eigen::Vector2d& at : outline)
+      model.positions.emplace_back(at.x() * plain::cos(angle), at.y(), -at.x() * plain::sin(angle));
+  }
+  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(around); ++i) {
+    const std::uint32_t here = i * corners, next = (i + 1) % static_cast<std::uint32_t>(around) * corners;
+    for (std::uint32_t j = 0; j < corners; ++j) {
+      const std::uint32_t k = (j + 1) % corners;
+      if (outline[j].x() > 0) model.triangles.push_back({here + j, next + j, next + k});
+      if (outline[k].x() > 0) model.triangles.push_back({here + j, next + k, here + k});
+    }
+  }
+  return model;
+}
+
+/// About the y axis.
+inline Model torusModel(double ring_m, double tube_m, int around, int across) {
+  std::vector<Eigen::Vector2d> outline;
+  for (int i = 0; i < across; ++i) {
+    const double angle = 2 * EIGEN_PI * i / across;
+    outline.emplace_back(ring_m + tube_m * plain::cos(angle), tube_m * plain::sin(angle));
+  }
+  return turnedModel(outline, around);
+}
+
+/// A round cup in one piece, open above, that widens by a tenth; its bottom's lower side at y = 0.
+inline Model beakerModel(double radius_m, double height_m, double thick_m, int around) {
+  return turnedModel({{0, 0},
+                      {radius_m, 0},
+                      {1.1 * radius_m, height_m},
+                      {1.1 * radius_m - thick_m, height_m},
+                      {radius_m - thick_m, thick_m},
+                      {0, thick_m}},
+                     around);
+}
+
 }  // namespace hl::test

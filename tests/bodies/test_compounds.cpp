@@ -64,6 +64,31 @@ TEST(Compounds, ARingFallsOverAPeg) {
   EXPECT_NEAR(play.state.bodies[0].centre.y(), 0.004, 1e-6);
 }
 
+// As one closed mesh, which is cut into parts: a doughnut falls over a peg and lies around it.
+TEST(Compounds, ADoughnutFallsOverAPeg) {
+  World world;
+  world.fixed = floorAnd(boxesModel({{Vec3(0.004, 0.03, 0.004), Vec3(0, 0.03, 0)}}));
+  world.bodies = {bodyOfParts(1, torusModel(0.012, 0.004, 24, 12), 0.05, 0.1)};
+  ASSERT_GT(world.bodies[0].shape.parts.size(), 4u);
+  Playground play(std::move(world), {placeAt(Vec3(0.001, 0.1, 0))});
+  EXPECT_LT(deepestOf(play, 2000), 1e-5);
+  EXPECT_NEAR(play.state.bodies[0].centre.y(), 0.004, 1e-4);
+  EXPECT_LT(play.state.bodies[0].centre.head<1>().norm(), 0.008);
+}
+
+// A round beaker of one closed mesh: the ball lies in it, above its bottom.
+TEST(Compounds, ABeakerCatchesABall) {
+  constexpr double kBall_m = 0.008, kThick_m = 0.003;
+  World world;
+  world.fixed = floorScene();
+  world.bodies = {bodyOfParts(1, beakerModel(0.02, 0.04, kThick_m, 24), 0.05, 0.5), ball(2, 0.02, kBall_m, 0.3)};
+  Playground play(std::move(world), {placeAt(Vec3::Zero()), placeAt(Vec3(0.004, 0.15, -0.003))});
+  EXPECT_LT(deepestOf(play, 4000), 1e-5);
+  const BodyState &cup = play.state.bodies[0], &caught = play.state.bodies[1];
+  EXPECT_NEAR(caught.centre.y(), kThick_m + kBall_m, 1e-3);
+  EXPECT_LT(std::hypot(caught.centre.x() - cup.centre.x(), caught.centre.z() - cup.centre.z()), 0.011);
+}
+
 // The cup stands on the floor, and the ball in the cup: the floor bears both, the cup's bottom the ball.
 TEST(Compounds, ACupCatchesABall) {
   constexpr double kBall_m = 0.008, kThick_m = 0.002;

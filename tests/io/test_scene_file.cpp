@@ -327,6 +327,17 @@ TEST(SceneFile, TheExampleOfPartsLoads) {
   EXPECT_EQ(parts, (std::vector<std::size_t>{5, 1, 12, 2}));
 }
 
+// Each is one closed mesh that is cut into parts.
+TEST(SceneFile, TheExampleOfHollowBodiesLoads) {
+  const SceneModel scene = loadSceneFile(std::string(HL_EXAMPLES) + "/hollow.hl.json");
+  ASSERT_EQ(scene.bodies.size(), 3u);
+  for (const std::size_t i : {0u, 2u}) {
+    const Body body = bodyOf(scene.bodies[i].model, scene.bodies[i].spec);
+    EXPECT_GT(body.shape.parts.size(), 8u);
+    EXPECT_LT(body.excess_m, 0.03 * body.shape.reach);  // 0.02 of half the diagonal of the bounds
+  }
+}
+
 SceneModel worldOfJson(const std::string& json) { return loadSceneFile(fileWith("scene.hl.json", json)); }
 
 // Two cubes of 2 units a side with the given body and joint.

@@ -1,0 +1,228 @@
+#include "bodies/piece_measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "base/plain_math.h"
+#include "bodies/convex_hull.h"
+#include "geometry/closest_point.h"
+
+namespace hl {
+
+namespace {
+
+Vec3 acrossOf(const Triangle3& triangle) { return (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]); }
+
+// Calls visit(point) for points all over a triangle, no farther apart than `apart`; at least its corners and middles.
+template <typename Visit>
+void forEachSample(const Triangle3& triangle, double apart, const Visit& visit) {
+  constexpr int kMostParts = 8;
+  const Vec3 u = triangle[1] - triangle[0], v = triangle[2] - triangle[0];
+  const double longest = std::max({u.norm(), v.norm(), (u - v).norm()});
+  const int parts = std::clamp(static_cast<int>(std::ceil(longest / apart)), 2, kMostParts);
+  for (int i = 0; i <= parts; ++i) {
+    for (int j = 0; j <= parts - i; ++j)
+      visit(Vec3(triangle[0] + static_cast<double>(i) / parts * u + static_cast<double>(j) / parts * v));
+  }
+}
+
+// Evenly over the ball, by the golden angle.
+std::vector<Vec3> directions() {
+  constexpr int kCount = 48;
+  std::vector<Vec3> all;
+  for (int i = 0; i < kCount; ++i) {
+    const double z = (2 * i + 1.0) / kCount - 1, angle = 2.399963229728653 * i, across = std::sqrt(1 - z * z);
+    all.emplace_back(across * plain::cos(angle), across * plain::sin(angle), z);
+  }
+  return all;
+}
+
+std::vector<Vec3> farthestOf(const std::vector<Vec3>& corners) {
+  static const std::vector<Vec3> kDirections = directions();
+  std::vector<std::size_t> numbers;
+  for (const Vec3& way : kDirections) {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < corners.size(); ++i) {
+      if (way.dot(corners[i]) > way.dot(corners[best])) best = i;
+    }
+    if (std::find(numbers.begin(), numbers.end(), best) == numbers.end()) numbers.push_back(best);
+  }
+  std::vector<Vec3> farthest;
+  for (const std::size_t number : numbers) farthest.push_back(corners[number]);
+  return farthest;
+}
+
+// Between which planes the points lie, where these are the nearest to each other.
+struct Slab {
+  Vec3 normal = Vec3::UnitX();
+  double thickness_m = 0;
+};
+
+Slab slabOf(const std::vector<Vec3>& corners) {
+  double size = 0;
+  for (const Vec3& corner : corners) size = std::max(size, (corner - corners[0]).norm());
+  if (!(size > 0)) return {};
+  const Vec3 normal = thinnestWay(corners, size);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Vec3& corner : corners) {
+    low = std::min(low, normal.dot(corner));
+    high = std::max(high, normal.dot(corner));
+  }
+  return {normal, high - low};
+}
+
+}  // namespace
+
+std::vector<Vec3> CutPiece::corners() const {
+  std::vector<Vec3> all;
+  for (const Triangle3& triangle : surface) all.insert(all.end(), triangle.begin(), triangle.end());
+  std::sort(all.begin(), all.end(),
+            [](const Vec3& a, const Vec3& b) { return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z()); });
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+std::vector<Vec3> CutPiece::thickCorners(double thickness_m) const {
+  std::vector<Vec3> all = corners();
+  const Slab slab = slabOf(all);
+  const double lacking = thickness_m - slab.thickness_m;
+  if (lacking <= 0) return all;
+  double out = 0, area = 0;
+  for (const Triangle3& triangle : surface) {
+    out += slab.normal.dot(acrossOf(triangle));
+    area += acrossOf(triangle).norm();
+  }
+  const bool is_one_sided = std::abs(out) > 0.5 * area;
+  const Vec3 inward = out > 0 ? -slab.normal : slab.normal;
+  const std::size_t count = all.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    all.push_back(all[i] + (is_one_sided ? lacking : lacking / 2) * inward);
+    if (!is_one_sided) all[i] -= lacking / 2 * inward;
+  }
+  return all;
+}
+
+namespace {
+
+struct AirWay {
+  Vec3 begin, direction;
+  double length_m = 0;  // until it leaves the hull
+};
+
+// From points no farther apart than `apart`, of each triangle after `step` others.
+std::vector<AirWay> airWays(const CutSurface& surface, const std::vector<HullPlane>& hull, double apart,
+                            std::size_t step) {
+  std::vector<AirWay> ways;
+  for (std::size_t i = 0; i < surface.size(); i += step) {
+    const Vec3 across = acrossOf(surface[i]);
+    if (across.isZero(0)) continue;
+    const Vec3 normal = across.normalized();
+    forEachSample(surface[i], apart, [&](const Vec3& point) {
+      ways.push_back({point, normal, wayOut(hull, point, normal)});
+    });
+  }
+  return ways;
+}
+
+HullExcess longestOf(const std::vector<AirWay>& ways) {
+  HullExcess excess;
+  for (const AirWay& way : ways) {
+    if (!(way.length_m > excess.air_m)) continue;
+    excess.air_m = way.length_m;
+    excess.place = way.begin;
+    excess.normal = way.direction;
+  }
+  return excess;
+}
+
+// Where a way meets the surface again (T. Moeller, B. Trumbore, Fast, minimum storage ray-triangle intersection, 1997),
+// or its end.
+double lengthInAir(const CutSurface& surface, const AirWay& way) {
+  constexpr double kBegun = 1e-6;  // of the way: it begins on the surface
+  double length = way.length_m;
+  for (const Triangle3& triangle : surface) {
+    const Vec3 u = triangle[1] - triangle[0], v = triangle[2] - triangle[0], from = way.begin - triangle[0];
+    const Vec3 p = way.direction.cross(v), q = from.cross(u);
+    const double determinant = u.dot(p);
+    if (determinant == 0) continue;
+    const double s = from.dot(p) / determinant, t = way.direction.dot(q) / determinant, at = v.dot(q) / determinant;
+    if (s >= 0 && t >= 0 && s + t <= 1 && at > kBegun * way.length_m) length = std::min(length, at);
+  }
+  return length;
+}
+
+std::vector<Primitive> primitivesOf(const CutSurface& surface) {
+  std::vector<Primitive> primitives;
+  for (const Triangle3& triangle : surface) {
+    if (isTriangle(triangle[0], triangle[1], triangle[2]))
+      primitives.push_back(triangleOf(triangle[0], triangle[1], triangle[2], 0));
+  }
+  return primitives;
+}
+
+// No more than `most`.
+double distanceTo(const std::vector<Primitive>& surface, const Vec3& point, double most) {
+  double least = most;
+  ClosestPoint closest;
+  for (const Primitive& triangle : surface) {
+    if (closestPointWithin(triangle, point, least, closest)) least = std::min(least, closest.distance);
+  }
+  return least;
+}
+
+// The lines between `most` of the corners at most.
+HullExcess shellExcess(const CutPiece& piece, std::size_t most) {
+  const std::vector<Vec3> corners = farthestOf(piece.corners());
+  const std::vector<Primitive> surface = primitivesOf(piece.surface);
+  const std::size_t step = 1 + corners.size() / most;
+  HullExcess excess;
+  for (std::size_t i = 0; i < corners.size(); i += step) {
+    for (std::size_t j = 0; j < i; j += step) {
+      const Vec3 middle = (corners[i] + corners[j]) / 2;
+      const double half = (corners[i] - corners[j]).norm() / 2, air = distanceTo(surface, middle, half);
+      if (!(air > excess.air_m)) continue;
+      excess = {air, air, middle, (corners[i] - corners[j]).normalized()};
+    }
+  }
+  return excess;
+}
+
+}  // namespace
+
+bool PieceMeasure::isFlat(const CutPiece& piece) const { return slabOf(piece.corners()).thickness_m < thickness(); }
+
+HullExcess PieceMeasure::exactly(const CutPiece& piece) const {
+  constexpr double kApart = 4;           // of what is allowed
+  constexpr std::size_t kMostWays = 96;  // that are followed
+  if (is_shell_ || isFlat(piece)) return shellExcess(piece, 48);
+  std::vector<AirWay> ways =
+      airWays(piece.surface, hullPlanes(piece.thickCorners(thickness())), kApart * allowed_m_, 1);
+  HullExcess excess = longestOf(ways);
+  if (excess.air_m <= allowed_m_) {
+    excess.error_m = excess.air_m;
+    return excess;
+  }
+  std::erase_if(ways, [&](const AirWay& way) { return way.length_m <= allowed_m_; });
+  const std::vector<Primitive> surface = primitivesOf(piece.surface);
+  const std::size_t step = 1 + ways.size() / kMostWays;
+  for (std::size_t i = 0; i < ways.size(); i += step) {
+    const double length = lengthInAir(piece.surface, ways[i]);
+    for (const double part : {0.5, 1.0}) {
+      const double reach = part * length;
+      excess.error_m = std::max(excess.error_m, distanceTo(surface, ways[i].begin + reach * ways[i].direction, reach));
+    }
+  }
+  return excess;
+}
+
+HullExcess PieceMeasure::roughly(const CutPiece& piece) const {
+  constexpr std::size_t kMostTriangles = 128;
+  if (is_shell_ || isFlat(piece)) return shellExcess(piece, 16);
+  const std::vector<HullPlane> hull = hullPlanes(farthestOf(piece.thickCorners(thickness())));
+  return longestOf(
+      airWays(piece.surface, hull, std::numeric_limits<double>::infinity(), 1 + piece.surface.size() / kMostTriangles));
+}
+
+}  // namespace hl
