@@ -29,11 +29,17 @@ using Halves = std::array<MeasuredPiece, 2>;
 class Cutter {
  public:
   Cutter(const CutSurface& surface, const CutRules& rules)
-      : surface_(surface), rules_(rules), measure_(rules.is_shell, rules.allowed_m) {
+      : surface_(surface), rules_(rules), measure_(surface, rules.is_shell, rules.allowed_m) {
     rounding_m_ = kRounding * boundsOf({surface}).size().norm();
   }
 
   std::vector<MeasuredPiece> whole() const { return {measured({surface_})}; }
+
+  bool needsCut(const std::vector<MeasuredPiece>& all) const {
+    return all.size() < rules_.most && std::any_of(all.begin(), all.end(), [&](const MeasuredPiece& one) {
+             return one.need_m() > rules_.allowed_m;
+           });
+  }
 
   // Until none is too far from its hull, or there are as many as may be.
   void cut(std::vector<MeasuredPiece>& all) const {
@@ -142,10 +148,10 @@ class Cutter {
 }  // namespace
 
 std::vector<CutPiece> cutPieces(const CutSurface& surface, const CutRules& rules) {
-  constexpr int kRounds = 3;  // what is joined leaves room for cuts
+  constexpr int kMostRounds = 6;  // what is joined leaves room for cuts
   const Cutter cutter(surface, rules);
   std::vector<MeasuredPiece> measured = cutter.whole();
-  for (int i = 0; i < kRounds; ++i) {
+  for (int i = 0; i < kMostRounds && cutter.needsCut(measured); ++i) {
     cutter.cut(measured);
     cutter.joinNeighbours(measured);
   }

@@ -23,8 +23,14 @@ struct Part {
 };
 
 std::vector<PieceMesh> meshesOfPieces(const Model& model) {
+  auto pieces = piecesOf(model.positions, model.triangles);
+  if (pieces.size() > kMostParts) {  // all together are cut
+    for (std::size_t i = 1; i < pieces.size(); ++i)
+      pieces[0].insert(pieces[0].end(), pieces[i].begin(), pieces[i].end());
+    pieces.resize(1);
+  }
   std::vector<PieceMesh> meshes;
-  for (const auto& piece : piecesOf(model.positions, model.triangles)) meshes.push_back(pieceMesh(model, piece));
+  for (const auto& piece : pieces) meshes.push_back(pieceMesh(model, piece));
   return meshes;
 }
 
@@ -102,9 +108,6 @@ std::vector<std::vector<Vec3>> cornersOfPieces(const Model& model) {
 MeshParts partsOfMesh(const Model& model) {
   const std::vector<PieceMesh> meshes = meshesOfPieces(model);
   if (meshes.empty()) throw Error("its mesh has no triangles, and so no parts: use its hull or a box");
-  if (meshes.size() > kMostParts)
-    throw Error("its mesh has " + std::to_string(meshes.size()) + " pieces, and a body at most " +
-                std::to_string(kMostParts) + " parts: join them, or use its hull");
   MeshParts made;
   std::vector<Part> parts = partsOf(meshes, kNearlyConvex * model.bounds().size().norm() / 2, made);
   made.solid = solidOfAll(meshes, parts);

@@ -24,10 +24,10 @@ std::vector<std::vector<Vec3>> cornersOfPieces(const Model& model);
 /// Of half the diagonal of the mesh's bounds: a part may be so far from the mesh.
 inline constexpr double kNearlyConvex = 0.02;
 
-/// Of the triangles; lines and points of the model are no part. A part that lies in the hull of another is none. The
-/// error is at most kNearlyConvex of the mesh's size, unless that needs more than kMostParts. A piece of several parts
-/// has the mass of its mesh if that is closed, and otherwise that of its parts. Throws Error, one line that says what
-/// to do, for a piece without a thickness, and for none or more than kMostParts.
+/// Of the triangles; lines and points of the model are no part. A part that lies in the hull of another is none. Of
+/// more pieces than kMostParts all together are cut. The error is at most kNearlyConvex of the mesh's size, unless that
+/// needs more than kMostParts. A piece of several parts has the mass of its mesh if that is closed, and otherwise that
+/// of its parts. Throws Error, one line that says what to do, if there is no triangle.
 MeshParts partsOfMesh(const Model& model);
 
 }  // namespace hl

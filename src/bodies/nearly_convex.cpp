@@ -101,7 +101,7 @@ void takeAll(const Places& vertices, std::vector<Places>& corners, std::vector<H
 
 NearlyConvex asPieces(const PieceMesh& mesh, const CutSurface& coarse, const CutRules& rules) {
   NearlyConvex parts;
-  const PieceMeasure measure(rules.is_shell, rules.allowed_m);
+  const PieceMeasure measure(coarse, rules.is_shell, rules.allowed_m);
   const std::vector<CutPiece> pieces = cutPieces(coarse, rules);
   std::vector<Places> corners;
   for (const CutPiece& piece : pieces) {
@@ -119,8 +119,9 @@ NearlyConvex asPieces(const PieceMesh& mesh, const CutSurface& coarse, const Cut
 NearlyConvex madeAnew(const PieceMesh& mesh, const CutRules& rules) {
   const Places probes = probesOf(mesh);
   const CutSurface coarse = surfaceOf(coarseMesh(mesh, kCoarseTriangles));
-  NearlyConvex whole{{hullOf(mesh.vertices)}};
-  whole.excess_m = PieceMeasure(rules.is_shell, rules.allowed_m).exactly({coarse}).error_m;
+  std::optional<Hull> hull = hullWithVolume(mesh.vertices);
+  NearlyConvex whole{{hull ? *std::move(hull) : hullOf(CutPiece{coarse}.thickCorners(rules.allowed_m / 2))}};
+  whole.excess_m = PieceMeasure(coarse, rules.is_shell, rules.allowed_m).exactly({coarse}).error_m;
   whole.outside_m = outsideOf(probes, whole.hulls);
   if (rules.most == 1 || whole.excess_m <= rules.allowed_m) return whole;
   NearlyConvex parts = asPieces(mesh, coarse, rules);

@@ -23,8 +23,8 @@ inline constexpr std::size_t kCoarseTriangles = 3000;
 /// them, which do not (convex_cuts.h). An open surface, such as a bowl without thickness, is a shell with air on both
 /// sides; its parts, and others that are flat, get a thickness of half of what is allowed, inward. Small holes do not
 /// make a shell. Both errors are measured at corners, middles of edges and of triangles, at most some thousand of them.
-/// Throws Error if the mesh has no thickness. Remembers what it has made: it is asked again for each frame of a scene.
-/// Takes up to seconds; setup only, by any thread.
+/// Throws Error if the mesh has no triangle with an area. Remembers what it has made: it is asked again for each frame
+/// of a scene. Takes up to seconds; setup only, by any thread.
 NearlyConvex nearlyConvex(const PieceMesh& mesh, double allowed_m, std::size_t most);
 
 }  // namespace hl

@@ -172,19 +172,41 @@ double distanceTo(const std::vector<Primitive>& surface, const Vec3& point, doub
   return least;
 }
 
-// The lines between `most` of the corners at most.
-HullExcess shellExcess(const CutPiece& piece, std::size_t most) {
+// By the solid angle of each triangle (A. van Oosterom, J. Strackee, The solid angle of a plane triangle, 1983).
+bool isWithin(const CutSurface& closed, const Vec3& place) {
+  double angle = 0;
+  for (const Triangle3& triangle : closed) {
+    const Vec3 a = triangle[0] - place, b = triangle[1] - place, c = triangle[2] - place;
+    const double l = a.norm(), m = b.norm(), n = c.norm();
+    angle += 2 * std::atan2(a.dot(b.cross(c)), l * m * n + a.dot(b) * n + b.dot(c) * l + c.dot(a) * m);
+  }
+  return angle > 2 * EIGEN_PI;
+}
+
+struct AirLine {
+  Vec3 middle, direction;
+  double air_m = 0;  // how far the middle is from the surface
+};
+
+// Between `most` of the corners at most.
+std::vector<AirLine> linesOf(const CutPiece& piece, std::size_t most) {
   const std::vector<Vec3> corners = farthestOf(piece.corners());
   const std::vector<Primitive> surface = primitivesOf(piece.surface);
-  const std::size_t step = 1 + corners.size() / most;
-  HullExcess excess;
+  const std::size_t step = 1 + (corners.size() - 1) / most;
+  std::vector<AirLine> lines;
   for (std::size_t i = 0; i < corners.size(); i += step) {
     for (std::size_t j = 0; j < i; j += step) {
-      const Vec3 middle = (corners[i] + corners[j]) / 2;
-      const double half = (corners[i] - corners[j]).norm() / 2, air = distanceTo(surface, middle, half);
-      if (!(air > excess.air_m)) continue;
-      excess = {air, air, middle, (corners[i] - corners[j]).normalized()};
+      const Vec3 middle = (corners[i] + corners[j]) / 2, way = corners[i] - corners[j];
+      lines.push_back({middle, way.normalized(), distanceTo(surface, middle, way.norm() / 2)});
     }
+  }
+  return lines;
+}
+
+HullExcess shellExcess(const CutPiece& piece, std::size_t most) {
+  HullExcess excess;
+  for (const AirLine& line : linesOf(piece, most)) {
+    if (line.air_m > excess.air_m) excess = {line.air_m, line.air_m, line.middle, line.direction};
   }
   return excess;
 }
@@ -194,15 +216,23 @@ HullExcess shellExcess(const CutPiece& piece, std::size_t most) {
 bool PieceMeasure::isFlat(const CutPiece& piece) const { return slabOf(piece.corners()).thickness_m < thickness(); }
 
 HullExcess PieceMeasure::exactly(const CutPiece& piece) const {
+  constexpr std::size_t kMostCorners = 48;  // between which lines are drawn
+  if (is_shell_ || isFlat(piece)) return shellExcess(piece, kMostCorners);
+  HullExcess excess;
+  followWays(piece, excess);
+  addLines(piece, excess);
+  return excess;
+}
+
+void PieceMeasure::followWays(const CutPiece& piece, HullExcess& excess) const {
   constexpr double kApart = 4;           // of what is allowed
   constexpr std::size_t kMostWays = 96;  // that are followed
-  if (is_shell_ || isFlat(piece)) return shellExcess(piece, 48);
   std::vector<AirWay> ways =
       airWays(piece.surface, hullPlanes(piece.thickCorners(thickness())), kApart * allowed_m_, 1);
-  HullExcess excess = longestOf(ways);
+  excess = longestOf(ways);
   if (excess.air_m <= allowed_m_) {
     excess.error_m = excess.air_m;
-    return excess;
+    return;
   }
   std::erase_if(ways, [&](const AirWay& way) { return way.length_m <= allowed_m_; });
   const std::vector<Primitive> surface = primitivesOf(piece.surface);
@@ -214,12 +244,20 @@ HullExcess PieceMeasure::exactly(const CutPiece& piece) const {
       excess.error_m = std::max(excess.error_m, distanceTo(surface, ways[i].begin + reach * ways[i].direction, reach));
     }
   }
-  return excess;
+}
+
+void PieceMeasure::addLines(const CutPiece& piece, HullExcess& excess) const {
+  constexpr std::size_t kMostCorners = 8;
+  for (const AirLine& line : linesOf(piece, kMostCorners)) {
+    if (line.air_m <= std::max(excess.error_m, allowed_m_) || isWithin(whole_, line.middle)) continue;
+    excess.error_m = line.air_m;
+    if (line.air_m > excess.air_m) excess = {line.air_m, line.air_m, line.middle, line.direction};
+  }
 }
 
 HullExcess PieceMeasure::roughly(const CutPiece& piece) const {
-  constexpr std::size_t kMostTriangles = 128;
-  if (is_shell_ || isFlat(piece)) return shellExcess(piece, 16);
+  constexpr std::size_t kMostTriangles = 128, kMostCorners = 16;
+  if (is_shell_ || isFlat(piece)) return shellExcess(piece, kMostCorners);
   const std::vector<HullPlane> hull = hullPlanes(farthestOf(piece.thickCorners(thickness())));
   return longestOf(
       airWays(piece.surface, hull, std::numeric_limits<double>::infinity(), 1 + piece.surface.size() / kMostTriangles));

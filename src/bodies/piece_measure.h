@@ -2,7 +2,8 @@
 //
 // Of a solid: from a point of the surface, along its outward normal, the hull is full of air until the way meets the
 // surface again or leaves the hull: across a hole, a groove or the inside of a cup. The error is how far the middle of
-// such a way, or its end, is from the surface.
+// such a way, or its end, is from the surface. Where parts of a piece are apart, such ways may miss the air between
+// them: the middles of some lines between corners are told too, if they are not within the solid.
 //
 // Of a shell, such as a bowl without thickness, and of a flat piece: the line between two of its corners lies in the
 // hull, and all that is not on the surface is air. The error is how far its middle is from the surface.
@@ -36,7 +37,9 @@ class PieceMeasure {
  public:
   /// Points of the surface that are measured are no farther apart than four times `allowed_m` (> 0), or an eighth of a
   /// triangle. Errors below `allowed_m` may be told as the way through the air, which is longer.
-  PieceMeasure(bool is_shell, double allowed_m) : is_shell_(is_shell), allowed_m_(allowed_m) {}
+  /// `whole`: what all pieces are of; must outlive this.
+  PieceMeasure(const CutSurface& whole, bool is_shell, double allowed_m)
+      : whole_(whole), is_shell_(is_shell), allowed_m_(allowed_m) {}
 
   /// Flat pieces are as thick as this, m.
   double thickness() const { return allowed_m_ / 2; }
@@ -47,7 +50,10 @@ class PieceMeasure {
 
  private:
   bool isFlat(const CutPiece& piece) const;
+  void followWays(const CutPiece& piece, HullExcess& excess) const;
+  void addLines(const CutPiece& piece, HullExcess& excess) const;
 
+  const CutSurface& whole_;
   bool is_shell_;
   double allowed_m_;
 };

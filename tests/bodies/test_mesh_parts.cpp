@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "bodies/convex_hull.h"
@@ -176,20 +177,40 @@ TEST(MeshParts, WhatHasNoneSaysWhatToDo) {
   lines.positions = boxModel(kOne).positions;
   lines.segments = {{0, 1}, {0, 2}, {0, 4}, {1, 7}};
   EXPECT_EQ(errorOf(lines), "its mesh has no triangles, and so no parts: use its hull or a box");
-  Model flat = boxModel(kOne);
-  Model sheet;
+}
+
+// A plate without thickness beside a box: it gets one.
+TEST(MeshParts, WhatIsFlatGetsAThickness) {
+  Model model = boxModel(kOne), sheet;
   sheet.positions = {{5, 0, 0}, {6, 0, 0}, {6, 1, 0}};
   sheet.triangles = {{0, 1, 2}};
-  addMesh(flat, sheet);
-  EXPECT_EQ(errorOf(flat),
-            "piece 2 of its mesh, of 3 corners: hull: the points lie in a plane: give the shape a "
-            "thickness, or use a box");
-  std::vector<std::pair<Vec3, Vec3>> many;
-  for (std::size_t i = 0; i <= kMostParts; ++i) many.emplace_back(kOne, Vec3(3.0 * static_cast<double>(i), 0, 0));
-  EXPECT_EQ(errorOf(boxesModel(many)),
-            "its mesh has 65 pieces, and a body at most 64 parts: join them, or use its hull");
-  many.pop_back();
-  EXPECT_EQ(errorOf(boxesModel(many)), "");
+  addMesh(model, sheet);
+  const Body body = bodyOf(model, partsSpec());
+  EXPECT_EQ(body.shape.parts.size(), 2u);
+  EXPECT_NEAR(body.mass.mass_kg, 8000, 40);
+}
+
+// Boxes on a circle: a hull of neighbours is near enough to them, one of all is not.
+TEST(MeshParts, OfMorePiecesThanMayBeAreCutTogether) {
+  for (const std::size_t count : {kMostParts, kMostParts + 1, std::size_t{200}}) {
+    std::vector<std::pair<Vec3, Vec3>> boxes;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double angle = 2 * EIGEN_PI * static_cast<double>(i) / static_cast<double>(count);
+      boxes.emplace_back(0.1 * kOne, 10 * Vec3(std::cos(angle), 0, std::sin(angle)));
+    }
+    const MeshParts made = partsOfMesh(boxesModel(boxes));
+    const std::vector<Convex>& parts = made.shape.parts;
+    EXPECT_LE(parts.size(), kMostParts);
+    EXPECT_GE(parts.size(), count == kMostParts ? kMostParts : std::size_t{8});
+    EXPECT_LT(made.error_m, 0.02 * 14.3);
+    EXPECT_LT(made.excess_m, 0.4);
+    for (double angle = 0; angle < 6.28; angle += 0.02) {
+      const Vec3 within = 9 * Vec3(std::cos(angle), 0, std::sin(angle)) - made.solid.centre_O;
+      EXPECT_TRUE(
+          std::all_of(parts.begin(), parts.end(), [&](const Convex& part) { return heightAbove(part, within) > 0; }));
+    }
+    EXPECT_NEAR(made.solid.volume_m3, 0.008 * static_cast<double>(count), 1e-9);
+  }
 }
 
 }  // namespace

@@ -238,11 +238,14 @@ TEST(NearlyConvex, TakesAnySoup) {
   }
 }
 
-TEST(NearlyConvex, OfASheetSaysWhatToDo) {
+TEST(NearlyConvex, ASheetIsAPlate) {
   Model sheet;
   sheet.positions = {{5, 0, 0}, {6, 0, 0}, {6, 1, 0}};
   sheet.triangles = {{0, 1, 2}};
-  EXPECT_THROW(nearlyConvex(meshOf(sheet), 0.1, 64), Error);
+  const NearlyConvex plate = nearlyConvex(meshOf(sheet), 0.1, 64);
+  ASSERT_EQ(plate.hulls.size(), 1u);
+  EXPECT_NEAR(volumeOf(plate), 0.5 * 0.05, 1e-9);
+  EXPECT_LT(heightAbove(plate.hulls[0].shape, Vec3(5.7, 0.3, -0.04)), 0) << "it grows inward";
 }
 
 }  // namespace
