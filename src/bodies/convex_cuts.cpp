@@ -134,9 +134,9 @@ class Cutter {
     if (!boundsOf(a).meets(boundsOf(b))) return std::nullopt;
     CutPiece both = a;
     both.surface.insert(both.surface.end(), b.surface.begin(), b.surface.end());
-    MeasuredPiece whole = measured(std::move(both));
-    if (whole.excess.error_m > rules_.allowed_m) return std::nullopt;
-    return whole;
+    const HullExcess excess = measure_.exactly(both, rules_.allowed_m);
+    if (excess.error_m > rules_.allowed_m) return std::nullopt;
+    return MeasuredPiece{std::move(both), excess};
   }
 
   const CutSurface& surface_;

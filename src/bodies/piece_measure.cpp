@@ -15,12 +15,14 @@ namespace {
 
 Vec3 acrossOf(const Triangle3& triangle) { return (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]); }
 
-// Calls visit(point) for points all over a triangle, no farther apart than `apart`; at least its corners and middles.
+// Calls visit(point) for points all over a triangle, no farther apart than `apart`, if that is not below an eighth of
+// it; of a small one for its middle.
 template <typename Visit>
 void forEachSample(const Triangle3& triangle, double apart, const Visit& visit) {
   constexpr int kMostParts = 8;
   const Vec3 u = triangle[1] - triangle[0], v = triangle[2] - triangle[0];
   const double longest = std::max({u.norm(), v.norm(), (u - v).norm()});
+  if (std::isfinite(apart) && longest <= apart / 2) return visit(Vec3(triangle[0] + (u + v) / 3));
   const int parts = std::clamp(static_cast<int>(std::ceil(longest / apart)), 2, kMostParts);
   for (int i = 0; i <= parts; ++i) {
     for (int j = 0; j <= parts - i; ++j)
@@ -126,31 +128,48 @@ std::vector<AirWay> airWays(const CutSurface& surface, const std::vector<HullPla
   return ways;
 }
 
-HullExcess longestOf(const std::vector<AirWay>& ways) {
-  HullExcess excess;
+void takeLongest(const std::vector<AirWay>& ways, HullExcess& excess) {
   for (const AirWay& way : ways) {
     if (!(way.length_m > excess.air_m)) continue;
     excess.air_m = way.length_m;
     excess.place = way.begin;
     excess.normal = way.direction;
   }
-  return excess;
 }
 
-// Where a way meets the surface again (T. Moeller, B. Trumbore, Fast, minimum storage ray-triangle intersection, 1997),
-// or its end.
+// How far along a ray it meets a triangle (T. Moeller, B. Trumbore, Fast, minimum storage ray-triangle intersection,
+// 1997); infinite: not, or behind its begin. `inward`: whether it goes in there.
+double metAt(const Triangle3& triangle, const Vec3& begin, const Vec3& direction, bool& inward) {
+  const Vec3 u = triangle[1] - triangle[0], v = triangle[2] - triangle[0], from = begin - triangle[0];
+  const Vec3 p = direction.cross(v), q = from.cross(u);
+  const double determinant = u.dot(p);
+  inward = determinant > 0;
+  if (determinant == 0) return std::numeric_limits<double>::infinity();
+  const double s = from.dot(p) / determinant, t = direction.dot(q) / determinant, at = v.dot(q) / determinant;
+  return s >= 0 && t >= 0 && s + t <= 1 && at >= 0 ? at : std::numeric_limits<double>::infinity();
+}
+
+// Where a way meets the surface again, or its end.
 double lengthInAir(const CutSurface& surface, const AirWay& way) {
   constexpr double kBegun = 1e-6;  // of the way: it begins on the surface
   double length = way.length_m;
+  bool inward = false;
   for (const Triangle3& triangle : surface) {
-    const Vec3 u = triangle[1] - triangle[0], v = triangle[2] - triangle[0], from = way.begin - triangle[0];
-    const Vec3 p = way.direction.cross(v), q = from.cross(u);
-    const double determinant = u.dot(p);
-    if (determinant == 0) continue;
-    const double s = from.dot(p) / determinant, t = way.direction.dot(q) / determinant, at = v.dot(q) / determinant;
-    if (s >= 0 && t >= 0 && s + t <= 1 && at > kBegun * way.length_m) length = std::min(length, at);
+    const double at = metAt(triangle, way.begin, way.direction, inward);
+    if (at > kBegun * way.length_m) length = std::min(length, at);
   }
   return length;
+}
+
+// By what a ray in some direction, along which no mesh is drawn, goes out of more often than into.
+bool isWithin(const CutSurface& closed, const Vec3& place) {
+  const Vec3 direction(0.5377, 0.1834, 0.8231);
+  int out = 0;
+  bool inward = false;
+  for (const Triangle3& triangle : closed) {
+    if (metAt(triangle, place, direction, inward) < std::numeric_limits<double>::infinity()) out += inward ? -1 : 1;
+  }
+  return out > 0;
 }
 
 std::vector<Primitive> primitivesOf(const CutSurface& surface) {
@@ -170,17 +189,6 @@ double distanceTo(const std::vector<Primitive>& surface, const Vec3& point, doub
     if (closestPointWithin(triangle, point, least, closest)) least = std::min(least, closest.distance);
   }
   return least;
-}
-
-// By the solid angle of each triangle (A. van Oosterom, J. Strackee, The solid angle of a plane triangle, 1983).
-bool isWithin(const CutSurface& closed, const Vec3& place) {
-  double angle = 0;
-  for (const Triangle3& triangle : closed) {
-    const Vec3 a = triangle[0] - place, b = triangle[1] - place, c = triangle[2] - place;
-    const double l = a.norm(), m = b.norm(), n = c.norm();
-    angle += 2 * std::atan2(a.dot(b.cross(c)), l * m * n + a.dot(b) * n + b.dot(c) * l + c.dot(a) * m);
-  }
-  return angle > 2 * EIGEN_PI;
 }
 
 struct AirLine {
@@ -215,13 +223,21 @@ HullExcess shellExcess(const CutPiece& piece, std::size_t most) {
 
 bool PieceMeasure::isFlat(const CutPiece& piece) const { return slabOf(piece.corners()).thickness_m < thickness(); }
 
-HullExcess PieceMeasure::exactly(const CutPiece& piece) const {
+HullExcess PieceMeasure::exactly(const CutPiece& piece, double enough_m) const {
   constexpr std::size_t kMostCorners = 48;  // between which lines are drawn
   if (is_shell_ || isFlat(piece)) return shellExcess(piece, kMostCorners);
   HullExcess excess;
-  followWays(piece, excess);
   addLines(piece, excess);
+  if (excess.error_m <= enough_m) followWays(piece, excess);
   return excess;
+}
+
+void PieceMeasure::addLines(const CutPiece& piece, HullExcess& excess) const {
+  constexpr std::size_t kMostCorners = 8;
+  for (const AirLine& line : linesOf(piece, kMostCorners)) {
+    if (line.air_m > std::max(excess.error_m, allowed_m_) && !isWithin(whole_, line.middle))
+      excess = {line.air_m, line.air_m, line.middle, line.direction};
+  }
 }
 
 void PieceMeasure::followWays(const CutPiece& piece, HullExcess& excess) const {
@@ -229,7 +245,7 @@ void PieceMeasure::followWays(const CutPiece& piece, HullExcess& excess) const {
   constexpr std::size_t kMostWays = 96;  // that are followed
   std::vector<AirWay> ways =
       airWays(piece.surface, hullPlanes(piece.thickCorners(thickness())), kApart * allowed_m_, 1);
-  excess = longestOf(ways);
+  takeLongest(ways, excess);
   if (excess.air_m <= allowed_m_) {
     excess.error_m = excess.air_m;
     return;
@@ -246,21 +262,15 @@ void PieceMeasure::followWays(const CutPiece& piece, HullExcess& excess) const {
   }
 }
 
-void PieceMeasure::addLines(const CutPiece& piece, HullExcess& excess) const {
-  constexpr std::size_t kMostCorners = 8;
-  for (const AirLine& line : linesOf(piece, kMostCorners)) {
-    if (line.air_m <= std::max(excess.error_m, allowed_m_) || isWithin(whole_, line.middle)) continue;
-    excess.error_m = line.air_m;
-    if (line.air_m > excess.air_m) excess = {line.air_m, line.air_m, line.middle, line.direction};
-  }
-}
-
 HullExcess PieceMeasure::roughly(const CutPiece& piece) const {
   constexpr std::size_t kMostTriangles = 128, kMostCorners = 16;
   if (is_shell_ || isFlat(piece)) return shellExcess(piece, kMostCorners);
   const std::vector<HullPlane> hull = hullPlanes(farthestOf(piece.thickCorners(thickness())));
-  return longestOf(
-      airWays(piece.surface, hull, std::numeric_limits<double>::infinity(), 1 + piece.surface.size() / kMostTriangles));
+  HullExcess excess;
+  takeLongest(
+      airWays(piece.surface, hull, std::numeric_limits<double>::infinity(), 1 + piece.surface.size() / kMostTriangles),
+      excess);
+  return excess;
 }
 
 }  // namespace hl

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "bodies/hull_planes.h"
@@ -43,7 +44,8 @@ class PieceMeasure {
 
   /// Flat pieces are as thick as this, m.
   double thickness() const { return allowed_m_ / 2; }
-  HullExcess exactly(const CutPiece& piece) const;
+  /// Measures no more once the error is above `enough_m`.
+  HullExcess exactly(const CutPiece& piece, double enough_m = std::numeric_limits<double>::infinity()) const;
   /// Without the error of a solid; from some points, and of a hull of those corners that reach farthest: ten times
   /// faster.
   HullExcess roughly(const CutPiece& piece) const;
