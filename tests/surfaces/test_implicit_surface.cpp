@@ -112,6 +112,26 @@ TEST(ImplicitIndex, BricksLeaveNoCellOut) {
   EXPECT_GT(found, 10'000U);
 }
 
+// Of 20 periods it needs the cells that one needs, and as many more triangles as it is larger.
+TEST(ImplicitSurface, AGyroidIsMeasuredByOnePeriod) {
+  constexpr double kPeriod = 0.01;
+  for (const double thickness : {0.0, 0.001}) {
+    test::Random random(3);
+    for (const bool turn : {false, true}) {
+      const Expression wave = test::gyroid(kPeriod, thickness);
+      const Expression gyroid = turn ? turned(wave, random) : wave;
+      const SheetList small({gyroid, test::cube(1.2 * kPeriod), 1e-5}), large({gyroid, test::cube(10 * kPeriod), 1e-5});
+      const double step = small.sheets[0].grid().step;
+      EXPECT_GT(large.sheets[0].grid().step, 0.6 * step);
+      EXPECT_LT(large.sheets[0].grid().step, 1.6 * step);
+      const double cells = std::pow(large.sheets[0].grid().step / step, 2);
+      const double larger = large.triangles * cells / small.triangles / std::pow(10 / 1.2, 3);
+      EXPECT_GT(larger, 0.3);
+      EXPECT_LT(larger, 3);
+    }
+  }
+}
+
 TEST(ImplicitSurface, TrianglesAreWithinTheStatedError) {
   test::Random random(8);
   int surfaces = 0;

@@ -17,7 +17,7 @@ constexpr double kLeastError_m = 1e-9, kMostError_m = 1;
 /// Of all sheets together, and of one at least.
 constexpr std::size_t kMostLooks = 80'000, kLeastLooks = 4'000;
 /// Sides of cells: of a radius of curvature, so that no smooth part can hide between samples; of the whole.
-constexpr double kOfRadius = 0.1, kOfSize = 0.125;
+constexpr double kOfRadius = 0.25, kOfSize = 0.125;
 /// Of a cell: what is looked at beside the sheet, and what must be, as a diagonal is that long.
 constexpr double kMargin = 2, kLeastMargin = 1.8;
 constexpr std::size_t kPatience = 8;      // times as many where these tell nothing

@@ -98,8 +98,15 @@ bool SheetSearch::Piece::operator<(const Piece& other) const {
 }
 
 SheetSearch::SheetSearch(const ImplicitFunction& function, std::size_t sheet, const Box& within)
+    : function_(function), sheet_(sheet), size_(within.size().maxCoeff()), conditions_(function.conditions(sheet)) {
+  for (const auto& condition : conditions_) addSheets(condition.node);
+  addPeriod(sheet, within);
+  for (const std::size_t other : others_) addPeriod(other, within);
+  add(within);
+}
+
+SheetSearch::SheetSearch(const ImplicitFunction& function, std::size_t sheet, const Box& within, WithoutConditions)
     : function_(function), sheet_(sheet), size_(within.size().maxCoeff()) {
-  for (const auto& condition : function.conditions(sheet)) addSheets(condition.node);
   add(within);
 }
 
@@ -112,6 +119,7 @@ void SheetSearch::addSheets(std::size_t number) {
 
 void SheetSearch::refine(std::size_t most_looks) {
   constexpr double kFine = 1.0 / 8192, kGoodEnough = 1.8;
+  if (!periods_.empty()) searchPeriods(most_looks);
   looked_ = 0;
   while (!boxes_.empty() && looked_ < most_looks) {
     const Piece top = boxes_.top();
@@ -122,7 +130,36 @@ void SheetSearch::refine(std::size_t most_looks) {
   }
 }
 
+void SheetSearch::addPeriod(std::size_t sheet, const Box& within) {
+  const std::optional<Vec3> half = function_.sheets()[sheet].halfPeriod();
+  if (!half || half->prod() >= (within.size() / 2).prod() || periodOf(sheet) != nullptr) return;
+  const Box box{within.centre() - *half, within.centre() + *half};
+  Period period{sheet, std::unique_ptr<SheetSearch>(new SheetSearch(function_, sheet, box, WithoutConditions()))};
+  period.volume_m3 = box.size().prod();
+  periods_.push_back(std::move(period));
+}
+
+// The boxes that are there already are looked at again with what is known then.
+void SheetSearch::searchPeriods(std::size_t most_looks) {
+  for (Period& period : periods_) {
+    period.search->refine(most_looks / periods_.size());
+    period.measure = period.search->result();
+  }
+  widen(margin_);
+  for (const Period& period : periods_) about_ = std::max(about_, period.search->about_);
+}
+
+const SheetSearch::Period* SheetSearch::periodOf(std::size_t sheet) const {
+  for (const Period& period : periods_) {
+    if (period.sheet == sheet) return &period;
+  }
+  return nullptr;
+}
+
 void SheetSearch::widen(double margin) {
+  for (Period& period : periods_) {
+    if (margin != margin_) period.search->widen(margin);
+  }
   margin_ = margin;
   about_ = 0;
   std::priority_queue<Piece> before;
@@ -137,25 +174,27 @@ void SheetSearch::add(const Box& box) {
   ++looked_;
   if (!mayBeZero(own, space)) return;
   looked_ += 1 + others_.size();
-  for (const auto& condition : function_.conditions(sheet_)) {
+  for (const auto& condition : conditions_) {
     if (!mayHold(function_, condition, 0, space)) return;
   }
   Piece piece{box.size().maxCoeff() > kCoarse * size_, 0, 0, box, order_++};
-  look(own, space, piece);
+  look(sheet_, space, piece);
   for (const std::size_t other : others_) {
     const SmoothFunction& smooth = function_.sheets()[other];
-    if (smooth.over(space).holds(0)) look(smooth, space, piece);
+    if (smooth.over(space).holds(0)) look(other, space, piece);
   }
   boxes_.push(piece);
 }
 
-void SheetSearch::look(const SmoothFunction& smooth, const SmoothFunction::Space& space, Piece& piece) {
+void SheetSearch::look(std::size_t sheet, const SmoothFunction::Space& space, Piece& piece) {
+  const SmoothFunction& smooth = function_.sheets()[sheet];
+  const Period* const period = periodOf(sheet);
   const Jet<Interval, 2> jet = smooth.bendOver(space);
   const BendBound bend = boundOf(jet);
   const double least = leastSlope(smooth, space, jet, bend.most), most = mostSlope(jet);
-  if (!(bend.most == 0))
-    piece.bend_per_m = std::max(piece.bend_per_m, least > 0 ? bend.most / least : Interval::kNoEnd);
-  piece.slope = std::max(piece.slope, most);
+  const double bend_per_m = bend.most == 0 ? 0 : least > 0 ? bend.most / least : Interval::kNoEnd;
+  piece.bend_per_m = std::max(piece.bend_per_m, period ? std::min(bend_per_m, period->measure.bend_per_m) : bend_per_m);
+  piece.slope = std::max(piece.slope, period ? std::min(most, period->measure.slope) : most);
   const bool narrow = bend.most <= 2 * bend.middle && most <= 2 * least;
   if (narrow && most > 0) about_ = std::max(about_, bend.middle / most);
 }
@@ -163,12 +202,14 @@ void SheetSearch::look(const SmoothFunction& smooth, const SmoothFunction::Space
 SheetMeasure SheetSearch::result() const {
   SheetMeasure measure;
   if (!boxes_.empty()) measure.sharpest = boxes_.top().box.centre();
+  const Period* const period = periodOf(sheet_);
   for (auto boxes = boxes_; !boxes.empty(); boxes.pop()) {
     const Piece& piece = boxes.top();
     measure.bounds.extend(piece.box);
     measure.bend_per_m = std::max(measure.bend_per_m, piece.bend_per_m);
     measure.slope = std::max(measure.slope, piece.slope);
-    measure.area_m2 += std::pow(piece.box.size().prod(), 2.0 / 3);
+    const double volume_m3 = piece.box.size().prod();
+    measure.area_m2 += period ? volume_m3 * period->measure.area_m2 / period->volume_m3 : std::pow(volume_m3, 2.0 / 3);
   }
   return measure;
 }

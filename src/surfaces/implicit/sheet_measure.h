@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <queue>
+#include <span>
 #include <vector>
 
 #include "geometry/box.h"
@@ -44,17 +46,31 @@ class SheetSearch {
   };
 
   void addSheets(std::size_t node);
+  // One period of a sheet that repeats itself: what holds there holds everywhere.
+  struct Period {
+    std::size_t sheet;
+    std::unique_ptr<SheetSearch> search;
+    SheetMeasure measure{{}, Interval::kNoEnd, Interval::kNoEnd};
+    double volume_m3 = 1;
+  };
+  struct WithoutConditions {};
+  SheetSearch(const ImplicitFunction& function, std::size_t sheet, const Box& within, WithoutConditions);
+  void addPeriod(std::size_t sheet, const Box& within);
+  void searchPeriods(std::size_t most_looks);
+  const Period* periodOf(std::size_t sheet) const;
   void add(const Box& box);
-  void look(const SmoothFunction& smooth, const SmoothFunction::Space& space, Piece& piece);
+  void look(std::size_t sheet, const SmoothFunction::Space& space, Piece& piece);
 
   const ImplicitFunction& function_;
   const std::size_t sheet_;
   const double size_;  // m
   double margin_ = 0;
+  std::span<const ImplicitFunction::Condition> conditions_;
   std::vector<std::size_t> others_;  // sheets that it is cut off by
   std::priority_queue<Piece> boxes_;
   std::size_t order_ = 0, looked_ = 0;
-  double about_ = 0;  // the bend is about so large somewhere
+  double about_ = 0;             // the bend is about so large somewhere
+  std::vector<Period> periods_;  // of this sheet and the others, where these repeat themselves within the box
 };
 
 /// Whether a condition may hold somewhere in a box, give or take `slack`. RT-safe.

@@ -95,6 +95,11 @@ Result SmoothFunction::evaluated(const std::array<Number, 3>& p) const {
   return waiting[0];
 }
 
+std::optional<Vec3> SmoothFunction::halfPeriod() const {
+  if (steps_.size() != 1 || steps_.front().body.kind != BodyKind::kGyroid) return std::nullopt;
+  return M_PI * steps_.front().body.axes.inverse().cwiseAbs().rowwise().sum();
+}
+
 double SmoothFunction::at(const Vec3& p) const { return evaluated<double, double>({p.x(), p.y(), p.z()}); }
 
 Lanes SmoothFunction::at(const std::array<Lanes, 3>& p) const { return evaluated<Lanes, Lanes>(p); }

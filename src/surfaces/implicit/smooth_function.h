@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/vec.h"
@@ -41,6 +42,8 @@ class SmoothFunction {
 
   std::size_t bodies() const { return (steps_.size() + 1) / 2; }
   bool fits() const { return waiting_ <= kMostWaiting; }
+  /// Half the sides of a box that holds, wherever it is, all values that there are; nothing: no box does.
+  std::optional<Vec3> halfPeriod() const;
 
   // RT-safe.
   double at(const Vec3& p) const;
