@@ -1,21 +1,17 @@
 // hl trace: feels a scene along a recorded finger path, offline. The contract is docs/trace.md.
 #include <fmt/core.h>
 
-#include <map>
-
 #include "commands.h"
 #include "io/trace_csv.h"
-#include "tools/trace.h"
+#include "trace_options.h"
 
 namespace hl {
 
 namespace {
 
-struct TraceOptions {
-  SceneOptions scene;
-  std::string path;
+struct TraceCall {
+  TraceOptions options;
   std::string out;
-  TraceSettings settings;
 };
 
 void printEndings(const EndingCounts& ended) {
@@ -50,11 +46,12 @@ void printBodies(std::size_t bodies, const TraceTotals& totals) {
   if (totals.returned > 0) fmt::print(stderr, "{} times a body left the scene and was put back\n", totals.returned);
 }
 
-void run(const TraceOptions& options) {
-  const std::vector<PathSample> path = readPath(options.path);
+void run(const TraceCall& call) {
+  const TraceOptions& options = call.options;
+  const std::vector<PathSample> path = pathOf(options);
   const auto snapshot = loadSnapshot(options.scene);
   const std::vector<std::string> bodies = tracedBodies(*snapshot);
-  TraceWriter writer(options.out, {options.scene.scene, options.path}, bodies, !snapshot->snaps.empty());
+  TraceWriter writer(call.out, {options.scene.scene, options.path}, bodies, !snapshot->snaps.empty());
   const TraceTotals totals =
       runTrace(*snapshot, options.settings, path, [&](const TraceRow& row) { writer.write(row); });
   writer.close();
@@ -69,33 +66,10 @@ void run(const TraceOptions& options) {
 
 void addTraceCommand(CLI::App& app) {
   auto* command = app.add_subcommand("trace", "feel a scene along a recorded finger path, offline and deterministic");
-  auto options = std::make_shared<TraceOptions>();
-  addSceneArgument(*command, options->scene, true);
-  command->add_option("--path", options->path, "CSV with the header t,x,y,z: seconds and metres, one row a tick")
-      ->required();
-  command->add_option("--out", options->out, "CSV to write, one row for each row of the path")->required();
-  command->add_option("--radius", options->settings.proxy.radius, "proxy radius in metres")
-      ->check(within(kMinRadius_m, kMaxNumber))
-      ->capture_default_str();
-  command
-      ->add_option("--work-cap", options->settings.proxy.work_cap,
-                   "work after which a tick ends before its local minimum, for the next row to go on: in a live loop " +
-                       std::to_string(ProxySettings{}.work_cap) + " (default: any)")
-      ->check(CLI::Range(1, kNoWorkCap));
-  command->add_option("--kp", options->settings.proxy.spring_N_m, "spring of the servo in N/m")
-      ->check(within(kMinNumber, kMaxNumber))
-      ->capture_default_str();
-  addSurfaceOptions(*command, options->settings.proxy.surfaces, options->settings.proxy.ledger);
-  const std::map<std::string, ShadingPasses> passes{{"converged", ShadingPasses::kConverged},
-                                                    {"once", ShadingPasses::kOnce}};
-  command
-      ->add_option("--shading-passes", options->settings.proxy.shading,
-                   "how often the two passes of shading run in one tick")
-      ->transform(CLI::CheckedTransformer(passes))
-      ->option_text("converged|once (default: converged)");
-  addSizeOptions(*command, options->scene);
-  addHierarchyOption(*command, options->scene);
-  command->callback([options] { run(*options); });
+  auto call = std::make_shared<TraceCall>();
+  addTraceOptions(*command, call->options);
+  command->add_option("--out", call->out, "CSV to write, one row for each row of the path")->required();
+  command->callback([call] { run(*call); });
 }
 
 }  // namespace hl

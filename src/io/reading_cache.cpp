@@ -1,20 +1,17 @@
 #include "io/reading_cache.h"
 
 #include <fcntl.h>
-#include <fmt/core.h>
-#include <openssl/evp.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <filesystem>
-#include <memory>
 #include <vector>
 
 #include "base/error.h"
 #include "io/model_parts.h"
+#include "io/sha256.h"
 
 namespace hl {
 
@@ -24,24 +21,6 @@ namespace fs = std::filesystem;
 
 // Whatever changes in readings or in the messages that hold them changes this, so that older entries do not count.
 constexpr const char* kEntryFormat = "hl reading 1 ";
-
-using Digest256 = std::array<unsigned char, 32>;
-
-class Sha256 {
- public:
-  Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
-    if (!context_ || EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) != 1) throw Error("there is no SHA-256");
-  }
-  void add(const void* data, std::size_t bytes) { EVP_DigestUpdate(context_.get(), data, bytes); }
-  Digest256 end() {
-    Digest256 digest{};
-    EVP_DigestFinal_ex(context_.get(), digest.data(), nullptr);
-    return digest;
-  }
-
- private:
-  std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context_;
-};
 
 struct OpenFile {
   explicit OpenFile(int number) : descriptor(number) {}
@@ -126,10 +105,7 @@ std::string cacheFolder() {
 std::string ReadingCache::keyOf(int descriptor, const std::string& options) const {
   if (folder_.empty()) return {};
   const std::optional<Digest256> digest = digestOf(descriptor, sizeOf(descriptor), kEntryFormat + options + "\n");
-  std::string key;
-  if (!digest) return key;
-  for (const unsigned char byte : *digest) key += fmt::format("{:02x}", byte);
-  return key;
+  return digest ? hexOf(*digest) : std::string();
 }
 
 std::optional<SceneModel> ReadingCache::find(const std::string& key, const IsolationLimits& limits) const {

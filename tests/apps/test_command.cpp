@@ -134,7 +134,7 @@ TEST(Command, NoOptionTakesNaNInfinityOrANumberOutOfRange) {
   };
   for (const Options& options :
        {Options{"trace teapot --path " + path + " --out " + hl::test::tempFile("hl_cmd_out.csv"),
-                surfaces + "--radius --kp --scale --fit"},
+                surfaces + "--radius --kp --scale --fit --tremor --seed"},
         Options{"touch plane:200 --no-open --port 0 --duration 0.01",
                 surfaces + "--radius --size --kp --damping --scale --servo-rate --force-limit --speed-limit "
                            "--tool-mass --free-damping --constant-force --spring"},

@@ -1,0 +1,30 @@
+// What `hl trace` takes beside the file that it writes; each task of `hl sweep` takes the same.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "tools/trace.h"
+
+namespace hl {
+
+/// The largest number up to which doubles, in which others may read a seed, have all.
+inline constexpr std::int64_t kMostSeed = std::int64_t{1} << 53;
+
+struct TraceOptions {
+  SceneOptions scene;
+  std::string path;
+  TraceSettings settings;
+  double tremor_m = 0;
+  std::int64_t seed = 0;  ///< 0 to kMostSeed
+};
+
+/// SCENE, --path and all that changes the result. `options` must outlive `command`.
+void addTraceOptions(CLI::App& command, TraceOptions& options);
+
+/// The file, with the tremor that is asked for. Throws hl::Error.
+std::vector<PathSample> pathOf(const TraceOptions& options);
+
+}  // namespace hl
