@@ -20,6 +20,7 @@ void addBenchCommand(CLI::App& app);
 void addRecordCommand(CLI::App& app);
 void addReplayCommand(CLI::App& app);
 void addStabilityCommand(CLI::App& app);
+void addSweepCommand(CLI::App& app);
 
 /// Options that every command with a SCENE shares.
 struct SceneOptions {
@@ -34,6 +35,7 @@ struct SceneOptions {
   bool surfels = false;        ///< of clouds, in place of points
   double surfel_reach = 0.75;  ///< in spacings
   CadMeshing cad;              ///< of CAD files
+  bool operator==(const SceneOptions&) const = default;
 };
 
 void addSceneArgument(CLI::App& command, SceneOptions& options, bool required);

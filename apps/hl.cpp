@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "file_opener.h"
 #include "io/load_sent.h"
+#include "sweep_worker.h"
 
 namespace {
 
@@ -24,6 +25,7 @@ std::string unknownCommand(const CLI::App& app, const std::string& word) {
 // NOLINTNEXTLINE(bugprone-exception-escape): only when not even stderr can be written
 int main(int argc, char** argv) {
   if (argc == 3 && std::string_view(argv[1]) == hl::kReadSent) hl::readSent(argv[2]);
+  if (argc == 3 && std::string_view(argv[1]) == hl::kSweepWorker) return hl::runSweepWorker(argv[2]);
   CLI::App app("HL, the haptic library: makes 3-D worlds touchable.", "hl");
   app.set_version_flag("--version", std::string("hl ") + HL_VERSION);
   app.require_subcommand(1);
@@ -35,6 +37,7 @@ int main(int argc, char** argv) {
   hl::addRecordCommand(app);
   hl::addReplayCommand(app);
   hl::addStabilityCommand(app);
+  hl::addSweepCommand(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version

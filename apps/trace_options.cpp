@@ -48,6 +48,21 @@ void addTraceOptions(CLI::App& command, TraceOptions& options) {
   addHierarchyOption(command, options.scene);
 }
 
+const TraceOptions& TraceWords::read(const std::vector<std::string>& words) {
+  options_ = {};
+  std::vector<std::string> last_first(words.rbegin(), words.rend());  // as CLI11 wants them
+  app_.parse(last_first);
+  return options_;
+}
+
+std::vector<std::string> TraceWords::names() const {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app_.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back(name);
+  }
+  return names;
+}
+
 std::vector<PathSample> pathOf(const TraceOptions& options) {
   std::vector<PathSample> path = readPath(options.path);
   addTremor(path, options.tremor_m, static_cast<std::uint64_t>(options.seed));

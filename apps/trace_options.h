@@ -24,6 +24,24 @@ struct TraceOptions {
 /// SCENE, --path and all that changes the result. `options` must outlive `command`.
 void addTraceOptions(CLI::App& command, TraceOptions& options);
 
+/// Reads the words of traces, one after the other.
+class TraceWords {
+ public:
+  TraceWords() : app_("", "hl trace") { addTraceOptions(app_, options_); }
+  TraceWords(const TraceWords&) = delete;
+  TraceWords& operator=(const TraceWords&) = delete;
+
+  /// The scene and what follows; what they do not say is the default. Throws CLI::ParseError. Valid until the next
+  /// call.
+  const TraceOptions& read(const std::vector<std::string>& words);
+  /// All options, without --.
+  std::vector<std::string> names() const;
+
+ private:
+  CLI::App app_;
+  TraceOptions options_;
+};
+
 /// The file, with the tremor that is asked for. Throws hl::Error.
 std::vector<PathSample> pathOf(const TraceOptions& options);
 

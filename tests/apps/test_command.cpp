@@ -30,7 +30,8 @@ Result call(const std::string& arguments) {
 }
 
 TEST(Command, HelpForEachCommand) {
-  for (const char* command : {"", "touch", "trace", "info", "doctor", "bench", "record", "replay", "stability"}) {
+  for (const char* command :
+       {"", "touch", "trace", "info", "doctor", "bench", "record", "replay", "stability", "sweep"}) {
     const Result result = call(std::string(command) + " --help");
     EXPECT_EQ(result.code, 0) << command;
     EXPECT_NE(result.output.find("Usage"), std::string::npos) << command;
@@ -111,6 +112,10 @@ TEST(Command, BadInputIsOneLineAndExitCodeTwo) {
         std::string("replay"),
         std::string("replay /nonexistent"),
         "replay " + path + " --csv " + out,
+        std::string("sweep"),
+        std::string("sweep /nonexistent.toml"),
+        "sweep " + path,
+        "sweep " + path + " --jobs 0",
         std::string("bench --most 1"),
         std::string("bench --scenes teapot"),
         std::string("bench --motions flying"),

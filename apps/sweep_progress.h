@@ -1,0 +1,31 @@
+// How far a sweep is, on standard error: a line that rewrites itself on a terminal, elsewhere one now and then.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace hl {
+
+/// "950 of 1000 tasks, 400 a second, 2 s left".
+std::string sweepProgressLine(std::size_t done, std::size_t all, double seconds);
+
+class SweepProgress {
+ public:
+  explicit SweepProgress(std::size_t tasks);
+  void taskDone() { ++done_; }
+  void tell();  ///< if it is time to
+  /// For good: the line goes. Seconds since the beginning.
+  double end();
+
+ private:
+  double seconds() const;
+
+  const std::size_t tasks_;
+  const std::int64_t begin_ns_;
+  const bool terminal_;
+  std::size_t done_ = 0;
+  double told_s_ = 0;
+};
+
+}  // namespace hl

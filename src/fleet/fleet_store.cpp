@@ -1,0 +1,104 @@
+#include "fleet/fleet_store.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "base/error.h"
+
+namespace hl {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kResultEnding = ".result";
+constexpr const char* kFailureEnding = ".failed";
+constexpr const char* kPartEnding = ".part-";
+
+std::optional<std::string> contentOf(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return {};
+  return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+Digest256 digestOfResult(std::string_view bytes) {
+  Sha256 sha;
+  sha.add(bytes);
+  return sha.end();
+}
+
+bool writeAll(int file, const std::string& bytes) {
+  for (std::size_t at = 0; at < bytes.size();) {
+    const ssize_t written = ::write(file, bytes.data() + at, bytes.size() - at);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    at += static_cast<std::size_t>(written);
+  }
+  return true;
+}
+
+}  // namespace
+
+// Some thousand files a folder, as long as there are less than a million.
+std::string FleetStore::pathOf(const std::string& name, const char* ending) const {
+  return folder_ + "/" + name.substr(0, 2) + "/" + name + ending;
+}
+
+std::optional<StoredResult> FleetStore::find(const std::string& name) const {
+  const std::optional<std::string> all = contentOf(pathOf(name, kResultEnding));
+  Digest256 said{};
+  if (!all || all->size() < said.size()) return {};
+  const std::string_view bytes(all->data(), all->size() - said.size());
+  std::memcpy(said.data(), all->data() + bytes.size(), said.size());
+  const Digest256 digest = digestOfResult(bytes);
+  if (said != digest) return {};
+  std::optional<FleetResult> result = fleetResultOf(bytes);
+  if (!result || result->name != name) return {};
+  return StoredResult{std::move(*result), hexOf(digest)};
+}
+
+void FleetStore::write(const std::string& path, const std::string& bytes) const {
+  std::error_code failed;
+  fs::create_directories(fs::path(path).parent_path(), failed);
+  std::string beside = path + kPartEnding + "XXXXXX";
+  const int file = mkostemp(beside.data(), O_CLOEXEC);
+  const bool whole = file >= 0 && writeAll(file, bytes);
+  const int error = errno;
+  if (file >= 0) close(file);
+  if (whole && rename(beside.c_str(), path.c_str()) == 0) return;
+  const std::string why = std::strerror(whole ? errno : error);
+  if (file >= 0) unlink(beside.c_str());
+  throw Error(path + ": cannot be written: " + why);
+}
+
+void FleetStore::keep(const FleetResult& result) const {
+  std::string bytes = bytesOf(result);
+  const Digest256 digest = digestOfResult(bytes);
+  bytes.append(reinterpret_cast<const char*>(digest.data()), digest.size());
+  write(pathOf(result.name, kResultEnding), bytes);
+  unlink(pathOf(result.name, kFailureEnding).c_str());
+}
+
+void FleetStore::keepFailure(const std::string& name, const std::string& why) const {
+  write(pathOf(name, kFailureEnding), why);
+}
+
+std::optional<std::string> FleetStore::failureOf(const std::string& name) const {
+  return contentOf(pathOf(name, kFailureEnding));
+}
+
+void FleetStore::removeRemains() const {
+  std::error_code failed;
+  for (fs::recursive_directory_iterator at(folder_, failed), end; !failed && at != end; at.increment(failed)) {
+    std::error_code gone;
+    if (at->path().filename().string().find(kPartEnding) != std::string::npos) fs::remove(at->path(), gone);
+  }
+}
+
+}  // namespace hl
