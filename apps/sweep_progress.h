@@ -3,12 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <string>
 
 namespace hl {
-
-/// "950 of 1000 tasks, 400 a second, 2 s left".
-std::string sweepProgressLine(std::size_t done, std::size_t all, double seconds);
 
 class SweepProgress {
  public:

@@ -20,6 +20,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "fleet/fleet_texts.h"
 
 namespace hl {
 
@@ -60,15 +61,6 @@ bool receiveMessage(int pipe, google::protobuf::MessageLite& message) {
   if (!receiveBytes(pipe, reinterpret_cast<char*>(&size), sizeof size) || size > kMostMessage_bytes) return false;
   std::string bytes(size, '\0');
   return receiveBytes(pipe, bytes.data(), size) && message.ParseFromString(bytes);
-}
-
-// One line, and no longer than a line should be.
-std::string oneLine(std::string text) {
-  constexpr std::size_t kLongest = 500;
-  text.resize(std::min(text.size(), kLongest));
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
-  return text;
 }
 
 std::string lastLineOf(int file) {
@@ -116,7 +108,7 @@ class Worker {
   std::optional<std::string> answer() {
     proto::FleetAnswer answer;
     if (!receiveMessage(from_, answer)) return {};
-    return oneLine(answer.failure());
+    return oneLineOf(answer.failure());
   }
   std::string causeOfDeath() {
     const std::string said = said_ >= 0 ? lastLineOf(said_) : "";
@@ -124,7 +116,7 @@ class Worker {
     const std::string cause = WIFSIGNALED(status) ? fmt::format("its process was ended by signal {} ({})",
                                                                 WTERMSIG(status), strsignal(WTERMSIG(status)))
                                                   : fmt::format("its process ended with code {}", WEXITSTATUS(status));
-    return oneLine(said.empty() ? cause : cause + ": " + said);
+    return oneLineOf(said.empty() ? cause : cause + ": " + said);
   }
 
  private:

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "io/utf8.h"
 
 namespace hl {
 
@@ -39,23 +40,6 @@ std::string arrayHeader(const std::string& type, const std::vector<std::size_t>&
   std::string header("\x93NUMPY\x01\x00", 8);
   append(header, static_cast<std::uint16_t>(text.size()));
   return header + text;
-}
-
-// Code points; what is no UTF-8 becomes a question mark.
-std::vector<std::uint32_t> codePoints(const std::string& text) {
-  std::vector<std::uint32_t> points;
-  for (std::size_t i = 0; i < text.size();) {
-    const auto lead = static_cast<unsigned char>(text[i++]);
-    const unsigned more = lead < 0x80 ? 0 : lead >= 0xf0 && lead < 0xf8 ? 3 : lead >= 0xe0 ? 2 : lead >= 0xc0 ? 1 : 4;
-    std::uint32_t point = more == 0 ? lead : lead & (0x3fU >> more);
-    bool sound = more < 4 && lead < 0xf8;
-    for (unsigned k = 0; sound && k < more; ++k) {
-      sound = i < text.size() && (static_cast<unsigned char>(text[i]) & 0xc0U) == 0x80;
-      if (sound) point = point << 6U | (static_cast<unsigned char>(text[i++]) & 0x3fU);
-    }
-    points.push_back(sound ? point : '?');
-  }
-  return points;
 }
 
 }  // namespace
@@ -143,7 +127,7 @@ void NpzFile::add(const std::string& name, const std::vector<std::int64_t>& numb
 void NpzFile::add(const std::string& name, const std::vector<std::string>& texts) {
   std::vector<std::vector<std::uint32_t>> points;
   std::size_t longest = 1;
-  for (const std::string& text : texts) longest = std::max(longest, points.emplace_back(codePoints(text)).size());
+  for (const std::string& text : texts) longest = std::max(longest, points.emplace_back(codePointsOf(text)).size());
   begin(name, fmt::format("<U{}", longest), {texts.size()});
   for (std::vector<std::uint32_t>& text : points) {
     text.resize(longest);

@@ -7,6 +7,7 @@ import csv
 import hashlib
 import json
 import os
+import pty
 import random
 import signal
 import subprocess
@@ -21,6 +22,7 @@ import numpy as np
 from sweeps import PATIENCE_S, Sweep, kill_a_worker, workers_of, write_path
 
 HL = Path(sys.argv.pop(1)).resolve()
+EXAMPLE = Path(__file__).resolve().parent.parent.parent / "examples" / "sweeps" / "friction.toml"
 SMALL = """scenes = ["sphere:2000", "ball.obj"]
 paths = ["short.csv", "long.csv"]
 seeds = [7, 8]
@@ -131,10 +133,10 @@ class Sweeps(unittest.TestCase):
         self.assertIn("8 tasks run", sweep.call().stderr)
 
     def test_killed_at_random_it_loses_nothing(self):
-        text = SMALL.replace("[7, 8]", "{first = 1, count = 40}")
+        text = SMALL.replace("[7, 8]", "{first = 1, count = 20}")
         undisturbed = self.sweep(text).run("--jobs", 2, "--out", self.folder / "undisturbed")
         sweep, draw = self.sweep(text), random.Random(1)
-        for _ in range(6):
+        for _ in range(4):
             sweep.kill_at(draw.uniform(0.02, 0.2), "--jobs", 2)
         self.assertEqual(sweep.run("--jobs", 2), undisturbed)
         self.assertEqual(list((self.folder / "sweep.sweep").rglob("*.part*")), [])
@@ -200,7 +202,7 @@ class Sweeps(unittest.TestCase):
         self.assertEqual(sweep.run("--finish", *parts), whole)
 
     def test_two_at_once_in_one_folder_do_no_harm(self):
-        sweep = self.sweep(SMALL.replace("[7, 8]", "{first = 1, count = 20}"))
+        sweep = self.sweep(SMALL.replace("[7, 8]", "{first = 1, count = 8}"))
         whole = sweep.run("--out", self.folder / "whole")
         others = [sweep.start("--part", "0/1"), sweep.start("--part", "0/1")]
         self.assertEqual([other.wait(timeout=PATIENCE_S) for other in others], [0, 0])
@@ -235,6 +237,20 @@ class Sweeps(unittest.TestCase):
             self.assertEqual(call.stdout, "", call)
             self.assertEqual(call.stderr.count("\n"), 1, call)
             self.assertIn(said, call.stderr)
+
+    def test_progress_is_told_on_a_terminal(self):
+        write_path(self.folder / "long.csv", 10_000)
+        terminal, other = pty.openpty()
+        done = subprocess.run(self.sweep().command("--jobs", 2), stdout=subprocess.DEVNULL, stderr=other, check=True)
+        os.close(other)
+        told = os.read(terminal, 100_000).decode()
+        os.close(terminal)
+        self.assertEqual(done.returncode, 0)
+        self.assertRegex(told, r"\r\d+ of 16 tasks, \S+ a second, \d+ s left")
+
+    def test_the_example_can_be_run(self):
+        done = subprocess.run([HL, "sweep", EXAMPLE, "--dry-run"], stdout=subprocess.PIPE, text=True, check=True)
+        self.assertTrue(done.stdout.splitlines()[-1].startswith("1100 tasks; sweep "))
 
     def test_slurms_calls_can_be_looked_at(self):
         done = self.sweep().call("--slurm", "--dry-run", "--parts", 4, "--slurm-options", "--time=10")
