@@ -99,6 +99,7 @@ void NpzFile::begin(const std::string& name, const std::string& type, const std:
 }
 
 void NpzFile::write(const void* data, std::size_t bytes) {
+  if (bytes == 0) return;  // no data has no address, which zlib takes for a new beginning
   Entry& entry = entries_.back();
   entry.crc = static_cast<std::uint32_t>(crc32_z(entry.crc, static_cast<const Bytef*>(data), bytes));
   entry.bytes += bytes;
