@@ -149,14 +149,14 @@ void runTasks(const SweepRun& run) {
   for (std::size_t i = part.number; i < run.tasks.size(); i += part.of, ++mine) {
     if (!store.find(run.plan.tasks[run.tasks[i]].name)) todo.push_back(run.tasks[i]);
   }
-  const auto taskOf = [&](std::size_t i) -> const FleetTask& { return run.plan.tasks[todo[i]]; };
+  const auto task_of = [&](std::size_t i) -> const FleetTask& { return run.plan.tasks[todo[i]]; };
   SweepProgress progress(todo.size());
   FleetCallbacks callbacks;
   callbacks.order = [&](std::size_t i) {
-    return FleetOrderText{taskOf(i).name, run.plan.wordsOf(taskOf(i)), run.plan.rows};
+    return FleetOrderText{task_of(i).name, run.plan.wordsOf(task_of(i)), run.plan.rows};
   };
   callbacks.done = [&](std::size_t i, const std::string& failure) {
-    if (!failure.empty()) store.keepFailure(taskOf(i).name, failure);
+    if (!failure.empty()) store.keepFailure(task_of(i).name, failure);
     progress.taskDone();
   };
   callbacks.wait = [&] { progress.tell(); };

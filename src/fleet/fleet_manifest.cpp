@@ -2,11 +2,8 @@
 #include <fmt/core.h>
 
 #include <boost/json.hpp>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 
-#include "base/error.h"
+#include "fleet/beside.h"
 #include "fleet/fleet_report.h"
 #include "io/output_file.h"
 #include "io/sha256.h"
@@ -42,7 +39,7 @@ std::string taskText(const FleetPlan& plan, const FleetTask& task, const FleetSt
 }  // namespace
 
 std::string writeManifest(const FleetPlan& plan, const FleetStore& store, const std::string& folder) {
-  const std::string path = folder + "/manifest.json", beside = path + ".part";
+  const std::string path = folder + "/manifest.json", beside = nameBeside(path);
   OutputFile file(beside);
   file.print("{{\n  \"program\": {},\n  \"sweep\": \"{}\",\n  \"rows\": {},\n", quotedText("hl " + plan.program),
              plan.name, plan.rows);
@@ -52,8 +49,7 @@ std::string writeManifest(const FleetPlan& plan, const FleetStore& store, const 
     file.print("{}\n    {}", i == 0 ? "" : ",", taskText(plan, plan.tasks[i], store));
   file.write("]\n}\n");
   file.close();
-  if (std::rename(beside.c_str(), path.c_str()) != 0)
-    throw Error(path + ": cannot be written: " + std::strerror(errno));
+  putInPlace(beside, path);
   return sha256OfFile(path);
 }
 

@@ -16,7 +16,7 @@ struct FleetProgress {
 };
 FleetProgress progressOf(const FleetPlan& plan, const FleetStore& store);
 
-/// Writes FOLDER/result.npz, each beside first. Throws hl::Error where it cannot, or where a task has neither a result
+/// Writes FOLDER/result.npz, beside first. Throws hl::Error where it cannot, or where a task has neither a result
 /// nor a failure.
 void writeFleetTable(const FleetPlan& plan, const FleetStore& store, const std::string& folder);
 

@@ -10,6 +10,7 @@
 #include <iterator>
 
 #include "base/error.h"
+#include "fleet/beside.h"
 
 namespace hl {
 
@@ -19,7 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kResultEnding = ".result";
 constexpr const char* kFailureEnding = ".failed";
-constexpr const char* kPartEnding = ".part-";
 
 std::optional<std::string> contentOf(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
@@ -64,24 +64,28 @@ std::optional<StoredResult> FleetStore::find(const std::string& name) const {
 }
 
 void FleetStore::write(const std::string& path, const std::string& bytes) const {
+  constexpr mode_t kForAll = 0666;  // less the umask
   std::error_code failed;
   fs::create_directories(fs::path(path).parent_path(), failed);
-  std::string beside = path + kPartEnding + "XXXXXX";
-  const int file = mkostemp(beside.data(), O_CLOEXEC);
+  const std::string beside = nameBeside(path);
+  const int file = open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kForAll);
   const bool whole = file >= 0 && writeAll(file, bytes);
   const int error = errno;
   if (file >= 0) close(file);
-  if (whole && rename(beside.c_str(), path.c_str()) == 0) return;
-  const std::string why = std::strerror(whole ? errno : error);
+  if (whole) return putInPlace(beside, path);
   if (file >= 0) unlink(beside.c_str());
-  throw Error(path + ": cannot be written: " + why);
+  throw Error(path + ": cannot be written: " + std::strerror(error));
 }
 
 void FleetStore::keep(const FleetResult& result) const {
   std::string bytes = bytesOf(result);
   const Digest256 digest = digestOfResult(bytes);
   bytes.append(reinterpret_cast<const char*>(digest.data()), digest.size());
-  write(pathOf(result.name, kResultEnding), bytes);
+  try {
+    write(pathOf(result.name, kResultEnding), bytes);
+  } catch (const Error&) {
+    if (!find(result.name)) throw;  // another has kept it meanwhile, and removed what it took for remains
+  }
   unlink(pathOf(result.name, kFailureEnding).c_str());
 }
 
@@ -97,7 +101,7 @@ void FleetStore::removeRemains() const {
   std::error_code failed;
   for (fs::recursive_directory_iterator at(folder_, failed), end; !failed && at != end; at.increment(failed)) {
     std::error_code gone;
-    if (at->path().filename().string().find(kPartEnding) != std::string::npos) fs::remove(at->path(), gone);
+    if (at->path().filename().string().find(kBeside) != std::string::npos) fs::remove(at->path(), gone);
   }
 }
 

@@ -26,7 +26,7 @@ class FleetStore {
   /// Why there is no result, in a line. Throws hl::Error where it cannot be written.
   void keepFailure(const std::string& name, const std::string& why) const;
   std::optional<std::string> failureOf(const std::string& name) const;
-  /// Removes what killed programs have left beside their results. Nobody may write meanwhile.
+  /// Removes what killed programs have left beside their results.
   void removeRemains() const;
 
  private:

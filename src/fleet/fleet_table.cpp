@@ -1,17 +1,15 @@
 // The table: one element a task in each column, in the order of the plan. Names of columns are in docs/sweeps.md.
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <set>
 
 #include "base/error.h"
 #include "base/fields.h"
+#include "fleet/beside.h"
 #include "fleet/fleet_report.h"
 #include "io/npz_file.h"
 
@@ -111,6 +109,7 @@ class TableWriter {
   void addSummary(const FleetColumn& column, const std::vector<double>& numbers) {
     if (!column.count) return file_.add(column.name, numbers);
     std::vector<std::int64_t> counts;
+    counts.reserve(numbers.size());
     for (const double number : numbers) counts.push_back(std::isnan(number) ? 0 : static_cast<std::int64_t>(number));
     file_.add(column.name, counts);
   }
@@ -165,10 +164,9 @@ FleetProgress progressOf(const FleetPlan& plan, const FleetStore& store) {
 }
 
 void writeFleetTable(const FleetPlan& plan, const FleetStore& store, const std::string& folder) {
-  const std::string path = folder + "/result.npz", beside = path + ".part";
+  const std::string path = folder + "/result.npz", beside = nameBeside(path);
   TableWriter(plan, store, beside).write();
-  if (std::rename(beside.c_str(), path.c_str()) != 0)
-    throw Error(path + ": cannot be written: " + std::strerror(errno));
+  putInPlace(beside, path);
 }
 
 }  // namespace hl

@@ -90,9 +90,9 @@ TEST(FleetStores, RemoveWhatKilledProgramsLeft) {
   const FleetStore store(test::tempFile("remains"));
   store.keep(sample());
   fs::create_directories(test::tempFile("remains/bb"));
-  std::ofstream(test::tempFile("remains/bb/x.result.part-AbCdEf")) << "half";
+  std::ofstream(test::tempFile("remains/bb/x.result.part-0123456789abcdef")) << "half";
   store.removeRemains();
-  EXPECT_FALSE(fs::exists(test::tempFile("remains/bb/x.result.part-AbCdEf")));
+  EXPECT_FALSE(fs::exists(test::tempFile("remains/bb/x.result.part-0123456789abcdef")));
   EXPECT_TRUE(store.find(kName));
 }
 

@@ -139,7 +139,7 @@ class Sweeps(unittest.TestCase):
         for _ in range(4):
             sweep.kill_at(draw.uniform(0.02, 0.2), "--jobs", 2)
         self.assertEqual(sweep.run("--jobs", 2), undisturbed)
-        self.assertEqual(list((self.folder / "sweep.sweep").rglob("*.part*")), [])
+        self.assertEqual(list((self.folder / "sweep.sweep" / "results").rglob("*.part*")), [])
 
     def test_workers_die_with_the_sweep(self):
         write_path(self.folder / "long.csv", 200_000)
@@ -204,9 +204,10 @@ class Sweeps(unittest.TestCase):
     def test_two_at_once_in_one_folder_do_no_harm(self):
         sweep = self.sweep(SMALL.replace("[7, 8]", "{first = 1, count = 8}"))
         whole = sweep.run("--out", self.folder / "whole")
-        others = [sweep.start("--part", "0/1"), sweep.start("--part", "0/1")]
+        others = [sweep.start("--jobs", 2), sweep.start("--jobs", 1)]
         self.assertEqual([other.wait(timeout=PATIENCE_S) for other in others], [0, 0])
         self.assertEqual(sweep.run(), whole)
+        self.assertEqual(list((self.folder / "sweep.sweep" / "results").rglob("*.part*")), [])
 
     def test_another_sweep_than_expected_is_refused(self):
         sweep = self.sweep()
