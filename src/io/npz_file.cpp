@@ -25,7 +25,7 @@ constexpr std::uint16_t kMany = 0xffff;
 constexpr std::uint16_t kField64 = 1;
 
 template <typename Number>
-void append(std::string& bytes, Number number) {
+void appendNumber(std::string& bytes, Number number) {
   for (std::size_t i = 0; i < sizeof number; ++i)
     bytes += static_cast<char>(static_cast<std::uint64_t>(number) >> (8 * i) & 0xffU);
 }
@@ -38,7 +38,7 @@ std::string arrayHeader(const std::string& type, const std::vector<std::size_t>&
   text.append(kAligned - (kBefore + text.size() + 1) % kAligned, ' ');
   text += '\n';
   std::string header("\x93NUMPY\x01\x00", 8);
-  append(header, static_cast<std::uint16_t>(text.size()));
+  appendNumber(header, static_cast<std::uint16_t>(text.size()));
   return header + text;
 }
 
@@ -62,29 +62,29 @@ void NpzFile::put(const void* data, std::size_t bytes) {
 // All sizes are in the ZIP64 field, whatever they are: one form for all.
 std::string NpzFile::headerOf(const Entry& entry, bool central) const {
   std::string bytes;
-  append(bytes, central ? kCentralMark : kLocalMark);
-  if (central) append(bytes, kVersion64);  // made by
-  append(bytes, kVersion64);
-  append(bytes, kNamesAreUtf8);
-  append(bytes, std::uint16_t{0});  // stored
-  append(bytes, std::uint16_t{0});  // midnight
-  append(bytes, kFirstDay);
-  append(bytes, entry.crc);
-  append(bytes, kSee64);
-  append(bytes, kSee64);
-  append(bytes, static_cast<std::uint16_t>(entry.name.size()));
+  appendNumber(bytes, central ? kCentralMark : kLocalMark);
+  if (central) appendNumber(bytes, kVersion64);  // made by
+  appendNumber(bytes, kVersion64);
+  appendNumber(bytes, kNamesAreUtf8);
+  appendNumber(bytes, std::uint16_t{0});  // stored
+  appendNumber(bytes, std::uint16_t{0});  // midnight
+  appendNumber(bytes, kFirstDay);
+  appendNumber(bytes, entry.crc);
+  appendNumber(bytes, kSee64);
+  appendNumber(bytes, kSee64);
+  appendNumber(bytes, static_cast<std::uint16_t>(entry.name.size()));
   const std::uint16_t numbers = central ? 24 : 16;  // bytes: two sizes, and the place
-  append(bytes, static_cast<std::uint16_t>(numbers + 4));
+  appendNumber(bytes, static_cast<std::uint16_t>(numbers + 4));
   if (central) {
     bytes.append(10, '\0');  // no comment, first disk, attributes
-    append(bytes, kSee64);
+    appendNumber(bytes, kSee64);
   }
   bytes += entry.name;
-  append(bytes, kField64);
-  append(bytes, numbers);
-  append(bytes, entry.bytes);
-  append(bytes, entry.bytes);
-  if (central) append(bytes, entry.place);
+  appendNumber(bytes, kField64);
+  appendNumber(bytes, numbers);
+  appendNumber(bytes, entry.bytes);
+  appendNumber(bytes, entry.bytes);
+  if (central) appendNumber(bytes, entry.place);
   return bytes;
 }
 
@@ -145,26 +145,26 @@ void NpzFile::close() {
   }
   const std::uint64_t end = place_;
   std::string bytes;
-  append(bytes, kEnd64Mark);
-  append(bytes, std::uint64_t{44});  // bytes of the rest of this record
-  append(bytes, kVersion64);
-  append(bytes, kVersion64);
-  append(bytes, std::uint64_t{0});  // disks
-  append(bytes, std::uint64_t{entries_.size()});
-  append(bytes, std::uint64_t{entries_.size()});
-  append(bytes, end - central);
-  append(bytes, central);
-  append(bytes, kLocator64Mark);
-  append(bytes, std::uint32_t{0});
-  append(bytes, end);
-  append(bytes, std::uint32_t{1});
-  append(bytes, kEndMark);
-  append(bytes, std::uint32_t{0});  // disks
-  append(bytes, kMany);
-  append(bytes, kMany);
-  append(bytes, kSee64);
-  append(bytes, kSee64);
-  append(bytes, std::uint16_t{0});  // no comment
+  appendNumber(bytes, kEnd64Mark);
+  appendNumber(bytes, std::uint64_t{44});  // bytes of the rest of this record
+  appendNumber(bytes, kVersion64);
+  appendNumber(bytes, kVersion64);
+  appendNumber(bytes, std::uint64_t{0});  // disks
+  appendNumber(bytes, std::uint64_t{entries_.size()});
+  appendNumber(bytes, std::uint64_t{entries_.size()});
+  appendNumber(bytes, end - central);
+  appendNumber(bytes, central);
+  appendNumber(bytes, kLocator64Mark);
+  appendNumber(bytes, std::uint32_t{0});
+  appendNumber(bytes, end);
+  appendNumber(bytes, std::uint32_t{1});
+  appendNumber(bytes, kEndMark);
+  appendNumber(bytes, std::uint32_t{0});  // disks
+  appendNumber(bytes, kMany);
+  appendNumber(bytes, kMany);
+  appendNumber(bytes, kSee64);
+  appendNumber(bytes, kSee64);
+  appendNumber(bytes, std::uint16_t{0});  // no comment
   put(bytes.data(), bytes.size());
   if (std::fclose(std::exchange(file_, nullptr)) != 0) fail();
 }

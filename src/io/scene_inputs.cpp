@@ -43,7 +43,7 @@ bool mayNameOthers(const fs::path& path) {
          !readsVdb(ending);
 }
 
-std::string bytesOf(const fs::path& path) {
+std::string unpackedBytesOf(const fs::path& path) {
   const std::string name = path.string();
   ByteFile file(name, beginsAsGzip(name) ? ByteFile::Form::kGzip : ByteFile::Form::kPlain);
   std::string bytes;
@@ -142,7 +142,7 @@ class InputCollector {
       if (looksLikeDicom(path.string())) addDicom(path.parent_path());
       return;
     }
-    const std::string bytes = bytesOf(path);
+    const std::string bytes = unpackedBytesOf(path);
     const fs::path beside = path.parent_path();
     std::unordered_set<std::string> seen;
     const UseName use = [&](std::string_view name) {
