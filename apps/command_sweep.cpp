@@ -153,7 +153,9 @@ void runTasks(const SweepRun& run) {
   SweepProgress progress(todo.size());
   FleetCallbacks callbacks;
   callbacks.order = [&](std::size_t i) {
-    return FleetOrderText{task_of(i).name, run.plan.wordsOf(task_of(i)), run.plan.rows};
+    const FleetTask& task = task_of(i);
+    return FleetOrderText{task.name, run.plan.wordsOf(task), run.plan.rows, run.plan.scenes[task.scene].sha256,
+                          run.plan.paths[task.path].sha256};
   };
   callbacks.done = [&](std::size_t i, const std::string& failure) {
     if (!failure.empty()) store.keepFailure(task_of(i).name, failure);

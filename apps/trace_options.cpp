@@ -63,10 +63,11 @@ std::vector<std::string> TraceWords::names() const {
   return names;
 }
 
-std::vector<PathSample> pathOf(const TraceOptions& options) {
-  std::vector<PathSample> path = readPath(options.path);
+std::vector<PathSample> withTremor(std::vector<PathSample> path, const TraceOptions& options) {
   addTremor(path, options.tremor_m, static_cast<std::uint64_t>(options.seed));
   return path;
 }
+
+std::vector<PathSample> pathOf(const TraceOptions& options) { return withTremor(readPath(options.path), options); }
 
 }  // namespace hl

@@ -42,7 +42,9 @@ class TraceWords {
   TraceOptions options_;
 };
 
-/// The file, with the tremor that is asked for. Throws hl::Error.
+/// The path with the tremor that is asked for.
+std::vector<PathSample> withTremor(std::vector<PathSample> path, const TraceOptions& options);
+/// The same of the file. Throws hl::Error.
 std::vector<PathSample> pathOf(const TraceOptions& options);
 
 }  // namespace hl

@@ -10,14 +10,6 @@ namespace {
 // Whatever changes in what a result says changes this, so that older ones do not count.
 constexpr const char* kOutcomeFormat = "hl sweep 1";
 
-FleetSource sceneSource(const std::string& name) {
-  const std::vector<SceneInput> inputs = sceneInputs(name);
-  if (inputs.empty()) return {name, sha256Of("built-in " + name)};
-  std::string all;
-  for (const SceneInput& input : inputs) all += input.sha256 + " " + input.name + "\n";
-  return {name, sha256Of(all)};
-}
-
 std::string textOf(const SweepOptions& options) {
   std::string text;
   for (const SweepOption& option : options) text += option.name + "=" + option.value + "\n";
@@ -46,6 +38,16 @@ void addTasks(FleetPlan& plan, const std::vector<std::int64_t>& seeds) {
 
 }  // namespace
 
+FleetSource sceneSource(const std::string& name) {
+  const std::vector<SceneInput> inputs = sceneInputs(name);
+  if (inputs.empty()) return {name, sha256Of("built-in " + name)};
+  std::string all;
+  for (const SceneInput& input : inputs) all += input.sha256 + " " + input.name + "\n";
+  return {name, sha256Of(all)};
+}
+
+FleetSource pathSource(const std::string& name) { return {name, sha256OfFile(name)}; }
+
 std::vector<std::string> FleetPlan::wordsOf(const FleetTask& task) const {
   std::vector<std::string> words{scenes[task.scene].name, "--path=" + paths[task.path].name};
   for (const SweepOption& option : options[task.options]) words.push_back("--" + option.name + "=" + option.value);
@@ -57,7 +59,7 @@ FleetPlan makeFleetPlan(const SweepFile& sweep, const std::string& version) {
   FleetPlan plan;
   plan.program = version + " " + sha256OfFile("/proc/self/exe");
   for (const std::string& name : sweep.scenes) plan.scenes.push_back(sceneSource(name));
-  for (const std::string& name : sweep.paths) plan.paths.push_back({name, sha256OfFile(name)});
+  for (const std::string& name : sweep.paths) plan.paths.push_back(pathSource(name));
   plan.options = sweep.options;
   plan.rows = sweep.rows;
   addTasks(plan, sweep.seeds.empty() ? std::vector<std::int64_t>{-1} : sweep.seeds);

@@ -34,6 +34,11 @@ struct FleetPlan {
   std::vector<std::string> wordsOf(const FleetTask& task) const;
 };
 
+/// Of a scene and of a path, as they are named, with their files as they are now. Throw hl::Error for a file that
+/// cannot be read.
+FleetSource sceneSource(const std::string& name);
+FleetSource pathSource(const std::string& name);
+
 /// Reads all files that the sweep names, relative to the current folder. Throws hl::Error for one that cannot be read.
 /// `version`: of this program, whose own file is read too.
 FleetPlan makeFleetPlan(const SweepFile& sweep, const std::string& version);

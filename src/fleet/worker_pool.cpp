@@ -102,6 +102,8 @@ class Worker {
     order.set_name(text.name);
     for (const std::string& word : text.words) order.add_words(word);
     order.set_rows(text.rows);
+    order.set_scene_sha256(text.scene_sha256);
+    order.set_path_sha256(text.path_sha256);
     return sendMessage(to_, order);
   }
   /// The failure of its task, or empty. nullopt: it has died.
@@ -238,7 +240,11 @@ void answerOrders(const std::function<void(const FleetOrderText& order)>& work) 
   while (receiveMessage(STDIN_FILENO, order)) {
     proto::FleetAnswer answer;
     try {
-      work({order.name(), {order.words().begin(), order.words().end()}, order.rows()});
+      work({order.name(),
+            {order.words().begin(), order.words().end()},
+            order.rows(),
+            order.scene_sha256(),
+            order.path_sha256()});
     } catch (const std::bad_alloc&) {
       answer.set_failure("needs more memory than there is");
     } catch (const std::exception& error) {

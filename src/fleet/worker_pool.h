@@ -15,11 +15,12 @@ struct WorkerProgram {
   std::vector<std::string> words;  ///< the name first; it then calls answerOrders()
 };
 
-/// A task for a worker: a trace's words, and whether its rows are kept.
+/// A task for a worker.
 struct FleetOrderText {
   std::string name;
-  std::vector<std::string> words;
-  bool rows = false;
+  std::vector<std::string> words;         ///< of the trace
+  bool rows = false;                      ///< are kept
+  std::string scene_sha256, path_sha256;  ///< of the files that the name of the task stands for
 };
 
 struct FleetCallbacks {

@@ -189,6 +189,26 @@ class Sweeps(unittest.TestCase):
         write_path(self.folder / "long.csv", 150)
         self.assertEqual(sweep.run(), sweep.run("--out", self.folder / "good"))
 
+    def test_no_result_is_of_files_that_were_changed_meanwhile(self):
+        write_path(self.folder / "long.csv", 60_000)  # some time for each task
+        names = ("short.csv", "ball.obj")             # they come after it
+        text = ('scenes = ["sphere:2000", "ball.obj"]\npaths = ["long.csv", "short.csv"]\nseeds = [1, 2, 3, 4]\n'
+                '[options]\ntremor = 0.0005\n')
+        before = {name: (self.folder / name).read_bytes() for name in names}
+        undisturbed = self.sweep(text).run("--out", self.folder / "undisturbed")
+        process = self.sweep(text).start("--jobs", 1)
+        while not workers_of(process):
+            pass
+        write_path(self.folder / "short.csv", 61)
+        (self.folder / "ball.obj").write_text(BALL.replace("0.1\n", "0.11\n"), encoding="utf-8")
+        self.assertEqual(process.wait(timeout=PATIENCE_S), 1)
+        failures = {task["failure"] for task in json.loads((self.folder / "sweep.sweep" / "manifest.json").read_text(
+            encoding="utf-8"))["tasks"] if "failure" in task}
+        self.assertEqual(failures, {name + ": has been changed since the sweep began: run it again" for name in names})
+        for name in names:
+            (self.folder / name).write_bytes(before[name])
+        self.assertEqual(self.sweep(text).run(), undisturbed)
+
     def test_parts_and_a_finish_are_the_whole(self):
         sweep = self.sweep()
         whole = sweep.run()
@@ -241,7 +261,7 @@ class Sweeps(unittest.TestCase):
             self.assertIn(said, call.stderr)
 
     def test_progress_is_told_on_a_terminal(self):
-        write_path(self.folder / "long.csv", 10_000)
+        write_path(self.folder / "long.csv", 150_000)  # longer than the 0.2 s between two lines
         terminal, other = pty.openpty()
         done = subprocess.run(self.sweep().command("--jobs", 2), stdout=subprocess.DEVNULL, stderr=other, check=True)
         os.close(other)

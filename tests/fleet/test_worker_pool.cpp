@@ -23,7 +23,9 @@ struct Outcome {
 Outcome run(const std::vector<std::string>& tasks, int jobs) {
   Outcome outcome;
   FleetCallbacks callbacks;
-  callbacks.order = [&](std::size_t i) { return FleetOrderText{std::to_string(i), {tasks[i]}, i % 2 == 1}; };
+  callbacks.order = [&](std::size_t i) {
+    return FleetOrderText{std::to_string(i), {tasks[i]}, i % 2 == 1, "scene", "path"};
+  };
   callbacks.done = [&](std::size_t i, const std::string& failure) {
     EXPECT_TRUE(outcome.failures.emplace(i, failure).second) << i;
   };
