@@ -91,7 +91,7 @@ std::string bytesOf(const FleetResult& result) {
   out.set_name(result.name);
   for (const double number : numbersIn(result.summary)) out.add_summary(number);
   out.set_rows_sha256(result.rows_sha256);
-  out.set_rows(result.rows.data(), result.rows.size() * sizeof(double));
+  if (!result.rows.empty()) out.set_rows(result.rows.data(), result.rows.size() * sizeof(double));
   return out.SerializeAsString();
 }
 
@@ -109,7 +109,7 @@ std::optional<FleetResult> fleetResultOf(std::string_view bytes) {
   visitFields(result.summary, visit);
   result.rows_sha256 = in.rows_sha256();
   result.rows.resize(in.rows().size() / sizeof(double));
-  std::memcpy(result.rows.data(), in.rows().data(), in.rows().size());
+  if (!result.rows.empty()) std::memcpy(result.rows.data(), in.rows().data(), in.rows().size());
   return result;
 }
 
