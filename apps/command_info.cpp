@@ -73,7 +73,7 @@ struct Totals {
     depth = std::max(depth, stats.depth);
     geometry_bytes += shape.geometryBytes();
     normals = normals || shape.hasNormals();
-    texcoords = texcoords || !model.texcoords.empty();
+    texcoords = texcoords || shape.hasTexcoords();
   }
 };
 

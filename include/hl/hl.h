@@ -168,17 +168,21 @@ HL_API void hlDrawElements(HLenum mode, HLsizei count, HLenum type, const void* 
 /** Draws a height field: `columns` x `rows` samples of `type` (HL_SHORT, HL_UNSIGNED_SHORT or HL_FLOAT), row by row, as
  * two triangles between each four, which the server makes when they are touched: it keeps the samples alone. Columns
  * lead to +x, rows to +z, both 1 apart, with the middle of the field at x = z = 0; heights are y: hlScaled makes metres
- * of them. Around a sample that equals `*missing`, or is not a number, there is a hole; `missing` may be NULL. The
- * samples are copied. HL_INVALID_VALUE: fewer than two columns or rows, or no samples. HL_INVALID_ENUM: another type.
- * HL_OUT_OF_MEMORY: 1 GiB of samples or more. */
+ * of them. Around a sample that equals `*missing`, or is not a number, there is a hole; `missing` may be NULL. Textures
+ * lie over it as a map does: u goes from 0 at the first column to 1 at the last, v from 1 at the first row to 0 at the
+ * last, both times what the texture matrix scales by. The samples are copied. HL_INVALID_VALUE: fewer than two columns
+ * or rows, or no samples. HL_INVALID_ENUM: another type. HL_INVALID_OPERATION: it is textured, and the texture matrix
+ * turns or moves. HL_OUT_OF_MEMORY: 1 GiB of samples or more. */
 HL_API void hlHeightField(HLsizei columns, HLsizei rows, HLenum type, const void* samples, const HLdouble* missing);
 /** Draws what a depth camera sees: `width` x `height` depths of 16 bits, row by row from the upper left, in units of
  * `scale` metres; 0 is none. `camera`: fx, fy, cx, cy of a pinhole camera without distortion, in pixels. It is at the
  * origin and looks along -z with y up; the modelview matrix places it. Neighbours whose depths differ by more than a
  * part `join` (0: 0.02) are not joined: there is a gap. `smoothing`, 0 .. less than 1: of what the object showed before
  * as its item of this number this part stays, where it is the same surface. Draw it anew in a definition for each frame
- * of the camera: the proxy stays on the side of the camera. The depths are copied. HL_INVALID_VALUE: fewer than two
- * columns or rows, no depths, or numbers out of range. HL_OUT_OF_MEMORY: 1 GiB of depths or more. */
+ * of the camera: the proxy stays on the side of the camera. Textures lie over the picture, v = 1 at its top; a texture
+ * of as many texels has one on each pixel. The depths are copied. HL_INVALID_VALUE: fewer than two columns or rows, no
+ * depths, or numbers out of range. HL_INVALID_OPERATION: as hlHeightField. HL_OUT_OF_MEMORY: 1 GiB of depths or more.
+ */
 HL_API void hlDepthFrame(HLsizei width, HLsizei height, const HLushort* depths, const HLdouble* camera, HLdouble scale,
                          HLdouble join, HLdouble smoothing);
 /** Draws the surface where the samples of a volume pass the value `iso`, as in CT, MRI and distances from a surface.

@@ -86,6 +86,11 @@ def depth(programs):
     write(asyncio.run(picture_of_scene("depth:table", programs)), look.folder / "depth_page.png")
 
 
+def textured_heights(programs):
+    scene = look.ROOT / "scenes/examples/textured_heights.hl.json"
+    write(asyncio.run(picture_of_scene(scene, programs)), look.folder / "textured_heights.png")
+
+
 # From where the hand comes to the scan, and where it is then held, m: 5 mm within a bone.
 BEGIN_M, HELD_M = (-0.075, 0.037, 0.041), (-0.0295, 0.0207, 0.0161)
 BONE_HU = 370

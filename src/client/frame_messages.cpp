@@ -137,6 +137,8 @@ class Builder {
     if (item.matrix != Matrix4::Identity()) out.mutable_matrix()->Add(item.matrix.data(), item.matrix.data() + 16);
     proto::Material material;
     fillMaterial(item.look, material);
+    if (item.geometry.repeat[0] != 1) material.set_repeat_u(item.geometry.repeat[0]);
+    if (item.geometry.repeat[1] != 1) material.set_repeat_v(item.geometry.repeat[1]);
     if (material.ByteSizeLong() != 0) *out.mutable_material() = std::move(material);
     if (item.look.name != 0) out.set_name(item.look.name);
     out.set_untextured(item.look.untextured && item.look.textures.empty());

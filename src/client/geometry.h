@@ -4,6 +4,7 @@
 #include <hl.pb.h>
 #include <hl/hl_types.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -31,6 +32,7 @@ struct Geometry {
   std::vector<std::uint32_t> segments;                ///< two each
   std::vector<std::uint32_t> points;                  ///< one each
   std::optional<proto::Heights> heights{};            ///< in place of all others; samples in one piece
+  std::array<double, 2> repeat{1, 1};                 ///< of the heights: factors of their texture coordinates
   std::shared_ptr<const proto::Volume> volume{};      ///< in place of all others; one for all its surfaces
   double iso = 0;                                     ///< of the volume
   bool below = false;                                 ///< of the volume: where its matter is

@@ -39,6 +39,24 @@ void draw(HLcontext& context, hl::client::DrawOrder order) {
 
 void end(HLcontext& context) { draw(context, {}); }
 
+// The texture matrix, as factors of u and v: the server knows the coordinates of a grid, and no more is said of them.
+std::array<double, 2> repeatOf(const HLcontext& context) {
+  const hl::client::Matrix4& matrix = context.draw.texture.top();
+  hl::client::Matrix4 factors = hl::client::Matrix4::Identity();
+  factors(0, 0) = matrix(0, 0);
+  factors(1, 1) = matrix(1, 1);
+  factors(2, 2) = matrix(2, 2);
+  if (matrix == factors) return {matrix(0, 0), matrix(1, 1)};
+  if (!hasTextures(context.draw.attributes.now)) return {1, 1};
+  throw Fault(HL_INVALID_OPERATION, "over heights and depths the texture matrix may scale, and neither turn nor move");
+}
+
+void drawHeights(HLcontext& context, hl::proto::Heights heights) {
+  const std::array<double, 2> repeat = repeatOf(context);
+  context.target().drawHeights(context.draw.modelview.top(), lookOf(context.draw.attributes.now), std::move(heights),
+                               repeat);
+}
+
 // Almost every vertex takes the short way.
 void vertex(const char* function, double x, double y, double z) {
   HLcontext* now = hl::client::currentContext();
@@ -200,7 +218,7 @@ void hlHeightField(HLsizei columns, HLsizei rows, HLenum type, const void* sampl
     setSamples(heights, {columns, rows}, type, samples, missing);
     heights.set_columns(static_cast<std::uint32_t>(columns));
     heights.set_rows(static_cast<std::uint32_t>(rows));
-    context.target().drawHeights(context.draw.modelview.top(), lookOf(context.draw.attributes.now), std::move(heights));
+    drawHeights(context, std::move(heights));
   });
 }
 
@@ -224,7 +242,7 @@ void hlDepthFrame(HLsizei width, HLsizei height, const HLushort* depths, const H
     }
     heights.set_join(join);
     heights.set_smoothing(smoothing);
-    context.target().drawHeights(context.draw.modelview.top(), lookOf(context.draw.attributes.now), std::move(heights));
+    drawHeights(context, std::move(heights));
   });
 }
 

@@ -26,9 +26,11 @@ bool ItemList::draw(const Matrix4& matrix, const Look& look, HLenum mode, Vertic
   return true;
 }
 
-void ItemList::drawHeights(const Matrix4& matrix, const Look& look, proto::Heights heights) {
+void ItemList::drawHeights(const Matrix4& matrix, const Look& look, proto::Heights heights,
+                           const std::array<double, 2>& repeat) {
   items_.push_back({matrix, look, 0, {}});
   items_.back().geometry.heights = std::move(heights);
+  items_.back().geometry.repeat = repeat;
 }
 
 void ItemList::drawCloud(const Matrix4& matrix, const Look& look, std::shared_ptr<const proto::Cloud> cloud) {

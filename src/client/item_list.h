@@ -42,7 +42,9 @@ class ItemList {
   /// presence of normals and texture coordinates become one item. Vertices that do not fill the last primitive are
   /// dropped; an `order` has none of them. Returns whether there was anything to add.
   bool draw(const Matrix4& matrix, const Look& look, HLenum mode, Vertices& vertices, DrawOrder order = {});
-  void drawHeights(const Matrix4& matrix, const Look& look, proto::Heights heights);
+  /// `repeat`: factors of the texture coordinates u and v.
+  void drawHeights(const Matrix4& matrix, const Look& look, proto::Heights heights,
+                   const std::array<double, 2>& repeat);
   void drawCloud(const Matrix4& matrix, const Look& look, std::shared_ptr<const proto::Cloud> cloud);
   /// `below`: the matter is where values are below iso.
   void drawVolume(const Matrix4& matrix, const Look& look, std::shared_ptr<const proto::Volume> volume, double iso,

@@ -18,9 +18,11 @@ DrawnMesh PrimitiveSource::drawn(std::size_t) const {
   DrawnMesh mesh;
   for (ElementId id = 0; id < count(); ++id) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    for (const Vec3& corner : corners(id)) {
-      mesh.positions.push_back(corner);
-      mesh.normals.push_back(trueNormal(id, corner));
+    const std::array<Vec3, 3> corner = corners(id);
+    for (std::size_t i = 0; i < 3; ++i) {
+      mesh.positions.push_back(corner[i]);
+      mesh.normals.push_back(trueNormal(id, corner[i]));
+      if (hasTexcoords()) mesh.texcoords.push_back(texcoord(id, i));
     }
     mesh.triangles.push_back({first, first + 1, first + 2});
   }

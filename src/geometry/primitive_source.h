@@ -20,6 +20,7 @@ namespace hl {
 /// Triangles to draw, with one normal a vertex. Metres, object frame.
 struct DrawnMesh {
   std::vector<Vec3> positions, normals;
+  std::vector<Vec2> texcoords;  ///< one a vertex, of a surface that has them; else none
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
@@ -55,6 +56,10 @@ class PrimitiveSource {
   virtual Vec3 trueNormal(ElementId id, const Vec3& point) const = 0;
   /// False if nothing tells the outside: then the opposite of each normal is as good. RT-safe.
   virtual bool hasOutside() const { return true; }
+  /// Whether its triangles have texture coordinates. RT-safe.
+  virtual bool hasTexcoords() const { return false; }
+  /// Those of vertex `corner` of corners(id), if it has them. RT-safe.
+  virtual Vec2 texcoord(ElementId /*id*/, std::size_t /*corner*/) const { return Vec2::Zero(); }
   /// Bounds of all vertices; may be larger.
   virtual Box bounds() const = 0;
   /// Makes the index of its triangles; the source must outlive it. Setup only.

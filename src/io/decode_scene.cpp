@@ -39,6 +39,11 @@ Quantity quantityOf(proto::Quantity quantity) {
   return std::find_if(kQuantityInfo.begin(), kQuantityInfo.end(), named)->quantity;
 }
 
+Vec2 repeatOf(const proto::Material& in) {
+  const auto factor = [](bool has, double value) { return has && std::isfinite(value) ? value : 1; };
+  return {factor(in.has_repeat_u(), in.repeat_u()), factor(in.has_repeat_v(), in.repeat_v())};
+}
+
 std::string pathOf(const std::string& list, int index) { return list + "[" + std::to_string(index) + "]"; }
 
 void SceneDecoder::fail(const std::string& where, const std::string& message) const {

@@ -67,10 +67,13 @@ class SceneDecoder {
 /// refuses.
 ModelCounts countsOf(const proto::Primitives& in);
 
-/// "list[3]".
 /// What a texture modulates; the message has names of its own for it.
 Quantity quantityOf(proto::Quantity quantity);
 
+/// Factors of the texture coordinates of what has this material: 1 where there is none, or no finite one.
+Vec2 repeatOf(const proto::Material& in);
+
+/// "list[3]".
 std::string pathOf(const std::string& list, int index);
 
 }  // namespace hl

@@ -46,6 +46,17 @@ std::string readText(const std::string& path) {
 
 Vec3 vecOf(const proto::Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
+// The textures that the material uses, by whose numbers it knows them from now on.
+std::vector<Texture> ownTextures(Material& material, const Model& whole) {
+  std::vector<Texture> textures;
+  for (TextureUse& use : material.textures) {
+    if (!use.used()) continue;
+    textures.push_back(whole.textures[use.texture]);
+    use.texture = static_cast<std::uint32_t>(textures.size() - 1);
+  }
+  return textures;
+}
+
 // One scene file on its way to a model. Paths name the JSON values that errors point at.
 class SceneFile {
  public:
@@ -77,6 +88,8 @@ class SceneFile {
   Model shapeOf(const proto::SceneObject& object, const std::string& where);
   Model fileModel(const proto::SceneObject& object, const std::string& where);
   CadMeshing meshingOf(const proto::SceneObject& object, const std::string& where) const;
+  void setMaterial(const proto::SceneObject& object, const std::string& where, const Model& whole,
+                   SceneSurface& surface) const;
   void addSurfaces(const proto::SceneObject& object, const std::string& where, SceneModel& scene);
   Placement placementOf(const proto::Transform& in, const std::string& where) const;
   Pose poseOf(const proto::Transform& in, const std::string& where) const;
@@ -238,6 +251,16 @@ Model SceneFile::shapeOf(const proto::SceneObject& object, const std::string& wh
        where + ": an object needs a file, a builtin, primitives, heights, a volume, a cloud or an implicit surface");
 }
 
+void SceneFile::setMaterial(const proto::SceneObject& object, const std::string& where, const Model& whole,
+                            SceneSurface& surface) const {
+  surface.material = materialOf(object.material(), where);
+  surface.textures = ownTextures(surface.material, whole);
+  surface.repeat = repeatOf(object.material());
+  if (!surface.textures.empty() && !surface.source->hasTexcoords())
+    fail(where + ".textures",
+         where + ": volumes, clouds and implicit surfaces have no texture coordinates, and take no textures");
+}
+
 // A surface stays what it is: it is no part of the one model.
 void SceneFile::addSurfaces(const proto::SceneObject& object, const std::string& where, SceneModel& scene) {
   const std::string at = where + "." + SceneSurfaces::fieldOf(object);
@@ -254,12 +277,7 @@ void SceneFile::addSurfaces(const proto::SceneObject& object, const std::string&
   for (SceneSurface& surface : surfaces) {
     const std::string name = object.name().empty() ? where : object.name();
     surface.name = surfaces.size() == 1 ? name : name + " " + surface.name;
-    if (object.has_material() || !object.has_builtin())
-      surface.material = materialOf(object.material(), where + ".material");
-    for (const TextureUse& use : surface.material.textures) {
-      if (use.used())
-        fail(where + ".material.textures", where + ".material: only what is made of triangles has texture coordinates");
-    }
+    if (object.has_material() || !object.has_builtin()) setMaterial(object, where + ".material", scene.model, surface);
     scene.surfaces.push_back(std::move(surface));
   }
   for (SnapSpec& snap : snapsOf(object, placement, where)) scene.snaps.push_back(std::move(snap));
@@ -329,12 +347,7 @@ SceneBody SceneFile::bodyOf(Model part, const proto::SceneObject& object, const 
   body.model.materials.assign(1, materialOf(object.material(), where + ".material"));
   for (auto* list : {&body.model.triangle_materials, &body.model.segment_materials, &body.model.point_materials})
     list->clear();
-  body.model.textures.clear();
-  for (TextureUse& use : body.model.materials.front().textures) {
-    if (!use.used()) continue;
-    body.model.textures.push_back(whole.textures[use.texture]);
-    use.texture = static_cast<std::uint32_t>(body.model.textures.size() - 1);
-  }
+  body.model.textures = ownTextures(body.model.materials.front(), whole);
   return body;
 }
 
@@ -409,7 +422,6 @@ SceneModel SceneFile::build() {
   for (int i = 0; i < scene_.objects_size(); ++i) {
     const proto::SceneObject& object = scene_.objects(i);
     const std::string where = pathOf("objects", i);
-    const proto::Material& material = object.material();
     meshingOf(object, where);  // refuses what is for none
     if (SceneSurfaces::has(object)) {
       addSurfaces(object, where, scene);
@@ -419,8 +431,7 @@ SceneModel SceneFile::build() {
     primitives += part.elements();
     if (primitives > options_.most_primitives)
       fail(where, fmt::format("with {} the scene has more than {} primitives", where, options_.most_primitives));
-    repeatTexcoords(part, material.has_repeat_u() ? material.repeat_u() : 1,
-                    material.has_repeat_v() ? material.repeat_v() : 1);
+    repeatTexcoords(part, repeatOf(object.material()));
     if (object.has_body())
       scene.bodies.push_back(bodyOf(std::move(part), object, where, whole));
     else

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/guarded_thread.h"
 #include "page/wire_bytes.h"
+#include "scene/append_part.h"
 #include "session/state_messages.h"
 
 namespace hl {
@@ -18,15 +19,21 @@ namespace {
 constexpr std::uint64_t kSmallest = 1024;  // of a mesh and its message beside its lists
 // Three corners with normals, and three indices.
 constexpr std::uint64_t kDrawnTriangle_bytes = 6 * 3 * sizeof(float) + 3 * sizeof(std::uint32_t);
+constexpr std::uint64_t kDrawnTexcoords_bytes = 2 * 3 * sizeof(float);  // of a triangle
+
+std::uint64_t texelsOf(const Look& look) {
+  std::uint64_t texels = 0;
+  for (const auto& texture : look) texels += texture ? texture->texels.size() : 0;
+  return texels;
+}
 
 std::uint64_t messageBytes(const Model& model, const Look& look) {
-  std::uint64_t bytes =
+  const std::uint64_t bytes =
       kSmallest + 3 * sizeof(float) * (model.positions.size() + model.normals.size()) +
       2 * sizeof(float) * model.texcoords.size() +
       sizeof(std::uint32_t) * (3 * model.triangles.size() + 2 * model.segments.size() + model.points.size()) +
       sizeof(std::uint16_t) * model.triangle_materials.size();
-  for (const auto& texture : look) bytes += texture ? texture->texels.size() : 0;
-  return bytes;
+  return bytes + texelsOf(look);
 }
 
 // Of a surface that is no mesh a page draws so many triangles, or a few more: it is felt exactly, and drawn as finely
@@ -35,12 +42,14 @@ constexpr std::size_t kMostDrawn = 1'000'000;
 // One that changes at once, again and again, must be drawn soon.
 constexpr std::size_t kMostDrawnOften = 100'000;
 
-Model drawnOf(const PrimitiveSource& source, std::size_t most) {
-  DrawnMesh drawn = source.drawn(most);
+Model drawnOf(const Shape& shape, std::size_t most) {
+  DrawnMesh drawn = shape.source->drawn(most);
   Model model;
   model.positions = std::move(drawn.positions);
   model.normals = std::move(drawn.normals);
+  model.texcoords = std::move(drawn.texcoords);
   model.triangles = std::move(drawn.triangles);
+  repeatTexcoords(model, shape.repeat);
   return model;
 }
 
@@ -48,7 +57,8 @@ std::uint64_t messageBytes(const Shape& shape, const Look& look, std::size_t mos
   if (!shape.source) return messageBytes(shape.model, look);
   constexpr std::uint64_t kOfPoint = 4;  // triangles
   const std::uint64_t drawn = shape.elements() * (shape.source->kind() == PrimitiveKind::kPoint ? kOfPoint : 1);
-  return kSmallest + kDrawnTriangle_bytes * std::min<std::uint64_t>(drawn, most_drawn);
+  const std::uint64_t each = kDrawnTriangle_bytes + (look.empty() ? 0 : kDrawnTexcoords_bytes);
+  return kSmallest + each * std::min<std::uint64_t>(drawn, most_drawn) + texelsOf(look);
 }
 
 std::string meshMessage(std::uint32_t number, const Shape& shape, const Model& model, const Look& look) {
@@ -88,7 +98,7 @@ PageMeshes::Made PageMeshes::make(std::uint32_t number, const Mesh& mesh) const 
                   std::to_string(most_bytes_ / 1'000'000) + " MB at most: show it in several objects");
     MemoryShare memory(memory_);
     memory.take(2 * bytes);  // the message is put together and then written
-    const Model drawn = shape.source ? drawnOf(*shape.source, most_drawn) : Model{};
+    const Model drawn = shape.source ? drawnOf(shape, most_drawn) : Model{};
     auto message =
         std::make_shared<const std::string>(meshMessage(number, shape, shape.source ? drawn : shape.model, look));
     memory.set(kSmallest + message->capacity());

@@ -48,7 +48,7 @@ void addTexcoords(const Model& model, proto::SceneMesh& mesh) {
 }  // namespace
 
 Look lookOf(const Shape& shape, const Surfaces& surfaces) {
-  if (shape.model.texcoords.empty() || surfaces.textures.empty()) return {};
+  if (!shape.hasTexcoords() || surfaces.textures.empty()) return {};
   Look look;
   for (std::size_t i = 0; i < shape.model.materials.size(); ++i)
     look.push_back(shownTexture(surfaces.materials[i], surfaces));

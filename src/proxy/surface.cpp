@@ -11,7 +11,7 @@ Surface::Surface(const SceneAt& scene, const MaterialOverride& set, PrimitiveId 
       triangle_(scene.kind(id) == PrimitiveKind::kTriangle) {
   const bool has_normals = isTriangle() ? shape_.hasNormals() : shape_.source != nullptr;
   smooth_ = has_normals && set.smooth.value_or(material_.smooth);
-  mapped_ = isTriangle() && set.textures && !shape_.model.texcoords.empty();
+  mapped_ = isTriangle() && set.textures && shape_.hasTexcoords();
   if (!mapped_) return;
   const Primitive& primitive = scene.primitive(id);
   source_ = primitive.source;

@@ -45,7 +45,7 @@ class Surface {
   }
   bool textured() const;
   /// Texture coordinates of a textured triangle at a vertex, or at barycentric weights.
-  const Vec2& texcoord(std::size_t sorted) const { return shape_.model.texcoords[corner(sorted)]; }
+  Vec2 texcoord(std::size_t sorted) const { return shape_.cornerTexcoord(source_, order_[sorted]); }
   Vec2 texcoord(const std::array<double, 3>& weights) const {
     return weights[0] * texcoord(0) + weights[1] * texcoord(1) + weights[2] * texcoord(2);
   }
@@ -56,7 +56,6 @@ class Surface {
   double plain(Quantity quantity) const { return overridden(quantity).value_or(number(quantity)); }
 
  private:
-  std::size_t corner(std::size_t sorted) const { return shape_.model.triangles[source_][order_[sorted]]; }
   /// The value that the user set for the quantity on all surfaces, if any.
   const std::optional<double>& overridden(Quantity quantity) const;
   double number(Quantity quantity) const;

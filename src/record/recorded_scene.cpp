@@ -1,6 +1,7 @@
 #include "record/recorded_scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -83,6 +84,12 @@ Ways waysOf(const proto::Values& in) {
   return ways;
 }
 
+Vec2 repeatOf(const proto::RecordedHeights& in) {
+  if (in.repeat_size() == 0) return Vec2::Ones();
+  if (in.repeat_size() != 2 || !std::isfinite(in.repeat(0)) || !std::isfinite(in.repeat(1))) throw Error(kBrokenScene);
+  return {in.repeat(0), in.repeat(1)};
+}
+
 void encode(const Surfaces& surfaces, proto::RecordedSurfaces& out) {
   for (const Material& material : surfaces.materials) toProto(material, *out.add_materials());
   for (const auto& texture : surfaces.textures) toProto(*texture, *out.add_textures());
@@ -129,10 +136,13 @@ std::uint64_t SceneWriter::idOf(std::map<const Part*, Written<Part>>& written, c
   return entry.id;
 }
 
-void SceneWriter::writeSource(const PrimitiveSource& source, std::uint64_t id, const Write& write) {
+void SceneWriter::writeSource(const Shape& shape, std::uint64_t id, const Write& write) {
+  const PrimitiveSource& source = *shape.source;
   const auto take_heights = [&](proto::RecordedHeights& heights) {
     proto::RecordingBlock part;
     heights.set_id(id);
+    const bool first = heights.columns() > 0;
+    if (first && shape.repeat != Vec2::Ones()) heights.mutable_repeat()->Add(shape.repeat.begin(), shape.repeat.end());
     part.mutable_heights()->Swap(&heights);
     write(part);
   };
@@ -166,7 +176,7 @@ void SceneWriter::writeSource(const PrimitiveSource& source, std::uint64_t id, c
 
 std::uint64_t SceneWriter::shapeId(const std::shared_ptr<const Shape>& shape, const Write& write) {
   return idOf(shapes_, shape, [&](std::uint64_t id) {
-    if (shape->source) return writeSource(*shape->source, id, write);
+    if (shape->source) return writeSource(*shape, id, write);
     writeMesh(shape->model, [&](proto::RecordedShape& mesh) {
       proto::RecordingBlock part;
       part.mutable_shape()->Swap(&mesh);
@@ -265,12 +275,15 @@ void SceneReader::add(const proto::RecordedShape& in) {
 void SceneReader::add(const proto::RecordedHeights& in) {
   const bool first = !begun_;
   addPart(in.id());
-  if (first) heights_.emplace(headerOf(in), machineMemory_bytes());
+  if (first) {
+    heights_.emplace(headerOf(in), machineMemory_bytes());
+    repeat_ = repeatOf(in);
+  }
   if (!heights_) throw Error(kBrokenScene);
   heights_->add(in.samples().data(), in.samples().size());
   if (in.continues()) return;
   begun_.reset();
-  shapes_[in.id()] = makeShape(heights_->take());
+  shapes_[in.id()] = makeShape(heights_->take(), {}, {}, repeat_);
   heights_.reset();
 }
 

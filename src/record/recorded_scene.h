@@ -46,7 +46,7 @@ class SceneWriter {
   std::uint64_t idOf(std::map<const Part*, Written<Part>>& written, const std::shared_ptr<const Part>& part,
                      const Encode& encode);
   std::uint64_t shapeId(const std::shared_ptr<const Shape>& shape, const Write& write);
-  void writeSource(const PrimitiveSource& source, std::uint64_t id, const Write& write);
+  void writeSource(const Shape& shape, std::uint64_t id, const Write& write);
   std::uint64_t bodyId(const std::shared_ptr<const RigidBody>& body, const Write& write);
 
   struct VolumeId {
@@ -91,6 +91,7 @@ class SceneReader {
 
   MeshReader mesh_;
   std::optional<HeightCollector> heights_;
+  Vec2 repeat_ = Vec2::Ones();  // of the heights of which more parts follow
   std::optional<VolumeCollector> volume_;
   std::optional<CloudCollector> cloud_;
   std::pair<GridFrame, CloudLook> cloud_look_;  // of the cloud of which more parts follow

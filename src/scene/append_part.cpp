@@ -14,8 +14,8 @@ void appendPerVertex(std::vector<T>& whole, const std::vector<T>& part, std::siz
 
 }  // namespace
 
-void repeatTexcoords(Model& model, double repeat_u, double repeat_v) {
-  for (Vec2& uv : model.texcoords) uv = uv.cwiseProduct(Vec2(repeat_u, repeat_v));
+void repeatTexcoords(Model& model, const Vec2& factors) {
+  for (Vec2& uv : model.texcoords) uv = uv.cwiseProduct(factors);
 }
 
 void appendPart(Model& whole, const Model& part, std::uint16_t material) {

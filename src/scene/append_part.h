@@ -6,7 +6,7 @@
 namespace hl {
 
 /// Multiplies texture coordinates.
-void repeatTexcoords(Model& model, double repeat_u, double repeat_v);
+void repeatTexcoords(Model& model, const Vec2& factors);
 
 /// Appends `part` to `whole`, all of it with material number `material` of `whole`; its own materials are left out.
 /// Where one of the two has normals or texture coordinates and the other has not, zeros fill the gap.

@@ -24,11 +24,14 @@ double imageCurvature(const Texture& texture) {
   return most;
 }
 
-// Largest change of u or v per metre on a triangle. The edges bound the gradient of an affine map from below, its
-// heights from above; |grad u| = |du1 e2 - du2 e1| / (2 area).
-double texcoordSlope(const Model& model, const std::array<std::uint32_t, 3>& t) {
-  const Vec3 e1 = model.positions[t[1]] - model.positions[t[0]], e2 = model.positions[t[2]] - model.positions[t[0]];
-  const Vec2 d1 = model.texcoords[t[1]] - model.texcoords[t[0]], d2 = model.texcoords[t[2]] - model.texcoords[t[0]];
+// Largest change of u or v per metre on a triangle; of one that does not exist, as at a missing sample, 0. The edges
+// bound the gradient of an affine map from below, its heights from above; |grad u| = |du1 e2 - du2 e1| / (2 area).
+double texcoordSlope(const Shape& shape, ElementId id) {
+  const Primitive triangle = shape.primitive(id);
+  std::array<Vec2, 3> texcoord;
+  for (std::size_t i = 0; i < 3; ++i) texcoord[i] = shape.cornerTexcoord(triangle.source, triangle.order[i]);
+  const Vec3 e1 = triangle.vertex[1] - triangle.vertex[0], e2 = triangle.vertex[2] - triangle.vertex[0];
+  const Vec2 d1 = texcoord[1] - texcoord[0], d2 = texcoord[2] - texcoord[0];
   const double area = e1.cross(e2).norm();
   if (!(area > 0)) return 0;
   return std::max((d1.x() * e2 - d2.x() * e1).norm(), (d1.y() * e2 - d2.y() * e1).norm()) / area;
@@ -40,11 +43,11 @@ double bumpCurvature_per_m(const Snapshot& snapshot, std::size_t material) {
   const Shape& shape = snapshot.shape();
   const Model& model = shape.model;
   const TextureUse& use = model.materials[material].textureOf(Quantity::kHeight);
-  if (!use.used() || model.texcoords.empty()) return 0;
+  if (!use.used() || !shape.hasTexcoords()) return 0;
   double slope = 0;
-  for (std::uint32_t i = 0; i < shape.primitives.size(); ++i) {
-    if (shape.materialOf(i) == material && shape.primitives.kind(i) == PrimitiveKind::kTriangle)
-      slope = std::max(slope, texcoordSlope(model, model.triangles[shape.primitives.source(i)]));
+  for (ElementId id = 0; id < shape.count(); ++id) {
+    if (shape.materialOf(id) == material && shape.kind(id) == PrimitiveKind::kTriangle)
+      slope = std::max(slope, texcoordSlope(shape, id));
   }
   return std::abs(use.high - use.low) * imageCurvature(model.textures[use.texture]) * slope * slope;
 }

@@ -47,18 +47,17 @@ int compareTextures(const FeltPrimitive& a, const FeltPrimitive& b) {
   return 0;
 }
 
-// Compares the model's vertex data, in the order of the sorted vertices.
+// Compares the vertex data, in the order of the sorted vertices.
 int compareCorners(const FeltPrimitive& a, const FeltPrimitive& b) {
   if (a.primitive.kind != PrimitiveKind::kTriangle) return 0;
   const auto corners = [](const FeltPrimitive& one) {
     const Shape& shape = *one.instance.shape;
-    const Model& model = shape.model;
     std::array<double, 15> numbers{};
     for (std::size_t i = 0; i < 3; ++i) {
       if (shape.hasNormals()) std::copy_n(shape.cornerNormal(one.element, one.primitive, i).data(), 3, &numbers[5 * i]);
-      if (model.texcoords.empty()) continue;
-      const std::uint32_t vertex = model.triangles[one.primitive.source][one.primitive.order[i]];
-      std::copy_n(model.texcoords[vertex].data(), 2, &numbers[5 * i + 3]);
+      if (!shape.hasTexcoords()) continue;
+      const Vec2 texcoord = shape.cornerTexcoord(one.primitive.source, one.primitive.order[i]);
+      std::copy_n(texcoord.data(), 2, &numbers[5 * i + 3]);
     }
     return numbers;
   };

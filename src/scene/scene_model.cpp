@@ -38,7 +38,7 @@ Instance instanceOf(SceneSurface surface, std::uint64_t key) {
   Instance instance;
   if (const auto* const iso = dynamic_cast<const IsoSurface*>(surface.source.get()))
     surface.material = materialAt(*iso, surface.material);
-  instance.shape = makeShape(std::move(surface.source), surface.material, std::move(surface.textures));
+  instance.shape = makeShape(std::move(surface.source), surface.material, std::move(surface.textures), surface.repeat);
   instance.surfaces = surfacesOf(instance.shape);
   instance.key = key;
   return instance;

@@ -28,6 +28,7 @@ struct SceneSurface {
   std::shared_ptr<const PrimitiveSource> source;
   Material material{};
   std::vector<Texture> textures{};  ///< that the material uses
+  Vec2 repeat = Vec2::Ones();       ///< texture coordinates are multiplied by it
 };
 
 /// Metres, world frame.

@@ -160,19 +160,21 @@ std::shared_ptr<const Shape> makeShape(Model given, HierarchyKind hierarchy) {
 }
 
 std::shared_ptr<const Shape> makeShape(std::shared_ptr<const PrimitiveSource> source, const Material& material,
-                                       std::vector<Texture> textures) {
+                                       std::vector<Texture> textures, const Vec2& repeat) {
   auto shape = std::make_shared<Shape>();
   shape->geometry = shape->mesh = nextGeometry();
   shape->model.materials = {material};
   shape->model.textures = std::move(textures);
   shape->source = std::move(source);
+  shape->repeat = repeat;
   shape->index = shape->source->makeIndex();
   setBounds(*shape);
   return shape;
 }
 
 std::shared_ptr<const Shape> placedShape(const Shape& shape, const Mat3& linear, const Vec3& offset) {
-  return makeShape(shape.source->placed(linear, offset), shape.model.materials.front(), shape.model.textures);
+  return makeShape(shape.source->placed(linear, offset), shape.model.materials.front(), shape.model.textures,
+                   shape.repeat);
 }
 
 // The vertices of a triangle may be rotated differently, as the rotation depends on their positions.

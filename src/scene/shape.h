@@ -35,6 +35,7 @@ struct Shape {
   Model model;                                    ///< no vertices if there is a source
   Primitives primitives;                          ///< primitives of the model
   std::shared_ptr<const PrimitiveSource> source;  ///< null: the shape is a mesh
+  Vec2 repeat = Vec2::Ones();                     ///< texture coordinates of a source are multiplied by it
   std::vector<std::uint16_t> material_of;         ///< one per primitive, or empty: all use material 0
   HierarchyKind hierarchy = HierarchyKind::kBvh;
   std::unique_ptr<const SpatialIndex> index;
@@ -67,6 +68,13 @@ struct Shape {
     if (source) return source->trueNormal(id, triangle.vertex[sorted]);
     return model.normals[model.triangles[triangle.source][triangle.order[sorted]]];
   }
+  bool hasTexcoords() const { return source ? source->hasTexcoords() : !model.texcoords.empty(); }
+  /// Texture coordinates of a vertex of a triangle; requires hasTexcoords(). `given`: Primitive::source; `corner`: the
+  /// vertex's number in Primitive::order.
+  Vec2 cornerTexcoord(ElementId given, std::size_t corner) const {
+    if (source) return source->texcoord(given, corner).cwiseProduct(repeat);
+    return model.texcoords[model.triangles[given][corner]];
+  }
   /// Number of the primitive's material in the model's list, or in the list that replaces it (Surfaces).
   std::size_t materialOf(ElementId id) const { return material_of.empty() ? 0 : material_of[id]; }
 };
@@ -75,10 +83,10 @@ struct Shape {
 /// counted in `warnings`. Allocates; never called by a real-time thread.
 std::shared_ptr<const Shape> makeShape(Model given, HierarchyKind hierarchy = HierarchyKind::kBvh);
 
-/// A surface that is not a mesh, with one material and the textures that it uses. Allocates; never called by a
-/// real-time thread.
+/// A surface that is not a mesh, with one material and the textures that it uses. `repeat`: factors of its texture
+/// coordinates. Allocates; never called by a real-time thread.
 std::shared_ptr<const Shape> makeShape(std::shared_ptr<const PrimitiveSource> source, const Material& material = {},
-                                       std::vector<Texture> textures = {});
+                                       std::vector<Texture> textures = {}, const Vec2& repeat = Vec2::Ones());
 
 /// A surface that is not a mesh, moved by x -> linear x + offset. Throws hl::Error if it cannot be.
 std::shared_ptr<const Shape> placedShape(const Shape& shape, const Mat3& linear, const Vec3& offset);

@@ -105,11 +105,13 @@ class FrameDecoder {
   std::shared_ptr<const SurfaceChange> surfaceOf(const proto::Item& in, const std::string& where) const;
   std::shared_ptr<const Shape> shapeOf(const proto::Primitives& in, const proto::Item& item, const Shape* before,
                                        const std::string& where);
-  std::shared_ptr<const Shape> heightsOf(const proto::Primitives& in, const Shape* before, const std::string& where);
+  std::shared_ptr<const Shape> heightsOf(const proto::Primitives& in, const proto::Item& item, const Shape* before,
+                                         const std::string& where);
   std::shared_ptr<const Shape> cloudOf(const proto::Primitives& in, const std::string& where);
   std::shared_ptr<const Shape> implicitSurfaceOf(const proto::Primitives& in, const std::string& where);
   template <typename Decode>
-  std::shared_ptr<const Shape> ownSurface(std::uint64_t bytes, const std::string& where, const Decode& decode);
+  std::shared_ptr<const Shape> ownSurface(std::uint64_t bytes, const std::string& where, const Decode& decode,
+                                          const Vec2& repeat = Vec2::Ones());
   const proto::Primitives& upload(std::uint64_t id, const std::string& where);
   void countItems();
 
@@ -276,16 +278,13 @@ std::shared_ptr<const Shape> FrameDecoder::shapeOf(const proto::Primitives& in, 
   if (in.has_heights() || in.has_volume() || in.has_cloud() || in.has_implicit()) requireAlone(in, where);
   if (in.has_volume()) return volumes_.surface(in.volume(), item, where + ".volume");
   if (item.has_iso() || item.has_below()) throw Error(where + ": iso and below are of volumes, and this is none");
-  if (in.has_heights()) return heightsOf(in, before, where);
+  if (in.has_heights()) return heightsOf(in, item, before, where);
   if (in.has_cloud()) return cloudOf(in, where);
   if (in.has_implicit()) return implicitSurfaceOf(in, where);
-  const proto::Material& material = item.material();
-  const auto repeat = [](bool has, double value) { return has && std::isfinite(value) ? value : 1; };
   return makeCounted(memory_, bytesToBuild(in), [&] {
     Model model = decoder_.model(in, where);
     size_.add(model, where + ": ");
-    repeatTexcoords(model, repeat(material.has_repeat_u(), material.repeat_u()),
-                    repeat(material.has_repeat_v(), material.repeat_v()));
+    repeatTexcoords(model, repeatOf(item.material()));
     return before != nullptr ? makeShape(std::move(model), *before) : makeShape(std::move(model));
   });
 }
@@ -293,12 +292,12 @@ std::shared_ptr<const Shape> FrameDecoder::shapeOf(const proto::Primitives& in, 
 // Counted by its samples or points, as a mesh is by its elements. `bytes`: to make it.
 template <typename Decode>
 std::shared_ptr<const Shape> FrameDecoder::ownSurface(std::uint64_t bytes, const std::string& where,
-                                                      const Decode& decode) {
+                                                      const Decode& decode, const Vec2& repeat) {
   size_.add(bytes, where + ": ");
   MemoryShare memory(memory_);
   memory.take(bytes);
   try {
-    auto shape = makeShape(decode());
+    auto shape = makeShape(decode(), {}, {}, repeat);
     memory.set(shape->bytes() + shape->shared().bytes);
     return withShare(std::move(shape), std::move(memory));
   } catch (const Error& error) {
@@ -306,10 +305,10 @@ std::shared_ptr<const Shape> FrameDecoder::ownSurface(std::uint64_t bytes, const
   }
 }
 
-std::shared_ptr<const Shape> FrameDecoder::heightsOf(const proto::Primitives& in, const Shape* before,
-                                                     const std::string& where) {
-  return ownSurface(bytesToMakeHeights(in.heights()), where + ".heights",
-                    [&] { return decodeHeights(in.heights(), before != nullptr ? before->source.get() : nullptr); });
+std::shared_ptr<const Shape> FrameDecoder::heightsOf(const proto::Primitives& in, const proto::Item& item,
+                                                     const Shape* before, const std::string& where) {
+  const auto decode = [&] { return decodeHeights(in.heights(), before != nullptr ? before->source.get() : nullptr); };
+  return ownSurface(bytesToMakeHeights(in.heights()), where + ".heights", decode, repeatOf(item.material()));
 }
 
 std::shared_ptr<const Shape> FrameDecoder::cloudOf(const proto::Primitives& in, const std::string& where) {

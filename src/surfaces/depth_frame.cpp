@@ -85,6 +85,12 @@ Vec3 DepthFrame::trueNormal(ElementId id, const Vec3& point) const {
   return normal.isZero(0) ? flat : normal;
 }
 
+// The middle of the pixel, so that an image of as many pixels has its texel there.
+Vec2 DepthFrame::texcoordAt(const Pixel& pixel) const {
+  const double columns = pixels().columns(), rows = pixels().rows();
+  return {(pixel[0] + 0.5) / columns, (rows - pixel[1] - 0.5) / rows};
+}
+
 std::unique_ptr<const SpatialIndex> DepthFrame::makeIndex() const {
   return std::make_unique<DepthIndex>(cells_, bounds_);
 }
@@ -130,6 +136,7 @@ DrawnMesh DepthFrame::every(std::uint32_t step) const {
       place = static_cast<std::uint32_t>(mesh.positions.size());
       mesh.positions.push_back(cells_.pointAt(pixel));
       mesh.normals.push_back(normalAt(pixel[0], pixel[1], Vec3::UnitZ()));
+      mesh.texcoords.push_back(texcoordAt(pixel));
     }
     return place;
   };

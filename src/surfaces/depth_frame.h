@@ -23,6 +23,10 @@ class DepthFrame final : public PrimitiveSource {
   std::array<Vec3, 3> corners(ElementId id) const override { return cells_.corners(id); }
   /// At a pixel by central differences among the neighbours that it is one surface with; in between interpolated.
   Vec3 trueNormal(ElementId id, const Vec3& point) const override;
+  bool hasTexcoords() const override { return true; }
+  Vec2 texcoord(ElementId id, std::size_t corner) const override {
+    return texcoordAt(cells_.pixelsOf(cellOf(id, pixels().columns()))[corner]);
+  }
   Box bounds() const override { return bounds_; }
   std::unique_ptr<const SpatialIndex> makeIndex() const override;
   std::size_t bytes() const override { return sizeof(*this); }
@@ -41,6 +45,7 @@ class DepthFrame final : public PrimitiveSource {
  private:
   const DepthPixels& pixels() const { return cells_.pixels(); }
   Vec3 normalAt(std::uint32_t column, std::uint32_t row, const Vec3& otherwise) const;
+  Vec2 texcoordAt(const DepthCells::Pixel& pixel) const;
   DrawnMesh every(std::uint32_t step) const;
   Box boundsOfTiles() const;
   void extendBy(int level, std::uint32_t column, std::uint32_t row, Box& box) const;

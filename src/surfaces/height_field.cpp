@@ -83,6 +83,17 @@ Vec3 HeightField::trueNormal(ElementId id, const Vec3& point) const {
   return normalBetween(corners(id), point, [&](std::size_t i) { return normalAt(at[i][0], at[i][1]); });
 }
 
+// An image lies on it as a map does: its upper left corner on the first sample, its lower right one on the last.
+Vec2 HeightField::texcoordAt(std::uint32_t column, std::uint32_t row) const {
+  const double last_column = grid_->columns() - 1.0, last_row = grid_->rows() - 1.0;
+  return {column / last_column, (last_row - row) / last_row};
+}
+
+Vec2 HeightField::texcoord(ElementId id, std::size_t corner) const {
+  const auto [column, row] = cornersOf(cellOf(id, grid_->columns()))[corner];
+  return texcoordAt(column, row);
+}
+
 // Two triangles and the bilinear surface differ most in the middle of the diagonal, by a quarter of the twist.
 double HeightField::error_m() const {
   using Range = oneapi::tbb::blocked_range<std::uint32_t>;
@@ -135,6 +146,7 @@ DrawnMesh HeightField::every(std::uint32_t step) const {
       number[std::size_t{j} * columns + i] = static_cast<std::uint32_t>(mesh.positions.size());
       mesh.positions.push_back(pointAt(column, row));
       mesh.normals.push_back(normalAt(column, row));
+      mesh.texcoords.push_back(texcoordAt(column, row));
     }
   }
   for (std::uint32_t j = 0; j + 1 < rows; ++j) {

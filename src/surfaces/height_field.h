@@ -23,6 +23,8 @@ class HeightField final : public PrimitiveSource {
   std::array<Vec3, 3> corners(ElementId id) const override;
   /// At a sample by central differences, across a gap or at the rim by one-sided ones; in between interpolated.
   Vec3 trueNormal(ElementId id, const Vec3& point) const override;
+  bool hasTexcoords() const override { return true; }
+  Vec2 texcoord(ElementId id, std::size_t corner) const override;
   Box bounds() const override { return bounds_; }
   std::unique_ptr<const SpatialIndex> makeIndex() const override;
   std::size_t bytes() const override { return sizeof(*this); }
@@ -48,6 +50,7 @@ class HeightField final : public PrimitiveSource {
     return frame_.point(column, row, grid_->at(column, row));
   }
   Vec3 normalAt(std::uint32_t column, std::uint32_t row) const;
+  Vec2 texcoordAt(std::uint32_t column, std::uint32_t row) const;
   DrawnMesh every(std::uint32_t step) const;
 
   std::shared_ptr<const HeightGrid> grid_;

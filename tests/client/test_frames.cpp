@@ -49,6 +49,31 @@ TEST_F(CallsTest, HeightFieldsAreSentWithTheirSamples) {
   EXPECT_EQ(heights.samples(0), std::string(reinterpret_cast<const char*>(small.data()), sizeof small));
 }
 
+TEST_F(CallsTest, TheTextureMatrixScalesTheTexturesOfHeights) {
+  const std::array<HLfloat, 4> samples{};
+  const auto draw = [&] { hlHeightField(2, 2, HL_FLOAT, samples.data(), nullptr); };
+  HLuint texture = 0;
+  hlGenTextures(1, &texture);
+  hlBindTexture(HL_TEXTURE_2D, texture);
+  hlTexImage2D(HL_TEXTURE_2D, 0, HL_LUMINANCE, 1, 1, 0, HL_LUMINANCE, HL_UNSIGNED_BYTE, "a");
+  hlMatrixMode(HL_TEXTURE);
+  hlTranslated(0.5, 0, 0);
+  draw();
+  hlEnable(HL_TEXTURE_2D);
+  draw();
+  expectError(HL_INVALID_OPERATION);
+  hlLoadIdentity();
+  hlScaled(5, 1, 1);
+  draw();
+  const proto::Frame frame = flushed();
+  ASSERT_EQ(frame.world().items_size(), 2) << "the one that was refused is left out";
+  EXPECT_FALSE(frame.world().items(0).material().has_repeat_u()) << "it has no texture";
+  const proto::Material& material = frame.world().items(1).material();
+  EXPECT_EQ(material.repeat_u(), 5);
+  EXPECT_FALSE(material.has_repeat_v());
+  EXPECT_EQ(material.textures_size(), 1);
+}
+
 TEST_F(CallsTest, LargeHeightFieldsGoAheadInParts) {
   std::vector<HLfloat> large(1000 * 1000);
   for (std::size_t i = 0; i < large.size(); ++i) large[i] = static_cast<HLfloat>(i);

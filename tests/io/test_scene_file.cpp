@@ -121,6 +121,39 @@ TEST(SceneFile, TheExampleOfHeightsLoads) {
   EXPECT_EQ(makeSnapshot(scene)->instances.size(), 2U);
 }
 
+TEST(SceneFile, HeightsAndDepthImagesHaveTextures) {
+  const SceneModel scene = loadSceneFile(std::string(HL_EXAMPLES) + "/textured_heights.hl.json");
+  ASSERT_EQ(scene.surfaces.size(), 2U);
+  EXPECT_EQ(scene.surfaces[0].repeat, Vec2(4, 4));
+  EXPECT_EQ(scene.surfaces[1].repeat, Vec2(20, 1));
+  const auto snapshot = makeSnapshot(scene);
+  const auto& hills = *snapshot->instances[0].surfaces;
+  EXPECT_EQ(hills.textures.at(hills.materials[0].textureOf(Quantity::kDynamicFriction).texture)->name, "fields");
+  const auto& table = *snapshot->instances[1].surfaces;
+  ASSERT_EQ(table.textures.size(), 1U) << "only those that it uses";
+  EXPECT_EQ(table.textures.at(table.materials[0].textureOf(Quantity::kHeight).texture)->name, "waves");
+  EXPECT_TRUE(snapshot->shape(1).hasTexcoords());
+}
+
+TEST(SceneFile, TexturesNeedTextureCoordinates) {
+  const auto refused = [](const std::string& shape) {
+    try {
+      loadSceneFile(fileWith("scene.hl.json", R"({"textures": [{"name": "t", "procedural": {"kind": "sine"}}],
+"objects": [{)" + shape + R"(,
+"material": {"textures": [{"texture": "t", "quantity": "VISCOSITY"}]}}]})"));
+    } catch (const Error& error) {
+      return afterFile(error.what());
+    }
+    return std::string();
+  };
+  const std::string why =
+      ":3: objects[0].material: volumes, clouds and implicit surfaces have no texture coordinates, and take no "
+      "textures";
+  EXPECT_EQ(refused(R"("heights": {"columns": 2, "rows": 2, "values": [0, 1, 2, 3]})"), "");
+  EXPECT_EQ(refused(R"("builtin": "points:sphere:99")"), why);
+  EXPECT_EQ(refused(R"("implicit": {"expression": {"sphere": {"radius": 1}}})"), why);
+}
+
 std::string heightsRefusal(const std::string& heights, const std::string& rest = "") {
   try {
     loadSceneFile(fileWith("scene.hl.json", "{\"objects\":[{\n\"heights\": {" + heights + "}" + rest + "}]}"));

@@ -3,7 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstring>
+#include <thread>
+
 #include "io/load_scene_file.h"
+#include "page/page_meshes.h"
 #include "scene/snapshot.h"
 
 namespace hl {
@@ -37,6 +42,37 @@ TEST(SurfaceImages, PlainModelsSendNone) {
   const proto::SceneMesh mesh = imagesOf(HL_EXAMPLES "/friction_lanes.hl.json");
   EXPECT_EQ(mesh.images_size() + mesh.parts_size(), 0);
   EXPECT_TRUE(mesh.texcoords().empty());
+}
+
+// The mesh that a page draws of each surface: of the depth image fewer triangles than are felt.
+TEST(SurfaceImages, HeightsAndDepthImagesShowTheirs) {
+  const auto scene = makeSnapshot(loadSceneFile(HL_EXAMPLES "/textured_heights.hl.json"));
+  PageMeshes meshes;
+  const std::vector<std::uint32_t> numbers = meshes.numbersOf(*scene);
+  ASSERT_EQ(numbers.size(), 2U);
+  while (!meshes.ready()) std::this_thread::yield();
+  for (std::size_t i = 0; i < 2; ++i) {
+    proto::ServerMessage message;
+    ASSERT_TRUE(message.ParseFromString(*meshes.message(numbers[i])));
+    const proto::SceneMesh& mesh = message.mesh();
+    ASSERT_EQ(mesh.images_size(), 1);
+    ASSERT_EQ(mesh.parts_size(), 1);
+    EXPECT_EQ(mesh.parts(0).triangles() * 3 * sizeof(std::uint32_t), mesh.triangles().size());
+    ASSERT_EQ(mesh.texcoords().size() * 3, mesh.positions().size() * 2);
+    std::vector<float> texcoords(mesh.texcoords().size() / sizeof(float));
+    std::memcpy(texcoords.data(), mesh.texcoords().data(), mesh.texcoords().size());
+    const float most_u = i == 0 ? 4 : 20, most_v = i == 0 ? 4 : 1;
+    float u = 0, v = 0;
+    for (std::size_t n = 0; n < texcoords.size(); n += 2) {
+      u = std::max(u, texcoords[n]);
+      v = std::max(v, texcoords[n + 1]);
+    }
+    // Of the table the camera does not see all.
+    EXPECT_GT(u, 0.7F * most_u);
+    EXPECT_GT(v, 0.7F * most_v);
+    EXPECT_LE(u, most_u);
+    EXPECT_LE(v, most_v);
+  }
 }
 
 }  // namespace

@@ -217,6 +217,9 @@ std::shared_ptr<const Snapshot> writtenAndRead(const Snapshot& scene, SceneWrite
 TEST(RecordedScene, HasItsHeightField) {
   SceneModel scene;
   scene.surfaces.push_back({"hills", makeTerrainField(5'000'000)->placed(2 * Mat3::Identity(), Vec3(1, 2, 3))});
+  scene.surfaces[0].textures = {makeTexture("noise", 8)};
+  scene.surfaces[0].material.textureOf(Quantity::kHeight) = {0, 0, 1e-5};
+  scene.surfaces[0].repeat = Vec2(7, 1.0 / 3);
   const auto made = makeSnapshot(std::move(scene));
   SceneWriter writer;
   SceneReader reader;
@@ -227,6 +230,8 @@ TEST(RecordedScene, HasItsHeightField) {
   const Shape &was = made->shape(), &is = back->shape();
   ASSERT_EQ(is.count(), was.count());
   EXPECT_EQ(is.bounds.min, was.bounds.min);
+  EXPECT_EQ(is.repeat, was.repeat);
+  EXPECT_EQ(back->instances[0].surfaces->textures.at(0)->texels, made->instances[0].surfaces->textures.at(0)->texels);
   for (ElementId id = 0; id < is.count(); id += 9973) ASSERT_EQ(is.source->corners(id), was.source->corners(id)) << id;
 }
 

@@ -89,6 +89,15 @@ TEST(DecodeFrame, HeightFieldsComeAtOnceOrInParts) {
   EXPECT_EQ(whole->count(), 4U);
   EXPECT_EQ(whole->bounds.max, Vec3(1, 25, 0.5));
 
+  frame.mutable_world()->mutable_items(0)->mutable_material()->set_repeat_u(4);
+  const auto repeated = decoded(frame, {});
+  ASSERT_TRUE(repeated->hasTexcoords());
+  const Primitive triangle = repeated->primitive(0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec2 texcoord = repeated->cornerTexcoord(triangle.source, triangle.order[i]);
+    EXPECT_EQ(texcoord, Vec2(2 * (triangle.vertex[i].x() + 1), 0.5 - triangle.vertex[i].z()));
+  }
+
   Uploads uploads;
   for (int part = 0; part < 2; ++part) {
     proto::Heights& piece = *uploads[4].emplace_back().mutable_heights();

@@ -133,5 +133,22 @@ TEST(DepthFrame, QueriesAreRealTimeSafe) {
   index->sweep(ball.centre, Vec3(0.1, 0.1, 0.1), ball.radius, 0.01, [&](ElementId, double limit) { return limit; });
 }
 
+// An image of as many texels has one on each pixel, the top row at v = 1.
+TEST(DepthFrame, TexelsLieOnPixels) {
+  constexpr std::uint32_t kColumns = 5, kRows = 4;
+  const auto frame = test::frameOf(test::gridOf(kColumns, kRows, std::vector<float>(kColumns * kRows, 1)),
+                                   test::cameraFor(kColumns, kRows));
+  ASSERT_TRUE(frame->hasTexcoords());
+  for (ElementId id = 0; id < frame->count(); ++id) {
+    const auto pixels = frame->cells().pixelsOf(cellOf(id, kColumns));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec2 at = frame->texcoord(id, i);
+      EXPECT_DOUBLE_EQ(at.x() * kColumns, pixels[i][0] + 0.5);
+      EXPECT_DOUBLE_EQ((1 - at.y()) * kRows, pixels[i][1] + 0.5);
+    }
+  }
+  EXPECT_EQ(frame->drawn(1000).texcoords.size(), frame->drawn(1000).positions.size());
+}
+
 }  // namespace
 }  // namespace hl

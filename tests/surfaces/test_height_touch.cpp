@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include "base/realtime_guard.h"
+#include "builtin.h"
 #include "fields.h"
 #include "proxy/proxy.h"
+#include "scene/append_part.h"
+#include "scene/bump_gain.h"
 #include "scene/snapshot.h"
 
 namespace hl {
@@ -23,6 +26,7 @@ Model modelOf(const HeightField& field) {
   Model model;
   model.positions = std::move(drawn.positions);
   model.normals = std::move(drawn.normals);
+  model.texcoords = std::move(drawn.texcoords);
   model.triangles = std::move(drawn.triangles);
   return model;
 }
@@ -62,6 +66,97 @@ TEST(HeightTouch, AFieldIsTheSameMeshBitByBit) {
       EXPECT_GT(touched, 500);
     }
   }
+}
+
+// A bump map, and friction of a coarser image.
+struct Skin {
+  Material material;
+  std::vector<Texture> textures{makeTexture("sine", 64), makeTexture("noise", 16)};
+  Vec2 repeat{40, 3};
+
+  Skin() {
+    material.smooth = true;
+    material.textureOf(Quantity::kHeight) = {0, 0, 2e-5};
+    material.textureOf(Quantity::kDynamicFriction) = {1, 0.1, 0.7};
+    material.textureOf(Quantity::kStiffness) = {1, 0.5, 1};
+  }
+  std::shared_ptr<const Snapshot> on(const std::shared_ptr<const HeightField>& field) const {
+    return sceneOf(makeShape(field, material, textures, repeat));
+  }
+  std::shared_ptr<const Snapshot> on(Model model) const {
+    model.materials = {material};
+    model.textures = textures;
+    repeatTexcoords(model, repeat);
+    return sceneOf(makeShape(std::move(model)));
+  }
+};
+
+TEST(HeightTouch, TexturesAreFeltAsOnTheSameMeshBitByBit) {
+  const SceneModel terrain = makeBuiltinWorld("field:terrain:80000");
+  const auto field = std::dynamic_pointer_cast<const HeightField>(terrain.surfaces.at(0).source);
+  ASSERT_TRUE(field);
+  const auto on_request = Skin().on(field), mesh = Skin().on(modelOf(*field)), plain = sceneOf(makeShape(field));
+  ProxySettings settings;
+  settings.radius = 1e-3;
+  settings.work_cap = kNoWorkCap;  // another index does other work
+  test::Random random(2);
+  Vec3 finger(0, 0.03, 0);
+  ProxyState a = startProxy(*on_request, settings, finger), b = startProxy(*mesh, settings, finger),
+             c = startProxy(*plain, settings, finger);
+  int touched = 0, otherwise = 0;
+  for (int i = 0; i < 3000; ++i) {
+    finger += 4e-4 * random.inCube(1) - 0.003 * (finger - Vec3(0, -0.005, 0));
+    const TickReport one = tick(a, *on_request, settings, finger), other = tick(b, *mesh, settings, finger);
+    ASSERT_EQ(a.position, b.position) << i;
+    ASSERT_EQ(one.target, other.target) << i;
+    ASSERT_EQ(one.contacts.size(), other.contacts.size()) << i;
+    touched += one.contacts.empty() ? 0 : 1;
+    tick(c, *plain, settings, finger);
+    otherwise += a.position == c.position ? 0 : 1;
+  }
+  EXPECT_GT(touched, 1000);
+  EXPECT_GT(otherwise, 1000) << "they are felt";
+}
+
+// As the mesh of the same hills has them: u to the east, v to the north.
+TEST(HeightTouch, AFieldHasTheTextureCoordinatesOfTheTerrain) {
+  const SceneModel terrain = makeBuiltinWorld("field:terrain:20000");
+  const Model field = modelOf(dynamic_cast<const HeightField&>(*terrain.surfaces.at(0).source));
+  const Model mesh = makeBuiltinScene("terrain:20000");
+  ASSERT_EQ(field.positions.size(), mesh.positions.size());
+  ASSERT_EQ(field.texcoords.size(), field.positions.size());
+  const std::size_t side = 101;
+  for (std::size_t j = 0; j < side; ++j) {
+    for (std::size_t i = 0; i < side; ++i) {
+      const std::size_t of_mesh = (side - 1 - j) * side + i, of_field = j * side + i;
+      ASSERT_LT((field.positions[of_field] - mesh.positions[of_mesh]).norm(), 1e-6);
+      ASSERT_EQ(field.texcoords[of_field], mesh.texcoords[of_mesh]);
+    }
+  }
+}
+
+TEST(HeightTouch, AMovedAndScaledFieldKeepsItsTextureCoordinates) {
+  const auto field = hills(30);
+  const auto moved = placedShape(*makeShape(field, {}, {}, Vec2(3, 4)), Vec3(-2, 3, 1).asDiagonal(), Vec3(1, 2, 3));
+  for (ElementId id = 0; id < field->count(); id += 7) {
+    const Primitive triangle = moved->primitive(id);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 at = triangle.vertex[i];
+      const double u = (at.x() - 1) / -0.4, v = 1 - (at.z() - 3) / 0.2;
+      EXPECT_LT((moved->cornerTexcoord(triangle.source, triangle.order[i]) - Vec2(3 * u, 4 * v)).norm(), 1e-12);
+    }
+  }
+}
+
+// A sin(2 pi n u) over a side L bends by A (2 pi n / L)^2.
+TEST(HeightTouch, ABumpMapReportsItsGain) {
+  const auto field = test::fieldOf(11, 11, 0.02, [](double, double) { return 0.0; });
+  Material material;
+  material.textureOf(Quantity::kHeight) = {0, 0, 1e-4};
+  const double k = 2 * M_PI * 50 / 0.2;
+  const double curvature =
+      bumpCurvature_per_m(*sceneOf(makeShape(field, material, {makeTexture("sine", 256)}, Vec2(50, 1))), 0);
+  EXPECT_NEAR(curvature, 0.5e-4 * k * k, 1e-3 * curvature);
 }
 
 // Over a plane of any slope the proxy stays at its radius.
@@ -113,17 +208,18 @@ TEST(HeightTouch, ABallStandsOnCrests) {
 
 TEST(HeightTouch, TicksAllocateNothing) {
   const auto field = hills(500);
-  const auto scene = sceneOf(makeShape(field));
-  ProxySettings settings;
-  settings.radius = 1e-3;
-  Vec3 finger(0.1, 0.03, 0.1);
-  ProxyState state = startProxy(*scene, settings, finger);
-  const RealtimeGuard guard;
-  for (int i = 0; i < 500; ++i) {
-    finger += Vec3(5e-5, i < 200 ? -2e-4 : 0, 2e-5);
-    tick(state, *scene, settings, finger);
+  for (const auto& scene : {sceneOf(makeShape(field)), Skin().on(field)}) {
+    ProxySettings settings;
+    settings.radius = 1e-3;
+    Vec3 finger(0.1, 0.03, 0.1);
+    ProxyState state = startProxy(*scene, settings, finger);
+    const RealtimeGuard guard;
+    for (int i = 0; i < 500; ++i) {
+      finger += Vec3(5e-5, i < 200 ? -2e-4 : 0, 2e-5);
+      tick(state, *scene, settings, finger);
+    }
+    EXPECT_LT(state.position.x(), 0.2);
   }
-  EXPECT_LT(state.position.x(), 0.2);
 }
 
 }  // namespace
