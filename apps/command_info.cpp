@@ -203,6 +203,7 @@ void printCloud(const PointCloud& cloud) {
   fmt::print(
       "cloud:      {} points, about {:.4g} m apart, within {:.3g} m of those of the source; {:.1f} bytes a point\n",
       points.size(), spacing_m, cloud.error_m(), bytes / static_cast<double>(points.size()));
+  if (points.hasColours()) fmt::print("            a colour for each, which the page shows\n");
   if (cloud.surfels()) {
     fmt::print("            surfels that reach {:.4g} m\n", cloud.look().reach * spacing_m);
   } else {

@@ -69,6 +69,7 @@ namespace HL {
     public sealed class TouchCloud {
         public double[] Points;    // x y z each, m
         public float[] Normals;    // x y z each, of either sign; null: from the nearest points
+        public byte[] Colours;     // red, green, blue of each, which pages show; null: none
         public double Reach;       // of a small disc around each, in distances between neighbours; 0: points alone
     }
 
@@ -765,6 +766,9 @@ namespace HL {
                 yield return new Writer().Nested(12, new Writer().Doubles(3, cloud.Points, first, NumbersPerPart));
             for (int first = 0; first < 4 * Length(cloud.Normals); first += BytesPerPart)
                 yield return new Writer().Nested(12, new Writer().Bytes(4, cloud.Normals, first, BytesPerPart));
+            int[] colours = cloud.Colours == null ? null : Array.ConvertAll(cloud.Colours, value => (int)value);
+            for (int first = 0; first < Length(colours); first += NumbersPerPart)
+                yield return new Writer().Nested(12, new Writer().Indices(7, colours, first, NumbersPerPart));
         }
 
         // Messages of Primitives, to be merged in this order: their lists are appended.

@@ -4,8 +4,8 @@
 
 namespace {
 
-// What the program does that takes them: a header, then points on its lattice or positions, with normals for all or
-// none.
+// What the program does that takes them: a header, then points on its lattice or positions, with normals and
+// colours for all or none.
 class CheckingSink final : public hl::CloudSink {
  public:
   void header(const hl::CloudHeader& header) override {
@@ -19,6 +19,7 @@ class CheckingSink final : public hl::CloudSink {
     const std::size_t count = piece.steps.size() + piece.positions.size();
     hl::fuzz::require(announced_ && count > 0 && (lattice_ ? piece.positions.empty() : piece.steps.empty()));
     hl::fuzz::require(piece.normals.empty() || piece.normals.size() == count);
+    hl::fuzz::require(piece.colours.empty() || piece.colours.size() == count);
     for (const hl::Vec3& p : piece.positions) hl::fuzz::require(p.allFinite());
   }
   void warn(const std::string& line) override {

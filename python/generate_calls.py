@@ -18,7 +18,7 @@ SCALARS = {"HLenum": "int", "HLboolean": "bool", "HLbitfield": "int", "HLint": "
 VECTOR_SIZES = {"2fv": 2, "2dv": 2, "3fv": 3, "3dv": 3, "Matrixf": 16, "Matrixd": 16}
 # What waits must let other threads run, and arrays are given to the call that draws them.
 BY_HAND = {"hlFinish", "hlFinishTimeout", "hlPoll", "hlDrawArrays", "hlDrawElements", "hlHeightField", "hlVolume",
-           "hlVolumeMatter", "hlDepthFrame", "hlNurbsSurface", "hlPointCloud",
+           "hlVolumeMatter", "hlDepthFrame", "hlNurbsSurface", "hlPointCloud", "hlPointColors",
            "hlImplicit"}
 # What Python does not need: errors are exceptions, and arrays are arguments.
 LEFT_OUT = {"hlGetError", "hlErrorFunc", "hlGetConnectError", "hlVertexPointer", "hlNormalPointer", "hlTexCoordPointer",

@@ -214,6 +214,10 @@ HL_API void hlVolumeSurface(HLdouble iso);
  * The points are copied. HL_INVALID_VALUE: no points, another `reach`, or numbers that are not finite.
  * HL_OUT_OF_MEMORY: 29 million points or more: draw several clouds. */
 HL_API void hlPointCloud(HLsizei count, const HLdouble* points, const HLdouble* normals, HLdouble reach);
+/** Gives the points of the cloud that was drawn last in this object or world colours, which pages show: red, green and
+ * blue of each, 0 .. 255 (sRGB). They are not felt. Copied. HL_INVALID_OPERATION: no cloud was drawn. HL_INVALID_VALUE:
+ * `count` is not its number of points. */
+HL_API void hlPointColors(HLsizei count, const HLubyte* colors);
 
 /** Draws a NURBS surface without trims as gluNurbsSurface does, or a Bezier patch, with no knots, as glMap2d and
  * glEvalMesh2 do. The server makes triangles within `error` of it, in units of the vertices (0: 2e-5 of the largest

@@ -347,13 +347,18 @@ inline void nurbsSurface(const NurbsForm& form, std::span<const HLdouble> points
                  form.weighted ? HL_MAP2_VERTEX_4 : HL_MAP2_VERTEX_3, form.error);
 }
 
-/// hlPointCloud of points of three numbers each; as many normals, or none.
-inline void pointCloud(std::span<const HLdouble> points, std::span<const HLdouble> normals = {}, HLdouble reach = 0) {
+/// hlPointCloud of points of three numbers each; as many normals, or none, and hlPointColors with as many colours, or
+/// none.
+inline void pointCloud(std::span<const HLdouble> points, std::span<const HLdouble> normals = {}, HLdouble reach = 0,
+                       std::span<const HLubyte> colors = {}) {
   constexpr auto kMost = static_cast<std::size_t>(std::numeric_limits<HLsizei>::max());
   if (points.size() % 3 != 0 || points.size() / 3 > kMost || (!normals.empty() && normals.size() != points.size()))
     throw std::invalid_argument("a point has three numbers, and its normal too");
-  hlPointCloud(static_cast<HLsizei>(points.size() / 3), points.data(), normals.empty() ? nullptr : normals.data(),
-               reach);
+  if (!colors.empty() && colors.size() != points.size())
+    throw std::invalid_argument("a colour has three numbers, and there is one for each point");
+  const auto count = static_cast<HLsizei>(points.size() / 3);
+  hlPointCloud(count, points.data(), normals.empty() ? nullptr : normals.data(), reach);
+  if (!colors.empty()) hlPointColors(count, colors.data());
 }
 
 /// hlGetDoublev of a query with `Count` values (hl_types.h says how many); zeros at an error.

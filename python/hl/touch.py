@@ -288,13 +288,22 @@ class Touch:
         calls.hlDepthFrame(np.ascontiguousarray(image), arguments.floats(camera, "camera"), *numbers)
 
     def points(
-        self, points: npt.ArrayLike, normals: Optional[npt.ArrayLike] = None, surfels: Union[bool, float] = False
+        self,
+        points: npt.ArrayLike,
+        normals: Optional[npt.ArrayLike] = None,
+        surfels: Union[bool, float] = False,
+        colors: Optional[npt.ArrayLike] = None,
     ) -> None:
-        """Draws a cloud of points (n, 3), m, as hl.Scene(points=...) has it."""
+        """Draws a cloud of points (n, 3), m, as hl.Scene(points=...) has it. Pages show `colors`: (n, 3) of uint8."""
         self.make_current()
         array = arguments.floats(points, "points")
         given = None if normals is None else arguments.floats(normals, "normals")
+        shown = None if colors is None else np.asarray(colors)
+        if shown is not None and (shown.dtype != np.uint8 or shown.shape != np.shape(array)):
+            raise InvalidValueError("colors must be an array of uint8 with three for each point")
         calls.hlPointCloud(array, given, arguments.reach(surfels))
+        if shown is not None:
+            calls.hlPointColors(np.ascontiguousarray(shown))
 
     def implicit(self, solid: Union[str, Dict[str, Any]]) -> None:
         """Draws the surface of a solid that is written down, as hl.Scene(implicit=...) has it."""

@@ -128,6 +128,12 @@ void pointCloud(const Doubles& points, const Optional& normals, double reach) {
   throwFailure();
 }
 
+void pointColors(const Bytes& colors) {
+  requireContext();
+  hlPointColors(sizeOf(rowsOf(colors, 3, "colors"), "colors"), colors.data());
+  throwFailure();
+}
+
 void implicit(const std::string& json) {
   requireContext();
   hlImplicit(json.c_str());
@@ -257,6 +263,7 @@ void bindDrawing(py::module_& module) {
   module.def("hlImplicit", &implicit, py::arg("json"));
   module.def("hlVolumeMatter", &volumeMatter, py::arg("rows"));
   module.def("hlPointCloud", &pointCloud, py::arg("points"), py::arg("normals") = none, py::arg("reach") = 0.0);
+  module.def("hlPointColors", &pointColors, py::arg("colors"));
   module.def("hlVolume", &volume, py::arg("samples"), py::arg("iso"), py::arg("missing") = none);
   module.def("hlNurbsSurface", &nurbsSurface, py::arg("points"), py::arg("order_u") = 4, py::arg("order_v") = 4,
              py::arg("knots_u") = none, py::arg("knots_v") = none, py::arg("error") = 0.0);

@@ -252,7 +252,8 @@ class Builder {
   // As addSamples().
   void addPoints(const proto::Cloud& cloud) {
     constexpr int kNumbersOfPoint = 3;
-    const std::size_t point_bytes = kNumbersOfPoint * (sizeof(double) + sizeof(float));
+    constexpr std::size_t kBytesOfColour = 2;
+    const std::size_t point_bytes = kNumbersOfPoint * (sizeof(double) + sizeof(float) + kBytesOfColour);
     const int step = kNumbersOfPoint * static_cast<int>(std::max<std::size_t>(part_bytes_ / point_bytes, 1));
     for (int first = 0; first < cloud.positions_size(); first += step) {
       const int end = std::min(first + step, cloud.positions_size());
@@ -265,6 +266,8 @@ class Builder {
       out.mutable_positions()->Add(cloud.positions().begin() + first, cloud.positions().begin() + end);
       if (cloud.normals_size() > 0)
         out.mutable_normals()->Add(cloud.normals().begin() + first, cloud.normals().begin() + end);
+      if (cloud.colours_size() > 0)
+        out.mutable_colours()->Add(cloud.colours().begin() + first, cloud.colours().begin() + end);
       upload_bytes_ += part.ByteSizeLong();
     }
   }

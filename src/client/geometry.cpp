@@ -125,14 +125,15 @@ bool Geometry::takes(const Vertices& added) const {
 std::size_t Geometry::bytes() const {
   constexpr std::size_t kIndexBytes = 5, kListBytes = 12;  // the longest varint of 32 bits; tag and length of a list
   const std::size_t numbers = vertices.positions.size() + vertices.normals.size() + vertices.texcoords.size();
-  constexpr std::size_t kHeightsHead = 64;
+  constexpr std::size_t kHeightsHead = 64, kBytesOfColour = 2;  // a number from 128 on takes two
   if (heights) return heights->samples(0).size() + kHeightsHead;
   std::size_t of_patches = 0;
   for (const proto::Patch& patch : patches) of_patches += patch.ByteSizeLong() + kListBytes;
   if (of_patches > 0) return of_patches;
   if (cloud)
     return static_cast<std::size_t>(cloud->positions_size()) * sizeof(double) +
-           static_cast<std::size_t>(cloud->normals_size()) * sizeof(float) + kHeightsHead;
+           static_cast<std::size_t>(cloud->normals_size()) * sizeof(float) +
+           static_cast<std::size_t>(cloud->colours_size()) * kBytesOfColour + kHeightsHead;
   return numbers * sizeof(double) + (triangles.size() + segments.size() + points.size()) * kIndexBytes + 6 * kListBytes;
 }
 

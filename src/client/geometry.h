@@ -38,7 +38,7 @@ struct Geometry {
   bool below = false;                                 ///< of the volume: where its matter is
   std::vector<proto::Patch> patches{};                ///< in place of all others
   double patch_error = 0;                             ///< of the patches; 0: the server's choice
-  std::shared_ptr<const proto::Cloud> cloud{};        ///< in place of all others
+  std::shared_ptr<proto::Cloud> cloud{};              ///< in place of all others
   std::shared_ptr<const proto::Implicit> implicit{};  ///< in place of all others
   /// Whether `added` could be appended: all vertices have normals or none has, the same for texture coordinates, and
   /// the indices fit.

@@ -332,6 +332,20 @@ void hlPointCloud(HLsizei count, const HLdouble* points, const HLdouble* normals
   });
 }
 
+void hlPointColors(HLsizei count, const HLubyte* colors) {
+  call(__func__, [&](HLcontext& context) {
+    requireCount(count);
+    requirePointer(colors);
+    hl::proto::Cloud* const cloud = context.target().lastCloud();
+    if (cloud == nullptr) throw Fault(HL_INVALID_OPERATION, "no cloud was drawn whose points could have colours");
+    const std::ptrdiff_t numbers = 3 * std::ptrdiff_t{count};
+    if (numbers != cloud->positions_size())
+      throw Fault(HL_INVALID_VALUE, "there must be as many colours as the cloud that was drawn last has points");
+    cloud->clear_colours();
+    cloud->mutable_colours()->Add(colors, colors + numbers);
+  });
+}
+
 void hlImplicit(const char* json) {
   call(__func__, [&](HLcontext& context) {
     requirePointer(json);

@@ -33,7 +33,7 @@ void ItemList::drawHeights(const Matrix4& matrix, const Look& look, proto::Heigh
   items_.back().geometry.repeat = repeat;
 }
 
-void ItemList::drawCloud(const Matrix4& matrix, const Look& look, std::shared_ptr<const proto::Cloud> cloud) {
+void ItemList::drawCloud(const Matrix4& matrix, const Look& look, std::shared_ptr<proto::Cloud> cloud) {
   items_.push_back({matrix, look, 0, {}});
   items_.back().geometry.cloud = std::move(cloud);
 }
@@ -59,6 +59,11 @@ void ItemList::drawPatch(const Matrix4& matrix, const Look& look, proto::Patch p
 void ItemList::drawImplicit(const Matrix4& matrix, const Look& look, std::shared_ptr<const proto::Implicit> implicit) {
   items_.push_back({matrix, look, 0, {}});
   items_.back().geometry.implicit = std::move(implicit);
+}
+
+proto::Cloud* ItemList::lastCloud() {
+  const auto last = std::find_if(items_.rbegin(), items_.rend(), [](const Item& item) { return item.geometry.cloud; });
+  return last == items_.rend() ? nullptr : last->geometry.cloud.get();
 }
 
 std::shared_ptr<const proto::Volume> ItemList::lastVolume() const {

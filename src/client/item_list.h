@@ -45,7 +45,9 @@ class ItemList {
   /// `repeat`: factors of the texture coordinates u and v.
   void drawHeights(const Matrix4& matrix, const Look& look, proto::Heights heights,
                    const std::array<double, 2>& repeat);
-  void drawCloud(const Matrix4& matrix, const Look& look, std::shared_ptr<const proto::Cloud> cloud);
+  void drawCloud(const Matrix4& matrix, const Look& look, std::shared_ptr<proto::Cloud> cloud);
+  /// The cloud that was drawn last; null: none was.
+  proto::Cloud* lastCloud();
   /// `below`: the matter is where values are below iso.
   void drawVolume(const Matrix4& matrix, const Look& look, std::shared_ptr<const proto::Volume> volume, double iso,
                   bool below);

@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/rgb.h"
 #include "base/vec.h"
 #include "geometry/box.h"
 #include "geometry/element_id.h"
@@ -21,6 +22,7 @@ namespace hl {
 struct DrawnMesh {
   std::vector<Vec3> positions, normals;
   std::vector<Vec2> texcoords;  ///< one a vertex, of a surface that has them; else none
+  std::vector<Rgb> colours;     ///< the same
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
@@ -60,6 +62,8 @@ class PrimitiveSource {
   virtual bool hasTexcoords() const { return false; }
   /// Those of vertex `corner` of corners(id), if it has them. RT-safe.
   virtual Vec2 texcoord(ElementId /*id*/, std::size_t /*corner*/) const { return Vec2::Zero(); }
+  /// Whether what is drawn of it has colours of its own.
+  virtual bool hasColours() const { return false; }
   /// Bounds of all vertices; may be larger.
   virtual Box bounds() const = 0;
   /// Makes the index of its triangles; the source must outlive it. Setup only.

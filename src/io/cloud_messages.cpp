@@ -47,6 +47,7 @@ void toProto(const CloudPiece& piece, proto::RecordedCloud& out) {
   setBytes(piece.steps, *out.mutable_steps());
   setBytes(piece.positions, *out.mutable_positions());
   setBytes(piece.normals, *out.mutable_normals());
+  setBytes(piece.colours, *out.mutable_colours());
 }
 
 Mat3 turnOf(const proto::RecordedCloud& in) {
@@ -76,16 +77,20 @@ void writeCloud(const PointCloud& cloud, std::uint64_t like,
   if (like != 0) return take(part);
   std::vector<std::array<std::int32_t, 3>> steps;
   std::vector<std::uint32_t> normals;
+  std::vector<Rgb> colours;
   for (std::size_t block = 0; block < points.blocks();) {
     steps.clear();
     normals.clear();
+    colours.clear();
     for (const std::size_t end = std::min(block + kBlocksInPart, points.blocks()); block < end; ++block) {
       for (std::size_t i = 0; i < points.countIn(block); ++i) {
-        steps.push_back(points.stepsAt(block * CloudPoints::kPerBlock + i));
-        normals.push_back(points.normal(block * CloudPoints::kPerBlock + i));
+        const std::size_t slot = block * CloudPoints::kPerBlock + i;
+        steps.push_back(points.stepsAt(slot));
+        normals.push_back(points.normal(slot));
+        if (points.hasColours()) colours.push_back(points.colour(slot));
       }
     }
-    toProto(CloudPiece{steps, {}, normals}, part);
+    toProto(CloudPiece{steps, {}, normals, colours}, part);
     part.set_continues(block < points.blocks());
     take(part);
     part.Clear();
@@ -93,9 +98,7 @@ void writeCloud(const PointCloud& cloud, std::uint64_t like,
 }
 
 CloudCollector::CloudCollector(const proto::RecordedCloud& header, std::size_t most_bytes, bool made_before)
-    : on_lattice_(header.step_size() > 0) {
-  constexpr std::size_t kOfPosition = 60, kOfStep = 32;  // bytes, with what is made of it
-  left_ = most_bytes / (on_lattice_ ? kOfStep : kOfPosition);
+    : on_lattice_(header.step_size() > 0), left_bytes_(most_bytes) {
   input_.exact = on_lattice_ && !header.inexact();
   input_.made_before = made_before;
   if (!on_lattice_) return;
@@ -104,19 +107,31 @@ CloudCollector::CloudCollector(const proto::RecordedCloud& header, std::size_t m
     throw Error(kBrokenCloud);
 }
 
+void CloudCollector::takeRoom(std::size_t points, bool coloured) {
+  constexpr std::size_t kOfPosition = 60, kOfStep = 32, kOfColour = 40;  // bytes, with what is made of it
+  const std::size_t each = (on_lattice_ ? kOfStep : kOfPosition) + (coloured ? kOfColour : 0);
+  if (points > left_bytes_ / each)
+    throw Error(fmt::format("a cloud of more than {} points takes more memory than there is",
+                            input_.points.size() + positions_.size() + left_bytes_ / each));
+  left_bytes_ -= points * each;
+}
+
 void CloudCollector::add(const proto::RecordedCloud& part) {
   const auto steps = pointBytesAs<std::array<std::int32_t, 3>>(part.steps());
   const auto positions = pointBytesAs<Vec3>(part.positions());
   const auto normals = pointBytesAs<std::uint32_t>(part.normals());
+  const auto colours = pointBytesAs<Rgb>(part.colours());
   const std::size_t count = steps.size() + positions.size();
-  if (!(on_lattice_ ? positions.empty() : steps.empty()) || (!normals.empty() && normals.size() != count))
+  const auto agrees = [&](const auto& list) { return list.empty() || list.size() == count; };
+  if (!(on_lattice_ ? positions.empty() : steps.empty()) || !agrees(normals) || !agrees(colours))
     throw Error(kBrokenCloud);
-  if (count > left_)
-    throw Error(fmt::format("a cloud of more than {} points takes more memory than there is",
-                            input_.points.size() + positions_.size() + left_));
-  left_ -= count;
-  for (std::size_t i = 0; i < steps.size(); ++i)
+  takeRoom(count, !colours.empty());
+  for (std::size_t i = 0; i < steps.size(); ++i) {
     input_.points.push_back({steps[i], normals.empty() ? kNoNormal : normals[i]});
+    if (!colours.empty()) input_.colours.push_back({steps[i], packRgb(colours[i])});
+  }
+  if (!colours.empty() && !on_lattice_) colours_.resize(positions_.size());
+  if (!on_lattice_) colours_.insert(colours_.end(), colours.begin(), colours.end());
   if (!normals.empty() && !on_lattice_) normals_.resize(positions_.size(), kNoNormal);
   positions_.insert(positions_.end(), positions.begin(), positions.end());
   if (!on_lattice_) normals_.insert(normals_.end(), normals.begin(), normals.end());
@@ -125,8 +140,9 @@ void CloudCollector::add(const proto::RecordedCloud& part) {
 std::shared_ptr<const CloudPoints> CloudCollector::take() {
   if (on_lattice_) return makeCloud(std::move(input_));
   std::size_t skipped = 0;
-  CloudInput input = onFineLattice(positions_, normals_, skipped);
+  CloudInput input = onFineLattice(positions_, normals_, skipped, colours_);
   positions_ = {};
+  colours_ = {};
   normals_ = {};
   return makeCloud(std::move(input));
 }

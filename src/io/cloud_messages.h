@@ -41,11 +41,14 @@ class CloudCollector {
   std::shared_ptr<const CloudPoints> take();
 
  private:
+  void takeRoom(std::size_t points, bool coloured);
+
   CloudInput input_;
   bool on_lattice_;
   std::vector<Vec3> positions_;
   std::vector<std::uint32_t> normals_;  // of the positions
-  std::size_t left_;                    // points
+  std::vector<Rgb> colours_;            // of the positions
+  std::size_t left_bytes_;
 };
 
 /// A cloud as it comes from a file: with the middle at the origin if it lies far from there. Then `note` says where it

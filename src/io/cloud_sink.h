@@ -16,11 +16,12 @@ struct CloudHeader {
   Mat3 turn = Mat3::Identity();           ///< from the file's axes to those of the scene
 };
 
-/// Some points: their steps or positions (m), and a packed normal for each, or none for all of the cloud.
+/// Some points: their steps or positions (m), and a packed normal and a colour for each, or none for all of the cloud.
 struct CloudPiece {
   std::span<const std::array<std::int32_t, 3>> steps{};
   std::span<const Vec3> positions{};
   std::span<const std::uint32_t> normals{};
+  std::span<const Rgb> colours{};
 };
 
 /// Called in this order: a header, and all points. Each may throw.

@@ -18,11 +18,23 @@ CloudLook lookOf(const proto::Cloud& in) {
   return look;
 }
 
+std::vector<Rgb> coloursOf(const proto::Cloud& in) {
+  std::vector<Rgb> colours;
+  colours.reserve(static_cast<std::size_t>(in.colours_size()) / 3);
+  const auto byte = [&](int i) {
+    if (in.colours(i) > 255) throw Error("colours must be whole numbers from 0 to 255");
+    return static_cast<std::uint8_t>(in.colours(i));
+  };
+  for (int i = 0; i + 2 < in.colours_size(); i += 3) colours.push_back({byte(i), byte(i + 1), byte(i + 2)});
+  return colours;
+}
+
 }  // namespace
 
 std::uint64_t bytesToMakeCloud(const proto::Cloud& in) {
-  constexpr std::uint64_t kSmallest = 16384, kEach = 60;
-  return kSmallest + kEach * (static_cast<std::uint64_t>(in.positions_size()) / 3);
+  constexpr std::uint64_t kSmallest = 16384, kEach = 60, kOfColour = 40;
+  return kSmallest +
+         (kEach + (in.colours_size() > 0 ? kOfColour : 0)) * (static_cast<std::uint64_t>(in.positions_size()) / 3);
 }
 
 std::shared_ptr<const PointCloud> decodeCloud(const proto::Cloud& in) {
@@ -30,6 +42,8 @@ std::shared_ptr<const PointCloud> decodeCloud(const proto::Cloud& in) {
   if (in.positions_size() % 3 != 0) throw Error("positions must be three numbers for each point");
   if (in.normals_size() != 0 && in.normals_size() != in.positions_size())
     throw Error("normals must be three numbers for each point, or absent");
+  if (in.colours_size() != 0 && in.colours_size() != in.positions_size())
+    throw Error("colours must be three numbers for each point, or absent");
   std::vector<Vec3> positions;
   std::vector<std::uint32_t> normals;
   positions.reserve(static_cast<std::size_t>(in.positions_size()) / 3);
@@ -38,13 +52,14 @@ std::shared_ptr<const PointCloud> decodeCloud(const proto::Cloud& in) {
   for (int i = 0; i < in.normals_size(); i += 3)
     normals.push_back(packNormal(Vec3(in.normals(i), in.normals(i + 1), in.normals(i + 2))));
   std::size_t skipped = 0;
-  CloudInput input = onFineLattice(positions, normals, skipped);
+  CloudInput input = onFineLattice(positions, normals, skipped, coloursOf(in));
   if (skipped > 0) throw Error("positions must be finite numbers");
   return std::make_shared<const PointCloud>(makeCloud(std::move(input)), lookOf(in));
 }
 
 std::shared_ptr<const PointCloud> withLook(const PointCloud& cloud, const proto::Cloud& in) {
-  if (in.positions_size() != 0 || in.normals_size() != 0) throw Error("positions and normals are those of its file");
+  if (in.positions_size() + in.normals_size() + in.colours_size() != 0)
+    throw Error("positions, normals and colours are those of its file");
   return std::make_shared<const PointCloud>(cloud.points(), cloud.frame(), lookOf(in));
 }
 

@@ -1,6 +1,7 @@
 #include "io/point_records.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -60,42 +61,84 @@ void PointRecord::requireCoordinates() const {
   if (!fields[kPointX] || !fields[kPointY] || !fields[kPointZ]) throw Error("has points without x, y and z");
 }
 
+namespace {
+
+// What a colour of this form is multiplied by to be 0..255; 0: it is none.
+double colourFactor(ScalarKind form) {
+  if (form == ScalarKind::kUint8) return 1;
+  if (form == ScalarKind::kUint16) return 1.0 / 257;
+  return form == ScalarKind::kFloat || form == ScalarKind::kDouble ? 255 : 0;
+}
+
+// Not a number is 0.
+std::uint8_t colourByte(double value) {
+  return value > 0 ? static_cast<std::uint8_t>(std::min(std::floor(value + 0.5), 255.0)) : std::uint8_t{0};
+}
+
+}  // namespace
+
+bool PointRecord::hasColours() const {
+  if (fields[kPackedRgb]) return true;
+  const auto is_colour = [&](PointNumber n) { return fields[n] && colourFactor(fields[n]->form) > 0; };
+  return is_colour(kRed) && is_colour(kGreen) && is_colour(kBlue);
+}
+
+Rgb PointRecord::colourOf(const PointNumbers& numbers) const {
+  if (fields[kPackedRgb]) {
+    const double packed = numbers[kPackedRgb];
+    constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
+    if (fields[kPackedRgb]->form == ScalarKind::kFloat)
+      return unpackRgb(std::bit_cast<std::uint32_t>(static_cast<float>(packed)));
+    return unpackRgb(packed > 0 ? static_cast<std::uint32_t>(std::min(packed, kMost)) : 0);
+  }
+  const auto byte = [&](PointNumber n) { return colourByte(colourFactor(fields[n]->form) * numbers[n]); };
+  return {byte(kRed), byte(kGreen), byte(kBlue)};
+}
+
 std::optional<PointNumber> pointNumberOf(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, PointNumber>, 9> kNames{{{"x", kPointX},
-                                                                            {"y", kPointY},
-                                                                            {"z", kPointZ},
-                                                                            {"nx", kNormalX},
-                                                                            {"ny", kNormalY},
-                                                                            {"nz", kNormalZ},
-                                                                            {"normal_x", kNormalX},
-                                                                            {"normal_y", kNormalY},
-                                                                            {"normal_z", kNormalZ}}};
+  constexpr std::array<std::pair<std::string_view, PointNumber>, 15> kNames{{{"x", kPointX},
+                                                                             {"y", kPointY},
+                                                                             {"z", kPointZ},
+                                                                             {"nx", kNormalX},
+                                                                             {"ny", kNormalY},
+                                                                             {"nz", kNormalZ},
+                                                                             {"normal_x", kNormalX},
+                                                                             {"normal_y", kNormalY},
+                                                                             {"normal_z", kNormalZ},
+                                                                             {"red", kRed},
+                                                                             {"green", kGreen},
+                                                                             {"blue", kBlue},
+                                                                             {"diffuse_red", kRed},
+                                                                             {"diffuse_green", kGreen},
+                                                                             {"diffuse_blue", kBlue}}};
   for (const auto& [of, number] : kNames) {
     if (of == name) return number;
   }
   return {};
 }
 
-void PointPieces::add(const std::array<double, kPointNumbers>& numbers) {
+void PointPieces::add(const PointNumbers& numbers) {
   const Vec3 position(numbers[kPointX], numbers[kPointY], numbers[kPointZ]);
   if (!position.allFinite()) return;
   positions_.push_back(position);
   if (normals_) packed_.push_back(packNormal(Vec3(numbers[kNormalX], numbers[kNormalY], numbers[kNormalZ])));
+  if (coloured_) colours_.push_back(record_.colourOf(numbers));
   if (positions_.size() == kPieceOfPoints) flush();
 }
 
 void PointPieces::flush() {
-  if (!positions_.empty()) sink_.points({{}, positions_, packed_});
+  if (!positions_.empty()) sink_.points({{}, positions_, packed_, colours_});
   positions_.clear();
+  colours_.clear();
   packed_.clear();
 }
 
 void copyRecords(ByteFile& in, std::uint64_t count, const PointRecord& record, CloudSink& sink) {
   if (record.bytes == 0 || count > std::numeric_limits<std::uint64_t>::max() / record.bytes) throw Error(kEndsEarly);
   in.expect(count * record.bytes);
-  PointPieces pieces(sink, record.hasNormals());
+  PointPieces pieces(sink, record);
   std::vector<char> room(record.bytes * std::min<std::uint64_t>(count, kPieceOfPoints));
-  std::array<double, kPointNumbers> numbers{};
+  PointNumbers numbers{};
   for (std::uint64_t left = count; left > 0;) {
     const std::size_t some = std::min<std::uint64_t>(left, kPieceOfPoints);
     in.read(room.data(), some * record.bytes);
@@ -112,8 +155,8 @@ void copyRecords(ByteFile& in, std::uint64_t count, const PointRecord& record, C
 
 void copyLines(ByteFile in, std::uint64_t count, const PointRecord& record, const std::string& kind, CloudSink& sink) {
   TextWords words(std::move(in), kind);
-  PointPieces pieces(sink, record.hasNormals());
-  std::array<double, kPointNumbers> numbers{};
+  PointPieces pieces(sink, record);
+  PointNumbers numbers{};
   for (std::uint64_t i = 0; i < count; ++i) {
     for (std::size_t column = 0; column < record.bytes; ++column) {
       const double value = words.number("a point");

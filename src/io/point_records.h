@@ -14,8 +14,21 @@
 
 namespace hl {
 
-/// The numbers of a point that count.
-enum PointNumber : std::uint8_t { kPointX, kPointY, kPointZ, kNormalX, kNormalY, kNormalZ, kPointNumbers };
+/// The numbers of a point that count. kPackedRgb: its colour as one number, or as a float of the same bits.
+enum PointNumber : std::uint8_t {
+  kPointX,
+  kPointY,
+  kPointZ,
+  kNormalX,
+  kNormalY,
+  kNormalZ,
+  kRed,
+  kGreen,
+  kBlue,
+  kPackedRgb,
+  kPointNumbers
+};
+using PointNumbers = std::array<double, kPointNumbers>;
 
 enum class ScalarKind : std::uint8_t {
   kInt8,
@@ -44,25 +57,32 @@ struct PointRecord {
   /// Throws hl::Error where a coordinate lacks.
   void requireCoordinates() const;
   bool hasNormals() const { return fields[kNormalX] && fields[kNormalY] && fields[kNormalZ]; }
+  /// Whether there are numbers that are colours: whole ones of 8 or 16 bits, or of 0 to 1.
+  bool hasColours() const;
+  /// Requires hasColours().
+  Rgb colourOf(const PointNumbers& numbers) const;
 };
 
-/// The number of a name such as "x", "nx" or "normal_x".
+/// The number of a name such as "x", "nx", "normal_x" or "red".
 std::optional<PointNumber> pointNumberOf(std::string_view name);
 
 /// Gathers points and hands them on in pieces.
 class PointPieces {
  public:
-  PointPieces(CloudSink& sink, bool normals) : sink_(sink), normals_(normals) {}
+  PointPieces(CloudSink& sink, const PointRecord& record)
+      : sink_(sink), record_(record), normals_(record.hasNormals()), coloured_(record.hasColours()) {}
   /// Nothing of a point whose coordinates are no numbers.
-  void add(const std::array<double, kPointNumbers>& numbers);
+  void add(const PointNumbers& numbers);
   /// After the last.
   void flush();
 
  private:
   CloudSink& sink_;
-  const bool normals_;
+  const PointRecord record_;
+  const bool normals_, coloured_;
   std::vector<Vec3> positions_;
   std::vector<std::uint32_t> packed_;
+  std::vector<Rgb> colours_;
 };
 
 /// `count` records that follow each other. Throws hl::Error if the file ends before.

@@ -29,11 +29,13 @@ ReadCloud cloudReaderOf(const std::string& ending) {
   return nullptr;
 }
 
+constexpr std::size_t kColumnsThatCount = 6;  // x y z and a normal
+
 // The numbers of a line, as many as there are up to six.
-std::size_t numbersOf(std::string_view line, std::array<double, kPointNumbers>& numbers) {
+std::size_t numbersOf(std::string_view line, PointNumbers& numbers) {
   constexpr const char* kBetween = " \t,;";
   std::size_t count = 0;
-  while (count < kPointNumbers) {
+  while (count < kColumnsThatCount) {
     const std::size_t begin = line.find_first_not_of(kBetween);
     if (begin == std::string_view::npos) break;
     line.remove_prefix(begin);
@@ -47,10 +49,18 @@ std::size_t numbersOf(std::string_view line, std::array<double, kPointNumbers>& 
   return count;
 }
 
-bool isUnitNormal(const std::array<double, kPointNumbers>& numbers) {
+bool isUnitNormal(const PointNumbers& numbers) {
   constexpr double kRounded = 0.01;
   const Vec3 normal(numbers[kNormalX], numbers[kNormalY], numbers[kNormalZ]);
   return std::abs(normal.norm() - 1) < kRounded;
+}
+
+PointRecord xyzRecord(bool normals) {
+  PointRecord record;
+  for (const PointNumber axis : {kNormalX, kNormalY, kNormalZ}) {
+    if (normals) record.fields[axis] = RecordField{};
+  }
+  return record;
 }
 
 }  // namespace
@@ -69,7 +79,7 @@ void readCloud(const ModelFile& file, CloudSink& sink) { cloudReaderOf(file.endi
 void readXyz(const ModelFile& file, CloudSink& sink) {
   ByteFile in(file.path);
   sink.header({});
-  std::array<double, kPointNumbers> numbers{};
+  PointNumbers numbers{};
   std::optional<PointPieces> pieces;
   std::string line;
   for (std::uint64_t number = 1; in.line(line); ++number) {
@@ -79,8 +89,8 @@ void readXyz(const ModelFile& file, CloudSink& sink) {
     if (count == 1 && !pieces && number == 1) continue;
     if (count < 3)
       throw Error(fmt::format("is no list of points: line {} is '{}', and a point is x y z", number, shown(text)));
-    if (!pieces) pieces.emplace(sink, count == kPointNumbers && isUnitNormal(numbers));
-    if (count < kPointNumbers) numbers[kNormalX] = numbers[kNormalY] = numbers[kNormalZ] = 0;
+    if (!pieces) pieces.emplace(sink, xyzRecord(count == kColumnsThatCount && isUnitNormal(numbers)));
+    if (count < kColumnsThatCount) numbers[kNormalX] = numbers[kNormalY] = numbers[kNormalZ] = 0;
     pieces->add(numbers);
   }
   if (pieces) pieces->flush();

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "base/error.h"
@@ -81,6 +83,61 @@ bool isWithheld(const char* record, unsigned format) {
   return format < 6 ? (flags & 0x80U) != 0 : (flags & 0x04U) != 0;
 }
 
+// Bytes before the colour of a point; none: this format has none.
+std::optional<std::size_t> lasColourAt(unsigned format) {
+  switch (format) {
+    case 2:
+      return 20;
+    case 3:
+    case 5:
+      return 28;
+    case 7:
+    case 8:
+    case 10:
+      return 30;
+    default:
+      return {};
+  }
+}
+
+using LasColour = std::array<std::uint16_t, 3>;
+
+LasColour lasColour(const char* record, std::size_t at) {
+  LasColour colour;
+  std::memcpy(colour.data(), record + at, sizeof colour);
+  return colour;
+}
+
+// Calls each(records, count) for pieces of the points of a file.
+template <typename Each>
+void inLasPieces(ByteFile& in, const LasHeader& header, const Each& each) {
+  std::vector<char> room(header.record_bytes * std::min<std::uint64_t>(header.count, kPieceOfRecords));
+  for (std::uint64_t left = header.count; left > 0;) {
+    const std::size_t some = std::min<std::uint64_t>(left, kPieceOfRecords);
+    in.read(room.data(), some * header.record_bytes);
+    if (!each(room.data(), some)) return;
+    left -= some;
+  }
+}
+
+constexpr std::uint16_t kMostOfByte = 255;
+
+// The largest number of a colour, or one above 255: then others do not matter. Colours have 16 bits, yet many programs
+// write 8 of them, and some write none at all: only the whole file tells. In one of 16 bits the first points do.
+std::uint16_t mostOfColours(const std::string& path, const LasHeader& header, std::size_t at) {
+  ByteFile in(path);
+  in.skip(header.offset_bytes);
+  std::uint16_t most = 0;
+  inLasPieces(in, header, [&](const char* records, std::size_t count) {
+    for (std::size_t i = 0; i < count && most <= kMostOfByte; ++i) {
+      const LasColour colour = lasColour(records + i * header.record_bytes, at);
+      most = std::max(most, *std::max_element(colour.begin(), colour.end()));
+    }
+    return most <= kMostOfByte;
+  });
+  return most;
+}
+
 Mat3 eastNorthUp() {
   Mat3 turn;
   turn << 1, 0, 0, 0, 0, 1, 0, -1, 0;
@@ -96,24 +153,31 @@ void readLas(const ModelFile& file, CloudSink& sink) {
   if (header.count > std::numeric_limits<std::uint64_t>::max() / header.record_bytes) throw Error(kEndsEarly);
   in.expect(header.count * header.record_bytes);
   sink.header({header.lattice, eastNorthUp()});
-  std::vector<char> room(header.record_bytes * std::min<std::uint64_t>(header.count, kPieceOfRecords));
+  std::optional<std::size_t> colour_at = lasColourAt(header.format);
+  const std::uint16_t most = colour_at ? mostOfColours(file.path, header, *colour_at) : std::uint16_t{0};
+  if (most == 0) colour_at.reset();
+  const unsigned shift = most > kMostOfByte ? 8 : 0;
   std::vector<std::array<std::int32_t, 3>> steps;
+  std::vector<Rgb> colours;
   std::uint64_t withheld = 0;
-  for (std::uint64_t left = header.count; left > 0;) {
-    const std::size_t some = std::min<std::uint64_t>(left, kPieceOfRecords);
-    in.read(room.data(), some * header.record_bytes);
+  inLasPieces(in, header, [&](const char* records, std::size_t count) {
     steps.clear();
-    for (std::size_t i = 0; i < some; ++i) {
-      const char* const record = room.data() + i * header.record_bytes;
+    colours.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+      const char* const record = records + i * header.record_bytes;
       if (isWithheld(record, header.format)) {
         ++withheld;
         continue;
       }
       std::memcpy(steps.emplace_back().data(), record, sizeof steps[0]);
+      if (!colour_at) continue;
+      const LasColour colour = lasColour(record, *colour_at);
+      const auto byte = [&](std::size_t k) { return static_cast<std::uint8_t>(colour[k] >> shift); };
+      colours.push_back({byte(0), byte(1), byte(2)});
     }
-    if (!steps.empty()) sink.points({steps, {}, {}});
-    left -= some;
-  }
+    if (!steps.empty()) sink.points({steps, {}, {}, colours});
+    return true;
+  });
   if (withheld > 0) sink.warn(fmt::format("left out {} points that are marked as withheld", withheld));
 }
 

@@ -102,12 +102,19 @@ ScalarKind pcdKind(const PcdField& field) {
   throw Error(fmt::format("{}a field of type {} has {} bytes", kNoPcd, shown(std::string(1, field.type)), field.size));
 }
 
+// The Point Cloud Library keeps a colour as 0xRRGGBB in four bytes, which it calls a float or a whole number.
+bool isPackedRgb(const PcdField& field) {
+  return (field.name == "rgb" || field.name == "rgba") && field.count == 1 && field.size == sizeof(std::uint32_t) &&
+         (field.type == 'F' || field.type == 'U');
+}
+
 // `text`: columns count in place of bytes.
 PointRecord pcdRecord(const PcdHeader& header, bool text) {
   PointRecord record;
   for (const PcdField& field : header.fields) {
     const std::optional<PointNumber> number = pointNumberOf(field.name);
     if (number && field.count == 1) record.fields[*number] = {record.bytes, pcdKind(field)};
+    if (isPackedRgb(field)) record.fields[kPackedRgb] = {record.bytes, text ? pcdKind(field) : ScalarKind::kUint32};
     record.bytes += field.count * (text ? 1 : field.size);
   }
   record.requireCoordinates();
@@ -128,8 +135,8 @@ void copyPacked(ByteFile& in, const PcdHeader& header, PointRecord record, Cloud
   std::vector<char> packed(packed_bytes), all(bytes);
   in.read(packed.data(), packed.size());
   unpackLzf(packed, all);
-  PointPieces pieces(sink, record.hasNormals());
-  std::array<double, kPointNumbers> numbers{};
+  PointPieces pieces(sink, record);
+  PointNumbers numbers{};
   for (std::uint64_t i = 0; i < header.points; ++i) {
     for (std::size_t k = 0; k < kPointNumbers; ++k) {
       if (!record.fields[k]) continue;

@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint64_t kSmallest = 1024;  // of a mesh and its message beside its lists
 // Three corners with normals, and three indices.
 constexpr std::uint64_t kDrawnTriangle_bytes = 6 * 3 * sizeof(float) + 3 * sizeof(std::uint32_t);
-constexpr std::uint64_t kDrawnTexcoords_bytes = 2 * 3 * sizeof(float);  // of a triangle
+constexpr std::uint64_t kDrawnTexcoords_bytes = 2 * 3 * sizeof(float), kDrawnColours_bytes = 3 * sizeof(Rgb);
 
 std::uint64_t texelsOf(const Look& look) {
   std::uint64_t texels = 0;
@@ -42,32 +42,41 @@ constexpr std::size_t kMostDrawn = 1'000'000;
 // One that changes at once, again and again, must be drawn soon.
 constexpr std::size_t kMostDrawnOften = 100'000;
 
-Model drawnOf(const Shape& shape, std::size_t most) {
-  DrawnMesh drawn = shape.source->drawn(most);
+struct Drawn {
   Model model;
+  std::vector<Rgb> colours;
+};
+
+Drawn drawnOf(const Shape& shape, std::size_t most) {
+  DrawnMesh drawn = shape.source->drawn(most);
+  Drawn result{{}, std::move(drawn.colours)};
+  Model& model = result.model;
   model.positions = std::move(drawn.positions);
   model.normals = std::move(drawn.normals);
   model.texcoords = std::move(drawn.texcoords);
   model.triangles = std::move(drawn.triangles);
   repeatTexcoords(model, shape.repeat);
-  return model;
+  return result;
 }
 
 std::uint64_t messageBytes(const Shape& shape, const Look& look, std::size_t most_drawn) {
   if (!shape.source) return messageBytes(shape.model, look);
   constexpr std::uint64_t kOfPoint = 4;  // triangles
   const std::uint64_t drawn = shape.elements() * (shape.source->kind() == PrimitiveKind::kPoint ? kOfPoint : 1);
-  const std::uint64_t each = kDrawnTriangle_bytes + (look.empty() ? 0 : kDrawnTexcoords_bytes);
+  const std::uint64_t each = kDrawnTriangle_bytes + (look.empty() ? 0 : kDrawnTexcoords_bytes) +
+                             (shape.source->hasColours() ? kDrawnColours_bytes : 0);
   return kSmallest + each * std::min<std::uint64_t>(drawn, most_drawn) + texelsOf(look);
 }
 
-std::string meshMessage(std::uint32_t number, const Shape& shape, const Model& model, const Look& look) {
+std::string meshMessage(std::uint32_t number, const Shape& shape, const Drawn& drawn, const Look& look) {
+  const Model& model = shape.source ? drawn.model : shape.model;
   proto::ServerMessage message;
   proto::SceneMesh& out = *message.mutable_mesh();
   out.set_number(number);
   out.set_positions(floatsOf(model.positions));
   out.set_normals(floatsOf(model.normals));
   out.set_triangles(bytesOf(model.triangles));
+  out.set_colours(bytesOf(drawn.colours));
   out.set_segments(bytesOf(model.segments));
   out.set_points(bytesOf(model.points));
   if (!shape.bounds.empty()) {
@@ -98,9 +107,8 @@ PageMeshes::Made PageMeshes::make(std::uint32_t number, const Mesh& mesh) const 
                   std::to_string(most_bytes_ / 1'000'000) + " MB at most: show it in several objects");
     MemoryShare memory(memory_);
     memory.take(2 * bytes);  // the message is put together and then written
-    const Model drawn = shape.source ? drawnOf(shape, most_drawn) : Model{};
-    auto message =
-        std::make_shared<const std::string>(meshMessage(number, shape, shape.source ? drawn : shape.model, look));
+    const Drawn drawn = shape.source ? drawnOf(shape, most_drawn) : Drawn{};
+    auto message = std::make_shared<const std::string>(meshMessage(number, shape, drawn, look));
     memory.set(kSmallest + message->capacity());
     return {number, withShare(std::move(message), std::move(memory)), {}};
   } catch (const std::exception& error) {

@@ -37,6 +37,7 @@ class CloudMaker {
   std::shared_ptr<const CloudPoints> make() {
     order();
     pack();
+    addColours();
     addNodes();
     measure();
     return std::move(cloud_);
@@ -47,6 +48,7 @@ class CloudMaker {
 
   void order();
   void pack();
+  void addColours();
   void addBlock(std::span<const LatticePoint> points);
   void addNodes();
   void measure();
@@ -61,6 +63,8 @@ void CloudMaker::order() {
   arrangePoints(input_.points, input_.lattice.step);
   const int powers = input_.made_before ? 0 : coarserBy(input_.points);
   if (powers > 0) {
+    CloudLattice same = input_.lattice;
+    coarsen(input_.colours, same, powers);
     coarsen(input_.points, input_.lattice, powers);
     sortPoints(input_.points);
     arrangePoints(input_.points, input_.lattice.step);
@@ -120,6 +124,26 @@ void CloudMaker::addBlock(std::span<const LatticePoint> points) {
     cloud_->normals_[first + i] = points[i].normal;
   }
   cloud_->blocks_.push_back(block);
+}
+
+// Each point is looked up by its place; of several colours at one place the highest number counts, whatever the order.
+void CloudMaker::addColours() {
+  std::vector<LatticePoint>& colours = input_.colours;
+  if (colours.empty()) return;
+  sortPoints(colours);
+  cloud_->colours_.resize(kPerBlock * cloud_->blocks(), Rgb{});
+  oneapi::tbb::parallel_for(BlockRange(0, cloud_->blocks(), kGrain), [&](const BlockRange& range) {
+    for (std::size_t block = range.begin(); block < range.end(); ++block) {
+      for (std::size_t i = 0; i < cloud_->countIn(block); ++i) {
+        const std::size_t slot = kPerBlock * block + i;
+        const LatticePoint wanted{cloud_->stepsAt(slot), 0};
+        const auto found = std::lower_bound(colours.begin(), colours.end(), wanted,
+                                            [](const auto& a, const auto& b) { return a.at < b.at; });
+        if (found != colours.end() && found->at == wanted.at) cloud_->colours_[slot] = unpackRgb(found->normal);
+      }
+    }
+  });
+  colours = {};
 }
 
 void CloudMaker::addNodes() {
@@ -186,7 +210,7 @@ std::shared_ptr<const CloudPoints> makeCloud(CloudInput input) {
 }
 
 CloudInput onFineLattice(const std::vector<Vec3>& positions, const std::vector<std::uint32_t>& normals,
-                         std::size_t& skipped) {
+                         std::size_t& skipped, const std::vector<Rgb>& colours) {
   constexpr double kSteps = 2147483648.0;  // 2^31: from -2^30 to 2^30
   Box bounds;
   for (const Vec3& p : positions) {
@@ -208,6 +232,7 @@ CloudInput onFineLattice(const std::vector<Vec3>& positions, const std::vector<s
     const Vec3 at = ((positions[i] - input.lattice.origin) / step).array().round();
     const auto along = [&](Eigen::Index axis) { return static_cast<std::int32_t>(at[axis]); };
     input.points.push_back({{along(0), along(1), along(2)}, i < normals.size() ? normals[i] : kNoNormal});
+    if (i < colours.size()) input.colours.push_back({input.points.back().at, packRgb(colours[i])});
   }
   return input;
 }

@@ -14,6 +14,7 @@ namespace hl {
 /// What a cloud is made of.
 struct CloudInput {
   std::vector<LatticePoint> points;
+  std::vector<LatticePoint> colours{};  ///< the same points, each with its colour, in any order; empty: there are none
   CloudLattice lattice;
   /// Whether it is the lattice of the source: points lie on it exactly. Else it is finer than needed.
   bool exact = false;
@@ -21,10 +22,10 @@ struct CloudInput {
   bool made_before = false;
 };
 
-/// Positions in metres on a lattice that is as fine as 32 bits allow; `normals`: one each, or none. Throws hl::Error
-/// where they lie too far out; what is not finite is left out and counted in `skipped`.
+/// Positions in metres on a lattice that is as fine as 32 bits allow; `normals` and `colours`: one each, or none.
+/// Throws hl::Error where they lie too far out; what is not finite is left out and counted in `skipped`.
 CloudInput onFineLattice(const std::vector<Vec3>& positions, const std::vector<std::uint32_t>& normals,
-                         std::size_t& skipped);
+                         std::size_t& skipped, const std::vector<Rgb>& colours = {});
 
 /// Points that are the same are one. Normals that lack are those of the plane through the nearest
 /// CloudNeighbours::kNeighbours points. The order of the points does not matter. Throws hl::Error if there are none. On

@@ -10,7 +10,8 @@
 
 namespace hl {
 
-/// A point by its steps along the axes of the lattice, and its normal (packed_normal.h).
+/// A point by its steps along the axes of the lattice, and its normal (packed_normal.h); in a list of colours, its
+/// colour (rgb.h) in the place of that.
 struct LatticePoint {
   std::array<std::int32_t, 3> at;
   std::uint32_t normal;

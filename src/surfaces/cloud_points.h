@@ -1,5 +1,6 @@
 // CloudPoints: the points of a cloud on a lattice, in blocks of neighbours with their bounds: 7.5 bytes a point, and
-// four more for normals. A laser scanner's file is such a lattice, so nothing is rounded.
+// four more for normals, three for colours if there are any. A laser scanner's file is such a lattice, so nothing is
+// rounded.
 #pragma once
 
 #include <array>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "base/huge_pages.h"
+#include "base/rgb.h"
 #include "base/vec.h"
 #include "surfaces/packed_normal.h"
 
@@ -37,6 +39,9 @@ class CloudPoints {
   std::array<std::int32_t, 3> stepsAt(std::size_t slot) const;
   /// Packed; kNoNormal only if no neighbours were there to compute it from.
   std::uint32_t normal(std::size_t slot) const { return normals_[slot]; }
+  /// Whether its source has colours.
+  bool hasColours() const { return !colours_.empty(); }
+  Rgb colour(std::size_t slot) const { return colours_[slot]; }
   /// Distance between neighbours in this block, m: of as many points on a square grid.
   double spacing(std::size_t block) const { return spacings_[blocks_[block].spacing]; }
   /// Of most of the blocks, and of all.
@@ -70,6 +75,7 @@ class CloudPoints {
   HugeVector<Block> blocks_;
   HugeVector<std::array<std::uint16_t, 3>> offsets_;  // from the block's low, by slot
   HugeVector<std::uint32_t> normals_;                 // by slot
+  HugeVector<Rgb> colours_;                           // by slot, or none
   std::vector<HugeVector<LatticeBox>> nodes_;         // from the blocks up
   std::array<double, 256> spacings_{};                // m
 };

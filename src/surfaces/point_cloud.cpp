@@ -43,6 +43,7 @@ DrawnMesh PointCloud::drawn(std::size_t most) const {
     if (slot % CloudPoints::kPerBlock >= points()->countIn(slot / CloudPoints::kPerBlock) || number++ % step != 0)
       continue;
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    if (hasColours()) mesh.colours.insert(mesh.colours.end(), PlacedCloud::kSides, points()->colour(slot));
     mesh.normals.insert(mesh.normals.end(), PlacedCloud::kSides, cloud_.normalAt(slot));
     for (std::size_t i = 0; i < PlacedCloud::kSides; ++i) mesh.positions.push_back(cloud_.corner(slot, i, larger));
     for (std::uint32_t i = 1; i <= PlacedCloud::kPerSurfel; ++i)

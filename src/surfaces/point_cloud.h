@@ -24,6 +24,7 @@ class PointCloud final : public PrimitiveSource {
   /// Of the point.
   Vec3 trueNormal(ElementId id, const Vec3& /*point*/) const override { return cloud_.normalAt(id / perPoint()); }
   bool hasOutside() const override { return false; }
+  bool hasColours() const override { return points()->hasColours(); }
   Box bounds() const override { return cloud_.bounds(); }
   std::unique_ptr<const SpatialIndex> makeIndex() const override;
   std::size_t bytes() const override { return sizeof(*this); }

@@ -314,6 +314,31 @@ TEST_F(CallsTest, ACloudIsSentInPiecesOrInTheFrame) {
   EXPECT_EQ(large.reach(), 0.75);
 }
 
+TEST_F(CallsTest, ColoursAreOfTheCloudThatWasDrawnLast) {
+  const std::vector<HLdouble> points(3 * 50'000, 0.5);
+  std::vector<HLubyte> colors(3 * 50'000);
+  for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = static_cast<HLubyte>(i);
+  hlPointColors(1, colors.data());
+  expectError(HL_INVALID_OPERATION);
+  hlPointCloud(2, points.data(), nullptr, 0);
+  hlPointColors(3, colors.data());
+  expectError(HL_INVALID_VALUE);
+  hlPointColors(2, nullptr);
+  expectError(HL_INVALID_VALUE);
+  hlPointColors(2, colors.data() + 250);
+  triangle();
+  hlPointCloud(50'000, points.data(), nullptr, 0);
+  hlPointColors(50'000, colors.data());
+  const proto::Frame frame = flushed();
+  ASSERT_EQ(frame.world().items_size(), 3);
+  const proto::Cloud& small = frame.world().items(0).primitives().cloud();
+  EXPECT_EQ((std::vector<unsigned>{small.colours().begin(), small.colours().end()}),
+            (std::vector<unsigned>{250, 251, 252, 253, 254, 255}));
+  const proto::Cloud large = server->uploads().at(frame.world().items(2).upload()).cloud();
+  ASSERT_EQ(large.colours_size(), 150'000);
+  for (int i = 0; i < large.colours_size(); i += 777) EXPECT_EQ(large.colours(i), static_cast<unsigned>(i) % 256);
+}
+
 TEST_F(CallsTest, CloudsThatMakeNoSenseAreRefused) {
   std::array<HLdouble, 3> point{1, 2, 3};
   hlPointCloud(0, point.data(), nullptr, 0);

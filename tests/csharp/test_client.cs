@@ -114,6 +114,7 @@ static class TestClient {
         const int side = 41;
         var heights = new short[side * side];
         var points = new double[3 * side * side];
+        var colours = new byte[points.Length];
         var volume = new float[side * side * side];
         for (int i = 0; i < side * side; ++i) {
             points[3 * i] = 0.001 * (i % side - side / 2);
@@ -122,7 +123,7 @@ static class TestClient {
         for (int i = 0; i < volume.Length; ++i) volume[i] = 0.001f * (i / side % side - side / 2);  // y
         TouchItem[] items = {
             new TouchItem { Heights = new TouchHeights { Samples = heights, Columns = side, Spacing = 0.001 } },
-            new TouchItem { Cloud = new TouchCloud { Points = points, Reach = 0.75 } },
+            new TouchItem { Cloud = new TouchCloud { Points = points, Reach = 0.75, Colours = colours } },
             new TouchItem { Volume = new TouchVolume {
                 Samples = volume, Width = side, Height = side, Spacing = 0.001, Iso = 0.0001, Below = true } }
         };

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <string>
@@ -33,6 +34,7 @@ class CloudTaker final : public CloudSink {
       positions.push_back(head.lattice->origin + head.lattice->step.cwiseProduct(Vec3(at[0], at[1], at[2])));
     positions.insert(positions.end(), piece.positions.begin(), piece.positions.end());
     normals.insert(normals.end(), piece.normals.begin(), piece.normals.end());
+    colours.insert(colours.end(), piece.colours.begin(), piece.colours.end());
   }
   void warn(const std::string& line) override { warnings.push_back(line); }
 
@@ -40,6 +42,7 @@ class CloudTaker final : public CloudSink {
   int headers = 0;
   std::vector<Vec3> positions;
   std::vector<std::uint32_t> normals;
+  std::vector<Rgb> colours;
   std::vector<std::string> warnings;
 };
 
@@ -72,6 +75,7 @@ const std::vector<Vec3> kPoints{{1, 2, 3}, {-4, 5.5, 6}, {0.25, -8, 9}};
 void expectPoints(const CloudTaker& cloud, bool normals) {
   ASSERT_EQ(cloud.positions, kPoints);
   ASSERT_EQ(cloud.normals.size(), normals ? 3U : 0U);
+  EXPECT_TRUE(cloud.colours.empty());
   for (const std::uint32_t normal : cloud.normals) EXPECT_LT((unpackNormal(normal) - Vec3::UnitY()).norm(), 1e-4);
 }
 
@@ -106,6 +110,34 @@ TEST(ReadClouds, PlyOfPoints) {
                                       "element face 1\nproperty list uchar int v\nend_header\n")));
 }
 
+const std::vector<Rgb> kColours{{255, 0, 128}, {1, 2, 3}, {0, 254, 255}};
+
+// Of three points at 0 0 0, 1 0 0 and 2 0 0; `value` makes a number of a part of a colour.
+template <typename Value>
+std::string colouredPly(const std::string& type, const Value& value) {
+  std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex 3\n";
+  for (const char* name : {"x", "y", "z"}) bytes += std::string("property float ") + name + "\n";
+  for (const char* name : {"red", "green", "blue"}) bytes += "property " + type + " " + name + "\n";
+  bytes += "property uchar alpha\nend_header\n";
+  for (std::size_t i = 0; i < kColours.size(); ++i) {
+    for (const float x : {static_cast<float>(i), 0.0F, 0.0F}) bytes += bytesOf(x);
+    for (const std::uint8_t part : kColours[i]) bytes += bytesOf(value(part));
+    bytes += '\xff';
+  }
+  return bytes;
+}
+
+TEST(ReadClouds, PlyHasColours) {
+  EXPECT_EQ(taken("a.ply", colouredPly("uchar", [](std::uint8_t part) { return part; })).colours, kColours);
+  const auto wide = [](std::uint8_t part) { return static_cast<std::uint16_t>(257 * part); };
+  EXPECT_EQ(taken("a.ply", colouredPly("ushort", wide)).colours, kColours);
+  EXPECT_EQ(taken("a.ply", colouredPly("float", [](std::uint8_t part) { return part / 255.0F; })).colours, kColours);
+  const auto no_colour = [](std::uint8_t part) { return static_cast<std::int32_t>(part); };
+  EXPECT_TRUE(taken("a.ply", colouredPly("int", no_colour)).colours.empty());
+  const auto wild = [](std::uint8_t part) { return part == 0 ? NAN : part == 255 ? INFINITY : -1.0F; };
+  EXPECT_EQ(taken("a.ply", colouredPly("float", wild)).colours[0], (Rgb{255, 0, 0}));
+}
+
 TEST(ReadClouds, BrokenPlyIsRefused) {
   const std::string whole = plyHeader("binary_little_endian", true) + records(false, true);
   EXPECT_EQ(refusal("a.ply", whole.substr(0, whole.size() - 1)), "ends before its last sample");
@@ -125,6 +157,34 @@ std::string pcdHeader(const std::string& data, bool normals) {
                      (normals ? " 1 1 1" : "") + " 1\nWIDTH 3\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 3\nDATA " +
                      data + "\n";
   return text;
+}
+
+std::string colouredPcd(const std::string& name, char type, const std::string& data) {
+  return "FIELDS x y z " + name + "\nSIZE 4 4 4 4\nTYPE F F F " + type +
+         "\nCOUNT 1 1 1 1\nWIDTH 3\nHEIGHT 1\nPOINTS 3\nDATA " + data + "\n";
+}
+
+// One number, or a float with the bits of one.
+TEST(ReadClouds, PcdHasColours) {
+  std::string bytes, whole, real;
+  for (std::size_t i = 0; i < kColours.size(); ++i) {
+    const std::uint32_t packed = 0x3f000000U | packRgb(kColours[i]);  // the highest byte does not count
+    float same_bits = 0;
+    std::memcpy(&same_bits, &packed, sizeof packed);
+    for (const float x : {static_cast<float>(i), 0.0F, 0.0F}) bytes += bytesOf(x);
+    bytes += bytesOf(packed);
+    whole += std::to_string(i) + " 0 0 " + std::to_string(packed) + "\n";
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "%zu 0 0 %.9g\n", i, static_cast<double>(same_bits));
+    real += text.data();
+  }
+  for (const std::string name : {"rgb", "rgba"}) {
+    for (const char type : {'F', 'U'})
+      EXPECT_EQ(taken("a.pcd", colouredPcd(name, type, "binary") + bytes).colours, kColours) << name << type;
+    EXPECT_EQ(taken("a.pcd", colouredPcd(name, 'U', "ascii") + whole).colours, kColours) << name;
+    EXPECT_EQ(taken("a.pcd", colouredPcd(name, 'F', "ascii") + real).colours, kColours) << name;
+  }
+  EXPECT_TRUE(taken("a.pcd", colouredPcd("label", 'U', "binary") + bytes).colours.empty());
 }
 
 // Runs as they are, and one copy: five of the same letter.
@@ -230,6 +290,36 @@ TEST(ReadClouds, LasOfAllFormats) {
   }
 }
 
+// At their places in the formats that have colours; of 16 bits, of 8 of them, and of none.
+TEST(ReadClouds, LasHasColours) {
+  struct Format {
+    int number;
+    std::size_t bytes, at;
+  };
+  for (const Format& format : {Format{2, 26, 20}, {3, 34, 28}, {5, 63, 28}, {7, 36, 30}, {8, 38, 30}, {10, 67, 30}}) {
+    Las las;
+    las.minor = 4;
+    las.format = format.number;
+    las.record_bytes = format.bytes;
+    const std::string plain = las.bytes();
+    const auto with = [&](unsigned factor) {
+      std::string bytes = plain;
+      for (std::size_t i = 0; i < kColours.size(); ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          const auto part = static_cast<std::uint16_t>(factor * kColours[i][k]);
+          std::memcpy(&bytes[plain.size() - (3 - i) * format.bytes + format.at + 2 * k], &part, sizeof part);
+        }
+      }
+      return bytes;
+    };
+    EXPECT_EQ(taken("a.las", with(257)).colours, kColours) << format.number;
+    EXPECT_EQ(taken("a.las", with(256)).colours, kColours) << format.number;
+    EXPECT_EQ(taken("a.las", with(1)).colours, kColours) << format.number;
+    EXPECT_TRUE(taken("a.las", with(0)).colours.empty()) << "where all are black there are none";
+    EXPECT_EQ(taken("a.las", with(257)).positions, taken("a.las", plain).positions);
+  }
+}
+
 TEST(ReadClouds, BrokenLasIsRefused) {
   const std::string whole = Las().bytes();
   EXPECT_EQ(refusal("a.las", whole.substr(0, whole.size() - 1)), "ends before its last sample");
@@ -283,6 +373,16 @@ TEST(ReadClouds, AFileBecomesACloud) {
   ASSERT_EQ(scene.model.warnings.size(), 1U);
   EXPECT_EQ(scene.model.warnings[0],
             "lies far from the origin of its file: its middle, 500000.5 4100000.5 0.025 there, is put at the origin");
+}
+
+TEST(ReadClouds, ItsColoursComeAlong) {
+  const std::string path = fileWith("a.ply", colouredPly("uchar", [](std::uint8_t part) { return part; }));
+  const SceneModel scene = loadModelScene(path);
+  const auto& cloud = dynamic_cast<const PointCloud&>(*scene.surfaces.at(0).source);
+  ASSERT_TRUE(cloud.hasColours());
+  for (std::size_t slot = 0; slot < 3; ++slot)
+    EXPECT_EQ(cloud.points()->colour(slot),
+              kColours[static_cast<std::size_t>(std::lround(cloud.corners(slot)[0].x()))]);
 }
 
 TEST(ReadClouds, WhatCannotBeReadSaysWhatToDo) {

@@ -211,9 +211,17 @@ TEST(SceneFile, ACloudThatMakesNoSenseIsRefused) {
   EXPECT_EQ(refused(R"("file": "three.xyz", "builtin": "points:sphere:9")"), "it has a file or a builtin, not both");
   EXPECT_EQ(refused(R"("builtin": "teapot")"), "teapot: is no cloud of points");
   EXPECT_EQ(refused(R"("positions": [1, 2])"), "positions must be three numbers for each point");
+  EXPECT_EQ(refused(R"("positions": [1, 2, 3], "colours": [0, 128, 255])"), "");
+  EXPECT_EQ(refused(R"("positions": [1, 2, 3], "colours": [0, 128, 256])"),
+            "colours must be whole numbers from 0 to 255");
+  EXPECT_EQ(refused(R"("positions": [1, 2, 3], "colours": [0, 128])"),
+            "colours must be three numbers for each point, or absent");
+  EXPECT_EQ(refused(R"("file": "three.xyz", "colours": [0, 128, 255])"),
+            "positions, normals and colours are those of its file");
   EXPECT_EQ(refused(R"("positions": [1, 2, 3], "normals": [1])"),
             "normals must be three numbers for each point, or absent");
-  EXPECT_EQ(refused(R"("file": "three.xyz", "positions": [1, 2, 3])"), "positions and normals are those of its file");
+  EXPECT_EQ(refused(R"("file": "three.xyz", "positions": [1, 2, 3])"),
+            "positions, normals and colours are those of its file");
 }
 
 TEST(SceneFile, TheExampleOfAVolumeLoads) {

@@ -9,7 +9,9 @@
 
 #include "io/load_scene_file.h"
 #include "page/page_meshes.h"
-#include "scene/snapshot.h"
+#include "scene/scene_model.h"
+#include "surfaces/cloud_maker.h"
+#include "surfaces/point_cloud.h"
 
 namespace hl {
 namespace {
@@ -73,6 +75,30 @@ TEST(SurfaceImages, HeightsAndDepthImagesShowTheirs) {
     EXPECT_LE(u, most_u);
     EXPECT_LE(v, most_v);
   }
+}
+
+// Of the points that are drawn: six corners of a disc each.
+TEST(SurfaceImages, CloudsShowTheirColours) {
+  SceneModel scene;
+  std::size_t skipped = 0;
+  const std::vector<Vec3> given{{0, 0, 0}, {0.01, 0, 0}};
+  for (const std::vector<Rgb>& colours : {std::vector<Rgb>{{1, 2, 3}, {255, 128, 0}}, {}}) {
+    const auto points = makeCloud(onFineLattice(given, {}, skipped, colours));
+    scene.surfaces.push_back({"cloud", std::make_shared<const PointCloud>(points, CloudLook{})});
+  }
+  const auto snapshot = makeSnapshot(scene);
+  PageMeshes meshes;
+  const std::vector<std::uint32_t> numbers = meshes.numbersOf(*snapshot);
+  while (!meshes.ready()) std::this_thread::yield();
+  proto::ServerMessage coloured, plain;
+  ASSERT_TRUE(coloured.ParseFromString(*meshes.message(numbers.at(0))));
+  ASSERT_TRUE(plain.ParseFromString(*meshes.message(numbers.at(1))));
+  std::string wanted;
+  for (int i = 0; i < 6; ++i) wanted += std::string("\1\2\3", 3);
+  for (int i = 0; i < 6; ++i) wanted += std::string("\xff\x80\0", 3);
+  EXPECT_EQ(coloured.mesh().colours(), wanted);
+  EXPECT_EQ(coloured.mesh().positions().size(), 12 * 3 * sizeof(float));
+  EXPECT_TRUE(plain.mesh().colours().empty());
 }
 
 }  // namespace

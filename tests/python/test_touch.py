@@ -64,7 +64,8 @@ class Touching(unittest.TestCase):
         draws = [
             (lambda touch: touch.implicit({"expression": {"sphere": {"radius": 0.01}}}), None),
             (lambda touch: touch.volume(y.astype(np.float32), 0.0, 0.005, below=True), None),
-            (lambda touch: touch.points([[a, 0, b] for a in steps for b in steps], surfels=True), None),
+            (lambda touch: touch.points([[a, 0, b] for a in steps for b in steps], surfels=True,
+                                        colors=np.full((41 * 41, 3), 200, np.uint8)), None),
             (lambda touch: touch.volume((-y).astype(np.float32), 0.0, 0.005, matter=[(-1, 0, 0), (1, 0.1, 2)]), None),
             (lambda touch: touch.depth_frame(np.full((32, 32), 500, np.uint16), (32, 32, 15.5, 15.5)), down),
         ]

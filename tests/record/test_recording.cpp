@@ -255,6 +255,14 @@ TEST(RecordedScene, HasItsDepthImage) {
 // The points are written once, for the first of both; the same slots have the same points.
 TEST(RecordedScene, HasItsCloudOnce) {
   SceneModel scene = makeBuiltinWorld("points:terrain:40000");
+  const auto& plain = *dynamic_cast<const PointCloud&>(*scene.surfaces[0].source).points();
+  CloudInput coloured{{}, {}, plain.lattice(), true, true};
+  for (std::size_t slot = 0; slot < plain.blocks() * CloudPoints::kPerBlock; ++slot) {
+    if (slot % CloudPoints::kPerBlock >= plain.countIn(slot / CloudPoints::kPerBlock)) continue;
+    coloured.points.push_back({plain.stepsAt(slot), plain.normal(slot)});
+    coloured.colours.push_back({plain.stepsAt(slot), static_cast<std::uint32_t>(slot)});
+  }
+  scene.surfaces[0].source = std::make_shared<const PointCloud>(makeCloud(std::move(coloured)), CloudLook{});
   scene.surfaces.push_back(scene.surfaces[0]);
   scene.surfaces[1].source = scene.surfaces[1].source->placed(2 * Mat3::Identity(), Vec3(1, 2, 3));
   setSurfels(scene, 0.9);
@@ -271,6 +279,9 @@ TEST(RecordedScene, HasItsCloudOnce) {
     ASSERT_EQ(is.count(), was.count());
     EXPECT_EQ(is.bounds.min, was.bounds.min);
     for (ElementId id = 0; id < is.count(); id += 7) ASSERT_EQ(is.source->corners(id), was.source->corners(id)) << id;
+    const auto& points = *dynamic_cast<const PointCloud&>(*is.source).points();
+    ASSERT_TRUE(points.hasColours());
+    EXPECT_EQ(packRgb(points.colour(17)), 17U);
   }
 }
 

@@ -224,6 +224,7 @@ TEST(DecodeFrame, CloudsBecomeTheirPoints) {
     cloud.set_surfels(true);
     for (const double x : {0.0, 1.0 + part, 0.5}) cloud.add_positions(x);
     for (const float n : {0.0F, 1.0F, 0.0F}) cloud.add_normals(n);
+    for (const unsigned c : {10U, 20U, 30U}) cloud.add_colours(c + static_cast<unsigned>(part));
   }
   proto::Frame frame;
   frame.mutable_world()->add_items()->set_upload(4);
@@ -233,6 +234,9 @@ TEST(DecodeFrame, CloudsBecomeTheirPoints) {
     const auto& cloud = dynamic_cast<const PointCloud&>(*made.edit.world->at(0).shape->source);
     EXPECT_EQ(cloud.points()->size(), 2U);
     EXPECT_TRUE(cloud.surfels());
+    ASSERT_TRUE(cloud.hasColours());
+    EXPECT_EQ(cloud.points()->colour(0), (Rgb{10, 20, 30}));
+    EXPECT_EQ(cloud.points()->colour(1), (Rgb{11, 21, 31}));
     EXPECT_LT((cloud.trueNormal(0, {}) - Vec3::UnitY()).norm(), 1e-4);
     EXPECT_GE(memory.used_bytes(), cloud.points()->bytes());
   }

@@ -153,6 +153,53 @@ TEST(CloudPoints, TakeTwelveBytesEach) {
   EXPECT_LT(static_cast<double>(points->bytes()) / static_cast<double>(points->size()), 11.8);
 }
 
+// Also where the lattice becomes coarser, and in whatever order the points come.
+TEST(CloudPoints, ColoursAreThoseOfTheNearestPointsThatWereGiven) {
+  Random random(5);
+  for (const double far : {1.0, 1e4}) {
+    std::vector<Vec3> given;
+    std::vector<Rgb> colours;
+    for (int i = 0; i < 2000; ++i) {
+      given.push_back(random.inCube(i == 0 ? far : 1));
+      const auto part = [&] { return static_cast<std::uint8_t>(random.below(256)); };
+      colours.push_back({part(), part(), part()});
+    }
+    std::size_t skipped = 0;
+    const auto points = makeCloud(onFineLattice(given, {}, skipped, colours));
+    ASSERT_TRUE(points->hasColours());
+    const PointCloud cloud(points, CloudLook{});
+    for (const std::size_t slot : slotsOf(*points)) {
+      const Vec3 at = cloud.corners(slot)[0];
+      const auto nearest = std::min_element(given.begin(), given.end(), [&](const Vec3& a, const Vec3& b) {
+        return (a - at).squaredNorm() < (b - at).squaredNorm();
+      });
+      ASSERT_EQ(points->colour(slot), colours[static_cast<std::size_t>(nearest - given.begin())]) << slot;
+    }
+    std::reverse(given.begin(), given.end());
+    std::reverse(colours.begin(), colours.end());
+    const auto other = makeCloud(onFineLattice(given, {}, skipped, colours));
+    for (const std::size_t slot : slotsOf(*points)) ASSERT_EQ(points->colour(slot), other->colour(slot));
+  }
+}
+
+TEST(CloudPoints, OfTwoColoursAtOnePlaceTheOrderDoesNotDecide) {
+  const std::vector<Vec3> twice(2, Vec3(1, 2, 3));
+  std::size_t skipped = 0;
+  const auto one = makeCloud(onFineLattice(twice, {}, skipped, {{9, 0, 0}, {8, 255, 255}}));
+  const auto other = makeCloud(onFineLattice(twice, {}, skipped, {{8, 255, 255}, {9, 0, 0}}));
+  EXPECT_EQ(one->size(), 1U);
+  EXPECT_EQ(one->colour(0), other->colour(0));
+}
+
+TEST(CloudPoints, ColoursTakeThreeBytesEach) {
+  const std::vector<Vec3> given = test::squareGrid(352, 1e-3);  // whole blocks
+  std::size_t skipped = 0;
+  const auto plain = test::cloudOf(given);
+  const auto coloured = makeCloud(onFineLattice(given, {}, skipped, std::vector<Rgb>(given.size())));
+  EXPECT_FALSE(plain->hasColours());
+  EXPECT_LE(coloured->bytes() - plain->bytes(), 3 * given.size() * 11 / 10);
+}
+
 TEST(CloudPoints, NoneOrFarOnesAreRefused) {
   EXPECT_THROW(test::cloudOf({}), Error);
   EXPECT_THROW(test::cloudOf({Vec3::Constant(NAN)}), Error);
@@ -186,6 +233,22 @@ TEST(PointCloud, WhatIsDrawnIsThinned) {
             (surfels.drawn(1000).positions[0] - surfels.drawn(1000).positions[3]).norm());
   EXPECT_EQ(surfels.drawn(1'000'000).triangles.size(), 40'000U);
   EXPECT_LE(surfels.drawn(1000).triangles.size(), 1000U);
+  EXPECT_TRUE(surfels.drawn(1000).colours.empty());
+}
+
+TEST(PointCloud, WhatIsDrawnHasTheColourOfItsPoint) {
+  const std::vector<Vec3> given{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  const std::vector<Rgb> colours{{1, 2, 3}, {40, 50, 60}, {255, 0, 128}};
+  std::size_t skipped = 0;
+  const PointCloud cloud(makeCloud(onFineLattice(given, {}, skipped, colours)), CloudLook{});
+  const DrawnMesh drawn = cloud.drawn(1000);
+  ASSERT_EQ(drawn.colours.size(), drawn.positions.size());
+  for (std::size_t first = 0; first < drawn.positions.size(); first += PlacedCloud::kSides) {
+    double x = 0;  // of the middle of a disc
+    for (std::size_t i = 0; i < PlacedCloud::kSides; ++i) x += drawn.positions[first + i].x() / PlacedCloud::kSides;
+    for (std::size_t i = 0; i < PlacedCloud::kSides; ++i)
+      EXPECT_EQ(drawn.colours[first + i], colours[static_cast<std::size_t>(std::lround(x))]);
+  }
 }
 
 }  // namespace

@@ -146,7 +146,8 @@ export class MeshView {
   }
 
   applyTheme(): void {
-    this.materials_.forEach((material) => material.color.copy(this.palette_.model));
+    const { model } = this.palette_;
+    this.materials_.forEach((material) => material.color.copy(material.vertexColors ? kUntouched : model));
   }
 
   /** Where a ray of the world first meets the surface at a place; `accept` is asked of points of the world. */
@@ -218,6 +219,10 @@ export class MeshView {
   /** Normals, and for textured triangles the material of their image. */
   private dress(mesh: Mesh, geometry: THREE.BufferGeometry): void {
     this.materials_.push(surfaceMaterial());
+    if (mesh.colours !== undefined) {
+      geometry.setAttribute("color", new THREE.BufferAttribute(linearColours(mesh.colours), 3, true));
+      this.materials_[0]!.vertexColors = true;
+    }
     if (mesh.normals !== undefined) {
       orientTowardNormals(mesh.positions, mesh.normals, mesh.triangles);
       geometry.setAttribute("normal", new THREE.BufferAttribute(mesh.normals, 3));
@@ -307,6 +312,13 @@ function boxOf(bounds: Bounds | undefined): THREE.Box3 {
     box.max.set(bounds.max.x, bounds.max.y, bounds.max.z);
   }
   return box;
+}
+
+/** Colours as screens show them, as three.js mixes them with light: 0..65535. */
+function linearColours(colours: Uint8Array): Uint16Array {
+  const linear = Uint16Array.from({ length: 256 }, (_, value) =>
+    Math.round(65535 * new THREE.Color().setRGB(value / 255, 0, 0, THREE.SRGBColorSpace).r));
+  return Uint16Array.from(colours, (value) => linear[value]!);
 }
 
 function surfaceMaterial(map: THREE.Texture | null = null): THREE.MeshStandardMaterial {

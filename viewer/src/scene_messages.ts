@@ -31,6 +31,8 @@ export interface Mesh {
   readonly points: Uint32Array;
   readonly texcoords: Float32Array | undefined;
   readonly looks: readonly SurfaceLook[];
+  /** Red, green and blue of each vertex, 0..255 (sRGB); absent: it is drawn as others are. */
+  readonly colours?: Uint8Array | undefined;
   /** Material number of each triangle; empty: all have 0. */
   readonly triangleMaterials: Uint16Array;
   readonly bounds: Bounds | undefined;
@@ -84,6 +86,7 @@ export function checkMesh(mesh: SceneMesh): Mesh {
     segments: indices(mesh.segments, 2, vertices, "segments"),
     points: indices(mesh.points, 1, vertices, "points"),
     ...checkLooks(mesh, vertices),
+    colours: checkColours(mesh, vertices),
     triangleMaterials: checkMaterials(mesh),
     bounds: boundsOf(mesh),
   };
@@ -136,6 +139,13 @@ function checkMaterials(mesh: SceneMesh): Uint16Array {
     throw new ProtocolError("the scene has not one material per triangle");
   }
   return numbers;
+}
+
+function checkColours({ colours }: SceneMesh, vertices: number): Uint8Array | undefined {
+  if (colours.length !== 0 && colours.length !== 3 * vertices) {
+    throw new ProtocolError("the scene has not one colour per vertex");
+  }
+  return colours.length === 0 ? undefined : colours;
 }
 
 function checkLooks(mesh: SceneMesh, vertices: number): { texcoords: Float32Array | undefined; looks: SurfaceLook[] } {

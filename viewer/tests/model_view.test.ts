@@ -1,5 +1,7 @@
 // Rays against placed meshes: where they are, however long the ray's direction is.
+import * as THREE from "three";
 import { expect, test } from "vitest";
+import { MeshView, type Palette } from "../src/mesh_view";
 import { ModelView } from "../src/model_view";
 import type { Layout, Mesh } from "../src/scene_messages";
 
@@ -54,4 +56,24 @@ test("points that are not accepted are looked through, in the world's frame", ()
   const view = model([0, 2]);
   const seen = view.cast({ x: 0, y: 0.1, z: 9 }, { x: 0, y: 0, z: -1 }, Infinity, ({ z }) => z < 1)!;
   expect(seen.object).toBe(0);
+});
+
+test("colours of vertices are drawn as a screen shows them, in the place of the model's colour", () => {
+  const palette = {
+    model: new THREE.Color(0.2, 0.3, 0.4), tint: new THREE.Color(), pointed: new THREE.Color(),
+  } as unknown as Palette;
+  const colours = Uint8Array.of(0, 128, 255, 1, 2, 3, 4, 5, 6, 7, 8, 9);
+  const drawn = (mesh: Mesh) => {
+    const view = new MeshView(mesh, palette);
+    view.setCount(1);
+    return view.group.children[0] as THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial[]>;
+  };
+  const coloured = drawn({ ...kSquare, colours });
+  expect(coloured.material[0]!.vertexColors).toBe(true);
+  expect(coloured.material[0]!.color.getHex()).toBe(0xffffff);
+  const shown = new THREE.Color().fromBufferAttribute(coloured.geometry.getAttribute("color"), 0);
+  expect(shown.getHexString(THREE.SRGBColorSpace)).toBe("0080ff");
+  const plain = drawn(kSquare);
+  expect(plain.material[0]!.vertexColors).toBe(false);
+  expect(plain.material[0]!.color.equals(palette.model)).toBe(true);
 });

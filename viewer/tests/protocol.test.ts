@@ -75,6 +75,12 @@ describe("meshes", () => {
     expect(decodeMesh().looks).toEqual([]);
   });
 
+  test("bring a colour for each vertex, or none", () => {
+    const colours = Uint8Array.of(1, 2, 3, 4, 5, 6, 253, 254, 255);
+    expect(Array.from(decodeMesh({ colours }).colours!)).toEqual(Array.from(colours));
+    expect(decodeMesh().colours).toBeUndefined();
+  });
+
   test("may be empty", () => {
     const none = new Uint8Array();
     const mesh = decodeMesh({ positions: none, normals: none, triangles: none, segments: none, points: none });
@@ -94,6 +100,7 @@ describe("meshes", () => {
     ["a texture cut short", { ...kTextured, images: [{ ...kImage, width: 3 }] }],
     ["a part without its texture", { ...kTextured, parts: [{ ...kPart, image: 1 }] }],
     ["a part beyond the triangles", { ...kTextured, parts: [{ ...kPart, triangles: 2 }] }],
+    ["too few colours", { colours: Uint8Array.of(1, 2, 3) }],
     ["too few normals", { normals: bytes(Float32Array.of(0, 0, 1)) }],
   ])("with %s are refused", (_what, change) => {
     expect(() => decodeMesh(change)).toThrow(ProtocolError);
