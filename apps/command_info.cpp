@@ -107,6 +107,18 @@ void printTotals(const Totals& all, const Snapshot& snapshot) {
              1e-6 * static_cast<double>(memoryOf(snapshot)), all.geometry_bytes / snapshot.primitives);
 }
 
+// Of CAD files: each solid.
+void printParts(const Snapshot& snapshot) {
+  std::size_t parts = 0;
+  for (const Instance& instance : snapshot.instances) {
+    if (!instance.label || instance.shape->source || ++parts > kMostPrinted) continue;
+    fmt::print("part {}: {} triangles", instance.label->name, instance.shape->model.triangles.size());
+    if (instance.label->colour) fmt::print(", colour #{:06x}", packRgb(*instance.label->colour));
+    fmt::print("\n");
+  }
+  if (parts > kMostPrinted) fmt::print("and {} parts more\n", parts - kMostPrinted);
+}
+
 void printMaterials(const Snapshot& snapshot) {
   constexpr std::size_t kMaxPrinted = 20;
   const std::size_t materials = snapshot.shape().model.materials.size();
@@ -266,6 +278,7 @@ void print(const Snapshot& snapshot) {
   fmt::print("name:       {}\n", snapshot.name);
   printTotals(all, snapshot);
   printReading(all.reading);
+  printParts(snapshot);
   printSurfaces(snapshot);
   printMaterials(snapshot);
   printBodies(snapshot);

@@ -15,8 +15,7 @@ hl::SceneModel parse(const hl::CadTask& task, const hl::ReadingReport& report) {
   constexpr double kReadPart = 0.3;  // of the time, before the mesh is made
   const std::string path = "/proc/self/fd/" + std::to_string(hl::kKeptFile);
   const hl::CadShape cad = hl::readCadShape({path, task.ending, true}, [&](double part) { report(kReadPart * part); });
-  hl::Model model =
-      hl::meshCad(cad.shape, task.meshing, [&](double part) { report(kReadPart + (1 - kReadPart) * part); });
+  hl::Model model = hl::meshCad(cad, task.meshing, [&](double part) { report(kReadPart + (1 - kReadPart) * part); });
   model.warnings.insert(model.warnings.end(), cad.warnings.begin(), cad.warnings.end());
   return model;
 }

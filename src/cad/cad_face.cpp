@@ -11,7 +11,7 @@
 #include <cmath>
 #include <vector>
 
-#include "cad/read_cad_shape.h"
+#include "cad/cad_shape.h"
 
 namespace hl {
 

@@ -13,12 +13,13 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "cad/cad_face.h"
 #include "cad/cad_progress.h"
-#include "cad/read_cad_shape.h"
 
 namespace hl {
 
@@ -106,40 +107,86 @@ std::size_t countOf(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
   return count;
 }
 
-Model collectMesh(const TopoDS_Shape& shape, const CadMeshing& meshing, const std::function<void(double)>& report) {
-  Model model;
-  CadReading reading{meshing.deflection_m, meshing.angle_rad};
-  ShapeAnalysis_ShapeTolerance tolerance;
-  reading.tolerance_m = kCadUnit_m * tolerance.Tolerance(shape, 1);
-  reading.solids = countOf(shape, TopAbs_SOLID);
-  reading.faces = countOf(shape, TopAbs_FACE);
-  std::size_t lacking = 0, done = 0;
-  for (TopExp_Explorer at(shape, TopAbs_FACE); at.More(); at.Next()) {
-    const std::optional<double> error_m = appendFace(TopoDS::Face(at.Current()), model);
-    if (!error_m) ++lacking;
-    reading.error_m = std::max(reading.error_m, error_m.value_or(0));
-    report(kMeshPart + (1 - kMeshPart) * static_cast<double>(++done) / static_cast<double>(reading.faces));
+// Puts the triangles of faces together, and counts.
+class MeshCollection {
+ public:
+  MeshCollection(const TopoDS_Shape& shape, const CadMeshing& meshing, const std::function<void(double)>& report)
+      : meshing_(meshing), report_(report), reading_{meshing.deflection_m, meshing.angle_rad} {
+    ShapeAnalysis_ShapeTolerance tolerance;
+    reading_.tolerance_m = kCadUnit_m * tolerance.Tolerance(shape, 1);
+    reading_.solids = countOf(shape, TopAbs_SOLID);
+    reading_.faces = countOf(shape, TopAbs_FACE);
   }
-  for (TopExp_Explorer at(shape, TopAbs_EDGE, TopAbs_FACE); at.More(); at.Next())
-    appendEdge(TopoDS::Edge(at.Current()), meshing, model);
-  if (lacking > 0)
-    model.warnings.push_back(fmt::format("{} of {} faces cannot be meshed: nothing is there", lacking, reading.faces));
-  model.reading.cad = reading;
-  return model;
+
+  /// The faces of a shape that belong to nothing of the kind `beside`, and its edges without faces.
+  void add(const TopoDS_Shape& shape, TopAbs_ShapeEnum beside = TopAbs_SHAPE) {
+    for (TopExp_Explorer at(shape, TopAbs_FACE, beside); at.More(); at.Next()) {
+      const std::optional<double> error_m = appendFace(TopoDS::Face(at.Current()), model_);
+      if (!error_m) ++lacking_;
+      reading_.error_m = std::max(reading_.error_m, error_m.value_or(0));
+      report_(kMeshPart +
+              (1 - kMeshPart) * std::min(1.0, static_cast<double>(++done_) / static_cast<double>(reading_.faces)));
+    }
+    for (TopExp_Explorer at(shape, TopAbs_EDGE, TopAbs_FACE); at.More(); at.Next())
+      appendEdge(TopoDS::Edge(at.Current()), meshing_, model_);
+  }
+
+  /// What has been added since the last part is one.
+  void endPart(const std::string& name, const std::optional<Rgb>& colour) {
+    const auto added = [](std::size_t now, std::size_t& before) {
+      return static_cast<std::uint32_t>(now - std::exchange(before, now));
+    };
+    ModelPart part{name, colour};
+    part.vertices = added(model_.positions.size(), vertices_);
+    part.triangles = added(model_.triangles.size(), triangles_);
+    part.segments = added(model_.segments.size(), segments_);
+    if (part.triangles + part.segments > 0) model_.parts.push_back(std::move(part));
+  }
+
+  Model take() {
+    if (lacking_ > 0)
+      model_.warnings.push_back(
+          fmt::format("{} of {} faces cannot be meshed: nothing is there", lacking_, reading_.faces));
+    model_.reading.cad = reading_;
+    return std::move(model_);
+  }
+
+ private:
+  const CadMeshing& meshing_;
+  const std::function<void(double)>& report_;
+  CadReading reading_;
+  Model model_;
+  std::size_t lacking_ = 0, done_ = 0, vertices_ = 0, triangles_ = 0, segments_ = 0;
+};
+
+Model collectMesh(const CadShape& cad, const CadMeshing& meshing, const std::function<void(double)>& report) {
+  MeshCollection mesh(cad.shape, meshing, report);
+  const bool apart = !cad.solids.empty() && cad.solids.size() < kMostModelParts;
+  if (!apart) {
+    mesh.add(cad.shape);
+    return mesh.take();
+  }
+  for (const CadSolid& solid : cad.solids) {
+    mesh.add(solid.shape);
+    mesh.endPart(solid.name, solid.colour);
+  }
+  mesh.add(cad.shape, TopAbs_SOLID);
+  mesh.endPart("what is no solid", {});
+  return mesh.take();
 }
 
 // Triangles may be farther from their surface than edges from their curves: then finer edges are tried, as long as that
 // fits.
-Model meshWithin(const TopoDS_Shape& shape, const CadMeshing& meshing, const MeshEstimate& estimate, std::size_t most,
+Model meshWithin(const CadShape& cad, const CadMeshing& meshing, const MeshEstimate& estimate, std::size_t most,
                  const std::function<void(double)>& report) {
   constexpr int kTries = 3;
   constexpr double kMargin = 0.9, kFinest = 0.25;
   double finer = 1;
   for (int i = 1;; ++i) {
     CadProgress progress(report, kEstimatePart, kMeshPart);
-    BRepTools::Clean(shape);
-    makeMesh(shape, {finer * meshing.deflection_m, meshing.angle_rad}, progress.begin());
-    Model model = collectMesh(shape, meshing, report);
+    BRepTools::Clean(cad.shape);
+    makeMesh(cad.shape, {finer * meshing.deflection_m, meshing.angle_rad}, progress.begin());
+    Model model = collectMesh(cad, meshing, report);
     const CadReading& reading = *model.reading.cad;
     if (i == kTries || reading.error_m <= meshing.deflection_m + reading.tolerance_m) return model;
     finer *= std::max(kFinest, kMargin * meshing.deflection_m / reading.error_m);
@@ -149,14 +196,14 @@ Model meshWithin(const TopoDS_Shape& shape, const CadMeshing& meshing, const Mes
 
 }  // namespace
 
-Model meshCad(const TopoDS_Shape& shape, const CadMeshing& meshing, const std::function<void(double)>& report,
+Model meshCad(const CadShape& cad, const CadMeshing& meshing, const std::function<void(double)>& report,
               std::size_t most_triangles) {
   try {
-    BRepTools::Clean(shape);
+    BRepTools::Clean(cad.shape);
     CadProgress progress(report, 0, kEstimatePart);
-    const MeshEstimate estimate = estimateMesh(shape, meshing, progress);
+    const MeshEstimate estimate = estimateMesh(cad.shape, meshing, progress);
     requireFits(estimate, meshing, most_triangles);
-    return meshWithin(shape, meshing, estimate, most_triangles, report);
+    return meshWithin(cad, meshing, estimate, most_triangles, report);
   } catch (const Standard_Failure& failure) {
     throw Error(fmt::format("cannot be meshed: {}", failure.DynamicType()->Name()));
   }

@@ -3,19 +3,20 @@
 // faces is as sharp as they make it.
 #pragma once
 
-#include <TopoDS_Shape.hxx>
 #include <cstddef>
 #include <functional>
 
+#include "cad/cad_shape.h"
 #include "io/cad_file.h"
 #include "scene/model.h"
 
 namespace hl {
 
-/// Metres of a shape in millimetres. Edges that belong to no face become segments. Its reading says how exact it is.
+/// Metres of a shape in millimetres. Each of its solids is a part of the model, and so is what belongs to none. Edges
+/// that belong to no face become segments. Its reading says how exact it is.
 /// Throws hl::Error if there were more than `most_triangles`, with a deflection that gives fewer. `report` is told how
 /// far it is, 0..1.
-Model meshCad(const TopoDS_Shape& shape, const CadMeshing& meshing, const std::function<void(double)>& report,
+Model meshCad(const CadShape& cad, const CadMeshing& meshing, const std::function<void(double)>& report,
               std::size_t most_triangles = kMostCadTriangles);
 
 }  // namespace hl

@@ -3,15 +3,16 @@
 #include <fmt/core.h>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
-#include <IGESControl_Reader.hxx>
+#include <IGESCAFControl_Reader.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_Printer.hxx>
-#include <STEPControl_Reader.hxx>
+#include <STEPCAFControl_Reader.hxx>
 #include <Standard_Failure.hxx>
 #include <fstream>
 
 #include "base/error.h"
+#include "cad/cad_document.h"
 #include "cad/cad_progress.h"
 #include "io/sandbox.h"
 
@@ -21,50 +22,50 @@ namespace {
 
 constexpr double kReadPart = 0.5;  // of the time, before shapes are made of what was read
 
-// All roots of a file as one shape. Their number is told where some give none.
-TopoDS_Shape transferred(XSControl_Reader& reader, std::vector<std::string>& warnings,
-                         const std::function<void(double)>& report) {
+// All of a file, with the names and colours of its solids. The number of its roots is told where some give none.
+template <typename Reader>
+void transfer(Reader& reader, XSControl_Reader& roots, CadShape& cad, const std::function<void(double)>& report) {
+  report(kReadPart);
+  reader.SetNameMode(Standard_True);
+  reader.SetColorMode(Standard_True);
+  Handle(TDocStd_Document) document = newCadDocument();
   CadProgress progress(report, kReadPart, 1);
-  const int roots = reader.NbRootsForTransfer();
-  const int made = reader.TransferRoots(progress.begin());
-  if (made < roots) warnings.push_back(fmt::format("{} of {} shapes in it cannot be made", roots - made, roots));
-  return reader.OneShape();
+  reader.Transfer(document, progress.begin());
+  const int wanted = roots.NbRootsForTransfer(), made = roots.NbShapes();
+  if (made < wanted) cad.warnings.push_back(fmt::format("{} of {} shapes in it cannot be made", wanted - made, wanted));
+  cad.shape = wholeShape(document);
+  cad.solids = solidsIn(document);
 }
 
-TopoDS_Shape readStep(const std::string& path, std::vector<std::string>& warnings,
-                      const std::function<void(double)>& report) {
+void readStep(const std::string& path, CadShape& cad, const std::function<void(double)>& report) {
   std::ifstream in(path, std::ios::binary);
   if (!forbidOpening()) throw Error(kNoFilters);
-  STEPControl_Reader reader;
-  if (reader.ReadStream("file", in) != IFSelect_RetDone) throw Error("cannot be understood: it is no sound STEP file");
-  report(kReadPart);
-  return transferred(reader, warnings, report);
+  STEPCAFControl_Reader reader;
+  if (reader.ChangeReader().ReadStream("file", in) != IFSelect_RetDone)
+    throw Error("cannot be understood: it is no sound STEP file");
+  transfer(reader, reader.ChangeReader(), cad, report);
 }
 
 // It cannot be read but by its name.
-TopoDS_Shape readIges(const std::string& path, std::vector<std::string>& warnings,
-                      const std::function<void(double)>& report) {
-  IGESControl_Reader reader;
+void readIges(const std::string& path, CadShape& cad, const std::function<void(double)>& report) {
+  IGESCAFControl_Reader reader;
   const IFSelect_ReturnStatus status = reader.ReadFile(path.c_str());
   if (!forbidOpening()) throw Error(kNoFilters);
   if (status != IFSelect_RetDone) throw Error("cannot be understood: it is no sound IGES file");
-  report(kReadPart);
-  return transferred(reader, warnings, report);
+  transfer(reader, reader, cad, report);
 }
 
-TopoDS_Shape readBrep(const std::string& path) {
+void readBrep(const std::string& path, CadShape& cad) {
   std::ifstream in(path, std::ios::binary);
   if (!forbidOpening()) throw Error(kNoFilters);
-  TopoDS_Shape shape;
-  BRepTools::Read(shape, in, BRep_Builder());
-  return shape;
+  BRepTools::Read(cad.shape, in, BRep_Builder());
+  if (!cad.shape.IsNull()) cad.solids = solidsIn(cad.shape);
 }
 
-TopoDS_Shape readShape(const ModelFile& file, std::vector<std::string>& warnings,
-                       const std::function<void(double)>& report) {
-  if (file.ending == ".brep") return readBrep(file.path);
+void readShape(const ModelFile& file, CadShape& cad, const std::function<void(double)>& report) {
+  if (file.ending == ".brep") return readBrep(file.path, cad);
   const bool iges = file.ending == ".iges" || file.ending == ".igs";
-  return iges ? readIges(file.path, warnings, report) : readStep(file.path, warnings, report);
+  iges ? readIges(file.path, cad, report) : readStep(file.path, cad, report);
 }
 
 }  // namespace
@@ -73,7 +74,7 @@ CadShape readCadShape(const ModelFile& file, const std::function<void(double)>& 
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer));
   CadShape cad;
   try {
-    cad.shape = readShape(file, cad.warnings, report);
+    readShape(file, cad, report);
   } catch (const Standard_Failure& failure) {
     throw Error(fmt::format("cannot be understood: {}: the file is corrupt", failure.DynamicType()->Name()));
   }

@@ -157,6 +157,7 @@ Model loadModel(const std::string& path, const LoadOptions& options) {
   as_mesh.mesh = true;
   SceneModel scene = loadModelScene(path, as_mesh);
   if (!scene.surfaces.empty()) throw Error(path + ": is a height field, a volume or a cloud, and no mesh");
+  scene.model.parts.clear();
   if (scene.bodies.empty()) return std::move(scene.model);
   scene.model.warnings.emplace_back("its bodies stay where they are: it is read as one object");
   return asOneModel(scene);

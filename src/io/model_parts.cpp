@@ -13,6 +13,7 @@
 #include "io/body_messages.h"
 #include "io/snap_messages.h"
 #include "io/value_messages.h"
+#include "scene/split_model.h"
 #include "surfaces/threshold.h"
 
 namespace hl {
@@ -140,7 +141,24 @@ void PartSender::scene(const SceneModel& scene) {
     toProto(*rest.reading.cad, *part.mutable_cad());
     send(part);
   }
+  parts(rest.parts);
   model(rest);
+}
+
+void PartSender::parts(const std::vector<ModelPart>& parts) {
+  constexpr std::size_t kPartsInMessage = 1000;
+  for (std::size_t first = 0; first < parts.size(); first += kPartsInMessage) {
+    proto::ReadingPart message;
+    for (std::size_t i = first; i < std::min(first + kPartsInMessage, parts.size()); ++i) {
+      proto::ModelParts::Part& out = *message.mutable_parts()->add_parts();
+      out.set_name(oneLine(parts[i].name));
+      if (parts[i].colour) out.set_colour(packRgb(*parts[i].colour));
+      out.set_vertices(parts[i].vertices);
+      out.set_triangles(parts[i].triangles);
+      out.set_segments(parts[i].segments);
+    }
+    send(message);
+  }
 }
 
 void PartSender::places(const SnapList& snaps, const FieldList& fields) {
@@ -252,6 +270,15 @@ void PartCollector::addField(const proto::RecordedField& field) {
   (in_body_ ? scene_.bodies.back().fields : scene_.fields).push_back(fieldOf(field));
 }
 
+void PartCollector::addParts(const proto::ModelParts& parts) {
+  for (const proto::ModelParts::Part& in : parts.parts()) {
+    if (rest_.parts.size() >= kMostModelParts) throw Error("it has too many objects");
+    ModelPart part{oneLine(in.name()), {}, in.vertices(), in.triangles(), in.segments()};
+    if (in.has_colour()) part.colour = unpackRgb(in.colour());
+    rest_.parts.push_back(std::move(part));
+  }
+}
+
 void PartCollector::addToScene(const proto::ReadingPart& part) {
   switch (part.body_case()) {
     case proto::ReadingPart::kRigidBody:
@@ -266,6 +293,8 @@ void PartCollector::addToScene(const proto::ReadingPart& part) {
     case proto::ReadingPart::kCad:
       rest_.reading.cad = readingOf(part.cad());
       return;
+    case proto::ReadingPart::kParts:
+      return addParts(part.parts());
     default:
       throw Error("it says nothing");
   }
@@ -320,6 +349,8 @@ Model PartCollector::takeModel() {
 
 SceneModel PartCollector::take() {
   scene_.model.reading = rest_.reading;
+  scene_.model.parts = std::move(rest_.parts);
+  checkParts(scene_.model);
   if (heights_) scene_.surfaces.push_back({"", heights_->take()});
   if (volume_) takeVolume();
   if (cloud_) takeCloud();

@@ -36,6 +36,7 @@ class PartSender final : public HeightSink, public VolumeSink, public CloudSink 
   void warn(const std::string& line) override;
 
  private:
+  void parts(const std::vector<ModelPart>& parts);
   std::string& waiting();
   void sendSamples();
   void model(const Model& model);
@@ -74,6 +75,7 @@ class PartCollector {
   Model takeModel();
   void addToScene(const proto::ReadingPart& part);
   void addBody(const proto::RecordedBody& body);
+  void addParts(const proto::ModelParts& parts);
   void addSnap(const proto::RecordedSnap& snap);
   void addField(const proto::RecordedField& field);
   void addTexture(const proto::RecordedTexture& texture);

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Whatever changes in readings or in the messages that hold them changes this, so that older entries do not count.
-constexpr const char* kEntryFormat = "hl reading 1 ";
+constexpr const char* kEntryFormat = "hl reading 2 ";
 
 struct OpenFile {
   explicit OpenFile(int number) : descriptor(number) {}

@@ -46,7 +46,8 @@ bool PageScene::MeshPlacement::operator==(const MeshPlacement& other) const {
   const auto names = [](const MeshPlacement& place) {
     return std::tie(place.key, place.mesh, place.session, place.object, place.name);
   };
-  return names(*this) == names(other) && (surfaces == other.surfaces || *surfaces == *other.surfaces);
+  const bool same_label = label == other.label || (label && other.label && *label == *other.label);
+  return names(*this) == names(other) && same_label && (surfaces == other.surfaces || *surfaces == *other.surfaces);
 }
 
 void PageScene::follow(const std::shared_ptr<const Snapshot>& newest, const PageScale& scale, std::int64_t now_ns) {
@@ -69,8 +70,8 @@ void PageScene::takeNewest(const std::shared_ptr<const Snapshot>& newest) {
     const std::vector<std::uint32_t> meshes = meshes_.numbersOf(*newest);
     for (std::size_t i = 0; i < meshes.size(); ++i) {
       const Instance& instance = newest->instances[i];
-      waiting_places_.push_back(
-          {instance.key, meshes[i], instance.session, instance.object, instance.name, instance.surfaces});
+      waiting_places_.push_back({instance.key, meshes[i], instance.session, instance.object, instance.name,
+                                 instance.surfaces, instance.label});
     }
   }
   if (!waiting_ || !meshes_.ready()) return;
@@ -121,6 +122,8 @@ void PageScene::layOut(const PageScale& scale, std::int64_t now_ns) {
     placed.set_session(place.session);
     placed.set_object(place.object);
     placed.set_name(place.name);
+    if (place.label) placed.set_label(place.label->name);
+    if (place.label && place.label->colour) placed.set_colour(place.label->colour->data(), place.label->colour->size());
     addMaterials(*place.surfaces, placed);
   }
   layout_->bodies = ToldBodies::of(*shown_);

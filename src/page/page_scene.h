@@ -62,6 +62,7 @@ class PageScene {
     std::uint64_t key = 0;
     std::uint32_t mesh = 0, session = 0, object = 0, name = 0;
     std::shared_ptr<const Surfaces> surfaces{};
+    std::shared_ptr<const Label> label{};
     bool operator==(const MeshPlacement& other) const;
   };
   struct Layout {

@@ -84,6 +84,13 @@ Ways waysOf(const proto::Values& in) {
   return ways;
 }
 
+std::shared_ptr<const Label> labelOf(const proto::RecordedInstance& in) {
+  if (in.label().empty() && !in.has_colour()) return nullptr;
+  Label label{in.label()};
+  if (in.has_colour()) label.colour = unpackRgb(in.colour());
+  return std::make_shared<const Label>(std::move(label));
+}
+
 Vec2 repeatOf(const proto::RecordedHeights& in) {
   if (in.repeat_size() == 0) return Vec2::Ones();
   if (in.repeat_size() != 2 || !std::isfinite(in.repeat(0)) || !std::isfinite(in.repeat(1))) throw Error(kBrokenScene);
@@ -105,6 +112,8 @@ void encode(const Instance& instance, proto::RecordedInstance& out) {
   out.set_item(instance.item);
   out.set_answers_force(instance.answers_force);
   out.set_replaced_in(instance.replaced_in);
+  if (instance.label) out.set_label(instance.label->name);
+  if (instance.label && instance.label->colour) out.set_colour(packRgb(*instance.label->colour));
   if (instance.snaps) {
     for (const SnapSpec& snap : *instance.snaps) toProto(snap, *out.add_snaps());
   }
@@ -404,6 +413,7 @@ std::shared_ptr<const Snapshot> SceneReader::scene(const proto::RecordedScene& i
     instances.back().item = placed.item();
     instances.back().answers_force = placed.answers_force();
     instances.back().replaced_in = placed.replaced_in();
+    instances.back().label = labelOf(placed);
     instances.back().snaps = snapsOf(placed);
     instances.back().fields = fieldsOf(placed);
     setBody(placed.body(), instances.back());

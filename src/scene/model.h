@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/rgb.h"
 #include "base/vec.h"
 #include "geometry/box.h"
 #include "scene/material.h"
@@ -38,6 +39,16 @@ struct Reading {
   void scale(double factor);
 };
 
+/// More objects than these stay one.
+inline constexpr std::size_t kMostModelParts = 4096;
+
+/// An object that a model is made of: so many of the vertices and elements of its lists.
+struct ModelPart {
+  std::string name;
+  std::optional<Rgb> colour{};  ///< absent: the file gives it none
+  std::uint32_t vertices = 0, triangles = 0, segments = 0;
+};
+
 /// Metres, world frame. Index lists refer to `positions`; polygons have been triangulated.
 struct Model {
   std::string name;
@@ -52,6 +63,7 @@ struct Model {
   std::vector<Texture> textures;
   std::vector<std::string> warnings;  ///< what was skipped while reading, one line each, with counts
   Reading reading;
+  std::vector<ModelPart> parts;  ///< objects that it is made of, one after the other; empty: it is one
 
   Box bounds() const;  ///< of the vertices that an element uses
   std::size_t elements() const { return triangles.size() + segments.size() + points.size(); }

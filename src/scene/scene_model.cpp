@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "scene/append_part.h"
+#include "scene/split_model.h"
 #include "surfaces/iso_surface.h"
 #include "surfaces/point_cloud.h"
 
@@ -31,11 +32,13 @@ void scaleJoint(JointSpec& joint, double factor, const Vec3& offset) {
 }
 
 bool isOneModel(const SceneModel& scene) {
-  return scene.bodies.empty() && scene.surfaces.empty() && scene.snaps.empty() && scene.fields.empty();
+  return scene.model.parts.empty() && scene.bodies.empty() && scene.surfaces.empty() && scene.snaps.empty() &&
+         scene.fields.empty();
 }
 
 Instance instanceOf(SceneSurface surface, std::uint64_t key) {
   Instance instance;
+  if (!surface.name.empty()) instance.label = std::make_shared<const Label>(Label{std::move(surface.name)});
   if (const auto* const iso = dynamic_cast<const IsoSurface*>(surface.source.get()))
     surface.material = materialAt(*iso, surface.material);
   instance.shape = makeShape(std::move(surface.source), surface.material, std::move(surface.textures), surface.repeat);
@@ -91,6 +94,7 @@ Model asOneModel(const SceneModel& scene) {
   if (!scene.surfaces.empty())
     throw Error("'" + scene.surfaces.front().name + "' is no mesh, and cannot be a part of one");
   Model whole = scene.model;
+  whole.parts.clear();
   whole.triangle_materials.resize(whole.triangles.size());
   whole.segment_materials.resize(whole.segments.size());
   whole.point_materials.resize(whole.points.size());
@@ -214,7 +218,15 @@ std::shared_ptr<const Snapshot> makeSnapshot(SceneModel scene, HierarchyKind hie
     for (const std::string& warning : instances.back().shape->warnings)
       warnings.push_back(part.empty() ? warning : part + ": " + warning);
   };
-  if (scene.model.elements() > 0 || !scene.snaps.empty() || !scene.fields.empty()) {
+  if (!scene.model.parts.empty()) {
+    const std::vector<ModelPart> parts = scene.model.parts;
+    std::vector<Model> models = splitModel(std::move(scene.model));
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      add(models[i], {});
+      instances.back().label = std::make_shared<const Label>(Label{parts[i].name, parts[i].colour});
+    }
+    setPlaces(instances.front(), std::move(scene.snaps), std::move(scene.fields));
+  } else if (scene.model.elements() > 0 || !scene.snaps.empty() || !scene.fields.empty()) {
     add(scene.model, {});
     setPlaces(instances.back(), std::move(scene.snaps), std::move(scene.fields));
   } else {

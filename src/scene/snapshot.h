@@ -10,6 +10,7 @@
 #include "geometry/box_tree.h"
 #include "scene/compliance.h"
 #include "scene/field_spec.h"
+#include "scene/label.h"
 #include "scene/material.h"
 #include "scene/mechanics.h"
 #include "scene/mesh_motion.h"
@@ -49,6 +50,7 @@ struct Instance {
   std::shared_ptr<const FieldList> fields{};  ///< forces on the hand from its places; null: none
   /// Number of the snapshot in which its shape took the place of another one at once, wherever the proxy was; 0: never.
   std::uint64_t replaced_in = 0;
+  std::shared_ptr<const Label> label{};  ///< for pages; null: its file, or its client, gives it none
 
   /// Poses of the instance over time. Of a body that moves: for the loop that ticks alone.
   const PoseSource& poses() const { return driver ? *driver : static_cast<const PoseSource&>(motion); }

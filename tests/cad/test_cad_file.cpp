@@ -6,17 +6,25 @@
 #include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
+#include <Quantity_Color.hxx>
+#include <STEPCAFControl_Writer.hxx>
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
+#include <TDataStd_Name.hxx>
 #include <TopoDS_Compound.hxx>
+#include <XCAFDoc_ColorTool.hxx>
+#include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <sstream>
 
 #include "base/error.h"
+#include "cad/cad_document.h"
 #include "cad_shapes.h"
 #include "io/load_model.h"
 #include "io/load_scene_file.h"
@@ -104,6 +112,91 @@ TEST_F(CadFile, AnAssemblyHasAllItsParts) {
   EXPECT_EQ(model.reading.cad->faces, 14u);
   expectSize(model, {0.02, 0.02, 0.06});
   EXPECT_GT(model.reading.cad->tolerance_m, 0);
+}
+
+// A red box and two balls of one part, the second of which is green in the assembly; and a box with a name of letters
+// beyond ASCII, whose colour is that of its faces.
+Handle(TDocStd_Document) assembly() {
+  Handle(TDocStd_Document) document = newCadDocument();
+  const auto shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
+  const auto colours = XCAFDoc_DocumentTool::ColorTool(document->Main());
+  const auto paint = [&](const auto& what, int red, int green, int blue) {
+    colours->SetColor(what, Quantity_Color(red / 255.0, green / 255.0, blue / 255.0, Quantity_TOC_sRGB),
+                      XCAFDoc_ColorSurf);
+  };
+  const auto named = [](const TDF_Label& label, const char* name) {
+    TDataStd_Name::Set(label, TCollection_ExtendedString(name, Standard_True));
+    return label;
+  };
+  const auto at = [](double x) {
+    gp_Trsf move;
+    move.SetTranslation(gp_Vec(x, 0, 0));
+    return TopLoc_Location(move);
+  };
+  const TopoDS_Shape plain = test::boxOf({0, 0, 0}, {5, 5, 5});
+  const TDF_Label box = named(shapes->AddShape(test::boxOf({0, 0, 0}, {10, 20, 30}), Standard_False), "box");
+  const TDF_Label ball = named(shapes->AddShape(BRepPrimAPI_MakeSphere(10).Shape(), Standard_False), "ball");
+  const TDF_Label cube = named(shapes->AddShape(plain, Standard_False), "W\xc3\xbcrfel");
+  paint(box, 200, 30, 40);
+  paint(ball, 10, 20, 250);
+  for (TopExp_Explorer face(plain, TopAbs_FACE); face.More(); face.Next())
+    paint(shapes->AddSubShape(cube, face.Current()), 1, 128, 255);
+  const TDF_Label whole = named(shapes->NewShape(), "whole");
+  named(shapes->AddComponent(whole, box, at(0)), "box:1");
+  shapes->AddComponent(whole, ball, at(50));
+  paint(shapes->AddComponent(whole, ball, at(100)), 0, 255, 0);
+  shapes->AddComponent(whole, cube, at(150));
+  shapes->UpdateAssemblies();
+  return document;
+}
+
+struct WantedPart {
+  const char* name;
+  std::optional<Rgb> colour;
+  Vec3 low, high;
+};
+
+void expectParts(const std::string& path, const std::vector<WantedPart>& wanted) {
+  LoadOptions options;
+  options.cad = {1e-5, 0.1};
+  const auto scene = makeSnapshot(loadModelScene(path, options));
+  ASSERT_EQ(scene->instances.size(), wanted.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const Instance& part = scene->instances[i];
+    ASSERT_TRUE(part.label);
+    EXPECT_EQ(part.label->name, wanted[i].name);
+    EXPECT_EQ(part.label->colour, wanted[i].colour) << wanted[i].name;
+    EXPECT_LT((part.shape->bounds.min - wanted[i].low).norm(), 3e-5) << wanted[i].name;
+    EXPECT_LT((part.shape->bounds.max - wanted[i].high).norm(), 3e-5) << wanted[i].name;
+  }
+}
+
+TEST_F(CadFile, EachSolidIsAnObjectWithNameAndColour) {
+  STEPCAFControl_Writer step;
+  step.Transfer(assembly(), STEPControl_AsIs);
+  step.Write(tempFile("whole.step").c_str());
+  expectParts(tempFile("whole.step"), {{"box", Rgb{200, 30, 40}, {0, 0, 0}, {0.01, 0.02, 0.03}},
+                                       {"ball", Rgb{10, 20, 250}, {0.04, -0.01, -0.01}, {0.06, 0.01, 0.01}},
+                                       {"ball 2", Rgb{0, 255, 0}, {0.09, -0.01, -0.01}, {0.11, 0.01, 0.01}},
+                                       {"W\xc3\xbcrfel", Rgb{1, 128, 255}, {0.15, 0, 0}, {0.155, 0.005, 0.005}}});
+  const Model one = loadModel(tempFile("whole.step"));
+  EXPECT_TRUE(one.parts.empty()) << "in a scene file it is one object";
+  EXPECT_EQ(one.reading.cad->solids, 4u);
+}
+
+// Solids without names are numbered, and what is no solid is an object too.
+TEST_F(CadFile, WhatHasNoNameIsNumberedAndWhatIsNoSolidIsKept) {
+  TopoDS_Compound all;
+  BRep_Builder builder;
+  builder.MakeCompound(all);
+  builder.Add(all, test::boxOf({0, 0, 0}, {10, 10, 10}));
+  builder.Add(all, test::boxOf({20, 0, 0}, {30, 10, 10}));
+  const TopoDS_Shape loose = test::boxOf({40, 0, 0}, {50, 10, 20});
+  builder.Add(all, TopExp_Explorer(loose, TopAbs_FACE).Current());
+  BRepTools::Write(all, tempFile("bare.brep").c_str());
+  expectParts(tempFile("bare.brep"), {{"solid", {}, {0, 0, 0}, {0.01, 0.01, 0.01}},
+                                      {"solid 2", {}, {0.02, 0, 0}, {0.03, 0.01, 0.01}},
+                                      {"what is no solid", {}, {0.04, 0, 0}, {0.04, 0.01, 0.02}}});
 }
 
 TEST_F(CadFile, SceneFilesSayHowTheyAreMeshed) {

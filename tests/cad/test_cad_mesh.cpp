@@ -20,7 +20,7 @@ namespace {
 
 Model meshOf(const TopoDS_Shape& shape, const CadMeshing& meshing = {}, std::size_t most = kMostCadTriangles) {
   return meshCad(
-      shape, meshing, [](double) {}, most);
+      {shape}, meshing, [](double) {}, most);
 }
 
 double volumeOf(const Model& model) {

@@ -239,6 +239,26 @@ TEST(Isolated, ASceneWithBodiesComesBackWhole) {
   }
 }
 
+Model twoTriangles() {
+  Model model;
+  model.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}};
+  model.triangles = {{0, 1, 2}, {3, 4, 5}};
+  model.parts = {{"bolt\nand more", Rgb{1, 2, 3}, 3, 1, 0}, {"nut", {}, 3, 1, 0}};
+  return model;
+}
+
+TEST(Isolated, TheObjectsOfAModelComeBackWithNamesAndColours) {
+  const auto scene =
+      makeSnapshot(runIsolated("m", small(), [](const auto&) { return SceneModel(twoTriangles()); }, {}));
+  ASSERT_EQ(scene->instances.size(), 2U);
+  EXPECT_EQ(*scene->instances[0].label, (Label{"bolt", Rgb{1, 2, 3}}));
+  EXPECT_EQ(*scene->instances[1].label, (Label{"nut"}));
+  EXPECT_EQ(scene->instances[1].shape->bounds.min, Vec3(5, 0, 0));
+  Model broken = twoTriangles();
+  broken.parts[1].vertices = 4;
+  EXPECT_THROW(runIsolated("m", small(), [&](const auto&) { return SceneModel(broken); }, {}), Error);
+}
+
 TEST(Isolated, SnapsThatCannotBeAreRefused) {
   const auto changed = [](const std::function<void(SnapList&)>& change) {
     return refusalOf([&] {

@@ -56,6 +56,19 @@ class PageSceneTest : public testing::Test {
   const std::shared_ptr<const Shape> small_ = plane(8), large_ = plane(200);
 };
 
+TEST_F(PageSceneTest, ObjectsHaveTheNamesAndColoursOfTheirFiles) {
+  std::vector<Instance> instances{instanceOf(1, small_), instanceOf(2, small_)};
+  instances[1].label = std::make_shared<const Label>(Label{"bolt", Rgb{1, 2, 250}});
+  const proto::SceneLayout first = show(makeSnapshot(instances)).back().layout();
+  EXPECT_TRUE(first.placed(0).label().empty() && first.placed(0).colour().empty());
+  EXPECT_EQ(first.placed(1).label(), "bolt");
+  EXPECT_EQ(first.placed(1).colour(), "\x01\x02\xfa");
+  instances[1].label = std::make_shared<const Label>(Label{"nut"});
+  const proto::SceneLayout second = show(makeSnapshot(instances)).back().layout();
+  EXPECT_EQ(second.placed(1).label(), "nut");
+  EXPECT_TRUE(second.placed(1).colour().empty());
+}
+
 TEST_F(PageSceneTest, AMeshIsSentOnceHoweverOftenItIsPlaced) {
   const auto snapshot = makeSnapshot(
       {instanceOf(1, small_), instanceOf(2, large_, Motion(at(0.5))), instanceOf(3, small_, Motion(at(0, 0, 3)))},

@@ -231,6 +231,8 @@ TEST(RecordedScene, HasItsHeightField) {
   ASSERT_EQ(is.count(), was.count());
   EXPECT_EQ(is.bounds.min, was.bounds.min);
   EXPECT_EQ(is.repeat, was.repeat);
+  ASSERT_TRUE(back->instances[0].label);
+  EXPECT_EQ(*back->instances[0].label, (Label{"hills"}));
   EXPECT_EQ(back->instances[0].surfaces->textures.at(0)->texels, made->instances[0].surfaces->textures.at(0)->texels);
   for (ElementId id = 0; id < is.count(); id += 9973) ASSERT_EQ(is.source->corners(id), was.source->corners(id)) << id;
 }

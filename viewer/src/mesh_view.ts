@@ -62,6 +62,8 @@ export class MeshView {
   private surface_: Surface | undefined;
   private edges_: THREE.InstancedMesh | undefined;
   private edgesShown_ = false;
+  /** Of places that have a colour of their own, as it is to be seen. */
+  private readonly colours_ = new Map<number, THREE.Color>();
   /** Segments and points of each place. */
   private readonly marks_: Mark[][] = [];
 
@@ -94,6 +96,16 @@ export class MeshView {
     }
   }
 
+  /** Draws a place in a colour of its own, or as others. */
+  setColour(place: number, colour: THREE.Color | undefined): void {
+    if (colour === undefined) {
+      this.colours_.delete(place);
+    } else {
+      this.colours_.set(place, colour);
+    }
+    this.setMark(place, "none");
+  }
+
   /** The pose is at index `at` of `poses`. */
   setPose(place: number, poses: Float32Array, at: number): void {
     const from = kPoseNumbers * at;
@@ -111,7 +123,8 @@ export class MeshView {
     const { palette_: palette, surface_: surface } = this;
     const touched = mark !== "none";
     if (surface !== undefined) {
-      surface.setColorAt(place, mark === "touched" ? palette.tint : mark === "pointed" ? palette.pointed : kUntouched);
+      const factor = mark === "touched" ? palette.tint : mark === "pointed" ? palette.pointed : this.factorOf(place);
+      surface.setColorAt(place, factor);
       surface.instanceColor!.needsUpdate = true;
     }
     for (const mark of this.marks_[place] ?? []) {
@@ -148,6 +161,9 @@ export class MeshView {
   applyTheme(): void {
     const { model } = this.palette_;
     this.materials_.forEach((material) => material.color.copy(material.vertexColors ? kUntouched : model));
+    for (const place of this.colours_.keys()) {
+      this.setMark(place, "none");
+    }
   }
 
   /** Where a ray of the world first meets the surface at a place; `accept` is asked of points of the world. */
@@ -197,6 +213,16 @@ export class MeshView {
       material.map?.dispose();
       material.dispose();
     }
+  }
+
+  /** What the surface's colour is multiplied by at a place that nothing marks. */
+  private factorOf(place: number): THREE.Color {
+    const colour = this.colours_.get(place);
+    if (colour === undefined || this.materials_[0]!.vertexColors) {
+      return kUntouched;
+    }
+    const { r, g, b } = this.palette_.model;
+    return new THREE.Color(colour.r / r, colour.g / g, colour.b / b);
   }
 
   /** Of the shading, unless it leans far off the facet: then of the facet. */

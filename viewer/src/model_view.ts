@@ -2,6 +2,7 @@
 // states. What the proxy touches has a tint, when there is more than one object to tell apart.
 
 import * as THREE from "three";
+import type { PlacedMesh } from "./gen/hl_pb";
 import { MeshView, type Highlight, type Meeting, type Palette } from "./mesh_view";
 import type { Accept } from "./ray_tree";
 import type { Bounds, Layout, Mesh } from "./scene_messages";
@@ -74,6 +75,7 @@ export class ModelView {
       view.setCount(count);
       this.triangles_ += view.triangles * count;
     }
+    this.placed_.forEach((placed, i) => placed?.view.setColour(placed.place, colourOf(layout.placed[i]!)));
     this.move(layout.placed.keys(), poses);
     this.applyEdges();
   }
@@ -191,6 +193,14 @@ export class ModelView {
     this.views_.get(number)?.dispose();
     this.views_.delete(number);
   }
+}
+
+/** Of an object that has one of its own. */
+function colourOf({ colour }: Pick<PlacedMesh, "colour">): THREE.Color | undefined {
+  const [red, green, blue] = colour ?? [];
+  return blue === undefined
+    ? undefined
+    : new THREE.Color().setRGB(red! / 255, green! / 255, blue / 255, THREE.SRGBColorSpace);
 }
 
 function planeOf({ normal, constant_m }: Section): THREE.Plane {

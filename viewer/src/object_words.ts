@@ -5,6 +5,8 @@ import type { SurfaceSettings } from "./surfaces";
 import { kThinSpace } from "./units";
 
 export interface PlacedNames extends Pick<PlacedMesh, "object" | "name" | "session"> {
+  /** Of its file. */
+  readonly label?: string;
   readonly materials: readonly Surfaces[];
 }
 
@@ -16,6 +18,9 @@ export function describeObject(
   index: number, placed: PlacedNames | undefined, count: number, material: number, over: SurfaceSettings = {},
 ): string {
   const names: string[] = count > 1 ? [`Object ${index + 1} of ${count}`] : ["The model"];
+  if (placed?.label) {
+    names.push(placed.label);
+  }
   if (placed !== undefined && placed.session > 0) {
     const name = placed.name > 0 ? [`name ${placed.name}`] : [];
     names.push(`id ${placed.object}`, ...name, `of client ${placed.session}`);

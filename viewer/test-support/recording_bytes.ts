@@ -47,7 +47,7 @@ export const kScene: BlockBody = {
   case: "scene",
   value: {
     identity: kSceneIdentity, number: 1n, name: "a scene",
-    instances: [{ shape: 1n, surfaces: 1n, motion: kMotion, session: 1, object: 2, name: 3 }],
+    instances: [{ shape: 1n, surfaces: 1n, motion: kMotion, session: 1, object: 2, name: 3, label: "bolt", colour: 0x0102fa }],
   },
 };
 

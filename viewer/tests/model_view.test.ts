@@ -77,3 +77,28 @@ test("colours of vertices are drawn as a screen shows them, in the place of the 
   expect(plain.material[0]!.vertexColors).toBe(false);
   expect(plain.material[0]!.color.equals(palette.model)).toBe(true);
 });
+
+test("an object has the colour of its file, unless it is touched", () => {
+  const palette = {
+    model: new THREE.Color(0.2, 0.25, 0.4), tint: new THREE.Color(2, 1, 1), pointed: new THREE.Color(1, 2, 1),
+  } as unknown as Palette;
+  const view = new MeshView(kSquare, palette);
+  view.setCount(2);
+  const surface = view.group.children[0] as THREE.InstancedMesh<THREE.BufferGeometry, THREE.MeshStandardMaterial[]>;
+  const seen = (place: number) => {
+    const factor = new THREE.Color();
+    surface.getColorAt(place, factor);
+    return factor.multiply(surface.material[0]!.color).getHexString(THREE.SRGBColorSpace);
+  };
+  view.setColour(1, new THREE.Color(0xc01020));
+  expect(seen(0)).toBe(palette.model.getHexString());
+  expect(seen(1)).toBe("c01020");
+  view.setMark(1, "touched");
+  expect(seen(1)).toBe(palette.model.clone().multiply(palette.tint).getHexString());
+  view.setMark(1, "none");
+  palette.model.setRGB(0.8, 0.7, 0.6);
+  view.applyTheme();
+  expect(seen(1)).toBe("c01020");
+  view.setColour(1, undefined);
+  expect(seen(1)).toBe(palette.model.getHexString());
+});

@@ -29,3 +29,9 @@ test("what is not told is not said, and what a texture modulates is said so", ()
     "The model: stiffness 1, friction by texture, sliding 0.2",
   );
 });
+
+test("an object of a file has its name", () => {
+  const bolt = { session: 0, object: 0, name: 0, label: "bolt 2", materials: [] };
+  expect(describeObject(1, bolt, 3, 0)).toBe("Object 2 of 3, bolt 2");
+  expect(describeObject(0, bolt, 1, 0)).toBe("The model, bolt 2");
+});

@@ -40,6 +40,7 @@ describe("a recording", () => {
     expect(layout.bounds).toEqual({ min: { x: 1, y: 0, z: 0 }, max: { x: 2, y: 2, z: 0 } });
     expect(layout.placed[0]).toMatchObject({
       session: 1, object: 2, name: 3, materials: [{ stiffness: 0.5, staticFriction: 0.4, adhesionN: 2, smooth: true }],
+      label: "bolt", colour: Uint8Array.of(1, 2, 250),
     });
   });
 

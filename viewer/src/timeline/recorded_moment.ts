@@ -77,8 +77,8 @@ export function layoutOf(recording: Recording, number: number, scale: Scale, tim
     bounds: boundsOf(instances.map(({ mesh }) => meshes.get(mesh)), poses),
     proxyRadius_m: scale.radius_m,
     worldPerDevice: scale.worldPerDevice,
-    placed: instances.map(({ mesh, session, object, name, materials }) =>
-      create(PlacedMeshSchema, { mesh, session, object, name, materials: [...materials] })),
+    placed: instances.map(({ mesh, session, object, name, materials, label, colour }) =>
+      create(PlacedMeshSchema, { mesh, session, object, name, materials: [...materials], label, colour })),
     poses,
   };
 }

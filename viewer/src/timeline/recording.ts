@@ -16,6 +16,10 @@ export interface RecordedInstance {
   readonly object: number;
   readonly name: number;
   readonly materials: readonly SurfaceSettings[];
+  /** What its file calls it; empty: nothing. */
+  readonly label: string;
+  /** Red, green and blue that its file gives it; empty: none. */
+  readonly colour: Uint8Array;
 }
 
 export interface RecordedScene {

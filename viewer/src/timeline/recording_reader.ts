@@ -147,9 +147,10 @@ class RecordingReader {
   private sceneOf(scene: SceneMessage, bodies: ReadonlyMap<bigint, number>): RecordedScene {
     return {
       name: scene.name,
-      instances: scene.instances.map(({ shape, surfaces, motion, session, object, name, body }) => ({
+      instances: scene.instances.map(({ shape, surfaces, motion, session, object, name, body, label, colour }) => ({
         mesh: this.meshes_.get(shape)!.number, ways: waysOf(motion, (time_ns) => this.seconds(time_ns)),
         session, object, name, body: bodies.get(body) ?? -1, materials: this.surfaces_.get(surfaces) ?? [],
+        label, colour: colour === undefined ? new Uint8Array() : Uint8Array.of(colour >> 16, colour >> 8, colour),
       })),
     };
   }
