@@ -37,6 +37,8 @@ describe.skipIf(!kProgram)("the slider of a volume", () => {
     expect(await page.inputValue("#iso-1")).toBe("-480");
     expect(await page.inputValue("#iso-2")).toBe("370");
     expect(await page.textContent("label[for=iso-1] output")).toContain("HU");
+    expect(await page.textContent("label[for=iso-1] span")).toBe("Iso value of skin");
+    expect(await page.textContent("label[for=iso-2] span")).toBe("Iso value of bone");
   });
 
   test("moves the surface under the hand, from skin to bone and back", async () => {

@@ -34,13 +34,13 @@ export class VolumePanel {
 
   /** What the server says. Sliders stay while their surfaces do, so that one can be dragged meanwhile. */
   showVolumes(volumes: readonly Volume[]): void {
-    const same = volumes.length === this.volumes_.length && volumes.every(({ surface, low, high }, i) => {
+    const same = volumes.length === this.volumes_.length && volumes.every(({ name, surface, low, high }, i) => {
       const before = this.volumes_[i]!;
-      return before.surface === surface && before.low === low && before.high === high;
+      return before.name === name && before.surface === surface && before.low === low && before.high === high;
     });
     this.volumes_ = volumes;
     if (!same) {
-      this.rows_ = volumes.map((volume, i) => this.made(volume, isoSliderOf(volume, i, volumes.length), i));
+      this.rows_ = volumes.map((volume, i) => this.made(volume, isoSliderOf(volumes, i), i));
       element("volume-knobs").replaceChildren(...this.rows_.flatMap(({ slider, below }) => [slider.parentElement!, below.parentElement!]));
     }
     this.show();
@@ -48,7 +48,7 @@ export class VolumePanel {
 
   private made({ surface }: Volume, kind: IsoSlider, index: number): Row {
     const send = () => this.send_(surface, this.chosen(index), this.chosenBelow(index));
-    return { kind, ...this.madeSlider(surface, kind, index, send), below: this.madeBox(surface, index, send) };
+    return { kind, ...this.madeSlider(surface, kind, index, send), below: this.madeBox(surface, kind, index, send) };
   }
 
   private madeSlider(surface: bigint, kind: IsoSlider, index: number, send: () => void) {
@@ -77,7 +77,7 @@ export class VolumePanel {
     return { slider, output };
   }
 
-  private madeBox(surface: bigint, index: number, send: () => void): HTMLInputElement {
+  private madeBox(surface: bigint, kind: IsoSlider, index: number, send: () => void): HTMLInputElement {
     const label = document.createElement("label");
     label.className = "switch";
     label.title = "As of signed distances; in a CT the matter is above";
@@ -85,7 +85,7 @@ export class VolumePanel {
     box.type = "checkbox";
     box.id = `below-${index + 1}`;
     const name = document.createElement("span");
-    name.textContent = this.volumes_.length > 1 ? `Matter below value ${index + 1}` : "Matter below it";
+    name.textContent = kind.belowLabel;
     label.append(box, name);
     box.addEventListener("change", () => {
       this.pendingBelow_.set(String(surface), box.checked, performance.now());

@@ -6,6 +6,8 @@ import { formatFixed } from "./units";
 import { ProtocolError } from "./wire_values";
 
 export interface Volume {
+  /** What the scene calls the surface; empty: nothing. */
+  readonly name: string;
   /** As the server takes it back. */
   readonly surface: bigint;
   readonly iso: number;
@@ -18,6 +20,8 @@ export interface Volume {
 
 export interface IsoSlider {
   readonly label: string;
+  /** Of the box that says on which side the matter is. */
+  readonly belowLabel: string;
   readonly min: number;
   readonly max: number;
   readonly step: number;
@@ -29,7 +33,7 @@ export function checkVolumes({ volumes, placed }: SceneLayout): readonly Volume[
     if (placed[index] === undefined || ![iso, low, high].every(Number.isFinite) || low > high) {
       throw new ProtocolError("a volume of the scene has no surface, or no range of values");
     }
-    return { surface, iso, below, low, high };
+    return { name: placed[index].label, surface, iso, below, low, high };
   });
 }
 
@@ -38,14 +42,24 @@ function isHounsfield({ low, high }: Volume): boolean {
   return low <= -900 && low >= -3100 && high >= 100 && high <= 33000;
 }
 
-/** Values without a range have a slider of one place. `index`: among `count` volumes. */
-export function isoSliderOf(volume: Volume, index: number, count: number): IsoSlider {
+/** Which of several it is: its name, and its number where the name does not tell it from the others. */
+function wordsFor(volumes: readonly Volume[], index: number): string {
+  const { name } = volumes[index]!;
+  const alone = volumes.filter((other) => other.name === name).length === 1;
+  return name === "" ? String(index + 1) : alone ? `of ${name}` : `${index + 1} of ${name}`;
+}
+
+/** Of one of the volumes. Values without a range have a slider of one place. */
+export function isoSliderOf(volumes: readonly Volume[], index: number): IsoSlider {
+  const volume = volumes[index]!;
   const { low, high } = volume;
+  const which = volumes.length > 1 ? wordsFor(volumes, index) : undefined;
   const step = high > low ? 10 ** Math.floor(Math.log10((high - low) / 100)) : 1;
   const decimals = Math.max(0, Math.round(-Math.log10(step)));
   const unit = isHounsfield(volume) ? "HU" : undefined;
   return {
-    label: count > 1 ? `Iso value ${index + 1}` : "Iso value",
+    label: which === undefined ? "Iso value" : `Iso value ${which}`,
+    belowLabel: which === undefined ? "Matter below it" : `Matter below value ${which}`,
     min: Number((Math.floor(low / step) * step).toFixed(decimals)),
     max: Number((Math.ceil(high / step) * step).toFixed(decimals)),
     step: Number(step.toFixed(decimals)),
