@@ -73,12 +73,90 @@ namespace HL {
         public double Reach;       // of a small disc around each, in distances between neighbours; 0: points alone
     }
 
-    /// <summary>A mesh, heights, a volume, a cloud, or a call of an object by its number; placed by a matrix.</summary>
+    /// <summary>A solid that is written down, of others: docs/implicit.md. Metres. It is scaled, then turned, then moved,
+    /// each once, in whatever order these are called; they give another solid.</summary>
+    public sealed class Solid {
+        internal readonly int Kind;         // number of the field of Expression
+        internal readonly Writer Numbers;   // its message
+        internal Vec3? Place, Axis;
+        internal double? Degrees, Factor;
+
+        Solid(int kind, Writer numbers) { Kind = kind; Numbers = numbers; }
+
+        public static Solid Sphere(double radius) { return new Solid(1, new Writer().Double(1, radius)); }
+        public static Solid Box(Vec3 size, double edgeRadius = 0) {
+            return new Solid(2, new Writer().Vector(1, size).Double(2, edgeRadius));
+        }
+        public static Solid Cylinder(double radius, double length) { return Round(3, radius, length); }  // along z
+        public static Solid Capsule(double radius, double length) { return Round(4, radius, length); }   // of its axis
+        public static Solid Torus(double radius, double tube) { return Round(5, radius, tube); }         // around z
+        /// <summary>What is below a plane, by its outward normal and its distance from the origin.</summary>
+        public static Solid HalfSpace(Vec3 normal, double distance = 0) {
+            return new Solid(6, new Writer().Vector(1, normal).Double(2, distance));
+        }
+        /// <summary>A wall of this thickness; 0: the solid on one side.</summary>
+        public static Solid Gyroid(double period, double thickness = 0) { return Round(7, period, thickness); }
+
+        public static Solid Union(params Solid[] of) { return Of(8, of, 0); }
+        public static Solid Intersection(params Solid[] of) { return Of(9, of, 0); }
+        /// <summary>The first without the others.</summary>
+        public static Solid Difference(params Solid[] of) { return Of(10, of, 0); }
+        // `smooth`: distance over which surfaces blend, m.
+        public static Solid SmoothUnion(double smooth, params Solid[] of) { return Of(8, of, smooth); }
+        public static Solid SmoothIntersection(double smooth, params Solid[] of) { return Of(9, of, smooth); }
+        public static Solid SmoothDifference(double smooth, params Solid[] of) { return Of(10, of, smooth); }
+        /// <summary>Half of the thickness on each side of the surface.</summary>
+        public static Solid Shell(Solid of, double thickness) { return Around(11, of, thickness); }
+        /// <summary>Each face goes outward, or inward where the distance is negative.</summary>
+        public static Solid Offset(Solid of, double distance) { return Around(12, of, distance); }
+
+        public Solid At(double x, double y, double z) {
+            Solid moved = Copy();
+            moved.Place = new Vec3(x, y, z);
+            return moved;
+        }
+        public Solid Turned(Vec3 axis, double degrees) {
+            Solid turned = Copy();
+            turned.Axis = axis;
+            turned.Degrees = degrees;
+            return turned;
+        }
+        public Solid Scaled(double factor) {
+            Solid scaled = Copy();
+            scaled.Factor = factor;
+            return scaled;
+        }
+
+        Solid Copy() { return (Solid)MemberwiseClone(); }
+
+        static Solid Round(int kind, double first, double second) {
+            return new Solid(kind, new Writer().Double(1, first).Double(2, second));
+        }
+        static Solid Of(int kind, Solid[] of, double smooth) {
+            var numbers = new Writer();
+            foreach (Solid solid in of) numbers.Nested(1, Messages.Expression(solid));
+            return new Solid(kind, numbers.Double(2, smooth));
+        }
+        static Solid Around(int kind, Solid of, double length) {
+            return new Solid(kind, new Writer().Nested(1, Messages.Expression(of)).Double(2, length));
+        }
+    }
+
+    /// <summary>The surface of a solid that is written down: docs/implicit.md.</summary>
+    public sealed class TouchImplicit {
+        public Solid Solid;
+        public Vec3? Low, High;    // corners of a box where it ends; both null: around the solid, if that has an end
+        public double? Error;      // m, that triangles may be from the surface; null: 1e-5
+    }
+
+    /// <summary>A mesh, heights, a volume, a cloud, an implicit surface, or a call of an object by its number; placed by
+    /// a matrix.</summary>
     public sealed class TouchItem {
         public TouchMesh Mesh;
         public TouchHeights Heights;
         public TouchVolume Volume;
         public TouchCloud Cloud;
+        public TouchImplicit Implicit;
         public uint Object;        // > 0: a call, and nothing else
         public double[] Matrix;    // 16 numbers, column by column, last row 0 0 0 1; null: identity
         public TouchMaterial Material;
@@ -701,9 +779,10 @@ namespace HL {
         internal static Content Of(TouchItem[] items, int field, ref ulong nextUpload) {
             var content = new Content();
             foreach (TouchItem item in items) {
-                if (Count(item.Mesh, item.Heights, item.Volume, item.Cloud) + (item.Object == 0 ? 0 : 1) != 1)
+                int shapes = Count(item.Mesh, item.Heights, item.Volume, item.Cloud, item.Implicit);
+                if (shapes + (item.Object == 0 ? 0 : 1) != 1)
                     throw new ArgumentException(
-                        "an item has either a mesh, heights, a volume, a cloud or the number of an object");
+                        "an item has either a mesh, heights, a volume, a cloud, an implicit surface or the number of an object");
                 content.Items.Nested(field, content.One(item, ref nextUpload));
             }
             return content;
@@ -747,6 +826,7 @@ namespace HL {
         static IEnumerable<Writer> PartsOf(TouchItem item) {
             if (item.Heights != null) return WithSamples(8, Messages.Heights(item.Heights), 5, item.Heights.Samples);
             if (item.Volume != null) return WithSamples(9, Messages.Volume(item.Volume), 7, item.Volume.Samples);
+            if (item.Implicit != null) return new[] { new Writer().Nested(10, Messages.Implicit(item.Implicit)) };
             return item.Cloud != null ? Parts(item.Cloud) : Parts(item.Mesh);
         }
 
@@ -837,6 +917,21 @@ namespace HL {
             int[] size = { volume.Width, volume.Height, volume.Samples.Length / slice };
             return new Writer().Double(3, volume.Iso).Flag(4, volume.Below).Indices(5, size, 0, 3).Text(8, kind)
                 .Double(9, volume.Missing).Doubles(12, new[] { volume.Spacing });
+        }
+
+        internal static Writer Implicit(TouchImplicit surface) {
+            if (surface.Solid == null) throw new ArgumentException("an implicit surface needs a solid");
+            if (surface.Low.HasValue != surface.High.HasValue)
+                throw new ArgumentException("the box where an implicit surface ends has two corners");
+            var sent = new Writer().Nested(1, Expression(surface.Solid));
+            if (surface.Low.HasValue) sent.Nested(2, new Writer().Vector(1, surface.Low).Vector(2, surface.High));
+            return sent.Double(3, surface.Error);
+        }
+
+        internal static Writer Expression(Solid solid) {
+            if (solid == null) throw new ArgumentException("a solid is made of solids that are there");
+            return new Writer().Nested(solid.Kind, solid.Numbers).Vector(13, solid.Place).Vector(14, solid.Axis)
+                .Double(15, solid.Degrees).Double(16, solid.Factor);
         }
 
         static string KindOf(Array samples) {

@@ -151,6 +151,56 @@ static class TestClient {
         client.Dispose();
     }
 
+    // Solids of each kind whose top is the origin: the proxy rests at its radius above it.
+    static void ImplicitSurfacesAreFelt(string url) {
+        var client = new HapticClient(url, new ClientOptions { StateRate_Hz = 200 });
+        var up = new Vec3(0, 1, 0);
+        var across = new Vec3(1, 0, 0);
+        Solid plate = Solid.Box(new Vec3(0.04, 0.01, 0.04)).At(0, -0.005, 0), ball = Solid.Sphere(0.01).At(0, -0.01, 0);
+        Solid[] solids = {
+            ball, plate, Solid.Box(new Vec3(0.02, 0.02, 0.02), 0.002).At(0, -0.01, 0),
+            Solid.Cylinder(0.01, 0.02).Turned(across, 90).At(0, -0.01, 0),
+            Solid.Capsule(0.005, 0.01).At(0, -0.01, 0).Turned(across, 90),
+            Solid.Torus(0.02, 0.005).Turned(across, 90).At(0.02, -0.005, 0),
+            Solid.Sphere(0.005).At(0, -0.01, 0).Scaled(2),
+            Solid.Intersection(Solid.HalfSpace(up), Solid.Box(new Vec3(0.03, 0.03, 0.03))),
+            Solid.Intersection(Solid.HalfSpace(up, 0.01), Solid.Box(new Vec3(0.03, 0.03, 0.03))).At(0, -0.01, 0),
+            Solid.Difference(plate, Solid.Sphere(0.01).At(0, -0.018, 0)), Solid.SmoothUnion(0.0005, plate, ball),
+            Solid.SmoothDifference(0.002, plate, Solid.Sphere(0.005).At(0.02, 0, 0)),
+            Solid.SmoothIntersection(0.002, plate, Solid.Sphere(0.02).At(0, -0.01, 0)),
+            Solid.Shell(Solid.Sphere(0.01), 0.002).At(0, -0.011, 0), Solid.Offset(Solid.Sphere(0.008), 0.002).At(0, -0.01, 0),
+            Solid.Union(plate, Solid.Intersection(Solid.Gyroid(0.01, 0.002), ball))
+        };
+        client.SetWorld(new TouchItem { Object = 1 });
+        client.Set(new DeviceSettings { WorkspaceOrigin = new Vec3(0, 0, 0), ProxyRadius = 0.002 });
+        Action<TouchImplicit, string> press = (surface, which) => {
+            client.Set(new DeviceSettings { HandGoal = new Vec3(0, 0.02, 0) });
+            WaitFor(() => client.Newest?.Finger.Y > 0.015);
+            client.Define(1, new TouchItem { Implicit = surface });
+            client.Flush();
+            Next(client, TouchEventKind.FrameShown);
+            client.Set(new DeviceSettings { HandGoal = new Vec3(0, -0.003, 0) });
+            WaitFor(() => client.Newest.Force_N.Y > 0.3);
+            double top = client.Newest.Proxy.Y - 0.002;
+            Expect(Math.Abs(top) < 2e-4, which + " is " + top + " m high");
+            client.Define(1, new TouchItem { Implicit = new TouchImplicit { Solid = Solid.Sphere(0.01).At(0, -1, 0) } });
+            client.Flush();
+            Next(client, TouchEventKind.FrameShown);
+        };
+        for (int i = 0; i < solids.Length; ++i) press(new TouchImplicit { Solid = solids[i], Error = 2e-5 }, "solid " + i);
+        press(new TouchImplicit {
+            Solid = Solid.HalfSpace(up), Low = new Vec3(-0.02, -0.01, -0.02), High = new Vec3(0.02, 0.01, 0.02)
+        }, "a half space");
+        bool refused = false;
+        try {
+            client.Define(1, new TouchItem { Implicit = new TouchImplicit() });
+        } catch (ArgumentException) {
+            refused = true;
+        }
+        Expect(refused, "an implicit surface without a solid is refused");
+        client.Dispose();
+    }
+
     static void RefusedFrameChangesNothing(string url) {
         var client = new HapticClient(url);
         client.SetWorld(new TouchItem { Mesh = Floor(1, 0.1), Matrix = new double[16] });
@@ -360,7 +410,7 @@ static class TestClient {
 
     static int Main(string[] arguments) {
         var cases = new Action<string>[] { BadAddresses, NobodyThere, NoAnswer, LargeMeshIsFelt, SurfacesThatAreNoMeshesAreFelt,
-            RefusedFrameChangesNothing,
+            ImplicitSurfacesAreFelt, RefusedFrameChangesNothing,
             TooLargeFrameIsRefusedHere, FastFramesAreMerged, FastSettingsAreMerged, SecondClientIsNotMaster, WrongToken,
             RightToken, ServerGoesAway, BodiesAnswer, JointsHold, SnapsHoldAndFieldsPush };
         cases.Single(one => one.Method.Name == arguments[0])(arguments[1]);
