@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
+#include <IGESCAFControl_Writer.hxx>
+#include <IGESControl_Controller.hxx>
 #include <IGESControl_Writer.hxx>
 #include <Interface_Static.hxx>
 #include <Message.hxx>
@@ -182,6 +184,23 @@ TEST_F(CadFile, EachSolidIsAnObjectWithNameAndColour) {
   const Model one = loadModel(tempFile("whole.step"));
   EXPECT_TRUE(one.parts.empty()) << "in a scene file it is one object";
   EXPECT_EQ(one.reading.cad->solids, 4u);
+}
+
+TEST_F(CadFile, SolidsOfIgesHaveNamesAndColoursToo) {
+  Handle(TDocStd_Document) document = newCadDocument();
+  const TDF_Label box =
+      XCAFDoc_DocumentTool::ShapeTool(document->Main())->AddShape(test::boxOf({0, 0, 0}, {10, 20, 30}), Standard_False);
+  TDataStd_Name::Set(box, TCollection_ExtendedString("box"));
+  XCAFDoc_DocumentTool::ColorTool(document->Main())
+      ->SetColor(box, Quantity_Color(0.2, 0.4, 1, Quantity_TOC_sRGB), XCAFDoc_ColorSurf);
+  IGESControl_Controller::Init();
+  Interface_Static::SetIVal("write.iges.brep.mode", 1);  // solids, and not only faces
+  IGESCAFControl_Writer iges;
+  iges.Transfer(document);
+  iges.ComputeModel();
+  iges.Write(tempFile("box.iges").c_str());
+  Interface_Static::SetIVal("write.iges.brep.mode", 0);
+  expectParts(tempFile("box.iges"), {{"box", Rgb{51, 102, 255}, {0, 0, 0}, {0.01, 0.02, 0.03}}});
 }
 
 // Solids without names are numbered, and what is no solid is an object too.
