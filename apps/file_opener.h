@@ -13,7 +13,7 @@ namespace hl {
 /// The largest file that a page may send, bytes.
 inline constexpr std::uint64_t kUpload_bytes = 256'000'000;
 
-/// The word after which this program reads a file for a server: `hl read-sent ENDING`. Not for people.
+/// The word after which this program reads a file for a server: `hl read-sent NAME`. Not for people.
 inline constexpr const char* kReadSent = "read-sent";
 
 class FileOpener {

@@ -1,6 +1,4 @@
 // hl-vdb: reads an OpenVDB or a NanoVDB file for hl, in a process of its own.
-#include <oneapi/tbb/global_control.h>
-
 #include <string>
 
 #include "io/isolated.h"
@@ -22,8 +20,6 @@ hl::SceneModel parse(const hl::VdbTask& task, const hl::ReadingReport& report) {
 
 // NOLINTNEXTLINE(bugprone-exception-escape): only when not even stderr can be written
 int main(int argc, char** argv) {
-  // A reader without rights can start no threads.
-  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   return hl::readingMain("hl-vdb", HL_VERSION, {argv, static_cast<std::size_t>(argc)}, [](const auto& words) {
     const hl::VdbTask task = hl::vdbTaskOf(words);
     hl::answerAsProgram({}, [&](const hl::ReadingReport& report) { return parse(task, report); });

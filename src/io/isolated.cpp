@@ -1,6 +1,7 @@
 #include "io/isolated.h"
 
 #include <fcntl.h>
+#include <oneapi/tbb/global_control.h>
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
@@ -266,6 +267,8 @@ SceneModel runProgram(const std::string& name, const IsolationLimits& limits, co
 }
 
 void answerAsProgram(const IsolationLimits& limits, const Parse& parse) {
+  // A reader without rights can start no threads.
+  const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);
   constexpr int kYielding = 10;  // to the loops of the server that waits for it
   setpriority(PRIO_PROCESS, 0, kYielding);
   runChild(STDOUT_FILENO, STDIN_FILENO, bounded(limits), parse);

@@ -132,6 +132,15 @@ std::string textOf(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
+// assimp's words about a file that it knows by another name.
+std::string saidOf(const ModelFile& file, std::string text) {
+  const std::string alias = OnlyFile::nameOf(file.ending);
+  const std::string name = file.name.empty() ? "the file" : file.name;
+  for (std::size_t at = 0; file.alone && (at = text.find(alias, at)) != std::string::npos; at += name.size())
+    text.replace(at, alias.size(), name);
+  return text;
+}
+
 // The file by its descriptor; from then on nothing else can be opened.
 const aiScene* readAlone(Assimp::Importer& importer, const ModelFile& file, Model& model) {
   const int descriptor = open(file.path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -161,8 +170,9 @@ const aiScene* readScene(Assimp::Importer& importer, const ModelFile& file, Mode
   return importer.ReadFileFromMemory(text.data(), text.size(), aiProcess_Triangulate, "obj");
 }
 
-void addScene(const Assimp::Importer& importer, const aiScene* scene, GltfHaptics&& haptics, Model& model) {
-  if (scene == nullptr) throw Error(std::string("cannot be understood: ") + importer.GetErrorString());
+void addScene(const Assimp::Importer& importer, const ModelFile& file, const aiScene* scene, GltfHaptics&& haptics,
+              Model& model) {
+  if (scene == nullptr) throw Error("cannot be understood: " + saidOf(file, importer.GetErrorString()));
   Import import{*scene, haptics, model};
   if (scene->mRootNode != nullptr) appendNode(import, *scene->mRootNode, Eigen::Matrix4d::Identity(), 0, 0);
   addHaptics(model, std::move(haptics));
@@ -175,8 +185,8 @@ SceneModel readWithBodies(Assimp::Importer& importer, const ModelFile& file, con
   if (file.alone && !forbidOpening()) throw Error(kNoFilters);
   return readX3dBodies(text, [&](const std::string& document) {
     Model model;
-    addScene(importer, importer.ReadFileFromMemory(document.data(), document.size(), aiProcess_Triangulate, "x3d"), {},
-             model);
+    addScene(importer, file,
+             importer.ReadFileFromMemory(document.data(), document.size(), aiProcess_Triangulate, "x3d"), {}, model);
     return model;
   });
 }
@@ -198,7 +208,7 @@ SceneModel parseWithAssimp(const ModelFile& file, const std::function<void(doubl
   Model model;
   GltfHaptics haptics = hapticsOf(file);
   const aiScene* scene = readScene(importer, file, model);
-  addScene(importer, scene, std::move(haptics), model);
+  addScene(importer, file, scene, std::move(haptics), model);
   return model;
 }
 

@@ -19,8 +19,9 @@ constexpr const char* kSceneEnding = ".hl.json";
 
 std::string pathOfSent() { return "/proc/self/fd/" + std::to_string(kKeptFile); }
 
-SceneModel parseSent(const std::string& ending, const ReadingReport& report) {
-  if (ending != kSceneEnding) return parseModel({pathOfSent(), ending, true}, report);
+SceneModel parseSent(const std::string& name, const ReadingReport& report) {
+  const std::string ending = sentEndingOf(name);
+  if (ending != kSceneEnding) return parseModel({pathOfSent(), ending, true, false, name}, report);
   LoadOptions options;
   options.alone = true;
   return loadSceneFile(pathOfSent(), options);
@@ -43,7 +44,7 @@ SceneModel loadSent(int descriptor, const std::string& name, ReaderProgram progr
   if (fstat(descriptor, &status) != 0 || status.st_size == 0) throw Error(name + ": is empty");
   const std::string ending = sentEndingOf(name);
   if (!readsSent(ending)) throw Error(name + ": " + cannotBeRead(ending));
-  program.words.push_back(ending);
+  program.words.push_back(name);
   const auto read = [&] {
     if (readsCad(ending)) return readCad(descriptor, name, {ending, cad}, limits, given_up, {});
     if (readsVdb(ending)) return readVdb(descriptor, name, {ending, ""}, limits, given_up, {});
@@ -52,11 +53,14 @@ SceneModel loadSent(int descriptor, const std::string& name, ReaderProgram progr
   SceneModel scene = read();
   if (elementsIn(scene) == 0) throw Error(name + ": there is no geometry in it");
   scene.model.name = name;
+  for (SceneSurface& surface : scene.surfaces) {
+    if (surface.name.empty()) surface.name = name;
+  }
   return scene;
 }
 
-void readSent(const std::string& ending) {
-  answerAsProgram({}, [&](const auto& report) { return parseSent(ending, report); });
+void readSent(const std::string& name) {
+  answerAsProgram({}, [&](const auto& report) { return parseSent(name, report); });
 }
 
 }  // namespace hl

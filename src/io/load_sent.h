@@ -17,12 +17,13 @@ std::string sentEndingOf(const std::string& name);
 bool readsSent(const std::string& ending);
 
 /// As loadScene() of a file, but from a process with threads, and without any other file that it names. `program` is
-/// one that calls readSent(); the ending is added to its words. CAD files have a program of their own. `name` is that
-/// of the scene, and for errors.
+/// one that calls readSent(); `name`, which is that of the scene and for errors, is added to its words. CAD files have
+/// a program of their own.
 SceneModel loadSent(int descriptor, const std::string& name, ReaderProgram program, const IsolationLimits& limits,
                     const std::atomic<bool>& given_up, const CadMeshing& cad = {});
 
 /// What the program does: reads its standard input, gives the model on its standard output, and ends.
-[[noreturn]] void readSent(const std::string& ending);
+/// `name`: of the file where it was sent from; nothing of this name is opened.
+[[noreturn]] void readSent(const std::string& name);
 
 }  // namespace hl

@@ -21,6 +21,7 @@ namespace hl {
 namespace {
 
 constexpr std::size_t kMaxTextures = 10'000, kMaxMaterials = 0xffff, kMaxWarnings = 1000, kLongestLine = 1000;
+constexpr std::size_t kMaxSurfaces = 60'000;  // as objects of a scene file
 
 // As errors and warnings are: one line, of a length to be read.
 std::string oneLine(const std::string& text) {
@@ -132,6 +133,7 @@ void PartSender::scene(const SceneModel& scene) {
     places(body.snaps, body.fields);
     model(body.model);
   }
+  surfaces(scene.surfaces);
   places(scene.snaps, scene.fields);
   part.set_joined_vertices(rest.reading.joined_vertices);
   send(part);
@@ -181,21 +183,62 @@ void PartSender::model(const Model& model) {
     part.set_warning(oneLine(model.warnings[i]));
     send(part);
   }
-  for (const Texture& texture : model.textures) {
-    toProto(texture, *part.mutable_texture());
-    send(part);
-    part.Clear();
-  }
-  for (const Material& material : model.materials) {
-    toProto(material, *part.mutable_material());
-    send(part);
-    part.Clear();
-  }
+  look(model.textures, model.materials);
   writeMesh(model, [&](proto::RecordedShape& mesh) {
     part.mutable_mesh()->Swap(&mesh);
     send(part);
     part.mutable_mesh()->Swap(&mesh);  // its lists are filled again
   });
+}
+
+void PartSender::look(const std::vector<Texture>& textures, const std::vector<Material>& materials) {
+  proto::ReadingPart part;
+  for (const Texture& texture : textures) {
+    toProto(texture, *part.mutable_texture());
+    send(part);
+    part.Clear();
+  }
+  for (const Material& material : materials) {
+    toProto(material, *part.mutable_material());
+    send(part);
+    part.Clear();
+  }
+}
+
+void PartSender::surfaces(const std::vector<SceneSurface>& surfaces) {
+  SurfaceWriter sources;
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    proto::ReadingPart part;
+    part.mutable_surface()->set_name(surfaces[i].name);
+    writeRepeat(surfaces[i].repeat, *part.mutable_surface()->mutable_repeat());
+    send(part);
+    look(surfaces[i].textures, {surfaces[i].material});
+    sources.write(*surfaces[i].source, i + 1, *this);
+  }
+}
+
+void PartSender::take(proto::RecordedHeights& part) {
+  proto::ReadingPart out;
+  out.mutable_heights()->Swap(&part);
+  send(out);
+}
+
+void PartSender::take(proto::RecordedVolume& part) {
+  proto::ReadingPart out;
+  out.mutable_volume()->Swap(&part);
+  send(out);
+}
+
+void PartSender::take(proto::RecordedCloud& part) {
+  proto::ReadingPart out;
+  out.mutable_cloud()->Swap(&part);
+  send(out);
+}
+
+void PartSender::take(proto::RecordedImplicit& part) {
+  proto::ReadingPart out;
+  out.mutable_implicit()->Swap(&part);
+  send(out);
 }
 
 void PartCollector::addTexture(const proto::RecordedTexture& texture) {
@@ -211,6 +254,40 @@ void PartCollector::addMaterial(const proto::Values& material) {
 void PartCollector::addWarning(const std::string& warning) {
   if (rest_.warnings.size() >= kMaxWarnings) throw Error("it has too many warnings");
   rest_.warnings.push_back(oneLine(warning));
+}
+
+void PartCollector::addSurface(const proto::ReadSurface& surface) {
+  if (in_body_ || in_surface_) throw Error("it has a surface within another thing");
+  if (scene_.surfaces.size() >= kMaxSurfaces) throw Error("it has too many surfaces");
+  scene_.surfaces.push_back({oneLine(surface.name()), nullptr});
+  scene_.surfaces.back().repeat = repeatIn(surface.repeat());
+  in_surface_ = true;
+}
+
+void PartCollector::addSource(const std::shared_ptr<const PrimitiveSource>& source) {
+  if (!in_surface_) throw Error("it has the form of a surface and no surface");
+  if (!source) return;  // more of it follows
+  if (rest_.materials.size() != 1) throw Error("it has a surface that is not of one material");
+  SceneSurface& surface = scene_.surfaces.back();
+  surface.source = source;
+  surface.material = rest_.materials.front();
+  surface.textures = std::exchange(rest_.textures, {});
+  rest_.materials.clear();
+  in_surface_ = false;
+}
+
+// Samples and points, which are counted apart: of the file itself, or of one of a scene's surfaces.
+bool PartCollector::addSamples(const proto::ReadingPart& part) {
+  if (part.has_heights()) {
+    part.heights().id() == 0 ? addHeights(part.heights()) : addSource(sources_.add(part.heights()));
+  } else if (part.has_volume()) {
+    part.volume().id() == 0 ? addVolume(part.volume()) : addSource(sources_.add(part.volume()));
+  } else if (part.has_cloud()) {
+    part.cloud().id() == 0 ? addCloud(part.cloud()) : addSource(sources_.add(part.cloud()));
+  } else {
+    return false;
+  }
+  return true;
 }
 
 // The first part has the header; samples count apart, as they are kept where they come to lie.
@@ -283,6 +360,10 @@ void PartCollector::addToScene(const proto::ReadingPart& part) {
   switch (part.body_case()) {
     case proto::ReadingPart::kRigidBody:
       return addBody(part.rigid_body());
+    case proto::ReadingPart::kSurface:
+      return addSurface(part.surface());
+    case proto::ReadingPart::kImplicit:
+      return addSource(sources_.add(part.implicit()));
     case proto::ReadingPart::kSnap:
       return addSnap(part.snap());
     case proto::ReadingPart::kField:
@@ -302,9 +383,7 @@ void PartCollector::addToScene(const proto::ReadingPart& part) {
 
 PartCollector::State PartCollector::add(const proto::ReadingPart& part, std::size_t bytes,
                                         const std::function<void(double)>& progress) {
-  if (part.has_heights()) return addHeights(part.heights()), State::kMore;
-  if (part.has_volume()) return addVolume(part.volume()), State::kMore;
-  if (part.has_cloud()) return addCloud(part.cloud()), State::kMore;
+  if (addSamples(part)) return State::kMore;
   if (bytes > left_) throw Error("it is too large");
   left_ -= bytes;
   switch (part.body_case()) {
@@ -348,6 +427,7 @@ Model PartCollector::takeModel() {
 }
 
 SceneModel PartCollector::take() {
+  if (in_surface_) throw Error("it has a surface without a form");
   scene_.model.reading = rest_.reading;
   scene_.model.parts = std::move(rest_.parts);
   checkParts(scene_.model);

@@ -9,10 +9,8 @@
 #include <optional>
 #include <string>
 
-#include "io/cloud_messages.h"
-#include "io/height_messages.h"
 #include "io/model_messages.h"
-#include "io/volume_messages.h"
+#include "io/surface_messages.h"
 #include "scene/scene_model.h"
 
 namespace hl {
@@ -21,7 +19,7 @@ namespace hl {
 inline constexpr std::uint32_t kMaxPartBytes = (std::uint32_t{64} << 22) + 65'536;
 
 /// Writes messages to a descriptor. What can not be written is lost: then nobody reads.
-class PartSender final : public HeightSink, public VolumeSink, public CloudSink {
+class PartSender final : public HeightSink, public VolumeSink, public CloudSink, private SurfaceParts {
  public:
   explicit PartSender(int descriptor) : descriptor_(descriptor) {}
   void progress(double fraction);
@@ -39,6 +37,12 @@ class PartSender final : public HeightSink, public VolumeSink, public CloudSink 
   void parts(const std::vector<ModelPart>& parts);
   std::string& waiting();
   void sendSamples();
+  void surfaces(const std::vector<SceneSurface>& surfaces);
+  void look(const std::vector<Texture>& textures, const std::vector<Material>& materials);
+  void take(proto::RecordedHeights& part) override;
+  void take(proto::RecordedVolume& part) override;
+  void take(proto::RecordedCloud& part) override;
+  void take(proto::RecordedImplicit& part) override;
   void model(const Model& model);
   void places(const SnapList& snaps, const FieldList& fields);
   void send(const proto::ReadingPart& part);
@@ -56,7 +60,7 @@ class PartCollector {
   /// `most_bytes`: of the messages together, and of the meshes. `samples_bytes`: of the samples of heights or a
   /// volume, or the points of a cloud.
   explicit PartCollector(std::size_t most_bytes, std::size_t samples_bytes = 0)
-      : mesh_(most_bytes), left_(most_bytes), samples_bytes_(samples_bytes) {
+      : mesh_(most_bytes), left_(most_bytes), samples_bytes_(samples_bytes), sources_(samples_bytes) {
     rest_.materials.clear();
   }
   /// Throws hl::Error for a message that makes no sense, or one too many. `bytes` is its length.
@@ -66,6 +70,9 @@ class PartCollector {
   SceneModel take();
 
  private:
+  bool addSamples(const proto::ReadingPart& part);
+  void addSurface(const proto::ReadSurface& surface);
+  void addSource(const std::shared_ptr<const PrimitiveSource>& source);
   void addHeights(const proto::RecordedHeights& part);
   void addVolume(const proto::RecordedVolume& part);
   void takeVolume();
@@ -84,9 +91,11 @@ class PartCollector {
 
   Model rest_;  // all but the mesh
   SceneModel scene_;
-  bool in_body_ = false;  // what comes now is of the last body
+  bool in_body_ = false;     // what comes now is of the last body
+  bool in_surface_ = false;  // of the last surface
   MeshReader mesh_;
   std::size_t left_, samples_bytes_;
+  SurfaceReader sources_;
   std::optional<HeightCollector> heights_;
   std::optional<VolumeCollector> volume_;
   std::optional<CloudCollector> cloud_;

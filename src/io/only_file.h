@@ -12,9 +12,11 @@ namespace hl {
 class OnlyFile final : public Assimp::IOSystem {
  public:
   /// `descriptor` outlives it. `ending` as ".obj".
-  OnlyFile(int descriptor, const std::string& ending) : descriptor_(descriptor), name_(kStem + ending) {}
+  OnlyFile(int descriptor, const std::string& ending) : descriptor_(descriptor), name_(nameOf(ending)) {}
 
-  const std::string& name() const { return name_; }  ///< under which assimp finds it
+  /// Under which assimp finds a file of this ending.
+  static std::string nameOf(const std::string& ending) { return kStem + ending; }
+  const std::string& name() const { return name_; }
   /// Last parts of the names of files that were asked for beside it.
   const std::set<std::string>& missing() const { return missing_; }
 

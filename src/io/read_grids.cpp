@@ -21,8 +21,8 @@ namespace hl {
 namespace {
 
 /// "N37W123" gives the south-west corner of a tile, in degrees.
-std::optional<double> southOf(const std::string& path) {
-  const std::string name = std::filesystem::path(path).filename().string();
+std::optional<double> southOf(const ModelFile& file) {
+  const std::string name = file.name.empty() ? std::filesystem::path(file.path).filename().string() : file.name;
   int degrees = 0;
   if (name.size() < 7 || (name[0] != 'N' && name[0] != 'S' && name[0] != 'n' && name[0] != 's')) return {};
   const auto [end, error] = std::from_chars(name.data() + 1, name.data() + 3, degrees);
@@ -107,7 +107,7 @@ void readSrtm(const ModelFile& file, HeightSink& sink) {
     throw Error(fmt::format("has {} bytes: an SRTM tile is a square of 16-bit samples, such as 1201 x 1201", bytes));
   const GridSize size{side, side, SampleKind::kInt16};
   const double step_deg = 1.0 / (side - 1);
-  const std::optional<double> south = southOf(file.path);
+  const std::optional<double> south = southOf(file);
   if (!south) sink.warn("its name does not say where it lies, as N37W123.hgt does: it is taken to lie at the equator");
   const DegreeLength spacing = spacingOfDegrees(step_deg, step_deg, south.value_or(-0.5) + 0.5, sink);
   constexpr double kVoid = -32768;

@@ -6,9 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/machine_memory.h"
 #include "io/body_messages.h"
-#include "io/decode_implicit.h"
 #include "io/snap_messages.h"
 #include "io/value_messages.h"
 
@@ -91,12 +89,6 @@ std::shared_ptr<const Label> labelOf(const proto::RecordedInstance& in) {
   return std::make_shared<const Label>(std::move(label));
 }
 
-Vec2 repeatOf(const proto::RecordedHeights& in) {
-  if (in.repeat_size() == 0) return Vec2::Ones();
-  if (in.repeat_size() != 2 || !std::isfinite(in.repeat(0)) || !std::isfinite(in.repeat(1))) throw Error(kBrokenScene);
-  return {in.repeat(0), in.repeat(1)};
-}
-
 void encode(const Surfaces& surfaces, proto::RecordedSurfaces& out) {
   for (const Material& material : surfaces.materials) toProto(material, *out.add_materials());
   for (const auto& texture : surfaces.textures) toProto(*texture, *out.add_textures());
@@ -125,6 +117,35 @@ void encode(const Instance& instance, proto::RecordedInstance& out) {
   toProto(valuesOf(yields), *out.mutable_compliance());
 }
 
+/// Each part of a surface is a block.
+class BlockParts final : public SurfaceParts {
+ public:
+  BlockParts(const SceneWriter::Write& write, const Vec2& repeat) : write_(write), repeat_(repeat) {}
+  void take(proto::RecordedHeights& part) override {
+    const bool is_first = part.columns() > 0;
+    if (is_first) writeRepeat(repeat_, *part.mutable_repeat());
+    block_.mutable_heights()->Swap(&part);
+    write_(block_);
+  }
+  void take(proto::RecordedVolume& part) override {
+    block_.mutable_volume()->Swap(&part);
+    write_(block_);
+  }
+  void take(proto::RecordedCloud& part) override {
+    block_.mutable_cloud()->Swap(&part);
+    write_(block_);
+  }
+  void take(proto::RecordedImplicit& part) override {
+    block_.mutable_implicit()->Swap(&part);
+    write_(block_);
+  }
+
+ private:
+  const SceneWriter::Write& write_;
+  const Vec2 repeat_;
+  proto::RecordingBlock block_;
+};
+
 void addPose(std::uint64_t body, std::span<const float> pose, proto::RecordedPoses& out) {
   out.add_bodies(body);
   out.mutable_poses()->Add(pose.begin(), pose.end());
@@ -145,47 +166,12 @@ std::uint64_t SceneWriter::idOf(std::map<const Part*, Written<Part>>& written, c
   return entry.id;
 }
 
-void SceneWriter::writeSource(const Shape& shape, std::uint64_t id, const Write& write) {
-  const PrimitiveSource& source = *shape.source;
-  const auto take_heights = [&](proto::RecordedHeights& heights) {
-    proto::RecordingBlock part;
-    heights.set_id(id);
-    const bool first = heights.columns() > 0;
-    if (first && shape.repeat != Vec2::Ones()) heights.mutable_repeat()->Add(shape.repeat.begin(), shape.repeat.end());
-    part.mutable_heights()->Swap(&heights);
-    write(part);
-  };
-  if (const auto* const field = dynamic_cast<const HeightField*>(&source)) return writeHeights(*field, take_heights);
-  if (const auto* const frame = dynamic_cast<const DepthFrame*>(&source)) return writeDepths(*frame, take_heights);
-  if (const auto* const cloud = dynamic_cast<const PointCloud*>(&source)) {
-    const auto [first, is_new] = clouds_.try_emplace(cloud->points().get(), CloudId{cloud->points(), id});
-    return writeCloud(*cloud, is_new ? 0 : first->second.id, [&](proto::RecordedCloud& points) {
-      proto::RecordingBlock part;
-      points.set_id(id);
-      *part.mutable_cloud() = points;
-      write(part);
-    });
-  }
-  if (const auto* const implicit = dynamic_cast<const ImplicitSurface*>(&source)) {
-    proto::RecordingBlock part;
-    part.mutable_implicit()->set_id(id);
-    toProto(*implicit, *part.mutable_implicit());
-    return write(part);
-  }
-  const auto* const surface = dynamic_cast<const IsoSurface*>(&source);
-  if (surface == nullptr) throw Error("a surface of a kind that is not known cannot be recorded");
-  const auto [first, is_new] = volumes_.try_emplace(surface->volume().get(), VolumeId{surface->volume(), id});
-  writeVolume(*surface, is_new ? 0 : first->second.id, [&](proto::RecordedVolume& volume) {
-    proto::RecordingBlock part;
-    volume.set_id(id);
-    part.mutable_volume()->Swap(&volume);
-    write(part);
-  });
-}
-
 std::uint64_t SceneWriter::shapeId(const std::shared_ptr<const Shape>& shape, const Write& write) {
   return idOf(shapes_, shape, [&](std::uint64_t id) {
-    if (shape->source) return writeSource(*shape, id, write);
+    if (shape->source) {
+      BlockParts blocks(write, shape->repeat);
+      return sources_.write(*shape->source, id, blocks);
+    }
     writeMesh(shape->model, [&](proto::RecordedShape& mesh) {
       proto::RecordingBlock part;
       part.mutable_shape()->Swap(&mesh);
@@ -273,8 +259,8 @@ void SceneWriter::writePoses(std::int64_t now_ns, const Write& write) {
 
 void SceneReader::add(const proto::RecordedShape& in) {
   if (in.hierarchy() > static_cast<std::uint32_t>(HierarchyKind::kNone)) throw Error(kBrokenScene);
-  addPart(in.id());
-  if (heights_) throw Error(kBrokenScene);
+  if (sources_.begun() || (begun_ && *begun_ != in.id())) throw Error(kBrokenScene);
+  begun_ = in.id();
   mesh_.add(in);
   if (in.continues()) return;
   begun_.reset();
@@ -282,82 +268,13 @@ void SceneReader::add(const proto::RecordedShape& in) {
 }
 
 void SceneReader::add(const proto::RecordedHeights& in) {
-  const bool first = !begun_;
-  addPart(in.id());
-  if (first) {
-    heights_.emplace(headerOf(in), machineMemory_bytes());
-    repeat_ = repeatOf(in);
-  }
-  if (!heights_) throw Error(kBrokenScene);
-  heights_->add(in.samples().data(), in.samples().size());
-  if (in.continues()) return;
-  begun_.reset();
-  shapes_[in.id()] = makeShape(heights_->take(), {}, {}, repeat_);
-  heights_.reset();
+  if (!sources_.begun()) repeat_ = repeatIn(in.repeat());
+  add(in.id(), sources_.add(in), repeat_);
 }
 
-void SceneReader::add(const proto::RecordedVolume& in) {
-  const bool first = !begun_;
-  addPart(in.id());
-  if (first) {
-    volume_surface_ = {frameOf(in), isoOf(in), matterOf(in)};
-    if (in.like() == 0) volume_.emplace(headerOf(in), machineMemory_bytes());
-  }
-  if (in.like() == 0) {
-    if (!volume_) throw Error(kBrokenScene);
-    volume_->add(in.samples().data(), in.samples().size());
-    if (in.continues()) return;
-  }
-  begun_.reset();
-  const std::shared_ptr<const Volume> volume = in.like() == 0 ? volume_->take() : volumeOf(in.like());
-  const auto& [frame, iso, matter] = volume_surface_;
-  shapes_[in.id()] = makeShape(std::make_shared<const IsoSurface>(volume, frame, iso, matter));
-  volume_.reset();
-}
-
-void SceneReader::add(const proto::RecordedCloud& in) {
-  const bool first = !begun_;
-  addPart(in.id());
-  if (first) {
-    cloud_look_ = {frameOf(in), lookOf(in)};
-    if (in.like() == 0) cloud_.emplace(in, machineMemory_bytes(), true);
-  }
-  if (in.like() == 0) {
-    if (!cloud_) throw Error(kBrokenScene);
-    cloud_->add(in);
-    if (in.continues()) return;
-  }
-  begun_.reset();
-  const std::shared_ptr<const CloudPoints> points = in.like() == 0 ? cloud_->take() : cloudOf(in.like());
-  shapes_[in.id()] = makeShape(std::make_shared<const PointCloud>(points, cloud_look_.first, cloud_look_.second));
-  cloud_.reset();
-}
-
-std::shared_ptr<const CloudPoints> SceneReader::cloudOf(std::uint64_t id) const {
-  const auto shape = shapes_.find(id);
-  const auto* const cloud =
-      shape == shapes_.end() ? nullptr : dynamic_cast<const PointCloud*>(shape->second->source.get());
-  if (cloud == nullptr) throw Error(kBrokenScene);
-  return cloud->points();
-}
-
-void SceneReader::add(const proto::RecordedImplicit& in) {
+void SceneReader::add(std::uint64_t id, const SurfaceReader::Source& source, const Vec2& repeat) {
   if (begun_) throw Error(kBrokenScene);
-  shapes_[in.id()] = makeShape(implicitOf(in));
-}
-
-std::shared_ptr<const Volume> SceneReader::volumeOf(std::uint64_t id) const {
-  const auto shape = shapes_.find(id);
-  const auto* const surface =
-      shape == shapes_.end() ? nullptr : dynamic_cast<const IsoSurface*>(shape->second->source.get());
-  if (surface == nullptr) throw Error(kBrokenScene);
-  return surface->volume();
-}
-
-// Parts of one shape follow each other.
-void SceneReader::addPart(std::uint64_t id) {
-  if (begun_ && *begun_ != id) throw Error(kBrokenScene);
-  begun_ = id;
+  if (source) shapes_[id] = makeShape(source, {}, {}, repeat);
 }
 
 void SceneReader::add(const proto::RecordedSurfaces& in) {

@@ -10,12 +10,9 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <tuple>
 
-#include "io/cloud_messages.h"
-#include "io/height_messages.h"
 #include "io/model_messages.h"
-#include "io/volume_messages.h"
+#include "io/surface_messages.h"
 #include "scene/snapshot.h"
 
 namespace hl {
@@ -46,20 +43,10 @@ class SceneWriter {
   std::uint64_t idOf(std::map<const Part*, Written<Part>>& written, const std::shared_ptr<const Part>& part,
                      const Encode& encode);
   std::uint64_t shapeId(const std::shared_ptr<const Shape>& shape, const Write& write);
-  void writeSource(const Shape& shape, std::uint64_t id, const Write& write);
   std::uint64_t bodyId(const std::shared_ptr<const RigidBody>& body, const Write& write);
 
-  struct VolumeId {
-    std::shared_ptr<const Volume> kept;  // its address stays its own
-    std::uint64_t id;                    // of its first surface
-  };
   std::map<const Shape*, Written<Shape>> shapes_;
-  struct CloudId {
-    std::shared_ptr<const CloudPoints> kept;
-    std::uint64_t id;
-  };
-  std::map<const Volume*, VolumeId> volumes_;
-  std::map<const CloudPoints*, CloudId> clouds_;
+  SurfaceWriter sources_;  // of shapes that are no meshes
   std::map<const Surfaces*, Written<Surfaces>> surfaces_;
   std::map<const RigidBody*, Written<RigidBody>> bodies_;
   std::uint64_t last_id_ = 0;
@@ -72,9 +59,9 @@ class SceneReader {
  public:
   void add(const proto::RecordedShape& in);
   void add(const proto::RecordedHeights& in);
-  void add(const proto::RecordedVolume& in);
-  void add(const proto::RecordedCloud& in);
-  void add(const proto::RecordedImplicit& in);
+  void add(const proto::RecordedVolume& in) { add(in.id(), sources_.add(in)); }
+  void add(const proto::RecordedCloud& in) { add(in.id(), sources_.add(in)); }
+  void add(const proto::RecordedImplicit& in) { add(in.id(), sources_.add(in)); }
   void add(const proto::RecordedSurfaces& in);
   void add(const proto::RecordedBody& in);
   std::shared_ptr<const Snapshot> scene(const proto::RecordedScene& in) const;
@@ -85,19 +72,13 @@ class SceneReader {
 
   void setBody(std::uint64_t id, Instance& instance) const;
 
-  void addPart(std::uint64_t id);
-  std::shared_ptr<const Volume> volumeOf(std::uint64_t id) const;
-  std::shared_ptr<const CloudPoints> cloudOf(std::uint64_t id) const;
+  /// Null: more of the surface follows.
+  void add(std::uint64_t id, const SurfaceReader::Source& source, const Vec2& repeat = Vec2::Ones());
 
   MeshReader mesh_;
-  std::optional<HeightCollector> heights_;
-  Vec2 repeat_ = Vec2::Ones();  // of the heights of which more parts follow
-  std::optional<VolumeCollector> volume_;
-  std::optional<CloudCollector> cloud_;
-  std::pair<GridFrame, CloudLook> cloud_look_;  // of the cloud of which more parts follow
-  std::tuple<GridFrame, IsoValue, std::shared_ptr<const MatterTable>>
-      volume_surface_;                  // of the volume of which more parts follow
-  std::optional<std::uint64_t> begun_;  // the shape of which more parts follow
+  SurfaceReader sources_;               // of shapes that are no meshes
+  Vec2 repeat_ = Vec2::Ones();          // of the heights of which more parts follow
+  std::optional<std::uint64_t> begun_;  // the mesh of which more parts follow
   std::map<std::uint64_t, std::shared_ptr<const Shape>> shapes_;
   std::map<std::uint64_t, std::shared_ptr<const Surfaces>> surfaces_;
   std::map<std::uint64_t, std::shared_ptr<const RigidBody>> bodies_;
