@@ -182,7 +182,10 @@ void EditableScene::Flattening::add(const SceneItem& item, const Call& call, std
   const std::shared_ptr<const Shape> shape = shapeOf(item.shape, polar.stretch);
   const Box box = boxAt(shape->bounds, pose);
   if (shape->count() == 0) return;
-  if (!pose.origin.allFinite() || !withinReach(box.min) || !withinReach(box.max))
+  // A volume without a surface of its iso value is nowhere. It stays an object: when there is a surface again, the
+  // proxy is let out of its matter.
+  const bool far = !box.empty() && (!withinReach(box.min) || !withinReach(box.max));
+  if (!withinReach(pose.origin) || far)
     throw Error("an object lies farther than 1e9 m from the origin: nothing so far can be touched");
   PlacedShape& placed = place(shape, pose, call);
   placed.item = number;

@@ -13,6 +13,7 @@
 #include "geometry/scenes.h"
 #include "scene/by_key.h"
 #include "surfaces/depth_frame.h"
+#include "surfaces/iso_surface.h"
 
 namespace hl {
 namespace {
@@ -358,6 +359,32 @@ TEST(FollowOn, AnotherImageOfACameraIsThereAtOnce) {
   EXPECT_EQ(second.instances[0].replaced_in, 8U);
   const Followed third = followOn(scene.placed(), pointersByKey(second.instances), 500, 600, {}, {}, 9);
   EXPECT_EQ(third.instances[0].replaced_in, 8U) << "the same one";
+}
+
+// Values 0 to 1, 2 samples along each side.
+SceneItem isoItem(double iso) {
+  const auto values = std::make_shared<const std::vector<float>>(std::vector<float>{0, 1, 0, 1, 0, 1, 0, 1});
+  const auto volume = std::make_shared<const Volume>(
+      VoxelGrid({2, 2, 2}, Samples(SampleKind::kFloat32, std::shared_ptr<const void>(values, values->data()))));
+  return shapeItem(makeShape(std::make_shared<const IsoSurface>(volume, GridFrame{}, IsoValue{iso, {}})));
+}
+
+// It is no fault of the frame: nothing is there, until a value comes that the volume has.
+TEST(FollowOn, ASurfaceMayBeNowhere) {
+  for (const SceneItem& nowhere : {isoItem(2), isoItem(-1)}) {
+    EditableScene scene(1, {});
+    const auto show = [&](const SceneItem& item) {
+      SceneEdit edit = worldOf({callItem(1, turn(0.5, {1, 0, 0}))});
+      edit.objects[1] = listOf({item, shapeItem(triangle())});
+      scene.apply(edit);
+      return makeSnapshot(followOn(scene.placed(), {}, 0, 0).instances);
+    };
+    const auto alone = show(shapeItem(triangle())), empty = show(nowhere);
+    ASSERT_EQ(empty->instances.size(), 2U);
+    EXPECT_EQ(empty->bounds.min, alone->bounds.min);
+    EXPECT_EQ(empty->bounds.max, alone->bounds.max);
+    EXPECT_EQ(show(isoItem(0.5))->instances[0].key, empty->instances[0].key) << "it is the same object";
+  }
 }
 
 TEST(FollowOn, KnownObjectsMoveAndNewOnesAreThere) {
