@@ -49,6 +49,22 @@ void HeightField::checkFrame() {
         "a height field rises by 1e5 times its spacing or more: give it another vertical scale, or name the "
         "value of missing samples");
   mirrored_ = determinant > 0;
+  across_ = axes.inverse();
+}
+
+// The diagonal of a cell goes from its first corner to the one opposite.
+Site HeightField::siteOf(const Vec3& point) const {
+  const Vec3 at = across_ * (point - frame_.origin);
+  if (!(at.x() >= 0 && at.y() >= 0 && at.x() <= grid_->columns() - 1.0 && at.y() <= grid_->rows() - 1.0))
+    return Site::kOpen;
+  const std::uint32_t i = std::min(static_cast<std::uint32_t>(at.x()), grid_->columns() - 2);
+  const std::uint32_t j = std::min(static_cast<std::uint32_t>(at.y()), grid_->rows() - 2);
+  if (!grid_->hasCell(i, j)) return Site::kOpen;
+  const double u = at.x() - i, v = at.y() - j;
+  const double first = grid_->at(i, j), opposite = grid_->at(i + 1, j + 1);
+  const double side = u >= v ? grid_->at(i + 1, j) : grid_->at(i, j + 1);  // the third corner of the half
+  const double height = first + std::max(u, v) * (side - first) + std::min(u, v) * (opposite - side);
+  return at.z() < height ? Site::kMatter : Site::kOpen;
 }
 
 ElementId HeightField::count() const { return 2 * ElementId{grid_->columns() - 1} * (grid_->rows() - 1); }

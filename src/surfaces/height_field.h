@@ -32,6 +32,8 @@ class HeightField final : public PrimitiveSource {
   SharedMemory shared() const override { return {grid_.get(), grid_->bytes() + pyramid_->bytes()}; }
   /// Against the bilinear surface through the samples.
   double error_m() const override;
+  /// Matter is below the triangles. Where there are none, beside the field and in its gaps, there is no matter.
+  Site siteOf(const Vec3& point) const override;
   std::shared_ptr<const PrimitiveSource> placed(const Mat3& linear, const Vec3& offset) const override;
   DrawnMesh drawn(std::size_t most_triangles) const override;
 
@@ -56,7 +58,8 @@ class HeightField final : public PrimitiveSource {
   std::shared_ptr<const HeightGrid> grid_;
   std::shared_ptr<const HeightPyramid> pyramid_;
   GridFrame frame_;
-  bool mirrored_ = false;  // the axes are right-handed: seen from above, rows go to the left of columns
+  Mat3 across_ = Mat3::Identity();  // inverse of the frame's axes
+  bool mirrored_ = false;           // the axes are right-handed: seen from above, rows go to the left of columns
   Box bounds_;
 };
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/error.h"
+#include "cases.h"
 #include "fields.h"
 
 namespace hl {
@@ -74,6 +75,46 @@ TEST(HeightField, TrianglesAreValidAndFaceUp) {
 }
 
 // Central differences are exact for a quadratic; between samples the normals are interpolated.
+// The judge looks for the triangle above or below the point, along the axis of the heights, among all.
+TEST(HeightField, MatterIsBelowItsTriangles) {
+  test::Random random(11);
+  int below = 0, open = 0;
+  for (int i = 0; i < 40 * test::cases(5); ++i) {
+    const auto field = test::randomField(random);
+    const HeightGrid& grid = field->grid();
+    const Vec3 up = field->frame().axes.col(2);
+    for (int k = 0; k < 10; ++k) {
+      const double column = random.uniform(-0.2, grid.columns() - 0.8), row = random.uniform(-0.2, grid.rows() - 0.8);
+      const double height = random.uniform(field->pyramid().lowest(), field->pyramid().highest());
+      const Vec3 point = field->frame().point(column, row, height);
+      Site expected = Site::kOpen;
+      bool sure = true;
+      for (ElementId id = 0; id < field->count(); ++id) {
+        const ElementId cell = id / 2;
+        const auto across = static_cast<std::uint32_t>(cell % (grid.columns() - 1));
+        const auto along = static_cast<std::uint32_t>(cell / (grid.columns() - 1));
+        if (!grid.hasCell(across, along)) continue;
+        const auto corner = field->corners(id);
+        Mat3 axes;
+        axes << corner[1] - corner[0], corner[2] - corner[0], up;
+        const Vec3 at = axes.inverse() * (point - corner[0]);
+        constexpr double kNear = 1e-7;  // to an edge or the triangle: rounding decides
+        if (at.x() < -kNear || at.y() < -kNear || at.x() + at.y() > 1 + kNear) continue;
+        expected = at.z() < 0 ? Site::kMatter : Site::kOpen;
+        const double range = field->pyramid().highest() - field->pyramid().lowest();
+        sure = std::min({std::abs(at.x()), std::abs(at.y()), std::abs(1 - at.x() - at.y())}) > kNear &&
+               std::abs(at.z()) > kNear * range;
+        if (sure) break;
+      }
+      if (!sure) continue;
+      ASSERT_EQ(field->siteOf(point), expected) << i << " " << k;
+      ++(expected == Site::kMatter ? below : open);
+    }
+  }
+  EXPECT_GT(below, 100);
+  EXPECT_GT(open, 100);
+}
+
 TEST(HeightField, NormalsAreThoseOfTheSurfaceThatWasSampled) {
   const double h = 1e-3, c = 4;
   const auto field =

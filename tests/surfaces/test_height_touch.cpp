@@ -1,6 +1,9 @@
 // A height field touched: the same bits as the same triangles as a mesh.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <functional>
+
 #include "base/realtime_guard.h"
 #include "builtin.h"
 #include "fields.h"
@@ -204,6 +207,68 @@ TEST(HeightTouch, ABallStandsOnCrests) {
   }
   EXPECT_NEAR(rest.y(), lowest, 1e-6);
   EXPECT_LT(rest.y(), amplitude + radius);
+}
+
+// What a server shows of a field that a client sends again and again.
+class SentField {
+ public:
+  const Snapshot& show(const std::function<double(double, double)>& height) {
+    constexpr std::uint32_t kSide = 21;
+    Instance instance;
+    instance.shape = makeShape(test::fieldOf(kSide, kSide, 0.004, height)->placed(Mat3::Identity(), {-0.04, 0, -0.04}));
+    instance.surfaces = surfacesOf(instance.shape);
+    instance.key = 1;
+    instance.replaced_in = number_ > 0 ? number_ + 1 : 0;
+    snapshot_ = makeSnapshot({instance}, "", ++number_);
+    return *snapshot_;
+  }
+  const Snapshot& now() const { return *snapshot_; }
+
+ private:
+  std::uint64_t number_ = 0;
+  std::shared_ptr<const Snapshot> snapshot_;
+};
+
+// By less and by far more than its radius; level, sloped and rough.
+TEST(HeightTouch, AFieldThatIsSentHigherLiftsTheProxy) {
+  for (const double slope : {0.0, 0.5, 3.0}) {
+    SentField sent;
+    ProxySettings settings;
+    settings.radius = 0.003;
+    const auto ground = [&](double level) {
+      return [=](double i, double j) { return level + slope * 0.004 * (i - 10) + 1e-4 * std::sin(7 * i + 3 * j); };
+    };
+    ProxyState state = startProxy(sent.show(ground(0)), settings, {0, 0.05, 0});
+    const Vec3 finger(0, -0.02, 0);
+    for (int i = 0; i < 50; ++i) tick(state, sent.now(), settings, finger);
+    for (const double level : {0.001, 0.003, 0.007, 0.015, 0.031, 0.02, 0.06, 0.0, 0.05}) {
+      sent.show(ground(level));
+      for (int i = 0; i < 50; ++i) {
+        tick(state, sent.now(), settings, finger);
+        const double least = level + slope * state.position.x() - 2e-4 + settings.radius * std::hypot(1, slope) * 0.99;
+        ASSERT_GE(state.position.y(), least) << "slope " << slope << ", level " << level << ", tick " << i;
+      }
+    }
+  }
+}
+
+// Whoever came below it, through a gap or around its rim, is not lifted through it.
+TEST(HeightTouch, AProxyThatWasBelowAFieldStaysBelow) {
+  SentField sent;
+  ProxySettings settings;
+  settings.radius = 0.003;
+  const auto level = [](double y) { return [y](double, double) { return y; }; };
+  ProxyState state = startProxy(sent.show(level(0)), settings, {0, -0.03, 0});
+  const Vec3 finger(0, 0.01, 0);
+  tick(state, sent.now(), settings, finger);
+  for (const double y : {0.0, 0.004, -0.0005, -0.001, 0.002}) {
+    sent.show(level(y));
+    for (int i = 0; i < 50; ++i) {
+      tick(state, sent.now(), settings, finger);
+      ASSERT_LT(state.position.y(), y) << "level " << y << ", tick " << i;
+    }
+    EXPECT_NEAR(state.position.y(), y - settings.radius, 1e-6);
+  }
 }
 
 TEST(HeightTouch, TicksAllocateNothing) {
