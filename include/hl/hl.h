@@ -508,7 +508,8 @@ HL_API void hlPopAttrib(void);
 
 /* ---- Proxy and device: at once, not with the frame. HL_INVALID_OPERATION unless HL_MASTER. ---------------------- */
 
-/** HL_PROXY_RADIUS, m in the world, > 0. */
+/** HL_PROXY_RADIUS, m in the world, > 0. It holds for the first world, too, when it is set before; another workspace
+ * later keeps the radius as it is at the hand. */
 HL_API void hlProxyf(HLenum parameter, HLfloat value);
 HL_API void hlProxyd(HLenum parameter, HLdouble value); /**< see hlProxyf */
 /** The hand moves in the world by p = origin + world_per_device * p_hand, axes parallel; `world_per_device` > 0,

@@ -56,23 +56,27 @@ void LiveSettings::restartWith(const Workspace& workspace, double radius_W) {
 void LiveSettings::setWorkspace(const Workspace& workspace) {
   if (!workspace.valid()) return;
   const std::lock_guard lock(mutex_);
+  restartWith(workspace, radiusIn(workspace, commands_.radius_W / commands_.workspace.world_per_device));
   fitted_ = true;
-  const double radius_D = commands_.radius_W / commands_.workspace.world_per_device;
-  restartWith(workspace, radius_D * workspace.world_per_device);
+}
+
+double LiveSettings::radiusIn(const Workspace& workspace, double radius_D) const {
+  return radius_set_ && !fitted_ ? commands_.radius_W : radius_D * workspace.world_per_device;
 }
 
 void LiveSettings::setRadius(double radius_W) {
   if (!Workspace::validRadius(radius_W)) return;
   const std::lock_guard lock(mutex_);
+  radius_set_ = true;
   restartWith(commands_.workspace, radius_W);
 }
 
 void LiveSettings::fit(const Box& bounds) {
   const std::lock_guard lock(mutex_);
   if (fitted_ || bounds.empty()) return;
-  fitted_ = true;
   const Workspace workspace = Workspace::fit(bounds, side_D_);
-  restartWith(workspace, radius_D_ * workspace.world_per_device);
+  restartWith(workspace, radiusIn(workspace, radius_D_));
+  fitted_ = true;
 }
 
 double LiveSettings::topOfFitted_D(const Box& bounds) const {

@@ -24,9 +24,11 @@ class LiveSettings {
   void setStiffness(double stiffness_N_m);             ///< clamped to what the device accepts
   void setSurfaces(const MaterialOverride& surfaces);  ///< replaces what was set before; numbers out of range are cut
   void setLedger(LedgerMode mode) { ledger_ = mode; }
+  /// The proxy's radius stays as it is at the hand; one that was set before the first workspace or scene stays as it is
+  /// in the world.
   void setWorkspace(const Workspace& workspace);
   void setRadius(double radius_W);
-  /// A scene is about to be shown.
+  /// A scene is about to be shown. As setWorkspace(), where it is the first one.
   void fit(const Box& bounds);
   /// Another scene is about to be shown in the place of the one before: fitted as the first one was, whatever has been
   /// set since.
@@ -52,6 +54,7 @@ class LiveSettings {
  private:
   void restartWith(const Workspace& workspace, double radius_W);  // holding mutex_
   Workspace fitted(const Box& bounds) const;
+  double radiusIn(const Workspace& workspace, double radius_D) const;
 
   const double radius_D_, side_D_, stiffness_max_N_m_;
   const std::optional<double> world_per_device_;  // in the place of what would fit
@@ -62,6 +65,7 @@ class LiveSettings {
   mutable std::mutex mutex_;  // of what follows; the loops never see it
   ProxyCommands commands_;
   bool fitted_ = false;  // the workspace has been set, or fitted to a scene
+  bool radius_set_ = false;
   Latest<ProxyCommands> commands_for_proxy_{ProxyCommands{}};
   BodyCommandQueue body_commands_;
 };

@@ -841,6 +841,26 @@ TEST(TouchServer, TheFirstWorldIsFittedToTheHand) {
   EXPECT_NEAR(server.device().workspace().origin_W.y(), 0, 1e-12) << "only the first";
 }
 
+// In metres of the world, whatever comes first: the world, the workspace or the radius.
+TEST(TouchServer, ARadiusThatIsSetBeforeTheFirstWorldHolds) {
+  for (const bool workspace : {false, true}) {
+    TouchServerSettings settings = settingsOf();
+    settings.touch.world_per_device.reset();
+    TouchServer server(nothing(), settings);
+    server.start();
+    server.device().setRadius(0.003);
+    if (workspace) server.device().setWorkspace({Vec3::Zero(), 5});
+    EXPECT_EQ(server.device().radius_W(), 0.003);
+    Client client(server);
+    client.open();
+    ASSERT_TRUE(client.show(client.floorFrame(0)));
+    EXPECT_NEAR(server.device().workspace().world_per_device, workspace ? 5 : 2 / settings.touch.side_D, 1e-9);
+    EXPECT_EQ(server.device().radius_W(), 0.003);
+    server.device().setWorkspace({Vec3::Zero(), 2 * server.device().workspace().world_per_device});
+    EXPECT_DOUBLE_EQ(server.device().radius_W(), 0.006) << "then it stays as it is at the hand";
+  }
+}
+
 TEST(TouchServer, AClosedServerTellsItsClients) {
   auto server = std::make_unique<TouchServer>(nothing(), settingsOf());
   server->start();
