@@ -173,6 +173,14 @@ bool SurfaceRules::staysOnFaces(const ContactSet& set, const TouchedSet& touched
   return true;
 }
 
+// The step to where pass 1 leads. A finger that is above the turned planes leaves the surface: its place is not lowered
+// onto the true ones.
+Vec3 SurfaceRules::toStep(const ContactSet& set, const Vec3& goal, const SolverResult& held,
+                          const Proposal& proposal) const {
+  if (proposal.may_raise_energy && held.active_count > 0) return secondPass(set, goal);
+  return proposal.may_raise_energy || proposal.preslides ? aboveTruePlanes(set, goal) : goal;
+}
+
 // The passes are repeated here with the same contacts, which needs no search. Each pass leaves a fraction sin^2(beta) +
 // depth / radius of the error; AndersonMixing removes most of that.
 void SurfaceRules::settle(const ContactSet& set, const Vec3& position, const Vec3& gap, Proposal& proposal) const {
@@ -194,9 +202,7 @@ void SurfaceRules::settle(const ContactSet& set, const Vec3& position, const Vec
     const Vec3 resisted = resisting ? resistedStep(frictionOf(touched, held), way, offset.norm(), proposal) : way;
     const Vec3 goal = offset + resisted;
     proposal.held = way - resisted;
-    proposal.step = proposal.may_raise_energy ? secondPass(set, goal)
-                    : proposal.preslides      ? aboveTruePlanes(set, goal)
-                                              : goal;
+    proposal.step = toStep(set, goal, held, proposal);
     const Vec3 change = proposal.step - offset;
     const bool repeats = few && proposal.may_raise_energy && settings_.shading != ShadingPasses::kOnce;
     const bool settles = repeats ? change.norm() <= enough : slipsAtOnce(touched, proposal);

@@ -81,6 +81,7 @@ class SurfaceRules {
   SolverResult firstPass(const ContactSet& set, const TouchedSet& touched, const Vec3& gap, const Vec3& offset) const;
   Vec3 aboveTruePlanes(const ContactSet& set, const Vec3& goal) const;
   Vec3 secondPass(const ContactSet& set, const Vec3& goal) const;
+  Vec3 toStep(const ContactSet& set, const Vec3& goal, const SolverResult& held, const Proposal& proposal) const;
   FrictionOnWay frictionOf(const TouchedSet& touched, const SolverResult& held) const;
   Vec3 resistedStep(FrictionOnWay resistance, const Vec3& way, double slipped_now, Proposal& proposal) const;
   void listActive(const TouchedSet& touched, const SolverResult& held, Proposal& proposal) const;

@@ -185,6 +185,25 @@ TEST(Shading, LeaningNormalsOnAPlane) {
   }
 }
 
+// A finger that goes straight up from a shaded surface takes the proxy along, whether the normals lean by a rounding or
+// by degrees, and however slowly it goes.
+TEST(Shading, AFingerThatLiftsOffIsFollowed) {
+  for (const double lean : {0.0, 1e-16, 1e-9, 1e-3, 20 * kDegree}) {
+    const auto scene = test::snapshotOf(test::floorModel({std::sin(lean), std::cos(lean) * (1 - 1e-16), 0}));
+    for (const double step : {1e-6, 4e-5, 3e-3}) {
+      const ProxySettings settings = settingsOf(0.001, true);
+      ProxyState state = startProxy(*scene, settings, {0, 0.01, 0.01});
+      for (int i = 0; i < 20; ++i) tick(state, *scene, settings, {0, 0.0005, 0.01});
+      Vec3 finger(state.position.x(), state.position.y() - 2 * step, 0.01);
+      for (int i = 0; i < 10; ++i) {
+        finger.y() += step;
+        tick(state, *scene, settings, finger);
+      }
+      EXPECT_EQ(state.position, finger) << lean << ' ' << step;
+    }
+  }
+}
+
 TEST(Shading, UnusableNormalsGiveTheTruePlane) {
   for (const Vec3& normal : {Vec3(0, -1, 0), Vec3(0, 0, 0), Vec3(NAN, 0, 0), Vec3(0.9, -0.1, 0)}) {
     Model model = test::floorModel();
