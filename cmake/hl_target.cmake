@@ -66,7 +66,8 @@ function(hl_test_headers name)
   endif()
 endfunction()
 
-# hl_test(name SOURCES ... LINK ...): one GoogleTest program; ctest runs each of its cases on its own.
+# hl_test(name SOURCES ... LINK ...): one GoogleTest program; ctest runs each of its cases on its own. Their label is
+# the name of the folder.
 function(hl_test name)
   cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK" ${ARGN})
   if(NOT ARG_TIMEOUT)
@@ -79,7 +80,8 @@ function(hl_test name)
     hl_test_headers(hl_test_headers${HL_LIGHT})
     target_precompile_headers(${name} REUSE_FROM hl_test_headers${HL_LIGHT})
   endif()
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${ARG_TIMEOUT}
+  get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS ${folder}
     # Black boxes of faults that tests bring about: not among those of whoever runs them.
     ENVIRONMENT "XDG_STATE_HOME=${CMAKE_BINARY_DIR}/test-state")
 endfunction()

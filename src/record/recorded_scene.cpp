@@ -1,7 +1,6 @@
 #include "record/recorded_scene.h"
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <utility>
 
