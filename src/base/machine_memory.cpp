@@ -1,5 +1,6 @@
 #include "base/machine_memory.h"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -29,7 +30,9 @@ std::uint64_t machineMemory_bytes() {
   const auto installed =
       static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
   std::ifstream cgroup("/proc/self/cgroup");
-  return memoryOfGroup("/sys/fs/cgroup", memoryGroup(cgroup), installed);
+  const std::uint64_t granted = memoryOfGroup("/sys/fs/cgroup", memoryGroup(cgroup), installed);
+  rlimit own{};  // as `ulimit -v` sets it
+  return getrlimit(RLIMIT_AS, &own) == 0 ? std::min<std::uint64_t>(granted, own.rlim_cur) : granted;
 }
 
 }  // namespace hl

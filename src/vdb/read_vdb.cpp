@@ -54,6 +54,20 @@ CoordBBox boxOf(const FloatGrid& grid) {
   return box;
 }
 
+// All of the box is kept. A voxel far from the others, as a broken file has it, must not take gigabytes.
+void checkFilling(const FloatGrid& grid, const std::array<std::uint32_t, 3>& side) {
+  constexpr std::uint64_t kSmall = std::uint64_t{1} << 26, kMostForEach = 2000;
+  // A level set has single voxels alone; fog has whole blocks of one value, too.
+  const bool single = grid.getGridClass() == openvdb::GRID_LEVEL_SET;
+  const std::uint64_t active = single ? grid.tree().activeLeafVoxelCount() : grid.activeVoxelCount();
+  const std::uint64_t all = samplesIn(side);
+  if (all <= kSmall || all / kMostForEach <= active) return;
+  throw Error(fmt::format(
+      "has {} active voxels in a box of {} x {} x {}, which would take {:.1f} GB: some lie far from the others; remove "
+      "these, or resample the grid '{}' to larger voxels",
+      active, side[0], side[1], side[2], 1e-9 * sizeof(float) * static_cast<double>(all), shown(grid.getName())));
+}
+
 // What a walk over the voxels of a level set tells.
 struct LevelSetLook {
   float least = std::numeric_limits<float>::infinity(), most = -least;
@@ -126,6 +140,7 @@ void giveVolume(const FloatGrid& grid, VolumeSink& sink) {
   const CoordBBox box = boxOf(grid);
   VolumeHeader header;
   header.side = sidesOf(box);
+  checkFilling(grid, header.side);
   header.kind = SampleKind::kFloat32;
   header.frame = {axes, vecOf(grid.indexToWorld(box.min()))};
   if (grid.getGridClass() == openvdb::GRID_LEVEL_SET) {

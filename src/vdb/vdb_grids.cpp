@@ -59,6 +59,15 @@ FloatGrid::Ptr readNanoVdb(std::istream& in, const std::string& name) {
   return floatsOf(nanovdb::nanoToOpenVDB(nanovdb::io::readGrid(in, chosen)));
 }
 
+// OpenVDB says what is wrong with what it has read, in words for those who program with it: "IoError: not a VDB file".
+// Of these a user needs to know whether the file is another one, or broken.
+std::string reasonOf(std::string_view what) {
+  const auto says = [&](const char* word) { return what.find(word) != std::string_view::npos; };
+  if (says("not a VDB file") || says("magic")) return "is not an OpenVDB or NanoVDB file";
+  if (says("version")) return fmt::format("is of a version that cannot be read ({}): save it anew", shown(what));
+  return "is not a sound file: it is corrupt or cut, or has a grid of an unknown kind: save it anew";
+}
+
 }  // namespace
 
 std::size_t chosenGrid(const std::vector<GridInFile>& grids, const std::string& name) {
@@ -89,7 +98,7 @@ FloatGrid::Ptr readVdbGrid(const ModelFile& file, const std::string& name) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    throw Error(fmt::format("is not a sound file: {}", shown(error.what())));
+    throw Error(reasonOf(error.what()));
   }
 }
 

@@ -2,6 +2,8 @@
 #include "base/memory_budget.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -145,6 +147,18 @@ TEST(MachineMemory, TheGroupIsTheOneOfVersionTwo) {
   std::istringstream old("12:memory:/old\n");
   EXPECT_EQ(memoryGroup(old), "");
   EXPECT_GT(machineMemory_bytes(), 100'000'000U);
+}
+
+// As `ulimit -v` sets it.
+TEST(MachineMemory, IsNoMoreThanTheProgramMayTake) {
+  const auto limited = [] {
+    const std::uint64_t before = machineMemory_bytes();
+    rlimit limit{};
+    getrlimit(RLIMIT_AS, &limit);
+    limit.rlim_cur = before / 2;
+    return setrlimit(RLIMIT_AS, &limit) == 0 && machineMemory_bytes() == before / 2;
+  };
+  EXPECT_EXIT(_exit(limited() ? 0 : 1), testing::ExitedWithCode(0), "");
 }
 
 }  // namespace

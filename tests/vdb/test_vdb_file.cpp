@@ -9,6 +9,7 @@
 #include <openvdb/tools/LevelSetUtil.h>
 #include <openvdb/tools/SignedFloodFill.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -202,11 +203,37 @@ TEST_F(VdbFile, WhatCannotBeTouchedGivesOneLine) {
             "has no surface in its level set 'f': its distances are from 0.25 to 0.25");
   const FloatGrid::Ptr wide = named("w", FloatGrid::create(1));
   for (const int at : {0, 1 << 19}) wide->tree().setValue(openvdb::Coord(at), 0.5F);
-  EXPECT_TRUE(refusalOf(vdbFile("wide.vdb", {wide}))
-                  .starts_with("a volume of 524291 x 524291 x 524291 samples takes 576470648.0 GB of memory"));
+  EXPECT_EQ(refusalOf(vdbFile("wide.vdb", {wide})),
+            "has 2 active voxels in a box of 524291 x 524291 x 524291, which would take 576470648.0 GB: some lie far "
+            "from the others; remove these, or resample the grid 'w' to larger voxels");
+  const FloatGrid::Ptr block = named("b", ball(0.01, 1e-3));  // a whole block of 128 voxels along each axis
+  block->tree().addTile(2, openvdb::Coord(4096, 4096, 4096), 1, true);
+  EXPECT_NE(refusalOf(vdbFile("block.vdb", {block})).find("some lie far from the others"), std::string::npos);
   wide->tree().setValue(openvdb::Coord(1 << 21), 0.5F);
   EXPECT_EQ(refusalOf(vdbFile("wide.vdb", {wide})),
             "has 2.09716e+06 x 2.09716e+06 x 2.09716e+06 samples: a volume has 2 to 1048576 along each axis");
+}
+
+std::string contentOf(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// As many as it says must be in it: one byte of a count asks for gigabytes.
+TEST_F(VdbFile, ABentByteTakesNoMoreMemoryThanItsSizeAllows) {
+  const FloatGrid::Ptr grid = ball(0.02, 1e-3);
+  const std::string good = contentOf(vdbFile("good.vdb", {grid}));
+  int refused = 0;
+  for (std::size_t i = 0; i < std::min<std::size_t>(good.size(), 600); i += 7) {
+    std::string bent = good;
+    bent[i] = static_cast<char>(bent[i] ^ 0x5a);
+    const std::string refusal = refusalOf(fileWith("bent.vdb", bent));
+    for (const char* word : {"Error:", "cannot be an empty", "unregistered", "std::"})
+      EXPECT_EQ(refusal.find(word), std::string::npos) << i << ": " << refusal;
+    refused += refusal.empty() ? 0 : 1;
+  }
+  EXPECT_GT(refused, 5);
+  EXPECT_EQ(refusalOf(fileWith("text.vdb", "nothing of the kind\n")), "is not an OpenVDB or NanoVDB file");
 }
 
 TEST_F(VdbFile, NanoVdbHasTheSameSamples) {
@@ -224,11 +251,6 @@ TEST_F(VdbFile, NanoVdbHasTheSameSamples) {
     EXPECT_LT((a.frame().origin - b.frame().origin).norm(), 1e-9);
     EXPECT_EQ(b.iso().solid, SolidSide::kBelow);
   }
-}
-
-std::string contentOf(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 TEST_F(VdbFile, WhatIsBrokenGivesOneLine) {
