@@ -102,14 +102,12 @@ IsoChoice isoChoiceOf(const proto::IsoUpdate& in) { return choiceOf(true, in.val
 
 std::shared_ptr<const IsoSurface> isoSurfaceOf(const PlacedVolume& volume, const IsoChoice& iso,
                                                std::shared_ptr<const MatterTable> matter) {
-  const ValueRange& range = volume.volume->pyramid.range();
-  if (!(range.low <= range.high)) throw Error("all its samples are missing");
+  if (const ValueRange& range = volume.volume->pyramid.range(); !(range.low <= range.high))
+    throw Error("all its samples are missing");
   const auto found = [&] { return IsoValue{iso.value ? 0 : thresholdOf(*volume.volume)}; };
   const IsoValue value = iso.over(volume.iso ? *volume.iso : found());
   auto surface = std::make_shared<const IsoSurface>(volume.volume, volume.frame, value, std::move(matter));
-  if (surface->triangles() == 0)
-    throw Error(fmt::format("there is no surface at iso {:.6g}: its values are from {:.6g} to {:.6g}", value.value,
-                            range.low, range.high));
+  requireSurface(*surface);
   return surface;
 }
 

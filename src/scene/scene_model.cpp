@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <sstream>
 #include <utility>
 
 #include "base/error.h"
@@ -78,6 +79,21 @@ void moveRest(SceneModel& scene, double factor, const Vec3& offset) {
   for (JointSpec& joint : scene.mechanics.joints) scaleJoint(joint, factor, offset);
 }
 
+std::string warningOf(const PrimitiveSource& source) {
+  constexpr double kCoarse = 1.0 / 200;  // of the spacing
+  std::ostringstream text;
+  if (const auto* const cloud = dynamic_cast<const PointCloud*>(&source);
+      cloud != nullptr && cloud->error_m() > kCoarse * cloud->spacing())
+    text << "its points are kept within " << cloud->error_m() << " m, and they are " << cloud->spacing()
+         << " m apart: points far from the others make this so coarse; remove them";
+  if (const auto* const iso = dynamic_cast<const IsoSurface*>(&source)) {
+    const ValueRange& range = iso->volume()->pyramid.range();
+    if (range.low == range.high)
+      text << "all values of the volume are " << range.low << ": it has no surface, and nothing of it can be touched";
+  }
+  return text.str();
+}
+
 }  // namespace
 
 Box boundsOf(const SceneModel& scene) {
@@ -151,6 +167,7 @@ void setIsoValues(SceneModel& scene, const std::vector<double>& values) {
         surfaces.push_back(surface);
         surfaces.back().source = std::make_shared<const IsoSurface>(iso->volume(), iso->frame(),
                                                                     IsoValue{value, iso->iso().solid}, iso->matter());
+        requireSurface(dynamic_cast<const IsoSurface&>(*surfaces.back().source));
       }
     }
   }
@@ -232,7 +249,11 @@ std::shared_ptr<const Snapshot> makeSnapshot(SceneModel scene, HierarchyKind hie
   } else {
     warnings = scene.model.warnings;
   }
-  for (SceneSurface& surface : scene.surfaces) instances.push_back(instanceOf(std::move(surface), ++key));
+  for (SceneSurface& surface : scene.surfaces) {
+    if (const std::string warning = warningOf(*surface.source); !warning.empty())
+      warnings.push_back(surface.name.empty() ? warning : surface.name + ": " + warning);
+    instances.push_back(instanceOf(std::move(surface), ++key));
+  }
   const std::uint64_t first_body = key + 1;
   for (SceneBody& body : scene.bodies) {
     add(body.model, body.name);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <sstream>
 #include <utility>
 
 #include "base/error.h"
@@ -209,6 +210,70 @@ std::shared_ptr<const CloudPoints> makeCloud(CloudInput input) {
   return CloudMaker(std::move(input)).make();
 }
 
+namespace {
+
+// The middle one along each axis, and the side of the box of the middle half of them. Of many positions a part stands
+// for all.
+struct Bulk {
+  Vec3 middle = Vec3::Zero();
+  double side = 0;
+};
+
+Bulk bulkOf(const std::vector<Vec3>& positions) {
+  constexpr std::size_t kLookedAt = 10'000;
+  const std::size_t stride = std::max<std::size_t>(1, positions.size() / kLookedAt);
+  Bulk bulk;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    std::vector<double> along;
+    for (std::size_t i = 0; i < positions.size(); i += stride) {
+      if (positions[i].allFinite()) along.push_back(positions[i][axis]);
+    }
+    if (along.empty()) return bulk;
+    std::sort(along.begin(), along.end());
+    bulk.middle[axis] = along[along.size() / 2];
+    bulk.side = std::max(bulk.side, along[along.size() - 1 - along.size() / 4] - along[along.size() / 4]);
+  }
+  return bulk;
+}
+
+// How many points of the lattice stand for positions that differ.
+std::size_t mergedOn(const CloudLattice& lattice, std::vector<Vec3> positions) {
+  const auto stepOf = [&](const Vec3& p) -> Vec3 { return ((p - lattice.origin) / lattice.step[0]).array().round(); };
+  const auto before = [](const Vec3& a, const Vec3& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  };
+  std::erase_if(positions, [](const Vec3& p) { return !p.allFinite(); });
+  std::sort(positions.begin(), positions.end(), before);
+  positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
+  const std::size_t different = positions.size();
+  for (Vec3& p : positions) p = stepOf(p);
+  std::sort(positions.begin(), positions.end(), before);
+  return different - static_cast<std::size_t>(std::unique(positions.begin(), positions.end()) - positions.begin());
+}
+
+// A lattice is as wide as all points together. Where most of them lie within a small part of it, it may be too coarse
+// for them: then the stray ones are at fault.
+void requireFineEnough(const CloudLattice& lattice, const std::vector<Vec3>& positions) {
+  constexpr double kEnoughSteps = 1 << 20;  // across most of the points
+  constexpr std::size_t kFew = 100;         // one in so many may be merged
+  const Bulk bulk = bulkOf(positions);
+  if (bulk.side >= kEnoughSteps * lattice.step[0]) return;
+  const std::size_t merged = mergedOn(lattice, positions);
+  if (merged * kFew <= positions.size()) return;
+  const auto distance = [&](const Vec3& p) { return p.allFinite() ? (p - bulk.middle).norm() : 0; };
+  const Vec3& stray = *std::max_element(positions.begin(), positions.end(),
+                                        [&](const Vec3& a, const Vec3& b) { return distance(a) < distance(b); });
+  const Eigen::IOFormat plain(Eigen::StreamPrecision, Eigen::DontAlignCols, " ", " ");
+  std::ostringstream text;
+  text << merged << " of its " << positions.size() << " points would be one with others: they are kept in steps of "
+       << lattice.step[0] << " m, as the point " << stray.transpose().format(plain)
+       << " lies so far from the rest, which is around " << bulk.middle.transpose().format(plain)
+       << "; remove the stray points";
+  throw Error(text.str());
+}
+
+}  // namespace
+
 CloudInput onFineLattice(const std::vector<Vec3>& positions, const std::vector<std::uint32_t>& normals,
                          std::size_t& skipped, const std::vector<Rgb>& colours) {
   constexpr double kSteps = 2147483648.0;  // 2^31: from -2^30 to 2^30
@@ -223,6 +288,7 @@ CloudInput onFineLattice(const std::vector<Vec3>& positions, const std::vector<s
   const double step = std::exp2(std::ceil(std::log2(extent / kSteps)));
   CloudInput input;
   input.lattice = {Vec3::Constant(step), (bounds.centre() / step).array().round() * step};
+  requireFineEnough(input.lattice, positions);
   input.points.reserve(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (!positions[i].allFinite()) {

@@ -23,7 +23,8 @@ struct CloudInput {
 };
 
 /// Positions in metres on a lattice that is as fine as 32 bits allow; `normals` and `colours`: one each, or none.
-/// Throws hl::Error where they lie too far out; what is not finite is left out and counted in `skipped`.
+/// Throws hl::Error where they lie too far out, or some so far from the others that points which differ would be one;
+/// what is not finite is left out and counted in `skipped`.
 CloudInput onFineLattice(const std::vector<Vec3>& positions, const std::vector<std::uint32_t>& normals,
                          std::size_t& skipped, const std::vector<Rgb>& colours = {});
 

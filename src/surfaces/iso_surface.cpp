@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -49,6 +50,16 @@ double trilinearWeight(const Vec3& place, const Place& at, unsigned c) {
 }
 
 }  // namespace
+
+void requireSurface(const IsoSurface& surface) {
+  if (surface.triangles() > 0) return;
+  const ValueRange& range = surface.volume()->pyramid.range();
+  if (!(range.low <= range.high)) throw Error("all its samples are missing");
+  std::ostringstream text;
+  text << "there is no surface at iso " << surface.iso().value << ": its values are from " << range.low << " to "
+       << range.high;
+  throw Error(text.str());
+}
 
 IsoSurface::IsoSurface(std::shared_ptr<const Volume> volume, const GridFrame& frame, const IsoValue& iso,
                        std::shared_ptr<const MatterTable> matter)

@@ -67,4 +67,7 @@ class IsoSurface final : public PrimitiveSource {
   std::uint64_t triangles_ = 0;
 };
 
+/// Throws hl::Error, with the range of the values, if no sample and its neighbour have the iso value between them.
+void requireSurface(const IsoSurface& surface);
+
 }  // namespace hl

@@ -19,14 +19,32 @@ struct Result {
   std::string output;  // stdout and stderr together
 };
 
-Result call(const std::string& arguments) {
-  std::FILE* pipe = popen((std::string(HL_PROGRAM) + " " + arguments + " 2>&1").c_str(), "r");
+Result run(const std::string& command) {
+  std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
   Result result{};
   char buffer[4096];
   while (const std::size_t got = std::fread(buffer, 1, sizeof buffer, pipe)) result.output.append(buffer, got);
   const int status = pclose(pipe);
   result.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   return result;
+}
+
+Result call(const std::string& arguments) { return run(std::string(HL_PROGRAM) + " " + arguments); }
+
+std::string constantVolume() {
+  return hl::test::fileWith("hl_cmd_constant.nrrd",
+                            "NRRD0004\ntype: float\ndimension: 3\nsizes: 2 2 2\nspacings: 1 1 "
+                            "1\nendian: little\nencoding: raw\n\n" +
+                                std::string(32, '\0'));
+}
+
+TEST(Command, AVolumeWithoutASurfaceSaysWhatItsValuesAre) {
+  const Result info = call("info " + constantVolume());
+  EXPECT_NE(info.output.find("all values of the volume are 0: it has no surface"), std::string::npos) << info.output;
+  const Result other = call("info ct:phantom:41 --iso 50000");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.output.find("there is no surface at iso 50000: its values are from -1000 to "), std::string::npos)
+      << other.output;
 }
 
 TEST(Command, HelpForEachCommand) {

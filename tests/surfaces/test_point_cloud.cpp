@@ -200,6 +200,26 @@ TEST(CloudPoints, ColoursTakeThreeBytesEach) {
   EXPECT_LE(coloured->bytes() - plain->bytes(), 3 * given.size() * 11 / 10);
 }
 
+// A grid of 1 mm: steps of 1e8 m / 2^30 make all of it one point.
+TEST(CloudPoints, AStrayPointThatMergesTheOthersIsNamed) {
+  std::vector<Vec3> points;
+  for (int i = 0; i < 50; ++i) {
+    for (int j = 0; j < 50; ++j) points.emplace_back(1e-3 * i, 1e-3 * j, 0);
+  }
+  for (const double far : {1.0, 1e3, 1e5}) {
+    std::vector<Vec3> with = points;
+    with.emplace_back(far, 0, 0);
+    EXPECT_EQ(test::cloudOf(with)->size(), with.size()) << far;
+  }
+  points.emplace_back(1e8, 0, 0);
+  try {
+    test::cloudOf(points);
+    ADD_FAILURE() << "it was made";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("the point 1e+08 0 0 lies so far"), std::string::npos) << error.what();
+  }
+}
+
 TEST(CloudPoints, NoneOrFarOnesAreRefused) {
   EXPECT_THROW(test::cloudOf({}), Error);
   EXPECT_THROW(test::cloudOf({Vec3::Constant(NAN)}), Error);
