@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/url.h"
+#include "base/utf8.h"
 #include "http/connection.h"
 
 namespace hl {
@@ -14,27 +15,6 @@ namespace http = boost::beast::http;
 namespace {
 
 constexpr std::size_t kLongestName_bytes = 255;  // as file systems have it
-
-// How many bytes the character has that begins with this one; 0: none begins so.
-std::size_t lengthOfCharacter(unsigned char first) {
-  if (first < 0x80) return 1;
-  if (first >= 0xc2 && first < 0xe0) return 2;
-  if (first >= 0xe0 && first < 0xf0) return 3;
-  return first >= 0xf0 && first < 0xf5 ? 4 : 0;
-}
-
-// Messages to pages are UTF-8. Overlong forms and surrogates are left to the pages' own decoder.
-bool isUtf8(std::string_view text) {
-  const auto follows = [](unsigned char c) { return (c & 0xc0) == 0x80; };
-  while (!text.empty()) {
-    const std::size_t length = lengthOfCharacter(static_cast<unsigned char>(text.front()));
-    if (length == 0 || length > text.size()) return false;
-    const std::string_view rest = text.substr(1, length - 1);
-    if (!std::all_of(rest.begin(), rest.end(), follows)) return false;
-    text.remove_prefix(length);
-  }
-  return true;
-}
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/utf8.h"
 #include "geometry/primitive.h"
 #include "io/value_messages.h"
 
@@ -90,12 +91,12 @@ void toProto(const RigidBody& body, proto::RecordedBody& out) {
     parts.object = body.poses->object();
     parts.room = body.poses->room();
   }
-  out.set_name(body.name);
+  out.set_name(validUtf8(body.name));
   toProto(valuesOf(parts), *out.mutable_body());
 }
 
 void toProto(const SceneBody& body, proto::RecordedBody& out) {
-  out.set_name(body.name);
+  out.set_name(validUtf8(body.name));
   toProto(valuesOf(BodyParts{body.spec, body.pose, {}, {}}), *out.mutable_body());
 }
 
@@ -117,7 +118,7 @@ void toProto(const Mechanics& mechanics, proto::RecordedMechanics& out) {
   for (const double component : mechanics.gravity_m_s2) out.add_gravity_m_s2(component);
   for (const JointSpec& joint : mechanics.joints) {
     proto::RecordedJoint& recorded = *out.add_joints();
-    recorded.set_name(joint.name);
+    recorded.set_name(validUtf8(joint.name));
     toProto(valuesOf(JointParts::of(joint)), *recorded.mutable_joint());
     const ForceTable& table = joint.along.table;
     recorded.mutable_table_position()->Add(table.position.begin(), table.position.end());

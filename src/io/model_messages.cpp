@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/utf8.h"
 #include "io/value_messages.h"
 
 namespace hl {
@@ -93,7 +94,7 @@ void writeMesh(const Model& model, const std::function<void(proto::RecordedShape
   proto::RecordedShape out;
   for (std::size_t i = 0; i < parts; ++i) {
     out.Clear();
-    out.set_name(model.name);
+    out.set_name(validUtf8(model.name));
     out.set_materials(static_cast<std::uint32_t>(model.materials.size()));
     out.set_continues(i + 1 < parts);
     addPart(model.positions, i, *out.mutable_positions());
@@ -136,7 +137,7 @@ Model MeshReader::take() {
 }
 
 void toProto(const Texture& texture, proto::RecordedTexture& out) {
-  out.set_name(texture.name);
+  out.set_name(validUtf8(texture.name));
   out.set_width(static_cast<std::uint32_t>(texture.width));
   out.set_height(static_cast<std::uint32_t>(texture.height));
   out.mutable_texels()->Add(texture.texels.begin(), texture.texels.end());

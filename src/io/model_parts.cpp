@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/utf8.h"
 #include "bodies/scene_world.h"
 #include "io/body_messages.h"
 #include "io/snap_messages.h"
@@ -25,7 +26,7 @@ constexpr std::size_t kMaxSurfaces = 60'000;  // as objects of a scene file
 
 // As errors and warnings are: one line, of a length to be read.
 std::string oneLine(const std::string& text) {
-  return text.substr(0, std::min(kLongestLine, text.find_first_of("\r\n")));
+  return validUtf8(text.substr(0, std::min(kLongestLine, text.find_first_of("\r\n"))));
 }
 
 bool writeAll(int descriptor, const char* data, std::size_t size) {
@@ -209,7 +210,7 @@ void PartSender::surfaces(const std::vector<SceneSurface>& surfaces) {
   SurfaceWriter sources;
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     proto::ReadingPart part;
-    part.mutable_surface()->set_name(surfaces[i].name);
+    part.mutable_surface()->set_name(oneLine(surfaces[i].name));
     writeRepeat(surfaces[i].repeat, *part.mutable_surface()->mutable_repeat());
     send(part);
     look(surfaces[i].textures, {surfaces[i].material});

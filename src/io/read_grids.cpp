@@ -42,7 +42,7 @@ double readEsriHeader(TextWords& words, EsriHeader& header) {
     std::transform(key.begin(), key.end(), key.begin(), [](unsigned char c) { return std::tolower(c); });
     if (key.empty() || std::isalpha(static_cast<unsigned char>(key[0])) == 0 || key == "nan")
       return words.numberOf(key, "a height");
-    const double value = words.number(key.c_str());
+    const double value = words.number(shown(key).c_str());
     if (key == "ncols") header.columns = value;
     if (key == "nrows") header.rows = value;
     if (key == "cellsize") header.east = header.south = value;

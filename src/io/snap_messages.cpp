@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/utf8.h"
 #include "geometry/primitive.h"
 #include "io/value_messages.h"
 
@@ -57,7 +58,7 @@ std::optional<Vec3> normalOf(const Parts& parts) {
 }  // namespace
 
 void toProto(const SnapSpec& snap, proto::RecordedSnap& out) {
-  out.set_name(snap.name);
+  out.set_name(validUtf8(snap.name));
   for (const Vec3& point : snap.points) add(*out.mutable_points(), point);
   const Vec3 normal = snap.normal.value_or(Vec3::Zero());
   toProto(valuesOf(SnapParts{snap.normal.has_value(), normal, snap.capture_m, snap.release_N}), *out.mutable_values());
@@ -73,7 +74,7 @@ SnapSpec snapOf(const proto::RecordedSnap& in) {
 }
 
 void toProto(const FieldSpec& field, proto::RecordedField& out) {
-  out.set_name(field.name);
+  out.set_name(validUtf8(field.name));
   for (const Vec3& point : field.points) add(*out.mutable_points(), point);
   const Vec3 normal = field.normal.value_or(Vec3::Zero());
   const FieldParts parts{field.kind,          field.normal.has_value(), normal,         field.reach_m, field.force_N,

@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/utf8.h"
 #include "page/told_materials.h"
 #include "page/wire_bytes.h"
 #include "scene/iso_shape.h"
@@ -105,7 +106,7 @@ void PageScene::layOut(const PageScale& scale, std::int64_t now_ns) {
   proto::SceneLayout& out = *message.mutable_layout();
   layout_ = Layout{++last_layout_, shown_->name, scale, shown_places_, {}, {}, now_ns};
   out.set_number(layout_->number);
-  out.set_name(layout_->name);
+  out.set_name(validUtf8(layout_->name));
   out.set_proxy_radius(scale.radius_W);
   out.set_world_per_device(scale.world_per_device);
   if (const Box bounds = boundsAt(*shown_, now_ns); !bounds.empty()) {

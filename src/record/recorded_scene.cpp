@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/utf8.h"
 #include "io/body_messages.h"
 #include "io/snap_messages.h"
 #include "io/value_messages.h"
@@ -196,7 +197,7 @@ void SceneWriter::write(const Snapshot& scene, const Write& write) {
   out.set_identity(scene.identity);
   out.set_number(scene.number);
   out.set_blend_ns(scene.blend_ns);
-  out.set_name(scene.name);
+  out.set_name(validUtf8(scene.name));
   const auto is_body = [](const Instance& instance) { return instance.body != nullptr; };
   if (std::any_of(scene.instances.begin(), scene.instances.end(), is_body))
     toProto(scene.mechanics, *out.mutable_mechanics());

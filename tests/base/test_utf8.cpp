@@ -1,0 +1,38 @@
+// UTF-8, against the ranges of RFC 3629.
+#include "base/utf8.h"
+
+#include <gtest/gtest.h>
+
+namespace hl {
+namespace {
+
+std::string encoded(std::uint32_t code) {
+  const auto tail = [&](int shift) { return static_cast<char>(0x80U | (code >> shift & 0x3fU)); };
+  if (code < 0x80) return {static_cast<char>(code)};
+  if (code < 0x800) return {static_cast<char>(0xc0U | code >> 6), tail(0)};
+  if (code < 0x10000) return {static_cast<char>(0xe0U | code >> 12), tail(6), tail(0)};
+  return {static_cast<char>(0xf0U | code >> 18), tail(12), tail(6), tail(0)};
+}
+
+TEST(Utf8, EveryCharacterIsOne) {
+  for (std::uint32_t code = 0; code < 0x120000; ++code) {
+    const bool sound = code < 0x110000 && (code < 0xd800 || code > 0xdfff);
+    ASSERT_EQ(isUtf8(encoded(code)), sound) << code;
+    ASSERT_TRUE(isUtf8(validUtf8("a" + encoded(code)))) << code;
+    if (sound) {
+      ASSERT_EQ(validUtf8(encoded(code)), encoded(code)) << code;
+    }
+  }
+}
+
+TEST(Utf8, WhatIsNoneBecomesQuestionMarks) {
+  EXPECT_EQ(validUtf8("s\xfc"), "s?");
+  EXPECT_EQ(validUtf8("\xc0\x80"), "??");  // overlong
+  EXPECT_EQ(validUtf8("\xe2\x82"), "??");  // cut
+  EXPECT_EQ(validUtf8("\xe2\x82\xac!"), "\xe2\x82\xac!");
+  EXPECT_EQ(validUtf8("\x80z"), "?z");
+  EXPECT_TRUE(isUtf8(""));
+}
+
+}  // namespace
+}  // namespace hl
