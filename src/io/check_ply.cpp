@@ -2,11 +2,16 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <charconv>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include "base/error.h"
+#include "io/text_words.h"
 
 namespace hl {
 
@@ -39,7 +44,13 @@ PlyHeader headerOf(std::istream& in) {
     words >> word >> second;
     if (word == "end_header") return header;
     if (word == "format") header.ascii = second == "ascii";
-    if (word == "element" && words >> count) header.elements += count;
+    if (word != "element") continue;
+    std::string number;
+    if (!(words >> number)) continue;  // cut: then there is no end either
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), count);
+    if (error != std::errc() || end != number.data() + number.size())
+      throw Error(fmt::format("'{}' is no count of elements", shown(number)));
+    header.elements += std::min(count, std::numeric_limits<std::uint64_t>::max() - header.elements);
   }
   throw Error("its header has no end: the line end_header is missing, or the file is cut");
 }
@@ -56,6 +67,9 @@ std::uint64_t linesLeft(std::istream& in) {
 void checkPly(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   const PlyHeader header = headerOf(in);
+  // Of binary files an element has a byte or more.
+  if (const std::uintmax_t bytes = std::filesystem::file_size(path); header.elements > bytes)
+    throw Error(fmt::format("it is cut: its header tells of {} elements, and it has {} bytes", header.elements, bytes));
   if (!header.ascii) return;
   const std::uint64_t lines = linesLeft(in);
   if (lines < header.elements)

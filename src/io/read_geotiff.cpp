@@ -40,6 +40,8 @@ class TiffFile {
   }
 
   [[noreturn]] static void fail() {
+    // Of a row that lacks libtiff tells a number that is none.
+    if (tiff_failure.starts_with("Read error")) throw Error("is cut or corrupt: it ends before its last samples");
     throw Error("is not a sound TIFF file" + (tiff_failure.empty() ? "" : ": " + shown(tiff_failure)));
   }
   TIFF* get() const { return file_.get(); }
@@ -70,25 +72,58 @@ class TiffFile {
   std::unique_ptr<TIFF, Close> file_;
 };
 
-SampleKind kindOf(const TiffFile& file) {
+/// Samples as they lie in the file, and as they are kept.
+struct TiffSamples {
+  SampleKind kind = SampleKind::kFloat32;
+  std::size_t bytes = 4;  ///< of one in the file
+  /// Gives so many; returns how many are not the same number. Null: they are kept as they are.
+  std::size_t (*give)(const std::byte* given, std::size_t count, HeightSink& sink) = nullptr;
+};
+
+template <typename Given, typename Kept>
+std::size_t giveAs(const std::byte* given, std::size_t count, HeightSink& sink) {
+  std::vector<Kept> kept(count);
+  std::size_t rounded = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    Given value{};
+    std::memcpy(&value, given + i * sizeof value, sizeof value);
+    kept[i] = static_cast<Kept>(value);
+    rounded += value == value && static_cast<double>(kept[i]) != static_cast<double>(value) ? 1 : 0;
+  }
+  sink.samples(kept.data(), count * sizeof(Kept));
+  return rounded;
+}
+
+TiffSamples samplesOf(const TiffFile& file) {
   const auto bits = file.number<std::uint16_t>(TIFFTAG_BITSPERSAMPLE);
   const auto format = file.number<std::uint16_t>(TIFFTAG_SAMPLEFORMAT);
   const auto channels = file.number<std::uint16_t>(TIFFTAG_SAMPLESPERPIXEL);
   if (channels != 1) throw Error(fmt::format("has {} values a sample: a file of heights has one", channels));
-  if (bits == 16 && format == SAMPLEFORMAT_INT) return SampleKind::kInt16;
-  if (bits == 16 && format == SAMPLEFORMAT_UINT) return SampleKind::kUint16;
-  if (bits == 32 && format == SAMPLEFORMAT_IEEEFP) return SampleKind::kFloat32;
-  throw Error(fmt::format("has samples of {} bits in format {}: heights are int16, uint16 or float32", bits, format));
+  const auto is = [&](unsigned wanted, unsigned form) { return bits == wanted && format == form; };
+  if (is(8, SAMPLEFORMAT_UINT)) return {SampleKind::kUint16, 1, giveAs<std::uint8_t, std::uint16_t>};
+  if (is(8, SAMPLEFORMAT_INT)) return {SampleKind::kInt16, 1, giveAs<std::int8_t, std::int16_t>};
+  if (is(16, SAMPLEFORMAT_UINT)) return {SampleKind::kUint16, 2};
+  if (is(16, SAMPLEFORMAT_INT)) return {SampleKind::kInt16, 2};
+  if (is(32, SAMPLEFORMAT_UINT)) return {SampleKind::kFloat32, 4, giveAs<std::uint32_t, float>};
+  if (is(32, SAMPLEFORMAT_INT)) return {SampleKind::kFloat32, 4, giveAs<std::int32_t, float>};
+  if (is(32, SAMPLEFORMAT_IEEEFP)) return {SampleKind::kFloat32, 4};
+  if (is(64, SAMPLEFORMAT_IEEEFP)) return {SampleKind::kFloat32, 8, giveAs<double, float>};
+  throw Error(
+      fmt::format("has samples of {} bits in TIFF's format {}: heights are integers of 8, 16 or 32 bits, float32 or "
+                  "float64; convert it, as gdal_translate -ot Float32 does",
+                  bits, format));
 }
 
-std::optional<double> missingOf(const TiffFile& file) {
+std::optional<double> missingOf(const TiffFile& file, HeightSink& sink) {
   const std::span<const char> text = file.list<char>(kMissingTag);
   std::string_view word(text.data(), strnlen(text.data() == nullptr ? "" : text.data(), text.size()));
-  while (word.starts_with(' ')) word.remove_prefix(1);
+  word = trimmed(word);
   double value = 0;
+  if (word.empty()) return {};
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (word.empty() || error != std::errc()) return {};
-  return value;
+  if (error == std::errc() && end == word.data() + word.size()) return value;
+  sink.warn(fmt::format("its value for missing samples, '{}', is no number: none counts as missing", shown(word)));
+  return {};
 }
 
 // Key 1024 of the key directory, four numbers a key: 2 means degrees.
@@ -107,7 +142,7 @@ struct Steps {
   bool told = false;
 };
 
-Steps stepsOf(const TiffFile& file) {
+Steps stepsOf(const TiffFile& file, HeightSink& sink) {
   const std::span<const double> scale = file.list<double>(kPixelScaleTag), tie = file.list<double>(kTiePointTag),
                                 map = file.list<double>(kTransformTag);
   Steps steps;
@@ -118,6 +153,9 @@ Steps stepsOf(const TiffFile& file) {
     if (map[1] != 0 || map[4] != 0) throw Error("lies turned in its map: a height field must not be");
     steps = {map[0], -map[5], map[7], true};
   }
+  if (steps.east < 0 || steps.south < 0)
+    sink.warn(fmt::format("its columns lead {} and its rows {} in its map: they are taken to lead east and south",
+                          steps.east < 0 ? "west" : "east", steps.south < 0 ? "north" : "south"));
   steps.east = std::abs(steps.east);
   steps.south = std::abs(steps.south);
   const auto sound = [](double step) { return std::isfinite(step) && step > 0; };
@@ -126,7 +164,7 @@ Steps stepsOf(const TiffFile& file) {
 }
 
 GridFrame frameOf(const TiffFile& file, const GridSize& size, HeightSink& sink) {
-  Steps steps = stepsOf(file);
+  Steps steps = stepsOf(file, sink);
   if (!steps.told) sink.warn("says nothing of the distance between its samples: 1 m");
   if (inDegrees(file)) {
     const double middle = steps.first_row - 0.5 * steps.south * (size.rows - 1.0);
@@ -137,19 +175,40 @@ GridFrame frameOf(const TiffFile& file, const GridSize& size, HeightSink& sink) 
   return uprightFrame(size, steps.east, steps.south, 1);
 }
 
-void readStrips(const TiffFile& file, const GridSize& size, HeightSink& sink) {
-  std::vector<std::byte> row(std::max<std::size_t>(static_cast<std::size_t>(TIFFScanlineSize64(file.get())),
-                                                   size.columns * sizeOf(size.kind)));
+/// Samples of the file on their way to the sink.
+class Giver {
+ public:
+  Giver(const TiffSamples& form, HeightSink& sink) : form_(form), sink_(sink) {}
+
+  void give(const std::byte* given, std::size_t count) {
+    if (form_.give == nullptr)
+      sink_.samples(given, count * form_.bytes);
+    else
+      rounded_ += form_.give(given, count, sink_);
+  }
+  void tell() const {
+    if (rounded_ > 0) sink_.warn("its numbers are kept in single precision");
+  }
+
+ private:
+  const TiffSamples& form_;
+  HeightSink& sink_;
+  std::size_t rounded_ = 0;
+};
+
+void readStrips(const TiffFile& file, const GridSize& size, std::size_t sample, Giver& giver) {
+  std::vector<std::byte> row(
+      std::max<std::size_t>(static_cast<std::size_t>(TIFFScanlineSize64(file.get())), size.columns * sample));
   for (std::uint32_t j = 0; j < size.rows; ++j) {
     if (TIFFReadScanline(file.get(), row.data(), j, 0) != 1) TiffFile::fail();
-    sink.samples(row.data(), size.columns * sizeOf(size.kind));
+    giver.give(row.data(), size.columns);
   }
 }
 
-void readTiles(const TiffFile& file, const GridSize& size, HeightSink& sink) {
+void readTiles(const TiffFile& file, const GridSize& size, std::size_t sample, Giver& giver) {
   const auto width = file.number<std::uint32_t>(TIFFTAG_TILEWIDTH),
              height = file.number<std::uint32_t>(TIFFTAG_TILELENGTH);
-  const std::size_t sample = sizeOf(size.kind), tile_row = width * sample, whole_row = size.columns * sample;
+  const std::size_t tile_row = width * sample, whole_row = size.columns * sample;
   std::vector<std::byte> tile(static_cast<std::size_t>(TIFFTileSize64(file.get())));
   if (width == 0 || height == 0 || tile.size() < tile_row * height) TiffFile::fail();
   std::vector<std::byte> rows(whole_row * std::min(height, size.rows));
@@ -162,7 +221,7 @@ void readTiles(const TiffFile& file, const GridSize& size, HeightSink& sink) {
         std::memcpy(&rows[n * whole_row + i * sample], &tile[n * tile_row], bytes);
       if (size.columns - i <= width) break;
     }
-    sink.samples(rows.data(), used * whole_row);
+    giver.give(rows.data(), std::size_t{used} * size.columns);
     if (size.rows - j <= height) break;
   }
 }
@@ -171,11 +230,15 @@ void readTiles(const TiffFile& file, const GridSize& size, HeightSink& sink) {
 
 void readGeoTiff(const ModelFile& path, HeightSink& sink) {
   const TiffFile file(path.path);
+  const TiffSamples samples = samplesOf(file);
   const GridSize size{file.number<std::uint32_t>(TIFFTAG_IMAGEWIDTH), file.number<std::uint32_t>(TIFFTAG_IMAGELENGTH),
-                      kindOf(file)};
+                      samples.kind};
   checkGridSize(size);
-  sink.header({size, missingOf(file), frameOf(file, size, sink)});
-  TIFFIsTiled(file.get()) != 0 ? readTiles(file, size, sink) : readStrips(file, size, sink);
+  sink.header({size, missingOf(file, sink), frameOf(file, size, sink)});
+  Giver giver(samples, sink);
+  TIFFIsTiled(file.get()) != 0 ? readTiles(file, size, samples.bytes, giver)
+                               : readStrips(file, size, samples.bytes, giver);
+  giver.tell();
 }
 
 }  // namespace hl

@@ -205,6 +205,14 @@ TEST(LoadModel, APlyFileThatIsCutSaysSo) {
   EXPECT_EQ(loadModel(fileWith("whole.ply", whole)).triangles.size(), 1U);
   for (std::size_t bytes = 4; bytes + 2 < header.size(); bytes += 7)
     EXPECT_NE(refusalOf(fileWith("head.ply", whole.substr(0, bytes))).find("end_header"), std::string::npos) << bytes;
+  const auto counted = [&](const std::string& count) {
+    const std::string start = "ply\nformat binary_little_endian 1.0\nelement vertex " + count;
+    return refusalOf(fileWith("count.ply", start + "\nproperty float x\nelement face 1\nend_header\n"));
+  };
+  EXPECT_NE(counted("99999999999999999999").find("'99999999999999999999' is no count of elements"), std::string::npos);
+  EXPECT_NE(counted("-3").find("'-3' is no count of elements"), std::string::npos);
+  EXPECT_NE(counted("18446744073709551615").find("it is cut: its header tells of 18446744073709551615 elements"),
+            std::string::npos);
   EXPECT_NE(refusalOf(fileWith("cut.ply", header + "0 0 0\n1 0 0\n")).find("4 elements, and 2 lines"),
             std::string::npos);
 }

@@ -6,6 +6,7 @@
 #include <tiffio.h>
 
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -51,6 +52,8 @@ void expectValues(const HeightField& field, std::uint32_t columns, std::uint32_t
 struct TiffForm {
   std::uint16_t bits = 16, format = SAMPLEFORMAT_INT, compression = COMPRESSION_NONE;
   bool tiles = false, degrees = false;
+  const char* missing = "-9999";
+  double scale = 20;  // to the next row
 };
 
 template <typename Sample>
@@ -69,13 +72,13 @@ std::string tiffWith(const std::string& name, const TiffForm& form, std::uint32_
   TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 1);
   TIFFSetField(tiff, TIFFTAG_COMPRESSION, form.compression);
   TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
-  const double scale[3] = {form.degrees ? 0.001 : 30, form.degrees ? 0.002 : 20, 0};
+  const double scale[3] = {form.degrees ? 0.001 : 30, form.degrees ? 0.002 : form.scale, 0};
   const double tie[6] = {0, 0, 0, 10, 50, 0};
   const std::uint16_t keys[8] = {1, 1, 0, 1, 1024, 0, 1, static_cast<std::uint16_t>(form.degrees ? 2 : 1)};
   TIFFSetField(tiff, 33550, 3, scale);
   TIFFSetField(tiff, 33922, 6, tie);
   TIFFSetField(tiff, 34735, 8, keys);
-  TIFFSetField(tiff, 42113, "-9999");
+  TIFFSetField(tiff, 42113, form.missing);
   if (form.tiles) {
     TIFFSetField(tiff, TIFFTAG_TILEWIDTH, 16);
     TIFFSetField(tiff, TIFFTAG_TILELENGTH, 16);
@@ -137,10 +140,64 @@ TEST(ReadHeights, DegreesBecomeMetres) {
 
 TEST(ReadHeights, OtherTiffsAreRefused) {
   TiffForm form;
-  form.bits = 8;
+  form.bits = 64;
   form.format = SAMPLEFORMAT_UINT;
-  EXPECT_NE(refusalOf(tiffWith<std::uint8_t>("c.tif", form, 20, 20)).find("heights are int16, uint16 or float32"),
+  EXPECT_NE(refusalOf(tiffWith<std::uint64_t>("c.tif", form, 20, 20)).find("convert it, as gdal_translate"),
             std::string::npos);
+}
+
+template <typename Given>
+void expectReadAs(SampleKind kind, std::uint16_t format) {
+  for (const bool tiles : {false, true}) {
+    TiffForm form;
+    form.bits = 8 * sizeof(Given);
+    form.format = format;
+    form.tiles = tiles;
+    const auto field = fieldIn(tiffWith<Given>("k.tif", form, 45, 21));
+    ASSERT_EQ(field->grid().columns(), 45U);
+    EXPECT_EQ(field->grid().size().kind, kind);
+    for (std::uint32_t j = 0; j < 21; ++j) {
+      for (std::uint32_t i = 0; i < 45; ++i)
+        ASSERT_EQ(field->grid().at(i, j), static_cast<float>(static_cast<Given>(valueAt(i, j)))) << i << " " << j;
+    }
+  }
+}
+
+TEST(ReadHeights, SamplesOfOtherKindsAreKeptAsTheNearest) {
+  expectReadAs<std::uint8_t>(SampleKind::kUint16, SAMPLEFORMAT_UINT);
+  expectReadAs<std::int8_t>(SampleKind::kInt16, SAMPLEFORMAT_INT);
+  expectReadAs<std::int32_t>(SampleKind::kFloat32, SAMPLEFORMAT_INT);
+  expectReadAs<double>(SampleKind::kFloat32, SAMPLEFORMAT_IEEEFP);
+}
+
+TEST(ReadHeights, WhatATiffSaysWronglyIsTold) {
+  const auto warningsOf = [](const TiffForm& form) {
+    return loadModelScene(tiffWith<std::int16_t>("w.tif", form, 30, 20)).model.warnings;
+  };
+  TiffForm form;
+  EXPECT_TRUE(warningsOf(form).empty());
+  form.missing = "hello";
+  EXPECT_EQ(warningsOf(form), std::vector<std::string>{"its value for missing samples, 'hello', is no number: none "
+                                                       "counts as missing"});
+  form.missing = "-9999";
+  form.scale = -20;
+  EXPECT_EQ(warningsOf(form), std::vector<std::string>{"its columns lead east and its rows north in its map: they are "
+                                                       "taken to lead east and south"});
+}
+
+// The samples that lack are those of the last strip: its place in the file is that of the end.
+TEST(ReadHeights, ACutTiffSaysSo) {
+  const std::string path = tiffWith<std::int16_t>("whole.tif", {}, 20, 20);
+  std::ifstream in(path, std::ios::binary);
+  std::string tiff{std::istreambuf_iterator<char>(in), {}};
+  std::uint32_t place = 8 + 3 * 5 * 20 * 2;  // three strips of five rows lie before it
+  const std::string wanted(reinterpret_cast<const char*>(&place), sizeof place);
+  const std::size_t at = tiff.rfind(wanted);
+  ASSERT_NE(at, std::string::npos);
+  place = static_cast<std::uint32_t>(tiff.size() - 20);
+  std::memcpy(tiff.data() + at, &place, sizeof place);
+  EXPECT_EQ(refusalOf(fileWith("cut.tif", tiff)),
+            hl::test::tempFile("cut.tif") + ": is cut or corrupt: it ends before its last samples");
 }
 
 std::string bigEndian(std::uint32_t side) {
@@ -272,6 +329,14 @@ TEST(ReadHeights, CorruptFilesGiveOneLine) {
       EXPECT_EQ(refusal.find('\n'), std::string::npos) << refusal;
     }
   }
+}
+
+// A key, a word and a name of a file may have any bytes.
+TEST(ReadHeights, BytesThatAreNoUtf8AreOneLine) {
+  EXPECT_EQ(refusalOf(fileWith("m.asc", "s\xfc\ns")).substr(hl::test::tempFile("m.asc").size()),
+            ": is not an Esri grid: 's' is no number for s?");
+  const std::string odd = "odd\xfc.asc";
+  EXPECT_NE(refusalOf(fileWith(odd, "ncols 2\n\xff\xfe 3\n")).find("is not an Esri grid"), std::string::npos);
 }
 
 TEST(ReadHeights, AFieldWithoutSamplesIsRefused) {
