@@ -1,6 +1,7 @@
 #include "scene/iso_shape.h"
 
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -15,14 +16,12 @@ const IsoSurface& isoSurfaceOfShape(const Shape& shape) { return dynamic_cast<co
 // "1 (-480), 2 (370)"
 std::string listed(const std::vector<const Instance*>& surfaces) {
   constexpr std::size_t kMostListed = 8;
-  std::string text;
+  std::ostringstream text;
   for (std::size_t i = 0; i < surfaces.size() && i < kMostListed; ++i) {
-    std::string value = std::to_string(isoSurfaceOf(*surfaces[i])->iso().value);
-    value.erase(value.find_last_not_of('0') + 1);
-    if (value.back() == '.') value.pop_back();
-    text += (i == 0 ? "" : ", ") + std::to_string(surfaces[i]->key) + " (" + value + ")";
+    text << (i == 0 ? "" : ", ") << surfaces[i]->key << " (" << isoSurfaceOf(*surfaces[i])->iso().value << ")";
   }
-  return text + (surfaces.size() > kMostListed ? ", ..." : "");
+  text << (surfaces.size() > kMostListed ? ", ..." : "");
+  return text.str();
 }
 
 }  // namespace

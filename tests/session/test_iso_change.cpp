@@ -113,6 +113,10 @@ TEST_F(IsoChangeTest, WhatCannotBeIsRefusedWithWhatThereIs) {
   EXPECT_EQ(refusalOf(1, std::numeric_limits<double>::quiet_NaN()), "iso: the value must be a finite number");
   EXPECT_EQ(refusalOf(1, std::numeric_limits<double>::infinity()), "iso: the value must be a finite number");
   EXPECT_EQ(shown(), before);
+  send(1, 1e308);
+  ASSERT_TRUE(until([this] { return shows(1e308); }));
+  EXPECT_EQ(refusalOf(9, 0),
+            "iso: there is no surface 9; those of volumes, with their values, are 1 (1e+308), 2 (370)");
 }
 
 TEST(IsoChange, ASceneWithoutVolumesRefusesIt) { EXPECT_THROW(checkIsoChange(*makeSnapshot(Model{}), 0, {}), Error); }
