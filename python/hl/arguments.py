@@ -63,7 +63,7 @@ def implicit(solid: Any) -> str:
         return solid
     try:
         return json.dumps(solid)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, RecursionError) as error:
         raise InvalidValueError(f"an implicit surface is a dict, as in a scene file: {error}") from None
 
 

@@ -114,49 +114,44 @@ class Scene:
         volume: Any = None,
         implicit: Any = None,
         iso: Any = None,
-        spacing: Any = 1.0,
-        vertical_scale: Any = 1.0,
+        spacing: Any = None,
+        vertical_scale: Any = None,
         missing: Any = None,
         points: Any = None,
         surfels: Any = False,
         below: bool = False,
     ) -> None:
-        if below and volume is None:
-            raise InvalidValueError("below is of volumes, and this is none")
-        if points is not None:
-            if any(other is not None for other in (source, triangles, vertices, heights, volume, iso, implicit)):
-                raise InvalidValueError("a scene is made of points, heights, a volume, a file or vertices, of one of them")
-            self._source: Any = None
-            self._scene = _cloud_of(points, normals, surfels)
-            return
-        if implicit is not None:
-            if any(other is not None for other in (source, triangles, normals, vertices, heights, volume, iso)):
-                raise InvalidValueError("a scene is made of an implicit surface or of something else, not of both")
-            self._source = None
-            self._scene = _hl.BatchScene(arguments.implicit(implicit))
-            return
-        if heights is not None or volume is not None:
-            others = (source, triangles, normals, vertices, heights if volume is not None else iso)
-            if any(other is not None for other in others):
-                raise InvalidValueError("a scene is made of heights, a volume, a file or vertices, of one of them")
-            self._source = None
-            if volume is not None:
-                self._scene = _volume_of(volume, iso, spacing, missing, below)
-            else:
-                self._scene = _heights_of(heights, spacing, vertical_scale, missing)
-            return
-        if isinstance(source, (str, bytes, os.PathLike)):
-            if isinstance(triangles, (int, float)):
-                raise InvalidValueError(f"the size is given by its name: hl.Scene({source!r}, size={triangles})")
-            if not (triangles is None and normals is None and vertices is None):
-                raise InvalidValueError("a scene is made of a file or of arrays, not of both")
+        of_file = isinstance(source, (str, bytes, os.PathLike))
+        if of_file and isinstance(triangles, (int, float)):
+            raise InvalidValueError(f"the size is given by its name: hl.Scene({source!r}, size={triangles})")
+        made_of = {
+            "a file": source if of_file else None,
+            "vertices": None if of_file else source if vertices is None else vertices,
+            "heights": heights,
+            "a volume": volume,
+            "points": points,
+            "an implicit surface": implicit,
+        }
+        options = dict(triangles=triangles, normals=normals, size=size, iso=iso, spacing=spacing)
+        options.update(vertical_scale=vertical_scale, missing=missing, surfels=surfels, below=below)
+        kind = _kind_of(made_of, options)
+        if kind == "vertices" and source is not None and vertices is not None:
+            raise InvalidValueError("vertices are given twice")
+        spacing = 1.0 if spacing is None else spacing
+        self._source: Any = None
+        if kind == "a file":
             self._source = (os.fspath(source), arguments.number(size, "size"))
             self._scene = _hl.BatchScene(arguments.path(source), self._source[1])
+        elif kind == "points":
+            self._scene = _cloud_of(points, normals, surfels)
+        elif kind == "an implicit surface":
+            self._scene = _hl.BatchScene(arguments.implicit(implicit))
+        elif kind == "a volume":
+            self._scene = _volume_of(volume, iso, spacing, missing, below)
+        elif kind == "heights":
+            self._scene = _heights_of(heights, spacing, 1.0 if vertical_scale is None else vertical_scale, missing)
         else:
-            if (source is None) == (vertices is None):
-                raise InvalidValueError("a scene is made of a file, or of vertices and triangles")
-            self._source = None
-            self._scene = _made_of(vertices if source is None else source, triangles, normals, size)
+            self._scene = _made_of(made_of["vertices"], triangles, normals)
 
     @property
     def primitives(self) -> int:
@@ -355,11 +350,40 @@ def _cloud_of(points: Any, normals: Any, surfels: Any) -> _hl.BatchScene:
     )
 
 
-def _made_of(vertices: Any, triangles: Any, normals: Any, size: Any) -> _hl.BatchScene:
+# What each option of a scene belongs to.
+_OPTIONS = {
+    "triangles": ("vertices",),
+    "normals": ("vertices", "points"),
+    "size": ("a file",),
+    "iso": ("a volume",),
+    "spacing": ("heights", "a volume"),
+    "vertical_scale": ("heights",),
+    "missing": ("heights", "a volume"),
+    "surfels": ("points",),
+    "below": ("a volume",),
+}
+
+
+def _is_said(value: Any) -> bool:
+    return not (value is None or value is False or (isinstance(value, (int, float)) and value == 0))
+
+
+def _kind_of(made_of: Dict[str, Any], options: Dict[str, Any]) -> str:
+    """The one thing that a scene is made of; what belongs to others is refused by its name."""
+    kinds = [kind for kind, given in made_of.items() if given is not None]
+    if len(kinds) != 1:
+        raise InvalidValueError(f"a scene is made of one of {', '.join(made_of)}; this of {' and '.join(kinds) or 'none'}")
+    for name, value in options.items():
+        needed = _OPTIONS[name]
+        said = value is not None if name in ("missing", "iso") else _is_said(value)
+        if said and kinds[0] not in needed:
+            raise InvalidValueError(f"{name} belongs to {' and '.join(needed)}, and this scene is made of {kinds[0]}")
+    return kinds[0]
+
+
+def _made_of(vertices: Any, triangles: Any, normals: Any) -> _hl.BatchScene:
     if triangles is None:
         raise InvalidValueError("a scene of arrays needs triangles: an array of shape (m, 3)")
-    if size != 0:
-        raise InvalidValueError("size is for files; scale the vertices")
     indices = arguments.integers(triangles, "triangles")
     if indices.size == 0:
         indices = np.empty((0, 3), dtype=np.uint32)

@@ -174,7 +174,40 @@ class Volumes(unittest.TestCase):
             felt = fingers.step([[0, 0.019, 0]])
             np.testing.assert_allclose(felt.force, [[0, 2, 0]], atol=0.02)
 
+    def test_options_of_other_scenes_are_refused_by_their_names(self):
+        grid = np.zeros((3, 3), dtype=np.float32)
+        volume = np.arange(27, dtype=np.float32).reshape(3, 3, 3)
+        made_of = {
+            "heights": ({"heights": grid}, {"spacing": 0.1, "vertical_scale": 2.0, "missing": 5.0}),
+            "volume": ({"volume": volume, "iso": 3.5}, {"spacing": 0.1, "missing": 50.0, "below": True}),
+            "points": ({"points": np.eye(3)}, {"normals": np.eye(3), "surfels": True}),
+            "implicit": ({"implicit": {"expression": {"sphere": {"radius": 0.02}}}}, {}),
+            "file": ({"source": "sphere:500"}, {"size": 0.2}),
+            "vertices": ({"vertices": np.eye(3), "triangles": [[0, 1, 2]]}, {"normals": np.eye(3)}),
+        }
+        every = {name: value for _, options in made_of.values() for name, value in options.items()}
+        for kind, (needed, options) in made_of.items():
+            for name, value in every.items():
+                with self.subTest(f"{name} with {kind}"):
+                    if name in options:
+                        self.assertGreater(hl.Scene(**needed, **{name: options[name]}).primitives, 0)
+                    else:
+                        with self.assertRaisesRegex(hl.InvalidValueError, f"^{name} "):
+                            hl.Scene(**needed, **{name: value})
+
+    def test_stray_points_that_ruin_a_cloud_are_refused(self):
+        random = np.random.default_rng(1)
+        points = random.uniform(-0.5, 0.5, (2000, 3))
+        for far in (10, 1000, 1e5):
+            self.assertEqual(hl.Scene(points=np.vstack([points, [far, 0, 0]])).primitives, 2001)
+        with self.assertRaisesRegex(hl.InvalidValueError, "1e.?08 0 0 lies so far from the rest.*remove"):
+            hl.Scene(points=np.vstack([points, [1e8, 0, 0]]))
+
     def test_what_is_no_implicit_surface_is_refused(self):
+        deep = {}
+        for _ in range(100_000):
+            deep = {"shell": deep}
+        self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(implicit=deep))
         for wrong in ({}, {"expression": {"ball": {}}}, {"expression": {"sphere": {"radius": -1}}}, "sphere", 3, {1}):
             self.assertRaises(hl.InvalidValueError, lambda: hl.Scene(implicit=wrong))
         self.assertRaises(hl.InvalidValueError, lambda: hl.Scene("teapot", implicit={}))
@@ -302,7 +335,7 @@ class Errors(unittest.TestCase):
             ("hl.Scene('teapot', size=0.1)", lambda: hl.Scene("teapot", 0.1)),
             ("a zero in it", lambda: hl.Scene("teapot\0")),
             ("no such file", lambda: hl.Scene(b"\xff.obj")),
-            ("of a file, or of vertices", hl.Scene),
+            ("a scene is made of one of", hl.Scene),
             ("not enough memory", lambda: hl.Fingers(scene, 10**15)),
         ]
         for text, call in wrong:
