@@ -7,6 +7,8 @@ namespace hl {
 
 namespace {
 
+constexpr std::uint32_t kPayload = 0x3f;  // of a byte that continues
+
 // Bytes of the character that begins here; 0: none does. The ranges are those of RFC 3629.
 std::size_t lengthOfCharacter(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
@@ -42,6 +44,31 @@ std::string validUtf8(std::string text) {
     const std::size_t length = lengthOfCharacter(std::string_view(text).substr(at));
     if (length == 0) text[at] = '?';
     at += std::max<std::size_t>(length, 1);
+  }
+  return text;
+}
+
+std::vector<std::uint32_t> codePointsOf(std::string_view text) {
+  std::vector<std::uint32_t> points;
+  while (!text.empty()) {
+    const std::size_t length = lengthOfCharacter(text);
+    std::uint32_t point = length == 0 ? '?' : static_cast<unsigned char>(text[0]);
+    if (length > 1) point &= kPayload >> (length - 1);
+    for (std::size_t i = 1; i < length; ++i) point = point << 6U | (static_cast<unsigned char>(text[i]) & kPayload);
+    points.push_back(point);
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return points;
+}
+
+std::string utf8Of(const std::vector<std::uint32_t>& points) {
+  std::string text;
+  for (const std::uint32_t point : points) {
+    const unsigned followers = point < 0x80 ? 0 : point < 0x800 ? 1 : point < 0x10000 ? 2 : 3;
+    constexpr std::uint32_t kLead[] = {0, 0xc0, 0xe0, 0xf0};
+    text += static_cast<char>(kLead[followers] | point >> 6 * followers);
+    for (unsigned left = followers; left > 0; --left)
+      text += static_cast<char>(0x80U | (point >> 6 * (left - 1) & kPayload));
   }
   return text;
 }

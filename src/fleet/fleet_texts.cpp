@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "io/utf8.h"
+#include "base/utf8.h"
 
 namespace hl {
 

@@ -25,6 +25,17 @@ TEST(Utf8, EveryCharacterIsOne) {
   }
 }
 
+TEST(Utf8, CodePointsAreGivenBack) {
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t point = 0; point < 0x110000; ++point) {
+    if (point < 0xd800 || point > 0xdfff) all.push_back(point);
+  }
+  EXPECT_EQ(codePointsOf(utf8Of(all)), all);
+  EXPECT_EQ(utf8Of({'A', 0x2262, 0x391, '.'}), "A\xE2\x89\xA2\xCE\x91.");  // RFC 3629, section 7
+  EXPECT_EQ(utf8Of({0x233b4}), "\xF0\xA3\x8E\xB4");
+  EXPECT_EQ(utf8Of(codePointsOf("a\xED\xA0\x80z\xE2\x89")), "a???z??");
+}
+
 TEST(Utf8, WhatIsNoneBecomesQuestionMarks) {
   EXPECT_EQ(validUtf8("s\xfc"), "s?");
   EXPECT_EQ(validUtf8("\xc0\x80"), "??");  // overlong
