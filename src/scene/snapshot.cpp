@@ -63,6 +63,14 @@ std::vector<Placed> firstOf(const std::vector<Instance>& instances, std::shared_
   return all;
 }
 
+// Those whose matter hinders a motion are kept first: a hand feels them without a touch.
+void keepMostMatter(Snapshot& snapshot) {
+  if (snapshot.matter.size() <= kMostMatter) return;
+  std::stable_partition(snapshot.matter.begin(), snapshot.matter.end(),
+                        [&](std::uint32_t number) { return snapshot.instances[number].shape->source->resists(); });
+  snapshot.matter.resize(kMostMatter);
+}
+
 bool knowsMatter(const Shape& shape) { return shape.source && shape.source->siteOf(Vec3::Zero()) != Site::kUnknown; }
 
 }  // namespace
@@ -128,8 +136,7 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, st
       snapshot->deforming.push_back(static_cast<std::uint32_t>(snapshot->reach.size()));
       snapshot->deforms_until_ns = std::max(snapshot->deforms_until_ns, instance.mesh_motion->end_ns());
     }
-    if (knowsMatter(*instance.shape) && snapshot->matter.size() < kMostMatter)
-      snapshot->matter.push_back(static_cast<std::uint32_t>(snapshot->reach.size()));
+    if (knowsMatter(*instance.shape)) snapshot->matter.push_back(static_cast<std::uint32_t>(snapshot->reach.size()));
     snapshot->reach.push_back(reachOf(instance));
     const Box rest = boxAt(instance.shape->bounds, finalPose(instance));
     if (!rest.empty()) {
@@ -143,6 +150,7 @@ std::shared_ptr<const Snapshot> makeSnapshot(std::vector<Instance> instances, st
     snapshot->primitives += instance.shape->elements();
   }
   snapshot->moves_until_ns = std::max(snapshot->moves_until_ns, snapshot->deforms_until_ns);
+  keepMostMatter(*snapshot);
   snapshot->near = BoxTree(snapshot->reach);
   snapshot->snaps = firstOf<PlacedSnap>(snapshot->instances, &Instance::snaps, kMostSnaps);
   snapshot->fields = firstOf<PlacedField>(snapshot->instances, &Instance::fields, kMostFields);

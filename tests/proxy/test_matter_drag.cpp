@@ -150,6 +150,18 @@ TEST(MatterDrag, NeverAddsEnergyAndEntersNothing) {
   }
 }
 
+// A tick asks a few objects alone: those that hinder go before those that do not, whatever their number.
+TEST(MatterDrag, IsFeltBesideManyOtherVolumes) {
+  std::vector<Instance> instances;
+  for (std::uint64_t key = 1; key <= 40; ++key) {
+    instances.push_back(key == 40 ? block({row(0, 0, 5)}) : block({}));
+    instances.back().key = key;
+  }
+  const auto snapshot = makeSnapshot(std::move(instances));
+  ASSERT_EQ(snapshot->matter.size(), kMostMatter);
+  EXPECT_EQ(snapshot->instances[snapshot->matter.front()].key, 40U);
+}
+
 TEST(MatterDrag, IsRealTimeSafe) {
   const auto scene = makeSnapshot({block({row(0, 0.1, 5)}, 1)});
   const ProxySettings settings = plainSettings();
