@@ -181,14 +181,14 @@ TEST(X3dBodies, SeveralShapesAreOneBody) {
   EXPECT_FALSE(warns(scene, "centre of mass")) << "it is where X3D has it";
 }
 
-TEST(X3dBodies, ShapesWithoutAThicknessAreOneHull) {
+TEST(X3dBodies, ShapesWithoutAThicknessArePlates) {
   const SceneModel scene = load(collection(
       "<RigidBody><CollidableShape><Shape><Box/></Shape></CollidableShape><CollidableOffset translation='0 3 0'>"
       "<CollidableShape><Shape><IndexedFaceSet coordIndex='0 1 2 -1'><Coordinate point='0 0 0 1 0 0 0 1 0'/>"
       "</IndexedFaceSet></Shape></CollidableShape></CollidableOffset></RigidBody>"));
   ASSERT_EQ(scene.bodies.size(), 1u);
-  EXPECT_EQ(scene.bodies[0].spec.shape, BodyShape::kHull);
-  EXPECT_TRUE(warns(scene, "as one hull of its 2 shapes: piece 2"));
+  EXPECT_EQ(scene.bodies[0].spec.shape, BodyShape::kParts);
+  EXPECT_EQ(partsIn(scene.bodies[0].model, scene.bodies[0].spec), 2u);
 }
 
 TEST(X3dBodies, ACylinderLiesAlongItsLongestSide) {
