@@ -1,6 +1,8 @@
 #include "bodies/mesh_parts.h"
 
 #include <algorithm>
+#include <exception>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -30,7 +32,13 @@ std::vector<PieceMesh> meshesOfPieces(const Model& model) {
     pieces.resize(1);
   }
   std::vector<PieceMesh> meshes;
-  for (const auto& piece : pieces) meshes.push_back(pieceMesh(model, piece));
+  for (const auto& piece : pieces) {
+    PieceMesh mesh = pieceMesh(model, piece);
+    const bool is_there = std::any_of(meshes.begin(), meshes.end(), [&](const PieceMesh& other) {
+      return other.vertices == mesh.vertices && other.triangles == mesh.triangles;
+    });
+    if (!is_there) meshes.push_back(std::move(mesh));
+  }
   return meshes;
 }
 
@@ -61,39 +69,78 @@ std::vector<Part> withoutNested(std::vector<Part> parts) {
   return kept;
 }
 
-Solid solidOfPiece(const PieceMesh& mesh, const std::vector<Solid>& parts) {
-  if (parts.size() == 1) return parts.front();
+std::optional<Solid> heldBy(const PieceMesh& mesh) {
   try {
     return solidOf(mesh.vertices, mesh.triangles);
   } catch (const Error&) {  // it is open
-    return sumOf(parts);
+    return std::nullopt;
   }
 }
 
-// Pieces of which no part is left do not count.
+// The mesh that reaches farthest is a body, whichever way it faces.
+bool facesInward(const std::vector<PieceMesh>& meshes) {
+  return std::max_element(meshes.begin(), meshes.end(),
+                          [](const PieceMesh& a, const PieceMesh& b) { return sizeOf(a) < sizeOf(b); })
+      ->is_turned;
+}
+
+// A piece of which no part is left, as it lies within others, does not count, but for a hollow, which is taken off.
 Solid solidOfAll(const std::vector<PieceMesh>& meshes, const std::vector<Part>& parts) {
   std::vector<std::vector<Solid>> of_piece(meshes.size());
   for (const Part& part : parts) of_piece[part.piece].push_back(part.solid);
+  const bool inward = facesInward(meshes);
   std::vector<Solid> solids;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
-    if (!of_piece[i].empty()) solids.push_back(solidOfPiece(meshes[i], of_piece[i]));
+    const std::optional<Solid> held = heldBy(meshes[i]);
+    if (!of_piece[i].empty()) {
+      solids.push_back(held ? *held : sumOf(of_piece[i]));
+    } else if (held && meshes[i].is_turned != inward) {
+      solids.push_back({-held->volume_m3, held->centre_O, -held->inertia_m5});
+    }
   }
   return sumOf(solids);
 }
 
-// Each piece gets one part at least; what is left of kMostParts goes to those that come first.
+void addParts(NearlyConvex some, std::size_t piece, std::vector<Part>& parts) {
+  for (Hull& hull : some.hulls) {
+    const Solid solid = solidOf(hull.shape);
+    parts.push_back({std::move(hull), solid, piece});
+  }
+}
+
+struct PartsOfPiece {
+  NearlyConvex parts;
+  std::exception_ptr why;  // there are none
+};
+
+PartsOfPiece tryPiece(const PieceMesh& mesh, std::size_t number, double allowed_m, std::size_t most) {
+  try {
+    return {partsOfPiece(mesh, number, allowed_m, most), nullptr};
+  } catch (const Error&) {
+    return {{}, std::current_exception()};
+  }
+}
+
+// A piece that is nearly convex is one part; what is left of kMostParts is shared among the others. A sliver that has
+// no hull is left out, unless it is all that there is.
 std::vector<Part> partsOf(const std::vector<PieceMesh>& meshes, double allowed_m, MeshParts& made) {
+  std::vector<PartsOfPiece> pieces;
+  for (std::size_t i = 0; i < meshes.size(); ++i) pieces.push_back(tryPiece(meshes[i], i, allowed_m, 1));
+  const auto is_cut = [&](const PartsOfPiece& one) { return one.parts.excess_m > allowed_m; };
+  auto cut = static_cast<std::size_t>(std::count_if(pieces.begin(), pieces.end(), is_cut));
+  std::size_t left = kMostParts - (meshes.size() - cut);
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    if (!is_cut(pieces[i])) continue;
+    pieces[i] = tryPiece(meshes[i], i, allowed_m, left / cut--);
+    left -= pieces[i].parts.hulls.size();
+  }
   std::vector<Part> parts;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
-    const std::size_t most = kMostParts - parts.size() - (meshes.size() - 1 - i);
-    NearlyConvex some = partsOfPiece(meshes[i], i, allowed_m, most);
-    made.error_m = std::max(made.error_m, some.outside_m);
-    made.excess_m = std::max(made.excess_m, some.excess_m);
-    for (Hull& hull : some.hulls) {
-      const Solid solid = solidOf(hull.shape);
-      parts.push_back({std::move(hull), solid, i});
-    }
+    made.error_m = std::max(made.error_m, pieces[i].parts.outside_m);
+    made.excess_m = std::max(made.excess_m, pieces[i].parts.excess_m);
+    addParts(std::move(pieces[i].parts), i, parts);
   }
+  if (parts.empty()) std::rethrow_exception(pieces.front().why);
   return withoutNested(std::move(parts));
 }
 

@@ -120,7 +120,9 @@ NearlyConvex madeAnew(const PieceMesh& mesh, const CutRules& rules) {
   const Places probes = probesOf(mesh);
   const CutSurface coarse = surfaceOf(coarseMesh(mesh, kCoarseTriangles));
   std::optional<Hull> hull = hullWithVolume(mesh.vertices);
-  NearlyConvex whole{{hull ? *std::move(hull) : hullOf(CutPiece{coarse}.thickCorners(rules.allowed_m / 2))}};
+  if (!hull) hull = hullWithVolume(CutPiece{coarse}.thickCorners(rules.allowed_m / 2));
+  if (!hull) throw Error("hull: the points lie in a plane or on a line: give the shape a thickness, or use a box");
+  NearlyConvex whole{{*std::move(hull)}};
   whole.excess_m = PieceMeasure(coarse, rules.is_shell, rules.allowed_m).exactly({coarse}).error_m;
   whole.outside_m = outsideOf(probes, whole.hulls);
   if (rules.most == 1 || whole.excess_m <= rules.allowed_m) return whole;

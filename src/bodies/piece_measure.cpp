@@ -267,6 +267,7 @@ HullExcess PieceMeasure::roughly(const CutPiece& piece) const {
   if (is_shell_ || isFlat(piece)) return shellExcess(piece, kMostCorners);
   const std::vector<HullPlane> hull = hullPlanes(farthestOf(piece.thickCorners(thickness())));
   HullExcess excess;
+  addLines(piece, excess);
   takeLongest(
       airWays(piece.surface, hull, std::numeric_limits<double>::infinity(), 1 + piece.surface.size() / kMostTriangles),
       excess);

@@ -87,7 +87,8 @@ PieceMesh pieceMesh(const Model& model, std::span<const std::uint32_t> piece) {
     mesh.triangles.push_back({number(model.positions[a]), number(model.positions[b]), number(model.positions[c])});
   }
   tidy(mesh.triangles);
-  if (sixfoldVolume(mesh) < 0) {
+  mesh.is_turned = sixfoldVolume(mesh) < 0;
+  if (mesh.is_turned) {
     for (Corners& corners : mesh.triangles) std::swap(corners[1], corners[2]);
     std::sort(mesh.triangles.begin(), mesh.triangles.end());
   }

@@ -16,6 +16,7 @@ using Corners = std::array<std::uint32_t, 3>;  ///< of a triangle: numbers of ve
 struct PieceMesh {
   std::vector<Vec3> vertices;      ///< m, ascending
   std::vector<Corners> triangles;  ///< ascending, the least corner first; outward, where the piece is closed
+  bool is_turned = false;          ///< it faced inward: all of the mesh does, or it is a hollow of it
   bool operator==(const PieceMesh&) const = default;
 };
 

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/error.h"
 #include "bodies/convex_hull.h"
 #include "bodies/mesh_pieces.h"
+#include "bodies/piece_mesh.h"
 #include "bodies/scene_world.h"
 #include "draws.h"
 #include "mesh_drawings.h"
@@ -177,6 +179,56 @@ TEST(MeshParts, WhatHasNoneSaysWhatToDo) {
   lines.positions = boxModel(kOne).positions;
   lines.segments = {{0, 1}, {0, 2}, {0, 4}, {1, 7}};
   EXPECT_EQ(errorOf(lines), "its mesh has no triangles, and so no parts: use its hull or a box");
+}
+
+// A box with a hollow, whichever way all of it faces: mass and inertia are those of the one less those of the other.
+TEST(MeshParts, AHollowIsTakenOff) {
+  Model hollow = turnedRound(boxModel(kOne / 2)), model = boxModel(kOne);
+  addMesh(model, hollow, Vec3(0.2, 0, 0));
+  const Solid solid = partsOfMesh(model).solid, turned = partsOfMesh(turnedRound(model)).solid;
+  EXPECT_NEAR(solid.volume_m3, 7, 1e-12);
+  EXPECT_LT((solid.centre_O - Vec3(-0.2 / 7, 0, 0)).norm(), 1e-12);
+  EXPECT_NEAR(solid.inertia_m5(0, 0), 8.0 * 2 / 3 - 1.0 / 6, 1e-12);
+  EXPECT_EQ(turned.volume_m3, solid.volume_m3);
+}
+
+// Its hull has 64 vertices: the mass is that of its mesh.
+TEST(MeshParts, OfAFineBallHaveTheMassOfItsMesh) {
+  std::vector<Eigen::Vector2d> outline;
+  for (int i = 0; i <= 20; ++i)
+    outline.emplace_back(i % 20 == 0 ? 0 : std::sin(EIGEN_PI * i / 20), -std::cos(EIGEN_PI * i / 20));
+  const Model model = turnedModel(outline, 40);
+  const MeshParts made = partsOfMesh(model);
+  EXPECT_EQ(made.shape.parts.size(), 1u);
+  std::vector<std::uint32_t> all(model.triangles.size());
+  std::iota(all.begin(), all.end(), 0u);
+  const PieceMesh mesh = pieceMesh(model, all);
+  EXPECT_NEAR(made.solid.volume_m3, solidOf(mesh.vertices, mesh.triangles).volume_m3, 1e-12);
+  EXPECT_GT(made.solid.volume_m3, 1.02 * solidOf(made.shape.parts[0]).volume_m3);
+}
+
+TEST(MeshParts, ASliverBesideABoxIsLeftOut) {
+  for (const double width : {1e-9, 1e-7, 1e-5}) {
+    Model model = boxModel(kOne), sliver;
+    sliver.positions = {{5, 0, 0}, {6, 0, 0}, {6, width, 0}};
+    sliver.triangles = {{0, 1, 2}};
+    addMesh(model, sliver);
+    EXPECT_EQ(errorOf(model), "") << width;
+    EXPECT_NE(errorOf(sliver), "") << width;
+  }
+}
+
+// Twice the same ring, as it is and turned round, is one; two rings share the parts.
+TEST(MeshParts, OfTwoRingsAreSharedAndOfOneThatIsThereTwiceAreThoseOfOne) {
+  const Model ring = torusModel(0.05, 0.01, 24, 12);
+  const std::size_t once = partsOfMesh(ring).shape.parts.size();
+  Model twice = ring, two = ring;
+  addMesh(twice, turnedRound(ring));
+  addMesh(two, ring, Vec3(0, 0.1, 0));
+  const MeshParts of_twice = partsOfMesh(twice), of_two = partsOfMesh(two);
+  EXPECT_EQ(of_twice.shape.parts.size(), once);
+  EXPECT_NEAR(of_twice.solid.volume_m3, partsOfMesh(ring).solid.volume_m3, 1e-15);
+  EXPECT_LT(of_two.excess_m, 0.021 * two.bounds().size().norm() / 2);
 }
 
 // A plate without thickness beside a box: it gets one.

@@ -154,6 +154,21 @@ TEST(NearlyConvex, TheHoleOfARingIsOpen) {
     EXPECT_LT(above(parts, 3 * Vec3(std::cos(angle), 0, std::sin(angle))), 1e-9) << "the middle of the tube is inside";
 }
 
+// A thin one too, however it is drawn.
+TEST(NearlyConvex, AThinRingIsOpen) {
+  for (const auto& [around, across] : {std::pair{48, 10}, {200, 6}, {96, 10}, {32, 8}}) {
+    const PieceMesh ring = meshOf(torusModel(0.05, 0.002, around, across));
+    const double allowed = 0.02 * sizeOf(ring);
+    const NearlyConvex parts = nearlyConvex(ring, allowed, 64);
+    EXPECT_LE(parts.error_m(), 1.05 * allowed) << around;
+    EXPECT_LE(parts.hulls.size(), 32u) << around;
+    for (double angle = 0; angle < 6.28; angle += 0.02) {
+      const Vec3 way(std::cos(angle), 0, std::sin(angle));
+      EXPECT_GT(above(parts, (0.048 - 1.2 * allowed) * way), 0) << around;
+    }
+  }
+}
+
 // Against the mesh itself, by solid angles: what is outside by more than the error is in no part, nor is anything that
 // lies in the mesh near its surface outside of all.
 TEST(NearlyConvex, OfRandomLumpsIsAsNearAsItSays) {
