@@ -87,7 +87,7 @@ std::size_t giveAs(const std::byte* given, std::size_t count, HeightSink& sink) 
   for (std::size_t i = 0; i < count; ++i) {
     Given value{};
     std::memcpy(&value, given + i * sizeof value, sizeof value);
-    kept[i] = static_cast<Kept>(value);
+    kept[i] = static_cast<Kept>(static_cast<double>(value));
     rounded += value == value && static_cast<double>(kept[i]) != static_cast<double>(value) ? 1 : 0;
   }
   sink.samples(kept.data(), count * sizeof(Kept));
