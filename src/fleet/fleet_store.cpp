@@ -21,7 +21,10 @@ namespace fs = std::filesystem;
 constexpr const char* kResultEnding = ".result";
 constexpr const char* kFailureEnding = ".failed";
 
+// Whatever else has that name is no result.
 std::optional<std::string> contentOf(const std::string& path) {
+  std::error_code failed;
+  if (!fs::is_regular_file(path, failed)) return {};
   std::ifstream in(path, std::ios::binary);
   if (!in) return {};
   return std::string(std::istreambuf_iterator<char>(in), {});
@@ -66,7 +69,9 @@ std::optional<StoredResult> FleetStore::find(const std::string& name) const {
 void FleetStore::write(const std::string& path, const std::string& bytes) const {
   constexpr mode_t kForAll = 0666;  // less the umask
   std::error_code failed;
-  fs::create_directories(fs::path(path).parent_path(), failed);
+  const fs::path folder = fs::path(path).parent_path();
+  fs::create_directories(folder, failed);
+  if (failed) throw Error(folder.string() + ": cannot be made: " + failed.message());
   const std::string beside = nameBeside(path);
   const int file = open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kForAll);
   const bool whole = file >= 0 && writeAll(file, bytes);

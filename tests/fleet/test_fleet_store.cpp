@@ -96,6 +96,19 @@ TEST(FleetStores, RemoveWhatKilledProgramsLeft) {
   EXPECT_TRUE(store.find(kName));
 }
 
+TEST(FleetStores, AFolderInThePlaceOfAResultIsNamed) {
+  const fs::path folder = test::tempFile("occupied"), place = folder / "aa" / (kName + ".result");
+  fs::create_directories(place);
+  const FleetStore store(folder.string());
+  EXPECT_FALSE(store.find(kName));
+  try {
+    store.keep(sample());
+    ADD_FAILURE() << "it was kept";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find(place.string()), std::string::npos) << error.what();
+  }
+}
+
 TEST(FleetStores, TellWhereTheyCannotWrite) {
   EXPECT_THROW(FleetStore("/proc/none").keep(sample()), Error);
   EXPECT_THROW(FleetStore("/proc/none").keepFailure(kName, "x"), Error);
