@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "base/descriptor_bytes.h"
 #include "base/error.h"
 #include "fleet/beside.h"
 
@@ -34,16 +35,6 @@ Digest256 digestOfResult(std::string_view bytes) {
   Sha256 sha;
   sha.add(bytes);
   return sha.end();
-}
-
-bool writeAll(int file, const std::string& bytes) {
-  for (std::size_t at = 0; at < bytes.size();) {
-    const ssize_t written = ::write(file, bytes.data() + at, bytes.size() - at);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    at += static_cast<std::size_t>(written);
-  }
-  return true;
 }
 
 }  // namespace
@@ -74,7 +65,7 @@ void FleetStore::write(const std::string& path, const std::string& bytes) const 
   if (failed) throw Error(folder.string() + ": cannot be made: " + failed.message());
   const std::string beside = nameBeside(path);
   const int file = open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kForAll);
-  const bool whole = file >= 0 && writeAll(file, bytes);
+  const bool whole = file >= 0 && writeWhole(file, bytes.data(), bytes.size());
   const int error = errno;
   if (file >= 0) close(file);
   if (whole) return putInPlace(beside, path);

@@ -19,6 +19,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/descriptor_bytes.h"
 #include "base/error.h"
 #include "fleet/fleet_texts.h"
 
@@ -28,39 +29,17 @@ namespace {
 
 constexpr std::uint32_t kMostMessage_bytes = 1 << 20;
 
-bool sendBytes(int pipe, const char* data, std::size_t bytes) {
-  while (bytes > 0) {
-    const ssize_t sent = ::write(pipe, data, bytes);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent <= 0) return false;
-    data += sent;
-    bytes -= static_cast<std::size_t>(sent);
-  }
-  return true;
-}
-
-bool receiveBytes(int pipe, char* data, std::size_t bytes) {
-  while (bytes > 0) {
-    const ssize_t got = ::read(pipe, data, bytes);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return false;
-    data += got;
-    bytes -= static_cast<std::size_t>(got);
-  }
-  return true;
-}
-
 bool sendMessage(int pipe, const google::protobuf::MessageLite& message) {
   const auto size = static_cast<std::uint32_t>(message.ByteSizeLong());
   std::string bytes(reinterpret_cast<const char*>(&size), sizeof size);
-  return message.AppendToString(&bytes) && sendBytes(pipe, bytes.data(), bytes.size());
+  return message.AppendToString(&bytes) && writeWhole(pipe, bytes.data(), bytes.size());
 }
 
 bool receiveMessage(int pipe, google::protobuf::MessageLite& message) {
   std::uint32_t size = 0;
-  if (!receiveBytes(pipe, reinterpret_cast<char*>(&size), sizeof size) || size > kMostMessage_bytes) return false;
+  if (!readWhole(pipe, &size, sizeof size) || size > kMostMessage_bytes) return false;
   std::string bytes(size, '\0');
-  return receiveBytes(pipe, bytes.data(), size) && message.ParseFromString(bytes);
+  return readWhole(pipe, bytes.data(), size) && message.ParseFromString(bytes);
 }
 
 std::string lastLineOf(int file) {

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <string>
 
+#include "base/descriptor_bytes.h"
 #include "base/error.h"
 
 namespace hl {
@@ -38,14 +39,7 @@ TemporaryFile::TemporaryFile() {
 TemporaryFile::~TemporaryFile() { close(descriptor_); }
 
 void TemporaryFile::write(const void* data, std::size_t size) {
-  const char* at = static_cast<const char*>(data);
-  while (size > 0) {
-    const ssize_t written = ::write(descriptor_, at, size);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) fail();
-    at += written;
-    size -= static_cast<std::size_t>(written);
-  }
+  if (!writeWhole(descriptor_, data, size)) fail();
 }
 
 }  // namespace hl

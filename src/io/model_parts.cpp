@@ -3,11 +3,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <utility>
 
+#include "base/descriptor_bytes.h"
 #include "base/error.h"
 #include "base/utf8.h"
 #include "bodies/scene_world.h"
@@ -27,17 +27,6 @@ constexpr std::size_t kMaxSurfaces = 60'000;  // as objects of a scene file
 // As errors and warnings are: one line, of a length to be read.
 std::string oneLine(const std::string& text) {
   return validUtf8(text.substr(0, std::min(kLongestLine, text.find_first_of("\r\n"))));
-}
-
-bool writeAll(int descriptor, const char* data, std::size_t size) {
-  while (size > 0) {
-    const ssize_t written = ::write(descriptor, data, size);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    data += written;
-    size -= static_cast<std::size_t>(written);
-  }
-  return true;
 }
 
 void toProto(const CadReading& reading, proto::CadReading& out) {
@@ -65,7 +54,7 @@ void PartSender::send(const proto::ReadingPart& part) {
   bytes_.resize(sizeof length + size);
   std::memcpy(bytes_.data(), &length, sizeof length);
   part.SerializeToArray(bytes_.data() + sizeof length, static_cast<int>(size));
-  if (!writeAll(descriptor_, bytes_.data(), bytes_.size())) throw Error("nobody reads what is read");
+  if (!writeWhole(descriptor_, bytes_.data(), bytes_.size())) throw Error("nobody reads what is read");
 }
 
 void PartSender::progress(double fraction) {

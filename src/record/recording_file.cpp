@@ -13,6 +13,7 @@
 #include <new>
 #include <utility>
 
+#include "base/descriptor_bytes.h"
 #include "base/error.h"
 
 namespace hl {
@@ -73,12 +74,8 @@ RecordingWriter::RecordingWriter(FilePointer file, std::string name) : path_(std
 }
 
 void RecordingWriter::append(const std::string& bytes) {
-  for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t written = ::write(file_->descriptor(), bytes.data() + done, bytes.size() - done);
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) throw Error(path_ + ": can not be written any more: " + std::strerror(errno));
-    done += static_cast<std::size_t>(written);
-  }
+  if (!writeWhole(file_->descriptor(), bytes.data(), bytes.size()))
+    throw Error(path_ + ": can not be written any more: " + std::strerror(errno));
   bytes_ += bytes.size();
 }
 
