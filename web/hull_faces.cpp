@@ -12,7 +12,7 @@ HullFaces hullFaces(const std::vector<Vec3>& points) {
   return *std::move(hull);
 }
 
-std::vector<HullPlane> unitHullPlanes(const std::vector<Vec3>&) {
+std::vector<HalfSpace> unitHullPlanes(const std::vector<Vec3>&) {
   throw Error("a browser has no hulls of any points: a piece that is not convex counts as its hull");
 }
 

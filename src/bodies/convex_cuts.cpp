@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -48,7 +47,7 @@ class Cutter {
         return a.need_m() < b.need_m();
       });
       if (!(worst->need_m() > rules_.allowed_m)) break;
-      const std::optional<CutPlane> plane = bestPlane(*worst);
+      const std::optional<HalfSpace> plane = bestPlane(*worst);
       worst->cuttable = plane.has_value();
       if (!plane) continue;
       Halves halves{measured(half(worst->piece, *plane)), measured(half(worst->piece, plane->turned()))};
@@ -79,12 +78,12 @@ class Cutter {
     return {std::move(piece), excess};
   }
 
-  std::vector<CutPlane> planesFor(const MeasuredPiece& piece) const {
+  std::vector<HalfSpace> planesFor(const MeasuredPiece& piece) const {
     constexpr int kPlaces = 4;
     constexpr double kOblique = 0.1;
     const HullExcess& at = piece.excess;
     const Box bounds = boundsOf(piece.piece);
-    std::vector<CutPlane> planes;
+    std::vector<HalfSpace> planes;
     const auto through = [&](const Vec3& normal) { planes.push_back({normal, normal.dot(at.place)}); };
     through(at.normal);
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -98,11 +97,11 @@ class Cutter {
   }
 
   // None, if no plane cuts the piece.
-  std::optional<CutPlane> bestPlane(const MeasuredPiece& whole) const {
+  std::optional<HalfSpace> bestPlane(const MeasuredPiece& whole) const {
     constexpr double kOfBalance = 0.01;  // where planes leave the same, the halves are to be alike
     double best = std::numeric_limits<double>::infinity();
-    std::optional<CutPlane> best_plane;
-    for (const CutPlane& plane : planesFor(whole)) {
+    std::optional<HalfSpace> best_plane;
+    for (const HalfSpace& plane : planesFor(whole)) {
       const CutPiece one = half(whole.piece, plane), other = half(whole.piece, plane.turned());
       if (one.surface.empty() || other.surface.empty()) continue;
       const HullExcess here = measure_.roughly(one), there = measure_.roughly(other);
@@ -115,7 +114,7 @@ class Cutter {
     return best_plane;
   }
 
-  CutPiece half(const CutPiece& piece, const CutPlane& plane) const {
+  CutPiece half(const CutPiece& piece, const HalfSpace& plane) const {
     return {above(piece.surface, plane, rounding_m_)};
   }
 
@@ -147,7 +146,7 @@ class Cutter {
 
 }  // namespace
 
-std::vector<CutPiece> cutPieces(const CutSurface& surface, const CutRules& rules) {
+std::vector<NearPiece> cutPieces(const CutSurface& surface, const CutRules& rules) {
   constexpr int kMostRounds = 6;  // what is joined leaves room for cuts
   const Cutter cutter(surface, rules);
   std::vector<MeasuredPiece> measured = cutter.whole();
@@ -155,8 +154,8 @@ std::vector<CutPiece> cutPieces(const CutSurface& surface, const CutRules& rules
     cutter.cut(measured);
     cutter.joinNeighbours(measured);
   }
-  std::vector<CutPiece> pieces;
-  for (MeasuredPiece& one : measured) pieces.push_back(std::move(one.piece));
+  std::vector<NearPiece> pieces;
+  for (MeasuredPiece& one : measured) pieces.push_back({std::move(one.piece), one.excess.error_m});
   return pieces;
 }
 

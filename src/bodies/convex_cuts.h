@@ -19,8 +19,13 @@ struct CutRules {
   std::size_t most = 1;  ///< > 0
 };
 
+struct NearPiece {
+  CutPiece piece;
+  double error_m = 0;  ///< of its hull (piece_measure.h)
+};
+
 /// Pieces that together are the surface; at most `most` of them, so they may be farther from their hulls than allowed.
 /// The time grows with triangles times pieces: about a second for 1000 triangles and 60 pieces. Setup only.
-std::vector<CutPiece> cutPieces(const CutSurface& surface, const CutRules& rules);
+std::vector<NearPiece> cutPieces(const CutSurface& surface, const CutRules& rules);
 
 }  // namespace hl

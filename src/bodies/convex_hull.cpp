@@ -15,26 +15,27 @@ namespace {
 constexpr double kFlat = 1e-6;  // thickness over size
 
 // Throws for points that lie in a plane.
-void demandThick(std::span<const Vec3> points, const Vec3& middle, double size) {
-  const Vec3 thin = size > 0 ? thinnestWay(points, size) : Vec3::UnitX();
-  double least = 1e300, most = -1e300;
-  for (const Vec3& point : points) {
-    least = std::min(least, thin.dot(point - middle));
-    most = std::max(most, thin.dot(point - middle));
-  }
-  if (points.size() < 4 || !(most - least > kFlat * size))
+void demandThick(std::span<const Vec3> points, double size) {
+  if (points.size() < 4 || !(thinnestSlab(points, size).thickness > kFlat * size))
     throw Error("hull: the points lie in a plane: give the shape a thickness, or use a box");
 }
 
 }  // namespace
 
-Vec3 thinnestWay(std::span<const Vec3> points, double size) {
+Slab thinnestSlab(std::span<const Vec3> points, double size) {
+  if (!(size > 0)) return {};
   Mat3 second = Mat3::Zero();
   for (const Vec3& point : points) {
     const Vec3 way = (point - points[0]) / size;
     second += way * way.transpose() / static_cast<double>(points.size());
   }
-  return Eigen::SelfAdjointEigenSolver<Mat3>(second).eigenvectors().col(0);
+  const Vec3 thin = Eigen::SelfAdjointEigenSolver<Mat3>(second).eigenvectors().col(0);
+  double least = 0, most = 0;  // of the first point
+  for (const Vec3& point : points) {
+    least = std::min(least, thin.dot(point - points[0]));
+    most = std::max(most, thin.dot(point - points[0]));
+  }
+  return {thin, most - least};
 }
 
 UnitPoints unitPoints(std::span<const Vec3> points) {
@@ -47,7 +48,7 @@ UnitPoints unitPoints(std::span<const Vec3> points) {
   UnitPoints unit;
   unit.middle = (low + high) / 2;
   unit.size = points.empty() ? 0 : (high - low).norm() / 2;
-  demandThick(points, unit.middle, unit.size);
+  demandThick(points, unit.size);
   for (const Vec3& point : points) unit.points.emplace_back((point - unit.middle) / unit.size);
   return unit;
 }

@@ -22,8 +22,14 @@ struct UnitPoints {
 /// Throws as hullOf().
 UnitPoints unitPoints(std::span<const Vec3> points);
 
-/// The unit vector along which the points are the thinnest, by their second moments; `size` (> 0): of about that.
-Vec3 thinnestWay(std::span<const Vec3> points, double size);
+/// What points lie in: as thick as they are along `normal`.
+struct Slab {
+  Vec3 normal = Vec3::UnitX();
+  double thickness = 0;
+};
+/// Where the points are the thinnest, by their second moments; `size`: theirs, about. Of points at one place (0): no
+/// thickness.
+Slab thinnestSlab(std::span<const Vec3> points, double size);
 
 /// Points in one plane with others are one face. Of a hull of more than kMostVertices those vertices are kept that
 /// reach farthest: one by one, that which lies farthest outside of what is kept. Throws Error if a point is not finite,

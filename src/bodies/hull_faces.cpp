@@ -52,8 +52,8 @@ class Qhull {
     }
     return faces;
   }
-  std::vector<HullPlane> planes() const {
-    std::vector<HullPlane> planes;
+  std::vector<HalfSpace> planes() const {
+    std::vector<HalfSpace> planes;
     for (const facetT* facet = qhull_.facet_list; facet != nullptr && facet->next != nullptr; facet = facet->next)
       planes.push_back({Vec3(facet->normal[0], facet->normal[1], facet->normal[2]), -facet->offset});
     return planes;
@@ -149,7 +149,7 @@ HullFaces hullFaces(const std::vector<Vec3>& points) {
   return hull;
 }
 
-std::vector<HullPlane> unitHullPlanes(const std::vector<Vec3>& points) {
+std::vector<HalfSpace> unitHullPlanes(const std::vector<Vec3>& points) {
   std::vector<double> coordinates;
   Qhull qhull;
   make(qhull, points, coordinates);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bodies/convex.h"
+#include "bodies/half_space.h"
 
 namespace hl {
 
@@ -15,17 +16,11 @@ struct HullFaces {
   double error = 0;                               ///< how far a point is outside, at most, in the unit of the points
 };
 
-struct HullPlane {
-  Vec3 normal;  ///< unit, outward
-  double offset = 0;
-  double above(const Vec3& point) const { return normal.dot(point) - offset; }
-};
-
 /// Of points of a size of about 1 around the origin, not all in a plane. At most kMostVertices of them are kept: those
 /// that reach farthest. Throws Error if there is no hull.
 HullFaces hullFaces(const std::vector<Vec3>& points);
-/// Of such points, with all corners that there are.
-std::vector<HullPlane> unitHullPlanes(const std::vector<Vec3>& points);
+/// The faces of such points' hull, with all corners that there are; normals outward.
+std::vector<HalfSpace> unitHullPlanes(const std::vector<Vec3>& points);
 
 /// Some of the points.
 inline std::vector<Vec3> pointsOf(const std::vector<Vec3>& points, const std::vector<std::size_t>& numbers) {

@@ -5,14 +5,15 @@
 
 #include "base/error.h"
 #include "bodies/convex_hull.h"
+#include "bodies/hull_faces.h"
 
 namespace hl {
 
-std::vector<HullPlane> hullPlanes(std::span<const Vec3> points) {
+std::vector<HalfSpace> hullPlanes(std::span<const Vec3> points) {
   try {
     const UnitPoints unit = unitPoints(points);
-    std::vector<HullPlane> planes;
-    for (const HullPlane& plane : unitHullPlanes(unit.points))
+    std::vector<HalfSpace> planes;
+    for (const HalfSpace& plane : unitHullPlanes(unit.points))
       planes.push_back({plane.normal, unit.size * plane.offset + plane.normal.dot(unit.middle)});
     return planes;
   } catch (const Error&) {
@@ -20,10 +21,10 @@ std::vector<HullPlane> hullPlanes(std::span<const Vec3> points) {
   }
 }
 
-double wayOut(std::span<const HullPlane> hull, const Vec3& point, const Vec3& direction) {
+double wayOut(std::span<const HalfSpace> hull, const Vec3& point, const Vec3& direction) {
   if (hull.empty()) return 0;
   double way = std::numeric_limits<double>::infinity();
-  for (const HullPlane& plane : hull) {
+  for (const HalfSpace& plane : hull) {
     const double toward = plane.normal.dot(direction);
     if (toward > 0) way = std::min(way, -plane.above(point) / toward);
   }

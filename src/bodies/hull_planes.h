@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "bodies/hull_faces.h"
+#include "bodies/half_space.h"
 
 namespace hl {
 
-/// None, if the points have no thickness. Unlike a shape, it has all the corners that there are.
-std::vector<HullPlane> hullPlanes(std::span<const Vec3> points);
+/// Normals outward. None, if the points have no thickness. Unlike a shape, it has all the corners that there are.
+std::vector<HalfSpace> hullPlanes(std::span<const Vec3> points);
 /// m: from a point along a unit vector to where it leaves the hull; 0: it is outside, or
 /// there is no hull.
-double wayOut(std::span<const HullPlane> hull, const Vec3& point, const Vec3& direction);
+double wayOut(std::span<const HalfSpace> hull, const Vec3& point, const Vec3& direction);
 
 }  // namespace hl

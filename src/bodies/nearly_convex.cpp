@@ -99,20 +99,18 @@ void takeAll(const Places& vertices, std::vector<Places>& corners, std::vector<H
   }
 }
 
-NearlyConvex asPieces(const PieceMesh& mesh, const CutSurface& coarse, const CutRules& rules) {
+NearlyConvex asPieces(const PieceMesh& mesh, const CutSurface& coarse, const CutRules& rules, double thickness_m) {
   NearlyConvex parts;
-  const PieceMeasure measure(coarse, rules.is_shell, rules.allowed_m);
-  const std::vector<CutPiece> pieces = cutPieces(coarse, rules);
   std::vector<Places> corners;
-  for (const CutPiece& piece : pieces) {
-    Places some = piece.thickCorners(measure.thickness());
+  for (const NearPiece& near : cutPieces(coarse, rules)) {
+    parts.excess_m = std::max(parts.excess_m, near.error_m);
+    Places some = near.piece.thickCorners(thickness_m);
     std::optional<Hull> hull = hullWithVolume(some);
     if (!hull) continue;
     parts.hulls.push_back(*std::move(hull));
     corners.push_back(std::move(some));
   }
   takeAll(mesh.vertices, corners, parts.hulls);
-  for (const CutPiece& piece : pieces) parts.excess_m = std::max(parts.excess_m, measure.exactly(piece).error_m);
   return parts;
 }
 
@@ -120,13 +118,14 @@ NearlyConvex madeAnew(const PieceMesh& mesh, const CutRules& rules) {
   const Places probes = probesOf(mesh);
   const CutSurface coarse = surfaceOf(coarseMesh(mesh, kCoarseTriangles));
   std::optional<Hull> hull = hullWithVolume(mesh.vertices);
-  if (!hull) hull = hullWithVolume(CutPiece{coarse}.thickCorners(rules.allowed_m / 2));
+  const PieceMeasure measure(coarse, rules.is_shell, rules.allowed_m);
+  if (!hull) hull = hullWithVolume(CutPiece{coarse}.thickCorners(measure.thickness()));
   if (!hull) throw Error("hull: the points lie in a plane or on a line: give the shape a thickness, or use a box");
   NearlyConvex whole{{*std::move(hull)}};
-  whole.excess_m = PieceMeasure(coarse, rules.is_shell, rules.allowed_m).exactly({coarse}).error_m;
+  whole.excess_m = measure.exactly({coarse}).error_m;
   whole.outside_m = outsideOf(probes, whole.hulls);
   if (rules.most == 1 || whole.excess_m <= rules.allowed_m) return whole;
-  NearlyConvex parts = asPieces(mesh, coarse, rules);
+  NearlyConvex parts = asPieces(mesh, coarse, rules, measure.thickness());
   parts.outside_m = outsideOf(probes, parts.hulls);
   return parts.hulls.empty() ? whole : parts;
 }

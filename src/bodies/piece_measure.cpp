@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
+#include <utility>
 
 #include "base/plain_math.h"
 #include "bodies/convex_hull.h"
+#include "bodies/places.h"
 #include "geometry/closest_point.h"
 
 namespace hl {
@@ -56,41 +57,16 @@ std::vector<Vec3> farthestOf(const std::vector<Vec3>& corners) {
   return farthest;
 }
 
-// Between which planes the points lie, where these are the nearest to each other.
-struct Slab {
-  Vec3 normal = Vec3::UnitX();
-  double thickness_m = 0;
-};
-
 Slab slabOf(const std::vector<Vec3>& corners) {
   double size = 0;
   for (const Vec3& corner : corners) size = std::max(size, (corner - corners[0]).norm());
-  if (!(size > 0)) return {};
-  const Vec3 normal = thinnestWay(corners, size);
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const Vec3& corner : corners) {
-    low = std::min(low, normal.dot(corner));
-    high = std::max(high, normal.dot(corner));
-  }
-  return {normal, high - low};
+  return thinnestSlab(corners, size);
 }
 
-}  // namespace
-
-std::vector<Vec3> CutPiece::corners() const {
-  std::vector<Vec3> all;
-  for (const Triangle3& triangle : surface) all.insert(all.end(), triangle.begin(), triangle.end());
-  std::sort(all.begin(), all.end(),
-            [](const Vec3& a, const Vec3& b) { return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z()); });
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all;
-}
-
-std::vector<Vec3> CutPiece::thickCorners(double thickness_m) const {
-  std::vector<Vec3> all = corners();
-  const Slab slab = slabOf(all);
-  const double lacking = thickness_m - slab.thickness_m;
-  if (lacking <= 0) return all;
+// At least so thick: what is flatter grows inward, or, if it faces both ways, to both sides.
+std::vector<Vec3> thickened(std::vector<Vec3> corners, const Slab& slab, const CutSurface& surface, double thickness) {
+  const double lacking = thickness - slab.thickness;
+  if (lacking <= 0) return corners;
   double out = 0, area = 0;
   for (const Triangle3& triangle : surface) {
     out += slab.normal.dot(acrossOf(triangle));
@@ -98,12 +74,26 @@ std::vector<Vec3> CutPiece::thickCorners(double thickness_m) const {
   }
   const bool is_one_sided = std::abs(out) > 0.5 * area;
   const Vec3 inward = out > 0 ? -slab.normal : slab.normal;
-  const std::size_t count = all.size();
+  const std::size_t count = corners.size();
   for (std::size_t i = 0; i < count; ++i) {
-    all.push_back(all[i] + (is_one_sided ? lacking : lacking / 2) * inward);
-    if (!is_one_sided) all[i] -= lacking / 2 * inward;
+    corners.push_back(corners[i] + (is_one_sided ? lacking : lacking / 2) * inward);
+    if (!is_one_sided) corners[i] -= lacking / 2 * inward;
   }
-  return all;
+  return corners;
+}
+
+}  // namespace
+
+std::vector<Vec3> CutPiece::corners() const {
+  std::vector<Vec3> all;
+  for (const Triangle3& triangle : surface) all.insert(all.end(), triangle.begin(), triangle.end());
+  return sortedPlaces(std::move(all));
+}
+
+std::vector<Vec3> CutPiece::thickCorners(double thickness_m) const {
+  std::vector<Vec3> all = corners();
+  const Slab slab = slabOf(all);
+  return thickened(std::move(all), slab, surface, thickness_m);
 }
 
 namespace {
@@ -114,7 +104,7 @@ struct AirWay {
 };
 
 // From points no farther apart than `apart`, of each triangle after `step` others.
-std::vector<AirWay> airWays(const CutSurface& surface, const std::vector<HullPlane>& hull, double apart,
+std::vector<AirWay> airWays(const CutSurface& surface, const std::vector<HalfSpace>& hull, double apart,
                             std::size_t step) {
   std::vector<AirWay> ways;
   for (std::size_t i = 0; i < surface.size(); i += step) {
@@ -196,81 +186,90 @@ struct AirLine {
   double air_m = 0;  // how far the middle is from the surface
 };
 
+// What is asked of a piece more than once.
+struct Outline {
+  explicit Outline(const CutPiece& piece) : corners(piece.corners()), surface(primitivesOf(piece.surface)) {}
+  std::vector<Vec3> corners;
+  Slab slab = slabOf(corners);
+  std::vector<Primitive> surface;
+};
+
 // Between `most` of the corners at most.
-std::vector<AirLine> linesOf(const CutPiece& piece, std::size_t most) {
-  const std::vector<Vec3> corners = farthestOf(piece.corners());
-  const std::vector<Primitive> surface = primitivesOf(piece.surface);
+std::vector<AirLine> linesOf(const Outline& outline, std::size_t most) {
+  const std::vector<Vec3> corners = farthestOf(outline.corners);
   const std::size_t step = 1 + (corners.size() - 1) / most;
   std::vector<AirLine> lines;
   for (std::size_t i = 0; i < corners.size(); i += step) {
     for (std::size_t j = 0; j < i; j += step) {
       const Vec3 middle = (corners[i] + corners[j]) / 2, way = corners[i] - corners[j];
-      lines.push_back({middle, way.normalized(), distanceTo(surface, middle, way.norm() / 2)});
+      lines.push_back({middle, way.normalized(), distanceTo(outline.surface, middle, way.norm() / 2)});
     }
   }
   return lines;
 }
 
-HullExcess shellExcess(const CutPiece& piece, std::size_t most) {
+HullExcess shellExcess(const Outline& outline, std::size_t most) {
   HullExcess excess;
-  for (const AirLine& line : linesOf(piece, most)) {
+  for (const AirLine& line : linesOf(outline, most)) {
     if (line.air_m > excess.air_m) excess = {line.air_m, line.air_m, line.middle, line.direction};
   }
   return excess;
 }
 
-}  // namespace
-
-bool PieceMeasure::isFlat(const CutPiece& piece) const { return slabOf(piece.corners()).thickness_m < thickness(); }
-
-HullExcess PieceMeasure::exactly(const CutPiece& piece, double enough_m) const {
-  constexpr std::size_t kMostCorners = 48;  // between which lines are drawn
-  if (is_shell_ || isFlat(piece)) return shellExcess(piece, kMostCorners);
+// The lines of a solid whose middle is not within the whole of it.
+HullExcess lineExcess(const Outline& outline, const CutSurface& whole, double allowed_m) {
+  constexpr std::size_t kMostCorners = 8;
   HullExcess excess;
-  addLines(piece, excess);
-  if (excess.error_m <= enough_m) followWays(piece, excess);
+  for (const AirLine& line : linesOf(outline, kMostCorners)) {
+    if (line.air_m > std::max(excess.error_m, allowed_m) && !isWithin(whole, line.middle))
+      excess = {line.air_m, line.air_m, line.middle, line.direction};
+  }
   return excess;
 }
 
-void PieceMeasure::addLines(const CutPiece& piece, HullExcess& excess) const {
-  constexpr std::size_t kMostCorners = 8;
-  for (const AirLine& line : linesOf(piece, kMostCorners)) {
-    if (line.air_m > std::max(excess.error_m, allowed_m_) && !isWithin(whole_, line.middle))
-      excess = {line.air_m, line.air_m, line.middle, line.direction};
-  }
-}
-
-void PieceMeasure::followWays(const CutPiece& piece, HullExcess& excess) const {
+void followWays(const CutPiece& piece, const Outline& outline, const std::vector<HalfSpace>& hull, double allowed_m,
+                HullExcess& excess) {
   constexpr double kApart = 4;           // of what is allowed
   constexpr std::size_t kMostWays = 96;  // that are followed
-  std::vector<AirWay> ways =
-      airWays(piece.surface, hullPlanes(piece.thickCorners(thickness())), kApart * allowed_m_, 1);
+  std::vector<AirWay> ways = airWays(piece.surface, hull, kApart * allowed_m, 1);
   takeLongest(ways, excess);
-  if (excess.air_m <= allowed_m_) {
+  if (excess.air_m <= allowed_m) {
     excess.error_m = excess.air_m;
     return;
   }
-  std::erase_if(ways, [&](const AirWay& way) { return way.length_m <= allowed_m_; });
-  const std::vector<Primitive> surface = primitivesOf(piece.surface);
+  std::erase_if(ways, [&](const AirWay& way) { return way.length_m <= allowed_m; });
   const std::size_t step = 1 + ways.size() / kMostWays;
   for (std::size_t i = 0; i < ways.size(); i += step) {
     const double length = lengthInAir(piece.surface, ways[i]);
     for (const double part : {0.5, 1.0}) {
       const double reach = part * length;
-      excess.error_m = std::max(excess.error_m, distanceTo(surface, ways[i].begin + reach * ways[i].direction, reach));
+      excess.error_m =
+          std::max(excess.error_m, distanceTo(outline.surface, ways[i].begin + reach * ways[i].direction, reach));
     }
   }
 }
 
+}  // namespace
+
+HullExcess PieceMeasure::exactly(const CutPiece& piece, double enough_m) const {
+  constexpr std::size_t kMostCorners = 48;  // between which lines are drawn
+  const Outline outline(piece);
+  const bool is_flat = outline.slab.thickness < thickness();
+  if (is_shell_ || is_flat) return shellExcess(outline, kMostCorners);
+  HullExcess excess = lineExcess(outline, whole_, allowed_m_);
+  if (excess.error_m <= enough_m) followWays(piece, outline, hullPlanes(outline.corners), allowed_m_, excess);
+  return excess;
+}
+
 HullExcess PieceMeasure::roughly(const CutPiece& piece) const {
   constexpr std::size_t kMostTriangles = 128, kMostCorners = 16;
-  if (is_shell_ || isFlat(piece)) return shellExcess(piece, kMostCorners);
-  const std::vector<HullPlane> hull = hullPlanes(farthestOf(piece.thickCorners(thickness())));
-  HullExcess excess;
-  addLines(piece, excess);
-  takeLongest(
-      airWays(piece.surface, hull, std::numeric_limits<double>::infinity(), 1 + piece.surface.size() / kMostTriangles),
-      excess);
+  const Outline outline(piece);
+  const bool is_flat = outline.slab.thickness < thickness();
+  if (is_shell_ || is_flat) return shellExcess(outline, kMostCorners);
+  HullExcess excess = lineExcess(outline, whole_, allowed_m_);
+  takeLongest(airWays(piece.surface, hullPlanes(farthestOf(outline.corners)), std::numeric_limits<double>::infinity(),
+                      1 + piece.surface.size() / kMostTriangles),
+              excess);
   return excess;
 }
 

@@ -51,10 +51,6 @@ class PieceMeasure {
   HullExcess roughly(const CutPiece& piece) const;
 
  private:
-  bool isFlat(const CutPiece& piece) const;
-  void followWays(const CutPiece& piece, HullExcess& excess) const;
-  void addLines(const CutPiece& piece, HullExcess& excess) const;
-
   const CutSurface& whole_;
   bool is_shell_;
   double allowed_m_;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <tuple>
+#include <utility>
+
+#include "bodies/places.h"
 
 namespace hl {
 
@@ -12,10 +14,6 @@ namespace {
 // Of the cells along the longest side, from one trial to the next.
 constexpr double kCoarser = 0.8;
 constexpr double kFinestCells = 256;
-
-bool precedesPlace(const Vec3& a, const Vec3& b) {
-  return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z());
-}
 
 Corners leastFirst(Corners corners) {
   std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
@@ -76,8 +74,7 @@ PieceMesh pieceMesh(const Model& model, std::span<const std::uint32_t> piece) {
   for (const std::uint32_t triangle : piece) {
     for (const std::uint32_t corner : model.triangles[triangle]) mesh.vertices.push_back(model.positions[corner]);
   }
-  std::sort(mesh.vertices.begin(), mesh.vertices.end(), precedesPlace);
-  mesh.vertices.erase(std::unique(mesh.vertices.begin(), mesh.vertices.end()), mesh.vertices.end());
+  mesh.vertices = sortedPlaces(std::move(mesh.vertices));
   const auto number = [&](const Vec3& place) {
     const auto found = std::lower_bound(mesh.vertices.begin(), mesh.vertices.end(), place, precedesPlace);
     return static_cast<std::uint32_t>(found - mesh.vertices.begin());

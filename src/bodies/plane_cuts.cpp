@@ -9,7 +9,7 @@ namespace hl {
 namespace {
 
 // The part of a triangle at or above the plane: a convex polygon.
-void keepAbove(const Triangle3& triangle, const CutPlane& plane, double rounding, std::vector<Vec3>& kept) {
+void keepAbove(const Triangle3& triangle, const HalfSpace& plane, double rounding, std::vector<Vec3>& kept) {
   kept.clear();
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3 &a = triangle[i], &b = triangle[(i + 1) % 3];
@@ -22,7 +22,7 @@ void keepAbove(const Triangle3& triangle, const CutPlane& plane, double rounding
 
 }  // namespace
 
-CutSurface above(const CutSurface& surface, const CutPlane& plane, double rounding) {
+CutSurface above(const CutSurface& surface, const HalfSpace& plane, double rounding) {
   CutSurface side;
   std::vector<Vec3> kept;
   for (const Triangle3& triangle : surface) {

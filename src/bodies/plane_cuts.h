@@ -5,21 +5,15 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "bodies/half_space.h"
 
 namespace hl {
 
 using Triangle3 = std::array<Vec3, 3>;  ///< counterclockwise, seen from outside
 using CutSurface = std::vector<Triangle3>;
 
-struct CutPlane {
-  Vec3 normal;  ///< unit
-  double offset = 0;
-  double above(const Vec3& point) const { return normal.dot(point) - offset; }
-  CutPlane turned() const { return {-normal, -offset}; }
-};
-
 /// What is at or above the plane. What lies in it, to within `rounding` (m), goes to the side of the matter that it
 /// bounds.
-CutSurface above(const CutSurface& surface, const CutPlane& plane, double rounding);
+CutSurface above(const CutSurface& surface, const HalfSpace& plane, double rounding);
 
 }  // namespace hl

@@ -45,7 +45,6 @@ class SheetSearch {
     bool operator<(const Piece& other) const;
   };
 
-  void addSheets(std::size_t node);
   // One period of a sheet that repeats itself: what holds there holds everywhere.
   struct Period {
     std::size_t sheet;
@@ -54,6 +53,8 @@ class SheetSearch {
     double volume_m3 = 1;
   };
   struct WithoutConditions {};
+
+  void addSheets(std::size_t node);
   SheetSearch(const ImplicitFunction& function, std::size_t sheet, const Box& within, WithoutConditions);
   void addPeriod(std::size_t sheet, const Box& within);
   void searchPeriods(std::size_t most_looks);
