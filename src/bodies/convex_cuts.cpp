@@ -155,6 +155,7 @@ std::vector<NearPiece> cutPieces(const CutSurface& surface, const CutRules& rule
     cutter.joinNeighbours(measured);
   }
   std::vector<NearPiece> pieces;
+  pieces.reserve(measured.size());
   for (MeasuredPiece& one : measured) pieces.push_back({std::move(one.piece), one.excess.error_m});
   return pieces;
 }

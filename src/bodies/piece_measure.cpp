@@ -7,6 +7,7 @@
 
 #include "base/plain_math.h"
 #include "bodies/convex_hull.h"
+#include "bodies/hull_faces.h"
 #include "bodies/places.h"
 #include "geometry/closest_point.h"
 
@@ -52,9 +53,7 @@ std::vector<Vec3> farthestOf(const std::vector<Vec3>& corners) {
     }
     if (std::find(numbers.begin(), numbers.end(), best) == numbers.end()) numbers.push_back(best);
   }
-  std::vector<Vec3> farthest;
-  for (const std::size_t number : numbers) farthest.push_back(corners[number]);
-  return farthest;
+  return pointsOf(corners, numbers);
 }
 
 Slab slabOf(const std::vector<Vec3>& corners) {
