@@ -62,23 +62,26 @@ HL_HOOK void free(void* memory) {
 
 namespace {
 
-void* allocate(std::size_t size) {
+// Null: there is none.
+void* tryToAllocate(std::size_t size) noexcept {
 #ifdef HL_SANITIZED
   hl::RealtimeGuard::onHeapCall();
 #endif
-  void* const memory = hl::FailingAllocation::isNow() ? nullptr : std::malloc(size == 0 ? 1 : size);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
+  return hl::FailingAllocation::isNow() ? nullptr : std::malloc(size == 0 ? 1 : size);
 }
 
-void* allocateAligned(std::size_t size, std::align_val_t alignment) {
+void* tryToAllocate(std::size_t size, std::align_val_t alignment) noexcept {
 #ifdef HL_SANITIZED
   hl::RealtimeGuard::onHeapCall();
 #endif
   const auto align = static_cast<std::size_t>(alignment);
   void* memory = nullptr;
-  if (hl::FailingAllocation::isNow() || posix_memalign(&memory, align, size == 0 ? 1 : size) != 0)
-    throw std::bad_alloc();
+  if (hl::FailingAllocation::isNow() || posix_memalign(&memory, align, size == 0 ? 1 : size) != 0) return nullptr;
+  return memory;
+}
+
+void* orThrow(void* memory) {
+  if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
 
@@ -91,10 +94,19 @@ void release(void* memory) {
 
 }  // namespace
 
-void* operator new(std::size_t size) { return allocate(size); }
-void* operator new[](std::size_t size) { return allocate(size); }
-void* operator new(std::size_t size, std::align_val_t alignment) { return allocateAligned(size, alignment); }
-void* operator new[](std::size_t size, std::align_val_t alignment) { return allocateAligned(size, alignment); }
+void* operator new(std::size_t size) { return orThrow(tryToAllocate(size)); }
+void* operator new[](std::size_t size) { return orThrow(tryToAllocate(size)); }
+void* operator new(std::size_t size, std::align_val_t align) { return orThrow(tryToAllocate(size, align)); }
+void* operator new[](std::size_t size, std::align_val_t align) { return orThrow(tryToAllocate(size, align)); }
+// Of algorithms that do with less: sanitizers would answer these themselves, and not know the memory when it is freed.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return tryToAllocate(size); }
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept { return tryToAllocate(size); }
+void* operator new(std::size_t size, std::align_val_t align, const std::nothrow_t&) noexcept {
+  return tryToAllocate(size, align);
+}
+void* operator new[](std::size_t size, std::align_val_t align, const std::nothrow_t&) noexcept {
+  return tryToAllocate(size, align);
+}
 void operator delete(void* memory) noexcept { release(memory); }
 void operator delete[](void* memory) noexcept { release(memory); }
 void operator delete(void* memory, std::size_t) noexcept { release(memory); }
@@ -103,3 +115,7 @@ void operator delete(void* memory, std::align_val_t) noexcept { release(memory);
 void operator delete[](void* memory, std::align_val_t) noexcept { release(memory); }
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { release(memory); }
 void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { release(memory); }
+void operator delete(void* memory, const std::nothrow_t&) noexcept { release(memory); }
+void operator delete[](void* memory, const std::nothrow_t&) noexcept { release(memory); }
+void operator delete(void* memory, std::align_val_t, const std::nothrow_t&) noexcept { release(memory); }
+void operator delete[](void* memory, std::align_val_t, const std::nothrow_t&) noexcept { release(memory); }

@@ -5,9 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 #include <utility>
-
-#include "geometry/box.h"
 
 namespace hl {
 
@@ -15,10 +14,15 @@ namespace {
 
 // Of the size of the surface.
 constexpr double kRounding = 1e-12;
+// Into which surfaces are cut. Solids have fewer; of sheets that cross each other, each cut of many makes more.
+constexpr std::size_t kMostFragments = 4000, kMostFragmentsOfOne = 4;
+// What it takes to make a piece, for each of its triangles, in looks.
+constexpr std::uint64_t kLooksToMake = 100;
 
 struct MeasuredPiece {
   CutPiece piece;
   HullExcess excess;
+  std::size_t number = 0;  // of no other
   bool cuttable = true;
   // How much it asks to be cut.
   double need_m() const { return cuttable ? excess.error_m : 0; }
@@ -29,20 +33,24 @@ class Cutter {
  public:
   Cutter(const CutSurface& surface, const CutRules& rules)
       : surface_(surface), rules_(rules), measure_(surface, rules.is_shell, rules.allowed_m) {
-    rounding_m_ = kRounding * boundsOf({surface}).size().norm();
+    Box bounds;
+    for (const Triangle3& triangle : surface) {
+      for (const Vec3& corner : triangle) bounds.extend(corner);
+    }
+    rounding_m_ = kRounding * bounds.size().norm();
   }
 
-  std::vector<MeasuredPiece> whole() const { return {measured({surface_})}; }
+  std::vector<MeasuredPiece> whole() { return {measured(CutPiece(surface_))}; }
 
   bool needsCut(const std::vector<MeasuredPiece>& all) const {
-    return all.size() < rules_.most && std::any_of(all.begin(), all.end(), [&](const MeasuredPiece& one) {
+    return mayGoOn() && all.size() < rules_.most && std::any_of(all.begin(), all.end(), [&](const MeasuredPiece& one) {
              return one.need_m() > rules_.allowed_m;
            });
   }
 
   // Until none is too far from its hull, or there are as many as may be.
-  void cut(std::vector<MeasuredPiece>& all) const {
-    while (all.size() < rules_.most) {
+  void cut(std::vector<MeasuredPiece>& all) {
+    while (mayGoOn() && all.size() < rules_.most) {
       const auto worst = std::max_element(all.begin(), all.end(), [](const MeasuredPiece& a, const MeasuredPiece& b) {
         return a.need_m() < b.need_m();
       });
@@ -51,17 +59,19 @@ class Cutter {
       worst->cuttable = plane.has_value();
       if (!plane) continue;
       Halves halves{measured(half(worst->piece, *plane)), measured(half(worst->piece, plane->turned()))};
+      fragments_ += halves[0].piece.surface().size() + halves[1].piece.surface().size() - worst->piece.surface().size();
       *worst = std::move(halves[0]);
       all.push_back(std::move(halves[1]));
     }
   }
 
   // Puts together again what two cuts have parted though it is near enough.
-  void joinNeighbours(std::vector<MeasuredPiece>& all) const {
+  void joinNeighbours(std::vector<MeasuredPiece>& all) {
     for (std::size_t i = 0; i < all.size(); ++i) {
-      for (std::size_t j = i + 1; j < all.size();) {
-        std::optional<MeasuredPiece> both = joined(all[i].piece, all[j].piece);
+      for (std::size_t j = i + 1; mayGoOn() && j < all.size();) {
+        std::optional<MeasuredPiece> both = joined(all[i], all[j]);
         if (!both) {
+          apart_.insert({all[i].number, all[j].number});
           ++j;
           continue;
         }
@@ -73,16 +83,25 @@ class Cutter {
   }
 
  private:
-  MeasuredPiece measured(CutPiece piece) const {
-    const HullExcess excess = measure_.exactly(piece);
-    return {std::move(piece), excess};
+  bool mayGoOn() const {
+    return looks_ < rules_.most_looks && fragments_ <= kMostFragments + kMostFragmentsOfOne * surface_.size();
+  }
+
+  HullExcess counted(const HullExcess& excess) {
+    looks_ += excess.looks;
+    return excess;
+  }
+
+  MeasuredPiece measured(CutPiece piece) {
+    const HullExcess excess = counted(measure_.exactly(piece));
+    return {std::move(piece), excess, ++made_};
   }
 
   std::vector<HalfSpace> planesFor(const MeasuredPiece& piece) const {
     constexpr int kPlaces = 4;
     constexpr double kOblique = 0.1;
     const HullExcess& at = piece.excess;
-    const Box bounds = boundsOf(piece.piece);
+    const Box bounds = roundedBounds(piece.piece);
     std::vector<HalfSpace> planes;
     const auto through = [&](const Vec3& normal) { planes.push_back({normal, normal.dot(at.place)}); };
     through(at.normal);
@@ -97,15 +116,15 @@ class Cutter {
   }
 
   // None, if no plane cuts the piece.
-  std::optional<HalfSpace> bestPlane(const MeasuredPiece& whole) const {
+  std::optional<HalfSpace> bestPlane(const MeasuredPiece& whole) {
     constexpr double kOfBalance = 0.01;  // where planes leave the same, the halves are to be alike
     double best = std::numeric_limits<double>::infinity();
     std::optional<HalfSpace> best_plane;
     for (const HalfSpace& plane : planesFor(whole)) {
       const CutPiece one = half(whole.piece, plane), other = half(whole.piece, plane.turned());
-      if (one.surface.empty() || other.surface.empty()) continue;
-      const HullExcess here = measure_.roughly(one), there = measure_.roughly(other);
-      const double uneven = std::abs(boundsOf(one).size().norm() - boundsOf(other).size().norm());
+      if (one.empty() || other.empty()) continue;
+      const HullExcess here = counted(measure_.roughly(one)), there = counted(measure_.roughly(other));
+      const double uneven = std::abs(one.bounds().size().norm() - other.bounds().size().norm());
       const double score = here.air_m + there.air_m + kOfBalance * uneven;
       if (!(score < best)) continue;
       best = score;
@@ -114,41 +133,45 @@ class Cutter {
     return best_plane;
   }
 
-  CutPiece half(const CutPiece& piece, const HalfSpace& plane) const {
-    return {above(piece.surface, plane, rounding_m_)};
+  CutPiece half(const CutPiece& piece, const HalfSpace& plane) {
+    looks_ += piece.surface().size() * kLooksToMake;
+    return CutPiece(above(piece.surface(), plane, rounding_m_));
   }
 
-  Box boundsOf(const CutPiece& piece) const {
-    Box bounds;
-    for (const Triangle3& triangle : piece.surface) {
-      for (const Vec3& corner : triangle) bounds.extend(corner);
-    }
+  Box roundedBounds(const CutPiece& piece) const {
+    Box bounds = piece.bounds();
     bounds.min.array() -= rounding_m_;
     bounds.max.array() += rounding_m_;
     return bounds;
   }
 
   // None, if it would be too far from its hull.
-  std::optional<MeasuredPiece> joined(const CutPiece& a, const CutPiece& b) const {
-    if (!boundsOf(a).meets(boundsOf(b))) return std::nullopt;
-    CutPiece both = a;
-    both.surface.insert(both.surface.end(), b.surface.begin(), b.surface.end());
-    const HullExcess excess = measure_.exactly(both, rules_.allowed_m);
-    if (excess.error_m > rules_.allowed_m) return std::nullopt;
-    return MeasuredPiece{std::move(both), excess};
+  std::optional<MeasuredPiece> joined(const MeasuredPiece& a, const MeasuredPiece& b) {
+    if (apart_.contains({a.number, b.number}) || !roundedBounds(a.piece).meets(roundedBounds(b.piece)))
+      return std::nullopt;
+    looks_ += CutPiece::kDirections;
+    if (counted(measure_.atLeast(a.piece, b.piece, rules_.allowed_m)).error_m > rules_.allowed_m) return std::nullopt;
+    looks_ += (a.piece.surface().size() + b.piece.surface().size()) * kLooksToMake;
+    MeasuredPiece both = measured(CutPiece(a.piece, b.piece));
+    if (both.excess.error_m > rules_.allowed_m) return std::nullopt;
+    return both;
   }
 
   const CutSurface& surface_;
   const CutRules& rules_;
   PieceMeasure measure_;
   double rounding_m_ = 0;
+  std::size_t fragments_ = surface_.size();
+  std::uint64_t looks_ = 0;
+  std::size_t made_ = 0;
+  std::set<std::pair<std::size_t, std::size_t>> apart_;  // that are known not to be one
 };
 
 }  // namespace
 
 std::vector<NearPiece> cutPieces(const CutSurface& surface, const CutRules& rules) {
   constexpr int kMostRounds = 6;  // what is joined leaves room for cuts
-  const Cutter cutter(surface, rules);
+  Cutter cutter(surface, rules);
   std::vector<MeasuredPiece> measured = cutter.whole();
   for (int i = 0; i < kMostRounds && cutter.needsCut(measured); ++i) {
     cutter.cut(measured);

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "bodies/piece_measure.h"
@@ -17,6 +18,9 @@ struct CutRules {
   bool is_shell = false;
   double allowed_m = 0;  ///< > 0
   std::size_t most = 1;  ///< > 0
+  /// Cuts no more after so many looks at a triangle (HullExcess::looks), of 2 to 10 ns each: of the worst surface after
+  /// some seconds.
+  std::uint64_t most_looks = 1'000'000'000;
 };
 
 struct NearPiece {
@@ -25,7 +29,8 @@ struct NearPiece {
 };
 
 /// Pieces that together are the surface; at most `most` of them, so they may be farther from their hulls than allowed.
-/// The time grows with triangles times pieces: about a second for 1000 triangles and 60 pieces. Setup only.
+/// The time grows with triangles times pieces: about a second for 1000 triangles and 60 pieces. Neighbours that are not
+/// joined when it is up are more pieces than need be. Setup only.
 std::vector<NearPiece> cutPieces(const CutSurface& surface, const CutRules& rules);
 
 }  // namespace hl

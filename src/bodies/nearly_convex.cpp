@@ -119,10 +119,11 @@ NearlyConvex madeAnew(const PieceMesh& mesh, const CutRules& rules) {
   const CutSurface coarse = surfaceOf(coarseMesh(mesh, kCoarseTriangles));
   std::optional<Hull> hull = hullWithVolume(mesh.vertices);
   const PieceMeasure measure(coarse, rules.is_shell, rules.allowed_m);
-  if (!hull) hull = hullWithVolume(CutPiece{coarse}.thickCorners(measure.thickness()));
+  const CutPiece piece(coarse);
+  if (!hull) hull = hullWithVolume(piece.thickCorners(measure.thickness()));
   if (!hull) throw Error("hull: the points lie in a plane or on a line: give the shape a thickness, or use a box");
   NearlyConvex whole{{*std::move(hull)}};
-  whole.excess_m = measure.exactly({coarse}).error_m;
+  whole.excess_m = measure.exactly(piece).error_m;
   whole.outside_m = outsideOf(probes, whole.hulls);
   if (rules.most == 1 || whole.excess_m <= rules.allowed_m) return whole;
   NearlyConvex parts = asPieces(mesh, coarse, rules, measure.thickness());

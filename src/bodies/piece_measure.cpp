@@ -5,10 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "base/plain_math.h"
-#include "bodies/convex_hull.h"
-#include "bodies/hull_faces.h"
-#include "bodies/places.h"
+#include "bodies/hull_planes.h"
 #include "geometry/closest_point.h"
 
 namespace hl {
@@ -16,6 +13,10 @@ namespace hl {
 namespace {
 
 Vec3 acrossOf(const Triangle3& triangle) { return (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]); }
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr std::size_t kRaysInALook = 4;  // to meet a triangle by a ray is so much faster than to find its nearest point
+constexpr std::size_t kMostEnds = 48;    // of lines through a shell
 
 // Calls visit(point) for points all over a triangle, no farther apart than `apart`, if that is not below an eighth of
 // it; of a small one for its middle.
@@ -31,71 +32,6 @@ void forEachSample(const Triangle3& triangle, double apart, const Visit& visit) 
       visit(Vec3(triangle[0] + static_cast<double>(i) / parts * u + static_cast<double>(j) / parts * v));
   }
 }
-
-// Evenly over the ball, by the golden angle.
-std::vector<Vec3> directions() {
-  constexpr int kCount = 48;
-  std::vector<Vec3> all;
-  for (int i = 0; i < kCount; ++i) {
-    const double z = (2 * i + 1.0) / kCount - 1, angle = 2.399963229728653 * i, across = std::sqrt(1 - z * z);
-    all.emplace_back(across * plain::cos(angle), across * plain::sin(angle), z);
-  }
-  return all;
-}
-
-std::vector<Vec3> farthestOf(const std::vector<Vec3>& corners) {
-  static const std::vector<Vec3> kDirections = directions();
-  std::vector<std::size_t> numbers;
-  for (const Vec3& way : kDirections) {
-    std::size_t best = 0;
-    for (std::size_t i = 1; i < corners.size(); ++i) {
-      if (way.dot(corners[i]) > way.dot(corners[best])) best = i;
-    }
-    if (std::find(numbers.begin(), numbers.end(), best) == numbers.end()) numbers.push_back(best);
-  }
-  return pointsOf(corners, numbers);
-}
-
-Slab slabOf(const std::vector<Vec3>& corners) {
-  double size = 0;
-  for (const Vec3& corner : corners) size = std::max(size, (corner - corners[0]).norm());
-  return thinnestSlab(corners, size);
-}
-
-// At least so thick: what is flatter grows inward, or, if it faces both ways, to both sides.
-std::vector<Vec3> thickened(std::vector<Vec3> corners, const Slab& slab, const CutSurface& surface, double thickness) {
-  const double lacking = thickness - slab.thickness;
-  if (lacking <= 0) return corners;
-  double out = 0, area = 0;
-  for (const Triangle3& triangle : surface) {
-    out += slab.normal.dot(acrossOf(triangle));
-    area += acrossOf(triangle).norm();
-  }
-  const bool is_one_sided = std::abs(out) > 0.5 * area;
-  const Vec3 inward = out > 0 ? -slab.normal : slab.normal;
-  const std::size_t count = corners.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    corners.push_back(corners[i] + (is_one_sided ? lacking : lacking / 2) * inward);
-    if (!is_one_sided) corners[i] -= lacking / 2 * inward;
-  }
-  return corners;
-}
-
-}  // namespace
-
-std::vector<Vec3> CutPiece::corners() const {
-  std::vector<Vec3> all;
-  for (const Triangle3& triangle : surface) all.insert(all.end(), triangle.begin(), triangle.end());
-  return sortedPlaces(std::move(all));
-}
-
-std::vector<Vec3> CutPiece::thickCorners(double thickness_m) const {
-  std::vector<Vec3> all = corners();
-  const Slab slab = slabOf(all);
-  return thickened(std::move(all), slab, surface, thickness_m);
-}
-
-namespace {
 
 struct AirWay {
   Vec3 begin, direction;
@@ -161,76 +97,86 @@ bool isWithin(const CutSurface& closed, const Vec3& place) {
   return out > 0;
 }
 
-std::vector<Primitive> primitivesOf(const CutSurface& surface) {
-  std::vector<Primitive> primitives;
-  for (const Triangle3& triangle : surface) {
-    if (isTriangle(triangle[0], triangle[1], triangle[2]))
-      primitives.push_back(triangleOf(triangle[0], triangle[1], triangle[2], 0));
-  }
-  return primitives;
-}
-
-// No more than `most`.
-double distanceTo(const std::vector<Primitive>& surface, const Vec3& point, double most) {
+// No more than `most`. Stops once it is no longer above `enough`.
+double distanceTo(const std::vector<Primitive>& surface, const Vec3& point, double most, double enough,
+                  std::uint64_t& looks) {
   double least = most;
   ClosestPoint closest;
-  for (const Primitive& triangle : surface) {
-    if (closestPointWithin(triangle, point, least, closest)) least = std::min(least, closest.distance);
+  for (std::size_t i = 0; i < surface.size() && least > enough; ++i, ++looks) {
+    if (closestPointWithin(surface[i], point, least, closest)) least = std::min(least, closest.distance);
   }
   return least;
 }
 
-struct AirLine {
+// A piece, or two that may be joined.
+class Together {
+ public:
+  explicit Together(const CutPiece& piece) : one_(piece), ends_(distinct(piece.extremes())) {}
+  Together(const CutPiece& one, const CutPiece& other)
+      : one_(one), other_(&other), ends_(distinct(joined(one.extremes(), other.extremes()))) {}
+
+  const std::vector<Vec3>& ends() const { return ends_; }
+  double distanceTo(const Vec3& point, double most, double enough, std::uint64_t& looks) const {
+    const double least = hl::distanceTo(one_.primitives(), point, most, enough, looks);
+    return other_ == nullptr ? least : hl::distanceTo(other_->primitives(), point, least, enough, looks);
+  }
+
+ private:
+  const CutPiece& one_;
+  const CutPiece* other_ = nullptr;
+  std::vector<Vec3> ends_;
+};
+
+struct Line {
   Vec3 middle, direction;
-  double air_m = 0;  // how far the middle is from the surface
+  double half_m = 0;
 };
 
-// What is asked of a piece more than once.
-struct Outline {
-  explicit Outline(const CutPiece& piece) : corners(piece.corners()), surface(primitivesOf(piece.surface)) {}
-  std::vector<Vec3> corners;
-  Slab slab = slabOf(corners);
-  std::vector<Primitive> surface;
-};
-
-// Between `most` of the corners at most.
-std::vector<AirLine> linesOf(const Outline& outline, std::size_t most) {
-  const std::vector<Vec3> corners = farthestOf(outline.corners);
+// Between `most` of the corners that reach farthest.
+std::vector<Line> linesOf(const Together& pieces, std::size_t most) {
+  const std::vector<Vec3>& corners = pieces.ends();
   const std::size_t step = 1 + (corners.size() - 1) / most;
-  std::vector<AirLine> lines;
+  std::vector<Line> lines;
   for (std::size_t i = 0; i < corners.size(); i += step) {
     for (std::size_t j = 0; j < i; j += step) {
-      const Vec3 middle = (corners[i] + corners[j]) / 2, way = corners[i] - corners[j];
-      lines.push_back({middle, way.normalized(), distanceTo(outline.surface, middle, way.norm() / 2)});
+      const Vec3 way = corners[i] - corners[j];
+      lines.push_back({(corners[i] + corners[j]) / 2, way.normalized(), way.norm() / 2});
     }
   }
   return lines;
 }
 
-HullExcess shellExcess(const Outline& outline, std::size_t most) {
+// Until the error is above `enough`.
+HullExcess shellExcess(const Together& pieces, std::size_t most, double enough) {
   HullExcess excess;
-  for (const AirLine& line : linesOf(outline, most)) {
-    if (line.air_m > excess.air_m) excess = {line.air_m, line.air_m, line.middle, line.direction};
+  for (const Line& line : linesOf(pieces, most)) {
+    if (excess.error_m > enough) break;
+    const double air = pieces.distanceTo(line.middle, line.half_m, excess.error_m, excess.looks);
+    if (air > excess.error_m) excess = {air, air, line.middle, line.direction, excess.looks};
   }
   return excess;
 }
 
-// The lines of a solid whose middle is not within the whole of it.
-HullExcess lineExcess(const Outline& outline, const CutSurface& whole, double allowed_m) {
+// The lines of a solid whose middle is not within the whole of it. Until the error is above `enough`.
+HullExcess lineExcess(const Together& pieces, const CutSurface& whole, double allowed_m, double enough) {
   constexpr std::size_t kMostCorners = 8;
   HullExcess excess;
-  for (const AirLine& line : linesOf(outline, kMostCorners)) {
-    if (line.air_m > std::max(excess.error_m, allowed_m) && !isWithin(whole, line.middle))
-      excess = {line.air_m, line.air_m, line.middle, line.direction};
+  for (const Line& line : linesOf(pieces, kMostCorners)) {
+    if (excess.error_m > enough) break;
+    const double known = std::max(excess.error_m, allowed_m);
+    const double air = pieces.distanceTo(line.middle, line.half_m, known, excess.looks);
+    if (!(air > known)) continue;
+    excess.looks += whole.size() / kRaysInALook;
+    if (!isWithin(whole, line.middle)) excess = {air, air, line.middle, line.direction, excess.looks};
   }
   return excess;
 }
 
-void followWays(const CutPiece& piece, const Outline& outline, const std::vector<HalfSpace>& hull, double allowed_m,
-                HullExcess& excess) {
+void followWays(const CutPiece& piece, const std::vector<HalfSpace>& hull, double allowed_m, HullExcess& excess) {
   constexpr double kApart = 4;           // of what is allowed
   constexpr std::size_t kMostWays = 96;  // that are followed
-  std::vector<AirWay> ways = airWays(piece.surface, hull, kApart * allowed_m, 1);
+  std::vector<AirWay> ways = airWays(piece.surface(), hull, kApart * allowed_m, 1);
+  excess.looks += (ways.size() + piece.corners().size()) * hull.size();
   takeLongest(ways, excess);
   if (excess.air_m <= allowed_m) {
     excess.error_m = excess.air_m;
@@ -239,36 +185,39 @@ void followWays(const CutPiece& piece, const Outline& outline, const std::vector
   std::erase_if(ways, [&](const AirWay& way) { return way.length_m <= allowed_m; });
   const std::size_t step = 1 + ways.size() / kMostWays;
   for (std::size_t i = 0; i < ways.size(); i += step) {
-    const double length = lengthInAir(piece.surface, ways[i]);
+    const double length = lengthInAir(piece.surface(), ways[i]);
+    excess.looks += piece.surface().size();
     for (const double part : {0.5, 1.0}) {
       const double reach = part * length;
-      excess.error_m =
-          std::max(excess.error_m, distanceTo(outline.surface, ways[i].begin + reach * ways[i].direction, reach));
+      const Vec3 place = ways[i].begin + reach * ways[i].direction;
+      const double air = distanceTo(piece.primitives(), place, reach, excess.error_m, excess.looks);
+      excess.error_m = std::max(excess.error_m, air);
     }
   }
 }
 
 }  // namespace
 
-HullExcess PieceMeasure::exactly(const CutPiece& piece, double enough_m) const {
-  constexpr std::size_t kMostCorners = 48;  // between which lines are drawn
-  const Outline outline(piece);
-  const bool is_flat = outline.slab.thickness < thickness();
-  if (is_shell_ || is_flat) return shellExcess(outline, kMostCorners);
-  HullExcess excess = lineExcess(outline, whole_, allowed_m_);
-  if (excess.error_m <= enough_m) followWays(piece, outline, hullPlanes(outline.corners), allowed_m_, excess);
+HullExcess PieceMeasure::exactly(const CutPiece& piece) const {
+  HullExcess excess = isShell(piece) ? shellExcess(Together(piece), kMostEnds, kNever)
+                                     : lineExcess(Together(piece), whole_, allowed_m_, kNever);
+  if (!isShell(piece)) followWays(piece, hullPlanes(piece.corners()), allowed_m_, excess);
   return excess;
 }
 
+HullExcess PieceMeasure::atLeast(const CutPiece& a, const CutPiece& b, double enough_m) const {
+  if (is_shell_) return shellExcess(Together(a, b), kMostEnds, enough_m);
+  return isShell(a) && isShell(b) ? HullExcess{} : lineExcess(Together(a, b), whole_, allowed_m_, enough_m);
+}
+
 HullExcess PieceMeasure::roughly(const CutPiece& piece) const {
-  constexpr std::size_t kMostTriangles = 128, kMostCorners = 16;
-  const Outline outline(piece);
-  const bool is_flat = outline.slab.thickness < thickness();
-  if (is_shell_ || is_flat) return shellExcess(outline, kMostCorners);
-  HullExcess excess = lineExcess(outline, whole_, allowed_m_);
-  takeLongest(airWays(piece.surface, hullPlanes(farthestOf(outline.corners)), std::numeric_limits<double>::infinity(),
-                      1 + piece.surface.size() / kMostTriangles),
-              excess);
+  constexpr std::size_t kMostTriangles = 128, kFewEnds = 16;
+  if (isShell(piece)) return shellExcess(Together(piece), kFewEnds, kNever);
+  HullExcess excess = lineExcess(Together(piece), whole_, allowed_m_, kNever);
+  const std::vector<HalfSpace> hull = hullPlanes(distinct(piece.extremes()));
+  const auto ways = airWays(piece.surface(), hull, kNever, 1 + piece.surface().size() / kMostTriangles);
+  excess.looks += ways.size() * hull.size();
+  takeLongest(ways, excess);
   return excess;
 }
 

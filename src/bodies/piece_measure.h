@@ -9,29 +9,19 @@
 // hull, and all that is not on the surface is air. The error is how far its middle is from the surface.
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 #include <limits>
-#include <vector>
 
-#include "bodies/hull_planes.h"
-#include "bodies/plane_cuts.h"
+#include "bodies/cut_piece.h"
 
 namespace hl {
-
-struct CutPiece {
-  CutSurface surface;
-  /// Each once.
-  std::vector<Vec3> corners() const;
-  /// The same, of a piece at least so thick (m): what is flatter grows inward, or, if it faces both ways, to both
-  /// sides.
-  std::vector<Vec3> thickCorners(double thickness_m) const;
-};
 
 struct HullExcess {
   double error_m = 0;  ///< how far the hull reaches beyond the piece
   double air_m = 0;    ///< the longest way through the hull from the surface along its normal; of a shell, the error
   /// Where that way begins; of a shell, the middle of a line and its direction.
   Vec3 place = Vec3::Zero(), normal = Vec3::UnitX();
+  std::uint64_t looks = 0;  ///< triangles and planes that were looked at: what measuring cost
 };
 
 class PieceMeasure {
@@ -44,13 +34,17 @@ class PieceMeasure {
 
   /// Flat pieces are as thick as this, m.
   double thickness() const { return allowed_m_ / 2; }
-  /// Measures no more once the error is above `enough_m`.
-  HullExcess exactly(const CutPiece& piece, double enough_m = std::numeric_limits<double>::infinity()) const;
+  HullExcess exactly(const CutPiece& piece) const;
+  /// Of both together, by lines alone: no more than exactly() tells. Measures no more once the error is above
+  /// `enough_m`. Much faster where they are apart.
+  HullExcess atLeast(const CutPiece& a, const CutPiece& b, double enough_m) const;
   /// Without the error of a solid; from some points, and of a hull of those corners that reach farthest: ten times
   /// faster.
   HullExcess roughly(const CutPiece& piece) const;
 
  private:
+  bool isShell(const CutPiece& piece) const { return is_shell_ || piece.slab().thickness < thickness(); }
+
   const CutSurface& whole_;
   bool is_shell_;
   double allowed_m_;
