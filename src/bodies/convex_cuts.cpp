@@ -84,7 +84,8 @@ class Cutter {
 
  private:
   bool mayGoOn() const {
-    return looks_ < rules_.most_looks && fragments_ <= kMostFragments + kMostFragmentsOfOne * surface_.size();
+    return looks_ < rules_.looks_of_each * surface_.size() &&
+           fragments_ <= kMostFragments + kMostFragmentsOfOne * surface_.size();
   }
 
   HullExcess counted(const HullExcess& excess) {

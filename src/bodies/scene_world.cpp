@@ -10,6 +10,7 @@
 #include "bodies/convex_hull.h"
 #include "bodies/joint_check.h"
 #include "bodies/mesh_parts.h"
+#include "geometry/primitive.h"
 
 namespace hl {
 
@@ -95,7 +96,7 @@ void makeCylinder(const Vec3& half, const BodySpec& spec, Body& body) {
 }
 
 void makeHull(const Model& model, const BodySpec& spec, Body& body) {
-  const Hull hull = hullOf(model.positions);
+  const Hull hull = hullOf(model.usedPositions());
   const Solid solid = solidOf(hull.shape);
   body.mass = massOfDensity(massOf(spec, solid.volume_m3) / solid.volume_m3, solid);
   body.shape = moved(hull.shape, -body.mass.centre_O);
@@ -127,6 +128,7 @@ Body bodyOf(const Model& model, const BodySpec& spec) {
   body.surface = spec.surface;
   const Box bounds = model.bounds();
   if (bounds.empty()) throw Error("it has no vertices");
+  if (!withinReach(bounds.min) || !withinReach(bounds.max)) throw Error("its vertices must lie within 1e9 m");
   const Vec3 half = bounds.size() / 2;
   if (!(half.minCoeff() > 0)) throw Error("a body must have a thickness in all directions");
   switch (spec.shape) {

@@ -39,7 +39,9 @@ inline BoxQuery boxQuery(const WideTree& tree, const WideQuery& query) {
     box.from[i] = static_cast<float>(query.from[i]);
     box.motion[i] = static_cast<float>(query.motion[i]);
   }
-  box.reach2 = static_cast<float>(reach * reach * (1 + kFramedRounding));
+  // Lanes without a child are infinitely far away: no query reaches them.
+  constexpr double kFarthest2 = std::numeric_limits<float>::max();
+  box.reach2 = static_cast<float>(std::min(reach * reach * (1 + kFramedRounding), kFarthest2));
   setLimit(box, 1);
   return box;
 }

@@ -29,19 +29,39 @@ void Reading::scale(double factor) {
   for (double* length : {&cad->deflection_m, &cad->error_m, &cad->tolerance_m}) *length *= factor;
 }
 
+namespace {
+
+// Calls visit(index) for each that an element has, and that there is, as often as it has it.
+template <typename Visit>
+void forEachUsed(const Model& model, const Visit& visit) {
+  const auto look = [&](std::uint32_t index) {
+    if (index < model.positions.size() && model.positions[index].allFinite()) visit(index);
+  };
+  for (const auto& triangle : model.triangles) {
+    for (const std::uint32_t index : triangle) look(index);
+  }
+  for (const auto& segment : model.segments) {
+    for (const std::uint32_t index : segment) look(index);
+  }
+  for (const std::uint32_t index : model.points) look(index);
+}
+
+}  // namespace
+
 Box Model::bounds() const {
   Box box;
-  const auto extend = [&](std::uint32_t index) {
-    if (index < positions.size() && positions[index].allFinite()) box.extend(positions[index]);
-  };
-  for (const auto& triangle : triangles) {
-    for (const std::uint32_t index : triangle) extend(index);
-  }
-  for (const auto& segment : segments) {
-    for (const std::uint32_t index : segment) extend(index);
-  }
-  for (const std::uint32_t index : points) extend(index);
+  forEachUsed(*this, [&](std::uint32_t index) { box.extend(positions[index]); });
   return box;
+}
+
+std::vector<Vec3> Model::usedPositions() const {
+  std::vector<bool> is_used(positions.size());
+  forEachUsed(*this, [&](std::uint32_t index) { is_used[index] = true; });
+  std::vector<Vec3> used;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (is_used[i]) used.push_back(positions[i]);
+  }
+  return used;
 }
 
 void placeModel(Model& model, const Placement& placement) {

@@ -66,6 +66,7 @@ struct Model {
   std::vector<ModelPart> parts;  ///< objects that it is made of, one after the other; empty: it is one
 
   Box bounds() const;  ///< of the vertices that an element uses
+  std::vector<Vec3> usedPositions() const;
   std::size_t elements() const { return triangles.size() + segments.size() + points.size(); }
 };
 

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "geometry/primitive.h"
+
 namespace hl {
 
 std::shared_ptr<const RigidBody> makeRigidBody(std::string name, const BodySpec& spec, const Pose& start,
@@ -16,8 +18,11 @@ std::shared_ptr<const RigidBody> makeRigidBody(std::string name, const BodySpec&
 
 Box roomAround(const Box& bounds) {
   if (bounds.empty()) return bounds;
-  const Vec3 margin = Vec3::Constant(bounds.size().maxCoeff());
-  return {bounds.min - margin, bounds.max + margin};
+  // Of a mesh whose vertices are beyond that, what is there to touch is not.
+  const auto reached = [](const Vec3& corner) { return corner.cwiseMax(-kFarthest_m).cwiseMin(kFarthest_m); };
+  const Box near{reached(bounds.min), reached(bounds.max)};
+  const Vec3 margin = Vec3::Constant(near.size().maxCoeff());
+  return {near.min - margin, near.max + margin};
 }
 
 }  // namespace hl

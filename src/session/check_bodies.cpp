@@ -9,7 +9,6 @@
 #include "base/error.h"
 #include "bodies/joint_check.h"
 #include "bodies/scene_world.h"
-#include "geometry/primitive.h"
 
 namespace hl {
 
@@ -20,8 +19,6 @@ using ShapeOfBody = std::pair<const Shape*, const BodySpec*>;
 ShapeOfBody shapeOf(const PlacedShape& placed) { return {placed.shape.get(), placed.body.get()}; }
 
 void check(const PlacedShape& placed) {
-  const Box bounds = placed.shape->model.bounds();
-  if (!withinReach(bounds.min) || !withinReach(bounds.max)) throw Error("its vertices must lie within 1e9 m");
   bodyOf(placed.shape->model, *placed.body);
 }
 

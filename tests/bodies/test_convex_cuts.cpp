@@ -57,12 +57,12 @@ TEST(ConvexCuts, EndAfterSoManyLooks) {
   const CutSurface sheets = crossingSheets(draws, 30);
   CutRules rules{false, 0.02, 64};
   const std::size_t all = cutPieces(sheets, rules).size();
-  rules.most_looks = 100'000;
+  rules.looks_of_each = 3'000;
   const auto some = cutPieces(sheets, rules);
   EXPECT_GT(some.size(), 1u);
   EXPECT_LT(some.size(), all);
   EXPECT_NEAR(sumOf(some).area_m2, areaOf(sheets), 1e-9 * areaOf(sheets));
-  rules.most_looks = 0;
+  rules.looks_of_each = 0;
   EXPECT_EQ(cutPieces(sheets, rules).size(), 1u);
 }
 

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "bodies/convex_hull.h"
 #include "bodies/scene_world.h"
+#include "scene/rigid_body.h"
 #include "test_worlds.h"
 
 namespace hl {
@@ -320,6 +321,32 @@ TEST(BodyOf, AHullHasTheMassAndThePlaceOfItsMesh) {
   EXPECT_LT((hull.mass.inertia_kg_m2 - box.inertia_kg_m2).norm(), 1e-12 * box.inertia_kg_m2.norm());
   EXPECT_NEAR(hull.shape.reach, half.norm(), 1e-12);
   EXPECT_LT(hull.hull_error_m, 1e-12);
+}
+
+// A vertex out there is no part of what is felt, but would be one of the shape.
+TEST(BodyOf, AVertexBeyondReachIsRefused) {
+  Model model = boxModel(Vec3(0.01, 0.02, 0.03));
+  model.positions.emplace_back(-1.8e306, 0.002, 0.02);
+  model.triangles.push_back({0, 1, static_cast<std::uint32_t>(model.positions.size() - 1)});
+  for (const BodyShape shape : {BodyShape::kBox, BodyShape::kBall, BodyShape::kHull, BodyShape::kParts})
+    EXPECT_THROW(bodyOf(model, specOf(shape)), Error);
+}
+
+TEST(BodyOf, AVertexOfNoElementIsNoCornerOfTheHull) {
+  Model model = boxModel(Vec3(0.01, 0.02, 0.03));
+  const double reach = bodyOf(model, specOf(BodyShape::kHull)).shape.reach;
+  model.positions.emplace_back(5, 0, 0);
+  EXPECT_EQ(bodyOf(model, specOf(BodyShape::kHull)).shape.reach, reach);
+}
+
+// What is beyond reach is not felt, and no body needs room there: with a room of all numbers no query has an end.
+TEST(RoomAround, EndsWhereThingsAreFelt) {
+  const Box room = roomAround({Vec3(-1.8e306, -1, 0), Vec3(1, 1, 1.8e306)});
+  EXPECT_LE(room.min.cwiseAbs().maxCoeff(), 4e9);
+  EXPECT_LE(room.max.cwiseAbs().maxCoeff(), 4e9);
+  const Box near = roomAround({Vec3(-1, -2, -3), Vec3(1, 2, 3)});
+  EXPECT_EQ(near.min, Vec3(-7, -8, -9));
+  EXPECT_EQ(near.max, Vec3(7, 8, 9));
 }
 
 // The round sides say along which axis it is, whether it is a rod or a disc; else the longest.

@@ -454,6 +454,20 @@ TEST(WideBvh, AQueryAroundEverythingVisitsEachPrimitiveOnce) {
   EXPECT_EQ(met, every);
 }
 
+// Lanes without a child are beyond any radius.
+TEST(WideBvh, AQueryBeyondAllNumbersVisitsEachPrimitiveOnce) {
+  for (const int side : {1, 3, 5, 30}) {
+    const std::vector<Primitive> scene = test::terrain(side);
+    const WideBvh bvh = WideBvh::build(scene);
+    for (const double radius : {1e18, 1e30, 1e300}) {
+      Numbers near = overlapping(bvh, Vec3::Zero(), radius);
+      EXPECT_EQ(near.size(), scene.size()) << side << " " << radius;
+      std::sort(near.begin(), near.end());
+      EXPECT_EQ(std::unique(near.begin(), near.end()), near.end());
+    }
+  }
+}
+
 // Primitives that a sphere sliding over the sheet is offered, for each one that it would touch.
 TEST(WideBvh, FewCandidatesOfASlidingSphereAreNotTouched) {
   const std::vector<Primitive> scene = test::terrain(200);
