@@ -27,7 +27,10 @@ namespace {
 HandScript readScript(const std::string& file) {
   HandScript script;
   const std::vector<PathSample> path = readPath(file);
-  for (const PathSample& sample : path) script.samples.push_back({sample.t - path.front().t, sample.position});
+  for (const PathSample& sample : path) {
+    const double time_s = sample.t - path.front().t;
+    script.samples.push_back({time_s, sample.position, true, sample.turned, sample.gripper_rad});
+  }
   return script;
 }
 
@@ -166,8 +169,9 @@ void addTouchOptions(CLI::App& command, TouchOptions& options) {
   command.add_option("--explore", options.explore, "the built-in stroking hand, until a person takes over")
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
-  command.add_option("--hand-path", options.hand_path,
-                     "CSV t,x,y,z (s, m in the scene) that the simulated hand follows instead");
+  command.add_option(
+      "--hand-path", options.hand_path,
+      "CSV t,x,y,z[,qw,qx,qy,qz][,gripper_rad] (s, m in the scene, rad) that the simulated hand follows instead");
   command
       .add_option("--scale", options.scale, "metres of the scene for one metre of the hand (default: --size decides)")
       ->check(within(kMinNumber, kMaxNumber));

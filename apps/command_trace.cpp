@@ -51,7 +51,9 @@ void run(const TraceCall& call) {
   const std::vector<PathSample> path = pathOf(options);
   const auto snapshot = loadSnapshot(options.scene);
   const std::vector<std::string> bodies = tracedBodies(*snapshot);
-  TraceWriter writer(call.out, {options.scene.scene, options.path}, bodies, !snapshot->snaps.empty());
+  const PathSample& first = path.front();
+  const TraceColumns columns{bodies, !snapshot->snaps.empty(), first.turned.has_value(), first.gripper_rad.has_value()};
+  TraceWriter writer(call.out, {options.scene.scene, options.path}, columns);
   const TraceTotals totals =
       runTrace(*snapshot, options.settings, path, [&](const TraceRow& row) { writer.write(row); });
   writer.close();

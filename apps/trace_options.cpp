@@ -9,7 +9,9 @@ namespace hl {
 namespace {
 
 void addPathOptions(CLI::App& command, TraceOptions& options) {
-  command.add_option("--path", options.path, "CSV with the header t,x,y,z: seconds and metres, one row a tick")
+  command
+      .add_option("--path", options.path,
+                  "CSV with the header t,x,y,z[,qw,qx,qy,qz][,gripper_rad]: seconds, metres, radians; one row a tick")
       ->required();
   command
       .add_option("--tremor", options.tremor_m,

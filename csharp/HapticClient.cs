@@ -235,6 +235,8 @@ namespace HL {
         public double WorldPerDevice = 1;  // m of world per m of hand; used with WorkspaceOrigin
         public double? Stiffness_N_m;
         public Vec3? HandGoal;           // simulated devices
+        public Rotation? HandTurn;       // simulated devices with a wrist: how the stylus is to be turned
+        public double? HandGripper_rad;  // simulated devices with a gripper: how far it is to be open
         public bool Rearm;               // leave the fault
 
         // What this and then `later` change.
@@ -245,6 +247,8 @@ namespace HL {
                 WorldPerDevice = later.WorkspaceOrigin.HasValue ? later.WorldPerDevice : WorldPerDevice,
                 Stiffness_N_m = later.Stiffness_N_m ?? Stiffness_N_m,
                 HandGoal = later.HandGoal ?? HandGoal,
+                HandTurn = later.HandTurn ?? HandTurn,
+                HandGripper_rad = later.HandGripper_rad ?? HandGripper_rad,
                 Rearm = later.Rearm || Rearm
             };
         }
@@ -253,6 +257,14 @@ namespace HL {
     public struct Touched {
         public uint Object, Name, Session;
         public Vec3 Point, Normal;
+    }
+
+    /// <summary>The part of the device that the hand holds. Axes of the world.</summary>
+    public struct Stylus {
+        public Rotation Turned;    // 0 0 0 1: its shaft lies along +z, or the device has no wrist
+        public Vec3 Spin_rad_s;
+        public double Gripper_rad; // how far the gripper is open
+        public double Gripper_N;   // with which the hand closes it; 0: the device does not tell
     }
 
     /// <summary>A rigid body of this client after the last step. World frame.</summary>
@@ -286,6 +298,7 @@ namespace HL {
         public Safety Safety;
         public string Fault = "";
         public uint Buttons;       // bit i: button i is down
+        public Stylus? Stylus;     // null: the device has neither wrist nor gripper
         public double ProxyRadius;
         public bool Master;
         public BodyState[] Bodies;     // once a frame with a body has been sent
@@ -890,6 +903,11 @@ namespace HL {
             }
             if (changes.Rearm) sent.Flag(5, true);
             if (changes.HandGoal.HasValue) sent.Nested(6, new Writer().Nested(1, Vector(changes.HandGoal.Value)));
+            if (changes.HandTurn.HasValue || changes.HandGripper_rad.HasValue) {
+                var turn = new Writer();
+                if (changes.HandTurn.HasValue) turn.Nested(1, Turn(changes.HandTurn.Value));
+                sent.Nested(8, turn.Double(2, changes.HandGripper_rad));
+            }
             return new Writer().Nested(5, sent).ToArray();
         }
 
@@ -1023,6 +1041,7 @@ namespace HL {
                     case 21: bodies.Add(Body(from.Nested())); break;
                     case 22: joints.Add(Joint(from.Nested())); break;
                     case 23: state.Snap = Snap(from.Nested()); break;
+                    case 24: state.Stylus = Stylus(from.Nested()); break;
                 }
             }
             state.Touched = touched.ToArray();
@@ -1045,6 +1064,19 @@ namespace HL {
                 }
             }
             return touched;
+        }
+
+        static Stylus Stylus(Reader from) {
+            var stylus = new Stylus { Turned = new Rotation(0, 0, 0, 1) };
+            while (from.Next()) {
+                switch (from.Field) {
+                    case 1: stylus.Turned = Turn(from.Nested()); break;
+                    case 2: stylus.Spin_rad_s = Vector(from.Nested()); break;
+                    case 3: stylus.Gripper_rad = from.Double(); break;
+                    case 4: stylus.Gripper_N = from.Double(); break;
+                }
+            }
+            return stylus;
         }
 
         static BodyState Body(Reader from) {

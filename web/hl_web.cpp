@@ -122,6 +122,7 @@ const char* hlWebFault() { return session->fault(); }
 void hlWebGoal(double x, double y, double z) { session->setGoal({x, y, z}); }
 void hlWebRelease() { session->release(); }
 void hlWebPress(std::uint32_t buttons) { session->press(buttons); }
+void hlWebTurn(double x, double y, double z, double w) { session->turn({w, x, y, z}); }
 void hlWebRearm() { session->rearm(); }
 void hlWebExplore(int on) { session->setExplore(on != 0); }
 void hlWebFirm(int firm) { session->setFirm(firm != 0); }

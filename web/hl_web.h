@@ -35,6 +35,7 @@ typedef struct {
   HlWebContact contact[kHlWebContacts];
   double touched[kHlWebContacts]; /**< index of the object of each contact */
   double snap;                    /**< index of the place that holds the proxy; -1: none */
+  double stylus[4];               /**< how it is turned: unit quaternion x y z w */
   HlWebBodies bodies;
 } HlWebState;
 
@@ -99,6 +100,8 @@ const char* hlWebFault(void);
 void hlWebGoal(double x, double y, double z);
 void hlWebRelease(void);
 void hlWebPress(uint32_t buttons);
+/** How the hand wants the stylus to be turned: a quaternion of any length but 0. */
+void hlWebTurn(double x, double y, double z, double w);
 void hlWebRearm(void);
 void hlWebExplore(int on);
 void hlWebFirm(int firm);

@@ -118,6 +118,7 @@ const HlWebState& WebSession::state() {
   state_.exploring = exploring_;
   state_.firm = firm_;
   state_.buttons = sample_.buttons;
+  for (Eigen::Index i = 0; i < 4; ++i) state_.stylus[i] = sample_.stylus.turned.coeffs()[i];
   state_.stiffness_N_m = settings_.stiffness_N_m;
   state_.steps = static_cast<double>(steps_);
   describeTouch();

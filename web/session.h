@@ -21,6 +21,7 @@ class WebSession {
   void setGoal(const Vec3& goal_W);
   void release();
   void press(std::uint32_t buttons) { device_.setHandButtons(buttons); }
+  void turn(const Eigen::Quaterniond& turned) { device_.setHandTurn(turned); }
   void rearm() { arm(step_.servo()); }
   void setExplore(bool on) { exploring_ = on; }
   void setFirm(bool firm);

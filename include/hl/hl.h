@@ -524,6 +524,12 @@ HL_API void hlLedger(HLenum mode);
 HL_API void hlRearm(void);
 /** Simulated devices: where the hand wants to be, m in the world. */
 HL_API void hlHandGoal3d(HLdouble x, HLdouble y, HLdouble z);
+/** Simulated devices with a wrist: how the hand wants the stylus to be turned, a quaternion of any length but 0; 0 0 0
+ * 1 has its shaft along +z. */
+HL_API void hlHandTurn4d(HLdouble x, HLdouble y, HLdouble z, HLdouble w);
+/** Simulated devices with a gripper: how far the hand wants it to be open, rad; the device clamps it to what there is.
+ */
+HL_API void hlHandGripperd(HLdouble angle);
 /** Simulated devices: HL_GRIP_LIGHT or HL_GRIP_FIRM. */
 HL_API void hlHandGrip(HLenum grip);
 

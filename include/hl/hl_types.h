@@ -228,6 +228,8 @@ enum {
   HL_MAX_BODIES = 0x4810D,           /**< 1; that move, of all clients together */
   HL_MAX_JOINTS = 0x4812F,           /**< 1; of all clients together */
   HL_DEVICE_FORCE_MAX = 0x48097,     /**< 1; N, peak */
+  HL_DEVICE_WRIST = 0x48164,         /**< 1; HL_TRUE: the device tells how its stylus is turned */
+  HL_GRIPPER_MAX = 0x48165,          /**< 1; rad: how far its gripper opens; 0: it has none */
   HL_SPRING_STIFFNESS_MAX = 0x48098, /**< 1; N/m; 0: not known */
   HL_SPRING_STIFFNESS = 0x48099,     /**< 1; N/m: K of the servo, as told at the beginning or set here since */
   HL_SPRING_DAMPING = 0x4809A        /**< 1; N s/m: B of the servo */
@@ -266,7 +268,12 @@ enum {
   HL_JOINT_COUNT = 0x4812E,            /**< 1; joints of this context; see hlGetJoints */
   HL_SNAPPED_OBJECT = 0x48140,         /**< 1; of this context, whose snap holds the proxy; 0: none */
   HL_SNAPPED_NAME = 0x48141,           /**< 1; the name of its call; 0: none */
-  HL_SNAP_NUMBER = 0x48142             /**< 1; which of its snaps, from 0 in the order of the definition */
+  HL_SNAP_NUMBER = 0x48142,            /**< 1; which of its snaps, from 0 in the order of the definition */
+  HL_STYLUS_ROTATION = 0x48160,        /**< 4; unit quaternion x y z w, from its axes to the world's; 0 0 0 1: its shaft
+                                            lies along +z, or the device has no wrist */
+  HL_STYLUS_SPIN = 0x48161,            /**< 3; rad/s: its angular velocity */
+  HL_GRIPPER_ANGLE = 0x48162,          /**< 1; rad: how far the gripper is open */
+  HL_GRIPPER_FORCE = 0x48163           /**< 1; N with which the hand closes it; 0: the device does not tell */
 };
 
 /** hlBody*: a rigid body. Its shape, by which it meets other bodies and the scene, is made from its mesh; the hand
@@ -367,6 +374,10 @@ typedef struct HLsample {
   HLdouble position[3]; /**< m: of the finger */
   HLdouble force[3];    /**< N at the hand */
   HLuint buttons;       /**< bit i is set while button i is down */
+  HLdouble rotation[4]; /**< of the stylus: unit quaternion x y z w, to the axes of the world; 0 0 0 1: not turned */
+  HLdouble spin[3];     /**< rad/s: its angular velocity */
+  HLdouble gripper;     /**< rad: how far the gripper is open */
+  HLdouble grip_force;  /**< N with which the hand closes it; 0: the device does not tell */
 } HLsample;
 
 /** What the hand has felt since the last hlTakeContactReport. World axes. */

@@ -1,6 +1,7 @@
 """HL's device as a LeRobot teleoperator: its tip moves the robot, and the robot's force is felt. Needs lerobot.
 
-Importing it registers the type "hl". `get_action` gives the tip (m, from where it was at connect) and the buttons.
+Importing it registers the type "hl". `get_action` gives the tip (m, from where it was at connect), how the stylus
+is turned (a unit quaternion), how far its gripper is open (rad) and the buttons.
 `send_feedback` takes the force on the robot (N): it is felt as a wall that stands across it and moves with the tip, as
 deep inside as the spring needs for that force; so HL's limits of force, of its rate and of energy hold for it too.
 A force that is older than `feedback_timeout` is felt no more.
@@ -20,6 +21,7 @@ from .errors import Error
 from .touch import Touch, connect
 
 _AXES = ("x", "y", "z")
+_TURN = ("x", "y", "z", "w")
 
 
 @TeleoperatorConfig.register_subclass("hl")
@@ -47,7 +49,8 @@ class HLTeleoperator(Teleoperator):  # type: ignore[misc]
 
     @property
     def action_features(self) -> Dict[str, type]:
-        return {**{f"tip.{axis}": float for axis in _AXES}, "buttons": int}
+        turn = {f"turn.{part}": float for part in _TURN}
+        return {**{f"tip.{axis}": float for axis in _AXES}, **turn, "gripper": float, "buttons": int}
 
     @property
     def feedback_features(self) -> Dict[str, type]:
@@ -90,7 +93,9 @@ class HLTeleoperator(Teleoperator):  # type: ignore[misc]
             self._remove_wall(touch)
         state = touch.state()
         tip = self.config.scale * (state.finger - self._origin)
-        return {**{f"tip.{axis}": float(tip[i]) for i, axis in enumerate(_AXES)}, "buttons": state.buttons}
+        turn = {f"turn.{part}": float(state.rotation[i]) for i, part in enumerate(_TURN)}
+        place = {f"tip.{axis}": float(tip[i]) for i, axis in enumerate(_AXES)}
+        return {**place, **turn, "gripper": state.gripper, "buttons": state.buttons}
 
     def send_feedback(self, feedback: Dict[str, Any]) -> None:
         touch = self._connected()

@@ -19,7 +19,7 @@ class Recording:
 
     steps: a structured array, one row for each step of the servo, in the device's frame: t (s since the recording
         began), finger and proxy (m), touching, stiffness (0..1), force (N), state (a number of STATES), fault (0:
-        none), buttons, work_ns.
+        none), buttons, work_ns, rotation (of the stylus, a unit quaternion x y z w), spin (rad/s), gripper (rad).
     ticks: one row for each tick: t, finger and target (m, device's frame), proxy (m, world), contacts, touching,
         scene (the number of the scene that was shown), work_ns.
     """

@@ -98,6 +98,10 @@ class State:
     touched_object: int  #: that presses hardest; 0: none
     touched_name: int  #: its name; 0: none
     buttons: int  #: bit i is set while button i is down
+    rotation: Floats  #: (4,), of the stylus: unit quaternion x y z w; 0 0 0 1: its shaft lies along +z, or has no wrist
+    spin: Floats  #: (3,), rad/s: its angular velocity
+    gripper: float  #: rad: how far the gripper is open
+    grip_force: float  #: N with which the hand closes it; 0: the device does not tell
     snapped_object: int  #: whose snap holds the proxy; 0: none
     snapped_name: int  #: its name; 0: none
     snap_number: int  #: which of its snaps
@@ -588,6 +592,17 @@ class Touch:
         self.make_current()
         calls.hlHandGoal3d(*_vector(position, "position"))
 
+    def hand_turn(self, rotation: npt.ArrayLike) -> None:
+        """Simulated devices with a wrist: how the hand wants the stylus to be turned, (4,): a quaternion x y z w of any
+        length but 0."""
+        self.make_current()
+        calls.hlHandTurn4d(*_numbers(rotation, 4, "rotation"))
+
+    def hand_gripper(self, angle: float) -> None:
+        """Simulated devices with a gripper: how far the hand wants it to be open, rad."""
+        self.make_current()
+        calls.hlHandGripperd(arguments.number(angle, "angle"))
+
     def hand_grip(self, grip: str) -> None:
         """Simulated devices: "light" or "firm"."""
         self.make_current()
@@ -629,6 +644,10 @@ class Touch:
             touched_object=int(get(calls.HL_TOUCHED_OBJECT)),
             touched_name=int(get(calls.HL_TOUCHED_NAME)),
             buttons=int(get(calls.HL_BUTTONS)),
+            rotation=np.array(get(calls.HL_STYLUS_ROTATION)),
+            spin=np.array(get(calls.HL_STYLUS_SPIN)),
+            gripper=get(calls.HL_GRIPPER_ANGLE),
+            grip_force=get(calls.HL_GRIPPER_FORCE),
             snapped_object=int(get(calls.HL_SNAPPED_OBJECT)),
             snapped_name=int(get(calls.HL_SNAPPED_NAME)),
             snap_number=int(get(calls.HL_SNAP_NUMBER)),
@@ -690,7 +709,7 @@ class Touch:
 
     def samples(self) -> npt.NDArray[np.void]:
         """The steps of the servo since the last time: a structured array with time (s), position (m), force (N),
-        buttons. Takes them out."""
+        buttons, rotation (of the stylus, x y z w), spin (rad/s), gripper (rad) and grip_force (N). Takes them out."""
         self.poll()
         return calls.hlTakeSamples()
 
@@ -781,8 +800,12 @@ def _corners(points: npt.ArrayLike, normal: Optional[npt.ArrayLike]) -> Any:
     return corners.tolist()
 
 
-def _vector(numbers: npt.ArrayLike, name: str) -> Any:
+def _numbers(numbers: npt.ArrayLike, count: int, name: str) -> Any:
     array = arguments.floats(numbers, name)
-    if array.shape != (3,):
-        raise InvalidValueError(f"{name} must be three numbers, and has the shape {array.shape}")
+    if array.shape != (count,):
+        raise InvalidValueError(f"{name} must be {count} numbers, and has the shape {array.shape}")
     return array.tolist()
+
+
+def _vector(numbers: npt.ArrayLike, name: str) -> Any:
+    return _numbers(numbers, 3, name)

@@ -274,7 +274,7 @@ void bindDrawing(py::module_& module) {
 void bindArrayCalls(py::module_& module) {
   PYBIND11_NUMPY_DTYPE(HLcontact, point, normal, share, static_friction, stiffness, object, name, session);
   PYBIND11_NUMPY_DTYPE(HLbody, object, name, position, rotation, velocity, spin);
-  PYBIND11_NUMPY_DTYPE(HLsample, time, position, force, buttons);
+  PYBIND11_NUMPY_DTYPE(HLsample, time, position, force, buttons, rotation, spin, gripper, grip_force);
   bindDrawing(module);
   const auto none = py::none();
   module.def("hlUpdateVertices", &updateVertices, py::arg("object"), py::arg("vertices"), py::arg("first") = 0,

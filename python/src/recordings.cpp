@@ -28,6 +28,9 @@ struct StepRow {
   std::uint32_t buttons;
   std::uint8_t touching;  ///< 1: there is a target
   std::uint8_t state, fault;
+  double rotation[4];  ///< of the stylus, x y z w
+  Numbers spin;        ///< rad/s
+  double gripper;      ///< rad
 };
 
 /// One tick.
@@ -55,6 +58,9 @@ StepRow rowOf(const hl::ServoRecord& record, std::int64_t begin_ns) {
   row.touching = record.target.valid ? 1 : 0;
   row.state = static_cast<std::uint8_t>(record.out.safety);
   row.fault = static_cast<std::uint8_t>(record.out.fault);
+  std::copy_n(record.sample.stylus.turned.coeffs().data(), 4, row.rotation);
+  copyTo(row.spin, record.sample.stylus.spin_rad_s);
+  row.gripper = record.sample.stylus.gripper_rad;
   return row;
 }
 
@@ -102,7 +108,8 @@ Recording readRecording(const std::string& path) {
 }  // namespace
 
 void bindRecordings(py::module_& module) {
-  PYBIND11_NUMPY_DTYPE(StepRow, t, finger, proxy, stiffness, force, work_ns, buttons, touching, state, fault);
+  PYBIND11_NUMPY_DTYPE(StepRow, t, finger, proxy, stiffness, force, work_ns, buttons, touching, state, fault,
+                       rotation, spin, gripper);
   PYBIND11_NUMPY_DTYPE(TickRow, t, finger, target, proxy, scene, work_ns, contacts, touching);
   py::class_<Recording>(module, "Recording")
       .def(py::init(&readRecording), py::arg("path"))

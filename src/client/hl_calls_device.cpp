@@ -113,6 +113,25 @@ void hlHandGoal3d(HLdouble x, HLdouble y, HLdouble z) {
   });
 }
 
+void hlHandTurn4d(HLdouble x, HLdouble y, HLdouble z, HLdouble w) {
+  setDevice(__func__, [&](hl::proto::DeviceSettings& settings) {
+    requireFinite(x, y, z, w);
+    if (x == 0 && y == 0 && z == 0 && w == 0) throw Fault(HL_INVALID_VALUE, "the quaternion must not be 0");
+    hl::proto::Rotation& rotation = *settings.mutable_hand_turn()->mutable_rotation();
+    rotation.set_x(x);
+    rotation.set_y(y);
+    rotation.set_z(z);
+    rotation.set_w(w);
+  });
+}
+
+void hlHandGripperd(HLdouble angle) {
+  setDevice(__func__, [&](hl::proto::DeviceSettings& settings) {
+    requireFinite(angle);
+    settings.mutable_hand_turn()->set_gripper_rad(angle);
+  });
+}
+
 void hlHandGrip(HLenum grip) {
   setDevice(__func__, [&](hl::proto::DeviceSettings& settings) {
     if (grip != HL_GRIP_LIGHT && grip != HL_GRIP_FIRM)

@@ -22,6 +22,13 @@ void addMatrix(Values& values, const Matrix4& matrix) {
   for (int i = 0; i < 16; ++i) values.add(matrix.data()[i]);
 }
 
+// Of a device without a wrist: not turned.
+void addTurn(Values& values, const proto::Stylus& stylus) {
+  const proto::Rotation& turned = stylus.rotation();
+  for (const double part : {turned.x(), turned.y(), turned.z(), stylus.has_rotation() ? turned.w() : 1})
+    values.add(part);
+}
+
 void addVec(Values& values, const proto::Vec3& v) {
   values.add(v.x());
   values.add(v.y());
@@ -112,6 +119,8 @@ constexpr Query kQueriesOfServer[] = {
     {HL_MAX_BODIES, [](const HLcontext& c, Values& v) { v.add(static_cast<double>(limits(c).bodies())); }},
     {HL_MAX_JOINTS, [](const HLcontext& c, Values& v) { v.add(static_cast<double>(limits(c).joints())); }},
     {HL_DEVICE_FORCE_MAX, [](const HLcontext& c, Values& v) { v.add(view(c).device().force_max_n()); }},
+    {HL_DEVICE_WRIST, [](const HLcontext& c, Values& v) { v.add(view(c).device().has_wrist() ? HL_TRUE : HL_FALSE); }},
+    {HL_GRIPPER_MAX, [](const HLcontext& c, Values& v) { v.add(view(c).device().gripper_max_rad()); }},
     {HL_SPRING_STIFFNESS_MAX, [](const HLcontext& c, Values& v) { v.add(view(c).device().stiffness_max_n_m()); }},
     {HL_SPRING_STIFFNESS, [](const HLcontext& c, Values& v) { v.add(c.conversation.springStiffness_N_m()); }},
     {HL_SPRING_DAMPING, [](const HLcontext& c, Values& v) { v.add(view(c).device().damping_ns_m()); }},
@@ -128,6 +137,10 @@ constexpr Query kQueriesOfState[] = {
     {HL_SNAPPED_NAME, [](const HLcontext& c, Values& v) { v.add(snapped(c).name()); }},
     {HL_SNAP_NUMBER, [](const HLcontext& c, Values& v) { v.add(snapped(c).number()); }},
     {HL_BUTTONS, [](const HLcontext& c, Values& v) { v.add(state(c).buttons()); }},
+    {HL_STYLUS_ROTATION, [](const HLcontext& c, Values& v) { addTurn(v, state(c).stylus()); }},
+    {HL_STYLUS_SPIN, [](const HLcontext& c, Values& v) { addVec(v, state(c).stylus().spin_rad_s()); }},
+    {HL_GRIPPER_ANGLE, [](const HLcontext& c, Values& v) { v.add(state(c).stylus().gripper_rad()); }},
+    {HL_GRIPPER_FORCE, [](const HLcontext& c, Values& v) { v.add(state(c).stylus().gripper_n()); }},
     {HL_SAFETY_STATE, [](const HLcontext& c, Values& v) { v.add(HL_SAFETY_OFF + int{state(c).safety()}); }},
     {HL_SERVO_RATE, [](const HLcontext& c, Values& v) { v.add(state(c).servo().rate_hz()); }},
     {HL_PROXY_RATE, [](const HLcontext& c, Values& v) { v.add(state(c).proxy_loop().rate_hz()); }},

@@ -7,10 +7,16 @@ namespace hl::client {
 namespace {
 
 HLsample sampleOf(const proto::DeviceSample& in) {
+  const proto::Rotation& turned = in.stylus().rotation();
+  const proto::Vec3& spin = in.stylus().spin_rad_s();
   return {in.time_s(),
           {in.finger().x(), in.finger().y(), in.finger().z()},
           {in.force_n().x(), in.force_n().y(), in.force_n().z()},
-          in.buttons()};
+          in.buttons(),
+          {turned.x(), turned.y(), turned.z(), in.stylus().has_rotation() ? turned.w() : 1},
+          {spin.x(), spin.y(), spin.z()},
+          in.stylus().gripper_rad(),
+          in.stylus().gripper_n()};
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // quoted, and unverified, but for the Falcon's. Where nothing is published a comment says what is assumed.
 #include "device/device_models.h"
 
+#include <numbers>
 #include <string>
 
 #include "base/error.h"
@@ -53,6 +54,15 @@ MassParameters massOf(const Sheet& sheet, double mass_kg, double damping_Ns_m) {
   return mass;
 }
 
+DeviceModel withWrist(DeviceModel model, const WristParameters& wrist) {
+  model.info.has_wrist = wrist.resolution_rad > 0;
+  model.info.gripper_max_rad = wrist.gripper_max_rad;
+  model.wrist = wrist;
+  return model;
+}
+
+constexpr double kDegree = std::numbers::pi / 180;
+
 }  // namespace
 
 // Mass, damping, friction and encoder step: the set of one axis that Diolaiti, Niemeyer, Barbagli and Salisbury
@@ -63,18 +73,20 @@ DeviceModel premium10() {
 }
 
 // The published joint-space model (phantom.h). Friction: the vendor's figure; the joints' .01 Nm make .047 to .059 N.
+// With the encoder gimbal, which is not driven: 0.0023 degrees of pitch and yaw, by the vendor's sheet.
 DeviceModel premium15() {
   const PhantomParameters arm;
   const double force_max_N = arm.motor_torque_peak_Nm * arm.gear.y() / arm.l2;
   const Sheet sheet{"PHANToM Premium 1.5", {0.381, 0.267, 0.191}, force_max_N, 1.4, 0.04, 30e-6, 1000, 12000, 0.5};
-  return {"premium1.5", infoOf(sheet), arm};
+  return withWrist({"premium1.5", infoOf(sheet), arm}, {0.0023 * kDegree});
 }
 
 // Vendor's figures of the Omni, now Touch; friction is "< 0.26 N", taken as 0.26. Damping is not published: that of the
-// PHANToM 1.0. The recommended stiffness is what CHAI3D uses for the Touch.
+// PHANToM 1.0. The recommended stiffness is what CHAI3D uses for the Touch. The gimbal has potentiometers; how fine
+// they are is not published: 10 bits of 300 degrees are assumed.
 DeviceModel touchDevice() {
   const Sheet sheet{"3D Systems Touch", {0.160, 0.120, 0.070}, 3.3, 0.88, 0.26, 55e-6, 400, 3000, 0.5};
-  return {"touch", infoOf(sheet), massOf(sheet, 0.045, 0.005)};
+  return withWrist({"touch", infoOf(sheet), massOf(sheet, 0.045, 0.005)}, {300 * kDegree / 1024});
 }
 
 // Workspace, force and resolution (400 dpi) as the H3D documentation gives them; CHAI3D uses at most 8 N. Mass, damping
@@ -91,6 +103,13 @@ DeviceModel omega3() {
   return {"omega3", infoOf(sheet), massOf(sheet, 0.2, 0.02)};
 }
 
+// As the omega.3, with a wrist of 0.09 degrees and a gripper that opens by 25 mm: 0.006 mm of it, told as angles of
+// fingers assumed 50 mm long. Its mass with the wrist, 0.35 kg, is a guess.
+DeviceModel omega7() {
+  const Sheet sheet{"Force Dimension omega.7", {0.160, 0.160, 0.110}, 12, 12, 0.1, 10e-6, 2000, 14500, 1};
+  return withWrist({"omega7", infoOf(sheet), massOf(sheet, 0.35, 0.02)}, {0.09 * kDegree, 0.5, 0.006 / 50});
+}
+
 DeviceModel linearDevice(double mass_kg, double damping_Ns_m) {
   const Sheet sheet{"linear device", {1, 1, 1}, 1000, 1000, 0, 0, 1000, 1e6, 0};
   MassParameters mass = massOf(sheet, mass_kg, damping_Ns_m);
@@ -100,7 +119,9 @@ DeviceModel linearDevice(double mass_kg, double damping_Ns_m) {
   return {"linear", info, mass};
 }
 
-std::array<DeviceModel, 5> deviceModels() { return {premium15(), premium10(), touchDevice(), falcon(), omega3()}; }
+std::array<DeviceModel, 6> deviceModels() {
+  return {premium15(), premium10(), touchDevice(), falcon(), omega3(), omega7()};
+}
 
 std::string simulatedModelNames() {
   std::string names;

@@ -11,6 +11,7 @@
 #include "device/device.h"
 #include "device/mass_arm.h"
 #include "device/phantom.h"
+#include "device/wrist.h"
 
 namespace hl {
 
@@ -18,6 +19,7 @@ struct DeviceModel {
   std::string_view name;  ///< as in --device sim:NAME
   DeviceInfo info;
   std::variant<PhantomParameters, MassParameters> arm;
+  WristParameters wrist{};
 };
 
 DeviceModel premium10();
@@ -25,12 +27,13 @@ DeviceModel premium15();
 DeviceModel touchDevice();
 DeviceModel falcon();
 DeviceModel omega3();
+DeviceModel omega7();
 
 /// One mass with a viscous damper and nothing else: no friction, no encoder steps, no DAC; the theory's device.
 DeviceModel linearDevice(double mass_kg, double damping_Ns_m);
 
 /// All real ones, the default first.
-std::array<DeviceModel, 5> deviceModels();
+std::array<DeviceModel, 6> deviceModels();
 /// Their names, with commas.
 std::string simulatedModelNames();
 /// Throws hl::Error with the names there are.

@@ -29,8 +29,11 @@ class Exchange {
 
   // The other thread, RT-safe.
   /// `asked_ns`: on the monotonic clock, when the device was asked where it is. A thread that is held up tells late.
-  void tell(std::int64_t asked_ns, const Vec3& position_D, std::uint32_t buttons, DeviceStatus status) {
-    samples_.write({asked_ns, position_D, buttons, status});
+  void tell(std::int64_t asked_ns, const Vec3& position_D, std::uint32_t buttons, DeviceStatus status,
+            const Stylus& stylus = {}) {
+    DeviceSample sample{asked_ns, position_D, buttons, status};
+    sample.stylus = stylus;
+    samples_.write(sample);
   }
   /// It does not answer.
   void tellLost() { tell(monotonicNow_ns(), Vec3::Zero(), 0, DeviceStatus::kLost); }

@@ -1,6 +1,8 @@
 // HandScript: what a simulated hand does over time, given in advance: samples with straight lines between them.
 #pragma once
 
+#include <Eigen/Geometry>
+#include <optional>
 #include <vector>
 
 #include "base/vec.h"
@@ -13,12 +15,18 @@ struct HandScript {
     double time_s = 0;
     Vec3 position = Vec3::Zero();
     bool holds = true;  ///< from here on
+    // In all samples or in none.
+    std::optional<Eigen::Quaterniond> turned{};  ///< of the stylus; unit
+    std::optional<double> gripper_rad{};
   };
   std::vector<Sample> samples;
 
   /// Before the first sample the first position, after the last one the last. Needs at least one sample.
   Vec3 at(double time_s) const;
   bool holdsAt(double time_s) const;
+  /// The same for the stylus, turning at a constant rate the short way round between samples.
+  std::optional<Eigen::Quaterniond> turnedAt(double time_s) const;
+  std::optional<double> gripperAt(double time_s) const;
 };
 
 /// Writes the script of a person who is told what to do, one thing after the other.

@@ -6,7 +6,10 @@
 namespace hl {
 
 SimulatedDevice::SimulatedDevice(const SimulatedDeviceSettings& settings)
-    : settings_(settings), arm_(makeArm(settings.model, settings.current_lag_s)), random_(settings.seed) {
+    : settings_(settings),
+      arm_(makeArm(settings.model, settings.current_lag_s)),
+      wrist_(settings.model.wrist),
+      random_(settings.seed) {
   settings_.delay_steps = std::clamp(settings.delay_steps, 0, SimulatedDeviceSettings::kMaxDelay);
   on_the_way_.fill(Vec3::Zero());
   firm_ = settings.firm;
@@ -43,9 +46,20 @@ DeviceSample SimulatedDevice::read(std::int64_t now_ns) {
         std::clamp(1e-9 * static_cast<double>(taken_ns - *time_ns_), 0.0, settings_.longest_advance_s);
     const int steps = static_cast<int>(std::ceil(elapsed_s / settings_.step_s));
     for (int i = 0; i < steps; ++i) step(elapsed_s / steps);
+    turnWrist(elapsed_s);
   }
   time_ns_ = taken_ns;
-  return {now_ns, arm_->countedTip_D(), buttons_.load(std::memory_order_relaxed), DeviceStatus::kOk, held_};
+  DeviceSample sample{now_ns, arm_->countedTip_D(), buttons_.load(std::memory_order_relaxed), DeviceStatus::kOk, held_};
+  sample.stylus = wrist_.counted();
+  return sample;
+}
+
+// What nobody holds stays as it is.
+void SimulatedDevice::turnWrist(double dt_s) {
+  Eigen::Quaterniond goal_D;
+  if (turn_.read(goal_D)) wrist_.turnTo(goal_D);
+  wrist_.openTo(gripper_rad_.load(std::memory_order_relaxed));
+  if (held_) wrist_.step(dt_s);
 }
 
 void SimulatedDevice::dropForce() {

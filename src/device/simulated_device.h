@@ -17,6 +17,7 @@
 #include "device/device_models.h"
 #include "device/hand.h"
 #include "device/simulated_hand.h"
+#include "device/wrist.h"
 
 namespace hl {
 
@@ -61,6 +62,8 @@ class SimulatedDevice final : public Device, public SimulatedHand {
   void setHandFirm(bool firm) override { firm_.store(firm, std::memory_order_relaxed); }
   void setHandHolds(bool holds) override { holds_.store(holds, std::memory_order_relaxed); }
   void setHandButtons(std::uint32_t buttons) override { buttons_.store(buttons, std::memory_order_relaxed); }
+  void setHandTurn(const Eigen::Quaterniond& goal_D) override { turn_.write(goal_D); }
+  void setHandGripper(double goal_rad) override { gripper_rad_.store(goal_rad, std::memory_order_relaxed); }
 
   // For tests and benches; on the thread that reads.
   Arm& arm() { return *arm_; }
@@ -77,12 +80,14 @@ class SimulatedDevice final : public Device, public SimulatedHand {
   void takeHold();
   void step(double dt_s);
   void dropForce();
+  void turnWrist(double dt_s);
   Vec3 stepHeld(double dt_s);
   Vec3 stepStylus(const Vec3& pull_N, double dt_s);
   double jitter_ns();
 
   SimulatedDeviceSettings settings_;
   std::unique_ptr<Arm> arm_;
+  Wrist wrist_;
   Vec3 stylus_ = Vec3::Zero();  // the tip, where it bends
   Vec3 stylus_velocity_ = Vec3::Zero();
   HandState hand_;
@@ -92,6 +97,8 @@ class SimulatedDevice final : public Device, public SimulatedHand {
   std::atomic<bool> firm_{false};
   std::atomic<bool> holds_{true};
   std::atomic<std::uint32_t> buttons_{0};
+  Latest<Eigen::Quaterniond> turn_{Eigen::Quaterniond::Identity()};
+  std::atomic<double> gripper_rad_{0};
   std::array<Vec3, SimulatedDeviceSettings::kMaxDelay + 1> on_the_way_;  // forces, a ring
   std::size_t written_ = 0;
   std::mt19937 random_;

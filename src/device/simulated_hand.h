@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include <Eigen/Geometry>
+
 #include "base/vec.h"
 
 namespace hl {
@@ -18,6 +20,10 @@ class SimulatedHand {
   virtual void setHandHolds(bool holds) = 0;
   /// The buttons it presses, bit i: button i.
   virtual void setHandButtons(std::uint32_t buttons) = 0;
+  /// How it wants the stylus to be turned, in D; ignored unless it is an orientation, or where there is no wrist.
+  virtual void setHandTurn(const Eigen::Quaterniond& goal_D) = 0;
+  /// How far it wants the gripper to be open, rad; ignored unless finite, or where there is none.
+  virtual void setHandGripper(double goal_rad) = 0;
 };
 
 }  // namespace hl

@@ -18,11 +18,14 @@ void addNumbers(fmt::memory_buffer& line, std::span<const double> numbers) {
   for (const double number : numbers) fmt::format_to(std::back_inserter(line), ",{:.17g}", number);
 }
 
+void addTurn(fmt::memory_buffer& line, const Eigen::Quaterniond& q) {
+  addNumbers(line, std::array{q.w(), q.x(), q.y(), q.z()});
+}
+
 void addBodies(fmt::memory_buffer& line, const TraceRow& row) {
   for (const TracedBody& body : row.bodies) {
     addNumbers(line, {body.origin.data(), 3});
-    const Eigen::Quaterniond& q = body.turned;
-    addNumbers(line, std::array{q.w(), q.x(), q.y(), q.z()});
+    addTurn(line, body.turned);
     addNumbers(line, {body.velocity.data(), 3});
     addNumbers(line, {body.spin.data(), 3});
   }
@@ -48,18 +51,19 @@ std::vector<std::string> columnsOf(const std::vector<std::string>& bodies) {
   return columns;
 }
 
-TraceWriter::TraceWriter(const std::string& file, std::initializer_list<std::string> read,
-                         const std::vector<std::string>& bodies, bool snaps)
+TraceWriter::TraceWriter(const std::string& file, std::initializer_list<std::string> read, const TraceColumns& columns)
     : file_(file, read) {
   file_.write(
       "t,finger_x,finger_y,finger_z,proxy_x,proxy_y,proxy_z,target_x,target_y,target_z,force_x,force_y,force_z,"
       "contacts,iterations,injected_J,tick_ns");
-  for (const std::string& column : columnsOf(bodies)) {
+  for (const std::string& column : columnsOf(columns.bodies)) {
     for (const char* part : {"x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy", "wz"})
       file_.print(",{}_{}", column, part);
   }
-  if (!bodies.empty()) file_.write(",kinetic_J,gravity_J,by_hand_J,contact_J,friction_J,solver_J,world_hash");
-  file_.write(snaps ? ",snap\n" : "\n");
+  if (!columns.bodies.empty()) file_.write(",kinetic_J,gravity_J,by_hand_J,contact_J,friction_J,solver_J,world_hash");
+  if (columns.snap) file_.write(",snap");
+  if (columns.turned) file_.write(",stylus_qw,stylus_qx,stylus_qy,stylus_qz");
+  file_.write(columns.gripper ? ",gripper_rad\n" : "\n");
 }
 
 void TraceWriter::write(const TraceRow& row) {
@@ -72,6 +76,8 @@ void TraceWriter::write(const TraceRow& row) {
   fmt::format_to(out, ",{},{},{:.17g},{}", row.contacts, row.iterations, row.injected_J, row.tick_ns);
   if (!row.bodies.empty()) addBodies(line, row);
   if (row.snap) fmt::format_to(std::back_inserter(line), ",{}", *row.snap);
+  if (row.turned) addTurn(line, *row.turned);
+  if (row.gripper_rad) addNumbers(line, std::array{*row.gripper_rad});
   line.push_back('\n');
   file_.write({line.data(), line.size()});
 }

@@ -10,12 +10,18 @@
 
 namespace hl {
 
+/// What rows have beside the tick's own columns.
+struct TraceColumns {
+  std::vector<std::string> bodies{};  ///< their names
+  bool snap = false, turned = false, gripper = false;
+};
+
 /// Throws hl::Error when the file cannot be written.
 class TraceWriter {
  public:
-  /// `read`: files that it may not overwrite. `bodies`: names of those that rows have. `snaps`: rows have a snap.
+  /// `read`: files that it may not overwrite.
   explicit TraceWriter(const std::string& file, std::initializer_list<std::string> read = {},
-                       const std::vector<std::string>& bodies = {}, bool snaps = false);
+                       const TraceColumns& columns = {});
   void write(const TraceRow& row);
   void close() { file_.close(); }  ///< without it, a failure of the last write goes unnoticed
 

@@ -1,6 +1,7 @@
 // TraceRow: what one tick of a trace came to.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -39,6 +40,9 @@ struct TraceRow {
   TracedWorld world{};                   ///< if there are bodies
   /// The snap that holds the proxy, from 1 in the order of the scene; 0: none. Absent: the scene has none.
   std::optional<std::size_t> snap{};
+  // Of the stylus, as the path says; absent: it does not.
+  std::optional<Eigen::Quaterniond> turned{};
+  std::optional<double> gripper_rad{};
 };
 
 }  // namespace hl

@@ -10,6 +10,7 @@
 #include "io/decode_volumes.h"
 #include "page/page_scene.h"
 #include "session/state_messages.h"
+#include "session/stylus_messages.h"
 
 namespace hl {
 
@@ -126,6 +127,7 @@ std::string state(TouchSession& session, PageScene& scene, const PageRecordings*
   out.set_slipping(proxy.slipping);
   toProto(servo.vibration, *out.mutable_vibration());
   out.set_buttons(servo.buttons);
+  setStylus(servo.stylus, session.deviceInfo(), out);
   if (proxy.bodies.bodies > 0) setBodies(*out.mutable_bodies(), proxy.bodies);
   if (recordings != nullptr) setRecording(*out.mutable_recording(), recordings->status());
   const std::int64_t now_ns = monotonicNow_ns();
@@ -166,6 +168,9 @@ void receive(TouchSession& session, PageRecordings* recordings, const SetIso& se
       break;
     case proto::ViewerMessage::kPress:
       session.press(message.press().buttons());
+      break;
+    case proto::ViewerMessage::kHandTurn:
+      if (faultOf(message.hand_turn()).empty()) turnHand(message.hand_turn(), session);
       break;
     case proto::ViewerMessage::kSettings:
       apply(session, message.settings());

@@ -7,6 +7,7 @@
 #include "base/fields.h"
 #include "io/value_messages.h"
 #include "record/recorded_fields.h"
+#include "record/recorded_stylus.h"
 
 namespace hl {
 
@@ -59,6 +60,7 @@ ServoRecord step(const proto::ServoSteps& in, int i, std::int64_t before_ns) {
   if (in.age_ns_size() > 0) record.sample.age_ns = in.age_ns(i);
   if (in.field_n_size() > 0) record.target.field_N = at(in.field_n(), i);
   if (in.field_drag_ns_m_size() > 0) record.target.field_drag_Ns_m = in.field_drag_ns_m(i);
+  record.sample.stylus = stylusAt(in, i);
   record.target.proxy_D = at(in.target_proxy(), i);
   record.target.time_ns = wrappedSum_ns(record.sample.time_ns, in.target_time_ns(i));
   record.target.stiffness = in.target_stiffness(i);
@@ -75,7 +77,8 @@ bool consistent(const proto::ServoSteps& in) {
   };
   return n > 0 && in.settings_size() > 0 && in.settings(0).at() == 0 &&
          (in.weight_n_size() == 0 || in.weight_n_size() == 3 * n) && (in.age_ns_size() == 0 || in.age_ns_size() == n) &&
-         (in.field_n_size() == 0 || in.field_n_size() == 3 * n) && 3 * in.field_drag_ns_m_size() == in.field_n_size() &&
+         agrees(in, n) && (in.field_n_size() == 0 || in.field_n_size() == 3 * n) &&
+         3 * in.field_drag_ns_m_size() == in.field_n_size() &&
          all({in.time_ns_size(), in.buttons_size(), in.target_time_ns_size(), in.target_stiffness_size(),
               in.target_paid_j_size(), in.work_ns_size()},
              1) &&
@@ -95,6 +98,7 @@ void addRare(std::span<const ServoRecord> records, proto::ServoSteps& out) {
     for (const ServoRecord& record : records) out.add_age_ns(record.sample.age_ns);
   }
   addFields(records, out);
+  addStylus(records, out);
 }
 
 }  // namespace

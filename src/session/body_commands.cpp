@@ -1,10 +1,11 @@
 #include "session/body_commands.h"
 
-#include <cmath>
 #include <string>
 
 #include "base/error.h"
+#include "base/turn.h"
 #include "io/decode_scene.h"
+#include "session/stylus_messages.h"
 
 namespace hl {
 
@@ -19,11 +20,9 @@ const SceneDecoder& decoder() {
 }
 
 Mat3 rotationOf(const proto::Rotation& in) {
-  const Eigen::Quaterniond turn(in.w(), in.x(), in.y(), in.z());
-  const double length = turn.norm();
-  if (!(length > 0) || !std::isfinite(length))
-    throw Error("body_command.place.rotation must be a finite quaternion that is not 0");
-  return turn.normalized().toRotationMatrix();
+  Eigen::Quaterniond turned = turnOf(in);
+  if (!toUnit(turned)) throw Error("body_command.place.rotation must be a finite quaternion that is not 0");
+  return turned.toRotationMatrix();
 }
 
 }  // namespace

@@ -18,9 +18,7 @@ using ShapeOfBody = std::pair<const Shape*, const BodySpec*>;
 
 ShapeOfBody shapeOf(const PlacedShape& placed) { return {placed.shape.get(), placed.body.get()}; }
 
-void check(const PlacedShape& placed) {
-  bodyOf(placed.shape->model, *placed.body);
-}
+void check(const PlacedShape& placed) { bodyOf(placed.shape->model, *placed.body); }
 
 // A joint's message numbers it by its key: here that is the client's own number.
 void checkJointsOf(const PlacedList& placed) {

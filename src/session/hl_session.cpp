@@ -11,6 +11,7 @@
 #include "session/contact_report.h"
 #include "session/message_forms.h"
 #include "session/state_messages.h"
+#include "session/stylus_messages.h"
 
 namespace hl {
 
@@ -44,11 +45,11 @@ std::string faultOf(const proto::DeviceSettings& settings, bool has_hand) {
   if (settings.has_stiffness_n_m() && !(settings.stiffness_n_m() >= 0)) return "stiffness_N_m must not be below 0";
   if (settings.has_ledger() && !proto::LedgerMode_IsValid(settings.ledger()))
     return "ledger must be TANK, STRICT or REPORT";
-  if ((settings.has_hand_goal() || settings.has_hand_firm()) && !has_hand)
+  if ((settings.has_hand_goal() || settings.has_hand_firm() || settings.has_hand_turn()) && !has_hand)
     return "a person holds the device; only a simulated hand can be moved";
   if (settings.has_hand_goal() && !vecOf(settings.hand_goal().position()).allFinite())
     return "hand_goal.position must hold finite numbers";
-  return "";
+  return hl::faultOf(settings.hand_turn());
 }
 
 }  // namespace
@@ -198,6 +199,7 @@ void HlSession::setDevice(const proto::DeviceSettings& settings) {
   if (settings.rearm()) device.rearm();
   if (settings.has_hand_firm()) device.setHandFirm(settings.hand_firm());
   if (settings.has_hand_goal()) device.setHandGoal(vecOf(settings.hand_goal().position()));
+  if (settings.has_hand_turn()) turnHand(settings.hand_turn(), device);
 }
 
 void HlSession::setStateRate(double rate_Hz) {

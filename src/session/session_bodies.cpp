@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "session/state_messages.h"
+#include "session/stylus_messages.h"
 
 namespace hl {
 
@@ -32,10 +33,7 @@ void SessionBodies::describe(proto::ClientState& out) const {
     state.set_object(one.object);
     state.set_name(one.name);
     toProto(shown.pose.origin, *state.mutable_position());
-    state.mutable_rotation()->set_x(turned.x());
-    state.mutable_rotation()->set_y(turned.y());
-    state.mutable_rotation()->set_z(turned.z());
-    state.mutable_rotation()->set_w(turned.w());
+    toProto(turned, *state.mutable_rotation());
     toProto(shown.velocity_m_s, *state.mutable_velocity_m_s());
     toProto(shown.spin_rad_s, *state.mutable_spin_rad_s());
   }

@@ -1,4 +1,5 @@
 #include "session/state_messages.h"
+#include "session/stylus_messages.h"
 
 namespace hl {
 
@@ -15,6 +16,8 @@ void toProto(const TouchSession& session, proto::DeviceInfo& out) {
   out.set_stiffness_n_m(session.stiffness_N_m());
   out.set_stiffness_max_n_m(info.stiffness_max_N_m);
   out.set_simulated_hand(session.hasHand());
+  out.set_has_wrist(info.has_wrist);
+  out.set_gripper_max_rad(info.gripper_max_rad);
   out.set_damping_ns_m(session.settings().damping_Ns_m.value_or(info.damping_Ns_m));
   out.set_servo_rate_hz(session.servoRate_Hz());
   out.set_proxy_rate_hz(session.settings().proxy_rate_Hz);
@@ -98,6 +101,7 @@ void toProto(const TouchSession& session, const ServoView& servo, const ProxyVie
   toProto(proxy.ledger, servo.late, session.ledger(), *out.mutable_ledger());
   toProto(servo.vibration, *out.mutable_vibration());
   out.set_buttons(servo.buttons);
+  setStylus(servo.stylus, session.deviceInfo(), out);
   setEndings(proxy.ended, out);
   out.set_hand_firm(session.handFirm());
   out.set_proxy_radius(session.radius_W());
@@ -117,6 +121,7 @@ void addMoments(const TouchSession& session, std::uint64_t& next, proto::ClientS
     toProto(workspace.toWorld(moment.finger_D), *sample.mutable_finger());
     toProto(moment.force_N, *sample.mutable_force_n());
     sample.set_buttons(static_cast<std::uint32_t>(moment.buttons));
+    setStylus(moment.stylus, session.deviceInfo(), sample);
   }
 }
 

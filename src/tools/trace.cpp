@@ -102,6 +102,8 @@ TraceTotals runTrace(const Snapshot& given, const TraceSettings& settings, const
     out.iterations = report.iterations;
     out.injected_J = report.injected_J;
     out.snap = tracer.snap();
+    out.turned = path[i].turned;
+    out.gripper_rad = path[i].gripper_rad;
     tracer.tell(out);
     row(out);
     if (i == 0) totals.before = out.world;

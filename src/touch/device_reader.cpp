@@ -14,6 +14,7 @@ DeviceSample DeviceReader::look(std::int64_t now_ns) noexcept {
   if (std::exchange(step_failed_, false) || !read) sample.status = DeviceStatus::kLost;
   answered_ = sample.status == DeviceStatus::kOk;
   if (answered_) exchange_.finger_D.write(sample.position);
+  sample.stylus = stylus_.read(answered_ ? sample.stylus : stylus_.last(), now_ns);
   return sample;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "device/device.h"
+#include "device/stylus_reader.h"
 #include "touch/loop_exchange.h"
 
 namespace hl {
@@ -24,6 +25,7 @@ class DeviceReader {
  private:
   Device& device_;
   LoopExchange& exchange_;
+  StylusReader stylus_;
   bool answered_ = false;  // when it was read last
   bool step_failed_ = false;
 };

@@ -69,6 +69,8 @@ void HandMover::run() {
     const Commands commands = takeCommands();
     follow(commands);
     follow(commands.buttons, now_ns);
+    if (commands.turn) hand_->setHandTurn(*commands.turn);
+    if (commands.gripper_rad) hand_->setHandGripper(*commands.gripper_rad);
   };
   runPeriodic(kPeriod_ns, running_, counters, [&](std::int64_t now_ns) { guarded([&] { move(now_ns); }); });
 }
@@ -92,6 +94,7 @@ void HandMover::follow(const Commands& commands) {
     hand_->setHandGoal(clampToWorkspace(finger_D));
   } else if (exploring_) {
     if (const auto goal_W = strokingGoal()) hand_->setHandGoal(clampToWorkspace(workspace.toDevice(*goal_W)));
+    turnAsScripted();
   }
   hand_->setHandFirm(firm_);
 }
@@ -103,6 +106,13 @@ void HandMover::follow(std::optional<std::uint32_t> buttons, std::int64_t now_ns
   } else if (now_ns - pressed_ns_ > kPress_ns) {
     hand_->setHandButtons(0);
   }
+}
+
+void HandMover::turnAsScripted() const {
+  if (!script_) return;
+  const double time_s = 1e-9 * static_cast<double>(monotonicNow_ns() - begin_ns_);
+  if (const auto turned = script_->turnedAt(time_s)) hand_->setHandTurn(*turned);
+  if (const auto gripper_rad = script_->gripperAt(time_s)) hand_->setHandGripper(*gripper_rad);
 }
 
 // With nothing to stroke the hand waits.
@@ -165,6 +175,17 @@ void HandMover::holdAside() {
 void HandMover::press(std::uint32_t buttons) {
   const std::lock_guard lock(mutex_);
   commands_.buttons = buttons;
+}
+
+// The axes of the device are those of the world.
+void HandMover::turn(const Eigen::Quaterniond& turned_W) {
+  const std::lock_guard lock(mutex_);
+  commands_.turn = turned_W;
+}
+
+void HandMover::openGripper(double gripper_rad) {
+  const std::lock_guard lock(mutex_);
+  commands_.gripper_rad = gripper_rad;
 }
 
 void HandMover::setExplore(bool on) {

@@ -44,6 +44,8 @@ class HandMover {
   bool moveAside(double top_D, double most_s);
   void free();
   void press(std::uint32_t buttons);
+  void turn(const Eigen::Quaterniond& turned_W);  ///< of any length but 0; else it changes nothing
+  void openGripper(double gripper_rad);
   void setExplore(bool on);
   void setFirm(bool firm) { firm_ = firm; }
   bool exploring() const { return exploring_.load(); }
@@ -57,6 +59,8 @@ class HandMover {
     bool release = false;
     std::optional<bool> explore;
     std::optional<std::uint32_t> buttons;
+    std::optional<Eigen::Quaterniond> turn;
+    std::optional<double> gripper_rad;
   };
 
   void run();
@@ -64,6 +68,7 @@ class HandMover {
   void follow(const Commands& commands);
   void follow(std::optional<std::uint32_t> buttons, std::int64_t now_ns);
   std::optional<Vec3> strokingGoal() const;
+  void turnAsScripted() const;
   Vec3 above(double top_D) const;
   void holdAside();
   Vec3 clampToWorkspace(const Vec3& goal_D) const;

@@ -117,13 +117,13 @@ void ServoLoop::tell(const ServoRecord& record, std::int64_t begin_ns) {
   const double penetration_m = target.valid ? (target.proxy_D - sample.position).norm() : 0;
   parts_.views.samples.push({1e-9 * static_cast<double>(begin_ns - begin_ns_), static_cast<float>(out.force_N.norm()),
                              static_cast<float>(penetration_m), last_tick_.work_us});
-  parts_.views.moments.push({begin_ns, sample.position, out.force_N, sample.buttons,
+  parts_.views.moments.push({begin_ns, sample.position, out.force_N, sample.buttons, sample.stylus,
                              sharing(last_tick_.held.contacts, last_tick_.held.held_N, out.force_N)});
   ServoRecord timed = record;
   timed.work_ns = monotonicNow_ns() - begin_ns;
   parts_.sink.step(timed);
   meter_.add(begin_ns, timed.work_ns);
-  parts_.views.servo.write({sample.buttons, sample.position, out.force_N, out.safety, out.fault,
+  parts_.views.servo.write({sample.buttons, sample.position, out.force_N, sample.stylus, out.safety, out.fault,
                             step_.servo().spring.ledger, viewOf(step_.servo().vibration), meter_.summary()});
 }
 

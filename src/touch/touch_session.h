@@ -46,6 +46,8 @@ class TouchSession {
   void release() { hand_.release(); }
   /// Bit i: button i of the device is down, for a second from now: a page that has gone presses nothing.
   void press(std::uint32_t buttons) { hand_.press(buttons); }
+  void turnHand(const Eigen::Quaterniond& turned_W) { hand_.turn(turned_W); }  ///< of any length but 0
+  void openGripper(double gripper_rad) { hand_.openGripper(gripper_rad); }
   void setExplore(bool on) { hand_.setExplore(on); }
   void setHandFirm(bool firm) { hand_.setFirm(firm); }
   bool exploring() const { return hand_.exploring(); }

@@ -10,6 +10,7 @@
 #include "base/spsc_ring.h"
 #include "base/vec.h"
 #include "control/safety.h"
+#include "device/stylus.h"
 #include "proxy/tick_report.h"
 #include "scene/snapshot.h"
 #include "touch/body_view.h"
@@ -44,6 +45,7 @@ struct ServoView {
   std::uint32_t buttons = 0;  ///< of the device, bit i: button i is down
   Vec3 finger_D = Vec3::Zero();
   Vec3 force_N = Vec3::Zero();
+  Stylus stylus{};  ///< D, whose axes are those of the world
   SafetyState safety = SafetyState::kOff;
   FaultReason fault{};
   Ledger late{};  ///< of the hand-over from proxy to servo
@@ -65,6 +67,7 @@ struct ServoMoment {
   Vec3 finger_D = Vec3::Zero();
   Vec3 force_N = Vec3::Zero();
   std::uint64_t buttons = 0;
+  Stylus stylus{};
   FeltContacts contacts;  ///< their forces add up to force_N, if there are any
 };
 

@@ -54,6 +54,9 @@ TEST_F(CallsTest, DeviceSettingsOutOfRangeAreErrorsAndNotSent) {
   hlLedger(HL_POINTS), expectError(HL_INVALID_ENUM);
   hlHandGoal3d(0, kNaN, 0), expectError(HL_INVALID_VALUE);
   hlHandGrip(HL_LEDGER_TANK), expectError(HL_INVALID_ENUM);
+  hlHandTurn4d(0, 0, 0, 0), expectError(HL_INVALID_VALUE);
+  hlHandTurn4d(0, kNaN, 0, 1), expectError(HL_INVALID_VALUE);
+  hlHandGripperd(kNaN), expectError(HL_INVALID_VALUE);
   hlKeepSamples(-1), expectError(HL_INVALID_VALUE);
   hlTakeSamples(-1, nullptr), expectError(HL_INVALID_VALUE);
   hlStateRate(-1), expectError(HL_INVALID_VALUE);
@@ -67,6 +70,11 @@ void addSample(proto::ClientState& state, double time_s) {
   sample.mutable_finger()->set_x(10 * time_s);
   sample.mutable_force_n()->set_y(20 * time_s);
   sample.set_buttons(2);
+  if (time_s < 4) return;
+  sample.mutable_stylus()->mutable_rotation()->set_y(1);
+  sample.mutable_stylus()->mutable_spin_rad_s()->set_z(3);
+  sample.mutable_stylus()->set_gripper_rad(0.25);
+  sample.mutable_stylus()->set_gripper_n(1.5);
 }
 
 TEST_F(CallsTest, SamplesAreKeptUntilTheyAreTakenTheNewestOnes) {
@@ -88,9 +96,15 @@ TEST_F(CallsTest, SamplesAreKeptUntilTheyAreTakenTheNewestOnes) {
   EXPECT_EQ(taken[0].position[0], 20);
   EXPECT_EQ(taken[0].force[1], 40);
   EXPECT_EQ(taken[0].buttons, 2U);
+  EXPECT_EQ(taken[0].rotation[3], 1) << "without a wrist it is not turned";
   EXPECT_EQ(taken[1].time, 3);
   ASSERT_EQ(hlTakeSamples(4, taken), 1);
   EXPECT_EQ(taken[0].time, 4);
+  EXPECT_EQ(taken[0].rotation[1], 1);
+  EXPECT_EQ(taken[0].rotation[3], 0);
+  EXPECT_EQ(taken[0].spin[2], 3);
+  EXPECT_EQ(taken[0].gripper, 0.25);
+  EXPECT_EQ(taken[0].grip_force, 1.5);
   hlKeepSamples(0);
   EXPECT_FALSE(server->received.back().sample_request().wanted());
   addSample(server->tell(), 5);
@@ -223,6 +237,35 @@ TEST_F(CallsTest, BeforeTheFirstStateEverythingIsZeroAndInfinitelyOld) {
   EXPECT_EQ(integer(HL_CONTACT_COUNT), 0);
   EXPECT_EQ(number(HL_STATE_AGE), std::numeric_limits<double>::infinity());
   EXPECT_EQ(integer(HL_SESSION), 7);
+}
+
+TEST_F(CallsTest, TheStylusIsAskedForAndTurned) {
+  HLdouble turned[4];
+  hlGetDoublev(HL_STYLUS_ROTATION, turned);
+  EXPECT_EQ(turned[3], 1) << "before the first state it is not turned";
+  proto::ClientState& state = server->tell();
+  state.set_master(true);
+  proto::Stylus& stylus = *state.mutable_stylus();
+  stylus.mutable_rotation()->set_x(0.6);
+  stylus.mutable_rotation()->set_w(0.8);
+  stylus.mutable_spin_rad_s()->set_y(-2);
+  stylus.set_gripper_rad(0.3);
+  stylus.set_gripper_n(4);
+  hlPoll();
+  hlGetDoublev(HL_STYLUS_ROTATION, turned);
+  EXPECT_EQ(turned[0], 0.6);
+  EXPECT_EQ(turned[3], 0.8);
+  HLdouble spin[3];
+  hlGetDoublev(HL_STYLUS_SPIN, spin);
+  EXPECT_EQ(spin[1], -2);
+  EXPECT_EQ(number(HL_GRIPPER_ANGLE), 0.3);
+  EXPECT_EQ(number(HL_GRIPPER_FORCE), 4);
+  hlHandTurn4d(1, 2, 3, 4);
+  EXPECT_EQ(server->received.back().device().hand_turn().rotation().z(), 3);
+  EXPECT_EQ(server->received.back().device().hand_turn().rotation().w(), 4);
+  EXPECT_FALSE(server->received.back().device().hand_turn().has_gripper_rad());
+  hlHandGripperd(0.125);
+  EXPECT_EQ(server->received.back().device().hand_turn().gripper_rad(), 0.125);
 }
 
 proto::TouchedObject& touch(proto::ClientState& state, HLuint object, HLuint session, double share) {

@@ -97,6 +97,9 @@ static class TestClient {
         Next(client, TouchEventKind.FrameShown);
         Expect(client.Newest == null || client.Newest.Master, "master");
         WaitFor(() => client.Newest?.Finger.Y > 0.015);
+        client.Set(new DeviceSettings { HandTurn = new Rotation(0, -3, 0, 3) });
+        WaitFor(() => client.Newest.Stylus.HasValue && Math.Abs(client.Newest.Stylus.Value.Turned.Y + Math.Sqrt(0.5)) < 1e-3);
+        Expect(Math.Abs(client.Newest.Stylus.Value.Turned.W - Math.Sqrt(0.5)) < 1e-3, "the stylus is turned");
         client.Set(new DeviceSettings { HandGoal = new Vec3(0, -0.02, 0) });
         WaitFor(() => client.Newest.Touched.Any(touched => touched.Name == Name && touched.Object == 1));
         Expect(Next(client, TouchEventKind.Touch).Name == Name, "the event's name");

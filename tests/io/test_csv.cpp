@@ -39,6 +39,24 @@ TEST(CsvPath, ReadsRowsWithAnyLineEndAndSpaces) {
   EXPECT_EQ(path[1].position, Vec3(-1e-3, 2, 4));
 }
 
+TEST(CsvPath, MayTurnTheStylusAndOpenItsGripper) {
+  const auto read = [](const std::string& text) { return readPath(test::fileWith("path.csv", text)).back(); };
+  PathSample sample = read("t,x,y,z,qw,qx,qy,qz\n0,1,2,3,0,0,-3,4\n");
+  EXPECT_LT((sample.turned->coeffs() - Eigen::Vector4d(0, -0.6, 0.8, 0)).norm(), 1e-15);
+  EXPECT_FALSE(sample.gripper_rad);
+  sample = read("t,x,y,z,gripper_rad\n0,1,2,3,0.5\n");
+  EXPECT_FALSE(sample.turned);
+  EXPECT_EQ(sample.gripper_rad, 0.5);
+  sample = read("t,x,y,z,qw,qx,qy,qz,gripper_rad\n0,1,2,3,2,0,0,0,0.25\n");
+  EXPECT_EQ(sample.turned->w(), 1);
+  EXPECT_EQ(sample.gripper_rad, 0.25);
+  EXPECT_NE(refusalOf("t,x,y,z,qw,qx,qy,qz\n0,0,0,0,0,0,0,0\n").find(":2: the quaternion"), std::string::npos);
+  EXPECT_NE(refusalOf("t,x,y,z,qw,qx,qy,qz\n0,0,0,0,1,0,0\n").find(":2: a row must be finite numbers t,x,y,z,qw"),
+            std::string::npos);
+  EXPECT_NE(refusalOf("t,x,y,z,qw\n0,0,0,0,1\n").find(":1: the first line must be the header t,x,y,z or"),
+            std::string::npos);
+}
+
 TEST(CsvPath, RefusesWithTheLineNumber) {
   EXPECT_NE(refusalOf("x,y,z\n1,2,3\n").find(":1:"), std::string::npos);
   EXPECT_NE(refusalOf("t,x,y,z\n0,0,0,0\n1,nan,0,0\n").find(":3:"), std::string::npos);
@@ -87,7 +105,7 @@ TEST(TraceCsv, ColumnsOfBodiesHaveNamesThatAHeaderCanHave) {
 
 TEST(TraceCsv, BodiesFollowTheColumnsOfTheTick) {
   const std::string name = test::tempFile("out.csv");
-  TraceWriter writer(name, {}, {"ball"});
+  TraceWriter writer(name, {}, {{"ball"}});
   const TracedBody ball{Vec3(1, 2, 3), Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), Vec3(4, 5, 6), Vec3(7, 8, 1.0 / 3)};
   TraceRow row;
   row.bodies = {&ball, 1};
@@ -111,7 +129,7 @@ TEST(TraceCsv, BodiesFollowTheColumnsOfTheTick) {
 
 TEST(TraceCsv, TheSnapIsTheLastColumn) {
   const std::string name = test::tempFile("out.csv");
-  TraceWriter writer(name, {}, {}, true);
+  TraceWriter writer(name, {}, {{}, true});
   TraceRow row;
   row.snap = 3;
   writer.write(row);
@@ -119,6 +137,19 @@ TEST(TraceCsv, TheSnapIsTheLastColumn) {
   auto [header, line] = twoLinesOf(name);
   EXPECT_TRUE(header.ends_with("tick_ns,snap"));
   EXPECT_TRUE(line.ends_with(",0,3"));
+}
+
+TEST(TraceCsv, TheStylusOfThePathComesLast) {
+  const std::string name = test::tempFile("out.csv");
+  TraceWriter writer(name, {}, {{}, false, true, true});
+  TraceRow row;
+  row.turned = Eigen::Quaterniond(0.5, -0.5, 0.5, 0.5);
+  row.gripper_rad = 0.25;
+  writer.write(row);
+  writer.close();
+  auto [header, line] = twoLinesOf(name);
+  EXPECT_TRUE(header.ends_with("tick_ns,stylus_qw,stylus_qx,stylus_qy,stylus_qz,gripper_rad"));
+  EXPECT_TRUE(line.ends_with(",0,0.5,-0.5,0.5,0.5,0.25"));
 }
 
 TEST(TraceCsv, SaysWhenItCannotWrite) {

@@ -38,6 +38,16 @@ class Random {
   std::mt19937_64 engine_;
 };
 
+Stylus randomStylus(Random& random, bool has_gripper) {
+  Stylus stylus;
+  stylus.turned = Eigen::Quaterniond(random.uniform(), random.uniform(), random.uniform(), random.uniform());
+  stylus.turned.normalize();
+  stylus.spin_rad_s = random.bits3();
+  if (has_gripper) stylus.gripper_rad = random.bits();
+  if (has_gripper) stylus.gripper_N = random.bits();
+  return stylus;
+}
+
 ServoRecord randomRecord(Random& random, const ServoSettings& settings) {
   ServoRecord record;
   record.command = static_cast<ServoCommand>(random.below(4));
@@ -71,6 +81,10 @@ void expectSame(const ServoRecord& a, const ServoRecord& b) {
   EXPECT_EQ(a.sample.buttons, b.sample.buttons);
   EXPECT_EQ(a.sample.status, b.sample.status);
   EXPECT_EQ(a.sample.held, b.sample.held);
+  EXPECT_EQ(std::memcmp(a.sample.stylus.turned.coeffs().data(), b.sample.stylus.turned.coeffs().data(), 32), 0);
+  EXPECT_TRUE(sameBits(a.sample.stylus.spin_rad_s, b.sample.stylus.spin_rad_s));
+  EXPECT_TRUE(sameBits(a.sample.stylus.gripper_rad, b.sample.stylus.gripper_rad));
+  EXPECT_TRUE(sameBits(a.sample.stylus.gripper_N, b.sample.stylus.gripper_N));
   EXPECT_TRUE(sameBits(a.out.force_N, b.out.force_N));
   EXPECT_EQ(a.out.safety, b.out.safety);
   EXPECT_EQ(a.out.fault, b.out.fault);
@@ -98,6 +112,7 @@ TEST(RecordedServo, AnyStepsComeBackBitForBit) {
       if (random.below(20) == 0) settings = scrambled<ServoSettings>(random);
       records.push_back(randomRecord(random, settings));
       if (round % 2 == 0) records.back().sample.weight_N = random.bits3();
+      if (round % 5 != 0) records.back().sample.stylus = randomStylus(random, round % 3 != 0);
       if (round % 3 == 0) records.back().sample.age_ns = random.integer();
     }
     records.front().before = scrambled<ServoState>(random);

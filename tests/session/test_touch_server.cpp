@@ -608,6 +608,10 @@ TEST_F(TouchServerTest, SettingsThatAreNoneAreRefusedAndNothingOfThemIsSet) {
   }
   EXPECT_EQ(refusalOf([](auto& m) { m.mutable_device()->set_ledger(static_cast<proto::LedgerMode>(9)); }),
             "ledger must be TANK, STRICT or REPORT");
+  EXPECT_EQ(refusalOf([&](auto& m) { m.mutable_device()->mutable_hand_turn()->mutable_rotation(); }),
+            "hand_turn.rotation must hold finite numbers, not all of them 0");
+  EXPECT_EQ(refusalOf([&](auto& m) { m.mutable_device()->mutable_hand_turn()->set_gripper_rad(nan); }),
+            "hand_turn.gripper_rad must be finite");
   EXPECT_EQ(refusalOf([&](auto& m) { m.mutable_device()->mutable_hand_goal()->mutable_position()->set_x(nan); }),
             "hand_goal.position must hold finite numbers");
   EXPECT_FALSE(server_.device().handFirm());

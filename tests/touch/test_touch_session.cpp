@@ -13,6 +13,7 @@
 #include "geometry/queries.h"
 #include "page/viewer_feed.h"
 #include "session/state_messages.h"
+#include "session/stylus_messages.h"
 #include "touch/session_views.h"
 #include "wait_for.h"
 
@@ -98,6 +99,45 @@ TEST(TouchSession, AButtonHeldOnThePageIsADeadMansSwitchAndComesUpWhenThePageHas
     const ServoView servo = armedServoOf(session);
     return servo.safety == SafetyState::kWaiting && servo.buttons == 0;
   });
+  session.stop();
+}
+
+// From the page to the wrist of the device, and from its encoders to the page and to clients: the same bits.
+TEST(TouchSession, APageTurnsTheStylusAndSeesHowItIsTurned) {
+  TouchSettings settings;
+  settings.explore = false;
+  TouchSession session(makeSnapshot(makeBuiltinScene("plane:2000"), HierarchyKind::kBvh), settings,
+                       openDevice("sim:omega7"));
+  session.start();
+  const FeedCallbacks page = makeViewerFeed(session, "test");
+  const Eigen::Quaterniond goal = Eigen::Quaterniond(0.5, -0.7, 0.2, 0.4).normalized();
+  proto::ViewerMessage message;
+  proto::Rotation& turned = *message.mutable_hand_turn()->mutable_rotation();
+  toProto(Eigen::Quaterniond(-3 * goal.coeffs()), turned);
+  message.mutable_hand_turn()->set_gripper_rad(0.3);
+  proto::Stylus shown;
+  test::waitFor([&] {
+    page.receive(message.SerializeAsString());
+    proto::ServerMessage state;
+    if (!state.ParseFromString(page.state()) || !state.state().has_stylus()) return false;
+    shown = state.state().stylus();
+    return turnOf(shown.rotation()).angularDistance(goal) < 0.005 && std::abs(shown.gripper_rad() - 0.3) < 1e-3;
+  });
+  ServoView pages, clients;
+  ProxyView proxy;
+  const auto settled = [&] {  // the hand has come to rest: pages and clients are told the same
+    session.views(pages, proxy);
+    session.viewsForClients(clients, proxy);
+    return pages.stylus.turned.coeffs() == clients.stylus.turned.coeffs();
+  };
+  test::waitFor(settled);
+  EXPECT_LT(turnOf(shown.rotation()).angularDistance(pages.stylus.turned), 0.005);
+  for (const double part : {0.0, std::numeric_limits<double>::quiet_NaN()}) {
+    turned.set_x(part), turned.set_y(part), turned.set_z(part), turned.set_w(part);
+    page.receive(message.SerializeAsString());
+  }
+  test::waitFor(settled);
+  EXPECT_LT(pages.stylus.turned.angularDistance(goal), 0.005);
   session.stop();
 }
 

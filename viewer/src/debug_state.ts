@@ -5,6 +5,7 @@ import type { LinkState } from "./connection";
 import type { LiveScene } from "./live_scene";
 import type { SampleRing } from "./samples";
 import { settingsOf, type SurfaceSettings } from "./surfaces";
+import { turnOf } from "./stylus_turn";
 import { length, sub, type Vec } from "./vec";
 import { kPoseNumbers } from "./scene_messages";
 import { knownVec } from "./wire_values";
@@ -44,6 +45,9 @@ export interface DebugState {
   readonly finger: Vec | undefined;
   readonly proxy: Vec | undefined;
   readonly force_N: Vec | undefined;
+  /** How the stylus is turned: x y z w. */
+  readonly stylus: readonly number[] | undefined;
+  readonly gripper_rad: number | undefined;
   /** World distance between proxy and finger. */
   readonly separation_m: number | undefined;
   readonly contacts: number;
@@ -93,6 +97,8 @@ function makeDebugState(sources: DebugSources): DebugState {
     get finger() { return knownVec(sources.state()?.finger); },
     get proxy() { return knownVec(sources.state()?.proxy); },
     get force_N() { return knownVec(sources.state()?.forceN); },
+    get gripper_rad() { return sources.state()?.stylus?.gripperRad; },
+    get stylus() { return turnOf(sources.state()?.stylus?.rotation)?.toArray(); },
     get separation_m() {
       const proxy = knownVec(sources.state()?.proxy);
       const finger = knownVec(sources.state()?.finger);

@@ -28,3 +28,8 @@ export function onLetGo(act: () => void): void {
   window.addEventListener("pointerup", act);
   window.addEventListener("pointercancel", act);
 }
+
+/** Keys belong to the slider, the radio buttons and the open dialog while those have the focus. */
+export function isEditing(target: EventTarget | null): boolean {
+  return target instanceof Element && target.closest("input[type=range], input[type=radio], dialog") !== null;
+}

@@ -4,6 +4,7 @@
 // At most one goal is sent per drawn frame.
 
 import * as THREE from "three";
+import { isEditing } from "./elements";
 import { depthOf, metresPerPixel, moveInDepth, moveInView, wheelPixels } from "./hand_mapping";
 import type { Errand, Press, SurfaceHit } from "./press";
 import type { Stage } from "./stage";
@@ -341,9 +342,4 @@ export class HandInput {
     const box = this.canvas_.getBoundingClientRect();
     return { x: event.clientX - box.left, y: event.clientY - box.top };
   }
-}
-
-/** Keys belong to the slider, the radio buttons and the open dialog while those have the focus. */
-function isEditing(target: EventTarget | null): boolean {
-  return target instanceof Element && target.closest("input[type=range], input[type=radio], dialog") !== null;
 }

@@ -42,6 +42,7 @@ import { RecordingFile } from "./timeline/recording_file";
 import { SceneHold } from "./timeline/scene_hold";
 import { Timeline } from "./timeline/timeline";
 import { TouchSound } from "./touch_sound";
+import { TurnInput } from "./turn_input";
 import { formatFixed } from "./units";
 import { length } from "./vec";
 import { kVibrationWindow_s, VibrationAlarm } from "./vibration";
@@ -99,6 +100,10 @@ class App {
   private readonly vibration_ = new VibrationAlarm();
   private readonly hand_: HandInput;
   private readonly buttons_ = new ButtonInput((down) => this.send(encodePress(down)));
+  private readonly turn_ = new TurnInput(
+    (message) => this.send(message), () => this.stage_.camera.quaternion, () => this.state_?.stylus,
+    () => this.buttons_.enabled,
+  );
   private readonly recordPanel_ = new RecordPanel(
     (on, owner) => this.connection_.send(encodeRecord(on, owner)), () => this.live_.layout?.name ?? "",
     (text) => this.notices_.tell(text, false),
@@ -180,6 +185,7 @@ class App {
       flat: (flat) => this.live_.model.setFlat(flat),
       orbitFromEmpty: (on) => (this.hand_.orbitFromEmpty = on),
       dropLine: (shown) => this.probe_.drop.setShown(shown),
+      stylus: (shown) => this.probe_.stylus.setShown(shown),
       resetView: () => this.live_.refit(),
       bringHandBack: () => this.pointing_.bringBack(this.hand_),
       section: (side, share) => this.pointing_.cut(side, share),
@@ -306,6 +312,8 @@ class App {
     this.surfacePanel_.forget();
     this.ledgerPanel_.forget();
     this.volumePanel_.forget();
+    this.turn_.setDevice(hello.device);
+    this.probe_.stylus.setGripper(hello.device?.gripperMaxRad ?? 0);
     this.probe_.setForceMax(hello.device?.forceMaxN ?? 0);
     this.plots_.force.setLimit(hello.device?.forceMaxN ?? 0);
     this.sound_.setLimit(hello.device?.forceMaxN ?? 0);
@@ -371,6 +379,7 @@ class App {
     requestAnimationFrame((next_ms) => this.frame(next_ms));
     this.followPad();
     this.hand_.frame();
+    this.turn_.frame();
     this.showRecorded(now_ms);
     this.live_.frame();
     this.pointing_.showPicked(this.hand_.pressed);

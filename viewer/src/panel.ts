@@ -25,6 +25,7 @@ export interface PanelActions {
   flat(flat: boolean): void;
   orbitFromEmpty(on: boolean): void;
   dropLine(shown: boolean): void;
+  stylus(shown: boolean): void;
   resetView(): void;
   bringHandBack(): void;
   section(side: Side, share: number): void;
@@ -70,6 +71,7 @@ export class Panel {
     this.onCheck("edges", (on) => actions.edges(on));
     this.onCheck("flat", (on) => actions.flat(on));
     this.onCheck("drop", (on) => actions.dropLine(on));
+    this.onCheck("stylus", (on) => actions.stylus(on));
     this.onCheck("empty-orbit", (on) => actions.orbitFromEmpty(on));
     this.onChoice("grip", (value) => this.tell("grip", value === "firm", { handFirm: value === "firm" }));
     this.onChoice("theme", (value) => actions.theme(value as ThemeChoice));
@@ -290,7 +292,7 @@ export class Panel {
       return;
     }
     const ids: Readonly<Record<string, string>> = {
-      e: "explore", p: "planes", c: "cones", j: "marks", m: "edges", f: "flat", d: "drop", b: "bring-back", t: "pause",
+      e: "explore", p: "planes", c: "cones", j: "marks", m: "edges", f: "flat", d: "drop", y: "stylus", b: "bring-back", t: "pause",
       r: "reset-view", "?": "help-open",
     };
     const id = ids[event.key.toLowerCase()];

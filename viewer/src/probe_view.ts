@@ -7,6 +7,7 @@ import type { ContactPlane, State } from "./gen/hl_pb";
 import { DropLine } from "./drop_line";
 import { FrictionCones } from "./friction_cones";
 import { overlay } from "./overlay";
+import { StylusView } from "./stylus_view";
 import { themeColour } from "./theme";
 import { kZero, length, type Vec } from "./vec";
 import { knownVec } from "./wire_values";
@@ -26,6 +27,7 @@ export class ProbeView {
   readonly group = new THREE.Group();
   readonly cones = new FrictionCones();
   readonly drop = new DropLine();
+  readonly stylus = new StylusView();
   private readonly proxy_: THREE.Mesh<THREE.SphereGeometry, THREE.MeshStandardMaterial>;
   private readonly ghost_: THREE.Mesh<THREE.SphereGeometry, THREE.MeshBasicMaterial>;
   private readonly ring_: THREE.Mesh<THREE.RingGeometry, THREE.MeshBasicMaterial>;
@@ -59,7 +61,7 @@ export class ProbeView {
     this.shaft_ = new THREE.Mesh(new THREE.CylinderGeometry(1, 1, 1, 16).translate(0, 0.5, 0), arrowMaterial);
     this.tip_ = new THREE.Mesh(new THREE.ConeGeometry(1, 1, 20).translate(0, 0.5, 0), arrowMaterial);
     this.arrow_.add(this.shaft_, this.tip_);
-    this.group.add(this.proxy_, this.ghost_, this.ring_, this.finger_, this.line_, this.arrow_, this.cones.group, this.drop.group);
+    this.group.add(this.proxy_, this.ghost_, this.ring_, this.finger_, this.line_, this.arrow_, this.cones.group, this.drop.group, this.stylus.group);
     for (let i = 0; i < kPlanesMax; ++i) {
       this.planes_.push(this.makePlane());
     }
@@ -70,6 +72,7 @@ export class ProbeView {
   setDiagonal(diagonal_m: number): void {
     this.diagonal_m_ = diagonal_m;
     this.cones.setScene(diagonal_m);
+    this.stylus.setDiagonal(diagonal_m);
   }
 
   setRadius(proxyRadius_m: number): void {
@@ -93,6 +96,7 @@ export class ProbeView {
   applyTheme(): void {
     this.cones.applyTheme();
     this.drop.applyTheme();
+    this.stylus.applyTheme();
     this.proxy_.material.color.set(themeColour("proxy"));
     this.proxy_.material.emissive.set(themeColour("proxy")).multiplyScalar(0.35);
     this.ghost_.material.color.set(themeColour("proxy"));
@@ -125,6 +129,7 @@ export class ProbeView {
     ends.setXYZ(0, proxy.x, proxy.y, proxy.z).setXYZ(1, finger.x, finger.y, finger.z);
     ends.needsUpdate = true;
     const force_N = knownVec(state.forceN) ?? kZero;
+    this.stylus.update(proxy, state.stylus);
     this.updateArrow(proxy, force_N);
     this.cones.update(state.contacts, state.slipping, this.arrowLength_m(length(force_N)));
     this.planes_.forEach((plane, i) => this.updatePlane(plane, state.contacts[i]));

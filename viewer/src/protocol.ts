@@ -69,6 +69,15 @@ export function encodeRelease(): Uint8Array<ArrayBuffer> {
   return encode({ case: "release", value: {} });
 }
 
+/** Absent: as it is. */
+export function encodeHandTurn(
+  turned: { x: number; y: number; z: number; w: number } | undefined, gripper_rad: number | undefined,
+): Uint8Array<ArrayBuffer> {
+  const rotation = turned && { x: turned.x, y: turned.y, z: turned.z, w: turned.w };
+  return encode({ case: "handTurn", value: {
+    ...(rotation && { rotation }), ...(gripper_rad !== undefined && { gripperRad: gripper_rad }) } });
+}
+
 /** Bit i: button i of the device is down. */
 export function encodePress(buttons: number): Uint8Array<ArrayBuffer> {
   return encode({ case: "press", value: { buttons } });

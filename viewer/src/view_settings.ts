@@ -5,7 +5,7 @@ import { kSides, type Side } from "./section";
 import { isFiniteVec, type Vec } from "./vec";
 
 /** The check boxes of the View section, by their ids. */
-export const kBoxes = ["planes", "cones", "drop", "marks", "edges", "flat", "empty-orbit"] as const;
+export const kBoxes = ["planes", "cones", "drop", "stylus", "marks", "edges", "flat", "empty-orbit"] as const;
 export type Box = (typeof kBoxes)[number];
 
 export interface Camera {

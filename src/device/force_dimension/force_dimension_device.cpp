@@ -22,6 +22,20 @@ constexpr unsigned char kWatchdogPeriods = 160;  // of 125 us: forces off after 
 // Force Dimension's frame has x toward the user, y to the right, z up.
 Vec3 toDevice(double x, double y, double z) { return {y, z, x}; }
 
+// The axes of their stylus are those of their frame, as ours are those of D, when it is not turned: rows and columns
+// change places alike.
+Eigen::Quaterniond turnToDevice(const double theirs[3][3]) {
+  constexpr int kAxis[3] = {1, 2, 0};
+  Mat3 ours;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) ours(i, j) = theirs[kAxis[i]][kAxis[j]];
+  }
+  return Eigen::Quaterniond(ours);
+}
+
+// The library does not tell: about what the grippers of the omega.7 and the sigma.7 open to.
+constexpr double kGripperMax_rad = 0.52;
+
 }  // namespace
 
 ForceDimensionDevice::Calls ForceDimensionDevice::bindCalls(const VendorLibrary& library) {
@@ -37,6 +51,10 @@ ForceDimensionDevice::Calls ForceDimensionDevice::bindCalls(const VendorLibrary&
   library.bind(calls.position, "dhdGetPosition");
   library.bind(calls.set_force, "dhdSetForce");
   library.bind(calls.button_mask, "dhdGetButtonMask");
+  library.bindIfPresent(calls.has_wrist, "dhdHasWrist");
+  library.bindIfPresent(calls.has_gripper, "dhdHasGripper");
+  library.bindIfPresent(calls.orientation, "dhdGetOrientationFrame");
+  library.bindIfPresent(calls.gripper_angle, "dhdGetGripperAngleRad");
   library.bind(calls.status, "dhdGetStatus");
   library.bind(calls.last_error, "dhdErrorGetLastStr");
   return calls;
@@ -49,10 +67,17 @@ void ForceDimensionDevice::open() {
   if (calls_.device_count() <= 0)
     throw Error("no Force Dimension device answers: check its power and USB cable, and that you may use it (udev)");
   if (!begin()) throw Error(std::string("the Force Dimension device cannot be opened: ") + calls_.last_error());
-  info_ = forceDimensionFigures(calls_.system_type(id_));
-  info_.name = std::string("Force Dimension ") + calls_.system_name(id_);
+  describe();
   library_ = std::move(library);
   lifeline_ = std::make_unique<Lifeline>([this] { return reopen(); });
+}
+
+void ForceDimensionDevice::describe() {
+  info_ = forceDimensionFigures(calls_.system_type(id_));
+  info_.name = std::string("Force Dimension ") + calls_.system_name(id_);
+  info_.has_wrist = calls_.has_wrist != nullptr && calls_.orientation != nullptr && calls_.has_wrist(id_);
+  if (calls_.has_gripper != nullptr && calls_.gripper_angle != nullptr && calls_.has_gripper(id_))
+    info_.gripper_max_rad = kGripperMax_rad;
 }
 
 // Opens it with zero force.
@@ -120,7 +145,16 @@ DeviceSample ForceDimensionDevice::read(std::int64_t now_ns) {
   sample.position = position_ = toDevice(x, y, z);
   sample.buttons = calls_.button_mask(id_);
   sample.status = status_;
+  readStylus();
+  sample.stylus = stylus_;
   return sample;
+}
+
+// What the library fails to tell stays what it was.
+void ForceDimensionDevice::readStylus() {
+  double theirs[3][3] = {}, gripper_rad = 0;
+  if (info_.has_wrist && calls_.orientation(theirs, id_) >= 0) stylus_.turned = turnToDevice(theirs);
+  if (info_.gripper_max_rad > 0 && calls_.gripper_angle(&gripper_rad, id_) >= 0) stylus_.gripper_rad = gripper_rad;
 }
 
 void ForceDimensionDevice::write(const Vec3& force_N) {

@@ -42,6 +42,11 @@ class ForceDimensionDevice final : public Device {
     int (*position)(double* x, double* y, double* z, char id);
     int (*set_force)(double x, double y, double z, char id);
     unsigned int (*button_mask)(char id);
+    // Null in old versions, as is the watchdog.
+    bool (*has_wrist)(char id);
+    bool (*has_gripper)(char id);
+    int (*orientation)(double frame[3][3], char id);
+    int (*gripper_angle)(double* angle_rad, char id);
     int (*status)(int* status, char id);
     const char* (*last_error)();
   };
@@ -51,6 +56,8 @@ class ForceDimensionDevice final : public Device {
   bool reopen();
   DeviceStatus examine(std::int64_t now_ns);
   void lose();
+  void describe();
+  void readStylus();
 
   std::unique_ptr<VendorLibrary> library_;  // null: closed
   Calls calls_{};
@@ -60,6 +67,7 @@ class ForceDimensionDevice final : public Device {
   std::int64_t examined_ns_ = 0;
   bool watched_ = false;  // the watchdog runs
   Vec3 position_ = Vec3::Zero();
+  Stylus stylus_;  // as it was told last
   std::unique_ptr<Lifeline> lifeline_;
 };
 

@@ -31,6 +31,7 @@ void HaplyDevice::open() {
   if (link_) return;
   link_ = std::make_unique<HaplyLink>(address_);
   info_.name = "Haply Inverse3 " + link_->deviceId();
+  info_.has_wrist = link_->hasGrip();
 }
 
 DeviceSample HaplyDevice::read(std::int64_t now_ns) {

@@ -87,6 +87,7 @@ class HaplyLink::Conversation {
   ~Conversation() { end(); }
 
   const std::string& deviceId() const { return device_id_; }
+  bool hasGrip() const { return has_grip_; }
   Exchange exchanged;
 
  private:
@@ -133,7 +134,10 @@ class HaplyLink::Conversation {
     if (!greeted) co_return address_.text() + " is no Haply Inverse Service: it does not say what it has";
     if (state.device_id.empty())
       co_return "the Haply service at " + address_.text() + " has no Inverse3: check its power and its cable";
-    if (device_id_.empty()) device_id_ = state.device_id;
+    if (!told_) {
+      device_id_ = state.device_id;
+      has_grip_ = state.has_grip;
+    }
     co_await exchange(socket, state, dialect);
     co_return "the Haply service at " + address_.text() + " does not answer any more";
   }
@@ -205,7 +209,7 @@ class HaplyLink::Conversation {
       const bool answered = co_await read(socket, state);
       if (!answered || !state.located) co_return;
       exchanged.tell(asked_ns, state.position, state.buttons,
-                     state.calibrated ? DeviceStatus::kOk : DeviceStatus::kNotReady);
+                     state.calibrated ? DeviceStatus::kOk : DeviceStatus::kNotReady, state.stylus);
       tellBegun("");
       if (!last) co_await timer.async_wait(kAwait);
     }
@@ -218,14 +222,17 @@ class HaplyLink::Conversation {
   std::promise<std::string> begun_;
   bool told_ = false;
   bool conversing_ = false;
-  std::string device_id_;  // written before begun_ is told
-  std::thread thread_;     // last: it uses all of the above
+  std::string device_id_;  // this and the next are written before begun_ is told
+  bool has_grip_ = false;
+  std::thread thread_;  // last: it uses all of the above
 };
 
 HaplyLink::HaplyLink(const HaplyAddress& address) : conversation_(std::make_unique<Conversation>(address)) {}
 HaplyLink::~HaplyLink() = default;
 
 const std::string& HaplyLink::deviceId() const { return conversation_->deviceId(); }
+
+bool HaplyLink::hasGrip() const { return conversation_->hasGrip(); }
 
 DeviceSample HaplyLink::newest(std::int64_t now_ns) { return conversation_->exchanged.newest(now_ns); }
 

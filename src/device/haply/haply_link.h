@@ -29,6 +29,8 @@ class HaplyLink {
   HaplyLink& operator=(const HaplyLink&) = delete;
 
   const std::string& deviceId() const;
+  /// Whether there was a grip, which tells how it is turned, when the conversation began.
+  bool hasGrip() const;
   /// Servo thread, RT-safe. What came last.
   DeviceSample newest(std::int64_t now_ns);
   /// Servo thread, RT-safe. Held until the next, and not for long.

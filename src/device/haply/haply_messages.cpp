@@ -68,6 +68,17 @@ void readButtons(const json::value* grip, std::uint32_t& buttons) {
   }
 }
 
+// A quaternion of the service's frame: its axis is a direction there.
+void readTurn(const json::value* grip, HaplyState& state) {
+  const json::value* told = memberOf(memberOf(grip, "state"), "orientation");
+  Vec3 axis_H;
+  double w = 0;
+  if (!readVector(told, axis_H) || !readNumber(memberOf(told, "w"), w)) return;
+  state.stylus.turned.vec() = toDevice(axis_H);
+  state.stylus.turned.w() = w;
+  state.has_grip = true;
+}
+
 }  // namespace
 
 HaplyDialect haplyDialectOf(std::string_view version) {
@@ -92,8 +103,10 @@ bool readHaplyMessage(std::string_view text, HaplyState& state) {
   if (state.located) state.position = toDevice(position_H - centre_H());
   if (const json::value* told = memberOf(memberOf(device, "status"), "calibrated"); told != nullptr && told->is_bool())
     state.calibrated = told->get_bool();
-  for (const char* grips : {"verse_grip", "wireless_verse_grip"})
+  for (const char* grips : {"verse_grip", "wireless_verse_grip"}) {
     readButtons(firstOf(memberOf(&message, grips)), state.buttons);
+    readTurn(firstOf(memberOf(&message, grips)), state);
+  }
   return true;
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/vec.h"
+#include "device/stylus.h"
 
 namespace hl {
 
@@ -23,6 +24,8 @@ struct HaplyState {
   Vec3 position = Vec3::Zero();
   std::uint32_t buttons = 0;
   bool calibrated = true;  ///< unless the service says otherwise
+  bool has_grip = false;   ///< a grip has told how it is turned
+  Stylus stylus;
 };
 
 /// Takes in a message of the service. False when it is none.

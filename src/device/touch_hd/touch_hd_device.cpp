@@ -9,7 +9,8 @@ namespace {
 
 // Names and codes of the library's own header, hdDefines.h.
 constexpr unsigned int kInvalidHandle = 0xFFFFFFFF;
-constexpr unsigned int kCurrentButtons = 0x2000, kCurrentPosition = 0x2050, kModelType = 0x2501;
+constexpr unsigned int kCurrentButtons = 0x2000, kCurrentPosition = 0x2050;
+constexpr unsigned int kCurrentTransform = 0x2052, kModelType = 0x2501, kInputDof = 0x2553;
 constexpr unsigned int kUsableWorkspace = 0x2551, kMaxStiffness = 0x2602, kMaxForce = 0x2603;
 constexpr unsigned int kMaxContinuousForce = 0x2604, kMaxDamping = 0x2609, kCurrentForce = 0x2700;
 constexpr unsigned int kForceOutput = 0x4000;
@@ -130,6 +131,9 @@ void TouchHdDevice::describe() {
   info_.stiffness_max_N_m = kMetre_mm * number(kMaxStiffness);
   info_.stiffness_N_m = kStiffnessPart * info_.stiffness_max_N_m;
   info_.damping_Ns_m = kDampingPart * kMetre_mm * number(kMaxDamping);
+  int degrees_of_freedom = 0;
+  calls_.get_integer(kInputDof, &degrees_of_freedom);
+  info_.has_wrist = degrees_of_freedom >= 6;
   info_.resolution_m = 55e-6;  // the vendor's sheet of the Touch, the coarsest of them
   info_.velocity_max_m_s = kFastest_m_s;
   info_.force_rate_max_N_s = info_.stiffness_max_N_m * kFastest_m_s;
@@ -144,6 +148,7 @@ void TouchHdDevice::frame() {
   const std::int64_t asked_ns = monotonicNow_ns();
   calls_.get_double(kCurrentPosition, position_mm.data());
   calls_.get_integer(kCurrentButtons, &buttons);
+  const Stylus stylus = stylusNow();
   DeviceStatus status = calibrate();
   const Vec3 force = failed_ ? Vec3(Vec3::Zero()) : exchange_.wantedForce();
   calls_.set_double(kCurrentForce, force.data());
@@ -152,7 +157,18 @@ void TouchHdDevice::frame() {
     if (error.code != kWarmMotors && error.code != kExceededMaxForce) failed_ = true;
   }
   if (failed_) status = DeviceStatus::kLost;
-  exchange_.tell(asked_ns, position_mm / kMetre_mm, static_cast<std::uint32_t>(buttons), status);
+  exchange_.tell(asked_ns, position_mm / kMetre_mm, static_cast<std::uint32_t>(buttons), status, stylus);
+}
+
+// From their transform, of OpenGL's order: column by column.
+Stylus TouchHdDevice::stylusNow() {
+  Stylus stylus;
+  if (!info_.has_wrist) return stylus;
+  double transform[16] = {};
+  calls_.get_double(kCurrentTransform, transform);
+  const Mat3 turned = Eigen::Matrix4d::Map(transform).topLeftCorner<3, 3>();
+  stylus.turned = Eigen::Quaterniond(turned);
+  return stylus;
 }
 
 // A person may have to put the stylus into its well; the library then wants to be told to look again.

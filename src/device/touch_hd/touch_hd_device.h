@@ -70,7 +70,8 @@ class TouchHdDevice final : public Device {
   void end();
   bool reopen();
   void describe();
-  void frame();  // the scheduler's thread, as the next two
+  void frame();  // the scheduler's thread, as the next three
+  Stylus stylusNow();
   DeviceStatus calibrate();
 
   std::unique_ptr<VendorLibrary> library_;  // null: closed

@@ -29,6 +29,7 @@ export interface Module {
   _hlWebGoal(x: number, y: number, z: number): void;
   _hlWebRelease(): void;
   _hlWebPress(buttons: number): void;
+  _hlWebTurn(x: number, y: number, z: number, w: number): void;
   _hlWebRearm(): void;
   _hlWebExplore(on: number): void;
   _hlWebFirm(firm: number): void;

@@ -16,7 +16,7 @@ export function helloMessage(
   const [forceMaxN, stiffnessNM, stiffnessMaxNM, dampingNsM, rate] = [n.next(), n.next(), n.next(), n.next(), n.next()];
   const device = {
     name: "simulated device in this browser", forceMaxN, stiffnessNM, stiffnessMaxNM, dampingNsM, servoRateHz: rate,
-    proxyRateHz: rate, simulatedHand: true,
+    proxyRateHz: rate, simulatedHand: true, hasWrist: true,
   };
   return encode({ case: "hello", value: {
     protocolVersion: kProtocolVersion, serverVersion: "browser", sceneName: name, device,
@@ -51,6 +51,7 @@ export function stateMessage(
   })).slice(0, count);
   const touched = n.list(kContacts).slice(0, count).filter((object) => object >= 0);
   const snap = n.next();
+  const rotation = { x: n.next(), y: n.next(), z: n.next(), w: n.next() };
   const bodies = bodiesOf(n);
   if (fault !== 0) value.fault = module.UTF8ToString(module._hlWebFault());
   return encode({ case: "state", value: {
@@ -58,7 +59,7 @@ export function stateMessage(
     vibration: { limitNM, alarms, dissipatedJ: vibrationJ }, ledger, ticksEnded, iterationCaps: ticksEnded.capped,
     unplacedTicks: ticksEnded.unplaced, servo: { rateHz, steps }, proxyLoop: { rateHz, steps },
     samples: [...samples], surfaces, touched: [...new Set(touched)], ...(snap >= 0 ? { snap } : {}),
-    ...(bodies.count > 0n ? { bodies } : {}), layout: scene.layout, ...scene.moves(module),
+    stylus: { rotation }, ...(bodies.count > 0n ? { bodies } : {}), layout: scene.layout, ...scene.moves(module),
   } });
 }
 

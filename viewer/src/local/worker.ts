@@ -74,6 +74,9 @@ class Server {
       module._hlWebRelease();
     } else if (body.case === "press") {
       module._hlWebPress(body.value.buttons);
+    } else if (body.case === "handTurn" && body.value.rotation !== undefined) {
+      const { x, y, z, w } = body.value.rotation;
+      module._hlWebTurn(x, y, z, w);
     } else if (body.case === "rearm") {
       module._hlWebRearm();
     } else if (body.case === "explore") {

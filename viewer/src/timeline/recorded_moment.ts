@@ -39,12 +39,21 @@ export function momentOf(recording: Recording, time_s: number): RecordedMoment {
     state: create(StateSchema, {
       timeS: time_s, ...places, layout: scene + 2, forceN: vec(steps, StepColumn.kForceX, step),
       safety: at(steps, StepColumn.kSafety, step) as SafetyState,
+      ...stylusAt(steps, step),
     }),
     moves: movesAt(recording, scene, time_s),
     contacts: tick < 0 ? 0 : at(ticks, TickColumn.kContacts, tick),
     force_N: at(steps, StepColumn.kForce_N, step),
     penetration_m: at(steps, StepColumn.kPenetration_m, step),
   };
+}
+
+/** None, where the device had no wrist. */
+function stylusAt({ columns }: Track, step: number) {
+  const [x, y, z, w] = [0, 1, 2, 3].map((i) => columns[StepColumn.kTurnedX + i]![step]!) as
+    [number, number, number, number];
+  const gripperRad = columns[StepColumn.kGripper_rad]![step]!;
+  return x === 0 && y === 0 && z === 0 && w === 0 ? {} : { stylus: { rotation: { x, y, z, w }, gripperRad } };
 }
 
 function scaleAt(scales: readonly Scale[], time_s: number): Scale {

@@ -37,8 +37,9 @@ export interface Scale {
 /** Columns of Recording.steps. Finger: device frame. */
 export const enum StepColumn {
   kForce_N, kPenetration_m, kForceX, kForceY, kForceZ, kFingerX, kFingerY, kFingerZ, kSafety,
+  kTurnedX, kTurnedY, kTurnedZ, kTurnedW, kGripper_rad,
 }
-export const kStepColumns = 9;
+export const kStepColumns = 14;
 /** Columns of Recording.ticks. World frame. */
 export const enum TickColumn { kContacts, kScene, kProxyX, kProxyY, kProxyZ, kFingerX, kFingerY, kFingerZ }
 export const kTickColumns = 8;

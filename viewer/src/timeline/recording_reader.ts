@@ -24,6 +24,8 @@ const kMaxInstances = 1_000_000;
 /** Numbers of a body's pose. */
 const kPose = 12;
 
+/** The device has no wrist. */
+const kNoTurn = [0, 0, 0, 0];
 const kBroken = "makes no sense: the lists of a block do not agree";
 
 /** `progress`: the share that is read. Throws RecordingError with what follows the name of the file in a sentence. */
@@ -205,7 +207,9 @@ class RecordingReader {
   private addSteps(steps: ServoSteps): void {
     const count = steps.timeNs.length;
     const { forceN: force, position, targetProxy: target, flags } = steps;
-    if (count === 0 || flags.length !== count || [force, position, target].some((list) => list.length !== 3 * count)) {
+    const { stylusTurned: turned, gripperRad: gripper } = steps;
+    if (count === 0 || flags.length !== count || [force, position, target].some((list) => list.length !== 3 * count) ||
+        ![0, 4 * count].includes(turned.length) || ![0, count].includes(gripper.length)) {
       throw new RecordingError(kBroken);
     }
     this.eachTime(steps.timeNs, (time_s, i) => {
@@ -214,7 +218,8 @@ class RecordingReader {
       const [f, p, t] = [vec(force), vec(position), vec(target)];
       const valid = ((flags[i]! >>> 5) & 1) === 1;
       const penetration_m = valid ? Math.hypot(t[0] - p[0], t[1] - p[1], t[2] - p[2]) : 0;
-      this.steps_.add(time_s, Math.hypot(...f), penetration_m, ...f, ...p, (flags[i]! >>> 6) & 7);
+      this.steps_.add(time_s, Math.hypot(...f), penetration_m, ...f, ...p, (flags[i]! >>> 6) & 7,
+        ...(turned.length > 0 ? turned.slice(4 * i, 4 * i + 4) : kNoTurn), gripper[i] ?? 0);
       this.last_s_ = Math.max(this.last_s_, time_s);
     });
   }

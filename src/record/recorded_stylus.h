@@ -1,0 +1,20 @@
+// Recorded stylus: how it was turned in each step of the servo. What few devices have is written for all steps or for
+// none.
+#pragma once
+
+#include <recording.pb.h>
+
+#include <cstdint>
+#include <span>
+
+#include "control/servo_record.h"
+
+namespace hl {
+
+void addStylus(std::span<const ServoRecord> records, proto::ServoSteps& out);
+/// Of step `i`; the lists agree.
+Stylus stylusAt(const proto::ServoSteps& in, int i);
+/// Whether the lists are those of `steps` steps, and hold nothing but orientations.
+bool agrees(const proto::ServoSteps& in, std::int64_t steps);
+
+}  // namespace hl
