@@ -37,7 +37,7 @@ constexpr std::array kNeeds{
           "calibrate it: move the handle through its whole space, or run the vendor's program for that; if its force "
           "button or dead-man switch is off, switch it on"},
     Needs{"falcon", kFalconUsb, nullptr, "home it: pull the tip fully out, then push it fully in, until it is ready"},
-    Needs{"hd", kTouchUsb, &TouchHdDevice::kLibrary,
+    Needs{"hd", kTouchUsb, &HdLibrary::kName,
           "calibrate it: put the stylus into its well, and if that does not do, run the vendor's program"},
     Needs{"haply", {}, nullptr, "calibrate it as the Inverse Service or the vendor's program tells"},
 };

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "base/error.h"
+#include "base/printable.h"
 #include "device/falcon/falcon_device.h"
 #include "device/force_dimension/force_dimension_device.h"
 #include "device/haply/haply_device.h"
@@ -24,42 +25,74 @@ DevicePointer makeSimulated(const std::string& model) {
 
 std::string findSimulated() { return simulatedModelNames() + " (always there)"; }
 
-template <typename Driver>
-DevicePointer makeDriver(const std::string& argument) {
-  if (!argument.empty()) throw Error("'" + argument + "' is too much: this device takes no argument");
-  return std::make_unique<Driver>();
+DevicePointer makeForceDimension(const std::string& choice) {
+  return std::make_unique<ForceDimensionDevice>(ForceDimensionChoice::parse(choice));
 }
 
-DevicePointer makeFalcon(const std::string& firmware) {
-  return std::make_unique<FalconDevice>(makeFalconUsb(), firmware);
+std::string keyOfForceDimension(const std::string& choice) { return ForceDimensionChoice::parse(choice).key(); }
+
+DevicePointer makeFalcon(const std::string& argument) {
+  const FalconChoice choice = FalconChoice::parse(argument);
+  return std::make_unique<FalconDevice>(makeFalconUsb(choice.index), choice.firmware);
 }
 
-DevicePointer makeHaply(const std::string& url) { return std::make_unique<HaplyDevice>(url); }
+std::string keyOfFalcon(const std::string& argument) { return std::to_string(FalconChoice::parse(argument).index); }
+
+DevicePointer makeTouchHd(const std::string& name) {
+  checkPrintable(name, "the name of the device");
+  return std::make_unique<TouchHdDevice>(name);
+}
+
+DevicePointer makeHaply(const std::string& address) { return std::make_unique<HaplyDevice>(address); }
+
+std::string keyOfHaply(const std::string& text) {
+  const HaplyAddress address = HaplyAddress::parse(text);
+  return address.text() + "/" + address.device_id;
+}
+
+std::string keyOfArgument(const std::string& argument) { return argument; }
 
 struct DeviceKind {
   const char* name;
   const char* spec;  ///< how to write it
   DevicePointer (*make)(const std::string& argument);
-  std::string (*find)();  ///< what is there; throws hl::Error with what to install or do
+  std::string (*find)();                            ///< what is there; throws hl::Error with what to install or do
+  std::string (*key)(const std::string& argument);  ///< see deviceKey(); null: there are as many as wanted
 };
 
 constexpr std::array kKinds{
-    DeviceKind{"sim", "sim[:MODEL]", makeSimulated, findSimulated},
-    DeviceKind{"dhd", "dhd", makeDriver<ForceDimensionDevice>, ForceDimensionDevice::find},
-    DeviceKind{"falcon", "falcon[:FIRMWARE]", makeFalcon, FalconDevice::find},
-    DeviceKind{"hd", "hd", makeDriver<TouchHdDevice>, TouchHdDevice::find},
-    DeviceKind{"haply", "haply[:URL]", makeHaply, HaplyDevice::find},
+    DeviceKind{"sim", "sim[:MODEL]", makeSimulated, findSimulated, nullptr},
+    DeviceKind{"dhd", "dhd[:INDEX|:serial=NUMBER]", makeForceDimension, ForceDimensionDevice::find,
+               keyOfForceDimension},
+    DeviceKind{"falcon", "falcon[:INDEX|:FIRMWARE|:INDEX,FIRMWARE]", makeFalcon, FalconDevice::find, keyOfFalcon},
+    DeviceKind{"hd", "hd[:NAME]", makeTouchHd, TouchHdDevice::find, keyOfArgument},
+    DeviceKind{"haply", "haply[:ID|:URL[/ID]]", makeHaply, HaplyDevice::find, keyOfHaply},
 };
+
+const DeviceKind* kindOf(const std::string& spec) {
+  const std::string name = spec.substr(0, spec.find(':'));
+  const auto* const kind =
+      std::find_if(kKinds.begin(), kKinds.end(), [&](const DeviceKind& k) { return name == k.name; });
+  return kind == kKinds.end() ? nullptr : kind;
+}
+
+std::string argumentOf(const std::string& spec) {
+  const std::size_t colon = spec.find(':');
+  return colon == std::string::npos ? "" : spec.substr(colon + 1);
+}
 
 }  // namespace
 
 DevicePointer makeDevice(const std::string& spec) {
-  const std::size_t colon = spec.find(':');
-  const std::string name = spec.substr(0, colon);
-  const auto* const kind =
-      std::find_if(kKinds.begin(), kKinds.end(), [&](const DeviceKind& k) { return name == k.name; });
-  if (kind == kKinds.end()) throw Error("'" + spec + "' is no device: there is " + deviceSpecs());
-  return kind->make(colon == std::string::npos ? "" : spec.substr(colon + 1));
+  const DeviceKind* const kind = kindOf(spec);
+  if (kind == nullptr) throw Error("'" + spec + "' is no device: there is " + deviceSpecs());
+  return kind->make(argumentOf(spec));
+}
+
+std::string deviceKey(const std::string& spec) {
+  const DeviceKind* const kind = kindOf(spec);
+  if (kind == nullptr || kind->key == nullptr) return "";
+  return std::string(kind->name) + ":" + kind->key(argumentOf(spec));
 }
 
 DevicePointer openDevice(const std::string& spec) {

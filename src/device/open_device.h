@@ -14,6 +14,10 @@ std::unique_ptr<Device> makeDevice(const std::string& spec);
 /// The same, open. Throws hl::Error with what to do when it cannot be had.
 std::unique_ptr<Device> openDevice(const std::string& spec);
 
+/// The same for two specs that are known to lead to one device; empty: there are as many as wanted. Two specs with
+/// different keys may still lead to one (an index and a serial number): then the second does not open.
+std::string deviceKey(const std::string& spec);
+
 /// How to write every spec, with | between them.
 std::string deviceSpecs();
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <limits>
+#include <random>
 #include <thread>
 
 #include "base/error.h"
@@ -58,6 +59,26 @@ class DeviceContract : public testing::TestWithParam<BenchKind> {
   std::unique_ptr<Bench> bench_;
   std::unique_ptr<Device> device_;
 };
+
+TEST_P(DeviceContract, TheStylusIsTurnedInDAsTheHandTurnsIt) {
+  openAndWait();
+  std::mt19937 random(1);
+  std::normal_distribution<> normal;
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Quaterniond turned =
+        Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized();
+    bench_->arm().turn(turned);
+    bench_->arm().gripper_rad = 0.01 * i;
+    const bool has_wrist = device_->info().has_wrist, has_gripper = device_->info().gripper_max_rad > 0;
+    const Eigen::Quaterniond expected = has_wrist ? turned : Eigen::Quaterniond::Identity();
+    const DeviceSample sample = until([&](const DeviceSample& now) {
+      return now.stylus.turned.angularDistance(expected) < 1e-7 && now.status == DeviceStatus::kOk;
+    });
+    EXPECT_LT(sample.stylus.turned.coeffs().cwiseAbs().squaredNorm() - 1, 1e-12);
+    EXPECT_LT((sample.stylus.turned * expected.conjugate()).vec().norm(), 1e-12);
+    EXPECT_EQ(sample.stylus.gripper_rad, has_gripper ? 0.01 * i : 0);
+  }
+}
 
 TEST_P(DeviceContract, FiguresAreThoseOfADeviceThatCanBeServoed) {
   openAndWait();

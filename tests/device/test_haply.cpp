@@ -58,12 +58,40 @@ TEST(HaplyMessages, ButtonsHaveManyNames) {
   EXPECT_EQ(state.buttons, 8U);
 }
 
+TEST(HaplyMessages, TheDeviceThatIsWantedIsReadWithItsOwnGrip) {
+  constexpr const char* kTwo = R"({"inverse3":[
+      {"device_id":"A","state":{"cursor_position":{"x":1,"y":2,"z":3}},"status":{"calibrated":true}},
+      {"device_id":"B","state":{"cursor_position":{"x":4,"y":5,"z":6}},"status":{"calibrated":false}}],
+      "wireless_verse_grip":[{"state":{"buttons":{"a":true}}},{"state":{"buttons":{"b":true}}}]})";
+  EXPECT_EQ(haplyDevicesOf(kTwo), (std::vector<std::string>{"A", "B"}));
+  EXPECT_TRUE(haplyDevicesOf("{").empty());
+  HaplyState first, second, third;
+  second.device_id = "B";
+  third.device_id = "C";
+  for (HaplyState* state : {&first, &second, &third}) ASSERT_TRUE(readHaplyMessage(kTwo, *state));
+  EXPECT_EQ(first.device_id, "A");
+  EXPECT_LT((first.position - Vec3(1, 2.8, -2.14)).norm(), 1e-12);
+  EXPECT_EQ(first.buttons, 1U);
+  EXPECT_TRUE(first.calibrated);
+  EXPECT_LT((second.position - Vec3(4, 5.8, -5.14)).norm(), 1e-12);
+  EXPECT_EQ(second.buttons, 2U);
+  EXPECT_FALSE(second.calibrated);
+  EXPECT_FALSE(third.located);
+  EXPECT_EQ(third.device_id, "C");
+  EXPECT_EQ(third.buttons, 0U);
+}
+
 TEST(HaplyAddress, IsAWebSocketsOrIsRefused) {
   EXPECT_EQ(HaplyAddress::parse("").text(), "ws://localhost:10001");
   EXPECT_EQ(HaplyAddress::parse("ws://lab").text(), "ws://lab:10001");
   EXPECT_EQ(HaplyAddress::parse("ws://lab:7/").text(), "ws://lab:7");
-  for (const char* url : {"lab", "ws://", "ws://:5", "wss://lab", "ws://lab:", "ws://lab:0", "ws://lab:70000",
-                          "ws://lab:1x", "ws://lab/path", "ws://la\nb"})
+  EXPECT_EQ(HaplyAddress::parse("ws://lab").device_id, "");
+  EXPECT_EQ(HaplyAddress::parse("ws://lab/049D").device_id, "049D");
+  EXPECT_EQ(HaplyAddress::parse("ws://lab:7/049D").text(), "ws://lab:7");
+  EXPECT_EQ(HaplyAddress::parse("049D").device_id, "049D");
+  EXPECT_EQ(HaplyAddress::parse("049D").text(), "ws://localhost:10001");
+  for (const char* url : {"lab:7", "ws://", "ws://:5", "wss://lab", "ws://lab:", "ws://lab:0", "ws://lab:70000",
+                          "ws://lab:1x", "ws://lab/a/b", "ws://lab/049D?x=1", "ws://la\nb"})
     EXPECT_THROW(HaplyAddress::parse(url), Error) << url;
 }
 
@@ -79,6 +107,13 @@ TEST(Haply, NoServiceOrNoDeviceIsALineThatSaysWhatToDo) {
   const std::string why = failureOf("haply:" + url);
   EXPECT_NE(why.find("install"), std::string::npos) << why;
   EXPECT_NE(why.find(url), std::string::npos) << why;
+}
+
+TEST(Haply, ADeviceThatIsNotThereIsToldWithThoseThatAre) {
+  FakeArm arm, other;
+  HaplyService service(std::vector<FakeArm*>{&arm, &other}, "3.5.0");
+  const std::string why = failureOf("haply:" + service.url() + "/FFFF");
+  EXPECT_NE(why.find("no Inverse3 'FFFF': it has 049D, 04A1"), std::string::npos) << why;
 }
 
 TEST(Haply, SpeaksBothDialects) {

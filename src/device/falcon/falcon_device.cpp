@@ -68,6 +68,16 @@ std::string fileOf(const std::string& firmware) {
 
 }  // namespace
 
+FalconChoice FalconChoice::parse(const std::string& text) {
+  constexpr std::size_t kMostDigits = 2;
+  const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
+  const bool has_index = digits > 0 && (digits == text.size() || text[digits] == ',');
+  if (!has_index) return {0, text};
+  if (digits > kMostDigits)
+    throw Error("there is no Falcon '" + text + "': the first is falcon:0, the second falcon:1");
+  return {std::stoul(text.substr(0, digits)), text.substr(std::min(digits + 1, text.size()))};
+}
+
 FalconDevice::FalconDevice(std::unique_ptr<FalconTransport> transport, const std::string& firmware)
     : transport_(std::move(transport)),
       firmware_file_(fileOf(firmware)),
@@ -158,6 +168,8 @@ bool FalconDevice::step(const Vec3& force_D) {
 }
 
 std::string FalconDevice::find() {
+  const std::size_t count = countFalcons();
+  if (count > 1) return std::to_string(count) + " Novint Falcons: falcon:0 to falcon:" + std::to_string(count - 1);
   const auto transport = makeFalconUsb();
   transport->open();
   return "Novint Falcon";

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -15,6 +16,15 @@
 #include "device/falcon/falcon_transport.h"
 
 namespace hl {
+
+/// Which of several Falcons is meant, and the file of its firmware.
+struct FalconChoice {
+  std::size_t index = 0;  ///< in the order of USB bus and ports
+  std::string firmware;
+
+  /// From INDEX, FIRMWARE, INDEX,FIRMWARE, or nothing. What is all digits is an index. Throws hl::Error.
+  static FalconChoice parse(const std::string& text);
+};
 
 /// A thread of its own exchanges frames with the device, a thousand a second.
 class FalconDevice final : public Device {

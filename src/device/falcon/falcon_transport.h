@@ -15,7 +15,7 @@ enum class FalconLine : std::uint8_t {
   kRun    ///< 1.5 Mbaud, for frames
 };
 
-/// One thread at a time.
+/// One thread at a time. Of several on one bus each transport has its own.
 class FalconTransport {
  public:
   virtual ~FalconTransport() = default;
@@ -28,6 +28,10 @@ class FalconTransport {
   virtual std::size_t read(std::span<std::uint8_t> bytes) = 0;
 };
 
-std::unique_ptr<FalconTransport> makeFalconUsb();
+/// The Falcon that is number `index`, from 0, in the order of bus and ports. Opened once, it is looked for at its own
+/// port first, and then among those that no other transport of this process has.
+std::unique_ptr<FalconTransport> makeFalconUsb(std::size_t index = 0);
+/// How many there are. Throws hl::Error when USB cannot be used.
+std::size_t countFalcons();
 
 }  // namespace hl

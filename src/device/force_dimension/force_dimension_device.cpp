@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <mutex>
 
 #include "base/error.h"
 #include "device/force_dimension/figures.h"
@@ -18,6 +19,12 @@ constexpr int kOffByButton = 1, kOffByDeadMan = 6;
 
 constexpr std::int64_t kExaminePeriod_ns = 100'000'000;
 constexpr unsigned char kWatchdogPeriods = 160;  // of 125 us: forces off after 20 ms without a command
+
+// The library opens one device at a time: until its id is claimed nobody may take it for a device of his own.
+std::mutex& openingDhd() {
+  static std::mutex mutex;
+  return mutex;
+}
 
 // Force Dimension's frame has x toward the user, y to the right, z up.
 Vec3 toDevice(double x, double y, double z) { return {y, z, x}; }
@@ -42,6 +49,9 @@ ForceDimensionDevice::Calls ForceDimensionDevice::bindCalls(const VendorLibrary&
   Calls calls{};
   library.bind(calls.device_count, "dhdGetDeviceCount");
   library.bind(calls.open, "dhdOpen");
+  library.bind(calls.open_id, "dhdOpenID");
+  library.bindIfPresent(calls.open_serial, "dhdOpenSerial");
+  library.bindIfPresent(calls.serial_number, "dhdGetSerialNumber");
   library.bind(calls.close, "dhdClose");
   library.bind(calls.system_type, "dhdGetSystemType");
   library.bind(calls.system_name, "dhdGetSystemName");
@@ -66,10 +76,17 @@ void ForceDimensionDevice::open() {
   calls_ = bindCalls(*library);
   if (calls_.device_count() <= 0)
     throw Error("no Force Dimension device answers: check its power and USB cable, and that you may use it (udev)");
-  if (!begin()) throw Error(std::string("the Force Dimension device cannot be opened: ") + calls_.last_error());
+  if (choice_.index && *choice_.index >= calls_.device_count())
+    throw Error("there is no dhd:" + choice_.key() + ": the library finds " + std::to_string(calls_.device_count()) +
+                ", counted from 0");
+  const ForceDimensionChoice asked = choice_;
+  if (const std::string why = begin(); !why.empty()) {
+    choice_ = asked;
+    throw Error("the Force Dimension device cannot be opened: " + why);
+  }
   describe();
   library_ = std::move(library);
-  lifeline_ = std::make_unique<Lifeline>([this] { return reopen(); });
+  lifeline_ = std::make_unique<Lifeline>([this] { return begin().empty(); });
 }
 
 void ForceDimensionDevice::describe() {
@@ -80,28 +97,52 @@ void ForceDimensionDevice::describe() {
     info_.gripper_max_rad = kGripperMax_rad;
 }
 
-// Opens it with zero force.
-bool ForceDimensionDevice::begin() {
-  const int id = calls_.open();
-  if (id < 0) return false;
+int ForceDimensionDevice::openChosen() const {
+  if (choice_.serial && calls_.open_serial != nullptr) return calls_.open_serial(*choice_.serial);
+  if (choice_.index) return calls_.open_id(static_cast<char>(*choice_.index));
+  return calls_.open();
+}
+
+// Opens it with zero force; one that was lost is let go of first.
+std::string ForceDimensionDevice::begin() {
+  const std::lock_guard lock(openingDhd());
+  if (id_ >= 0) calls_.close(id_);
+  id_ = -1;
+  claim_.release();
+  if (choice_.serial && calls_.open_serial == nullptr) return "this version of the library opens none by serial number";
+  const int id = openChosen();
+  if (id < 0) return calls_.last_error();
   id_ = static_cast<char>(id);
+  if (const std::string why = claimIt(); !why.empty()) {
+    id_ = -1;
+    return why;
+  }
   calls_.set_gravity_compensation(1, id_);
   calls_.set_force(0, 0, 0, id_);
   calls_.enable_force(1, id_);
   watched_ = false;
   examined_ns_ = 0;
-  return true;
+  return "";
 }
 
-bool ForceDimensionDevice::reopen() {
-  if (id_ >= 0) calls_.close(id_);
-  id_ = -1;
-  return begin();
+// Other devices have other indices when one has gone: from now on this one is asked for by its serial number. An id
+// that another device of this process has is left as it is: closing it would end the other.
+std::string ForceDimensionDevice::claimIt() {
+  try {
+    claim_ = DeviceClaim("dhd id " + std::to_string(static_cast<int>(id_)));
+  } catch (const Error& error) {
+    return error.what();
+  }
+  unsigned short serial = 0;
+  const bool told = calls_.serial_number != nullptr && calls_.serial_number(&serial, id_) >= 0 && serial != 0;
+  if (told && calls_.open_serial != nullptr) choice_.serial = serial;
+  return "";
 }
 
 void ForceDimensionDevice::close() {
   if (!library_) return;
   lifeline_.reset();
+  const std::lock_guard lock(openingDhd());
   if (id_ >= 0) {
     calls_.set_force(0, 0, 0, id_);
     if (calls_.set_watchdog != nullptr) calls_.set_watchdog(0, id_);
@@ -109,6 +150,7 @@ void ForceDimensionDevice::close() {
     calls_.close(id_);
   }
   id_ = -1;
+  claim_.release();
   status_ = DeviceStatus::kNotReady;
   library_.reset();
 }
@@ -170,8 +212,9 @@ std::string ForceDimensionDevice::find() {
   const VendorLibrary library(kLibrary);
   const Calls calls = bindCalls(library);
   const int count = calls.device_count();
-  return count > 0 ? std::to_string(count) + " Force Dimension device" + (count > 1 ? "s" : "")
-                   : "none answers: check power and USB cable, and that you may use it (udev)";
+  if (count <= 0) return "none answers: check power and USB cable, and that you may use it (udev)";
+  if (count == 1) return "1 Force Dimension device";
+  return std::to_string(count) + " Force Dimension devices: dhd:0 to dhd:" + std::to_string(count - 1);
 }
 
 }  // namespace hl

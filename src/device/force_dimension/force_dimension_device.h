@@ -6,6 +6,8 @@
 #include <string>
 
 #include "device/device.h"
+#include "device/device_claim.h"
+#include "device/force_dimension/device_choice.h"
 #include "device/lifeline.h"
 #include "device/vendor_library.h"
 
@@ -17,6 +19,7 @@ class ForceDimensionDevice final : public Device {
       "libdhd.so.3", "HL_DHD_LIBRARY",
       "install the Force Dimension SDK (version 3, free for owners, from forcedimension.com)"};
 
+  explicit ForceDimensionDevice(ForceDimensionChoice choice = {}) : choice_(choice) {}
   ~ForceDimensionDevice() override { close(); }
 
   void open() override;
@@ -33,6 +36,9 @@ class ForceDimensionDevice final : public Device {
   struct Calls {
     int (*device_count)();
     int (*open)();
+    int (*open_id)(char index);
+    int (*open_serial)(int serial);                     // null in old versions, as the next
+    int (*serial_number)(unsigned short* sn, char id);  // of recent devices
     int (*close)(char id);
     int (*system_type)(char id);
     const char* (*system_name)(char id);
@@ -52,8 +58,9 @@ class ForceDimensionDevice final : public Device {
   };
 
   static Calls bindCalls(const VendorLibrary& library);
-  bool begin();
-  bool reopen();
+  int openChosen() const;
+  std::string begin();  // why it cannot; empty when it has
+  std::string claimIt();
   DeviceStatus examine(std::int64_t now_ns);
   void lose();
   void describe();
@@ -61,7 +68,9 @@ class ForceDimensionDevice final : public Device {
 
   std::unique_ptr<VendorLibrary> library_;  // null: closed
   Calls calls_{};
+  ForceDimensionChoice choice_;  // once it was open: by its serial number, where it tells one
   char id_ = -1;
+  DeviceClaim claim_;
   DeviceInfo info_;
   DeviceStatus status_ = DeviceStatus::kNotReady;  // when it was examined last
   std::int64_t examined_ns_ = 0;

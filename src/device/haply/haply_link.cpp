@@ -1,5 +1,6 @@
 #include "device/haply/haply_link.h"
 
+#include <algorithm>
 #include <atomic>
 #include <boost/asio/as_tuple.hpp>
 #include <boost/asio/awaitable.hpp>
@@ -17,9 +18,13 @@
 #include <boost/beast/http/string_body.hpp>
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/stream.hpp>
+#include <cctype>
 #include <chrono>
 #include <future>
+#include <optional>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "base/clock.h"
 #include "base/error.h"
@@ -28,6 +33,7 @@
 #include "base/printable.h"
 #include "base/realtime.h"
 #include "base/url.h"
+#include "device/device_claim.h"
 #include "device/exchange.h"
 #include "device/haply/haply_messages.h"
 
@@ -51,14 +57,32 @@ constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
 
 using Socket = websocket::stream<beast::tcp_stream>;
 
+// As the service shows them: 049D.
+bool isHaplyId(const std::string& text) {
+  const auto fits = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; };
+  return !text.empty() && std::all_of(text.begin(), text.end(), fits);
+}
+
+std::string listOfIds(const std::vector<std::string>& ids) {
+  std::string list;
+  for (const std::string& id : ids) list += (list.empty() ? "" : ", ") + id;
+  return list;
+}
+
 }  // namespace
 
 HaplyAddress HaplyAddress::parse(const std::string& text) {
   HaplyAddress address;
   if (text.empty()) return address;
   checkPrintable(text, "an address");
+  if (isHaplyId(text)) {
+    address.device_id = text;
+    return address;
+  }
   const auto refuse = [&](const std::string& why) {
-    throw Error("'" + text + "' is no address of a Haply service (" + why + "): it is ws://HOST or ws://HOST:PORT");
+    throw Error(
+        "'" + text + "' is no Haply device (" + why +
+        "): it is ws://HOST or ws://HOST:PORT, with /ID behind it where the service has several, or the ID alone");
   };
   Url url;
   try {
@@ -67,7 +91,10 @@ HaplyAddress HaplyAddress::parse(const std::string& text) {
     refuse(error.what());
   }
   if (url.scheme != "ws" || !url.host) refuse("it does not begin with ws:// and a host");
-  if ((!url.path.empty() && url.path != "/") || !url.options.empty()) refuse("nothing follows the host and its port");
+  const bool named = !url.path.empty() && url.path != "/";
+  if (named) address.device_id = url.path.substr(1);
+  const bool good = !named || (url.path.front() == '/' && isHaplyId(address.device_id));
+  if (!good || !url.options.empty()) refuse("nothing but the id of a device follows the host and its port");
   address.host = *url.host;
   if (url.port) address.port = *url.port;
   return address;
@@ -130,10 +157,14 @@ class HaplyLink::Conversation {
     const std::string failure = co_await connect(socket);
     if (!failure.empty()) co_return failure;
     HaplyState state;
-    const bool greeted = co_await read(socket, state);
-    if (!greeted) co_return address_.text() + " is no Haply Inverse Service: it does not say what it has";
-    if (state.device_id.empty())
-      co_return "the Haply service at " + address_.text() + " has no Inverse3: check its power and its cable";
+    state.device_id = address_.device_id;
+    const std::optional<std::string> inventory = co_await receive(socket);
+    if (!inventory || !readHaplyMessage(*inventory, state))
+      co_return address_.text() + " is no Haply Inverse Service: it does not say what it has";
+    const std::string missing = whatIsMissing(haplyDevicesOf(*inventory));
+    if (!missing.empty()) co_return missing;
+    const std::string key = "haply " + address_.text() + "/" + state.device_id;
+    if (claim_.key() != key) claim_ = DeviceClaim(key);
     if (!told_) {
       device_id_ = state.device_id;
       has_grip_ = state.has_grip;
@@ -184,13 +215,22 @@ class HaplyLink::Conversation {
     co_return error ? none : "";
   }
 
-  asio::awaitable<bool> read(Socket& socket, HaplyState& state) {
+  // Empty: the device that is wanted is there.
+  std::string whatIsMissing(const std::vector<std::string>& devices) const {
+    const std::string service = "the Haply service at " + address_.text() + " has no Inverse3";
+    const std::string& wanted = address_.device_id;
+    if (devices.empty()) return service + ": check its power and its cable";
+    if (wanted.empty() || std::find(devices.begin(), devices.end(), wanted) != devices.end()) return "";
+    return service + " '" + wanted + "': it has " + listOfIds(devices);
+  }
+
+  // Nothing when none comes in time.
+  asio::awaitable<std::optional<std::string>> receive(Socket& socket) {
     socket.next_layer().expires_after(kPatience);
     beast::flat_buffer buffer;
     auto [error, bytes] = co_await socket.async_read(buffer, kAwait);
-    if (error) co_return false;
-    const auto data = buffer.cdata();
-    co_return readHaplyMessage({static_cast<const char*>(data.data()), data.size()}, state);
+    if (error) co_return std::nullopt;
+    co_return beast::buffers_to_string(buffer.cdata());
   }
 
   // One state for each message, until one of the two has had enough; the last force is zero.
@@ -206,8 +246,8 @@ class HaplyLink::Conversation {
       const std::int64_t asked_ns = monotonicNow_ns();
       auto [unsent, sent] = co_await socket.async_write(asio::buffer(message), kAwait);
       if (unsent) co_return;
-      const bool answered = co_await read(socket, state);
-      if (!answered || !state.located) co_return;
+      const std::optional<std::string> told = co_await receive(socket);
+      if (!told || !readHaplyMessage(*told, state) || !state.located) co_return;
       exchanged.tell(asked_ns, state.position, state.buttons,
                      state.calibrated ? DeviceStatus::kOk : DeviceStatus::kNotReady, state.stylus);
       tellBegun("");
@@ -224,6 +264,7 @@ class HaplyLink::Conversation {
   bool conversing_ = false;
   std::string device_id_;  // this and the next are written before begun_ is told
   bool has_grip_ = false;
+  DeviceClaim claim_;   // from the first conversation to the end
   std::thread thread_;  // last: it uses all of the above
 };
 

@@ -13,10 +13,11 @@ namespace hl {
 struct HaplyAddress {
   std::string host = "localhost";
   std::uint16_t port = 10001;
+  std::string device_id;  ///< of an Inverse3; empty: the first
 
-  /// From ws://HOST[:PORT], or nothing. Throws hl::Error.
+  /// From ws://HOST[:PORT][/ID], ID alone for the service of this machine, or nothing. Throws hl::Error.
   static HaplyAddress parse(const std::string& text);
-  std::string text() const;
+  std::string text() const;  ///< of the service
 };
 
 class HaplyLink {

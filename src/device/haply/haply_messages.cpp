@@ -7,6 +7,7 @@
 #include <boost/json/value_to.hpp>
 #include <cctype>
 #include <cstdlib>
+#include <utility>
 
 namespace hl {
 
@@ -28,9 +29,24 @@ const json::value* memberOf(const json::value* value, std::string_view name) {
   return object != nullptr ? object->if_contains(name) : nullptr;
 }
 
-const json::value* firstOf(const json::value* value) {
+const json::value* itemOf(const json::value* value, std::size_t number) {
   const json::array* array = value != nullptr ? value->if_array() : nullptr;
-  return array != nullptr && !array->empty() ? &array->front() : nullptr;
+  return array != nullptr && number < array->size() ? &(*array)[number] : nullptr;
+}
+
+// Empty: it has none.
+std::string idOf(const json::value* device) {
+  const json::value* id = memberOf(device, "device_id");
+  return id != nullptr && id->is_string() ? json::value_to<std::string>(*id) : "";
+}
+
+// The number of the device that is wanted, among those of a message. One that has no id is the only one.
+std::size_t numberOf(const json::value* devices, const std::string& wanted) {
+  std::size_t number = 0;
+  if (wanted.empty()) return number;
+  while (itemOf(devices, number) != nullptr && idOf(itemOf(devices, number)) != wanted) ++number;
+  const bool only_one = number == 1 && idOf(itemOf(devices, 0)).empty();
+  return only_one ? 0 : number;
 }
 
 bool readNumber(const json::value* value, double& number) {
@@ -90,22 +106,36 @@ HaplyDialect haplyDialectOf(std::string_view version) {
   return major > 3 || (major == 3 && minor >= 5) ? HaplyDialect::kVector : HaplyDialect::kValues;
 }
 
+std::vector<std::string> haplyDevicesOf(std::string_view text) {
+  std::vector<std::string> ids;
+  json::error_code error;
+  const json::value message = json::parse({text.data(), text.size()}, error);
+  if (error) return ids;
+  const json::value* devices = memberOf(&message, "inverse3");
+  for (std::size_t i = 0; itemOf(devices, i) != nullptr; ++i) {
+    if (std::string id = idOf(itemOf(devices, i)); !id.empty()) ids.push_back(std::move(id));
+  }
+  return ids;
+}
+
 bool readHaplyMessage(std::string_view text, HaplyState& state) {
   json::error_code error;
   const json::value message = json::parse({text.data(), text.size()}, error);
   state.located = false;
   if (error || !message.is_object()) return false;
-  const json::value* device = firstOf(memberOf(&message, "inverse3"));
-  if (const json::value* id = memberOf(device, "device_id"); id != nullptr && id->is_string())
-    state.device_id = json::value_to<std::string>(*id);
+  const json::value* devices = memberOf(&message, "inverse3");
+  const std::size_t number = numberOf(devices, state.device_id);
+  const json::value* device = itemOf(devices, number);
+  if (state.device_id.empty()) state.device_id = idOf(device);
   Vec3 position_H;
   state.located = readVector(memberOf(memberOf(device, "state"), "cursor_position"), position_H);
   if (state.located) state.position = toDevice(position_H - centre_H());
   if (const json::value* told = memberOf(memberOf(device, "status"), "calibrated"); told != nullptr && told->is_bool())
     state.calibrated = told->get_bool();
   for (const char* grips : {"verse_grip", "wireless_verse_grip"}) {
-    readButtons(firstOf(memberOf(&message, grips)), state.buttons);
-    readTurn(firstOf(memberOf(&message, grips)), state);
+    const json::value* grip = itemOf(memberOf(&message, grips), number);
+    readButtons(grip, state.buttons);
+    readTurn(grip, state);
   }
   return true;
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/vec.h"
 #include "device/stylus.h"
@@ -17,9 +18,10 @@ enum class HaplyDialect : std::uint8_t { kValues, kVector };
 /// From the answer to GET /version, whatever surrounds the number; kValues when there is none.
 HaplyDialect haplyDialectOf(std::string_view version);
 
-/// The first Inverse3 of the service, with the buttons of the first grip. Frame D.
+/// One Inverse3 of the service, with the buttons of its grip: the first device has the first grip, the second the
+/// second. Frame D.
 struct HaplyState {
-  std::string device_id;  ///< empty: there is none
+  std::string device_id;  ///< which; empty: the first that the next message has, if any
   bool located = false;   ///< the last message told its position
   Vec3 position = Vec3::Zero();
   std::uint32_t buttons = 0;
@@ -27,6 +29,9 @@ struct HaplyState {
   bool has_grip = false;   ///< a grip has told how it is turned
   Stylus stylus;
 };
+
+/// The ids of all Inverse3 that a message of the service names.
+std::vector<std::string> haplyDevicesOf(std::string_view text);
 
 /// Takes in a message of the service. False when it is none.
 bool readHaplyMessage(std::string_view text, HaplyState& state);

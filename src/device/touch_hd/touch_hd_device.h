@@ -1,15 +1,17 @@
 // TouchHdDevice: 3D Systems Touch and PHANToM through the vendor's libHD (OpenHaptics), opened at run time.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 
+#include "base/function_ref.h"
 #include "device/device.h"
+#include "device/device_claim.h"
 #include "device/exchange.h"
 #include "device/lifeline.h"
-#include "device/vendor_library.h"
+#include "device/touch_hd/hd_library.h"
 
 namespace hl {
 
@@ -17,10 +19,8 @@ namespace hl {
 /// sample and takes the newest force, and neither waits for the other.
 class TouchHdDevice final : public Device {
  public:
-  static constexpr VendorLibraryName kLibrary{
-      "libHD.so", "HL_HD_LIBRARY",
-      "install 3D Systems' OpenHaptics 3.4 and the Touch driver for Linux (from support.3dsystems.com)"};
-
+  /// `name`: as the vendor's set-up program has it; empty: the default device.
+  explicit TouchHdDevice(std::string name = "") : name_(std::move(name)) {}
   ~TouchHdDevice() override { close(); }
 
   void open() override;
@@ -33,56 +33,27 @@ class TouchHdDevice final : public Device {
   static std::string find();
 
  private:
-  // The vendor's C types.
-  using Handle = unsigned int;
-  struct ErrorInfo {
-    unsigned int code;
-    int internal;
-    Handle device;
-  };
-  using Callback = unsigned int(void*);
-
-  // The part of libHD that HL calls.
-  struct Calls {
-    Handle (*init_device)(const char* name);
-    void (*disable_device)(Handle device);
-    void (*make_current)(Handle device);
-    void (*begin_frame)(Handle device);
-    void (*end_frame)(Handle device);
-    void (*enable)(unsigned int capability);
-    void (*get_double)(unsigned int name, double* values);
-    void (*get_integer)(unsigned int name, int* values);
-    void (*set_double)(unsigned int name, const double* values);
-    const char* (*get_string)(unsigned int name);
-    ErrorInfo (*get_error)();
-    const char* (*error_string)(unsigned int code);
-    unsigned int (*check_calibration)();
-    void (*update_calibration)(unsigned int style);
-    void (*start_scheduler)();
-    void (*stop_scheduler)();
-    void (*set_scheduler_rate)(unsigned long rate_Hz);
-    unsigned long (*schedule)(Callback* callback, void* user, unsigned short priority);
-    void (*unschedule)(unsigned long callback);
-  };
-
-  static Calls bindCalls(const VendorLibrary& library);
   std::string begin();  // why it cannot; empty when it has
+  std::string prepare();
   void end();
+  void disable();
+  void leave();
   bool reopen();
   void describe();
   void frame();  // the scheduler's thread, as the next three
-  Stylus stylusNow();
+  bool asCurrent(FunctionRef<void()> work);
+  Stylus stylusNow() const;
   DeviceStatus calibrate();
 
-  std::unique_ptr<VendorLibrary> library_;  // null: closed
-  Calls calls_{};
-  Handle handle_ = 0;
-  bool running_ = false;
+  const std::string name_;
+  std::shared_ptr<HdLibrary> library_;  // null: closed
+  HdLibrary::Seat* seat_ = nullptr;
+  HdCalls::Handle handle_ = HdLibrary::kNoDevice;  // of a device that runs
+  DeviceClaim claim_;
   unsigned long callback_ = 0;
   int calibration_style_ = 0;
   DeviceInfo info_;
-  Exchange exchange_;                // with the scheduler
-  std::atomic<bool> failed_{false};  // the scheduler met an error
+  Exchange exchange_;  // with the scheduler
   std::unique_ptr<Lifeline> lifeline_;
 };
 

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <thread>
 
 #include "base/clock.h"
@@ -82,6 +84,17 @@ class FakeArm {
     return strongest_N_;
   }
 
+  /// The stylus on it, which the arm does not move. Frame D.
+  void turn(const Eigen::Quaterniond& turned_D) {
+    const Turn turn(taken_);
+    turned_D_ = turned_D;
+  }
+  Eigen::Quaterniond turned_D() {
+    const Turn turn(taken_);
+    return turned_D_;
+  }
+
+  std::atomic<double> gripper_rad{0};
   std::atomic<bool> lost{false};       ///< the device does not answer
   std::atomic<bool> not_ready{false};  ///< it answers, but is not calibrated
   std::atomic<unsigned> buttons{0};
@@ -90,12 +103,24 @@ class FakeArm {
   std::atomic_flag taken_;
   SimulatedDevice device_{quickArm()};
   double strongest_N_ = 0;
+  Eigen::Quaterniond turned_D_ = Eigen::Quaterniond::Identity();
   std::atomic<bool> virtual_{false};
   std::atomic<std::int64_t> virtual_ns_{0};
 };
 
-/// Exported by the fakes that are shared libraries, under this name.
+/// Exported by the fakes that are shared libraries, under these names.
 using FakeArmOf = FakeArm*();
 inline constexpr const char* kFakeArmOf = "hlFakeArm";
+using FakeArmNumber = FakeArm*(std::size_t);
+inline constexpr const char* kFakeArmNumber = "hlFakeArmNumber";  ///< the first and the second, from 0
+using FakePlugIn = void(std::size_t);
+inline constexpr const char* kFakePlugIn = "hlFakePlugIn";  ///< how many there are: 1, unless HL_FAKE_DEVICES says 2
+
+inline constexpr std::size_t kFakeDevices = 2;  ///< at the most
+
+inline std::size_t fakeDevicesAtFirst() {
+  const char* told = std::getenv("HL_FAKE_DEVICES");
+  return told != nullptr && *told == '2' ? 2 : 1;
+}
 
 }  // namespace hl::test

@@ -2,11 +2,12 @@
 // above the origin; once the servo runs it presses to 20 mm below and comes back, until it has felt something. It
 // writes what came of it: a line "touched" when the device has pulled with half a newton, or "nothing" when it has not
 // in kStrokes, as when the servo is in a fault; and "closed F" with the force in N that is left when it has been
-// closed.
+// closed. The second device writes into the file with ".1" behind its name.
 #pragma once
 
 #include <cstdlib>
 #include <fstream>
+#include <string>
 
 #include "fake_arm.h"
 
@@ -14,10 +15,10 @@ namespace hl::test {
 
 class FakeScript {
  public:
-  explicit FakeScript(FakeArm& arm) : arm_(arm) {
+  explicit FakeScript(FakeArm& arm, std::size_t number = 0) : arm_(arm) {
     const char* file = std::getenv("HL_FAKE_REPORT");
     if (file == nullptr) return;
-    report_.open(file);
+    report_.open(number == 0 ? file : file + ("." + std::to_string(number)));
     arm_.useVirtualClock();
     arm_.setHandGoal({0, 0.02, 0});
     for (int i = 0; i < 2000; ++i) arm_.advance(1e-3);
