@@ -21,21 +21,28 @@ class CsvFile {
   CsvFile(const std::string& path, const std::string& recording) : file_(path, {recording}) {
     file_.write(
         "t,finger_x,finger_y,finger_z,proxy_x,proxy_y,proxy_z,touching,stiffness,force_x,force_y,force_z,"
-        "speed,state,fault,work_ns\n");
+        "speed,state,fault,work_ns,stylus_qw,stylus_qx,stylus_qy,stylus_qz,spin_x,spin_y,spin_z,gripper_rad\n");
   }
 
   void add(double time_s, const ServoRecord& step) {
     const Vec3 &finger = step.sample.position, &proxy = step.target.proxy_D, &force = step.out.force_N;
     file_.print(
         "{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.9g},{},"
-        "\"{}\",{}\n",
+        "\"{}\",{}",
         time_s, finger.x(), finger.y(), finger.z(), proxy.x(), proxy.y(), proxy.z(), step.target.valid ? 1 : 0,
         step.target.stiffness, force.x(), force.y(), force.z(), speed(time_s, finger),
         kStates[static_cast<std::size_t>(step.out.safety) % kStates.size()], faultText(step.out.fault), step.work_ns);
+    add(step.sample.stylus);
   }
   void close() { file_.close(); }
 
  private:
+  void add(const Stylus& stylus) {
+    const Eigen::Quaterniond& q = stylus.turned;
+    const Vec3& spin = stylus.spin_rad_s;
+    file_.print(",{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", q.w(), q.x(), q.y(), q.z(),
+                spin.x(), spin.y(), spin.z(), stylus.gripper_rad);
+  }
   // Of the finger since the step before, m/s.
   double speed(double time_s, const Vec3& finger) {
     const double elapsed_s = time_s - last_s_;

@@ -65,7 +65,7 @@ void readMessage(MessageForm form, std::string_view bytes) {
   try {
     DecodedFrame frame = decodeFrame(message.frame(), uploads, smallLimits(), budget, [](double) {});
     EditableScene::Next next = scene.prepare(std::move(frame.edit));
-    checkBodies(next.placed(), scene.placed());
+    checkBodies(next.placed());
     scene.show(next);
   } catch (const Error& error) {
     require(posesOf(scene) == before && error.what()[0] != '\0');

@@ -800,10 +800,13 @@ def _corners(points: npt.ArrayLike, normal: Optional[npt.ArrayLike]) -> Any:
     return corners.tolist()
 
 
+_COUNTS = {3: "three", 4: "four"}
+
+
 def _numbers(numbers: npt.ArrayLike, count: int, name: str) -> Any:
     array = arguments.floats(numbers, name)
     if array.shape != (count,):
-        raise InvalidValueError(f"{name} must be {count} numbers, and has the shape {array.shape}")
+        raise InvalidValueError(f"{name} must be {_COUNTS[count]} numbers, and has the shape {array.shape}")
     return array.tolist()
 
 

@@ -120,12 +120,44 @@ def scan(programs):
         rows = [(0, *BEGIN_M), (2, *HELD_M), (LONG_S, *HELD_M)]
         path.write_text("t,x,y,z\n" + "".join(",".join(map(str, row)) + "\n" for row in rows))
         left, right = asyncio.run(skin_and_bone(programs, path))
+    write_beside(left, right, look.folder / "scan_page.png")
+
+
+def write_beside(left, right, path):
     both = Image.new("RGB", (left.width + right.width, left.height))
     both.paste(left, (0, 0))
     both.paste(right, (left.width, 0))
     stored = io.BytesIO()
     both.save(stored, "PNG")
-    write(stored.getvalue(), look.folder / "scan_page.png")
+    write(stored.getvalue(), path)
+
+
+# How a hand comes to the teapot and stays, m, with the stylus turned (w x y z) and its gripper open, rad.
+PEN = [(0, 0.02, 0.01, 0.12, 1, 0, 0, 0, 0), (3, 0.02, 0.01, 0.12, 1, 0, 0, 0, 0),
+       (5, 0.02, 0.01, 0.03, 0.85, -0.45, -0.1, 0.2, 0.5)]
+
+
+async def picture_of_stylus(device, programs, path):
+    touch = [built(programs, "hl"), "touch", "teapot", "--no-open", "--port", "0", "--device", device, "--hand-path", path]
+    with Program(touch, r"page: (http://\S+/)") as served:
+        async with Browser(*PICTURE) as browser:
+            await browser.open(served.found.group(1), SHOWN)
+            await asyncio.sleep(PEN[-1][0])
+            await browser.wait_for(TOUCHED)
+            await asyncio.sleep(1)
+            picture = Image.open(io.BytesIO(await browser.picture())).convert("RGB")
+            return picture.crop((round(0.24 * picture.width), 0, round(0.74 * picture.width), picture.height))
+
+
+def stylus(programs):
+    """A pen, and one with a gripper."""
+    with tempfile.TemporaryDirectory() as directory:
+        path = Path(directory) / "pen.csv"
+        rows = [*PEN, (LONG_S, *PEN[-1][1:])]
+        header = "t,x,y,z,qw,qx,qy,qz,gripper_rad\n"
+        path.write_text(header + "".join(",".join(map(str, row)) + "\n" for row in rows))
+        pictures = [asyncio.run(picture_of_stylus(device, programs, path)) for device in ("sim", "sim:omega7")]
+    write_beside(*pictures, look.folder / "stylus.png")
 
 
 def gallery(programs, names=None):

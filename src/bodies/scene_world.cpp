@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "bodies/convex_hull.h"
 #include "bodies/joint_check.h"
+#include "bodies/made_bodies.h"
 #include "bodies/mesh_parts.h"
 #include "geometry/primitive.h"
 
@@ -159,11 +160,14 @@ std::size_t partsIn(const Model& model, const BodySpec& spec) {
   return spec.shape == BodyShape::kParts ? bodyOf(model, spec).shape.parts.size() : 1;
 }
 
+std::size_t partsIn(const std::shared_ptr<const Shape>& shape, const BodySpec& spec) {
+  return spec.shape == BodyShape::kParts ? madeBody(shape, spec)->shape.parts.size() : 1;
+}
+
 std::size_t partsIn(const Snapshot& snapshot) {
   std::size_t parts = 0;
   for (const Instance& instance : snapshot.instances) {
-    if (instance.movesAsBody())
-      parts += named(instance, [&] { return partsIn(instance.shape->model, instance.body->spec); });
+    if (instance.movesAsBody()) parts += named(instance, [&] { return partsIn(instance.shape, instance.body->spec); });
   }
   return parts;
 }
@@ -229,7 +233,7 @@ std::shared_ptr<const World> worldOf(const Snapshot& snapshot) {
       world->fixed_surfaces.push_back(instance.body ? std::optional(instance.body->spec.surface) : std::nullopt);
       continue;
     }
-    world->bodies.push_back(named(instance, [&] { return bodyOf(instance.shape->model, instance.body->spec); }));
+    world->bodies.push_back(named(instance, [&] { return *madeBody(instance.shape, instance.body->spec); }));
     world->bodies.back().key = instance.key;
     parts += world->bodies.back().shape.parts.size();
   }

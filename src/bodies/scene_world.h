@@ -15,6 +15,8 @@ std::shared_ptr<const World> worldOf(const Snapshot& snapshot);
 Body bodyOf(const Model& model, const BodySpec& spec);
 /// The number of its parts, without making it where there is one. Throws as bodyOf().
 std::size_t partsIn(const Model& model, const BodySpec& spec);
+/// Of a shape, which is asked for in each frame (made_bodies.h).
+std::size_t partsIn(const std::shared_ptr<const Shape>& shape, const BodySpec& spec);
 /// The same of all that move. Throws Error, with the name of the body.
 std::size_t partsIn(const Snapshot& snapshot);
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <string>
 #include <utility>
 
 #include "base/error.h"
 #include "bodies/joint_check.h"
+#include "bodies/made_bodies.h"
 #include "bodies/scene_world.h"
 
 namespace hl {
@@ -15,10 +15,6 @@ namespace hl {
 namespace {
 
 using ShapeOfBody = std::pair<const Shape*, const BodySpec*>;
-
-ShapeOfBody shapeOf(const PlacedShape& placed) { return {placed.shape.get(), placed.body.get()}; }
-
-void check(const PlacedShape& placed) { bodyOf(placed.shape->model, *placed.body); }
 
 // A joint's message numbers it by its key: here that is the client's own number.
 void checkJointsOf(const PlacedList& placed) {
@@ -37,19 +33,17 @@ void checkJointsOf(const PlacedList& placed) {
 
 WorldParts partsOf(const Snapshot& scene) { return {partsIn(scene), scene.mechanics.joints.size()}; }
 
-WorldParts checkBodies(const PlacedList& placed, const PlacedList& before) {
-  std::set<ShapeOfBody> good;
+WorldParts checkBodies(const PlacedList& placed) {
   std::map<ShapeOfBody, std::size_t> parts;
-  for (const PlacedShape& one : before) {
-    if (one.movesAsBody()) good.insert(shapeOf(one));
-  }
   std::size_t count = 0;
   for (const PlacedShape& one : placed) {
     if (!one.movesAsBody()) continue;
-    const auto [its_parts, is_first] = parts.try_emplace(shapeOf(one), 0);
+    const auto [its_parts, is_first] = parts.try_emplace({one.shape.get(), one.body.get()}, 0);
     try {
-      if (is_first && !good.contains(shapeOf(one))) check(one);
-      if (is_first) its_parts->second = partsIn(one.shape->model, *one.body);
+      if (is_first) {
+        const std::shared_ptr<const Body> made = madeBody(one.shape, *one.body);
+        its_parts->second = one.body->shape == BodyShape::kParts ? made->shape.parts.size() : 1;
+      }
     } catch (const Error& error) {
       throw Error("object " + std::to_string(one.object) + ".body: " + error.what());
     }

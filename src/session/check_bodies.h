@@ -22,8 +22,8 @@ struct WorldParts {
 WorldParts partsOf(const Snapshot& scene);
 
 /// Throws hl::Error, one line that names the object or joint, for a body whose shape or mass cannot be made, or a joint
-/// that cannot be stepped; what is in `before` is known to be good.
-WorldParts checkBodies(const PlacedList& placed, const PlacedList& before);
+/// that cannot be stepped. What was asked for before is known (made_bodies.h).
+WorldParts checkBodies(const PlacedList& placed);
 
 /// `all`: of all clients and the server's own scene. Throws hl::Error where there are more than `most`, or bodies and
 /// several devices: their world is moved by the loop of one.

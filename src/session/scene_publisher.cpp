@@ -254,7 +254,7 @@ void ScenePublisher::build(ClientScene& client, Waiting waiting) {
                                        [&](std::uint32_t object) { return client.scene_.items(object); });
     decoded.edit.answers_force = waiting.answers_force;
     EditableScene::Next next = client.scene_.prepare(std::move(decoded.edit));
-    const WorldParts bodies = checkBodies(next.placed(), client.scene_.placed());
+    const WorldParts bodies = checkBodies(next.placed());
     PlacedShapes before;
     const std::lock_guard lock(mutex_);  // what was there before is freed without it
     admitBodies(client, bodies);

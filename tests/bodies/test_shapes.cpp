@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "bodies/convex_hull.h"
+#include "bodies/made_bodies.h"
 #include "bodies/scene_world.h"
 #include "scene/rigid_body.h"
 #include "test_worlds.h"
@@ -347,6 +348,34 @@ TEST(RoomAround, EndsWhereThingsAreFelt) {
   const Box near = roomAround({Vec3(-1, -2, -3), Vec3(1, 2, 3)});
   EXPECT_EQ(near.min, Vec3(-7, -8, -9));
   EXPECT_EQ(near.max, Vec3(7, 8, 9));
+}
+
+// A body is made once, however many frames show it; of a shape that has gone nothing is kept.
+TEST(MadeBodies, AreMadeOnceForAShapeAndASpec) {
+  const auto shape = makeShape(boxModel(Vec3(0.01, 0.02, 0.03)));
+  BodySpec spec = specOf(BodyShape::kHull);
+  const auto first = madeBody(shape, spec);
+  EXPECT_EQ(first->mass.mass_kg, bodyOf(shape->model, spec).mass.mass_kg);
+  spec.velocity_m_s = Vec3(1, 2, 3);
+  EXPECT_EQ(madeBody(shape, spec), first);
+  spec.density_kg_m3 *= 2;
+  const auto heavier = madeBody(shape, spec);
+  EXPECT_DOUBLE_EQ(heavier->mass.mass_kg, 2 * first->mass.mass_kg);
+  const auto same_mesh = makeShape(boxModel(Vec3(0.01, 0.02, 0.03)));
+  EXPECT_NE(madeBody(same_mesh, spec), heavier) << "of another shape";
+  for (std::size_t i = 0; i < 3 * kMostOfAShape; ++i) {
+    spec.density_kg_m3 += 1;
+    madeBody(shape, spec);
+  }
+  EXPECT_EQ(first.use_count(), 1) << "the oldest of a shape are forgotten";
+}
+
+TEST(MadeBodies, WhatCannotBeMadeIsRefusedEachTime) {
+  Model flat;
+  flat.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  flat.triangles = {{0, 1, 2}};
+  const auto shape = makeShape(flat);
+  for (int i = 0; i < 2; ++i) EXPECT_THROW(madeBody(shape, specOf(BodyShape::kHull)), Error);
 }
 
 // The round sides say along which axis it is, whether it is a rod or a disc; else the longest.

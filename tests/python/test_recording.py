@@ -7,6 +7,7 @@ import unittest
 from pathlib import Path
 
 import hl
+import numpy as np
 
 HL = os.environ["HL_PROGRAM"]
 
@@ -17,7 +18,11 @@ class Recordings(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.folder.cleanup)
         cls.file = Path(cls.folder.name) / "session.hlr"
-        subprocess.run([HL, "record", "teapot", "--out", cls.file, "--duration", "2", "--port", "0", "--no-open"],
+        path = Path(cls.folder.name) / "path.csv"
+        path.write_text("t,x,y,z,qw,qx,qy,qz,gripper_rad\n"
+                        "0,0,0.1,0,1,0,0,0,0\n0.5,0,0,0,0.8,0,0.6,0,0.3\n9,0,0,0,0.8,0,0.6,0,0.3\n")
+        subprocess.run([HL, "record", "teapot", "--out", cls.file, "--duration", "2", "--port", "0", "--no-open",
+                        "--device", "sim:omega7", "--hand-path", path],
                        check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
     def test_the_steps_are_those_of_hl_replay(self):
@@ -33,6 +38,16 @@ class Recordings(unittest.TestCase):
                 self.assertEqual([float(row[f"{name}_{axis}"]) for axis in "xyz"], step[name].tolist())
             self.assertEqual(row["state"], hl.STATES[step["state"]])
             self.assertEqual(int(row["touching"]), step["touching"])
+            self.assertEqual([float(row[f"stylus_q{part}"]) for part in "xyzw"], step["rotation"].tolist())
+            self.assertEqual([float(row[f"spin_{axis}"]) for axis in "xyz"], step["spin"].tolist())
+            self.assertEqual(float(row["gripper_rad"]), step["gripper"])
+
+    def test_the_stylus_is_turned_as_the_path_says(self):
+        steps = hl.read_recording(self.file).steps
+        np.testing.assert_allclose(np.linalg.norm(steps["rotation"], axis=1), 1, atol=1e-12)
+        np.testing.assert_allclose(np.abs(steps["rotation"][-1]), [0, 0.6, 0, 0.8], atol=2e-3)
+        self.assertAlmostEqual(steps["gripper"][-1], 0.3, delta=2e-3)
+        self.assertGreater(np.abs(steps["spin"]).max(), 1)
 
     def test_what_it_says_of_itself(self):
         recording = hl.read_recording(self.file)

@@ -210,6 +210,19 @@ class Touching(unittest.TestCase):
         np.testing.assert_allclose(np.diff(samples["time"]), 1e-3, atol=5e-3)
         self.assertEqual(samples["position"].shape, (len(samples), 3))
 
+    def test_the_stylus_is_turned_and_told_in_states_and_samples(self):
+        self.touch.keep_samples(1000)
+        self.touch.hand_turn([0, 3, 0, -3])
+        half = np.sqrt(0.5)
+        state = wait_for("the turn", lambda: [s for s in [self.touch.state()] if abs(s.rotation[1] * s.rotation[3]) > 0.499])
+        self.assertAlmostEqual(abs(state[0].rotation[1]), half, delta=0.05)
+        self.assertEqual((state[0].gripper, state[0].grip_force), (0, 0))  # this device has none
+        samples = self.touch.samples()
+        np.testing.assert_allclose(np.linalg.norm(samples["rotation"], axis=1), 1, atol=1e-12)
+        near = np.abs(samples["rotation"] @ state[0].rotation)
+        self.assertGreater(near.max(), 1 - 1e-9)
+        self.assertGreater(np.abs(samples["spin"]).max(), 0.1)
+
     def test_objects_are_placed_bent_and_forgotten(self):
         with self.touch.frame():
             with self.touch.define() as floor:

@@ -1,0 +1,17 @@
+// Made bodies: the shape and the mass of each body are made once, however many frames show it.
+#pragma once
+
+#include <memory>
+
+#include "bodies/world.h"
+#include "scene/body_spec.h"
+#include "scene/shape.h"
+
+namespace hl {
+
+/// As bodyOf() of the shape's model. Kept as long as the shape is; of one shape the last kMostOfAShape of different
+/// specs. By any thread.
+std::shared_ptr<const Body> madeBody(const std::shared_ptr<const Shape>& shape, const BodySpec& spec);
+inline constexpr std::size_t kMostOfAShape = 64;
+
+}  // namespace hl
