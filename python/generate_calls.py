@@ -76,7 +76,8 @@ def constants(types: str) -> list:
     found = []
     for block in re.finditer(r"/\*\*((?:(?!\*/).)*)\*/\s*enum \{(.*?)\};", types, re.DOTALL):
         is_query = block.group(1).lstrip().startswith("hlGet*v")
-        for name, value, comment in re.findall(r"(HL_\w+) = (\w+),?(?:[ \t]*/\*\*<((?:(?!\*/).)*)\*/)?", block.group(2)):
+        for name, value, comment in re.findall(r"(HL_\w+) = (\w+),?(?:[ \t]*/\*\*<((?:(?!\*/).)*)\*/)?",
+                                               block.group(2), re.DOTALL):
             count = re.match(r"\s*(\d+)\b", comment)
             found.append((name, int(value, 0), int(count.group(1)) if is_query and count else 1))
     return found
