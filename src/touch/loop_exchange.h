@@ -1,5 +1,5 @@
-// LoopExchange: what the servo's loop, the proxy's loop and the hand's thread exchange. Each datum has one
-// writer and one reader.
+// LoopExchange: what the servo's loop, the proxy's loop, the hand's thread and whoever pulls the hand exchange. Each
+// datum has one writer and one reader.
 #pragma once
 
 #include <atomic>
@@ -7,6 +7,7 @@
 
 #include "base/latest.h"
 #include "base/vec.h"
+#include "control/hand_pull.h"
 #include "touch/held_contacts.h"
 
 namespace hl {
@@ -22,6 +23,7 @@ struct LoopExchange {
   Latest<Vec3> finger_D{Vec3::Zero()};           ///< servo to proxy
   Latest<Vec3> finger_for_hand_D{Vec3::Zero()};  ///< servo to hand
   Latest<TickMessage> ticks{TickMessage{}};      ///< proxy to servo
+  Latest<HandPull> pulls{HandPull{}};            ///< to the servo, from a program beside HL
   std::atomic<bool> makes_force{false};          ///< as of the servo's last step
   /// Times that the device began to answer: the finger is elsewhere then.
   std::atomic<std::uint64_t> arrivals{0};

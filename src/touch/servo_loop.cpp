@@ -26,6 +26,7 @@ ServoLoop::ServoLoop(const LoopParts& parts, const TouchSettings& settings, doub
     : parts_(parts),
       reader_(parts.device, parts.exchange),
       settings_(servoSettingsOf(settings, parts.device.info(), rate_Hz)),
+      effects_(settings_.effects),
       share_core_(settings.timer_reference),
       watch_(parts.device, counters_, [this] { parts_.sink.stall(); }) {}
 
@@ -66,6 +67,9 @@ void ServoLoop::step() {
   const std::int64_t now_ns = monotonicNow_ns();
   settings_.stiffness_N_m = parts_.live.stiffness_N_m();
   settings_.ledger = parts_.live.ledger();
+  HandPull pull;
+  parts_.exchange.pulls.read(pull);
+  settings_.effects = withPull(effects_, pull, now_ns);
   const DeviceSample sample = reader_.read(now_ns);
   const ServoCommand command = commandFor(sample);
   const ServoState before = step_.servo();
@@ -117,8 +121,8 @@ void ServoLoop::tell(const ServoRecord& record, std::int64_t begin_ns) {
   const double penetration_m = target.valid ? (target.proxy_D - sample.position).norm() : 0;
   parts_.views.samples.push({1e-9 * static_cast<double>(begin_ns - begin_ns_), static_cast<float>(out.force_N.norm()),
                              static_cast<float>(penetration_m), last_tick_.work_us});
-  parts_.views.moments.push({begin_ns, sample.position, out.force_N, sample.buttons, sample.stylus,
-                             sharing(last_tick_.held.contacts, last_tick_.held.held_N, out.force_N)});
+  parts_.views.moments.push({begin_ns, sample.position, out.force_N, sample.buttons, sample.status == DeviceStatus::kOk,
+                             sample.stylus, sharing(last_tick_.held.contacts, last_tick_.held.held_N, out.force_N)});
   ServoRecord timed = record;
   timed.work_ns = monotonicNow_ns() - begin_ns;
   parts_.sink.step(timed);

@@ -45,8 +45,9 @@ class ServoLoop {
 
   LoopParts parts_;
   DeviceReader reader_;
-  ServoSettings settings_;
-  const bool share_core_;  // with the bare timer
+  ServoSettings settings_;  // of this step
+  const Effects effects_;   // without what pulls the hand
+  const bool share_core_;   // with the bare timer
   TouchStep step_;
   LoopMeter meter_;
   TickMessage last_tick_;

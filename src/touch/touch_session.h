@@ -61,6 +61,8 @@ class TouchSession {
   void setRadius(double radius_W) { live_.setRadius(radius_W); }
   void rearm() { live_.rearm(); }
   bool actOnBody(const BodyCommand& command) { return live_.actOnBody(command); }
+  /// In the place of the one before; its times are on the monotonic clock. One thread at a time.
+  void pull(const HandPull& pull) { exchange_.pulls.write(pull); }
   double stiffness_N_m() const { return live_.stiffness_N_m(); }
   MaterialOverride surfaces() const { return live_.surfaces(); }
   LedgerMode ledger() const { return live_.ledger(); }

@@ -67,6 +67,7 @@ struct ServoMoment {
   Vec3 finger_D = Vec3::Zero();
   Vec3 force_N = Vec3::Zero();
   std::uint64_t buttons = 0;
+  std::uint64_t answered = 1;  ///< 0: the device did not answer, so nobody knows where the finger is
   Stylus stylus{};
   FeltContacts contacts;  ///< their forces add up to force_N, if there are any
 };
