@@ -1,0 +1,183 @@
+#include "dds/ros_participant.h"
+
+#include <dds/dds.h>
+#include <ros2.h>
+
+#include <cstdio>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "dds/loopback_only.h"
+
+namespace hl {
+
+/// Of one topic that others write to; outlives its reader.
+struct TopicHearing {
+  RosInput input;
+  std::uint32_t hand;
+  std::string frame;
+  const RosParticipant::Tell* tell;
+};
+
+/// What one hand has of it.
+struct RosHandTopics {
+  std::string frame;
+  dds_entity_t pose, twist, wrench, joy;  // writers
+};
+
+namespace {
+
+// Whatever CYCLONEDDS_URI says. Without multicast, which lo does not have: participants are looked for at the ports of
+// this machine, each second, as the next one may come at any time.
+constexpr const char* kConfiguration = R"(<CycloneDDS><Domain Id="any">
+  <General>
+    <Interfaces><NetworkInterface autodetermine="true" multicast="false"/></Interfaces>
+    <AllowMulticast>false</AllowMulticast>
+  </General>
+  <Discovery>
+    <ParticipantIndex>auto</ParticipantIndex>
+    <MaxAutoParticipantIndex>99</MaxAutoParticipantIndex>
+    <Peers><Peer Address="127.0.0.1"/></Peers>
+    <SPDPInterval>1s</SPDPInterval>
+  </Discovery>
+</Domain></CycloneDDS>)";
+
+dds_entity_t made(dds_entity_t entity, const char* what) {
+  if (entity < 0) throw Error(std::string("Cyclone DDS makes no ") + what + ": " + dds_strretcode(entity));
+  return entity;
+}
+
+using Qos = std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)>;
+
+// That of ROS 2's sensors: a reader that is late gets the newest, and nothing is sent twice.
+Qos sensorQos(std::int32_t depth) {
+  Qos qos(dds_create_qos(), dds_delete_qos);
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
+  dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, depth);
+  const dds_data_representation_id_t xcdr1 = DDS_DATA_REPRESENTATION_XCDR1;
+  dds_qset_data_representation(qos.get(), 1, &xcdr1);
+  return qos;
+}
+
+std::array<double, 3> valueOf(const geometry_msgs_msg_dds__WrenchStamped_& message) {
+  const auto& force = message.wrench.force;
+  return {force.x, force.y, force.z};
+}
+std::array<double, 3> valueOf(const geometry_msgs_msg_dds__PoseStamped_& message) {
+  const auto& place = message.pose.position;
+  return {place.x, place.y, place.z};
+}
+
+geometry_msgs_msg_dds__Vector3_ vectorOf(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+
+// Cyclone DDS says by its log alone that it could not read something: as a warning, one for each.
+void hearLog(void* tell, const dds_log_data_t* line) {
+  const std::string_view text(line->message, line->size);
+  if ((line->priority & (DDS_LC_FATAL | DDS_LC_ERROR)) != 0) {
+    std::fprintf(stderr, "hl-ros: Cyclone DDS: %.*s", static_cast<int>(text.size()), text.data());
+  } else if (text.find("deserialization") != text.npos || text.find("malformed packet") != text.npos) {
+    HandCommand malformed;
+    malformed.input = RosInput::kMalformed;
+    (*static_cast<const RosParticipant::Tell*>(tell))(malformed);
+  }
+}
+
+template <typename Message>
+void hear(dds_entity_t reader, void* argument) {
+  const TopicHearing& hearing = *static_cast<const TopicHearing*>(argument);
+  void* samples[1] = {nullptr};
+  dds_sample_info_t infos[1];
+  while (dds_take(reader, samples, infos, 1, 1) > 0) {
+    if (infos[0].valid_data) {
+      const auto& message = *static_cast<const Message*>(samples[0]);
+      const char* const frame = message.header.frame_id == nullptr ? "" : message.header.frame_id;
+      (*hearing.tell)({hearing.input, hearing.hand, *frame == 0 || hearing.frame == frame,
+                       wrappedDifference_ns(dds_time(), infos[0].source_timestamp), monotonicNow_ns(),
+                       valueOf(message)});
+    }
+    dds_return_loan(reader, samples, 1);
+  }
+}
+
+}  // namespace
+
+struct RosParticipant::Parts {
+  explicit Parts(Tell to_tell) : tell(std::move(to_tell)) {}
+  // Its listeners have ended when it is gone.
+  ~Parts() {
+    dds_delete(domain);
+    dds_set_log_sink(nullptr, nullptr);
+  }
+
+  dds_entity_t topic(const dds_topic_descriptor_t& type, const std::string& hand, const char* name) const {
+    return made(dds_create_topic(participant, &type, ddsTopic(hand, name).c_str(), nullptr, nullptr), "topic");
+  }
+  dds_entity_t writer(const dds_topic_descriptor_t& type, const std::string& hand, const char* name) const {
+    return made(dds_create_writer(participant, topic(type, hand, name), sensorQos(5).get(), nullptr), "writer");
+  }
+  template <typename Message>
+  void listen(const dds_topic_descriptor_t& type, const std::string& hand, const char* name, RosInput input) {
+    hearings.push_back(std::make_unique<TopicHearing>(
+        TopicHearing{input, static_cast<std::uint32_t>(hands.size()), rosFrame(hand), &tell}));
+    const std::unique_ptr<dds_listener_t, void (*)(dds_listener_t*)> listener(
+        dds_create_listener(hearings.back().get()), dds_delete_listener);
+    dds_lset_data_available(listener.get(), &hear<Message>);
+    made(dds_create_reader(participant, topic(type, hand, name), sensorQos(1).get(), listener.get()), "reader");
+  }
+  void add(const std::string& hand) {
+    listen<geometry_msgs_msg_dds__WrenchStamped_>(geometry_msgs_msg_dds__WrenchStamped__desc, hand, "servo_cf",
+                                                  RosInput::kServoCf);
+    listen<geometry_msgs_msg_dds__PoseStamped_>(geometry_msgs_msg_dds__PoseStamped__desc, hand, "servo_cp",
+                                                RosInput::kServoCp);
+    hands.push_back({rosFrame(hand), writer(geometry_msgs_msg_dds__PoseStamped__desc, hand, "measured_cp"),
+                     writer(geometry_msgs_msg_dds__TwistStamped__desc, hand, "measured_cv"),
+                     writer(geometry_msgs_msg_dds__WrenchStamped__desc, hand, "measured_cf"),
+                     writer(sensor_msgs_msg_dds__Joy__desc, hand, "buttons")});
+  }
+
+  const Tell tell;
+  dds_entity_t domain = 0, participant = 0;
+  std::vector<std::unique_ptr<TopicHearing>> hearings;
+  std::vector<RosHandTopics> hands;
+};
+
+RosParticipant::RosParticipant(const RosTask& task, Tell tell) : parts_(std::make_unique<Parts>(std::move(tell))) {
+  dds_set_log_sink(&hearLog, const_cast<Tell*>(&parts_->tell));
+  parts_->domain = made(dds_create_domain(task.domain, kConfiguration), "domain");
+  parts_->participant = made(dds_create_participant(task.domain, nullptr, nullptr), "participant");
+  requireLoopbackOnly();
+  for (const std::string& hand : task.hands) parts_->add(hand);
+}
+
+RosParticipant::~RosParticipant() = default;
+
+void RosParticipant::publish(const HandState& state) {
+  if (state.hand >= parts_->hands.size()) return;
+  RosHandTopics& hand = parts_->hands[state.hand];
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  const std_msgs_msg_dds__Header_ header{
+      {static_cast<std::int32_t>(state.time_ns / kSecond_ns), static_cast<std::uint32_t>(state.time_ns % kSecond_ns)},
+      hand.frame.data()};
+  const auto& p = state.position;
+  const auto& q = state.orientation;
+  const geometry_msgs_msg_dds__PoseStamped_ pose{header, {{p[0], p[1], p[2]}, {q[0], q[1], q[2], q[3]}}};
+  const geometry_msgs_msg_dds__TwistStamped_ twist{header,
+                                                   {vectorOf(state.velocity), vectorOf(state.angular_velocity)}};
+  const geometry_msgs_msg_dds__WrenchStamped_ wrench{header, {vectorOf(state.force), vectorOf(state.torque)}};
+  std::array<std::int32_t, kRosButtons> buttons{};
+  for (std::size_t i = 0; i < buttons.size(); ++i) buttons[i] = static_cast<std::int32_t>(state.buttons >> i & 1U);
+  sensor_msgs_msg_dds__Joy_ joy{};
+  joy.header = header;
+  joy.buttons._maximum = joy.buttons._length = kRosButtons;
+  joy.buttons._buffer = buttons.data();
+  dds_write(hand.pose, &pose);
+  dds_write(hand.twist, &twist);
+  dds_write(hand.wrench, &wrench);
+  dds_write(hand.joy, &joy);
+}
+
+}  // namespace hl

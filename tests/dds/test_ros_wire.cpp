@@ -1,0 +1,205 @@
+// hl-ros on the wire, as Debian's Fast DDS hears it and speaks to it.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "dds/fast_peer.h"
+#include "dds/payloads.h"
+#include "ros/ros_process.h"
+#include "wait_for.h"
+
+namespace hl {
+namespace {
+
+using test::FastPeer;
+using test::Payload;
+using test::Reliability;
+
+// Of its own for each test: tests run beside each other. Above 101 ports are among those that others are given.
+std::uint32_t ownDomain() { return 1 + static_cast<std::uint32_t>(getpid()) % 100; }
+// Two tests may have one domain; their topics have names of their own.
+std::string ownHand() { return "t" + std::to_string(getpid()) + "/hand"; }
+
+RosTask taskOf(const std::string& hand) { return {HL_VERSION, ownDomain(), {hand}}; }
+
+// 1 700 000 000.123456789 s after 1970, and numbers that no other part of the state has.
+HandState state() {
+  HandState state;
+  state.buttons = 0b101;
+  state.time_ns = 1'700'000'000'123'456'789;
+  state.position = {1, -2, 0.5};
+  state.orientation = {0, 0, 1, 0};
+  state.velocity = {0.25, 4, -8};
+  state.force = {3, 0.125, -1};
+  return state;
+}
+
+// Sends the state until it is heard: nothing is sent again, and what is sent before both know of each other is lost.
+Payload heard(RosProcess& ros, test::FastReader& reader) {
+  std::optional<Payload> payload;
+  test::waitFor([&] {
+    ros.send(state());
+    payload = reader.take();
+    return payload.has_value();
+  });
+  return *payload;
+}
+
+void append(Payload& payload, std::initializer_list<int> bytes) {
+  for (const int byte : bytes) payload.push_back(static_cast<std::uint8_t>(byte));
+}
+
+// Time: 1 700 000 000 = 0x6553f100 and 123 456 789 = 0x075bcd15. The frame "t/hand/base" has 11 letters and a 0; the
+// next number is a double, at 8 + 4 + 12 = 24 behind the encapsulation.
+Payload goldenHeader() {
+  Payload header{0, 1, 0, 0};
+  append(header, {0x00, 0xf1, 0x53, 0x65, 0x15, 0xcd, 0x5b, 0x07});
+  append(header, {12, 0, 0, 0, 't', '/', 'h', 'a', 'n', 'd', '/', 'b', 'a', 's', 'e', 0});
+  return header;
+}
+// Doubles of IEEE 754 whose last six bytes are 0: sign and exponent, and the first four bits of the fraction.
+void appendDoubles(Payload& payload, std::initializer_list<int> first_two_bytes) {
+  for (const int bytes : first_two_bytes) append(payload, {0, 0, 0, 0, 0, 0, bytes & 0xff, bytes >> 8});
+}
+
+constexpr int kOne = 0x3ff0, kMinusTwo = 0xc000, kHalf = 0x3fe0, kQuarter = 0x3fd0, kFour = 0x4010,
+              kMinusEight = 0xc020, kThree = 0x4008, kEighth = 0x3fc0, kMinusOne = 0xbff0;
+
+class GoldenBytes : public ::testing::Test {
+ protected:
+  Payload wire(const char* topic, const char* type) {
+    const auto reader = peer_.reader(ddsTopic("t/hand", topic), type, Reliability::kBestEffort);
+    return heard(ros_, *reader);
+  }
+
+ private:
+  RosProcess ros_{taskOf("t/hand")};
+  FastPeer peer_{ownDomain()};
+};
+
+TEST_F(GoldenBytes, OfAPose) {
+  Payload golden = goldenHeader();
+  appendDoubles(golden, {kOne, kMinusTwo, kHalf, 0, 0, kOne, 0});
+  EXPECT_EQ(wire("measured_cp", test::kPoseType), golden);
+}
+
+TEST_F(GoldenBytes, OfATwist) {
+  Payload golden = goldenHeader();
+  appendDoubles(golden, {kQuarter, kFour, kMinusEight, 0, 0, 0});
+  EXPECT_EQ(wire("measured_cv", test::kTwistType), golden);
+}
+
+TEST_F(GoldenBytes, OfAWrench) {
+  Payload golden = goldenHeader();
+  appendDoubles(golden, {kThree, kEighth, kMinusOne, 0, 0, 0});
+  EXPECT_EQ(wire("measured_cf", test::kWrenchType), golden);
+}
+
+// No axes, and eight buttons, of which the first and the third are down.
+TEST_F(GoldenBytes, OfAJoy) {
+  Payload golden = goldenHeader();
+  append(golden, {0, 0, 0, 0, 8, 0, 0, 0});
+  for (const int down : {1, 0, 1, 0, 0, 0, 0, 0}) append(golden, {down, 0, 0, 0});
+  EXPECT_EQ(wire("buttons", test::kJoyType), golden);
+}
+
+// What has come of the samples that the writer repeats.
+HandCommand told(RosProcess& ros, test::FastWriter& writer, const Payload& payload) {
+  std::optional<HandCommand> command;
+  test::waitFor([&] {
+    writer.write(payload);
+    command = ros.receive();
+    return command.has_value();
+  });
+  return *command;
+}
+
+TEST(RosWire, TakesForcesAndPlacesOfReliableAndOfBestEffortWriters) {
+  const std::string hand = ownHand();
+  RosProcess ros(taskOf(hand));
+  FastPeer peer(ownDomain());
+  for (const Reliability reliability : {Reliability::kReliable, Reliability::kBestEffort}) {
+    const auto force = peer.writer(ddsTopic(hand, "servo_cf"), test::kWrenchType, reliability);
+    const HandCommand wrench = told(ros, *force, test::wrenchOf(rosFrame(hand), {1, 2, 3}));
+    EXPECT_EQ(wrench.input, RosInput::kServoCf);
+    EXPECT_EQ(wrench.hand, 0u);
+    EXPECT_EQ(wrench.own_frame, 1u);
+    EXPECT_EQ(wrench.value, (std::array<double, 3>{1, 2, 3}));
+    while (ros.receive()) {
+    }
+    const auto place = peer.writer(ddsTopic(hand, "servo_cp"), test::kPoseType, reliability);
+    std::optional<HandCommand> pose;
+    test::waitFor([&] {
+      pose = told(ros, *place, test::poseOf("", {-1, 0.5, 4}));
+      return pose->input == RosInput::kServoCp;
+    });
+    EXPECT_EQ(pose->own_frame, 1u);
+    EXPECT_EQ(pose->value, (std::array<double, 3>{-1, 0.5, 4}));
+    while (ros.receive()) {
+    }
+  }
+}
+
+TEST(RosWire, SaysWhenAFrameIsAnotherOne) {
+  const std::string hand = ownHand();
+  RosProcess ros(taskOf(hand));
+  FastPeer peer(ownDomain());
+  const auto force = peer.writer(ddsTopic(hand, "servo_cf"), test::kWrenchType, Reliability::kReliable);
+  EXPECT_EQ(told(ros, *force, test::wrenchOf("tool0", {1, 2, 3})).own_frame, 0u);
+}
+
+// What cannot be a wrench is not told, and what comes after it is.
+TEST(RosWire, LivesThroughSamplesThatAreMalformed) {
+  const std::string hand = ownHand();
+  RosProcess ros(taskOf(hand));
+  FastPeer peer(ownDomain());
+  const auto writer = peer.writer(ddsTopic(hand, "servo_cf"), test::kWrenchType, Reliability::kReliable);
+  const Payload whole = test::wrenchOf("f", {1, 2, 3});
+  told(ros, *writer, whole);
+  std::vector<Payload> malformed;
+  for (const std::size_t size : {4, 5, 8, 12, 16, 20, 40, 67})
+    malformed.emplace_back(whole.begin(), whole.begin() + size);
+  for (const std::uint32_t length : {0u, 0x7fffffffu, 0xffffffffu, 1000u}) {
+    malformed.push_back(whole);
+    std::memcpy(malformed.back().data() + 12, &length, sizeof length);
+  }
+  malformed.push_back(Payload(2000, 0xff));
+  malformed.push_back({0xff, 0xff, 0, 0});
+  for (const Payload& payload : malformed) writer->write(payload);
+  std::size_t refused = 0;
+  bool heard_after = false;
+  test::waitFor([&] {
+    writer->write(test::wrenchOf("", {7, 0, 0}));
+    while (const auto command = ros.receive()) {
+      if (command->input == RosInput::kMalformed) ++refused;
+      // Those of `whole` that were still under way have the value 1.
+      if (command->input == RosInput::kServoCf) {
+        EXPECT_TRUE(command->value[0] == 1 || command->value[0] == 7);
+      }
+      heard_after |= command->input == RosInput::kServoCf && command->value[0] == 7;
+    }
+    return heard_after && refused > 0;
+  });
+  EXPECT_FALSE(ros.ended());
+}
+
+TEST(RosWire, NumbersThatAreNoneAreToldAsTheyCame) {
+  const std::string hand = ownHand();
+  RosProcess ros(taskOf(hand));
+  FastPeer peer(ownDomain());
+  const auto force = peer.writer(ddsTopic(hand, "servo_cf"), test::kWrenchType, Reliability::kReliable);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(told(ros, *force, test::wrenchOf("", {nan, 0, 0})).value[0]));
+}
+
+TEST(RosWire, AProgramOfAnotherVersionIsRefused) {
+  RosTask task = taskOf(ownHand());
+  task.version = "0.0.0";
+  EXPECT_THROW(RosProcess{task}, Error);
+}
+
+}  // namespace
+}  // namespace hl
