@@ -94,6 +94,14 @@ void RosProcess::end() {
   waitpid(id_, nullptr, 0);
 }
 
+void RosProcess::wait(std::int64_t most_ns) {
+  if (most_ns <= 0) return;
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  pollfd waiting{socket_, POLLIN, 0};
+  const timespec most{most_ns / kSecond_ns, most_ns % kSecond_ns};
+  ppoll(&waiting, 1, &most, nullptr);
+}
+
 bool RosProcess::send(const HandState& state) {
   const auto bytes = bytesOf(state);
   return ::send(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());

@@ -3,31 +3,25 @@
 
 #include <sys/types.h>
 
-#include <optional>
-
-#include "ros/packets.h"
+#include "ros/ros_link.h"
 #include "ros/ros_task.h"
 
 namespace hl {
 
-/// One thread at a time. Ends with this object.
-class RosProcess {
+/// Ends with this object.
+class RosProcess final : public RosLink {
  public:
   /// Returns when others can find its topics. Throws hl::Error, with what to do, when hl-ros is not there or cannot
   /// serve this task.
   explicit RosProcess(const RosTask& task);
-  ~RosProcess();
+  ~RosProcess() override;
   RosProcess(const RosProcess&) = delete;
   RosProcess& operator=(const RosProcess&) = delete;
 
-  /// To wait on: readable when there is a command, or hl-ros has ended.
-  int socket() const { return socket_; }
-  /// False: hl-ros is behind, and the state is left out.
-  bool send(const HandState& state);
-  /// The next one that has come, without waiting.
-  std::optional<HandCommand> receive();
-  /// Nothing comes any more.
-  bool ended() const { return ended_; }
+  void wait(std::int64_t most_ns) override;
+  bool send(const HandState& state) override;
+  std::optional<HandCommand> receive() override;
+  bool ended() const override { return ended_; }
 
  private:
   void waitUntilReady();

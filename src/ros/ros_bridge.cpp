@@ -1,0 +1,112 @@
+#include "ros/ros_bridge.h"
+
+#include <time.h>
+
+#include <algorithm>
+
+#include "base/clock.h"
+#include "base/guarded_thread.h"
+#include "ros/hand_motion.h"
+
+namespace hl {
+
+namespace {
+
+// So late the thread notices that it is to end.
+constexpr std::int64_t kLongestWait_ns = 20'000'000;
+
+constexpr std::array<const char*, static_cast<std::size_t>(CommandVerdict::kVerdicts)> kWhyRefused{
+    "", "a sample is malformed", "a number is none, or infinite",
+    "a frame is not that of the hand, NAMESPACE/HAND/base, nor empty", "a command is older than 50 ms"};
+
+// How far the system clock is ahead of the monotonic one. It may be set at any time, so it is asked each time.
+std::int64_t toSystem_ns() {
+  timespec now{};
+  clock_gettime(CLOCK_REALTIME, &now);
+  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec - monotonicNow_ns();
+}
+
+template <typename Counts, std::size_t kCount>
+std::array<std::uint64_t, kCount> read(const std::array<Counts, kCount>& counts) {
+  std::array<std::uint64_t, kCount> numbers{};
+  std::copy(counts.begin(), counts.end(), numbers.begin());
+  return numbers;
+}
+
+}  // namespace
+
+std::vector<std::string> rosHands(const std::string& name_space, std::size_t count) {
+  std::vector<std::string> hands;
+  for (std::size_t i = 0; i < count; ++i)
+    hands.push_back(name_space + "/hand" + (count == 1 ? std::string() : std::to_string(i)));
+  return hands;
+}
+
+RosBridge::RosBridge(std::unique_ptr<RosLink> link, std::vector<TouchSession*> hands, double rate_Hz, TellPerson tell)
+    : link_(std::move(link)), period_ns_(static_cast<std::int64_t>(1e9 / rate_Hz)), tell_(std::move(tell)) {
+  for (TouchSession* const session : hands) hands_.push_back({session, CommandJudge(session->deviceInfo())});
+}
+
+void RosBridge::start() {
+  running_ = true;
+  thread_ = startThread("ros", [this] { run(); });
+}
+
+void RosBridge::stop() {
+  if (!running_.exchange(false)) return;
+  thread_.join();
+  for (const Hand& hand : hands_) hand.session->pull({});
+}
+
+void RosBridge::run() {
+  std::int64_t next_ns = monotonicNow_ns();
+  while (running_) {
+    link_->wait(std::min(next_ns - monotonicNow_ns(), kLongestWait_ns));
+    takeCommands();
+    if (link_->ended()) break;
+    const std::int64_t now_ns = monotonicNow_ns();
+    if (now_ns < next_ns) continue;
+    tellHands();
+    // What could not be told in time is not told later.
+    next_ns = std::max(next_ns + period_ns_, now_ns);
+  }
+  linked_ = false;
+  if (running_) tell_("hl-ros has ended: hands are no topics of ROS 2 any more, until the server is started again");
+}
+
+void RosBridge::takeCommands() {
+  while (const std::optional<HandCommand> command = link_->receive()) {
+    const auto input = static_cast<std::size_t>(command->input);
+    if (input < received_.size()) ++received_[input];
+    const bool known = command->hand < hands_.size();
+    Hand* const hand = known ? &hands_[command->hand] : nullptr;
+    const CommandVerdict verdict = known ? hand->judge.judge(*command, monotonicNow_ns()) : CommandVerdict::kMalformed;
+    if (verdicts_[static_cast<std::size_t>(verdict)]++ == 0) tellRefusal(verdict);
+    if (verdict == CommandVerdict::kTaken) hand->session->pull(hand->judge.pull());
+  }
+  for (Hand& hand : hands_) {
+    if (hand.judge.takeEnd(monotonicNow_ns())) ++ends_;
+  }
+}
+
+void RosBridge::tellRefusal(CommandVerdict verdict) {
+  if (verdict == CommandVerdict::kTaken) return;
+  tell_(std::string("from ROS 2: ") + kWhyRefused[static_cast<std::size_t>(verdict)] +
+        ": left out, as will be others, which are counted in /metrics and not told");
+}
+
+void RosBridge::tellHands() {
+  const std::int64_t to_system_ns = toSystem_ns();
+  for (std::uint32_t i = 0; i < hands_.size(); ++i) {
+    const std::optional<HandMotion> motion = newestMotion(hands_[i].session->moments());
+    if (!motion || motion->newest.time_ns == hands_[i].told_ns) continue;
+    hands_[i].told_ns = motion->newest.time_ns;
+    ++(link_->send(stateOf(i, *motion, to_system_ns)) ? states_ : states_lost_);
+  }
+}
+
+RosCounts RosBridge::counts() const {
+  return {linked_, states_, states_lost_, read(received_), read(verdicts_), ends_};
+}
+
+}  // namespace hl
