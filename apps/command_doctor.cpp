@@ -11,6 +11,7 @@
 #include "doctor_machine.h"
 #include "doctor_report.h"
 #include "io/output_file.h"
+#include "ros_options.h"
 #include "serving.h"
 
 namespace hl {
@@ -69,6 +70,7 @@ MachineExamination examineAndPrintMachine() {
 void examineAll(OutputFile* report) {
   const MachineExamination machine = examineAndPrintMachine();
   printPresentDevices();
+  fmt::print("{:<20}{}\n", "ROS 2:", rosPresence());
   printBlackBoxes();
   printAdvice(machine.grant);
   if (report != nullptr) report->write(reportOf(machine, {}));

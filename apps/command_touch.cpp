@@ -10,6 +10,7 @@
 #include "io/csv_path.h"
 #include "io/load_scene_file.h"
 #include "io/output_file.h"
+#include "monitor/ros_metrics.h"
 #include "monitor/touch_monitor.h"
 #include "open_browser.h"
 #include "page/viewer_feed.h"
@@ -75,6 +76,25 @@ void printTotals(TouchSession& session) {
   if (session.settings().timer_reference) line("bare timer:", session.referenceTotals());
 }
 
+void printSession(const std::string& scene, const TouchSession& session, std::uint64_t primitives) {
+  fmt::print(stderr, "{}: {} primitives; device: {}, {:g} Hz; 1 mm of the hand is {:.4g} mm of the scene\n", scene,
+             primitives, session.deviceInfo().name, session.servoRate_Hz(), session.workspace().world_per_device);
+  if (!session.grant().why.empty())
+    fmt::print(stderr, "the servo runs without all it asked for: {}see hl doctor\n", session.grant().why);
+}
+
+// What the options say of the session. Gives whether they leave it to the scene how smooth its surfaces feel.
+bool applyToSession(TouchOptions& options) {
+  options.settings.hand_firm = options.hand == "firm";
+  // A scene file says how its surfaces feel; a bare model feels as smooth as it looks.
+  const bool shade_untold = !options.settings.surfaces.smooth;
+  if (!isSceneFile(options.scene.scene) && shade_untold) options.settings.surfaces.smooth = true;
+  options.settings.explore = options.explore == "on";
+  if (options.scale > 0) options.settings.world_per_device = options.scale;
+  if (!options.hand_path.empty()) options.settings.script = readScript(options.hand_path);
+  return shade_untold;
+}
+
 TouchServerSettings serverSettings(const TouchOptions& options, const Limits& limits) {
   TouchServerSettings settings{options.settings, 1, limits, HL_VERSION, options.device};
   RecorderSettings recorder = options.recorder;
@@ -90,13 +110,7 @@ void runTouch(TouchOptions options) {
   if (!options.recorder.file.empty())
     requireNotRead(options.recorder.file, {options.scene.scene, options.hand_path, replayedFile(options.device)});
   const auto snapshot = loadSnapshot(options.scene);
-  options.settings.hand_firm = options.hand == "firm";
-  // A scene file says how its surfaces feel; a bare model feels as smooth as it looks.
-  const bool shade_untold = !options.settings.surfaces.smooth;
-  if (!isSceneFile(options.scene.scene) && shade_untold) options.settings.surfaces.smooth = true;
-  options.settings.explore = options.explore == "on";
-  if (options.scale > 0) options.settings.world_per_device = options.scale;
-  if (!options.hand_path.empty()) options.settings.script = readScript(options.hand_path);
+  const bool shade_untold = applyToSession(options);
   // hl record has all of the session in its file.
   if (options.recorder.file.empty()) options.recorder.pages = std::make_shared<PageRecordings>();
   giveFreedMemoryBack();
@@ -114,18 +128,16 @@ void runTouch(TouchOptions options) {
     http.upload.limit_bytes = kUpload_bytes;
     http.upload.open = [&](int descriptor, const std::string& name) { return opener.open(descriptor, name); };
   }
+  const auto ros = makeRosBridge(options.ros, touch, [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
   const auto& recordings = options.recorder.pages;
   const auto set_iso = [&touch](std::uint64_t surface, const IsoChoice& iso) { touch.setIso(surface, iso); };
   HttpServer server(
       http, makeViewerFeed(session, HL_VERSION, touch.memory().member(), recordings, http.upload.limit_bytes, set_iso),
-      &touch, makeTouchMonitor(session, &touch, recordings));
+      &touch, withRosMetrics(makeTouchMonitor(session, &touch, recordings), ros.get()));
   touch.start();
+  if (ros) ros->start();
   server.start();
-  fmt::print(stderr, "{}: {} primitives; device: {}, {:g} Hz; 1 mm of the hand is {:.4g} mm of the scene\n",
-             options.scene.scene, snapshot->primitives, session.deviceInfo().name, session.servoRate_Hz(),
-             session.workspace().world_per_device);
-  if (!session.grant().why.empty())
-    fmt::print(stderr, "the servo runs without all it asked for: {}see hl doctor\n", session.grant().why);
+  printSession(options.scene.scene, session, snapshot->primitives);
   const std::string address = fmt::format("http://127.0.0.1:{}/", server.port());
   fmt::print("page: {}\n", address);
   std::fflush(stdout);
@@ -133,6 +145,7 @@ void runTouch(TouchOptions options) {
   waitForSignal(signals, options.duration_s);
   opener.giveUp();
   server.stop();
+  if (ros) ros->stop();
   touch.stop();
   printTotals(session);
 }
@@ -193,6 +206,7 @@ void addTouchOptions(CLI::App& command, TouchOptions& options) {
   command.add_option("--duration", options.duration_s, "end by itself after this many seconds")
       ->check(within(kMinNumber, kMaxNumber));
   addBlackBoxOption(command, options.recorder);
+  addRosOptions(command, options.ros);
 }
 
 void addTouchCommand(CLI::App& app) {

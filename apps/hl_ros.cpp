@@ -27,12 +27,12 @@ void serve(const hl::RosTask& task) {
   close_range(STDERR_FILENO + 1, ~0U, 0);  // sockets of the server that came along
   hl::RosParticipant participant(task, [](const hl::HandCommand& command) { tellServer(command); });
   tellServer(hl::RosReady{});
-  std::array<char, sizeof(hl::HandState)> buffer;
+  std::array<char, sizeof(hl::RosHandState)> buffer;
   for (;;) {
     const auto size = recv(STDIN_FILENO, buffer.data(), buffer.size(), 0);
     if (size < 0 && errno == EINTR) continue;
     if (size <= 0) return;
-    if (const auto state = hl::packetOf<hl::HandState>({buffer.data(), static_cast<std::size_t>(size)}))
+    if (const auto state = hl::packetOf<hl::RosHandState>({buffer.data(), static_cast<std::size_t>(size)}))
       participant.publish(*state);
   }
 }

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/realtime.h"
 #include "hld_options.h"
+#include "monitor/ros_metrics.h"
 #include "monitor/touch_monitor.h"
 #include "page/viewer_feed.h"
 #include "record/recorder.h"
@@ -71,10 +72,14 @@ void serve(HldOptions& options) {
   const HttpServerSettings http = serverSettings(options);
   TouchServer touch(sceneOf(options.scene), {options.touch, options.devices, http.limits, HL_VERSION, options.device});
   TouchSession& session = touch.device();
+  const auto ros = makeRosBridge(options.ros, touch, [](const std::string& line) {
+    logEvent(LogLevel::kWarning, "ros", {{"reason", line}});
+  });
   const auto set_iso = [&touch](std::uint64_t surface, const IsoChoice& iso) { touch.setIso(surface, iso); };
   HttpServer server(http, makeViewerFeed(session, HL_VERSION, touch.memory().member(), nullptr, 0, set_iso), &touch,
-                    makeTouchMonitor(session, &touch));
+                    withRosMetrics(makeTouchMonitor(session, &touch), ros.get()));
   touch.start();
+  if (ros) ros->start();
   server.start();
   logReady(options, session, server.port());
   notifySystemd("READY=1");
@@ -83,6 +88,7 @@ void serve(HldOptions& options) {
   logEvent(LogLevel::kInfo, "stopping", {{"reason", received == SIGINT ? "SIGINT" : "SIGTERM"}});
   notifySystemd("STOPPING=1");
   server.stop();
+  if (ros) ros->stop();
   touch.stop();
 }
 

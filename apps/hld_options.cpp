@@ -120,6 +120,7 @@ void addHldOptions(CLI::App& app, HldOptions& options) {
   addDeviceOptions(app, options);
   addForceOptions(app, options.touch.servo, options.touch.servo_rate);
   addBlackBoxOption(app, options.recorder);
+  addRosOptions(app, options.ros);
   addLimitOptions(app, options.server.limits);
   addLogOptions(app, options);
 }

@@ -8,6 +8,7 @@
 #include "http/http_server.h"
 #include "monitor/event_log.h"
 #include "record/recorder.h"
+#include "ros_options.h"
 #include "touch/touch_session.h"
 
 namespace hl {
@@ -17,6 +18,7 @@ struct HldOptions {
   HttpServerSettings server;  ///< but for the token
   TouchSettings touch;
   RecorderSettings recorder;
+  RosOptions ros;
   std::string token_file;     ///< empty: no token
   std::uint32_t devices = 1;  ///< of that kind
   std::string device = "sim";

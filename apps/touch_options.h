@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "record/recorder.h"
+#include "ros_options.h"
 #include "touch/touch_session.h"
 
 namespace hl {
@@ -14,6 +15,7 @@ struct TouchOptions {
   SceneOptions scene;
   TouchSettings settings;
   RecorderSettings recorder;
+  RosOptions ros;
   std::string device = "sim";
   int port = 1997;
   bool no_open = false;

@@ -1,6 +1,6 @@
 # `cpack --config build/CPackConfig.cmake -B build/packages` makes the Debian packages libhl, libhlbatch, libhl-dev and
-# hl-tools of what cmake/install.cmake installs, hl-cad where OpenCASCADE is, hl-vdb where OpenVDB is, and python3-hl where
-# the Python package is built.
+# hl-tools of what cmake/install.cmake installs, hl-cad where OpenCASCADE is, hl-vdb where OpenVDB is, hl-ros where
+# Cyclone DDS is, and python3-hl where the Python package is built.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME hl)
 set(CPACK_PACKAGE_CONTACT "The authors of HL <hl@localhost>")
@@ -13,6 +13,9 @@ if(TARGET hl_cad_program)
 endif()
 if(TARGET hl_vdb_program)
   list(APPEND CPACK_COMPONENTS_ALL hl-vdb)
+endif()
+if(TARGET hl_ros_program)
+  list(APPEND CPACK_COMPONENTS_ALL hl-ros)
 endif()
 if(HL_BUILD_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python3-hl)
@@ -33,7 +36,7 @@ set(CPACK_DEBIAN_LIBHL-DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBHL-DEV_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_LIBHL-DEV_PACKAGE_DEPENDS "libhl (= ${PROJECT_VERSION}), libhlbatch (= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_HL-TOOLS_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_HL-TOOLS_PACKAGE_SUGGESTS "libhl-dev, hl-cad, hl-vdb, slurm-client")
+set(CPACK_DEBIAN_HL-TOOLS_PACKAGE_SUGGESTS "libhl-dev, hl-cad, hl-vdb, hl-ros, slurm-client")
 set(CPACK_DEBIAN_HL-CAD_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_HL-CAD_PACKAGE_ENHANCES hl-tools)
 # Both speak the messages of one version.
@@ -41,6 +44,9 @@ set(CPACK_DEBIAN_HL-CAD_PACKAGE_BREAKS "hl-tools (<< ${PROJECT_VERSION}), hl-too
 set(CPACK_DEBIAN_HL-VDB_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_HL-VDB_PACKAGE_ENHANCES hl-tools)
 set(CPACK_DEBIAN_HL-VDB_PACKAGE_BREAKS "hl-tools (<< ${PROJECT_VERSION}), hl-tools (>> ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_HL-ROS_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_HL-ROS_PACKAGE_ENHANCES hl-tools)
+set(CPACK_DEBIAN_HL-ROS_PACKAGE_BREAKS "hl-tools (<< ${PROJECT_VERSION}), hl-tools (>> ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_PYTHON3-HL_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON3-HL_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
 set(CPACK_DEBIAN_PYTHON3-HL_PACKAGE_SUGGESTS "python3-matplotlib, hl-tools")
@@ -51,4 +57,5 @@ set(CPACK_COMPONENT_LIBHL-DEV_DESCRIPTION "Headers, CMake and pkg-config files, 
 set(CPACK_COMPONENT_HL-TOOLS_DESCRIPTION "The command hl, the server hld, and their page.")
 set(CPACK_COMPONENT_HL-CAD_DESCRIPTION "The program hl-cad, with which hl reads STEP, IGES and BREP files.")
 set(CPACK_COMPONENT_HL-VDB_DESCRIPTION "The program hl-vdb, with which hl reads OpenVDB and NanoVDB files.")
+set(CPACK_COMPONENT_HL-ROS_DESCRIPTION "The program hl-ros, with which hl and hld serve topics of ROS 2.")
 include(CPack)

@@ -155,7 +155,7 @@ RosParticipant::RosParticipant(const RosTask& task, Tell tell) : parts_(std::mak
 
 RosParticipant::~RosParticipant() = default;
 
-void RosParticipant::publish(const HandState& state) {
+void RosParticipant::publish(const RosHandState& state) {
   if (state.hand >= parts_->hands.size()) return;
   RosHandTopics& hand = parts_->hands[state.hand];
   constexpr std::int64_t kSecond_ns = 1'000'000'000;

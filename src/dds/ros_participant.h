@@ -21,7 +21,7 @@ class RosParticipant {
   RosParticipant& operator=(const RosParticipant&) = delete;
 
   /// A sample of each measured topic of this hand. One of a hand that there is not is left out.
-  void publish(const HandState& state);
+  void publish(const RosHandState& state);
 
  private:
   struct Parts;

@@ -57,8 +57,8 @@ std::optional<HandMotion> newestMotion(const LogRing<ServoMoment>& moments) {
 
 std::array<double, 4> orientationOf(const HandMotion&) { return {0, 0, 0, 1}; }
 
-HandState stateOf(std::uint32_t hand, const HandMotion& motion, std::int64_t to_system_ns) {
-  HandState state;
+RosHandState stateOf(std::uint32_t hand, const HandMotion& motion, std::int64_t to_system_ns) {
+  RosHandState state;
   state.hand = hand;
   state.buttons = static_cast<std::uint32_t>(motion.newest.buttons);
   state.time_ns = motion.newest.time_ns + to_system_ns;

@@ -28,6 +28,6 @@ std::optional<HandMotion> newestMotion(const LogRing<ServoMoment>& moments);
 std::array<double, 4> orientationOf(const HandMotion& motion);
 
 /// `to_system_ns`: the system clock less the monotonic one.
-HandState stateOf(std::uint32_t hand, const HandMotion& motion, std::int64_t to_system_ns);
+RosHandState stateOf(std::uint32_t hand, const HandMotion& motion, std::int64_t to_system_ns);
 
 }  // namespace hl

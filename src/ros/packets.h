@@ -15,7 +15,7 @@ namespace hl {
 inline constexpr std::uint32_t kRosButtons = 8;
 
 /// To hl-ros: how a hand is. Frame D of its device.
-struct HandState {
+struct RosHandState {
   std::uint32_t hand = 0;  ///< its place among the words that hl-ros was started with
   std::uint32_t buttons = 0;
   std::int64_t time_ns = 0;  ///< of the system clock, since 1970

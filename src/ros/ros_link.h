@@ -15,7 +15,7 @@ class RosLink {
   /// Until there is a command, or the link has ended; `most_ns` at most.
   virtual void wait(std::int64_t most_ns) = 0;
   /// False: the other side is behind, and the state is left out.
-  virtual bool send(const HandState& state) = 0;
+  virtual bool send(const RosHandState& state) = 0;
   /// The next one that has come.
   virtual std::optional<HandCommand> receive() = 0;
   /// Nothing comes any more.

@@ -102,7 +102,7 @@ void RosProcess::wait(std::int64_t most_ns) {
   ppoll(&waiting, 1, &most, nullptr);
 }
 
-bool RosProcess::send(const HandState& state) {
+bool RosProcess::send(const RosHandState& state) {
   const auto bytes = bytesOf(state);
   return ::send(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
 }

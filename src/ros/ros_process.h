@@ -19,7 +19,7 @@ class RosProcess final : public RosLink {
   RosProcess& operator=(const RosProcess&) = delete;
 
   void wait(std::int64_t most_ns) override;
-  bool send(const HandState& state) override;
+  bool send(const RosHandState& state) override;
   std::optional<HandCommand> receive() override;
   bool ended() const override { return ended_; }
 

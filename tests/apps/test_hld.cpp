@@ -184,6 +184,18 @@ TEST(Hld, TellsSystemdWhenItIsReadyAndWhenItStops) {
   close(socket);
 }
 
+// Where neither it nor the shell finds hl-ros.
+TEST(Hld, WithoutHlRosItSaysWhatToInstall) {
+  const std::string alone = hl::test::tempFile("hld");
+  std::filesystem::copy_file(HLD_PROGRAM, alone);
+  std::FILE* const hld = popen(("PATH= " + alone + " --port 0 --ros lab 2>&1").c_str(), "r");
+  char line[1000] = "";
+  EXPECT_NE(std::fgets(line, sizeof line, hld), nullptr);
+  EXPECT_EQ(WEXITSTATUS(pclose(hld)), 2);
+  EXPECT_NE(std::strstr(line, "install the package hl-ros, or run scripts/deps --ros and scripts/build"), nullptr)
+      << line;
+}
+
 TEST(Hld, BadInputIsOneLineAndExitCodeTwo) {
   const std::string misspelt = fileWith("misspelt.conf", "lissten = \"127.0.0.1\"\n");
   const std::string bad_token = fileWith("bad_token", "short\n");
@@ -194,7 +206,8 @@ TEST(Hld, BadInputIsOneLineAndExitCodeTwo) {
       {"--explore", "maybe"},        {"--limit-pages", "0"},          {"--tls-key", "/nonexistent"},
       {"--log-level", "loud"},       {"--limit-message-bytes", "-1"}, {"surplus"},
       {"--limit-memory-bytes", "1"}, {"--limit-memory-bytes", "-5"},  {"--page-dir", "/nonexistent"},
-      {"--black-box", "/proc/none"}, {"--tool-mass", "100"}};
+      {"--black-box", "/proc/none"}, {"--tool-mass", "100"},          {"--ros", "9lab"},
+      {"--ros-rate", "1001"},        {"--ros-rate", "nan"},           {"--ros-interface", "eth0"}};
   for (std::vector<std::string> arguments : cases) {
     const std::string name = arguments.back();
     if (arguments.front() != "--port") arguments.insert(arguments.end(), {"--port", "0"});

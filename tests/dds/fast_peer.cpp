@@ -118,9 +118,14 @@ class OwnedWriter final : public FastWriter {
     writer_->get_publication_matched_status(status);
     return status.current_count > 0;
   }
-  void write(const Payload& payload) override {
+  void write(const Payload& payload, std::int64_t age_ns) override {
     Payload bytes = payload;
-    writer_->write(&bytes);
+    eprosima::fastrtps::Time_t time;
+    eprosima::fastrtps::Time_t::now(time);
+    constexpr std::int64_t kSecond_ns = 1'000'000'000;
+    const std::int64_t then_ns = time.to_ns() - age_ns;
+    time = {static_cast<std::int32_t>(then_ns / kSecond_ns), static_cast<std::uint32_t>(then_ns % kSecond_ns)};
+    writer_->write_w_timestamp(&bytes, dds::HANDLE_NIL, time);
   }
 
  private:

@@ -27,7 +27,8 @@ class FastWriter {
  public:
   virtual ~FastWriter() = default;
   virtual bool matched() const = 0;
-  virtual void write(const Payload& payload) = 0;
+  /// As one that was written `age_ns` ago.
+  virtual void write(const Payload& payload, std::int64_t age_ns = 0) = 0;
 };
 
 /// A participant as ROS 2's are by default. Its readers and writers end before it.

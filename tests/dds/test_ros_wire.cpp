@@ -26,8 +26,8 @@ std::string ownHand() { return "t" + std::to_string(getpid()) + "/hand"; }
 RosTask taskOf(const std::string& hand) { return {HL_VERSION, ownDomain(), {hand}}; }
 
 // 1 700 000 000.123456789 s after 1970, and numbers that no other part of the state has.
-HandState state() {
-  HandState state;
+RosHandState state() {
+  RosHandState state;
   state.buttons = 0b101;
   state.time_ns = 1'700'000'000'123'456'789;
   state.position = {1, -2, 0.5};

@@ -9,6 +9,7 @@
 #include "fake_pages.h"
 #include "http/http_server.h"
 #include "monitor/event_log.h"
+#include "monitor/ros_metrics.h"
 #include "monitor/touch_monitor.h"
 #include "page/viewer_feed.h"
 #include "plain_client.h"
@@ -51,6 +52,26 @@ TEST(MetricsText, EscapesAndWritesEveryNumber) {
   EXPECT_EQ(out.text(),
             "# HELP hl_a_total A\n# TYPE hl_a_total counter\nhl_a_total 3\n"
             "# HELP hl_b B\n# TYPE hl_b gauge\nhl_b{x=\"a\\\"b\\\\c\\nd\",y=\"2\"} 0.1\nhl_b +Inf\n");
+}
+
+TEST(RosMetrics, HaveEveryCount) {
+  RosCounts counts;
+  counts.running = true;
+  counts.states = 1;
+  counts.states_lost = 2;
+  counts.received = {3, 4};
+  counts.verdicts = {99, 5, 6, 7, 8};
+  counts.ends = 9;
+  MetricsText out;
+  writeRosMetrics(out, counts);
+  expectPrometheus(out.text());
+  for (const char* line :
+       {"hl_ros_running 1", "hl_ros_states_total 1", "hl_ros_states_lost_total 2",
+        "hl_ros_commands_total{topic=\"servo_cf\"} 3", "hl_ros_commands_total{topic=\"servo_cp\"} 4",
+        "hl_ros_refused_total{reason=\"malformed\"} 5", "hl_ros_refused_total{reason=\"not_a_number\"} 6",
+        "hl_ros_refused_total{reason=\"other_frame\"} 7", "hl_ros_refused_total{reason=\"stale\"} 8",
+        "hl_ros_ends_total 9"})
+    EXPECT_NE(out.text().find(std::string("\n") + line + "\n"), std::string::npos) << line;
 }
 
 TEST(Monitor, HealthIsOkUntilThereIsAFault) {

@@ -35,6 +35,7 @@ def cache(name):
 
 HAS_CAD = (BUILD / "bin" / "hl-cad").exists()
 HAS_VDB = (BUILD / "bin" / "hl-vdb").exists()
+HAS_ROS = (BUILD / "bin" / "hl-ros").exists()
 HAS_PYTHON = "HL_BUILD_PYTHON:BOOL=ON" in (BUILD / "CMakeCache.txt").read_text(encoding="utf-8")
 
 
@@ -146,7 +147,7 @@ class DebianPackages(unittest.TestCase):
 
     def test_there_is_one_for_each_purpose(self):
         self.assertEqual(sorted(self.packages), 
-                         ["hl-cad"] * HAS_CAD + ["hl-tools"] + ["hl-vdb"] * HAS_VDB +
+                         ["hl-cad"] * HAS_CAD + ["hl-ros"] * HAS_ROS + ["hl-tools"] + ["hl-vdb"] * HAS_VDB +
                          ["libhl", "libhl-dev", "libhlbatch"] + ["python3-hl"] * HAS_PYTHON)
 
     @unittest.skipUnless(HAS_PYTHON, "the Python package is not built")

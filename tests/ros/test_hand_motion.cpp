@@ -68,7 +68,7 @@ TEST(HandMotion, AllOfItIsInTheState) {
   motion.newest.force_N = Vec3(4, 5, 6);
   motion.newest.buttons = 0b110;
   motion.velocity_m_s = Vec3(7, 8, 9);
-  const HandState state = stateOf(3, motion, 1'000);
+  const RosHandState state = stateOf(3, motion, 1'000);
   EXPECT_EQ(state.hand, 3u);
   EXPECT_EQ(state.buttons, 6u);
   EXPECT_EQ(state.time_ns, kBegin_ns + 1'000);

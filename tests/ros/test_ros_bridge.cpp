@@ -16,11 +16,11 @@ namespace {
 /// What the test and its link share.
 struct Wire {
   std::mutex mutex;  // of what follows
-  std::vector<HandState> states;
+  std::vector<RosHandState> states;
   std::deque<HandCommand> commands;
   bool full = false, ended = false;
 
-  std::vector<HandState> told() {
+  std::vector<RosHandState> told() {
     const std::lock_guard lock(mutex);
     return states;
   }
@@ -38,7 +38,7 @@ class FakeLink final : public RosLink {
  public:
   explicit FakeLink(Wire& wire) : wire_(wire) {}
   void wait(std::int64_t) override { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }
-  bool send(const HandState& state) override {
+  bool send(const RosHandState& state) override {
     const std::lock_guard lock(wire_.mutex);
     if (!wire_.full) wire_.states.push_back(state);
     return !wire_.full;
@@ -99,10 +99,10 @@ class RosBridgeTest : public ::testing::Test {
 
 TEST_F(RosBridgeTest, TellsBothHandsOverAndOverWithTheirTimes) {
   const std::int64_t begin_ns = std::chrono::system_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
-  std::array<std::vector<HandState>, 2> of;
+  std::array<std::vector<RosHandState>, 2> of;
   test::waitFor([&] {
     of = {};
-    for (const HandState& state : wire_.told()) of.at(state.hand).push_back(state);
+    for (const RosHandState& state : wire_.told()) of.at(state.hand).push_back(state);
     return of[0].size() >= 20 && of[1].size() >= 20;
   });
   for (const auto& states : of) {
@@ -124,7 +124,7 @@ TEST_F(RosBridgeTest, AForceIsFeltByItsHandAndToldAndEndsByItself) {
   EXPECT_TRUE(forceOf(0).isZero(0));
   test::waitFor([&] {
     say(1, RosInput::kServoCf, {0, 0, 1.25});
-    const HandState last = wire_.told().back();
+    const RosHandState last = wire_.told().back();
     forceOf(1);
     return last.hand == 1 && std::abs(last.force[2] - 1.25) < 1e-9;
   });
