@@ -1,7 +1,10 @@
 #include "dds/ros_participant.h"
 
 #include <dds/dds.h>
+#include <ifaddrs.h>
+#include <net/if.h>
 #include <ros2.h>
+#include <sys/socket.h>
 
 #include <cstdio>
 #include <string_view>
@@ -30,20 +33,38 @@ struct RosHandTopics {
 
 namespace {
 
-// Whatever CYCLONEDDS_URI says. Without multicast, which lo does not have: participants are looked for at the ports of
-// this machine, each second, as the next one may come at any time.
-constexpr const char* kConfiguration = R"(<CycloneDDS><Domain Id="any">
-  <General>
-    <Interfaces><NetworkInterface autodetermine="true" multicast="false"/></Interfaces>
-    <AllowMulticast>false</AllowMulticast>
-  </General>
-  <Discovery>
-    <ParticipantIndex>auto</ParticipantIndex>
-    <MaxAutoParticipantIndex>99</MaxAutoParticipantIndex>
-    <Peers><Peer Address="127.0.0.1"/></Peers>
-    <SPDPInterval>1s</SPDPInterval>
-  </Discovery>
-</Domain></CycloneDDS>)";
+// Whether the machine has an address besides loopback, at which programs on it look for each other.
+bool hasAddress() {
+  ifaddrs* all = nullptr;
+  if (getifaddrs(&all) != 0) return false;
+  bool found = false;
+  for (const ifaddrs* one = all; one != nullptr; one = one->ifa_next) {
+    found |= one->ifa_addr != nullptr && one->ifa_addr->sa_family == AF_INET && (one->ifa_flags & IFF_UP) != 0 &&
+             (one->ifa_flags & IFF_LOOPBACK) == 0;
+  }
+  freeifaddrs(all);
+  return found;
+}
+
+// Whatever CYCLONEDDS_URI says. At the machine's own address, as programs of ROS 2 tell it by default, and at that of
+// those that are kept to this machine. Without multicast, which lo does not have: participants are looked for at the
+// ports of this machine, each second, as the next one may come at any time.
+std::string configuration() {
+  const std::string own = hasAddress() ? R"(<NetworkInterface autodetermine="true" multicast="false"/>)" : "";
+  return R"(<CycloneDDS><Domain Id="any">
+    <General>
+      <Interfaces>)" +
+         own + R"(<NetworkInterface address="127.0.0.1" multicast="false"/></Interfaces>
+      <AllowMulticast>false</AllowMulticast>
+    </General>
+    <Discovery>
+      <ParticipantIndex>auto</ParticipantIndex>
+      <MaxAutoParticipantIndex>99</MaxAutoParticipantIndex>
+      <Peers><Peer Address="127.0.0.1"/></Peers>
+      <SPDPInterval>1s</SPDPInterval>
+    </Discovery>
+  </Domain></CycloneDDS>)";
+}
 
 dds_entity_t made(dds_entity_t entity, const char* what) {
   if (entity < 0) throw Error(std::string("Cyclone DDS makes no ") + what + ": " + dds_strretcode(entity));
@@ -147,7 +168,7 @@ struct RosParticipant::Parts {
 
 RosParticipant::RosParticipant(const RosTask& task, Tell tell) : parts_(std::make_unique<Parts>(std::move(tell))) {
   dds_set_log_sink(&hearLog, const_cast<Tell*>(&parts_->tell));
-  parts_->domain = made(dds_create_domain(task.domain, kConfiguration), "domain");
+  parts_->domain = made(dds_create_domain(task.domain, configuration().c_str()), "domain");
   parts_->participant = made(dds_create_participant(task.domain, nullptr, nullptr), "participant");
   requireLoopbackOnly();
   for (const std::string& hand : task.hands) parts_->add(hand);

@@ -1,5 +1,6 @@
 #include "dds/fast_peer.h"
 
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
@@ -53,6 +54,16 @@ void setReliability(Qos& qos, Reliability reliability) {
       reliability == Reliability::kReliable ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS;
 }
 
+dds::DomainParticipantQos participantQos(Reach reach) {
+  dds::DomainParticipantQos qos = dds::PARTICIPANT_QOS_DEFAULT;
+  if (reach == Reach::kUsual) return qos;
+  const auto transport = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+  transport->interfaceWhiteList.emplace_back("127.0.0.1");
+  qos.transport().use_builtin_transports = false;
+  qos.transport().user_transports.push_back(transport);
+  return qos;
+}
+
 template <typename Entity>
 Entity* there(Entity* entity) {
   if (entity == nullptr) throw std::runtime_error("Fast DDS refuses an entity of the test");
@@ -62,9 +73,9 @@ Entity* there(Entity* entity) {
 }  // namespace
 
 struct FastPeer::Parts {
-  explicit Parts(std::uint32_t domain)
-      : participant(there(
-            dds::DomainParticipantFactory::get_instance()->create_participant(domain, dds::PARTICIPANT_QOS_DEFAULT))),
+  Parts(std::uint32_t domain, Reach reach)
+      : participant(
+            there(dds::DomainParticipantFactory::get_instance()->create_participant(domain, participantQos(reach)))),
         publisher(there(participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT))),
         subscriber(there(participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT))) {}
   ~Parts() {
@@ -135,7 +146,7 @@ class OwnedWriter final : public FastWriter {
 
 }  // namespace
 
-FastPeer::FastPeer(std::uint32_t domain) : parts_(std::make_unique<Parts>(domain)) {}
+FastPeer::FastPeer(std::uint32_t domain, Reach reach) : parts_(std::make_unique<Parts>(domain, reach)) {}
 FastPeer::~FastPeer() = default;
 
 std::unique_ptr<FastReader> FastPeer::reader(const std::string& topic, const std::string& type,

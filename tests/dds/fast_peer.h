@@ -31,10 +31,13 @@ class FastWriter {
   virtual void write(const Payload& payload, std::int64_t age_ns = 0) = 0;
 };
 
-/// A participant as ROS 2's are by default. Its readers and writers end before it.
+/// As a participant of ROS 2 is by default; or with ROS_LOCALHOST_ONLY=1, which keeps it to 127.0.0.1.
+enum class Reach { kUsual, kLoopback };
+
+/// A participant. Its readers and writers end before it.
 class FastPeer {
  public:
-  explicit FastPeer(std::uint32_t domain);
+  explicit FastPeer(std::uint32_t domain, Reach reach = Reach::kUsual);
   ~FastPeer();
   FastPeer(const FastPeer&) = delete;
   FastPeer& operator=(const FastPeer&) = delete;

@@ -8,8 +8,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 
 #include "base/clock.h"
 #include "dds/fast_peer.h"
@@ -202,6 +204,46 @@ TEST_F(RosServer, OldCommandsAndThoseThatAreNoneAreCountedAndNotFelt) {
   EXPECT_TRUE(force().isZero(0));
 }
 
+/// A program beside this one, in the domain of the test.
+class Started {
+ public:
+  Started(const std::string& name, std::vector<std::string> words) {
+    words.insert(words.begin(), std::filesystem::read_symlink("/proc/self/exe").parent_path() / name);
+    setenv("ROS_DOMAIN_ID", std::to_string(testDomain()).c_str(), 1);
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    if (posix_spawn(&id_, arguments[0], nullptr, nullptr, arguments.data(), environ) != 0)
+      throw std::runtime_error(words[0] + " cannot be started");
+  }
+  ~Started() {
+    if (id_ != 0) end(SIGKILL);
+  }
+  Started(const Started&) = delete;
+  Started& operator=(const Started&) = delete;
+
+  /// Its exit code; -1 where the signal has ended it.
+  int end(int signal) {
+    int status = 0;
+    kill(id_, signal);
+    waitpid(id_, &status, 0);
+    id_ = 0;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+ private:
+  pid_t id_ = 0;
+};
+
+TEST_F(RosServer, TheExampleLeadsTheHand) {
+  const Vec3 before_D = test::servoOf(session_).finger_D;
+  const Started example("examples/19_ros_circle", {hand_, "600"});
+  test::waitFor([&] {
+    force();
+    return (test::servoOf(session_).finger_D - before_D).norm() > 0.01;
+  });
+}
+
 // Whether there is a process with this word among those that it was started with.
 bool runs(const std::string& word) {
   std::error_code gone;
@@ -215,27 +257,15 @@ bool runs(const std::string& word) {
 }
 
 TEST(RosOfHld, HldServesBothHandsAndTakesHlRosAlongWhenItEnds) {
-  const std::string space = testSpace(), domain = "ROS_DOMAIN_ID=" + std::to_string(testDomain());
-  const std::string program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "hld";
-  std::vector<const char*> words{program.c_str(), "--port", "0",     "--devices",   "2",
-                                 "--log-level",   "error",  "--ros", space.c_str(), nullptr};
-  std::vector<char*> environment;
-  for (char** one = environ; *one != nullptr; ++one) environment.push_back(*one);
-  environment.insert(environment.end(), {const_cast<char*>(domain.c_str()), nullptr});
-  pid_t hld = 0;
-  ASSERT_EQ(posix_spawn(&hld, program.c_str(), nullptr, nullptr, const_cast<char**>(words.data()), environment.data()),
-            0);
+  const std::string space = testSpace();
+  Started hld("hld", {"--port", "0", "--devices", "2", "--log-level", "error", "--ros", space});
   FastPeer peer(testDomain());
-  std::vector<std::unique_ptr<test::FastReader>> readers;
   for (const char* hand : {"/hand0", "/hand1"}) {
-    readers.push_back(peer.reader(ddsTopic(space + hand, "buttons"), test::kJoyType, Reliability::kBestEffort));
-    test::waitFor([&] { return readers.back()->take().has_value(); });
+    const auto reader = peer.reader(ddsTopic(space + hand, "buttons"), test::kJoyType, Reliability::kBestEffort);
+    test::waitFor([&] { return reader->take().has_value(); });
   }
   EXPECT_TRUE(runs(space + "/hand0"));
-  kill(hld, SIGTERM);
-  int status = 0;
-  waitpid(hld, &status, 0);
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+  EXPECT_EQ(hld.end(SIGTERM), 0);
   EXPECT_FALSE(runs(space + "/hand0"));
 }
 

@@ -106,13 +106,14 @@ TEST_F(GoldenBytes, OfAJoy) {
   EXPECT_EQ(wire("buttons", test::kJoyType), golden);
 }
 
-// What has come of the samples that the writer repeats.
-HandCommand told(RosProcess& ros, test::FastWriter& writer, const Payload& payload) {
+// What has come of the samples that the writer repeats: the next one of this topic, as others may still be under way.
+HandCommand told(RosProcess& ros, test::FastWriter& writer, const Payload& payload,
+                 RosInput input = RosInput::kServoCf) {
   std::optional<HandCommand> command;
   test::waitFor([&] {
     writer.write(payload);
     command = ros.receive();
-    return command.has_value();
+    return command && command->input == input;
   });
   return *command;
 }
@@ -124,23 +125,24 @@ TEST(RosWire, TakesForcesAndPlacesOfReliableAndOfBestEffortWriters) {
   for (const Reliability reliability : {Reliability::kReliable, Reliability::kBestEffort}) {
     const auto force = peer.writer(ddsTopic(hand, "servo_cf"), test::kWrenchType, reliability);
     const HandCommand wrench = told(ros, *force, test::wrenchOf(rosFrame(hand), {1, 2, 3}));
-    EXPECT_EQ(wrench.input, RosInput::kServoCf);
     EXPECT_EQ(wrench.hand, 0u);
     EXPECT_EQ(wrench.own_frame, 1u);
     EXPECT_EQ(wrench.value, (std::array<double, 3>{1, 2, 3}));
-    while (ros.receive()) {
-    }
     const auto place = peer.writer(ddsTopic(hand, "servo_cp"), test::kPoseType, reliability);
-    std::optional<HandCommand> pose;
-    test::waitFor([&] {
-      pose = told(ros, *place, test::poseOf("", {-1, 0.5, 4}));
-      return pose->input == RosInput::kServoCp;
-    });
-    EXPECT_EQ(pose->own_frame, 1u);
-    EXPECT_EQ(pose->value, (std::array<double, 3>{-1, 0.5, 4}));
-    while (ros.receive()) {
-    }
+    const HandCommand pose = told(ros, *place, test::poseOf("", {-1, 0.5, 4}), RosInput::kServoCp);
+    EXPECT_EQ(pose.own_frame, 1u);
+    EXPECT_EQ(pose.value, (std::array<double, 3>{-1, 0.5, 4}));
   }
+}
+
+TEST(RosWire, MeetsProgramsThatAreKeptToThisMachine) {
+  const std::string hand = ownHand();
+  RosProcess ros(taskOf(hand));
+  FastPeer peer(ownDomain(), test::Reach::kLoopback);
+  const auto force = peer.writer(ddsTopic(hand, "servo_cf"), test::kWrenchType, Reliability::kReliable);
+  EXPECT_EQ(told(ros, *force, test::wrenchOf("", {1, 2, 3})).value[2], 3);
+  const auto poses = peer.reader(ddsTopic(hand, "measured_cp"), test::kPoseType, Reliability::kBestEffort);
+  EXPECT_EQ(heard(ros, *poses).size(), test::poseOf(rosFrame(hand), {}).size());
 }
 
 TEST(RosWire, SaysWhenAFrameIsAnotherOne) {
