@@ -1,7 +1,7 @@
-// Loopback only: in a program with this file, bind() of IPv4 ties each socket to the device lo, through which come the
-// packets that programs of this machine send to any of its addresses, and no others. So Cyclone DDS may tell the
-// machine's own address, as programs that are on it by default look for it there, and can neither hear another machine
-// nor speak to one.
+// Loopback only: in a program with this file, bind() ties each socket of the internet to the device lo. It hears what
+// is sent to 127.0.0.1 and no more, and what it sends stays on the machine, whichever of the machine's addresses it
+// goes to. So Cyclone DDS may tell the machine's own address, at which programs expect their neighbours by default, and
+// can neither hear another machine nor speak to one.
 #pragma once
 
 namespace hl {

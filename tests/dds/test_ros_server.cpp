@@ -235,6 +235,32 @@ class Started {
   pid_t id_ = 0;
 };
 
+// The process that was started with this word among others; 0: there is none.
+pid_t processOf(const std::string& word) {
+  std::error_code gone;
+  for (const auto& process : std::filesystem::directory_iterator("/proc", gone)) {
+    std::ifstream words(process.path() / "cmdline");
+    for (std::string one; std::getline(words, one, '\0');) {
+      if (one == word) return std::stoi(process.path().filename().string());
+    }
+  }
+  return 0;
+}
+
+// Whatever ends it: the hand is let go, and its servo goes on.
+TEST_F(RosServer, HlRosMayDie) {
+  const auto forces = writer("servo_cf", test::kWrenchType);
+  test::waitFor([&] {
+    forces->write(test::wrenchOf("", {1, 0, 0}));
+    return force().x() > 0;
+  });
+  kill(processOf(hand_), SIGKILL);
+  test::waitFor([&] { return !bridge_.counts().running; });
+  test::waitFor([&] { return force().isZero(0); });
+  const std::uint64_t steps = session_.servoTotals().steps;
+  test::waitFor([&] { return session_.servoTotals().steps > steps + 10; });
+}
+
 TEST_F(RosServer, TheExampleLeadsTheHand) {
   const Vec3 before_D = test::servoOf(session_).finger_D;
   const Started example("examples/19_ros_circle", {hand_, "600"});
@@ -242,18 +268,6 @@ TEST_F(RosServer, TheExampleLeadsTheHand) {
     force();
     return (test::servoOf(session_).finger_D - before_D).norm() > 0.01;
   });
-}
-
-// Whether there is a process with this word among those that it was started with.
-bool runs(const std::string& word) {
-  std::error_code gone;
-  for (const auto& process : std::filesystem::directory_iterator("/proc", gone)) {
-    std::ifstream words(process.path() / "cmdline");
-    for (std::string one; std::getline(words, one, '\0');) {
-      if (one == word) return true;
-    }
-  }
-  return false;
 }
 
 TEST(RosOfHld, HldServesBothHandsAndTakesHlRosAlongWhenItEnds) {
@@ -264,9 +278,9 @@ TEST(RosOfHld, HldServesBothHandsAndTakesHlRosAlongWhenItEnds) {
     const auto reader = peer.reader(ddsTopic(space + hand, "buttons"), test::kJoyType, Reliability::kBestEffort);
     test::waitFor([&] { return reader->take().has_value(); });
   }
-  EXPECT_TRUE(runs(space + "/hand0"));
+  EXPECT_NE(processOf(space + "/hand0"), 0);
   EXPECT_EQ(hld.end(SIGTERM), 0);
-  EXPECT_FALSE(runs(space + "/hand0"));
+  EXPECT_EQ(processOf(space + "/hand0"), 0);
 }
 
 }  // namespace
