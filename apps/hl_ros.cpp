@@ -4,10 +4,13 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
+#include <cstdio>
+#include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "dds/ros_participant.h"
-#include "io/reading_program.h"
 #include "ros/packets.h"
 #include "ros/ros_task.h"
 
@@ -41,6 +44,16 @@ void serve(const hl::RosTask& task) {
 
 // NOLINTNEXTLINE(bugprone-exception-escape): only when not even stderr can be written
 int main(int argc, char** argv) {
-  return hl::readingMain("hl-ros", HL_VERSION, {argv, static_cast<std::size_t>(argc)},
-                         [](const auto& words) { serve(hl::rosTaskOf(words)); });
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.size() == 1 && words[0] == "--version") {
+    std::printf("hl-ros %s\n", HL_VERSION);
+    return 0;
+  }
+  try {
+    serve(hl::rosTaskOf(words));
+    return 0;
+  } catch (const hl::Error& error) {
+    std::fprintf(stderr, "hl-ros: %s\n", error.what());
+    return 2;
+  }
 }

@@ -49,7 +49,7 @@ std::vector<std::string> wordsOf(const RosTask& task) {
 RosTask rosTaskOf(const std::vector<std::string>& words) {
   const bool fits = words.size() >= 4 && words.size() <= 3 + kMaxHands && words[0] == kServe &&
                     std::all_of(words.begin() + 3, words.end(), isRosName);
-  if (!fits) throw Error("hl-ros speaks ROS 2's topics for hld and hl, which start it by themselves: try hld --ros hl");
+  if (!fits) throw Error("it speaks ROS 2's topics for hld and hl, which start it by themselves: try hld --ros hl");
   return {words[1], domainOf(words[2], "the domain"), {words.begin() + 3, words.end()}};
 }
 
