@@ -42,7 +42,8 @@ std::vector<std::string> rosHands(const std::string& name_space, std::size_t cou
   return hands;
 }
 
-RosBridge::RosBridge(std::unique_ptr<RosLink> link, std::vector<TouchSession*> hands, double rate_Hz, TellPerson tell)
+RosBridge::RosBridge(std::unique_ptr<RosLink> link, const std::vector<TouchSession*>& hands, double rate_Hz,
+                     TellPerson tell)
     : link_(std::move(link)), period_ns_(static_cast<std::int64_t>(1e9 / rate_Hz)), tell_(std::move(tell)) {
   for (TouchSession* const session : hands) hands_.push_back({session, CommandJudge(session->deviceInfo())});
 }

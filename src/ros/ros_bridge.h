@@ -38,7 +38,7 @@ class RosBridge {
   using TellPerson = std::function<void(const std::string&)>;
 
   /// `hands` by their place in the task of `link`; they outlive it.
-  RosBridge(std::unique_ptr<RosLink> link, std::vector<TouchSession*> hands, double rate_Hz, TellPerson tell);
+  RosBridge(std::unique_ptr<RosLink> link, const std::vector<TouchSession*>& hands, double rate_Hz, TellPerson tell);
   ~RosBridge() { stop(); }
   void start();
   void stop();  ///< lets go of the hands; safe to call twice
