@@ -27,8 +27,9 @@ struct TopicHearing {
 
 /// What one hand has of it.
 struct RosHandTopics {
-  std::string frame;
+  std::string name, frame;
   dds_entity_t pose, twist, wrench, joy;  // writers
+  dds_entity_t gripper = 0;               // made when the hand is known to have one
 };
 
 namespace {
@@ -154,10 +155,26 @@ struct RosParticipant::Parts {
                                                   RosInput::kServoCf);
     listen<geometry_msgs_msg_dds__PoseStamped_>(geometry_msgs_msg_dds__PoseStamped__desc, hand, "servo_cp",
                                                 RosInput::kServoCp);
-    hands.push_back({rosFrame(hand), writer(geometry_msgs_msg_dds__PoseStamped__desc, hand, "measured_cp"),
+    hands.push_back({hand, rosFrame(hand), writer(geometry_msgs_msg_dds__PoseStamped__desc, hand, "measured_cp"),
                      writer(geometry_msgs_msg_dds__TwistStamped__desc, hand, "measured_cv"),
                      writer(geometry_msgs_msg_dds__WrenchStamped__desc, hand, "measured_cf"),
                      writer(sensor_msgs_msg_dds__Joy__desc, hand, "buttons")});
+  }
+
+  void publishGripper(RosHandTopics& hand, const std_msgs_msg_dds__Header_& header, const RosHandState& state) const {
+    if (hand.gripper == 0)
+      hand.gripper = writer(sensor_msgs_msg_dds__JointState__desc, hand.name, "gripper/measured_js");
+    char name[] = "gripper";
+    char* names[] = {name};
+    double position = state.gripper_rad, effort = state.gripper_N;
+    sensor_msgs_msg_dds__JointState_ joint{};
+    joint.header = header;
+    joint.name._maximum = joint.name._length = joint.position._maximum = joint.position._length = 1;
+    joint.effort._maximum = joint.effort._length = 1;
+    joint.name._buffer = names;
+    joint.position._buffer = &position;
+    joint.effort._buffer = &effort;
+    dds_write(hand.gripper, &joint);
   }
 
   const Tell tell;
@@ -199,6 +216,7 @@ void RosParticipant::publish(const RosHandState& state) {
   dds_write(hand.twist, &twist);
   dds_write(hand.wrench, &wrench);
   dds_write(hand.joy, &joy);
+  if (state.has_gripper != 0) parts_->publishGripper(hand, header, state);
 }
 
 }  // namespace hl

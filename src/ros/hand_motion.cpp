@@ -1,5 +1,7 @@
 #include "ros/hand_motion.h"
 
+#include <algorithm>
+
 #include "base/fixed_vector.h"
 
 namespace hl {
@@ -55,17 +57,20 @@ std::optional<HandMotion> newestMotion(const LogRing<ServoMoment>& moments) {
   return HandMotion{last[0], slopeOf(last)};
 }
 
-std::array<double, 4> orientationOf(const HandMotion&) { return {0, 0, 0, 1}; }
-
-RosHandState stateOf(std::uint32_t hand, const HandMotion& motion, std::int64_t to_system_ns) {
+RosHandState stateOf(std::uint32_t hand, const HandMotion& motion, bool has_gripper, std::int64_t to_system_ns) {
+  const Stylus& stylus = motion.newest.stylus;
   RosHandState state;
   state.hand = hand;
   state.buttons = static_cast<std::uint32_t>(motion.newest.buttons);
   state.time_ns = motion.newest.time_ns + to_system_ns;
   state.position = arrayOf(motion.newest.finger_D);
-  state.orientation = orientationOf(motion);
+  std::copy_n(stylus.turned.coeffs().data(), 4, state.orientation.begin());
   state.velocity = arrayOf(motion.velocity_m_s);
+  state.angular_velocity = arrayOf(stylus.spin_rad_s);
   state.force = arrayOf(motion.newest.force_N);
+  state.has_gripper = has_gripper ? 1 : 0;
+  state.gripper_rad = stylus.gripper_rad;
+  state.gripper_N = stylus.gripper_N;
   return state;
 }
 

@@ -24,10 +24,7 @@ inline constexpr std::int64_t kSlope_ns = 10'000'000;
 /// Nothing: the servo makes no steps, or the device does not answer. Any thread but the loops'.
 std::optional<HandMotion> newestMotion(const LogRing<ServoMoment>& moments);
 
-/// The orientation of the hand as a quaternion x y z w: devices tell a place alone, so it is none.
-std::array<double, 4> orientationOf(const HandMotion& motion);
-
 /// `to_system_ns`: the system clock less the monotonic one.
-RosHandState stateOf(std::uint32_t hand, const HandMotion& motion, std::int64_t to_system_ns);
+RosHandState stateOf(std::uint32_t hand, const HandMotion& motion, bool has_gripper, std::int64_t to_system_ns);
 
 }  // namespace hl

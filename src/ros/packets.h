@@ -23,6 +23,8 @@ struct RosHandState {
   std::array<double, 4> orientation{0, 0, 0, 1};  ///< quaternion, x y z w
   std::array<double, 3> velocity{}, angular_velocity{};
   std::array<double, 3> force{}, torque{};
+  std::uint64_t has_gripper = 0;  ///< 0: the next two say nothing
+  double gripper_rad = 0, gripper_N = 0;
 };
 
 /// kMalformed: what is no sample of its topic, or no packet of DDS; nothing else of the command says anything.

@@ -102,7 +102,8 @@ void RosBridge::tellHands() {
     const std::optional<HandMotion> motion = newestMotion(hands_[i].session->moments());
     if (!motion || motion->newest.time_ns == hands_[i].told_ns) continue;
     hands_[i].told_ns = motion->newest.time_ns;
-    ++(link_->send(stateOf(i, *motion, to_system_ns)) ? states_ : states_lost_);
+    const bool has_gripper = hands_[i].session->deviceInfo().gripper_max_rad > 0;
+    ++(link_->send(stateOf(i, *motion, has_gripper, to_system_ns)) ? states_ : states_lost_);
   }
 }
 

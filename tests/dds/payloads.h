@@ -82,6 +82,7 @@ inline Payload poseOf(const std::string& frame, const std::array<double, 3>& pla
 inline constexpr const char* kPoseType = "geometry_msgs::msg::dds_::PoseStamped_";
 inline constexpr const char* kTwistType = "geometry_msgs::msg::dds_::TwistStamped_";
 inline constexpr const char* kWrenchType = "geometry_msgs::msg::dds_::WrenchStamped_";
+inline constexpr const char* kJointType = "sensor_msgs::msg::dds_::JointState_";
 inline constexpr const char* kJoyType = "sensor_msgs::msg::dds_::Joy_";
 
 }  // namespace hl::test

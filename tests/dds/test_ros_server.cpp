@@ -38,11 +38,12 @@ TouchSettings quietHand() {
   return settings;
 }
 
-/// What a message of three numbers and its header say.
+/// What a message and its header say: a place and an orientation, or two vectors.
 struct Stamped {
   std::int64_t time_ns = 0;
   std::string frame;
   std::array<double, 3> value{};
+  std::array<double, 4> more{};  // of two vectors the last is nothing
 };
 
 class RosServer : public ::testing::Test {
@@ -68,7 +69,8 @@ class RosServer : public ::testing::Test {
     const std::int64_t seconds = in.number<std::int32_t>();
     const std::int64_t time_ns = 1'000'000'000 * seconds + in.number<std::uint32_t>();
     const std::string frame = in.text();
-    return {time_ns, frame, in.numbers<3>()};
+    const auto value = in.numbers<3>();
+    return {time_ns, frame, value, in.numbers<4>()};
   }
   // The servo's own moments of this time and of kSlope_ns before it, the newest first. The clocks are read one after
   // the other, and steps are a millisecond apart. None where they have been overwritten.
@@ -127,6 +129,27 @@ TEST_F(RosServer, PoseAndForceAreThoseOfTheServo) {
     }
     force();
     return checked > 50;
+  });
+}
+
+TEST_F(RosServer, TheStylusIsThatOfTheServo) {
+  const auto poses = reader("measured_cp", test::kPoseType);
+  const auto twists = reader("measured_cv", test::kTwistType);
+  int turns = 0, spins = 0, said = 0;
+  test::waitFor([&] {
+    session_.turnHand(Eigen::Quaterniond(1, std::sin(0.05 * ++said), 0.2, 0));
+    const Stamped pose = newestOf(*poses);
+    if (const auto moments = momentsUntil(pose.time_ns); !moments.empty()) {
+      const Stylus& stylus = moments[0].stylus;
+      for (int i = 0; i < 4; ++i) EXPECT_EQ(pose.more[static_cast<std::size_t>(i)], stylus.turned.coeffs()[i]);
+      if (std::abs(stylus.turned.x()) > 0.1) ++turns;
+    }
+    const Stamped twist = newestOf(*twists);
+    if (const auto moments = momentsUntil(twist.time_ns); !moments.empty()) {
+      EXPECT_EQ(Vec3(twist.more[0], twist.more[1], twist.more[2]), moments[0].stylus.spin_rad_s);
+      if (moments[0].stylus.spin_rad_s.norm() > 0.1) ++spins;
+    }
+    return turns > 20 && spins > 20;
   });
 }
 

@@ -33,6 +33,10 @@ RosHandState state() {
   state.position = {1, -2, 0.5};
   state.orientation = {0, 0, 1, 0};
   state.velocity = {0.25, 4, -8};
+  state.angular_velocity = {-1, 0.5, 1};
+  state.has_gripper = 1;
+  state.gripper_rad = 0.25;
+  state.gripper_N = 4;
   state.force = {3, 0.125, -1};
   return state;
 }
@@ -88,7 +92,7 @@ TEST_F(GoldenBytes, OfAPose) {
 
 TEST_F(GoldenBytes, OfATwist) {
   Payload golden = goldenHeader();
-  appendDoubles(golden, {kQuarter, kFour, kMinusEight, 0, 0, 0});
+  appendDoubles(golden, {kQuarter, kFour, kMinusEight, kMinusOne, kHalf, kOne});
   EXPECT_EQ(wire("measured_cv", test::kTwistType), golden);
 }
 
@@ -104,6 +108,18 @@ TEST_F(GoldenBytes, OfAJoy) {
   append(golden, {0, 0, 0, 0, 8, 0, 0, 0});
   for (const int down : {1, 0, 1, 0, 0, 0, 0, 0}) append(golden, {down, 0, 0, 0});
   EXPECT_EQ(wire("buttons", test::kJoyType), golden);
+}
+
+// One name of 7 letters and a 0, one position, no velocity, one effort. Behind the header, at 24: a sequence of 1, text
+// of 8; at 40 a sequence of 1, and its double at 48; sequences of 0 and 1 at 56 and 60, and the double at 64.
+TEST_F(GoldenBytes, OfAGripper) {
+  Payload golden = goldenHeader();
+  append(golden, {1, 0, 0, 0, 8, 0, 0, 0, 'g', 'r', 'i', 'p', 'p', 'e', 'r', 0});
+  append(golden, {1, 0, 0, 0, 0, 0, 0, 0});
+  appendDoubles(golden, {kQuarter});
+  append(golden, {0, 0, 0, 0, 1, 0, 0, 0});
+  appendDoubles(golden, {kFour});
+  EXPECT_EQ(wire("gripper/measured_js", test::kJointType), golden);
 }
 
 // What has come of the samples that the writer repeats: the next one of this topic, as others may still be under way.
