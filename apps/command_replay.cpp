@@ -59,7 +59,8 @@ class CsvFile {
 
 void print(const std::string& file, const ReplayReport& report) {
   fmt::print("{}: {} of {:.3f} s, {}, HL {}\n", file, report.black_box ? "black box" : "session",
-             report.last_s - report.first_s, report.device, report.version);
+             report.last_s - report.first_s, report.label.empty() ? report.device : report.label + ", " + report.device,
+             report.version);
   if (!report.fault.empty()) fmt::print("fault:      {}\n", report.fault);
   fmt::print("it has:     {} servo steps, {} ticks, {} scenes\n", report.steps, report.ticks, report.scenes);
   if (report.world_hashes > 0) fmt::print("bodies:     compared after {} ticks\n", report.world_hashes);

@@ -16,7 +16,6 @@
 #include "page/viewer_feed.h"
 #include "record/page_recordings.h"
 #include "record/recorder.h"
-#include "record/replay_device.h"
 #include "serving.h"
 #include "session/touch_server.h"
 #include "touch_options.h"
@@ -24,6 +23,9 @@
 namespace hl {
 
 namespace {
+
+// "left: " for a device that has a name.
+std::string headOf(const std::string& device) { return device.empty() ? "" : device + ": "; }
 
 HandScript readScript(const std::string& file) {
   HandScript script;
@@ -61,7 +63,33 @@ void printVibration(TouchSession& session) {
   fmt::print(stderr, "\n");
 }
 
+void printBeginning(const std::string& scene, const TouchSession& session) {
+  fmt::print(stderr, "{}: {} primitives; device: {}{}, {:g} Hz; 1 mm of the hand is {:.4g} mm of the scene\n", scene,
+             session.snapshot()->primitives, headOf(session.label().name), session.deviceInfo().name,
+             session.servoRate_Hz(), session.workspace().world_per_device);
+  if (!session.grant().why.empty())
+    fmt::print(stderr, "the servo runs without all it asked for: {}see hl doctor\n", session.grant().why);
+}
+
+bool hasAnyHand(TouchServer& touch) {
+  for (std::size_t i = 0; i < touch.devices(); ++i) {
+    if (touch.device(i).hasHand()) return true;
+  }
+  return false;
+}
+
+// No file that is read is overwritten.
+void requireRecordable(const TouchOptions& options, const std::vector<NamedDevice>& devices) {
+  const std::string& file = options.recorder.file;
+  if (file.empty()) return;
+  std::vector<std::string> read = replayedFiles(devices);
+  read.insert(read.end(), {options.scene.scene, options.hand_path});
+  if (devices.size() == 1) return requireNotRead(file, read);
+  for (const NamedDevice& device : devices) requireNotRead(recordingOf(file, device.name), read);
+}
+
 void printTotals(TouchSession& session) {
+  if (!session.label().name.empty()) fmt::print(stderr, "{}:\n", session.label().name);
   const auto line = [](const char* name, const LoopTotals& t) {
     fmt::print(stderr, "{:<16}{:>10} steps, {} deadlines missed, at most {:.0f} us late\n", name, t.steps, t.missed,
                1e-3 * static_cast<double>(t.late_max_ns));
@@ -76,13 +104,6 @@ void printTotals(TouchSession& session) {
   if (session.settings().timer_reference) line("bare timer:", session.referenceTotals());
 }
 
-void printSession(const std::string& scene, const TouchSession& session, std::uint64_t primitives) {
-  fmt::print(stderr, "{}: {} primitives; device: {}, {:g} Hz; 1 mm of the hand is {:.4g} mm of the scene\n", scene,
-             primitives, session.deviceInfo().name, session.servoRate_Hz(), session.workspace().world_per_device);
-  if (!session.grant().why.empty())
-    fmt::print(stderr, "the servo runs without all it asked for: {}see hl doctor\n", session.grant().why);
-}
-
 // What the options say of the session. Gives whether they leave it to the scene how smooth its surfaces feel.
 bool applyToSession(TouchOptions& options) {
   options.settings.hand_firm = options.hand == "firm";
@@ -95,11 +116,16 @@ bool applyToSession(TouchOptions& options) {
   return shade_untold;
 }
 
-TouchServerSettings serverSettings(const TouchOptions& options, const Limits& limits) {
-  TouchServerSettings settings{options.settings, 1, limits, HL_VERSION, options.device};
+TouchServerSettings serverSettings(const TouchOptions& options, std::vector<NamedDevice> devices,
+                                   const Limits& limits) {
+  TouchServerSettings settings{options.settings, std::move(devices), limits, HL_VERSION,
+                               options.devices.faultsJoined()};
   RecorderSettings recorder = options.recorder;
   recorder.version = HL_VERSION;
-  recorder.tell = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  recorder.several = settings.devices.size() > 1;
+  recorder.tell = [](const std::string& device, const std::string& line) {
+    fmt::print(stderr, "{}{}\n", headOf(device), line);
+  };
   settings.touch.sink = recorderWith(recorder);
   return settings;
 }
@@ -107,8 +133,8 @@ TouchServerSettings serverSettings(const TouchOptions& options, const Limits& li
 }  // namespace
 
 void runTouch(TouchOptions options) {
-  if (!options.recorder.file.empty())
-    requireNotRead(options.recorder.file, {options.scene.scene, options.hand_path, replayedFile(options.device)});
+  const std::vector<NamedDevice> devices = devicesOf(options.devices);
+  requireRecordable(options, devices);
   const auto snapshot = loadSnapshot(options.scene);
   const bool shade_untold = applyToSession(options);
   // hl record has all of the session in its file.
@@ -119,9 +145,9 @@ void runTouch(TouchOptions options) {
   HttpServerSettings http;
   http.port = static_cast<std::uint16_t>(options.port);
   http.page_folder = options.page_folder.empty() ? defaultPageFolder() : options.page_folder;
-  TouchServer touch(snapshot, serverSettings(options, http.limits));
+  TouchServer touch(snapshot, serverSettings(options, devices, http.limits));
   TouchSession& session = touch.device();
-  if (options.settings.script && !session.hasHand())
+  if (options.settings.script && !hasAnyHand(touch))
     throw Error("--hand-path moves a simulated hand, and a person holds this device");
   FileOpener opener(touch, hierarchyOf(options.scene), options.scene.cad, shade_untold);
   if (options.upload == "on") {
@@ -137,7 +163,7 @@ void runTouch(TouchOptions options) {
   touch.start();
   if (ros) ros->start();
   server.start();
-  printSession(options.scene.scene, session, snapshot->primitives);
+  for (std::size_t i = 0; i < touch.devices(); ++i) printBeginning(options.scene.scene, touch.device(i));
   const std::string address = fmt::format("http://127.0.0.1:{}/", server.port());
   fmt::print("page: {}\n", address);
   std::fflush(stdout);
@@ -147,7 +173,7 @@ void runTouch(TouchOptions options) {
   server.stop();
   if (ros) ros->stop();
   touch.stop();
-  printTotals(session);
+  for (std::size_t i = 0; i < touch.devices(); ++i) printTotals(touch.device(i));
 }
 
 namespace {
@@ -171,7 +197,7 @@ void addLoopOptions(CLI::App& command, TouchSettings& settings) {
 
 void addTouchOptions(CLI::App& command, TouchOptions& options) {
   addSceneArgument(command, options.scene, false);
-  addDeviceOption(command, options.device);
+  addDeviceOptions(command, options.devices);
   command.add_option("--port", options.port, "port on 127.0.0.1; 0 for any free one")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();

@@ -49,9 +49,6 @@ void addSizeOptions(CLI::App& command, SceneOptions& options);
 /// --ledger.
 void addSurfaceOptions(CLI::App& command, MaterialOverride& surfaces, LedgerMode& ledger);
 
-/// --device, over the default in `device`.
-CLI::Option* addDeviceOption(CLI::App& command, std::string& device);
-
 /// Loads, scales and builds; progress of long loads and warnings go to stderr. Throws hl::Error.
 std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options);
 /// Throws hl::Error, with `name` in front, for a model that takes more than `there_bytes` of memory to make.

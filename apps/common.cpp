@@ -11,7 +11,6 @@
 #include "builtin.h"
 #include "commands.h"
 #include "io/load_scene.h"
-#include "record/replay_device.h"
 
 namespace hl {
 
@@ -140,20 +139,6 @@ void addSurfaceOptions(CLI::App& command, MaterialOverride& surfaces, LedgerMode
       .add_option("--ledger", ledger, "energy that the surfaces may add: from a tank of 10 mJ, none, or any, counted")
       ->transform(CLI::CheckedTransformer(ledgers))
       ->option_text("tank|strict|report (default: tank)");
-}
-
-CLI::Option* addDeviceOption(CLI::App& command, std::string& device) {
-  const auto check = [](const std::string& spec) -> std::string {
-    try {
-      makeAnyDevice(spec);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return {};
-  };
-  return command.add_option("--device", device, "the haptic device; hl doctor tells which are present")
-      ->check(CLI::Validator(check, ""))
-      ->option_text(anyDeviceSpecs() + " (default: " + device + ")");
 }
 
 std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options) {

@@ -37,16 +37,47 @@ HttpServerSettings serverSettings(const HldOptions& options) {
   return settings;
 }
 
-void logReady(const HldOptions& options, const TouchSession& session, std::uint16_t port) {
+void logFault(const std::string& device, const std::string& line) {
+  if (device.empty()) return logEvent(LogLevel::kError, "fault", {{"reason", line}});
+  logEvent(LogLevel::kError, "fault", {{"device", device}, {"reason", line}});
+}
+
+// Of several devices: which is which.
+void logDevice(const TouchSession& session) {
+  const std::string& name = session.label().name;
+  const std::string& why = session.grant().why;
+  if (!name.empty())
+    logEvent(LogLevel::kInfo, "device",
+             {{"name", name},
+              {"model", session.deviceInfo().name},
+              {"number", std::to_string(session.label().number)},
+              {"rate_Hz", fmt::format("{:g}", session.servoRate_Hz())}});
+  if (why.empty()) return;
+  if (name.empty()) return logEvent(LogLevel::kWarning, "not_real_time", {{"reason", why}});
+  logEvent(LogLevel::kWarning, "not_real_time", {{"device", name}, {"reason", why}});
+}
+
+std::string namesOf(TouchServer& touch) {
+  std::string names;
+  for (std::size_t i = 0; i < touch.devices(); ++i) {
+    const TouchSession& session = touch.device(i);
+    const std::string& name = session.label().name;
+    names += (i == 0 ? "" : ", ") + (name.empty() ? "" : name + ": ") + session.deviceInfo().name;
+  }
+  return names;
+}
+
+void logReady(const HldOptions& options, TouchServer& touch, std::uint16_t port) {
+  const TouchSession& session = touch.device();
   const bool v6 = options.server.listen.find(':') != std::string::npos;
   logEvent(LogLevel::kInfo, "ready",
            {{"address", fmt::format(fmt::runtime(v6 ? "{}://[{}]:{}/" : "{}://{}:{}/"),
                                     options.server.tls.empty() ? "http" : "https", options.server.listen, port)},
             {"token", options.token_file.empty() ? "none" : "asked_for"},
-            {"device", session.deviceInfo().name},
+            {"device", namesOf(touch)},
             {"scene", options.scene.scene},
             {"primitives", std::to_string(session.snapshot()->primitives)}});
-  if (!session.grant().why.empty()) logEvent(LogLevel::kWarning, "not_real_time", {{"reason", session.grant().why}});
+  for (std::size_t i = 0; i < touch.devices(); ++i) logDevice(touch.device(i));
 }
 
 void reloadToken(HttpServer& server, const std::string& file) {
@@ -67,10 +98,12 @@ void serve(HldOptions& options) {
   options.touch.hand_firm = options.hand == "firm";
   options.touch.explore = options.explore == "on";
   options.recorder.version = HL_VERSION;
-  options.recorder.tell = [](const std::string& line) { logEvent(LogLevel::kError, "fault", {{"reason", line}}); };
+  const std::vector<NamedDevice> devices = devicesOf(options.devices);
+  options.recorder.tell = logFault;
   options.touch.sink = recorderWith(options.recorder);
   const HttpServerSettings http = serverSettings(options);
-  TouchServer touch(sceneOf(options.scene), {options.touch, options.devices, http.limits, HL_VERSION, options.device});
+  TouchServer touch(sceneOf(options.scene),
+                    {options.touch, devices, http.limits, HL_VERSION, options.devices.faultsJoined()});
   TouchSession& session = touch.device();
   const auto ros = makeRosBridge(options.ros, touch, [](const std::string& line) {
     logEvent(LogLevel::kWarning, "ros", {{"reason", line}});
@@ -81,7 +114,7 @@ void serve(HldOptions& options) {
   touch.start();
   if (ros) ros->start();
   server.start();
-  logReady(options, session, server.port());
+  logReady(options, touch, server.port());
   notifySystemd("READY=1");
   int received = waitForSignal(signals);
   for (; received == SIGHUP; received = waitForSignal(signals)) reloadToken(server, options.token_file);

@@ -30,12 +30,9 @@ void addNetworkOptions(CLI::App& app, HldOptions& options) {
       ->group("Network");
 }
 
-void addDeviceOptions(CLI::App& app, HldOptions& options) {
-  addDeviceOption(app, options.device)->group("Device");
-  app.add_option("--devices", options.devices, "how many simulated ones, each with a proxy of its own")
-      ->check(CLI::Range(1, 16))
-      ->capture_default_str()
-      ->group("Device");
+void addHandOptions(CLI::App& app, HldOptions& options) {
+  addDeviceOptions(app, options.devices);
+  addSimulatedDevicesOption(app, options.devices);
   app.add_option("--hand", options.hand, "grip of the simulated hand")
       ->check(CLI::IsMember({"light", "firm"}))
       ->capture_default_str()
@@ -117,7 +114,7 @@ void addHldOptions(CLI::App& app, HldOptions& options) {
   addHierarchyOption(app, options.scene);
   addReadingOptions(app, options.scene);
   addNetworkOptions(app, options);
-  addDeviceOptions(app, options);
+  addHandOptions(app, options);
   addForceOptions(app, options.touch.servo, options.touch.servo_rate);
   addBlackBoxOption(app, options.recorder);
   addRosOptions(app, options.ros);

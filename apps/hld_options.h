@@ -5,6 +5,7 @@
 #include <string>
 
 #include "commands.h"
+#include "device_options.h"
 #include "http/http_server.h"
 #include "monitor/event_log.h"
 #include "record/recorder.h"
@@ -19,9 +20,8 @@ struct HldOptions {
   TouchSettings touch;
   RecorderSettings recorder;
   RosOptions ros;
-  std::string token_file;     ///< empty: no token
-  std::uint32_t devices = 1;  ///< of that kind
-  std::string device = "sim";
+  std::string token_file;  ///< empty: no token
+  DeviceOptions devices;
   std::string hand = "light";
   std::string explore = "off";
   LogFormat log_format = LogFormat::kKeyValue;

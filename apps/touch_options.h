@@ -5,6 +5,7 @@
 #include <string>
 
 #include "commands.h"
+#include "device_options.h"
 #include "record/recorder.h"
 #include "ros_options.h"
 #include "touch/touch_session.h"
@@ -16,7 +17,7 @@ struct TouchOptions {
   TouchSettings settings;
   RecorderSettings recorder;
   RosOptions ros;
-  std::string device = "sim";
+  DeviceOptions devices;
   int port = 1997;
   bool no_open = false;
   std::string hand = "light";

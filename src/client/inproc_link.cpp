@@ -27,7 +27,7 @@ std::shared_ptr<SessionHost> processServer(const std::string& sim) {
     throw Error("the server of this process has the device " + device + " already, and " + wanted + " is wanted");
   if (server) return server;
   TouchServerSettings settings;
-  settings.device = wanted;
+  settings.devices = {{"", wanted}};
   settings.touch.explore = false;
   settings.version = HL_VERSION;
   server = std::make_shared<TouchServer>(makeSnapshot(std::vector<Instance>{}, "inproc"), settings);

@@ -122,6 +122,8 @@ const char* faultText(FaultReason reason) {
       return "the servo stood still: the device or the machine held it up";
     case FaultReason::kDeviceReturned:
       return "the device was away and is back: arm again";
+    case FaultReason::kOtherDevice:
+      return "another device is in fault, and they stop together";
   }
   return "";
 }

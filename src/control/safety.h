@@ -35,8 +35,9 @@ enum class FaultReason : std::uint8_t {
   kBadTarget,
   kNotReady,
   kDeadlines,
-  kStalled,        ///< the watchdog found the servo standing still
-  kDeviceReturned  ///< it was lost or not ready, and has been well since
+  kStalled,         ///< the watchdog found the servo standing still
+  kDeviceReturned,  ///< it was lost or not ready, and has been well since
+  kOtherDevice      ///< another device is in fault, and their faults are joined
 };
 
 /// One sentence for the user.

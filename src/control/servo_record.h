@@ -11,13 +11,14 @@
 namespace hl {
 
 /// What is done to the servo between two steps.
-enum class ServoCommand : std::uint8_t { kNone, kArm, kDisarm, kStall };
+enum class ServoCommand : std::uint8_t { kNone, kArm, kDisarm, kStall, kJoin };
 
 /// RT-safe.
 inline void apply(ServoState& state, ServoCommand command) {
   if (command == ServoCommand::kArm) arm(state);
   if (command == ServoCommand::kDisarm) disarm(state);
   if (command == ServoCommand::kStall) fail(state, FaultReason::kStalled);
+  if (command == ServoCommand::kJoin) fail(state, FaultReason::kOtherDevice);
 }
 
 struct ServoRecord {

@@ -8,7 +8,7 @@
 
 namespace hl {
 
-void requireNotRead(const std::string& path, std::initializer_list<std::string> read) {
+void requireNotRead(const std::string& path, const std::vector<std::string>& read) {
   for (const std::string& other : read) {
     std::error_code none;
     if (std::filesystem::equivalent(path, other, none))

@@ -8,12 +8,13 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace hl {
 
 /// Throws hl::Error when `path` is one of the files that are read. Names that are no files, as those of built-in
 /// scenes, are none of them.
-void requireNotRead(const std::string& path, std::initializer_list<std::string> read);
+void requireNotRead(const std::string& path, const std::vector<std::string>& read);
 
 class OutputFile {
  public:

@@ -39,12 +39,12 @@ void removeOldest(const std::filesystem::path& folder, std::size_t keep) {
   for (std::size_t i = 0; i + keep < boxes.size(); ++i) std::filesystem::remove(boxes[i]);
 }
 
-std::string blackBoxName() {
+std::string blackBoxName(const std::string& device) {
   static std::atomic<unsigned> made{0};
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   const std::int64_t now_ms = std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
-  return fmt::format("{}{:%Y%m%dT%H%M%S}.{:03}-{}{}", kPrefix, fmt::gmtime(static_cast<std::time_t>(now_ms / 1000)),
-                     now_ms % 1000, ++made, kEnding);
+  return fmt::format("{}{:%Y%m%dT%H%M%S}.{:03}-{}{}{}{}", kPrefix, fmt::gmtime(static_cast<std::time_t>(now_ms / 1000)),
+                     now_ms % 1000, ++made, device.empty() ? "" : "-", device, kEnding);
 }
 
 // The blocks of a scene that can be recorded; none of one that cannot.
@@ -114,7 +114,7 @@ void BlackBoxes::write(std::uint64_t end, FaultReason reason) {
   try {
     std::filesystem::create_directories(folder);
     removeOldest(folder, settings_.black_boxes - 1);
-    RecordingWriter box((folder / blackBoxName()).string());
+    RecordingWriter box((folder / blackBoxName(rings_.device)).string());
     box.write(start_(reason));
     writeWorld(box);
     writeSteps(box, end);
@@ -160,7 +160,7 @@ void BlackBoxes::writeWorld(RecordingWriter& box) const {
 }
 
 void BlackBoxes::tell(const std::string& line) const {
-  if (settings_.tell) settings_.tell(line);
+  if (settings_.tell) settings_.tell(rings_.device, line);
 }
 
 }  // namespace hl

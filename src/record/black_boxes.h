@@ -22,6 +22,7 @@ struct LoopRings {
   const LogRing<ServoRecord>& steps;
   const LogRing<TickRecord>& ticks;
   double servo_rate_Hz;
+  std::string device;  ///< its name; empty: there is one
 };
 
 /// step(), tick() and stall() by the loops, RT-safe; scene() by any thread but those; look() by the recorder's.

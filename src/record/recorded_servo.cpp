@@ -16,8 +16,9 @@ namespace {
 // How the small things of a step lie in its flags: proto/recording.proto.
 std::uint32_t flagsOf(const ServoRecord& record) {
   return static_cast<std::uint32_t>(record.sample.status) | static_cast<std::uint32_t>(record.sample.held) << 2 |
-         static_cast<std::uint32_t>(record.command) << 3 | static_cast<std::uint32_t>(record.target.valid) << 5 |
-         static_cast<std::uint32_t>(record.out.safety) << 6 | static_cast<std::uint32_t>(record.out.fault) << 9;
+         (static_cast<std::uint32_t>(record.command) & 3) << 3 | static_cast<std::uint32_t>(record.command) >> 2 << 13 |
+         static_cast<std::uint32_t>(record.target.valid) << 5 | static_cast<std::uint32_t>(record.out.safety) << 6 |
+         static_cast<std::uint32_t>(record.out.fault) << 9;
 }
 
 template <typename Enum>
@@ -28,10 +29,10 @@ Enum named(std::uint32_t number) {
 }
 
 void setFlags(std::uint32_t flags, ServoRecord& record) {
-  if (flags >> 13 != 0) throw Error("a servo step makes no sense: its flags say what there is not");
+  if (flags >> 14 != 0) throw Error("a servo step makes no sense: its flags say what there is not");
   record.sample.status = named<DeviceStatus>(flags & 3);
   record.sample.held = (flags >> 2 & 1) != 0;
-  record.command = named<ServoCommand>(flags >> 3 & 3);
+  record.command = named<ServoCommand>((flags >> 3 & 3) | (flags >> 13 & 1) << 2);
   record.target.valid = (flags >> 5 & 1) != 0;
   record.out.safety = named<SafetyState>(flags >> 6 & 7);
   record.out.fault = named<FaultReason>(flags >> 9 & 15);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <utility>
 #include <vector>
 
@@ -45,7 +46,8 @@ Recorder::Recorder(const RecorderSettings& settings, const SessionInfo& session)
       begin_{unixNow_ms(), monotonicNow_ns()},
       steps_(room(recordsAny(settings), session.servo_rate_Hz)),
       ticks_(room(recordsAny(settings), std::max(session.servo_rate_Hz, session.proxy_rate_Hz))),
-      boxes_(settings_, {steps_, ticks_, session.servo_rate_Hz}, [this](FaultReason why) { return startBlock(why); }) {
+      boxes_(settings_, {steps_, ticks_, session.servo_rate_Hz, session.label.name},
+             [this](FaultReason why) { return startBlock(why); }) {
   hashing_ = !settings_.file.empty();
   if (settings_.file.empty()) return;
   file_ = std::make_unique<RecordingWriter>(settings_.file);
@@ -261,6 +263,7 @@ proto::RecordingBlock Recorder::startBlock(FaultReason reason) const {
   start.set_black_box(reason != FaultReason::kNone);
   start.set_fault(faultText(reason));
   start.set_device_name(session_.device.name);
+  start.set_device_label(session_.label.name);
   toProto(valuesOf(session_.device), *start.mutable_device());
   toProto(valuesOf(session_.proxy), *start.mutable_proxy());
   start.set_servo_rate_hz(session_.servo_rate_Hz);
@@ -269,11 +272,22 @@ proto::RecordingBlock Recorder::startBlock(FaultReason reason) const {
 }
 
 void Recorder::tell(const std::string& line) const {
-  if (settings_.tell) settings_.tell(line);
+  if (settings_.tell) settings_.tell(session_.label.name, line);
+}
+
+std::string recordingOf(const std::string& file, const std::string& device) {
+  const std::filesystem::path path(file);
+  const std::string name = path.stem().string() + "-" + device + path.extension().string();
+  return (path.parent_path() / name).string();
 }
 
 MakeStepSink recorderWith(const RecorderSettings& settings) {
-  return [settings](const SessionInfo& session) { return std::make_unique<Recorder>(settings, session); };
+  return [settings](const SessionInfo& session) {
+    RecorderSettings own = settings;
+    if (own.several && !own.file.empty()) own.file = recordingOf(own.file, session.label.name);
+    if (session.label.number != 0) own.pages = nullptr;
+    return std::make_unique<Recorder>(own, session);
+  };
 }
 
 }  // namespace hl

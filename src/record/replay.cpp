@@ -204,6 +204,7 @@ ReplayReport replayed(RecordingReader& reader, const StepVisitor& visit) {
   ReplayReport report;
   report.version = start.version();
   report.device = start.device_name();
+  report.label = start.device_label();
   report.black_box = start.black_box();
   report.fault = start.fault();
   DeviceInfo device;

@@ -23,7 +23,7 @@ struct ReplayDifference {
 };
 
 struct ReplayReport {
-  std::string version, device, fault;  ///< as recorded; `fault` of a black box
+  std::string version, device, label, fault;  ///< as recorded; `fault` of a black box
   bool black_box = false;
   std::uint64_t steps = 0, ticks = 0, scenes = 0;
   std::uint64_t lost_steps = 0, lost_ticks = 0;  ///< that the recorder could not keep

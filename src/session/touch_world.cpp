@@ -24,15 +24,30 @@ std::uint64_t bytesOfBase(const Snapshot& base) {
   return bytes;
 }
 
+// The user's name for it is told with what is wrong.
+std::unique_ptr<Device> openNamed(const NamedDevice& named) {
+  try {
+    return openAnyDevice(named.spec);
+  } catch (const Error& error) {
+    if (named.name.empty()) throw;
+    throw Error("device '" + named.name + "': " + error.what());
+  }
+}
+
+// All are open before the first one serves: a vendor's library may hold up the others while it opens one.
 std::vector<std::unique_ptr<TouchSession>> makeDevices(const std::shared_ptr<const Snapshot>& base,
                                                        const TouchServerSettings& settings) {
-  if (settings.devices > 1) requireNoBodies(*base);
+  if (settings.devices.empty() || settings.devices.size() > TouchServerSettings::kMaxDevices)
+    throw Error("a server has 1 to " + std::to_string(TouchServerSettings::kMaxDevices) + " devices");
+  if (settings.devices.size() > 1) requireNoBodies(*base);
+  std::vector<std::unique_ptr<Device>> open;
+  for (const NamedDevice& named : settings.devices) open.push_back(openNamed(named));
+  TouchSettings touch = settings.touch;
+  if (settings.faults_joined) touch.faults = std::make_shared<FaultGroup>();
   std::vector<std::unique_ptr<TouchSession>> devices;
-  for (std::uint32_t i = 0; i < std::max(1U, settings.devices); ++i) {
-    std::unique_ptr<Device> device = openAnyDevice(settings.device);
-    if (settings.devices > 1 && device->hand() == nullptr)
-      throw Error("of '" + settings.device + "' there is one device; only simulated ones may be several");
-    devices.push_back(std::make_unique<TouchSession>(base, settings.touch, std::move(device)));
+  for (std::uint32_t i = 0; i < open.size(); ++i) {
+    touch.label = {settings.devices[i].name, i};
+    devices.push_back(std::make_unique<TouchSession>(base, touch, std::move(open[i])));
   }
   return devices;
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/memory_budget.h"
+#include "device/named_device.h"
 #include "session/limits.h"
 #include "session/scene_publisher.h"
 #include "touch/touch_session.h"
@@ -19,11 +20,15 @@
 namespace hl {
 
 struct TouchServerSettings {
-  TouchSettings touch;        ///< of each device
-  std::uint32_t devices = 1;  ///< 1..16, each with a proxy of its own; more than one only of simulated ones
+  static constexpr std::size_t kMaxDevices = 16;
+
+  TouchSettings touch;  ///< of each device, but for its label
+  /// 1 to kMaxDevices, with different names where there are several; specs as openAnyDevice() takes them. Each has a
+  /// proxy and loops of its own.
+  std::vector<NamedDevice> devices{{"", "sim"}};
   Limits limits{};
   std::string version;         ///< of the server, for Welcome
-  std::string device = "sim";  ///< as openAnyDevice() takes it
+  bool faults_joined = false;  ///< while one device is in fault, none makes force
 };
 
 /// Constructed, started, stopped and destroyed by one thread. The rest: any thread.

@@ -15,6 +15,7 @@ LiveSettings::LiveSettings(const TouchSettings& settings, const DeviceInfo& devi
       side_D_(std::min(settings.side_D, smallestReach_D(device))),
       stiffness_max_N_m_(device.stiffness_max_N_m),
       world_per_device_(settings.world_per_device),
+      faults_(settings.faults),
       ledger_(settings.ledger),
       fitted_(settings.world_per_device || !bounds.empty()) {
   commands_.workspace = fitted(bounds);

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <optional>
 
@@ -35,7 +36,7 @@ class LiveSettings {
   void refit(const Box& bounds);
   /// False: too many wait for the loops.
   bool actOnBody(const BodyCommand& command) { return body_commands_.push(command); }
-  void rearm() { arm_requests_.fetch_add(1); }
+  void rearm() { faults_ ? faults_->rearm() : static_cast<void>(arm_requests_.fetch_add(1)); }
 
   MaterialOverride surfaces() const;
   Workspace workspace() const;
@@ -47,7 +48,9 @@ class LiveSettings {
   double stiffness_N_m() const { return stiffness_.load(std::memory_order_relaxed); }
   LedgerMode ledger() const { return ledger_.load(std::memory_order_relaxed); }
   /// Counts them.
-  std::uint64_t armRequests() const { return arm_requests_.load(std::memory_order_relaxed); }
+  std::uint64_t armRequests() const {
+    return faults_ ? faults_->armRequests() : arm_requests_.load(std::memory_order_relaxed);
+  }
   void proxyCommands(ProxyCommands& commands) { commands_for_proxy_.read(commands); }
   void takeBodyCommands(BodyCommands& out) { body_commands_.takeNext(out); }
 
@@ -58,6 +61,7 @@ class LiveSettings {
 
   const double radius_D_, side_D_, stiffness_max_N_m_;
   const std::optional<double> world_per_device_;  // in the place of what would fit
+  const std::shared_ptr<FaultGroup> faults_;      // null: it is armed alone
   std::atomic<double> stiffness_{0};
   std::atomic<LedgerMode> ledger_{LedgerMode::kTank};
   std::atomic<std::uint64_t> arm_requests_{0};

@@ -28,7 +28,10 @@ ServoLoop::ServoLoop(const LoopParts& parts, const TouchSettings& settings, doub
       settings_(servoSettingsOf(settings, parts.device.info(), rate_Hz)),
       effects_(settings_.effects),
       share_core_(settings.timer_reference),
-      watch_(parts.device, counters_, [this] { parts_.sink.stall(); }) {}
+      watch_(parts.device, counters_, [this] {
+        parts_.faults.set(true);
+        parts_.sink.stall();
+      }) {}
 
 void ServoLoop::look() {
   const DeviceSample sample = reader_.look(monotonicNow_ns());
@@ -75,6 +78,7 @@ void ServoLoop::step() {
   const ServoState before = step_.servo();
   apply(step_.servo(), command);
   const ServoOutput out = touch(sample);
+  tellFault();
   parts_.exchange.makes_force.store(makesForce(step_.servo()), std::memory_order_relaxed);
   // Found while this step stood still: its force is an old one.
   if (watch_.stalled()) parts_.device.write(Vec3::Zero());
@@ -82,13 +86,26 @@ void ServoLoop::step() {
   tell({before, command, settings_, step_.target(), sample, out, 0}, now_ns);
 }
 
-// A device that is not ready, homing or connecting, arms when it is.
+// A device that is not ready, homing or connecting, arms when it is; one that stops with others, when none is in fault.
 ServoCommand ServoLoop::commandFor(const DeviceSample& sample) {
   const std::uint64_t wanted = parts_.live.armRequests();
   if (watch_.takeStall()) return ServoCommand::kStall;
+  if (parts_.faults.othersFail()) return isArmed(step_.servo()) ? ServoCommand::kJoin : ServoCommand::kNone;
+  if (armsAgain()) return ServoCommand::kArm;
   if (wanted == armed_ || sample.status == DeviceStatus::kNotReady) return ServoCommand::kNone;
   armed_ = wanted;
   return ServoCommand::kArm;
+}
+
+// One that has stopped for another, with nobody in fault any more.
+bool ServoLoop::armsAgain() {
+  const ServoState& state = step_.servo();
+  return settings_.arm_again && state.safety == SafetyState::kFault && state.fault == FaultReason::kOtherDevice;
+}
+
+void ServoLoop::tellFault() {
+  const ServoState& state = step_.servo();
+  parts_.faults.set(state.safety == SafetyState::kFault && state.fault != FaultReason::kOtherDevice);
 }
 
 // From the sample to the motors.

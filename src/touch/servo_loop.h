@@ -39,6 +39,8 @@ class ServoLoop {
   void run();
   void step();
   ServoCommand commandFor(const DeviceSample& sample);
+  bool armsAgain();
+  void tellFault();
   ServoOutput touch(const DeviceSample& sample);
   ServoOutput tickAndTouch(const DeviceSample& sample);
   void tell(const ServoRecord& record, std::int64_t begin_ns);

@@ -4,17 +4,25 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "control/servo_record.h"
 #include "touch/proxy_loop.h"
 
 namespace hl {
 
+/// Which of a server's devices it is.
+struct DeviceLabel {
+  std::string name;          ///< as its user calls it; empty: it has no name, as it is the only one
+  std::uint32_t number = 0;  ///< from 0
+};
+
 /// What is the same in all steps of a session.
 struct SessionInfo {
   DeviceInfo device;
   double servo_rate_Hz = 1000, proxy_rate_Hz = 1000;
   ProxySettings proxy;
+  DeviceLabel label{};
 };
 
 /// Made, started, stopped and destroyed by one thread.

@@ -96,6 +96,7 @@ class TouchSession {
   std::shared_ptr<const Snapshot> snapshot() const;
 
   const TouchSettings& settings() const { return settings_; }
+  const DeviceLabel& label() const { return settings_.label; }
   const DeviceInfo& deviceInfo() const { return device_->info(); }
   double servoRate_Hz() const { return servo_rate_Hz_; }
   LoopTotals servoTotals() const { return servo_.totals(); }
@@ -108,7 +109,9 @@ class TouchSession {
 
  private:
   void show(SnapshotSlot::Ready scene) noexcept;
-  LoopParts parts() { return {*device_, live_, exchange_, ticker_, views_, *sink_}; }
+  LoopParts parts() {
+    return {*device_, live_, exchange_, ticker_, views_, *sink_, {settings_.faults.get(), settings_.label.number}};
+  }
 
   const TouchSettings settings_;
   const std::unique_ptr<Device> device_;

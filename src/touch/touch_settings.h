@@ -1,19 +1,24 @@
 // Settings of a touch session, fixed when it begins.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <string>
 
 #include "base/ledger.h"
 #include "control/servo_options.h"
 #include "device/hand_script.h"
 #include "scene/material.h"
+#include "touch/fault_group.h"
 #include "touch/servo_rate.h"
 #include "touch/step_sink.h"
 
 namespace hl {
 
 struct TouchSettings {
-  double radius_D = 0.002;  ///< m, proxy radius at the hand
+  DeviceLabel label;
+  std::shared_ptr<FaultGroup> faults;  ///< of all devices that stop together; null: this one alone
+  double radius_D = 0.002;             ///< m, proxy radius at the hand
   double side_D = 0.12;  ///< m, largest side of the model at the hand, unless scale is given; at most what the device
                          ///< reaches
   std::optional<double> world_per_device;

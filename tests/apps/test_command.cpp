@@ -318,6 +318,31 @@ TEST(Command, ARecordedSessionIsReproducedAndTabled) {
   EXPECT_NE(again.output.find("replay of simulated"), std::string::npos) << again.output;
 }
 
+TEST(Command, OfSeveralDevicesEachHasItsOwnRecording) {
+  const std::string file = hl::test::tempFile("hl_cmd_hands.hlr");
+  const std::string left = hl::test::tempFile("hl_cmd_hands-left.hlr");
+  const std::string pen = hl::test::tempFile("hl_cmd_hands-pen.hlr");
+  const Result recorded = call(
+      "record sphere:2000 --no-open --port 0 --black-box off --duration 1 --device sim:touch "
+      "--device pen=sim --out " +
+      file);
+  ASSERT_EQ(recorded.code, 0) << recorded.output;
+  EXPECT_NE(recorded.output.find("device: pen: simulated PHANToM"), std::string::npos) << recorded.output;
+  EXPECT_NE(recorded.output.find("pen: recorded: " + pen), std::string::npos) << recorded.output;
+  const Result of_left = call("replay " + left), of_pen = call("replay " + pen);
+  EXPECT_EQ(of_left.code, 0) << of_left.output;
+  EXPECT_NE(of_left.output.find(", left, simulated 3D Systems Touch,"), std::string::npos) << of_left.output;
+  EXPECT_NE(of_pen.output.find(", pen, simulated PHANToM"), std::string::npos) << of_pen.output;
+  const Result again =
+      call("touch sphere:2000 --no-open --port 0 --black-box off --duration 1 --device replay:" + left +
+           " --device replay:" + pen);
+  EXPECT_EQ(again.code, 0) << again.output;
+  EXPECT_NE(again.output.find("left: replay of simulated 3D"), std::string::npos) << again.output;
+  EXPECT_EQ(call("record sphere:2000 --no-open --port 0 --device replay:" + left + " --device sim --out " + file).code,
+            2)
+      << "it would overwrite what it reads";
+}
+
 // A floor, and a ball and a block that fall on it.
 std::string sceneWithBodies() {
   return hl::test::fileWith("hl_cmd_bodies.hl.json", R"({"gravityMS2": {"y": -5}, "objects": [

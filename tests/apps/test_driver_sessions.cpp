@@ -67,14 +67,15 @@ INSTANTIATE_TEST_SUITE_P(Drivers, DriverSession, testing::ValuesIn(benchKinds())
 
 // ---- hl touch itself ------------------------------------------------------------------------------------------------
 
-/// `hl touch` on a plane with `device`, told to end when it is destroyed.
+/// `hl touch` on a plane with `device`, or with two, told to end when it is destroyed.
 class TouchProcess {
  public:
-  explicit TouchProcess(const std::string& device) {
+  explicit TouchProcess(const std::string& device, const std::string& second = "sim") {
     pid_ = fork();
     if (pid_ != 0) return;
-    execl(HL_PROGRAM, HL_PROGRAM, "touch", "plane:2000", "--device", device.c_str(), "--port", "0", "--no-open",
-          nullptr);
+    const bool two = second != "sim";
+    execl(HL_PROGRAM, HL_PROGRAM, "touch", "plane:2000", "--port", "0", "--no-open", "--device", device.c_str(),
+          two ? "--device" : nullptr, second.c_str(), nullptr);
     _exit(127);
   }
   int end() const {
@@ -111,10 +112,34 @@ void expectTouch(const std::string& device, const std::string& report) {
   EXPECT_EQ(lines.front(), "touched");
 }
 
+// The same of two devices at once: both hands feel the plane, whoever is first.
+void expectBothTouch(const std::string& device, const std::string& second, const std::string& report) {
+  const std::vector<std::string> reports{report, report + ".1"};
+  const auto began = [&](const std::string& file, const char* word) {
+    const std::vector<std::string> lines = linesOf(file);
+    return !lines.empty() && lines.front() == word;
+  };
+  setenv("HL_FAKE_DEVICES", "2", 1);
+  for (bool touched = false; !touched;) {
+    for (const std::string& file : reports) std::filesystem::remove(file);
+    const TouchProcess touch(device, second);
+    waitFor([&] { return !linesOf(reports[0]).empty() && !linesOf(reports[1]).empty(); });
+    EXPECT_EQ(touch.end(), 0);
+    touched = began(reports[0], "touched") && began(reports[1], "touched");
+    for (const std::string& file : reports) {
+      ASSERT_EQ(linesOf(file).size(), 2U);
+      EXPECT_EQ(linesOf(file)[1], "closed 0");
+    }
+  }
+  unsetenv("HL_FAKE_DEVICES");
+}
+
 struct LibraryDriver {
   const char* kind;
   const char* variable;
   const char* fake;
+  const char* first;
+  const char* second;
 };
 
 class TouchCommand : public testing::TestWithParam<LibraryDriver> {};
@@ -124,6 +149,7 @@ TEST_P(TouchCommand, FeelsThroughTheVendorsLibrary) {
   setenv(GetParam().variable, GetParam().fake, 1);
   setenv("HL_FAKE_REPORT", report.c_str(), 1);
   expectTouch(GetParam().kind, report);
+  expectBothTouch(GetParam().first, GetParam().second, report);
 }
 
 // The fake is loaded in place of libusb, so the driver's own USB code talks to it, and loads its firmware first.
@@ -134,6 +160,7 @@ TEST(TouchFalcon, FeelsThroughLibusb) {
   setenv("HL_FALCON_FIRMWARE", firmware.c_str(), 1);
   setenv("HL_FAKE_REPORT", report.c_str(), 1);
   expectTouch("falcon", report);
+  expectBothTouch("falcon:0", "falcon:1", report);
   unsetenv("LD_LIBRARY_PATH");
 }
 
@@ -155,8 +182,9 @@ TEST(TouchHaply, FeelsThroughTheVendorsService) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Drivers, TouchCommand,
-                         testing::Values(LibraryDriver{"dhd", "HL_DHD_LIBRARY", HL_FAKE_DHD},
-                                         LibraryDriver{"hd", "HL_HD_LIBRARY", HL_FAKE_HD}),
+                         testing::Values(LibraryDriver{"dhd", "HL_DHD_LIBRARY", HL_FAKE_DHD, "dhd:1", "dhd:0"},
+                                         LibraryDriver{"hd", "HL_HD_LIBRARY", HL_FAKE_HD, "hd:Left Device",
+                                                       "other=hd:Right Device"}),
                          [](const auto& of) { return of.param.kind; });
 
 }  // namespace

@@ -199,15 +199,35 @@ TEST(Hld, WithoutHlRosItSaysWhatToInstall) {
 TEST(Hld, BadInputIsOneLineAndExitCodeTwo) {
   const std::string misspelt = fileWith("misspelt.conf", "lissten = \"127.0.0.1\"\n");
   const std::string bad_token = fileWith("bad_token", "short\n");
-  const std::vector<std::vector<std::string>> cases = {
-      {"--listen", "0.0.0.0"},       {"--listen", "nowhere"},         {"--port", "70000"},
-      {"--config", "/nonexistent"},  {"--config", misspelt},          {"--token-file", "/nonexistent"},
-      {"--token-file", bad_token},   {"--scene", "nosuch"},           {"--device", "theremin"},
-      {"--explore", "maybe"},        {"--limit-pages", "0"},          {"--tls-key", "/nonexistent"},
-      {"--log-level", "loud"},       {"--limit-message-bytes", "-1"}, {"surplus"},
-      {"--limit-memory-bytes", "1"}, {"--limit-memory-bytes", "-5"},  {"--page-dir", "/nonexistent"},
-      {"--black-box", "/proc/none"}, {"--tool-mass", "100"},          {"--ros", "9lab"},
-      {"--ros-rate", "1001"},        {"--ros-rate", "nan"},           {"--ros-interface", "eth0"}};
+  const std::vector<std::vector<std::string>> cases = {{"--listen", "0.0.0.0"},
+                                                       {"--listen", "nowhere"},
+                                                       {"--port", "70000"},
+                                                       {"--config", "/nonexistent"},
+                                                       {"--config", misspelt},
+                                                       {"--token-file", "/nonexistent"},
+                                                       {"--token-file", bad_token},
+                                                       {"--scene", "nosuch"},
+                                                       {"--device", "theremin"},
+                                                       {"--explore", "maybe"},
+                                                       {"--limit-pages", "0"},
+                                                       {"--tls-key", "/nonexistent"},
+                                                       {"--log-level", "loud"},
+                                                       {"--limit-message-bytes", "-1"},
+                                                       {"surplus"},
+                                                       {"--limit-memory-bytes", "1"},
+                                                       {"--limit-memory-bytes", "-5"},
+                                                       {"--page-dir", "/nonexistent"},
+                                                       {"--black-box", "/proc/none"},
+                                                       {"--tool-mass", "100"},
+                                                       {"--ros", "9lab"},
+                                                       {"--ros-rate", "1001"},
+                                                       {"--ros-rate", "nan"},
+                                                       {"--ros-interface", "eth0"},
+                                                       {"--devices", "0"},
+                                                       {"--devices", "17"},
+                                                       {"--device", "1st=sim"},
+                                                       {"--faults", "together"},
+                                                       {"--device", "dhd:99"}};
   for (std::vector<std::string> arguments : cases) {
     const std::string name = arguments.back();
     if (arguments.front() != "--port") arguments.insert(arguments.end(), {"--port", "0"});
@@ -217,6 +237,35 @@ TEST(Hld, BadInputIsOneLineAndExitCodeTwo) {
     EXPECT_EQ(daemon.line(""), "") << name;
     EXPECT_EQ(daemon.wait(), 2) << name;
   }
+}
+
+TEST(Hld, DevicesThatCannotBeHadTogetherAreOneLineThatSaysWhy) {
+  const auto refusal = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--port", "0"});
+    Daemon daemon(arguments);
+    std::string line = daemon.line("");
+    EXPECT_EQ(daemon.line(""), "");
+    EXPECT_EQ(daemon.wait(), 2);
+    return line;
+  };
+  EXPECT_EQ(refusal({"--devices", "2", "--device", "sim"}),
+            "hld: --devices 2 is for simulated devices alone: leave it out, and write --device once for each device\n");
+  EXPECT_NE(refusal({"--device", "dhd", "--device", "dhd:0"}).find("'left' and 'right' are one device"),
+            std::string::npos);
+  EXPECT_NE(refusal({"--device", "a=sim", "--device", "a=sim"}).find("two devices have the name 'a'"),
+            std::string::npos);
+}
+
+TEST(Hld, LogsWhichDeviceIsWhich) {
+  const std::string config = fileWith("two.conf", "device = left=sim:touch\ndevice = right=sim\nport = 0\n");
+  Daemon daemon({"--config", config});
+  EXPECT_NE(daemon.line("event=ready")
+                .find("device=\"left: simulated 3D Systems Touch, right: simulated PHANToM Premium 1.5\""),
+            std::string::npos);
+  EXPECT_NE(daemon.line("event=device").find("name=left model=\"simulated 3D Systems Touch\" number=0"),
+            std::string::npos);
+  EXPECT_NE(daemon.line("event=device").find("name=right"), std::string::npos);
+  EXPECT_EQ(daemon.end(SIGTERM), 0);
 }
 
 }  // namespace

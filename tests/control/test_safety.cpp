@@ -9,6 +9,7 @@
 #include <map>
 
 #include "control/servo.h"
+#include "control/servo_record.h"
 #include "control/watchdog.h"
 #include "device/simulated_device.h"
 
@@ -230,6 +231,18 @@ TEST(Safety, AFaultFromElsewhereCountsOnlyWhenArmed) {
   fail(bench.state, FaultReason::kStalled);
   EXPECT_EQ(bench.step().force_N, Vec3(Vec3::Zero()));
   EXPECT_EQ(bench.state.fault, FaultReason::kStalled);
+}
+
+// The command that stops a device with another is a fault like any other: zero force in the same step, and again only
+// when it is armed.
+TEST(Safety, StopsWithAnotherDeviceUntilItIsArmed) {
+  Bench bench = Bench::on(1000);
+  apply(bench.state, ServoCommand::kJoin);
+  EXPECT_EQ(bench.step().force_N, Vec3(Vec3::Zero()));
+  EXPECT_EQ(bench.state.fault, FaultReason::kOtherDevice);
+  for (int i = 0; i < 2000; ++i) EXPECT_EQ(bench.step().safety, SafetyState::kFault);
+  apply(bench.state, ServoCommand::kArm);
+  EXPECT_EQ(bench.step().safety, SafetyState::kArming);
 }
 
 TEST(Watchdog, BarksOnceForEachStall) {

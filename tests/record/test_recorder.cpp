@@ -553,7 +553,7 @@ TEST_F(Recording, ItEndsAtItsSizeAndTheSessionGoesOn) {
   small.most_bytes = 200'000;
   std::string told;
   std::atomic<bool> ended{false};
-  small.tell = [&](const std::string& line) {
+  small.tell = [&](const std::string&, const std::string& line) {
     told = line;
     ended = true;
   };
@@ -601,7 +601,7 @@ TEST_F(Recording, AFaultLeavesABlackBoxThatReplays) {
   RecorderSettings box;
   box.black_box_folder = (folder.path() / "boxes").string();
   std::string told;
-  box.tell = [&](const std::string& line) { told = line; };
+  box.tell = [&](const std::string&, const std::string& line) { told = line; };
   {
     Loops loops(box);
     loops.run(990);

@@ -50,7 +50,7 @@ Stylus randomStylus(Random& random, bool has_gripper) {
 
 ServoRecord randomRecord(Random& random, const ServoSettings& settings) {
   ServoRecord record;
-  record.command = static_cast<ServoCommand>(random.below(4));
+  record.command = static_cast<ServoCommand>(random.below(5));
   record.settings = settings;
   record.target = {random.bits3(), random.integer(), random.below(2) == 0, random.bits(), random.bits()};
   record.sample.time_ns = random.integer();
@@ -58,7 +58,7 @@ ServoRecord randomRecord(Random& random, const ServoSettings& settings) {
   record.sample.buttons = static_cast<std::uint32_t>(random.integer());
   record.sample.status = static_cast<DeviceStatus>(random.below(3));
   record.sample.held = random.below(2) == 0;
-  record.out = {random.bits3(), static_cast<SafetyState>(random.below(5)), static_cast<FaultReason>(random.below(10))};
+  record.out = {random.bits3(), static_cast<SafetyState>(random.below(5)), static_cast<FaultReason>(random.below(11))};
   record.work_ns = random.integer();
   return record;
 }
@@ -144,7 +144,7 @@ TEST(RecordedServo, FlagsThatSayNothingAreRefused) {
   Random random(4);
   proto::ServoSteps good;
   toProto(std::vector<ServoRecord>{randomRecord(random, {})}, 0, good);
-  for (const std::uint32_t flags : {3U, 5U << 6, 7U << 6, 10U << 9, 15U << 9, 1U << 13}) {
+  for (const std::uint32_t flags : {3U, 5U << 6, 7U << 6, 11U << 9, 15U << 9, 1U << 13 | 1U << 3, 1U << 14}) {
     proto::ServoSteps bad = good;
     bad.set_flags(0, flags);
     EXPECT_THROW(fromProto(bad), Error) << flags;

@@ -270,7 +270,7 @@ TEST_F(SessionBodiesTest, EachOfTheirPartsCounts) {
 
 TEST(Bodies, NeedAServerWithOneDevice) {
   TouchServerSettings settings = settingsOf();
-  settings.devices = 2;
+  settings.devices = {{"left", "sim"}, {"right", "sim"}};
   TouchServer server(makeSnapshot(std::vector<Instance>{}), settings);
   server.start();
   Client client(server);

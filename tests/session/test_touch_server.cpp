@@ -820,7 +820,7 @@ TEST_F(TouchServerTest, TooManyClientsAreTurnedAway) {
 
 TEST_F(TouchServerTest, EachDeviceHasAProxyOfItsOwn) {
   TouchServerSettings settings = settingsOf();
-  settings.devices = 2;
+  settings.devices = {{"left", "sim"}, {"right", "sim"}};
   TouchServer server(nothing(), settings);
   server.start();
   Client client(server);

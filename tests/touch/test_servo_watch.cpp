@@ -115,7 +115,7 @@ TEST(ServoWatch, AStallLeavesABlackBoxWhileItLasts) {
   TouchSettings settings;
   RecorderSettings recorder;
   recorder.black_box_folder = folder.path().string();
-  recorder.tell = [&](const std::string&) { told = true; };
+  recorder.tell = [&](const std::string&, const std::string&) { told = true; };
   settings.sink = recorderWith(recorder);
   Bench bench(settings);
   bench.device->hangs = true;

@@ -1,0 +1,138 @@
+// A server with several devices: each has its own name, proxy, servo and watchdog. Faults stay apart, or are joined.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "base/error.h"
+#include "device/fakes/twin_bench.h"
+#include "session/touch_server.h"
+#include "touch/fault_group.h"
+#include "touch/session_views.h"
+#include "wait_for.h"
+
+namespace hl::test {
+namespace {
+
+std::shared_ptr<const Snapshot> emptyScene() { return makeSnapshot(std::vector<Instance>{}); }
+
+std::string refusalOf(const TouchServerSettings& settings) {
+  try {
+    TouchServer server(emptyScene(), settings);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+class SeveralDevices : public testing::Test {
+ protected:
+  SeveralDevices() {
+    for (const TwinKind& kind : twinKinds()) {
+      if (kind.name == "DhdByIndex") bench_ = kind.make();
+    }
+  }
+  void start(bool joined, bool arm_again = false) {
+    TouchServerSettings settings;
+    settings.devices = {{"left", "dhd:0"}, {"right", "dhd:1"}};
+    settings.faults_joined = joined;
+    settings.touch.servo.arm_again = arm_again;
+    server_ = std::make_unique<TouchServer>(emptyScene(), settings);
+    server_->start();
+    waitFor([this] { return isOn(0) && isOn(1); });
+  }
+  ServoView servo(std::size_t number) { return servoOf(server_->device(number)); }
+  // A busy machine may cause a fault of its own, which is not what is tested: then a person arms again.
+  bool isOn(std::size_t number) {
+    const bool own = servo(number).safety == SafetyState::kFault && !bench_->arm(number).lost;
+    if (own && !(bench_->arm(0).lost || bench_->arm(1).lost)) server_->device(number).rearm();
+    return servo(number).safety == SafetyState::kOn;
+  }
+  bool isInFault(std::size_t number, FaultReason reason) {
+    return servo(number).safety == SafetyState::kFault && servo(number).fault == reason;
+  }
+
+  std::unique_ptr<TwinBench> bench_;
+  std::unique_ptr<TouchServer> server_;
+};
+
+TEST_F(SeveralDevices, HaveTheirNamesInTheOrderInWhichTheyWereGiven) {
+  start(false);
+  ASSERT_EQ(server_->devices(), 2U);
+  EXPECT_EQ(server_->device(0).label().name, "left");
+  EXPECT_EQ(server_->device(1).label().name, "right");
+  EXPECT_EQ(server_->device(1).label().number, 1U);
+}
+
+TEST_F(SeveralDevices, OneThatIsLostLeavesTheOtherOn) {
+  start(false);
+  bench_->arm(0).lost = true;
+  waitFor([this] { return isInFault(0, FaultReason::kDeviceLost); });
+  const std::uint64_t steps = server_->device(1).servoTotals().steps;
+  waitFor([&] { return server_->device(1).servoTotals().steps > steps + 200; });
+  EXPECT_NE(servo(1).fault, FaultReason::kOtherDevice);
+  EXPECT_NE(servo(1).fault, FaultReason::kDeviceLost);
+  bench_->arm(0).lost = false;
+  waitFor([this] { return isInFault(0, FaultReason::kDeviceReturned); });
+  server_->device(0).rearm();
+  waitFor([this] { return isOn(0) && isOn(1); });
+}
+
+TEST_F(SeveralDevices, OfJoinedFaultsOneStopsBothAndToArmOneIsToArmBoth) {
+  start(true);
+  for (const std::size_t lost : {0U, 1U}) {
+    const std::size_t other = 1 - lost;
+    bench_->arm(lost).lost = true;
+    waitFor([&] { return isInFault(lost, FaultReason::kDeviceLost); });
+    waitFor([&] { return isInFault(other, FaultReason::kOtherDevice); });
+    EXPECT_EQ(servo(other).force_N, Vec3(Vec3::Zero()));
+    EXPECT_LT(bench_->arm(other).force_D().norm(), 1e-12);
+    // Nobody can arm the other while this one is away; the wish waits.
+    server_->device(other).rearm();
+    const std::uint64_t steps = server_->device(other).servoTotals().steps;
+    waitFor([&] { return server_->device(other).servoTotals().steps > steps + 50; });
+    EXPECT_TRUE(isInFault(other, FaultReason::kOtherDevice));
+    bench_->arm(lost).lost = false;
+    waitFor([&] { return servo(lost).fault != FaultReason::kDeviceLost; });
+    server_->device(other).rearm();
+    waitFor([this] { return isOn(0) && isOn(1); });
+  }
+}
+
+TEST_F(SeveralDevices, OfJoinedFaultsBothArmAgainByThemselvesWhereThatIsWanted) {
+  start(true, true);
+  bench_->arm(1).lost = true;
+  waitFor([this] { return isInFault(1, FaultReason::kDeviceLost) && isInFault(0, FaultReason::kOtherDevice); });
+  bench_->arm(1).lost = false;
+  waitFor([this] { return isOn(0) && isOn(1); });
+}
+
+TEST(SeveralDevicesOfAServer, AreOneToSixteenAndTheOneThatIsMissingIsNamed) {
+  TouchServerSettings settings;
+  settings.devices.clear();
+  EXPECT_EQ(refusalOf(settings), "a server has 1 to 16 devices");
+  settings.devices.assign(17, {"x", "sim"});
+  EXPECT_EQ(refusalOf(settings), "a server has 1 to 16 devices");
+  setenv("HL_HD_LIBRARY", "/nonexistent/libHD.so", 1);
+  settings.devices = {{"left", "sim"}, {"right", "hd"}};
+  const std::string why = refusalOf(settings);
+  EXPECT_EQ(why.rfind("device 'right': ", 0), 0U) << why;
+  EXPECT_NE(why.find("OpenHaptics"), std::string::npos) << why;
+}
+
+TEST(FaultGroup, AnotherOnesFaultIsSeenAndTheOwnIsNot) {
+  FaultGroup group;
+  EXPECT_FALSE(group.othersFail(0));
+  group.set(0, true);
+  EXPECT_FALSE(group.othersFail(0));
+  EXPECT_TRUE(group.othersFail(1));
+  group.set(1, true);
+  group.set(0, false);
+  EXPECT_TRUE(group.othersFail(0));
+  EXPECT_FALSE(group.othersFail(1));
+  group.set(1, false);
+  group.set(1, false);
+  for (std::uint32_t device : {0U, 1U, 15U}) EXPECT_FALSE(group.othersFail(device));
+}
+
+}  // namespace
+}  // namespace hl::test
