@@ -157,9 +157,10 @@ void runTouch(TouchOptions options) {
   const auto ros = makeRosBridge(options.ros, touch, [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
   const auto& recordings = options.recorder.pages;
   const auto set_iso = [&touch](std::uint64_t surface, const IsoChoice& iso) { touch.setIso(surface, iso); };
-  HttpServer server(
-      http, makeViewerFeed(session, HL_VERSION, touch.memory().member(), recordings, http.upload.limit_bytes, set_iso),
-      &touch, withRosMetrics(makeTouchMonitor(session, &touch, recordings), ros.get()));
+  HttpServer server(http,
+                    makeViewerFeed(session, HL_VERSION, touch.memory().member(), recordings, http.upload.limit_bytes,
+                                   set_iso, touch.otherDevices()),
+                    &touch, withRosMetrics(makeTouchMonitor(session, &touch, recordings), ros.get()));
   touch.start();
   if (ros) ros->start();
   server.start();

@@ -109,8 +109,9 @@ void serve(HldOptions& options) {
     logEvent(LogLevel::kWarning, "ros", {{"reason", line}});
   });
   const auto set_iso = [&touch](std::uint64_t surface, const IsoChoice& iso) { touch.setIso(surface, iso); };
-  HttpServer server(http, makeViewerFeed(session, HL_VERSION, touch.memory().member(), nullptr, 0, set_iso), &touch,
-                    withRosMetrics(makeTouchMonitor(session, &touch), ros.get()));
+  HttpServer server(
+      http, makeViewerFeed(session, HL_VERSION, touch.memory().member(), nullptr, 0, set_iso, touch.otherDevices()),
+      &touch, withRosMetrics(makeTouchMonitor(session, &touch), ros.get()));
   touch.start();
   if (ros) ros->start();
   server.start();

@@ -47,7 +47,8 @@ extern "C" {
  * and after a '?', options joined by '&' (values percent-encoded):
  *         name=TEXT        of this client, for the server's logs; default: the program's
  *         token=TEXT       where the server asks for one; default: the environment's HL_TOKEN
- *         device=N         number of the device whose state is wanted; default 0
+ *         device=N|LABEL   number or label of the device whose state is wanted; default 0. A program with two hands has
+ *                          a context for each: device=left, device=right; what either draws, both feel
  *         master=0|1       wants to set the device's proxy, workspace and spring; default 1; the first client gets it
  *         keep=0|1         objects stay touchable when the conversation ends, until `name` shows a frame; default 0
  *         state_rate=HZ    how often the state comes; default 60; 0: never
@@ -81,6 +82,9 @@ HL_API void hlErrorFunc(HLerrorfunc callback, void* user);
 /** A text; names in hl_types.h. Valid until the next call that returns a text, takes replies, or makes an error. NULL
  * at an error. HL_INVALID_ENUM: not a text. */
 HL_API const char* hlGetString(HLenum name);
+/** HL_DEVICE_NAME or HL_DEVICE_LABEL of device number `device` of the server, from 0. As hlGetString. HL_INVALID_VALUE:
+ * there is no such device; HL_DEVICE_COUNT. */
+HL_API const char* hlGetStringi(HLenum name, HLuint device);
 
 /* ---- Frames --------------------------------------------------------------------------------------------------- */
 

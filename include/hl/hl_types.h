@@ -171,15 +171,16 @@ enum {
   HL_EVENT_IMPACT = 0x48056   /**< something hit it: 0.05 m/s or more in a step; of a body one in 20 ms is told */
 };
 
-/** hlGetString. */
+/** hlGetString; HL_DEVICE_NAME and HL_DEVICE_LABEL of any device: hlGetStringi. */
 enum {
   HL_VENDOR = 0x1F00,          /**< "HL" */
   HL_VERSION = 0x1F02,         /**< of this library, "0.1.0" */
   HL_SERVER_VERSION = 0x48060, /**< of the server */
-  HL_DEVICE_NAME = 0x48061,    /**< of the context's device */
+  HL_DEVICE_NAME = 0x48061,    /**< of the context's device: its maker and model */
   HL_FAULT = 0x48062,          /**< why HL_SAFETY_STATE is HL_SAFETY_FAULT, in one line; "" else */
   HL_ERROR_STRING = 0x48063,   /**< one line about the error that hlGetError returns or has returned last */
-  HL_FRAME_WARNINGS = 0x48064  /**< what the server skipped of the frame that is shown, a line each; "" for nothing */
+  HL_FRAME_WARNINGS = 0x48064, /**< what the server skipped of the frame that is shown, a line each; "" for nothing */
+  HL_DEVICE_LABEL = 0x48065    /**< what the context's device is called at its server, such as left; "": the only one */
 };
 
 /** hlGet*v: the state of the calls, as it is now. The number of values stands first. */
@@ -218,6 +219,8 @@ enum {
   HL_FRAME_PROGRESS = 0x48085,       /**< 1; 0..1 of the frame sent last: 1 when it is shown */
   HL_FRAME_WAITING = 0x48086,        /**< 1; HL_TRUE: a flushed frame waits here to be sent */
   HL_FRAME_PRIMITIVES = 0x48087,     /**< 1; primitives of this context in the world that is shown */
+  HL_DEVICE = 0x48088,               /**< 1; number of the context's device at its server, from 0 */
+  HL_DEVICE_COUNT = 0x48089,         /**< 1; devices of the server */
   HL_MAX_OBJECTS = 0x48090,          /**< 1; objects this context may define */
   HL_MAX_SCENE_BYTES = 0x48091,      /**< 1; bytes of memory of their shapes: a triangle takes about 90 */
   HL_MAX_INSTANCES = 0x48092,        /**< 1; objects in the world, each call counted */

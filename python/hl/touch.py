@@ -15,7 +15,7 @@ import math
 import weakref
 from dataclasses import dataclass
 from types import TracebackType
-from typing import Any, AsyncIterator, Callable, Dict, Iterator, Optional, Sequence, Tuple, Type, Union
+from typing import Any, AsyncIterator, Callable, Dict, Iterator, List, Optional, Sequence, Tuple, Type, Union
 from urllib.parse import urlencode
 
 import numpy as np
@@ -723,6 +723,19 @@ class Touch:
     def device_name(self) -> str:
         self.make_current()
         return calls.hlGetString(calls.HL_DEVICE_NAME)
+
+    @property
+    def device_label(self) -> str:
+        """What the device is called at its server, such as "left"; "" for the only one."""
+        self.make_current()
+        return calls.hlGetString(calls.HL_DEVICE_LABEL)
+
+    @property
+    def devices(self) -> List[str]:
+        """The labels of all devices of the server, by number: connect(url, device=LABEL) for each hand."""
+        self.make_current()
+        count = int(calls.hlGetIntegerv(calls.HL_DEVICE_COUNT))
+        return [calls.hlGetStringi(calls.HL_DEVICE_LABEL, number) for number in range(count)]
 
     @property
     def server_version(self) -> str:

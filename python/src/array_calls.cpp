@@ -219,6 +219,13 @@ std::string stringOf(HLenum name) {
   return text != nullptr ? text : "";
 }
 
+std::string stringOfDevice(HLenum name, HLuint device) {
+  requireContext();
+  const char* const text = hlGetStringi(name, device);
+  throwFailure();
+  return text != nullptr ? text : "";
+}
+
 template <typename Row>
 py::array_t<Row> structuredArray(const std::vector<Row>& rows) {
   return py::array_t<Row>(static_cast<py::ssize_t>(rows.size()), rows.data());
@@ -300,6 +307,7 @@ void bindArrayCalls(py::module_& module) {
   module.def(
       "hlGetBooleanv", [](HLenum name) { return query(&hlGetBooleanv, name); }, py::arg("name"));
   module.def("hlGetString", &stringOf, py::arg("name"));
+  module.def("hlGetStringi", &stringOfDevice, py::arg("name"), py::arg("device"));
   module.def("hlGetContacts", [] {
     requireContext();
     return structuredArray(hl::contacts());

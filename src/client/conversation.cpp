@@ -24,6 +24,7 @@ proto::ClientMessage openMessage(const ServerUrl& url) {
   open.set_client_name(url.name);
   open.set_token(url.token);
   open.set_device(url.device);
+  open.set_device_label(url.device_label);
   open.set_master(url.master);
   open.set_keep_objects(url.keep);
   open.set_state_rate_hz(url.state_rate_Hz);
@@ -54,7 +55,11 @@ Conversation Conversation::open(const ServerUrl& url) {
   if (welcome.protocol_version() != kProtocolVersion)
     throw Error("the server speaks version " + std::to_string(welcome.protocol_version()) +
                 " of the protocol, this library version " + std::to_string(kProtocolVersion));
-  return {std::move(link), ServerView(std::move(welcome), url.device)};
+  const std::uint32_t device = url.device_label.empty() ? url.device : welcome.device();
+  ServerView view(std::move(welcome), device);
+  if (!url.device_label.empty() && view.device().label() != url.device_label)
+    throw Error("the server is older than names of devices: choose one by its number, device=0");
+  return {std::move(link), std::move(view)};
 }
 
 double Conversation::springStiffness_N_m() const { return stiffness_N_m_.value_or(view_.device().stiffness_n_m()); }

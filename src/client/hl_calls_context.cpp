@@ -32,6 +32,8 @@ const char* textOf(HLcontext& context, HLenum name) {
       return view.welcome().server_version().c_str();
     case HL_DEVICE_NAME:
       return view.device().name().c_str();
+    case HL_DEVICE_LABEL:
+      return view.device().label().c_str();
     case HL_FAULT:
       return view.state().safety() == hl::proto::FAULT ? view.state().fault().c_str() : "";
     case HL_ERROR_STRING:
@@ -43,6 +45,15 @@ const char* textOf(HLcontext& context, HLenum name) {
     default:
       throw Fault(HL_INVALID_ENUM, "not a text");
   }
+}
+
+const char* textOfDevice(HLcontext& context, HLenum name, HLuint number) {
+  const auto& devices = context.conversation.view().welcome().devices();
+  if (name != HL_DEVICE_NAME && name != HL_DEVICE_LABEL) throw Fault(HL_INVALID_ENUM, "not a text of a device");
+  if (number >= static_cast<HLuint>(devices.size()))
+    throw Fault(HL_INVALID_VALUE, "there is no such device: HL_DEVICE_COUNT says how many there are");
+  const hl::proto::DeviceInfo& device = devices[static_cast<int>(number)];
+  return name == HL_DEVICE_NAME ? device.name().c_str() : device.label().c_str();
 }
 
 void requireDestroyable(const HLcontext* context) {
@@ -105,4 +116,9 @@ void hlErrorFunc(HLerrorfunc callback, void* user) {
 const char* hlGetString(HLenum name) {
   return callOr<const char*>(nullptr, __func__, When::kOutside,
                              [&](HLcontext& context) { return textOf(context, name); });
+}
+
+const char* hlGetStringi(HLenum name, HLuint device) {
+  return callOr<const char*>(nullptr, __func__, When::kOutside,
+                             [&](HLcontext& context) { return textOfDevice(context, name, device); });
 }

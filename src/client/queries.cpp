@@ -118,6 +118,8 @@ constexpr Query kQueriesOfServer[] = {
     {HL_MAX_STATE_RATE, [](const HLcontext& c, Values& v) { v.add(limits(c).state_rate_hz()); }},
     {HL_MAX_BODIES, [](const HLcontext& c, Values& v) { v.add(static_cast<double>(limits(c).bodies())); }},
     {HL_MAX_JOINTS, [](const HLcontext& c, Values& v) { v.add(static_cast<double>(limits(c).joints())); }},
+    {HL_DEVICE, [](const HLcontext& c, Values& v) { v.add(view(c).deviceNumber()); }},
+    {HL_DEVICE_COUNT, [](const HLcontext& c, Values& v) { v.add(view(c).welcome().devices_size()); }},
     {HL_DEVICE_FORCE_MAX, [](const HLcontext& c, Values& v) { v.add(view(c).device().force_max_n()); }},
     {HL_DEVICE_WRIST, [](const HLcontext& c, Values& v) { v.add(view(c).device().has_wrist() ? HL_TRUE : HL_FALSE); }},
     {HL_GRIPPER_MAX, [](const HLcontext& c, Values& v) { v.add(view(c).device().gripper_max_rad()); }},

@@ -43,7 +43,11 @@ const auto& options() {
       {"sim", [](ServerUrl& url, const std::string& value) { url.sim = value; }},
       {"device",
        [](ServerUrl& url, const std::string& value) {
-         url.device = numberOf<std::uint32_t>("device", value, 0, UINT32_MAX);
+         const bool is_label = !value.empty() && std::isalpha(static_cast<unsigned char>(value.front())) != 0;
+         if (is_label)
+           url.device_label = value;
+         else
+           url.device = numberOf<std::uint32_t>("device", value, 0, UINT32_MAX);
        }},
       {"master", [](ServerUrl& url, const std::string& value) { url.master = flagOf("master", value); }},
       {"keep", [](ServerUrl& url, const std::string& value) { url.keep = flagOf("keep", value); }},

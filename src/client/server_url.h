@@ -13,6 +13,7 @@ struct ServerUrl {
   std::string name;   ///< of the client
   std::string token;  ///< empty: none
   std::uint32_t device = 0;
+  std::string device_label;  ///< in the place of the number; empty: by the number
   bool master = true;
   bool keep = false;
   double state_rate_Hz = 60;

@@ -19,6 +19,7 @@ class ServerView {
 
   const proto::Welcome& welcome() const { return welcome_; }
   const proto::Limits& limits() const { return welcome_.limits(); }
+  std::uint32_t deviceNumber() const { return device_; }
   /// The context's device; empty when the server has not sent it.
   const proto::DeviceInfo& device() const;
   /// The newest state; empty before the first.

@@ -37,15 +37,17 @@ void MetricsText::family(std::string_view name, MetricType type, std::string_vie
 void MetricsText::sample(double value, Labels labels) {
   text_ += name_;
   char before = '{';
-  for (const auto& [label, content] : labels) {
+  const auto add = [&](std::string_view label, std::string_view content) {
     text_ += before;
     text_ += label;
     text_ += "=\"";
     appendEscaped(text_, content);
     text_ += '"';
     before = ',';
-  }
-  if (labels.size() > 0) text_ += '}';
+  };
+  if (!device_.empty()) add("device", device_);
+  for (const auto& [label, content] : labels) add(label, content);
+  if (before == ',') text_ += '}';
   text_ += ' ' + numberOf(value) + '\n';
 }
 

@@ -19,6 +19,8 @@ class MetricsText {
   void family(std::string_view name, MetricType type, std::string_view help);
   /// One number of the family begun last.
   void sample(double value, Labels labels = {});
+  /// A label that all samples have from now on, until it is empty: those of one device of several.
+  void setDevice(std::string device) { device_ = std::move(device); }
   /// A family of one number.
   void single(std::string_view name, MetricType type, std::string_view help, double value);
 
@@ -27,6 +29,7 @@ class MetricsText {
  private:
   std::string text_;
   std::string name_;
+  std::string device_;
 };
 
 }  // namespace hl

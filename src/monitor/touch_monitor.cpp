@@ -34,26 +34,45 @@ class StepWatch {
   std::int64_t moved_ns_ = 0;  // 0: nothing observed yet
 };
 
+// One device, as it is when the numbers are asked for.
+struct MonitoredDevice {
+  TouchSession& session;
+  StepWatch servo_steps{}, proxy_steps{};
+  ServoView servo{};
+  ProxyView proxy{};
+};
+
+// Of a device that has no name there is one.
+std::string headOfDevice(const MonitoredDevice& device) {
+  const std::string& name = device.session.label().name;
+  return name.empty() ? "" : "device '" + name + "': ";
+}
+
+std::vector<MonitoredDevice> monitored(TouchSession& session, TouchServer* clients) {
+  std::vector<MonitoredDevice> devices;
+  if (clients == nullptr) devices.push_back({session});
+  for (std::size_t i = 0; clients != nullptr && i < clients->devices(); ++i) devices.push_back({clients->device(i)});
+  return devices;
+}
+
 class TouchMonitor {
  public:
-  TouchMonitor(TouchSession& session, const TouchServer* clients, std::shared_ptr<const PageRecordings> recordings)
-      : session_(session), clients_(clients), recordings_(std::move(recordings)) {}
+  TouchMonitor(TouchSession& session, TouchServer* clients, std::shared_ptr<const PageRecordings> recordings)
+      : devices_(monitored(session, clients)), clients_(clients), recordings_(std::move(recordings)) {}
 
   void observe() {
     const std::int64_t now_ns = monotonicNow_ns();
-    servo_.observe(session_.servoTotals().steps, now_ns);
-    proxy_.observe(session_.proxyTotals().steps, now_ns);
+    for (MonitoredDevice& device : devices_) {
+      device.servo_steps.observe(device.session.servoTotals().steps, now_ns);
+      device.proxy_steps.observe(device.session.proxyTotals().steps, now_ns);
+    }
   }
 
   std::string fault() {
     observe();
-    const std::int64_t now_ns = monotonicNow_ns();
-    if (servo_.stalled(now_ns)) return "the servo loop stands still";
-    if (proxy_.stalled(now_ns)) return "the proxy loop stands still";
-    ServoView servo;
-    ProxyView proxy;
-    session_.views(servo, proxy);
-    if (servo.safety == SafetyState::kFault) return std::string("the servo is in fault: ") + faultText(servo.fault);
+    for (MonitoredDevice& device : devices_) {
+      if (const std::string why = faultOf(device); !why.empty()) return headOfDevice(device) + why;
+    }
     for (const ThreadFailures& thread : threadFailures()) {
       if (thread.now) return std::string("the thread '") + thread.thread + "' fails at its work: see the log";
     }
@@ -61,24 +80,15 @@ class TouchMonitor {
   }
 
   void write(MetricsText& out) {
-    ServoView servo;
-    ProxyView proxy;
-    session_.views(servo, proxy);
-    writeLoops(out, servo, proxy);
-    writeSafety(out, servo.safety);
-    out.single("hl_scene_primitives", MetricType::kGauge, "Primitives that the finger can touch",
-               static_cast<double>(session_.snapshot()->primitives));
-    out.single("hl_scene_memory_bytes", MetricType::kGauge, "Memory of the scene that the finger touches",
-               static_cast<double>(memoryOf(*session_.snapshot())));
-    out.single("hl_iteration_caps_total", MetricType::kCounter, "Ticks that hit the cap on their passes",
-               static_cast<double>(proxy.ended.capped()));
-    out.single("hl_unplaced_ticks_total", MetricType::kCounter, "Ticks in which no place for the proxy was clear",
-               static_cast<double>(proxy.ended[Ending::kUnplaced]));
-    writeEndings(out, proxy.ended);
-    writeLedger(out, proxy.ledger, servo.late);
-    writeBodies(out, proxy.bodies);
+    for (MonitoredDevice& device : devices_) device.session.views(device.servo, device.proxy);
+    writeLoops(out);
+    writeSafety(out);
+    writeScene(out);
+    writeEndings(out);
+    writeLedger(out);
+    writeBodies(out, devices_.front().proxy.bodies);
     writeFailures(out);
-    writeVibration(out, servo.vibration);
+    writeVibration(out);
     if (recordings_) writeRecordings(out, recordings_->status());
     if (clients_ == nullptr) return;
     writeHierarchies(out, clients_->hierarchyCounts());
@@ -86,74 +96,135 @@ class TouchMonitor {
   }
 
  private:
-  void writeLoops(MetricsText& out, const ServoView& servo, const ProxyView& proxy) const {
-    struct Loop {
-      const char* name;
-      LoopSummary second;
-      LoopTotals totals;
-    };
-    std::vector<Loop> loops{{"servo", servo.loop, session_.servoTotals()},
-                            {"proxy", proxy.loop, session_.proxyTotals()}};
-    if (session_.settings().timer_reference) loops.push_back({"bare timer", {}, session_.referenceTotals()});
-    const auto family = [&](const char* name, MetricType type, const char* help, auto value) {
-      out.family(name, type, help);
-      for (const Loop& loop : loops) out.sample(static_cast<double>(value(loop)), {{"loop", loop.name}});
-    };
-    using enum MetricType;
-    family("hl_loop_rate_hertz", kGauge, "Steps a second, over the last one", [](auto& l) { return l.second.rate_Hz; });
-    family("hl_loop_steps_total", kCounter, "Steps since the start", [](auto& l) { return l.totals.steps; });
-    family("hl_loop_deadlines_missed_total", kCounter, "Periods skipped", [](auto& l) { return l.totals.missed; });
-    family("hl_loop_page_faults_total", kCounter, "Pages that were not there",
-           [](auto& l) { return l.totals.page_faults; });
-    family("hl_loop_waits_total", kCounter, "Waits for anything else than the next deadline",
-           [](auto& l) { return l.totals.waits; });
-    family("hl_loop_preempted_total", kCounter, "Times that another thread was given the core",
-           [](auto& l) { return l.totals.preempted; });
-    writeDuty(out, session_.servoTotals());
-    family("hl_loop_late_max_seconds", kGauge, "Worst wake-up after its deadline since the start",
-           [](auto& l) { return 1e-9 * static_cast<double>(l.totals.late_max_ns); });
-    family("hl_loop_work_max_seconds", kGauge, "Longest work of a step in the last second",
-           [](auto& l) { return 1e-9 * static_cast<double>(l.second.max_ns); });
-    out.family("hl_loop_work_seconds", kGauge, "Work of one step in the last second");
-    for (const Loop& loop : loops) {
-      out.sample(1e-9 * static_cast<double>(loop.second.p50_ns), {{"loop", loop.name}, {"quantile", "0.5"}});
-      out.sample(1e-9 * static_cast<double>(loop.second.p999_ns), {{"loop", loop.name}, {"quantile", "0.999"}});
-    }
+  using Device = MonitoredDevice;
+  struct Loop {
+    const char* name;
+    LoopSummary second;
+    LoopTotals totals;
+  };
+
+  static std::string faultOf(Device& device) {
+    const std::int64_t now_ns = monotonicNow_ns();
+    if (device.servo_steps.stalled(now_ns)) return "the servo loop stands still";
+    if (device.proxy_steps.stalled(now_ns)) return "the proxy loop stands still";
+    device.session.views(device.servo, device.proxy);
+    if (device.servo.safety != SafetyState::kFault) return {};
+    return std::string("the servo is in fault: ") + faultText(device.servo.fault);
   }
 
-  // As Prometheus wants a histogram: each bucket has those below it too.
-  static void writeDuty(MetricsText& out, const LoopTotals& servo) {
-    out.family("hl_servo_duty_total", MetricType::kCounter, "Servo steps that took up to this part of their period");
-    std::uint64_t sum = 0;
-    for (std::size_t i = 0; i < servo.duty.size(); ++i) {
-      sum += servo.duty[i];
-      const std::string bound = i < kDutyBounds.size() ? fmt::format("{}", kDutyBounds[i]) : "+Inf";
-      out.sample(static_cast<double>(sum), {{"le", bound}});
+  // The samples of each device, with its name.
+  template <typename Write>
+  void ofEach(MetricsText& out, Write write) const {
+    for (const Device& device : devices_) {
+      out.setDevice(device.session.label().name);
+      write(device);
     }
+    out.setDevice("");
+  }
+  template <typename Value>
+  void family(MetricsText& out, const char* name, MetricType type, const char* help, Value value) const {
+    out.family(name, type, help);
+    ofEach(out, [&](const Device& device) { out.sample(static_cast<double>(value(device))); });
   }
 
-  static void writeEndings(MetricsText& out, const EndingCounts& ended) {
-    out.family("hl_ticks_ended_total", MetricType::kCounter, "Ticks by why they ended");
-    ended.each([&](Ending ending, std::uint64_t count) {
-      out.sample(static_cast<double>(count), {{"ending", nameOf(ending)}});
+  static std::vector<Loop> loopsOf(const Device& device) {
+    std::vector<Loop> loops{{"servo", device.servo.loop, device.session.servoTotals()},
+                            {"proxy", device.proxy.loop, device.session.proxyTotals()}};
+    if (device.session.settings().timer_reference)
+      loops.push_back({"bare timer", {}, device.session.referenceTotals()});
+    return loops;
+  }
+
+  template <typename Value>
+  void loopFamily(MetricsText& out, const char* name, MetricType type, const char* help, Value value) const {
+    out.family(name, type, help);
+    ofEach(out, [&](const Device& device) {
+      for (const Loop& loop : loopsOf(device)) out.sample(static_cast<double>(value(loop)), {{"loop", loop.name}});
     });
   }
 
-  static void writeSafety(MetricsText& out, SafetyState safety) {
+  void writeLoops(MetricsText& out) const {
+    using enum MetricType;
+    loopFamily(out, "hl_loop_rate_hertz", kGauge, "Steps a second, over the last one",
+               [](auto& l) { return l.second.rate_Hz; });
+    loopFamily(out, "hl_loop_steps_total", kCounter, "Steps since the start", [](auto& l) { return l.totals.steps; });
+    loopFamily(out, "hl_loop_deadlines_missed_total", kCounter, "Periods skipped",
+               [](auto& l) { return l.totals.missed; });
+    loopFamily(out, "hl_loop_page_faults_total", kCounter, "Pages that were not there",
+               [](auto& l) { return l.totals.page_faults; });
+    loopFamily(out, "hl_loop_waits_total", kCounter, "Waits for anything else than the next deadline",
+               [](auto& l) { return l.totals.waits; });
+    loopFamily(out, "hl_loop_preempted_total", kCounter, "Times that another thread was given the core",
+               [](auto& l) { return l.totals.preempted; });
+    writeDuty(out);
+    loopFamily(out, "hl_loop_late_max_seconds", kGauge, "Worst wake-up after its deadline since the start",
+               [](auto& l) { return 1e-9 * static_cast<double>(l.totals.late_max_ns); });
+    loopFamily(out, "hl_loop_work_max_seconds", kGauge, "Longest work of a step in the last second",
+               [](auto& l) { return 1e-9 * static_cast<double>(l.second.max_ns); });
+    out.family("hl_loop_work_seconds", kGauge, "Work of one step in the last second");
+    ofEach(out, [&](const Device& device) {
+      for (const Loop& loop : loopsOf(device)) {
+        out.sample(1e-9 * static_cast<double>(loop.second.p50_ns), {{"loop", loop.name}, {"quantile", "0.5"}});
+        out.sample(1e-9 * static_cast<double>(loop.second.p999_ns), {{"loop", loop.name}, {"quantile", "0.999"}});
+      }
+    });
+  }
+
+  // As Prometheus wants a histogram: each bucket has those below it too.
+  void writeDuty(MetricsText& out) const {
+    out.family("hl_servo_duty_total", MetricType::kCounter, "Servo steps that took up to this part of their period");
+    ofEach(out, [&](const Device& device) {
+      const LoopTotals servo = device.session.servoTotals();
+      std::uint64_t sum = 0;
+      for (std::size_t i = 0; i < servo.duty.size(); ++i) {
+        sum += servo.duty[i];
+        const std::string bound = i < kDutyBounds.size() ? fmt::format("{}", kDutyBounds[i]) : "+Inf";
+        out.sample(static_cast<double>(sum), {{"le", bound}});
+      }
+    });
+  }
+
+  // All devices touch one scene.
+  void writeScene(MetricsText& out) const {
+    using enum MetricType;
+    const std::shared_ptr<const Snapshot> scene = devices_.front().session.snapshot();
+    out.single("hl_scene_primitives", kGauge, "Primitives that the finger can touch",
+               static_cast<double>(scene->primitives));
+    out.single("hl_scene_memory_bytes", kGauge, "Memory of the scene that the finger touches",
+               static_cast<double>(memoryOf(*scene)));
+  }
+
+  void writeEndings(MetricsText& out) const {
+    using enum MetricType;
+    family(out, "hl_iteration_caps_total", kCounter, "Ticks that hit the cap on their passes",
+           [](const Device& device) { return device.proxy.ended.capped(); });
+    family(out, "hl_unplaced_ticks_total", kCounter, "Ticks in which no place for the proxy was clear",
+           [](const Device& device) { return device.proxy.ended[Ending::kUnplaced]; });
+    out.family("hl_ticks_ended_total", kCounter, "Ticks by why they ended");
+    ofEach(out, [&](const Device& device) {
+      device.proxy.ended.each([&](Ending ending, std::uint64_t count) {
+        out.sample(static_cast<double>(count), {{"ending", nameOf(ending)}});
+      });
+    });
+  }
+
+  void writeSafety(MetricsText& out) const {
     out.family("hl_safety_state", MetricType::kGauge, "1 for the state that the servo is in");
-    for (std::size_t i = 0; i < kSafetyNames.size(); ++i) {
-      out.sample(static_cast<std::size_t>(safety) == i ? 1 : 0, {{"state", kSafetyNames[i]}});
-    }
+    ofEach(out, [&](const Device& device) {
+      for (std::size_t i = 0; i < kSafetyNames.size(); ++i)
+        out.sample(static_cast<std::size_t>(device.servo.safety) == i ? 1 : 0, {{"state", kSafetyNames[i]}});
+    });
   }
 
   // The proxy's ledger and the servo's, which books late hand-over, as one.
-  static void writeLedger(MetricsText& out, const Ledger& ledger, const Ledger& late) {
+  void writeLedger(MetricsText& out) const {
     using enum MetricType;
-    out.single("hl_ledger_tank_joules", kGauge, "Energy that the surfaces may still add", ledger.tank_J);
-    out.single("hl_ledger_injected_joules_total", kCounter, "Energy that the surfaces' rules have added",
-               ledger.injected_J + late.injected_J);
-    out.single("hl_ledger_dissipated_joules_total", kCounter, "Energy that they have taken away",
-               ledger.dissipated_J + late.dissipated_J);
+    family(out, "hl_ledger_tank_joules", kGauge, "Energy that the surfaces may still add",
+           [](const Device& device) { return device.proxy.ledger.tank_J; });
+    family(out, "hl_ledger_injected_joules_total", kCounter, "Energy that the surfaces' rules have added",
+           [](const Device& device) { return device.proxy.ledger.injected_J + device.servo.late.injected_J; });
+    family(out, "hl_ledger_dissipated_joules_total", kCounter, "Energy that they have taken away",
+           [](const Device& device) { return device.proxy.ledger.dissipated_J + device.servo.late.dissipated_J; });
   }
 
   // Work may have either sign, so it is no counter.
@@ -184,14 +255,14 @@ class TouchMonitor {
       out.sample(static_cast<double>(thread.count), {{"thread", thread.thread}});
   }
 
-  static void writeVibration(MetricsText& out, const VibrationView& vibration) {
+  void writeVibration(MetricsText& out) const {
     using enum MetricType;
-    out.single("hl_vibrations_total", kCounter, "Times that the spring and the hand shook and it was softened",
-               static_cast<double>(vibration.alarms));
-    out.single("hl_vibration_dissipated_joules_total", kCounter, "Energy that softening and its damper took",
-               vibration.dissipated_J);
-    out.single("hl_spring_limit_newtons_per_metre", kGauge, "The spring is held below it; 0: there is no limit",
-               vibration.limit_N_m);
+    family(out, "hl_vibrations_total", kCounter, "Times that the spring and the hand shook and it was softened",
+           [](const Device& device) { return device.servo.vibration.alarms; });
+    family(out, "hl_vibration_dissipated_joules_total", kCounter, "Energy that softening and its damper took",
+           [](const Device& device) { return device.servo.vibration.dissipated_J; });
+    family(out, "hl_spring_limit_newtons_per_metre", kGauge, "The spring is held below it; 0: there is no limit",
+           [](const Device& device) { return device.servo.vibration.limit_N_m; });
   }
 
   static void writeRecordings(MetricsText& out, const PageRecordingStatus& status) {
@@ -220,15 +291,14 @@ class TouchMonitor {
                static_cast<double>(memory.most_bytes()));
   }
 
-  TouchSession& session_;
+  std::vector<Device> devices_;  // at least one
   const TouchServer* const clients_;
   const std::shared_ptr<const PageRecordings> recordings_;
-  StepWatch servo_, proxy_;
 };
 
 }  // namespace
 
-MonitorCallbacks makeTouchMonitor(TouchSession& session, const TouchServer* clients,
+MonitorCallbacks makeTouchMonitor(TouchSession& session, TouchServer* clients,
                                   std::shared_ptr<const PageRecordings> recordings) {
   const auto monitor = std::make_shared<TouchMonitor>(session, clients, std::move(recordings));
   return {[monitor] { monitor->observe(); }, [monitor] { return monitor->fault(); },

@@ -28,7 +28,10 @@ void describe(const QuantityInfo& info, proto::QuantityInfo& out) {
   out.set_words(info.words);
 }
 
-std::string hello(const TouchSession& session, const std::string& version, std::uint64_t upload_bytes) {
+using OtherDevices = std::vector<TouchSession*>;
+
+std::string hello(const TouchSession& session, const OtherDevices& others, const std::string& version,
+                  std::uint64_t upload_bytes) {
   proto::ServerMessage message;
   proto::Hello& out = *message.mutable_hello();
   out.set_protocol_version(kProtocolVersion);
@@ -36,6 +39,8 @@ std::string hello(const TouchSession& session, const std::string& version, std::
   out.set_upload_bytes(upload_bytes);
   out.set_scene_name(session.snapshot()->name);
   toProto(session, *out.mutable_device());
+  if (!others.empty()) toProto(session, *out.add_devices());
+  for (const TouchSession* other : others) toProto(*other, *out.add_devices());
   for (const QuantityInfo& info : kQuantityInfo) {
     if (info.usual > 0) describe(info, *out.add_quantities());
   }
@@ -102,7 +107,25 @@ void setBodies(proto::Bodies& out, const BodyView& bodies) {
   out.set_returned(bodies.returned);
 }
 
-std::string state(TouchSession& session, PageScene& scene, const PageRecordings* recordings) {
+void setOther(TouchSession& session, proto::OtherDevice& out) {
+  ServoView servo;
+  ProxyView proxy;
+  session.views(servo, proxy);
+  out.set_label(session.label().name);
+  toProto(session.workspace().toWorld(servo.finger_D), *out.mutable_finger());
+  toProto(proxy.proxy, *out.mutable_proxy());
+  toProto(servo.force_N, *out.mutable_force_n());
+  out.set_safety(static_cast<proto::SafetyState>(servo.safety));
+  if (servo.safety == SafetyState::kFault) out.set_fault(faultText(servo.fault));
+  out.set_buttons(servo.buttons);
+  out.set_contacts(static_cast<std::uint32_t>(proxy.contacts.size()));
+  out.set_exploring(session.exploring());
+  out.set_servo_rate_hz(servo.loop.rate_Hz);
+  out.set_proxy_radius(session.radius_W());
+}
+
+std::string state(TouchSession& session, const OtherDevices& others, PageScene& scene,
+                  const PageRecordings* recordings) {
   ServoView servo;
   ProxyView proxy;
   session.views(servo, proxy);
@@ -130,6 +153,7 @@ std::string state(TouchSession& session, PageScene& scene, const PageRecordings*
   setStylus(servo.stylus, session.deviceInfo(), out);
   if (proxy.bodies.bodies > 0) setBodies(*out.mutable_bodies(), proxy.bodies);
   if (recordings != nullptr) setRecording(*out.mutable_recording(), recordings->status());
+  for (TouchSession* other : others) setOther(*other, *out.add_others());
   const std::int64_t now_ns = monotonicNow_ns();
   scene.follow(session.snapshot(), {session.radius_W(), session.workspace().world_per_device}, now_ns);
   scene.describe(out, std::span(proxy.touched.begin(), proxy.touched.end()), proxy.snap, now_ns);
@@ -154,9 +178,11 @@ void apply(const SetIso& set_iso, const proto::IsoChange& change) {
 }
 
 // A message that does not parse or asks for what does not exist changes nothing.
-void receive(TouchSession& session, PageRecordings* recordings, const SetIso& set_iso, const std::string& bytes) {
+void receive(TouchSession& first, const OtherDevices& others, PageRecordings* recordings, const SetIso& set_iso,
+             const std::string& bytes) {
   proto::ViewerMessage message;
-  if (!message.ParseFromString(bytes)) return;
+  if (!message.ParseFromString(bytes) || message.device() > others.size()) return;
+  TouchSession& session = message.device() == 0 ? first : *others[message.device() - 1];
   switch (message.body_case()) {
     case proto::ViewerMessage::kHandGoal: {
       const proto::Vec3& p = message.hand_goal().position();
@@ -195,15 +221,16 @@ void receive(TouchSession& session, PageRecordings* recordings, const SetIso& se
 }  // namespace
 
 FeedCallbacks makeViewerFeed(TouchSession& session, const std::string& version, MemoryBudget memory,
-                             std::shared_ptr<PageRecordings> recordings, std::uint64_t upload_bytes, SetIso set_iso) {
+                             std::shared_ptr<PageRecordings> recordings, std::uint64_t upload_bytes, SetIso set_iso,
+                             std::vector<TouchSession*> others) {
   const auto scene = std::make_shared<PageScene>(std::move(memory));
   const auto open_page = [scene] {
     return [scene, memory = std::make_shared<PageMemory>(scene->open())] { return scene->next(*memory); };
   };
-  return {[&session, version, upload_bytes] { return hello(session, version, upload_bytes); }, open_page,
-          [&session, scene, recordings] { return state(session, *scene, recordings.get()); },
-          [&session, recordings, set_iso = std::move(set_iso)](const std::string& bytes) {
-            receive(session, recordings.get(), set_iso, bytes);
+  return {[&session, others, version, upload_bytes] { return hello(session, others, version, upload_bytes); },
+          open_page, [&session, others, scene, recordings] { return state(session, others, *scene, recordings.get()); },
+          [&session, others, recordings, set_iso = std::move(set_iso)](const std::string& bytes) {
+            receive(session, others, recordings.get(), set_iso, bytes);
           },
           [recordings](std::uint32_t owner) { return recordings ? recordings->open(owner) : nullptr; }};
 }

@@ -115,13 +115,12 @@ void HlSession::open(const proto::Open& open) {
   if (open.protocol_version() != kProtocolVersion)
     return end("this server speaks version " + std::to_string(kProtocolVersion) + " of the protocol, the client " +
                std::to_string(open.protocol_version()));
-  if (open.device() >= world_.devices())
-    return end("there is no device " + std::to_string(open.device()) + "; the server has " +
-               std::to_string(world_.devices()));
+  const std::optional<std::uint32_t> device = chosenDevice(open);
+  if (!device) return end(missingDevice(open));
   opened_ = true;
   client_name_ = plain(open.client_name());
   keep_objects_ = open.keep_objects();
-  device_ = open.device();
+  device_ = *device;
   master_ = open.master() && world_.becomeMaster(device_, number_);
   place_ = world_.publisher().join(number_, world_.limits(), memory_, callbacks(), world_.takeKept(client_name_));
   proto::ServerReply reply;
@@ -130,10 +129,28 @@ void HlSession::open(const proto::Open& open) {
   welcome.set_server_version(world_.settings().version);
   welcome.set_session(number_);
   welcome.set_master(master_);
+  welcome.set_device(device_);
   for (std::uint32_t i = 0; i < world_.devices(); ++i) toProto(world_.device(i), *welcome.add_devices());
   *welcome.mutable_limits() = toProto(world_.limits());
   replies_.push(std::move(reply));
   setStateRate(open.state_rate_hz());
+}
+
+std::optional<std::uint32_t> HlSession::chosenDevice(const proto::Open& open) const {
+  if (!open.device_label().empty()) return world_.deviceNamed(open.device_label());
+  if (open.device() < world_.devices()) return open.device();
+  return {};
+}
+
+std::string HlSession::missingDevice(const proto::Open& open) const {
+  const std::string& label = open.device_label();
+  std::string there;
+  for (std::uint32_t i = 0; i < world_.devices(); ++i) {
+    const std::string& name = world_.device(i).label().name;
+    there += (i == 0 ? "" : ", ") + std::to_string(i) + (name.empty() ? "" : " (" + name + ")");
+  }
+  return "there is no device " + (label.empty() ? std::to_string(open.device()) : "'" + plain(label) + "'") +
+         "; the server has " + std::to_string(world_.devices()) + ": " + there;
 }
 
 // A message holds millions of parts that are empty: no more of them are answered than a client may leave unread.

@@ -58,6 +58,8 @@ class HlSession final : public ClientSession {
   void keepUpload(proto::Upload upload);
   void submit(proto::Frame frame);
   void refuseUpload(std::uint64_t id, const std::string& why);
+  std::optional<std::uint32_t> chosenDevice(const proto::Open& open) const;
+  std::string missingDevice(const proto::Open& open) const;
   void setDevice(const proto::DeviceSettings& settings);
   void setStateRate(double rate_Hz);
   void want(bool wanted, std::optional<std::uint64_t>& next) const;

@@ -12,6 +12,7 @@ void toProto(const Vec3& v, proto::Vec3& out) {
 void toProto(const TouchSession& session, proto::DeviceInfo& out) {
   const DeviceInfo& info = session.deviceInfo();
   out.set_name(info.name);
+  out.set_label(session.label().name);
   out.set_force_max_n(info.force_max_N);
   out.set_stiffness_n_m(session.stiffness_N_m());
   out.set_stiffness_max_n_m(info.stiffness_max_N_m);

@@ -45,6 +45,12 @@ std::unique_ptr<ClientSession> TouchServer::connect(WakeSession wake) {
   return session;
 }
 
+std::vector<TouchSession*> TouchServer::otherDevices() {
+  std::vector<TouchSession*> others;
+  for (std::size_t i = 1; i < devices(); ++i) others.push_back(&device(i));
+  return others;
+}
+
 std::size_t TouchServer::sessions() const {
   const std::lock_guard lock(mutex_);
   return sessions_.size();

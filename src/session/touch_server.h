@@ -39,6 +39,7 @@ class TouchServer final : public SessionHost {
 
   TouchSession& device(std::size_t number = 0) { return world_.device(number); }
   std::size_t devices() const { return world_.devices(); }
+  std::vector<TouchSession*> otherDevices();  ///< from number 1 on
   std::size_t sessions() const;
   HierarchyCounts hierarchyCounts() const { return world_.publisher().counts(); }
   /// Of all clients' scenes, what they have sent ahead and are told, and what pages are shown of it.

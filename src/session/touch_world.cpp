@@ -70,6 +70,13 @@ TouchWorld::TouchWorld(std::shared_ptr<const Snapshot> base, const TouchServerSe
   base_memory_.set(bytesOfBase(*base));
 }
 
+std::optional<std::uint32_t> TouchWorld::deviceNamed(const std::string& name) const {
+  for (const auto& device : devices_) {
+    if (!name.empty() && device->label().name == name) return device->label().number;
+  }
+  return {};
+}
+
 void TouchWorld::start() {
   for (const auto& device : devices_) device->start();
   publisher_.start();

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,6 +44,8 @@ class TouchWorld {
   const Limits& limits() const { return settings_.limits; }
   TouchSession& device(std::size_t number) { return *devices_[number]; }
   std::size_t devices() const { return devices_.size(); }
+  /// The number of the device that has this name; none: nothing.
+  std::optional<std::uint32_t> deviceNamed(const std::string& name) const;
   ScenePublisher& publisher() { return publisher_; }
   const ScenePublisher& publisher() const { return publisher_; }
   const MemoryBudget& memory() const { return memory_; }

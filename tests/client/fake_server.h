@@ -41,6 +41,8 @@ struct FakeServer {
     proto::DeviceInfo& device = *welcome.add_devices();
     device.set_name("fake hand");
     device.set_stiffness_n_m(1000);
+    device.set_label("left");
+    welcome.add_devices()->set_label("right");
   }
 
   void receive(proto::ClientMessage message) {

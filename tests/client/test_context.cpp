@@ -102,10 +102,36 @@ TEST_F(CallsTest, StringsTellOfLibraryServerAndDevice) {
   EXPECT_STREQ(hlGetString(HL_VERSION), "0.1.0");
   EXPECT_STREQ(hlGetString(HL_SERVER_VERSION), "fake");
   EXPECT_STREQ(hlGetString(HL_DEVICE_NAME), "fake hand");
+  EXPECT_STREQ(hlGetString(HL_DEVICE_LABEL), "left");
+  EXPECT_EQ(integer(HL_DEVICE_COUNT), 2);
+  EXPECT_EQ(integer(HL_DEVICE), 0);
+  EXPECT_STREQ(hlGetStringi(HL_DEVICE_LABEL, 1), "right");
+  EXPECT_STREQ(hlGetStringi(HL_DEVICE_NAME, 0), "fake hand");
+  EXPECT_EQ(hlGetError(), HL_NO_ERROR);
+  EXPECT_EQ(hlGetStringi(HL_DEVICE_LABEL, 2), nullptr);
+  EXPECT_EQ(hlGetError(), HL_INVALID_VALUE);
+  EXPECT_EQ(hlGetStringi(HL_VENDOR, 0), nullptr);
+  EXPECT_EQ(hlGetError(), HL_INVALID_ENUM);
   EXPECT_STREQ(hlGetString(HL_FAULT), "");
   EXPECT_STREQ(hlGetString(HL_FRAME_WARNINGS), "");
   EXPECT_EQ(hlGetString(HL_FORCE), nullptr);
   EXPECT_EQ(hlGetError(), HL_INVALID_ENUM);
+}
+
+TEST_F(CallsTest, ADeviceIsChosenByItsLabel) {
+  server->welcome.set_device(1);
+  HLcontext* right = hlCreateContext("fake:?device=right");
+  ASSERT_NE(right, nullptr) << hlGetConnectError();
+  EXPECT_EQ(server->open.device_label(), "right");
+  HLcontext* const before = hlGetCurrentContext();
+  hlMakeCurrent(right);
+  EXPECT_STREQ(hlGetString(HL_DEVICE_LABEL), "right");
+  EXPECT_EQ(integer(HL_DEVICE), 1);
+  hlMakeCurrent(before);
+  hlDestroyContext(right);
+  server->welcome.set_device(0);  // as of a server that knows no labels
+  EXPECT_EQ(hlCreateContext("fake:?device=right"), nullptr);
+  EXPECT_NE(std::string(hlGetConnectError()).find("by its number"), std::string::npos) << hlGetConnectError();
 }
 
 TEST_F(CallsTest, OpenSaysWhatTheUrlSays) {

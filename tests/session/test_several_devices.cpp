@@ -5,6 +5,8 @@
 
 #include "base/error.h"
 #include "device/fakes/twin_bench.h"
+#include "monitor/touch_monitor.h"
+#include "page/viewer_feed.h"
 #include "session/touch_server.h"
 #include "touch/fault_group.h"
 #include "touch/session_views.h"
@@ -61,6 +63,101 @@ TEST_F(SeveralDevices, HaveTheirNamesInTheOrderInWhichTheyWereGiven) {
   EXPECT_EQ(server_->device(0).label().name, "left");
   EXPECT_EQ(server_->device(1).label().name, "right");
   EXPECT_EQ(server_->device(1).label().number, 1U);
+}
+
+std::string lineWith(const std::string& text, const std::string& head) {
+  const std::size_t at = text.find("\n" + head);
+  return at == std::string::npos ? "" : text.substr(at + 1, text.find('\n', at + 1) - at - 1);
+}
+
+// Number or name: the same device.
+TEST_F(SeveralDevices, AClientChoosesItsDeviceByNumberOrByName) {
+  start(false);
+  const auto open = [&](std::uint32_t number, const std::string& label) {
+    proto::ClientMessage message;
+    message.mutable_open()->set_protocol_version(1);
+    message.mutable_open()->set_device(number);
+    message.mutable_open()->set_device_label(label);
+    const auto session = server_->connect([] {});
+    session->receive(message);
+    proto::ServerReply reply;
+    waitFor([&] { return session->take(reply) || !session->end().empty(); });
+    return reply.has_welcome() ? reply.welcome() : proto::Welcome();
+  };
+  const proto::Welcome right = open(0, "right");
+  EXPECT_EQ(right.device(), 1U);
+  ASSERT_EQ(right.devices_size(), 2);
+  EXPECT_EQ(right.devices(0).label(), "left");
+  EXPECT_EQ(right.devices(1).label(), "right");
+  EXPECT_EQ(right.devices(1).name(), "Force Dimension omega.3");
+  EXPECT_EQ(open(1, "").device(), 1U);
+  EXPECT_EQ(open(1, "left").device(), 0U);
+  EXPECT_EQ(open(0, "middle").devices_size(), 0);
+  const auto session = server_->connect([] {});
+  proto::ClientMessage message;
+  message.mutable_open()->set_protocol_version(1);
+  message.mutable_open()->set_device_label("middle");
+  session->receive(message);
+  EXPECT_EQ(session->end(), "there is no device 'middle'; the server has 2: 0 (left), 1 (right)");
+}
+
+TEST_F(SeveralDevices, AreAllInTheMetricsAndInTheHealth) {
+  start(false);
+  const MonitorCallbacks monitor = makeTouchMonitor(server_->device(), server_.get());
+  EXPECT_EQ(monitor.fault(), "");
+  MetricsText healthy;
+  monitor.metrics(healthy);
+  for (const char* name : {"left", "right"}) {
+    const std::string device = std::string("{device=\"") + name + "\",";
+    EXPECT_EQ(lineWith(healthy.text(), "hl_safety_state" + device + "state=\"on\"}"),
+              "hl_safety_state" + device + "state=\"on\"} 1");
+    EXPECT_NE(lineWith(healthy.text(), "hl_loop_steps_total" + device + "loop=\"servo\"} "), "");
+    EXPECT_NE(lineWith(healthy.text(), std::string("hl_vibrations_total{device=\"") + name + "\"} "), "");
+  }
+  EXPECT_EQ(lineWith(healthy.text(), "hl_scene_primitives"), "hl_scene_primitives 0");
+  const std::string& text = healthy.text();
+  const std::string type = "# TYPE hl_loop_steps_total";
+  EXPECT_EQ(text.find(type), text.rfind(type)) << "a family once, with the samples of all devices";
+  bench_->arm(1).lost = true;
+  waitFor([this] { return isInFault(1, FaultReason::kDeviceLost); });
+  EXPECT_EQ(monitor.fault(),
+            "device 'right': the servo is in fault: the device does not answer: check its cable and power");
+  MetricsText lost;
+  monitor.metrics(lost);
+  EXPECT_NE(lost.text().find("hl_safety_state{device=\"right\",state=\"fault\"} 1\n"), std::string::npos);
+  EXPECT_NE(lost.text().find("hl_safety_state{device=\"left\",state=\"fault\"} 0\n"), std::string::npos);
+}
+
+// In its own message a page finds each device by its name; what it sends is for the one that it names.
+TEST_F(SeveralDevices, AreAllToldToPages) {
+  start(false);
+  const FeedCallbacks feed = makeViewerFeed(server_->device(), "test", {}, nullptr, 0, {}, server_->otherDevices());
+  proto::ServerMessage hello, state;
+  ASSERT_TRUE(hello.ParseFromString(feed.hello()));
+  ASSERT_EQ(hello.hello().devices_size(), 2);
+  EXPECT_EQ(hello.hello().device().label(), "left");
+  EXPECT_EQ(hello.hello().devices(1).label(), "right");
+  EXPECT_FALSE(hello.hello().devices(1).simulated_hand());
+  bench_->arm(1).lost = true;
+  waitFor([this] { return isInFault(1, FaultReason::kDeviceLost); });
+  ASSERT_TRUE(state.ParseFromString(feed.state()));
+  ASSERT_EQ(state.state().others_size(), 1);
+  EXPECT_EQ(state.state().others(0).label(), "right");
+  EXPECT_EQ(state.state().others(0).safety(), proto::FAULT);
+  EXPECT_EQ(state.state().others(0).fault(), "the device does not answer: check its cable and power");
+  EXPECT_GT(state.state().others(0).proxy_radius(), 0);
+  bench_->arm(1).lost = false;
+  waitFor([this] { return isInFault(1, FaultReason::kDeviceReturned); });
+  proto::ViewerMessage rearm;
+  rearm.mutable_rearm();
+  rearm.set_device(7);
+  feed.receive(rearm.SerializeAsString());
+  EXPECT_EQ(servo(1).safety, SafetyState::kFault);
+  rearm.set_device(1);
+  waitFor([&] {
+    feed.receive(rearm.SerializeAsString());
+    return servo(1).safety == SafetyState::kOn;
+  });
 }
 
 TEST_F(SeveralDevices, OneThatIsLostLeavesTheOtherOn) {
