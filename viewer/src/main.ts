@@ -24,6 +24,7 @@ import { Panel } from "./panel";
 import { RecordPanel } from "./record_panel";
 import { kWindow_s, LivePlot } from "./plots";
 import { Pointing } from "./pointing";
+import { OtherDevices } from "./other_devices";
 import { ProbeView } from "./probe_view";
 import {
   encodeHandGoal, encodeIso, encodePress, encodeRearm, encodeRecord, encodeRelease, encodeSettings, kProtocolVersion,
@@ -64,6 +65,7 @@ class App {
     replaced: () => this.hand_.cancel(),
   });
   private readonly probe_ = new ProbeView();
+  private readonly others_ = new OtherDevices((device) => this.send(encodeRearm(device)));
   private readonly notices_ = new Notices();
   private readonly recordingFile_ = new RecordingFile((recording, name) => this.timeline_.open(recording, name));
   private readonly modelFile_ = new ModelFile(
@@ -128,7 +130,7 @@ class App {
   private lastNumbers_ms_ = 0;
 
   constructor() {
-    this.stage_.scene.add(this.live_.model.group, this.live_.marks.group, this.probe_.group);
+    this.stage_.scene.add(this.live_.model.group, this.live_.marks.group, this.probe_.group, this.others_.group);
     this.hand_ = this.makeHand();
     this.panel_ = this.makePanel();
     this.memory_ = new ViewMemory();
@@ -308,6 +310,7 @@ class App {
     this.simulatedHand_ = hello.device?.simulatedHand ?? false;
     this.hand_.movable = this.buttons_.enabled = this.simulatedHand_;
     this.panel_.showHello(hello);
+    this.others_.showHello(hello);
     this.surfacePanel_.showQuantities(hello.quantities);
     this.surfacePanel_.forget();
     this.ledgerPanel_.forget();
@@ -337,6 +340,7 @@ class App {
   private fit(bounds: Bounds): void {
     this.stage_.setBounds(bounds.min, bounds.max);
     this.probe_.setDiagonal(diagonalOf(bounds));
+    this.others_.setDiagonal(diagonalOf(bounds));
     const linked = this.memory_.takeCamera();
     if (linked !== undefined) {
       this.stage_.lookFrom(linked.position, linked.target);
@@ -416,6 +420,7 @@ class App {
     }
     const pixel_m = metresPerPixel(view, depthOf(view, at));
     this.probe_.face(this.stage_.camera, pixel_m);
+    this.others_.showProbes(this.state_, this.stage_.camera, pixel_m);
     if (proxy !== undefined) {
       this.probe_.drop.update(proxy, this.pointing_.below(proxy), this.probe_.radius_m, pixel_m);
     }
@@ -439,6 +444,7 @@ class App {
     const force = knownVec(state.forceN);
     const force_N = force === undefined ? NaN : length(force);
     this.panel_.showState(state, force_N, state.samples.at(-1)?.penetrationM);
+    this.others_.showNumbers(state);
     this.announcer_.hear(this.touchedInWords(state), force_N, performance.now());
     this.tellVibration();
     this.surfacePanel_.showSurfaces(state.surfaces);
@@ -466,6 +472,7 @@ class App {
     this.live_.model.applyTheme();
     this.live_.marks.applyTheme();
     this.probe_.applyTheme();
+    this.others_.applyTheme();
     Object.values(this.plots_).forEach((plot) => plot.applyTheme());
     this.bodies_.applyTheme();
     this.timeline_.applyTheme();

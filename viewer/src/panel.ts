@@ -113,7 +113,8 @@ export class Panel {
     this.pending_.clear();
     this.showName(hello.sceneName || "–");
     this.buttons_.forget();
-    const device = hello.device?.name || "–";
+    const label = hello.device?.label;
+    const device = (label ? `${label}: ` : "") + (hello.device?.name || "–");
     setText("device", device);
     element("device").title = device;
     this.showHand(hello.device?.simulatedHand ?? false);

@@ -83,8 +83,9 @@ export function encodePress(buttons: number): Uint8Array<ArrayBuffer> {
   return encode({ case: "press", value: { buttons } });
 }
 
-export function encodeRearm(): Uint8Array<ArrayBuffer> {
-  return encode({ case: "rearm", value: {} });
+/** `device`: number of one of several. */
+export function encodeRearm(device = 0): Uint8Array<ArrayBuffer> {
+  return encode({ case: "rearm", value: {} }, device);
 }
 
 /** Begins or ends the recording with the number `owner`. */
@@ -103,6 +104,6 @@ export function encodeSettings(change: SettingsChange): Uint8Array<ArrayBuffer> 
 
 type ViewerBody = NonNullable<Parameters<typeof create<typeof ViewerMessageSchema>>[1]>["body"];
 
-function encode(body: NonNullable<ViewerBody>): Uint8Array<ArrayBuffer> {
-  return toBinary(ViewerMessageSchema, create(ViewerMessageSchema, { body })) as Uint8Array<ArrayBuffer>;
+function encode(body: NonNullable<ViewerBody>, device = 0): Uint8Array<ArrayBuffer> {
+  return toBinary(ViewerMessageSchema, create(ViewerMessageSchema, { body, device })) as Uint8Array<ArrayBuffer>;
 }

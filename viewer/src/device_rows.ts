@@ -1,0 +1,39 @@
+// What a page shows of a server with several devices: one row for each, the first one included. No DOM: it can be
+// tested alone.
+
+import { SafetyState, type Hello, type State } from "./gen/hl_pb";
+import { formatFixed } from "./units";
+import { length } from "./vec";
+import { knownVec } from "./wire_values";
+
+export interface DeviceRow {
+  readonly label: string;
+  /** The maker and the model. */
+  readonly model: string;
+  readonly safety: SafetyState;
+  readonly force: string;
+  /** Why it is in fault; "": it is not. */
+  readonly fault: string;
+}
+
+type Told = Pick<State, "forceN" | "safety" | "fault">;
+
+function rowOf(label: string, model: string, told: Told): DeviceRow {
+  const force = knownVec(told.forceN);
+  return {
+    label, model, safety: told.safety, force: formatFixed(force && length(force), "N", 2),
+    fault: told.safety === SafetyState.FAULT ? told.fault || "The server gave no reason." : "",
+  };
+}
+
+/** None: the server has one device. */
+export function deviceRows(hello: Hello | undefined, state: State | undefined): DeviceRow[] {
+  const devices = hello?.devices ?? [];
+  if (devices.length < 2 || state === undefined) {
+    return [];
+  }
+  return devices.flatMap((device, number) => {
+    const told = number === 0 ? state : state.others[number - 1];
+    return told === undefined ? [] : [rowOf(device.label, device.name, told)];
+  });
+}

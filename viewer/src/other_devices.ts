@@ -1,0 +1,102 @@
+// The devices of a server that has several: a row for each in the panel, with its state, its force and a button that
+// arms it again; and in the scene the probes of all but the first.
+
+import { create } from "@bufbuild/protobuf";
+import * as THREE from "three";
+import { deviceRows, type DeviceRow } from "./device_rows";
+import { element } from "./elements";
+import { SafetyState, StateSchema, type Hello, type State } from "./gen/hl_pb";
+import { ProbeView } from "./probe_view";
+
+interface RowElements {
+  readonly root: HTMLElement;
+  readonly name: HTMLElement;
+  readonly force: HTMLElement;
+  readonly rearm: HTMLButtonElement;
+  readonly fault: HTMLElement;
+}
+
+export class OtherDevices {
+  readonly group = new THREE.Group();
+  private readonly section_ = element("devices");
+  private readonly list_ = element("device-list");
+  private rows_: RowElements[] = [];
+  private probes_: ProbeView[] = [];
+  private hello_: Hello | undefined;
+  private diagonal_m_ = 1;
+
+  constructor(private readonly rearm_: (device: number) => void) {}
+
+  showHello(hello: Hello): void {
+    this.hello_ = hello;
+    this.group.clear();
+    this.probes_ = hello.devices.slice(1).map((device) => {
+      const probe = new ProbeView();
+      probe.setForceMax(device.forceMaxN);
+      probe.setDiagonal(this.diagonal_m_);
+      probe.drop.setShown(false);
+      probe.applyTheme();
+      this.group.add(probe.group);
+      return probe;
+    });
+    this.list_.replaceChildren();
+    this.rows_ = hello.devices.map((_, number) => this.makeRow(number));
+    this.section_.hidden = true;
+  }
+
+  setDiagonal(diagonal_m: number): void {
+    this.diagonal_m_ = diagonal_m;
+    this.probes_.forEach((probe) => probe.setDiagonal(diagonal_m));
+  }
+
+  applyTheme(): void {
+    this.probes_.forEach((probe) => probe.applyTheme());
+  }
+
+  showNumbers(state: State): void {
+    const rows = deviceRows(this.hello_, state);
+    this.section_.hidden = rows.length === 0;
+    rows.forEach((row, number) => this.fill(this.rows_[number]!, row));
+  }
+
+  /** Once per drawn frame. */
+  showProbes(state: State | undefined, camera: THREE.Camera, metresPerPixel: number): void {
+    this.probes_.forEach((probe, i) => {
+      const told = state?.others[i];
+      if (told?.finger === undefined || told.proxy === undefined || told.forceN === undefined) {
+        probe.update(undefined);
+        return;
+      }
+      probe.setRadius(told.proxyRadius);
+      probe.update(create(StateSchema, { finger: told.finger, proxy: told.proxy, forceN: told.forceN }));
+      probe.face(camera, metresPerPixel);
+    });
+  }
+
+  private fill(row: RowElements, told: DeviceRow): void {
+    row.root.dataset.safety = SafetyState[told.safety] ?? "OFF";
+    row.name.textContent = told.label;
+    row.name.title = told.model;
+    row.force.textContent = told.force;
+    row.rearm.hidden = row.fault.hidden = told.fault === "";
+    row.fault.textContent = told.fault;
+  }
+
+  private makeRow(number: number): RowElements {
+    const make = <K extends keyof HTMLElementTagNameMap>(tag: K, name: string): HTMLElementTagNameMap[K] => {
+      const made = document.createElement(tag);
+      made.className = name;
+      return made;
+    };
+    const row = {
+      root: make("li", "safety device"), name: make("span", "safety-state"), force: make("output", "device-force"),
+      rearm: make("button", ""), fault: make("p", ""),
+    };
+    row.rearm.type = "button";
+    row.rearm.textContent = "Re-arm";
+    row.rearm.addEventListener("click", () => this.rearm_(number));
+    row.root.append(row.name, row.force, row.rearm, row.fault);
+    this.list_.append(row.root);
+    return row;
+  }
+}
