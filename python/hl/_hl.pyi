@@ -64,6 +64,7 @@ class Recording:
     def __init__(self, path: bytes) -> None: ...
     version: str
     device: str
+    label: str
     black_box: bool
     fault: str
     end: str

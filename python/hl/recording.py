@@ -35,6 +35,7 @@ class Recording:
     damage: str  #: what is wrong with the end of the file; "" for nothing
     steps: npt.NDArray[Any]
     ticks: npt.NDArray[Any]
+    label: str = ""  #: what the device is called, of a server with several; "" for the only one
 
     @property
     def duration(self) -> float:
@@ -49,4 +50,5 @@ def read_recording(path: Union[str, "os.PathLike[str]"]) -> Recording:
     """
     read = _hl.Recording(arguments.path(path))
     return Recording(os.fsdecode(path), read.version, read.device, read.servo_rate, read.proxy_rate, read.black_box,
-                     read.fault, read.end, read.damage, read.steps, read.ticks)
+                     read.fault, read.end, read.damage, read.steps, read.ticks,
+                     read.label)

@@ -78,7 +78,7 @@ TickRow rowOf(const hl::TickRecord& record, std::int64_t begin_ns) {
 }
 
 struct Recording {
-  std::string version, device, fault, end, damage;
+  std::string version, device, label, fault, end, damage;
   bool black_box = false;
   double servo_rate_Hz = 0, proxy_rate_Hz = 0;
   std::vector<StepRow> steps;
@@ -89,8 +89,17 @@ Recording readRecording(const std::string& path) {
   const OtherThreadsRun other_threads_run;
   hl::RecordingReader reader(path);
   const hl::proto::RecordingStart start = hl::startOf(reader);
-  Recording all{start.version(),   start.device_name(),   start.fault(),         "", "",
-                start.black_box(), start.servo_rate_hz(), start.proxy_rate_hz(), {}, {}};
+  Recording all{start.version(),
+                start.device_name(),
+                start.device_label(),
+                start.fault(),
+                "",
+                "",
+                start.black_box(),
+                start.servo_rate_hz(),
+                start.proxy_rate_hz(),
+                {},
+                {}};
   hl::proto::RecordingBlock block;
   while (reader.next(block)) {
     if (block.has_steps())
@@ -115,6 +124,7 @@ void bindRecordings(py::module_& module) {
       .def(py::init(&readRecording), py::arg("path"))
       .def_readonly("version", &Recording::version)
       .def_readonly("device", &Recording::device)
+      .def_readonly("label", &Recording::label)
       .def_readonly("black_box", &Recording::black_box)
       .def_readonly("fault", &Recording::fault)
       .def_readonly("end", &Recording::end)

@@ -57,6 +57,16 @@ class Recordings(unittest.TestCase):
         self.assertGreater(len(recording.ticks), 1000)
         self.assertGreater(recording.ticks["contacts"].max(), 0)
 
+    def test_of_several_devices_each_has_a_file_with_its_name(self):
+        file = Path(self.folder.name) / "hands.hlr"
+        subprocess.run([HL, "record", "teapot", "--out", file, "--duration", "1", "--port", "0", "--no-open",
+                        "--device", "sim", "--device", "pen=sim:touch"],
+                       check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        left, pen = (hl.read_recording(file.with_name(f"hands-{name}.hlr")) for name in ("left", "pen"))
+        self.assertEqual((left.label, pen.label), ("left", "pen"))
+        self.assertEqual(pen.device, "simulated 3D Systems Touch")
+        self.assertEqual(hl.read_recording(self.file).label, "")
+
     def test_a_file_that_is_cut_is_read_as_far_as_it_goes(self):
         cut = Path(self.folder.name) / "cut.hlr"
         whole = self.file.read_bytes()

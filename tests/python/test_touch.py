@@ -380,6 +380,25 @@ class Touching(unittest.TestCase):
 
 
 class AServerBesideIt(unittest.TestCase):
+    def test_a_hand_is_chosen_by_its_name(self):
+        server = subprocess.Popen([HLD, "--port", "0", "--log-format", "json", "--device", "sim:touch",
+                                   "--device", "pen=sim:premium1.5"], stderr=subprocess.PIPE, text=True)
+        with server.stderr:
+            address = next(json.loads(line) for line in server.stderr if '"ready"' in line)["address"]
+            url = "hl://" + address.split("//")[1].rstrip("/")
+            try:
+                with hl.connect(url, device="pen") as pen, hl.connect(url, device=0) as left:
+                    self.assertEqual(pen.devices, ["left", "pen"])
+                    self.assertEqual((pen.device_label, left.device_label), ("pen", "left"))
+                    self.assertIn("Premium 1.5", pen.device_name)
+                    self.assertEqual((pen.get(hl.calls.HL_DEVICE), left.get(hl.calls.HL_DEVICE)), (1, 0))
+                    self.assertTrue(pen.is_master and left.is_master)
+                with self.assertRaisesRegex(hl.ConnectError, "no device 'right'; the server has 2: 0 .left., 1 .pen."):
+                    hl.connect(url, device="right")
+            finally:
+                server.send_signal(signal.SIGTERM)
+                server.wait()
+
     def test_it_is_reached_by_its_address_and_its_end_is_told(self):
         server = subprocess.Popen([HLD, "--port", "0", "--log-format", "json"], stderr=subprocess.PIPE, text=True)
         with server.stderr:
