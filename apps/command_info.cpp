@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bodies/scene_world.h"
+#include "bodies/mesh_body.h"
 #include "commands.h"
 #include "scene/bump_gain.h"
 #include "surfaces/height_field.h"

@@ -39,8 +39,12 @@ void addRosOptions(CLI::App& app, RosOptions& options) {
 std::unique_ptr<RosBridge> makeRosBridge(const RosOptions& options, TouchServer& server, RosBridge::TellPerson tell) {
   if (options.name_space.empty()) return nullptr;
   std::vector<TouchSession*> hands;
-  for (std::size_t i = 0; i < server.devices(); ++i) hands.push_back(&server.device(i));
-  const RosTask task{HL_VERSION, rosDomain(), rosHands(options.name_space, hands.size())};
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < server.devices(); ++i) {
+    hands.push_back(&server.device(i));
+    names.push_back(server.device(i).label().name);
+  }
+  const RosTask task{HL_VERSION, rosDomain(), rosHands(options.name_space, names)};
   return std::make_unique<RosBridge>(std::make_unique<RosProcess>(task), hands, options.rate_Hz, std::move(tell));
 }
 

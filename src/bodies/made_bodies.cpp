@@ -6,7 +6,7 @@
 #include <mutex>
 #include <utility>
 
-#include "bodies/scene_world.h"
+#include "bodies/mesh_body.h"
 
 namespace hl {
 
@@ -57,6 +57,10 @@ std::shared_ptr<const Body> madeBody(const std::shared_ptr<const Shape>& shape, 
   auto body = std::make_shared<const Body>(bodyOf(shape->model, of_rest));
   bodies.keep(shape, {of_rest, body});
   return body;
+}
+
+std::size_t partsIn(const std::shared_ptr<const Shape>& shape, const BodySpec& spec) {
+  return spec.shape == BodyShape::kParts ? madeBody(shape, spec)->shape.parts.size() : 1;
 }
 
 }  // namespace hl

@@ -1,6 +1,7 @@
 // Made bodies: the shape and the mass of each body are made once, however many frames show it.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
 #include "bodies/world.h"
@@ -13,5 +14,7 @@ namespace hl {
 /// specs. By any thread.
 std::shared_ptr<const Body> madeBody(const std::shared_ptr<const Shape>& shape, const BodySpec& spec);
 inline constexpr std::size_t kMostOfAShape = 64;
+/// The number of its parts, without making it where there is one. Throws as bodyOf().
+std::size_t partsIn(const std::shared_ptr<const Shape>& shape, const BodySpec& spec);
 
 }  // namespace hl

@@ -11,13 +11,7 @@ namespace hl {
 /// cannot be made, and where all bodies have more than kMostBodies parts. Allocates.
 std::shared_ptr<const World> worldOf(const Snapshot& snapshot);
 
-/// The shape and the mass of a body by its mesh, as the spec says. Throws hl::Error, one line.
-Body bodyOf(const Model& model, const BodySpec& spec);
-/// The number of its parts, without making it where there is one. Throws as bodyOf().
-std::size_t partsIn(const Model& model, const BodySpec& spec);
-/// Of a shape, which is asked for in each frame (made_bodies.h).
-std::size_t partsIn(const std::shared_ptr<const Shape>& shape, const BodySpec& spec);
-/// The same of all that move. Throws Error, with the name of the body.
+/// The number of parts of all bodies that move. Throws Error, with the name of the body.
 std::size_t partsIn(const Snapshot& snapshot);
 
 /// The joint of two bodies that start there; `start_b` is the identity for the world.

@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "bodies/scene_world.h"
+#include "bodies/mesh_body.h"
 #include "builtin.h"
 #include "io/decode_scene.h"
 #include "io/file_ending.h"

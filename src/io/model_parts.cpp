@@ -10,7 +10,7 @@
 #include "base/descriptor_bytes.h"
 #include "base/error.h"
 #include "base/utf8.h"
-#include "bodies/scene_world.h"
+#include "bodies/mesh_body.h"
 #include "io/body_messages.h"
 #include "io/snap_messages.h"
 #include "io/value_messages.h"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "bodies/scene_world.h"
+#include "bodies/mesh_body.h"
 #include "io/x3d_document.h"
 #include "io/x3d_joints.h"
 #include "scene/append_part.h"

@@ -122,6 +122,7 @@ void setOther(TouchSession& session, proto::OtherDevice& out) {
   out.set_exploring(session.exploring());
   out.set_servo_rate_hz(servo.loop.rate_Hz);
   out.set_proxy_radius(session.radius_W());
+  setStylus(servo.stylus, session.deviceInfo(), out);
 }
 
 std::string state(TouchSession& session, const OtherDevices& others, PageScene& scene,

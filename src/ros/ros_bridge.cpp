@@ -3,6 +3,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "base/clock.h"
 #include "base/guarded_thread.h"
@@ -26,6 +27,15 @@ std::int64_t toSystem_ns() {
   return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec - monotonicNow_ns();
 }
 
+std::string rosName(const std::string& device) {
+  std::string name;
+  for (const char c : device) {
+    const char allowed = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+    if (allowed != '_' || !name.ends_with('_')) name += allowed;
+  }
+  return name.empty() ? "hand" : name;
+}
+
 template <typename Counts, std::size_t kCount>
 std::array<std::uint64_t, kCount> read(const std::array<Counts, kCount>& counts) {
   std::array<std::uint64_t, kCount> numbers{};
@@ -35,10 +45,14 @@ std::array<std::uint64_t, kCount> read(const std::array<Counts, kCount>& counts)
 
 }  // namespace
 
-std::vector<std::string> rosHands(const std::string& name_space, std::size_t count) {
+std::vector<std::string> rosHands(const std::string& name_space, const std::vector<std::string>& devices) {
   std::vector<std::string> hands;
-  for (std::size_t i = 0; i < count; ++i)
-    hands.push_back(name_space + "/hand" + (count == 1 ? std::string() : std::to_string(i)));
+  for (const std::string& device : devices) {
+    std::string name = rosName(device);
+    for (int number = 2; std::find(hands.begin(), hands.end(), name_space + "/" + name) != hands.end(); ++number)
+      name = rosName(device + "_" + std::to_string(number));
+    hands.push_back(name_space + "/" + name);
+  }
   return hands;
 }
 

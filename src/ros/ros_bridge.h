@@ -28,8 +28,9 @@ struct RosCounts {
   std::uint64_t ends = 0;  ///< times that a hand was let go, as no other command came in time
 };
 
-/// The names of so many hands: "hand", or "hand0", "hand1", ...; with the namespace in front.
-std::vector<std::string> rosHands(const std::string& name_space, std::size_t count);
+/// The names of hands, as their devices are called, with the namespace in front; "hand" of one without a name. What ROS
+/// 2 does not allow in a name becomes a _, of which none follows another.
+std::vector<std::string> rosHands(const std::string& name_space, const std::vector<std::string>& devices);
 
 /// Constructed, started, stopped and destroyed by one thread; started once. counts(): any thread.
 class RosBridge {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/realtime_guard.h"
-#include "bodies/scene_world.h"
+#include "bodies/mesh_body.h"
 #include "bodies/world_hash.h"
 #include "draws.h"
 #include "mesh_drawings.h"

@@ -9,9 +9,9 @@
 
 #include "base/error.h"
 #include "bodies/convex_hull.h"
+#include "bodies/mesh_body.h"
 #include "bodies/mesh_pieces.h"
 #include "bodies/piece_mesh.h"
-#include "bodies/scene_world.h"
 #include "draws.h"
 #include "mesh_drawings.h"
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "bodies/convex_hull.h"
-#include "bodies/scene_world.h"
+#include "bodies/mesh_body.h"
 #include "draws.h"
 #include "mesh_drawings.h"
 

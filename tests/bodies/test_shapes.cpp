@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "bodies/convex_hull.h"
 #include "bodies/made_bodies.h"
-#include "bodies/scene_world.h"
+#include "bodies/mesh_body.h"
 #include "scene/rigid_body.h"
 #include "test_worlds.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <random>
 
-#include "bodies/scene_world.h"
+#include "bodies/mesh_body.h"
 #include "bodies/sleep.h"
 #include "bodies/world_hash.h"
 #include "mesh_drawings.h"

@@ -13,7 +13,7 @@
 #include <random>
 
 #include "base/error.h"
-#include "bodies/scene_world.h"
+#include "bodies/mesh_body.h"
 #include "io/load_image.h"
 #include "scene/snapshot.h"
 #include "surfaces/depth_frame.h"

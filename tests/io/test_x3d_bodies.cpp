@@ -10,6 +10,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "bodies/mesh_body.h"
 #include "bodies/scene_world.h"
 #include "io/load_model.h"
 #include "io/x3d_document.h"

@@ -180,9 +180,11 @@ TEST_F(RosBridgeTest, AProgramThatEndsIsToldAndLetsGo) {
   bridge_.stop();
 }
 
-TEST(RosHands, OneHasNoNumber) {
-  EXPECT_EQ(rosHands("lab", 1), std::vector<std::string>{"lab/hand"});
-  EXPECT_EQ(rosHands("lab", 2), (std::vector<std::string>{"lab/hand0", "lab/hand1"}));
+TEST(RosHands, AreCalledAsTheirDevices) {
+  EXPECT_EQ(rosHands("lab", {""}), std::vector<std::string>{"lab/hand"});
+  EXPECT_EQ(rosHands("lab", {"left", "right"}), (std::vector<std::string>{"lab/left", "lab/right"}));
+  EXPECT_EQ(rosHands("lab", {"a-b", "a_b", "a--b", "c__d-"}),
+            (std::vector<std::string>{"lab/a_b", "lab/a_b_2", "lab/a_b_3", "lab/c_d_"}));
 }
 
 }  // namespace

@@ -187,7 +187,7 @@ class App {
       flat: (flat) => this.live_.model.setFlat(flat),
       orbitFromEmpty: (on) => (this.hand_.orbitFromEmpty = on),
       dropLine: (shown) => this.probe_.drop.setShown(shown),
-      stylus: (shown) => this.probe_.stylus.setShown(shown),
+      stylus: (shown) => [this.probe_, this.others_].forEach((view) => view.setStylusShown(shown)),
       resetView: () => this.live_.refit(),
       bringHandBack: () => this.pointing_.bringBack(this.hand_),
       section: (side, share) => this.pointing_.cut(side, share),

@@ -35,6 +35,7 @@ export class OtherDevices {
       probe.setForceMax(device.forceMaxN);
       probe.setDiagonal(this.diagonal_m_);
       probe.drop.setShown(false);
+      probe.stylus.setGripper(device.gripperMaxRad);
       probe.applyTheme();
       this.group.add(probe.group);
       return probe;
@@ -42,6 +43,10 @@ export class OtherDevices {
     this.list_.replaceChildren();
     this.rows_ = hello.devices.map((_, number) => this.makeRow(number));
     this.section_.hidden = true;
+  }
+
+  setStylusShown(shown: boolean): void {
+    this.probes_.forEach((probe) => probe.stylus.setShown(shown));
   }
 
   setDiagonal(diagonal_m: number): void {
@@ -68,7 +73,8 @@ export class OtherDevices {
         return;
       }
       probe.setRadius(told.proxyRadius);
-      probe.update(create(StateSchema, { finger: told.finger, proxy: told.proxy, forceN: told.forceN }));
+      const { finger, proxy, forceN, stylus } = told;
+      probe.update(create(StateSchema, { finger, proxy, forceN, ...(stylus && { stylus }) }));
       probe.face(camera, metresPerPixel);
     });
   }

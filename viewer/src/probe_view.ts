@@ -89,6 +89,10 @@ export class ProbeView {
     this.forceMax_N_ = force_N > 0 ? force_N : 10;
   }
 
+  setStylusShown(shown: boolean): void {
+    this.stylus.setShown(shown);
+  }
+
   setPlanesShown(shown: boolean): void {
     this.showPlanes_ = shown;
   }
