@@ -323,7 +323,8 @@ namespace HL {
     public sealed class ClientOptions {
         public string Name = "C#";       // for the server's logs
         public string Token = "";        // where the server asks for one
-        public uint Device;
+        public uint Device;              // number of one of several
+        public string DeviceLabel = "";  // its name at the server, such as left, in the place of the number
         public bool Master = true;       // wants to set the device; the first client gets it
         public bool KeepObjects;         // objects stay touchable when this client has gone
         public double StateRate_Hz = 60;
@@ -883,7 +884,8 @@ namespace HL {
     static class Messages {
         internal static byte[] Open(ClientOptions options, string token) {
             var open = new Writer().Number(1, 1).Text(2, options.Name).Text(3, token).Number(4, options.Device)
-                .Flag(5, options.Master).Flag(6, options.KeepObjects).Double(7, options.StateRate_Hz);
+                .Flag(5, options.Master).Flag(6, options.KeepObjects).Double(7, options.StateRate_Hz)
+                .Text(20, options.DeviceLabel);
             return new Writer().Nested(1, open).ToArray();
         }
 

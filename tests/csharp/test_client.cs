@@ -277,6 +277,11 @@ static class TestClient {
         ReasonOf(second);
     }
 
+    static void UnknownDeviceIsTold(string url) {
+        string reason = ReasonOf(new HapticClient(url, new ClientOptions { DeviceLabel = "middle" }));
+        Expect(reason.Contains("no device 'middle'; the server has 1"), reason);
+    }
+
     static void WrongToken(string url) {
         string reason = ReasonOf(new HapticClient(url, new ClientOptions { Token = "wrong" }));
         Expect(reason.Contains("token"), reason);
@@ -414,7 +419,8 @@ static class TestClient {
     static int Main(string[] arguments) {
         var cases = new Action<string>[] { BadAddresses, NobodyThere, NoAnswer, LargeMeshIsFelt, SurfacesThatAreNoMeshesAreFelt,
             ImplicitSurfacesAreFelt, RefusedFrameChangesNothing,
-            TooLargeFrameIsRefusedHere, FastFramesAreMerged, FastSettingsAreMerged, SecondClientIsNotMaster, WrongToken,
+            TooLargeFrameIsRefusedHere, FastFramesAreMerged, FastSettingsAreMerged, SecondClientIsNotMaster,
+            UnknownDeviceIsTold, WrongToken,
             RightToken, ServerGoesAway, BodiesAnswer, JointsHold, SnapsHoldAndFieldsPush };
         cases.Single(one => one.Method.Name == arguments[0])(arguments[1]);
         Console.WriteLine("passed");
