@@ -117,8 +117,8 @@ Recording readRecording(const std::string& path) {
 }  // namespace
 
 void bindRecordings(py::module_& module) {
-  PYBIND11_NUMPY_DTYPE(StepRow, t, finger, proxy, stiffness, force, work_ns, buttons, touching, state, fault,
-                       rotation, spin, gripper);
+  PYBIND11_NUMPY_DTYPE(StepRow, t, finger, proxy, stiffness, force, work_ns, buttons, touching, state, fault, rotation,
+                       spin, gripper);
   PYBIND11_NUMPY_DTYPE(TickRow, t, finger, target, proxy, scene, work_ns, contacts, touching);
   py::class_<Recording>(module, "Recording")
       .def(py::init(&readRecording), py::arg("path"))

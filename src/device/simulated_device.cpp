@@ -12,8 +12,8 @@ SimulatedDevice::SimulatedDevice(const SimulatedDeviceSettings& settings)
       random_(settings.seed) {
   settings_.delay_steps = std::clamp(settings.delay_steps, 0, SimulatedDeviceSettings::kMaxDelay);
   on_the_way_.fill(Vec3::Zero());
-  firm_ = settings.firm;
-  holds_ = held_ = settings.held;
+  orders_.firm = settings.firm;
+  orders_.holds = held_ = settings.held;
 }
 
 void SimulatedDevice::place(const Vec3& tip_D, const Vec3& velocity_m_s) {
@@ -21,7 +21,7 @@ void SimulatedDevice::place(const Vec3& tip_D, const Vec3& velocity_m_s) {
   stylus_ = arm_->tip_D();
   stylus_velocity_ = arm_->velocity_D();
   takeHold();
-  goal_.write(goal_D_);
+  orders_.goal_D.write(goal_D_);
 }
 
 void SimulatedDevice::takeHold() {
@@ -34,11 +34,11 @@ double SimulatedDevice::jitter_ns() {
 }
 
 DeviceSample SimulatedDevice::read(std::int64_t now_ns) {
-  const bool holds = holds_.load(std::memory_order_relaxed);
+  const bool holds = orders_.holds.load();
   if (holds && !held_) takeHold();
   held_ = holds;
   Vec3 goal;
-  if (goal_.read(goal) && goal.allFinite()) goal_D_ = goal;
+  if (orders_.goal_D.read(goal) && goal.allFinite()) goal_D_ = goal;
   if (stopped_.exchange(false, std::memory_order_acquire)) dropForce();
   const std::int64_t taken_ns = now_ns + static_cast<std::int64_t>(jitter_ns());
   if (time_ns_) {
@@ -49,7 +49,7 @@ DeviceSample SimulatedDevice::read(std::int64_t now_ns) {
     turnWrist(elapsed_s);
   }
   time_ns_ = taken_ns;
-  DeviceSample sample{now_ns, arm_->countedTip_D(), buttons_.load(std::memory_order_relaxed), DeviceStatus::kOk, held_};
+  DeviceSample sample{now_ns, arm_->countedTip_D(), orders_.buttons, DeviceStatus::kOk, held_};
   sample.stylus = wrist_.counted();
   return sample;
 }
@@ -57,8 +57,8 @@ DeviceSample SimulatedDevice::read(std::int64_t now_ns) {
 // What nobody holds stays as it is.
 void SimulatedDevice::turnWrist(double dt_s) {
   Eigen::Quaterniond goal_D;
-  if (turn_.read(goal_D)) wrist_.turnTo(goal_D);
-  wrist_.openTo(gripper_rad_.load(std::memory_order_relaxed));
+  if (orders_.turn_D.read(goal_D)) wrist_.turnTo(goal_D);
+  wrist_.openTo(orders_.gripper_rad);
   if (held_) wrist_.step(dt_s);
 }
 

@@ -11,11 +11,11 @@
 #include <optional>
 #include <random>
 
-#include "base/latest.h"
 #include "device/arm.h"
 #include "device/device.h"
 #include "device/device_models.h"
 #include "device/hand.h"
+#include "device/hand_orders.h"
 #include "device/simulated_hand.h"
 #include "device/wrist.h"
 
@@ -58,12 +58,12 @@ class SimulatedDevice final : public Device, public SimulatedHand {
   void stop() noexcept override { stopped_.store(true, std::memory_order_release); }
 
   SimulatedHand* hand() override { return this; }
-  void setHandGoal(const Vec3& goal_D) override { goal_.write(goal_D); }
-  void setHandFirm(bool firm) override { firm_.store(firm, std::memory_order_relaxed); }
-  void setHandHolds(bool holds) override { holds_.store(holds, std::memory_order_relaxed); }
-  void setHandButtons(std::uint32_t buttons) override { buttons_.store(buttons, std::memory_order_relaxed); }
-  void setHandTurn(const Eigen::Quaterniond& goal_D) override { turn_.write(goal_D); }
-  void setHandGripper(double goal_rad) override { gripper_rad_.store(goal_rad, std::memory_order_relaxed); }
+  void setHandGoal(const Vec3& goal_D) override { orders_.goal_D.write(goal_D); }
+  void setHandFirm(bool firm) override { orders_.firm = firm; }
+  void setHandHolds(bool holds) override { orders_.holds = holds; }
+  void setHandButtons(std::uint32_t buttons) override { orders_.buttons = buttons; }
+  void setHandTurn(const Eigen::Quaterniond& goal_D) override { orders_.turn_D.write(goal_D); }
+  void setHandGripper(double goal_rad) override { orders_.gripper_rad = goal_rad; }
 
   // For tests and benches; on the thread that reads.
   Arm& arm() { return *arm_; }
@@ -76,7 +76,7 @@ class SimulatedDevice final : public Device, public SimulatedHand {
   double energy_J() const;
 
  private:
-  const GripParameters& grip() const { return firm_.load(std::memory_order_relaxed) ? kFirmGrip : kLightGrip; }
+  const GripParameters& grip() const { return orders_.firm ? kFirmGrip : kLightGrip; }
   void takeHold();
   void step(double dt_s);
   void dropForce();
@@ -92,13 +92,8 @@ class SimulatedDevice final : public Device, public SimulatedHand {
   Vec3 stylus_velocity_ = Vec3::Zero();
   HandState hand_;
   bool held_ = true;
-  Latest<Vec3> goal_{Vec3::Zero()};
   Vec3 goal_D_ = Vec3::Zero();
-  std::atomic<bool> firm_{false};
-  std::atomic<bool> holds_{true};
-  std::atomic<std::uint32_t> buttons_{0};
-  Latest<Eigen::Quaterniond> turn_{Eigen::Quaterniond::Identity()};
-  std::atomic<double> gripper_rad_{0};
+  HandOrders orders_;
   std::array<Vec3, SimulatedDeviceSettings::kMaxDelay + 1> on_the_way_;  // forces, a ring
   std::size_t written_ = 0;
   std::mt19937 random_;
