@@ -297,13 +297,13 @@ TEST(RosOfHld, HldServesBothHandsAndTakesHlRosAlongWhenItEnds) {
   const std::string space = testSpace();
   Started hld("hld", {"--port", "0", "--devices", "2", "--log-level", "error", "--ros", space});
   FastPeer peer(testDomain());
-  for (const char* hand : {"/hand0", "/hand1"}) {
+  for (const char* hand : {"/left", "/right"}) {
     const auto reader = peer.reader(ddsTopic(space + hand, "buttons"), test::kJoyType, Reliability::kBestEffort);
     test::waitFor([&] { return reader->take().has_value(); });
   }
-  EXPECT_NE(processOf(space + "/hand0"), 0);
+  EXPECT_NE(processOf(space + "/left"), 0);
   EXPECT_EQ(hld.end(SIGTERM), 0);
-  EXPECT_EQ(processOf(space + "/hand0"), 0);
+  EXPECT_EQ(processOf(space + "/left"), 0);
 }
 
 }  // namespace
