@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "scene/append_part.h"
+#include "scene/iso_shape.h"
 #include "scene/split_model.h"
 #include "surfaces/iso_surface.h"
 #include "surfaces/point_cloud.h"
