@@ -104,10 +104,10 @@ DeviceModel omega3() {
 }
 
 // As the omega.3, with a wrist of 0.09 degrees and a gripper that opens by 25 mm: 0.006 mm of it, told as angles of
-// fingers assumed 50 mm long. Its mass with the wrist, 0.35 kg, is a guess.
+// fingers assumed 50 mm long. Its mass with the wrist, 0.25 kg, is a guess.
 DeviceModel omega7() {
   const Sheet sheet{"Force Dimension omega.7", {0.160, 0.160, 0.110}, 12, 12, 0.1, 10e-6, 2000, 14500, 1};
-  return withWrist({"omega7", infoOf(sheet), massOf(sheet, 0.35, 0.02)}, {0.09 * kDegree, 0.5, 0.006 / 50});
+  return withWrist({"omega7", infoOf(sheet), massOf(sheet, 0.25, 0.02)}, {0.09 * kDegree, 0.5, 0.006 / 50});
 }
 
 DeviceModel linearDevice(double mass_kg, double damping_Ns_m) {

@@ -182,10 +182,10 @@ class Sweeps(unittest.TestCase):
         done = sweep.call("--jobs", 2)
         self.assertEqual(done.returncode, 1)
         self.assertIn("16 tasks: 8 done, 8 failed", done.stdout)
-        self.assertIn("long.csv:2: a row must be four finite numbers t,x,y,z", done.stderr)
+        self.assertIn("long.csv:2: a row must be finite numbers t,x,y,z", done.stderr)
         failures = json.loads((self.folder / "sweep.sweep" / "manifest.json").read_text(encoding="utf-8"))["tasks"]
         self.assertEqual({task.get("failure") for task in failures},
-                         {None, "long.csv:2: a row must be four finite numbers t,x,y,z"})
+                         {None, "long.csv:2: a row must be finite numbers t,x,y,z"})
         write_path(self.folder / "long.csv", 150)
         self.assertEqual(sweep.run(), sweep.run("--out", self.folder / "good"))
 

@@ -34,9 +34,8 @@ describe.skipIf(!kProgram)("hl touch with two devices", () => {
     expect(await page.locator("#device-list .safety-state").nth(1).getAttribute("title")).toContain("Premium 1.5");
     expect(await page.textContent("#device")).toBe("left: simulated 3D Systems Touch");
     await page.uncheck("#explore");  // the right hand goes on
-    for (const size of kSizes) await expectTidyLayout(page, size);
-    await page.setViewportSize(kSizes[0]);
     await screenshot(page, "two_devices");
+    for (const size of kSizes) await expectTidyLayout(page, size);
   });
 
   test("the page has complained of nothing", () => {
