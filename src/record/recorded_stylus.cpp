@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/value_messages.h"
+#include "base/fields.h"
 
 namespace hl {
 
@@ -25,6 +25,11 @@ bool isUnit(const proto::ServoSteps& in, std::int64_t i) {
 }
 
 }  // namespace
+
+LaterForms laterOfDevice() {
+  const Values now = valuesOf(DeviceInfo{});
+  return {{{{now.numbers.size() - 1, 0.0}}, {{now.integers.size() - 1, 0}}}};
+}
 
 void addStylus(std::span<const ServoRecord> records, proto::ServoSteps& out) {
   const Stylus none;

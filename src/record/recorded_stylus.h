@@ -8,8 +8,12 @@
 #include <span>
 
 #include "control/servo_record.h"
+#include "io/value_messages.h"
 
 namespace hl {
+
+/// Recordings before the stylus lack the last values of a DeviceInfo: it had neither wrist nor gripper.
+LaterForms laterOfDevice();
 
 void addStylus(std::span<const ServoRecord> records, proto::ServoSteps& out);
 /// Of step `i`; the lists agree.

@@ -13,6 +13,7 @@
 #include "record/recorded_proxy.h"
 #include "record/recorded_scene.h"
 #include "record/recorded_servo.h"
+#include "record/recorded_stylus.h"
 #include "record/recording_file.h"
 
 namespace hl {
@@ -208,7 +209,7 @@ ReplayReport replayed(RecordingReader& reader, const StepVisitor& visit) {
   report.black_box = start.black_box();
   report.fault = start.fault();
   DeviceInfo device;
-  readValues(start.device(), "the device", device);
+  readValues(start.device(), "the device", device, laterOfDevice());
   checkRecorded(device);
   ServoReplay servo(report);
   ProxyReplay proxy(report, proxySettingsOf(start));

@@ -4,6 +4,7 @@
 #include "device/open_device.h"
 #include "io/value_messages.h"
 #include "record/recorded_servo.h"
+#include "record/recorded_stylus.h"
 #include "record/recording_file.h"
 
 namespace hl {
@@ -15,7 +16,7 @@ constexpr const char* kReplayPrefix = "replay:";
 // As the device was that was recorded.
 DeviceInfo infoOf(const proto::RecordingStart& start) {
   DeviceInfo info;
-  readValues(start.device(), "the device", info);
+  readValues(start.device(), "the device", info, laterOfDevice());
   checkRecorded(info);
   info.name = "replay of " + start.device_name();
   info.friction_N = 0;  // no hand feels it: it takes up nothing

@@ -308,9 +308,9 @@ TEST(Command, ARecordedSessionIsReproducedAndTabled) {
   EXPECT_EQ(lineWith(replayed.output, "reproduced"), "reproduced: bit for bit") << replayed.output;
   const auto rows = readCsv(csv);
   ASSERT_GT(rows.size(), 1u);
-  EXPECT_EQ(rows[0].size(), 16u);
+  EXPECT_EQ(rows[0].size(), 24u);
   EXPECT_EQ(rows[0][0], "t");
-  EXPECT_EQ(rows.back().size(), 16u);
+  EXPECT_EQ(rows.back().size(), 24u);
   EXPECT_TRUE(rows[1][13] == "arming" || rows[1][13] == "fault") << rows[1][13];
   const Result again =
       call("touch terrain:2000 --no-open --port 0 --black-box off --duration 1 --device replay:" + file);
