@@ -28,6 +28,7 @@ void addRosOptions(CLI::App& app, RosOptions& options) {
       ->group("ROS 2");
   app.add_option("--ros-rate", options.rate_Hz, "samples a second of each measured topic")
       ->check(within(1, kMostStates_Hz))
+      ->needs("--ros")
       ->capture_default_str()
       ->group("ROS 2");
   app.add_option("--ros-interface", "network interface of the topics: lo alone, there is no DDS Security")

@@ -16,7 +16,7 @@ import weakref
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Any, AsyncIterator, Callable, Dict, Iterator, List, Optional, Sequence, Tuple, Type, Union
-from urllib.parse import urlencode
+from urllib.parse import quote, urlencode
 
 import numpy as np
 import numpy.typing as npt
@@ -119,14 +119,15 @@ def connect(url: str = "inproc:", **options: Any) -> "Touch":
 
     url: "inproc:" (a server inside this process, with a simulated device), "hl://host[:port]", or "hls://..." with
         TLS.
-    options: name, token, device, master, keep, state_rate (Hz), timeout (s), ca, sim: as hl.h says of hlCreateContext.
+    options: None is as if it were not there; name, token, device, master, keep, state_rate (Hz), timeout (s), ca, sim: as hl.h says of hlCreateContext.
 
     Raises ConnectError with the reason.
     """
     if not isinstance(url, str):
         raise InvalidValueError("url must be a text, such as inproc: or hl://127.0.0.1")
     if options:
-        url += ("&" if "?" in url else "?") + urlencode({key: _option(value) for key, value in options.items()})
+        url += ("&" if "?" in url else "?") + urlencode(
+            {key: _option(value) for key, value in options.items() if value is not None}, quote_via=quote)
     return Touch(_hl.Context(url))
 
 

@@ -1,5 +1,6 @@
 #include "bodies/mass.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -128,6 +129,19 @@ Solid sumOf(std::span<const Solid> solids) {
     sum.inertia_m5 += solid.volume_m3 * (way.squaredNorm() * Mat3::Identity() - way * way.transpose());
   }
   return sum;
+}
+
+// With the second moments S = tr(I) / 2 - I: of any matter they are positive, and of mass between a and b whose centre
+// is at c they are at most (b - c) (c - a), as if all of it were at both ends.
+bool isMatterWithin(const Box& bounds, const Solid& solid) {
+  if (!(solid.volume_m3 > 0) || !solid.inertia_m5.allFinite()) return false;
+  const Vec3 beyond = bounds.max - solid.centre_O, before = solid.centre_O - bounds.min;
+  if (!(beyond.minCoeff() > 0 && before.minCoeff() > 0)) return false;
+  const Mat3 moments = 0.5 * solid.inertia_m5.trace() * Mat3::Identity() - solid.inertia_m5;
+  const Vec3 most = solid.volume_m3 * beyond.cwiseProduct(before);
+  if ((moments.diagonal().array() > most.array()).any()) return false;
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(moments, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues().minCoeff() > 0;
 }
 
 Mass massOfDensity(double density_kg_m3, const Solid& solid) {

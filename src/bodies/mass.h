@@ -7,6 +7,7 @@
 
 #include "base/vec.h"
 #include "bodies/convex.h"
+#include "geometry/box.h"
 
 namespace hl {
 
@@ -39,6 +40,9 @@ Solid solidOf(std::span<const Vec3> vertices, std::span<const std::array<std::ui
 Solid solidOf(const Convex& polyhedron);
 /// Of several, at least one, as one body. Where they overlap, it is as dense as both.
 Solid sumOf(std::span<const Solid> solids);
+/// Whether matter within these bounds can have such moments. Not those of a mesh that crosses itself: what faces inward
+/// there counts as less than nothing.
+bool isMatterWithin(const Box& bounds, const Solid& solid);
 /// Throws Error unless the density, kg/m^3, is > 0.
 Mass massOfDensity(double density_kg_m3, const Solid& solid);
 /// Of uniform density. `mass_kg` > 0, or Error.

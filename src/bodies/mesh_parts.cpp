@@ -69,12 +69,20 @@ std::vector<Part> withoutNested(std::vector<Part> parts) {
   return kept;
 }
 
+Box boundsOf(const PieceMesh& mesh) {
+  Box bounds;
+  for (const Vec3& vertex : mesh.vertices) bounds.extend(vertex);
+  return bounds;
+}
+
+// None of a mesh that is open, or crosses itself so that it holds less than nothing somewhere.
 std::optional<Solid> heldBy(const PieceMesh& mesh) {
   try {
-    return solidOf(mesh.vertices, mesh.triangles);
+    const Solid solid = solidOf(mesh.vertices, mesh.triangles);
+    if (isMatterWithin(boundsOf(mesh), solid)) return solid;
   } catch (const Error&) {  // it is open
-    return std::nullopt;
   }
+  return std::nullopt;
 }
 
 // The mesh that reaches farthest is a body, whichever way it faces.
@@ -98,6 +106,17 @@ Solid solidOfAll(const std::vector<PieceMesh>& meshes, const std::vector<Part>& 
       solids.push_back({-held->volume_m3, held->centre_O, -held->inertia_m5});
     }
   }
+  return sumOf(solids);
+}
+
+// Of hollows that are larger than what is around them, the parts alone count.
+Solid solidOf(const std::vector<PieceMesh>& meshes, const std::vector<Part>& parts) {
+  Box bounds;
+  for (const PieceMesh& mesh : meshes) bounds.extend(boundsOf(mesh));
+  const Solid solid = solidOfAll(meshes, parts);
+  if (isMatterWithin(bounds, solid)) return solid;
+  std::vector<Solid> solids;
+  for (const Part& part : parts) solids.push_back(part.solid);
   return sumOf(solids);
 }
 
@@ -157,7 +176,7 @@ MeshParts partsOfMesh(const Model& model) {
   if (meshes.empty()) throw Error("its mesh has no triangles, and so no parts: use its hull or a box");
   MeshParts made;
   std::vector<Part> parts = partsOf(meshes, kNearlyConvex * model.bounds().size().norm() / 2, made);
-  made.solid = solidOfAll(meshes, parts);
+  made.solid = solidOf(meshes, parts);
   std::vector<Convex> shapes;
   for (Part& part : parts) {
     Convex shape = moved(std::move(part.hull.shape), -made.solid.centre_O);

@@ -6,6 +6,7 @@
 #include <ros2.h>
 #include <sys/socket.h>
 
+#include <atomic>
 #include <cstdio>
 #include <string_view>
 #include <utility>
@@ -96,11 +97,22 @@ std::array<double, 3> valueOf(const geometry_msgs_msg_dds__PoseStamped_& message
 
 geometry_msgs_msg_dds__Vector3_ vectorOf(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
+// The first few: whoever sends what is no packet may send it for ever.
+void tellPerson(std::string_view text) {
+  constexpr int kMost = 20;
+  static std::atomic<int> told{0};
+  const int number = ++told;
+  if (number > kMost) return;
+  while (text.ends_with('\n')) text.remove_suffix(1);
+  std::fprintf(stderr, "hl-ros: Cyclone DDS: %.*s%s\n", static_cast<int>(text.size()), text.data(),
+               number == kMost ? " (no more of its lines are told)" : "");
+}
+
 // Cyclone DDS says by its log alone that it could not read something: as a warning, one for each.
 void hearLog(void* tell, const dds_log_data_t* line) {
   const std::string_view text(line->message, line->size);
   if ((line->priority & (DDS_LC_FATAL | DDS_LC_ERROR)) != 0) {
-    std::fprintf(stderr, "hl-ros: Cyclone DDS: %.*s", static_cast<int>(text.size()), text.data());
+    tellPerson(text);
   } else if (text.find("deserialization") != text.npos || text.find("malformed packet") != text.npos) {
     HandCommand malformed;
     malformed.input = RosInput::kMalformed;

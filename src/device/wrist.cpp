@@ -74,7 +74,8 @@ void Wrist::stepOnce(double dt_s) {
 Stylus Wrist::counted() const {
   Stylus stylus;
   if (parameters_.resolution_rad > 0) stylus.turned = countedTurn(turned_, parameters_.resolution_rad);
-  stylus.gripper_rad = hl::counted(gripper_rad_, parameters_.gripper_resolution_rad);
+  stylus.gripper_rad =
+      std::min(hl::counted(gripper_rad_, parameters_.gripper_resolution_rad), parameters_.gripper_max_rad);
   return stylus;
 }
 

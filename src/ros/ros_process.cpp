@@ -52,11 +52,11 @@ bool readableWithin(int socket, int most_ms) {
 
 // Whether it has ended by itself.
 bool waitForEnd(pid_t id, int most_ms) {
-  for (int waited_ms = 0; waited_ms < most_ms; ++waited_ms) {
+  for (int waited_ms = 0;; ++waited_ms) {
     if (waitpid(id, nullptr, WNOHANG) != 0) return true;
+    if (waited_ms >= most_ms) return false;
     usleep(1000);
   }
-  return false;
 }
 
 }  // namespace
@@ -115,6 +115,7 @@ std::optional<HandCommand> RosProcess::receive() {
     if (size < 0 && errno == EAGAIN) return std::nullopt;
     if (size <= 0) {
       ended_ = true;
+      if (id_ != 0 && waitForEnd(id_, 0)) id_ = 0;
       return std::nullopt;
     }
     if (const auto command = packetOf<HandCommand>({buffer.data(), static_cast<std::size_t>(size)})) return command;

@@ -350,6 +350,26 @@ TEST(RoomAround, EndsWhereThingsAreFelt) {
   EXPECT_EQ(near.max, Vec3(7, 8, 9));
 }
 
+TEST(IsMatterWithin, OfBodiesAndNotOfWhatNoneCanBe) {
+  const Vec3 half(0.01, 0.02, 0.03);
+  const Model model = boxModel(half);
+  const Solid box = solidOf(model.positions, model.triangles);
+  const Box bounds{-half, half};
+  EXPECT_TRUE(isMatterWithin(bounds, box));
+  Solid wrong = box;
+  wrong.centre_O.x() = 0.011;
+  EXPECT_FALSE(isMatterWithin(bounds, wrong)) << "beyond its bounds";
+  wrong = box;
+  wrong.volume_m3 = -wrong.volume_m3;
+  EXPECT_FALSE(isMatterWithin(bounds, wrong));
+  wrong = box;
+  wrong.inertia_m5 *= 4;
+  EXPECT_FALSE(isMatterWithin(bounds, wrong)) << "more than if all were at the corners";
+  wrong = box;
+  wrong.inertia_m5(0, 0) = wrong.inertia_m5(1, 1) + wrong.inertia_m5(2, 2) + 1e-12;
+  EXPECT_FALSE(isMatterWithin(bounds, wrong)) << "one is more than both others";
+}
+
 // A body is made once, however many frames show it; of a shape that has gone nothing is kept.
 TEST(MadeBodies, AreMadeOnceForAShapeAndASpec) {
   const auto shape = makeShape(boxModel(Vec3(0.01, 0.02, 0.03)));
