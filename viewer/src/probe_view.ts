@@ -121,9 +121,10 @@ export class ProbeView {
     }
     const known = knownVec(state.proxy);
     this.hasProxy_ = known !== undefined;
-    for (const mark of [this.proxy_, this.ghost_, this.line_, this.drop.group]) {
+    for (const mark of [this.proxy_, this.ghost_, this.line_]) {
       mark.visible = this.hasProxy_;
     }
+    if (!this.hasProxy_) this.drop.group.visible = false;
     const proxy = known ?? finger;
     for (const mesh of [this.proxy_, this.ghost_, this.ring_]) {
       mesh.position.set(proxy.x, proxy.y, proxy.z);
