@@ -69,12 +69,6 @@ std::vector<Part> withoutNested(std::vector<Part> parts) {
   return kept;
 }
 
-Box boundsOf(const PieceMesh& mesh) {
-  Box bounds;
-  for (const Vec3& vertex : mesh.vertices) bounds.extend(vertex);
-  return bounds;
-}
-
 // None of a mesh that is open, or crosses itself so that it holds less than nothing somewhere.
 std::optional<Solid> heldBy(const PieceMesh& mesh) {
   try {

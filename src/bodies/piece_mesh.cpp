@@ -37,12 +37,6 @@ double sixfoldVolume(const PieceMesh& mesh) {
   return volume;
 }
 
-Box boundsOf(const PieceMesh& mesh) {
-  Box bounds;
-  for (const Vec3& vertex : mesh.vertices) bounds.extend(vertex);
-  return bounds;
-}
-
 // Of a grid whose cells have this side.
 PieceMesh onGrid(const PieceMesh& mesh, const Vec3& low, double side) {
   std::map<std::array<std::int64_t, 3>, std::uint32_t> cells;
@@ -90,6 +84,12 @@ PieceMesh pieceMesh(const Model& model, std::span<const std::uint32_t> piece) {
     std::sort(mesh.triangles.begin(), mesh.triangles.end());
   }
   return mesh;
+}
+
+Box boundsOf(const PieceMesh& mesh) {
+  Box bounds;
+  for (const Vec3& vertex : mesh.vertices) bounds.extend(vertex);
+  return bounds;
 }
 
 double sizeOf(const PieceMesh& mesh) { return boundsOf(mesh).size().norm() / 2; }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "geometry/box.h"
 #include "scene/model.h"
 
 namespace hl {
@@ -22,6 +23,7 @@ struct PieceMesh {
 
 /// `piece`: numbers of triangles of the model (mesh_pieces.h).
 PieceMesh pieceMesh(const Model& model, std::span<const std::uint32_t> piece);
+Box boundsOf(const PieceMesh& mesh);
 /// Half the diagonal of the bounds, m.
 double sizeOf(const PieceMesh& mesh);
 

@@ -71,9 +71,9 @@ class FalconsOnBus {
     constexpr std::size_t kDeepest = 7;  // hubs behind one another, as USB 3 allows
     std::array<std::uint8_t, kDeepest> ports{};
     const int depth = libusb_get_port_numbers(device, ports.data(), static_cast<int>(ports.size()));
-    const auto twoDigits = [](unsigned number) { return (number < 10 ? "0" : "") + std::to_string(number); };
-    std::string port = twoDigits(libusb_get_bus_number(device));
-    for (int i = 0; i < depth; ++i) port += (i == 0 ? "-" : ".") + twoDigits(ports[static_cast<std::size_t>(i)]);
+    const auto two_digits = [](unsigned number) { return (number < 10 ? "0" : "") + std::to_string(number); };
+    std::string port = two_digits(libusb_get_bus_number(device));
+    for (int i = 0; i < depth; ++i) port += (i == 0 ? "-" : ".") + two_digits(ports[static_cast<std::size_t>(i)]);
     return port;
   }
 
@@ -147,8 +147,8 @@ class FalconUsb final : public FalconTransport {
     }
     const auto here = std::ranges::find(found, port_, &FalconsOnBus::Falcon::first);
     if (here != found.end()) return *here;
-    const auto isFree = [](const auto& one) { return !DeviceClaim::isTaken("falcon at USB port " + one.first); };
-    const auto free = std::ranges::find_if(found, isFree);
+    const auto is_free = [](const auto& one) { return !DeviceClaim::isTaken("falcon at USB port " + one.first); };
+    const auto free = std::ranges::find_if(found, is_free);
     if (free == found.end()) throw Error("no Falcon at USB port " + port_ + kNotThere);
     return *free;
   }

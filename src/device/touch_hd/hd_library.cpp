@@ -98,8 +98,8 @@ unsigned int HdLibrary::sortErrors(Seat& own) {
   unsigned int last = 0;
   for (HdCalls::ErrorInfo error = calls_.get_error(); error.code != 0; error = calls_.get_error()) {
     if (error.code == kWarmMotors || error.code == kExceededMaxForce) continue;
-    const auto isIts = [&](const Seat& seat) { return error.device != kNoDevice && seat.handle == error.device; };
-    const auto its = std::ranges::find_if(seats_, isIts);
+    const auto is_its = [&](const Seat& seat) { return error.device != kNoDevice && seat.handle == error.device; };
+    const auto its = std::ranges::find_if(seats_, is_its);
     if (its != seats_.end()) its->failed = true;
     if (its == seats_.end() && taken_ == 1) own.failed = true;
     if (its == seats_.end() || &*its == &own) last = error.code;
