@@ -5,4 +5,5 @@ void useStylus(void);
 
 void useStylus(void) {
   /* block */
+  hlPoll();
 }
