@@ -2,6 +2,10 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
+
+#include "base/plain_math.h"
+#include "base/vec.h"
 
 namespace hl {
 
@@ -12,6 +16,14 @@ inline bool toUnit(Eigen::Quaterniond& turned) {
   turned.coeffs() /= largest;  // its square may be no number
   turned.normalize();
   return true;
+}
+
+/// Axis times angle, the short way round: 0..pi rad. Of a unit quaternion; the same bits with every C library.
+inline Vec3 rotationVector(const Eigen::Quaterniond& turned) {
+  const double sine = turned.vec().norm();  // of half the angle
+  if (!(sine > 0)) return Vec3::Zero();
+  const double angle = 2 * plain::angleOf(std::abs(turned.w()), sine);
+  return (turned.w() < 0 ? -angle : angle) / sine * turned.vec();
 }
 
 }  // namespace hl

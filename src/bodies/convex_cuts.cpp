@@ -31,16 +31,13 @@ using Halves = std::array<MeasuredPiece, 2>;
 
 class Cutter {
  public:
-  Cutter(const CutSurface& surface, const CutRules& rules)
-      : surface_(surface), rules_(rules), measure_(surface, rules.is_shell, rules.allowed_m) {
-    Box bounds;
-    for (const Triangle3& triangle : surface) {
-      for (const Vec3& corner : triangle) bounds.extend(corner);
-    }
-    rounding_m_ = kRounding * bounds.size().norm();
-  }
+  Cutter(const CutPiece& whole, const CutRules& rules)
+      : whole_(whole),
+        rules_(rules),
+        measure_(whole.surface(), rules.is_shell, rules.allowed_m),
+        rounding_m_(kRounding * whole.bounds().size().norm()) {}
 
-  std::vector<MeasuredPiece> whole() { return {measured(CutPiece(surface_))}; }
+  std::vector<MeasuredPiece> whole() { return {measured(whole_)}; }
 
   bool needsCut(const std::vector<MeasuredPiece>& all) const {
     return mayGoOn() && all.size() < rules_.most && std::any_of(all.begin(), all.end(), [&](const MeasuredPiece& one) {
@@ -84,8 +81,8 @@ class Cutter {
 
  private:
   bool mayGoOn() const {
-    return looks_ < rules_.looks_of_each * surface_.size() &&
-           fragments_ <= kMostFragments + kMostFragmentsOfOne * surface_.size();
+    return looks_ < rules_.looks_of_each * whole_.surface().size() &&
+           fragments_ <= kMostFragments + kMostFragmentsOfOne * whole_.surface().size();
   }
 
   HullExcess counted(const HullExcess& excess) {
@@ -158,11 +155,11 @@ class Cutter {
     return both;
   }
 
-  const CutSurface& surface_;
+  const CutPiece& whole_;
   const CutRules& rules_;
   PieceMeasure measure_;
-  double rounding_m_ = 0;
-  std::size_t fragments_ = surface_.size();
+  double rounding_m_;
+  std::size_t fragments_ = whole_.surface().size();
   std::uint64_t looks_ = 0;
   std::size_t made_ = 0;
   std::set<std::pair<std::size_t, std::size_t>> apart_;  // that are known not to be one
@@ -170,9 +167,9 @@ class Cutter {
 
 }  // namespace
 
-std::vector<NearPiece> cutPieces(const CutSurface& surface, const CutRules& rules) {
+std::vector<NearPiece> cutPieces(const CutPiece& whole, const CutRules& rules) {
   constexpr int kMostRounds = 6;  // what is joined leaves room for cuts
-  Cutter cutter(surface, rules);
+  Cutter cutter(whole, rules);
   std::vector<MeasuredPiece> measured = cutter.whole();
   for (int i = 0; i < kMostRounds && cutter.needsCut(measured); ++i) {
     cutter.cut(measured);

@@ -28,9 +28,9 @@ struct NearPiece {
   double error_m = 0;  ///< of its hull (piece_measure.h)
 };
 
-/// Pieces that together are the surface; at most `most` of them, so they may be farther from their hulls than allowed.
-/// The time grows with triangles times pieces: about a second for 1000 triangles and 60 pieces. Neighbours that are not
-/// joined when it is up are more pieces than need be. Setup only.
-std::vector<NearPiece> cutPieces(const CutSurface& surface, const CutRules& rules);
+/// Pieces that together are the surface of `whole`; at most `most` of them, so they may be farther from their hulls
+/// than allowed. The time grows with triangles times pieces: about a second for 1000 triangles and 60 pieces.
+/// Neighbours that are not joined when it is up are more pieces than need be. Setup only.
+std::vector<NearPiece> cutPieces(const CutPiece& whole, const CutRules& rules);
 
 }  // namespace hl

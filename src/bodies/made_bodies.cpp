@@ -59,8 +59,4 @@ std::shared_ptr<const Body> madeBody(const std::shared_ptr<const Shape>& shape, 
   return body;
 }
 
-std::size_t partsIn(const std::shared_ptr<const Shape>& shape, const BodySpec& spec) {
-  return spec.shape == BodyShape::kParts ? madeBody(shape, spec)->shape.parts.size() : 1;
-}
-
 }  // namespace hl

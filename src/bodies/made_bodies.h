@@ -14,7 +14,5 @@ namespace hl {
 /// specs. By any thread.
 std::shared_ptr<const Body> madeBody(const std::shared_ptr<const Shape>& shape, const BodySpec& spec);
 inline constexpr std::size_t kMostOfAShape = 64;
-/// The number of its parts, without making it where there is one. Throws as bodyOf().
-std::size_t partsIn(const std::shared_ptr<const Shape>& shape, const BodySpec& spec);
 
 }  // namespace hl

@@ -99,7 +99,7 @@ void takeAll(const Places& vertices, std::vector<Places>& corners, std::vector<H
   }
 }
 
-NearlyConvex asPieces(const PieceMesh& mesh, const CutSurface& coarse, const CutRules& rules, double thickness_m) {
+NearlyConvex asPieces(const PieceMesh& mesh, const CutPiece& coarse, const CutRules& rules, double thickness_m) {
   NearlyConvex parts;
   std::vector<Places> corners;
   for (const NearPiece& near : cutPieces(coarse, rules)) {
@@ -116,14 +116,13 @@ NearlyConvex asPieces(const PieceMesh& mesh, const CutSurface& coarse, const Cut
 
 NearlyConvex madeAnew(const PieceMesh& mesh, const CutRules& rules) {
   const Places probes = probesOf(mesh);
-  const CutSurface coarse = surfaceOf(coarseMesh(mesh, kCoarseTriangles));
+  const CutPiece coarse(surfaceOf(coarseMesh(mesh, kCoarseTriangles)));
   std::optional<Hull> hull = hullWithVolume(mesh.vertices);
-  const PieceMeasure measure(coarse, rules.is_shell, rules.allowed_m);
-  const CutPiece piece(coarse);
-  if (!hull) hull = hullWithVolume(piece.thickCorners(measure.thickness()));
+  const PieceMeasure measure(coarse.surface(), rules.is_shell, rules.allowed_m);
+  if (!hull) hull = hullWithVolume(coarse.thickCorners(measure.thickness()));
   if (!hull) throw Error("hull: the points lie in a plane or on a line: give the shape a thickness, or use a box");
   NearlyConvex whole{{*std::move(hull)}};
-  whole.excess_m = measure.exactly(piece).error_m;
+  whole.excess_m = measure.exactly(coarse).error_m;
   whole.outside_m = outsideOf(probes, whole.hulls);
   if (rules.most == 1 || whole.excess_m <= rules.allowed_m) return whole;
   NearlyConvex parts = asPieces(mesh, coarse, rules, measure.thickness());

@@ -27,7 +27,8 @@ auto named(const Instance& instance, Make make) {
 std::size_t partsIn(const Snapshot& snapshot) {
   std::size_t parts = 0;
   for (const Instance& instance : snapshot.instances) {
-    if (instance.movesAsBody()) parts += named(instance, [&] { return partsIn(instance.shape, instance.body->spec); });
+    if (instance.movesAsBody())
+      parts += named(instance, [&] { return madeBody(instance.shape, instance.body->spec)->shape.parts.size(); });
   }
   return parts;
 }

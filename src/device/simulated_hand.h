@@ -1,9 +1,8 @@
 // SimulatedHand: the hand that holds a device when no person does.
 #pragma once
 
-#include <cstdint>
-
 #include <Eigen/Geometry>
+#include <cstdint>
 
 #include "base/vec.h"
 

@@ -2,20 +2,9 @@
 
 #include <cmath>
 
+#include "base/turn.h"
+
 namespace hl {
-
-namespace {
-
-// The rotation vector from one orientation to another, the short way round, in D; rad.
-Vec3 turnBetween(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
-  Eigen::Quaterniond way = to * from.conjugate();
-  if (way.w() < 0) way.coeffs() = -way.coeffs();
-  const double sine = way.vec().norm();
-  if (!(sine > 0)) return Vec3::Zero();
-  return 2 * std::atan2(sine, way.w()) / sine * way.vec();
-}
-
-}  // namespace
 
 Stylus StylusReader::read(const Stylus& told, std::int64_t now_ns) {
   Stylus now = last_;
@@ -25,7 +14,7 @@ Stylus StylusReader::read(const Stylus& told, std::int64_t now_ns) {
   if (std::isfinite(told.gripper_N)) now.gripper_N = told.gripper_N;
   const double elapsed_s = last_ns_ ? 1e-9 * static_cast<double>(now_ns - *last_ns_) : 0;
   if (elapsed_s > 0) {
-    const Vec3 spin_rad_s = turnBetween(last_.turned, now.turned) / elapsed_s;
+    const Vec3 spin_rad_s = rotationVector(now.turned * last_.turned.conjugate()) / elapsed_s;
     const double part = elapsed_s / (elapsed_s + kSpinFilter_s);
     now.spin_rad_s += part * (spin_rad_s - now.spin_rad_s);
   }

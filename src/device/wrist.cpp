@@ -58,10 +58,7 @@ void Wrist::step(double dt_s) {
 // x'' = w^2 (goal - x) - 2 w x', implicit in the speed.
 void Wrist::stepOnce(double dt_s) {
   const double spring = dt_s * kHand_rad_s * kHand_rad_s, drag = 1 + 2 * dt_s * kHand_rad_s;
-  Eigen::Quaterniond way = goal_ * turned_.conjugate();
-  if (way.w() < 0) way.coeffs() = -way.coeffs();
-  const Eigen::AngleAxisd turn(way);
-  spin_rad_s_ = (spin_rad_s_ + spring * turn.angle() * turn.axis()) / drag;
+  spin_rad_s_ = (spin_rad_s_ + spring * rotationVector(goal_ * turned_.conjugate())) / drag;
   const double angle = dt_s * spin_rad_s_.norm();
   if (angle > 0) {
     turned_ = Eigen::AngleAxisd(angle, spin_rad_s_.normalized()) * turned_;

@@ -197,7 +197,7 @@ void receive(TouchSession& first, const OtherDevices& others, PageRecordings* re
       session.press(message.press().buttons());
       break;
     case proto::ViewerMessage::kHandTurn:
-      if (faultOf(message.hand_turn()).empty()) turnHand(message.hand_turn(), session);
+      if (faultOfTurn(message.hand_turn()).empty()) turnHand(message.hand_turn(), session);
       break;
     case proto::ViewerMessage::kSettings:
       apply(session, message.settings());

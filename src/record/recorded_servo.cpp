@@ -78,7 +78,7 @@ bool consistent(const proto::ServoSteps& in) {
   };
   return n > 0 && in.settings_size() > 0 && in.settings(0).at() == 0 &&
          (in.weight_n_size() == 0 || in.weight_n_size() == 3 * n) && (in.age_ns_size() == 0 || in.age_ns_size() == n) &&
-         agrees(in, n) && (in.field_n_size() == 0 || in.field_n_size() == 3 * n) &&
+         stylusAgrees(in, n) && (in.field_n_size() == 0 || in.field_n_size() == 3 * n) &&
          3 * in.field_drag_ns_m_size() == in.field_n_size() &&
          all({in.time_ns_size(), in.buttons_size(), in.target_time_ns_size(), in.target_stiffness_size(),
               in.target_paid_j_size(), in.work_ns_size()},

@@ -61,7 +61,7 @@ Stylus stylusAt(const proto::ServoSteps& in, int i) {
   return stylus;
 }
 
-bool agrees(const proto::ServoSteps& in, std::int64_t steps) {
+bool stylusAgrees(const proto::ServoSteps& in, std::int64_t steps) {
   const auto none_or = [](std::int64_t size, std::int64_t all) { return size == 0 || size == all; };
   if (!none_or(in.stylus_turned_size(), 4 * steps) || 4 * in.stylus_spin_rad_s_size() != 3 * in.stylus_turned_size())
     return false;

@@ -19,6 +19,6 @@ void addStylus(std::span<const ServoRecord> records, proto::ServoSteps& out);
 /// Of step `i`; the lists agree.
 Stylus stylusAt(const proto::ServoSteps& in, int i);
 /// Whether the lists are those of `steps` steps, and hold nothing but orientations.
-bool agrees(const proto::ServoSteps& in, std::int64_t steps);
+bool stylusAgrees(const proto::ServoSteps& in, std::int64_t steps);
 
 }  // namespace hl

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "base/plain_math.h"
+#include "base/turn.h"
 
 namespace hl {
 
@@ -44,14 +45,6 @@ Mat3 slideMatrix(const Vec3& turn) {
   return Mat3::Identity() + k.b * w + k.c * w * w;
 }
 
-Vec3 rotationVector(const Mat3& rotation) {
-  const Eigen::Quaterniond half(rotation);  // cos and sin of half the angle, the latter along the axis
-  const double sine = half.vec().norm();
-  if (!(sine > 0)) return Vec3::Zero();
-  const double angle = 2 * plain::angleOf(std::abs(half.w()), sine);
-  return (half.w() < 0 ? -angle : angle) / sine * half.vec();
-}
-
 void addSphere(Box& box, const Vec3& centre, double radius) {
   box.extend(centre - Vec3::Constant(radius));
   box.extend(centre + Vec3::Constant(radius));
@@ -73,7 +66,7 @@ Screw::Screw(const Pose& from, const Pose& to, std::int64_t begin_ns, std::int64
     : from_(from), to_(to), begin_ns_(begin_ns), end_ns_(end_ns), moves_(!(from == to)) {
   if (!moves_) return;
   const Mat3 relative = to.rotation * from.rotation.transpose();
-  turn_ = rotationVector(relative);
+  turn_ = rotationVector(Eigen::Quaterniond(relative));
   slide_ = slideMatrix(turn_).inverse() * (to.origin - relative * from.origin);
 }
 

@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "base/turn.h"
 #include "io/decode_scene.h"
-#include "session/stylus_messages.h"
+#include "session/vec_messages.h"
 
 namespace hl {
 

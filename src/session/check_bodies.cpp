@@ -40,10 +40,7 @@ WorldParts checkBodies(const PlacedList& placed) {
     if (!one.movesAsBody()) continue;
     const auto [its_parts, is_first] = parts.try_emplace({one.shape.get(), one.body.get()}, 0);
     try {
-      if (is_first) {
-        const std::shared_ptr<const Body> made = madeBody(one.shape, *one.body);
-        its_parts->second = one.body->shape == BodyShape::kParts ? made->shape.parts.size() : 1;
-      }
+      if (is_first) its_parts->second = madeBody(one.shape, *one.body)->shape.parts.size();
     } catch (const Error& error) {
       throw Error("object " + std::to_string(one.object) + ".body: " + error.what());
     }

@@ -23,7 +23,7 @@ constexpr std::size_t kMaxRefusedUploads = 1000;
 constexpr std::size_t kMaxNameLength = 100;
 
 // What a log shows of a name.
-std::string plain(std::string name) {
+std::string plainText(std::string name) {
   name.resize(std::min(name.size(), kMaxNameLength));
   std::replace_if(
       name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
@@ -49,7 +49,7 @@ std::string faultOf(const proto::DeviceSettings& settings, bool has_hand) {
     return "a person holds the device; only a simulated hand can be moved";
   if (settings.has_hand_goal() && !vecOf(settings.hand_goal().position()).allFinite())
     return "hand_goal.position must hold finite numbers";
-  return hl::faultOf(settings.hand_turn());
+  return faultOfTurn(settings.hand_turn());
 }
 
 }  // namespace
@@ -118,7 +118,7 @@ void HlSession::open(const proto::Open& open) {
   const std::optional<std::uint32_t> device = chosenDevice(open);
   if (!device) return end(missingDevice(open));
   opened_ = true;
-  client_name_ = plain(open.client_name());
+  client_name_ = plainText(open.client_name());
   keep_objects_ = open.keep_objects();
   device_ = *device;
   master_ = open.master() && world_.becomeMaster(device_, number_);
@@ -149,7 +149,7 @@ std::string HlSession::missingDevice(const proto::Open& open) const {
     const std::string& name = world_.device(i).label().name;
     there += (i == 0 ? "" : ", ") + std::to_string(i) + (name.empty() ? "" : " (" + name + ")");
   }
-  return "there is no device " + (label.empty() ? std::to_string(open.device()) : "'" + plain(label) + "'") +
+  return "there is no device " + (label.empty() ? std::to_string(open.device()) : "'" + plainText(label) + "'") +
          "; the server has " + std::to_string(world_.devices()) + ": " + there;
 }
 

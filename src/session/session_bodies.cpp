@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "session/state_messages.h"
-#include "session/stylus_messages.h"
+#include "session/vec_messages.h"
 
 namespace hl {
 

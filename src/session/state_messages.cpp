@@ -3,12 +3,6 @@
 
 namespace hl {
 
-void toProto(const Vec3& v, proto::Vec3& out) {
-  out.set_x(v.x());
-  out.set_y(v.y());
-  out.set_z(v.z());
-}
-
 void toProto(const TouchSession& session, proto::DeviceInfo& out) {
   const DeviceInfo& info = session.deviceInfo();
   out.set_name(info.name);

@@ -3,11 +3,11 @@
 
 #include <hl.pb.h>
 
+#include "session/vec_messages.h"
 #include "touch/touch_session.h"
 
 namespace hl {
 
-void toProto(const Vec3& v, proto::Vec3& out);
 void toProto(const TouchSession& session, proto::DeviceInfo& out);
 void toProto(const LoopSummary& loop, const LoopTotals& totals, proto::LoopStats& out);
 void toProto(const VibrationView& vibration, proto::Vibration& out);

@@ -4,28 +4,16 @@
 
 namespace hl {
 
-void toProto(const Eigen::Quaterniond& turned, proto::Rotation& out) {
-  out.set_x(turned.x());
-  out.set_y(turned.y());
-  out.set_z(turned.z());
-  out.set_w(turned.w());
-}
-
-Eigen::Quaterniond turnOf(const proto::Rotation& in) { return {in.w(), in.x(), in.y(), in.z()}; }
-
 void toProto(const Stylus& stylus, bool has_wrist, proto::Stylus& out) {
   if (has_wrist) {
     toProto(stylus.turned, *out.mutable_rotation());
-    proto::Vec3& spin = *out.mutable_spin_rad_s();
-    spin.set_x(stylus.spin_rad_s.x());
-    spin.set_y(stylus.spin_rad_s.y());
-    spin.set_z(stylus.spin_rad_s.z());
+    toProto(stylus.spin_rad_s, *out.mutable_spin_rad_s());
   }
   out.set_gripper_rad(stylus.gripper_rad);
   out.set_gripper_n(stylus.gripper_N);
 }
 
-std::string faultOf(const proto::HandTurn& turn) {
+std::string faultOfTurn(const proto::HandTurn& turn) {
   Eigen::Quaterniond turned = turnOf(turn.rotation());
   if (turn.has_rotation() && !toUnit(turned)) return "hand_turn.rotation must hold finite numbers, not all of them 0";
   if (turn.has_gripper_rad() && !std::isfinite(turn.gripper_rad())) return "hand_turn.gripper_rad must be finite";

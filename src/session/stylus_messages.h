@@ -6,12 +6,10 @@
 #include <string>
 
 #include "device/device.h"
+#include "session/vec_messages.h"
 #include "touch/touch_session.h"
 
 namespace hl {
-
-void toProto(const Eigen::Quaterniond& turned, proto::Rotation& out);
-Eigen::Quaterniond turnOf(const proto::Rotation& in);
 
 void toProto(const Stylus& stylus, bool has_wrist, proto::Stylus& out);
 /// In a message that has one, of a device with a wrist or a gripper.
@@ -21,7 +19,7 @@ void setStylus(const Stylus& stylus, const DeviceInfo& device, Message& out) {
 }
 
 /// What of it cannot be, or empty.
-std::string faultOf(const proto::HandTurn& turn);
+std::string faultOfTurn(const proto::HandTurn& turn);
 /// Requires that nothing of it is at fault.
 void turnHand(const proto::HandTurn& turn, TouchSession& session);
 

@@ -43,7 +43,7 @@ TEST(ConvexCuts, OfSheetsThatCrossAreAsLargeAndNotTooMany) {
   for (const int count : {5, 30}) {
     for (const bool is_shell : {false, true}) {
       const CutSurface sheets = crossingSheets(draws, count);
-      const auto pieces = cutPieces(sheets, {is_shell, 0.02, 64});
+      const auto pieces = cutPieces(CutPiece(sheets), {is_shell, 0.02, 64});
       const Sum sum = sumOf(pieces);
       EXPECT_GT(pieces.size(), 4u);
       EXPECT_NEAR(sum.area_m2, areaOf(sheets), 1e-9 * areaOf(sheets)) << count;
@@ -56,14 +56,14 @@ TEST(ConvexCuts, EndAfterSoManyLooks) {
   Draws draws(4);
   const CutSurface sheets = crossingSheets(draws, 30);
   CutRules rules{false, 0.02, 64};
-  const std::size_t all = cutPieces(sheets, rules).size();
+  const std::size_t all = cutPieces(CutPiece(sheets), rules).size();
   rules.looks_of_each = 3'000;
-  const auto some = cutPieces(sheets, rules);
+  const auto some = cutPieces(CutPiece(sheets), rules);
   EXPECT_GT(some.size(), 1u);
   EXPECT_LT(some.size(), all);
   EXPECT_NEAR(sumOf(some).area_m2, areaOf(sheets), 1e-9 * areaOf(sheets));
   rules.looks_of_each = 0;
-  EXPECT_EQ(cutPieces(sheets, rules).size(), 1u);
+  EXPECT_EQ(cutPieces(CutPiece(sheets), rules).size(), 1u);
 }
 
 // What is known of two pieces is what is known of both together.

@@ -32,6 +32,15 @@ std::pair<std::string, std::string> twoLinesOf(const std::string& name) {
   return lines;
 }
 
+// Header and row of a trace that has these columns.
+std::pair<std::string, std::string> linesWith(const TraceColumns& columns, const TraceRow& row) {
+  const std::string name = test::tempFile("out.csv");
+  TraceWriter writer(name, {}, columns);
+  writer.write(row);
+  writer.close();
+  return twoLinesOf(name);
+}
+
 TEST(CsvPath, ReadsRowsWithAnyLineEndAndSpaces) {
   const auto path = readPath(test::fileWith("path.csv", "t,x,y,z\r\n0,1,2,3\r\n 0.5 , -1e-3,+2, 4 \n\n1,0,0,0"));
   ASSERT_EQ(path.size(), 3u);
@@ -104,8 +113,6 @@ TEST(TraceCsv, ColumnsOfBodiesHaveNamesThatAHeaderCanHave) {
 }
 
 TEST(TraceCsv, BodiesFollowTheColumnsOfTheTick) {
-  const std::string name = test::tempFile("out.csv");
-  TraceWriter writer(name, {}, {{"ball"}});
   const TracedBody ball{Vec3(1, 2, 3), Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), Vec3(4, 5, 6), Vec3(7, 8, 1.0 / 3)};
   TraceRow row;
   row.bodies = {&ball, 1};
@@ -116,9 +123,7 @@ TEST(TraceCsv, BodiesFollowTheColumnsOfTheTick) {
   row.world.book.friction_J = 5;
   row.world.book.solver_J = 6;
   row.world.hash = 0xabc;
-  writer.write(row);
-  writer.close();
-  auto [header, line] = twoLinesOf(name);
+  const auto [header, line] = linesWith({{"ball"}}, row);
   EXPECT_TRUE(
       header.ends_with("tick_ns,ball_x,ball_y,ball_z,ball_qw,ball_qx,ball_qy,ball_qz,ball_vx,ball_vy,ball_vz,"
                        "ball_wx,ball_wy,ball_wz,kinetic_J,gravity_J,by_hand_J,contact_J,friction_J,solver_J,"
@@ -128,26 +133,18 @@ TEST(TraceCsv, BodiesFollowTheColumnsOfTheTick) {
 }
 
 TEST(TraceCsv, TheSnapIsTheLastColumn) {
-  const std::string name = test::tempFile("out.csv");
-  TraceWriter writer(name, {}, {{}, true});
   TraceRow row;
   row.snap = 3;
-  writer.write(row);
-  writer.close();
-  auto [header, line] = twoLinesOf(name);
+  const auto [header, line] = linesWith({{}, true}, row);
   EXPECT_TRUE(header.ends_with("tick_ns,snap"));
   EXPECT_TRUE(line.ends_with(",0,3"));
 }
 
 TEST(TraceCsv, TheStylusOfThePathComesLast) {
-  const std::string name = test::tempFile("out.csv");
-  TraceWriter writer(name, {}, {{}, false, true, true});
   TraceRow row;
   row.turned = Eigen::Quaterniond(0.5, -0.5, 0.5, 0.5);
   row.gripper_rad = 0.25;
-  writer.write(row);
-  writer.close();
-  auto [header, line] = twoLinesOf(name);
+  const auto [header, line] = linesWith({{}, false, true, true}, row);
   EXPECT_TRUE(header.ends_with("tick_ns,stylus_qw,stylus_qx,stylus_qy,stylus_qz,gripper_rad"));
   EXPECT_TRUE(line.ends_with(",0,0.5,-0.5,0.5,0.5,0.25"));
 }

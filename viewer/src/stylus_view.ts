@@ -21,7 +21,6 @@ export class StylusView {
   private readonly pen_ = new THREE.Group();
   private readonly fingers_: readonly [THREE.Mesh, THREE.Mesh];
   private shown_ = true;
-  private hasGripper_ = false;
 
   constructor() {
     const along = (geometry: THREE.BufferGeometry, z: number) => geometry.rotateX(Math.PI / 2).translate(0, 0, z);
@@ -50,10 +49,10 @@ export class StylusView {
 
   /** How far the device's gripper opens; 0: it has none. */
   setGripper(most_rad: number): void {
-    this.hasGripper_ = most_rad > 0;
-    this.fingers_.forEach((mesh) => (mesh.visible = this.hasGripper_));
+    const hasGripper = most_rad > 0;
+    this.fingers_.forEach((mesh) => (mesh.visible = hasGripper));
     // The fingers meet at the proxy when they are closed; the pen begins where they are hinged.
-    this.pen_.position.z = this.hasGripper_ ? kFinger.length - kCone / 2 : 0;
+    this.pen_.position.z = hasGripper ? kFinger.length - kCone / 2 : 0;
   }
 
   /** At the proxy; undefined: the device has none. */

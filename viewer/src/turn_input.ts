@@ -38,7 +38,7 @@ export class TurnInput {
     const early = { capture: true, passive: false };
     window.addEventListener("keydown", (event) => this.keyDown(event), early);
     window.addEventListener("keyup", (event) => this.keyUp(event), early);
-    window.addEventListener("blur", () => this.let());
+    window.addEventListener("blur", () => this.letGo());
     window.addEventListener("pointermove", (event) => this.pointer(event), early);
     window.addEventListener("wheel", (event) => this.wheel(event), early);
   }
@@ -47,7 +47,7 @@ export class TurnInput {
   setDevice(device: DeviceInfo | undefined): void {
     this.device_ = device;
     this.opened_ = false;
-    this.let();
+    this.letGo();
   }
 
   get hasGripper(): boolean {
@@ -63,7 +63,7 @@ export class TurnInput {
     this.send_(encodeHandTurn(turned, gripper_rad));
   }
 
-  private let(): void {
+  private letGo(): void {
     this.held_ = false;
     this.goal_ = undefined;
   }
@@ -81,7 +81,7 @@ export class TurnInput {
   }
 
   private keyUp(event: KeyboardEvent): void {
-    if (event.code === kKey) this.let();
+    if (event.code === kKey) this.letGo();
   }
 
   private toggleGripper(): void {
