@@ -20,9 +20,9 @@ LEVELS = {
     "io": 5,
     "touch": 6, "cad": 6, "vdb": 6,
     "record": 7, "tools": 7, "ros": 7,
-    "session": 8, "batch": 8, "fleet": 8, "dds": 8,
-    "page": 9, "monitor": 9,
-    "http": 10, "client": 10,
+    "session": 8, "batch": 8, "fleet": 8,
+    "page": 9, "monitor": 9, "share": 9,
+    "http": 10, "client": 10, "dds": 10,
     "bench": 11,
     "apps": 12, "python": 12,
 }
@@ -31,7 +31,7 @@ NEVER = {"proxy": {"device", "control", "wire"}, "control": {"geometry", "wire"}
 # Targets and generated headers that are not named after their folder.
 TARGET_FOLDERS = {"hl_proto": "wire", "hl_realtime_guard": "base", "hl_json": "base", "hl_url": "base", "hl_websocket": "wire", "hl": "apps", "hld": "apps", "hl_cad_program": "apps", "hl_vdb_program": "apps", "hl_ros_program": "apps", "hl_ros_wire": "ros", "hl_ros2_types": "dds", "hl_frames": "session", "hl_batch_shared": "batch", "hl_inproc_link": "client", "hl_websocket_link": "client",
                   "hl_links": "client"}
-HEADER_FOLDERS = {"hl.pb.h": "wire", "recording.pb.h": "wire", "fleet.pb.h": "wire"}
+HEADER_FOLDERS = {"hl.pb.h": "wire", "recording.pb.h": "wire", "fleet.pb.h": "wire", "share.pb.h": "wire"}
 # CMake's own words inside a link list, and the target that only carries compiler flags.
 NOT_FOLDERS = {"hl_flags"}
 
