@@ -21,6 +21,7 @@ void addRecordCommand(CLI::App& app);
 void addReplayCommand(CLI::App& app);
 void addStabilityCommand(CLI::App& app);
 void addSweepCommand(CLI::App& app);
+void addKeysCommand(CLI::App& app);
 
 /// Options that every command with a SCENE shares.
 struct SceneOptions {

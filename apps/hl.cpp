@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
   hl::addReplayCommand(app);
   hl::addStabilityCommand(app);
   hl::addSweepCommand(app);
+  hl::addKeysCommand(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version

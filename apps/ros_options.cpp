@@ -10,20 +10,12 @@ namespace {
 
 constexpr double kMostStates_Hz = 1000;
 
-// An option, so that who looks for it reads why.
-std::string refuseInterface(const std::string& name) {
-  if (name == "lo" || name == "127.0.0.1") return {};
-  return "topics of ROS 2 stay on this machine, as beyond it anybody could pull the hand: they would need DDS "
-         "Security, "
-         "which hl-ros does not have. Leave the option out, and run what reads the topics here";
-}
-
 }  // namespace
 
 void addRosOptions(CLI::App& app, RosOptions& options) {
   app.add_option_function<std::string>(
          "--ros", [&options](const std::string& name) { options.name_space = rosNamespace(name); },
-         "serve topics of ROS 2 under this namespace, on this machine alone, in the domain ROS_DOMAIN_ID: needs hl-ros")
+         "serve topics of ROS 2 under this namespace, in the domain ROS_DOMAIN_ID: needs hl-ros")
       ->type_name("NAMESPACE")
       ->group("ROS 2");
   app.add_option("--ros-rate", options.rate_Hz, "samples a second of each measured topic")
@@ -31,21 +23,34 @@ void addRosOptions(CLI::App& app, RosOptions& options) {
       ->needs("--ros")
       ->capture_default_str()
       ->group("ROS 2");
-  app.add_option("--ros-interface", "network interface of the topics: lo alone, there is no DDS Security")
-      ->check(CLI::Validator([](const std::string& name) { return refuseInterface(name); }, ""))
+  app.add_option("--ros-security", options.reach.enclave,
+                 "keys for topics that only those with keys of the same authority read and write: see hl keys")
+      ->needs("--ros")
+      ->option_text("FOLDER")
+      ->group("ROS 2");
+  app.add_option("--ros-interface", options.reach.interface_name,
+                 "network interface of the topics; lo is this machine alone, another needs --ros-security")
+      ->needs("--ros")
       ->option_text("NAME")
+      ->group("ROS 2");
+  app.add_option("--ros-peer", options.reach.peers,
+                 "where another machine is, if multicast does not reach it; several times for several")
+      ->needs("--ros")
+      ->allow_extra_args(false)
+      ->option_text("ADDRESS")
       ->group("ROS 2");
 }
 
 std::unique_ptr<RosBridge> makeRosBridge(const RosOptions& options, TouchServer& server, RosBridge::TellPerson tell) {
   if (options.name_space.empty()) return nullptr;
+  checkReach(options.reach);
   std::vector<TouchSession*> hands;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < server.devices(); ++i) {
     hands.push_back(&server.device(i));
     names.push_back(server.device(i).label().name);
   }
-  const RosTask task{HL_VERSION, rosDomain(), rosHands(options.name_space, names)};
+  const RosTask task{HL_VERSION, rosDomain(), rosHands(options.name_space, names), options.reach};
   return std::make_unique<RosBridge>(std::make_unique<RosProcess>(task), hands, options.rate_Hz, std::move(tell));
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "ros/ros_bridge.h"
+#include "ros/ros_task.h"
 #include "session/touch_server.h"
 
 namespace hl {
@@ -13,6 +14,7 @@ namespace hl {
 struct RosOptions {
   std::string name_space;  ///< empty: no topics
   double rate_Hz = 250;
+  RosReach reach;
 };
 
 /// `options` must outlive `app`.

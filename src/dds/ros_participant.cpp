@@ -8,12 +8,14 @@
 
 #include <atomic>
 #include <cstdio>
+#include <mutex>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "dds/dds_security.h"
 #include "dds/loopback_only.h"
 
 namespace hl {
@@ -48,24 +50,33 @@ bool hasAddress() {
   return found;
 }
 
-// Whatever CYCLONEDDS_URI says. At the machine's own address, as programs of ROS 2 tell it by default, and at that of
-// those that are kept to this machine. Without multicast, which lo does not have: participants are looked for at the
-// ports of this machine, each second, as the next one may come at any time.
-std::string configuration() {
+std::string peersXml(const std::vector<std::string>& addresses) {
+  std::string peers;
+  for (const std::string& address : addresses) peers += "<Peer Address=\"" + address + "\"/>";
+  return "<Peers>" + peers + "</Peers>";
+}
+
+// Whatever CYCLONEDDS_URI says. Participants are looked for each second, as the next one may come at any time, at so
+// many ports of each peer.
+std::string configuration(const std::string& interfaces, const char* multicast, const std::vector<std::string>& peers,
+                          int ports) {
+  return "<CycloneDDS><Domain Id=\"any\"><General><Interfaces>" + interfaces + "</Interfaces><AllowMulticast>" +
+         multicast + "</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>" +
+         "<MaxAutoParticipantIndex>" + std::to_string(ports - 1) + "</MaxAutoParticipantIndex>" + peersXml(peers) +
+         "<SPDPInterval>1s</SPDPInterval></Discovery></Domain></CycloneDDS>";
+}
+
+// At the machine's own address, as programs of ROS 2 tell it by default, and at that of those that are kept to this
+// machine. Without multicast, which lo does not have.
+std::string loopbackConfiguration() {
   const std::string own = hasAddress() ? R"(<NetworkInterface autodetermine="true" multicast="false"/>)" : "";
-  return R"(<CycloneDDS><Domain Id="any">
-    <General>
-      <Interfaces>)" +
-         own + R"(<NetworkInterface address="127.0.0.1" multicast="false"/></Interfaces>
-      <AllowMulticast>false</AllowMulticast>
-    </General>
-    <Discovery>
-      <ParticipantIndex>auto</ParticipantIndex>
-      <MaxAutoParticipantIndex>99</MaxAutoParticipantIndex>
-      <Peers><Peer Address="127.0.0.1"/></Peers>
-      <SPDPInterval>1s</SPDPInterval>
-    </Discovery>
-  </Domain></CycloneDDS>)";
+  return configuration(own + R"(<NetworkInterface address="127.0.0.1" multicast="false"/>)", "false", {"127.0.0.1"},
+                       100);
+}
+
+// Others are found by multicast, and at the addresses of peers; samples go to each by itself.
+std::string networkConfiguration(const RosReach& reach) {
+  return configuration("<NetworkInterface name=\"" + reach.interface_name + "\"/>", "spdp", reach.peers, 32);
 }
 
 dds_entity_t made(dds_entity_t entity, const char* what) {
@@ -118,6 +129,20 @@ void hearLog(void* tell, const dds_log_data_t* line) {
     malformed.input = RosInput::kMalformed;
     (*static_cast<const RosParticipant::Tell*>(tell))(malformed);
   }
+}
+
+/// Until there is a participant: the first that Cyclone DDS says of why there is none. Several threads may say it.
+struct StartLog {
+  std::mutex mutex;
+  std::string reason;
+};
+
+void hearStart(void* start_log, const dds_log_data_t* line) {
+  StartLog& start = *static_cast<StartLog*>(start_log);
+  const std::scoped_lock lock(start.mutex);
+  if ((line->priority & (DDS_LC_FATAL | DDS_LC_ERROR)) == 0 || !start.reason.empty()) return;
+  const std::string_view text(line->message, line->size);
+  start.reason = text.substr(0, text.find('\n'));
 }
 
 template <typename Message>
@@ -196,10 +221,20 @@ struct RosParticipant::Parts {
 };
 
 RosParticipant::RosParticipant(const RosTask& task, Tell tell) : parts_(std::make_unique<Parts>(std::move(tell))) {
+  const bool stays = task.reach.interface_name == "lo";
+  if (!stays) leaveLoopback();
+  const Qos qos(dds_create_qos(), dds_delete_qos);
+  if (!task.reach.enclave.empty()) addSecurity(*qos, readEnclave(task.reach.enclave, task.domain));
+  const std::string settings = stays ? loopbackConfiguration() : networkConfiguration(task.reach);
+  StartLog start;
+  dds_set_log_sink(&hearStart, &start);
+  parts_->domain = made(dds_create_domain(task.domain, settings.c_str()), "domain");
+  parts_->participant = dds_create_participant(task.domain, qos.get(), nullptr);
   dds_set_log_sink(&hearLog, const_cast<Tell*>(&parts_->tell));
-  parts_->domain = made(dds_create_domain(task.domain, configuration().c_str()), "domain");
-  parts_->participant = made(dds_create_participant(task.domain, nullptr, nullptr), "participant");
-  requireLoopbackOnly();
+  if (parts_->participant < 0 && !start.reason.empty())
+    throw Error("Cyclone DDS makes no participant: " + start.reason);
+  made(parts_->participant, "participant");
+  if (stays) requireLoopbackOnly();
   for (const std::string& hand : task.hands) parts_->add(hand);
 }
 

@@ -1,4 +1,4 @@
-// RosParticipant: hands as ROS 2 sees them, by Cyclone DDS, on this machine alone. In the program hl-ros only.
+// RosParticipant: hands as ROS 2 sees them, by Cyclone DDS. In the program hl-ros only.
 #pragma once
 
 #include <functional>

@@ -49,7 +49,7 @@ TEST(Command, AVolumeWithoutASurfaceSaysWhatItsValuesAre) {
 
 TEST(Command, HelpForEachCommand) {
   for (const char* command :
-       {"", "touch", "trace", "info", "doctor", "bench", "record", "replay", "stability", "sweep"}) {
+       {"", "touch", "trace", "info", "doctor", "bench", "record", "replay", "stability", "sweep", "keys"}) {
     const Result result = call(std::string(command) + " --help");
     EXPECT_EQ(result.code, 0) << command;
     EXPECT_NE(result.output.find("Usage"), std::string::npos) << command;
@@ -59,6 +59,22 @@ TEST(Command, HelpForEachCommand) {
 std::string contentOf(const std::string& file) {
   std::ifstream in(file);
   return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(Command, KeysAreMadeOnceForEachName) {
+  const std::string folder = hl::test::tempFile("hl_cmd_keys");
+  const Result made = call("keys " + folder + " --name lab/hand --name /console --domain 5");
+  EXPECT_EQ(made.code, 0);
+  EXPECT_NE(made.output.find("/enclaves/lab/hand: keys for domain 5\n"), std::string::npos) << made.output;
+  EXPECT_NE(contentOf(folder + "/enclaves/console/permissions.p7s").find("<id>5</id>"), std::string::npos);
+  const std::string key = contentOf(folder + "/enclaves/console/key.pem");
+  for (const char* words : {" --name console", " --name con-sole", " --name camera --domain 231", ""}) {
+    const Result refused = call("keys " + folder + words);
+    EXPECT_EQ(refused.code, 2) << words;
+    EXPECT_EQ(std::count(refused.output.begin(), refused.output.end(), '\n'), 1) << refused.output;
+  }
+  EXPECT_EQ(contentOf(folder + "/enclaves/console/key.pem"), key);
+  EXPECT_EQ(call("keys " + folder + " --name camera").code, 0);
 }
 
 // Whether it passes depends on what else the machine does meanwhile: tests/tools/test_self_test.cpp has that.

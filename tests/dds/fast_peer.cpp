@@ -54,11 +54,29 @@ void setReliability(Qos& qos, Reliability reliability) {
       reliability == Reliability::kReliable ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS;
 }
 
-dds::DomainParticipantQos participantQos(Reach reach) {
+// As rmw_fastrtps does it for ROS_SECURITY_ENABLE.
+void addSecurity(dds::DomainParticipantQos& qos, const std::string& enclave) {
+  const auto add = [&](const char* name, const std::string& value) {
+    qos.properties().properties().emplace_back(name, value);
+  };
+  add("dds.sec.auth.plugin", "builtin.PKI-DH");
+  add("dds.sec.crypto.plugin", "builtin.AES-GCM-GMAC");
+  add("dds.sec.access.plugin", "builtin.Access-Permissions");
+  for (const auto& [name, file] : std::map<std::string, std::string>{
+           {"identity_ca", "identity_ca.cert.pem"}, {"identity_certificate", "cert.pem"}, {"private_key", "key.pem"}})
+    add(("dds.sec.auth.builtin.PKI-DH." + name).c_str(), "file://" + enclave + '/' + file);
+  for (const auto& [name, file] : std::map<std::string, std::string>{{"permissions_ca", "permissions_ca.cert.pem"},
+                                                                     {"governance", "governance.p7s"},
+                                                                     {"permissions", "permissions.p7s"}})
+    add(("dds.sec.access.builtin.Access-Permissions." + name).c_str(), "file://" + enclave + '/' + file);
+}
+
+dds::DomainParticipantQos participantQos(Reach reach, const std::string& enclave) {
   dds::DomainParticipantQos qos = dds::PARTICIPANT_QOS_DEFAULT;
+  if (!enclave.empty()) addSecurity(qos, enclave);
   if (reach == Reach::kUsual) return qos;
   const auto transport = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
-  transport->interfaceWhiteList.emplace_back("127.0.0.1");
+  if (reach == Reach::kLoopback) transport->interfaceWhiteList.emplace_back("127.0.0.1");
   qos.transport().use_builtin_transports = false;
   qos.transport().user_transports.push_back(transport);
   return qos;
@@ -73,9 +91,9 @@ Entity* there(Entity* entity) {
 }  // namespace
 
 struct FastPeer::Parts {
-  Parts(std::uint32_t domain, Reach reach)
-      : participant(
-            there(dds::DomainParticipantFactory::get_instance()->create_participant(domain, participantQos(reach)))),
+  Parts(std::uint32_t domain, Reach reach, const std::string& enclave)
+      : participant(there(
+            dds::DomainParticipantFactory::get_instance()->create_participant(domain, participantQos(reach, enclave)))),
         publisher(there(participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT))),
         subscriber(there(participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT))) {}
   ~Parts() {
@@ -146,7 +164,8 @@ class OwnedWriter final : public FastWriter {
 
 }  // namespace
 
-FastPeer::FastPeer(std::uint32_t domain, Reach reach) : parts_(std::make_unique<Parts>(domain, reach)) {}
+FastPeer::FastPeer(std::uint32_t domain, Reach reach, const std::string& enclave)
+    : parts_(std::make_unique<Parts>(domain, reach, enclave)) {}
 FastPeer::~FastPeer() = default;
 
 std::unique_ptr<FastReader> FastPeer::reader(const std::string& topic, const std::string& type,

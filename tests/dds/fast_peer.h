@@ -31,13 +31,15 @@ class FastWriter {
   virtual void write(const Payload& payload, std::int64_t age_ns = 0) = 0;
 };
 
-/// As a participant of ROS 2 is by default; or with ROS_LOCALHOST_ONLY=1, which keeps it to 127.0.0.1.
-enum class Reach { kUsual, kLoopback };
+/// As a participant of ROS 2 is by default; or with ROS_LOCALHOST_ONLY=1, which keeps it to 127.0.0.1;
+/// or by UDP alone, as to another machine.
+enum class Reach { kUsual, kLoopback, kUdp };
 
 /// A participant. Its readers and writers end before it.
 class FastPeer {
  public:
-  explicit FastPeer(std::uint32_t domain, Reach reach = Reach::kUsual);
+  /// `enclave`: a folder of SROS2, for DDS Security; empty: without.
+  explicit FastPeer(std::uint32_t domain, Reach reach = Reach::kUsual, const std::string& enclave = {});
   ~FastPeer();
   FastPeer(const FastPeer&) = delete;
   FastPeer& operator=(const FastPeer&) = delete;

@@ -78,6 +78,14 @@ TEST(LoopbackOnly, TiedOnesHearEachOther) {
   EXPECT_EQ(heard, 7);
 }
 
+// Each test is a process of its own for ctest; in one with others it is the last.
+TEST(LoopbackOnlyEnds, WhereItIsLeftSocketsAreAsOthers) {
+  leaveLoopback();
+  const Socket socket(AF_INET, SOCK_DGRAM);
+  ASSERT_EQ(bindAnywhere(socket), 0);
+  EXPECT_EQ(socket.device(), "");
+}
+
 TEST(LoopbackOnly, LocalSocketsAreAsTheyWere) {
   const Socket socket(AF_UNIX, SOCK_DGRAM);
   sockaddr_un unnamed{};

@@ -58,6 +58,8 @@ void Hub::obey(const Order& order) {
       all[index(from, to)] = meant(from, to) ? changed(now, order) : now;
     });
     for (std::size_t i = 0; i < all.size(); ++i) links_[i].set(all[i]);
+  } else if (order.kind == OrderKind::kMulticast) {
+    multicast_ = order.multicast;
   } else if (order.kind != OrderKind::kCount) {
     const auto isCut = [&](int end) { return cut_[static_cast<std::size_t>(end - 1)]; };
     cut_[static_cast<std::size_t>(order.end - 1)] = order.kind == OrderKind::kCut;
@@ -67,6 +69,7 @@ void Hub::obey(const Order& order) {
 
 void Hub::put(int from, const Packet& packet, std::int64_t now_ns) {
   const int destination = destinationOf(packet, ends_);
+  if (destination == kAll && !multicast_) return;
   for (int to = 1; to <= ends_; ++to) {
     if (to != from && (destination == kAll || destination == to)) links_[index(from, to)].put(packet, now_ns);
   }

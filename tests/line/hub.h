@@ -43,6 +43,7 @@ class Hub {
   int ends_;
   std::vector<Link> links_;  // ends_ by ends_; those of an end to itself do nothing
   std::vector<bool> cut_;
+  bool multicast_ = true;
 };
 
 }  // namespace hl::line

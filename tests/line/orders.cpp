@@ -54,7 +54,7 @@ void addWord(Order& order, const std::string& name, const std::string& value, in
     order.reorder = switchOf(name, value);
   } else {
     throw Error("'" + name +
-                "' is no word of an order: from, to, delay, jitter, loss, rate, reorder, cut, mend, count");
+                "' is no word of an order: from, to, delay, jitter, loss, rate, reorder, cut, mend, multicast, count");
   }
 }
 
@@ -65,10 +65,15 @@ Order orderOf(std::string_view text, int ends) {
   Order order;
   std::string name, value;
   if (!(words >> name)) throw Error("an empty order");
-  if (name == "count" || name == "cut" || name == "mend") {
-    order.kind = name == "count" ? OrderKind::kCount : name == "cut" ? OrderKind::kCut : OrderKind::kMend;
-    if (order.kind != OrderKind::kCount) {
-      words >> value;
+  if (name == "count" || name == "cut" || name == "mend" || name == "multicast") {
+    if (name != "count") words >> value;
+    if (name == "count") {
+      order.kind = OrderKind::kCount;
+    } else if (name == "multicast") {
+      order.kind = OrderKind::kMulticast;
+      order.multicast = switchOf(name, value);
+    } else {
+      order.kind = name == "cut" ? OrderKind::kCut : OrderKind::kMend;
       order.end = endOf(name, value, ends);
     }
     if (words >> value) throw Error("'" + value + "' is too much for " + name);

@@ -13,13 +13,14 @@
 
 namespace hl::line {
 
-enum class OrderKind : std::uint8_t { kSet, kCut, kMend, kCount };
+enum class OrderKind : std::uint8_t { kSet, kCut, kMend, kMulticast, kCount };
 
 /// What is not said stays as it is. Ends are numbered from 1.
 struct Order {
   OrderKind kind = OrderKind::kSet;
-  int end = 0;           ///< of kCut and kMend
-  int from = 0, to = 0;  ///< of kSet; 0: all
+  int end = 0;            ///< of kCut and kMend
+  bool multicast = true;  ///< of kMulticast
+  int from = 0, to = 0;   ///< of kSet; 0: all
   std::optional<double> delay_ms, jitter_ms, loss_percent, rate_Mbit_s;
   std::optional<bool> reorder;
 };

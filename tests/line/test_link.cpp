@@ -162,6 +162,8 @@ TEST(Hub, APacketGoesToItsAddressAndOneToManyToAllOthers) {
   EXPECT_EQ(endsThatGet(hub, packetTo({10, 77, 0, 255})), others);
   EXPECT_EQ(endsThatGet(hub, packetTo({255, 255, 255, 255})), others);
   EXPECT_EQ(endsThatGet(hub, packetTo({239, 255, 0, 1})), others);
+  hub.obey(orderOf("multicast off", 3));
+  EXPECT_TRUE(endsThatGet(hub, packetTo({239, 255, 0, 1})).empty());
   for (const int end : {0, 2, 4}) EXPECT_TRUE(endsThatGet(hub, packetTo({10, 77, 0, end})).empty());
   EXPECT_TRUE(endsThatGet(hub, packetTo({8, 8, 8, 8})).empty());
   EXPECT_TRUE(endsThatGet(hub, {}).empty());
@@ -192,8 +194,8 @@ TEST(Hub, AnOrderThatCannotBeDoneChangesNothing) {
 
 TEST(Hub, WhatIsNoOrderIsRefused) {
   for (const char* text :
-       {"", "delay", "delay x", "delay nan", "delay -1", "loss 101", "loss inf", "rate -1", "reorder 1", "cut", "cut 4",
-        "cut 0", "cut 1.5", "cut 1 2", "from 9 delay 1", "speed 3", "count 1"})
+       {"", "delay", "delay x", "delay nan", "delay -1", "loss 101", "loss inf", "rate -1", "reorder 1", "multicast 1",
+        "cut", "cut 4", "cut 0", "cut 1.5", "cut 1 2", "from 9 delay 1", "speed 3", "count 1"})
     EXPECT_THROW(orderOf(text, 3), Error) << text;
 }
 

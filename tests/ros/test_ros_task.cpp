@@ -11,11 +11,30 @@ namespace hl {
 namespace {
 
 TEST(RosTask, ItsWordsAreReadAgain) {
-  const RosTask task{"1.2.3", 42, {"lab/left", "lab/right"}};
+  const RosTask task{"1.2.3", 42, {"lab/left", "lab/right"}, {"lo", "my keys", {}}};
   const RosTask again = rosTaskOf(wordsOf(task));
   EXPECT_EQ(again.version, task.version);
   EXPECT_EQ(again.domain, task.domain);
   EXPECT_EQ(again.hands, task.hands);
+  EXPECT_EQ(again.reach.interface_name, "lo");
+  EXPECT_EQ(again.reach.enclave, "my keys");
+}
+
+TEST(RosTask, OtherMachinesAreReachedWithKeysAlone) {
+  const auto refusalOf = [](const RosReach& reach) -> std::string {
+    try {
+      checkReach(reach);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_EQ(refusalOf({}), "");
+  EXPECT_EQ(refusalOf({"lo", "keys", {}}), "");
+  EXPECT_NE(refusalOf({"eth0", "", {}}).find("--ros-security FOLDER"), std::string::npos);
+  EXPECT_NE(refusalOf({"nowhere0", "keys", {}}).find("there is no network interface 'nowhere0'"), std::string::npos);
+  EXPECT_NE(refusalOf({"lo", "keys", {"10.0.0.1"}}).find("--ros-interface"), std::string::npos);
+  EXPECT_NE(refusalOf({"lo\n", "keys", {}}).find("control character"), std::string::npos);
 }
 
 TEST(RosTask, OtherWordsAreRefused) {
@@ -29,6 +48,12 @@ TEST(RosTask, OtherWordsAreRefused) {
     std::vector<std::string> words = good;
     words[place] = word;
     EXPECT_THROW(rosTaskOf(words), Error) << word;
+  }
+  for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{
+           {"--interface"}, {"--interface", "eth0"}, {"--peer", "10.0.0.1"}, {"--other", "word"}}) {
+    std::vector<std::string> words = good;
+    words.insert(words.begin() + 3, more.begin(), more.end());
+    EXPECT_THROW(rosTaskOf(words), Error) << more[0];
   }
   std::vector<std::string> many = good;
   many.insert(many.end(), 16, "hl/more");

@@ -1,0 +1,59 @@
+// hl keys: keys with which programs of ROS 2 on other machines may reach a hand, and nobody else.
+#include <fmt/core.h>
+
+#include <string>
+#include <vector>
+
+#include "base/printable.h"
+#include "commands.h"
+#include "ros/governance.h"
+#include "ros/keystore.h"
+#include "ros/ros_task.h"
+
+namespace hl {
+
+namespace {
+
+struct KeysOptions {
+  std::string folder;
+  std::vector<std::string> names;
+  std::uint32_t domain = 0;
+  bool domain_said = false;
+};
+
+void runKeys(const KeysOptions& options) {
+  checkPrintable(options.folder, "the folder of keys");
+  const std::uint32_t domain = options.domain_said ? options.domain : rosDomain();
+  std::vector<std::string> names;
+  for (const std::string& name : options.names) names.push_back(rosNamespace(name));
+  makeEnclaves(options.folder, names, domain);
+  for (const std::string& name : names)
+    fmt::print("{}/enclaves/{}: keys for domain {}\n", options.folder, name, domain);
+  fmt::print("keep {}/private to yourself: whoever has it may let others in\n", options.folder);
+}
+
+}  // namespace
+
+void addKeysCommand(CLI::App& app) {
+  CLI::App* const command = app.add_subcommand("keys", "Make keys for topics of ROS 2 beyond this machine");
+  const auto options = std::make_shared<KeysOptions>();
+  command->add_option("FOLDER", options->folder, "a keystore, as of ros2 security; made where there is none")
+      ->required();
+  command->add_option("--name", options->names, "of who gets keys, as hand or lab/camera; several times for several")
+      ->required()
+      ->allow_extra_args(false)
+      ->option_text("NAME");
+  command
+      ->add_option_function<std::uint32_t>(
+          "--domain",
+          [options](const std::uint32_t& domain) {
+            options->domain = domain;
+            options->domain_said = true;
+          },
+          "of DDS, in which they count; ROS_DOMAIN_ID or 0 without it")
+      ->check(CLI::Range(0U, kMaxKeysDomain))
+      ->option_text("N");
+  command->callback([options] { runKeys(*options); });
+}
+
+}  // namespace hl
