@@ -6,7 +6,7 @@ hl.hpp has ///.
 import re
 from dataclasses import dataclass, field
 
-HEADERS = ("hl.h", "hl_types.h", "hl.hpp", "hl_batch.h")
+HEADERS = ("hl.h", "hl_types.h", "hl.hpp", "hl_batch.h", "hl_teleop.h")
 
 
 @dataclass
@@ -33,13 +33,13 @@ class Header:
 C_PIECE = re.compile(r"""
     /\*\ ----\ (?P<section>[^*]*?)\ -*\ \*/
   | /\*\*(?!<)(?P<comment>.*?)\*/
-  | ^(?P<call>HL_API\ [^;]*;)[ ]*(?:/\*\*<(?P<behind>.*?)\*/)?
+  | ^(?P<call>HL_API\ [^;]*;|static\ inline\ [^{]*\{)[ ]*(?:/\*\*<(?P<behind>.*?)\*/)?
   | ^(?P<enum>enum\ \{.*?\};)
   | ^(?P<struct>typedef\ struct\ \w+\ \{.*?\}\ \w+;)
   | ^(?P<type>typedef\ [^;{]*;)[ ]*(?:/\*\*<(?P<type_behind>.*?)\*/)?
 """, re.VERBOSE | re.DOTALL | re.MULTILINE)
 ENUM_MEMBER = re.compile(r"\b(HL_\w+)\s*=")
-TITLES = {"hl_types.h": "Types and constants", "hl.hpp": "C++", "hl.h": "Calls", "hl_batch.h": "Batches"}
+TITLES = {"hl_types.h": "Types and constants", "hl.hpp": "C++", "hl.h": "Calls", "hl_batch.h": "Batches", "hl_teleop.h": "Teleoperation"}
 
 
 def words(comment):
@@ -58,7 +58,7 @@ def call_names(code):
 
 def add_call(section, code, text, behind):
     """A call without a comment of its own, or that says "see" another one, belongs to the one before."""
-    code = code.removeprefix("HL_API ")
+    code = re.sub(r"^static inline (.*?) \{$", r"\1;", code.removeprefix("HL_API "), flags=re.DOTALL)
     if not text and section.entries and (behind.startswith("see ") or not behind):
         section.entries[-1].names += call_names(code)
         section.entries[-1].code += "\n" + code

@@ -29,13 +29,13 @@ class Reference(unittest.TestCase):
         cls.names = [name for entry in cls.entries for name in entry.names]
 
     def test_every_call_is_in_it_once(self):
-        declared = [name for file in ("hl.h", "hl_batch.h")
-                    for name in re.findall(r"^HL_API [^;(]*?\b(hl[A-Z]\w*)\(", source(file), re.MULTILINE)]
+        declared = [name for file in ("hl.h", "hl_batch.h", "hl_teleop.h")
+                    for name in re.findall(r"^(?:HL_API|static inline) [^;(]*?\b(hl[A-Z]\w*)\(", source(file), re.MULTILINE)]
         self.assertGreater(len(declared), 100)
         self.assertEqual(sorted(name for name in self.names if re.match(r"hl[A-Z]", name)), sorted(declared))
 
     def test_every_constant_and_type_is_in_it(self):
-        types = source("hl_types.h") + source("hl_batch.h")
+        types = source("hl_types.h") + source("hl_batch.h") + source("hl_teleop.h")
         constants = set(re.findall(r"\b(HL_\w+) =", types))
         self.assertGreater(len(constants), 100)
         named = set(re.findall(r"^typedef struct (\w+)", types, re.MULTILINE))

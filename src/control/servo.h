@@ -9,6 +9,7 @@
 #include "control/effects.h"
 #include "control/hand_over.h"
 #include "control/passivity_guard.h"
+#include "control/remote_port.h"
 #include "control/safety.h"
 #include "control/servo_target.h"
 #include "control/vibration_guard.h"
@@ -26,6 +27,7 @@ struct SpringSettings {
   Effects effects{};
   GuardSettings guard{};
   VibrationSettings vibration{};
+  RemoteInput remote{};
 };
 
 /// Members are in the bases alone, so that recordings see them all: base/fields.h.
@@ -44,6 +46,8 @@ struct SpringState {
   std::int64_t spring_time_ns = 0;  ///< of the target it was taken from
   PassivityGuard guard;
   VibrationGuard vibration;
+  RemotePort remote;
+  Vec3 local_N = Vec3::Zero();  ///< the part of the last output that is without the robot
 };
 
 /// Between steps; default-constructed it is off: arm() and disarm() of safety.h. Owned by the servo thread.
