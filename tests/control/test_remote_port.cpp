@@ -42,11 +42,11 @@ TEST(TeleopPort, AnOlderTotalOrNoneChangesNothing) {
 // Whatever is booked and however it is sent, the two sides have given no more than was put in, and their tanks.
 RC_GTEST_PROP(TeleopPort, TwoSidesGiveNoMoreThanTheyWereGiven, ()) {
   HLteleopPort left = hlTeleopPort(), right = hlTeleopPort();
-  for (const int mJ : *rc::gen::container<std::vector<int>>(rc::gen::inRange(-20, 21))) {
-    HLteleopPort& here = mJ % 2 == 0 ? left : right;
-    HLteleopPort& there = mJ % 2 == 0 ? right : left;
-    hlTeleopBook(&here, std::min(1e-3 * mJ, std::max(0.0, here.tank_J)));
-    if (mJ % 3 != 0) hlTeleopReceive(&there, here.sent_J);
+  for (const int milli_J : *rc::gen::container<std::vector<int>>(rc::gen::inRange(-20, 21))) {
+    HLteleopPort& here = milli_J % 2 == 0 ? left : right;
+    HLteleopPort& there = milli_J % 2 == 0 ? right : left;
+    hlTeleopBook(&here, std::min(1e-3 * milli_J, std::max(0.0, here.tank_J)));
+    if (milli_J % 3 != 0) hlTeleopReceive(&there, here.sent_J);
     const double net_J = left.put_in_J + right.put_in_J - left.given_J - right.given_J;
     RC_ASSERT(net_J >= -2 * HL_TELEOP_TANK_J - 1e-12);
     RC_ASSERT(left.tank_J >= -1e-12);
@@ -70,7 +70,7 @@ TEST(TeleopRobot, BeginsWhereItIsAndNeverJumps) {
   EXPECT_NEAR(robot.goal_m[1], 0.3, 1e-9);
 }
 
-// A spring of 1000 N/m gets 1/2 K x^2 = 8 mJ and no more: 4 mm. Across the force the way is free.
+// A spring of 1000 N/m gets 1/2 K x^2 = 8 milli_J and no more: 4 mm. Across the force the way is free.
 TEST(TeleopRobot, PressesAsDeepAsItsTankPaysForAndSlidesFreely) {
   const double place_m[3] = {0, 0, 0}, goal_m[3] = {0.05, -0.05, 0};
   HLteleopRobot robot = hlTeleopRobot(place_m, 0.2);
@@ -130,7 +130,7 @@ TEST(RemotePort, TheClutchLetsGoInTheSameTime) {
   EXPECT_EQ(hand.port.held_N, Vec3(Vec3::Zero()));
 }
 
-// 3 N along 0.1 m/s are 0.3 mJ a step: the tank's 10 mJ are gone soon, and what is given is never more.
+// 3 N along 0.1 m/s are 0.3 milli_J a step: the tank's 10 milli_J are gone soon, and what is given is never more.
 TEST(RemotePort, AHandThatGivesWayGetsTheTankAndNoMore) {
   Stepper hand;
   const RemoteInput input = pushing(3);
