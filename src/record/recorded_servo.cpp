@@ -102,6 +102,24 @@ void addRare(std::span<const ServoRecord> records, proto::ServoSteps& out) {
   addStylus(records, out);
 }
 
+// Of a structure of today that ends with what was added.
+LaterForms laterAtEnd(const Values& now, const Values& added) {
+  LaterValues later;
+  const std::size_t numbers = now.numbers.size() - added.numbers.size();
+  for (std::size_t i = 0; i < added.numbers.size(); ++i) later.numbers.emplace_back(numbers + i, added.numbers[i]);
+  const std::size_t integers = now.integers.size() - added.integers.size();
+  for (std::size_t i = 0; i < added.integers.size(); ++i) later.integers.emplace_back(integers + i, added.integers[i]);
+  return {later};
+}
+
+// The settings and the state of a servo before there was a port to a robot far away.
+LaterForms laterOfSettings() { return laterAtEnd(valuesOf(ServoSettings{}), valuesOf(RemoteInput{})); }
+LaterForms laterOfState() {
+  Values added = valuesOf(RemotePort{});
+  added.numbers.insert(added.numbers.end(), 3, 0.0);  // SpringState::local_N
+  return laterAtEnd(valuesOf(ServoState{}), added);
+}
+
 }  // namespace
 
 void toProto(std::span<const ServoRecord> records, std::uint64_t first, proto::ServoSteps& out) {
@@ -129,14 +147,14 @@ std::vector<ServoRecord> fromProto(const proto::ServoSteps& in) {
   std::int64_t before_ns = 0;
   for (int i = 0, change = 0; i < in.flags_size(); ++i) {
     if (change < in.settings_size() && in.settings(change).at() == static_cast<std::uint32_t>(i)) {
-      readValues(in.settings(change++).values(), "the servo's settings", settings);
+      readValues(in.settings(change++).values(), "the servo's settings", settings, laterOfSettings());
     }
     if (i == in.flags_size() - 1 && change != in.settings_size()) throw Error(kMisfit);
     records.push_back(step(in, i, before_ns));
     records.back().settings = settings;
     before_ns = records.back().sample.time_ns;
   }
-  readValues(in.start(), "the servo's state", records.front().before);
+  readValues(in.start(), "the servo's state", records.front().before, laterOfState());
   return records;
 }
 
