@@ -15,6 +15,8 @@ struct RosOptions {
   std::string name_space;  ///< empty: no topics
   double rate_Hz = 250;
   RosReach reach;
+  std::string teleop_hand;  ///< as in its topics; empty: none leads a robot
+  TeleopSettings teleop;
 };
 
 /// `options` must outlive `app`.

@@ -31,8 +31,9 @@ struct TopicHearing {
 /// What one hand has of it.
 struct RosHandTopics {
   std::string name, frame;
-  dds_entity_t pose, twist, wrench, joy;  // writers
-  dds_entity_t gripper = 0;               // made when the hand is known to have one
+  dds_entity_t pose, twist, wrench, joy;                           // writers
+  dds_entity_t gripper = 0;                                        // made when the hand is known to have one
+  dds_entity_t set_point = 0, set_point_velocity = 0, energy = 0;  // made when it is known to lead a robot
 };
 
 namespace {
@@ -106,6 +107,15 @@ std::array<double, 3> valueOf(const geometry_msgs_msg_dds__PoseStamped_& message
   return {place.x, place.y, place.z};
 }
 
+std::array<double, 3> valueOf(const std_msgs_msg_dds__Float64_& message) { return {message.data, 0, 0}; }
+
+// Empty: the message names none.
+template <typename Message>
+const char* frameOf(const Message& message) {
+  if constexpr (requires { message.header; }) return message.header.frame_id == nullptr ? "" : message.header.frame_id;
+  return "";
+}
+
 geometry_msgs_msg_dds__Vector3_ vectorOf(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
 // The first few: whoever sends what is no packet may send it for ever.
@@ -153,10 +163,10 @@ void hear(dds_entity_t reader, void* argument) {
   while (dds_take(reader, samples, infos, 1, 1) > 0) {
     if (infos[0].valid_data) {
       const auto& message = *static_cast<const Message*>(samples[0]);
-      const char* const frame = message.header.frame_id == nullptr ? "" : message.header.frame_id;
+      const char* const frame = frameOf(message);
       (*hearing.tell)({hearing.input, hearing.hand, *frame == 0 || hearing.frame == frame,
-                       wrappedDifference_ns(dds_time(), infos[0].source_timestamp), monotonicNow_ns(),
-                       valueOf(message)});
+                       wrappedDifference_ns(dds_time(), infos[0].source_timestamp), monotonicNow_ns(), valueOf(message),
+                       infos[0].publication_handle});
     }
     dds_return_loan(reader, samples, 1);
   }
@@ -179,9 +189,10 @@ struct RosParticipant::Parts {
     return made(dds_create_writer(participant, topic(type, hand, name), sensorQos(5).get(), nullptr), "writer");
   }
   template <typename Message>
-  void listen(const dds_topic_descriptor_t& type, const std::string& hand, const char* name, RosInput input) {
-    hearings.push_back(std::make_unique<TopicHearing>(
-        TopicHearing{input, static_cast<std::uint32_t>(hands.size()), rosFrame(hand), &tell}));
+  void listen(const dds_topic_descriptor_t& type, const std::string& hand, const char* name, RosInput input,
+              std::size_t number) {
+    hearings.push_back(
+        std::make_unique<TopicHearing>(TopicHearing{input, static_cast<std::uint32_t>(number), rosFrame(hand), &tell}));
     const std::unique_ptr<dds_listener_t, void (*)(dds_listener_t*)> listener(
         dds_create_listener(hearings.back().get()), dds_delete_listener);
     dds_lset_data_available(listener.get(), &hear<Message>);
@@ -189,9 +200,9 @@ struct RosParticipant::Parts {
   }
   void add(const std::string& hand) {
     listen<geometry_msgs_msg_dds__WrenchStamped_>(geometry_msgs_msg_dds__WrenchStamped__desc, hand, "servo_cf",
-                                                  RosInput::kServoCf);
+                                                  RosInput::kServoCf, hands.size());
     listen<geometry_msgs_msg_dds__PoseStamped_>(geometry_msgs_msg_dds__PoseStamped__desc, hand, "servo_cp",
-                                                RosInput::kServoCp);
+                                                RosInput::kServoCp, hands.size());
     hands.push_back({hand, rosFrame(hand), writer(geometry_msgs_msg_dds__PoseStamped__desc, hand, "measured_cp"),
                      writer(geometry_msgs_msg_dds__TwistStamped__desc, hand, "measured_cv"),
                      writer(geometry_msgs_msg_dds__WrenchStamped__desc, hand, "measured_cf"),
@@ -212,6 +223,27 @@ struct RosParticipant::Parts {
     joint.position._buffer = &position;
     joint.effort._buffer = &effort;
     dds_write(hand.gripper, &joint);
+  }
+
+  // The topics of a hand that leads a robot far away.
+  void addTeleop(RosHandTopics& hand, std::size_t number) {
+    hand.set_point = writer(geometry_msgs_msg_dds__PoseStamped__desc, hand.name, "teleop/setpoint_cp");
+    hand.set_point_velocity = writer(geometry_msgs_msg_dds__TwistStamped__desc, hand.name, "teleop/setpoint_cv");
+    hand.energy = writer(std_msgs_msg_dds__Float64__desc, hand.name, "teleop/energy_in");
+    listen<geometry_msgs_msg_dds__WrenchStamped_>(geometry_msgs_msg_dds__WrenchStamped__desc, hand.name,
+                                                  "teleop/remote_cf", RosInput::kRemoteCf, number);
+    listen<std_msgs_msg_dds__Float64_>(std_msgs_msg_dds__Float64__desc, hand.name, "teleop/remote_energy_in",
+                                       RosInput::kRemoteEnergy, number);
+  }
+  void publishTeleop(RosHandTopics& hand, const std_msgs_msg_dds__Header_& header, const RosHandState& state) {
+    if (hand.set_point == 0) addTeleop(hand, state.hand);
+    const auto& p = state.set_point;
+    const geometry_msgs_msg_dds__PoseStamped_ pose{header, {{p[0], p[1], p[2]}, {0, 0, 0, 1}}};
+    const geometry_msgs_msg_dds__TwistStamped_ twist{header, {vectorOf(state.set_point_velocity), {0, 0, 0}}};
+    const std_msgs_msg_dds__Float64_ energy{state.given_up_J};
+    dds_write(hand.set_point, &pose);
+    dds_write(hand.set_point_velocity, &twist);
+    dds_write(hand.energy, &energy);
   }
 
   const Tell tell;
@@ -264,6 +296,7 @@ void RosParticipant::publish(const RosHandState& state) {
   dds_write(hand.wrench, &wrench);
   dds_write(hand.joy, &joy);
   if (state.has_gripper != 0) parts_->publishGripper(hand, header, state);
+  if (state.leads_robot != 0) parts_->publishTeleop(hand, header, state);
 }
 
 }  // namespace hl

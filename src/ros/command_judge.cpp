@@ -2,28 +2,17 @@
 
 #include <algorithm>
 
+#include "ros/command_values.h"
+
 namespace hl {
 
 namespace {
-
-Vec3 vectorOf(const HandCommand& command) { return {command.value[0], command.value[1], command.value[2]}; }
-
-// A vector of any finite components: their squares may be none.
-Vec3 cutTo(const Vec3& force_N, double most_N) {
-  const double largest_N = force_N.cwiseAbs().maxCoeff();
-  if (largest_N <= 0) return force_N;
-  const Vec3 direction = (force_N / largest_N).normalized();
-  return direction * std::min(most_N, largest_N * (force_N / largest_N).norm());
-}
 
 // Since it was sent. A clock that tells of the future counts as none.
 std::int64_t ageOf_ns(const HandCommand& command, std::int64_t now_ns) {
   constexpr std::int64_t kOld_ns = 2 * kCommandLife_ns;
   const std::int64_t on_the_way_ns = std::clamp<std::int64_t>(command.age_ns, 0, kOld_ns);
-  const bool from_later = command.arrived_ns > now_ns;
-  const std::int64_t waited_ns =
-      from_later || command.arrived_ns < now_ns - kOld_ns ? kOld_ns : now_ns - command.arrived_ns;
-  return on_the_way_ns + waited_ns;
+  return on_the_way_ns + waited_ns(command, now_ns, kOld_ns);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <optional>
@@ -25,10 +26,15 @@ struct RosHandState {
   std::array<double, 3> force{}, torque{};
   std::uint64_t has_gripper = 0;  ///< 0: the next two say nothing
   double gripper_rad = 0, gripper_N = 0;
+  std::uint64_t leads_robot = 0;  ///< 0: the next three say nothing; else the topics of a robot far away are there
+  std::array<double, 3> set_point{}, set_point_velocity{};
+  double given_up_J = 0;  ///< total of what the hand's side has given up for the robot's, J at the robot
 };
 
 /// kMalformed: what is no sample of its topic, or no packet of DDS; nothing else of the command says anything.
-enum class RosInput : std::uint32_t { kServoCf, kServoCp, kMalformed };
+enum class RosInput : std::uint32_t { kServoCf, kServoCp, kRemoteCf, kRemoteEnergy, kMalformed };
+/// Those that are topics.
+inline constexpr std::size_t kRosInputs = 4;
 
 /// From hl-ros: what somebody has sent to a hand, as it came. Nothing of it is to be trusted.
 struct HandCommand {
@@ -37,7 +43,8 @@ struct HandCommand {
   std::uint64_t own_frame = 0;    ///< 1: its frame is the hand's, or it names none
   std::int64_t age_ns = 0;        ///< how long before its arrival it was sent, by the clocks of both sides
   std::int64_t arrived_ns = 0;    ///< on the monotonic clock
-  std::array<double, 3> value{};  ///< a force in N, or a place in m
+  std::array<double, 3> value{};  ///< a force in N, a place in m, or one energy in J
+  std::uint64_t writer = 0;       ///< which of those that write to the topic
 };
 
 /// From hl-ros, once, in the place of a command: others can find its topics from now on.

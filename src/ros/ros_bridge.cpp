@@ -18,7 +18,7 @@ constexpr std::int64_t kLongestWait_ns = 20'000'000;
 
 constexpr std::array<const char*, static_cast<std::size_t>(CommandVerdict::kVerdicts)> kWhyRefused{
     "", "a sample is malformed", "a number is none, or infinite",
-    "a frame is not that of the hand, NAMESPACE/HAND/base, nor empty", "a command is older than 50 ms"};
+    "a frame is not that of the hand, NAMESPACE/HAND/base, nor empty", "a command comes too late"};
 
 // How far the system clock is ahead of the monotonic one. It may be set at any time, so it is asked each time.
 std::int64_t toSystem_ns() {
@@ -57,9 +57,14 @@ std::vector<std::string> rosHands(const std::string& name_space, const std::vect
 }
 
 RosBridge::RosBridge(std::unique_ptr<RosLink> link, const std::vector<TouchSession*>& hands, double rate_Hz,
-                     TellPerson tell)
+                     TellPerson tell, const std::optional<TeleopOfHand>& teleop)
     : link_(std::move(link)), period_ns_(static_cast<std::int64_t>(1e9 / rate_Hz)), tell_(std::move(tell)) {
   for (TouchSession* const session : hands) hands_.push_back({session, CommandJudge(session->deviceInfo())});
+  if (!teleop) return;
+  Hand& hand = hands_.at(teleop->hand);
+  hand.leading.emplace(Leading{teleop->settings, RemoteJudge(hand.session->deviceInfo(), teleop->settings),
+                               TeleopClutch(teleop->settings)});
+  teleop_.emplace();
 }
 
 void RosBridge::start() {
@@ -70,7 +75,10 @@ void RosBridge::start() {
 void RosBridge::stop() {
   if (!running_.exchange(false)) return;
   thread_.join();
-  for (const Hand& hand : hands_) hand.session->pull({});
+  for (const Hand& hand : hands_) {
+    hand.session->pull({});
+    if (hand.leading) hand.session->setRemote({});
+  }
 }
 
 void RosBridge::run() {
@@ -95,13 +103,48 @@ void RosBridge::takeCommands() {
     if (input < received_.size()) ++received_[input];
     const bool known = command->hand < hands_.size();
     Hand* const hand = known ? &hands_[command->hand] : nullptr;
-    const CommandVerdict verdict = known ? hand->judge.judge(*command, monotonicNow_ns()) : CommandVerdict::kMalformed;
+    const CommandVerdict verdict = known ? take(*hand, *command) : CommandVerdict::kMalformed;
     if (verdicts_[static_cast<std::size_t>(verdict)]++ == 0) tellRefusal(verdict);
-    if (verdict == CommandVerdict::kTaken) hand->session->pull(hand->judge.pull());
   }
   for (Hand& hand : hands_) {
     if (hand.judge.takeEnd(monotonicNow_ns())) ++ends_;
   }
+}
+
+CommandVerdict RosBridge::take(Hand& hand, const HandCommand& command) {
+  const bool from_robot = command.input == RosInput::kRemoteCf || command.input == RosInput::kRemoteEnergy;
+  if (from_robot && !hand.leading) return CommandVerdict::kMalformed;
+  const std::int64_t now_ns = monotonicNow_ns();
+  const CommandVerdict verdict =
+      from_robot ? hand.leading->judge.judge(command, now_ns) : hand.judge.judge(command, now_ns);
+  if (verdict != CommandVerdict::kTaken) return verdict;
+  if (from_robot) giveInput(hand);
+  if (!from_robot) hand.session->pull(hand.judge.pull());
+  return verdict;
+}
+
+void RosBridge::giveInput(const Hand& hand) {
+  RemoteInput input = hand.leading->judge.input();
+  input.engaged = hand.leading->clutch.engaged();
+  hand.session->setRemote(input);
+}
+
+// Where the robot is to be, by the hand's newest moment, and what its side may give.
+void RosBridge::lead(Hand& hand, const HandMotion& motion, RosHandState& state) {
+  Leading& leading = *hand.leading;
+  leading.clutch.follow(motion.newest.finger_D, motion.newest.buttons, hand.session->makesForce());
+  giveInput(hand);
+  hand.session->readRemote(leading.port);
+  const Vec3 velocity_m_s =
+      leading.clutch.engaged() ? Vec3(leading.settings.scale * motion.velocity_m_s) : Vec3(Vec3::Zero());
+  state.leads_robot = 1;
+  state.given_up_J = leading.port.energy.sent_J / leading.settings.jouleScale();
+  for (std::size_t i = 0; i < 3; ++i) {
+    state.set_point[i] = leading.clutch.setPoint()[static_cast<Eigen::Index>(i)];
+    state.set_point_velocity[i] = velocity_m_s[static_cast<Eigen::Index>(i)];
+  }
+  const std::lock_guard lock(teleop_mutex_);
+  teleop_ = TeleopView{leading.clutch.engaged(), leading.port};
 }
 
 void RosBridge::tellRefusal(CommandVerdict verdict) {
@@ -117,12 +160,15 @@ void RosBridge::tellHands() {
     if (!motion || motion->newest.time_ns == hands_[i].told_ns) continue;
     hands_[i].told_ns = motion->newest.time_ns;
     const bool has_gripper = hands_[i].session->deviceInfo().gripper_max_rad > 0;
-    ++(link_->send(stateOf(i, *motion, has_gripper, to_system_ns)) ? states_ : states_lost_);
+    RosHandState state = stateOf(i, *motion, has_gripper, to_system_ns);
+    if (hands_[i].leading) lead(hands_[i], *motion, state);
+    ++(link_->send(state) ? states_ : states_lost_);
   }
 }
 
 RosCounts RosBridge::counts() const {
-  return {linked_, states_, states_lost_, read(received_), read(verdicts_), ends_};
+  const std::lock_guard lock(teleop_mutex_);
+  return {linked_, states_, states_lost_, read(received_), read(verdicts_), ends_, teleop_};
 }
 
 }  // namespace hl

@@ -8,6 +8,7 @@
 #include "base/latest.h"
 #include "base/vec.h"
 #include "control/hand_pull.h"
+#include "control/remote_port.h"
 #include "touch/held_contacts.h"
 
 namespace hl {
@@ -20,11 +21,13 @@ struct TickMessage {
 
 /// Frame D.
 struct LoopExchange {
-  Latest<Vec3> finger_D{Vec3::Zero()};           ///< servo to proxy
-  Latest<Vec3> finger_for_hand_D{Vec3::Zero()};  ///< servo to hand
-  Latest<TickMessage> ticks{TickMessage{}};      ///< proxy to servo
-  Latest<HandPull> pulls{HandPull{}};            ///< to the servo, from a program beside HL
-  std::atomic<bool> makes_force{false};          ///< as of the servo's last step
+  Latest<Vec3> finger_D{Vec3::Zero()};            ///< servo to proxy
+  Latest<Vec3> finger_for_hand_D{Vec3::Zero()};   ///< servo to hand
+  Latest<TickMessage> ticks{TickMessage{}};       ///< proxy to servo
+  Latest<HandPull> pulls{HandPull{}};             ///< to the servo, from a program beside HL
+  Latest<RemoteInput> remotes{RemoteInput{}};     ///< to the servo, from a robot far away
+  Latest<RemotePort> remote_ports{RemotePort{}};  ///< from the servo, for the robot's side
+  std::atomic<bool> makes_force{false};           ///< as of the servo's last step
   /// Times that the device began to answer: the finger is elsewhere then.
   std::atomic<std::uint64_t> arrivals{0};
 };

@@ -73,6 +73,7 @@ void ServoLoop::step() {
   HandPull pull;
   parts_.exchange.pulls.read(pull);
   settings_.effects = withPull(effects_, pull, now_ns);
+  parts_.exchange.remotes.read(settings_.remote);
   const DeviceSample sample = reader_.read(now_ns);
   const ServoCommand command = commandFor(sample);
   const ServoState before = step_.servo();
@@ -83,6 +84,7 @@ void ServoLoop::step() {
   // Found while this step stood still: its force is an old one.
   if (watch_.stalled()) parts_.device.write(Vec3::Zero());
   parts_.exchange.finger_for_hand_D.write(sample.position);
+  if (settings_.remote.on) parts_.exchange.remote_ports.write(step_.servo().remote);
   tell({before, command, settings_, step_.target(), sample, out, 0}, now_ns);
 }
 

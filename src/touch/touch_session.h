@@ -63,6 +63,10 @@ class TouchSession {
   bool actOnBody(const BodyCommand& command) { return live_.actOnBody(command); }
   /// In the place of the one before; its times are on the monotonic clock. One thread at a time.
   void pull(const HandPull& pull) { exchange_.pulls.write(pull); }
+  /// What a robot far away does to the hand, in the place of the one before; as pull(). readRemote(): the same thread.
+  void setRemote(const RemoteInput& input) { exchange_.remotes.write(input); }
+  void readRemote(RemotePort& port) { exchange_.remote_ports.read(port); }
+  bool makesForce() const { return exchange_.makes_force.load(std::memory_order_relaxed); }
   double stiffness_N_m() const { return live_.stiffness_N_m(); }
   MaterialOverride surfaces() const { return live_.surfaces(); }
   LedgerMode ledger() const { return live_.ledger(); }

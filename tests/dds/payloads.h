@@ -79,6 +79,9 @@ inline Payload poseOf(const std::string& frame, const std::array<double, 3>& pla
   return PayloadWriter().number(0).number(0u).text(frame).numbers(place).numbers<4>({0, 0, 0, 1}).payload();
 }
 
+inline Payload energyOf(double total_J) { return PayloadWriter().number(total_J).payload(); }
+
+inline constexpr const char* kNumberType = "std_msgs::msg::dds_::Float64_";
 inline constexpr const char* kPoseType = "geometry_msgs::msg::dds_::PoseStamped_";
 inline constexpr const char* kTwistType = "geometry_msgs::msg::dds_::TwistStamped_";
 inline constexpr const char* kWrenchType = "geometry_msgs::msg::dds_::WrenchStamped_";

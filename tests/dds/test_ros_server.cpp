@@ -104,7 +104,8 @@ class RosServer : public ::testing::Test {
   RosBridge bridge_{std::make_unique<RosProcess>(RosTask{HL_VERSION, testDomain(), {hand_}}),
                     {&session_},
                     250,
-                    [](const std::string&) {}};
+                    [](const std::string&) {},
+                    TeleopOfHand{0, {1, 1, std::nullopt, 0.5}}};
   FastPeer peer_{testDomain()};
 };
 
@@ -282,6 +283,26 @@ TEST_F(RosServer, HlRosMayDie) {
   test::waitFor([&] { return force().isZero(0); });
   const std::uint64_t steps = session_.servoTotals().steps;
   test::waitFor([&] { return session_.servoTotals().steps > steps + 10; });
+}
+
+// The robot's wall is 10 mm below where it was at first; what it feels there the hand feels, and both count the energy.
+TEST_F(RosServer, TheRobotOfTheExampleIsLedToItsWallAndTheHandFeelsIt) {
+  const Started robot("examples/20_robot", {hand_, "600"});
+  const auto set_points = reader("teleop/setpoint_cp", test::kPoseType);
+  const auto points = writer("servo_cp", test::kPoseType);
+  const auto taken = [&] { return bridge_.counts().received[static_cast<std::size_t>(RosInput::kRemoteCf)]; };
+  test::waitFor([&] { return taken() > 10; });
+  const Vec3 begin_D = test::servoOf(session_).finger_D;
+  int said = 0;
+  bool led = false, felt = false;
+  test::waitFor([&] {
+    const double y = begin_D.y() - 0.06 * std::min(1.0, 1e-3 * ++said);
+    points->write(test::poseOf("", {begin_D.x(), y, begin_D.z()}));
+    force();
+    led = led || newestOf(*set_points).value[1] < -0.012;
+    felt = felt || bridge_.counts().teleop->port.asked_N.y() > 0.1;
+    return led && felt;
+  });
 }
 
 TEST_F(RosServer, TheExampleLeadsTheHand) {

@@ -38,6 +38,10 @@ RosHandState state() {
   state.gripper_rad = 0.25;
   state.gripper_N = 4;
   state.force = {3, 0.125, -1};
+  state.leads_robot = 1;
+  state.set_point = {4, 0.5, 3};
+  state.set_point_velocity = {-1, 0.125, -2};
+  state.given_up_J = 0.25;
   return state;
 }
 
@@ -122,6 +126,16 @@ TEST_F(GoldenBytes, OfAGripper) {
   EXPECT_EQ(wire("gripper/measured_js", test::kJointType), golden);
 }
 
+TEST_F(GoldenBytes, OfWhatLeadsARobot) {
+  Payload place = goldenHeader(), velocity = goldenHeader(), energy{0, 1, 0, 0};
+  appendDoubles(place, {kFour, kHalf, kThree, 0, 0, 0, kOne});
+  EXPECT_EQ(wire("teleop/setpoint_cp", test::kPoseType), place);
+  appendDoubles(velocity, {kMinusOne, kEighth, kMinusTwo, 0, 0, 0});
+  EXPECT_EQ(wire("teleop/setpoint_cv", test::kTwistType), velocity);
+  appendDoubles(energy, {kQuarter});
+  EXPECT_EQ(wire("teleop/energy_in", test::kNumberType), energy);
+}
+
 // What has come of the samples that the writer repeats: the next one of this topic, as others may still be under way.
 HandCommand told(RosProcess& ros, test::FastWriter& writer, const Payload& payload,
                  RosInput input = RosInput::kServoCf) {
@@ -149,6 +163,24 @@ TEST(RosWire, TakesForcesAndPlacesOfReliableAndOfBestEffortWriters) {
     EXPECT_EQ(pose.own_frame, 1u);
     EXPECT_EQ(pose.value, (std::array<double, 3>{-1, 0.5, 4}));
   }
+}
+
+// Their topics are there once a hand is known to lead a robot. Each has a writer of its own.
+TEST(RosWire, TakesForceAndEnergyOfARobot) {
+  const std::string hand = ownHand();
+  RosProcess ros(taskOf(hand));
+  FastPeer peer(ownDomain());
+  const auto forces = peer.writer(ddsTopic(hand, "teleop/remote_cf"), test::kWrenchType, Reliability::kBestEffort);
+  const auto energies =
+      peer.writer(ddsTopic(hand, "teleop/remote_energy_in"), test::kNumberType, Reliability::kReliable);
+  ros.send(state());
+  const HandCommand force = told(ros, *forces, test::wrenchOf("", {1, -2, 3}), RosInput::kRemoteCf);
+  EXPECT_EQ(force.value, (std::array<double, 3>{1, -2, 3}));
+  const HandCommand energy = told(ros, *energies, test::energyOf(0.125), RosInput::kRemoteEnergy);
+  EXPECT_EQ(energy.value[0], 0.125);
+  EXPECT_EQ(energy.own_frame, 1u);
+  EXPECT_NE(energy.writer, 0u);
+  EXPECT_NE(energy.writer, force.writer);
 }
 
 TEST(RosWire, MeetsProgramsThatAreKeptToThisMachine) {

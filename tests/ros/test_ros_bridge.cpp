@@ -90,11 +90,14 @@ class RosBridgeTest : public ::testing::Test {
   std::vector<std::string> lines_;
   const std::shared_ptr<const Snapshot> nothing_ = makeSnapshot(std::vector<Instance>{}, "nothing");
   std::array<TouchSession, 2> sessions_{TouchSession(nothing_, quiet()), TouchSession(nothing_, quiet())};
-  RosBridge bridge_{
-      std::make_unique<FakeLink>(wire_), {&sessions_[0], &sessions_[1]}, 250, [this](const std::string& line) {
-        const std::lock_guard lock(lines_mutex_);
-        lines_.push_back(line);
-      }};
+  RosBridge bridge_{std::make_unique<FakeLink>(wire_),
+                    {&sessions_[0], &sessions_[1]},
+                    250,
+                    [this](const std::string& line) {
+                      const std::lock_guard lock(lines_mutex_);
+                      lines_.push_back(line);
+                    },
+                    TeleopOfHand{1, {2, 0.5, std::nullopt, 0.5}}};  // without a clutch
 };
 
 TEST_F(RosBridgeTest, TellsBothHandsOverAndOverWithTheirTimes) {
@@ -140,6 +143,43 @@ TEST_F(RosBridgeTest, ASetPointPullsToItsPlace) {
     return forceOf(0).x() > 0.5;
   });
   EXPECT_GE(bridge_.counts().received[1], 1u);
+}
+
+// Of the second hand alone, at the scale 2.
+TEST_F(RosBridgeTest, AHandLeadsARobotByItsWay) {
+  const auto farthest_m = [&] {
+    double most_m = 0;
+    for (const RosHandState& state : wire_.told()) {
+      EXPECT_EQ(state.leads_robot, state.hand);
+      most_m = std::max(most_m, std::abs(state.set_point[0]));
+    }
+    return most_m;
+  };
+  const Vec3 place_D = test::servoOf(sessions_[1]).finger_D + Vec3(0.02, 0, 0);
+  test::waitFor([&] {
+    say(1, RosInput::kServoCp, {place_D.x(), place_D.y(), place_D.z()});
+    forceOf(1);
+    return farthest_m() > 0.02;
+  });
+}
+
+// At the force scale 1/2. Its energy is the tank's: nobody gives more.
+TEST_F(RosBridgeTest, ARobotsForceIsFeltAndEndsByItself) {
+  test::waitFor([&] {
+    say(1, RosInput::kRemoteCf, {0, 2, 0});
+    say(1, RosInput::kRemoteEnergy, {1, 0, 0});
+    return forceOf(1).y() > 0.3 && bridge_.counts().teleop->port.energy.given_J > 0;
+  });
+  test::waitFor([&] { return forceOf(1).isZero(1e-3); });
+  EXPECT_LE(bridge_.counts().teleop->port.energy.given_J,
+            HL_TELEOP_TANK_J + bridge_.counts().teleop->port.energy.put_in_J);
+  EXPECT_GE(bridge_.counts().received[static_cast<std::size_t>(RosInput::kRemoteCf)], 1u);
+}
+
+TEST_F(RosBridgeTest, AHandWithoutARobotTakesNoneOfItsTopics) {
+  say(0, RosInput::kRemoteCf, {0, 2, 0});
+  test::waitFor([&] { return count(CommandVerdict::kMalformed) == 1; });
+  EXPECT_TRUE(forceOf(0).isZero(0));
 }
 
 TEST_F(RosBridgeTest, WhatCannotBeTrustedIsCountedAndNotFelt) {
