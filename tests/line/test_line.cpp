@@ -61,8 +61,13 @@ TEST_F(LineTest, ExactlyThePacketsOfTheSeedAreLost) {
   int came = 0;
   for (int sent = 0; sent < kCount;) {
     for (int i = 0; i < kTogether; ++i) ASSERT_TRUE(here.send(addressOf(2), {++sent}));
-    waitFor([&] { return line.counts(1, 2).taken == static_cast<std::uint64_t>(sent); });
-    while (there.receive()) ++came;
+    // All are through before the next ones come: no buffer is ever full.
+    waitFor([&] {
+      const LinkCounts counts = line.counts(1, 2);
+      while (there.receive()) ++came;
+      return counts.taken == static_cast<std::uint64_t>(sent) && counts.given == static_cast<std::uint64_t>(came) &&
+             counts.waiting == 0;
+    });
   }
   Packet packet(28);
   packet[0] = 0x45;
