@@ -29,7 +29,7 @@ void updateVelocity(ServoState& state, const DeviceSample& sample) {
 
 // Without force nothing is remembered of how the finger moved: what arms next begins with what it sees.
 void rest(ServoState& state) {
-  state.force_N = state.local_N = state.velocity_m_s = state.guard.held_N = Vec3::Zero();
+  state.force_N = state.velocity_m_s = state.guard.held_N = Vec3::Zero();
   state.spring.pulling = state.has_last = false;
   restVibration(state.vibration);
   restRemote(state.remote);
@@ -90,17 +90,18 @@ Vec3 within(const ServoSettings& settings, const Vec3& force_N, const Vec3& want
   return force_N + limited(wanted - force_N, settings.force_rate_limit_N_s * settings.period_s);
 }
 
-// With what the robot far away adds. What it has added is the difference to the force that would have been made without
-// it, limits and all.
-void makeForce(ServoState& state, const ServoSettings& settings, const Vec3& local_N, double part,
+// With what the robot far away adds: the difference to the force that would have been made without it, limits and all.
+// Gives that one.
+Vec3 makeForce(ServoState& state, const ServoSettings& settings, const Vec3& wanted_N, double part,
                const DeviceSample& sample) {
-  state.local_N = within(settings, state.local_N, local_N);
+  const Vec3 local_N = within(settings, state.force_N - state.remote.held_N, wanted_N);
   const RemoteStep step{sample.time_ns, settings.period_s, sample.position - state.before_D[0], state.velocity_m_s,
-                        state.local_N};
+                        local_N};
   const Vec3 added_N =
       settings.remote.on ? Vec3(part * remoteForce(state.remote, settings.remote, step)) : Vec3(Vec3::Zero());
-  state.force_N = within(settings, state.force_N, local_N + added_N);
-  state.remote.held_N = state.force_N - state.local_N;
+  state.force_N = within(settings, state.force_N, wanted_N + added_N);
+  state.remote.held_N = state.force_N - local_N;
+  return local_N;
 }
 
 }  // namespace
@@ -134,8 +135,8 @@ ServoOutput stepServo(ServoState& state, const ServoSettings& settings, const Se
   if (settings.guard.on)
     spring_N = guarded(state.guard, settings.guard, spring_N, sample.position - state.before_D[0], touching,
                        settings.period_s);
-  makeForce(state, settings, part * spring_N + effects_N, part, sample);
-  state.guard.held_N = state.local_N - effects_N;
+  const Vec3 local_N = makeForce(state, settings, part * spring_N + effects_N, part, sample);
+  state.guard.held_N = local_N - effects_N;
   return output(state);
 }
 

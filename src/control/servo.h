@@ -47,7 +47,6 @@ struct SpringState {
   PassivityGuard guard;
   VibrationGuard vibration;
   RemotePort remote;
-  Vec3 local_N = Vec3::Zero();  ///< the part of the last output that is without the robot
 };
 
 /// Between steps; default-constructed it is off: arm() and disarm() of safety.h. Owned by the servo thread.

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "io/value_messages.h"
+#include "record/rare_values.h"
 
 namespace hl {
 
@@ -13,7 +14,7 @@ namespace hl {
 template <typename Record, typename Message>
 void addFields(std::span<const Record> records, Message& out) {
   const auto acts = [](const Record& record) {
-    return record.target.field_N != Vec3(Vec3::Zero()) || record.target.field_drag_Ns_m != 0;
+    return !isZeroToTheBit(record.target.field_N) || !isZeroToTheBit(record.target.field_drag_Ns_m);
   };
   if (std::none_of(records.begin(), records.end(), acts)) return;
   for (const Record& record : records) {

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/fields.h"
 #include "io/value_messages.h"
+#include "record/rare_values.h"
 #include "record/recorded_fields.h"
 #include "record/recorded_stylus.h"
 
@@ -90,7 +91,7 @@ constexpr const char* kMisfit = "the lists of a block of servo steps do not agre
 
 // What few devices tell is written for all steps or for none.
 void addRare(std::span<const ServoRecord> records, proto::ServoSteps& out) {
-  const auto weighs = [](const ServoRecord& record) { return record.sample.weight_N != Vec3(Vec3::Zero()); };
+  const auto weighs = [](const ServoRecord& record) { return !isZeroToTheBit(record.sample.weight_N); };
   if (std::any_of(records.begin(), records.end(), weighs)) {
     for (const ServoRecord& record : records) add(*out.mutable_weight_n(), record.sample.weight_N);
   }
@@ -114,11 +115,7 @@ LaterForms laterAtEnd(const Values& now, const Values& added) {
 
 // The settings and the state of a servo before there was a port to a robot far away.
 LaterForms laterOfSettings() { return laterAtEnd(valuesOf(ServoSettings{}), valuesOf(RemoteInput{})); }
-LaterForms laterOfState() {
-  Values added = valuesOf(RemotePort{});
-  added.numbers.insert(added.numbers.end(), 3, 0.0);  // SpringState::local_N
-  return laterAtEnd(valuesOf(ServoState{}), added);
-}
+LaterForms laterOfState() { return laterAtEnd(valuesOf(ServoState{}), valuesOf(RemotePort{})); }
 
 }  // namespace
 

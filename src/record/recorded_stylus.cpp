@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "base/fields.h"
+#include "record/rare_values.h"
 
 namespace hl {
 
@@ -34,11 +36,12 @@ LaterForms laterOfDevice() {
 void addStylus(std::span<const ServoRecord> records, proto::ServoSteps& out) {
   const Stylus none;
   const auto turns = [&](const Stylus& one) {
-    return one.turned.coeffs() != none.turned.coeffs() || one.spin_rad_s != none.spin_rad_s;
+    return std::memcmp(one.turned.coeffs().data(), none.turned.coeffs().data(), 4 * sizeof(double)) != 0 ||
+           !isZeroToTheBit(one.spin_rad_s);
   };
   const bool turn = anyHas(records, turns);
-  const bool opens = anyHas(records, [](const Stylus& one) { return one.gripper_rad != 0; });
-  const bool presses = anyHas(records, [](const Stylus& one) { return one.gripper_N != 0; });
+  const bool opens = anyHas(records, [](const Stylus& one) { return !isZeroToTheBit(one.gripper_rad); });
+  const bool presses = anyHas(records, [](const Stylus& one) { return !isZeroToTheBit(one.gripper_N); });
   for (const ServoRecord& record : records) {
     const Stylus& stylus = record.sample.stylus;
     if (turn) {
