@@ -30,8 +30,6 @@ std::string plainText(std::string name) {
   return name;
 }
 
-Vec3 vecOf(const proto::Vec3& v) { return {v.x(), v.y(), v.z()}; }
-
 Workspace workspaceOf(const proto::DeviceSettings& settings) {
   return {vecOf(settings.workspace().origin()), settings.workspace().world_per_device()};
 }

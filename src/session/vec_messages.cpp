@@ -8,6 +8,8 @@ void toProto(const Vec3& v, proto::Vec3& out) {
   out.set_z(v.z());
 }
 
+Vec3 vecOf(const proto::Vec3& in) { return {in.x(), in.y(), in.z()}; }
+
 void toProto(const Eigen::Quaterniond& turned, proto::Rotation& out) {
   out.set_x(turned.x());
   out.set_y(turned.y());

@@ -10,6 +10,7 @@
 namespace hl {
 
 void toProto(const Vec3& v, proto::Vec3& out);
+Vec3 vecOf(const proto::Vec3& in);
 void toProto(const Eigen::Quaterniond& turned, proto::Rotation& out);
 Eigen::Quaterniond turnOf(const proto::Rotation& in);
 

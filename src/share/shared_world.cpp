@@ -4,6 +4,8 @@
 #include <set>
 #include <utility>
 
+#include "session/vec_messages.h"
+
 namespace hl {
 
 namespace {
@@ -79,6 +81,7 @@ void SharedWorld::hearItem(const proto::ShareItem& item, std::int64_t now_ns) {
     record.content = std::make_shared<const proto::ShareContent>(item.content());
   record.item = item;
   record.heard_ns = now_ns;
+  names_changed_ = true;
   const ItemMotion motion = motionOf(item.motion()).value_or(ItemMotion{});
   item.moving() ? record.track.add(item.time_ns(), motion) : record.track.rest(item.time_ns(), motion);
 }
@@ -114,8 +117,7 @@ void SharedWorld::hearPoses(const proto::SharePoses& poses, std::int64_t now_ns)
 
 void SharedWorld::hearPush(const proto::SharePush& push) {
   const auto found = records_.find(push.id());
-  const Vec3 impulse(push.impulse_n_s().x(), push.impulse_n_s().y(), push.impulse_n_s().z());
-  const Vec3 point(push.point_m().x(), push.point_m().y(), push.point_m().z());
+  const Vec3 impulse = vecOf(push.impulse_n_s()), point = vecOf(push.point_m());
   constexpr double kMostImpulse_N_s = 1e3, kMostPoint_m = 1e9, kLongest_s = 10;
   const bool sensible = impulse.allFinite() && impulse.norm() < kMostImpulse_N_s && point.allFinite() &&
                         point.norm() < kMostPoint_m && push.duration_s() >= 0 && push.duration_s() <= kLongest_s;
@@ -176,6 +178,7 @@ void SharedWorld::define(ItemId id, const LocalItem& local, std::int64_t now_ns)
     change(record);
   }
   if (record.content == local.content && record.item.definer() == self_.id) return;
+  names_changed_ = true;
   record.content = local.content;
   *record.item.mutable_content() = *local.content;
   record.item.set_definer(self_.id);
@@ -219,6 +222,7 @@ void SharedWorld::endDeleted(const LocalItems& local, bool complete, std::int64_
     const bool left = record.item.definer_name() == self_.name && !peers_.isThere(record.item.definer(), now_ns);
     if (!ours && !(left && settled)) continue;
     own(record, isOwn(record) ? record.item.epoch() : record.item.epoch() + 1, {}, now_ns);
+    names_changed_ = true;
     record.item.set_gone(true);
     record.item.clear_content();
     record.item.clear_motion();
@@ -266,13 +270,8 @@ void SharedWorld::press(const ItemPush& push) {
   out.set_id(push.id);
   out.set_number(++push_numbers_[push.id]);
   out.set_duration_s(push.duration_s);
-  const auto write = [](const Vec3& v, proto::Vec3& to) {
-    to.set_x(v.x());
-    to.set_y(v.y());
-    to.set_z(v.z());
-  };
-  write(push.impulse_N_s, *out.mutable_impulse_n_s());
-  write(push.point_O, *out.mutable_point_m());
+  toProto(push.impulse_N_s, *out.mutable_impulse_n_s());
+  toProto(push.point_O, *out.mutable_point_m());
   ++counts_.pushes_sent;
   post(found->second.item.owner(), std::move(message));
 }
@@ -318,8 +317,10 @@ void SharedWorld::sendItems() {
   }
 }
 
-// What of the objects of others is not here: of their owner first.
-void SharedWorld::fetch(std::int64_t now_ns) {
+// What of the objects of others is not here, of their owner first; what no object has goes. When an object has changed,
+// and with each beat, as other servers may be there.
+void SharedWorld::chooseContents(std::int64_t now_ns) {
+  names_changed_ = false;
   std::set<std::string> wanted;
   const std::vector<ServerId> there = peers_.there(now_ns);
   for (const auto& [id, record] : records_) {
@@ -333,7 +334,6 @@ void SharedWorld::fetch(std::int64_t now_ns) {
     }
   }
   contents_.keepOnly([&](const std::string& sha256) { return wanted.contains(sha256); });
-  contents_.step(now_ns);
 }
 
 void SharedWorld::step(std::int64_t now_ns) {
@@ -344,10 +344,12 @@ void SharedWorld::step(std::int64_t now_ns) {
     sendTo(Lane::kStream, streamKey(self_.id, kBeatSlot), message);
     forget(now_ns);
     adoptOrphans(now_ns);
+    names_changed_ = true;
   }
   sendItems();
   sendInbox();
-  fetch(now_ns);
+  if (names_changed_) chooseContents(now_ns);
+  contents_.step(now_ns);
   if (counts_.join_s == 0 && !peers_.all().empty() && contents_.fetching() == 0 && !replicas(now_ns).empty())
     counts_.join_s = 1e-9 * static_cast<double>(now_ns - begin_ns_);
 }

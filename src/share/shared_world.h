@@ -134,7 +134,7 @@ class SharedWorld {
   void forget(std::int64_t now_ns);
   void sendItems();
   void sendInbox();
-  void fetch(std::int64_t now_ns);
+  void chooseContents(std::int64_t now_ns);
   bool sendTo(Lane lane, std::uint64_t key, const proto::ShareMessage& message) const;
 
   const ShareSelf self_;
@@ -149,6 +149,7 @@ class SharedWorld {
   std::vector<ItemPush> pushes_;
   std::int64_t beat_ns_;
   bool jumped_ = false;
+  bool names_changed_ = true;  // of contents that objects have
   ShareCounts counts_;
 };
 
