@@ -148,23 +148,27 @@ void makeEnclave(const fs::path& keystore, const std::string& name, std::uint32_
   draft.keep();
 }
 
-}  // namespace
-
-void makeEnclaves(const fs::path& keystore, const std::vector<std::string>& names, std::uint32_t domain) {
-  const fs::path folder = keystore.has_filename() ? keystore : keystore.parent_path();
+// `folder` without a / at its end.
+void makeAll(const fs::path& folder, const std::set<std::string>& names, std::uint32_t domain) {
   const bool fresh = !fs::exists(folder) || (fs::is_directory(folder) && fs::is_empty(folder));
   if (!fresh && !isKeystore(folder))
     throw Error(folder.string() + " is there and is no keystore: name a folder that is not there, or a keystore");
-  const std::set<std::string> sorted(names.begin(), names.end());
-  for (const std::string& name : sorted) {
+  for (const std::string& name : names) {
     const fs::path enclave = folder / "enclaves" / name;
     if (fs::exists(enclave))
       throw Error(enclave.string() + " is there already, and keys are not replaced: choose another name, or remove it");
   }
+  if (fresh) makeKeystore(folder);
+  requireGovernance(folder, domain);
+  for (const std::string& name : names) makeEnclave(folder, name, domain);
+}
+
+}  // namespace
+
+void makeEnclaves(const fs::path& keystore, const std::vector<std::string>& names, std::uint32_t domain) {
+  const fs::path folder = keystore.has_filename() ? keystore : keystore.parent_path();
   try {
-    if (fresh) makeKeystore(folder);
-    requireGovernance(folder, domain);
-    for (const std::string& name : sorted) makeEnclave(folder, name, domain);
+    makeAll(folder, {names.begin(), names.end()}, domain);
   } catch (const fs::filesystem_error& error) {
     throw Error(folder.string() + ": " + error.what());
   }
