@@ -92,6 +92,11 @@ void Life::changeSettings() {
   settings_.guard.on = oneIn(2);
   settings_.vibration.on = oneIn(2);
   settings_.effects = {uniform(0, 0.2), uniform(0, 5), uniform(0, 500), within(0.1), within(3)};
+  settings_.remote.on = oneIn(2);
+  settings_.remote.engaged = !oneIn(4);
+  settings_.remote.fresh_until_ns = now_ns_ + static_cast<std::int64_t>(random_() % 1'000'000'000);
+  settings_.remote.force_N = oneIn(20) ? Vec3(oddNumber(), 0, 0) : within(20);
+  settings_.remote.given_up_J = oneIn(20) ? oddNumber() : settings_.remote.given_up_J + uniform(0, 0.1);
   settings_.dead_man = static_cast<DeadMan>(random_() % 3);
   settings_.dead_man_button = static_cast<std::uint32_t>(random_() % 3);
 }
