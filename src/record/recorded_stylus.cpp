@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "base/fields.h"
 #include "record/rare_values.h"
@@ -34,10 +33,8 @@ LaterForms laterOfDevice() {
 }
 
 void addStylus(std::span<const ServoRecord> records, proto::ServoSteps& out) {
-  const Stylus none;
-  const auto turns = [&](const Stylus& one) {
-    return std::memcmp(one.turned.coeffs().data(), none.turned.coeffs().data(), 4 * sizeof(double)) != 0 ||
-           !isZeroToTheBit(one.spin_rad_s);
+  const auto turns = [](const Stylus& one) {
+    return !isZeroToTheBit(one.turned.vec()) || one.turned.w() != 1 || !isZeroToTheBit(one.spin_rad_s);
   };
   const bool turn = anyHas(records, turns);
   const bool opens = anyHas(records, [](const Stylus& one) { return !isZeroToTheBit(one.gripper_rad); });
