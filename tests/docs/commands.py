@@ -42,6 +42,7 @@ class Commands:
         self.targets = set(re.findall(r"(?:add_executable|hl_\w+)\((\w+)", "\n".join(
             file.read_text(encoding="utf-8") for file in self.root.glob("*/**/CMakeLists.txt")
             if "build" not in file.relative_to(self.root).parts)))
+        self.targets |= {source.stem for source in self.root.glob("examples/[0-9]*.c*")}  # in build/bin/examples
 
     @lru_cache(maxsize=None)
     def help_of(self, *command):
