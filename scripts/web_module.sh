@@ -48,7 +48,7 @@ build_web_module() {
   ln -sfn /usr/include/hwy "$out/include/hwy"
   ln -sfn /usr/include/boost "$out/include/boost"
   export EM_CACHE="$out/cache" NODE_PATH=/usr/share/nodejs
-  flags+=(-I "$root/web/serial_tbb" -I "$root/src" -I "$root" -I "$root/scenes" -I "$root/web")
+  flags+=(-I "$root/web/serial_tbb" -I "$root/include" -I "$root/src" -I "$root" -I "$root/scenes" -I "$root/web")
   flags+=(-isystem "$out/include" -include "$root/web/missing_std.h")
   # Eigen asks for MMX's header, and uses nothing of it.
   : >"$out/include/mmintrin.h"
