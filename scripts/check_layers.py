@@ -21,10 +21,11 @@ LEVELS = {
     "touch": 6, "cad": 6, "vdb": 6,
     "record": 7, "tools": 7, "ros": 7,
     "session": 8, "batch": 8, "fleet": 8,
-    "page": 9, "monitor": 9, "share": 9,
-    "http": 10, "client": 10, "dds": 10,
-    "bench": 11,
-    "apps": 12, "python": 12,
+    "share": 9,
+    "page": 10, "monitor": 10,
+    "http": 11, "client": 11, "dds": 11,
+    "bench": 12,
+    "apps": 13, "python": 13,
 }
 # The proxy knows no threads, devices or messages, and the servo knows no scene, although their levels would allow it.
 NEVER = {"proxy": {"device", "control", "wire"}, "control": {"geometry", "wire"}, "scene": {"wire", "device"}}
