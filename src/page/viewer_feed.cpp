@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "io/decode_volumes.h"
 #include "page/page_scene.h"
+#include "session/hand_messages.h"
 #include "session/state_messages.h"
 #include "session/stylus_messages.h"
 
@@ -111,18 +112,7 @@ void setOther(TouchSession& session, proto::OtherDevice& out) {
   ServoView servo;
   ProxyView proxy;
   session.views(servo, proxy);
-  out.set_label(session.label().name);
-  toProto(session.workspace().toWorld(servo.finger_D), *out.mutable_finger());
-  toProto(proxy.proxy, *out.mutable_proxy());
-  toProto(servo.force_N, *out.mutable_force_n());
-  out.set_safety(static_cast<proto::SafetyState>(servo.safety));
-  if (servo.safety == SafetyState::kFault) out.set_fault(faultText(servo.fault));
-  out.set_buttons(servo.buttons);
-  out.set_contacts(static_cast<std::uint32_t>(proxy.contacts.size()));
-  out.set_exploring(session.exploring());
-  out.set_servo_rate_hz(servo.loop.rate_Hz);
-  out.set_proxy_radius(session.radius_W());
-  setStylus(servo.stylus, session.deviceInfo(), out);
+  toProto(session, servo, proxy, out);
 }
 
 std::string state(TouchSession& session, const OtherDevices& others, PageScene& scene,

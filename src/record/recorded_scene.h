@@ -24,6 +24,9 @@ class SceneWriter {
 
   /// The blocks of `scene`: what of it has not been written before, then the scene itself.
   void write(const Snapshot& scene, const Write& write);
+  /// Its blocks are elsewhere: scenes refer to it by this number, from 1 on in the order of all that is written.
+  std::uint64_t know(const std::shared_ptr<const Shape>& shape);
+  std::uint64_t know(const std::shared_ptr<const Surfaces>& surfaces);
   /// Where the bodies of the scenes so far are, `now_ns`, of those that have moved since the last call: for showing
   /// them.
   void writePoses(std::int64_t now_ns, const Write& write);
@@ -64,6 +67,9 @@ class SceneReader {
   void add(const proto::RecordedImplicit& in) { add(in.id(), sources_.add(in)); }
   void add(const proto::RecordedSurfaces& in);
   void add(const proto::RecordedBody& in);
+  /// Those that are here already.
+  void add(std::uint64_t id, std::shared_ptr<const Shape> shape) { shapes_[id] = std::move(shape); }
+  void add(std::uint64_t id, std::shared_ptr<const Surfaces> surfaces) { surfaces_[id] = std::move(surfaces); }
   std::shared_ptr<const Snapshot> scene(const proto::RecordedScene& in) const;
 
  private:

@@ -454,6 +454,7 @@ Instance follow(const PlacedShape& now, const Instance* before, std::int64_t beg
   instance.answers_force = now.answers_force;
   instance.snaps = now.snaps;
   instance.fields = now.fields;
+  instance.label = now.label;
   if (now.compliance) instance.compliance = std::make_shared<const ComplianceMotion>(*now.compliance);
   if (now.body)
     setBody(instance, followBody("object " + std::to_string(now.object), {*now.body, now.pose, now.shape->bounds},

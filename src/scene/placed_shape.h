@@ -23,6 +23,7 @@ struct PlacedShape {
   std::shared_ptr<const BodySpec> body{};     ///< it is a rigid body that starts at `pose`; null: it is none
   std::shared_ptr<const SnapList> snaps{};    ///< in the frame of `pose`; null: none
   std::shared_ptr<const FieldList> fields{};  ///< the same
+  std::shared_ptr<const Label> label{};       ///< as in Instance
 
   bool movesAsBody() const { return body && !body->fixed; }
 };

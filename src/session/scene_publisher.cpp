@@ -13,6 +13,7 @@
 #include "base/guarded_thread.h"
 #include "scene/iso_shape.h"
 #include "session/check_bodies.h"
+#include "session/client_scene.h"
 #include "session/kept_lists.h"
 
 namespace hl {
@@ -33,60 +34,6 @@ std::string jumpWarning(std::size_t meshes) {
 }
 
 }  // namespace
-
-class ScenePublisher::ClientScene {
- public:
-  ClientScene(std::uint32_t session, const SceneLimits& limits, MemoryBudget memory, FrameCallbacks callbacks,
-              std::shared_ptr<ClientScene> replaced)
-      : session_(session),
-        limits_(limits),
-        memory_(std::move(memory)),
-        scene_(session, limits, memory_),
-        callbacks_(std::move(callbacks)),
-        replaced_(std::move(replaced)) {}
-
- private:
-  friend class ScenePublisher;
-  enum class Work : std::uint8_t { kNone, kFrame, kHierarchies };
-  struct Ready {
-    std::uint64_t number;
-    std::vector<std::string> warnings;
-  };
-
-  /// Calls back unless the client has gone.
-  template <typename Call>
-  void tell(Call call) {
-    const std::lock_guard lock(call_mutex_);
-    if (callbacks_.shown) call(callbacks_);
-  }
-
-  const std::uint32_t session_;
-  const SceneLimits limits_;
-  const MemoryBudget memory_;
-  EditableScene scene_;  // of the builder that has set work_
-  std::mutex call_mutex_;
-  FrameCallbacks callbacks_;
-  struct Shown {
-    std::vector<const Instance*> instances;  // by rising key
-    PlacedShapes placed;                     // what they were made from
-  } shown_;                                  // of the publisher's thread
-  // Under the publisher's mutex:
-  std::deque<Waiting> waiting_;
-  Work work_ = Work::kNone;  // of a builder
-  bool removed_ = false;
-  bool to_rebuild_ = false;  // a hierarchy of what was placed last is
-  struct Bodies {
-    WorldParts parts;                                         // of what was placed last
-    std::pair<std::uint64_t, Vec3> gravity{0, Vec3::Zero()};  // which of all clients' frames that set it; 0: none did
-  } bodies_;
-  struct Pace {
-    std::int64_t last_arrived_ns = 0;  // of frames
-    std::int64_t move_ns = 0;          // that what is placed takes to get there
-  } pace_;
-  PlacedShapes placed_;                    // what is to be shown next; null when it is as it was
-  std::deque<Ready> ready_;                // frames that are built and not yet told to be shown
-  std::shared_ptr<ClientScene> replaced_;  // goes with the first frame
-};
 
 struct ScenePublisher::Part {
   std::shared_ptr<ClientScene> client;
@@ -140,6 +87,19 @@ void ScenePublisher::submit(const std::shared_ptr<ClientScene>& client, proto::F
         {std::move(frame), std::move(uploads), std::move(memory), answers_force, monotonicNow_ns()});
   }
   work_.notify_one();
+}
+
+void ScenePublisher::place(const std::shared_ptr<ClientScene>& client, PlacedShapes placed, std::int64_t move_ns) {
+  const WorldParts bodies = checkBodies(*placed);
+  {
+    const std::lock_guard lock(mutex_);
+    admitBodies(*client, bodies);
+    client->placed_.swap(placed);  // what was there before is freed without the lock
+    client->pace_.move_ns = move_ns;
+    client->bodies_.parts = bodies;
+    dirty_ = true;
+  }
+  changed_.notify_all();
 }
 
 std::size_t ScenePublisher::waiting(const std::shared_ptr<ClientScene>& client) const {

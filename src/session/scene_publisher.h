@@ -24,19 +24,10 @@
 #include "base/memory_budget.h"
 #include "scene/editable_scene.h"
 #include "session/base_scene.h"
-#include "session/check_bodies.h"
-#include "session/decode_frame.h"
+#include "session/client_scene.h"
 #include "touch/touch_session.h"
 
 namespace hl {
-
-/// What becomes of a client's frames; all three are needed. Called by the publisher's threads, one call at a time for
-/// one client.
-struct FrameCallbacks {
-  std::function<void(std::uint64_t number, double part)> progress;
-  std::function<void(std::uint64_t number, std::size_t primitives, const std::vector<std::string>& warnings)> shown;
-  std::function<void(std::uint64_t number, const std::string& why)> refused;
-};
 
 /// Hierarchies of clients' shapes since the start.
 struct HierarchyCounts {
@@ -48,8 +39,7 @@ class ScenePublisher {
  public:
   static constexpr int kBuilders = 2;
 
-  /// A client's objects. Made by join(), shared with the publisher.
-  class ClientScene;
+  using ClientScene = hl::ClientScene;
 
   /// `base` is touchable besides what clients bring. The devices must outlive the publisher.
   ScenePublisher(std::shared_ptr<const Snapshot> base, std::vector<TouchSession*> devices);
@@ -65,6 +55,10 @@ class ScenePublisher {
   /// built.
   void submit(const std::shared_ptr<ClientScene>& client, proto::Frame frame, Uploads uploads, MemoryShare memory,
               bool answers_force = false);
+  /// For a client within this process, which submits no frames: its objects from now on, in the place of those before;
+  /// they take `move_ns` to get there. Throws hl::Error, and changes nothing, for bodies and joints that cannot be
+  /// made. Any thread, one at a time for a client; it may take long where bodies are new.
+  void place(const std::shared_ptr<ClientScene>& client, PlacedShapes placed, std::int64_t move_ns);
   /// Frames that are submitted and not yet shown or refused.
   std::size_t waiting(const std::shared_ptr<ClientScene>& client) const;
   /// No callback is under way or comes after this. The objects stay where they are until remove().
@@ -85,13 +79,7 @@ class ScenePublisher {
   void setIso(std::uint64_t surface, const IsoChoice& choice);
 
  private:
-  struct Waiting {
-    proto::Frame frame;
-    Uploads uploads;
-    MemoryShare memory;
-    bool answers_force = false;  ///< see SceneEdit
-    std::int64_t arrived_ns = 0;
-  };
+  using Waiting = ClientScene::Waiting;
   /// Of the next scene: what one client has in it.
   struct Part;
 

@@ -45,6 +45,11 @@ std::unique_ptr<ClientSession> TouchServer::connect(WakeSession wake) {
   return session;
 }
 
+std::unique_ptr<PlacedClient> TouchServer::placeClient() {
+  const std::lock_guard lock(mutex_);
+  return std::make_unique<PlacedClient>(world_.publisher(), ++last_session_, world_.memory().member());
+}
+
 std::vector<TouchSession*> TouchServer::otherDevices() {
   std::vector<TouchSession*> others;
   for (std::size_t i = 1; i < devices(); ++i) others.push_back(&device(i));

@@ -14,6 +14,7 @@
 #include "base/function_ref.h"
 #include "session/client_session.h"
 #include "session/hl_session.h"
+#include "session/placed_client.h"
 #include "session/touch_world.h"
 
 namespace hl {
@@ -37,6 +38,14 @@ class TouchServer final : public SessionHost {
   /// As ScenePublisher::setIso(): another iso value for a surface of the server's own scene. Any thread.
   void setIso(std::uint64_t surface, const IsoChoice& choice) { world_.publisher().setIso(surface, choice); }
 
+  /// A client within this process. Not counted among the sessions; it goes before the server does. Any thread.
+  std::unique_ptr<PlacedClient> placeClient();
+
+  /// Fits hands to these bounds, as to a scene of the server's own; simulated ones are above them then, until
+  /// freeHands(). Waits for them `most_s` at most.
+  void fitHands(const Box& bounds, double most_s) { world_.fitHands(bounds, most_s); }
+  void freeHands() { world_.freeHands(); }
+
   TouchSession& device(std::size_t number = 0) { return world_.device(number); }
   std::size_t devices() const { return world_.devices(); }
   std::vector<TouchSession*> otherDevices();  ///< from number 1 on
@@ -45,6 +54,8 @@ class TouchServer final : public SessionHost {
   /// Of all clients' scenes, what they have sent ahead and are told, and what pages are shown of it.
   const MemoryBudget& memory() const { return world_.memory(); }
   double time_s() const { return world_.time_s(); }
+  /// For clients, as TouchSession::viewsForClients(). Any thread.
+  void views(std::uint32_t device, ServoView& servo, ProxyView& proxy) { world_.views(device, servo, proxy); }
 
  private:
   void leave(const HlSession& session);

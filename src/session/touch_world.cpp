@@ -93,7 +93,7 @@ void TouchWorld::replaceBase(const std::shared_ptr<const Snapshot>& base) {
   MemoryShare share(memory_);
   share.take(bytesOfBase(*base));
   const bool shown = showBase(base);
-  for (const auto& device : devices_) device->freeHand();
+  freeHands();
   if (!shown) throw Error("the server is closing");
   base_memory_ = std::move(share);
 }
@@ -112,6 +112,15 @@ bool TouchWorld::showBase(const std::shared_ptr<const Snapshot>& base) {
     moveHandsAside(base->bounds, kPatience_s);
   }
   return publisher_.replaceBase(base);
+}
+
+void TouchWorld::fitHands(const Box& bounds, double most_s) {
+  moveHandsAside(bounds, most_s);
+  for (const auto& device : devices_) device->fitTo(bounds);
+}
+
+void TouchWorld::freeHands() {
+  for (const auto& device : devices_) device->freeHand();
 }
 
 bool TouchWorld::becomeMaster(std::uint32_t device, std::uint32_t session) {

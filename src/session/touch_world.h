@@ -55,6 +55,9 @@ class TouchWorld {
   /// can say whether a finger is inside.
   void replaceBase(const std::shared_ptr<const Snapshot>& base);
 
+  void fitHands(const Box& bounds, double most_s);
+  void freeHands();
+
   /// A role that one session at a time has; whether this one has it now.
   bool becomeMaster(std::uint32_t device, std::uint32_t session);
   bool hasMaster(std::uint32_t device) const;

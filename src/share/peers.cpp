@@ -3,13 +3,14 @@
 #include <algorithm>
 
 #include "base/utf8.h"
+#include "share/share_messages.h"
 
 namespace hl {
 
 namespace {
 
 constexpr std::int64_t kForget_ns = 60'000'000'000, kSameName_ns = 3'000'000'000;
-constexpr std::uint32_t kMostHands = 16;
+constexpr std::uint32_t kMostOfAServer = 16;
 
 std::string shortName(const std::string& name) { return validUtf8(name.substr(0, kMostServerName)); }
 
@@ -42,7 +43,7 @@ void Peers::hear(const proto::ShareBeat& beat, std::int64_t now_ns) {
 }
 
 void Peers::hear(const proto::ShareHand& hand, std::int64_t now_ns) {
-  if (hand.number() >= kMostHands || !hear(hand.from(), now_ns)) return;
+  if (hand.number() >= kMostOfAServer || !isHand(hand.hand()) || !hear(hand.from(), now_ns)) return;
   proto::ShareHand& kept = peers_[hand.from()].hands[hand.number()];
   if (hand.time_ns() >= kept.time_ns()) kept = hand;
 }

@@ -6,6 +6,12 @@
 
 namespace hl {
 
+ItemMotion motionOf(const Instance& instance, std::int64_t now_ns) {
+  if (!instance.movesAsBody()) return {instance.shownAt(now_ns)};
+  const ShownBody body = instance.body->poses->shown();
+  return {body.pose, body.velocity_m_s, body.spin_rad_s};
+}
+
 void PlayoutDelay::add(std::int64_t transit_ns) {
   transits_[added_++ % kTransits] = std::max<std::int64_t>(transit_ns, 0);
   std::array<std::int64_t, kTransits> sorted = transits_;

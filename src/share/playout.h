@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/pose.h"
+#include "scene/snapshot.h"
 
 namespace hl {
 
@@ -17,6 +17,9 @@ struct ItemMotion {
   Pose pose;
   Vec3 velocity_m_s = Vec3::Zero(), spin_rad_s = Vec3::Zero();
 };
+
+/// Of an instance now: of a body as it was after its last step, of any other one without velocities. Any thread.
+ItemMotion motionOf(const Instance& instance, std::int64_t now_ns);
 
 /// Of one server. One thread.
 class PlayoutDelay {

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "io/value_messages.h"
+#include "session/vec_messages.h"
 
 namespace hl {
 
@@ -69,7 +70,20 @@ bool isNewer(const proto::ShareItem& a, const proto::ShareItem& b) {
 bool isItem(const proto::ShareItem& item) {
   if (item.id() == 0 || item.epoch() == 0 || item.epoch() > kMostEpoch || item.owner() == 0) return false;
   if (item.gone()) return true;
+  if (item.content().look().size() > kMostLook_bytes) return false;
   return isName(item.content().shape()) && isName(item.content().surfaces()) && motionOf(item.motion()).has_value();
+}
+
+bool isHand(const proto::OtherDevice& hand) {
+  constexpr std::size_t kMostText = 200;
+  constexpr double kFarthest_m = 1e9, kMostForce_N = 1e4;
+  const auto within = [](const proto::Vec3& in, double most) {
+    const Vec3 v = vecOf(in);
+    return v.allFinite() && v.norm() <= most;
+  };
+  return hand.label().size() <= kMostText && hand.fault().size() <= kMostText && within(hand.finger(), kFarthest_m) &&
+         within(hand.proxy(), kFarthest_m) && within(hand.force_n(), kMostForce_N) && hand.proxy_radius() >= 0 &&
+         hand.proxy_radius() <= kFarthest_m && std::isfinite(hand.servo_rate_hz());
 }
 
 proto::ShareMessage messageOf(const std::string& bytes) {

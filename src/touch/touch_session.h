@@ -92,6 +92,8 @@ class TouchSession {
   /// freeHand(). Waits for it; false: it is not there after `most_s`, as something holds it. Not real-time.
   bool moveHandAside(const Box& bounds, double most_s);
   void freeHand() { hand_.free(); }
+  /// What is to come is fitted to the hand; see publishAnew().
+  void fitTo(const Box& bounds) { live_.refit(bounds); }
   /// Whoever ticks has taken the newest scene, and ticked at `since_ns` (monotonic) or later; or nobody does: the loops
   /// do not run, or the servo stands still, without force, and will find the newest scene when it goes on.
   bool ready(std::int64_t since_ns) const;

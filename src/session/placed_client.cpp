@@ -1,0 +1,21 @@
+#include "session/placed_client.h"
+
+namespace hl {
+
+namespace {
+
+// Nobody waits for what becomes of frames, as there are none.
+FrameCallbacks noCallbacks() {
+  return {[](std::uint64_t, double) {}, [](std::uint64_t, std::size_t, const std::vector<std::string>&) {},
+          [](std::uint64_t, const std::string&) {}};
+}
+
+}  // namespace
+
+PlacedClient::PlacedClient(ScenePublisher& publisher, std::uint32_t session, const MemoryBudget& memory)
+    : publisher_(publisher),
+      session_(session),
+      memory_(memory),
+      scene_(publisher.join(session, SceneLimits{}, memory, noCallbacks())) {}
+
+}  // namespace hl

@@ -1,0 +1,176 @@
+#include "share/item_content.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/error.h"
+#include "share/share_messages.h"
+
+namespace hl {
+
+namespace {
+
+using Block = proto::RecordingBlock;
+
+// As the writer numbers them: a shape comes before its surfaces.
+constexpr std::uint64_t kShapeId = 1, kSurfacesId = 2, kItemKey = 1;
+constexpr const char* kBroken = "an object of a shared world makes no sense";
+
+// Without what is of its place in this server's scene.
+Instance bare(const Instance& in) {
+  Instance out;
+  out.shape = in.shape;
+  out.surfaces = in.surfaces;
+  out.key = kItemKey;
+  out.name = in.name;
+  out.snaps = in.snaps;
+  out.fields = in.fields;
+  out.label = in.label;
+  if (!in.body) return out;
+  BodySpec spec = in.body->spec;
+  spec.velocity_m_s = spec.spin_rad_s = Vec3::Zero();
+  setBody(out, makeRigidBody(in.body->name, spec, Pose{}, in.shape->bounds, roomAround(in.shape->bounds)));
+  return out;
+}
+
+enum class Part : std::uint8_t { kShape, kSurfaces, kLook };
+
+Part partOf(const Block& block) {
+  switch (block.body_case()) {
+    case Block::kShape:
+    case Block::kHeights:
+    case Block::kVolume:
+    case Block::kImplicit:
+    case Block::kCloud:
+      return Part::kShape;
+    case Block::kSurfaces:
+      return Part::kSurfaces;
+    default:
+      return Part::kLook;
+  }
+}
+
+std::string encodePart(SceneWriter& writer, const Instance& instance, Part part) {
+  proto::ShareBlocks out;
+  writer.write(*makeSnapshot({instance}, {}, 1, 0), [&](const Block& block) {
+    if (partOf(block) != part) return;
+    *out.add_blocks() = block;
+    if (block.has_scene()) out.mutable_blocks()->rbegin()->mutable_scene()->clear_identity();
+  });
+  return out.SerializeAsString();
+}
+
+std::string encodeShape(const Instance& instance) {
+  SceneWriter writer;
+  Instance plain = bare(instance);
+  plain.surfaces = surfacesOf(instance.shape);
+  return encodePart(writer, plain, Part::kShape);
+}
+
+std::string encodeSurfaces(const Instance& instance) {
+  SceneWriter writer;
+  writer.know(instance.shape);
+  Instance plain = bare(instance);
+  plain.body = nullptr;
+  plain.driver = nullptr;
+  return encodePart(writer, plain, Part::kSurfaces);
+}
+
+std::string encodeLook(const Instance& instance) {
+  SceneWriter writer;
+  writer.know(instance.shape);
+  writer.know(instance.surfaces);
+  return encodePart(writer, bare(instance), Part::kLook);
+}
+
+void requireRoom(const char* what, std::size_t bytes, std::size_t most_bytes) {
+  if (bytes > most_bytes)
+    throw Error(std::string(what) + " of an object take " + std::to_string(bytes) + " bytes, and " +
+                std::to_string(most_bytes) + " can be shared");
+}
+
+proto::ShareBlocks blocksOf(const std::string& bytes, Part part) {
+  proto::ShareBlocks blocks;
+  if (!blocks.ParseFromString(bytes)) throw Error(kBroken);
+  for (const Block& block : blocks.blocks()) {
+    if (partOf(block) != part) throw Error(kBroken);
+  }
+  return blocks;
+}
+
+void add(const Block& block, SceneReader& reader) {
+  switch (block.body_case()) {
+    case Block::kShape:
+      return reader.add(block.shape());
+    case Block::kHeights:
+      return reader.add(block.heights());
+    case Block::kVolume:
+      return reader.add(block.volume());
+    case Block::kImplicit:
+      return reader.add(block.implicit());
+    case Block::kCloud:
+      return reader.add(block.cloud());
+    case Block::kSurfaces:
+      return reader.add(block.surfaces());
+    case Block::kRigidBody:
+      return reader.add(block.rigid_body());
+    default:
+      throw Error(kBroken);
+  }
+}
+
+// What somebody has already, or else its blocks.
+template <typename Made>
+void give(std::uint64_t id, std::map<std::string, std::weak_ptr<const Made>>& made, const std::string& sha256,
+          const std::string& bytes, Part part, SceneReader& reader) {
+  std::erase_if(made, [](const auto& entry) { return entry.second.expired(); });
+  const auto found = made.find(sha256);
+  if (auto there = found == made.end() ? nullptr : found->second.lock()) return reader.add(id, std::move(there));
+  const proto::ShareBlocks blocks = blocksOf(bytes, part);
+  for (const Block& block : blocks.blocks()) add(block, reader);
+}
+
+}  // namespace
+
+template <typename Part, typename Encode>
+NamedContent ItemWriter::contentOf(KeptMap<Part>& kept, const std::shared_ptr<const Part>& part, const Encode& encode) {
+  std::erase_if(kept, [](const auto& entry) { return entry.second.part.expired(); });
+  const auto found = kept.find(part.get());
+  if (found != kept.end()) return found->second.content;
+  const auto bytes = std::make_shared<const std::string>(encode());
+  const NamedContent content{nameOf(*bytes), bytes};
+  kept[part.get()] = {part, content};
+  return content;
+}
+
+WrittenItem ItemWriter::write(const Instance& instance, bool jointed) {
+  const NamedContent shape = contentOf(shapes_, instance.shape, [&] { return encodeShape(instance); });
+  const NamedContent surfaces = contentOf(surfaces_, instance.surfaces, [&] { return encodeSurfaces(instance); });
+  requireRoom("the shape and surfaces", shape.name.bytes + surfaces.name.bytes, Contents::kMost_bytes);
+  auto content = std::make_shared<proto::ShareContent>();
+  toProto(shape.name, *content->mutable_shape());
+  toProto(surfaces.name, *content->mutable_surfaces());
+  content->set_look(encodeLook(instance));
+  content->set_body(instance.movesAsBody());
+  content->set_jointed(jointed);
+  requireRoom("the snaps and fields", content->look().size(), kMostLook_bytes);
+  return {std::move(content), shape, surfaces};
+}
+
+Instance ItemReader::read(const proto::ShareContent& content, const std::string& shape, const std::string& surfaces) {
+  SceneReader reader;
+  give(kShapeId, shapes_, content.shape().sha256(), shape, Part::kShape, reader);
+  give(kSurfacesId, surfaces_, content.surfaces().sha256(), surfaces, Part::kSurfaces, reader);
+  const proto::ShareBlocks look = blocksOf(content.look(), Part::kLook);
+  if (look.blocks_size() == 0 || !look.blocks().rbegin()->has_scene()) throw Error(kBroken);
+  for (int i = 0; i + 1 < look.blocks_size(); ++i) add(look.blocks(i), reader);
+  const auto scene = reader.scene(look.blocks().rbegin()->scene());
+  if (scene->instances.size() != 1) throw Error(kBroken);
+  Instance item = scene->instances.front();
+  if (content.body() != item.movesAsBody() || item.mesh_motion) throw Error(kBroken);
+  shapes_[content.shape().sha256()] = item.shape;
+  surfaces_[content.surfaces().sha256()] = item.surfaces;
+  return item;
+}
+
+}  // namespace hl

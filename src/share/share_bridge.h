@@ -1,0 +1,74 @@
+// ShareBridge: a server in a world that it shares with others. One thread, "share", looks at the server's scene and
+// hands 60 times a second, tells the others of them, and places what the others have in the scene. The servos never
+// wait for it.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "session/placed_client.h"
+#include "session/touch_server.h"
+#include "share/background_work.h"
+#include "share/body_actions.h"
+#include "share/hand_pushes.h"
+#include "share/local_scene.h"
+#include "share/replicas_here.h"
+#include "share/share_view.h"
+#include "share/shared_world.h"
+
+namespace hl {
+
+/// Constructed, started, stopped and destroyed by one thread; started once. view(): any thread.
+class ShareBridge {
+ public:
+  /// For what a person should know: a line without its end. Called by the thread of the bridge.
+  using TellPerson = std::function<void(const std::string&)>;
+  static constexpr std::int64_t kLook_ns = 16'666'667;
+
+  /// `server` outlives it.
+  ShareBridge(std::unique_ptr<ShareLink> link, const std::string& world, const ShareSelf& self, TouchServer& server,
+              TellPerson tell);
+  ~ShareBridge() { stop(); }
+  /// After the server.
+  void start();
+  void stop();  ///< before the server; what others have goes from the scene; safe to call twice
+  ShareView view() const;
+
+ private:
+  ReplicasHere::FitHands fitOfHands();
+  void run();
+  void hearAll(std::int64_t now_ns);
+  void look(std::int64_t now_ns);
+  void tellScene(std::int64_t now_ns);
+  void tellHands(std::int64_t now_ns);
+  void actOnBodies();
+  void showOthers(std::int64_t now_ns);
+  void tellPeers(std::int64_t now_ns);
+  void writeView(std::int64_t now_ns);
+  void endFor(const std::string& why);
+
+  const std::unique_ptr<ShareLink> link_;
+  TouchServer& server_;
+  const TellPerson tell_;
+  std::unique_ptr<PlacedClient> client_;
+  SharedWorld world_;
+  LocalScene local_;
+  ReplicasHere replicas_;
+  HandPushes pushes_;
+  BodyActions actions_;
+  std::optional<std::int64_t> free_hands_ns_;  // when those that are above what is placed are let go
+  BackgroundWork work_{"share-items"};         // after what it works for
+  std::map<ServerId, std::string> told_peers_;
+  mutable std::mutex view_mutex_;
+  ShareView view_;
+  std::atomic<bool> running_{false};
+  std::thread thread_;
+};
+
+}  // namespace hl
