@@ -12,6 +12,7 @@
 #include "doctor_report.h"
 #include "io/output_file.h"
 #include "ros_options.h"
+#include "share_options.h"
 #include "serving.h"
 
 namespace hl {
@@ -71,6 +72,7 @@ void examineAll(OutputFile* report) {
   const MachineExamination machine = examineAndPrintMachine();
   printPresentDevices();
   fmt::print("{:<20}{}\n", "ROS 2:", rosPresence());
+  fmt::print("{:<20}{}\n", "shared worlds:", sharePresence());
   printBlackBoxes();
   printAdvice(machine.grant);
   if (report != nullptr) report->write(reportOf(machine, {}));

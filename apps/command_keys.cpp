@@ -23,7 +23,7 @@ struct KeysOptions {
 
 void runKeys(const KeysOptions& options) {
   checkPrintable(options.folder, "the folder of keys");
-  const std::uint32_t domain = options.domain_said ? options.domain : rosDomain();
+  const std::uint32_t domain = options.domain_said ? options.domain : ddsDomain();
   std::vector<std::string> names;
   for (const std::string& name : options.names) names.push_back(rosNamespace(name));
   makeEnclaves(options.folder, names, domain);

@@ -155,6 +155,8 @@ void runTouch(TouchOptions options) {
     http.upload.open = [&](int descriptor, const std::string& name) { return opener.open(descriptor, name); };
   }
   const auto ros = makeRosBridge(options.ros, touch, [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
+  const auto share =
+      makeShareBridge(options.share, touch, [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
   const auto& recordings = options.recorder.pages;
   const auto set_iso = [&touch](std::uint64_t surface, const IsoChoice& iso) { touch.setIso(surface, iso); };
   HttpServer server(http,
@@ -163,6 +165,7 @@ void runTouch(TouchOptions options) {
                     &touch, withRosMetrics(makeTouchMonitor(session, &touch, recordings), ros.get()));
   touch.start();
   if (ros) ros->start();
+  if (share) share->start();
   server.start();
   for (std::size_t i = 0; i < touch.devices(); ++i) printBeginning(options.scene.scene, touch.device(i));
   const std::string address = fmt::format("http://127.0.0.1:{}/", server.port());
@@ -172,6 +175,7 @@ void runTouch(TouchOptions options) {
   waitForSignal(signals, options.duration_s);
   opener.giveUp();
   server.stop();
+  if (share) share->stop();
   if (ros) ros->stop();
   touch.stop();
   for (std::size_t i = 0; i < touch.devices(); ++i) printTotals(touch.device(i));
@@ -234,6 +238,7 @@ void addTouchOptions(CLI::App& command, TouchOptions& options) {
       ->check(within(kMinNumber, kMaxNumber));
   addBlackBoxOption(command, options.recorder);
   addRosOptions(command, options.ros);
+  addShareOptions(command, options.share);
 }
 
 void addTouchCommand(CLI::App& app) {

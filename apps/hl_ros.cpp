@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "dds/ros_participant.h"
+#include "ros/dds_process.h"
 #include "ros/packets.h"
 #include "ros/ros_task.h"
 
@@ -29,7 +30,7 @@ void serve(const hl::RosTask& task) {
                     ": install both of one version");
   close_range(STDERR_FILENO + 1, ~0U, 0);  // sockets of the server that came along
   hl::RosParticipant participant(task, [](const hl::HandCommand& command) { tellServer(command); });
-  tellServer(hl::RosReady{});
+  tellServer(hl::DdsReady{});
   std::array<char, sizeof(hl::RosHandState)> buffer;
   for (;;) {
     const auto size = recv(STDIN_FILENO, buffer.data(), buffer.size(), 0);

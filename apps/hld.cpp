@@ -108,12 +108,16 @@ void serve(HldOptions& options) {
   const auto ros = makeRosBridge(options.ros, touch, [](const std::string& line) {
     logEvent(LogLevel::kWarning, "ros", {{"reason", line}});
   });
+  const auto share = makeShareBridge(options.share, touch, [](const std::string& line) {
+    logEvent(LogLevel::kInfo, "share", {{"news", line}});
+  });
   const auto set_iso = [&touch](std::uint64_t surface, const IsoChoice& iso) { touch.setIso(surface, iso); };
   HttpServer server(
       http, makeViewerFeed(session, HL_VERSION, touch.memory().member(), nullptr, 0, set_iso, touch.otherDevices()),
       &touch, withRosMetrics(makeTouchMonitor(session, &touch), ros.get()));
   touch.start();
   if (ros) ros->start();
+  if (share) share->start();
   server.start();
   logReady(options, touch, server.port());
   notifySystemd("READY=1");
@@ -122,6 +126,7 @@ void serve(HldOptions& options) {
   logEvent(LogLevel::kInfo, "stopping", {{"reason", received == SIGINT ? "SIGINT" : "SIGTERM"}});
   notifySystemd("STOPPING=1");
   server.stop();
+  if (share) share->stop();
   if (ros) ros->stop();
   touch.stop();
 }

@@ -118,6 +118,7 @@ void addHldOptions(CLI::App& app, HldOptions& options) {
   addForceOptions(app, options.touch.servo, options.touch.servo_rate);
   addBlackBoxOption(app, options.recorder);
   addRosOptions(app, options.ros);
+  addShareOptions(app, options.share);
   addLimitOptions(app, options.server.limits);
   addLogOptions(app, options);
 }

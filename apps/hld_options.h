@@ -10,6 +10,7 @@
 #include "monitor/event_log.h"
 #include "record/recorder.h"
 #include "ros_options.h"
+#include "share_options.h"
 #include "touch/touch_session.h"
 
 namespace hl {
@@ -20,6 +21,7 @@ struct HldOptions {
   TouchSettings touch;
   RecorderSettings recorder;
   RosOptions ros;
+  ShareOptions share;
   std::string token_file;  ///< empty: no token
   DeviceOptions devices;
   std::string hand = "light";

@@ -97,23 +97,23 @@ void addRosOptions(CLI::App& app, RosOptions& options) {
 
 std::unique_ptr<RosBridge> makeRosBridge(const RosOptions& options, TouchServer& server, RosBridge::TellPerson tell) {
   if (options.name_space.empty()) return nullptr;
-  checkReach(options.reach);
+  checkReach(options.reach, kRosUse);
   std::vector<TouchSession*> hands;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < server.devices(); ++i) {
     hands.push_back(&server.device(i));
     names.push_back(server.device(i).label().name);
   }
-  const RosTask task{HL_VERSION, rosDomain(), rosHands(options.name_space, names), options.reach};
+  const RosTask task{HL_VERSION, ddsDomain(), rosHands(options.name_space, names), options.reach};
   const std::optional<TeleopOfHand> teleop = teleopOf(options, task.hands);
   return std::make_unique<RosBridge>(std::make_unique<RosProcess>(task), hands, options.rate_Hz, std::move(tell),
                                      teleop);
 }
 
 std::string rosPresence() {
-  if (rosProgram().empty()) return kNoRosProgram;
+  if (placeOf(kRosProgram).empty()) return kRosProgram.absent;
   try {
-    return "hl-ros is here, for --ros NAMESPACE; topics would be in domain " + std::to_string(rosDomain());
+    return "hl-ros is here, for --ros NAMESPACE; topics would be in domain " + std::to_string(ddsDomain());
   } catch (const Error& error) {
     return error.what();
   }

@@ -14,7 +14,7 @@ namespace hl {
 struct RosOptions {
   std::string name_space;  ///< empty: no topics
   double rate_Hz = 250;
-  RosReach reach;
+  DdsReach reach;
   std::string teleop_hand;  ///< as in its topics; empty: none leads a robot
   TeleopSettings teleop;
 };

@@ -8,6 +8,7 @@
 #include "device_options.h"
 #include "record/recorder.h"
 #include "ros_options.h"
+#include "share_options.h"
 #include "touch/touch_session.h"
 
 namespace hl {
@@ -17,6 +18,7 @@ struct TouchOptions {
   TouchSettings settings;
   RecorderSettings recorder;
   RosOptions ros;
+  ShareOptions share;
   DeviceOptions devices;
   int port = 1997;
   bool no_open = false;

@@ -1,6 +1,7 @@
 # What `cmake --install` puts where, in components that are also Debian packages (cmake/packages.cmake): libhl and
 # libhlbatch (the libraries), libhl-dev (what a program is built with), hl-tools (hl, hld and the page), hl-cad (what
-# reads CAD files), hl-vdb (what reads OpenVDB files), hl-ros (what speaks ROS 2's topics); python3-hl is in python/CMakeLists.txt.
+# reads CAD files), hl-vdb (what reads OpenVDB files), hl-ros (what speaks ROS 2's topics), hl-share (what
+# shares worlds); python3-hl is in python/CMakeLists.txt.
 include(CMakePackageConfigHelpers)
 set(cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/hl)
 
@@ -48,6 +49,10 @@ endif()
 if(TARGET hl_ros_program)
   install(TARGETS hl_ros_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT hl-ros)
   install(FILES LICENSE DESTINATION share/doc/hl-ros RENAME copyright COMPONENT hl-ros)
+endif()
+if(TARGET hl_share_program)
+  install(TARGETS hl_share_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT hl-share)
+  install(FILES LICENSE DESTINATION share/doc/hl-share RENAME copyright COMPONENT hl-share)
 endif()
 # Built by scripts/build, not by CMake: without it the programs serve a notice instead.
 install(DIRECTORY viewer/dist/ DESTINATION share/hl/viewer COMPONENT hl-tools OPTIONAL)

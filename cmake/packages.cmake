@@ -1,6 +1,6 @@
 # `cpack --config build/CPackConfig.cmake -B build/packages` makes the Debian packages libhl, libhlbatch, libhl-dev and
-# hl-tools of what cmake/install.cmake installs, hl-cad where OpenCASCADE is, hl-vdb where OpenVDB is, hl-ros where
-# Cyclone DDS is, and python3-hl where the Python package is built.
+# hl-tools of what cmake/install.cmake installs, hl-cad where OpenCASCADE is, hl-vdb where OpenVDB is, hl-ros and
+# hl-share where Cyclone DDS is, and python3-hl where the Python package is built.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME hl)
 set(CPACK_PACKAGE_CONTACT "The authors of HL <hl@localhost>")
@@ -16,6 +16,9 @@ if(TARGET hl_vdb_program)
 endif()
 if(TARGET hl_ros_program)
   list(APPEND CPACK_COMPONENTS_ALL hl-ros)
+endif()
+if(TARGET hl_share_program)
+  list(APPEND CPACK_COMPONENTS_ALL hl-share)
 endif()
 if(HL_BUILD_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python3-hl)
@@ -36,7 +39,7 @@ set(CPACK_DEBIAN_LIBHL-DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBHL-DEV_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_LIBHL-DEV_PACKAGE_DEPENDS "libhl (= ${PROJECT_VERSION}), libhlbatch (= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_HL-TOOLS_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_HL-TOOLS_PACKAGE_SUGGESTS "libhl-dev, hl-cad, hl-vdb, hl-ros, slurm-client")
+set(CPACK_DEBIAN_HL-TOOLS_PACKAGE_SUGGESTS "libhl-dev, hl-cad, hl-vdb, hl-ros, hl-share, slurm-client")
 set(CPACK_DEBIAN_HL-CAD_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_HL-CAD_PACKAGE_ENHANCES hl-tools)
 # Both speak the messages of one version.
@@ -47,6 +50,9 @@ set(CPACK_DEBIAN_HL-VDB_PACKAGE_BREAKS "hl-tools (<< ${PROJECT_VERSION}), hl-too
 set(CPACK_DEBIAN_HL-ROS_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_HL-ROS_PACKAGE_ENHANCES hl-tools)
 set(CPACK_DEBIAN_HL-ROS_PACKAGE_BREAKS "hl-tools (<< ${PROJECT_VERSION}), hl-tools (>> ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_HL-SHARE_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_HL-SHARE_PACKAGE_ENHANCES hl-tools)
+set(CPACK_DEBIAN_HL-SHARE_PACKAGE_BREAKS "hl-tools (<< ${PROJECT_VERSION}), hl-tools (>> ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_PYTHON3-HL_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON3-HL_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
 set(CPACK_DEBIAN_PYTHON3-HL_PACKAGE_SUGGESTS "python3-matplotlib, hl-tools")
@@ -58,4 +64,5 @@ set(CPACK_COMPONENT_HL-TOOLS_DESCRIPTION "The command hl, the server hld, and th
 set(CPACK_COMPONENT_HL-CAD_DESCRIPTION "The program hl-cad, with which hl reads STEP, IGES and BREP files.")
 set(CPACK_COMPONENT_HL-VDB_DESCRIPTION "The program hl-vdb, with which hl reads OpenVDB and NanoVDB files.")
 set(CPACK_COMPONENT_HL-ROS_DESCRIPTION "The program hl-ros, with which hl and hld serve topics of ROS 2.")
+set(CPACK_COMPONENT_HL-SHARE_DESCRIPTION "The program hl-share, with which several hl and hld share a world.")
 include(CPack)

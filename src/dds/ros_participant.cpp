@@ -1,22 +1,14 @@
 #include "dds/ros_participant.h"
 
 #include <dds/dds.h>
-#include <ifaddrs.h>
-#include <net/if.h>
 #include <ros2.h>
-#include <sys/socket.h>
 
-#include <atomic>
-#include <cstdio>
-#include <mutex>
-#include <string_view>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/clock.h"
-#include "base/error.h"
-#include "dds/dds_security.h"
-#include "dds/loopback_only.h"
+#include "dds/dds_node.h"
 
 namespace hl {
 
@@ -38,58 +30,9 @@ struct RosHandTopics {
 
 namespace {
 
-// Whether the machine has an address besides loopback, at which programs on it look for each other.
-bool hasAddress() {
-  ifaddrs* all = nullptr;
-  if (getifaddrs(&all) != 0) return false;
-  bool found = false;
-  for (const ifaddrs* one = all; one != nullptr; one = one->ifa_next) {
-    found |= one->ifa_addr != nullptr && one->ifa_addr->sa_family == AF_INET && (one->ifa_flags & IFF_UP) != 0 &&
-             (one->ifa_flags & IFF_LOOPBACK) == 0;
-  }
-  freeifaddrs(all);
-  return found;
-}
-
-std::string peersXml(const std::vector<std::string>& addresses) {
-  std::string peers;
-  for (const std::string& address : addresses) peers += "<Peer Address=\"" + address + "\"/>";
-  return "<Peers>" + peers + "</Peers>";
-}
-
-// Whatever CYCLONEDDS_URI says. Participants are looked for each second, as the next one may come at any time, at so
-// many ports of each peer.
-std::string configuration(const std::string& interfaces, const char* multicast, const std::vector<std::string>& peers,
-                          int ports) {
-  return "<CycloneDDS><Domain Id=\"any\"><General><Interfaces>" + interfaces + "</Interfaces><AllowMulticast>" +
-         multicast + "</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>" +
-         "<MaxAutoParticipantIndex>" + std::to_string(ports - 1) + "</MaxAutoParticipantIndex>" + peersXml(peers) +
-         "<SPDPInterval>1s</SPDPInterval></Discovery></Domain></CycloneDDS>";
-}
-
-// At the machine's own address, as programs of ROS 2 tell it by default, and at that of those that are kept to this
-// machine. Without multicast, which lo does not have.
-std::string loopbackConfiguration() {
-  const std::string own = hasAddress() ? R"(<NetworkInterface autodetermine="true" multicast="false"/>)" : "";
-  return configuration(own + R"(<NetworkInterface address="127.0.0.1" multicast="false"/>)", "false", {"127.0.0.1"},
-                       100);
-}
-
-// Others are found by multicast, and at the addresses of peers; samples go to each by itself.
-std::string networkConfiguration(const RosReach& reach) {
-  return configuration("<NetworkInterface name=\"" + reach.interface_name + "\"/>", "spdp", reach.peers, 32);
-}
-
-dds_entity_t made(dds_entity_t entity, const char* what) {
-  if (entity < 0) throw Error(std::string("Cyclone DDS makes no ") + what + ": " + dds_strretcode(entity));
-  return entity;
-}
-
-using Qos = std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)>;
-
 // That of ROS 2's sensors: a reader that is late gets the newest, and nothing is sent twice.
 Qos sensorQos(std::int32_t depth) {
-  Qos qos(dds_create_qos(), dds_delete_qos);
+  Qos qos = emptyQos();
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
   dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, depth);
@@ -118,43 +61,6 @@ const char* frameOf(const Message& message) {
 
 geometry_msgs_msg_dds__Vector3_ vectorOf(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
-// The first few: whoever sends what is no packet may send it for ever.
-void tellPerson(std::string_view text) {
-  constexpr int kMost = 20;
-  static std::atomic<int> told{0};
-  const int number = ++told;
-  if (number > kMost) return;
-  while (text.ends_with('\n')) text.remove_suffix(1);
-  std::fprintf(stderr, "hl-ros: Cyclone DDS: %.*s%s\n", static_cast<int>(text.size()), text.data(),
-               number == kMost ? " (no more of its lines are told)" : "");
-}
-
-// Cyclone DDS says by its log alone that it could not read something: as a warning, one for each.
-void hearLog(void* tell, const dds_log_data_t* line) {
-  const std::string_view text(line->message, line->size);
-  if ((line->priority & (DDS_LC_FATAL | DDS_LC_ERROR)) != 0) {
-    tellPerson(text);
-  } else if (text.find("deserialization") != text.npos || text.find("malformed packet") != text.npos) {
-    HandCommand malformed;
-    malformed.input = RosInput::kMalformed;
-    (*static_cast<const RosParticipant::Tell*>(tell))(malformed);
-  }
-}
-
-/// Until there is a participant: the first that Cyclone DDS says of why there is none. Several threads may say it.
-struct StartLog {
-  std::mutex mutex;
-  std::string reason;
-};
-
-void hearStart(void* start_log, const dds_log_data_t* line) {
-  StartLog& start = *static_cast<StartLog*>(start_log);
-  const std::scoped_lock lock(start.mutex);
-  if ((line->priority & (DDS_LC_FATAL | DDS_LC_ERROR)) == 0 || !start.reason.empty()) return;
-  const std::string_view text(line->message, line->size);
-  start.reason = text.substr(0, text.find('\n'));
-}
-
 template <typename Message>
 void hear(dds_entity_t reader, void* argument) {
   const TopicHearing& hearing = *static_cast<const TopicHearing*>(argument);
@@ -176,17 +82,20 @@ void hear(dds_entity_t reader, void* argument) {
 
 struct RosParticipant::Parts {
   explicit Parts(Tell to_tell) : tell(std::move(to_tell)) {}
-  // Its listeners have ended when it is gone.
-  ~Parts() {
-    dds_delete(domain);
-    dds_set_log_sink(nullptr, nullptr);
-  }
 
+  void open(const RosTask& task) {
+    node.emplace(DdsNodeSettings{"hl-ros", task.domain, task.reach}, [this] {
+      HandCommand malformed;
+      malformed.input = RosInput::kMalformed;
+      tell(malformed);
+    });
+    for (const std::string& hand : task.hands) add(hand);
+  }
   dds_entity_t topic(const dds_topic_descriptor_t& type, const std::string& hand, const char* name) const {
-    return made(dds_create_topic(participant, &type, ddsTopic(hand, name).c_str(), nullptr, nullptr), "topic");
+    return made(dds_create_topic(node->participant(), &type, ddsTopic(hand, name).c_str(), nullptr, nullptr), "topic");
   }
   dds_entity_t writer(const dds_topic_descriptor_t& type, const std::string& hand, const char* name) const {
-    return made(dds_create_writer(participant, topic(type, hand, name), sensorQos(5).get(), nullptr), "writer");
+    return made(dds_create_writer(node->participant(), topic(type, hand, name), sensorQos(5).get(), nullptr), "writer");
   }
   template <typename Message>
   void listen(const dds_topic_descriptor_t& type, const std::string& hand, const char* name, RosInput input,
@@ -196,7 +105,7 @@ struct RosParticipant::Parts {
     const std::unique_ptr<dds_listener_t, void (*)(dds_listener_t*)> listener(
         dds_create_listener(hearings.back().get()), dds_delete_listener);
     dds_lset_data_available(listener.get(), &hear<Message>);
-    made(dds_create_reader(participant, topic(type, hand, name), sensorQos(1).get(), listener.get()), "reader");
+    made(dds_create_reader(node->participant(), topic(type, hand, name), sensorQos(1).get(), listener.get()), "reader");
   }
   void add(const std::string& hand) {
     listen<geometry_msgs_msg_dds__WrenchStamped_>(geometry_msgs_msg_dds__WrenchStamped__desc, hand, "servo_cf",
@@ -247,27 +156,13 @@ struct RosParticipant::Parts {
   }
 
   const Tell tell;
-  dds_entity_t domain = 0, participant = 0;
   std::vector<std::unique_ptr<TopicHearing>> hearings;
   std::vector<RosHandTopics> hands;
+  std::optional<DdsNode> node;  // its listeners have ended when it is gone
 };
 
 RosParticipant::RosParticipant(const RosTask& task, Tell tell) : parts_(std::make_unique<Parts>(std::move(tell))) {
-  const bool stays = task.reach.interface_name == "lo";
-  if (!stays) leaveLoopback();
-  const Qos qos(dds_create_qos(), dds_delete_qos);
-  if (!task.reach.enclave.empty()) addSecurity(*qos, readEnclave(task.reach.enclave, task.domain));
-  const std::string settings = stays ? loopbackConfiguration() : networkConfiguration(task.reach);
-  StartLog start;
-  dds_set_log_sink(&hearStart, &start);
-  parts_->domain = made(dds_create_domain(task.domain, settings.c_str()), "domain");
-  parts_->participant = dds_create_participant(task.domain, qos.get(), nullptr);
-  dds_set_log_sink(&hearLog, const_cast<Tell*>(&parts_->tell));
-  if (parts_->participant < 0 && !start.reason.empty())
-    throw Error("Cyclone DDS makes no participant: " + start.reason);
-  made(parts_->participant, "participant");
-  if (stays) requireLoopbackOnly();
-  for (const std::string& hand : task.hands) parts_->add(hand);
+  parts_->open(task);
 }
 
 RosParticipant::~RosParticipant() = default;

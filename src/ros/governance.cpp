@@ -36,9 +36,9 @@ Tree treeOf(const std::string& text, const std::string& name) {
 // <domains>: single ones, and ranges that may be open above.
 bool holds(const Tree& domains, std::uint32_t domain) {
   for (const auto& [kind, value] : domains) {
-    if (kind == "id" && value.get_value<std::uint32_t>(kMaxRosDomain + 1) == domain) return true;
+    if (kind == "id" && value.get_value<std::uint32_t>(kMaxDdsDomain + 1) == domain) return true;
     if (kind == "id_range" && value.get<std::uint32_t>("min", 0) <= domain &&
-        domain <= value.get<std::uint32_t>("max", kMaxRosDomain))
+        domain <= value.get<std::uint32_t>("max", kMaxDdsDomain))
       return true;
   }
   return false;

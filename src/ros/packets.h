@@ -47,11 +47,6 @@ struct HandCommand {
   std::uint64_t writer = 0;       ///< which of those that write to the topic
 };
 
-/// From hl-ros, once, in the place of a command: others can find its topics from now on.
-struct RosReady {
-  std::uint64_t ready = 1;
-};
-
 /// A packet of this type, and nothing else.
 template <typename Packet>
 std::optional<Packet> packetOf(std::span<const char> bytes) {

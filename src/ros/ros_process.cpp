@@ -1,133 +1,15 @@
 #include "ros/ros_process.h"
 
-#include <poll.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/socket.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
-#include <vector>
-
-#include "base/clock.h"
-#include "base/error.h"
-#include "io/reading_program.h"
+#include <array>
 
 namespace hl {
 
-namespace {
-
-constexpr const char* kRosProgram = "hl-ros";
-// Its start takes some tens of milliseconds, its end as many.
-constexpr int kStart_ms = 20'000, kEnd_ms = 2'000;
-
-// Signals stay as they are here, blocked in a server: hl-ros ends with its socket, not with the Ctrl-C of a terminal.
-pid_t startRos(const std::string& file, const std::vector<std::string>& words, int socket) {
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_adddup2(&files, socket, STDIN_FILENO);
-  std::vector<char*> arguments{const_cast<char*>(kRosProgram)};
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  pid_t id = 0;
-  const int error = posix_spawn(&id, file.c_str(), &files, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&files);
-  if (error != 0) throw Error(file + " cannot be started: " + std::strerror(error));
-  return id;
-}
-
-bool readableWithin(int socket, int most_ms) {
-  pollfd waiting{socket, POLLIN, 0};
-  const std::int64_t until_ns = monotonicNow_ns() + std::int64_t{1'000'000} * most_ms;
-  for (;;) {
-    const auto left_ms = static_cast<int>((until_ns - monotonicNow_ns()) / 1'000'000);
-    if (left_ms <= 0) return false;
-    const int found = poll(&waiting, 1, left_ms);
-    if (found > 0) return true;
-    if (found < 0 && errno != EINTR) return false;
-  }
-}
-
-// Whether it has ended by itself.
-bool waitForEnd(pid_t id, int most_ms) {
-  for (int waited_ms = 0;; ++waited_ms) {
-    if (waitpid(id, nullptr, WNOHANG) != 0) return true;
-    if (waited_ms >= most_ms) return false;
-    usleep(1000);
-  }
-}
-
-}  // namespace
-
-RosProcess::RosProcess(const RosTask& task) {
-  const std::string file = readingProgram(kRosProgram, kNoRosProgram);
-  int ends[2];
-  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
-    throw Error(std::string("no socket to hl-ros: ") + std::strerror(errno));
-  socket_ = ends[0];
-  try {
-    id_ = startRos(file, wordsOf(task), ends[1]);
-    close(ends[1]);
-    waitUntilReady();
-  } catch (...) {
-    if (id_ == 0) close(ends[1]);
-    end();
-    throw;
-  }
-}
-
-void RosProcess::waitUntilReady() {
-  if (!readableWithin(socket_, kStart_ms)) throw Error("hl-ros does not get ready");
-  RosReady ready;
-  if (recv(socket_, &ready, sizeof ready, MSG_DONTWAIT) != sizeof ready)
-    throw Error("hl-ros cannot serve topics of ROS 2: it has said why");
-}
-
-RosProcess::~RosProcess() { end(); }
-
-void RosProcess::end() {
-  close(socket_);
-  if (id_ == 0 || waitForEnd(id_, kEnd_ms)) return;
-  kill(id_, SIGKILL);
-  waitpid(id_, nullptr, 0);
-}
-
-void RosProcess::wait(std::int64_t most_ns) {
-  if (most_ns <= 0) return;
-  constexpr std::int64_t kSecond_ns = 1'000'000'000;
-  pollfd waiting{socket_, POLLIN, 0};
-  const timespec most{most_ns / kSecond_ns, most_ns % kSecond_ns};
-  ppoll(&waiting, 1, &most, nullptr);
-}
-
-bool RosProcess::send(const RosHandState& state) {
-  const auto bytes = bytesOf(state);
-  return ::send(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
-}
-
 std::optional<HandCommand> RosProcess::receive() {
   std::array<char, sizeof(HandCommand) + 1> buffer;
-  for (;;) {
-    const ssize_t size = recv(socket_, buffer.data(), buffer.size(), MSG_DONTWAIT);
-    if (size < 0 && errno == EINTR) continue;
-    if (size < 0 && errno == EAGAIN) return std::nullopt;
-    if (size <= 0) {
-      ended_ = true;
-      if (id_ != 0 && waitForEnd(id_, 0)) id_ = 0;
-      return std::nullopt;
-    }
-    if (const auto command = packetOf<HandCommand>({buffer.data(), static_cast<std::size_t>(size)})) return command;
+  while (const auto packet = process_.receive(buffer)) {
+    if (const auto command = packetOf<HandCommand>(*packet)) return command;
   }
-}
-
-std::string rosProgram() {
-  try {
-    return readingProgram(kRosProgram, kNoRosProgram);
-  } catch (const Error&) {
-    return {};
-  }
+  return std::nullopt;
 }
 
 }  // namespace hl

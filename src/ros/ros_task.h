@@ -5,24 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "ros/dds_reach.h"
+
 namespace hl {
-
-/// How far topics go.
-struct RosReach {
-  std::string interface_name = "lo";  ///< of the network; lo: this machine
-  std::string enclave;                ///< a folder, see enclave.h; empty: no DDS Security
-  std::vector<std::string> peers;     ///< IPv4 addresses at which others are, where multicast does not find them
-};
-
-/// Throws hl::Error where others than this machine could be reached without DDS Security, where there is no such
-/// interface, and for peers that are no addresses or cannot be reached.
-void checkReach(const RosReach& reach);
 
 struct RosTask {
   std::string version;             ///< of the program that starts it
   std::uint32_t domain = 0;        ///< of DDS
   std::vector<std::string> hands;  ///< the name of each, with its namespace: "hl/left"
-  RosReach reach{};
+  DdsReach reach{};
 };
 
 /// The words after the name of hl-ros; the task of them, read again. Throws hl::Error for words that are no such.
@@ -32,11 +23,6 @@ RosTask rosTaskOf(const std::vector<std::string>& words);
 /// A namespace as ROS 2 allows it: names of letters, digits and _, that no digit begins, with / between them. Gives it
 /// without the / before it. Throws hl::Error.
 std::string rosNamespace(const std::string& name);
-/// The largest domain: more have no UDP ports (DDSI-RTPS 9.6.1.1).
-inline constexpr std::uint32_t kMaxRosDomain = 232;
-/// What ROS_DOMAIN_ID says; 0 where it is not set. Throws hl::Error.
-std::uint32_t rosDomain();
-
 /// The topic of DDS that is /`hand`/`name` in ROS 2.
 std::string ddsTopic(const std::string& hand, const std::string& name);
 /// The frame of the device of a hand: x to the user's right, y up, z toward the user.

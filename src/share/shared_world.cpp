@@ -325,9 +325,9 @@ void SharedWorld::chooseContents(std::int64_t now_ns) {
   const std::vector<ServerId> there = peers_.there(now_ns);
   for (const auto& [id, record] : records_) {
     if (record.item.gone()) continue;
-    std::vector<ServerId> from{record.item.owner()};
-    std::copy_if(there.begin(), there.end(), std::back_inserter(from),
-                 [&](ServerId peer) { return peer != record.item.owner(); });
+    const ServerId owner = record.item.owner();
+    std::vector<ServerId> from{owner};
+    std::copy_if(there.begin(), there.end(), std::back_inserter(from), [&](ServerId peer) { return peer != owner; });
     for (const ContentName& name : {nameOf(record.item.content().shape()), nameOf(record.item.content().surfaces())}) {
       wanted.insert(name.sha256);
       if (!isOwn(record) && !contents_.find(name)) contents_.want(name, from, now_ns);

@@ -156,7 +156,7 @@ TEST_F(RosSecurity, WhoHasNoKeysOrForeignOnesReadsAndMovesNothing) {
 }
 
 TEST_F(RosSecurity, AnEnclaveThatDoesNotFitIsRefusedBeforeAnybodyCouldReachTheHand) {
-  const auto fails = [&](const RosReach& reach) {
+  const auto fails = [&](const DdsReach& reach) {
     line_->inside(kServer, [&] {
       EXPECT_THROW(RosProcess(RosTask{HL_VERSION, kDomain, {kHand}, reach}), Error) << reach.enclave;
     });

@@ -21,9 +21,9 @@ TEST(RosTask, ItsWordsAreReadAgain) {
 }
 
 TEST(RosTask, OtherMachinesAreReachedWithKeysAlone) {
-  const auto refusalOf = [](const RosReach& reach) -> std::string {
+  const auto refusalOf = [](const DdsReach& reach) -> std::string {
     try {
-      checkReach(reach);
+      checkReach(reach, kRosUse);
     } catch (const Error& error) {
       return error.what();
     }
@@ -77,14 +77,14 @@ TEST(RosTask, TopicsAndFramesOfAHand) {
 
 TEST(RosTask, TheDomainIsThatOfTheEnvironment) {
   unsetenv("ROS_DOMAIN_ID");
-  EXPECT_EQ(rosDomain(), 0u);
+  EXPECT_EQ(ddsDomain(), 0u);
   setenv("ROS_DOMAIN_ID", "", 1);
-  EXPECT_EQ(rosDomain(), 0u);
+  EXPECT_EQ(ddsDomain(), 0u);
   setenv("ROS_DOMAIN_ID", "232", 1);
-  EXPECT_EQ(rosDomain(), 232u);
+  EXPECT_EQ(ddsDomain(), 232u);
   for (const char* said : {"233", "-1", "home", "1 ", "99999999999999999999"}) {
     setenv("ROS_DOMAIN_ID", said, 1);
-    EXPECT_THROW(rosDomain(), Error) << said;
+    EXPECT_THROW(ddsDomain(), Error) << said;
   }
   unsetenv("ROS_DOMAIN_ID");
 }

@@ -1,0 +1,80 @@
+#include "share_options.h"
+
+#include <sys/random.h>
+#include <unistd.h>
+
+#include <array>
+
+#include "base/error.h"
+#include "share/share_process.h"
+
+namespace hl {
+
+namespace {
+
+std::string machineName() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
+
+// Another one for each start, so that nobody takes what it does for what was done before.
+ServerId randomId() {
+  ServerId id = 0;
+  while (id == 0) {
+    if (getrandom(&id, sizeof id, 0) != sizeof id) throw Error("the system gives no random number");
+  }
+  return id;
+}
+
+}  // namespace
+
+void addShareOptions(CLI::App& app, ShareOptions& options) {
+  const auto add = [&](const char* name, auto& value, const char* what, const char* text) {
+    return app.add_option(name, value, what)->needs("--share")->option_text(text)->group("Shared worlds");
+  };
+  app.add_option("--share", options.world,
+                 "share the scene and the hands with the other servers of this world, in the domain ROS_DOMAIN_ID: "
+                 "needs hl-share")
+      ->option_text("WORLD")
+      ->group("Shared worlds");
+  add("--share-name", options.name, "what this server is called there, one in the world (default: as the machine is)",
+      "NAME");
+  add("--share-adopt", options.adopt, "whether it takes over what a server leaves behind that is lost [on]", "on|off")
+      ->check(CLI::IsMember({"on", "off"}));
+  add("--share-security", options.reach.enclave,
+      "keys: only those with keys of the same authority are in the world; see hl keys", "FOLDER");
+  add("--share-interface", options.reach.interface_name,
+      "network interface to the other servers; lo is this machine alone, another needs --share-security", "NAME");
+  add("--share-peer", options.reach.peers,
+      "where another machine is, if multicast does not reach it; several times for several", "ADDRESS")
+      ->allow_extra_args(false);
+}
+
+std::unique_ptr<ShareBridge> makeShareBridge(const ShareOptions& options, TouchServer& server,
+                                             ShareBridge::TellPerson tell) {
+  if (options.world.empty()) return nullptr;
+  checkShareName(options.world, "--share");
+  checkReach(options.reach, kShareUse);
+  const std::string name = options.name.empty() ? shareNameLike(machineName()) : options.name;
+  checkShareName(name, "--share-name");
+  const ShareSelf self{randomId(), name, options.adopt == "on", HL_VERSION};
+  const ShareTask task{HL_VERSION, ddsDomain(), options.world, self.id, options.reach};
+  return std::make_unique<ShareBridge>(std::make_unique<ShareProcess>(task), options.world, self, server,
+                                       std::move(tell));
+}
+
+ReadShare readerOf(const ShareBridge* bridge) {
+  if (bridge == nullptr) return {};
+  return [bridge] { return bridge->view(); };
+}
+
+std::string sharePresence() {
+  if (placeOf(kShareProgram).empty()) return kShareProgram.absent;
+  try {
+    return "hl-share is here, for --share WORLD; worlds would be in domain " + std::to_string(ddsDomain());
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+}  // namespace hl

@@ -1,0 +1,33 @@
+// ShareProcess: hl-share, started with a socket to it.
+#pragma once
+
+#include <string>
+
+#include "ros/dds_process.h"
+#include "share/share_link.h"
+#include "share/share_task.h"
+
+namespace hl {
+
+inline constexpr DdsProgram kShareProgram{
+    "hl-share",
+    "worlds are shared by hl-share, which is not here: install the package hl-share, or run scripts/deps --ros and "
+    "scripts/build"};
+
+/// Ends with this object.
+class ShareProcess final : public ShareLink {
+ public:
+  /// As DdsProcess.
+  explicit ShareProcess(const ShareTask& task) : process_(kShareProgram, wordsOf(task)) {}
+
+  void wait(std::int64_t most_ns) override { process_.wait(most_ns); }
+  bool send(const SharePacket& packet) override { return process_.send(bytesOf(packet)); }
+  std::optional<SharePacket> receive() override;
+  bool ended() const override { return process_.ended(); }
+
+ private:
+  DdsProcess process_;
+  std::string buffer_ = std::string(kMostShareMessage_bytes + 1, '\0');
+};
+
+}  // namespace hl
