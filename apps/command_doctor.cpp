@@ -12,8 +12,8 @@
 #include "doctor_report.h"
 #include "io/output_file.h"
 #include "ros_options.h"
-#include "share_options.h"
 #include "serving.h"
+#include "share_options.h"
 
 namespace hl {
 

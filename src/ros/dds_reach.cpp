@@ -24,7 +24,7 @@ void checkReach(const DdsReach& reach, const DdsUse& use) {
   checkPrintable(name, (option + "-interface").c_str());
   checkPrintable(reach.enclave, ("the folder of " + option + "-security").c_str());
   if (name != kLoopback && reach.enclave.empty())
-    throw Error(std::string(use.what) + " stay on this machine without keys, as beyond it anybody could " + use.danger +
+    throw Error("without keys no other machine is reached, as anybody there could " + std::string(use.danger) +
                 ": say " + option + "-security FOLDER, which hl keys makes, or leave " + option + "-interface out");
   if (if_nametoindex(name.c_str()) == 0)
     throw Error("there is no network interface '" + name + "': ip link lists them");

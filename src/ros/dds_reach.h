@@ -13,14 +13,12 @@ struct DdsReach {
   std::vector<std::string> peers;     ///< IPv4 addresses at which others are, where multicast does not find them
 };
 
-/// What uses DDS, in the words of a person: "--ros", "topics of ROS 2", "pull the hand".
+/// What uses DDS, in the words of a person.
 struct DdsUse {
   const char* option;  ///< the options of its reach begin so
-  const char* what;
   const char* danger;  ///< what anybody could do without keys
 };
-inline constexpr DdsUse kRosUse{"--ros", "topics of ROS 2", "pull the hand"};
-inline constexpr DdsUse kShareUse{"--share", "what servers share", "change the scene in the hand"};
+inline constexpr DdsUse kRosUse{"--ros", "pull the hand"}, kShareUse{"--share", "change the scene in the hand"};
 
 /// Throws hl::Error where others than this machine could be reached without DDS Security, where there is no such
 /// interface, and for peers that are no addresses or cannot be reached.

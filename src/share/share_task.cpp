@@ -13,9 +13,7 @@ namespace {
 
 constexpr const char* kServe = "--serve";
 
-bool isOfName(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
-}
+bool isOfName(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; }
 
 /// Before the bytes of a packet.
 struct Head {
@@ -28,13 +26,13 @@ void checkShareName(const std::string& name, const char* what) {
   checkPrintable(name, what);
   if (name.empty() || name.size() > kMostShareName || !std::all_of(name.begin(), name.end(), isOfName))
     throw Error(std::string(what) + " is '" + name + "': it is made of 1 to " + std::to_string(kMostShareName) +
-                " letters, digits, - and _");
+                " letters, digits and _");
 }
 
 std::string shareNameLike(const std::string& name) {
   std::string like = name.substr(0, std::min(name.find('.'), kMostShareName));
   std::replace_if(
-      like.begin(), like.end(), [](char c) { return !isOfName(c); }, '-');
+      like.begin(), like.end(), [](char c) { return !isOfName(c); }, '_');
   return like.empty() ? "server" : like;
 }
 

@@ -23,11 +23,11 @@ struct ShareTask {
 std::vector<std::string> wordsOf(const ShareTask& task);
 ShareTask shareTaskOf(const std::vector<std::string>& words);
 
-/// The name of a world or of a server in it: 1 to kMostShareName letters, digits, - and _. Throws hl::Error, which says
+/// The name of a world or of a server in it: 1 to kMostShareName letters, digits and _. Throws hl::Error, which says
 /// `what` it is.
 void checkShareName(const std::string& name, const char* what);
 inline constexpr std::size_t kMostShareName = 32;
-/// A name like this one that is allowed: what is not becomes a -, and what is too much goes; "server" of nothing.
+/// A name like this one that is allowed: what is not becomes a _, and what is too much goes; "server" of nothing.
 std::string shareNameLike(const std::string& name);
 
 /// The topic of DDS of a lane in this world; of an inbox: that of the server `to`.
