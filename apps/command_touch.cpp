@@ -11,6 +11,7 @@
 #include "io/load_scene_file.h"
 #include "io/output_file.h"
 #include "monitor/ros_metrics.h"
+#include "monitor/share_metrics.h"
 #include "monitor/touch_monitor.h"
 #include "open_browser.h"
 #include "page/viewer_feed.h"
@@ -158,11 +159,16 @@ void runTouch(TouchOptions options) {
   const auto share =
       makeShareBridge(options.share, touch, [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
   const auto& recordings = options.recorder.pages;
-  const auto set_iso = [&touch](std::uint64_t surface, const IsoChoice& iso) { touch.setIso(surface, iso); };
-  HttpServer server(http,
-                    makeViewerFeed(session, HL_VERSION, touch.memory().member(), recordings, http.upload.limit_bytes,
-                                   set_iso, touch.otherDevices()),
-                    &touch, withRosMetrics(makeTouchMonitor(session, &touch, recordings), ros.get()));
+  ViewerFeedSettings page;
+  page.memory = touch.memory().member();
+  page.recordings = recordings;
+  page.upload_bytes = http.upload.limit_bytes;
+  page.set_iso = [&touch](std::uint64_t surface, const IsoChoice& iso) { touch.setIso(surface, iso); };
+  page.others = touch.otherDevices();
+  page.share = readerOf(share.get());
+  MonitorCallbacks monitor = withRosMetrics(makeTouchMonitor(session, &touch, recordings), ros.get());
+  HttpServer server(http, makeViewerFeed(session, HL_VERSION, page), &touch,
+                    withShareMetrics(std::move(monitor), page.share));
   touch.start();
   if (ros) ros->start();
   if (share) share->start();

@@ -9,6 +9,7 @@
 #include "base/realtime.h"
 #include "hld_options.h"
 #include "monitor/ros_metrics.h"
+#include "monitor/share_metrics.h"
 #include "monitor/touch_monitor.h"
 #include "page/viewer_feed.h"
 #include "record/recorder.h"
@@ -21,8 +22,10 @@ namespace hl {
 
 namespace {
 
-std::shared_ptr<const Snapshot> sceneOf(const SceneOptions& options) {
-  return options.scene.empty() ? makeSnapshot(std::vector<Instance>{}, "the clients' world") : loadSnapshot(options);
+std::shared_ptr<const Snapshot> sceneOf(const HldOptions& options) {
+  if (!options.scene.scene.empty()) return loadSnapshot(options.scene);
+  return makeSnapshot(std::vector<Instance>{},
+                      options.share.world.empty() ? "the clients' world" : "the world " + options.share.world);
 }
 
 HttpServerSettings serverSettings(const HldOptions& options) {
@@ -102,7 +105,7 @@ void serve(HldOptions& options) {
   options.recorder.tell = logFault;
   options.touch.sink = recorderWith(options.recorder);
   const HttpServerSettings http = serverSettings(options);
-  TouchServer touch(sceneOf(options.scene),
+  TouchServer touch(sceneOf(options),
                     {options.touch, devices, http.limits, HL_VERSION, options.devices.faultsJoined()});
   TouchSession& session = touch.device();
   const auto ros = makeRosBridge(options.ros, touch, [](const std::string& line) {
@@ -111,10 +114,14 @@ void serve(HldOptions& options) {
   const auto share = makeShareBridge(options.share, touch, [](const std::string& line) {
     logEvent(LogLevel::kInfo, "share", {{"news", line}});
   });
-  const auto set_iso = [&touch](std::uint64_t surface, const IsoChoice& iso) { touch.setIso(surface, iso); };
-  HttpServer server(
-      http, makeViewerFeed(session, HL_VERSION, touch.memory().member(), nullptr, 0, set_iso, touch.otherDevices()),
-      &touch, withRosMetrics(makeTouchMonitor(session, &touch), ros.get()));
+  ViewerFeedSettings page;
+  page.memory = touch.memory().member();
+  page.set_iso = [&touch](std::uint64_t surface, const IsoChoice& iso) { touch.setIso(surface, iso); };
+  page.others = touch.otherDevices();
+  page.share = readerOf(share.get());
+  MonitorCallbacks monitor = withRosMetrics(makeTouchMonitor(session, &touch), ros.get());
+  HttpServer server(http, makeViewerFeed(session, HL_VERSION, page), &touch,
+                    withShareMetrics(std::move(monitor), page.share));
   touch.start();
   if (ros) ros->start();
   if (share) share->start();

@@ -29,19 +29,16 @@ void describe(const QuantityInfo& info, proto::QuantityInfo& out) {
   out.set_words(info.words);
 }
 
-using OtherDevices = std::vector<TouchSession*>;
-
-std::string hello(const TouchSession& session, const OtherDevices& others, const std::string& version,
-                  std::uint64_t upload_bytes) {
+std::string hello(const TouchSession& session, const ViewerFeedSettings& settings, const std::string& version) {
   proto::ServerMessage message;
   proto::Hello& out = *message.mutable_hello();
   out.set_protocol_version(kProtocolVersion);
   out.set_server_version(version);
-  out.set_upload_bytes(upload_bytes);
+  out.set_upload_bytes(settings.upload_bytes);
   out.set_scene_name(session.snapshot()->name);
   toProto(session, *out.mutable_device());
-  if (!others.empty()) toProto(session, *out.add_devices());
-  for (const TouchSession* other : others) toProto(*other, *out.add_devices());
+  if (!settings.others.empty()) toProto(session, *out.add_devices());
+  for (const TouchSession* other : settings.others) toProto(*other, *out.add_devices());
   for (const QuantityInfo& info : kQuantityInfo) {
     if (info.usual > 0) describe(info, *out.add_quantities());
   }
@@ -115,8 +112,24 @@ void setOther(TouchSession& session, proto::OtherDevice& out) {
   toProto(session, servo, proxy, out);
 }
 
-std::string state(TouchSession& session, const OtherDevices& others, PageScene& scene,
-                  const PageRecordings* recordings) {
+void setShared(const ShareView& view, proto::State& out) {
+  proto::SharedWorld& shared = *out.mutable_shared();
+  shared.set_world(view.world);
+  shared.set_name(view.name);
+  shared.set_ended(view.ended);
+  shared.set_objects(view.counts.items - view.counts.own_items);
+  shared.set_own(view.counts.own_items);
+  shared.set_fetching(view.counts.fetching);
+  for (const PeerView& peer : view.peers) {
+    proto::SharePeer& told = *shared.add_peers();
+    told.set_name(peer.name);
+    told.set_round_trip_ms(peer.round_trip_ms);
+    told.set_playout_ms(peer.playout_ms);
+  }
+  for (const proto::OtherDevice& hand : view.hands) *out.add_remote() = hand;
+}
+
+std::string state(TouchSession& session, const ViewerFeedSettings& settings, PageScene& scene) {
   ServoView servo;
   ProxyView proxy;
   session.views(servo, proxy);
@@ -143,8 +156,9 @@ std::string state(TouchSession& session, const OtherDevices& others, PageScene& 
   out.set_buttons(servo.buttons);
   setStylus(servo.stylus, session.deviceInfo(), out);
   if (proxy.bodies.bodies > 0) setBodies(*out.mutable_bodies(), proxy.bodies);
-  if (recordings != nullptr) setRecording(*out.mutable_recording(), recordings->status());
-  for (TouchSession* other : others) setOther(*other, *out.add_others());
+  if (settings.recordings) setRecording(*out.mutable_recording(), settings.recordings->status());
+  for (TouchSession* other : settings.others) setOther(*other, *out.add_others());
+  if (settings.share) setShared(settings.share(), out);
   const std::int64_t now_ns = monotonicNow_ns();
   scene.follow(session.snapshot(), {session.radius_W(), session.workspace().world_per_device}, now_ns);
   scene.describe(out, std::span(proxy.touched.begin(), proxy.touched.end()), proxy.snap, now_ns);
@@ -169,11 +183,10 @@ void apply(const SetIso& set_iso, const proto::IsoChange& change) {
 }
 
 // A message that does not parse or asks for what does not exist changes nothing.
-void receive(TouchSession& first, const OtherDevices& others, PageRecordings* recordings, const SetIso& set_iso,
-             const std::string& bytes) {
+void receive(TouchSession& first, const ViewerFeedSettings& settings, const std::string& bytes) {
   proto::ViewerMessage message;
-  if (!message.ParseFromString(bytes) || message.device() > others.size()) return;
-  TouchSession& session = message.device() == 0 ? first : *others[message.device() - 1];
+  if (!message.ParseFromString(bytes) || message.device() > settings.others.size()) return;
+  TouchSession& session = message.device() == 0 ? first : *settings.others[message.device() - 1];
   switch (message.body_case()) {
     case proto::ViewerMessage::kHandGoal: {
       const proto::Vec3& p = message.hand_goal().position();
@@ -199,10 +212,11 @@ void receive(TouchSession& first, const OtherDevices& others, PageRecordings* re
       session.setExplore(true);
       break;
     case proto::ViewerMessage::kRecord:
-      if (recordings != nullptr) recordings->ask(message.record().owner(), message.record().on(), monotonicNow_ns());
+      if (settings.recordings)
+        settings.recordings->ask(message.record().owner(), message.record().on(), monotonicNow_ns());
       break;
     case proto::ViewerMessage::kIso:
-      apply(set_iso, message.iso());
+      apply(settings.set_iso, message.iso());
       break;
     case proto::ViewerMessage::BODY_NOT_SET:
       break;
@@ -211,19 +225,16 @@ void receive(TouchSession& first, const OtherDevices& others, PageRecordings* re
 
 }  // namespace
 
-FeedCallbacks makeViewerFeed(TouchSession& session, const std::string& version, MemoryBudget memory,
-                             std::shared_ptr<PageRecordings> recordings, std::uint64_t upload_bytes, SetIso set_iso,
-                             std::vector<TouchSession*> others) {
-  const auto scene = std::make_shared<PageScene>(std::move(memory));
+FeedCallbacks makeViewerFeed(TouchSession& session, const std::string& version, ViewerFeedSettings settings) {
+  const auto scene = std::make_shared<PageScene>(std::move(settings.memory));
+  const auto kept = std::make_shared<const ViewerFeedSettings>(std::move(settings));
   const auto open_page = [scene] {
     return [scene, memory = std::make_shared<PageMemory>(scene->open())] { return scene->next(*memory); };
   };
-  return {[&session, others, version, upload_bytes] { return hello(session, others, version, upload_bytes); },
-          open_page, [&session, others, scene, recordings] { return state(session, others, *scene, recordings.get()); },
-          [&session, others, recordings, set_iso = std::move(set_iso)](const std::string& bytes) {
-            receive(session, others, recordings.get(), set_iso, bytes);
-          },
-          [recordings](std::uint32_t owner) { return recordings ? recordings->open(owner) : nullptr; }};
+  return {[&session, kept, version] { return hello(session, *kept, version); }, open_page,
+          [&session, kept, scene] { return state(session, *kept, *scene); },
+          [&session, kept](const std::string& bytes) { receive(session, *kept, bytes); },
+          [kept](std::uint32_t owner) { return kept->recordings ? kept->recordings->open(owner) : nullptr; }};
 }
 
 }  // namespace hl

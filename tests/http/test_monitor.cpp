@@ -10,6 +10,7 @@
 #include "http/http_server.h"
 #include "monitor/event_log.h"
 #include "monitor/ros_metrics.h"
+#include "monitor/share_metrics.h"
 #include "monitor/touch_monitor.h"
 #include "page/viewer_feed.h"
 #include "plain_client.h"
@@ -72,6 +73,26 @@ TEST(RosMetrics, HaveEveryCount) {
         "hl_ros_refused_total{reason=\"other_frame\"} 7", "hl_ros_refused_total{reason=\"stale\"} 8",
         "hl_ros_ends_total 9"})
     EXPECT_NE(out.text().find(std::string("\n") + line + "\n"), std::string::npos) << line;
+}
+
+TEST(ShareMetrics, TellOfTheWorldAndItsServers) {
+  ShareView view{"lab", "anna", {}};
+  view.counts.items = 12;
+  view.counts.own_items = 5;
+  view.counts.adopted = 2;
+  view.counts.pushes_sent = 7;
+  view.peers = {{"bert", 100.5, 75}};
+  MetricsText out;
+  writeShareMetrics(out, view);
+  for (const char* line :
+       {"hl_share_running 1", "hl_share_servers 1", "hl_share_objects 12", "hl_share_own_objects 5",
+        "hl_share_adopted_total 2", "hl_share_pushes_total{what=\"sent\"} 7",
+        "hl_share_round_trip_seconds{server=\"bert\"} 0.1005", "hl_share_playout_seconds{server=\"bert\"} 0.075"})
+    EXPECT_NE(out.text().find(std::string(line) + "\n"), std::string::npos) << line;
+  view.ended = "hl-share has ended";
+  MetricsText ended;
+  writeShareMetrics(ended, view);
+  EXPECT_NE(ended.text().find("hl_share_running 0\n"), std::string::npos);
 }
 
 TEST(Monitor, HealthIsOkUntilThereIsAFault) {

@@ -138,7 +138,9 @@ TEST_F(SeveralDevices, AreAllInTheMetricsAndInTheHealth) {
 // In its own message a page finds each device by its name; what it sends is for the one that it names.
 TEST_F(SeveralDevices, AreAllToldToPages) {
   start(false);
-  const FeedCallbacks feed = makeViewerFeed(server_->device(), "test", {}, nullptr, 0, {}, server_->otherDevices());
+  ViewerFeedSettings settings;
+  settings.others = server_->otherDevices();
+  const FeedCallbacks feed = makeViewerFeed(server_->device(), "test", settings);
   proto::ServerMessage hello, state;
   ASSERT_TRUE(hello.ParseFromString(feed.hello()));
   ASSERT_EQ(hello.hello().devices_size(), 2);

@@ -2,6 +2,7 @@
 
 import { spawn, type ChildProcess } from "node:child_process";
 import { createInterface } from "node:readline";
+import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
 /** The `hl` program; without it the tests of real servers are skipped. */
@@ -29,6 +30,20 @@ export async function startTouch(port: number, scene = "teapot", ...options: str
     }
   }
   throw new Error("hl touch ended without telling its page");
+}
+
+/** Starts `hld` on a free port and waits until it is ready. */
+export async function startServer(...options: string[]): Promise<Touch> {
+  const program = join(dirname(kProgram!), "hld");
+  const child = spawn(program, ["--port", "0", "--page-dir", kDist, ...options], { stdio: ["ignore", "ignore", "pipe"] });
+  for await (const line of createInterface({ input: child.stderr! })) {
+    const match = /event=ready address=(\S+)/.exec(line);
+    if (match) {
+      child.stderr!.resume();
+      return { process: child, url: match[1]! };
+    }
+  }
+  throw new Error("hld ended without telling its page");
 }
 
 export function ended(child: ChildProcess): Promise<number | null> {

@@ -51,6 +51,8 @@ export interface DebugState {
   /** World distance between proxy and finger. */
   readonly separation_m: number | undefined;
   readonly contacts: number;
+  /** Hands of other servers of a shared world. */
+  readonly remoteHands: readonly { readonly server: string; readonly proxy: Vec | undefined }[];
   /** Index of the layout's snap that holds the proxy. */
   readonly snap: number | undefined;
   readonly safety: string;
@@ -103,6 +105,9 @@ function makeDebugState(sources: DebugSources): DebugState {
       const proxy = knownVec(sources.state()?.proxy);
       const finger = knownVec(sources.state()?.finger);
       return proxy === undefined || finger === undefined ? undefined : length(sub(proxy, finger));
+    },
+    get remoteHands() {
+      return (sources.state()?.remote ?? []).map(({ server, proxy }) => ({ server, proxy: knownVec(proxy) }));
     },
     get contacts() { return sources.state()?.contacts.length ?? 0; },
     get snap() { return sources.scene().marks.held; },

@@ -24,7 +24,7 @@ import { Panel } from "./panel";
 import { RecordPanel } from "./record_panel";
 import { kWindow_s, LivePlot } from "./plots";
 import { Pointing } from "./pointing";
-import { OtherDevices } from "./other_devices";
+import { OtherHands } from "./other_hands";
 import { ProbeView } from "./probe_view";
 import {
   encodeHandGoal, encodeIso, encodePress, encodeRearm, encodeRecord, encodeRelease, encodeSettings, kProtocolVersion,
@@ -65,7 +65,7 @@ class App {
     replaced: () => this.hand_.cancel(),
   });
   private readonly probe_ = new ProbeView();
-  private readonly others_ = new OtherDevices((device) => this.send(encodeRearm(device)));
+  private readonly others_ = new OtherHands((device) => this.send(encodeRearm(device)));
   private readonly notices_ = new Notices();
   private readonly recordingFile_ = new RecordingFile((recording, name) => this.timeline_.open(recording, name));
   private readonly modelFile_ = new ModelFile(

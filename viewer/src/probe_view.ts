@@ -44,6 +44,7 @@ export class ProbeView {
   private hasProxy_ = false;
   private forceMax_N_ = 10;
   private showPlanes_ = false;
+  private colour_: string | undefined;
 
   constructor() {
     const sphere = new THREE.SphereGeometry(1, 32, 20);
@@ -97,14 +98,22 @@ export class ProbeView {
     this.showPlanes_ = shown;
   }
 
+  /** In the place of the theme's, for proxy and ring. */
+  setColour(colour: string): void {
+    if (this.colour_ === colour) return;
+    this.colour_ = colour;
+    this.applyTheme();
+  }
+
   applyTheme(): void {
     this.cones.applyTheme();
     this.drop.applyTheme();
     this.stylus.applyTheme();
-    this.proxy_.material.color.set(themeColour("proxy"));
-    this.proxy_.material.emissive.set(themeColour("proxy")).multiplyScalar(0.35);
-    this.ghost_.material.color.set(themeColour("proxy"));
-    this.ring_.material.color.set(themeColour("proxy"));
+    const colour = this.colour_ ?? themeColour("proxy");
+    this.proxy_.material.color.set(colour);
+    this.proxy_.material.emissive.set(colour).multiplyScalar(0.35);
+    this.ghost_.material.color.set(colour);
+    this.ring_.material.color.set(colour);
     this.finger_.material.color.set(themeColour("finger"));
     this.line_.material.color.set(themeColour("finger"));
     this.shaft_.material.color.set(themeColour("force"));
