@@ -159,13 +159,9 @@ void runTouch(TouchOptions options) {
   const auto share =
       makeShareBridge(options.share, touch, [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
   const auto& recordings = options.recorder.pages;
-  ViewerFeedSettings page;
-  page.memory = touch.memory().member();
+  ViewerFeedSettings page = pageOf(touch, readerOf(share.get()));
   page.recordings = recordings;
   page.upload_bytes = http.upload.limit_bytes;
-  page.set_iso = [&touch](std::uint64_t surface, const IsoChoice& iso) { touch.setIso(surface, iso); };
-  page.others = touch.otherDevices();
-  page.share = readerOf(share.get());
   MonitorCallbacks monitor = withRosMetrics(makeTouchMonitor(session, &touch, recordings), ros.get());
   HttpServer server(http, makeViewerFeed(session, HL_VERSION, page), &touch,
                     withShareMetrics(std::move(monitor), page.share));

@@ -114,11 +114,7 @@ void serve(HldOptions& options) {
   const auto share = makeShareBridge(options.share, touch, [](const std::string& line) {
     logEvent(LogLevel::kInfo, "share", {{"news", line}});
   });
-  ViewerFeedSettings page;
-  page.memory = touch.memory().member();
-  page.set_iso = [&touch](std::uint64_t surface, const IsoChoice& iso) { touch.setIso(surface, iso); };
-  page.others = touch.otherDevices();
-  page.share = readerOf(share.get());
+  const ViewerFeedSettings page = pageOf(touch, readerOf(share.get()));
   MonitorCallbacks monitor = withRosMetrics(makeTouchMonitor(session, &touch), ros.get());
   HttpServer server(http, makeViewerFeed(session, HL_VERSION, page), &touch,
                     withShareMetrics(std::move(monitor), page.share));

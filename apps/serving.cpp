@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <utility>
 
 namespace hl {
 
@@ -39,6 +40,15 @@ int waitForSignal(const sigset_t& signals, double longest_s) {
   const auto whole = static_cast<time_t>(longest_s);
   const timespec limit{whole, static_cast<long>(1e9 * (longest_s - static_cast<double>(whole)))};
   return std::max(0, sigtimedwait(&signals, nullptr, &limit));
+}
+
+ViewerFeedSettings pageOf(TouchServer& server, ReadShare share) {
+  ViewerFeedSettings page;
+  page.memory = server.memory().member();
+  page.set_iso = [&server](std::uint64_t surface, const IsoChoice& iso) { server.setIso(surface, iso); };
+  page.others = server.otherDevices();
+  page.share = std::move(share);
+  return page;
 }
 
 // systemd's word for a service, XDG's for a person.

@@ -6,7 +6,9 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "page/viewer_feed.h"
 #include "record/recorder.h"
+#include "session/touch_server.h"
 
 namespace hl {
 
@@ -26,6 +28,9 @@ std::string defaultPageFolder();
 
 /// Where black boxes are kept unless told otherwise; empty where there is no place for them.
 std::string defaultBlackBoxFolder();
+/// What pages see of `server` and may do to it, but for recordings and files; it must outlive them.
+ViewerFeedSettings pageOf(TouchServer& server, ReadShare share);
+
 /// --black-box, over the default folder.
 void addBlackBoxOption(CLI::App& command, RecorderSettings& recorder);
 
