@@ -76,9 +76,15 @@ bool Peers::isThere(ServerId id, std::int64_t now_ns) const {
 std::optional<std::int64_t> Peers::shownTimeThere_ns(ServerId id, std::int64_t now_ns) const {
   const auto peer = peers_.find(id);
   if (peer == peers_.end()) return std::nullopt;
-  const std::optional<std::int64_t> offset_ns = peer->second.clock.offset_ns();
-  if (!offset_ns) return std::nullopt;
-  return now_ns + *offset_ns - peer->second.delay.delay_ns();
+  const std::optional<std::int64_t> lag_ns = peer->second.lag.lag_ns();
+  return lag_ns ? std::optional(now_ns - *lag_ns) : std::nullopt;
+}
+
+void Peers::followClocks(std::int64_t now_ns) {
+  for (auto& [_, peer] : peers_) {
+    const std::optional<std::int64_t> offset_ns = peer.clock.offset_ns();
+    if (offset_ns) peer.lag.follow(now_ns, peer.delay.delay_ns() - *offset_ns);
+  }
 }
 
 bool Peers::isAdopter(std::int64_t now_ns) const {

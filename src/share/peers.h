@@ -30,6 +30,7 @@ struct Peer {
   std::int64_t first_ns = 0, heard_ns = 0;  ///< the first and the last packet of it
   PeerClock clock;
   PlayoutDelay delay;
+  SteadyLag lag;
   std::map<std::uint32_t, proto::ShareHand> hands;  ///< by number, as told last
   proto::ShareEcho echo;                            ///< of its last beat
 };
@@ -65,6 +66,8 @@ class Peers {
   const Peer* sameName(std::int64_t now_ns) const;
   std::vector<ServerId> there(std::int64_t now_ns) const;
   const std::map<ServerId, Peer>& all() const { return peers_; }
+  /// The times that are shown go on; often.
+  void followClocks(std::int64_t now_ns);
   /// Those that have been lost for a minute go.
   void forget(std::int64_t now_ns);
 

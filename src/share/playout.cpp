@@ -1,6 +1,8 @@
 #include "share/playout.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <utility>
 
 #include "scene/motion.h"
 
@@ -20,6 +22,16 @@ void PlayoutDelay::add(std::int64_t transit_ns) {
   std::sort(sorted.begin(), end);
   const std::size_t late = count / 100;  // so many may come later
   delay_ns_ = std::min(sorted[count - 1 - late], sorted[0] + kMostJitter_ns);
+}
+
+void SteadyLag::follow(std::int64_t now_ns, std::int64_t wanted_ns) {
+  const std::int64_t passed_ns = std::max<std::int64_t>(0, now_ns - std::exchange(last_ns_, now_ns));
+  if (!lag_ns_ || std::abs(wanted_ns - *lag_ns_) > kJump_ns) {
+    lag_ns_ = wanted_ns;
+    return;
+  }
+  const auto most_ns = static_cast<std::int64_t>(kRate * static_cast<double>(std::min(passed_ns, kJump_ns)));
+  *lag_ns_ += std::clamp(wanted_ns - *lag_ns_, -most_ns, most_ns);
 }
 
 void Track::add(std::int64_t time_ns, const ItemMotion& motion) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "scene/snapshot.h"
@@ -35,6 +36,24 @@ class PlayoutDelay {
   std::array<std::int64_t, kTransits> transits_{};
   std::size_t added_ = 0;
   std::int64_t delay_ns_ = 0;
+};
+
+/// How far what a server tells is behind, as it is shown: it follows what clocks and delays ask for slowly, so that
+/// what moves evenly goes on evenly. Of one server. One thread.
+class SteadyLag {
+ public:
+  /// The part of the time by which things may be shown faster or slower.
+  static constexpr double kRate = 0.1;
+  /// Farther than that nobody is to wait: it jumps.
+  static constexpr std::int64_t kJump_ns = 500'000'000;
+
+  void follow(std::int64_t now_ns, std::int64_t wanted_ns);
+  /// This server's time less the other's of what is shown; nothing before the first call.
+  std::optional<std::int64_t> lag_ns() const { return lag_ns_; }
+
+ private:
+  std::optional<std::int64_t> lag_ns_;
+  std::int64_t last_ns_ = 0;
 };
 
 /// Of one object: where it was, as its owner has told. One thread.

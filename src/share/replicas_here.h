@@ -23,8 +23,9 @@ class ReplicasHere {
  public:
   using TellPerson = std::function<void(const std::string&)>;
   using FitHands = std::function<void(const Box& bounds)>;
-  /// How long a replica takes to its next place: a frame; to one where it was not before: as long as the force fades.
-  static constexpr std::int64_t kMove_ns = 16'666'667, kJump_ns = kAbruptBlend_ns;
+  /// How long a replica takes to its next place: to the next look; to one where it was not before: as long as the force
+  /// fades.
+  static constexpr std::int64_t kMove_ns = 8'333'333, kJump_ns = kAbruptBlend_ns;
 
   /// `bodies`: this server moves rigid bodies, so those that it has taken over go on. All outlive it.
   /// `fit`: fits hands to the bounds of the first that are placed; empty: they stay as they are.

@@ -59,16 +59,18 @@ ShareView ShareBridge::view() const {
 
 void ShareBridge::run() {
   std::int64_t next_ns = monotonicNow_ns();
+  std::uint64_t shows = 0;
   while (running_) {
     link_->wait(std::max<std::int64_t>(1, next_ns - monotonicNow_ns()));
     const std::int64_t now_ns = monotonicNow_ns();
     hearAll(now_ns);
     if (link_->ended()) return endFor("hl-share has ended: restart this server to share the world again");
-    if (now_ns >= next_ns) {
-      guarded([&] { look(now_ns); });
-      next_ns = std::max(next_ns + kLook_ns, now_ns);
-    }
     guarded([&] { world_.step(now_ns); });
+    if (now_ns >= next_ns) {
+      if (shows++ % (kLook_ns / kShow_ns) == 0) guarded([&] { look(now_ns); });
+      guarded([&] { show(now_ns); });
+      next_ns = std::max(next_ns + kShow_ns, now_ns);
+    }
     if (world_.peers().sameName(now_ns) == nullptr) continue;
     guarded([&] { replicas_.clear(); });
     return endFor("another server of this world is called " + view_.name + " as well: give one another --share-name");
@@ -88,9 +90,13 @@ void ShareBridge::look(std::int64_t now_ns) {
   tellScene(now_ns);
   tellHands(now_ns);
   actOnBodies();
-  showOthers(now_ns);
   tellPeers(now_ns);
   writeView(now_ns);
+}
+
+void ShareBridge::show(std::int64_t now_ns) {
+  work_.finish();
+  showOthers(now_ns);
 }
 
 void ShareBridge::tellScene(std::int64_t now_ns) {

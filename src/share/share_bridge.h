@@ -29,7 +29,9 @@ class ShareBridge {
  public:
   /// For what a person should know: a line without its end. Called by the thread of the bridge.
   using TellPerson = std::function<void(const std::string&)>;
-  static constexpr std::int64_t kLook_ns = 16'666'667;
+  /// From one look at the server's own scene to the next; what others have is placed twice as often, so that it is
+  /// shown sooner.
+  static constexpr std::int64_t kLook_ns = 16'666'667, kShow_ns = kLook_ns / 2;
 
   /// `server` outlives it.
   ShareBridge(std::unique_ptr<ShareLink> link, const std::string& world, const ShareSelf& self, TouchServer& server,
@@ -45,6 +47,7 @@ class ShareBridge {
   void run();
   void hearAll(std::int64_t now_ns);
   void look(std::int64_t now_ns);
+  void show(std::int64_t now_ns);
   void tellScene(std::int64_t now_ns);
   void tellHands(std::int64_t now_ns);
   void actOnBodies();

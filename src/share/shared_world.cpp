@@ -337,6 +337,7 @@ void SharedWorld::chooseContents(std::int64_t now_ns) {
 }
 
 void SharedWorld::step(std::int64_t now_ns) {
+  peers_.followClocks(now_ns);
   if (now_ns - beat_ns_ >= Peers::kBeat_ns) {
     beat_ns_ = now_ns;
     proto::ShareMessage message;
