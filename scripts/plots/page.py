@@ -76,6 +76,26 @@ async def picture_of_scene(scene, programs):
             return await browser.picture()
 
 
+async def picture_of_shared(address):
+    async with Browser(*PICTURE) as browser:
+        await browser.open(f"http://{address}/", SHOWN)
+        await browser.wait_for("window.__hl && __hl.remoteHands.length === 2")
+        await asyncio.sleep(PLOTS_S)
+        return await browser.picture()
+
+
+def shared(programs):
+    """Three servers: one with a scene, one with nothing but a hand, and the one whose page is seen."""
+    def sharing(name):
+        return ["--share", "gallery", "--share-name", name, "--port", "0"]
+
+    touch = [built(programs, "hl"), "touch", "workshop", "--no-open", *sharing("anna")]
+    idle = [built(programs, "hld"), "--explore", "on", *sharing("carl")]
+    seen = [built(programs, "hld"), "--explore", "on", *sharing("bert")]
+    with Program(touch, "page: "), Program(idle, "event=ready"), Program(seen, r"address=http://(\S+)/") as served:
+        write(asyncio.run(picture_of_shared(served.found.group(1))), look.folder / "shared_page.png")
+
+
 def parts(programs):
     for name, picture in (("parts", "bodies_of_parts"), ("hollow", "hollow_bodies")):
         scene = look.ROOT / f"scenes/examples/{name}.hl.json"

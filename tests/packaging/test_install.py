@@ -147,7 +147,7 @@ class DebianPackages(unittest.TestCase):
 
     def test_there_is_one_for_each_purpose(self):
         self.assertEqual(sorted(self.packages), 
-                         ["hl-cad"] * HAS_CAD + ["hl-ros"] * HAS_ROS + ["hl-tools"] + ["hl-vdb"] * HAS_VDB +
+                         ["hl-cad"] * HAS_CAD + ["hl-ros", "hl-share"] * HAS_ROS + ["hl-tools"] + ["hl-vdb"] * HAS_VDB +
                          ["libhl", "libhl-dev", "libhlbatch"] + ["python3-hl"] * HAS_PYTHON)
 
     @unittest.skipUnless(HAS_PYTHON, "the Python package is not built")
