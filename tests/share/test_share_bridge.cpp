@@ -54,12 +54,13 @@ TEST_F(SharedServers, WhatAHandPressesOnABodyOfAnotherMovesIt) {
   const auto a = add(1, "anna", floorAndBlock(kNear)), b = add(2, "bert", nothing());
   waitForBoth(*b);
   waitFor([&] { return std::abs(placeOf(*b->other(kBlockThere)).y() - kHalf_m) < 1e-3; });
-  // From the left, at the height of its centre, and through it.
   b->touch.device().setWorkspace({});
-  b->touch.device().setHandGoal(Vec3(-0.08, 0.1, 0));
   waitFor([&] { return b->bridge.view().counts.items == kBoth; });
-  for (double x = -0.08; placeOf(a->own(kBlock)).x() < 0.01; x = std::min(x + 1e-4, 0.05)) {
+  // From the left, at the height of its centre, and through it; again where a busy machine has made a fault meanwhile.
+  const double from = -0.08, to = 0.05;
+  for (double x = from; placeOf(a->own(kBlock)).x() < 0.01; x = x < to ? x + 1e-4 : from) {
     b->touch.device().setHandGoal(Vec3(x, x < -0.06 ? 0.1 : 0.015, 0));
+    for (SharedServer* server : {a.get(), b.get()}) server->keepOn();
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   EXPECT_GT(b->bridge.view().counts.pushes_sent, 0);
@@ -77,7 +78,7 @@ TEST_F(SharedServers, WhatAKilledServerHadStaysAndItsBodiesGoOnAndComeBackWithIt
   a.reset();
   waitFor([&] { return b->other(kBlockThere)->movesAsBody(); });  // of all that are left it has the lowest number
   EXPECT_TRUE(b->hasTold("server anna is lost"));
-  EXPECT_EQ(b->bridge.view().counts.adopted, kBoth);
+  waitFor([&] { return b->bridge.view().counts.adopted == kBoth; });
   // It can be lifted from then on by a program of any server, as it could before.
   waitFor([&] { return c->other(kBlockThere)->shownAt(monotonicNow_ns()) == b->other(kBlockThere)->shownAt(0); });
   a = add(7, "anna", floorAndBlock());
