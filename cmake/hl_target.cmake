@@ -53,13 +53,19 @@ function(hl_library name)
   target_link_libraries(${name} PUBLIC hl_flags ${ARG_LINK})
 endfunction()
 
+# What tests do themselves takes no time: they call code that is optimised as users have it. Compiling them with -O3 takes
+# a third longer, and they are half of all that is compiled.
+set(HL_TEST_OPTIMISATION $<$<AND:$<CONFIG:Release>,$<NOT:$<BOOL:${HL_SANITIZE}>>>:-O1>)
+# It links a test in a fifth of the time; the presets of sanitizers ask for it themselves.
+find_program(HL_LLD ld.lld)
+
 # The headers that most tests include, compiled once: GoogleTest, RapidCheck and Eigen are half of a test's compiling.
 function(hl_test_headers name)
   if(NOT TARGET ${name})
     add_library(${name} OBJECT ${PROJECT_SOURCE_DIR}/tests/precompiled.cpp)
     # As the programs that use them: those made with -fPIC are of no use to them.
     set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
-    target_compile_options(${name} PRIVATE -fPIE)
+    target_compile_options(${name} PRIVATE -fPIE ${HL_TEST_OPTIMISATION})
     target_link_libraries(${name} PRIVATE hl_flags Eigen3::Eigen GTest::gtest rapidcheck)
     target_precompile_headers(${name} PRIVATE <gtest/gtest.h> <rapidcheck/gtest.h> <Eigen/Core> <Eigen/Geometry>
       <fstream> <functional> <map> <memory> <mutex> <sstream> <string> <thread> <vector>)
@@ -75,6 +81,10 @@ function(hl_test name)
   endif()
   add_executable(${name} ${ARG_SOURCES})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_compile_options(${name} PRIVATE ${HL_TEST_OPTIMISATION})
+  if(HL_LLD)
+    target_link_options(${name} PRIVATE -fuse-ld=lld)
+  endif()
   target_link_libraries(${name} PRIVATE ${ARG_LINK} hl_flags Eigen3::Eigen GTest::gtest GTest::gtest_main rapidcheck)
   if(NOT "${ARG_SOURCES}" MATCHES "\\.c(;|$)")
     hl_test_headers(hl_test_headers${HL_LIGHT})
