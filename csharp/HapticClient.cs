@@ -282,6 +282,15 @@ namespace HL {
         public Vec3 Held_N;
     }
 
+    /// <summary>A hand of another server of a shared world. World frame.</summary>
+    public struct RemoteHand {
+        public string Server, Device;  // Device "": that server has one
+        public Vec3 Finger, Proxy, Force_N;
+        public double ProxyRadius;
+        public uint Buttons, Contacts;
+        public Stylus? Stylus;         // null: its device has neither wrist nor gripper
+    }
+
     /// <summary>The snap that holds the proxy.</summary>
     public struct HoldingSnap {
         public uint Object, Name, Session;
@@ -304,6 +313,7 @@ namespace HL {
         public BodyState[] Bodies;     // once a frame with a body has been sent
         public JointState[] Joints;
         public HoldingSnap? Snap;
+        public RemoteHand[] RemoteHands;
     }
 
     public enum TouchEventKind { Touch, Untouch, Button, FrameShown, Warning, Refused, Sleep, Wake, Impact }
@@ -1028,6 +1038,7 @@ namespace HL {
             var touched = new List<Touched>();
             var bodies = new List<BodyState>();
             var joints = new List<JointState>();
+            var remote = new List<RemoteHand>();
             while (from.Next()) {
                 switch (from.Field) {
                     case 1: state.Time_s = from.Double(); break;
@@ -1044,12 +1055,32 @@ namespace HL {
                     case 22: joints.Add(Joint(from.Nested())); break;
                     case 23: state.Snap = Snap(from.Nested()); break;
                     case 24: state.Stylus = Stylus(from.Nested()); break;
+                    case 25: remote.Add(Remote(from.Nested())); break;
                 }
             }
             state.Touched = touched.ToArray();
             state.Bodies = bodies.ToArray();
             state.Joints = joints.ToArray();
+            state.RemoteHands = remote.ToArray();
             return state;
+        }
+
+        static RemoteHand Remote(Reader from) {
+            var hand = new RemoteHand { Server = "", Device = "" };
+            while (from.Next()) {
+                switch (from.Field) {
+                    case 1: hand.Device = from.Text(); break;
+                    case 2: hand.Finger = Vector(from.Nested()); break;
+                    case 3: hand.Proxy = Vector(from.Nested()); break;
+                    case 4: hand.Force_N = Vector(from.Nested()); break;
+                    case 7: hand.Buttons = (uint)from.Number; break;
+                    case 8: hand.Contacts = (uint)from.Number; break;
+                    case 11: hand.ProxyRadius = from.Double(); break;
+                    case 12: hand.Stylus = Stylus(from.Nested()); break;
+                    case 13: hand.Server = from.Text(); break;
+                }
+            }
+            return hand;
         }
 
         static Touched TouchedObject(Reader from) {

@@ -549,6 +549,9 @@ HL_API void hlGetDoublev(HLenum name, HLdouble* values); /**< see hlGetBooleanv 
 /** Writes up to `most` contacts of the last state, the one that presses hardest first, and returns how many it wrote.
  * HL_INVALID_VALUE: most < 0. */
 HL_API HLsizei hlGetContacts(HLsizei most, HLcontact* contacts);
+/** Writes up to `most` hands of other servers of a shared world as the last state tells them, sorted by server, and
+ * returns how many it wrote; HL_REMOTE_HAND_COUNT says how many there are. HL_INVALID_VALUE: most < 0. */
+HL_API HLsizei hlGetRemoteHands(HLsizei most, HLremotehand* hands);
 /** How often the state comes from now on, Hz, 0 .. HL_MAX_STATE_RATE; 0: never. Not only for the master. */
 HL_API void hlStateRate(HLdouble rate);
 

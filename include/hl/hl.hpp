@@ -416,6 +416,13 @@ inline std::vector<HLjoint> joints() {
   return all;
 }
 
+/// hlGetRemoteHands: all of them, sorted by server.
+inline std::vector<HLremotehand> remoteHands() {
+  std::vector<HLremotehand> all(static_cast<std::size_t>(get(HL_REMOTE_HAND_COUNT)));
+  all.resize(static_cast<std::size_t>(hlGetRemoteHands(static_cast<HLsizei>(all.size()), all.data())));
+  return all;
+}
+
 /// hlTakeSamples: all that came since the last time, the oldest first.
 inline std::vector<HLsample> takeSamples() {
   constexpr HLsizei kAtATime = 256;

@@ -276,6 +276,7 @@ enum {
                                             lies along +z, or the device has no wrist */
   HL_STYLUS_SPIN = 0x48161,            /**< 3; rad/s: its angular velocity */
   HL_GRIPPER_ANGLE = 0x48162,          /**< 1; rad: how far the gripper is open */
+  HL_REMOTE_HAND_COUNT = 0x48166,      /**< 1; hands of other servers of a shared world; see hlGetRemoteHands */
   HL_GRIPPER_FORCE = 0x48163           /**< 1; N with which the hand closes it; 0: the device does not tell */
 };
 
@@ -370,6 +371,19 @@ typedef struct HLcontact {
   HLuint name;              /**< 0: none */
   HLuint session;           /**< whose object it is: HL_SESSION for this context's */
 } HLcontact;
+
+/** A hand of another server of a shared world, from hlGetRemoteHands. World frame. */
+typedef struct HLremotehand {
+  char server[64];      /**< name of its server, UTF-8, ended by 0 */
+  char device[64];      /**< name of its device there; empty: that server has one */
+  HLdouble finger[3];   /**< m */
+  HLdouble proxy[3];    /**< m */
+  HLdouble force[3];    /**< N, on that hand */
+  HLdouble rotation[4]; /**< unit quaternion x y z w, of its stylus; 0 0 0 1: its device has no wrist */
+  HLdouble radius;      /**< m, of its proxy */
+  HLuint buttons;       /**< bit i: button i is down */
+  HLuint contacts;      /**< how many surfaces hold its proxy */
+} HLremotehand;
 
 /** One step of the servo, from hlTakeSamples. World frame. */
 typedef struct HLsample {

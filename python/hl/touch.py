@@ -694,6 +694,13 @@ class Touch:
         self.poll()
         return calls.hlGetJoints()
 
+    def remote_hands(self) -> npt.NDArray[np.void]:
+        """The hands of other servers of a shared world, sorted by server: a structured array with server and device
+        (bytes, of UTF-8), finger and proxy (m), force (N, on that hand), rotation (x y z w), radius (m), buttons and
+        contacts."""
+        self.poll()
+        return calls.hlGetRemoteHands()
+
     def push(self, number: int, impulse: npt.ArrayLike, point: npt.ArrayLike, seconds: float = 0.0) -> None:
         """Gives the shown bodies of an object, inside of `name` those of that name, an impulse, (3,) in N s, at a point
         of the world, (3,) in m; evenly within `seconds` (0..10), or at once."""

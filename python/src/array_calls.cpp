@@ -240,6 +240,15 @@ void bindJoints(py::module_& module) {
   });
 }
 
+// Texts of a fixed size, as numpy has them.
+void bindRemoteHands(py::module_& module) {
+  PYBIND11_NUMPY_DTYPE(HLremotehand, server, device, finger, proxy, force, rotation, radius, buttons, contacts);
+  module.def("hlGetRemoteHands", [] {
+    requireContext();
+    return structuredArray(hl::remoteHands());
+  });
+}
+
 void bindContactReports(py::module_& module) {
   PYBIND11_NUMPY_DTYPE(HLcontactforce, object, name, session, vertex_count, vertices, weights, point, force);
   PYBIND11_NUMPY_DTYPE(HLcontactreport, time, interval, force);
@@ -321,5 +330,6 @@ void bindArrayCalls(py::module_& module) {
     return structuredArray(hl::takeSamples());
   });
   bindJoints(module);
+  bindRemoteHands(module);
   bindContactReports(module);
 }

@@ -1,4 +1,4 @@
-// hlGet*v and hlGetContacts.
+// hlGet*v, hlGetContacts and hlGetRemoteHands.
 #include <hl/hl.h>
 
 #include <algorithm>
@@ -51,6 +51,16 @@ HLsizei hlGetContacts(HLsizei most, HLcontact* contacts) {
     const std::vector<HLcontact> all = hl::client::contactsOf(context);
     const auto count = std::min(static_cast<std::size_t>(most), all.size());
     std::copy_n(all.begin(), count, contacts);
+    return static_cast<HLsizei>(count);
+  });
+}
+
+HLsizei hlGetRemoteHands(HLsizei most, HLremotehand* hands) {
+  return callOr<HLsizei>(0, __func__, When::kOutside, [&](HLcontext& context) {
+    requireList(most, hands);
+    const std::vector<HLremotehand> all = hl::client::remoteHandsOf(context);
+    const auto count = std::min(static_cast<std::size_t>(most), all.size());
+    std::copy_n(all.begin(), count, hands);
     return static_cast<HLsizei>(count);
   });
 }

@@ -1,7 +1,10 @@
 #include "client/queries.h"
 
 #include <algorithm>
+#include <string>
+#include <string_view>
 
+#include "base/utf8.h"
 #include "client/fault.h"
 
 namespace hl::client {
@@ -165,6 +168,7 @@ constexpr Query kQueriesOfState[] = {
     {HL_WORKSPACE_ORIGIN, [](const HLcontext& c, Values& v) { addVec(v, state(c).workspace().origin()); }},
     {HL_WORKSPACE_SCALE, [](const HLcontext& c, Values& v) { v.add(state(c).workspace().world_per_device()); }},
     {HL_BODY_COUNT, [](const HLcontext& c, Values& v) { v.add(state(c).bodies_size()); }},
+    {HL_REMOTE_HAND_COUNT, [](const HLcontext& c, Values& v) { v.add(state(c).remote_size()); }},
     {HL_JOINT_COUNT, [](const HLcontext& c, Values& v) { v.add(state(c).joints_size()); }},
     {HL_STATE_TIME, [](const HLcontext& c, Values& v) { v.add(state(c).time_s()); }},
     {HL_STATE_AGE, [](const HLcontext& c, Values& v) { v.add(view(c).stateAge_s()); }},
@@ -184,6 +188,13 @@ void copy(const proto::Vec3& in, HLdouble (&out)[3]) {
   out[0] = in.x();
   out[1] = in.y();
   out[2] = in.z();
+}
+
+// As much as there is room for, ended by 0.
+template <std::size_t kRoom>
+void copy(const std::string& in, char (&out)[kRoom]) {
+  const std::string text = validUtf8(in.substr(0, kRoom - 1));
+  std::copy_n(text.data(), std::min(text.size(), kRoom - 1), out);
 }
 
 HLcontact contactOf(const proto::TouchedObject& in) {
@@ -249,6 +260,28 @@ std::vector<HLjoint> jointsOf(const HLcontext& context) {
   }
   std::stable_sort(joints.begin(), joints.end(), [](const HLjoint& a, const HLjoint& b) { return a.joint < b.joint; });
   return joints;
+}
+
+std::vector<HLremotehand> remoteHandsOf(const HLcontext& context) {
+  std::vector<HLremotehand> hands;
+  for (const proto::OtherDevice& in : state(context).remote()) {
+    HLremotehand& hand = hands.emplace_back();
+    copy(in.server(), hand.server);
+    copy(in.label(), hand.device);
+    copy(in.finger(), hand.finger);
+    copy(in.proxy(), hand.proxy);
+    copy(in.force_n(), hand.force);
+    Values turned;
+    addTurn(turned, in.stylus());
+    std::copy_n(turned.numbers.begin(), turned.count, hand.rotation);
+    hand.radius = in.proxy_radius();
+    hand.buttons = in.buttons();
+    hand.contacts = in.contacts();
+  }
+  std::stable_sort(hands.begin(), hands.end(), [](const HLremotehand& a, const HLremotehand& b) {
+    return std::string_view(a.server) < std::string_view(b.server);
+  });
+  return hands;
 }
 
 }  // namespace hl::client

@@ -29,5 +29,7 @@ std::vector<HLcontact> contactsOf(const HLcontext& context);
 std::vector<HLbody> bodiesOf(const HLcontext& context);
 /// Its joints, sorted by number.
 std::vector<HLjoint> jointsOf(const HLcontext& context);
+/// Its hands of other servers, sorted by server.
+std::vector<HLremotehand> remoteHandsOf(const HLcontext& context);
 
 }  // namespace hl::client

@@ -46,6 +46,8 @@ class TouchServer final : public SessionHost {
   void fitHands(const Box& bounds, double most_s) { world_.fitHands(bounds, most_s); }
   void freeHands() { world_.freeHands(); }
 
+  void setRemoteHands(std::vector<proto::OtherDevice> hands) { world_.setRemoteHands(std::move(hands)); }
+
   TouchSession& device(std::size_t number = 0) { return world_.device(number); }
   std::size_t devices() const { return world_.devices(); }
   std::vector<TouchSession*> otherDevices();  ///< from number 1 on

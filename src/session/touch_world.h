@@ -70,6 +70,9 @@ class TouchWorld {
   /// Null when there are none of this name.
   std::shared_ptr<ScenePublisher::ClientScene> takeKept(const std::string& client_name);
 
+  /// Hands of other servers of a shared world, in the place of those before: all clients are told of them.
+  void setRemoteHands(std::vector<proto::OtherDevice> hands);
+
   void views(std::uint32_t device, ServoView& servo, ProxyView& proxy);
   void describe(std::uint32_t device, proto::ClientState& state);
 
@@ -88,6 +91,8 @@ class TouchWorld {
   std::vector<std::pair<std::string, std::shared_ptr<ScenePublisher::ClientScene>>> kept_;  // by name; the oldest first
 
   std::mutex views_mutex_;  // of the devices' views for clients
+  mutable std::mutex remote_mutex_;
+  std::vector<proto::OtherDevice> remote_;
 };
 
 }  // namespace hl

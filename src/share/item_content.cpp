@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "bodies/made_bodies.h"
 #include "share/share_messages.h"
 
 namespace hl {
@@ -14,6 +15,9 @@ using Block = proto::RecordingBlock;
 
 // As the writer numbers them: a shape comes before its surfaces.
 constexpr std::uint64_t kShapeId = 1, kSurfacesId = 2, kItemKey = 1;
+// Bytes of a shape with its hierarchy, and of what is there while it is made, for one of its content: a mesh of packed
+// numbers has about 25 a triangle there and 150 here.
+constexpr std::uint64_t kMostGrowth = 8;
 constexpr const char* kBroken = "an object of a shared world makes no sense";
 
 // Without what is of its place in this server's scene.
@@ -157,7 +161,7 @@ WrittenItem ItemWriter::write(const Instance& instance, bool jointed) {
   return {std::move(content), shape, surfaces};
 }
 
-Instance ItemReader::read(const proto::ShareContent& content, const std::string& shape, const std::string& surfaces) {
+Instance ItemReader::make(const proto::ShareContent& content, const std::string& shape, const std::string& surfaces) {
   SceneReader reader;
   give(kShapeId, shapes_, content.shape().sha256(), shape, Part::kShape, reader);
   give(kSurfacesId, surfaces_, content.surfaces().sha256(), surfaces, Part::kSurfaces, reader);
@@ -168,8 +172,29 @@ Instance ItemReader::read(const proto::ShareContent& content, const std::string&
   if (scene->instances.size() != 1) throw Error(kBroken);
   Instance item = scene->instances.front();
   if (content.body() != item.movesAsBody() || item.mesh_motion) throw Error(kBroken);
-  shapes_[content.shape().sha256()] = item.shape;
-  surfaces_[content.surfaces().sha256()] = item.surfaces;
+  return item;
+}
+
+bool ItemReader::isHere(const proto::ShareContent& content) const {
+  const auto is_in = [](const auto& made, const std::string& sha256) {
+    const auto found = made.find(sha256);
+    return found != made.end() && !found->second.expired();
+  };
+  return is_in(shapes_, content.shape().sha256()) && is_in(surfaces_, content.surfaces().sha256());
+}
+
+Instance ItemReader::read(const proto::ShareContent& content, const std::string& shape, const std::string& surfaces) {
+  const bool is_new = !isHere(content);
+  MemoryShare share(memory_);
+  if (is_new) share.take(kMostGrowth * (shape.size() + surfaces.size()));
+  Instance item = make(content, shape, surfaces);
+  if (is_new) {
+    share.set(memoryOf(*makeSnapshot({item})));
+    item.shape = withShare(item.shape, std::move(share));
+    shapes_[content.shape().sha256()] = item.shape;
+    surfaces_[content.surfaces().sha256()] = item.surfaces;
+  }
+  if (item.movesAsBody()) madeBody(item.shape, item.body->spec);
   return item;
 }
 

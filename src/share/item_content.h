@@ -7,7 +7,9 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 
+#include "base/memory_budget.h"
 #include "record/recorded_scene.h"
 #include "scene/snapshot.h"
 #include "share/contents.h"
@@ -51,11 +53,19 @@ class ItemWriter {
 /// Reads objects of others. Shape and surfaces are made once for all objects that have them. One thread.
 class ItemReader {
  public:
-  /// An instance at the origin: key, session, object and motion are for the caller to set. Throws hl::Error for what
-  /// makes no sense. It may take long where the shape is new.
+  /// What shapes and surfaces take is counted against `memory`, from before they are made until their last owner is
+  /// gone.
+  explicit ItemReader(MemoryBudget memory = {}) : memory_(std::move(memory)) {}
+  /// An instance at the origin: key, session, object and motion are for the caller to set. What a body of its shape
+  /// needs is made as well. Throws hl::Error for what makes no sense, or takes more memory than is left. It may take
+  /// long where the shape is new.
   Instance read(const proto::ShareContent& content, const std::string& shape, const std::string& surfaces);
 
  private:
+  bool isHere(const proto::ShareContent& content) const;
+  Instance make(const proto::ShareContent& content, const std::string& shape, const std::string& surfaces);
+
+  const MemoryBudget memory_;
   // By the SHA-256 of their contents, while somebody has them.
   std::map<std::string, std::weak_ptr<const Shape>> shapes_;
   std::map<std::string, std::weak_ptr<const Surfaces>> surfaces_;

@@ -31,7 +31,8 @@ ReplicasHere::ReplicasHere(PlacedClient& client, bool bodies, BackgroundWork& wo
       work_(work),
       contents_(contents),
       fit_(std::move(fit)),
-      tell_(std::move(tell)) {}
+      tell_(std::move(tell)),
+      reader_(std::make_shared<ItemReader>(client.memory())) {}
 
 void ReplicasHere::look(const std::vector<Replica>& replicas, bool jumped, std::int64_t now_ns) {
   ++looks_;

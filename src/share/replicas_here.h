@@ -69,7 +69,7 @@ class ReplicasHere {
   const Contents& contents_;
   FitHands fit_;  // empty: done, or not wanted
   const TellPerson tell_;
-  const std::shared_ptr<ItemReader> reader_ = std::make_shared<ItemReader>();  // of the background work
+  const std::shared_ptr<ItemReader> reader_;  // of the background work
   std::map<ItemId, Row> rows_;
   std::map<std::uint32_t, ItemId> ids_;  // by number
   PlacedShapes placed_ = std::make_shared<PlacedList>();

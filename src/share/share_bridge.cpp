@@ -18,6 +18,15 @@ constexpr double kMoveHands_s = 0.3;
 // After that what is placed is shown.
 constexpr std::int64_t kFreeHands_ns = 500'000'000;
 
+// The first lines about objects: a server may tell of broken ones for ever.
+ShareBridge::TellPerson someOf(ShareBridge::TellPerson tell) {
+  return [tell = std::move(tell), left = 20](const std::string& line) mutable {
+    if (left == 0) return;
+    --left;
+    tell(left > 0 ? line : line + " (no more of these are told)");
+  };
+}
+
 }  // namespace
 
 ShareBridge::ShareBridge(std::unique_ptr<ShareLink> link, const std::string& world, const ShareSelf& self,
@@ -27,8 +36,8 @@ ShareBridge::ShareBridge(std::unique_ptr<ShareLink> link, const std::string& wor
       tell_(std::move(tell)),
       client_(server.placeClient()),
       world_(self, monotonicNow_ns(), [this](const SharePacket& packet) { return link_->send(packet); }),
-      local_(self, client_->session(), work_, world_.contents(), tell_),
-      replicas_(*client_, server.devices() == 1, work_, world_.contents(), fitOfHands(), tell_),
+      local_(self, client_->session(), work_, world_.contents(), someOf(tell_)),
+      replicas_(*client_, server.devices() == 1, work_, world_.contents(), fitOfHands(), someOf(tell_)),
       pushes_(client_->session()),
       actions_(server.device(), local_, replicas_),
       view_{world, self.name, {}} {}
@@ -164,12 +173,14 @@ void ShareBridge::writeView(std::int64_t now_ns) {
       view.hands.back().set_server(name);
     }
   }
+  server_.setRemoteHands(view.hands);
   const std::lock_guard lock(view_mutex_);
   view_ = std::move(view);
 }
 
 void ShareBridge::endFor(const std::string& why) {
   guarded([&] { tell_(why); });
+  server_.setRemoteHands({});
   const std::lock_guard lock(view_mutex_);
   view_.ended = why;
   view_.peers.clear();

@@ -70,6 +70,19 @@ TEST(ItemReaderTest, MakesAShapeOfSeveralObjectsOnce) {
   EXPECT_EQ(a.surfaces, b.surfaces);
 }
 
+TEST(ItemReaderTest, CountsWhatItMakesAndMakesNothingThatDoesNotFit) {
+  const WrittenItem item = ItemWriter().write(*makeSnapshot(makeBuiltinScene("sphere:2000"))->instances.begin(), false);
+  const MemoryBudget most(100'000'000), few(item.shape.name.bytes);
+  {
+    const Instance made = ItemReader(most).read(*item.content, *item.shape.bytes, *item.surfaces.bytes);
+    EXPECT_GT(most.used_bytes(), item.shape.name.bytes);
+    EXPECT_LT(most.used_bytes(), 8 * item.shape.name.bytes);
+  }
+  EXPECT_EQ(most.used_bytes(), 0);
+  EXPECT_THROW(ItemReader(few).read(*item.content, *item.shape.bytes, *item.surfaces.bytes), Error);
+  EXPECT_EQ(few.used_bytes(), 0);
+}
+
 TEST(ItemReaderTest, RefusesWhatMakesNoSense) {
   const WrittenItem item = ItemWriter().write(sceneOf("blocks")->instances[0], false);
   const auto refused = [&](const proto::ShareContent& content, const std::string& shape, const std::string& surfaces) {

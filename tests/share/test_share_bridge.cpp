@@ -40,6 +40,16 @@ TEST_F(SharedServers, SeeEachOthersHands) {
   EXPECT_TRUE(b->hasTold("server anna is in the world"));
 }
 
+TEST_F(SharedServers, ProgramsAreToldOfTheHandsOfOthers) {
+  const auto a = add(1, "anna", floorAndBlock()), b = add(2, "bert", nothing());
+  BodiesClient client(b->touch);
+  ASSERT_TRUE(client.until([&] { return client.state_.remote_size() == 1; }));
+  EXPECT_EQ(client.state_.remote(0).server(), "anna");
+  EXPECT_GT(client.state_.remote(0).proxy_radius(), 0);
+  hub.cut(1);
+  EXPECT_TRUE(client.until([&] { return client.state_.remote_size() == 0; }));
+}
+
 TEST_F(SharedServers, ABodyThatHasComeToRestIsAtTheSamePlaceToTheBit) {
   const auto a = add(1, "anna", floorAndBlock()), b = add(2, "bert", nothing());
   waitForBoth(*b);
