@@ -1,5 +1,6 @@
 #include "monitor/share_metrics.h"
 
+#include <string>
 #include <utility>
 
 namespace hl {
@@ -13,6 +14,10 @@ void writePeers(MetricsText& out, const ShareView& view) {
   for (const PeerView& peer : view.peers) out.sample(kSecondsOfMs * peer.round_trip_ms, {{"server", peer.name}});
   out.family("hl_share_playout_seconds", kGauge, "How long after it was so what another server tells is shown");
   for (const PeerView& peer : view.peers) out.sample(kSecondsOfMs * peer.playout_ms, {{"server", peer.name}});
+}
+
+std::string endOf(const ShareView& view) {
+  return view.ended.empty() ? "" : "the world '" + view.world + "' is shared no more: " + view.ended;
 }
 
 }  // namespace
@@ -47,6 +52,10 @@ void writeShareMetrics(MetricsText& out, const ShareView& view) {
 
 MonitorCallbacks withShareMetrics(MonitorCallbacks monitor, ReadShare read) {
   if (!read) return monitor;
+  monitor.fault = [own = std::move(monitor.fault), read] {
+    std::string why = own();
+    return why.empty() ? endOf(read()) : why;
+  };
   monitor.metrics = [own = std::move(monitor.metrics), read = std::move(read)](MetricsText& out) {
     own(out);
     writeShareMetrics(out, read());

@@ -95,6 +95,36 @@ TEST(ShareMetrics, TellOfTheWorldAndItsServers) {
   EXPECT_NE(ended.text().find("hl_share_running 0\n"), std::string::npos);
 }
 
+TEST(ShareMetrics, HealthSaysWhenSharingHasEnded) {
+  ShareView view{"lab", "anna", {}};
+  std::string own_fault;
+  MonitorCallbacks own;
+  own.fault = [&own_fault] { return own_fault; };
+  own.metrics = [](MetricsText& out) { out.single("hl_own", MetricType::kGauge, "Own", 42); };
+  const MonitorCallbacks monitor = withShareMetrics(own, [&view] { return view; });
+  EXPECT_EQ(monitor.fault(), "");
+  view.ended = "hl-share has ended";
+  EXPECT_EQ(monitor.fault(), "the world 'lab' is shared no more: hl-share has ended");
+  // What keeps the hand from its force is said first.
+  own_fault = "the servo loop stands still";
+  EXPECT_EQ(monitor.fault(), "the servo loop stands still");
+  MetricsText out;
+  monitor.metrics(out);
+  EXPECT_NE(out.text().find("hl_own 42\n"), std::string::npos);
+  EXPECT_NE(out.text().find("hl_share_running 0\n"), std::string::npos);
+}
+
+TEST(ShareMetrics, AServerThatSharesNoWorldHasNone) {
+  MonitorCallbacks own;
+  own.fault = [] { return std::string(); };
+  own.metrics = [](MetricsText& out) { out.single("hl_own", MetricType::kGauge, "Own", 42); };
+  const MonitorCallbacks monitor = withShareMetrics(own, {});
+  MetricsText out;
+  monitor.metrics(out);
+  EXPECT_EQ(monitor.fault(), "");
+  EXPECT_EQ(out.text().find("hl_share"), std::string::npos);
+}
+
 TEST(Monitor, HealthIsOkUntilThereIsAFault) {
   std::atomic<bool> broken{false};
   MonitorCallbacks monitor;
