@@ -420,7 +420,7 @@ class App {
     }
     const pixel_m = metresPerPixel(view, depthOf(view, at));
     this.probe_.face(this.stage_.camera, pixel_m);
-    this.others_.showProbes(this.state_, this.stage_.camera, pixel_m);
+    this.others_.showProbes(this.state_, this.stage_.camera, view);
     if (proxy !== undefined) {
       this.probe_.drop.update(proxy, this.pointing_.below(proxy), this.probe_.radius_m, pixel_m);
     }

@@ -1,12 +1,11 @@
-// A name that floats above a hand in the scene and faces the camera, at a fixed size on the screen.
+// A name beside a hand in the scene that faces the camera, at a fixed size on the screen.
 
 import * as THREE from "three";
+import { kName_px, type Point } from "./name_places";
+import type { Vec } from "./vec";
 
-const kHeight_px = 16;
 const kText_px = 48;
 const kPad_px = 12;
-/** Above the hand, in heights of the label. */
-const kAbove = 1.6;
 
 export class NameLabel {
   readonly sprite: THREE.Sprite;
@@ -17,7 +16,6 @@ export class NameLabel {
     const map = new THREE.CanvasTexture(this.canvas_);
     map.colorSpace = THREE.SRGBColorSpace;
     this.sprite = new THREE.Sprite(new THREE.SpriteMaterial({ map, depthTest: false, depthWrite: false }));
-    this.sprite.center.set(0.5, -kAbove);
     this.sprite.renderOrder = 4;
   }
 
@@ -44,14 +42,14 @@ export class NameLabel {
     this.sprite.material.map!.needsUpdate = true;
   }
 
-  /** `metresPerPixel` where it is. */
-  setSize(metresPerPixel: number): void {
-    const height_m = kHeight_px * metresPerPixel;
-    this.sprite.scale.set((height_m * this.canvas_.width) / Math.max(1, this.canvas_.height), height_m, 1);
+  get width_px(): number {
+    return (kName_px * this.canvas_.width) / Math.max(1, this.canvas_.height);
   }
 
-  dispose(): void {
-    this.sprite.material.map?.dispose();
-    this.sprite.material.dispose();
+  /** At a hand: `place` from there to the middle of the name, pixels, y downward; `metresPerPixel` there. */
+  stand(hand: Vec, place: Point, metresPerPixel: number): void {
+    this.sprite.position.set(hand.x, hand.y, hand.z);
+    this.sprite.center.set(0.5 - place.x / Math.max(1, this.width_px), 0.5 + place.y / kName_px);
+    this.sprite.scale.set(this.width_px * metresPerPixel, kName_px * metresPerPixel, 1);
   }
 }

@@ -6,6 +6,7 @@ import * as THREE from "three";
 import { deviceRows, type DeviceRow } from "./device_rows";
 import { element } from "./elements";
 import { SafetyState, StateSchema, type Hello, type State } from "./gen/hl_pb";
+import { depthOf, metresPerPixel, type ViewFrame } from "./hand_mapping";
 import { ProbeView } from "./probe_view";
 
 interface RowElements {
@@ -65,7 +66,7 @@ export class OtherDevices {
   }
 
   /** Once per drawn frame. */
-  showProbes(state: State | undefined, camera: THREE.Camera, metresPerPixel: number): void {
+  showProbes(state: State | undefined, camera: THREE.Camera, view: ViewFrame): void {
     this.probes_.forEach((probe, i) => {
       const told = state?.others[i];
       if (told?.finger === undefined || told.proxy === undefined || told.forceN === undefined) {
@@ -75,7 +76,7 @@ export class OtherDevices {
       probe.setRadius(told.proxyRadius);
       const { finger, proxy, forceN, stylus } = told;
       probe.update(create(StateSchema, { finger, proxy, forceN, ...(stylus && { stylus }) }));
-      probe.face(camera, metresPerPixel);
+      probe.face(camera, metresPerPixel(view, depthOf(view, proxy)));
     });
   }
 

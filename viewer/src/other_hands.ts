@@ -3,17 +3,24 @@
 
 import * as THREE from "three";
 import type { Hello, State } from "./gen/hl_pb";
+import type { ViewFrame } from "./hand_mapping";
 import { OtherDevices } from "./other_devices";
+import { RemoteHands } from "./remote_hands";
+import { ServerColours } from "./shared_world";
 import { SharedWorldView } from "./shared_world_view";
 
 export class OtherHands {
   readonly group = new THREE.Group();
   private readonly devices_: OtherDevices;
-  private readonly shared_ = new SharedWorldView();
+  private readonly remote_: RemoteHands;
+  private readonly shared_: SharedWorldView;
 
   constructor(rearm: (device: number) => void) {
     this.devices_ = new OtherDevices(rearm);
-    this.group.add(this.devices_.group, this.shared_.group);
+    const colours = new ServerColours();
+    this.remote_ = new RemoteHands(colours);
+    this.shared_ = new SharedWorldView(colours);
+    this.group.add(this.devices_.group, this.remote_.group);
   }
 
   showHello(hello: Hello): void {
@@ -21,23 +28,23 @@ export class OtherHands {
   }
 
   setStylusShown(shown: boolean): void {
-    [this.devices_, this.shared_].forEach((hands) => hands.setStylusShown(shown));
+    [this.devices_, this.remote_].forEach((hands) => hands.setStylusShown(shown));
   }
 
   setDiagonal(diagonal_m: number): void {
-    [this.devices_, this.shared_].forEach((hands) => hands.setDiagonal(diagonal_m));
+    [this.devices_, this.remote_].forEach((hands) => hands.setDiagonal(diagonal_m));
   }
 
   applyTheme(): void {
-    [this.devices_, this.shared_].forEach((hands) => hands.applyTheme());
+    [this.devices_, this.remote_].forEach((hands) => hands.applyTheme());
   }
 
   showNumbers(state: State): void {
-    [this.devices_, this.shared_].forEach((hands) => hands.showNumbers(state));
+    [this.devices_, this.shared_].forEach((panel) => panel.showNumbers(state));
   }
 
   /** Once per drawn frame. */
-  showProbes(state: State | undefined, camera: THREE.Camera, metresPerPixel: number): void {
-    [this.devices_, this.shared_].forEach((hands) => hands.showProbes(state, camera, metresPerPixel));
+  showProbes(state: State | undefined, camera: THREE.Camera, view: ViewFrame): void {
+    [this.devices_, this.remote_].forEach((hands) => hands.showProbes(state, camera, view));
   }
 }

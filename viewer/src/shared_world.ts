@@ -52,12 +52,29 @@ export function sharedShown(state: State | undefined): SharedShown | undefined {
   };
 }
 
-/** The name at a hand in the scene. */
-export const nameOfHand = (hand: Pick<OtherDevice, "server" | "label">): string =>
-  hand.label === "" ? hand.server : `${hand.server} ${hand.label}`;
+/** A name at a hand may be no longer, in letters: what others say of themselves is not to cover the scene. */
+const kLongest = 40;
 
-/** Degrees. None is near those of the own proxy and its force. */
-const kHues = [210, 285, 335, 185, 250, 50, 5, 95];
+/** The name at a hand in the scene. */
+export function nameOfHand(hand: Pick<OtherDevice, "server" | "label">): string {
+  const letters = [...(hand.label === "" ? hand.server : `${hand.server} ${hand.label}`)];
+  return letters.length > kLongest ? `${letters.slice(0, kLongest - 1).join("")}…` : letters.join("");
+}
+
+/** Each hand by a key that no other has, the same in each state: two servers may have one name for a few seconds. */
+export function handsByKey(hands: readonly OtherDevice[]): Map<string, OtherDevice> {
+  const keyed = new Map<string, OtherDevice>();
+  for (const hand of hands) {
+    let number = 0;
+    const key = () => JSON.stringify([hand.server, hand.label, number]);
+    while (keyed.has(key())) ++number;
+    keyed.set(key(), hand);
+  }
+  return keyed;
+}
+
+/** Colours of the style sheet, --server-1 and so on. */
+export const kServerColours = 8;
 
 function hashOf(name: string): number {
   let hash = 0;
@@ -67,21 +84,17 @@ function hashOf(name: string): number {
 
 /** A colour for each server, from its name: the same as long as the page is there, and no other's while there are some. */
 export class ServerColours {
-  private readonly places_ = new Map<string, number>();
+  private readonly numbers_ = new Map<string, number>();
 
-  hueOf(name: string): number {
-    let place = this.places_.get(name);
-    if (place === undefined) {
-      place = hashOf(name) % kHues.length;
-      const taken = new Set(this.places_.values());
-      for (let i = 0; i < kHues.length && taken.has(place); ++i) place = (place + 1) % kHues.length;
-      this.places_.set(name, place);
+  /** The name of a colour of the theme. */
+  colourOf(server: string): string {
+    let number = this.numbers_.get(server);
+    if (number === undefined) {
+      number = hashOf(server) % kServerColours;
+      const taken = new Set(this.numbers_.values());
+      for (let i = 0; i < kServerColours && taken.has(number); ++i) number = (number + 1) % kServerColours;
+      this.numbers_.set(server, number);
     }
-    return kHues[place]!;
-  }
-
-  /** As CSS and three.js read it, for text on the page's ground. */
-  colourOf(name: string, isDark: boolean): string {
-    return `hsl(${this.hueOf(name)}, 75%, ${isDark ? 70 : 40}%)`;
+    return `server-${number + 1}`;
   }
 }
