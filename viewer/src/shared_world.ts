@@ -31,7 +31,7 @@ const counted = (count: bigint, one: string, many = `${one}s`) => `${count}${kNo
 
 function handRow(hand: OtherDevice): HandRow {
   const force = knownVec(hand.forceN);
-  return { label: hand.label, force: formatFixed(force && length(force), "N", 2), touches: hand.contacts > 0 };
+  return { label: shortened(hand.label), force: formatFixed(force && length(force), "N", 2), touches: hand.contacts > 0 };
 }
 
 /** Undefined: the server shares no world. */
@@ -53,13 +53,16 @@ export function sharedShown(state: State | undefined): SharedShown | undefined {
 }
 
 /** A name at a hand may be no longer, in letters: what others say of themselves is not to cover the scene. */
-const kLongest = 40;
+const kLongest = 24;
+
+function shortened(text: string): string {
+  const letters = [...text];
+  return letters.length > kLongest ? `${letters.slice(0, kLongest - 1).join("")}…` : text;
+}
 
 /** The name at a hand in the scene. */
-export function nameOfHand(hand: Pick<OtherDevice, "server" | "label">): string {
-  const letters = [...(hand.label === "" ? hand.server : `${hand.server} ${hand.label}`)];
-  return letters.length > kLongest ? `${letters.slice(0, kLongest - 1).join("")}…` : letters.join("");
-}
+export const nameOfHand = (hand: Pick<OtherDevice, "server" | "label">): string =>
+  shortened(hand.label === "" ? hand.server : `${hand.server} ${hand.label}`);
 
 /** Each hand by a key that no other has, the same in each state: two servers may have one name for a few seconds. */
 export function handsByKey(hands: readonly OtherDevice[]): Map<string, OtherDevice> {

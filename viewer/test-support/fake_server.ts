@@ -9,8 +9,8 @@ import { extname, join, normalize } from "node:path";
 import { fileURLToPath } from "node:url";
 import { WebSocketServer, type WebSocket } from "ws";
 import {
-  LedgerMode, type PageRecordingSchema, SafetyState, ServerMessageSchema, SurfacesSchema, TicksEndedSchema, ViewerMessageSchema,
-  type ViewerMessage,
+  LedgerMode, type OtherDeviceSchema, type PageRecordingSchema, SafetyState, ServerMessageSchema, type SharedWorldSchema,
+  SurfacesSchema, TicksEndedSchema, ViewerMessageSchema, type ViewerMessage,
 } from "../src/gen/hl_pb";
 import { kProtocolVersion } from "../src/protocol";
 import { add, length, scale, sub, type Vec } from "../src/vec";
@@ -51,6 +51,9 @@ export class FakeServer {
   fault = "";
   /** What it tells of a recording for a page; undefined: it makes none. */
   recording: MessageInitShape<typeof PageRecordingSchema> | undefined;
+  /** The world that it shares, and the hands of its other servers; undefined: it shares none. */
+  shared: MessageInitShape<typeof SharedWorldSchema> | undefined;
+  remote: MessageInitShape<typeof OtherDeviceSchema>[] = [];
   silent = false;
   buttons = 0;
   ticksEnded = create(TicksEndedSchema);
@@ -202,6 +205,8 @@ export class FakeServer {
         contacts: inside ? [this.contact(normal)] : [],
         ...(this.swaying ? { moved: [0], movedPoses: bytesOf(this.swayed()) } : {}),
         ...(this.recording === undefined ? {} : { recording: this.recording }),
+        ...(this.shared === undefined ? {} : { shared: this.shared }),
+        remote: this.remote,
         vibration: { limitNM: this.held_N_m },
         slipping: inside && this.slipping,
         ledger: this.ledgerNow(),
