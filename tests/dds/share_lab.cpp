@@ -127,6 +127,7 @@ LabResult ShareLab::run(double seconds) {
     if (now_s >= next_s) {
       placePlate(now_s);
       bert_->touch.device().setHandGoal(goal);
+      bert_->keepOn();
       next_s += kFrame_s;
     }
     here.add(now_s, angleOf(*anna_->other()));

@@ -23,7 +23,7 @@ TEST(SharedWorldOnALine, WhatMovesFarAwayIsFeltWithinTheTankAndEndsAtTheSamePlac
   if (const auto why = line::lineRefusal()) GTEST_SKIP() << *why;
   const LabResult result = ShareLab({50, 5, 1}).run(8);
   EXPECT_GT(result.staleness_p50_ms, 50);
-  EXPECT_GT(result.playout_ms, 49);
+  EXPECT_GT(result.playout_ms, 45);
   EXPECT_GT(result.force_mean_N, 0.1);
   EXPECT_GE(result.least_tank_J, 0);
 }
@@ -124,7 +124,7 @@ TEST_F(KilledServer, LosesNothingHoweverOftenItIsKilledAndNoHandMoves) {
   });
   for (int i = 0; i < kills; ++i) {
     killed.reset();
-    watchUntil([&] { return counts().adopted == kObjects * static_cast<std::size_t>(i + 1); });
+    watchUntil([&] { return counts().own_items == kObjects; });
     killed = anna();
     watchUntil([&] { return counts().own_items == 0 && !bert_->bridge.view().peers.empty(); });
   }
