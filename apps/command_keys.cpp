@@ -35,7 +35,8 @@ void runKeys(const KeysOptions& options) {
 }  // namespace
 
 void addKeysCommand(CLI::App& app) {
-  CLI::App* const command = app.add_subcommand("keys", "Make keys for topics of ROS 2 and shared worlds beyond this machine");
+  CLI::App* const command =
+      app.add_subcommand("keys", "Make keys for topics of ROS 2 and shared worlds beyond this machine");
   const auto options = std::make_shared<KeysOptions>();
   command->add_option("FOLDER", options->folder, "a keystore, as of ros2 security; made where there is none")
       ->required();
