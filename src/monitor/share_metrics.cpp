@@ -1,19 +1,32 @@
 #include "monitor/share_metrics.h"
 
+#include <algorithm>
+#include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace hl {
 
 namespace {
 
+// A series may come once, and two servers may have one name for a few seconds: the longer time counts.
+void writeTimes(MetricsText& out, const ShareView& view, double PeerView::*time_ms) {
+  constexpr double kSecondsOfMs = 1e-3;
+  std::map<std::string_view, double> longest_ms;
+  for (const PeerView& peer : view.peers) {
+    double& time = longest_ms[peer.name];
+    time = std::max(time, peer.*time_ms);
+  }
+  for (const auto& [name, time] : longest_ms) out.sample(kSecondsOfMs * time, {{"server", name}});
+}
+
 void writePeers(MetricsText& out, const ShareView& view) {
   using enum MetricType;
-  constexpr double kSecondsOfMs = 1e-3;
   out.family("hl_share_round_trip_seconds", kGauge, "To another server and back, the fastest of the last seconds");
-  for (const PeerView& peer : view.peers) out.sample(kSecondsOfMs * peer.round_trip_ms, {{"server", peer.name}});
+  writeTimes(out, view, &PeerView::round_trip_ms);
   out.family("hl_share_playout_seconds", kGauge, "How long after it was so what another server tells is shown");
-  for (const PeerView& peer : view.peers) out.sample(kSecondsOfMs * peer.playout_ms, {{"server", peer.name}});
+  writeTimes(out, view, &PeerView::playout_ms);
 }
 
 std::string endOf(const ShareView& view) {

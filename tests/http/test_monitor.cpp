@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <regex>
+#include <set>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -24,6 +25,7 @@ void expectPrometheus(const std::string& text) {
   const std::regex comment(R"(# (HELP [a-z_]+ .+|TYPE [a-z_]+ (gauge|counter)))");
   const std::regex sample(R"rx(([a-z_]+)(\{[a-z_]+="[^"]*"(,[a-z_]+="[^"]*")*\})? (NaN|[+-]?Inf|[-+.0-9e]+))rx");
   std::istringstream lines(text);
+  std::set<std::string> series;
   for (std::string line, family; std::getline(lines, line);) {
     std::smatch match;
     if (line.starts_with('#')) {
@@ -33,6 +35,7 @@ void expectPrometheus(const std::string& text) {
     }
     EXPECT_TRUE(std::regex_match(line, match, sample)) << line;
     EXPECT_EQ(match[1], family) << line;
+    EXPECT_TRUE(series.insert(match[1].str() + match[2].str()).second) << "twice: " << line;
   }
   EXPECT_TRUE(text.ends_with('\n'));
 }
@@ -84,6 +87,7 @@ TEST(ShareMetrics, TellOfTheWorldAndItsServers) {
   view.peers = {{"bert", 100.5, 75}};
   MetricsText out;
   writeShareMetrics(out, view);
+  expectPrometheus(out.text());
   for (const char* line :
        {"hl_share_running 1", "hl_share_servers 1", "hl_share_objects 12", "hl_share_own_objects 5",
         "hl_share_adopted_total 2", "hl_share_pushes_total{what=\"sent\"} 7",
@@ -93,6 +97,17 @@ TEST(ShareMetrics, TellOfTheWorldAndItsServers) {
   MetricsText ended;
   writeShareMetrics(ended, view);
   EXPECT_NE(ended.text().find("hl_share_running 0\n"), std::string::npos);
+}
+
+TEST(ShareMetrics, HaveOneNumberOfServersThatHaveOneNameForAMoment) {
+  ShareView view{"lab", "anna", {}};
+  view.peers = {{"bert", 20, 75}, {"bert", 100, 50}};
+  MetricsText out;
+  writeShareMetrics(out, view);
+  expectPrometheus(out.text());
+  for (const char* line : {"hl_share_servers 2", "hl_share_round_trip_seconds{server=\"bert\"} 0.1",
+                           "hl_share_playout_seconds{server=\"bert\"} 0.075"})
+    EXPECT_NE(out.text().find(std::string(line) + "\n"), std::string::npos) << line;
 }
 
 TEST(ShareMetrics, HealthSaysWhenSharingHasEnded) {
