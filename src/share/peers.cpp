@@ -1,6 +1,7 @@
 #include "share/peers.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "base/utf8.h"
 #include "share/share_messages.h"
@@ -9,7 +10,8 @@ namespace hl {
 
 namespace {
 
-constexpr std::int64_t kForget_ns = 60'000'000'000, kSameName_ns = 3'000'000'000;
+constexpr std::int64_t kForget_ns = 60'000'000'000, kSameName_ns = 3'000'000'000, kTogether_ns = 1'000'000'000;
+constexpr std::int64_t kLongest_ns = std::int64_t{1} << 60;  // 36 years
 constexpr std::uint32_t kMostOfAServer = 16;
 
 std::string shortName(const std::string& name) { return validUtf8(name.substr(0, kMostServerName)); }
@@ -34,6 +36,7 @@ void Peers::hear(const proto::ShareBeat& beat, std::int64_t now_ns) {
   peer.name = shortName(beat.name());
   peer.version = shortName(beat.version());
   peer.adopts = beat.adopts();
+  peer.begin_ns = now_ns - std::clamp<std::int64_t>(beat.there_ns(), 0, kLongest_ns);
   peer.echo.set_server(beat.from());
   peer.echo.set_sent_ns(beat.sent_ns());
   peer.echo.set_heard_ns(now_ns);
@@ -59,6 +62,7 @@ proto::ShareBeat Peers::beat(std::int64_t now_ns) const {
   proto::ShareBeat beat;
   beat.set_from(self_.id);
   beat.set_name(self_.name);
+  beat.set_there_ns(now_ns - begin_ns_);
   beat.set_version(self_.version);
   beat.set_adopts(self_.adopts);
   beat.set_sent_ns(now_ns);
@@ -99,6 +103,14 @@ const Peer* Peers::sameName(std::int64_t now_ns) const {
     if (peer.name == self_.name && isThere(id, now_ns) && peer.heard_ns - peer.first_ns > kSameName_ns) return &peer;
   }
   return nullptr;
+}
+
+// Clocks and lines say when it began to a part of a second: within that the numbers decide, alike for both.
+bool Peers::isSecondOfItsName(std::int64_t now_ns) const {
+  const Peer* const other = sameName(now_ns);
+  if (other == nullptr) return false;
+  const std::int64_t before_ns = begin_ns_ - other->begin_ns;
+  return std::abs(before_ns) < kTogether_ns ? self_.id > other->echo.server() : before_ns > 0;
 }
 
 std::vector<ServerId> Peers::there(std::int64_t now_ns) const {

@@ -28,6 +28,7 @@ struct Peer {
   std::string name, version;
   bool adopts = false;
   std::int64_t first_ns = 0, heard_ns = 0;  ///< the first and the last packet of it
+  std::int64_t begin_ns = 0;                ///< since when it is there, as it says
   PeerClock clock;
   PlayoutDelay delay;
   SteadyLag lag;
@@ -43,7 +44,7 @@ class Peers {
   static constexpr std::int64_t kBeat_ns = 100'000'000;
   static constexpr std::size_t kMostPeers = 64;
 
-  explicit Peers(const ShareSelf& self) : self_(self) {}
+  Peers(const ShareSelf& self, std::int64_t begin_ns) : self_(self), begin_ns_(begin_ns) {}
 
   /// A packet of this server has come. False: it is none of the world, as there are too many, or it is this one.
   bool hear(ServerId from, std::int64_t now_ns);
@@ -64,6 +65,8 @@ class Peers {
   /// Another server is called as this one: nothing until it has been there for three seconds, as one that has ended a
   /// moment ago is no other one.
   const Peer* sameName(std::int64_t now_ns) const;
+  /// That one has been there before this one, which therefore leaves.
+  bool isSecondOfItsName(std::int64_t now_ns) const;
   std::vector<ServerId> there(std::int64_t now_ns) const;
   const std::map<ServerId, Peer>& all() const { return peers_; }
   /// The times that are shown go on; often.
@@ -73,6 +76,7 @@ class Peers {
 
  private:
   const ShareSelf self_;
+  const std::int64_t begin_ns_;
   std::map<ServerId, Peer> peers_;
 };
 

@@ -80,9 +80,9 @@ void ShareBridge::run() {
       guarded([&] { show(now_ns); });
       next_ns = std::max(next_ns + kShow_ns, now_ns);
     }
-    if (world_.peers().sameName(now_ns) == nullptr) continue;
+    if (!world_.peers().isSecondOfItsName(now_ns)) continue;
     guarded([&] { replicas_.clear(); });
-    return endFor("another server of this world is called " + view_.name + " as well: give one another --share-name");
+    return endFor("a server that was in this world before is called " + view_.name + " as well: give one another --share-name");
   }
 }
 

@@ -30,7 +30,7 @@ SharedWorld::SharedWorld(const ShareSelf& self, std::int64_t now_ns, Send send)
     : self_(self),
       send_(std::move(send)),
       begin_ns_(now_ns),
-      peers_(self),
+      peers_(self, now_ns),
       contents_(self.id, [this](ServerId to, const proto::ShareMessage& m) { return sendTo(Lane::kInbox, to, m); }),
       beat_ns_(now_ns - Peers::kBeat_ns) {}
 

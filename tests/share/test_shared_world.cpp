@@ -290,6 +290,18 @@ TEST(SharedWorld, ASecondServerOfTheSameNameIsNoticed) {
   net.run(4);
   EXPECT_NE(a.world->peers().sameName(net.nowOf(a)), nullptr);
   EXPECT_NE(twin.world->peers().sameName(net.nowOf(twin)), nullptr);
+  EXPECT_FALSE(a.world->peers().isSecondOfItsName(net.nowOf(a)));
+  EXPECT_TRUE(twin.world->peers().isSecondOfItsName(net.nowOf(twin)));
+}
+
+TEST(SharedWorld, OfTwoServersOfOneNameTheSecondLeavesWhateverItsNumberAndClock) {
+  VirtualNet net({});
+  auto& first = net.add("a", 9, 5'000'000'000);
+  net.run(2);
+  auto& second = net.add("a", 4);
+  net.run(5);
+  EXPECT_FALSE(first.world->peers().isSecondOfItsName(net.nowOf(first)));
+  EXPECT_TRUE(second.world->peers().isSecondOfItsName(net.nowOf(second)));
 }
 
 TEST(SharedWorld, ItSurvivesWhatMakesNoSense) {
