@@ -49,6 +49,7 @@ void serve(const hl::ShareTask& task) {
   hl::ShareParticipant participant(task, tellServer);
   const hl::DdsReady ready;
   send(STDIN_FILENO, &ready, sizeof ready, MSG_NOSIGNAL);
+  participant.start();
   std::string buffer(hl::kMostShareMessage_bytes + 1, '\0');
   for (;;) {
     pollfd waiting{STDIN_FILENO, static_cast<short>(participant.out().full() ? 0 : POLLIN), 0};

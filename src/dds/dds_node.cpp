@@ -37,6 +37,15 @@ std::string peersXml(const std::vector<std::string>& addresses) {
   return "<Peers>" + peers + "</Peers>";
 }
 
+// No packet of UDP is longer than a frame of Ethernet, with what DDS Security adds: of one that IP has split the whole
+// is lost with a part of it. Many samples of many parts may be incomplete at once, as on a long line that loses some;
+// none is longer than those of HL.
+constexpr const char* kSizes =
+    "<General><MaxMessageSize>1300B</MaxMessageSize><FragmentSize>1100B</FragmentSize></General><Internal>"
+    "<MaxSampleSize>100kB</MaxSampleSize><DefragReliableMaxSamples>256</DefragReliableMaxSamples>"
+    "<PrimaryReorderMaxSamples>1024</PrimaryReorderMaxSamples>"
+    "<SecondaryReorderMaxSamples>1024</SecondaryReorderMaxSamples></Internal>";
+
 // Whatever CYCLONEDDS_URI says. Participants are looked for each second, as the next one may come at any time, at so
 // many ports of each peer.
 std::string configuration(const std::string& interfaces, const char* multicast, const std::vector<std::string>& peers,
@@ -45,7 +54,7 @@ std::string configuration(const std::string& interfaces, const char* multicast, 
          multicast + "</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>" +
          "<MaxAutoParticipantIndex>" + std::to_string(ports - 1) + "</MaxAutoParticipantIndex>" + peersXml(peers) +
          "<LeaseDuration>" + std::to_string(lease_s) + "s</LeaseDuration>" +
-         "<SPDPInterval>1s</SPDPInterval></Discovery></Domain></CycloneDDS>";
+         "<SPDPInterval>1s</SPDPInterval></Discovery>" + kSizes + "</Domain></CycloneDDS>";
 }
 
 // At the machine's own address, as other programs tell it by default, and at that of those that are kept to this
@@ -93,15 +102,14 @@ dds_entity_t made(dds_entity_t entity, const char* what) {
   return entity;
 }
 
-using Qos = std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)>;
-
 // Cyclone DDS says by its log alone that it could not read something: as a warning, one for each.
 void DdsNode::hearLog(void* node, const dds_log_data_t* line) {
   const DdsNode& self = *static_cast<const DdsNode*>(node);
   const std::string_view text(line->message, line->size);
   if ((line->priority & (DDS_LC_FATAL | DDS_LC_ERROR)) != 0) {
     tellPerson(self.program_, text);
-  } else if (text.find("deserialization") != text.npos || text.find("malformed packet") != text.npos) {
+  } else if (text.find("deserialization") != text.npos || text.find("malformed packet") != text.npos ||
+             text.find("oversize") != text.npos) {
     self.tell_();
   }
 }
@@ -119,13 +127,15 @@ DdsNode::DdsNode(const DdsNodeSettings& settings, TellMalformed tell)
   domain_ = dds_create_domain(settings.domain, xml.c_str());
   participant_ = domain_ < 0 ? domain_ : dds_create_participant(settings.domain, qos.get(), nullptr);
   dds_set_log_sink(&hearLog, this);
-  if (participant_ >= 0) {
+  try {
+    if (participant_ < 0)
+      throw Error("Cyclone DDS makes no participant: " +
+                  (start.reason.empty() ? dds_strretcode(participant_) : start.reason));
     if (stays) requireLoopbackOnly();
-    return;
+  } catch (...) {
+    end();
+    throw;
   }
-  const std::string why = start.reason.empty() ? dds_strretcode(participant_) : start.reason;
-  end();
-  throw Error("Cyclone DDS makes no participant: " + why);
 }
 
 DdsNode::~DdsNode() { end(); }

@@ -22,7 +22,7 @@ struct DdsNodeSettings {
 
 class DdsNode {
  public:
-  /// Called by threads of Cyclone DDS for what is no packet or sample; it may throw nothing.
+  /// Called by threads of Cyclone DDS for what is no packet or sample, or a too long one; it may throw nothing.
   using TellMalformed = std::function<void()>;
 
   /// Throws hl::Error when there is no room for a participant in this domain, or its keys do not fit.

@@ -1,6 +1,7 @@
 // ShareParticipant: a server of a shared world as the others see it, by Cyclone DDS. In the program hl-share only.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <functional>
 #include <thread>
@@ -13,7 +14,7 @@ namespace hl {
 class ShareParticipant {
  public:
   /// Called by a thread of its own; it may wait, and throws nothing. What comes meanwhile waits too, but for packets of
-  /// the stream, in the place of which newer ones come.
+  /// the stream, in the place of which newer ones come. What is malformed or too long is an empty packet of the stream.
   using Tell = std::function<void(const SharePacket&)>;
 
   /// Others can find it when it is there. Throws hl::Error.
@@ -22,18 +23,28 @@ class ShareParticipant {
   ShareParticipant(const ShareParticipant&) = delete;
   ShareParticipant& operator=(const ShareParticipant&) = delete;
 
+  /// Before it nothing is told.
+  void start();
   /// Of one thread.
   ShareOutbox& out() { return out_; }
 
  private:
+  struct Reader {
+    Lane lane;
+    dds_entity_t entity;
+  };
+  Reader makeReader(Lane lane) const;
   void run();
-  void take(Lane lane, dds_entity_t reader) const;
+  bool takeOne(const Reader& reader) const;
 
   const ShareTask task_;
   const Tell tell_;
+  std::atomic<std::uint64_t> malformed_{0};  // that have not been told
   DdsNode node_;
+  const dds_entity_t waitset_;
+  const std::array<Reader, 3> readers_;
   ShareOutbox out_;
-  std::atomic<bool> running_{true};
+  std::atomic<bool> running_{false};
   std::thread thread_;
 };
 
