@@ -2,21 +2,19 @@
 // ends it at the worst, and not the loops that hold somebody's hand. Its standard input is the socket to them; it ends
 // with it.
 #include <poll.h>
-#include <signal.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/clock.h"
 #include "base/error.h"
 #include "dds/share_participant.h"
 #include "ros/dds_process.h"
-#include "ros/packets.h"
 #include "share/share_task.h"
 
 namespace {
@@ -31,15 +29,36 @@ void tellServer(const hl::SharePacket& packet) {
 // What waits is tried again after so long.
 constexpr int kAgain_ms = 5;
 
-// False: the server has ended.
-bool takeOne(hl::ShareParticipant& participant, std::string& buffer) {
-  const auto size = recv(STDIN_FILENO, buffer.data(), buffer.size(), MSG_DONTWAIT);
-  if (size < 0 && (errno == EINTR || errno == EAGAIN)) return true;
-  if (size <= 0) return false;
-  if (auto packet = hl::sharePacketOf({buffer.data(), static_cast<std::size_t>(size)}))
-    participant.out().send(std::move(*packet), hl::monotonicNow_ns());
-  return true;
-}
+/// What the server has sent to others, and how much of it waits here.
+class Sending {
+ public:
+  explicit Sending(hl::ShareOutbox& out) : out_(out) {}
+
+  // False: the server has ended.
+  bool takeOne() {
+    const auto size = recv(STDIN_FILENO, buffer_.data(), buffer_.size(), MSG_DONTWAIT);
+    if (size < 0 && (errno == EINTR || errno == EAGAIN)) return true;
+    if (size <= 0) return false;
+    auto packet = hl::sharePacketOf({buffer_.data(), static_cast<std::size_t>(size)});
+    if (!packet) return true;
+    if (packet->lane != hl::Lane::kStream) known_bytes_ += packet->bytes.size();
+    out_.send(std::move(*packet), hl::monotonicNow_ns());
+    return true;
+  }
+  // Tries again what waits, and tells the server of what does so no more: now, or when it reads.
+  void flush() {
+    out_.flush(hl::monotonicNow_ns());
+    const hl::ShareTaken taken{known_bytes_ - out_.waiting_bytes()};
+    if (taken.bytes > 0 && send(STDIN_FILENO, &taken, sizeof taken, MSG_DONTWAIT | MSG_NOSIGNAL) > 0)
+      known_bytes_ -= taken.bytes;
+  }
+  bool waits() const { return known_bytes_ > 0; }
+
+ private:
+  hl::ShareOutbox& out_;
+  std::uint64_t known_bytes_ = 0;  // that wait, as the server knows it
+  std::string buffer_ = std::string(hl::kMostShareMessage_bytes + 1, '\0');
+};
 
 void serve(const hl::ShareTask& task) {
   if (task.version != HL_VERSION)
@@ -50,13 +69,12 @@ void serve(const hl::ShareTask& task) {
   const hl::DdsReady ready;
   send(STDIN_FILENO, &ready, sizeof ready, MSG_NOSIGNAL);
   participant.start();
-  std::string buffer(hl::kMostShareMessage_bytes + 1, '\0');
+  Sending sending(participant.out());
   for (;;) {
-    pollfd waiting{STDIN_FILENO, static_cast<short>(participant.out().full() ? 0 : POLLIN), 0};
-    poll(&waiting, 1, participant.out().waits() ? kAgain_ms : 1000);
-    if ((waiting.revents & (POLLHUP | POLLERR)) != 0 && (waiting.revents & POLLIN) == 0) return;
-    if ((waiting.revents & POLLIN) != 0 && !takeOne(participant, buffer)) return;
-    participant.out().flush(hl::monotonicNow_ns());
+    pollfd waiting{STDIN_FILENO, POLLIN, 0};
+    poll(&waiting, 1, sending.waits() ? kAgain_ms : 1000);
+    if (waiting.revents != 0 && !sending.takeOne()) return;
+    sending.flush();
   }
 }
 

@@ -22,12 +22,10 @@ class ShareOutbox {
   void send(SharePacket packet, std::int64_t now_ns);
   /// Tries again what waits.
   void flush(std::int64_t now_ns);
-  bool waits() const { return waiting_bytes_ > 0; }
-  /// Enough: more is to be sent when less waits.
-  bool full() const { return waiting_bytes_ > kMostWaiting_bytes; }
+  /// Bytes of items and of inboxes.
+  std::uint64_t waiting_bytes() const { return waiting_bytes_; }
 
  private:
-  static constexpr std::size_t kMostWaiting_bytes = 16'000'000;
   /// Whoever is not there for so long gets nothing of what waits: it was never there, or has gone.
   static constexpr std::int64_t kPatience_ns = 5'000'000'000;
   struct Inbox {
@@ -44,7 +42,7 @@ class ShareOutbox {
   const dds_entity_t items_, stream_;
   std::map<std::uint64_t, std::string> waiting_items_;  // by key: the newest
   std::map<ServerId, Inbox> inboxes_;
-  std::size_t waiting_bytes_ = 0;
+  std::uint64_t waiting_bytes_ = 0;
 };
 
 /// Of a writer or reader of this lane.

@@ -37,6 +37,10 @@ std::string shareTopic(const std::string& world, Lane lane, ServerId to = 0);
 std::string bytesOf(const SharePacket& packet);
 /// Nothing: these are no packet.
 std::optional<SharePacket> sharePacketOf(std::span<const char> bytes);
+/// From hl-share in the place of a packet: so many bytes of items and inboxes that it was given wait in it no more.
+struct ShareTaken {
+  std::uint64_t bytes = 0;
+};
 /// No message is longer.
 inline constexpr std::size_t kMostShareMessage_bytes = kMostPacket_bytes + 16;
 

@@ -177,6 +177,27 @@ TEST_F(ShareOverALine, NoItemAndNothingOfAnInboxIsLostAndWhoHasForeignKeysHearsN
   EXPECT_TRUE(of_stranger.items.empty() && of_stranger.stream.empty());
 }
 
+// On the way to one server is a line that would take minutes for what waits.
+TEST_F(ShareOverALine, WhatWaitsForASlowServerHoldsUpNoStream) {
+  line_->say("loss 0");
+  const auto a = joinAt(1, 1, "share_keys/enclaves/anna"), b = joinAt(2, 2, "share_keys/enclaves/bert"),
+             c = joinAt(3, 3, "share_keys/enclaves/bert");
+  expectStream(*a, *b, 9);
+  expectStream(*a, *c, 9);
+  line_->say("from 1 to 2 rate 1");
+  std::uint64_t sent = 0;
+  const auto sendAll = [&] {
+    while (a->send({Lane::kItems, sent + 1, std::string(kMostPacket_bytes, 'x')})) ++sent;
+    a->receive();
+    return sent * kMostPacket_bytes > ShareProcess::kMostWaiting_bytes;
+  };
+  waitFor(sendAll);
+  for (std::uint64_t key = 10; key < 20; ++key) {
+    expectStream(*a, *c, key);
+    sendAll();
+  }
+}
+
 TEST_F(ShareOverALine, WithoutKeysNobodyGoesBeyondTheMachine) {
   line_->inside(1, [&] { EXPECT_THROW(join("line", 1, {"line0", "", {}}), Error); });
 }
