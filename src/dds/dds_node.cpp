@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "dds/dds_security.h"
 #include "dds/loopback_only.h"
+#include "dds/repeated_handshakes.h"
 
 namespace hl {
 
@@ -119,7 +120,10 @@ DdsNode::DdsNode(const DdsNodeSettings& settings, TellMalformed tell)
   const bool stays = settings.reach.interface_name == "lo";
   if (!stays) leaveLoopback();
   const Qos qos = emptyQos();
-  if (!settings.reach.enclave.empty()) addSecurity(*qos, readEnclave(settings.reach.enclave, settings.domain));
+  if (!settings.reach.enclave.empty()) {
+    addSecurity(*qos, readEnclave(settings.reach.enclave, settings.domain));
+    repeatHandshakes();
+  }
   const std::string xml =
       stays ? loopbackConfiguration(settings.lease_s) : networkConfiguration(settings.reach, settings.lease_s);
   StartLog start;
