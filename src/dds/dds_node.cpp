@@ -3,6 +3,7 @@
 #include <ifaddrs.h>
 #include <net/if.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <cstdio>
@@ -46,6 +47,9 @@ constexpr const char* kSizes =
     "<MaxSampleSize>100kB</MaxSampleSize><DefragReliableMaxSamples>256</DefragReliableMaxSamples>"
     "<PrimaryReorderMaxSamples>1024</PrimaryReorderMaxSamples>"
     "<SecondaryReorderMaxSamples>1024</SecondaryReorderMaxSamples></Internal>";
+
+// The program ends by SIGALRM after it.
+constexpr unsigned kLongestEnd_s = 5;
 
 // Whatever CYCLONEDDS_URI says. Participants are looked for each second, as the next one may come at any time, at so
 // many ports of each peer.
@@ -144,8 +148,12 @@ DdsNode::DdsNode(const DdsNodeSettings& settings, TellMalformed tell)
 
 DdsNode::~DdsNode() { end(); }
 
+// Cyclone DDS ends its threads by packets to itself, which do not come where the network has gone: it would wait for
+// ever, and its program outlive its server.
 void DdsNode::end() {
+  alarm(kLongestEnd_s);
   if (domain_ > 0) dds_delete(domain_);
+  alarm(0);
   dds_set_log_sink(nullptr, nullptr);
 }
 

@@ -82,7 +82,8 @@ void ShareBridge::run() {
     }
     if (!world_.peers().isSecondOfItsName(now_ns)) continue;
     guarded([&] { replicas_.clear(); });
-    return endFor("a server that was in this world before is called " + view_.name + " as well: give one another --share-name");
+    return endFor("a server that was in this world before is called " + view_.name +
+                  " as well: give one another --share-name");
   }
 }
 

@@ -1,10 +1,14 @@
 // hl-share between servers of a world: what each lane promises, on one machine and over a bad line with keys. And three
 // whole servers on that line.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -196,6 +200,30 @@ TEST_F(ShareOverALine, WhatWaitsForASlowServerHoldsUpNoStream) {
     expectStream(*a, *c, key);
     sendAll();
   }
+}
+
+// As when a machine loses its network and its server is killed: nobody else would end the program.
+TEST_F(ShareOverALine, ItsProgramEndsWithItsServerAlsoWhenTheNetworkHasGone) {
+  ASSERT_EQ(prctl(PR_SET_CHILD_SUBREAPER, 1), 0);  // the program comes to this process when the server has ended
+  int ready[2];
+  ASSERT_EQ(pipe2(ready, O_CLOEXEC), 0);
+  pid_t server = 0;
+  line_->inside(1, [&] {
+    server = fork();
+    if (server != 0) return;
+    const DdsReach reach{"line0", test::tempFile("share_keys/enclaves/anna"), {}};
+    const auto process = std::make_unique<ShareProcess>(ShareTask{HL_VERSION, kDomain, "gone", 1, reach});
+    if (write(ready[1], "1", 1) == 1) pause();
+    _exit(1);
+  });
+  close(ready[1]);
+  char one = 0;
+  EXPECT_EQ(read(ready[0], &one, 1), 1);
+  close(ready[0]);
+  line_.reset();
+  kill(server, SIGKILL);
+  waitFor([] { return waitpid(-1, nullptr, WNOHANG) < 0 && errno == ECHILD; });
+  prctl(PR_SET_CHILD_SUBREAPER, 0);
 }
 
 TEST_F(ShareOverALine, WithoutKeysNobodyGoesBeyondTheMachine) {
