@@ -103,24 +103,14 @@ proto::ShareBlocks blocksOf(const std::string& bytes, Part part) {
 }
 
 void add(const Block& block, SceneReader& reader) {
-  switch (block.body_case()) {
-    case Block::kShape:
-      return reader.add(block.shape());
-    case Block::kHeights:
-      return reader.add(block.heights());
-    case Block::kVolume:
-      return reader.add(block.volume());
-    case Block::kImplicit:
-      return reader.add(block.implicit());
-    case Block::kCloud:
-      return reader.add(block.cloud());
-    case Block::kSurfaces:
-      return reader.add(block.surfaces());
-    case Block::kRigidBody:
-      return reader.add(block.rigid_body());
-    default:
-      throw Error(kBroken);
-  }
+  if (block.has_shape()) return reader.add(block.shape());
+  if (block.has_heights()) return reader.add(block.heights());
+  if (block.has_volume()) return reader.add(block.volume());
+  if (block.has_implicit()) return reader.add(block.implicit());
+  if (block.has_cloud()) return reader.add(block.cloud());
+  if (block.has_surfaces()) return reader.add(block.surfaces());
+  if (block.has_rigid_body()) return reader.add(block.rigid_body());
+  throw Error(kBroken);
 }
 
 // What somebody has already, or else its blocks.

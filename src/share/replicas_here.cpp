@@ -51,7 +51,7 @@ void ReplicasHere::look(const std::vector<Replica>& replicas, bool jumped, std::
   }
   std::erase_if(ids_, [&](const auto& entry) { return rows_.at(entry.second).look != looks_; });
   std::erase_if(rows_, [&](const auto& entry) { return entry.second.look != looks_; });
-  if (!isAsPlaced(*placed) && !waitsForOthers(*placed, now_ns)) place(std::move(placed), jumped ? kJump_ns : kMove_ns);
+  if (!isAsPlaced(*placed) && !waitsForOthers(*placed, now_ns)) place(placed, jumped ? kJump_ns : kMove_ns);
 }
 
 // Where the first ones are fitted to the hands: until all are here, so that all are within reach.
@@ -122,7 +122,7 @@ bool ReplicasHere::isAsPlaced(const PlacedList& placed) const {
 }
 
 // Where there is no room for their bodies they rest.
-void ReplicasHere::place(std::shared_ptr<PlacedList> placed, std::int64_t move_ns) {
+void ReplicasHere::place(const PlacedShapes& placed, std::int64_t move_ns) {
   placed_ = placed;
   try {
     client_.place(placed, move_ns);

@@ -60,7 +60,7 @@ class ReplicasHere {
   void setBody(Row& row, const Replica& replica) const;
   PlacedShape placedOf(const Row& row) const;
   bool waitsForOthers(const PlacedList& placed, std::int64_t now_ns);
-  void place(std::shared_ptr<PlacedList> placed, std::int64_t move_ns);
+  void place(const PlacedShapes& placed, std::int64_t move_ns);
   bool isAsPlaced(const PlacedList& placed) const;
 
   PlacedClient& client_;
