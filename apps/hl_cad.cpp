@@ -2,11 +2,11 @@
 
 #include <string>
 
+#include "base/program_main.h"
 #include "cad/cad_mesh.h"
 #include "cad/read_cad_shape.h"
 #include "io/cad_file.h"
 #include "io/isolated.h"
-#include "io/reading_program.h"
 #include "io/sandbox.h"
 
 namespace {
@@ -24,7 +24,7 @@ hl::SceneModel parse(const hl::CadTask& task, const hl::ReadingReport& report) {
 
 // NOLINTNEXTLINE(bugprone-exception-escape): only when not even stderr can be written
 int main(int argc, char** argv) {
-  return hl::readingMain("hl-cad", HL_VERSION, {argv, static_cast<std::size_t>(argc)}, [](const auto& words) {
+  return hl::programMain("hl-cad", HL_VERSION, {argv, static_cast<std::size_t>(argc)}, [](const auto& words) {
     const hl::CadTask task = hl::cadTaskOf(words);
     hl::answerAsProgram({}, [&](const hl::ReadingReport& report) { return parse(task, report); });
   });

@@ -5,13 +5,11 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdio>
 #include <string>
-#include <vector>
 
-#include "base/error.h"
+#include "base/program_main.h"
 #include "dds/ros_participant.h"
-#include "ros/dds_process.h"
+#include "ros/dds_serving.h"
 #include "ros/packets.h"
 #include "ros/ros_task.h"
 
@@ -25,10 +23,7 @@ void tellServer(const Packet& packet) {
 }
 
 void serve(const hl::RosTask& task) {
-  if (task.version != HL_VERSION)
-    throw hl::Error("is of version " HL_VERSION " and was started by one of " + task.version +
-                    ": install both of one version");
-  close_range(STDERR_FILENO + 1, ~0U, 0);  // sockets of the server that came along
+  hl::beginServing(HL_VERSION, task.version);
   hl::RosParticipant participant(task, [](const hl::HandCommand& command) { tellServer(command); });
   tellServer(hl::DdsReady{});
   std::array<char, sizeof(hl::RosHandState)> buffer;
@@ -45,16 +40,6 @@ void serve(const hl::RosTask& task) {
 
 // NOLINTNEXTLINE(bugprone-exception-escape): only when not even stderr can be written
 int main(int argc, char** argv) {
-  const std::vector<std::string> words(argv + 1, argv + argc);
-  if (words.size() == 1 && words[0] == "--version") {
-    std::printf("hl-ros %s\n", HL_VERSION);
-    return 0;
-  }
-  try {
-    serve(hl::rosTaskOf(words));
-    return 0;
-  } catch (const hl::Error& error) {
-    std::fprintf(stderr, "hl-ros: %s\n", error.what());
-    return 2;
-  }
+  return hl::programMain("hl-ros", HL_VERSION, {argv, static_cast<std::size_t>(argc)},
+                         [](const auto& words) { serve(hl::rosTaskOf(words)); });
 }

@@ -6,15 +6,13 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "base/clock.h"
-#include "base/error.h"
+#include "base/program_main.h"
 #include "dds/share_participant.h"
-#include "ros/dds_process.h"
+#include "ros/dds_serving.h"
 #include "share/share_task.h"
 
 namespace {
@@ -61,10 +59,7 @@ class Sending {
 };
 
 void serve(const hl::ShareTask& task) {
-  if (task.version != HL_VERSION)
-    throw hl::Error("is of version " HL_VERSION " and was started by one of " + task.version +
-                    ": install both of one version");
-  close_range(STDERR_FILENO + 1, ~0U, 0);  // sockets of the server that came along
+  hl::beginServing(HL_VERSION, task.version);
   hl::ShareParticipant participant(task, tellServer);
   const hl::DdsReady ready;
   send(STDIN_FILENO, &ready, sizeof ready, MSG_NOSIGNAL);
@@ -82,16 +77,6 @@ void serve(const hl::ShareTask& task) {
 
 // NOLINTNEXTLINE(bugprone-exception-escape): only when not even stderr can be written
 int main(int argc, char** argv) {
-  const std::vector<std::string> words(argv + 1, argv + argc);
-  if (words.size() == 1 && words[0] == "--version") {
-    std::printf("hl-share %s\n", HL_VERSION);
-    return 0;
-  }
-  try {
-    serve(hl::shareTaskOf(words));
-    return 0;
-  } catch (const hl::Error& error) {
-    std::fprintf(stderr, "hl-share: %s\n", error.what());
-    return 2;
-  }
+  return hl::programMain("hl-share", HL_VERSION, {argv, static_cast<std::size_t>(argc)},
+                         [](const auto& words) { serve(hl::shareTaskOf(words)); });
 }

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/program_main.h"
 #include "io/isolated.h"
-#include "io/reading_program.h"
 #include "io/sandbox.h"
 #include "io/vdb_file.h"
 #include "vdb/read_vdb.h"
@@ -39,7 +39,7 @@ hl::SceneModel parse(const hl::VdbTask& task, const hl::ReadingReport& report) {
 
 // NOLINTNEXTLINE(bugprone-exception-escape): only when not even stderr can be written
 int main(int argc, char** argv) {
-  return hl::readingMain("hl-vdb", HL_VERSION, {argv, static_cast<std::size_t>(argc)}, [](const auto& words) {
+  return hl::programMain("hl-vdb", HL_VERSION, {argv, static_cast<std::size_t>(argc)}, [](const auto& words) {
     const hl::VdbTask task = hl::vdbTaskOf(words);
     const hl::IsolationLimits limits = limitsOf(STDIN_FILENO);
     hl::answerAsProgram(limits, [&](const hl::ReadingReport& report) {

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "commands.h"
+#include "dds_options.h"
 #include "ros/ros_process.h"
 
 namespace hl {
@@ -76,22 +77,10 @@ void addRosOptions(CLI::App& app, RosOptions& options) {
       ->needs("--ros")
       ->capture_default_str()
       ->group("ROS 2");
-  app.add_option("--ros-security", options.reach.enclave,
-                 "keys for topics that only those with keys of the same authority read and write: see hl keys")
-      ->needs("--ros")
-      ->option_text("FOLDER")
-      ->group("ROS 2");
-  app.add_option("--ros-interface", options.reach.interface_name,
-                 "network interface of the topics; lo is this machine alone, another needs --ros-security")
-      ->needs("--ros")
-      ->option_text("NAME")
-      ->group("ROS 2");
-  app.add_option("--ros-peer", options.reach.peers,
-                 "where another machine is, if multicast does not reach it; several times for several")
-      ->needs("--ros")
-      ->allow_extra_args(false)
-      ->option_text("ADDRESS")
-      ->group("ROS 2");
+  addReachOptions(
+      app, options.reach, kRosUse,
+      {"ROS 2", "keys for topics that only those with keys of the same authority read and write: see hl keys",
+       "network interface of the topics"});
   addTeleopOptions(app, options);
 }
 
@@ -110,13 +99,6 @@ std::unique_ptr<RosBridge> makeRosBridge(const RosOptions& options, TouchServer&
                                      teleop);
 }
 
-std::string rosPresence() {
-  if (placeOf(kRosProgram).empty()) return kRosProgram.absent;
-  try {
-    return "hl-ros is here, for --ros NAMESPACE; topics would be in domain " + std::to_string(ddsDomain());
-  } catch (const Error& error) {
-    return error.what();
-  }
-}
+std::string rosPresence() { return presenceOf(kRosProgram, "--ros NAMESPACE", "topics"); }
 
 }  // namespace hl

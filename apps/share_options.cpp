@@ -6,6 +6,7 @@
 #include <array>
 
 #include "base/error.h"
+#include "dds_options.h"
 #include "share/share_process.h"
 
 namespace hl {
@@ -41,13 +42,9 @@ void addShareOptions(CLI::App& app, ShareOptions& options) {
       "NAME");
   add("--share-adopt", options.adopt, "whether it takes over what a server leaves behind that is lost [on]", "on|off")
       ->check(CLI::IsMember({"on", "off"}));
-  add("--share-security", options.reach.enclave,
-      "keys: only those with keys of the same authority are in the world; see hl keys", "FOLDER");
-  add("--share-interface", options.reach.interface_name,
-      "network interface to the other servers; lo is this machine alone, another needs --share-security", "NAME");
-  add("--share-peer", options.reach.peers,
-      "where another machine is, if multicast does not reach it; several times for several", "ADDRESS")
-      ->allow_extra_args(false);
+  addReachOptions(app, options.reach, kShareUse,
+                  {"Shared worlds", "keys: only those with keys of the same authority are in the world; see hl keys",
+                   "network interface to the other servers"});
 }
 
 std::unique_ptr<ShareBridge> makeShareBridge(const ShareOptions& options, TouchServer& server,
@@ -68,13 +65,6 @@ ReadShare readerOf(const ShareBridge* bridge) {
   return [bridge] { return bridge->view(); };
 }
 
-std::string sharePresence() {
-  if (placeOf(kShareProgram).empty()) return kShareProgram.absent;
-  try {
-    return "hl-share is here, for --share WORLD; worlds would be in domain " + std::to_string(ddsDomain());
-  } catch (const Error& error) {
-    return error.what();
-  }
-}
+std::string sharePresence() { return presenceOf(kShareProgram, "--share WORLD", "worlds"); }
 
 }  // namespace hl

@@ -4,7 +4,9 @@
 
 #include <hl/hl_types.h>
 
+#include <algorithm>
 #include <type_traits>
+#include <vector>
 
 #include "client/context.h"
 #include "client/fault.h"
@@ -61,6 +63,18 @@ void call(const char* function, When when, Body body) noexcept {
 template <typename Body>
 void call(const char* function, Body body) noexcept {
   call(function, When::kOutside, body);
+}
+
+/// Writes up to `most` of what `list` gives of the context, and returns how many; 0 at an error.
+template <typename Row>
+HLsizei getList(const char* function, HLsizei most, Row* rows, std::vector<Row> (*list)(const HLcontext&)) noexcept {
+  return callOr<HLsizei>(0, function, When::kOutside, [&](HLcontext& context) {
+    requireList(most, rows);
+    const std::vector<Row> all = list(context);
+    const std::size_t count = std::min(static_cast<std::size_t>(most), all.size());
+    std::copy_n(all.begin(), count, rows);
+    return static_cast<HLsizei>(count);
+  });
 }
 
 }  // namespace hl::client

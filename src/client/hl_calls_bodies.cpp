@@ -14,7 +14,6 @@ using hl::client::call;
 using hl::client::callOr;
 using hl::client::Fault;
 using hl::client::requireFinite;
-using hl::client::requireList;
 using hl::client::requirePointer;
 using hl::client::requireWithin;
 using hl::client::When;
@@ -184,13 +183,7 @@ void hlBodyPlaced(HLuint object, HLdouble x, HLdouble y, HLdouble z, HLdouble qx
 }
 
 HLsizei hlGetBodies(HLsizei most, HLbody* bodies) {
-  return callOr<HLsizei>(0, __func__, When::kOutside, [&](HLcontext& context) {
-    requireList(most, bodies);
-    const std::vector<HLbody> all = hl::client::bodiesOf(context);
-    const auto count = std::min(static_cast<std::size_t>(most), all.size());
-    std::copy_n(all.begin(), count, bodies);
-    return static_cast<HLsizei>(count);
-  });
+  return hl::client::getList(__func__, most, bodies, hl::client::bodiesOf);
 }
 
 HLboolean hlGetBodydv(HLuint object, HLenum name, HLdouble* values) {

@@ -189,13 +189,7 @@ void hlJoin(HLuint joint, HLuint object_a, HLuint name_a, HLuint object_b, HLuin
 }
 
 HLsizei hlGetJoints(HLsizei most, HLjoint* joints) {
-  return callOr<HLsizei>(0, __func__, When::kOutside, [&](HLcontext& context) {
-    requireList(most, joints);
-    const std::vector<HLjoint> all = hl::client::jointsOf(context);
-    const auto count = std::min(static_cast<std::size_t>(most), all.size());
-    std::copy_n(all.begin(), count, joints);
-    return static_cast<HLsizei>(count);
-  });
+  return hl::client::getList(__func__, most, joints, hl::client::jointsOf);
 }
 
 HLboolean hlGetJointdv(HLuint joint, HLenum name, HLdouble* values) {

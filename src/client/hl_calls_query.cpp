@@ -9,8 +9,6 @@
 #include "client/queries.h"
 
 using hl::client::call;
-using hl::client::callOr;
-using hl::client::requireList;
 using hl::client::When;
 
 namespace {
@@ -46,21 +44,9 @@ void hlGetDoublev(HLenum name, HLdouble* values) {
 }
 
 HLsizei hlGetContacts(HLsizei most, HLcontact* contacts) {
-  return callOr<HLsizei>(0, __func__, When::kOutside, [&](HLcontext& context) {
-    requireList(most, contacts);
-    const std::vector<HLcontact> all = hl::client::contactsOf(context);
-    const auto count = std::min(static_cast<std::size_t>(most), all.size());
-    std::copy_n(all.begin(), count, contacts);
-    return static_cast<HLsizei>(count);
-  });
+  return hl::client::getList(__func__, most, contacts, hl::client::contactsOf);
 }
 
 HLsizei hlGetRemoteHands(HLsizei most, HLremotehand* hands) {
-  return callOr<HLsizei>(0, __func__, When::kOutside, [&](HLcontext& context) {
-    requireList(most, hands);
-    const std::vector<HLremotehand> all = hl::client::remoteHandsOf(context);
-    const auto count = std::min(static_cast<std::size_t>(most), all.size());
-    std::copy_n(all.begin(), count, hands);
-    return static_cast<HLsizei>(count);
-  });
+  return hl::client::getList(__func__, most, hands, hl::client::remoteHandsOf);
 }

@@ -26,20 +26,4 @@ std::string readingProgram(const std::string& name, const std::string& otherwise
   throw Error(otherwise);
 }
 
-int readingMain(const std::string& name, const std::string& version, std::span<const char* const> arguments,
-                const std::function<void(const std::vector<std::string>& words)>& answer) {
-  const std::vector<std::string> words(arguments.begin() + 1, arguments.end());
-  if (words.size() == 1 && words[0] == "--version") {
-    fmt::print("{} {}\n", name, version);
-    return 0;
-  }
-  try {
-    answer(words);
-    return 0;
-  } catch (const Error& error) {
-    fmt::print(stderr, "{}: {}\n", name, error.what());
-    return 2;
-  }
-}
-
 }  // namespace hl

@@ -12,9 +12,4 @@ namespace hl {
 /// with `otherwise` if there is none.
 std::string readingProgram(const std::string& name, const std::string& otherwise);
 
-/// What main() of such a program does: `--version` prints it; other words are answered. An hl::Error of `answer` is one
-/// line on stderr and the exit code 2.
-int readingMain(const std::string& name, const std::string& version, std::span<const char* const> arguments,
-                const std::function<void(const std::vector<std::string>& words)>& answer);
-
 }  // namespace hl

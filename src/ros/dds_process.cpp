@@ -14,6 +14,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "io/reading_program.h"
+#include "ros/dds_serving.h"
 
 namespace hl {
 

@@ -46,11 +46,6 @@ class DdsProcess {
   bool ended_ = false;
 };
 
-/// From such a program, once, before any other packet: others can find what it serves from now on.
-struct DdsReady {
-  std::uint64_t ready = 1;
-};
-
 /// Where the program is; empty: nowhere.
 std::string placeOf(const DdsProgram& program);
 
