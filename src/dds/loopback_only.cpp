@@ -50,7 +50,8 @@ void requireLoopbackOnly() {
   for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
     const int descriptor = std::stoi(entry.path().filename().string());
     if (tied && isOfNetwork(descriptor) && !isTied(descriptor))
-      throw Error("topics of ROS 2 stay on this machine, and a socket of Cyclone DDS would not: it needs Linux 5.7");
+      throw Error(
+          "what is told by DDS stays on this machine, and a socket of Cyclone DDS would not: it needs Linux 5.7");
   }
 }
 

@@ -166,12 +166,12 @@ std::uint64_t SceneWriter::idOf(std::map<const Part*, Written<Part>>& written, c
   return entry.id;
 }
 
-std::uint64_t SceneWriter::know(const std::shared_ptr<const Shape>& shape) {
-  return idOf(shapes_, shape, [](std::uint64_t) {});
+void SceneWriter::know(const std::shared_ptr<const Shape>& shape) {
+  idOf(shapes_, shape, [](std::uint64_t) {});
 }
 
-std::uint64_t SceneWriter::know(const std::shared_ptr<const Surfaces>& surfaces) {
-  return idOf(surfaces_, surfaces, [](std::uint64_t) {});
+void SceneWriter::know(const std::shared_ptr<const Surfaces>& surfaces) {
+  idOf(surfaces_, surfaces, [](std::uint64_t) {});
 }
 
 std::uint64_t SceneWriter::shapeId(const std::shared_ptr<const Shape>& shape, const Write& write) {

@@ -24,9 +24,9 @@ class SceneWriter {
 
   /// The blocks of `scene`: what of it has not been written before, then the scene itself.
   void write(const Snapshot& scene, const Write& write);
-  /// Its blocks are elsewhere: scenes refer to it by this number, from 1 on in the order of all that is written.
-  std::uint64_t know(const std::shared_ptr<const Shape>& shape);
-  std::uint64_t know(const std::shared_ptr<const Surfaces>& surfaces);
+  /// Its blocks are elsewhere: scenes refer to it by the next number, as if it had been written now.
+  void know(const std::shared_ptr<const Shape>& shape);
+  void know(const std::shared_ptr<const Surfaces>& surfaces);
   /// Where the bodies of the scenes so far are, `now_ns`, of those that have moved since the last call: for showing
   /// them.
   void writePoses(std::int64_t now_ns, const Write& write);

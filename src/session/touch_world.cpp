@@ -171,12 +171,12 @@ void TouchWorld::describe(std::uint32_t device, proto::ClientState& state) {
   ProxyView proxy;
   views(device, servo, proxy);
   toProto(*devices_[device], servo, proxy, state);
-  const std::lock_guard lock(remote_mutex_);
+  const std::lock_guard lock(mutex_);
   for (const proto::OtherDevice& hand : remote_) *state.add_remote() = hand;
 }
 
 void TouchWorld::setRemoteHands(std::vector<proto::OtherDevice> hands) {
-  const std::lock_guard lock(remote_mutex_);
+  const std::lock_guard lock(mutex_);
   remote_.swap(hands);
 }
 

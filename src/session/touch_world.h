@@ -89,10 +89,9 @@ class TouchWorld {
   mutable std::mutex mutex_;            // of what follows
   std::vector<std::uint32_t> masters_;  // session by device; 0: none
   std::vector<std::pair<std::string, std::shared_ptr<ScenePublisher::ClientScene>>> kept_;  // by name; the oldest first
+  std::vector<proto::OtherDevice> remote_;                                                  // hands of other servers
 
   std::mutex views_mutex_;  // of the devices' views for clients
-  mutable std::mutex remote_mutex_;
-  std::vector<proto::OtherDevice> remote_;
 };
 
 }  // namespace hl

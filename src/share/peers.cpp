@@ -14,7 +14,7 @@ constexpr std::int64_t kForget_ns = 60'000'000'000, kSameName_ns = 3'000'000'000
 constexpr std::int64_t kLongest_ns = std::int64_t{1} << 60;  // 36 years
 constexpr std::uint32_t kMostOfAServer = 16;
 
-std::string shortName(const std::string& name) { return validUtf8(name.substr(0, kMostServerName)); }
+std::string shortName(const std::string& name) { return validUtf8(name.substr(0, kMostShareName)); }
 
 }  // namespace
 

@@ -12,17 +12,17 @@
 #include "share/peer_clock.h"
 #include "share/playout.h"
 #include "share/share_link.h"
+#include "share/share_task.h"
 
 namespace hl {
 
 /// Who this server is in the world.
 struct ShareSelf {
   ServerId id = 0;
-  std::string name;     ///< 1 to kMostServerName letters, one in the world
+  std::string name;     ///< 1 to kMostShareName letters, one in the world
   bool adopts = true;   ///< it takes over objects whose owner is lost
   std::string version;  ///< of HL
 };
-inline constexpr std::size_t kMostServerName = 32;
 
 struct Peer {
   std::string name, version;

@@ -17,6 +17,7 @@ namespace hl {
 struct ItemMotion {
   Pose pose;
   Vec3 velocity_m_s = Vec3::Zero(), spin_rad_s = Vec3::Zero();
+  bool operator==(const ItemMotion&) const = default;
 };
 
 /// Of an instance now: of a body as it was after its last step, of any other one without velocities. Any thread.

@@ -18,10 +18,6 @@ bool isSame(const PlacedShape& a, const PlacedShape& b) {
          a.snaps == b.snaps && a.fields == b.fields;
 }
 
-bool isSame(const ItemMotion& a, const ItemMotion& b) {
-  return a.pose == b.pose && a.velocity_m_s == b.velocity_m_s && a.spin_rad_s == b.spin_rad_s;
-}
-
 }  // namespace
 
 ReplicasHere::ReplicasHere(PlacedClient& client, bool bodies, BackgroundWork& work, const Contents& contents,
@@ -95,7 +91,7 @@ void ReplicasHere::setBody(Row& row, const Replica& replica) const {
     row.body = nullptr;
     return;
   }
-  if (row.body && isSame(row.replica.begin, replica.begin)) return;
+  if (row.body && row.replica.begin == replica.begin) return;
   BodySpec spec = row.instance->body->spec;
   spec.velocity_m_s = replica.begin.velocity_m_s;
   spec.spin_rad_s = replica.begin.spin_rad_s;

@@ -76,8 +76,9 @@ void ShareBridge::run() {
     if (link_->ended()) return endFor("hl-share has ended: restart this server to share the world again");
     guarded([&] { world_.step(now_ns); });
     if (now_ns >= next_ns) {
+      guarded([&] { work_.finish(); });
       if (shows++ % (kLook_ns / kShow_ns) == 0) guarded([&] { look(now_ns); });
-      guarded([&] { show(now_ns); });
+      guarded([&] { showOthers(now_ns); });
       next_ns = std::max(next_ns + kShow_ns, now_ns);
     }
     if (!world_.peers().isSecondOfItsName(now_ns)) continue;
@@ -96,17 +97,11 @@ void ShareBridge::hearAll(std::int64_t now_ns) {
 }
 
 void ShareBridge::look(std::int64_t now_ns) {
-  work_.finish();
   tellScene(now_ns);
   tellHands(now_ns);
   actOnBodies();
   tellPeers(now_ns);
   writeView(now_ns);
-}
-
-void ShareBridge::show(std::int64_t now_ns) {
-  work_.finish();
-  showOthers(now_ns);
 }
 
 void ShareBridge::tellScene(std::int64_t now_ns) {

@@ -39,7 +39,8 @@ class ShareBridge {
   ~ShareBridge() { stop(); }
   /// After the server.
   void start();
-  void stop();  ///< before the server; what others have goes from the scene; safe to call twice
+  /// Before the server; safe to call twice. What others have goes from the scene with this object.
+  void stop();
   ShareView view() const;
 
  private:
@@ -47,7 +48,6 @@ class ShareBridge {
   void run();
   void hearAll(std::int64_t now_ns);
   void look(std::int64_t now_ns);
-  void show(std::int64_t now_ns);
   void tellScene(std::int64_t now_ns);
   void tellHands(std::int64_t now_ns);
   void actOnBodies();
