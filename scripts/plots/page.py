@@ -42,10 +42,10 @@ def path_of(name):
     return look.folder / "examples" / f"{name}.png"
 
 
-def write(png, path):
+def write(png, path, method=Image.Quantize.MEDIANCUT):
     picture = Image.open(io.BytesIO(png)).convert("RGB")
     path.parent.mkdir(parents=True, exist_ok=True)
-    picture.quantize(look.COLOURS, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE).save(path, optimize=True)
+    picture.quantize(look.COLOURS, method, dither=Image.Dither.NONE).save(path, optimize=True)
     told(path)
 
 
@@ -93,7 +93,9 @@ def shared(programs):
     idle = [built(programs, "hld"), "--explore", "on", *sharing("carl")]
     seen = [built(programs, "hld"), "--explore", "on", *sharing("bert")]
     with Program(touch, "page: "), Program(idle, "event=ready"), Program(seen, r"address=http://(\S+)/") as served:
-        write(asyncio.run(picture_of_shared(served.found.group(1))), look.folder / "shared_page.png")
+        png = asyncio.run(picture_of_shared(served.found.group(1)))
+    # Colours of servers are of few pixels, and differ.
+    write(png, look.folder / "shared_page.png", Image.Quantize.MAXCOVERAGE)
 
 
 def parts(programs):
