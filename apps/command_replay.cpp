@@ -69,6 +69,10 @@ void print(const std::string& file, const ReplayReport& report) {
         "missing:    {} servo steps and {} ticks that the recorder could not keep; {} ticks after them are not "
         "checked\n",
         report.lost_steps, report.lost_ticks, report.unchecked_ticks);
+  if (report.ticks_among_hands > 0)
+    fmt::print(
+        "unchecked:  {} ticks, as the hands of other devices are at the bodies too; the servo's steps are checked\n",
+        report.ticks_among_hands);
   if (!report.damage.empty()) fmt::print("cut:        {}\n", report.damage);
   fmt::print("ended:      {}\n", report.end.empty() ? "the program was killed, or its file is cut" : report.end);
   if (report.difference) {

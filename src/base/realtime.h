@@ -8,6 +8,7 @@ namespace hl {
 
 /// Of SCHED_FIFO; above the threads of the proxy and of the drivers, which the servo must never wait for.
 inline constexpr int kServoPriority = 80;
+inline constexpr int kProxyPriority = 70;  ///< of ticks by another thread
 
 /// What the machine granted; `why` is one plain sentence for each thing refused, empty when all was granted.
 struct RealtimeGrant {

@@ -92,7 +92,9 @@ class ServoReplay {
 /// The proxy loop again, with the scenes as it took them.
 class ProxyReplay {
  public:
-  ProxyReplay(ReplayReport& report, const ProxySettings& settings) : report_(report), settings_(settings) {}
+  /// `one_of_several`: of the devices of a server, whose hands are at the same bodies.
+  ProxyReplay(ReplayReport& report, const ProxySettings& settings, bool one_of_several)
+      : report_(report), settings_(settings), one_of_several_(one_of_several) {}
 
   void add(const proto::RecordedShape& shape) { reader_.add(shape); }
   void add(const proto::RecordedHeights& heights) { reader_.add(heights); }
@@ -107,6 +109,7 @@ class ProxyReplay {
   }
   void add(const proto::RecordedScene& scene) {
     scenes_.push_back({scene.identity(), reader_.scene(scene)});
+    if (one_of_several_ && movingBodies(*scenes_.back().snapshot) > 0) among_hands_ = true;
     ++report_.scenes;
   }
 
@@ -119,7 +122,7 @@ class ProxyReplay {
     }
     next_ = message.first();
     for (const TickRecord& record : records) {
-      unknown_ ? static_cast<void>(++report_.unchecked_ticks) : tick(record, age_s(record.in.time_ns, begin_ns));
+      check(record, age_s(record.in.time_ns, begin_ns));
       ++next_;
     }
   }
@@ -148,6 +151,14 @@ class ProxyReplay {
     loop_ = std::make_unique<ProxyLoop>(*slot_, settings_);
     if (memory_) loop_->resume(*memory_);
     if (bodies_) loop_->resume(*bodies_);
+  }
+  void check(const TickRecord& record, double time_s) {
+    if (among_hands_)
+      ++report_.ticks_among_hands;
+    else if (unknown_)
+      ++report_.unchecked_ticks;
+    else
+      tick(record, time_s);
   }
   void tick(const TickRecord& record, double time_s) {
     show(record.scene);
@@ -188,6 +199,8 @@ class ProxyReplay {
   std::unique_ptr<ProxyLoop> loop_;
   std::uint64_t shown_ = 0, next_ = 0;
   bool unknown_ = false;  // ticks are missing: what the proxy remembers is not known
+  const bool one_of_several_;
+  bool among_hands_ = false;  // bodies were moved by hands that the recording does not have
 };
 
 ProxySettings proxySettingsOf(const proto::RecordingStart& start) {
@@ -212,7 +225,7 @@ ReplayReport replayed(RecordingReader& reader, const StepVisitor& visit) {
   readValues(start.device(), "the device", device, laterOfDevice());
   checkRecorded(device);
   ServoReplay servo(report);
-  ProxyReplay proxy(report, proxySettingsOf(start));
+  ProxyReplay proxy(report, proxySettingsOf(start), !start.device_label().empty());
   proto::RecordingBlock block;
   while (reader.next(block)) {
     if (block.has_shape()) proxy.add(block.shape());

@@ -29,6 +29,7 @@ struct ReplayReport {
   std::uint64_t lost_steps = 0, lost_ticks = 0;  ///< that the recorder could not keep
   std::uint64_t world_hashes = 0;                ///< of bodies, that were compared
   std::uint64_t unchecked_ticks = 0;             ///< after lost ones: what the proxy did meanwhile is not known
+  std::uint64_t ticks_among_hands = 0;           ///< not checked: hands of other devices are at the bodies too
   double first_s = 0, last_s = 0;                ///< times of the first and last step
   std::optional<ReplayDifference> difference;
   std::string end;     ///< why it ends; empty: the program was killed

@@ -29,6 +29,12 @@ void checkJointsOf(const PlacedList& placed) {
   }
 }
 
+void checkHands(std::size_t devices) {
+  if (devices > kMostHands)
+    throw Error("rigid bodies that move are touched by at most " + std::to_string(kMostHands) +
+                " devices, and the server has " + std::to_string(devices) + ": give them fixed, or start fewer");
+}
+
 }  // namespace
 
 WorldParts partsOf(const Snapshot& scene) { return {partsIn(scene), scene.mechanics.joints.size()}; }
@@ -50,14 +56,17 @@ WorldParts checkBodies(const PlacedList& placed) {
   return {count, placed.joints.size()};
 }
 
+void checkHandsAtBodies(const Snapshot& scene, std::size_t devices) {
+  if (movingBodies(scene) > 0) checkHands(devices);
+}
+
 void checkBodiesOfAll(const WorldParts& all, const WorldParts& most, std::size_t devices) {
   const auto check = [](std::size_t count, std::size_t limit, const char* what) {
     if (count > limit)
       throw Error("there are more than " + std::to_string(limit) + " " + what +
                   " in the world, those of other clients among them");
   };
-  if (devices > 1)
-    throw Error("a server with several devices has no rigid bodies that move: give them fixed, or start one device");
+  checkHands(devices);
   check(all.bodies, most.bodies, "bodies");
   check(all.joints, most.joints, "joints");
 }

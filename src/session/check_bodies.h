@@ -26,8 +26,10 @@ WorldParts partsOf(const Snapshot& scene);
 WorldParts checkBodies(const PlacedList& placed);
 
 /// `all`: of all clients and the server's own scene. Throws hl::Error where there are more than `most`, or bodies and
-/// several devices: their world is moved by the loop of one.
+/// more devices than a world of bodies has hands.
 void checkBodiesOfAll(const WorldParts& all, const WorldParts& most, std::size_t devices);
+/// The same of the devices, for a scene.
+void checkHandsAtBodies(const Snapshot& scene, std::size_t devices);
 
 /// Of all that bodies of a client may meet, but for what other clients have; empty where it has none that move.
 Box boundsForBodies(const Snapshot& base, const std::vector<PlacedShape>& placed);

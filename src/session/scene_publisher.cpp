@@ -45,8 +45,13 @@ struct ScenePublisher::Part {
   std::vector<const Instance*> shown;  // of the client, in the next scene
 };
 
-ScenePublisher::ScenePublisher(std::shared_ptr<const Snapshot> base, std::vector<TouchSession*> devices)
-    : devices_(std::move(devices)), base_parts_(partsOf(*base)), base_(std::move(base)), shown_(base_.now()) {}
+ScenePublisher::ScenePublisher(std::shared_ptr<const Snapshot> base, std::vector<TouchSession*> devices,
+                               HandGroup* hands)
+    : devices_(std::move(devices)),
+      hands_(hands),
+      base_parts_(partsOf(*base)),
+      base_(std::move(base)),
+      shown_(base_.now()) {}
 
 ScenePublisher::~ScenePublisher() { stop(); }
 
@@ -294,14 +299,20 @@ void ScenePublisher::runPublisher() {
     const bool shown = guarded([this] { publish(); });
     if (!shown) std::this_thread::sleep_for(kAfterFailure);
     if (!waitForLoops()) return;
-    for (TouchSession* device : devices_) device->dropSceneBefore();
+    dropSceneBefore();
   }
+}
+
+void ScenePublisher::dropSceneBefore() {
+  if (hands_ != nullptr) hands_->dropSceneBefore();
+  for (TouchSession* device : devices_) device->dropSceneBefore();
 }
 
 // Until every loop has taken the scene before and lives in the part of its motions that is still known to the next.
 bool ScenePublisher::waitForLoops() {
   const auto ready = [&](const TouchSession* device) { return device->ready(shown_begin_ns_); };
-  while (!std::all_of(devices_.begin(), devices_.end(), ready)) {
+  const auto hands_ready = [&] { return hands_ == nullptr || hands_->ready(shown_begin_ns_); };
+  while (!hands_ready() || !std::all_of(devices_.begin(), devices_.end(), ready)) {
     std::this_thread::sleep_for(kLoopPoll);
     const std::lock_guard lock(mutex_);
     if (!running_) return false;
@@ -396,11 +407,11 @@ void ScenePublisher::publish() {
   base_.takeNext(shown_->number + 1);
   std::vector<Part> parts = takeParts();
   std::shared_ptr<const Snapshot> next;
-  std::vector<SnapshotSlot::Ready> scenes;  // for each device
+  Scenes scenes;
   try {
     next = makeNext(parts);
     listShown(*next, parts);
-    while (scenes.size() < devices_.size()) scenes.push_back(SnapshotSlot::prepare(next));
+    scenes = prepare(next);
   } catch (...) {
     giveBack(parts);
     throw;
@@ -408,6 +419,13 @@ void ScenePublisher::publish() {
   show(next, std::move(scenes), parts);
   for (const Part& part : parts) tellShown(part);
   work_.notify_one();  // what is outdated may be rebuilt now
+}
+
+ScenePublisher::Scenes ScenePublisher::prepare(const std::shared_ptr<const Snapshot>& next) const {
+  Scenes scenes;
+  for (const TouchSession* device : devices_) scenes.of_devices.push_back(device->prepare(next));
+  if (hands_ != nullptr) scenes.of_hands = SnapshotSlot::prepare(next);
+  return scenes;
 }
 
 // For each client what of the scene is its own.
@@ -421,10 +439,13 @@ void ScenePublisher::listShown(const Snapshot& next, std::vector<Part>& parts) {
 }
 
 // To all devices or, had anything failed before, to none.
-void ScenePublisher::show(const std::shared_ptr<const Snapshot>& next, std::vector<SnapshotSlot::Ready> scenes,
+void ScenePublisher::show(const std::shared_ptr<const Snapshot>& next, Scenes scenes,
                           std::vector<Part>& parts) noexcept {
-  for (std::size_t i = 0; i < devices_.size(); ++i)
-    base_.other() ? devices_[i]->publishAnew(std::move(scenes[i])) : devices_[i]->publish(std::move(scenes[i]));
+  if (hands_ != nullptr) hands_->publish(std::move(scenes.of_hands));
+  for (std::size_t i = 0; i < devices_.size(); ++i) {
+    SnapshotSlot::Ready& scene = scenes.of_devices[i];
+    base_.other() ? devices_[i]->publishAnew(std::move(scene)) : devices_[i]->publish(std::move(scene));
+  }
   for (Part& part : parts) {
     part.client->shown_.instances.swap(part.shown);
     if (part.placed) part.client->shown_.placed = part.placed;

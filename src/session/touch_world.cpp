@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "bodies/scene_world.h"
 #include "record/replay_device.h"
+#include "session/check_bodies.h"
 #include "session/state_messages.h"
 
 namespace hl {
@@ -12,11 +13,6 @@ namespace hl {
 namespace {
 
 constexpr std::uint32_t kPages = 1;  // they are one member of the budget
-
-// Their world is moved by the loop of one device.
-void requireNoBodies(const Snapshot& scene) {
-  if (movingBodies(scene) > 0) throw Error("a server with several devices cannot have a scene with bodies that move");
-}
 
 std::uint64_t bytesOfBase(const Snapshot& base) {
   std::uint64_t bytes = memoryOf(base) + partsIn(base) * kBody_bytes;
@@ -36,13 +32,15 @@ std::unique_ptr<Device> openNamed(const NamedDevice& named) {
 
 // All are open before the first one serves: a vendor's library may hold up the others while it opens one.
 std::vector<std::unique_ptr<TouchSession>> makeDevices(const std::shared_ptr<const Snapshot>& base,
-                                                       const TouchServerSettings& settings) {
+                                                       const TouchServerSettings& settings,
+                                                       const std::shared_ptr<HandGroup>& hands) {
   if (settings.devices.empty() || settings.devices.size() > TouchServerSettings::kMaxDevices)
     throw Error("a server has 1 to " + std::to_string(TouchServerSettings::kMaxDevices) + " devices");
-  if (settings.devices.size() > 1) requireNoBodies(*base);
+  checkHandsAtBodies(*base, settings.devices.size());
   std::vector<std::unique_ptr<Device>> open;
   for (const NamedDevice& named : settings.devices) open.push_back(openNamed(named));
   TouchSettings touch = settings.touch;
+  touch.hands = hands;
   if (settings.faults_joined) touch.faults = std::make_shared<FaultGroup>();
   std::vector<std::unique_ptr<TouchSession>> devices;
   for (std::uint32_t i = 0; i < open.size(); ++i) {
@@ -50,6 +48,11 @@ std::vector<std::unique_ptr<TouchSession>> makeDevices(const std::shared_ptr<con
     devices.push_back(std::make_unique<TouchSession>(base, touch, std::move(open[i])));
   }
   return devices;
+}
+
+std::shared_ptr<HandGroup> makeHands(const std::shared_ptr<const Snapshot>& base, const TouchServerSettings& settings) {
+  if (settings.devices.size() < 2) return nullptr;
+  return std::make_shared<HandGroup>(base, settings.touch.proxy_rate_Hz);
 }
 
 std::vector<TouchSession*> pointersOf(const std::vector<std::unique_ptr<TouchSession>>& devices) {
@@ -64,8 +67,9 @@ TouchWorld::TouchWorld(std::shared_ptr<const Snapshot> base, const TouchServerSe
     : settings_(settings),
       memory_(settings.limits.memory_bytes, settings.limits.sessions + settings.limits.kept + kPages),
       base_memory_(memory_),
-      devices_(makeDevices(base, settings)),
-      publisher_(base, pointersOf(devices_)),
+      hands_(makeHands(base, settings)),
+      devices_(makeDevices(base, settings, hands_)),
+      publisher_(base, pointersOf(devices_), hands_.get()),
       masters_(devices_.size(), 0) {
   base_memory_.set(bytesOfBase(*base));
 }
@@ -78,17 +82,20 @@ std::optional<std::uint32_t> TouchWorld::deviceNamed(const std::string& name) co
 }
 
 void TouchWorld::start() {
+  if (hands_) hands_->start();
   for (const auto& device : devices_) device->start();
   publisher_.start();
 }
 
+// The loop of all hands first: it writes into what the sessions keep.
 void TouchWorld::stop() {
+  if (hands_) hands_->stop();
   for (const auto& device : devices_) device->stop();
   publisher_.stop();
 }
 
 void TouchWorld::replaceBase(const std::shared_ptr<const Snapshot>& base) {
-  if (devices_.size() > 1) requireNoBodies(*base);
+  checkHandsAtBodies(*base, devices_.size());
   worldOf(*base);  // one that cannot be made is refused here
   MemoryShare share(memory_);
   share.take(bytesOfBase(*base));

@@ -16,6 +16,7 @@
 #include "device/named_device.h"
 #include "session/limits.h"
 #include "session/scene_publisher.h"
+#include "touch/hand_group.h"
 #include "touch/touch_session.h"
 
 namespace hl {
@@ -83,6 +84,7 @@ class TouchWorld {
   const TouchServerSettings settings_;
   const MemoryBudget memory_;
   MemoryShare base_memory_;
+  const std::shared_ptr<HandGroup> hands_;  // of several devices; null: there is one
   std::vector<std::unique_ptr<TouchSession>> devices_;
   ScenePublisher publisher_;
 

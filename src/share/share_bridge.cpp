@@ -37,7 +37,7 @@ ShareBridge::ShareBridge(std::unique_ptr<ShareLink> link, const std::string& wor
       client_(server.placeClient()),
       world_(self, monotonicNow_ns(), [this](const SharePacket& packet) { return link_->send(packet); }),
       local_(self, client_->session(), work_, world_.contents(), someOf(tell_)),
-      replicas_(*client_, server.devices() == 1, work_, world_.contents(), fitOfHands(), someOf(tell_)),
+      replicas_(*client_, server.devices() <= kMostHands, work_, world_.contents(), fitOfHands(), someOf(tell_)),
       pushes_(client_->session()),
       actions_(server.device(), local_, replicas_),
       view_{world, self.name, {}} {}

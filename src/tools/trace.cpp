@@ -26,11 +26,14 @@ class Tracer {
   TickReport tick(std::size_t row, const Vec3& finger, double period_s, FieldForces& fields) {
     settings_.period_s = period_s;
     const std::int64_t now_ns = bodies_ ? static_cast<std::int64_t>(row) * kRow_ns : 0;
-    if (bodies_) hand_.before(*bodies_, now_ns, state_, settings_, finger, true);
+    if (bodies_) {
+      const HandAtBodies hand = hand_.before(state_, settings_, finger, true);
+      bodies_->step(now_ns, settings_.period_s, {&hand, 1});
+    }
     const SceneAt scene(snapshot_, now_ns, recent_);
     const TickReport report = hl::tick(state_, scene, settings_, finger);
     fields = fieldForces(scene, finger);
-    if (bodies_) hand_.after(*bodies_, scene, state_, report, fields, settings_, finger, true);
+    if (bodies_) hand_.after(*bodies_, 0, scene, state_, report, fields, settings_, finger, true);
     return report;
   }
   const ProxyState& state() const { return state_; }

@@ -30,15 +30,15 @@ Walls wallsOf(const SnapPoint& snap) {
 
 }  // namespace
 
-void BodyHand::before(BodyWorld& bodies, std::int64_t now_ns, const ProxyState& state, const ProxySettings& settings,
-                      const Vec3& finger, bool pulls) {
+HandAtBodies BodyHand::before(const ProxyState& state, const ProxySettings& settings, const Vec3& finger,
+                              bool pulls) const {
   HandAtBodies hand;
   hand.contacts = held_by_;
   hand.proxy = state.position;
   hand.radius_m = settings.radius;
   hand.stretch = state.position + state.rest_offset_m - finger;
   if (pulls && state.free) hand.spring_N_m = settings.spring_N_m * state.stiffness / settings.world_per_device;
-  bodies.step(now_ns, settings.period_s, hand);
+  return hand;
 }
 
 void BodyHand::hold(const SceneAt& scene, const ProxyState& state, const TickReport& report, const Vec3& finger) {
@@ -52,13 +52,15 @@ void BodyHand::hold(const SceneAt& scene, const ProxyState& state, const TickRep
   for (const Vec3& normal : wallsOf(*snap)) held_by_.push({state.snap.key, snap->point, normal, 0, 0, false});
 }
 
-void BodyHand::after(BodyWorld& bodies, const SceneAt& scene, const ProxyState& state, const TickReport& report,
-                     const FieldForces& fields, const ProxySettings& settings, const Vec3& finger, bool pulls) {
+void BodyHand::after(BodyWorld& bodies, std::size_t number, const SceneAt& scene, const ProxyState& state,
+                     const TickReport& report, const FieldForces& fields, const ProxySettings& settings,
+                     const Vec3& finger, bool pulls) {
   const bool touching = pulls && touches(state, report);
   held_by_.clear();
   if (touching) hold(scene, state, report, finger);
-  bodies.settle(touching ? objectForces(scene, settings, state, report, finger) : ObjectForces{}, settings.period_s);
-  bodies.draw(pulls ? fields : FieldForces{}, settings.period_s);
+  bodies.settle(number, touching ? objectForces(scene, settings, state, report, finger) : ObjectForces{},
+                settings.period_s);
+  bodies.draw(number, pulls ? fields : FieldForces{}, settings.period_s);
 }
 
 }  // namespace hl

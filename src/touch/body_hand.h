@@ -1,4 +1,5 @@
-// BodyHand: a finger's proxy as a hand at the bodies: steps them before a tick, and settles with them after it.
+// BodyHand: a finger's proxy as a hand at the bodies: what they are told of it before a tick, and what they get after
+// it.
 #pragma once
 
 #include "proxy/field_forces.h"
@@ -11,14 +12,14 @@ namespace hl {
 /// RT-safe.
 class BodyHand {
  public:
-  /// Steps the bodies to `now_ns`, by `settings.period_s` of their time. `finger`: of now, world frame. `pulls`:
-  /// whether the spring makes a force.
-  void before(BodyWorld& bodies, std::int64_t now_ns, const ProxyState& state, const ProxySettings& settings,
-              const Vec3& finger, bool pulls);
-  /// After the tick in `scene` that came to `state` and `report`, with the forces of `fields` on the hand. Nobody
-  /// pushes the bodies while the spring makes no force.
-  void after(BodyWorld& bodies, const SceneAt& scene, const ProxyState& state, const TickReport& report,
-             const FieldForces& fields, const ProxySettings& settings, const Vec3& finger, bool pulls);
+  /// What the bodies must know of it before they are stepped. `finger`: of now, world frame. `pulls`: whether the
+  /// spring makes a force.
+  HandAtBodies before(const ProxyState& state, const ProxySettings& settings, const Vec3& finger, bool pulls) const;
+  /// After the tick in `scene` that came to `state` and `report`, with the forces of `fields` on the hand, which has
+  /// this number at the bodies. Nobody pushes them while the spring makes no force.
+  void after(BodyWorld& bodies, std::size_t number, const SceneAt& scene, const ProxyState& state,
+             const TickReport& report, const FieldForces& fields, const ProxySettings& settings, const Vec3& finger,
+             bool pulls);
   /// What held the proxy at the end of the last tick: for BodiesMemory.
   const FixedVector<HandContact, kContactsOfHand>& heldBy() const { return held_by_; }
   void resume(const FixedVector<HandContact, kContactsOfHand>& held_by) { held_by_ = held_by; }

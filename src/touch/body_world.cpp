@@ -27,6 +27,20 @@ void addTo(FixedVector<BodyImpulse, kContactsOfHand>& list, const BodyImpulse& i
   list.push(impulse);
 }
 
+// A hand that does not pull holds nothing, and only pays.
+HandNode nodeOf(const HandAtBodies& hand, const FixedVector<BodyImpulse, kContactsOfHand>& owed) {
+  HandNode node;
+  node.proxy = hand.proxy;
+  node.stretch = hand.stretch;
+  node.owed = owed;
+  node.spring_N_m = 1;
+  if (!(hand.spring_N_m > 0)) return node;
+  node.radius_m = hand.radius_m;
+  node.spring_N_m = hand.spring_N_m;
+  node.contacts = hand.contacts;
+  return node;
+}
+
 }  // namespace
 
 BodyWorld::BodyWorld(const std::shared_ptr<const World>& world, std::vector<std::shared_ptr<const RigidBody>> bodies,
@@ -81,8 +95,7 @@ void BodyWorld::continueFrom(const BodyWorld& before) {
   state_.energy.by_client_J += energy_J() - before.energy_J();  // of bodies that come and go, and of another gravity
   pushes_ = before.pushes_;
   state_.steps = before.state_.steps;
-  owed_ = before.owed_;
-  drawn_ = before.drawn_;
+  accounts_ = before.accounts_;
   view_ = before.view_;
   view_.bodies = bodies_.size();
   time_ns_ = before.time_ns_;
@@ -127,8 +140,8 @@ bool BodyWorld::remember(BodiesMemory& out) const {
   out.world = state_;
   out.poses.clear();
   for (const auto& body : bodies_) out.poses.push_back(body->poses->to());
-  out.owed = owed_;
-  out.drawn = drawn_;
+  out.owed = accounts_[0].owed;
+  out.drawn = accounts_[0].drawn;
   out.pushes = pushes_;
   out.time_ns = time_ns_;
   out.begun = begun_;
@@ -145,8 +158,8 @@ void BodyWorld::resume(const BodiesMemory& memory) {
     const BodyState& body = state_.bodies[i];
     bodies_[i]->poses->jumpTo({memory.poses[i], body.velocity, body.spin});
   }
-  owed_ = memory.owed;
-  drawn_ = memory.drawn;
+  accounts_[0].owed = memory.owed;
+  accounts_[0].drawn = memory.drawn;
   pushes_ = memory.pushes;
   time_ns_ = memory.time_ns;
   begun_ = memory.begun;
@@ -234,48 +247,62 @@ void BodyWorld::push(double period_s) {
 
 // In whole, before the step: so a body swings about a field as by symplectic Euler.
 void BodyWorld::payDrawn() {
-  for (const BodyImpulse& one : drawn_) {
-    const std::size_t i = world().numberOf(one.key);
-    if (i == World::kNoBody) continue;
-    const double before_J = energyOf_J(i);
-    wake(world(), state_, one.key);
-    give(i, one.impulse_N_s, one.point);
-    state_.energy.by_hand_J += energyOf_J(i) - before_J;
+  for (Account& account : accounts_) {
+    for (const BodyImpulse& one : account.drawn) {
+      const std::size_t i = world().numberOf(one.key);
+      if (i == World::kNoBody) continue;
+      const double before_J = energyOf_J(i);
+      wake(world(), state_, one.key);
+      give(i, one.impulse_N_s, one.point);
+      state_.energy.by_hand_J += energyOf_J(i) - before_J;
+    }
+    account.drawn.clear();
   }
-  drawn_.clear();
 }
 
-void BodyWorld::draw(const FieldForces& fields, double period_s) {
-  drawn_.clear();
+void BodyWorld::draw(std::size_t hand, const FieldForces& fields, double period_s) {
+  DrawnImpulses& drawn = accounts_[hand].drawn;
+  drawn.clear();
   for (const ObjectForce& force : fields.forces) {
-    if (world().has(force.key)) drawn_.push({force.key, force.point, -period_s * force.force_N});
+    if (world().has(force.key)) drawn.push({force.key, force.point, -period_s * force.force_N});
   }
 }
 
-void BodyWorld::step(std::int64_t now_ns, double period_s, const HandAtBodies& hand) {
+// The bodies and the hands that pull, or have something to pay. What was owed to a body is owed no more as far as it
+// was given.
+void BodyWorld::stepAmong(std::span<const HandAtBodies> hands, double period_s, const StepTimes& times) {
+  FixedVector<HandNode, kMostHands> nodes;
+  FixedVector<Account*, kMostHands> of_node;
+  for (std::size_t i = 0; i < hands.size(); ++i) {
+    Account& account = accounts_[i];
+    if (!(hands[i].spring_N_m > 0) && account.owed.empty()) continue;
+    nodes.push(nodeOf(hands[i], account.owed));
+    of_node.push(&account);
+  }
+  std::array<GivenImpulses, kMostHands> given;
+  report_ = stepper_.step(state_, period_s, {nodes.begin(), nodes.size()}, {given.data(), nodes.size()}, times);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    Account& account = *of_node[i];
+    account.given = given[i];
+    account.paid = account.owed.size();
+    for (std::size_t k = 0; k < account.paid && k < account.given.size(); ++k)
+      account.owed[k].impulse_N_s -= account.given[k].impulse_N_s;
+  }
+}
+
+void BodyWorld::step(std::int64_t now_ns, double period_s, std::span<const HandAtBodies> hands) {
   const std::int64_t before_ns = time_ns_;
   time_ns_ = now_ns;
   const bool first = !begun_;
   begun_ = true;
-  given_.clear();
-  paid_ = 0;
+  for (Account& account : accounts_) {
+    account.given.clear();
+    account.paid = 0;
+  }
   if (first || now_ns <= before_ns) return;
   push(period_s);
   payDrawn();
-  HandNode node;
-  node.proxy = hand.proxy;
-  node.radius_m = hand.spring_N_m > 0 ? hand.radius_m : 0;
-  node.stretch = hand.stretch;
-  node.spring_N_m = hand.spring_N_m;
-  if (hand.spring_N_m > 0) node.contacts = hand.contacts;
-  node.owed = owed_;
-  const bool there = hand.spring_N_m > 0 || !owed_.empty();
-  if (!(node.spring_N_m > 0)) node.spring_N_m = 1;
-  report_ = stepper_.step(state_, period_s, std::span(&node, there ? 1 : 0), std::span(&given_, there ? 1 : 0),
-                          {before_ns, now_ns});
-  if (!there) given_.clear();
-  paid_ = there ? node.owed.size() : 0;
-  for (std::size_t i = 0; i < paid_ && i < given_.size(); ++i) owed_[i].impulse_N_s -= given_[i].impulse_N_s;
+  stepAmong(hands, period_s, {before_ns, now_ns});
   for (const std::size_t i : stepper_.awake()) bodies_[i]->poses->moveTo(shownOf(i), before_ns, now_ns);
   returnLost();
   joint_views_.show(world(), state_, period_s);
@@ -343,7 +370,8 @@ void BodyWorld::putBack(std::size_t i) {
 // Of each object: what the hand felt, less what the step has given, beside what is owed from before. What a wall has
 // given through the proxy to a body that is pinched against it is owed to nobody: it acts on both, one against the
 // other.
-void BodyWorld::settle(const ObjectForces& forces, double period_s) {
+void BodyWorld::settle(std::size_t hand, const ObjectForces& forces, double period_s) {
+  Account& account = accounts_[hand];
   FixedVector<BodyImpulse, kContactsOfHand> changes;
   Vec3 of_fixed = Vec3::Zero();
   const auto add = [&](std::uint64_t key, const Vec3& point, const Vec3& impulse) {
@@ -353,21 +381,24 @@ void BodyWorld::settle(const ObjectForces& forces, double period_s) {
       addTo(changes, {key, point, impulse});
   };
   for (const ObjectForce& force : forces) add(force.key, force.point, -period_s * force.force_N);
-  for (std::size_t i = paid_; i < given_.size(); ++i) add(given_[i].key, given_[i].point, -given_[i].impulse_N_s);
+  for (std::size_t i = account.paid; i < account.given.size(); ++i)
+    add(account.given[i].key, account.given[i].point, -account.given[i].impulse_N_s);
   for (BodyImpulse& change : changes) {
     const Vec3 with_wall = change.impulse_N_s + of_fixed;
     if (with_wall.squaredNorm() < change.impulse_N_s.squaredNorm()) {
       change.impulse_N_s = with_wall;
       of_fixed.setZero();
     }
-    addTo(owed_, change);
+    addTo(account.owed, change);
   }
 }
 
 Vec3 BodyWorld::owed_N_s() const {
   Vec3 sum = Vec3::Zero();
-  for (const BodyImpulse& one : owed_) sum += one.impulse_N_s;
-  for (const BodyImpulse& one : drawn_) sum += one.impulse_N_s;
+  for (const Account& account : accounts_) {
+    for (const BodyImpulse& one : account.owed) sum += one.impulse_N_s;
+    for (const BodyImpulse& one : account.drawn) sum += one.impulse_N_s;
+  }
   return sum;
 }
 

@@ -1,12 +1,14 @@
 // BodyWorld: the bodies of a scene within the loop that ticks. Each tick is
 //
-//   step the bodies, the proxy a node among them -> carry -> tick -> settle
+//   step the bodies, the proxies of all hands nodes among them -> each hand: carry -> tick -> settle
 //
 // so that a body has answered the very sample for which the tick is made. What the tick's force gives the hand beyond
 // what the bodies got is owed to them, and paid in the next step: action is reaction to rounding.
 #pragma once
 
+#include <array>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "bodies/body_step.h"
@@ -42,14 +44,15 @@ class BodyWorld {
   void continueFrom(const BodyWorld& before);
   /// What clients do to bodies, before the next step. Energy that it brings is booked as theirs. RT-safe.
   void act(const BodyCommands& commands);
-  /// Moves the bodies from the last step's moment to `now_ns`, by `period_s` of their time. RT-safe.
-  void step(std::int64_t now_ns, double period_s, const HandAtBodies& hand);
-  /// After the tick: what each object's contact gives the hand. RT-safe.
-  void settle(const ObjectForces& forces, double period_s);
+  /// Moves the bodies from the last step's moment to `now_ns`, by `period_s` of their time. `hands`: kMostHands at
+  /// most, each at its number. RT-safe.
+  void step(std::int64_t now_ns, double period_s, std::span<const HandAtBodies> hands);
+  /// After the tick of a hand: what each object's contact gives it. RT-safe.
+  void settle(std::size_t hand, const ObjectForces& forces, double period_s);
   /// After the tick: what the fields of bodies give the hand, and so take from them in the next step. RT-safe.
-  void draw(const FieldForces& fields, double period_s);
+  void draw(std::size_t hand, const FieldForces& fields, double period_s);
 
-  /// Between two ticks, all but BodiesMemory::held_by. False: there is no room for it. RT-safe.
+  /// Between two ticks, of one hand, number 0, all but BodiesMemory::held_by. False: there is no room for it. RT-safe.
   bool remember(BodiesMemory& out) const;
   /// Before the first step: goes on as the world did that had this memory. Throws hl::Error if it is of other bodies.
   void resume(const BodiesMemory& memory);
@@ -80,6 +83,7 @@ class BodyWorld {
   void place(std::size_t i, const BodyCommand& command);
   void give(std::size_t i, const Vec3& impulse_N_s, const Vec3& point);
   void push(double period_s);
+  void stepAmong(std::span<const HandAtBodies> hands, double period_s, const StepTimes& times);
   void payDrawn();
   void returnLost();
   void loseJoined();
@@ -90,10 +94,14 @@ class BodyWorld {
   BodyStepper stepper_;
   WorldState state_;
   JointViews joint_views_;
-  FixedVector<BodyImpulse, kContactsOfHand> owed_;
-  DrawnImpulses drawn_;
-  GivenImpulses given_;
-  std::size_t paid_ = 0;  // the first of given_: what was owed
+  /// Between a hand and the bodies.
+  struct Account {
+    FixedVector<BodyImpulse, kContactsOfHand> owed;
+    DrawnImpulses drawn;
+    GivenImpulses given;   // in the last step
+    std::size_t paid = 0;  // the first of them: what was owed
+  };
+  std::array<Account, kMostHands> accounts_;  // by the hand's number
   BodyPushes pushes_;
   BodyStepReport report_;
   std::int64_t time_ns_ = 0;

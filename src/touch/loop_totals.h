@@ -15,6 +15,17 @@ struct LoopTotals {
   std::int64_t late_max_ns = 0;
   std::array<std::uint64_t, kDutyBounds.size() + 1> duty{};
   std::uint64_t page_faults = 0, waits = 0, preempted = 0;
+
+  LoopTotals& operator+=(const LoopTotals& more) {
+    steps += more.steps;
+    missed += more.missed;
+    late_max_ns = std::max(late_max_ns, more.late_max_ns);
+    for (std::size_t i = 0; i < duty.size(); ++i) duty[i] += more.duty[i];
+    page_faults += more.page_faults;
+    waits += more.waits;
+    preempted += more.preempted;
+    return *this;
+  }
 };
 
 inline LoopTotals totalsOf(const LoopCounters& counters) {

@@ -77,51 +77,58 @@ double ProxyLoop::energyOf_J(const ServoTarget& target, const Vec3& finger_D) co
   return springEnergy_J(settings_.spring_N_m, target.stiffness, (target.proxy_D - finger_D).squaredNorm());
 }
 
-void ProxyLoop::stepBodies(const Snapshot& snapshot, std::int64_t now_ns, const Vec3& finger, bool pulls) {
-  if (bodies_ == nullptr) {
-    hand_ = {};
-    body_events_.forget();
-    return;
-  }
-  bodies_->act(done_);
-  body_events_.begin(snapshot, *bodies_);
-  hand_.before(*bodies_, now_ns, state_, settings_, finger, pulls);
-  body_events_.end(now_ns, settings_.period_s, *bodies_);
+HandAtBodies ProxyLoop::begin(std::int64_t now_ns, const Vec3& finger_D, const ProxyCommands& commands,
+                              const SpringOfServo& spring) {
+  follow(commands, spring);
+  begun_ = {&scenes_.take(), now_ns, finger_D, workspace_.toWorld(finger_D), commands.restarts, spring.pulls};
+  if (!scenes_.hasBodies()) return {};
+  return hand_.before(state_, settings_, begun_.finger, spring.pulls);
 }
 
 ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const ProxyCommands& commands,
                           const SpringOfServo& spring, int most_looks) {
-  follow(commands, spring);
-  const Snapshot& snapshot = scenes_.take();
-  bodies_ = scenes_.bodies();
-  const Vec3 finger = workspace_.toWorld(finger_D);
-  done_ = to_do_;
-  to_do_.clear();
-  stepBodies(snapshot, now_ns, finger, spring.pulls);
-  const SceneAt scene(snapshot, now_ns, recent_);
-  const bool skipped = snapshot.number > state_.snapshot + 1;  // others, with what they changed
-  const std::int64_t blend_ns = skipped ? kAbruptBlend_ns : snapshot.blend_ns;
-  const bool anew = state_.snapshot == 0 || commands.restarts != restarts_;
-  restarts_ = commands.restarts;
+  const HandAtBodies hand = begin(now_ns, finger_D, commands, spring);
+  BodyWorld* const bodies = scenes_.bodies();
+  body_loop_.step(*begun_.snapshot, bodies, now_ns, settings_.period_s, {&hand, 1});
+  return end(bodies, 0, most_looks);
+}
+
+// Whether the proxy starts anew. In another scene the pull of the one before fades out.
+bool ProxyLoop::startsAnew() {
+  const Snapshot& snapshot = *begun_.snapshot;
+  const bool anew = state_.snapshot == 0 || begun_.restarts != restarts_;
+  restarts_ = begun_.restarts;
   if (anew) {
     restart();
-  } else if (snapshot.number != state_.snapshot && blend_ns > 0) {
-    blend_.add(changeOfPull(snapshot), 1e-9 * static_cast<double>(blend_ns));
+    return true;
   }
+  const bool skipped = snapshot.number > state_.snapshot + 1;  // others, with what they changed
+  const std::int64_t blend_ns = skipped ? kAbruptBlend_ns : snapshot.blend_ns;
+  if (snapshot.number != state_.snapshot && blend_ns > 0)
+    blend_.add(changeOfPull(snapshot), 1e-9 * static_cast<double>(blend_ns));
+  return false;
+}
+
+ProxyStep ProxyLoop::end(BodyWorld* bodies, std::size_t hand, int most_looks) {
+  bodies_ = bodies;
+  if (bodies_ == nullptr) hand_ = {};
+  const Begun& now = begun_;
+  const SceneAt scene(*now.snapshot, now.time_ns, recent_);
+  const bool anew = startsAnew();
   last_.from = state_;
   ProxyStep step;
-  step.scene = snapshot.identity;
+  step.scene = now.snapshot->identity;
   const Ledger before = state_.ledger;
-  step.report = tick(state_, scene, settings_, finger, most_looks);
-  if (step.report.valid()) step.fields = fieldForces(scene, finger);
+  step.report = tick(state_, scene, settings_, now.finger, most_looks);
+  if (step.report.valid()) step.fields = fieldForces(scene, now.finger);
   if (bodies_ != nullptr)
-    hand_.after(*bodies_, scene, state_, step.report, step.fields, settings_, finger, spring.pulls);
-  if (!spring.pulls) {
+    hand_.after(*bodies_, hand, scene, state_, step.report, step.fields, settings_, now.finger, now.pulls);
+  if (!now.pulls) {
     state_.ledger = before;
     step.report.injected_J = step.report.moved_J = 0;
   }
-  if (anew) blend_.add(last_.pull_D - pullOf(state_, step.report, finger_D), 1e-9 * kAbruptBlend_ns);
-  tell(now_ns, finger_D, scene, step);
+  if (anew) blend_.add(last_.pull_D - pullOf(state_, step.report, now.finger_D), 1e-9 * kAbruptBlend_ns);
+  tell(now.time_ns, now.finger_D, scene, step);
   return step;
 }
 

@@ -7,9 +7,8 @@
 #include "control/servo.h"
 #include "proxy/field_forces.h"
 #include "proxy/proxy.h"
-#include "touch/body_command.h"
-#include "touch/body_events.h"
 #include "touch/body_hand.h"
+#include "touch/body_loop.h"
 #include "touch/held_contacts.h"
 #include "touch/snapshot_slot.h"
 #include "touch/target_blend.h"
@@ -70,19 +69,28 @@ class ProxyLoop {
   /// One tick at `now_ns` with the finger at `finger_D`; `most_looks` as in tick().
   ProxyStep step(std::int64_t now_ns, const Vec3& finger_D, const ProxyCommands& commands, const SpringOfServo& spring,
                  int most_looks = kNoWorkCap);
-  /// Is done to the bodies in the next step(). What there is no room for is dropped. RT-safe.
-  void act(const BodyCommands& commands) {
-    for (const BodyCommand& command : commands) to_do_.push(command);
+  /// The same in two halves, where the bodies are stepped between them for several hands. begin() takes the scene and
+  /// returns what the bodies must know of this hand; end() is after the step of `bodies`, where the hand has this
+  /// number; null: there are none. RT-safe.
+  HandAtBodies begin(std::int64_t now_ns, const Vec3& finger_D, const ProxyCommands& commands,
+                     const SpringOfServo& spring);
+  ProxyStep end(BodyWorld* bodies, std::size_t hand, int most_looks = kNoWorkCap);
+  /// Takes the newest scene before its time: whether it has bodies that move. RT-safe.
+  bool newestHasBodies() {
+    scenes_.take();
+    return scenes_.hasBodies();
   }
+  /// Is done to the bodies in the next step(). RT-safe.
+  void act(const BodyCommands& commands) { body_loop_.act(commands); }
   /// What was done to them in the last step.
-  const BodyCommands& done() const { return done_; }
+  const BodyCommands& done() const { return body_loop_.done(); }
   /// Instead of a tick, when nobody knows where the finger is: takes the newest scene all the same, so that clients who
   /// wait for theirs to be taken do not wait for the device.
   void skip() {
     scenes_.take();
     scenes_.take();  // nothing of the scene before is needed any more
     bodies_ = scenes_.bodies();
-    done_.clear();
+    body_loop_.skip();
   }
   const ProxyState& state() const { return state_; }
   /// Of the scene of the last step; null: it has none.
@@ -95,7 +103,7 @@ class ProxyLoop {
   /// The same for its bodies. Throws hl::Error unless it is of those.
   void resume(const BodiesMemory& memory);
   bool popEvent(TouchEvent& event) { return events_.pop(event); }
-  bool popEvent(BodyEvent& event) { return body_events_.pop(event); }
+  bool popEvent(BodyEvent& event) { return body_loop_.pop(event); }
 
  private:
   /// What the last tick began with and came to.
@@ -107,9 +115,18 @@ class ProxyLoop {
     int used_up_at = 0;          ///< of its report
   };
 
+  /// A tick that has begun.
+  struct Begun {
+    const Snapshot* snapshot = nullptr;
+    std::int64_t time_ns = 0;
+    Vec3 finger_D = Vec3::Zero(), finger = Vec3::Zero();  ///< of now, device and world
+    std::uint64_t restarts = 0;
+    bool pulls = false;
+  };
+
   void follow(const ProxyCommands& commands, const SpringOfServo& spring);
   void restart();
-  void stepBodies(const Snapshot& snapshot, std::int64_t now_ns, const Vec3& finger, bool pulls);
+  bool startsAnew();
   Vec3 changeOfPull(const Snapshot& snapshot);
   Vec3 pullOf(const ProxyState& state, const TickReport& report, const Vec3& finger_D) const;
   double energyOf_J(const ServoTarget& target, const Vec3& finger_D) const;
@@ -122,7 +139,8 @@ class ProxyLoop {
   ProxySettings settings_;
   BodyWorld* bodies_ = nullptr;  // of the scene of the last step; null: it has none
   BodyHand hand_;
-  BodyCommands to_do_, done_;
+  BodyLoop body_loop_;
+  Begun begun_;
   Workspace workspace_;
   ProxyState state_;
   ManyRecentPrimitives recent_;
@@ -131,7 +149,6 @@ class ProxyLoop {
   ServoTarget told_;  // in the last tick
   std::uint64_t restarts_ = 0;
   TouchEvents events_;
-  BodyEvents body_events_;
 };
 
 }  // namespace hl

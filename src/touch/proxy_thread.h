@@ -5,15 +5,15 @@
 #include <atomic>
 #include <thread>
 
-#include "touch/loop_parts.h"
 #include "touch/loop_totals.h"
+#include "touch/tick_beside.h"
 
 namespace hl {
 
 /// Constructed, started, stopped and destroyed by one thread; totals(): any thread.
 class ProxyThread {
  public:
-  ProxyThread(const LoopParts& parts, double rate_Hz) : parts_(parts), rate_Hz_(rate_Hz) {}
+  ProxyThread(const LoopParts& parts, double rate_Hz) : tick_(parts, rate_Hz), rate_Hz_(rate_Hz) {}
   ~ProxyThread() { stop(); }
   void start();
   void stop();  ///< safe to call twice
@@ -23,9 +23,8 @@ class ProxyThread {
   void run();
   void tick();
 
-  LoopParts parts_;
+  TickBeside tick_;
   const double rate_Hz_;
-  Vec3 finger_D_ = Vec3::Zero();
   LoopCounters counters_;
   std::atomic<bool> running_{false};
   std::thread thread_;

@@ -29,6 +29,7 @@ ServoLoop::ServoLoop(const LoopParts& parts, const TouchSettings& settings, doub
       effects_(settings_.effects),
       share_core_(settings.timer_reference),
       watch_(parts.device, counters_, [this] {
+        parts_.exchange.makes_force.store(false, std::memory_order_relaxed);
         parts_.faults.set(true);
         parts_.sink.stall();
       }) {}
@@ -112,7 +113,7 @@ void ServoLoop::tellFault() {
 
 // From the sample to the motors.
 ServoOutput ServoLoop::touch(const DeviceSample& sample) {
-  if (parts_.ticker.onServo()) return tickAndTouch(sample);
+  if (parts_.ticker.isTurnOf(Turn::kServo)) return tickAndTouch(sample);
   TickMessage newest;
   if (parts_.exchange.ticks.read(newest) && newest.held.target.time_ns > last_tick_.held.target.time_ns)
     last_tick_ = newest;

@@ -18,15 +18,19 @@ class SnapshotSlot {
   struct Scene {
     std::shared_ptr<const Snapshot> snapshot;
     std::unique_ptr<BodyWorld> bodies;
+    bool has_bodies = false;  // here or elsewhere
   };
 
  public:
   /// A scene with all that publishing it needs.
   using Ready = std::list<Scene>;
 
+  /// Whose loop moves the bodies of a scene.
+  enum class Bodies { kHere, kElsewhere };
+
   /// As publish().
-  explicit SnapshotSlot(std::shared_ptr<const Snapshot> first)
-      : scenes_(prepare(std::move(first))), current_(&scenes_.back()), oldest_(current_) {}
+  explicit SnapshotSlot(std::shared_ptr<const Snapshot> first, Bodies bodies = Bodies::kHere)
+      : scenes_(prepare(std::move(first), bodies)), current_(&scenes_.back()), oldest_(current_) {}
 
   /// Whether the reader has taken the newest one, and needs none before it.
   bool taken() const {
@@ -34,10 +38,12 @@ class SnapshotSlot {
            oldest_.load(std::memory_order_acquire) == &scenes_.back();
   }
   /// Makes the world of its bodies. Throws hl::Error where they cannot be made, and std::bad_alloc. Any thread.
-  static Ready prepare(std::shared_ptr<const Snapshot> snapshot) {
-    auto bodies = BodyWorld::of(*snapshot);
+  static Ready prepare(std::shared_ptr<const Snapshot> snapshot, Bodies bodies = Bodies::kHere) {
+    Scene scene{std::move(snapshot), nullptr};
+    scene.has_bodies = movingBodies(*scene.snapshot) > 0;
+    if (bodies == Bodies::kHere) scene.bodies = BodyWorld::of(*scene.snapshot);
     Ready ready;
-    ready.push_back({std::move(snapshot), std::move(bodies)});
+    ready.push_back(std::move(scene));
     return ready;
   }
   /// One that the reader has not taken by then it never will.
@@ -66,8 +72,10 @@ class SnapshotSlot {
     current_ = next;
     return *current_->snapshot;
   }
-  /// Of the scene that was taken; null: it has none. Reader; RT-safe.
+  /// Of the scene that was taken; null: it has none, or another loop moves them. Reader; RT-safe.
   BodyWorld* bodies() const { return current_->bodies.get(); }
+  /// Whether that scene has bodies that move. Reader; RT-safe.
+  bool hasBodies() const { return current_->has_bodies; }
 
  private:
   std::list<Scene> scenes_;               // of the publisher: all that the reader may be in, the newest last

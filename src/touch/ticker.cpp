@@ -3,13 +3,25 @@
 namespace hl {
 
 Ticker::Ticker(SnapshotSlot& scenes, LiveSettings& live, LoopExchange& exchange, TouchViews& views, StepSink& sink,
-               std::int64_t servo_period_ns)
+               std::int64_t servo_period_ns, bool grouped)
     : live_(live),
       exchange_(exchange),
       views_(views),
       sink_(sink),
       loop_(scenes, ProxySettings{}),
-      chooser_(servo_period_ns) {}
+      chooser_(servo_period_ns),
+      grouped_(grouped) {}
+
+// The loop of a group ticks where there are bodies, and nowhere else: whoever finds that it is not its turn any more
+// gives it away before it ticks.
+bool Ticker::isTurnOf(Turn who) {
+  if (chooser_.turn() != who) return false;
+  if (!grouped_) return true;
+  const bool bodies = loop_.newestHasBodies();
+  if (bodies == (who == Turn::kGroup)) return true;
+  chooser_.give(bodies ? Turn::kGroup : Turn::kServo);
+  return false;
+}
 
 const ProxyCommands& Ticker::follow() {
   const std::uint64_t arrivals = exchange_.arrivals.load(std::memory_order_acquire);
@@ -27,7 +39,7 @@ void Ticker::done(const TickRequest& request, const ProxyStep& step, std::int64_
   meter_.add(begin_ns, work_ns);
   show(step);
   ticks_.fetch_add(1, std::memory_order_relaxed);
-  if (chooser_.onServo()) ticks_in_servo_steps_.fetch_add(1, std::memory_order_relaxed);
+  if (chooser_.turn() == Turn::kServo) ticks_in_servo_steps_.fetch_add(1, std::memory_order_relaxed);
   last_ns_.store(begin_ns, std::memory_order_release);
   chooser_.took(work_ns);
 }

@@ -1,4 +1,4 @@
-// Ticker: the ticks, by whichever of the two loops makes them: their input, and who gets their results.
+// Ticker: the ticks, by whichever of the loops makes them: their input, and who gets their results.
 #pragma once
 
 #include <atomic>
@@ -19,11 +19,12 @@ namespace hl {
 /// counts: any thread.
 class Ticker {
  public:
+  /// `grouped`: another loop ticks for it where a scene has bodies (hand_group.h).
   Ticker(SnapshotSlot& scenes, LiveSettings& live, LoopExchange& exchange, TouchViews& views, StepSink& sink,
-         std::int64_t servo_period_ns);
+         std::int64_t servo_period_ns, bool grouped);
 
-  /// Whether it is the servo loop's turn.
-  bool onServo() const { return chooser_.onServo(); }
+  /// Whether the loop that asks is to tick now. The turn may go to another one in this call.
+  bool isTurnOf(Turn who);
   /// What the next tick is to follow.
   const ProxyCommands& follow();
   ProxyLoop& loop() { return loop_; }
@@ -45,6 +46,7 @@ class Ticker {
   StepSink& sink_;
   ProxyLoop loop_;
   LoopChooser chooser_;
+  const bool grouped_;
   // Of the loop that ticks; they go from one to the other with its turn.
   ProxyCommands commands_;
   BodyCommands on_bodies_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "touch/hand_group.h"
+
 namespace hl {
 
 namespace {
@@ -22,6 +24,10 @@ std::unique_ptr<StepSink> makeSink(const MakeStepSink& make, const SessionInfo& 
   return std::make_unique<NoSink>();
 }
 
+SnapshotSlot::Bodies bodiesOf(const TouchSettings& settings) {
+  return settings.hands ? SnapshotSlot::Bodies::kElsewhere : SnapshotSlot::Bodies::kHere;
+}
+
 }  // namespace
 
 TouchSession::TouchSession(std::shared_ptr<const Snapshot> snapshot, const TouchSettings& settings,
@@ -29,14 +35,15 @@ TouchSession::TouchSession(std::shared_ptr<const Snapshot> snapshot, const Touch
     : settings_(settings),
       device_(std::move(device)),
       servo_rate_Hz_(settings.servo_rate.of(device_->info())),
-      scenes_(std::move(snapshot)),
+      scenes_(std::move(snapshot), bodiesOf(settings)),
       live_(settings, device_->info(), scenes_.newest()->bounds),
       sink_(makeSink(settings.sink,
                      {device_->info(), servo_rate_Hz_, settings.proxy_rate_Hz, ProxySettings{}, settings.label})),
-      ticker_(scenes_, live_, exchange_, views_, *sink_, periodOf_ns(servo_rate_Hz_)),
+      ticker_(scenes_, live_, exchange_, views_, *sink_, periodOf_ns(servo_rate_Hz_), settings.hands != nullptr),
       servo_(parts(), settings, servo_rate_Hz_),
       proxy_(parts(), settings.proxy_rate_Hz),
       hand_(*device_, settings, live_, exchange_, [this] { return this->snapshot(); }) {
+  if (settings_.hands) settings_.hands->join(parts());
   sink_->scene(scenes_.newest());
   hand_.bringToStart();
   servo_.look();
@@ -65,6 +72,19 @@ void TouchSession::stop() {
   proxy_.stop();
   reference_.stop();
   sink_->stop();
+}
+
+SnapshotSlot::Ready TouchSession::prepare(std::shared_ptr<const Snapshot> snapshot) const {
+  return SnapshotSlot::prepare(std::move(snapshot), bodiesOf(settings_));
+}
+
+bool TouchSession::actOnBody(const BodyCommand& command) {
+  return settings_.hands ? settings_.hands->actOnBody(command) : live_.actOnBody(command);
+}
+
+bool TouchSession::popEvent(BodyEvent& event) {
+  if (!settings_.hands) return ticker_.popEvent(event);
+  return settings_.label.number == 0 && settings_.hands->popEvent(event);
 }
 
 void TouchSession::publish(SnapshotSlot::Ready scene) noexcept {
@@ -116,8 +136,10 @@ void TouchSession::views(ServoView& servo, ProxyView& proxy) {
   servo_.tellStall(servo);
 }
 
+// A hand of a group is ticked by one of two threads, and its own may stand still meanwhile: both are looked at.
 LoopTotals TouchSession::proxyTotals() const {
   LoopTotals totals = proxy_.totals();
+  if (settings_.hands) totals += settings_.hands->totals();
   totals.steps = ticker_.ticks();
   return totals;
 }

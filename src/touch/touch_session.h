@@ -60,7 +60,7 @@ class TouchSession {
   void setWorkspace(const Workspace& workspace) { live_.setWorkspace(workspace); }
   void setRadius(double radius_W) { live_.setRadius(radius_W); }
   void rearm() { live_.rearm(); }
-  bool actOnBody(const BodyCommand& command) { return live_.actOnBody(command); }
+  bool actOnBody(const BodyCommand& command);
   /// In the place of the one before; its times are on the monotonic clock. One thread at a time.
   void pull(const HandPull& pull) { exchange_.pulls.write(pull); }
   /// What a robot far away does to the hand, in the place of the one before; as pull(). readRemote(): the same thread.
@@ -77,14 +77,17 @@ class TouchSession {
   void viewsForClients(ServoView& servo, ProxyView& proxy);                   ///< for HL clients; one thread at a time
   bool popSample(TouchSample& sample) { return views_.samples.pop(sample); }  ///< one thread only, as the next
   bool popEvent(TouchEvent& event) { return ticker_.popEvent(event); }
-  bool popEvent(BodyEvent& event) { return ticker_.popEvent(event); }
+  /// Of several hands at the bodies, the first one tells all.
+  bool popEvent(BodyEvent& event);
   /// The last steps, newer ones in the place of older ones. Any thread.
   const LogRing<ServoMoment>& moments() const { return views_.moments; }
   double time_s() const { return time_s(monotonicNow_ns()); }  ///< since the start
   double time_s(std::int64_t monotonic_ns) const { return 1e-9 * static_cast<double>(monotonic_ns - begin_ns_); }
 
   /// Shows another scene. Not real-time; one thread at a time, and only when ready().
-  void publish(std::shared_ptr<const Snapshot> snapshot) { publish(SnapshotSlot::prepare(std::move(snapshot))); }
+  void publish(std::shared_ptr<const Snapshot> snapshot) { publish(prepare(std::move(snapshot))); }
+  /// As SnapshotSlot::prepare().
+  SnapshotSlot::Ready prepare(std::shared_ptr<const Snapshot> snapshot) const;
   void publish(SnapshotSlot::Ready scene) noexcept;
   /// The same of one that is no change of the scene before: it is fitted to the hand.
   void publishAnew(SnapshotSlot::Ready scene) noexcept;

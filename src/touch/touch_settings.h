@@ -15,8 +15,11 @@
 
 namespace hl {
 
+class HandGroup;
+
 struct TouchSettings {
   DeviceLabel label;
+  std::shared_ptr<HandGroup> hands;    ///< of all devices that touch one world of bodies; null: this one alone
   std::shared_ptr<FaultGroup> faults;  ///< of all devices that stop together; null: this one alone
   double radius_D = 0.002;             ///< m, proxy radius at the hand
   double side_D = 0.12;  ///< m, largest side of the model at the hand, unless scale is given; at most what the device

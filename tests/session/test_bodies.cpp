@@ -1,12 +1,14 @@
 // Rigid bodies of HL clients on a running server: how they come, move, are told of, pushed, and refused.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 
 #include "bodies/body_problem.h"
 #include "session/bodies_client.h"
+#include "touch/session_views.h"
 
 namespace hl {
 namespace {
@@ -15,6 +17,7 @@ using test::addBox;
 using test::addMatrix;
 using test::blocksFrame;
 using test::kHalf_m;
+using test::servoOf;
 using test::set;
 using test::settingsOf;
 using test::vecOf;
@@ -268,13 +271,69 @@ TEST_F(SessionBodiesTest, EachOfTheirPartsCounts) {
   EXPECT_EQ(shown(2, 2), "");
 }
 
-TEST(Bodies, NeedAServerWithOneDevice) {
+TouchServerSettings withDevices(std::size_t count) {
   TouchServerSettings settings = settingsOf();
-  settings.devices = {{"left", "sim"}, {"right", "sim"}};
-  TouchServer server(makeSnapshot(std::vector<Instance>{}), settings);
+  settings.devices.clear();
+  for (std::size_t i = 0; i < count; ++i) settings.devices.push_back({"hand" + std::to_string(i), "sim"});
+  return settings;
+}
+
+// Sends the hand of one device there, again and again, until this holds.
+bool send(TouchSession& hand, const Vec3& goal, Client& client, const std::function<bool()>& reached) {
+  return client.until([&] {
+    if (servoOf(hand).safety == SafetyState::kFault) hand.rearm();  // a busy machine
+    hand.setHandGoal(goal);
+    return client.state_.bodies_size() > 0 && reached();
+  });
+}
+
+TEST(Bodies, AreMovedByTheHandsOfAllDevices) {
+  TouchServer server(makeSnapshot(std::vector<Instance>{}), withDevices(2));
   server.start();
   Client client(server);
-  EXPECT_NE(client.show(blocksFrame(1, {Vec3(0.5, 0.05, 0)})).find("several devices"), std::string::npos);
+  ASSERT_EQ(client.hear(0.01), "");
+  ASSERT_EQ(client.show(blocksFrame(1, {Vec3(0, 0.05, 0)})), "");
+  ASSERT_TRUE(client.untilBody([](const proto::BodyState& body) { return body.position().y() < 0.021; }));
+  for (const std::size_t device : {0, 1}) {
+    TouchSession& hand = server.device(device);
+    const double side = device == 0 ? -1 : 1;
+    const auto at = [&](const Vec3& place) {
+      return (hand.workspace().toWorld(servoOf(hand).finger_D) - place).norm() < 0.005;
+    };
+    const auto block_m = [&] { return client.state_.bodies(0).position().x(); };
+    const Vec3 above(side * 0.055, 0.06, 0), beside(side * 0.055, 0.02, 0);
+    ASSERT_TRUE(send(hand, above, client, [&] { return at(above); }));
+    ASSERT_TRUE(send(hand, beside, client, [&] { return at(beside); }));
+    EXPECT_TRUE(send(hand, Vec3(0, 0.02, 0), client, [&] { return side * block_m() < -0.01; }));
+    send(hand, above, client, [&] { return at(above); });
+  }
+  const auto struck = std::count_if(client.events_.begin(), client.events_.end(),
+                                    [](const proto::Event& event) { return event.kind() == proto::IMPACT; });
+  EXPECT_GE(struck, 1) << "it fell to the floor";
+}
+
+// Where nothing moves, each servo makes the ticks of its device again.
+TEST(Bodies, LetTheServosTickAgainWhenTheyHaveGone) {
+  TouchServer server(makeSnapshot(std::vector<Instance>{}), withDevices(2));
+  server.start();
+  Client client(server);
+  ASSERT_EQ(client.show(blocksFrame(1, {Vec3(0.5, 0.05, 0)})), "");
+  const auto ticks = [&] { return server.device(1).ticksInServoSteps(); };
+  ASSERT_TRUE(client.untilBody([](const proto::BodyState& body) { return body.position().y() < 0.03; }));
+  const std::uint64_t before = ticks();
+  ASSERT_TRUE(client.untilBody([](const proto::BodyState& body) { return body.position().y() < 0.021; }));
+  EXPECT_EQ(ticks(), before);
+  ASSERT_EQ(client.show(blocksFrame(2, {})), "");
+  EXPECT_TRUE(client.until([&] { return ticks() > before + 100; }));
+}
+
+TEST(Bodies, HaveNoMoreHandsThanAWorldHas) {
+  TouchServer server(makeSnapshot(std::vector<Instance>{}), withDevices(kMostHands + 1));
+  server.start();
+  Client client(server);
+  EXPECT_EQ(client.show(blocksFrame(1, {Vec3(0.5, 0.05, 0)})),
+            "rigid bodies that move are touched by at most 8 devices, and the server has 9: give them fixed, or start "
+            "fewer");
 }
 
 // What kBody_bytes stands for.

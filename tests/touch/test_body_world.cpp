@@ -7,9 +7,8 @@
 #include <random>
 
 #include "base/realtime_guard.h"
-#include "bodies/test_worlds.h"
+#include "block_scenes.h"
 #include "plain_servo.h"
-#include "proxy/effect_scenes.h"
 #include "touch/touch_step.h"
 
 namespace hl {
@@ -25,31 +24,10 @@ double between(std::mt19937_64& random, double low, double high) {
 // Blocks, and a floor that they stand on; a device's finger among them.
 class Bench {
  public:
-  struct Block {
-    double mass_kg = 0.1;
-    Vec3 half = Vec3::Constant(0.02);
-    Vec3 at = Vec3(0, 0.02, 0);
-  };
+  using Block = test::Block;
 
   Bench(const std::vector<Block>& blocks, double friction, double gravity = 9.81) {
-    const BodySurface surface{friction, friction, 0};
-    const Box room{Vec3::Constant(-1), Vec3::Constant(1)};
-    std::vector<Instance> instances{test::instanceOf(test::floorModel(), 1)};
-    BodySpec floor;
-    floor.fixed = true;
-    floor.surface = surface;
-    instances.back().body = makeRigidBody("floor", floor, {}, {}, room);
-    for (const Block& block : blocks) {
-      instances.push_back(test::instanceOf(test::boxModel(block.half), instances.size() + 1));
-      Instance& instance = instances.back();
-      BodySpec spec;
-      spec.mass_kg = block.mass_kg;
-      spec.shape = BodyShape::kBox;
-      spec.surface = surface;
-      instance.body = makeRigidBody("block", spec, {Mat3::Identity(), block.at}, instance.shape->bounds, room);
-      instance.driver = instance.body->poses;
-    }
-    scenes_.emplace(makeSnapshot(std::move(instances), {}, 1, 0, {Vec3(0, -gravity, 0), {}}));
+    scenes_.emplace(test::sceneOfBlocks(blocks, friction, gravity));
     loop_.emplace(*scenes_, ProxySettings{});
     arm(step_.servo());
     commands_.radius_W = kRadius_m;

@@ -197,27 +197,27 @@ TEST(TouchStep, AllocatesNothing) {
 TEST(LoopChooser, TicksThatFitStayOnTheServo) {
   LoopChooser place(kMs);
   for (int i = 0; i < 10'000; ++i) place.took(i % 120 == 0 ? 700'000 : 20'000);  // one late in 120
-  EXPECT_TRUE(place.onServo());
+  EXPECT_EQ(place.turn(), Turn::kServo);
 }
 
 TEST(LoopChooser, TooManyLateTicksGoToTheProxyLoopAndComeBackWhenTheyFitAgain) {
   LoopChooser place(kMs);
   for (int i = 0; i < 4; ++i) place.took(600'000);
-  EXPECT_TRUE(place.onServo());
+  EXPECT_EQ(place.turn(), Turn::kServo);
   place.took(600'000);
-  EXPECT_FALSE(place.onServo());
+  EXPECT_EQ(place.turn(), Turn::kProxy);
   for (int i = 0; i < 10'000; ++i) place.took(300'000);  // would fit, but not with a margin
-  EXPECT_FALSE(place.onServo());
+  EXPECT_EQ(place.turn(), Turn::kProxy);
   for (int i = 0; i < 499; ++i) place.took(20'000);
-  EXPECT_FALSE(place.onServo());
+  EXPECT_EQ(place.turn(), Turn::kProxy);
   place.took(20'000);
-  EXPECT_TRUE(place.onServo());
+  EXPECT_EQ(place.turn(), Turn::kServo);
 }
 
 TEST(LoopChooser, OneTickOfManyPeriodsIsEnough) {
   LoopChooser place(kMs);
   place.took(100 * kMs);
-  EXPECT_FALSE(place.onServo());
+  EXPECT_EQ(place.turn(), Turn::kProxy);
 }
 
 }  // namespace

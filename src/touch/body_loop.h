@@ -1,0 +1,35 @@
+// BodyLoop: a step of the bodies as a loop makes it: first what clients do to them, then the step, then what is told of
+// it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "touch/body_command.h"
+#include "touch/body_events.h"
+#include "touch/body_world.h"
+
+namespace hl {
+
+/// pop() by one thread, the rest by one other; RT-safe.
+class BodyLoop {
+ public:
+  /// Is done to the bodies in the next step(). What there is no room for is dropped.
+  void act(const BodyCommands& commands) {
+    for (const BodyCommand& command : commands) to_do_.push(command);
+  }
+  /// What was done to them in the last step.
+  const BodyCommands& done() const { return done_; }
+  /// `bodies`: of `scene`; null: it has none.
+  void step(const Snapshot& scene, BodyWorld* bodies, std::int64_t now_ns, double period_s,
+            std::span<const HandAtBodies> hands);
+  /// In the place of a step.
+  void skip() { done_.clear(); }
+  bool pop(BodyEvent& event) { return events_.pop(event); }
+
+ private:
+  BodyCommands to_do_, done_;
+  BodyEvents events_;
+};
+
+}  // namespace hl
