@@ -47,11 +47,7 @@ struct ScenePublisher::Part {
 
 ScenePublisher::ScenePublisher(std::shared_ptr<const Snapshot> base, std::vector<TouchSession*> devices,
                                HandGroup* hands)
-    : devices_(std::move(devices)),
-      hands_(hands),
-      base_parts_(partsOf(*base)),
-      base_(std::move(base)),
-      shown_(base_.now()) {}
+    : loops_(std::move(devices), hands), base_parts_(partsOf(*base)), base_(std::move(base)), shown_(base_.now()) {}
 
 ScenePublisher::~ScenePublisher() { stop(); }
 
@@ -150,7 +146,7 @@ bool ScenePublisher::replaceBase(const std::shared_ptr<const Snapshot>& base) {
 }
 
 void ScenePublisher::setIso(std::uint64_t surface, const IsoChoice& choice) {
-  base_.setIso(checkIsoChange(*devices_.front()->snapshot(), surface, choice), choice);
+  base_.setIso(checkIsoChange(*loops_.snapshot(), surface, choice), choice);
   const std::lock_guard lock(mutex_);
   dirty_ = true;
   changed_.notify_all();
@@ -249,7 +245,7 @@ void ScenePublisher::admitBodies(ClientScene& client, const WorldParts& parts) c
   for (const auto& other : clients_) {
     if (other.get() != &client && !other->removed_ && other != client.replaced_) all += other->bodies_.parts;
   }
-  if (parts.bodies > 0) checkBodiesOfAll(all, {client.limits_.bodies, client.limits_.joints}, devices_.size());
+  if (parts.bodies > 0) checkBodiesOfAll(all, {client.limits_.bodies, client.limits_.joints}, loops_.devices());
 }
 
 // A client gets the answer that it waits for in the end, however short memory is meanwhile.
@@ -299,20 +295,13 @@ void ScenePublisher::runPublisher() {
     const bool shown = guarded([this] { publish(); });
     if (!shown) std::this_thread::sleep_for(kAfterFailure);
     if (!waitForLoops()) return;
-    dropSceneBefore();
+    loops_.dropSceneBefore();
   }
-}
-
-void ScenePublisher::dropSceneBefore() {
-  if (hands_ != nullptr) hands_->dropSceneBefore();
-  for (TouchSession* device : devices_) device->dropSceneBefore();
 }
 
 // Until every loop has taken the scene before and lives in the part of its motions that is still known to the next.
 bool ScenePublisher::waitForLoops() {
-  const auto ready = [&](const TouchSession* device) { return device->ready(shown_begin_ns_); };
-  const auto hands_ready = [&] { return hands_ == nullptr || hands_->ready(shown_begin_ns_); };
-  while (!hands_ready() || !std::all_of(devices_.begin(), devices_.end(), ready)) {
+  while (!loops_.ready(shown_begin_ns_)) {
     std::this_thread::sleep_for(kLoopPoll);
     const std::lock_guard lock(mutex_);
     if (!running_) return false;
@@ -407,11 +396,11 @@ void ScenePublisher::publish() {
   base_.takeNext(shown_->number + 1);
   std::vector<Part> parts = takeParts();
   std::shared_ptr<const Snapshot> next;
-  Scenes scenes;
+  TouchingLoops::Scenes scenes;
   try {
     next = makeNext(parts);
     listShown(*next, parts);
-    scenes = prepare(next);
+    scenes = loops_.prepare(next);
   } catch (...) {
     giveBack(parts);
     throw;
@@ -419,13 +408,6 @@ void ScenePublisher::publish() {
   show(next, std::move(scenes), parts);
   for (const Part& part : parts) tellShown(part);
   work_.notify_one();  // what is outdated may be rebuilt now
-}
-
-ScenePublisher::Scenes ScenePublisher::prepare(const std::shared_ptr<const Snapshot>& next) const {
-  Scenes scenes;
-  for (const TouchSession* device : devices_) scenes.of_devices.push_back(device->prepare(next));
-  if (hands_ != nullptr) scenes.of_hands = SnapshotSlot::prepare(next);
-  return scenes;
 }
 
 // For each client what of the scene is its own.
@@ -439,13 +421,9 @@ void ScenePublisher::listShown(const Snapshot& next, std::vector<Part>& parts) {
 }
 
 // To all devices or, had anything failed before, to none.
-void ScenePublisher::show(const std::shared_ptr<const Snapshot>& next, Scenes scenes,
+void ScenePublisher::show(const std::shared_ptr<const Snapshot>& next, TouchingLoops::Scenes scenes,
                           std::vector<Part>& parts) noexcept {
-  if (hands_ != nullptr) hands_->publish(std::move(scenes.of_hands));
-  for (std::size_t i = 0; i < devices_.size(); ++i) {
-    SnapshotSlot::Ready& scene = scenes.of_devices[i];
-    base_.other() ? devices_[i]->publishAnew(std::move(scene)) : devices_[i]->publish(std::move(scene));
-  }
+  loops_.publish(std::move(scenes), base_.other());
   for (Part& part : parts) {
     part.client->shown_.instances.swap(part.shown);
     if (part.placed) part.client->shown_.placed = part.placed;

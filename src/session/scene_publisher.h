@@ -25,8 +25,7 @@
 #include "scene/editable_scene.h"
 #include "session/base_scene.h"
 #include "session/client_scene.h"
-#include "touch/hand_group.h"
-#include "touch/touch_session.h"
+#include "session/touching_loops.h"
 
 namespace hl {
 
@@ -100,20 +99,13 @@ class ScenePublisher {
   std::shared_ptr<const Snapshot> makeNext(std::vector<Part>& parts);
   void publish();
   static void listShown(const Snapshot& next, std::vector<Part>& parts);
-  /// One scene, for all who touch it.
-  struct Scenes {
-    std::vector<SnapshotSlot::Ready> of_devices;
-    SnapshotSlot::Ready of_hands;
-  };
-  Scenes prepare(const std::shared_ptr<const Snapshot>& next) const;
-  void show(const std::shared_ptr<const Snapshot>& next, Scenes scenes, std::vector<Part>& parts) noexcept;
-  void dropSceneBefore();
+  void show(const std::shared_ptr<const Snapshot>& next, TouchingLoops::Scenes scenes,
+            std::vector<Part>& parts) noexcept;
   void tell(FunctionRef<void()> call);
   void tellShown(const Part& part);
   static std::int64_t moveTime_ns(const Waiting& waiting, std::int64_t last_arrived_ns);
 
-  const std::vector<TouchSession*> devices_;
-  HandGroup* const hands_;
+  TouchingLoops loops_;
   mutable std::mutex mutex_;  // of all below and of the places; no thread builds or waits while holding it
   std::condition_variable work_, changed_;
   std::vector<std::shared_ptr<ClientScene>> clients_;
