@@ -71,7 +71,8 @@ void print(const std::string& file, const ReplayReport& report) {
         report.lost_steps, report.lost_ticks, report.unchecked_ticks);
   if (report.ticks_among_hands > 0)
     fmt::print(
-        "unchecked:  {} ticks, as the hands of other devices are at the bodies too; the servo's steps are checked\n",
+        "unchecked:  {} ticks, as hands of other devices are at the bodies too: give the recordings of all of them, "
+        "from the begin of the session on\n",
         report.ticks_among_hands);
   if (!report.damage.empty()) fmt::print("cut:        {}\n", report.damage);
   fmt::print("ended:      {}\n", report.end.empty() ? "the program was killed, or its file is cut" : report.end);
@@ -83,6 +84,19 @@ void print(const std::string& file, const ReplayReport& report) {
   }
 }
 
+void tell(const std::string& file, const ReplayReport& report) {
+  print(file, report);
+  std::fflush(stdout);
+}
+
+// Of several devices, whose hands may be at the same bodies.
+void runTogether(const std::vector<std::string>& files) {
+  const std::vector<ReplayReport> reports = replayTogether(files);
+  for (std::size_t i = 0; i < files.size(); ++i) tell(files[i], reports[i]);
+  const auto differs = [](const ReplayReport& report) { return report.difference.has_value(); };
+  if (std::any_of(reports.begin(), reports.end(), differs)) throw CLI::RuntimeError(kDiffers);
+}
+
 void run(const std::string& file, const std::string& csv_path) {
   if (!csv_path.empty()) requireNotRead(csv_path, {file});
   std::unique_ptr<CsvFile> csv;  // made with the first step: a file that is no recording overwrites nothing
@@ -91,8 +105,7 @@ void run(const std::string& file, const std::string& csv_path) {
     if (csv) csv->add(time_s, step);
   });
   if (csv) csv->close();
-  print(file, report);
-  std::fflush(stdout);
+  tell(file, report);
   if (report.difference) throw CLI::RuntimeError(kDiffers);
 }
 
@@ -100,11 +113,20 @@ void run(const std::string& file, const std::string& csv_path) {
 
 void addReplayCommand(CLI::App& app) {
   auto* command = app.add_subcommand("replay", "run a recording or a black box again, and compare it bit for bit");
-  auto file = std::make_shared<std::string>();
+  auto files = std::make_shared<std::vector<std::string>>();
   auto csv = std::make_shared<std::string>();
-  command->add_option("file", *file, "of hl record, or a black box")->required();
-  command->add_option("--csv", *csv, "write its servo steps there")->option_text("FILE");
-  command->callback([file, csv] { run(*file, *csv); });
+  command
+      ->add_option("files", *files,
+                   "of hl record, or a black box; of several devices those of all, where all are at the "
+                   "same bodies")
+      ->required()
+      ->option_text("FILE...");
+  command->add_option("--csv", *csv, "write its servo steps there; of one file")->option_text("FILE");
+  command->callback([files, csv] {
+    if (files->size() == 1) return run(files->front(), *csv);
+    if (!csv->empty()) throw Error("--csv is of one recording, and there are " + std::to_string(files->size()));
+    runTogether(*files);
+  });
 }
 
 }  // namespace hl

@@ -264,6 +264,8 @@ proto::RecordingBlock Recorder::startBlock(FaultReason reason) const {
   start.set_fault(faultText(reason));
   start.set_device_name(session_.device.name);
   start.set_device_label(session_.label.name);
+  start.set_device_number(session_.label.number);
+  start.set_devices(session_.label.of);
   toProto(valuesOf(session_.device), *start.mutable_device());
   toProto(valuesOf(session_.proxy), *start.mutable_proxy());
   start.set_servo_rate_hz(session_.servo_rate_Hz);

@@ -44,7 +44,7 @@ std::vector<std::unique_ptr<TouchSession>> makeDevices(const std::shared_ptr<con
   if (settings.faults_joined) touch.faults = std::make_shared<FaultGroup>();
   std::vector<std::unique_ptr<TouchSession>> devices;
   for (std::uint32_t i = 0; i < open.size(); ++i) {
-    touch.label = {settings.devices[i].name, i};
+    touch.label = {settings.devices[i].name, i, static_cast<std::uint32_t>(open.size())};
     devices.push_back(std::make_unique<TouchSession>(base, touch, std::move(open[i])));
   }
   return devices;

@@ -13,11 +13,11 @@ TouchingLoops::Scenes TouchingLoops::prepare(const std::shared_ptr<const Snapsho
 }
 
 void TouchingLoops::publish(Scenes scenes, bool anew) noexcept {
-  if (hands_ != nullptr) hands_->publish(std::move(scenes.of_hands));
   for (std::size_t i = 0; i < devices_.size(); ++i) {
     SnapshotSlot::Ready& scene = scenes.of_devices[i];
     anew ? devices_[i]->publishAnew(std::move(scene)) : devices_[i]->publish(std::move(scene));
   }
+  if (hands_ != nullptr) hands_->publish(std::move(scenes.of_hands));
 }
 
 bool TouchingLoops::ready(std::int64_t since_ns) const {

@@ -2,10 +2,15 @@
 
 namespace hl {
 
-void BodyLoop::step(const Snapshot& scene, BodyWorld* bodies, std::int64_t now_ns, double period_s,
-                    std::span<const HandAtBodies> hands) {
+const BodyCommands& BodyLoop::takeCommands() {
   done_ = to_do_;
   to_do_.clear();
+  return done_;
+}
+
+void BodyLoop::step(const Snapshot& scene, BodyWorld* bodies, std::int64_t now_ns, double period_s,
+                    std::span<const HandAtBodies> hands) {
+  takeCommands();
   if (bodies == nullptr) return events_.forget();
   bodies->act(done_);
   events_.begin(scene, *bodies);

@@ -18,6 +18,8 @@ class BodyLoop {
   void act(const BodyCommands& commands) {
     for (const BodyCommand& command : commands) to_do_.push(command);
   }
+  /// The same, in the step of another: what was to be done here counts as done.
+  const BodyCommands& takeCommands();
   /// What was done to them in the last step.
   const BodyCommands& done() const { return done_; }
   /// `bodies`: of `scene`; null: it has none.

@@ -12,7 +12,7 @@ namespace hl {
 HandGroup::HandGroup(std::shared_ptr<const Snapshot> first, double rate_Hz)
     : scenes_(std::move(first)), rate_Hz_(rate_Hz) {}
 
-void HandGroup::join(const LoopParts& parts) { seats_.push_back({TickBeside(parts, rate_Hz_)}); }
+void HandGroup::join(const LoopParts& parts) { seats_.emplace_back(parts, rate_Hz_); }
 
 void HandGroup::start() {
   running_ = true;
@@ -33,26 +33,29 @@ void HandGroup::run() {
               [&](std::int64_t) { guarded([this] { tick(monotonicNow_ns()); }); });
 }
 
-// A hand whose device has not given its turn yet is not at the bodies, and its number waits for it.
+void HandGroup::tell(ProxyLoop& hand) {
+  BodyCommands commands;
+  commands_.takeNext(commands);
+  hand.act(commands);
+}
+
+// A hand whose device has not given its turn yet is not at the bodies, and its number waits for it. All tick in the
+// scene that is here. Without a hand nothing moves: so all steps are in the recordings of the hands.
 void HandGroup::tick(std::int64_t now_ns) {
   const Snapshot& scene = scenes_.take();
-  FixedVector<HandAtBodies, kMostHands> hands;
+  FixedVector<HandInStep, kMostHands> hands;
+  bool told = false;  // what clients do to bodies: by the first hand
   for (Seat& seat : seats_) {
-    seat.ticks = seat.tick.ticker().isTurnOf(Turn::kGroup);
-    HandAtBodies hand;
-    if (seat.ticks) {
-      const TickRequest& request = seat.tick.begin(now_ns);
-      hand = seat.tick.ticker().loop().begin(now_ns, request.finger_D, request.commands, request.spring);
+    HandInStep hand;
+    if (seat.ticker().isTurnOf(Turn::kGroup)) {
+      hand = {&seat.ticker().loop(), &seat.begin(now_ns)};
+      if (!std::exchange(told, true)) tell(*hand.loop);
     }
     hands.push(hand);
   }
-  BodyCommands commands;
-  commands_.takeNext(commands);
-  body_loop_.act(commands);
-  body_loop_.step(scene, scenes_.bodies(), now_ns, 1 / rate_Hz_, {hands.begin(), hands.size()});
-  for (std::size_t number = 0; number < hands.size(); ++number) {
-    Seat& seat = seats_[number];
-    if (seat.ticks) seat.tick.end(seat.tick.ticker().loop().end(scenes_.bodies(), number));
+  stepHands(scene, scenes_.bodies(), body_loop_, {hands.begin(), hands.size()});
+  for (std::size_t i = 0; i < hands.size(); ++i) {
+    if (hands[i].loop != nullptr) seats_[i].end(hands[i].out);
   }
   last_ns_.store(now_ns, std::memory_order_release);
 }

@@ -3,8 +3,7 @@
 //
 //   each hand: newest finger, scene and settings -> step the bodies, all hands among them -> each hand: tick, settle
 //
-// The servo of each device goes on at its own rate, and so does the world when a device stands still. Each device has
-// the scenes for itself; the world of their bodies is here.
+// The servo of each device goes on at its own rate, and so does the world when a device stands still.
 #pragma once
 
 #include <atomic>
@@ -13,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "touch/body_loop.h"
+#include "touch/hands_step.h"
 #include "touch/loop_parts.h"
 #include "touch/loop_totals.h"
 #include "touch/snapshot_slot.h"
@@ -36,7 +35,7 @@ class HandGroup {
   /// One turn of the loop, which makes them between start() and stop(). RT-safe.
   void tick(std::int64_t now_ns);
 
-  /// Shows another scene; before the devices do.
+  /// Shows another scene; after the devices do, which are never in one that is older.
   void publish(SnapshotSlot::Ready scene) noexcept { scenes_.publish(std::move(scene)); }
   void dropSceneBefore() { scenes_.dropBefore(); }
   /// The loop has taken the newest scene, and ticked at `since_ns` (monotonic) or later; or it does not run.
@@ -48,11 +47,9 @@ class HandGroup {
   LoopTotals totals() const { return totalsOf(counters_); }          ///< any thread
 
  private:
-  struct Seat {
-    TickBeside tick;
-    bool ticks = false;  // in this turn of the loop
-  };
+  using Seat = TickBeside;
   void run();
+  void tell(ProxyLoop& hand);
 
   SnapshotSlot scenes_;
   const double rate_Hz_;

@@ -77,18 +77,18 @@ double ProxyLoop::energyOf_J(const ServoTarget& target, const Vec3& finger_D) co
   return springEnergy_J(settings_.spring_N_m, target.stiffness, (target.proxy_D - finger_D).squaredNorm());
 }
 
-HandAtBodies ProxyLoop::begin(std::int64_t now_ns, const Vec3& finger_D, const ProxyCommands& commands,
-                              const SpringOfServo& spring) {
+void ProxyLoop::begin(const Snapshot& scene, std::int64_t now_ns, const Vec3& finger_D, const ProxyCommands& commands,
+                      const SpringOfServo& spring) {
   follow(commands, spring);
-  begun_ = {&scenes_.take(), now_ns, finger_D, workspace_.toWorld(finger_D), commands.restarts, spring.pulls};
-  if (!scenes_.hasBodies()) return {};
-  return hand_.before(state_, settings_, begun_.finger, spring.pulls);
+  begun_ = {&scene, now_ns, finger_D, workspace_.toWorld(finger_D), commands.restarts, spring.pulls};
 }
 
 ProxyStep ProxyLoop::step(std::int64_t now_ns, const Vec3& finger_D, const ProxyCommands& commands,
                           const SpringOfServo& spring, int most_looks) {
-  const HandAtBodies hand = begin(now_ns, finger_D, commands, spring);
+  begin(scenes_.take(), now_ns, finger_D, commands, spring);
   BodyWorld* const bodies = scenes_.bodies();
+  HandAtBodies hand;
+  if (bodies != nullptr) hand = atBodies();
   body_loop_.step(*begun_.snapshot, bodies, now_ns, settings_.period_s, {&hand, 1});
   return end(bodies, 0, most_looks);
 }

@@ -69,11 +69,11 @@ class ProxyLoop {
   /// One tick at `now_ns` with the finger at `finger_D`; `most_looks` as in tick().
   ProxyStep step(std::int64_t now_ns, const Vec3& finger_D, const ProxyCommands& commands, const SpringOfServo& spring,
                  int most_looks = kNoWorkCap);
-  /// The same in two halves, where the bodies are stepped between them for several hands. begin() takes the scene and
-  /// returns what the bodies must know of this hand; end() is after the step of `bodies`, where the hand has this
-  /// number; null: there are none. RT-safe.
-  HandAtBodies begin(std::int64_t now_ns, const Vec3& finger_D, const ProxyCommands& commands,
-                     const SpringOfServo& spring);
+  /// The same in two halves, in this scene: between them `bodies` are stepped, to which the hand is as atBodies() says,
+  /// with this number; null: there are none (hands_step.h). RT-safe.
+  void begin(const Snapshot& scene, std::int64_t now_ns, const Vec3& finger_D, const ProxyCommands& commands,
+             const SpringOfServo& spring);
+  HandAtBodies atBodies() const { return hand_.before(state_, settings_, begun_.finger, begun_.pulls); }
   ProxyStep end(BodyWorld* bodies, std::size_t hand, int most_looks = kNoWorkCap);
   /// Takes the newest scene before its time: whether it has bodies that move. RT-safe.
   bool newestHasBodies() {
@@ -82,6 +82,7 @@ class ProxyLoop {
   }
   /// Is done to the bodies in the next step(). RT-safe.
   void act(const BodyCommands& commands) { body_loop_.act(commands); }
+  const BodyCommands& takeCommands() { return body_loop_.takeCommands(); }
   /// What was done to them in the last step.
   const BodyCommands& done() const { return body_loop_.done(); }
   /// Instead of a tick, when nobody knows where the finger is: takes the newest scene all the same, so that clients who

@@ -15,6 +15,7 @@ namespace hl {
 struct DeviceLabel {
   std::string name;          ///< as its user calls it; empty: it has no name, as it is the only one
   std::uint32_t number = 0;  ///< from 0
+  std::uint32_t of = 1;      ///< devices
 };
 
 /// What is the same in all steps of a session.

@@ -198,24 +198,31 @@ TEST(HandGroup, TheServoTicksWhereNothingMoves) {
   group.tick(kMs);
   EXPECT_EQ(hand.ticks(), 0U);
   hand.show(moving);
+  group.publish(SnapshotSlot::prepare(moving));
   group.tick(2 * kMs);
   EXPECT_EQ(hand.ticks(), 0U) << "it is the servo's turn still";
   EXPECT_FALSE(hand.servoTicks());
   group.tick(3 * kMs);
   EXPECT_EQ(hand.ticks(), 1U);
-  hand.show(test::sceneOfBlocks({}, 0.4, 9.81, 3));
+  const auto again = test::sceneOfBlocks({}, 0.4, 9.81, 3);
+  hand.show(again);
+  group.publish(SnapshotSlot::prepare(again));
   EXPECT_FALSE(hand.servoTicks());
   group.tick(4 * kMs);
   EXPECT_TRUE(hand.servoTicks());
   EXPECT_EQ(hand.ticks(), 1U);
 }
 
-TEST(HandGroup, TheWorldGoesOnWithoutAHand) {
+TEST(HandGroup, TheWorldGoesOnWithOneHandAndRestsWithoutAny) {
   const auto scene = test::sceneOfBlocks({{0.1, Vec3::Constant(0.02), Vec3(0, 0.5, 0)}}, 0.4, 10);
   HandGroup group(scene, 1000);
-  Hand stuck(scene, group);  // its servo never gives its turn away
+  Hand stuck(scene, group), other(scene, group);  // a servo that never gives its turn away
+  const auto height_m = [&] { return scene->instances[1].body->poses->shown().pose.origin.y(); };
   for (int step = 0; step <= 100; ++step) group.tick(kMs * (1 + step));
-  EXPECT_NEAR(scene->instances[1].body->poses->shown().pose.origin.y(), 0.45, 1e-3);
+  EXPECT_EQ(height_m(), 0.5);
+  EXPECT_FALSE(other.servoTicks());
+  for (int step = 0; step <= 100; ++step) group.tick(kMs * (102 + step));
+  EXPECT_NEAR(height_m(), 0.45, 1e-3);
   EXPECT_EQ(stuck.ticks(), 0U);
 }
 
