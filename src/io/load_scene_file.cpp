@@ -353,8 +353,11 @@ SceneBody SceneFile::bodyOf(Model part, const proto::SceneObject& object, const 
 
 // Bodies are the last thing that is checked, as shape and mass are those of the final size.
 void SceneFile::checkBodies(const SceneModel& scene) const {
-  if (scene.bodies.size() > kMostBodies)
-    fail("objects", fmt::format("there are {} bodies, and at most {} can move", scene.bodies.size(), kMostBodies));
+  const auto moving =
+      std::count_if(scene.bodies.begin(), scene.bodies.end(), [](const auto& b) { return !b.spec.fixed; });
+  if (moving > static_cast<std::ptrdiff_t>(kMostBodies))
+    fail("objects",
+         fmt::format("{} bodies can move, and at most {} may: set fixed of the others", moving, kMostBodies));
   std::size_t body = 0, parts = 0;
   for (int i = 0; i < scene_.objects_size(); ++i) {
     if (!scene_.objects(i).has_body()) continue;
@@ -366,7 +369,8 @@ void SceneFile::checkBodies(const SceneModel& scene) const {
       fail(where, where + ": " + error.what());
     }
     if (parts > kMostBodies)
-      fail(where, fmt::format("with {} the bodies have {} parts, and at most {} can move", where, parts, kMostBodies));
+      fail(where,
+           fmt::format("with {} the bodies that move have {} parts, and at most {} may", where, parts, kMostBodies));
   }
 }
 

@@ -91,6 +91,7 @@ class PartCollector {
 
   Model rest_;  // all but the mesh
   SceneModel scene_;
+  std::size_t moving_bodies_ = 0;
   bool in_body_ = false;     // what comes now is of the last body
   bool in_surface_ = false;  // of the last surface
   MeshReader mesh_;

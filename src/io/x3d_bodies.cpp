@@ -57,7 +57,6 @@ class BodiesOfX3d {
   BodySpec specOf(const X3dNode& node, bool enabled);
   void setShape(const X3dNode& node, std::vector<ShapePiece>& pieces, SceneBody& body);
   void setParts(const X3dNode& node, std::size_t shapes, SceneBody& body);
-  bool full() const { return scene_.bodies.size() + more_parts_ >= kMostBodies; }
   void checkBody(const X3dNode& node, SceneBody& body);
   void warnOfWhatIsLeftOut(const X3dNode& node);
 
@@ -75,7 +74,7 @@ class BodiesOfX3d {
   X3dNodes taken_;                          // what is no longer a part of the rest
   std::vector<const X3dNode*> transforms_;  // above what is looked at, from outside
   std::size_t visited_ = 0, too_many_ = 0;
-  std::size_t more_parts_ = 0;  // of bodies, beyond their first
+  std::size_t moving_parts_ = 0;  // of the bodies that move
   bool has_gravity_ = false;
 };
 
@@ -238,9 +237,9 @@ void BodiesOfX3d::setParts(const X3dNode& node, std::size_t shapes, SceneBody& b
   body.spec.shape = BodyShape::kParts;
   if (body.spec.fixed) return;
   try {
-    const std::size_t more = partsIn(body.model, body.spec) - 1;
-    if (scene_.bodies.size() + more_parts_ + more >= kMostBodies) throw Error("all bodies have too many parts");
-    more_parts_ += more;
+    const std::size_t parts = partsIn(body.model, body.spec);
+    if (moving_parts_ + parts > kMostBodies) throw Error("all bodies have too many parts");
+    moving_parts_ += parts - 1;
   } catch (const Error& error) {
     body.spec.shape = BodyShape::kHull;
     warn(node, "meets other bodies as one hull of its " + std::to_string(shapes) + " shapes: " + error.what());
@@ -262,14 +261,14 @@ void BodiesOfX3d::addBody(const X3dNode& node, bool enabled) {
   if (body_number_.contains(&node)) return warn(node, "is in the scene already");
   std::vector<ShapePiece> pieces = piecesIn(node);
   if (pieces.empty()) return warn(node, "is left out: it has no shape");
-  if (full()) {
-    ++too_many_;
-    return;
-  }
   SceneBody body;
   body.name = labelOfX3d(node);
   body.pose = placeOf(node, "position", "orientation");
   body.spec = specOf(node, enabled);
+  if (!body.spec.fixed && moving_parts_ >= kMostBodies) {
+    ++too_many_;
+    return;
+  }
   warnOfWhatIsLeftOut(node);
   try {
     setShape(node, pieces, body);
@@ -277,6 +276,7 @@ void BodiesOfX3d::addBody(const X3dNode& node, bool enabled) {
     return warn(node, std::string("is left out: ") + error.what());
   }
   checkBody(node, body);
+  moving_parts_ += body.spec.fixed ? 0 : 1;
   scene_.bodies.push_back(std::move(body));
   body_number_[&node] = scene_.bodies.size();
 }
@@ -321,10 +321,6 @@ void BodiesOfX3d::addStandingOne(const X3dNode& collidable) {
   std::vector<ShapePiece> pieces;
   addPieces(collidable, {}, pieces);
   if (pieces.empty()) return;
-  if (full()) {
-    ++too_many_;
-    return;
-  }
   SceneBody body;
   body.name = labelOfX3d(*definition);
   body.spec.fixed = true;
@@ -366,8 +362,8 @@ SceneModel BodiesOfX3d::build() {
   addStanding(document_.tree(), true);
   for (const X3dNode* route : document_.all("ROUTE")) takeWhatFollows(*route);
   if (too_many_ > 0)
-    warnings_.push_back(std::to_string(too_many_) + " bodies are left out: there are at most " +
-                        std::to_string(kMostBodies));
+    warnings_.push_back(std::to_string(too_many_) + " bodies are left out: at most " + std::to_string(kMostBodies) +
+                        " can move");
   scene_.model = read_(document_.textWithout(taken_));
   warnings_.insert(warnings_.end(), scene_.model.warnings.begin(), scene_.model.warnings.end());
   scene_.model.warnings = std::move(warnings_);

@@ -239,6 +239,23 @@ TEST(Isolated, ASceneWithBodiesComesBackWhole) {
   }
 }
 
+// Those that cannot move are no bodies for the solver: a wall may be of any number of them.
+TEST(Isolated, OfBodiesThatStayThereMayBeMoreThanCanMove) {
+  SceneModel scene = withBodies();
+  SceneBody fixed = scene.bodies.back();
+  fixed.snaps.clear();
+  fixed.fields.clear();
+  SceneBody moves = fixed;
+  moves.spec.fixed = false;
+  const auto back = [&](std::size_t many_fixed, std::size_t many_moving) {
+    scene.bodies.assign(many_fixed, fixed);
+    scene.bodies.insert(scene.bodies.end(), many_moving, moves);
+    return runIsolated("it", {}, [&](const Report&) { return scene; }, {}).bodies.size();
+  };
+  EXPECT_EQ(back(kMostBodies + 1, kMostBodies), 2 * kMostBodies + 1);
+  EXPECT_THROW(back(0, kMostBodies + 1), Error);
+}
+
 Model twoTriangles() {
   Model model;
   model.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}};

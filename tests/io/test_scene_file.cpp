@@ -392,6 +392,23 @@ std::string twoBodies(const std::string& body, const std::string& joints) {
          "}},\n{\"name\": \"b\", " + cube + ", \"body\": {}}],\n\"joints\": [" + joints + "]}";
 }
 
+// Balls, the first of which stay where they are.
+std::string manyBodies(std::size_t fixed, std::size_t moving) {
+  const std::string ball = R"({"primitives": {"vertices": [0,0,0, 1,0,0, 0,1,0, 0,0,1], "triangles": [0,2,1, 0,1,3]},
+    "body": {"shape": "BALL", "fixed": )";
+  std::string objects;
+  for (std::size_t i = 0; i < fixed + moving; ++i)
+    objects += (i > 0 ? "," : "") + ball + (i < fixed ? "true}}" : "false}}");
+  return "{\"objects\": [" + objects + "]}";
+}
+
+TEST(SceneFile, OnlyBodiesThatMoveCount) {
+  EXPECT_EQ(worldOfJson(manyBodies(kMostBodies + 1, 3)).bodies.size(), kMostBodies + 4);
+  EXPECT_EQ(worldOfJson(manyBodies(1, kMostBodies)).bodies.size(), kMostBodies + 1);
+  EXPECT_NE(refusalOf(manyBodies(2, kMostBodies + 1)).find("1001 bodies can move, and at most 1000 may"),
+            std::string::npos);
+}
+
 TEST(SceneFile, BodiesArriveInMetres) {
   const SceneModel scene = worldOfJson(twoBodies(
       R"("massKg": 0.2, "shape": "BOX", "staticFriction": 0.6, "dynamicFriction": 0.4, "restitution": 0.5,

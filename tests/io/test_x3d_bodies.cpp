@@ -321,6 +321,14 @@ TEST(X3dBodies, NoMoreBodiesThanCanMove) {
   EXPECT_TRUE(warns(scene, "2 bodies are left out"));
 }
 
+TEST(X3dBodies, BodiesThatStayTakeNoRoomOfThoseThatMove) {
+  std::string many = body("");
+  for (std::size_t i = 0; i < kMostBodies + 2; ++i) many += body("fixed='true'");
+  const SceneModel scene = withCubes(collection(many + body("")));
+  EXPECT_EQ(scene.bodies.size(), kMostBodies + 4);
+  EXPECT_FALSE(warns(scene, "left out"));
+}
+
 TEST(X3dBodies, HostileFilesAreOneLine) {
   std::string deep, shut;
   for (int i = 0; i < 100'000; ++i) {
