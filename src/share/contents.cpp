@@ -48,7 +48,8 @@ bool Contents::want(const ContentName& name, const std::vector<ServerId>& from, 
 }
 
 void Contents::keepOnly(const std::function<bool(const std::string& sha256)>& wanted) {
-  std::erase_if(here_, [&](const auto& entry) { return !wanted(entry.first); });
+  // Others hold them still: without it here they take as much memory.
+  std::erase_if(here_, [&](const auto& entry) { return entry.second.use_count() == 1 && !wanted(entry.first); });
   std::erase_if(fetches_, [&](const auto& entry) { return !wanted(entry.first); });
 }
 

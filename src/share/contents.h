@@ -43,12 +43,16 @@ class Contents {
 
   Contents(ServerId self, Send send) : self_(self), send_(std::move(send)) {}
 
-  void keep(const ContentName& name, Content content) { here_[name.sha256] = std::move(content); }
+  /// The one that is kept: that which was here before, if there was one.
+  Content keep(const ContentName& name, Content content) {
+    return here_.try_emplace(name.sha256, std::move(content)).first->second;
+  }
   /// Null: it is not here.
   Content find(const ContentName& name) const;
   /// From now on it is fetched, from the first of these servers that has it. False: there is no room for it.
   bool want(const ContentName& name, const std::vector<ServerId>& from, std::int64_t now_ns);
-  /// All but those of these names go, and are not fetched any more.
+  /// All but those of these names go, and are not fetched any more. What was kept and is held elsewhere too stays: an
+  /// object that is written is told of a moment later.
   void keepOnly(const std::function<bool(const std::string& sha256)>& wanted);
 
   void hear(const proto::ShareRequest& request);

@@ -100,10 +100,10 @@ void LocalScene::take(ItemId id, const WrittenItem& written) {
   --writing_;
   const auto row = rows_.find(id);
   if (row == rows_.end()) return;
-  contents_.keep(written.shape.name, written.shape.bytes);
-  contents_.keep(written.surfaces.name, written.surfaces.bytes);
   row->second.written = Written::kDone;
   row->second.content = written.content;
+  row->second.shape = contents_.keep(written.shape.name, written.shape.bytes);
+  row->second.surfaces = contents_.keep(written.surfaces.name, written.surfaces.bytes);
 }
 
 // It is tried again when it is another one.

@@ -56,6 +56,7 @@ class LocalScene {
     std::int64_t begun_ns = 0;
     std::uint64_t look = 0;  // the last one that has found it
     std::shared_ptr<const proto::ShareContent> content{};
+    Content shape{}, surfaces{};  // of the content: held, so that others can fetch them once they are told
   };
   Row* rowOf(ItemId id, const Instance& instance);
   void lookAt(const Instance& instance, bool jointed, std::int64_t now_ns);

@@ -87,7 +87,7 @@ TEST_F(SharedServers, WhatAKilledServerHadStaysAndItsBodiesGoOnAndComeBackWithIt
   hub.cut(1);
   a.reset();
   waitFor([&] { return b->other(kBlockThere)->movesAsBody(); });  // of all that are left it has the lowest number
-  EXPECT_TRUE(b->hasTold("server anna is lost"));
+  waitFor([&] { return b->hasTold("server anna is lost"); });
   waitFor([&] { return b->bridge.view().counts.adopted == kBoth; });
   // It can be lifted from then on by a program of any server, as it could before.
   waitFor([&] { return c->other(kBlockThere)->shownAt(monotonicNow_ns()) == b->other(kBlockThere)->shownAt(0); });

@@ -155,6 +155,22 @@ TEST(SharedWorld, WhatIsDeletedGoesEverywhere) {
   EXPECT_EQ(c.world->replicas(net.nowOf(c)).size(), 1U);
 }
 
+// A server writes its contents before it tells of the objects that have them.
+TEST(SharedWorld, ContentsThatAreHeldElsewhereStayUntilTheirObjectIsTold) {
+  VirtualNet net({});
+  auto& a = net.add("a", 7);
+  auto& b = net.add("b", 5);
+  const auto cube = contentOf(*a.world, "cube");
+  const std::vector<Content> held = {a.world->contents().find(nameOf(cube->shape())),
+                                     a.world->contents().find(nameOf(cube->surfaces()))};
+  net.run(0.5);
+  a.local[1] = {cube, motionAt({0, 0, 0})};
+  net.run(2);
+  const std::vector<Replica> there = b.world->replicas(net.nowOf(b));
+  ASSERT_EQ(there.size(), 1U);
+  EXPECT_TRUE(hasContents(*b.world, there[0]));
+}
+
 TEST(SharedWorld, AnotherContentTakesThePlaceOfTheOldOne) {
   VirtualNet net({20 * kMs, 0, 0});
   auto& a = net.add("a", 7);
