@@ -55,6 +55,7 @@ void writeShareMetrics(MetricsText& out, const ShareView& view) {
   total("hl_share_returned_total", "Objects that were taken back by this server", counts.returned);
   total("hl_share_lost_claims_total", "Objects that another server had taken over as well", counts.lost_claims);
   total("hl_share_refused_total", "Packets that make no sense", counts.refused);
+  total("hl_share_left_out_total", "Objects of other servers that there was no room for", counts.left_out);
   out.family("hl_share_pushes_total", kCounter, "Impulses on bodies of other servers");
   out.sample(static_cast<double>(counts.pushes_sent), {{"what", "sent"}});
   out.sample(static_cast<double>(counts.pushes_taken), {{"what", "taken"}});

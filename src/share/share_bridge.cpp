@@ -170,6 +170,8 @@ void ShareBridge::writeView(std::int64_t now_ns) {
     }
   }
   server_.setRemoteHands(view.hands);
+  if (view.counts.left_out > 0 && view_.counts.left_out == 0)
+    tell_("objects of other servers are left out: there are more than " + std::to_string(SharedWorld::kMostRecords));
   const std::lock_guard lock(view_mutex_);
   view_ = std::move(view);
 }

@@ -1,6 +1,7 @@
 #include "share/shared_world.h"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -63,8 +64,12 @@ void SharedWorld::hear(const SharePacket& packet, std::int64_t now_ns) {
 
 void SharedWorld::hearItem(const proto::ShareItem& item, std::int64_t now_ns) {
   if (item.owner() == self_.id) return;  // an old one of our own
-  if (!isItem(item) || (records_.size() >= kMostItems && !records_.contains(item.id()))) {
+  if (!isItem(item)) {
     ++counts_.refused;
+    return;
+  }
+  if (!records_.contains(item.id()) && !hasRoom()) {
+    counts_.left_out += item.gone() ? 0 : 1;
     return;
   }
   Record& record = records_[item.id()];
@@ -300,11 +305,24 @@ void SharedWorld::adoptOrphans(std::int64_t now_ns) {
 void SharedWorld::forget(std::int64_t now_ns) {
   constexpr std::int64_t kKept_ns = 60'000'000'000;
   peers_.forget(now_ns);
+  forgetDeleted(records_.size() > kMostRecords ? now_ns : now_ns - kKept_ns);
+  full_ = false;
+}
+
+void SharedWorld::forgetDeleted(std::int64_t before_ns) {
   std::erase_if(records_, [&](const auto& entry) {
     const Record& record = entry.second;
-    return record.item.gone() && !record.told.dirty &&
-           now_ns - std::max(record.heard_ns, record.told.time_ns) > kKept_ns;
+    return record.item.gone() && !record.told.dirty && std::max(record.heard_ns, record.told.time_ns) < before_ns;
   });
+}
+
+// What was deleted makes room. Where there is none it is looked for once a beat, as the look takes long.
+bool SharedWorld::hasRoom() {
+  if (records_.size() >= kMostRecords && !full_) {
+    forgetDeleted(std::numeric_limits<std::int64_t>::max());
+    full_ = records_.size() >= kMostRecords;
+  }
+  return records_.size() < kMostRecords;
 }
 
 void SharedWorld::sendItems() {

@@ -63,6 +63,7 @@ struct ShareCounts {
   std::uint64_t returned = 0;                       ///< that were taken back
   std::uint64_t lost_claims = 0;                    ///< that another server had claimed as well, which counts
   std::uint64_t refused = 0;                        ///< packets that make no sense
+  std::uint64_t left_out = 0;                       ///< objects of others, each time, that there was no room for
   std::uint64_t pushes_sent = 0, pushes_taken = 0;
   std::uint64_t fetched_bytes = 0;
   double playout_ms = 0, round_trip_ms = 0;  ///< the longest of all peers, now
@@ -74,7 +75,10 @@ class SharedWorld {
  public:
   /// False: the link takes none now.
   using Send = std::function<bool(const SharePacket& packet)>;
+  /// That one server tells of.
   static constexpr std::size_t kMostItems = 10'000;
+  /// Of all servers together, those that were deleted of late among them: all of one may be replaced at once.
+  static constexpr std::size_t kMostRecords = 2 * kMostItems;
 
   SharedWorld(const ShareSelf& self, std::int64_t now_ns, Send send);
 
@@ -132,6 +136,8 @@ class SharedWorld {
   void streamMoving(std::int64_t now_ns);
   void adoptOrphans(std::int64_t now_ns);
   void forget(std::int64_t now_ns);
+  void forgetDeleted(std::int64_t before_ns);
+  bool hasRoom();
   void sendItems();
   void sendInbox();
   void chooseContents(std::int64_t now_ns);
@@ -149,6 +155,7 @@ class SharedWorld {
   std::vector<ItemPush> pushes_;
   std::int64_t beat_ns_;
   bool jumped_ = false;
+  bool full_ = false;          // since the last beat
   bool names_changed_ = true;  // of contents that objects have
   ShareCounts counts_;
 };

@@ -155,6 +155,34 @@ TEST(SharedWorld, WhatIsDeletedGoesEverywhere) {
   EXPECT_EQ(c.world->replicas(net.nowOf(c)).size(), 1U);
 }
 
+// As a program's objects that are all replaced, and again: others hear of the new ones before the old ones are gone.
+TEST(SharedWorld, WhatIsDeletedTakesNoRoomOfWhatComes) {
+  VirtualNet net({});
+  auto& a = net.add("a", 7);
+  auto& b = net.add("b", 5);
+  const LocalItem cube{contentOf(*a.world, "cube"), motionAt({0, 0, 0})};
+  for (ItemId first = 1; first <= 4; ++first) {
+    a.local.clear();
+    for (ItemId i = 0; i < SharedWorld::kMostItems; ++i) a.local[first + 4 * i] = cube;
+    net.run(0.3);
+    ASSERT_EQ(b.world->replicas(net.nowOf(b)).size(), SharedWorld::kMostItems) << first;
+    EXPECT_EQ(b.world->counts(net.nowOf(b)).left_out, 0U);
+  }
+}
+
+TEST(SharedWorld, WhatItHasNoRoomForIsLeftOutAndTheRestStays) {
+  VirtualNet net({});
+  auto& b = net.add("b", 5);
+  for (ServerId id = 7; id < 10; ++id) {
+    auto& one = net.add("server" + std::to_string(id), id);
+    const LocalItem cube{contentOf(*one.world, "cube"), motionAt({0, 0, 0})};
+    for (ItemId i = 1; i <= SharedWorld::kMostItems; ++i) one.local[id * 100'000 + i] = cube;
+  }
+  net.run(0.3);
+  EXPECT_EQ(b.world->replicas(net.nowOf(b)).size(), 2 * SharedWorld::kMostItems);
+  EXPECT_EQ(b.world->counts(net.nowOf(b)).left_out, SharedWorld::kMostItems);
+}
+
 // A server writes its contents before it tells of the objects that have them.
 TEST(SharedWorld, ContentsThatAreHeldElsewhereStayUntilTheirObjectIsTold) {
   VirtualNet net({});
