@@ -109,6 +109,8 @@ class SessionReplay {
       const ReplayedTick& tick = *next->file().tick();
       try {
         amongHands(tick.record) ? together(tick.record) : next->tick();
+      } catch (const ErrorOfFile&) {
+        throw;
       } catch (const Error& error) {
         throw next->file().errorOf(error);
       }
@@ -123,7 +125,8 @@ class SessionReplay {
   static Among stateOf(const std::vector<ReplayedFile*>& files) {
     const proto::RecordingStart& start = files.front()->start();
     if (start.device_label().empty()) return Among::kNobody;
-    return files.size() > 1 && files.size() == start.devices() ? Among::kAll : Among::kUnknown;
+    const bool all = files.size() > 1 && files.size() == start.devices() && files.size() <= kMostHands;
+    return all ? Among::kAll : Among::kUnknown;
   }
 
   HandReplay* earliest() {
@@ -140,7 +143,7 @@ class SessionReplay {
     return among_hands_ != Among::kNobody && scenes_.hasBodies(record.scene);
   }
 
-  // What all hands did at the moment of this tick. A hand whose proxy is not known makes the bodies unknown.
+  // What all hands did at the moment of this tick. A hand of which ticks are missing makes the bodies unknown.
   void together(const TickRecord& first) {
     const std::int64_t time_ns = first.in.time_ns;
     std::vector<const ReplayedTick*> ticks;
@@ -148,7 +151,7 @@ class SessionReplay {
       const ReplayedTick* const tick = hand->file().tick();
       const bool now = tick != nullptr && tick->record.in.time_ns == time_ns && tick->record.scene == first.scene;
       ticks.push_back(now ? tick : nullptr);
-      if (now) known_ &= tick->known && !hand->file().memory();
+      known_ &= tick != nullptr && tick->known && !hand->file().memory();
     }
     const bool again = known_ && among_hands_ == Among::kAll;
     if (again) step(first.scene, ticks);

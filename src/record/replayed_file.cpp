@@ -82,7 +82,7 @@ ReplayedFile::ReplayedFile(const std::string& path, StepVisitor visit)
   }
 }
 
-Error ReplayedFile::errorOf(const std::exception& why) const { return Error(path_ + ": " + why.what()); }
+ErrorOfFile ReplayedFile::errorOf(const std::exception& why) const { return ErrorOfFile(path_ + ": " + why.what()); }
 
 ProxySettings ReplayedFile::proxySettings() const {
   constexpr double kMaxPasses = 1e6;  // what a tick of a wrong file may cost

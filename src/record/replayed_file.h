@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "base/error.h"
 #include "record/recorded_scene.h"
 #include "record/recorded_ticks.h"
 #include "record/recording_file.h"
@@ -45,7 +46,12 @@ struct ReplayedTick {
   bool known = true;  ///< false: ticks before it are missing, so what the proxy did is not known
 };
 
-/// One thread. Everything throws hl::Error, which names the file, when it makes no sense.
+/// That names its file.
+class ErrorOfFile : public Error {
+  using Error::Error;
+};
+
+/// One thread. Everything throws ErrorOfFile when it makes no sense.
 class ReplayedFile {
  public:
   using AddScene = std::function<void(ReplayedScene)>;
@@ -70,7 +76,7 @@ class ReplayedFile {
   const std::optional<BodiesMemory>& bodies() const { return bodies_; }
   ReplayReport& report() { return report_; }
   /// `why` with the name of the file.
-  [[nodiscard]] Error errorOf(const std::exception& why) const;
+  [[nodiscard]] ErrorOfFile errorOf(const std::exception& why) const;
 
  private:
   void take(const proto::RecordingBlock& block);

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "record/recorder.h"
+#include "record/recording_file.h"
 #include "record/replay.h"
 #include "session/bodies_client.h"
 #include "temp_folder.h"
@@ -67,6 +68,15 @@ class RecordedHands : public testing::Test {
   }
 };
 
+// The same recording but for its block of ticks with this number, among those that have any.
+void writeWithout(const std::string& from, const std::string& to, int block_of_ticks) {
+  RecordingReader reader(from);
+  RecordingWriter writer(to);
+  for (proto::RecordingBlock block; reader.next(block);) {
+    if (!block.has_ticks() || block_of_ticks-- != 0) writer.write(block);
+  }
+}
+
 std::string refusalOf(const std::vector<std::string>& files) {
   try {
     replayTogether(files);
@@ -96,6 +106,26 @@ TEST_F(RecordedHands, AreReplayedTogetherBitForBit) {
   EXPECT_LT(alone.ticks_among_hands, alone.ticks);
   EXPECT_GT(replayTogether({files()[0], files()[2]})[1].ticks_among_hands, 100U);
   EXPECT_NE(refusalOf({files()[0], files()[0]}).find("of the same device"), std::string::npos);
+
+  // Without some ticks of one hand nothing is known of the bodies after them, and of no hand that touches them.
+  const std::string less = (folder_.path() / "less.hlr").string();
+  writeWithout(files()[1], less, 2);
+  for (const ReplayReport& report : replayTogether({files()[0], less, files()[2]})) {
+    EXPECT_FALSE(report.difference) << report.label;
+    EXPECT_GT(report.ticks_among_hands, 10U);
+  }
+}
+
+TEST_F(RecordedHands, AreOfOneSession) {
+  record(path_);
+  const std::string other = (folder_.path() / "other.hlr").string();
+  RecordingReader reader(files()[1]);
+  RecordingWriter writer(other);
+  for (proto::RecordingBlock block; reader.next(block); writer.write(block)) {
+    if (block.has_start()) block.mutable_start()->set_begin_unix_ms(block.start().begin_unix_ms() + 60'000);
+  }
+  EXPECT_NE(refusalOf({files()[0], other}).find("of another session"), std::string::npos);
+  EXPECT_EQ(refusalOf({files()[0], path_}), path_ + ": can not be read");
 }
 
 }  // namespace

@@ -3,11 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <deque>
 #include <random>
 
 #include "base/realtime_guard.h"
 #include "block_scenes.h"
 #include "device/open_device.h"
+#include "device/simulated_device.h"
+#include "plain_servo.h"
+#include "touch/touch_step.h"
 
 namespace hl {
 namespace {
@@ -55,10 +59,12 @@ class Hand {
   }
   // Of the last tick.
   Vec3 force_N() {
-    TickMessage tick;
-    exchange_.ticks.read(tick);
-    const ServoTarget& target = tick.held.target;
+    const ServoTarget& target = held().target;
     return target.valid ? Vec3(kStiffness_N_m * target.stiffness * (target.proxy_D - finger_)) : Vec3::Zero();
+  }
+  const HeldContacts& held() {
+    exchange_.ticks.read(tick_);
+    return tick_.held;
   }
   const Vec3& finger() const { return finger_; }
   const Vec3& proxy() { return ticker_.loop().state().position; }
@@ -74,6 +80,7 @@ class Hand {
   TouchViews views_;
   NoSink sink_;
   Ticker ticker_;
+  TickMessage tick_;
   Vec3 finger_ = Vec3::Zero();
 };
 
@@ -142,6 +149,56 @@ TEST(HandGroup, R19TwoDevicesLiftABlockBetweenThem) {
 
 TEST(HandGroup, R19ABlockSlipsFromHandsThatPressTooLittle) {
   EXPECT_NEAR(Lift(0.9 * Lift::kMass_kg * 9.81).height_m(), 0, 1e-6);
+}
+
+// A simulated device with a hand that holds it, and its servo, which has the tick of the period before.
+class Gripping {
+ public:
+  Gripping(Hand& hand, const Vec3& begin) : hand_(hand) {
+    settings_.ledger = LedgerMode::kTank;
+    arm(step_.servo());
+    device_.place(begin, Vec3::Zero());
+  }
+  void step(std::int64_t time_ns, const Vec3& goal) {
+    device_.setHandGoal(goal);
+    const DeviceSample sample = device_.read(time_ns);
+    const ServoOutput out = step_.late(hand_.held(), settings_, sample);
+    EXPECT_NE(out.safety, SafetyState::kFault) << faultText(out.fault);
+    device_.write(out.force_N);
+    hand_.moveTo(sample.position);
+  }
+  double speed_m_s() const { return device_.trueVelocity_D().norm(); }
+
+ private:
+  static SimulatedDeviceSettings gripped() {
+    SimulatedDeviceSettings settings;
+    settings.model = premium10();
+    settings.step_s = 100e-6;
+    return settings;
+  }
+  Hand& hand_;
+  SimulatedDevice device_{gripped()};
+  ServoSettings settings_ = test::plainServo(kStiffness_N_m);
+  TouchStep step_;
+};
+
+// Two devices squeeze a block, from a feather to a brick, and go up with it, by the forces of their real servos.
+TEST(HandGroup, DevicesHoldABlockOfAnyMassAtRest) {
+  for (const double mass_kg : {1e-6, 1e-4, 0.01, 0.1}) {
+    constexpr double kHalf_m = 0.02, kUp_m = 0.03;
+    Hands hands(2, {{mass_kg, Vec3::Constant(kHalf_m), Vec3(0, kHalf_m, 0)}}, kFriction, 9.81);
+    std::deque<Gripping> devices;
+    for (const std::size_t i : {0U, 1U}) devices.emplace_back(hands[i], Vec3(i == 0 ? -0.04 : 0.04, kHalf_m, 0));
+    for (int ms = 1; ms <= 3000; ++ms) {
+      const double in = std::min(1.0, ms / 500.0), up = std::clamp((ms - 700) / 800.0, 0.0, 1.0);
+      for (const std::size_t i : {0U, 1U})
+        devices[i].step(ms * kMs, Vec3((i == 0 ? -1 : 1) * (0.04 - 0.03 * in), kHalf_m + kUp_m * up, 0));
+      hands.tick();
+    }
+    EXPECT_GT(hands.body().pose.origin.y(), kHalf_m + 0.8 * kUp_m) << mass_kg;
+    EXPECT_LT(hands.body().velocity_m_s.norm(), 1e-3) << mass_kg;
+    for (const Gripping& device : devices) EXPECT_LT(device.speed_m_s(), 1e-3) << mass_kg;
+  }
 }
 
 // Devices of 100 g, which persons move to and fro between two blocks in the air.
