@@ -2,8 +2,10 @@
 
 import { LedgerMode, SafetyState, type State } from "./gen/hl_pb";
 import type { LinkState } from "./connection";
+import { handOf, type HandState } from "./hand_state";
 import type { LiveScene } from "./live_scene";
 import type { SampleRing } from "./samples";
+import type { HandChoice } from "./moved_hands";
 import { settingsOf, type SurfaceSettings } from "./surfaces";
 import { turnOf } from "./stylus_turn";
 import { length, sub, type Vec } from "./vec";
@@ -16,6 +18,7 @@ export interface DebugSources {
   state(): State | undefined;
   samples(): SampleRing;
   holding(): boolean;
+  choice(): HandChoice;
   recording(): RecordingShown | undefined;
   project(point: Vec): { x: number; y: number; depth_m: number };
 }
@@ -51,6 +54,10 @@ export interface DebugState {
   /** World distance between proxy and finger. */
   readonly separation_m: number | undefined;
   readonly contacts: number;
+  /** Which hand the page moves. */
+  readonly choice: HandChoice;
+  /** Of each device of the server, by number. */
+  readonly hands: readonly HandState[];
   /** Hands of other servers of a shared world. */
   readonly remoteHands: readonly { readonly server: string; readonly proxy: Vec | undefined }[];
   /** Index of the layout's snap that holds the proxy. */
@@ -108,6 +115,11 @@ function makeDebugState(sources: DebugSources): DebugState {
     },
     get remoteHands() {
       return (sources.state()?.remote ?? []).map(({ server, proxy }) => ({ server, proxy: knownVec(proxy) }));
+    },
+    get choice() { return sources.choice(); },
+    get hands() {
+      const state = sources.state();
+      return state === undefined ? [] : [state, ...state.others].map((_, device) => handOf(state, device)!);
     },
     get contacts() { return sources.state()?.contacts.length ?? 0; },
     get snap() { return sources.scene().marks.held; },

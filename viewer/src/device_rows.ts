@@ -2,6 +2,7 @@
 // tested alone.
 
 import { SafetyState, type Hello, type State } from "./gen/hl_pb";
+import type { HandChoice } from "./moved_hands";
 import { formatFixed } from "./units";
 import { length } from "./vec";
 import { knownVec } from "./wire_values";
@@ -36,4 +37,12 @@ export function deviceRows(hello: Hello | undefined, state: State | undefined): 
     const told = number === 0 ? state : state.others[number - 1];
     return told === undefined ? [] : [rowOf(device.label, device.name, told)];
   });
+}
+
+/** What the control says that lets the hands explore which the page moves; `label` of the chosen one. */
+export function exploreText({ simulated, together }: HandChoice, label: string): string {
+  if (simulated.length < 2) {
+    return "Explore by itself";
+  }
+  return together ? "All explore by themselves" : `Explore by itself: ${label}`;
 }

@@ -4,7 +4,6 @@
 import "./style.css";
 import { Announcer } from "./announcer";
 import { BodiesPanel } from "./bodies_panel";
-import { ButtonInput } from "./button_input";
 import { Connection, type LinkState } from "./connection";
 import { publishDebugState } from "./debug_state";
 import { element, setText } from "./elements";
@@ -12,25 +11,26 @@ import { showEmptyHint } from "./empty_hint";
 import { FileDrop } from "./file_drop";
 import { FileInput } from "./file_input";
 import type { Hello, State } from "./gen/hl_pb";
-import { padState } from "./gamepad";
-import { depthOf, metresPerPixel } from "./hand_mapping";
-import { HandInput } from "./hand_input";
+import { depthOf, metresPerPixel, type ViewFrame } from "./hand_mapping";
+import { HandControls } from "./hand_controls";
+import { worldPerHand } from "./hand_state";
 import { diagonalOf } from "./fit";
 import { LedgerPanel } from "./ledger_panel";
+import { LivePlots } from "./live_plots";
 import { LiveScene } from "./live_scene";
 import { ModelFile } from "./model_file";
+import { isAside } from "./moved_hands";
 import { Notices } from "./notices";
 import { Panel } from "./panel";
 import { RecordPanel } from "./record_panel";
-import { kWindow_s, LivePlot } from "./plots";
+import { kWindow_s } from "./plots";
 import { Pointing } from "./pointing";
+import { exploreText } from "./device_rows";
 import { OtherHands } from "./other_hands";
 import { ProbeView } from "./probe_view";
 import {
-  encodeHandGoal, encodeIso, encodePress, encodeRearm, encodeRecord, encodeRelease, encodeSettings, kProtocolVersion,
-  type Incoming, type SettingsChange,
+  encodeIso, encodeRearm, encodeRecord, kProtocolVersion, type Incoming, type SettingsChange,
 } from "./protocol";
-import { SampleRing } from "./samples";
 import type { Bounds, Layout } from "./scene_messages";
 import { ScaleBar } from "./scale_bar";
 import type { SceneStore } from "./scene_store";
@@ -43,7 +43,6 @@ import { RecordingFile } from "./timeline/recording_file";
 import { SceneHold } from "./timeline/scene_hold";
 import { Timeline } from "./timeline/timeline";
 import { TouchSound } from "./touch_sound";
-import { TurnInput } from "./turn_input";
 import { formatFixed } from "./units";
 import { length } from "./vec";
 import { kVibrationWindow_s, VibrationAlarm } from "./vibration";
@@ -54,18 +53,20 @@ import { knownVec } from "./wire_values";
 const kPlotPeriod_ms = 50;
 /** Numbers that change faster than this cannot be read. */
 const kNumbersPeriod_ms = 100;
-/** Ten seconds of a 6 kHz loop: the most that State.samples can carry. */
-const kSampleCapacity = 65536;
-const kRateCapacity = 1024;
 
 class App {
   private readonly live_ = new LiveScene({
     shown: (store, layout) => this.showLayout(store, layout),
     fit: (bounds) => this.fit(bounds),
-    replaced: () => this.hand_.cancel(),
+    replaced: () => this.hands_.release(),
   });
   private readonly probe_ = new ProbeView();
-  private readonly others_ = new OtherHands((device) => this.send(encodeRearm(device)));
+  private readonly others_ = new OtherHands({
+    rearm: (device) => this.send(encodeRearm(device)),
+    choose: (device) => this.hands_.choose(device),
+    chooseNext: () => this.hands_.chooseNext(),
+    toggleTogether: () => this.hands_.toggleTogether(),
+  });
   private readonly notices_ = new Notices();
   private readonly recordingFile_ = new RecordingFile((recording, name) => this.timeline_.open(recording, name));
   private readonly modelFile_ = new ModelFile(
@@ -76,36 +77,23 @@ class App {
   private readonly stage_ = new Stage(element<HTMLCanvasElement>("canvas"), (reason) => {
     this.notices_.stand("drawing", reason);
   });
-  private readonly pointing_ = new Pointing(this.stage_, this.live_, () => this.state_);
+  private readonly pointing_: Pointing = new Pointing(
+    this.stage_, this.live_, () => this.state_, () => this.hands_.hands.now,
+  );
   private readonly scaleBar_ = new ScaleBar();
-  private readonly samples_ = new SampleRing(kSampleCapacity, 2);
-  private readonly rates_ = new SampleRing(kRateCapacity, 2);
-  private readonly energy_ = new SampleRing(kRateCapacity, 5);
-  private readonly plots_ = {
-    force: new LivePlot(element("plot-force"), {
-      unit: "N", series: [{ colour: "force", fill: true }], smallestTop: 1,
-    }),
-    rates: new LivePlot(element("plot-rates"), {
-      unit: "Hz", series: [{ colour: "proxy", width: 4 }, { colour: "servo" }], smallestTop: 1000,
-    }),
-    energy: new LivePlot(element("plot-energy"), {
-      unit: "J",
-      series: ["shading", "stiffness", "texture", "moving", "late"].map((cause) => ({ colour: `energy-${cause}` })),
-      smallestTop: 1e-3,
-    }),
-  };
+  private readonly plots_ = new LivePlots();
   private readonly bodies_ = new BodiesPanel();
   private readonly sound_ = new TouchSound();
-  private readonly sharing_ = new Sharing(this.samples_, () => this.live_.layout?.name ?? "");
+  private readonly sharing_ = new Sharing(this.plots_.samples, () => this.live_.layout?.name ?? "");
   private readonly memory_: ViewMemory;
   private readonly announcer_ = new Announcer((text) => setText("announce", text));
   private readonly vibration_ = new VibrationAlarm();
-  private readonly hand_: HandInput;
-  private readonly buttons_ = new ButtonInput((down) => this.send(encodePress(down)));
-  private readonly turn_ = new TurnInput(
-    (message) => this.send(message), () => this.stage_.camera.quaternion, () => this.state_?.stylus,
-    () => this.buttons_.enabled,
-  );
+  private readonly hands_: HandControls = new HandControls(this.stage_, this.live_, this.pointing_, {
+    send: (message) => this.send(message),
+    state: () => this.state_,
+    heard: () => this.connection_.state === "live",
+    changed: () => this.showChoice(),
+  });
   private readonly recordPanel_ = new RecordPanel(
     (on, owner) => this.connection_.send(encodeRecord(on, owner)), () => this.live_.layout?.name ?? "",
     (text) => this.notices_.tell(text, false),
@@ -124,14 +112,12 @@ class App {
   private state_: State | undefined;
   private serverVersion_: string | undefined;
   private liveName_ = "";
-  private simulatedHand_ = false;
   private stateFresh_ = false;
   private lastPlot_ms_ = 0;
   private lastNumbers_ms_ = 0;
 
   constructor() {
     this.stage_.scene.add(this.live_.model.group, this.live_.marks.group, this.probe_.group, this.others_.group);
-    this.hand_ = this.makeHand();
     this.panel_ = this.makePanel();
     this.memory_ = new ViewMemory();
     this.surfacePanel_ = new SurfacePanel((change) => this.tell(change));
@@ -153,26 +139,13 @@ class App {
       link: () => this.connection_.state,
       scene: () => this.live_,
       state: () => this.state_,
-      samples: () => this.samples_,
-      holding: () => this.hand_.holding,
+      samples: () => this.plots_.samples,
+      holding: () => this.hands_.input.holding,
+      choice: () => this.hands_.hands.choice,
       recording: () => this.timeline_.recording,
       project: (point) => this.stage_.project(point),
     });
     requestAnimationFrame((now_ms) => this.frame(now_ms));
-  }
-
-  private makeHand(): HandInput {
-    const { pointing_: pointing } = this;
-    return new HandInput(this.stage_, {
-      finger: () => (this.connection_.state === "live" ? knownVec(this.state_?.finger) : undefined),
-      proxy: () => knownVec(this.state_?.proxy),
-      goal: (position) => this.send(encodeHandGoal(position)),
-      release: () => this.send(encodeRelease()),
-      moving: () => this.live_.moving,
-      press: (x_px, y_px) => pointing.press(x_px, y_px),
-      surface: (x_px, y_px) => pointing.surfaceAt(x_px, y_px),
-      isTarget: (x_px, y_px) => pointing.isNearHand(x_px, y_px) || pointing.surfaceAt(x_px, y_px) !== undefined,
-    });
   }
 
   private makePanel(): Panel {
@@ -185,11 +158,11 @@ class App {
       marks: (shown) => this.live_.marks.setShown(shown),
       edges: (shown) => this.live_.model.setEdges(shown),
       flat: (flat) => this.live_.model.setFlat(flat),
-      orbitFromEmpty: (on) => (this.hand_.orbitFromEmpty = on),
+      orbitFromEmpty: (on) => (this.hands_.input.orbitFromEmpty = on),
       dropLine: (shown) => this.probe_.drop.setShown(shown),
       stylus: (shown) => [this.probe_, this.others_].forEach((view) => view.setStylusShown(shown)),
       resetView: () => this.live_.refit(),
-      bringHandBack: () => this.pointing_.bringBack(this.hand_),
+      bringHandBack: () => this.pointing_.bringBack(this.hands_.input),
       section: (side, share) => this.pointing_.cut(side, share),
       sound: (on) => this.sound_.setOn(on),
       pause: (paused) => this.sharing_.setPaused(paused),
@@ -220,16 +193,17 @@ class App {
   /** What the server goes on telling of its scene is kept; nothing is sent to it that changes anything. */
   private leaveLive(): void {
     // Before the session is out of reach: the server is told to let go.
-    this.hand_.cancel();
+    this.hands_.input.cancel();
+    this.hands_.active = false;
     this.held_ = new SceneHold(this.live_.store);
     this.eye_ = this.stage_.isTurned ? this.stage_.eye : undefined;
-    this.hand_.movable = this.buttons_.enabled = false;
     this.notices_.stand("vibration", undefined);
     this.notices_.stand("slow-motion", undefined);
     this.sound_.silence();
     this.stateFresh_ = false;
     this.state_ = undefined;
     this.live_.clear("recording");
+    this.showChoice();
   }
 
   private backToLive(): void {
@@ -237,8 +211,9 @@ class App {
     this.held_ = undefined;
     this.state_ = undefined;
     this.live_.clear(this.liveName_);
-    this.hand_.movable = this.buttons_.enabled = this.simulatedHand_;
+    this.hands_.active = true;
     messages.forEach((message) => this.receive(message));
+    this.showChoice();
     if (this.eye_ !== undefined && messages[0]?.kind !== "hello") {
       this.stage_.lookFrom(this.eye_.position, this.eye_.target);
     }
@@ -261,7 +236,7 @@ class App {
   }
 
   private tell(change: SettingsChange): void {
-    this.send(encodeSettings(change));
+    this.hands_.tell(change);
   }
 
   private receive(message: Incoming): void {
@@ -306,23 +281,17 @@ class App {
     this.files_.showOffered();
     this.liveName_ = hello.sceneName;
     this.live_.clear(hello.sceneName);
-    this.hand_.cancel();
-    this.simulatedHand_ = hello.device?.simulatedHand ?? false;
-    this.hand_.movable = this.buttons_.enabled = this.simulatedHand_;
     this.panel_.showHello(hello);
     this.others_.showHello(hello);
+    this.hands_.showHello(hello);
     this.surfacePanel_.showQuantities(hello.quantities);
     this.surfacePanel_.forget();
     this.ledgerPanel_.forget();
     this.volumePanel_.forget();
-    this.turn_.setDevice(hello.device);
     this.probe_.stylus.setGripper(hello.device?.gripperMaxRad ?? 0);
     this.probe_.setForceMax(hello.device?.forceMaxN ?? 0);
-    this.plots_.force.setLimit(hello.device?.forceMaxN ?? 0);
+    this.plots_.forget(hello.device?.forceMaxN ?? 0);
     this.sound_.setLimit(hello.device?.forceMaxN ?? 0);
-    this.samples_.clear();
-    this.rates_.clear();
-    this.energy_.clear();
     this.bodies_.forget();
   }
 
@@ -350,17 +319,10 @@ class App {
   private takeState(state: State): void {
     this.state_ = state;
     this.stateFresh_ = true;
-    for (const sample of state.samples) {
-      this.samples_.push(sample.timeS, sample.forceN, sample.penetrationM);
-    }
-    const energy = state.ledger;
-    if (energy !== undefined) {
-      const { shadingJ, stiffnessJ, textureJ, movingJ, lateJ } = energy;
-      this.energy_.push(state.timeS, shadingJ, stiffnessJ, textureJ, movingJ, lateJ);
-    }
+    this.hands_.hands.follow(state);
+    this.plots_.take(state);
     this.bodies_.take(state);
-    this.sound_.hear(state, this.samples_, this.pointing_.worldPerHand);
-    this.rates_.push(state.timeS, state.proxyLoop?.rateHz ?? NaN, state.servo?.rateHz ?? NaN);
+    this.sound_.hear(state, this.plots_.samples, worldPerHand(this.live_.layout, undefined));
   }
 
   private linkChanged(link: LinkState): void {
@@ -373,7 +335,7 @@ class App {
     if (link !== "live") {
       // What was heard last is not what is so now.
       this.stateFresh_ = false;
-      this.hand_.cancel();
+      this.hands_.input.cancel();
       this.sound_.silence();
       this.recordPanel_.lose();
     }
@@ -381,17 +343,15 @@ class App {
 
   private frame(now_ms: number): void {
     requestAnimationFrame((next_ms) => this.frame(next_ms));
-    this.followPad();
-    this.hand_.frame();
-    this.turn_.frame();
+    this.hands_.frame(now_ms);
     this.showRecorded(now_ms);
     this.live_.frame();
-    this.pointing_.showPicked(this.hand_.pressed);
+    this.pointing_.showPicked(this.hands_.input.pressed);
     this.showProbe();
     this.stage_.draw();
     if (this.stateFresh_ && !this.sharing_.paused && now_ms - this.lastPlot_ms_ >= kPlotPeriod_ms) {
       this.lastPlot_ms_ = now_ms;
-      this.showPlots();
+      this.plots_.show();
     }
     if (this.stateFresh_ && now_ms - this.lastNumbers_ms_ >= kNumbersPeriod_ms) {
       this.lastNumbers_ms_ = now_ms;
@@ -409,41 +369,42 @@ class App {
   }
 
   private showProbe(): void {
-    const proxy = knownVec(this.state_?.proxy);
     this.probe_.update(this.state_);
     const view = this.stage_.viewFrame();
     this.scaleBar_.show(metresPerPixel(view, depthOf(view, this.stage_.target)));
-    this.pointing_.showFinder(this.connection_.state === "live" && this.held_ === undefined, this.hand_);
-    const at = proxy ?? knownVec(this.state_?.finger);
+    this.pointing_.showFinder(this.connection_.state === "live" && this.held_ === undefined, this.hands_.input);
+    const at = knownVec(this.state_?.proxy) ?? knownVec(this.state_?.finger);
     if (at === undefined) {
       return;
     }
     const pixel_m = metresPerPixel(view, depthOf(view, at));
     this.probe_.face(this.stage_.camera, pixel_m);
     this.others_.showProbes(this.state_, this.stage_.camera, view);
-    if (proxy !== undefined) {
-      this.probe_.drop.update(proxy, this.pointing_.below(proxy), this.probe_.radius_m, pixel_m);
+    this.showDrop(view);
+  }
+
+  /** Of the hand that the page moves. */
+  private showDrop(view: ViewFrame): void {
+    const hand = this.hands_.hands.now;
+    if (hand?.proxy !== undefined) {
+      const pixel_m = metresPerPixel(view, depthOf(view, hand.proxy));
+      this.probe_.drop.update(hand.proxy, this.pointing_.below(hand.proxy), hand.radius_m ?? this.probe_.radius_m, pixel_m);
     }
   }
 
-  private followPad(): void {
-    const { direction, buttons } = padState(navigator.getGamepads?.() ?? []);
-    this.hand_.push(direction);
-    this.buttons_.setPad(buttons);
-  }
-
-  private showPlots(): void {
-    const [times, force] = this.samples_.window(kWindow_s, this.plots_.force.buckets);
-    this.plots_.force.show([times, force!]);
-    this.plots_.rates.show(this.rates_.window(kWindow_s, this.plots_.rates.buckets));
-    this.plots_.energy.show(this.energy_.window(kWindow_s, this.plots_.energy.buckets));
+  private showChoice(): void {
+    const { hands } = this.hands_;
+    this.panel_.showHand(hands.movable, exploreText(hands.choice, hands.device?.label ?? ""));
+    this.others_.showChoice(hands.choice);
+    // A recording has one hand.
+    this.probe_.setAside(this.held_ === undefined && isAside(hands.choice, 0));
   }
 
   private showNumbers(): void {
     const state = this.state_!;
     const force = knownVec(state.forceN);
     const force_N = force === undefined ? NaN : length(force);
-    this.panel_.showState(state, force_N, state.samples.at(-1)?.penetrationM);
+    this.panel_.showState(state, this.hands_.hands.now?.exploring ?? false, force_N, state.samples.at(-1)?.penetrationM);
     this.others_.showNumbers(state);
     this.announcer_.hear(this.touchedInWords(state), force_N, performance.now());
     this.tellVibration();
@@ -460,7 +421,7 @@ class App {
   }
 
   private tellVibration(): void {
-    const { times, values } = this.samples_.last(0, kVibrationWindow_s);
+    const { times, values } = this.plots_.samples.last(0, kVibrationWindow_s);
     const swing = this.vibration_.judge(times, values);
     const text = swing && `The force vibrates by ${formatFixed(swing.force_N, "N", 1)} at ` +
       `${formatFixed(swing.rate_Hz, "Hz", 0)}: the spring is too stiff for this device and grip. Lower it.`;
@@ -473,7 +434,7 @@ class App {
     this.live_.marks.applyTheme();
     this.probe_.applyTheme();
     this.others_.applyTheme();
-    Object.values(this.plots_).forEach((plot) => plot.applyTheme());
+    this.plots_.applyTheme();
     this.bodies_.applyTheme();
     this.timeline_.applyTheme();
   }

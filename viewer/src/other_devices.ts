@@ -1,5 +1,5 @@
-// The devices of a server that has several: a row for each in the panel, with its state, its force and a button that
-// arms it again; and in the scene the probes of all but the first.
+// The devices of a server that has several: a row for each in the panel, with its state, its force, a button that arms it
+// again, and one that makes a simulated hand the one that the page moves; and in the scene the probes of all but the first.
 
 import { create } from "@bufbuild/protobuf";
 import * as THREE from "three";
@@ -7,14 +7,25 @@ import { deviceRows, type DeviceRow } from "./device_rows";
 import { element } from "./elements";
 import { SafetyState, StateSchema, type Hello, type State } from "./gen/hl_pb";
 import { depthOf, metresPerPixel, type ViewFrame } from "./hand_mapping";
+import { isAside, type HandChoice } from "./moved_hands";
 import { ProbeView } from "./probe_view";
 
 interface RowElements {
   readonly root: HTMLElement;
   readonly name: HTMLElement;
   readonly force: HTMLElement;
+  readonly move: HTMLButtonElement;
   readonly rearm: HTMLButtonElement;
   readonly fault: HTMLElement;
+}
+
+/** What the user asks of devices, by their numbers. */
+export interface DeviceActions {
+  rearm(device: number): void;
+  /** The page is to move this one's hand. */
+  choose(device: number): void;
+  chooseNext(): void;
+  toggleTogether(): void;
 }
 
 export class OtherDevices {
@@ -26,7 +37,10 @@ export class OtherDevices {
   private hello_: Hello | undefined;
   private diagonal_m_ = 1;
 
-  constructor(private readonly rearm_: (device: number) => void) {}
+  constructor(private readonly actions_: DeviceActions) {
+    element("next-hand").addEventListener("click", () => actions_.chooseNext());
+    element("together").addEventListener("click", () => actions_.toggleTogether());
+  }
 
   showHello(hello: Hello): void {
     this.hello_ = hello;
@@ -46,6 +60,17 @@ export class OtherDevices {
     this.section_.hidden = true;
   }
 
+  showChoice(choice: HandChoice): void {
+    const { simulated, chosen, together } = choice;
+    this.probes_.forEach((probe, i) => probe.setAside(isAside(choice, i + 1)));
+    this.rows_.forEach(({ move }, device) => {
+      move.hidden = simulated.length < 2 || !simulated.includes(device);
+      move.setAttribute("aria-pressed", String(device === chosen));
+    });
+    element("next-hand").hidden = element("together").hidden = simulated.length < 2;
+    element("together").setAttribute("aria-pressed", String(together));
+  }
+
   setStylusShown(shown: boolean): void {
     this.probes_.forEach((probe) => probe.stylus.setShown(shown));
   }
@@ -62,6 +87,7 @@ export class OtherDevices {
   showNumbers(state: State): void {
     const rows = deviceRows(this.hello_, state);
     this.section_.hidden = rows.length === 0;
+    this.rows_.forEach((row, number) => (row.root.hidden = number >= rows.length));
     rows.forEach((row, number) => this.fill(this.rows_[number]!, row));
   }
 
@@ -84,6 +110,7 @@ export class OtherDevices {
     row.root.dataset.safety = SafetyState[told.safety] ?? "OFF";
     row.name.textContent = told.label;
     row.name.title = told.model;
+    row.move.setAttribute("aria-label", `Move this hand: ${told.label}`);
     row.force.textContent = told.force;
     row.rearm.hidden = row.fault.hidden = told.fault === "";
     row.fault.textContent = told.fault;
@@ -97,12 +124,15 @@ export class OtherDevices {
     };
     const row = {
       root: make("li", "safety device"), name: make("span", "safety-state"), force: make("output", "device-force"),
-      rearm: make("button", ""), fault: make("p", ""),
+      move: make("button", "small move"), rearm: make("button", ""), fault: make("p", ""),
     };
-    row.rearm.type = "button";
+    row.move.type = row.rearm.type = "button";
+    row.move.textContent = "Move";
+    row.move.title = "Move this hand with mouse, keys and gamepad";
+    row.move.addEventListener("click", () => this.actions_.choose(number));
     row.rearm.textContent = "Re-arm";
-    row.rearm.addEventListener("click", () => this.rearm_(number));
-    row.root.append(row.name, row.force, row.rearm, row.fault);
+    row.rearm.addEventListener("click", () => this.actions_.rearm(number));
+    row.root.append(row.name, row.force, row.move, row.rearm, row.fault);
     this.list_.append(row.root);
     return row;
   }

@@ -4,7 +4,8 @@
 import * as THREE from "three";
 import type { Hello, State } from "./gen/hl_pb";
 import type { ViewFrame } from "./hand_mapping";
-import { OtherDevices } from "./other_devices";
+import type { HandChoice } from "./moved_hands";
+import { OtherDevices, type DeviceActions } from "./other_devices";
 import { RemoteHands } from "./remote_hands";
 import { ServerColours } from "./shared_world";
 import { SharedWorldView } from "./shared_world_view";
@@ -15,8 +16,8 @@ export class OtherHands {
   private readonly remote_: RemoteHands;
   private readonly shared_: SharedWorldView;
 
-  constructor(rearm: (device: number) => void) {
-    this.devices_ = new OtherDevices(rearm);
+  constructor(actions: DeviceActions) {
+    this.devices_ = new OtherDevices(actions);
     const colours = new ServerColours();
     this.remote_ = new RemoteHands(colours);
     this.shared_ = new SharedWorldView(colours);
@@ -25,6 +26,10 @@ export class OtherHands {
 
   showHello(hello: Hello): void {
     this.devices_.showHello(hello);
+  }
+
+  showChoice(choice: HandChoice): void {
+    this.devices_.showChoice(choice);
   }
 
   setStylusShown(shown: boolean): void {

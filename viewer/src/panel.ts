@@ -117,7 +117,6 @@ export class Panel {
     const device = (label ? `${label}: ` : "") + (hello.device?.name || "–");
     setText("device", device);
     element("device").title = device;
-    this.showHand(hello.device?.simulatedHand ?? false);
     const slider = element<HTMLInputElement>("stiffness");
     const recommended = hello.device?.stiffnessNM ?? 0;
     const highest = hello.device?.stiffnessMaxNM || 2 * recommended;
@@ -130,8 +129,10 @@ export class Panel {
     this.showStiffness(recommended);
   }
 
-  /** What moves a simulated hand makes no sense when a person holds the device. */
-  private showHand(simulated: boolean): void {
+  /** What moves a simulated hand makes no sense when a person holds the device. `explore`: who would explore. */
+  showHand(simulated: boolean, explore: string): void {
+    this.pending_.forget("explore");
+    setText("explore-text", explore);
     document.documentElement.dataset.hand = simulated ? "simulated" : "person";
     for (const id of ["explore", "grip-light", "grip-firm"]) {
       element<HTMLInputElement>(id).disabled = !simulated;
@@ -163,8 +164,8 @@ export class Panel {
     document.title = `${name} – HL`;
   }
 
-  /** `penetration_m` as in the newest sample. */
-  showState(state: State, force_N: number, penetration_m: number | undefined): void {
+  /** `exploring`: the hand that the page moves; `penetration_m` as in the newest sample. */
+  showState(state: State, exploring: boolean, force_N: number, penetration_m: number | undefined): void {
     setText("force", formatFixed(force_N, "N", 2));
     setText("force-badge", formatFixed(force_N, "N", 2));
     setText("penetration", formatFixed(penetration_m === undefined ? undefined : penetration_m * 1e3, "mm", 2));
@@ -177,12 +178,12 @@ export class Panel {
     this.showLoop("servo", state.servo);
     this.buttons_.show(state.buttons);
     this.showSafety(state);
-    this.showSettings(state);
+    this.showSettings(state, exploring);
   }
 
-  private showSettings(state: State): void {
+  private showSettings(state: State, exploring: boolean): void {
     const now_ms = performance.now();
-    element<HTMLInputElement>("explore").checked = this.pending_.resolve<boolean>("explore", state.exploring, now_ms);
+    element<HTMLInputElement>("explore").checked = this.pending_.resolve<boolean>("explore", exploring, now_ms);
     const firm = this.pending_.resolve<boolean>("grip", state.handFirm, now_ms);
     element<HTMLInputElement>(firm ? "grip-firm" : "grip-light").checked = true;
     if (state.stiffnessNM > 0) {
@@ -294,7 +295,7 @@ export class Panel {
     }
     const ids: Readonly<Record<string, string>> = {
       e: "explore", p: "planes", c: "cones", j: "marks", m: "edges", f: "flat", d: "drop", y: "stylus", b: "bring-back", t: "pause",
-      r: "reset-view", "?": "help-open",
+      r: "reset-view", h: "next-hand", a: "together", "?": "help-open",
     };
     const id = ids[event.key.toLowerCase()];
     const away = document.documentElement.dataset.mode === "recorded";

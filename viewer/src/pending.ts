@@ -57,6 +57,11 @@ export class Pending<Value> {
     return entry.value as Said;
   }
 
+  /** The control is about something else now. */
+  forget(control: string): void {
+    this.entries_.delete(control);
+  }
+
   /** The server knows nothing of what was set before, because it is another one. */
   clear(): void {
     this.entries_.clear();

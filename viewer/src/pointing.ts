@@ -5,6 +5,7 @@ import { element, setText } from "./elements";
 import type { State } from "./gen/hl_pb";
 import { HandFinder } from "./hand_finder";
 import type { HandInput } from "./hand_input";
+import { worldPerHand, type HandState } from "./hand_state";
 import type { LiveScene } from "./live_scene";
 import { describeObject } from "./object_words";
 import { Errand, kAbove_D, Press, type SurfaceHit } from "./press";
@@ -14,7 +15,6 @@ import type { Stage } from "./stage";
 import { settingsOf } from "./surfaces";
 import { planWay, surfaceUnder, type AimScene } from "./touch_aim";
 import { length, sub, type Vec } from "./vec";
-import { knownVec } from "./wire_values";
 
 /** A press this near to the proxy or the finger is meant for the hand. */
 const kGrabRadius_px = 30;
@@ -25,16 +25,20 @@ export class Pointing {
   private readonly stage_: Stage;
   private readonly live_: LiveScene;
   private readonly state_: () => State | undefined;
+  private readonly hand_: () => HandState | undefined;
   private pointer_px_: { x: number; y: number } | undefined;
   private cut_: { side: Side; share: number } = { side: "off", share: 0.5 };
   private section_: Section | undefined;
   private finder_: HandFinder | undefined;
 
-  /** `state`: the newest one. */
-  constructor(stage: Stage, live: LiveScene, state: () => State | undefined) {
+  /** `state`: the newest one; `hand`: the one that the page moves. */
+  constructor(
+    stage: Stage, live: LiveScene, state: () => State | undefined, hand: () => HandState | undefined,
+  ) {
     this.stage_ = stage;
     this.live_ = live;
     this.state_ = state;
+    this.hand_ = hand;
     const { canvas } = stage;
     canvas.addEventListener("pointermove", ({ offsetX, offsetY }) => (this.pointer_px_ = { x: offsetX, y: offsetY }));
     canvas.addEventListener("pointerleave", () => (this.pointer_px_ = undefined));
@@ -42,8 +46,7 @@ export class Pointing {
 
   /** Metres of the scene for one of the hand. */
   get worldPerHand(): number {
-    const scale = this.live_.layout?.worldPerDevice ?? 0;
-    return scale > 0 ? scale : 1;
+    return worldPerHand(this.live_.layout, this.hand_());
   }
 
   surfaceAt(x_px: number, y_px: number): SurfaceHit | undefined {
@@ -55,7 +58,7 @@ export class Pointing {
    */
   press(x_px: number, y_px: number): Press | undefined {
     const hit = this.surfaceAt(x_px, y_px);
-    const touching = (this.state_()?.contacts.length ?? 0) > 0;
+    const touching = this.hand_()?.touching ?? false;
     if (hit === undefined || (!touching && this.isNearHand(x_px, y_px))) {
       return undefined;
     }
@@ -63,7 +66,7 @@ export class Pointing {
   }
 
   isNearHand(x_px: number, y_px: number): boolean {
-    return [knownVec(this.state_()?.proxy), knownVec(this.state_()?.finger)].some((point) => {
+    return [this.hand_()?.proxy, this.hand_()?.finger].some((point) => {
       if (point === undefined) {
         return false;
       }
@@ -102,7 +105,7 @@ export class Pointing {
   /** Points to a hand that is out of view. `known`: where the finger is, is known. */
   showFinder(known: boolean, hand: HandInput): void {
     this.finder_ ??= new HandFinder(() => this.bringBack(hand));
-    const finger = known ? knownVec(this.state_()?.finger) : undefined;
+    const finger = known ? this.hand_()?.finger : undefined;
     const distance_m = finger === undefined ? 0 : length(sub(finger, this.stage_.target));
     this.finder_.show(finger && this.stage_.project(finger), this.stage_.visible, distance_m);
   }
@@ -125,15 +128,15 @@ export class Pointing {
     return {
       model,
       bounds: () => model.bounds(store.poses),
-      proxyRadius_m: layout?.proxyRadius_m ?? 0,
+      proxyRadius_m: this.hand_()?.radius_m ?? layout?.proxyRadius_m ?? 0,
       worldPerHand: this.worldPerHand,
       section: this.section_,
     };
   }
 
   private wayTo(to: Vec): Vec[] {
-    const proxy = knownVec(this.state_()?.proxy) ?? to;
-    const finger = knownVec(this.state_()?.finger) ?? proxy;
+    const proxy = this.hand_()?.proxy ?? to;
+    const finger = this.hand_()?.finger ?? proxy;
     return planWay(this.aimScene(), proxy, sub(proxy, finger), to);
   }
 }

@@ -45,6 +45,7 @@ export class ProbeView {
   private forceMax_N_ = 10;
   private showPlanes_ = false;
   private colour_: string | undefined;
+  private aside_ = false;
 
   constructor() {
     const sphere = new THREE.SphereGeometry(1, 32, 20);
@@ -105,11 +106,18 @@ export class ProbeView {
     this.applyTheme();
   }
 
+  /** Set when the page moves another hand: proxy and ring are drawn as the finger is. */
+  setAside(aside: boolean): void {
+    if (this.aside_ === aside) return;
+    this.aside_ = aside;
+    this.applyTheme();
+  }
+
   applyTheme(): void {
     this.cones.applyTheme();
     this.drop.applyTheme();
     this.stylus.applyTheme();
-    const colour = this.colour_ ?? themeColour("proxy");
+    const colour = this.colour_ ?? themeColour(this.aside_ ? "finger" : "proxy");
     this.proxy_.material.color.set(colour);
     this.proxy_.material.emissive.set(colour).multiplyScalar(0.35);
     this.ghost_.material.color.set(colour);

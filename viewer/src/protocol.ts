@@ -53,6 +53,14 @@ export function decodeServerMessage(bytes: Uint8Array): Incoming {
   }
 }
 
+/** A unit quaternion. */
+export interface Turned {
+  readonly x: number;
+  readonly y: number;
+  readonly z: number;
+  readonly w: number;
+}
+
 export interface SettingsChange {
   explore?: boolean;
   handFirm?: boolean;
@@ -61,29 +69,30 @@ export interface SettingsChange {
   ledger?: LedgerMode;
 }
 
-export function encodeHandGoal(position: Vec): Uint8Array<ArrayBuffer> {
-  return encode({ case: "handGoal", value: { position } });
+// `device`: number of one of several, whose hand, settings or fault the message is about.
+
+export function encodeHandGoal(position: Vec, device = 0): Uint8Array<ArrayBuffer> {
+  return encode({ case: "handGoal", value: { position } }, device);
 }
 
-export function encodeRelease(): Uint8Array<ArrayBuffer> {
-  return encode({ case: "release", value: {} });
+export function encodeRelease(device = 0): Uint8Array<ArrayBuffer> {
+  return encode({ case: "release", value: {} }, device);
 }
 
 /** Absent: as it is. */
 export function encodeHandTurn(
-  turned: { x: number; y: number; z: number; w: number } | undefined, gripper_rad: number | undefined,
+  turned: Turned | undefined, gripper_rad: number | undefined, device = 0,
 ): Uint8Array<ArrayBuffer> {
   const rotation = turned && { x: turned.x, y: turned.y, z: turned.z, w: turned.w };
   return encode({ case: "handTurn", value: {
-    ...(rotation && { rotation }), ...(gripper_rad !== undefined && { gripperRad: gripper_rad }) } });
+    ...(rotation && { rotation }), ...(gripper_rad !== undefined && { gripperRad: gripper_rad }) } }, device);
 }
 
 /** Bit i: button i of the device is down. */
-export function encodePress(buttons: number): Uint8Array<ArrayBuffer> {
-  return encode({ case: "press", value: { buttons } });
+export function encodePress(buttons: number, device = 0): Uint8Array<ArrayBuffer> {
+  return encode({ case: "press", value: { buttons } }, device);
 }
 
-/** `device`: number of one of several. */
 export function encodeRearm(device = 0): Uint8Array<ArrayBuffer> {
   return encode({ case: "rearm", value: {} }, device);
 }
@@ -98,8 +107,8 @@ export function encodeIso(surface: bigint, value: number, below: boolean): Uint8
   return encode({ case: "iso", value: { surface, value, below } });
 }
 
-export function encodeSettings(change: SettingsChange): Uint8Array<ArrayBuffer> {
-  return encode({ case: "settings", value: change });
+export function encodeSettings(change: SettingsChange, device = 0): Uint8Array<ArrayBuffer> {
+  return encode({ case: "settings", value: change }, device);
 }
 
 type ViewerBody = NonNullable<Parameters<typeof create<typeof ViewerMessageSchema>>[1]>["body"];

@@ -3,7 +3,6 @@
 
 import * as THREE from "three";
 import { isEditing } from "./elements";
-import { encodeHandTurn } from "./protocol";
 import type { DeviceInfo, Stylus } from "./gen/hl_pb";
 import { kTurn_rad_px, turnedBy, turnOf, type Turn } from "./stylus_turn";
 
@@ -28,9 +27,9 @@ export class TurnInput {
   private gripper_rad_: number | undefined;
   private device_: DeviceInfo | undefined;
 
-  /** `enabled`: a simulated hand holds a device that is live. */
+  /** `tell` gets what has changed; `enabled`: a simulated hand holds a device that is live. */
   constructor(
-    private readonly send_: (message: Uint8Array<ArrayBuffer>) => void,
+    private readonly tell_: (turned: THREE.Quaternion | undefined, gripper_rad: number | undefined) => void,
     private readonly camera_: () => THREE.Quaternion,
     private readonly stylus_: () => Stylus | undefined,
     private readonly enabled_: () => boolean,
@@ -43,10 +42,10 @@ export class TurnInput {
     window.addEventListener("wheel", (event) => this.wheel(event), early);
   }
 
-  /** The device that a server tells of. */
+  /** Another device, with its gripper as it is now. */
   setDevice(device: DeviceInfo | undefined): void {
     this.device_ = device;
-    this.opened_ = false;
+    this.opened_ = this.hasGripper && (this.stylus_()?.gripperRad ?? 0) > 0.5 * device!.gripperMaxRad;
     this.letGo();
   }
 
@@ -60,7 +59,7 @@ export class TurnInput {
     if (turned === undefined && gripper_rad === undefined) return;
     this.unsent_ = false;
     this.gripper_rad_ = undefined;
-    this.send_(encodeHandTurn(turned, gripper_rad));
+    this.tell_(turned, gripper_rad);
   }
 
   private letGo(): void {

@@ -1,6 +1,6 @@
 import { create } from "@bufbuild/protobuf";
 import { describe, expect, it } from "vitest";
-import { deviceRows } from "../src/device_rows";
+import { deviceRows, exploreText } from "../src/device_rows";
 import { HelloSchema, SafetyState, StateSchema } from "../src/gen/hl_pb";
 
 describe("rows of devices", () => {
@@ -28,5 +28,12 @@ describe("rows of devices", () => {
 
   it("are those that the state tells, as in a recording of one", () => {
     expect(deviceRows(hello, create(StateSchema, {}))).toHaveLength(1);
+  });
+
+  it("have one control to explore by, which says for which hand", () => {
+    const choice = { simulated: [0, 1], chosen: 1, together: false };
+    expect(exploreText(choice, "right")).toBe("Explore by itself: right");
+    expect(exploreText({ ...choice, together: true }, "right")).toBe("All explore by themselves");
+    expect(exploreText({ ...choice, simulated: [1] }, "right")).toBe("Explore by itself");
   });
 });

@@ -56,6 +56,15 @@ test("not set is a choice too", () => {
   expect(pending.resolve<number | undefined>("friction", 0.3, 10)).toBeUndefined();
 });
 
+test("a control that is about something else has nothing pending, the others have", () => {
+  const pending = new Pending<boolean>();
+  pending.set("explore", true, 0);
+  pending.set("grip", true, 0);
+  pending.forget("explore");
+  expect(pending.resolve("explore", false, 1)).toBe(false);
+  expect(pending.resolve("grip", false, 1)).toBe(true);
+});
+
 test("another server starts with nothing pending", () => {
   const pending = new Pending<number>();
   pending.set("friction", 0.8, 0);
