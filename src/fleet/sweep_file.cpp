@@ -10,6 +10,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/plain_file.h"
 #include "fleet/nearest_name.h"
 
 namespace hl {
@@ -61,11 +62,11 @@ class SweepReader {
   [[noreturn]] void fail(const toml::node& node, const std::string& message) const { failAt(lineOf(node), message); }
 
   toml::table parse() const {
+    checkPlainFile(path_);
     try {
       return toml::parse_file(path_);
     } catch (const toml::parse_error& error) {
       const std::string what(error.description());
-      if (error.source().begin.line == 0) throw Error(path_ + ": cannot be read");
       failAt(error.source().begin.line, "this is not TOML: " + what);
     }
   }

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/finger_reach.h"
+#include "base/plain_file.h"
 #include "base/turn.h"
 #include "io/text_words.h"
 
@@ -71,8 +72,8 @@ std::string faultOf(PathSample& sample, const std::vector<PathSample>& before) {
 }  // namespace
 
 std::vector<PathSample> readPath(const std::string& file) {
+  checkPlainFile(file);
   std::ifstream in(file);
-  if (!in) throw Error(file + ": cannot be read");
   std::string line;
   std::getline(in, line);
   if (line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);

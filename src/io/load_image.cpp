@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/plain_file.h"
 #include "io/file_ending.h"
 #include "io/isolated.h"
 
@@ -104,8 +105,7 @@ void checkIsImage(const std::string& path) {
   const std::string ending = endingOf(path);
   if (ending != ".png" && ending != ".jpg" && ending != ".jpeg")
     throw Error(path + ": images must end in .png, .jpg or .jpeg");
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) throw Error(path + ": there is no such file");
+  checkPlainFile(path);
 }
 
 }  // namespace

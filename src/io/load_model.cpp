@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/plain_file.h"
 #include "io/file_ending.h"
 #include "io/isolated.h"
 #include "io/read_clouds.h"
@@ -27,11 +28,8 @@ bool coinReads(const std::string& ending) {
 }
 
 void checkReadable(const std::string& path) {
+  checkPlainFile(path);
   std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw Error(path + ": there is no such file");
-  if (!std::filesystem::is_regular_file(status)) throw Error(path + ": is not a file");
-  if (!std::ifstream(path, std::ios::binary)) throw Error(path + ": may not be read");
   if (std::filesystem::file_size(path, error) == 0) throw Error(path + ": is empty");
 }
 

@@ -14,7 +14,9 @@ SceneModel loadScene(const std::string& spec, const LoadOptions& options) {
   if (!options.grid.empty() && !readsVdb(endingOf(spec))) throw Error(spec + ": " + kNoGrids);
   if (isSceneFile(spec)) return loadSceneFile(spec, options);
   if (isBuiltinScene(spec)) return makeBuiltinWorld(spec);
-  const bool looks_like_a_file = spec.find_first_of("./") != std::string::npos || std::filesystem::exists(spec);
+  std::error_code failed;
+  const auto status = std::filesystem::symlink_status(spec, failed);
+  const bool looks_like_a_file = spec.find_first_of("./") != std::string::npos || std::filesystem::exists(status);
   if (!looks_like_a_file) return makeBuiltinScene(spec);  // throws, with the list
   return loadModelScene(spec, options);
 }

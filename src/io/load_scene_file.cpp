@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/plain_file.h"
 #include "bodies/mesh_body.h"
 #include "builtin.h"
 #include "io/decode_scene.h"
@@ -36,8 +37,8 @@ constexpr double kMostGravity_m_s2 = 1000;
 constexpr const char* kAlone = "names another file, and this one comes alone";
 
 std::string readText(const std::string& path) {
+  checkPlainFile(path);
   std::error_code error;
-  if (!fs::is_regular_file(path, error)) throw Error(path + ": there is no such file");
   if (fs::file_size(path, error) > kMaxFileBytes)
     throw Error(path + ": is larger than 64 MB; put meshes in model files");
   std::ifstream in(path, std::ios::binary);

@@ -11,6 +11,7 @@
 #include <unordered_set>
 
 #include "base/error.h"
+#include "base/plain_file.h"
 #include "builtin.h"
 #include "io/byte_file.h"
 #include "io/cad_file.h"
@@ -211,7 +212,7 @@ std::vector<SceneInput> sceneInputs(const std::string& spec) {
   std::error_code failed;
   if (isBuiltinScene(spec) || (spec.find_first_of("./") == std::string::npos && !fs::exists(spec, failed))) return {};
   const fs::path path = fs::path(spec).lexically_normal();
-  if (!fs::exists(path, failed)) throw Error(spec + ": there is no such file");
+  if (!fs::is_directory(path, failed)) checkPlainFile(spec);
   InputCollector collector(path);
   collector.add(path);
   return collector.take(path);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/plain_file.h"
 
 namespace hl {
 
@@ -37,6 +38,7 @@ std::string sha256Of(std::string_view text) {
 }
 
 std::string sha256OfFile(const std::string& path) {
+  checkPlainFile(path);
   constexpr std::size_t kPiece_bytes = 1 << 20;
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rbe"), std::fclose);
   if (!file) throw Error(path + ": cannot be read: " + std::strerror(errno));

@@ -247,7 +247,7 @@ class Sweeps(unittest.TestCase):
         for call, said in (
                 (broken.call(), "broken.toml:4: there is no 'stifness' in options: is 'stiffness' meant?"),
                 (beyond.call(), "beyond.toml:5: --stiffness: '2' is not a number from 0 to 1"),
-                (missing.call(), "none.csv: cannot be read"),
+                (missing.call(), "none.csv: there is no such file"),
                 (sweep.call("--jobs", 0), "--jobs"),
                 (sweep.call("--part", "3/3"), "is not K/N"),
                 (sweep.call("--part", "x"), "is not K/N"),

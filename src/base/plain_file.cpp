@@ -1,0 +1,21 @@
+#include "base/plain_file.h"
+
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include "base/error.h"
+
+namespace hl {
+
+void checkPlainFile(const std::string& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) throw Error(path + ": there is no such file");
+  if (error) throw Error(path + ": may not be read: " + error.message());
+  if (std::filesystem::is_directory(status)) throw Error(path + ": is a folder");
+  if (!std::filesystem::is_regular_file(status)) throw Error(path + ": is not a file");
+  if (!std::ifstream(path, std::ios::binary)) throw Error(path + ": may not be read");
+}
+
+}  // namespace hl
