@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -60,6 +61,25 @@ HierarchyKind hierarchyOf(const SceneOptions& options);
 CLI::Validator within(double least, double most);
 /// The same: a finite number above zero.
 CLI::Validator positive();
+/// A plain file that may be read.
+CLI::Validator plainFile();
+/// What is wrong with a text that is none of these words.
+std::string noneOf(const std::string& text, const std::string& words);
+/// CLI transform: one of these words, for its value. CLI::CheckedTransformer takes the numbers of an enumeration too.
+template <typename Value>
+CLI::Validator oneOf(const std::map<std::string, Value>& values) {
+  return {[values](std::string& text) {
+            const auto found = values.find(text);
+            if (found == values.end())
+              return noneOf(text, CLI::detail::join(
+                                      values, [](const auto& v) { return v.first; }, ", "));
+            text = CLI::detail::value_string(found->second);
+            return std::string();
+          },
+          ""};
+}
+/// What CLI11 says of a wrong option, in words that say what to do.
+std::string told(const CLI::ParseError& error);
 
 // What numbers on the command line may be, so that no product of them, lengths and speeds leaves the range of doubles.
 inline constexpr double kMinNumber = 1e-9, kMaxNumber = 1e9, kMinRadius_m = 1e-12;

@@ -1,13 +1,16 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <regex>
 #include <utility>
 
 #include "base/error.h"
 #include "base/machine_memory.h"
+#include "base/plain_file.h"
 #include "builtin.h"
 #include "commands.h"
 #include "io/load_scene.h"
@@ -122,7 +125,7 @@ void addSurfaceOptions(CLI::App& command, MaterialOverride& surfaces, LedgerMode
   const std::map<std::string, LedgerMode> ledgers{
       {"tank", LedgerMode::kTank}, {"strict", LedgerMode::kStrict}, {"report", LedgerMode::kReport}};
   command.add_option("--shade", surfaces.smooth, "flat: true facets; smooth: forces along interpolated vertex normals")
-      ->transform(CLI::CheckedTransformer(shades))
+      ->transform(oneOf(shades))
       ->option_text("flat|smooth (default: the scene's; flat for model files)");
   for (std::size_t i = 0; i < kNumbers; ++i) {
     const QuantityInfo& info = kQuantityInfo[i];
@@ -133,11 +136,11 @@ void addSurfaceOptions(CLI::App& command, MaterialOverride& surfaces, LedgerMode
             fmt::format("0..{:g}{} (default: the scene's; {:g} for model files)", info.most, unit, info.otherwise));
   }
   command.add_option("--textures", surfaces.textures, "read the scene's textures, or leave them out")
-      ->transform(CLI::CheckedTransformer(switches))
+      ->transform(oneOf(switches))
       ->option_text("on|off (default: on)");
   command
       .add_option("--ledger", ledger, "energy that the surfaces may add: from a tank of 10 mJ, none, or any, counted")
-      ->transform(CLI::CheckedTransformer(ledgers))
+      ->transform(oneOf(ledgers))
       ->option_text("tank|strict|report (default: tank)");
 }
 
@@ -168,6 +171,30 @@ CLI::Validator within(double least, double most) {
             return good ? std::string() : "'" + text + "' is not a number from " + range;
           },
           range};
+}
+
+std::string noneOf(const std::string& text, const std::string& words) { return "'" + text + "' is none of " + words; }
+
+CLI::Validator plainFile() {
+  return {[](const std::string& path) {
+            try {
+              checkPlainFile(path);
+              return std::string();
+            } catch (const Error& error) {
+              return std::string(error.what());
+            }
+          },
+          ""};
+}
+
+std::string told(const CLI::ParseError& error) {
+  static const std::array<std::pair<std::regex, const char*>, 3> kWords{
+      {{std::regex("^(.*): At Most 1 required but received ([0-9]+)$"), "$1 is given $2 times: give it once"},
+       {std::regex("^(.*): 1 required .* missing$"), "$1 needs a value"},
+       {std::regex("^Could not convert: (.*) = (.*)$"), "$1: '$2' is not a number"}}};
+  std::string text = error.what();
+  for (const auto& [from, to] : kWords) text = std::regex_replace(text, from, to);
+  return text;
 }
 
 CLI::Validator positive() {

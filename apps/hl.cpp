@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
     return failed.get_exit_code();
   } catch (const CLI::ParseError& error) {
     const bool unknown = argc > 1 && app.get_subcommands().empty();
-    fmt::print(stderr, "hl: {} (try --help)\n", unknown ? unknownCommand(app, argv[1]) : error.what());
+    fmt::print(stderr, "hl: {} (try --help)\n", unknown ? unknownCommand(app, argv[1]) : hl::told(error));
     return 2;
   } catch (const hl::Error& error) {
     fmt::print(stderr, "hl: {}\n", error.what());

@@ -3,10 +3,12 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 
 #include "base/error.h"
 #include "base/realtime.h"
+#include "base/utf8.h"
 #include "hld_options.h"
 #include "monitor/ros_metrics.h"
 #include "monitor/share_metrics.h"
@@ -143,10 +145,23 @@ namespace {
 // With the file that options are read from, where there is one.
 std::string told(const CLI::App& app, const CLI::ParseError& error) {
   constexpr std::string_view kUnknown = "INI was not able to parse ";
-  std::string text = error.what();
+  std::string text = hl::told(error);
   if (text.starts_with(kUnknown)) text = "there is no option '" + text.substr(kUnknown.size()) + "'";
+  text = hl::validUtf8(text);
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, '?');
   const CLI::Option* const config = app.get_config_ptr();
-  return config->empty() ? text : text + ", on the command line or in " + config->as<std::string>();
+  const bool of_file = !config->empty() && text.find("--config") == std::string::npos;
+  return of_file ? text + ", on the command line or in " + config->as<std::string>() : text;
+}
+
+// As an unset variable of a shell makes it: without this check a token file that has no name would be none.
+void refuseEmpty(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    const auto& words = option->results();
+    if (std::find(words.begin(), words.end(), "") != words.end())
+      throw hl::Error(option->get_name() + " is empty: say what it is, or leave it out");
+  }
 }
 
 }  // namespace
@@ -159,6 +174,7 @@ int main(int argc, char** argv) {
   hl::addHldOptions(app, options);
   try {
     app.parse(argc, argv);
+    refuseEmpty(app);
     hl::serve(options);
   } catch (const CLI::Success& asked) {  // --help, --version
     return app.exit(asked);

@@ -95,11 +95,11 @@ void addLogOptions(CLI::App& app, HldOptions& options) {
                                                {"error", LogLevel::kError}};
   const std::map<std::string, LogFormat> formats{{"keyvalue", LogFormat::kKeyValue}, {"json", LogFormat::kJson}};
   app.add_option("--log-level", options.log_level, "what is written to stderr")
-      ->transform(CLI::CheckedTransformer(levels))
+      ->transform(oneOf(levels))
       ->option_text("debug|info|warning|error (default: info)")
       ->group("Log");
   app.add_option("--log-format", options.log_format, "one line an event, as key=value or as JSON")
-      ->transform(CLI::CheckedTransformer(formats))
+      ->transform(oneOf(formats))
       ->option_text("keyvalue|json (default: keyvalue)")
       ->group("Log");
 }
@@ -108,7 +108,8 @@ void addLogOptions(CLI::App& app, HldOptions& options) {
 
 void addHldOptions(CLI::App& app, HldOptions& options) {
   options.scene.scene.clear();
-  app.set_config("--config", "", "read options from this file, one 'name = value' a line; the command line wins");
+  app.set_config("--config", "", "read options from this file, one 'name = value' a line; the command line wins")
+      ->check(plainFile());
   app.allow_config_extras(CLI::config_extras_mode::error);  // a misspelt name is no silent default
   app.add_option("--scene", options.scene.scene, "a model or scene file, or a built-in scene, to begin with");
   addHierarchyOption(app, options.scene);

@@ -27,6 +27,18 @@ ServerId randomId() {
   return id;
 }
 
+CLI::Validator shareName() {
+  return {[](const std::string& name) {
+            try {
+              checkShareName(name, "the name");
+              return std::string();
+            } catch (const Error& error) {
+              return std::string(error.what());
+            }
+          },
+          ""};
+}
+
 }  // namespace
 
 void addShareOptions(CLI::App& app, ShareOptions& options) {
@@ -36,10 +48,12 @@ void addShareOptions(CLI::App& app, ShareOptions& options) {
   app.add_option("--share", options.world,
                  "share the scene and the hands with the other servers of this world, in the domain ROS_DOMAIN_ID: "
                  "needs hl-share")
+      ->check(shareName())
       ->option_text("WORLD")
       ->group("Shared worlds");
   add("--share-name", options.name, "what this server is called there, one in the world (default: as the machine is)",
-      "NAME");
+      "NAME")
+      ->check(shareName());
   add("--share-adopt", options.adopt, "whether it takes over what a server leaves behind that is lost [on]", "on|off")
       ->check(CLI::IsMember({"on", "off"}));
   addReachOptions(app, options.reach, kShareUse,
@@ -50,10 +64,8 @@ void addShareOptions(CLI::App& app, ShareOptions& options) {
 std::unique_ptr<ShareBridge> makeShareBridge(const ShareOptions& options, TouchServer& server,
                                              ShareBridge::TellPerson tell) {
   if (options.world.empty()) return nullptr;
-  checkShareName(options.world, "--share");
   checkReach(options.reach, kShareUse);
   const std::string name = options.name.empty() ? shareNameLike(machineName()) : options.name;
-  checkShareName(name, "--share-name");
   const ShareSelf self{randomId(), name, options.adopt == "on", HL_VERSION};
   const ShareTask task{HL_VERSION, ddsDomain(), options.world, self.id, options.reach};
   return std::make_unique<ShareBridge>(std::make_unique<ShareProcess>(task), options.world, self, server,

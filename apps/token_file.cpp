@@ -1,5 +1,6 @@
 #include "token_file.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -9,9 +10,12 @@
 namespace hl {
 
 std::string readTokenFile(const std::string& file) {
-  std::ifstream in(file);
-  std::string line;
-  if (!in || !std::getline(in, line)) throw Error(file + ": no token can be read from it");
+  constexpr std::size_t kMost_bytes = 4096;  // a device has no end
+  std::ifstream in(file, std::ios::binary);
+  std::string line(kMost_bytes, ' ');
+  in.read(line.data(), static_cast<std::streamsize>(line.size()));
+  if (in.gcount() <= 0) throw Error(file + ": no token can be read from it");
+  line.resize(std::min(static_cast<std::size_t>(in.gcount()), line.find('\n')));
   constexpr const char* kSpace = " \t\r";
   line.erase(0, line.find_first_not_of(kSpace));
   line.erase(line.find_last_not_of(kSpace) + 1);

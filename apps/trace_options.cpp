@@ -44,7 +44,7 @@ void addTraceOptions(CLI::App& command, TraceOptions& options) {
   const std::map<std::string, ShadingPasses> passes{{"converged", ShadingPasses::kConverged},
                                                     {"once", ShadingPasses::kOnce}};
   command.add_option("--shading-passes", proxy.shading, "how often the two passes of shading run in one tick")
-      ->transform(CLI::CheckedTransformer(passes))
+      ->transform(oneOf(passes))
       ->option_text("converged|once (default: converged)");
   addSizeOptions(command, options.scene);
   addHierarchyOption(command, options.scene);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -45,6 +46,38 @@ TEST(Command, AVolumeWithoutASurfaceSaysWhatItsValuesAre) {
   EXPECT_EQ(other.code, 2);
   EXPECT_NE(other.output.find("there is no surface at iso 50000: its values are from -1000 to "), std::string::npos)
       << other.output;
+}
+
+TEST(Command, AWordThatIsNoneOfAnOptionIsToldWithThoseThatAre) {
+  const std::string trace = "trace teapot --path " + hl::test::fileWith("p.csv", "t,x,y,z\n0,0,1,0\n") + " --out " +
+                            hl::test::tempFile("o.csv") + " ";
+  EXPECT_EQ(call(trace + "--shade smooth --ledger report --textures off").code, 0);
+  for (const auto& [option, line] :
+       {std::pair{"--shade WRONG", "--shade: 'WRONG' is none of flat, smooth (try --help)"},
+        {"--shade 1", "--shade: '1' is none of flat, smooth (try --help)"},
+        {"--ledger 1", "--ledger: '1' is none of report, strict, tank (try --help)"},
+        {"--textures maybe", "--textures: 'maybe' is none of off, on (try --help)"},
+        {"--kp 1 --kp 2", "--kp is given 2 times: give it once (try --help)"},
+        {"--iso x", "--iso: 'x' is not a number (try --help)"},
+        {"--kp", "--kp needs a value (try --help)"}}) {
+    const Result result = call(trace + option);
+    EXPECT_EQ(result.code, 2) << option;
+    EXPECT_EQ(result.output, std::string("hl: ") + line + "\n");
+  }
+}
+
+TEST(Command, WhatIsNoFileIsNotWaitedFor) {
+  std::filesystem::create_symlink("circle", hl::test::tempFile("circle"));
+  const std::string trace = "trace teapot --out " + hl::test::tempFile("o.csv") + " --path ";
+  for (const std::string& one : {std::string("info "), std::string("sweep "), trace}) {
+    for (const std::string& file : {std::string("/dev/zero"), hl::test::tempFile("circle")}) {
+      const Result result = call(one + file);
+      EXPECT_EQ(result.code, 2) << one;
+      EXPECT_TRUE(result.output.starts_with("hl: " + file + ": ")) << result.output;
+    }
+  }
+  const std::string sweep = hl::test::fileWith("s.toml", "scenes = \"/dev/zero\"\npaths = \"/dev/zero\"\n");
+  EXPECT_EQ(call("sweep " + sweep).output, "hl: /dev/zero: is not a file\n");
 }
 
 TEST(Command, HelpForEachCommand) {

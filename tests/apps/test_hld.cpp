@@ -198,12 +198,20 @@ TEST(Hld, WithoutHlRosItSaysWhatToInstall) {
 
 TEST(Hld, BadInputIsOneLineAndExitCodeTwo) {
   const std::string misspelt = fileWith("misspelt.conf", "lissten = \"127.0.0.1\"\n");
+  const std::string binary = fileWith("binary.conf", "na\x01me\xff = 3\n");
   const std::string bad_token = fileWith("bad_token", "short\n");
   const std::vector<std::vector<std::string>> cases = {{"--listen", "0.0.0.0"},
                                                        {"--listen", "nowhere"},
                                                        {"--port", "70000"},
                                                        {"--config", "/nonexistent"},
+                                                       {"--config", "/dev/zero"},
                                                        {"--config", misspelt},
+                                                       {"--config", binary},
+                                                       {"--share", ""},
+                                                       {"--share", "lab", "--share-name", "a b"},
+                                                       {"--share", "lab", "--share-name", ""},
+                                                       {"--token-file", ""},
+                                                       {"--token-file", "/dev/zero"},
                                                        {"--token-file", "/nonexistent"},
                                                        {"--token-file", bad_token},
                                                        {"--scene", "nosuch"},
