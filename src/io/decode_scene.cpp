@@ -58,8 +58,7 @@ double SceneDecoder::checked(double value, double least, double most, const std:
 
 std::uint32_t SceneDecoder::vertex(const Model& model, std::uint32_t index, const std::string& where) const {
   if (index < model.positions.size()) return index;
-  fail(where, where + ": there is no vertex " + std::to_string(index) + "; the last is " +
-                  std::to_string(model.positions.size()) + " - 1");
+  fail(where, fmt::format("{}: there is no vertex {}: there are {}, from 0", where, index, model.positions.size()));
 }
 
 void SceneDecoder::addVertices(Model& model, const proto::Primitives& in, const std::string& where) const {

@@ -20,6 +20,7 @@
 #include "io/decode_scene.h"
 #include "io/file_ending.h"
 #include "io/json_lines.h"
+#include "io/json_words.h"
 #include "io/load_image.h"
 #include "io/scene_surfaces.h"
 #include "scene/append_part.h"
@@ -131,13 +132,16 @@ void SceneFile::parse() {
   const std::size_t open = message.find('('), close = message.find(')');
   if (open != 0 || close == std::string::npos) {
     const std::size_t colon = message.find(": Cannot find field");
-    fail(colon == std::string::npos ? "" : message.substr(0, colon), message);
+    if (colon == std::string::npos) fail("", message);
+    fail(message.substr(0, colon), message.substr(0, colon) + ": " + plainJsonWords(message.substr(colon + 2)));
   }
   std::string where = message.substr(1, close - 1);
   std::string rest = message.substr(close + 1);
   const std::size_t colon = rest.find(':');
   if (rest.starts_with(' ') && colon != std::string::npos) where += "." + rest.substr(1, colon - 1);
-  fail(where, where + rest.substr(colon == std::string::npos ? 0 : colon));
+  const std::string said = colon == std::string::npos ? rest : rest.substr(colon + 1);
+  fail(where,
+       jsonPlace(where) + ": " + plainJsonWords(said.substr(std::min(said.size(), said.find_first_not_of(' ')))));
 }
 
 // JSON may write "NaN" and "Infinity" as strings, and protobuf takes them for numbers.
@@ -392,6 +396,7 @@ void SceneFile::checkPlaces(const SceneModel& scene) const {
 
 // Numbers from 1, as a scene's joints have them.
 std::uint64_t SceneFile::bodyNamed(const std::string& name, const SceneModel& scene, const std::string& where) const {
+  if (name.empty()) fail(where, where + " must name a body");
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     if (scene.bodies[i].name == name) return i + 1;
   }

@@ -22,7 +22,7 @@ namespace hl {
 namespace {
 
 constexpr std::size_t kMaxTextures = 10'000, kMaxMaterials = 0xffff, kMaxWarnings = 1000, kLongestLine = 1000;
-constexpr std::size_t kMaxObjects = 60'000;  // as of a scene file
+constexpr std::size_t kMaxSceneObjects = 60'000;  // as of a scene file
 
 // As errors and warnings are: one line, of a length to be read.
 std::string oneLine(const std::string& text) {
@@ -248,7 +248,7 @@ void PartCollector::addWarning(const std::string& warning) {
 
 void PartCollector::addSurface(const proto::ReadSurface& surface) {
   if (in_body_ || in_surface_) throw Error("it has a surface within another thing");
-  if (scene_.surfaces.size() >= kMaxObjects) throw Error("it has too many surfaces");
+  if (scene_.surfaces.size() >= kMaxSceneObjects) throw Error("it has too many surfaces");
   scene_.surfaces.push_back({oneLine(surface.name()), nullptr});
   scene_.surfaces.back().repeat = repeatIn(surface.repeat());
   in_surface_ = true;
@@ -324,7 +324,7 @@ void PartCollector::addBody(const proto::RecordedBody& body) {
   if (in_body_) throw Error("it has a body without a mesh");
   scene_.bodies.push_back(sceneBodyOf(body));
   moving_bodies_ += scene_.bodies.back().spec.fixed ? 0 : 1;
-  if (moving_bodies_ > kMostBodies || scene_.bodies.size() > kMaxObjects) throw Error("it has too many bodies");
+  if (moving_bodies_ > kMostBodies || scene_.bodies.size() > kMaxSceneObjects) throw Error("it has too many bodies");
   in_body_ = true;
 }
 

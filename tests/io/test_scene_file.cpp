@@ -641,6 +641,28 @@ TEST(SceneFile, ErrorsNameTheLine) {
   expect(std::string(100, '['), "1", "nested deeper");
 }
 
+// In the words of this file's users: those of the program that reads JSON are for programmers.
+TEST(SceneFile, AValueOfAnotherKindIsToldWithWhatToWrite) {
+  const auto told = [](const std::string& object, const std::string& more = "") {
+    return afterFile(refusalOf("{\"objects\": [{\"builtin\": \"sphere:100\"," + object + "}]" + more + "}"));
+  };
+  const std::string at = ":1: objects[0].";
+  EXPECT_EQ(told(R"("material": {"shade": "smooth"})"), at + "material.shade: \"smooth\" is none of SMOOTH, FLAT");
+  EXPECT_EQ(told(R"("material": {"shade": ["FLAT"]})"), at + "material.shade: it must not be a list");
+  EXPECT_EQ(told(R"("material": {"stiffness": "high"})"), at + "material.stiffness: \"high\" is not a number");
+  EXPECT_EQ(told(R"("primitives": {})"),
+            ":1: objects[0]: of the values that exclude each other there is another one already");
+  EXPECT_EQ(told(R"("body": {"velocityMS": 3})"),
+            at + R"(body.velocityMS: 3 must be an object: {"x": .., "y": .., "z": ..})");
+  EXPECT_EQ(told(R"("body": {"shape": "CONE"})"),
+            at + R"(body.shape: "CONE" is none of HULL, BOX, BALL, CAPSULE, CYLINDER, PARTS)");
+  EXPECT_EQ(told(R"("material": {"stifness": 1})"), at + "material.stifness: there is no such name");
+  EXPECT_EQ(told(R"("body": {})", R"(, "gravityMS2": -9.81)"),
+            R"(:1: gravityMS2: -9.81 must be an object: {"x": .., "y": .., "z": ..})");
+  EXPECT_EQ(told(R"("body": {})", R"(, "joints": [{"kind": "HINGE", "axis": {"y": 1}}])"),
+            ":1: joints[0].bodyA must name a body");
+}
+
 TEST(SceneFile, ASceneOfTooManyPrimitivesIsRefusedOnTheLineThatIsTooMuch) {
   LoadOptions options;
   options.most_primitives = 5000;

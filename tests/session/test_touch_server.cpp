@@ -379,7 +379,7 @@ TEST_F(TouchServerTest, ARefusedFrameChangesNothingAndTheNextIsShown) {
   client.send(bad);
   ASSERT_TRUE(client.until([&] { return client.refusal_.frame() == bad.number(); }));
   EXPECT_EQ(client.refusal_.text(),
-            "object 4, items[0].primitives.triangles: there is no vertex 77; the last is 4 - 1");
+            "object 4, items[0].primitives.triangles: there is no vertex 77: there are 4, from 0");
   EXPECT_FALSE(client.refusal_.fatal());
   EXPECT_EQ(server_.device().snapshot()->bounds.max.y(), 0);
   client.send(bad);

@@ -1,0 +1,71 @@
+#include "io/json_words.h"
+
+#include <google/protobuf/descriptor.h>
+
+#include <array>
+#include <cctype>
+#include <string_view>
+#include <utility>
+
+namespace hl {
+
+namespace {
+
+constexpr std::string_view kUrl = "type.googleapis.com/";
+
+std::string namesIn(const google::protobuf::EnumDescriptor& kinds) {
+  std::string names;
+  for (int i = 0; i < kinds.value_count(); ++i) names += (i > 0 ? ", " : "") + kinds.value(i)->name();
+  return names;
+}
+
+std::string membersOf(const google::protobuf::Descriptor& message) {
+  std::string members;
+  for (int i = 0; i < message.field_count(); ++i)
+    members += (i > 0 ? ", \"" : "\"") + message.field(i)->json_name() + "\": ..";
+  return members;
+}
+
+std::string needOf(const std::string& type) {
+  constexpr std::array<std::pair<std::string_view, const char*>, 6> kNeeds{
+      {{"TYPE_DOUBLE", "is not a number"},
+       {"TYPE_FLOAT", "is not a number"},
+       {"TYPE_UINT32", "is not a whole number from 0"},
+       {"TYPE_INT32", "is not a whole number"},
+       {"TYPE_BOOL", "is not true or false"},
+       {"TYPE_BYTES", "is not a text in base64"}}};
+  for (const auto& [name, need] : kNeeds) {
+    if (type == name) return need;
+  }
+  if (!type.starts_with(kUrl)) return "cannot be here";
+  const auto* const pool = google::protobuf::DescriptorPool::generated_pool();
+  const std::string name = type.substr(kUrl.size());
+  if (const auto* const kinds = pool->FindEnumTypeByName(name)) return "is none of " + namesIn(*kinds);
+  const auto* const message = pool->FindMessageTypeByName(name);
+  return message == nullptr ? "cannot be here" : "must be an object: {" + membersOf(*message) + "}";
+}
+
+}  // namespace
+
+std::string plainJsonWords(const std::string& said) {
+  constexpr std::string_view kInvalid = "invalid value ", kFor = " for type ";
+  if (said.starts_with("Cannot find field")) return "there is no such name";
+  if (said.find("cannot start list") != said.npos) return "it must not be a list";
+  if (said.find("oneof field") != said.npos)
+    return "of the values that exclude each other there is another one already";
+  const std::size_t type = said.rfind(kFor);
+  if (!said.starts_with(kInvalid) || type == said.npos) return said;
+  return said.substr(kInvalid.size(), type - kInvalid.size()) + " " + needOf(said.substr(type + kFor.size()));
+}
+
+std::string jsonPlace(const std::string& place) {
+  std::string names;
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    const bool joins =
+        place[i] == '_' && i + 1 < place.size() && std::isalnum(static_cast<unsigned char>(place[i + 1])) != 0;
+    names += joins ? static_cast<char>(std::toupper(static_cast<unsigned char>(place[++i]))) : place[i];
+  }
+  return names;
+}
+
+}  // namespace hl
