@@ -1,11 +1,10 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <map>
-#include <regex>
+#include <string_view>
 #include <utility>
 
 #include "base/error.h"
@@ -188,13 +187,22 @@ CLI::Validator plainFile() {
 }
 
 std::string told(const CLI::ParseError& error) {
-  static const std::array<std::pair<std::regex, const char*>, 3> kWords{
-      {{std::regex("^(.*): At Most 1 required but received ([0-9]+)$"), "$1 is given $2 times: give it once"},
-       {std::regex("^(.*): 1 required .* missing$"), "$1 needs a value"},
-       {std::regex("^Could not convert: (.*) = (.*)$"), "$1: '$2' is not a number"}}};
-  std::string text = error.what();
-  for (const auto& [from, to] : kWords) text = std::regex_replace(text, from, to);
-  return text;
+  constexpr std::string_view kTwice = ": At Most 1 required but received ", kNone = ": 1 required ",
+                             kExtra = " not expected: ", kNoNumber = "Could not convert: ", kIs = " = ";
+  const std::string text = error.what();
+  if (const std::size_t at = text.find(kTwice); at != text.npos)
+    return text.substr(0, at) + " is given " + text.substr(at + kTwice.size()) + " times: give it once";
+  if (const std::size_t at = text.find(kNone); at != text.npos && text.ends_with(" missing"))
+    return text.substr(0, at) + " needs a value";
+  if (const std::size_t at = text.find(kIs); at != text.npos && text.starts_with(kNoNumber))
+    return text.substr(kNoNumber.size(), at - kNoNumber.size()) + ": '" + text.substr(at + kIs.size()) +
+           "' is not a number";
+  const std::size_t at = text.find(kExtra);
+  if (!text.starts_with("The following argument") || at == text.npos) return text;
+  const std::string words = " " + text.substr(at + kExtra.size());  // the last one first
+  const std::size_t option = words.find(" -");
+  if (option == words.npos) return "'" + words.substr(1) + "' is too much here";
+  return "there is no option '" + words.substr(option + 1, words.find(' ', option + 1) - option - 1) + "' here";
 }
 
 CLI::Validator positive() {

@@ -58,6 +58,8 @@ TEST(Command, AWordThatIsNoneOfAnOptionIsToldWithThoseThatAre) {
         {"--ledger 1", "--ledger: '1' is none of report, strict, tank (try --help)"},
         {"--textures maybe", "--textures: 'maybe' is none of off, on (try --help)"},
         {"--kp 1 --kp 2", "--kp is given 2 times: give it once (try --help)"},
+        {"--fitt 2", "there is no option '--fitt' here (try --help)"},
+        {"walker", "'walker' is too much here (try --help)"},
         {"--iso x", "--iso: 'x' is not a number (try --help)"},
         {"--kp", "--kp needs a value (try --help)"}}) {
     const Result result = call(trace + option);
@@ -65,6 +67,8 @@ TEST(Command, AWordThatIsNoneOfAnOptionIsToldWithThoseThatAre) {
     EXPECT_EQ(result.output, std::string("hl: ") + line + "\n");
   }
 }
+
+TEST(Command, AWordOfAnyLengthIsAnError) { EXPECT_EQ(call("touch --" + std::string(100'000, 'x')).code, 2); }
 
 TEST(Command, WhatIsNoFileIsNotWaitedFor) {
   std::filesystem::create_symlink("circle", hl::test::tempFile("circle"));
