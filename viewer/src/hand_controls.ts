@@ -60,18 +60,15 @@ export class HandControls {
   }
 
   choose(device: number): void {
-    this.input.cancel();
-    this.hands.choose(device);
+    this.change(() => this.hands.choose(device));
   }
 
   chooseNext(): void {
-    this.input.cancel();
-    this.hands.chooseNext();
+    this.change(() => this.hands.chooseNext());
   }
 
   toggleTogether(): void {
-    this.input.cancel();
-    this.hands.setTogether(!this.hands.choice.together);
+    this.change(() => this.hands.setTogether(!this.hands.choice.together));
   }
 
   /** Another scene has taken the place of the one that the hands touched. */
@@ -92,6 +89,14 @@ export class HandControls {
     this.input.frame();
     this.hands.frame(now_ms);
     this.turn_.frame();
+  }
+
+  /** What is held is left first. One hand alone is no choice: its hold goes on. */
+  private change(act: () => void): void {
+    if (this.hands.choice.simulated.length > 1) {
+      this.input.cancel();
+      act();
+    }
   }
 
   private enable(): void {
