@@ -5,6 +5,7 @@
 
 #include "bodies/free_motion.h"
 #include "bodies/joint_groups.h"
+#include "bodies/pair_along.h"
 
 namespace hl {
 
@@ -68,10 +69,14 @@ PlacedConvex BodyProblem::otherAtEnd(const WorldState& state, const Meeting& mee
                     room);
 }
 
-bool BodyProblem::meetsAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan,
-                             Manifold& end) const {
+double BodyProblem::overlapAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan,
+                                 Manifold& end) const {
   PlacedRoom room_a, room_b;
-  return findManifold(firstAtEnd(state, meeting, plan, room_a), otherAtEnd(state, meeting, plan, room_b), 0, end);
+  const PlacedConvex a = firstAtEnd(state, meeting, plan, room_a), b = otherAtEnd(state, meeting, plan, room_b);
+  const PairAlong along = pairAlong(a, b, meeting.manifold.normal);
+  if (!along.hasPassed() && findManifold(a, b, 0, end)) return deepestOf(end);
+  end.points.clear();
+  return along.hasPassed() ? std::max(-along.gap, 0.0) : 0;
 }
 
 Pace paceOf(const BodyProblem& problem, const Meeting& meeting) {

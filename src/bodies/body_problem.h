@@ -41,8 +41,9 @@ struct BodyProblem {
   /// The other of a pair, of a body or a primitive of the scene. RT-safe.
   PlacedConvex otherAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan,
                           PlacedRoom& room) const;
-  /// Where the pair would meet then; false: it would be apart. RT-safe.
-  bool meetsAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan, Manifold& end) const;
+  /// m, >= 0: how far the pair would overlap then. `end`: where; without points if it is apart, or has passed through
+  /// along the normal of the begin. RT-safe.
+  double overlapAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan, Manifold& end) const;
   /// A part of a body after its part of the way. RT-safe.
   PlacedConvex atEnd(const WorldState& state, int body, int part, const BodyWays& plan, PlacedRoom& room) const;
 

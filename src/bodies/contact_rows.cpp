@@ -146,7 +146,7 @@ void ContactRows::addOfMeeting(WorldState& state, Meeting& meeting) {
   for (std::size_t point = 0; point < meeting.manifold.points.size(); ++point) predicted |= goesThrough(meeting, point);
   const Pace pace = paceOf(problem_, meeting);
   Manifold end;
-  const auto overlap_at_end = [&] { return problem_.meetsAtEnd(state, meeting, plan_, end) ? deepestOf(end) : 0; };
+  const auto overlap_at_end = [&] { return problem_.overlapAtEnd(state, meeting, plan_, end); };
   if (predicted && (pace.fast || overlap_at_end() > kTouching_m)) {
     for (std::size_t point = 0; point < meeting.manifold.points.size(); ++point) {
       if (goesThrough(meeting, point) && !hasTwin(meeting, point, 0)) addRow(state.memory, meeting, point);

@@ -35,6 +35,16 @@ void measureReach(Convex& shape) {
     shape.reach = std::max(shape.reach, (vertex - shape.middle).norm() + shape.radius);
 }
 
+void measureWidth(Convex& shape) {
+  shape.thin = std::numeric_limits<double>::infinity();
+  for (const Convex::Face& face : shape.faces) {
+    double lowest = 0;
+    for (const Vec3& vertex : shape.vertices)
+      lowest = std::min(lowest, face.normal.dot(vertex - shape.vertices[face.corners[0]]));
+    shape.thin = std::min(shape.thin, shape.radius - lowest / 2);
+  }
+}
+
 // Of a polygon, by Newell: the sum over its corners. Length: twice the area.
 Vec3 areaOf(const std::vector<Vec3>& vertices, const std::vector<Convex::Index>& corners) {
   Vec3 sum = Vec3::Zero();
@@ -49,7 +59,7 @@ Vec3 areaOf(const std::vector<Vec3>& vertices, const std::vector<Convex::Index>&
 Convex ballShape(double radius) {
   Convex shape;
   shape.vertices = {Vec3::Zero()};
-  shape.radius = shape.reach = radius;
+  shape.radius = shape.reach = shape.thin = radius;
   return shape;
 }
 
@@ -58,7 +68,7 @@ Convex capsuleShape(double half_length, double radius) {
   shape.vertices = {half_length * Vec3::UnitZ(), -half_length * Vec3::UnitZ()};
   shape.edges = {{0, 1, 0}};
   shape.directions = {{0, 1}};
-  shape.radius = radius;
+  shape.radius = shape.thin = radius;
   shape.reach = half_length + radius;
   return shape;
 }
@@ -76,6 +86,7 @@ Convex boxShape(const Vec3& half) {
   shape.faces = {{-Vec3::UnitX(), {0, 4, 6, 2}}, {Vec3::UnitX(), {1, 3, 7, 5}},  {-Vec3::UnitY(), {0, 1, 5, 4}},
                  {Vec3::UnitY(), {2, 6, 7, 3}},  {-Vec3::UnitZ(), {0, 2, 3, 1}}, {Vec3::UnitZ(), {4, 5, 7, 6}}};
   shape.reach = half.norm();
+  shape.thin = half.minCoeff();
   return shape;
 }
 
@@ -85,6 +96,7 @@ Convex polyhedronShape(std::vector<Vec3> vertices, const std::vector<std::vector
   for (const auto& corners : faces) shape.faces.push_back({areaOf(shape.vertices, corners).normalized(), corners});
   for (const Convex::Face& face : shape.faces) addEdges(shape, face);
   measureReach(shape);
+  measureWidth(shape);
   return shape;
 }
 

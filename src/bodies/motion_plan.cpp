@@ -1,7 +1,6 @@
 #include "bodies/motion_plan.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace hl {
 
@@ -15,20 +14,13 @@ constexpr int kSweepsApart = 10;
 constexpr int kCorrections = 4;
 // Of what is off, nothing moves farther than this: a mechanism that is stretched out would be flung aside.
 constexpr double kMostMoved = 10;
-// m; a smaller overlap at the end of a step is left to pushApart().
-constexpr double kLeft_m = 1e-5;
+// m, and of the least overlap at which a pair has passed; a smaller overlap at the end of a step is left to
+// pushApart().
+constexpr double kLeft_m = 1e-5, kLeft = 0.25;
 // How often all pairs are looked at; each time what would pass goes a quarter of its part. Then it stays where it is,
 // as that place was clear.
 constexpr int kLooks = 8;
 constexpr double kShorter = 0.25;
-
-// m, how far the lowest vertex of `a` is above the highest of `b` along the normal, of the grown shapes.
-double separationAlong(const PlacedConvex& a, const PlacedConvex& b, const Vec3& normal) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const Vec3& vertex : a.vertices) low = std::min(low, normal.dot(vertex));
-  for (const Vec3& vertex : b.vertices) high = std::max(high, normal.dot(vertex));
-  return low - high - a.shape->radius - b.shape->radius;
-}
 
 }  // namespace
 
@@ -172,23 +164,32 @@ void MotionPlan::limit(double margin) {
   }
 }
 
-// m: how far the pair would end inside each other or, of what is fast, on another side. No more than they then overlap
-// along the normal of the begin: where that is at most `enough`, it stands for both.
+// m: how far the pair would end inside each other or, of what is fast or has passed, on another side. No more than they
+// then overlap along the normal of the begin: where that is at most `enough`, it stands for both.
 double MotionPlan::depthAtEnd(const WorldState& state, const Meeting& meeting, double enough) const {
   PlacedRoom room_a, room_b;
   const PlacedConvex a = problem_.firstAtEnd(state, meeting, plan_, room_a);
   const PlacedConvex b = problem_.otherAtEnd(state, meeting, plan_, room_b);
-  const double along = -separationAlong(a, b, meeting.manifold.normal);
-  if (along <= enough && !isRound(a) && !isRound(b)) return std::max(along, 0.0);
+  return depthOf(meeting, a, b, pairAlong(a, b, meeting.manifold.normal), enough);
+}
+
+double MotionPlan::depthOf(const Meeting& meeting, const PlacedConvex& a, const PlacedConvex& b, const PairAlong& along,
+                           double enough) const {
+  if (-along.gap <= enough && !isRound(a) && !isRound(b)) return std::max(-along.gap, 0.0);
   Manifold end;
   const double overlap = findManifold(a, b, 0, end) ? deepestOf(end) : 0;
-  return paceOf(problem_, meeting).fast ? std::max(overlap, along) : overlap;
+  return along.hasPassed() || paceOf(problem_, meeting).fast ? std::max(overlap, -along.gap) : overlap;
 }
 
 // Farther than it began.
 bool MotionPlan::passes(const WorldState& state, const Meeting& meeting) const {
-  const double most = std::max(kLeft_m, deepestOf(meeting.manifold) + kTouching_m);
-  return depthAtEnd(state, meeting, most) > most;
+  PlacedRoom room_a, room_b;
+  const PlacedConvex a = problem_.firstAtEnd(state, meeting, plan_, room_a);
+  const PlacedConvex b = problem_.otherAtEnd(state, meeting, plan_, room_b);
+  const PairAlong along = pairAlong(a, b, meeting.manifold.normal);
+  const double left = std::min(kLeft_m, kLeft * (a.shape->thin + b.shape->thin));
+  const double most = std::max(left, deepestOf(meeting.manifold) + kTouching_m);
+  return depthOf(meeting, a, b, along, most) > most;
 }
 
 // Scenery that its client moves toward the body does not wait for it.

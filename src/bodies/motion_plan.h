@@ -4,6 +4,7 @@
 #pragma once
 
 #include "bodies/joint_rows.h"
+#include "bodies/pair_along.h"
 #include "bodies/row_solver.h"
 
 namespace hl {
@@ -32,6 +33,8 @@ class MotionPlan {
   void limit(double margin);
   void stopShort(const WorldState& state, bool converged);
   double depthAtEnd(const WorldState& state, const Meeting& meeting, double enough) const;
+  double depthOf(const Meeting& meeting, const PlacedConvex& a, const PlacedConvex& b, const PairAlong& along,
+                 double enough) const;
   bool passes(const WorldState& state, const Meeting& meeting) const;
   bool comesToward(const Meeting& meeting) const;
   void shorten(const WorldState& state, const Meeting& meeting);
