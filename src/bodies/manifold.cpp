@@ -16,7 +16,9 @@ constexpr double kUnparted = std::numeric_limits<double>::infinity();
 // By so much of the size of the shapes another axis must part them farther than a face of b: bodies that slide over the
 // seams of a flat mesh touch its faces, not the sides of the next triangle.
 constexpr double kPreference = 1e-6;
-// Squared sine between two edges below which they count as parallel: a face parts the shapes as well.
+// Squared sine between two edges below which they count as parallel: a face parts the shapes as well. So it does where
+// the axis of two edges is nearly the normal of a face: one point where edges pass would be in the place of all that
+// the face bears.
 constexpr double kParallel = 1e-6;
 constexpr std::size_t kMostCorners = 64;  // of a polygon while it is clipped
 
@@ -229,13 +231,16 @@ bool manifoldOfPolytopes(const PlacedConvex& a, const PlacedConvex& b, double ma
   if (of_edges.separation - radii > margin) return false;
   const double preference = kPreference * std::min(a.shape->reach, b.shape->reach > 0 ? b.shape->reach : kUnparted);
   const double best_face = std::max(of_b.separation, of_a.separation - preference);
-  if (of_edges.separation > best_face + preference) {
-    crossEdges(a, b, of_edges, margin, out);
-  } else if (of_a.separation > of_b.separation + preference) {
-    clipAgainstFace(a, of_a.face, b, -1, preference, margin, out);
-  } else if (of_b.separation > -kUnparted) {
-    clipAgainstFace(b, of_b.face, a, 1, preference, margin, out);
+  const bool edges_part = of_edges.separation > best_face + preference;
+  const bool face_of_a = of_a.separation > of_b.separation + preference;
+  if (!edges_part || of_edges.normal.cross(face_of_a ? of_a.normal : of_b.normal).squaredNorm() <= kParallel) {
+    if (face_of_a) {
+      clipAgainstFace(a, of_a.face, b, -1, preference, margin, out);
+    } else if (of_b.separation > -kUnparted) {
+      clipAgainstFace(b, of_b.face, a, 1, preference, margin, out);
+    }
   }
+  if (edges_part && out.points.empty()) crossEdges(a, b, of_edges, margin, out);
   if (!out.points.empty()) return true;
   NearestPoints nearest;
   if (!nearestPoints(a, b, nearest)) return false;

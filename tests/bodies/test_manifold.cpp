@@ -44,6 +44,22 @@ TEST(Manifold, CrossedEdgesHaveOnePoint) {
   EXPECT_LT((found.normal - Vec3::UnitY()).norm(), 1e-9);
 }
 
+// It overlaps least where its edges pass that of the box, but is borne by its corners too.
+TEST(Manifold, APlateThatLiesNearlyFlatOverAnEdgeIsBorneByAllOfIt) {
+  constexpr double kTilt_rad = 7e-6, kDeep_m = 1.5e-7;
+  const Eigen::Quaterniond about_y(Eigen::AngleAxisd(0.8, Vec3::UnitY()));
+  const PlacedShape b(boxShape(Vec3(1, 0.1, 1)), Vec3(1, -0.1, 0));  // its edge is the z axis
+  for (int i = 0; i < 16; ++i) {
+    const double angle = i * EIGEN_PI / 8;
+    const Eigen::Quaterniond tilt(Eigen::AngleAxisd(kTilt_rad, Vec3(std::cos(angle), 0, std::sin(angle))));
+    const PlacedShape a(boxShape(Vec3(0.02, 1e-5, 0.02)), Vec3(0.001, 1e-5 - kDeep_m, 0), tilt * about_y);
+    Manifold found;
+    ASSERT_TRUE(findManifold(a.at, b.at, 1e-6, found)) << i;
+    EXPECT_GE(found.points.size(), 4u) << i;
+    EXPECT_LT((found.normal - Vec3::UnitY()).norm(), 1e-5) << i;
+  }
+}
+
 TEST(Manifold, CornersThatAreApartMeetAlongTheLineBetweenThem) {
   const Convex shape = boxShape(Vec3(0.1, 0.1, 0.1));
   const PlacedShape a(shape, Vec3(0.201, 0.202, 0.202)), b(shape, Vec3::Zero());
