@@ -15,6 +15,9 @@ constexpr double kTwin = 1e-3;
 // Of the size of a body: a contact as near as that to one of the last step goes on from its impulse.
 constexpr double kSamePlace = 0.05;
 
+// Contacts: three around one.
+constexpr std::size_t kSurrounded = 4;
+
 // m/s: what slides no faster sticks.
 constexpr double kSlips_m_s = 1e-6;
 
@@ -34,6 +37,7 @@ ContactRows::ContactRows(BodyProblem& problem) : problem_(problem) {
   plan_.turns.resize(problem.bodies());
   plan_.parts.assign(problem.bodies(), 1);
   touching_.reserve(std::max(problem.rows.capacity(), problem.meetings.room()));
+  flat_.reserve(touching_.capacity());
 }
 
 Row ContactRows::rowOf(const Meeting& meeting, std::size_t number) const {
@@ -86,12 +90,11 @@ void ContactRows::recall(Row& row, ContactMemory& memory) const {
   row.friction = row.slipping ? row.dynamic_friction : row.static_friction;
 }
 
-// What bore load in the last step, and has not come off since. Of the contacts near the place where one bore, the
-// nearest goes on with it.
-void ContactRows::addBearing(ContactMemory& memory) {
+void ContactRows::findTouching() {
   std::vector<Meeting>& meetings = problem_.meetings.all();
   touching_.clear();
   for (std::uint32_t i = 0; i < meetings.size(); ++i) {
+    meetings[i].inner = 0;
     const auto& points = meetings[i].manifold.points;
     for (std::uint32_t point = 0; point < points.size() && touching_.size() < touching_.capacity(); ++point) {
       if (points[point].gap <= kHeld_m) touching_.push_back({i, point, points[point].gap});
@@ -101,12 +104,67 @@ void ContactRows::addBearing(ContactMemory& memory) {
     const Meeting &of_x = meetings[x.meeting], &of_y = meetings[y.meeting];
     return std::tie(of_x.a, of_x.b, x.gap, x.meeting, x.point) < std::tie(of_y.a, of_y.b, y.gap, y.meeting, y.point);
   });
+}
+
+bool ContactRows::isOfPlane(const Touching& one, const Touching& other) const {
+  const Meeting &x = problem_.meetings.all()[one.meeting], &y = problem_.meetings.all()[other.meeting];
+  return x.primitive.instance == y.primitive.instance &&
+         (x.manifold.normal - y.manifold.normal).squaredNorm() < kTwin * kTwin;
+}
+
+// Of the contacts of a pair, from `first` on, those in the plane of the first.
+void ContactRows::markInnerOfPlane(std::size_t first, std::size_t end) {
+  std::vector<Meeting>& meetings = problem_.meetings.all();
+  const Meeting& meeting = meetings[touching_[first].meeting];
+  const Vec3 along = meeting.manifold.normal.unitOrthogonal(), across = meeting.manifold.normal.cross(along);
+  const Vec3& centre = problem_.nodes[static_cast<std::size_t>(meeting.a)].centre;
+  const auto flat = [&](const Touching& one) {
+    const Vec3 arm = meetings[one.meeting].manifold.points[one.point].point - centre;
+    return FlatContact{{along.dot(arm), across.dot(arm)}, one.gap};
+  };
+  flat_.clear();
+  for (std::size_t i = first; i < end; ++i) {
+    if (isOfPlane(touching_[first], touching_[i])) flat_.push_back(flat(touching_[i]));
+  }
+  const ContactHull hull(flat_);
+  if (hull.corners() == flat_.size()) return;
+  for (std::size_t i = first; i < end; ++i) {
+    const Touching& one = touching_[i];
+    if (isOfPlane(touching_[first], one) && hull.keeps(flat(one), kTouching_m))
+      meetings[one.meeting].inner |= 1u << one.point;
+  }
+}
+
+void ContactRows::markInner() {
+  const auto meeting_of = [&](std::size_t i) -> const Meeting& {
+    return problem_.meetings.all()[touching_[i].meeting];
+  };
+  for (std::size_t first = 0, end = 0; first < touching_.size(); first = end) {
+    while (end < touching_.size() && meeting_of(end).a == meeting_of(first).a &&
+           meeting_of(end).b == meeting_of(first).b)
+      ++end;
+    if (end - first < kSurrounded) continue;
+    for (std::size_t i = first; i < end; ++i) {
+      const bool is_new = std::none_of(touching_.begin() + static_cast<std::ptrdiff_t>(first),
+                                       touching_.begin() + static_cast<std::ptrdiff_t>(i),
+                                       [&](const Touching& other) { return isOfPlane(other, touching_[i]); });
+      if (is_new) markInnerOfPlane(i, end);
+    }
+  }
+}
+
+// What bore load in the last step, and has not come off since. Of the contacts near the place where one bore, the
+// nearest goes on with it.
+void ContactRows::addBearing(ContactMemory& memory) {
+  std::vector<Meeting>& meetings = problem_.meetings.all();
+  findTouching();
+  markInner();
   std::size_t first = problem_.rows.size();  // of the rows of the pair
   for (const Touching& one : touching_) {
     if (problem_.rows.size() == problem_.rows.capacity()) return;
     const Meeting& meeting = meetings[one.meeting];
     if (first < problem_.rows.size() && !isOf(problem_.rows[first], meeting)) first = problem_.rows.size();
-    if (hasTwin(meeting, one.point, first)) continue;
+    if (meeting.isInner(one.point) || hasTwin(meeting, one.point, first)) continue;
     addRow(memory, meetings[one.meeting], one.point);
     if (problem_.rows.back().pressed > 0) continue;
     problem_.rows.pop_back();
@@ -127,7 +185,7 @@ bool ContactRows::hasTwin(const Meeting& meeting, std::size_t number, std::size_
 }
 
 bool ContactRows::goesThrough(const Meeting& meeting, std::size_t number) const {
-  if (meeting.uses(number)) return false;
+  if (meeting.uses(number) || meeting.isInner(number)) return false;
   const ManifoldPoint& point = meeting.manifold.points[number];
   const Node& a = problem_.nodes[static_cast<std::size_t>(meeting.a)];
   Vec3 velocity = a.velocityAt(point.point - a.centre);

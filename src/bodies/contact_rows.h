@@ -4,6 +4,7 @@
 #pragma once
 
 #include "bodies/body_problem.h"
+#include "bodies/contact_hull.h"
 
 namespace hl {
 
@@ -28,6 +29,10 @@ class ContactRows {
     double gap = 0;
   };
 
+  void findTouching();
+  void markInner();
+  void markInnerOfPlane(std::size_t first, std::size_t end);
+  bool isOfPlane(const Touching& one, const Touching& other) const;
   Row rowOf(const Meeting& meeting, std::size_t point) const;
   void addRow(ContactMemory& memory, Meeting& meeting, std::size_t point);
   void addRowsOfEnd(const Meeting& meeting, const Manifold& end);
@@ -40,6 +45,7 @@ class ContactRows {
   BodyProblem& problem_;
   BodyWays plan_;  // as the velocities found would have it
   std::vector<Touching> touching_;
+  std::vector<FlatContact> flat_;  // those of them that lie in one plane
 };
 
 }  // namespace hl

@@ -16,8 +16,10 @@ struct Meeting {
   int part_a = 0, part_b = 0;  ///< of the bodies: Compound::parts
   PrimitiveId primitive{};     ///< of the scene
   Manifold manifold;
-  std::uint32_t used = 0;  ///< bit i: point i of the manifold has a row
+  std::uint32_t used = 0;   ///< bit i: point i of the manifold has a row
+  std::uint32_t inner = 0;  ///< bit i: others keep point i apart (contact_hull.h)
 
+  bool isInner(std::size_t point) const { return (inner >> point & 1) != 0; }
   bool uses(std::size_t point) const { return (used >> point & 1) != 0; }
 };
 

@@ -256,5 +256,42 @@ TEST(Compounds, GoOnFromAStateToTheBit) {
   }
 }
 
+// Two cubes that share an edge, which is the z axis. Its centre of mass lies there too.
+Body cubesAtAnEdge(double half_m, double friction) {
+  const Vec3 half = Vec3::Constant(half_m);
+  return bodyOfParts(1, boxesModel({{half, Vec3(-half_m, -half_m, 0)}, {half, Vec3(half_m, half_m, 0)}}), 0.1,
+                     friction);
+}
+
+// A contact at the edge could bear all of it, and it would spin there for ever.
+TEST(Compounds, CubesThatShareAnEdgeComeToRest) {
+  for (int seed = 0; seed < 6; ++seed) {
+    Draws draws(static_cast<std::uint64_t>(seed));
+    World world;
+    world.fixed = floorScene();
+    world.bodies = {cubesAtAnEdge(0.005, 0.5)};
+    const Mat3 turned = Eigen::AngleAxisd(draws.between(0, 3), draws.direction()).toRotationMatrix();
+    Playground play(std::move(world), {placeAt(Vec3(0, 0.1, 0), turned)});
+    play.steps(3000);
+    EXPECT_EQ(play.stepper.awake().size(), 0u) << seed << " spins at " << play.state.bodies[0].spin.norm();
+  }
+}
+
+// Of the contacts in its plane none lies between others, so that the friction at its corners stops it.
+TEST(Compounds, TheCornersBearWhatStandsOnAFace) {
+  constexpr double kHalf_m = 0.02;
+  World world;
+  world.fixed = floorScene();
+  world.bodies = {cubesAtAnEdge(kHalf_m, 0.5)};
+  const Mat3 upright = Eigen::AngleAxisd(EIGEN_PI / 2, Vec3::UnitX()).toRotationMatrix();
+  Playground play(std::move(world), {placeAt(Vec3(0.1, kHalf_m, 0.05), upright)});
+  play.steps(10);
+  for (const Row& row : play.stepper.rows())
+    EXPECT_GT(std::hypot(row.arm_a.x(), row.arm_a.z()), kHalf_m) << row.arm_a.transpose();
+  play.state.bodies[0].spin.y() = 5;
+  play.steps(100);
+  EXPECT_LT(play.state.bodies[0].spin.norm(), 1e-9);
+}
+
 }  // namespace
 }  // namespace hl
