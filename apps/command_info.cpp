@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bodies/mesh_body.h"
+#include "bodies/made_bodies.h"
 #include "commands.h"
 #include "scene/bump_gain.h"
 #include "surfaces/height_field.h"
@@ -126,11 +126,12 @@ void printMaterials(const Snapshot& snapshot) {
   if (materials > kMaxPrinted) fmt::print("and {} materials more\n", materials - kMaxPrinted);
 }
 
-void printBody(const RigidBody& body, const Model& model) {
+void printBody(const RigidBody& body, const std::shared_ptr<const Shape>& shape) {
   const BodySurface& surface = body.spec.surface;
   fmt::print("body {}: ", body.name);
   if (body.poses) {
-    const Body made = bodyOf(model, body.spec);
+    const std::shared_ptr<const Body> kept = madeBody(shape, body.spec);
+    const Body& made = *kept;
     fmt::print("{}, {:.4g} kg", kBodyShapeNames[static_cast<std::size_t>(body.spec.shape)], made.mass.mass_kg);
     if (made.shape.parts.size() > 1) fmt::print(", {} parts", made.shape.parts.size());
     constexpr double kRounding_m = 1e-9;
@@ -172,7 +173,7 @@ void printJoints(const Snapshot& snapshot) {
 void printBodies(const Snapshot& snapshot) {
   std::size_t bodies = 0;
   for (const Instance& instance : snapshot.instances) {
-    if (instance.body && ++bodies <= kMostPrinted) printBody(*instance.body, instance.shape->model);
+    if (instance.body && ++bodies <= kMostPrinted) printBody(*instance.body, instance.shape);
   }
   if (bodies > kMostPrinted) fmt::print("and {} bodies more\n", bodies - kMostPrinted);
   if (bodies == 0) return;
@@ -285,8 +286,9 @@ void print(const Snapshot& snapshot) {
   printSnaps(snapshot);
   printFields(snapshot);
   printJoints(snapshot);
-  fmt::print("warnings:   {}\n", snapshot.warnings.empty() ? "none" : "");
-  for (const std::string& warning : snapshot.warnings) fmt::print("  {}\n", warning);
+  const std::vector<std::string> warnings = warningsOf(snapshot);
+  fmt::print("warnings:   {}\n", warnings.empty() ? "none" : "");
+  for (const std::string& warning : warnings) fmt::print("  {}\n", warning);
 }
 
 }  // namespace

@@ -51,6 +51,8 @@ void addSizeOptions(CLI::App& command, SceneOptions& options);
 /// --ledger.
 void addSurfaceOptions(CLI::App& command, MaterialOverride& surfaces, LedgerMode& ledger);
 
+/// What was skipped, and shapes of bodies that are far from their meshes; one line each. Throws hl::Error.
+std::vector<std::string> warningsOf(const Snapshot& snapshot);
 /// Loads, scales and builds; progress of long loads and warnings go to stderr. Throws hl::Error.
 std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options);
 /// Throws hl::Error, with `name` in front, for a model that takes more than `there_bytes` of memory to make.

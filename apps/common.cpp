@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/machine_memory.h"
 #include "base/plain_file.h"
+#include "bodies/scene_world.h"
 #include "builtin.h"
 #include "commands.h"
 #include "io/load_scene.h"
@@ -143,6 +144,12 @@ void addSurfaceOptions(CLI::App& command, MaterialOverride& surfaces, LedgerMode
       ->option_text("tank|strict|report (default: tank)");
 }
 
+std::vector<std::string> warningsOf(const Snapshot& snapshot) {
+  std::vector<std::string> warnings = snapshot.warnings, of_bodies = coverWarnings(snapshot);
+  warnings.insert(warnings.end(), of_bodies.begin(), of_bodies.end());
+  return warnings;
+}
+
 std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options) {
   LoadOptions load;
   load.progress = showProgress;
@@ -157,7 +164,7 @@ std::shared_ptr<const Snapshot> loadSnapshot(const SceneOptions& options) {
   if (options.fit > 0) fitModel(scene, options.fit);
   requireMemory(scene, options.scene, machineMemory_bytes());
   auto snapshot = makeSnapshot(std::move(scene), hierarchyOf(options));
-  for (const std::string& warning : snapshot->warnings) fmt::print(stderr, "{}: {}\n", options.scene, warning);
+  for (const std::string& warning : warningsOf(*snapshot)) fmt::print(stderr, "{}: {}\n", options.scene, warning);
   if (snapshot->primitives == 0) throw Error(options.scene + ": nothing in it can be touched");
   return snapshot;
 }

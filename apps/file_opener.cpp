@@ -3,9 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "base/error.h"
+#include "commands.h"
 #include "io/load_scene_file.h"
 #include "io/load_sent.h"
 #include "monitor/event_log.h"
@@ -16,12 +18,12 @@ namespace {
 
 constexpr std::size_t kMostWarnings = 5;  // that a page is told
 
-std::string answerOf(const Snapshot& scene, double world_per_device) {
+std::string answerOf(const Snapshot& scene, std::span<const std::string> told, double world_per_device) {
   std::size_t triangles = 0;
   for (const Instance& instance : scene.instances) triangles += instance.shape->model.triangles.size();
   std::string warnings;
-  for (std::size_t i = 0; i < std::min(scene.warnings.size(), kMostWarnings); ++i)
-    warnings += (i > 0 ? "," : "") + jsonString(scene.warnings[i]);
+  for (std::size_t i = 0; i < std::min(told.size(), kMostWarnings); ++i)
+    warnings += (i > 0 ? "," : "") + jsonString(told[i]);
   return fmt::format(R"({{"name":{},"triangles":{},"primitives":{},"world_per_device":{:.6g},"warnings":[{}]}})",
                      jsonString(scene.name), triangles, scene.primitives, world_per_device, warnings);
 }
@@ -56,8 +58,9 @@ std::string FileOpener::open(int descriptor, const std::string& name) {
   if (smooth_) shade(session, !isSceneFile("scene" + sentEndingOf(name)));
   const double scale = session.workspace().world_per_device;
   fmt::print(stderr, "{}: {} primitives; 1 mm of the hand is {:.4g} mm of the scene\n", name, scene->primitives, scale);
-  for (const std::string& warning : scene->warnings) fmt::print(stderr, "{}: {}\n", name, warning);
-  return answerOf(*scene, scale);
+  const std::vector<std::string> warnings = warningsOf(*scene);
+  for (const std::string& warning : warnings) fmt::print(stderr, "{}: {}\n", name, warning);
+  return answerOf(*scene, warnings, scale);
 }
 
 }  // namespace hl

@@ -1,12 +1,15 @@
 #include "bodies/scene_world.h"
 
 #include <algorithm>
-#include <string>
+#include <array>
+#include <cstdio>
+#include <set>
 #include <utility>
 
 #include "base/error.h"
 #include "bodies/joint_check.h"
 #include "bodies/made_bodies.h"
+#include "bodies/mesh_parts.h"
 
 namespace hl {
 
@@ -31,6 +34,37 @@ std::size_t partsIn(const Snapshot& snapshot) {
       parts += named(instance, [&] { return madeBody(instance.shape, instance.body->spec)->shape.parts.size(); });
   }
   return parts;
+}
+
+namespace {
+
+// Empty: the parts of the body are as near to its mesh as they should be.
+std::string coverWarning(const Instance& instance) {
+  if (!instance.movesAsBody() || instance.body->spec.shape != BodyShape::kParts) return {};
+  const std::shared_ptr<const Body> made =
+      named(instance, [&] { return madeBody(instance.shape, instance.body->spec); });
+  const double size_m = instance.shape->model.bounds().size().norm() / 2;
+  const double off_m = std::max(made->hull_error_m, made->excess_m);
+  if (!(off_m > kNearlyConvex * size_m)) return {};
+  std::array<char, 160> text{};
+  std::snprintf(
+      text.data(), text.size(),
+      ": its %zu parts are up to %.3g mm off its mesh, %.2g %% of its size, not %.2g %%: draw it simpler, or of "
+      "convex pieces",
+      made->shape.parts.size(), 1e3 * off_m, 100 * off_m / size_m, 100 * kNearlyConvex);
+  return instance.body->name + text.data();
+}
+
+}  // namespace
+
+std::vector<std::string> coverWarnings(const Snapshot& snapshot) {
+  std::vector<std::string> warnings;
+  std::set<const Shape*> told;
+  for (const Instance& instance : snapshot.instances) {
+    const std::string warning = coverWarning(instance);
+    if (!warning.empty() && told.insert(instance.shape.get()).second) warnings.push_back(warning);
+  }
+  return warnings;
 }
 
 Joint jointOf(const JointSpec& spec, const Pose& start_a, const Pose& start_b) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "bodies/world.h"
 
@@ -13,6 +15,10 @@ std::shared_ptr<const World> worldOf(const Snapshot& snapshot);
 
 /// The number of parts of all bodies that move. Throws Error, with the name of the body.
 std::size_t partsIn(const Snapshot& snapshot);
+
+/// One line for each shape of bodies of parts that is farther from its parts than kNearlyConvex of its size: how far,
+/// and what to do. Throws Error, with the name of the body. Allocates.
+std::vector<std::string> coverWarnings(const Snapshot& snapshot);
 
 /// The joint of two bodies that start there; `start_b` is the identity for the world.
 Joint jointOf(const JointSpec& spec, const Pose& start_a, const Pose& start_b);

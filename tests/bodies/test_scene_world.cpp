@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "bodies/body_step.h"
+#include "bodies/mesh_drawings.h"
 #include "bodies/test_worlds.h"
 
 namespace hl {
@@ -18,6 +21,16 @@ Instance boxInstance(std::uint64_t key, bool fixed, const Vec3& at) {
   Instance instance = test::instanceOf(test::boxModel(Vec3::Constant(0.01)), key);
   instance.body = makeRigidBody("box", spec, {Mat3::Identity(), at}, instance.shape->bounds,
                                 {Vec3::Constant(-1), Vec3::Constant(1)});
+  instance.driver = instance.body->poses;
+  instance.motion = Motion(instance.body->start);
+  return instance;
+}
+
+Instance partsInstance(std::uint64_t key, Model model) {
+  BodySpec spec;
+  spec.shape = BodyShape::kParts;
+  Instance instance = test::instanceOf(std::move(model), key);
+  instance.body = makeRigidBody("ring", spec, {}, instance.shape->bounds, {Vec3::Constant(-1), Vec3::Constant(1)});
   instance.driver = instance.body->poses;
   instance.motion = Motion(instance.body->start);
   return instance;
@@ -72,6 +85,25 @@ TEST(SceneWorld, AJointOfTwoFixedBodiesIsNone) {
 
 TEST(SceneWorld, ASceneWithoutBodiesHasNoWorld) {
   EXPECT_EQ(worldOf(*makeSnapshot({boxInstance(2, true, Vec3::Zero())})), nullptr);
+}
+
+// 65 boxes on a circle are more than there may be parts, and too far from each other for common ones.
+TEST(SceneWorld, PartsThatAreFarFromTheMeshAreToldOnceForAShape) {
+  for (const int count : {8, 65}) {
+    std::vector<std::pair<Vec3, Vec3>> boxes;
+    for (int i = 0; i < count; ++i) {
+      const double angle = 2 * EIGEN_PI * i / count;
+      boxes.emplace_back(Vec3::Constant(0.1), 10 * Vec3(std::cos(angle), 0, std::sin(angle)));
+    }
+    const Instance one = partsInstance(1, test::boxesModel(boxes));
+    Instance other = one;
+    other.key = 2;
+    const std::vector<std::string> warnings = coverWarnings(*makeSnapshot({one, other}, {}, 1, 0, {}));
+    ASSERT_EQ(warnings.size(), count == 8 ? 0u : 1u);
+    if (warnings.empty()) continue;
+    EXPECT_NE(warnings[0].find("ring: its 64 parts are up to "), std::string::npos) << warnings[0];
+    EXPECT_NE(warnings[0].find(" % of its size, not 2 %"), std::string::npos) << warnings[0];
+  }
 }
 
 }  // namespace
