@@ -1,6 +1,7 @@
 // hl replay: runs a recorded session again and says whether everything comes out as it did; and its steps as CSV.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <memory>

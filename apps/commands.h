@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -63,6 +64,8 @@ HierarchyKind hierarchyOf(const SceneOptions& options);
 CLI::Validator within(double least, double most);
 /// The same: a finite number above zero.
 CLI::Validator positive();
+/// What this throws hl::Error for is refused, with its words.
+CLI::Validator passing(std::function<void(const std::string& text)> check);
 /// A plain file that may be read.
 CLI::Validator plainFile();
 /// What is wrong with a text that is none of these words.

@@ -181,10 +181,10 @@ CLI::Validator within(double least, double most) {
 
 std::string noneOf(const std::string& text, const std::string& words) { return "'" + text + "' is none of " + words; }
 
-CLI::Validator plainFile() {
-  return {[](const std::string& path) {
+CLI::Validator passing(std::function<void(const std::string& text)> check) {
+  return {[check = std::move(check)](const std::string& text) {
             try {
-              checkPlainFile(path);
+              check(text);
               return std::string();
             } catch (const Error& error) {
               return std::string(error.what());
@@ -192,6 +192,8 @@ CLI::Validator plainFile() {
           },
           ""};
 }
+
+CLI::Validator plainFile() { return passing(checkPlainFile); }
 
 std::string told(const CLI::ParseError& error) {
   constexpr std::string_view kTwice = ": At Most 1 required but received ", kNone = ": 1 required ",

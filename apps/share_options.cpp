@@ -6,6 +6,7 @@
 #include <array>
 
 #include "base/error.h"
+#include "commands.h"
 #include "dds_options.h"
 #include "share/share_process.h"
 
@@ -28,15 +29,7 @@ ServerId randomId() {
 }
 
 CLI::Validator shareName() {
-  return {[](const std::string& name) {
-            try {
-              checkShareName(name, "the name");
-              return std::string();
-            } catch (const Error& error) {
-              return std::string(error.what());
-            }
-          },
-          ""};
+  return passing([](const std::string& name) { checkShareName(name, "the name"); });
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 
 #include "bodies/free_motion.h"
 #include "bodies/joint_groups.h"
-#include "bodies/pair_along.h"
 
 namespace hl {
 
@@ -52,11 +51,6 @@ PlacedConvex BodyProblem::atEnd(const WorldState& state, int body, int part, con
   return hl::placed(world->bodies[i].shape.parts[number], stateAtEnd(state, i, plan), room);
 }
 
-PlacedConvex BodyProblem::firstAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan,
-                                     PlacedRoom& room) const {
-  return atEnd(state, meeting.a, meeting.part_a, plan, room);
-}
-
 Pose BodyProblem::poseAtEnd(const WorldState& state, std::size_t body, const BodyWays& plan) const {
   return poseOf(world->bodies[body], stateAtEnd(state, body, plan));
 }
@@ -71,12 +65,10 @@ PlacedConvex BodyProblem::otherAtEnd(const WorldState& state, const Meeting& mee
 
 double BodyProblem::overlapAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan,
                                  Manifold& end) const {
-  PlacedRoom room_a, room_b;
-  const PlacedConvex a = firstAtEnd(state, meeting, plan, room_a), b = otherAtEnd(state, meeting, plan, room_b);
-  const PairAlong along = pairAlong(a, b, meeting.manifold.normal);
-  if (!along.hasPassed() && findManifold(a, b, 0, end)) return deepestOf(end);
+  const PairAtEnd pair(*this, state, meeting, plan);
+  if (!pair.along.hasPassed() && findManifold(pair.a, pair.b, 0, end)) return deepestOf(end);
   end.points.clear();
-  return along.hasPassed() ? std::max(-along.gap, 0.0) : 0;
+  return pair.along.hasPassed() ? std::max(-pair.along.gap, 0.0) : 0;
 }
 
 Pace paceOf(const BodyProblem& problem, const Meeting& meeting) {

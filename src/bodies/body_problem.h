@@ -6,6 +6,7 @@
 
 #include "bodies/joint_set.h"
 #include "bodies/meetings.h"
+#include "bodies/pair_along.h"
 #include "bodies/placed_bodies.h"
 #include "bodies/row.h"
 #include "bodies/scenery.h"
@@ -35,9 +36,6 @@ struct BodyProblem {
   Vec3 sceneryVelocityAt(PrimitiveId primitive, const Vec3& point) const {
     return sceneryVelocity(meetings.scene()->instance(primitive), times, period_s, point);
   }
-  /// The first of a pair after its part of the way. RT-safe.
-  PlacedConvex firstAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan,
-                          PlacedRoom& room) const;
   /// The other of a pair, of a body or a primitive of the scene. RT-safe.
   PlacedConvex otherAtEnd(const WorldState& state, const Meeting& meeting, const BodyWays& plan,
                           PlacedRoom& room) const;
@@ -61,6 +59,20 @@ struct BodyProblem {
   std::vector<std::uint32_t> groups;        ///< of each body: joint_groups.h
   double period_s = 1e-3;
   StepTimes times;
+};
+
+/// The shapes of a pair after their part of the way, and how they lie along the normal of the begin. RT-safe.
+struct PairAtEnd {
+  PairAtEnd(const BodyProblem& problem, const WorldState& state, const Meeting& meeting, const BodyWays& plan)
+      : a(problem.atEnd(state, meeting.a, meeting.part_a, plan, room_a)),
+        b(problem.otherAtEnd(state, meeting, plan, room_b)),
+        along(pairAlong(a, b, meeting.manifold.normal)) {}
+  PairAtEnd(const PairAtEnd&) = delete;
+  PairAtEnd& operator=(const PairAtEnd&) = delete;
+
+  PlacedRoom room_a, room_b;
+  const PlacedConvex a, b;
+  const PairAlong along;
 };
 
 /// How a pair moves: whether rows made for its begin may miss its end.

@@ -167,29 +167,23 @@ void MotionPlan::limit(double margin) {
 // m: how far the pair would end inside each other or, of what is fast or has passed, on another side. No more than they
 // then overlap along the normal of the begin: where that is at most `enough`, it stands for both.
 double MotionPlan::depthAtEnd(const WorldState& state, const Meeting& meeting, double enough) const {
-  PlacedRoom room_a, room_b;
-  const PlacedConvex a = problem_.firstAtEnd(state, meeting, plan_, room_a);
-  const PlacedConvex b = problem_.otherAtEnd(state, meeting, plan_, room_b);
-  return depthOf(meeting, a, b, pairAlong(a, b, meeting.manifold.normal), enough);
+  return depthOf(PairAtEnd(problem_, state, meeting, plan_), meeting, enough);
 }
 
-double MotionPlan::depthOf(const Meeting& meeting, const PlacedConvex& a, const PlacedConvex& b, const PairAlong& along,
-                           double enough) const {
-  if (-along.gap <= enough && !isRound(a) && !isRound(b)) return std::max(-along.gap, 0.0);
+double MotionPlan::depthOf(const PairAtEnd& pair, const Meeting& meeting, double enough) const {
+  const double along = -pair.along.gap;
+  if (along <= enough && !isRound(pair.a) && !isRound(pair.b)) return std::max(along, 0.0);
   Manifold end;
-  const double overlap = findManifold(a, b, 0, end) ? deepestOf(end) : 0;
-  return along.hasPassed() || paceOf(problem_, meeting).fast ? std::max(overlap, -along.gap) : overlap;
+  const double overlap = findManifold(pair.a, pair.b, 0, end) ? deepestOf(end) : 0;
+  return pair.along.hasPassed() || paceOf(problem_, meeting).fast ? std::max(overlap, along) : overlap;
 }
 
 // Farther than it began.
 bool MotionPlan::passes(const WorldState& state, const Meeting& meeting) const {
-  PlacedRoom room_a, room_b;
-  const PlacedConvex a = problem_.firstAtEnd(state, meeting, plan_, room_a);
-  const PlacedConvex b = problem_.otherAtEnd(state, meeting, plan_, room_b);
-  const PairAlong along = pairAlong(a, b, meeting.manifold.normal);
-  const double left = std::min(kLeft_m, kLeft * (a.shape->thin + b.shape->thin));
+  const PairAtEnd pair(problem_, state, meeting, plan_);
+  const double left = std::min(kLeft_m, kLeft * (pair.a.shape->thin + pair.b.shape->thin));
   const double most = std::max(left, deepestOf(meeting.manifold) + kTouching_m);
-  return depthOf(meeting, a, b, along, most) > most;
+  return depthOf(pair, meeting, most) > most;
 }
 
 // Scenery that its client moves toward the body does not wait for it.

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "bodies/joint_rows.h"
-#include "bodies/pair_along.h"
 #include "bodies/row_solver.h"
 
 namespace hl {
@@ -33,8 +32,7 @@ class MotionPlan {
   void limit(double margin);
   void stopShort(const WorldState& state, bool converged);
   double depthAtEnd(const WorldState& state, const Meeting& meeting, double enough) const;
-  double depthOf(const Meeting& meeting, const PlacedConvex& a, const PlacedConvex& b, const PairAlong& along,
-                 double enough) const;
+  double depthOf(const PairAtEnd& pair, const Meeting& meeting, double enough) const;
   bool passes(const WorldState& state, const Meeting& meeting) const;
   bool comesToward(const Meeting& meeting) const;
   void shorten(const WorldState& state, const Meeting& meeting);

@@ -27,7 +27,7 @@ struct LoopExchange {
   Latest<HandPull> pulls{HandPull{}};             ///< to the servo, from a program beside HL
   Latest<RemoteInput> remotes{RemoteInput{}};     ///< to the servo, from a robot far away
   Latest<RemotePort> remote_ports{RemotePort{}};  ///< from the servo, for the robot's side
-  std::atomic<bool> makes_force{false};           ///< as of the servo's last step; false while it stands still
+  std::atomic<bool> makes_force{false};           ///< of the servo's last step; its watch clears it where it stalls
   /// Times that the device began to answer: the finger is elsewhere then.
   std::atomic<std::uint64_t> arrivals{0};
 };

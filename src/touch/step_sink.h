@@ -48,6 +48,17 @@ class StepSink {
   virtual void stall() noexcept = 0;
 };
 
+/// For a session that nobody records.
+class NoSink final : public StepSink {
+ public:
+  void start() override {}
+  void stop() override {}
+  void step(const ServoRecord&) noexcept override {}
+  void tick(const TickRequest&, const ProxyStep&, const ProxyLoop&, std::int64_t) noexcept override {}
+  void scene(std::shared_ptr<const Snapshot>) noexcept override {}
+  void stall() noexcept override {}
+};
+
 /// May throw hl::Error.
 using MakeStepSink = std::function<std::unique_ptr<StepSink>(const SessionInfo&)>;
 

@@ -9,16 +9,6 @@ namespace hl {
 
 namespace {
 
-// For a session that nobody records.
-class NoSink final : public StepSink {
-  void start() override {}
-  void stop() override {}
-  void step(const ServoRecord&) noexcept override {}
-  void tick(const TickRequest&, const ProxyStep&, const ProxyLoop&, std::int64_t) noexcept override {}
-  void scene(std::shared_ptr<const Snapshot>) noexcept override {}
-  void stall() noexcept override {}
-};
-
 std::unique_ptr<StepSink> makeSink(const MakeStepSink& make, const SessionInfo& session) {
   if (make) return make(session);
   return std::make_unique<NoSink>();

@@ -19,15 +19,6 @@ namespace {
 constexpr double kRadius_m = 0.001, kStiffness_N_m = 1000, kFriction = 0.5;
 constexpr std::int64_t kMs = 1'000'000;
 
-class NoSink final : public StepSink {
-  void start() override {}
-  void stop() override {}
-  void step(const ServoRecord&) noexcept override {}
-  void tick(const TickRequest&, const ProxyStep&, const ProxyLoop&, std::int64_t) noexcept override {}
-  void scene(std::shared_ptr<const Snapshot>) noexcept override {}
-  void stall() noexcept override {}
-};
-
 TouchSettings settingsOfHand() {
   TouchSettings settings;
   settings.world_per_device = 1;
